@@ -1,6 +1,6 @@
 //! The best fit from any pose: start, iteration, and what the result is worth.
 
-use super::icp::{MOST, Match, OF_MEDIAN, Problem, weighted_median};
+use super::icp::{MOST, Match, Problem, weighted_median};
 use super::sample::{Measured, Samples};
 use super::start::{Candidate, Search};
 use super::system::Spectrum;
@@ -14,6 +14,7 @@ use crate::num::sum::Sum;
 use crate::progress::Progress;
 use crate::rigid::Rigid;
 use crate::space::{Aabb, cross, dot, norm, times};
+use crate::stats::SIGMA_OVER_MAD;
 
 /// Samples for the start, for choosing among poses, and above which the iteration first goes over those alone.
 const FEW: usize = 400;
@@ -261,7 +262,7 @@ impl Work<'_> {
         few.weigh(&mut matches, sigma);
         let system = few.system_of_facets(&matches, &pose);
         let tried = near::poses(&system, &result.freedoms, &pose, search.spacing);
-        let cap = self.cap(OF_MEDIAN * result.median);
+        let cap = self.cap(SIGMA_OVER_MAD * result.median);
         let best = search.nearest_of(&tried, &pose, &few, cap, progress)?;
         if best.is_empty() {
             return Ok(pose);
@@ -282,7 +283,7 @@ impl Work<'_> {
         }
         let part = some.first(PART);
         let [few, part] = [&search.samples, &part].map(|s| self.problem(s));
-        let cap = self.cap(1.4826 * result.median);
+        let cap = self.cap(SIGMA_OVER_MAD * result.median);
         revolved::poses(search, &result.reference_from_measured, [&few, &part], cap, progress)
     }
 
@@ -371,7 +372,7 @@ impl Work<'_> {
         candidates.retain(|c| search.apart(&c.pose, &pose) > search.spacing);
         let (problem, part) = (self.problem(some), some.first(PART));
         let part = self.problem(&part);
-        let cap = self.cap(1.4826 * result.median);
+        let cap = self.cap(SIGMA_OVER_MAD * result.median);
         let [own, own_few, own_part] = [&problem, &few, &part].map(|p| p.cost(&pose, cap, progress));
         let (own, own_few, own_part) = (own?, own_few?, own_part?);
         let floor = self.rounding * self.rounding * 256.0;

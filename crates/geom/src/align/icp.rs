@@ -17,12 +17,11 @@ use crate::num::sum::Sum;
 use crate::progress::Progress;
 use crate::rigid::Rigid;
 use crate::space::{Point, Vector, minus, norm, unit};
+use crate::stats::SIGMA_OVER_MAD;
 
 /// Standard deviations within which points count in full, and from which on not at all.
 const FULL: f64 = 6.0;
 const NONE: f64 = 10.0;
-/// Standard deviation over median magnitude of a normal distribution.
-pub(super) const OF_MEDIAN: f64 = 1.4826;
 /// Iterations before the fit counts as not converging.
 pub(super) const MOST: usize = 200;
 /// Share of its own standard uncertainty below which a step is none.
@@ -111,7 +110,7 @@ impl Problem<'_> {
     /// Standard deviation of the distances, from their weighted median.
     pub fn deviation(&self, matches: &[Match]) -> f64 {
         let median = weighted_median(matches.iter().map(|m| (m.distance, m.equation.weight)));
-        OF_MEDIAN * median.unwrap_or(0.0)
+        SIGMA_OVER_MAD * median.unwrap_or(0.0)
     }
 
     /// Lets far points count less, `sigma` being the standard deviation. Where nothing is robust, all count.

@@ -13,6 +13,7 @@ use crate::fit::eigen;
 use crate::progress::Progress;
 use crate::space::{Point, Vector, dot, minus, plus, times};
 use crate::spatial::neighbors::PointTree;
+use crate::stats::SIGMA_OVER_MAD;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Numbers of neighbors that are tried, until most planes are flat.
@@ -37,8 +38,6 @@ const MOST_OFF_PLANE: f64 = 2.0;
 const ROW: f64 = 0.01;
 /// A piece goes on if so many of its neighbors are beyond the reach of the feature.
 const GOES_ON: usize = 3;
-/// Standard deviation over the median of the magnitudes, of normal noise.
-const OF_MEDIAN: f64 = 1.4826;
 /// Distances below this share of the coordinates are rounding.
 const ROUNDING: f64 = 1e-9;
 /// So many times the points of sharp edges are given to the pieces around them: edges are some neighbors wide.
@@ -346,7 +345,7 @@ impl Cloud<'_> {
             }
         }
         let height = middle(&mut heights)?;
-        let of_heights = middle(&mut off).map_or(f64::INFINITY, |off| OF_MEDIAN * off);
+        let of_heights = middle(&mut off).map_or(f64::INFINITY, |off| SIGMA_OVER_MAD * off);
         Some(Level { height, scatter: middle(&mut scatter)?.min(of_heights) })
     }
 

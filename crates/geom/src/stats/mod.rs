@@ -10,6 +10,9 @@
 //! | which of two series is the smaller | [`paired`] |
 //! | bootstrap, normality, distributions, spatial autocorrelation | [`research`] |
 
+/// σ of a normal distribution over the median magnitude of its numbers, or over its MAD: 1/Φ⁻¹(3/4).
+pub const SIGMA_OVER_MAD: f64 = 1.482_602_218_505_602;
+
 pub mod histogram;
 pub mod moments;
 pub mod paired;

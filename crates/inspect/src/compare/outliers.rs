@@ -2,6 +2,7 @@
 
 use std::fmt;
 use std::str::FromStr;
+use trueness_geom::stats::SIGMA_OVER_MAD;
 use trueness_geom::stats::statistics::{Missing, Statistics};
 
 /// Which deviations are outliers.
@@ -13,9 +14,6 @@ pub enum OutlierRule {
     /// neither median nor MAD.
     Mad(f64),
 }
-
-/// σ of a normal distribution over its MAD: 1/Φ⁻¹(3/4).
-const SIGMA_OVER_MAD: f64 = 1.482_602_218_505_602;
 
 /// The limits that a rule gives; they belong to what counts.
 #[derive(Clone, Copy, Debug, PartialEq)]

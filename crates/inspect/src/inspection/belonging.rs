@@ -13,7 +13,7 @@ use super::seed::Seeded;
 use crate::plan::Plan;
 use std::collections::BTreeMap;
 use trueness_geom::closest::{Hit, Query, QueryError, Tree};
-use trueness_geom::feature::{FeatureSearch, Nearness, Nominal, Piece};
+use trueness_geom::feature::{FeatureSearch, Nearness, Nominal, NominalSurface, Piece};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::Progress;
 use trueness_geom::space::{self, Point, Vector, dot, minus, plus, times};
@@ -140,18 +140,14 @@ impl<'a> Belonging<'a> {
         near: &Nearness,
         progress: &dyn Progress,
     ) -> Result<Vec<bool>, Stop> {
-        let Some(surface) = nominal.surface() else { return Ok(vec![false; places.len()]) };
-        // What lies on the surface of the nominal is no other face, however it was cut into facets; what leaves it is none of its own.
-        let on = (ON * near.distance).max(self.rounding);
-        let off =
-            |v: &u32| surface.distance(self.reference.positions[*v as usize]).map_or(0.0, |d| d.0.abs());
-        let is_other = |f: u32| self.reference.faces[f as usize].iter().any(|v| off(v) > on);
-        let whole = Nearness { margin: -near.distance, ..*near };
-        let mut own = self.facets(nominal, &whole, progress);
-        own.retain(|f| !is_other(*f));
+        let (own, Some(surface)) = (self.on_surface(nominal, near, progress), nominal.surface()) else {
+            return Ok(vec![false; places.len()]);
+        };
         if own.is_empty() {
             return Ok(vec![false; places.len()]);
         }
+        // What lies on the surface of the nominal is no other face, however it was cut into facets.
+        let is_other = |f: u32| !self.is_on(&surface, f, near);
         let on_all = nearest(self.search.tree(), places, f64::INFINITY, progress)?;
         let asked: Vec<usize> =
             (0..places.len()).filter(|n| on_all[*n].0 != u32::MAX && is_other(on_all[*n].0)).collect();
@@ -181,8 +177,7 @@ impl<'a> Belonging<'a> {
         near: &Nearness,
         progress: &dyn Progress,
     ) -> Result<Vec<bool>, Stop> {
-        let whole = Nearness { margin: -near.distance, ..*near };
-        let own = self.facets(nominal, &whole, progress);
+        let own = self.on_surface(nominal, near, progress);
         let Some(surface) = nominal.surface().filter(|_| !own.is_empty()) else {
             return Ok(vec![true; places.len()]);
         };
@@ -249,6 +244,22 @@ impl<'a> Belonging<'a> {
     fn part(&self, facets: impl Iterator<Item = u32>) -> Mesh {
         let faces = facets.map(|f| self.reference.faces[f as usize]).collect();
         Mesh { positions: self.reference.positions.clone(), faces }
+    }
+
+    /// The facets of the reference that lie on the surface of the nominal and within its bounds, ascending. The ground of a shallow pocket
+    /// and the begin of a fillet are within its reach, and none of it.
+    fn on_surface(&self, nominal: &Nominal, near: &Nearness, progress: &dyn Progress) -> Vec<u32> {
+        let Some(surface) = nominal.surface() else { return vec![] };
+        let whole = Nearness { margin: -near.distance, ..*near };
+        let mut own = self.facets(nominal, &whole, progress);
+        own.retain(|f| self.is_on(&surface, *f, near));
+        own
+    }
+
+    fn is_on(&self, surface: &NominalSurface, facet: u32, near: &Nearness) -> bool {
+        let on = (ON * near.distance).max(self.rounding);
+        let off = |v: u32| surface.distance(self.reference.positions[v as usize]).map_or(0.0, |d| d.0.abs());
+        self.reference.faces[facet as usize].iter().all(|v| off(*v) <= on)
     }
 
     /// The facets of the reference that the nominal names, ascending.

@@ -260,9 +260,13 @@ fn found(
     if let (Some(facets), Some(belonging)) = (search.facets, search.belonging) {
         let places: Vec<Point> = found.facets.iter().map(|f| center_of(mesh, *f)).collect();
         let beside = belonging.beside(&places, &nominal, &near, progress)?;
-        if beside.contains(&true) {
-            let own = found.facets.iter().zip(beside).filter(|(_, beside)| !beside).map(|(f, _)| *f);
-            found = facets.of(&own.collect::<Vec<u32>>(), &near);
+        let nearer = belonging.nearer(&places, &nominal, &near, progress)?;
+        let own = (found.facets.iter().zip(beside.into_iter().zip(nearer)))
+            .filter(|(_, (beside, nearer))| *nearer && !beside)
+            .map(|(f, _)| *f);
+        let own: Vec<u32> = own.collect();
+        if own.len() < found.facets.len() {
+            found = facets.of(&own, &near);
         }
     }
     if let Some(facets) = search.facets {

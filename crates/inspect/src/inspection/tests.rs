@@ -410,3 +410,63 @@ fn a_part_that_looks_the_same_in_several_ways_is_judged_in_all() {
         assert_eq!(document.verdict, Verdict::Undecided);
     }
 }
+
+/// An axis goes as far as its feature does, with its rim, whether that counts for the element or not.
+#[test]
+fn axes_go_to_the_rim_that_does_not_count() {
+    // A shaft along z from 0 to 6 that leans by 0.01, in rings of 1 with both ends closed, over a square.
+    let (turns, slope) = (48u32, 0.01);
+    let mut mesh = Mesh::default();
+    for z in (0..7).map(f64::from) {
+        for k in 0..turns {
+            let phi = std::f64::consts::TAU * f64::from(k) / f64::from(turns);
+            mesh.positions.push([4.0 * libm::cos(phi) + slope * z, 4.0 * libm::sin(phi), z]);
+        }
+    }
+    let at = |row: u32, k: u32| row * turns + k % turns;
+    for (row, k) in (0..6).flat_map(|row| (0..turns).map(move |k| (row, k))) {
+        let [a, b, c, d] = [at(row, k), at(row, k + 1), at(row + 1, k + 1), at(row + 1, k)];
+        mesh.faces.extend([[a, b, c], [a, c, d]]);
+    }
+    for (row, z) in [(0, 0.0), (6, 6.0)] {
+        let center = mesh.positions.len() as u32;
+        mesh.positions.push([slope * z, 0.0, z]);
+        let fan =
+            |k| if row == 0 { [center, at(0, k + 1), at(0, k)] } else { [center, at(6, k), at(6, k + 1)] };
+        mesh.faces.extend((0..turns).map(fan));
+    }
+    let first = mesh.positions.len() as u32;
+    mesh.positions.extend([[-9.0, -9.0, -5.0], [9.0, -9.0, -5.0], [9.0, 9.0, -5.0], [-9.0, 9.0, -5.0]]);
+    mesh.faces.extend([[first, first + 1, first + 2], [first, first + 2, first + 3]]);
+    for rim in [true, false] {
+        let plan = Plan::parse(&format!(
+            r#"
+            schema = "trueness/plan/1"
+            measured = "part.stl"
+            [[feature]]
+            id = "A"
+            shape = "plane"
+            nominal = {{ point = [0, 0, -5], normal = [0, 0, 1], boundary = [[-9, -9, -5], [9, -9, -5], [9, 9, -5], [-9, 9, -5]] }}
+            [[feature]]
+            id = "B"
+            shape = "cylinder"
+            nominal = {{ point = [0, 0, 0], direction = [0, 0, 1], radius = 4, length = 6 }}
+            extract = {{ rim = {rim} }}
+            [[characteristic]]
+            id = "1"
+            kind = "perpendicularity"
+            feature = "B"
+            datums = ["A"]
+            tolerance = 0.1
+            "#
+        ))
+        .unwrap();
+        let data = Data { measured: Some(mesh.clone()), ..Data::default() };
+        let found = run(&plan, data, &Silent).unwrap();
+        let rings = if rim { 7 } else { 5 };
+        assert_eq!(found.features[1].points.len(), rings * turns as usize);
+        let value = found.values[0].as_ref().unwrap().value;
+        // Its ends are where its points are, whose circles lie across z.
+        assert!((value - (6.0 + 8.0 * slope) * slope).abs() < 1e-5, "{rim}: {value}");
+    }
+}
