@@ -220,6 +220,40 @@ impl<'a> FeatureSearch<'a> {
         if progress.cancelled() { Err(FeatureError::Cancelled) } else { Ok(apart) }
     }
 
+    /// The facets, ascending, that lie within the reach and the bounds of `nominal` and face otherwise, without being walls that lead
+    /// away from it, and that are none of what was `found`: slopes that nothing of the feature encloses. None of an edge.
+    ///
+    /// Cost: one look at each facet of the mesh.
+    ///
+    /// # Errors
+    /// As of [`FeatureSearch::find`].
+    pub fn slopes(
+        &self,
+        found: &Found,
+        nominal: &Nominal,
+        near: &Nearness,
+        progress: &dyn Progress,
+    ) -> Result<Vec<u32>, FeatureError> {
+        if matches!(nominal, Nominal::Edge { .. }) {
+            return Ok(vec![]);
+        }
+        let inside = Nearness { margin: near.margin.max(0.0), ..*near };
+        let rules = Rules::new(nominal, &inside)?;
+        let slopes = |f: &u32| {
+            let tilted = |corners| {
+                let facing = normal(corners);
+                facing.is_some()
+                    && rules.tilted(corners, facing)
+                    && facing.is_none_or(|n| !rules.facet(corners, n))
+            };
+            self.corners(*f).is_some_and(tilted)
+        };
+        let all = (0..self.mesh.faces.len() as u32).into_par_iter();
+        let all = all.filter(|f| !progress.cancelled() && found.facets.binary_search(f).is_err());
+        let slopes = all.filter(slopes).collect();
+        if progress.cancelled() { Err(FeatureError::Cancelled) } else { Ok(slopes) }
+    }
+
     /// These facets as what was found of a feature.
     pub fn of(&self, facets: &[u32], near: &Nearness) -> Found {
         let mut all = Marked::new(self.mesh.faces.len());

@@ -16,7 +16,8 @@ use trueness_geom::closest::{Hit, Query, QueryError, Tree};
 use trueness_geom::feature::{FeatureSearch, Nearness, Nominal, NominalSurface, Piece};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::Progress;
-use trueness_geom::space::{self, Point, Vector, dot, minus, plus, times};
+use trueness_geom::space::{self, Point, Vector, dot, minus, norm, plus, times};
+use trueness_geom::spatial::neighbors::PointTree;
 
 /// Points farther off than this share of the size of the reference are of something else.
 pub(super) const ELSEWHERE: f64 = 0.1;
@@ -30,6 +31,8 @@ const WALL_REACH: f64 = 3.0;
 const MOST: f64 = 0.75;
 /// So many times nearer a face is clearly the nearer one.
 const NEARER: f64 = 2.0;
+/// Most steps along an edge.
+const STEPS: f64 = 1e4;
 /// A facet of the reference may be off the surface of the nominal by this share of the distance up to which points are sought.
 const ON: f64 = 1e-3;
 /// So many times the angle that a feature allows others of the reference may be turned against it that face as it does.
@@ -246,6 +249,28 @@ impl<'a> Belonging<'a> {
         Mesh { positions: self.reference.positions.clone(), faces }
     }
 
+    /// Whether each of these places lies over the nominal's facets of the reference, farther inside than its `distance` from where they
+    /// end: edges that were broken or rounded are within it.
+    pub fn over(
+        &self,
+        places: &[Point],
+        nominal: &Nominal,
+        near: &Nearness,
+        progress: &dyn Progress,
+    ) -> Result<Vec<bool>, Stop> {
+        let own = self.on_surface(nominal, near, progress);
+        if own.is_empty() || places.is_empty() {
+            return Ok(vec![false; places.len()]);
+        }
+        let part = self.part(own.iter().copied());
+        let border = PointTree::new(&along_border(&part, 0.5 * near.distance));
+        let hits = nearest(self.search.tree(), places, ELSEWHERE * self.size, progress)?;
+        let inside = |p: &Point| {
+            border.nearest(p).is_none_or(|(square, _)| square > 2.0 * near.distance * near.distance)
+        };
+        Ok(places.iter().zip(hits).map(|(p, hit)| own.binary_search(&hit.0).is_ok() && inside(p)).collect())
+    }
+
     /// The facets of the reference that lie on the surface of the nominal and within its bounds, ascending. The ground of a shallow pocket
     /// and the begin of a fillet are within its reach, and none of it.
     fn on_surface(&self, nominal: &Nominal, near: &Nearness, progress: &dyn Progress) -> Vec<u32> {
@@ -266,6 +291,23 @@ impl<'a> Belonging<'a> {
     fn facets(&self, nominal: &Nominal, near: &Nearness, progress: &dyn Progress) -> Vec<u32> {
         self.search.find(nominal, near, progress).map_or(vec![], |found| found.facets)
     }
+}
+
+/// Places along the edges of a mesh that one facet alone has, no farther apart than `step`.
+fn along_border(mesh: &Mesh, step: f64) -> Vec<Point> {
+    let mut places = vec![];
+    let positions = &mesh.positions;
+    let mut sides: Vec<[u32; 2]> = (mesh.faces.iter())
+        .flat_map(|[a, b, c]| [[a, b], [b, c], [c, a]])
+        .map(|[a, b]| [*a.min(b), *a.max(b)])
+        .collect();
+    sides.sort_unstable();
+    for edge in sides.chunk_by(|a, b| a == b).filter(|edge| edge.len() == 1).map(|edge| edge[0]) {
+        let [a, b] = edge.map(|v| positions[v as usize]);
+        let steps = (norm(minus(b, a)) / step).ceil().clamp(1.0, STEPS);
+        places.extend((0..=steps as u32).map(|k| plus(a, times(f64::from(k) / steps, minus(b, a)))));
+    }
+    places
 }
 
 /// The nearest facet to each place and how far off it is; `u32::MAX` beyond `farthest`.
@@ -293,7 +335,6 @@ mod tests {
     use crate::inspection::run;
     use trueness_geom::num::random::Random;
     use trueness_geom::progress::Silent;
-    use trueness_geom::space::norm;
 
     /// A bar along y: its top at z = 0 from x = −10 to 10, then a quarter of a circle of radius 2 in steps of 10°, or a wall.
     fn bar(fillet: bool) -> Mesh {

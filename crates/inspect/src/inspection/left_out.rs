@@ -140,7 +140,7 @@ pub(super) fn judge_left_out(
             // Noise leaves some at every edge: they are told where they matter.
             (false, false) if verdict == judged => continue,
             (false, false) => {
-                "face as it does but are joined to it by no facet that does, as the ground of a pocket,"
+                "lie where it is, but are joined to it by no facet that faces as it does, or are steep,"
             }
         };
         result.notes.push(format!(

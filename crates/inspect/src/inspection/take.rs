@@ -271,9 +271,15 @@ fn found(
     }
     if let Some(facets) = search.facets {
         let apart = facets.apart(&found, &nominal, &near, progress).map_err(stop)?;
-        let (own, others) = apart_of(mesh, &apart, search.belonging, (&nominal, &near), progress)?;
+        let (own, mut others) = apart_of(mesh, &apart, search.belonging, (&nominal, &near), progress)?;
         if !own.is_empty() {
             found = facets.joined(&found, &own, &near);
+        }
+        if let Some(belonging) = search.belonging {
+            let slopes = facets.slopes(&found, &nominal, &near, progress).map_err(stop)?;
+            let places: Vec<Point> = slopes.iter().map(|f| center_of(mesh, *f)).collect();
+            let over = belonging.over(&places, &nominal, &near, progress)?;
+            others.extend(slopes.iter().zip(over).filter(|(_, over)| *over).map(|(f, _)| *f));
         }
         let points = facets.joined(&Found::default(), &others, &near).points;
         let points = points.iter().map(|v| mesh.positions[*v as usize]).collect();

@@ -297,7 +297,7 @@ fn what_lies_apart_within_reach_is_judged() {
         let c = of(None);
         assert_eq!((c.value, c.verdict), (Some(0.0), Verdict::Undecided), "{told}");
         assert!((c.value_with_others.unwrap() - 0.3).abs() < 1e-9, "{told}");
-        assert!(c.notes[0].contains("joined to it by no facet"), "{:?}", c.notes);
+        assert!(c.notes[0].contains("joined to it by no facet that faces as it does"), "{:?}", c.notes);
     }
     // A piece that touches nothing.
     let mut loose = flat();
@@ -469,4 +469,28 @@ fn axes_go_to_the_rim_that_does_not_count() {
         // Its ends are where its points are, whose circles lie across z.
         assert!((value - (6.0 + 8.0 * slope) * slope).abs() < 1e-5, "{rim}: {value}");
     }
+}
+
+/// A ramp that was not drawn, too steep for the feature and up to its border: told, and never passed. Nor is a broken edge told.
+#[test]
+fn steep_slopes_over_a_feature_are_no_pass() {
+    let plate = |ramp: f64| {
+        // Rows of 0.5 along x; from `ramp` on they rise by 0.4 a unit, beyond the angle of the feature.
+        let mut mesh = Mesh::default();
+        for (i, j) in (0..=40u32).flat_map(|i| (0..=10u32).map(move |j| (i, j))) {
+            let x = 0.5 * f64::from(i);
+            mesh.positions.push([x, 2.0 * f64::from(j), 0.4 * (x - ramp).max(0.0)]);
+            if i < 40 && j < 10 {
+                let a = i * 11 + j;
+                mesh.faces.extend([[a, a + 11, a + 12], [a, a + 12, a + 1]]);
+            }
+        }
+        mesh
+    };
+    let of = |ramp| floor(plate(ramp), Some(plate(99.0)), true).characteristics.remove(0);
+    let c = of(18.0);
+    assert_eq!((c.value, c.verdict), (Some(0.0), Verdict::Undecided), "{:?}", c.notes);
+    assert!(c.value_with_others.unwrap() > 0.1 && c.notes[0].contains("steep"), "{:?}", c.notes);
+    let c = of(19.5);
+    assert_eq!((c.value, c.verdict, c.notes.len()), (Some(0.0), Verdict::Pass, 0), "{:?}", c.notes);
 }
