@@ -9,16 +9,18 @@ use std::f64::consts::TAU;
 
 /// Places that are asked. The share is known to about a hundredth.
 const PLACES: usize = 4096;
-/// The neighbor whose distance tells how far points lie apart: rows of a scanner are farther apart than points in a row.
+/// The neighbor whose distance tells how far points lie apart, of many points: rows of a scanner are farther apart than points in a row.
 const NEIGHBOR: usize = 12;
-/// So many of those distances a place may be away from the nearest point.
-const REACH: f64 = 2.0;
+/// The same of few, which are probed one by one.
+const NEIGHBOR_OF_FEW: usize = 2;
+/// So many points for each neighbor.
+const FEW: usize = 20;
 /// Steps of the sequence of places: powers of the root of x³ = x + 1, which leaves the least gaps in two dimensions
 /// (M. Roberts, The unreasonable effectiveness of quasirandom sequences, 2018).
 const STEPS: [f64; 2] = [0.754_877_666_246_693, 0.569_840_290_998_053_3];
 
-/// Share of the area of a nominal feature, 0 to 1, that is near one of `points`, which were found for it: within twice the usual
-/// distance of a point to its twelfth neighbor, seen along the surface. Holes of the feature that its nominal form does not
+/// Share of the area of a nominal feature, 0 to 1, that is near one of `points`, which were found for it: within the usual
+/// distance of a point to its twelfth neighbor (of fewer than 240 points a nearer one, the second at least), seen along the surface. Holes of the feature that its nominal form does not
 /// have are not covered. `None` of an edge, of a nominal feature that makes no sense, and without points.
 ///
 /// Cost: a search tree of the points, and some thousand nearest neighbors.
@@ -38,13 +40,13 @@ pub fn covered(nominal: &Nominal, points: &[Point]) -> Option<f64> {
         points.iter().filter_map(|p| surface.distance(*p).map(|(off, way)| minus(*p, times(off, way))));
     let feet: Vec<Point> = feet.collect();
     let tree = PointTree::new(&feet);
-    let neighbor = NEIGHBOR.min(feet.len().checked_sub(1)?);
+    let neighbor = (feet.len() / FEW).clamp(NEIGHBOR_OF_FEW, NEIGHBOR).min(feet.len().checked_sub(1)?);
     let step = feet.len().div_ceil(PLACES);
     let away =
         |n: usize| tree.k_nearest(&feet[n], neighbor, Some(n as u32)).last().map_or(0.0, |last| last.0);
     let mut away: Vec<f64> = (0..feet.len()).step_by(step).map(away).collect();
     away.sort_unstable_by(f64::total_cmp);
-    let reach = REACH * REACH * away.get(away.len() / 2)?;
+    let reach = *away.get(away.len() / 2)?;
     let places = spread(nominal)?;
     let near = places.iter().filter(|p| tree.nearest(p).is_some_and(|(square, _)| square <= reach)).count();
     Some(near as f64 / places.len() as f64)
@@ -137,12 +139,22 @@ mod tests {
                 let points: Vec<Point> = (0..count * count).map(|n| at(n % count, n / count)).collect();
                 let found = covered(&bore, &points).unwrap();
                 // Both ends are widened by the reach, some steps.
-                let wider = 2.0 * 6.0 / count as f64;
+                let wider = 2.0 * 3.0 / count as f64;
                 assert!(found >= share - 0.01 && found <= share + wider, "{count} {off} {share}: {found}");
             }
         }
         let few: Vec<Point> = (0..5).map(|k| [5.0, 0.1 * f64::from(k), 0.1 * f64::from(k * k % 3)]).collect();
         assert!(covered(&bore, &few).unwrap() < 0.03);
+        // Twelve places around it, in three rings, are all of it; in a sixth of the turn they are no fourth.
+        let probed = |share: f64| -> Vec<Point> {
+            let at = |k: i32| {
+                let turn = TAU * share * f64::from(k % 4) / 4.0;
+                [5.0 * libm::cos(turn), 5.0 * libm::sin(turn), 3.0 + 7.0 * f64::from(k / 4)]
+            };
+            (0..12).map(at).collect()
+        };
+        let [all, part] = [1.0, 0.1].map(|share| covered(&bore, &probed(share)).unwrap());
+        assert!(all > 0.9 && part < 0.2, "{all} {part}");
         assert_eq!(covered(&bore, &[]), None);
     }
 }

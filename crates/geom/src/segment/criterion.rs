@@ -78,6 +78,11 @@ pub(super) fn is_of_corners(region: &GrownRegion, other: &GrownRegion, noise: f6
     goes_along(other, region, noise) && other.weight > ALONG_COVER * region.weight
 }
 
+/// Whether the facets of `region` might go along another element.
+pub(super) fn may_give_way(region: &GrownRegion, noise: f64) -> bool {
+    noise < ALONG * region.middles
+}
+
 /// So many points that an element of the kind is more than a coincidence: twice its unknowns and two more. Any three points have
 /// a plane, and a fourth on it is hardly chance.
 pub(super) fn fewest_points(kind: Kind) -> usize {

@@ -1,6 +1,6 @@
 //! One region: from a patch to all that belongs to its element.
 
-use super::criterion::{BETTER, CLEARLY, better, fewest_points};
+use super::criterion::{BETTER, CLEARLY, better, fewest_points, may_give_way};
 use super::estimate::{estimate, is_sound};
 use super::flood::{Marks, Order, flood, patch, rings, strip};
 use super::pieces::{Band, PieceGraph};
@@ -79,8 +79,9 @@ impl Context<'_> {
                 break;
             }
         }
-        // Where facets are as long as the face, the patch goes beyond it on all sides.
-        if best.is_none() && self.surface.is_mesh() {
+        // Where facets are as long as the face, the patch goes beyond it on all sides: it shows nothing, or what only corners are of.
+        let may_be_of_corners = best.as_ref().is_none_or(|b| may_give_way(b, self.noise));
+        if self.surface.is_mesh() && may_be_of_corners {
             for first in STRIPS {
                 let strip = strip(self.surface, seed, first, self.crease, marks, free);
                 self.tried(&mut best, &strip, most, marks, free);

@@ -192,7 +192,7 @@ impl<'a> Belonging<'a> {
         let side: f64 = own.iter().map(|f| outward(*f).signum()).sum::<f64>().signum();
         let alike = libm::cos(ALIKE * near.angle);
         let others = (0..self.reference.faces.len() as u32)
-            .filter(|f| own.binary_search(f).is_err() && side * outward(*f) >= alike);
+            .filter(|f| !self.is_on(&surface, *f, near) && side * outward(*f) >= alike);
         let [own, others] = [self.part(own.iter().copied()), self.part(others)];
         if others.faces.is_empty() {
             return Ok(vec![true; places.len()]);
@@ -250,7 +250,7 @@ impl<'a> Belonging<'a> {
     }
 
     /// Whether each of these places lies over the nominal's facets of the reference, farther inside than its `distance` from where they
-    /// end: edges that were broken or rounded are within it.
+    /// end, or outside the material: edges that were broken or rounded are within that distance, and lack material.
     pub fn over(
         &self,
         places: &[Point],
@@ -268,7 +268,14 @@ impl<'a> Belonging<'a> {
         let inside = |p: &Point| {
             border.nearest(p).is_none_or(|(square, _)| square > 2.0 * near.distance * near.distance)
         };
-        Ok(places.iter().zip(hits).map(|(p, hit)| own.binary_search(&hit.0).is_ok() && inside(p)).collect())
+        let outside = |p: &Point, face: u32| {
+            let corner = self.reference.positions[self.reference.faces[face as usize][0] as usize];
+            normal(self.reference, face).is_some_and(|out| dot(minus(*p, corner), out) > self.rounding)
+        };
+        let over = |(p, hit): (&Point, (u32, f64))| {
+            own.binary_search(&hit.0).is_ok() && (inside(p) || outside(p, hit.0))
+        };
+        Ok(places.iter().zip(hits).map(over).collect())
     }
 
     /// The facets of the reference that lie on the surface of the nominal and within its bounds, ascending. The ground of a shallow pocket
@@ -287,9 +294,16 @@ impl<'a> Belonging<'a> {
         self.reference.faces[facet as usize].iter().all(|v| off(*v) <= on)
     }
 
-    /// The facets of the reference that the nominal names, ascending.
+    /// The facets of the reference that the nominal names, ascending: those joined to where it is begun, and those of its surface that
+    /// lie apart, beyond a groove or a slot.
     fn facets(&self, nominal: &Nominal, near: &Nearness, progress: &dyn Progress) -> Vec<u32> {
-        self.search.find(nominal, near, progress).map_or(vec![], |found| found.facets)
+        let Some(surface) = nominal.surface() else { return vec![] };
+        let Ok(found) = self.search.find(nominal, near, progress) else { return vec![] };
+        let mut all = self.search.apart(&found, nominal, near, progress).unwrap_or_default();
+        all.retain(|f| self.is_on(&surface, *f, near));
+        all.extend(&found.facets);
+        all.sort_unstable();
+        all
     }
 }
 

@@ -226,6 +226,25 @@ fn faces_of_two_circles_are_found_beside_fillets_too() {
     }
 }
 
+/// Three circles of corners lie on a torus: an end face and the chamfer beside it are none, as they are none of one face.
+#[test]
+fn a_chamfer_and_the_face_beside_it_are_no_torus() {
+    for (bore, outside, length, steps) in
+        [(5.0, 8.0, 20.0, 32), (5.0, 10.0, 30.0, 64), (10.0, 14.0, 25.0, 128)]
+    {
+        let part = sleeve([bore, outside, length], Some((0.25 * bore, 1)), steps);
+        let found = mesh(&part.mesh, &Options::default(), &Silent).unwrap();
+        let kind = |face: usize| {
+            let facet = part.labels.iter().position(|l| *l == face).unwrap();
+            found.regions.get(found.labels[facet] as usize).map(|r| r.fit.shape.kind())
+        };
+        let kinds: Vec<Option<Kind>> = (0..5).map(kind).collect();
+        let expected = [Kind::Cylinder, Kind::Plane, Kind::Cylinder, Kind::Plane, Kind::Cone].map(Some);
+        assert_eq!(kinds, expected, "{bore} {outside} {steps}");
+        assert_eq!(found.regions.len(), 5);
+    }
+}
+
 fn radius_of(shape: &Shape) -> f64 {
     match shape {
         Shape::Cylinder { radius, .. } => *radius,
