@@ -19,8 +19,8 @@ const FEW: usize = 20;
 /// (M. Roberts, The unreasonable effectiveness of quasirandom sequences, 2018).
 const STEPS: [f64; 2] = [0.754_877_666_246_693, 0.569_840_290_998_053_3];
 
-/// Share of the area of a nominal feature, 0 to 1, that is near one of `points`, which were found for it: within the usual
-/// distance of a point to its twelfth neighbor (of fewer than 240 points a nearer one, the second at least), seen along the surface. Holes of the feature that its nominal form does not
+/// Share of the area of a nominal feature, 0 to 1, that is near one of `points`, which were found for it: nearer than that point's
+/// twelfth neighbor is to it (of fewer than 240 points a nearer neighbor, the second at least), seen along the surface. Holes of the feature that its nominal form does not
 /// have are not covered. `None` of an edge, of a nominal feature that makes no sense, and without points.
 ///
 /// Cost: a search tree of the points, and some thousand nearest neighbors.
@@ -41,14 +41,12 @@ pub fn covered(nominal: &Nominal, points: &[Point]) -> Option<f64> {
     let feet: Vec<Point> = feet.collect();
     let tree = PointTree::new(&feet);
     let neighbor = (feet.len() / FEW).clamp(NEIGHBOR_OF_FEW, NEIGHBOR).min(feet.len().checked_sub(1)?);
-    let step = feet.len().div_ceil(PLACES);
     let away =
-        |n: usize| tree.k_nearest(&feet[n], neighbor, Some(n as u32)).last().map_or(0.0, |last| last.0);
-    let mut away: Vec<f64> = (0..feet.len()).step_by(step).map(away).collect();
-    away.sort_unstable_by(f64::total_cmp);
-    let reach = *away.get(away.len() / 2)?;
+        |n: u32| tree.k_nearest(&feet[n as usize], neighbor, Some(n)).last().map_or(0.0, |last| last.0);
     let places = spread(nominal)?;
-    let near = places.iter().filter(|p| tree.nearest(p).is_some_and(|(square, _)| square <= reach)).count();
+    // Each point covers as far as its own neighbors are: somewhere they may lie a hundred times as dense.
+    let is_near = |p: &&Point| tree.nearest(p).is_some_and(|(square, n)| square <= away(n));
+    let near = places.iter().filter(is_near).count();
     Some(near as f64 / places.len() as f64)
 }
 

@@ -471,15 +471,16 @@ fn axes_go_to_the_rim_that_does_not_count() {
     }
 }
 
-/// A ramp that was not drawn, too steep for the feature and up to its border: told, and never passed. Nor is a broken edge told.
+/// A ramp that was not drawn, too steep for the feature and up to its border: told, and never passed; at the border itself where it is of
+/// material, as a burr. A broken edge is no such ramp.
 #[test]
 fn steep_slopes_over_a_feature_are_no_pass() {
-    let plate = |ramp: f64| {
-        // Rows of 0.5 along x; from `ramp` on they rise by 0.4 a unit, beyond the angle of the feature.
+    let plate = |ramp: f64, slope: f64| {
+        // Rows of 0.5 along x; from `ramp` on they slope beyond the angle of the feature.
         let mut mesh = Mesh::default();
         for (i, j) in (0..=40u32).flat_map(|i| (0..=10u32).map(move |j| (i, j))) {
             let x = 0.5 * f64::from(i);
-            mesh.positions.push([x, 2.0 * f64::from(j), 0.4 * (x - ramp).max(0.0)]);
+            mesh.positions.push([x, 2.0 * f64::from(j), slope * (x - ramp).max(0.0)]);
             if i < 40 && j < 10 {
                 let a = i * 11 + j;
                 mesh.faces.extend([[a, a + 11, a + 12], [a, a + 12, a + 1]]);
@@ -487,10 +488,12 @@ fn steep_slopes_over_a_feature_are_no_pass() {
         }
         mesh
     };
-    let of = |ramp| floor(plate(ramp), Some(plate(99.0)), true).characteristics.remove(0);
-    let c = of(18.0);
-    assert_eq!((c.value, c.verdict), (Some(0.0), Verdict::Undecided), "{:?}", c.notes);
-    assert!(c.value_with_others.unwrap() > 0.1 && c.notes[0].contains("steep"), "{:?}", c.notes);
-    let c = of(19.5);
+    let of = |ramp, slope| floor(plate(ramp, slope), Some(plate(99.0, 0.0)), true).characteristics.remove(0);
+    for (ramp, slope) in [(18.0, 0.4), (18.0, -0.4), (19.5, 0.4)] {
+        let c = of(ramp, slope);
+        assert_eq!((c.value, c.verdict), (Some(0.0), Verdict::Undecided), "{ramp} {slope} {:?}", c.notes);
+        assert!(c.value_with_others.unwrap() > 0.1 && c.notes[0].contains("steep"), "{:?}", c.notes);
+    }
+    let c = of(19.5, -0.4);
     assert_eq!((c.value, c.verdict, c.notes.len()), (Some(0.0), Verdict::Pass, 0), "{:?}", c.notes);
 }
