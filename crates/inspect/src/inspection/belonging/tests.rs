@@ -1,0 +1,187 @@
+//! Walls, fillets and noise beside a plane of known form.
+
+use super::*;
+use crate::inspection::run;
+use trueness_geom::num::random::Random;
+use trueness_geom::progress::Silent;
+
+/// A bar along y: its top at z = 0 from x = −10 to 10, then a quarter of a circle of radius 2 in steps of 10°, or a wall.
+fn bar(fillet: bool) -> Mesh {
+    let mut profile = vec![[-10.0, -8.0], [-10.0, 0.0], [10.0, 0.0]];
+    if fillet {
+        let turn = |i: i32| f64::from(10 * i).to_radians();
+        profile.extend((1..=9).map(|i| [10.0 + 2.0 * libm::sin(turn(i)), 2.0 * libm::cos(turn(i)) - 2.0]));
+    }
+    let last = profile[profile.len() - 1][0];
+    profile.push([last, -8.0]);
+    // From fifty to a hundred points along each side, so that every place of the surface is near one.
+    let mut mesh = Mesh::default();
+    let n = 50u32;
+    for side in profile.windows(2) {
+        let first = mesh.positions.len() as u32;
+        for (i, j) in (0..=n).flat_map(|i| (0..=n).map(move |j| (i, j))) {
+            let [s, t] = [i, j].map(|k| f64::from(k) / f64::from(n));
+            let [x, z] = [0, 1].map(|k| side[0][k] + s * (side[1][k] - side[0][k]));
+            mesh.positions.push([x, 20.0 * t, z]);
+            if i < n && j < n {
+                let a = first + i * (n + 1) + j;
+                mesh.faces.extend([[a, a + n + 1, a + 1], [a + 1, a + n + 1, a + n + 2]]);
+            }
+        }
+    }
+    mesh
+}
+
+/// Flatness of the plane z = 0 over a rectangle in x and y from the points of a cloud, and how many they are.
+fn flatness(cloud: &Mesh, reference: Option<&Mesh>, bounds: [[f64; 2]; 2], extract: &str) -> (f64, usize) {
+    let cloud = Mesh { positions: cloud.positions.clone(), faces: vec![] };
+    // Nobody writes a nominal to the last digit.
+    of_plane(cloud, reference, bounds, (1e-4, extract))
+}
+
+/// The same of a mesh or a cloud, for a nominal that leans.
+fn of_plane(
+    measured: Mesh,
+    reference: Option<&Mesh>,
+    [[a, b], [c, d]]: [[f64; 2]; 2],
+    (leaning, extract): (f64, &str),
+) -> (f64, usize) {
+    let plan = Plan::parse(&format!(
+        r#"
+        schema = "trueness/plan/1"
+        measured = "part.stl"
+        [[feature]]
+        id = "A"
+        shape = "plane"
+        extract = {{ {extract} }}
+        [feature.nominal]
+        point = [0, 0, 0]
+        normal = [{leaning}, 0, 1]
+        boundary = [[{a}, {c}, 0], [{b}, {c}, 0], [{b}, {d}, 0], [{a}, {d}, 0]]
+        [[characteristic]]
+        id = "1"
+        kind = "flatness"
+        feature = "A"
+        tolerance = 0.1
+        "#
+    ))
+    .unwrap();
+    let data = Data { measured: Some(measured), reference: reference.cloned(), ..Data::default() };
+    let found = run(&plan, data, &Silent).unwrap();
+    (found.values[0].as_ref().unwrap().value, found.features[0].points.len())
+}
+
+const TOP: [[f64; 2]; 2] = [[-10.0, 10.0], [0.0, 20.0]];
+
+/// Facets of a fillet face nearly as the plane that it leaves, and are none of it; nothing over the plane itself is lost with them.
+#[test]
+fn facets_of_a_fillet_are_no_part_of_the_plane() {
+    // One surface: without it facets of the fillet are beside those of the plane and joined to none of them.
+    let whole = || {
+        let bar = bar(true);
+        let place = |p: &Point| bar.positions.iter().position(|q| norm(minus(*p, *q)) < 1e-9).unwrap() as u32;
+        let places: Vec<u32> = bar.positions.iter().map(place).collect();
+        let faces = bar.faces.iter().map(|f| f.map(|v| places[v as usize])).collect();
+        Mesh { positions: bar.positions, faces }
+    };
+    let model = whole();
+    let of = |measured, reference| of_plane(measured, reference, TOP, (0.0, "distance = 0.5")).0;
+    // The first ten degrees of the fillet.
+    let leak = 2.0 - 2.0 * libm::cos(10f64.to_radians());
+    let without = of(whole(), None);
+    assert!((without - leak).abs() < 0.01, "{without} {leak}");
+    assert!(of(whole(), Some(&model)) < 1e-9);
+    // Dents of the plane next to the fillet, and the same part somewhat off its place, across and along.
+    for height in [0.04, -0.04] {
+        let mut dented = whole();
+        let near = |p: &&mut Point| p[2] == 0.0 && (p[0] - 9.6).abs() < 0.01 && (p[1] - 10.0).abs() < 0.01;
+        let moved = dented.positions.iter_mut().filter(near).map(|p| p[2] += height).count();
+        assert_eq!(moved, 1);
+        let value = of(dented, Some(&model));
+        assert!((value - 0.04).abs() < 1e-6, "{height} {value}");
+    }
+    for shift in [[0.1, 0.0, 0.02], [-0.1, 0.0, -0.02]] {
+        let mut off = whole();
+        off.positions.iter_mut().for_each(|p| *p = plus(*p, shift));
+        let value = of(off, Some(&model));
+        assert!(value < 0.02, "{shift:?} {value}");
+    }
+}
+
+/// Neither the upper ends of the walls nor the fillet, but for what faces as it does, are part of the plane between them.
+#[test]
+fn what_is_beside_a_plane_is_no_part_of_it() {
+    let wall = bar(false);
+    for extract in ["distance = 0.5", "distance = 0.5, margin = 0"] {
+        let (value, points) = flatness(&wall, Some(&wall), TOP, extract);
+        assert!(value < 1e-9 && points >= 49 * 49, "{extract}: {value} {points}");
+    }
+    // The way it goes tells the wall without a reference too, but for its rim, which lies on both.
+    let (value, points) = flatness(&wall, None, TOP, "distance = 0.5");
+    assert!(value < 1e-9 && points >= 49 * 51, "{value} {points}");
+    let fillet = bar(true);
+    let wide = "distance = 0.5, margin = -2";
+    // All of it that is within reach would make 0.5.
+    assert!(flatness(&fillet, None, TOP, wide).0 < 0.25);
+    let (value, points) = flatness(&fillet, Some(&fillet), TOP, wide);
+    // Its second facet of 10 degrees lies at 15.
+    assert!(value < 2.0 * (1.0 - libm::cos(20f64.to_radians())) + 1e-3, "{value}");
+    assert!(points >= 51 * 51, "{points}");
+}
+
+/// Sparse points with noise, whose tail lies farther off the wall than most of the cloud, on a wall beside a top that is too high:
+/// near the edge all planes of neighbors mix both.
+#[test]
+fn what_noise_carries_off_a_wall_is_no_part_of_the_plane_beside_it() {
+    let (reference, sigma) = (bar(false), 0.003);
+    for high in [0.0, 0.05, 0.1] {
+        let random = &mut Random::new(7);
+        let mut normal = || sigma * ((0..12).map(|_| random.unit()).sum::<f64>() - 6.0);
+        let noise: Vec<f64> = (0..3000).map(|_| normal()).collect();
+        let mut place = |low: f64, top: f64| low + (top - low) * random.unit();
+        let of_top = noise[..1500].iter().map(|n| [place(-10.0, 10.0), place(0.0, 20.0), high + n]);
+        let of_top: Vec<Point> = of_top.collect();
+        let of_wall = noise[1500..].iter().map(|n| [10.0 + n, place(0.0, 20.0), place(-8.0, high)]);
+        let positions = [of_top, of_wall.collect()].concat();
+        let cloud = Mesh { positions, faces: vec![] };
+        let (value, points) = flatness(&cloud, Some(&reference), TOP, "distance = 0.5");
+        let range = noise[..1500].iter().fold([0.0f64; 2], |[a, b], n| [a.min(*n), b.max(*n)]);
+        assert!(value < 1.5 * (range[1] - range[0]), "{high}: {value} {range:?}");
+        assert!((1450..1550).contains(&points), "{high}: {points}");
+    }
+}
+
+/// Points with these deviations from the plane z = 0.
+fn lowered(mesh: &Mesh, by: impl Fn(f64, f64) -> f64) -> Mesh {
+    let mut mesh = mesh.clone();
+    mesh.positions.iter_mut().filter(|p| p[2] == 0.0).for_each(|p| p[2] -= by(p[0], p[1]));
+    mesh
+}
+
+/// Whatever lies beside or below it, no defect is taken for something else.
+#[test]
+fn defects_of_a_plane_stay_with_it() {
+    // A sheet of thickness 1 with a dent deeper than half of it.
+    let mut sheet = bar(false);
+    let below: Vec<Point> = sheet.positions.iter().map(|p| [p[0], p[1], -1.0]).collect();
+    let first = sheet.positions.len() as u32;
+    sheet.faces.extend(sheet.faces.clone().iter().map(|[a, b, c]| [a + first, c + first, b + first]));
+    sheet.positions.extend(below);
+    let dented = lowered(&sheet, |x, y| if libm::hypot(x, y - 10.0) < 3.0 { 0.7 } else { 0.0 });
+    let (value, _) = flatness(&dented, Some(&sheet), TOP, "distance = 0.8");
+    assert!(value > 0.65, "{value}");
+    // A bar, narrow or wide, worn down towards one end, deeper than half its width; and a dent beside its rim.
+    for width in [0.2, 1.0] {
+        let mut rib = bar(false);
+        rib.positions.iter_mut().for_each(|p| p[0] *= 0.1 * width);
+        let worn = lowered(&rib, |_, y| 0.05 * (y - 10.0).max(0.0));
+        let across = [TOP[0].map(|x| 0.1 * width * x), TOP[1]];
+        let (value, _) = flatness(&worn, Some(&rib), across, "distance = 0.6");
+        // Half of its slope lies flat, half falls by 0.5: a quarter is left between two planes.
+        assert!((0.22..0.3).contains(&value), "{width}: {value}");
+    }
+    let wall = bar(false);
+    let nick = |x: f64, y: f64| if x > 9.0 && (y - 10.0).abs() < 3.0 { 0.3 } else { 0.0 };
+    let (value, _) = flatness(&lowered(&wall, nick), Some(&wall), TOP, "distance = 0.5, margin = 0.3");
+    assert!(value > 0.25, "{value}");
+}
