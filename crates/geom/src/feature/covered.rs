@@ -3,24 +3,30 @@
 use super::rules::Rules;
 use super::{Nearness, Nominal};
 use crate::rigid::Rigid;
-use crate::space::{Aabb, Point, Vector, least_axis, minus, plus, times, unit};
-use crate::spatial::neighbors::PointTree;
+use crate::space::{Aabb, Point, Vector, cross, least_axis, minus, norm, plus, times, unit};
+use crate::spatial::neighbors::{Neighbor, PointTree};
 use std::f64::consts::TAU;
 
 /// Places that are asked. The share is known to about a hundredth.
 const PLACES: usize = 4096;
-/// The neighbor whose distance tells how far points lie apart, of many points: rows of a scanner are farther apart than points in a row.
+/// The neighbor whose distance tells how far points lie apart, of many points.
 const NEIGHBOR: usize = 12;
 /// The same of few, which are probed one by one.
 const NEIGHBOR_OF_FEW: usize = 2;
 /// So many points for each neighbor.
 const FEW: usize = 20;
+/// Neighbors in a row lie within this sine of its direction. Rows of a scanner are farther apart than points in a row: there the first
+/// neighbor beside the row tells.
+const ROW: f64 = 0.3;
+/// Neighbors among which that is looked for, at most.
+const ROW_NEIGHBORS: usize = 384;
 /// Steps of the sequence of places: powers of the root of x³ = x + 1, which leaves the least gaps in two dimensions
 /// (M. Roberts, The unreasonable effectiveness of quasirandom sequences, 2018).
 const STEPS: [f64; 2] = [0.754_877_666_246_693, 0.569_840_290_998_053_3];
 
 /// Share of the area of a nominal feature, 0 to 1, that is near one of `points`, which were found for it: nearer than that point's
-/// twelfth neighbor is to it (of fewer than 240 points a nearer neighbor, the second at least), seen along the surface. Holes of the feature that its nominal form does not
+/// twelfth neighbor is to it (of fewer than 240 points a nearer neighbor, the second at least; of points in rows the first one beside
+/// the row), seen along the surface. Holes of the feature that its nominal form does not
 /// have are not covered. `None` of an edge, of a nominal feature that makes no sense, and without points.
 ///
 /// Cost: a search tree of the points, and some thousand nearest neighbors.
@@ -41,8 +47,21 @@ pub fn covered(nominal: &Nominal, points: &[Point]) -> Option<f64> {
     let feet: Vec<Point> = feet.collect();
     let tree = PointTree::new(&feet);
     let neighbor = (feet.len() / FEW).clamp(NEIGHBOR_OF_FEW, NEIGHBOR).min(feet.len().checked_sub(1)?);
-    let away =
-        |n: u32| tree.k_nearest(&feet[n as usize], neighbor, Some(n)).last().map_or(0.0, |last| last.0);
+    let away = |n: u32| -> f64 {
+        let around = tree.k_nearest(&feet[n as usize], neighbor, Some(n));
+        let last = around.last().copied().unwrap_or((0.0, n));
+        if neighbor < NEIGHBOR {
+            return last.0;
+        }
+        let from = |q: u32| minus(feet[q as usize], feet[n as usize]);
+        let Some((row, _)) = unit(from(last.1)) else { return last.0 };
+        let is_beside = |(_, q): &Neighbor| norm(cross(from(*q), row)) > ROW * norm(from(*q));
+        if around.iter().any(is_beside) {
+            return last.0;
+        }
+        let more = tree.k_nearest(&feet[n as usize], ROW_NEIGHBORS, Some(n));
+        more.into_iter().find(is_beside).map_or(last.0, |beside| beside.0)
+    };
     let places = spread(nominal)?;
     // Each point covers as far as its own neighbors are: somewhere they may lie a hundred times as dense.
     let is_near = |p: &&Point| tree.nearest(p).is_some_and(|(square, n)| square <= away(n));
@@ -100,7 +119,7 @@ fn spread(nominal: &Nominal) -> Option<Vec<Point>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::space::{dot, norm};
+    use crate::space::dot;
 
     /// Places are on the feature and as many in each tenth of its area.
     #[test]
@@ -143,6 +162,16 @@ mod tests {
         }
         let few: Vec<Point> = (0..5).map(|k| [5.0, 0.1 * f64::from(k), 0.1 * f64::from(k * k % 3)]).collect();
         assert!(covered(&bore, &few).unwrap() < 0.03);
+        // Rows forty times as far apart as their points, over all of it and over a fifth.
+        for share in [0.2, 1.0] {
+            let at = |i: usize, j: usize| {
+                let turn = TAU * (i as f64 / 800.0);
+                [5.0 * libm::cos(turn), 5.0 * libm::sin(turn), 20.0 * share * j as f64 / 12.0]
+            };
+            let points: Vec<Point> = (0..800 * 13).map(|n| at(n % 800, n / 800)).collect();
+            let found = covered(&bore, &points).unwrap();
+            assert!(found >= share - 0.01 && found <= share + 0.1, "{share}: {found}");
+        }
         // Twelve places around it, in three rings, are all of it; in a sixth of the turn they are no fourth.
         let probed = |share: f64| -> Vec<Point> {
             let at = |k: i32| {
