@@ -16,8 +16,7 @@ use trueness_geom::closest::{Hit, Query, QueryError, Tree};
 use trueness_geom::feature::{FeatureSearch, Nearness, Nominal, NominalSurface, Piece};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::Progress;
-use trueness_geom::space::{self, Point, Vector, dot, minus, norm, plus, times};
-use trueness_geom::spatial::neighbors::PointTree;
+use trueness_geom::space::{self, Point, Vector, dot};
 
 /// Points farther off than this share of the size of the reference are of something else.
 pub(super) const ELSEWHERE: f64 = 0.1;
@@ -30,29 +29,25 @@ const WALL_REACH: f64 = 3.0;
 /// A piece is of the reference if this share of its points is.
 const MOST: f64 = 0.75;
 /// So many times nearer a face is clearly the nearer one.
-const NEARER: f64 = 2.0;
-/// Most steps along an edge.
-const STEPS: f64 = 1e4;
+pub(super) const NEARER: f64 = 2.0;
 /// A facet of the reference may be off the surface of the nominal by this share of the distance up to which points are sought.
 const ON: f64 = 1e-3;
-/// So many times the angle that a feature allows others of the reference may be turned against it that face as it does.
-const ALIKE: f64 = 2.0;
 /// Distances that differ by less than this share of the size of the reference are the same.
 const SAME: f64 = 1e-9;
 
 /// The measured data on the reference.
 pub(super) struct Belonging<'a> {
-    reference: &'a Mesh,
+    pub(super) reference: &'a Mesh,
     measured: &'a [Point],
     /// Of the features that the reference has.
-    search: FeatureSearch<'a>,
-    size: f64,
+    pub(super) search: FeatureSearch<'a>,
+    pub(super) size: f64,
     /// Of each measured point the nearest facet and how far off it is, mm; `u32::MAX` for what is elsewhere.
     nearest: Vec<(u32, f64)>,
     /// Median of the distances, mm.
     median: f64,
     /// A step of single precision, which meshes pass through in their files, mm.
-    rounding: f64,
+    pub(super) rounding: f64,
 }
 
 impl<'a> Belonging<'a> {
@@ -134,76 +129,6 @@ impl<'a> Belonging<'a> {
         Ok(doubtful.iter().zip(on_own).filter_map(is_other).collect())
     }
 
-    /// Whether each of these places, of facets found for a nominal, is of a face of the reference beside it: beyond where its own ends, and
-    /// clearly nearer to that face, as on a fillet that leaves it as a tangent.
-    pub fn beside(
-        &self,
-        places: &[Point],
-        nominal: &Nominal,
-        near: &Nearness,
-        progress: &dyn Progress,
-    ) -> Result<Vec<bool>, Stop> {
-        let (own, Some(surface)) = (self.on_surface(nominal, near, progress), nominal.surface()) else {
-            return Ok(vec![false; places.len()]);
-        };
-        if own.is_empty() {
-            return Ok(vec![false; places.len()]);
-        }
-        // What lies on the surface of the nominal is no other face, however it was cut into facets.
-        let is_other = |f: u32| !self.is_on(&surface, f, near);
-        let on_all = nearest(self.search.tree(), places, f64::INFINITY, progress)?;
-        let asked: Vec<usize> =
-            (0..places.len()).filter(|n| on_all[*n].0 != u32::MAX && is_other(on_all[*n].0)).collect();
-        let mut beside = vec![false; places.len()];
-        if asked.is_empty() {
-            return Ok(beside);
-        }
-        let part = self.part(own.iter().copied());
-        let tree = Tree::build_watched(&part, progress).map_err(|e| Stop::Mesh(e.to_string()))?;
-        let of: Vec<Point> = asked.iter().map(|n| places[*n]).collect();
-        for (n, (face, away)) in asked.into_iter().zip(nearest(&tree, &of, f64::INFINITY, progress)?) {
-            let corner = part.positions[part.faces[face as usize][0] as usize];
-            let over = normal(&part, face).map_or(0.0, |way| dot(minus(places[n], corner), way).abs());
-            let aside = (away * away - over * over).max(0.0).sqrt();
-            // At a sharp edge that is off its place both are as near.
-            beside[n] = aside > over && NEARER * on_all[n].1 <= away;
-        }
-        Ok(beside)
-    }
-
-    /// Whether each of these places, of facets that face as the nominal does, is nearer to the facets of the nominal than to others
-    /// that face so too, as the ground of a pocket that the reference has.
-    pub fn nearer(
-        &self,
-        places: &[Point],
-        nominal: &Nominal,
-        near: &Nearness,
-        progress: &dyn Progress,
-    ) -> Result<Vec<bool>, Stop> {
-        let own = self.on_surface(nominal, near, progress);
-        let Some(surface) = nominal.surface().filter(|_| !own.is_empty()) else {
-            return Ok(vec![true; places.len()]);
-        };
-        let outward = |f: u32| {
-            let corners = self.reference.faces[f as usize].map(|v| self.reference.positions[v as usize]);
-            let way = surface.distance(times(1.0 / 3.0, plus(corners[0], plus(corners[1], corners[2]))));
-            way.zip(space::normal(corners)).map_or(0.0, |((_, way), facing)| dot(way, facing))
-        };
-        let side: f64 = own.iter().map(|f| outward(*f).signum()).sum::<f64>().signum();
-        let alike = libm::cos(ALIKE * near.angle);
-        let others = (0..self.reference.faces.len() as u32)
-            .filter(|f| !self.is_on(&surface, *f, near) && side * outward(*f) >= alike);
-        let [own, others] = [self.part(own.iter().copied()), self.part(others)];
-        if others.faces.is_empty() {
-            return Ok(vec![true; places.len()]);
-        }
-        let away = |mesh: &Mesh| -> Result<Vec<(u32, f64)>, Stop> {
-            let tree = Tree::build_watched(mesh, progress).map_err(|e| Stop::Mesh(e.to_string()))?;
-            nearest(&tree, places, f64::INFINITY, progress)
-        };
-        Ok(away(&own)?.into_iter().zip(away(&others)?).map(|(own, other)| own.1 <= other.1).collect())
-    }
-
     /// Keeps those of some pieces beside the nominal that the reference has too: near most of their points it has a surface, not
     /// the nominal's, that faces as the piece does, at least twice as nearly as the nominal's surface.
     pub fn known(
@@ -244,51 +169,14 @@ impl<'a> Belonging<'a> {
     }
 
     /// Some facets of the reference.
-    fn part(&self, facets: impl Iterator<Item = u32>) -> Mesh {
+    pub fn part(&self, facets: impl Iterator<Item = u32>) -> Mesh {
         let faces = facets.map(|f| self.reference.faces[f as usize]).collect();
         Mesh { positions: self.reference.positions.clone(), faces }
     }
 
-    /// Whether each of these places lies over the nominal's facets of the reference, farther inside than its `distance` from where they
-    /// end, or outside the material: edges that were broken or rounded are within that distance, and lack material.
-    pub fn over(
-        &self,
-        places: &[Point],
-        nominal: &Nominal,
-        near: &Nearness,
-        progress: &dyn Progress,
-    ) -> Result<Vec<bool>, Stop> {
-        let own = self.on_surface(nominal, near, progress);
-        if own.is_empty() || places.is_empty() {
-            return Ok(vec![false; places.len()]);
-        }
-        let part = self.part(own.iter().copied());
-        let border = PointTree::new(&along_border(&part, 0.5 * near.distance));
-        let hits = nearest(self.search.tree(), places, ELSEWHERE * self.size, progress)?;
-        let inside = |p: &Point| {
-            border.nearest(p).is_none_or(|(square, _)| square > 2.0 * near.distance * near.distance)
-        };
-        let outside = |p: &Point, face: u32| {
-            let corner = self.reference.positions[self.reference.faces[face as usize][0] as usize];
-            normal(self.reference, face).is_some_and(|out| dot(minus(*p, corner), out) > self.rounding)
-        };
-        let over = |(p, hit): (&Point, (u32, f64))| {
-            own.binary_search(&hit.0).is_ok() && (inside(p) || outside(p, hit.0))
-        };
-        Ok(places.iter().zip(hits).map(over).collect())
-    }
-
-    /// The facets of the reference that lie on the surface of the nominal and within its bounds, ascending. The ground of a shallow pocket
-    /// and the begin of a fillet are within its reach, and none of it.
-    fn on_surface(&self, nominal: &Nominal, near: &Nearness, progress: &dyn Progress) -> Vec<u32> {
-        let Some(surface) = nominal.surface() else { return vec![] };
-        let whole = Nearness { margin: -near.distance, ..*near };
-        let mut own = self.facets(nominal, &whole, progress);
-        own.retain(|f| self.is_on(&surface, *f, near));
-        own
-    }
-
-    fn is_on(&self, surface: &NominalSurface, facet: u32, near: &Nearness) -> bool {
+    /// Whether a facet of the reference lies on the surface of a nominal. The ground of a shallow pocket and the begin of a fillet are within
+    /// its reach, and none of it.
+    pub fn is_on(&self, surface: &NominalSurface, facet: u32, near: &Nearness) -> bool {
         let on = (ON * near.distance).max(self.rounding);
         let off = |v: u32| surface.distance(self.reference.positions[v as usize]).map_or(0.0, |d| d.0.abs());
         self.reference.faces[facet as usize].iter().all(|v| off(*v) <= on)
@@ -296,7 +184,7 @@ impl<'a> Belonging<'a> {
 
     /// The facets of the reference that the nominal names, ascending: those joined to where it is begun, and those of its surface that
     /// lie apart, beyond a groove or a slot.
-    fn facets(&self, nominal: &Nominal, near: &Nearness, progress: &dyn Progress) -> Vec<u32> {
+    pub fn facets(&self, nominal: &Nominal, near: &Nearness, progress: &dyn Progress) -> Vec<u32> {
         let Some(surface) = nominal.surface() else { return vec![] };
         let Ok(found) = self.search.find(nominal, near, progress) else { return vec![] };
         let mut all = self.search.apart(&found, nominal, near, progress).unwrap_or_default();
@@ -307,25 +195,8 @@ impl<'a> Belonging<'a> {
     }
 }
 
-/// Places along the edges of a mesh that one facet alone has, no farther apart than `step`.
-fn along_border(mesh: &Mesh, step: f64) -> Vec<Point> {
-    let mut places = vec![];
-    let positions = &mesh.positions;
-    let mut sides: Vec<[u32; 2]> = (mesh.faces.iter())
-        .flat_map(|[a, b, c]| [[a, b], [b, c], [c, a]])
-        .map(|[a, b]| [*a.min(b), *a.max(b)])
-        .collect();
-    sides.sort_unstable();
-    for edge in sides.chunk_by(|a, b| a == b).filter(|edge| edge.len() == 1).map(|edge| edge[0]) {
-        let [a, b] = edge.map(|v| positions[v as usize]);
-        let steps = (norm(minus(b, a)) / step).ceil().clamp(1.0, STEPS);
-        places.extend((0..=steps as u32).map(|k| plus(a, times(f64::from(k) / steps, minus(b, a)))));
-    }
-    places
-}
-
 /// The nearest facet to each place and how far off it is; `u32::MAX` beyond `farthest`.
-fn nearest(
+pub(super) fn nearest(
     tree: &Tree,
     places: &[Point],
     farthest: f64,
@@ -339,7 +210,7 @@ fn nearest(
     })
 }
 
-fn normal(mesh: &Mesh, face: u32) -> Option<Vector> {
+pub(super) fn normal(mesh: &Mesh, face: u32) -> Option<Vector> {
     space::normal(mesh.faces.get(face as usize)?.map(|v| mesh.positions[v as usize]))
 }
 

@@ -12,6 +12,7 @@ mod found;
 mod left_out;
 mod measure;
 mod noise_field;
+mod own_facets;
 mod pose_noise;
 mod seed;
 mod take;

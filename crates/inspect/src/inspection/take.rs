@@ -3,6 +3,7 @@
 use super::belonging::Belonging;
 use super::data::{Data, Stop};
 use super::deeper::deeper;
+use super::own_facets::OwnFacets;
 use super::seed::Seeded;
 use crate::characteristic::{Element, Others, Taken};
 use crate::plan::text::DerivedWord;
@@ -180,25 +181,63 @@ fn others(
     Ok(Others { points, on_reference: belonging.is_some() })
 }
 
-fn center_of(mesh: &Mesh, facet: u32) -> Point {
-    mean(&mesh.faces[facet as usize].map(|v| mesh.positions[v as usize]))
+/// The facets of a measured mesh, to be judged by those that the reference has of the feature.
+struct OfMesh<'a> {
+    mesh: &'a Mesh,
+    facets: &'a FeatureSearch<'a>,
+    nominal: &'a Nominal,
+    near: &'a Nearness,
+    own: Option<OwnFacets<'a>>,
+    /// Whether there is a reference.
+    known: bool,
 }
 
-/// Which of the facets that lie apart from a feature are of it: those that the reference has nothing else for. Without a
-/// reference nothing tells, and they are others.
-fn apart_of(
-    mesh: &Mesh,
-    apart: &[u32],
-    belonging: Option<&Belonging>,
-    (nominal, near): (&Nominal, &Nearness),
-    progress: &dyn Progress,
-) -> Result<(Vec<u32>, Vec<u32>), Stop> {
-    let Some(belonging) = belonging.filter(|_| !apart.is_empty()) else {
-        return Ok((vec![], apart.to_vec()));
-    };
-    let places: Vec<Point> = apart.iter().map(|f| center_of(mesh, *f)).collect();
-    let own = belonging.nearer(&places, nominal, near, progress)?;
-    Ok((apart.iter().zip(own).filter(|(_, own)| *own).map(|(f, _)| *f).collect(), vec![]))
+impl OfMesh<'_> {
+    /// What was found without what is of faces beside the feature and with what lies apart from it and is of it; and points of what nothing
+    /// tells.
+    fn judged(&self, mut found: Found, progress: &dyn Progress) -> Result<(Found, Others), Stop> {
+        let OfMesh { facets, nominal, near, .. } = *self;
+        let places = |of: &[u32]| -> Vec<Point> { of.iter().map(|f| mean(&self.corners(*f))).collect() };
+        let which = |of: &[u32], is: Vec<bool>| -> Vec<u32> {
+            of.iter().zip(is).filter(|(_, is)| *is).map(|(f, _)| *f).collect()
+        };
+        let failed = |e| match e {
+            FeatureError::Cancelled => Stop::Cancelled,
+            e => Stop::Mesh(e.to_string()),
+        };
+        if let Some(own) = &self.own {
+            let middles = places(&found.facets);
+            let beside = own.beside(&middles, progress)?;
+            let nearer = own.nearer(&middles, progress)?;
+            let kept = which(
+                &found.facets,
+                nearer.iter().zip(beside).map(|(near, aside)| *near && !aside).collect(),
+            );
+            if kept.len() < found.facets.len() {
+                found = facets.of(&kept, near);
+            }
+        }
+        let apart = facets.apart(&found, nominal, near, progress).map_err(failed)?;
+        let (joined, mut others) = match (&self.own, self.known) {
+            (Some(own), _) => (which(&apart, own.nearer(&places(&apart), progress)?), vec![]),
+            (None, true) => (apart, vec![]),
+            (None, false) => (vec![], apart),
+        };
+        if !joined.is_empty() {
+            found = facets.joined(&found, &joined, near);
+        }
+        if let Some(own) = &self.own {
+            let slopes = facets.slopes(&found, nominal, near, progress).map_err(failed)?;
+            others.extend(which(&slopes, own.over(&places(&slopes), progress)?));
+        }
+        let points = facets.joined(&Found::default(), &others, near).points;
+        let points = points.iter().map(|v| self.mesh.positions[*v as usize]).collect();
+        Ok((found, Others { points, on_reference: false }))
+    }
+
+    fn corners(&self, facet: u32) -> [Point; 3] {
+        self.mesh.faces[facet as usize].map(|v| self.mesh.positions[v as usize])
+    }
 }
 
 /// The direction out of the material that a nominal has.
@@ -257,33 +296,12 @@ fn found(
         e => Stop::Plan { span: feature.span.clone(), what: format!("feature \"{}\": {e}", feature.id) },
     };
     let mut found = found.map_err(stop)?;
-    if let (Some(facets), Some(belonging)) = (search.facets, search.belonging) {
-        let places: Vec<Point> = found.facets.iter().map(|f| center_of(mesh, *f)).collect();
-        let beside = belonging.beside(&places, &nominal, &near, progress)?;
-        let nearer = belonging.nearer(&places, &nominal, &near, progress)?;
-        let own = (found.facets.iter().zip(beside.into_iter().zip(nearer)))
-            .filter(|(_, (beside, nearer))| *nearer && !beside)
-            .map(|(f, _)| *f);
-        let own: Vec<u32> = own.collect();
-        if own.len() < found.facets.len() {
-            found = facets.of(&own, &near);
-        }
-    }
     if let Some(facets) = search.facets {
-        let apart = facets.apart(&found, &nominal, &near, progress).map_err(stop)?;
-        let (own, mut others) = apart_of(mesh, &apart, search.belonging, (&nominal, &near), progress)?;
-        if !own.is_empty() {
-            found = facets.joined(&found, &own, &near);
-        }
-        if let Some(belonging) = search.belonging {
-            let slopes = facets.slopes(&found, &nominal, &near, progress).map_err(stop)?;
-            let places: Vec<Point> = slopes.iter().map(|f| center_of(mesh, *f)).collect();
-            let over = belonging.over(&places, &nominal, &near, progress)?;
-            others.extend(slopes.iter().zip(over).filter(|(_, over)| *over).map(|(f, _)| *f));
-        }
-        let points = facets.joined(&Found::default(), &others, &near).points;
-        let points = points.iter().map(|v| mesh.positions[*v as usize]).collect();
-        taken.others = Others { points, on_reference: false };
+        let own =
+            search.belonging.map(|b| OwnFacets::new(b, &nominal, &near, progress)).transpose()?.flatten();
+        let of_mesh =
+            OfMesh { mesh, facets, nominal: &nominal, near: &near, own, known: search.belonging.is_some() };
+        (found, taken.others) = of_mesh.judged(found, progress)?;
     }
     if let (Some(facets), None) = (search.facets, search.belonging) {
         taken.left_out = deeper(mesh, facets, &found, (&nominal, &near), progress).map_err(stop)?;
