@@ -214,10 +214,7 @@ impl<'a> FeatureSearch<'a> {
             };
             self.corners(*f).is_some_and(keeps) && outward(*f).is_some_and(|o| o * side > 0.0)
         };
-        let all = (0..self.mesh.faces.len() as u32).into_par_iter();
-        let all = all.filter(|f| !progress.cancelled() && found.facets.binary_search(f).is_err());
-        let apart = all.filter(belongs).collect();
-        if progress.cancelled() { Err(FeatureError::Cancelled) } else { Ok(apart) }
+        self.beside_found(found, belongs, progress)
     }
 
     /// The facets, ascending, that lie within the reach and the bounds of `nominal` and face otherwise, without being walls that lead
@@ -227,6 +224,25 @@ impl<'a> FeatureSearch<'a> {
     ///
     /// # Errors
     /// As of [`FeatureSearch::find`].
+    ///
+    /// ```
+    /// use trueness_geom::closest::Tree;
+    /// use trueness_geom::feature::{FeatureSearch, Nearness, Nominal};
+    /// use trueness_geom::mesh::Mesh;
+    /// // A floor of two facets, and two that rise along its side.
+    /// let row = |x: f64, z: f64| [[x, 0.0, z], [x, 9.0, z]];
+    /// let positions = [row(0.0, 0.0), row(8.0, 0.0), row(9.0, 0.4)].concat();
+    /// let mesh = Mesh { positions, faces: vec![[0, 2, 3], [0, 3, 1], [2, 4, 5], [2, 5, 3]] };
+    /// let boundary = vec![[0.0, 0.0, 0.0], [9.0, 0.0, 0.0], [9.0, 9.0, 0.0], [0.0, 9.0, 0.0]];
+    /// let floor = Nominal::Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0], boundary };
+    /// let near = Nearness { distance: 0.5, angle: 0.2, margin: 0.0, rim: true };
+    /// let search = FeatureSearch::new(&mesh, Tree::build(&mesh)?);
+    /// let found = search.find(&floor, &near, &trueness_geom::progress::Silent)?;
+    /// let slopes = search.slopes(&found, &floor, &near, &trueness_geom::progress::Silent)?;
+    /// assert_eq!((&found.facets[..], &slopes[..]), (&[0, 1][..], &[2, 3][..]));
+    /// assert_eq!(search.of(&slopes, &near).points, [2, 3, 4, 5]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn slopes(
         &self,
         found: &Found,
@@ -240,18 +256,24 @@ impl<'a> FeatureSearch<'a> {
         let inside = Nearness { margin: near.margin.max(0.0), ..*near };
         let rules = Rules::new(nominal, &inside)?;
         let slopes = |f: &u32| {
-            let tilted = |corners| {
-                let facing = normal(corners);
-                facing.is_some()
-                    && rules.tilted(corners, facing)
-                    && facing.is_none_or(|n| !rules.facet(corners, n))
-            };
-            self.corners(*f).is_some_and(tilted)
+            let corners = self.corners(*f);
+            let facing = corners.and_then(|c| Some((c, normal(c)?)));
+            facing.is_some_and(|(c, n)| rules.tilted(c, Some(n)) && !rules.facet(c, n))
         };
+        self.beside_found(found, slopes, progress)
+    }
+
+    /// The facets, ascending, that are none of what was `found` and of which `is` says yes.
+    fn beside_found(
+        &self,
+        found: &Found,
+        is: impl Fn(&u32) -> bool + Sync,
+        progress: &dyn Progress,
+    ) -> Result<Vec<u32>, FeatureError> {
         let all = (0..self.mesh.faces.len() as u32).into_par_iter();
-        let all = all.filter(|f| !progress.cancelled() && found.facets.binary_search(f).is_err());
-        let slopes = all.filter(slopes).collect();
-        if progress.cancelled() { Err(FeatureError::Cancelled) } else { Ok(slopes) }
+        let others = all.filter(|f| !progress.cancelled() && found.facets.binary_search(f).is_err());
+        let others = others.filter(is).collect();
+        if progress.cancelled() { Err(FeatureError::Cancelled) } else { Ok(others) }
     }
 
     /// These facets as what was found of a feature.

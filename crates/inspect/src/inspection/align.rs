@@ -120,28 +120,29 @@ fn onto_datums(
 /// Poses that are looked at beside the one taken, at most: a brick looks the same in four.
 const OTHER_POSES: usize = 8;
 
-/// The aligned data in the other poses in which they fit about as well, some of them.
-pub(super) fn in_other_poses(
-    plan: &Plan,
-    data: &Data,
-    alignment: &Alignment,
-    seeds: &BTreeMap<usize, Seeded>,
-    progress: &dyn Progress,
-) -> Result<Vec<Data>, Stop> {
+/// The motions that take aligned data to other poses in which they fit about as well, some of them.
+pub(super) fn other_poses(alignment: &Alignment) -> Vec<Rigid> {
     let alternatives = alignment.found.best_fit().map_or(&[][..], |fit| &fit.alternatives);
     let back = alignment.motion.inverse();
-    let mut all = vec![];
-    for alternative in alternatives.iter().take(OTHER_POSES) {
-        let mut other = data.clone();
-        moved(&mut other, &alternative.reference_from_measured.after(&back));
-        match onto_datums(plan, &mut other, seeds, progress) {
-            Ok(_) => all.push(other),
-            // There the datums cannot be: it is not the pose.
-            Err(Stop::Plan { .. } | Stop::Align(_)) => {}
-            Err(stop) => return Err(stop),
-        }
+    let some = alternatives.iter().take(OTHER_POSES);
+    some.map(|a| a.reference_from_measured.after(&back)).collect()
+}
+
+/// A copy of aligned data in another pose; `None` where the plan's datums cannot be there: it is not the pose.
+pub(super) fn in_other_pose(
+    plan: &Plan,
+    data: &Data,
+    motion: &Rigid,
+    seeds: &BTreeMap<usize, Seeded>,
+    progress: &dyn Progress,
+) -> Result<Option<Data>, Stop> {
+    let mut other = data.clone();
+    moved(&mut other, motion);
+    match onto_datums(plan, &mut other, seeds, progress) {
+        Ok(_) => Ok(Some(other)),
+        Err(Stop::Plan { .. } | Stop::Align(_)) => Ok(None),
+        Err(stop) => Err(stop),
     }
-    Ok(all)
 }
 
 fn moved(data: &mut Data, motion: &Rigid) {

@@ -72,10 +72,13 @@ pub fn run(plan: &Plan, data: Data, progress: &dyn Progress) -> Result<Inspectio
         plan.specs.par_iter().map(|spec| measured(spec, features)).collect::<Result<Vec<_>, Stop>>()
     };
     let values = all(&features)?;
-    let other_poses = align::in_other_poses(plan, &data, &alignment, &seeds, progress)?;
-    let in_other_poses = (other_poses.iter())
-        .map(|data| all(&taken(plan, data, &seeds, progress)?))
-        .collect::<Result<Vec<_>, Stop>>()?;
+    let mut in_other_poses = vec![];
+    for motion in align::other_poses(&alignment) {
+        // One after the other: each is a copy of all that was measured.
+        if let Some(other) = align::in_other_pose(plan, &data, &motion, &seeds, progress)? {
+            in_other_poses.push(all(&taken(plan, &other, &seeds, progress)?)?);
+        }
+    }
     // What the values would be with all that was left out as of other surfaces.
     let whole = take::whole(plan, &features, progress)?;
     let concerned =

@@ -53,6 +53,12 @@ fn plate(radius: f64, turns: u32, step: f64, raise: impl Fn(f64, f64) -> f64) ->
     mesh
 }
 
+/// What is told of measured data by a plan.
+fn document(plan: &Plan, data: Data) -> InspectDocument {
+    let found = run(plan, data, &Silent).unwrap();
+    InspectDocument::new(plan, PlanRecord { path: String::new(), sha256: None }, &found, vec![])
+}
+
 /// Flatness of the top, from a cloud.
 fn flatness(cloud: Mesh, reference: Option<&Mesh>, extract: &str) -> (CharacteristicRecord, u64) {
     let plan = Plan::parse(&format!(
@@ -77,9 +83,7 @@ fn flatness(cloud: Mesh, reference: Option<&Mesh>, extract: &str) -> (Characteri
     .unwrap();
     let measured = Some(Mesh { faces: vec![], ..cloud });
     let data = Data { measured, reference: reference.cloned(), ..Data::default() };
-    let found = run(&plan, data, &Silent).unwrap();
-    let record = PlanRecord { path: String::new(), sha256: None };
-    let mut document = InspectDocument::new(&plan, record, &found, vec![]);
+    let mut document = document(&plan, data);
     let left_out = document.features[0].left_out.as_ref().map_or(0, |l| l.others + l.beyond);
     (document.characteristics.remove(0), left_out)
 }
@@ -209,9 +213,7 @@ fn the_zone_of_what_was_not_measured_is_that_of_the_plan() {
     )
     .unwrap();
     let measured = Some(Mesh { positions: vec![[500.0, 0.0, 0.0]; 4], faces: vec![] });
-    let found = run(&plan, Data { measured, ..Data::default() }, &Silent).unwrap();
-    let record = PlanRecord { path: String::new(), sha256: None };
-    let document = InspectDocument::new(&plan, record, &found, vec![]);
+    let document = document(&plan, Data { measured, ..Data::default() });
     let all = &document.characteristics;
     assert!(all.iter().all(|c| c.verdict == Verdict::NotMeasured));
     let zones: Vec<bool> = all.iter().map(CharacteristicRecord::diametral).collect();
@@ -276,8 +278,7 @@ fn floor(measured: Mesh, reference: Option<Mesh>, rim: bool) -> InspectDocument 
     ))
     .unwrap();
     let data = Data { measured: Some(measured), reference, ..Data::default() };
-    let found = run(&plan, data, &Silent).unwrap();
-    InspectDocument::new(&plan, PlanRecord { path: String::new(), sha256: None }, &found, vec![])
+    document(&plan, data)
 }
 
 /// Pockets, pads and loose pieces between upright walls are joined to their feature by no facet of it, and are of it all the same, unless the
@@ -400,9 +401,7 @@ fn a_part_that_looks_the_same_in_several_ways_is_judged_in_all() {
     for measured in [bumpy, turned] {
         let reference = Some(brick(size, |_, _| 0.0));
         let data = Data { measured: Some(measured), reference, ..Data::default() };
-        let found = run(&plan, data, &Silent).unwrap();
-        let record = PlanRecord { path: String::new(), sha256: None };
-        let document = InspectDocument::new(&plan, record, &found, vec![]);
+        let document = document(&plan, data);
         let verdicts: Vec<Verdict> = document.characteristics.iter().map(|c| c.verdict).collect();
         assert_eq!(verdicts, [Verdict::Undecided, Verdict::Pass], "{:?}", document.alignment.warnings);
         let notes = &document.characteristics[0].notes;
