@@ -9,6 +9,7 @@
 //!
 //! Gains are quotients of weights (area, or number of points), fits are compared by root mean square distances.
 
+use super::pieces::PieceGraph;
 use super::region::GrownRegion;
 use crate::shape::Kind;
 
@@ -34,7 +35,11 @@ const SIMPLER_GAIN: f64 = 1.05;
 const ALONG: f64 = 0.5;
 /// The least share that an element must cover of what another covers to be the one that the facets go along: one ring of facets
 /// of a torus, of three at least, goes along a cone.
-const ALONG_COVER: f64 = 0.45;
+const ALONG_COVER: f64 = 0.4;
+/// Corners of three chords.
+const CHORD_POINTS: usize = 8;
+/// Least quotient of the areas of chords that are equally wide.
+const ALIKE: f64 = 0.999;
 
 /// The one of two regions that explains more; `noise` is the standard deviation of the points.
 pub(super) fn better(held: Option<GrownRegion>, other: GrownRegion, noise: f64) -> GrownRegion {
@@ -87,6 +92,16 @@ pub(super) fn may_give_way(region: &GrownRegion, noise: f64) -> bool {
 /// a plane, and a fourth on it is hardly chance.
 pub(super) fn fewest_points(kind: Kind) -> usize {
     if kind == Kind::Plane { 4 } else { 2 * kind.unknowns() + 2 }
+}
+
+/// Whether so many points of the pieces show an element of the kind: [`fewest_points`], or of a cylinder that is drawn the corners of
+/// three chords of equal width. A chamfer and the planes beside it have a cylinder of their corners too, if they are equally wide.
+pub(super) fn is_shown(surface: &PieceGraph, kind: Kind, pieces: &[u32], points: usize) -> bool {
+    let chords = || {
+        let like = |p: &u32| surface.likeness(*p, pieces[0]) >= ALIKE;
+        kind == Kind::Cylinder && surface.is_drawn && points >= CHORD_POINTS && pieces.iter().all(like)
+    };
+    points >= fewest_points(kind) || chords()
 }
 
 #[cfg(test)]

@@ -3,22 +3,50 @@
 use super::pieces::{PieceGraph, Pieces};
 use crate::mesh::Mesh;
 use crate::parallel::prelude::*;
-use crate::space::{Vector, cross, minus, norm, plus, times, unit};
+use crate::space::{Aabb, Vector, cross, dot, minus, norm, plus, times, unit};
 use crate::spatial::lists::lists;
 
 /// The facets of a mesh whose corners exist and are finite.
 pub(super) fn surface(mesh: &Mesh) -> PieceGraph<'_> {
     let shapes: Vec<_> = mesh.faces.par_iter().map(|face| middle(mesh, face)).collect();
     let (first, others) = neighbors(mesh);
+    let weights: Vec<f64> = shapes.iter().map(|s| s.2).collect();
+    let is_drawn = is_drawn(mesh, &weights, &first, &others);
     PieceGraph {
         points: &mesh.positions,
         pieces: Pieces::Facets(&mesh.faces),
         places: shapes.iter().map(|s| s.0).collect(),
         normals: shapes.iter().map(|s| s.1).collect(),
-        weights: shapes.iter().map(|s| s.2).collect(),
+        weights,
         first,
         others,
+        is_drawn,
     }
+}
+
+/// Whether the half of the area is of facets with a neighbor in their plane, to the rounding of single precision: what is drawn has two
+/// facets where four corners lie in a plane, what is measured has none such.
+fn is_drawn(mesh: &Mesh, areas: &[f64], first: &[u32], others: &[u32]) -> bool {
+    let bounds = Aabb::of(&mesh.positions);
+    let greatest = bounds.min.iter().chain(&bounds.max).fold(0.0f64, |m, x| m.max(x.abs()));
+    let step = greatest * f64::from(f32::EPSILON);
+    let flat = |facet: usize| {
+        let around = &others[first[facet] as usize..first[facet + 1] as usize];
+        around.iter().any(|&other| is_flat(mesh, mesh.faces[facet], mesh.faces[other as usize], step))
+    };
+    let is_flat: Vec<bool> = (0..mesh.faces.len()).into_par_iter().map(flat).collect();
+    let flat: f64 = areas.iter().zip(is_flat).filter(|f| f.1).map(|f| f.0).sum();
+    flat >= 0.5 * areas.iter().sum::<f64>()
+}
+
+/// Whether the four corners of two facets lie in one plane, where each may be off by `step`: the volume between them is no more than
+/// that of `step` over the four sides.
+fn is_flat(mesh: &Mesh, one: [u32; 3], other: [u32; 3], step: f64) -> bool {
+    let Some(&far) = other.iter().find(|v| !one.contains(v)) else { return false };
+    let [a, b, c, d] = [one[0], one[1], one[2], far].map(|v| mesh.positions[v as usize]);
+    let sides = [[a, b, c], [a, b, d], [a, c, d], [b, c, d]];
+    let area: f64 = sides.iter().map(|[p, q, r]| norm(cross(minus(*q, *p), minus(*r, *p)))).sum();
+    dot(cross(minus(b, a), minus(c, a)), minus(d, a)).abs() <= step * area
 }
 
 /// Centroid, unit normal and area; the normal of a facet without area is zero.

@@ -107,6 +107,8 @@ pub(super) enum Order {
     Turn,
     /// The one across the longest edge.
     Edge,
+    /// The one whose area is most like that of the one it is reached from: from chord to chord of a fillet, not onto the face beside.
+    Alike,
 }
 
 /// Neighbors of a piece beyond which a strip does not go on from it: around one vertex with so many facets there is no strip.
@@ -137,7 +139,11 @@ pub(super) fn strip(
             let joins =
                 surface.counts(piece) && free(piece) && across >= crease && !marks.seen[piece as usize];
             if let Some(edge) = surface.edge(piece, from).filter(|_| joins) {
-                let first = if order == Order::Turn { across } else { edge };
+                let first = match order {
+                    Order::Turn => across,
+                    Order::Edge => edge,
+                    Order::Alike => surface.likeness(piece, from),
+                };
                 open.push((first.to_bits(), Reverse(piece)));
             }
         }

@@ -1,6 +1,6 @@
 //! One region: from a patch to all that belongs to its element.
 
-use super::criterion::{BETTER, CLEARLY, better, fewest_points, may_give_way};
+use super::criterion::{BETTER, CLEARLY, better, is_shown, may_give_way};
 use super::estimate::{estimate, is_sound};
 use super::flood::{Marks, Order, flood, patch, rings, strip};
 use super::pieces::{Band, PieceGraph};
@@ -16,6 +16,8 @@ const PATCHES: [usize; 3] = [20, 64, 250];
 /// Pieces of the first strips, and how they grow.
 const STRIPS: [(usize, Order); 4] =
     [(20, Order::Turn), (20, Order::Edge), (64, Order::Turn), (64, Order::Edge)];
+/// The same where the surface is drawn: two facets of a plane, a fillet of few chords.
+const DRAWN_STRIPS: [(usize, Order); 3] = [(2, Order::Turn), (6, Order::Alike), (16, Order::Alike)];
 /// Points that an element is fitted to while it grows.
 const ENOUGH: usize = 1500;
 /// A region may grow this many times before its element is fitted again.
@@ -82,7 +84,8 @@ impl Context<'_> {
         // Where facets are as long as the face, the patch goes beyond it on all sides: it shows nothing, or what only corners are of.
         let may_be_of_corners = best.as_ref().is_none_or(|b| may_give_way(b, self.noise));
         if self.surface.is_mesh() && may_be_of_corners {
-            for first in STRIPS {
+            let drawn = if self.surface.is_drawn { &DRAWN_STRIPS[..] } else { &[] };
+            for &first in drawn.iter().chain(&STRIPS) {
                 let strip = strip(self.surface, seed, first, self.crease, marks, free);
                 self.tried(&mut best, &strip, most, marks, free);
             }
@@ -186,7 +189,7 @@ impl Context<'_> {
             .collect();
         let first = estimate(kind, &oriented)?;
         let points = surface.some_places(patch, ENOUGH);
-        if points.len() < fewest_points(kind) {
+        if !is_shown(surface, kind, patch, points.len()) {
             return None;
         }
         let (shape, rms) = improved(&points, &first).filter(|f| is_sound(&f.0, self.size))?;
@@ -212,7 +215,7 @@ impl Context<'_> {
                 free(piece) && self.surface.belongs(piece, &element, &self.band)
             });
             let points = self.within(&element, &pieces);
-            if points.len() < fewest_points(kind) {
+            if !is_shown(self.surface, kind, &pieces, points.len()) {
                 return None;
             }
             let (better, rms) = improved(&points, &shape).filter(|f| is_sound(&f.0, self.size))?;

@@ -37,6 +37,10 @@ pub(super) fn noise(
     pick: impl Fn(&mut Random) -> u32 + Sync,
 ) -> Noise {
     let [small, large] = SIZES.map(|size| of_patches(surface, size, crease, seed, &pick));
+    if surface.is_drawn {
+        // Facets are as long as faces: patches go over them.
+        return Noise { distance: 0.0, ..small };
+    }
     let believed = large.distance <= BELIEVED * small.distance;
     Noise { distance: if believed { large.distance.max(small.distance) } else { small.distance }, ..small }
 }

@@ -32,6 +32,8 @@ pub(super) struct PieceGraph<'a> {
     /// The neighbors of piece `i` are `others[first[i]..first[i + 1]]`.
     pub first: Vec<u32>,
     pub others: Vec<u32>,
+    /// Whether the facets are those of a program that draws parts: exact, and no smaller than the shape asks for. False of points.
+    pub is_drawn: bool,
 }
 
 /// How far a piece may be from an element that it belongs to.
@@ -89,6 +91,11 @@ impl PieceGraph<'_> {
         let [(a, count), (b, _)] = [one, other].map(|p| self.corners(p));
         let mut shared = a[..count].iter().filter(|c| b.contains(c)).map(|c| self.points[*c as usize]);
         Some(norm(minus(shared.next()?, shared.next()?)))
+    }
+    /// Quotient of the weights of two pieces, of the lesser by the greater, to a thousandth.
+    pub(super) fn likeness(&self, one: u32, other: u32) -> f64 {
+        let [a, b] = [one, other].map(|p| self.weights[p as usize]);
+        (1e3 * a.min(b) / a.max(b)).round() / 1e3
     }
     /// At most about `most` places of the measured points of `pieces`, taken evenly over the list.
     pub(super) fn some_places(&self, pieces: &[u32], most: usize) -> Vec<Point> {

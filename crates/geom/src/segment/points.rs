@@ -41,6 +41,7 @@ pub(super) fn surface(points: &[Point]) -> PieceGraph<'_> {
         weights: vec![1.0; points.len()],
         first,
         others,
+        is_drawn: false,
     }
 }
 

@@ -4,7 +4,7 @@
 //! (2007). Ours differs: a trial is a patch around a random piece, not a handful of points, which stands noise and
 //! makes nearly every trial on a face a success; and a region is connected from the first.
 
-use super::criterion::{fewest_points, is_of_corners};
+use super::criterion::{fewest_points, is_of_corners, is_shown};
 use super::flood::{Marks, patch};
 use super::grow::{Context, PROMISING};
 use super::pieces::NONE;
@@ -117,10 +117,11 @@ pub(super) fn search(
 }
 
 fn enough(context: &Context, grown: &GrownRegion, limits: &Limits) -> bool {
-    let fewest = limits.points.max(fewest_points(grown.shape.kind()));
+    let (surface, kind) = (context.surface, grown.shape.kind());
     // Enough to tell, and not a million.
-    let some = &grown.pieces[..grown.pieces.len().min(8 * fewest)];
-    grown.weight >= limits.weight && context.surface.points_of(some.iter().copied()).len() >= fewest
+    let some = &grown.pieces[..grown.pieces.len().min(8 * limits.points.max(fewest_points(kind)))];
+    let points = surface.points_of(some.iter().copied()).len();
+    grown.weight >= limits.weight && points >= limits.points && is_shown(surface, kind, some, points)
 }
 
 /// Nothing starts from the seed and its nearest neighbors again.

@@ -10,7 +10,7 @@ use crate::num::random::Random;
 use crate::progress::Silent;
 use crate::shape::{Kind, Parameter, Shape};
 use crate::space::{Aabb, Point, Vector, dot, minus, norm, times};
-use parts::{Part, bored, sleeve, turned};
+use parts::{Part, bar, bored, sleeve, turned};
 
 /// A plane, sphere, cylinder, cone and torus about one place, radius 5 there; of the torus' tube 2.
 pub(super) fn one_of_each(center: Point, direction: Vector, half_angle: f64) -> [Shape; 5] {
@@ -229,10 +229,16 @@ fn faces_of_two_circles_are_found_beside_fillets_too() {
 /// Three circles of corners lie on a torus: an end face and the chamfer beside it are none, as they are none of one face.
 #[test]
 fn a_chamfer_and_the_face_beside_it_are_no_torus() {
-    for (bore, outside, length, steps) in
-        [(5.0, 8.0, 20.0, 32), (5.0, 10.0, 30.0, 64), (10.0, 14.0, 25.0, 128)]
-    {
-        let part = sleeve([bore, outside, length], Some((0.25 * bore, 1)), steps);
+    for (bore, outside, length, chamfer, steps) in [
+        (5.0, 8.0, 20.0, 1.25, 32),
+        (5.0, 10.0, 30.0, 1.25, 64),
+        (10.0, 14.0, 25.0, 2.5, 128),
+        // At the outside.
+        (10.0, 5.0, 30.0, 2.0, 32),
+        (10.0, 5.0, 30.0, 2.0, 64),
+        (10.0, 5.0, 30.0, 2.0, 128),
+    ] {
+        let part = sleeve([bore, outside, length], Some((chamfer, 1)), steps);
         let found = mesh(&part.mesh, &Options::default(), &Silent).unwrap();
         let kind = |face: usize| {
             let facet = part.labels.iter().position(|l| *l == face).unwrap();
@@ -242,6 +248,30 @@ fn a_chamfer_and_the_face_beside_it_are_no_torus() {
         let expected = [Kind::Cylinder, Kind::Plane, Kind::Cylinder, Kind::Plane, Kind::Cone].map(Some);
         assert_eq!(kinds, expected, "{bore} {outside} {steps}");
         assert_eq!(found.regions.len(), 5);
+    }
+}
+
+/// A bar as programs draw it: sides of two facets each run as tangents into corners of as few as three chords.
+#[test]
+fn sides_of_two_facets_and_the_fillets_between_them_are_found() {
+    for (size, radius, chords) in [
+        ([60.0, 12.0], 3.0, 3),
+        ([60.0, 12.0], 3.0, 4),
+        ([60.0, 12.0], 3.0, 8),
+        ([60.0, 12.0], 3.0, 32),
+        ([60.0, 30.0], 8.0, 3),
+        ([60.0, 30.0], 8.0, 8),
+        ([30.0, 30.0], 12.0, 5),
+        ([6.0, 5.0], 2.0, 6),
+    ] {
+        for part in [bar(size, radius, chords), bar(size, radius, chords).moved().single()] {
+            let found = mesh(&part.mesh, &Options::default(), &Silent).unwrap();
+            let regions = matched(&part, &found, 1.0);
+            for (truth, r) in part.faces.iter().zip(regions) {
+                let off = radius_of(truth) - radius_of(&found.regions[r].fit.shape);
+                assert!(off.abs() < 1e-3, "{size:?} {radius} {chords}: {off}");
+            }
+        }
     }
 }
 

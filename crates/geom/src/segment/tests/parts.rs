@@ -3,7 +3,7 @@
 use crate::mesh::Mesh;
 use crate::num::random::Random;
 use crate::shape::Shape;
-use crate::space::{Point, Vector, cross, plus, times, unit};
+use crate::space::{Point, Vector, cross, minus, norm, plus, times, unit};
 use std::f64::consts::TAU;
 
 /// A mesh, and for each facet the face that it was made of.
@@ -105,7 +105,8 @@ pub(in crate::segment) fn bored(steps: usize) -> Part {
     swept(&stretches, [0.0, 0.0], steps, true, faces, face, around)
 }
 
-/// A sleeve as a CAD system writes it: no corners but those of its four edges, and of the steps of a fillet at the bore's mouth.
+/// A sleeve as a CAD system writes it: no corners but those of its four edges, and of the steps of a fillet at the bore's mouth. Where
+/// the bore is the larger one it is the outside, and the fillet at its end.
 pub(in crate::segment) fn sleeve(
     [bore, outside, length]: [f64; 3],
     fillet: Option<(f64, usize)>,
@@ -122,10 +123,12 @@ pub(in crate::segment) fn sleeve(
         vec![straight([bore, 0.0], [outside, 0.0], 1, 1), straight([outside, 0.0], [outside, length], 1, 2)];
     let top = length - fillet.map_or(0.0, |f| f.0);
     if let Some((radius, corners)) = fillet {
-        stretches.push(straight([outside, length], [bore + radius, length], 1, 3));
-        stretches.push(arc([bore + radius, top], radius, [90.0, 180.0], corners, 4));
+        let inwards = if bore < outside { 1.0 } else { -1.0 };
+        let middle = bore + inwards * radius;
+        stretches.push(straight([outside, length], [middle, length], 1, 3));
+        stretches.push(arc([middle, top], radius, [90.0, 90.0 + inwards * 90.0], corners, 4));
         let center = [0.0, 0.0, top];
-        let (major_radius, minor_radius) = (bore + radius, radius);
+        let (major_radius, minor_radius) = (middle, radius);
         faces.push(Shape::Torus { center, direction: AXIS, major_radius, minor_radius });
     } else {
         stretches.push(straight([outside, length], [bore, length], 1, 3));
@@ -136,6 +139,43 @@ pub(in crate::segment) fn sleeve(
         [rho * cos, rho * sin, z]
     };
     swept(&stretches, [bore, 0.0], steps, true, faces, |_, face| face, around)
+}
+
+/// A bar of 100 mm whose section is a rectangle with corners of the given radius, of so many chords each; the faces are two ends, four
+/// sides, those of no width left out, and four corners.
+pub(in crate::segment) fn bar([width, height]: [f64; 2], radius: f64, chords: usize) -> Part {
+    const LONG: f64 = 100.0;
+    let [x, y] = [0.5 * width - radius, 0.5 * height - radius];
+    let middles = [[x, y], [-x, y], [-x, -y], [x, -y]];
+    let mut faces: Vec<Shape> = [0.0, LONG].map(|z| Shape::Plane { point: [0.0, 0.0, z], normal: AXIS }).to_vec();
+    let mut section: Vec<([f64; 2], usize)> = vec![];
+    for (quarter, middle) in middles.into_iter().enumerate() {
+        let from = 90.0 * quarter as f64;
+        let (corners, face) = arc(middle, radius, [from, from + 90.0], chords, faces.len());
+        section.extend(corners.into_iter().map(|c| (c, face)));
+        faces.push(Shape::Cylinder { point: [middle[0], middle[1], 0.0], direction: AXIS, radius });
+        let (sin, cos) = (from + 90.0).to_radians().sin_cos();
+        let (next, end) = (middles[(quarter + 1) % 4], [middle[0] + radius * cos, middle[1] + radius * sin]);
+        if norm(minus([next[0], next[1], 0.0], [middle[0], middle[1], 0.0])) > 0.0 {
+            section.push((end, faces.len()));
+            faces.push(Shape::Plane { point: [end[0], end[1], 0.0], normal: [cos, sin, 0.0] });
+        }
+    }
+    let count = section.len();
+    let positions: Vec<Point> =
+        [0.0, LONG].into_iter().flat_map(|z| section.iter().map(move |&([x, y], _)| [x, y, z])).collect();
+    let (mut triangles, mut labels) = (Vec::new(), Vec::new());
+    for (k, &(_, face)) in section.iter().enumerate() {
+        let [a, b] = [k, (k + 1) % count];
+        triangles.extend([[a, b, b + count], [a, b + count, a + count]]);
+        labels.extend([face; 2]);
+    }
+    for k in 1..count - 1 {
+        triangles.extend([[0, k + 1, k], [count, count + k, count + k + 1]]);
+        labels.extend([0, 1]);
+    }
+    let faces_of = triangles.into_iter().map(|t: [usize; 3]| t.map(|v| v as u32)).collect();
+    Part { mesh: Mesh { positions, faces: faces_of }, labels, faces }
 }
 
 /// Sections joined to a surface. `end` is the last corner; a section that comes back to where it began is closed.
