@@ -1,9 +1,9 @@
 //! The surface of a mesh: facets, neighbors through edges.
 
-use super::pieces::{PieceGraph, Pieces};
+use super::pieces::{PieceGraph, Pieces, step};
 use crate::mesh::Mesh;
 use crate::parallel::prelude::*;
-use crate::space::{Aabb, Vector, cross, dot, minus, norm, plus, times, unit};
+use crate::space::{Vector, cross, dot, minus, norm, plus, times, unit};
 use crate::spatial::lists::lists;
 
 /// The facets of a mesh whose corners exist and are finite.
@@ -27,9 +27,7 @@ pub(super) fn surface(mesh: &Mesh) -> PieceGraph<'_> {
 /// Whether the half of the area is of facets with a neighbor in their plane, to the rounding of single precision: what is drawn has two
 /// facets where four corners lie in a plane, what is measured has none such.
 fn is_drawn(mesh: &Mesh, areas: &[f64], first: &[u32], others: &[u32]) -> bool {
-    let bounds = Aabb::of(&mesh.positions);
-    let greatest = bounds.min.iter().chain(&bounds.max).fold(0.0f64, |m, x| m.max(x.abs()));
-    let step = greatest * f64::from(f32::EPSILON);
+    let step = step(&mesh.positions);
     let flat = |facet: usize| {
         let around = &others[first[facet] as usize..first[facet + 1] as usize];
         around.iter().any(|&other| is_flat(mesh, mesh.faces[facet], mesh.faces[other as usize], step))

@@ -44,7 +44,7 @@ use criterion::fewest_points;
 pub use estimate::KINDS;
 use grow::Context;
 use noise::Noise;
-use pieces::{Band, NONE, PieceGraph, Pieces};
+use pieces::{Band, NONE, PieceGraph, Pieces, step};
 use region::GrownRegion;
 use search::{Limits, search};
 use seeds::Seeds;
@@ -233,8 +233,7 @@ fn segment(
     let kinds: Vec<Kind> = KINDS.into_iter().filter(|kind| options.kinds.contains(kind)).collect();
     let bounds = Aabb::of(surface.points);
     // Coordinates have passed through single precision: they are off by half a step of it.
-    let greatest = bounds.min.iter().chain(&bounds.max).fold(0.0f64, |m, x| m.max(x.abs()));
-    let step = greatest * f64::from(f32::EPSILON);
+    let step = step(surface.points);
     let noise = distance.max(step / 12f64.sqrt());
     let tolerance = options.tolerance.unwrap_or((WIDTH * noise).max(2.0 * step));
     let turned = (3.0 * angle).clamp(ANGLES[0].to_radians(), ANGLES[1].to_radians());

@@ -2,7 +2,7 @@
 
 use super::estimate::{KINDS, estimate};
 use super::flood::{Marks, patch};
-use super::pieces::PieceGraph;
+use super::pieces::{PieceGraph, step};
 use super::probe::Probe;
 use crate::fit::improved;
 use crate::num::random::Random;
@@ -17,6 +17,8 @@ const PATCHES: u64 = 400;
 const SIZES: [usize; 2] = [24, 96];
 /// How much more noise large patches may show than small ones, and still be believed.
 const BELIEVED: f64 = 3.0;
+/// Noise of what is drawn that may be the digits of its file, in steps of single precision.
+const ROUNDED: f64 = 32.0;
 /// The standard deviation over the lower quartile of those found in patches, for normal noise.
 const QUANTILE: f64 = 1.15;
 
@@ -37,8 +39,8 @@ pub(super) fn noise(
     pick: impl Fn(&mut Random) -> u32 + Sync,
 ) -> Noise {
     let [small, large] = SIZES.map(|size| of_patches(surface, size, crease, seed, &pick));
-    if surface.is_drawn {
-        // Facets are as long as faces: patches go over them.
+    if surface.is_drawn && small.distance > ROUNDED * step(surface.points) {
+        // Facets are as long as faces: patches went beyond them.
         return Noise { distance: 0.0, ..small };
     }
     let believed = large.distance <= BELIEVED * small.distance;

@@ -10,7 +10,7 @@ use crate::num::random::Random;
 use crate::progress::Silent;
 use crate::shape::{Kind, Parameter, Shape};
 use crate::space::{Aabb, Point, Vector, dot, minus, norm, times};
-use parts::{Part, bar, bored, sleeve, turned};
+use parts::{Part, bar, bored, pebble, sleeve, turned};
 
 /// A plane, sphere, cylinder, cone and torus about one place, radius 5 there; of the torus' tube 2.
 pub(super) fn one_of_each(center: Point, direction: Vector, half_angle: f64) -> [Shape; 5] {
@@ -275,9 +275,27 @@ fn sides_of_two_facets_and_the_fillets_between_them_are_found() {
     }
 }
 
+/// Patches of a part without any edge, of few facets, are all of several faces: no patch tells how exact it is.
+#[test]
+fn a_drawn_part_without_an_edge_is_exact() {
+    for (half, radius, chords) in
+        [([20.0, 12.0, 8.0], 4.0, 5), ([20.0, 12.0, 8.0], 4.0, 8), ([9.0, 7.0, 8.0], 6.0, 6)]
+    {
+        for part in [pebble(half, radius, chords), pebble(half, radius, chords).moved().single()] {
+            let found = mesh(&part.mesh, &Options::default(), &Silent).unwrap();
+            assert!(found.noise < 1e-5, "{half:?} {radius} {chords}: {}", found.noise);
+            let regions = matched(&part, &found, 1.0);
+            for (truth, r) in part.faces.iter().zip(regions) {
+                let off = radius_of(truth) - radius_of(&found.regions[r].fit.shape);
+                assert!(off.abs() < 1e-3, "{half:?} {radius} {chords}: {off}");
+            }
+        }
+    }
+}
+
 fn radius_of(shape: &Shape) -> f64 {
     match shape {
-        Shape::Cylinder { radius, .. } => *radius,
+        Shape::Cylinder { radius, .. } | Shape::Sphere { radius, .. } => *radius,
         Shape::Torus { minor_radius, .. } => *minor_radius,
         _ => 0.0,
     }

@@ -147,7 +147,8 @@ pub(in crate::segment) fn bar([width, height]: [f64; 2], radius: f64, chords: us
     const LONG: f64 = 100.0;
     let [x, y] = [0.5 * width - radius, 0.5 * height - radius];
     let middles = [[x, y], [-x, y], [-x, -y], [x, -y]];
-    let mut faces: Vec<Shape> = [0.0, LONG].map(|z| Shape::Plane { point: [0.0, 0.0, z], normal: AXIS }).to_vec();
+    let mut faces: Vec<Shape> =
+        [0.0, LONG].map(|z| Shape::Plane { point: [0.0, 0.0, z], normal: AXIS }).to_vec();
     let mut section: Vec<([f64; 2], usize)> = vec![];
     for (quarter, middle) in middles.into_iter().enumerate() {
         let from = 90.0 * quarter as f64;
@@ -176,6 +177,74 @@ pub(in crate::segment) fn bar([width, height]: [f64; 2], radius: f64, chords: us
     }
     let faces_of = triangles.into_iter().map(|t: [usize; 3]| t.map(|v| v as u32)).collect();
     Part { mesh: Mesh { positions, faces: faces_of }, labels, faces }
+}
+
+/// A box of the given half sides, before all its edges were rounded by so many chords: no edge is left. The faces are spheres, cylinders
+/// and planes from below to above, then the planes below and above.
+pub(in crate::segment) fn pebble(half: [f64; 3], radius: f64, chords: usize) -> Part {
+    // Steps of an angle and the corner of the box that they are about; each corner ends where the next begins.
+    let turns = |corners: usize, from: f64| -> Vec<(f64, usize)> {
+        let at = move |c: usize, k: usize| (from + 90.0 * (c as f64 + k as f64 / chords as f64)).to_radians();
+        (0..corners).flat_map(|c| (0..=chords).map(move |k| (at(c, k), c))).collect()
+    };
+    let (rows, columns) = (turns(2, -90.0), turns(4, 0.0));
+    let middle = |row: usize, column: usize| -> Point {
+        let sign = |positive: bool| if positive { 1.0 } else { -1.0 };
+        [sign(column % 4 == 0 || column % 4 == 3), sign(column % 4 < 2), sign(row == 1)]
+            .into_iter()
+            .zip(half)
+            .map(|(s, h)| s * (h - radius))
+            .collect::<Vec<f64>>()
+            .try_into()
+            .unwrap()
+    };
+    let positions: Vec<Point> = (rows.iter())
+        .flat_map(|row| columns.iter().map(move |column| (row, column)))
+        .map(|(&(up, row), &(turn, column))| {
+            let way = [up.cos() * turn.cos(), up.cos() * turn.sin(), up.sin()];
+            plus(middle(row, column), times(radius, way))
+        })
+        .collect();
+    let (mut faces, mut triangles, mut labels) = (vec![], vec![], vec![]);
+    let mut known: Vec<[usize; 4]> = vec![];
+    for row in 0..rows.len() - 1 {
+        for column in 0..columns.len() {
+            let next = (column + 1) % columns.len();
+            let of = [rows[row].1, rows[row + 1].1, columns[column].1, columns[next].1];
+            let face = known.iter().position(|k| *k == of).unwrap_or_else(|| {
+                known.push(of);
+                let [one, other] = [middle(of[0], of[2]), middle(of[1], of[3])];
+                let along = unit(minus(other, one)).map_or(AXIS, |u| u.0);
+                let turn = columns[column].0;
+                faces.push(match (of[0] == of[1], of[2] == of[3]) {
+                    (true, true) => Shape::Sphere { center: one, radius },
+                    (false, false) => {
+                        let normal = [turn.cos().round(), turn.sin().round(), 0.0];
+                        Shape::Plane { point: plus(one, times(radius, normal)), normal }
+                    }
+                    _ => Shape::Cylinder { point: one, direction: along, radius },
+                });
+                known.len() - 1
+            });
+            let at = |row: usize, column: usize| (row * columns.len() + column) as u32;
+            let [a, b, c, d] = [at(row, column), at(row, next), at(row + 1, next), at(row + 1, column)];
+            triangles.extend([[a, b, c], [a, c, d]]);
+            labels.extend([face; 2]);
+        }
+    }
+    for (row, z) in [(0, -half[2]), (rows.len() - 1, half[2])] {
+        let [a, b, c, d] = [0, 1, 2, 3].map(|c| (row * columns.len() + c * (chords + 1)) as u32);
+        triangles.extend(if row == 0 { [[a, c, b], [a, d, c]] } else { [[a, b, c], [a, c, d]] });
+        labels.extend([faces.len(); 2]);
+        faces.push(Shape::Plane { point: [0.0, 0.0, z], normal: AXIS });
+    }
+    // Around the poles all points of a corner are one.
+    let first =
+        |v: u32| positions.iter().position(|p| norm(minus(*p, positions[v as usize])) < 1e-9).unwrap() as u32;
+    let (triangles, labels) = (triangles.into_iter().map(|t: [u32; 3]| t.map(first)).zip(labels))
+        .filter(|([a, b, c], _)| a != b && b != c && c != a)
+        .unzip();
+    Part { mesh: Mesh { positions, faces: triangles }, labels, faces }
 }
 
 /// Sections joined to a surface. `end` is the last corner; a section that comes back to where it began is closed.
