@@ -44,7 +44,7 @@ fn strips(found: &Found) -> Vec<usize> {
     strips
 }
 
-const NEAR: Nearness = Nearness { distance: 0.1, angle: 0.2, margin: 0.0, rim: true };
+const NEAR: Nearness = Nearness { distance: 0.1, angle: 0.2, margin: 0.0, rim: true, inward: None };
 
 fn floor() -> Nominal {
     let boundary = vec![[-10.0, 0.0, 0.0], [0.0, 0.0, 0.0], [0.0, 20.0, 0.0], [-10.0, 20.0, 0.0]];
@@ -135,7 +135,7 @@ fn prism(sides: u32, height: f64, inner: Option<f64>) -> Mesh {
 /// What the walls of a feature enclose is none of it: the flat ends of a boss, the bore of a thin tube, the other side of a thin plate.
 #[test]
 fn what_lies_beyond_walls_is_of_something_else() {
-    let near = Nearness { distance: 0.5, angle: 0.2, margin: -0.5, rim: true };
+    let near = Nearness { distance: 0.5, angle: 0.2, margin: -0.5, rim: true, inward: None };
     let shaft = Nominal::Cylinder { point: [0.0; 3], direction: [0.0, 0.0, 1.0], radius: 10.0, length: 6.0 };
     let sides: Vec<u32> = (0..96).collect();
     assert_eq!(found(&prism(48, 6.0, None), &shaft, near).facets, sides);
@@ -158,6 +158,60 @@ fn what_lies_beyond_walls_is_of_something_else() {
         own.len() == 2 && own.iter().all(|f| plate.faces[*f as usize].iter().all(|v| *v >= 4)),
         "{own:?}"
     );
+}
+
+/// A plate that is off by more than half its thickness: the other side of it is nearer to where the feature is.
+#[test]
+fn the_nearest_facet_that_faces_right_begins_a_feature() {
+    let mut plate = prism(4, 0.4, None);
+    let boundary: Vec<Point> = plate.positions[4..].to_vec();
+    let near = Nearness { distance: 1.0, angle: 0.2, margin: -1.0, rim: true, inward: None };
+    for off in [0.0, 0.3, -0.3] {
+        let top =
+            Nominal::Plane { point: [0.0, 0.0, 0.4], normal: [0.0, 0.0, 1.0], boundary: boundary.clone() };
+        plate.positions.iter_mut().for_each(|p| p[2] += off);
+        let own = found(&plate, &top, near).facets;
+        plate.positions.iter_mut().for_each(|p| p[2] -= off);
+        let is_top = |f: &u32| plate.faces[*f as usize].iter().all(|v| *v >= 4);
+        assert!(own.len() == 2 && own.iter().all(is_top), "{off}: {own:?}");
+    }
+}
+
+/// A tube whose outside is nearer to where its bore should be than its bore is.
+#[test]
+fn a_bore_is_not_taken_from_the_outside_of_its_tube() {
+    const SIDES: u32 = 48;
+    let ring = |radius: f64, z: f64| {
+        (0..SIDES).map(move |k| {
+            let (sin, cos) = (std::f64::consts::TAU * f64::from(k) / f64::from(SIDES)).sin_cos();
+            [radius * cos, radius * sin, z]
+        })
+    };
+    let (bore, outside) = (9.7, 10.04);
+    let positions: Vec<Point> = [(bore, 0.0), (bore, 20.0), (outside, 0.0), (outside, 20.0)]
+        .into_iter()
+        .flat_map(|(r, z)| ring(r, z))
+        .collect();
+    let mut mesh = Mesh { positions, faces: vec![] };
+    for k in 0..SIDES {
+        let n = (k + 1) % SIDES;
+        let [a, b, c, d] = [k, n, SIDES + n, SIDES + k];
+        mesh.faces.extend([[a, c, b], [a, d, c]]);
+        let [a, b, c, d] = [a, b, c, d].map(|v| v + 2 * SIDES);
+        mesh.faces.extend([[a, b, c], [a, c, d]]);
+    }
+    let nominal =
+        Nominal::Cylinder { point: [0.0; 3], direction: [0.0, 0.0, 1.0], radius: 10.0, length: 20.0 };
+    let near = Nearness { distance: 0.5, angle: 0.2, margin: -0.5, rim: true, inward: None };
+    let is_bore = |inward| {
+        let own = found(&mesh, &nominal, Nearness { inward, ..near });
+        let bore = own.facets.iter().filter(|f| *f % 4 < 2).count();
+        (own.facets.len(), bore)
+    };
+    assert_eq!(is_bore(Some(true)), (96, 96));
+    assert_eq!(is_bore(Some(false)), (96, 0));
+    // Nothing says which.
+    assert_eq!(is_bore(None), (96, 0));
 }
 
 #[test]

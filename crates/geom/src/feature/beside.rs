@@ -69,7 +69,7 @@ pub struct Piece {
 /// let points: Vec<[f64; 3]> = floor.chain(wall).collect();
 /// let boundary = vec![[0.0, 0.0, 0.0], [19.0, 0.0, 0.0], [19.0, 19.0, 0.0], [0.0, 19.0, 0.0]];
 /// let nominal = Nominal::Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0], boundary };
-/// let near = Nearness { distance: 0.55, angle: 0.26, margin: 0.0, rim: true };
+/// let near = Nearness { distance: 0.55, angle: 0.26, margin: 0.0, rim: true, inward: None };
 /// let own = in_cloud(&points, &nominal, &near)?.points;
 /// assert_eq!(own.len(), 400 + 5 * 20);
 /// let tree = PointTree::new(&points);

@@ -72,7 +72,7 @@ pub fn covered(nominal: &Nominal, points: &[Point]) -> Option<f64> {
 /// Places spread evenly over a nominal feature; `None` of an edge and of what makes no sense.
 fn spread(nominal: &Nominal) -> Option<Vec<Point>> {
     let size = Aabb::of(&nominal.places()).diagonal();
-    let near = Nearness { distance: 1e-6 * size, angle: 1.0, margin: 0.0, rim: true };
+    let near = Nearness { distance: 1e-6 * size, angle: 1.0, margin: 0.0, rim: true, inward: None };
     let rules = Rules::new(nominal, &near).ok()?;
     let fractions = (1..=PLACES).map(|n| STEPS.map(|step| (step * n as f64).fract()));
     let about =

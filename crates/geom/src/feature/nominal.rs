@@ -69,6 +69,8 @@ pub struct Nearness {
     pub margin: f64,
     /// Whether vertices that facets of other features share count: on a sharp edge they belong to both.
     pub rim: bool,
+    /// Whether the facets of a cylinder, cone or sphere face its axis or center, as those of a bore do; both ways where it is `None`.
+    pub inward: Option<bool>,
 }
 
 /// Why a feature cannot be sought.

@@ -125,12 +125,16 @@ impl<'a> Rules<'a> {
 
     /// Whether a facet about `center` faces as the feature does there, within `angle`.
     fn faces(&self, center: Point, facing: Vector, angle: f64) -> bool {
+        // Inwards in a bore, outwards on a boss.
+        let round = |outward: Vector| match self.near.inward {
+            Some(true) => -dot(outward, facing),
+            Some(false) => dot(outward, facing),
+            None => dot(outward, facing).abs(),
+        };
         match &self.kind {
             CheckedNominal::Plane { normal, .. } => dot(*normal, facing) >= libm::cos(angle),
             CheckedNominal::Cylinder { point, direction, .. } => {
-                // Inwards in a bore, outwards on a boss.
-                across(center, *point, *direction)
-                    .is_some_and(|radial| dot(radial, facing).abs() >= libm::cos(angle))
+                across(center, *point, *direction).is_some_and(|radial| round(radial) >= libm::cos(angle))
             }
             CheckedNominal::Cone { apex, direction, half_angle, .. } => across(center, *apex, *direction)
                 .is_some_and(|radial| {
@@ -138,10 +142,10 @@ impl<'a> Rules<'a> {
                         times(libm::cos(*half_angle), radial),
                         times(libm::sin(*half_angle), *direction),
                     );
-                    dot(normal, facing).abs() >= libm::cos(angle)
+                    round(normal) >= libm::cos(angle)
                 }),
             CheckedNominal::Sphere { center: middle, .. } => {
-                unit(minus(center, *middle)).is_some_and(|(r, _)| dot(r, facing).abs() >= libm::cos(angle))
+                unit(minus(center, *middle)).is_some_and(|(radial, _)| round(radial) >= libm::cos(angle))
             }
             CheckedNominal::Edge { direction, normals: [a, b], .. } => {
                 // Between the two normals, turning about the edge.

@@ -61,7 +61,7 @@ impl<'a> FeatureSearch<'a> {
     /// let mesh = Mesh { positions, faces: vec![[0, 1, 2], [0, 2, 3], [0, 4, 1]] };
     /// let boundary = vec![[0.0, 0.0, 0.0], [9.0, 0.0, 0.0], [9.0, 9.0, 0.0], [0.0, 9.0, 0.0]];
     /// let floor = Nominal::Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0], boundary };
-    /// let near = Nearness { distance: 0.1, angle: 0.2, margin: 0.0, rim: true };
+    /// let near = Nearness { distance: 0.1, angle: 0.2, margin: 0.0, rim: true, inward: None };
     /// let search = FeatureSearch::new(&mesh, Tree::build(&mesh)?);
     /// let found = search.find(&floor, &near, &trueness_geom::progress::Silent)?;
     /// assert_eq!((found.facets, found.points), (vec![0, 1], vec![0, 1, 2, 3]));
@@ -80,11 +80,12 @@ impl<'a> FeatureSearch<'a> {
         let starts = rules.starts();
         let nearest = starts.iter().filter_map(|p| self.tree.closest(p, f64::INFINITY).ok().flatten());
         let mut open: Vec<u32> = nearest.map(|c| c.face).filter(|f| belongs(*f)).collect();
+        if open.is_empty() {
+            // The other side of a thin wall may be nearer.
+            open = self.nearest_of(&starts, belongs);
+        }
         open.sort_unstable();
         open.dedup();
-        if open.is_empty() {
-            return Ok(Found::default());
-        }
         let mut found = Marked::new(self.mesh.faces.len());
         open.iter().for_each(|f| found.add(*f));
         let mut beside = vec![];
@@ -130,7 +131,7 @@ impl<'a> FeatureSearch<'a> {
     /// let mesh = Mesh { positions, faces };
     /// let boundary = vec![[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [4.0, 4.0, 0.0], [0.0, 4.0, 0.0]];
     /// let floor = Nominal::Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0], boundary };
-    /// let near = Nearness { distance: 0.5, angle: 0.2, margin: 0.0, rim: true };
+    /// let near = Nearness { distance: 0.5, angle: 0.2, margin: 0.0, rim: true, inward: None };
     /// let search = FeatureSearch::new(&mesh, Tree::build(&mesh)?);
     /// let found = search.find(&floor, &near, &trueness_geom::progress::Silent)?;
     /// assert!(!found.points.contains(&12));
@@ -184,7 +185,7 @@ impl<'a> FeatureSearch<'a> {
     /// let positions = [&square[..], &above].concat();
     /// let mesh = Mesh { positions, faces: vec![[0, 1, 2], [0, 2, 3], [4, 5, 6]] };
     /// let floor = Nominal::Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0], boundary: square.to_vec() };
-    /// let near = Nearness { distance: 0.5, angle: 0.2, margin: 0.0, rim: true };
+    /// let near = Nearness { distance: 0.5, angle: 0.2, margin: 0.0, rim: true, inward: None };
     /// let search = FeatureSearch::new(&mesh, Tree::build(&mesh)?);
     /// let found = search.find(&floor, &near, &trueness_geom::progress::Silent)?;
     /// let apart = search.apart(&found, &floor, &near, &trueness_geom::progress::Silent)?;
@@ -235,7 +236,7 @@ impl<'a> FeatureSearch<'a> {
     /// let mesh = Mesh { positions, faces: vec![[0, 2, 3], [0, 3, 1], [2, 4, 5], [2, 5, 3]] };
     /// let boundary = vec![[0.0, 0.0, 0.0], [9.0, 0.0, 0.0], [9.0, 9.0, 0.0], [0.0, 9.0, 0.0]];
     /// let floor = Nominal::Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0], boundary };
-    /// let near = Nearness { distance: 0.5, angle: 0.2, margin: 0.0, rim: true };
+    /// let near = Nearness { distance: 0.5, angle: 0.2, margin: 0.0, rim: true, inward: None };
     /// let search = FeatureSearch::new(&mesh, Tree::build(&mesh)?);
     /// let found = search.find(&floor, &near, &trueness_geom::progress::Silent)?;
     /// let slopes = search.slopes(&found, &floor, &near, &trueness_geom::progress::Silent)?;
@@ -319,6 +320,20 @@ impl<'a> FeatureSearch<'a> {
         joined.points.dedup();
         joined.rim.retain(|v| joined.points.binary_search(v).is_err());
         joined
+    }
+
+    /// Of the facets of which `is` says yes the nearest to each place, by their middles.
+    fn nearest_of(&self, places: &[Point], is: impl Fn(u32) -> bool + Sync) -> Vec<u32> {
+        let all: Vec<(u32, Point)> = (0..self.mesh.faces.len() as u32)
+            .into_par_iter()
+            .filter(|f| is(*f))
+            .filter_map(|f| Some((f, center(self.corners(f)?))))
+            .collect();
+        let away = |p: &Point, q: &Point| norm(minus(*p, *q));
+        let nearest = |p: &Point| {
+            all.iter().min_by(|a, b| away(p, &a.1).total_cmp(&away(p, &b.1))).map(|found| found.0)
+        };
+        places.iter().filter_map(nearest).collect()
     }
 
     fn corners(&self, f: u32) -> Option<[Point; 3]> {

@@ -48,9 +48,11 @@ pub struct Taken {
 /// Points within the reach of a feature that were taken for those of other surfaces.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Others {
-    /// Where they are.
+    /// Where those are of which it is not certain.
     pub points: Vec<Point>,
-    /// Whether the reference has those surfaces there; without one nothing but the points tells.
+    /// The number of the others, which lie on surfaces that the reference has there.
+    pub known: usize,
+    /// Whether there is a reference.
     pub on_reference: bool,
 }
 

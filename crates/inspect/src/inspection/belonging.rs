@@ -2,8 +2,8 @@
 //!
 //! Nearness to a nominal surface alone does not tell the points of a plane from those at the upper end of a wall beside it, and a
 //! cloud has no facets that would tell by their angle. Where the reference is at hand, it does: a point that lies upon one of
-//! its facets that runs at an angle to the feature is none of the feature's. Upon: as near as most of the cloud lies to the
-//! reference. Of what lies farther off, as a bore larger than its model, the planes of the neighbors of each point tell
+//! its other facets is none of the feature's. Upon: as near as nearly all of the cloud lies to the
+//! reference. What is clearly nearer to others and does not lie upon them is not judged either, and leaves the verdict open where it matters. Of what lies farther off, as a bore larger than its model, the planes of the neighbors of each point tell
 //! which way it faces: a piece that faces away from the feature and goes on beyond it is of another surface if the
 //! reference has one there that faces as it does. Everything else counts, so that no dent is taken for the wall beside it. Without a
 //! reference such pieces are left out too, and nothing that depends on it passes.
@@ -17,11 +17,13 @@ use trueness_geom::feature::{FeatureSearch, Nearness, Nominal, NominalSurface, P
 use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::Progress;
 use trueness_geom::space::{self, Point, Vector, dot};
+use trueness_geom::spatial::neighbors::PointTree;
 
 /// Points farther off than this share of the size of the reference are of something else.
 pub(super) const ELSEWHERE: f64 = 0.1;
-/// So many times the median distance from the reference a point lies upon it: above three standard deviations of noise.
-const UPON: f64 = 5.0;
+/// So many times the median distance from the reference a point lies upon it: above six standard deviations of noise, for of the points of a wall
+/// not one shall remain.
+const UPON: f64 = 10.0;
 /// But no farther than this share of the distance up to which points are sought.
 const FARTHEST: f64 = 0.25;
 /// So many times the distance up to which points are sought, or within which they lie upon the reference, a wall may be off its place.
@@ -30,6 +32,8 @@ const WALL_REACH: f64 = 3.0;
 const MOST: f64 = 0.75;
 /// So many times nearer a face is clearly the nearer one.
 pub(super) const NEARER: f64 = 2.0;
+/// A point between two faces that run along each other is of one if it is so many times nearer to it.
+const WITHIN: f64 = 10.0;
 /// A facet of the reference may be off the surface of the nominal by this share of the distance up to which points are sought.
 const ON: f64 = 1e-3;
 /// Distances that differ by less than this share of the size of the reference are the same.
@@ -92,41 +96,57 @@ impl<'a> Belonging<'a> {
         self.nearest.iter().filter(far).map(|(_, off)| *off).collect()
     }
 
-    /// Those of these measured points that lie upon facets beside the nominal.
-    pub fn upon_others(
+    /// Those of these measured points that lie upon surfaces of the reference which are not the nominal's, and those that may: they are clearly nearer
+    /// to one, but as far off it as much else is. What lies between a feature and the face behind it, where that was measured too, is of
+    /// neither list: it is a dent. `tree` holds the measured points.
+    pub fn of_others(
         &self,
         points: &[u32],
+        tree: &PointTree,
         nominal: &Nominal,
         near: &Nearness,
         progress: &dyn Progress,
-    ) -> Result<Vec<u32>, Stop> {
+    ) -> Result<[Vec<u32>; 2], Stop> {
+        let mut others = [vec![], vec![]];
         if matches!(nominal, Nominal::Edge { .. }) {
-            return Ok(vec![]);
+            return Ok(others);
         }
         // All of the face counts, however its facets lie to its bounds.
         let whole = Nearness { margin: -near.distance, ..*near };
         let own = self.facets(nominal, &whole, progress);
-        let upon = (UPON * self.median).min(FARTHEST * near.distance).max(self.rounding);
-        let is_upon_other = |p: &u32| {
-            let (face, off) = self.nearest[*p as usize];
-            face != u32::MAX && off <= upon && own.binary_search(&face).is_err()
+        let is_other = |p: &u32| {
+            let (face, _) = self.nearest[*p as usize];
+            face != u32::MAX && own.binary_search(&face).is_err()
         };
-        let doubtful: Vec<u32> = points.iter().copied().filter(is_upon_other).collect();
-        if own.is_empty() || doubtful.is_empty() {
-            return Ok(vec![]);
+        let asked: Vec<u32> = points.iter().copied().filter(is_other).collect();
+        if own.is_empty() || asked.is_empty() {
+            return Ok(others);
         }
         let mesh = self.part(own.iter().copied());
-        let tree = Tree::build_watched(&mesh, progress).map_err(|e| Stop::Mesh(e.to_string()))?;
-        let asked: Vec<Point> = doubtful.iter().map(|p| self.measured[*p as usize]).collect();
-        let on_own = nearest(&tree, &asked, f64::INFINITY, progress)?;
-        let is_other = |(p, (own, away)): (&u32, (u32, f64))| {
-            let (face, off) = self.nearest[*p as usize];
+        let own_tree = Tree::build_watched(&mesh, progress).map_err(|e| Stop::Mesh(e.to_string()))?;
+        let places: Vec<Point> = asked.iter().map(|p| self.measured[*p as usize]).collect();
+        let upon = (UPON * self.median).min(FARTHEST * near.distance).max(self.rounding);
+        for (p, (own, away)) in asked.into_iter().zip(nearest(&own_tree, &places, f64::INFINITY, progress)?) {
+            let (face, off) = self.nearest[p as usize];
             let angle = normal(self.reference, face).zip(normal(&mesh, own)).map(|(a, b)| dot(a, b).abs());
-            // A wall of a thin part runs along the other one: which of them a point is of is not told by its place.
-            let aside = angle.is_some_and(|cosine| cosine < libm::cos(near.angle));
-            (aside && off + SAME * self.size < away).then_some(*p)
-        };
-        Ok(doubtful.iter().zip(on_own).filter_map(is_other).collect())
+            let is_aside = angle.is_some_and(|cosine| cosine < libm::cos(near.angle));
+            let is_nearer =
+                off + SAME * self.size < away && (is_aside && off <= upon || NEARER * off <= away);
+            if is_nearer && off <= upon && (is_aside || WITHIN * off <= away) {
+                others[0].push(p);
+            } else if is_nearer && !self.is_measured_behind(p, tree) {
+                others[1].push(p);
+            }
+        }
+        Ok(others)
+    }
+
+    /// Whether something was measured where the reference is nearest to a point, so that the point is of something else.
+    fn is_measured_behind(&self, p: u32, tree: &PointTree) -> bool {
+        let (at, off) = (self.measured[p as usize], self.nearest[p as usize].1);
+        let foot = self.search.tree().closest(&at, f64::INFINITY).ok().flatten().map(|c| c.point);
+        let square = foot.and_then(|foot| tree.nearest(&foot)).map(|n| n.0);
+        square.is_some_and(|square| NEARER * square.sqrt() <= off)
     }
 
     /// Keeps those of some pieces beside the nominal that the reference has too: near most of their points it has a surface, not

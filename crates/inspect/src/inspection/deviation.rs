@@ -132,7 +132,7 @@ pub(super) fn regions(
         };
         let nominal = feature.nominal.as_ref().or_else(|| Some(&seeds.get(&number)?.nominal));
         let nominal = nominal.ok_or_else(|| wrong(format!("feature \"{}\" has no nominal", feature.id)))?;
-        let near = feature.extract.near(nominal);
+        let near = feature.near(nominal);
         let found = search.find(nominal, &near, progress).map_err(|e| match e {
             FeatureError::Cancelled => Stop::Cancelled,
             e => wrong(e.to_string()),

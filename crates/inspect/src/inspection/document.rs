@@ -187,18 +187,19 @@ fn feature(plan: &crate::plan::Feature, taken: &Taken) -> FeatureRecord {
 }
 
 fn left_out_record(taken: &Taken) -> Option<LeftOutRecord> {
-    let (others, beyond) = (taken.others.points.len() as u64, taken.left_out);
+    let doubted = taken.others.points.len();
+    let (others, beyond) = ((taken.others.known + doubted) as u64, taken.left_out);
     (others > 0 || beyond.is_some()).then(|| LeftOutRecord {
         others,
         beyond: beyond.map_or(0, |b| b.points),
         farthest: beyond.map(|b| b.farthest),
-        on_reference: beyond.map_or(taken.others.on_reference, |b| b.on_reference),
+        on_reference: beyond.map_or(others > 0 && doubted == 0, |b| b.on_reference),
     })
 }
 
 /// How near facets had to be to the nominal.
 fn extract(plan: &crate::plan::Feature, taken: &Taken) -> Option<ExtractRecord> {
-    let near = plan.extract.near(taken.nominal.as_ref()?);
+    let near = plan.near(taken.nominal.as_ref()?);
     let (distance, margin, rim, coverage) = (near.distance, near.margin, near.rim, plan.extract.coverage);
     Some(ExtractRecord { distance, angle: near.angle.to_degrees(), margin, rim, coverage })
 }

@@ -43,7 +43,7 @@ pub(super) fn tell(
         .collect();
     for n in sought {
         let Some(nominal) = of(n) else { continue };
-        let near = plan.features[n].extract.near(nominal);
+        let near = plan.features[n].near(nominal);
         let off = match (belonging, &data.measured) {
             (Some(belonging), _) => belonging.beyond(nominal, &near, progress),
             (None, Some(cloud)) if cloud.faces.is_empty() => {
@@ -97,10 +97,10 @@ pub(super) struct Judged {
 }
 
 /// The verdict of a characteristic that was reached without the points which its features, its datums and what they are derived
-/// from leave out; `with_others` is the value, and its verdict, with those that were taken for points of other surfaces.
+/// from leave out; `with_others` is the value, and its verdict, with those of which it is not certain that they are of other surfaces.
 ///
-/// What lies where the feature is and was not judged leaves no pass: nothing is proven by the others alone. Nor does what was
-/// taken for other surfaces by nothing but the cloud itself, if it would change the verdict.
+/// What lies where the feature is and was not judged leaves no pass: nothing is proven by the others alone. Where the verdict depends on
+/// points of which it is not certain whose they are, there is none.
 pub(super) fn judge_left_out(
     plan: &Plan,
     found: &Inspection,
@@ -129,17 +129,23 @@ pub(super) fn judge_left_out(
             result.verdict = Verdict::Undecided;
         }
     }
+    for taken in features.iter().filter(|t| t.others.known > 0) {
+        result.notes.push(format!(
+            "feature \"{}\": {} points within its reach are of other surfaces of the reference and are left out",
+            taken.id, taken.others.known
+        ));
+    }
     let Some((value, verdict)) = with_others else { return result };
-    let mut known = true;
+    let mut known = false;
     for taken in features.iter().filter(|t| !t.others.points.is_empty()) {
         let count = taken.others.points.len();
-        known &= taken.others.on_reference;
+        known |= taken.others.on_reference;
         let why = match (taken.others.on_reference, taken.facets.is_empty()) {
-            (true, _) => "are of other surfaces of the reference",
             (false, true) => "face another way and go on beyond it, as walls and bores do,",
             // Noise leaves some at every edge: they are told where they matter.
-            (false, false) if verdict == judged => continue,
-            (false, false) => {
+            _ if verdict == judged => continue,
+            (true, true) => "are nearer to other surfaces of the reference, without lying on them,",
+            (_, false) => {
                 "lie where it is, but are joined to it by no facet that faces as it does, or are steep,"
             }
         };
@@ -154,10 +160,8 @@ pub(super) fn judge_left_out(
             Err(why) => format!("there would be no value: {why}"),
         };
         let remedy = if known { "" } else { "; a reference, or a margin that keeps them out, decides it" };
-        result.notes.push(format!("with the points of other surfaces {value}{remedy}"));
-        if !known {
-            result.verdict = Verdict::Undecided;
-        }
+        result.notes.push(format!("with these points {value}{remedy}"));
+        result.verdict = Verdict::Undecided;
     }
     result
 }

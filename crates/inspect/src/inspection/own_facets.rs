@@ -20,7 +20,9 @@ const STEPS: f64 = 1e4;
 /// The facets of the reference that lie on the surface of a nominal and within its bounds.
 pub(super) struct OwnFacets<'a> {
     belonging: &'a Belonging<'a>,
-    near: &'a Nearness,
+    distance: f64,
+    /// Of a cylinder, cone or sphere, whether they face its axis or center.
+    pub(super) inward: Option<bool>,
     /// For each facet of the reference, whether it lies on the surface of the nominal, however it was cut into facets.
     on_surface: Vec<bool>,
     /// Their numbers, ascending.
@@ -50,7 +52,7 @@ impl<'a> OwnFacets<'a> {
     pub(super) fn new(
         belonging: &'a Belonging,
         nominal: &Nominal,
-        near: &'a Nearness,
+        near: &Nearness,
         progress: &dyn Progress,
     ) -> Result<Option<OwnFacets<'a>>, Stop> {
         let Some(surface) = nominal.surface() else { return Ok(None) };
@@ -73,7 +75,9 @@ impl<'a> OwnFacets<'a> {
         let alike = belonging.part(all.filter(|f| !on_surface[*f as usize] && side * outward(*f) >= cosine));
         let alike = if alike.faces.is_empty() { None } else { Some(Part::new(alike, progress)?) };
         let own = Part::new(belonging.part(numbers.iter().copied()), progress)?;
-        Ok(Some(OwnFacets { belonging, near, on_surface, numbers, own, alike }))
+        let inward = (!matches!(nominal, Nominal::Plane { .. }) && side != 0.0).then_some(side < 0.0);
+        let distance = near.distance;
+        Ok(Some(OwnFacets { belonging, distance, inward, on_surface, numbers, own, alike }))
     }
 
     /// Whether each of these places, of facets that face as the feature does, is nearer to it than to others of the reference that face
@@ -109,7 +113,7 @@ impl<'a> OwnFacets<'a> {
             return Ok(vec![]);
         }
         let Belonging { reference, size, rounding, search, .. } = self.belonging;
-        let distance = self.near.distance;
+        let distance = self.distance;
         let border = PointTree::new(&along_border(&self.own.mesh, 0.5 * distance));
         let inside =
             |p: &Point| border.nearest(p).is_none_or(|(square, _)| square > 2.0 * distance * distance);

@@ -75,7 +75,7 @@ pub(super) fn features(
     Ok(all)
 }
 
-/// The features with the points that were left out as of other surfaces; `None` where there are none.
+/// The features with the points of which it is not certain that they are of other surfaces; `None` where there are none.
 pub(super) fn whole(
     plan: &Plan,
     features: &[Taken],
@@ -168,17 +168,21 @@ fn others(
     })?;
     points.iter_mut().for_each(|p| *p = cloud.number(*p));
     pieces.iter_mut().flat_map(|piece| &mut piece.points).for_each(|p| p.0 = cloud.number(p.0));
-    let mut out = vec![];
+    let (mut out, mut doubted) = (vec![], vec![]);
     if let Some(belonging) = belonging {
         pieces = belonging.known(pieces, nominal, near, progress)?;
-        out = belonging.upon_others(points, nominal, near, progress)?;
+        [out, doubted] = belonging.of_others(points, &cloud.tree, nominal, near, progress)?;
     }
-    out.extend(pieces.iter().flat_map(|piece| piece.points.iter().map(|p| p.0)));
-    out.sort_unstable();
-    out.dedup();
-    points.retain(|p| out.binary_search(p).is_err());
-    let points = out.iter().filter_map(|p| measured.get(*p as usize).copied()).collect();
-    Ok(Others { points, on_reference: belonging.is_some() })
+    let of_pieces = if belonging.is_some() { &mut out } else { &mut doubted };
+    of_pieces.extend(pieces.iter().flat_map(|piece| piece.points.iter().map(|p| p.0)));
+    for numbers in [&mut out, &mut doubted] {
+        numbers.sort_unstable();
+        numbers.dedup();
+        points.retain(|p| numbers.binary_search(p).is_err());
+    }
+    doubted.retain(|p| out.binary_search(p).is_err());
+    let points = doubted.iter().filter_map(|p| measured.get(*p as usize).copied()).collect();
+    Ok(Others { points, known: out.len(), on_reference: belonging.is_some() })
 }
 
 /// The facets of a measured mesh, to be judged by those that the reference has of the feature.
@@ -232,7 +236,7 @@ impl OfMesh<'_> {
         }
         let points = facets.joined(&Found::default(), &others, near).points;
         let points = points.iter().map(|v| self.mesh.positions[*v as usize]).collect();
-        Ok((found, Others { points, on_reference: false }))
+        Ok((found, Others { points, known: 0, on_reference: self.known }))
     }
 
     fn corners(&self, facet: u32) -> [Point; 3] {
@@ -285,7 +289,13 @@ fn found(
         taken.outward = taken.outward.or(normal(&seeded.nominal));
     }
     let (Some(mesh), Some(nominal)) = (&data.measured, taken.nominal.clone()) else { return Ok(taken) };
-    let near = feature.extract.near(&nominal);
+    let mut near = feature.near(&nominal);
+    let own = match (search.facets, search.belonging) {
+        (Some(_), Some(belonging)) => OwnFacets::new(belonging, &nominal, &near, progress)?,
+        _ => None,
+    };
+    // The wall of a tube has a face within reach on its other side.
+    near.inward = near.inward.or(own.as_ref().and_then(|own| own.inward));
     let found = match (search.facets, search.cloud) {
         (Some(facets), _) => facets.find(&nominal, &near, progress),
         (None, Some(cloud)) => in_cloud(&cloud.places, &nominal, &near),
@@ -297,8 +307,6 @@ fn found(
     };
     let mut found = found.map_err(stop)?;
     if let Some(facets) = search.facets {
-        let own =
-            search.belonging.map(|b| OwnFacets::new(b, &nominal, &near, progress)).transpose()?.flatten();
         let of_mesh =
             OfMesh { mesh, facets, nominal: &nominal, near: &near, own, known: search.belonging.is_some() };
         (found, taken.others) = of_mesh.judged(found, progress)?;

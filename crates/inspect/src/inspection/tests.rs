@@ -103,11 +103,9 @@ fn a_bore_off_its_model_is_no_part_of_the_top() {
         let value = c.value.unwrap();
         assert!((0.018..0.0201).contains(&value), "{radius} {}: {value}", reference.faces.len());
         assert_eq!(c.verdict, Verdict::Pass);
-        // Both walls, four rows each, are told, and what they would make of it.
+        // Both walls, four rows each, are told.
         assert!(left_out >= 2 * 4 * u64::from(TURNS), "{left_out}");
-        assert!(c.value_with_others.unwrap() > 0.9, "{:?}", c.value_with_others);
         assert!(c.notes[0].contains("other surfaces of the reference"), "{:?}", c.notes);
-        assert!(c.notes[1].ends_with(": fail"), "{:?}", c.notes);
     }
 }
 

@@ -89,6 +89,11 @@ impl Feature {
     pub fn has_nominal(&self) -> bool {
         self.nominal.is_some() || matches!(self.source, Source::Seed(_))
     }
+
+    /// How near facets must be to its nominal, and which way they face.
+    pub fn near(&self, nominal: &Nominal) -> Nearness {
+        Nearness { inward: self.internal, ..self.extract.near(nominal) }
+    }
 }
 
 /// Where a feature comes from.
@@ -360,7 +365,7 @@ fn nominal(checker: &Checker, shape: ShapeWord, at: &At<NominalText>) -> Result<
         }
     };
     // The same rules as when the feature is sought, before any file is read.
-    let probe = Nearness { distance: 1.0, angle: 0.1, margin: 0.0, rim: true };
+    let probe = Nearness { distance: 1.0, angle: 0.1, margin: 0.0, rim: true, inward: None };
     match trueness_geom::feature::in_cloud(&[], &made, &probe) {
         Ok(_) => Ok(made),
         Err(e) => checker.wrong(&at.span, e.to_string()),
@@ -405,8 +410,7 @@ pub struct Extract {
 }
 
 impl Extract {
-    /// How near measured facets must be to this nominal feature.
-    pub fn near(&self, nominal: &Nominal) -> Nearness {
+    fn near(&self, nominal: &Nominal) -> Nearness {
         let size = match nominal {
             Nominal::Plane { boundary, .. } => trueness_geom::space::Aabb::of(boundary).diagonal(),
             Nominal::Cylinder { radius, length, .. } => length.max(2.0 * radius),
@@ -417,6 +421,6 @@ impl Extract {
         let distance = self.distance.unwrap_or(DISTANCE * size);
         // A measured edge may be as far off as a measured surface.
         let margin = self.margin.unwrap_or(-distance);
-        Nearness { distance, angle: self.angle, margin, rim: self.rim }
+        Nearness { distance, angle: self.angle, margin, rim: self.rim, inward: None }
     }
 }

@@ -54,7 +54,7 @@ fn top() -> Nominal {
     Nominal::Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0], boundary }
 }
 
-const NEAR: Nearness = Nearness { distance: 1.0, angle: 0.26, margin: -1.0, rim: true };
+const NEAR: Nearness = Nearness { distance: 1.0, angle: 0.26, margin: -1.0, rim: true, inward: None };
 
 fn beside(points: &[Point], nominal: &Nominal, near: &Nearness) -> (Vec<u32>, Vec<Piece>) {
     let own = in_cloud(points, nominal, near).unwrap().points;

@@ -186,3 +186,62 @@ fn defects_of_a_plane_stay_with_it() {
     let (value, _) = flatness(&lowered(&wall, nick), Some(&wall), TOP, "distance = 0.5, margin = 0.3");
     assert!(value > 0.25, "{value}");
 }
+
+/// A mesh of these strips, each from one line along y to the next, 20 long.
+fn strips(lines: &[[[f64; 2]; 2]]) -> Mesh {
+    let mut mesh = Mesh::default();
+    for strip in lines {
+        let first = mesh.positions.len() as u32;
+        mesh.positions.extend(strip.iter().flat_map(|[x, z]| [[*x, 0.0, *z], [*x, 20.0, *z]]));
+        mesh.faces.extend([[0, 2, 1], [1, 2, 3]].map(|f| f.map(|v| v + first)));
+    }
+    mesh
+}
+
+/// Points strewn over those strips, `dense` to the square millimeter, with noise across them.
+fn strewn(lines: &[[[f64; 2]; 2]], dense: f64, sigma: f64) -> Mesh {
+    let random = &mut Random::new(11);
+    let mut positions = vec![];
+    for [[a, c], [b, d]] in lines {
+        let long = libm::hypot(b - a, d - c);
+        for _ in 0..(20.0 * long * dense) as usize {
+            let off = sigma * ((0..12).map(|_| random.unit()).sum::<f64>() - 6.0);
+            let t = random.unit();
+            let place = [a + t * (b - a) - off * (d - c) / long, c + t * (d - c) + off * (b - a) / long];
+            positions.push([place[0], 20.0 * random.unit(), place[1]]);
+        }
+    }
+    Mesh { positions, faces: vec![] }
+}
+
+/// The other side of a sheet, a lower step, a chamfer: what lies upon them is not of the plane, of noise not even one point.
+#[test]
+fn what_lies_upon_other_faces_of_the_reference_is_no_part_of_a_plane() {
+    const SIGMA: f64 = 0.003;
+    let top = [[-10.0, 0.0], [10.0, 0.0]];
+    let sides = [
+        ("sheet", vec![[[10.0, -0.4], [-10.0, -0.4]]]),
+        ("thick sheet", vec![[[10.0, -1.5], [-10.0, -1.5]]]),
+        ("step", vec![[[10.0, 0.0], [10.0, -0.1]], [[10.0, -0.1], [30.0, -0.1]]]),
+        ("chamfer", vec![[[10.0, 0.0], [12.0, -2.0]], [[12.0, -2.0], [12.0, -8.0]]]),
+    ];
+    for (name, others) in sides {
+        let lines = [&[top][..], &others].concat();
+        let cloud = strewn(&lines, 30.0, SIGMA);
+        let (value, points) = flatness(&cloud, Some(&strips(&lines)), TOP, "distance = 2");
+        // Of twelve thousand points with noise none is farther off than six standard deviations.
+        assert!(value < 12.0 * SIGMA, "{name}: {value}");
+        assert!((11_800..12_100).contains(&points), "{name}: {points}");
+    }
+}
+
+/// A slot that is off its place: the points of each wall lie as far off it as those of the other wall, and no verdict rests on which is which.
+#[test]
+fn points_between_two_faces_leave_the_verdict_open() {
+    let lines = [[[-10.0, 0.0], [10.0, 0.0]], [[10.0, -1.2], [-10.0, -1.2]]];
+    let reference = strips(&lines);
+    let mut cloud = strewn(&lines, 30.0, 0.003);
+    cloud.positions.iter_mut().for_each(|p| p[2] += 0.3);
+    let (value, points) = flatness(&cloud, Some(&reference), TOP, "distance = 2");
+    assert!(value < 0.04 && points >= 11_800, "{value} {points}");
+}
