@@ -52,9 +52,9 @@ pub struct SegmentArgs {
     /// Angle between neighboring facets, or normals of points, from which on there is an edge between them, degrees
     #[arg(long, value_name = "DEGREES", default_value = "32")]
     crease: f64,
-    /// Least share of the area, or of the points of a cloud, that a region must have, percent
-    #[arg(long, value_name = "PERCENT", default_value = "0.2")]
-    min_share: f64,
+    /// Least share of the area, or of the points of a cloud, that a region must have, percent [default: 0.2, of a drawn mesh 0.01]
+    #[arg(long, value_name = "PERCENT")]
+    min_share: Option<f64>,
     /// Fewest measured points of a region
     #[arg(long, value_name = "N", default_value = "0")]
     min_points: usize,
@@ -86,7 +86,7 @@ impl SegmentArgs {
             kinds: self.shapes.iter().filter_map(|name| Kind::named(name, false)).collect(),
             tolerance: self.tolerance,
             crease: self.crease.to_radians(),
-            min_share: self.min_share / 100.0,
+            min_share: self.min_share.map(|percent| percent / 100.0),
             min_points: self.min_points,
             seed,
         }

@@ -9,7 +9,7 @@ use super::region::GrownRegion;
 use crate::fit::{Options, fit, improved};
 use crate::progress::Silent;
 use crate::shape::{Kind, Shape};
-use crate::space::Point;
+use crate::space::{Point, dot};
 
 /// Pieces of the first patches: small ones for small faces, large ones against noise.
 const PATCHES: [usize; 3] = [20, 64, 250];
@@ -18,6 +18,14 @@ const STRIPS: [(usize, Order); 4] =
     [(20, Order::Turn), (20, Order::Edge), (64, Order::Turn), (64, Order::Edge)];
 /// The same where the surface is drawn: two facets of a plane, a fillet of few chords.
 const DRAWN_STRIPS: [(usize, Order); 3] = [(2, Order::Turn), (6, Order::Alike), (16, Order::Alike)];
+/// Facets of the first of them.
+const TWO: usize = 2;
+/// Planes in a row that are chords, facets looked at for them, the least quotient of the areas of neighbors there, and the cosine of
+/// the angle below which planes are two.
+const CHORDS: usize = 4;
+const ROW: usize = 24;
+const LIKE: f64 = 0.8;
+const FLAT: f64 = 1.0 - 1e-6;
 /// Points that an element is fitted to while it grows.
 const ENOUGH: usize = 1500;
 /// A region may grow this many times before its element is fitted again.
@@ -87,10 +95,29 @@ impl Context<'_> {
             let drawn = if self.surface.is_drawn { &DRAWN_STRIPS[..] } else { &[] };
             for &first in drawn.iter().chain(&STRIPS) {
                 let strip = strip(self.surface, seed, first, self.crease, marks, free);
+                if strip.len() <= TWO && self.is_chord(&strip, marks) {
+                    continue;
+                }
                 self.tried(&mut best, &strip, most, marks, free);
             }
         }
         best
+    }
+
+    /// Whether some facets in a plane are one of several like planes in a row that run into each other: chords of a curved face.
+    fn is_chord(&self, facets: &[u32], marks: &mut Marks) -> bool {
+        let surface = self.surface;
+        let across = |a: u32, b: u32| dot(surface.normals[a as usize], surface.normals[b as usize]);
+        let near = flood(surface, facets, ROW, marks, |piece, from| {
+            across(piece, from) >= self.crease && surface.likeness(piece, from) >= LIKE
+        });
+        let mut planes: Vec<u32> = vec![];
+        for piece in near {
+            if planes.iter().all(|p| across(*p, piece) < FLAT) {
+                planes.push(piece);
+            }
+        }
+        planes.len() >= CHORDS
     }
 
     /// Grows what each kind of element shows of a patch and keeps the best; whether no other can cover more than it, all

@@ -60,8 +60,9 @@ pub struct Options {
     pub tolerance: Option<f64>,
     /// Angle between neighboring pieces from which on there is an edge between them, radians.
     pub crease: f64,
-    /// Least share of the area, or of the points of a cloud, that a region must have.
-    pub min_share: f64,
+    /// Least share of the area, or of the points of a cloud, that a region must have. Without it 0.002 of what is measured, and
+    /// 0.0001 of what is drawn, where small faces are as certain as large ones.
+    pub min_share: Option<f64>,
     /// Fewest measured points of a region.
     pub min_points: usize,
     /// Seed of the random choices.
@@ -74,7 +75,7 @@ impl Default for Options {
             kinds: KINDS.to_vec(),
             tolerance: None,
             crease: 32f64.to_radians(),
-            min_share: 0.002,
+            min_share: None,
             min_points: 0,
             seed: 0,
         }
@@ -114,6 +115,8 @@ pub struct Segmentation {
     /// Distance up to which points belong to an element, millimeters: no measured point of a region's pieces lies farther
     /// off its element.
     pub tolerance: f64,
+    /// Least share of the regions.
+    pub min_share: f64,
 }
 
 /// Why nothing could be looked for.
@@ -206,8 +209,10 @@ fn check(points: &[Point], options: &Options) -> Result<(), SegmentError> {
     }
     let degrees = options.crease.to_degrees();
     within("crease", degrees, "between 1 and 89 degrees", (1.0..=89.0).contains(&degrees))?;
-    let percent = 100.0 * options.min_share;
-    within("least share", percent, "between 0 and 100 percent", (0.0..=100.0).contains(&percent))?;
+    if let Some(share) = options.min_share {
+        let percent = 100.0 * share;
+        within("least share", percent, "between 0 and 100 percent", (0.0..=100.0).contains(&percent))?;
+    }
     if !KINDS.iter().any(|kind| options.kinds.contains(kind)) {
         return Err(SegmentError::NoKind);
     }
@@ -216,6 +221,8 @@ fn check(points: &[Point], options: &Options) -> Result<(), SegmentError> {
 
 /// Standard deviations of the noise within which points belong to an element: form error comes on top of noise.
 const WIDTH: f64 = 8.0;
+/// Least shares of regions of what is measured, and of what is drawn.
+const SHARES: [f64; 2] = [0.002, 1e-4];
 /// Angles between a piece and its element that are always allowed and never exceeded.
 const ANGLES: [f64; 2] = [12.0, 45.0];
 
@@ -246,13 +253,14 @@ fn segment(
         size: bounds.diagonal(),
     };
     let total = surface.weights.iter().sum::<f64>();
-    let limits = Limits { weight: options.min_share * total, points: options.min_points, seed: options.seed };
+    let min_share = options.min_share.unwrap_or(SHARES[usize::from(surface.is_drawn)]);
+    let limits = Limits { weight: min_share * total, points: options.min_points, seed: options.seed };
     let (mut regions, mut labels) = search(&context, &limits, progress)?;
     merge::merge(&context, &mut regions, &mut labels);
     regions.par_iter_mut().for_each(|region| context.reconsidered(region));
     borders::move_borders(&context, &regions, &mut labels);
     let (regions, labels) = finished(&context, regions, &labels, total, &limits);
-    Ok(Segmentation { regions, labels, noise, tolerance })
+    Ok(Segmentation { regions, labels, noise, tolerance, min_share })
 }
 
 /// The regions as users get them, largest first, and their labels.

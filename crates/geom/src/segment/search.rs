@@ -124,9 +124,10 @@ fn enough(context: &Context, grown: &GrownRegion, limits: &Limits) -> bool {
     grown.weight >= limits.weight && points >= limits.points && is_shown(surface, kind, some, points)
 }
 
-/// Nothing starts from the seed and its nearest neighbors again.
+/// Nothing starts from the seed and its nearest neighbors again. Of what is drawn the next facet may be of another face.
 fn mark_tried(context: &Context, seed: u32, tried: &mut [bool], marks: &mut Marks) {
-    for piece in patch(context.surface, seed, TRIED, context.crease, marks, |_| true) {
+    let most = if context.surface.is_drawn { 1 } else { TRIED };
+    for piece in patch(context.surface, seed, most, context.crease, marks, |_| true) {
         tried[piece as usize] = true;
     }
     tried[seed as usize] = true;

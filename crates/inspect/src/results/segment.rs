@@ -125,7 +125,7 @@ impl SegmentDocument {
             tolerance: found.tolerance,
             tolerance_given: options.tolerance.is_some(),
             crease: options.crease,
-            min_share: options.min_share,
+            min_share: found.min_share,
             seed: options.seed,
             regions: found.regions.iter().enumerate().zip(listed).map(record).collect(),
         }

@@ -10,7 +10,7 @@ use crate::num::random::Random;
 use crate::progress::Silent;
 use crate::shape::{Kind, Parameter, Shape};
 use crate::space::{Aabb, Point, Vector, dot, minus, norm, times};
-use parts::{Part, bar, bored, pebble, sleeve, turned};
+use parts::{Part, bar, bored, elliptic, pebble, sleeve, turned};
 
 /// A plane, sphere, cylinder, cone and torus about one place, radius 5 there; of the torus' tube 2.
 pub(super) fn one_of_each(center: Point, direction: Vector, half_angle: f64) -> [Shape; 5] {
@@ -293,6 +293,28 @@ fn a_drawn_part_without_an_edge_is_exact() {
     }
 }
 
+/// Each chord of an ellipse is a plane of two facets, and none that was drawn.
+#[test]
+fn chords_of_a_free_curve_are_no_planes() {
+    let part = elliptic(48);
+    for part in [part.clone(), part.moved().single()] {
+        let found = mesh(&part.mesh, &Options::default(), &Silent).unwrap();
+        let planes = found.regions.iter().filter(|r| r.fit.shape.kind() == Kind::Plane).count();
+        assert_eq!(planes, 2, "{:?}", kinds(&found));
+    }
+}
+
+/// A bore of a part in four thousand of the surface: what is drawn is certain however small it is.
+#[test]
+fn a_small_bore_of_a_drawn_plate_is_found() {
+    let part = sleeve([0.5, 200.0, 20.0], None, 48);
+    for part in [part.clone(), part.moved().single()] {
+        let found = mesh(&part.mesh, &Options::default(), &Silent).unwrap();
+        matched(&part, &found, 1.0);
+        assert!(found.regions[3].share < 0.001 && found.min_share == 1e-4);
+    }
+}
+
 fn radius_of(shape: &Shape) -> f64 {
     match shape {
         Shape::Cylinder { radius, .. } | Shape::Sphere { radius, .. } => *radius,
@@ -369,7 +391,7 @@ fn only_the_kinds_asked_for_are_found() {
     let options = Options { kinds: vec![Kind::Plane, Kind::Sphere], ..Options::default() };
     let found = mesh(&part.mesh, &options, &Silent).unwrap();
     assert!(found.regions.iter().all(|r| options.kinds.contains(&r.fit.shape.kind())), "{:?}", kinds(&found));
-    let options = Options { min_share: 0.2, ..Options::default() };
+    let options = Options { min_share: Some(0.2), ..Options::default() };
     let found = mesh(&part.mesh, &options, &Silent).unwrap();
     assert!(!found.regions.is_empty() && found.regions.iter().all(|r| r.share >= 0.2), "{:?}", kinds(&found));
 }

@@ -7,6 +7,7 @@ use crate::space::{Point, Vector, cross, minus, norm, plus, times, unit};
 use std::f64::consts::TAU;
 
 /// A mesh, and for each facet the face that it was made of.
+#[derive(Clone)]
 pub(in crate::segment) struct Part {
     pub mesh: Mesh,
     pub labels: Vec<usize>,
@@ -162,9 +163,23 @@ pub(in crate::segment) fn bar([width, height]: [f64; 2], radius: f64, chords: us
             faces.push(Shape::Plane { point: [end[0], end[1], 0.0], normal: [cos, sin, 0.0] });
         }
     }
+    prism(&section, LONG, faces)
+}
+
+/// A bar of 100 mm whose section is an ellipse of so many chords, between two planes.
+pub(in crate::segment) fn elliptic(chords: usize) -> Part {
+    let turn = |k: usize| (TAU * k as f64 / chords as f64).sin_cos();
+    let section: Vec<([f64; 2], usize)> =
+        (0..chords).map(turn).map(|(sin, cos)| ([20.0 * cos, 8.0 * sin], 2)).collect();
+    let plane = |z| Shape::Plane { point: [0.0, 0.0, z], normal: AXIS };
+    prism(&section, 100.0, vec![plane(0.0), plane(100.0)])
+}
+
+/// A section, of corners and the faces that begin there, drawn along z between the first two faces.
+fn prism(section: &[([f64; 2], usize)], long: f64, faces: Vec<Shape>) -> Part {
     let count = section.len();
     let positions: Vec<Point> =
-        [0.0, LONG].into_iter().flat_map(|z| section.iter().map(move |&([x, y], _)| [x, y, z])).collect();
+        [0.0, long].into_iter().flat_map(|z| section.iter().map(move |&([x, y], _)| [x, y, z])).collect();
     let (mut triangles, mut labels) = (Vec::new(), Vec::new());
     for (k, &(_, face)) in section.iter().enumerate() {
         let [a, b] = [k, (k + 1) % count];
