@@ -336,6 +336,39 @@ impl<'a> FeatureSearch<'a> {
         places.iter().filter_map(nearest).collect()
     }
 
+    /// How far the round surface that a facet stands for may bulge over it, mm: for each side across which the mesh turns by less than
+    /// `crease` radians, an eighth of the turn times the width there. 0 of a facet without area.
+    ///
+    /// ```
+    /// use trueness_geom::closest::Tree;
+    /// use trueness_geom::feature::FeatureSearch;
+    /// use trueness_geom::mesh::Mesh;
+    /// // Two chords of a circle of radius 5, a tenth of a radian each.
+    /// let at = |k: i32| [5.0 * (0.1 * f64::from(k)).sin(), 5.0 * (0.1 * f64::from(k)).cos()];
+    /// let positions = (-1..=1).flat_map(|k| [[at(k)[0], 0.0, at(k)[1]], [at(k)[0], 1.0, at(k)[1]]]).collect();
+    /// let mesh = Mesh { positions, faces: vec![[0, 2, 3], [0, 3, 1], [2, 4, 5], [2, 5, 3]] };
+    /// let search = FeatureSearch::new(&mesh, Tree::build(&mesh)?);
+    /// let arrow = 5.0 * (1.0 - 0.05_f64.cos());
+    /// assert!((search.sag(0, 0.5) - arrow).abs() < 0.01 * arrow);
+    /// assert_eq!(search.sag(0, 0.05), 0.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn sag(&self, facet: u32, crease: f64) -> f64 {
+        let Some((corners, own)) = self.corners(facet).and_then(|c| Some((c, normal(c)?))) else {
+            return 0.0;
+        };
+        let [a, b, c] = corners;
+        let twice = norm(cross(minus(b, a), minus(c, a)));
+        let of_side = |k: usize| {
+            let edge = norm(minus(corners[(k + 1) % 3], corners[k]));
+            let facing = |f: u32| self.corners(f).and_then(normal);
+            let turns =
+                self.across(facet, k).filter_map(facing).map(|n| libm::acos(dot(own, n).clamp(-1.0, 1.0)));
+            turns.filter(|turn| *turn < crease).fold(0.0, f64::max) * twice / edge / 8.0
+        };
+        [0, 1, 2].map(of_side).into_iter().fold(0.0, f64::max)
+    }
+
     fn corners(&self, f: u32) -> Option<[Point; 3]> {
         let [a, b, c] = *self.mesh.faces.get(f as usize)?;
         let at = |v: u32| self.mesh.positions.get(v as usize).copied();

@@ -32,10 +32,16 @@ const WALL_REACH: f64 = 3.0;
 const MOST: f64 = 0.75;
 /// So many times nearer a face is clearly the nearer one.
 pub(super) const NEARER: f64 = 2.0;
+/// A point lies upon a round face that the reference has in chords if it is off by so many times their sag.
+const SAGS: f64 = 1.5;
+/// Angle between facets from which on there is an edge between them, radians.
+const CREASE: f64 = 32.0 / 180.0 * std::f64::consts::PI;
 /// A point between two faces that run along each other is of one if it is so many times nearer to it.
 const WITHIN: f64 = 10.0;
 /// A facet of the reference may be off the surface of the nominal by this share of the distance up to which points are sought.
 const ON: f64 = 1e-3;
+/// So many times the middle one of the distances of its facets from the nominal a facet of the same face may be off.
+const LEANS: f64 = 4.0;
 /// Distances that differ by less than this share of the size of the reference are the same.
 const SAME: f64 = 1e-9;
 
@@ -130,6 +136,7 @@ impl<'a> Belonging<'a> {
             let (face, off) = self.nearest[p as usize];
             let angle = normal(self.reference, face).zip(normal(&mesh, own)).map(|(a, b)| dot(a, b).abs());
             let is_aside = angle.is_some_and(|cosine| cosine < libm::cos(near.angle));
+            let upon = upon.max(SAGS * self.search.sag(face, CREASE));
             let is_nearer =
                 off + SAME * self.size < away && (is_aside && off <= upon || NEARER * off <= away);
             if is_nearer && off <= upon && (is_aside || WITHIN * off <= away) {
@@ -197,19 +204,30 @@ impl<'a> Belonging<'a> {
     /// Whether a facet of the reference lies on the surface of a nominal. The ground of a shallow pocket and the begin of a fillet are within
     /// its reach, and none of it.
     pub fn is_on(&self, surface: &NominalSurface, facet: u32, near: &Nearness) -> bool {
-        let on = (ON * near.distance).max(self.rounding);
-        let off = |v: u32| surface.distance(self.reference.positions[v as usize]).map_or(0.0, |d| d.0.abs());
-        self.reference.faces[facet as usize].iter().all(|v| off(*v) <= on)
+        self.off(surface, facet) <= self.on(near)
+    }
+
+    fn on(&self, near: &Nearness) -> f64 {
+        (ON * near.distance).max(self.rounding)
+    }
+
+    /// How far the farthest corner of a facet of the reference is off the surface of a nominal.
+    fn off(&self, surface: &NominalSurface, facet: u32) -> f64 {
+        let of = |v: u32| surface.distance(self.reference.positions[v as usize]).map_or(0.0, |d| d.0.abs());
+        self.reference.faces[facet as usize].iter().map(|v| of(*v)).fold(0.0, f64::max)
     }
 
     /// The facets of the reference that the nominal names, ascending: those joined to where it is begun, and those of its surface that
-    /// lie apart, beyond a groove or a slot.
+    /// lie apart, beyond a groove or a slot. A nominal may lean, by the digits it is written with.
     pub fn facets(&self, nominal: &Nominal, near: &Nearness, progress: &dyn Progress) -> Vec<u32> {
         let Some(surface) = nominal.surface() else { return vec![] };
         let Ok(found) = self.search.find(nominal, near, progress) else { return vec![] };
+        let mut off: Vec<f64> = found.facets.iter().map(|f| self.off(&surface, *f)).collect();
+        off.sort_unstable_by(f64::total_cmp);
+        let limit = off.get(off.len() / 2).map_or(0.0, |middle| LEANS * middle).max(self.on(near));
         let mut all = self.search.apart(&found, nominal, near, progress).unwrap_or_default();
-        all.retain(|f| self.is_on(&surface, *f, near));
         all.extend(&found.facets);
+        all.retain(|f| self.off(&surface, *f) <= limit);
         all.sort_unstable();
         all
     }

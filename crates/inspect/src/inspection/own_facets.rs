@@ -80,9 +80,15 @@ impl<'a> OwnFacets<'a> {
         Ok(Some(OwnFacets { belonging, distance, inward, on_surface, numbers, own, alike }))
     }
 
-    /// Whether each of these places, of facets that face as the feature does, is nearer to it than to others of the reference that face
-    /// so too.
-    pub(super) fn nearer(&self, places: &[Point], progress: &dyn Progress) -> Result<Vec<bool>, Stop> {
+    /// Whether each of these places, of facets that face as the feature does, is of it.
+    pub(super) fn are_own(&self, places: &[Point], progress: &dyn Progress) -> Result<Vec<bool>, Stop> {
+        let beside = self.beside(places, progress)?;
+        let nearer = self.nearer(places, progress)?;
+        Ok(nearer.into_iter().zip(beside).map(|(nearer, beside)| nearer && !beside).collect())
+    }
+
+    /// Whether each of these places is nearer to the feature than to others of the reference that face as it does.
+    fn nearer(&self, places: &[Point], progress: &dyn Progress) -> Result<Vec<bool>, Stop> {
         let Some(alike) = &self.alike else { return Ok(vec![true; places.len()]) };
         let away = |part: &Part| nearest(&part.tree, places, f64::INFINITY, progress);
         Ok(away(&self.own)?.into_iter().zip(away(alike)?).map(|(own, other)| own.1 <= other.1).collect())
@@ -90,7 +96,7 @@ impl<'a> OwnFacets<'a> {
 
     /// Whether each of these places is of a face of the reference beside the feature: beyond where this ends, and clearly nearer to that
     /// face, as on a fillet that leaves it as a tangent.
-    pub(super) fn beside(&self, places: &[Point], progress: &dyn Progress) -> Result<Vec<bool>, Stop> {
+    fn beside(&self, places: &[Point], progress: &dyn Progress) -> Result<Vec<bool>, Stop> {
         let on_all = nearest(self.belonging.search.tree(), places, f64::INFINITY, progress)?;
         let is_other = |n: &usize| self.on_surface.get(on_all[*n].0 as usize).is_some_and(|on| !on);
         let asked: Vec<usize> = (0..places.len()).filter(is_other).collect();

@@ -210,20 +210,14 @@ impl OfMesh<'_> {
             e => Stop::Mesh(e.to_string()),
         };
         if let Some(own) = &self.own {
-            let middles = places(&found.facets);
-            let beside = own.beside(&middles, progress)?;
-            let nearer = own.nearer(&middles, progress)?;
-            let kept = which(
-                &found.facets,
-                nearer.iter().zip(beside).map(|(near, aside)| *near && !aside).collect(),
-            );
+            let kept = which(&found.facets, own.are_own(&places(&found.facets), progress)?);
             if kept.len() < found.facets.len() {
                 found = facets.of(&kept, near);
             }
         }
         let apart = facets.apart(&found, nominal, near, progress).map_err(failed)?;
         let (joined, mut others) = match (&self.own, self.known) {
-            (Some(own), _) => (which(&apart, own.nearer(&places(&apart), progress)?), vec![]),
+            (Some(own), _) => (which(&apart, own.are_own(&places(&apart), progress)?), vec![]),
             (None, true) => (apart, vec![]),
             (None, false) => (vec![], apart),
         };

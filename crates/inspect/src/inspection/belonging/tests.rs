@@ -109,6 +109,41 @@ fn facets_of_a_fillet_are_no_part_of_the_plane() {
     }
 }
 
+/// Facets of the planes that leave a fillet as tangents face nearly as it does, and are none of it.
+#[test]
+fn facets_of_tangent_planes_are_no_part_of_a_fillet() {
+    let plan = Plan::parse(
+        r#"
+        schema = "trueness/plan/1"
+        measured = "part.stl"
+        [[feature]]
+        id = "R"
+        shape = "cylinder"
+        extract = { distance = 0.5 }
+        nominal = { point = [10, 0, -2], direction = [0, 1, 0], radius = 2, length = 20 }
+        [[characteristic]]
+        id = "1"
+        kind = "cylindricity"
+        feature = "R"
+        tolerance = 0.1
+        "#,
+    )
+    .unwrap();
+    let chord = |k: i32| {
+        let (sin, cos) = f64::from(10 * k).to_radians().sin_cos();
+        [10.0 + 2.0 * sin, 2.0 * cos - 2.0]
+    };
+    let mut lines = vec![[[-10.0, 0.0], chord(0)], [chord(9), [12.0, -8.0]]];
+    lines.extend((0..9).map(|k| [chord(k), chord(k + 1)]));
+    let data = Data { measured: Some(bar(true)), reference: Some(strips(&lines)), ..Data::default() };
+    let found = run(&plan, data, &Silent).unwrap();
+    // Nine chords of 51 × 51 points; their inner ones lie within the arrow over a chord of 10 degrees.
+    let value = found.values[0].as_ref().unwrap().value;
+    let arrow = 2.0 * (1.0 - libm::cos(5f64.to_radians()));
+    assert!((value - arrow).abs() < 1e-3, "{value} {arrow}");
+    assert_eq!(found.features[0].points.len(), 9 * 51 * 51);
+}
+
 /// Neither the upper ends of the walls nor the fillet, but for what faces as it does, are part of the plane between them.
 #[test]
 fn what_is_beside_a_plane_is_no_part_of_it() {
