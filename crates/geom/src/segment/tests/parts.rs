@@ -147,7 +147,8 @@ pub(in crate::segment) fn bar([width, height]: [f64; 2], radius: f64, chords: us
     const LONG: f64 = 100.0;
     let [x, y] = [0.5 * width - radius, 0.5 * height - radius];
     let middles = [[x, y], [-x, y], [-x, -y], [x, -y]];
-    let mut faces: Vec<Shape> = [0.0, LONG].map(|z| Shape::Plane { point: [0.0, 0.0, z], normal: AXIS }).to_vec();
+    let mut faces: Vec<Shape> =
+        [0.0, LONG].map(|z| Shape::Plane { point: [0.0, 0.0, z], normal: AXIS }).to_vec();
     let mut section: Vec<([f64; 2], usize)> = vec![];
     for (quarter, middle) in middles.into_iter().enumerate() {
         let from = 90.0 * quarter as f64;
