@@ -108,19 +108,9 @@ impl AlignNote {
                     100.0 * share
                 ),
             ),
-            AlignWarning::PoorRows { share, row, left, mirrored } => (
-                AlignNoteKind::Poor,
-                format!(
-                    "the places that belong together lie apart by {:.2} % of their size, row {} the most, by {left:.3} mm: {}",
-                    100.0 * share,
-                    row + 1,
-                    if *mirrored {
-                        "they look mirrored, as with the sign of an axis reversed"
-                    } else {
-                        "some do not belong together, or they are of another part"
-                    }
-                ),
-            ),
+            AlignWarning::PoorRows { share, row, left, mirrored } => {
+                (AlignNoteKind::Poor, poor_rows(*share, *row, *left, *mirrored))
+            }
             AlignWarning::Ambiguous { count } => (
                 AlignNoteKind::Ambiguous,
                 format!(
@@ -184,4 +174,17 @@ impl AlignNote {
         };
         AlignNote { kind: Word(kind), text }
     }
+}
+
+/// What is said of rows of places that do not fit.
+fn poor_rows(share: f64, row: usize, left: f64, mirrored: bool) -> String {
+    let why = match mirrored {
+        true => "they look mirrored, as with the sign of an axis reversed",
+        false => "some do not belong together, or they are of another part",
+    };
+    format!(
+        "the places that belong together lie apart by {:.2} % of their size, row {} the most, by {left:.3} mm: {why}",
+        100.0 * share,
+        row + 1
+    )
 }
