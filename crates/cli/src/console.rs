@@ -43,16 +43,23 @@ pub fn note(text: &str) {
 
 /// Prints an error and what led to it on stderr, as one line for each cause.
 pub fn error(error: &anyhow::Error) {
-    note(&format!("trueness: {error}"));
-    let mut last = error.to_string();
-    for cause in error.chain().skip(1) {
-        let text = cause.to_string();
-        // Transparent wrappers repeat their cause.
-        if !last.contains(&text) {
-            note(&format!("  because: {text}"));
-        }
-        last = text;
+    for (n, text) in causes(error).iter().enumerate() {
+        note(&format!("{}{text}", if n == 0 { "trueness: " } else { "  because: " }));
     }
+}
+
+/// An error and what led to it, a text each.
+pub fn causes(error: &anyhow::Error) -> Vec<String> {
+    let mut all: Vec<String> = vec![];
+    let mut last: Option<String> = None;
+    for text in error.chain().map(ToString::to_string) {
+        // Transparent wrappers repeat their cause.
+        if last.as_ref().is_none_or(|last| !last.contains(&text)) {
+            all.push(text.clone());
+        }
+        last = Some(text);
+    }
+    all
 }
 
 /// Lays rows out in columns: the first column flush left, the others flush right, two spaces between.

@@ -13,6 +13,8 @@ pub enum Outcome {
     Conforming,
     /// Done, but out of tolerance, not sound or undecided.
     NotConforming,
+    /// Some of what was asked has no answer. It was told; the exit status is this one.
+    Unanswered(u8),
 }
 
 /// What the help of a command says at its end: all exit statuses, of which `one` says what 1 means for it, then `rest`.
@@ -66,11 +68,17 @@ pub fn code(outcome: anyhow::Result<Outcome>) -> ExitCode {
     let error = match outcome {
         Ok(Outcome::Conforming) => return ExitCode::SUCCESS,
         Ok(Outcome::NotConforming) => return ExitCode::from(1),
+        Ok(Outcome::Unanswered(status)) => return ExitCode::from(status),
         Err(error) => error,
     };
     console::error(&error);
+    ExitCode::from(status(&error))
+}
+
+/// The exit status of a run that ends with this error.
+pub fn status(error: &anyhow::Error) -> u8 {
     let is = |test: fn(&(dyn std::error::Error + 'static)) -> bool| error.chain().any(test);
-    ExitCode::from(if is(is_usage) {
+    if is(is_usage) {
         2
     } else if is(|e| e.is::<Cancelled>()) {
         signals::status()
@@ -78,5 +86,5 @@ pub fn code(outcome: anyhow::Result<Outcome>) -> ExitCode {
         4
     } else {
         3
-    })
+    }
 }

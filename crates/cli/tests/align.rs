@@ -129,6 +129,34 @@ fn tables_of_places_give_the_motion() {
     }
 }
 
+/// Pairs of a mirror image, and one pair that is wrong: the result cannot be relied on, and the worst row is named.
+#[test]
+fn pairs_that_do_not_match_are_told() {
+    let folder = Folder::new();
+    let part = wedge();
+    let scan = folder.write("scan.off", part.text(&Rigid::IDENTITY));
+    let row = |p: &[f64; 3], q: [f64; 3]| format!("{} {} {} {} {} {}\n", p[0], p[1], p[2], q[0], q[1], q[2]);
+    let image: String = part.points.iter().map(|p| row(p, [p[0], p[1], -p[2]])).collect();
+    let wrong = |n: usize, p: &[f64; 3]| row(p, if n == 2 { [p[0], p[1] + 30.0, p[2]] } else { *p });
+    let one: String = part.points.iter().enumerate().map(|(n, p)| wrong(n, p)).collect();
+    let said = |rows: String| {
+        let table = folder.write("pairs.txt", rows);
+        let [scan, table] = [&scan, &table].map(|p| p.to_str().unwrap());
+        let words = ["align", scan, scan, "--method", "pairs", "--points", table];
+        let o = trueness(words);
+        assert_eq!((status(&o), stderr(&o).as_str()), (1, ""), "{}", stdout(&o));
+        let found = document(words);
+        assert_eq!(found["warnings"][0]["kind"], "poor");
+        let text = found["warnings"][0]["text"].as_str().unwrap().to_string();
+        assert!(stdout(&o).contains(&format!("! {text}\n")), "{}", stdout(&o));
+        text
+    };
+    let mirrored = said(image);
+    assert!(mirrored.contains("they look mirrored"), "{mirrored}");
+    let wrong = said(one);
+    assert!(wrong.contains(", row 3 the most, by 2") && wrong.contains("do not belong together"), "{wrong}");
+}
+
 #[test]
 fn wrong_questions_are_answered_with_the_place_and_the_remedy() {
     let folder = Folder::new();

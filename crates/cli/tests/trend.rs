@@ -206,6 +206,89 @@ fn what_makes_no_trend_is_told() {
     assert_eq!(status(&over), 2, "{}", stderr(&over));
 }
 
+/// What no inspection writes is refused with the file and the place, one edit at a time.
+#[test]
+fn results_that_contradict_themselves_are_refused() {
+    let folder = Folder::new();
+    let files = results(&folder, &[10.0, 10.1]);
+    let sound: Value = serde_json::from_str(&std::fs::read_to_string(&files[1]).unwrap()).unwrap();
+    assert_eq!(sound["verdict"], "pass");
+    type Edit = fn(&mut Value);
+    let cases: [(Edit, &str); 14] = [
+        (|d| d["verdict"] = "fail".into(), "its verdict is \"fail\", but the worst in it is \"pass\""),
+        (
+            |d| {
+                d["characteristics"][0]["verdict"] = "fail".into();
+                d["characteristics"][0]["value"] = 11.into();
+                d["counts"]["pass"] = 1.into();
+                d["counts"]["fail"] = 1.into();
+            },
+            "its verdict is \"pass\", but the worst in it is \"fail\"",
+        ),
+        (
+            |d| {
+                d["characteristics"][1]["verdict"] = "not_measured".into();
+                d["characteristics"][1]["value"] = Value::Null;
+                d["counts"]["pass"] = 1.into();
+                d["counts"]["not_measured"] = 1.into();
+            },
+            "its verdict is \"pass\", but the worst in it is \"not measured\"",
+        ),
+        (
+            |d| d["alignment"]["warnings"] = serde_json::json!([{ "kind": "poor", "text": "it is far off" }]),
+            "its verdict is \"pass\", but the worst in it is \"undecided\"",
+        ),
+        (|d| d["counts"]["pass"] = 1.into(), "its counts are not those of its characteristics"),
+        (|d| d["characteristics"][1]["id"] = "h".into(), "it has two characteristics \"h\""),
+        (|d| d["characteristics"][1]["unit"] = "in".into(), "\"f\" has the unit \"in\", not mm, deg, 1"),
+        (
+            |d| d["characteristics"][1]["value"] = (-1).into(),
+            "\"f\" has the value -1, but no zone is narrower",
+        ),
+        (
+            |d| d["characteristics"][0]["lower"] = 12.into(),
+            "\"h\" has the lower limit 12 above the upper one 10.5",
+        ),
+        (
+            |d| d["characteristics"][0]["uncertainty"] = (-0.5).into(),
+            "\"h\" has the negative uncertainty -0.5",
+        ),
+        (
+            |d| d["characteristics"][0]["interval"] = serde_json::json!([11, 10]),
+            "\"h\" has an interval from 11 to 10",
+        ),
+        (
+            |d| d["characteristics"][0]["verdict"] = "fail".into(),
+            "\"h\" has the verdict \"fail\" with a value within its limits",
+        ),
+        (
+            |d| d["characteristics"][0]["verdict"] = "not_measured".into(),
+            "\"h\" has the verdict \"not measured\" with a value",
+        ),
+        (
+            |d| {
+                d["characteristics"][0]["verdict"] = "undecided".into();
+                d["characteristics"][0]["value"] = Value::Null;
+            },
+            "\"h\" has the verdict \"undecided\" without a value",
+        ),
+    ];
+    for (edit, says) in cases {
+        let mut document = sound.clone();
+        edit(&mut document);
+        let edited = folder.write("edited.json", document.to_string());
+        let edited = edited.to_str().unwrap();
+        // As the only result, and as the second one.
+        for words in [vec!["trend", edited], vec!["trend", &files[0], edited]] {
+            let o = trueness(words);
+            assert_eq!((status(&o), stdout(&o).as_str()), (3, ""), "{says}: {}", stderr(&o));
+            assert!(stderr(&o).contains(says) && stderr(&o).contains(edited), "{says}: {}", stderr(&o));
+        }
+    }
+    let unchanged = folder.write("edited.json", sound.to_string());
+    assert_eq!(status(&trueness(["trend", unchanged.to_str().unwrap()])), 0);
+}
+
 /// Bars reach over the interval of a result; of a result without one, as far as its uncertainty.
 #[test]
 fn bars_show_where_the_true_value_lies() {
@@ -264,6 +347,7 @@ fn block(rise: f64, hole: bool) -> String {
 fn the_course_of_deviations_is_told(folder: &Folder, parts: &[String], [json, page]: [&str; 2]) {
     let mut second: Value = serde_json::from_str(&std::fs::read_to_string(&parts[1]).unwrap()).unwrap();
     second["deviation"]["tolerance"]["inside"] = 0.925.into();
+    second["deviation"]["verdict"] = "fail".into();
     second["verdict"] = "fail".into();
     let second = folder.write("second.json", second.to_string()).to_str().unwrap().to_string();
     let o = trueness(["trend", &parts[0], &second, &parts[2], "--json", json, "--html", page]);

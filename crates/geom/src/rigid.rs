@@ -3,7 +3,7 @@
 //! A motion is named target first: `reference_from_measured` takes coordinates of the measured frame to those of the
 //! reference frame, and `a_from_c = a_from_b.after(&b_from_c)`: the frames that meet have the same name.
 
-use crate::space::{Point, Vector, cross, dot, minus, norm, plus, times, unit};
+use crate::space::{MIN_COORDINATE, Point, Vector, cross, dot, minus, norm, plus, times, unit};
 
 /// A rotation followed by a translation: `x` goes to `R x + t`. Millimeters.
 ///
@@ -187,10 +187,18 @@ impl Rigid {
         self.translation
     }
 
-    /// Where the motion takes a place.
+    /// Where the motion takes a place. Coordinates below [`MIN_COORDINATE`] are 0: they are what rounding left of it, and no search
+    /// takes them.
+    ///
+    /// ```
+    /// use trueness_geom::rigid::Rigid;
+    /// let shift = Rigid::translation_by([1.0, 0.0, -1e-60]);
+    /// assert_eq!(shift.point([2.0, 1e-50, 0.0]), [3.0, 1e-50, 0.0]);
+    /// ```
     #[inline(always)]
     pub fn point(&self, p: Point) -> Point {
-        plus(self.rows.map(|r| dot(r, p)), self.translation)
+        let moved = plus(self.rows.map(|r| dot(r, p)), self.translation);
+        moved.map(|x| if x.abs() < MIN_COORDINATE { 0.0 } else { x })
     }
     /// What the motion makes of a direction: only the rotation acts.
     #[inline(always)]

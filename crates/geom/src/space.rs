@@ -8,6 +8,10 @@ pub type Point = [f64; 3];
 /// A direction or difference of two places, millimeters.
 pub type Vector = [f64; 3];
 
+/// Smallest coordinate of a place that is not zero, millimeters: the fourth power of what is smaller leaves the range of
+/// normal numbers, and distances would lose their digits without a word. Searches refuse smaller ones.
+pub const MIN_COORDINATE: f64 = 1e-50;
+
 /// Scalar product.
 #[inline(always)]
 pub fn dot(a: Vector, b: Vector) -> f64 {

@@ -42,7 +42,10 @@ pub struct Alternative {
     pub ratio: f64,
 }
 
-/// What is to be said about a best fit.
+/// Share of the size from which on what is left of a fit is poor.
+pub(super) const POOR: f64 = 0.01;
+
+/// What is to be said about an alignment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum AlignWarning {
     /// Half of the points are farther from the reference than this share of the size of the smaller of both: it is hardly
@@ -50,6 +53,18 @@ pub enum AlignWarning {
     Poor {
         /// Median distance over the diagonal.
         share: f64,
+    },
+    /// The rows that belong together still lie apart, root mean square, by more than a hundredth of their size: some do not belong
+    /// together, or they are of another part.
+    PoorRows {
+        /// That root mean square over the diagonal of the smaller of both boxes.
+        share: f64,
+        /// The worst row, from 0.
+        row: usize,
+        /// What is left of it, millimeters.
+        left: f64,
+        /// Whether a mirror image would leave less than half as much.
+        mirrored: bool,
     },
     /// Other poses fit about as well.
     Ambiguous {

@@ -1,5 +1,6 @@
 //! The best fit from any pose: start, iteration, and what the result is worth.
 
+use super::alignment::POOR;
 use super::icp::{MOST, Match, Problem, weighted_median};
 use super::sample::{Measured, Samples};
 use super::start::{Candidate, Search};
@@ -27,8 +28,6 @@ const EQUAL: f64 = 1.01;
 const PROMISING: f64 = 4.0;
 /// Worth of a start below which normals are tried the other way round.
 const DOUBTFUL: f64 = 0.6;
-/// Median distance over diagonal from which on a fit is poor.
-const POOR: f64 = 0.01;
 /// Fewer points than these are found wrongly now and then: of clouds of 20 about one in ten, of 25 none in tries with a bracket.
 const SPARSE: usize = 50;
 /// Share of the measured that counts below which the start is looked for again, so many times, with other samples and pairs.

@@ -1,12 +1,13 @@
 //! Alignment by places that belong together: pairs of points, and rows of a measured point, its nominal place and the
 //! direction in which it is held, as in 3-2-1 and reference point systems.
 
-use super::AlignError;
+use super::alignment::POOR;
 use super::icp::moved;
 use super::system::{Constraint, Equation, SixBySix, Spectrum, System, eigen_six};
+use super::{AlignError, AlignWarning};
 use crate::closest::check_points;
 use crate::rigid::Rigid;
-use crate::space::{Point, Vector, dot, minus, norm, plus, times, unit};
+use crate::space::{Aabb, Point, Vector, dot, minus, norm, plus, times, unit};
 
 /// One row of a reference point system: the measured point is to lie in the plane through `nominal` across `direction`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,6 +35,8 @@ pub struct RowFit {
     pub iterations: usize,
     /// Whether the steps settled.
     pub converged: bool,
+    /// What is to be said about it.
+    pub warnings: Vec<AlignWarning>,
 }
 
 /// The motion that brings `measured[i]` nearest to `reference[i]`, by the least weighted sum of squared distances.
@@ -71,6 +74,29 @@ pub fn pairs(measured: &[Point], reference: &[Point], weights: Option<&[f64]>) -
     if there < 3 {
         return Err(AlignError::TooFewPoints { needed: 3, found: there });
     }
+    let fit = |measured: &[Point]| nearest(measured, reference, &weight, total);
+    let Some((motion, residuals)) = fit(measured) else { return Err(AlignError::Collinear) };
+    let left = |residuals: &[f64]| mean_square(residuals, &weight, total).sqrt();
+    let rms = left(&residuals);
+    let mut poor = poor([measured, reference], &residuals, &weight, rms);
+    if let Some(AlignWarning::PoorRows { mirrored, .. }) = &mut poor {
+        let image: Vec<Point> = measured.iter().map(|[x, y, z]| [-x, *y, *z]).collect();
+        *mirrored = fit(&image).is_some_and(|(_, residuals)| left(&residuals) < MIRRORED * rms);
+    }
+    let warnings = poor.into_iter().collect();
+    Ok(RowFit { reference_from_measured: motion, residuals, rms, iterations: 1, converged: true, warnings })
+}
+
+/// What a mirror image may leave of pairs, over what they leave, for them to look mirrored.
+const MIRRORED: f64 = 0.5;
+
+/// The motion of the least weighted sum of squares and the distances that it leaves; `None` where another does as well.
+fn nearest(
+    measured: &[Point],
+    reference: &[Point],
+    weight: &impl Fn(usize) -> f64,
+    total: f64,
+) -> Option<(Rigid, Vec<f64>)> {
     let mean = |p: &[Point]| (0..p.len()).fold([0.0; 3], |s, i| plus(s, times(weight(i) / total, p[i])));
     let (from, to) = (mean(measured), mean(reference));
     // Correlation of the centered points: s[a][b] = Σ w p_a q_b.
@@ -85,13 +111,26 @@ pub fn pairs(measured: &[Point], reference: &[Point], weights: Option<&[f64]>) -
     }
     let (rows, certain) = quaternion_rotation(&s);
     if !certain {
-        return Err(AlignError::Collinear);
+        return None;
     }
     let motion = Rigid::of_rotation(rows, from, to);
-    let residuals: Vec<f64> =
-        measured.iter().zip(reference).map(|(p, q)| norm(minus(motion.point(*p), *q))).collect();
-    let rms = mean_square(&residuals, &weight, total).sqrt();
-    Ok(RowFit { reference_from_measured: motion, residuals, rms, iterations: 1, converged: true })
+    let distances = measured.iter().zip(reference).map(|(p, q)| norm(minus(motion.point(*p), *q)));
+    Some((motion, distances.collect()))
+}
+
+/// Told of rows of which much is left for the size of their places, the measured and those of the reference.
+fn poor(
+    places: [&[Point]; 2],
+    residuals: &[f64],
+    weight: &impl Fn(usize) -> f64,
+    rms: f64,
+) -> Option<AlignWarning> {
+    let counts: Vec<usize> = (0..residuals.len()).filter(|&i| weight(i) > 0.0).collect();
+    let [a, b] = places.map(|p| Aabb::of(counts.iter().map(|&i| &p[i])).diagonal());
+    let share = rms / a.min(b);
+    let row = counts.into_iter().max_by(|&i, &j| residuals[i].abs().total_cmp(&residuals[j].abs()))?;
+    let left = residuals[row].abs();
+    (share > POOR).then_some(AlignWarning::PoorRows { share, row, left, mirrored: false })
 }
 
 /// The rotation of greatest `Σ s_ab R_ba`, and whether no other does as well.
@@ -196,7 +235,9 @@ pub fn constrained(rows: &[Row], start: Option<Rigid>) -> Result<RowFit, AlignEr
     }
     let residuals: Vec<f64> = (0..rows.len()).map(|i| residual(&pose, i)).collect();
     let rms = mean_square(&residuals, &weight, total).sqrt();
-    Ok(RowFit { reference_from_measured: pose, residuals, rms, iterations, converged })
+    let settled = (!converged).then_some(AlignWarning::NotConverged);
+    let warnings = poor([&measured, &nominal], &residuals, &weight, rms).into_iter().chain(settled).collect();
+    Ok(RowFit { reference_from_measured: pose, residuals, rms, iterations, converged, warnings })
 }
 
 /// The sum of the weights, each of which must be a number from 0 upwards, and not all of them 0.

@@ -5,11 +5,10 @@ use crate::parallel::prelude::*;
 use crate::progress::Cancelled;
 use crate::space::Point;
 
+pub use crate::space::MIN_COORDINATE;
+
 /// Largest coordinate of a point accepted, millimeters.
 pub const MAX_COORDINATE: f64 = 1e60;
-/// Smallest coordinate accepted that is not zero, millimeters: the fourth power of what is smaller leaves the range of
-/// normal numbers, and distances would lose their digits without a word.
-pub const MIN_COORDINATE: f64 = 1e-50;
 /// Largest coordinate of a vertex accepted, millimeters: the fourth power of it and the square of that of a point, whose
 /// product the distance to a plane needs, are still in the range of numbers.
 pub const MAX_VERTEX: f64 = 1e45;

@@ -68,7 +68,8 @@ pub(super) fn aligned(
     progress: &dyn Progress,
 ) -> Result<(Data, Alignment), Stop> {
     let rows = |fit: Result<RowFit, AlignError>| {
-        let fit = fit.map_err(failed)?;
+        // The places stand in the plan.
+        let fit = fit.map_err(|e| failed(e).nominal())?;
         Ok::<_, Stop>(Alignment { motion: fit.reference_from_measured, found: Found::Rows(fit) })
     };
     let mut alignment = match &plan.align {
@@ -171,7 +172,7 @@ fn best_fitted(
     let (Some(measured), Some(reference)) = (&data.measured, &data.reference) else {
         return Err(Stop::Align("one of them is not there".into()));
     };
-    let tree = Tree::build_watched(reference, progress).map_err(|e| failed(e.into()))?;
+    let tree = Tree::build_watched(reference, progress).map_err(|e| failed(e.into()).nominal())?;
     let points = &measured.positions;
     let measured = match measured.faces.is_empty() {
         true => Measured::Points { points, normals: None },
@@ -182,10 +183,10 @@ fn best_fitted(
     let fit = best_fit(&measured, &target, &options, progress).map_err(failed)?;
     if let (Align::Zones, Some(asked)) = (&plan.align, &plan.deviation) {
         let surface = ReferenceSurface::new(&tree, reference, &SurfaceOptions::default(), progress)
-            .map_err(|e| Stop::Align(e.to_string()))?;
+            .map_err(|e| Stop::Align(e.to_string()).nominal())?;
         let rules = deviation::regions(asked, plan, seeds, reference, progress)?;
         let regions = Regions::new(&rules, reference, &tree, data.seed, progress)
-            .map_err(|e| Stop::Align(e.to_string()))?;
+            .map_err(|e| Stop::Align(e.to_string()).nominal())?;
         let zones = |face, place: &_| regions.allowed(face, place, asked.tolerance);
         let found =
             into_zones(&measured, &target, &surface, &zones, &fit, &options, progress).map_err(failed)?;
@@ -215,27 +216,28 @@ pub(super) fn by_datums(
             wrong(format!("alignment by datums: {what}"))
         }
     };
+    // How a part was made is no fault of the plan, whose nominals make a system.
+    let of_part = |missing: Missing| match missing {
+        Missing::Cancelled => Stop::Cancelled,
+        Missing::NotMeasured(what) | Missing::Impossible(what) => Stop::Align(what),
+    };
     let mut nominals = vec![];
     let mut sources = vec![];
     for &n in datums {
         let of = &taken[n];
         let nominal = of.nominal.as_ref().map(nominal_datum);
         nominals.push(nominal.ok_or_else(|| wrong(format!("feature \"{}\" has no nominal", of.id)))?);
-        let source = datum_source(of, of).map_err(|e| match e {
-            Missing::Cancelled => Stop::Cancelled,
-            Missing::NotMeasured(what) | Missing::Impossible(what) => Stop::Align(what),
-        })?;
-        sources.push(vec![source]);
+        sources.push(vec![datum_source(of, of).map_err(of_part)?]);
     }
     let nominal = System::of(&nominals).map_err(impossible)?;
     if !nominal.free.is_none() {
         let what = "the datums leave degrees of freedom open; name datums that hold all six";
         return Err(wrong(what.into()));
     }
-    let measured = System::associated(&sources, rule, progress).map_err(impossible)?;
+    let measured = System::associated(&sources, rule, progress).map_err(|e| of_part(e.into()))?;
     // An axis has no sense of its own: it takes that of the model.
     let facing: Vec<Datum> = measured.datums.iter().zip(&nominals).map(|(m, n)| faced(*m, *n)).collect();
-    let measured = System::of(&facing).map_err(impossible)?;
+    let measured = System::of(&facing).map_err(|e| of_part(e.into()))?;
     Ok(nominal.frame.inverse().after(&measured.frame))
 }
 

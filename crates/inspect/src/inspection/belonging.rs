@@ -74,7 +74,7 @@ impl<'a> Belonging<'a> {
         if !sought || reference.faces.is_empty() {
             return Ok(None);
         }
-        let tree = Tree::build_watched(reference, progress).map_err(|e| Stop::Mesh(e.to_string()))?;
+        let tree = Tree::build_watched(reference, progress).map_err(|e| Stop::Nominal(e.to_string()))?;
         let bounds = reference.bounds();
         let size = bounds.diagonal();
         let greatest = bounds.min.iter().chain(&bounds.max).fold(0.0, |m: f64, x| m.max(x.abs()));

@@ -47,6 +47,9 @@ pub enum Stop {
         /// What is wrong.
         what: String,
     },
+    /// What is the same for every part cannot be used: the reference, or the places that the plan aligns by.
+    #[error("{0}")]
+    Nominal(String),
     /// The measured mesh cannot be searched.
     #[error("{0}")]
     Mesh(String),
@@ -59,6 +62,21 @@ pub enum Stop {
     /// The result is no longer wanted.
     #[error("cancelled")]
     Cancelled,
+}
+
+impl Stop {
+    /// Whether it is of this part: another one of the same plan may be inspected all the same.
+    pub fn of_part(&self) -> bool {
+        match self {
+            Stop::Mesh(_) | Stop::Align(_) | Stop::Deviation(_) => true,
+            Stop::Plan { .. } | Stop::Nominal(_) | Stop::Cancelled => false,
+        }
+    }
+
+    /// The same, known to be of every part.
+    pub(super) fn nominal(self) -> Stop {
+        if self.of_part() { Stop::Nominal(self.to_string()) } else { self }
+    }
 }
 
 impl From<Cancelled> for Stop {

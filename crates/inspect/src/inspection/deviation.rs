@@ -104,6 +104,7 @@ pub(super) fn deviations(
     let found = compare::run(&mut points, &references, &options, progress, |_| Ok::<(), Infallible>(()));
     let found = found.map_err(|e| match e {
         CompareError::Query(QueryError::Cancelled(e)) => e.into(),
+        e @ CompareError::Reference { .. } => Stop::Nominal(e.to_string()),
         e => Stop::Deviation(e.to_string()),
     })?;
     let kind = if measured.faces.is_empty() { MeasuredKind::Points } else { MeasuredKind::Vertices };
@@ -121,7 +122,7 @@ pub(super) fn regions(
     if asked.regions.iter().all(|r| r.feature.is_none()) {
         return Ok(asked.regions.iter().map(|r| r.rule.clone()).collect());
     }
-    let tree = Tree::build_watched(reference, progress).map_err(|e| Stop::Mesh(e.to_string()))?;
+    let tree = Tree::build_watched(reference, progress).map_err(|e| Stop::Nominal(e.to_string()))?;
     let search = FeatureSearch::new(reference, tree);
     let rule = |region: &crate::plan::ToleranceRegion| -> Result<RegionRule, Stop> {
         let Some(number) = region.feature else { return Ok(region.rule.clone()) };

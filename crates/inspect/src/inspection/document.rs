@@ -110,6 +110,7 @@ impl AlignmentRecord {
                 residuals: Some(fit.residuals.clone()),
                 iterations: Some(fit.iterations as u64),
                 converged: Some(fit.converged),
+                warnings: fit.warnings.iter().map(AlignNote::of).collect(),
                 ..bare
             },
         };

@@ -55,7 +55,7 @@ impl PoseNoise {
         else {
             return Ok(PoseNoise::None);
         };
-        let tree = Tree::build_watched(reference, progress).map_err(|e| Stop::Mesh(e.to_string()))?;
+        let tree = Tree::build_watched(reference, progress).map_err(|e| Stop::Nominal(e.to_string()))?;
         let points = &measured.positions;
         let of = match measured.faces.is_empty() {
             true => Measured::Points { points, normals: None },

@@ -33,9 +33,9 @@ pub(super) fn seeded(
     let options = segment::Options { seed: data.seed, ..segment::Options::default() };
     let found = segment::mesh(reference, &options, progress).map_err(|e| match e {
         SegmentError::Cancelled(e) => e.into(),
-        e => Stop::Mesh(format!("the reference cannot be segmented: {e}")),
+        e => Stop::Nominal(format!("the reference cannot be segmented: {e}")),
     })?;
-    let tree = Tree::build_watched(reference, progress).map_err(|e| Stop::Mesh(e.to_string()))?;
+    let tree = Tree::build_watched(reference, progress).map_err(|e| Stop::Nominal(e.to_string()))?;
     for (number, feature) in plan.features.iter().enumerate() {
         let Source::Seed(seed) = &feature.source else { continue };
         let wrong = |what: String| Stop::Plan {

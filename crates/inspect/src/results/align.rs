@@ -1,12 +1,14 @@
 //! `trueness/align/1`: the motion that brings a measured part onto its reference.
 
+mod note;
 pub(crate) mod page;
 
-use super::word::named;
-use super::{InputRecord, UNITS, VERSION, Word};
+pub use note::{AlignNote, AlignNoteKind};
+
+use super::{InputRecord, UNITS, VERSION};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use trueness_geom::align::{AlignWarning, Alignment, Freedom, InZones, Minimax, RowFit};
+use trueness_geom::align::{Alignment, Freedom, InZones, Minimax, RowFit};
 
 /// Name of this document's schema.
 pub const SCHEMA: &str = "trueness/align/1";
@@ -195,95 +197,6 @@ pub struct PairRecord {
     pub residual: f64,
 }
 
-/// Something to be said about an alignment.
-#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
-pub struct AlignNote {
-    /// `poor`, `ambiguous`, `free`, `normals_turned`, `scale`, `few`, `unconfirmed`, `left_out` or `not_converged`; of an inspection also `size_ratio` and
-    /// `hardly_overlapping`.
-    pub kind: Word<AlignNoteKind>,
-    /// One sentence for people.
-    pub text: String,
-}
-
-/// What a note is about.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum AlignNoteKind {
-    /// Half of the points are far off.
-    Poor,
-    /// Other poses fit about as well.
-    Ambiguous,
-    /// A motion is free.
-    Free,
-    /// The normals were turned round.
-    NormalsTurned,
-    /// The measured fits when it is larger or smaller.
-    Scale,
-    /// Few points were given.
-    Few,
-    /// One of several searches alone found the pose.
-    Unconfirmed,
-    /// Much of the measured does not count.
-    LeftOut,
-    /// The iteration did not settle.
-    NotConverged,
-    /// The measured and the nominal part have different sizes.
-    SizeRatio,
-    /// The measured and the nominal part hardly overlap.
-    HardlyOverlapping,
-}
-
-impl AlignNoteKind {
-    /// All, in the order above.
-    pub const ALL: [AlignNoteKind; 11] = [
-        AlignNoteKind::Poor,
-        AlignNoteKind::Ambiguous,
-        AlignNoteKind::Free,
-        AlignNoteKind::NormalsTurned,
-        AlignNoteKind::Scale,
-        AlignNoteKind::Few,
-        AlignNoteKind::Unconfirmed,
-        AlignNoteKind::LeftOut,
-        AlignNoteKind::NotConverged,
-        AlignNoteKind::SizeRatio,
-        AlignNoteKind::HardlyOverlapping,
-    ];
-
-    /// Its name in documents.
-    pub fn name(self) -> &'static str {
-        match self {
-            AlignNoteKind::Poor => "poor",
-            AlignNoteKind::Ambiguous => "ambiguous",
-            AlignNoteKind::Free => "free",
-            AlignNoteKind::NormalsTurned => "normals_turned",
-            AlignNoteKind::Scale => "scale",
-            AlignNoteKind::Few => "few",
-            AlignNoteKind::Unconfirmed => "unconfirmed",
-            AlignNoteKind::LeftOut => "left_out",
-            AlignNoteKind::NotConverged => "not_converged",
-            AlignNoteKind::SizeRatio => "size_ratio",
-            AlignNoteKind::HardlyOverlapping => "hardly_overlapping",
-        }
-    }
-
-    /// Whether the alignment may be relied on no longer. What the shape leaves free, normals that were turned round, and
-    /// what was left out, are only told.
-    pub fn is_doubt(self) -> bool {
-        match self {
-            AlignNoteKind::Free | AlignNoteKind::NormalsTurned | AlignNoteKind::LeftOut => false,
-            AlignNoteKind::Poor
-            | AlignNoteKind::Ambiguous
-            | AlignNoteKind::Scale
-            | AlignNoteKind::Few
-            | AlignNoteKind::Unconfirmed
-            | AlignNoteKind::NotConverged
-            | AlignNoteKind::SizeRatio
-            | AlignNoteKind::HardlyOverlapping => true,
-        }
-    }
-}
-
-named!(AlignNoteKind, "kind of note", Self::ALL, |kind| kind.name());
-
 impl From<&Freedom> for FreeMotion {
     fn from(freedom: &Freedom) -> FreeMotion {
         match *freedom {
@@ -292,84 +205,6 @@ impl From<&Freedom> for FreeMotion {
                 FreeMotion { kind: "turns".into(), direction, point: Some(point) }
             }
         }
-    }
-}
-
-impl AlignNote {
-    /// Of a warning of the best fit.
-    pub fn of(warning: &AlignWarning) -> AlignNote {
-        let three = |v: [f64; 3]| format!("({:.3} {:.3} {:.3})", v[0], v[1], v[2]);
-        let (kind, text) = match warning {
-            AlignWarning::Poor { share } => (
-                AlignNoteKind::Poor,
-                format!(
-                    "half of the points are farther than {:.2} % of the size from the reference: it is hardly the same part, or its \
-                     place was not found",
-                    100.0 * share
-                ),
-            ),
-            AlignWarning::Ambiguous { count } => (
-                AlignNoteKind::Ambiguous,
-                format!(
-                    "{count} other {} as well: the part looks the same in several ways",
-                    if *count == 1 { "pose fits about" } else { "poses fit about" }
-                ),
-            ),
-            AlignWarning::Free(Freedom::Slides { direction }) => (
-                AlignNoteKind::Free,
-                format!("the shape leaves it free to slide along {}", three(*direction)),
-            ),
-            AlignWarning::Free(Freedom::Turns { point, direction }) => (
-                AlignNoteKind::Free,
-                format!(
-                    "the shape leaves it free to turn about the axis along {} through {}",
-                    three(*direction),
-                    three(*point)
-                ),
-            ),
-            AlignWarning::NormalsTurned => (
-                AlignNoteKind::NormalsTurned,
-                "the measured normals point inward; they were turned round".into(),
-            ),
-            AlignWarning::Scale { factor } => (
-                AlignNoteKind::Scale,
-                format!(
-                    "the measured fits when it is {factor:.6} times as large: is a unit wrong? (--units, --reference-units; `units` of a plan)"
-                ),
-            ),
-            AlignWarning::Few { count } => (
-                AlignNoteKind::Few,
-                format!(
-                    "{count} points are few for a search from any pose: look at the result, or align roughly and start \
-                     --from-here, or give --method pairs"
-                ),
-            ),
-            AlignWarning::Unconfirmed { searches } => (
-                AlignNoteKind::Unconfirmed,
-                format!(
-                    "many points do not lie on the reference, and one of {searches} searches alone found this pose: look at the \
-                     result, or align roughly and start --from-here"
-                ),
-            ),
-            AlignWarning::LeftOut { share, farthest, limit } => (
-                AlignNoteKind::LeftOut,
-                format!(
-                    "{:.0} % of the measured does not count{}: the rest lies within {limit:.4} mm; where it is the part that is off \
-                     there, align by --method chebyshev or by datums",
-                    100.0 * share,
-                    // Beyond reach of the search nothing has a place.
-                    if *farthest > *limit {
-                        format!(", it lies up to {farthest:.4} mm from the reference")
-                    } else {
-                        String::new()
-                    }
-                ),
-            ),
-            AlignWarning::NotConverged => {
-                (AlignNoteKind::NotConverged, "the iteration did not settle".into())
-            }
-        };
-        AlignNote { kind: Word(kind), text }
     }
 }
 
@@ -463,7 +298,6 @@ impl AlignDocument {
     pub fn of_rows(found: &RowFit, method: &str, inputs: Vec<InputRecord>, seed: u64) -> AlignDocument {
         let count = found.residuals.len().max(1) as f64;
         let row = |(row, residual): (usize, &f64)| PairRecord { row: row as u64, residual: *residual };
-        let note = AlignNote::of(&AlignWarning::NotConverged);
         AlignDocument {
             schema: SCHEMA.into(),
             version: VERSION.into(),
@@ -482,7 +316,7 @@ impl AlignDocument {
             chebyshev: None,
             zones: None,
             pairs: found.residuals.iter().enumerate().map(row).collect(),
-            warnings: if found.converged { vec![] } else { vec![note] },
+            warnings: found.warnings.iter().map(AlignNote::of).collect(),
             seed,
         }
     }

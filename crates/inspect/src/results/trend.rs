@@ -1,5 +1,6 @@
 //! `trueness/trend/1`: one plan over many parts.
 
+mod contradiction;
 mod deviation;
 mod page;
 mod record;
@@ -94,7 +95,7 @@ impl TrendDocument {
             }
         }
         for (index, result) in results.iter().enumerate() {
-            if let Some(what) = contradiction(result) {
+            if let Some(what) = contradiction::contradiction(result) {
                 return Err(TrendError::Changed { index, what });
             }
         }
@@ -193,27 +194,6 @@ fn map(results: &[InspectDocument]) -> Result<(Option<TrendMap>, Option<String>)
     Ok((found?, None))
 }
 
-/// What no inspection writes: the document was changed since.
-fn contradiction(result: &InspectDocument) -> Option<String> {
-    if result.units != UNITS {
-        return Some(format!("its units are \"{}\", not \"{UNITS}\"", result.units));
-    }
-    result.characteristics.iter().find_map(|c| {
-        let judged = matches!(c.verdict, Verdict::Pass | Verdict::Fail);
-        let what = match c.value {
-            None if judged => "without a value",
-            // Limits in degrees are rounded on their own.
-            Some(x) if c.verdict == Verdict::Pass => {
-                let hair = 1e-9 * x.abs().max(1e-3);
-                let within = c.lower.is_none_or(|l| x >= l - hair) && x <= c.upper + hair;
-                if within { return None } else { "with a value beyond its limits" }
-            }
-            _ => return None,
-        };
-        Some(format!("characteristic \"{}\" has the verdict \"{}\" {what}", c.id, c.verdict.word()))
-    })
-}
-
 /// What distinguishes the characteristics of a result from those of the first one.
 fn difference(first: &InspectDocument, other: &InspectDocument) -> Option<String> {
     let ids =
@@ -237,6 +217,7 @@ fn difference(first: &InspectDocument, other: &InspectDocument) -> Option<String
             ("feature", c.feature.clone(), f.feature.clone()),
             ("list of datums", c.datums.join(" "), f.datums.join(" ")),
             ("list of modifiers", c.modifiers.join(", "), f.modifiers.join(", ")),
+            ("unit", c.unit.clone(), f.unit.clone()),
             ("nominal value", number(c.nominal), number(f.nominal)),
             ("tolerance", number(c.tolerance), number(f.tolerance)),
             ("lower limit", number(c.lower), number(f.lower)),

@@ -1,5 +1,6 @@
 //! The plan's file, and the files that it names.
 
+use super::part::Fault;
 use crate::read::{self, Body, Opened};
 use anyhow::{Context, anyhow, bail};
 use std::collections::BTreeMap;
@@ -76,6 +77,25 @@ impl PlanFile {
         format!("{}: {}", self.path.display(), PlanError::at(&self.text, &written.span, what))
     }
 
+    /// What a part is called: its file, that of the plan's measured data, or the plan.
+    pub fn name_of(&self, part: Option<&Path>) -> String {
+        let own = || self.plan.measured.as_ref().map_or_else(|| self.path.clone(), |own| self.path_of(own));
+        part.map_or_else(own, Path::to_owned).display().to_string()
+    }
+
+    /// Reads the measured data at `path`.
+    fn measured(&self, path: &Path, options: &ReadOptions, data: &mut Data) -> anyhow::Result<InputRecord> {
+        let (mesh, record, _) = take(path, options)?;
+        if let Some(what) = self.plan.deviation.as_ref().and_then(|d| d.needs_normals())
+            && mesh.faces.is_empty()
+        {
+            let what = format!("{what} of [deviation]");
+            data.normals = read::all_normals(path, None, options, &what, "")?;
+        }
+        data.measured = Some(mesh);
+        Ok(record)
+    }
+
     /// Everything measured, with `part` in place of the plan's own measured data.
     /// `shown` points are kept for a report.
     pub fn data(
@@ -83,28 +103,20 @@ impl PlanFile {
         part: Option<&Path>,
         seed: u64,
         shown: usize,
-    ) -> anyhow::Result<(Data, Vec<InputRecord>)> {
+    ) -> Result<(Data, Vec<InputRecord>), Fault> {
         // A file that says its unit knows better than the plan.
         let unit_else = self.plan.units.and_then(|u| u.name().parse().ok());
         let options = ReadOptions { unit_else, ..ReadOptions::default() };
         let (mut data, mut inputs) = (Data { seed, shown, ..Data::default() }, Vec::new());
         if let Some(own) = &self.plan.measured {
             let path = part.map_or_else(|| self.path_of(own), Path::to_owned);
-            let taken = take(&path, &options);
-            let (mesh, record, _) = match part {
-                Some(_) => taken?,
-                None => taken.with_context(|| {
-                    self.at(own, "the measured data (--measured FILE names another file)")
-                })?,
+            let measured = self.measured(&path, &options, &mut data);
+            let measured = match part {
+                Some(_) => measured,
+                None => measured
+                    .with_context(|| self.at(own, "the measured data (--measured FILE names another file)")),
             };
-            if let Some(what) = self.plan.deviation.as_ref().and_then(|d| d.needs_normals())
-                && mesh.faces.is_empty()
-            {
-                let what = format!("{what} of [deviation]");
-                data.normals = read::all_normals(&path, None, &options, &what, "")?;
-            }
-            data.measured = Some(mesh);
-            inputs.push(record);
+            inputs.push(measured.map_err(Fault::Part)?);
         }
         let seeded = self.plan.features.iter().any(|f| matches!(f.source, Source::Seed(_)));
         // A feature that is sought by its nominal is told what it leaves out.

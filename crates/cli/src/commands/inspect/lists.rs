@@ -1,14 +1,10 @@
 //! The characteristics of one or several parts as CSV and as JUnit XML.
 
+use super::part::Part;
 use crate::console::cell;
 use trueness_inspect::results::Verdict;
 use trueness_inspect::results::compare::{RegionRecord, ToleranceShares};
 use trueness_inspect::results::inspect::{CharacteristicRecord, InspectDocument};
-
-/// What distinguishes the part: its measured file, or the plan's.
-pub(super) fn part(document: &InspectDocument) -> &str {
-    document.inputs.first().map_or(&document.plan.path, |i| &i.path)
-}
 
 /// What the deviations from the reference are called beside the characteristics.
 pub(super) const DEVIATION: &str = "deviation";
@@ -36,15 +32,18 @@ pub(super) fn judged(document: &InspectDocument) -> Vec<(String, &ToleranceShare
 /// What the alignment is called beside the characteristics.
 const ALIGNMENT: &str = "alignment";
 
+/// What a part without results is called beside them.
+const PART: &str = "part";
+
 /// What makes the alignment unreliable, in one text.
 fn unreliable(document: &InspectDocument) -> Option<String> {
     let doubts: Vec<&str> = document.alignment.doubts().map(|d| d.text.as_str()).collect();
     (!doubts.is_empty()).then(|| doubts.join("; "))
 }
 
-/// One line a characteristic, one for the deviations from the reference where they are judged, and one for an alignment that cannot
-/// be relied on; numbers with all digits (RFC 4180).
-pub fn csv(documents: &[InspectDocument]) -> String {
+/// One line a characteristic, one for the deviations from the reference where they are judged, one for an alignment that cannot
+/// be relied on, and one for a part without results; numbers with all digits (RFC 4180).
+pub fn csv(parts: &[Part]) -> String {
     let head = [
         "part",
         "id",
@@ -65,10 +64,21 @@ pub fn csv(documents: &[InspectDocument]) -> String {
     ];
     let mut out = head.join(",") + "\r\n";
     let number = |x: Option<f64>| x.map_or_else(String::new, |x| x.to_string());
-    for document in documents {
+    for part in parts {
+        let document = match part {
+            Part::Inspected(document) => document,
+            Part::Failed(failed) => {
+                let mut cells: [String; 16] = Default::default();
+                [cells[0], cells[1], cells[2]] = [failed.name.clone(), PART.into(), PART.into()];
+                [cells[11], cells[13]] = [Verdict::NotMeasured.word().into(), failed.why.clone()];
+                out.push_str(&cells.map(cell).join(","));
+                out.push_str("\r\n");
+                continue;
+            }
+        };
         for c in &document.characteristics {
             let cells = [
-                part(document).into(),
+                part.name().into(),
                 c.id.clone(),
                 c.kind.clone(),
                 c.feature.clone(),
@@ -90,7 +100,7 @@ pub fn csv(documents: &[InspectDocument]) -> String {
         }
         for (name, t, verdict) in judged(document) {
             let mut cells: [String; 16] = Default::default();
-            cells[0] = part(document).into();
+            cells[0] = part.name().into();
             [cells[1], cells[2]] = [name, DEVIATION.into()];
             cells[6] = (100.0 * t.required).to_string();
             cells[7] = "100".into();
@@ -103,7 +113,7 @@ pub fn csv(documents: &[InspectDocument]) -> String {
         }
         if let Some(why) = unreliable(document) {
             let mut cells: [String; 16] = Default::default();
-            cells[0] = part(document).into();
+            cells[0] = part.name().into();
             [cells[1], cells[2]] = [ALIGNMENT.into(), ALIGNMENT.into()];
             [cells[11], cells[13]] = [Verdict::Undecided.word().into(), why];
             out.push_str(&cells.map(cell).join(","));
@@ -114,52 +124,59 @@ pub fn csv(documents: &[InspectDocument]) -> String {
 }
 
 /// A test suite a part and a test case a characteristic, one for the deviations where they are judged and one for an alignment that
-/// cannot be relied on. What fails is a failure, what nobody can tell an error, what was
-/// not measured a failure too: a merge must not pass on it.
-pub fn junit(documents: &[InspectDocument]) -> String {
-    let count = |documents: &[InspectDocument], which: &dyn Fn(Verdict) -> bool| -> usize {
-        let of = |d: &InspectDocument| {
-            let own = d.characteristics.iter().map(|c| c.verdict);
-            let unreliable = unreliable(d).map(|_| Verdict::Undecided);
-            own.chain(judged(d).into_iter().map(|j| j.2)).chain(unreliable).filter(|v| which(*v)).count()
-        };
-        documents.iter().map(of).sum()
-    };
-    let failed = |v| matches!(v, Verdict::Fail | Verdict::NotMeasured);
-    let attributes = |documents: &[InspectDocument]| {
+/// cannot be relied on. What fails is a failure, what nobody can tell an error, as is a part without results; what was
+/// not measured is a failure too: a merge must not pass on it.
+pub fn junit(parts: &[Part]) -> String {
+    let failed = |v: &Verdict| matches!(v, Verdict::Fail | Verdict::NotMeasured);
+    let attributes = |parts: &[Part]| {
+        let all: Vec<Verdict> = parts.iter().flat_map(verdicts).collect();
         format!(
             "tests=\"{}\" failures=\"{}\" errors=\"{}\"",
-            count(documents, &|_| true),
-            count(documents, &failed),
-            count(documents, &|v| v == Verdict::Undecided)
+            all.len(),
+            all.iter().filter(|v| failed(v)).count(),
+            all.iter().filter(|v| **v == Verdict::Undecided).count()
         )
     };
     let mut out = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
-    out.push_str(&format!("<testsuites {}>\n", attributes(documents)));
-    for document in documents {
-        let one = std::slice::from_ref(document);
-        let name = escaped(part(document));
-        out.push_str(&format!("  <testsuite name=\"{name}\" {}>\n", attributes(one)));
-        for c in &document.characteristics {
-            out.push_str(&characteristic(&name, c));
-        }
-        for (name_of, t, verdict) in judged(document) {
-            let share =
-                t.inside.map_or_else(|| "no point".into(), |s| format!("{} % of the points", 100.0 * s));
-            let said = format!(
-                "{share} within {} to {} mm, allowed {} to 100 %",
-                t.lower,
-                t.upper,
-                100.0 * t.required
-            );
-            out.push_str(&case(&name, &name_of, verdict, &said));
-        }
-        if let Some(why) = unreliable(document) {
-            out.push_str(&case(&name, ALIGNMENT, Verdict::Undecided, &why));
+    out.push_str(&format!("<testsuites {}>\n", attributes(parts)));
+    for part in parts {
+        let name = escaped(part.name());
+        out.push_str(&format!("  <testsuite name=\"{name}\" {}>\n", attributes(std::slice::from_ref(part))));
+        match part {
+            Part::Inspected(document) => out.push_str(&cases(&name, document)),
+            Part::Failed(failed) => {
+                out.push_str(&error(&name, PART, &format!("not inspected: {}", failed.why)))
+            }
         }
         out.push_str("  </testsuite>\n");
     }
     out.push_str("</testsuites>\n");
+    out
+}
+
+/// The verdict of each test case; a part without results is one that nobody can tell.
+fn verdicts(part: &Part) -> Vec<Verdict> {
+    let Some(document) = part.document() else { return vec![Verdict::Undecided] };
+    let own = document.characteristics.iter().map(|c| c.verdict);
+    let unreliable = unreliable(document).map(|_| Verdict::Undecided);
+    own.chain(judged(document).into_iter().map(|j| j.2)).chain(unreliable).collect()
+}
+
+/// The test cases of a part.
+fn cases(name: &str, document: &InspectDocument) -> String {
+    let mut out = String::new();
+    for c in &document.characteristics {
+        out.push_str(&characteristic(name, c));
+    }
+    for (name_of, t, verdict) in judged(document) {
+        let share = t.inside.map_or_else(|| "no point".into(), |s| format!("{} % of the points", 100.0 * s));
+        let said =
+            format!("{share} within {} to {} mm, allowed {} to 100 %", t.lower, t.upper, 100.0 * t.required);
+        out.push_str(&case(name, &name_of, verdict, &said));
+    }
+    if let Some(why) = unreliable(document) {
+        out.push_str(&case(name, ALIGNMENT, Verdict::Undecided, &why));
+    }
     out
 }
 
@@ -182,14 +199,21 @@ fn characteristic(class: &str, c: &CharacteristicRecord) -> String {
 
 fn case(class: &str, name: &str, verdict: Verdict, said: &str) -> String {
     let start = format!("    <testcase classname=\"{class}\" name=\"{}\"", escaped(name));
-    let message = escaped(&format!("{}: {said}", verdict.word()));
+    let said = format!("{}: {said}", verdict.word());
+    let message = escaped(&said);
     match verdict {
         Verdict::Pass => format!("{start}/>\n"),
-        Verdict::Undecided => format!("{start}><error message=\"{message}\"/></testcase>\n"),
+        Verdict::Undecided => error(class, name, &said),
         Verdict::Fail | Verdict::NotMeasured => {
             format!("{start}><failure message=\"{message}\"/></testcase>\n")
         }
     }
+}
+
+/// A test case that nobody can tell.
+fn error(class: &str, name: &str, said: &str) -> String {
+    let [name, message] = [name, said].map(escaped);
+    format!("    <testcase classname=\"{class}\" name=\"{name}\"><error message=\"{message}\"/></testcase>\n")
 }
 
 /// Text for an attribute of XML 1.0; characters that it cannot hold become U+FFFD.

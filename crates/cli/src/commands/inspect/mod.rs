@@ -2,10 +2,12 @@
 
 mod files;
 mod lists;
+mod part;
 mod qif;
 mod table;
 
 use crate::command::Run;
+use crate::console;
 use crate::exit::{self, Outcome, Usage};
 use crate::options::{Common, DocumentArgs};
 use crate::output::whole_file;
@@ -15,6 +17,7 @@ use crate::run_files::RunFiles;
 use anyhow::anyhow;
 use clap::Args;
 use files::PlanFile;
+use part::{Failed, Fault, Part};
 use std::path::{Path, PathBuf};
 use trueness_geom::progress::{Cancelled, Progress};
 use trueness_inspect::compare;
@@ -105,25 +108,38 @@ fn run(args: &InspectArgs, common: &Common) -> anyhow::Result<Outcome> {
         let what = "--places keeps deviations from the reference, but the plan has no [deviation]; add it";
         return Err(Usage(what.into()).into());
     }
-    let mut documents = Vec::new();
-    for part in args.parts() {
-        let document = inspect(args, &plan, part, common)?;
-        args.document.table(|| table::table(&document, args.measured.len() > 1))?;
-        documents.push(document);
+    let several = args.measured.len() > 1;
+    let (mut parts, mut status) = (Vec::new(), None);
+    for file in args.parts() {
+        let part = match inspect(args, &plan, file, common) {
+            Ok(document) => Part::Inspected(Box::new(document)),
+            Err(Fault::Run(error)) => return Err(error),
+            // Whatever is wrong with a part, the others are inspected.
+            Err(Fault::Part(error)) => {
+                console::error(&error);
+                status = status.or(Some(exit::status(&error)));
+                Part::Failed(Failed::new(plan.name_of(file), &error, plan.record()))
+            }
+        };
+        args.document.table(|| table::table(&part, several))?;
+        parts.push(part);
     }
     if let Some(path) = &args.csv {
-        let text = lists::csv(&documents);
+        let text = lists::csv(&parts);
         whole_file(path, |file| file.write_all(text.as_bytes()))?;
     }
     if let Some(path) = &args.junit {
-        let text = lists::junit(&documents);
+        let text = lists::junit(&parts);
         whole_file(path, |file| file.write_all(text.as_bytes()))?;
     }
     if let Some(path) = &args.qif {
-        let text = qif::qif(&documents);
+        let text = qif::qif(&parts, plan.plan.title.as_deref());
         whole_file(path, |file| file.write_all(text.as_bytes()))?;
     }
-    let pass = documents.iter().all(|d| d.verdict == Verdict::Pass);
+    if let Some(status) = status {
+        return Ok(Outcome::Unanswered(status));
+    }
+    let pass = parts.iter().filter_map(Part::document).all(|d| d.verdict == Verdict::Pass);
     Ok(if pass { Outcome::Conforming } else { Outcome::NotConforming })
 }
 
@@ -133,7 +149,7 @@ fn inspect(
     plan: &PlanFile,
     part: Option<&Path>,
     common: &Common,
-) -> anyhow::Result<InspectDocument> {
+) -> Result<InspectDocument, Fault> {
     let (mut data, inputs) = plan.data(part, common.seed, args.report.shown())?;
     data.places = args.places;
     let stage = Stage::new(common.progress, "inspecting", "features", None);
@@ -142,12 +158,13 @@ fn inspect(
     drop(stage);
     let found = found.map_err(|stop| match stop {
         // Whatever it stopped at: nothing of it is told.
-        _ if cancelled => anyhow::Error::from(Cancelled),
-        Stop::Cancelled => anyhow::Error::from(Cancelled),
+        _ if cancelled => Fault::Run(Cancelled.into()),
+        Stop::Cancelled => Fault::Run(Cancelled.into()),
         Stop::Plan { span, what } => {
-            anyhow!("{}: {}", plan.path.display(), PlanError::at(&plan.text, &span, what))
+            Fault::Run(anyhow!("{}: {}", plan.path.display(), PlanError::at(&plan.text, &span, what)))
         }
-        stop => anyhow!("{}: {stop}", plan.path.display()),
+        stop if stop.of_part() => Fault::Part(anyhow!("{}: {stop}", plan.name_of(part))),
+        stop => Fault::Run(anyhow!("{}: {stop}", plan.path.display())),
     })?;
     let mut document = InspectDocument::new(&plan.plan, plan.record(), &found, inputs);
     if args.report.html.is_some() {

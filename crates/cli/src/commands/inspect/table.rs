@@ -1,6 +1,6 @@
 //! The document of an inspection for people.
 
-use super::lists::part;
+use super::part::{Part, name};
 use crate::commands::compare::{along, coverage, outliers, regions};
 use crate::console;
 use crate::number::{POINTS, counted, fixed, grouped, signed, six_digits};
@@ -9,10 +9,20 @@ use std::fmt::Write;
 use trueness_inspect::results::compare::Comparison;
 use trueness_inspect::results::inspect::{CharacteristicRecord, InspectDocument};
 
-/// The document for people; of one of several parts it names the part.
-pub fn table(document: &InspectDocument, one_of_several: bool) -> String {
+/// What there is to say of a part for people; of one of several it names the part.
+pub fn table(part: &Part, one_of_several: bool) -> String {
+    match part {
+        Part::Inspected(document) => inspected(document, one_of_several),
+        Part::Failed(failed) if one_of_several => format!("! {}: not inspected\n", failed.name),
+        // It was told as an error.
+        Part::Failed(_) => String::new(),
+    }
+}
+
+/// The document for people.
+fn inspected(document: &InspectDocument, one_of_several: bool) -> String {
     let mut out = read::notes(&document.inputs);
-    let part = one_of_several.then(|| part(document).to_owned());
+    let part = one_of_several.then(|| name(document).to_owned());
     let heading: Vec<String> = document.title.iter().cloned().chain(part).collect();
     if !heading.is_empty() {
         let _ = writeln!(out, "{}", heading.join("   "));

@@ -1,6 +1,7 @@
 //! What an alignment must do, against closed forms, brute force and properties.
 
 mod field;
+mod flat;
 mod minimax;
 mod parts;
 mod poses;

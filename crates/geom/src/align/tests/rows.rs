@@ -1,7 +1,7 @@
 //! Pairs and rows, against motions that are known.
 
 use super::parts::random_pose;
-use crate::align::{AlignError, Row, constrained, pairs};
+use crate::align::{AlignError, AlignWarning, Row, constrained, pairs};
 use crate::num::random::Random;
 use crate::space::{Point, minus, norm, plus, times};
 
@@ -56,6 +56,26 @@ fn a_mirror_image_is_no_rotation() {
     let found = pairs(&from, &to, None).unwrap();
     let r = found.reference_from_measured.rotation();
     assert!(crate::space::dot(r[0], crate::space::cross(r[1], r[2])) > 0.0 && found.rms > 1.0);
+}
+
+/// Places that belong together but for one, those of a mirror image, and those that are only noisy.
+#[test]
+fn pairs_that_do_not_belong_together_are_told() {
+    let random = &mut Random::new(12);
+    let pose = random_pose(random, 50.0);
+    let from = places(random, 6);
+    let to: Vec<Point> = from.iter().map(|p| plus(pose.point(*p), [0.1 * random.unit(); 3])).collect();
+    assert_eq!(pairs(&from, &to, None).unwrap().warnings, []);
+    let mut wrong = to.clone();
+    wrong[3] = plus(wrong[3], [0.0, 30.0, 0.0]);
+    let told = |to: &[Point], weights: Option<&[f64]>| pairs(&from, to, weights).unwrap().warnings;
+    let all = told(&wrong, None);
+    let [AlignWarning::PoorRows { row: 3, left, mirrored: false, .. }] = all[..] else { panic!("{all:?}") };
+    assert!(left > 5.0 && left < 30.0, "{left}");
+    assert_eq!(told(&wrong, Some(&[1.0, 1.0, 1.0, 0.0, 1.0, 1.0])), []);
+    let image: Vec<Point> = to.iter().map(|p| [p[0], p[1], -p[2]]).collect();
+    let all = told(&image, None);
+    assert!(matches!(all[..], [AlignWarning::PoorRows { mirrored: true, .. }]), "{all:?}");
 }
 
 #[test]

@@ -9,19 +9,18 @@ mod datums;
 mod features;
 mod xml;
 
-use super::lists::{judged, part};
+use super::lists::judged;
+use super::part::{Failed, Part};
 use characteristics::{Ids, status};
 use datums::Datums;
-use trueness_inspect::results::inspect::InspectDocument;
-use trueness_inspect::results::{InputRecord, Role, Verdict};
+use trueness_inspect::results::inspect::{InspectDocument, PlanRecord};
+use trueness_inspect::results::{InputRecord, Role, VERSION, Verdict};
 use xml::{Value, Xml, decimal};
 
-/// The results of parts of one plan.
-pub fn qif(documents: &[InspectDocument]) -> String {
+/// The results of parts of one plan with this heading.
+pub fn qif(parts: &[Part], title: Option<&str>) -> String {
     let mut x = Xml::default();
-    if let Some(first) = documents.first() {
-        body(&mut x, first, documents);
-    }
+    body(&mut x, parts, title);
     let last = x.last();
     let body = x.finish();
     format!(
@@ -43,10 +42,10 @@ fn identifier(text: &str) -> String {
     parts.join("-")
 }
 
-fn body(x: &mut Xml, first: &InspectDocument, documents: &[InspectDocument]) {
+fn body(x: &mut Xml, parts: &[Part], title: Option<&str>) {
     x.element("Header", &[], |x| {
-        x.element("Application", &[], |x| x.leaf("Name", &format!("trueness {}", first.version)));
-        if let Some(title) = &first.title {
+        x.element("Application", &[], |x| x.leaf("Name", &format!("trueness {VERSION}")));
+        if let Some(title) = title {
             x.leaf("Description", title);
         }
     });
@@ -59,22 +58,24 @@ fn body(x: &mut Xml, first: &InspectDocument, documents: &[InspectDocument]) {
         });
     });
     units(x);
+    // What is asked of all is what is told of one.
+    let Some(first) = parts.iter().find_map(Part::document) else { return results(x, parts, &[], &[]) };
     let datums = Datums::of(x, first);
     datums.definitions(x);
     datums.frames(x, first);
     let ids: Vec<Ids> = first.characteristics.iter().map(|_| Ids::new(x)).collect();
-    let shares = shares(x, documents);
+    let shares = shares(x, parts);
     asked(x, first, &ids, &shares, standard, &datums);
-    results(x, documents, &ids, &shares);
+    results(x, parts, &ids, &shares);
 }
 
 /// The name of a judged share of deviations, and the numbers of its definition, nominal and item.
 type Share = (String, [u32; 3]);
 
 /// All that are judged in some part.
-fn shares(x: &mut Xml, documents: &[InspectDocument]) -> Vec<Share> {
+fn shares(x: &mut Xml, parts: &[Part]) -> Vec<Share> {
     let mut all: Vec<Share> = vec![];
-    for (name, ..) in documents.iter().flat_map(judged) {
+    for (name, ..) in parts.iter().filter_map(Part::document).flat_map(judged) {
         if all.iter().all(|(known, _)| *known != name) {
             all.push((name, [x.number(), x.number(), x.number()]));
         }
@@ -157,24 +158,26 @@ fn asked(
 }
 
 /// What was found, part by part.
-fn results(x: &mut Xml, documents: &[InspectDocument], ids: &[Ids], shares: &[Share]) {
-    let n = [("n", documents.len().to_string())];
-    let components: Vec<u32> = documents.iter().map(|_| x.number()).collect();
+fn results(x: &mut Xml, parts: &[Part], ids: &[Ids], shares: &[Share]) {
+    let n = [("n", parts.len().to_string())];
+    let components: Vec<u32> = parts.iter().map(|_| x.number()).collect();
     x.element("Results", &[], |x| {
         x.element("MeasurementResultsSet", &n, |x| {
-            for (document, component) in documents.iter().zip(&components) {
+            for (part, component) in parts.iter().zip(&components) {
                 let id = x.number();
-                x.element("MeasurementResults", &[("id", id.to_string())], |x| {
-                    one_part(x, document, ids, shares, *component);
+                x.element("MeasurementResults", &[("id", id.to_string())], |x| match part {
+                    Part::Inspected(document) => one_part(x, document, ids, shares, *component),
+                    Part::Failed(failed) => without_results(x, failed, *component),
                 });
             }
         });
         x.element("ActualComponentSets", &[("n", "1".into())], |x| {
             x.element("ActualComponentSet", &n, |x| {
-                for (document, component) in documents.iter().zip(&components) {
+                for (part, component) in parts.iter().zip(&components) {
                     x.element("ActualComponent", &[("id", component.to_string())], |x| {
-                        x.leaf("SerialNumber", part(document));
-                        inspection_status(x, "Status", document.verdict);
+                        x.leaf("SerialNumber", part.name());
+                        let verdict = part.document().map_or(Verdict::NotMeasured, |d| d.verdict);
+                        inspection_status(x, "Status", verdict);
                     });
                 }
             });
@@ -182,12 +185,23 @@ fn results(x: &mut Xml, documents: &[InspectDocument], ids: &[Ids], shares: &[Sh
     });
 }
 
+/// A part that has none.
+fn without_results(x: &mut Xml, failed: &Failed, component: u32) {
+    x.attributes(&[("not_inspected", failed.why.as_str().into())]);
+    x.element("ExternalFileReferences", &[("n", "1".into())], |x| plan_file(x, &failed.plan));
+    inspection_status(x, "InspectionStatus", Verdict::NotMeasured);
+    x.references("ActualComponentIds", &[component]);
+}
+
+fn plan_file(x: &mut Xml, plan: &PlanRecord) {
+    file(x, &plan.path, "inspection plan, TOML", "inspection plan", plan.sha256.as_deref());
+}
+
 fn one_part(x: &mut Xml, document: &InspectDocument, ids: &[Ids], known: &[Share], component: u32) {
     x.attributes(&traced(document));
     let files = 1 + document.inputs.len();
     x.element("ExternalFileReferences", &[("n", files.to_string())], |x| {
-        let plan = &document.plan;
-        file(x, &plan.path, "inspection plan, TOML", "inspection plan", plan.sha256.as_deref());
+        plan_file(x, &document.plan);
         for input in &document.inputs {
             file(x, &input.path, &input.format, role(input), input.sha256.as_deref());
         }

@@ -1,0 +1,190 @@
+//! What is to be said about an alignment.
+
+use crate::results::Word;
+use crate::results::word::named;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use trueness_geom::align::{AlignWarning, Freedom};
+
+/// Something to be said about an alignment.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct AlignNote {
+    /// `poor`, `ambiguous`, `free`, `normals_turned`, `scale`, `few`, `unconfirmed`, `left_out` or `not_converged`; of an inspection also `size_ratio` and
+    /// `hardly_overlapping`.
+    pub kind: Word<AlignNoteKind>,
+    /// One sentence for people.
+    pub text: String,
+}
+
+/// What a note is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum AlignNoteKind {
+    /// Half of the points, or the places that belong together, are far off.
+    Poor,
+    /// Other poses fit about as well.
+    Ambiguous,
+    /// A motion is free.
+    Free,
+    /// The normals were turned round.
+    NormalsTurned,
+    /// The measured fits when it is larger or smaller.
+    Scale,
+    /// Few points were given.
+    Few,
+    /// One of several searches alone found the pose.
+    Unconfirmed,
+    /// Much of the measured does not count.
+    LeftOut,
+    /// The iteration did not settle.
+    NotConverged,
+    /// The measured and the nominal part have different sizes.
+    SizeRatio,
+    /// The measured and the nominal part hardly overlap.
+    HardlyOverlapping,
+}
+
+impl AlignNoteKind {
+    /// All, in the order above.
+    pub const ALL: [AlignNoteKind; 11] = [
+        AlignNoteKind::Poor,
+        AlignNoteKind::Ambiguous,
+        AlignNoteKind::Free,
+        AlignNoteKind::NormalsTurned,
+        AlignNoteKind::Scale,
+        AlignNoteKind::Few,
+        AlignNoteKind::Unconfirmed,
+        AlignNoteKind::LeftOut,
+        AlignNoteKind::NotConverged,
+        AlignNoteKind::SizeRatio,
+        AlignNoteKind::HardlyOverlapping,
+    ];
+
+    /// Its name in documents.
+    pub fn name(self) -> &'static str {
+        match self {
+            AlignNoteKind::Poor => "poor",
+            AlignNoteKind::Ambiguous => "ambiguous",
+            AlignNoteKind::Free => "free",
+            AlignNoteKind::NormalsTurned => "normals_turned",
+            AlignNoteKind::Scale => "scale",
+            AlignNoteKind::Few => "few",
+            AlignNoteKind::Unconfirmed => "unconfirmed",
+            AlignNoteKind::LeftOut => "left_out",
+            AlignNoteKind::NotConverged => "not_converged",
+            AlignNoteKind::SizeRatio => "size_ratio",
+            AlignNoteKind::HardlyOverlapping => "hardly_overlapping",
+        }
+    }
+
+    /// Whether the alignment may be relied on no longer. What the shape leaves free, normals that were turned round, and
+    /// what was left out, are only told.
+    pub fn is_doubt(self) -> bool {
+        match self {
+            AlignNoteKind::Free | AlignNoteKind::NormalsTurned | AlignNoteKind::LeftOut => false,
+            AlignNoteKind::Poor
+            | AlignNoteKind::Ambiguous
+            | AlignNoteKind::Scale
+            | AlignNoteKind::Few
+            | AlignNoteKind::Unconfirmed
+            | AlignNoteKind::NotConverged
+            | AlignNoteKind::SizeRatio
+            | AlignNoteKind::HardlyOverlapping => true,
+        }
+    }
+}
+
+named!(AlignNoteKind, "kind of note", Self::ALL, |kind| kind.name());
+
+impl AlignNote {
+    /// Of a warning.
+    pub fn of(warning: &AlignWarning) -> AlignNote {
+        let three = |v: [f64; 3]| format!("({:.3} {:.3} {:.3})", v[0], v[1], v[2]);
+        let (kind, text) = match warning {
+            AlignWarning::Poor { share } => (
+                AlignNoteKind::Poor,
+                format!(
+                    "half of the points are farther than {:.2} % of the size from the reference: it is hardly the same part, or its \
+                     place was not found",
+                    100.0 * share
+                ),
+            ),
+            AlignWarning::PoorRows { share, row, left, mirrored } => {
+                (AlignNoteKind::Poor, poor_rows(*share, *row, *left, *mirrored))
+            }
+            AlignWarning::Ambiguous { count } => (
+                AlignNoteKind::Ambiguous,
+                format!(
+                    "{count} other {} as well: the part looks the same in several ways",
+                    if *count == 1 { "pose fits about" } else { "poses fit about" }
+                ),
+            ),
+            AlignWarning::Free(Freedom::Slides { direction }) => (
+                AlignNoteKind::Free,
+                format!("the shape leaves it free to slide along {}", three(*direction)),
+            ),
+            AlignWarning::Free(Freedom::Turns { point, direction }) => (
+                AlignNoteKind::Free,
+                format!(
+                    "the shape leaves it free to turn about the axis along {} through {}",
+                    three(*direction),
+                    three(*point)
+                ),
+            ),
+            AlignWarning::NormalsTurned => (
+                AlignNoteKind::NormalsTurned,
+                "the measured normals point inward; they were turned round".into(),
+            ),
+            AlignWarning::Scale { factor } => (
+                AlignNoteKind::Scale,
+                format!(
+                    "the measured fits when it is {factor:.6} times as large: is a unit wrong? (--units, --reference-units; `units` of a plan)"
+                ),
+            ),
+            AlignWarning::Few { count } => (
+                AlignNoteKind::Few,
+                format!(
+                    "{count} points are few for a search from any pose: look at the result, or align roughly and start \
+                     --from-here, or give --method pairs"
+                ),
+            ),
+            AlignWarning::Unconfirmed { searches } => (
+                AlignNoteKind::Unconfirmed,
+                format!(
+                    "many points do not lie on the reference, and one of {searches} searches alone found this pose: look at the \
+                     result, or align roughly and start --from-here"
+                ),
+            ),
+            AlignWarning::LeftOut { share, farthest, limit } => (
+                AlignNoteKind::LeftOut,
+                format!(
+                    "{:.0} % of the measured does not count{}: the rest lies within {limit:.4} mm; where it is the part that is off \
+                     there, align by --method chebyshev or by datums",
+                    100.0 * share,
+                    // Beyond reach of the search nothing has a place.
+                    if *farthest > *limit {
+                        format!(", it lies up to {farthest:.4} mm from the reference")
+                    } else {
+                        String::new()
+                    }
+                ),
+            ),
+            AlignWarning::NotConverged => {
+                (AlignNoteKind::NotConverged, "the iteration did not settle".into())
+            }
+        };
+        AlignNote { kind: Word(kind), text }
+    }
+}
+
+/// What is said of rows of places that do not fit.
+fn poor_rows(share: f64, row: usize, left: f64, mirrored: bool) -> String {
+    let why = match mirrored {
+        true => "they look mirrored, as with the sign of an axis reversed",
+        false => "some do not belong together, or they are of another part",
+    };
+    format!(
+        "the places that belong together lie apart by {:.2} % of their size, row {} the most, by {left:.3} mm: {why}",
+        100.0 * share,
+        row + 1
+    )
+}
