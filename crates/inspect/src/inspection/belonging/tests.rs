@@ -119,7 +119,7 @@ fn facets_of_tangent_planes_are_no_part_of_a_fillet() {
         [[feature]]
         id = "R"
         shape = "cylinder"
-        extract = { distance = 0.5 }
+        extract = { distance = 0.5, coverage = 0.1 }
         nominal = { point = [10, 0, -2], direction = [0, 1, 0], radius = 2, length = 20 }
         [[characteristic]]
         id = "1"
