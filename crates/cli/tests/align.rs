@@ -228,7 +228,10 @@ fn the_least_greatest_distance() {
     assert!((found["transform"][0][3].as_f64().unwrap() + 0.15).abs() < 1e-6, "{}", found["transform"]);
     assert!(table.contains("by chebyshev") && table.contains("greatest distance 0.15"), "{table}");
     let (_, found) = run(&[]);
+    // Of a block of 25 mm across corners what is 0.3 off is clutter, and told.
     assert!(found["chebyshev"]["greatest"].as_f64().unwrap() < 1e-9 && found["chebyshev"]["left_out"] == 1);
+    assert!((found["chebyshev"]["left_out_farthest"].as_f64().unwrap() - 0.3).abs() < 1e-9);
+    assert_eq!(found["warnings"][0]["kind"], "left_out");
 }
 
 /// Into zones: the block's top may be 0 to 0.2 too high, all else 0.1 either way; a perfect block rises by 0.05 and has as much left.
@@ -263,12 +266,32 @@ fn the_least_greatest_excess_over_tolerances() {
     assert!((excess + 0.05).abs() < 1e-9, "{excess}");
     assert!((found["transform"][2][3].as_f64().unwrap() - 0.05).abs() < 1e-6, "{}", found["transform"]);
     assert_eq!((found["method"].as_str(), found["zones"]["without_zone"].as_u64()), (Some("zones"), Some(0)));
-    assert!(stdout(&o).contains("all within") || stdout(&o).contains("all 1254 points"), "{}", stdout(&o));
+    assert!(stdout(&o).contains("all 1,254 points within, 0 at places"), "{}", stdout(&o));
     // What does not fit makes the exit status 1.
     folder.write("top.toml", top.replace("[0, 0.2]", "[0.3, 0.4]"));
     let o = trueness(words.iter().chain(&["--regions", regions, "--tolerance", "0.1", "--json", json]));
     assert_eq!(status(&o), 1, "{}", stdout(&o));
     assert!((read()["zones"]["excess"].as_f64().unwrap() - 0.1).abs() < 1e-9, "{}", read()["zones"]);
+    // A dent that the best fit leaves out counts; clutter does not decide the pose, and not all are within.
+    folder.write("top.toml", top);
+    let plain = std::fs::read_to_string(scan).unwrap();
+    let stand = |more: &str| {
+        folder.write("scan.xyz", plain.clone() + more);
+        let o = trueness(words.iter().chain(&["--tolerance", "0.1", "--json", json]));
+        (status(&o), stdout(&o), read()["zones"].clone())
+    };
+    let (exit, table, found) = stand("0 5.76 0\n");
+    assert!(exit == 1 && found["left_out"] == 0, "{table}{found}");
+    // Half of it on either side.
+    assert!((found["excess"].as_f64().unwrap() - 0.02).abs() < 1e-9, "{found}");
+    let (exit, table, found) = stand("0 9 0\n");
+    assert!(exit == 1 && found["beyond"] == 1 && found["left_out"] == 1, "{table}{found}");
+    assert!((found["excess"].as_f64().unwrap() - 2.9).abs() < 1e-6, "{found}");
+    assert!((found["least"].as_f64().unwrap() + 0.1).abs() < 1e-9, "{found}");
+    assert!(
+        table.contains("1 of 1,255 points beyond") && table.contains("! 1 point does not count"),
+        "{table}"
+    );
     // Nothing allowed, and something allowed for another method.
     assert_eq!(status(&trueness(words)), 2);
     assert_eq!(status(&trueness(["align", scan, block, "--tolerance", "0.1"])), 2);

@@ -3,7 +3,7 @@
 use crate::command::Run;
 use crate::console;
 use crate::exit::{self, Outcome, Usage};
-use crate::number::{POINTS, counted, fixed, scientific, signed, six_digits};
+use crate::number::{POINTS, counted, fixed, grouped, scientific, signed, six_digits};
 use crate::options::{Common, DocumentArgs, PointInputArgs, ReferenceArgs};
 use crate::progress::Stage;
 use crate::read::{self, Body, Opened};
@@ -191,7 +191,7 @@ fn run(args: &AlignArgs, common: &Common) -> anyhow::Result<Outcome> {
     let loss = args.out.as_ref().map(|path| scan.write(path, &motion)).transpose()?.flatten();
     args.document.write(&document)?;
     args.document.table(|| table(&document, loss.as_deref()))?;
-    let within = document.zones.as_ref().is_none_or(|z| z.excess <= 0.0);
+    let within = document.zones.as_ref().is_none_or(|z| z.beyond == 0);
     Ok(if document.sound() && within { Outcome::Conforming } else { Outcome::NotConforming })
 }
 
@@ -320,8 +320,14 @@ fn table(document: &AlignDocument, loss: Option<&str>) -> String {
         let [x, y, z] = found.at.map(six_digits);
         let _ = writeln!(
             out,
-            "greatest distance {} at {x}, {y}, {z}: the least near the best fit, of which:",
+            "greatest distance {} at {x}, {y}, {z}: the least near the best fit",
             six_digits(found.greatest)
+        );
+        let _ = writeln!(
+            out,
+            "{} count, {} left out; of the best fit:",
+            counted(found.used, POINTS),
+            grouped(found.left_out)
         );
     }
     if let Some(found) = &document.zones {
@@ -329,16 +335,22 @@ fn table(document: &AlignDocument, loss: Option<&str>) -> String {
         let [lower, upper] = found.tolerance.map(signed);
         let _ = writeln!(
             out,
-            "greatest excess {} at {x}, {y}, {z} (deviation {}, allowed {lower} … {upper}): the least near the best fit",
+            "greatest excess {} at {x}, {y}, {z} (deviation {}, allowed {lower} … {upper}){}",
             signed(found.excess),
-            signed(found.deviation)
+            signed(found.deviation),
+            match found.left_out {
+                0 => ": the least near the best fit".into(),
+                _ => format!("; of the points that count in the search {}", signed(found.least)),
+            }
         );
+        let within = match found.beyond {
+            0 => format!("all {} within", counted(found.used, POINTS)),
+            beyond => format!("{} of {} beyond", grouped(beyond), counted(found.used, POINTS)),
+        };
+        let (without, left_out) = (grouped(found.without_zone), grouped(found.left_out));
         let _ = writeln!(
             out,
-            "{} within {}, {} at places without a tolerance; of the best fit:",
-            if found.excess <= 0.0 { "all" } else { "not all" },
-            counted(found.used, POINTS),
-            found.without_zone
+            "{within}, {without} at places without a tolerance, {left_out} left out in the search; of the best fit:"
         );
     }
     if let Some(fit) = &document.best_fit {
@@ -346,7 +358,7 @@ fn table(document: &AlignDocument, loss: Option<&str>) -> String {
             out,
             "{} count, {} left out   share of the surface {} %   median {}",
             counted(fit.used, POINTS),
-            fit.left_out,
+            grouped(fit.left_out),
             fixed(100.0 * fit.share, 1),
             six_digits(fit.median)
         );

@@ -3,14 +3,13 @@
 //! Least squares share the deviations out; here the worst place alone decides, so that a part is as far within a zone about its
 //! reference as it can be. A sequence of linear programs in small motions (`zone::motion`), over those points that stick out most.
 
-use super::counting::{Counting, unsettled, weighted_mean};
+use super::beside::Searched;
+use super::counting::{Counting, NotCounted, weighted_mean};
 use super::sample::Measured;
-use super::{AlignError, Alignment, BestFit, Target};
+use super::{AlignError, Alignment, BestFit, Start, Target};
 use crate::progress::Progress;
 use crate::rigid::Rigid;
 use crate::space::{Point, Vector, minus, norm, times};
-use crate::zone::datum::Freedom;
-use crate::zone::motion::{Search, placed};
 
 /// The pose with the least greatest distance.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,17 +24,18 @@ pub struct Minimax {
     pub rms: f64,
     /// Their weighted mean distance.
     pub mean_abs: f64,
-    /// Points that count: those that count in the best fit.
+    /// Points that count.
     pub used: u64,
     /// Points that do not.
-    pub left_out: u64,
+    pub left_out: NotCounted,
 }
 
 /// The motion near `from`, a best fit of the same `measured` to the same `reference`, after which the greatest distance of a point
-/// from the surface is least. The points that count are those of the best fit, of a mesh its vertices: outliers do not, unless `options`
-/// say so.
+/// from the surface is least. Of a mesh its vertices count. Not those, unless `options` say so, that lie beyond ten standard deviations of the best fit
+/// and a hundredth of the diagonal of the reference: they are told in `left_out`, with those that have no place on the reference.
 ///
-/// A local search: the best fit decides near which pose. Cost: three to ten closest-point searches of all points, one by one.
+/// A local search, begun again beside where it ends, and at a given start that is better: the best fit decides near which pose. Cost: three to ten
+/// closest-point searches of all points, one by one, as many for each time that it goes on from beside, and some thousand of single points.
 ///
 /// # Errors
 /// [`AlignError::Free`] where the best fit left a motion free, [`AlignError::NotSettled`], [`AlignError::Cancelled`], and those of
@@ -71,7 +71,8 @@ pub fn minimax(
     progress: &dyn Progress,
 ) -> Result<Minimax, AlignError> {
     let start = from.reference_from_measured;
-    let Counting { points, weights, left_out } = Counting::of(measured, reference, from, options, progress)?;
+    let counting = Counting::of(measured, reference, from, options, 0.0, progress)?;
+    let Counting { points, weights, .. } = &counting;
     let distance = |_: usize, p: Point| -> Option<(f64, Vector)> {
         let place = reference.tree.closest(&p, f64::INFINITY).ok().flatten()?;
         let away = minus(p, place.point);
@@ -81,11 +82,16 @@ pub fn minimax(
             size => Some((size, times(1.0 / size, away))),
         }
     };
-    let search = Search { start, free: Freedom::ALL, middle: 0.0, floating: false, outer: false };
-    let found = placed(&points, &distance, &search, progress).map_err(unsettled)?;
+    let searched = Searched { points, distance: &distance, room: &[], seed: options.seed };
+    let mut found = searched.lowest(start, progress)?;
+    if let Start::Given(pose) = options.start
+        && points.iter().all(|p| distance(0, pose.point(*p)).is_some_and(|d| d.0 < found.half))
+    {
+        found = searched.lowest(pose, progress)?;
+    }
     let motion = found.motion;
     let ends: Vec<f64> = points.iter().map(|p| distance(0, motion.point(*p)).map_or(0.0, |d| d.0)).collect();
-    let sum = |f: &dyn Fn(f64) -> f64| weighted_mean(&weights, &ends, f);
+    let sum = |f: &dyn Fn(f64) -> f64| weighted_mean(weights, &ends, f);
     Ok(Minimax {
         reference_from_measured: motion,
         greatest: found.half,
@@ -93,6 +99,6 @@ pub fn minimax(
         rms: sum(&|d| d * d).sqrt(),
         mean_abs: sum(&|d| d),
         used: points.len() as u64,
-        left_out,
+        left_out: counting.not_counted(&motion, reference, progress)?,
     })
 }

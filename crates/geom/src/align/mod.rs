@@ -4,6 +4,7 @@
 //! |---|---|
 //! | best fit of a scan from any pose | [`best_fit`] |
 //! | the pose with the least greatest distance | [`minimax`] |
+//! | the pose with the least greatest excess over tolerances | [`into_zones`] |
 //! | how a best fit answers to small shifts of what was measured | [`response`] |
 //! | pairs of places that belong together | [`pairs`] |
 //! | 3-2-1 and reference point systems (RPS) | [`constrained`] |
@@ -15,11 +16,14 @@
 //!    outliers without weight, until a step is less than a thousandth of its own uncertainty.
 //! 3. *What the result is worth* (`freedom`, `wall`): covariance, freedom that the shape leaves, other poses that fit as well.
 //!
+//! [`minimax`] and [`into_zones`] begin there and search on by linear programs (`counting`, `beside`).
+//!
 //! All answers are the same for any number of threads; random choices depend on the seed alone.
 
 #![allow(clippy::needless_range_loop, reason = "matrices are read by row and column")]
 
 mod alignment;
+mod beside;
 mod best_fit;
 mod counting;
 mod error;
@@ -44,6 +48,7 @@ mod zones;
 
 pub use alignment::{AlignWarning, Alignment, Alternative, BestFit, Start};
 pub use best_fit::best_fit;
+pub use counting::NotCounted;
 pub use error::AlignError;
 pub use freedom::Freedom;
 pub use minimax::{Minimax, minimax};

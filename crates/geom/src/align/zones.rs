@@ -4,16 +4,14 @@
 //! signs. A point near the border of two zones may change from one to the other as the part moves: the search is done again with the
 //! zones where it ended, until none changes.
 
-use super::counting::{Counting, unsettled, weighted_mean};
+use super::beside::Searched;
+use super::counting::{Counting, NotCounted, weighted_mean};
 use super::sample::Measured;
-use super::{AlignError, Alignment, BestFit, Target, field};
+use super::{AlignError, Alignment, BestFit, Start, Target, field};
 use crate::deviation::surface::ReferenceSurface;
-use crate::parallel::prelude::*;
 use crate::progress::{Progress, Silent};
 use crate::rigid::Rigid;
 use crate::space::{Point, Vector, minus, times};
-use crate::zone::datum::Freedom;
-use crate::zone::motion::{Search, placed_within};
 
 /// Least and greatest allowed deviation at a place of a facet, millimeters, + outside; `None` where nothing is asked.
 pub type ZoneAt<'a> = dyn Fn(u32, &Point) -> Option<[f64; 2]> + Sync + 'a;
@@ -21,12 +19,15 @@ pub type ZoneAt<'a> = dyn Fn(u32, &Point) -> Option<[f64; 2]> + Sync + 'a;
 /// Rounds after which points still change zones: the best pose so far is taken.
 const ROUNDS: usize = 8;
 
+/// How many times its zone a point may be off in the best fit to count in the search in any case: no pose nearby has one farther off within.
+const OFF: f64 = 10.0;
+
 /// The pose with the least greatest excess over the zones.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InZones {
     /// Takes measured coordinates to those of the reference.
     pub reference_from_measured: Rigid,
-    /// How far the worst point is beyond its zone, millimeters; negative where all are within, by so much at least.
+    /// How far the worst point of all is beyond its zone, millimeters; negative where all are within, by so much at least.
     pub excess: f64,
     /// Where that point lies on the reference's side, millimeters.
     pub at: Point,
@@ -34,22 +35,27 @@ pub struct InZones {
     pub deviation: f64,
     /// Its zone.
     pub zone: [f64; 2],
-    /// Root of the weighted mean square deviation of the points with a zone.
+    /// Points beyond their zones.
+    pub beyond: u64,
+    /// The greatest excess of the points that count in the search: what is least. Where all count, that of all.
+    pub least: f64,
+    /// Root of the weighted mean square deviation of the points that count and have a zone.
     pub rms: f64,
     /// Their weighted mean distance.
     pub mean_abs: f64,
-    /// Points with a zone that count in the best fit.
+    /// Points with a zone: all of them are judged.
     pub used: u64,
-    /// Points that do not count in the best fit.
-    pub left_out: u64,
-    /// Points that count, at places where nothing is asked.
+    /// Points that do not count in the search; they are judged with the others.
+    pub left_out: NotCounted,
+    /// Points at places where nothing is asked.
     pub without_zone: u64,
 }
 
 /// The motion near `from`, a best fit of the same `measured` to the same `reference`, after which the greatest excess of a point over the zone
 /// at its place is least. `surface` is the reference made ready for signs; `zones` says what is allowed where.
 ///
-/// The points that count are those of the best fit, of a mesh its vertices. A local search: the best fit decides near which pose. Cost: per round three to ten
+/// All points are judged, of a mesh its vertices. Those count in the search that do in that of [`minimax`](super::minimax()), and those that are off by no
+/// more than ten times the widest zone. A local search: the best fit decides near which pose. Cost: per round three to ten
 /// closest-point searches of all points, one by one; one to three rounds are the rule.
 ///
 /// # Errors
@@ -91,49 +97,71 @@ pub fn into_zones(
     options: &BestFit,
     progress: &dyn Progress,
 ) -> Result<InZones, AlignError> {
-    let counting = Counting::of(measured, reference, from, options, progress)?;
-    let work = Work { counting: &counting, reference, surface, zones };
-    let mut start = from.reference_from_measured;
-    let mut own = work.own(&start);
-    let mut best: Option<InZones> = None;
-    for _ in 0..ROUNDS {
-        let end = work.placed(start, &own, progress)?;
-        let found = work.worth(&end)?;
-        let changed = work.own(&end);
-        let settled = changed == own;
-        if best.as_ref().is_none_or(|b| found.excess < b.excess) {
-            best = Some(found);
+    let work = Work { reference, surface, zones, progress, seed: options.seed };
+    let (all, start) = (measured.points(), from.reference_from_measured);
+    let wide = |widest: f64, j: &Judged| widest.max(j.zone[0].abs()).max(j.zone[1].abs());
+    let widest = work.judged(all, &start)?.iter().flatten().fold(0.0, wide);
+    let counting = Counting::of(measured, reference, from, options, OFF * widest, progress)?;
+    let (mut motion, mut least) = work.sought(&counting.points, start)?;
+    if let Start::Given(pose) = options.start {
+        let there = worst(&work.judged(&counting.points, &pose)?).map(|(_, w)| w.excess());
+        if there.is_some_and(|excess| excess < least) {
+            (motion, least) = work.sought(&counting.points, pose)?;
         }
-        if settled {
-            break;
-        }
-        (start, own) = (end, changed);
     }
-    best.ok_or(AlignError::NotSettled)
+    let judged = work.judged(all, &motion)?;
+    let (i, worst) = worst(&judged).ok_or(AlignError::NoZone)?;
+    let counted = work.judged(&counting.points, &motion)?;
+    let pairs = || counted.iter().zip(&counting.weights).filter_map(|(j, w)| Some(((*j)?.deviation, *w)));
+    let (values, weights): (Vec<f64>, Vec<f64>) = pairs().unzip();
+    let used = judged.iter().flatten().count();
+    Ok(InZones {
+        reference_from_measured: motion,
+        excess: worst.excess(),
+        at: motion.point(all[i]),
+        deviation: worst.deviation,
+        zone: worst.zone,
+        beyond: judged.iter().flatten().filter(|j| j.excess() > 0.0).count() as u64,
+        least,
+        rms: weighted_mean(&weights, &values, &|d| d * d).sqrt(),
+        mean_abs: weighted_mean(&weights, &values, &f64::abs),
+        used: used as u64,
+        left_out: counting.not_counted(&motion, reference, progress)?,
+        without_zone: (judged.len() - used) as u64,
+    })
 }
 
 struct Work<'a> {
-    counting: &'a Counting,
     reference: &'a Target<'a>,
     surface: &'a ReferenceSurface,
     zones: &'a ZoneAt<'a>,
+    progress: &'a dyn Progress,
+    seed: u64,
 }
 
-/// Where a point lies over the reference.
-struct Over {
+/// A point at a place where something is asked.
+#[derive(Clone, Copy)]
+struct Judged {
     deviation: f64,
-    /// How the deviation grows.
-    gradient: Vector,
-    face: u32,
-    place: Point,
+    zone: [f64; 2],
+}
+
+impl Judged {
+    fn excess(&self) -> f64 {
+        (self.deviation - self.zone[1]).max(self.zone[0] - self.deviation)
+    }
+}
+
+/// The first of those with the greatest excess, and its number.
+fn worst(judged: &[Option<Judged>]) -> Option<(usize, Judged)> {
+    let zoned = judged.iter().enumerate().filter_map(|(i, j)| Some((i, (*j)?)));
+    zoned.reduce(|best, one| if one.1.excess() > best.1.excess() { one } else { best })
 }
 
 impl Work<'_> {
-    fn over(&self, p: Point) -> Option<Over> {
-        let found = self.surface.map(&[p], &Silent, |_, deviation, hit| (deviation, hit.copied()));
-        let (deviation, hit) = found.ok()?.into_iter().next()?;
-        let (hit, deviation) = (hit?, Some(deviation).filter(|d| d.is_finite())?);
-        let place = self.reference.tree.place(&p, &hit);
+    /// The deviation of a place, and how it grows.
+    fn over(&self, p: Point) -> Option<(f64, Vector)> {
+        let (deviation, place) = self.surface.at(&p).ok()??;
         let away = minus(p, place.point);
         let gradient = match deviation {
             // On the surface it goes up along the normal.
@@ -143,23 +171,43 @@ impl Work<'_> {
             }
             d => times(1.0 / d, away),
         };
-        Some(Over { deviation, gradient, face: place.face, place: place.point })
+        Some((deviation, gradient))
     }
 
-    /// The zone of each point at a pose.
-    fn own(&self, motion: &Rigid) -> Vec<Option<[f64; 2]>> {
-        let of = |p: &Point| self.over(motion.point(*p)).and_then(|o| (self.zones)(o.face, &o.place));
-        self.counting.points.par_iter().map(of).collect()
+    /// Points at a pose, each by the zone of the place that it lies over there.
+    fn judged(&self, points: &[Point], motion: &Rigid) -> Result<Vec<Option<Judged>>, AlignError> {
+        let moved: Vec<Point> = points.iter().map(|p| motion.point(*p)).collect();
+        Ok(self.surface.map(&moved, &Silent, |i, deviation, hit| {
+            let place = self.reference.tree.place(&moved[i], hit.filter(|_| deviation.is_finite())?);
+            Some(Judged { deviation, zone: (self.zones)(place.face, &place.point)? })
+        })?)
+    }
+
+    /// The best pose near `start`, no worse than that, and the greatest excess there.
+    fn sought(&self, points: &[Point], mut start: Rigid) -> Result<(Rigid, f64), AlignError> {
+        let zones = |judged: &[Option<Judged>]| judged.iter().map(|j| j.map(|j| j.zone)).collect::<Vec<_>>();
+        let judged = self.judged(points, &start)?;
+        let mut own = zones(&judged);
+        let mut best = worst(&judged).map(|(_, w)| (start, w.excess()));
+        for _ in 0..ROUNDS {
+            let end = self.placed(points, start, &own)?;
+            let judged = self.judged(points, &end)?;
+            let excess = worst(&judged).ok_or(AlignError::NoZone)?.1.excess();
+            if best.is_none_or(|b| excess < b.1) {
+                best = Some((end, excess));
+            }
+            let changed = zones(&judged);
+            if changed == own {
+                break;
+            }
+            (start, own) = (end, changed);
+        }
+        best.ok_or(AlignError::NotSettled)
     }
 
     /// The best pose with these zones.
-    fn placed(
-        &self,
-        start: Rigid,
-        own: &[Option<[f64; 2]>],
-        progress: &dyn Progress,
-    ) -> Result<Rigid, AlignError> {
-        let zoned = || self.counting.points.iter().zip(own).filter_map(|(p, zone)| Some((*p, (*zone)?)));
+    fn placed(&self, points: &[Point], start: Rigid, own: &[Option<[f64; 2]>]) -> Result<Rigid, AlignError> {
+        let zoned = || points.iter().zip(own).filter_map(|(p, zone)| Some((*p, (*zone)?)));
         let points: Vec<Point> = zoned().map(|z| z.0).collect();
         if points.is_empty() {
             return Err(AlignError::NoZone);
@@ -167,38 +215,10 @@ impl Work<'_> {
         let middles: Vec<f64> = zoned().map(|(_, [l, u])| 0.5 * (l + u)).collect();
         let rooms: Vec<f64> = zoned().map(|(_, [l, u])| 0.5 * (u - l)).collect();
         let distance = |i: usize, p: Point| -> Option<(f64, Vector)> {
-            let over = self.over(p)?;
-            Some((over.deviation - middles[i], over.gradient))
+            let (deviation, gradient) = self.over(p)?;
+            Some((deviation - middles[i], gradient))
         };
-        let search = Search { start, free: Freedom::ALL, middle: 0.0, floating: false, outer: false };
-        Ok(placed_within(&points, &distance, &rooms, &search, progress).map_err(unsettled)?.motion)
-    }
-
-    /// What a pose is worth, every point by the zone where it lies.
-    fn worth(&self, motion: &Rigid) -> Result<InZones, AlignError> {
-        let of = |p: &Point| {
-            let over = self.over(motion.point(*p))?;
-            let [lower, upper] = (self.zones)(over.face, &over.place)?;
-            Some((over.deviation, [lower, upper], (over.deviation - upper).max(lower - over.deviation)))
-        };
-        let found: Vec<Option<(f64, [f64; 2], f64)>> = self.counting.points.par_iter().map(of).collect();
-        let zoned = || found.iter().enumerate().filter_map(|(i, f)| Some((i, (*f)?)));
-        let worst = zoned().reduce(|best, one| if one.1.2 > best.1.2 { one } else { best });
-        let (i, (deviation, zone, excess)) = worst.ok_or(AlignError::NoZone)?;
-        let values: Vec<f64> = zoned().map(|z| z.1.0).collect();
-        let weights: Vec<f64> = zoned().map(|z| self.counting.weights[z.0]).collect();
-        let sum = |f: &dyn Fn(f64) -> f64| weighted_mean(&weights, &values, f);
-        Ok(InZones {
-            reference_from_measured: *motion,
-            excess,
-            at: motion.point(self.counting.points[i]),
-            deviation,
-            zone,
-            rms: sum(&|d| d * d).sqrt(),
-            mean_abs: sum(&f64::abs),
-            used: values.len() as u64,
-            left_out: self.counting.left_out,
-            without_zone: (found.len() - values.len()) as u64,
-        })
+        let searched = Searched { points: &points, distance: &distance, room: &rooms, seed: self.seed };
+        Ok(searched.lowest(start, self.progress)?.motion)
     }
 }

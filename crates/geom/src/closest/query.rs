@@ -49,6 +49,14 @@ impl Tree {
     /// # Errors
     /// [`QueryError::BadPoint`] and [`QueryError::BadMaxDistance`].
     pub fn closest(&self, p: &Point, max_distance: f64) -> Result<Option<Closest>, QueryError> {
+        Ok(self.hit(p, max_distance)?.map(|hit| self.place(p, &hit)))
+    }
+
+    /// As [`Tree::closest`], where [`Tree::place`] finds the place: of a single point what [`Tree::map_closest`] tells of many, without putting them in order.
+    ///
+    /// # Errors
+    /// Those of [`Tree::closest`].
+    pub fn hit(&self, p: &Point, max_distance: f64) -> Result<Option<Hit>, QueryError> {
         let query = Query { max_distance, ..Query::default() };
         query.check()?;
         if !sane(p) {
@@ -59,7 +67,7 @@ impl Tree {
             answer.set(hits[0])
         });
         let hit = answer.get();
-        Ok((hit.distance() <= max_distance).then(|| self.place(p, &hit)))
+        Ok((hit.distance() <= max_distance).then_some(hit))
     }
 
     /// Calls `sink(index, hit)` exactly once for every point, from several threads and in no particular order; `None`

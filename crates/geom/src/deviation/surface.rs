@@ -2,9 +2,9 @@
 
 use super::sign_choice::{SignChoice, SignMethod, SignRequest};
 use crate::check::Precondition;
-use crate::closest::{BoundaryEdges, Hit, Query, QueryError, Signs, Tree, Winding};
+use crate::closest::{BoundaryEdges, Closest, Hit, Query, QueryError, Signs, Tree, Winding};
 use crate::mesh::Mesh;
-use crate::progress::Progress;
+use crate::progress::{Progress, Silent};
 use crate::space::Point;
 use crate::topology::{Soundness, TopologyError};
 
@@ -192,6 +192,25 @@ impl ReferenceSurface {
             };
             f(i, sign * hit.distance(), Some(&hit))
         })
+    }
+
+    /// The deviation of one point, as [`ReferenceSurface::deviations`] tells it of many, and the place that is nearest; `None` where it has none. For searches that
+    /// ask for few points many times.
+    ///
+    /// # Errors
+    /// Those of [`ReferenceSurface::deviations`].
+    pub fn at(&self, p: &Point) -> Result<Option<(f64, Closest)>, QueryError> {
+        let Some(hit) = self.tree.hit(p, self.max_distance)? else { return Ok(None) };
+        let place = self.tree.place(p, &hit);
+        if self.boundary_edges.as_ref().is_some_and(|edges| edges.holds(&place)) {
+            return Ok(None);
+        }
+        let sign = match &self.side {
+            Side::Pseudonormal(signs) => self.outward() * signs.sign(p, &hit),
+            Side::Winding(w) if self.inside(w, std::slice::from_ref(p), &Silent)?.contains(&true) => -1.0,
+            Side::Winding(_) | Side::None => 1.0,
+        };
+        Ok(Some((sign * hit.distance(), place)))
     }
 
     /// −1 for a mesh that is inside out.

@@ -115,6 +115,22 @@ pub fn placed_within(
     search: &Search,
     progress: &dyn Progress,
 ) -> Result<Placed, ZoneError> {
+    placed_from(points, distance, room, &[], search, progress)
+}
+
+/// As [`placed_within`], with the points numbered in `first` in the working set from the beginning: those that stick out at the start keep a search over many points
+/// near it.
+///
+/// # Errors
+/// Those of [`placed`].
+pub(crate) fn placed_from(
+    points: &[Point],
+    distance: &Distance,
+    room: &[f64],
+    first: &[usize],
+    search: &Search,
+    progress: &dyn Progress,
+) -> Result<Placed, ZoneError> {
     sane(points)?;
     let moved: Vec<Point> = points.iter().map(|p| search.start.point(*p)).collect();
     let bounds = Aabb::of(&moved);
@@ -127,6 +143,7 @@ pub fn placed_within(
     }
     let stride = if points.len() <= SMALL { 1 } else { points.len().div_ceil(SMALL / 4) };
     let mut working: Vec<usize> = (0..points.len()).step_by(stride).collect();
+    working.extend(first.iter().filter(|i| !i.is_multiple_of(stride)));
     let mut middle = search.middle;
     for _ in 0..60 {
         if progress.cancelled() {

@@ -90,7 +90,7 @@ impl AlignmentRecord {
                 greatest: Some(minimax.greatest),
                 iterations: Some(fit.iterations as u64),
                 converged: Some(fit.converged),
-                warnings: fit.warnings.iter().map(AlignNote::of).collect(),
+                warnings: AlignNote::of_search(fit, &minimax.left_out),
                 ..bare
             },
             Found::Zones(zones, fit) => AlignmentRecord {
@@ -99,7 +99,7 @@ impl AlignmentRecord {
                 excess: Some(zones.excess),
                 iterations: Some(fit.iterations as u64),
                 converged: Some(fit.converged),
-                warnings: fit.warnings.iter().map(AlignNote::of).collect(),
+                warnings: AlignNote::of_search(fit, &zones.left_out),
                 ..bare
             },
             Found::Rows(fit) => AlignmentRecord {

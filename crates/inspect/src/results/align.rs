@@ -8,7 +8,7 @@ pub use note::{AlignNote, AlignNoteKind};
 use super::{InputRecord, UNITS, VERSION};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use trueness_geom::align::{Alignment, Freedom, InZones, Minimax, RowFit};
+use trueness_geom::align::{Alignment, Freedom, InZones, Minimax, NotCounted, RowFit};
 
 /// Name of this document's schema.
 pub const SCHEMA: &str = "trueness/align/1";
@@ -140,16 +140,20 @@ pub struct ChebyshevRecord {
     pub greatest: f64,
     /// Where that point lies after the motion.
     pub at: [f64; 3],
-    /// Points that count: those that count in the best fit that it began with.
+    /// Points that count.
     pub used: u64,
-    /// Points that do not.
+    /// Points that do not: much farther off than the others and than a hundredth of the size of the reference, beside a boundary edge, on the other
+    /// side of a wall, of no facet.
     pub left_out: u64,
+    /// Distance of the farthest of those; absent where all count.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub left_out_farthest: Option<f64>,
 }
 
 /// The pose with the least greatest excess over the tolerances.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct ZonesRecord {
-    /// How far the worst point is beyond its tolerance; negative where all points that count are within, by so much at least.
+    /// How far the worst point of all is beyond its tolerance; negative where all are within, by so much at least.
     pub excess: f64,
     /// Where that point lies after the motion.
     pub at: [f64; 3],
@@ -157,11 +161,18 @@ pub struct ZonesRecord {
     pub deviation: f64,
     /// Its tolerance: least and greatest deviation.
     pub tolerance: [f64; 2],
-    /// Points that count and have a tolerance.
+    /// Points that are beyond their tolerance.
+    pub beyond: u64,
+    /// The greatest excess of the points that count in the search for the pose: what is least there. Where all count it is `excess`.
+    pub least: f64,
+    /// Points that have a tolerance. All of them are judged.
     pub used: u64,
-    /// Points that do not count, as in the best fit that it began with.
+    /// Points that do not count in the search, as those of `chebyshev`, if they are off by more than ten times the widest tolerance, too. They are judged all the same.
     pub left_out: u64,
-    /// Points that count, at places without a tolerance.
+    /// Distance of the farthest of those; absent where all count.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub left_out_farthest: Option<f64>,
+    /// Points at places without a tolerance.
     pub without_zone: u64,
 }
 
@@ -206,6 +217,10 @@ impl From<&Freedom> for FreeMotion {
             }
         }
     }
+}
+
+fn farthest(left_out: &NotCounted) -> Option<f64> {
+    (left_out.count > 0).then_some(left_out.farthest)
 }
 
 impl AlignDocument {
@@ -267,8 +282,10 @@ impl AlignDocument {
                 greatest: found.greatest,
                 at: found.at,
                 used: found.used,
-                left_out: found.left_out,
+                left_out: found.left_out.count,
+                left_out_farthest: farthest(&found.left_out),
             }),
+            warnings: AlignNote::of_search(from, &found.left_out),
             ..AlignDocument::of_best_fit(from, inputs, seed)
         }
     }
@@ -286,10 +303,14 @@ impl AlignDocument {
                 at: found.at,
                 deviation: found.deviation,
                 tolerance: found.zone,
+                beyond: found.beyond,
+                least: found.least,
                 used: found.used,
-                left_out: found.left_out,
+                left_out: found.left_out.count,
+                left_out_farthest: farthest(&found.left_out),
                 without_zone: found.without_zone,
             }),
+            warnings: AlignNote::of_search(from, &found.left_out),
             ..AlignDocument::of_best_fit(from, inputs, seed)
         }
     }

@@ -84,8 +84,8 @@ pub struct AlignmentRecord {
     /// Of `chebyshev` the greatest distance of a point that counts: the least there is near the best fit.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub greatest: Option<f64>,
-    /// Of `zones` how far the worst point that counts is beyond its tolerance, negative where all are within: the least there is near the best
-    /// fit.
+    /// Of `zones` how far the worst point of all is beyond its tolerance, negative where all are within: the least there is near the best fit
+    /// where all count in the search.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub excess: Option<f64>,
     /// Of pairs the distance left of each, of reference points the signed one along its direction; absent of other ways.

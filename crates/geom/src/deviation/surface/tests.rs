@@ -5,7 +5,6 @@ use super::*;
 use crate::check::tests::{add, inverted};
 use crate::closest::tests::{TestRandom, cube, sphere};
 use crate::deviation::along::Along;
-use crate::progress::Silent;
 use crate::space::{cross, dot, minus, norm, plus};
 use crate::topology::tests::block;
 
@@ -13,6 +12,10 @@ fn ask(mesh: &Mesh, options: SurfaceOptions, points: &[Point]) -> (SignChoice, V
     let tree = Tree::build(mesh).unwrap();
     let surface = ReferenceSurface::new(&tree, mesh, &options, &Silent).unwrap();
     let deviations = surface.deviations(points, &Silent).unwrap();
+    for (p, d) in points.iter().zip(&deviations) {
+        let alone = surface.at(p).unwrap().map(|(deviation, _)| deviation);
+        assert_eq!(alone, Some(*d).filter(|d| d.is_finite()), "{p:?}");
+    }
     (*surface.sign(), deviations, surface.disagreement(points, &Silent).unwrap())
 }
 

@@ -4,7 +4,7 @@ use crate::results::Word;
 use crate::results::word::named;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use trueness_geom::align::{AlignWarning, Freedom};
+use trueness_geom::align::{AlignWarning, Alignment, Freedom, NotCounted};
 
 /// Something to be said about an alignment.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
@@ -173,6 +173,33 @@ impl AlignNote {
             }
         };
         AlignNote { kind: Word(kind), text }
+    }
+
+    /// Those of the best fit `from` that a search for the least greatest distance began with, and of what did not count in it. What did not count in the
+    /// best fit may count there.
+    pub fn of_search(from: &Alignment, left_out: &NotCounted) -> Vec<AlignNote> {
+        let told = from.warnings.iter().filter(|w| !matches!(w, AlignWarning::LeftOut { .. }));
+        let mut notes: Vec<AlignNote> = told.map(AlignNote::of).collect();
+        let NotCounted { count, farthest, limit } = *left_out;
+        if count == 0 {
+            return notes;
+        }
+        let far = match limit.is_finite() {
+            true => format!("farther than {limit:.4} mm from the reference in the best fit, "),
+            false => String::new(),
+        };
+        let text = format!(
+            "{count} {} not count in the search for the pose: {far}beside its rim, on the other side of a wall or of no facet; they lie up to \
+             {farthest:.4} mm off{}",
+            if count == 1 { "point does" } else { "points do" },
+            if limit.is_finite() {
+                " (--keep-outliers of trueness align lets the far ones count)"
+            } else {
+                ""
+            }
+        );
+        notes.push(AlignNote { kind: Word(AlignNoteKind::LeftOut), text });
+        notes
     }
 }
 
