@@ -77,7 +77,7 @@ pub(super) fn search(
                 Some(grown) if grown.pieces.len() >= TRIAL || grown.weight >= PROMISING * limits.weight => {
                     promising.push((seed, grown));
                 }
-                _ => mark_tried(context, seed, &mut tried, &mut marks),
+                _ => mark_tried(context, seed, limits, &mut tried, &mut marks),
             }
         }
         let merit = |grown: &GrownRegion| grown.merit(context.noise);
@@ -98,11 +98,11 @@ pub(super) fn search(
             }
             let free = |piece: u32| labels[piece as usize] == NONE;
             let Some(grown) = context.whole(trial, limits.weight, &mut marks, &free) else {
-                mark_tried(context, seed, &mut tried, &mut marks);
+                mark_tried(context, seed, limits, &mut tried, &mut marks);
                 continue;
             };
             if !enough(context, &grown, limits) {
-                mark_tried(context, seed, &mut tried, &mut marks);
+                mark_tried(context, seed, limits, &mut tried, &mut marks);
                 grown.pieces.iter().for_each(|&piece| tried[piece as usize] = true);
                 continue;
             }
@@ -124,9 +124,10 @@ fn enough(context: &Context, grown: &GrownRegion, limits: &Limits) -> bool {
     grown.weight >= limits.weight && points >= limits.points && is_shown(surface, kind, some, points)
 }
 
-/// Nothing starts from the seed and its nearest neighbors again. Of what is drawn the next facet may be of another face.
-fn mark_tried(context: &Context, seed: u32, tried: &mut [bool], marks: &mut Marks) {
-    let most = if context.surface.is_drawn { 1 } else { TRIED };
+/// Nothing starts from the seed and its nearest neighbors again. Next to a drawn facet that could be a face by itself there may be another face.
+fn mark_tried(context: &Context, seed: u32, limits: &Limits, tried: &mut [bool], marks: &mut Marks) {
+    let is_face = context.surface.is_drawn && context.surface.weights[seed as usize] >= limits.weight;
+    let most = if is_face { 1 } else { TRIED };
     for piece in patch(context.surface, seed, most, context.crease, marks, |_| true) {
         tried[piece as usize] = true;
     }
