@@ -205,13 +205,8 @@ pub(in crate::segment) fn pebble(half: [f64; 3], radius: f64, chords: usize) -> 
     let (rows, columns) = (turns(2, -90.0), turns(4, 0.0));
     let middle = |row: usize, column: usize| -> Point {
         let sign = |positive: bool| if positive { 1.0 } else { -1.0 };
-        [sign(column % 4 == 0 || column % 4 == 3), sign(column % 4 < 2), sign(row == 1)]
-            .into_iter()
-            .zip(half)
-            .map(|(s, h)| s * (h - radius))
-            .collect::<Vec<f64>>()
-            .try_into()
-            .unwrap()
+        let signs = [sign([0, 3].contains(&column)), sign(column < 2), sign(row == 1)];
+        std::array::from_fn(|k| signs[k] * (half[k] - radius))
     };
     let positions: Vec<Point> = (rows.iter())
         .flat_map(|row| columns.iter().map(move |column| (row, column)))
