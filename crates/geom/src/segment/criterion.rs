@@ -53,6 +53,9 @@ pub(super) fn better(held: Option<GrownRegion>, other: GrownRegion, noise: f64) 
 fn replaces(held: &GrownRegion, other: &GrownRegion, noise: f64) -> bool {
     let [own, others] = [held, other].map(|region| region.shape.kind().unknowns());
     let gain = other.weight / held.weight;
+    if is_of_corners(held, other, noise) || is_of_corners(other, held, noise) {
+        return is_of_corners(held, other, noise);
+    }
     if own == others {
         return gain > 1.0;
     }
@@ -63,10 +66,7 @@ fn replaces(held: &GrownRegion, other: &GrownRegion, noise: f64) -> bool {
             let fits_better = held.is_doubtful(noise) && other.rms < CLEARLY * held.rms;
             held.shape.kind() != Kind::Plane && (fits_better || goes_along(other, held, noise))
         };
-        return (gain > asked && !is_of_corners(other, held, noise)) || (gain > SAME_COVER && is_wrong());
-    }
-    if is_of_corners(held, other, noise) {
-        return true;
+        return gain > asked || (gain > SAME_COVER && is_wrong());
     }
     let is_better = || other.rms < BETTER * held.rms && !goes_along(held, other, noise);
     gain > SIMPLER_COVER && (gain > SIMPLER_GAIN || is_better())
@@ -80,7 +80,8 @@ fn goes_along(one: &GrownRegion, other: &GrownRegion, noise: f64) -> bool {
 
 /// Whether `region` is only one of corners, of one face or several, and a large part of its facets goes along `other`.
 pub(super) fn is_of_corners(region: &GrownRegion, other: &GrownRegion, noise: f64) -> bool {
-    goes_along(other, region, noise) && other.weight > ALONG_COVER * region.weight
+    let of_corners = region.rms.max(noise) < ALONG * region.middles;
+    of_corners && goes_along(other, region, noise) && other.weight > ALONG_COVER * region.weight
 }
 
 /// Whether the facets of `region` might go along another element.

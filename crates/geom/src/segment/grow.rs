@@ -109,7 +109,9 @@ impl Context<'_> {
         let surface = self.surface;
         let across = |a: u32, b: u32| dot(surface.normals[a as usize], surface.normals[b as usize]);
         let near = flood(surface, facets, ROW, marks, |piece, from| {
-            across(piece, from) >= self.crease && surface.likeness(piece, from) >= LIKE
+            let turn = across(piece, from);
+            // Areas of facets with a side in common are as their widths, whatever their lengths.
+            turn >= FLAT || turn >= self.crease && surface.likeness(piece, from) >= LIKE
         });
         let mut planes: Vec<u32> = vec![];
         for piece in near {

@@ -17,7 +17,6 @@ use trueness_geom::feature::{FeatureSearch, Nearness, Nominal, NominalSurface, P
 use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::Progress;
 use trueness_geom::space::{self, Point, Vector, dot};
-use trueness_geom::spatial::neighbors::PointTree;
 
 /// Points farther off than this share of the size of the reference are of something else.
 pub(super) const ELSEWHERE: f64 = 0.1;
@@ -103,12 +102,10 @@ impl<'a> Belonging<'a> {
     }
 
     /// Those of these measured points that lie upon surfaces of the reference which are not the nominal's, and those that may: they are clearly nearer
-    /// to one, but as far off it as much else is. What lies between a feature and the face behind it, where that was measured too, is of
-    /// neither list: it is a dent. `tree` holds the measured points.
+    /// to one without lying on it, as the ground of a dent nearly through a sheet is.
     pub fn of_others(
         &self,
         points: &[u32],
-        tree: &PointTree,
         nominal: &Nominal,
         near: &Nearness,
         progress: &dyn Progress,
@@ -141,19 +138,11 @@ impl<'a> Belonging<'a> {
                 off + SAME * self.size < away && (is_aside && off <= upon || NEARER * off <= away);
             if is_nearer && off <= upon && (is_aside || WITHIN * off <= away) {
                 others[0].push(p);
-            } else if is_nearer && !self.is_measured_behind(p, tree) {
+            } else if is_nearer {
                 others[1].push(p);
             }
         }
         Ok(others)
-    }
-
-    /// Whether something was measured where the reference is nearest to a point, so that the point is of something else.
-    fn is_measured_behind(&self, p: u32, tree: &PointTree) -> bool {
-        let (at, off) = (self.measured[p as usize], self.nearest[p as usize].1);
-        let foot = self.search.tree().closest(&at, f64::INFINITY).ok().flatten().map(|c| c.point);
-        let square = foot.and_then(|foot| tree.nearest(&foot)).map(|n| n.0);
-        square.is_some_and(|square| NEARER * square.sqrt() <= off)
     }
 
     /// Keeps those of some pieces beside the nominal that the reference has too: near most of their points it has a surface, not

@@ -171,7 +171,7 @@ fn others(
     let (mut out, mut doubted) = (vec![], vec![]);
     if let Some(belonging) = belonging {
         pieces = belonging.known(pieces, nominal, near, progress)?;
-        [out, doubted] = belonging.of_others(points, &cloud.tree, nominal, near, progress)?;
+        [out, doubted] = belonging.of_others(points, nominal, near, progress)?;
     }
     let of_pieces = if belonging.is_some() { &mut out } else { &mut doubted };
     of_pieces.extend(pieces.iter().flat_map(|piece| piece.points.iter().map(|p| p.0)));

@@ -10,7 +10,7 @@ use crate::num::random::Random;
 use crate::progress::Silent;
 use crate::shape::{Kind, Parameter, Shape};
 use crate::space::{Aabb, Point, Vector, dot, minus, norm, times};
-use parts::{Part, bar, bored, elliptic, pebble, sleeve, turned};
+use parts::{Part, bar, bored, elliptic, pebble, round, sleeve, turned};
 
 /// A plane, sphere, cylinder, cone and torus about one place, radius 5 there; of the torus' tube 2.
 pub(super) fn one_of_each(center: Point, direction: Vector, half_angle: f64) -> [Shape; 5] {
@@ -312,6 +312,31 @@ fn a_small_bore_of_a_drawn_plate_is_found() {
         let found = mesh(&part.mesh, &Options::default(), &Silent).unwrap();
         matched(&part, &found, 1.0);
         assert!(found.regions[3].share < 0.001 && found.min_share == 1e-4);
+    }
+}
+
+/// All corners of a cylinder with its ends lie on one sphere, as those of a frustum do.
+#[test]
+fn a_round_solid_is_no_sphere() {
+    for (radii, long) in [([10.0, 10.0], 30.0), ([10.0, 10.0], 50.0), ([10.0, 4.0], 6.0), ([5.0, 2.5], 2.5)] {
+        for chords in [24, 64] {
+            for part in [round(radii, long, chords), round(radii, long, chords).moved().single()] {
+                let found = mesh(&part.mesh, &Options::default(), &Silent).unwrap();
+                matched(&part, &found, 1.0);
+            }
+        }
+    }
+}
+
+/// Chords of a cylinder that is cut at an angle are as wide and of other lengths.
+#[test]
+fn chords_of_a_cylinder_cut_askew_are_no_planes() {
+    for chords in [24, 48] {
+        let mut part = round([8.0, 8.0], 30.0, chords);
+        part.mesh.positions.iter_mut().filter(|p| p[2] > 0.0).for_each(|p| p[2] += 1.5 * p[0]);
+        let found = mesh(&part.mesh, &Options::default(), &Silent).unwrap();
+        let planes = found.regions.iter().filter(|r| r.fit.shape.kind() == Kind::Plane).count();
+        assert_eq!(planes, 2, "{:?}", kinds(&found));
     }
 }
 

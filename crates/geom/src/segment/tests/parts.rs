@@ -175,6 +175,26 @@ pub(in crate::segment) fn elliptic(chords: usize) -> Part {
     prism(&section, 100.0, vec![plane(0.0), plane(100.0)])
 }
 
+/// A round solid of two circles of corners, its ends without a corner inside.
+pub(in crate::segment) fn round([below, above]: [f64; 2], long: f64, chords: usize) -> Part {
+    let section: Vec<([f64; 2], usize)> = (0..chords)
+        .map(|k| (TAU * k as f64 / chords as f64).sin_cos())
+        .map(|(sin, cos)| ([below * cos, below * sin], 2))
+        .collect();
+    let plane = |z| Shape::Plane { point: [0.0, 0.0, z], normal: AXIS };
+    let side = if below == above {
+        Shape::Cylinder { point: [0.0; 3], direction: AXIS, radius: below }
+    } else {
+        let apex = [0.0, 0.0, long * below / (below - above)];
+        let half_angle = ((below - above) / long).atan();
+        Shape::Cone { apex, direction: [0.0, 0.0, -1.0], half_angle, point: [0.0; 3], radius: below }
+    };
+    let mut part = prism(&section, long, vec![plane(0.0), plane(long), side]);
+    let upper = part.mesh.positions.iter_mut().filter(|p| p[2] > 0.0);
+    upper.for_each(|p| (p[0], p[1]) = (p[0] * above / below, p[1] * above / below));
+    part
+}
+
 /// A section, of corners and the faces that begin there, drawn along z between the first two faces.
 fn prism(section: &[([f64; 2], usize)], long: f64, faces: Vec<Shape>) -> Part {
     let count = section.len();
