@@ -340,6 +340,29 @@ fn chords_of_a_cylinder_cut_askew_are_no_planes() {
     }
 }
 
+/// Where something cuts into a cylinder, the facets of its chords meet somewhere within them: no two are equally wide.
+#[test]
+fn chords_of_a_cylinder_that_is_cut_into_are_no_planes() {
+    let mut random = Random::new(3);
+    for chords in [24, 48] {
+        let Part { mut mesh, .. } = round([8.0, 8.0], 30.0, chords);
+        let ends = mesh.faces.split_off(2 * chords);
+        let sides: Vec<[u32; 3]> = mesh.faces.drain(..).collect();
+        for pair in sides.chunks(2) {
+            let [[a, b, c], [_, _, d]] = [pair[0], pair[1]];
+            let [s, t] = [0.2 + 0.6 * random.unit(), 0.2 + 0.6 * random.unit()];
+            let [p, q] = [a, b].map(|v| mesh.positions[v as usize]);
+            let middle = mesh.positions.len() as u32;
+            mesh.positions.push([p[0] + s * (q[0] - p[0]), p[1] + s * (q[1] - p[1]), 30.0 * t]);
+            mesh.faces.extend([[a, b, middle], [b, c, middle], [c, d, middle], [d, a, middle]]);
+        }
+        mesh.faces.extend(ends);
+        let found = super::mesh(&mesh, &Options::default(), &Silent).unwrap();
+        let planes = found.regions.iter().filter(|r| r.fit.shape.kind() == Kind::Plane).count();
+        assert_eq!(planes, 2, "{:?}", kinds(&found));
+    }
+}
+
 fn radius_of(shape: &Shape) -> f64 {
     match shape {
         Shape::Cylinder { radius, .. } | Shape::Sphere { radius, .. } => *radius,
