@@ -47,12 +47,12 @@ const SAME: f64 = 1e-9;
 /// The measured data on the reference.
 pub(super) struct Belonging<'a> {
     pub(super) reference: &'a Mesh,
-    measured: &'a [Point],
+    pub(super) measured: &'a Mesh,
     /// Of the features that the reference has.
     pub(super) search: FeatureSearch<'a>,
     pub(super) size: f64,
     /// Of each measured point the nearest facet and how far off it is, mm; `u32::MAX` for what is elsewhere.
-    nearest: Vec<(u32, f64)>,
+    pub(super) nearest: Vec<(u32, f64)>,
     /// Median of the distances, mm.
     median: f64,
     /// A step of single precision, which meshes pass through in their files, mm.
@@ -83,15 +83,7 @@ impl<'a> Belonging<'a> {
         all.sort_unstable_by(f64::total_cmp);
         let median = all.get(all.len() / 2).copied().unwrap_or(0.0);
         let search = FeatureSearch::new(reference, tree);
-        Ok(Some(Belonging {
-            reference,
-            measured: &measured.positions,
-            search,
-            size,
-            nearest,
-            median,
-            rounding,
-        }))
+        Ok(Some(Belonging { reference, measured, search, size, nearest, median, rounding }))
     }
 
     /// How far off the measured points are whose nearest facet is one of the nominal's, where that is beyond its distance, mm.
@@ -127,8 +119,8 @@ impl<'a> Belonging<'a> {
         }
         let mesh = self.part(own.iter().copied());
         let own_tree = Tree::build_watched(&mesh, progress).map_err(|e| Stop::Mesh(e.to_string()))?;
-        let places: Vec<Point> = asked.iter().map(|p| self.measured[*p as usize]).collect();
-        let upon = (UPON * self.median).min(FARTHEST * near.distance).max(self.rounding);
+        let places: Vec<Point> = asked.iter().map(|p| self.measured.positions[*p as usize]).collect();
+        let upon = self.upon(near);
         for (p, (own, away)) in asked.into_iter().zip(nearest(&own_tree, &places, f64::INFINITY, progress)?) {
             let (face, off) = self.nearest[p as usize];
             let angle = normal(self.reference, face).zip(normal(&mesh, own)).map(|(a, b)| dot(a, b).abs());
@@ -143,6 +135,11 @@ impl<'a> Belonging<'a> {
             }
         }
         Ok(others)
+    }
+
+    /// How far off a face of the reference points lie upon it, as most of the measured do.
+    pub(super) fn upon(&self, near: &Nearness) -> f64 {
+        (UPON * self.median).min(FARTHEST * near.distance).max(self.rounding)
     }
 
     /// Keeps those of some pieces beside the nominal that the reference has too: near most of their points it has a surface, not
@@ -168,7 +165,8 @@ impl<'a> Belonging<'a> {
         let angle = |a: Vector, b: Vector| libm::acos(dot(a, b).abs().min(1.0));
         let mut known = vec![];
         for piece in &pieces {
-            let places: Vec<Point> = piece.points.iter().map(|p| self.measured[p.0 as usize]).collect();
+            let places: Vec<Point> =
+                piece.points.iter().map(|p| self.measured.positions[p.0 as usize]).collect();
             let hits = nearest(&tree, &places, reach, progress)?;
             let is_there = |n: usize| {
                 let facing = piece.points[n].1;
@@ -235,6 +233,12 @@ pub(super) fn nearest(
         QueryError::Cancelled(_) => Stop::Cancelled,
         e => Stop::Mesh(e.to_string()),
     })
+}
+
+/// Height over the plane of a facet, mm, positive outside the material; 0 of one without area.
+pub(super) fn height(mesh: &Mesh, face: u32, p: Point) -> f64 {
+    let corner = mesh.positions[mesh.faces[face as usize][0] as usize];
+    normal(mesh, face).map_or(0.0, |out| dot(space::minus(p, corner), out))
 }
 
 pub(super) fn normal(mesh: &Mesh, face: u32) -> Option<Vector> {

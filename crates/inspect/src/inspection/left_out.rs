@@ -4,6 +4,7 @@
 //! reference is at hand, such points are told: those whose nearest place on it belongs to the feature. Without a reference those are told, of a
 //! cloud, that lie over places of the feature where nothing of it was measured, or among its points; of a mesh see `deeper`.
 
+use super::behind::behind;
 use super::belonging::{Belonging, ELSEWHERE};
 use super::data::{Data, Stop};
 use super::found::Inspection;
@@ -45,7 +46,11 @@ pub(super) fn tell(
         let Some(nominal) = of(n) else { continue };
         let near = plan.features[n].near(nominal);
         let off = match (belonging, &data.measured) {
-            (Some(belonging), _) => belonging.beyond(nominal, &near, progress),
+            (Some(belonging), _) => {
+                let mut off = belonging.beyond(nominal, &near, progress);
+                off.extend(behind(belonging, nominal, &near, progress)?);
+                off
+            }
             (None, Some(cloud)) if cloud.faces.is_empty() => {
                 over_gaps(&cloud.positions, &features[n].points, nominal, &near)
             }

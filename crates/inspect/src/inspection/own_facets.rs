@@ -3,7 +3,7 @@
 //! The nominal form alone does not tell a pocket that was cut by mistake from one that is drawn, nor where a plane ends that goes over
 //! into a fillet: the reference does. Facets are asked by their middles.
 
-use super::belonging::{Belonging, ELSEWHERE, NEARER, nearest, normal};
+use super::belonging::{Belonging, ELSEWHERE, NEARER, height, nearest, normal};
 use super::data::Stop;
 use trueness_geom::closest::Tree;
 use trueness_geom::feature::{Nearness, Nominal};
@@ -130,12 +130,6 @@ impl<'a> OwnFacets<'a> {
         };
         Ok(places.iter().zip(hits).map(over).collect())
     }
-}
-
-/// Height over the plane of a facet, mm, positive outside the material; 0 of one without area.
-fn height(mesh: &Mesh, face: u32, p: Point) -> f64 {
-    let corner = mesh.positions[mesh.faces[face as usize][0] as usize];
-    normal(mesh, face).map_or(0.0, |out| dot(minus(p, corner), out))
 }
 
 /// Places along the edges of a mesh that one facet alone has, no farther apart than `step`.

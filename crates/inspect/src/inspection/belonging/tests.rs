@@ -297,3 +297,34 @@ fn points_between_two_faces_leave_the_verdict_open() {
     let (value, points) = flatness(&cloud, Some(&reference), TOP, "distance = 2");
     assert!(value < 0.04 && points >= 11_800, "{value} {points}");
 }
+
+/// A dent or a slot deeper than the distance and deeper than half the wall is told of its own face alone, of meshes and of clouds without points on
+/// its walls.
+#[test]
+fn what_lies_nearer_to_the_other_side_of_a_wall_is_told() {
+    const DEEP: f64 = 3.2;
+    let (top, below) = ([[-10.0, 0.0], [10.0, 0.0]], [[10.0, -4.0], [-10.0, -4.0]]);
+    let reference = strips(&[top, below]);
+    let slot = [[-2.0, -DEEP], [2.0, -DEEP]];
+    let milled = [[[-10.0, 0.0], [-2.0, 0.0]], slot, [[2.0, 0.0], [10.0, 0.0]], below];
+    let left_out = |measured: Mesh, reference: &Mesh| {
+        let found = found(measured, Some(reference), TOP, (0.0, "distance = 0.5"));
+        let value = found.values[0].as_ref().unwrap().value;
+        (value, found.features[0].left_out.map(|l| (l.points, (10.0 * l.farthest).round())))
+    };
+    // As cloud, and as mesh of lines along the slot.
+    let cloud = strewn(&milled, 30.0, 0.003);
+    let count = cloud.positions.iter().filter(|p| p[0].abs() < 2.0 && p[2] > -3.5).count() as u64;
+    let (value, told) = left_out(cloud.clone(), &reference);
+    assert!(
+        value < 0.04 && told.is_some_and(|t| t.0 > count / 2 && t.0 <= count && t.1 == 32.0),
+        "{value} {told:?} {count}"
+    );
+    assert_eq!(left_out(strips(&milled), &reference), (0.0, Some((4, 32.0))));
+    // In the other face, and nearer to that one.
+    let below = [[[10.0, -4.0], [2.0, -4.0]], [[2.0, -2.4], [-2.0, -2.4]], [[-2.0, -4.0], [-10.0, -4.0]]];
+    let other = [&[top][..], &below].concat();
+    let (value, told) = left_out(strewn(&other, 30.0, 0.003), &reference);
+    assert!(value < 0.04 && told.is_none(), "{value} {told:?}");
+    assert_eq!(left_out(strips(&other), &reference), (0.0, None));
+}

@@ -1,0 +1,106 @@
+//! Measured points over a feature that lie so deep that the other side of its wall is nearer.
+//!
+//! The ground of a dent deeper than half the wall has its nearest place on the reference on the face behind the feature, and is yet of
+//! the feature. It lies within the wall, off both faces, and faces as the feature does: of a mesh the facets tell, of a cloud the heights of
+//! the points around.
+
+use super::belonging::{Belonging, height, nearest, normal};
+use super::data::Stop;
+use std::collections::BTreeMap;
+use trueness_geom::closest::Tree;
+use trueness_geom::feature::{Nearness, Nominal};
+use trueness_geom::progress::Progress;
+use trueness_geom::space::{Point, Vector, dot, minus, norm, plus};
+use trueness_geom::spatial::neighbors::PointTree;
+
+/// Cosine of the angle between the ground and the feature, and between both faces of the wall, up to which they run along each other: 60°.
+const ALONG: f64 = 0.5;
+/// Share of the distance from the feature that a point over it has as height: what is beside it lies at an angle.
+const OVER: f64 = 0.99;
+/// Neighbors of a point that are asked, how many of them must lie about as high, and the rise that they may have to it: 30°.
+const NEIGHBORS: usize = 12;
+const LEVEL: usize = 10;
+const RISE: f64 = 0.5;
+/// Points lie around a place if their mean is off it by no more than this share of their distance: of some on one side it is 0.4.
+const CENTRAL: f64 = 0.15;
+/// One in so many points of the ground of a dent must have the other face behind it: by chance a third has not.
+const SOME: usize = 5;
+
+/// How far off the feature such points are that are beyond its distance, mm.
+///
+/// Cost: one look at each measured point, a closest place for each that lies on no face, one look at each facet.
+pub(super) fn behind(
+    belonging: &Belonging,
+    nominal: &Nominal,
+    near: &Nearness,
+    progress: &dyn Progress,
+) -> Result<Vec<f64>, Stop> {
+    let own = belonging.facets(nominal, near, progress);
+    let Belonging { reference, measured, .. } = *belonging;
+    let upon = belonging.upon(near);
+    let is_asked = |p: &u32| {
+        let (face, off) = belonging.nearest[*p as usize];
+        face != u32::MAX && off > upon && own.binary_search(&face).is_err()
+    };
+    let asked: Vec<u32> = (0..measured.positions.len() as u32).filter(is_asked).collect();
+    if own.is_empty() || asked.is_empty() {
+        return Ok(vec![]);
+    }
+    let mesh = belonging.part(own.iter().copied());
+    let tree = Tree::build_watched(&mesh, progress).map_err(|e| Stop::Mesh(e.to_string()))?;
+    let places: Vec<Point> = asked.iter().map(|p| measured.positions[*p as usize]).collect();
+    let hits = nearest(&tree, &places, f64::INFINITY, progress)?;
+    let mut within: BTreeMap<u32, (f64, Vector)> = BTreeMap::new();
+    for ((p, at), (face, away)) in asked.into_iter().zip(places).zip(hits) {
+        let other = belonging.nearest[p as usize].0;
+        let Some((out, back)) = normal(&mesh, face).zip(normal(reference, other)) else { continue };
+        let deep = -height(&mesh, face, at);
+        let is_within = deep >= OVER * away && height(reference, other, at) < 0.0;
+        if away > near.distance && is_within && dot(out, back) <= -ALONG {
+            within.insert(p, (away, out));
+        }
+    }
+    let mut found: BTreeMap<u32, f64> = BTreeMap::new();
+    if measured.faces.is_empty() && !within.is_empty() {
+        found = of_cloud(belonging, &within);
+    }
+    for (facet, corners) in (0u32..).zip(&measured.faces) {
+        let inside = corners.iter().filter_map(|v| Some((*v, within.get(v)?)));
+        for (v, (away, out)) in inside {
+            if normal(measured, facet).is_some_and(|facing| dot(facing, *out) >= ALONG) {
+                found.insert(v, *away);
+            }
+        }
+    }
+    Ok(found.into_values().collect())
+}
+
+/// Those of a cloud among the points within a wall that lie about as high as the points around, if the other face was measured behind them: else
+/// they are the ground of a dent in that face.
+fn of_cloud(belonging: &Belonging, within: &BTreeMap<u32, (f64, Vector)>) -> BTreeMap<u32, f64> {
+    let places = &belonging.measured.positions;
+    let all = PointTree::new(places);
+    let around = |p: &Point, own: Option<u32>| -> Vec<Vector> {
+        let near = all.k_nearest(p, NEIGHBORS, own).into_iter();
+        near.map(|n| minus(places[n.1 as usize], *p)).collect()
+    };
+    let is_level = |p: u32, out: Vector| {
+        let rises = around(&places[p as usize], Some(p));
+        rises.iter().filter(|d| dot(**d, out).abs() <= RISE * norm(**d)).count() >= LEVEL
+    };
+    let level: BTreeMap<u32, f64> =
+        within.iter().filter(|(p, w)| is_level(**p, w.1)).map(|(p, w)| (*p, w.0)).collect();
+    let is_measured_behind = |p: &u32| {
+        let (at, off) = (places[*p as usize], belonging.nearest[*p as usize].1);
+        let Some(foot) = belonging.search.tree().closest(&at, f64::INFINITY).ok().flatten() else {
+            return false;
+        };
+        let near = around(&foot.point, None);
+        let farthest = near.iter().map(|d| norm(*d)).fold(0.0, f64::max);
+        let sum = near.iter().fold([0.0; 3], |sum, d| plus(sum, *d));
+        // At the rim of a dent they lie on one side.
+        farthest < off && norm(sum) <= CENTRAL * farthest * near.len() as f64
+    };
+    let behind = level.keys().filter(|p| is_measured_behind(p)).count();
+    if SOME * behind >= level.len() { level } else { BTreeMap::new() }
+}
