@@ -17,9 +17,12 @@ use trueness_geom::spatial::neighbors::PointTree;
 const ALONG: f64 = 0.5;
 /// Share of the distance from the feature that a point over it has as height: what is beside it lies at an angle.
 const OVER: f64 = 0.99;
-/// Neighbors of a point that are asked, how many of them must lie about as high, and the rise that they may have to it: 30°.
+/// Neighbors of a point that are asked, the fewest that tell, of how many times as many they are sought, the share of them that must lie about as high,
+/// and the rise that they may have to it: 30°.
 const NEIGHBORS: usize = 12;
-const LEVEL: usize = 10;
+const FEWEST: usize = 6;
+const ASKED: usize = 4;
+const LEVEL: f64 = 0.8;
 const RISE: f64 = 0.5;
 /// Points lie around a place if their mean is off it by no more than this share of their distance: of some on one side it is 0.4.
 const CENTRAL: f64 = 0.15;
@@ -62,7 +65,7 @@ pub(super) fn behind(
     }
     let mut found: BTreeMap<u32, f64> = BTreeMap::new();
     if measured.faces.is_empty() && !within.is_empty() {
-        found = of_cloud(belonging, &within);
+        found = of_cloud(belonging, upon, &within);
     }
     for (facet, corners) in (0u32..).zip(&measured.faces) {
         let inside = corners.iter().filter_map(|v| Some((*v, within.get(v)?)));
@@ -75,31 +78,31 @@ pub(super) fn behind(
     Ok(found.into_values().collect())
 }
 
-/// Those of a cloud among the points within a wall that lie about as high as the points around, if the other face was measured behind them: else
-/// they are the ground of a dent in that face.
-fn of_cloud(belonging: &Belonging, within: &BTreeMap<u32, (f64, Vector)>) -> BTreeMap<u32, f64> {
+/// Those of a cloud among the points within a wall that lie about as high as others around that are on no face, if the other face was measured
+/// behind them: else they are the ground of a dent in that face.
+fn of_cloud(belonging: &Belonging, upon: f64, within: &BTreeMap<u32, (f64, Vector)>) -> BTreeMap<u32, f64> {
     let places = &belonging.measured.positions;
     let all = PointTree::new(places);
-    let around = |p: &Point, own: Option<u32>| -> Vec<Vector> {
-        let near = all.k_nearest(p, NEIGHBORS, own).into_iter();
-        near.map(|n| minus(places[n.1 as usize], *p)).collect()
+    let off = |p: u32| belonging.nearest[p as usize].1;
+    let around = |p: &Point, own: Option<u32>, is: &dyn Fn(u32) -> bool| -> Vec<Vector> {
+        let near = all.k_nearest(p, ASKED * NEIGHBORS, own).into_iter().filter(|n| is(n.1));
+        near.take(NEIGHBORS).map(|n| minus(places[n.1 as usize], *p)).collect()
     };
     let is_level = |p: u32, out: Vector| {
-        let rises = around(&places[p as usize], Some(p));
-        rises.iter().filter(|d| dot(**d, out).abs() <= RISE * norm(**d)).count() >= LEVEL
+        let rises = around(&places[p as usize], Some(p), &|q| off(q) > upon);
+        let level = rises.iter().filter(|d| dot(**d, out).abs() <= RISE * norm(**d)).count();
+        rises.len() >= FEWEST && level as f64 >= LEVEL * rises.len() as f64
     };
     let level: BTreeMap<u32, f64> =
         within.iter().filter(|(p, w)| is_level(**p, w.1)).map(|(p, w)| (*p, w.0)).collect();
     let is_measured_behind = |p: &u32| {
-        let (at, off) = (places[*p as usize], belonging.nearest[*p as usize].1);
-        let Some(foot) = belonging.search.tree().closest(&at, f64::INFINITY).ok().flatten() else {
-            return false;
-        };
-        let near = around(&foot.point, None);
+        let foot = belonging.search.tree().closest(&places[*p as usize], f64::INFINITY).ok().flatten();
+        let Some(foot) = foot else { return false };
+        let near = around(&foot.point, None, &|q| off(q) <= upon);
         let farthest = near.iter().map(|d| norm(*d)).fold(0.0, f64::max);
         let sum = near.iter().fold([0.0; 3], |sum, d| plus(sum, *d));
         // At the rim of a dent they lie on one side.
-        farthest < off && norm(sum) <= CENTRAL * farthest * near.len() as f64
+        near.len() >= FEWEST && norm(sum) <= CENTRAL * farthest * near.len() as f64
     };
     let behind = level.keys().filter(|p| is_measured_behind(p)).count();
     if SOME * behind >= level.len() { level } else { BTreeMap::new() }
