@@ -47,7 +47,8 @@ impl<'a> FeatureSearch<'a> {
     /// The facets that belong to `nominal`, and their vertices.
     ///
     /// Facets without area, or with a vertex that does not exist, belong to nothing. An empty answer is no error: the feature
-    /// was not measured. Cost: some closest points, one look at each facet next to those found, one at every facet and vertex.
+    /// was not measured. Cost: some closest points, one look at each facet next to those found, one at every facet and vertex, and another where
+    /// no closest facet is of the feature.
     ///
     /// # Errors
     /// [`FeatureError`]: a nominal feature that makes no sense, [`FeatureError::Cancelled`].

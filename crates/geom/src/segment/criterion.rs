@@ -5,6 +5,8 @@
 //! earn them, by one of three kinds of evidence: it covers clearly more surface ([`ENTRY`], [`PER_UNKNOWN`]), or it covers
 //! the same and fits clearly better where the simpler one fits worse than the noise allows ([`GrownRegion::is_doubtful`], [`CLEARLY`]),
 //! or it covers the same and is the one that the facets go along (`goes_along`).
+//! Before all that, one that has corners of facets on it and not the facets gives way to one that a large part of them goes along
+//! (`is_of_corners`), whatever each covers.
 //! Whatever is not clear stays the simpler element. Of two with equally many unknowns the larger one is kept.
 //!
 //! Gains are quotients of weights (area, or number of points), fits are compared by root mean square distances.
@@ -53,8 +55,11 @@ pub(super) fn better(held: Option<GrownRegion>, other: GrownRegion, noise: f64) 
 fn replaces(held: &GrownRegion, other: &GrownRegion, noise: f64) -> bool {
     let [own, others] = [held, other].map(|region| region.shape.kind().unknowns());
     let gain = other.weight / held.weight;
-    if is_of_corners(held, other, noise) || is_of_corners(other, held, noise) {
-        return is_of_corners(held, other, noise);
+    if is_of_corners(held, other, noise) {
+        return true;
+    }
+    if is_of_corners(other, held, noise) {
+        return false;
     }
     if own == others {
         return gain > 1.0;

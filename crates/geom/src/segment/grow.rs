@@ -1,33 +1,26 @@
 //! One region: from a patch to all that belongs to its element.
 
+use super::chords::is_chord;
 use super::criterion::{BETTER, CLEARLY, better, is_shown, may_give_way};
 use super::estimate::{estimate, is_sound};
 use super::flood::{Marks, Order, flood, patch, rings, strip};
-use super::pieces::{Band, NONE, PieceGraph};
+use super::pieces::{Band, PieceGraph};
 use super::probe::Probe;
 use super::region::GrownRegion;
 use crate::fit::{Options, fit, improved};
 use crate::progress::Silent;
 use crate::shape::{Kind, Shape};
-use crate::space::{Point, Vector, cross, dot, minus, norm};
-use std::collections::BTreeMap;
+use crate::space::Point;
 
 /// Pieces of the first patches: small ones for small faces, large ones against noise.
 const PATCHES: [usize; 3] = [20, 64, 250];
 /// Pieces of the first strips, and how they grow.
 const STRIPS: [(usize, Order); 4] =
     [(20, Order::Turn), (20, Order::Edge), (64, Order::Turn), (64, Order::Edge)];
-/// The same where the surface is drawn: two facets of a plane, a fillet of few chords.
-const DRAWN_STRIPS: [(usize, Order); 3] = [(2, Order::Turn), (6, Order::Alike), (16, Order::Alike)];
-/// Facets of the first of them.
-const TWO: usize = 2;
-/// Planes in a row that are chords; facets looked at for them; the least quotient of the areas of neighbors there, by which turns may differ, and
-/// the cosine of the angle below which planes are two.
-const CHORDS: usize = 4;
-const ROW: usize = 64;
-const LIKE: f64 = 0.8;
-const AS_MUCH: f64 = 0.02;
-const FLAT: f64 = 1.0 - 1e-6;
+/// Facets of the least strip, which a plane may have.
+const PAIR: usize = 2;
+/// Strips where the surface is drawn: two facets of a plane, a fillet of few chords.
+const DRAWN_STRIPS: [(usize, Order); 3] = [(PAIR, Order::Turn), (6, Order::Alike), (16, Order::Alike)];
 /// Points that an element is fitted to while it grows.
 const ENOUGH: usize = 1500;
 /// A region may grow this many times before its element is fitted again.
@@ -97,70 +90,13 @@ impl Context<'_> {
             let drawn = if self.surface.is_drawn { &DRAWN_STRIPS[..] } else { &[] };
             for &first in drawn.iter().chain(&STRIPS) {
                 let strip = strip(self.surface, seed, first, self.crease, marks, free);
-                if strip.len() <= TWO && self.is_chord(&strip, marks) {
+                if strip.len() <= PAIR && is_chord(self.surface, &strip, self.crease, marks) {
                     continue;
                 }
                 self.tried(&mut best, &strip, most, marks, free);
             }
         }
         best
-    }
-
-    /// Whether some facets in a plane are one of several in a row that run into each other: chords of a curved face.
-    fn is_chord(&self, facets: &[u32], marks: &mut Marks) -> bool {
-        self.like_planes(facets, marks) >= CHORDS || self.turning_planes(facets) >= CHORDS
-    }
-
-    /// The planes, with that of some facets, that run into each other and are about equally wide.
-    fn like_planes(&self, facets: &[u32], marks: &mut Marks) -> usize {
-        let surface = self.surface;
-        let across = |a: u32, b: u32| dot(surface.normals[a as usize], surface.normals[b as usize]);
-        let near = flood(surface, facets, ROW, marks, |piece, from| {
-            let turn = across(piece, from);
-            // Areas of facets with a side in common are as their widths, whatever their lengths.
-            turn >= FLAT || turn >= self.crease && surface.likeness(piece, from) >= LIKE
-        });
-        let mut planes: Vec<u32> = vec![];
-        for piece in near {
-            if planes.iter().all(|p| across(*p, piece) < FLAT) {
-                planes.push(piece);
-            }
-        }
-        planes.len()
-    }
-
-    /// The planes, with that of some facets, that turn one after the other by the same angle about the same direction, to both sides. A plane that
-    /// runs into a fillet as a tangent turns by half of what the chords there do.
-    fn turning_planes(&self, facets: &[u32]) -> usize {
-        let surface = self.surface;
-        // Facets with the last turn before them, the facet where they left the plane, and the planes from there on.
-        let mut reached: Vec<(u32, Option<Vector>, u32, usize)> =
-            facets.iter().map(|f| (*f, None, NONE, 0)).collect();
-        let mut next = 0;
-        while let Some((from, last, way, planes)) = reached.get(next).copied() {
-            next += 1;
-            for &piece in surface.neighbors(from) {
-                if reached.len() >= ROW || reached.iter().any(|r| r.0 == piece) {
-                    continue;
-                }
-                let [own, other] = [from, piece].map(|p| surface.normals[p as usize]);
-                let (cosine, turn) = (dot(own, other), cross(own, other));
-                let goes_on = |last: Vector| norm(minus(turn, last)) <= AS_MUCH * norm(last);
-                if cosine >= FLAT {
-                    reached.push((piece, last, way, planes));
-                } else if cosine >= self.crease && last.is_none_or(goes_on) {
-                    reached.push((piece, Some(turn), if way == NONE { piece } else { way }, planes + 1));
-                }
-            }
-        }
-        let mut ways: BTreeMap<u32, usize> = BTreeMap::new();
-        for (_, _, way, planes) in reached {
-            let most = ways.entry(way).or_insert(0);
-            *most = planes.max(*most);
-        }
-        let mut most: Vec<usize> = ways.into_values().collect();
-        most.sort_unstable_by(|a, b| b.cmp(a));
-        1 + most.iter().take(2).sum::<usize>()
     }
 
     /// Grows what each kind of element shows of a patch and keeps the best; whether no other can cover more than it, all

@@ -12,11 +12,13 @@
 //! | `noise` | how far and how much turned a piece of a face may be |
 //! | `estimate` | an element from places and normals |
 //! | `flood`, `grow` | from a patch to a region |
+//! | `chords` | planes that are only chords of a curved face |
 //! | `criterion` | which of two elements explains a region better |
 //! | `seeds`, `search` | where to try, and who comes first |
 //! | `merge`, `borders` | regions of one face joined; pieces along borders given to the nearer region |
 
 mod borders;
+mod chords;
 mod criterion;
 mod estimate;
 mod facets;

@@ -26,7 +26,8 @@ const LEVEL: f64 = 0.8;
 const RISE: f64 = 0.5;
 /// Points lie around a place if their mean is off it by no more than this share of their distance: of some on one side it is 0.4.
 const CENTRAL: f64 = 0.15;
-/// One in so many points of the ground of a dent must have the other face behind it: by chance a third has not.
+/// One in so many points of the ground of a dent must be seen to have the other face behind it. Of twelve neighbors strewn all around, by chance
+/// the mean of more than half is off by more than [`CENTRAL`]; at the rim of a dent in the other face few pass.
 const SOME: usize = 5;
 
 /// How far off the feature such points are that are beyond its distance, mm.

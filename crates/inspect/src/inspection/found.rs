@@ -13,7 +13,7 @@ pub struct Inspection {
     pub features: Vec<Taken>,
     /// The values of the characteristics, in the plan's order, or why there are none.
     pub values: Vec<Result<Value, String>>,
-    /// What each value would be with the points of its features and datums that were left out as of other surfaces; `None`
+    /// What each value would be with the points of its features and datums of which it is not certain whose they are; `None`
     /// where there are none.
     pub with_others: Vec<Option<Result<Value, String>>>,
     /// The values in other poses in which the data fit about as well, where the alignment has found such.

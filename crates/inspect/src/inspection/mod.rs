@@ -80,7 +80,7 @@ pub fn run(plan: &Plan, data: Data, progress: &dyn Progress) -> Result<Inspectio
             in_other_poses.push(all(&taken(plan, &other, &seeds, progress)?)?);
         }
     }
-    // What the values would be with all that was left out as of other surfaces.
+    // What the values would be with the points of which it is not certain whose they are.
     let whole = take::whole(plan, &features, progress)?;
     let concerned =
         |spec: &Spec| spec.numbers(&plan.features).into_iter().any(|n| !features[n].others.points.is_empty());

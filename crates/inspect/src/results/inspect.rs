@@ -156,7 +156,7 @@ pub struct LeftOutRecord {
     pub beyond: u64,
     /// How far off the farthest of these is; null where there are none.
     pub farthest: Option<f64>,
-    /// Whether a reference has the other surfaces, and the feature, there. Without one the points alone tell.
+    /// Whether a reference has the other surfaces, or the feature, at all of these points. Else nothing but the points tells of some.
     pub on_reference: bool,
 }
 
@@ -233,7 +233,7 @@ pub struct CharacteristicRecord {
     pub anchor: Option<[f64; 3]>,
     /// Further numbers.
     pub parts: BTreeMap<String, f64>,
-    /// The value with the points of its features and datums that were taken for those of other surfaces; absent where there are none.
+    /// The value with the points of its features and datums of which it is not certain whose they are; absent where there are none.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub value_with_others: Option<f64>,
     /// What the reader should know.
