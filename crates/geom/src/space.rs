@@ -96,6 +96,18 @@ impl Aabb {
     pub fn distance(&self, p: &Point) -> f64 {
         norm(std::array::from_fn(|k| (self.min[k] - p[k]).max(p[k] - self.max[k]).max(0.0)))
     }
+    /// Whether both have a place in common, their sides included.
+    pub fn meets(&self, other: &Aabb) -> bool {
+        (0..3).all(|k| self.min[k] <= other.max[k] && other.min[k] <= self.max[k])
+    }
+    /// Whether it holds a place, its sides included.
+    pub fn holds(&self, p: &Point) -> bool {
+        (0..3).all(|k| self.min[k] <= p[k] && p[k] <= self.max[k])
+    }
+    /// The box that reaches farther by `by` on all sides; the empty box stays empty.
+    pub fn widened(&self, by: f64) -> Aabb {
+        Aabb { min: self.min.map(|x| x - by), max: self.max.map(|x| x + by) }
+    }
     /// Side lengths; negative where empty.
     pub fn sides(&self) -> Vector {
         minus(self.max, self.min)

@@ -47,6 +47,7 @@ mod thin;
 mod tree;
 mod triangle;
 mod winding;
+mod window;
 
 pub use crossing::Crossing;
 pub use edges::BoundaryEdges;

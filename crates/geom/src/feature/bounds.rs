@@ -35,7 +35,10 @@ impl Polygon {
     /// Whether the projection of `p` lies inside, at least `margin` from the boundary, or, for a margin below zero, at most so
     /// far outside. The boundary itself is inside, to rounding.
     pub(super) fn holds(&self, p: Point, margin: f64) -> bool {
-        let q = self.axes.map(|k| p[k]);
+        self.within(self.axes.map(|k| p[k]), margin)
+    }
+
+    fn within(&self, q: [f64; 2], margin: f64) -> bool {
         let mut inside = false;
         let mut near = f64::INFINITY;
         let mut size = 0.0f64;
@@ -51,17 +54,29 @@ impl Polygon {
         if margin > 0.0 { inside && near >= margin } else { inside || near <= rounding.max(-margin) }
     }
 
+    /// The two coordinates.
+    pub(super) fn axes(&self) -> [usize; 2] {
+        self.axes
+    }
+
+    fn range(&self, k: usize) -> [f64; 2] {
+        let each = || self.corners.iter().map(|c| c[k]);
+        [each().fold(f64::INFINITY, f64::min), each().fold(f64::NEG_INFINITY, f64::max)]
+    }
+
+    /// The corners of the box around it that reaches so far beyond.
+    pub(super) fn around(&self, beyond: f64) -> [[f64; 2]; 4] {
+        let [x, y] = [self.range(0), self.range(1)].map(|[low, high]| [low - beyond, high + beyond]);
+        [[x[0], y[0]], [x[1], y[0]], [x[1], y[1]], [x[0], y[1]]]
+    }
+
     /// Places inside, on a grid of 5 × 5 over the box.
-    pub(super) fn places(&self, lift: impl Fn([f64; 2], [usize; 2]) -> Point) -> Vec<Point> {
+    pub(super) fn places(&self) -> Vec<[f64; 2]> {
         const GRID: usize = 5;
-        let range = |k: usize| {
-            let each = || self.corners.iter().map(|c| c[k]);
-            (each().fold(f64::INFINITY, f64::min), each().fold(f64::NEG_INFINITY, f64::max))
-        };
-        let (x, y) = (range(0), range(1));
-        let at = |(low, high): (f64, f64), i: usize| low + (high - low) * (i as f64 + 0.5) / GRID as f64;
+        let (x, y) = (self.range(0), self.range(1));
+        let at = |[low, high]: [f64; 2], i: usize| low + (high - low) * (i as f64 + 0.5) / GRID as f64;
         let cells = (0..GRID * GRID).map(|n| [at(x, n % GRID), at(y, n / GRID)]);
-        cells.map(|c| lift(c, self.axes)).filter(|p| self.holds(*p, 0.0)).collect()
+        cells.filter(|q| self.within(*q, 0.0)).collect()
     }
 }
 

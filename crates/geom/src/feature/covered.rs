@@ -20,13 +20,20 @@ const FEW: usize = 20;
 const ROW: f64 = 0.3;
 /// Neighbors among which that is looked for, at most.
 const ROW_NEIGHBORS: usize = 384;
+/// Points of a cloud that are asked how far they lie apart, the share of them that lie no farther, and how many times that a point may
+/// cover: a wall is hit at a slant.
+const ASKED: usize = 2048;
+const NEARLY_ALL: f64 = 0.99;
+const SLANT: f64 = 2.0;
+/// Share of the size of a feature that is none.
+const ROUNDING: f64 = 1e-6;
 /// Steps of the sequence of places: powers of the root of x³ = x + 1, which leaves the least gaps in two dimensions
 /// (M. Roberts, The unreasonable effectiveness of quasirandom sequences, 2018).
 const STEPS: [f64; 2] = [0.754_877_666_246_693, 0.569_840_290_998_053_3];
 
 /// Share of the area of a nominal feature, 0 to 1, that is near one of `points`, which were found for it: nearer than that point's
 /// twelfth neighbor is to it (of fewer than 240 points a nearer neighbor, the second at least; of points in rows the first one beside
-/// the row), seen along the surface. Holes of the feature that its nominal form does not
+/// the row) and than `farthest` ([`farthest_covered`]), seen along the surface; points beyond its bounds cover none of it. Holes of the feature that its nominal form does not
 /// have are not covered. `None` of an edge, of a nominal feature that makes no sense, and without points.
 ///
 /// Cost: a search tree of the points, and some thousand nearest neighbors.
@@ -37,43 +44,75 @@ const STEPS: [f64; 2] = [0.754_877_666_246_693, 0.569_840_290_998_053_3];
 /// let floor = Nominal::Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0], boundary };
 /// // The left half of it, in steps of 0.2.
 /// let points: Vec<[f64; 3]> = (0..5000).map(|i| [0.2 * f64::from(i % 50), 0.2 * f64::from(i / 50), 0.01]).collect();
-/// let share = covered(&floor, &points).unwrap();
+/// let share = covered(&floor, &points, f64::INFINITY).unwrap();
 /// assert!((share - 0.5).abs() < 0.06, "{share}");
 /// ```
-pub fn covered(nominal: &Nominal, points: &[Point]) -> Option<f64> {
+pub fn covered(nominal: &Nominal, points: &[Point], farthest: f64) -> Option<f64> {
     let surface = nominal.surface()?;
-    let feet =
-        points.iter().filter_map(|p| surface.distance(*p).map(|(off, way)| minus(*p, times(off, way))));
-    let feet: Vec<Point> = feet.collect();
+    let foot = |p: &Point| surface.distance(*p).map(|(off, way)| minus(*p, times(off, way)));
+    let inside = on_surface(nominal);
+    let rules = Rules::new(nominal, &inside).ok()?;
+    let feet: Vec<Point> = points.iter().filter_map(foot).filter(|p| rules.point(*p)).collect();
     let tree = PointTree::new(&feet);
-    let neighbor = (feet.len() / FEW).clamp(NEIGHBOR_OF_FEW, NEIGHBOR).min(feet.len().checked_sub(1)?);
-    let away = |n: u32| -> f64 {
-        let around = tree.k_nearest(&feet[n as usize], neighbor, Some(n));
-        let last = around.last().copied().unwrap_or((0.0, n));
-        if neighbor < NEIGHBOR {
-            return last.0;
-        }
-        let from = |q: u32| minus(feet[q as usize], feet[n as usize]);
-        let Some((row, _)) = unit(from(last.1)) else { return last.0 };
-        let is_beside = |(_, q): &Neighbor| norm(cross(from(*q), row)) > ROW * norm(from(*q));
-        if around.iter().any(is_beside) {
-            return last.0;
-        }
-        let more = tree.k_nearest(&feet[n as usize], ROW_NEIGHBORS, Some(n));
-        more.into_iter().find(is_beside).map_or(last.0, |beside| beside.0)
-    };
-    let places = spread(nominal)?;
+    let places = spread(nominal, &rules)?;
+    if points.is_empty() {
+        return None;
+    }
+    let farthest = farthest * farthest;
     // Each point covers as far as its own neighbors are: somewhere they may lie a hundred times as dense.
-    let is_near = |p: &&Point| tree.nearest(p).is_some_and(|(square, n)| square <= away(n));
+    let covers = |n: u32| reach(&feet, &tree, n).min(farthest);
+    let is_near = |p: &&Point| tree.nearest(p).is_some_and(|(square, n)| square <= covers(n));
     let near = places.iter().filter(is_near).count();
     Some(near as f64 / places.len() as f64)
 }
 
+/// How far at most one point of a cloud covers a surface, mm: twice as far as nearly all of them do. A handful of points of a scan
+/// that has thousands elsewhere covers nothing. Infinite for fewer than two points.
+///
+/// Cost: some thousand nearest neighbors.
+///
+/// ```
+/// use trueness_geom::{feature::farthest_covered, spatial::neighbors::PointTree};
+/// let points: Vec<[f64; 3]> = (0..10_000).map(|i| [0.2 * f64::from(i % 100), 0.2 * f64::from(i / 100), 0.0]).collect();
+/// let farthest = farthest_covered(&points, &PointTree::new(&points));
+/// assert!(farthest > 2.0 * 0.4 && farthest < 2.0 * 1.0, "{farthest}");
+/// ```
+pub fn farthest_covered(points: &[Point], tree: &PointTree) -> f64 {
+    if points.len() < 2 {
+        return f64::INFINITY;
+    }
+    let asked = (0..points.len() as u32).step_by(points.len().div_ceil(ASKED));
+    let mut all: Vec<f64> = asked.map(|n| reach(points, tree, n)).collect();
+    all.sort_unstable_by(f64::total_cmp);
+    SLANT * all[(NEARLY_ALL * (all.len() - 1) as f64) as usize].sqrt()
+}
+
+/// Square of how far one of some points covers: its twelfth neighbor or, of points in rows, the first one beside the row.
+fn reach(points: &[Point], tree: &PointTree, n: u32) -> f64 {
+    let neighbor = (points.len() / FEW).clamp(NEIGHBOR_OF_FEW, NEIGHBOR).min(points.len() - 1);
+    let around = tree.k_nearest(&points[n as usize], neighbor, Some(n));
+    let last = around.last().copied().unwrap_or((0.0, n));
+    if neighbor < NEIGHBOR {
+        return last.0;
+    }
+    let from = |q: u32| minus(points[q as usize], points[n as usize]);
+    let Some((row, _)) = unit(from(last.1)) else { return last.0 };
+    let is_beside = |(_, q): &Neighbor| norm(cross(from(*q), row)) > ROW * norm(from(*q));
+    if around.iter().any(is_beside) {
+        return last.0;
+    }
+    let more = tree.k_nearest(&points[n as usize], ROW_NEIGHBORS, Some(n));
+    more.into_iter().find(is_beside).map_or(last.0, |beside| beside.0)
+}
+
+/// What lies on a nominal feature and within its bounds.
+fn on_surface(nominal: &Nominal) -> Nearness {
+    let rounding = ROUNDING * nominal.area().unwrap_or(0.0).sqrt();
+    Nearness { distance: rounding, angle: 1.0, margin: -rounding, rim: true, inward: None }
+}
+
 /// Places spread evenly over a nominal feature; `None` of an edge and of what makes no sense.
-fn spread(nominal: &Nominal) -> Option<Vec<Point>> {
-    let size = Aabb::of(&nominal.places()).diagonal();
-    let near = Nearness { distance: 1e-6 * size, angle: 1.0, margin: 0.0, rim: true, inward: None };
-    let rules = Rules::new(nominal, &near).ok()?;
+fn spread(nominal: &Nominal, rules: &Rules) -> Option<Vec<Point>> {
     let fractions = (1..=PLACES).map(|n| STEPS.map(|step| (step * n as f64).fract()));
     let about =
         |axis: Vector| Rigid::into_frame([0.0; 3], axis, least_axis(axis)).map(|frame| frame.inverse());
@@ -127,7 +166,9 @@ mod tests {
         let direction = [0.48, -0.6, 0.64];
         let cone = Nominal::Cone { apex: [1.0, 2.0, 3.0], direction, half_angle: 0.4, between: [2.0, 5.0] };
         let surface = cone.surface().unwrap();
-        let places = spread(&cone).unwrap();
+        let spread =
+            |nominal: &Nominal| spread(nominal, &Rules::new(nominal, &on_surface(nominal)).unwrap()).unwrap();
+        let places = spread(&cone);
         assert_eq!(places.len(), PLACES);
         let mut tenths = [0usize; 10];
         for p in places {
@@ -137,9 +178,9 @@ mod tests {
         }
         assert!(tenths.iter().all(|n| n.abs_diff(PLACES / 10) < 12), "{tenths:?}");
         let sphere = Nominal::Sphere { center: [0.0; 3], radius: 2.0 };
-        let heights = |from: f64| spread(&sphere).unwrap().iter().filter(|p| p[2] > from).count();
+        let heights = |from: f64| spread(&sphere).iter().filter(|p| p[2] > from).count();
         assert!(heights(0.0).abs_diff(PLACES / 2) < 12 && heights(1.0).abs_diff(PLACES / 4) < 12);
-        assert!(spread(&sphere).unwrap().iter().all(|p| (norm(*p) - 2.0).abs() < 1e-12));
+        assert!(spread(&sphere).iter().all(|p| (norm(*p) - 2.0).abs() < 1e-12));
     }
 
     /// A share of a cylinder, sparse and dense, on its place and beside it; a few points in a corner.
@@ -154,14 +195,14 @@ mod tests {
                     [5.0 * libm::cos(turn) + off, 5.0 * libm::sin(turn), 20.0 * j as f64 / count as f64]
                 };
                 let points: Vec<Point> = (0..count * count).map(|n| at(n % count, n / count)).collect();
-                let found = covered(&bore, &points).unwrap();
+                let found = covered(&bore, &points, f64::INFINITY).unwrap();
                 // Both ends are widened by the reach, some steps.
                 let wider = 2.0 * 3.0 / count as f64;
                 assert!(found >= share - 0.01 && found <= share + wider, "{count} {off} {share}: {found}");
             }
         }
         let few: Vec<Point> = (0..5).map(|k| [5.0, 0.1 * f64::from(k), 0.1 * f64::from(k * k % 3)]).collect();
-        assert!(covered(&bore, &few).unwrap() < 0.03);
+        assert!(covered(&bore, &few, f64::INFINITY).unwrap() < 0.03);
         // Rows forty times as far apart as their points, over all of it and over a fifth.
         for share in [0.2, 1.0] {
             let at = |i: usize, j: usize| {
@@ -169,7 +210,7 @@ mod tests {
                 [5.0 * libm::cos(turn), 5.0 * libm::sin(turn), 20.0 * share * j as f64 / 12.0]
             };
             let points: Vec<Point> = (0..800 * 13).map(|n| at(n % 800, n / 800)).collect();
-            let found = covered(&bore, &points).unwrap();
+            let found = covered(&bore, &points, f64::INFINITY).unwrap();
             assert!(found >= share - 0.01 && found <= share + 0.1, "{share}: {found}");
         }
         // Twelve places around it, in three rings, are all of it; in a sixth of the turn they are no fourth.
@@ -180,8 +221,36 @@ mod tests {
             };
             (0..12).map(at).collect()
         };
-        let [all, part] = [1.0, 0.1].map(|share| covered(&bore, &probed(share)).unwrap());
+        let [all, part] = [1.0, 0.1].map(|share| covered(&bore, &probed(share), f64::INFINITY).unwrap());
         assert!(all > 0.9 && part < 0.2, "{all} {part}");
-        assert_eq!(covered(&bore, &[]), None);
+        // A ring of a table around a floor covers nothing of it, and the points of a sphere are on it.
+        let boundary = vec![[0.0, 0.0, 0.0], [20.0, 0.0, 0.0], [20.0, 20.0, 0.0], [0.0, 20.0, 0.0]];
+        let floor = Nominal::Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0], boundary };
+        let table = (0..44 * 44).map(|n| [f64::from(n % 44) - 12.0, f64::from(n / 44) - 12.0, 0.0]);
+        let ring: Vec<Point> = table.filter(|p| [0, 1].iter().any(|k| p[*k] < 0.0 || p[*k] > 20.0)).collect();
+        assert_eq!(covered(&floor, &ring, f64::INFINITY), Some(0.0));
+        let ball = Nominal::Sphere { center: [1e3, 2e3, 3e3], radius: 2.0 };
+        let around: Vec<Point> =
+            (0..2000).map(|n| plus([1e3, 2e3, 3e3], times(2.001, on_ball(f64::from(n) / 2000.0)))).collect();
+        assert!(covered(&ball, &around, f64::INFINITY).unwrap() > 0.95);
+        // Not where the scan has a hundred times as many elsewhere.
+        let floor = (0..10_000).map(|n| [50.0 + 0.3 * f64::from(n % 100), 0.3 * f64::from(n / 100), 0.0]);
+        let scan: Vec<Point> = probed(1.0).into_iter().chain(floor).collect();
+        let farthest = farthest_covered(&scan, &PointTree::new(&scan));
+        assert!(covered(&bore, &probed(1.0), farthest).unwrap() < 0.2);
+        assert!(
+            covered(&bore, &probed(1.0), farthest_covered(&probed(1.0), &PointTree::new(&probed(1.0))))
+                .unwrap()
+                > 0.9
+        );
+        assert_eq!(covered(&bore, &few[..1], f64::INFINITY), Some(0.0));
+        assert_eq!(covered(&bore, &[], f64::INFINITY), None);
+    }
+
+    /// Places in a spiral over a ball of radius 1.
+    fn on_ball(t: f64) -> Point {
+        let z = 2.0 * t - 1.0;
+        let (turn, radius) = (TAU * 1000.0 * t * 0.618, (1.0 - z * z).sqrt());
+        [radius * libm::cos(turn), radius * libm::sin(turn), z]
     }
 }

@@ -16,7 +16,7 @@ mod search;
 mod surface;
 
 pub use beside::{Piece, pieces_beside};
-pub use covered::covered;
+pub use covered::{covered, farthest_covered};
 pub use found::Found;
 pub use nominal::{FeatureError, Nearness, Nominal};
 pub use search::FeatureSearch;
@@ -32,6 +32,8 @@ use rules::Rules;
 /// [`FeatureError`]: a nominal feature that makes no sense.
 pub fn in_cloud(points: &[Point], nominal: &Nominal, near: &Nearness) -> Result<Found, FeatureError> {
     let rules = Rules::new(nominal, near)?;
-    let points = (0..points.len() as u32).filter(|i| rules.point(points[*i as usize])).collect();
+    let bounds = rules.bounds();
+    let is_near = |p: &Point| bounds.holds(p) && rules.point(*p);
+    let points = (0..points.len() as u32).filter(|i| is_near(&points[*i as usize])).collect();
     Ok(Found { points, ..Found::default() })
 }

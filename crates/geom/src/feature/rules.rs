@@ -3,7 +3,7 @@
 use super::bounds::Polygon;
 use super::{FeatureError, Nearness, Nominal};
 use crate::rigid::Rigid;
-use crate::space::{Point, Vector, cross, dot, least_axis, minus, norm, plus, times, unit};
+use crate::space::{Aabb, Point, Vector, cross, dot, least_axis, minus, norm, plus, times, unit};
 
 /// A nominal feature, ready to be asked.
 pub(super) struct Rules<'a> {
@@ -13,6 +13,9 @@ pub(super) struct Rules<'a> {
 
 /// The sides of a dent or a spike are not steeper than this, 85°; walls that were drawn stand at right angles.
 const STEEPEST: f64 = 85.0 / 180.0 * std::f64::consts::PI;
+
+/// Share of the coordinates by which boxes are widened: far more than rounding takes.
+const ROUNDING: f64 = 1e-9;
 
 enum CheckedNominal {
     Plane { point: Point, normal: Vector, boundary: Polygon },
@@ -75,6 +78,50 @@ impl<'a> Rules<'a> {
             },
         };
         Ok(Rules { near, kind })
+    }
+
+    /// A box around all places near the feature and within its bounds.
+    pub(super) fn bounds(&self) -> Aabb {
+        let Nearness { distance, margin, .. } = *self.near;
+        let beyond = (-margin).max(0.0);
+        // Discs across an axis.
+        let around = |discs: [(Point, f64); 2], axis: Vector| {
+            let all = discs.map(|(center, radius)| {
+                let reach = axis.map(|d| radius.max(0.0) * (1.0 - d * d).max(0.0).sqrt());
+                Aabb { min: minus(center, reach), max: plus(center, reach) }
+            });
+            all[0].union(&all[1])
+        };
+        let bounds = match &self.kind {
+            CheckedNominal::Plane { point, normal, boundary } => {
+                let axes = boundary.axes();
+                let mut bounds =
+                    Aabb::of(&boundary.around(beyond).map(|at| lifted(at, axes, *point, *normal)));
+                let dropped = dropped(axes);
+                let off = distance / normal[dropped].abs();
+                bounds.min[dropped] -= off;
+                bounds.max[dropped] += off;
+                bounds
+            }
+            CheckedNominal::Cylinder { point, direction, radius, length } => {
+                let ends = [-beyond, length + beyond].map(|along| plus(*point, times(along, *direction)));
+                around(ends.map(|end| (end, radius + distance)), *direction)
+            }
+            CheckedNominal::Cone { apex, direction, half_angle, between: [from, to] } => {
+                let disc = |along: f64| {
+                    let radius = (distance + along * libm::sin(*half_angle)) / libm::cos(*half_angle);
+                    (plus(*apex, times(along, *direction)), radius)
+                };
+                around([from - beyond, to + beyond].map(disc), *direction)
+            }
+            CheckedNominal::Sphere { center, radius } => Aabb::of([center]).widened(radius + distance),
+            CheckedNominal::Edge { point, direction, length, .. } => {
+                let ends = [-beyond, length + beyond].map(|along| plus(*point, times(along, *direction)));
+                around(ends.map(|end| (end, distance)), *direction)
+            }
+        };
+        let greatest = bounds.min.iter().chain(&bounds.max).fold(0.0, |m: f64, x| m.max(x.abs()));
+        bounds.widened(ROUNDING * greatest)
     }
 
     /// Whether a facet with this unit normal belongs to the feature.
@@ -175,13 +222,10 @@ impl<'a> Rules<'a> {
         };
         const LEVELS: [f64; 3] = [0.5, 0.2, 0.8];
         match &self.kind {
-            CheckedNominal::Plane { point, normal, boundary } => boundary.places(|[a, b], axes| {
-                let dropped = 3 - axes[0] - axes[1];
-                let mut p = *point;
-                (p[axes[0]], p[axes[1]]) = (a, b);
-                p[dropped] -= dot(minus(p, *point), *normal) / normal[dropped];
-                p
-            }),
+            CheckedNominal::Plane { point, normal, boundary } => {
+                let axes = boundary.axes();
+                boundary.places().into_iter().map(|at| lifted(at, axes, *point, *normal)).collect()
+            }
             CheckedNominal::Cylinder { point, direction, radius, length } => LEVELS
                 .iter()
                 .flat_map(|t| ring(plus(*point, times(t * length, *direction)), *direction, *radius))
@@ -207,6 +251,20 @@ impl<'a> Rules<'a> {
     }
 }
 
+/// The place of a plane that has two coordinates.
+fn lifted(at: [f64; 2], axes: [usize; 2], point: Point, normal: Vector) -> Point {
+    let dropped = dropped(axes);
+    let mut p = point;
+    (p[axes[0]], p[axes[1]]) = (at[0], at[1]);
+    p[dropped] -= dot(minus(p, point), normal) / normal[dropped];
+    p
+}
+
+/// The third axis.
+fn dropped(axes: [usize; 2]) -> usize {
+    3 - axes[0] - axes[1]
+}
+
 /// Distance from an axis, and place along it.
 fn polar(p: Point, point: Point, direction: Vector) -> (f64, f64) {
     let q = minus(p, point);
@@ -217,4 +275,47 @@ fn polar(p: Point, point: Point, direction: Vector) -> (f64, f64) {
 fn across(p: Point, point: Point, direction: Vector) -> Option<Vector> {
     let q = minus(p, point);
     unit(minus(q, times(dot(q, direction), direction))).map(|u| u.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::closest::tests::TestRandom;
+
+    /// The box holds every place near a feature and within its bounds, and is not much larger than these.
+    #[test]
+    fn a_box_holds_what_is_near_a_feature() {
+        let mut random = TestRandom(3);
+        for k in 0..40 {
+            let way = random.direction();
+            let point = random.point(5.0);
+            let [side, up] = {
+                let frame = Rigid::into_frame([0.0; 3], way, least_axis(way)).unwrap();
+                [frame.rotation()[0], frame.rotation()[1]]
+            };
+            let corner = |a: f64, b: f64| plus(point, plus(times(a, side), times(b, up)));
+            let boundary = vec![corner(-2.0, -1.0), corner(3.0, -1.0), corner(0.0, 4.0)];
+            let all = [
+                Nominal::Plane { point, normal: way, boundary },
+                Nominal::Cylinder { point, direction: way, radius: 1.5, length: 4.0 },
+                Nominal::Cone { apex: point, direction: way, half_angle: 0.6, between: [1.0, 4.0] },
+                Nominal::Sphere { center: point, radius: 2.0 },
+                Nominal::Edge { point, direction: way, length: 4.0, normals: [side, up] },
+            ];
+            let margin = [-0.5, 0.0, 0.3][k % 3];
+            let near = Nearness { distance: 0.4, angle: 0.2, margin, rim: true, inward: None };
+            for nominal in &all {
+                let rules = Rules::new(nominal, &near).unwrap();
+                let bounds = rules.bounds();
+                let places = (0..40_000).map(|_| plus(point, random.point(5.5)));
+                let kept: Vec<Point> = places.filter(|p| rules.point(*p)).collect();
+                assert!(kept.len() > 20 && kept.iter().all(|p| bounds.holds(p)), "{nominal:?}");
+                let tight = Aabb::of(&kept).widened(3.0);
+                assert!(
+                    tight.holds(&bounds.min) && tight.holds(&bounds.max),
+                    "{nominal:?} {bounds:?} {tight:?}"
+                );
+            }
+        }
+    }
 }

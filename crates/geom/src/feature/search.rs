@@ -6,7 +6,7 @@ use crate::closest::Tree;
 use crate::mesh::Mesh;
 use crate::parallel::prelude::*;
 use crate::progress::Progress;
-use crate::space::{Point, cross, dot, minus, norm, normal, plus, times};
+use crate::space::{Aabb, Point, cross, dot, minus, norm, normal, plus, times};
 
 /// A mesh in which features are sought, with what every search needs: made once for all of them.
 pub struct FeatureSearch<'a> {
@@ -83,7 +83,7 @@ impl<'a> FeatureSearch<'a> {
         let mut open: Vec<u32> = nearest.map(|c| c.face).filter(|f| belongs(*f)).collect();
         if open.is_empty() {
             // The other side of a thin wall may be nearer.
-            open = self.nearest_of(&starts, belongs);
+            open = self.nearest_of(&starts, &rules, belongs);
         }
         open.sort_unstable();
         open.dedup();
@@ -91,7 +91,7 @@ impl<'a> FeatureSearch<'a> {
         open.iter().for_each(|f| found.add(*f));
         let mut beside = vec![];
         while let Some(facet) = open.pop() {
-            if found.count.is_multiple_of(1024) && progress.cancelled() {
+            if found.added.len().is_multiple_of(1024) && progress.cancelled() {
                 return Err(FeatureError::Cancelled);
             }
             for other in [0, 1, 2].into_iter().flat_map(|k| self.across(facet, k)) {
@@ -158,8 +158,12 @@ impl<'a> FeatureSearch<'a> {
         let mut with_deeper = Marked::new(self.mesh.faces.len());
         found.facets.iter().for_each(|f| with_deeper.add(*f));
         self.enclosed(&mut with_deeper, &beside, is_near, progress)?;
-        let mut vertices: Vec<u32> =
-            with_deeper.all().filter(|f| !own.has(*f)).flat_map(|f| self.mesh.faces[f as usize]).collect();
+        let mut vertices: Vec<u32> = with_deeper
+            .all()
+            .into_iter()
+            .filter(|f| !own.has(*f))
+            .flat_map(|f| self.mesh.faces[f as usize])
+            .collect();
         vertices.sort_unstable();
         vertices.dedup();
         let off = |v: &u32| surface.distance(self.mesh.positions[*v as usize]).map_or(0.0, |d| d.0.abs());
@@ -171,7 +175,7 @@ impl<'a> FeatureSearch<'a> {
     /// are joined to it by none that keep its rules: the ground of a pocket, the top of a pad, a piece of something else. None
     /// of an edge.
     ///
-    /// Cost: one look at each facet of the mesh.
+    /// Cost: one look at each facet near it.
     ///
     /// # Errors
     /// As of [`FeatureSearch::find`].
@@ -216,13 +220,13 @@ impl<'a> FeatureSearch<'a> {
             };
             self.corners(*f).is_some_and(keeps) && outward(*f).is_some_and(|o| o * side > 0.0)
         };
-        self.beside_found(found, belongs, progress)
+        self.beside_found(found, &rules, belongs, progress)
     }
 
     /// The facets, ascending, that lie within the reach and the bounds of `nominal` and face otherwise, without being walls that lead
     /// away from it, and that are none of what was `found`: slopes that nothing of the feature encloses. None of an edge.
     ///
-    /// Cost: one look at each facet of the mesh.
+    /// Cost: one look at each facet near it.
     ///
     /// # Errors
     /// As of [`FeatureSearch::find`].
@@ -262,17 +266,18 @@ impl<'a> FeatureSearch<'a> {
             let facing = corners.and_then(|c| Some((c, normal(c)?)));
             facing.is_some_and(|(c, n)| rules.tilted(c, Some(n)) && !rules.facet(c, n))
         };
-        self.beside_found(found, slopes, progress)
+        self.beside_found(found, &rules, slopes, progress)
     }
 
-    /// The facets, ascending, that are none of what was `found` and of which `is` says yes.
+    /// The facets, ascending, near what `rules` tell of that are none of what was `found` and of which `is` says yes.
     fn beside_found(
         &self,
         found: &Found,
+        rules: &Rules,
         is: impl Fn(&u32) -> bool + Sync,
         progress: &dyn Progress,
     ) -> Result<Vec<u32>, FeatureError> {
-        let all = (0..self.mesh.faces.len() as u32).into_par_iter();
+        let all = self.tree.in_box(&rules.bounds()).into_par_iter();
         let others = all.filter(|f| !progress.cancelled() && found.facets.binary_search(f).is_err());
         let others = others.filter(is).collect();
         if progress.cancelled() { Err(FeatureError::Cancelled) } else { Ok(others) }
@@ -324,9 +329,8 @@ impl<'a> FeatureSearch<'a> {
     }
 
     /// Of the facets of which `is` says yes the nearest to each place, by their middles.
-    fn nearest_of(&self, places: &[Point], is: impl Fn(u32) -> bool + Sync) -> Vec<u32> {
-        let all: Vec<(u32, Point)> = (0..self.mesh.faces.len() as u32)
-            .into_par_iter()
+    fn nearest_of(&self, places: &[Point], rules: &Rules, is: impl Fn(u32) -> bool + Sync) -> Vec<u32> {
+        let all: Vec<(u32, Point)> = (self.tree.in_box(&rules.bounds()).into_par_iter())
             .filter(|f| is(*f))
             .filter_map(|f| Some((f, center(self.corners(f)?))))
             .collect();
@@ -428,19 +432,21 @@ impl<'a> FeatureSearch<'a> {
 
     /// These facets with their vertices; those that others share only with `rim`.
     fn with_points(&self, found: &Marked, rim: bool) -> Found {
-        let facets: Vec<u32> = found.all().collect();
+        let facets = found.all();
         let area =
             |f: &u32| self.corners(*f).map_or(0.0, |[a, b, c]| 0.5 * norm(cross(minus(b, a), minus(c, a))));
         let mut points = Marked::new(self.mesh.positions.len());
         facets.iter().flat_map(|f| self.mesh.faces[*f as usize]).for_each(|v| points.add(v));
         let mut out = Marked::new(self.mesh.positions.len());
         if !rim {
-            let others = (0..).zip(&self.mesh.faces).filter(|(f, _)| !found.has(*f));
-            others.flat_map(|(_, face)| face).filter(|v| points.has(**v)).for_each(|v| out.add(*v));
-            out.all().for_each(|v| points.remove(v));
+            let near = Aabb::of(points.all().iter().map(|v| &self.mesh.positions[*v as usize]));
+            let others = self.tree.in_box(&near).into_iter().filter(|f| !found.has(*f));
+            let corners = others.flat_map(|f| self.mesh.faces[f as usize]);
+            corners.filter(|v| points.has(*v)).for_each(|v| out.add(v));
+            out.all().into_iter().for_each(|v| points.remove(v));
         }
         let area = facets.iter().map(area).sum();
-        Found { area, facets, points: points.all().collect(), rim: out.all().collect() }
+        Found { area, facets, points: points.all(), rim: out.all() }
     }
 }
 
@@ -451,32 +457,37 @@ fn center([a, b, c]: [Point; 3]) -> Point {
 /// A set of numbers below a limit.
 struct Marked {
     is: Vec<bool>,
-    count: usize,
+    /// Those that were ever added: far fewer than the limit.
+    added: Vec<u32>,
 }
 
 impl Marked {
     fn new(limit: usize) -> Marked {
-        Marked { is: vec![false; limit], count: 0 }
+        Marked { is: vec![false; limit], added: vec![] }
     }
 
     fn has(&self, n: u32) -> bool {
         self.is.get(n as usize).copied().unwrap_or(false)
     }
 
-    fn set(&mut self, n: u32, to: bool) -> bool {
-        self.is.get_mut(n as usize).is_some_and(|is| std::mem::replace(is, to) != to)
-    }
-
     fn add(&mut self, n: u32) {
-        self.count += usize::from(self.set(n, true));
+        if let Some(is) = self.is.get_mut(n as usize).filter(|is| !**is) {
+            *is = true;
+            self.added.push(n);
+        }
     }
 
     fn remove(&mut self, n: u32) {
-        self.count -= usize::from(self.set(n, false));
+        if let Some(is) = self.is.get_mut(n as usize) {
+            *is = false;
+        }
     }
 
     /// All of them, ascending.
-    fn all(&self) -> impl Iterator<Item = u32> + '_ {
-        (0..).zip(&self.is).filter_map(|(n, is)| is.then_some(n))
+    fn all(&self) -> Vec<u32> {
+        let mut all: Vec<u32> = self.added.iter().copied().filter(|n| self.has(*n)).collect();
+        all.sort_unstable();
+        all.dedup();
+        all
     }
 }

@@ -6,9 +6,8 @@
 
 use super::belonging::{Belonging, height, nearest, normal};
 use super::data::Stop;
+use super::own_facets::OwnFacets;
 use std::collections::BTreeMap;
-use trueness_geom::closest::Tree;
-use trueness_geom::feature::{Nearness, Nominal};
 use trueness_geom::progress::Progress;
 use trueness_geom::space::{Point, Vector, dot, minus, norm, plus};
 use trueness_geom::spatial::neighbors::PointTree;
@@ -35,37 +34,34 @@ const SOME: usize = 5;
 /// Cost: one look at each measured point, a closest place for each that lies on no face, one look at each facet.
 pub(super) fn behind(
     belonging: &Belonging,
-    nominal: &Nominal,
-    near: &Nearness,
+    own: &OwnFacets,
     progress: &dyn Progress,
 ) -> Result<Vec<f64>, Stop> {
-    let own = belonging.facets(nominal, near, progress);
     let Belonging { reference, measured, .. } = *belonging;
+    let OwnFacets { near, mesh, tree, .. } = own;
     let upon = belonging.upon(near);
     let is_asked = |p: &u32| {
         let (face, off) = belonging.nearest[*p as usize];
-        face != u32::MAX && off > upon && own.binary_search(&face).is_err()
+        face != u32::MAX && off > upon && !own.has_within(face)
     };
     let asked: Vec<u32> = (0..measured.positions.len() as u32).filter(is_asked).collect();
-    if own.is_empty() || asked.is_empty() {
-        return Ok(vec![]);
-    }
-    let mesh = belonging.part(own.iter().copied());
-    let tree = Tree::build_watched(&mesh, progress).map_err(|e| Stop::Mesh(e.to_string()))?;
     let places: Vec<Point> = asked.iter().map(|p| measured.positions[*p as usize]).collect();
-    let hits = nearest(&tree, &places, f64::INFINITY, progress)?;
+    let hits = nearest(tree, &places, f64::INFINITY, progress)?;
     let mut within: BTreeMap<u32, (f64, Vector)> = BTreeMap::new();
     for ((p, at), (face, away)) in asked.into_iter().zip(places).zip(hits) {
         let other = belonging.nearest[p as usize].0;
-        let Some((out, back)) = normal(&mesh, face).zip(normal(reference, other)) else { continue };
-        let deep = -height(&mesh, face, at);
+        let Some((out, back)) = normal(mesh, face).zip(normal(reference, other)) else { continue };
+        let deep = -height(mesh, face, at);
         let is_within = deep >= OVER * away && height(reference, other, at) < 0.0;
         if away > near.distance && is_within && dot(out, back) <= -ALONG {
             within.insert(p, (away, out));
         }
     }
     let mut found: BTreeMap<u32, f64> = BTreeMap::new();
-    if measured.faces.is_empty() && !within.is_empty() {
+    if within.is_empty() {
+        return Ok(vec![]);
+    }
+    if measured.faces.is_empty() {
         found = of_cloud(belonging, upon, &within);
     }
     for (facet, corners) in (0u32..).zip(&measured.faces) {

@@ -47,8 +47,10 @@ pub(super) fn tell(
         let near = plan.features[n].near(nominal);
         let off = match (belonging, &data.measured) {
             (Some(belonging), _) => {
-                let mut off = belonging.beyond(nominal, &near, progress);
-                off.extend(behind(belonging, nominal, &near, progress)?);
+                let Some(own) = belonging.own(n) else { continue };
+                let far = |(face, off): &&(u32, f64)| *off > near.distance && own.has_within(*face);
+                let mut off: Vec<f64> = belonging.nearest.iter().filter(far).map(|(_, off)| *off).collect();
+                off.extend(behind(belonging, own, progress)?);
                 off
             }
             (None, Some(cloud)) if cloud.faces.is_empty() => {

@@ -13,6 +13,7 @@ mod found;
 mod left_out;
 mod measure;
 mod noise_field;
+mod of_others;
 mod own_facets;
 mod pose_noise;
 mod seed;

@@ -1,4 +1,4 @@
-//! Which facets of a measured mesh are of a feature, as the facets tell that the reference has of it.
+//! The facets of the reference that are a feature's own, and which facets of a measured mesh they tell to be of it.
 //!
 //! The nominal form alone does not tell a pocket that was cut by mistake from one that is drawn, nor where a plane ends that goes over
 //! into a fillet: the reference does. Facets are asked by their middles.
@@ -6,130 +6,213 @@
 use super::belonging::{Belonging, ELSEWHERE, NEARER, height, nearest, normal};
 use super::data::Stop;
 use trueness_geom::closest::Tree;
-use trueness_geom::feature::{Nearness, Nominal};
+use trueness_geom::feature::{FeatureError, FeatureSearch, Nearness, Nominal, NominalSurface};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::Progress;
-use trueness_geom::space::{Point, dot, minus, norm, plus, times};
+use trueness_geom::space::{Aabb, Point, dot, minus, norm, plus, times};
 use trueness_geom::spatial::neighbors::PointTree;
 
+/// A facet of the reference may be off the surface of the nominal by this share of the distance up to which points are sought.
+const ON: f64 = 1e-3;
+/// So many times the middle one of the distances of its facets from the nominal a facet of the same face may be off: a nominal may lean,
+/// by the digits it is written with.
+const LEANS: f64 = 4.0;
 /// So many times the angle that a feature allows others of the reference may be turned against it that face as it does.
 const ALIKE: f64 = 2.0;
 /// Most steps along an edge.
 const STEPS: f64 = 1e4;
 
-/// The facets of the reference that lie on the surface of a nominal and within its bounds.
-pub(super) struct OwnFacets<'a> {
-    belonging: &'a Belonging<'a>,
-    distance: f64,
+/// The facets of the reference that lie on the surface of a nominal and within its bounds: all of the face counts, however its facets
+/// lie to the margin.
+pub(super) struct OwnFacets {
+    pub(super) surface: NominalSurface,
+    pub(super) near: Nearness,
+    /// So far off the surface a facet of the face may be, mm.
+    limit: f64,
+    /// The side of the surface that they face: its normal's if above zero.
+    side: f64,
     /// Of a cylinder, cone or sphere, whether they face its axis or center.
     pub(super) inward: Option<bool>,
-    /// For each facet of the reference, whether it lies on the surface of the nominal, however it was cut into facets.
-    on_surface: Vec<bool>,
     /// Their numbers, ascending.
     numbers: Vec<u32>,
-    own: Part,
-    /// Others that face as they do: the ground of a pocket.
-    alike: Option<Part>,
+    /// Those within the margin.
+    within: Vec<u32>,
+    pub(super) mesh: Mesh,
+    pub(super) tree: Tree,
 }
 
-/// Some facets with their search tree.
-struct Part {
-    mesh: Mesh,
-    tree: Tree,
-}
-
-impl Part {
-    fn new(mesh: Mesh, progress: &dyn Progress) -> Result<Part, Stop> {
-        let tree = Tree::build_watched(&mesh, progress).map_err(|e| Stop::Mesh(e.to_string()))?;
-        Ok(Part { mesh, tree })
-    }
-}
-
-impl<'a> OwnFacets<'a> {
+impl OwnFacets {
     /// `None` where the reference has none: of an edge, and where the nominal is off the reference.
     ///
-    /// Cost: some looks at each facet of the reference, and search trees of those of the nominal.
+    /// Cost: some looks at each facet of the reference near the feature, and a search tree of its own.
     pub(super) fn new(
-        belonging: &'a Belonging,
+        (reference, search): (&Mesh, &FeatureSearch),
         nominal: &Nominal,
         near: &Nearness,
+        rounding: f64,
         progress: &dyn Progress,
-    ) -> Result<Option<OwnFacets<'a>>, Stop> {
+    ) -> Result<Option<OwnFacets>, Stop> {
         let Some(surface) = nominal.surface() else { return Ok(None) };
-        let reference = belonging.reference;
-        let all = 0..reference.faces.len() as u32;
-        let on_surface: Vec<bool> = all.clone().map(|f| belonging.is_on(&surface, f, near)).collect();
-        let whole = Nearness { margin: -near.distance, ..*near };
-        let mut numbers = belonging.facets(nominal, &whole, progress);
-        numbers.retain(|f| on_surface[*f as usize]);
+        let limit = (ON * near.distance).max(rounding);
+        let of = |near: &Nearness| -> Result<(Vec<u32>, f64), Stop> {
+            let found = search.find(nominal, near, progress);
+            let Some(found) = some(found)? else { return Ok((vec![], limit)) };
+            let mut off: Vec<f64> = found.facets.iter().map(|f| off(reference, &surface, *f)).collect();
+            off.sort_unstable_by(f64::total_cmp);
+            let limit = off.get(off.len() / 2).map_or(0.0, |middle| LEANS * middle).max(limit);
+            // Those joined to where it is begun, and those that lie apart, beyond a groove or a slot.
+            let mut all = some(search.apart(&found, nominal, near, progress))?.unwrap_or_default();
+            all.extend(&found.facets);
+            all.retain(|f| self::off(reference, &surface, *f) <= limit);
+            all.sort_unstable();
+            Ok((all, limit))
+        };
+        let (numbers, limit) = of(&Nearness { margin: -near.distance, ..*near })?;
+        let (within, _) = of(near)?;
         if numbers.is_empty() {
             return Ok(None);
         }
-        let outward = |f: u32| {
-            let [a, b, c] = reference.faces[f as usize].map(|v| reference.positions[v as usize]);
-            let way = surface.distance(times(1.0 / 3.0, plus(a, plus(b, c))));
-            way.zip(normal(reference, f)).map_or(0.0, |((_, way), facing)| dot(way, facing))
-        };
-        let side: f64 = numbers.iter().map(|f| outward(*f).signum()).sum::<f64>().signum();
-        let cosine = libm::cos(ALIKE * near.angle);
-        let alike = belonging.part(all.filter(|f| !on_surface[*f as usize] && side * outward(*f) >= cosine));
-        let alike = if alike.faces.is_empty() { None } else { Some(Part::new(alike, progress)?) };
-        let own = Part::new(belonging.part(numbers.iter().copied()), progress)?;
+        let side = numbers.iter().map(|f| outward(reference, &surface, *f).signum()).sum::<f64>().signum();
         let inward = (!matches!(nominal, Nominal::Plane { .. }) && side != 0.0).then_some(side < 0.0);
-        let distance = near.distance;
-        Ok(Some(OwnFacets { belonging, distance, inward, on_surface, numbers, own, alike }))
+        let mesh = part(reference, &numbers);
+        let tree = Tree::build_watched(&mesh, progress).map_err(|e| Stop::Mesh(e.to_string()))?;
+        Ok(Some(OwnFacets { surface, near: *near, limit, side, inward, numbers, within, mesh, tree }))
+    }
+
+    /// Whether a facet of the reference is one of them.
+    pub(super) fn has(&self, facet: u32) -> bool {
+        self.numbers.binary_search(&facet).is_ok()
+    }
+
+    /// Whether a facet of the reference is one of those within the margin.
+    pub(super) fn has_within(&self, facet: u32) -> bool {
+        self.within.binary_search(&facet).is_ok()
+    }
+
+    /// Whether a facet of the reference lies on the surface of the nominal, however it was cut into facets. The ground of a shallow pocket
+    /// and the begin of a fillet are within its reach, and not on it.
+    fn is_on(&self, reference: &Mesh, facet: u32) -> bool {
+        off(reference, &self.surface, facet) <= self.limit
     }
 
     /// Whether each of these places, of facets that face as the feature does, is of it.
-    pub(super) fn are_own(&self, places: &[Point], progress: &dyn Progress) -> Result<Vec<bool>, Stop> {
-        let beside = self.beside(places, progress)?;
-        let nearer = self.nearer(places, progress)?;
+    pub(super) fn are_own(
+        &self,
+        belonging: &Belonging,
+        places: &[Point],
+        progress: &dyn Progress,
+    ) -> Result<Vec<bool>, Stop> {
+        let beside = self.beside(belonging, places, progress)?;
+        let nearer = self.nearer(belonging, places, progress)?;
         Ok(nearer.into_iter().zip(beside).map(|(nearer, beside)| nearer && !beside).collect())
     }
 
-    /// Whether each of these places is nearer to the feature than to others of the reference that face as it does.
-    fn nearer(&self, places: &[Point], progress: &dyn Progress) -> Result<Vec<bool>, Stop> {
-        let Some(alike) = &self.alike else { return Ok(vec![true; places.len()]) };
-        let away = |part: &Part| nearest(&part.tree, places, f64::INFINITY, progress);
-        Ok(away(&self.own)?.into_iter().zip(away(alike)?).map(|(own, other)| own.1 <= other.1).collect())
+    /// Whether each of these places is nearer to the feature than to others of the reference that face as it does, as the ground of a pocket.
+    fn nearer(
+        &self,
+        belonging: &Belonging,
+        places: &[Point],
+        progress: &dyn Progress,
+    ) -> Result<Vec<bool>, Stop> {
+        let own = nearest(&self.tree, places, f64::INFINITY, progress)?;
+        let reach = own.iter().map(|(_, off)| *off).fold(0.0, f64::max);
+        let Belonging { reference, search, .. } = belonging;
+        let cosine = libm::cos(ALIKE * self.near.angle);
+        let mut alike = search.tree().in_box(&Aabb::of(places).widened(reach));
+        alike.retain(|f| {
+            !self.is_on(reference, *f) && self.side * outward(reference, &self.surface, *f) >= cosine
+        });
+        if alike.is_empty() {
+            return Ok(vec![true; places.len()]);
+        }
+        let mesh = part(reference, &alike);
+        let tree = Tree::build_watched(&mesh, progress).map_err(|e| Stop::Mesh(e.to_string()))?;
+        let others = nearest(&tree, places, f64::INFINITY, progress)?;
+        Ok(own.into_iter().zip(others).map(|(own, other)| own.1 <= other.1).collect())
     }
 
     /// Whether each of these places is of a face of the reference beside the feature: beyond where this ends, and clearly nearer to that
     /// face, as on a fillet that leaves it as a tangent.
-    fn beside(&self, places: &[Point], progress: &dyn Progress) -> Result<Vec<bool>, Stop> {
-        let on_all = nearest(self.belonging.search.tree(), places, f64::INFINITY, progress)?;
-        let is_other = |n: &usize| self.on_surface.get(on_all[*n].0 as usize).is_some_and(|on| !on);
+    fn beside(
+        &self,
+        belonging: &Belonging,
+        places: &[Point],
+        progress: &dyn Progress,
+    ) -> Result<Vec<bool>, Stop> {
+        let on_all = nearest(belonging.search.tree(), places, f64::INFINITY, progress)?;
+        let is_other = |n: &usize| on_all[*n].0 != u32::MAX && !self.is_on(belonging.reference, on_all[*n].0);
         let asked: Vec<usize> = (0..places.len()).filter(is_other).collect();
         let of: Vec<Point> = asked.iter().map(|n| places[*n]).collect();
         let mut beside = vec![false; places.len()];
-        for (n, (face, away)) in asked.into_iter().zip(nearest(&self.own.tree, &of, f64::INFINITY, progress)?)
-        {
-            let over = height(&self.own.mesh, face, places[n]).abs();
-            let aside = (away * away - over * over).max(0.0).sqrt();
-            // At a sharp edge that is off its place both are as near.
-            beside[n] = aside > over && NEARER * on_all[n].1 <= away;
+        for (n, own) in asked.into_iter().zip(nearest(&self.tree, &of, f64::INFINITY, progress)?) {
+            beside[n] = self.ends_before(places[n], own, on_all[n].1);
         }
         Ok(beside)
     }
 
+    /// Whether the feature ends before a place that is `off` another face, and that one is clearly nearer; `own` is the nearest facet of the
+    /// feature with its distance. At a sharp edge that is off its place both are as near.
+    pub(super) fn ends_before(&self, place: Point, own: (u32, f64), off: f64) -> bool {
+        let (facet, away) = own;
+        let over = height(&self.mesh, facet, place).abs();
+        let aside = (away * away - over * over).max(0.0).sqrt();
+        aside > over && NEARER * off <= away
+    }
+
     /// Whether each of these places lies over the feature, farther inside than its `distance` from where it ends, or outside the
     /// material: edges that were broken or rounded are within that distance, and lack material.
-    pub(super) fn over(&self, places: &[Point], progress: &dyn Progress) -> Result<Vec<bool>, Stop> {
+    pub(super) fn over(
+        &self,
+        belonging: &Belonging,
+        places: &[Point],
+        progress: &dyn Progress,
+    ) -> Result<Vec<bool>, Stop> {
         if places.is_empty() {
             return Ok(vec![]);
         }
-        let Belonging { reference, size, rounding, search, .. } = self.belonging;
-        let distance = self.distance;
-        let border = PointTree::new(&along_border(&self.own.mesh, 0.5 * distance));
+        let Belonging { reference, size, rounding, search, .. } = belonging;
+        let distance = self.near.distance;
+        let border = PointTree::new(&along_border(&self.mesh, 0.5 * distance));
         let inside =
             |p: &Point| border.nearest(p).is_none_or(|(square, _)| square > 2.0 * distance * distance);
         let hits = nearest(search.tree(), places, ELSEWHERE * size, progress)?;
         let over = |(p, (face, _)): (&Point, (u32, f64))| {
-            self.numbers.binary_search(&face).is_ok()
-                && (inside(p) || height(reference, face, *p) > *rounding)
+            self.has(face) && (inside(p) || height(reference, face, *p) > *rounding)
         };
         Ok(places.iter().zip(hits).map(over).collect())
     }
+}
+
+/// What was found, `None` of a nominal that makes no sense: who seeks it in the measured data is told.
+fn some<T>(found: Result<T, FeatureError>) -> Result<Option<T>, Stop> {
+    match found {
+        Err(FeatureError::Cancelled) => Err(Stop::Cancelled),
+        found => Ok(found.ok()),
+    }
+}
+
+/// How far the farthest corner of a facet is off a surface.
+fn off(mesh: &Mesh, surface: &NominalSurface, facet: u32) -> f64 {
+    let of = |v: u32| surface.distance(mesh.positions[v as usize]).map_or(0.0, |d| d.0.abs());
+    mesh.faces[facet as usize].iter().map(|v| of(*v)).fold(0.0, f64::max)
+}
+
+/// Cosine of the angle between a facet's normal and that of a surface there; 0 of one without area.
+fn outward(mesh: &Mesh, surface: &NominalSurface, facet: u32) -> f64 {
+    let [a, b, c] = mesh.faces[facet as usize].map(|v| mesh.positions[v as usize]);
+    let way = surface.distance(times(1.0 / 3.0, plus(a, plus(b, c))));
+    way.zip(normal(mesh, facet)).map_or(0.0, |((_, way), facing)| dot(way, facing))
+}
+
+/// Some facets of a mesh, with the vertices that they have.
+pub(super) fn part(mesh: &Mesh, facets: &[u32]) -> Mesh {
+    let corners = || facets.iter().flat_map(|f| mesh.faces[*f as usize]);
+    let mut used: Vec<u32> = corners().collect();
+    used.sort_unstable();
+    used.dedup();
+    let place = |v: u32| used.partition_point(|u| *u < v) as u32;
+    let faces = facets.iter().map(|f| mesh.faces[*f as usize].map(place)).collect();
+    Mesh { positions: used.iter().map(|v| mesh.positions[*v as usize]).collect(), faces }
 }
 
 /// Places along the edges of a mesh that one facet alone has, no farther apart than `step`.

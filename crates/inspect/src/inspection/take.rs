@@ -3,6 +3,7 @@
 use super::belonging::Belonging;
 use super::data::{Data, Stop};
 use super::deeper::deeper;
+use super::of_others::OfOthers;
 use super::own_facets::OwnFacets;
 use super::seed::Seeded;
 use crate::characteristic::{Element, Others, Taken};
@@ -11,7 +12,7 @@ use crate::plan::{Class, Feature, Plan, Source};
 use std::collections::BTreeMap;
 use trueness_geom::closest::Tree;
 use trueness_geom::feature::{
-    FeatureError, FeatureSearch, Found, Nearness, Nominal, covered, in_cloud, pieces_beside,
+    FeatureError, FeatureSearch, Found, Nearness, Nominal, covered, farthest_covered, in_cloud, pieces_beside,
 };
 use trueness_geom::fit::{FitError, Options, fit};
 use trueness_geom::mesh::Mesh;
@@ -56,7 +57,9 @@ pub(super) fn features(
                 taken.areas = vec![1.0; taken.points.len()];
                 taken
             }
-            Source::Nominal | Source::Seed(_) => found(feature, seeds.get(&number), data, &search, progress)?,
+            Source::Nominal | Source::Seed(_) => {
+                found((number, feature), seeds.get(&number), data, &search, progress)?
+            }
         };
         associated(taken, feature, progress).map(Some)
     };
@@ -132,6 +135,8 @@ struct Cloud {
     /// Their numbers in the cloud; of copies the first.
     numbers: Vec<u32>,
     tree: PointTree,
+    /// How far at most one of them covers a feature, mm.
+    farthest: f64,
 }
 
 impl Cloud {
@@ -143,7 +148,8 @@ impl Cloud {
         numbers.dedup_by_key(|n| key(n));
         numbers.sort_unstable();
         let places: Vec<Point> = numbers.iter().map(|n| points[*n as usize]).collect();
-        Cloud { tree: PointTree::new(&places), places, numbers }
+        let tree = PointTree::new(&places);
+        Cloud { farthest: farthest_covered(&places, &tree), tree, places, numbers }
     }
 
     fn number(&self, place: u32) -> u32 {
@@ -156,7 +162,7 @@ impl Cloud {
 fn others(
     points: &mut Vec<u32>,
     measured: &[Point],
-    (cloud, belonging): (&Cloud, Option<&Belonging>),
+    (cloud, reference): (&Cloud, Option<OfOthers>),
     (nominal, near): (&Nominal, &Nearness),
     progress: &dyn Progress,
 ) -> Result<Others, Stop> {
@@ -169,11 +175,11 @@ fn others(
     points.iter_mut().for_each(|p| *p = cloud.number(*p));
     pieces.iter_mut().flat_map(|piece| &mut piece.points).for_each(|p| p.0 = cloud.number(p.0));
     let (mut out, mut doubted) = (vec![], vec![]);
-    if let Some(belonging) = belonging {
-        pieces = belonging.known(pieces, nominal, near, progress)?;
-        [out, doubted] = belonging.of_others(points, nominal, near, progress)?;
+    if let Some(reference) = &reference {
+        pieces = reference.known(pieces)?;
+        [out, doubted] = reference.upon(points)?;
     }
-    let of_pieces = if belonging.is_some() { &mut out } else { &mut doubted };
+    let of_pieces = if reference.is_some() { &mut out } else { &mut doubted };
     of_pieces.extend(pieces.iter().flat_map(|piece| piece.points.iter().map(|p| p.0)));
     for numbers in [&mut out, &mut doubted] {
         numbers.sort_unstable();
@@ -181,8 +187,14 @@ fn others(
         points.retain(|p| numbers.binary_search(p).is_err());
     }
     doubted.retain(|p| out.binary_search(p).is_err());
+    let mut known = out.len();
+    if let Some(reference) = &reference {
+        let at_edges = reference.at_edges(points)?;
+        points.retain(|p| at_edges.binary_search(p).is_err());
+        known += at_edges.len();
+    }
     let points = doubted.iter().filter_map(|p| measured.get(*p as usize).copied()).collect();
-    Ok(Others { points, known: out.len(), on_reference: belonging.is_some() })
+    Ok(Others { points, known, on_reference: reference.is_some() })
 }
 
 /// The facets of a measured mesh, to be judged by those that the reference has of the feature.
@@ -191,9 +203,8 @@ struct OfMesh<'a> {
     facets: &'a FeatureSearch<'a>,
     nominal: &'a Nominal,
     near: &'a Nearness,
-    own: Option<OwnFacets<'a>>,
-    /// Whether there is a reference.
-    known: bool,
+    reference: Option<&'a Belonging<'a>>,
+    own: Option<&'a OwnFacets>,
 }
 
 impl OfMesh<'_> {
@@ -209,28 +220,31 @@ impl OfMesh<'_> {
             FeatureError::Cancelled => Stop::Cancelled,
             e => Stop::Mesh(e.to_string()),
         };
-        if let Some(own) = &self.own {
-            let kept = which(&found.facets, own.are_own(&places(&found.facets), progress)?);
+        let told = self.reference.zip(self.own);
+        if let Some((reference, own)) = told {
+            let kept = which(&found.facets, own.are_own(reference, &places(&found.facets), progress)?);
             if kept.len() < found.facets.len() {
                 found = facets.of(&kept, near);
             }
         }
         let apart = facets.apart(&found, nominal, near, progress).map_err(failed)?;
-        let (joined, mut others) = match (&self.own, self.known) {
-            (Some(own), _) => (which(&apart, own.are_own(&places(&apart), progress)?), vec![]),
-            (None, true) => (apart, vec![]),
-            (None, false) => (vec![], apart),
+        let (joined, mut others) = match (told, self.reference) {
+            (Some((reference, own)), _) => {
+                (which(&apart, own.are_own(reference, &places(&apart), progress)?), vec![])
+            }
+            (None, Some(_)) => (apart, vec![]),
+            (None, None) => (vec![], apart),
         };
         if !joined.is_empty() {
             found = facets.joined(&found, &joined, near);
         }
-        if let Some(own) = &self.own {
+        if let Some((reference, own)) = told {
             let slopes = facets.slopes(&found, nominal, near, progress).map_err(failed)?;
-            others.extend(which(&slopes, own.over(&places(&slopes), progress)?));
+            others.extend(which(&slopes, own.over(reference, &places(&slopes), progress)?));
         }
         let points = facets.joined(&Found::default(), &others, near).points;
         let points = points.iter().map(|v| self.mesh.positions[*v as usize]).collect();
-        Ok((found, Others { points, known: 0, on_reference: self.known }))
+        Ok((found, Others { points, known: 0, on_reference: self.reference.is_some() }))
     }
 
     fn corners(&self, facet: u32) -> [Point; 3] {
@@ -271,7 +285,7 @@ fn bare(feature: &Feature) -> Taken {
 
 /// The points that the measured data have where the model has the feature.
 fn found(
-    feature: &Feature,
+    (number, feature): (usize, &Feature),
     seeded: Option<&Seeded>,
     data: &Data,
     search: &Search,
@@ -284,12 +298,9 @@ fn found(
     }
     let (Some(mesh), Some(nominal)) = (&data.measured, taken.nominal.clone()) else { return Ok(taken) };
     let mut near = feature.near(&nominal);
-    let own = match (search.facets, search.belonging) {
-        (Some(_), Some(belonging)) => OwnFacets::new(belonging, &nominal, &near, progress)?,
-        _ => None,
-    };
+    let own = search.belonging.and_then(|belonging| belonging.own(number));
     // The wall of a tube has a face within reach on its other side.
-    near.inward = near.inward.or(own.as_ref().and_then(|own| own.inward));
+    near.inward = near.inward.or(own.and_then(|own| own.inward));
     let found = match (search.facets, search.cloud) {
         (Some(facets), _) => facets.find(&nominal, &near, progress),
         (None, Some(cloud)) => in_cloud(&cloud.places, &nominal, &near),
@@ -302,14 +313,16 @@ fn found(
     let mut found = found.map_err(stop)?;
     if let Some(facets) = search.facets {
         let of_mesh =
-            OfMesh { mesh, facets, nominal: &nominal, near: &near, own, known: search.belonging.is_some() };
+            OfMesh { mesh, facets, nominal: &nominal, near: &near, reference: search.belonging, own };
         (found, taken.others) = of_mesh.judged(found, progress)?;
     }
     if let (Some(facets), None) = (search.facets, search.belonging) {
         taken.left_out = deeper(mesh, facets, &found, (&nominal, &near), progress).map_err(stop)?;
     }
     if let Some(cloud) = search.cloud {
-        let with = (cloud, search.belonging);
+        let reference = search.belonging.zip(own);
+        let reference = reference.map(|(belonging, own)| OfOthers { belonging, own, progress });
+        let with = (cloud, reference);
         taken.others = others(&mut found.points, &mesh.positions, with, (&nominal, &near), progress)?;
     }
     let places = |vertices: &[u32]| -> Vec<Point> {
@@ -317,9 +330,12 @@ fn found(
     };
     (taken.points, taken.rim) = (places(&found.points), places(&found.rim));
     taken.areas = areas(mesh, &found);
+    let farthest = search.cloud.map_or(f64::INFINITY, |cloud| cloud.farthest);
     let area = match search.facets {
         Some(_) => Some(found.area),
-        None => covered(&nominal, &taken.points).zip(nominal.area()).map(|(share, area)| share * area),
+        None => {
+            covered(&nominal, &taken.points, farthest).zip(nominal.area()).map(|(share, area)| share * area)
+        }
     };
     let whole = seeded.map(|s| s.area).or_else(|| nominal.area());
     taken.coverage = area.zip(whole).map(|(area, whole)| area / whole);

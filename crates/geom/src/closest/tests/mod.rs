@@ -6,6 +6,7 @@ mod limit;
 mod sign;
 mod traps;
 mod winding;
+mod window;
 
 use crate::closest::{Closest, Hit, Query, Tree};
 use crate::mesh::Mesh;

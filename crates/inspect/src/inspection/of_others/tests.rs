@@ -1,7 +1,10 @@
 //! Walls, fillets and noise beside a plane of known form.
 
 use super::*;
+use crate::inspection::data::Data;
 use crate::inspection::{Inspection, run};
+use crate::plan::Plan;
+use trueness_geom::mesh::Mesh;
 use trueness_geom::num::random::Random;
 use trueness_geom::progress::Silent;
 use trueness_geom::space::{minus, norm, plus};
@@ -284,6 +287,28 @@ fn what_lies_upon_other_faces_of_the_reference_is_no_part_of_a_plane() {
         // Of twelve thousand points with noise none is farther off than six standard deviations.
         assert!(value < 12.0 * SIGMA, "{name}: {value}");
         assert!((11_800..12_100).contains(&points), "{name}: {points}");
+    }
+}
+
+/// Where a top is off its place the wall beside it goes on to it, or ends before; a burr on a top that is in its place is its own.
+#[test]
+fn a_wall_that_goes_on_to_a_displaced_plane_is_no_part_of_it() {
+    const SIGMA: f64 = 0.003;
+    let of = |high: f64, wall: f64| {
+        vec![[[-10.0, high], [10.0, high]], [[10.0, wall], [10.0, -8.0]], [[-10.0, -8.0], [-10.0, wall]]]
+    };
+    let reference = strips(&of(0.0, 0.0));
+    for dense in [3.0, 30.0] {
+        for high in [0.4, 0.15, 0.05, -0.05, -0.4] {
+            let cloud = strewn(&of(high, high), dense, SIGMA);
+            let (value, points) = flatness(&cloud, Some(&reference), TOP, "distance = 0.5");
+            let all = 400.0 * dense;
+            assert!(value < 12.0 * SIGMA, "{dense} {high}: {value}");
+            assert!((0.97 * all..1.01 * all).contains(&(points as f64)), "{dense} {high}: {points}");
+        }
+        let burr = strewn(&of(0.0, 0.3), dense, SIGMA);
+        let value = flatness(&burr, Some(&reference), TOP, "distance = 0.5").0;
+        assert!(value > 0.25, "{dense}: {value}");
     }
 }
 
