@@ -1,7 +1,7 @@
 //! The best fit from any pose: start, iteration, and what the result is worth.
 
 use super::alignment::POOR;
-use super::icp::{MOST, Match, Problem, weighted_median};
+use super::icp::{Ended, MOST, Match, Problem, Room, median_distance};
 use super::sample::{Measured, Samples};
 use super::start::{Candidate, Search};
 use super::system::Spectrum;
@@ -20,6 +20,10 @@ use crate::stats::SIGMA_OVER_MAD;
 /// Samples for the start, for choosing among poses, and above which the iteration first goes over those alone.
 const FEW: usize = 400;
 const SOME: usize = 5000;
+/// Samples from which on the iteration first goes over one of so many, so many times: what it is off then is a few uncertainties.
+const LARGE: usize = 100_000;
+const SHARE: usize = 8;
+const FIRST: usize = 2;
 /// A pose whose capped root mean square distance is within this ratio of the best one's fits as well.
 const AS_WELL: f64 = 1.25;
 /// Within this ratio it fits equally: what is symmetric is not turned without need.
@@ -49,8 +53,8 @@ const UNITS: [f64; 6] = [25.4, 1.0 / 25.4, 10.0, 0.1, 1000.0, 1e-3];
 /// From any starting pose, of whole and partial scans, with clutter. What cannot be told is named in the warnings: poses
 /// that fit as well, motions that the shape leaves free, inverted normals, a wrong unit, a poor fit, too few points.
 ///
-/// Runs on the current rayon pool; the answer does not depend on its size. Cost: about 0.2 s for the start on two cores,
-/// then some ten closest-point searches of all points.
+/// Runs on the current rayon pool; the answer does not depend on its size. Cost: about 0.1 s for the start on two cores,
+/// then three to five closest-point searches of all points.
 ///
 /// # Errors
 /// [`AlignError`]: fewer than three points, all points on one line, coordinates that are no numbers, cancelled.
@@ -96,11 +100,29 @@ pub fn best_fit(
     let some = samples.thinned(SOME, options.seed);
     // The pose is that of the surface, its figures are those of the points: errors of a scan are independent there at best.
     let all = work.problem(&samples);
-    let surface = turned(Samples::of_surface(measured));
-    let surface = work.problem(&surface);
-    let settled = |pose: Rigid, sigma: f64| {
-        let ended = surface.run(pose, work.reach(sigma), MOST, progress)?;
-        work.worth(&all, &ended.pose, ended.iterations, ended.converged, &some, progress)
+    let surface = match measured {
+        Measured::Mesh(_) => Some(turned(Samples::of_surface(measured))),
+        Measured::Points { .. } => None,
+    };
+    let whole = surface.as_ref().unwrap_or(&samples);
+    let part = (whole.points.len() > LARGE).then(|| whole.thinned(whole.points.len() / SHARE, options.seed));
+    let part = part.as_ref().map(|p| work.problem(p));
+    let surface = surface.as_ref().map(|s| work.problem(s));
+    let settled = |mut pose: Rigid, sigma: f64| {
+        let reach = work.reach(sigma);
+        if let Some(part) = &part {
+            pose = part.run(pose, reach, FIRST, progress)?.pose;
+        }
+        let mut room = Room::default();
+        let ended = match &surface {
+            Some(surface) => surface.run(pose, reach, MOST, progress)?,
+            None => all.iterate(pose, reach, MOST, &mut room, progress)?.0,
+        };
+        match ended.converged && surface.is_none() {
+            true => all.complete(&mut room.matches, &ended.pose, progress)?,
+            false => room.matches = all.matches(&ended.pose, f64::INFINITY, progress)?,
+        }
+        work.worth(&all, &ended, room.matches, &some, progress)
     };
     let (pose, sigma) = work.choose(&start.poses, &some, progress)?;
     let mut result = settled(pose, sigma)?;
@@ -183,7 +205,7 @@ struct Found {
 impl Work<'_> {
     /// Looks for starts.
     fn search(&self, samples: &Samples, progress: &dyn Progress) -> Result<Found, AlignError> {
-        let few = samples.thinned(FEW, self.options.seed).with_normals(&samples.points);
+        let few = samples.few(FEW, self.options.seed);
         let mut search = Search::new(self.target, few, self.options.seed, progress)?;
         let mut candidates = search.candidates(&[Rigid::IDENTITY], progress)?;
         let best = |c: &[Candidate]| c.first().map_or(0.0, |c| c.worth);
@@ -232,7 +254,7 @@ impl Work<'_> {
         let mut found = vec![];
         for k in 1..=AGAIN as u64 {
             let seed = self.options.seed.wrapping_add(k);
-            let again = search.again(samples.thinned(FEW, seed).with_normals(&samples.points), seed);
+            let again = search.again(samples.few(FEW, seed), seed);
             let candidates = again.candidates(&[Rigid::IDENTITY], progress)?;
             let mut poses = self.promising(&again, &candidates, progress)?;
             poses.truncate(BRIEF);
@@ -303,19 +325,18 @@ impl Work<'_> {
         Ok(None)
     }
 
-    /// Figures of the result at `pose`.
-    pub(super) fn worth(
+    /// Figures of the result at the pose where it ended, of the matches of all samples there.
+    fn worth(
         &self,
         all: &Problem,
-        pose: &Rigid,
-        iterations: usize,
-        converged: bool,
+        ended: &Ended,
+        mut matches: Vec<Match>,
         some: &Samples,
         progress: &dyn Progress,
     ) -> Result<Alignment, AlignError> {
-        let mut matches = all.matches(pose, f64::INFINITY, progress)?;
-        let median = weighted_median(matches.iter().map(|m| (m.distance, m.equation.weight)));
-        let sigma = all.deviation(&matches);
+        let pose = &ended.pose;
+        let median = median_distance(&matches, &mut vec![]).unwrap_or(0.0);
+        let sigma = SIGMA_OVER_MAD * median;
         all.weigh(&mut matches, sigma);
         let system = all.system(&matches, pose);
         if system.weight <= 0.0 {
@@ -328,19 +349,21 @@ impl Work<'_> {
         let barely = freedom::barely_held(&some, &system, (&facets, &of_facets), free, pose, progress)?;
         // What is free is told by the facets; edges of a faceted cylinder would hold it.
         let spectrum = if free > 0 { Spectrum::of(&facets) } else { Spectrum::of(&system) };
-        let used = matches.iter().filter(|m| m.equation.weight > 0.0).count();
         let (share, limit) = (1.0 - system.weight.min(1.0), all.limit(sigma));
-        let off = matches.iter().map(|m| m.distance).filter(|d| d.is_finite() && *d > limit);
-        let left_out = AlignWarning::LeftOut { share, farthest: off.fold(0.0, f64::max), limit };
-        let term = |m: &Match| if m.distance.is_finite() { m.equation.weight * m.distance } else { 0.0 };
-        let sum = matches.iter().map(term).fold(Sum::default(), Sum::plus).value();
+        let (mut used, mut farthest, mut sum) = (0, 0.0f64, Sum::default());
+        for m in matches.iter().filter(|m| m.distance.is_finite()) {
+            used += usize::from(m.equation.weight > 0.0);
+            farthest = farthest.max(if m.distance > limit { m.distance } else { 0.0 });
+            sum = sum.plus(m.equation.weight * m.distance);
+        }
+        let left_out = AlignWarning::LeftOut { share, farthest, limit };
         Ok(Alignment {
             reference_from_measured: *pose,
             rms: system.rms(),
-            mean_abs: sum / system.weight,
-            median: median.unwrap_or(0.0),
-            iterations,
-            converged,
+            mean_abs: sum.value() / system.weight,
+            median,
+            iterations: ended.iterations,
+            converged: ended.converged,
             used: used as u64,
             left_out: (matches.len() - used) as u64,
             share: system.weight.min(1.0),
