@@ -1,20 +1,18 @@
 //! The best fit from any pose: start, iteration, and what the result is worth.
 
 use super::alignment::POOR;
+use super::alternatives::better;
 use super::icp::{Ended, MOST, Match, Problem, Room, median_distance};
 use super::sample::{Measured, Samples};
 use super::start::{Candidate, Search};
 use super::system::Spectrum;
-use super::work::{PART, RIVAL, SOON, Work};
-use super::{
-    AlignError, AlignWarning, Alignment, Alternative, BestFit, Freedom, Start, Target, freedom, near,
-    revolved, wall,
-};
+use super::work::{PART, Work};
+use super::{AlignError, AlignWarning, Alignment, BestFit, Freedom, Start, Target, freedom, near, revolved};
 use crate::closest::{BoundaryEdges, check_mesh, check_points};
 use crate::num::sum::Sum;
 use crate::progress::Progress;
 use crate::rigid::Rigid;
-use crate::space::{Aabb, cross, dot, norm, times};
+use crate::space::Aabb;
 use crate::stats::SIGMA_OVER_MAD;
 
 /// Samples for the start, for choosing among poses, and above which the iteration first goes over those alone.
@@ -24,10 +22,6 @@ const SOME: usize = 5000;
 const LARGE: usize = 100_000;
 const SHARE: usize = 8;
 const FIRST: usize = 2;
-/// A pose whose capped root mean square distance is within this ratio of the best one's fits as well.
-const AS_WELL: f64 = 1.25;
-/// Within this ratio it fits equally: what is symmetric is not turned without need.
-const EQUAL: f64 = 1.01;
 /// Starts whose cost is within this ratio of the best are iterated to the end.
 const PROMISING: f64 = 4.0;
 /// Worth of a start below which normals are tried the other way round.
@@ -38,7 +32,7 @@ const SPARSE: usize = 50;
 const EXPLAINED: f64 = 0.95;
 const AGAIN: usize = 2;
 /// Starts that such a search iterates to the end.
-const BRIEF: usize = 5;
+pub(super) const BRIEF: usize = 5;
 /// Share of the measured that does not count from which on that is told.
 const MUCH: f64 = 0.1;
 /// How often, from where the last round ended, and the share of the spacing that is no other pose.
@@ -376,79 +370,6 @@ impl Work<'_> {
         })
     }
 
-    /// Other poses that fit about as well: where it lies, the other starts, those of a `revolved` body, turns of the kind that common
-    /// symmetries have, and for points without sides the other side of a wall. What the freedom of the shape allows is no other pose.
-    fn alternatives(
-        &self,
-        search: &Search,
-        (poses, revolved): (&[Rigid], &[Rigid]),
-        result: &Alignment,
-        some: &Samples,
-        progress: &dyn Progress,
-    ) -> Result<Vec<Alternative>, AlignError> {
-        let pose = result.reference_from_measured;
-        let few = self.problem(&search.samples);
-        let mut candidates = search.symmetric(&pose);
-        let others = [Rigid::IDENTITY].iter().chain(poses);
-        candidates.extend(others.map(|&pose| Candidate { pose, worth: search.worth(&pose) }));
-        candidates.retain(|c| search.apart(&c.pose, &pose) > search.spacing);
-        let (problem, part) = (self.problem(some), some.first(PART));
-        let part = self.problem(&part);
-        let cap = self.cap(SIGMA_OVER_MAD * result.median);
-        let [own, own_few, own_part] = [&problem, &few, &part].map(|p| p.cost(&pose, cap, progress));
-        let (own, own_few, own_part) = (own?, own_few?, own_part?);
-        let floor = self.rounding * self.rounding * 256.0;
-        let ratio = |cost: f64| ((cost + floor) / (own + floor)).sqrt();
-        let worse = |cost: f64, own: f64, by: f64| cost > by * AS_WELL * AS_WELL * own.max(1e-3 * cap * cap);
-        let mut others: Vec<Rigid> = vec![];
-        for (_, other) in search.refine(&candidates, search.worth(&pose), &few, progress)? {
-            // With few samples first, then with a part of them: most are far worse.
-            if !worse(few.cost(&other, cap, progress)?, own_few, 4.0) {
-                others.push(other);
-            }
-        }
-        others.extend(revolved);
-        let mut found: Vec<Alternative> = vec![];
-        for other in others {
-            let reach = self.reach(result.median);
-            let other = part.run(other, reach, SOON, progress)?.pose;
-            if worse(part.cost(&other, cap, progress)?, own_part, RIVAL) {
-                continue;
-            }
-            let other = problem.run(other, reach, 30, progress)?.pose;
-            let cost = problem.cost(&other, cap, progress)?;
-            let ratio = ratio(cost);
-            let apart = |p: &Rigid| search.apart(p, &other) > search.spacing;
-            let between = other.after(&pose.inverse());
-            let new = apart(&pose) && found.iter().all(|f| apart(&f.reference_from_measured));
-            if ratio <= AS_WELL && new && !allowed(&between, &result.freedoms, search.spacing) {
-                found.push(Alternative { reference_from_measured: other, angle: between.angle(), ratio });
-            }
-        }
-        if !search.samples.oriented
-            && let Some(through) = wall::through(&few, &pose, progress)?
-        {
-            let bases: Vec<Rigid> =
-                std::iter::once(pose).chain(found.iter().map(|f| f.reference_from_measured)).collect();
-            for base in bases.iter().take(BRIEF) {
-                // From the other side of the wall the way through it is the opposite one.
-                for sign in [1.0, -1.0] {
-                    let other = Rigid::translation_by(times(sign, through)).after(base);
-                    let other = problem.run(other, self.reach(result.median), 30, progress)?.pose;
-                    let ratio = ratio(problem.cost(&other, cap, progress)?);
-                    let apart = |p: &Rigid| search.apart(p, &other) > 0.5 * norm(through);
-                    let new = apart(&pose) && found.iter().all(|f| apart(&f.reference_from_measured));
-                    if ratio <= AS_WELL && new {
-                        let angle = other.after(&pose.inverse()).angle();
-                        found.push(Alternative { reference_from_measured: other, angle, ratio });
-                    }
-                }
-            }
-        }
-        found.sort_by(|a, b| a.ratio.total_cmp(&b.ratio));
-        Ok(found)
-    }
-
     fn warnings(&self, result: &Alignment, start: &Found, measured: &Measured) -> Vec<AlignWarning> {
         let mut warnings = result.warnings.clone();
         let size = self.target.bounds.diagonal().min(Aabb::of(measured.points()).diagonal());
@@ -467,32 +388,4 @@ impl Work<'_> {
         warnings.extend((!result.converged).then_some(AlignWarning::NotConverged));
         warnings
     }
-}
-
-/// A pose that fits better than the result's; else of those that fit equally well the one that moves least, if it is another.
-fn better(search: &Search, result: &Alignment) -> Option<Rigid> {
-    if let Some(best) = result.alternatives.first().filter(|a| a.ratio * EQUAL < 1.0) {
-        return Some(best.reference_from_measured);
-    }
-    let far = |pose: &Rigid| search.apart(&Rigid::IDENTITY, pose);
-    let equal = result.alternatives.iter().filter(|a| a.ratio <= EQUAL).map(|a| a.reference_from_measured);
-    let least = equal.min_by(|a, b| far(a).total_cmp(&far(b)))?;
-    (far(&least) + search.spacing < far(&result.reference_from_measured)).then_some(least)
-}
-
-/// Whether a motion is one of those that the shape leaves free, to within `tolerance` of its axes.
-fn allowed(motion: &Rigid, freedoms: &[Freedom], tolerance: f64) -> bool {
-    let slides = freedoms.iter().any(|f| matches!(f, Freedom::Slides { .. }));
-    if motion.angle() < 0.02 {
-        return slides;
-    }
-    freedoms.iter().any(|f| match f {
-        Freedom::Slides { .. } => false,
-        // Its axis stays in its direction, and in its place where nothing slides.
-        Freedom::Turns { point, direction } => {
-            norm(cross(motion.vector(*direction), *direction)) < 0.02
-                && dot(motion.vector(*direction), *direction) > 0.0
-                && (slides || motion.displacement(*point) < tolerance)
-        }
-    })
 }
