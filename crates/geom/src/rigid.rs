@@ -197,13 +197,14 @@ impl Rigid {
     /// ```
     #[inline(always)]
     pub fn point(&self, p: Point) -> Point {
-        let moved = plus(self.rows.map(|r| dot(r, p)), self.translation);
-        moved.map(|x| if x.abs() < MIN_COORDINATE { 0.0 } else { x })
+        let [x, y, z] = plus(self.vector(p), self.translation);
+        let told = |x: f64| if x.abs() < MIN_COORDINATE { 0.0 } else { x };
+        [told(x), told(y), told(z)]
     }
     /// What the motion makes of a direction: only the rotation acts.
     #[inline(always)]
     pub fn vector(&self, v: Vector) -> Vector {
-        self.rows.map(|r| dot(r, v))
+        [dot(self.rows[0], v), dot(self.rows[1], v), dot(self.rows[2], v)]
     }
 
     /// The motion back.

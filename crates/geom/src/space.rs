@@ -30,7 +30,7 @@ pub fn plus(a: Point, b: Vector) -> Point {
 /// `a` times the number `s`.
 #[inline(always)]
 pub fn times(s: f64, a: Vector) -> Vector {
-    a.map(|x| s * x)
+    [s * a[0], s * a[1], s * a[2]]
 }
 /// Vector product.
 #[inline(always)]
@@ -43,10 +43,11 @@ pub fn norm(a: Vector) -> f64 {
     dot(a, a).sqrt()
 }
 /// Unit vector and length, or `None` where the length is zero, not finite, or too small to invert.
+#[inline]
 pub fn unit(a: Vector) -> Option<(Vector, f64)> {
     let length = norm(a);
     let inverse = 1.0 / length;
-    (length > 0.0 && inverse.is_finite() && length.is_finite()).then(|| (a.map(|x| x * inverse), length))
+    (length > 0.0 && inverse.is_finite() && length.is_finite()).then(|| (times(inverse, a), length))
 }
 
 /// The unit normal of a triangle, by the right hand; `None` without an area.

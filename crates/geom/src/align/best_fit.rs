@@ -1,29 +1,27 @@
 //! The best fit from any pose: start, iteration, and what the result is worth.
 
 use super::alignment::POOR;
-use super::icp::{MOST, Match, Problem, weighted_median};
+use super::alternatives::better;
+use super::icp::{Ended, MOST, Match, Problem, Room, median_distance};
 use super::sample::{Measured, Samples};
 use super::start::{Candidate, Search};
 use super::system::Spectrum;
-use super::work::{PART, RIVAL, SOON, Work};
-use super::{
-    AlignError, AlignWarning, Alignment, Alternative, BestFit, Freedom, Start, Target, freedom, near,
-    revolved, wall,
-};
+use super::work::{PART, Work};
+use super::{AlignError, AlignWarning, Alignment, BestFit, Freedom, Start, Target, freedom, near, revolved};
 use crate::closest::{BoundaryEdges, check_mesh, check_points};
 use crate::num::sum::Sum;
 use crate::progress::Progress;
 use crate::rigid::Rigid;
-use crate::space::{Aabb, cross, dot, norm, times};
+use crate::space::Aabb;
 use crate::stats::SIGMA_OVER_MAD;
 
 /// Samples for the start, for choosing among poses, and above which the iteration first goes over those alone.
 const FEW: usize = 400;
 const SOME: usize = 5000;
-/// A pose whose capped root mean square distance is within this ratio of the best one's fits as well.
-const AS_WELL: f64 = 1.25;
-/// Within this ratio it fits equally: what is symmetric is not turned without need.
-const EQUAL: f64 = 1.01;
+/// Samples from which on the iteration first goes over one of so many, so many times: what it is off then is a few uncertainties.
+const LARGE: usize = 100_000;
+const SHARE: usize = 8;
+const FIRST: usize = 2;
 /// Starts whose cost is within this ratio of the best are iterated to the end.
 const PROMISING: f64 = 4.0;
 /// Worth of a start below which normals are tried the other way round.
@@ -34,7 +32,7 @@ const SPARSE: usize = 50;
 const EXPLAINED: f64 = 0.95;
 const AGAIN: usize = 2;
 /// Starts that such a search iterates to the end.
-const BRIEF: usize = 5;
+pub(super) const BRIEF: usize = 5;
 /// Share of the measured that does not count from which on that is told.
 const MUCH: f64 = 0.1;
 /// How often, from where the last round ended, and the share of the spacing that is no other pose.
@@ -49,8 +47,8 @@ const UNITS: [f64; 6] = [25.4, 1.0 / 25.4, 10.0, 0.1, 1000.0, 1e-3];
 /// From any starting pose, of whole and partial scans, with clutter. What cannot be told is named in the warnings: poses
 /// that fit as well, motions that the shape leaves free, inverted normals, a wrong unit, a poor fit, too few points.
 ///
-/// Runs on the current rayon pool; the answer does not depend on its size. Cost: about 0.2 s for the start on two cores,
-/// then some ten closest-point searches of all points.
+/// Runs on the current rayon pool; the answer does not depend on its size. Cost: about 0.1 s for the start on two cores,
+/// then three to five closest-point searches of all points.
 ///
 /// # Errors
 /// [`AlignError`]: fewer than three points, all points on one line, coordinates that are no numbers, cancelled.
@@ -96,11 +94,29 @@ pub fn best_fit(
     let some = samples.thinned(SOME, options.seed);
     // The pose is that of the surface, its figures are those of the points: errors of a scan are independent there at best.
     let all = work.problem(&samples);
-    let surface = turned(Samples::of_surface(measured));
-    let surface = work.problem(&surface);
-    let settled = |pose: Rigid, sigma: f64| {
-        let ended = surface.run(pose, work.reach(sigma), MOST, progress)?;
-        work.worth(&all, &ended.pose, ended.iterations, ended.converged, &some, progress)
+    let surface = match measured {
+        Measured::Mesh(_) => Some(turned(Samples::of_surface(measured))),
+        Measured::Points { .. } => None,
+    };
+    let whole = surface.as_ref().unwrap_or(&samples);
+    let part = (whole.points.len() > LARGE).then(|| whole.thinned(whole.points.len() / SHARE, options.seed));
+    let part = part.as_ref().map(|p| work.problem(p));
+    let surface = surface.as_ref().map(|s| work.problem(s));
+    let settled = |mut pose: Rigid, sigma: f64| {
+        let reach = work.reach(sigma);
+        if let Some(part) = &part {
+            pose = part.run(pose, reach, FIRST, progress)?.pose;
+        }
+        let mut room = Room::default();
+        let ended = match &surface {
+            Some(surface) => surface.run(pose, reach, MOST, progress)?,
+            None => all.iterate(pose, reach, MOST, &mut room, progress)?.0,
+        };
+        match ended.converged && surface.is_none() {
+            true => all.complete(&mut room.matches, &ended.pose, progress)?,
+            false => room.matches = all.matches(&ended.pose, f64::INFINITY, progress)?,
+        }
+        work.worth(&all, &ended, room.matches, &some, progress)
     };
     let (pose, sigma) = work.choose(&start.poses, &some, progress)?;
     let mut result = settled(pose, sigma)?;
@@ -183,7 +199,7 @@ struct Found {
 impl Work<'_> {
     /// Looks for starts.
     fn search(&self, samples: &Samples, progress: &dyn Progress) -> Result<Found, AlignError> {
-        let few = samples.thinned(FEW, self.options.seed).with_normals(&samples.points);
+        let few = samples.few(FEW, self.options.seed);
         let mut search = Search::new(self.target, few, self.options.seed, progress)?;
         let mut candidates = search.candidates(&[Rigid::IDENTITY], progress)?;
         let best = |c: &[Candidate]| c.first().map_or(0.0, |c| c.worth);
@@ -232,7 +248,7 @@ impl Work<'_> {
         let mut found = vec![];
         for k in 1..=AGAIN as u64 {
             let seed = self.options.seed.wrapping_add(k);
-            let again = search.again(samples.thinned(FEW, seed).with_normals(&samples.points), seed);
+            let again = search.again(samples.few(FEW, seed), seed);
             let candidates = again.candidates(&[Rigid::IDENTITY], progress)?;
             let mut poses = self.promising(&again, &candidates, progress)?;
             poses.truncate(BRIEF);
@@ -303,19 +319,18 @@ impl Work<'_> {
         Ok(None)
     }
 
-    /// Figures of the result at `pose`.
-    pub(super) fn worth(
+    /// Figures of the result at the pose where it ended, of the matches of all samples there.
+    fn worth(
         &self,
         all: &Problem,
-        pose: &Rigid,
-        iterations: usize,
-        converged: bool,
+        ended: &Ended,
+        mut matches: Vec<Match>,
         some: &Samples,
         progress: &dyn Progress,
     ) -> Result<Alignment, AlignError> {
-        let mut matches = all.matches(pose, f64::INFINITY, progress)?;
-        let median = weighted_median(matches.iter().map(|m| (m.distance, m.equation.weight)));
-        let sigma = all.deviation(&matches);
+        let pose = &ended.pose;
+        let median = median_distance(&matches, &mut vec![]).unwrap_or(0.0);
+        let sigma = SIGMA_OVER_MAD * median;
         all.weigh(&mut matches, sigma);
         let system = all.system(&matches, pose);
         if system.weight <= 0.0 {
@@ -328,19 +343,21 @@ impl Work<'_> {
         let barely = freedom::barely_held(&some, &system, (&facets, &of_facets), free, pose, progress)?;
         // What is free is told by the facets; edges of a faceted cylinder would hold it.
         let spectrum = if free > 0 { Spectrum::of(&facets) } else { Spectrum::of(&system) };
-        let used = matches.iter().filter(|m| m.equation.weight > 0.0).count();
         let (share, limit) = (1.0 - system.weight.min(1.0), all.limit(sigma));
-        let off = matches.iter().map(|m| m.distance).filter(|d| d.is_finite() && *d > limit);
-        let left_out = AlignWarning::LeftOut { share, farthest: off.fold(0.0, f64::max), limit };
-        let term = |m: &Match| if m.distance.is_finite() { m.equation.weight * m.distance } else { 0.0 };
-        let sum = matches.iter().map(term).fold(Sum::default(), Sum::plus).value();
+        let (mut used, mut farthest, mut sum) = (0, 0.0f64, Sum::default());
+        for m in matches.iter().filter(|m| m.distance.is_finite()) {
+            used += usize::from(m.equation.weight > 0.0);
+            farthest = farthest.max(if m.distance > limit { m.distance } else { 0.0 });
+            sum = sum.plus(m.equation.weight * m.distance);
+        }
+        let left_out = AlignWarning::LeftOut { share, farthest, limit };
         Ok(Alignment {
             reference_from_measured: *pose,
             rms: system.rms(),
-            mean_abs: sum / system.weight,
-            median: median.unwrap_or(0.0),
-            iterations,
-            converged,
+            mean_abs: sum.value() / system.weight,
+            median,
+            iterations: ended.iterations,
+            converged: ended.converged,
             used: used as u64,
             left_out: (matches.len() - used) as u64,
             share: system.weight.min(1.0),
@@ -351,79 +368,6 @@ impl Work<'_> {
             alternatives: vec![],
             warnings: if share > MUCH { vec![left_out] } else { vec![] },
         })
-    }
-
-    /// Other poses that fit about as well: where it lies, the other starts, those of a `revolved` body, turns of the kind that common
-    /// symmetries have, and for points without sides the other side of a wall. What the freedom of the shape allows is no other pose.
-    fn alternatives(
-        &self,
-        search: &Search,
-        (poses, revolved): (&[Rigid], &[Rigid]),
-        result: &Alignment,
-        some: &Samples,
-        progress: &dyn Progress,
-    ) -> Result<Vec<Alternative>, AlignError> {
-        let pose = result.reference_from_measured;
-        let few = self.problem(&search.samples);
-        let mut candidates = search.symmetric(&pose);
-        let others = [Rigid::IDENTITY].iter().chain(poses);
-        candidates.extend(others.map(|&pose| Candidate { pose, worth: search.worth(&pose) }));
-        candidates.retain(|c| search.apart(&c.pose, &pose) > search.spacing);
-        let (problem, part) = (self.problem(some), some.first(PART));
-        let part = self.problem(&part);
-        let cap = self.cap(SIGMA_OVER_MAD * result.median);
-        let [own, own_few, own_part] = [&problem, &few, &part].map(|p| p.cost(&pose, cap, progress));
-        let (own, own_few, own_part) = (own?, own_few?, own_part?);
-        let floor = self.rounding * self.rounding * 256.0;
-        let ratio = |cost: f64| ((cost + floor) / (own + floor)).sqrt();
-        let worse = |cost: f64, own: f64, by: f64| cost > by * AS_WELL * AS_WELL * own.max(1e-3 * cap * cap);
-        let mut others: Vec<Rigid> = vec![];
-        for (_, other) in search.refine(&candidates, search.worth(&pose), &few, progress)? {
-            // With few samples first, then with a part of them: most are far worse.
-            if !worse(few.cost(&other, cap, progress)?, own_few, 4.0) {
-                others.push(other);
-            }
-        }
-        others.extend(revolved);
-        let mut found: Vec<Alternative> = vec![];
-        for other in others {
-            let reach = self.reach(result.median);
-            let other = part.run(other, reach, SOON, progress)?.pose;
-            if worse(part.cost(&other, cap, progress)?, own_part, RIVAL) {
-                continue;
-            }
-            let other = problem.run(other, reach, 30, progress)?.pose;
-            let cost = problem.cost(&other, cap, progress)?;
-            let ratio = ratio(cost);
-            let apart = |p: &Rigid| search.apart(p, &other) > search.spacing;
-            let between = other.after(&pose.inverse());
-            let new = apart(&pose) && found.iter().all(|f| apart(&f.reference_from_measured));
-            if ratio <= AS_WELL && new && !allowed(&between, &result.freedoms, search.spacing) {
-                found.push(Alternative { reference_from_measured: other, angle: between.angle(), ratio });
-            }
-        }
-        if !search.samples.oriented
-            && let Some(through) = wall::through(&few, &pose, progress)?
-        {
-            let bases: Vec<Rigid> =
-                std::iter::once(pose).chain(found.iter().map(|f| f.reference_from_measured)).collect();
-            for base in bases.iter().take(BRIEF) {
-                // From the other side of the wall the way through it is the opposite one.
-                for sign in [1.0, -1.0] {
-                    let other = Rigid::translation_by(times(sign, through)).after(base);
-                    let other = problem.run(other, self.reach(result.median), 30, progress)?.pose;
-                    let ratio = ratio(problem.cost(&other, cap, progress)?);
-                    let apart = |p: &Rigid| search.apart(p, &other) > 0.5 * norm(through);
-                    let new = apart(&pose) && found.iter().all(|f| apart(&f.reference_from_measured));
-                    if ratio <= AS_WELL && new {
-                        let angle = other.after(&pose.inverse()).angle();
-                        found.push(Alternative { reference_from_measured: other, angle, ratio });
-                    }
-                }
-            }
-        }
-        found.sort_by(|a, b| a.ratio.total_cmp(&b.ratio));
-        Ok(found)
     }
 
     fn warnings(&self, result: &Alignment, start: &Found, measured: &Measured) -> Vec<AlignWarning> {
@@ -444,32 +388,4 @@ impl Work<'_> {
         warnings.extend((!result.converged).then_some(AlignWarning::NotConverged));
         warnings
     }
-}
-
-/// A pose that fits better than the result's; else of those that fit equally well the one that moves least, if it is another.
-fn better(search: &Search, result: &Alignment) -> Option<Rigid> {
-    if let Some(best) = result.alternatives.first().filter(|a| a.ratio * EQUAL < 1.0) {
-        return Some(best.reference_from_measured);
-    }
-    let far = |pose: &Rigid| search.apart(&Rigid::IDENTITY, pose);
-    let equal = result.alternatives.iter().filter(|a| a.ratio <= EQUAL).map(|a| a.reference_from_measured);
-    let least = equal.min_by(|a, b| far(a).total_cmp(&far(b)))?;
-    (far(&least) + search.spacing < far(&result.reference_from_measured)).then_some(least)
-}
-
-/// Whether a motion is one of those that the shape leaves free, to within `tolerance` of its axes.
-fn allowed(motion: &Rigid, freedoms: &[Freedom], tolerance: f64) -> bool {
-    let slides = freedoms.iter().any(|f| matches!(f, Freedom::Slides { .. }));
-    if motion.angle() < 0.02 {
-        return slides;
-    }
-    freedoms.iter().any(|f| match f {
-        Freedom::Slides { .. } => false,
-        // Its axis stays in its direction, and in its place where nothing slides.
-        Freedom::Turns { point, direction } => {
-            norm(cross(motion.vector(*direction), *direction)) < 0.02
-                && dot(motion.vector(*direction), *direction) > 0.0
-                && (slides || motion.displacement(*point) < tolerance)
-        }
-    })
 }

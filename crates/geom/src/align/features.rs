@@ -74,9 +74,9 @@ impl Relation {
             beyond as usize
         };
         let cosines = [dot(a.1, away) / length, dot(b.1, away) / length, dot(a.1, b.1)];
-        let [first, second, between] = cosines.map(angle);
         let length = length / step;
-        Some(Relation { length, cosines, cells: [length as usize, first, second, between] })
+        let cells = [length as usize, angle(cosines[0]), angle(cosines[1]), angle(cosines[2])];
+        Some(Relation { length, cosines, cells })
     }
 
     /// For each number whether it lies in the second half of its cell.
@@ -91,9 +91,14 @@ impl PairTable {
     pub fn new(sample: &Samples, step: f64, least: f64) -> PairTable {
         let sample: Vec<Oriented> =
             sample.points.iter().copied().zip(sample.normals.iter().copied()).collect();
-        let longest = sample.iter().flat_map(|a| sample.iter().map(move |b| minus(b.0, a.0)));
-        let longest = longest.fold(0.0f64, |m, v| m.max(dot(v, v))).sqrt();
-        let lengths = (longest / step) as usize + 1;
+        let mut longest = 0.0f64;
+        for a in &sample {
+            for b in &sample {
+                let away = minus(b.0, a.0);
+                longest = longest.max(dot(away, away));
+            }
+        }
+        let lengths = (longest.sqrt() / step) as usize + 1;
         let walls = Walls::new();
         let keys: Vec<Vec<u32>> = (sample.par_iter())
             .map(|&a| {

@@ -45,14 +45,8 @@ fn cell_of(steps: f64, normal: Vector) -> Cell {
 }
 
 impl Field {
-    /// Of `mesh` with search tree `tree`, as far as `reach`. Cost: some ten thousand closest points.
-    pub fn new(
-        mesh: &Mesh,
-        tree: &Tree,
-        bounds: &Aabb,
-        reach: f64,
-        progress: &dyn Progress,
-    ) -> Result<Field, QueryError> {
+    /// Of the mesh of `tree`, as far as `reach`. Cost: some ten thousand closest points.
+    pub fn new(tree: &Tree, bounds: &Aabb, reach: f64, progress: &dyn Progress) -> Result<Field, QueryError> {
         let cell = bounds.diagonal() / ALONG;
         let low = bounds.min.map(|x| x - reach - cell);
         let counts = bounds.sides().map(|s| ((s + 2.0 * reach) / cell) as usize + 3);
@@ -68,8 +62,9 @@ impl Field {
         let query = Query { max_distance: reach + cell, ..Query::default() };
         let mut cells = tree.map_closest(&middles, &query, progress, |i, hit| {
             let Some(hit) = hit else { return far };
-            let Some(normal) = facet_normal(mesh, hit.face) else { return far };
-            let away = minus(middles[i], tree.place(&middles[i], &hit).point);
+            let foot = tree.foot(&middles[i], &hit);
+            let Some(normal) = normal_of(&foot.corners) else { return far };
+            let away = minus(middles[i], foot.point);
             // Beside a rim the distance is longer than its share along the normal.
             let height = hit.distance().copysign(dot(away, normal));
             cell_of(height / step, normal)
@@ -202,7 +197,12 @@ const TURNED: f32 = 0.35;
 
 /// Unit normal of a face; `None` where it has no area.
 pub(super) fn facet_normal(mesh: &Mesh, face: u32) -> Option<Vector> {
-    let [a, b, c] = mesh.faces[face as usize].map(|v| mesh.positions[v as usize]);
+    normal_of(&mesh.faces[face as usize].map(|v| mesh.positions[v as usize]))
+}
+
+/// Unit normal of a triangle; `None` where it has no area.
+#[inline(always)]
+pub(super) fn normal_of(&[a, b, c]: &[Point; 3]) -> Option<Vector> {
     let (u, v) = (minus(b, a), minus(c, a));
     // Edges near unit length, so that tiny facets do not underflow.
     let size = u.iter().chain(&v).fold(0.0f64, |m, x| m.max(x.abs()));

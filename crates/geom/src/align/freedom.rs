@@ -3,6 +3,7 @@
 use super::AlignError;
 use super::icp::{Match, Problem, moved};
 use super::system::{Six, SixBySix, Spectrum, System, eigen_six, slope};
+use crate::parallel::prelude::*;
 use crate::progress::Progress;
 use crate::rigid::Rigid;
 use crate::space::{Point, Vector, cross, dot, minus, plus, times, unit};
@@ -168,6 +169,8 @@ fn forward(d: Vector) -> Vector {
 
 /// Cells along the radius within which residuals may go together.
 const CELLS: f64 = 4.0;
+/// Matches added in one go: sums do not depend on the number of threads.
+const CHUNK: usize = 1 << 16;
 
 /// Covariance of the six unknowns (rotation vector about the center of the system, radians; translation, mm), none along
 /// the first `free` directions; along those that are `barely` held at least as uncertain as how far they may move.
@@ -183,14 +186,25 @@ pub(super) fn covariance(
     free: usize,
     barely: &[(Six, f64)],
 ) -> SixBySix {
+    let part = |matches: &[Match]| {
+        let mut cells: BTreeMap<[i64; 3], Six> = BTreeMap::new();
+        for m in matches.iter().filter(|m| m.equation.weight > 0.0) {
+            let e = &m.equation;
+            let key = minus(e.point, system.center).map(|x| (x * CELLS / system.radius).floor() as i64);
+            let row = slope(e.point, e.away, system.center, system.radius);
+            let sum = cells.entry(key).or_insert([0.0; 6]);
+            for i in 0..6 {
+                sum[i] += e.weight * row[i];
+            }
+        }
+        cells
+    };
+    let parts: Vec<BTreeMap<[i64; 3], Six>> = matches.par_chunks(CHUNK).map(part).collect();
     let mut cells: BTreeMap<[i64; 3], Six> = BTreeMap::new();
-    for m in matches.iter().filter(|m| m.equation.weight > 0.0) {
-        let e = &m.equation;
-        let key = minus(e.point, system.center).map(|x| (x * CELLS / system.radius).floor() as i64);
-        let row = slope(e.point, e.away, system.center, system.radius);
+    for (key, row) in parts.into_iter().flatten() {
         let sum = cells.entry(key).or_insert([0.0; 6]);
         for i in 0..6 {
-            sum[i] += e.weight * row[i];
+            sum[i] += row[i];
         }
     }
     let mut middle = [[0.0; 6]; 6];

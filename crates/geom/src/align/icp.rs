@@ -8,12 +8,13 @@
 //! (Hampel's redescending weights, with the standard deviation from the median, Rousseeuw and Leroy: Robust regression,
 //! 1987); where none is that far, the result is the plain weighted least-squares pose.
 
-use super::field::facet_normal;
+use super::field::normal_of;
 use super::sample::{Samples, agree};
 use super::system::{Constraint, Equation, Six, Spectrum, System};
 use super::{AlignError, Target};
 use crate::closest::{BoundaryEdges, Feature, Query};
 use crate::num::sum::Sum;
+use crate::parallel::prelude::*;
 use crate::progress::Progress;
 use crate::rigid::Rigid;
 use crate::space::{Point, Vector, minus, norm, unit};
@@ -51,6 +52,14 @@ pub(super) struct Match {
     pub facet: Vector,
 }
 
+/// Memory that an iteration uses in every round: asked of the system anew it would cost half as much as the search.
+#[derive(Default)]
+pub(super) struct Room {
+    pub matches: Vec<Match>,
+    moved: Vec<Point>,
+    distances: Vec<(f64, f64)>,
+}
+
 /// Where an iteration ended.
 pub(super) struct Ended {
     pub pose: Rigid,
@@ -66,11 +75,29 @@ impl Problem<'_> {
         reach: f64,
         progress: &dyn Progress,
     ) -> Result<Vec<Match>, AlignError> {
+        let mut room = Room::default();
+        self.match_into(pose, reach, progress, &mut room)?;
+        Ok(room.matches)
+    }
+
+    /// [`Problem::matches`] into memory that there is.
+    fn match_into(
+        &self,
+        pose: &Rigid,
+        reach: f64,
+        progress: &dyn Progress,
+        Room { matches, moved, .. }: &mut Room,
+    ) -> Result<(), AlignError> {
         let samples = self.samples;
-        let moved: Vec<Point> = samples.points.iter().map(|p| pose.point(*p)).collect();
+        if samples.points.len() < MANY {
+            moved.clear();
+            moved.extend(samples.points.iter().map(|p| pose.point(*p)));
+        } else {
+            samples.points.par_iter().map(|p| pose.point(*p)).collect_into_vec(moved);
+        }
         let query = Query { max_distance: reach, ..Query::default() };
         let tree = self.target.tree;
-        let found = tree.map_closest(&moved, &query, progress, |i, hit| {
+        let of_hit = |i: usize, hit| {
             let q = moved[i];
             let none = || Match {
                 equation: Equation { point: q, away: [0.0; 3], hold: Constraint::Point, weight: 0.0 },
@@ -78,39 +105,51 @@ impl Problem<'_> {
                 facet: [0.0; 3],
             };
             let Some(hit) = hit else { return none() };
-            let Some(facet) = facet_normal(self.target.mesh, hit.face) else { return none() };
+            let foot = tree.foot(&q, &hit);
+            let Some(facet) = normal_of(&foot.corners) else { return none() };
             if let Some(normal) = samples.normals.get(i)
                 && !agree(pose.vector(*normal), facet, samples.oriented, FACING)
             {
                 return none();
             }
-            let place = tree.place(&q, &hit);
-            if self.boundary_edges.is_some_and(|edges| edges.holds(&place)) {
+            if self.boundary_edges.is_some_and(|edges| edges.hold(hit.face, foot.feature)) {
                 return none();
             }
-            let hold = match place.feature {
+            let hold = match foot.feature {
                 Feature::Face => Constraint::Plane(facet),
-                Feature::Edge(k) => Constraint::Line(self.edge(hit.face, k as usize)),
+                Feature::Edge(k) => Constraint::Line(edge(&foot.corners, k as usize)),
                 Feature::Vertex(_) => Constraint::Point,
             };
-            let away = minus(q, place.point);
+            let away = minus(q, foot.point);
             let equation = Equation { point: q, away, hold, weight: samples.weights[i] };
             Match { equation, distance: norm(away), facet }
-        })?;
-        Ok(found)
+        };
+        Ok(tree.map_closest_into(moved, &query, progress, of_hit, matches)?)
     }
 
-    /// Unit direction of an edge of a face.
-    fn edge(&self, face: u32, k: usize) -> Vector {
-        let mesh = self.target.mesh;
-        let corner = |k: usize| mesh.positions[mesh.faces[face as usize][k % 3] as usize];
-        unit(minus(corner(k + 1), corner(k))).map_or([1.0, 0.0, 0.0], |u| u.0)
+    /// Makes of matches that an iteration left those in full weight, however far.
+    pub fn complete(
+        &self,
+        matches: &mut [Match],
+        pose: &Rigid,
+        progress: &dyn Progress,
+    ) -> Result<(), AlignError> {
+        let mut missing = vec![];
+        for (i, (m, weight)) in matches.iter_mut().zip(&self.samples.weights).enumerate() {
+            m.equation.weight = *weight;
+            if !m.distance.is_finite() {
+                missing.push(i);
+            }
+        }
+        let samples = self.samples.those(&missing);
+        let found = Problem { samples: &samples, ..*self }.matches(pose, f64::INFINITY, progress)?;
+        missing.into_iter().zip(found).for_each(|(i, m)| matches[i] = m);
+        Ok(())
     }
 
     /// Standard deviation of the distances, from their weighted median.
     pub fn deviation(&self, matches: &[Match]) -> f64 {
-        let median = weighted_median(matches.iter().map(|m| (m.distance, m.equation.weight)));
-        SIGMA_OVER_MAD * median.unwrap_or(0.0)
+        SIGMA_OVER_MAD * median_distance(matches, &mut vec![]).unwrap_or(0.0)
     }
 
     /// Lets far points count less, `sigma` being the standard deviation. Where nothing is robust, all count.
@@ -135,67 +174,93 @@ impl Problem<'_> {
     pub fn run(
         &self,
         start: Rigid,
-        mut reach: f64,
+        reach: f64,
         most: usize,
         progress: &dyn Progress,
     ) -> Result<Ended, AlignError> {
+        let (ended, last) = self.iterate(start, reach, most, &mut Room::default(), progress)?;
+        Ok(Ended { pose: last.after(&ended.pose), ..ended })
+    }
+
+    /// As [`Problem::run`], but the last step, which is none, is not made but given: where it converged, the matches in `room` are those at
+    /// the pose where it ends, the farther ones with less weight and those out of reach with no distance.
+    pub fn iterate(
+        &self,
+        start: Rigid,
+        mut reach: f64,
+        most: usize,
+        room: &mut Room,
+        progress: &dyn Progress,
+    ) -> Result<(Ended, Rigid), AlignError> {
         let mut pose = start;
         let mut kept_sigma = f64::INFINITY;
+        let ended = |pose, iterations, converged| Ended { pose, iterations, converged };
         for iteration in 0..most {
-            let mut matches = self.matches(&pose, reach, progress)?;
+            self.match_into(&pose, reach, progress, room)?;
+            let Room { matches, distances, .. } = &mut *room;
             // The scale may only shrink: a growing one would let in what was shut out, and the pose swing.
-            let sigma = self.deviation(&matches).min(kept_sigma);
+            let median = median_distance(matches, distances).unwrap_or(0.0);
+            let sigma = (SIGMA_OVER_MAD * median).min(kept_sigma);
             kept_sigma = sigma;
-            self.weigh(&mut matches, sigma);
-            let system = self.system(&matches, &pose);
+            self.weigh(matches, sigma);
+            let system = self.system(matches, &pose);
             if system.weight <= 0.0 {
-                return Ok(Ended { pose, iterations: iteration, converged: false });
+                return Ok((ended(pose, iteration, false), Rigid::IDENTITY));
             }
             let spectrum = Spectrum::of(&system);
             let step = spectrum.solve(&system.right, 0);
-            pose = moved(&system, &step).after(&pose);
+            let motion = moved(&system, &step);
             // Of a displacement: the rotations are counted in it.
             let spread: f64 = spectrum.values[spectrum.fixed..].iter().map(|v| system.weight / v).sum();
             let uncertainty = system.rms() * (spread / system.count()).sqrt();
             let size = step.iter().map(|x| x * x).sum::<f64>().sqrt();
             if size <= (SMALL * uncertainty).max(self.rounding) {
-                return Ok(Ended { pose, iterations: iteration + 1, converged: true });
+                return Ok((ended(pose, iteration + 1, true), motion));
             }
+            pose = motion.after(&pose);
             if self.robust {
                 reach = reach.min((2.0 * NONE * sigma + 2.0 * size).max(64.0 * self.rounding));
             }
         }
-        Ok(Ended { pose, iterations: most, converged: false })
+        Ok((ended(pose, most, false), Rigid::IDENTITY))
     }
 
     /// The equations of the matches about the mean of the samples at `pose`.
     pub fn system(&self, matches: &[Match], pose: &Rigid) -> System {
-        let equations: Vec<Equation> = matches.iter().map(|m| m.equation).collect();
-        System::new(&equations, pose.point(self.mean), self.radius)
+        System::new(matches, |m| m.equation, pose.point(self.mean), self.radius)
     }
 
     /// The same where edges and corners hold no more than their facets do.
     pub fn system_of_facets(&self, matches: &[Match], pose: &Rigid) -> System {
         let flat = |m: &Match| Equation { hold: Constraint::Plane(m.facet), ..m.equation };
-        let equations: Vec<Equation> = matches.iter().map(flat).collect();
-        System::new(&equations, pose.point(self.mean), self.radius)
+        System::new(matches, flat, pose.point(self.mean), self.radius)
     }
 
     /// Mean of the squared distances, none counted for more than `cap`; what does not belong to the surface counts as
     /// that far.
     pub fn cost(&self, pose: &Rigid, cap: f64, progress: &dyn Progress) -> Result<f64, AlignError> {
         let matches = self.matches(pose, cap, progress)?;
-        let terms = matches.iter().zip(&self.samples.weights).map(|(m, w)| {
-            let d = m.distance.min(cap);
-            w * d * d
-        });
-        Ok(terms.fold(Sum::default(), Sum::plus).value())
+        Ok(self.cost_of(matches.iter().map(|m| m.distance), cap))
+    }
+
+    /// The same where the distances are known.
+    pub fn cost_of(&self, distances: impl Iterator<Item = f64>, cap: f64) -> f64 {
+        let terms = distances.zip(&self.samples.weights).map(|(d, w)| w * d.min(cap) * d.min(cap));
+        terms.fold(Sum::default(), Sum::plus).value()
     }
 }
 
 /// Cosine of the angle between the normals of sample and facet beyond which they lie on different sides of a wall. At a
 /// sharp edge both may be those of either side, so that less would shut out what belongs there.
 const FACING: f64 = -0.5;
+
+/// Samples from which on their places are worked out on all threads.
+const MANY: usize = 1 << 14;
+
+/// Unit direction of edge `k` of a triangle.
+fn edge(corners: &[Point; 3], k: usize) -> Vector {
+    unit(minus(corners[(k + 1) % 3], corners[k % 3])).map_or([1.0, 0.0, 0.0], |u| u.0)
+}
 
 /// The motion that a step stands for.
 pub(super) fn moved(system: &System, step: &Six) -> Rigid {
@@ -205,14 +270,21 @@ pub(super) fn moved(system: &System, step: &Six) -> Rigid {
     Rigid::translation_by(shift).after(&turned)
 }
 
-/// The value up to which half of the weight lies, of those that are finite and have weight.
-pub(super) fn weighted_median(values: impl Iterator<Item = (f64, f64)>) -> Option<f64> {
-    let mut values: Vec<(f64, f64)> = values.filter(|v| v.0.is_finite() && v.1 > 0.0).collect();
-    values.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
+/// The distance up to which half of the weight lies, of those that are finite and have weight. `values` is scratch.
+pub(super) fn median_distance(matches: &[Match], values: &mut Vec<(f64, f64)>) -> Option<f64> {
+    values.clear();
+    let counts = |m: &&Match| m.distance.is_finite() && m.equation.weight > 0.0;
+    values.extend(matches.iter().filter(counts).map(|m| (m.distance, m.equation.weight)));
     let half = 0.5 * values.iter().map(|v| v.1).sum::<f64>();
-    let mut sum = 0.0;
-    values.iter().find_map(|v| {
-        sum += v.1;
-        (sum >= half).then_some(v.0)
-    })
+    // What is left of them, and the weight of those that are less.
+    let (mut left, mut less) = (&mut values[..], 0.0);
+    while left.len() > 1 {
+        let middle = left.len() / 2;
+        let order = |a: &(f64, f64), b: &(f64, f64)| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1));
+        left.select_nth_unstable_by(middle, order);
+        let (low, high) = left.split_at_mut(middle);
+        let below = less + low.iter().map(|v| v.1).sum::<f64>();
+        (left, less) = if below >= half { (low, less) } else { (high, below) };
+    }
+    left.first().map(|v| v.0)
 }

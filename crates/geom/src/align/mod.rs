@@ -23,6 +23,7 @@
 #![allow(clippy::needless_range_loop, reason = "matrices are read by row and column")]
 
 mod alignment;
+mod alternatives;
 mod beside;
 mod best_fit;
 mod counting;

@@ -105,6 +105,10 @@ fn axis(
     let Some((point, direction)) = axis else { return Ok(None) };
     for away in AWAY {
         let turned = Rigid::rotation_about(point, times(away * TAU, direction)).after(pose);
+        // Where it clearly does not lie on the reference, that is no such body.
+        if search.worth(&turned) == 0.0 {
+            continue;
+        }
         let (held, other) = of(&settled(search, &turned, part, progress)?)?;
         if held < least && other.is_some() {
             (least, axis) = (held, other);

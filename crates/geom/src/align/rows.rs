@@ -222,8 +222,8 @@ pub fn constrained(rows: &[Row], start: Option<Rigid>) -> Result<RowFit, AlignEr
             hold: Constraint::Plane(held[i]),
             weight: weight(i),
         };
-        let equations: Vec<Equation> = (0..rows.len()).map(equation).collect();
-        let system = System::new(&equations, middle, radius);
+        let numbers: Vec<usize> = (0..rows.len()).collect();
+        let system = System::new(&numbers, |i| equation(*i), middle, radius);
         let spectrum = Spectrum::of(&system);
         if spectrum.fixed > 0 {
             return Err(AlignError::Underdetermined { free: spectrum.fixed });

@@ -51,8 +51,9 @@ pub(super) struct Samples {
     pub oriented: bool,
 }
 
-/// Neighbors that make the normal of a point of a cloud.
+/// Neighbors that make the normal of a point of a cloud, and how many points there are among which they are looked for, at most.
 const NEIGHBORS: usize = 16;
+const DENSE: usize = 100_000;
 
 impl Samples {
     /// All that is measured. Vertices that no facet uses are left out.
@@ -85,6 +86,9 @@ impl Samples {
     pub fn of_surface(measured: &Measured) -> Samples {
         let Measured::Mesh(mesh) = measured else { return Samples::all(measured) };
         let mut samples = Samples { oriented: true, ..Samples::default() };
+        samples.points.reserve(mesh.faces.len());
+        samples.normals.reserve(mesh.faces.len());
+        samples.weights.reserve(mesh.faces.len());
         let total: f64 = mesh.faces.iter().map(|f| norm(double_area(mesh, f))).sum();
         for face in &mesh.faces {
             let double = double_area(mesh, face);
@@ -159,6 +163,11 @@ impl Samples {
         let whole = self.points.len() <= count;
         let weights: Vec<f64> =
             chosen.iter().map(|&i| if whole { self.weights[i] } else { 1.0 / chosen.len() as f64 }).collect();
+        Samples { weights, ..self.those(&chosen) }
+    }
+
+    /// The ones of these numbers, in this order, with the weights that they have.
+    pub fn those(&self, chosen: &[usize]) -> Samples {
         let normals = match self.normals.is_empty() {
             true => vec![],
             false => chosen.iter().map(|&i| self.normals[i]).collect(),
@@ -166,7 +175,7 @@ impl Samples {
         Samples {
             points: chosen.iter().map(|&i| self.points[i]).collect(),
             normals,
-            weights,
+            weights: chosen.iter().map(|&i| self.weights[i]).collect(),
             oriented: self.oriented,
         }
     }
@@ -183,13 +192,17 @@ impl Samples {
         }
     }
 
-    /// The same with normals by local planes of `among`, without sides; where there are normals, those.
-    pub fn with_normals(mut self, among: &[Point]) -> Samples {
-        if self.normals.is_empty() {
+    /// About `count` of them, as [`Samples::thinned`], with normals: where there are none, by local planes, without sides. Of a dense cloud a
+    /// part makes the planes: its nearest neighbors scatter more than they lie apart.
+    pub fn few(&self, count: usize, seed: u64) -> Samples {
+        let mut few = self.thinned(count, seed);
+        if few.normals.is_empty() {
+            let part = (self.points.len() > DENSE).then(|| self.thinned(DENSE, seed).points);
+            let among = part.as_ref().unwrap_or(&self.points);
             let tree = PointTree::new(among);
-            self.normals = self.points.par_iter().map(|p| local_normal(p, among, &tree)).collect();
+            few.normals = few.points.par_iter().map(|p| local_normal(p, among, &tree)).collect();
         }
-        self
+        few
     }
 
     /// The same with every normal turned round.

@@ -87,7 +87,7 @@ impl Search {
         let reference = on_surface(target.mesh, REFERENCE, seed);
         let spacing = (area(target.mesh) / REFERENCE as f64).sqrt().max(1e-3 * bounds.diagonal());
         let reach = 1.2 * spacing;
-        let field = Field::new(target.mesh, target.tree, &bounds, reach, progress)?;
+        let field = Field::new(target.tree, &bounds, reach, progress)?;
         let table = PairTable::new(&reference, spacing, 2.0 * spacing);
         let known = Arc::new(Known { field, table, moments: reference.moments() });
         Ok(Search::of(samples, bounds, known, spacing, seed, true))

@@ -67,8 +67,13 @@ pub(super) struct System {
 const CHUNK: usize = 4096;
 
 impl System {
-    /// Adds up `equations` about `center`; those of weight 0 do not count.
-    pub fn new(equations: &[Equation], center: Point, radius: f64) -> System {
+    /// Adds up the equations of `items` about `center`; those of weight 0 do not count.
+    pub fn new<T: Sync>(
+        items: &[T],
+        equation: impl Fn(&T) -> Equation + Sync,
+        center: Point,
+        radius: f64,
+    ) -> System {
         let empty = || System {
             center,
             radius,
@@ -78,27 +83,17 @@ impl System {
             weight_squared: 0.0,
             squares: 0.0,
         };
-        let add = |part: &[Equation]| {
+        let add = |part: &[T]| {
             let mut s = empty();
-            for e in part.iter().filter(|e| e.weight > 0.0) {
-                let (directions, count) = e.directions();
-                for direction in &directions[..count] {
-                    let row = slope(e.point, *direction, center, radius);
-                    let residual = dot(e.away, *direction);
-                    for i in 0..6 {
-                        for j in 0..=i {
-                            s.matrix[i][j] += e.weight * row[i] * row[j];
-                        }
-                        s.right[i] -= e.weight * row[i] * residual;
-                    }
-                    s.squares += e.weight * residual * residual;
+            for item in part {
+                let e = equation(item);
+                if e.weight > 0.0 {
+                    s.add(&e);
                 }
-                s.weight += e.weight;
-                s.weight_squared += e.weight * e.weight;
             }
             s
         };
-        let parts: Vec<System> = equations.par_chunks(CHUNK).map(add).collect();
+        let parts: Vec<System> = items.par_chunks(CHUNK).map(add).collect();
         let mut sum = parts.into_iter().fold(empty(), |mut sum, part| {
             for i in 0..6 {
                 for j in 0..=i {
@@ -117,6 +112,24 @@ impl System {
             }
         }
         sum
+    }
+
+    #[inline(always)]
+    fn add(&mut self, e: &Equation) {
+        let (directions, count) = e.directions();
+        for direction in &directions[..count] {
+            let row = slope(e.point, *direction, self.center, self.radius);
+            let residual = dot(e.away, *direction);
+            for i in 0..6 {
+                for j in 0..=i {
+                    self.matrix[i][j] += e.weight * row[i] * row[j];
+                }
+                self.right[i] -= e.weight * row[i] * residual;
+            }
+            self.squares += e.weight * residual * residual;
+        }
+        self.weight += e.weight;
+        self.weight_squared += e.weight * e.weight;
     }
 
     /// Root of the mean square residual.

@@ -105,19 +105,22 @@ impl<'a> Work<'a> {
         progress: &dyn Progress,
     ) -> Result<Vec<Compared>, AlignError> {
         let problem = self.problem(samples);
-        let run = |pose: &Rigid| -> Result<(Rigid, f64), AlignError> {
+        let run = |pose: &Rigid| -> Result<(Rigid, f64, Vec<f64>), AlignError> {
             let at_start = problem.matches(pose, f64::INFINITY, progress)?;
             let sigma = problem.deviation(&at_start);
             let pose = problem.run(*pose, self.reach(sigma), SOON, progress)?.pose;
             let matches = problem.matches(&pose, f64::INFINITY, progress)?;
-            Ok((pose, problem.deviation(&matches)))
+            Ok((pose, problem.deviation(&matches), matches.iter().map(|m| m.distance).collect()))
         };
-        let ended: Vec<(Rigid, f64)> = poses.par_iter().map(run).collect::<Result<_, AlignError>>()?;
+        let ended: Vec<(Rigid, f64, Vec<f64>)> =
+            poses.par_iter().map(run).collect::<Result<_, AlignError>>()?;
         let least = ended.iter().map(|e| e.1).fold(f64::INFINITY, f64::min);
-        let cost = |&(pose, sigma): &(Rigid, f64)| -> Result<Compared, AlignError> {
-            Ok(Compared { pose, sigma, cost: problem.cost(&pose, self.cap(least), progress)? })
+        let cost = |(pose, sigma, distances): (Rigid, f64, Vec<f64>)| Compared {
+            pose,
+            sigma,
+            cost: problem.cost_of(distances.into_iter(), self.cap(least)),
         };
-        ended.par_iter().map(cost).collect()
+        Ok(ended.into_iter().map(cost).collect())
     }
 
     /// The distance from which on none counts for more when poses are compared.

@@ -169,8 +169,13 @@ impl BoundaryEdges {
 
     /// True if the place lies on a boundary edge or at its end. False for a place on another mesh's faces.
     pub fn holds(&self, place: &Closest) -> bool {
-        let flags = self.flags.get(place.face as usize).copied().unwrap_or(0);
-        match place.feature {
+        self.hold(place.face, place.feature)
+    }
+
+    /// The same for this part of a face.
+    pub(crate) fn hold(&self, face: u32, part: Feature) -> bool {
+        let flags = self.flags.get(face as usize).copied().unwrap_or(0);
+        match part {
             Feature::Face => false,
             Feature::Edge(i) => flags >> i & 1 != 0,
             Feature::Vertex(i) => flags >> (3 + i) & 1 != 0,

@@ -108,8 +108,28 @@ impl Tree {
         progress: &dyn Progress,
         f: impl Fn(usize, Option<Hit>) -> T + Sync,
     ) -> Result<Vec<T>, QueryError> {
-        let mut out = large_pages(Vec::with_capacity(points.len()));
-        let places = Shared::of(&mut out);
+        let mut out = vec![];
+        self.map_closest_into(points, query, progress, f, &mut out)?;
+        Ok(out)
+    }
+
+    /// [`Tree::map_closest`] into memory that there is: what was in `out` is dropped. Empty after an error.
+    ///
+    /// # Errors
+    /// Those of [`Tree::for_each_closest`].
+    pub(crate) fn map_closest_into<T: Copy + Send>(
+        &self,
+        points: &[Point],
+        query: &Query,
+        progress: &dyn Progress,
+        f: impl Fn(usize, Option<Hit>) -> T + Sync,
+        out: &mut Vec<T>,
+    ) -> Result<(), QueryError> {
+        out.clear();
+        if out.capacity() < points.len() {
+            *out = large_pages(Vec::with_capacity(points.len()));
+        }
+        let places = Shared::of(out);
         self.for_each_closest(points, query, progress, |i, hit| {
             let x = f(i, hit);
             // SAFETY: there is room for all, and each index comes exactly once.
@@ -117,7 +137,7 @@ impl Tree {
         })?;
         // SAFETY: no error: every index has come.
         unsafe { out.set_len(points.len()) };
-        Ok(out)
+        Ok(())
     }
 
     /// Distance of each point to the mesh, millimeters, in the order of `points`; NaN beyond `query.max_distance`.

@@ -89,6 +89,20 @@ pub struct PointOfTriangle {
     pub feature: Feature,
 }
 
+/// The point of triangle `t` closest to `p` where the search has found it inside, at this height and squared distance; `None` where it lies
+/// on the rim or must be looked for: by [`closest_point`], which finds the same.
+#[inline(always)]
+pub(super) fn foot(p: &Point, t: &[Point; 3], height: f64, distance_squared: f64) -> Option<Point> {
+    let [a, b, c] = *t;
+    let (ab, ac) = (sub(b, a), sub(c, a));
+    let n = cross(ab, ac);
+    let nn = dot(n, n);
+    let inside =
+        height != 0.0 && nn > THIN * dot(ab, ab) * dot(ac, ac) && height * height / nn <= distance_squared;
+    let s = height / nn;
+    inside.then(|| [p[0] - s * n[0], p[1] - s * n[1], p[2] - s * n[2]])
+}
+
 /// The point of triangle `t` closest to `p`: the place whose distance [`squared_distance`] reports.
 ///
 /// Scalar; called once per answer, not in the search.

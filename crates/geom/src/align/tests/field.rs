@@ -34,7 +34,7 @@ fn the_grid_tells_what_exact_distances_do() {
     let reference = bracket(4.0);
     let tree = Tree::build(&reference).unwrap();
     let reach = 5.0;
-    let field = Field::new(&reference, &tree, &reference.bounds(), reach, &Silent).unwrap();
+    let field = Field::new(&tree, &reference.bounds(), reach, &Silent).unwrap();
     let random = &mut Random::new(9);
     for oriented in [true, false] {
         let samples = samples(oriented);

@@ -126,7 +126,7 @@ fn a_pose_beside_the_right_one_is_left() {
     let samples = crate::align::sample::Samples::all(&measured);
     let edges = crate::closest::BoundaryEdges::watched(&tree, &Silent).unwrap();
     let work = crate::align::work::Work::new(&target, &edges, &options, &samples);
-    let few = samples.thinned(400, 0).with_normals(&samples.points);
+    let few = samples.few(400, 0);
     let search = crate::align::start::Search::new(&target, few, 0, &Silent).unwrap();
     let found = work.around(&search, &stuck, &samples, &Silent).unwrap();
     let options = BestFit { start: Start::Given(found), ..BestFit::default() };

@@ -1,0 +1,126 @@
+//! Other poses that fit about as well as the one that was found: what the points alone cannot tell apart.
+
+use super::best_fit::BRIEF;
+use super::sample::Samples;
+use super::start::{Candidate, Search};
+use super::work::{PART, RIVAL, SOON, Work};
+use super::{AlignError, Alignment, Alternative, Freedom, wall};
+use crate::progress::Progress;
+use crate::rigid::Rigid;
+use crate::space::{cross, dot, norm, times};
+use crate::stats::SIGMA_OVER_MAD;
+
+/// A pose whose capped root mean square distance is within this ratio of the best one's fits as well.
+const AS_WELL: f64 = 1.25;
+/// Within this ratio it fits equally: what is symmetric is not turned without need.
+const EQUAL: f64 = 1.01;
+
+impl Work<'_> {
+    /// Other poses that fit about as well: where it lies, the other starts, those of a `revolved` body, turns of the kind that common
+    /// symmetries have, and for points without sides the other side of a wall. What the freedom of the shape allows is no other pose.
+    pub fn alternatives(
+        &self,
+        search: &Search,
+        (poses, revolved): (&[Rigid], &[Rigid]),
+        result: &Alignment,
+        some: &Samples,
+        progress: &dyn Progress,
+    ) -> Result<Vec<Alternative>, AlignError> {
+        let pose = result.reference_from_measured;
+        let few = self.problem(&search.samples);
+        let mut candidates = search.symmetric(&pose);
+        let candidate = |&pose: &Rigid| Candidate { pose, worth: search.worth(&pose) };
+        candidates.extend(poses.iter().map(candidate));
+        // Of poses that fit equally more may be found than are kept: the one that moves least is sought on its own.
+        let [home, candidates] = [vec![candidate(&Rigid::IDENTITY)], candidates].map(|mut of| {
+            of.retain(|c| search.apart(&c.pose, &pose) > search.spacing);
+            of
+        });
+        let (problem, part) = (self.problem(some), some.first(PART));
+        let part = self.problem(&part);
+        let cap = self.cap(SIGMA_OVER_MAD * result.median);
+        let [own, own_few, own_part] = [&problem, &few, &part].map(|p| p.cost(&pose, cap, progress));
+        let (own, own_few, own_part) = (own?, own_few?, own_part?);
+        let floor = self.rounding * self.rounding * 256.0;
+        let ratio = |cost: f64| ((cost + floor) / (own + floor)).sqrt();
+        let worse = |cost: f64, own: f64, by: f64| cost > by * AS_WELL * AS_WELL * own.max(1e-3 * cap * cap);
+        let mut others: Vec<Rigid> = vec![];
+        let known = search.worth(&pose);
+        let mut refined = search.refine(&home, known, &few, progress)?;
+        refined.extend(search.refine(&candidates, known, &few, progress)?);
+        for (_, other) in refined {
+            // With few samples first, then with a part of them: most are far worse.
+            if !worse(few.cost(&other, cap, progress)?, own_few, 4.0) {
+                others.push(other);
+            }
+        }
+        others.extend(revolved);
+        let mut found: Vec<Alternative> = vec![];
+        for other in others {
+            let reach = self.reach(result.median);
+            let other = part.run(other, reach, SOON, progress)?.pose;
+            if worse(part.cost(&other, cap, progress)?, own_part, RIVAL) {
+                continue;
+            }
+            let other = problem.run(other, reach, 30, progress)?.pose;
+            let cost = problem.cost(&other, cap, progress)?;
+            let ratio = ratio(cost);
+            let apart = |p: &Rigid| search.apart(p, &other) > search.spacing;
+            let between = other.after(&pose.inverse());
+            let new = apart(&pose) && found.iter().all(|f| apart(&f.reference_from_measured));
+            if ratio <= AS_WELL && new && !allowed(&between, &result.freedoms, search.spacing) {
+                found.push(Alternative { reference_from_measured: other, angle: between.angle(), ratio });
+            }
+        }
+        if !search.samples.oriented
+            && let Some(through) = wall::through(&few, &pose, progress)?
+        {
+            let bases: Vec<Rigid> =
+                std::iter::once(pose).chain(found.iter().map(|f| f.reference_from_measured)).collect();
+            for base in bases.iter().take(BRIEF) {
+                // From the other side of the wall the way through it is the opposite one.
+                for sign in [1.0, -1.0] {
+                    let other = Rigid::translation_by(times(sign, through)).after(base);
+                    let other = problem.run(other, self.reach(result.median), 30, progress)?.pose;
+                    let ratio = ratio(problem.cost(&other, cap, progress)?);
+                    let apart = |p: &Rigid| search.apart(p, &other) > 0.5 * norm(through);
+                    let new = apart(&pose) && found.iter().all(|f| apart(&f.reference_from_measured));
+                    if ratio <= AS_WELL && new {
+                        let angle = other.after(&pose.inverse()).angle();
+                        found.push(Alternative { reference_from_measured: other, angle, ratio });
+                    }
+                }
+            }
+        }
+        found.sort_by(|a, b| a.ratio.total_cmp(&b.ratio));
+        Ok(found)
+    }
+}
+
+/// A pose that fits better than the result's; else of those that fit equally well the one that moves least, if it is another.
+pub(super) fn better(search: &Search, result: &Alignment) -> Option<Rigid> {
+    if let Some(best) = result.alternatives.first().filter(|a| a.ratio * EQUAL < 1.0) {
+        return Some(best.reference_from_measured);
+    }
+    let far = |pose: &Rigid| search.apart(&Rigid::IDENTITY, pose);
+    let equal = result.alternatives.iter().filter(|a| a.ratio <= EQUAL).map(|a| a.reference_from_measured);
+    let least = equal.min_by(|a, b| far(a).total_cmp(&far(b)))?;
+    (far(&least) + search.spacing < far(&result.reference_from_measured)).then_some(least)
+}
+
+/// Whether a motion is one of those that the shape leaves free, to within `tolerance` of its axes.
+fn allowed(motion: &Rigid, freedoms: &[Freedom], tolerance: f64) -> bool {
+    let slides = freedoms.iter().any(|f| matches!(f, Freedom::Slides { .. }));
+    if motion.angle() < 0.02 {
+        return slides;
+    }
+    freedoms.iter().any(|f| match f {
+        Freedom::Slides { .. } => false,
+        // Its axis stays in its direction, and in its place where nothing slides.
+        Freedom::Turns { point, direction } => {
+            norm(cross(motion.vector(*direction), *direction)) < 0.02
+                && dot(motion.vector(*direction), *direction) > 0.0
+                && (slides || motion.displacement(*point) < tolerance)
+        }
+    })
+}
