@@ -37,7 +37,7 @@ pub struct FirstView {
     pub places: Vec<(usize, bool)>,
     /// For each pick, whether it lies so far off that it is not on the part.
     pub off: Vec<bool>,
-    /// For each pick with a flag in this view, whether it is hidden.
+    /// For each pick that may have a flag in this view, whether it is hidden.
     pub hidden: Vec<bool>,
     /// For each pick, where its leader ends.
     pub ends: Vec<Point>,
@@ -53,13 +53,13 @@ impl FirstView {
         let shown = shown_objects(input.objects);
         let mapped = mapped(&shown);
         let finite = |p: &&Point| p.iter().all(|x| x.is_finite());
-        let flagged = |n: &usize| flagged(&picks[*n], mapped);
-        let beside = (0..picks.len()).filter(|n| off[*n] && flagged(n)).map(|n| &picks[n].position);
+        let flagged = flagged(picks, mapped);
+        let beside = flagged.iter().filter(|n| off[**n]).map(|n| &picks[*n].position);
         let all = shown.iter().flat_map(|o| o.places()).chain(beside).filter(finite);
-        let margin = match (0..picks.len()).any(|n| flagged(&n)) {
-            true if mapped => FLAGS,
-            true => FRAMES,
-            false => 0,
+        let margin = match flagged.is_empty() {
+            true => 0,
+            false if mapped => FLAGS,
+            false => FRAMES,
         };
         let camera =
             Camera::first_view(all, input.options.up, toward, [WIDTH, HEIGHT, margin].map(|n| FINE * n));
