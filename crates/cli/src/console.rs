@@ -98,9 +98,14 @@ mod tests {
     #[test]
     fn no_text_breaks_out_of_its_cell_or_runs() {
         assert_eq!(cell("a,\"b\"\n".into()), "\"a,\"\"b\"\"\n\"");
-        for (text, written) in
-            [("=A1", "'=A1"), ("-x", "'-x"), ("-1.5e-7", "-1.5e-7"), ("=A,1", "\"'=A,1\""), ("A-B", "A-B"), ("", "")]
-        {
+        for (text, written) in [
+            ("=A1", "'=A1"),
+            ("-x", "'-x"),
+            ("-1.5e-7", "-1.5e-7"),
+            ("=A,1", "\"'=A,1\""),
+            ("A-B", "A-B"),
+            ("", ""),
+        ] {
             assert_eq!(cell(text.into()), written);
         }
     }

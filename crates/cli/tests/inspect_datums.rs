@@ -26,7 +26,12 @@ fn parts(folder: &Folder) {
 fn position(datums: &str) -> String {
     let folder = Folder::new();
     parts(&folder);
-    let features = [("A", "plane", "floor"), ("B", "plane", "wall"), ("X", "cylinder", "cross"), ("H", "cylinder", "hole")];
+    let features = [
+        ("A", "plane", "floor"),
+        ("B", "plane", "wall"),
+        ("X", "cylinder", "cross"),
+        ("H", "cylinder", "hole"),
+    ];
     let features = features.map(|(id, shape, file)| {
         format!("[[feature]]\nid = \"{id}\"\nshape = \"{shape}\"\npoints = \"{file}.xyz\"\n")
     });

@@ -118,7 +118,8 @@ fn numbers_that_no_part_has_are_refused() {
         ("2000000000000", "line 11, column 13: 2000000000000 is no number of a part; give less than 1e12"),
         ("inf", "line 11, column 13: the tolerance is inf; give a finite number"),
     ] {
-        let plan = folder.write("plan.toml", sound.replace("tolerance = 0.1", &format!("tolerance = {number}")));
+        let plan =
+            folder.write("plan.toml", sound.replace("tolerance = 0.1", &format!("tolerance = {number}")));
         let o = trueness(["inspect".as_ref(), plan.as_os_str()]);
         assert_eq!(status(&o), 3, "{number}: {}", stdout(&o));
         assert!(stderr(&o).contains(says), "{number}: {}", stderr(&o));

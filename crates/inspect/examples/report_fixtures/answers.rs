@@ -43,11 +43,9 @@ pub fn write_all(folder: &Path) {
     let few: Vec<Point> = lobed_cylinder().into_iter().step_by(49).take(100).collect();
     written(folder, "few_fit", fit_page(&few, Method::Gaussian, &options).0);
     written(folder, "elements", segment_page(&peg(), &options).0);
-    for (name, rows) in [
-        ("plan", Written::AsFound),
-        ("plan_material", Written::Material),
-        ("plan_kinds", Written::Kinds),
-    ] {
+    for (name, rows) in
+        [("plan", Written::AsFound), ("plan_material", Written::Material), ("plan_kinds", Written::Kinds)]
+    {
         written(folder, name, super::plan::page(rows, &options));
     }
     written(folder, "curvature", curvature_page(&torus(), &options));

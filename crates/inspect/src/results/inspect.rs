@@ -316,8 +316,10 @@ impl CharacteristicRecord {
     /// feature apart, as in `size h9 GX`.
     pub fn kind_in_full(&self) -> String {
         let unusual = |m: &&String| !USUAL.contains(&m.as_str());
-        let words: Vec<&str> =
-            std::iter::once(&self.kind).chain(self.modifiers.iter().filter(unusual)).map(String::as_str).collect();
+        let words: Vec<&str> = std::iter::once(&self.kind)
+            .chain(self.modifiers.iter().filter(unusual))
+            .map(String::as_str)
+            .collect();
         words.join(" ")
     }
 
@@ -354,7 +356,9 @@ impl InspectDocument {
     /// The worst verdict on each feature that has one, by its name.
     pub fn worst(&self) -> BTreeMap<&str, Verdict> {
         let mut worst: BTreeMap<&str, Verdict> = BTreeMap::new();
-        for (feature, verdict) in self.characteristics.iter().flat_map(|c| c.features().into_iter().map(|f| (f, c.verdict))) {
+        for (feature, verdict) in
+            self.characteristics.iter().flat_map(|c| c.features().into_iter().map(|f| (f, c.verdict)))
+        {
             let known = worst.entry(feature).or_insert(verdict);
             if rank(verdict) > rank(*known) {
                 *known = verdict;

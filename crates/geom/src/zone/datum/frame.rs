@@ -100,7 +100,13 @@ impl State {
     }
 
     /// An axis across z where all turns are held, as of a cross bore: what is still free of the two shifts across it.
-    fn crossing(&mut self, datum: usize, axes: [Vector; 3], point: Point, direction: Vector) -> Result<(), DatumError> {
+    fn crossing(
+        &mut self,
+        datum: usize,
+        axes: [Vector; 3],
+        point: Point,
+        direction: Vector,
+    ) -> Result<(), DatumError> {
         let oblique = |angle: f64| DatumError::Oblique { datum, degrees: angle.to_degrees() };
         nearest(&axes, direction).map_err(oblique)?;
         let along_x = nearest(&axes[..1], direction).is_ok();
