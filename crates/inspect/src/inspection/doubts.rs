@@ -100,12 +100,13 @@ mod tests {
     use trueness_geom::mesh::Mesh;
     use trueness_geom::progress::Silent;
 
-    /// Three sides of a block of 60 by 40 by 20, and its alignment.
+    /// Three sides of a block of 60 by 40 by 20 from (10, 10, 10), and its alignment.
     fn plan(align: &str) -> Plan {
         let plane = |id: &str, normal: [i32; 3], corners: [[i32; 3]; 4]| {
+            let corners = corners.map(|c| c.map(|x| x + 10));
             format!(
                 "[[feature]]\nid = \"{id}\"\nshape = \"plane\"\n\
-                 nominal = {{ point = [0, 0, 0], normal = {normal:?}, boundary = {corners:?} }}\n"
+                 nominal = {{ point = [10, 10, 10], normal = {normal:?}, boundary = {corners:?} }}\n"
             )
         };
         let text = [
@@ -125,7 +126,7 @@ mod tests {
         let sides = grid.flat_map(|(u, v)| {
             [[60.0 * u, 40.0 * v, 0.0], [0.0, 40.0 * u, 20.0 * v], [60.0 * u, 0.0, 20.0 * v]]
         });
-        let positions = sides.map(|p| [0, 1, 2].map(|k| factor * p[k] + by[k])).collect();
+        let positions = sides.map(|p| [0, 1, 2].map(|k| factor * (10.0 + p[k]) + by[k])).collect();
         Data { measured: Some(Mesh { positions, faces: vec![] }), ..Data::default() }
     }
 
