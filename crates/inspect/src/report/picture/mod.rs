@@ -103,3 +103,19 @@ pub fn png(input: &ReportInput, view: &FirstView, progress: &dyn Progress) -> Re
     }
     Ok(png::encode(WIDTH, HEIGHT, &canvas.reduced()))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Whether a flag is hidden costs a search of all that is drawn: of thousands of rows only the first are asked.
+    #[test]
+    fn only_the_first_of_many_have_flags() {
+        let valued = |n: u32| Pick { value: (n % 2 == 0).then_some(f64::from(n)), ..Pick::default() };
+        let picks: Vec<Pick> = (0..5000).map(valued).collect();
+        let found = flagged(&picks, true);
+        assert_eq!((found.len(), found[0], found[1], found[199]), (200, 0, 2, 398));
+        assert_eq!(flagged(&picks[..7], true), [0, 2, 4, 6]);
+        assert!(flagged(&picks, false).is_empty());
+    }
+}
