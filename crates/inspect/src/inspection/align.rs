@@ -50,7 +50,7 @@ pub enum Found {
 
 impl Found {
     /// The best fit that was found, or that it began with.
-    pub(super) fn best_fit(&self) -> Option<&align::Alignment> {
+    fn best_fit(&self) -> Option<&align::Alignment> {
         match self {
             Found::BestFit(fit) | Found::Chebyshev(_, fit) | Found::Zones(_, fit) => Some(fit),
             Found::Nothing | Found::Rows(_) => None,
@@ -98,10 +98,12 @@ pub(super) fn aligned(
         moved(&mut data, &alignment.motion);
     }
     let onto = onto_datums(plan, &mut data, seeds, progress).map_err(|stop| match stop {
-        Stop::Align(what) => Stop::Align(match doubts::unit(plan, &data, &alignment) {
-            Some(unit) => format!("{what}; {unit}"),
-            None => what,
-        }),
+        Stop::Align(what) => {
+            Stop::Align(match doubts::unit(plan, &data, &alignment.motion, alignment.found.best_fit()) {
+                Some(unit) => format!("{what}; {unit}"),
+                None => what,
+            })
+        }
         stop => stop,
     })?;
     if let Some(motion) = onto {

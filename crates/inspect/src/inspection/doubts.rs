@@ -1,13 +1,12 @@
 //! Whether the data lie where the reference or the plan's features are, and in their unit.
 
-use super::align::Alignment;
 use super::data::Data;
 use crate::characteristic::Taken;
 use crate::compare::plausibility;
 use crate::plan::{Feature, Plan, Source};
 use crate::results::align::AlignNote;
 use crate::results::compare::{Bounds, Warning, WarningKind};
-use trueness_geom::align::AlignWarning;
+use trueness_geom::align::{AlignWarning, Alignment};
 use trueness_geom::feature::Nominal;
 use trueness_geom::rigid::Rigid;
 use trueness_geom::space::{Aabb, Point, norm, times};
@@ -38,17 +37,16 @@ pub(super) fn doubts(plan: &Plan, data: &Data, motion: &Rigid, features: &[Taken
     found
 }
 
-/// In which unit data would lie where the plan has them that could not be aligned by its datums, in words; `start` is how they were
-/// laid for the search.
-pub(super) fn unit(plan: &Plan, data: &Data, start: &Alignment) -> Option<String> {
-    let fit = start.found.best_fit();
+/// In which unit data would lie where the plan has them that could not be aligned by its datums, in words. They were laid
+/// for the search by `motion`, which is that of the best fit where there is one.
+pub(super) fn unit(plan: &Plan, data: &Data, motion: &Rigid, fit: Option<&Alignment>) -> Option<String> {
     let of_fit = fit.and_then(|fit| fit.warnings.iter().find(|w| matches!(w, AlignWarning::Scale { .. })));
     if let Some(warning) = of_fit {
         return Some(AlignNote::of(warning).text);
     }
     let found = match data.reference {
         Some(_) => boxes(plan, data).into_iter().find(|w| w.kind == WarningKind::SizeRatio),
-        None => unit_of_features(plan, data, &start.motion),
+        None => unit_of_features(plan, data, motion),
     };
     found.map(|w| w.text)
 }

@@ -25,6 +25,27 @@ pub(super) fn judged(document: &InspectDocument) -> Vec<(String, &ToleranceShare
     all
 }
 
+/// The names of the columns.
+const HEAD: [&str; 17] = [
+    "part",
+    "id",
+    "kind",
+    "feature",
+    "datums",
+    "nominal",
+    "lower",
+    "upper",
+    "value",
+    "unit",
+    "uncertainty",
+    "verdict",
+    "utilisation",
+    "reason",
+    "interval_from",
+    "interval_to",
+    "modifiers",
+];
+
 /// The cells of a line.
 type Row = [String; 17];
 
@@ -43,26 +64,7 @@ fn unreliable(document: &InspectDocument) -> Option<String> {
 /// One line a characteristic, one for the deviations from the reference where they are judged, one for an alignment that cannot
 /// be relied on, and one for a part without results; numbers with all digits (RFC 4180).
 pub fn csv(parts: &[Part]) -> String {
-    let head = [
-        "part",
-        "id",
-        "kind",
-        "feature",
-        "datums",
-        "nominal",
-        "lower",
-        "upper",
-        "value",
-        "unit",
-        "uncertainty",
-        "verdict",
-        "utilisation",
-        "reason",
-        "interval_from",
-        "interval_to",
-        "modifiers",
-    ];
-    let mut out = head.join(",") + "\r\n";
+    let mut out = HEAD.join(",") + "\r\n";
     let number = |x: Option<f64>| x.map_or_else(String::new, |x| x.to_string());
     for part in parts {
         let document = match part {

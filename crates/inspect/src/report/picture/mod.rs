@@ -111,7 +111,7 @@ mod tests {
     /// Whether a flag is hidden costs a search of all that is drawn: of thousands of rows only the first are asked.
     #[test]
     fn only_the_first_of_many_have_flags() {
-        let valued = |n: u32| Pick { value: (n % 2 == 0).then_some(f64::from(n)), ..Pick::default() };
+        let valued = |n: u32| Pick { value: n.is_multiple_of(2).then_some(f64::from(n)), ..Pick::default() };
         let picks: Vec<Pick> = (0..5000).map(valued).collect();
         let found = flagged(&picks, true);
         assert_eq!((found.len(), found[0], found[1], found[199]), (200, 0, 2, 398));
