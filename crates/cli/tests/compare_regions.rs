@@ -68,6 +68,8 @@ fn every_region_is_judged_by_its_own_tolerance() {
     for part in ["left", "90.000", "upper", "96.667", "(others)", "together: FAIL"] {
         assert!(table.contains(part), "{part}\n{table}");
     }
+    // All points that no region judges have a verdict of their own.
+    assert!(table.lines().any(|l| l.starts_with("(others)") && l.ends_with("pass")), "{table}");
     let page = std::fs::read_to_string(&html).unwrap();
     assert!(page.contains("Tolerances of regions") && page.contains("all other points"));
     // No color of a map can stand for three tolerances.

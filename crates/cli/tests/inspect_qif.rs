@@ -7,13 +7,13 @@ use common::{Folder, status, stderr, stdout, trueness};
 use serde_json::Value;
 use std::fmt::Write;
 
-/// A name that would be markup, with a letter that XML cannot hold.
-const HOSTILE: &str = "<b x=\\\"1\\\">&'\\u0001";
+/// A name that would be markup.
+const HOSTILE: &str = "<b x=\\\"1\\\">&'";
 
 /// A plane and a cylinder of points, and kinds that QIF knows and does not know.
 fn plan() -> String {
     format!(
-        "schema = \"trueness/plan/1\"\ntitle = \"{HOSTILE}\"\n\
+        "schema = \"trueness/plan/1\"\ntitle = \"{HOSTILE}\\u0001\"\n\
          [[feature]]\nid = \"A\"\nshape = \"plane\"\npoints = \"floor.xyz\"\n\
          [[feature]]\nid = \"{HOSTILE}\"\nshape = \"plane\"\npoints = \"roof.xyz\"\n\
          [[feature]]\nid = \"bore\"\nshape = \"cylinder\"\npoints = \"bore.xyz\"\ninternal = true\n\
@@ -103,6 +103,9 @@ fn every_characteristic_is_there_with_its_value_status_and_kind() {
             c["upper"].as_f64().unwrap()
         );
     }
+    // What QIF gives no limits has them beside it.
+    let ratio = between(&qif, "<UserDefinedAttributeCharacteristicDefinition", "</UserDefined")[0];
+    assert!(ratio.contains("name=\"upper\" value=\"9\""), "{ratio}");
     // The standard uncertainty is half the expanded one.
     assert!(qif.contains("<Value combinedUncertainty=\"0.01\">"), "{qif}");
     // Both tolerances with a material requirement say so, and have their bonus.

@@ -87,6 +87,38 @@ fn a_course_is_told() {
     assert!(table.contains("pass: 6 parts, 6 of them pass; in control"), "{table}");
 }
 
+/// Whatever names are long, heads stand above their numbers and no line of the tables runs over.
+#[test]
+fn the_table_fits_a_terminal() {
+    let folder = Folder::new();
+    let long = "top of the rear mounting flange, upper left";
+    folder.write("floor.xyz", square(0.0, 0.0));
+    let files = [9.9, 10.0, 10.1].map(|z| {
+        folder.write("roof-0.xyz", square(z, 0.01));
+        let text = plan(0, 0.5)
+            .replace("\"R\"", &format!("\"{long}\""))
+            .replace("\"h\"", "\"height of the flange\"");
+        let plan = folder.write("plan.toml", text);
+        let json = folder.file(&format!("result-{z}.json")).to_str().unwrap().to_string();
+        let o = trueness(["inspect", plan.to_str().unwrap(), "--json", &json]);
+        assert!(status(&o) <= 1, "{}", stderr(&o));
+        json
+    });
+    let (_, table, d, _) = trend(&folder, &files);
+    assert!(table.lines().all(|l| l.chars().count() <= 100), "{table}");
+    let ends = |word: &str| {
+        let (line, at) = table.lines().find_map(|l| Some((l, l.find(word)?))).unwrap();
+        line[..at + word.len()].chars().count()
+    };
+    let max = format!("{:.6}", d["characteristics"][0]["max"].as_f64().unwrap());
+    assert_eq!(ends("max"), ends(&max), "{table}");
+    assert!(table.contains(&format!("  {long}\n")), "{table}");
+    assert!(
+        table.contains("height of the flange  1.") || table.contains("height of the flange  2."),
+        "{table}"
+    );
+}
+
 /// The page holds the same document, and its charts without any script.
 #[test]
 fn a_report_is_written() {

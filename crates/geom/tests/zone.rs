@@ -212,3 +212,29 @@ fn the_placed_sphere_is_the_best_near_it() {
         }
     }
 }
+
+/// A bore across the first datum places what is left behind two planes; where a turn is free, or nothing is left, it is refused.
+#[test]
+fn a_cross_bore_is_a_third_datum() {
+    let down = Datum::Plane { point: [3.0, 4.0, 0.5], normal: [0.0, 0.0, -1.0] };
+    let side = Datum::Plane { point: [-2.0, 7.0, 9.0], normal: [-1.0, 0.0, 0.0] };
+    let bore = |direction| Datum::Axis { point: [40.0, 15.0, 10.0], direction };
+    let (x, y, z) = ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]);
+    for sense in [1.0, -1.0] {
+        let system = System::of(&[down, side, bore(times(sense, x))]).unwrap();
+        assert!(system.free.is_none());
+        let origin = system.frame.inverse().point([0.0; 3]);
+        assert!(norm(minus(origin, [-2.0, 15.0, 0.5])) < 1e-12, "{origin:?}");
+        assert_eq!(system.frame.rotation(), [x, y, z]);
+    }
+    // It holds place across itself alone, which both planes have already.
+    assert!(matches!(System::of(&[down, side, bore(y)]), Err(DatumError::Idle { datum: 2, .. })));
+    assert!(matches!(System::of(&[down, bore(x)]), Err(DatumError::Across { datum: 1 })));
+    let oblique = System::of(&[down, side, bore(unit([1.0, 1.0, 0.0]).unwrap().0)]);
+    assert!(matches!(oblique, Err(DatumError::Oblique { datum: 2, .. })));
+    // Behind an axis and a plane along it, it places the origin along that axis.
+    let upright = Datum::Axis { point: [5.0, 6.0, 7.0], direction: z };
+    let system = System::of(&[upright, side, bore(y)]).unwrap();
+    assert!(system.free.is_none());
+    assert!(norm(minus(system.frame.inverse().point([0.0; 3]), [5.0, 6.0, 10.0])) < 1e-12);
+}

@@ -1,5 +1,6 @@
 //! Reports of the other documents: a mesh with planted defects, an element through points with a known form.
 
+use super::plan::Written;
 use super::{uv_sphere, written};
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
@@ -42,8 +43,11 @@ pub fn write_all(folder: &Path) {
     let few: Vec<Point> = lobed_cylinder().into_iter().step_by(49).take(100).collect();
     written(folder, "few_fit", fit_page(&few, Method::Gaussian, &options).0);
     written(folder, "elements", segment_page(&peg(), &options).0);
-    written(folder, "plan", super::plan::page(false, &options));
-    written(folder, "plan_material", super::plan::page(true, &options));
+    for (name, rows) in
+        [("plan", Written::AsFound), ("plan_material", Written::Material), ("plan_kinds", Written::Kinds)]
+    {
+        written(folder, name, super::plan::page(rows, &options));
+    }
     written(folder, "curvature", curvature_page(&torus(), &options));
     let points = Mesh { faces: vec![], ..torus() };
     written(folder, "curvature_cloud", curvature_page(&points, &options));

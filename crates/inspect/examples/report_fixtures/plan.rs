@@ -6,8 +6,8 @@ use trueness_inspect::compare;
 use trueness_inspect::inspection::{self, Data, View};
 use trueness_inspect::plan::Plan;
 use trueness_inspect::report::{ReportInput, ReportOptions};
-use trueness_inspect::results::inspect::{InspectDocument, PlanRecord, ZoneForm};
-use trueness_inspect::results::{Role, Word};
+use trueness_inspect::results::inspect::{CharacteristicRecord, InspectDocument, PlanRecord, ZoneForm};
+use trueness_inspect::results::{Role, Verdict, Word};
 
 const PLAN: &str = r#"
 schema = "trueness/plan/1"
@@ -80,9 +80,65 @@ fn block(raised: f64) -> Mesh {
     mesh
 }
 
-/// Its top 0.08 mm too high: flat, but too far from the bottom, and out of the tolerance of the deviations. With `material`, the
-/// perpendicularity is written as one with material requirements and a bonus of 0.02 mm.
-pub fn page(material: bool, options: &ReportOptions) -> Vec<u8> {
+/// What of the results is written otherwise than it was found.
+#[derive(Clone, Copy, PartialEq)]
+pub enum Written {
+    /// Nothing.
+    AsFound,
+    /// The perpendicularity has material requirements and a bonus of 0.02 mm.
+    Material,
+    /// More kinds, with all that may stand in a row: uncertainties, degrees, letters, three datums, no value.
+    Kinds,
+}
+
+/// Rows with all that may stand in one.
+fn kinds(document: &mut InspectDocument) {
+    let all = &mut document.characteristics;
+    let [flatness, distance, attitude] = [0, 1, 2].map(|n| all[n].clone());
+    all[0] = CharacteristicRecord {
+        value: None,
+        uncertainty: Some(0.002),
+        reason: Some("too few points".into()),
+        verdict: Verdict::NotMeasured,
+        ..flatness.clone()
+    };
+    all[2] = CharacteristicRecord {
+        uncertainty: Some(0.002),
+        datums: ["A", "top", "front"].map(String::from).to_vec(),
+        verdict: Verdict::Undecided,
+        ..attitude
+    };
+    all.push(CharacteristicRecord {
+        id: "4".into(),
+        kind: "angle".into(),
+        unit: "deg".into(),
+        nominal: Some(90.0),
+        lower: Some(89.5),
+        upper: 90.5,
+        value: Some(89.75),
+        uncertainty: Some(0.125),
+        verdict: Verdict::Pass,
+        ..distance.clone()
+    });
+    all.push(CharacteristicRecord {
+        id: "5".into(),
+        kind: "size".into(),
+        modifiers: vec!["GX".into()],
+        datums: vec![],
+        ..distance
+    });
+    all.push(CharacteristicRecord {
+        id: "6".into(),
+        kind: "texture".into(),
+        symbol: String::new(),
+        zone: Word(ZoneForm::Value),
+        modifiers: vec!["Sq".into()],
+        ..flatness
+    });
+}
+
+/// Its top 0.08 mm too high: flat, but too far from the bottom, and out of the tolerance of the deviations.
+pub fn page(written: Written, options: &ReportOptions) -> Vec<u8> {
     let plan = Plan::parse(PLAN).unwrap();
     let (scan, nominal) = (block(0.08), block(0.0));
     let files = [(Role::Measured, "scan.stl", &scan), (Role::Reference, "nominal.stl", &nominal)];
@@ -91,7 +147,10 @@ pub fn page(material: bool, options: &ReportOptions) -> Vec<u8> {
     let found = inspection::run(&plan, data, &Silent).unwrap();
     let record = PlanRecord { path: "block.toml".into(), sha256: None };
     let mut document = InspectDocument::new(&plan, record, &found, inputs);
-    if material {
+    if written == Written::Kinds {
+        kinds(&mut document);
+    }
+    if written == Written::Material {
         let c = document.characteristics.last_mut().unwrap();
         (c.zone, c.upper) = (Word(ZoneForm::Diameter), 0.07);
         (c.modifiers, c.datums) = (vec!["Ⓜ".into()], vec!["A(L)".into()]);

@@ -8,7 +8,7 @@ use trueness_geom::fit::Method;
 use trueness_geom::rigid::Rigid;
 use trueness_geom::shape::Kind;
 use trueness_geom::space::minus;
-use trueness_geom::zone::datum::{Datum, Freedom, Rule, Source, System, mean};
+use trueness_geom::zone::datum::{Datum, DatumError, Freedom, Rule, Source, System, mean};
 
 /// The frame in which true places are given, and what it leaves free: that of the datums, or the one that the plan gives.
 pub(super) fn frame(m: &Measuring) -> Result<(Rigid, Freedom), Missing> {
@@ -49,8 +49,19 @@ pub(super) fn system(m: &Measuring) -> Result<System, Missing> {
         let features = datum.iter().map(|f| datum_source(f, m.feature()));
         sources.push(features.collect::<Result<_, _>>()?);
     }
-    Ok(System::associated(&sources, m.spec.datum_rule, m.progress)?)
+    System::associated(&sources, m.spec.datum_rule, m.progress).map_err(|e| match (e.into(), e) {
+        (Missing::NotMeasured(what), DatumError::Across { .. } | DatumError::Oblique { .. })
+            if m.spec.kind.keys().contains(&"frame") =>
+        {
+            Missing::NotMeasured(what + REMEDY)
+        }
+        (missing, _) => missing,
+    })
 }
+
+/// What to write where datums that a drawing has make no system here.
+const REMEDY: &str = "; in place of `datums` give the frame that they make by numbers, in the coordinates of the aligned data, as in \
+                      frame = { origin = [0, 0, 0], x = [1, 0, 0], z = [0, 0, 1] }";
 
 /// The points of a datum feature. A plane that does not say where its material is has it on the side of the toleranced
 /// feature.

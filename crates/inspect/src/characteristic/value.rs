@@ -55,9 +55,10 @@ impl From<DatumError> for Missing {
             DatumError::Fit { error: FitError::Cancelled, .. } => Missing::Cancelled,
             DatumError::Zone { error: ZoneError::Cancelled, .. } => Missing::Cancelled,
             // How a part was made is no fault of the plan.
-            DatumError::Fit { .. } | DatumError::Zone { .. } | DatumError::Oblique { .. } => {
-                Missing::NotMeasured(e.to_string())
-            }
+            DatumError::Fit { .. }
+            | DatumError::Zone { .. }
+            | DatumError::Oblique { .. }
+            | DatumError::Across { .. } => Missing::NotMeasured(e.to_string()),
             e => Missing::Impossible(e.to_string()),
         }
     }

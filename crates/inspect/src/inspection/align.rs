@@ -3,6 +3,8 @@
 use super::belonging::Belonging;
 use super::data::{Data, Stop};
 use super::deviation;
+use super::doubts;
+use super::nearby;
 use super::seed::Seeded;
 use super::{Taken, take};
 use crate::characteristic::{Missing, datum_source};
@@ -95,7 +97,16 @@ pub(super) fn aligned(
     if alignment.motion != Rigid::IDENTITY {
         moved(&mut data, &alignment.motion);
     }
-    if let Some(motion) = onto_datums(plan, &mut data, seeds, progress)? {
+    let onto = onto_datums(plan, &mut data, seeds, progress).map_err(|stop| match stop {
+        Stop::Align(what) => {
+            Stop::Align(match doubts::unit(plan, &data, &alignment.motion, alignment.found.best_fit()) {
+                Some(unit) => format!("{what}; {unit}"),
+                None => what,
+            })
+        }
+        stop => stop,
+    })?;
+    if let Some(motion) = onto {
         alignment.motion = motion.after(&alignment.motion);
     }
     Ok((data, alignment))
@@ -112,7 +123,8 @@ fn onto_datums(
     // A mesh has facets that tell.
     let is_cloud = data.measured.as_ref().is_some_and(|mesh| mesh.faces.is_empty());
     let belonging = if is_cloud { Belonging::new(plan, data, seeds, progress)? } else { None };
-    let taken = take::features(plan, data, seeds, belonging.as_ref(), progress)?;
+    let mut taken = take::features(plan, data, seeds, belonging.as_ref(), progress)?;
+    nearby::tell(plan, data, seeds, &mut taken, progress)?;
     let motion = by_datums(&taken, datums, *rule, span, progress)?;
     moved(data, &motion);
     Ok(Some(motion))

@@ -9,9 +9,11 @@ mod deeper;
 mod denoised;
 mod deviation;
 mod document;
+mod doubts;
 mod found;
 mod left_out;
 mod measure;
+mod nearby;
 mod noise_field;
 mod of_others;
 mod own_facets;
@@ -32,15 +34,11 @@ pub use found::Inspection;
 pub use uncertainty::Uncertainty;
 pub use view::View;
 
-use crate::compare::plausibility;
 use crate::plan::{Plan, Spec};
-use crate::results::compare::{Bounds, Warning, WarningKind};
 use seed::Seeded;
 use std::collections::BTreeMap;
-use trueness_geom::feature::Nominal;
 use trueness_geom::parallel::prelude::*;
 use trueness_geom::progress::Progress;
-use trueness_geom::space::Aabb;
 
 /// Evaluates the plan. The data are moved by the plan's alignment first; then features are taken, then values.
 ///
@@ -67,8 +65,8 @@ use trueness_geom::space::Aabb;
 pub fn run(plan: &Plan, data: Data, progress: &dyn Progress) -> Result<Inspection, Stop> {
     let seeds = seed::seeded(plan, &data, progress)?;
     let (mut data, alignment) = align::aligned(plan, data, &seeds, progress)?;
-    let doubts = doubts(plan, &data);
     let features = taken(plan, &data, &seeds, progress)?;
+    let doubts = doubts::doubts(plan, &data, &alignment.motion, &features);
     let measured = |spec: &Spec, features: &[Taken]| measure::measured(spec, features, progress);
     let all = |features: &[Taken]| {
         plan.specs.par_iter().map(|spec| measured(spec, features)).collect::<Result<Vec<_>, Stop>>()
@@ -124,23 +122,7 @@ fn taken(
 ) -> Result<Vec<Taken>, Stop> {
     let belonging = belonging::Belonging::new(plan, data, seeds, progress)?;
     let mut features = take::features(plan, data, seeds, belonging.as_ref(), progress)?;
+    nearby::tell(plan, data, seeds, &mut features, progress)?;
     left_out::tell(plan, data, seeds, belonging.as_ref(), &mut features, progress)?;
     Ok(features)
-}
-
-/// Whether the aligned data lie where the reference does, or where the features should be if there is no reference. Of places
-/// of features alone sizes tell nothing.
-fn doubts(plan: &Plan, data: &Data) -> Vec<Warning> {
-    let Some(measured) = &data.measured else { return vec![] };
-    let reference = match &data.reference {
-        Some(reference) => reference.bounds(),
-        None => {
-            let nominals = plan.features.iter().filter_map(|f| f.nominal.as_ref());
-            Aabb::of(&nominals.flat_map(Nominal::places).collect::<Vec<_>>())
-        }
-    };
-    let bounds = Bounds::of(&measured.bounds()).zip(Bounds::of(&reference));
-    let mut found = bounds.map_or(vec![], |(m, r)| plausibility::warnings(&m, &r, "units in the plan"));
-    found.retain(|w| w.kind == WarningKind::HardlyOverlapping || data.reference.is_some());
-    found
 }

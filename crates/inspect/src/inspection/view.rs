@@ -8,6 +8,7 @@ use crate::results::inspect::FeatureSource;
 use crate::results::inspect::InspectDocument;
 use crate::scale::palette::Rgb;
 use crate::segment::{cut_out, rim};
+use std::collections::BTreeMap;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::parallel::prelude::*;
 
@@ -47,8 +48,9 @@ impl<'a> View<'a> {
         let mut parts = Vec::new();
         let whole = found.measured.as_ref();
         let mut free: Vec<bool> = vec![true; whole.map_or(0, |m| m.faces.len())];
+        let verdicts = document.worst();
         for (taken, record) in found.features.iter().zip(&document.features) {
-            let worst = document.worst_of(&record.id);
+            let worst = verdicts.get(record.id.as_str()).copied();
             let mut own = Vec::new();
             for &facet in &taken.facets {
                 if std::mem::replace(&mut free[facet as usize], false) {
@@ -102,11 +104,12 @@ impl Part {
 /// One mark a row: the rim of the feature and the places where the value is reached, in the color of the verdict.
 fn marks(document: &InspectDocument, parts: &[Part]) -> Vec<Marks> {
     let mut groups: Vec<MarkGroup> = Vec::new();
-    let rims: Vec<Mark> = parts.par_iter().map(|p| rim(&p.mesh)).collect();
+    let own: Vec<&Part> = parts.iter().filter(|p| !p.mesh.faces.is_empty()).collect();
+    let rims: Vec<Mark> = own.par_iter().map(|p| rim(&p.mesh)).collect();
+    let rims: BTreeMap<&str, Mark> = own.iter().map(|p| p.name.as_str()).zip(rims).collect();
     for c in document.rows() {
         let key = format!("verdict.{}", key(c.verdict));
-        let part = parts.iter().position(|p| p.name == c.feature && !p.mesh.faces.is_empty());
-        let mut mark = part.map_or(Mark::default(), |p| rims[p].clone());
+        let mut mark = rims.get(c.feature.as_str()).cloned().unwrap_or_default();
         mark.points = c.witness.clone();
         if groups.last().is_none_or(|g| g.key != key) {
             groups.push(MarkGroup { key, color: color(c.verdict), items: vec![] });

@@ -32,6 +32,20 @@ impl Checker<'_> {
         }
     }
 
+    /// A name that can be read in every result: it has letters, and none that steers a terminal or another program.
+    pub(super) fn id(&self, id: &At<String>) -> Result<(), PlanError> {
+        if id.value.trim().is_empty() {
+            return self.wrong(&id.span, "an id cannot be empty; give a name or number");
+        }
+        match id.value.chars().find(|c| c.is_control()) {
+            None => Ok(()),
+            Some(c) => {
+                let what = format!("the id holds the control character U+{:04X}; leave it out", u32::from(c));
+                self.wrong(&id.span, what)
+            }
+        }
+    }
+
     pub(super) fn place(&self, p: [f64; 3]) -> [f64; 3] {
         p.map(|x| x * self.unit)
     }

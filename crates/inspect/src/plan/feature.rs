@@ -124,6 +124,7 @@ pub(super) const COVERAGE: f64 = 0.25;
 pub(super) fn features(checker: &Checker, written: &PlanText) -> Result<Vec<Feature>, PlanError> {
     let mut all: Vec<Feature> = Vec::new();
     for At { value, span } in &written.feature {
+        checker.id(&value.id)?;
         if let Some(other) = all.iter().find(|f| f.id == value.id.value) {
             return checker.wrong(&value.id.span, format!("there are two features \"{}\"", other.id));
         }

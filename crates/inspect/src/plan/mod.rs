@@ -14,6 +14,7 @@ mod error;
 mod feature;
 mod limits;
 mod material;
+mod numbers;
 mod proposal;
 pub mod region;
 mod spec;
@@ -97,6 +98,7 @@ impl Plan {
             let what = format!("the schema is \"{}\"; this program reads \"{SCHEMA}\"", written.schema.value);
             return checker.wrong(&written.schema.span, what);
         }
+        numbers::checked(&checker)?;
         let features = feature::features(&checker, &written)?;
         let decision = decision::decision(&checker, &written)?;
         let specs = spec::specs(&checker, &written, &features, &decision)?;

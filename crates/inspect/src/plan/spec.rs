@@ -28,6 +28,7 @@ pub(super) fn specs(
 ) -> Result<Vec<Spec>, PlanError> {
     let mut all: Vec<Spec> = Vec::new();
     for At { value, span } in &written.characteristic {
+        checker.id(&value.id)?;
         if all.iter().any(|s| s.id == value.id.value) {
             return checker
                 .wrong(&value.id.span, format!("there are two characteristics \"{}\"", value.id.value));

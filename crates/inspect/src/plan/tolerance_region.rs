@@ -4,6 +4,7 @@ use super::at::At;
 use super::checker::Checker;
 use super::error::PlanError;
 use super::feature::{Feature, named};
+use super::numbers;
 use super::text::{RegionText, RegionsText, ZoneText};
 use crate::compare::{Extent, RegionRule};
 use crate::tolerance::Tolerance;
@@ -45,6 +46,7 @@ pub fn regions_of_file(text: &str) -> Result<Vec<RegionRule>, PlanError> {
     if written.region.is_empty() {
         return checker.wrong(&(0..0), "there is no [[region]]");
     }
+    numbers::checked(&checker)?;
     let found = regions(&checker, &written.region, &[])?;
     Ok(found.into_iter().map(|r| r.rule).collect())
 }
@@ -59,6 +61,7 @@ pub(super) fn regions(
         if all.len() == MOST {
             return checker.wrong(span, format!("there are more than {MOST} regions"));
         }
+        checker.id(&value.id)?;
         if all.iter().any(|r| r.rule.id == value.id.value) {
             return checker.wrong(&value.id.span, format!("there are two regions \"{}\"", value.id.value));
         }

@@ -50,6 +50,11 @@ impl Marks {
         self.groups.iter().flat_map(|g| &g.items)
     }
 
+    /// All marks of a page by their numbers.
+    pub fn numbered(all: &[Marks]) -> Vec<&Mark> {
+        all.iter().flat_map(Marks::items).collect()
+    }
+
     /// All marks with their colors.
     pub fn colored(&self) -> impl Iterator<Item = (&Mark, Rgb)> {
         self.groups.iter().flat_map(|g| g.items.iter().map(|m| (m, g.color)))

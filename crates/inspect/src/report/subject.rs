@@ -160,12 +160,18 @@ pub struct Frame {
     pub id: String,
     /// The sign as the path of an SVG in a square of 16; none where there is no sign.
     pub sign: Option<&'static str>,
+    /// The parameter of a texture, in place of a sign.
+    pub parameter: Option<String>,
     /// Whether the zone is a diameter.
     pub diametral: bool,
     /// Least allowed value.
     pub lower: Option<f64>,
     /// Greatest allowed value; with a material requirement, the tolerance without its bonus.
     pub upper: f64,
+    /// Unit behind value and limits: `°`, or nothing.
+    pub unit: &'static str,
+    /// Which size, and where the zone of a profile lies, by the letters of drawings.
+    pub letters: Vec<String>,
     /// The letter of a material requirement of the feature.
     pub material: Option<&'static str>,
     /// Datums, the first one first.

@@ -313,6 +313,14 @@ pub struct ToleranceShares {
     pub required: f64,
 }
 
+impl ToleranceShares {
+    /// Whether the share inside is what was asked for; `None` where there is no share.
+    pub fn verdict(&self) -> Option<Verdict> {
+        let of = |share| if share >= self.required { Verdict::Pass } else { Verdict::Fail };
+        self.inside.map(of)
+    }
+}
+
 /// One of the worst places.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct Worst {

@@ -10,7 +10,7 @@ use super::verdict::rank;
 use super::word::named;
 use super::{InputRecord, Verdict, Word};
 use crate::plan::Class;
-use crate::plan::text::{MaterialWord, SizeWord};
+use crate::plan::text::{MaterialWord, SizeWord, TextureWord};
 use crate::scale::Scale;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -306,6 +306,23 @@ impl CharacteristicRecord {
         self.modifiers.iter().filter_map(|m| m.split(' ').next()).filter(of)
     }
 
+    /// Which parameter of a texture (`Sa`).
+    pub fn parameter(&self) -> Option<&str> {
+        let is_one = |m: &&String| TextureWord::ALL.iter().any(|p| p.word() == *m);
+        self.modifiers.iter().find(is_one).map(String::as_str)
+    }
+
+    /// Its kind with all that modifies it but the associations that are usual: what tells characteristics of one kind on one
+    /// feature apart, as in `size h9 GX`.
+    pub fn kind_in_full(&self) -> String {
+        let unusual = |m: &&String| !USUAL.contains(&m.as_str());
+        let words: Vec<&str> = std::iter::once(&self.kind)
+            .chain(self.modifiers.iter().filter(unusual))
+            .map(String::as_str)
+            .collect();
+        words.join(" ")
+    }
+
     /// Tolerance and material requirement, where the greatest allowed value is not the tolerance alone.
     pub fn requirement(&self) -> Option<(f64, MaterialWord)> {
         let stands = |word: &MaterialWord| self.modifiers.iter().any(|m| m == word.symbol());
@@ -336,12 +353,23 @@ impl InspectDocument {
         rows
     }
 
-    /// The worst verdict on a feature; `None` where none is on it.
-    pub fn worst_of(&self, feature: &str) -> Option<Verdict> {
-        let on = self.characteristics.iter().filter(|c| c.feature.split(JOINED).any(|f| f == feature));
-        on.map(|c| c.verdict).max_by_key(|v| rank(*v))
+    /// The worst verdict on each feature that has one, by its name.
+    pub fn worst(&self) -> BTreeMap<&str, Verdict> {
+        let mut worst: BTreeMap<&str, Verdict> = BTreeMap::new();
+        for (feature, verdict) in
+            self.characteristics.iter().flat_map(|c| c.features().into_iter().map(|f| (f, c.verdict)))
+        {
+            let known = worst.entry(feature).or_insert(verdict);
+            if rank(verdict) > rank(*known) {
+                *known = verdict;
+            }
+        }
+        worst
     }
 }
+
+/// Modifiers that every characteristic has whose plan says nothing else.
+const USUAL: [&str; 2] = ["minimum-zone", "datums gaussian"];
 
 /// Between the names of two features.
 pub(crate) const JOINED: &str = " – ";

@@ -140,9 +140,15 @@ export interface Frame {
   id: string
   /** The sign as the path of an SVG in a square of 16. */
   sign: string | null
+  /** The parameter of a texture, in place of a sign. */
+  parameter: string | null
   diametral: boolean
   lower: number | null
   upper: number
+  /** Behind value and limits: `°`, or nothing. */
+  unit: string
+  /** Which size, and where the zone of a profile lies, by the letters of drawings. */
+  letters: string[]
   /** The letter of a material requirement of the feature. */
   material: string | null
   /** `A`, `A-B`, with a material requirement `A(M)`. */

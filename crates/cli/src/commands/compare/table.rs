@@ -274,6 +274,8 @@ pub fn regions(c: &Comparison) -> String {
         let zone = format!("{} … {}", signed(t.lower), signed(t.upper));
         let mut row = vec!["(others)".into(), grouped(rest), zone];
         row.extend([percent(t.inside), percent(t.above), percent(t.below)]);
+        // Their least and greatest deviations are not known apart from those of the regions.
+        row.extend([String::new(), String::new(), t.verdict().map_or("", |v| v.word()).to_string()]);
         rows.push(row);
     }
     let verdict = c.verdict.map_or_else(String::new, |v| format!("together: {}\n", v.word().to_uppercase()));

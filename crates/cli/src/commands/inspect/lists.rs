@@ -17,17 +17,37 @@ pub(super) fn judged(document: &InspectDocument) -> Vec<(String, &ToleranceShare
     let of = |r: &'_ RegionRecord| format!("{DEVIATION} {}", r.id);
     let mut all: Vec<_> = regions.iter().map(|r| (of(r), &r.tolerance, r.verdict)).collect();
     if let (Some(t), Some(verdict)) = (&deviation.tolerance, deviation.verdict) {
-        match t.inside {
-            _ if regions.is_empty() => all.push((DEVIATION.into(), t, verdict)),
-            None => {}
-            Some(share) => {
-                let own = if share >= t.required { Verdict::Pass } else { Verdict::Fail };
-                all.push((DEVIATION.into(), t, own));
-            }
+        match regions.is_empty() {
+            true => all.push((DEVIATION.into(), t, verdict)),
+            false => all.extend(t.verdict().map(|own| (DEVIATION.into(), t, own))),
         }
     }
     all
 }
+
+/// The names of the columns.
+const HEAD: [&str; 17] = [
+    "part",
+    "id",
+    "kind",
+    "feature",
+    "datums",
+    "nominal",
+    "lower",
+    "upper",
+    "value",
+    "unit",
+    "uncertainty",
+    "verdict",
+    "utilisation",
+    "reason",
+    "interval_from",
+    "interval_to",
+    "modifiers",
+];
+
+/// The cells of a line.
+type Row = [String; 17];
 
 /// What the alignment is called beside the characteristics.
 const ALIGNMENT: &str = "alignment";
@@ -44,31 +64,13 @@ fn unreliable(document: &InspectDocument) -> Option<String> {
 /// One line a characteristic, one for the deviations from the reference where they are judged, one for an alignment that cannot
 /// be relied on, and one for a part without results; numbers with all digits (RFC 4180).
 pub fn csv(parts: &[Part]) -> String {
-    let head = [
-        "part",
-        "id",
-        "kind",
-        "feature",
-        "datums",
-        "nominal",
-        "lower",
-        "upper",
-        "value",
-        "unit",
-        "uncertainty",
-        "verdict",
-        "utilisation",
-        "reason",
-        "interval_from",
-        "interval_to",
-    ];
-    let mut out = head.join(",") + "\r\n";
+    let mut out = HEAD.join(",") + "\r\n";
     let number = |x: Option<f64>| x.map_or_else(String::new, |x| x.to_string());
     for part in parts {
         let document = match part {
             Part::Inspected(document) => document,
             Part::Failed(failed) => {
-                let mut cells: [String; 16] = Default::default();
+                let mut cells: Row = Default::default();
                 [cells[0], cells[1], cells[2]] = [failed.name.clone(), PART.into(), PART.into()];
                 [cells[11], cells[13]] = [Verdict::NotMeasured.word().into(), failed.why.clone()];
                 out.push_str(&cells.map(cell).join(","));
@@ -77,7 +79,7 @@ pub fn csv(parts: &[Part]) -> String {
             }
         };
         for c in &document.characteristics {
-            let cells = [
+            let cells: Row = [
                 part.name().into(),
                 c.id.clone(),
                 c.kind.clone(),
@@ -94,12 +96,13 @@ pub fn csv(parts: &[Part]) -> String {
                 c.reason.clone().unwrap_or_default(),
                 number(c.interval.map(|i| i[0])),
                 number(c.interval.map(|i| i[1])),
+                c.modifiers.join("; "),
             ];
             out.push_str(&cells.map(cell).join(","));
             out.push_str("\r\n");
         }
         for (name, t, verdict) in judged(document) {
-            let mut cells: [String; 16] = Default::default();
+            let mut cells: Row = Default::default();
             cells[0] = part.name().into();
             [cells[1], cells[2]] = [name, DEVIATION.into()];
             cells[6] = (100.0 * t.required).to_string();
@@ -112,7 +115,7 @@ pub fn csv(parts: &[Part]) -> String {
             out.push_str("\r\n");
         }
         if let Some(why) = unreliable(document) {
-            let mut cells: [String; 16] = Default::default();
+            let mut cells: Row = Default::default();
             cells[0] = part.name().into();
             [cells[1], cells[2]] = [ALIGNMENT.into(), ALIGNMENT.into()];
             [cells[11], cells[13]] = [Verdict::Undecided.word().into(), why];
@@ -194,7 +197,7 @@ fn characteristic(class: &str, c: &CharacteristicRecord) -> String {
         Verdict::Undecided => [std::slice::from_ref(&said), &c.notes].concat().join("; "),
         _ => said,
     };
-    case(class, &format!("{} {} {}", c.id, c.kind, c.feature), c.verdict, &said)
+    case(class, &format!("{} {} {}", c.id, c.kind_in_full(), c.feature), c.verdict, &said)
 }
 
 fn case(class: &str, name: &str, verdict: Verdict, said: &str) -> String {
@@ -240,7 +243,6 @@ mod tests {
 
     #[test]
     fn no_text_breaks_out_of_its_cell_or_attribute() {
-        assert_eq!(cell("a,\"b\"\n".into()), "\"a,\"\"b\"\"\n\"");
         assert_eq!(escaped("<a b=\"c\">&\u{1}\n"), "&lt;a b=&quot;c&quot;&gt;&amp;\u{fffd}&#10;");
     }
 }

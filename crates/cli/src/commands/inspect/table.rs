@@ -157,7 +157,7 @@ fn row(c: &CharacteristicRecord) -> Vec<String> {
         _ => value,
     };
     let used = c.utilization.map_or_else(String::new, |u| format!("{} %", fixed(100.0 * u, 1)));
-    let kind = format!("{}{}{}", c.symbol, if c.symbol.is_empty() { "" } else { " " }, c.kind);
+    let kind = format!("{}{}{}", c.symbol, if c.symbol.is_empty() { "" } else { " " }, c.kind_in_full());
     vec![
         c.id.clone(),
         kind,

@@ -2,6 +2,7 @@
 
 use super::attitude::{AS_DRAWN, Held, nearest};
 use super::element::mean;
+use super::frame::beside;
 use super::{Datum, DatumError, Rule, Source};
 use crate::fit::{self, Method, Options};
 use crate::progress::Progress;
@@ -50,7 +51,7 @@ pub(super) fn associate(
             Err(angle) if is_plane && (angle - FRAC_PI_2).abs() <= AS_DRAWN => {
                 return across(datum, source, rule, z, direction);
             }
-            Err(angle) => return Err(DatumError::Oblique { datum, degrees: angle.to_degrees() }),
+            Err(angle) => return Err(beside(datum, angle)),
         },
         Held::All(axes) => {
             let found = nearest(&axes, direction);

@@ -38,6 +38,12 @@ pub enum DatumError {
         /// Its angle to the first datum.
         degrees: f64,
     },
+    /// It is an axis across an attitude that those before it do not hold.
+    #[error("datum {datum} is an axis across those before it, which leave a turn free; such an axis is evaluated only behind datums that hold all turns", datum = datum + 1)]
+    Across {
+        /// Which datum.
+        datum: usize,
+    },
     /// The features of a common datum do not go together.
     #[error("common datum {datum}: {what}", datum = datum + 1)]
     Common {

@@ -3,8 +3,16 @@
 use super::attitude::{AS_DRAWN, Freedom, System, nearest};
 use super::{Datum, DatumError};
 use crate::rigid::Rigid;
-use crate::space::{Point, Vector, dot, least_axis, minus, norm, plus, times, unit};
+use crate::space::{Point, Vector, cross, dot, least_axis, minus, norm, plus, times, unit};
 use std::f64::consts::FRAC_PI_2;
+
+/// Why an axis at this angle to the attitude of others, which leave a turn free, is none of their system.
+pub(super) fn beside(datum: usize, angle: f64) -> DatumError {
+    match (angle - FRAC_PI_2).abs() <= AS_DRAWN {
+        true => DatumError::Across { datum },
+        false => DatumError::Oblique { datum, degrees: angle.to_degrees() },
+    }
+}
 
 /// What is fixed so far.
 #[derive(Default)]
@@ -27,11 +35,11 @@ impl State {
         };
         match *d {
             Datum::Plane { point, normal } => self.plane(datum, z, point, normal),
-            Datum::Axis { point, direction } => {
-                nearest(&[z], direction)
-                    .map_err(|angle| DatumError::Oblique { datum, degrees: angle.to_degrees() })?;
-                self.place(datum, z, point)
-            }
+            Datum::Axis { point, direction } => match (nearest(&[z], direction), self.x) {
+                (Ok(_), _) => self.place(datum, z, point),
+                (Err(_), Some(x)) => self.crossing(datum, [x, cross(z, x), z], point, direction),
+                (Err(angle), None) => Err(beside(datum, angle)),
+            },
             Datum::Point(point) => self.place(datum, z, point),
         }
     }
@@ -89,6 +97,26 @@ impl State {
                 Ok(())
             }
         }
+    }
+
+    /// An axis across z where all turns are held, as of a cross bore: what is still free of the two shifts across it.
+    fn crossing(
+        &mut self,
+        datum: usize,
+        axes: [Vector; 3],
+        point: Point,
+        direction: Vector,
+    ) -> Result<(), DatumError> {
+        let oblique = |angle: f64| DatumError::Oblique { datum, degrees: angle.to_degrees() };
+        nearest(&axes, direction).map_err(oblique)?;
+        let along_x = nearest(&axes[..1], direction).is_ok();
+        let across = if along_x { &mut self.beside } else { &mut self.along };
+        if across.is_some() && self.height.is_some() {
+            return Err(DatumError::Idle { datum, degrees: 90.0 });
+        }
+        *across = across.or(Some(point));
+        self.height = self.height.or(Some(point));
+        Ok(())
     }
 
     /// A center, or an axis along z: a place in the plane across z.

@@ -127,6 +127,10 @@ pub enum TextureWord {
 }
 
 impl TextureWord {
+    /// All of them.
+    pub const ALL: [TextureWord; 5] =
+        [TextureWord::Sa, TextureWord::Sq, TextureWord::Sz, TextureWord::Ssk, TextureWord::Sku];
+
     /// Its letters.
     pub fn word(self) -> &'static str {
         match self {

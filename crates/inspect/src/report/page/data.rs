@@ -198,14 +198,15 @@ fn slots(sorted: &[f64], count: u64, scale: Option<&Scale>) -> Option<Vec<u64>> 
 
 /// The places of the list, in the order of its rows.
 fn picks(input: &ReportInput, first: Option<&FirstView>) -> Vec<PickEntry> {
-    let normal = |mark: Option<usize>| input.marks.iter().flat_map(Marks::items).nth(mark?)?.normal;
+    let marks = Marks::numbered(input.marks);
+    let mark = |p: &Pick| p.mark.and_then(|m| marks.get(m).copied());
     let of = |(n, p): (usize, Pick)| PickEntry {
         position: p.position,
         surface: p.surface,
         off: first.is_some_and(|f| f.off[n]),
         reach: p.reach,
-        normal: p.normal.or_else(|| normal(p.mark)),
-        others: others(&p, input.marks),
+        normal: p.normal.or_else(|| mark(&p)?.normal),
+        others: others(&p, mark(&p)),
         mark: p.mark,
         object: p.object,
         map: p.map,

@@ -37,10 +37,11 @@ struct Placed {
 /// The layer. It is there without flags too, for the script to draw into.
 pub fn flags(s: Style, picks: &[Pick], view: &FirstView, scale: Option<&Scale>) -> Markup {
     let [width, height] = FirstView::SIZE.map(f64::from);
-    let valued = picks.iter().enumerate().filter(|(_, p)| flagged(p, view.mapped));
-    let placed: Vec<Placed> = valued
+    let placed: Vec<Placed> = flagged(picks, view.mapped)
+        .into_iter()
         .enumerate()
-        .map(|(n, (pick, p))| {
+        .map(|(n, pick)| {
+            let p = &picks[pick];
             let [x, y] = view.pixel(&view.ends[pick]);
             let own = match &p.frame {
                 Some(frame) => framed(s, frame).1,
@@ -84,18 +85,23 @@ fn framed(style: Style, frame: &Frame) -> (String, f64) {
             _ => text.trim_end_matches('0').trim_end_matches(['.', ',']).to_string(),
         }
     };
-    let mut text = String::from(if frame.diametral { "⌀" } else { "" });
+    let mut text = frame.parameter.as_ref().map_or(String::new(), |name| format!("{name}\u{a0}"));
+    text += if frame.diametral { "⌀" } else { "" };
     if let Some(lower) = frame.lower {
         text += &format!("{}\u{2009}…\u{2009}", allowed(lower));
     }
     text += &allowed(frame.upper);
+    text += frame.unit;
+    for letters in &frame.letters {
+        text += &format!("\u{a0}{letters}");
+    }
     if let Some(letter) = frame.material {
         text += &format!("\u{a0}({letter})");
     }
     for datum in &frame.datums {
         text += &format!(" | {datum}");
     }
-    text += &format!("\u{2002}{}", frame.value.map_or("–".into(), found));
+    text += &format!("\u{2002}{}", frame.value.map_or("–".into(), |x| found(x) + frame.unit));
     let width = SIGN * f64::from(u8::from(frame.sign.is_some()))
         + LETTER * (frame.id.chars().count() + 1 + text.chars().count()) as f64
         + 20.0;

@@ -18,6 +18,8 @@ use trueness_geom::space::{Aabb, Point, Vector, cross, dot, minus, norm, plus, t
 const PLACES: usize = 8;
 /// Places beside its own at which a pick is seen, at most.
 const OTHERS: usize = 8;
+/// Picks that may have a flag in the stored picture: several times what its columns hold. Whether each is seen costs a search of all that is drawn.
+const FLAGS: usize = 200;
 /// A place farther than this from where it was measured, as a share of the diagonal, is not on the part.
 const OFF: f64 = 0.02;
 /// What is nearer to a place than this share of the diagonal does not hide it: it is the surface itself.
@@ -35,7 +37,7 @@ pub struct Direction {
     pub places: Vec<(usize, bool)>,
     /// For each pick, whether it lies so far off that it is not on the part.
     pub off: Vec<bool>,
-    /// For each pick with a flag in this view, whether it is hidden.
+    /// For each pick that may have a flag in this view, whether it is hidden.
     pub hidden: Vec<bool>,
     /// For each pick, where its leader ends: at its position, or if that is hidden at another place of its feature.
     pub ends: Vec<Point>,
@@ -54,7 +56,11 @@ pub fn direction(input: &ReportInput, picks: &[Pick]) -> Direction {
     important.sort_by_key(|n| off[*n]);
     important.truncate(PLACES);
     let measured = shown.iter().any(|o| o.role == ViewRole::Measured);
-    let place = |n: &usize| PlaceToSee::of(&picks[*n], off[*n], input.marks, measured, diagonal);
+    let marks = Marks::numbered(input.marks);
+    let place = |n: &usize| {
+        let mark = picks[*n].mark.and_then(|m| marks.get(m).copied());
+        PlaceToSee::of(&picks[*n], off[*n], mark, measured, diagonal)
+    };
     let places: Vec<PlaceToSee> = important.iter().map(place).collect();
     let opaque = opaque(input.objects, &shown);
     let all = candidates(input.options.up, subject.facing(), &places);
@@ -73,7 +79,7 @@ pub fn direction(input: &ReportInput, picks: &[Pick]) -> Direction {
     }
     let mut hidden = vec![false; picks.len()];
     let mapped = mapped(&shown);
-    let flagged: Vec<usize> = (0..picks.len()).filter(|n| flagged(&picks[*n], mapped)).collect();
+    let flagged = flagged(picks, mapped);
     let flags: Vec<PlaceToSee> = flagged.iter().map(place).collect();
     let mut ends: Vec<Point> = picks.iter().map(|p| p.position).collect();
     let blocked = blocked(&probes(&flags), &[best.toward], &opaque);
@@ -93,10 +99,8 @@ pub fn direction(input: &ReportInput, picks: &[Pick]) -> Direction {
 
 /// Places beside its own at which a pick is seen where that is hidden. Of a frame, whose leader may end there: an axis or a
 /// middle lies inside the part. Of a mark that has areas alone: its middle lies inside the shell that it is.
-pub fn others(pick: &Pick, marks: &[Marks]) -> Vec<Point> {
-    let Some(mark) = pick.mark.and_then(|n| marks.iter().flat_map(Marks::items).nth(n)) else {
-        return vec![];
-    };
+pub fn others(pick: &Pick, mark: Option<&Mark>) -> Vec<Point> {
+    let Some(mark) = mark else { return vec![] };
     let shell = mark.segments.is_empty() && mark.points.is_empty();
     let all: Vec<Point> = match (pick.frame.is_some(), shell) {
         (true, _) => mark.segments.iter().map(|segment| segment[0]).collect(),
@@ -107,9 +111,12 @@ pub fn others(pick: &Pick, marks: &[Marks]) -> Vec<Point> {
     all.into_iter().step_by(step).collect()
 }
 
-/// A pick has a flag in the first view: a value of the first map where that is shown, else its frame.
-pub fn flagged(pick: &Pick, mapped: bool) -> bool {
-    if mapped { pick.value.is_some() && pick.map.unwrap_or(0) == 0 } else { pick.frame.is_some() }
+/// The picks with a flag in the first view, some of the first: of a value of the first map where that is shown, else of a frame.
+pub fn flagged(picks: &[Pick], mapped: bool) -> Vec<usize> {
+    let has = |p: &Pick| {
+        if mapped { p.value.is_some() && p.map.unwrap_or(0) == 0 } else { p.frame.is_some() }
+    };
+    (0..picks.len()).filter(|n| has(&picks[*n])).take(FLAGS).collect()
 }
 
 /// What hides places: of a measured cloud the reference's surface, drawn or not, where there is one; else what is drawn and
@@ -148,16 +155,15 @@ impl PlaceToSee {
         2 * free > blocked.len() || self.any && free > 0
     }
 
-    fn of(pick: &Pick, off: bool, marks: &[Marks], measured: bool, diagonal: f64) -> PlaceToSee {
-        let mark = pick.mark.and_then(|n| marks.iter().flat_map(Marks::items).nth(n));
+    fn of(pick: &Pick, off: bool, mark: Option<&Mark>, measured: bool, diagonal: f64) -> PlaceToSee {
         // A mark lies where its row says, as the script has it: a facet of it may be seen where the fault is not.
         let on = mark.is_some() || off || measured;
         let anchor = pick.surface.filter(|_| !on).unwrap_or(pick.position);
-        let others = others(pick, marks);
+        let others = others(pick, mark);
         let any = !others.is_empty();
         let samples = [vec![anchor], others].concat();
         let under = if off { 0.0 } else { OBLIQUE * distance(pick) };
-        let normal = pick.normal.or(mark.and_then(|m: &Mark| m.normal));
+        let normal = pick.normal.or(mark.and_then(|m| m.normal));
         PlaceToSee {
             samples,
             normal: normal.and_then(|n| unit(n).map(|(n, _)| n)),

@@ -37,7 +37,7 @@ pub struct FirstView {
     pub places: Vec<(usize, bool)>,
     /// For each pick, whether it lies so far off that it is not on the part.
     pub off: Vec<bool>,
-    /// For each pick with a flag in this view, whether it is hidden.
+    /// For each pick that may have a flag in this view, whether it is hidden.
     pub hidden: Vec<bool>,
     /// For each pick, where its leader ends.
     pub ends: Vec<Point>,
@@ -53,13 +53,13 @@ impl FirstView {
         let shown = shown_objects(input.objects);
         let mapped = mapped(&shown);
         let finite = |p: &&Point| p.iter().all(|x| x.is_finite());
-        let flagged = |n: &usize| flagged(&picks[*n], mapped);
-        let beside = (0..picks.len()).filter(|n| off[*n] && flagged(n)).map(|n| &picks[n].position);
+        let flagged = flagged(picks, mapped);
+        let beside = flagged.iter().filter(|n| off[**n]).map(|n| &picks[*n].position);
         let all = shown.iter().flat_map(|o| o.places()).chain(beside).filter(finite);
-        let margin = match (0..picks.len()).any(|n| flagged(&n)) {
-            true if mapped => FLAGS,
-            true => FRAMES,
-            false => 0,
+        let margin = match flagged.is_empty() {
+            true => 0,
+            false if mapped => FLAGS,
+            false => FRAMES,
         };
         let camera =
             Camera::first_view(all, input.options.up, toward, [WIDTH, HEIGHT, margin].map(|n| FINE * n));
@@ -102,4 +102,20 @@ pub fn png(input: &ReportInput, view: &FirstView, progress: &dyn Progress) -> Re
         }
     }
     Ok(png::encode(WIDTH, HEIGHT, &canvas.reduced()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Whether a flag is hidden costs a search of all that is drawn: of thousands of rows only the first are asked.
+    #[test]
+    fn only_the_first_of_many_have_flags() {
+        let valued = |n: u32| Pick { value: n.is_multiple_of(2).then_some(f64::from(n)), ..Pick::default() };
+        let picks: Vec<Pick> = (0..5000).map(valued).collect();
+        let found = flagged(&picks, true);
+        assert_eq!((found.len(), found[0], found[1], found[199]), (200, 0, 2, 398));
+        assert_eq!(flagged(&picks[..7], true), [0, 2, 4, 6]);
+        assert!(flagged(&picks, false).is_empty());
+    }
 }

@@ -134,9 +134,12 @@ fn frame(c: &CharacteristicRecord) -> Frame {
     Frame {
         id: c.id.clone(),
         sign: path(&c.kind),
+        parameter: c.parameter().map(String::from),
         diametral: c.diametral(),
         lower: c.lower,
         upper: c.requirement().map_or(c.upper, |(tolerance, _)| tolerance),
+        unit: degrees(c),
+        letters: c.letters().map(String::from).collect(),
         material: c.requirement().map(|(_, material)| material.word()),
         datums: c.datums.clone(),
         value: c.value,
@@ -190,13 +193,13 @@ fn characteristics(s: Style, d: &InspectDocument) -> Markup {
                     tr data-pick=(n) {
                         td {
                             (Name(&c.id)) " " (symbol(&c.kind)) (s.word(format!("kind.{}", c.kind)))
-                            @for letters in c.letters() { " " (Text(letters)) }
+                            @for letters in c.letters().chain(c.parameter()) { " " (Text(letters)) }
                             br;
                             small { (Name(&c.feature)) @for datum in &c.datums { " | " (datum_name(datum)) } }
                         }
                         td.r {
                             (s.optional(c.value, digits(c)).because(c.reason.as_deref()))
-                            (uncertain(s, c))
+                            @if c.value.is_some() { (degrees(c)) (uncertain(s, c)) }
                             br; small { (allowed(s, c)) }
                         }
                         td { (badge(s, c.verdict.into())) }
@@ -214,8 +217,8 @@ fn uncertain(s: Style, c: &CharacteristicRecord) -> Markup {
     let number = |x| s.number(x, digits(c));
     html! {
         @match (c.uncertainty, c.interval, c.noise_bias) {
-            (_, Some([from, to]), Some(_)) => { br; small { "[" (number(from)) "\u{2009}…\u{2009}" (number(to)) "]" } }
-            (Some(u), ..) => { " ±\u{a0}" (number(u)) }
+            (_, Some([from, to]), Some(_)) => { br; small { "[" (number(from)) "\u{2009}…\u{2009}" (number(to)) "]" (degrees(c)) } }
+            (Some(u), ..) => { " ±\u{a0}" (number(u)) (degrees(c)) }
             _ => {}
         }
     }
@@ -244,6 +247,11 @@ fn deviations(s: Style, c: &Comparison, decimals: usize, first_pick: usize) -> M
     }
 }
 
+/// The sign of degrees behind numbers of an angle. Lengths have none: the page is in millimeters.
+fn degrees(c: &CharacteristicRecord) -> &'static str {
+    if c.unit == "deg" { "°" } else { "" }
+}
+
 /// Digits after the point of value and limits: so many that a value which is not a limit does not look like it.
 fn digits(c: &CharacteristicRecord) -> usize {
     let least = if c.unit == "mm" { 4 } else { 3 };
@@ -263,7 +271,7 @@ fn allowed(s: Style, c: &CharacteristicRecord) -> Markup {
     let limit = |x| s.number(x, digits(c));
     html! {
         @match (c.nominal, c.lower) {
-            (Some(_), Some(lower)) => { (limit(lower)) " … " (limit(c.upper)) }
+            (Some(_), Some(lower)) => { (limit(lower)) " … " (limit(c.upper)) (degrees(c)) }
             _ => {
                 (if c.diametral() { "≤\u{a0}⌀" } else { "≤\u{a0}" }) (limit(c.upper))
                 @if let Some((t, material)) = c.requirement() {

@@ -8,12 +8,14 @@ function allowed(frame: Frame, words: Words): string {
     const text = words.number(x, frame.decimals)
     return frame.decimals > 0 ? text.replace(/0+$/, '').replace(/[.,]$/, '') : text
   }
+  const name = frame.parameter === null ? '' : `${frame.parameter}\u00a0`
   const lower = frame.lower === null ? '' : `${short(frame.lower)}\u2009…\u2009`
-  return `${frame.diametral ? '⌀' : ''}${lower}${short(frame.upper)}`
+  const limits = `${name}${frame.diametral ? '⌀' : ''}${lower}${short(frame.upper)}${frame.unit}`
+  return [limits, ...frame.letters].join('\u00a0')
 }
 
 function found(frame: Frame, words: Words): string {
-  return frame.value === null ? '–' : words.number(frame.value, frame.decimals)
+  return frame.value === null ? '–' : words.number(frame.value, frame.decimals) + frame.unit
 }
 
 /** The frame in a line of text, without its sign. */

@@ -58,6 +58,21 @@ export const inspect = [
     },
   ],
   [
+    'frames and rows name degrees, sizes and parameters, and no uncertainty of a value that is not there',
+    async (session) => {
+      const page = await session.report('plan_kinds', STILL)
+      const frames = new Map((await shown(page)).map((f) => [f.id, f]))
+      const rows = await page.evaluate(() => Object.fromEntries([...document.querySelectorAll('.b-characteristics [data-pick]')].map((row) => [row.querySelector('.name').textContent, [...row.cells].map((c) => c.innerText.replace(/[\s\u00a0]+/g, ' '))])))
+      assert.deepEqual([frames.get('4').cells, frames.get('4').value], [['89.5\u2009…\u200990.5°', 'A'], '89.750°'])
+      assert.deepEqual(frames.get('5').cells, ['9.95\u2009…\u200910.05\u00a0GX'])
+      assert.deepEqual(frames.get('6').cells, ['Sq\u00a00.05'])
+      assert.deepEqual(rows['4'].slice(0, 2), ['4 Angle top | A', '89.750° ± 0.125° 89.500 … 90.500°'])
+      assert.equal(rows['5'][0], '5 Size GX top')
+      assert.equal(rows['6'][0], '6 Surface texture Sq top')
+      assert.equal(rows['1'][1], '– ≤ 0.0500')
+    },
+  ],
+  [
     'a leader ends on its feature, which has the colour of the verdict',
     async (session) => {
       const page = await session.report('plan', STILL)
@@ -127,7 +142,7 @@ export const inspect = [
       // In its frame and in the list: the letters of the datum and of the tolerance.
       assert.deepEqual(round.map(([text]) => text).toSorted(), ['L', 'L', 'M', 'M'])
       for (const [text, ratio, radius, style] of round) assert.ok(Math.abs(ratio - 1) < 0.15 && radius === '50%' && style === 'solid', `${text} ${ratio} ${radius} ${style}`)
-      const row = await page.locator('#list tr', { hasText: 'Perpendicularity' }).textContent()
+      const row = await page.locator('#list tr', { hasText: /Perpen\u00addicu\u00adlarity/ }).textContent()
       assert.ok(row.includes('⌀0.0700 (0.0500\u00a0M)'), row)
     },
   ],

@@ -31,7 +31,7 @@ export const layout = [
   [
     'no word of a table is broken inside, in four languages',
     async (session) => {
-      for (const name of ['sphere', 'zone']) {
+      for (const name of ['sphere', 'zone', 'plan', 'plan_kinds']) {
         const page = await session.report(name, { width: 1440, height: 900 })
         for (const language of ['en', 'de', 'ru', 'zh-Hans']) {
           await page.locator('#tools select').selectOption(language)

@@ -62,7 +62,7 @@ pub fn definition(
     let shape = document.features.iter().find(|f| f.id == c.feature).map(|f| *f.shape);
     let id = ("id", ids.definition.to_string());
     x.element(&format!("{name}CharacteristicDefinition"), &[id], |x| {
-        x.attributes(&asked(c));
+        x.attributes(&asked(c, name));
         x.leaf("Name", &c.id);
         let frame = datums.frame(&c.datums);
         let zone = |x: &mut Xml, zone: &str| x.element("ZoneShape", &[], |x| x.empty(zone, &[]));
@@ -211,7 +211,7 @@ pub fn status(x: &mut Xml, verdict: Verdict) {
 }
 
 /// What is asked for beside what QIF has elements for.
-fn asked(c: &CharacteristicRecord) -> Vec<(&'static str, Value)> {
+fn asked(c: &CharacteristicRecord, name: &str) -> Vec<(&'static str, Value)> {
     let mut all: Vec<(&'static str, Value)> = vec![
         ("kind", c.kind.as_str().into()),
         ("feature", c.feature.as_str().into()),
@@ -222,6 +222,10 @@ fn asked(c: &CharacteristicRecord) -> Vec<(&'static str, Value)> {
         if !words.is_empty() {
             all.push((name, words.join(" | ").into()));
         }
+    }
+    if name == "UserDefinedAttribute" {
+        all.extend(c.lower.map(|lower| ("lower", lower.into())));
+        all.push(("upper", c.upper.into()));
     }
     all
 }

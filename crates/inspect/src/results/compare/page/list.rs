@@ -175,10 +175,6 @@ pub fn regions(s: Style, c: &Comparison, decimals: usize) -> Markup {
         }
     };
     let rest = c.deviation.all.count - c.regions.iter().map(|r| r.deviation.count).sum::<u64>();
-    let judged = |t: &ToleranceShares| {
-        let of = |share| if share >= t.required { Verdict::Pass } else { Verdict::Fail };
-        t.inside.map(of)
-    };
     section(
         s,
         "regions",
@@ -195,7 +191,7 @@ pub fn regions(s: Style, c: &Comparison, decimals: usize) -> Markup {
                         (row(html! { (Name(&r.id)) }, &r.tolerance, r.deviation.count, Some(r.verdict)))
                     }
                     @if let Some(t) = &c.tolerance {
-                        (row(html! { (s.word("regions.others")) }, t, rest, judged(t)))
+                        (row(html! { (s.word("regions.others")) }, t, rest, t.verdict()))
                     }
                 }
             }

@@ -1,0 +1,161 @@
+//! What lies near a feature that was not measured, but farther off than its extract distance.
+
+use super::data::{Data, Stop};
+use super::seed::Seeded;
+use super::{Taken, take};
+use crate::plan::{Plan, Source};
+use std::collections::BTreeMap;
+use trueness_geom::closest::Tree;
+use trueness_geom::feature::{FeatureError, FeatureSearch, Nearness, in_cloud};
+use trueness_geom::progress::Progress;
+use trueness_geom::space::Aabb;
+
+/// How far off such points are looked for, as a share of the size of the feature.
+const FAR: f64 = 0.1;
+
+/// Adds to the reasons of features that were not measured what lies over or below their places, up to a tenth of their size off: a
+/// part that is off as a whole is not told from one without the face by "nothing was measured".
+///
+/// Cost: nothing where all was measured; else a search tree of the mesh, and a search for each feature that was not.
+pub(super) fn tell(
+    plan: &Plan,
+    data: &Data,
+    seeds: &BTreeMap<usize, Seeded>,
+    features: &mut Vec<Taken>,
+    progress: &dyn Progress,
+) -> Result<(), Stop> {
+    let Some(mesh) = &data.measured else { return Ok(()) };
+    let sought = |n: &usize| matches!(plan.features[*n].source, Source::Nominal | Source::Seed(_));
+    let missing: Vec<usize> =
+        (0..features.len()).filter(sought).filter(|n| features[*n].element.is_err()).collect();
+    if missing.is_empty() {
+        return Ok(());
+    }
+    let facets = match mesh.faces.is_empty() {
+        true => None,
+        false => {
+            let tree = Tree::build_watched(mesh, progress).map_err(|e| Stop::Mesh(e.to_string()))?;
+            Some(FeatureSearch::new(mesh, tree))
+        }
+    };
+    let mut any = false;
+    for n in missing {
+        let Some(nominal) = seeds.get(&n).map(|s| &s.nominal).or(plan.features[n].nominal.as_ref()) else {
+            continue;
+        };
+        let near = plan.features[n].near(nominal);
+        let wide =
+            Nearness { distance: near.distance.max(FAR * Aabb::of(&nominal.places()).diagonal()), ..near };
+        let found = match &facets {
+            Some(facets) => facets.find(nominal, &wide, progress),
+            None => in_cloud(&mesh.positions, nominal, &wide),
+        };
+        let found = match found {
+            Err(FeatureError::Cancelled) => return Err(Stop::Cancelled),
+            // Why it cannot be sought was told when it was.
+            Err(_) => continue,
+            Ok(found) => found,
+        };
+        let places = found.points.iter().filter_map(|p| mesh.positions.get(*p as usize));
+        let off = |p: &_| Some(nominal.surface()?.distance(*p)?.0.abs());
+        let beyond: Vec<f64> = places.filter_map(off).filter(|off| *off > near.distance).collect();
+        if let (Some(told), Err(reason)) = (said(&beyond, &near), &mut features[n].element) {
+            reason.push_str(&told);
+            any = true;
+        }
+    }
+    if any {
+        // What is made of them has their reasons.
+        *features = take::again(plan, features, |_| false, progress)?;
+    }
+    Ok(())
+}
+
+/// How many points lie so far off; `None` where there are none.
+fn said(beyond: &[f64], near: &Nearness) -> Option<String> {
+    let least = beyond.iter().copied().min_by(f64::total_cmp)?;
+    let most = beyond.iter().copied().max_by(f64::total_cmp)?;
+    let points = if beyond.len() == 1 { "point lies" } else { "points lie" };
+    Some(format!(
+        "; {} {points} {least:.3} to {most:.3} mm off its place, farther than the `distance` of {:.3} mm in its `extract`: a larger \
+         one judges them",
+        beyond.len(),
+        near.distance
+    ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::inspection::run;
+    use trueness_geom::mesh::Mesh;
+    use trueness_geom::progress::Silent;
+
+    /// A floor of squares, 20 by 20, that rises by `slope` from `height`.
+    fn floor(height: f64, slope: f64) -> Mesh {
+        let at = |i: u32, j: u32| i * 21 + j;
+        let place = |i: u32, j: u32| [f64::from(i), f64::from(j), height + slope * f64::from(i) / 20.0];
+        let positions = (0..21 * 21).map(|v| place(v / 21, v % 21)).collect();
+        let square = |i, j| {
+            let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+            [[a, b, c], [a, c, d]]
+        };
+        Mesh { positions, faces: (0..20).flat_map(|i| (0..20).flat_map(move |j| square(i, j))).collect() }
+    }
+
+    #[test]
+    fn a_face_that_is_off_is_told_with_the_setting_that_judges_it() {
+        let plan = Plan::parse(
+            r#"
+            schema = "trueness/plan/1"
+            measured = "part.stl"
+            [[feature]]
+            id = "A"
+            shape = "plane"
+            extract = { distance = 0.2, margin = 0 }
+            [feature.nominal]
+            point = [0, 0, 0]
+            normal = [0, 0, 1]
+            boundary = [[0, 0, 0], [20, 0, 0], [20, 20, 0], [0, 20, 0]]
+            [[feature]]
+            id = "line"
+            derived = "median-plane"
+            of = ["A", "A"]
+            [[characteristic]]
+            id = "1"
+            kind = "flatness"
+            feature = "A"
+            tolerance = 0.1
+            "#,
+        )
+        .unwrap();
+        for cloud in [false, true] {
+            let reasons = |height, slope| {
+                let mut mesh = floor(height, slope);
+                if cloud {
+                    mesh.faces.clear();
+                }
+                let found = run(&plan, Data { measured: Some(mesh), ..Data::default() }, &Silent).unwrap();
+                let reason = |n: usize| found.features[n].element.as_ref().err().cloned();
+                assert_eq!(found.values[0].as_ref().err().is_some(), reason(0).is_some());
+                [0, 1].map(reason)
+            };
+            assert_eq!(reasons(0.1, 0.0), [None, None]);
+            let wanted = "; 441 points lie 0.300 to 0.600 mm off its place, farther than the `distance` of 0.200 mm in its `extract`: a \
+                          larger one judges them";
+            for reason in reasons(0.3, 0.3) {
+                assert!(reason.as_ref().is_some_and(|r| r.ends_with(wanted)), "{cloud}: {reason:?}");
+            }
+            // Part of it is measured, too little.
+            let [few, _] = reasons(0.15, 1.0);
+            let few = few.unwrap();
+            assert!(
+                few.contains("less than 25.0 %; ") && few.contains(" to 1.150 mm off its place"),
+                "{few}"
+            );
+            // Nothing lies near.
+            let [far, _] = reasons(5.0, 0.0);
+            assert!(!far.unwrap().contains(';'), "{cloud}");
+        }
+    }
+}
