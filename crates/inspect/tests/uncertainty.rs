@@ -23,6 +23,11 @@ fn bore() -> Vec<Point> {
 }
 
 fn inspected(decision: &str, points: [Vec<Point>; 3], seed: u64) -> Inspection {
+    found(&plan(decision), points, seed)
+}
+
+/// A distance of two planes and the size of a bore.
+fn plan(decision: &str) -> Plan {
     let text = format!(
         r#"
 schema = "trueness/plan/1"
@@ -50,10 +55,14 @@ rule = "simple"
 {decision}
 "#
     );
-    let plan = Plan::parse(&text).unwrap_or_else(|e| panic!("{e}"));
+    Plan::parse(&text).unwrap_or_else(|e| panic!("{e}"))
+}
+
+/// What a plan finds in these points.
+fn found(plan: &Plan, points: [Vec<Point>; 3], seed: u64) -> Inspection {
     let own = points.into_iter().map(|points| OwnPoints { points, planar: false });
     let points: BTreeMap<usize, OwnPoints> = own.enumerate().collect();
-    run(&plan, Data { points, seed, ..Data::default() }, &Silent).unwrap()
+    run(plan, Data { points, seed, ..Data::default() }, &Silent).unwrap()
 }
 
 fn expanded(found: &Inspection) -> Vec<f64> {
@@ -244,11 +253,13 @@ fn what_too_few_draws_give_is_not_known() {
     let few: Vec<Point> =
         bore().into_iter().enumerate().filter(|(k, _)| k % 6 == 0 && *k < 48).map(|(_, p)| p).collect();
     let [a, b] = squares();
-    for (noise, known) in
-        [("noise = 1e-3", true), ("noise = 1e155", false), ("noise = 1e155\nuncertainty = 1", false)]
+    for (stated, noise, known) in [("", 1e-3, true), ("", 1e155, false), ("\nuncertainty = 1", 1e155, false)]
     {
-        let found = inspected(noise, [a.clone(), b.clone(), few.clone()], 7);
-        assert_eq!(found.uncertainties[1].is_some(), known, "{noise}: {:?}", found.uncertainties[1]);
+        // A text with such a number is refused.
+        let mut plan = plan(&format!("noise = 1{stated}"));
+        plan.decision.noise.as_mut().unwrap().deviation = noise;
+        let found = found(&plan, [a.clone(), b.clone(), few.clone()], 7);
+        assert_eq!(found.uncertainties[1].is_some(), known, "{noise}{stated}: {:?}", found.uncertainties[1]);
         assert!(found.values[1].is_ok());
     }
 }
