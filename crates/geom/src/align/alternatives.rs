@@ -39,10 +39,19 @@ impl Work<'_> {
         let (problem, part) = (self.problem(some), some.first(PART));
         let part = self.problem(&part);
         let cap = self.cap(SIGMA_OVER_MAD * result.median);
-        let [own, own_few, own_part] = [&problem, &few, &part].map(|p| p.cost(&pose, cap, progress));
-        let (own, own_few, own_part) = (own?, own_few?, own_part?);
+        let (own_few, own_part) = (few.cost(&pose, cap, progress)?, part.cost(&pose, cap, progress)?);
+        let own = problem.distances(&pose, cap, progress)?;
         let floor = self.rounding * self.rounding * 256.0;
-        let ratio = |cost: f64| ((cost + floor) / (own + floor)).sqrt();
+        let ratio = |other: &Rigid| -> Result<f64, AlignError> {
+            let others = problem.distances(other, cap, progress)?;
+            // What is on the reference in neither pose, as a table around the part, tells nothing of either.
+            let tells = |of: &[f64]| -> Vec<f64> {
+                let both = of.iter().zip(own.iter().zip(&others));
+                both.map(|(d, (a, b))| if a.min(*b) < cap { *d } else { 0.0 }).collect()
+            };
+            let [cost, least] = [&others, &own].map(|of| problem.cost_of(tells(of).into_iter(), cap));
+            Ok(((cost + floor) / (least + floor)).sqrt())
+        };
         let worse = |cost: f64, own: f64, by: f64| cost > by * AS_WELL * AS_WELL * own.max(1e-3 * cap * cap);
         let mut others: Vec<Rigid> = vec![];
         let known = search.worth(&pose);
@@ -63,8 +72,7 @@ impl Work<'_> {
                 continue;
             }
             let other = problem.run(other, reach, 30, progress)?.pose;
-            let cost = problem.cost(&other, cap, progress)?;
-            let ratio = ratio(cost);
+            let ratio = ratio(&other)?;
             let apart = |p: &Rigid| search.apart(p, &other) > search.spacing;
             let between = other.after(&pose.inverse());
             let new = apart(&pose) && found.iter().all(|f| apart(&f.reference_from_measured));
@@ -82,7 +90,7 @@ impl Work<'_> {
                 for sign in [1.0, -1.0] {
                     let other = Rigid::translation_by(times(sign, through)).after(base);
                     let other = problem.run(other, self.reach(result.median), 30, progress)?.pose;
-                    let ratio = ratio(problem.cost(&other, cap, progress)?);
+                    let ratio = ratio(&other)?;
                     let apart = |p: &Rigid| search.apart(p, &other) > 0.5 * norm(through);
                     let new = apart(&pose) && found.iter().all(|f| apart(&f.reference_from_measured));
                     if ratio <= AS_WELL && new {

@@ -22,6 +22,9 @@ const SOME: usize = 5000;
 const LARGE: usize = 100_000;
 const SHARE: usize = 8;
 const FIRST: usize = 2;
+/// Rounds over all samples at most once the iteration has settled on some of them, and where it has not.
+const LAST: usize = 30;
+const FEW_ROUNDS: usize = 3;
 /// Starts whose cost is within this ratio of the best are iterated to the end.
 const PROMISING: f64 = 4.0;
 /// Worth of a start below which normals are tried the other way round.
@@ -102,15 +105,20 @@ pub fn best_fit(
     let part = (whole.points.len() > LARGE).then(|| whole.thinned(whole.points.len() / SHARE, options.seed));
     let part = part.as_ref().map(|p| work.problem(p));
     let surface = surface.as_ref().map(|s| work.problem(s));
+    let begin = work.problem(&some);
     let settled = |mut pose: Rigid, sigma: f64| {
         let reach = work.reach(sigma);
+        // What does not settle on some of them does not on all, which would take as many times as long.
+        let begun = begin.run(pose, reach, MOST, progress)?;
+        let most = if begun.converged { LAST } else { FEW_ROUNDS };
+        pose = begun.pose;
         if let Some(part) = &part {
             pose = part.run(pose, reach, FIRST, progress)?.pose;
         }
         let mut room = Room::default();
         let ended = match &surface {
-            Some(surface) => surface.run(pose, reach, MOST, progress)?,
-            None => all.iterate(pose, reach, MOST, &mut room, progress)?.0,
+            Some(surface) => surface.run(pose, reach, most, progress)?,
+            None => all.iterate(pose, reach, most, &mut room, progress)?.0,
         };
         match ended.converged && surface.is_none() {
             true => all.complete(&mut room.matches, &ended.pose, progress)?,

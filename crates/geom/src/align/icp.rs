@@ -239,8 +239,12 @@ impl Problem<'_> {
     /// Mean of the squared distances, none counted for more than `cap`; what does not belong to the surface counts as
     /// that far.
     pub fn cost(&self, pose: &Rigid, cap: f64, progress: &dyn Progress) -> Result<f64, AlignError> {
-        let matches = self.matches(pose, cap, progress)?;
-        Ok(self.cost_of(matches.iter().map(|m| m.distance), cap))
+        Ok(self.cost_of(self.distances(pose, cap, progress)?.into_iter(), cap))
+    }
+
+    /// The distances at `pose`, infinite or at least `cap` for what does not belong to the surface.
+    pub fn distances(&self, pose: &Rigid, cap: f64, progress: &dyn Progress) -> Result<Vec<f64>, AlignError> {
+        Ok(self.matches(pose, cap, progress)?.iter().map(|m| m.distance).collect())
     }
 
     /// The same where the distances are known.

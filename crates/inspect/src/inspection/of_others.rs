@@ -7,7 +7,8 @@
 //! - What lies upon another face is of that one, and what is clearly nearer to another beyond where the feature ends. What is clearly nearer to another
 //!   over the feature, without lying upon it, is not judged either, and leaves the verdict open where it matters.
 //! - Where a feature is off its place, the face beside it ends earlier or goes on, and its points between both places are as near to the feature.
-//!   They lie on the plane of that face, and off the feature as its other points around have it.
+//!   They lie on the plane of that face, and off the feature as its other points around have it. What goes on there out of the material, a burr or
+//!   what the part stands on, leaves the verdict open.
 //! - Of what lies farther off, as a bore larger than its model, the planes of the neighbors of each point tell which way it faces: a piece
 //!   that faces away from the feature and goes on beyond it is of another surface if the reference has one there that faces as it does.
 //!
@@ -79,50 +80,57 @@ impl OfOthers<'_> {
         Ok(others)
     }
 
-    /// Those of these measured points that lie on the plane of a face beside the feature, where that goes on because the feature is off its
-    /// place: between the nominal surface and the feature as the points around have it, and off this.
-    pub(super) fn at_edges(&self, points: &[u32]) -> Result<Vec<u32>, Stop> {
+    /// Of these measured points, and of those of pieces beside the feature, those that lie on the plane of a face beside it, where that goes on because
+    /// the feature is off its place: between the nominal surface and the feature as the points around have it, and off this. And those
+    /// that go on beyond both, out of the material: a burr, or what the part stands on.
+    pub(super) fn at_edges(&self, points: &[u32], of_pieces: &[u32]) -> Result<[Vec<u32>; 2], Stop> {
         let OfOthers { belonging, own, progress } = *self;
+        let mut found = [vec![], vec![]];
         let beside = self.beside()?;
         if beside.is_empty() {
-            return Ok(vec![]);
+            return Ok(found);
         }
         let mesh = part(belonging.reference, &beside);
         let tree = Tree::build_watched(&mesh, progress).map_err(|e| Stop::Mesh(e.to_string()))?;
-        let places = self.places(points);
-        let reach = WALL_REACH * own.near.distance;
-        // Of each point how far it is off the nominal surface, if it is on the plane of a face beside it.
+        let asked = [points, of_pieces].concat();
+        let places = self.places(&asked);
+        let hits = nearest(&tree, &places, WALL_REACH * own.near.distance, progress)?;
+        // Of each point how far it is off the nominal surface, out of the material.
         let (mut on_plane, mut own_places, mut own_off) = (vec![], vec![], vec![]);
-        for ((p, place), (facet, away)) in
-            points.iter().zip(&places).zip(nearest(&tree, &places, reach, progress)?)
-        {
+        for (n, (place, (facet, away))) in places.iter().zip(hits).enumerate() {
             let Some((off, _)) = own.surface.distance(*place) else { continue };
             let is_on = beside.get(facet as usize).is_some_and(|face| {
                 let upon = self.upon_facet(*face);
-                height(&mesh, facet, *place).abs() <= upon && away <= off.abs() + upon
+                height(&mesh, facet, *place).abs() <= upon && (away - off.abs()).abs() <= upon
             });
             if is_on {
-                on_plane.push((*p, *place, off));
-            } else {
+                on_plane.push((asked[n], *place, own.side * off));
+            } else if n < points.len() {
                 own_places.push(*place);
-                own_off.push(off);
+                own_off.push(own.side * off);
             }
         }
         if own_places.len() < AROUND {
-            return Ok(vec![]);
+            return Ok(found);
         }
         let around = PointTree::new(&own_places);
-        let is_off = |(_, place, off): &(u32, Point, f64)| {
-            let near = around.k_nearest(place, AROUND, None);
-            let mut level: Vec<f64> = near.iter().map(|n| own_off[n.1 as usize]).collect();
-            let middle = middle(&mut level);
-            let mut scatter: Vec<f64> = level.iter().map(|off| (off - middle).abs()).collect();
-            let slack = OFF * SIGMA_OVER_MAD * self::middle(&mut scatter) + belonging.rounding;
-            // From the nominal surface towards the feature.
-            let (off, level) = (off * middle.signum(), middle.abs());
-            off >= -slack && off + slack < level
-        };
-        Ok(on_plane.iter().filter(|p| is_off(p)).map(|p| p.0).collect())
+        for (p, place, off) in on_plane {
+            let near = around.k_nearest(&place, AROUND, None);
+            let mut offs: Vec<f64> = near.iter().map(|n| own_off[n.1 as usize]).collect();
+            let level = middle(&mut offs);
+            let mut scatter: Vec<f64> = offs.iter().map(|off| (off - level).abs()).collect();
+            let slack = OFF * SIGMA_OVER_MAD * middle(&mut scatter) + belonging.rounding;
+            let from_nominal = off * level.signum();
+            if from_nominal >= -slack && from_nominal + slack < level.abs() {
+                found[0].push(p);
+            } else if off > level.max(0.0) + slack {
+                found[1].push(p);
+            }
+        }
+        for numbers in &mut found {
+            numbers.sort_unstable();
+        }
+        Ok(found)
     }
 
     /// The facets of the reference that the feature has an edge with.

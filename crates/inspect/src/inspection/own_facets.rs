@@ -6,16 +6,16 @@
 use super::belonging::{Belonging, ELSEWHERE, NEARER, height, nearest, normal};
 use super::data::Stop;
 use trueness_geom::closest::Tree;
-use trueness_geom::feature::{FeatureError, FeatureSearch, Nearness, Nominal, NominalSurface};
+use trueness_geom::feature::{FeatureError, FeatureSearch, Found, Nearness, Nominal, NominalSurface};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::Progress;
-use trueness_geom::space::{Aabb, Point, dot, minus, norm, plus, times};
+use trueness_geom::space::{Aabb, Point, cross, dot, minus, norm, plus, times};
 use trueness_geom::spatial::neighbors::PointTree;
 
 /// A facet of the reference may be off the surface of the nominal by this share of the distance up to which points are sought.
 const ON: f64 = 1e-3;
-/// So many times the middle one of the distances of its facets from the nominal a facet of the same face may be off: a nominal may lean,
-/// by the digits it is written with.
+/// So many times as far as half of the face, by area, lies off the nominal a facet of it may be off: a nominal may lean, by the digits it
+/// is written with.
 const LEANS: f64 = 4.0;
 /// So many times the angle that a feature allows others of the reference may be turned against it that face as it does.
 const ALIKE: f64 = 2.0;
@@ -30,7 +30,7 @@ pub(super) struct OwnFacets {
     /// So far off the surface a facet of the face may be, mm.
     limit: f64,
     /// The side of the surface that they face: its normal's if above zero.
-    side: f64,
+    pub(super) side: f64,
     /// Of a cylinder, cone or sphere, whether they face its axis or center.
     pub(super) inward: Option<bool>,
     /// Their numbers, ascending.
@@ -57,9 +57,7 @@ impl OwnFacets {
         let of = |near: &Nearness| -> Result<(Vec<u32>, f64), Stop> {
             let found = search.find(nominal, near, progress);
             let Some(found) = some(found)? else { return Ok((vec![], limit)) };
-            let mut off: Vec<f64> = found.facets.iter().map(|f| off(reference, &surface, *f)).collect();
-            off.sort_unstable_by(f64::total_cmp);
-            let limit = off.get(off.len() / 2).map_or(0.0, |middle| LEANS * middle).max(limit);
+            let limit = (LEANS * middle_off(reference, &surface, &found)).max(limit);
             // Those joined to where it is begun, and those that lie apart, beyond a groove or a slot.
             let mut all = some(search.apart(&found, nominal, near, progress))?.unwrap_or_default();
             all.extend(&found.facets);
@@ -195,6 +193,22 @@ fn some<T>(found: Result<T, FeatureError>) -> Result<Option<T>, Stop> {
 fn off(mesh: &Mesh, surface: &NominalSurface, facet: u32) -> f64 {
     let of = |v: u32| surface.distance(mesh.positions[v as usize]).map_or(0.0, |d| d.0.abs());
     mesh.faces[facet as usize].iter().map(|v| of(*v)).fold(0.0, f64::max)
+}
+
+/// How far off a surface those facets are that have half of the area of what was found.
+fn middle_off(mesh: &Mesh, surface: &NominalSurface, found: &Found) -> f64 {
+    let area = |f: u32| {
+        let [a, b, c] = mesh.faces[f as usize].map(|v| mesh.positions[v as usize]);
+        0.5 * norm(cross(minus(b, a), minus(c, a)))
+    };
+    let mut all: Vec<(f64, f64)> = found.facets.iter().map(|f| (off(mesh, surface, *f), area(*f))).collect();
+    all.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+    let mut left = 0.5 * found.area;
+    let middle = all.iter().find(|(_, area)| {
+        left -= area;
+        left <= 0.0
+    });
+    middle.or(all.last()).map_or(0.0, |middle| middle.0)
 }
 
 /// Cosine of the angle between a facet's normal and that of a surface there; 0 of one without area.

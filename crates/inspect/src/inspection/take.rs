@@ -12,7 +12,8 @@ use crate::plan::{Class, Feature, Plan, Source};
 use std::collections::BTreeMap;
 use trueness_geom::closest::Tree;
 use trueness_geom::feature::{
-    FeatureError, FeatureSearch, Found, Nearness, Nominal, covered, farthest_covered, in_cloud, pieces_beside,
+    FeatureError, FeatureSearch, Found, Nearness, Nominal, Piece, covered, farthest_covered, in_cloud,
+    pieces_beside,
 };
 use trueness_geom::fit::{FitError, Options, fit};
 use trueness_geom::mesh::Mesh;
@@ -174,27 +175,39 @@ fn others(
     })?;
     points.iter_mut().for_each(|p| *p = cloud.number(*p));
     pieces.iter_mut().flat_map(|piece| &mut piece.points).for_each(|p| p.0 = cloud.number(p.0));
-    let (mut out, mut doubted) = (vec![], vec![]);
-    if let Some(reference) = &reference {
-        pieces = reference.known(pieces)?;
-        [out, doubted] = reference.upon(points)?;
-    }
-    let of_pieces = if reference.is_some() { &mut out } else { &mut doubted };
-    of_pieces.extend(pieces.iter().flat_map(|piece| piece.points.iter().map(|p| p.0)));
+    let of_pieces = |pieces: &[Piece]| -> Vec<u32> {
+        pieces.iter().flat_map(|piece| piece.points.iter().map(|p| p.0)).collect()
+    };
+    let (mut out, mut doubted) = match &reference {
+        None => (vec![], of_pieces(&pieces)),
+        Some(reference) => {
+            let mut pieces = of_pieces(&reference.known(pieces)?);
+            let [mut out, mut doubted] = reference.upon(points)?;
+            without(&mut doubted, &pieces);
+            without(&mut pieces, &out);
+            without(points, &[&out[..], &doubted, &pieces].concat());
+            let [between, beyond] = reference.at_edges(points, &pieces)?;
+            without(&mut pieces, &beyond);
+            out.extend(pieces.into_iter().chain(between));
+            doubted.extend(beyond);
+            (out, doubted)
+        }
+    };
     for numbers in [&mut out, &mut doubted] {
         numbers.sort_unstable();
         numbers.dedup();
-        points.retain(|p| numbers.binary_search(p).is_err());
+        without(points, numbers);
     }
-    doubted.retain(|p| out.binary_search(p).is_err());
-    let mut known = out.len();
-    if let Some(reference) = &reference {
-        let at_edges = reference.at_edges(points)?;
-        points.retain(|p| at_edges.binary_search(p).is_err());
-        known += at_edges.len();
-    }
+    let known = out.len();
     let points = doubted.iter().filter_map(|p| measured.get(*p as usize).copied()).collect();
     Ok(Others { points, known, on_reference: reference.is_some() })
+}
+
+/// Takes some numbers out of others.
+fn without(numbers: &mut Vec<u32>, out: &[u32]) {
+    let mut out = out.to_vec();
+    out.sort_unstable();
+    numbers.retain(|n| out.binary_search(n).is_err());
 }
 
 /// The facets of a measured mesh, to be judged by those that the reference has of the feature.

@@ -290,7 +290,7 @@ fn what_lies_upon_other_faces_of_the_reference_is_no_part_of_a_plane() {
     }
 }
 
-/// Where a top is off its place the wall beside it goes on to it, or ends before; a burr on a top that is in its place is its own.
+/// Where a top is off its place the wall beside it goes on to it, or ends before; a burr on a top that is in its place leaves the verdict open.
 #[test]
 fn a_wall_that_goes_on_to_a_displaced_plane_is_no_part_of_it() {
     const SIGMA: f64 = 0.003;
@@ -307,7 +307,7 @@ fn a_wall_that_goes_on_to_a_displaced_plane_is_no_part_of_it() {
             assert!((0.97 * all..1.01 * all).contains(&(points as f64)), "{dense} {high}: {points}");
         }
         let burr = strewn(&of(0.0, 0.3), dense, SIGMA);
-        let value = flatness(&burr, Some(&reference), TOP, "distance = 0.5").0;
+        let value = greatest(&burr, &reference, TOP, "distance = 0.5");
         assert!(value > 0.25, "{dense}: {value}");
     }
 }
