@@ -315,6 +315,13 @@ fn a_proposed_plan_measures_every_feature() {
     let made =
         trueness(["plan".as_ref(), "init".as_ref(), nominal.as_os_str(), "--out".as_ref(), plan.as_os_str()]);
     assert_eq!(status(&made), 0, "{}", stderr(&made));
+    // Of the model, as it was drawn: which way its bores and its boss face, and its sizes without the rounding of single precision.
+    let text = std::fs::read_to_string(&plan).unwrap();
+    let count = |line: &str| text.lines().filter(|l| *l == line).count();
+    assert_eq!([count("internal = true"), count("internal = false")], [3, 2], "{text}");
+    let sizes: Vec<&str> = text.lines().filter_map(|l| l.strip_prefix("nominal = ")).collect();
+    let sizes: Vec<&str> = sizes.into_iter().filter(|s| !s.starts_with('{')).collect();
+    assert!(!sizes.is_empty() && sizes.iter().all(|s| s.len() <= "12.345".len()), "{sizes:?}");
     let answer = document(["inspect".as_ref(), plan.as_os_str(), "--measured".as_ref(), scan.as_os_str()]);
     let all = answer["characteristics"].as_array().unwrap();
     assert!(all.len() > 10, "{}", all.len());

@@ -124,7 +124,7 @@ fn onto_datums(
     let is_cloud = data.measured.as_ref().is_some_and(|mesh| mesh.faces.is_empty());
     let belonging = if is_cloud { Belonging::new(plan, data, seeds, progress)? } else { None };
     let mut taken = take::features(plan, data, seeds, belonging.as_ref(), progress)?;
-    nearby::tell(plan, data, seeds, &mut taken, progress)?;
+    nearby::tell(plan, data, seeds, None, &mut taken, progress)?;
     let motion = by_datums(&taken, datums, *rule, span, progress)?;
     moved(data, &motion);
     Ok(Some(motion))

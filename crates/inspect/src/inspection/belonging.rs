@@ -84,6 +84,12 @@ impl<'a> Belonging<'a> {
     pub fn upon(&self, near: &Nearness) -> f64 {
         (UPON * self.median).min(FARTHEST * near.distance).max(self.rounding)
     }
+
+    /// Whether a measured point lies upon a facet of the reference that is none of a feature's.
+    pub fn is_upon_other(&self, point: u32, feature: usize, near: &Nearness) -> bool {
+        let (face, off) = self.nearest[point as usize];
+        face != u32::MAX && off <= self.upon(near) && !self.own(feature).is_some_and(|own| own.has(face))
+    }
 }
 
 /// The nearest facet to each place and how far off it is; `u32::MAX` beyond `farthest`.

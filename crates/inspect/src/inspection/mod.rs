@@ -122,7 +122,7 @@ fn taken(
 ) -> Result<Vec<Taken>, Stop> {
     let belonging = belonging::Belonging::new(plan, data, seeds, progress)?;
     let mut features = take::features(plan, data, seeds, belonging.as_ref(), progress)?;
-    nearby::tell(plan, data, seeds, &mut features, progress)?;
+    nearby::tell(plan, data, seeds, belonging.as_ref(), &mut features, progress)?;
     left_out::tell(plan, data, seeds, belonging.as_ref(), &mut features, progress)?;
     Ok(features)
 }

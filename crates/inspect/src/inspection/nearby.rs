@@ -1,5 +1,6 @@
 //! What lies near a feature that was not measured, but farther off than its extract distance.
 
+use super::belonging::Belonging;
 use super::data::{Data, Stop};
 use super::seed::Seeded;
 use super::{Taken, take};
@@ -21,6 +22,7 @@ pub(super) fn tell(
     plan: &Plan,
     data: &Data,
     seeds: &BTreeMap<usize, Seeded>,
+    belonging: Option<&Belonging>,
     features: &mut Vec<Taken>,
     progress: &dyn Progress,
 ) -> Result<(), Stop> {
@@ -56,7 +58,10 @@ pub(super) fn tell(
             Err(_) => continue,
             Ok(found) => found,
         };
-        let places = found.points.iter().filter_map(|p| mesh.positions.get(*p as usize));
+        // What lies upon another face of the reference is of that one.
+        let is_other = |p: &u32| belonging.is_some_and(|b| b.is_upon_other(*p, n, &near));
+        let places = found.points.iter().filter(|p| !is_other(p));
+        let places = places.filter_map(|p| mesh.positions.get(*p as usize));
         let off = |p: &_| Some(nominal.surface()?.distance(*p)?.0.abs());
         let beyond: Vec<f64> = places.filter_map(off).filter(|off| *off > near.distance).collect();
         if let (Some(told), Err(reason)) = (said(&beyond, &near), &mut features[n].element) {

@@ -46,8 +46,9 @@ pub fn proposal(mesh: &Mesh, found: &Segmentation, reference: &str) -> String {
         let Some(nominal) = nominal_of(&region.fit.shape, &facets) else { continue };
         let _ = write!(
             out,
-            "\n[[feature]]\nid = {}\nshape = \"{class}\"\nnominal = {{ {} }}\nextract = {{ rim = false{} }}\n",
+            "\n[[feature]]\nid = {}\nshape = \"{class}\"\n{}nominal = {{ {} }}\nextract = {{ rim = false{} }}\n",
             quoted(&id),
+            internal(&nominal, &facets),
             keys(&nominal),
             coverage(&nominal, &facets)
         );
@@ -139,6 +140,22 @@ fn coverage(nominal: &Nominal, facets: &[[Point; 3]]) -> String {
     }
 }
 
+/// The key `internal` of a cylinder, cone or sphere, as its facets tell which face out of the material. Empty of others.
+fn internal(nominal: &Nominal, facets: &[[Point; 3]]) -> String {
+    let Some(surface) = nominal.surface().filter(|_| !matches!(nominal, Nominal::Plane { .. })) else {
+        return String::new();
+    };
+    let outward = |[a, b, c]: &[Point; 3]| {
+        let middle = times(1.0 / 3.0, plus(*a, plus(*b, *c)));
+        let double = cross(minus(*b, *a), minus(*c, *a));
+        surface.distance(middle).map_or(0.0, |(_, way)| dot(double, way))
+    };
+    match facets.iter().map(outward).sum::<f64>() {
+        0.0 => String::new(),
+        sum => format!("internal = {}\n", sum < 0.0),
+    }
+}
+
 /// The keys of a nominal feature.
 fn keys(nominal: &Nominal) -> String {
     match nominal {
@@ -180,9 +197,14 @@ fn keys(nominal: &Nominal) -> String {
     }
 }
 
-/// A number without the rounding of single precision that meshes come with: to six digits after the point.
+/// Share of a number, and of 1, by which the single precision of meshes moves what is found from them.
+const SINGLE: f64 = 4.0 * f32::EPSILON as f64;
+
+/// A number without the rounding of single precision that meshes come with: to three digits after the point where that is all that it changes,
+/// else to six.
 fn number_text(x: f64) -> String {
-    let rounded = (x * 1e6).round() / 1e6;
+    let to = |scale: f64| (x * scale).round() / scale;
+    let rounded = if (to(1e3) - x).abs() <= SINGLE * x.abs().max(4.0) { to(1e3) } else { to(1e6) };
     // TOML has floats with a point; minus zero is zero.
     format!("{:?}", rounded + 0.0)
 }
