@@ -17,7 +17,7 @@ const LEAST_ALONG: f64 = std::f64::consts::FRAC_1_SQRT_2;
 ///
 /// Of a cylinder or cone: of both ends of the associated axis, over the extent of the points. Of a line: of all its points.
 /// Of a plane: of all its points. Of a sphere, circle or point: of its center. Coordinates that `basic` does not give do not
-/// count: x and y place an axis along z (zone ∅), one of them alone holds it between two planes. With a material requirement
+/// count: the two across an axis place it (zone ∅), one of them alone holds it between two planes. With a material requirement
 /// it is the surface that is looked at, as `material.rs` says.
 #[derive(Debug)]
 pub struct Position;
@@ -68,8 +68,11 @@ impl Characteristic for Position {
         if count == 0 {
             return refuse("kind", "it needs the theoretically exact place: basic = { x = 10, y = 20 }");
         }
-        if is_axis(class) && given[2] {
-            return refuse("basic", "an axis along z is placed by x and y");
+        if is_axis(class) && count == 3 {
+            return refuse(
+                "basic",
+                "an axis is placed by the two coordinates across it: x and y if it runs along z",
+            );
         }
         if class == Class::Plane && count != 1 {
             return refuse("basic", "a plane across an axis of the datum system is placed by one coordinate");
@@ -92,8 +95,10 @@ impl Characteristic for Position {
         let (start, free) = frame(m)?;
         let points = m.feature().zoned()?;
         let place = m.spec.basic.place;
-        if m.feature().class == Class::Plane {
-            across(m, &start, free, place)?;
+        match m.feature().class {
+            Class::Plane => across(m, &start, free, place)?,
+            class if is_axis(class) => along(m, &start, free, place)?,
+            _ => (),
         }
         let distance = |_: usize, p: Point| Some(from_place(p, place));
         let search = Search { start, free, middle: 0.0, floating: false, outer: false };
@@ -102,18 +107,41 @@ impl Characteristic for Position {
         let mut value = Value { value: 2.0 * found.half, witness: vec![points[far]], ..Value::default() };
         if let [only] = points.as_slice() {
             let at = found.motion.point(*only);
-            let names = ["x", "y", "z"];
-            value.parts = (0..3).filter(|k| place[*k].is_some()).map(|k| (names[k], at[k])).collect();
+            value.parts = (0..3).filter(|k| place[*k].is_some()).map(|k| (NAMES[k], at[k])).collect();
         }
         Ok(value)
     }
+}
+
+/// Whether the coordinates that place an axis are those across it.
+fn along(m: &Measuring, start: &Rigid, free: Freedom, place: [Option<f64>; 3]) -> Result<(), Missing> {
+    let direction = start.vector(m.feature().direction()?);
+    let most = largest(direction);
+    // Within the plane x, y a turn about z may bring it anywhere.
+    let is_turned = most < 2 && free.turn[2] && !(place[0].is_some() && place[1].is_some());
+    if place[most].is_none() || is_turned {
+        return Ok(());
+    }
+    let [a, b] = [["y", "z"], ["x", "z"], ["x", "y"]][most];
+    Err(Missing::Impossible(format!(
+        "its axis runs along {} in the datum system, which places nothing: basic = {{ {a} = …, {b} = … }} places it",
+        NAMES[most]
+    )))
+}
+
+/// The names of the coordinates.
+const NAMES: [&str; 3] = ["x", "y", "z"];
+
+/// The coordinate along which a direction goes most.
+fn largest(direction: Vector) -> usize {
+    (0..3).fold(0, |best, k| if direction[k].abs() > direction[best].abs() { k } else { best })
 }
 
 /// Whether the coordinate that places a plane is the one along its normal, and held by the datums: others place nothing.
 fn across(m: &Measuring, start: &Rigid, free: Freedom, place: [Option<f64>; 3]) -> Result<(), Missing> {
     let normal = start.vector(m.feature().direction()?);
     let Some(given) = place.iter().position(Option::is_some) else { return Ok(()) };
-    let name = |k: usize| ["x", "y", "z"][k];
+    let name = |k: usize| NAMES[k];
     // Within the plane x, y a turn about z may bring it anywhere.
     let along = match (given, free.turn[2]) {
         (2, _) => normal[2].abs(),
@@ -121,7 +149,7 @@ fn across(m: &Measuring, start: &Rigid, free: Freedom, place: [Option<f64>; 3]) 
         (k, false) => normal[k].abs(),
     };
     if along < LEAST_ALONG {
-        let most = (0..3).fold(0, |best, k| if normal[k].abs() > normal[best].abs() { k } else { best });
+        let most = largest(normal);
         let what = format!(
             "its plane lies across {0} in the datum system, not across {1}: basic = {{ {0} = … }} places it",
             name(most),
