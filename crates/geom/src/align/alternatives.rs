@@ -1,9 +1,9 @@
 //! Other poses that fit about as well as the one that was found: what the points alone cannot tell apart.
 
-use super::best_fit::BRIEF;
+use super::icp::Problem;
 use super::sample::Samples;
 use super::start::{Candidate, Search};
-use super::work::{PART, RIVAL, SOON, Work};
+use super::work::{BRIEF, PART, RIVAL, SOON, Work};
 use super::{AlignError, Alignment, Alternative, Freedom, wall};
 use crate::progress::Progress;
 use crate::rigid::Rigid;
@@ -44,12 +44,7 @@ impl Work<'_> {
         let floor = self.rounding * self.rounding * 256.0;
         let ratio = |other: &Rigid| -> Result<f64, AlignError> {
             let others = problem.distances(other, cap, progress)?;
-            // What is on the reference in neither pose, as a table around the part, tells nothing of either.
-            let tells = |of: &[f64]| -> Vec<f64> {
-                let both = of.iter().zip(own.iter().zip(&others));
-                both.map(|(d, (a, b))| if a.min(*b) < cap { *d } else { 0.0 }).collect()
-            };
-            let [cost, least] = [&others, &own].map(|of| problem.cost_of(tells(of).into_iter(), cap));
+            let [cost, least] = costs(&problem, [&others, &own], cap);
             Ok(((cost + floor) / (least + floor)).sqrt())
         };
         let worse = |cost: f64, own: f64, by: f64| cost > by * AS_WELL * AS_WELL * own.max(1e-3 * cap * cap);
@@ -103,6 +98,14 @@ impl Work<'_> {
         found.sort_by(|a, b| a.ratio.total_cmp(&b.ratio));
         Ok(found)
     }
+}
+
+/// What two poses cost by their distances, without what is on the reference in neither: a table around the part tells nothing of either.
+fn costs(problem: &Problem, distances: [&[f64]; 2], cap: f64) -> [f64; 2] {
+    let [a, b] = distances;
+    let tells: Vec<bool> = a.iter().zip(b).map(|(a, b)| a.min(*b) < cap).collect();
+    distances
+        .map(|of| problem.cost_of(of.iter().zip(&tells).map(|(d, tells)| if *tells { *d } else { 0.0 }), cap))
 }
 
 /// A pose that fits better than the result's; else of those that fit equally well the one that moves least, if it is another.

@@ -6,7 +6,7 @@ use super::icp::{Ended, MOST, Match, Problem, Room, median_distance};
 use super::sample::{Measured, Samples};
 use super::start::{Candidate, Search};
 use super::system::Spectrum;
-use super::work::{PART, Work};
+use super::work::{BRIEF, PART, Work};
 use super::{AlignError, AlignWarning, Alignment, BestFit, Freedom, Start, Target, freedom, near, revolved};
 use crate::closest::{BoundaryEdges, check_mesh, check_points};
 use crate::num::sum::Sum;
@@ -34,8 +34,6 @@ const SPARSE: usize = 50;
 /// Share of the measured that counts below which the start is looked for again, so many times, with other samples and pairs.
 const EXPLAINED: f64 = 0.95;
 const AGAIN: usize = 2;
-/// Starts that such a search iterates to the end.
-pub(super) const BRIEF: usize = 5;
 /// Share of the measured that does not count from which on that is told.
 const MUCH: f64 = 0.1;
 /// How often, from where the last round ended, and the share of the spacing that is no other pose.
@@ -105,27 +103,8 @@ pub fn best_fit(
     let part = (whole.points.len() > LARGE).then(|| whole.thinned(whole.points.len() / SHARE, options.seed));
     let part = part.as_ref().map(|p| work.problem(p));
     let surface = surface.as_ref().map(|s| work.problem(s));
-    let begin = work.problem(&some);
-    let settled = |mut pose: Rigid, sigma: f64| {
-        let reach = work.reach(sigma);
-        // What does not settle on some of them does not on all, which would take as many times as long.
-        let begun = begin.run(pose, reach, MOST, progress)?;
-        let most = if begun.converged { LAST } else { FEW_ROUNDS };
-        pose = begun.pose;
-        if let Some(part) = &part {
-            pose = part.run(pose, reach, FIRST, progress)?.pose;
-        }
-        let mut room = Room::default();
-        let ended = match &surface {
-            Some(surface) => surface.run(pose, reach, most, progress)?,
-            None => all.iterate(pose, reach, most, &mut room, progress)?.0,
-        };
-        match ended.converged && surface.is_none() {
-            true => all.complete(&mut room.matches, &ended.pose, progress)?,
-            false => room.matches = all.matches(&ended.pose, f64::INFINITY, progress)?,
-        }
-        work.worth(&all, &ended, room.matches, &some, progress)
-    };
+    let settle = Settle { work: &work, all, surface, part, some: &some };
+    let settled = |pose: Rigid, sigma: f64| settle.from(pose, sigma, progress);
     let (pose, sigma) = work.choose(&start.poses, &some, progress)?;
     let mut result = settled(pose, sigma)?;
     let mut unconfirmed = None;
@@ -168,6 +147,42 @@ pub fn best_fit(
     result.warnings = work.warnings(&result, &start, measured);
     result.warnings.extend(unconfirmed.map(|searches| AlignWarning::Unconfirmed { searches }));
     Ok(result)
+}
+
+/// What the end of an iteration is made with.
+struct Settle<'a> {
+    work: &'a Work<'a>,
+    all: Problem<'a>,
+    /// Of a mesh.
+    surface: Option<Problem<'a>>,
+    /// An eighth of very many.
+    part: Option<Problem<'a>>,
+    some: &'a Samples,
+}
+
+impl Settle<'_> {
+    /// Where the iteration over all ends, and what that is worth; `sigma` is the standard deviation of the distances at `pose`.
+    fn from(&self, mut pose: Rigid, sigma: f64, progress: &dyn Progress) -> Result<Alignment, AlignError> {
+        let Settle { work, all, surface, part, some } = self;
+        let reach = work.reach(sigma);
+        // What does not settle on some of them does not on all, which would take as many times as long.
+        let begun = work.problem(some).run(pose, reach, MOST, progress)?;
+        let most = if begun.converged { LAST } else { FEW_ROUNDS };
+        pose = begun.pose;
+        if let Some(part) = part {
+            pose = part.run(pose, reach, FIRST, progress)?.pose;
+        }
+        let mut room = Room::default();
+        let ended = match surface {
+            Some(surface) => surface.run(pose, reach, most, progress)?,
+            None => all.iterate(pose, reach, most, &mut room, progress)?.0,
+        };
+        match ended.converged && surface.is_none() {
+            true => all.complete(&mut room.matches, &ended.pose, progress)?,
+            false => room.matches = all.matches(&ended.pose, f64::INFINITY, progress)?,
+        }
+        work.worth(all, &ended, room.matches, some, progress)
+    }
 }
 
 /// The samples of what is measured, once it is known to be fit for use.

@@ -13,6 +13,8 @@ use crate::space::{Aabb, norm};
 /// means of so many squares differ by a tenth from those of all.
 pub(super) const PART: usize = 1000;
 pub(super) const RIVAL: f64 = 2.0;
+/// Starts that a search on the way iterates to the end.
+pub(super) const BRIEF: usize = 5;
 /// Iterations after which poses are compared.
 pub(super) const SOON: usize = 20;
 /// Standard deviations from which on a distance counts no more when poses are compared.

@@ -4,9 +4,10 @@
 //! the feature. It lies within the wall, off both faces, and faces as the feature does: of a mesh the facets tell, of a cloud the heights of
 //! the points around.
 
-use super::belonging::{Belonging, height, nearest, normal};
+use super::belonging::Belonging;
 use super::data::Stop;
 use super::own_facets::OwnFacets;
+use super::reference::{height, nearest, normal};
 use std::collections::BTreeMap;
 use trueness_geom::progress::Progress;
 use trueness_geom::space::{Point, Vector, dot, minus, norm, plus};
@@ -37,7 +38,7 @@ pub(super) fn behind(
     own: &OwnFacets,
     progress: &dyn Progress,
 ) -> Result<Vec<f64>, Stop> {
-    let Belonging { reference, measured, .. } = *belonging;
+    let (reference, measured) = (belonging.reference.mesh, belonging.measured);
     let OwnFacets { near, mesh, tree, .. } = own;
     let upon = belonging.upon(near);
     let is_asked = |p: &u32| {
@@ -93,7 +94,7 @@ fn of_cloud(belonging: &Belonging, upon: f64, within: &BTreeMap<u32, (f64, Vecto
     let level: BTreeMap<u32, f64> =
         within.iter().filter(|(p, w)| is_level(**p, w.1)).map(|(p, w)| (*p, w.0)).collect();
     let is_measured_behind = |p: &u32| {
-        let foot = belonging.search.tree().closest(&places[*p as usize], f64::INFINITY).ok().flatten();
+        let foot = belonging.reference.tree().closest(&places[*p as usize], f64::INFINITY).ok().flatten();
         let Some(foot) = foot else { return false };
         let near = around(&foot.point, None, &|q| off(q) <= upon);
         let farthest = near.iter().map(|d| norm(*d)).fold(0.0, f64::max);

@@ -1,7 +1,7 @@
 //! Dents and bumps of a measured mesh that are deeper than the extract distance of the feature around them: no part of it, which is the
 //! better for it. Without a reference its facets alone tell.
 
-use super::belonging::ELSEWHERE;
+use super::reference::ELSEWHERE;
 use crate::characteristic::LeftOut;
 use trueness_geom::feature::{FeatureError, FeatureSearch, Found, Nearness, Nominal};
 use trueness_geom::mesh::Mesh;

@@ -5,9 +5,10 @@
 //! cloud, that lie over places of the feature where nothing of it was measured, or among its points; of a mesh see `deeper`.
 
 use super::behind::behind;
-use super::belonging::{Belonging, ELSEWHERE};
+use super::belonging::Belonging;
 use super::data::{Data, Stop};
 use super::found::Inspection;
+use super::reference::ELSEWHERE;
 use super::seed::Seeded;
 use crate::characteristic::{LeftOut, Taken, Value};
 use crate::plan::{Plan, Spec};

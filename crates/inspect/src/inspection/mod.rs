@@ -18,6 +18,7 @@ mod noise_field;
 mod of_others;
 mod own_facets;
 mod pose_noise;
+mod reference;
 mod seed;
 mod take;
 mod uncertainty;

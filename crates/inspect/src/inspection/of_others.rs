@@ -15,9 +15,10 @@
 //! Everything else counts, so that no dent is taken for the wall beside it. Without a reference such pieces are left out too, and
 //! nothing that depends on it passes.
 
-use super::belonging::{Belonging, NEARER, UPON, height, nearest, normal};
+use super::belonging::{Belonging, UPON};
 use super::data::Stop;
-use super::own_facets::{OwnFacets, part};
+use super::own_facets::OwnFacets;
+use super::reference::{NEARER, height, nearest, normal, part};
 use trueness_geom::closest::Tree;
 use trueness_geom::feature::Piece;
 use trueness_geom::progress::Progress;
@@ -64,12 +65,13 @@ impl OfOthers<'_> {
         let hits = nearest(&own.tree, &places, f64::INFINITY, progress)?;
         for ((p, place), (facet, away)) in asked.into_iter().zip(places).zip(hits) {
             let (face, off) = belonging.nearest[p as usize];
-            let angle =
-                normal(belonging.reference, face).zip(normal(&own.mesh, facet)).map(|(a, b)| dot(a, b).abs());
+            let angle = normal(belonging.reference.mesh, face)
+                .zip(normal(&own.mesh, facet))
+                .map(|(a, b)| dot(a, b).abs());
             let is_aside = angle.is_some_and(|cosine| cosine < libm::cos(own.near.angle));
             let is_upon = off <= self.upon_facet(face);
             let is_nearer =
-                off + SAME * belonging.size < away && (is_aside && is_upon || NEARER * off <= away);
+                off + SAME * belonging.reference.size < away && (is_aside && is_upon || NEARER * off <= away);
             let is_known = is_upon && (is_aside || WITHIN * off <= away);
             if is_nearer && (is_known || own.ends_before(place, (facet, away), off)) {
                 others[0].push(p);
@@ -90,7 +92,7 @@ impl OfOthers<'_> {
         if beside.is_empty() {
             return Ok(found);
         }
-        let mesh = part(belonging.reference, &beside);
+        let mesh = part(belonging.reference.mesh, &beside);
         let tree = Tree::build_watched(&mesh, progress).map_err(|e| Stop::Mesh(e.to_string()))?;
         let asked = [points, of_pieces].concat();
         let places = self.places(&asked);
@@ -119,7 +121,7 @@ impl OfOthers<'_> {
             let mut offs: Vec<f64> = near.iter().map(|n| own_off[n.1 as usize]).collect();
             let level = middle(&mut offs);
             let mut scatter: Vec<f64> = offs.iter().map(|off| (off - level).abs()).collect();
-            let slack = OFF * SIGMA_OVER_MAD * middle(&mut scatter) + belonging.rounding;
+            let slack = OFF * SIGMA_OVER_MAD * middle(&mut scatter) + belonging.reference.rounding;
             let from_nominal = off * level.signum();
             if from_nominal >= -slack && from_nominal + slack < level.abs() {
                 found[0].push(p);
@@ -136,10 +138,10 @@ impl OfOthers<'_> {
     /// The facets of the reference that the feature has an edge with.
     fn beside(&self) -> Result<Vec<u32>, Stop> {
         let OfOthers { belonging, own, progress } = *self;
-        let same = SAME * belonging.size;
-        let reference = belonging.reference;
+        let same = SAME * belonging.reference.size;
+        let reference = belonging.reference.mesh;
         let bounds = Aabb::of(&own.mesh.positions).widened(same);
-        let near: Vec<u32> = belonging.search.tree().in_box(&bounds);
+        let near: Vec<u32> = belonging.reference.tree().in_box(&bounds);
         let near: Vec<u32> = near.into_iter().filter(|f| !own.has(*f)).collect();
         let mut corners: Vec<u32> = near.iter().flat_map(|f| reference.faces[*f as usize]).collect();
         corners.sort_unstable();
@@ -164,12 +166,12 @@ impl OfOthers<'_> {
         let reach = WALL_REACH * own.near.distance.max(UPON * belonging.median);
         let numbers: Vec<u32> = pieces.iter().flat_map(|piece| piece.points.iter().map(|p| p.0)).collect();
         let places = self.places(&numbers);
-        let mut others = belonging.search.tree().in_box(&Aabb::of(&places).widened(reach));
+        let mut others = belonging.reference.tree().in_box(&Aabb::of(&places).widened(reach));
         others.retain(|f| !own.has(*f));
         if others.is_empty() {
             return Ok(vec![]);
         }
-        let others = part(belonging.reference, &others);
+        let others = part(belonging.reference.mesh, &others);
         let tree = Tree::build_watched(&others, progress).map_err(|e| Stop::Mesh(e.to_string()))?;
         let hits = nearest(&tree, &places, reach, progress)?;
         let angle = |a: Vector, b: Vector| libm::acos(dot(a, b).abs().min(1.0));
@@ -187,7 +189,7 @@ impl OfOthers<'_> {
     }
 
     fn upon_facet(&self, face: u32) -> f64 {
-        self.belonging.upon(&self.own.near).max(SAGS * self.belonging.search.sag(face, CREASE))
+        self.belonging.upon(&self.own.near).max(SAGS * self.belonging.reference.search.sag(face, CREASE))
     }
 
     fn places(&self, points: &[u32]) -> Vec<Point> {

@@ -3,10 +3,10 @@
 //! The nominal form alone does not tell a pocket that was cut by mistake from one that is drawn, nor where a plane ends that goes over
 //! into a fillet: the reference does. Facets are asked by their middles.
 
-use super::belonging::{Belonging, ELSEWHERE, NEARER, height, nearest, normal};
 use super::data::Stop;
+use super::reference::{ELSEWHERE, NEARER, Reference, height, nearest, normal, part};
 use trueness_geom::closest::Tree;
-use trueness_geom::feature::{FeatureError, FeatureSearch, Found, Nearness, Nominal, NominalSurface};
+use trueness_geom::feature::{FeatureError, Found, Nearness, Nominal, NominalSurface};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::Progress;
 use trueness_geom::space::{Aabb, Point, cross, dot, minus, norm, plus, times};
@@ -46,22 +46,22 @@ impl OwnFacets {
     ///
     /// Cost: some looks at each facet of the reference near the feature, and a search tree of its own.
     pub(super) fn new(
-        (reference, search): (&Mesh, &FeatureSearch),
+        reference: &Reference,
         nominal: &Nominal,
         near: &Nearness,
-        rounding: f64,
         progress: &dyn Progress,
     ) -> Result<Option<OwnFacets>, Stop> {
         let Some(surface) = nominal.surface() else { return Ok(None) };
-        let limit = (ON * near.distance).max(rounding);
+        let Reference { mesh: model, search, rounding, .. } = reference;
+        let limit = (ON * near.distance).max(*rounding);
         let of = |near: &Nearness| -> Result<(Vec<u32>, f64), Stop> {
             let found = search.find(nominal, near, progress);
             let Some(found) = some(found)? else { return Ok((vec![], limit)) };
-            let limit = (LEANS * middle_off(reference, &surface, &found)).max(limit);
+            let limit = (LEANS * middle_off(model, &surface, &found)).max(limit);
             // Those joined to where it is begun, and those that lie apart, beyond a groove or a slot.
             let mut all = some(search.apart(&found, nominal, near, progress))?.unwrap_or_default();
             all.extend(&found.facets);
-            all.retain(|f| self::off(reference, &surface, *f) <= limit);
+            all.retain(|f| self::off(model, &surface, *f) <= limit);
             all.sort_unstable();
             Ok((all, limit))
         };
@@ -70,9 +70,9 @@ impl OwnFacets {
         if numbers.is_empty() {
             return Ok(None);
         }
-        let side = numbers.iter().map(|f| outward(reference, &surface, *f).signum()).sum::<f64>().signum();
+        let side = numbers.iter().map(|f| outward(model, &surface, *f).signum()).sum::<f64>().signum();
         let inward = (!matches!(nominal, Nominal::Plane { .. }) && side != 0.0).then_some(side < 0.0);
-        let mesh = part(reference, &numbers);
+        let mesh = part(model, &numbers);
         let tree = Tree::build_watched(&mesh, progress).map_err(|e| Stop::Mesh(e.to_string()))?;
         Ok(Some(OwnFacets { surface, near: *near, limit, side, inward, numbers, within, mesh, tree }))
     }
@@ -89,41 +89,39 @@ impl OwnFacets {
 
     /// Whether a facet of the reference lies on the surface of the nominal, however it was cut into facets. The ground of a shallow pocket
     /// and the begin of a fillet are within its reach, and not on it.
-    fn is_on(&self, reference: &Mesh, facet: u32) -> bool {
-        off(reference, &self.surface, facet) <= self.limit
+    fn is_on(&self, model: &Mesh, facet: u32) -> bool {
+        off(model, &self.surface, facet) <= self.limit
     }
 
     /// Whether each of these places, of facets that face as the feature does, is of it.
     pub(super) fn are_own(
         &self,
-        belonging: &Belonging,
+        reference: &Reference,
         places: &[Point],
         progress: &dyn Progress,
     ) -> Result<Vec<bool>, Stop> {
-        let beside = self.beside(belonging, places, progress)?;
-        let nearer = self.nearer(belonging, places, progress)?;
+        let beside = self.beside(reference, places, progress)?;
+        let nearer = self.nearer(reference, places, progress)?;
         Ok(nearer.into_iter().zip(beside).map(|(nearer, beside)| nearer && !beside).collect())
     }
 
     /// Whether each of these places is nearer to the feature than to others of the reference that face as it does, as the ground of a pocket.
     fn nearer(
         &self,
-        belonging: &Belonging,
+        reference: &Reference,
         places: &[Point],
         progress: &dyn Progress,
     ) -> Result<Vec<bool>, Stop> {
         let own = nearest(&self.tree, places, f64::INFINITY, progress)?;
         let reach = own.iter().map(|(_, off)| *off).fold(0.0, f64::max);
-        let Belonging { reference, search, .. } = belonging;
+        let model = reference.mesh;
         let cosine = libm::cos(ALIKE * self.near.angle);
-        let mut alike = search.tree().in_box(&Aabb::of(places).widened(reach));
-        alike.retain(|f| {
-            !self.is_on(reference, *f) && self.side * outward(reference, &self.surface, *f) >= cosine
-        });
+        let mut alike = reference.tree().in_box(&Aabb::of(places).widened(reach));
+        alike.retain(|f| !self.is_on(model, *f) && self.side * outward(model, &self.surface, *f) >= cosine);
         if alike.is_empty() {
             return Ok(vec![true; places.len()]);
         }
-        let mesh = part(reference, &alike);
+        let mesh = part(model, &alike);
         let tree = Tree::build_watched(&mesh, progress).map_err(|e| Stop::Mesh(e.to_string()))?;
         let others = nearest(&tree, places, f64::INFINITY, progress)?;
         Ok(own.into_iter().zip(others).map(|(own, other)| own.1 <= other.1).collect())
@@ -133,12 +131,12 @@ impl OwnFacets {
     /// face, as on a fillet that leaves it as a tangent.
     fn beside(
         &self,
-        belonging: &Belonging,
+        reference: &Reference,
         places: &[Point],
         progress: &dyn Progress,
     ) -> Result<Vec<bool>, Stop> {
-        let on_all = nearest(belonging.search.tree(), places, f64::INFINITY, progress)?;
-        let is_other = |n: &usize| on_all[*n].0 != u32::MAX && !self.is_on(belonging.reference, on_all[*n].0);
+        let on_all = nearest(reference.tree(), places, f64::INFINITY, progress)?;
+        let is_other = |n: &usize| on_all[*n].0 != u32::MAX && !self.is_on(reference.mesh, on_all[*n].0);
         let asked: Vec<usize> = (0..places.len()).filter(is_other).collect();
         let of: Vec<Point> = asked.iter().map(|n| places[*n]).collect();
         let mut beside = vec![false; places.len()];
@@ -161,21 +159,21 @@ impl OwnFacets {
     /// material: edges that were broken or rounded are within that distance, and lack material.
     pub(super) fn over(
         &self,
-        belonging: &Belonging,
+        reference: &Reference,
         places: &[Point],
         progress: &dyn Progress,
     ) -> Result<Vec<bool>, Stop> {
         if places.is_empty() {
             return Ok(vec![]);
         }
-        let Belonging { reference, size, rounding, search, .. } = belonging;
+        let Reference { mesh, size, rounding, .. } = reference;
         let distance = self.near.distance;
         let border = PointTree::new(&along_border(&self.mesh, 0.5 * distance));
         let inside =
             |p: &Point| border.nearest(p).is_none_or(|(square, _)| square > 2.0 * distance * distance);
-        let hits = nearest(search.tree(), places, ELSEWHERE * size, progress)?;
+        let hits = nearest(reference.tree(), places, ELSEWHERE * size, progress)?;
         let over = |(p, (face, _)): (&Point, (u32, f64))| {
-            self.has(face) && (inside(p) || height(reference, face, *p) > *rounding)
+            self.has(face) && (inside(p) || height(mesh, face, *p) > *rounding)
         };
         Ok(places.iter().zip(hits).map(over).collect())
     }
@@ -216,17 +214,6 @@ fn outward(mesh: &Mesh, surface: &NominalSurface, facet: u32) -> f64 {
     let [a, b, c] = mesh.faces[facet as usize].map(|v| mesh.positions[v as usize]);
     let way = surface.distance(times(1.0 / 3.0, plus(a, plus(b, c))));
     way.zip(normal(mesh, facet)).map_or(0.0, |((_, way), facing)| dot(way, facing))
-}
-
-/// Some facets of a mesh, with the vertices that they have.
-pub(super) fn part(mesh: &Mesh, facets: &[u32]) -> Mesh {
-    let corners = || facets.iter().flat_map(|f| mesh.faces[*f as usize]);
-    let mut used: Vec<u32> = corners().collect();
-    used.sort_unstable();
-    used.dedup();
-    let place = |v: u32| used.partition_point(|u| *u < v) as u32;
-    let faces = facets.iter().map(|f| mesh.faces[*f as usize].map(place)).collect();
-    Mesh { positions: used.iter().map(|v| mesh.positions[*v as usize]).collect(), faces }
 }
 
 /// Places along the edges of a mesh that one facet alone has, no farther apart than `step`.

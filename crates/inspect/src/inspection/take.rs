@@ -216,7 +216,7 @@ struct OfMesh<'a> {
     facets: &'a FeatureSearch<'a>,
     nominal: &'a Nominal,
     near: &'a Nearness,
-    reference: Option<&'a Belonging<'a>>,
+    belonging: Option<&'a Belonging<'a>>,
     own: Option<&'a OwnFacets>,
 }
 
@@ -233,7 +233,7 @@ impl OfMesh<'_> {
             FeatureError::Cancelled => Stop::Cancelled,
             e => Stop::Mesh(e.to_string()),
         };
-        let told = self.reference.zip(self.own);
+        let told = self.belonging.map(|b| &b.reference).zip(self.own);
         if let Some((reference, own)) = told {
             let kept = which(&found.facets, own.are_own(reference, &places(&found.facets), progress)?);
             if kept.len() < found.facets.len() {
@@ -241,7 +241,7 @@ impl OfMesh<'_> {
             }
         }
         let apart = facets.apart(&found, nominal, near, progress).map_err(failed)?;
-        let (joined, mut others) = match (told, self.reference) {
+        let (joined, mut others) = match (told, self.belonging) {
             (Some((reference, own)), _) => {
                 (which(&apart, own.are_own(reference, &places(&apart), progress)?), vec![])
             }
@@ -257,7 +257,7 @@ impl OfMesh<'_> {
         }
         let points = facets.joined(&Found::default(), &others, near).points;
         let points = points.iter().map(|v| self.mesh.positions[*v as usize]).collect();
-        Ok((found, Others { points, known: 0, on_reference: self.reference.is_some() }))
+        Ok((found, Others { points, known: 0, on_reference: self.belonging.is_some() }))
     }
 
     fn corners(&self, facet: u32) -> [Point; 3] {
@@ -326,7 +326,7 @@ fn found(
     let mut found = found.map_err(stop)?;
     if let Some(facets) = search.facets {
         let of_mesh =
-            OfMesh { mesh, facets, nominal: &nominal, near: &near, reference: search.belonging, own };
+            OfMesh { mesh, facets, nominal: &nominal, near: &near, belonging: search.belonging, own };
         (found, taken.others) = of_mesh.judged(found, progress)?;
     }
     if let (Some(facets), None) = (search.facets, search.belonging) {
