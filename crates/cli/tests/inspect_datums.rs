@@ -23,7 +23,7 @@ fn parts(folder: &Folder) {
     folder.write("hole.xyz", bore(&|a, b, c| [45.0 + a, 30.0 + b, c]));
 }
 
-/// The table, or the error, of the position of the hole to these datums.
+/// The table of the position of the hole to these datums.
 fn position(datums: &str) -> String {
     position_of("H", datums, "x = 45, y = 15")
 }
@@ -48,8 +48,8 @@ fn position_of(feature: &str, datums: &str, basic: &str) -> String {
         features.concat()
     );
     let o = trueness(["inspect".as_ref(), folder.write("plan.toml", plan).as_os_str()]);
-    // What the plan asks for may be impossible: then that is told.
-    if status(&o) <= 1 { stdout(&o) } else { stderr(&o) }
+    assert!(status(&o) <= 1, "{}", stderr(&o));
+    stdout(&o)
 }
 
 #[test]

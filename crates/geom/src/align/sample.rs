@@ -51,8 +51,9 @@ pub(super) struct Samples {
     pub oriented: bool,
 }
 
-/// Neighbors that make the normal of a point of a cloud, and how many points there are among which they are looked for, at most.
+/// Neighbors that make the normal of a point of a cloud.
 const NEIGHBORS: usize = 16;
+/// Points among which they are looked for, at most.
 const DENSE: usize = 100_000;
 
 impl Samples {

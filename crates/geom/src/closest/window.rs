@@ -20,16 +20,15 @@ impl Tree {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn in_box(&self, window: &Aabb) -> Vec<u32> {
+        if window.is_empty() {
+            return vec![];
+        }
         let far = self.center.map(|c| c * self.scale).iter().fold(1.0f64, |m, x| m.max(x.abs()));
         let scaled = |p: Point, pad: f64| -> Point {
             std::array::from_fn(|k| (p[k] - self.center[k]) * self.scale + pad * SLACK * far)
         };
         let (low, high) = (scaled(window.min, -1.0), scaled(window.max, 1.0));
-        let mut found = vec![];
-        if window.is_empty() {
-            return found;
-        }
-        let mut open = vec![self.root];
+        let (mut found, mut open) = (vec![], vec![self.root]);
         while let Some(child) = open.pop() {
             if child < 0 {
                 let meets = |slot: &u32| Aabb::of(&self.triangle(*slot)).meets(window);

@@ -206,7 +206,8 @@ impl<'a> FeatureSearch<'a> {
         progress: &dyn Progress,
     ) -> Result<Vec<u32>, FeatureError> {
         let Some(surface) = nominal.surface() else { return Ok(vec![]) };
-        let inside = Nearness { margin: near.margin.max(0.0), ..*near };
+        // Its corners are within reach: in the middle of a chord it may be a little farther off.
+        let inside = Nearness { margin: near.margin.max(0.0), distance: f64::INFINITY, ..*near };
         let (rules, strict) = (Rules::new(nominal, near)?, Rules::new(nominal, &inside)?);
         // A tube faces both ways; what was found tells which of them is sought.
         let outward = |f: u32| -> Option<f64> {

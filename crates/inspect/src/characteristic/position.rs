@@ -123,7 +123,7 @@ fn along(m: &Measuring, start: &Rigid, free: Freedom, place: [Option<f64>; 3]) -
         return Ok(());
     }
     let [a, b] = [["y", "z"], ["x", "z"], ["x", "y"]][most];
-    Err(Missing::Impossible(format!(
+    Err(Missing::NotMeasured(format!(
         "its axis runs along {} in the datum system, which places nothing: basic = {{ {a} = …, {b} = … }} places it",
         NAMES[most]
     )))

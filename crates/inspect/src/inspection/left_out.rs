@@ -49,8 +49,11 @@ pub(super) fn tell(
         let off = match (belonging, &data.measured) {
             (Some(belonging), _) => {
                 let Some(own) = belonging.own(n) else { continue };
-                let far = |(face, off): &&(u32, f64)| *off > near.distance && own.has_within(*face);
-                let mut off: Vec<f64> = belonging.nearest.iter().filter(far).map(|(_, off)| *off).collect();
+                // As far off the nominal surface as what is left out, not off the chords of the reference.
+                let own_points = belonging.nearest.iter().zip(&belonging.measured.positions);
+                let own_points = own_points.filter(|((face, _), _)| own.has_within(*face));
+                let off = own_points.filter_map(|(_, p)| own.surface.distance(*p)).map(|(off, _)| off.abs());
+                let mut off: Vec<f64> = off.filter(|off| *off > near.distance).collect();
                 off.extend(behind(belonging, own, progress)?);
                 off
             }
@@ -183,45 +186,15 @@ pub(super) fn round(x: f64) -> f64 {
 mod tests {
     use super::*;
     use crate::inspection::run;
+    use crate::inspection::test_parts::{FLOOR, floor, plane_plan};
     use crate::results::inspect::{InspectDocument, PlanRecord};
     use trueness_geom::mesh::Mesh;
     use trueness_geom::progress::Silent;
 
-    /// A floor of squares, 20 by 20.
-    fn floor() -> Mesh {
-        let at = |i: u32, j: u32| i * 21 + j;
-        let positions: Vec<Point> =
-            (0..21 * 21).map(|v| [f64::from(v / 21), f64::from(v % 21), 0.0]).collect();
-        let square = |i, j| {
-            let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
-            [[a, b, c], [a, c, d]]
-        };
-        Mesh { positions, faces: (0..20).flat_map(|i| (0..20).flat_map(move |j| square(i, j))).collect() }
-    }
-
     /// A spike that is higher than the extract distance does not pass where a lower one fails.
     #[test]
     fn a_deep_dent_passes_no_more_than_a_small_one() {
-        let plan = Plan::parse(
-            r#"
-            schema = "trueness/plan/1"
-            measured = "part.stl"
-            [[feature]]
-            id = "A"
-            shape = "plane"
-            extract = { distance = 0.5 }
-            [feature.nominal]
-            point = [0, 0, 0]
-            normal = [0, 0, 1]
-            boundary = [[0, 0, 0], [20, 0, 0], [20, 20, 0], [0, 20, 0]]
-            [[characteristic]]
-            id = "1"
-            kind = "flatness"
-            feature = "A"
-            tolerance = 0.1
-            "#,
-        )
-        .unwrap();
+        let plan = plane_plan(FLOOR, (0.0, 0.1), "distance = 0.5", "");
         let cases = [
             (0.0, Verdict::Pass, None),
             (0.3, Verdict::Fail, None),
@@ -232,12 +205,12 @@ mod tests {
         ];
         for (height, expected, left_out) in cases {
             for (cloud, with_reference) in [(false, true), (true, true), (false, false)] {
-                let mut measured = floor();
+                let mut measured = floor(|_, _| 0.0);
                 measured.positions[10 * 21 + 10][2] = height;
                 if cloud {
                     measured.faces.clear();
                 }
-                let reference = with_reference.then(floor);
+                let reference = with_reference.then(|| floor(|_, _| 0.0));
                 let data = Data { measured: Some(measured), reference, ..Data::default() };
                 let found = run(&plan, data, &Silent).unwrap();
                 assert_eq!(found.features[0].left_out.map(|l| l.points), left_out, "{height} {cloud}");
@@ -246,6 +219,63 @@ mod tests {
                 assert_eq!(document.verdict, expected, "{height} {cloud}");
                 assert_eq!(document.characteristics[0].notes.is_empty(), left_out.is_none(), "{height}");
             }
+        }
+    }
+
+    /// The wall of a bore of 40 sides, seen from its axis: from each of these heights with its radius to the next.
+    fn bore(profile: &[[f64; 2]]) -> Mesh {
+        const TURNS: u32 = 40;
+        let place = |[z, radius]: [f64; 2], k: u32| {
+            let turn = std::f64::consts::TAU * f64::from(k) / f64::from(TURNS);
+            [radius * libm::cos(turn), radius * libm::sin(turn), z]
+        };
+        let positions = profile.iter().flat_map(|ring| (0..TURNS).map(|k| place(*ring, k))).collect();
+        let rows = (1..profile.len() as u32).flat_map(|row| (0..TURNS).map(move |k| (row * TURNS, k)));
+        let square = |(above, k): (u32, u32)| {
+            let [a, b] = [k, (k + 1) % TURNS];
+            let [low, high] = [above - TURNS, above];
+            [[low + a, high + a, low + b], [low + b, high + a, high + b]]
+        };
+        Mesh { positions, faces: rows.flat_map(square).collect() }
+    }
+
+    /// A neck about as far off as the extract distance is within it or farther, never neither.
+    #[test]
+    fn a_neck_at_the_extract_distance_is_not_lost() {
+        let plan = Plan::parse(
+            r#"
+            schema = "trueness/plan/1"
+            measured = "part.stl"
+            [[feature]]
+            id = "B"
+            shape = "cylinder"
+            internal = true
+            extract = { distance = 0.4 }
+            nominal = { point = [0, 0, 0], direction = [0, 0, 1], radius = 6, length = 20 }
+            [[characteristic]]
+            id = "1"
+            kind = "cylindricity"
+            feature = "B"
+            tolerance = 0.1
+            "#,
+        )
+        .unwrap();
+        let reference = bore(&[[0.0, 6.0], [10.0, 6.0], [20.0, 6.0]]);
+        let verdict = |off: f64| {
+            let neck = [[12.0, 6.0], [12.0, 6.0 - off], [14.0, 6.0 - off], [14.0, 6.0]];
+            let measured = bore(&[&[[0.0, 6.0]], &neck[..], &[[20.0, 6.0]]].concat());
+            let data =
+                Data { measured: Some(measured), reference: Some(reference.clone()), ..Data::default() };
+            let record = PlanRecord { path: String::new(), sha256: None };
+            InspectDocument::new(&plan, record, &run(&plan, data, &Silent).unwrap(), vec![]).verdict
+        };
+        assert_eq!(verdict(0.0), Verdict::Pass);
+        for off in [0.39, 0.398, 0.399, 0.3999, 0.39999] {
+            assert_eq!(verdict(off), Verdict::Fail, "{off}");
+        }
+        assert_ne!(verdict(0.4), Verdict::Pass);
+        for off in [0.40001, 0.4001, 0.401, 0.402, 0.41] {
+            assert_eq!(verdict(off), Verdict::Undecided, "{off}");
         }
     }
 }

@@ -25,6 +25,8 @@ mod uncertainty;
 mod view;
 
 #[cfg(test)]
+mod test_parts;
+#[cfg(test)]
 mod tests;
 
 pub use crate::characteristic::{Element, LeftOut, Others, Taken};

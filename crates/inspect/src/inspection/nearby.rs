@@ -93,50 +93,16 @@ fn said(beyond: &[f64], near: &Nearness) -> Option<String> {
 mod tests {
     use super::*;
     use crate::inspection::run;
-    use trueness_geom::mesh::Mesh;
+    use crate::inspection::test_parts::{FLOOR, floor, plane_plan};
     use trueness_geom::progress::Silent;
-
-    /// A floor of squares, 20 by 20, that rises by `slope` from `height`.
-    fn floor(height: f64, slope: f64) -> Mesh {
-        let at = |i: u32, j: u32| i * 21 + j;
-        let place = |i: u32, j: u32| [f64::from(i), f64::from(j), height + slope * f64::from(i) / 20.0];
-        let positions = (0..21 * 21).map(|v| place(v / 21, v % 21)).collect();
-        let square = |i, j| {
-            let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
-            [[a, b, c], [a, c, d]]
-        };
-        Mesh { positions, faces: (0..20).flat_map(|i| (0..20).flat_map(move |j| square(i, j))).collect() }
-    }
 
     #[test]
     fn a_face_that_is_off_is_told_with_the_setting_that_judges_it() {
-        let plan = Plan::parse(
-            r#"
-            schema = "trueness/plan/1"
-            measured = "part.stl"
-            [[feature]]
-            id = "A"
-            shape = "plane"
-            extract = { distance = 0.2, margin = 0 }
-            [feature.nominal]
-            point = [0, 0, 0]
-            normal = [0, 0, 1]
-            boundary = [[0, 0, 0], [20, 0, 0], [20, 20, 0], [0, 20, 0]]
-            [[feature]]
-            id = "line"
-            derived = "median-plane"
-            of = ["A", "A"]
-            [[characteristic]]
-            id = "1"
-            kind = "flatness"
-            feature = "A"
-            tolerance = 0.1
-            "#,
-        )
-        .unwrap();
+        let line = "[[feature]]\nid = \"line\"\nderived = \"median-plane\"\nof = [\"A\", \"A\"]";
+        let plan = plane_plan(FLOOR, (0.0, 0.1), "distance = 0.2, margin = 0", line);
         for cloud in [false, true] {
-            let reasons = |height, slope| {
-                let mut mesh = floor(height, slope);
+            let reasons = |height: f64, slope: f64| {
+                let mut mesh = floor(|x, _| height + slope * x / 20.0);
                 if cloud {
                     mesh.faces.clear();
                 }

@@ -1,6 +1,7 @@
 //! Points of a cloud that were left out of a feature as of other surfaces: counted, told, and never a false pass. What a document says
 //! of what was not measured.
 
+use super::test_parts::plane_plan;
 use super::{Data, run};
 use crate::plan::Plan;
 use crate::results::Verdict;
@@ -61,26 +62,7 @@ fn document(plan: &Plan, data: Data) -> InspectDocument {
 
 /// Flatness of the top, from a cloud.
 fn flatness(cloud: Mesh, reference: Option<&Mesh>, extract: &str) -> (CharacteristicRecord, u64) {
-    let plan = Plan::parse(&format!(
-        r#"
-        schema = "trueness/plan/1"
-        measured = "part.xyz"
-        [[feature]]
-        id = "A"
-        shape = "plane"
-        extract = {{ {extract} }}
-        [feature.nominal]
-        point = [0, 0, 0]
-        normal = [0, 0, 1]
-        boundary = [[-20, -20, 0], [20, -20, 0], [20, 20, 0], [-20, 20, 0]]
-        [[characteristic]]
-        id = "1"
-        kind = "flatness"
-        feature = "A"
-        tolerance = 0.05
-        "#
-    ))
-    .unwrap();
+    let plan = plane_plan([[-20.0, 20.0], [-20.0, 20.0]], (0.0, 0.05), extract, "");
     let measured = Some(Mesh { faces: vec![], ..cloud });
     let data = Data { measured, reference: reference.cloned(), ..Data::default() };
     let mut document = document(&plan, data);

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::inspection::data::Data;
+use crate::inspection::test_parts::plane_plan;
 use crate::inspection::{Inspection, run};
 use crate::plan::Plan;
 use trueness_geom::mesh::Mesh;
@@ -57,29 +58,10 @@ fn of_plane(
 fn found(
     measured: Mesh,
     reference: Option<&Mesh>,
-    [[a, b], [c, d]]: [[f64; 2]; 2],
+    bounds: [[f64; 2]; 2],
     (leaning, extract): (f64, &str),
 ) -> Inspection {
-    let plan = Plan::parse(&format!(
-        r#"
-        schema = "trueness/plan/1"
-        measured = "part.stl"
-        [[feature]]
-        id = "A"
-        shape = "plane"
-        extract = {{ {extract} }}
-        [feature.nominal]
-        point = [0, 0, 0]
-        normal = [{leaning}, 0, 1]
-        boundary = [[{a}, {c}, 0], [{b}, {c}, 0], [{b}, {d}, 0], [{a}, {d}, 0]]
-        [[characteristic]]
-        id = "1"
-        kind = "flatness"
-        feature = "A"
-        tolerance = 0.1
-        "#
-    ))
-    .unwrap();
+    let plan = plane_plan(bounds, (leaning, 0.1), extract, "");
     let data = Data { measured: Some(measured), reference: reference.cloned(), ..Data::default() };
     run(&plan, data, &Silent).unwrap()
 }
