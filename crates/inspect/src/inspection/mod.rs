@@ -1,6 +1,7 @@
 //! A plan and measured data make verdicts: one pure function.
 
 mod align;
+mod at_edges;
 mod behind;
 mod belonging;
 mod data;

@@ -186,9 +186,10 @@ fn others(
             without(&mut doubted, &pieces);
             without(&mut pieces, &out);
             without(points, &[&out[..], &doubted, &pieces].concat());
-            let [between, beyond] = reference.at_edges(points, &pieces)?;
+            let [of_faces, beyond] = reference.at_edges(points, &[&pieces[..], &doubted].concat())?;
             without(&mut pieces, &beyond);
-            out.extend(pieces.into_iter().chain(between));
+            out.extend(pieces.into_iter().chain(of_faces));
+            without(&mut doubted, &out);
             doubted.extend(beyond);
             (out, doubted)
         }
@@ -334,7 +335,8 @@ fn found(
     }
     if let Some(cloud) = search.cloud {
         let reference = search.belonging.zip(own);
-        let reference = reference.map(|(belonging, own)| OfOthers { belonging, own, progress });
+        let reference =
+            reference.map(|(belonging, own)| OfOthers { belonging, own, spacing: cloud.farthest, progress });
         let with = (cloud, reference);
         taken.others = others(&mut found.points, &mesh.positions, with, (&nominal, &near), progress)?;
     }

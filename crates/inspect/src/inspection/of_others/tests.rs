@@ -294,6 +294,33 @@ fn a_wall_that_goes_on_to_a_displaced_plane_is_no_part_of_it() {
     }
 }
 
+/// Where a wall is off its place the top beside it, which is in its own, ends earlier: the upper end of the wall is no part of it.
+#[test]
+fn a_wall_off_its_place_is_no_part_of_the_plane_beside_it() {
+    const SIGMA: f64 = 0.003;
+    let of = |[top, below]: [f64; 2]| {
+        let (right, left) = ([[top, 0.0], [below, -8.0]], [[-below, -8.0], [-top, 0.0]]);
+        vec![[[-top, 0.0], [top, 0.0]], right, left]
+    };
+    let reference = strips(&of([10.0, 10.0]));
+    for dense in [1.0, 3.0, 30.0] {
+        for wall in [[9.95, 9.95], [9.7, 9.7], [9.7, 10.0], [9.9, 9.5], [10.3, 10.3]] {
+            let cloud = strewn(&of(wall), dense, SIGMA);
+            let (value, points) = flatness(&cloud, Some(&reference), TOP, "distance = 0.5");
+            let all = 40.0 * wall[0] * dense;
+            assert!(value < 12.0 * SIGMA, "{dense} {wall:?}: {value}");
+            assert!((0.97 * all..1.01 * all).contains(&(points as f64)), "{dense} {wall:?}: {points}");
+        }
+        if dense < 3.0 {
+            continue;
+        }
+        // A chamfer lies on neither, and counts.
+        let broken = [[[-9.8, 0.0], [9.8, 0.0]], [[9.8, 0.0], [10.0, -0.2]], [[10.0, -0.2], [10.0, -8.0]]];
+        let value = greatest(&strewn(&broken, dense, SIGMA), &reference, TOP, "distance = 0.5");
+        assert!(value > 0.05, "{dense}: {value}");
+    }
+}
+
 /// A slot that is off its place: the points of each wall lie as far off it as those of the other wall, and no verdict rests on which is which.
 #[test]
 fn points_between_two_faces_leave_the_verdict_open() {

@@ -1,0 +1,244 @@
+//! Points at the edges of a feature that are of the face beside it, because one of both is off its place.
+//!
+//! A bore that is too wide ends the face about it earlier, and the upper end of its wall has its nearest place on the reference on that
+//! face; a face that is too high lets the wall of the bore go on. Where both really are, their points clear of the edge tell: what lies
+//! on the one, and off the other on the side where the one is, belongs to the one. What goes on at the other side out of the material, a burr or what the part stands on,
+//! leaves the verdict open. Everything else counts, as chamfers and bell-mouths, which lie on neither.
+
+use super::data::Stop;
+use super::of_others::{OfOthers, SAME, WALL_REACH};
+use super::reference::{height, nearest, normal, part};
+use trueness_geom::closest::Tree;
+use trueness_geom::mesh::Mesh;
+use trueness_geom::space::{Aabb, Point, Vector, cross, dot, least_axis, minus, unit};
+use trueness_geom::spatial::neighbors::PointTree;
+use trueness_geom::stats::SIGMA_OVER_MAD;
+
+/// Points around one at an edge that tell where a surface is there, and the fewest that do of a face beside the feature.
+const AROUND: usize = 24;
+const FEWEST: usize = 8;
+/// Over so many standard deviations a point is off a surface: one in a million of normal noise.
+const OFF: f64 = 5.0;
+/// Up to so many it tells where the surface is, found in so many rounds.
+const KEPT: f64 = 3.0;
+const ROUNDS: usize = 4;
+/// Share of the variance of the points around by which they must spread for their slope that way to count.
+const FLAT: f64 = 0.05;
+
+/// The facets of the reference that the feature has an edge with.
+struct Beside {
+    numbers: Vec<u32>,
+    mesh: Mesh,
+    tree: Tree,
+}
+
+/// Measured points of a surface, clear of edges.
+struct Clear {
+    tree: PointTree,
+    places: Vec<Point>,
+    /// Of each how far off the surface of the reference it is, out of the material.
+    heights: Vec<f64>,
+}
+
+/// Where a surface is near a place: its height over that of the reference, and how far a point of it may be off.
+struct Level {
+    height: f64,
+    slack: f64,
+}
+
+impl Level {
+    /// That of the points around a place: their height on a plane through most of them, for a surface off its place rises over its
+    /// nominal one. `facing` is normal to the surface.
+    fn at(place: Point, facing: Vector, around: impl Iterator<Item = (Point, f64)>, rounding: f64) -> Level {
+        let across = unit(cross(facing, least_axis(facing))).map_or([0.0; 3], |u| u.0);
+        let along = cross(facing, across);
+        let flat = |(q, height): (Point, f64)| {
+            let way = minus(q, place);
+            [dot(way, across), dot(way, along), height]
+        };
+        let all: Vec<[f64; 3]> = around.map(flat).collect();
+        let (mut height, mut scatter, mut kept) = (0.0, 0.0, all.clone());
+        for _ in 0..ROUNDS {
+            let (level, [a, b]) = rising(&kept);
+            let off = |[x, y, h]: &[f64; 3]| (h - level - a * x - b * y).abs();
+            height = level;
+            scatter = SIGMA_OVER_MAD * middle(&mut all.iter().map(off).collect::<Vec<f64>>());
+            kept = all.iter().filter(|q| off(q) <= KEPT * scatter + rounding).copied().collect();
+        }
+        Level { height, slack: OFF * scatter + rounding }
+    }
+}
+
+/// The height at the origin and both slopes of a plane through some places; of places in a row none across it.
+fn rising(places: &[[f64; 3]]) -> (f64, [f64; 2]) {
+    let share = 1.0 / places.len().max(1) as f64;
+    let mean = |of: &dyn Fn(&[f64; 3]) -> f64| share * places.iter().map(of).sum::<f64>();
+    let [x, y, h] = [0, 1, 2].map(|k| mean(&|q| q[k]));
+    let product = |i: usize, j: usize, [a, b]: [f64; 2]| mean(&|q| (q[i] - a) * (q[j] - b));
+    let least = FLAT * (product(0, 0, [x, x]) + product(1, 1, [y, y]));
+    let (xx, yy) = (product(0, 0, [x, x]) + least, product(1, 1, [y, y]) + least);
+    let (xy, xh, yh) = (product(0, 1, [x, y]), product(0, 2, [x, h]), product(1, 2, [y, h]));
+    let det = xx * yy - xy * xy;
+    if det <= 0.0 {
+        return (h, [0.0; 2]);
+    }
+    let slopes = [(yy * xh - xy * yh) / det, (xx * yh - xy * xh) / det];
+    (h - slopes[0] * x - slopes[1] * y, slopes)
+}
+
+/// Measured points near an edge of the feature, each with its height over it, the way out of it, and the nearest facet beside it.
+struct Asked {
+    point: u32,
+    place: Point,
+    off: f64,
+    out: Vector,
+    beside: u32,
+}
+
+/// The points of the faces beside the feature, with the sides of them.
+struct OthersClear {
+    clear: Clear,
+    /// Normal of the facet of the reference each is nearest to, and its height over the feature.
+    facing: Vec<Vector>,
+    off: Vec<f64>,
+}
+
+impl OfOthers<'_> {
+    /// Of these measured points, and of those of pieces beside the feature, those that are of a face beside it, and those that go on
+    /// beyond the feature along such a face, out of the material.
+    ///
+    /// Cost: one look at each measured point, a closest place on the faces beside for each of those asked, and neighbors of those near an
+    /// edge.
+    pub(super) fn at_edges(&self, points: &[u32], of_pieces: &[u32]) -> Result<[Vec<u32>; 2], Stop> {
+        let OfOthers { belonging, own, .. } = *self;
+        let mut found = [vec![], vec![]];
+        let Some(beside) = self.beside()? else { return Ok(found) };
+        let (own_clear, asked) = self.clear_and_asked(&beside, points, of_pieces)?;
+        let Some(own_clear) = own_clear.filter(|_| !asked.is_empty()) else { return Ok(found) };
+        let others = self.others_clear();
+        let cosine = libm::cos(own.near.angle);
+        let rounding = belonging.reference.rounding;
+        for Asked { point, place, off, out, beside: facet } in asked {
+            let Some(facing) = normal(&beside.mesh, facet) else { continue };
+            let near = others.clear.tree.k_nearest(&place, 8 * AROUND, None);
+            let alike =
+                near.iter().map(|n| n.1 as usize).filter(|n| dot(others.facing[*n], facing) >= cosine);
+            let alike: Vec<usize> = alike.take(AROUND).collect();
+            if alike.len() < FEWEST {
+                continue;
+            }
+            let of_face = alike.iter().map(|n| (others.clear.places[*n], others.clear.heights[*n]));
+            let face = Level::at(place, facing, of_face, rounding);
+            let sag = self.sag(beside.numbers[facet as usize]);
+            if (height(&beside.mesh, facet, place) - face.height).abs() > face.slack + sag {
+                continue;
+            }
+            let own_near = own_clear.tree.k_nearest(&place, AROUND, None);
+            let of_own =
+                own_near.iter().map(|n| (own_clear.places[n.1 as usize], own_clear.heights[n.1 as usize]));
+            let level = Level::at(place, out, of_own, rounding);
+            let side = middle(&mut alike.iter().map(|n| others.off[*n]).collect::<Vec<f64>>()).signum();
+            if side * (off - level.height) > level.slack {
+                found[0].push(point);
+            } else if off > level.height.max(0.0) + level.slack {
+                found[1].push(point);
+            }
+        }
+        for numbers in &mut found {
+            numbers.sort_unstable();
+        }
+        Ok(found)
+    }
+
+    /// The points of the feature clear of its edges, `None` if too few are, and the points near an edge.
+    fn clear_and_asked(
+        &self,
+        beside: &Beside,
+        points: &[u32],
+        of_pieces: &[u32],
+    ) -> Result<(Option<Clear>, Vec<Asked>), Stop> {
+        let own = self.own;
+        let all = [points, of_pieces].concat();
+        let places = self.places(&all);
+        let hits = nearest(&beside.tree, &places, WALL_REACH * own.near.distance, self.progress)?;
+        let away = |hit: &(u32, f64)| if hit.0 == u32::MAX { f64::INFINITY } else { hit.1 };
+        let mut of_own: Vec<f64> = hits[..points.len()].iter().map(away).collect();
+        // Of a narrow feature those are clear that half of the others are not.
+        let clearance = middle(&mut of_own).min(own.near.distance);
+        let (mut clear, mut heights, mut asked) = (vec![], vec![], vec![]);
+        for (n, (place, hit)) in places.into_iter().zip(hits).enumerate() {
+            let Some((off, out)) = own.surface.distance(place) else { continue };
+            let off = own.side * off;
+            if n < points.len() && away(&hit) >= clearance {
+                clear.push(place);
+                heights.push(off);
+            }
+            if hit.0 != u32::MAX {
+                asked.push(Asked { point: all[n], place, off, out, beside: hit.0 });
+            }
+        }
+        let is_enough = clear.len() >= AROUND;
+        Ok((is_enough.then(|| Clear { tree: PointTree::new(&clear), places: clear, heights }), asked))
+    }
+
+    /// The measured points near the feature that are of other faces and clear of it.
+    fn others_clear(&self) -> OthersClear {
+        let OfOthers { belonging, own, .. } = *self;
+        let reference = belonging.reference.mesh;
+        let reach = WALL_REACH * (own.near.distance + self.spacing);
+        let bounds = Aabb::of(&own.mesh.positions).widened(reach);
+        let (mut places, mut heights, mut facing, mut offs) = (vec![], vec![], vec![], vec![]);
+        for ((face, _), place) in belonging.nearest.iter().zip(&belonging.measured.positions) {
+            if *face == u32::MAX || !bounds.holds(place) || own.has(*face) {
+                continue;
+            }
+            let Some((off, out)) = own.surface.distance(*place).map(|d| d.0).zip(normal(reference, *face))
+            else {
+                continue;
+            };
+            if off.abs() >= own.near.distance && off.abs() <= reach {
+                places.push(*place);
+                heights.push(height(reference, *face, *place));
+                facing.push(out);
+                offs.push(own.side * off);
+            }
+        }
+        OthersClear { clear: Clear { tree: PointTree::new(&places), places, heights }, facing, off: offs }
+    }
+
+    /// `None` where the feature has an edge with none.
+    fn beside(&self) -> Result<Option<Beside>, Stop> {
+        let OfOthers { belonging, own, progress, .. } = *self;
+        let same = SAME * belonging.reference.size;
+        let reference = belonging.reference.mesh;
+        let bounds = Aabb::of(&own.mesh.positions).widened(same);
+        let near: Vec<u32> = belonging.reference.tree().in_box(&bounds);
+        let near: Vec<u32> = near.into_iter().filter(|f| !own.has(*f)).collect();
+        let mut corners: Vec<u32> = near.iter().flat_map(|f| reference.faces[*f as usize]).collect();
+        corners.sort_unstable();
+        corners.dedup();
+        let places: Vec<Point> = corners.iter().map(|v| reference.positions[*v as usize]).collect();
+        let hits = nearest(&own.tree, &places, same, progress)?;
+        let cosine = libm::cos(own.near.angle);
+        let has_edge = |face: &u32| {
+            let Some(facing) = normal(reference, *face) else { return false };
+            let facet = |v: &u32| corners.binary_search(v).ok().map(|n| hits[n].0);
+            let touched = reference.faces[*face as usize].iter().filter_map(facet);
+            let turns = |facet| normal(&own.mesh, facet).is_some_and(|n| dot(n, facing).abs() < cosine);
+            touched.filter(|facet| *facet != u32::MAX).any(turns)
+        };
+        let numbers: Vec<u32> = near.into_iter().filter(has_edge).collect();
+        if numbers.is_empty() {
+            return Ok(None);
+        }
+        let mesh = part(reference, &numbers);
+        let tree = Tree::build_watched(&mesh, progress).map_err(|e| Stop::Mesh(e.to_string()))?;
+        Ok(Some(Beside { numbers, mesh, tree }))
+    }
+}
+
+/// The middle one of some numbers, which are sorted.
+fn middle(numbers: &mut [f64]) -> f64 {
+    numbers.sort_unstable_by(f64::total_cmp);
+    numbers.get(numbers.len() / 2).copied().unwrap_or(0.0)
+}
