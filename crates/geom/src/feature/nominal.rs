@@ -121,6 +121,17 @@ impl Nominal {
         }
     }
 
+    /// Its normal or the direction of its axis, of any length; of a sphere, `None`.
+    pub fn direction(&self) -> Option<Vector> {
+        match self {
+            Nominal::Plane { normal, .. } => Some(*normal),
+            Nominal::Cylinder { direction, .. }
+            | Nominal::Cone { direction, .. }
+            | Nominal::Edge { direction, .. } => Some(*direction),
+            Nominal::Sphere { .. } => None,
+        }
+    }
+
     /// Area of the feature as the model has it, holes in it not taken off, mm²; of an edge, `None`.
     pub fn area(&self) -> Option<f64> {
         let turn = std::f64::consts::TAU;

@@ -8,6 +8,7 @@ mod data;
 pub mod decision;
 mod deeper;
 mod denoised;
+mod derived;
 mod deviation;
 mod document;
 mod doubts;

@@ -3,11 +3,11 @@
 use super::belonging::Belonging;
 use super::data::{Data, Stop};
 use super::deeper::deeper;
+use super::derived::derived;
 use super::of_others::OfOthers;
 use super::own_facets::OwnFacets;
 use super::seed::Seeded;
 use crate::characteristic::{Element, Others, Taken};
-use crate::plan::text::DerivedWord;
 use crate::plan::{Class, Feature, Plan, Source};
 use std::collections::BTreeMap;
 use trueness_geom::closest::Tree;
@@ -20,10 +20,12 @@ use trueness_geom::mesh::Mesh;
 use trueness_geom::parallel::prelude::*;
 use trueness_geom::progress::Progress;
 use trueness_geom::shape::Kind;
-use trueness_geom::shape::derived::{Ray, line_plane, median_plane, midpoint, plane_plane, point_plane};
-use trueness_geom::space::{Point, Vector, cross, minus, norm, plus, times};
+use trueness_geom::space::{Point, Vector, cross, dot, minus, norm, unit};
 use trueness_geom::spatial::neighbors::PointTree;
-use trueness_geom::zone::datum::{Datum, mean};
+use trueness_geom::zone::datum::mean;
+
+/// From this angle to its nominal on an element is another one that goes through the points as well, radians.
+const TURNED: f64 = std::f64::consts::FRAC_PI_4;
 
 /// All features of the plan, in its order.
 pub(super) fn features(
@@ -275,7 +277,7 @@ fn normal(nominal: &Nominal) -> Option<Vector> {
 }
 
 /// A feature that nothing was found of yet.
-fn bare(feature: &Feature) -> Taken {
+pub(super) fn bare(feature: &Feature) -> Taken {
     let normal = feature.nominal.as_ref().and_then(normal);
     let edge = matches!(feature.nominal, Some(Nominal::Edge { .. }));
     Taken {
@@ -412,8 +414,19 @@ fn associated(mut taken: Taken, feature: &Feature, progress: &dyn Progress) -> R
         Class::Torus => Kind::Torus,
     };
     let options = Options { method: feature.method, ..Options::default() };
+    let along = taken.nominal.as_ref().and_then(Nominal::direction).and_then(unit);
     taken.element = match fit(&taken.points, kind, &options, progress) {
-        Ok(fit) => Ok(Element::Fit(Box::new(fit))),
+        Ok(fit) => {
+            let turned = fit.shape.direction().zip(along).map(|(is, (shall, _))| dot(is, shall).abs());
+            match turned.map(|cosine| libm::acos(cosine.min(1.0))).filter(|angle| *angle > TURNED) {
+                Some(angle) => Err(format!(
+                    "the {} through its points lies at {:.0}° to the nominal one: they do not determine it; measure more of its surface",
+                    kind.name(),
+                    angle.to_degrees()
+                )),
+                None => Ok(Element::Fit(Box::new(fit))),
+            }
+        }
         Err(FitError::Cancelled) => return Err(Stop::Cancelled),
         Err(e @ FitError::NoSuchMethod { .. }) => {
             let what = format!("feature \"{}\": {e}", feature.id);
@@ -424,62 +437,54 @@ fn associated(mut taken: Taken, feature: &Feature, progress: &dyn Progress) -> R
     Ok(taken)
 }
 
-/// A plane or axis of a feature.
-fn ray(taken: &Taken) -> Result<Ray, String> {
-    let none = || format!("feature \"{}\" has no plane or axis", taken.id);
-    match taken.element.as_ref().map_err(|e| format!("feature \"{}\": {e}", taken.id))? {
-        Element::Derived(Datum::Plane { point, normal }) => Ok(Ray { point: *point, direction: *normal }),
-        Element::Derived(Datum::Axis { point, direction }) => {
-            Ok(Ray { point: *point, direction: *direction })
-        }
-        Element::Fit(fit) => {
-            let (point, direction) = (fit.shape.foot(), fit.shape.direction());
-            Ok(Ray { point: point.ok_or_else(none)?, direction: direction.ok_or_else(none)? })
-        }
-        Element::Point(_) | Element::Derived(Datum::Point(_)) => Err(none()),
-    }
-}
+#[cfg(test)]
+mod tests {
+    use crate::inspection::data::Data;
+    use crate::inspection::run;
+    use crate::plan::Plan;
+    use trueness_geom::mesh::Mesh;
+    use trueness_geom::progress::Silent;
+    use trueness_geom::space::Point;
 
-fn center(taken: &Taken) -> Result<Point, String> {
-    taken.element.as_ref().map_err(|e| format!("feature \"{}\": {e}", taken.id))?;
-    let points = taken.zoned().map_err(|_| format!("feature \"{}\" has no center", taken.id))?;
-    points.first().copied().ok_or_else(|| format!("feature \"{}\" has no center", taken.id))
-}
-
-fn derived(feature: &Feature, how: DerivedWord, a: &Taken, b: &Taken) -> Taken {
-    let mut taken = bare(feature);
-    let made = match how {
-        DerivedWord::MedianPlane => median(&mut taken, a, b),
-        DerivedWord::Intersection => intersection(a, b),
-        DerivedWord::Midpoint => center(a).and_then(|p| center(b).map(|q| Element::Point(midpoint(p, q)))),
-        DerivedWord::Projection => center(a).and_then(|p| {
-            let plane = ray(b)?;
-            Ok(Element::Point(minus(p, times(point_plane(p, plane), plane.direction))))
-        }),
-    };
-    taken.element = made;
-    taken
-}
-
-/// The plane half way between two, and their points projected onto it: its extent.
-fn median(taken: &mut Taken, a: &Taken, b: &Taken) -> Result<Element, String> {
-    let (first, second) = (ray(a)?, ray(b)?);
-    let plane = median_plane(first, second).ok_or("its two planes are perpendicular to each other")?;
-    let onto = |p: &Point| plus(*p, times(-point_plane(*p, plane), plane.direction));
-    taken.points = a.points.iter().chain(&b.points).map(onto).collect();
-    taken.areas = vec![1.0; taken.points.len()];
-    Ok(Element::Derived(Datum::Plane { point: plane.point, normal: plane.direction }))
-}
-
-fn intersection(a: &Taken, b: &Taken) -> Result<Element, String> {
-    let (first, second) = (ray(a)?, ray(b)?);
-    let parallel = "its two features are parallel";
-    match (a.class, b.class) {
-        (Class::Plane, Class::Plane) => {
-            let line = plane_plane(first, second, midpoint(first.point, second.point)).ok_or(parallel)?;
-            Ok(Element::Derived(Datum::Axis { point: line.point, direction: line.direction }))
-        }
-        (Class::Plane, _) => line_plane(second, first).map(Element::Point).ok_or(parallel.into()),
-        _ => line_plane(first, second).map(Element::Point).ok_or(parallel.into()),
+    /// Six points of a bore lie on another cylinder too, of diameter 13.2, whose axis is across; eight on none.
+    #[test]
+    fn points_on_another_cylinder_do_not_measure_a_bore() {
+        let plan = Plan::parse(
+            r#"
+            schema = "trueness/plan/1"
+            measured = "points.xyz"
+            [[feature]]
+            id = "B"
+            shape = "cylinder"
+            extract = { distance = 0.4, coverage = 0.0 }
+            nominal = { point = [0, 0, 0], direction = [0, 0, 1], radius = 6, length = 20 }
+            [[characteristic]]
+            id = "1"
+            kind = "size"
+            size = "GG"
+            feature = "B"
+            nominal = 12
+            lower = -0.1
+            upper = 0.1
+            "#,
+        )
+        .unwrap();
+        let value = |positions: &[Point]| {
+            let measured = Mesh { positions: positions.to_vec(), faces: vec![] };
+            let data = Data { measured: Some(measured), ..Data::default() };
+            run(&plan, data, &Silent).unwrap().values.remove(0).map(|v| v.value)
+        };
+        let six = [
+            [6.000, -0.001, 4.999],
+            [-3.005, 5.200, 5.002],
+            [-3.001, -5.195, 5.001],
+            [4.853, 3.529, 14.999],
+            [-5.482, 2.439, 15.001],
+            [0.627, -5.966, 14.999],
+        ];
+        let eight = [&six[..], &[[6.0, 0.0, 10.0], [0.0, 6.0, 10.0]]].concat();
+        let why = value(&six).unwrap_err();
+        assert!(why.contains("they do not determine it"), "{why}");
+        assert!((value(&eight).unwrap() - 12.0).abs() < 0.006);
     }
 }
