@@ -145,6 +145,11 @@ impl<'a> Rules<'a> {
             && facing.is_none_or(|n| self.faces(center, n, STEEPEST))
     }
 
+    /// Whether a facet about `center` lies near the feature and is no wall that leads away from it.
+    pub(super) fn sloped(&self, center: Point, facing: Vector) -> bool {
+        self.point(center) && self.faces(center, facing, STEEPEST)
+    }
+
     /// Whether a place is near the feature and within its bounds.
     pub(super) fn point(&self, p: Point) -> bool {
         let Nearness { distance, margin, .. } = *self.near;

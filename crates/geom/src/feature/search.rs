@@ -224,7 +224,7 @@ impl<'a> FeatureSearch<'a> {
         self.beside_found(found, &rules, belongs, progress)
     }
 
-    /// The facets, ascending, that lie within the reach and the bounds of `nominal` and face otherwise, without being walls that lead
+    /// The facets, ascending, whose middles lie within the reach and the bounds of `nominal` and that face otherwise, without being walls that lead
     /// away from it, and that are none of what was `found`: slopes that nothing of the feature encloses. None of an edge.
     ///
     /// Cost: one look at each facet near it.
@@ -265,7 +265,7 @@ impl<'a> FeatureSearch<'a> {
         let slopes = |f: &u32| {
             let corners = self.corners(*f);
             let facing = corners.and_then(|c| Some((c, normal(c)?)));
-            facing.is_some_and(|(c, n)| rules.tilted(c, Some(n)) && !rules.facet(c, n))
+            facing.is_some_and(|(c, n)| rules.sloped(center(c), n) && !rules.facet(c, n))
         };
         self.beside_found(found, &rules, slopes, progress)
     }

@@ -19,6 +19,11 @@ const ON: f64 = 1e-3;
 const LEANS: f64 = 4.0;
 /// So many times the angle that a feature allows others of the reference may be turned against it that face as it does.
 const ALIKE: f64 = 2.0;
+/// A facet is of another face if that is so many times nearer.
+const WITHIN: f64 = 10.0;
+/// An edge was broken or rounded if that reaches no farther into the feature than so many times the distance up to which points are sought: a little more
+/// than once, for the border is known by places half of it apart.
+const BROKEN: f64 = 1.1;
 /// Most steps along an edge.
 const STEPS: f64 = 1e4;
 
@@ -155,6 +160,19 @@ impl OwnFacets {
         aside > over && NEARER * off <= away
     }
 
+    /// Whether each of these places is so much nearer to another face of the reference, whichever way it faces, that it is of that one: the ledge of a band
+    /// on a shaft faces as the shoulder beside it.
+    pub(super) fn are_of_others(
+        &self,
+        reference: &Reference,
+        places: &[Point],
+        progress: &dyn Progress,
+    ) -> Result<Vec<bool>, Stop> {
+        let own = nearest(&self.tree, places, f64::INFINITY, progress)?;
+        let all = nearest(reference.tree(), places, f64::INFINITY, progress)?;
+        Ok(own.into_iter().zip(all).map(|(own, all)| WITHIN * all.1 <= own.1).collect())
+    }
+
     /// Whether each of these places lies over the feature, farther inside than its `distance` from where it ends, or outside the
     /// material: edges that were broken or rounded are within that distance, and lack material.
     pub(super) fn over(
@@ -167,10 +185,9 @@ impl OwnFacets {
             return Ok(vec![]);
         }
         let Reference { mesh, size, rounding, .. } = reference;
-        let distance = self.near.distance;
-        let border = PointTree::new(&along_border(&self.mesh, 0.5 * distance));
-        let inside =
-            |p: &Point| border.nearest(p).is_none_or(|(square, _)| square > 2.0 * distance * distance);
+        let edge = BROKEN * self.near.distance;
+        let border = PointTree::new(&along_border(&self.mesh, 0.5 * self.near.distance));
+        let inside = |p: &Point| border.nearest(p).is_none_or(|(square, _)| square > edge * edge);
         let hits = nearest(reference.tree(), places, ELSEWHERE * size, progress)?;
         let over = |(p, (face, _)): (&Point, (u32, f64))| {
             self.has(face) && (inside(p) || height(mesh, face, *p) > *rounding)

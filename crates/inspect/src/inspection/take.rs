@@ -246,7 +246,9 @@ impl OfMesh<'_> {
         let apart = facets.apart(&found, nominal, near, progress).map_err(failed)?;
         let (joined, mut others) = match (told, self.belonging) {
             (Some((reference, own)), _) => {
-                (which(&apart, own.are_own(reference, &places(&apart), progress)?), vec![])
+                let own_ones = which(&apart, own.are_own(reference, &places(&apart), progress)?);
+                let of_others = own.are_of_others(reference, &places(&own_ones), progress)?;
+                (which(&own_ones, of_others.into_iter().map(|is| !is).collect()), vec![])
             }
             (None, Some(_)) => (apart, vec![]),
             (None, None) => (vec![], apart),
