@@ -119,6 +119,13 @@ pub(super) fn better(search: &Search, result: &Alignment) -> Option<Rigid> {
     (far(&least) + search.spacing < far(&result.reference_from_measured)).then_some(least)
 }
 
+/// Whether a pose is that of the result, but for what the shape leaves free.
+pub(super) fn is_same(search: &Search, result: &Alignment, pose: &Rigid) -> bool {
+    let own = result.reference_from_measured;
+    let between = pose.after(&own.inverse());
+    search.apart(pose, &own) <= search.spacing || allowed(&between, &result.freedoms, search.spacing)
+}
+
 /// Whether a motion is one of those that the shape leaves free, to within `tolerance` of its axes.
 fn allowed(motion: &Rigid, freedoms: &[Freedom], tolerance: f64) -> bool {
     let slides = freedoms.iter().any(|f| matches!(f, Freedom::Slides { .. }));

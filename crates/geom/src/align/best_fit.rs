@@ -1,7 +1,7 @@
 //! The best fit from any pose: start, iteration, and what the result is worth.
 
 use super::alignment::POOR;
-use super::alternatives::better;
+use super::alternatives::{better, is_same};
 use super::icp::{Ended, MOST, Match, Problem, Room, median_distance};
 use super::sample::{Measured, Samples};
 use super::start::{Candidate, Search};
@@ -111,7 +111,7 @@ pub fn best_fit(
     if let Some(search) = start.search.take() {
         if options.robust && result.share < EXPLAINED {
             let own = result.reference_from_measured;
-            let again = work.sought_again(&search, &own, &samples, &some, progress)?;
+            let again = work.sought_again(&search, &result, &samples, &some, progress)?;
             start.poses.push(own);
             start.poses.extend(&again);
             let (pose, sigma) = work.choose(&[&[own][..], &again].concat(), &some, progress)?;
@@ -123,9 +123,7 @@ pub fn best_fit(
                 }
                 result = settled(pose, sigma)?;
             }
-            let pose = result.reference_from_measured;
-            let here = |r: &&Rigid| search.apart(r, &pose) <= search.spacing;
-            let found = [own].iter().chain(&again).filter(here).count();
+            let found = [own].iter().chain(&again).filter(|pose| is_same(&search, &result, pose)).count();
             unconfirmed = (found < 2).then_some(1 + AGAIN);
         }
         let revolved = work.revolved(&search, &result, &some, progress)?;
@@ -259,11 +257,11 @@ impl Work<'_> {
     }
 
     /// The best pose of each further search, with samples and pairs of its own: where much does not lie on the reference, a search
-    /// may miss the place. As soon as one ends at `own` it is enough; else [`AGAIN`] poses, fewer where a search finds nothing.
+    /// may miss the place. As soon as one ends at that of the result it is enough; else [`AGAIN`] poses, fewer where a search finds nothing.
     fn sought_again(
         &self,
         search: &Search,
-        own: &Rigid,
+        result: &Alignment,
         samples: &Samples,
         some: &Samples,
         progress: &dyn Progress,
@@ -278,7 +276,7 @@ impl Work<'_> {
             if !poses.is_empty() {
                 found.push(self.choose(&poses, some, progress)?.0);
             }
-            if found.last().is_some_and(|f| search.apart(f, own) <= search.spacing) {
+            if found.last().is_some_and(|pose| is_same(search, result, pose)) {
                 break;
             }
         }
