@@ -5,11 +5,13 @@
 //! on the one, and off the other on the side where the one is, belongs to the one. What goes on at the other side out of the material, a burr or what the part stands on,
 //! leaves the verdict open. Everything else counts, as chamfers and bell-mouths, which lie on neither.
 
+use super::belonging::FARTHEST;
 use super::data::Stop;
 use super::of_others::{OfOthers, SAME, WALL_REACH};
 use super::reference::{height, nearest, normal, part};
 use trueness_geom::closest::Tree;
 use trueness_geom::mesh::Mesh;
+use trueness_geom::parallel::prelude::*;
 use trueness_geom::space::{Aabb, Point, Vector, cross, dot, least_axis, minus, unit};
 use trueness_geom::spatial::neighbors::PointTree;
 use trueness_geom::stats::SIGMA_OVER_MAD;
@@ -17,6 +19,8 @@ use trueness_geom::stats::SIGMA_OVER_MAD;
 /// Points around one at an edge that tell where a surface is there, and the fewest that do of a face beside the feature.
 const AROUND: usize = 24;
 const FEWEST: usize = 8;
+/// Points of other faces around one that are asked which of them are of that beside it.
+const ASKED: usize = 192;
 /// Over so many standard deviations a point is off a surface: one in a million of normal noise.
 const OFF: f64 = 5.0;
 /// Up to so many it tells where the surface is, found in so many rounds.
@@ -38,6 +42,13 @@ struct Clear {
     places: Vec<Point>,
     /// Of each how far off the surface of the reference it is, out of the material.
     heights: Vec<f64>,
+}
+
+impl Clear {
+    /// Some of them, with their heights.
+    fn of<'a>(&'a self, numbers: impl Iterator<Item = u32> + 'a) -> impl Iterator<Item = (Point, f64)> + 'a {
+        numbers.map(|n| (self.places[n as usize], self.heights[n as usize]))
+    }
 }
 
 /// Where a surface is near a place: its height over that of the reference, and how far a point of it may be off.
@@ -86,7 +97,7 @@ fn rising(places: &[[f64; 3]]) -> (f64, [f64; 2]) {
     (h - slopes[0] * x - slopes[1] * y, slopes)
 }
 
-/// Measured points near an edge of the feature, each with its height over it, the way out of it, and the nearest facet beside it.
+/// A measured point near an edge of the feature, with its height over it, the way out of it, and the nearest facet beside it.
 struct Asked {
     point: u32,
     place: Point,
@@ -103,6 +114,64 @@ struct OthersClear {
     off: Vec<f64>,
 }
 
+/// Whose a point is that is not the feature's.
+#[derive(Clone, Copy, PartialEq)]
+enum Whose {
+    /// Of the face beside it.
+    Face,
+    /// It goes on beyond the feature along such a face.
+    Nobody,
+}
+
+/// A feature and the faces beside it, as they really are.
+struct Edges<'a> {
+    of: &'a OfOthers<'a>,
+    own_clear: Clear,
+    others: OthersClear,
+    beside: Beside,
+    /// How far off its place a face beside the feature is at most.
+    highest: f64,
+}
+
+impl Edges<'_> {
+    /// `None` of a point that may be the feature's.
+    fn whose(&self, asked: &Asked) -> Option<(u32, Whose)> {
+        let Asked { point, place, off, out, beside: facet } = *asked;
+        let OfOthers { belonging, own, .. } = *self.of;
+        let rounding = belonging.reference.rounding;
+        let over_face = height(&self.beside.mesh, facet, place);
+        let sag = self.of.sag(self.beside.numbers[facet as usize]);
+        // Where it rises, near the edge a face may be somewhat farther off than where it was measured.
+        if over_face.abs() > 2.0 * self.highest + sag + rounding {
+            return None;
+        }
+        let own_near = self.own_clear.tree.k_nearest(&place, AROUND, None);
+        let level = Level::at(place, out, self.own_clear.of(own_near.iter().map(|n| n.1)), rounding);
+        if (off - level.height).abs() <= level.slack {
+            return None;
+        }
+        let facing = normal(&self.beside.mesh, facet)?;
+        let cosine = libm::cos(own.near.angle);
+        let near = self.others.clear.tree.k_nearest(&place, ASKED, None);
+        let is_alike = |n: &u32| dot(self.others.facing[*n as usize], facing) >= cosine;
+        let alike: Vec<u32> = near.iter().map(|n| n.1).filter(is_alike).take(AROUND).collect();
+        if alike.len() < FEWEST {
+            return None;
+        }
+        let face = Level::at(place, facing, self.others.clear.of(alike.iter().copied()), rounding);
+        let farthest = FARTHEST * own.near.distance;
+        if (over_face - face.height).abs() > face.slack.min(farthest) + sag {
+            return None;
+        }
+        let mut offs: Vec<f64> = alike.iter().map(|n| self.others.off[*n as usize]).collect();
+        if middle(&mut offs).signum() * (off - level.height) > level.slack {
+            Some((point, Whose::Face))
+        } else {
+            (off > level.height.max(0.0) + level.slack).then_some((point, Whose::Nobody))
+        }
+    }
+}
+
 impl OfOthers<'_> {
     /// Of these measured points, and of those of pieces beside the feature, those that are of a face beside it, and those that go on
     /// beyond the feature along such a face, out of the material.
@@ -110,44 +179,23 @@ impl OfOthers<'_> {
     /// Cost: one look at each measured point, a closest place on the faces beside for each of those asked, and neighbors of those near an
     /// edge.
     pub(super) fn at_edges(&self, points: &[u32], of_pieces: &[u32]) -> Result<[Vec<u32>; 2], Stop> {
-        let OfOthers { belonging, own, .. } = *self;
-        let mut found = [vec![], vec![]];
-        let Some(beside) = self.beside()? else { return Ok(found) };
+        let Some(beside) = self.beside()? else { return Ok(Default::default()) };
         let (own_clear, asked) = self.clear_and_asked(&beside, points, of_pieces)?;
-        let Some(own_clear) = own_clear.filter(|_| !asked.is_empty()) else { return Ok(found) };
+        let Some(own_clear) = own_clear.filter(|_| !asked.is_empty()) else { return Ok(Default::default()) };
         let others = self.others_clear();
-        let cosine = libm::cos(own.near.angle);
-        let rounding = belonging.reference.rounding;
-        for Asked { point, place, off, out, beside: facet } in asked {
-            let Some(facing) = normal(&beside.mesh, facet) else { continue };
-            let near = others.clear.tree.k_nearest(&place, 8 * AROUND, None);
-            let alike =
-                near.iter().map(|n| n.1 as usize).filter(|n| dot(others.facing[*n], facing) >= cosine);
-            let alike: Vec<usize> = alike.take(AROUND).collect();
-            if alike.len() < FEWEST {
-                continue;
-            }
-            let of_face = alike.iter().map(|n| (others.clear.places[*n], others.clear.heights[*n]));
-            let face = Level::at(place, facing, of_face, rounding);
-            let sag = self.sag(beside.numbers[facet as usize]);
-            if (height(&beside.mesh, facet, place) - face.height).abs() > face.slack + sag {
-                continue;
-            }
-            let own_near = own_clear.tree.k_nearest(&place, AROUND, None);
-            let of_own =
-                own_near.iter().map(|n| (own_clear.places[n.1 as usize], own_clear.heights[n.1 as usize]));
-            let level = Level::at(place, out, of_own, rounding);
-            let side = middle(&mut alike.iter().map(|n| others.off[*n]).collect::<Vec<f64>>()).signum();
-            if side * (off - level.height) > level.slack {
-                found[0].push(point);
-            } else if off > level.height.max(0.0) + level.slack {
-                found[1].push(point);
-            }
+        let highest = others.clear.heights.iter().fold(0.0, |m: f64, h| m.max(h.abs()));
+        let edges = Edges { of: self, own_clear, others, beside, highest };
+        let of = |asked: Asked| if self.progress.cancelled() { None } else { edges.whose(&asked) };
+        let told: Vec<(u32, Whose)> = asked.into_par_iter().filter_map(of).collect();
+        if self.progress.cancelled() {
+            return Err(Stop::Cancelled);
         }
-        for numbers in &mut found {
+        let those = |whose| {
+            let mut numbers: Vec<u32> = told.iter().filter(|t| t.1 == whose).map(|t| t.0).collect();
             numbers.sort_unstable();
-        }
-        Ok(found)
+            numbers
+        };
+        Ok([those(Whose::Face), those(Whose::Nobody)])
     }
 
     /// The points of the feature clear of its edges, `None` if too few are, and the points near an edge.

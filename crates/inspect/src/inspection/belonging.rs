@@ -15,7 +15,7 @@ use trueness_geom::progress::Progress;
 /// not one shall remain.
 pub(super) const UPON: f64 = 10.0;
 /// But no farther than this share of the distance up to which points are sought.
-const FARTHEST: f64 = 0.25;
+pub(super) const FARTHEST: f64 = 0.25;
 
 /// The measured data on the reference.
 pub(super) struct Belonging<'a> {

@@ -1,9 +1,8 @@
 //! Features that are derived from others: median planes, intersections, midpoints, projections.
 
-use super::take::bare;
 use crate::characteristic::{Element, Taken};
 use crate::plan::text::DerivedWord;
-use crate::plan::{Class, Feature};
+use crate::plan::Class;
 use trueness_geom::shape::derived::{Ray, line_plane, median_plane, midpoint, plane_plane, point_plane};
 use trueness_geom::space::{Point, minus, plus, times};
 use trueness_geom::zone::datum::Datum;
@@ -30,9 +29,8 @@ fn center(taken: &Taken) -> Result<Point, String> {
     points.first().copied().ok_or_else(|| format!("feature \"{}\" has no center", taken.id))
 }
 
-/// A feature that is made of two others.
-pub(super) fn derived(feature: &Feature, how: DerivedWord, a: &Taken, b: &Taken) -> Taken {
-    let mut taken = bare(feature);
+/// A feature that is made of two others; `taken` is what it is without them.
+pub(super) fn derived(mut taken: Taken, how: DerivedWord, a: &Taken, b: &Taken) -> Taken {
     let made = match how {
         DerivedWord::MedianPlane => median(&mut taken, a, b),
         DerivedWord::Intersection => intersection(a, b),

@@ -70,7 +70,7 @@ pub(super) fn features(
         plan.features.par_iter().enumerate().map(of).collect::<Result<_, Stop>>()?;
     let mut all: Vec<Taken> = Vec::with_capacity(plan.features.len());
     for (feature, own) in plan.features.iter().zip(own) {
-        let made = |how, a: usize, b: usize| derived(feature, how, &all[a], &all[b]);
+        let made = |how, a: usize, b: usize| derived(bare(feature), how, &all[a], &all[b]);
         let taken = match (own, &feature.source) {
             (Some(taken), _) => taken,
             (None, Source::Derived { how, of: [a, b] }) => made(*how, *a, *b),
@@ -112,7 +112,7 @@ pub(super) fn again(
     let mut all: Vec<Taken> = Vec::with_capacity(features.len());
     for (feature, taken) in plan.features.iter().zip(features) {
         all.push(match &feature.source {
-            Source::Derived { how, of: [a, b] } => derived(feature, *how, &all[*a], &all[*b]),
+            Source::Derived { how, of: [a, b] } => derived(bare(feature), *how, &all[*a], &all[*b]),
             _ if taken.points.is_empty() => taken.clone(),
             _ => {
                 let mut taken = taken.clone();
@@ -279,7 +279,7 @@ fn normal(nominal: &Nominal) -> Option<Vector> {
 }
 
 /// A feature that nothing was found of yet.
-pub(super) fn bare(feature: &Feature) -> Taken {
+fn bare(feature: &Feature) -> Taken {
     let normal = feature.nominal.as_ref().and_then(normal);
     let edge = matches!(feature.nominal, Some(Nominal::Edge { .. }));
     Taken {
