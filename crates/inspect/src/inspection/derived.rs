@@ -1,8 +1,8 @@
 //! Features that are derived from others: median planes, intersections, midpoints, projections.
 
 use crate::characteristic::{Element, Taken};
-use crate::plan::text::DerivedWord;
 use crate::plan::Class;
+use crate::plan::text::DerivedWord;
 use trueness_geom::shape::derived::{Ray, line_plane, median_plane, midpoint, plane_plane, point_plane};
 use trueness_geom::space::{Point, minus, plus, times};
 use trueness_geom::zone::datum::Datum;

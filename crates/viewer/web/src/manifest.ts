@@ -118,6 +118,8 @@ export interface Pick {
   position: [number, number, number]
   /** Places of its feature that the leader of a frame ends at where its own is hidden. */
   others: [number, number, number][]
+  /** How many of the first of them show what it says. */
+  reached: number
   /** The place of the reference that it was measured from. */
   surface: [number, number, number] | null
   /** That is so far away that the place is not on the part. */

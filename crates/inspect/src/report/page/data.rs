@@ -1,7 +1,7 @@
 //! What the script reads: manifest, words, blobs.
 
 use super::super::payload::{Entry, Payload};
-use super::super::picture::{FirstView, others};
+use super::super::picture::{FirstView, others, reached};
 use super::super::subject::{Frame, Map, Pick};
 use super::super::values::json;
 use super::super::{Marks, ReportError, ReportInput, Up, ViewObject, ViewRole, text};
@@ -68,6 +68,7 @@ struct PickEntry {
     reach: Option<f64>,
     normal: Option<Vector>,
     others: Vec<Point>,
+    reached: usize,
     mark: Option<usize>,
     object: Option<usize>,
     map: Option<usize>,
@@ -207,6 +208,7 @@ fn picks(input: &ReportInput, first: Option<&FirstView>) -> Vec<PickEntry> {
         reach: p.reach,
         normal: p.normal.or_else(|| mark(&p)?.normal),
         others: others(&p, mark(&p)),
+        reached: reached(&p, mark(&p)),
         mark: p.mark,
         object: p.object,
         map: p.map,

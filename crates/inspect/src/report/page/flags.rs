@@ -134,7 +134,9 @@ fn draw(s: Style, flag: &Placed, pick: &Pick, view: &FirstView, scale: Option<&S
         (line(&format!("stub{class}"), [*inner, middle], [*begin, middle]))
         (line(&format!("leader{class}"), [*begin, middle], [*x, *y]))
         @if let Some(surface) = surface { (line("way", [*x, *y], view.pixel(&surface))) }
-        (leaf("circle", &[("class", &"anchor"), ("cx", &places(*x)), ("cy", &places(*y)), ("r", &4.5)]))
+        @if view.reached.get(flag.pick) != Some(&false) {
+            (leaf("circle", &[("class", &"anchor"), ("cx", &places(*x)), ("cy", &places(*y)), ("r", &4.5)]))
+        }
         @match &pick.frame {
             Some(frame) => (written(s, flag, frame, class)),
             None => {

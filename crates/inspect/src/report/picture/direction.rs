@@ -41,6 +41,8 @@ pub struct Direction {
     pub hidden: Vec<bool>,
     /// For each pick, where its leader ends: at its position, or if that is hidden at another place of its feature.
     pub ends: Vec<Point>,
+    /// For each pick, whether its value is reached where its leader ends.
+    pub reached: Vec<bool>,
 }
 
 /// Chooses the direction for a report.
@@ -82,23 +84,25 @@ pub fn direction(input: &ReportInput, picks: &[Pick]) -> Direction {
     let flagged = flagged(picks, mapped);
     let flags: Vec<PlaceToSee> = flagged.iter().map(place).collect();
     let mut ends: Vec<Point> = picks.iter().map(|p| p.position).collect();
+    let mut reached_there = vec![true; picks.len()];
     let blocked = blocked(&probes(&flags), &[best.toward], &opaque);
     let mut first = 0;
     for (n, place) in flagged.iter().zip(&flags) {
         let mine = &blocked[first..first + place.samples.len()];
         first += mine.len();
         hidden[*n] = !place.is_seen(mine, 0);
-        let seen = place.samples.iter().zip(mine).find(|(_, blocked)| **blocked == 0);
-        if let Some((sample, _)) = seen.filter(|_| place.any) {
-            ends[*n] = *sample;
+        let seen = (0..).zip(&place.samples).zip(mine).find(|(_, blocked)| **blocked == 0);
+        if let Some(((sample, end), _)) = seen.filter(|_| place.any) {
+            ends[*n] = *end;
+            reached_there[*n] = sample <= place.reached;
         }
     }
     let places = important.into_iter().zip(best.seen.iter().map(|s| s.is_none())).collect();
-    Direction { toward: best.toward, places, off, hidden, ends }
+    Direction { toward: best.toward, places, off, hidden, ends, reached: reached_there }
 }
 
-/// Places beside its own at which a pick is seen where that is hidden. Of a frame, whose leader may end there: an axis or a
-/// middle lies inside the part. Of a mark that has areas alone: its middle lies inside the shell that it is.
+/// Places beside its own at which a pick is seen where that is hidden. Of a frame, whose leader may end there, others where its value is reached, and
+/// then any of its feature: an axis or a middle lies inside the part. Of a mark that has areas alone: its middle lies inside the shell that it is.
 pub fn others(pick: &Pick, mark: Option<&Mark>) -> Vec<Point> {
     let Some(mark) = mark else { return vec![] };
     let shell = mark.segments.is_empty() && mark.points.is_empty();
@@ -108,7 +112,16 @@ pub fn others(pick: &Pick, mark: Option<&Mark>) -> Vec<Point> {
         (false, false) => vec![],
     };
     let step = all.len().div_ceil(OTHERS).max(1);
-    all.into_iter().step_by(step).collect()
+    let reached = pick.frame.iter().flat_map(|_| &mark.points).take(OTHERS);
+    reached.copied().chain(all.into_iter().step_by(step)).collect()
+}
+
+/// How many of the first of [`others`] show what the pick says.
+pub fn reached(pick: &Pick, mark: Option<&Mark>) -> usize {
+    match (&pick.frame, mark) {
+        (Some(_), Some(mark)) => mark.points.len().min(OTHERS),
+        _ => others(pick, mark).len(),
+    }
 }
 
 /// The picks with a flag in the first view, some of the first: of a value of the first map where that is shown, else of a frame.
@@ -146,6 +159,8 @@ struct PlaceToSee {
     near: f64,
     /// It is seen where any of the samples is; else most of them must be.
     any: bool,
+    /// How many of the first samples beside the anchor show what the pick says.
+    reached: usize,
 }
 
 impl PlaceToSee {
@@ -169,6 +184,7 @@ impl PlaceToSee {
             normal: normal.and_then(|n| unit(n).map(|(n, _)| n)),
             near: under.max(NEAR * diagonal),
             any,
+            reached: reached(pick, mark),
         }
     }
 }

@@ -11,7 +11,7 @@ mod paint;
 mod png;
 mod shown;
 
-pub use direction::{flagged, others};
+pub use direction::{flagged, others, reached};
 pub use shown::first_view;
 
 use super::subject::Pick;
@@ -41,6 +41,8 @@ pub struct FirstView {
     pub hidden: Vec<bool>,
     /// For each pick, where its leader ends.
     pub ends: Vec<Point>,
+    /// For each pick, whether its value is reached where its leader ends.
+    pub reached: Vec<bool>,
     /// Whether it shows values as colors, and so flags.
     pub mapped: bool,
     camera: Camera,
@@ -49,7 +51,8 @@ pub struct FirstView {
 impl FirstView {
     /// Of a report with these picks.
     pub fn of(input: &ReportInput, picks: &[Pick]) -> FirstView {
-        let direction::Direction { toward, places, off, hidden, ends } = direction::direction(input, picks);
+        let direction::Direction { toward, places, off, hidden, ends, reached } =
+            direction::direction(input, picks);
         let shown = shown_objects(input.objects);
         let mapped = mapped(&shown);
         let finite = |p: &&Point| p.iter().all(|x| x.is_finite());
@@ -63,7 +66,7 @@ impl FirstView {
         };
         let camera =
             Camera::first_view(all, input.options.up, toward, [WIDTH, HEIGHT, margin].map(|n| FINE * n));
-        FirstView { toward, places, off, hidden, ends, mapped, camera }
+        FirstView { toward, places, off, hidden, ends, reached, mapped, camera }
     }
 
     /// Width and height of the picture in pixels.

@@ -45,6 +45,8 @@ interface Flag {
 interface Placed {
   flag: Flag
   hidden: boolean
+  /** Whether what it says is reached where the leader ends: elsewhere it has no dot. */
+  reached: boolean
   width: number
   height: number
   /** The place, the end of the flag that looks to it, and where the leader begins: no flag of the column reaches as far. */
@@ -156,6 +158,7 @@ export class Flags {
       const { flag, hidden, x, y, inner, start, left, top } = c
       flag.box.classList.remove('left-out')
       for (const e of marks(flag)) e.classList.toggle('left-out', !c.within)
+      flag.dot.classList.toggle('left-out', !c.within || !c.reached)
       for (const e of [flag.box, flag.stub, flag.line, flag.dot]) e.classList.toggle('hidden', hidden || !c.within)
       flag.box.classList.toggle('selected', flag.number === this.state.picked)
       flag.box.style.top = `${top}px`
@@ -174,7 +177,7 @@ export class Flags {
     const { width, pixels } = this.stage.eye
     target.setAttribute('viewBox', `0 0 ${width} ${pixels}`)
     target.replaceChildren()
-    for (const { flag, hidden, x, y, inner, start: begin, left, top, width: w, height: h } of this.layout(sizeOnPaper, RIM)) {
+    for (const { flag, hidden, reached, x, y, inner, start: begin, left, top, width: w, height: h } of this.layout(sizeOnPaper, RIM)) {
       const text = flag.pick.off ? `${flag.text} · ${this.words.of('flag.off')}` : flag.text
       const { frame } = flag.pick
       const name = `${hidden ? 'hidden' : ''} ${frame ? `frame ${frame.verdict}` : ''}`
@@ -187,7 +190,7 @@ export class Flags {
       target.append(
         svg('line', { class: `stub ${name}`, x1: inner, y1: top + h / 2, x2: begin, y2: top + h / 2 }),
         svg('line', { class: `leader ${name}`, x1: begin, y1: top + h / 2, x2: x, y2: y }),
-        svg('circle', { class: 'anchor', cx: x, cy: y, r: 3.5 }),
+        ...(reached ? [svg('circle', { class: 'anchor', cx: x, cy: y, r: 3.5 })] : []),
         svg('rect', { class: name, x: left, y: top, width: w, height: h, rx: 4 }),
         ...sign,
         ...(frame ? [svg('text', { class: name, x: left + 8, y: top + h / 2 }, flag.label)] : []),
@@ -203,7 +206,7 @@ export class Flags {
     // Heights at which a leader runs in from the other column, to a place beneath this one.
     const crossed: [number[], number[]] = [[], []]
     for (const flag of this.flags) {
-      const { place, hidden } = this.stage.endOf(flag.pick)
+      const { place, hidden, reached } = this.stage.endOf(flag.pick)
       const { x, y } = eye.project(place)
       const own = size(flag)
       const within = x >= 0 && x <= eye.width && y >= 0 && y <= eye.pixels
@@ -212,7 +215,7 @@ export class Flags {
       if (beneath) crossed[near].push(y)
       const side = beneath ? 1 - near : near
       const inner = side === 1 ? eye.width - RIM - own.width : RIM + own.width
-      columns[side].push({ flag, hidden, ...own, x, y, inner, start: inner, within, left: side === 1 ? inner : RIM, top: 0 })
+      columns[side].push({ flag, hidden, reached, ...own, x, y, inner, start: inner, within, left: side === 1 ? inner : RIM, top: 0 })
     }
     const wide = eye.width >= NARROW
     const kept = columns.map((column, side) => {

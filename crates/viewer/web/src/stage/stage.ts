@@ -212,13 +212,17 @@ export class Stage {
     return this.fromCenter(pick.position)
   }
 
-  /** Where the leader to a pick ends in this view, and whether that is hidden: at its own place, if only that were seen. */
-  endOf(pick: Pick): { place: Vector3; hidden: boolean } {
+  /**
+   * Where the leader to a pick ends in this view, whether that is hidden, as its own place is if only that were seen, and whether what it says is
+   * reached there.
+   */
+  endOf(pick: Pick): { place: Vector3; hidden: boolean; reached: boolean } {
     const slack = this.slackOf(pick)
     const own = this.placeOf(pick)
-    if (!this.sight.hidden(own, slack)) return { place: own, hidden: false }
-    const seen = pick.others.map((other) => this.fromCenter(other)).find((other) => !this.sight.hidden(other, slack))
-    return { place: seen ?? own, hidden: seen === undefined }
+    if (!this.sight.hidden(own, slack)) return { place: own, hidden: false, reached: true }
+    const others = pick.others.map((other) => this.fromCenter(other))
+    const seen = others.findIndex((other) => !this.sight.hidden(other, slack))
+    return seen < 0 ? { place: own, hidden: true, reached: true } : { place: others[seen], hidden: false, reached: seen < pick.reached }
   }
 
   /** The place that it was measured from, likewise. */
