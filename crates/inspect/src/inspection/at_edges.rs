@@ -2,8 +2,8 @@
 //!
 //! A bore that is too wide ends the face about it earlier, and the upper end of its wall has its nearest place on the reference on that
 //! face; a face that is too high lets the wall of the bore go on. Where both really are, their points clear of the edge tell: what lies
-//! on the one, and off the other on the side where the one is, belongs to the one. What goes on at the other side out of the material, a burr or what the part stands on,
-//! leaves the verdict open. Everything else counts, as chamfers and bell-mouths, which lie on neither.
+//! on the one, and off the other on the side where the one is, belongs to the one. What goes on at the other side, a burr, what the part stands on, the flank
+//! of a groove, leaves the verdict open. Everything else counts, as chamfers and bell-mouths, which lie on neither.
 
 use super::belonging::FARTHEST;
 use super::data::Stop;
@@ -104,6 +104,8 @@ struct Asked {
     off: f64,
     out: Vector,
     beside: u32,
+    /// Whether it is of a piece beside the feature, or else among its points.
+    of_piece: bool,
 }
 
 /// The points of the faces beside the feature, with the sides of them.
@@ -136,7 +138,7 @@ struct Edges<'a> {
 impl Edges<'_> {
     /// `None` of a point that may be the feature's.
     fn whose(&self, asked: &Asked) -> Option<(u32, Whose)> {
-        let Asked { point, place, off, out, beside: facet } = *asked;
+        let Asked { point, place, off, out, beside: facet, of_piece } = *asked;
         let OfOthers { belonging, own, .. } = *self.of;
         let rounding = belonging.reference.rounding;
         let over_face = height(&self.beside.mesh, facet, place);
@@ -159,22 +161,24 @@ impl Edges<'_> {
             return None;
         }
         let face = Level::at(place, facing, self.others.clear.of(alike.iter().copied()), rounding);
-        let farthest = FARTHEST * own.near.distance;
-        if (over_face - face.height).abs() > face.slack.min(farthest) + sag {
+        let off_face = (over_face - face.height).abs() - sag;
+        if off_face > face.slack {
             return None;
         }
         let mut offs: Vec<f64> = alike.iter().map(|n| self.others.off[*n as usize]).collect();
-        if middle(&mut offs).signum() * (off - level.height) > level.slack {
-            Some((point, Whose::Face))
-        } else {
-            (off > level.height.max(0.0) + level.slack).then_some((point, Whose::Nobody))
+        let side = middle(&mut offs).signum();
+        if side * (off - level.height) > level.slack && off_face <= FARTHEST * own.near.distance {
+            return Some((point, Whose::Face));
         }
+        // What goes on into the material counts, but for what only its way would tell to be of the face: the flank of a groove.
+        let goes_on = off > level.height.max(0.0) + level.slack || of_piece;
+        goes_on.then_some((point, Whose::Nobody))
     }
 }
 
 impl OfOthers<'_> {
     /// Of these measured points, and of those of pieces beside the feature, those that are of a face beside it, and those that go on
-    /// beyond the feature along such a face, out of the material.
+    /// beyond the feature along such a face.
     ///
     /// Cost: one look at each measured point, a closest place on the faces beside for each of those asked, and neighbors of those near an
     /// edge.
@@ -222,7 +226,14 @@ impl OfOthers<'_> {
                 heights.push(off);
             }
             if hit.0 != u32::MAX {
-                asked.push(Asked { point: all[n], place, off, out, beside: hit.0 });
+                asked.push(Asked {
+                    point: all[n],
+                    place,
+                    off,
+                    out,
+                    beside: hit.0,
+                    of_piece: n >= points.len(),
+                });
             }
         }
         let is_enough = clear.len() >= AROUND;
