@@ -121,7 +121,7 @@ struct OthersClear {
 enum Whose {
     /// Of the face beside it.
     Face,
-    /// It goes on beyond the feature along such a face.
+    /// It goes on beyond the feature along such a face, or may be of one.
     Nobody,
 }
 
@@ -167,8 +167,10 @@ impl Edges<'_> {
         }
         let mut offs: Vec<f64> = alike.iter().map(|n| self.others.off[*n as usize]).collect();
         let side = middle(&mut offs).signum();
-        if side * (off - level.height) > level.slack && off_face <= FARTHEST * own.near.distance {
-            return Some((point, Whose::Face));
+        if side * (off - level.height) > level.slack {
+            // A face that was hardly measured tells nothing for certain.
+            let is_known = off_face <= FARTHEST * own.near.distance;
+            return Some((point, if is_known { Whose::Face } else { Whose::Nobody }));
         }
         // What goes on into the material counts, but for what only its way would tell to be of the face: the flank of a groove.
         let goes_on = off > level.height.max(0.0) + level.slack || of_piece;

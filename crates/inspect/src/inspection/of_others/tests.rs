@@ -321,6 +321,17 @@ fn a_wall_off_its_place_is_no_part_of_the_plane_beside_it() {
     }
 }
 
+/// The flank of a groove at the foot of a ramp goes on as the ramp does, and a scan from above sees nothing else of the groove.
+#[test]
+fn a_groove_along_a_ramp_leaves_the_verdict_open() {
+    let (rise, deep) = (libm::tan(60f64.to_radians()), 0.4);
+    let foot = [10.0 - deep / rise, -deep];
+    let of = |foot: [f64; 2]| vec![[[-10.0, 0.0], [foot[0], 0.0]], [foot, [13.0, 3.0 * rise]]];
+    let cloud = strewn(&of(foot), 30.0, 0.003);
+    let value = greatest(&cloud, &strips(&of([10.0, 0.0])), TOP, "distance = 0.5");
+    assert!(value > 0.3, "{value}");
+}
+
 /// A slot that is off its place: the points of each wall lie as far off it as those of the other wall, and no verdict rests on which is which.
 #[test]
 fn points_between_two_faces_leave_the_verdict_open() {
