@@ -21,6 +21,11 @@ const AROUND: usize = 24;
 const FEWEST: usize = 8;
 /// Points of other faces around one that are asked which of them are of that beside it.
 const ASKED: usize = 192;
+/// Up to so many times the angle that a feature allows facets of a face beside it turn against each other where it is curved.
+const ALIKE: f64 = 2.0;
+/// At a corner facets are as near that differ by no more than this share; faces that are asked there at most.
+const CORNER: f64 = 0.25;
+const FACES: usize = 4;
 /// Over so many standard deviations a point is off a surface: one in a million of normal noise.
 const OFF: f64 = 5.0;
 /// Up to so many it tells where the surface is, found in so many rounds.
@@ -97,13 +102,14 @@ fn rising(places: &[[f64; 3]]) -> (f64, [f64; 2]) {
     (h - slopes[0] * x - slopes[1] * y, slopes)
 }
 
-/// A measured point near an edge of the feature, with its height over it, the way out of it, and the nearest facet beside it.
+/// A measured point near an edge of the feature, with its height over it, the way out of it, and the nearest facet beside it with its distance.
 struct Asked {
     point: u32,
     place: Point,
     off: f64,
     out: Vector,
     beside: u32,
+    away: f64,
     /// Whether it is of a piece beside the feature, or else among its points.
     of_piece: bool,
 }
@@ -138,30 +144,63 @@ struct Edges<'a> {
 impl Edges<'_> {
     /// `None` of a point that may be the feature's.
     fn whose(&self, asked: &Asked) -> Option<(u32, Whose)> {
-        let Asked { point, place, off, out, beside: facet, of_piece } = *asked;
-        let OfOthers { belonging, own, .. } = *self.of;
-        let rounding = belonging.reference.rounding;
-        let over_face = height(&self.beside.mesh, facet, place);
+        let rounding = self.of.belonging.reference.rounding;
+        let facets: Vec<u32> =
+            self.facets_at(asked).into_iter().filter(|f| self.may_lie_on(asked, *f)).collect();
+        if facets.is_empty() {
+            return None;
+        }
+        let near = self.own_clear.tree.k_nearest(&asked.place, AROUND, None);
+        let level = Level::at(asked.place, asked.out, self.own_clear.of(near.iter().map(|n| n.1)), rounding);
+        if (asked.off - level.height).abs() <= level.slack {
+            return None;
+        }
+        let all = || facets.iter().filter_map(|facet| self.on_face(asked, *facet, &level));
+        let whose = all().find(|whose| *whose == Whose::Face).or_else(|| all().next())?;
+        Some((asked.point, whose))
+    }
+
+    /// The nearest facet beside the feature, and of those of other faces that are as near, at a corner, one each.
+    fn facets_at(&self, asked: &Asked) -> Vec<u32> {
+        let Beside { mesh, tree, .. } = &self.beside;
+        let around = Aabb::of([&asked.place]).widened(asked.away * (1.0 + CORNER));
+        let mut found = vec![asked.beside];
+        for facet in tree.in_box(&around) {
+            let facing = normal(mesh, facet);
+            let is_new = |other: &u32| {
+                let angle = facing.zip(normal(mesh, *other)).map(|(a, b)| dot(a, b));
+                angle.is_some_and(|cosine| cosine < self.cosine())
+            };
+            if found.len() < FACES && found.iter().all(is_new) {
+                found.push(facet);
+            }
+        }
+        found
+    }
+
+    /// Whether a point is no farther off the plane of a facet than its face may be off its place.
+    fn may_lie_on(&self, asked: &Asked, facet: u32) -> bool {
         let sag = self.of.sag(self.beside.numbers[facet as usize]);
         // Where it rises, near the edge a face may be somewhat farther off than where it was measured.
-        if over_face.abs() > 2.0 * self.highest + sag + rounding {
-            return None;
-        }
-        let own_near = self.own_clear.tree.k_nearest(&place, AROUND, None);
-        let level = Level::at(place, out, self.own_clear.of(own_near.iter().map(|n| n.1)), rounding);
-        if (off - level.height).abs() <= level.slack {
-            return None;
-        }
+        let farthest = 2.0 * self.highest + sag + self.of.belonging.reference.rounding;
+        height(&self.beside.mesh, facet, asked.place).abs() <= farthest
+    }
+
+    /// Whose a point is that is off the feature, by the face that a facet beside it is of; `None` if it is not on this.
+    fn on_face(&self, asked: &Asked, facet: u32, level: &Level) -> Option<Whose> {
+        let Asked { place, off, of_piece, .. } = *asked;
+        let OfOthers { belonging, own, .. } = *self.of;
         let facing = normal(&self.beside.mesh, facet)?;
-        let cosine = libm::cos(own.near.angle);
         let near = self.others.clear.tree.k_nearest(&place, ASKED, None);
-        let is_alike = |n: &u32| dot(self.others.facing[*n as usize], facing) >= cosine;
+        let is_alike = |n: &u32| dot(self.others.facing[*n as usize], facing) >= self.cosine();
         let alike: Vec<u32> = near.iter().map(|n| n.1).filter(is_alike).take(AROUND).collect();
         if alike.len() < FEWEST {
             return None;
         }
-        let face = Level::at(place, facing, self.others.clear.of(alike.iter().copied()), rounding);
-        let off_face = (over_face - face.height).abs() - sag;
+        let of_face = self.others.clear.of(alike.iter().copied());
+        let face = Level::at(place, facing, of_face, belonging.reference.rounding);
+        let sag = self.of.sag(self.beside.numbers[facet as usize]);
+        let off_face = (height(&self.beside.mesh, facet, place) - face.height).abs() - sag;
         if off_face > face.slack {
             return None;
         }
@@ -170,11 +209,15 @@ impl Edges<'_> {
         if side * (off - level.height) > level.slack {
             // A face that was hardly measured tells nothing for certain.
             let is_known = off_face <= FARTHEST * own.near.distance;
-            return Some((point, if is_known { Whose::Face } else { Whose::Nobody }));
+            return Some(if is_known { Whose::Face } else { Whose::Nobody });
         }
         // What goes on into the material counts, but for what only its way would tell to be of the face: the flank of a groove.
         let goes_on = off > level.height.max(0.0) + level.slack || of_piece;
-        goes_on.then_some((point, Whose::Nobody))
+        goes_on.then_some(Whose::Nobody)
+    }
+
+    fn cosine(&self) -> f64 {
+        libm::cos(ALIKE * self.of.own.near.angle)
     }
 }
 
@@ -234,6 +277,7 @@ impl OfOthers<'_> {
                     off,
                     out,
                     beside: hit.0,
+                    away: hit.1,
                     of_piece: n >= points.len(),
                 });
             }
