@@ -219,6 +219,11 @@ const FAULTS: &[Fault] = &[
     ),
     fault("rule = \"simple\"", "rule = \"iso14253-1\"", "rule \"iso14253-1\" needs the expanded uncertainty"),
     fault("rule = \"simple\"", "rule = \"iso\"", "there is no value \"iso\""),
+    fault(
+        "kind = \"perpendicularity\"\nfeature = \"pin\"\ndatums = [\"A\"]\ntolerance = 0.1\n\n[decision]\nrule = \"simple\"",
+        "kind = \"angle\"\nfeature = \"pin\"\ndatums = [\"A\"]\nnominal = 90\nupper = 1\nlower = -1\n\n[decision]\nrule = \"iso14253-1\"\nuncertainty = 0.002",
+        "that of [decision] is one of lengths",
+    ),
     fault("[decision]", "[align]\nmethod = \"rps\"\n[decision]", "method \"rps\" needs `points`, a list of"),
     fault("[decision]", "[align]\nmethod = \"datum\"\n[decision]", "method \"datum\" needs `datums`"),
     fault(

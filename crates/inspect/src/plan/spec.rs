@@ -100,7 +100,13 @@ fn spec(
         },
     };
     if decision.rule == Rule::Iso14253 && made.uncertainty.is_none() && decision.noise.is_none() {
-        let what = "rule \"iso14253-1\" needs the expanded uncertainty: give `uncertainty` here or in [decision], or `noise` there";
+        let rule = "rule \"iso14253-1\" needs the expanded uncertainty";
+        let what = match decision.uncertainty {
+            Some(_) => format!(
+                "{rule} of this in {unit}, and that of [decision] is one of lengths: give `uncertainty` here, or `noise` in [decision]"
+            ),
+            None => format!("{rule}: give `uncertainty` here or in [decision], or `noise` there"),
+        };
         return checker.wrong(whole, what);
     }
     let question = Question { spec: &made, features };
