@@ -12,7 +12,7 @@ use super::reference::{height, nearest, normal, part};
 use trueness_geom::closest::Tree;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::parallel::prelude::*;
-use trueness_geom::space::{Aabb, Point, Vector, cross, dot, least_axis, minus, unit};
+use trueness_geom::space::{Aabb, Point, Vector, cross, dot, least_axis, minus, norm, unit};
 use trueness_geom::spatial::neighbors::PointTree;
 use trueness_geom::stats::SIGMA_OVER_MAD;
 
@@ -192,14 +192,22 @@ impl Edges<'_> {
         let OfOthers { belonging, own, .. } = *self.of;
         let facing = normal(&self.beside.mesh, facet)?;
         let near = self.others.clear.tree.k_nearest(&place, ASKED, None);
-        let is_alike = |n: &u32| dot(self.others.facing[*n as usize], facing) >= self.cosine();
+        let sag = self.of.sag(self.beside.numbers[facet as usize]);
+        let Clear { places, heights, .. } = &self.others.clear;
+        // As far off the plane of the facet as the surface has turned on the way there: the next step of a bore faces so too.
+        let is_alike = |n: &u32| {
+            let n = *n as usize;
+            let (cosine, way) = (dot(self.others.facing[n], facing), norm(minus(places[n], place)));
+            let off = (height(&self.beside.mesh, facet, places[n]) - heights[n]).abs();
+            let turned = way * (1.0 - cosine * cosine).max(0.0).sqrt();
+            cosine >= self.cosine() && off <= turned + sag + belonging.reference.rounding
+        };
         let alike: Vec<u32> = near.iter().map(|n| n.1).filter(is_alike).take(AROUND).collect();
         if alike.len() < FEWEST {
             return None;
         }
         let of_face = self.others.clear.of(alike.iter().copied());
         let face = Level::at(place, facing, of_face, belonging.reference.rounding);
-        let sag = self.of.sag(self.beside.numbers[facet as usize]);
         let off_face = (height(&self.beside.mesh, facet, place) - face.height).abs() - sag;
         if off_face > face.slack {
             return None;
