@@ -100,14 +100,7 @@ fn spec(
         },
     };
     if decision.rule == Rule::Iso14253 && made.uncertainty.is_none() && decision.noise.is_none() {
-        let rule = "rule \"iso14253-1\" needs the expanded uncertainty";
-        let what = match decision.uncertainty {
-            Some(_) => format!(
-                "{rule} of this in {unit}, and that of [decision] is one of lengths: give `uncertainty` here, or `noise` in [decision]"
-            ),
-            None => format!("{rule}: give `uncertainty` here or in [decision], or `noise` there"),
-        };
-        return checker.wrong(whole, what);
+        return checker.wrong(whole, without_uncertainty(decision, unit));
     }
     let question = Question { spec: &made, features };
     kind.check(&question).or_else(|refusal| {
@@ -120,6 +113,17 @@ fn spec(
         checker.wrong(&place.unwrap_or(whole.clone()), format!("{word}: {}", refusal.what))
     })?;
     Ok(made)
+}
+
+/// What is said where `iso14253-1` is to decide and no uncertainty is known.
+fn without_uncertainty(decision: &Decision, unit: &str) -> String {
+    let rule = "rule \"iso14253-1\" needs the expanded uncertainty";
+    match decision.uncertainty {
+        Some(_) => format!(
+            "{rule} of this in {unit}, and that of [decision] is one of lengths: give `uncertainty` here, or `noise` in [decision]"
+        ),
+        None => format!("{rule}: give `uncertainty` here or in [decision], or `noise` there"),
+    }
 }
 
 /// The keys that only some kinds take, where they stand.
