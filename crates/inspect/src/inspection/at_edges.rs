@@ -122,8 +122,8 @@ struct OthersClear {
     off: Vec<f64>,
 }
 
-/// Whose a point is that is not the feature's.
-#[derive(Clone, Copy, PartialEq)]
+/// Whose a point is that is not the feature's, the most certain first.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Whose {
     /// Of the face beside it.
     Face,
@@ -155,8 +155,7 @@ impl Edges<'_> {
         if (asked.off - level.height).abs() <= level.slack {
             return None;
         }
-        let all = || facets.iter().filter_map(|facet| self.on_face(asked, *facet, &level));
-        let whose = all().find(|whose| *whose == Whose::Face).or_else(|| all().next())?;
+        let whose = facets.iter().filter_map(|facet| self.on_face(asked, *facet, &level)).min()?;
         Some((asked.point, whose))
     }
 

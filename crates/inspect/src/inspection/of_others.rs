@@ -16,7 +16,7 @@
 use super::belonging::{Belonging, UPON};
 use super::data::Stop;
 use super::own_facets::OwnFacets;
-use super::reference::{NEARER, nearest, normal, part};
+use super::reference::{NEARER, WITHIN, nearest, normal, part};
 use trueness_geom::closest::Tree;
 use trueness_geom::feature::Piece;
 use trueness_geom::progress::Progress;
@@ -30,8 +30,6 @@ const MOST: f64 = 0.75;
 const SAGS: f64 = 1.5;
 /// Angle between facets from which on there is an edge between them, radians.
 const CREASE: f64 = 32.0 / 180.0 * std::f64::consts::PI;
-/// A point between two faces that run along each other is of one if it is so many times nearer to it.
-const WITHIN: f64 = 10.0;
 /// Distances that differ by less than this share of the size of the reference are the same.
 pub(super) const SAME: f64 = 1e-9;
 /// The pieces beside a feature, and its points, of a cloud that is told by its reference.

@@ -4,7 +4,7 @@
 //! into a fillet: the reference does. Facets are asked by their middles.
 
 use super::data::Stop;
-use super::reference::{ELSEWHERE, NEARER, Reference, height, nearest, normal, part};
+use super::reference::{ELSEWHERE, NEARER, Reference, WITHIN, height, nearest, normal, part};
 use trueness_geom::closest::Tree;
 use trueness_geom::feature::{FeatureError, Found, Nearness, Nominal, NominalSurface};
 use trueness_geom::mesh::Mesh;
@@ -19,8 +19,6 @@ const ON: f64 = 1e-3;
 const LEANS: f64 = 4.0;
 /// So many times the angle that a feature allows others of the reference may be turned against it that face as it does.
 const ALIKE: f64 = 2.0;
-/// A facet is of another face if that is so many times nearer.
-const WITHIN: f64 = 10.0;
 /// An edge was broken or rounded if that reaches no farther into the feature than so many times the distance up to which points are sought: a little more
 /// than once, for the border is known by places half of it apart.
 const BROKEN: f64 = 1.1;

@@ -11,6 +11,8 @@ use trueness_geom::space::{self, Point, Vector, dot};
 pub(super) const ELSEWHERE: f64 = 0.1;
 /// So many times nearer a face is clearly the nearer one.
 pub(super) const NEARER: f64 = 2.0;
+/// So many times nearer a face is the one that a place is of, whichever way both face.
+pub(super) const WITHIN: f64 = 10.0;
 
 /// A reference with facets.
 pub(super) struct Reference<'a> {
