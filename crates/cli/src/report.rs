@@ -29,16 +29,16 @@ pub struct ReportArgs {
     #[arg(long, value_enum, default_value = "z")]
     up: UpArg,
     /// Head of the report
-    #[arg(long, value_name = "TEXT")]
+    #[arg(long, value_name = "TEXT", allow_hyphen_values = true)]
     title: Option<String>,
     /// Part, for the head of the report
-    #[arg(long, value_name = "TEXT")]
+    #[arg(long, value_name = "TEXT", allow_hyphen_values = true)]
     part: Option<String>,
     /// Serial number, for the head of the report
-    #[arg(long, value_name = "TEXT")]
+    #[arg(long, value_name = "TEXT", allow_hyphen_values = true)]
     serial: Option<String>,
     /// Operator, for the head of the report
-    #[arg(long, value_name = "TEXT")]
+    #[arg(long, value_name = "TEXT", allow_hyphen_values = true)]
     operator: Option<String>,
 }
 

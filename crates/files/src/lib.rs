@@ -53,4 +53,4 @@ pub use hash::sha256;
 pub use open::{open, open_normals};
 pub use temporary::{Leftovers, remove_leftovers, remove_unfinished};
 pub use unit::{Unit, UnitError};
-pub use warning::Warning;
+pub use warning::{Unread, Warning};

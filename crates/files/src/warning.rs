@@ -96,6 +96,8 @@ pub enum Warning {
     FacesLeftOut {
         /// How many.
         count: u64,
+        /// Faces of the file.
+        of: u64,
     },
     /// Entities of a drawing that have no course in its plane were passed over.
     PassedOver {
@@ -113,6 +115,36 @@ pub enum Warning {
         /// What it says, shortened.
         text: String,
     },
+}
+
+/// Bytes of the smallest facet that readers know to be behind a count: that of binary STL. Fewer hold none.
+const FACET_BYTES: u64 = 50;
+
+/// What of a file was not read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Unread {
+    /// Faces, and how many the file has, where that is known.
+    Faces {
+        /// How many were not read.
+        count: u64,
+        /// All of them.
+        of: Option<u64>,
+    },
+    /// Nobody can tell how much.
+    Unknown,
+}
+
+impl Warning {
+    /// What of the file was not read, if this says so. What was joined, cut or taken in another unit was read.
+    pub fn unread(&self) -> Option<Unread> {
+        match self {
+            Warning::FacesLeftOut { count, of } => Some(Unread::Faces { count: *count, of: Some(*of) }),
+            Warning::NonFiniteFacets { count, .. } => Some(Unread::Faces { count: *count, of: None }),
+            Warning::TrailingBytes { count } if *count >= FACET_BYTES => Some(Unread::Unknown),
+            Warning::NoEndsolid => Some(Unread::Unknown),
+            _ => None,
+        }
+    }
 }
 
 impl fmt::Display for Warning {
@@ -175,8 +207,12 @@ impl fmt::Display for Warning {
                 f,
                 "{count} face(s) with holes or edges within their surface; each surface was taken whole"
             ),
-            Warning::FacesLeftOut { count } => {
-                write!(f, "{count} face(s) on surfaces that are no B-splines left out")
+            Warning::FacesLeftOut { count, of } => {
+                write!(
+                    f,
+                    "{} of {of} faces read; the others lie on surfaces that are no B-splines",
+                    of - count
+                )
             }
             Warning::PassedOver { what } => {
                 write!(f, "the drawing holds what is not read, and was passed over: {what}")

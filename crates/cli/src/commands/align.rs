@@ -191,7 +191,9 @@ fn run(args: &AlignArgs, common: &Common) -> anyhow::Result<Outcome> {
     let loss = args.out.as_ref().map(|path| scan.write(path, &motion)).transpose()?.flatten();
     args.document.write(&document)?;
     args.document.table(|| table(&document, loss.as_deref()))?;
-    let within = document.zones.as_ref().is_none_or(|z| z.beyond == 0);
+    // Against a reference that was not read in whole nothing is proven.
+    let whole = document.inputs.iter().all(|i| i.role != Role::Reference || i.incomplete.is_none());
+    let within = document.zones.as_ref().is_none_or(|z| z.beyond == 0 && whole);
     Ok(if document.sound() && within { Outcome::Conforming } else { Outcome::NotConforming })
 }
 

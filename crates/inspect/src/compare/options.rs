@@ -56,6 +56,10 @@ impl FromStr for Coverage {
     }
 }
 
+/// Share of a reference that a scan of the whole part covers at least, where nothing else is said. Scans
+/// that are taken for whole ones cover 96 to 100 %, what shows a part from one side covers about half.
+pub const MIN_COVERAGE: f64 = 0.9;
+
 /// What is asked.
 #[derive(Clone, Debug)]
 pub struct Options {
@@ -69,8 +73,10 @@ pub struct Options {
     pub facing: Option<Facing>,
     /// Which points are outliers; none without a rule.
     pub outliers: Option<OutlierRule>,
-    /// Which part of the references the points cover; with a report it is looked for in any case.
+    /// Which part of the references the points cover; with a report and where a verdict is asked for it is looked for in any case.
     pub coverage: Option<Coverage>,
+    /// Share of each reference that the points must cover for a pass (0 to 1); 0 where a part of it is measured on purpose.
+    pub min_coverage: f64,
     /// Places of a measured mesh between its vertices, for the maps; the normals of [`Facing`] and [`Lines`], where there are such, are
     /// those of the points and then those of these.
     pub between: Between,
@@ -93,6 +99,18 @@ pub struct Options {
     pub seed: u64,
 }
 
+impl Options {
+    /// Whether a verdict is asked for.
+    pub fn judges(&self) -> bool {
+        self.tolerance.is_some() || !self.regions.is_empty()
+    }
+
+    /// Whether it is told what the points cover.
+    pub fn tells_coverage(&self) -> bool {
+        self.judges() || self.coverage.is_some() || self.shown > 0
+    }
+}
+
 impl Default for Options {
     fn default() -> Self {
         Options {
@@ -102,6 +120,7 @@ impl Default for Options {
             facing: None,
             outliers: None,
             coverage: None,
+            min_coverage: MIN_COVERAGE,
             between: Between::default(),
             places: false,
             regions: vec![],

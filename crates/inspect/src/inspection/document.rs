@@ -10,7 +10,7 @@ use crate::results::align::{AlignNote, AlignNoteKind};
 use crate::results::compare::{Comparison, Warning, WarningKind};
 use crate::results::fit::{Number, named, uncertainty};
 use crate::results::inspect::*;
-use crate::results::{InputRecord, Role, UNITS, VERSION, Verdict, Word, overall};
+use crate::results::{InputRecord, Role, UNITS, VERSION, Verdict, VerdictReason, Word, overall};
 use crate::scale::Scale;
 use std::collections::BTreeMap;
 use trueness_geom::fit::Method;
@@ -26,9 +26,9 @@ impl InspectDocument {
     ) -> InspectDocument {
         let characteristics: Vec<CharacteristicRecord> =
             (0..plan.specs.len()).map(|n| characteristic(plan, found, n)).collect();
-        let (deviation, scale) = deviation(found, &inputs).unzip();
         let alignment = AlignmentRecord::new(plan, found);
-        let unreliable = alignment.doubts().next().is_some();
+        let (deviation, scale) = deviation(found, &inputs, &alignment).unzip();
+        let doubts = doubts(&alignment, &inputs);
         let count = |verdict| characteristics.iter().filter(|c| c.verdict == verdict).count() as u64;
         InspectDocument {
             schema: SCHEMA.into(),
@@ -47,17 +47,31 @@ impl InspectDocument {
                 undecided: count(Verdict::Undecided),
                 not_measured: count(Verdict::NotMeasured),
             },
-            verdict: overall(
-                (characteristics.iter().map(|c| c.verdict))
-                    .chain(deviation.as_ref().and_then(|d| d.verdict))
-                    .chain(unreliable.then_some(Verdict::Undecided)),
-            ),
+            verdict: match doubts.is_empty() {
+                true => overall(
+                    (characteristics.iter().map(|c| c.verdict))
+                        .chain(deviation.as_ref().and_then(|d| d.verdict)),
+                ),
+                // The values may be those of another pose or another face.
+                false => Verdict::Undecided,
+            },
+            verdict_reasons: doubts,
             characteristics,
             deviation,
             deviation_map: None,
             scale,
         }
     }
+}
+
+/// What makes every value doubtful: an alignment that cannot be relied on, a reference that was not read in whole.
+fn doubts(alignment: &AlignmentRecord, inputs: &[InputRecord]) -> Vec<VerdictReason> {
+    let kinds: Vec<AlignNoteKind> = alignment.doubts().map(|note| *note.kind).collect();
+    let references = inputs.iter().filter(|i| i.role == Role::Reference);
+    compare::unreliable_alignment(&kinds)
+        .into_iter()
+        .chain(references.filter_map(compare::incomplete))
+        .collect()
 }
 
 impl AlignmentRecord {
@@ -129,11 +143,22 @@ fn doubt(warning: &Warning) -> AlignNote {
 }
 
 /// The deviations as a comparison tells them, with the scale of their colors.
-fn deviation(found: &Inspection, inputs: &[InputRecord]) -> Option<(Comparison, Scale)> {
+fn deviation(
+    found: &Inspection,
+    inputs: &[InputRecord],
+    alignment: &AlignmentRecord,
+) -> Option<(Comparison, Scale)> {
     let deviations = found.deviations.as_ref()?;
     let file = |role| inputs.iter().find(|i| i.role == role).cloned();
     let files = [file(Role::Measured), file(Role::Reference)].into_iter().flatten().collect();
-    let inputs = compare::Inputs { files, kind: deviations.kind, scale: None, reverse: vec![] };
+    let inputs = compare::Inputs {
+        files,
+        kind: deviations.kind,
+        scale: None,
+        reverse: vec![],
+        alignment: None,
+        doubts: alignment.doubts().map(|note| *note.kind).collect(),
+    };
     let mut document = compare::document(&deviations.found, inputs, &deviations.options);
     Some((document.comparisons.pop()?, document.scale))
 }

@@ -357,7 +357,8 @@ fn found(
         }
     };
     let whole = seeded.map(|s| s.area).or_else(|| nominal.area());
-    taken.coverage = area.zip(whole).map(|(area, whole)| area / whole);
+    // Noise makes facets larger than what they lie on.
+    taken.coverage = area.zip(whole).map(|(area, whole)| (area / whole).clamp(0.0, 1.0));
     taken.facets = found.facets;
     Ok(taken)
 }

@@ -8,7 +8,7 @@ use super::fit::Number;
 use super::place_map::PlaceMap;
 use super::verdict::rank;
 use super::word::named;
-use super::{InputRecord, Verdict, Word};
+use super::{InputRecord, Verdict, VerdictReason, Word};
 use crate::plan::Class;
 use crate::plan::text::{MaterialWord, SizeWord, TextureWord};
 use crate::scale::Scale;
@@ -56,8 +56,12 @@ pub struct InspectDocument {
     pub decision_rule: String,
     /// Number of characteristics by verdict.
     pub counts: Counts,
-    /// The worst verdict of all characteristics and of the deviations; undecided at best where the alignment cannot be relied on.
+    /// The worst verdict of all characteristics and of the deviations; undecided where the alignment cannot be relied on, and where not all of the
+    /// reference was read.
     pub verdict: Verdict,
+    /// What makes all of it undecided; absent where nothing does.
+    #[serde(skip_serializing_if = "Vec::is_empty", default)]
+    pub verdict_reasons: Vec<VerdictReason>,
 }
 
 /// The plan's file.

@@ -2,9 +2,9 @@
 
 use super::part::Part;
 use crate::console::cell;
-use trueness_inspect::results::Verdict;
 use trueness_inspect::results::compare::{RegionRecord, ToleranceShares};
 use trueness_inspect::results::inspect::{CharacteristicRecord, InspectDocument};
+use trueness_inspect::results::{ReasonKind, Verdict, VerdictReason};
 
 /// What the deviations from the reference are called beside the characteristics.
 pub(super) const DEVIATION: &str = "deviation";
@@ -19,7 +19,7 @@ pub(super) fn judged(document: &InspectDocument) -> Vec<(String, &ToleranceShare
     if let (Some(t), Some(verdict)) = (&deviation.tolerance, deviation.verdict) {
         match regions.is_empty() {
             true => all.push((DEVIATION.into(), t, verdict)),
-            false => all.extend(t.verdict().map(|own| (DEVIATION.into(), t, own))),
+            false => all.extend(deviation.others_verdict.map(|own| (DEVIATION.into(), t, own))),
         }
     }
     all
@@ -55,10 +55,34 @@ const ALIGNMENT: &str = "alignment";
 /// What a part without results is called beside them.
 const PART: &str = "part";
 
-/// What makes the alignment unreliable, in one text.
-fn unreliable(document: &InspectDocument) -> Option<String> {
+/// What a reference that was not read in whole is called beside them.
+const REFERENCE: &str = "reference";
+
+/// What is called so that the points cover too little of the reference, where each region stands for itself.
+const COVERAGE: &str = "coverage";
+
+/// What leaves the whole part undecided beside characteristics and deviations: what it is called, and why, in one text.
+fn open(document: &InspectDocument) -> Vec<(&'static str, String)> {
+    let mut all = vec![];
     let doubts: Vec<&str> = document.alignment.doubts().map(|d| d.text.as_str()).collect();
-    (!doubts.is_empty()).then(|| doubts.join("; "))
+    if !doubts.is_empty() {
+        all.push((ALIGNMENT, doubts.join("; ")));
+    }
+    let own = document.verdict_reasons.iter().filter(|r| *r.kind == ReasonKind::IncompleteReference);
+    all.extend(own.map(|r| (REFERENCE, r.text.clone())));
+    if let Some(deviation) = document.deviation.as_ref().filter(|d| !d.regions.is_empty()) {
+        let lacks =
+            |r: &&VerdictReason| matches!(*r.kind, ReasonKind::Coverage | ReasonKind::CoverageUnknown);
+        all.extend(deviation.verdict_reasons.iter().filter(lacks).map(|r| (COVERAGE, r.text.clone())));
+    }
+    all
+}
+
+/// Why the deviations are undecided, in one text.
+fn undecided(document: &InspectDocument) -> Option<String> {
+    let deviation = document.deviation.as_ref().filter(|d| d.verdict == Some(Verdict::Undecided))?;
+    let texts: Vec<&str> = deviation.verdict_reasons.iter().map(|r| r.text.as_str()).collect();
+    Some(texts.join("; "))
 }
 
 /// One line a characteristic, one for the deviations from the reference where they are judged, one for an alignment that cannot
@@ -110,14 +134,15 @@ pub fn csv(parts: &[Part]) -> String {
             cells[8] = number(t.inside.map(|s| 100.0 * s));
             cells[9] = "%".into();
             cells[11] = verdict.word().into();
-            cells[13] = t.inside_reason.clone().unwrap_or_default();
+            let why = || undecided(document).filter(|_| verdict == Verdict::Undecided);
+            cells[13] = t.inside_reason.clone().or_else(why).unwrap_or_default();
             out.push_str(&cells.map(cell).join(","));
             out.push_str("\r\n");
         }
-        if let Some(why) = unreliable(document) {
+        for (what, why) in open(document) {
             let mut cells: Row = Default::default();
             cells[0] = part.name().into();
-            [cells[1], cells[2]] = [ALIGNMENT.into(), ALIGNMENT.into()];
+            [cells[1], cells[2]] = [what.into(), what.into()];
             [cells[11], cells[13]] = [Verdict::Undecided.word().into(), why];
             out.push_str(&cells.map(cell).join(","));
             out.push_str("\r\n");
@@ -161,8 +186,8 @@ pub fn junit(parts: &[Part]) -> String {
 fn verdicts(part: &Part) -> Vec<Verdict> {
     let Some(document) = part.document() else { return vec![Verdict::Undecided] };
     let own = document.characteristics.iter().map(|c| c.verdict);
-    let unreliable = unreliable(document).map(|_| Verdict::Undecided);
-    own.chain(judged(document).into_iter().map(|j| j.2)).chain(unreliable).collect()
+    let open = open(document).into_iter().map(|_| Verdict::Undecided);
+    own.chain(judged(document).into_iter().map(|j| j.2)).chain(open).collect()
 }
 
 /// The test cases of a part.
@@ -175,10 +200,12 @@ fn cases(name: &str, document: &InspectDocument) -> String {
         let share = t.inside.map_or_else(|| "no point".into(), |s| format!("{} % of the points", 100.0 * s));
         let said =
             format!("{share} within {} to {} mm, allowed {} to 100 %", t.lower, t.upper, 100.0 * t.required);
+        let why = undecided(document).filter(|_| verdict == Verdict::Undecided);
+        let said = why.map_or(said.clone(), |why| format!("{said}; {why}"));
         out.push_str(&case(name, &name_of, verdict, &said));
     }
-    if let Some(why) = unreliable(document) {
-        out.push_str(&case(name, ALIGNMENT, Verdict::Undecided, &why));
+    for (what, why) in open(document) {
+        out.push_str(&case(name, what, Verdict::Undecided, &why));
     }
     out
 }

@@ -33,8 +33,9 @@ pub(super) fn read(mut source: Source, options: &ReadOptions) -> Result<Parsed> 
                 let raw = of_curve(&file, entity, unit)?;
                 out.curves.push(curve(raw).map_err(|f| f.at_line(entity.line))?);
             }
-            // Ruled, turned, swept and offset surfaces, planes and other shapes.
+            // Ruled, turned, swept and offset surfaces, planes and other shapes; solids that are made of shapes.
             108 | 114 | 118 | 120 | 122 | 140 | 190 | 192 | 194 | 196 | 198 => left_out += 1,
+            150 | 152 | 154 | 156 | 158 | 160 | 162 | 164 | 168 => left_out += 1,
             _ => {}
         }
     }
@@ -43,7 +44,7 @@ pub(super) fn read(mut source: Source, options: &ReadOptions) -> Result<Parsed> 
         warnings.push(Warning::Trimmed { count: trimmed });
     }
     if left_out > 0 {
-        warnings.push(Warning::FacesLeftOut { count: left_out });
+        warnings.push(Warning::FacesLeftOut { count: left_out, of: left_out + out.surfaces.len() as u64 });
     }
     Ok(Parsed::splines("iges", out, said, warnings))
 }

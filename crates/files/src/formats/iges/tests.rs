@@ -137,7 +137,7 @@ fn trimmed_surfaces_are_told_from_whole_ones() {
     holes[7].2 = "1,0,1,0,13".into();
     assert_eq!(model(&file("2,2HMM", &holes)).2, [Warning::Trimmed { count: 1 }]);
     let sphere = (196, 0, "1,5.".into());
-    assert_eq!(model(&file("2,2HMM", &[surface, sphere])).2, [Warning::FacesLeftOut { count: 1 }]);
+    assert_eq!(model(&file("2,2HMM", &[surface, sphere])).2, [Warning::FacesLeftOut { count: 1, of: 2 }]);
 }
 
 #[test]

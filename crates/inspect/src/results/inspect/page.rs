@@ -51,6 +51,7 @@ impl Subject for InspectDocument {
                         (s.count(count)) @if class == "lead" { " " small { "/\u{a0}" (all) } }
                     }))
                 }
+                (compare::because(s, &self.verdict_reasons))
                 (key_number(s, "characteristics", "", all))
                 @if let Some(c) = regions.filter(|_| !alone) {
                     (key_number(s, "regions.pass", if outside { "warn" } else { "" }, compare::passing(s, c)))
@@ -76,6 +77,7 @@ impl Subject for InspectDocument {
         let (first, last) =
             if of.doubts().next().is_some() { (Some(&facts), None) } else { (None, Some(&facts)) };
         html! {
+            (compare::reasons(s, &self.verdict_reasons))
             @if let Some(facts) = first { (alignment(s, facts)) }
             (section(s, "characteristics", characteristics(s, self)))
             @if let (Some(c), Some(scale)) = (&self.deviation, &self.scale) {
@@ -239,6 +241,7 @@ fn deviations(s: Style, c: &Comparison, decimals: usize, first_pick: usize) -> M
                 (fact(s, "excluded", compare::excluded(s, c, all)))
                 (compare::rules(s, c, decimals))
             }
+            @for reason in &c.verdict_reasons { p.note { "⚠ " (Text(&reason.text)) } }
             @for warning in &c.warnings { p.note { "⚠ " (Text(&warning.text)) } }
         }))
         (compare::regions(s, c, decimals))
