@@ -13,11 +13,13 @@ mod deviation;
 mod error;
 mod feature;
 mod limits;
+mod limits_read;
 mod material;
 mod numbers;
 mod proposal;
 pub mod region;
 mod spec;
+mod synonyms;
 pub mod text;
 mod tolerance_region;
 
