@@ -31,7 +31,8 @@ pub fn table(rows: &[Vec<String>], texts: usize) -> String {
     for row in rows {
         let fits = row.iter().zip(&widths).take(texts).all(|(c, w)| letters(c) <= *w);
         if !fits {
-            let label: Vec<&str> = row.iter().take(texts).map(String::as_str).filter(|c| !c.is_empty()).collect();
+            let label: Vec<&str> =
+                row.iter().take(texts).map(String::as_str).filter(|c| !c.is_empty()).collect();
             let _ = writeln!(out, "{}", label.join("  "));
         }
         let mut line = String::new();
@@ -95,7 +96,8 @@ mod tests {
     #[test]
     fn no_line_is_wider_than_a_terminal_and_long_names_do_not_break_columns() {
         let long = "a very long name of a characteristic that nobody would write twice, but many write once";
-        let rows = [row(&["id", "kind", "value"]), row(&[long, "flatness", "1.5"]), row(&["b", "size", "22.5"])];
+        let rows =
+            [row(&["id", "kind", "value"]), row(&[long, "flatness", "1.5"]), row(&["b", "size", "22.5"])];
         let text = table(&rows, 2);
         assert!(text.lines().all(|l| letters(l) <= WIDTH), "{text}");
         let ends: Vec<usize> = text.lines().filter(|l| !l.starts_with("a very")).map(letters).collect();

@@ -67,8 +67,7 @@ impl Block {
         };
         let points = (0..16).map(|n| at(f64::from(n % 4) / 3.0, f64::from(n / 4) / 3.0)).collect();
         let corners = [at(0.0, 0.0), at(1.0, 0.0), at(1.0, 1.0), at(0.0, 1.0)];
-        let nominal =
-            format!("point = {:?}, normal = {normal:?}, boundary = {corners:?}", corners[0]);
+        let nominal = format!("point = {:?}, normal = {normal:?}, boundary = {corners:?}", corners[0]);
         (points, nominal)
     }
 
@@ -79,11 +78,12 @@ impl Block {
         let (i, j) = ((k + 1) % 3, (k + 2) % 3);
         let length = self.size[k];
         let middle = plus(self.bore, self.off);
-        let points = round([0.0; 2], &[0.0, 0.5 * length, length], 12, |_| 5.0).into_iter().map(|[a, b, c]| {
-            let mut p = middle;
-            (p[i], p[j], p[k]) = (p[i] + a, p[j] + b, c);
-            p
-        });
+        let points =
+            round([0.0; 2], &[0.0, 0.5 * length, length], 12, |_| 5.0).into_iter().map(|[a, b, c]| {
+                let mut p = middle;
+                (p[i], p[j], p[k]) = (p[i] + a, p[j] + b, c);
+                p
+            });
         let mut start = self.bore;
         start[k] = 0.0;
         let nominal = format!("point = {start:?}, direction = {way:?}, radius = 5.0, length = {length}");
@@ -177,7 +177,9 @@ fn places_in_another_frame_or_order_are_refused_and_right_ones_taken() {
         for (written, alike) in wrong {
             match block.inspected(&written) {
                 Err(said) => {
-                    let at = said.split_once("write basic = { x = ").map(|(_, rest)| rest.split_once(" }").unwrap().0);
+                    let at = said
+                        .split_once("write basic = { x = ")
+                        .map(|(_, rest)| rest.split_once(" }").unwrap().0);
                     let at = at.unwrap_or_else(|| panic!("{n}: {written}: {said}"));
                     let (a, b) = at.split_once(", y = ").unwrap();
                     let (a, b): (f64, f64) = (a.parse().unwrap(), b.parse().unwrap());

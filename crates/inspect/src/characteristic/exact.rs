@@ -12,6 +12,9 @@ use trueness_geom::space::{Point, Vector, dot, minus, norm, plus, times, unit};
 /// in a file.
 const ALONG: f64 = 1e-6;
 
+/// Sine of the angle up to which coordinates still place it: as a model is drawn.
+const NEARLY: f64 = 1e-3;
+
 /// The names of the coordinates.
 pub(super) const NAMES: [&str; 3] = ["x", "y", "z"];
 
@@ -32,10 +35,9 @@ pub(super) fn place_of(m: &Measuring) -> Result<Basic, Missing> {
     let direction = start.vector(feature.direction()?);
     let most = largest(direction);
     let across = (0..3).filter(|k| *k != most).fold(0.0, |s, k| libm::hypot(s, direction[k]));
-    if across > ALONG {
+    basic.oblique = (across > ALONG).then_some([middle, direction]);
+    if across > NEARLY {
         basic.place = [None; 3];
-        basic.oblique = Some([middle, direction]);
-        return Ok(basic);
     }
     let is_plane = feature.class == Class::Plane;
     for (k, x) in basic.place.iter_mut().enumerate() {

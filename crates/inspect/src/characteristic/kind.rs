@@ -179,8 +179,12 @@ pub(super) fn refuse<T>(key: &'static str, what: impl Into<String>) -> Result<T,
 /// What there is for a feature in place of a kind that is not defined for it.
 fn instead(word: &str, class: Class) -> &'static str {
     match (word, class) {
-        ("roundness" | "flatness" | "straightness", Class::Cylinder) => "; of a cylinder there is cylindricity",
-        ("circular-runout", Class::Cylinder) => "; of a cylinder there is total-runout; a circle is one section, by `points` of its own",
+        ("roundness" | "flatness" | "straightness", Class::Cylinder) => {
+            "; of a cylinder there is cylindricity"
+        }
+        ("circular-runout", Class::Cylinder) => {
+            "; of a cylinder there is total-runout; a circle is one section, by `points` of its own"
+        }
         ("circular-runout", Class::Plane) => "; of a plane there is total-runout",
         ("cylindricity", Class::Circle) => "; of a circle there is roundness",
         ("cylindricity" | "roundness", Class::Plane) => "; of a plane there is flatness",
@@ -210,7 +214,10 @@ impl<'a> Question<'a> {
         let words: Vec<&str> = known.iter().map(|c| c.word()).collect();
         let (id, is) = (&self.feature()?.id, class.word());
         let instead = instead(self.spec.kind.word(), class);
-        refuse("feature", format!("feature \"{id}\" is a {is}; it is defined for: {}{instead}", words.join(", ")))
+        refuse(
+            "feature",
+            format!("feature \"{id}\" is a {is}; it is defined for: {}{instead}", words.join(", ")),
+        )
     }
 
     /// Classes of the datums; of a common datum, that of its features.
@@ -234,7 +241,9 @@ impl<'a> Question<'a> {
 
     /// Whether the model says where the toleranced feature and all datums are.
     pub(super) fn is_of_model(&self) -> bool {
-        let written = |n: &usize| matches!(self.features[*n].source, Source::Derived { .. }) || self.features[*n].has_nominal();
+        let written = |n: &usize| {
+            matches!(self.features[*n].source, Source::Derived { .. }) || self.features[*n].has_nominal()
+        };
         self.spec.numbers(self.features).iter().all(written)
     }
 

@@ -49,7 +49,8 @@ pub(super) fn system(m: &Measuring) -> Result<System, Missing> {
         let features = datum.iter().map(|f| datum_source(f, m.feature()));
         sources.push(features.collect::<Result<_, _>>()?);
     }
-    let associated = System::associated(&sources, m.spec.datum_rule, m.progress).and_then(|system| faced(m, system));
+    let associated =
+        System::associated(&sources, m.spec.datum_rule, m.progress).and_then(|system| faced(m, system));
     associated.map_err(|e| match (e.into(), e) {
         (Missing::NotMeasured(what), DatumError::Across { .. } | DatumError::Oblique { .. })
             if m.spec.kind.keys().contains(&"frame") =>

@@ -30,8 +30,8 @@ mod texture;
 mod total_runout;
 mod value;
 
-pub use kind::{Allowed, Characteristic, Measuring, Question, Refusal};
 pub(crate) use exact::nearest;
+pub use kind::{Allowed, Characteristic, Measuring, Question, Refusal};
 pub(crate) use located::{datum_source, frame};
 pub use size::Size;
 pub use taken::{Element, LeftOut, Others, Taken};

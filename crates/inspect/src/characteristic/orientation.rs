@@ -115,7 +115,8 @@ pub(super) fn exact(m: &Measuring) -> Result<Basic, Missing> {
     let own = feature.direction()?;
     let between = snapped(trueness_geom::shape::derived::angle(own, direction));
     let is_alike = (datum_class == Class::Plane) == (feature.class == Class::Plane);
-    let mut basic = Basic { angle: Some(if is_alike { between } else { complement(between) }), ..Basic::default() };
+    let mut basic =
+        Basic { angle: Some(if is_alike { between } else { complement(between) }), ..Basic::default() };
     if m.datums.len() > 1 && !system.free.turn[2] {
         let [x, y, _] = system.frame.rotation();
         basic.turn = Some(snapped(libm::atan2(dot(own, y).abs(), dot(own, x).abs())));

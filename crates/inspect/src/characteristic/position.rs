@@ -71,9 +71,10 @@ impl Characteristic for Position {
         let count = given.iter().filter(|g| **g).count();
         if count == 0 && q.spec.basic_span.is_none() && q.is_of_model() {
             return match q.spec.diametral {
-                Some(false) if class != Class::Plane => {
-                    refuse("diametral", "a zone between two planes is about one coordinate: basic = { x = 10 }")
-                }
+                Some(false) if class != Class::Plane => refuse(
+                    "diametral",
+                    "a zone between two planes is about one coordinate: basic = { x = 10 }",
+                ),
                 _ => Ok(()),
             };
         }
@@ -124,7 +125,7 @@ impl Characteristic for Position {
         let search = Search { start, free, middle: 0.0, floating: false, outer: false };
         let found = placed(&points, &distance, &search, m.progress)?;
         if required(m.spec) {
-            let ([Some(x), Some(y), None], None) = (place, basic.oblique) else {
+            let [Some(x), Some(y), None] = place else {
                 return Err(Missing::Impossible(PLACED.into()));
             };
             let value = super::material::located(m, [x, y])?;
@@ -133,8 +134,7 @@ impl Characteristic for Position {
         let far = if found.max.0.abs() >= found.min.0.abs() { found.max.1 } else { found.min.1 };
         let place_found = beside(m, found.motion);
         let witness = vec![points[far]];
-        let mut value =
-            Value { value: 2.0 * found.half, witness, place: place_found, ..Value::default() };
+        let mut value = Value { value: 2.0 * found.half, witness, place: place_found, ..Value::default() };
         if let [only] = points.as_slice() {
             let at = found.motion.point(*only);
             value.parts = (0..3).filter(|k| place[*k].is_some()).map(|k| (NAMES[k], at[k])).collect();
@@ -173,7 +173,11 @@ fn turned(m: &Measuring, start: Rigid) -> Result<Rigid, Missing> {
 fn one_coordinate(class: Class, given: [bool; 3]) -> String {
     let k = given.iter().position(|g| *g).unwrap_or(0);
     let (name, others) = (NAMES[k], [["y", "z"], ["x", "z"], ["x", "y"]][k]);
-    let is = if is_axis(class) { "an axis is placed by the two coordinates across it" } else { "a center is placed by two or three" };
+    let is = if is_axis(class) {
+        "an axis is placed by the two coordinates across it"
+    } else {
+        "a center is placed by two or three"
+    };
     let likely = if k == 2 { others[0] } else { ["y", "x"][k] };
     format!(
         "`basic` gives {name} alone, and {is}: add {likely} ({} where it runs along {likely}), or leave `basic` out where the model has the place; \

@@ -74,11 +74,13 @@ use trueness_geom::progress::Progress;
 /// ```
 pub fn run(plan: &Plan, data: Data, progress: &dyn Progress) -> Result<Inspection, Stop> {
     let seeds = seed::seeded(plan, &data, progress)?;
-    let model::Resolved { plan, notes } = model::resolved(plan, &seeds, progress)?;
-    let plan = &plan;
+    let mut resolved = model::resolved(plan, &seeds, progress)?;
+    let located = resolved.plan.clone();
+    let plan = &located;
     let (mut data, alignment) = align::aligned(plan, data, &seeds, progress)?;
     let features = taken(plan, &data, &seeds, progress)?;
     sides::checked(plan, &features)?;
+    resolved.by_part(&features, progress);
     let doubts = doubts::doubts(plan, &data, &alignment.motion, &features);
     let measured = |spec: &Spec, features: &[Taken]| measure::measured(spec, features, progress);
     let all = |features: &[Taken]| {
@@ -115,7 +117,7 @@ pub fn run(plan: &Plan, data: Data, progress: &dyn Progress) -> Result<Inspectio
     let measured = data.measured;
     Ok(Inspection {
         specs: plan.specs.clone(),
-        notes,
+        notes: resolved.notes,
         features,
         values,
         with_others,

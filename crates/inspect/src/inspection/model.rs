@@ -11,7 +11,7 @@
 use super::data::Stop;
 use super::derived::derived;
 use super::places::places;
-use super::readings::{Compared, compared};
+use super::readings::{Compared, compared, fits_otherwise};
 use super::seed::Seeded;
 use super::take;
 use crate::characteristic::{Measuring, Taken};
@@ -26,6 +26,27 @@ pub(super) struct Resolved {
     pub plan: Plan,
     /// What is to be said of each characteristic.
     pub notes: Vec<Vec<String>>,
+    /// Whether the model has the features of each.
+    pub known: Vec<bool>,
+}
+
+impl Resolved {
+    /// Tells of exact dimensions without a model that the measured part keeps in another reading only.
+    pub fn by_part(&mut self, features: &[Taken], progress: &dyn Progress) {
+        for (n, spec) in self.plan.specs.iter().enumerate().filter(|(n, _)| !self.known[*n]) {
+            let all = |numbers: &[usize]| -> Vec<&Taken> { numbers.iter().map(|n| &features[*n]).collect() };
+            let datums = spec.datums.iter().map(|d| all(&d.features)).collect();
+            let of = OfModel {
+                plan: &self.plan,
+                spec,
+                features: all(&spec.features),
+                datums,
+                reach: 0.0,
+                progress,
+            };
+            self.notes[n].extend(fits_otherwise(&of));
+        }
+    }
 }
 
 /// The plan with the exact dimensions that the model gives where it gives none itself.
@@ -38,12 +59,17 @@ pub(super) fn resolved(
     progress: &dyn Progress,
 ) -> Result<Resolved, Stop> {
     let model = Model::new(plan, seeds, progress)?;
-    let mut resolved = Resolved { plan: plan.clone(), notes: vec![vec![]; plan.specs.len()] };
+    let mut resolved = Resolved {
+        plan: plan.clone(),
+        notes: vec![vec![]; plan.specs.len()],
+        known: vec![false; plan.specs.len()],
+    };
     for (n, spec) in plan.specs.iter().enumerate() {
         if progress.cancelled() {
             return Err(Stop::Cancelled);
         }
         let Some(measured) = model.of(spec) else { continue };
+        resolved.known[n] = true;
         match compared(&measured)? {
             Compared::Alike => (),
             Compared::Exact(basic) => resolved.plan.specs[n].basic = basic,
@@ -96,9 +122,7 @@ impl<'a> Model<'a> {
                     let made = two.map(|(a, b)| derived(take::bare(feature), *how, a, b));
                     (made.filter(|made| made.element.is_ok()), reach[*a].max(reach[*b]))
                 }
-                (_, Some(nominal)) => {
-                    (on_model(feature, nominal, progress)?, feature.near(nominal).distance)
-                }
+                (_, Some(nominal)) => (on_model(feature, nominal, progress)?, feature.near(nominal).distance),
                 (_, None) => (None, 0.0),
             };
             features.push(taken);

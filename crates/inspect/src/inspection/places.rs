@@ -49,5 +49,9 @@ fn rings(point: Point, direction: Vector, section: impl Fn(f64) -> (f64, f64)) -
         let out = plus(times(radius * libm::cos(angle), x), times(radius * libm::sin(angle), y));
         plus(point, plus(times(along, z), out))
     };
-    SECTIONS.into_iter().flat_map(|share| (0..AROUND).map(move |k| (share, k))).map(|(s, k)| at(s, k)).collect()
+    SECTIONS
+        .into_iter()
+        .flat_map(|share| (0..AROUND).map(move |k| (share, k)))
+        .map(|(s, k)| at(s, k))
+        .collect()
 }

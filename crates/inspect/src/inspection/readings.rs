@@ -2,7 +2,7 @@
 
 use super::data::Stop;
 use super::model::OfModel;
-use super::wrong_numbers::{Place, Said, angle_text, place_text, sizes_text};
+use super::wrong_numbers::{Place, Said, angle_text, other_text, place_text, sizes_text};
 use crate::characteristic::{Characteristic, Missing, Size};
 use crate::plan::text::SizeWord;
 use crate::plan::{Basic, Limits, Spec};
@@ -45,7 +45,8 @@ pub(super) fn compared(of: &OfModel) -> Result<Compared, Stop> {
     let wrong = |what: String| Err(Stop::Plan { span: span.clone(), what });
     let why = own.as_ref().err().cloned();
     if of.spec.basic.angle.is_some() {
-        let other = other_angles(of.spec.basic).into_iter().find(|b| of.value(*b).is_ok_and(|v| v <= rounded));
+        let other =
+            other_angles(of.spec.basic).into_iter().find(|b| of.value(*b).is_ok_and(|v| v <= rounded));
         let text = angle_text(of.spec, &exact, other.is_some(), value);
         return if other.is_some() || value > most { wrong(text) } else { Ok(Compared::Told(text)) };
     }
@@ -114,7 +115,7 @@ fn other_places(place: [Option<f64>; 3]) -> Vec<Basic> {
         for signs in 0..1_u32 << numbers.len() {
             let mut other = [None; 3];
             for (k, x) in numbers.iter().enumerate() {
-                let sign = if signs >> k & 1 == 1 { -1.0 } else { 1.0 };
+                let sign = if (signs >> k) & 1 == 1 { -1.0 } else { 1.0 };
                 other[order[k]] = Some(sign * x);
             }
             if other != place && all.iter().all(|b| b.place != other) {
@@ -131,6 +132,27 @@ fn other_angles(basic: Basic) -> Vec<Basic> {
     let (angle, turn) = (basic.angle, basic.turn);
     let all = [(angle.map(across), turn), (angle, turn.map(across)), (angle.map(across), turn.map(across))];
     all.into_iter().map(|(angle, turn)| Basic { angle, turn, ..basic }).filter(|b| *b != basic).collect()
+}
+
+/// How many times less a value must be by another reading, where only the measured part tells: far more than parts are off.
+const CLEARLY: f64 = 20.0;
+
+/// What is said of exact dimensions that the measured part keeps by another reading only; for plans without a model.
+pub(super) fn fits_otherwise(of: &OfModel) -> Option<String> {
+    let (Limits::Greatest(tolerance), Some(_)) = (of.spec.limits, &of.spec.basic_span) else { return None };
+    let own = of.value(of.spec.basic).ok().filter(|v| *v > tolerance)?;
+    let is_angle = of.spec.basic.angle.is_some();
+    let others = if is_angle { other_angles(of.spec.basic) } else { other_places(of.spec.basic.place) };
+    let mut best: Option<(f64, Basic)> = None;
+    for other in others {
+        if let Ok(v) = of.value(other)
+            && CLEARLY * v <= own
+            && best.is_none_or(|(least, _)| v < least)
+        {
+            best = Some((v, other));
+        }
+    }
+    best.map(|(value, other)| other_text(of.plan, &other, value))
 }
 
 /// A nominal size, distance or angle held against the model.

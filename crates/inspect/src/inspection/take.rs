@@ -383,7 +383,11 @@ fn areas(mesh: &Mesh, found: &Found) -> Vec<f64> {
 }
 
 /// The feature with the element of its points, or the reason why it has none.
-pub(super) fn associated(mut taken: Taken, feature: &Feature, progress: &dyn Progress) -> Result<Taken, Stop> {
+pub(super) fn associated(
+    mut taken: Taken,
+    feature: &Feature,
+    progress: &dyn Progress,
+) -> Result<Taken, Stop> {
     if taken.points.is_empty() {
         taken.element = Err(match feature.source {
             Source::Nominal | Source::Seed(_) if !taken.facets.is_empty() => {

@@ -46,7 +46,8 @@ fn trimmed(x: f64) -> String {
 }
 
 fn coordinates(plan: &Plan, place: [Option<f64>; 3]) -> String {
-    let given = NAMES.iter().zip(place).filter_map(|(name, x)| Some(format!("{name} = {}", length(plan, x?))));
+    let given =
+        NAMES.iter().zip(place).filter_map(|(name, x)| Some(format!("{name} = {}", length(plan, x?))));
     given.collect::<Vec<_>>().join(", ")
 }
 
@@ -74,8 +75,9 @@ pub(super) fn place_text(said: &Said, place: &Place, refused: bool) -> String {
     let given = coordinates(plan, spec.basic.place);
     let of_model = place.middle.map_or_else(String::new, |p| coordinates(plan, p.map(Some)));
     let right = right(place, spec);
-    let is_oblique = place.exact.oblique.is_some();
-    let there = if is_oblique { String::new() } else { format!(", which is {} {system}", coordinates(plan, right)) };
+    let is_oblique = place.exact.place == [None; 3];
+    let there =
+        if is_oblique { String::new() } else { format!(", which is {} {system}", coordinates(plan, right)) };
     let mut text = format!("\"{}\": ", spec.id);
     match &place.why {
         Some(why) => text += why,
@@ -98,14 +100,19 @@ pub(super) fn place_text(said: &Said, place: &Place, refused: bool) -> String {
     text += match (place.is_of_model, place.other) {
         (true, _) => "; the plan's numbers are coordinates of the model",
         (_, Some(_)) => "; the plan's numbers fit with other signs or along other axes",
-        _ if refused && place.why.is_none() => "; no part could pass, as the feature is sought where the model has it",
+        _ if refused && place.why.is_none() => {
+            "; no part could pass, as the feature is sought where the model has it"
+        }
         _ => "",
     };
     if refused && is_oblique {
         return text + "; leave `basic` out: the place is then the model's";
     }
     if refused {
-        text += &format!("; write basic = {{ {} }}, or leave it out: the place is then the model's", coordinates(plan, right));
+        text += &format!(
+            "; write basic = {{ {} }}, or leave it out: the place is then the model's",
+            coordinates(plan, right)
+        );
         if spec.frame.is_none() {
             text += " (z goes into a first plane, x into a second, y makes the frame right-handed)";
         }
@@ -137,10 +144,26 @@ pub(super) fn angle_text(spec: &Spec, exact: &Basic, is_other: bool, value: f64)
     )
 }
 
+/// What is said where the measured part keeps another reading.
+pub(super) fn other_text(plan: &Plan, other: &Basic, value: f64) -> String {
+    let degrees = |x: Option<f64>| x.map(|x| trimmed((x.to_degrees() * 1e4).round() / 1e4));
+    let angles = [("angle", degrees(other.angle)), ("turn", degrees(other.turn))];
+    let angles = angles.into_iter().filter_map(|(name, x)| Some(format!("{name} = {}", x?)));
+    let all: Vec<String> =
+        angles.chain(Some(coordinates(plan, other.place)).filter(|c| !c.is_empty())).collect();
+    format!(
+        "the part keeps the numbers of `basic` in another reading: basic = {{ {} }} gives {}; z goes into a first plane, x into a second, y \
+         makes the frame right-handed",
+        all.join(", "),
+        trimmed((value * 1e4).round() / 1e4)
+    )
+}
+
 /// What is said of a nominal size, distance or angle.
 pub(super) fn sizes_text(plan: &Plan, spec: &Spec, value: f64, other: Option<&str>) -> String {
     let Limits::Between { nominal, lower, upper } = spec.limits else { return String::new() };
-    let number = |x: f64| if spec.unit() == "mm" { length(plan, x) } else { trimmed((x * 1e4).round() / 1e4) };
+    let number =
+        |x: f64| if spec.unit() == "mm" { length(plan, x) } else { trimmed((x * 1e4).round() / 1e4) };
     let (model, is) = (number(value), number(nominal));
     match other {
         Some(what) => format!(

@@ -117,7 +117,7 @@ fn slip(message: &str, line: &str, after: &str) -> Option<String> {
     let next = after.split('\n').next().unwrap_or("").trim();
     let text = match message.split(',').next().unwrap_or("") {
         // Of a Windows path in double quotes.
-        _ if message.contains("escape") || is_cut_escape(message, line) => {
+        _ if is_bad_escape(message, line, next) => {
             let path = quoted_text(line, after);
             format!(
                 "in double quotes \\ begins an escape; write '{path}' in single quotes, or \"{}\" with forward slashes",
@@ -148,15 +148,19 @@ fn slip(message: &str, line: &str, after: &str) -> Option<String> {
     Some(text)
 }
 
-/// Whether a text ends in a backslash that took its quote away.
-fn is_cut_escape(message: &str, line: &str) -> bool {
-    message.contains("unclosed") && line.contains('\\')
+/// Whether the reader stopped at a backslash in double quotes, or where one has taken the closing quote away.
+fn is_bad_escape(message: &str, line: &str, next: &str) -> bool {
+    let words = ["escape", "unicode", "quote", "string"];
+    let in_quotes = line.rfind('"').map(|at| &line[at..]).unwrap_or(next);
+    words.iter().any(|w| message.contains(w))
+        && (in_quotes.contains('\\') || (next.starts_with('"') && next.contains('\\')))
 }
 
 /// The text in double quotes around a place: `before` it on its line, and what follows.
 fn quoted_text(before: &str, after: &str) -> String {
     let start = before.rfind('"').map_or("", |at| &before[at + 1..]);
     let rest = after.split('\n').next().unwrap_or("");
+    let rest = if before.contains('"') { rest } else { rest.trim_start_matches('"') };
     let end = rest.find('"').unwrap_or(rest.trim_end().len());
     format!("{start}{}", rest.get(..end).unwrap_or(""))
 }
@@ -185,7 +189,9 @@ pub fn unknown(what: &str, word: &str, known: &[&str]) -> String {
     let meant = if meant.is_empty() { nearest(word, known).into_iter().collect() } else { meant };
     let meant: Vec<String> = meant.iter().map(|m| format!("\"{m}\"")).collect();
     match meant.is_empty() {
-        false => format!("there is no {what} \"{word}\"; did you mean {}? (known: {list})", meant.join(" or ")),
+        false => {
+            format!("there is no {what} \"{word}\"; did you mean {}? (known: {list})", meant.join(" or "))
+        }
         true => format!("there is no {what} \"{word}\" (known: {list})"),
     }
 }

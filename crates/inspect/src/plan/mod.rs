@@ -101,6 +101,10 @@ impl Plan {
             return checker.wrong(&written.schema.span, what);
         }
         numbers::checked(&checker)?;
+        let points = written.feature.iter().filter_map(|f| f.value.points.as_ref());
+        for path in written.measured.iter().chain(&written.reference).chain(points) {
+            checker.path(path)?;
+        }
         let features = feature::features(&checker, &written)?;
         let decision = decision::decision(&checker, &written)?;
         let specs = spec::specs(&checker, &written, &features, &decision)?;

@@ -226,7 +226,8 @@ fn basic(checker: &Checker, at: Option<&At<BasicText>>) -> Result<Basic, PlanErr
         if let Some(angle) = angle.filter(|a| !(0.0..=90.0).contains(a)) {
             let folded = angle.rem_euclid(180.0);
             let folded = (folded.min(180.0 - folded) * 1e9).round() / 1e9;
-            let what = format!("the {name} is {angle}; give degrees from 0 to 90: this one is {folded} there");
+            let what =
+                format!("the {name} is {angle}; give degrees from 0 to 90: this one is {folded} there");
             return checker.wrong(span, what);
         }
     }

@@ -47,7 +47,9 @@ pub fn wrong_side(class: &str, internal: bool, feature: &str) -> Option<String> 
         true => ("holes and slots (capital letters)", "a shaft or a thickness", letters.to_lowercase()),
         false => ("shafts and thicknesses (small letters)", "a hole or a slot", letters.to_uppercase()),
     };
-    Some(format!("\"{class}\" is a class of {of}, and feature \"{feature}\" is {is}; write \"{letters}{grade}\""))
+    Some(format!(
+        "\"{class}\" is a class of {of}, and feature \"{feature}\" is {is}; write \"{letters}{grade}\""
+    ))
 }
 
 impl Table {

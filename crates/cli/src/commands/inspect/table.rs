@@ -200,14 +200,17 @@ fn row(c: &CharacteristicRecord) -> Vec<String> {
             None => format!("{sign}{}", written(c.upper)),
         },
     };
-    let value = c.value.map_or_else(|| "–".into(), |v| match c.beyond_digits() {
-        // No digits tell it from its limit.
-        Some(beyond) => {
-            let sign = if beyond < 0.0 { '−' } else { '+' };
-            format!("{} {sign} {}", written(v - beyond), scientific(beyond.abs(), 1))
-        }
-        None => fixed(v, decimals),
-    });
+    let value = c.value.map_or_else(
+        || "–".into(),
+        |v| match c.beyond_digits() {
+            // No digits tell it from its limit.
+            Some(beyond) => {
+                let sign = if beyond < 0.0 { '−' } else { '+' };
+                format!("{} {sign} {}", written(v - beyond), scientific(beyond.abs(), 1))
+            }
+            None => fixed(v, decimals),
+        },
+    );
     let value = match (c.uncertainty, c.interval, c.noise_bias) {
         // Noise adds to it: the true value lies to one side.
         (Some(_), Some([from, to]), Some(_)) => {
