@@ -121,7 +121,7 @@ pub(super) fn synonyms<'a>(word: &str, known: &[&'a str]) -> Vec<&'a str> {
     let (own, joined) = (plain(word), alike(word));
     // A known word in another spelling is that word.
     if let Some(same) = known.iter().find(|k| alike(k) == joined) {
-        return vec![same];
+        return vec![*same];
     }
     let is_meant = |k: &&&str| {
         SYNONYMS.iter().any(|(of, words)| *of == **k && words.iter().any(|w| *w == own || alike(w) == joined))

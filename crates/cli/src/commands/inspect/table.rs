@@ -202,7 +202,7 @@ fn row(c: &CharacteristicRecord) -> Vec<String> {
     };
     let value = c.value.map_or_else(
         || "–".into(),
-        |v| match c.beyond_digits() {
+        |v| match c.beyond_digits().filter(|_| c.verdict == Verdict::Fail) {
             // No digits tell it from its limit.
             Some(beyond) => {
                 let sign = if beyond < 0.0 { '−' } else { '+' };

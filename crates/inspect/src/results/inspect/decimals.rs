@@ -35,6 +35,8 @@ impl CharacteristicRecord {
         let of = |u: f64| OF_UNCERTAINTY - 1 - libm::log10(u).floor() as i32;
         let least = self.uncertainty.filter(|u| *u > 0.0 && u.is_finite()).map_or(4, of);
         let least = if self.unit == "1" { least.min(3) } else { least };
-        self.decimals(least.clamp(1, MOST_DECIMALS as i32) as usize)
+        let least = least.clamp(1, MOST_DECIMALS as i32) as usize;
+        // What no digits tell from its limit takes no more of them.
+        if self.beyond_digits().is_some() { least } else { self.decimals(least) }
     }
 }
