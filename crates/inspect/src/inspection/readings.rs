@@ -64,7 +64,7 @@ pub(super) fn compared(of: &OfModel) -> Result<Compared, Stop> {
     let frame = of.frame();
     let in_model = frame.as_ref().and_then(|_| of.spec.basic_in_model(of.middle()?, 0.5 * rounded));
     let place = Place { frame, middle: of.middle(), exact, other, is_of_model: in_model.is_some(), why };
-    let said = Said { plan: of.plan, spec: of.spec, distance: 0.5 * value, reach: of.reach };
+    let said = Said { plan: of.plan, spec: of.spec, distance: 0.5 * value };
     let refused = place.other.is_some() || place.is_of_model || value > most;
     let text = place_text(&said, &place, refused);
     if refused { wrong(text) } else { Ok(Compared::Told(text)) }

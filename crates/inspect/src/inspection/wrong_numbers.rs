@@ -12,8 +12,6 @@ pub(super) struct Said<'a> {
     pub spec: &'a Spec,
     /// Distance of the plan's place from the model's, mm; infinite where the plan's is none.
     pub distance: f64,
-    /// How far from its nominal the feature is sought, mm.
-    pub reach: f64,
 }
 
 /// A place on the model.
