@@ -15,16 +15,21 @@ mod doubts;
 mod found;
 mod left_out;
 mod measure;
+mod model;
 mod nearby;
 mod noise_field;
 mod of_others;
 mod own_facets;
+mod places;
 mod pose_noise;
+mod readings;
 mod reference;
 mod seed;
+mod sides;
 mod take;
 mod uncertainty;
 mod view;
+mod wrong_numbers;
 
 #[cfg(test)]
 mod test_parts;
@@ -69,8 +74,13 @@ use trueness_geom::progress::Progress;
 /// ```
 pub fn run(plan: &Plan, data: Data, progress: &dyn Progress) -> Result<Inspection, Stop> {
     let seeds = seed::seeded(plan, &data, progress)?;
+    let mut resolved = model::resolved(plan, &seeds, progress)?;
+    let located = resolved.plan.clone();
+    let plan = &located;
     let (mut data, alignment) = align::aligned(plan, data, &seeds, progress)?;
     let features = taken(plan, &data, &seeds, progress)?;
+    sides::checked(plan, &features)?;
+    resolved.by_part(&features, progress);
     let doubts = doubts::doubts(plan, &data, &alignment.motion, &features);
     let measured = |spec: &Spec, features: &[Taken]| measure::measured(spec, features, progress);
     let all = |features: &[Taken]| {
@@ -106,6 +116,8 @@ pub fn run(plan: &Plan, data: Data, progress: &dyn Progress) -> Result<Inspectio
     };
     let measured = data.measured;
     Ok(Inspection {
+        specs: plan.specs.clone(),
+        notes: resolved.notes,
         features,
         values,
         with_others,

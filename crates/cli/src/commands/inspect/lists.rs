@@ -3,7 +3,9 @@
 use super::part::Part;
 use crate::console::cell;
 use trueness_inspect::results::compare::{RegionRecord, ToleranceShares};
-use trueness_inspect::results::inspect::{CharacteristicRecord, InspectDocument};
+use trueness_inspect::results::inspect::{
+    CharacteristicRecord, FeatureRecord, InspectDocument, MeasuredPlace,
+};
 use trueness_inspect::results::{ReasonKind, Verdict, VerdictReason};
 
 /// What the deviations from the reference are called beside the characteristics.
@@ -26,7 +28,7 @@ pub(super) fn judged(document: &InspectDocument) -> Vec<(String, &ToleranceShare
 }
 
 /// The names of the columns.
-const HEAD: [&str; 17] = [
+const HEAD: [&str; 23] = [
     "part",
     "id",
     "kind",
@@ -44,13 +46,22 @@ const HEAD: [&str; 17] = [
     "interval_from",
     "interval_to",
     "modifiers",
+    "x",
+    "y",
+    "z",
+    "dx",
+    "dy",
+    "dz",
 ];
 
 /// The cells of a line.
-type Row = [String; 17];
+type Row = [String; 23];
 
 /// What the alignment is called beside the characteristics.
 const ALIGNMENT: &str = "alignment";
+
+/// What a feature is called beside the characteristics.
+const FEATURE: &str = "feature";
 
 /// What a part without results is called beside them.
 const PART: &str = "part";
@@ -85,7 +96,7 @@ fn undecided(document: &InspectDocument) -> Option<String> {
     Some(texts.join("; "))
 }
 
-/// One line a characteristic, one for the deviations from the reference where they are judged, one for an alignment that cannot
+/// One line a characteristic, one a feature, one for the deviations from the reference where they are judged, one for an alignment that cannot
 /// be relied on, and one for a part without results; numbers with all digits (RFC 4180).
 pub fn csv(parts: &[Part]) -> String {
     let mut out = HEAD.join(",") + "\r\n";
@@ -103,6 +114,8 @@ pub fn csv(parts: &[Part]) -> String {
             }
         };
         for c in &document.characteristics {
+            let place = |k: usize| c.place.as_ref().map(|p| p.measured[k]);
+            let off = |k: usize| c.place.as_ref().and_then(|p| p.deviation[k]);
             let cells: Row = [
                 part.name().into(),
                 c.id.clone(),
@@ -121,8 +134,18 @@ pub fn csv(parts: &[Part]) -> String {
                 number(c.interval.map(|i| i[0])),
                 number(c.interval.map(|i| i[1])),
                 c.modifiers.join("; "),
+                number(place(0)),
+                number(place(1)),
+                number(place(2)),
+                number(off(0)),
+                number(off(1)),
+                number(off(2)),
             ];
             out.push_str(&cells.map(cell).join(","));
+            out.push_str("\r\n");
+        }
+        for f in &document.features {
+            out.push_str(&feature(part.name(), f).map(cell).join(","));
             out.push_str("\r\n");
         }
         for (name, t, verdict) in judged(document) {
@@ -149,6 +172,24 @@ pub fn csv(parts: &[Part]) -> String {
         }
     }
     out
+}
+
+/// A feature with its size and place, beside those that the model has.
+fn feature(part: &str, f: &FeatureRecord) -> Row {
+    let number = |x: Option<f64>| x.map_or_else(String::new, |x| x.to_string());
+    let size = |p: &MeasuredPlace| p.diameter.or(p.angle);
+    let mut cells: Row = Default::default();
+    [cells[0], cells[1], cells[2], cells[3]] =
+        [part.into(), f.id.clone(), FEATURE.into(), f.shape.to_string()];
+    cells[5] = number(f.nominal.as_ref().and_then(size));
+    cells[8] = number(f.measured.as_ref().and_then(size));
+    cells[9] = if f.measured.is_some_and(|m| m.angle.is_some()) { "deg" } else { "mm" }.into();
+    cells[13] = f.reason.clone().unwrap_or_default();
+    for k in 0..3 {
+        cells[17 + k] = number(f.measured.map(|m| m.place[k]));
+        cells[20 + k] = number(f.measured.zip(f.nominal).map(|(m, n)| m.place[k] - n.place[k]));
+    }
+    cells
 }
 
 /// A test suite a part and a test case a characteristic, one for the deviations where they are judged and one for an alignment that

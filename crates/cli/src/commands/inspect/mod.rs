@@ -1,5 +1,6 @@
 //! `trueness inspect`: a plan and measured parts make verdicts.
 
+mod features;
 mod files;
 mod lists;
 mod part;
@@ -121,7 +122,7 @@ fn run(args: &InspectArgs, common: &Common) -> anyhow::Result<Outcome> {
                 Part::Failed(Failed::new(plan.name_of(file), &error, plan.record()))
             }
         };
-        args.document.table(|| table::table(&part, several))?;
+        args.document.table(|| table::table(&part, several, common.verbose))?;
         parts.push(part);
     }
     if let Some(path) = &args.csv {
