@@ -26,6 +26,7 @@ mod detect;
 pub mod drawing;
 mod error;
 mod feed;
+mod flow;
 mod format;
 mod formats;
 mod gzip;

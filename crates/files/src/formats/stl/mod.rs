@@ -9,7 +9,7 @@ use crate::{
     Warning, assemble,
     error::{Fault, Result},
     format::{Format, Head, Parsed, ReadOptions, Weld},
-    lines::{is_text, without_mark},
+    lines::{is_text, line_of, without_filling, without_mark},
     source::{HEAD, Source},
     unicode::no_zeros,
 };
@@ -44,7 +44,12 @@ fn looks_ascii(bytes: &[u8]) -> bool {
     let text = without_mark(bytes).trim_ascii_start();
     let solid = text.get(..5).is_some_and(|w| w.eq_ignore_ascii_case(b"solid"));
     // Some binary files begin with "solid" too: their records show as control characters.
-    solid && is_text(&bytes[..bytes.len().min(1024)])
+    solid && begins_as_text(bytes)
+}
+
+fn begins_as_text(bytes: &[u8]) -> bool {
+    let text = without_filling(bytes).0;
+    is_text(&text[..text.len().min(1024)])
 }
 
 fn read(mut source: Source, options: &ReadOptions) -> Result<Parsed> {
@@ -55,11 +60,15 @@ fn read(mut source: Source, options: &ReadOptions) -> Result<Parsed> {
     };
     let head = source.feed.ahead(HEAD)?;
     let exact = binary::declared(head).is_some_and(|n| length == HEADER as u64 + n * RECORD as u64);
-    let text = !exact && is_text(&head[..head.len().min(1024)]);
+    let text = !exact && begins_as_text(head);
     if text && looks_ascii(head) {
-        let bytes = source.feed.all()?;
+        let (bytes, zeros) = without_filling(source.feed.all()?);
         no_zeros(bytes)?;
         let ascii::Read { facets, warnings } = ascii::read(bytes)?;
+        if zeros && warnings.contains(&Warning::NoEndsolid) {
+            // Not what fills up a finished file, but what was never written.
+            return Err(Fault::Zeros.at_line(line_of(bytes, bytes.len())));
+        }
         return mesh("stl-ascii", &facets, options, warnings);
     }
     if text {
@@ -67,6 +76,12 @@ fn read(mut source: Source, options: &ReadOptions) -> Result<Parsed> {
     }
     // Before the file is read as a whole: it may be far longer than what it declares.
     let (facets, warnings) = binary::facets(head, length)?;
+    if !warnings.is_empty()
+        && binary::may_have_attributes(facets, length)
+        && let Some(records) = binary::with_attributes(source.feed.all()?)
+    {
+        return mesh("stl-binary", &records, options, vec![]);
+    }
     let bytes = source.feed.ahead(HEADER + facets * RECORD)?;
     let records = bytes.get(HEADER..).unwrap_or_default().as_chunks().0;
     mesh("stl-binary", records.get(..facets).unwrap_or(records), options, warnings)

@@ -1,3 +1,5 @@
+import { roomOf } from './crowding'
+import { mixed } from './hash'
 import { NO_NORMAL } from './normals'
 
 /** Facets that meet at more than this angle have an edge between them, as they have in the light. */
@@ -11,6 +13,8 @@ const SHORT = 65535 / 30
 export interface SharpEdges {
   /** Two vertices each. */
   ends: Uint32Array
+  /** How far each lies from its neighbors, in steps of the grid. */
+  room: Float32Array
   /** Length of all of them, and area of the surface, in steps of the grid. */
   length: number
   area: number
@@ -42,7 +46,7 @@ export function sharpEdges(packed: Uint16Array, triangles: Uint32Array): SharpEd
   const area = new Facet(packed)
   let sum = 0
   for (let t = 0; length > 0 && t < triangles.length; t += 3) sum += area.of(triangles, t)
-  return { ends, length, area: sum }
+  return { ends, room: roomOf(packed, ends), length, area: sum }
 }
 
 /** Without the short rows of edges that have an end, and the length of all others. */
@@ -74,14 +78,6 @@ function rows(packed: Uint16Array, found: number[]): { ends: Uint32Array; length
 
 /** The next corner of the same triangle. */
 const next = (h: number): number => (h % 3 === 2 ? h - 2 : h + 1)
-
-/** Spreads two numbers over all bits: places on a grid lie in step (the end of MurmurHash3, Appleby 2011). */
-function mixed(a: number, b: number): number {
-  let h = Math.imul(a, 0x9e3779b1) ^ Math.imul(b, 0x85ebca6b)
-  h = Math.imul(h ^ (h >>> 16), 0x85ebca6b)
-  h = Math.imul(h ^ (h >>> 13), 0xc2b2ae35)
-  return h ^ (h >>> 16)
-}
 
 /** For each vertex the first one at its place, and for that whether it can lie on an edge: it has no normal, or is several. */
 function places(packed: Uint16Array): { place: Uint32Array; folded: Uint8Array } {
