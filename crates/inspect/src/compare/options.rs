@@ -56,6 +56,9 @@ impl FromStr for Coverage {
     }
 }
 
+/// Places of each sign that a result names unless more are asked for: as many as flags beside a part can be read.
+const WORST: usize = 3;
+
 /// What is asked.
 #[derive(Clone, Debug)]
 pub struct Options {
@@ -84,6 +87,8 @@ pub struct Options {
     pub required_share: f64,
     /// Points that a report can show; 0 without a report.
     pub shown: usize,
+    /// Worst places that the result names, at most so many above the reference and so many below.
+    pub worst: usize,
     /// Deviations kept in memory for exact percentiles, of all references together; beyond, percentiles come from
     /// a sketch with a stated error.
     pub kept_values: usize,
@@ -108,6 +113,7 @@ impl Default for Options {
             tolerance: None,
             required_share: 1.0,
             shown: 0,
+            worst: WORST,
             kept_values: 1 << 27,
             research: false,
             seed: 0,

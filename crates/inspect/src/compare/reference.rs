@@ -132,9 +132,6 @@ pub enum Values {
     Many(Box<Accumulator>),
 }
 
-/// Places of each sign that a result names.
-const WORST: usize = 3;
-
 /// A comparison under way.
 pub struct Running<'a> {
     mesh: &'a Mesh,
@@ -152,6 +149,8 @@ pub struct Running<'a> {
     regions: Option<Regions>,
     tallies: Vec<Tally>,
     worst: WorstPlaces,
+    /// Places of each sign that the result names.
+    named: usize,
     paper: Option<(Paper, Differences)>,
     map: Option<PointMap>,
     between: u64,
@@ -196,6 +195,7 @@ impl<'a> Running<'a> {
             outliers: None,
             coverage: options.coverage.unwrap_or_default(),
             worst: WorstPlaces::new(&mesh.bounds()),
+            named: options.worst,
             paper,
             map: (options.shown > 0 || options.coverage.is_some() || options.places).then(|| {
                 PointMap::new(mesh, options.tolerance.filter(|_| regions.is_none()), options.places)
@@ -321,7 +321,7 @@ impl<'a> Running<'a> {
 
     /// The places that the result will name.
     pub fn worst_places(&self) -> Vec<WorstPoint> {
-        let mut places: Vec<WorstPoint> = self.worst.pick(WORST).into_iter().flatten().collect();
+        let mut places: Vec<WorstPoint> = self.worst.pick(self.named).into_iter().flatten().collect();
         match self.regions {
             Some(_) => places.sort_by(|a, b| b.badness.total_cmp(&a.badness).then(a.index.cmp(&b.index))),
             None => sort(&mut places, self.limits.as_ref().map(|l| [l.lower, l.upper])),

@@ -7,16 +7,22 @@ const CELL = 65536 / SIDE
  * edges in it. Of an edge that leads through several cells, where it has most room. `ends`: two vertices of `packed` an edge.
  */
 export function roomOf(packed: Uint16Array, ends: Uint32Array): Float32Array {
-  const room = new Float32Array(ends.length / 2)
+  const room = new Float32Array(ends.length / 2).fill(Infinity)
   if (ends.length === 0) return room
-  const lengths = new Float32Array(SIDE ** 3)
-  each(packed, ends, (_, cell, length) => (lengths[cell] += length))
-  each(packed, ends, (edge, cell) => (room[edge] = Math.max(room[edge], CELL ** 2 / lengths[cell])))
+  // What lies in the corner of a cell by itself is in the middle of one of the second grid.
+  for (const shift of [0, CELL / 2]) {
+    const lengths = new Float32Array((SIDE + 1) ** 3)
+    const here = new Float32Array(room.length)
+    each(packed, ends, shift, (_, cell, length) => (lengths[cell] += length))
+    each(packed, ends, shift, (edge, cell) => (here[edge] = Math.max(here[edge], CELL ** 2 / lengths[cell])))
+    for (let edge = 0; edge < room.length; edge++) room[edge] = Math.min(room[edge], here[edge])
+  }
   return room
 }
 
 /** Calls `visit` with each edge, the cells that it leads through, and its length in them, to within a cell. */
-function each(packed: Uint16Array, ends: Uint32Array, visit: (edge: number, cell: number, length: number) => void): void {
+function each(packed: Uint16Array, ends: Uint32Array, shift: number, visit: (edge: number, cell: number, length: number) => void): void {
+  const along = (x: number) => Math.floor((x + shift) / CELL)
   for (let i = 0; i < ends.length; i += 2) {
     const [p, q] = [4 * ends[i], 4 * ends[i + 1]]
     const [x, y, z] = [packed[p], packed[p + 1], packed[p + 2]]
@@ -25,7 +31,7 @@ function each(packed: Uint16Array, ends: Uint32Array, visit: (edge: number, cell
     const parts = 1 + Math.floor(length / CELL)
     for (let k = 0; k < parts; k++) {
       const t = (k + 0.5) / parts
-      const cell = ((Math.floor((x + t * u) / CELL) * SIDE + Math.floor((y + t * v) / CELL)) * SIDE) + Math.floor((z + t * w) / CELL)
+      const cell = (along(x + t * u) * (SIDE + 1) + along(y + t * v)) * (SIDE + 1) + along(z + t * w)
       visit(i / 2, cell, length / parts)
     }
   }

@@ -15,8 +15,7 @@ export interface SharpEdges {
   ends: Uint32Array
   /** How far each lies from its neighbors, in steps of the grid. */
   room: Float32Array
-  /** Length of all of them, and area of the surface, in steps of the grid. */
-  length: number
+  /** Area of the surface, in steps of the grid. */
   area: number
 }
 
@@ -42,15 +41,15 @@ export function sharpEdges(packed: Uint16Array, triangles: Uint32Array): SharpEd
     table.done(p, q)
     found.push(p, q)
   }
-  const { ends, length } = rows(packed, found)
+  const ends = rows(packed, found)
   const area = new Facet(packed)
   let sum = 0
-  for (let t = 0; length > 0 && t < triangles.length; t += 3) sum += area.of(triangles, t)
-  return { ends, room: roomOf(packed, ends), length, area: sum }
+  for (let t = 0; ends.length > 0 && t < triangles.length; t += 3) sum += area.of(triangles, t)
+  return { ends, room: roomOf(packed, ends), area: sum }
 }
 
-/** Without the short rows of edges that have an end, and the length of all others. */
-function rows(packed: Uint16Array, found: number[]): { ends: Uint32Array; length: number } {
+/** Without the short rows of edges that have an end. */
+function rows(packed: Uint16Array, found: number[]): Uint32Array {
   const count = packed.length / 4
   const up = new Uint32Array(found.length > 0 ? count : 0)
   for (let v = 0; v < up.length; v++) up[v] = v
@@ -71,9 +70,7 @@ function rows(packed: Uint16Array, found: number[]): { ends: Uint32Array; length
     if (meeting[a] === 1 || meeting[b] === 1) open[r] = 1
   }
   const kept = (v: number) => open[root(v)] === 0 || lengths[root(v)] > SHORT
-  let length = 0
-  for (let v = 0; v < up.length; v++) if (lengths[v] > 0 && kept(v)) length += lengths[v]
-  return { ends: Uint32Array.from(found.filter(kept)), length }
+  return Uint32Array.from(found.filter(kept))
 }
 
 /** The next corner of the same triangle. */

@@ -1,5 +1,6 @@
 import { BufferAttribute, GLSL3, InstancedBufferAttribute, InstancedBufferGeometry, Matrix4, Mesh, RawShaderMaterial, Vector2 } from 'three'
 import type { SharpEdges } from '../decode/edges'
+import { Crowd } from './crowd'
 import type { Eye } from './eye'
 import { EDGE, EDGE_VERTEX } from './mark_shaders'
 
@@ -22,8 +23,9 @@ const QUICK = 20_000
 export class EdgeLines {
   readonly drawn: Mesh
   private readonly uniforms = { viewport: { value: new Vector2() }, wide: { value: 1 }, lift: { value: 0 }, opacity: { value: OPACITY }, needed: { value: 0 } }
-  /** Length of all for each area of the surface, per millimeter. */
-  private readonly dense: number
+  private readonly crowd: Crowd
+  /** Of the surface, in steps of the grid. */
+  private readonly area: number
   private readonly count: number
   private asked = true
   private coarse = false
@@ -33,9 +35,13 @@ export class EdgeLines {
   /** `packed`: four numbers a vertex; `matrix` leads from its grid to the stage, with `step` millimeters a step. */
   constructor(edges: SharpEdges, packed: Uint16Array, matrix: Matrix4, private readonly step: number) {
     this.count = edges.ends.length / 2
-    this.dense = edges.area > 0 ? edges.length / (edges.area * step) : Infinity
+    this.area = edges.area
     const ends = [new Uint16Array(3 * this.count), new Uint16Array(3 * this.count)]
     edges.ends.forEach((v, i) => ends[i % 2].set(packed.subarray(4 * v, 4 * v + 3), 3 * (i >> 1)))
+    const lengths = new Float32Array(this.count)
+    for (let i = 0, e = 0; i < this.count; i++, e += 3)
+      lengths[i] = Math.sqrt([0, 1, 2].reduce((sum, k) => sum + (ends[0][e + k] - ends[1][e + k]) ** 2, 0))
+    this.crowd = new Crowd(edges.room, lengths)
     const geometry = new InstancedBufferGeometry()
     geometry.setAttribute('corner', new BufferAttribute(new Float32Array([0, -1, 1, -1, 1, 1, 0, 1]), 2))
     geometry.setIndex([0, 1, 2, 0, 2, 3])
@@ -65,9 +71,10 @@ export class EdgeLines {
     viewport.value.set(eye.width * ratio, eye.pixels * ratio)
     wide.value = WIDE * ratio
     lift.value = LIFT * eye.millimetresPerPixel - sunk
-    const covered = WIDE * this.dense * eye.millimetresPerPixel
+    const across = (WIDE * eye.millimetresPerPixel) / this.step
+    needed.value = across / CROWD
+    const covered = this.area > 0 ? (across * this.crowd.seen(needed.value)) / this.area : Infinity
     opacity.value = OPACITY * Math.min(1, SHARE / covered)
-    needed.value = (WIDE * eye.millimetresPerPixel) / (CROWD * this.step)
     this.faint = opacity.value < FAINTEST
     this.apply()
   }
