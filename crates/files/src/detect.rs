@@ -94,7 +94,8 @@ fn is_ptx(bytes: &[u8]) -> bool {
     let mut lines = Lines::new(bytes);
     ROWS.iter().enumerate().all(|(i, width)| {
         let Some(line) = lines.next() else { return false };
-        let fits = |word: &[u8]| if i < 2 { count(word).is_some() } else { whole_number(word, b'.').is_some() };
+        let fits =
+            |word: &[u8]| if i < 2 { count(word).is_some() } else { whole_number(word, b'.').is_some() };
         words(line).count() == *width && words(line).all(fits)
     })
 }

@@ -72,7 +72,11 @@ impl Style {
         for row in rows {
             for (i, word) in row.iter().enumerate() {
                 if i > 0 {
-                    text += if self.free && random.one_in(4) { self.end } else { random.one(&[" ", " ", "\t", "  "]) };
+                    text += if self.free && random.one_in(4) {
+                        self.end
+                    } else {
+                        random.one(&[" ", " ", "\t", "  "])
+                    };
                 }
                 text += word;
             }
@@ -110,8 +114,19 @@ fn case(random: &mut Random, word: &str) -> String {
 fn obj(random: &mut Random, solid: &Solid) -> String {
     let end = Style::random(random).end;
     let asides = [
-        "# head\\", "# C:\\models\\", "mtllib C:\\parts\\", "usemtl a\\", "g f\\", "o v 1 2\\", "", "s off", "# v 1 2 3",
-        "usemtl f", "g", "vt 0 0", "vn 0 \\\n0 1",
+        "# head\\",
+        "# C:\\models\\",
+        "mtllib C:\\parts\\",
+        "usemtl a\\",
+        "g f\\",
+        "o v 1 2\\",
+        "",
+        "s off",
+        "# v 1 2 3",
+        "usemtl f",
+        "g",
+        "vt 0 0",
+        "vn 0 \\\n0 1",
     ];
     let mut text = String::new();
     let mut aside = |random: &mut Random, text: &mut String| {
@@ -125,7 +140,8 @@ fn obj(random: &mut Random, solid: &Solid) -> String {
         for (i, word) in words.iter().enumerate() {
             if i > 0 {
                 let broken = [" \\", "\\", "\\ "].map(|b| format!("{b}{end} "));
-                line += if random.one_in(8) { &broken[random.below(3)] } else { random.one(&[" ", "  ", "\t"]) };
+                line +=
+                    if random.one_in(8) { &broken[random.below(3)] } else { random.one(&[" ", "  ", "\t"]) };
             }
             line += word;
         }
@@ -153,8 +169,18 @@ fn obj(random: &mut Random, solid: &Solid) -> String {
 fn stl(random: &mut Random, solid: &Solid) -> String {
     let style = Style::random(random);
     let names = [
-        "", "part", "facet normal", "facet normal 0 0 1", "my endsolid part", "end solid", "solid", "endfacet endloop",
-        "vertex 1 2 3", "outer loop", "solid facet", "endsolid",
+        "",
+        "part",
+        "facet normal",
+        "facet normal 0 0 1",
+        "my endsolid part",
+        "end solid",
+        "solid",
+        "endfacet endloop",
+        "vertex 1 2 3",
+        "outer loop",
+        "solid facet",
+        "endsolid",
     ];
     let two = random.one_in(3);
     let end = |random: &mut Random, of: &str| {
@@ -204,7 +230,8 @@ fn off(random: &mut Random, solid: &Solid) -> String {
         text = text.replacen(style.end, &format!(" # 3 0 1 2{}", style.end), 1 + random.below(4));
     }
     let between = random.one(&[" ", "#\n", "\n# a comment\n\n"]).replace('\n', style.end);
-    let between = if between == " " && prefix.is_empty() { between } else { format!("{}{between}", style.end) };
+    let between =
+        if between == " " && prefix.is_empty() { between } else { format!("{}{between}", style.end) };
     format!("{prefix}OFF{between}{text}{}", random.one(&["", "", "\x1a", "\0\0\0"]))
 }
 
@@ -296,15 +323,20 @@ fn damaged_text_is_refused_with_place_and_remedy() {
             let solid = Solid::random(&mut random);
             let text = write(&mut random, &solid);
             let Some(damaged) = damaged(&mut random, format, &text) else { continue };
-            let said = match open(&folder.file(&format!("a.{format}"), damaged.as_bytes()), &ReadOptions::default()) {
-                Ok(input) if input.warnings.is_empty() || read(&folder.path().join(format!("a.{format}"))) == Ok(solid.corners()) => {
-                    silent += 1;
-                    shown = damaged;
-                    continue;
-                }
-                Ok(_) => continue,
-                Err(e) => e.to_string(),
-            };
+            let said =
+                match open(&folder.file(&format!("a.{format}"), damaged.as_bytes()), &ReadOptions::default())
+                {
+                    Ok(input)
+                        if input.warnings.is_empty()
+                            || read(&folder.path().join(format!("a.{format}"))) == Ok(solid.corners()) =>
+                    {
+                        silent += 1;
+                        shown = damaged;
+                        continue;
+                    }
+                    Ok(_) => continue,
+                    Err(e) => e.to_string(),
+                };
             if !(said.contains(", line ") && said.contains("; ")) {
                 unplaced += 1;
                 shown = format!("{said}: {damaged}");
@@ -324,7 +356,10 @@ fn damaged(random: &mut Random, format: &str, text: &str) -> Option<String> {
         // The first coordinate of the last vertex.
         "obj" => keep[start + 3..].split_ascii_whitespace().take(1).collect(),
         // Behind the last facet stands a name, in which there may be any word.
-        "stl" => keep[keep[..keep.rfind(['\n', '\r'])?].rfind("vertex")? + 6..].split_ascii_whitespace().take(1).collect(),
+        "stl" => keep[keep[..keep.rfind(['\n', '\r'])?].rfind("vertex")? + 6..]
+            .split_ascii_whitespace()
+            .take(1)
+            .collect(),
         _ => keep.split_ascii_whitespace().filter(is_number).collect(),
     };
     let word = numbers.last().copied().filter(is_number)?;
@@ -341,8 +376,20 @@ fn formats_that_are_not_read_are_named() {
     let ptx = "2\n3\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n1 2 3 0.5\n4 5 6 0.5\n";
     // By their endings, whatever they hold.
     for (ending, name) in [
-        ("ptx", "PTX"), ("PTX", "PTX"), ("ptx.gz", "PTX"), ("e57", "E57"), ("las", "LAS"), ("laz", "LAZ"), ("pcd", "PCD"),
-        ("3mf", "3MF"), ("glb", "glTF"), ("gltf", "glTF"), ("x3d", "X3D"), ("jt", "JT"), ("sldprt", "SolidWorks"), ("wrl", "VRML"),
+        ("ptx", "PTX"),
+        ("PTX", "PTX"),
+        ("ptx.gz", "PTX"),
+        ("e57", "E57"),
+        ("las", "LAS"),
+        ("laz", "LAZ"),
+        ("pcd", "PCD"),
+        ("3mf", "3MF"),
+        ("glb", "glTF"),
+        ("gltf", "glTF"),
+        ("x3d", "X3D"),
+        ("jt", "JT"),
+        ("sldprt", "SolidWorks"),
+        ("wrl", "VRML"),
     ] {
         let said = read(&folder.file(&format!("a.{ending}"), rows.as_bytes())).unwrap_err();
         assert!(said.contains(name) && said.contains("export it as"), "{said}");
@@ -363,4 +410,37 @@ fn formats_that_are_not_read_are_named() {
             assert!(said.contains(name) && said.contains("export it as"), "{file}: {said}");
         }
     }
+}
+
+#[test]
+fn solids_keep_their_names() {
+    let folder = Folder::new();
+    let facet = |z: &str| {
+        format!(
+            "facet normal 0 0 1\nouter loop\nvertex 0 0 {z}\nvertex 1 0 {z}\nvertex 0 1 {z}\nendloop\nendfacet\n"
+        )
+    };
+    let solid = |name: &str, zs: &[&str]| {
+        format!("solid {name}\n{}endsolid\n", zs.iter().map(|z| facet(z)).collect::<String>())
+    };
+    let text = solid("my endsolid part", &["0", "1"]) + &solid("", &[]) + &solid("b", &["nan", "2"]);
+    let Body::Mesh(source) =
+        open(&folder.file("a.stl", text.as_bytes()), &ReadOptions::default()).unwrap().body
+    else {
+        panic!()
+    };
+    let regions = source.regions.unwrap();
+    assert_eq!(regions.names, ["my endsolid part", "", "b"]);
+    assert_eq!(regions.of_facet, [0, 0, 2]);
+    // Parts of a large file are read at the same time.
+    let many = vec!["3"; 20_000];
+    let text = solid("a", &many) + &solid("b", &many);
+    let Body::Mesh(source) =
+        open(&folder.file("b.stl", text.as_bytes()), &ReadOptions::default()).unwrap().body
+    else {
+        panic!()
+    };
+    let regions = source.regions.unwrap();
+    assert_eq!(regions.names, ["a", "b"]);
+    assert!(regions.of_facet.iter().enumerate().all(|(f, r)| *r == u32::from(f >= 20_000)));
 }

@@ -22,16 +22,6 @@ pub struct Silent;
 
 impl Progress for Silent {}
 
-/// Hands on the wish to stop and counts nothing: for a part of a task that counts other things than its parts do.
-#[derive(Clone, Copy)]
-pub struct Uncounted<'a>(pub &'a dyn Progress);
-
-impl Progress for Uncounted<'_> {
-    fn cancelled(&self) -> bool {
-        self.0.cancelled()
-    }
-}
-
 /// The computation was stopped through [`Progress::cancelled`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("cancelled")]

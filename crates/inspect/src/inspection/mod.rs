@@ -24,6 +24,7 @@ mod reference;
 mod seed;
 mod take;
 mod uncertainty;
+mod uncounted;
 mod view;
 
 #[cfg(test)]
@@ -43,7 +44,8 @@ use crate::plan::{Plan, Spec};
 use seed::Seeded;
 use std::collections::BTreeMap;
 use trueness_geom::parallel::prelude::*;
-use trueness_geom::progress::{Progress, Uncounted};
+use trueness_geom::progress::Progress;
+use uncounted::Uncounted;
 
 /// How many steps an inspection has, each counted as it is done: the alignment, the features, their values, those in other
 /// poses, those with doubtful points, the uncertainties, the deviations.

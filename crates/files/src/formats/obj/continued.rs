@@ -7,8 +7,8 @@ use std::borrow::Cow;
 
 /// The first words of statements that are made of numbers and keywords, whose lines may be continued.
 const OF_NUMBERS: &[&[u8]] = &[
-    b"v", b"vn", b"vt", b"vp", b"f", b"l", b"p", b"fo", b"curv", b"curv2", b"surf", b"parm", b"trim", b"hole",
-    b"scrv", b"sp", b"con", b"deg", b"bmat", b"step",
+    b"v", b"vn", b"vt", b"vp", b"f", b"l", b"p", b"fo", b"curv", b"curv2", b"surf", b"parm", b"trim",
+    b"hole", b"scrv", b"sp", b"con", b"deg", b"bmat", b"step",
 ];
 
 /// The text with continued lines put together. As many blank lines follow, so that every statement stays on its line.
@@ -76,8 +76,15 @@ mod tests {
             assert_eq!(whole(text), wanted);
         }
         for kept in [
-            "# C:\\\nv 1 2 3", "mtllib C:\\a\\\nv 1 2 3", "usemtl a\\\nf 1 2 3", "g a\\\nf 1 2 3", "o \\\nv 1 2 3",
-            "f 1 2 3 # see C:\\\nf 1 2 4", "call C:\\x\\\nf 1 2 3", "shadow_obj a\\\nf 1 2 3", "s \\\nf 1 2 3",
+            "# C:\\\nv 1 2 3",
+            "mtllib C:\\a\\\nv 1 2 3",
+            "usemtl a\\\nf 1 2 3",
+            "g a\\\nf 1 2 3",
+            "o \\\nv 1 2 3",
+            "f 1 2 3 # see C:\\\nf 1 2 4",
+            "call C:\\x\\\nf 1 2 3",
+            "shadow_obj a\\\nf 1 2 3",
+            "s \\\nf 1 2 3",
         ] {
             assert_eq!(whole(kept), kept);
         }

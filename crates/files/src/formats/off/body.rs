@@ -124,7 +124,8 @@ impl<'a> Reading<'a> {
         for (axis, x) in point.iter_mut().enumerate() {
             let word = if axis == 0 { Some(first) } else { self.word() };
             let number = word.and_then(|w| whole_number(w, b'.'));
-            *x = number.ok_or_else(|| Fault::unexpected("three numbers with decimal points", self.shown()))?;
+            *x =
+                number.ok_or_else(|| Fault::unexpected("three numbers with decimal points", self.shown()))?;
             if !x.is_finite() {
                 return Err(Fault::NotFinite { what: "vertex", number: row + 1 });
             }

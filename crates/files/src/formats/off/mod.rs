@@ -3,8 +3,7 @@
 mod body;
 
 use crate::{
-    AtomicFile, SourceMesh, Warning,
-    assemble,
+    AtomicFile, SourceMesh, Warning, assemble,
     error::{Fault, Result, WriteFault},
     flow::Flow,
     format::{Format, Head, Parsed, ReadOptions, Weld},
@@ -83,7 +82,8 @@ fn counts(words: &mut Flow) -> std::result::Result<Counts, Fault> {
     let expected = "the numbers of vertices, faces and edges";
     let ahead = words.clone();
     let first = words.next();
-    let first = first.ok_or_else(|| Fault::unexpected("\"OFF\" and the numbers of vertices, faces and edges", b""))?;
+    let first = first
+        .ok_or_else(|| Fault::unexpected("\"OFF\" and the numbers of vertices, faces and edges", b""))?;
     let mut widths = vec![3];
     match keyword(first) {
         Some((prefix, length)) => {

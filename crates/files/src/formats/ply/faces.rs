@@ -63,12 +63,16 @@ pub(super) fn row_length(
     Ok((feed.ahead(length)?.len() >= length).then_some(length))
 }
 
-/// Reads the rows of `elements` from the rest of a file, which begins at byte `at` and behind `lines` lines. Gives what
-/// follows them, which should be nothing if `to_end`.
+/// A stretch of a file: its bytes, the first of them, and how many lines come before.
+pub(super) struct Stretch<'a> {
+    pub bytes: &'a [u8],
+    pub at: u64,
+    pub lines: u64,
+}
+
+/// Reads the rows of `elements`. Gives what follows them, which should be nothing if `to_end`.
 pub(super) fn read<'a>(
-    rest: &'a [u8],
-    at: u64,
-    lines: u64,
+    stretch: Stretch<'a>,
     encoding: Encoding,
     elements: &[Element],
     to_end: bool,
@@ -76,9 +80,9 @@ pub(super) fn read<'a>(
     faces: &mut Faces,
 ) -> Result<&'a [u8]> {
     let Encoding::Binary(order) = encoding else {
-        return in_text(rest, lines, elements, to_end, positions, faces);
+        return in_text(stretch.bytes, stretch.lines, elements, to_end, positions, faces);
     };
-    let mut bytes = Bytes { rest, at, order };
+    let mut bytes = Bytes { rest: stretch.bytes, at: stretch.at, order };
     for element in elements {
         if plain(&mut bytes, element, positions, faces) {
             continue;

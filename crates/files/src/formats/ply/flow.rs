@@ -67,7 +67,14 @@ fn fits(vertex: &Element, xyz: [usize; 3], head: &[u8], whole: bool) -> bool {
 }
 
 impl FlowPoints {
-    pub fn new(feed: Feed, vertex: Element, xyz: [usize; 3], end: u8, lines: u64, block: usize) -> FlowPoints {
+    pub fn new(
+        feed: Feed,
+        vertex: Element,
+        xyz: [usize; 3],
+        end: u8,
+        lines: u64,
+        block: usize,
+    ) -> FlowPoints {
         FlowPoints { feed, vertex, xyz, end, lines, found: 0, block: block.max(1) }
     }
     /// The file, as far as it has been read.

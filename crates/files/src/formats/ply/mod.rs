@@ -21,6 +21,7 @@ use crate::{
     scalar::{Order, Scalar},
     source::Source,
 };
+use faces::Stretch;
 use flow::FlowPoints;
 use header::{Element, Encoding, Header, PropertyType};
 use loose::LoosePoints;
@@ -59,7 +60,11 @@ fn read(mut source: Source, options: &ReadOptions) -> Result<Parsed> {
     };
     let (before, vertex, after) = split(&header)?;
     let mut lines = header.lines;
-    let early = Early { at: header.length as u64, lines, bytes: skip(&mut source.feed, &header, before, &mut lines)? };
+    let early = Early {
+        at: header.length as u64,
+        lines,
+        bytes: skip(&mut source.feed, &header, before, &mut lines)?,
+    };
     let count = vertex.count;
     let mut points = Points::new(source.feed, &header, vertex, lines, options)?;
     let mut warnings: Vec<Warning> = header.unknown.clone().into_iter().collect();
@@ -78,10 +83,11 @@ fn read(mut source: Source, options: &ReadOptions) -> Result<Parsed> {
     let mut faces = Faces::default();
     let encoding = header.encoding;
     if has_faces(before) {
-        faces::read(&early.bytes, early.at, early.lines, encoding, before, false, &positions, &mut faces)?;
+        let stretch = Stretch { bytes: &early.bytes, at: early.at, lines: early.lines };
+        faces::read(stretch, encoding, before, false, &positions, &mut faces)?;
     }
-    let rest = in_encoding(feed.all()?, encoding);
-    let rest = faces::read(rest, at, lines, encoding, after, true, &positions, &mut faces)?;
+    let stretch = Stretch { bytes: in_encoding(feed.all()?, encoding), at, lines };
+    let rest = faces::read(stretch, encoding, after, true, &positions, &mut faces)?;
     if !rest.trim_ascii().is_empty() {
         warnings.push(Warning::TrailingBytes { count: rest.len() as u64 });
     }

@@ -6,7 +6,7 @@
 
 use super::facet::Facet;
 use crate::{
-    Warning,
+    FacetRegions, Warning,
     error::{Fault, Result},
     lines::{line_end, line_of, without_mark},
     number::number,
@@ -39,6 +39,8 @@ impl Facet for TextFacet {
 /// What ASCII text held.
 pub(super) struct Read {
     pub facets: Vec<TextFacet>,
+    /// The solid of each facet, where there are several.
+    pub regions: Option<FacetRegions>,
     pub warnings: Vec<Warning>,
 }
 
@@ -56,10 +58,20 @@ pub(super) fn read(bytes: &[u8]) -> Result<Read> {
     let mut all = Part::default();
     let mut open = false;
     let mut facets = Vec::new();
+    let mut regions = FacetRegions::default();
     for part in parsed {
         let part = part.map_err(|(at, fault)| fault.at_line(line_of(text, at)))?;
         open = part.open.unwrap_or(open);
         all.solids += part.solids;
+        // Facets before the first name of a part are of the solid that was open at its start.
+        let mut names = part.names.into_iter().peekable();
+        for f in 0..part.facets.len() {
+            while let Some((_, name)) = names.next_if(|(first, _)| *first <= f) {
+                regions.names.push(name);
+            }
+            regions.of_facet.push((regions.names.len() as u32).saturating_sub(1));
+        }
+        regions.names.extend(names.map(|(_, name)| name));
         facets.push(part.facets);
     }
     let mut warnings = vec![];
@@ -69,7 +81,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Read> {
     if open {
         warnings.push(Warning::NoEndsolid);
     }
-    Ok(Read { facets: facets.concat(), warnings })
+    Ok(Read { facets: facets.concat(), regions: (all.solids > 1).then_some(regions), warnings })
 }
 
 /// The start of the line after the first `endfacet` line that begins behind `at`; `None` near the end.
@@ -92,6 +104,8 @@ fn behind_endfacet(text: &[u8], at: usize) -> Option<usize> {
 struct Part {
     facets: Vec<TextFacet>,
     solids: u64,
+    /// Of each solid that begins here its first facet and its name.
+    names: Vec<(usize, String)>,
     /// Whether a solid is open at the end; `None` if no solid begins or ends here.
     open: Option<bool>,
 }
@@ -112,7 +126,10 @@ impl Part {
             if is(word, "facet") {
                 part.facets.push(words.facet()?);
             } else if is(word, "solid") {
+                let start = words.at;
                 words.skip_name(true);
+                let name = String::from_utf8_lossy(text[start..words.at].trim_ascii()).into_owned();
+                part.names.push((part.facets.len(), name));
                 part.solids += 1;
                 part.open = Some(true);
             } else {
@@ -201,7 +218,13 @@ impl<'a> Words<'a> {
         loop {
             let start = words.at;
             let ends = words.end_of("solid");
-            let word = if ends { &b"solid"[..] } else if let Some((_, word)) = words.next() { word } else { break };
+            let word = if ends {
+                &b"solid"[..]
+            } else if let Some((_, word)) = words.next() {
+                word
+            } else {
+                break;
+            };
             if is(word, "facet") && (Words { text: self.text, ..words.clone() }).begins_facet() {
                 self.facet = start;
             }
@@ -223,7 +246,9 @@ impl<'a> Words<'a> {
     fn end_of_empty(&self, line_end: usize, begins: bool) -> usize {
         let text = &self.text[self.at..line_end];
         let lower = text.to_ascii_lowercase();
-        let Some(end) = memchr::memmem::rfind(&lower, b"endsolid").filter(|_| begins) else { return line_end };
+        let Some(end) = memchr::memmem::rfind(&lower, b"endsolid").filter(|_| begins) else {
+            return line_end;
+        };
         let (name, again) = (text[..end].trim_ascii(), text[end + 8..].trim_ascii());
         if again.is_empty() || again == name { self.at + end } else { line_end }
     }

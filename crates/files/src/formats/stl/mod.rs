@@ -6,7 +6,7 @@ mod facet;
 mod write;
 
 use crate::{
-    Warning, assemble,
+    FacetRegions, Warning, assemble,
     error::{Fault, Result},
     format::{Format, Head, Parsed, ReadOptions, Weld},
     lines::{is_text, line_of, without_filling, without_mark},
@@ -64,12 +64,12 @@ fn read(mut source: Source, options: &ReadOptions) -> Result<Parsed> {
     if text && looks_ascii(head) {
         let (bytes, zeros) = without_filling(source.feed.all()?);
         no_zeros(bytes)?;
-        let ascii::Read { facets, warnings } = ascii::read(bytes)?;
+        let ascii::Read { facets, regions, warnings } = ascii::read(bytes)?;
         if zeros && warnings.contains(&Warning::NoEndsolid) {
             // Not what fills up a finished file, but what was never written.
             return Err(Fault::Zeros.at_line(line_of(bytes, bytes.len())));
         }
-        return mesh("stl-ascii", &facets, options, warnings);
+        return mesh("stl-ascii", &facets, regions, options, warnings);
     }
     if text {
         return Err(Fault::unexpected("STL: the word \"solid\" or a binary header", head).at_line(1));
@@ -80,11 +80,11 @@ fn read(mut source: Source, options: &ReadOptions) -> Result<Parsed> {
         && binary::may_have_attributes(facets, length)
         && let Some(records) = binary::with_attributes(source.feed.all()?)
     {
-        return mesh("stl-binary", &records, options, vec![]);
+        return mesh("stl-binary", &records, None, options, vec![]);
     }
     let bytes = source.feed.ahead(HEADER + facets * RECORD)?;
     let records = bytes.get(HEADER..).unwrap_or_default().as_chunks().0;
-    mesh("stl-binary", records.get(..facets).unwrap_or(records), options, warnings)
+    mesh("stl-binary", records.get(..facets).unwrap_or(records), None, options, warnings)
 }
 
 /// Facets of one task.
@@ -94,6 +94,7 @@ const CHUNK: usize = 1 << 13;
 fn mesh<F: Facet>(
     variant: &'static str,
     facets: &[F],
+    mut regions: Option<FacetRegions>,
     options: &ReadOptions,
     mut warnings: Vec<Warning>,
 ) -> Result<Parsed> {
@@ -104,11 +105,16 @@ fn mesh<F: Facet>(
         warnings.push(Warning::NonFiniteFacets { count: bad.len() as u64, first: first as u64 });
         kept = facets.iter().filter(|f| f.finite()).copied().collect();
         good = &kept;
+        if let Some(regions) = &mut regions {
+            let mut finite = facets.iter().map(F::finite);
+            regions.of_facet.retain(|_| finite.next().unwrap_or(true));
+        }
     }
     let mesh = crate::SourceMesh {
         mesh: assemble::corners(good.len(), |f, k| good[f].corner(k), options.weld != Weld::None)?,
         stored_normals: Some(good.par_iter().map(F::normal).collect()),
         nonfinite_facets: bad.into_iter().map(|f| f as u32).collect(),
+        regions,
         unread: vec![],
     };
     Ok(Parsed::mesh(variant, mesh, warnings))
