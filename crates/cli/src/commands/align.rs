@@ -5,7 +5,7 @@ use crate::console;
 use crate::exit::{self, Outcome, Usage};
 use crate::number::{POINTS, counted, fixed, grouped, scientific, signed, six_digits};
 use crate::options::{Common, DocumentArgs, PointInputArgs, ReferenceArgs};
-use crate::progress::Stage;
+use crate::progress::{STEPS, Stage};
 use crate::read::{self, Body, Opened};
 use crate::run_files::RunFiles;
 use crate::tolerance::ToleranceArg;
@@ -205,7 +205,7 @@ fn best_fit(
     common: &Common,
 ) -> anyhow::Result<AlignDocument> {
     let of_reference = || args.reference.display().to_string();
-    let stage = Stage::new(common.progress, "aligning", "points", None);
+    let stage = Stage::new(common.progress, "aligning", STEPS, None);
     let tree = Tree::build_watched(reference, &stage).map_err(|e| match e {
         trueness_geom::closest::MeshError::Cancelled(e) => e.into(),
         e => anyhow::anyhow!("{}: {e}", of_reference()),

@@ -59,6 +59,8 @@ impl FromStr for Coverage {
 /// Share of a reference that a scan of the whole part covers at least, where nothing else is said. Scans
 /// that are taken for whole ones cover 96 to 100 %, what shows a part from one side covers about half.
 pub const MIN_COVERAGE: f64 = 0.9;
+/// Places of each sign that a result names unless more are asked for: as many as flags beside a part can be read.
+const WORST: usize = 3;
 
 /// What is asked.
 #[derive(Clone, Debug)]
@@ -90,6 +92,8 @@ pub struct Options {
     pub required_share: f64,
     /// Points that a report can show; 0 without a report.
     pub shown: usize,
+    /// Worst places that the result names, at most so many above the reference and so many below.
+    pub worst: usize,
     /// Deviations kept in memory for exact percentiles, of all references together; beyond, percentiles come from
     /// a sketch with a stated error.
     pub kept_values: usize,
@@ -127,6 +131,7 @@ impl Default for Options {
             tolerance: None,
             required_share: 1.0,
             shown: 0,
+            worst: WORST,
             kept_values: 1 << 27,
             research: false,
             seed: 0,

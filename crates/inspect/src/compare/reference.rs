@@ -138,9 +138,6 @@ pub enum Values {
     Many(Box<Accumulator>),
 }
 
-/// Places of each sign that a result names.
-const WORST: usize = 3;
-
 /// A comparison under way.
 pub struct Running<'a> {
     mesh: &'a Mesh,
@@ -159,6 +156,8 @@ pub struct Running<'a> {
     tallies: Vec<Tally>,
     extremes: Extremes,
     worst: WorstPlaces,
+    /// Places of each sign that the result names.
+    named: usize,
     paper: Option<(Paper, Differences)>,
     map: Option<PointMap>,
     sample: Option<CoverageSample>,
@@ -205,6 +204,7 @@ impl<'a> Running<'a> {
             coverage: options.coverage.unwrap_or_default(),
             extremes: Extremes::default(),
             worst: WorstPlaces::new(&mesh.bounds()),
+            named: options.worst,
             paper,
             map: (options.shown > 0 || options.coverage.is_some() || options.places).then(|| {
                 PointMap::new(mesh, options.tolerance.filter(|_| regions.is_none()), options.places)
@@ -348,7 +348,7 @@ impl<'a> Running<'a> {
 
     /// The places that the result will name.
     pub fn worst_places(&self) -> Vec<WorstPoint> {
-        let mut places: Vec<WorstPoint> = self.worst.pick(WORST).into_iter().flatten().collect();
+        let mut places: Vec<WorstPoint> = self.worst.pick(self.named).into_iter().flatten().collect();
         match self.regions {
             Some(_) => places.sort_by(|a, b| b.badness.total_cmp(&a.badness).then(a.index.cmp(&b.index))),
             None => sort(&mut places, self.limits.as_ref().map(|l| [l.lower, l.upper])),

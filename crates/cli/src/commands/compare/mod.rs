@@ -9,7 +9,7 @@ mod words;
 use crate::command::Run;
 use crate::exit::{self, Outcome, Usage};
 use crate::options::{Common, PointInputArgs, ReferenceArgs, weld};
-use crate::progress::Stage;
+use crate::progress::{STEPS, Stage};
 use crate::read;
 use crate::run_files::RunFiles;
 use crate::tolerance::ToleranceArg;
@@ -106,6 +106,9 @@ pub struct CompareArgs {
     /// purpose. Where less is covered, what does not fail is undecided
     #[arg(long, value_name = "PERCENT", default_value_t = 100.0 * MIN_COVERAGE, allow_hyphen_values = true)]
     min_coverage: f64,
+    /// Name at most N worst places above the reference, and as many below
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u16).range(1..=1000))]
+    worst: u16,
     /// Compare N points spread evenly over the measured mesh's area instead of its vertices
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     sample: Option<u64>,
@@ -184,6 +187,7 @@ impl CompareArgs {
             min_coverage: self.min_coverage / 100.0,
             regions: self.regions.as_deref().map(read::regions).transpose()?.unwrap_or_default(),
             tolerance: self.tolerance.map(|t| t.0),
+            worst: usize::from(self.worst),
             required_share: self.inside / 100.0,
             shown: self.output.report.shown(),
             research: self.research,
@@ -273,7 +277,7 @@ fn run(args: &CompareArgs, common: &Common) -> anyhow::Result<Outcome> {
                 })
             },
         );
-    drop(stage);
+    stage.end(&found);
     let found = found.map_err(|e| in_file(e, &args.measured))?;
     hashes?;
     let reverse = match &measured.mesh {
@@ -328,7 +332,7 @@ fn aligned(
     name: &str,
     common: &Common,
 ) -> anyhow::Result<AlignedTo> {
-    let stage = Stage::new(common.progress, "aligning", "points", None);
+    let stage = Stage::new(common.progress, "aligning", STEPS, None);
     let found = measured.align(&args.measured, reference, common.seed, &stage)?;
     Ok(AlignedTo::new(&found, name.into()))
 }

@@ -2,7 +2,7 @@
 
 use crate::exit::Usage;
 use crate::options::Common;
-use crate::progress::Stage;
+use crate::progress::{STEPS, Stage};
 use crate::read::{self, ReferenceBody};
 use anyhow::Context;
 use std::path::{Path, PathBuf};
@@ -94,7 +94,7 @@ fn allowed(path: &Path, options: &Options) -> Result<(), Usage> {
 }
 
 fn prepared(path: &Path, surfaces: &[Nurbs], common: &Common) -> anyhow::Result<Opened> {
-    let stage = Stage::new(common.progress, "preparing the surfaces", "points", None);
+    let stage = Stage::new(common.progress, "preparing the surfaces", STEPS, None);
     let search = FootSearch::new(surfaces, &stage).map_err(|e| match e {
         FootError::Cancelled(e) => anyhow::Error::from(e),
         e => anyhow::Error::from(e),
