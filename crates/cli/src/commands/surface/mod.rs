@@ -36,7 +36,7 @@ pub struct SurfaceArgs {
     /// Degrees along u and v [default: 3x3, or those that the knots tell]
     #[arg(long, value_name = "PxQ", value_parser = pair)]
     degree: Option<[usize; 2]>,
-    /// Equal spans along u and v [default: 8x8]
+    /// Equal spans along u and v [default: 8x8; on a cylinder or sphere one for each 15°, where that is more]
     #[arg(long, value_name = "MxN", value_parser = pair, conflicts_with_all = ["knots", "tolerance"])]
     spans: Option<[usize; 2]>,
     /// Whole clamped knots, a JSON file {"u": […], "v": […]}
@@ -137,7 +137,7 @@ impl SurfaceArgs {
         let layout = match (&self.knots, self.tolerance) {
             (Some(path), _) => Layout::Knots(knots::read(path, self.degree)?),
             (None, Some(t)) => Layout::Tolerance(t),
-            (None, None) => Layout::Spans(self.spans.unwrap_or([8, 8])),
+            (None, None) => self.spans.map_or(Layout::Auto, Layout::Spans),
         };
         Ok(Options {
             degree: self.degree.unwrap_or([3, 3]),
