@@ -220,7 +220,7 @@ impl Context<'_> {
             let element = Probe::new(&shape);
             let pieces = flood(self.surface, patch, limit.min(most), marks, |piece, from| {
                 let belongs = free(piece) && self.surface.belongs(piece, &element, &self.band);
-                belongs && (piece == from || !self.surface.folds_back(piece, from))
+                belongs && !self.surface.folds_back(piece, from)
             });
             let points = self.within(&element, &pieces);
             if !is_shown(self.surface, kind, &pieces, points.len()) {

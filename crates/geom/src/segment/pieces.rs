@@ -107,7 +107,8 @@ impl PieceGraph<'_> {
     }
     /// Whether two facets lie on the same side of the edge that they share, as those of a rim sharper than a right angle.
     pub(super) fn folds_back(&self, one: u32, other: u32) -> bool {
-        if !self.is_mesh() {
+        // A flood begins with a piece reached from itself.
+        if one == other || !self.is_mesh() {
             return false;
         }
         let [a, b] = [one, other].map(|piece| self.corners(piece).0);
