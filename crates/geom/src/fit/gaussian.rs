@@ -86,13 +86,11 @@ pub(super) fn optimum<const P: usize, F: Family<P>>(
     Ok((optimum, inverse))
 }
 
-/// The least-squares element of the few points given, good enough to be compared with others; `None` where they determine none.
+/// The least-squares element of the few points given, good enough to be compared with others.
 pub(super) fn quick<const P: usize, F: Family<P>>(sample: &Sample) -> Option<Element> {
     let starts = F::starts(&sample.units().collect::<Vec<Point>>());
     let ends = starts.iter().filter_map(|start| minimize::<P, F, _>(start, sample, &Alike, ROUGH));
-    ends.min_by(|a, b| a.sums.square.total_cmp(&b.sums.square))
-        .filter(|o| determined(o).is_some())
-        .map(|o| o.element)
+    ends.min_by(|a, b| a.sums.square.total_cmp(&b.sums.square)).map(|o| o.element)
 }
 
 /// The least-squares element near `start` to seven digits, and the root mean square distance: for those who fit again and

@@ -1,8 +1,8 @@
 //! Fits that outliers do not pull: a start from random trials, then the biweight.
 //!
-//! Each trial fits few random points. The median distance of a sample of all points tells the noise, as long as less than half of
-//! them are outliers (P. J. Rousseeuw, "Least median of squares regression", JASA 79, 1984). The best trial is the one with the
-//! least sum of J. W. Tukey's biweight at the lesser noise of two; from it on that sum is minimized. Its weights fall to zero at 4.685 standard deviations, which keeps
+//! Each trial fits few random points. Its measure is the median distance of a sample of all points, which stays meaningful as long
+//! as less than half of them are outliers (P. J. Rousseeuw, "Least median of squares regression", JASA 79, 1984). From the best
+//! trial on, the sum of J. W. Tukey's biweight is minimized. Its weights fall to zero at 4.685 standard deviations, which keeps
 //! 95 % of the efficiency of least squares on normal noise.
 
 use super::family::{Element, Family};
@@ -34,11 +34,6 @@ struct Biweight {
 }
 
 impl Biweight {
-    /// That of noise with this median magnitude.
-    fn of(median: f64) -> Biweight {
-        // Points without noise: anything off is an outlier, rounding is not.
-        Biweight { sharpness: (BEYOND * NORMAL * median).max(1e-13).powi(-2) }
-    }
     /// 1 − d²/c², not below zero.
     #[inline(always)]
     fn rest(&self, d: f64) -> f64 {
@@ -74,10 +69,12 @@ pub(super) fn robust<const P: usize, F: Family<P>>(
     };
     let some = sample.thinned(SOME);
     let mut element = F::settled(start);
-    let mut biweight = Biweight::of(1.0);
+    let mut biweight = Biweight { sharpness: 1.0 };
     // The scale and the element settle together.
     for _ in 0..6 {
-        biweight = Biweight::of(middle(&magnitudes::<P, F>(&element, &some)));
+        let cutoff = BEYOND * NORMAL * median::<P, F>(&element, &some);
+        // Points without noise: anything off is an outlier, rounding is not.
+        biweight.sharpness = cutoff.max(1e-13).powi(-2);
         let Some(better) = minimize::<P, F, _>(&element, &some, &biweight, ROUGH) else { break };
         element = better.element;
     }
@@ -115,10 +112,7 @@ fn trials<const P: usize, F: Family<P>>(
     progress: &dyn Progress,
 ) -> Result<Element, FitError> {
     let judging = sample.thinned(JUDGING_POINTS);
-    let judged = |element: Element| {
-        let magnitudes = magnitudes::<P, F>(&element, &judging);
-        Trial { median: middle(&magnitudes), magnitudes, element }
-    };
+    let judged = |element: Element| (median::<P, F>(&element, &judging), element);
     let mut best = gaussian::quick::<P, F>(&judging).map(judged);
     let mut random = Random::new(seed);
     let each = (P + 2).min(sample.len());
@@ -133,9 +127,9 @@ fn trials<const P: usize, F: Family<P>>(
             random.choose(each, sample.len()).into_iter().map(|k| sample.points[k]).collect();
         let few = sample.with(points.into());
         let Some(found) = gaussian::quick::<P, F>(&few).map(judged) else { continue };
-        if best.as_ref().is_none_or(|held| found.replaces(held)) {
-            let near = 3.0 * NORMAL * found.median;
-            let share = found.magnitudes.iter().filter(|d| **d <= near).count() as f64 / judging.len() as f64;
+        if best.as_ref().is_none_or(|b| found.0 < b.0) {
+            let near = 3.0 * NORMAL * found.0;
+            let share = share_within::<P, F>(&found.1, &judging, near);
             let clean = share.powi(each as i32);
             // So many that with 99.9 % one of them had no outlier.
             let needed = (libm::log(0.001f64) / libm::log(1.0 - clean)).ceil();
@@ -143,7 +137,7 @@ fn trials<const P: usize, F: Family<P>>(
             best = Some(found);
         }
     }
-    best.map(|trial| trial.element).ok_or_else(|| gaussian::nothing(sample, kind))
+    best.map(|b| b.1).ok_or_else(|| gaussian::nothing(sample, kind))
 }
 
 /// Magnitudes of the distances, in the unit frame.
@@ -152,28 +146,16 @@ fn magnitudes<const P: usize, F: Family<P>>(element: &Element, sample: &Sample) 
     sample.points.iter().map(|&p| F::distance(element.size, placing.local(p)).abs()).collect()
 }
 
-/// Median of the magnitudes.
-fn middle(magnitudes: &[f64]) -> f64 {
-    let mut all = magnitudes.to_vec();
+/// Median magnitude of the distances.
+fn median<const P: usize, F: Family<P>>(element: &Element, sample: &Sample) -> f64 {
+    let mut all = magnitudes::<P, F>(element, sample);
     let middle = all.len() / 2;
     *all.select_nth_unstable_by(middle, f64::total_cmp).1
 }
 
-/// An element of a trial, with the magnitudes of the distances from it.
-struct Trial {
-    median: f64,
-    magnitudes: Vec<f64>,
-    element: Element,
-}
-
-impl Trial {
-    /// Whether it leaves less of the loss that is made least in the end, at the scale of the better one. A lesser median alone
-    /// would not tell: all cones through the rim of one have it.
-    fn replaces(&self, held: &Trial) -> bool {
-        let biweight = Biweight::of(self.median.min(held.median));
-        let loss = |trial: &Trial| trial.magnitudes.iter().map(|d| biweight.loss(*d)).sum::<f64>();
-        loss(self) < loss(held)
-    }
+fn share_within<const P: usize, F: Family<P>>(element: &Element, sample: &Sample, near: f64) -> f64 {
+    let all = magnitudes::<P, F>(element, sample);
+    all.iter().filter(|&&d| d <= near).count() as f64 / all.len() as f64
 }
 
 /// Statistics of the points within the cutoff; `None` if there are none.
