@@ -182,6 +182,12 @@ fn rates(seeds: std::ops::Range<u64>, method: Method) -> ([usize; 4], Vec<String
 }
 
 #[test]
+fn cones_of_every_half_angle_are_found_from_every_pattern() {
+    let (counts, bad) = rates(0..100, Method::Gaussian);
+    assert!(bad.is_empty(), "{counts:?}\n{}", bad.join("\n"));
+}
+
+#[test]
 #[ignore = "measures rates over many cones"]
 fn rates_over_many_cones() {
     for method in [Method::Gaussian, Method::Robust] {
