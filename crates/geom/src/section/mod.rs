@@ -3,6 +3,7 @@
 //! | file | what |
 //! |---|---|
 //! | `row` | rows as they come: what is wrong with them |
+//! | `stray`, `without` | points that belong to no contour, as header rows and fillers; the row without them |
 //! | `direction` | the end that a row is measured from |
 //! | `levels` | the partition that the search begins with, at one level of noise or several |
 //! | `begin` | models that the search begins with: lines and arcs with a common tangent |
@@ -77,11 +78,13 @@ mod smooth;
 mod span;
 mod stack;
 mod start;
+mod stray;
 mod task;
 mod tessellated;
 #[cfg(test)]
 mod tests;
 mod untangle;
+mod without;
 
 pub use airfoil::{Airfoil, AirfoilError, EdgeRadius, TrailingEdge, airfoil};
 pub use bent::{Bent, bent_across};
