@@ -61,6 +61,13 @@ pub enum Warning {
     },
     /// The first column counts the rows and was not taken for a coordinate.
     RunningNumber,
+    /// The rows are an airfoil in the form of a collection: its title and its counts were taken out, and two sides put in one row.
+    Airfoil {
+        /// Whose form.
+        form: &'static str,
+        /// Its title.
+        title: Option<String>,
+    },
     /// The header names neither x nor y nor z; the columns of numbers were taken in their order.
     NamesUnknown {
         /// Their names.
@@ -150,6 +157,14 @@ impl fmt::Display for Warning {
             }
             Warning::RunningNumber => {
                 write!(f, "the first column counts the rows; the three after it were taken as x, y, z")
+            }
+            Warning::Airfoil { form, title } => {
+                let title = title.as_ref().map_or(String::new(), |t| format!(" with the title \"{t}\""));
+                let done = match *form {
+                    "Lednicer" => "; its counts were left out, and its two sides put in one row around the profile",
+                    _ => "",
+                };
+                write!(f, "an airfoil in {form}'s form{title}{done}")
             }
             Warning::NamesUnknown { names } => {
                 write!(

@@ -26,7 +26,16 @@ pub(super) fn hints(section: &Section, found: &Contour, bent: &[Bent], options: 
 
 /// What makes a contour doubtful.
 pub(super) fn doubts(found: &Contour) -> Vec<String> {
-    strays(found).into_iter().collect()
+    strays(found).into_iter().chain(layers(found)).collect()
+}
+
+/// Both faces of a wall in one contour.
+fn layers(found: &Contour) -> Option<String> {
+    let apart = digits(found.layered?);
+    Some(format!(
+        "the points lie in two layers about {apart} apart, or scatter as much: the contour may run between the faces of a thin wall; scan \
+         the faces apart, or cut where points are denser"
+    ))
 }
 
 /// Points that may be strays.
