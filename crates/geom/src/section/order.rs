@@ -90,8 +90,9 @@ pub fn order(points: &[[f64; 2]], gap: Option<f64>, progress: &dyn Progress) -> 
     // A tree whose cells are smaller than a wall is thick may run now along one face, now along the other; one of larger cells runs along
     // both, and its way is parted.
     let mut wider_cells = width;
+    let (mut layered, most) = (None, |r: &Ordered| r.numbers.len() as f64 >= WALL.0 * n as f64);
     for _ in 0..WALL.1 {
-        if tried || ends(&found.0) <= 2 {
+        if tried {
             break;
         }
         wider_cells *= GROWTH.0;
@@ -105,9 +106,16 @@ pub fn order(points: &[[f64; 2]], gap: Option<f64>, progress: &dyn Progress) -> 
         let tree = cells.tree(reach);
         let mut other = rows(points, Grown { cells, tree, reach, follows: true }, gap, size);
         let is_parted = parted(points, &mut other.0, gap, progress)?;
-        if is_parted && ends(&other.0) < ends(&found.0) && count(&other.0) >= count(&found.0) {
+        let better = ends(&other.0) < ends(&found.0) || is_mixed(&found.0, &other.0, n);
+        if is_parted && better && count(&other.0) as f64 >= WALL.0 * count(&found.0) as f64 {
             (found, tried) = (other, true);
+        } else if !is_parted {
+            layered = layered.or(other.0.iter().filter(|r| most(r)).find_map(|r| r.layered));
         }
+    }
+    // What runs along both faces of a wall in places, the smaller cells cannot have told apart everywhere.
+    if !tried {
+        found.0.iter_mut().for_each(|row| row.layered = row.layered.or(layered));
     }
     let (mut rows, gap) = found;
     rows.retain(|r| r.numbers.len() >= FEWEST.1);
@@ -148,6 +156,24 @@ fn ends(rows: &[Ordered]) -> usize {
     counted.map(|r| if r.closed { 1 } else { 3 }).sum()
 }
 
+/// Share of a row's points that lie on another face by chance, as where noise hides whose they are.
+const MIXED: f64 = 0.02;
+
+/// Whether a row runs along several faces that others of the `count` points tell apart.
+fn is_mixed(rows: &[Ordered], faces: &[Ordered], count: usize) -> bool {
+    let mut face_of = vec![None; count];
+    for (k, face) in faces.iter().enumerate() {
+        face.numbers.iter().for_each(|i| face_of[*i] = Some(k));
+    }
+    let mixed = |row: &Ordered| {
+        let mut counts = vec![0; faces.len()];
+        row.numbers.iter().filter_map(|i| face_of[*i]).for_each(|k| counts[k] += 1);
+        let most = counts.iter().max().copied().unwrap_or(0);
+        counts.iter().sum::<usize>() - most > (MIXED * row.numbers.len() as f64).ceil() as usize
+    };
+    rows.iter().any(mixed)
+}
+
 /// Parts rows along both faces of a wall in one for each face; whether there was one.
 fn parted(
     points: &[[f64; 2]],
@@ -160,7 +186,10 @@ fn parted(
     for mut row in std::mem::take(rows) {
         let places: Vec<[f64; 2]> = row.numbers.iter().map(|i| points[*i]).collect();
         let upper = match faces(&places, row.closed) {
-            Faces::Two { upper, .. } => upper,
+            Faces::Two { upper, unclear } => {
+                row.layered = unclear;
+                upper
+            }
             Faces::One => {
                 all.push(row);
                 continue;

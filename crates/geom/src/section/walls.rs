@@ -22,6 +22,11 @@ const UNCLEAR: (f64, f64) = (0.2, 1.0 / 6.5);
 const CHANGES: f64 = 0.55;
 /// Rounds in which points choose the nearer face.
 const ROUNDS: usize = 12;
+/// Points farther off than so many standard deviations are of neither face, or of both; no more of them than this share are left in silence.
+const WITHIN: f64 = 5.0;
+const HIDDEN: f64 = 0.03;
+/// So many windows tell whether there are two faces.
+const MOST: usize = 2000;
 /// Fewer windows tell nothing.
 const FEWEST: usize = 6;
 
@@ -30,8 +35,8 @@ const FEWEST: usize = 6;
 pub(super) enum Faces {
     /// Of one face, as far as its points tell.
     One,
-    /// Of two, this far apart, with the face of each place of the row.
-    Two { apart: f64, upper: Vec<bool> },
+    /// Of two, with the face of each place of the row, and how far they are apart where that is unclear for some.
+    Two { upper: Vec<bool>, unclear: Option<f64> },
     /// Of one that scatters, or two this far apart.
     Unclear { apart: f64 },
 }
@@ -46,8 +51,9 @@ struct Window {
     reach: f64,
     shape: [f64; 3],
     half: f64,
-    /// Share of the variance that two faces leave.
+    /// Share of the variance that two faces leave, and the variance.
     left: f64,
+    variance: f64,
     /// Changes from face to face over those by chance.
     changes: f64,
 }
@@ -61,7 +67,7 @@ impl Window {
         let reach = length(first, last);
         let along = [(last[0] - first[0]) / reach, (last[1] - first[1]) / reach];
         let mut window =
-            Window { from, middle, along, reach, shape: [0.0; 3], half: 0.0, left: 1.0, changes: 0.0 };
+            Window { from, middle, along, reach, shape: [0.0; 3], half: 0.0, left: 1.0, variance: 0.0, changes: 0.0 };
         if !(reach > 0.0) {
             return None;
         }
@@ -87,7 +93,8 @@ impl Window {
         let changes = upper.windows(2).filter(|w| w[0] != w[1]).count() as f64;
         window.shape = [two[0], two[1], two[2]];
         window.half = two[3].abs();
-        window.left = (double / (n - 4) as f64) / (single / (n - 3) as f64).max(f64::MIN_POSITIVE);
+        window.variance = double / (n - 4) as f64;
+        window.left = window.variance / (single / (n - 3) as f64).max(f64::MIN_POSITIVE);
         window.changes = changes / by_chance.max(f64::MIN_POSITIVE);
         (two[3] > 0.0 && above.min(n as f64 - above) >= 2.0).then_some(window)
     }
@@ -126,9 +133,7 @@ pub(super) fn faces(row: &[[f64; 2]], closed: bool) -> Faces {
     if n < WINDOW + STRIDE {
         return Faces::One;
     }
-    let starts = if closed { n } else { n - WINDOW + 1 };
-    let points = |from: usize| (from..from + WINDOW).map(|i| row[i % n]).collect::<Vec<_>>();
-    let all: Vec<Window> = (0..starts).step_by(STRIDE).filter_map(|i| Window::of(i, &points(i))).collect();
+    let all = windows(row, closed, MOST);
     if all.len() < FEWEST {
         return Faces::One;
     }
@@ -137,7 +142,13 @@ pub(super) fn faces(row: &[[f64; 2]], closed: bool) -> Faces {
     let mixed = |some: &[&Window]| mean(&|w| w.changes.min(2.0), some) >= CHANGES;
     let share = good.len() as f64 / all.len() as f64;
     if share >= SHARE && mixed(&good) {
-        return Faces::Two { apart: 2.0 * mean(&|w| w.half, &good), upper: sides(row, closed, &good) };
+        let every = windows(row, closed, usize::MAX);
+        let good: Vec<&Window> = every.iter().filter(|w| w.left < LEFT).collect();
+        let (upper, off) = sides(row, closed, &good);
+        let noise = mean(&|w| w.variance, &good).sqrt();
+        let far = off.iter().filter(|off| **off > WITHIN * noise).count() as f64;
+        let unclear = far > HIDDEN * n as f64;
+        return Faces::Two { upper, unclear: unclear.then(|| 2.0 * mean(&|w| w.half, &good)) };
     }
     let mut lefts: Vec<f64> = all.iter().map(|w| w.left).collect();
     lefts.sort_by(f64::total_cmp);
@@ -149,9 +160,17 @@ pub(super) fn faces(row: &[[f64; 2]], closed: bool) -> Faces {
     Faces::One
 }
 
-/// The face of each point: that of the window near it whose courses it lies nearest to. Beyond its ends a window's courses lead on for as
+/// Windows along a row, about `most` of them.
+fn windows(row: &[[f64; 2]], closed: bool, most: usize) -> Vec<Window> {
+    let n = row.len();
+    let starts = if closed { n } else { n - WINDOW + 1 };
+    let points = |from: usize| (from..from + WINDOW).map(|i| row[i % n]).collect::<Vec<_>>();
+    (0..starts).step_by(STRIDE.max(starts / most)).filter_map(|i| Window::of(i, &points(i))).collect()
+}
+
+/// The face of each point, and how far it lies off that: that of the window near it whose courses it lies nearest to. Beyond its ends a window's courses lead on for as
 /// long as it is: so they reach the corners, where windows tell nothing.
-fn sides(row: &[[f64; 2]], closed: bool, windows: &[&Window]) -> Vec<bool> {
+fn sides(row: &[[f64; 2]], closed: bool, windows: &[&Window]) -> (Vec<bool>, Vec<f64>) {
     let n = row.len();
     let mut best: Vec<(f64, bool)> = vec![(f64::INFINITY, false); n];
     for window in windows {
@@ -169,5 +188,8 @@ fn sides(row: &[[f64; 2]], closed: bool, windows: &[&Window]) -> Vec<bool> {
             }
         }
     }
-    best.into_iter().map(|(_, upper)| upper).collect()
+    best.into_iter().map(|(off, upper)| (upper, off)).unzip()
 }
+
+#[cfg(test)]
+mod tests;
