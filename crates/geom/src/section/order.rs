@@ -84,14 +84,14 @@ pub fn order(points: &[[f64; 2]], gap: Option<f64>, progress: &dyn Progress) -> 
     let Some(grown) = grow(points, 2.0 * size / n as f64, gap, progress)? else {
         return Ok(Order::default());
     };
-    let width = grown.cells.width;
+    let (width, levels) = if grown.follows { (grown.cells.width, WALL.1) } else { (2.0 * size / n as f64, GROWTH.1) };
     let mut found = rows(points, grown, gap, size);
     let mut tried = parted(points, &mut found.0, gap, progress)?;
     // A tree whose cells are smaller than a wall is thick may run now along one face, now along the other; one of larger cells runs along
-    // both, and its way is parted.
+    // both, and its way is parted. Where no tree follows anything, that of any cells may.
     let mut wider_cells = width;
     let (mut layered, most) = (None, |r: &Ordered| r.numbers.len() as f64 >= WALL.0 * n as f64);
-    for _ in 0..WALL.1 {
+    for _ in 0..levels {
         if tried {
             break;
         }
@@ -230,7 +230,7 @@ fn face(
         && one.numbers.len() as f64 >= WALL.0 * own.len() as f64
         && one.closed == wall.closed
     {
-        return Ok(vec![Ordered { numbers: one.numbers.iter().map(|k| numbers[*k]).collect(), ..one.clone() }]);
+        return Ok(vec![Ordered { numbers: one.numbers.iter().map(|k| numbers[*k]).collect(), layered: wall.layered, ..one.clone() }]);
     }
     untangle(points, &mut numbers, wall.closed, wall.way);
     Ok(vec![Ordered { numbers, ..wall.clone() }])

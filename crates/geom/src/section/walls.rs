@@ -24,7 +24,7 @@ const CHANGES: f64 = 0.55;
 const ROUNDS: usize = 12;
 /// Points farther off than so many standard deviations are of neither face, or of both; no more of them than this share are left in silence.
 const WITHIN: f64 = 5.0;
-const HIDDEN: f64 = 0.03;
+const HIDDEN: f64 = 0.01;
 /// So many windows tell whether there are two faces.
 const MOST: usize = 2000;
 /// Fewer windows tell nothing.
