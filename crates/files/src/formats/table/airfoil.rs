@@ -110,3 +110,6 @@ fn lednicer(values: &[[f64; 2]]) -> Option<usize> {
     };
     (chord > 0.0 && rises(sides.0) && rises(sides.1)).then_some(upper as usize)
 }
+
+#[cfg(test)]
+mod tests;

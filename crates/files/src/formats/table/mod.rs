@@ -25,6 +25,8 @@ mod airfoil;
 mod cell;
 mod choose;
 mod detect;
+#[cfg(test)]
+mod ends_tests;
 mod header;
 mod row;
 mod stream;
