@@ -9,7 +9,7 @@ use std::f64::consts::{PI, TAU};
 
 /// Exit status and document.
 fn ran(folder: &Folder, text: &str, words: &[&str]) -> (i32, Value) {
-    let (file, json) = (folder.write("row.txt", text), folder.path("row.json"));
+    let (file, json) = (folder.write("row.txt", text), folder.file("row.json"));
     let mut all = vec!["section", file.to_str().unwrap(), "--json", json.to_str().unwrap()];
     all.extend(words);
     let status = trueness(&all).status.code().unwrap();
@@ -26,12 +26,13 @@ fn stray_rows_are_outliers() {
     let folder = Folder::new();
     let half: Vec<[f64; 2]> =
         (0..200).map(|i| PI * f64::from(i) / 199.0).map(|a| [10.0 * a.cos(), 10.0 * a.sin()]).collect();
-    for (before, behind) in [(Some([100.0, 100.0]), None), (None, Some([1e7, -3e6])), (Some([500.0, 0.0]), Some([500.0, 0.0]))] {
+    for (before, behind) in
+        [(Some([100.0, 100.0]), None), (None, Some([1e7, -3e6])), (Some([500.0, 0.0]), Some([500.0, 0.0]))]
+    {
         let all: Vec<[f64; 2]> = before.into_iter().chain(half.clone()).chain(behind).collect();
         let (status, document) = ran(&folder, &row(&all), &[]);
         let contour = &document["contours"][0];
-        let want: Vec<usize> =
-            before.map(|_| 0).into_iter().chain(behind.map(|_| all.len() - 1)).collect();
+        let want: Vec<usize> = before.map(|_| 0).into_iter().chain(behind.map(|_| all.len() - 1)).collect();
         assert_eq!(contour["outliers"], serde_json::json!(want));
         let length = contour["length"].as_f64().unwrap();
         assert!(status == 0 && (length / (10.0 * PI) - 1.0).abs() < 1e-3, "{status} {length}");
@@ -83,6 +84,9 @@ fn a_cut_profile_is_blunt() {
         let found = &document["airfoils"][0]["measures"];
         let of = |key: &str| found[key].as_f64().unwrap();
         assert!((of("chord") - 85.0).abs() < 0.05 && of("camber").abs() < 0.05, "{on_face}: {found}");
-        assert!((of("trailing_thickness") - face).abs() < 0.02 && found["trailing_kind"] != "sharp", "{found}");
+        assert!(
+            (of("trailing_thickness") - face).abs() < 0.02 && found["trailing_kind"] != "sharp",
+            "{found}"
+        );
     }
 }

@@ -84,7 +84,8 @@ pub fn order(points: &[[f64; 2]], gap: Option<f64>, progress: &dyn Progress) -> 
     let Some(grown) = grow(points, 2.0 * size / n as f64, gap, progress)? else {
         return Ok(Order::default());
     };
-    let (width, levels) = if grown.follows { (grown.cells.width, WALL.1) } else { (2.0 * size / n as f64, GROWTH.1) };
+    let (width, levels) =
+        if grown.follows { (grown.cells.width, WALL.1) } else { (2.0 * size / n as f64, GROWTH.1) };
     let mut found = rows(points, grown, gap, size);
     let mut tried = parted(points, &mut found.0, gap, progress)?;
     // A tree whose cells are smaller than a wall is thick may run now along one face, now along the other; one of larger cells runs along
@@ -96,7 +97,8 @@ pub fn order(points: &[[f64; 2]], gap: Option<f64>, progress: &dyn Progress) -> 
             break;
         }
         wider_cells *= GROWTH.0;
-        let Some(cells) = Some(Cells::new(points, wider_cells)).filter(|c| c.middles.len() >= 2 * FEWEST.0) else {
+        let Some(cells) = Some(Cells::new(points, wider_cells)).filter(|c| c.middles.len() >= 2 * FEWEST.0)
+        else {
             break;
         };
         if progress.cancelled() {
@@ -230,7 +232,11 @@ fn face(
         && one.numbers.len() as f64 >= WALL.0 * own.len() as f64
         && one.closed == wall.closed
     {
-        return Ok(vec![Ordered { numbers: one.numbers.iter().map(|k| numbers[*k]).collect(), layered: wall.layered, ..one.clone() }]);
+        return Ok(vec![Ordered {
+            numbers: one.numbers.iter().map(|k| numbers[*k]).collect(),
+            layered: wall.layered,
+            ..one.clone()
+        }]);
     }
     untangle(points, &mut numbers, wall.closed, wall.way);
     Ok(vec![Ordered { numbers, ..wall.clone() }])
@@ -469,4 +475,3 @@ fn reachable(tree: &Tree, used: &[bool], start: usize) -> Vec<usize> {
     }
     all
 }
-

@@ -135,7 +135,8 @@ mod tests {
                     if closed { [(10.0 + off) * c, (10.0 + off) * s] } else { [f64::from(i), off] }
                 })
                 .collect();
-            let row = Ordered { numbers: (0..points.len()).collect(), closed, way: f64::INFINITY, layered: None };
+            let row =
+                Ordered { numbers: (0..points.len()).collect(), closed, way: f64::INFINITY, layered: None };
             let options = Options { noise: Some(sigma), ..Options::default() };
             let found = ordered_contour(&points, &row, &options, &Silent).unwrap();
             (found.astray.len() == found.segments.len(), rms(&found), found.length())

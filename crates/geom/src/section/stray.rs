@@ -65,14 +65,19 @@ impl Strays {
         while found.count() < most {
             let way: Vec<[f64; 2]> = rest.iter().map(|g| points[groups[*g][0]]).collect();
             let Some(strays) = Way(&way).strays(most - found.count()) else { break };
-            let numbers = |list: &[usize]| list.iter().flat_map(|k| groups[rest[*k]].clone()).collect::<Vec<_>>();
+            let numbers =
+                |list: &[usize]| list.iter().flat_map(|k| groups[rest[*k]].clone()).collect::<Vec<_>>();
             found.out.extend(numbers(&strays.out));
             found.doubtful.extend(numbers(&strays.doubtful));
             found.straight_on.extend(numbers(&strays.straight_on));
-            let seen = |k: &usize| [&strays.out, &strays.doubtful, &strays.straight_on].iter().any(|list| list.contains(k));
+            let seen = |k: &usize| {
+                [&strays.out, &strays.doubtful, &strays.straight_on].iter().any(|list| list.contains(k))
+            };
             rest = (0..rest.len()).filter(|k| !seen(k)).map(|k| rest[k]).collect();
         }
-        [&mut found.out, &mut found.doubtful, &mut found.straight_on].into_iter().for_each(|list| list.sort_unstable());
+        [&mut found.out, &mut found.doubtful, &mut found.straight_on]
+            .into_iter()
+            .for_each(|list| list.sort_unstable());
         found
     }
 }
@@ -190,7 +195,11 @@ impl Way<'_> {
     /// Whether a point before or behind a run of the contour lies where that leads: straight on, or of one nearby on as it bends.
     fn goes_on(&self, run: &Run, end: &Run, far: bool) -> bool {
         let before = run.to < end.from;
-        let (tip, near) = if before { (run.to, [end.from, end.from + 1, end.from + 2]) } else { (run.from, [end.to, end.to - 1, end.to.saturating_sub(2)]) };
+        let (tip, near) = if before {
+            (run.to, [end.from, end.from + 1, end.from + 2])
+        } else {
+            (run.from, [end.to, end.to - 1, end.to.saturating_sub(2)])
+        };
         if end.to - end.from < 2 {
             return false;
         }

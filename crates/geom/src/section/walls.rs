@@ -62,12 +62,22 @@ impl Window {
     /// Of points in the order of a row.
     fn of(from: usize, points: &[[f64; 2]]) -> Option<Window> {
         let n = points.len();
-        let mean = |part: &[[f64; 2]]| [0, 1].map(|k| part.iter().map(|p| p[k]).sum::<f64>() / part.len() as f64);
+        let mean =
+            |part: &[[f64; 2]]| [0, 1].map(|k| part.iter().map(|p| p[k]).sum::<f64>() / part.len() as f64);
         let (first, last, middle) = (mean(&points[..n / 3]), mean(&points[n - n / 3..]), mean(points));
         let reach = length(first, last);
         let along = [(last[0] - first[0]) / reach, (last[1] - first[1]) / reach];
-        let mut window =
-            Window { from, middle, along, reach, shape: [0.0; 3], half: 0.0, left: 1.0, variance: 0.0, changes: 0.0 };
+        let mut window = Window {
+            from,
+            middle,
+            along,
+            reach,
+            shape: [0.0; 3],
+            half: 0.0,
+            left: 1.0,
+            variance: 0.0,
+            changes: 0.0,
+        };
         if !(reach > 0.0) {
             return None;
         }
@@ -138,7 +148,9 @@ pub(super) fn faces(row: &[[f64; 2]], closed: bool) -> Faces {
         return Faces::One;
     }
     let good: Vec<&Window> = all.iter().filter(|w| w.left < LEFT).collect();
-    let mean = |of: &dyn Fn(&Window) -> f64, some: &[&Window]| some.iter().map(|w| of(w)).sum::<f64>() / some.len() as f64;
+    let mean = |of: &dyn Fn(&Window) -> f64, some: &[&Window]| {
+        some.iter().map(|w| of(w)).sum::<f64>() / some.len() as f64
+    };
     let mixed = |some: &[&Window]| mean(&|w| w.changes.min(2.0), some) >= CHANGES;
     let share = good.len() as f64 / all.len() as f64;
     if share >= SHARE && mixed(&good) {

@@ -194,7 +194,10 @@ pub(super) fn run_together(text: &[u8]) -> Option<(&'static str, &'static str)> 
     let decimal = |part: &str| part.contains('.') && cell_number(part.as_bytes(), b'.').is_some();
     let parts: Vec<&str> = shown.split(WIDE_BLANKS).filter(|p| !p.trim().is_empty()).collect();
     if parts.len() > 1 && parts.iter().filter(|p| decimal(p.trim())).count() > 1 {
-        return Some(("no-break spaces stand between the numbers", "replace them with blanks or export with semicolons"));
+        return Some((
+            "no-break spaces stand between the numbers",
+            "replace them with blanks or export with semicolons",
+        ));
     }
     let number = shown.bytes().all(|b| b.is_ascii_digit() || matches!(b, b'.' | b'-' | b'+'));
     // Between two points stand the decimals of one number and the next one's digits: more than the last one's decimals.

@@ -26,8 +26,18 @@ fn marks_of_the_end_are_no_rows() {
     let want = read(ROWS.as_bytes()).unwrap();
     assert_eq!(want.len(), 4);
     let ends: [&[u8]; 12] = [
-        b"\x1a", b"\x1a\x1a\x1a", b"\r\n\x1a\r\n", b"END\n", b"end", b" EOF \n\n", b"END OF FILE\n", b"[END]\n", b"END.\n", b"Ende\n",
-        b"FIN\n\x1a", b"end of data\n",
+        b"\x1a",
+        b"\x1a\x1a\x1a",
+        b"\r\n\x1a\r\n",
+        b"END\n",
+        b"end",
+        b" EOF \n\n",
+        b"END OF FILE\n",
+        b"[END]\n",
+        b"END.\n",
+        b"Ende\n",
+        b"FIN\n\x1a",
+        b"end of data\n",
     ];
     for end in ends {
         for rows in [ROWS, ROWS.trim_end()] {
@@ -64,6 +74,7 @@ fn numbers_that_nothing_parts_are_named() {
         assert!(said.contains(want), "{said}");
     }
     // In an older code.
-    let latin: Vec<u8> = ROWS.bytes().flat_map(|b| if b == b' ' { vec![0xa0, b' '] } else { vec![b] }).collect();
+    let latin: Vec<u8> =
+        ROWS.bytes().flat_map(|b| if b == b' ' { vec![0xa0, b' '] } else { vec![b] }).collect();
     assert!(read(&latin).unwrap_err().contains("no-break spaces"));
 }

@@ -4,8 +4,8 @@
 //! cut into cells and looked at again; whatever the first way reads, the second reads to the same number.
 
 use super::cell::{
-    Class, END_MARK, Separator, cell_end, cell_number, cells, class, filled, is_comment, is_end, next_cell, run_together,
-    skip_blanks,
+    Class, END_MARK, Separator, cell_end, cell_number, cells, class, filled, is_comment, is_end, next_cell,
+    run_together, skip_blanks,
 };
 use crate::{
     error::{Fault, quoted},

@@ -81,7 +81,12 @@ impl Around {
             return Ok(Around { row, ends: [tip; 2], over, trailing: TrailingEdge::Round });
         }
         if before == after {
-            return Ok(Around { row: run(before, n), ends: [before; 2], over: 0, trailing: TrailingEdge::Sharp });
+            return Ok(Around {
+                row: run(before, n),
+                ends: [before; 2],
+                over: 0,
+                trailing: TrailingEdge::Sharp,
+            });
         }
         let trailing = TrailingEdge::Blunt(distance(row[before], row[after]));
         Ok(Around { row: run(after, (before + n - after) % n), ends: [after, before], over: 0, trailing })

@@ -61,7 +61,8 @@ impl Profile {
         let mut other = None;
         if !contour.segments.is_empty() && contour.astray.is_empty() {
             let count = smooth.as_ref().map_or(row.len(), |s| s.count) as f64;
-            if let Some((cost, course)) = of_contour(&around, around.ends.map(|i| numbers[i]), contour, count) {
+            if let Some((cost, course)) = of_contour(&around, around.ends.map(|i| numbers[i]), contour, count)
+            {
                 if smooth.as_ref().map_or(true, |s| cost < s.cost) {
                     // What a free curve of a contour takes from scatter, a B-spline does not, or elsewhere.
                     let free = contour.segments.iter().any(|s| s.geometry.kind() == SegmentKind::Spline);
@@ -147,7 +148,9 @@ fn of_contour(around: &Around, ends: [usize; 2], contour: &Contour, as_many: f64
     let (from, to) = match around.trailing {
         TrailingEdge::Open(_) => (0.0, whole),
         TrailingEdge::Round => (stations[0] - over, stations[0] + whole + over),
-        TrailingEdge::Sharp => to_corner(stations[0]).map(|way| (stations[0] + way, stations[0] + way + whole))?,
+        TrailingEdge::Sharp => {
+            to_corner(stations[0]).map(|way| (stations[0] + way, stations[0] + way + whole))?
+        }
         // Where no point lies on the face the contour leads the sides on to one corner: they end with their points.
         TrailingEdge::Blunt(_) => {
             let from = stations[0] + to_corner(stations[0])?.max(0.0);

@@ -6,7 +6,7 @@
 //! on turning.
 
 use super::super::polygon::turn;
-use super::ends::distance;
+use super::super::row::distance;
 
 /// What an edge takes of the turn at its end, radians: two thirds of half a turn. Wedges turn by less than the rest, and one corner of a
 /// face by less than this.
@@ -99,7 +99,9 @@ impl Outline<'_> {
         let n = self.row.len();
         let side = |start: usize, step: usize| {
             let far = |share: f64| {
-                let off = |k: &usize| distance(self.row[(start + k * step) % n], self.row[start]) >= share * self.chord;
+                let off = |k: &usize| {
+                    distance(self.row[(start + k * step) % n], self.row[start]) >= share * self.chord
+                };
                 (1..n).find(off).map(|k| (start + k * step) % n)
             };
             let (near, beyond) = (far(SIDE[0])?, far(SIDE[1])?);

@@ -25,7 +25,11 @@ fn airfoil(random: &mut Random) -> Vec<[f64; 2]> {
         let u = k as f64 / each as f64;
         let x = if cosine { 0.5 * (1.0 - libm::cos(PI * u)) } else { u };
         let half = 5.0 * t * (0.2969 * x.sqrt() + x * (-0.126 + x * (-0.3516 + x * (0.2843 - 0.1015 * x))));
-        let camber = if x < p { m / (p * p) * x * (2.0 * p - x) } else { m / (1.0 - p).powi(2) * (1.0 - 2.0 * p + x * (2.0 * p - x)) };
+        let camber = if x < p {
+            m / (p * p) * x * (2.0 * p - x)
+        } else {
+            m / (1.0 - p).powi(2) * (1.0 - 2.0 * p + x * (2.0 * p - x))
+        };
         [chord * x, chord * (camber + side * half)]
     };
     if random.below(2) == 0 {
@@ -58,11 +62,17 @@ fn polygon(random: &mut Random) -> Vec<[f64; 2]> {
     let n = count(random, 8, 14);
     let mut angles: Vec<f64> = (0..n).map(|k| TAU * (k as f64 + 0.7 * random.unit()) / n as f64).collect();
     angles.sort_by(f64::total_cmp);
-    let corners: Vec<[f64; 2]> = angles.iter().map(|a| (libm::sincos(*a), between(random, 5.0, 10.0))).map(|((s, c), r)| [r * c, r * s]).collect();
+    let corners: Vec<[f64; 2]> = angles
+        .iter()
+        .map(|a| (libm::sincos(*a), between(random, 5.0, 10.0)))
+        .map(|((s, c), r)| [r * c, r * s])
+        .collect();
     let along = count(random, 1, 20);
     let side = |k: usize| {
         let (a, b) = (corners[k], corners[(k + 1) % n]);
-        (0..along).map(move |i| i as f64 / along as f64).map(move |s| [a[0] + s * (b[0] - a[0]), a[1] + s * (b[1] - a[1])])
+        (0..along)
+            .map(move |i| i as f64 / along as f64)
+            .map(move |s| [a[0] + s * (b[0] - a[0]), a[1] + s * (b[1] - a[1])])
     };
     let mut all: Vec<[f64; 2]> = (0..n).flat_map(side).collect();
     let start = random.below(all.len() as u64) as usize;
@@ -73,7 +83,8 @@ fn polygon(random: &mut Random) -> Vec<[f64; 2]> {
 /// A free curve, open or closed.
 fn free(random: &mut Random) -> Vec<[f64; 2]> {
     let n = count(random, 20, 300);
-    let terms: Vec<[f64; 3]> = (2..6).map(|k| [f64::from(k), 2.0 * random.unit() / f64::from(k), TAU * random.unit()]).collect();
+    let terms: Vec<[f64; 3]> =
+        (2..6).map(|k| [f64::from(k), 2.0 * random.unit() / f64::from(k), TAU * random.unit()]).collect();
     let open = random.below(2) == 0;
     (0..n)
         .map(|i| i as f64 / n as f64)
@@ -89,7 +100,8 @@ fn free(random: &mut Random) -> Vec<[f64; 2]> {
 /// an obround.
 fn ends_of_lines(random: &mut Random) -> Vec<[f64; 2]> {
     let (r, each) = (between(random, 1.0, 5.0), count(random, 6, 30));
-    let [w, h] = [0, 1].map(|k| if k == 1 && random.below(3) == 0 { 0.0 } else { r * between(random, 0.3, 15.0) });
+    let [w, h] =
+        [0, 1].map(|k| if k == 1 && random.below(3) == 0 { 0.0 } else { r * between(random, 0.3, 15.0) });
     let mut all = vec![];
     for (k, [x, y]) in [[w, h], [-w, h], [-w, -h], [w, -h]].into_iter().enumerate() {
         for i in 0..=each {
@@ -102,7 +114,10 @@ fn ends_of_lines(random: &mut Random) -> Vec<[f64; 2]> {
     all.rotate_left(start);
     if random.below(3) == 0 {
         // A hook: one arc with the lines beside it.
-        all = (0..=each).map(|i| libm::sincos(2.5 * i as f64 / each as f64)).map(|(s, c)| [r * c, r * s]).collect();
+        all = (0..=each)
+            .map(|i| libm::sincos(2.5 * i as f64 / each as f64))
+            .map(|(s, c)| [r * c, r * s])
+            .collect();
         let (s, c) = libm::sincos(2.5);
         let long = r * between(random, 0.5, 20.0);
         all.push([r * c - long * s, r * s + long * c]);
@@ -135,7 +150,8 @@ fn with_strays(random: &mut Random) -> (Vec<[f64; 2]>, Vec<usize>) {
     let size = super::super::row::size(&all);
     let middle = [0, 1].map(|k| all.iter().map(|p| p[k]).sum::<f64>() / n as f64);
     let far = |random: &mut Random| {
-        let ((sin, cos), off) = (libm::sincos(TAU * random.unit()), size * libm::pow(10.0, between(random, 0.3, 6.0)));
+        let ((sin, cos), off) =
+            (libm::sincos(TAU * random.unit()), size * libm::pow(10.0, between(random, 0.3, 6.0)));
         [middle[0] + off * cos, middle[1] + off * sin]
     };
     let mut one = far(random);
@@ -189,7 +205,13 @@ fn rates(rows: u64) -> [usize; 4] {
         let found = Strays::of(&points);
         counts[3] += usize::from(found.out.len() + found.doubtful.len() > 0);
         if found.out.len() + found.doubtful.len() > 0 && rows > 100 {
-            println!("false {seed}: {found:?} of {} {:?} {:?} … {:?}", points.len(), points[0], points[1], points[points.len()-1]);
+            println!(
+                "false {seed}: {found:?} of {} {:?} {:?} … {:?}",
+                points.len(),
+                points[0],
+                points[1],
+                points[points.len() - 1]
+            );
         }
     }
     counts

@@ -68,7 +68,13 @@ pub(super) fn wall(seed: u64) -> Made {
     let kind = random.below(5) as usize;
     let (w, h) = (between(random, 8.0, 25.0), between(random, 8.0, 25.0));
     let (mid, closed): (Vec<[f64; 2]>, bool) = match kind {
-        0 => ((0..240).map(|i| libm::sincos(TAU * f64::from(i) / 240.0)).map(|(s, c)| [0.4 * w * c, 0.4 * w * s]).collect(), true),
+        0 => (
+            (0..240)
+                .map(|i| libm::sincos(TAU * f64::from(i) / 240.0))
+                .map(|(s, c)| [0.4 * w * c, 0.4 * w * s])
+                .collect(),
+            true,
+        ),
         1 | 4 => (vec![[-w, 0.0], [w, 0.0]], false),
         2 => (vec![[0.0, h], [0.0, 0.0], [w, 0.0]], false),
         _ => (vec![[0.0, 0.0], [w, 0.0], [w, h], [0.0, h]], true),
@@ -103,14 +109,42 @@ pub(super) fn judged(made: &Made) -> (usize, String) {
         of.min(r.numbers.len() - of) as f64 / r.numbers.len() as f64
     };
     let all = |face: usize| made.points.iter().filter(|p| p.1 == face).count() as f64;
-    let most = |r: &super::super::order::Ordered| r.numbers.len() as f64 > 0.85 * all(usize::from(2 * r.numbers.iter().filter(|i| made.points[**i].1 == 1).count() > r.numbers.len()));
+    let most = |r: &super::super::order::Ordered| {
+        r.numbers.len() as f64
+            > 0.85
+                * all(usize::from(
+                    2 * r.numbers.iter().filter(|i| made.points[**i].1 == 1).count() > r.numbers.len(),
+                ))
+    };
     let (faces, rest) = found.rows.split_at(found.rows.len().min(2));
     let right = faces.len() == 2
         && faces.iter().all(|r| pure(r) < 0.03 && r.closed == made.closed && most(r))
         && rest.iter().map(|r| r.numbers.len()).sum::<usize>() * 20 < flat.len();
-    let show: Vec<String> = found.rows.iter().map(|r| format!("{}{} {:.2}", r.numbers.len(), if r.closed { "c" } else { "o" }, pure(r))).collect();
+    let show: Vec<String> = found
+        .rows
+        .iter()
+        .map(|r| format!("{}{} {:.2}", r.numbers.len(), if r.closed { "c" } else { "o" }, pure(r)))
+        .collect();
     let pieces = found.rows.iter().all(|r| pure(r) < 0.06);
-    (if right { 0 } else if told { 1 } else if pieces { 2 } else { 3 }, format!("kind {} wall {:.3} noise {:.4} {}: {}", made.kind, made.walls[1] / made.spacing, made.noise / made.walls[1], told, show.join(", ")))
+    (
+        if right {
+            0
+        } else if told {
+            1
+        } else if pieces {
+            2
+        } else {
+            3
+        },
+        format!(
+            "kind {} wall {:.3} noise {:.4} {}: {}",
+            made.kind,
+            made.walls[1] / made.spacing,
+            made.noise / made.walls[1],
+            told,
+            show.join(", ")
+        ),
+    )
 }
 
 #[test]
@@ -156,7 +190,11 @@ fn one_face_is_no_wall() {
         let bad = found.rows.iter().any(|r| r.layered.is_some()) || kind < 2 && found.rows.len() > 1;
         if bad {
             let show: Vec<usize> = found.rows.iter().map(|r| r.numbers.len()).collect();
-            println!("{seed} kind {kind} noise {:.2} even {even} n {n}: {show:?} {:?}", noise / step, found.rows[0].layered);
+            println!(
+                "{seed} kind {kind} noise {:.2} even {even} n {n}: {show:?} {:?}",
+                noise / step,
+                found.rows[0].layered
+            );
         }
         doubted += usize::from(bad);
     }

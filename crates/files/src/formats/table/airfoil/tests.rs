@@ -26,7 +26,8 @@ fn numbers(text: &[u8]) -> Vec<[f64; 2]> {
 fn titles_that_look_like_rows_names_or_counts_are_titles() {
     for each in [6, 30, 100] {
         let rows = around(each);
-        for title in ["NACA 0012", "CLARK Y", "0012", "NACA 23012 (smoothed)", "E 387", "S1223", "x of 2 3 4"] {
+        for title in ["NACA 0012", "CLARK Y", "0012", "NACA 23012 (smoothed)", "E 387", "S1223", "x of 2 3 4"]
+        {
             for end in ["\n", "\r\n", "\r"] {
                 let (found, told) = plain(text(Some(title), &rows, end).as_bytes()).unwrap();
                 assert_eq!(numbers(&found), numbers(text(None, &rows, end).as_bytes()), "{title}");
