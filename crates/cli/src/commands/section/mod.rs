@@ -178,6 +178,11 @@ fn run(args: &SectionArgs, common: &Common) -> anyhow::Result<Outcome> {
     });
     let mut document = SectionDocument::new(&sections, inputs, &options);
     (document.nominal, document.airfoils) = (nominal, airfoils);
+    for found in document.airfoils.iter().flatten() {
+        if let Some(contour) = document.contours.get_mut(found.contour as usize) {
+            contour.doubts.extend(found.doubt());
+        }
+    }
     args.planes.tell_raised_gap(&mut document.planes);
     if let Some((chosen, interval, table)) = methods {
         document = document.with_methods(chosen, interval, &table);

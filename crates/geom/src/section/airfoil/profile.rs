@@ -153,8 +153,10 @@ fn of_contour(around: &Around, ends: [usize; 2], contour: &Contour, as_many: f64
         }
         // Where no point lies on the face the contour leads the sides on to one corner: they end with their points.
         TrailingEdge::Blunt(_) => {
-            let from = stations[0] + to_corner(stations[0])?.max(0.0);
-            let to = stations[1] + to_corner(stations[1])?.min(0.0);
+            // A corner farther within a side is none of its end.
+            let inside = |way: f64| (way <= contour.spacing).then_some(way.max(0.0));
+            let from = stations[0] + inside(to_corner(stations[0])?)?;
+            let to = stations[1] - inside(-to_corner(stations[1])?)?;
             (from, if to <= from { to + whole } else { to })
         }
     };
