@@ -160,13 +160,10 @@ impl fmt::Display for Warning {
             }
             Warning::Airfoil { form, title } => {
                 let title = title.as_ref().map_or(String::new(), |t| format!(" with the title \"{t}\""));
-                let done = match *form {
-                    "Lednicer" => {
-                        "; its counts were left out, and its two sides put in one row around the profile"
-                    }
-                    _ => "",
-                };
-                write!(f, "an airfoil in {form}'s form{title}{done}")
+                write!(
+                    f,
+                    "an airfoil in {form}'s form{title}; what is no row of it was left out, and both sides are one row around it"
+                )
             }
             Warning::NamesUnknown { names } => {
                 write!(
