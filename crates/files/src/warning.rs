@@ -61,6 +61,13 @@ pub enum Warning {
     },
     /// The first column counts the rows and was not taken for a coordinate.
     RunningNumber,
+    /// The rows are an airfoil in the form of a collection: its title and its counts were taken out, and two sides put in one row.
+    Airfoil {
+        /// Whose form.
+        form: &'static str,
+        /// Its title.
+        title: Option<String>,
+    },
     /// The header names neither x nor y nor z; the columns of numbers were taken in their order.
     NamesUnknown {
         /// Their names.
@@ -182,6 +189,13 @@ impl fmt::Display for Warning {
             }
             Warning::RunningNumber => {
                 write!(f, "the first column counts the rows; the three after it were taken as x, y, z")
+            }
+            Warning::Airfoil { form, title } => {
+                let title = title.as_ref().map_or(String::new(), |t| format!(" with the title \"{t}\""));
+                write!(
+                    f,
+                    "an airfoil in {form}'s form{title}; what is no row of it was left out, and both sides are one row around it"
+                )
             }
             Warning::NamesUnknown { names } => {
                 write!(

@@ -14,6 +14,7 @@ use super::result::{Continuity, Contour, Join, Options, SectionError};
 use super::row::{Clean, check_row};
 use super::span::{Found, single};
 use super::start::noise;
+use super::without::Searched;
 use crate::num::special::student_quantile;
 use crate::progress::Progress;
 use std::cell::Cell;
@@ -31,8 +32,8 @@ const FARTHEST: f64 = 20.0;
 /// Corners are where neighboring parts of a first partition differ in heading; between corners, all joins are tangent. The
 /// number and kinds of segments come from a penalized likelihood, the intervals from the likelihood with a join held. The
 /// points are taken to scatter normally across the contour, all alike. A row given the other way round has the same contour, the
-/// other way round. Points that repeat the one before, and single points
-/// far off what their neighbors tell, are left out and listed. A search of more than a dozen seconds ends with the cheapest contour so far, as of
+/// other way round. Points that repeat the one before, single points far off what their neighbors tell, and stray ones far off the
+/// row are left out and listed; points that may be stray are [`Contour::doubtful`]. A search of more than a dozen seconds ends with the cheapest contour so far, as of
 /// spirals of many turns; the contour tells that it was cut short.
 ///
 /// # Errors
@@ -64,6 +65,18 @@ pub(super) fn contour_within(
     progress: &dyn Progress,
 ) -> Result<Contour, SectionError> {
     check_row(points, options)?;
+    let searched = Searched::of(points, options);
+    let found = either_way(products, &searched.row(points), options, progress)?;
+    Ok(searched.whole(found, points))
+}
+
+/// The contour of a row without strays, from whichever end it is found better.
+fn either_way(
+    products: f64,
+    points: &[[f64; 2]],
+    options: &Options,
+    progress: &dyn Progress,
+) -> Result<Contour, SectionError> {
     let turned: Vec<[f64; 2]> = points.iter().rev().copied().collect();
     let backward = from_the_end(points);
     let ways = if backward { [&turned[..], points] } else { [points, &turned] };
