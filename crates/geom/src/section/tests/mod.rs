@@ -11,6 +11,7 @@ mod rounded;
 mod scattered;
 mod smooth;
 mod sparse;
+mod vertices;
 
 use super::*;
 use crate::num::random::Random;
