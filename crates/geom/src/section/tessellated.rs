@@ -359,4 +359,6 @@ impl Sheet<'_> {
 }
 
 #[cfg(test)]
+mod round;
+#[cfg(test)]
 mod tests;

@@ -1,6 +1,6 @@
 //! Whether a cover of exact points by lines and arcs is told by these, or by chance.
 
-use super::facets::{Item, LineOrArc, Polygon, angle, length};
+use super::facets::{Item, LineOrArc, Polygon, SHARP, angle, length};
 
 /// What a cover saves is no chance where so many coincidences among as many points are less likely than e to the power of minus this.
 const CHANCE: f64 = 5.0;
@@ -36,9 +36,16 @@ impl Piece {
     pub fn chords(&self) -> usize {
         self.item.to - self.item.from
     }
+    /// Points that lie on it though they need not: beyond the two of a line, and the three of a circle.
+    fn explains(&self) -> f64 {
+        self.chords().saturating_sub(if self.is_arc() { 2 } else { 1 }) as f64
+    }
     /// Whether it goes on into another one with the same direction.
     pub fn is_tangent(&self, next: &Piece) -> bool {
+        // Two chords of an arc prove an arc beside as little as that proves them: so any smooth curve is covered.
+        let proves = |p: &Piece| p.chords() > 2 || !p.is_arc();
         (self.is_arc() || next.is_arc())
+            && (proves(self) || proves(next))
             && angle(self.along[1], next.along[0]).abs() <= self.slack + next.slack
     }
 }
@@ -46,11 +53,8 @@ impl Piece {
 /// Whether the points tell these pieces.
 pub(super) fn is_told(polygon: &Polygon, pieces: &[Piece], rounding: f64) -> bool {
     let seen = Seen { polygon, pieces, rounding };
-    seen.has_an_arc()
-        && seen.is_no_chance()
-        && seen.all_end()
-        && seen.joins_at_points()
-        && seen.is_no_circle()
+    let is_a_cover = || seen.is_no_chance() && seen.is_no_curve() && seen.all_end();
+    seen.has_an_arc() && is_a_cover() && seen.joins_at_points() && seen.is_no_circle()
 }
 
 struct Seen<'a> {
@@ -88,7 +92,7 @@ impl Seen<'_> {
         let count = self.polygon.at.len() as f64;
         let joins = if self.polygon.closed { n } else { n - 1 };
         let tangent = (0..joins).filter(|k| self.tangent(*k)[1]).count() as f64;
-        let saved = tangent + self.pieces.iter().map(|p| p.saves.max(0.0)).sum::<f64>();
+        let saved = tangent + self.pieces.iter().map(Piece::explains).sum::<f64>();
         let mut chords: Vec<f64> = (0..self.polygon.facets()).map(|i| self.polygon.facet_length(i)).collect();
         chords.sort_by(f64::total_cmp);
         let mut scale = SCALE * chords[chords.len() / 2];
@@ -109,6 +113,15 @@ impl Seen<'_> {
         saved >= 2.0 && saved * (libm::log(saved / expected) - 1.0) >= CHANCE
     }
 
+    /// Whether nowhere three chords turn gently into each other: these are those of a curve.
+    fn is_no_curve(&self) -> bool {
+        let n = self.pieces.len();
+        let is_chord = |k: usize| !self.pieces[k % n].is_arc() && self.pieces[k % n].chords() == 1;
+        let turn = |k: usize| angle(self.pieces[k % n].along[1], self.pieces[(k + 1) % n].along[0]).abs();
+        let last = if self.polygon.closed { n } else { n.saturating_sub(2) };
+        !(0..last).any(|k| (k..k + 3).all(is_chord) && turn(k).max(turn(k + 1)) <= SHARP)
+    }
+
     /// Whether each segment of more than two points ends for certain: the vertices beyond its ends lie off it. Where a smooth curve is covered by
     /// arcs they hardly do.
     fn all_end(&self) -> bool {
@@ -118,7 +131,9 @@ impl Seen<'_> {
             let beyond = [before.map(|_| piece.item.from + n - 1), after.map(|_| piece.item.to + 1)]
                 .into_iter()
                 .flatten();
-            piece.chords() < 2 || beyond.into_iter().all(|i| self.off(piece, i) > ENDS * self.rounding)
+            // One chord closes an arc: what is beyond is its other end.
+            let own = |i: usize| (i + n - piece.item.from % n) % n <= piece.chords();
+            piece.chords() < 2 || beyond.filter(|i| !own(*i)).all(|i| self.off(piece, i) > ENDS * self.rounding)
         };
         self.pieces.iter().enumerate().all(ends)
     }

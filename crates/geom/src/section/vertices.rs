@@ -26,6 +26,8 @@ const UNEVEN: f64 = 0.05;
 const TURNED: [f64; 2] = [8.0, 2.0];
 /// Items from one vertex are the longest arc and so many shorter ones: rounding may have let it run too far.
 const SHORTER: usize = 2;
+/// Of so many of the longest pieces of a closed row covers are looked for from both ends.
+const STARTS: usize = 4;
 
 /// The lines and arcs of a row, and what its coordinates are rounded by.
 #[derive(Debug)]
@@ -49,9 +51,11 @@ pub(super) fn vertices(
     let mut chords: Vec<f64> = points.windows(2).map(|w| length(w[0], w[1])).collect();
     chords.sort_by(f64::total_cmp);
     let most = COARSE * chords[chords.len() / 2];
-    let shares = SHARES.map(|share| share * size(points));
-    let levels = step(given).into_iter().chain(shares).filter(|q| *q <= most);
-    levels.into_iter().find_map(|rounding| within(points, rounding, closed, open))
+    // Finer than their digits points tell nothing.
+    let shares = || SHARES.map(|share| share * size(points)).to_vec();
+    let levels = step(given).map_or_else(shares, |step| vec![step]).into_iter().filter(|q| *q <= most);
+    let mut levels = levels;
+    levels.find_map(|rounding| within(points, rounding, closed, open))
 }
 
 /// The step of the decimals that all coordinates have.
@@ -103,23 +107,26 @@ struct Way {
 }
 
 impl Cover {
-    /// The cover that saves most. A closed one is looked for from its longest chord, then from where a piece of that one ends.
+    /// The cover that saves most. A closed one is looked for from its longest chord, then from both ends of the longest pieces found: what a
+    /// piece over the start saves, no cover from there knows.
     fn best(&self) -> Option<Vec<Piece>> {
         let n = self.polygon.at.len();
         if !self.polygon.closed {
-            return self.from(0);
+            return Some(self.from(0)?.1);
         }
         let longest =
             (0..n).max_by(|a, b| self.polygon.facet_length(*a).total_cmp(&self.polygon.facet_length(*b)))?;
-        let first = self.from(longest)?;
-        if first.len() < 2 {
-            return None;
-        }
-        self.from(first[0].item.to % n)
+        let (saves, first) = self.from(longest)?;
+        let mut by_length: Vec<&Piece> = first.iter().collect();
+        by_length.sort_by_key(|p| std::cmp::Reverse(p.chords()));
+        let ends = by_length.into_iter().take(STARTS).flat_map(|p| [p.item.from % n, p.item.to % n]);
+        let others: Vec<(f64, Vec<Piece>)> = ends.filter_map(|start| self.from(start)).collect();
+        let best = others.into_iter().fold((saves, first), |a, b| if b.0 > a.0 { b } else { a });
+        Some(best.1)
     }
 
     /// The same with a piece that starts at a vertex.
-    fn from(&self, start: usize) -> Option<Vec<Piece>> {
+    fn from(&self, start: usize) -> Option<(f64, Vec<Piece>)> {
         let last = start + self.polygon.facets();
         let pieces: Vec<Piece> = (start..last).flat_map(|from| self.pieces(from, last)).collect();
         let mut ways: Vec<Way> = vec![];
@@ -146,13 +153,14 @@ impl Cover {
         };
         let mut at =
             ending[last - start].iter().copied().max_by(|a, b| over_seam(a).total_cmp(&over_seam(b)));
+        let saves = over_seam(&at?);
         let mut all = vec![];
         while let Some(k) = at {
             all.push(pieces[k]);
             at = ways[k].before;
         }
         all.reverse();
-        Some(all)
+        Some((saves, all))
     }
 
     /// The lines and arcs that start at a vertex, in the order of their ends.
@@ -239,8 +247,8 @@ impl Cover {
             [-r[1] * turned.signum(), r[0] * turned.signum()]
         });
         let item = Item { shape: LineOrArc::Arc(center, turned.signum() / radius), from, to };
-        // Even chords that wide are those of a regular polygon as well.
-        let saves = (to - from) as f64 - 2.0 - f64::from(u8::from(is_wide));
+        // Even chords that wide are those of a regular polygon as well; two are told by tangents alone.
+        let saves = (to - from) as f64 - 2.0 - f64::from(u8::from(is_wide && to - from > 2));
         let uneven = UNEVEN * libm::log(widest / least);
         (sagitta > 4.0 * self.rounding).then_some(Piece { item, along, slack, saves, uneven })
     }

@@ -216,7 +216,7 @@ fn fitted(said: &Said, out: &mut Vec<Drawn>) -> Result<()> {
         let what = "a spline by the points that it passes through has fewer than two different ones";
         said.wrong(what, "export it with its control points")
     })?;
-    out.extend(found);
+    out.push(found);
     Ok(())
 }
 

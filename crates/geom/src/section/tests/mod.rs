@@ -1,6 +1,7 @@
 //! Sections with known joins: closed forms, exact data, rigid motions, coverage over fresh noise, wrong and ugly rows.
 
 mod astray;
+mod clothoids;
 mod direction;
 mod gentle;
 mod levels;
