@@ -133,7 +133,8 @@ impl Seen<'_> {
                 .flatten();
             // One chord closes an arc: what is beyond is its other end.
             let own = |i: usize| (i + n - piece.item.from % n) % n <= piece.chords();
-            piece.chords() < 2 || beyond.filter(|i| !own(*i)).all(|i| self.off(piece, i) > ENDS * self.rounding)
+            piece.chords() < 2
+                || beyond.filter(|i| !own(*i)).all(|i| self.off(piece, i) > ENDS * self.rounding)
         };
         self.pieces.iter().enumerate().all(ends)
     }
