@@ -162,11 +162,16 @@ pub(super) fn made(random: &mut Random) -> Made {
             )
         }
     };
-    let made = Made { what, ..outline(&corners, counts) };
-    let decimals = between(3.0, 6.99) as i32;
-    let (turn, sense) = ([0.0, between(0.0, 6.0)][between(0.0, 2.0) as usize], between(0.0, 1.0) < 0.5);
-    let (step, open) = (10.0_f64.powi(-decimals), between(0.0, 1.0) < 0.25);
-    finished(made, turn, sense, open, between(0.0, 1.0), step)
+    as_a_file(Made { what, ..outline(&corners, counts) }, random)
+}
+
+/// The same as a file may hold it: in decimals, from any start, either way round, perhaps open.
+fn as_a_file(made: Made, random: &mut Random) -> Made {
+    let mut between = |a: f64, b: f64| a + (b - a) * random.unit();
+    let step = 10.0_f64.powi(-(between(3.0, 6.99) as i32));
+    let turn = if between(0.0, 1.0) < 0.5 { 0.0 } else { between(0.0, 6.0) };
+    let (reversed, open) = (between(0.0, 1.0) < 0.5, between(0.0, 1.0) < 0.25);
+    finished(made, turn, reversed, open, between(0.0, 1.0), step)
 }
 
 /// Turned, rounded, started elsewhere, run the other way round, or without its last segment.
