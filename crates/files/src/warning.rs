@@ -111,6 +111,11 @@ pub enum Warning {
         /// How many of which kinds.
         what: String,
     },
+    /// Splines of a drawing are given by the points alone that they pass through; they are drawn as cubics.
+    ThroughPoints {
+        /// How many.
+        count: u64,
+    },
     /// There is neither line nor arc nor spline in a drawing.
     NothingDrawn,
     /// Lines of a header that say nothing known were passed over.
@@ -231,6 +236,11 @@ impl fmt::Display for Warning {
             Warning::PassedOver { what } => {
                 write!(f, "the drawing holds what is not read, and was passed over: {what}")
             }
+            Warning::ThroughPoints { count } => write!(
+                f,
+                "{count} spline(s) by the points alone that they pass through, drawn as cubics; between the points the program that made them may \
+                 draw them otherwise: export them with their control points"
+            ),
             Warning::NothingDrawn => write!(f, "the drawing holds neither lines nor arcs nor splines"),
             Warning::HeaderLines { count, line, text } => {
                 let more = if *count > 1 { format!(" and {} more", count - 1) } else { String::new() };

@@ -10,10 +10,12 @@ use super::exact::missed;
 use super::levels::{MARGIN, SAME, Start, hidden};
 use super::plan::{Chains, Plan, RESOLUTION};
 use super::resolved::{Among, misses, resolved};
-use super::result::{Continuity, Contour, Join, Options, SectionError};
+use super::result::{Continuity, Contour, Join, Options, SectionError, Taken};
 use super::row::{Clean, check_row};
+use super::sheet::Sheet;
 use super::span::{Found, single};
 use super::start::noise;
+use super::vertices::vertices;
 use super::without::Searched;
 use crate::num::special::student_quantile;
 use crate::progress::Progress;
@@ -160,8 +162,15 @@ fn in_order(
     if progress.cancelled() {
         return Err(SectionError::Cancelled(crate::progress::Cancelled));
     }
-    let mut start = Start::new(clean, options);
     let free = options.noise.is_none() && options.continuity.is_none();
+    let mut start = Start::new(clean, options);
+    if free
+        && !start.exact
+        && options.resolution.is_none()
+        && let Some(found) = by_vertices(points, options)
+    {
+        return Ok(found);
+    }
     if free && let Some(found) = resolved(&start, options, Among::Rows) {
         return Ok(found.whole(points.len()));
     }
@@ -216,6 +225,19 @@ fn in_order(
         contour.residuals[k] = contour.segments[contour.labels[k] as usize].nearest(points[k]).distance;
     }
     Ok(contour)
+}
+
+/// The contour of a row of the ends of lines and the vertices of arcs, where it is one.
+fn by_vertices(points: &[[f64; 2]], options: &Options) -> Option<Contour> {
+    let clean = Clean::new(points, options).ok()?;
+    let given: Vec<[f64; 2]> = clean.numbers.iter().map(|i| points[*i]).collect();
+    let found = vertices(&clean.points, &given, clean.closed, options.closed == Some(false))?;
+    let (rounding, polygon) = (found.rounding, found.polygon);
+    let closed = polygon.closed;
+    let contour = Sheet { points: &clean.points, polygon, rounding, options }.exact(&found.items);
+    let mut all = Joined::of(Contour { taken: Taken::Row, ..contour });
+    all.finish(&Clean { closed, ..clean }, 0, points.len(), vec![]);
+    Some(all.contour)
 }
 
 /// Whether segments do not run along their points, or join in corners.

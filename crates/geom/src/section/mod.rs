@@ -13,13 +13,14 @@
 //! | `criterion`, `base`, `search`, `smooth` | number and kinds of pieces |
 //! | `near`, `blocks` | long chains by pieces near each other; long rows by blocks of points |
 //! | `polygon`, `exact` | rows that are polygons, or lines and arcs tangent to them, exactly |
+//! | `vertices`, `told` | rows of the ends of lines and the vertices of arcs |
 //! | `resolved`, `kept` | rows of curves without noise, as B-splines between corners; B-splines that keep to points |
 //! | `profile` | intervals of the joins |
 //! | `paper` | one line and one curve by the steps of a paper |
 //! | `slab`, `order`, `link`, `untangle`, `walls` | points of a cloud near a plane; put in order; their ways linked over gaps; short stretches; both faces of thin walls |
 //! | `bent` | slabs across which a surface bends |
 //! | `cut`, `stack` | where a plane cuts a mesh; which facets each of many planes may cut |
-//! | `facets`, `tessellated` | what the facets of a mesh tell exactly; contours of its sections |
+//! | `facets`, `sheet`, `tessellated` | what the facets of a mesh tell exactly; contours of exact lines and arcs; of a mesh's sections |
 //! | `foot` | where on a segment the foot of a point is |
 //! | `dimension` | angles, widths, distances of centers, gaps |
 //! | `airfoil` | chord, camber, thickness and edges of a profile |
@@ -74,6 +75,7 @@ mod resolved;
 mod result;
 mod row;
 mod search;
+mod sheet;
 mod slab;
 mod smooth;
 mod span;
@@ -84,7 +86,9 @@ mod task;
 mod tessellated;
 #[cfg(test)]
 mod tests;
+mod told;
 mod untangle;
+mod vertices;
 mod walls;
 mod without;
 

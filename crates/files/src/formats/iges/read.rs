@@ -1,6 +1,6 @@
 //! B-spline surfaces (entity 128) and curves (126) of an IGES file.
 
-use super::text::{Entity, Model, model};
+use super::text::{Entity, Model, model, up_to_the_end};
 use crate::cad::SplineModel;
 use crate::cad::assemble::{Raw, curve, surface};
 use crate::error::{Fault, Result};
@@ -13,8 +13,9 @@ use std::collections::BTreeMap;
 
 /// Reads a file.
 pub(super) fn read(mut source: Source, options: &ReadOptions) -> Result<Parsed> {
-    no_zeros(source.feed.ahead(HEAD)?)?;
-    let text = source.feed.all()?;
+    let (head, _) = up_to_the_end(source.feed.ahead(HEAD)?);
+    no_zeros(head)?;
+    let (text, trailing) = up_to_the_end(source.feed.all()?);
     no_zeros(text)?;
     let file = model(text)?;
     let said = unit(&file.global)?;
@@ -40,6 +41,9 @@ pub(super) fn read(mut source: Source, options: &ReadOptions) -> Result<Parsed> 
         }
     }
     let mut warnings = vec![];
+    if trailing > 0 {
+        warnings.push(Warning::TrailingBytes { count: trailing });
+    }
     if trimmed > 0 {
         warnings.push(Warning::Trimmed { count: trimmed });
     }
