@@ -70,7 +70,7 @@ fn ends(args: &[&std::ffi::OsStr]) -> Vec<serde_json::Value> {
 fn every_stage_ends_at_its_total_and_counts_what_it_names() {
     let f = Folder::new();
     let cube = f.write("cube.off", CUBE);
-    let ring = |i: usize| (i as f64 * 0.37).sin_cos();
+    let ring = |i: usize| libm::sincos(i as f64 * 0.37);
     let round: String =
         (0..400).map(|i| format!("{} {} {}\n", ring(i).0, ring(i).1, 0.01 * i as f64)).collect();
     let points = f.write("points.xyz", round);

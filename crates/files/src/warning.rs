@@ -21,6 +21,12 @@ pub enum Warning {
         /// How many.
         count: u64,
     },
+    /// Behind the coordinates of a vertex or the corners of a face stand more or fewer numbers than in other rows, or no
+    /// color; they were passed over.
+    UnevenRow {
+        /// The first such line, from 1.
+        line: u64,
+    },
     /// The last solid of an STL file is not closed by `endsolid`.
     NoEndsolid,
     /// Several solids became one mesh.
@@ -159,6 +165,36 @@ impl Warning {
     }
 }
 
+impl Warning {
+    /// The text of those that CAD files and drawings have; nothing of others.
+    fn of_cad(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Warning::NoSplines => write!(f, "the file holds neither B-spline surfaces nor B-spline curves"),
+            Warning::Trimmed { count } => write!(
+                f,
+                "{count} face(s) with holes or edges within their surface; each surface was taken whole"
+            ),
+            Warning::FacesLeftOut { count, of } => {
+                write!(
+                    f,
+                    "{} of {of} faces read; the others lie on surfaces that are no B-splines",
+                    of - count
+                )
+            }
+            Warning::PassedOver { what } => {
+                write!(f, "the drawing holds what is not read, and was passed over: {what}")
+            }
+            Warning::ThroughPoints { count } => write!(
+                f,
+                "{count} spline(s) by the points alone that they pass through, drawn as cubics; between the points the program that made them may \
+                 draw them otherwise: export them with their control points"
+            ),
+            Warning::NothingDrawn => write!(f, "the drawing holds neither lines nor arcs nor splines"),
+            _ => Ok(()),
+        }
+    }
+}
+
 impl fmt::Display for Warning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -172,6 +208,11 @@ impl fmt::Display for Warning {
             Warning::TrailingBytes { count } => {
                 write!(f, "{count} bytes after the declared content were not read")
             }
+            Warning::UnevenRow { line } => write!(
+                f,
+                "line {line}: what follows the coordinates or corners is unlike other rows or no color and was passed over; \
+                 check that no number is missing"
+            ),
             Warning::NoEndsolid => write!(f, "the last solid is not closed; the file may be cut short"),
             Warning::Solids { count } => write!(f, "{count} solids read as one mesh"),
             Warning::Polygons { count } => {
@@ -221,27 +262,12 @@ impl fmt::Display for Warning {
                     "the file says its unit, {said}, which was taken; {asked} is for files that do not say theirs"
                 )
             }
-            Warning::NoSplines => write!(f, "the file holds neither B-spline surfaces nor B-spline curves"),
-            Warning::Trimmed { count } => write!(
-                f,
-                "{count} face(s) with holes or edges within their surface; each surface was taken whole"
-            ),
-            Warning::FacesLeftOut { count, of } => {
-                write!(
-                    f,
-                    "{} of {of} faces read; the others lie on surfaces that are no B-splines",
-                    of - count
-                )
-            }
-            Warning::PassedOver { what } => {
-                write!(f, "the drawing holds what is not read, and was passed over: {what}")
-            }
-            Warning::ThroughPoints { count } => write!(
-                f,
-                "{count} spline(s) by the points alone that they pass through, drawn as cubics; between the points the program that made them may \
-                 draw them otherwise: export them with their control points"
-            ),
-            Warning::NothingDrawn => write!(f, "the drawing holds neither lines nor arcs nor splines"),
+            Warning::NoSplines
+            | Warning::Trimmed { .. }
+            | Warning::FacesLeftOut { .. }
+            | Warning::PassedOver { .. }
+            | Warning::ThroughPoints { .. }
+            | Warning::NothingDrawn => self.of_cad(f),
             Warning::HeaderLines { count, line, text } => {
                 let more = if *count > 1 { format!(" and {} more", count - 1) } else { String::new() };
                 write!(f, "line {line} of the header says nothing known and was passed over: {text}{more}")

@@ -129,7 +129,7 @@ fn obj(random: &mut Random, solid: &Solid) -> String {
         "vn 0 \\\n0 1",
     ];
     let mut text = String::new();
-    let mut aside = |random: &mut Random, text: &mut String| {
+    let aside = |random: &mut Random, text: &mut String| {
         if random.one_in(3) {
             *text += &random.one(&asides).replace('\n', end);
             *text += end;
@@ -224,6 +224,8 @@ fn off(random: &mut Random, solid: &Solid) -> String {
         }
     }
     let colors = if style.free { "" } else { random.one(&["", "", " 255 0 0", " 1 0 0 1", " 7"]) };
+    // The number of the last vertex as a color would stand in for that corner where it is lost.
+    let colors = if colors == " 7" && solid.positions.len() == 8 { " 6" } else { colors };
     rows.extend(solid.faces.iter().map(|[a, b, c]| words(&format!("3 {a} {b} {c}{colors}"))));
     let mut text = style.text(random, &rows);
     if random.one_in(3) {
@@ -352,6 +354,8 @@ fn damaged(random: &mut Random, format: &str, text: &str) -> Option<String> {
     let keep = text.trim_end_matches(['\0', '\x1a', '\n', '\r', ' ']);
     let is_number = |word: &&str| word.parse::<f64>().is_ok();
     let start = if format == "obj" { keep.rfind("\nv ").or(keep.rfind("\rv "))? } else { 0 };
+    let line = keep.rsplit(['\n', '\r']).next()?;
+    let row: Vec<&str> = line.split_ascii_whitespace().collect();
     let numbers: Vec<&str> = match format {
         // The first coordinate of the last vertex.
         "obj" => keep[start + 3..].split_ascii_whitespace().take(1).collect(),
@@ -360,6 +364,8 @@ fn damaged(random: &mut Random, format: &str, text: &str) -> Option<String> {
             .split_ascii_whitespace()
             .take(1)
             .collect(),
+        // Behind the corners on a line there may be a color, which a facet need not have and which is not read.
+        "off" if row.len() > 4 && row[0] == "3" => row[3..4].to_vec(),
         _ => keep.split_ascii_whitespace().filter(is_number).collect(),
     };
     let word = numbers.last().copied().filter(is_number)?;

@@ -25,7 +25,7 @@ fn patch(kind: usize, random: &mut Random) -> (Vec<Point>, BaseKind, f64) {
     let noise = 0.005 * (1.0 + 3.0 * random.unit());
     let turn = turned(random);
     let count = 4000;
-    let mut place = |random: &mut Random| {
+    let place = |random: &mut Random| {
         let [u, v] = [random.unit(), random.unit()];
         match kind % 7 {
             0 => ([40.0 * u, 25.0 * v, 0.0], [0.0, 0.0, 1.0]),

@@ -120,6 +120,13 @@ fn basic(x: f64, y: f64) -> String {
     format!("basic = {{ x = {x}, y = {y} }}")
 }
 
+/// What a number of a plan may be off by its rounding, mm: the plans of these tests are written with six decimals.
+const WRITTEN: f64 = 0.5e-6;
+/// By how much a value may then differ: twice the distance of the written place, rounded in both coordinates, from the true one.
+const OF_WRITTEN: f64 = 2.0 * std::f64::consts::SQRT_2 * WRITTEN;
+/// What the computation itself may add.
+const COMPUTED: f64 = 1e-8;
+
 /// What 250 plans of each kind come to.
 #[derive(Debug, Default, PartialEq)]
 struct Rates {
@@ -138,8 +145,12 @@ fn places_in_another_frame_or_order_are_refused_and_right_ones_taken() {
         let [x, y, _] = block.in_datums(block.bore);
         let (x, y) = ((x * 1e6).round() / 1e6, (y * 1e6).round() / 1e6);
         let value = 2.0 * dot(block.off, block.off).sqrt();
-        // As the drawing has it, a drawing's rounding beside it, and without: the model's.
-        for (written, within) in [(basic(x, y), 1e-6), (String::new(), 1e-6), (basic(x + 0.01, y), 0.0201)] {
+        // As the drawing has it, without (the model's, of which no digit is lost), and a hundredth beside it.
+        let beside = 2.0 * 0.01 + OF_WRITTEN;
+        for (written, rounded) in
+            [(basic(x, y), OF_WRITTEN), (String::new(), 0.0), (basic(x + 0.01, y), beside)]
+        {
+            let within = rounded + COMPUTED;
             let found = block.inspected(&written).unwrap_or_else(|e| panic!("{n}: {written}: {e}"));
             let there = found.value.unwrap_or_else(|| panic!("{n}: {:?}", found.reason));
             assert!((there - value).abs() <= within, "{n}: {written}: {there} for {value}");
@@ -213,8 +224,8 @@ fn a_place_a_little_off_is_told() {
     assert!(found.notes[0].contains("0.2 mm off the model's feature \"H\""), "{:?}", found.notes);
     let said = block.inspected("basic = { x = 67, y = 42 }").unwrap_err();
     for part in [
-        "line 25, column 9: \"1\": x = 67, y = 42 in the datum system A | B | C",
-        "the model has it at x = 67, y = 42, z = ",
+        "line 28, column 9: \"1\": x = 67, y = 42 in the datum system A | B | C",
+        "the model has it at x = 67, y = 42, z = 10, ",
         "which is x = 42, y = -67 in the datum system A | B | C",
         "the plan's numbers are coordinates of the model",
         "write basic = { x = 42, y = -67 }, or leave it out",

@@ -1,7 +1,7 @@
 //! Right circular cones.
 
 use super::family::{Element, Family, Rows};
-use super::osculating;
+use super::osculating::{self, refooted};
 use super::round::TINY;
 use super::sample::Sample;
 use super::unknown::Local;
@@ -57,7 +57,7 @@ impl Family<6> for Cone {
         size[0].is_finite() && size[1].abs() < PI
     }
     fn starts(points: &[Point]) -> Vec<Element> {
-        osculating::cones(points)
+        osculating::cones::<Cone>(points)
     }
     fn settled(mut element: Element) -> Element {
         if element.size[1] < 0.0 {
@@ -99,12 +99,4 @@ impl Family<6> for Cone {
 #[inline(always)]
 fn is_beyond(size: [f64; 2], (sin, cos): (f64, f64), rho: f64, z: f64) -> bool {
     (rho * sin + z * cos) * sin + size[0] * cos < 0.0
-}
-
-/// The same cone with its origin at the foot of `place`.
-pub(super) fn refooted(element: Element, place: Point) -> Element {
-    let height = element.pose.local(place)[2];
-    let mut moved = element.footed(place);
-    moved.size[0] += height * libm::sin(element.size[1]);
-    moved
 }

@@ -9,7 +9,6 @@
 //!
 //! About an axis a cone is a straight line through distance over height, by orthogonal least squares.
 
-use super::cone::{Cone, refooted};
 use super::family::{Element, Family};
 use super::gauss::{Effort, minimize};
 use super::normal::Alike;
@@ -31,20 +30,21 @@ const FEW_STEPS: Effort = Effort { steps: 8, enough: 1e-3 };
 const APEX_DISTANCES: [f64; 8] = [0.5, 1.0, 1.5, 2.5, 5.0, 12.0, 40.0, f64::INFINITY];
 
 /// Cones near which the best one is to be sought.
-pub(super) fn cones(points: &[Point]) -> Vec<Element> {
+pub(super) fn cones<F: Family<6>>(points: &[Point]) -> Vec<Element> {
     let scatter = Scatter::of(points);
     let few = judges(points, &scatter);
-    let cones =
-        |poses: Vec<Pose>| -> Vec<(f64, Element)> { poses.iter().map(|pose| about(pose, &few)).collect() };
+    let cones = |poses: Vec<Pose>| -> Vec<(f64, Element)> {
+        poses.iter().map(|pose| about::<F>(pose, &few)).collect()
+    };
     let mut first = best(cones(all_around(points, &scatter)), IMPROVED);
     first.extend(best(cones(from_within(points, &scatter)), IMPROVED));
     let sample = Sample { points: Cow::Borrowed(&few), center: [0.0; 3], scale: 1.0, station: [0.0; 3] };
     let improved = first.iter().filter_map(|start| {
-        let end = minimize::<6, Cone, _>(start, &sample, &Alike, FEW_STEPS)?;
+        let end = minimize::<6, F, _>(start, &sample, &Alike, FEW_STEPS)?;
         Some((end.sums.square, end.element))
     });
     let starts = best(improved.collect(), STARTS);
-    starts.into_iter().map(|cone| Cone::settled(refooted(cone, [0.0; 3]))).collect()
+    starts.into_iter().map(|cone| F::settled(refooted(cone, [0.0; 3]))).collect()
 }
 
 /// Some of the points, and those at the ends of each principal direction: the tip of a cone may be a single point.
@@ -67,8 +67,16 @@ fn best(mut all: Vec<(f64, Element)>, count: usize) -> Vec<Element> {
     all.into_iter().take(count).map(|cone| cone.1).collect()
 }
 
+/// The same cone with its origin at the foot of `place`.
+pub(super) fn refooted(element: Element, place: Point) -> Element {
+    let height = element.pose.local(place)[2];
+    let mut moved = element.footed(place);
+    moved.size[0] += height * libm::sin(element.size[1]);
+    moved
+}
+
 /// The best cone about the third axis of a frame, and the sum of the squared distances.
-fn about(pose: &Pose, points: &[Point]) -> (f64, Element) {
+fn about<F: Family<6>>(pose: &Pose, points: &[Point]) -> (f64, Element) {
     let section: Vec<[f64; 2]> = (points.iter())
         .map(|&p| {
             let [x, y, z] = pose.local(p);
@@ -86,7 +94,7 @@ fn about(pose: &Pose, points: &[Point]) -> (f64, Element) {
     let angle = 0.5 * libm::atan2(2.0 * rz, zz - rr);
     let (sin, cos) = libm::sincos(angle);
     let element = Element { pose: *pose, size: [mean[0] * cos - mean[1] * sin, angle] };
-    let square = points.iter().map(|&p| Cone::distance(element.size, pose.local(p)).powi(2)).sum();
+    let square = points.iter().map(|&p| F::distance(element.size, pose.local(p)).powi(2)).sum();
     (square, element)
 }
 

@@ -11,10 +11,10 @@
 use super::data::Stop;
 use super::derived::derived;
 use super::places::places;
-use super::readings::{Compared, compared, fits_otherwise};
+use super::readings::{Compared, OfModel, compared, fits_otherwise};
 use super::seed::Seeded;
 use super::take;
-use crate::characteristic::{Measuring, Taken};
+use crate::characteristic::Taken;
 use crate::plan::{Feature, Plan, Source, Spec};
 use std::collections::BTreeMap;
 use trueness_geom::feature::Nominal;
@@ -86,24 +86,6 @@ struct Model<'a> {
     /// How far from its nominal each is sought, mm.
     reach: Vec<f64>,
     progress: &'a dyn Progress,
-}
-
-/// A characteristic with its features as the model has them.
-pub(super) struct OfModel<'a> {
-    pub plan: &'a Plan,
-    pub spec: &'a Spec,
-    pub features: Vec<&'a Taken>,
-    pub datums: Vec<Vec<&'a Taken>>,
-    /// How far from its nominal the toleranced feature is sought, mm.
-    pub reach: f64,
-    pub progress: &'a dyn Progress,
-}
-
-impl OfModel<'_> {
-    /// The same to be measured, of a characteristic that may say something else.
-    pub fn measuring<'b>(&'b self, spec: &'b Spec) -> Measuring<'b> {
-        Measuring { spec, features: &self.features, datums: &self.datums, progress: self.progress }
-    }
 }
 
 impl<'a> Model<'a> {

@@ -6,8 +6,9 @@ use trueness_geom::space::{Point, Vector, cross, dot, least_axis, minus, plus, t
 
 /// Places around in a section.
 const AROUND: u32 = 12;
-/// Where the sections lie, as shares of the length. A cone may begin at its tip, where it has no section.
-const SECTIONS: [f64; 3] = [0.1, 0.5, 1.0];
+/// Where the sections lie, as shares of the length: as far from one end as from the other, so that their middle is the feature's. A cone may
+/// begin at its tip, where it has no section.
+const SECTIONS: [f64; 3] = [0.1, 0.5, 0.9];
 
 /// Places of a nominal; none where it has a direction without length.
 pub(super) fn places(nominal: &Nominal) -> Vec<Point> {

@@ -1,13 +1,31 @@
 //! Other readings of a plan's numbers, held against the model.
 
 use super::data::Stop;
-use super::model::OfModel;
 use super::wrong_numbers::{Place, Said, angle_text, other_text, place_text, sizes_text};
-use crate::characteristic::{Characteristic, Missing, Size};
+use crate::characteristic::{Characteristic, Measuring, Missing, Size, Taken};
 use crate::plan::text::SizeWord;
-use crate::plan::{Basic, Limits, Spec};
+use crate::plan::{Basic, Limits, Plan, Spec};
+use trueness_geom::progress::Progress;
 use trueness_geom::rigid::Rigid;
 use trueness_geom::space::Point;
+
+/// A characteristic with its features as the model has them.
+pub(super) struct OfModel<'a> {
+    pub plan: &'a Plan,
+    pub spec: &'a Spec,
+    pub features: Vec<&'a Taken>,
+    pub datums: Vec<Vec<&'a Taken>>,
+    /// How far from its nominal the toleranced feature is sought, mm.
+    pub reach: f64,
+    pub progress: &'a dyn Progress,
+}
+
+impl OfModel<'_> {
+    /// The same to be measured, of a characteristic that may say something else.
+    pub fn measuring<'b>(&'b self, spec: &'b Spec) -> Measuring<'b> {
+        Measuring { spec, features: &self.features, datums: &self.datums, progress: self.progress }
+    }
+}
 
 /// Share of the distance within which a feature is sought up to which numbers are those of the model: what a drawing rounds.
 const ROUNDED: f64 = 0.01;

@@ -8,7 +8,7 @@
 //! few places are the farthest. So the points are first brought to the form that they have below the noise ([`super::denoised`]), and what the
 //! noise makes of that is drawn (parametric bootstrap: Efron, Tibshirani, An introduction to the bootstrap, 1993, 6.5). The mean of what it
 //! adds is the bias, its scatter the spread. The value stays what the standard defines; the interval lies about the value less the bias, as
-//! the basic bootstrap has it (13.4 there), and is made longer by what is not known of the form:
+//! the basic bootstrap has it (13.4 there), goes on to the value where that is beyond, and is made longer by what is not known of the form:
 //! - Downward, as a form found may be made by the noise in part, and noise adds more to a smaller one. The end is where the smallest form of
 //!   its kind lies to which the noise of the value may belong (inversion of a test), see [`smaller`]; and some farther for the noise that is left
 //!   in the form, which makes its extremes stand out too far.
@@ -56,7 +56,7 @@ pub struct Uncertainty {
     pub spread: f64,
     /// What noise adds to the value on the average; 0 where it adds nothing.
     pub bias: f64,
-    /// How far the true value may lie below and above the measured one: negative where it lies on the other side.
+    /// How far the true value may lie below and above the measured one: 0 where it lies on the other side.
     pub sides: [f64; 2],
     /// `plan`, `noise`, or `plan and noise`.
     pub source: &'static str,

@@ -104,10 +104,7 @@ fn spec(
             None => decision.uncertainty.filter(|_| unit == "mm"),
         },
     };
-    if let (Some(class), [feature]) = (&made.class, made.features.as_slice())
-        && let Feature { internal: Some(internal), id, .. } = &features[*feature]
-        && let Some(what) = wrong_side(class, *internal, id)
-    {
+    if let Some(what) = class_of_other_side(&made, features) {
         return checker.wrong(&made.class_span, what);
     }
     if decision.rule == Rule::Iso14253 && made.uncertainty.is_none() && decision.noise.is_none() {
@@ -115,15 +112,21 @@ fn spec(
     }
     let question = Question { spec: &made, features };
     kind.check(&question).or_else(|refusal| {
-        let place = keys(written).into_iter().find(|(key, _)| *key == refusal.key).map(|(_, span)| span);
         let place = match refusal.key {
             "feature" => Some(written.feature.span.clone()),
             "kind" => Some(written.kind.span.clone()),
-            _ => place,
+            _ => keys(written).into_iter().find(|(key, _)| *key == refusal.key).map(|(_, span)| span),
         };
         checker.wrong(&place.unwrap_or(whole.clone()), format!("{word}: {}", refusal.what))
     })?;
     Ok(made)
+}
+
+/// Why a tolerance class is not of the side of the material that its feature has, if so.
+fn class_of_other_side(made: &Spec, features: &[Feature]) -> Option<String> {
+    let (Some(class), [feature]) = (&made.class, made.features.as_slice()) else { return None };
+    let Feature { internal, id, .. } = &features[*feature];
+    wrong_side(class, (*internal)?, id)
 }
 
 /// What to write in place of a key that a kind does not take.

@@ -4,8 +4,8 @@
 //! further numbers behind a vertex that the keyword does not announce. So there are two readings. By lines, each row is
 //! a line and what follows on it is passed over; by words, a vertex has as many numbers as the keyword says, wherever
 //! the lines end. A reading that uses the file up to its last word without passing anything over unevenly is the right one.
+//! Where there is none, lines that give all rows are taken, and the first uneven one is told.
 
-use super::Counts;
 use crate::{
     assemble::Faces,
     error::{Fault, Located, Result},
@@ -19,21 +19,39 @@ pub(super) struct Body {
     pub positions: Vec<Point>,
     pub faces: Faces,
     pub rest: u64,
+    /// The first line on which what was passed over is unlike other rows.
+    pub uneven: Option<u64>,
+}
+
+/// What the header says.
+pub(super) struct Counts {
+    /// Vertices.
+    pub vertices: u64,
+    /// Faces.
+    pub faces: u64,
+    /// Whether the number of edges stands on the same line.
+    pub edges: bool,
+    /// How many numbers a vertex may have, the likeliest first.
+    pub widths: Vec<usize>,
 }
 
 /// Reads what stands behind the counts, which `words` has passed.
 pub(super) fn read(text: &[u8], words: Flow, counts: &Counts) -> Result<Body> {
     let mut by_lines = Reading::new(text, words.clone(), Rows::Lines);
     let lines = by_lines.run(counts);
-    if lines.is_ok() && by_lines.even && by_lines.at_end() {
+    if lines.is_ok() && by_lines.uneven.is_none() && by_lines.at_end() {
         return Ok(by_lines.body());
     }
+    // Where lines mean nothing, the number of edges may stand on a later one than the other counts.
+    let mut ahead = words.clone();
+    let edges = !counts.edges && ahead.next().and_then(count).is_some();
+    let words = if edges { ahead } else { words };
     let mut nearest = None;
     for width in counts.widths.iter().copied() {
         for rows in [Rows::Words { width, colors: false }, Rows::Words { width, colors: true }] {
             let mut by_words = Reading::new(text, words.clone(), rows);
             match by_words.run(counts) {
-                Ok(()) if by_words.at_end() => return Ok(by_words.body()),
+                Ok(()) if by_words.uneven.is_none() && by_words.at_end() => return Ok(by_words.body()),
                 Ok(()) => {}
                 Err(fault) => nearest = nearest.or(Some(fault)),
             }
@@ -42,7 +60,7 @@ pub(super) fn read(text: &[u8], words: Flow, counts: &Counts) -> Result<Body> {
     match (lines, nearest) {
         (Ok(()), _) => Ok(by_lines.body()),
         // Where the first rows are no lines, the place that the other reading names is the right one.
-        (Err(_), Some(fault)) if !by_lines.even || by_lines.positions.len() < 2 => Err(fault),
+        (Err(_), Some(fault)) if by_lines.uneven.is_some() || by_lines.positions.len() < 2 => Err(fault),
         (Err(fault), _) => Err(fault),
     }
 }
@@ -65,19 +83,19 @@ struct Reading<'a> {
     faces: Faces,
     /// Numbers passed over behind vertices and faces, so far as they are equally many.
     extra: [Option<usize>; 2],
-    /// Whether they are.
-    even: bool,
+    /// The first line where they are not.
+    uneven: Option<u64>,
 }
 
 impl<'a> Reading<'a> {
     fn new(text: &'a [u8], words: Flow<'a>, rows: Rows) -> Reading<'a> {
         let (positions, faces) = (vec![], Faces::default());
-        Reading { text, words, rows, positions, faces, extra: [None; 2], even: true }
+        Reading { text, words, rows, positions, faces, extra: [None; 2], uneven: None }
     }
 
     fn body(self) -> Body {
         let rest = if self.at_end() { 0 } else { self.words.rest().len() as u64 };
-        Body { positions: self.positions, faces: self.faces, rest }
+        Body { positions: self.positions, faces: self.faces, rest, uneven: self.uneven }
     }
 
     fn at_end(&self) -> bool {
@@ -131,7 +149,7 @@ impl<'a> Reading<'a> {
             }
         }
         match self.rows {
-            Rows::Lines => self.pass_over(0),
+            Rows::Lines => self.pass_over(0)?,
             Rows::Words { width, .. } => {
                 for _ in 3..width {
                     let number = self.words.next().and_then(|w| whole_number(w, b'.'));
@@ -166,19 +184,26 @@ impl<'a> Reading<'a> {
             corners.push(v as u32);
         }
         if !matches!(self.rows, Rows::Words { colors: false, .. }) {
-            self.pass_over(1);
+            self.pass_over(1)?;
         }
         Ok(())
     }
 
-    /// Passes over the rest of the line behind a vertex (0) or a face (1). Behind a face there may be a color of one, three
-    /// or four numbers.
-    fn pass_over(&mut self, kind: usize) {
+    /// Passes over the numbers on the rest of the line behind a vertex (0) or a face (1). Behind a face there may be a color
+    /// of one, three or four.
+    fn pass_over(&mut self, kind: usize) -> std::result::Result<(), Fault> {
         let mut extra = 0;
-        while self.words.next_on_line().is_some() {
+        while let Some(word) = self.words.next_on_line() {
+            if whole_number(word, b'.').is_none() {
+                return Err(Fault::unexpected("numbers alone behind a vertex or face", self.shown()));
+            }
             extra += 1;
         }
         let fits = kind == 0 || matches!(extra, 0 | 1 | 3 | 4);
-        self.even &= fits && *self.extra[kind].get_or_insert(extra) == extra;
+        let alike = *self.extra[kind].get_or_insert(extra) == extra;
+        if self.uneven.is_none() && !(fits && alike) {
+            self.uneven = Some(self.words.line());
+        }
+        Ok(())
     }
 }

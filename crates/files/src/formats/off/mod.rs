@@ -13,6 +13,7 @@ use crate::{
     unicode::no_zeros,
     write::{Loss, corners::corner_positions},
 };
+use body::Counts;
 use std::io::Write;
 use trueness_geom::mesh::Mesh;
 
@@ -55,11 +56,12 @@ fn read(mut source: Source, options: &ReadOptions) -> Result<Parsed> {
         return Err(Fault::Short { what: "vertices and faces", declared, present: room / 4 }.at_line(left));
     }
     assemble::numbered("vertices", counts.vertices)?;
-    let body::Body { positions, faces, rest } = body::read(text, words, &counts)?;
+    let body::Body { positions, faces, rest, uneven } = body::read(text, words, &counts)?;
     let mut warnings = vec![];
     if rest > 0 {
         warnings.push(Warning::TrailingBytes { count: rest });
     }
+    warnings.extend(uneven.map(|line| Warning::UnevenRow { line }));
     if faces.is_empty() {
         let mut parsed = Parsed::cloud("off", positions);
         parsed.warnings.extend(warnings);
@@ -67,14 +69,6 @@ fn read(mut source: Source, options: &ReadOptions) -> Result<Parsed> {
     }
     let mesh = faces.mesh(positions, options.weld != Weld::None, &mut warnings)?;
     Ok(Parsed::mesh("off", SourceMesh { mesh, ..SourceMesh::default() }, warnings))
-}
-
-/// What the header says.
-struct Counts {
-    vertices: u64,
-    faces: u64,
-    /// How many numbers a vertex may have, the likeliest first.
-    widths: Vec<usize>,
 }
 
 /// The numbers of vertices and faces. The keyword may be left out, and the number of edges is passed over.
@@ -108,10 +102,11 @@ fn counts(words: &mut Flow) -> std::result::Result<Counts, Fault> {
     let (vertices, faces) = (next()?, next()?);
     // The edges are counted too, but not by all programs.
     let mut ahead = words.clone();
-    if ahead.next_on_line().is_some_and(|w| count(w).is_some()) {
+    let edges = ahead.next_on_line().is_some_and(|w| count(w).is_some());
+    if edges {
         *words = ahead;
     }
-    Ok(Counts { vertices, faces, widths })
+    Ok(Counts { vertices, faces, edges, widths })
 }
 
 /// Lines made into text at a time.

@@ -32,13 +32,14 @@ pub(super) fn rows_are_lines(vertex: &Element, xyz: [usize; 3], head: &[u8], who
     let list = vertex.properties.iter().position(|p| matches!(p.kind, PropertyType::List { .. }));
     if let Some(list) = list {
         // A list behind the coordinates may be declared and not be there.
-        return xyz.iter().all(|i| *i < list) && !fits(vertex, xyz, head, whole);
+        return xyz.iter().all(|i| *i < list)
+            && !fits(vertex, xyz, head, whole)
+            && lists_are_missing(vertex, head, whole);
     }
     let mut lines = Lines::new(head);
-    let said = |line: &&[u8]| !line.trim_ascii().is_empty() && !line.trim_ascii().starts_with(b"#");
     let (mut count, mut width) = (0, None);
     while count < vertex.count {
-        let Some(line) = lines.find(|line| said(&line)) else { break };
+        let Some(line) = lines.find(said) else { break };
         // The head may end within a line.
         if !whole && lines.rest().is_empty() {
             return true;
@@ -50,6 +51,28 @@ pub(super) fn rows_are_lines(vertex: &Element, xyz: [usize; 3], head: &[u8], who
         count += 1;
     }
     count == vertex.count || !whole || width == Some(vertex.properties.len())
+}
+
+/// Whether a line is a row.
+fn said(line: &&[u8]) -> bool {
+    !line.trim_ascii().is_empty() && !line.trim_ascii().starts_with(b"#")
+}
+
+/// Whether each row is a line that holds all properties but the lists.
+fn lists_are_missing(vertex: &Element, head: &[u8], whole: bool) -> bool {
+    let single = vertex.properties.iter().filter(|p| matches!(p.kind, PropertyType::One(_))).count();
+    let mut lines = Lines::new(head);
+    for _ in 0..vertex.count {
+        let Some(line) = lines.find(said) else { break };
+        // The head may end within a line.
+        if !whole && lines.rest().is_empty() {
+            break;
+        }
+        if words(line).count() != single {
+            return false;
+        }
+    }
+    true
 }
 
 /// Whether the words of `head` are rows as they are declared.
@@ -145,8 +168,9 @@ fn row(
         if let PropertyType::List { .. } = property.kind {
             let size = count(word).ok_or_else(|| Fault::unexpected("the length of a list", word))?;
             for _ in 0..size {
-                if flow.next().is_none() {
-                    return Ok(None);
+                let Some(item) = flow.next() else { return Ok(None) };
+                if whole_number(item, b'.').is_none() {
+                    return Err(Fault::unexpected("as many numbers as the length of the list says", item));
                 }
             }
         } else if let Some(axis) = xyz.iter().position(|wanted| *wanted == i) {

@@ -88,7 +88,7 @@ pub(super) fn by_words<'a>(
 impl Passed<'_> {
     /// Whether every row was as long as it should and, if the text should end there, nothing follows.
     pub fn is_exact(&self, to_end: bool) -> bool {
-        self.even && !(to_end && !self.rest.trim_ascii().is_empty())
+        self.even && (!to_end || self.rest.trim_ascii().is_empty())
     }
 }
 

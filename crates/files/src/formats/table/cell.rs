@@ -184,7 +184,8 @@ pub(super) fn is_end(line: &[u8]) -> bool {
 /// Blanks that are no ASCII: they stand within numbers with thousands separators as well as between numbers.
 const WIDE_BLANKS: [char; 4] = ['\u{a0}', '\u{2007}', '\u{2009}', '\u{202f}'];
 
-/// What is wrong with text that holds several numbers and nothing that parts them, and what to do.
+/// What is wrong with text that holds several numbers and nothing that parts them, or a number and blanks that are no
+/// ASCII, and what to do.
 pub(super) fn run_together(text: &[u8]) -> Option<(&'static str, &'static str)> {
     let shown: String = match std::str::from_utf8(text) {
         Ok(text) => text.into(),
@@ -196,6 +197,16 @@ pub(super) fn run_together(text: &[u8]) -> Option<(&'static str, &'static str)> 
     if parts.len() > 1 && parts.iter().filter(|p| decimal(p.trim())).count() > 1 {
         return Some((
             "no-break spaces stand between the numbers",
+            "replace them with blanks or export with semicolons",
+        ));
+    }
+    let is_number = |part: &str| [b'.', b','].iter().any(|p| cell_number(part.as_bytes(), *p).is_some());
+    if let [only] = parts[..]
+        && shown.contains(WIDE_BLANKS)
+        && is_number(only.trim())
+    {
+        return Some((
+            "no-break spaces stand beside the number",
             "replace them with blanks or export with semicolons",
         ));
     }

@@ -58,10 +58,10 @@ impl Drawn {
         let random = &mut Random::stream(5, seed);
         let mut between = |low: f64, high: f64| low * (high / low).powf(random.unit());
         let radius = between(0.1, 1000.0);
-        let degrees = if seed % 2 == 0 { between(0.5, 60.0) } else { 90.0 - between(0.5, 60.0) };
+        let degrees = if seed.is_multiple_of(2) { between(0.5, 60.0) } else { 90.0 - between(0.5, 60.0) };
         let chords = between(6.0, 97.0) as usize;
         let cut = between(0.1, 0.9) * radius;
-        let top = if seed % 3 == 0 { cut } else { 0.0 };
+        let top = if seed.is_multiple_of(3) { cut } else { 0.0 };
         let is_scan = seed % 5 == 4;
         let noise = if is_scan { between(1e-5, 3e-4) * radius } else { 0.0 };
         let (chords, steps) = if is_scan { (96, 24) } else { (chords, 1) };
