@@ -14,12 +14,12 @@ use clap::{Args, ValueEnum};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use trueness_files::write::{self, Block, Layout, Writable};
-use trueness_geom::align::{self, AlignError, BestFit, Measured, Row, RowFit, Start, Target};
+use trueness_geom::align::{self, AlignError, BestFit, Lock, Measured, Row, RowFit, Start, Target};
 use trueness_geom::closest::Tree;
 use trueness_geom::deviation::surface::{ReferenceSurface, SurfaceOptions};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::rigid::Rigid;
-use trueness_geom::space::Point;
+use trueness_geom::space::{Point, times};
 use trueness_inspect::compare::Regions;
 use trueness_inspect::results::align::AlignDocument;
 use trueness_inspect::results::{InputRecord, Role};
@@ -62,6 +62,13 @@ pub struct AlignArgs {
     /// Start from the pose in the files instead of looking for one
     #[arg(long)]
     from_here: bool,
+    /// Components of the motion from here that stay zero: tx, ty, tz of the translation of the middle of the scan, rx, ry, rz of the rotation
+    /// about it, in the frame of the reference; for best-fit
+    #[arg(long, value_delimiter = ',', value_name = "AXES", requires = "from_here")]
+    lock: Vec<LockArg>,
+    /// Find a scale, too: how many times as large the scan has to be made; for best-fit
+    #[arg(long, conflicts_with = "lock")]
+    scale: bool,
     /// Let all points count, however far off they are
     #[arg(long)]
     keep_outliers: bool,
@@ -88,6 +95,17 @@ enum MethodArg {
     ThreeTwoOne,
     /// A reference point system: rows held along their directions, by weight.
     Rps,
+}
+
+/// A component of a motion, in the order of `align::AXES`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum LockArg {
+    Tx,
+    Ty,
+    Tz,
+    Rx,
+    Ry,
+    Rz,
 }
 
 fn out_help() -> String {
@@ -134,9 +152,10 @@ impl Scan {
         if self.mesh.faces.is_empty() { Writable::Points } else { Writable::Mesh }
     }
 
-    /// Writes it as it lies after `motion`. Gives what the format could not hold, for people.
-    fn write(&self, path: &Path, motion: &Rigid) -> anyhow::Result<Option<String>> {
-        let positions: Vec<Point> = self.mesh.positions.iter().map(|p| motion.point(*p)).collect();
+    /// Writes it as it lies after `motion`, made `factor` times as large before. Gives what the format could not hold, for people.
+    fn write(&self, path: &Path, factor: f64, motion: &Rigid) -> anyhow::Result<Option<String>> {
+        let moved = |p: &Point| motion.point(times(factor, *p));
+        let positions: Vec<Point> = self.mesh.positions.iter().map(moved).collect();
         if self.holds() == Writable::Points {
             let mut file = write::points(path, Layout::default())?;
             file.write(&Block { points: &positions, ..Block::default() })?;
@@ -166,6 +185,12 @@ fn run(args: &AlignArgs, common: &Common) -> anyhow::Result<Outcome> {
             Usage("--points is for the methods pairs, 3-2-1 and rps; name one by --method".into()).into()
         );
     }
+    let searches = args.method == MethodArg::BestFit;
+    if !searches && (args.scale || !args.lock.is_empty()) {
+        let what = if args.scale { "--scale" } else { "--lock" };
+        let why = "other methods begin with a best fit of all six degrees of freedom, or take the rows of a table";
+        return Err(Usage(format!("{what} is for --method best-fit: {why}")).into());
+    }
     let mut scan = Scan::open(args)?;
     if let Some(path) = &args.out {
         scan.holds().check(path)?;
@@ -183,12 +208,16 @@ fn run(args: &AlignArgs, common: &Common) -> anyhow::Result<Outcome> {
                 MethodArg::ThreeTwoOne => "3-2-1",
                 MethodArg::Rps => "rps",
             };
-            AlignDocument::of_rows(&found, name, records, common.seed)
+            let corners = reference.mesh.bounds().corners();
+            AlignDocument::of_rows(&found, name, &corners, records, common.seed)
         }
         (None, _) => best_fit(args, &scan, &reference.mesh, records, common)?,
     };
-    let motion = Rigid::from_matrix(document.transform).context("the motion found")?;
-    let loss = args.out.as_ref().map(|path| scan.write(path, &motion)).transpose()?.flatten();
+    let factor = document.scale.unwrap_or(1.0);
+    let mut matrix = document.transform;
+    matrix[..3].iter_mut().for_each(|row| row[..3].iter_mut().for_each(|x| *x /= factor));
+    let motion = Rigid::from_matrix(matrix).context("the motion found")?;
+    let loss = args.out.as_ref().map(|path| scan.write(path, factor, &motion)).transpose()?.flatten();
     args.document.write(&document)?;
     args.document.table(|| table(&document, loss.as_deref()))?;
     let within = document.zones.as_ref().is_none_or(|z| z.beyond == 0);
@@ -216,12 +245,21 @@ fn best_fit(
         start: if args.from_here { Start::Given(Rigid::IDENTITY) } else { Start::Anywhere },
         robust: !args.keep_outliers,
         seed: common.seed,
+        lock: (!args.lock.is_empty()).then(|| {
+            let axes = std::array::from_fn(|k| args.lock.iter().any(|axis| *axis as usize == k));
+            Lock::new(axes, &measured, Rigid::IDENTITY)
+        }),
     };
     let target = Target::new(reference, &tree);
     let failed = |e: AlignError| match e {
         AlignError::Cancelled(e) => e.into(),
         e => anyhow::anyhow!("{}: {e}", args.measured.display()),
     };
+    if args.scale {
+        let (fit, scale) =
+            align::best_fit_scaled(&measured, &target, &options, &stage).map_err(failed)?;
+        return Ok(AlignDocument::of_best_fit(&fit, records, common.seed).with_scale(&scale));
+    }
     let fit = align::best_fit(&measured, &target, &options, &stage).map_err(failed)?;
     match args.method {
         MethodArg::Chebyshev => {
@@ -238,7 +276,13 @@ fn best_fit(
             let found = align::into_zones(&measured, &target, &surface, &zones, &fit, &options, &stage);
             Ok(AlignDocument::of_zones(&found.map_err(failed)?, &fit, records, common.seed))
         }
-        _ => Ok(AlignDocument::of_best_fit(&fit, records, common.seed)),
+        _ => {
+            let document = AlignDocument::of_best_fit(&fit, records, common.seed);
+            Ok(match &options.lock {
+                Some(lock) => document.with_lock(lock),
+                None => document,
+            })
+        }
     }
 }
 
@@ -316,6 +360,18 @@ fn table(document: &AlignDocument, loss: Option<&str>) -> String {
         settled,
         counted(document.iterations, ["step", "steps"])
     );
+    if let (Some(scale), Some(u)) = (document.scale, document.scale_std_uncertainty) {
+        let _ = writeln!(
+            out,
+            "scale {} ± {} (one standard deviation): the scan is made so many times as large",
+            fixed(scale, 9),
+            scientific(u, 1)
+        );
+    }
+    if let Some(lock) = &document.lock {
+        let [x, y, z] = lock.center.map(six_digits);
+        let _ = writeln!(out, "locked: {}, about {x}, {y}, {z}", lock.axes.join(", "));
+    }
     if let Some(found) = &document.chebyshev {
         let [x, y, z] = found.at.map(six_digits);
         let _ = writeln!(
@@ -368,7 +424,16 @@ fn table(document: &AlignDocument, loss: Option<&str>) -> String {
         let _ = writeln!(out, "standard uncertainty: rotation {degrees} degrees, translation {lengths} mm");
     }
     for pair in &document.pairs {
-        let _ = writeln!(out, "row {}: {}", pair.row + 1, six_digits(pair.residual));
+        let amplified = pair.amplification.map(|by| {
+            format!("   1 mm of error there moves the farthest corner by {} mm", fixed(by, 2))
+        });
+        let _ = writeln!(
+            out,
+            "row {}: {}{}",
+            pair.row + 1,
+            six_digits(pair.residual),
+            amplified.unwrap_or_default()
+        );
     }
     for warning in &document.warnings {
         let _ = writeln!(out, "! {}", warning.text);

@@ -2,7 +2,11 @@
 
 mod field;
 mod flat;
+mod asked;
+mod coverage;
+mod loose;
 mod minimax;
+mod mirror;
 mod parts;
 mod poses;
 mod response;

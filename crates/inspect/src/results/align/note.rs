@@ -4,12 +4,12 @@ use crate::results::Word;
 use crate::results::word::named;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use trueness_geom::align::{AlignWarning, Alignment, Freedom, NotCounted};
+use trueness_geom::align::{AMPLIFIED, AlignWarning, Alignment, Freedom, NotCounted, RowFit};
 
 /// Something to be said about an alignment.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct AlignNote {
-    /// `poor`, `ambiguous`, `free`, `normals_turned`, `scale`, `few`, `unconfirmed`, `left_out` or `not_converged`; of an inspection also `size_ratio` and
+    /// `poor`, `ambiguous`, `free`, `normals_turned`, `scale`, `few`, `unconfirmed`, `left_out`, `amplified`, `mirrored` or `not_converged`; of an inspection also `size_ratio` and
     /// `hardly_overlapping`.
     pub kind: Word<AlignNoteKind>,
     /// One sentence for people.
@@ -35,6 +35,10 @@ pub enum AlignNoteKind {
     Unconfirmed,
     /// Much of the measured does not count.
     LeftOut,
+    /// Errors of a row move the part many times as far.
+    Amplified,
+    /// The best fit of a mirror image is much better.
+    Mirrored,
     /// The iteration did not settle.
     NotConverged,
     /// The measured and the nominal part have different sizes.
@@ -45,7 +49,7 @@ pub enum AlignNoteKind {
 
 impl AlignNoteKind {
     /// All, in the order above.
-    pub const ALL: [AlignNoteKind; 11] = [
+    pub const ALL: [AlignNoteKind; 13] = [
         AlignNoteKind::Poor,
         AlignNoteKind::Ambiguous,
         AlignNoteKind::Free,
@@ -54,6 +58,8 @@ impl AlignNoteKind {
         AlignNoteKind::Few,
         AlignNoteKind::Unconfirmed,
         AlignNoteKind::LeftOut,
+        AlignNoteKind::Amplified,
+        AlignNoteKind::Mirrored,
         AlignNoteKind::NotConverged,
         AlignNoteKind::SizeRatio,
         AlignNoteKind::HardlyOverlapping,
@@ -70,6 +76,8 @@ impl AlignNoteKind {
             AlignNoteKind::Few => "few",
             AlignNoteKind::Unconfirmed => "unconfirmed",
             AlignNoteKind::LeftOut => "left_out",
+            AlignNoteKind::Amplified => "amplified",
+            AlignNoteKind::Mirrored => "mirrored",
             AlignNoteKind::NotConverged => "not_converged",
             AlignNoteKind::SizeRatio => "size_ratio",
             AlignNoteKind::HardlyOverlapping => "hardly_overlapping",
@@ -80,8 +88,12 @@ impl AlignNoteKind {
     /// what was left out, are only told.
     pub fn is_doubt(self) -> bool {
         match self {
-            AlignNoteKind::Free | AlignNoteKind::NormalsTurned | AlignNoteKind::LeftOut => false,
+            AlignNoteKind::Free
+            | AlignNoteKind::NormalsTurned
+            | AlignNoteKind::LeftOut
+            | AlignNoteKind::Amplified => false,
             AlignNoteKind::Poor
+            | AlignNoteKind::Mirrored
             | AlignNoteKind::Ambiguous
             | AlignNoteKind::Scale
             | AlignNoteKind::Few
@@ -130,6 +142,17 @@ impl AlignNote {
                     three(*point)
                 ),
             ),
+            AlignWarning::Slack { motion, width } => (
+                AlignNoteKind::Free,
+                format!(
+                    "rims alone hold it, and leave it {width:.3} mm to {}: within that any pose fits as well",
+                    match motion {
+                        Freedom::Slides { direction } => format!("slide along {}", three(*direction)),
+                        Freedom::Turns { point, direction } =>
+                            format!("turn about the axis along {} through {}", three(*direction), three(*point)),
+                    }
+                ),
+            ),
             AlignWarning::NormalsTurned => (
                 AlignNoteKind::NormalsTurned,
                 "the measured normals point inward; they were turned round".into(),
@@ -168,11 +191,41 @@ impl AlignNote {
                     }
                 ),
             ),
+            AlignWarning::Mirrored { ratio } => (
+                AlignNoteKind::Mirrored,
+                format!(
+                    "the measured looks mirrored: its mirror image leaves {:.0} % of what it leaves itself; is it a part of the other hand, or \
+                     was the sign of an axis reversed?",
+                    100.0 * ratio
+                ),
+            ),
             AlignWarning::NotConverged => {
                 (AlignNoteKind::NotConverged, "the iteration did not settle".into())
             }
         };
         AlignNote { kind: Word(kind), text }
+    }
+
+    /// Those of an alignment by rows, of a part with these corners.
+    pub fn of_rows(found: &RowFit, corners: &[[f64; 3]]) -> Vec<AlignNote> {
+        let mut notes: Vec<AlignNote> = found.warnings.iter().map(AlignNote::of).collect();
+        let amplified = found.amplifications(corners);
+        let most = amplified.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1));
+        if let Some((row, by)) = most.filter(|(_, by)| **by >= AMPLIFIED) {
+            let rows = amplified.iter().filter(|by| **by >= AMPLIFIED).count();
+            let others = match rows {
+                1 => String::new(),
+                _ => format!(" ({rows} rows are amplified tenfold or more)"),
+            };
+            let text = format!(
+                "row {}: an error of 0.01 mm there moves the farthest corner of the part by {:.3} mm{others}: the places held along its direction \
+                 lie near to each other or to one line; take places that are farther apart, over all of the part",
+                row + 1,
+                0.01 * by
+            );
+            notes.push(AlignNote { kind: Word(AlignNoteKind::Amplified), text });
+        }
+        notes
     }
 
     /// Those of the best fit `from` that a search for the least greatest distance began with, and of what did not count in it. What did not count in the
