@@ -73,7 +73,8 @@ pub(super) fn covariance(
         let alone =
             |k: usize| system.rms() * system.rms() / system.count() * system.weight / spectrum.values[k];
         let held = (spectrum.stay..6).filter(|&k| spectrum.values[k] >= HELD * system.weight);
-        let ratios: Vec<f64> = held.map(|k| along(&out, &spectrum.vectors[k]) / alone(k)).collect();
+        let ratio = |k: usize| along(&out, &spectrum.vectors[k]) / alone(k);
+        let ratios: Vec<f64> = held.map(ratio).filter(|ratio| ratio.is_finite()).collect();
         let together = (ratios.iter().sum::<f64>() / ratios.len().max(1) as f64).max(1.0);
         for (v, way) in barely {
             let more = (together * way * way - along(&out, v)).max(0.0);

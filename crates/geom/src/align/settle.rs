@@ -86,7 +86,11 @@ impl Work<'_> {
         let hardly = of(&[&slack[..], &loose.held].concat());
         let locked = some.lock.map(|lock| lock.twists(pose)).unwrap_or_default();
         let lock = of(&locked);
-        let barely = freedom::barely_held(&some, &system, hardly, pose, progress)?;
+        let mut barely = freedom::barely_held(&some, &system, hardly, pose, progress)?;
+        if barely.is_empty() {
+            // Without noise the range alone tells.
+            barely.extend(loose.slack.iter().map(|(t, width)| (t.six(system.center, system.radius), *width)));
+        }
         // What is free is told by the facets; edges of a faceted cylinder would hold it.
         let facets;
         let equations = match loose.free.is_empty() {
