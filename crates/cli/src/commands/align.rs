@@ -188,7 +188,8 @@ fn run(args: &AlignArgs, common: &Common) -> anyhow::Result<Outcome> {
     let searches = args.method == MethodArg::BestFit;
     if !searches && (args.scale || !args.lock.is_empty()) {
         let what = if args.scale { "--scale" } else { "--lock" };
-        let why = "other methods begin with a best fit of all six degrees of freedom, or take the rows of a table";
+        let why =
+            "other methods begin with a best fit of all six degrees of freedom, or take the rows of a table";
         return Err(Usage(format!("{what} is for --method best-fit: {why}")).into());
     }
     let mut scan = Scan::open(args)?;
@@ -256,8 +257,7 @@ fn best_fit(
         e => anyhow::anyhow!("{}: {e}", args.measured.display()),
     };
     if args.scale {
-        let (fit, scale) =
-            align::best_fit_scaled(&measured, &target, &options, &stage).map_err(failed)?;
+        let (fit, scale) = align::best_fit_scaled(&measured, &target, &options, &stage).map_err(failed)?;
         return Ok(AlignDocument::of_best_fit(&fit, records, common.seed).with_scale(&scale));
     }
     let fit = align::best_fit(&measured, &target, &options, &stage).map_err(failed)?;
@@ -424,9 +424,9 @@ fn table(document: &AlignDocument, loss: Option<&str>) -> String {
         let _ = writeln!(out, "standard uncertainty: rotation {degrees} degrees, translation {lengths} mm");
     }
     for pair in &document.pairs {
-        let amplified = pair.amplification.map(|by| {
-            format!("   1 mm of error there moves the farthest corner by {} mm", fixed(by, 2))
-        });
+        let amplified = pair
+            .amplification
+            .map(|by| format!("   1 mm of error there moves the farthest corner by {} mm", fixed(by, 2)));
         let _ = writeln!(
             out,
             "row {}: {}{}",

@@ -48,7 +48,8 @@ impl Look<'_> {
                 Mirror::Same => {}
                 Mirror::Better(pose) => {
                     poses.push(result.reference_from_measured);
-                    let (pose, sigma) = work.choose(&[result.reference_from_measured, pose], some, progress)?;
+                    let (pose, sigma) =
+                        work.choose(&[result.reference_from_measured, pose], some, progress)?;
                     *result = settle.from(pose, sigma, progress)?;
                 }
                 Mirror::Mirrored { ratio } => told.push(AlignWarning::Mirrored { ratio }),

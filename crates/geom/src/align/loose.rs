@@ -1,9 +1,9 @@
 //! What the faces of the reference do not hold, and how far such motions may go.
 //!
 //! A motion is held by points whose closest place lies inside a face. Rims hold it only once points lie beyond them: between its ends the
-//! sum of squares is flat, and where least squares end there noise alone decides, mostly at a rim. So the motion is tried: the range
-//! in which the sum of squares rises by no more than noise makes it. Within the range the pose is the one that moves the measured
-//! least where that fits, else the middle.
+//! sum of squares is flat. Least squares end at a rim there: a point with noise that lies within the material is nearer to the face beyond the
+//! rim than to its own. So the motion is tried: the middle of where it fits, roughly, and from there the range in which the sum of squares
+//! rises by no more than noise makes it. Within the range the pose is the one that moves the measured least where that fits, else the middle.
 
 use super::AlignError;
 use super::freedom::{BARELY, CAP, HELD, SLIDES, TRIED};
@@ -17,8 +17,10 @@ use crate::space::minus;
 
 /// Standard deviations, squared, by which two poses that fit as well may differ: noise brings three motions so far once in 900.
 const INDISTINCT: f64 = 16.0;
-/// Standard deviations of a single distance that a range is wide where nothing holds: a tenth of a single point would leave this.
-const WIDE: f64 = 25.0;
+/// Standard deviations of a single distance that a range is wide where nothing holds: a single point that does would leave less.
+const WIDE: f64 = 10.0;
+/// Mean square over the least up to which a pose fits roughly: faces beyond rims take a third of it away (0.36 of a contour tilted to both rims).
+const ROUGHLY: f64 = 2.0;
 /// Rounds by which the middle of a range is found.
 const ROUNDS: usize = 3;
 /// How often an end of a range is halved, in the search for the middle and where it is told.
@@ -62,8 +64,8 @@ pub(super) fn explore(
     if at.weak.is_empty() {
         return Ok((*pose, loose));
     }
-    let ground = Ground::new(problem, &at, pose, progress)?;
-    let flat = |six: &Six| ground.both_ways(&at, six, progress);
+    let here = Ground::new(problem, &at, 1.0, progress)?;
+    let flat = |six: &Six| here.both_ways(&at, six, progress);
     if at.weak.iter().map(flat).collect::<Result<Vec<bool>, AlignError>>()?.iter().all(|flat| *flat) {
         loose.free = at.twists(&at.weak);
         return Ok((*pose, loose));
@@ -71,16 +73,16 @@ pub(super) fn explore(
     // Few samples find the middle.
     let part = problem.samples.first(PART);
     let few = Problem { samples: &part, ..*problem };
-    let middle = Ground::new(&few, &Place::new(&few, pose, progress)?, pose, progress)?.middle(&at, progress)?;
+    let roughly = Ground::new(&few, &Place::new(&few, pose, progress)?, ROUGHLY, progress)?;
+    let middle = roughly.middle(&at, progress)?;
     let at = Place::new(problem, &middle, progress)?;
+    let ground = Ground::new(problem, &at, 1.0, progress)?;
     let first = (at.sigma / at.count.sqrt()).max(problem.rounding);
     let mut untold = vec![];
     for six in &at.weak {
-        let [back, forth] = ground.range(&at, six, first, EXACT, progress)?;
+        let width: f64 = ground.range(&at, six, first, EXACT, progress)?.iter().sum();
         let twist = Twist::of(six, at.center, at.radius);
-        let width = back + forth;
-        loose.ends |= width < 2.0 * at.step && width > WIDE * at.sigma;
-        if width >= at.step && (width >= 2.0 * at.step || width > WIDE * at.sigma) {
+        if width >= 2.0 * at.step || width >= at.step.max(WIDE * at.sigma) {
             loose.free.push(twist);
         } else if width > (WIDE * at.sigma).max(64.0 * problem.rounding) {
             loose.slack.push((twist, width));
@@ -88,14 +90,14 @@ pub(super) fn explore(
             loose.held.push(twist);
             continue;
         }
+        loose.ends |= !here.both_ways(&Place { pose: *pose, weak: vec![], ..at }, six, progress)?;
         untold.push(*six);
     }
     if !loose.ends {
         return Ok((*pose, loose));
     }
     let nearest = nearest(problem, &at, &untold, start);
-    let fits = ground.fits(&nearest, 0.0, progress)?;
-    Ok((if fits { nearest } else { middle }, loose))
+    Ok((if ground.fits(&nearest, 0.0, progress)? { nearest } else { middle }, loose))
 }
 
 /// A pose with the equations of the facets there.
@@ -162,27 +164,30 @@ fn weak(facets: &System, spectrum: &Spectrum) -> Vec<Six> {
     all
 }
 
-/// The sum of squares about a pose where it is least, by what is flat: a rise that noise makes, or none beside the way.
+/// The sum of squares about a pose, by what is flat: a rise that noise makes, or none beside the way.
 struct Ground<'a> {
     problem: &'a Problem<'a>,
     /// Distances that no distance counts for more than: many standard deviations, and the step.
     caps: [f64; 2],
-    least: [f64; 2],
-    level: f64,
+    /// Mean squares at the pose.
+    here: [f64; 2],
+    /// The mean square up to which a pose fits as well.
+    most: f64,
 }
 
 impl<'a> Ground<'a> {
+    /// At a place; `times` as much fits besides what noise makes.
     fn new(
         problem: &'a Problem<'a>,
         at: &Place,
-        pose: &Rigid,
+        times: f64,
         progress: &dyn Progress,
     ) -> Result<Ground<'a>, AlignError> {
         let sigma = at.sigma.max(problem.rounding);
         let caps = [CAP * sigma, at.step.max(CAP * sigma)];
-        let level = INDISTINCT * sigma * sigma / at.count;
-        let mut ground = Ground { problem, caps, least: [0.0; 2], level };
-        ground.least = ground.costs(pose, progress)?;
+        let mut ground = Ground { problem, caps, here: [0.0; 2], most: 0.0 };
+        ground.here = ground.costs(&at.pose, progress)?;
+        ground.most = times * ground.here[0] + INDISTINCT * sigma * sigma / at.count;
         Ok(ground)
     }
 
@@ -193,9 +198,8 @@ impl<'a> Ground<'a> {
 
     /// Whether a pose so far away fits as well.
     fn fits(&self, pose: &Rigid, way: f64, progress: &dyn Progress) -> Result<bool, AlignError> {
-        let costs = self.costs(pose, progress)?;
-        let rise = |k: usize| costs[k] - self.least[k];
-        Ok(rise(0) <= self.level || rise(1) <= (BARELY * way) * (BARELY * way))
+        let [near, wide] = self.costs(pose, progress)?;
+        Ok(near <= self.most || wide - self.here[1] <= (BARELY * way) * (BARELY * way))
     }
 
     fn both_ways(&self, at: &Place, six: &Six, progress: &dyn Progress) -> Result<bool, AlignError> {

@@ -7,8 +7,8 @@
 use super::freedom::twists;
 use super::sample::{Measured, Samples};
 use super::system::{Six, Spectrum, slope};
-use super::work::Work;
 use super::twist::directions;
+use super::work::Work;
 use super::{AlignError, AlignWarning, Alignment, BestFit, Freedom, Target};
 use crate::closest::BoundaryEdges;
 use crate::progress::Progress;

@@ -34,7 +34,12 @@ pub(super) struct Settle<'a> {
 
 impl<'a> Settle<'a> {
     /// Where the iteration over all ends, and what that is worth; `sigma` is the standard deviation of the distances at `pose`.
-    pub fn from(&self, mut pose: Rigid, sigma: f64, progress: &dyn Progress) -> Result<Alignment, AlignError> {
+    pub fn from(
+        &self,
+        mut pose: Rigid,
+        sigma: f64,
+        progress: &dyn Progress,
+    ) -> Result<Alignment, AlignError> {
         let Settle { work, all, surface, part, some } = self;
         let reach = work.reach(sigma);
         // What does not settle on some of them does not on all, which would take as many times as long.

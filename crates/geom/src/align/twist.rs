@@ -119,9 +119,8 @@ pub(super) fn rotation_vector(motion: &Rigid) -> Vector {
         Some((axis, size)) if size > 1e-6 || angle < 1.0 => times(angle, axis),
         // Half a turn, but for rounding: the axis is the longest column of R + 1.
         _ if angle > 1.0 => {
-            let column = |k: usize| -> Vector {
-                std::array::from_fn(|i| r[i][k] + if i == k { 1.0 } else { 0.0 })
-            };
+            let column =
+                |k: usize| -> Vector { std::array::from_fn(|i| r[i][k] + if i == k { 1.0 } else { 0.0 }) };
             let longest = (0..3).map(column).max_by(|a, b| norm(*a).total_cmp(&norm(*b)));
             longest.and_then(unit).map_or([0.0; 3], |u| times(angle, u.0))
         }

@@ -24,8 +24,12 @@ fn locked_components_stay_zero_and_the_others_are_the_least() {
     for set in 1..64_u32 {
         let axes = std::array::from_fn(|k| set >> k & 1 == 1);
         let lock = Lock::new(axes, &measured, Rigid::IDENTITY);
-        let options =
-            BestFit { start: Start::Given(Rigid::IDENTITY), robust: false, lock: Some(lock), ..BestFit::default() };
+        let options = BestFit {
+            start: Start::Given(Rigid::IDENTITY),
+            robust: false,
+            lock: Some(lock),
+            ..BestFit::default()
+        };
         if set % 5 > 1 {
             continue;
         }
@@ -43,8 +47,12 @@ fn locked_components_stay_zero_and_the_others_are_the_least() {
     let shifted = moved(&part, &Rigid::translation_by([0.2, 0.1, -0.3]));
     let measured = Measured::Mesh(&shifted);
     let lock = Lock::new([false, true, true, true, true, true], &measured, Rigid::IDENTITY);
-    let options =
-        BestFit { start: Start::Given(Rigid::IDENTITY), robust: false, lock: Some(lock), ..BestFit::default() };
+    let options = BestFit {
+        start: Start::Given(Rigid::IDENTITY),
+        robust: false,
+        lock: Some(lock),
+        ..BestFit::default()
+    };
     let found = best_fit(&measured, &Target::new(&part, &tree), &options, &Silent).unwrap();
     let [x, y, z] = found.reference_from_measured.translation();
     assert!((x + 0.2).abs() < 1e-3 && y.abs() < 1e-12 && z.abs() < 1e-12, "{x} {y} {z}");
@@ -62,7 +70,8 @@ fn a_scale_is_found_with_the_pose_and_told_by_its_unit() {
     for (factor, unit) in [(1.012, None), (0.97, None), (1.0, None), (25.4, Some(25.4)), (1e-3, Some(1e-3))] {
         let mut scan = moved(&bracket(4.0), &random_pose(random, 50.0));
         scan.positions.iter_mut().for_each(|p| *p = times(1.0 / factor, *p));
-        let (found, scale) = best_fit_scaled(&Measured::Mesh(&scan), &target, &BestFit::default(), &Silent).unwrap();
+        let (found, scale) =
+            best_fit_scaled(&Measured::Mesh(&scan), &target, &BestFit::default(), &Silent).unwrap();
         assert!((scale.factor / factor - 1.0).abs() < 1e-8, "{factor}: {scale:?}");
         assert!(found.rms < 1e-6, "{factor}: {}", found.rms);
         assert_eq!(scale.unit(), unit);

@@ -16,11 +16,8 @@ fn view(mesh: &Mesh, view: Vector, count: usize, noise: f64, wave: f64, random: 
         let [a, b, c] = corner(f);
         cross(minus(b, a), minus(c, a))
     };
-    let seen: Vec<&[u32; 3]> = mesh
-        .faces
-        .iter()
-        .filter(|f| unit(double(f)).is_some_and(|n| dot(n.0, view) > 0.1))
-        .collect();
+    let seen: Vec<&[u32; 3]> =
+        mesh.faces.iter().filter(|f| unit(double(f)).is_some_and(|n| dot(n.0, view) > 0.1)).collect();
     let area = |f: &&&[u32; 3]| dot(double(f), view);
     let total: f64 = seen.iter().map(|f| area(&f)).sum();
     let phase: f64 = 6.0 * random.unit();
@@ -54,7 +51,14 @@ fn errors(found: &Alignment) -> [f64; 6] {
 }
 
 /// Share of errors within 1.96 standard uncertainties, and the mean of their squares.
-fn held(part: &Mesh, looks: Vector, [count, trials]: [usize; 2], noise: f64, wave: f64, random: &mut Random) -> [f64; 2] {
+fn held(
+    part: &Mesh,
+    looks: Vector,
+    [count, trials]: [usize; 2],
+    noise: f64,
+    wave: f64,
+    random: &mut Random,
+) -> [f64; 2] {
     let tree = Tree::build(part).unwrap();
     let target = Target::new(part, &tree);
     let (mut within, mut squares) = (0, 0.0);
@@ -62,7 +66,8 @@ fn held(part: &Mesh, looks: Vector, [count, trials]: [usize; 2], noise: f64, wav
         let points = view(part, looks, count, noise, wave, random);
         let options = BestFit { start: Start::Given(Rigid::IDENTITY), ..BestFit::default() };
         let found =
-            best_fit(&Measured::Points { points: &points, normals: None }, &target, &options, &Silent).unwrap();
+            best_fit(&Measured::Points { points: &points, normals: None }, &target, &options, &Silent)
+                .unwrap();
         for e in errors(&found) {
             within += usize::from(e.abs() <= 1.96);
             squares += e * e;
@@ -87,7 +92,8 @@ fn views_of_one_side_hold_what_they_say() {
     }
     println!("all {:.3}", all / cases);
     for looks in looks {
-        let share = held(&moved(&bracket(200.0), &random_pose(random, 0.0)), looks, [2000, 20], 0.005, 0.01, random);
+        let share =
+            held(&moved(&bracket(200.0), &random_pose(random, 0.0)), looks, [2000, 20], 0.005, 0.01, random);
         println!("waves {looks:?}: {:.3} squares {:.2}", share[0], share[1]);
     }
     assert!((0.93..0.97).contains(&(all / cases)), "{}", all / cases);

@@ -28,7 +28,13 @@ fn prism(outline: &[[f64; 2]], [low, high]: [f64; 2]) -> Mesh {
 }
 
 /// Points of the walls between two heights, with noise across them.
-fn walls(random: &mut Random, outline: &[[f64; 2]], [low, high]: [f64; 2], count: usize, noise: f64) -> Vec<Point> {
+fn walls(
+    random: &mut Random,
+    outline: &[[f64; 2]],
+    [low, high]: [f64; 2],
+    count: usize,
+    noise: f64,
+) -> Vec<Point> {
     let sides: Vec<[[f64; 2]; 2]> =
         (0..outline.len()).map(|k| [outline[k], outline[(k + 1) % outline.len()]]).collect();
     let length = |[a, b]: &[[f64; 2]; 2]| libm::hypot(b[0] - a[0], b[1] - a[1]);
@@ -81,14 +87,19 @@ fn walls_alone_leave_the_height_free_and_nothing_tilts() {
         let middle = (half - band) * (1.6 * random.unit() - 0.8);
         let noise = [0.0, 0.005, 0.02][trial / 2 % 3];
         let pose = Rigid::rotation_about([20.0, 15.0, 0.0], [0.0, 0.0, 0.4 * random.unit() - 0.2]);
-        let points: Vec<Point> =
-            walls(random, &ELL, [middle - band, middle + band], 600, noise).iter().map(|p| pose.point(*p)).collect();
+        let points: Vec<Point> = walls(random, &ELL, [middle - band, middle + band], 600, noise)
+            .iter()
+            .map(|p| pose.point(*p))
+            .collect();
         let start = [Start::Anywhere, Start::Given(Rigid::IDENTITY)][trial / 3 % 2];
         let found = fit(&points, &reference, start);
         let off = found.reference_from_measured.after(&pose);
         println!(
             "{trial} half {half} band {band:.2} middle {middle:.2} noise {noise} {start:?}: tilt {:.2e} angle {:.2e} z {:.3} free {:?} slack {:?}",
-            tilt(&off), off.angle(), off.point([20.0, 15.0, 0.0])[2], free(&found),
+            tilt(&off),
+            off.angle(),
+            off.point([20.0, 15.0, 0.0])[2],
+            free(&found),
             found.slack.iter().map(|s| s.1).collect::<Vec<f64>>()
         );
         assert_eq!(free(&found)[0], 1, "{trial}: {found:?}");
@@ -111,7 +122,13 @@ fn a_contour_from_anywhere_lies_within_its_range() {
             walls(random, &ELL, [0.0, 0.0], 500, 0.01).iter().map(|p| pose.point(*p)).collect();
         let found = fit(&points, &reference, Start::Anywhere);
         let off = found.reference_from_measured.after(&pose);
-        println!("{trial}: tilt {:.2e} {:?} {:?} {:?}", tilt(&off), free(&found), found.slack, found.warnings);
+        println!(
+            "{trial}: tilt {:.2e} {:?} {:?} {:?}",
+            tilt(&off),
+            free(&found),
+            found.slack,
+            found.warnings
+        );
         assert_eq!(free(&found)[0], 1, "{trial}: {found:?}");
         assert!(tilt(&off) < 0.01, "{trial}: {}", tilt(&off));
     }
@@ -129,8 +146,7 @@ fn faces_of_three_directions_leave_nothing_free() {
         for axis in 0..3 {
             let count = [40, 80, 1200][axis];
             points.extend((0..count).map(|_| -> Point {
-                let mut p: Point =
-                    std::array::from_fn(|k| inset + (sizes[k] - 2.0 * inset) * random.unit());
+                let mut p: Point = std::array::from_fn(|k| inset + (sizes[k] - 2.0 * inset) * random.unit());
                 p[axis] = if trial % 2 == 0 { 0.0 } else { sizes[axis] };
                 p[axis] += noise * normal(random);
                 p

@@ -29,7 +29,11 @@ fn posts(random: &mut Random) -> Mesh {
     for k in 0..3 {
         let [x, y] = [2.0 + 20.0 * f64::from(k) + 6.0 * random.unit(), 2.0 + 30.0 * random.unit()];
         let high = 14.0 + 16.0 * random.unit();
-        parts.push(block([x, y, 9.0], [x + 8.0 + 6.0 * random.unit(), y + 7.0 + 8.0 * random.unit(), high], 3.0));
+        parts.push(block(
+            [x, y, 9.0],
+            [x + 8.0 + 6.0 * random.unit(), y + 7.0 + 8.0 * random.unit(), high],
+            3.0,
+        ));
     }
     together(&parts)
 }

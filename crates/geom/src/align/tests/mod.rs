@@ -1,9 +1,9 @@
 //! What an alignment must do, against closed forms, brute force and properties.
 
-mod field;
-mod flat;
 mod asked;
 mod coverage;
+mod field;
+mod flat;
 mod loose;
 mod minimax;
 mod mirror;

@@ -148,7 +148,8 @@ fn errors_of_a_row_are_amplified_as_is_told() {
         row([75.0, 0.0, 0.0], 1),
         row([0.0, 25.0, 0.0], 0),
     ];
-    let corners: Vec<Point> = (0..4).map(|k| [80.0 * f64::from(k % 2), 50.0 * f64::from(k / 2), 0.0]).collect();
+    let corners: Vec<Point> =
+        (0..4).map(|k| [80.0 * f64::from(k % 2), 50.0 * f64::from(k / 2), 0.0]).collect();
     let told = constrained(&rows, None).unwrap().amplifications(&corners);
     assert!((told[2] - 45.0 / 0.4).abs() < 1e-9, "{told:?}");
     assert!(told[5] > 0.9 && told[5] < 2.0, "{told:?}");

@@ -148,8 +148,11 @@ impl AlignNote {
                     "rims alone hold it, and leave it {width:.3} mm to {}: within that any pose fits as well",
                     match motion {
                         Freedom::Slides { direction } => format!("slide along {}", three(*direction)),
-                        Freedom::Turns { point, direction } =>
-                            format!("turn about the axis along {} through {}", three(*direction), three(*point)),
+                        Freedom::Turns { point, direction } => format!(
+                            "turn about the axis along {} through {}",
+                            three(*direction),
+                            three(*point)
+                        ),
                     }
                 ),
             ),
