@@ -186,6 +186,7 @@ fn characteristic(f: &Found) -> CharacteristicRecord {
         witness: vec![],
         anchor: None,
         parts: Default::default(),
+        place: None,
         value_with_others: None,
         notes: vec![],
         standard: "ISO 1101:2017".into(),

@@ -43,7 +43,14 @@ fn compared(points: &[Point], mesh: &Mesh, options: &Options) -> (Comparisons, C
     let mut stream = Blocks(points.chunks(1000).map(<[Point]>::to_vec).rev().collect());
     let found = run(&mut stream, &references, options, &Silent, |_| Ok::<(), Infallible>(())).unwrap();
     let files = vec![InputRecord::of_no_file(Role::Measured), InputRecord::of_no_file(Role::Reference)];
-    let inputs = Inputs { files, kind: MeasuredKind::Points, scale: None, reverse: vec![] };
+    let inputs = Inputs {
+        files,
+        kind: MeasuredKind::Points,
+        scale: None,
+        reverse: vec![],
+        alignment: None,
+        doubts: vec![],
+    };
     let document = document(&found, inputs, options);
     let view = View::new("x", None, &references, &found);
     let objects = view.objects();

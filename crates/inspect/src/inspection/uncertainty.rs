@@ -64,7 +64,8 @@ pub struct Uncertainty {
 
 impl Uncertainty {
     fn new(spread: f64, bias: f64, unknown: [f64; 2], source: &'static str) -> Uncertainty {
-        let sides = [spread + bias + unknown[0], spread - bias + unknown[1]];
+        // The value is one that the part may have: what it is judged by begins there at least.
+        let sides = [spread + bias + unknown[0], spread - bias + unknown[1]].map(|side| side.max(0.0));
         Uncertainty { expanded: sides[0].max(sides[1]), spread, bias, sides, source }
     }
 }
@@ -283,8 +284,10 @@ mod tests {
     #[test]
     fn the_interval_lies_about_the_value_less_the_bias() {
         let of = |bias, unknown| Uncertainty::new(1.0, bias, unknown, "noise");
-        assert_eq!((of(3.0, [0.0; 2]).sides, of(3.0, [0.0; 2]).expanded), ([4.0, -2.0], 4.0));
-        assert_eq!((of(-3.0, [0.0; 2]).sides, of(-3.0, [0.0; 2]).expanded), ([-2.0, 4.0], 4.0));
+        assert_eq!((of(1.0, [0.0; 2]).sides, of(0.5, [0.0; 2]).sides), ([2.0, 0.0], [1.5, 0.5]));
+        // What noise adds beyond the scatter leaves the value at the end of its interval, not outside.
+        assert_eq!((of(3.0, [0.0; 2]).sides, of(3.0, [0.0; 2]).expanded), ([4.0, 0.0], 4.0));
+        assert_eq!((of(-3.0, [0.0; 2]).sides, of(-3.0, [0.0; 2]).expanded), ([0.0, 4.0], 4.0));
         assert_eq!(of(3.0, [0.5, 3.0]).sides, [4.5, 1.0]);
     }
 
