@@ -362,13 +362,8 @@ fn table(document: &AlignDocument, loss: Option<&str>) -> String {
         settled,
         counted(document.iterations, ["step", "steps"])
     );
-    if let (Some(scale), Some(u)) = (document.scale, document.scale_std_uncertainty) {
-        let _ = writeln!(
-            out,
-            "scale {} ± {} (one standard deviation): the scan is made so many times as large",
-            fixed(scale, 9),
-            scientific(u, 1)
-        );
+    if let Some(scale) = document.scale {
+        let _ = writeln!(out, "scale {}: the scan is made so many times as large", fixed(scale, 9));
     }
     if let Some(lock) = &document.lock {
         let [x, y, z] = lock.center.map(six_digits);

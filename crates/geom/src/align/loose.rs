@@ -8,6 +8,7 @@
 use super::AlignError;
 use super::freedom::{BARELY, CAP, HELD, SLIDES, TRIED};
 use super::icp::{Problem, small_motion};
+use super::rims::weakest;
 use super::system::{Six, Spectrum, System, eigen_six, padded, slope};
 use super::twist::{Twist, inner};
 use super::work::PART;
@@ -118,14 +119,14 @@ impl Place {
         let mut matches = problem.matches(pose, f64::INFINITY, progress)?;
         let sigma = problem.deviation(&matches);
         problem.weigh(&mut matches, sigma);
-        let facets = problem.system_of_facets(&matches, pose);
-        let spectrum = Spectrum::without(&facets, &problem.stays(&facets, pose));
+        let (step, system) = (TRIED * problem.radius, problem.system(&matches, pose));
+        let (facets, spectrum) = weakest(problem, &matches, (pose, system.rms(), step), progress)?;
         Ok(Place {
             pose: *pose,
             center: facets.center,
             radius: facets.radius,
-            step: TRIED * facets.radius,
-            sigma: problem.system(&matches, pose).rms(),
+            step,
+            sigma: system.rms(),
             count: facets.count(),
             weak: weak(&facets, &spectrum),
         })

@@ -41,6 +41,7 @@ mod mirror;
 mod near;
 mod response;
 mod revolved;
+mod rims;
 mod rows;
 mod sample;
 mod scaled;

@@ -33,8 +33,6 @@ const UNIT: f64 = 0.005;
 pub struct Scale {
     /// That factor: measured coordinates times it are those that the motion of the fit acts on.
     pub factor: f64,
-    /// Its standard uncertainty, the pose being free.
-    pub std_uncertainty: f64,
 }
 
 impl Scale {
@@ -59,13 +57,12 @@ pub fn best_fit_scaled(
         AlignWarning::Scale { factor } => Some(*factor),
         _ => None,
     });
-    let mut scale = Scale { factor: unit.unwrap_or(1.0), std_uncertainty: 0.0 };
+    let mut scale = Scale { factor: unit.unwrap_or(1.0) };
     if unit.is_some() {
         fit = of_scaled(measured, scale.factor, reference, options, progress)?;
     }
     for _ in 0..TURNS {
         let step = Step::new(&scaled(measured, scale.factor), reference, options, &fit, progress)?;
-        scale.std_uncertainty = step.uncertainty * scale.factor;
         // Never to nothing, and to no other sign.
         let by = 1.0 + step.size.clamp(-0.5, 1.0);
         scale.factor *= by;
@@ -75,7 +72,7 @@ pub fn best_fit_scaled(
         let there = Rigid::translation_by(shift).after(&pose);
         let near = BestFit { start: Start::Given(there), ..*options };
         fit = of_scaled(measured, scale.factor, reference, &near, progress)?;
-        if step.size.abs() <= (SMALL * step.uncertainty).max(64.0 * f64::EPSILON) {
+        if step.size.abs() <= (SMALL * step.uncertainty).max(step.rounding) {
             break;
         }
     }
@@ -120,10 +117,12 @@ fn of_scaled(
     best_fit(&scaled(measured, factor).measured(), reference, options, progress)
 }
 
-/// A step of the scale at a pose, relative, and its standard uncertainty.
+/// A step of the scale at a pose, relative, and about its standard uncertainty.
 struct Step {
     size: f64,
     uncertainty: f64,
+    /// A step that arithmetic cannot tell from none.
+    rounding: f64,
 }
 
 impl Step {
@@ -174,6 +173,6 @@ impl Step {
         let squares: f64 = cells.values().map(|x| x * x).sum();
         let count = cells.len() as f64;
         let uncertainty = (squares * count / (count - 7.0).max(1.0)).sqrt() / told;
-        Ok(Step { size: -sum / told, uncertainty })
+        Ok(Step { size: -sum / told, uncertainty, rounding: problem.rounding / problem.radius })
     }
 }

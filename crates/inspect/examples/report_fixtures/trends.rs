@@ -147,6 +147,7 @@ fn result(number: usize, found: &[Found]) -> InspectDocument {
             not_measured: count(Verdict::NotMeasured),
         },
         verdict: worst.into_iter().find(|v| count(*v) > 0).unwrap(),
+        verdict_reasons: vec![],
         characteristics,
     }
 }

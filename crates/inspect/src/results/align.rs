@@ -32,9 +32,6 @@ pub struct AlignDocument {
     /// How many times as large the measured was made, where that was asked for.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub scale: Option<f64>,
-    /// Its standard uncertainty.
-    #[serde(skip_serializing_if = "Option::is_none", default)]
-    pub scale_std_uncertainty: Option<f64>,
     /// The components of the motion that were to stay zero.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub lock: Option<LockRecord>,
@@ -289,7 +286,6 @@ impl AlignDocument {
             method: "best-fit".into(),
             transform: found.reference_from_measured.matrix(),
             scale: None,
-            scale_std_uncertainty: None,
             lock: None,
             angle: found.reference_from_measured.angle(),
             rms: found.rms,
@@ -336,7 +332,7 @@ impl AlignDocument {
         for row in &mut self.transform[..3] {
             row[..3].iter_mut().for_each(|x| *x *= scale.factor);
         }
-        (self.scale, self.scale_std_uncertainty) = (Some(scale.factor), Some(scale.std_uncertainty));
+        self.scale = Some(scale.factor);
         self
     }
 
@@ -413,7 +409,6 @@ impl AlignDocument {
             method: method.into(),
             transform: found.reference_from_measured.matrix(),
             scale: None,
-            scale_std_uncertainty: None,
             lock: None,
             angle: found.reference_from_measured.angle(),
             rms: found.rms,
