@@ -13,7 +13,7 @@ use super::sample::{Samples, agree};
 use super::system::{Constraint, Equation, Six, Spectrum, System};
 use super::twist::{Lock, Twist, directions};
 use super::{AlignError, Target};
-use crate::closest::{BoundaryEdges, Feature, Hit, Query};
+use crate::closest::{BoundaryEdges, Feature, Query};
 use crate::num::sum::Sum;
 use crate::parallel::prelude::*;
 use crate::progress::Progress;
@@ -279,19 +279,6 @@ const MANY: usize = 1 << 14;
 /// Unit direction of edge `k` of a triangle.
 fn edge(corners: &[Point; 3], k: usize) -> Vector {
     unit(minus(corners[(k + 1) % 3], corners[k % 3])).map_or([1.0, 0.0, 0.0], |u| u.0)
-}
-
-/// Normals of the facets closest to points.
-pub(super) fn normal_at(
-    target: &Target,
-    points: &[Point],
-    progress: &dyn Progress,
-) -> Result<Vec<Option<Vector>>, AlignError> {
-    let tree = target.tree;
-    let of_hit = |i: usize, hit: Option<Hit>| hit.and_then(|hit| normal_of(&tree.foot(&points[i], &hit).corners));
-    let mut normals = vec![];
-    tree.map_closest_into(points, &Query::default(), progress, of_hit, &mut normals)?;
-    Ok(normals)
 }
 
 /// The motion that a step stands for.

@@ -8,7 +8,6 @@
 use super::AlignError;
 use super::freedom::{BARELY, CAP, HELD, SLIDES, TRIED};
 use super::icp::{Problem, small_motion};
-use super::rims::weakest;
 use super::system::{Six, Spectrum, System, eigen_six, padded, slope};
 use super::twist::{Twist, inner};
 use super::work::PART;
@@ -119,14 +118,14 @@ impl Place {
         let mut matches = problem.matches(pose, f64::INFINITY, progress)?;
         let sigma = problem.deviation(&matches);
         problem.weigh(&mut matches, sigma);
-        let (step, system) = (TRIED * problem.radius, problem.system(&matches, pose));
-        let (facets, spectrum) = weakest(problem, &matches, (pose, system.rms(), step), progress)?;
+        let facets = problem.system_of_facets(&matches, pose);
+        let spectrum = Spectrum::without(&facets, &problem.stays(&facets, pose));
         Ok(Place {
             pose: *pose,
             center: facets.center,
             radius: facets.radius,
-            step,
-            sigma: system.rms(),
+            step: TRIED * facets.radius,
+            sigma: problem.system(&matches, pose).rms(),
             count: facets.count(),
             weak: weak(&facets, &spectrum),
         })

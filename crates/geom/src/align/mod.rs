@@ -41,7 +41,6 @@ mod mirror;
 mod near;
 mod response;
 mod revolved;
-mod rims;
 mod rows;
 mod sample;
 mod scaled;

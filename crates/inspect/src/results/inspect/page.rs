@@ -10,8 +10,8 @@ use crate::results::align::page::{Facts, alignment, chip};
 use crate::results::compare::page as compare;
 use crate::results::compare::{Comparison, ToleranceShares};
 use crate::results::inspect::{
-    AlignmentRecord, CharacteristicRecord, FeatureRecord, FrameSource, InspectDocument,
-    MeasuredPlace, PlaceRecord,
+    AlignmentRecord, CharacteristicRecord, FeatureRecord, FrameSource, InspectDocument, MeasuredPlace,
+    PlaceRecord,
 };
 use crate::scale::Scale;
 use maud::{Markup, html};
