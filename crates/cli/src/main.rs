@@ -5,7 +5,6 @@ mod commands;
 mod console;
 mod exit;
 mod instructions;
-mod layout;
 mod memory;
 mod number;
 mod options;

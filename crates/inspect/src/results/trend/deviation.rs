@@ -29,13 +29,11 @@ fn shares(document: &InspectDocument) -> Vec<Share<'_>> {
     let rest = deviation.tolerance.as_ref().map(|t| Share {
         id: DEVIATION.into(),
         tolerance: t,
-        verdict: match (deviation.regions.is_empty(), t.inside) {
-            (true, _) => deviation.verdict,
-            (false, None) => Some(Verdict::NotMeasured),
-            (false, Some(_)) => deviation.others_verdict,
-        }
-        .or(t.verdict())
-        .unwrap_or(Verdict::NotMeasured),
+        verdict: match t.inside {
+            None => Verdict::NotMeasured,
+            Some(share) if share >= t.required => Verdict::Pass,
+            Some(_) => Verdict::Fail,
+        },
     });
     regions.chain(rest).collect()
 }
@@ -82,7 +80,7 @@ fn record(of: &[&Share]) -> TrendRecord {
         counts: Counts {
             pass: count(Verdict::Pass),
             fail: count(Verdict::Fail),
-            undecided: count(Verdict::Undecided),
+            undecided: 0,
             not_measured: count(Verdict::NotMeasured),
         },
         measured: there.len() as u64,
