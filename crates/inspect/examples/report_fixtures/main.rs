@@ -334,6 +334,7 @@ fn document(body: &Body, tolerance: Option<[f64; 2]>, measured: &str, reference:
         skip_boundary: false,
         facing: None,
         verdict: comparisons[0].verdict,
+        verdict_reasons: vec![],
         comparisons,
         paired: vec![],
         scale: Scale::for_deviations(quantile(&sizes, 0.95), tolerance),

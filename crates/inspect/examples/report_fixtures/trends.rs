@@ -128,6 +128,8 @@ fn result(number: usize, found: &[Found]) -> InspectDocument {
             greatest: None,
             excess: None,
             residuals: None,
+            amplifications: None,
+            left_out: None,
             iterations: None,
             converged: None,
             warnings: vec![],
@@ -145,6 +147,7 @@ fn result(number: usize, found: &[Found]) -> InspectDocument {
             not_measured: count(Verdict::NotMeasured),
         },
         verdict: worst.into_iter().find(|v| count(*v) > 0).unwrap(),
+        verdict_reasons: vec![],
         characteristics,
     }
 }
