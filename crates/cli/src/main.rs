@@ -5,6 +5,7 @@ mod commands;
 mod console;
 mod exit;
 mod instructions;
+mod layout;
 mod memory;
 mod number;
 mod options;

@@ -44,6 +44,20 @@ pub fn scientific(x: f64, decimals: usize) -> String {
     minus(format!("{x:.decimals$e}"))
 }
 
+/// A length as tables show it: four decimals; what these would show with fewer than two digits that count, with a power of ten.
+pub fn short(x: f64) -> String {
+    if x == 0.0 {
+        return "0".into();
+    }
+    // Below a thousandth four decimals leave one digit.
+    if (1e-3..1e9).contains(&x.abs()) { fixed(x, 4) } else { scientific(x, 1) }
+}
+
+/// The same with + above zero.
+pub fn short_signed(x: f64) -> String {
+    if x > 0.0 { format!("+{}", short(x)) } else { short(x) }
+}
+
 /// Six significant digits, as people read them; the document has all of them.
 pub fn six_digits(x: f64) -> String {
     if x == 0.0 {
@@ -78,6 +92,23 @@ mod tests {
     #[test]
     fn minus_signs_are_those_of_print() {
         assert_eq!([fixed(-1.5, 2), scientific(-2e-5, 1)], ["−1.50", "−2.0e−5"]);
+    }
+
+    #[test]
+    fn four_decimals_and_no_zero_that_is_none() {
+        for (x, text) in [
+            (0.0, "0"),
+            (0.12345, "0.1235"),
+            (-79.1114, "−79.1114"),
+            (1234.5, "1234.5000"),
+            (0.001, "0.0010"),
+            (5e-6, "5.0e−6"),
+            (-0.00098, "−9.8e−4"),
+            (3e12, "3.0e12"),
+        ] {
+            assert_eq!(short(x), text);
+        }
+        assert_eq!([short_signed(5e-6), short_signed(-0.5), short_signed(0.0)], ["+5.0e−6", "−0.5000", "0"]);
     }
 
     #[test]

@@ -18,6 +18,9 @@ pub struct Common {
     /// Print no table; the exit status and the files written tell the result
     #[arg(long, short, global = true)]
     pub quiet: bool,
+    /// Print all that the document tells, in the table too
+    #[arg(long, short, global = true, conflicts_with = "quiet")]
+    pub verbose: bool,
     /// Progress on stderr: a bar on a terminal, plain lines, JSON lines, or nothing
     #[arg(long, global = true, value_enum, default_value = "auto")]
     pub progress: ProgressStyle,

@@ -10,7 +10,13 @@ use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 use trueness_geom::progress::Progress;
 
+/// What stages count whose work is of several kinds, so that no number of points or facets is what is done: each is one look at a
+/// point, a facet or a pair of them.
+pub const STEPS: &str = "steps";
+
 /// One stage of work with a known or unknown number of items.
+///
+/// It never tells more than the total: what is gone through again counts once. A stage that answers ends at its total.
 pub struct Stage {
     name: &'static str,
     unit: &'static str,
@@ -19,6 +25,7 @@ pub struct Stage {
     start: Instant,
     next: Mutex<Instant>,
     left: Arc<Mutex<TimeLeft>>,
+    ended: bool,
     shown: Shown,
 }
 
@@ -53,8 +60,21 @@ impl Stage {
             start: now,
             next: Mutex::new(now + PAUSE),
             left,
+            ended: false,
             shown,
         }
+    }
+
+    /// Ends the stage; where it has its `answer`, all of it is done.
+    pub fn end<T, E>(mut self, answer: &Result<T, E>) {
+        self.ended = answer.is_ok();
+        if let Some(total) = self.total.filter(|_| self.ended) {
+            self.done.store(total, Ordering::Relaxed);
+        }
+    }
+
+    fn at_most(&self, done: u64) -> u64 {
+        self.total.map_or(done, |total| done.min(total))
     }
 
     fn line(&self, done: u64) {
@@ -66,7 +86,7 @@ impl Stage {
         // Of a short stage, or before much is done, what is known is the mean since its start.
         let rate = rate.unwrap_or(done as f64 / time.as_secs_f64().max(1e-9));
         if let Shown::Json = self.shown {
-            let line = serde_json::json!({"event": "progress", "stage": self.name, "unit": self.unit, "done": done, "total": self.total, "per_second": rate.round(), "seconds_left": left});
+            let line = serde_json::json!({"event": "progress", "stage": self.name, "unit": self.unit, "done": done, "total": self.total, "ended": self.ended, "per_second": rate.round(), "seconds_left": left});
             return console::note(&line.to_string());
         }
         let of = self.total.map(|t| format!(" of {}", number::grouped(t))).unwrap_or_default();
@@ -112,7 +132,7 @@ fn bar(
 
 impl Progress for Stage {
     fn advance(&self, items: u64) {
-        let done = self.done.fetch_add(items, Ordering::Relaxed) + items;
+        let done = self.at_most(self.done.fetch_add(items, Ordering::Relaxed) + items);
         if !matches!(self.shown, Shown::Nothing)
             && let Ok(mut left) = self.left.try_lock()
         {
@@ -141,7 +161,7 @@ impl Drop for Stage {
     fn drop(&mut self) {
         match &self.shown {
             Shown::Bar(b) => b.finish_and_clear(),
-            Shown::Plain | Shown::Json => self.line(self.done.load(Ordering::Relaxed)),
+            Shown::Plain | Shown::Json => self.line(self.at_most(self.done.load(Ordering::Relaxed))),
             Shown::Nothing => {}
         }
     }

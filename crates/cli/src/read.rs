@@ -1,6 +1,7 @@
 //! Files of the command line, read and described for the result document.
 
 mod surface_document;
+mod unread;
 
 use crate::exit::Usage;
 use crate::run_files::is_stream;
@@ -47,10 +48,13 @@ pub enum Body {
 pub fn open(path: &Path, role: Role, options: &ReadOptions) -> anyhow::Result<Opened> {
     match any(path, role, options)? {
         Any::Whole(opened) => Ok(opened),
-        Any::Splines(..) => Err(splines(path)),
+        Any::Splines(model, record) => Err(unread::refusal(path, &model, &record, MESH_OR_POINTS)),
         Any::Drawing(..) => Err(no_drawing(path)),
     }
 }
+
+/// What most commands need.
+const MESH_OR_POINTS: &str = "this command needs a mesh or points";
 
 /// A file of any kind.
 enum Any {
@@ -72,17 +76,8 @@ pub fn nominal(path: &Path, options: &ReadOptions) -> anyhow::Result<Result<(Dra
     match any(path, Role::Reference, options)? {
         Any::Drawing(drawing, record) => Ok(Ok((drawing, record))),
         Any::Whole(opened) => Ok(Err(opened)),
-        Any::Splines(..) => Err(splines(path)),
+        Any::Splines(model, record) => Err(unread::refusal(path, &model, &record, MESH_OR_POINTS)),
     }
-}
-
-/// Why a file of splines is refused.
-fn splines(path: &Path) -> anyhow::Error {
-    anyhow::anyhow!(
-        "{}: it holds B-spline surfaces or curves, but this command needs a mesh or points; surfaces are references of \
-         `trueness compare`",
-        path.display()
-    )
 }
 
 fn any(path: &Path, role: Role, options: &ReadOptions) -> anyhow::Result<Any> {
@@ -100,6 +95,7 @@ fn any(path: &Path, role: Role, options: &ReadOptions) -> anyhow::Result<Any> {
             }
             describe(&mut record, &mesh.mesh.positions);
             record.facets = Some(mesh.mesh.faces.len() as u64);
+            record.incomplete = unread::incomplete(role, &warnings, record.facets);
             Body::Mesh(mesh)
         }
     };
@@ -126,12 +122,9 @@ pub fn reference(path: &Path, options: &ReadOptions) -> anyhow::Result<(Referenc
         Any::Whole(opened) => {
             opened_mesh(path, Role::Reference, opened).map(|(m, r)| (ReferenceBody::Mesh(m), r))
         }
-        Any::Splines(model, _) if model.surfaces.is_empty() => bail!(
-            "{}: it holds no B-spline surface ({} curves); a reference must have surfaces or facets: export the part's \
-             surfaces as B-splines, or as STL",
-            path.display(),
-            model.curves.len()
-        ),
+        Any::Splines(model, record) if model.surfaces.is_empty() => {
+            Err(unread::refusal(path, &model, &record, "a reference needs facets or B-spline surfaces"))
+        }
         Any::Drawing(..) => Err(no_drawing(path)),
         Any::Splines(model, mut record) => {
             let points: Vec<Point> =
@@ -255,9 +248,9 @@ fn record(
     provenance: &trueness_files::Provenance,
     warnings: &[trueness_files::Warning],
 ) -> InputRecord {
-    let mut warnings: Vec<String> = warnings.iter().map(ToString::to_string).collect();
+    let mut texts: Vec<String> = warnings.iter().map(ToString::to_string).collect();
     if provenance.planar {
-        warnings.push("two columns: the points were taken to lie in the plane z = 0".into());
+        texts.push("two columns: the points were taken to lie in the plane z = 0".into());
     }
     InputRecord {
         role,
@@ -271,8 +264,10 @@ fn record(
         table: provenance.table.as_ref().map(table),
         points: 0,
         facets: None,
+        incomplete: unread::incomplete(role, warnings, None),
+        trimmed_faces: unread::trimmed(warnings),
         bounds: None,
-        warnings,
+        warnings: texts,
     }
 }
 

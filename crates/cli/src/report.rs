@@ -29,16 +29,16 @@ pub struct ReportArgs {
     #[arg(long, value_enum, default_value = "z")]
     up: UpArg,
     /// Head of the report
-    #[arg(long, value_name = "TEXT")]
+    #[arg(long, value_name = "TEXT", allow_hyphen_values = true)]
     title: Option<String>,
     /// Part, for the head of the report
-    #[arg(long, value_name = "TEXT")]
+    #[arg(long, value_name = "TEXT", allow_hyphen_values = true)]
     part: Option<String>,
     /// Serial number, for the head of the report
-    #[arg(long, value_name = "TEXT")]
+    #[arg(long, value_name = "TEXT", allow_hyphen_values = true)]
     serial: Option<String>,
     /// Operator, for the head of the report
-    #[arg(long, value_name = "TEXT")]
+    #[arg(long, value_name = "TEXT", allow_hyphen_values = true)]
     operator: Option<String>,
 }
 
@@ -123,11 +123,12 @@ impl ReportArgs {
         let input = ReportInput { result, objects, marks, options: &options };
         let stage = Stage::new(progress, "writing the report", "places", Some(report::work(objects)));
         let mut page = vec![];
-        report::write(&input, &stage, &mut page).map_err(|e| match e {
+        let written = report::write(&input, &stage, &mut page);
+        stage.end(&written);
+        written.map_err(|e| match e {
             ReportError::Cancelled(e) => e.into(),
             e => anyhow::Error::from(e).context(format!("{}: cannot be made", path.display())),
         })?;
-        drop(stage);
         Ok(whole_file(path, |file| file.write_all(&page))?)
     }
 }

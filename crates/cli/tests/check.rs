@@ -108,8 +108,11 @@ fn an_unsound_reference_is_compared_all_the_same_and_its_flaws_are_named() {
     );
     assert_eq!(c["deviation"]["all"]["max"], 0.25);
     assert_eq!(c["deviation"]["all"]["min"], -0.25);
-    let o = trueness(["compare".as_ref(), points.as_os_str(), open.as_os_str()]);
-    let text = stdout(&o);
+    let words = ["compare".as_ref(), points.as_os_str(), open.as_os_str()];
+    let text = stdout(&trueness(words));
+    assert!(text.contains("the reference is not sound (3 boundary edges); signs by winding"), "{text}");
+    // Where the flaws are the whole table tells.
+    let text = stdout(&trueness(words.into_iter().chain(["-v".as_ref()])));
     for words in [
         "not sound: 3 boundary edges",
         "holes: 1, the largest at",

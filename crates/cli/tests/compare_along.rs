@@ -88,7 +88,7 @@ fn lines_that_meet_nothing_are_told_everywhere() {
     let (roof, scan) = (folder.write("roof.off", ROOF), folder.write("scan.csv", csv(&over(height))));
     let [out, html] = ["d.csv", "r.html"].map(|n| folder.file(n));
     let words = ["compare", word(&scan), word(&roof), "--along", "0,0,1", "--out", word(&out), "--html"];
-    let shown = stdout(&trueness(words.iter().chain([&word(&html)])));
+    let shown = stdout(&trueness(words.iter().chain([&word(&html), &"-v"])));
     assert!(shown.contains("the direction 0, 0, 1, to the nearest crossing"), "{shown}");
     assert!(shown.contains("2 points (no crossing: the line meets nothing near enough)"), "{shown}");
     let text = std::fs::read_to_string(&out).unwrap();

@@ -84,7 +84,7 @@ fn every_region_is_judged_by_its_own_tolerance() {
     let empty = folder
         .write("empty.toml", REGIONS.replace("[[0, 10, -1], [20, 20, 1]]", "[[0, 10, 5], [20, 20, 6]]"));
     let (code, _, found) = run(&empty, &[]);
-    assert_eq!((code, found["verdict"].as_str()), (1, Some("not_measured")));
+    assert_eq!((code, found["verdict"].as_str()), (1, Some("undecided")));
     for (bad, says) in [
         ("", "there is no [[region]]"),
         (&REGIONS.replace("upper", "left"), "line 7, column 6: there are two regions \"left\""),

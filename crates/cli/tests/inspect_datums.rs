@@ -47,7 +47,7 @@ fn position_of(feature: &str, datums: &str, basic: &str) -> String {
          basic = {{ {basic} }}\ntolerance = 0.01\n",
         features.concat()
     );
-    let o = trueness(["inspect".as_ref(), folder.write("plan.toml", plan).as_os_str()]);
+    let o = trueness(["inspect".as_ref(), "-v".as_ref(), folder.write("plan.toml", plan).as_os_str()]);
     assert!(status(&o) <= 1, "{}", stderr(&o));
     stdout(&o)
 }

@@ -128,7 +128,8 @@ fn one_bad_part_does_not_keep_the_others_from_their_results() {
         assert!(table.contains(&format!("! {bad}: not inspected\n")), "{table}");
     }
     // Two characteristics, three parts without results.
-    let rows: Vec<&str> = csv.lines().collect();
+    let rows: Vec<&str> =
+        csv.lines().filter(|l| l.starts_with("part,") || !l.contains(",feature,")).collect();
     assert_eq!(rows.len(), 6, "{csv}");
     assert!(
         rows[1].starts_with(&format!("{},h,distance", of("good.off"))) && rows[1].contains(",pass,"),

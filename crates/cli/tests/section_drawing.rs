@@ -356,11 +356,14 @@ fn refusals_of_a_nominal_say_what_there_is() {
     let tall = folder.write("tall.off", tall);
     let [row, cube, tall] = [&row, &cube, &tall].map(|file| file.to_str().unwrap());
     let blocks = folder.write("blocks.dxf", drawing(4, "0 INSERT 2 part 10 0 20 0 0 TEXT 1 hello"));
-    let fit = folder.write("fit.dxf", drawing(4, "0 SPLINE 71 3 11 0 21 0 31 0 11 1 21 1 31 0"));
+    let fit = folder.write("fit.dxf", drawing(4, "0 SPLINE 71 3 11 1 21 1 31 0 11 1 21 1 31 0"));
     let [blocks, fit] = [&blocks, &fit].map(|file| file.to_str().unwrap());
     let at = |z: &'static str| ["section", tall, "--plane", z, "--nominal", cube];
     for (words, told) in [
-        (vec!["section", row, "--nominal", blocks], "1 INSERT, 1 TEXT"),
+        (
+            vec!["section", row, "--nominal", blocks],
+            "1 INSERT of `PART`, a block that is not in the file, 1 TEXT",
+        ),
         (vec!["section", row, "--nominal", blocks], "explode"),
         (vec!["section", row, "--nominal", fit], "control points"),
         (at("0,0,1,2").to_vec(), "it reaches from 0 to 1 mm, the first plane lies at 2; bring"),

@@ -33,7 +33,7 @@ fn what_was_taken_for_what_stands_in_document_and_table_of_every_command() {
                 decimal commas, unit in from the header, 2 lines before the rows skipped";
     let commands = [
         vec!["fit", points, "--shape", "plane"],
-        vec!["compare", points, cube],
+        vec!["compare", points, cube, "-v"],
         vec!["segment", points, "--min-points", "4"],
     ];
     for words in commands {

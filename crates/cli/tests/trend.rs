@@ -110,7 +110,7 @@ fn the_table_fits_a_terminal() {
         let (line, at) = table.lines().find_map(|l| Some((l, l.find(word)?))).unwrap();
         line[..at + word.len()].chars().count()
     };
-    let max = format!("{:.6}", d["characteristics"][0]["max"].as_f64().unwrap());
+    let max = format!("{:.4}", d["characteristics"][0]["max"].as_f64().unwrap());
     assert_eq!(ends("max"), ends(&max), "{table}");
     assert!(table.contains(&format!("  {long}\n")), "{table}");
     assert!(

@@ -37,6 +37,17 @@ impl Faces {
         }
     }
 
+    /// Takes all faces of another gathering, behind its own.
+    pub fn append(&mut self, mut later: Faces) {
+        if self.triangles.is_empty() {
+            std::mem::swap(&mut self.triangles, &mut later.triangles);
+        }
+        self.triangles.append(&mut later.triangles);
+        self.polygons += later.polygons;
+        self.somehow += later.somehow;
+        self.slight += later.slight;
+    }
+
     /// Whether no face has come yet.
     pub fn is_empty(&self) -> bool {
         self.triangles.is_empty() && self.slight == 0

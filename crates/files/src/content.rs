@@ -101,6 +101,15 @@ pub enum Body {
     Drawing(Drawing),
 }
 
+/// Parts of a mesh to which a file gives names.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct FacetRegions {
+    /// Their names, in the order of the file; a name may be empty, and may come more than once.
+    pub names: Vec<String>,
+    /// For each facet the number of its part in `names`.
+    pub of_facet: Vec<u32>,
+}
+
 /// A mesh as the file holds it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SourceMesh {
@@ -111,6 +120,8 @@ pub struct SourceMesh {
     pub stored_normals: Option<Vec<[f32; 3]>>,
     /// Numbers in the file, from 0 and ascending, of the facets that were left out because of a NaN or infinite coordinate.
     pub nonfinite_facets: Vec<u32>,
+    /// Which solid of an STL file in words each facet is of, where there are several. `None` for other formats.
+    pub regions: Option<FacetRegions>,
     /// Names of what a PLY file tells of its vertices and facets beside places and corners, such as colors, in the order of
     /// the header. It was not read. Empty for other formats.
     pub unread: Vec<String>,

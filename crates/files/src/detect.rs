@@ -4,6 +4,8 @@ use crate::{
     error::{Fault, Result},
     format::{Format, Head},
     formats::{FORMATS, table},
+    lines::{Lines, without_mark, words},
+    number::{count, whole_number},
     source::{HEAD, Source},
 };
 use std::path::Path;
@@ -20,6 +22,12 @@ pub(crate) fn format(source: &mut Source, path: &Path) -> Result<&'static Format
     if let Some(name) = foreign(bytes) {
         return Err(Fault::Foreign(name).into());
     }
+    if let Some((extension, name)) = foreign_extension(path) {
+        let what = format!("the name ends in .{extension}: that is {name}, which is not read here");
+        let remedy = "export it as STL, PLY, OBJ or OFF (mesh) or as PLY, XYZ, CSV or NPY (points); if it is one of these, name it \
+                      by --format";
+        return Err(Fault::Unsupported { what, remedy }.into());
+    }
     if let Some(format) = by_extension(path).filter(|f| f.reads()) {
         return Ok(format);
     }
@@ -28,9 +36,87 @@ pub(crate) fn format(source: &mut Source, path: &Path) -> Result<&'static Format
 
 /// The format by a path's extension, that before `.gz` where there are two.
 pub(crate) fn by_extension(path: &Path) -> Option<&'static Format> {
+    Format::by_extension(extension(path)?)
+}
+
+/// The extension of a path, that before `.gz` where there are two.
+fn extension(path: &Path) -> Option<&str> {
     let packed = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("gz"));
     let inner = if packed { Path::new(path.file_stem()?) } else { path };
-    Format::by_extension(inner.extension()?.to_str()?)
+    inner.extension()?.to_str()
+}
+
+/// Endings of well-known kinds of files that are not read. Some are text and would pass for a table.
+fn foreign_extension(path: &Path) -> Option<(&'static str, &'static str)> {
+    const KNOWN: &[(&str, &str)] = &[
+        ("ptx", "a PTX point cloud"),
+        ("e57", "an E57 point cloud"),
+        ("las", "a LAS point cloud"),
+        ("laz", "a LAZ point cloud"),
+        ("pcd", "a PCD point cloud"),
+        ("fls", "a FARO scan"),
+        ("zfs", "a Zoller + Fröhlich scan"),
+        ("3mf", "a 3MF model"),
+        ("amf", "an AMF model"),
+        ("glb", "a glTF model"),
+        ("gltf", "a glTF model"),
+        ("x3d", "an X3D model"),
+        ("wrl", "a VRML model"),
+        ("dae", "a COLLADA model"),
+        ("fbx", "an FBX model"),
+        ("3ds", "a 3D Studio model"),
+        ("blend", "a Blender file"),
+        ("vtk", "a VTK file"),
+        ("vtu", "a VTK file"),
+        ("jt", "a JT model"),
+        ("sldprt", "a SolidWorks part"),
+        ("sldasm", "a SolidWorks assembly"),
+        ("catpart", "a CATIA part"),
+        ("catproduct", "a CATIA assembly"),
+        ("ipt", "an Inventor part"),
+        ("x_t", "a Parasolid model"),
+        ("x_b", "a Parasolid model"),
+        ("sat", "an ACIS model"),
+        ("sab", "an ACIS model"),
+        ("3dm", "a Rhino model"),
+        ("dwg", "an AutoCAD drawing"),
+        ("f3d", "a Fusion model"),
+        ("fcstd", "a FreeCAD document"),
+        ("prt", "a CAD part"),
+    ];
+    let given = extension(path)?;
+    KNOWN.iter().copied().find(|(e, _)| e.eq_ignore_ascii_case(given))
+}
+
+/// Whether text begins as a PTX scan does: two counts, the scanner's place and axes, a matrix of four rows.
+fn is_ptx(bytes: &[u8]) -> bool {
+    const ROWS: [usize; 10] = [1, 1, 3, 3, 3, 3, 4, 4, 4, 4];
+    let mut lines = Lines::new(bytes);
+    ROWS.iter().enumerate().all(|(i, width)| {
+        let Some(line) = lines.next() else { return false };
+        let fits =
+            |word: &[u8]| if i < 2 { count(word).is_some() } else { whole_number(word, b'.').is_some() };
+        words(line).count() == *width && words(line).all(fits)
+    })
+}
+
+/// The word that a document of XML or JSON names its kind with.
+fn foreign_document(bytes: &[u8]) -> Option<&'static str> {
+    const KNOWN: &[(&[u8], &str)] = &[
+        (b"<X3D", "an X3D model"),
+        (b"<COLLADA", "a COLLADA model"),
+        (b"<amf", "an AMF model"),
+        (b"<VTKFile", "a VTK file"),
+    ];
+    let text = without_mark(bytes).trim_ascii_start();
+    if text.starts_with(b"{") {
+        let holds = |word: &[u8]| memchr::memmem::find(bytes, word).is_some();
+        return (holds(b"\"asset\"") && holds(b"\"version\"")).then_some("a glTF model");
+    }
+    if !text.starts_with(b"<") {
+        return None;
+    }
+    KNOWN.iter().find(|(word, _)| memchr::memmem::find(bytes, word).is_some()).map(|(_, name)| *name)
 }
 
 /// Well-known kinds of files that are not read, by their first bytes, so that the message can name them.
@@ -41,6 +127,13 @@ fn foreign(bytes: &[u8]) -> Option<&'static str> {
         (b"LASF", "a LAS or LAZ point cloud"),
         (b"# .PCD", "a PCD point cloud"),
         (b"VERSION .7", "a PCD point cloud"),
+        (b"VERSION 0.7", "a PCD point cloud"),
+        (b"#VRML", "a VRML model"),
+        (b"Kaydara FBX", "an FBX model"),
+        (b"**ABCDEFGHIJKLMNOPQRSTUVWXYZ", "a Parasolid model"),
+        (b"3D Geometry File Format", "a Rhino model"),
+        (b"BLENDER", "a Blender file"),
+        (b"\xd0\xcf\x11\xe0", "a document of a CAD or office program"),
         (b"glTF", "a glTF model"),
         (b"# vtk", "a VTK file"),
         (b"<?xml", "an XML document"),
@@ -60,5 +153,9 @@ fn foreign(bytes: &[u8]) -> Option<&'static str> {
         (b"<!DOCTYPE", "a web page"),
         (b"<html", "a web page"),
     ];
-    KNOWN.iter().find(|(magic, _)| bytes.starts_with(magic)).map(|(_, name)| *name)
+    if is_ptx(bytes) {
+        return Some("a PTX point cloud");
+    }
+    let magic = || KNOWN.iter().find(|(magic, _)| bytes.starts_with(magic)).map(|(_, name)| *name);
+    foreign_document(bytes).or_else(magic)
 }

@@ -26,6 +26,7 @@ mod detect;
 pub mod drawing;
 mod error;
 mod feed;
+mod flow;
 mod format;
 mod formats;
 mod gzip;
@@ -45,7 +46,9 @@ pub mod write;
 
 pub use atomic_file::AtomicFile;
 pub use columns::{Column, Columns, ColumnsError};
-pub use content::{Body, ColumnTaken, Input, PointSource, Provenance, SourceMesh, TableReading, UnitFrom};
+pub use content::{
+    Body, ColumnTaken, FacetRegions, Input, PointSource, Provenance, SourceMesh, TableReading, UnitFrom,
+};
 pub use error::{Fault, Place, ReadError, WriteError, WriteFault};
 pub use format::{Format, ReadOptions, Weld};
 pub use formats::FORMATS;
@@ -53,4 +56,4 @@ pub use hash::sha256;
 pub use open::{open, open_normals};
 pub use temporary::{Leftovers, remove_leftovers, remove_unfinished};
 pub use unit::{Unit, UnitError};
-pub use warning::Warning;
+pub use warning::{Unread, Warning};

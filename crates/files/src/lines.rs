@@ -10,6 +10,21 @@ pub(crate) fn without_mark(bytes: &[u8]) -> &[u8] {
     bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)
 }
 
+/// The bytes before the Ctrl-Z (and blanks) with which old systems end a text.
+pub(crate) fn without_end_mark(bytes: &[u8]) -> &[u8] {
+    let end = bytes.iter().rposition(|b| *b != 0x1a && !b.is_ascii_whitespace());
+    let text = &bytes[..end.map_or(0, |i| i + 1)];
+    if bytes[text.len()..].contains(&0x1a) { text } else { bytes }
+}
+
+/// The bytes before the zeros, Ctrl-Z and blanks with which a text is filled up to the size of a block, and whether
+/// there are zeros among them.
+pub(crate) fn without_filling(bytes: &[u8]) -> (&[u8], bool) {
+    let end = bytes.iter().rposition(|b| !matches!(b, 0 | 0x1a) && !b.is_ascii_whitespace());
+    let (text, filling) = bytes.split_at(end.map_or(0, |i| i + 1));
+    (text, filling.contains(&0))
+}
+
 /// The byte that ends lines: `\r` in files of old Macintoshes, else `\n` (with `\r` before it counted as blank).
 pub(crate) fn line_end(head: &[u8]) -> u8 {
     match memchr::memchr2(b'\n', b'\r', head) {

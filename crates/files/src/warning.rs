@@ -21,6 +21,12 @@ pub enum Warning {
         /// How many.
         count: u64,
     },
+    /// Behind the coordinates of a vertex or the corners of a face stand more or fewer numbers than in other rows, or no
+    /// color; they were passed over.
+    UnevenRow {
+        /// The first such line, from 1.
+        line: u64,
+    },
     /// The last solid of an STL file is not closed by `endsolid`.
     NoEndsolid,
     /// Several solids became one mesh.
@@ -61,6 +67,13 @@ pub enum Warning {
     },
     /// The first column counts the rows and was not taken for a coordinate.
     RunningNumber,
+    /// The rows are an airfoil in the form of a collection: its title and its counts were taken out, and two sides put in one row.
+    Airfoil {
+        /// Whose form.
+        form: &'static str,
+        /// Its title.
+        title: Option<String>,
+    },
     /// The header names neither x nor y nor z; the columns of numbers were taken in their order.
     NamesUnknown {
         /// Their names.
@@ -96,11 +109,18 @@ pub enum Warning {
     FacesLeftOut {
         /// How many.
         count: u64,
+        /// Faces of the file.
+        of: u64,
     },
     /// Entities of a drawing that have no course in its plane were passed over.
     PassedOver {
         /// How many of which kinds.
         what: String,
+    },
+    /// Splines of a drawing are given by the points alone that they pass through; they are drawn as cubics.
+    ThroughPoints {
+        /// How many.
+        count: u64,
     },
     /// There is neither line nor arc nor spline in a drawing.
     NothingDrawn,
@@ -113,6 +133,66 @@ pub enum Warning {
         /// What it says, shortened.
         text: String,
     },
+}
+
+/// Bytes of the smallest facet that readers know to be behind a count: that of binary STL. Fewer hold none.
+const FACET_BYTES: u64 = 50;
+
+/// What of a file was not read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Unread {
+    /// Faces, and how many the file has, where that is known.
+    Faces {
+        /// How many were not read.
+        count: u64,
+        /// All of them.
+        of: Option<u64>,
+    },
+    /// Nobody can tell how much.
+    Unknown,
+}
+
+impl Warning {
+    /// What of the file was not read, if this says so. What was joined, cut or taken in another unit was read.
+    pub fn unread(&self) -> Option<Unread> {
+        match self {
+            Warning::FacesLeftOut { count, of } => Some(Unread::Faces { count: *count, of: Some(*of) }),
+            Warning::NonFiniteFacets { count, .. } => Some(Unread::Faces { count: *count, of: None }),
+            Warning::TrailingBytes { count } if *count >= FACET_BYTES => Some(Unread::Unknown),
+            Warning::NoEndsolid => Some(Unread::Unknown),
+            _ => None,
+        }
+    }
+}
+
+impl Warning {
+    /// The text of those that CAD files and drawings have; nothing of others.
+    fn of_cad(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Warning::NoSplines => write!(f, "the file holds neither B-spline surfaces nor B-spline curves"),
+            Warning::Trimmed { count } => write!(
+                f,
+                "{count} face(s) with holes or edges within their surface; each surface was taken whole"
+            ),
+            Warning::FacesLeftOut { count, of } => {
+                write!(
+                    f,
+                    "{} of {of} faces read; the others lie on surfaces that are no B-splines",
+                    of - count
+                )
+            }
+            Warning::PassedOver { what } => {
+                write!(f, "the drawing holds what is not read, and was passed over: {what}")
+            }
+            Warning::ThroughPoints { count } => write!(
+                f,
+                "{count} spline(s) by the points alone that they pass through, drawn as cubics; between the points the program that made them may \
+                 draw them otherwise: export them with their control points"
+            ),
+            Warning::NothingDrawn => write!(f, "the drawing holds neither lines nor arcs nor splines"),
+            _ => Ok(()),
+        }
+    }
 }
 
 impl fmt::Display for Warning {
@@ -128,6 +208,11 @@ impl fmt::Display for Warning {
             Warning::TrailingBytes { count } => {
                 write!(f, "{count} bytes after the declared content were not read")
             }
+            Warning::UnevenRow { line } => write!(
+                f,
+                "line {line}: what follows the coordinates or corners is unlike other rows or no color and was passed over; \
+                 check that no number is missing"
+            ),
             Warning::NoEndsolid => write!(f, "the last solid is not closed; the file may be cut short"),
             Warning::Solids { count } => write!(f, "{count} solids read as one mesh"),
             Warning::Polygons { count } => {
@@ -151,6 +236,13 @@ impl fmt::Display for Warning {
             Warning::RunningNumber => {
                 write!(f, "the first column counts the rows; the three after it were taken as x, y, z")
             }
+            Warning::Airfoil { form, title } => {
+                let title = title.as_ref().map_or(String::new(), |t| format!(" with the title \"{t}\""));
+                write!(
+                    f,
+                    "an airfoil in {form}'s form{title}; what is no row of it was left out, and both sides are one row around it"
+                )
+            }
             Warning::NamesUnknown { names } => {
                 write!(
                     f,
@@ -170,18 +262,12 @@ impl fmt::Display for Warning {
                     "the file says its unit, {said}, which was taken; {asked} is for files that do not say theirs"
                 )
             }
-            Warning::NoSplines => write!(f, "the file holds neither B-spline surfaces nor B-spline curves"),
-            Warning::Trimmed { count } => write!(
-                f,
-                "{count} face(s) with holes or edges within their surface; each surface was taken whole"
-            ),
-            Warning::FacesLeftOut { count } => {
-                write!(f, "{count} face(s) on surfaces that are no B-splines left out")
-            }
-            Warning::PassedOver { what } => {
-                write!(f, "the drawing holds what is not read, and was passed over: {what}")
-            }
-            Warning::NothingDrawn => write!(f, "the drawing holds neither lines nor arcs nor splines"),
+            Warning::NoSplines
+            | Warning::Trimmed { .. }
+            | Warning::FacesLeftOut { .. }
+            | Warning::PassedOver { .. }
+            | Warning::ThroughPoints { .. }
+            | Warning::NothingDrawn => self.of_cad(f),
             Warning::HeaderLines { count, line, text } => {
                 let more = if *count > 1 { format!(" and {} more", count - 1) } else { String::new() };
                 write!(f, "line {line} of the header says nothing known and was passed over: {text}{more}")

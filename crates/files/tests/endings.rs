@@ -158,12 +158,20 @@ fn zero_bytes_in_text_are_told() {
     let off = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
     let facet =
         "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n";
-    let stl = format!("solid a\n{}endsolid a\n", facet.repeat(20));
-    for (name, text) in [("m.obj", obj), ("m.off", off), ("m.stl", &stl), ("p.xyz", "1 2 3\n4 5 6\n")] {
+    let stl = format!("solid a\n{}", facet.repeat(20));
+    for (name, text) in [("m.obj", obj), ("m.stl", &stl), ("p.xyz", "1 2 3\n4 5 6\n")] {
         // A tail of zeros is what a full disk or a crash leaves.
         let bytes = [text.as_bytes(), &[0; 600]].concat();
         let said = read(&folder.file(name, &bytes)).unwrap_err().to_string();
         assert!(said.contains("zero bytes within text"), "{said}");
+    }
+    // Behind what says that it has ended they fill up a block.
+    for (name, text, faces) in [("m.off", off, 1), ("m.stl", &format!("{stl}endsolid a\n"), 20)] {
+        let filled = [text.as_bytes(), &[0; 600]].concat();
+        let read = read(&folder.file(name, &filled)).unwrap();
+        assert_eq!((read.faces, read.warnings), (faces, 0), "{name}");
+        let cut = [&text.as_bytes()[..text.len() - 20], &[0; 600]].concat();
+        assert!(common::read(&folder.file(name, &cut)).is_err(), "{name}");
     }
 }
 

@@ -61,7 +61,7 @@ pub fn document(
     let [_, n] = surface.counts();
     let [u, v] = surface.knots();
     let total = fit.support.control_points;
-    let deviations: Vec<f64> = fit.kept().map(|k| fit.deviations[k]).collect();
+    let deviations: Vec<f64> = fit.counted().map(|k| fit.deviations[k]).collect();
     let all = Summary::of(&deviations).all;
     SurfaceDocument {
         schema: SCHEMA.into(),
@@ -81,7 +81,7 @@ pub fn document(
         worst: worst(fit, points),
         residual: Residual {
             sum_of_squares: fit.sum_of_squares,
-            rms: (fit.sum_of_squares / deviations.len() as f64).sqrt(),
+            rms: (fit.sum_of_squares / fit.kept().count().max(1) as f64).sqrt(),
             max: fit.max_residual,
         },
         tolerance: tolerance(fit, &deviations, options),
@@ -97,6 +97,7 @@ pub fn document(
         far_control_points: fit.far_control_points as u64,
         corrections: fit.corrections as u64,
         outliers: fit.left_out.len() as u64,
+        beyond_border: fit.beyond_border.len() as u64,
         unsettled: fit.unsettled as u64,
         warnings: warnings(fit, outline),
     }
@@ -122,7 +123,7 @@ fn base(found: &Base) -> BaseRecord {
 
 fn worst(fit: &SurfaceFit, points: &[Point]) -> WorstPoint {
     let size = |k: usize| fit.deviations[k].abs();
-    let worst = fit.kept().reduce(|best, k| if size(k) > size(best) { k } else { best }).unwrap_or(0);
+    let worst = fit.counted().reduce(|best, k| if size(k) > size(best) { k } else { best }).unwrap_or(0);
     WorstPoint {
         point: worst as u64,
         position: points[worst],
@@ -255,10 +256,16 @@ fn warnings(fit: &SurfaceFit, outline: Option<&Outline>) -> Vec<String> {
         all.push("laid out freely, the mesh would lie on itself: it is laid within a circle, where its parts are less alike in size".into());
     }
     if fit.base.pole {
-        all.push("points lie within 10° of a pole of the sphere: the surface is torn or creased there, and its curvature is not that of the part; take a part of the points, or --base mesh where there are facets".into());
+        all.push("points lie within 10° of a pole of the sphere, whichever its axis: the surface is torn or creased there, and its curvature is not that of the part; take a part of the points, or --base mesh where there are facets".into());
     }
     if fit.base.around {
         all.push("the points go all around the base: the surface has a seam, where it is not smooth".into());
+    }
+    if !fit.beyond_border.is_empty() {
+        all.push(format!(
+            "{} of the points lie beyond the border of the surface, where their distance is no deviation: they are counted, and in no other number",
+            fit.beyond_border.len()
+        ));
     }
     if fit.far_control_points > 0 {
         all.push(format!(

@@ -216,7 +216,7 @@ fn located() -> Vec<Case> {
     let checkered =
         grid(|x, y| [x, y, if (x as u32 / 10 + y as u32 / 10).is_multiple_of(2) { H } else { -H }]);
     let checkered: Vec<Point> = checkered.into_iter().filter(|p| p[0] < 40.0 && p[1] < 40.0).collect();
-    let two = "datums = [\"A\", \"B\"]\nbasic = { x = 20 }";
+    let two = "datums = [\"A\", \"B\"]\nbasic = { x = 20 }\ndiametral = false";
     let above = checkered.iter().map(|[x, y, z]| [*x, *y, z + 7.0]).collect();
     let rough = [("F", "plane", above), ("A", "plane", checkered.clone())];
     vec![

@@ -223,7 +223,147 @@ const FAULTS: &[Fault] = &[
         "kind = \"angularity\"\nbasic = { angle = 60, turn = 145 }",
         "the turn is 145; give degrees from 0 to 90",
     ),
+    // Words of other standards and programs.
+    fault(
+        "kind = \"flatness\"",
+        "kind = \"concentricity\"",
+        "line 26, column 8: there is no kind \"concentricity\"; did you mean \"coaxiality\"?",
+    ),
+    fault(
+        "kind = \"flatness\"",
+        "kind = \"diameter\"",
+        "there is no kind \"diameter\"; did you mean \"size\"?",
+    ),
+    fault(
+        "kind = \"flatness\"",
+        "kind = \"runout\"",
+        "did you mean \"circular-runout\" or \"total-runout\"?",
+    ),
+    fault(
+        "kind = \"flatness\"",
+        "kind = \"run_out\"",
+        "did you mean \"circular-runout\" or \"total-runout\"?",
+    ),
+    fault(
+        "kind = \"flatness\"",
+        "kind = \"profile\"",
+        "did you mean \"line-profile\" or \"surface-profile\"?",
+    ),
+    fault("kind = \"flatness\"", "kind = \"True Position\"", "did you mean \"position\"?"),
+    fault("kind = \"flatness\"", "kind = \"circularity\"", "did you mean \"roundness\"?"),
+    fault("kind = \"flatness\"", "kind = \"cilindricity\"", "did you mean \"cylindricity\"?"),
+    fault("kind = \"flatness\"", "kind = \"squareness\"", "did you mean \"perpendicularity\"?"),
+    fault("kind = \"flatness\"", "kind = \"parallel\"", "did you mean \"parallelism\"?"),
+    fault("kind = \"flatness\"", "kind = \"planarity\"", "did you mean \"flatness\"?"),
+    fault("kind = \"flatness\"", "kind = \"Flatness\"", "did you mean \"flatness\"?"),
+    fault("shape = \"cylinder\"", "shape = \"hole\"", "did you mean \"cylinder\"?"),
+    // Paths of Windows in double quotes.
+    fault(
+        "points = \"floor.xyz\"",
+        "points = \"C:\\scans\\floor.xyz\"",
+        "in double quotes \\ begins an escape; write 'C:\\scans\\floor.xyz' in single quotes, or \"C:/scans/floor.xyz\"",
+    ),
+    fault(
+        "points = \"floor.xyz\"",
+        "points = \"C:\\users\\x\\floor.xyz\"",
+        "write 'C:\\users\\x\\floor.xyz' in single quotes",
+    ),
+    fault("points = \"floor.xyz\"", "points = \"C:\\data\\\"", "in double quotes \\ begins an escape"),
+    fault(
+        "points = \"floor.xyz\"",
+        "points = \"C:\\new\\table.xyz\"",
+        "line 7, column 10: in double quotes \\ begins an escape; write 'C:\\new\\table.xyz' in single quotes",
+    ),
+    // Limits that no part keeps, or that say another thing.
+    fault(
+        "tolerance = 0.1",
+        "tolerance = 0",
+        "line 28, column 13: the tolerance is 0, which no part keeps; give the width or diameter of the zone, above 0",
+    ),
+    fault(
+        SIZE,
+        "kind = \"size\"\nsize = \"GG\"\nfeature = \"pin\"\nnominal = 10\nupper = 10.05\nlower = 9.95",
+        "19.95 to 20.05 would be allowed; write upper = 0.05, lower = -0.05",
+    ),
+    fault(
+        SIZE,
+        "kind = \"size\"\nsize = \"GG\"\nfeature = \"pin\"\nnominal = 10\nupper = 10.05\nlower = -0.05",
+        "line 36, column 9: upper and lower are deviations",
+    ),
+    fault(
+        SIZE,
+        "kind = \"size\"\nsize = \"GG\"\nfeature = \"pin\"\nnominal = 10\nupper = 0.05\nlower = 9.95",
+        "line 37, column 9: upper and lower are deviations",
+    ),
+    fault(
+        SIZE,
+        "kind = \"size\"\nsize = \"GG\"\nfeature = \"pin\"\nnominal = 10\nupper = 0.05\nlower = 0.05",
+        "both limit deviations are 0.05, which no part keeps; write upper = 0.05, lower = -0.05",
+    ),
+    fault(
+        SIZE,
+        "kind = \"size\"\nsize = \"GG\"\nfeature = \"pin\"\nnominal = 10\nupper = 0\nlower = 0",
+        "both limit deviations are 0, which no part keeps",
+    ),
+    fault(
+        SIZE,
+        "kind = \"size\"\nsize = \"GG\"\nfeature = \"pin\"\nnominal = 10\ntolerance = 0.1",
+        "size takes no `tolerance`; give `upper` and `lower`",
+    ),
+    fault(
+        SIZE,
+        "kind = \"angle\"\ndatums = [\"A\"]\nfeature = \"pin\"\nnominal = 90\nupper = 90.5\nlower = 89.5",
+        "write upper = 0.5, lower = -0.5",
+    ),
+    fault(
+        SIZE,
+        "kind = \"angle\"\ndatums = [\"A\"]\nfeature = \"pin\"\nnominal = 150\nupper = 0.5\nlower = -0.5",
+        "the nominal angle is 150; angles are from 0 to 90 degrees, and this one is 30 there",
+    ),
+    // Classes of the other side, and places of one coordinate.
+    fault(
+        "points = \"pin.xyz\"\n",
+        "points = \"pin.xyz\"\ninternal = true\n[[characteristic]]\nid = \"3\"\nkind = \"size\"\nsize = \"GG\"\nfeature = \"pin\"\nnominal = 8\nclass = \"h7\"\n",
+        "line 30, column 9: \"h7\" is a class of shafts and thicknesses (small letters), and feature \"pin\" is a hole or a slot; write \"H7\"",
+    ),
+    fault(
+        "points = \"pin.xyz\"\n",
+        "points = \"pin.xyz\"\ninternal = false\n[[characteristic]]\nid = \"3\"\nkind = \"size\"\nsize = \"GG\"\nfeature = \"pin\"\nnominal = 8\nclass = \"G6\"\n",
+        "is a shaft or a thickness; write \"g6\"",
+    ),
+    fault(
+        "kind = \"perpendicularity\"",
+        "kind = \"position\"\nbasic = { x = 42 }",
+        "line 33, column 9: position: `basic` gives x alone, and an axis is placed by the two coordinates across it: add y",
+    ),
+    fault(
+        "feature = \"A\"",
+        "feature = \"pin\"",
+        "flatness: feature \"pin\" is a cylinder; it is defined for: plane; of a cylinder there is cylindricity",
+    ),
 ];
+
+const SIZE: &str = "kind = \"perpendicularity\"\nfeature = \"pin\"\ndatums = [\"A\"]\ntolerance = 0.1";
+
+/// What is rightly written in an unusual way stays as it is.
+#[test]
+fn unusual_plans_are_taken() {
+    let size = |more: &str| format!("kind = \"size\"\nsize = \"GG\"\nfeature = \"pin\"\n{more}");
+    for to in [
+        size("nominal = 0.1\nupper = 0.1\nlower = 0"),
+        size("nominal = 0.1\nupper = 0.1\nlower = -0.1"),
+        size("nominal = 10\nupper = 0.05\nlower = 0.01"),
+        size("nominal = 10\nupper = -0.01\nlower = -0.05"),
+        size("nominal = 8\nclass = \"js7\""),
+        size("nominal = 8\nclass = \"m\""),
+        "kind = \"distance\"\nfeature = \"R\"\ndatums = [\"A\"]\nnominal = 0\nupper = 0.1\nlower = -0.1".into(),
+        "kind = \"angle\"\nfeature = \"R\"\ndatums = [\"A\"]\nnominal = 0\nupper = 0.1\nlower = 0".into(),
+        "kind = \"texture\"\nfeature = \"R\"\nparameter = \"Ssk\"\ntolerance = 0".into(),
+        "kind = \"position\"\nfeature = \"pin\"\ndatums = [\"A\"]\nbasic = { x = 3 }\ndiametral = false\ntolerance = 1".into(),
+    ] {
+        Plan::parse(&PLAN.replacen(SIZE, &to, 1)).unwrap_or_else(|e| panic!("{to}: {e}"));
+    }
+}
 
 #[test]
 fn faults_are_told_with_their_places() {

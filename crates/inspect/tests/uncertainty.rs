@@ -196,6 +196,10 @@ fn counted(form: f64, copies: u64, draws: u32) -> [[f64; 5]; 3] {
         let found = formed(noisy, &format!("noise = {NOISE}\ndraws = {draws}"), copy);
         for (n, count) in counts.iter_mut().enumerate() {
             let (value, u) = (value_of(&found, n), found.uncertainties[n].unwrap());
+            assert!(
+                u.sides.iter().all(|side| *side >= 0.0),
+                "the value lies outside of its interval: {n}: {u:?}"
+            );
             let least = if n < 2 { 0.0 } else { f64::NEG_INFINITY };
             let ends = [value - u.sides[0], value + u.sides[1]].map(|end| end.max(least));
             let truth = value_of(&true_values, n);
@@ -216,19 +220,23 @@ fn value_of(found: &Inspection, n: usize) -> f64 {
 
 /// What the farthest points decide: of noisy copies of a perfect form and of lobes of five times the noise the interval misses the true
 /// value seldom, and where there are lobes it is shorter by a fifth and more (that of a bend by half) than what the noise adds to a perfect
-/// form would make it.
+/// form would make it. So it is about the value less the bias. It goes on to the value where that is beyond: of a bend noise adds 2.9 deviations
+/// and scatters by 1.1, so that the 1.8 between make 4.7 of 2.8, shorter by a third.
 #[test]
 fn forms_of_noisy_copies_are_covered() {
     let counts = [0.0, 5.0].map(|form| counted(form, 40, 60));
     println!("{counts:?}");
-    for (n, share) in [0.5, 0.8, 0.8].into_iter().enumerate() {
+    for (n, [share, to_value]) in [[0.5, 0.67], [0.8, 0.8], [0.8, 0.8]].into_iter().enumerate() {
         let [perfect, lobes] = counts.map(|c| c[n]);
         // Of 40 copies with a share of 5 % more than six are missed once in a hundred times.
         for [above, below, ..] in [perfect, lobes] {
             assert!(above + below <= 0.15, "{n}: {above} {below}");
         }
-        let about_perfect = perfect[3] + 2.0 * lobes[4];
-        assert!(lobes[2] < share * about_perfect, "{n}: {} {about_perfect}", lobes[2]);
+        let [_, _, width, bias, spread] = lobes;
+        let about_perfect = perfect[3] + 2.0 * spread;
+        let about_form = width - (bias - spread).max(0.0);
+        assert!(about_form < share * about_perfect, "{n}: {about_form} {about_perfect}");
+        assert!(width < to_value * about_perfect, "{n}: {width} {about_perfect}");
     }
 }
 

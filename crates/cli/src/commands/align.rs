@@ -5,7 +5,7 @@ use crate::console;
 use crate::exit::{self, Outcome, Usage};
 use crate::number::{POINTS, counted, fixed, grouped, scientific, signed, six_digits};
 use crate::options::{Common, DocumentArgs, PointInputArgs, ReferenceArgs};
-use crate::progress::Stage;
+use crate::progress::{STEPS, Stage};
 use crate::read::{self, Body, Opened};
 use crate::run_files::RunFiles;
 use crate::tolerance::ToleranceArg;
@@ -191,7 +191,9 @@ fn run(args: &AlignArgs, common: &Common) -> anyhow::Result<Outcome> {
     let loss = args.out.as_ref().map(|path| scan.write(path, &motion)).transpose()?.flatten();
     args.document.write(&document)?;
     args.document.table(|| table(&document, loss.as_deref()))?;
-    let within = document.zones.as_ref().is_none_or(|z| z.beyond == 0);
+    // Against a reference that was not read in whole nothing is proven.
+    let whole = document.inputs.iter().all(|i| i.role != Role::Reference || i.incomplete.is_none());
+    let within = document.zones.as_ref().is_none_or(|z| z.beyond == 0 && whole);
     Ok(if document.sound() && within { Outcome::Conforming } else { Outcome::NotConforming })
 }
 
@@ -203,7 +205,7 @@ fn best_fit(
     common: &Common,
 ) -> anyhow::Result<AlignDocument> {
     let of_reference = || args.reference.display().to_string();
-    let stage = Stage::new(common.progress, "aligning", "points", None);
+    let stage = Stage::new(common.progress, "aligning", STEPS, None);
     let tree = Tree::build_watched(reference, &stage).map_err(|e| match e {
         trueness_geom::closest::MeshError::Cancelled(e) => e.into(),
         e => anyhow::anyhow!("{}: {e}", of_reference()),

@@ -121,7 +121,7 @@ fn run(args: &FitArgs, common: &Common) -> anyhow::Result<Outcome> {
     let options = Options { method: args.method.into(), start: None, seed: common.seed };
     let stage = Stage::new(common.progress, "fitting", "points", Some(points.len() as u64));
     let fit = fit::fit(&points, shape(&args.shape, planar)?, &options, &stage);
-    drop(stage);
+    stage.end(&fit);
     let fit = fit.map_err(|e| match e {
         FitError::Cancelled => anyhow::Error::from(Cancelled),
         e @ FitError::NoSuchMethod { .. } => Usage(e.to_string()).into(),

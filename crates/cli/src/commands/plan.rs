@@ -64,7 +64,7 @@ fn init(args: &InitArgs, common: &Common) -> anyhow::Result<Outcome> {
     let stage = Stage::new(common.progress, "segmenting", "facets", Some(mesh.faces.len() as u64));
     let options = Options { seed: common.seed, ..Options::default() };
     let found = segment::mesh(&mesh, &options, &stage);
-    drop(stage);
+    stage.end(&found);
     let found = found.map_err(|e| match e {
         SegmentError::Cancelled(e) => anyhow::Error::from(e),
         e => anyhow::anyhow!("{}: {e}", args.nominal.display()),

@@ -137,7 +137,7 @@ fn run(args: &SegmentArgs, common: &Common) -> anyhow::Result<Outcome> {
             PieceKind::Points => segment::cloud(&mesh.positions, &options, &stage),
         },
     );
-    drop(stage);
+    stage.end(&found);
     hash?;
     let found = found.map_err(|e| match e {
         SegmentError::Cancelled(e) => e.into(),

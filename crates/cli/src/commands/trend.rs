@@ -3,7 +3,8 @@
 use crate::command::Run;
 use crate::console;
 use crate::exit::{self, Outcome};
-use crate::number::{counted, fixed, six_digits};
+use crate::layout::{self, names, sentence};
+use crate::number::{counted, fixed, short, six_digits};
 use crate::options::{Common, DocumentArgs};
 use crate::output::whole_file;
 use crate::report::ReportArgs;
@@ -82,7 +83,7 @@ impl Run for TrendArgs {
             self.report.write_to(path, &page, &view.objects(), &[], common.progress)?;
         }
         self.document.write(&document)?;
-        self.document.table(|| table(&document))?;
+        self.document.table(|| table(&document, common.verbose))?;
         let well = document.verdict == Verdict::Pass && document.in_control;
         Ok(if well { Outcome::Conforming } else { Outcome::NotConforming })
     }
@@ -124,22 +125,23 @@ fn read(path: &Path) -> anyhow::Result<(ResultInput, InspectDocument)> {
 }
 
 /// The document for people.
-fn table(document: &TrendDocument) -> String {
+fn table(document: &TrendDocument, verbose: bool) -> String {
     let mut out = String::new();
     if let Some(title) = &document.title {
         let _ = writeln!(out, "{title}");
     }
     for warning in &document.warnings {
-        let _ = writeln!(out, "! {warning}");
+        out += &sentence(&format!("! {warning}"), verbose);
     }
-    out.push_str(&labeled(&courses(&document.characteristics)));
-    out.push_str(&labeled(&capabilities(&document.characteristics)));
+    out += &layout::table(&courses(&document.characteristics), 3);
+    out += &layout::table(&capabilities(&document.characteristics), 1);
     let mut reasons: Vec<(&str, Vec<&str>)> = vec![];
     for c in &document.characteristics {
         for o in &c.out_of_control {
             let part = usize::try_from(o.part).ok().and_then(|n| document.parts.get(n));
             let name = part.map_or("", |p| &p.name);
-            let _ = writeln!(out, "! {}: part {} ({name}) is {}", c.id, o.part + 1, o.rule.words());
+            let text = format!("! {}: part {} ({name}) is {}", c.id, o.part + 1, o.rule.words());
+            out += &sentence(&text, verbose);
         }
         if let Some(reason) = c.course_reason.as_ref().or(c.capability_reason.as_ref()) {
             match reasons.iter_mut().find(|r| r.0 == reason) {
@@ -149,7 +151,7 @@ fn table(document: &TrendDocument) -> String {
         }
     }
     for (reason, ids) in reasons {
-        let _ = writeln!(out, "  {}: {reason}", ids.join(", "));
+        out += &sentence(&format!("  {}: {reason}", names(&ids, verbose)), verbose);
     }
     out.extend(document.map.as_ref().map(of_map));
     let passed = document.parts.iter().filter(|p| p.verdict == Verdict::Pass).count();
@@ -184,57 +186,25 @@ fn of_map(map: &TrendMap) -> String {
     out
 }
 
-/// A row of a table: what it is of, and its numbers.
-type Row = (String, Vec<String>);
-
-/// Most letters in a line of a table.
-const WIDTH: usize = 100;
-
-/// Rows as columns. What a row is of stands on a line of its own above its numbers where both would be too long for one line.
-fn labeled(rows: &[Row]) -> String {
-    let letters = |text: &str| text.chars().count();
-    let count = rows.iter().map(|r| r.1.len()).max().unwrap_or(0);
-    let widest = |k: usize| rows.iter().filter_map(|r| r.1.get(k)).map(|c| 2 + letters(c)).max().unwrap_or(0);
-    let room = WIDTH.saturating_sub((0..count).map(widest).sum());
-    let is_long = |label: &str| letters(label) > room;
-    let cells = |(label, numbers): &Row| {
-        let label = if is_long(label) { String::new() } else { label.clone() };
-        [vec![label], numbers.clone()].concat()
-    };
-    let table = console::columns(&rows.iter().map(cells).collect::<Vec<_>>());
-    let mut out = String::new();
-    for ((label, _), line) in rows.iter().zip(table.lines()) {
-        let above = if is_long(label) { format!("{}\n", label.trim_end()) } else { String::new() };
-        let _ = writeln!(out, "{above}{line}");
-    }
-    out
-}
-
 /// The course of each characteristic.
-fn courses(all: &[TrendRecord]) -> Vec<Row> {
-    let number = |x: Option<f64>| x.map_or_else(|| "–".into(), |x| fixed(x, 6));
+fn courses(all: &[TrendRecord]) -> Vec<Vec<String>> {
+    let number = |x: Option<f64>| x.map_or_else(|| "–".into(), |x| fixed(x, 4));
     let kind =
         |c: &TrendRecord| format!("{}{}{}", c.symbol, if c.symbol.is_empty() { "" } else { " " }, c.kind);
-    // Names of usual length stand below each other.
-    let names = all.iter().map(|c| [c.id.clone(), kind(c), c.feature.clone()]);
-    let names: Vec<[String; 3]> =
-        std::iter::once(["id", "kind", "feature"].map(String::from)).chain(names).collect();
-    let usual = |k: usize, most: usize| {
-        names.iter().map(|n| n[k].chars().count()).filter(|n| *n <= most).max().unwrap_or(0)
-    };
-    let (id, kind) = (usual(0, 12), usual(1, 20));
-    let labels = names.iter().map(|[a, b, c]| format!("{a:<id$}  {b:<kind$}  {c}"));
-    let head = ["n", "mean", "sigma", "min", "max", "out"].map(String::from).to_vec();
-    let numbers = all.iter().map(|c| {
-        let sigma = c.std_dev.map_or_else(|| "–".into(), six_digits);
+    let head = ["id", "kind", "feature", "n", "mean", "sigma", "min", "max", "out"];
+    let mut rows = vec![head.map(String::from).to_vec()];
+    rows.extend(all.iter().map(|c| {
+        let sigma = c.std_dev.map_or_else(|| "–".into(), short);
         let out = signaled(c).len().to_string();
-        vec![c.measured.to_string(), number(c.mean), sigma, number(c.min), number(c.max), out]
-    });
-    labels.zip(std::iter::once(head).chain(numbers)).collect()
+        let numbers =
+            [c.measured.to_string(), number(c.mean), sigma, number(c.min), number(c.max), out].to_vec();
+        [vec![c.id.clone(), kind(c), c.feature.clone()], numbers].concat()
+    }));
+    rows
 }
 
 /// The indices of the characteristics that have some, with their intervals.
-fn capabilities(all: &[TrendRecord]) -> Vec<Row> {
+fn capabilities(all: &[TrendRecord]) -> Vec<Vec<String>> {
     let index = |i: Option<IndexRecord>| {
         let written =
             |i: IndexRecord| format!("{} ({}…{})", fixed(i.value, 2), fixed(i.low, 2), fixed(i.high, 2));
@@ -242,9 +212,10 @@ fn capabilities(all: &[TrendRecord]) -> Vec<Row> {
     };
     let of = |c: &TrendRecord| [c.cp, c.cpk, c.pp, c.ppk];
     let some = all.iter().filter(|c| of(c).iter().any(Option::is_some));
-    let mut rows: Vec<Row> = some.map(|c| (c.id.clone(), of(c).map(index).to_vec())).collect();
+    let row = |c: &TrendRecord| [vec![c.id.clone()], of(c).map(index).to_vec()].concat();
+    let mut rows: Vec<Vec<String>> = some.map(row).collect();
     if !rows.is_empty() {
-        rows.insert(0, ("id".into(), ["Cp", "Cpk", "Pp", "Ppk"].map(String::from).to_vec()));
+        rows.insert(0, ["id", "Cp", "Cpk", "Pp", "Ppk"].map(String::from).to_vec());
     }
     rows
 }

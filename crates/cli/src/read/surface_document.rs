@@ -88,6 +88,8 @@ pub fn read(path: &Path) -> anyhow::Result<Option<(Nurbs, InputRecord)>> {
         table: None,
         points: count,
         facets: None,
+        incomplete: None,
+        trimmed_faces: super::unread::trimmed(trimmed.as_slice()),
         bounds: None,
         warnings: trimmed.iter().map(ToString::to_string).collect(),
     };

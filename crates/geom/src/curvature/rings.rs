@@ -8,10 +8,20 @@ use crate::progress::Progress;
 use crate::space::{Vector, cross, dot, minus, norm, plus, unit};
 use crate::spatial::lists::lists;
 use crate::topology::{Topology, TopologyError};
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
 
 /// Rings do not grow through vertices with more neighbors: those around the middle of a disc of many facets would each take
 /// in all others.
 pub const HUB: usize = 256;
+
+/// Rings around a vertex are a neighborhood if no vertex left out is nearer than this share of the farthest one in them: of a net of like
+/// cells it is 0.6. Rings of long facets reach far one way and hardly the other.
+const ROUND: f64 = 1.0 / 3.0;
+/// Condition up to which the nearest vertices determine a jet in all directions: three rows of them do not, five do.
+const EVEN: f64 = 300.0;
+/// Times the neighbors asked for that are taken for it at most.
+const MOST_TIMES: usize = 12;
 
 /// A mesh as vertices that know their neighbors.
 pub(super) struct Rings<'a> {
@@ -89,17 +99,94 @@ pub(super) struct Walk<'a> {
 impl Walk<'_> {
     /// The jet at a vertex.
     pub(super) fn jet(&mut self, v: u32, terms: &Terms, fitter: &mut Fitter) -> Result<Jet, NoCurvature> {
-        let Rings { mesh, normals, barred, .. } = self.rings;
+        let Rings { normals, barred, .. } = self.rings;
         match barred[v as usize] {
             Some(NoCurvature::Boundary) if terms.boundary => {}
             Some(reason) => return Err(reason),
             None => {}
         }
-        let normal = normals[v as usize];
-        if normal == [0.0; 3] {
+        if normals[v as usize] == [0.0; 3] {
             return Err(NoCurvature::Undetermined);
         }
         self.gather(v, terms);
+        match terms.reach {
+            Taken::Count(count) if !self.is_round() => {
+                let (of_rings, even) = (self.fit(v, fitter), self.even_jet(v, count, fitter));
+                match (of_rings, even) {
+                    // Along a straight line rings may reach far.
+                    (Ok(a), Ok(b)) if a.uncertainty <= b.uncertainty => of_rings,
+                    (Ok(_), Err(_)) => of_rings,
+                    _ => even,
+                }
+            }
+            _ => self.fit(v, fitter),
+        }
+    }
+
+    /// Whether no vertex beside those found is much nearer than the farthest of them.
+    fn is_round(&self) -> bool {
+        let rings = self.rings;
+        let place = |n: &u32| rings.mesh.positions[*n as usize];
+        let middle = place(&self.found[0]);
+        let square = |n: &u32| {
+            let d = minus(place(n), middle);
+            dot(d, d)
+        };
+        let farthest = self.found.iter().map(square).fold(0.0, f64::max);
+        let left_out = |n: &&u32| self.seen[**n as usize] != self.round;
+        let around = self.found.iter().map(|n| rings.beside(*n)).filter(|beside| beside.len() <= HUB);
+        let beside = around.flatten().filter(left_out);
+        beside.map(square).fold(f64::INFINITY, f64::min) >= ROUND * ROUND * farthest
+    }
+
+    /// The jet of the nearest vertices, more and more of them, until it is determined in all directions.
+    fn even_jet(&mut self, v: u32, count: usize, fitter: &mut Fitter) -> Result<Jet, NoCurvature> {
+        let mut wanted = count;
+        loop {
+            self.gather_nearest(v, wanted);
+            let jet = self.fit(v, fitter);
+            let is_all = self.found.len() <= wanted;
+            if is_all || wanted >= MOST_TIMES * count || jet.is_ok_and(|jet| jet.condition <= EVEN) {
+                return jet;
+            }
+            wanted += wanted / 2;
+        }
+    }
+
+    /// Finds so many nearest vertices of those that hang together through nearer ones.
+    fn gather_nearest(&mut self, v: u32, wanted: usize) {
+        let rings = self.rings;
+        self.round += 1;
+        self.found.clear();
+        self.seen[v as usize] = self.round;
+        let middle = rings.mesh.positions[v as usize];
+        // Of numbers that are not negative the bits rise as they do.
+        let mut open = BinaryHeap::from([Reverse((0u64, v))]);
+        while let Some(Reverse((_, n))) = open.pop() {
+            self.found.push(n);
+            if self.found.len() > wanted {
+                break;
+            }
+            let beside = rings.beside(n);
+            if n != v && beside.len() > HUB {
+                continue;
+            }
+            for &other in beside {
+                if self.seen[other as usize] != self.round {
+                    self.seen[other as usize] = self.round;
+                    open.push(Reverse((
+                        norm(minus(rings.mesh.positions[other as usize], middle)).to_bits(),
+                        other,
+                    )));
+                }
+            }
+        }
+    }
+
+    /// The jet of what was found.
+    fn fit(&self, v: u32, fitter: &mut Fitter) -> Result<Jet, NoCurvature> {
+        let Rings { mesh, normals, .. } = self.rings;
+        let normal = normals[v as usize];
         let neighbors = &self.found[1..];
         fitter.take(mesh.positions[v as usize], neighbors.iter().map(|n| mesh.positions[*n as usize]));
         let jet = fitter.jet(normal)?;

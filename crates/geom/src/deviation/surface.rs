@@ -1,10 +1,11 @@
 //! A reference surface, ready to be measured against: exact, signed, with points excluded where asked.
 
+use super::copies::without_opposite_copies;
 use super::sign_choice::{SignChoice, SignMethod, SignRequest};
 use crate::check::Precondition;
-use crate::closest::{BoundaryEdges, Closest, Hit, Query, QueryError, Signs, Tree, Winding};
+use crate::closest::{BoundaryEdges, Closest, Hit, MeshError, Query, QueryError, Signs, Tree, Winding};
 use crate::mesh::Mesh;
-use crate::progress::{Progress, Silent};
+use crate::progress::{Cancelled, Progress, Silent};
 use crate::space::Point;
 use crate::topology::{Soundness, TopologyError};
 
@@ -91,6 +92,23 @@ pub struct ReferenceSurface {
     max_distance: f64,
 }
 
+/// Winding numbers of a mesh; of facets that occur with both orientations only those count that bound it.
+fn winding(
+    tree: &Tree,
+    mesh: &Mesh,
+    soundness: &Soundness,
+    progress: &dyn Progress,
+) -> Result<Winding, TopologyError> {
+    let bounding = (soundness.duplicate_facets > 0).then(|| without_opposite_copies(mesh)).flatten();
+    match bounding.map(|mesh| Tree::build_watched(&mesh, progress)) {
+        None | Some(Err(MeshError::NoFaces)) => Ok(Winding::new(tree)),
+        Some(Ok(own)) => Ok(Winding::new(&own)),
+        Some(Err(_)) if progress.cancelled() => Err(Cancelled.into()),
+        // The mesh passed as a whole.
+        Some(Err(_)) => Ok(Winding::new(tree)),
+    }
+}
+
 /// Flaws of each kind that are listed; all are counted.
 const FLAWS: usize = 100;
 
@@ -116,7 +134,7 @@ impl ReferenceSurface {
         let choice = SignChoice::new(options.sign, &precondition, mesh);
         let side = match choice.method {
             SignMethod::Pseudonormal => Side::Pseudonormal(Signs::watched(tree, progress)?),
-            SignMethod::Winding => Side::Winding(Winding::new(tree)),
+            SignMethod::Winding => Side::Winding(winding(tree, mesh, soundness, progress)?),
             SignMethod::None | SignMethod::Normal => Side::None,
         };
         let boundary_edges = (options.skip_boundary && !soundness.closed)

@@ -1,18 +1,21 @@
 //! Right circular cones.
 
 use super::family::{Element, Family, Rows};
-use super::revolution::{Powers, Profile};
-use super::round::{TINY, least_squares};
+use super::osculating::{self, refooted};
+use super::round::TINY;
 use super::sample::Sample;
-use super::scatter::Scatter;
 use super::unknown::Local;
 use crate::frame::Pose;
 use crate::shape::Shape;
 use crate::space::{Point, plus, times, unit};
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Cone about the third axis of its frame, opening along it. Its sizes are the distance of the origin from the
-/// surface and the half angle: unlike radius and apex they stay finite from the cylinder to the plane.
+/// surface and the half angle: unlike radius and apex they stay finite from the cylinder to the plane. On the way there an
+/// angle may pass through either: below zero the cone opens against its axis, beyond a right angle it is the one of the other
+/// side of the plane with its inside out. [`Family::settled`] writes both as they are told.
+///
+/// A cone ends at its apex. Beyond it the apex is the nearest place.
 pub(super) struct Cone;
 
 impl Family<6> for Cone {
@@ -23,7 +26,17 @@ impl Family<6> for Cone {
     #[inline(always)]
     fn rows(size: [f64; 2], [x, y, z]: Point, rows: &mut impl Rows<6>) {
         let (sin, cos) = libm::sincos(size[1]);
-        let rho = (x * x + y * y).sqrt();
+        let square = x * x + y * y;
+        let rho = square.sqrt();
+        if is_beyond(size, (sin, cos), rho, z) {
+            let apex = -size[0] / sin;
+            let height = z - apex;
+            let far = cos.signum() * (square + height * height).sqrt();
+            let inverse = 1.0 / far.abs().max(TINY).copysign(far);
+            let (nu, nv, nw) = (x * inverse, y * inverse, height * inverse / sin);
+            rows.row(far, [-nu, -nv, -(apex * nu), -(apex * nv), nw, apex * cos * nw]);
+            return;
+        }
         let inverse = 1.0 / rho.max(TINY);
         let (nu, nv) = (cos * x * inverse, cos * y * inverse);
         rows.row(
@@ -34,34 +47,26 @@ impl Family<6> for Cone {
     #[inline(always)]
     fn distance(size: [f64; 2], [x, y, z]: Point) -> f64 {
         let (sin, cos) = libm::sincos(size[1]);
-        (x * x + y * y).sqrt() * cos - z * sin - size[0]
+        let square = x * x + y * y;
+        let rho = square.sqrt();
+        let height = z + size[0] / sin;
+        let beyond = cos.signum() * (square + height * height).sqrt();
+        if is_beyond(size, (sin, cos), rho, z) { beyond } else { rho * cos - z * sin - size[0] }
     }
     fn sound(size: [f64; 2]) -> bool {
-        size[0].is_finite() && size[1].abs() < FRAC_PI_2
+        size[0].is_finite() && size[1].abs() < PI
     }
     fn starts(points: &[Point]) -> Vec<Element> {
-        let principal = Scatter::of(points).axes;
-        let powers = Powers::of(points);
-        let mut axes = powers.axes(Profile::Parabola, &principal, 6);
-        axes.extend(powers.axes(Profile::Constant, &principal, 3));
-        axes.into_iter()
-            .filter_map(|axis| {
-                // The generator: a straight line through distance from the axis over height.
-                let line = least_squares(points.iter().map(|&p| {
-                    let [x, y, z] = axis.pose.local(p);
-                    (vec![1.0, z], libm::hypot(x, y))
-                }))?;
-                let angle = libm::atan(line[1]);
-                let element = Element { pose: axis.pose, size: [line[0] * libm::cos(angle), angle] };
-                Some(Cone::settled(refooted(element, [0.0; 3])))
-            })
-            .collect()
+        osculating::cones::<Cone>(points)
     }
-    fn settled(element: Element) -> Element {
+    fn settled(mut element: Element) -> Element {
         if element.size[1] < 0.0 {
-            let mut other = element.reversed(2);
-            other.size[1] = -other.size[1];
-            return other;
+            element = element.reversed(2);
+            element.size[1] = -element.size[1];
+        }
+        if element.size[1] > FRAC_PI_2 {
+            element = element.reversed(2);
+            element.size = [-element.size[0], PI - element.size[1]];
         }
         element
     }
@@ -90,10 +95,8 @@ impl Family<6> for Cone {
     }
 }
 
-/// The same cone with its origin at the foot of `place`.
-fn refooted(element: Element, place: Point) -> Element {
-    let height = element.pose.local(place)[2];
-    let mut moved = element.footed(place);
-    moved.size[0] += height * libm::sin(element.size[1]);
-    moved
+/// Whether the apex is the nearest place: the foot on the generator, by its height above the apex times the sine, is none.
+#[inline(always)]
+fn is_beyond(size: [f64; 2], (sin, cos): (f64, f64), rho: f64, z: f64) -> bool {
+    (rho * sin + z * cos) * sin + size[0] * cos < 0.0
 }

@@ -10,7 +10,7 @@
 //! | `solution` | what a fit tells |
 //! | `unknown` | what an unknown does to an element |
 //! | `family` | what an element is to the solvers; `line` … `torus` hold one each |
-//! | `revolution`, `round`, `bent`, `scatter` | where to start |
+//! | `revolution`, `osculating`, `round`, `bent`, `scatter` | where to start |
 //! | `normal`, `gauss`, `gaussian` | least squares |
 //! | `linear`, `minimax`, `zone` | least greatest distance |
 //! | `robust` | scans with outliers |
@@ -32,6 +32,7 @@ mod line;
 mod linear;
 mod minimax;
 mod normal;
+mod osculating;
 mod plane;
 mod request;
 mod revolution;

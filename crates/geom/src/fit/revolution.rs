@@ -34,8 +34,11 @@ pub(super) struct Axis {
 pub(super) enum Profile {
     /// Constant: cylinders.
     Constant,
-    /// A parabola: cones, and near enough for tori.
+    /// A parabola: near enough for tori.
     Parabola,
+    /// A parabola that opens along the axis: cones. A ring and a point, or two rings, lie on a sphere too, which is a
+    /// parabola about any axis; but that one closes.
+    Opening,
 }
 
 fn products(p: Point) -> [f64; 6] {
@@ -84,7 +87,7 @@ impl Powers {
     }
 
     /// The best algebraic body about the third of the directions `axes`.
-    fn axis(&self, axes: [Vector; 3], profile: Profile) -> Option<Axis> {
+    pub(super) fn axis(&self, axes: [Vector; 3], profile: Profile) -> Option<Axis> {
         let [u, v, w] = axes;
         let along = product_form(w);
         let across: [f64; 6] = std::array::from_fn(|k| f64::from(matches!(k, 0 | 3 | 5)) - along[k]);
@@ -107,7 +110,7 @@ impl Powers {
                 error = dot6(&across, &covariance(&across)) - (cu * fu + cv * fv);
                 center = [0.5 * cu, 0.5 * cv];
             }
-            Profile::Parabola => {
+            Profile::Parabola | Profile::Opening => {
                 let g = with_linear(&along);
                 let mut normal: Vec<Vec<f64>> =
                     axes.iter().map(|&a| axes.iter().map(|&b| m(a, b)).collect()).collect();
@@ -117,7 +120,13 @@ impl Powers {
                 let aa = dot6(&along, &covariance(&along));
                 normal.push(vec![dot(g, u), dot(g, v), dot(g, w), aa]);
                 let right = vec![dot(f, u), dot(f, v), dot(f, w), dot6(&along, &covariance(&across))];
-                let x = super::dense::solve(normal, right.clone())?;
+                let mut x = super::dense::solve(normal.clone(), right.clone());
+                if profile == Profile::Opening && x.as_ref().is_none_or(|x| x[3] < 0.0) {
+                    normal.truncate(3);
+                    normal.iter_mut().for_each(|row| row.truncate(3));
+                    x = super::dense::solve(normal, right[..3].to_vec());
+                }
+                let x = x?;
                 let explained: f64 = x.iter().zip(&right).map(|(a, b)| a * b).sum();
                 error = dot6(&across, &covariance(&across)) - explained;
                 center = [0.5 * x[0], 0.5 * x[1]];

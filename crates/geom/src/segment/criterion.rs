@@ -40,6 +40,8 @@ const ALONG: f64 = 0.5;
 const ALONG_COVER: f64 = 0.4;
 /// Corners of three chords.
 const CHORD_POINTS: usize = 8;
+/// The apex of a fan and six corners.
+const FAN_POINTS: usize = 7;
 /// Least quotient of the areas of chords that are equally wide.
 const ALIKE: f64 = 0.999;
 
@@ -100,14 +102,28 @@ pub(super) fn fewest_points(kind: Kind) -> usize {
     if kind == Kind::Plane { 4 } else { 2 * kind.unknowns() + 2 }
 }
 
-/// Whether so many points of the pieces show an element of the kind: [`fewest_points`], or of a cylinder that is drawn the corners of
-/// three chords of equal width. A chamfer and the planes beside it have a cylinder of their corners too, if they are equally wide.
+/// Whether so many points of the pieces show an element of the kind: [`fewest_points`], or of what is drawn fewer where the facets are
+/// chords of equal width. Of a cylinder the corners of three, as a chamfer and the planes beside it have a cylinder of their corners
+/// too: eight points for five unknowns. A fan of a cone leaves as much over with six corners about its apex, where all facets meet: each
+/// has the right distance from the apex's axis, and the apex takes three unknowns.
 pub(super) fn is_shown(surface: &PieceGraph, kind: Kind, pieces: &[u32], points: usize) -> bool {
+    let fewest = match kind {
+        Kind::Cylinder => CHORD_POINTS,
+        Kind::Cone if meet(surface, pieces) => FAN_POINTS,
+        _ => usize::MAX,
+    };
     let chords = || {
         let like = |p: &u32| surface.likeness(*p, pieces[0]) >= ALIKE;
-        kind == Kind::Cylinder && surface.is_drawn && points >= CHORD_POINTS && pieces.iter().all(like)
+        surface.is_drawn && points >= fewest && pieces.iter().all(like)
     };
     points >= fewest_points(kind) || chords()
+}
+
+/// Whether all facets share a corner.
+fn meet(surface: &PieceGraph, pieces: &[u32]) -> bool {
+    let Some(&first) = pieces.first().filter(|_| surface.is_mesh()) else { return false };
+    let all = |corner: &u32| pieces.iter().all(|p| surface.corners(*p).0.contains(corner));
+    surface.corners(first).0.iter().any(all)
 }
 
 #[cfg(test)]

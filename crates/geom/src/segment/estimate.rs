@@ -15,6 +15,11 @@ pub(super) type Patch = [(Point, Vector)];
 /// The kinds that can be found, the order in which they are tried.
 pub const KINDS: [Kind; 5] = [Kind::Plane, Kind::Cylinder, Kind::Cone, Kind::Sphere, Kind::Torus];
 
+/// Greatest radius, in diagonals of the part.
+const MOST_SIZES: f64 = 10.0;
+/// Greatest quotient of the radii of a torus: a thicker one is as good as a sphere of the same points.
+const THICKEST: f64 = 0.95;
+
 /// An element of the kind near the patch; `None` where the patch does not show one, and of kinds that are not in [`KINDS`].
 pub(super) fn estimate(kind: Kind, patch: &Patch) -> Option<Shape> {
     match kind {
@@ -27,16 +32,19 @@ pub(super) fn estimate(kind: Kind, patch: &Patch) -> Option<Shape> {
     }
 }
 
-/// Whether the element is of a size that a part of this size can show.
-pub(super) fn is_sound(shape: &Shape, size: f64) -> bool {
-    let most = 10.0 * size;
+/// Whether a part of this size can show the element. A cone has no limit of its half angle but what shows: over all of the part it
+/// leaves the plane, or the cylinder, that it tends to by more than pieces may lie off.
+pub(super) fn is_sound(shape: &Shape, size: f64, tolerance: f64) -> bool {
+    let most = MOST_SIZES * size;
     match *shape {
         Shape::Sphere { radius, .. } | Shape::Cylinder { radius, .. } => radius < most,
         Shape::Cone { half_angle, radius, .. } => {
-            radius.abs() < most && half_angle < 1.5 && half_angle > 1e-3
+            let (sin, cos) = libm::sincos(half_angle);
+            // The sag of a chord as long as the part, and how far its ends are apart in radius.
+            radius > 0.0 && size * size * cos > 8.0 * radius * tolerance && size * sin > tolerance
         }
         Shape::Torus { major_radius, minor_radius, .. } => {
-            major_radius < most && minor_radius < 0.95 * major_radius
+            major_radius < most && minor_radius < THICKEST * major_radius
         }
         Shape::Plane { .. } => true,
         // Curves are no faces.
@@ -150,7 +158,7 @@ fn cone(patch: &Patch) -> Option<Shape> {
     let half_angle = libm::acos(cosine.abs().min(1.0));
     let height = dot(minus(middle, apex), direction);
     let point = plus(apex, times(height, direction));
-    let sound = height > 0.0 && half_angle > 1e-4 && half_angle < 1.55 && norm(direction) > 0.5;
+    let sound = height > 0.0 && half_angle > 0.0 && norm(direction) > 0.5;
     sound.then(|| Shape::Cone { apex, direction, half_angle, point, radius: height * libm::tan(half_angle) })
 }
 

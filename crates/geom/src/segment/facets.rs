@@ -24,13 +24,13 @@ pub(super) fn surface(mesh: &Mesh) -> PieceGraph<'_> {
     }
 }
 
-/// Whether the half of the area is of facets with a neighbor in their plane, to the rounding of single precision: what is drawn has two
-/// facets where four corners lie in a plane, what is measured has none such.
+/// Whether the half of the area is of facets with a neighbor in their plane, or that mirrors them, to the rounding of single precision:
+/// what is drawn has two facets where four corners lie in a plane, and equal ones around the tip of a cone; what is measured has none such.
 fn is_drawn(mesh: &Mesh, areas: &[f64], first: &[u32], others: &[u32]) -> bool {
     let step = step(&mesh.positions);
     let flat = |facet: usize| {
         let around = &others[first[facet] as usize..first[facet + 1] as usize];
-        around.iter().any(|&other| is_flat(mesh, mesh.faces[facet], mesh.faces[other as usize], step))
+        around.iter().any(|&other| is_ruled(mesh, mesh.faces[facet], mesh.faces[other as usize], step))
     };
     let is_flat: Vec<bool> = (0..mesh.faces.len()).into_par_iter().map(flat).collect();
     let flat: f64 = areas.iter().zip(is_flat).filter(|f| f.1).map(|f| f.0).sum();
@@ -38,13 +38,17 @@ fn is_drawn(mesh: &Mesh, areas: &[f64], first: &[u32], others: &[u32]) -> bool {
 }
 
 /// Whether the four corners of two facets lie in one plane, where each may be off by `step`: the volume between them is no more than
-/// that of `step` over the four sides.
-fn is_flat(mesh: &Mesh, one: [u32; 3], other: [u32; 3], step: f64) -> bool {
-    let Some(&far) = other.iter().find(|v| !one.contains(v)) else { return false };
-    let [a, b, c, d] = [one[0], one[1], one[2], far].map(|v| mesh.positions[v as usize]);
+/// that of `step` over the four sides. Or whether the sides of one are as long as those of the other, at both ends of their edge.
+fn is_ruled(mesh: &Mesh, one: [u32; 3], other: [u32; 3], step: f64) -> bool {
+    let find = |of: [u32; 3], not: [u32; 3]| of.into_iter().find(|v| !not.contains(v));
+    let (Some(near), Some(far)) = (find(one, other), find(other, one)) else { return false };
+    let at = |v: u32| mesh.positions[v as usize];
+    let [a, b, c, d] = [one[0], one[1], one[2], far].map(at);
     let sides = [[a, b, c], [a, b, d], [a, c, d], [b, c, d]];
     let area: f64 = sides.iter().map(|[p, q, r]| norm(cross(minus(*q, *p), minus(*r, *p)))).sum();
-    dot(cross(minus(b, a), minus(c, a)), minus(d, a)).abs() <= step * area
+    let is_flat = dot(cross(minus(b, a), minus(c, a)), minus(d, a)).abs() <= step * area;
+    let even = |v: u32| (norm(minus(at(near), at(v))) - norm(minus(d, at(v)))).abs() <= 2.0 * step;
+    is_flat || one.into_iter().filter(|v| *v != near).all(even)
 }
 
 /// Centroid, unit normal and area; the normal of a facet without area is zero.

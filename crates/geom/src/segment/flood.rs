@@ -1,7 +1,6 @@
 //! Spreading over neighbors.
 
 use super::pieces::PieceGraph;
-use crate::space::dot;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
@@ -95,8 +94,7 @@ pub(super) fn patch(
     free: impl Fn(u32) -> bool,
 ) -> Vec<u32> {
     flood(surface, &[seed], most, marks, |piece, from| {
-        let across = dot(surface.normals[piece as usize], surface.normals[from as usize]).abs();
-        surface.counts(piece) && free(piece) && across >= crease
+        surface.counts(piece) && free(piece) && surface.turn(piece, from) >= crease
     })
 }
 
@@ -135,7 +133,7 @@ pub(super) fn strip(
         reached.push(from);
         let around = surface.neighbors(from);
         for &piece in around.iter().filter(|_| around.len() <= CROWD) {
-            let across = dot(surface.normals[piece as usize], surface.normals[from as usize]).abs();
+            let across = surface.turn(piece, from);
             let joins =
                 surface.counts(piece) && free(piece) && across >= crease && !marks.seen[piece as usize];
             if let Some(edge) = surface.edge(piece, from).filter(|_| joins) {

@@ -171,7 +171,7 @@ impl Context<'_> {
         for &kind in self.kinds.iter().filter(|kind| kind.unknowns() > own.unknowns()) {
             let Ok(start) = fit(&few, kind, &Options::default(), &Silent) else { continue };
             let Some((shape, rms)) = improved(&points, &start.shape) else { continue };
-            let clearly = rms < CLEARLY * region.rms && is_sound(&shape, self.size);
+            let clearly = rms < CLEARLY * region.rms && is_sound(&shape, self.size, self.band.distance);
             if clearly && self.agreeing(&shape, &region.pieces) >= FITTING {
                 (region.shape, region.rms) = (shape, rms);
             }
@@ -198,7 +198,8 @@ impl Context<'_> {
         if !is_shown(surface, kind, patch, points.len()) {
             return None;
         }
-        let (shape, rms) = improved(&points, &first).filter(|f| is_sound(&f.0, self.size))?;
+        let (shape, rms) =
+            improved(&points, &first).filter(|f| is_sound(&f.0, self.size, self.band.distance))?;
         (self.agreeing(&shape, patch) >= share).then_some((shape, rms))
     }
 
@@ -217,14 +218,16 @@ impl Context<'_> {
         let mut last = 0;
         for _ in 0..ROUNDS {
             let element = Probe::new(&shape);
-            let pieces = flood(self.surface, patch, limit.min(most), marks, |piece, _| {
-                free(piece) && self.surface.belongs(piece, &element, &self.band)
+            let pieces = flood(self.surface, patch, limit.min(most), marks, |piece, from| {
+                let belongs = free(piece) && self.surface.belongs(piece, &element, &self.band);
+                belongs && !self.surface.folds_back(piece, from)
             });
             let points = self.within(&element, &pieces);
             if !is_shown(self.surface, kind, &pieces, points.len()) {
                 return None;
             }
-            let (better, rms) = improved(&points, &shape).filter(|f| is_sound(&f.0, self.size))?;
+            let (better, rms) =
+                improved(&points, &shape).filter(|f| is_sound(&f.0, self.size, self.band.distance))?;
             let full = pieces.len() >= limit.min(most);
             if pieces.len() >= most || (!full && pieces.len() <= last + last / stop_gain) {
                 let (weight, middles) = (self.surface.weight(&pieces), self.middles(&better, &pieces));

@@ -3,7 +3,7 @@
 //! The pieces are the facets of a mesh or the points of a cloud; everything after this file treats both alike.
 
 use super::probe::Probe;
-use crate::space::{Aabb, Point, Vector, minus, norm};
+use crate::space::{Aabb, Point, Vector, dot, minus, norm, times};
 
 /// No region, no piece.
 pub(super) const NONE: u32 = u32::MAX;
@@ -98,6 +98,31 @@ impl PieceGraph<'_> {
         let [(a, count), (b, _)] = [one, other].map(|p| self.corners(p));
         let mut shared = a[..count].iter().filter(|c| b.contains(c)).map(|c| self.points[*c as usize]);
         Some(norm(minus(shared.next()?, shared.next()?)))
+    }
+    /// Cosine of the angle by which the surface turns from one piece to a neighbor. Their normals may point to either side;
+    /// whether it goes on or folds back tells the edge of two facets.
+    pub(super) fn turn(&self, one: u32, other: u32) -> f64 {
+        let cosine = dot(self.normals[one as usize], self.normals[other as usize]).abs();
+        if self.folds_back(one, other) { -cosine } else { cosine }
+    }
+    /// Whether two facets lie on the same side of the edge that they share, as those of a rim sharper than a right angle.
+    pub(super) fn folds_back(&self, one: u32, other: u32) -> bool {
+        // A flood begins with a piece reached from itself.
+        if one == other || !self.is_mesh() {
+            return false;
+        }
+        let [a, b] = [one, other].map(|piece| self.corners(piece).0);
+        let place = |corner: u32| self.points[corner as usize];
+        let mut shared = a.iter().filter(|c| b.contains(c)).map(|c| place(*c));
+        let (Some(from), Some(to)) = (shared.next(), shared.next()) else { return false };
+        let own = |corners: [u32; 3], others: [u32; 3]| corners.into_iter().find(|c| !others.contains(c));
+        let (Some(c), Some(d)) = (own(a, b), own(b, a)) else { return true };
+        let edge = minus(to, from);
+        let [c, d] = [c, d].map(|corner| minus(place(corner), from));
+        // Across the edge, times the square of its length: no division by that of an edge without any.
+        let square = dot(edge, edge);
+        let across = |q: Vector| minus(times(square, q), times(dot(q, edge), edge));
+        dot(across(c), across(d)) > 0.0
     }
     /// Quotient of the weights of two pieces, of the lesser by the greater, to a thousandth.
     pub(super) fn likeness(&self, one: u32, other: u32) -> f64 {

@@ -9,7 +9,7 @@ pub(super) enum Probe {
     Plane { point: Point, normal: Vector },
     Sphere { center: Point, radius: f64 },
     Cylinder { point: Point, axis: Vector, radius: f64 },
-    Cone { point: Point, axis: Vector, radius: f64, sin: f64, cos: f64 },
+    Cone { apex: Point, point: Point, axis: Vector, radius: f64, sin: f64, cos: f64 },
     Torus { center: Point, axis: Vector, major: f64, minor: f64 },
     Other(Shape),
 }
@@ -22,9 +22,9 @@ impl Probe {
             Shape::Cylinder { point, direction, radius } => {
                 Probe::Cylinder { point, axis: direction, radius }
             }
-            Shape::Cone { direction, half_angle, point, radius, .. } => {
+            Shape::Cone { apex, direction, half_angle, point, radius } => {
                 let (sin, cos) = libm::sincos(half_angle);
-                Probe::Cone { point, axis: direction, radius, sin, cos }
+                Probe::Cone { apex, point, axis: direction, radius, sin, cos }
             }
             Shape::Torus { center, direction, major_radius, minor_radius } => {
                 Probe::Torus { center, axis: direction, major: major_radius, minor: minor_radius }
@@ -48,8 +48,11 @@ impl Probe {
             Probe::Plane { point, normal } => dot(minus(p, point), normal),
             Probe::Sphere { center, radius } => norm(minus(p, center)) - radius,
             Probe::Cylinder { point, axis, radius } => off(point, axis).0 - radius,
-            Probe::Cone { point, axis, radius, sin, cos } => {
+            Probe::Cone { apex, point, axis, radius, sin, cos } => {
                 let (rho, z) = off(point, axis);
+                if (rho * sin + z * cos) * sin + radius * cos * cos < 0.0 {
+                    return norm(minus(p, apex));
+                }
                 (rho - radius) * cos - z * sin
             }
             Probe::Torus { center, axis, major, minor } => {
@@ -71,8 +74,11 @@ impl Probe {
             Probe::Plane { normal, .. } => normal,
             Probe::Sphere { center, .. } => minus(p, center),
             Probe::Cylinder { point, axis, .. } => across(point, axis),
-            Probe::Cone { point, axis, sin, cos, .. } => {
+            Probe::Cone { apex, point, axis, radius, sin, cos } => {
                 let out = across(point, axis);
+                if (norm(out) * sin + dot(minus(p, point), axis) * cos) * sin + radius * cos * cos < 0.0 {
+                    return minus(p, apex);
+                }
                 minus(times(cos, out), times(sin * norm(out), axis))
             }
             Probe::Torus { center, axis, major, .. } => {

@@ -149,8 +149,11 @@ impl Shape {
             }
             Shape::Sphere { center, radius } => norm(minus(p, center)) - radius,
             Shape::Cylinder { point, direction, radius } => off_axis(p, point, direction).0 - radius,
-            Shape::Cone { point, direction, half_angle, radius, .. } => {
+            Shape::Cone { apex, point, direction, half_angle, radius } => {
                 let (rho, z) = off_axis(p, point, direction);
+                if is_beyond_apex(half_angle, radius, rho, z) {
+                    return norm(minus(p, apex));
+                }
                 (rho - radius) * libm::cos(half_angle) - z * libm::sin(half_angle)
             }
             Shape::Torus { center, direction, major_radius, minor_radius } => {
@@ -184,8 +187,11 @@ impl Shape {
                 plus(times(x, direction), times(y, [-direction[1], direction[0], 0.0]))
             }
             Shape::Sphere { center, .. } => minus(p, center),
-            Shape::Cone { point, direction, half_angle, .. } => {
+            Shape::Cone { apex, point, direction, half_angle, radius } => {
                 let out = across(p, point, direction);
+                if is_beyond_apex(half_angle, radius, norm(out), dot(minus(p, point), direction)) {
+                    return minus(p, apex);
+                }
                 let (sin, cos) = libm::sincos(half_angle);
                 minus(times(cos, out), times(sin * norm(out), direction))
             }
@@ -301,6 +307,13 @@ pub fn upon(w: Vector) -> [Vector; 3] {
 fn across(p: Point, point: Point, direction: Vector) -> Vector {
     let q = minus(p, point);
     minus(q, times(dot(q, direction), direction))
+}
+
+/// Whether the apex is the place of a cone nearest to what lies `rho` off the axis and `z` along it from where the radius is
+/// `radius`: the foot on the generator would lie beyond the apex.
+fn is_beyond_apex(half_angle: f64, radius: f64, rho: f64, z: f64) -> bool {
+    let (sin, cos) = libm::sincos(half_angle);
+    (rho * sin + z * cos) * sin + radius * cos * cos < 0.0
 }
 
 /// Distance from an axis, and coordinate along it.

@@ -3,7 +3,7 @@
 use super::flatten::{Flat, flatten};
 use super::rectangle::minimum_rectangle;
 use super::{BaseKind, SurfaceError};
-use super::{fold, upright};
+use super::{fold, pole, upright};
 use crate::fit::{self, FitError, Scatter};
 use crate::mesh::Mesh;
 use crate::progress::{Cancelled, Progress};
@@ -20,7 +20,8 @@ pub struct Base {
     /// vertices.
     pub origin: Point,
     /// Right-handed unit axes. Of a plane the sides of the rectangle and the normal; of a cylinder the third is its axis and the
-    /// first where its angle is 0; of a sphere the first points amid the points and the third to the pole; of a mesh those in which its
+    /// first where its angle is 0; of a sphere the third points to the pole, which with its opposite lies as far from the points as
+    /// can be, and the first about amid them; of a mesh those in which its
     /// vertices spread, most in the first.
     pub axes: [Vector; 3],
     /// Angle from the longer side of the minimum bounding rectangle to the first axis, in radians from −π/2 to π/2: 0 but of a plane whose
@@ -34,7 +35,7 @@ pub struct Base {
     /// Whether the points go around a cylinder, or around a sphere's axis, with no gap of more than a tenth of a radian: the
     /// surface then has a seam there.
     pub around: bool,
-    /// Whether points lie within ten degrees of a pole of the sphere: the parameters crowd there, and the surface is torn or creased.
+    /// Whether points lie within ten degrees of a pole of the sphere, whichever its axis: the parameters crowd there, and the surface is torn or creased.
     pub pole: bool,
     /// How the parameters run.
     course: Unrolling,
@@ -72,6 +73,16 @@ impl Base {
             BaseKind::Sphere => d,
         };
         unit(out).map_or(z, |(d, _)| d)
+    }
+
+    /// Whether the base is round along each parameter.
+    pub(super) fn round_directions(&self) -> [bool; 2] {
+        match (self.kind, self.course.turned) {
+            (BaseKind::Sphere, _) => [true, true],
+            (BaseKind::Cylinder, None) => [true, false],
+            (BaseKind::Cylinder, Some(_)) => [false, true],
+            _ => [false, false],
+        }
     }
 
     /// The place of the base with these parameters.
@@ -369,8 +380,8 @@ fn cylinder(points: &[Point], origin: Point, axis: Vector, radius: f64) -> (Base
 
 fn sphere(points: &[Point], center: Point, radius: f64) -> (Base, Vec<Seen>) {
     let middle = points.iter().fold([0.0; 3], |sum, p| plus(sum, minus(*p, center)));
-    let x = unit(middle).map_or([1.0, 0.0, 0.0], |(d, _)| d);
-    let z = across(x);
+    let z = pole::axis(points, center).unwrap_or([0.0, 0.0, 1.0]);
+    let x = unit(minus(middle, times(dot(middle, z), z))).map_or_else(|| across(z), |(d, _)| d);
     let axes = [x, cross(z, x), z];
     let local: Vec<Vector> =
         points.iter().map(|p| minus(*p, center)).map(|d| axes.map(|a| dot(d, a))).collect();

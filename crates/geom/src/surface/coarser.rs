@@ -31,7 +31,10 @@ pub(super) fn coarser(task: Task, mut found: SurfaceFit) -> Result<SurfaceFit, S
             // The parameters are those of nearest places on much the same surface.
             let (next, _) = task.over(found.base, found.feet.clone(), knots, 0)?;
             tries += 1;
-            if task.within(&next) && next.far_control_points <= found.far_control_points {
+            if task.within(&next)
+                && next.beyond_border.len() <= found.beyond_border.len()
+                && next.far_control_points <= found.far_control_points
+            {
                 let corrections = found.corrections;
                 found = SurfaceFit { reached: Some(Reached::Tolerance), corrections, ..next };
             } else {
@@ -47,7 +50,7 @@ fn missed(found: &SurfaceFit, tolerance: f64, gone: [Vec<f64>; 2], needed: &mut 
     let knots = found.surface.knots().each_ref().map(Knots::distinct);
     let mut any = false;
     let mut marks = gone.each_ref().map(|g| vec![false; g.len()]);
-    for (foot, _) in found.feet.iter().zip(&found.deviations).filter(|(_, d)| d.abs() > tolerance) {
+    for foot in found.counted().filter(|i| found.deviations[*i].abs() > tolerance).map(|i| found.feet[i]) {
         for k in 0..2 {
             let at = knots[k].partition_point(|x| *x <= foot[k]).clamp(1, knots[k].len() - 1);
             for (knot, mark) in gone[k].iter().zip(&mut marks[k]) {
@@ -79,7 +82,7 @@ fn spare(found: &SurfaceFit, tolerance: f64, dear: f64, needed: &[Vec<f64>; 2]) 
     let spans = knots.each_ref().map(Spans::new);
     let columns = spans[1].count();
     let mut left = vec![tolerance; spans[0].count() * columns];
-    for (foot, deviation) in found.feet.iter().zip(&found.deviations) {
+    for (foot, deviation) in found.counted().map(|i| (found.feet[i], found.deviations[i])) {
         let cell = spans[0].locate(foot[0]).0 * columns + spans[1].locate(foot[1]).0;
         left[cell] = left[cell].min(tolerance - deviation.abs());
     }

@@ -82,6 +82,8 @@ pub struct SurfaceFit {
     pub corrections: usize,
     /// Points that contradict their neighbors and had no part in the fit, in ascending order; none but of robust fits.
     pub left_out: Vec<u32>,
+    /// Points that lie beyond the border of the surface, in ascending order: their distance has a part along it and is no deviation.
+    pub beyond_border: Vec<u32>,
     /// Why no more knots were set; `None` without a tolerance.
     pub reached: Option<Reached>,
 }
@@ -91,6 +93,12 @@ impl SurfaceFit {
     pub fn kept(&self) -> impl Iterator<Item = usize> {
         let mut out = self.left_out.iter().map(|i| *i as usize).peekable();
         (0..self.deviations.len()).filter(move |i| out.next_if_eq(i).is_none())
+    }
+
+    /// Numbers of the points whose deviations count: of those it was fitted to, and not beyond its border.
+    pub fn counted(&self) -> impl Iterator<Item = usize> {
+        let mut out = self.beyond_border.iter().map(|i| *i as usize).peekable();
+        self.kept().filter(move |i| out.next_if_eq(i).is_none())
     }
 
     /// The outline of the places nearest to the points; see [`Outline::new`].

@@ -7,6 +7,7 @@
 //! | file | what |
 //! |---|---|
 //! | `base`, `rectangle`, `fold`, `upright` | parameters from a plane, a cylinder or a sphere; points that lie in layers over it, and the plane without |
+//! | `pole` | the axis of a sphere whose poles lie far from the points |
 //! | `flatten` | parameters from the facets of a mesh, laid flat |
 //! | `gram`, `stencil` | normal equations, summed cell by cell |
 //! | `energy` | the thin-plate term |
@@ -18,6 +19,7 @@
 //! | `tolerance` | the surface of few control points that keeps to a tolerance |
 //! | `refine`, `coarser`, `grain` | knots where they are needed, and only there; the direction in which the surface bends most |
 //! | `outline`, `raster`, `trimmed` | where the points end: the outline along which the surface is cut off, and facets within it |
+//! | `border` | points beyond the border, and the surface that reaches over them |
 //! | `crossing` | whether lines in the plane cross |
 //! | `feet`, `nearest` | nearest places of the points: near their parameters, and beyond doubt |
 //!
@@ -26,6 +28,7 @@
 //! Society B 66, 2004 (cross-validation with degrees of freedom counted 1.4 times).
 
 mod base;
+mod border;
 mod coarser;
 mod crossing;
 mod energy;
@@ -43,6 +46,7 @@ mod options;
 mod outliers;
 mod outline;
 mod pass;
+mod pole;
 mod raster;
 mod rectangle;
 mod refine;
@@ -211,6 +215,10 @@ fn over(
         [0, 1].map(|k| Knots::uniform(options.degree[k], spans[k], domain[k].0, domain[k].1))
     };
     let found = match &options.layout {
+        Layout::Auto => {
+            let knots = uniform(automatic_spans(&base, domain, points.len(), options));
+            pass::corrected(points, parameters, base, knots, options, progress)
+        }
         Layout::Spans(spans) => pass::corrected(points, parameters, base, uniform(*spans), options, progress),
         Layout::Knots(knots) => pass::corrected(points, parameters, base, knots.clone(), options, progress),
         Layout::Tolerance(t) => {
@@ -225,6 +233,25 @@ fn over(
         found.base.standing_share = upright::passed_by(points, |p| base.up(p), &found.surface, progress)?;
     }
     Ok(found)
+}
+
+/// Spans where none are asked for.
+const SPANS: usize = 8;
+/// Angle of a round base that one span takes at most: a cubic has the curvature of such an arc to half a percent.
+const TURN: f64 = std::f64::consts::PI / 12.0;
+/// Points to a control point that more spans than [`SPANS`] need.
+const POINTS_EACH: usize = 4;
+
+/// Spans that follow a round base, as far as there are points for them.
+fn automatic_spans(base: &Base, domain: [(f64, f64); 2], points: usize, options: &Options) -> [usize; 2] {
+    let Some(radius) = base.radius else { return [SPANS; 2] };
+    let along = base.round_directions();
+    let wanted = [0, 1].map(|k| {
+        let turns = if along[k] { (domain[k].1 - domain[k].0) / (radius * TURN) } else { 0.0 };
+        (turns.ceil() as usize).max(SPANS)
+    });
+    let count = |spans: [usize; 2]| (spans[0] + options.degree[0]) * (spans[1] + options.degree[1]);
+    if POINTS_EACH * count(wanted) <= points { wanted } else { [SPANS; 2] }
 }
 
 fn check(points: &[Point], options: &Options) -> Result<(), SurfaceError> {
@@ -254,7 +281,7 @@ fn check(points: &[Point], options: &Options) -> Result<(), SurfaceError> {
     let counts = match &options.layout {
         Layout::Spans(spans) => Some([0, 1].map(|k| spans[k].saturating_add(degrees[k]))),
         Layout::Knots(knots) => Some([knots[0].count(), knots[1].count()]),
-        Layout::Tolerance(_) => None,
+        Layout::Auto | Layout::Tolerance(_) => None,
     };
     if let Some(counts) = counts {
         solve::allowed(counts, degrees, options.memory)?;

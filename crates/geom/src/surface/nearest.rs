@@ -3,7 +3,7 @@
 //! The descents of parameter correction stop at any place where the distance stands still. For most points the surface's reach
 //! says that there is no nearer one ([`Patches::reach`](crate::spline::surface::Patches::reach)); for the others all of it is searched.
 
-use super::{SurfaceError, SurfaceFit};
+use super::{SurfaceError, SurfaceFit, border};
 use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress};
 use crate::space::Point;
@@ -13,7 +13,8 @@ use crate::spline::surface::{FootSearch, Nurbs, Surface};
 /// Points between two questions whether to stop.
 const CHUNK: usize = 256;
 
-/// The fit with true distances of the points that are `beyond`, by the distance that is known: the true one is no greater.
+/// The fit with true distances of the points that are `beyond`, by the distance that is known: the true one is no greater; and which points
+/// lie beyond the border.
 ///
 /// Cost: some microseconds for each of them whose foot is in doubt.
 pub(super) fn with_true_distances(
@@ -25,6 +26,7 @@ pub(super) fn with_true_distances(
     let asked = |i: &u32| fit.deviations[*i as usize].abs() > beyond;
     let (ask, keep): (Vec<u32>, Vec<u32>) = fit.doubtful.iter().copied().partition(asked);
     if ask.is_empty() {
+        fit.beyond_border = border::beyond(points, &fit);
         return Ok(fit);
     }
     let search = FootSearch::new(&untorn(&fit.surface), progress)?;
@@ -49,6 +51,7 @@ pub(super) fn with_true_distances(
         }
     }
     fit.unsettled = fit.doubtful.len() - asked_from;
+    fit.beyond_border = border::beyond(points, &fit);
     Ok(fit)
 }
 

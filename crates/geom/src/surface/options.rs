@@ -40,6 +40,8 @@ pub const HIGHEST_DEGREE: usize = 9;
 /// Where the knots come from.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Layout {
+    /// Eight equal spans along `u` and `v`; over a cylinder or a sphere one for each 15° of it, where that is more and the points allow it.
+    Auto,
     /// So many equal spans along `u` and `v`.
     Spans([usize; 2]),
     /// These knots. Their degrees count.
@@ -69,12 +71,26 @@ pub struct Options {
     pub base: BaseKind,
     /// The weight of the thin-plate term.
     pub fairness: Fairness,
-    /// How often the parameters are replaced by those of the nearest places at most. With [`BaseKind::Xy`] they never are.
+    /// How often the parameters are replaced by those of the nearest places at most. With [`BaseKind::Xy`] they never are. With them the ends
+    /// of the domain move outward as far as nearest places lie beyond, but those of given knots.
     pub corrections: usize,
     /// Whether points that contradict their neighbors are left out.
     pub robust: bool,
     /// Bytes that the matrix of the normal equations may take.
     pub memory: usize,
+}
+
+impl Options {
+    /// Corrections of the parameters at most, with what the base allows.
+    pub(super) fn corrections_made(&self) -> usize {
+        if self.base == BaseKind::Xy { 0 } else { self.corrections }
+    }
+
+    /// Whether the ends of the domain move outward to where the outermost points have their nearest places: as the parameters are
+    /// corrected, and over knots that are not given.
+    pub(super) fn ends_move(&self) -> bool {
+        self.corrections_made() > 0 && !matches!(self.layout, Layout::Knots(_))
+    }
 }
 
 impl Default for Options {

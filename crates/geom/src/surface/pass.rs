@@ -4,7 +4,7 @@ use super::feet::{Feet, Found, feet};
 use super::gram::Binned;
 use super::hold::Ground;
 use super::solve::Known;
-use super::{Base, BaseKind, Fairness, Options, SurfaceError, SurfaceFit, solve};
+use super::{Base, Fairness, Options, SurfaceError, SurfaceFit, border, solve};
 use crate::progress::Progress;
 use crate::space::{Aabb, Point, dot, plus, times};
 use crate::spline::basis::Knots;
@@ -26,10 +26,14 @@ pub(super) fn corrected(
     options: &Options,
     progress: &dyn Progress,
 ) -> Result<SurfaceFit, SurfaceError> {
-    let corrections = if options.base == BaseKind::Xy { 0 } else { options.corrections };
-    let mut best = once(points, parameters, base, &knots, None, options, progress)?;
+    let corrections = options.corrections_made();
+    // Ends of the domain are parameters as well.
+    let reaching =
+        |found: SurfaceFit| if options.ends_move() { border::reaching_over(points, found) } else { found };
+    let mut best = reaching(once(points, parameters, base, &knots, None, options, progress)?);
     let mut known = None;
     for n in 1..=corrections {
+        let knots = best.surface.knots().clone();
         let mut next = once(points, best.feet.clone(), base, &knots, known, options, progress)?;
         if let (None, Some(degrees_of_freedom)) = (known, best.degrees_of_freedom) {
             let fell = (rms(&next.deviations) / rms(&best.deviations)).min(1.0);
@@ -39,6 +43,7 @@ pub(super) fn corrected(
                 next = once(points, best.feet.clone(), base, &knots, held, options, progress)?;
             }
         }
+        next = reaching(next);
         // The weight of the thin plate settles with the first correction.
         known = next.degrees_of_freedom.map(|degrees_of_freedom| Known {
             fairness: next.fairness,
@@ -108,6 +113,7 @@ fn once(
         base,
         corrections: 0,
         left_out: vec![],
+        beyond_border: vec![],
         reached: None,
     })
 }

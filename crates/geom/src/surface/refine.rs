@@ -1,7 +1,7 @@
 //! Knots where a tolerance asks for them.
 
 use super::pass::{corrected, rms};
-use super::{Base, BaseKind, Options, Reached, SurfaceError, SurfaceFit, base, nearest, solve};
+use super::{Base, BaseKind, Options, Reached, SurfaceError, SurfaceFit, base, border, nearest, solve};
 use crate::progress::Progress;
 use crate::space::{Point, norm};
 use crate::spline::basis::Knots;
@@ -44,22 +44,26 @@ impl Task<'_> {
         corrections: usize,
     ) -> Result<(SurfaceFit, Vec<[f64; 2]>), SurfaceError> {
         let own = Options { corrections: self.options.corrections.min(corrections), ..self.options.clone() };
-        let local = corrected(self.points, parameters, base, knots, &own, self.progress)?;
+        let mut local = corrected(self.points, parameters, base, knots, &own, self.progress)?;
+        if self.options.ends_move() {
+            local = border::reaching_over(self.points, local);
+        }
         let feet = local.feet.clone();
         Ok((nearest::with_true_distances(self.points, local, self.tolerance, self.progress)?, feet))
     }
 
-    /// Whether all points are within the tolerance.
+    /// Whether all points that count are within the tolerance.
     pub(super) fn within(&self, found: &SurfaceFit) -> bool {
-        found.deviations.iter().all(|d| d.abs() <= self.tolerance)
+        found.counted().all(|i| found.deviations[i].abs() <= self.tolerance)
     }
 
-    /// Standard deviation of the points.
+    /// Standard deviation of the points that count.
     fn spread(&self, found: &SurfaceFit) -> f64 {
-        let count = self.points.len() as f64;
+        let counted: Vec<f64> = found.counted().map(|i| found.deviations[i]).collect();
+        let count = counted.len() as f64;
         let used = found.degrees_of_freedom.unwrap_or(found.support.control_points as f64);
         let free = count - used;
-        if free > 0.0 { rms(&found.deviations) * (count / free).sqrt() } else { f64::INFINITY }
+        if free > 0.0 { rms(&counted) * (count / free).sqrt() } else { f64::INFINITY }
     }
 }
 
@@ -104,6 +108,7 @@ impl<'a> Rounds<'a> {
         let Task { points, tolerance, options, .. } = self.task;
         let (found, feet) =
             self.task.over(self.base, self.parameters.clone(), self.knots.clone(), CORRECTIONS)?;
+        self.knots = found.surface.knots().clone();
         if self.task.within(&found) {
             return Ok(Round::Over(SurfaceFit { reached: Some(Reached::Tolerance), ..found }));
         }
@@ -184,7 +189,7 @@ fn finer(
     let mut sizes = vec![[0.0f64; 2]; farthest.len()];
     let patches = Patches::new(&found.surface);
     let mut held = [vec![0usize; spans[0].count()], vec![0usize; spans[1].count()]];
-    for (foot, deviation) in found.feet.iter().zip(&found.deviations) {
+    for (foot, deviation) in found.counted().map(|i| (&found.feet[i], found.deviations[i])) {
         let at = [0, 1].map(|k| spans[k].locate(foot[k]).0);
         (0..2).for_each(|k| held[k][at[k]] += 1);
         let cell = at[0] * spans[1].count() + at[1];

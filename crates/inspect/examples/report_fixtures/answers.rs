@@ -32,6 +32,7 @@ pub fn write_all(folder: &Path) {
         ("torn", torn()),
         ("block", super::clouds::cube(20.0)),
         ("pushed", pushed()),
+        ("pleats", pleats()),
     ] {
         written(folder, name, check_page(&mesh, &options));
     }
@@ -102,6 +103,21 @@ fn pushed() -> Mesh {
     // The top's two facets.
     mesh.faces.drain(2..4);
     mesh.faces.extend([[4, 5, tip], [5, 7, tip], [7, 6, tip], [6, 4, tip]]);
+    mesh
+}
+
+/// A box of 200 mm, and above it a tube of a thousand narrow folds.
+fn pleats() -> Mesh {
+    const FOLDS: u32 = 2000;
+    let mut mesh = super::clouds::cube(200.0);
+    let first = mesh.positions.len() as u32;
+    for i in 0..FOLDS {
+        let (s, c) = (f64::from(i) * std::f64::consts::TAU / f64::from(FOLDS)).sin_cos();
+        let r = if i % 2 == 0 { 25.0 } else { 24.8 };
+        mesh.positions.extend([[100.0 + r * c, 100.0 + r * s, 210.0], [100.0 + r * c, 100.0 + r * s, 280.0]]);
+        let [a, b] = [first + 2 * i, first + 2 * ((i + 1) % FOLDS)];
+        mesh.faces.extend([[a, b, b + 1], [a, b + 1, a + 1]]);
+    }
     mesh
 }
 

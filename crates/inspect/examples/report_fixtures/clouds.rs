@@ -66,7 +66,14 @@ pub fn page(points: &[Point], reference: &Mesh, tolerance: f64) -> Vec<u8> {
         record(Role::Measured, "points.xyz", points.len(), None),
         record(Role::Reference, "nominal.stl", reference.positions.len(), Some(reference.faces.len() as u64)),
     ];
-    let inputs = Inputs { files, kind: MeasuredKind::Points, scale: None, reverse: vec![] };
+    let inputs = Inputs {
+        files,
+        kind: MeasuredKind::Points,
+        scale: None,
+        reverse: vec![],
+        alignment: None,
+        doubts: vec![],
+    };
     let document = compare::document(&found, inputs, &options);
     let view = View::new("points.xyz", None, &references, &found);
     let (objects, marks) = (view.objects(), view.marks(&document));

@@ -145,6 +145,7 @@ fn result(number: usize, found: &[Found]) -> InspectDocument {
             not_measured: count(Verdict::NotMeasured),
         },
         verdict: worst.into_iter().find(|v| count(*v) > 0).unwrap(),
+        verdict_reasons: vec![],
         characteristics,
     }
 }
@@ -184,6 +185,7 @@ fn characteristic(f: &Found) -> CharacteristicRecord {
         witness: vec![],
         anchor: None,
         parts: Default::default(),
+        place: None,
         value_with_others: None,
         notes: vec![],
         standard: "ISO 1101:2017".into(),

@@ -3,6 +3,10 @@
 use super::kind::{Characteristic, Measuring, Question, Refusal, refuse};
 use super::orientation;
 use super::value::{Missing, Value};
+use crate::plan::Basic;
+
+/// What stands for an angle that only the model tells: neither along nor across.
+const NO_ANGLE: f64 = std::f64::consts::FRAC_PI_4;
 
 /// The width, with the sign ∅ the diameter, of the least zone at the theoretically exact angle `basic.angle` to the datum.
 #[derive(Debug)]
@@ -25,13 +29,18 @@ impl Characteristic for Angularity {
         orientation::of_cylinder(q, q.spec.basic.angle.unwrap_or(0.0))
     }
     fn check(&self, q: &Question) -> Result<(), Refusal> {
-        let Some(angle) = q.spec.basic.angle else {
-            return refuse("kind", "it needs the theoretically exact angle: basic = { angle = 60 }");
+        let angle = match q.spec.basic.angle {
+            Some(angle) => angle,
+            None if q.spec.basic_span.is_none() && q.is_of_model() => NO_ANGLE,
+            None => return refuse("kind", "it needs the theoretically exact angle: basic = { angle = 60 }"),
         };
         if q.spec.basic.place.iter().any(Option::is_some) {
             return refuse("basic", "it takes an angle, and a turn with a second datum");
         }
         orientation::check(q, angle)
+    }
+    fn exact(&self, model: &Measuring) -> Option<Result<Basic, Missing>> {
+        Some(orientation::exact(model))
     }
     fn measure(&self, m: &Measuring) -> Result<Value, Missing> {
         orientation::measure(m, m.spec.basic.angle.unwrap_or(0.0))

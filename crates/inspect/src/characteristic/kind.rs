@@ -49,6 +49,15 @@ pub trait Characteristic: Sync + Debug {
         let _ = (question, planar);
         false
     }
+    /// The theoretically exact dimensions of the feature that is asked about, where a plan gives such by `basic`; the features are those of
+    /// the model, and so are they then.
+    ///
+    /// # Errors
+    /// Why there are none.
+    fn exact(&self, model: &Measuring) -> Option<Result<Basic, Missing>> {
+        let _ = model;
+        None
+    }
     /// Refuses what could not be evaluated whatever the measured data are.
     ///
     /// # Errors
@@ -80,6 +89,8 @@ pub struct Spec {
     pub frame: Option<Rigid>,
     /// Theoretically exact dimensions.
     pub basic: Basic,
+    /// Where they stand in the plan; without, those of the model hold.
+    pub basic_span: Option<Range<usize>>,
     /// Whether the zone is a cylinder or sphere, where the plan says so.
     pub diametral: Option<bool>,
     /// Where the zone of a profile lies.
@@ -92,8 +103,12 @@ pub struct Spec {
     pub size: Option<SizeWord>,
     /// What is allowed.
     pub limits: Limits,
+    /// Where the tolerance or the nominal value stands in the plan.
+    pub limits_span: Range<usize>,
     /// The tolerance class that it comes from.
     pub class: Option<String>,
+    /// Where that stands in the plan.
+    pub class_span: Range<usize>,
     /// Whether a run-out is read along the datum axis.
     pub axial: bool,
     /// Which parameter of a texture.
@@ -161,6 +176,26 @@ pub(super) fn refuse<T>(key: &'static str, what: impl Into<String>) -> Result<T,
     Err(Refusal { key, what: what.into() })
 }
 
+/// What there is for a feature in place of a kind that is not defined for it.
+fn instead(word: &str, class: Class) -> &'static str {
+    match (word, class) {
+        ("roundness" | "flatness" | "straightness", Class::Cylinder) => {
+            "; of a cylinder there is cylindricity"
+        }
+        ("circular-runout", Class::Cylinder) => {
+            "; of a cylinder there is total-runout; a circle is one section, by `points` of its own"
+        }
+        ("circular-runout", Class::Plane) => "; of a plane there is total-runout",
+        ("cylindricity", Class::Circle) => "; of a circle there is roundness",
+        ("cylindricity" | "roundness", Class::Plane) => "; of a plane there is flatness",
+        ("total-runout", Class::Circle) => "; of a circle there is circular-runout",
+        ("size", Class::Plane) => "; of planes it is the size of two: feature = [\"A\", \"B\"]",
+        ("coaxiality", Class::Plane) => "; of a plane there is symmetry or position",
+        ("symmetry", Class::Cone) => "; of a cone there is coaxiality",
+        _ => "",
+    }
+}
+
 impl<'a> Question<'a> {
     /// The toleranced feature; several features are refused.
     pub(super) fn feature(&self) -> Result<&'a Feature, Refusal> {
@@ -178,7 +213,11 @@ impl<'a> Question<'a> {
         }
         let words: Vec<&str> = known.iter().map(|c| c.word()).collect();
         let (id, is) = (&self.feature()?.id, class.word());
-        refuse("feature", format!("feature \"{id}\" is a {is}; it is defined for: {}", words.join(", ")))
+        let instead = instead(self.spec.kind.word(), class);
+        refuse(
+            "feature",
+            format!("feature \"{id}\" is a {is}; it is defined for: {}{instead}", words.join(", ")),
+        )
     }
 
     /// Classes of the datums; of a common datum, that of its features.
@@ -198,6 +237,14 @@ impl<'a> Question<'a> {
             None => refuse("kind", "it needs a datum: give `datums`"),
             Some(first) => Ok(*first),
         }
+    }
+
+    /// Whether the model says where the toleranced feature and all datums are.
+    pub(super) fn is_of_model(&self) -> bool {
+        let written = |n: &usize| {
+            matches!(self.features[*n].source, Source::Derived { .. }) || self.features[*n].has_nominal()
+        };
+        self.spec.numbers(self.features).iter().all(written)
     }
 
     /// The only datum, one of these.

@@ -7,11 +7,11 @@ use crate::plan::Class;
 use trueness_geom::fit::Method;
 use trueness_geom::rigid::Rigid;
 use trueness_geom::shape::Kind;
-use trueness_geom::space::minus;
+use trueness_geom::space::{dot, minus, times};
 use trueness_geom::zone::datum::{Datum, DatumError, Freedom, Rule, Source, System, mean};
 
 /// The frame in which true places are given, and what it leaves free: that of the datums, or the one that the plan gives.
-pub(super) fn frame(m: &Measuring) -> Result<(Rigid, Freedom), Missing> {
+pub(crate) fn frame(m: &Measuring) -> Result<(Rigid, Freedom), Missing> {
     match m.spec.frame {
         Some(frame) => Ok((frame, Freedom::NONE)),
         None => system(m).map(|s| (s.frame, s.free)),
@@ -49,7 +49,9 @@ pub(super) fn system(m: &Measuring) -> Result<System, Missing> {
         let features = datum.iter().map(|f| datum_source(f, m.feature()));
         sources.push(features.collect::<Result<_, _>>()?);
     }
-    System::associated(&sources, m.spec.datum_rule, m.progress).map_err(|e| match (e.into(), e) {
+    let associated =
+        System::associated(&sources, m.spec.datum_rule, m.progress).and_then(|system| faced(m, system));
+    associated.map_err(|e| match (e.into(), e) {
         (Missing::NotMeasured(what), DatumError::Across { .. } | DatumError::Oblique { .. })
             if m.spec.kind.keys().contains(&"frame") =>
         {
@@ -57,6 +59,19 @@ pub(super) fn system(m: &Measuring) -> Result<System, Missing> {
         }
         (missing, _) => missing,
     })
+}
+
+/// The system whose first axis goes the way that the model's does: an axis has no sense of its own.
+fn faced(m: &Measuring, system: System) -> Result<System, DatumError> {
+    let nominal = m.datums.first().and_then(|d| d.first()?.nominal.as_ref()?.direction());
+    match (system.datums.first(), nominal) {
+        (Some(Datum::Axis { point, direction }), Some(nominal)) if dot(*direction, nominal) < 0.0 => {
+            let mut datums = system.datums.clone();
+            datums[0] = Datum::Axis { point: *point, direction: times(-1.0, *direction) };
+            System::of(&datums)
+        }
+        _ => Ok(system),
+    }
 }
 
 /// What to write where datums that a drawing has make no system here.

@@ -9,6 +9,7 @@ mod circular_runout;
 mod coaxiality;
 mod cylindricity;
 mod distance;
+mod exact;
 mod flatness;
 pub(crate) mod kind;
 mod line_profile;
@@ -29,12 +30,13 @@ mod texture;
 mod total_runout;
 mod value;
 
+pub(crate) use exact::nearest;
 pub use kind::{Allowed, Characteristic, Measuring, Question, Refusal};
-pub(crate) use located::datum_source;
+pub(crate) use located::{datum_source, frame};
 pub use size::Size;
 pub use taken::{Element, LeftOut, Others, Taken};
 pub use texture::Texture;
-pub use value::{Missing, Value};
+pub use value::{FrameOf, Missing, Place, Value};
 
 /// All of them, in the order of ISO 1101, then dimensions, then texture.
 pub static ALL: [&dyn Characteristic; 18] = [

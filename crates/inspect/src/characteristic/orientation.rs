@@ -10,7 +10,7 @@ use super::kind::{Measuring, Question, Refusal, is_axis, refuse};
 use super::located::system;
 use super::material::{Axis, oriented};
 use super::value::{Missing, Value};
-use crate::plan::Class;
+use crate::plan::{Basic, Class};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use trueness_geom::rigid::Rigid;
 use trueness_geom::space::{Vector, dot, least_axis, minus, plus, times};
@@ -75,11 +75,7 @@ pub(super) fn check(q: &Question, angle: f64) -> Result<(), Refusal> {
 pub(super) fn measure(m: &Measuring, angle: f64) -> Result<Value, Missing> {
     let feature = m.feature();
     let system = system(m)?;
-    let (datum_class, direction) = match system.datums.first() {
-        Some(Datum::Plane { normal, .. }) => (Class::Plane, *normal),
-        Some(Datum::Axis { direction, .. }) => (Class::Line, *direction),
-        _ => return Err(Missing::Impossible("the datum gives no direction".into())),
-    };
+    let (datum_class, direction) = first_direction(&system)?;
     let points = feature.zoned()?;
     let mut value = Value::default();
     if feature.class == Class::Plane || !diametral(m.spec.diametral, angle, datum_class) {
@@ -109,6 +105,39 @@ pub(super) fn measure(m: &Measuring, angle: f64) -> Result<Value, Missing> {
     value.witness = zone.touching.iter().map(|i| points[*i]).collect();
     value.value = zone.diameter;
     Ok(value)
+}
+
+/// The angle of a feature to its first datum, and about that from the direction of the second.
+pub(super) fn exact(m: &Measuring) -> Result<Basic, Missing> {
+    let system = system(m)?;
+    let (datum_class, direction) = first_direction(&system)?;
+    let feature = m.feature();
+    let own = feature.direction()?;
+    let between = snapped(trueness_geom::shape::derived::angle(own, direction));
+    let is_alike = (datum_class == Class::Plane) == (feature.class == Class::Plane);
+    let mut basic =
+        Basic { angle: Some(if is_alike { between } else { complement(between) }), ..Basic::default() };
+    if m.datums.len() > 1 && !system.free.turn[2] {
+        let [x, y, _] = system.frame.rotation();
+        basic.turn = Some(snapped(libm::atan2(dot(own, y).abs(), dot(own, x).abs())));
+    }
+    Ok(basic)
+}
+
+/// Along and across are meant exactly, whatever single precision has left of them in a file.
+fn snapped(angle: f64) -> f64 {
+    [0.0, FRAC_PI_2].into_iter().find(|exact| (angle - exact).abs() < AS_FILED).unwrap_or(angle)
+}
+
+/// Angle, radians, that single precision leaves of a direction in a file.
+const AS_FILED: f64 = 1e-6;
+
+fn first_direction(system: &System) -> Result<(Class, Vector), Missing> {
+    match system.datums.first() {
+        Some(Datum::Plane { normal, .. }) => Ok((Class::Plane, *normal)),
+        Some(Datum::Axis { direction, .. }) => Ok((Class::Line, *direction)),
+        _ => Err(Missing::Impossible("the datum gives no direction".into())),
+    }
 }
 
 /// The value by the surface with a material requirement: of a cylinder along `fixed`, or where that is open, one that stands

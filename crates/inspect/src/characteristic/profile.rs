@@ -1,5 +1,6 @@
 //! What the profiles of a line and of a surface have in common: the zone about a theoretically exact geometry.
 
+use super::exact::beside_nominal;
 use super::kind::{Measuring, Question, Refusal, refuse};
 use super::located::frame;
 use super::value::{Missing, Value};
@@ -53,6 +54,7 @@ pub(super) fn value(m: &Measuring, found: &Placed, at: impl Fn(usize) -> usize) 
         value: 2.0 * found.half,
         witness: vec![points[at(found.max.1)], points[at(found.min.1)]],
         parts: vec![("max", found.max.0), ("min", found.min.0)],
+        place: beside_nominal(m),
         ..Value::default()
     })
 }

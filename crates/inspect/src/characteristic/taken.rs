@@ -33,6 +33,8 @@ pub struct Taken {
     pub outward: Option<Vector>,
     /// Of a cylinder, cone or sphere, whether the material is around it, where the plan says so.
     pub internal: Option<bool>,
+    /// The same, where the reference says so too.
+    pub inward: Option<bool>,
     /// As the model has it.
     pub nominal: Option<Nominal>,
     /// Share of the nominal area that was measured.

@@ -1,6 +1,7 @@
 //! What was measured of a characteristic, or why nothing was.
 
 use trueness_geom::fit::FitError;
+use trueness_geom::rigid::Rigid;
 use trueness_geom::space::Point;
 use trueness_geom::zone::ZoneError;
 use trueness_geom::zone::datum::DatumError;
@@ -16,8 +17,34 @@ pub struct Value {
     pub witness: Vec<Point>,
     /// Further numbers, by name.
     pub parts: Vec<(&'static str, f64)>,
+    /// Where the feature lies in the frame that its true place is given in.
+    pub place: Option<Place>,
     /// What the reader should know.
     pub notes: Vec<String>,
+}
+
+/// Where a feature was measured, beside its true place. Millimeters.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Place {
+    /// Takes the coordinates of the aligned data to those of the frame, with the motions that its datums leave free.
+    pub frame: Rigid,
+    /// What the frame comes from.
+    pub of: FrameOf,
+    /// The measured place: the middle of the feature's axis or points, or its center.
+    pub measured: Point,
+    /// The true place; the coordinates that place nothing are `None`.
+    pub exact: [Option<f64>; 3],
+}
+
+/// What a frame comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FrameOf {
+    /// The datums of the characteristic.
+    Datums,
+    /// Numbers of the plan.
+    Plan,
+    /// The coordinates of the aligned data.
+    Aligned,
 }
 
 /// Why there is no value.

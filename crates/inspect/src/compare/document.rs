@@ -1,14 +1,16 @@
 //! From what was found to the result document.
 
+use super::judgement::{Grounds, judge};
 use super::reference::{Compared, WorstPlace};
 use super::research::research;
 use super::{
-    AlongRule, Comparisons, Excluded, Facing, MapSurface, Options, Outliers, RegionFound, plausibility,
+    AlongRule, Comparisons, Covered, Excluded, Extreme, Facing, Options, Outliers, RegionFound, plausibility,
 };
 use crate::file_numbers::LeftOut;
+use crate::results::align::{AlignNoteKind, AlignedTo};
 use crate::results::check::Defects;
 use crate::results::compare::*;
-use crate::results::{InputRecord, UNITS, VERSION, Verdict, Word, worst as worst_of};
+use crate::results::{InputRecord, UNITS, VERSION, Verdict, VerdictReason, Word, worst as worst_of};
 use crate::scale::Scale;
 use std::collections::BTreeMap;
 use trueness_geom::check::{DefectKind, Found, NOT_FINITE_FACETS};
@@ -31,6 +33,10 @@ pub struct Inputs {
     pub scale: Option<Scale>,
     /// One entry a reference where both directions were asked for.
     pub reverse: Vec<Option<Reverse>>,
+    /// How the measured was brought to the first reference.
+    pub alignment: Option<AlignedTo>,
+    /// What makes an alignment unreliable that the document does not have.
+    pub doubts: Vec<AlignNoteKind>,
 }
 
 /// Makes the document.
@@ -60,13 +66,20 @@ pub fn document(found: &Comparisons, inputs: Inputs, options: &Options) -> Compa
             c.warnings = plausibility::warnings(measured, reference, "--units, --reference-units");
         }
     }
+    let of_alignment = inputs.alignment.iter().flat_map(AlignedTo::doubts);
+    let doubts: Vec<AlignNoteKind> = of_alignment.chain(inputs.doubts).collect();
+    for (n, c) in comparisons.iter_mut().enumerate() {
+        let (reference, measured) = (files.get(n + 1), Bounds::of(&found.bounds));
+        judge(c, &Grounds { doubts: &doubts, reference, measured: measured.as_ref() }, options);
+    }
+    let verdict = worst_of(comparisons.iter().filter_map(|c| c.verdict));
     CompareDocument {
         schema: SCHEMA.into(),
         version: VERSION.into(),
         units: UNITS.into(),
         inputs: files,
         measured: Measured { kind: Word(inputs.kind), count: found.count, bounds: Bounds::of(&found.bounds) },
-        alignment: None,
+        alignment: inputs.alignment,
         method: Word(options.method),
         sign: overall_sign(&comparisons, options),
         max_distance: Some(options.surface.max_distance).filter(|d| d.is_finite()),
@@ -74,7 +87,8 @@ pub fn document(found: &Comparisons, inputs: Inputs, options: &Options) -> Compa
         facing: options.facing.as_ref().map(Facing::angle),
         paired: found.paired.iter().map(|(a, b, p)| paired(*a, *b, p)).collect(),
         scale: inputs.scale.unwrap_or_else(|| scale(found, options)),
-        verdict: worst_of(comparisons.iter().filter_map(|c| c.verdict)),
+        verdict,
+        verdict_reasons: reasons(&comparisons, verdict),
         comparisons,
         sampling: None,
         seed: options.seed,
@@ -105,11 +119,15 @@ fn comparison(
         deviation: BySide::of(&c.summary),
         excluded: c.excluded.iter().map(|(e, n)| (e.name().to_string(), *n)).collect::<BTreeMap<_, _>>(),
         outliers: c.outliers.map(|o| outliers(&o, c)),
-        coverage: c.map.as_ref().map(|map| coverage(map, c.between)),
-        verdict: verdict(tolerance.as_ref(), &regions),
+        coverage: c.covered.as_ref().map(|found| coverage(found, c.between, options)),
+        verdict: None,
+        verdict_reasons: vec![],
+        others_verdict: None,
         tolerance,
         regions,
         histogram: c.histogram.as_ref().map(Histogram::of),
+        lowest: c.extremes.lowest.map(extreme),
+        highest: c.extremes.highest.map(extreme),
         worst: c.worst.iter().map(|w| worst(w, &c.regions)).collect(),
         reverse,
         paper_vs_exact: c.paper_vs_exact.as_ref().map(paper_vs_exact),
@@ -139,13 +157,26 @@ fn outliers(found: &Outliers, c: &Compared) -> OutliersRecord {
     }
 }
 
-fn coverage(map: &MapSurface, between: u64) -> CoverageRecord {
-    let share = (map.area > 0.0).then(|| map.uncovered / map.area);
+/// The reasons of the comparisons that have the verdict, each once.
+fn reasons(comparisons: &[Comparison], verdict: Option<Verdict>) -> Vec<VerdictReason> {
+    let mut all: Vec<VerdictReason> = vec![];
+    for reason in comparisons.iter().filter(|c| c.verdict == verdict).flat_map(|c| &c.verdict_reasons) {
+        if !all.contains(reason) {
+            all.push(reason.clone());
+        }
+    }
+    all
+}
+
+fn coverage(map: &Covered, between: u64, options: &Options) -> CoverageRecord {
+    // Sums of many areas: rounding may carry one beyond the other.
+    let share = (map.area > 0.0).then(|| (map.uncovered / map.area).clamp(0.0, 1.0));
     CoverageRecord {
         area: map.area,
         uncovered: map.uncovered,
         uncovered_share: share,
         uncovered_share_reason: share.is_none().then(|| "the reference has no area".into()),
+        required: options.judges().then_some(options.min_coverage),
         reach: map.reach,
         spacing: map.spacing,
         between,
@@ -246,28 +277,18 @@ fn shares(limits: &Limits, required: f64) -> ToleranceShares {
     }
 }
 
-/// What all say together: the worst of them. Where all points are of regions, the others have nothing to say.
-fn verdict(others: Option<&ToleranceShares>, regions: &[RegionRecord]) -> Option<Verdict> {
-    let others = others.filter(|t| regions.is_empty() || t.inside.is_some()).map(judged);
-    worst_of(others.into_iter().chain(regions.iter().map(|r| r.verdict)))
-}
-
-fn judged(t: &ToleranceShares) -> Verdict {
-    match t.inside {
-        None => Verdict::NotMeasured,
-        Some(share) if share >= t.required => Verdict::Pass,
-        Some(_) => Verdict::Fail,
-    }
-}
-
 fn region(found: &RegionFound) -> RegionRecord {
     let tolerance = shares(&found.limits, found.rule.required_share);
     RegionRecord {
         id: found.rule.id.clone(),
         deviation: Statistics::of(&found.summary.all, found.summary.quantile_error),
-        verdict: judged(&tolerance),
+        verdict: Verdict::NotMeasured,
         tolerance,
     }
+}
+
+fn extreme(e: Extreme) -> ExtremeRecord {
+    ExtremeRecord { index: e.index, point: e.point, deviation: e.deviation }
 }
 
 fn worst(w: &WorstPlace, regions: &[RegionFound]) -> Worst {

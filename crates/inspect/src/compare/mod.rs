@@ -2,10 +2,13 @@
 
 mod against;
 mod along;
+mod covered;
 mod document;
 mod excluded;
+mod extremes;
 mod facing;
 mod found;
+mod judgement;
 mod map;
 mod options;
 mod outliers;
@@ -21,12 +24,15 @@ mod worst;
 
 pub use against::{Reference, ReferenceError};
 pub use along::{AlongRule, Lines};
+pub use covered::Covered;
 pub use document::{Inputs, document};
 pub use excluded::Excluded;
+pub use extremes::{Extreme, Extremes};
 pub use facing::{Facing, facet_normals, vertex_normals};
 pub use found::Comparisons;
+pub(crate) use judgement::{incomplete, unreliable_alignment};
 pub use map::{Between, MapSurface, PlaceMeans};
-pub use options::{Coverage, Method, Options};
+pub use options::{Coverage, MIN_COVERAGE, Method, Options};
 pub use outliers::{NoLimits, OutlierLimits, OutlierRule};
 pub use reference::{Compared, Outliers, RegionFound, Values, WorstPlace};
 pub(crate) use region::far_seed;
@@ -116,6 +122,9 @@ pub fn run<S: PointStream + ?Sized, K>(
     let mut running = vec![];
     for (r, tree) in references.iter().zip(&trees) {
         running.push(Running::new(r, tree.as_ref(), options, keep, progress).map_err(|e| refused(r, e))?);
+    }
+    if let Some(points) = measured.expected() {
+        running.iter_mut().for_each(|r| r.expects(points));
     }
     let mut paired = vec![];
     for second in 1..references.len() {

@@ -56,6 +56,12 @@ impl FromStr for Coverage {
     }
 }
 
+/// Share of a reference that a scan of the whole part covers at least, where nothing else is said. Scans
+/// that are taken for whole ones cover 96 to 100 %, what shows a part from one side covers about half.
+pub const MIN_COVERAGE: f64 = 0.9;
+/// Places of each sign that a result names unless more are asked for: as many as flags beside a part can be read.
+const WORST: usize = 3;
+
 /// What is asked.
 #[derive(Clone, Debug)]
 pub struct Options {
@@ -69,8 +75,10 @@ pub struct Options {
     pub facing: Option<Facing>,
     /// Which points are outliers; none without a rule.
     pub outliers: Option<OutlierRule>,
-    /// Which part of the references the points cover; with a report it is looked for in any case.
+    /// Which part of the references the points cover; with a report and where a verdict is asked for it is looked for in any case.
     pub coverage: Option<Coverage>,
+    /// Share of each reference that the points must cover for a pass (0 to 1); 0 where a part of it is measured on purpose.
+    pub min_coverage: f64,
     /// Places of a measured mesh between its vertices, for the maps; the normals of [`Facing`] and [`Lines`], where there are such, are
     /// those of the points and then those of these.
     pub between: Between,
@@ -84,6 +92,8 @@ pub struct Options {
     pub required_share: f64,
     /// Points that a report can show; 0 without a report.
     pub shown: usize,
+    /// Worst places that the result names, at most so many above the reference and so many below.
+    pub worst: usize,
     /// Deviations kept in memory for exact percentiles, of all references together; beyond, percentiles come from
     /// a sketch with a stated error.
     pub kept_values: usize,
@@ -91,6 +101,18 @@ pub struct Options {
     pub research: bool,
     /// Seed of everything random.
     pub seed: u64,
+}
+
+impl Options {
+    /// Whether a verdict is asked for.
+    pub fn judges(&self) -> bool {
+        self.tolerance.is_some() || !self.regions.is_empty()
+    }
+
+    /// Whether it is told what the points cover.
+    pub fn tells_coverage(&self) -> bool {
+        self.judges() || self.coverage.is_some() || self.shown > 0
+    }
 }
 
 impl Default for Options {
@@ -102,12 +124,14 @@ impl Default for Options {
             facing: None,
             outliers: None,
             coverage: None,
+            min_coverage: MIN_COVERAGE,
             between: Between::default(),
             places: false,
             regions: vec![],
             tolerance: None,
             required_share: 1.0,
             shown: 0,
+            worst: WORST,
             kept_values: 1 << 27,
             research: false,
             seed: 0,

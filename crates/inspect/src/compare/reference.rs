@@ -2,7 +2,9 @@
 
 use super::against::{Reference, ReferenceError};
 use super::along::{AlongRule, Lines};
+use super::covered::{CoverageSample, Covered};
 use super::excluded::Excluded;
+use super::extremes::Extremes;
 use super::facing::Facing;
 use super::map::{Flagged, Foot, MapSurface, PlaceMeans, PointMap};
 use super::options::{Coverage, Method, Options};
@@ -51,14 +53,18 @@ pub struct Compared {
     pub excluded: Vec<(Excluded, u64)>,
     /// What the rule for outliers gave, where there is one.
     pub outliers: Option<Outliers>,
+    /// The lowest and the highest deviation.
+    pub extremes: Extremes,
     /// The worst places of both signs, the farthest beyond the tolerance first, without one the greatest.
     pub worst: Vec<WorstPlace>,
     /// The paper's method beside the exact distance.
     pub paper_vs_exact: Option<Differences>,
     /// Of B-spline surfaces.
     pub splines: Option<SplinesFound>,
-    /// The reference colored by the points near each place, for a report and for what is not covered.
+    /// The reference colored by the points near each place, for a report.
     pub map: Option<MapSurface>,
+    /// What of the reference the points cover, where it is asked.
+    pub covered: Option<Covered>,
     /// Places between the vertices of the measured mesh that count in the map.
     pub between: u64,
     /// Mean deviations at places that are the same for every part, where they are asked for.
@@ -132,9 +138,6 @@ pub enum Values {
     Many(Box<Accumulator>),
 }
 
-/// Places of each sign that a result names.
-const WORST: usize = 3;
-
 /// A comparison under way.
 pub struct Running<'a> {
     mesh: &'a Mesh,
@@ -151,9 +154,13 @@ pub struct Running<'a> {
     coverage: Coverage,
     regions: Option<Regions>,
     tallies: Vec<Tally>,
+    extremes: Extremes,
     worst: WorstPlaces,
+    /// Places of each sign that the result names.
+    named: usize,
     paper: Option<(Paper, Differences)>,
     map: Option<PointMap>,
+    sample: Option<CoverageSample>,
     between: u64,
 }
 
@@ -195,16 +202,24 @@ impl<'a> Running<'a> {
             facing: options.facing.clone(),
             outliers: None,
             coverage: options.coverage.unwrap_or_default(),
+            extremes: Extremes::default(),
             worst: WorstPlaces::new(&mesh.bounds()),
+            named: options.worst,
             paper,
             map: (options.shown > 0 || options.coverage.is_some() || options.places).then(|| {
                 PointMap::new(mesh, options.tolerance.filter(|_| regions.is_none()), options.places)
             }),
+            sample: options.tells_coverage().then(CoverageSample::default),
             between: 0,
             regions,
             mesh,
             left_out: reference.left_out.0.to_vec(),
         })
+    }
+
+    /// So many points will come.
+    pub fn expects(&mut self, points: u64) {
+        self.sample.iter_mut().for_each(|sample| sample.expects(points));
     }
 
     /// Measures the next block, whose first point has number `start`; nothing is counted yet.
@@ -215,7 +230,8 @@ impl<'a> Running<'a> {
         progress: &dyn Progress,
     ) -> Result<Taken, PaperError> {
         let (map, regions) = (self.map.as_ref().map(|map| (map, self.mesh)), self.regions.as_ref());
-        let asked = Asked { start, map, facing: self.facing.as_ref(), regions };
+        let sample = self.sample.as_ref();
+        let asked = Asked { start, map, sample, facing: self.facing.as_ref(), regions };
         let Measures { mut deviations, feet, regions, uncertain } =
             self.target.measure(points, &asked, progress)?;
         if let Some(splines) = &mut self.splines {
@@ -265,11 +281,13 @@ impl<'a> Running<'a> {
             tally.limits.push(&own);
             tally.values.push(&own, self.keep);
         }
-        if let Some(map) = &mut self.map {
-            for (foot, deviation) in taken.feet.iter().zip(deviations) {
-                if let Some(foot) = foot.filter(|_| deviation.is_finite()) {
-                    map.add(foot, *deviation);
-                }
+        for ((foot, deviation), index) in taken.feet.iter().zip(deviations).zip(start..) {
+            let Some(foot) = foot.filter(|_| deviation.is_finite()) else { continue };
+            if let Some(map) = &mut self.map {
+                map.add(foot, *deviation);
+            }
+            if let Some(sample) = &mut self.sample {
+                sample.add(index, foot);
             }
         }
         let judged = |i: usize| match (&self.regions, taken.regions.get(i)) {
@@ -281,6 +299,7 @@ impl<'a> Running<'a> {
             _ => (deviations[i].abs(), 0),
         };
         self.worst.add(start, points, deviations, judged);
+        self.extremes.add(start, points, deviations);
         self.values.push(deviations, self.keep);
         measured
     }
@@ -293,17 +312,25 @@ impl<'a> Running<'a> {
         places: &[Point],
         progress: &dyn Progress,
     ) -> Result<(), PaperError> {
-        let Some(map) = self.map.as_ref().filter(|_| self.paper.is_none() && !places.is_empty()) else {
+        let asked_for = self.map.is_some() || self.sample.is_some();
+        if !asked_for || self.paper.is_some() || places.is_empty() {
             return Ok(());
-        };
-        let asked = Asked { start, map: Some((map, self.mesh)), facing: self.facing.as_ref(), regions: None };
+        }
+        let map = self.map.as_ref().map(|map| (map, self.mesh));
+        // All of them: they are few.
+        let all = CoverageSample::default();
+        let asked = Asked { start, map, sample: Some(&all), facing: self.facing.as_ref(), regions: None };
         let found = self.target.measure(places, &asked, progress)?;
         for (foot, deviation) in found.feet.into_iter().zip(found.deviations) {
             let deviation = self.judged(deviation);
-            if let (Some(map), Some(foot)) = (&mut self.map, foot.filter(|_| deviation.is_finite())) {
+            let Some(foot) = foot.filter(|_| deviation.is_finite()) else { continue };
+            if let Some(map) = &mut self.map {
                 map.add(foot, deviation);
-                self.between += 1;
             }
+            if let Some(sample) = &mut self.sample {
+                sample.add_between(foot);
+            }
+            self.between += 1;
         }
         Ok(())
     }
@@ -321,7 +348,7 @@ impl<'a> Running<'a> {
 
     /// The places that the result will name.
     pub fn worst_places(&self) -> Vec<WorstPoint> {
-        let mut places: Vec<WorstPoint> = self.worst.pick(WORST).into_iter().flatten().collect();
+        let mut places: Vec<WorstPoint> = self.worst.pick(self.named).into_iter().flatten().collect();
         match self.regions {
             Some(_) => places.sort_by(|a, b| b.badness.total_cmp(&a.badness).then(a.index.cmp(&b.index))),
             None => sort(&mut places, self.limits.as_ref().map(|l| [l.lower, l.upper])),
@@ -332,7 +359,13 @@ impl<'a> Running<'a> {
     /// Deviations of points that have been counted already.
     pub fn again(&self, places: &[WorstPoint]) -> Result<Vec<f64>, PaperError> {
         let one = |place: &WorstPoint| {
-            let asked = Asked { start: place.index, map: None, facing: self.facing.as_ref(), regions: None };
+            let asked = Asked {
+                start: place.index,
+                map: None,
+                sample: None,
+                facing: self.facing.as_ref(),
+                regions: None,
+            };
             let points = [place.point];
             let mut deviation = self.target.measure(&points, &asked, &Silent)?.deviations[0];
             if let Some((paper, _)) = self.paper.as_ref().filter(|_| deviation.is_finite()) {
@@ -354,6 +387,11 @@ impl<'a> Running<'a> {
         let mut map = self.map;
         let places = map.as_mut().and_then(PointMap::take_places);
         let map = map.map(|map| MapSurface::of(self.mesh, &map, &flagged, self.coverage));
+        let covered = self.sample.map(|sample| match &map {
+            // The same surface.
+            Some(map) if sample.is_whole() => Covered::of(map),
+            _ => Covered::of(&sample.surface(self.mesh, &flagged, self.coverage)),
+        });
         Ok(Compared {
             places: places.zip(map.as_ref()).map(|(places, map)| places.means(map.carried)),
             diagonal: self.mesh.bounds().diagonal(),
@@ -365,6 +403,7 @@ impl<'a> Running<'a> {
             precondition: self.target.precondition().clone(),
             left_out: self.left_out,
             summary,
+            extremes: self.extremes,
             worst,
             regions: (self.regions.iter().flat_map(Regions::rules).zip(self.tallies))
                 .map(|(rule, tally)| RegionFound {
@@ -389,6 +428,7 @@ impl<'a> Running<'a> {
             paper_vs_exact: self.paper.map(|(_, versus)| versus),
             splines: self.splines,
             between: self.between,
+            covered,
             map,
         })
     }

@@ -62,7 +62,7 @@ fn retain<T>(list: &mut Vec<T>, keep: &[bool]) {
 }
 
 /// The mixing step of SplitMix64 (Steele, Lea & Flood 2014): a bijection whose low bits depend on all of its argument.
-fn scramble(index: u64) -> u64 {
+pub(super) fn scramble(index: u64) -> u64 {
     let z = index.wrapping_add(0x9E37_79B9_7F4A_7C15);
     let z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
     let z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);

@@ -2,6 +2,7 @@
 
 use super::against::{Reference, ReferenceError};
 use super::along::{AlongRule, Lines};
+use super::covered::CoverageSample;
 use super::excluded::Excluded;
 use super::facing::{Facing, facet_normal};
 use super::map::{Foot, PointMap};
@@ -53,6 +54,8 @@ pub struct Asked<'a> {
     pub start: u64,
     /// Where nearest places are looked up, and the facets they lie on.
     pub map: Option<(&'a PointMap, &'a Mesh)>,
+    /// The sample that tells what is covered.
+    pub sample: Option<&'a CoverageSample>,
     /// Only points that look the same way count.
     pub facing: Option<&'a Facing>,
     /// Parts of the reference that are told apart.
@@ -62,13 +65,31 @@ pub struct Asked<'a> {
 impl Asked<'_> {
     /// Whether no more is asked than distances.
     fn only_distances(&self) -> bool {
-        self.map.is_none() && self.facing.is_none() && self.regions.is_none()
+        self.map.is_none() && self.sample.is_none() && self.facing.is_none() && self.regions.is_none()
     }
 
-    /// What is kept of a point with this deviation and place on the reference.
-    fn kept(&self, deviation: f64, face: u32, weights: [f64; 3], place: &Point) -> Kept {
+    /// Whether the place of point `i` of these on the reference matters.
+    fn needs_place(&self, i: usize) -> bool {
+        self.map.is_some() || self.facing.is_some() || self.regions.is_some() || self.samples(i)
+    }
+
+    /// Whether the sample asks for point `i` of these.
+    fn samples(&self, i: usize) -> bool {
+        self.sample.is_some_and(|s| s.wants(self.start + i as u64))
+    }
+
+    /// The place of point `i` on the reference, as map and sample need it.
+    fn foot(&self, i: usize, face: u32, weights: [f64; 3]) -> Option<Foot> {
+        match self.map {
+            Some((map, mesh)) => Some(map.foot(mesh, face, weights)),
+            None => self.samples(i).then(|| Foot::on_facet(face, weights)),
+        }
+    }
+
+    /// What is kept of point `i` with this deviation and place on the reference.
+    fn kept(&self, i: usize, deviation: f64, face: u32, weights: [f64; 3], place: &Point) -> Kept {
         let region = self.regions.map_or(0, |r| r.of(face, place));
-        (deviation, self.map.map(|(map, mesh)| map.foot(mesh, face, weights)), region)
+        (deviation, self.foot(i, face, weights), region)
     }
 
     /// Whether point `i` of these may count beside a place of the reference with this normal.
@@ -172,7 +193,7 @@ impl<'a> Target<'a> {
                         if !asked.agrees(i, || facet_normal(mesh, met.face).map(|n| times(turn, n))) {
                             return none(facing);
                         }
-                        asked.kept(deviation, met.face, met.barycentric, &met.point)
+                        asked.kept(i, deviation, met.face, met.barycentric, &met.point)
                     })?;
                 Ok(Measures::of(found, asked))
             }
@@ -183,12 +204,13 @@ impl<'a> Target<'a> {
             Target::Facets { surface, mesh, along: None } => {
                 let (tree, turn) = (surface.tree(), if surface.sign().inside_out { -1.0 } else { 1.0 });
                 let found = surface.map(points, progress, |i, deviation, hit| {
-                    let Some(hit) = hit.filter(|_| deviation.is_finite()) else { return none(deviation) };
+                    let hit = hit.filter(|_| deviation.is_finite() && asked.needs_place(i));
+                    let Some(hit) = hit else { return none(deviation) };
                     let place = tree.place(&points[i], hit);
                     if !asked.agrees(i, || facet_normal(mesh, place.face).map(|n| times(turn, n))) {
                         return none(facing);
                     }
-                    asked.kept(deviation, place.face, place.barycentric, &place.point)
+                    asked.kept(i, deviation, place.face, place.barycentric, &place.point)
                 })?;
                 Ok(Measures::of(found, asked))
             }
@@ -198,8 +220,8 @@ impl<'a> Target<'a> {
                     if deviation.is_finite() && !asked.agrees(i, || foot.foot.normal) {
                         return (facing, None, foot.certain);
                     }
-                    let map = asked.map.filter(|_| deviation.is_finite());
-                    (deviation, map.map(|(map, mesh)| map.foot(mesh, foot.face, foot.weights)), foot.certain)
+                    let kept = asked.foot(i, foot.face, foot.weights).filter(|_| deviation.is_finite());
+                    (deviation, kept, foot.certain)
                 })?;
                 let uncertain = found.iter().filter(|f| !f.2).count() as u64;
                 let (deviations, feet) = found.into_iter().map(|(d, f, _)| (d, f)).unzip();

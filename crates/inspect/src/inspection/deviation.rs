@@ -72,7 +72,8 @@ pub(super) fn deviations(
         Some(_) if measured.faces.is_empty() => std::mem::take(&mut data.normals),
         Some(_) => vertex_normals(measured),
     };
-    let between = match data.shown > 0 || asked.coverage.is_some() || data.places {
+    let judges = asked.tolerance.is_some() || !asked.regions.is_empty();
+    let between = match data.shown > 0 || asked.coverage.is_some() || data.places || judges {
         true => Between::of(measured),
         false => Between::default(),
     };
@@ -84,6 +85,7 @@ pub(super) fn deviations(
         along: asked.along.map(|rule| Lines::new(rule, normals)),
         outliers: asked.outliers,
         coverage: asked.coverage,
+        min_coverage: asked.min_coverage,
         between,
         surface: SurfaceOptions {
             max_distance: asked.max_distance,

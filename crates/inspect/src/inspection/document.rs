@@ -3,17 +3,19 @@
 use super::decision::{utilization, verdict};
 use super::left_out;
 use super::{Element, Found, Inspection, Taken, Uncertainty};
-use crate::characteristic::{Characteristic, Question, Texture, Value};
+use crate::characteristic::{Characteristic, Missing, Question, Texture, Value, nearest};
 use crate::compare;
 use crate::plan::{Limits, Plan, Source, Spec, ZoneOffset};
 use crate::results::align::{AlignNote, AlignNoteKind};
 use crate::results::compare::{Comparison, Warning, WarningKind};
 use crate::results::fit::{Number, named, uncertainty};
 use crate::results::inspect::*;
-use crate::results::{InputRecord, Role, UNITS, VERSION, Verdict, Word, overall};
+use crate::results::{InputRecord, Role, UNITS, VERSION, Verdict, VerdictReason, Word, overall};
 use crate::scale::Scale;
 use std::collections::BTreeMap;
+use trueness_geom::feature::Nominal;
 use trueness_geom::fit::Method;
+use trueness_geom::shape::Shape;
 use trueness_geom::zone::datum::{Datum, Rule as DatumRule};
 
 impl InspectDocument {
@@ -26,9 +28,9 @@ impl InspectDocument {
     ) -> InspectDocument {
         let characteristics: Vec<CharacteristicRecord> =
             (0..plan.specs.len()).map(|n| characteristic(plan, found, n)).collect();
-        let (deviation, scale) = deviation(found, &inputs).unzip();
         let alignment = AlignmentRecord::new(plan, found);
-        let unreliable = alignment.doubts().next().is_some();
+        let (deviation, scale) = deviation(found, &inputs, &alignment).unzip();
+        let doubts = doubts(&alignment, &inputs);
         let count = |verdict| characteristics.iter().filter(|c| c.verdict == verdict).count() as u64;
         InspectDocument {
             schema: SCHEMA.into(),
@@ -47,17 +49,31 @@ impl InspectDocument {
                 undecided: count(Verdict::Undecided),
                 not_measured: count(Verdict::NotMeasured),
             },
-            verdict: overall(
-                (characteristics.iter().map(|c| c.verdict))
-                    .chain(deviation.as_ref().and_then(|d| d.verdict))
-                    .chain(unreliable.then_some(Verdict::Undecided)),
-            ),
+            verdict: match doubts.is_empty() {
+                true => overall(
+                    (characteristics.iter().map(|c| c.verdict))
+                        .chain(deviation.as_ref().and_then(|d| d.verdict)),
+                ),
+                // The values may be those of another pose or another face.
+                false => Verdict::Undecided,
+            },
+            verdict_reasons: doubts,
             characteristics,
             deviation,
             deviation_map: None,
             scale,
         }
     }
+}
+
+/// What makes every value doubtful: an alignment that cannot be relied on, a reference that was not read in whole.
+fn doubts(alignment: &AlignmentRecord, inputs: &[InputRecord]) -> Vec<VerdictReason> {
+    let kinds: Vec<AlignNoteKind> = alignment.doubts().map(|note| *note.kind).collect();
+    let references = inputs.iter().filter(|i| i.role == Role::Reference);
+    compare::unreliable_alignment(&kinds)
+        .into_iter()
+        .chain(references.filter_map(compare::incomplete))
+        .collect()
 }
 
 impl AlignmentRecord {
@@ -129,11 +145,22 @@ fn doubt(warning: &Warning) -> AlignNote {
 }
 
 /// The deviations as a comparison tells them, with the scale of their colors.
-fn deviation(found: &Inspection, inputs: &[InputRecord]) -> Option<(Comparison, Scale)> {
+fn deviation(
+    found: &Inspection,
+    inputs: &[InputRecord],
+    alignment: &AlignmentRecord,
+) -> Option<(Comparison, Scale)> {
     let deviations = found.deviations.as_ref()?;
     let file = |role| inputs.iter().find(|i| i.role == role).cloned();
     let files = [file(Role::Measured), file(Role::Reference)].into_iter().flatten().collect();
-    let inputs = compare::Inputs { files, kind: deviations.kind, scale: None, reverse: vec![] };
+    let inputs = compare::Inputs {
+        files,
+        kind: deviations.kind,
+        scale: None,
+        reverse: vec![],
+        alignment: None,
+        doubts: alignment.doubts().map(|note| *note.kind).collect(),
+    };
     let mut document = compare::document(&deviations.found, inputs, &deviations.options);
     Some((document.comparisons.pop()?, document.scale))
 }
@@ -177,6 +204,8 @@ fn feature(plan: &crate::plan::Feature, taken: &Taken) -> FeatureRecord {
             .then(|| "there is no nominal area, or no measured one".into()),
         method: Word(plan.method),
         parameters,
+        measured: measured_place(taken),
+        nominal: nominal_place(taken),
         uncertainty: u,
         uncertainty_reason: u_reason,
         form_error: fit.map(|f| f.residuals.form_error),
@@ -185,6 +214,46 @@ fn feature(plan: &crate::plan::Feature, taken: &Taken) -> FeatureRecord {
         extract,
         left_out: left_out_record(taken),
     }
+}
+
+/// Where a feature was measured, and its size.
+fn measured_place(taken: &Taken) -> Option<MeasuredPlace> {
+    let place = taken.middle().or_else(|_| match &taken.element {
+        Ok(Element::Derived(Datum::Axis { point, .. } | Datum::Plane { point, .. })) => Ok(*point),
+        _ => Err(Missing::NotMeasured(String::new())),
+    });
+    let shape = taken.shape().ok();
+    Some(MeasuredPlace {
+        place: place.ok()?,
+        diameter: shape.and_then(|s| match s {
+            Shape::Cylinder { radius, .. }
+            | Shape::Sphere { radius, .. }
+            | Shape::Circle { radius, .. }
+            | Shape::Circle2 { radius, .. } => Some(2.0 * radius),
+            _ => None,
+        }),
+        angle: shape.and_then(|s| match s {
+            Shape::Cone { half_angle, .. } => Some(2.0 * half_angle.to_degrees()),
+            _ => None,
+        }),
+    })
+}
+
+/// Where the model has a feature, nearest to where it was measured.
+fn nominal_place(taken: &Taken) -> Option<MeasuredPlace> {
+    let nominal = taken.nominal.as_ref()?;
+    let place = measured_place(taken).map(|m| m.place).or_else(|| nominal.places().first().copied());
+    Some(MeasuredPlace {
+        place: nearest(nominal, place?)?,
+        diameter: match nominal {
+            Nominal::Cylinder { radius, .. } | Nominal::Sphere { radius, .. } => Some(2.0 * radius),
+            _ => None,
+        },
+        angle: match nominal {
+            Nominal::Cone { half_angle, .. } => Some(2.0 * half_angle.to_degrees()),
+            _ => None,
+        },
+    })
 }
 
 fn left_out_record(taken: &Taken) -> Option<LeftOutRecord> {
@@ -210,7 +279,7 @@ const UNKNOWN: &str =
     "its uncertainty is not known: fewer than nine in ten draws of the noise gave a finite value";
 
 fn characteristic(plan: &Plan, found: &Inspection, n: usize) -> CharacteristicRecord {
-    let (spec, value) = (&plan.specs[n], &found.values[n]);
+    let (spec, value) = (&found.specs[n], &found.values[n]);
     let id = |n: &usize| plan.features[*n].id.clone();
     let rule = plan.decision.rule;
     let measured = value.as_ref().ok();
@@ -274,10 +343,12 @@ fn characteristic(plan: &Plan, found: &Inspection, n: usize) -> CharacteristicRe
         anchor: anchor.or_else(|| first.and_then(|p| p.first().copied())),
         parts: measured
             .map_or(BTreeMap::new(), |v| v.parts.iter().map(|(k, x)| (k.to_string(), *x)).collect()),
+        place: measured.and_then(|v| v.place.as_ref()).map(PlaceRecord::of),
         value_with_others: with_others.and_then(|v| Some(v.as_ref().ok()?.value)),
         notes: measured
             .map_or(vec![], |v| v.notes.clone())
             .into_iter()
+            .chain(found.notes[n].iter().cloned())
             .chain(judged_with.notes)
             .chain(other_pose)
             .chain(unknown)

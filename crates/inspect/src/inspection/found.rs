@@ -4,11 +4,16 @@ use super::align::Alignment;
 use super::deviation::Deviations;
 use super::uncertainty::Uncertainty;
 use crate::characteristic::{Taken, Value};
+use crate::plan::Spec;
 use crate::results::compare::Warning;
 use trueness_geom::mesh::Mesh;
 
 /// All features and values of a plan.
 pub struct Inspection {
+    /// The characteristics with all exact dimensions, those of the model too.
+    pub specs: Vec<Spec>,
+    /// What is to be said of each characteristic by the model alone.
+    pub notes: Vec<Vec<String>>,
     /// The features, in the plan's order.
     pub features: Vec<Taken>,
     /// The values of the characteristics, in the plan's order, or why there are none.

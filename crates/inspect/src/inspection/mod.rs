@@ -15,16 +15,22 @@ mod doubts;
 mod found;
 mod left_out;
 mod measure;
+mod model;
 mod nearby;
 mod noise_field;
 mod of_others;
 mod own_facets;
+mod places;
 mod pose_noise;
+mod readings;
 mod reference;
 mod seed;
+mod sides;
 mod take;
 mod uncertainty;
+mod uncounted;
 mod view;
+mod wrong_numbers;
 
 #[cfg(test)]
 mod test_parts;
@@ -44,6 +50,11 @@ use seed::Seeded;
 use std::collections::BTreeMap;
 use trueness_geom::parallel::prelude::*;
 use trueness_geom::progress::Progress;
+use uncounted::Uncounted;
+
+/// How many steps an inspection has, each counted as it is done: the alignment, the features, their values, those in other
+/// poses, those with doubtful points, the uncertainties, the deviations.
+pub const STEPS: u64 = 7;
 
 /// Evaluates the plan. The data are moved by the plan's alignment first; then features are taken, then values.
 ///
@@ -68,15 +79,24 @@ use trueness_geom::progress::Progress;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn run(plan: &Plan, data: Data, progress: &dyn Progress) -> Result<Inspection, Stop> {
+    let (counted, progress) = (progress, &Uncounted(progress) as &dyn Progress);
     let seeds = seed::seeded(plan, &data, progress)?;
+    let mut resolved = model::resolved(plan, &seeds, progress)?;
+    let located = resolved.plan.clone();
+    let plan = &located;
     let (mut data, alignment) = align::aligned(plan, data, &seeds, progress)?;
+    counted.advance(1);
     let features = taken(plan, &data, &seeds, progress)?;
+    sides::checked(plan, &features)?;
+    resolved.by_part(&features, progress);
+    counted.advance(1);
     let doubts = doubts::doubts(plan, &data, &alignment.motion, &features);
     let measured = |spec: &Spec, features: &[Taken]| measure::measured(spec, features, progress);
     let all = |features: &[Taken]| {
         plan.specs.par_iter().map(|spec| measured(spec, features)).collect::<Result<Vec<_>, Stop>>()
     };
     let values = all(&features)?;
+    counted.advance(1);
     let mut in_other_poses = vec![];
     for motion in align::other_poses(&alignment) {
         // One after the other: each is a copy of all that was measured.
@@ -84,6 +104,7 @@ pub fn run(plan: &Plan, data: Data, progress: &dyn Progress) -> Result<Inspectio
             in_other_poses.push(all(&taken(plan, &other, &seeds, progress)?)?);
         }
     }
+    counted.advance(1);
     // What the values would be with the points of which it is not certain whose they are.
     let whole = take::whole(plan, &features, progress)?;
     let concerned =
@@ -96,7 +117,9 @@ pub fn run(plan: &Plan, data: Data, progress: &dyn Progress) -> Result<Inspectio
             _ => Ok(None),
         })
         .collect::<Result<Vec<_>, Stop>>()?;
+    counted.advance(1);
     let uncertainties = uncertainty::found(plan, (&data, &alignment), &features, progress)?;
+    counted.advance(1);
     if progress.cancelled() {
         return Err(Stop::Cancelled);
     }
@@ -104,8 +127,11 @@ pub fn run(plan: &Plan, data: Data, progress: &dyn Progress) -> Result<Inspectio
         Some(asked) => Some(deviation::deviations(asked, plan, &seeds, &mut data, progress)?),
         None => None,
     };
+    counted.advance(1);
     let measured = data.measured;
     Ok(Inspection {
+        specs: plan.specs.clone(),
+        notes: resolved.notes,
         features,
         values,
         with_others,

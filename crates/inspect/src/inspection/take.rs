@@ -271,7 +271,7 @@ impl OfMesh<'_> {
 }
 
 /// The direction out of the material that a nominal has.
-fn normal(nominal: &Nominal) -> Option<Vector> {
+pub(super) fn normal(nominal: &Nominal) -> Option<Vector> {
     match nominal {
         Nominal::Plane { normal, .. } => Some(*normal),
         _ => None,
@@ -279,7 +279,7 @@ fn normal(nominal: &Nominal) -> Option<Vector> {
 }
 
 /// A feature that nothing was found of yet.
-fn bare(feature: &Feature) -> Taken {
+pub(super) fn bare(feature: &Feature) -> Taken {
     let normal = feature.nominal.as_ref().and_then(normal);
     let edge = matches!(feature.nominal, Some(Nominal::Edge { .. }));
     Taken {
@@ -293,6 +293,7 @@ fn bare(feature: &Feature) -> Taken {
         edge,
         outward: feature.outward.or(normal),
         internal: feature.internal,
+        inward: feature.internal,
         nominal: feature.nominal.clone(),
         coverage: None,
         left_out: None,
@@ -319,6 +320,7 @@ fn found(
     let own = search.belonging.and_then(|belonging| belonging.own(number));
     // The wall of a tube has a face within reach on its other side.
     near.inward = near.inward.or(own.and_then(|own| own.inward));
+    taken.inward = near.inward;
     let found = match (search.facets, search.cloud) {
         (Some(facets), _) => facets.find(&nominal, &near, progress),
         (None, Some(cloud)) => in_cloud(&cloud.places, &nominal, &near),
@@ -357,7 +359,8 @@ fn found(
         }
     };
     let whole = seeded.map(|s| s.area).or_else(|| nominal.area());
-    taken.coverage = area.zip(whole).map(|(area, whole)| area / whole);
+    // Noise makes facets larger than what they lie on.
+    taken.coverage = area.zip(whole).map(|(area, whole)| (area / whole).clamp(0.0, 1.0));
     taken.facets = found.facets;
     Ok(taken)
 }
@@ -381,7 +384,11 @@ fn areas(mesh: &Mesh, found: &Found) -> Vec<f64> {
 }
 
 /// The feature with the element of its points, or the reason why it has none.
-fn associated(mut taken: Taken, feature: &Feature, progress: &dyn Progress) -> Result<Taken, Stop> {
+pub(super) fn associated(
+    mut taken: Taken,
+    feature: &Feature,
+    progress: &dyn Progress,
+) -> Result<Taken, Stop> {
     if taken.points.is_empty() {
         taken.element = Err(match feature.source {
             Source::Nominal | Source::Seed(_) if !taken.facets.is_empty() => {

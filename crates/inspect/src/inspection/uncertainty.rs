@@ -8,7 +8,7 @@
 //! few places are the farthest. So the points are first brought to the form that they have below the noise ([`super::denoised`]), and what the
 //! noise makes of that is drawn (parametric bootstrap: Efron, Tibshirani, An introduction to the bootstrap, 1993, 6.5). The mean of what it
 //! adds is the bias, its scatter the spread. The value stays what the standard defines; the interval lies about the value less the bias, as
-//! the basic bootstrap has it (13.4 there), and is made longer by what is not known of the form:
+//! the basic bootstrap has it (13.4 there), goes on to the value where that is beyond, and is made longer by what is not known of the form:
 //! - Downward, as a form found may be made by the noise in part, and noise adds more to a smaller one. The end is where the smallest form of
 //!   its kind lies to which the noise of the value may belong (inversion of a test), see [`smaller`]; and some farther for the noise that is left
 //!   in the form, which makes its extremes stand out too far.
@@ -56,7 +56,7 @@ pub struct Uncertainty {
     pub spread: f64,
     /// What noise adds to the value on the average; 0 where it adds nothing.
     pub bias: f64,
-    /// How far the true value may lie below and above the measured one: negative where it lies on the other side.
+    /// How far the true value may lie below and above the measured one: 0 where it lies on the other side.
     pub sides: [f64; 2],
     /// `plan`, `noise`, or `plan and noise`.
     pub source: &'static str,
@@ -64,7 +64,8 @@ pub struct Uncertainty {
 
 impl Uncertainty {
     fn new(spread: f64, bias: f64, unknown: [f64; 2], source: &'static str) -> Uncertainty {
-        let sides = [spread + bias + unknown[0], spread - bias + unknown[1]];
+        // The value is one that the part may have: what it is judged by begins there at least.
+        let sides = [spread + bias + unknown[0], spread - bias + unknown[1]].map(|side| side.max(0.0));
         Uncertainty { expanded: sides[0].max(sides[1]), spread, bias, sides, source }
     }
 }
@@ -283,8 +284,10 @@ mod tests {
     #[test]
     fn the_interval_lies_about_the_value_less_the_bias() {
         let of = |bias, unknown| Uncertainty::new(1.0, bias, unknown, "noise");
-        assert_eq!((of(3.0, [0.0; 2]).sides, of(3.0, [0.0; 2]).expanded), ([4.0, -2.0], 4.0));
-        assert_eq!((of(-3.0, [0.0; 2]).sides, of(-3.0, [0.0; 2]).expanded), ([-2.0, 4.0], 4.0));
+        assert_eq!((of(1.0, [0.0; 2]).sides, of(0.5, [0.0; 2]).sides), ([2.0, 0.0], [1.5, 0.5]));
+        // What noise adds beyond the scatter leaves the value at the end of its interval, not outside.
+        assert_eq!((of(3.0, [0.0; 2]).sides, of(3.0, [0.0; 2]).expanded), ([4.0, 0.0], 4.0));
+        assert_eq!((of(-3.0, [0.0; 2]).sides, of(-3.0, [0.0; 2]).expanded), ([0.0, 4.0], 4.0));
         assert_eq!(of(3.0, [0.5, 3.0]).sides, [4.5, 1.0]);
     }
 

@@ -46,6 +46,19 @@ impl Checker<'_> {
         }
     }
 
+    /// A path without control characters: these are escapes that nobody meant.
+    pub(super) fn path(&self, path: &At<String>) -> Result<(), PlanError> {
+        if !path.value.chars().any(char::is_control) {
+            return Ok(());
+        }
+        let written = self.text.get(path.span.clone()).unwrap_or("").trim_matches('"');
+        let what = format!(
+            "in double quotes \\ begins an escape; write '{written}' in single quotes, or \"{}\" with forward slashes",
+            written.replace('\\', "/")
+        );
+        self.wrong(&path.span, what)
+    }
+
     pub(super) fn place(&self, p: [f64; 3]) -> [f64; 3] {
         p.map(|x| x * self.unit)
     }

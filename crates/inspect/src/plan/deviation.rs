@@ -5,7 +5,7 @@ use super::error::PlanError;
 use super::feature::Feature;
 use super::text::{AlongText, CoverageText, DeviationText, PlanText};
 use super::tolerance_region::{ToleranceRegion, regions, share, zone};
-use crate::compare::{AlongRule, Coverage, OutlierRule};
+use crate::compare::{AlongRule, Coverage, MIN_COVERAGE, OutlierRule};
 use crate::tolerance::Tolerance;
 
 /// What is asked of the deviations. Lengths in millimeters.
@@ -29,6 +29,8 @@ pub struct Deviation {
     pub outliers: Option<OutlierRule>,
     /// Within what distance a point covers the reference, where that is asked.
     pub coverage: Option<Coverage>,
+    /// Share of the reference that the points must cover for a pass, 0 to 1.
+    pub min_coverage: f64,
 }
 
 impl Deviation {
@@ -62,7 +64,7 @@ pub(super) fn deviation(
             return checker
                 .wrong(&share.span, "`inside` says how many points must keep a `tolerance`; give one");
         }
-        (Some(written), _) => share(checker, written)?,
+        (Some(written), _) => share(checker, written, "inside")?,
     };
     let max_distance = match &written.max_distance {
         None => f64::INFINITY,
@@ -84,6 +86,10 @@ pub(super) fn deviation(
             },
         },
         coverage: coverage(checker, written)?,
+        min_coverage: match &written.min_coverage {
+            None => MIN_COVERAGE,
+            Some(written) => share(checker, written, "min_coverage")?,
+        },
     }))
 }
 

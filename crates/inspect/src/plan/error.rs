@@ -1,5 +1,6 @@
 //! What is wrong with a plan, and where.
 
+use super::synonyms::synonyms;
 use std::ops::Range;
 
 /// A fault of a plan: place, what is wrong, what to do.
@@ -115,6 +116,14 @@ fn slip(message: &str, line: &str, after: &str) -> Option<String> {
     let digit = |s: &str, c: fn(&str) -> Option<char>| c(s).is_some_and(|c| c.is_ascii_digit());
     let next = after.split('\n').next().unwrap_or("").trim();
     let text = match message.split(',').next().unwrap_or("") {
+        // Of a Windows path in double quotes.
+        _ if is_bad_escape(message, line, next) => {
+            let path = quoted_text(line, after);
+            format!(
+                "in double quotes \\ begins an escape; write '{path}' in single quotes, or \"{}\" with forward slashes",
+                path.replace("\\\\", "\\").replace('\\', "/")
+            )
+        }
         "unexpected key or value" if after.starts_with(',') && digit(line, |s| s.chars().last()) => {
             "a decimal comma; numbers have a point, as in 0.05".into()
         }
@@ -139,6 +148,23 @@ fn slip(message: &str, line: &str, after: &str) -> Option<String> {
     Some(text)
 }
 
+/// Whether the reader stopped at a backslash in double quotes, or where one has taken the closing quote away.
+fn is_bad_escape(message: &str, line: &str, next: &str) -> bool {
+    let words = ["escape", "unicode", "quote", "string"];
+    let in_quotes = line.rfind('"').map(|at| &line[at..]).unwrap_or(next);
+    words.iter().any(|w| message.contains(w))
+        && (in_quotes.contains('\\') || (next.starts_with('"') && next.contains('\\')))
+}
+
+/// The text in double quotes around a place: `before` it on its line, and what follows.
+fn quoted_text(before: &str, after: &str) -> String {
+    let start = before.rfind('"').map_or("", |at| &before[at + 1..]);
+    let rest = after.split('\n').next().unwrap_or("");
+    let rest = if before.contains('"') { rest } else { rest.trim_start_matches('"') };
+    let end = rest.find('"').unwrap_or(rest.trim_end().len());
+    format!("{start}{}", rest.get(..end).unwrap_or(""))
+}
+
 /// How a key that must be there is written.
 fn example(key: &str) -> &'static str {
     match key {
@@ -159,9 +185,14 @@ fn example(key: &str) -> &'static str {
 /// Says that a word is not known, which one may have been meant, and which ones there are.
 pub fn unknown(what: &str, word: &str, known: &[&str]) -> String {
     let list = known.join(", ");
-    match nearest(word, known) {
-        Some(meant) => format!("there is no {what} \"{word}\"; did you mean \"{meant}\"? (known: {list})"),
-        None => format!("there is no {what} \"{word}\" (known: {list})"),
+    let meant = synonyms(word, known);
+    let meant = if meant.is_empty() { nearest(word, known).into_iter().collect() } else { meant };
+    let meant: Vec<String> = meant.iter().map(|m| format!("\"{m}\"")).collect();
+    match meant.is_empty() {
+        false => {
+            format!("there is no {what} \"{word}\"; did you mean {}? (known: {list})", meant.join(" or "))
+        }
+        true => format!("there is no {what} \"{word}\" (known: {list})"),
     }
 }
 

@@ -1,5 +1,7 @@
 //! What is given and what is allowed.
 
+use trueness_geom::space::Vector;
+
 /// Theoretically exact dimensions, millimeters and radians.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Basic {
@@ -9,6 +11,8 @@ pub struct Basic {
     pub angle: Option<f64>,
     /// Angle about the first datum from the direction of the second.
     pub turn: Option<f64>,
+    /// Of a place that the model gives: the axis, or the plane with its normal, in the datum system, where it stands along none of its axes.
+    pub oblique: Option<[Vector; 2]>,
 }
 
 /// Where the zone of a profile lies, seen from the theoretically exact geometry (UZ and OZ of ISO 1101:2017).

@@ -13,11 +13,13 @@ mod deviation;
 mod error;
 mod feature;
 mod limits;
+mod limits_read;
 mod material;
 mod numbers;
 mod proposal;
 pub mod region;
 mod spec;
+mod synonyms;
 pub mod text;
 mod tolerance_region;
 
@@ -99,6 +101,10 @@ impl Plan {
             return checker.wrong(&written.schema.span, what);
         }
         numbers::checked(&checker)?;
+        let points = written.feature.iter().filter_map(|f| f.value.points.as_ref());
+        for path in written.measured.iter().chain(&written.reference).chain(points) {
+            checker.path(path)?;
+        }
         let features = feature::features(&checker, &written)?;
         let decision = decision::decision(&checker, &written)?;
         let specs = spec::specs(&checker, &written, &features, &decision)?;

@@ -6,14 +6,16 @@ use super::datum as datums;
 use super::decision::{Decision, Rule};
 use super::error::{PlanError, unknown};
 use super::feature::{Feature, named};
-use super::limits::{Basic, Limits, ZoneOffset};
+use super::limits::{Basic, ZoneOffset};
+use super::limits_read::{limits, number};
 use super::material;
 use super::text::{
     BasicText, CharacteristicText, DatumMethodWord, FormMethodWord, OffsetText, OneOrTwo, PlanText,
     RunoutWord, TextureWord,
 };
 use crate::characteristic;
-use crate::characteristic::kind::{Allowed, Characteristic, Question, Spec};
+use crate::characteristic::kind::{Question, Spec};
+use crate::tolerance_class::wrong_side;
 use std::ops::Range;
 use trueness_geom::fit::Method;
 use trueness_geom::rigid::Rigid;
@@ -53,7 +55,7 @@ fn spec(
     };
     for (key, span) in keys(written) {
         if !kind.keys().contains(&key) {
-            return checker.wrong(&span, format!("{word} takes no `{key}`"));
+            return checker.wrong(&span, format!("{word} takes no `{key}`{}", instead(word, key)));
         }
     }
     let parameter = written.parameter.as_ref().map_or(TextureWord::Sa, |p| p.value);
@@ -79,6 +81,7 @@ fn spec(
         },
         frame: frame(checker, written)?,
         basic: basic(checker, written.basic.as_ref())?,
+        basic_span: written.basic.as_ref().map(|b| b.span.clone()),
         offset: offset(checker, written)?,
         intersection: intersection(checker, written)?,
         diametral: written.diametral.as_ref().map(|d| d.value),
@@ -88,7 +91,9 @@ fn spec(
         },
         size: written.size.as_ref().map(|s| s.value),
         limits: limits(checker, written, whole, kind, unit)?,
+        limits_span: limits_span(written, whole),
         class: written.class.as_ref().map(|c| c.value.clone()),
+        class_span: written.class.as_ref().map_or_else(|| whole.clone(), |c| c.span.clone()),
         axial: written.direction.as_ref().is_some_and(|d| d.value == RunoutWord::Axial),
         parameter,
         material: written.material.as_ref().map(|m| m.value),
@@ -99,20 +104,47 @@ fn spec(
             None => decision.uncertainty.filter(|_| unit == "mm"),
         },
     };
+    if let Some(what) = class_of_other_side(&made, features) {
+        return checker.wrong(&made.class_span, what);
+    }
     if decision.rule == Rule::Iso14253 && made.uncertainty.is_none() && decision.noise.is_none() {
         return checker.wrong(whole, without_uncertainty(decision, unit));
     }
     let question = Question { spec: &made, features };
     kind.check(&question).or_else(|refusal| {
-        let place = keys(written).into_iter().find(|(key, _)| *key == refusal.key).map(|(_, span)| span);
         let place = match refusal.key {
             "feature" => Some(written.feature.span.clone()),
             "kind" => Some(written.kind.span.clone()),
-            _ => place,
+            _ => keys(written).into_iter().find(|(key, _)| *key == refusal.key).map(|(_, span)| span),
         };
         checker.wrong(&place.unwrap_or(whole.clone()), format!("{word}: {}", refusal.what))
     })?;
     Ok(made)
+}
+
+/// Why a tolerance class is not of the side of the material that its feature has, if so.
+fn class_of_other_side(made: &Spec, features: &[Feature]) -> Option<String> {
+    let (Some(class), [feature]) = (&made.class, made.features.as_slice()) else { return None };
+    let Feature { internal, id, .. } = &features[*feature];
+    wrong_side(class, (*internal)?, id)
+}
+
+/// What to write in place of a key that a kind does not take.
+fn instead(word: &str, key: &str) -> &'static str {
+    match (word, key) {
+        ("size" | "distance" | "angle", "tolerance") => {
+            "; give `upper` and `lower`, deviations from `nominal`, as in upper = 0.1, lower = -0.1"
+        }
+        ("size" | "distance" | "angle", "basic") => "; give `nominal`",
+        (_, "nominal" | "upper" | "lower") => "; give `tolerance`, the width or diameter of the zone",
+        _ => "",
+    }
+}
+
+/// Where the tolerance or the nominal value stands.
+fn limits_span(w: &CharacteristicText, whole: &Range<usize>) -> Range<usize> {
+    let span = |at: &Option<At<f64>>| at.as_ref().map(|a| a.span.clone());
+    span(&w.tolerance).or(span(&w.nominal)).unwrap_or_else(|| whole.clone())
 }
 
 /// What is said where `iso14253-1` is to decide and no uncertainty is known.
@@ -195,11 +227,15 @@ fn basic(checker: &Checker, at: Option<&At<BasicText>>) -> Result<Basic, PlanErr
     }
     for (name, angle) in angles {
         if let Some(angle) = angle.filter(|a| !(0.0..=90.0).contains(a)) {
-            return checker.wrong(span, format!("the {name} is {angle}; give degrees from 0 to 90"));
+            let folded = angle.rem_euclid(180.0);
+            let folded = (folded.min(180.0 - folded) * 1e9).round() / 1e9;
+            let what =
+                format!("the {name} is {angle}; give degrees from 0 to 90: this one is {folded} there");
+            return checker.wrong(span, what);
         }
     }
     let [angle, turn] = angles.map(|a| a.1.map(f64::to_radians));
-    Ok(Basic { place, angle, turn })
+    Ok(Basic { place, angle, turn, oblique: None })
 }
 
 fn offset(checker: &Checker, written: &CharacteristicText) -> Result<ZoneOffset, PlanError> {
@@ -218,91 +254,4 @@ fn intersection(checker: &Checker, written: &CharacteristicText) -> Result<Optio
         Some((normal, _)) => Ok(Some(normal)),
         None => checker.wrong(span, "the normal of the intersection planes has no length"),
     }
-}
-
-/// A number in the unit of the kind's values: angles and ratios are not lengths.
-fn number(checker: &Checker, at: &At<f64>, unit: &str, what: &str) -> Result<f64, PlanError> {
-    in_unit(checker, unit).not_negative(at, what)
-}
-
-/// The checker for values in this unit.
-fn in_unit<'a>(checker: &Checker<'a>, unit: &str) -> Checker<'a> {
-    Checker { text: checker.text, unit: if unit == "mm" { checker.unit } else { 1.0 } }
-}
-
-fn limits(
-    checker: &Checker,
-    w: &CharacteristicText,
-    whole: &Range<usize>,
-    kind: &dyn Characteristic,
-    unit: &str,
-) -> Result<Limits, PlanError> {
-    let word = kind.word();
-    match kind.allowed() {
-        Allowed::Greatest => {
-            if let Some([_, t]) = by_class(checker, w, kind, 0.0, ["tolerance"])? {
-                return Ok(Limits::Greatest(t));
-            }
-            let Some(t) = &w.tolerance else {
-                return checker.wrong(whole, format!("{word} needs `tolerance`"));
-            };
-            Ok(Limits::Greatest(number(checker, t, unit, "the tolerance")?))
-        }
-        Allowed::Between => {
-            let signed = in_unit(checker, unit);
-            let Some(nominal) = &w.nominal else {
-                return checker.wrong(whole, format!("{word} needs `nominal`, `upper` and `lower`"));
-            };
-            let middle = signed.length(nominal, "the nominal value")?;
-            if let Some([lower, upper]) = by_class(checker, w, kind, middle, ["upper", "lower"])? {
-                return Ok(Limits::Between { nominal: middle, lower, upper });
-            }
-            let (Some(upper), Some(lower)) = (&w.upper, &w.lower) else {
-                return checker.wrong(whole, format!("{word} needs `nominal`, `upper` and `lower`"));
-            };
-            let made = Limits::Between {
-                nominal: middle,
-                lower: signed.length(lower, "the lower limit deviation")?,
-                upper: signed.length(upper, "the upper limit deviation")?,
-            };
-            match made {
-                Limits::Between { lower: l, upper: u, .. } if l > u => checker.wrong(
-                    &lower.span,
-                    format!(
-                        "the lower limit deviation {} is above the upper one {}",
-                        lower.value, upper.value
-                    ),
-                ),
-                made => Ok(made),
-            }
-        }
-    }
-}
-
-/// Limit deviations by a tolerance class, where the plan gives one in place of the keys `instead`.
-fn by_class<const N: usize>(
-    checker: &Checker,
-    w: &CharacteristicText,
-    kind: &dyn Characteristic,
-    nominal: f64,
-    instead: [&str; N],
-) -> Result<Option<[f64; 2]>, PlanError> {
-    let (Some(class), Some(table)) = (&w.class, kind.class_table()) else {
-        return match &w.length {
-            Some(length) => checker.wrong(&length.span, "`length` goes with `class`"),
-            None => Ok(None),
-        };
-    };
-    if let Some((key, span)) = keys(w).into_iter().find(|(key, _)| instead.contains(key)) {
-        return checker.wrong(&span, format!("give `class` or `{key}`, not both"));
-    }
-    let length = match &w.length {
-        Some(length) if !table.takes_length() => {
-            return checker.wrong(&length.span, "the class of this kind goes by no length");
-        }
-        Some(length) => Some(checker.not_negative(length, "the length")?),
-        None => None,
-    };
-    let limits = table.limits(&class.value, nominal, length);
-    limits.map(Some).or_else(|e| checker.wrong(&class.span, e.to_string()))
 }

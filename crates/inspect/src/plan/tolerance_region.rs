@@ -78,7 +78,7 @@ fn region(
     let (extent, feature) = extent(checker, written, features)?;
     let required_share = match &written.inside {
         None => 1.0,
-        Some(share) => self::share(checker, share)?,
+        Some(share) => self::share(checker, share, "inside")?,
     };
     let rule = RegionRule {
         id: written.id.value.clone(),
@@ -105,11 +105,11 @@ pub(super) fn zone(checker: &Checker, written: &At<ZoneText>) -> Result<Toleranc
 }
 
 /// Percent as a share.
-pub(super) fn share(checker: &Checker, written: &At<f64>) -> Result<f64, PlanError> {
+pub(super) fn share(checker: &Checker, written: &At<f64>, key: &str) -> Result<f64, PlanError> {
     if (0.0..=100.0).contains(&written.value) {
         return Ok(written.value / 100.0);
     }
-    let what = format!("inside is {}; a share is from 0 to 100 percent", written.value);
+    let what = format!("{key} is {}; a share is from 0 to 100 percent", written.value);
     checker.wrong(&written.span, what)
 }
 

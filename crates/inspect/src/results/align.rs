@@ -96,6 +96,11 @@ impl AlignedTo {
         }
     }
 
+    /// What makes it unreliable.
+    pub fn doubts(&self) -> impl Iterator<Item = AlignNoteKind> {
+        self.warnings.iter().map(|w| *w.kind).filter(|kind| kind.is_doubt())
+    }
+
     /// As [`AlignDocument::sound`].
     pub fn sound(&self) -> bool {
         sound(&self.warnings)

@@ -7,7 +7,7 @@ use super::align::AlignedTo;
 use super::check::Defects;
 use super::research::Research;
 pub use super::{Bounds, BySide, Histogram, Percentiles, Statistics};
-use super::{InputRecord, Verdict, Word};
+use super::{InputRecord, Verdict, VerdictReason, Word};
 use crate::compare::Method;
 use crate::scale::Scale;
 use schemars::JsonSchema;
@@ -52,9 +52,13 @@ pub struct CompareDocument {
     pub paired: Vec<Paired>,
     /// The color scale that all comparisons share.
     pub scale: Scale,
-    /// The worst of the comparisons' verdicts; absent without a tolerance.
+    /// The worst of the comparisons' verdicts: what table, page and exit status go by. Without a tolerance it is absent, unless the
+    /// alignment cannot be relied on.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub verdict: Option<Verdict>,
+    /// Why it is not a pass: the reasons of the comparisons that have this verdict.
+    #[serde(skip_serializing_if = "Vec::is_empty", default)]
+    pub verdict_reasons: Vec<VerdictReason>,
     /// How many of the points a report shows.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub sampling: Option<Sampling>,
@@ -119,7 +123,8 @@ pub struct Comparison {
     /// The rule for outliers and what it gave here; absent without one.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub outliers: Option<OutliersRecord>,
-    /// What part of the reference no measured point covers, nor a large facet of a measured mesh; with `--coverage` and with a report.
+    /// What part of the reference no measured point covers, nor a large facet of a measured mesh; with a tolerance, with `--coverage` and
+    /// with a report.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub coverage: Option<CoverageRecord>,
     /// Shares against the tolerance; absent without one.
@@ -128,11 +133,25 @@ pub struct Comparison {
     /// Parts of the reference with tolerances of their own; `tolerance` is then of the points of no region.
     #[serde(skip_serializing_if = "Vec::is_empty", default)]
     pub regions: Vec<RegionRecord>,
-    /// Pass when the share inside reaches what was asked, in every region too; absent without a tolerance.
+    /// Pass when the share inside reaches what was asked, in every region too, and enough of the reference is covered. Undecided where the
+    /// values cannot be relied on, and where nothing fails but not enough was measured. Without a tolerance it is absent, unless the
+    /// alignment cannot be relied on.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub verdict: Option<Verdict>,
+    /// Why it is not a pass.
+    #[serde(skip_serializing_if = "Vec::is_empty", default)]
+    pub verdict_reasons: Vec<VerdictReason>,
+    /// The verdict on all points of no region; absent where there are no regions, or no tolerance for these points.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub others_verdict: Option<Verdict>,
     /// Counts of the deviations; absent when there are none.
     pub histogram: Option<Histogram>,
+    /// The lowest deviation of all that count, and its point; absent where none counts.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub lowest: Option<ExtremeRecord>,
+    /// The highest one.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub highest: Option<ExtremeRecord>,
     /// The worst places, far from one another, on both sides: the farthest beyond the tolerance first, without a tolerance
     /// the greatest deviation.
     pub worst: Vec<Worst>,
@@ -168,7 +187,7 @@ pub struct RegionRecord {
     pub deviation: Statistics,
     /// Shares of its points against its tolerance.
     pub tolerance: ToleranceShares,
-    /// Pass when the share inside reaches what was asked; `not_measured` without points.
+    /// Pass when the share inside reaches what was asked; `not_measured` without points; `undecided` where the values cannot be relied on.
     pub verdict: Verdict,
 }
 
@@ -206,6 +225,9 @@ pub struct CoverageRecord {
     /// Why there is none.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub uncovered_share_reason: Option<String>,
+    /// The share that must be covered for a pass (0 to 1); absent without a tolerance.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub required: Option<f64>,
     /// Within what distance a point covers, millimeters.
     pub reach: f64,
     /// How far the points' nearest places lie apart, millimeters.
@@ -313,12 +335,37 @@ pub struct ToleranceShares {
     pub required: f64,
 }
 
+impl CompareDocument {
+    /// Whether nothing speaks against it: the verdict is a pass, or none was asked for and the alignment can be relied on.
+    pub fn conforms(&self) -> bool {
+        self.verdict.is_none_or(|verdict| verdict == Verdict::Pass)
+    }
+}
+
+impl CoverageRecord {
+    /// Share of the reference that is covered (0 to 1).
+    pub fn covered_share(&self) -> Option<f64> {
+        self.uncovered_share.map(|share| 1.0 - share)
+    }
+}
+
 impl ToleranceShares {
     /// Whether the share inside is what was asked for; `None` where there is no share.
     pub fn verdict(&self) -> Option<Verdict> {
         let of = |share| if share >= self.required { Verdict::Pass } else { Verdict::Fail };
         self.inside.map(of)
     }
+}
+
+/// A measured point with its deviation.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ExtremeRecord {
+    /// Number of the point, from 0 in file order.
+    pub index: u64,
+    /// The point, where it was compared.
+    pub point: [f64; 3],
+    /// Its deviation, millimeters.
+    pub deviation: f64,
 }
 
 /// One of the worst places.

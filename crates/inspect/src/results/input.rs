@@ -38,11 +38,28 @@ pub struct InputRecord {
     /// Facets; absent for a cloud.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub facets: Option<u64>,
+    /// What of the file was not read; absent where all of it was.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub incomplete: Option<IncompleteRecord>,
+    /// Faces of a CAD file that are less than their surface, which was taken whole; absent where there are none.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub trimmed_faces: Option<u64>,
     /// Box of its points or vertices, mm, after units were converted; `null` where there are none.
     pub bounds: Option<Bounds>,
     /// What the reader noticed and mended or passed over.
     #[serde(skip_serializing_if = "Vec::is_empty", default)]
     pub warnings: Vec<String>,
+}
+
+/// What of a file was not read.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct IncompleteRecord {
+    /// Faces that were read; null where they cannot be counted.
+    pub read: Option<u64>,
+    /// Faces of the file; null where they cannot be counted.
+    pub of: Option<u64>,
+    /// One sentence for people.
+    pub text: String,
 }
 
 fn assumed() -> String {
@@ -93,6 +110,8 @@ impl InputRecord {
             table: None,
             points: 0,
             facets: None,
+            incomplete: None,
+            trimmed_faces: None,
             bounds: None,
             warnings: vec![],
         }

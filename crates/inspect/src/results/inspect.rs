@@ -1,6 +1,10 @@
 //! `trueness/inspect/1`: a plan, evaluated.
 
+mod decimals;
 mod page;
+mod place;
+
+pub use place::{FrameSource, MeasuredPlace, PlaceRecord};
 
 use super::align::{AlignNote, AlignNoteKind};
 use super::compare::Comparison;
@@ -8,7 +12,7 @@ use super::fit::Number;
 use super::place_map::PlaceMap;
 use super::verdict::rank;
 use super::word::named;
-use super::{InputRecord, Verdict, Word};
+use super::{InputRecord, Verdict, VerdictReason, Word};
 use crate::plan::Class;
 use crate::plan::text::{MaterialWord, SizeWord, TextureWord};
 use crate::scale::Scale;
@@ -56,8 +60,12 @@ pub struct InspectDocument {
     pub decision_rule: String,
     /// Number of characteristics by verdict.
     pub counts: Counts,
-    /// The worst verdict of all characteristics and of the deviations; undecided at best where the alignment cannot be relied on.
+    /// The worst verdict of all characteristics and of the deviations; undecided where the alignment cannot be relied on, and where not all of the
+    /// reference was read.
     pub verdict: Verdict,
+    /// What makes all of it undecided; absent where nothing does.
+    #[serde(skip_serializing_if = "Vec::is_empty", default)]
+    pub verdict_reasons: Vec<VerdictReason>,
 }
 
 /// The plan's file.
@@ -127,6 +135,12 @@ pub struct FeatureRecord {
     pub method: Word<Method>,
     /// The element, by names, as in a fit; null where there is none.
     pub parameters: Option<BTreeMap<String, Number>>,
+    /// Where it was measured, and its size; null where there is no element.
+    #[serde(default)]
+    pub measured: Option<MeasuredPlace>,
+    /// The same as the model has it: the place of its nominal that is nearest to the measured one. Null where it has no nominal.
+    #[serde(default)]
+    pub nominal: Option<MeasuredPlace>,
     /// Standard uncertainty of each parameter by the points' scatter.
     pub uncertainty: Option<BTreeMap<String, Number>>,
     /// Why there is none.
@@ -233,6 +247,9 @@ pub struct CharacteristicRecord {
     pub anchor: Option<[f64; 3]>,
     /// Further numbers.
     pub parts: BTreeMap<String, f64>,
+    /// Of a position or a profile: where its feature lies, in the frame of its true place; absent of other kinds.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub place: Option<PlaceRecord>,
     /// The value with the points of its features and datums of which it is not certain whose they are; absent where there are none.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub value_with_others: Option<f64>,

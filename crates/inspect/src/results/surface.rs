@@ -42,7 +42,7 @@ pub struct SurfaceDocument {
     /// Why they are not known.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub degrees_of_freedom_reason: Option<String>,
-    /// Signed distances of all points but those left out from the surface, at their nearest places; positive on the side of the normal, which is the
+    /// Signed distances of all points but those left out and those beyond the border from the surface, at their nearest places; positive on the side of the normal, which is the
     /// derivative by `u` times the derivative by `v`.
     pub deviation: Statistics,
     /// Counts and colors of the deviations.
@@ -69,6 +69,9 @@ pub struct SurfaceDocument {
     pub corrections: u64,
     /// Points left out by `--robust`: they contradict their neighbors. No other number counts them.
     pub outliers: u64,
+    /// Points beyond the border of the surface: their distance has a part along it. No other number counts them.
+    #[serde(default)]
+    pub beyond_border: u64,
     /// Points whose nearest place was not found to the last digit.
     pub unsettled: u64,
     /// What makes the surface doubtful.

@@ -76,12 +76,23 @@ impl<'a> View<'a> {
             bends.iter().zip(&held).map(|(b, held)| b.filter(|_| *held).map(|b| b.normal)).collect();
         let reflections = group("reflection_lines", LINE, reflection_lines(&mesh, &normals, fit.base.axes));
         let mut deviations = fit.deviations.clone();
-        fit.left_out.iter().for_each(|i| deviations[*i as usize] = f64::NAN);
+        let mut left_out = vec![];
+        for (numbers, reason) in
+            [(&fit.left_out, NoValue::Outlier), (&fit.beyond_border, NoValue::BoundaryEdge)]
+        {
+            if !numbers.is_empty() {
+                left_out.resize(points.len(), NoValue::Unknown);
+            }
+            for i in numbers {
+                deviations[*i as usize] = f64::NAN;
+                left_out[*i as usize] = reason;
+            }
+        }
         let marks = |role, groups| Marks { role, comparison: None, groups };
         View {
             name,
             points,
-            left_out: if fit.left_out.is_empty() { vec![] } else { vec![NoValue::Outlier; points.len()] },
+            left_out,
             deviations,
             keep: [document.worst.point as u32],
             reasons,

@@ -27,6 +27,31 @@ pub enum Table {
     Runout,
 }
 
+/// What is wrong with a class by ISO 286 on a feature that is a hole or slot (`internal`), or a shaft or thickness; `None` where nothing is, and
+/// of classes that are the same for both.
+///
+/// ```
+/// use trueness_inspect::tolerance_class::wrong_side;
+/// assert!(wrong_side("h7", true, "bore").is_some_and(|what| what.ends_with("write \"H7\"")));
+/// assert_eq!(wrong_side("H7", true, "bore"), None);
+/// assert_eq!([wrong_side("js9", true, "bore"), wrong_side("m", true, "bore")], [None, None]);
+/// ```
+pub fn wrong_side(class: &str, internal: bool, feature: &str) -> Option<String> {
+    let digits = class.find(|c: char| c.is_ascii_digit())?;
+    let (letters, grade) = class.split_at(digits);
+    let is_hole = letters.chars().all(|c| c.is_ascii_uppercase());
+    if letters.is_empty() || letters.eq_ignore_ascii_case("js") || is_hole == internal {
+        return None;
+    }
+    let (of, is, letters) = match is_hole {
+        true => ("holes and slots (capital letters)", "a shaft or a thickness", letters.to_lowercase()),
+        false => ("shafts and thicknesses (small letters)", "a hole or a slot", letters.to_uppercase()),
+    };
+    Some(format!(
+        "\"{class}\" is a class of {of}, and feature \"{feature}\" is {is}; write \"{letters}{grade}\""
+    ))
+}
+
 impl Table {
     /// Whether the table goes by `length`, not by the nominal value.
     pub fn takes_length(self) -> bool {

@@ -87,7 +87,7 @@ fn run(args: &CheckArgs, common: &Common) -> anyhow::Result<Outcome> {
         || read::hash(&mut record, &args.mesh),
         || check::check(&source.mesh, source.stored_normals.as_deref(), &options, &stage),
     );
-    drop(stage);
+    stage.end(&report);
     let report = report.map_err(|e| match e {
         CheckError::Cancelled(e) => e.into(),
         e => anyhow::anyhow!("{}: {e}", args.mesh.display()),

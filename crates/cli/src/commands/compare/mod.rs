@@ -9,7 +9,7 @@ mod words;
 use crate::command::Run;
 use crate::exit::{self, Outcome, Usage};
 use crate::options::{Common, PointInputArgs, ReferenceArgs, weld};
-use crate::progress::Stage;
+use crate::progress::{STEPS, Stage};
 use crate::read;
 use crate::run_files::RunFiles;
 use crate::tolerance::ToleranceArg;
@@ -24,9 +24,9 @@ use trueness_geom::deviation::sign_choice::SignRequest;
 use trueness_geom::deviation::surface::SurfaceOptions;
 use trueness_geom::mesh::Mesh;
 use trueness_inspect::compare::{
-    self, AlongRule, Between, Coverage, Facing, Inputs, Lines, Method, Options, OutlierRule, Reference, View,
+    self, AlongRule, Between, Coverage, Facing, Inputs, Lines, MIN_COVERAGE, Method, Options, OutlierRule,
+    Reference, View,
 };
-use trueness_inspect::results::Verdict;
 use trueness_inspect::results::align::AlignedTo;
 use trueness_inspect::results::compare::MeasuredKind;
 use trueness_inspect::results::compare::{Reverse, Sampling};
@@ -98,9 +98,17 @@ pub struct CompareArgs {
     /// Exclude (and count) outliers: mad:5 for 5 × 1.4826 MAD from the median, 3sigma for 3 σ from the mean
     #[arg(long, value_name = "RULE", allow_hyphen_values = true)]
     outliers: Option<OutlierRule>,
-    /// Tell what part of the reference no point covers within a reach: auto (three spacings of the points) or mm
+    /// Tell what part of the reference no point covers within a reach: auto (three spacings of the points) or mm; --tolerance
+    /// tells it in any case
     #[arg(long, value_name = "auto | MM", allow_hyphen_values = true)]
     coverage: Option<Coverage>,
+    /// Share of the reference that the points must cover for a pass, in percent as --inside; 0: a part of it is measured on
+    /// purpose. Where less is covered, what does not fail is undecided
+    #[arg(long, value_name = "PERCENT", default_value_t = 100.0 * MIN_COVERAGE, allow_hyphen_values = true)]
+    min_coverage: f64,
+    /// Name at most N worst places above the reference, and as many below
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u16).range(1..=1000))]
+    worst: u16,
     /// Compare N points spread evenly over the measured mesh's area instead of its vertices
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     sample: Option<u64>,
@@ -146,6 +154,10 @@ impl CompareArgs {
         if !(0.0..=100.0).contains(&self.inside) {
             return Err(Usage(format!("--inside {}: a share is from 0 to 100 percent", self.inside)).into());
         }
+        if !(0.0..=100.0).contains(&self.min_coverage) {
+            let what = format!("--min-coverage {}: a share is from 0 to 100 percent", self.min_coverage);
+            return Err(Usage(what).into());
+        }
         let max_distance = self.max_distance.unwrap_or(f64::INFINITY);
         if self.max_distance.is_some_and(|d| !(0.0..f64::INFINITY).contains(&d)) {
             return Err(Usage(format!(
@@ -172,8 +184,10 @@ impl CompareArgs {
             along: self.along.map(|rule| Lines::new(rule, vec![])),
             outliers: self.outliers,
             coverage: self.coverage,
+            min_coverage: self.min_coverage / 100.0,
             regions: self.regions.as_deref().map(read::regions).transpose()?.unwrap_or_default(),
             tolerance: self.tolerance.map(|t| t.0),
+            worst: usize::from(self.worst),
             required_share: self.inside / 100.0,
             shown: self.output.report.shown(),
             research: self.research,
@@ -263,16 +277,15 @@ fn run(args: &CompareArgs, common: &Common) -> anyhow::Result<Outcome> {
                 })
             },
         );
-    drop(stage);
+    stage.end(&found);
     let found = found.map_err(|e| in_file(e, &args.measured))?;
     hashes?;
     let reverse = match &measured.mesh {
         Some(mesh) if args.both => reverse(mesh, &references, &found, common)?,
         _ => vec![],
     };
-    let inputs = Inputs { files, kind: measured.kind, scale, reverse };
+    let inputs = Inputs { files, kind: measured.kind, scale, reverse, alignment, doubts: vec![] };
     let mut document = compare::document(&found, inputs, &options);
-    document.alignment = alignment;
     if args.output.report.html.is_some() {
         let shown = if measured.kind == MeasuredKind::Vertices {
             found.count
@@ -288,17 +301,13 @@ fn run(args: &CompareArgs, common: &Common) -> anyhow::Result<Outcome> {
         files.finish(&document.scale)?;
     }
     args.output.document.write(&document)?;
-    args.output.document.table(|| table::text(&document))?;
-    let aligned = document.alignment.as_ref().is_none_or(AlignedTo::sound);
-    Ok(match document.verdict {
-        None | Some(Verdict::Pass) if aligned => Outcome::Conforming,
-        _ => Outcome::NotConforming,
-    })
+    args.output.document.table(|| table::text(&document, common.verbose))?;
+    Ok(if document.conforms() { Outcome::Conforming } else { Outcome::NotConforming })
 }
 
 /// What is asked of the measured beside its points: places on large facets for maps, normals where a rule needs them.
 fn beside_points(args: &CompareArgs, measured: &Measured, options: &mut Options) -> anyhow::Result<()> {
-    let mapped = options.shown > 0 || options.coverage.is_some();
+    let mapped = options.tells_coverage();
     let vertices = measured.mesh.as_ref().filter(|_| mapped && measured.kind == MeasuredKind::Vertices);
     options.between = vertices.map(Between::of).unwrap_or_default();
     let between = options.between.normals.clone();
@@ -323,7 +332,7 @@ fn aligned(
     name: &str,
     common: &Common,
 ) -> anyhow::Result<AlignedTo> {
-    let stage = Stage::new(common.progress, "aligning", "points", None);
+    let stage = Stage::new(common.progress, "aligning", STEPS, None);
     let found = measured.align(&args.measured, reference, common.seed, &stage)?;
     Ok(AlignedTo::new(&found, name.into()))
 }

@@ -2,7 +2,7 @@
 
 use crate::exit::Usage;
 use crate::options::Common;
-use crate::progress::Stage;
+use crate::progress::{STEPS, Stage};
 use crate::read::{self, ReferenceBody};
 use anyhow::Context;
 use std::path::{Path, PathBuf};
@@ -10,7 +10,7 @@ use trueness_files::ReadOptions;
 use trueness_geom::deviation::sign_choice::SignRequest;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::space::Aabb;
-use trueness_geom::spline::surface::{FootError, FootSearch, Nurbs};
+use trueness_geom::spline::surface::{Degenerate, FootError, FootSearch, Nurbs};
 use trueness_inspect::compare::{Method, Options, Reference};
 use trueness_inspect::file_numbers::LeftOut;
 use trueness_inspect::results::{Bounds, InputRecord};
@@ -50,6 +50,10 @@ pub fn open(
     let (mut all, mut records) = (vec![], vec![]);
     for path in paths {
         let (body, mut record) = read::reference(path, reading)?;
+        let lacking = match &body {
+            ReferenceBody::Surfaces(surfaces) => degenerate(surfaces),
+            ReferenceBody::Mesh(_) => vec![],
+        };
         let opened = match body {
             ReferenceBody::Mesh(mesh) => Opened::Mesh(mesh.mesh, mesh.nonfinite_facets),
             ReferenceBody::Surfaces(surfaces) => {
@@ -60,10 +64,26 @@ pub fn open(
         if matches!(opened, Opened::Surfaces(..)) {
             record.bounds = Bounds::of(&Aabb::of(&opened.mesh().positions));
         }
+        record.warnings.extend(lacking);
         all.push(opened);
         records.push(record);
     }
     Ok((all, records))
+}
+
+/// Surfaces that lack an area or the length of an edge, the first few by number.
+fn degenerate(surfaces: &[Nurbs]) -> Vec<String> {
+    /// Said one by one; of more their number is.
+    const TOLD: usize = 10;
+    let all = (0..)
+        .zip(surfaces)
+        .flat_map(|(n, s): (usize, &Nurbs)| s.degenerate().into_iter().map(move |d| (n, d)));
+    let all: Vec<(usize, Degenerate)> = all.collect();
+    let mut told: Vec<String> = all.iter().take(TOLD).map(|(n, d)| format!("surface {n}: {d}")).collect();
+    if all.len() > TOLD {
+        told.push(format!("{} more such places of surfaces", all.len() - TOLD));
+    }
+    told
 }
 
 /// Refuses what is asked of facets only.
@@ -94,7 +114,7 @@ fn allowed(path: &Path, options: &Options) -> Result<(), Usage> {
 }
 
 fn prepared(path: &Path, surfaces: &[Nurbs], common: &Common) -> anyhow::Result<Opened> {
-    let stage = Stage::new(common.progress, "preparing the surfaces", "points", None);
+    let stage = Stage::new(common.progress, "preparing the surfaces", STEPS, None);
     let search = FootSearch::new(surfaces, &stage).map_err(|e| match e {
         FootError::Cancelled(e) => anyhow::Error::from(e),
         e => anyhow::Error::from(e),

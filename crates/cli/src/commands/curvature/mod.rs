@@ -128,7 +128,7 @@ fn run(args: &CurvatureArgs, common: &Common) -> anyhow::Result<Outcome> {
             false => curvature::cloud(&mesh.positions, &options, &stage),
         },
     );
-    drop(stage);
+    stage.end(&found);
     hash?;
     let found = found.map_err(|e| match e {
         CurvatureError::Cancelled(e) => e.into(),

@@ -2,9 +2,11 @@
 
 use super::part::Part;
 use crate::console::cell;
-use trueness_inspect::results::Verdict;
 use trueness_inspect::results::compare::{RegionRecord, ToleranceShares};
-use trueness_inspect::results::inspect::{CharacteristicRecord, InspectDocument};
+use trueness_inspect::results::inspect::{
+    CharacteristicRecord, FeatureRecord, InspectDocument, MeasuredPlace,
+};
+use trueness_inspect::results::{ReasonKind, Verdict, VerdictReason};
 
 /// What the deviations from the reference are called beside the characteristics.
 pub(super) const DEVIATION: &str = "deviation";
@@ -19,14 +21,14 @@ pub(super) fn judged(document: &InspectDocument) -> Vec<(String, &ToleranceShare
     if let (Some(t), Some(verdict)) = (&deviation.tolerance, deviation.verdict) {
         match regions.is_empty() {
             true => all.push((DEVIATION.into(), t, verdict)),
-            false => all.extend(t.verdict().map(|own| (DEVIATION.into(), t, own))),
+            false => all.extend(deviation.others_verdict.map(|own| (DEVIATION.into(), t, own))),
         }
     }
     all
 }
 
 /// The names of the columns.
-const HEAD: [&str; 17] = [
+const HEAD: [&str; 23] = [
     "part",
     "id",
     "kind",
@@ -44,24 +46,57 @@ const HEAD: [&str; 17] = [
     "interval_from",
     "interval_to",
     "modifiers",
+    "x",
+    "y",
+    "z",
+    "dx",
+    "dy",
+    "dz",
 ];
 
 /// The cells of a line.
-type Row = [String; 17];
+type Row = [String; 23];
 
 /// What the alignment is called beside the characteristics.
 const ALIGNMENT: &str = "alignment";
 
+/// What a feature is called beside the characteristics.
+const FEATURE: &str = "feature";
+
 /// What a part without results is called beside them.
 const PART: &str = "part";
 
-/// What makes the alignment unreliable, in one text.
-fn unreliable(document: &InspectDocument) -> Option<String> {
+/// What a reference that was not read in whole is called beside them.
+const REFERENCE: &str = "reference";
+
+/// What is called so that the points cover too little of the reference, where each region stands for itself.
+const COVERAGE: &str = "coverage";
+
+/// What leaves the whole part undecided beside characteristics and deviations: what it is called, and why, in one text.
+fn open(document: &InspectDocument) -> Vec<(&'static str, String)> {
+    let mut all = vec![];
     let doubts: Vec<&str> = document.alignment.doubts().map(|d| d.text.as_str()).collect();
-    (!doubts.is_empty()).then(|| doubts.join("; "))
+    if !doubts.is_empty() {
+        all.push((ALIGNMENT, doubts.join("; ")));
+    }
+    let own = document.verdict_reasons.iter().filter(|r| *r.kind == ReasonKind::IncompleteReference);
+    all.extend(own.map(|r| (REFERENCE, r.text.clone())));
+    if let Some(deviation) = document.deviation.as_ref().filter(|d| !d.regions.is_empty()) {
+        let lacks =
+            |r: &&VerdictReason| matches!(*r.kind, ReasonKind::Coverage | ReasonKind::CoverageUnknown);
+        all.extend(deviation.verdict_reasons.iter().filter(lacks).map(|r| (COVERAGE, r.text.clone())));
+    }
+    all
 }
 
-/// One line a characteristic, one for the deviations from the reference where they are judged, one for an alignment that cannot
+/// Why the deviations are undecided, in one text.
+fn undecided(document: &InspectDocument) -> Option<String> {
+    let deviation = document.deviation.as_ref().filter(|d| d.verdict == Some(Verdict::Undecided))?;
+    let texts: Vec<&str> = deviation.verdict_reasons.iter().map(|r| r.text.as_str()).collect();
+    Some(texts.join("; "))
+}
+
+/// One line a characteristic, one a feature, one for the deviations from the reference where they are judged, one for an alignment that cannot
 /// be relied on, and one for a part without results; numbers with all digits (RFC 4180).
 pub fn csv(parts: &[Part]) -> String {
     let mut out = HEAD.join(",") + "\r\n";
@@ -79,6 +114,8 @@ pub fn csv(parts: &[Part]) -> String {
             }
         };
         for c in &document.characteristics {
+            let place = |k: usize| c.place.as_ref().map(|p| p.measured[k]);
+            let off = |k: usize| c.place.as_ref().and_then(|p| p.deviation[k]);
             let cells: Row = [
                 part.name().into(),
                 c.id.clone(),
@@ -97,8 +134,18 @@ pub fn csv(parts: &[Part]) -> String {
                 number(c.interval.map(|i| i[0])),
                 number(c.interval.map(|i| i[1])),
                 c.modifiers.join("; "),
+                number(place(0)),
+                number(place(1)),
+                number(place(2)),
+                number(off(0)),
+                number(off(1)),
+                number(off(2)),
             ];
             out.push_str(&cells.map(cell).join(","));
+            out.push_str("\r\n");
+        }
+        for f in &document.features {
+            out.push_str(&feature(part.name(), f).map(cell).join(","));
             out.push_str("\r\n");
         }
         for (name, t, verdict) in judged(document) {
@@ -110,20 +157,39 @@ pub fn csv(parts: &[Part]) -> String {
             cells[8] = number(t.inside.map(|s| 100.0 * s));
             cells[9] = "%".into();
             cells[11] = verdict.word().into();
-            cells[13] = t.inside_reason.clone().unwrap_or_default();
+            let why = || undecided(document).filter(|_| verdict == Verdict::Undecided);
+            cells[13] = t.inside_reason.clone().or_else(why).unwrap_or_default();
             out.push_str(&cells.map(cell).join(","));
             out.push_str("\r\n");
         }
-        if let Some(why) = unreliable(document) {
+        for (what, why) in open(document) {
             let mut cells: Row = Default::default();
             cells[0] = part.name().into();
-            [cells[1], cells[2]] = [ALIGNMENT.into(), ALIGNMENT.into()];
+            [cells[1], cells[2]] = [what.into(), what.into()];
             [cells[11], cells[13]] = [Verdict::Undecided.word().into(), why];
             out.push_str(&cells.map(cell).join(","));
             out.push_str("\r\n");
         }
     }
     out
+}
+
+/// A feature with its size and place, beside those that the model has.
+fn feature(part: &str, f: &FeatureRecord) -> Row {
+    let number = |x: Option<f64>| x.map_or_else(String::new, |x| x.to_string());
+    let size = |p: &MeasuredPlace| p.diameter.or(p.angle);
+    let mut cells: Row = Default::default();
+    [cells[0], cells[1], cells[2], cells[3]] =
+        [part.into(), f.id.clone(), FEATURE.into(), f.shape.to_string()];
+    cells[5] = number(f.nominal.as_ref().and_then(size));
+    cells[8] = number(f.measured.as_ref().and_then(size));
+    cells[9] = if f.measured.is_some_and(|m| m.angle.is_some()) { "deg" } else { "mm" }.into();
+    cells[13] = f.reason.clone().unwrap_or_default();
+    for k in 0..3 {
+        cells[17 + k] = number(f.measured.map(|m| m.place[k]));
+        cells[20 + k] = number(f.measured.zip(f.nominal).map(|(m, n)| m.place[k] - n.place[k]));
+    }
+    cells
 }
 
 /// A test suite a part and a test case a characteristic, one for the deviations where they are judged and one for an alignment that
@@ -161,8 +227,8 @@ pub fn junit(parts: &[Part]) -> String {
 fn verdicts(part: &Part) -> Vec<Verdict> {
     let Some(document) = part.document() else { return vec![Verdict::Undecided] };
     let own = document.characteristics.iter().map(|c| c.verdict);
-    let unreliable = unreliable(document).map(|_| Verdict::Undecided);
-    own.chain(judged(document).into_iter().map(|j| j.2)).chain(unreliable).collect()
+    let open = open(document).into_iter().map(|_| Verdict::Undecided);
+    own.chain(judged(document).into_iter().map(|j| j.2)).chain(open).collect()
 }
 
 /// The test cases of a part.
@@ -175,10 +241,12 @@ fn cases(name: &str, document: &InspectDocument) -> String {
         let share = t.inside.map_or_else(|| "no point".into(), |s| format!("{} % of the points", 100.0 * s));
         let said =
             format!("{share} within {} to {} mm, allowed {} to 100 %", t.lower, t.upper, 100.0 * t.required);
+        let why = undecided(document).filter(|_| verdict == Verdict::Undecided);
+        let said = why.map_or(said.clone(), |why| format!("{said}; {why}"));
         out.push_str(&case(name, &name_of, verdict, &said));
     }
-    if let Some(why) = unreliable(document) {
-        out.push_str(&case(name, ALIGNMENT, Verdict::Undecided, &why));
+    for (what, why) in open(document) {
+        out.push_str(&case(name, what, Verdict::Undecided, &why));
     }
     out
 }

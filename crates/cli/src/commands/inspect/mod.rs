@@ -1,5 +1,6 @@
 //! `trueness inspect`: a plan and measured parts make verdicts.
 
+mod features;
 mod files;
 mod lists;
 mod part;
@@ -11,7 +12,7 @@ use crate::console;
 use crate::exit::{self, Outcome, Usage};
 use crate::options::{Common, DocumentArgs};
 use crate::output::whole_file;
-use crate::progress::Stage;
+use crate::progress::{STEPS, Stage};
 use crate::report::ReportArgs;
 use crate::run_files::RunFiles;
 use anyhow::anyhow;
@@ -121,7 +122,7 @@ fn run(args: &InspectArgs, common: &Common) -> anyhow::Result<Outcome> {
                 Part::Failed(Failed::new(plan.name_of(file), &error, plan.record()))
             }
         };
-        args.document.table(|| table::table(&part, several))?;
+        args.document.table(|| table::table(&part, several, common.verbose))?;
         parts.push(part);
     }
     if let Some(path) = &args.csv {
@@ -152,10 +153,10 @@ fn inspect(
 ) -> Result<InspectDocument, Fault> {
     let (mut data, inputs) = plan.data(part, common.seed, args.report.shown())?;
     data.places = args.places;
-    let stage = Stage::new(common.progress, "inspecting", "features", None);
+    let stage = Stage::new(common.progress, "inspecting", STEPS, Some(inspection::STEPS));
     let found = inspection::run(&plan.plan, data, &stage);
     let cancelled = stage.cancelled();
-    drop(stage);
+    stage.end(&found);
     let found = found.map_err(|stop| match stop {
         // Whatever it stopped at: nothing of it is told.
         _ if cancelled => Fault::Run(Cancelled.into()),

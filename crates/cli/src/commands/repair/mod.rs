@@ -5,7 +5,7 @@ mod table;
 use crate::command::Run;
 use crate::exit::{self, Outcome, Usage, not_negative};
 use crate::options::{Common, DocumentArgs, InputArgs};
-use crate::progress::Stage;
+use crate::progress::{self, Stage};
 use crate::read;
 use crate::report::ReportArgs;
 use crate::run_files::RunFiles;
@@ -141,13 +141,13 @@ fn run(args: &RepairArgs, common: &Common) -> anyhow::Result<Outcome> {
     if !source.unread.is_empty() {
         record.warnings.push(lost(&source.unread));
     }
-    let stage = Stage::new(common.progress, "repairing", "facets", None);
+    let stage = Stage::new(common.progress, "repairing", progress::STEPS, None);
     let repaired = repair::repair(&source.mesh, &options, &stage).map_err(|e| match e {
         RepairError::Cancelled(e) => e.into(),
         e => anyhow::anyhow!("{}: {e}", args.mesh.display()),
     })?;
     drop(stage);
-    let stage = Stage::new(common.progress, "measuring", "points", None);
+    let stage = Stage::new(common.progress, "measuring", progress::STEPS, None);
     // One after the other the bytes of a file leave all threads but one idle.
     let write = || -> anyhow::Result<MeshFile> {
         read::hash(&mut record, &args.mesh)?;
@@ -156,7 +156,7 @@ fn run(args: &RepairArgs, common: &Common) -> anyhow::Result<Outcome> {
     let (deviation, file) = rayon::join(|| repaired.deviation(&source.mesh, &stage), write);
     let mut file = file?;
     drop(stage);
-    let stage = Stage::new(common.progress, "checking the file", "facets", None);
+    let stage = Stage::new(common.progress, "checking the file", progress::STEPS, None);
     let output = again(args, &mut file, &repaired, &stage)?;
     drop(stage);
     let left_out = source.nonfinite_facets.len() as u64;

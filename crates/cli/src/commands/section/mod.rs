@@ -11,7 +11,7 @@ mod write;
 use crate::command::Run;
 use crate::exit::{self, Outcome, Usage};
 use crate::options::{Common, DocumentArgs, PointInputArgs};
-use crate::progress::Stage;
+use crate::progress::{STEPS, Stage};
 use crate::read::{self, Body, Opened};
 use crate::report::ReportArgs;
 use crate::run_files::RunFiles;
@@ -130,7 +130,7 @@ fn run(args: &SectionArgs, common: &Common) -> anyhow::Result<Outcome> {
         read::open(&args.input, Role::Measured, &args.file.reading())?;
     let shown = args.input.display();
     let planes = args.planes.planes()?;
-    let stage = Stage::new(common.progress, "finding segments", "points", None);
+    let stage = Stage::new(common.progress, "finding segments", STEPS, None);
     let mut methods = None;
     let found = match body {
         Body::Mesh(source) => {

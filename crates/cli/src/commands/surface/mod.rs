@@ -7,7 +7,7 @@ mod write;
 use crate::command::Run;
 use crate::exit::{self, Outcome, Usage};
 use crate::options::{Common, DocumentArgs, PointInputArgs};
-use crate::progress::Stage;
+use crate::progress::{STEPS, Stage};
 use crate::read::{self, Body, Opened};
 use crate::report::ReportArgs;
 use crate::run_files::RunFiles;
@@ -36,7 +36,7 @@ pub struct SurfaceArgs {
     /// Degrees along u and v [default: 3x3, or those that the knots tell]
     #[arg(long, value_name = "PxQ", value_parser = pair)]
     degree: Option<[usize; 2]>,
-    /// Equal spans along u and v [default: 8x8]
+    /// Equal spans along u and v [default: 8x8; on a cylinder or sphere one for each 15°, where that is more]
     #[arg(long, value_name = "MxN", value_parser = pair, conflicts_with_all = ["knots", "tolerance"])]
     spans: Option<[usize; 2]>,
     /// Whole clamped knots, a JSON file {"u": […], "v": […]}
@@ -137,7 +137,7 @@ impl SurfaceArgs {
         let layout = match (&self.knots, self.tolerance) {
             (Some(path), _) => Layout::Knots(knots::read(path, self.degree)?),
             (None, Some(t)) => Layout::Tolerance(t),
-            (None, None) => Layout::Spans(self.spans.unwrap_or([8, 8])),
+            (None, None) => self.spans.map_or(Layout::Auto, Layout::Spans),
         };
         Ok(Options {
             degree: self.degree.unwrap_or([3, 3]),
@@ -184,7 +184,7 @@ fn run(args: &SurfaceArgs, common: &Common) -> anyhow::Result<Outcome> {
     let points = &mesh.positions;
     read::describe(&mut record, points);
     read::hash(&mut record, &args.points)?;
-    let stage = Stage::new(common.progress, "fitting", "points", None);
+    let stage = Stage::new(common.progress, "fitting", STEPS, None);
     let fit = surface::fit_mesh(&mesh, &options, &stage);
     let fit = fit.map_err(|e| match e {
         SurfaceError::Cancelled(e) => anyhow::Error::from(e),
@@ -209,7 +209,7 @@ fn run(args: &SurfaceArgs, common: &Common) -> anyhow::Result<Outcome> {
         let view = View::new(&document, &fit, outline.as_ref(), &document.inputs[0].path, points);
         args.report.write(&document, &view.objects(), &view.marks, common.progress)?;
     }
-    let stage = Stage::new(common.progress, "writing the surface", "points", None);
+    let stage = Stage::new(common.progress, "writing the surface", STEPS, None);
     args.models.write(&fit.surface, outline.as_ref(), &stage)?;
     drop(stage);
     args.document.write(&document)?;

@@ -76,14 +76,25 @@ pub fn table(document: &SurfaceDocument) -> String {
             }
         );
     }
-    if document.outliers > 0 {
-        let _ = writeln!(out, "{} left out", counted(document.outliers, ["outlier", "outliers"]));
-    }
+    out.push_str(&excluded(document));
     if let Some(tolerance) = &document.tolerance {
-        let all = if document.outliers > 0 { "all other points" } else { "all points" };
+        let all =
+            if document.outliers + document.beyond_border > 0 { "all other points" } else { "all points" };
         let _ = writeln!(out, "{}", reached(tolerance.value, tolerance.outside, *tolerance.stopped_by, all));
     }
     out.push_str(&curvature(document));
+    out
+}
+
+/// Points that no number counts.
+fn excluded(document: &SurfaceDocument) -> String {
+    let mut out = String::new();
+    if document.outliers > 0 {
+        let _ = writeln!(out, "{} left out", counted(document.outliers, ["outlier", "outliers"]));
+    }
+    if document.beyond_border > 0 {
+        let _ = writeln!(out, "excluded {} (beyond the border)", counted(document.beyond_border, POINTS));
+    }
     out
 }
 

@@ -1,11 +1,13 @@
 //! The entities of a drawing that have a course in its plane.
 
+use super::conic::conic;
 use super::groups::Group;
+use super::through::{Given, through};
 use crate::Unit;
 use crate::cad::assemble::{Raw, curve};
 use crate::drawing::Drawn;
 use crate::error::{Fault, Located, Result};
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::f64::consts::{PI, TAU};
 
 /// Heights of an entity differ by no more than this share of its size.
 const FLAT: f64 = 1e-6;
@@ -22,7 +24,7 @@ impl Said<'_> {
     fn group(&self, code: i64) -> Option<&Group<'_>> {
         self.groups.iter().find(|g| g.code == code)
     }
-    fn wrong(&self, what: &str, remedy: &'static str) -> Located {
+    pub fn wrong(&self, what: &str, remedy: &'static str) -> Located {
         Fault::Unsupported { what: what.into(), remedy }.at_line(self.line)
     }
     pub fn integer(&self, code: i64) -> Result<i64> {
@@ -32,13 +34,20 @@ impl Said<'_> {
         let missing = || Fault::unexpected("all numbers of the entity", b"").at_line(self.line);
         self.group(code).ok_or_else(missing)?.number()
     }
-    fn or(&self, code: i64, default: f64) -> Result<f64> {
+    pub fn or(&self, code: i64, default: f64) -> Result<f64> {
         self.group(code).map_or(Ok(default), Group::number)
+    }
+    pub fn has(&self, code: i64) -> bool {
+        self.group(code).is_some()
+    }
+    /// A length; 0 where it is left out.
+    pub fn length_or_0(&self, code: i64) -> Result<f64> {
+        Ok(self.unit.to_millimeters(self.or(code, 0.0)?))
     }
     fn length(&self, code: i64) -> Result<f64> {
         Ok(self.unit.to_millimeters(self.number(code)?))
     }
-    fn place(&self, code: i64) -> Result<[f64; 2]> {
+    pub fn place(&self, code: i64) -> Result<[f64; 2]> {
         Ok([self.length(code)?, self.length(code + 10)?])
     }
     fn all(&self, code: i64) -> Result<Vec<f64>> {
@@ -49,7 +58,7 @@ impl Said<'_> {
     }
 
     /// Whether the entity is drawn as seen from below; refused where its plane is another one than that of the drawing.
-    fn mirrored(&self) -> Result<bool> {
+    pub fn mirrored(&self) -> Result<bool> {
         match [self.or(210, 0.0)?, self.or(220, 0.0)?, self.or(230, 1.0)?] {
             [x, y, z] if x.abs() < FLAT && y.abs() < FLAT && z != 0.0 => Ok(z < 0.0),
             _ => Err(self.wrong("an entity is turned out of the plane of the drawing", "draw it flat")),
@@ -170,8 +179,7 @@ pub(super) fn polyline(said: &Said, vertices: &[Vertex], closed: bool, out: &mut
 pub(super) fn spline(said: &Said, out: &mut Vec<Drawn>) -> Result<()> {
     let (x, y, z) = (said.lengths(10)?, said.lengths(20)?, said.lengths(30)?);
     if x.is_empty() {
-        let what = "a spline is given by the points alone that it passes through";
-        return Err(said.wrong(what, "export it with its control points"));
+        return fitted(said, out);
     }
     if x.len() != y.len() {
         return Err(Fault::unexpected("two coordinates of each control point", b"").at_line(said.line));
@@ -189,6 +197,29 @@ pub(super) fn spline(said: &Said, out: &mut Vec<Drawn>) -> Result<()> {
     Ok(())
 }
 
+/// A `SPLINE` by the points alone that it passes through.
+fn fitted(said: &Said, out: &mut Vec<Drawn>) -> Result<()> {
+    let (x, y, z) = (said.lengths(11)?, said.lengths(21)?, said.lengths(31)?);
+    if x.len() != y.len() {
+        return Err(Fault::unexpected("two coordinates of each point of a spline", b"").at_line(said.line));
+    }
+    let points: Vec<[f64; 2]> = x.iter().zip(&y).map(|(x, y)| [*x, *y]).collect();
+    said.flat(&z, size(&points))?;
+    let tangent = |code: i64| -> Result<Option<[f64; 2]>> {
+        let given = [said.or(code, 0.0)?, said.or(code + 10, 0.0)?];
+        Ok((given != [0.0; 2]).then_some(given))
+    };
+    // 1: closed, 2: periodic.
+    let closed = said.integer(70)? & 3 != 0;
+    let given = Given { points, tangents: [tangent(12)?, tangent(13)?], closed };
+    let found = through(given).ok_or_else(|| {
+        let what = "a spline by the points that it passes through has fewer than two different ones";
+        said.wrong(what, "export it with its control points")
+    })?;
+    out.push(found);
+    Ok(())
+}
+
 /// An `ELLIPSE`: quarters of it as rational curves of degree 2, exactly.
 pub(super) fn ellipse(said: &Said, out: &mut Vec<Drawn>) -> Result<()> {
     let (center, major, ratio) = (said.place(10)?, said.place(11)?, said.number(40)?);
@@ -200,24 +231,6 @@ pub(super) fn ellipse(said: &Said, out: &mut Vec<Drawn>) -> Result<()> {
     if major == [0.0; 2] || ratio <= 0.0 || sweep <= 0.0 || sweep > TAU + FLAT {
         return Err(Fault::unexpected("axes and a range of an ellipse", b"").at_line(said.line));
     }
-    let pieces = (sweep / FRAC_PI_2 - FLAT).ceil().max(1.0);
-    let half = 0.5 * sweep / pieces;
-    let place = |angle: f64, out: f64| {
-        let (sin, cos) = libm::sincos(angle);
-        let on = |k: usize| center[k] + out * (cos * major[k] + sin * minor[k]);
-        [on(0), on(1), 0.0]
-    };
-    for i in 0..pieces as u32 {
-        let middle = from + half * (2.0 * f64::from(i) + 1.0);
-        let cos = libm::cos(half);
-        let raw = Raw {
-            degree: vec![2],
-            knots: vec![vec![0.0, 0.0, 0.0, 1.0, 1.0, 1.0]],
-            counts: vec![3],
-            points: vec![place(middle - half, 1.0), place(middle, 1.0 / cos), place(middle + half, 1.0)],
-            weights: vec![1.0, cos, 1.0],
-        };
-        out.push(Drawn::Spline(curve(raw).map_err(|f| f.at_line(said.line))?));
-    }
+    out.extend(conic(center, [major, minor], from, sweep).map_err(|f| f.at_line(said.line))?);
     Ok(())
 }

@@ -1,10 +1,14 @@
 //! DXF drawings: lines, arcs, circles and splines, written for sections and read as the nominal of one.
 
+mod blocks;
+mod conic;
 mod entities;
 mod groups;
+mod place;
 mod read;
 #[cfg(test)]
 mod tests;
+mod through;
 mod write;
 
 pub use write::write;

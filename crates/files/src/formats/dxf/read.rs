@@ -1,8 +1,9 @@
 //! The entities of a DXF file.
 
+use super::blocks::{Block, Insert, Item, Placed, block_name};
 use super::entities::{Said, Vertex, arc, ellipse, line, polyline, spline, vertex, vertices};
 use super::groups::{BINARY, Group, Groups};
-use crate::drawing::{Drawing, DrawnEntity};
+use crate::drawing::DrawnEntity;
 use crate::error::{Fault, Result};
 use crate::format::{Parsed, ReadOptions};
 use crate::source::{HEAD, Source};
@@ -20,23 +21,30 @@ pub(super) fn read(mut source: Source, options: &ReadOptions) -> Result<Parsed> 
     let text = source.feed.all()?;
     no_zeros(text)?;
     let said = unit(&mut Groups::new(text))?;
-    let mut reader = Reader { unit: options.unit_of(said), ..Reader::default() };
+    let unit = options.unit_of(said);
+    let (mut own, mut blocks) = (Reader::new(unit), BTreeMap::new());
     let mut groups = Groups::new(text);
     while let Some(name) = section(&mut groups)? {
         match name.value {
-            b"ENTITIES" => reader.entities(&mut groups)?,
+            b"ENTITIES" => own.entities(&records(&mut groups, b"ENDSEC")?)?,
+            b"BLOCKS" => own.through += read_blocks(&mut groups, unit, &mut blocks)?,
             _ => while !groups.next()?.is(0, b"ENDSEC") {},
         }
     }
+    let mut placed = Placed::new(blocks, own.passed_over);
+    placed.place(own.items)?;
     let mut warnings = vec![];
-    if !reader.passed_over.is_empty() {
-        let kinds = reader.passed_over.iter().map(|(name, count)| format!("{count} {name}"));
+    if !placed.passed_over.is_empty() {
+        let kinds = placed.passed_over.iter().map(|(name, count)| format!("{count} {name}"));
         warnings.push(Warning::PassedOver { what: kinds.collect::<Vec<_>>().join(", ") });
     }
-    if reader.drawing.entities.is_empty() {
+    if own.through > 0 {
+        warnings.push(Warning::ThroughPoints { count: own.through });
+    }
+    if placed.drawing.entities.is_empty() {
         warnings.push(Warning::NothingDrawn);
     }
-    Ok(Parsed::drawing("dxf", reader.drawing, said, warnings))
+    Ok(Parsed::drawing("dxf", placed.drawing, said, warnings))
 }
 
 /// The name of the next section; `None` at the end of the file.
@@ -83,50 +91,87 @@ fn unit(groups: &mut Groups) -> Result<Option<Unit>> {
     }))
 }
 
-#[derive(Default)]
+/// An entity as the file holds it: its name, and its groups up to the next one.
+struct Record<'a> {
+    name: Group<'a>,
+    groups: Vec<Group<'a>>,
+}
+
+/// The entities up to the name that ends them.
+fn records<'a>(groups: &mut Groups<'a>, end: &[u8]) -> Result<Vec<Record<'a>>> {
+    let mut all: Vec<Record> = vec![];
+    loop {
+        let group = groups.next()?;
+        match (group.code, all.last_mut()) {
+            (0, _) if group.value == end => return Ok(all),
+            (0, _) => all.push(Record { name: group, groups: vec![] }),
+            (_, Some(last)) => last.groups.push(group),
+            (_, None) => return Err(group.wrong("an entity, or the end of its section")),
+        }
+    }
+}
+
+/// The blocks of their section, by name. Gives how many of their splines are drawn through points.
+fn read_blocks<'a>(
+    groups: &mut Groups<'a>,
+    unit: Unit,
+    blocks: &mut BTreeMap<String, Result<Block>>,
+) -> Result<u64> {
+    let mut through = 0;
+    let all = records(groups, b"ENDSEC")?;
+    for own in all.split(|r| r.name.value == b"ENDBLK") {
+        let Some(first) = own.iter().position(|r| r.name.value == b"BLOCK") else { continue };
+        let mut own_through = 0;
+        let mut read = || {
+            let said = Said { groups: &own[first].groups, line: own[first].name.line, unit };
+            let base = [said.length_or_0(10)?, said.length_or_0(20)?];
+            let mut reader = Reader::new(unit);
+            reader.entities(&own[first + 1..])?;
+            own_through += reader.through;
+            Ok(Block { base, items: reader.items, passed_over: reader.passed_over })
+        };
+        blocks.insert(block_name(&own[first].groups), read());
+        through += own_through;
+    }
+    Ok(through)
+}
+
 struct Reader {
     unit: Unit,
-    drawing: Drawing,
+    items: Vec<Item>,
     passed_over: BTreeMap<String, u64>,
+    /// Splines by the points that they pass through.
+    through: u64,
 }
 
 impl Reader {
-    /// The entities up to the end of their section.
-    fn entities<'a>(&mut self, groups: &mut Groups<'a>) -> Result<()> {
-        let mut own: Vec<Group<'a>> = vec![];
-        let mut name = groups.next()?;
-        // Vertices of the polyline that is being read, and what it says itself.
-        let mut open: Option<(Vec<Group<'a>>, u64, Vec<Vertex>)> = None;
-        loop {
-            if name.code != 0 {
-                return Err(name.wrong("an entity, or `ENDSEC`"));
-            }
-            if name.value == b"ENDSEC" {
-                return match open {
-                    Some(_) => Err(name.wrong("`SEQEND` after the vertices of a polyline")),
-                    None => Ok(()),
-                };
-            }
-            own.clear();
-            let next = loop {
-                let group = groups.next()?;
-                if group.code == 0 {
-                    break group;
-                }
-                own.push(group);
-            };
-            let said = Said { groups: &own, line: name.line, unit: self.unit };
-            match (name.value, &mut open) {
-                (b"POLYLINE", _) => open = Some((own.clone(), name.line, vec![])),
-                (b"VERTEX", Some((_, _, vertices))) => vertices.push(vertex(&said)?),
-                (b"SEQEND", Some((own, line, vertices))) => {
-                    let said = Said { groups: own, line: *line, unit: self.unit };
+    fn new(unit: Unit) -> Reader {
+        Reader { unit, items: vec![], passed_over: BTreeMap::new(), through: 0 }
+    }
+
+    fn entities(&mut self, records: &[Record]) -> Result<()> {
+        // The polyline whose vertices are being read.
+        let mut open: Option<(&Record, Vec<Vertex>)> = None;
+        let mut last = 0;
+        for record in records {
+            let said = Said { groups: &record.groups, line: record.name.line, unit: self.unit };
+            last = record.groups.last().map_or(record.name.line, |g| g.line);
+            match (record.name.value, &mut open) {
+                (b"POLYLINE", _) => open = Some((record, vec![])),
+                (b"VERTEX", Some((_, vertices))) => vertices.push(vertex(&said)?),
+                (b"SEQEND", Some((own, vertices))) => {
+                    let said = Said { groups: &own.groups, line: own.name.line, unit: self.unit };
                     self.polyline(&said, vertices)?;
                     open = None;
                 }
-                _ => self.entity(name.value, &said)?,
+                // It ends the attributes of a block, too.
+                (b"SEQEND", None) => {}
+                _ => self.entity(record.name.value, &said)?,
             }
-            name = next;
+        }
+        match open {
+            Some(_) => Err(Fault::unexpected("`SEQEND` after the vertices of a polyline", b"").at_line(last)),
+            None => Ok(()),
         }
     }
 
@@ -148,7 +193,14 @@ impl Reader {
             b"LINE" => self.add(said, |out| line(said, out)),
             b"ARC" => self.add(said, |out| arc(said, false, out)),
             b"CIRCLE" => self.add(said, |out| arc(said, true, out)),
-            b"SPLINE" => self.add(said, |out| spline(said, out)),
+            b"SPLINE" => {
+                self.through += u64::from(!said.has(10));
+                self.add(said, |out| spline(said, out))
+            }
+            b"INSERT" => {
+                self.items.push(Item::Insert(Insert::of(said, layer(said))?));
+                Ok(())
+            }
             b"ELLIPSE" => self.add(said, |out| ellipse(said, out)),
             b"LWPOLYLINE" => {
                 let closed = said.integer(70)? & 1 != 0;
@@ -168,11 +220,15 @@ impl Reader {
     ) -> Result<()> {
         let mut found = vec![];
         make(&mut found)?;
-        let layer = said.groups.iter().find(|g| g.code == 8).map(|g| String::from_utf8_lossy(g.value));
-        let layer = layer.unwrap_or_default().into_owned();
-        self.drawing
-            .entities
-            .extend(found.into_iter().map(|drawn| DrawnEntity { layer: layer.clone(), drawn }));
+        let layer = layer(said);
+        let item = |drawn| Item::Drawn(DrawnEntity { layer: layer.clone(), drawn });
+        self.items.extend(found.into_iter().map(item));
         Ok(())
     }
+}
+
+/// The layer that an entity is on.
+fn layer(said: &Said) -> String {
+    let layer = said.groups.iter().find(|g| g.code == 8).map(|g| String::from_utf8_lossy(g.value));
+    layer.unwrap_or_default().into_owned()
 }

@@ -1,6 +1,6 @@
 //! B-spline surfaces (entity 128) and curves (126) of an IGES file.
 
-use super::text::{Entity, Model, model};
+use super::text::{Entity, Model, model, up_to_the_end};
 use crate::cad::SplineModel;
 use crate::cad::assemble::{Raw, curve, surface};
 use crate::error::{Fault, Result};
@@ -13,8 +13,9 @@ use std::collections::BTreeMap;
 
 /// Reads a file.
 pub(super) fn read(mut source: Source, options: &ReadOptions) -> Result<Parsed> {
-    no_zeros(source.feed.ahead(HEAD)?)?;
-    let text = source.feed.all()?;
+    let (head, _) = up_to_the_end(source.feed.ahead(HEAD)?);
+    no_zeros(head)?;
+    let (text, trailing) = up_to_the_end(source.feed.all()?);
     no_zeros(text)?;
     let file = model(text)?;
     let said = unit(&file.global)?;
@@ -33,17 +34,21 @@ pub(super) fn read(mut source: Source, options: &ReadOptions) -> Result<Parsed> 
                 let raw = of_curve(&file, entity, unit)?;
                 out.curves.push(curve(raw).map_err(|f| f.at_line(entity.line))?);
             }
-            // Ruled, turned, swept and offset surfaces, planes and other shapes.
+            // Ruled, turned, swept and offset surfaces, planes and other shapes; solids that are made of shapes.
             108 | 114 | 118 | 120 | 122 | 140 | 190 | 192 | 194 | 196 | 198 => left_out += 1,
+            150 | 152 | 154 | 156 | 158 | 160 | 162 | 164 | 168 => left_out += 1,
             _ => {}
         }
     }
     let mut warnings = vec![];
+    if trailing > 0 {
+        warnings.push(Warning::TrailingBytes { count: trailing });
+    }
     if trimmed > 0 {
         warnings.push(Warning::Trimmed { count: trimmed });
     }
     if left_out > 0 {
-        warnings.push(Warning::FacesLeftOut { count: left_out });
+        warnings.push(Warning::FacesLeftOut { count: left_out, of: left_out + out.surfaces.len() as u64 });
     }
     Ok(Parsed::splines("iges", out, said, warnings))
 }

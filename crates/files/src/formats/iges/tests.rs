@@ -22,6 +22,24 @@ fn model(text: &[u8]) -> (SplineModel, Unit, Vec<Warning>) {
     }
 }
 
+/// What transfers append after the line of section T is none of the model: blank bytes without a word, others with one.
+#[test]
+fn what_follows_the_end_is_not_read() {
+    let whole =
+        file("2,2HMM", &[(126, 0, "1,1,1,0,1,0,0.,0.,1.,1.,1.,1.,0.,0.,0.,1.,2.,3.,0.,1.,0.,0.,1.".into())]);
+    for tail in [&b""[..], b"\r\n\r\n", b"\x1a", b"\0\0\0\0\n", b"\n \n\x1a\0"] {
+        let (found, _, warnings) = model(&[&whole[..], tail].concat());
+        assert!(found.curves.len() == 1 && warnings.is_empty(), "{tail:?} {warnings:?}");
+    }
+    for (tail, count) in [(&b"the end\n"[..], 6), (b"\n-- \nsent by mail\n", 12), (b"\0x\n\xff\xfe", 3)] {
+        let (found, _, warnings) = model(&[&whole[..], tail].concat());
+        assert_eq!((found.curves.len(), warnings), (1, vec![Warning::TrailingBytes { count }]), "{tail:?}");
+    }
+    // Glued to the last line.
+    let glued = [&whole[..whole.len() - 1], b"end of file"].concat();
+    assert_eq!(model(&glued).2, [Warning::TrailingBytes { count: 9 }]);
+}
+
 #[test]
 fn what_was_written_reads_back_bit_for_bit() {
     let mut random = Random::stream(3, 0);
@@ -137,7 +155,7 @@ fn trimmed_surfaces_are_told_from_whole_ones() {
     holes[7].2 = "1,0,1,0,13".into();
     assert_eq!(model(&file("2,2HMM", &holes)).2, [Warning::Trimmed { count: 1 }]);
     let sphere = (196, 0, "1,5.".into());
-    assert_eq!(model(&file("2,2HMM", &[surface, sphere])).2, [Warning::FacesLeftOut { count: 1 }]);
+    assert_eq!(model(&file("2,2HMM", &[surface, sphere])).2, [Warning::FacesLeftOut { count: 1, of: 2 }]);
 }
 
 #[test]

@@ -49,6 +49,26 @@ impl Entity {
     }
 }
 
+/// Columns of a line, and the one that names its section.
+const COLUMNS: usize = 80;
+const NAMED: usize = 72;
+
+/// The text up to the line of section T, which ends the file, and how many bytes follow it that are not blank: what transfers, mail and other systems
+/// append.
+pub(super) fn up_to_the_end(text: &[u8]) -> (&[u8], u64) {
+    let mut lines = Lines::new(text);
+    while let Some(line) = lines.next() {
+        if line.get(NAMED) == Some(&b'T') {
+            let after = lines.rest().len() + line.len().saturating_sub(COLUMNS);
+            let end = text.len() - after;
+            // A line end of its own may lie between the columns and what follows.
+            let blank = |b: &&u8| !matches!(b, 0 | 0x1a) && !b.is_ascii_whitespace();
+            return (&text[..end], text[end..].iter().filter(blank).count() as u64);
+        }
+    }
+    (text, 0)
+}
+
 /// Reads the sections.
 pub(super) fn model(text: &[u8]) -> Result<Model> {
     let mut sections: BTreeMap<u8, Vec<(u64, &[u8])>> = BTreeMap::new();
@@ -58,7 +78,7 @@ pub(super) fn model(text: &[u8]) -> Result<Model> {
         if line.trim_ascii().is_empty() {
             continue;
         }
-        let Some(letter) = line.get(72).filter(|l| matches!(l, b'S' | b'G' | b'D' | b'P' | b'T')) else {
+        let Some(letter) = line.get(NAMED).filter(|l| matches!(l, b'S' | b'G' | b'D' | b'P' | b'T')) else {
             let what = "a line of 80 columns with S, G, D, P or T in the 73rd";
             return Err(Fault::unexpected(what, line).at_line(lines.number));
         };

@@ -1,12 +1,13 @@
 //! Faces and triangle strips, in text or in bytes.
 
-use super::header::{Element, Encoding, PropertyType};
+use super::{
+    header::{Element, Encoding, PropertyType},
+    text,
+};
 use crate::{
     assemble::Faces,
-    error::{Fault, Located, Result},
+    error::{Fault, Result},
     feed::Feed,
-    lines::{Lines, words},
-    number::whole_number,
     scalar::{Order, Scalar},
 };
 use rayon::prelude::*;
@@ -28,10 +29,19 @@ fn indices(element: &Element) -> Option<usize> {
     })
 }
 
-/// Length of the row ahead; `None` if the file ends within it.
-pub(super) fn row_length(feed: &mut Feed, element: &Element, order: Order) -> Result<Option<usize>> {
+/// Length of the row ahead; `None` if the file ends within it. `starts`, if there are as many as properties, become the
+/// places in it where they begin.
+pub(super) fn row_length(
+    feed: &mut Feed,
+    element: &Element,
+    order: Order,
+    starts: &mut [usize],
+) -> Result<Option<usize>> {
     let mut length = 0usize;
-    for property in &element.properties {
+    for (i, property) in element.properties.iter().enumerate() {
+        if let Some(start) = starts.get_mut(i) {
+            *start = length;
+        }
         let (count, size) = match property.kind {
             PropertyType::One(s) => (1, s.size()),
             PropertyType::List { count, item } => {
@@ -53,28 +63,33 @@ pub(super) fn row_length(feed: &mut Feed, element: &Element, order: Order) -> Re
     Ok((feed.ahead(length)?.len() >= length).then_some(length))
 }
 
-/// Reads the rows of `elements` from the rest of a file, which begins at byte `at` and behind `lines` lines. Gives what
-/// follows them.
+/// A stretch of a file: its bytes, the first of them, and how many lines come before.
+pub(super) struct Stretch<'a> {
+    pub bytes: &'a [u8],
+    pub at: u64,
+    pub lines: u64,
+}
+
+/// Reads the rows of `elements`. Gives what follows them, which should be nothing if `to_end`.
 pub(super) fn read<'a>(
-    rest: &'a [u8],
-    at: u64,
-    lines: u64,
+    stretch: Stretch<'a>,
     encoding: Encoding,
     elements: &[Element],
+    to_end: bool,
     positions: &[Point],
     faces: &mut Faces,
 ) -> Result<&'a [u8]> {
     let Encoding::Binary(order) = encoding else {
-        return text(rest, lines, elements, positions, faces);
+        return in_text(stretch.bytes, stretch.lines, elements, to_end, positions, faces);
     };
-    let mut bytes = Bytes { rest, at, order };
+    let mut bytes = Bytes { rest: stretch.bytes, at: stretch.at, order };
     for element in elements {
         if plain(&mut bytes, element, positions, faces) {
             continue;
         }
         let list = indices(element).filter(|_| is_faces(element));
         let mut corners = vec![];
-        for row in 0..element.rows(encoding) {
+        for row in 0..element.rows() {
             let at = bytes.at;
             if !bytes.row(element, list, &mut corners)? {
                 return Err(Fault::Short { what: "faces", declared: element.count, present: row }.at_byte(at));
@@ -189,53 +204,32 @@ fn plain(bytes: &mut Bytes, element: &Element, positions: &[Point], faces: &mut 
     true
 }
 
-/// Rows of text, one a line.
-fn text<'a>(
+/// Rows of text, behind which nothing should follow if `to_end`.
+fn in_text<'a>(
     rest: &'a [u8],
     before: u64,
     elements: &[Element],
+    to_end: bool,
     positions: &[Point],
     faces: &mut Faces,
 ) -> Result<&'a [u8]> {
-    let mut lines = Lines::new(rest);
-    let mut corners = vec![];
-    for element in elements {
-        let list = indices(element).filter(|_| is_faces(element));
-        for row in 0..element.count {
-            let Some(line) = lines.find(|l| !l.trim_ascii().is_empty()) else {
-                return Err(short(element, row, before + lines.number));
-            };
-            let Some(list) = list else { continue };
-            let number = before + lines.number;
-            let expected = "the number of corners and as many numbers of vertices";
-            text_row(line, element, list, &mut corners)
-                .ok_or_else(|| Fault::unexpected(expected, line).at_line(number))?;
-            take(element, &corners, positions, faces).map_err(|f| f.at_line(number))?;
-        }
-    }
-    Ok(lines.rest())
-}
-
-fn short(element: &Element, present: u64, line: u64) -> Located {
-    Fault::Short { what: "faces", declared: element.count, present }.at_line(line)
-}
-
-/// The list `wanted` of a line; `None` if it does not hold what it should.
-fn text_row(line: &[u8], element: &Element, wanted: usize, out: &mut Vec<f64>) -> Option<()> {
-    let mut words = words(line);
-    for (i, property) in element.properties.iter().enumerate().take(wanted + 1) {
-        let PropertyType::List { .. } = property.kind else {
-            words.next()?;
-            continue;
-        };
-        let count = crate::number::count(words.next()?)?;
-        out.clear();
-        for _ in 0..count {
-            let value = whole_number(words.next()?, b'.')?;
-            if i == wanted {
-                out.push(value);
+    let wanted: text::Wanted = |element| indices(element).filter(|_| is_faces(element));
+    let (mut of_lines, mut of_words) = (Faces::default(), Faces::default());
+    let mut to_lines = |e: &Element, list: &[f64]| take(e, list, positions, &mut of_lines);
+    let lines = text::by_lines(rest, before, elements, wanted, &mut to_lines);
+    if !lines.as_ref().is_ok_and(|passed| passed.is_exact(to_end)) {
+        let mut to_words = |e: &Element, list: &[f64]| take(e, list, positions, &mut of_words);
+        match text::by_words(rest, before, elements, wanted, &mut to_words) {
+            Ok(passed) if passed.is_exact(to_end) => {
+                faces.append(of_words);
+                return Ok(passed.rest);
             }
+            // Where the first rows are no lines, the place that the other reading names is the right one.
+            Err(fault) if lines.is_err() && of_lines.triangles.len() < 2 => return Err(fault),
+            _ => {}
         }
     }
-    Some(())
+    let rest = lines?.rest;
+    faces.append(of_lines);
+    Ok(rest)
 }

@@ -42,9 +42,9 @@ pub(super) struct Element {
 }
 
 impl Element {
-    /// Rows that have to be gone through. Without properties they take up no byte, however many are declared.
-    pub fn rows(&self, encoding: Encoding) -> u64 {
-        if self.properties.is_empty() && encoding != Encoding::Ascii { 0 } else { self.count }
+    /// Rows that have to be gone through. Without properties they hold nothing, however many are declared.
+    pub fn rows(&self) -> u64 {
+        if self.properties.is_empty() { 0 } else { self.count }
     }
     /// Bytes of a row, if all rows have the same.
     pub fn stride(&self) -> Option<usize> {
@@ -94,9 +94,18 @@ impl Header {
 /// Elements and properties beyond this are not a header but an attack.
 const MOST: usize = 4096;
 
+/// Whether a file begins with the word `ply` on a line of its own, in small letters or capitals.
+pub(super) fn is_magic(bytes: &[u8]) -> bool {
+    let Some((word, rest)) = bytes.split_first_chunk::<3>() else { return false };
+    let next = rest.iter().find(|b| !matches!(b, b' ' | b'\t'));
+    word.eq_ignore_ascii_case(b"ply") && matches!(next, Some(b'\n' | b'\r'))
+}
+
 /// Reads the header at the start of `bytes`.
 pub(super) fn parse(bytes: &[u8]) -> Result<Header> {
-    let end = if bytes.get(3) == Some(&b'\r') && bytes.get(4) != Some(&b'\n') { b'\r' } else { b'\n' };
+    let break_at = bytes.iter().position(|b| matches!(b, b'\n' | b'\r')).unwrap_or(0);
+    let old = bytes.get(break_at) == Some(&b'\r') && bytes.get(break_at + 1) != Some(&b'\n');
+    let end = if old { b'\r' } else { b'\n' };
     let mut header =
         Header { encoding: Encoding::Ascii, elements: vec![], length: 0, lines: 0, end, unknown: None };
     let mut encoding = None;
@@ -107,7 +116,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Header> {
         let wrong = |expected: &'static str, line: &[u8]| Fault::unexpected(expected, line).at_line(number);
         let Some(length) = memchr::memchr(end, rest) else {
             // Without a line end nothing can follow: as good as the end, if it says so.
-            if rest.trim_ascii() == b"end_header" {
+            if rest.trim_ascii().eq_ignore_ascii_case(b"end_header") {
                 header.length = bytes.len();
                 break;
             }
@@ -116,7 +125,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Header> {
         let line = rest[..length].trim_ascii();
         header.length += length + 1;
         let mut words = words(line);
-        match words.next() {
+        match words.next().map(<[u8]>::to_ascii_lowercase).as_deref() {
             Some(b"end_header") => break,
             Some(b"ply") if header.lines == 1 => {}
             Some(b"format") => encoding = Some(format(line, header.lines)?),
@@ -145,7 +154,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Header> {
 
 /// The type of this name.
 fn scalar(name: &[u8]) -> Option<Scalar> {
-    Some(match name {
+    Some(match &name.to_ascii_lowercase()[..] {
         b"char" | b"int8" => Scalar::I8,
         b"uchar" | b"uint8" => Scalar::U8,
         b"short" | b"int16" => Scalar::I16,
@@ -159,7 +168,7 @@ fn scalar(name: &[u8]) -> Option<Scalar> {
 }
 
 fn format(line: &[u8], number: u64) -> Result<Encoding> {
-    match words(line).nth(1) {
+    match words(line).nth(1).map(<[u8]>::to_ascii_lowercase).as_deref() {
         Some(b"ascii") => Ok(Encoding::Ascii),
         Some(b"binary_little_endian") => Ok(Encoding::Binary(Order::Little)),
         Some(b"binary_big_endian") => Ok(Encoding::Binary(Order::Big)),
@@ -182,7 +191,7 @@ fn property(line: &[u8], number: u64) -> Result<Property> {
     };
     let mut words = words(line).skip(1);
     let first = words.next().ok_or_else(wrong)?;
-    let kind = if first == b"list" {
+    let kind = if first.eq_ignore_ascii_case(b"list") {
         let count = words.next().and_then(scalar).ok_or_else(wrong)?;
         let item = words.next().and_then(scalar).ok_or_else(wrong)?;
         if matches!(count, Scalar::F32 | Scalar::F64) {

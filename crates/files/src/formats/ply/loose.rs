@@ -4,7 +4,7 @@ use super::{faces, header::Element};
 use crate::{
     error::{Fault, Located, Result},
     feed::Feed,
-    formats::strided::{Rows, finite},
+    formats::strided::{RowField, Rows, finite},
 };
 use trueness_geom::{cloud::PointStream, space::Point};
 
@@ -12,15 +12,20 @@ use trueness_geom::{cloud::PointStream, space::Point};
 pub(super) struct LoosePoints {
     feed: Feed,
     vertex: Element,
-    /// Where the coordinates are; the stride is the least there can be.
+    /// The types of the coordinates; the stride is the least there can be.
     rows: Rows,
+    /// Which properties they are.
+    xyz: [usize; 3],
+    /// Where the properties of a row begin.
+    starts: Vec<usize>,
     found: u64,
     block: usize,
 }
 
 impl LoosePoints {
-    pub fn new(feed: Feed, vertex: Element, rows: Rows, block: usize) -> LoosePoints {
-        LoosePoints { feed, vertex, rows, found: 0, block: block.max(1) }
+    pub fn new(feed: Feed, vertex: Element, rows: Rows, xyz: [usize; 3], block: usize) -> LoosePoints {
+        let starts = vec![0; vertex.properties.len()];
+        LoosePoints { feed, vertex, rows, xyz, starts, found: 0, block: block.max(1) }
     }
     /// The file, as far as it has been read.
     pub fn feed(&mut self) -> &mut Feed {
@@ -40,12 +45,17 @@ impl PointStream for LoosePoints {
         block.clear();
         let at = self.feed.position();
         while block.len() < self.block && self.found + (block.len() as u64) < self.rows.count {
-            let Some(length) = faces::row_length(&mut self.feed, &self.vertex, self.rows.order)? else {
+            let row = faces::row_length(&mut self.feed, &self.vertex, self.rows.order, &mut self.starts)?;
+            let Some(length) = row else {
                 let present = self.found + block.len() as u64;
                 let short = Fault::Short { what: self.rows.what.1, declared: self.rows.count, present };
                 return Err(short.at_byte(self.feed.position()));
             };
-            block.push(self.rows.point(self.feed.ahead(length)?));
+            let [x, y, z] = self.xyz.map(|i| self.starts[i]);
+            let scalar = |(_, scalar): RowField, at: usize| (at, scalar);
+            let z = self.rows.z.map(|field| scalar(field, z));
+            let rows = Rows { x: scalar(self.rows.x, x), y: scalar(self.rows.y, y), z, ..self.rows };
+            block.push(rows.point(self.feed.ahead(length)?));
             self.feed.step(length);
         }
         finite(block, self.rows.what.0, self.found).map_err(|(_, fault)| fault.at_byte(at))?;

@@ -1,8 +1,10 @@
 //! PLY: tables of any properties, in text or in bytes of either order.
 
 mod faces;
+mod flow;
 mod header;
 mod loose;
+mod text;
 mod write;
 
 use super::{
@@ -15,10 +17,12 @@ use crate::{
     error::{Fault, Located, Result},
     feed::Feed,
     format::{Format, Head, Parsed, ReadOptions, Weld},
-    lines::without_mark,
+    lines::{count_lines, without_filling, without_mark},
     scalar::{Order, Scalar},
     source::Source,
 };
+use faces::Stretch;
+use flow::FlowPoints;
 use header::{Element, Encoding, Header, PropertyType};
 use loose::LoosePoints;
 use trueness_geom::{cloud::PointStream, space::Point};
@@ -30,7 +34,7 @@ pub(crate) const PLY: Format = Format {
     written_as: &["ply"],
     manual: include_str!("ply.md"),
     columns: false,
-    sniff: |head: &Head| matches!(without_mark(head.bytes), [b'p', b'l', b'y', b'\n' | b'\r', ..]),
+    sniff: |head: &Head| header::is_magic(without_mark(head.bytes)),
     read: Some(read),
     points: Some(write::begin),
     mesh: Some(write::mesh),
@@ -44,7 +48,7 @@ fn read(mut source: Source, options: &ReadOptions) -> Result<Parsed> {
     let mark = marked.len() - without_mark(marked).len();
     source.feed.step(mark);
     let bytes = source.feed.ahead(HEADER)?;
-    if !bytes.starts_with(b"ply") {
+    if !bytes.get(..3).is_some_and(|word| word.eq_ignore_ascii_case(b"ply")) {
         return Err(Fault::unexpected("\"ply\"", &bytes[..bytes.len().min(16)]).at_line(1));
     }
     let header = header::parse(&bytes[..bytes.len().min(HEADER)])?;
@@ -56,11 +60,15 @@ fn read(mut source: Source, options: &ReadOptions) -> Result<Parsed> {
     };
     let (before, vertex, after) = split(&header)?;
     let mut lines = header.lines;
-    skip(&mut source.feed, &header, before, &mut lines)?;
+    let early = Early {
+        at: header.length as u64,
+        lines,
+        bytes: skip(&mut source.feed, &header, before, &mut lines)?,
+    };
     let count = vertex.count;
     let mut points = Points::new(source.feed, &header, vertex, lines, options)?;
     let mut warnings: Vec<Warning> = header.unknown.clone().into_iter().collect();
-    if !after.iter().any(|e| e.count > 0 && faces::is_faces(e)) {
+    if !has_faces(before) && !has_faces(after) {
         warnings.extend((count == 0).then_some(Warning::Nothing));
         let whole = after.iter().all(|e| e.count == 0);
         return Ok(match points {
@@ -73,7 +81,13 @@ fn read(mut source: Source, options: &ReadOptions) -> Result<Parsed> {
     let (mut feed, lines) = points.into_rest();
     let at = feed.position();
     let mut faces = Faces::default();
-    let rest = faces::read(feed.all()?, at, lines, header.encoding, after, &positions, &mut faces)?;
+    let encoding = header.encoding;
+    if has_faces(before) {
+        let stretch = Stretch { bytes: &early.bytes, at: early.at, lines: early.lines };
+        faces::read(stretch, encoding, before, false, &positions, &mut faces)?;
+    }
+    let stretch = Stretch { bytes: in_encoding(feed.all()?, encoding), at, lines };
+    let rest = faces::read(stretch, encoding, after, true, &positions, &mut faces)?;
     if !rest.trim_ascii().is_empty() {
         warnings.push(Warning::TrailingBytes { count: rest.len() as u64 });
     }
@@ -99,6 +113,26 @@ fn unread(header: &Header) -> Vec<String> {
     names
 }
 
+/// What stands before the vertices: its bytes, and where they begin.
+struct Early {
+    at: u64,
+    lines: u64,
+    bytes: Vec<u8>,
+}
+
+/// Whether there are faces in these elements.
+fn has_faces(elements: &[Element]) -> bool {
+    elements.iter().any(|e| e.count > 0 && faces::is_faces(e))
+}
+
+/// Text without what fills the file up behind it; bytes as they are.
+fn in_encoding(rest: &[u8], encoding: Encoding) -> &[u8] {
+    match encoding {
+        Encoding::Ascii => without_filling(rest).0,
+        Encoding::Binary(_) => rest,
+    }
+}
+
 /// The elements before the vertices, the vertices, and those after.
 fn split(header: &Header) -> Result<(&[Element], &Element, &[Element])> {
     let elements = &header.elements;
@@ -106,41 +140,42 @@ fn split(header: &Header) -> Result<(&[Element], &Element, &[Element])> {
         Fault::Unexpected { expected: "an element \"vertex\" in the header".into(), found: "none".into() }
             .at_line(header.lines)
     })?;
-    let (before, vertex, after) = (&elements[..at], &elements[at], &elements[at + 1..]);
-    if before.iter().any(|e| e.count > 0 && faces::is_faces(e)) {
-        let what = "faces before their vertices cannot be read".into();
-        let remedy = "let the program that wrote this put the element \"vertex\" first";
-        return Err(Fault::Unsupported { what, remedy }.at_line(header.lines));
-    }
-    Ok((before, vertex, after))
+    Ok((&elements[..at], &elements[at], &elements[at + 1..]))
 }
 
-/// Steps over the rows of elements that nobody wants.
-fn skip(feed: &mut Feed, header: &Header, elements: &[Element], lines: &mut u64) -> Result<()> {
+/// Steps over the rows of elements before the vertices, and gives their bytes if there are faces among them.
+fn skip(feed: &mut Feed, header: &Header, elements: &[Element], lines: &mut u64) -> Result<Vec<u8>> {
+    let keeps = has_faces(elements);
+    let mut kept = vec![];
+    if elements.iter().all(|e| e.rows() == 0) {
+        return Ok(kept);
+    }
+    let Encoding::Binary(order) = header.encoding else {
+        let all = feed.all()?;
+        let length = all.len() - text::behind(all, *lines, elements)?.len();
+        if keeps {
+            kept.extend_from_slice(&all[..length]);
+        }
+        *lines += count_lines(&all[..length], header.end);
+        feed.step(length);
+        return Ok(kept);
+    };
     for element in elements {
-        for row in 0..element.rows(header.encoding) {
+        for row in 0..element.rows() {
             let at = feed.position();
-            let length = match header.encoding {
-                Encoding::Ascii => {
-                    *lines += 1;
-                    // What is there already most often has the line's end in it.
-                    match memchr::memchr(header.end, feed.ahead(1)?) {
-                        Some(n) => Some(n + 1),
-                        None => memchr::memchr(header.end, feed.ahead(HEADER)?).map(|n| n + 1),
-                    }
-                }
-                Encoding::Binary(order) => faces::row_length(feed, element, order)?,
-            };
-            let Some(length) = length else {
+            let Some(length) = faces::row_length(feed, element, order, &mut [])? else {
                 return Err(Fault::Short { what: "rows", declared: element.count, present: row }.at_byte(at));
             };
+            if keeps {
+                kept.extend_from_slice(&feed.ahead(length)?[..length]);
+            }
             feed.step(length);
         }
     }
-    Ok(())
+    Ok(kept)
 }
 
-/// The positions of x, y and z, or what else they are called, among the properties of the vertices. No list may stand before them.
+/// The positions of x, y and z, or what else they are called, among the properties of the vertices.
 fn coordinates(vertex: &Element, header: &Header, names: [&str; 3]) -> Result<[usize; 3]> {
     let mut found = [0; 3];
     for (name, found) in names.into_iter().zip(&mut found) {
@@ -153,12 +188,6 @@ fn coordinates(vertex: &Element, header: &Header, names: [&str; 3]) -> Result<[u
                 return Err(Fault::Unexpected { expected, found }.at_line(header.lines));
             }
         }
-    }
-    let last = found.iter().max().copied().unwrap_or(0);
-    if vertex.properties[..last].iter().any(|p| matches!(p.kind, PropertyType::List { .. })) {
-        let what = "a list before the coordinates of a vertex cannot be read".into();
-        let remedy = "let the program that wrote this put x, y, z first";
-        return Err(Fault::Unsupported { what, remedy }.at_line(header.lines));
     }
     Ok(found)
 }
@@ -177,11 +206,12 @@ impl PointStream for Whole {
     fn next_block(&mut self, block: &mut Vec<Point>) -> Result<()> {
         self.points.next_block(block)?;
         if block.is_empty() {
-            let text = matches!(self.points, Points::Text(_));
+            let text = matches!(self.points, Points::Text(_) | Points::Flow(_));
             let feed = self.points.feed();
             let at = feed.position();
             let rest = feed.all()?;
-            if !rest.trim_ascii().is_empty() {
+            let filling = text && without_filling(rest).0.is_empty();
+            if !filling && !rest.trim_ascii().is_empty() {
                 return Err(beyond(rest, text, self.count).at_byte(at));
             }
         }
@@ -204,13 +234,14 @@ fn beyond(rest: &[u8], text: bool, declared: u64) -> Fault {
 /// The vertices as a stream.
 enum Points {
     Text(TextPoints),
+    Flow(FlowPoints),
     Even(StridedPoints),
     Loose(LoosePoints),
 }
 
 impl Points {
     fn new(
-        feed: Feed,
+        mut feed: Feed,
         header: &Header,
         vertex: &Element,
         lines: u64,
@@ -223,6 +254,12 @@ impl Points {
         let names = if options.normals { ["nx", "ny", "nz"] } else { ["x", "y", "z"] };
         let xyz = coordinates(vertex, header, names)?;
         let Encoding::Binary(order) = header.encoding else {
+            let head = feed.ahead(HEADER)?;
+            let whole = head.len() < HEADER;
+            if !flow::rows_are_lines(vertex, xyz, &head[..head.len().min(HEADER)], whole) {
+                let (vertex, block) = (vertex.clone(), options.block);
+                return Ok(Points::Flow(FlowPoints::new(feed, vertex, xyz, header.end, lines, block)));
+            }
             let layout = Layout::of(Separator::Blanks, b'.', header.end, &xyz);
             let window = options.block.saturating_mul(12 * vertex.properties.len());
             return Ok(Points::Text(TextPoints::new(
@@ -245,7 +282,7 @@ impl Points {
         if vertex.stride().is_some() {
             return Ok(Points::Even(StridedPoints::new(feed, rows, options.block)?));
         }
-        Ok(Points::Loose(LoosePoints::new(feed, vertex.clone(), rows, options.block)))
+        Ok(Points::Loose(LoosePoints::new(feed, vertex.clone(), rows, xyz, options.block)))
     }
 
     /// All points that are left. Grows with what is there, not with what is declared.
@@ -263,6 +300,7 @@ impl Points {
     fn feed(&mut self) -> &mut Feed {
         match self {
             Points::Text(p) => p.feed(),
+            Points::Flow(p) => p.feed(),
             Points::Even(p) => p.feed(),
             Points::Loose(p) => p.feed(),
         }
@@ -271,6 +309,7 @@ impl Points {
     fn into_rest(self) -> (Feed, u64) {
         match self {
             Points::Text(p) => p.into_rest(),
+            Points::Flow(p) => p.into_rest(),
             Points::Even(p) => (p.into_rest(), 0),
             Points::Loose(p) => (p.into_rest(), 0),
         }
@@ -282,6 +321,7 @@ impl PointStream for Points {
     fn expected(&self) -> Option<u64> {
         match self {
             Points::Text(p) => p.expected(),
+            Points::Flow(p) => p.expected(),
             Points::Even(p) => p.expected(),
             Points::Loose(p) => p.expected(),
         }
@@ -289,6 +329,7 @@ impl PointStream for Points {
     fn next_block(&mut self, block: &mut Vec<Point>) -> Result<()> {
         match self {
             Points::Text(p) => p.next_block(block),
+            Points::Flow(p) => p.next_block(block),
             Points::Even(p) => p.next_block(block),
             Points::Loose(p) => p.next_block(block),
         }

@@ -54,7 +54,7 @@ pub(super) fn read(mut source: Source, options: &ReadOptions) -> Result<Parsed> 
         warnings.push(Warning::Trimmed { count: trimmed });
     }
     if left_out > 0 {
-        warnings.push(Warning::FacesLeftOut { count: left_out });
+        warnings.push(Warning::FacesLeftOut { count: left_out, of: faces.len() as u64 });
     }
     Ok(Parsed::splines("step", model, said, warnings))
 }

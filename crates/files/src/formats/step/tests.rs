@@ -117,7 +117,7 @@ fn faces_turn_trim_and_leave_out() {
         "{QUARTER}\n#31=PLANE('',#3);\n#32=ADVANCED_FACE('',(),#31,.T.);\n#33=ADVANCED_FACE('',(),#10,.T.);"
     );
     let (found, warnings) = model(read(&file(&plane), None).unwrap());
-    assert_eq!((found.surfaces.len(), warnings), (1, vec![Warning::FacesLeftOut { count: 1 }]));
+    assert_eq!((found.surfaces.len(), warnings), (1, vec![Warning::FacesLeftOut { count: 1, of: 2 }]));
 }
 
 #[test]

@@ -6,7 +6,7 @@
 
 use super::facet::Facet;
 use crate::{
-    Warning,
+    FacetRegions, Warning,
     error::{Fault, Result},
     lines::{line_end, line_of, without_mark},
     number::number,
@@ -39,6 +39,8 @@ impl Facet for TextFacet {
 /// What ASCII text held.
 pub(super) struct Read {
     pub facets: Vec<TextFacet>,
+    /// The solid of each facet, where there are several.
+    pub regions: Option<FacetRegions>,
     pub warnings: Vec<Warning>,
 }
 
@@ -56,10 +58,20 @@ pub(super) fn read(bytes: &[u8]) -> Result<Read> {
     let mut all = Part::default();
     let mut open = false;
     let mut facets = Vec::new();
+    let mut regions = FacetRegions::default();
     for part in parsed {
         let part = part.map_err(|(at, fault)| fault.at_line(line_of(text, at)))?;
         open = part.open.unwrap_or(open);
         all.solids += part.solids;
+        // Facets before the first name of a part are of the solid that was open at its start.
+        let mut names = part.names.into_iter().peekable();
+        for f in 0..part.facets.len() {
+            while let Some((_, name)) = names.next_if(|(first, _)| *first <= f) {
+                regions.names.push(name);
+            }
+            regions.of_facet.push((regions.names.len() as u32).saturating_sub(1));
+        }
+        regions.names.extend(names.map(|(_, name)| name));
         facets.push(part.facets);
     }
     let mut warnings = vec![];
@@ -69,7 +81,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Read> {
     if open {
         warnings.push(Warning::NoEndsolid);
     }
-    Ok(Read { facets: facets.concat(), warnings })
+    Ok(Read { facets: facets.concat(), regions: (all.solids > 1).then_some(regions), warnings })
 }
 
 /// The start of the line after the first `endfacet` line that begins behind `at`; `None` near the end.
@@ -80,7 +92,8 @@ fn behind_endfacet(text: &[u8], at: usize) -> Option<usize> {
         let line = &text[at..];
         let length = memchr::memchr(end, line)? + 1;
         at += length;
-        if line[..length].trim_ascii().eq_ignore_ascii_case(b"endfacet") {
+        let mut words = Words::new(&line[..length], 0);
+        if words.end_of("facet") && words.next().is_none() {
             return Some(at);
         }
     }
@@ -91,6 +104,8 @@ fn behind_endfacet(text: &[u8], at: usize) -> Option<usize> {
 struct Part {
     facets: Vec<TextFacet>,
     solids: u64,
+    /// Of each solid that begins here its first facet and its name.
+    names: Vec<(usize, String)>,
     /// Whether a solid is open at the end; `None` if no solid begins or ends here.
     open: Option<bool>,
 }
@@ -98,19 +113,25 @@ struct Part {
 impl Part {
     /// Reads `text[from..to]`, which begins between two facets.
     fn read(text: &[u8], from: usize, to: usize) -> std::result::Result<Part, (usize, Fault)> {
-        let mut words = Words { text: &text[..to], at: from };
+        let mut words = Words::new(&text[..to], from);
         // A facet takes 100 bytes at least; asking for more than is there would trust the file.
         let mut part = Part { facets: Vec::with_capacity((to - from) / 256), ..Part::default() };
-        while let Some((at, word)) = words.next() {
+        loop {
+            if words.end_of("solid") {
+                words.skip_name(false);
+                part.open = Some(false);
+                continue;
+            }
+            let Some((at, word)) = words.next() else { break };
             if is(word, "facet") {
                 part.facets.push(words.facet()?);
             } else if is(word, "solid") {
-                words.skip_name();
+                let start = words.at;
+                words.skip_name(true);
+                let name = String::from_utf8_lossy(text[start..words.at].trim_ascii()).into_owned();
+                part.names.push((part.facets.len(), name));
                 part.solids += 1;
                 part.open = Some(true);
-            } else if is(word, "endsolid") {
-                words.skip_name();
-                part.open = Some(false);
             } else {
                 return Err((at, Fault::unexpected("\"facet\", \"solid\" or \"endsolid\"", word)));
             }
@@ -124,14 +145,22 @@ fn is(word: &[u8], name: &str) -> bool {
 }
 
 /// Words of the text and where they are.
+#[derive(Clone)]
 struct Words<'a> {
     text: &'a [u8],
     at: usize,
+    /// Where a line without facets ends, and where a facet begins on a line with a name: as found out last.
+    no_facet: usize,
+    facet: usize,
 }
 
 type Step<T> = std::result::Result<T, (usize, Fault)>;
 
 impl<'a> Words<'a> {
+    fn new(text: &'a [u8], at: usize) -> Words<'a> {
+        Words { text, at, no_facet: 0, facet: 0 }
+    }
+
     #[inline]
     fn next(&mut self) -> Option<(usize, &'a [u8])> {
         let blank = |b: &u8| b.is_ascii_whitespace();
@@ -149,29 +178,88 @@ impl<'a> Words<'a> {
         }
     }
 
-    /// Passes over the name of a solid: the rest of the line or, in a file without line ends, what comes before the
-    /// next word that has a meaning.
-    fn skip_name(&mut self) {
-        let line = &self.text[self.at..];
-        let line = &line[..memchr::memchr2(b'\n', b'\r', line).unwrap_or(line.len())];
-        let mut words = Words { text: &self.text[..self.at + line.len()], at: self.at };
-        while let Some((start, word)) = words.next() {
-            let facet = is(word, "facet") && words.clone().next().is_some_and(|(_, w)| is(w, "normal"));
-            if facet || is(word, "endsolid") || is(word, "solid") && words.clone().any_facet() {
-                words.at = start;
-                break;
-            }
+    /// Passes over `endNAME` or, as some programs write, `end NAME`. False, and nothing passed over, if neither is next.
+    fn end_of(&mut self, name: &str) -> bool {
+        let before = self.at;
+        let found = match self.next() {
+            Some((_, word)) if is(word, "end") => self.next().is_some_and(|(_, word)| is(word, name)),
+            Some((_, word)) => word.len() == 3 + name.len() && is(&word[..3], "end") && is(&word[3..], name),
+            None => false,
+        };
+        if !found {
+            self.at = before;
         }
-        self.at = words.at;
+        found
     }
 
-    fn any_facet(mut self) -> bool {
-        while let Some((_, word)) = self.next() {
-            if is(word, "facet") {
-                return true;
+    fn expect_end(&mut self, name: &str) -> Step<()> {
+        if self.end_of(name) {
+            return Ok(());
+        }
+        let expected = format!("\"end{name}\"");
+        match self.next() {
+            Some((at, word)) => Err((at, Fault::unexpected(expected, word))),
+            None => Err((self.text.len(), Fault::unexpected(expected, b"the end of the file"))),
+        }
+    }
+
+    /// Passes over the name of a solid: the rest of the line, whatever words are in it. In a file without line ends, which
+    /// shows in a facet on the same line, it is what comes before the next word that has a meaning.
+    fn skip_name(&mut self, begins: bool) {
+        let line = &self.text[self.at..];
+        let end = self.at + memchr::memchr2(b'\n', b'\r', line).unwrap_or(line.len());
+        if end <= self.no_facet {
+            self.at = self.end_of_empty(end, begins);
+            return;
+        }
+        let mut words = Words { text: &self.text[..end], ..self.clone() };
+        // The first word with a meaning, which is one if a facet follows.
+        let mut first = None;
+        loop {
+            let start = words.at;
+            let ends = words.end_of("solid");
+            let word = if ends {
+                &b"solid"[..]
+            } else if let Some((_, word)) = words.next() {
+                word
+            } else {
+                break;
+            };
+            if is(word, "facet") && (Words { text: self.text, ..words.clone() }).begins_facet() {
+                self.facet = start;
+            }
+            if is(word, "solid") && first.is_none() {
+                first = Some(start);
+            }
+            // A facet that is known to lie ahead need not be looked for again.
+            if self.facet >= start && (first.is_some() || self.facet == start) {
+                self.at = first.unwrap_or(start);
+                return;
             }
         }
-        false
+        self.no_facet = end;
+        self.at = self.end_of_empty(end, begins);
+    }
+
+    /// Where the name of a solid ends whose line, up to `line_end`, holds no facet: there, unless the solid ends on the same
+    /// line, empty.
+    fn end_of_empty(&self, line_end: usize, begins: bool) -> usize {
+        let text = &self.text[self.at..line_end];
+        let lower = text.to_ascii_lowercase();
+        let Some(end) = memchr::memmem::rfind(&lower, b"endsolid").filter(|_| begins) else {
+            return line_end;
+        };
+        let (name, again) = (text[..end].trim_ascii(), text[end + 8..].trim_ascii());
+        if again.is_empty() || again == name { self.at + end } else { line_end }
+    }
+
+    /// Whether the words behind `facet` are those that a facet begins with.
+    fn begins_facet(mut self) -> bool {
+        if self.expect("normal").is_err() {
+            return false;
+        }
+        let outer = (0..4).any(|_| self.next().is_some_and(|(_, word)| is(word, "outer")));
+        outer && self.expect("loop").is_ok() && self.expect("vertex").is_ok()
     }
 
     /// A facet from behind its first word to `endfacet`.
@@ -199,8 +287,8 @@ impl<'a> Words<'a> {
                 *x = self.coordinate()?;
             }
         }
-        self.expect("endloop")?;
-        self.expect("endfacet")?;
+        self.expect_end("loop")?;
+        self.expect_end("facet")?;
         Ok(TextFacet { normal, corners })
     }
 
@@ -219,11 +307,5 @@ impl<'a> Words<'a> {
             Some((at, word)) => Err((at, Fault::unexpected("a number with a decimal point", word))),
             None => Err((self.text.len(), Fault::unexpected("a number", b"the end of the file"))),
         }
-    }
-}
-
-impl Clone for Words<'_> {
-    fn clone(&self) -> Self {
-        Words { text: self.text, at: self.at }
     }
 }

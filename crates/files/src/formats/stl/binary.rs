@@ -42,6 +42,30 @@ pub(super) fn facets(head: &[u8], length: u64) -> Result<(usize, Vec<Warning>)> 
     Ok((facets, warnings))
 }
 
+/// Whether a file of `length` bytes that declares so many facets can have bytes behind each, as many as a word can say.
+pub(super) fn may_have_attributes(facets: usize, length: u64) -> bool {
+    let most = (RECORD + usize::from(u16::MAX)) as u64;
+    length <= HEADER as u64 + (facets as u64).saturating_mul(most)
+}
+
+/// Facets whose attribute words are lengths: so many bytes follow each, which are passed over. That is so where the file
+/// has exactly the length which that makes, and not the one without them. `bytes` are the whole file.
+pub(super) fn with_attributes(bytes: &[u8]) -> Option<Vec<[u8; RECORD]>> {
+    let count = usize::try_from(declared(bytes)?).ok()?;
+    let mut rest = bytes.get(HEADER..)?;
+    if rest.len() / RECORD < count || rest.len() == count * RECORD {
+        return None;
+    }
+    let mut records = Vec::with_capacity(count);
+    for _ in 0..count {
+        let (record, more) = rest.split_first_chunk::<RECORD>()?;
+        let attribute = u16::from_le_bytes([record[RECORD - 2], record[RECORD - 1]]);
+        rest = more.get(usize::from(attribute)..)?;
+        records.push(*record);
+    }
+    rest.is_empty().then_some(records)
+}
+
 /// Whether the first bytes could be a header and a facet: finite numbers, a normal not longer than 1.
 pub(super) fn plausible(head: &[u8]) -> bool {
     let Some(first) = head.get(HEADER..).and_then(|b| b.first_chunk()) else { return false };

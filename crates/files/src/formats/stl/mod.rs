@@ -6,10 +6,10 @@ mod facet;
 mod write;
 
 use crate::{
-    Warning, assemble,
+    FacetRegions, Warning, assemble,
     error::{Fault, Result},
     format::{Format, Head, Parsed, ReadOptions, Weld},
-    lines::{is_text, without_mark},
+    lines::{is_text, line_of, without_filling, without_mark},
     source::{HEAD, Source},
     unicode::no_zeros,
 };
@@ -44,7 +44,12 @@ fn looks_ascii(bytes: &[u8]) -> bool {
     let text = without_mark(bytes).trim_ascii_start();
     let solid = text.get(..5).is_some_and(|w| w.eq_ignore_ascii_case(b"solid"));
     // Some binary files begin with "solid" too: their records show as control characters.
-    solid && is_text(&bytes[..bytes.len().min(1024)])
+    solid && begins_as_text(bytes)
+}
+
+fn begins_as_text(bytes: &[u8]) -> bool {
+    let text = without_filling(bytes).0;
+    is_text(&text[..text.len().min(1024)])
 }
 
 fn read(mut source: Source, options: &ReadOptions) -> Result<Parsed> {
@@ -55,21 +60,31 @@ fn read(mut source: Source, options: &ReadOptions) -> Result<Parsed> {
     };
     let head = source.feed.ahead(HEAD)?;
     let exact = binary::declared(head).is_some_and(|n| length == HEADER as u64 + n * RECORD as u64);
-    let text = !exact && is_text(&head[..head.len().min(1024)]);
+    let text = !exact && begins_as_text(head);
     if text && looks_ascii(head) {
-        let bytes = source.feed.all()?;
+        let (bytes, zeros) = without_filling(source.feed.all()?);
         no_zeros(bytes)?;
-        let ascii::Read { facets, warnings } = ascii::read(bytes)?;
-        return mesh("stl-ascii", &facets, options, warnings);
+        let ascii::Read { facets, regions, warnings } = ascii::read(bytes)?;
+        if zeros && warnings.contains(&Warning::NoEndsolid) {
+            // Not what fills up a finished file, but what was never written.
+            return Err(Fault::Zeros.at_line(line_of(bytes, bytes.len())));
+        }
+        return mesh("stl-ascii", &facets, regions, options, warnings);
     }
     if text {
         return Err(Fault::unexpected("STL: the word \"solid\" or a binary header", head).at_line(1));
     }
     // Before the file is read as a whole: it may be far longer than what it declares.
     let (facets, warnings) = binary::facets(head, length)?;
+    if !warnings.is_empty()
+        && binary::may_have_attributes(facets, length)
+        && let Some(records) = binary::with_attributes(source.feed.all()?)
+    {
+        return mesh("stl-binary", &records, None, options, vec![]);
+    }
     let bytes = source.feed.ahead(HEADER + facets * RECORD)?;
     let records = bytes.get(HEADER..).unwrap_or_default().as_chunks().0;
-    mesh("stl-binary", records.get(..facets).unwrap_or(records), options, warnings)
+    mesh("stl-binary", records.get(..facets).unwrap_or(records), None, options, warnings)
 }
 
 /// Facets of one task.
@@ -79,6 +94,7 @@ const CHUNK: usize = 1 << 13;
 fn mesh<F: Facet>(
     variant: &'static str,
     facets: &[F],
+    mut regions: Option<FacetRegions>,
     options: &ReadOptions,
     mut warnings: Vec<Warning>,
 ) -> Result<Parsed> {
@@ -89,11 +105,16 @@ fn mesh<F: Facet>(
         warnings.push(Warning::NonFiniteFacets { count: bad.len() as u64, first: first as u64 });
         kept = facets.iter().filter(|f| f.finite()).copied().collect();
         good = &kept;
+        if let Some(regions) = &mut regions {
+            let mut finite = facets.iter().map(F::finite);
+            regions.of_facet.retain(|_| finite.next().unwrap_or(true));
+        }
     }
     let mesh = crate::SourceMesh {
         mesh: assemble::corners(good.len(), |f, k| good[f].corner(k), options.weld != Weld::None)?,
         stored_normals: Some(good.par_iter().map(F::normal).collect()),
         nonfinite_facets: bad.into_iter().map(|f| f as u32).collect(),
+        regions,
         unread: vec![],
     };
     Ok(Parsed::mesh(variant, mesh, warnings))

@@ -152,6 +152,76 @@ fn is_date(cell: &[u8]) -> bool {
     starts && cell.iter().all(plain) && (count(b':') > 0 || count(b'-') == 2 || count(b'/') == 2)
 }
 
+/// Ctrl-Z, which ends texts of DOS.
+pub(super) const END_MARK: u8 = 0x1a;
+
+/// Words that end a text, lower case and letters alone.
+const ENDS: [&str; 12] = [
+    "end",
+    "eof",
+    "endoffile",
+    "endofdata",
+    "enddata",
+    "endpoints",
+    "ende",
+    "dateiende",
+    "fin",
+    "fine",
+    "\u{43a}\u{43e}\u{43d}\u{435}\u{446}",
+    "\u{7ed3}\u{675f}",
+];
+
+/// Whether a line says nothing but that the text ends.
+pub(super) fn is_end(line: &[u8]) -> bool {
+    let text = String::from_utf8_lossy(line).to_lowercase();
+    if text.chars().any(char::is_numeric) {
+        return false;
+    }
+    let bare: String = text.chars().filter(|c| c.is_alphabetic()).collect();
+    ENDS.contains(&bare.as_str()) || bare.is_empty() && line.contains(&END_MARK)
+}
+
+/// Blanks that are no ASCII: they stand within numbers with thousands separators as well as between numbers.
+const WIDE_BLANKS: [char; 4] = ['\u{a0}', '\u{2007}', '\u{2009}', '\u{202f}'];
+
+/// What is wrong with text that holds several numbers and nothing that parts them, or a number and blanks that are no
+/// ASCII, and what to do.
+pub(super) fn run_together(text: &[u8]) -> Option<(&'static str, &'static str)> {
+    let shown: String = match std::str::from_utf8(text) {
+        Ok(text) => text.into(),
+        // Latin-1.
+        Err(_) => text.iter().map(|b| char::from(*b)).collect(),
+    };
+    let decimal = |part: &str| part.contains('.') && cell_number(part.as_bytes(), b'.').is_some();
+    let parts: Vec<&str> = shown.split(WIDE_BLANKS).filter(|p| !p.trim().is_empty()).collect();
+    if parts.len() > 1 && parts.iter().filter(|p| decimal(p.trim())).count() > 1 {
+        return Some((
+            "no-break spaces stand between the numbers",
+            "replace them with blanks or export with semicolons",
+        ));
+    }
+    let is_number = |part: &str| [b'.', b','].iter().any(|p| cell_number(part.as_bytes(), *p).is_some());
+    if let [only] = parts[..]
+        && shown.contains(WIDE_BLANKS)
+        && is_number(only.trim())
+    {
+        return Some((
+            "no-break spaces stand beside the number",
+            "replace them with blanks or export with semicolons",
+        ));
+    }
+    let number = shown.bytes().all(|b| b.is_ascii_digit() || matches!(b, b'.' | b'-' | b'+'));
+    // Between two points stand the decimals of one number and the next one's digits: more than the last one's decimals.
+    let between: Vec<&str> = shown.split('.').skip(1).collect();
+    let [inner @ .., last] = &between[..] else { return None };
+    let longer = |part: &&str| part.len() > last.len() || part.contains(['-', '+']);
+    let several = !inner.is_empty() && last.len() > 1 && inner.iter().all(longer);
+    (number && several).then_some((
+        "numbers of fixed width follow each other with nothing between",
+        "export with blanks or semicolons between the columns",
+    ))
+}
+
 /// Whether a line, blanks before it taken off, is a comment.
 ///
 /// `#REF!,1,2` is none: a cell that a spreadsheet could not compute, as is `#ERR,1,2`: a word right behind the mark and

@@ -5,7 +5,7 @@
 //! the most is taken, and the reader then refuses the first row that it cannot read.
 
 use super::{
-    cell::Separator,
+    cell::{Separator, run_together},
     choose::{self, Chosen},
     header::{Header, Said, unit_of},
     row::{Layout, Row},
@@ -107,6 +107,10 @@ fn sample(head: &[u8]) -> Vec<&[u8]> {
 }
 
 fn no_rows(lines: &[&[u8]]) -> Located {
+    let together = |(i, line): (usize, &&[u8])| Some((i, run_together(line.trim_ascii())?));
+    if let Some((i, (what, remedy))) = lines.iter().enumerate().find_map(together) {
+        return Fault::Unclear { what: what.into(), remedy }.at_line(i as u64 + 1);
+    }
     let expected = "rows of two or three numbers";
     match lines.iter().position(|l| !is_blank_line(l)) {
         Some(i) => Fault::unexpected(expected, lines[i]).at_line(i as u64 + 1),

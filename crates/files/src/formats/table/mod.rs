@@ -16,11 +16,17 @@
 //! 5. A row of more cells than the others is an error; with blanks, which cannot show an empty cell, one of fewer as well.
 //! 6. What can be meant in two ways is refused: commas that may be decimal signs, a first column that may be x or a
 //!    running number, names that fit x twice or not at all.
-//! 7. A unit in the names of x, y, z is used, unless the user says another one; one that is not understood is refused.
+//! 7. Behind the last row may stand what ends texts: Ctrl-Z, `END`, `EOF`.
+//! 8. An airfoil in Selig's or Lednicer's form is known by its rows: its title, whatever it looks like, and its counts are none, and two
+//!    sides become one row around the profile. That is told.
+//! 9. A unit in the names of x, y, z is used, unless the user says another one; one that is not understood is refused.
 
+mod airfoil;
 mod cell;
 mod choose;
 mod detect;
+#[cfg(test)]
+mod ends_tests;
 mod header;
 mod row;
 mod stream;
@@ -32,10 +38,12 @@ mod write;
 use crate::{
     Warning,
     error::{Fault, Result},
+    feed::Feed,
     format::{Format, Head, Parsed, ReadOptions},
     lines::is_text,
     source::{HEAD, Source},
 };
+use cell::END_MARK;
 pub(crate) use cell::Separator;
 pub(crate) use row::Layout;
 pub(crate) use stream::{Limit, TextPoints};
@@ -56,12 +64,33 @@ pub(crate) const TABLE: Format = Format {
 
 /// Whether a file begins like rows of numbers, be it with faults.
 pub(crate) fn looks_like_rows(head: &[u8]) -> bool {
+    let head = before_end_mark(head);
     is_text(head) && detect::plausible(head)
 }
 
+/// The bytes before the marks that end texts of DOS.
+fn before_end_mark(head: &[u8]) -> &[u8] {
+    let is_end = |b: &u8| *b == END_MARK || b.is_ascii_whitespace();
+    let text = head.iter().rposition(|b| !is_end(b)).map_or(0, |last| last + 1);
+    match head[text..].iter().position(|b| *b == END_MARK) {
+        Some(at) => &head[..text + at],
+        None => head,
+    }
+}
+
 fn read(mut source: Source, options: &ReadOptions) -> Result<Parsed> {
+    let mut form = None;
+    let whole = source.feed.ahead(HEAD)?;
+    // Collections of airfoils hold a hundred rows; longer files have none of their forms.
+    if options.columns.is_none()
+        && whole.len() < HEAD
+        && let Some((plain, told)) = airfoil::plain(before_end_mark(whole))
+    {
+        form = Some(told);
+        source.feed = Feed::memory(plain);
+    }
     let head = source.feed.ahead(HEAD)?;
-    let head = &head[..head.len().min(HEAD)];
+    let head = before_end_mark(&head[..head.len().min(HEAD)]);
     if !is_text(head) {
         crate::unicode::no_zeros(head)?;
         return Err(Fault::unexpected("rows of numbers", head).at_byte(0));
@@ -72,6 +101,7 @@ fn read(mut source: Source, options: &ReadOptions) -> Result<Parsed> {
     {
         found.warnings.push(Warning::UnitOverruled { header, asked });
     }
+    found.warnings.extend(form);
     let width = found.width;
     source.feed.step(found.skip);
     let limit = match found.declared {

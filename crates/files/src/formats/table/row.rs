@@ -4,7 +4,8 @@
 //! cut into cells and looked at again; whatever the first way reads, the second reads to the same number.
 
 use super::cell::{
-    Class, Separator, cell_end, cell_number, cells, class, filled, is_comment, next_cell, skip_blanks,
+    Class, END_MARK, Separator, cell_end, cell_number, cells, class, filled, is_comment, is_end, next_cell,
+    run_together, skip_blanks,
 };
 use crate::{
     error::{Fault, quoted},
@@ -41,7 +42,7 @@ pub(crate) enum Row {
     /// A blank line or a comment.
     Nothing,
     /// Separators without anything between them: spreadsheets write such rows behind the last, and a point whose every
-    /// coordinate is missing looks the same.
+    /// coordinate is missing looks the same. Or what ends the text.
     Hollow,
     /// So many rows follow.
     Announced(u64),
@@ -145,8 +146,11 @@ impl Layout {
         if let Some(n) = count(text).filter(|_| self.announced) {
             return Ok(Row::Announced(n));
         }
-        if text.iter().all(|b| self.ends_number(*b)) {
+        if text.iter().all(|b| self.ends_number(*b)) || is_end(text) {
             return Ok(Row::Hollow);
+        }
+        if let [before @ .., END_MARK] = text {
+            return self.row(before);
         }
         if text.contains(&0) {
             return Err(Fault::Zeros);
@@ -174,6 +178,9 @@ impl Layout {
 
     /// What is wrong with a cell that should hold a number, and what to do.
     fn fault(&self, column: usize, axis: u8, cell: &[u8]) -> Fault {
+        if let Some((what, remedy)) = run_together(cell) {
+            return Fault::Unclear { what: format!("{what}: {}", quoted(cell)), remedy };
+        }
         let text = String::from_utf8_lossy(cell);
         let digit = |c: Option<char>| c.is_some_and(|c| c.is_ascii_digit());
         let signs = cell.iter().filter(|b| matches!(b, b'.' | b',')).count();

@@ -1,7 +1,7 @@
 //! One way of writing, tried on the first lines: which of them are rows, which the header, and what the cells are.
 
 use super::{
-    cell::{Class, Separator, cells, class, filled, is_comment},
+    cell::{Class, Separator, cells, class, filled, is_comment, is_end},
     header::{Axes, Header, Name},
     row::Layout,
 };
@@ -133,7 +133,7 @@ impl<'a> Tried<'a> {
         rows.retain(|l| announced.is_none() || count(l.text.trim_ascii()).is_none());
         let filled = rows.iter().filter(|l| l.cells.len() <= most).map(Line::filled).max().unwrap_or(most);
         let width = header.as_ref().map_or(filled, |h| filled.max(h.names.len().min(most)));
-        let rows = rows.into_iter().filter(|l| l.filled() > 0).collect();
+        let rows = rows.into_iter().filter(|l| l.filled() > 0 && !is_end(l.text)).collect();
         Some(Tried { dialect, start: start_line, rows, width, header, announced, numeric })
     }
 

@@ -1,6 +1,7 @@
 //! Fits against answers of others, closed forms and their own laws.
 
 mod certificate;
+mod cones;
 mod dual;
 mod laws;
 mod program;

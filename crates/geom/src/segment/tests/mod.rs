@@ -1,5 +1,6 @@
 //! Parts with known faces, whole and in part, with noise and without.
 
+mod cones;
 pub(super) mod parts;
 
 use super::grow::Context;

@@ -75,6 +75,33 @@ impl<V: Value> Curve<V> {
         Curve::new(knots, curve.points.get(first..past).unwrap_or_default().to_vec())
     }
 
+    /// The same curve over another domain, which starts before its second knot and ends after its last but one: beyond its own ends it goes
+    /// on as the polynomials there do.
+    ///
+    /// # Errors
+    /// [`KnotError`] where the domain is another one.
+    pub fn going_on(&self, (from, to): (f64, f64)) -> Result<Curve<V>, KnotError> {
+        let (degree, (first, last)) = (self.knots.degree(), self.domain());
+        let inner: Vec<f64> =
+            self.knots.values().iter().copied().filter(|k| *k > first && *k < last).collect();
+        let knots = Knots::clamped(degree, from, &inner, to)?;
+        let own = self.knots.values();
+        // The outermost pieces: a point at an end is the blossom of the one there.
+        let spans = [degree, self.points.len() - 1];
+        let count = self.points.len();
+        let point = |i: usize| {
+            let arguments = &knots.values()[i + 1..=i + degree];
+            let at_start = arguments.first().is_some_and(|t| *t <= from);
+            let at_end = arguments.last().is_some_and(|t| *t >= to);
+            match (at_start, at_end) {
+                (true, _) => blossom(own, &self.points, spans[0], arguments),
+                (_, true) => blossom(own, &self.points, spans[1], arguments),
+                _ => self.points[i],
+            }
+        };
+        Curve::new(knots.clone(), (0..count).map(point).collect())
+    }
+
     /// The same curve over knots that hold all of its own.
     fn over(&self, knots: &Knots) -> Curve<V> {
         let p = knots.degree();

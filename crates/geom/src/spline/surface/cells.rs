@@ -5,6 +5,8 @@
 //! Design 3, 1986). Here they are bounded patch by patch by the sizes of the coefficients of its polynomial. A rational
 //! surface `X / w` is bounded through the derivatives of `X` and `w`, as seen from the middle of the patch.
 
+use super::bernstein::Bernstein;
+use super::degenerate::Degenerate;
 use super::patches::Jet;
 use super::{Nurbs, Patches};
 use crate::mesh::Mesh;
@@ -64,6 +66,22 @@ impl Polynomials {
             Polynomials::Rational(p) => {
                 let [x, y, z, w] = p.value(cell, s, t);
                 [x / w, y / w, z / w]
+            }
+        }
+    }
+    /// Moments of a patch about a point, and masses, as powers of its coordinates.
+    fn about(&self, cell: usize, p: &Point) -> (Vec<[f64; 4]>, usize) {
+        match self {
+            Polynomials::Plain(all) => {
+                let (own, q) = all.patch(cell);
+                let mut powers: Vec<[f64; 4]> = own.iter().map(|[x, y, z]| [*x, *y, *z, 0.0]).collect();
+                powers[0] = [own[0][0] - p[0], own[0][1] - p[1], own[0][2] - p[2], 1.0];
+                (powers, q)
+            }
+            Polynomials::Rational(all) => {
+                let (own, q) = all.patch(cell);
+                let about = |[x, y, z, w]: &[f64; 4]| [x - p[0] * w, y - p[1] * w, z - p[2] * w, *w];
+                (own.iter().map(about).collect(), q)
             }
         }
     }
@@ -128,15 +146,19 @@ pub(super) struct Bent<'a> {
     surface: &'a Nurbs,
     shape: Polynomials,
     bounds: Vec<[f64; 3]>,
+    has_area: bool,
 }
 
 impl<'a> Bent<'a> {
     pub(super) fn new(surface: &'a Nurbs) -> Bent<'a> {
         let shape = Polynomials::new(surface);
-        Bent { surface, bounds: patch_bounds(surface, &shape), shape }
+        let has_area = surface.degenerate().iter().all(|d| matches!(d, Degenerate::Edge(..)));
+        Bent { surface, bounds: patch_bounds(surface, &shape), shape, has_area }
     }
     /// Cells of a grid that keep within `slack` of their facets.
     pub(super) fn cells(&self, slack: f64) -> f64 {
+        // Without an area cells lie on one another, and many are as near as the nearest.
+        let slack = if self.has_area { slack } else { f64::INFINITY };
         let steps = steps(&self.shape, &self.bounds, slack);
         steps.iter().map(|s| s.iter().map(|n| *n as f64).sum::<f64>()).product()
     }
@@ -159,12 +181,15 @@ pub(super) struct Grid {
     pub(super) closed: [bool; 2],
     /// Whether the first, the last line of a direction is a single place, as at a pole.
     pub(super) pole: [[bool; 2]; 2],
+    /// Whether it has an area: without one, what derivatives tell of a normal is rounding.
+    pub(super) has_area: bool,
 }
 
 impl Grid {
     /// A grid whose cells keep within `slack` of their facets.
     pub(super) fn new(bent: Bent, slack: f64) -> Grid {
-        let Bent { surface, shape, bounds } = bent;
+        let Bent { surface, shape, bounds, has_area } = bent;
+        let slack = if has_area { slack } else { f64::INFINITY };
         let steps = steps(&shape, &bounds, slack);
         let (mut lines, mut span) = ([vec![], vec![]], [vec![], vec![]]);
         for k in 0..2 {
@@ -182,8 +207,8 @@ impl Grid {
         let whole: Part = [0, 1].map(|k| [0, shape.spans()[k].count() - 1]);
         let place = |u: &f64| lines[1].iter().map(|v| shape.place(&whole, [*u, *v])).collect::<Vec<_>>();
         let places = lines[0].iter().flat_map(place).collect();
-        let mut grid =
-            Grid { shape, lines, span, run, places, bounds, closed: [false; 2], pole: [[false; 2]; 2] };
+        let (closed, pole) = ([false; 2], [[false; 2]; 2]);
+        let mut grid = Grid { shape, lines, span, run, places, bounds, closed, pole, has_area };
         grid.find_border(surface);
         grid
     }
@@ -225,8 +250,52 @@ impl Grid {
         let step = |k: usize| {
             (self.lines[k][cell[k] + 1] - self.lines[k][cell[k]]) / self.shape.spans()[k].half(spans[k])
         };
-        let ([h, k], [ss, st, tt]) = ([step(0), step(1)], self.patch_bounds(spans));
-        (h * h * ss + 2.0 * h * k * st + k * k * tt) / 8.0
+        slack([step(0), step(1)], self.patch_bounds(spans))
+    }
+    /// The same of a part of a patch between parameters.
+    pub(super) fn slack_of(&self, patch: [usize; 2], from: [f64; 2], to: [f64; 2]) -> f64 {
+        let step = |k: usize| (to[k] - from[k]) / self.shape.spans()[k].half(patch[k]);
+        slack([step(0), step(1)], self.patch_bounds(patch))
+    }
+    /// The patch of a cell.
+    pub(super) fn patch_of(&self, cell: [usize; 2]) -> [usize; 2] {
+        [0, 1].map(|k| self.span[k][cell[k]])
+    }
+    /// A part of a patch about a point.
+    pub(super) fn about(&self, patch: [usize; 2], p: &Point, from: [f64; 2], to: [f64; 2]) -> Bernstein {
+        let (powers, q) = self.shape.about(self.number(patch), p);
+        let [from, to] = self.within(patch, [from, to]);
+        Bernstein::new(powers, q, from, to)
+    }
+    /// A box around a cell, with room for rounding.
+    pub(super) fn bounds_of(&self, cell: [usize; 2], rounding: f64) -> Aabb {
+        let (corners, mut room) = (Aabb::of(&self.corners(cell)), self.slack(cell));
+        let mut bounds = corners;
+        // Bounds by the derivatives of a whole patch say little where its weights differ much, or a point lies far off.
+        if room > corners.diagonal() {
+            let patch = self.patch_of(cell);
+            let (powers, q) = self.shape.about(self.number(patch), &[0.0; 3]);
+            let ends = [0, 1].map(|end| [0, 1].map(|k| self.lines[k][cell[k] + end]));
+            let [from, to] = self.within(patch, ends);
+            let hull = Bernstein::hull(powers, q, from, to);
+            if hull.diagonal() <= corners.diagonal() + room {
+                (bounds, room) = (hull.union(&corners), rounding);
+            }
+        }
+        Aabb { min: bounds.min.map(|x| x - room), max: bounds.max.map(|x| x + room) }
+    }
+    fn number(&self, [i, j]: [usize; 2]) -> usize {
+        i * self.shape.spans()[1].count() + j
+    }
+    /// Parameters by the coordinates of a patch.
+    fn within(&self, patch: [usize; 2], places: [[f64; 2]; 2]) -> [[f64; 2]; 2] {
+        let spans = self.shape.spans();
+        places.map(|at| {
+            [0, 1].map(|k| {
+                let (a, b) = spans[k].limits(patch[k]);
+                (2.0 * at[k] - a - b) / (b - a)
+            })
+        })
     }
     pub(super) fn patch_bounds(&self, [i, j]: [usize; 2]) -> [f64; 3] {
         self.bounds[i * self.shape.spans()[1].count() + j]
@@ -261,6 +330,11 @@ impl Grid {
             }
         }
     }
+}
+
+/// How far a part of a patch may be from its facets, with its steps and the bounds of the second derivatives by coordinates of the patch.
+pub(super) fn slack([h, k]: [f64; 2], [ss, st, tt]: [f64; 3]) -> f64 {
+    (h * h * ss + 2.0 * h * k * st + k * k * tt) / 8.0
 }
 
 /// First and last span of each span's smooth run: as far as no knot stands as often as the degree.

@@ -11,7 +11,9 @@ pub enum FootError {
     #[error("there is no surface")]
     NoSurface,
     /// A coordinate is not finite, or far beyond all measure.
-    #[error("control point {point} of surface {surface} is not a finite number of a size to compute with")]
+    #[error(
+        "control point {point} of surface {surface} is not a finite number of at most 10¹² mm, beyond which places round to more than 0.0001 mm: correct it"
+    )]
     BadPoint {
         /// The surface, from 0.
         surface: usize,
@@ -48,8 +50,8 @@ pub enum FootError {
     Cancelled(#[from] Cancelled),
 }
 
-/// Coordinates beyond this cannot be squared safely.
-const LARGEST: f64 = 1e60;
+/// Coordinates beyond this, millimeters, round to more than a ten-thousandth: what is measured against such a surface is its rounding.
+const LARGEST: f64 = 1e12;
 
 /// Factor between weights beyond which steps through the parameters are lost in rounding: a surface of 10⁶ had places 0.6 mm off. Arcs of half a
 /// circle have weights of 2 at most.

@@ -1,8 +1,10 @@
 //! B-spline surfaces: tensor products.
 
 mod bend;
+mod bernstein;
 mod cells;
 mod closest;
+mod degenerate;
 mod foot_error;
 mod line;
 mod nurbs;
@@ -18,8 +20,10 @@ mod tree;
 
 pub use bend::{Bend, Principal};
 pub use closest::SurfaceFoot;
+pub use degenerate::Degenerate;
 pub use foot_error::FootError;
 pub use nurbs::Nurbs;
+pub(crate) use patches::Jet;
 pub use patches::Patches;
 pub use rational::RationalSurface;
 pub use search::{FootSearch, NearestFoot, SHARE};

@@ -2,11 +2,12 @@
 //!
 //! Each surface is laid over a grid of cells whose distance from two facets is bounded ([`super::cells`]), and the cells into a tree
 //! of boxes. From a cell that may hold a nearer place than the best one known, Newton's method starts; then the cell is
-//! done away with in one of three ways. Its bound says that it is too far. Or it lies within a neighborhood of the best place
-//! over which the squared distance is convex, by a bound of its second derivatives, so that the minimum found is the only one. Or it
-//! is cut in four, whose bounds are a quarter, until they are [`SHARE`] of the surfaces' size.
+//! done away with in one of four ways. Its bound says that it is too far. Or its Bernstein coefficients do ([`super::bernstein`]), which
+//! need no normal. Or it lies within a neighborhood of the best place over which the squared distance is convex, by a bound of its
+//! second derivatives, so that the minimum found is the only one. Or it is halved along what bends more, until its bounds are [`SHARE`] of the surfaces' size.
 
 use super::Nurbs;
+use super::bernstein::Bernstein;
 use super::cells::{Bent, Grid, Part};
 use super::closest::{SurfaceFoot, descend};
 use super::foot_error::{FootError, check};
@@ -34,9 +35,11 @@ pub struct NearestFoot {
     pub weights: [f64; 3],
     /// Whether it lies on the border of the surface, where no other one goes on.
     pub border: bool,
-    /// Whether no other place is nearer by more than [`SHARE`] of the size; `false` where that took too many steps, as around
-    /// the center of a sphere.
+    /// Whether no other place is nearer by more than [`SHARE`] of the size, or by more than rounding; `false` where that took too many
+    /// steps.
     pub certain: bool,
+    /// Cuts of cells that it took: what it has cost beyond a look at the cells near by.
+    pub cuts: usize,
 }
 
 /// Surfaces, ready to be asked for nearest places.
@@ -61,6 +64,8 @@ pub struct FootSearch {
     first: Vec<usize>,
     /// Diagonal of the box of all places.
     size: f64,
+    /// Greatest coordinate of the control points.
+    farthest: f64,
 }
 
 /// Cells of all grids together, about.
@@ -69,6 +74,8 @@ const CELLS: f64 = 200_000.0;
 const MOST_PAIRS: usize = 4_000_000;
 /// Cuts of cells for one point at most.
 const CUTS: usize = 20_000;
+/// Rounding of a place or distance, as a share of the greatest coordinate: a place is the sum of some dozens of products.
+const ROUNDED: f64 = 32.0 * f64::EPSILON;
 /// The best place so far.
 struct Best {
     foot: SurfaceFoot,
@@ -93,7 +100,15 @@ struct Piece {
     to: [f64; 2],
     /// In the order of parameters.
     corners: [Point; 4],
+    /// Its patch.
+    patch: [usize; 2],
     slack: f64,
+}
+
+/// A part of a cell that is to be cut.
+struct Open {
+    piece: Piece,
+    own: Bernstein,
 }
 
 impl FootSearch {
@@ -109,7 +124,9 @@ impl FootSearch {
         if pairs > MOST_PAIRS {
             return Err(FootError::TooMany(pairs));
         }
-        let mut slack = 1e-5 * bounds.diagonal().max(f64::MIN_POSITIVE);
+        let farthest = bounds.min.iter().chain(&bounds.max).fold(0.0, |m: f64, x| m.max(x.abs()));
+        // What is smaller than the rounding of its places is one cell.
+        let mut slack = (1e-5 * bounds.diagonal()).max(ROUNDED * farthest).max(f64::MIN_POSITIVE);
         let bent: Vec<Bent> = surfaces.par_iter().map(Bent::new).collect();
         let cells = |slack: f64| bent.iter().map(|b| b.cells(slack)).sum::<f64>();
         while cells(slack) > CELLS.max(1.5 * cells(f64::INFINITY)) {
@@ -125,7 +142,7 @@ impl FootSearch {
             first.push(first[first.len() - 1] + m * n);
         }
         let size = grids.iter().fold(Aabb::EMPTY, |b, g| b.union(&Aabb::of(&g.places))).diagonal();
-        Ok(FootSearch { boxes: Boxes::new(&grids), grids, first, size })
+        Ok(FootSearch { boxes: Boxes::new(&grids, ROUNDED * farthest), grids, first, size, farthest })
     }
 
     /// Number of surfaces.
@@ -156,10 +173,10 @@ impl FootSearch {
     /// has a distance that is not.
     pub fn nearest(&self, point: &Point) -> NearestFoot {
         if !point.iter().all(|x| x.is_finite()) {
-            return self.describe(None, false);
+            return self.describe(None, 0);
         }
-        let (best, certain) = self.best(point, None);
-        self.describe(best, certain)
+        let Search { best, cuts, .. } = self.searched(point, None);
+        self.describe(best, cuts)
     }
 
     /// `f(index, foot)` of every point, in their order.
@@ -188,20 +205,22 @@ impl FootSearch {
         Ok(parts?.into_iter().flatten().collect())
     }
 
-    /// The best place on all surfaces but one, and whether it is beyond doubt.
-    fn best(&self, p: &Point, but: Option<usize>) -> (Option<Best>, bool) {
-        let mut search = Search { all: self, p: *p, best: None, cuts: 0, epsilon: SHARE * self.size };
+    /// The best place on all surfaces but one.
+    fn searched(&self, p: &Point, but: Option<usize>) -> Search<'_> {
+        // Below the rounding of a distance nothing is nearer.
+        let rounding = ROUNDED * p.iter().fold(self.farthest, |m, x| m.max(x.abs()));
+        let epsilon = (SHARE * self.size).max(rounding);
+        let mut search = Search { all: self, p: *p, best: None, cuts: 0, epsilon };
         self.boxes.visit(p, f64::INFINITY, |cell| {
             if but != Some(cell.grid as usize) {
                 search.cell(cell);
             }
             search.reach() + search.epsilon
         });
-        let certain = search.cuts <= CUTS;
-        (search.best, certain)
+        search
     }
 
-    fn describe(&self, best: Option<Best>, certain: bool) -> NearestFoot {
+    fn describe(&self, best: Option<Best>, cuts: usize) -> NearestFoot {
         let Some(Best { foot, grid, .. }) = best else {
             let nowhere = [f64::NAN; 3];
             let foot = SurfaceFoot {
@@ -218,6 +237,7 @@ impl FootSearch {
                 weights: nowhere,
                 border: false,
                 certain: false,
+                cuts,
             };
         };
         let surface = grid as usize;
@@ -225,7 +245,8 @@ impl FootSearch {
         let cell = self.first[surface] + i * self.grids[surface].counts()[1] + j;
         let (half, weights) = if x >= y { (0, [1.0 - x, x - y, y]) } else { (1, [1.0 - y, x, y - x]) };
         let border = self.on_border(surface, &foot);
-        NearestFoot { surface, foot, face: (2 * cell + half) as u32, weights, border, certain }
+        let (face, certain) = ((2 * cell + half) as u32, cuts <= CUTS);
+        NearestFoot { surface, foot, face, weights, border, certain, cuts }
     }
 
     /// Whether a place lies on the border of its surface, and on no other surface.
@@ -239,8 +260,8 @@ impl FootSearch {
         on_end
             && (self.grids.len() < 2
                 || self
-                    .best(&foot.place, Some(surface))
-                    .0
+                    .searched(&foot.place, Some(surface))
+                    .best
                     .is_none_or(|b| b.foot.distance > JOINED * self.size))
     }
 }
@@ -271,6 +292,7 @@ impl Search<'_> {
             from: [0, 1].map(|k| grid.lines[k][cell[k]]),
             to: [0, 1].map(|k| grid.lines[k][cell[k] + 1]),
             corners: grid.corners(cell),
+            patch: grid.patch_of(cell),
             slack: grid.slack(cell),
         };
         let (distance, half) = piece.distance(&self.p);
@@ -290,7 +312,9 @@ impl Search<'_> {
     fn start(&mut self, grid: &Grid, number: u32, part: Part, start: [f64; 2]) {
         let domain = grid.domain(&part);
         let (mut foot, jet) = descend(|at| grid.shape.jet(&part, at), domain, self.p, start);
-        if foot.normal.is_none() {
+        if !grid.has_area {
+            foot.normal = None;
+        } else if foot.normal.is_none() {
             foot.normal = normal_near(grid, &part, foot.parameters);
         }
         let along = |f: &SurfaceFoot| f.normal.map_or(0.0, |n| dot(n, minus(self.p, f.place)).abs());
@@ -311,11 +335,17 @@ impl Search<'_> {
 
     /// Cuts a cell until no part of it can hold the nearest place.
     fn exclude(&mut self, grid: &Grid, number: u32, part: Part, piece: Piece) {
-        let mut open = vec![piece];
-        while let Some(piece) = open.pop() {
+        let own = grid.about(piece.patch, &self.p, piece.from, piece.to);
+        let mut open = vec![Open { piece, own }];
+        while let Some(Open { piece, own }) = open.pop() {
             let (distance, half) = piece.distance(&self.p);
-            let own = self.best.as_ref().is_some_and(|b| b.grid == number && b.part == part);
-            if distance - piece.slack >= self.reach() - self.epsilon || own && self.is_alone(&piece) {
+            let is_own = self.best.as_ref().is_some_and(|b| b.grid == number && b.part == part);
+            let least = self.reach() - self.epsilon;
+            if distance - piece.slack >= least || is_own && self.is_alone(&piece) {
+                continue;
+            }
+            let way = self.best.as_ref().and_then(|b| unit(minus(b.foot.place, self.p)));
+            if way.is_none_or(|(way, _)| own.is_beyond(least, way)) {
                 continue;
             }
             if self.cuts > CUTS {
@@ -326,7 +356,13 @@ impl Search<'_> {
             if norm(minus(grid.shape.place(&part, start), self.p)) < self.reach() {
                 self.start(grid, number, part, start);
             }
-            open.extend(piece.quarters(|at| grid.shape.place(&part, at)));
+            let along = own.bent();
+            let halves = piece.halves(
+                along,
+                |at| grid.shape.place(&part, at),
+                |from, to| grid.slack_of(piece.patch, from, to),
+            );
+            open.extend(halves.into_iter().zip(own.halves(along)).map(|(piece, own)| Open { piece, own }));
         }
     }
 }
@@ -347,21 +383,35 @@ impl Piece {
         let share = if half == 0 { [second + third, third] } else { [second, second + third] };
         [0, 1].map(|k| self.from[k] + share[k] * (self.to[k] - self.from[k]))
     }
-    fn quarters(&self, place: impl Fn([f64; 2]) -> Point) -> [Piece; 4] {
-        let middle = [0, 1].map(|k| 0.5 * (self.from[k] + self.to[k]));
-        let all = [0, 1].map(|k| [self.from[k], middle[k], self.to[k]]);
-        let at: [[Point; 3]; 3] = std::array::from_fn(|i| {
-            std::array::from_fn(|j| match (i, j) {
-                (1, _) | (_, 1) => place([all[0][i], all[1][j]]),
-                _ => self.corners[i + j / 2],
-            })
+    /// Both halves along a direction.
+    fn halves(
+        &self,
+        k: usize,
+        place: impl Fn([f64; 2]) -> Point,
+        slack: impl Fn([f64; 2], [f64; 2]) -> f64,
+    ) -> [Piece; 2] {
+        let middle = 0.5 * (self.from[k] + self.to[k]);
+        let other = 1 - k;
+        let ends = [self.from[other], self.to[other]].map(|t| {
+            let mut at = [middle; 2];
+            at[other] = t;
+            place(at)
         });
-        [[0, 0], [0, 1], [1, 0], [1, 1]].map(|[i, j]| Piece {
-            from: [all[0][i], all[1][j]],
-            to: [all[0][i + 1], all[1][j + 1]],
-            corners: [at[i][j], at[i][j + 1], at[i + 1][j], at[i + 1][j + 1]],
-            slack: 0.25 * self.slack,
-        })
+        let [a, b, c, d] = self.corners;
+        let corners = match k {
+            0 => [[a, b, ends[0], ends[1]], [ends[0], ends[1], c, d]],
+            _ => [[a, ends[0], c, ends[1]], [ends[0], b, ends[1], d]],
+        };
+        let half = |n: usize| {
+            let (mut from, mut to) = (self.from, self.to);
+            if n == 0 {
+                to[k] = middle
+            } else {
+                from[k] = middle
+            }
+            Piece { from, to, corners: corners[n], patch: self.patch, slack: slack(from, to) }
+        };
+        [half(0), half(1)]
     }
 }
 

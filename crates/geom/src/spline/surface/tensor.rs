@@ -149,6 +149,27 @@ impl<V: Value> Surface<V> {
         Ok([part(0, &knots[0])?, part(1, &knots[1])?])
     }
 
+    /// The same surface over another domain of a direction, which starts before its second knot and ends after its last but one: beyond
+    /// its own ends it goes on as the polynomials there do.
+    ///
+    /// ```
+    /// use trueness_geom::spline::{basis::Knots, surface::{Direction, Surface}};
+    /// let knots = || Knots::uniform(2, 2, 0.0, 2.0);
+    /// let points = (0..16).map(|k| [f64::from(k / 4), f64::from(k % 4), f64::from(k * k % 7)]).collect();
+    /// let surface = Surface::new([knots(), knots()], points).unwrap();
+    /// let longer = surface.going_on(Direction::V, (-0.5, 2.25)).unwrap();
+    /// let back = longer.going_on(Direction::V, (0.0, 2.0)).unwrap();
+    /// let off = |a: [f64; 3], b: [f64; 3]| (0..3).map(|k| (a[k] - b[k]).abs()).fold(0.0, f64::max);
+    /// assert!(off(longer.at(0.7, 1.9), surface.at(0.7, 1.9)) < 1e-14);
+    /// assert!(surface.points().iter().zip(back.points()).all(|(a, b)| off(*a, *b) < 1e-13));
+    /// ```
+    ///
+    /// # Errors
+    /// [`KnotError`] where the domain is another one.
+    pub fn going_on(&self, direction: Direction, domain: (f64, f64)) -> Result<Surface<V>, KnotError> {
+        self.along(direction, |curve| curve.going_on(domain))
+    }
+
     /// Does the same to all rows of control points of a direction.
     fn along(
         &self,

@@ -30,17 +30,14 @@ pub(super) struct Boxes {
 const LEAF: usize = 4;
 
 impl Boxes {
-    /// Around all cells of the grids, each with room for its slack.
-    pub(super) fn new(grids: &[Grid]) -> Boxes {
+    /// Around all cells of the grids, each with room for its slack or for rounding.
+    pub(super) fn new(grids: &[Grid], rounding: f64) -> Boxes {
         let mut all = vec![];
         for (g, grid) in grids.iter().enumerate() {
             let [rows, columns] = grid.counts();
             for i in 0..rows {
                 for j in 0..columns {
-                    let slack = grid.slack([i, j]);
-                    let mut bounds = Aabb::of(&grid.corners([i, j]));
-                    bounds.min = bounds.min.map(|x| x - slack);
-                    bounds.max = bounds.max.map(|x| x + slack);
+                    let bounds = grid.bounds_of([i, j], rounding);
                     all.push((CellId { grid: g as u32, row: i as u32, column: j as u32 }, bounds));
                 }
             }

@@ -88,6 +88,7 @@ fn a_tolerance_is_judged_by_the_nearest_places() {
         let spans = refine::first_spans(domain);
         let knots = [0, 1].map(|k| Knots::uniform(3, spans[k], domain[k].0, domain[k].1));
         let local = pass::corrected(&points, parameters.clone(), base, knots, &options, &Silent).unwrap();
+        let local = border::reaching_over(&points, local);
         let (far, true_far) = (most(&local.deviations), most(&brute(&local.surface, &points)));
         if far > true_far + 1e-3 {
             judged += 1;

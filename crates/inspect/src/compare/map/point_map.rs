@@ -20,9 +20,11 @@ pub struct PointMap {
     pub(super) places: Option<Places>,
 }
 
-/// Where the nearest place of a point lies: the piece, and the weights of its facet's first two corners.
+/// Where the nearest place of a point lies: the facet, the piece, and the weights of the facet's first two corners.
 #[derive(Clone, Copy, Debug)]
 pub struct Foot {
+    face: u32,
+    /// Where there is a map.
     piece: u32,
     weights: [f32; 2],
     /// The place at which the point counts, where there are such.
@@ -47,6 +49,23 @@ pub struct Flagged {
     pub deviation: f64,
 }
 
+impl Foot {
+    /// Of a facet, in no map.
+    pub fn on_facet(face: u32, weights: [f64; 3]) -> Foot {
+        Foot { face, piece: u32::MAX, weights: [weights[0] as f32, weights[1] as f32], place: u32::MAX }
+    }
+
+    /// The facet.
+    pub fn face(&self) -> u32 {
+        self.face
+    }
+
+    /// The weights of its corners.
+    pub fn weights(&self) -> [f64; 3] {
+        whole(self.weights)
+    }
+}
+
 impl PointMap {
     /// An empty map on `mesh`. With a tolerance the worst point is the one farthest beyond it, else the one farthest away.
     /// With `places` means are kept, too.
@@ -63,7 +82,7 @@ impl PointMap {
     pub fn foot(&self, mesh: &Mesh, face: u32, weights: [f64; 3]) -> Foot {
         let place = self.places.as_ref().map_or(u32::MAX, |places| places.at(mesh, face, weights));
         let piece = self.pieces.piece(face, weights);
-        Foot { piece, weights: [weights[0] as f32, weights[1] as f32], place }
+        Foot { piece, place, ..Foot::on_facet(face, weights) }
     }
 
     /// The places with what was added so far.
@@ -91,7 +110,12 @@ pub(super) fn worse(a: f64, b: f64, tolerance: Option<Tolerance>) -> bool {
 
 impl Kept {
     pub(super) fn weights(&self) -> [f64; 3] {
-        let [a, b] = self.weights.map(f64::from);
-        [a, b, 1.0 - a - b]
+        whole(self.weights)
     }
+}
+
+/// All three weights.
+fn whole(weights: [f32; 2]) -> [f64; 3] {
+    let [a, b] = weights.map(f64::from);
+    [a, b, 1.0 - a - b]
 }

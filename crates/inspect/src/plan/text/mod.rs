@@ -152,6 +152,8 @@ pub struct DeviationText {
     pub outliers: Option<At<String>>,
     /// Tells what part of the reference no point covers within this reach: `auto` or a length.
     pub coverage: Option<At<CoverageText>>,
+    /// Share of the reference that the points must cover for a pass, percent. Without it: 90. 0 where a part of it is measured on purpose.
+    pub min_coverage: Option<At<f64>>,
     /// Parts of the reference with tolerances of their own; the first that has the place of a point on the reference judges it.
     #[serde(default)]
     pub region: Vec<At<RegionText>>,

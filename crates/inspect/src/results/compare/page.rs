@@ -3,12 +3,13 @@
 mod list;
 mod words;
 
-pub use list::{OUTSIDE, by_side, excluded, passing, regions, rules, statistics, worst};
+pub use list::{OUTSIDE, because, by_side, excluded, passing, reasons, regions, rules, statistics, worst};
 
 use crate::compare::Method;
 use crate::report::number::Style;
 use crate::report::page::parts::{Headline, key_number};
 use crate::report::subject::{Head, Map, Pick, Subject};
+use crate::results::ReasonKind;
 use crate::results::align::AlignedTo;
 use crate::results::check::found;
 use crate::results::check::page as check;
@@ -115,6 +116,14 @@ fn numbers(s: Style, (c, n): (&Comparison, usize), decimals: usize, aligned: Opt
     html! {
         dl.key-numbers data-comparison=(n) hidden[n > 0] {
             (lead(s, c, decimals))
+            (because(s, &c.verdict_reasons))
+            @if let Some((covered, required)) = c.coverage.as_ref().and_then(|k| Some((k, k.required?))) {
+                @let short = c.verdict_reasons.iter().any(|r| r.kind.0 == ReasonKind::Coverage);
+                (key_number(s, "coverage", if short { "warn" } else { "" }, html! {
+                    (s.optional_percent(covered.covered_share(), 1).because(covered.uncovered_share_reason.as_deref()))
+                    @if required > 0.0 { " " small { "(≥\u{a0}" (s.percent(required, 0)) ")" } }
+                }))
+            }
             (key_number(s, "range", "", html! {
                 (value(all.min).because(all.min_reason.as_deref())) "\u{2009}…\u{2009}"
                 (value(all.max).because(all.max_reason.as_deref()))

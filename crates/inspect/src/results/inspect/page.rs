@@ -9,7 +9,9 @@ use crate::results::Verdict;
 use crate::results::align::page::{Facts, alignment};
 use crate::results::compare::page as compare;
 use crate::results::compare::{Comparison, ToleranceShares};
-use crate::results::inspect::{CharacteristicRecord, FeatureRecord, InspectDocument};
+use crate::results::inspect::{
+    CharacteristicRecord, FeatureRecord, FrameSource, InspectDocument, MeasuredPlace, PlaceRecord,
+};
 use crate::scale::Scale;
 use maud::{Markup, html};
 use serde_json::Value;
@@ -51,6 +53,7 @@ impl Subject for InspectDocument {
                         (s.count(count)) @if class == "lead" { " " small { "/\u{a0}" (all) } }
                     }))
                 }
+                (compare::because(s, &self.verdict_reasons))
                 (key_number(s, "characteristics", "", all))
                 @if let Some(c) = regions.filter(|_| !alone) {
                     (key_number(s, "regions.pass", if outside { "warn" } else { "" }, compare::passing(s, c)))
@@ -76,6 +79,7 @@ impl Subject for InspectDocument {
         let (first, last) =
             if of.doubts().next().is_some() { (Some(&facts), None) } else { (None, Some(&facts)) };
         html! {
+            (compare::reasons(s, &self.verdict_reasons))
             @if let Some(facts) = first { (alignment(s, facts)) }
             (section(s, "characteristics", characteristics(s, self)))
             @if let (Some(c), Some(scale)) = (&self.deviation, &self.scale) {
@@ -204,7 +208,24 @@ fn characteristics(s: Style, d: &InspectDocument) -> Markup {
                         }
                         td { (badge(s, c.verdict.into())) }
                     }
+                    @if let Some(place) = &c.place { (place_row(s, c, place)) }
                     @for note in c.reason.iter().chain(&c.notes) { tr { td colspan="3" class="note" { (Text(note)) } } }
+                }
+            }
+        }
+    }
+}
+
+/// How far its feature is from its true place along each axis, and of what frame these are.
+fn place_row(s: Style, c: &CharacteristicRecord, place: &PlaceRecord) -> Markup {
+    html! {
+        tr {
+            td colspan="3" class="note" {
+                @for (name, _, _, off) in place.coordinates() { "d" (name) "\u{a0}" (s.number(off, 4).signed()) " " }
+                @match *place.frame {
+                    FrameSource::Datums => { @for datum in &c.datums { " | " (datum_name(datum)) } }
+                    FrameSource::Plan => { (s.word("place.plan")) }
+                    FrameSource::Aligned => { (s.word("place.aligned")) }
                 }
             }
         }
@@ -239,6 +260,7 @@ fn deviations(s: Style, c: &Comparison, decimals: usize, first_pick: usize) -> M
                 (fact(s, "excluded", compare::excluded(s, c, all)))
                 (compare::rules(s, c, decimals))
             }
+            @for reason in &c.verdict_reasons { p.note { "⚠ " (Text(&reason.text)) } }
             @for warning in &c.warnings { p.note { "⚠ " (Text(&warning.text)) } }
         }))
         (compare::regions(s, c, decimals))
@@ -254,18 +276,8 @@ fn degrees(c: &CharacteristicRecord) -> &'static str {
 
 /// Digits after the point of value and limits: so many that a value which is not a limit does not look like it.
 fn digits(c: &CharacteristicRecord) -> usize {
-    let least = if c.unit == "mm" { 4 } else { 3 };
-    let alike = |n: usize| {
-        let unit = 10f64.powi(n as i32);
-        let is_like =
-            |limit: f64| c.value.is_some_and(|v| v != limit && (v * unit).round() == (limit * unit).round());
-        c.lower.is_some_and(is_like) || is_like(c.upper)
-    };
-    (least..MOST_DIGITS).find(|n| !alike(*n)).unwrap_or(MOST_DIGITS)
+    c.decimals(if c.unit == "mm" { 4 } else { 3 })
 }
-
-/// More digits after the point tell nothing.
-const MOST_DIGITS: usize = 9;
 
 fn allowed(s: Style, c: &CharacteristicRecord) -> Markup {
     let limit = |x| s.number(x, digits(c));
@@ -298,9 +310,24 @@ fn features(s: Style, d: &InspectDocument) -> Markup {
                         td.r { (s.optional(f.form_error, 4).because(reason(f))) }
                         td.r { (s.optional_percent(f.coverage, 1).because(f.coverage_reason.as_deref())) }
                     }
+                    @if let Some(measured) = &f.measured {
+                        tr { td colspan="4" class="note" {
+                            (s.word("place.measured")) " " (place(s, measured))
+                            @if let Some(nominal) = &f.nominal { br; (s.word("place.nominal")) " " (place(s, nominal)) }
+                        } }
+                    }
                 }
             }
         }
+    }
+}
+
+/// A place, and a diameter or angle.
+fn place(s: Style, p: &MeasuredPlace) -> Markup {
+    html! {
+        "(" @for (k, x) in p.place.iter().enumerate() { @if k > 0 { ", " } (s.number(*x, 4)) } ")"
+        @if let Some(d) = p.diameter { " ⌀\u{a0}" (s.number(d, 4)) }
+        @if let Some(a) = p.angle { " " (s.number(a, 3)) "°" }
     }
 }
 

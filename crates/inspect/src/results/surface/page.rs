@@ -69,7 +69,7 @@ impl Subject for SurfaceDocument {
     }
 
     fn points(&self) -> Option<u64> {
-        Some(self.deviation.count + self.outliers)
+        Some(self.deviation.count + self.outliers + self.beyond_border)
     }
 
     fn scale(&self) -> Option<&Scale> {
@@ -161,6 +161,7 @@ fn deviations(s: Style, d: &SurfaceDocument) -> Markup {
             }
             (key_number(s, "points", "", s.count(all.count)))
             @if d.outliers > 0 { (key_number(s, "outliers", "warn", s.count(d.outliers))) }
+            @if d.beyond_border > 0 { (key_number(s, "beyond_border", "warn", s.count(d.beyond_border))) }
         }
     }
 }

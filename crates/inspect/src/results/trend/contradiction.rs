@@ -30,6 +30,11 @@ pub(super) fn contradiction(result: &InspectDocument) -> Option<String> {
     if result.counts != counted {
         return Some("its counts are not those of its characteristics".into());
     }
+    if !result.verdict_reasons.is_empty() {
+        let own = result.verdict;
+        let what = || format!("its verdict is \"{}\", but there are reasons for \"undecided\"", own.word());
+        return (own != Verdict::Undecided).then(what);
+    }
     let deviations = result.deviation.as_ref().and_then(|d| d.verdict);
     let unreliable = result.alignment.doubts().next().map(|_| Verdict::Undecided);
     let worst = overall(all.iter().map(|c| c.verdict).chain(deviations).chain(unreliable));

@@ -29,11 +29,13 @@ fn shares(document: &InspectDocument) -> Vec<Share<'_>> {
     let rest = deviation.tolerance.as_ref().map(|t| Share {
         id: DEVIATION.into(),
         tolerance: t,
-        verdict: match t.inside {
-            None => Verdict::NotMeasured,
-            Some(share) if share >= t.required => Verdict::Pass,
-            Some(_) => Verdict::Fail,
-        },
+        verdict: match (deviation.regions.is_empty(), t.inside) {
+            (true, _) => deviation.verdict,
+            (false, None) => Some(Verdict::NotMeasured),
+            (false, Some(_)) => deviation.others_verdict,
+        }
+        .or(t.verdict())
+        .unwrap_or(Verdict::NotMeasured),
     });
     regions.chain(rest).collect()
 }
@@ -80,7 +82,7 @@ fn record(of: &[&Share]) -> TrendRecord {
         counts: Counts {
             pass: count(Verdict::Pass),
             fail: count(Verdict::Fail),
-            undecided: 0,
+            undecided: count(Verdict::Undecided),
             not_measured: count(Verdict::NotMeasured),
         },
         measured: there.len() as u64,

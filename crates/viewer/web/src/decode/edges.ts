@@ -1,3 +1,5 @@
+import { roomOf } from './crowding'
+import { mixed } from './hash'
 import { NO_NORMAL } from './normals'
 
 /** Facets that meet at more than this angle have an edge between them, as they have in the light. */
@@ -11,8 +13,9 @@ const SHORT = 65535 / 30
 export interface SharpEdges {
   /** Two vertices each. */
   ends: Uint32Array
-  /** Length of all of them, and area of the surface, in steps of the grid. */
-  length: number
+  /** How far each lies from its neighbors, in steps of the grid. */
+  room: Float32Array
+  /** Area of the surface, in steps of the grid. */
   area: number
 }
 
@@ -38,15 +41,15 @@ export function sharpEdges(packed: Uint16Array, triangles: Uint32Array): SharpEd
     table.done(p, q)
     found.push(p, q)
   }
-  const { ends, length } = rows(packed, found)
+  const ends = rows(packed, found)
   const area = new Facet(packed)
   let sum = 0
-  for (let t = 0; length > 0 && t < triangles.length; t += 3) sum += area.of(triangles, t)
-  return { ends, length, area: sum }
+  for (let t = 0; ends.length > 0 && t < triangles.length; t += 3) sum += area.of(triangles, t)
+  return { ends, room: roomOf(packed, ends), area: sum }
 }
 
-/** Without the short rows of edges that have an end, and the length of all others. */
-function rows(packed: Uint16Array, found: number[]): { ends: Uint32Array; length: number } {
+/** Without the short rows of edges that have an end. */
+function rows(packed: Uint16Array, found: number[]): Uint32Array {
   const count = packed.length / 4
   const up = new Uint32Array(found.length > 0 ? count : 0)
   for (let v = 0; v < up.length; v++) up[v] = v
@@ -67,21 +70,11 @@ function rows(packed: Uint16Array, found: number[]): { ends: Uint32Array; length
     if (meeting[a] === 1 || meeting[b] === 1) open[r] = 1
   }
   const kept = (v: number) => open[root(v)] === 0 || lengths[root(v)] > SHORT
-  let length = 0
-  for (let v = 0; v < up.length; v++) if (lengths[v] > 0 && kept(v)) length += lengths[v]
-  return { ends: Uint32Array.from(found.filter(kept)), length }
+  return Uint32Array.from(found.filter(kept))
 }
 
 /** The next corner of the same triangle. */
 const next = (h: number): number => (h % 3 === 2 ? h - 2 : h + 1)
-
-/** Spreads two numbers over all bits: places on a grid lie in step (the end of MurmurHash3, Appleby 2011). */
-function mixed(a: number, b: number): number {
-  let h = Math.imul(a, 0x9e3779b1) ^ Math.imul(b, 0x85ebca6b)
-  h = Math.imul(h ^ (h >>> 16), 0x85ebca6b)
-  h = Math.imul(h ^ (h >>> 13), 0xc2b2ae35)
-  return h ^ (h >>> 16)
-}
 
 /** For each vertex the first one at its place, and for that whether it can lie on an edge: it has no normal, or is several. */
 function places(packed: Uint16Array): { place: Uint32Array; folded: Uint8Array } {

@@ -51,7 +51,7 @@ function eachFacet(packed: Uint16Array, triangles: Uint32Array, visit: (t: numbe
 }
 
 /** [`NO_NORMAL`] only where there is no direction; the code beside it is the same one within a step. */
-function octahedral(x: number, y: number, z: number): number {
+export function octahedral(x: number, y: number, z: number): number {
   const length = Math.abs(x) + Math.abs(y) + Math.abs(z)
   if (length === 0) return NO_NORMAL
   let u = x / length

@@ -1,4 +1,5 @@
 import { unpack } from './blob'
+import { packCloudNormals } from './cloud_normals'
 import { sharpEdges, type SharpEdges } from './edges'
 import { packNormals } from './normals'
 import { differences, wrapSigned } from './planes'
@@ -20,7 +21,7 @@ export interface PackedObject {
 
 /** What it answers: buffers that go to the GPU as they are. */
 export interface DecodedObject {
-  /** Four numbers a vertex: x, y, z on the grid, and the packed normal (0 for points). */
+  /** Four numbers a vertex: x, y, z on the grid, and the packed normal (0 for marks). */
   packed: Uint16Array
   /** Corners of the full level, then of each coarser one. Empty for points; the numbers of marks. */
   corners: Uint32Array
@@ -36,7 +37,10 @@ export const NO_VALUE = 1e30
 export async function decodeObject(object: PackedObject): Promise<DecodedObject> {
   if (object.kind === 'mesh') return decodeMesh(object)
   const points = await decodePoints(object)
-  if (object.kind === 'points') return points
+  if (object.kind === 'points') {
+    packCloudNormals(points.packed)
+    return points
+  }
   const steps = differences(await unpack(object.corners ?? ''), 0, object.triangles, 3)
   let number = 0
   return { ...points, corners: Uint32Array.from(steps, (step) => (number += wrapSigned(step, 3))) }

@@ -95,23 +95,29 @@ void main() {
 /** A line of the part itself: thin and dark, whatever colors lie beside it. */
 export const EDGE_VERTEX = `
 ${STRIP}
-uniform float wide, lift;
+in float room;
+/* The room that an edge needs beside it, as its own is given. */
+uniform float wide, lift, needed;
+flat out float vShare;
 void main() {
+  float share = min(1.0, room / needed);
+  vShare = share * share;
   vec4 p = modelViewMatrix * vec4(a, 1.0);
   vec4 q = modelViewMatrix * vec4(b, 1.0);
   p.z += lift;
   q.z += lift;
   /* Without round ends: where they overlap a row of edges would be dotted. */
-  gl_Position = strip(p, q, 0.5 * wide + 0.5, 0.0);
+  gl_Position = vShare < 0.02 ? ${NOWHERE} : strip(p, q, 0.5 * wide + 0.5, 0.0);
 }`
 
 export const EDGE = `
 precision highp float;
 ${COVER}
+flat in float vShare;
 uniform float opacity;
 out vec4 color;
 void main() {
-  float covered = cover();
+  float covered = cover() * vShare;
   if (covered <= 0.0) discard;
   color = vec4(vec3(0.06, 0.08, 0.1), covered * opacity);
 }`

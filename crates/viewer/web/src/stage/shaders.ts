@@ -85,6 +85,7 @@ const DISC = `
 #ifdef POINTS
 #define OBLIQUE ${OBLIQUE.toFixed(1)}
 #define RIM 0.2
+#define RIM_LIT 0.06
 uniform mat4 projectionMatrix;
 uniform float sink, lift;
 flat in float vForward;
@@ -158,6 +159,14 @@ float light(float darkest) {
   return mix(darkest, 1.0, abs(dot(n, eye)));
 }
 
+#ifdef POINTS
+/* Likewise for a point, which has the normal of its surroundings. */
+float pointLight(float darkest) {
+  vec3 eye = perspective ? normalize(-vPlace) : vec3(0.0, 0.0, 1.0);
+  return mix(darkest, 1.0, abs(dot(normalize(vNormal), eye)));
+}
+#endif
+
 bool line(float along) { return mod(along, 7.0) < 1.6; }
 
 void main() {
@@ -167,8 +176,10 @@ void main() {
   float up = gl_FragCoord.x + gl_FragCoord.y;
   bool inner = backfaces && !isPoints && !gl_FrontFacing;
 #ifdef POINTS
-  // Points have no side that the light could fall on; a darker rim tells them apart, and near from far.
-  float shade = flatColors ? 1.0 : 1.0 - RIM * dot(2.0 * gl_PointCoord - 1.0, 2.0 * gl_PointCoord - 1.0);
+  // Where no surface is known that the light could fall on, a darker rim tells points apart, and near from far.
+  float lit = vCrease < 0.5 ? pointLight(map ? 0.6 : 0.45) : 1.0;
+  float rim = (vCrease < 0.5 ? RIM_LIT : RIM) * dot(2.0 * gl_PointCoord - 1.0, 2.0 * gl_PointCoord - 1.0);
+  float shade = flatColors ? 1.0 : lit * (1.0 - rim);
 #else
   float shade = flatColors && map && !inner ? 1.0 : light(inner ? 0.55 : map ? 0.72 : 0.45);
 #endif

@@ -321,7 +321,8 @@ export class Stage {
 
   /**
    * The view as it is, drawn in full at another size on the canvas's own color. `look` is called while it stands, when
-   * what lies over it is laid out for that size.
+   * what lies over it is laid out for that size. Where nothing is shown it is the reference, or what the page opens with: an empty
+   * sheet tells nobody anything.
    */
   pictureOf(width: number, height: number, ratio: number, room: () => number, look: () => void): string {
     const { eye, renderer } = this
@@ -332,12 +333,15 @@ export class Stage {
     eye.pixels = height
     this.ratio = ratio
     renderer.setSize(width, height, false)
+    const added = this.shown.length > 0 || this.marks.some((m) => m.drawn.visible) ? [] : this.inPlaceOfNothing
+    for (const part of added) part.drawn.visible = true
     if (this.fitted) this.frameAll()
     this.values.clear()
     this.ground = null
     this.drawNow()
     const picture = this.canvas.toDataURL('image/png')
     look()
+    for (const part of added) part.drawn.visible = false
     this.room = before.room
     eye.width = before.width
     eye.pixels = before.pixels
@@ -347,6 +351,13 @@ export class Stage {
     this.moving = before.moving
     this.ground = null
     return picture
+  }
+
+  /** What a picture shows where the reader has switched off everything. */
+  private get inPlaceOfNothing(): Part[] {
+    const here = this.parts.filter(({ object }) => object.comparison === null || object.comparison === this.state.comparison)
+    const references = here.filter(({ object }) => object.role === 'reference')
+    return references.length > 0 ? references : here.filter(({ object }) => object.shown)
   }
 
   /** What follows when nothing more happens: the picture in full, then its values. Until then the stage is busy. */

@@ -1,6 +1,6 @@
 // Measured points against references that are far coarser than the points are apart.
 import assert from 'node:assert/strict'
-import { screen, settled, stageBox, tool } from '../browser.mjs'
+import { decode, screen, settled, stageBox, tool } from '../browser.mjs'
 import { view } from './colors.mjs'
 
 const key = async (page, k) => {
@@ -296,6 +296,50 @@ export const clouds = [
         assert.ok(bad > 0.02 * colored, `${bad} of ${colored}`)
       }
       assert.deepEqual(page.seen.errors, [])
+    },
+  ],
+  [
+    'points: faces that turn away from the eye are darker, so that the form shows',
+    async (session) => {
+      const page = await session.report('dent', { width: 1000, height: 800 })
+      await key(page, '7')
+      const box = await stageBox(page)
+      await page.mouse.move(box.cx, box.cy)
+      await page.mouse.down()
+      await page.mouse.move(box.cx + 120, box.cy + 90, { steps: 6 })
+      await page.mouse.up()
+      await settled(page)
+      const picture = await screen(page)
+      const green = (c) => c[1] > c[0] + 30 && c[1] > c[2] + 30
+      const means = []
+      for (let x = box.cx - 200; x < box.cx + 200; x += 16)
+        for (let y = box.cy - 200; y < box.cy + 200; y += 16) {
+          const all = []
+          for (let i = 0; i < 16; i++) for (let j = 0; j < 16; j++) all.push(picture.at(x + i, y + j))
+          if (all.every(green)) means.push(all.reduce((sum, c) => sum + c[1], 0) / all.length)
+        }
+      means.sort((a, b) => a - b)
+      assert.ok(means.length > 40, `${means.length} places`)
+      const [low, high] = [0.1, 0.9].map((q) => means[Math.floor(q * means.length)])
+      assert.ok(high > 1.12 * low, `all faces alike: ${low} … ${high}`)
+    },
+  ],
+  [
+    'paper: where everything is switched off, the picture shows the reference',
+    async (session) => {
+      const page = await session.report('dent')
+      await tool(page, 'Measured')
+      await settled(page)
+      const src = await page.evaluate(() => {
+        window.dispatchEvent(new Event('beforeprint'))
+        return document.getElementById('picture').src
+      })
+      const picture = decode(Buffer.from(src.split(',')[1], 'base64'))
+      let drawn = 0
+      for (let x = 0; x < picture.width; x += 10) for (let y = 0; y < picture.height; y += 10) drawn += Number(picture.at(x, y).some((c) => c < 240))
+      assert.ok(drawn > 0.05 * (picture.width / 10) * (picture.height / 10), `${drawn} of the picture's pixels are drawn`)
+      // On the screen it stays as the reader left it.
+      assert.equal(await page.evaluate(() => document.querySelector('.stage-tools button[aria-pressed=true]')?.textContent.includes('Reference') ?? false), false)
     },
   ],
 ]

@@ -1,6 +1,6 @@
 // The sharp edges of a surface are drawn, on a map too, and only those.
 import assert from 'node:assert/strict'
-import { screen, settled, stageBox } from '../browser.mjs'
+import { screen, settled, stageBox, tool } from '../browser.mjs'
 import { view } from './colors.mjs'
 
 const key = async (page, k) => {
@@ -60,6 +60,26 @@ export const edges = [
       const dark = []
       for (let i = -100; i <= 100; i += 2) for (let j = -100; j <= 100; j += 2) if (contrast(picture, [box.cx + i, box.cy + j]) < 0.3) dark.push([i, j])
       assert.deepEqual(dark, [])
+    },
+  ],
+  [
+    'edges that crowd fade where they are, and those of the box beside them stay',
+    async (session) => {
+      const page = await session.report('pleats')
+      await key(page, '7')
+      await tool(page, 'Defects')
+      await settled(page)
+      const box = await stageBox(page)
+      const picture = await screen(page)
+      let [dark, light] = [0, 0]
+      for (let x = box.x; x < box.x + box.width; x++)
+        for (let y = box.y; y < box.y + box.height; y++) {
+          const sum = picture.at(x, y).reduce((a, b) => a + b)
+          dark += Number(sum < 150)
+          light += Number(sum < 660)
+        }
+      // Lines of a pixel or two, and no area.
+      assert.ok(dark > 200 && dark < 0.03 * light, `${dark} of ${light} pixels of the part are dark`)
     },
   ],
 ]

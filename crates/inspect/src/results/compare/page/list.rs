@@ -2,10 +2,11 @@
 
 use super::words::{headline, in_words, sign_key, warning_key};
 use crate::report::number::Style;
-use crate::report::page::parts::{badge, fact, file_name, place_cells, place_heads, section, series};
+use crate::report::page::parts::{
+    badge, fact, file_name, key_number, place_cells, place_heads, section, series,
+};
 use crate::report::payload::NoValue;
 use crate::report::values::{Name, Text};
-use crate::results::Verdict;
 use crate::results::align::page::{Facts, alignment};
 use crate::results::check::found;
 use crate::results::check::page as check;
@@ -14,6 +15,7 @@ use crate::results::compare::{
     Statistics, ToleranceShares, Worst,
 };
 use crate::results::statistics::PAGE_ROWS;
+use crate::results::{Verdict, VerdictReason};
 use maud::{Markup, Render, html};
 
 /// All sections.
@@ -33,6 +35,7 @@ pub fn list(s: Style, result: &CompareDocument) -> Markup {
             div.comparison data-comparison=(n) hidden[n > 0] {
                 "\n"
                 @if several { p.against { (s.word("reference")) " " (Name(file_name(&c.reference))) } }
+                (reasons(s, &c.verdict_reasons))
                 (worst(s, c, decimals, first)) (regions(s, c, decimals)) (statistics(s, c, decimals)) (trust(s, result, c))
                 @if !found.is_empty() {
                     (section(s, "reference.defects", check::kinds(s, found, first + c.worst.len())))
@@ -51,6 +54,34 @@ pub fn list(s: Style, result: &CompareDocument) -> Markup {
             }))
         }
     }
+}
+
+/// Why a verdict is not a pass, in few words, for the head of a page; nothing where there is no reason.
+pub fn because(s: Style, reasons: &[VerdictReason]) -> Markup {
+    html! {
+        @if !reasons.is_empty() {
+            (key_number(s, "because", "warn", html! {
+                @for (n, reason) in reasons.iter().enumerate() {
+                    @if n > 0 { ", " }
+                    (s.word(format!("because.{}", reason.kind)))
+                }
+            }))
+        }
+    }
+}
+
+/// The same in sentences, for the list.
+pub fn reasons(s: Style, reasons: &[VerdictReason]) -> Markup {
+    if reasons.is_empty() {
+        return Markup::default();
+    }
+    section(
+        s,
+        "because",
+        html! {
+            @for reason in reasons { p.note { strong.warning { "⚠" } " " (Text(&reason.text)) } }
+        },
+    )
 }
 
 /// Several references side by side, the nearest first.
@@ -191,7 +222,7 @@ pub fn regions(s: Style, c: &Comparison, decimals: usize) -> Markup {
                         (row(html! { (Name(&r.id)) }, &r.tolerance, r.deviation.count, Some(r.verdict)))
                     }
                     @if let Some(t) = &c.tolerance {
-                        (row(html! { (s.word("regions.others")) }, t, rest, t.verdict()))
+                        (row(html! { (s.word("regions.others")) }, t, rest, c.others_verdict))
                     }
                 }
             }

@@ -1,5 +1,6 @@
-//! The comparison as a table for people.
+//! All that the document of a comparison tells, as a table for people.
 
+use super::line::{short, verdict};
 use crate::console::columns;
 use crate::number::{FACETS, POINTS, counted, fixed, grouped, signed, six_digits as number};
 use trueness_geom::deviation::sign_choice::SignMethod;
@@ -19,6 +20,8 @@ pub fn text(d: &CompareDocument) -> String {
         [only] => out.push_str(&one(only)),
         several => out.push_str(&ranking(d, several)),
     }
+    out.push('\n');
+    out.push_str(&verdict(d.verdict, &d.verdict_reasons));
     out
 }
 
@@ -156,7 +159,7 @@ fn surfaces(s: &SurfacesRecord) -> String {
 }
 
 /// What is wrong with a reference, in words.
-fn unsound(c: &Comparison) -> String {
+pub fn unsound(c: &Comparison) -> String {
     let s = &c.soundness;
     let faults = [
         (s.boundary_edges, ["boundary edge", "boundary edges"]),
@@ -275,7 +278,7 @@ pub fn regions(c: &Comparison) -> String {
         let mut row = vec!["(others)".into(), grouped(rest), zone];
         row.extend([percent(t.inside), percent(t.above), percent(t.below)]);
         // Their least and greatest deviations are not known apart from those of the regions.
-        row.extend([String::new(), String::new(), t.verdict().map_or("", |v| v.word()).to_string()]);
+        row.extend([String::new(), String::new(), c.others_verdict.map_or("", |v| v.word()).to_string()]);
         rows.push(row);
     }
     let verdict = c.verdict.map_or_else(String::new, |v| format!("together: {}\n", v.word().to_uppercase()));
@@ -283,7 +286,7 @@ pub fn regions(c: &Comparison) -> String {
 }
 
 /// The findings of `--research`, a line each.
-fn research(r: &Research) -> String {
+pub fn research(r: &Research) -> String {
     fn line<T>(name: &str, finding: &Finding<T>, text: impl Fn(&T) -> String) -> Vec<String> {
         let text = match finding {
             Finding::Found(x) => text(x),
@@ -360,11 +363,6 @@ fn ranking(d: &CompareDocument, several: &[Comparison]) -> String {
     }
     out.push_str(&columns(&rows));
     out
-}
-
-/// The file's name without its folder.
-fn short(path: &str) -> &str {
-    path.rsplit(['/', '\\']).next().unwrap_or(path)
 }
 
 fn percent(share: Option<f64>) -> String {

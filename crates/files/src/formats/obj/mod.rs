@@ -3,18 +3,20 @@
 //! Parts of the text are read at the same time, each giving its vertices and where its faces are; the corners are
 //! looked up when all vertices are there.
 
+mod continued;
+
 use crate::{
     AtomicFile, SourceMesh,
     assemble::{self, Faces},
     error::{Fault, Result, WriteFault},
     format::{Format, Head, Parsed, ReadOptions, Weld},
-    lines::{count_lines, is_text, line_end, parts, without_mark},
+    lines::{count_lines, is_text, line_end, parts, without_end_mark, without_mark},
     number::{integer, number, push_number},
     source::{HEAD, Source},
     unicode::no_zeros,
     write::{Loss, corners::corner_positions},
 };
-use std::{borrow::Cow, io::Write};
+use std::io::Write;
 use trueness_geom::parallel::prelude::*;
 use trueness_geom::{mesh::Mesh, space::Point};
 
@@ -35,19 +37,23 @@ pub(crate) const OBJ: Format = Format {
 const PART: usize = 1 << 20;
 
 fn sniff(head: &Head) -> bool {
-    if !is_text(head.bytes) {
+    let bytes = without_end_mark(head.bytes);
+    if !is_text(bytes) {
         return false;
     }
+    let word = |l: &[u8]| -> Vec<u8> {
+        let ends = |b: &u8| b.is_ascii_whitespace() || *b == b'\\';
+        l.split(ends).next().unwrap_or_default().to_vec()
+    };
     let known = |l: &[u8]| {
-        let word = l.split(u8::is_ascii_whitespace).next().unwrap_or_default();
         matches!(
-            word,
+            &word(l)[..],
             b"v" | b"vn" | b"vt" | b"f" | b"o" | b"g" | b"s" | b"mtllib" | b"usemtl" | b"l" | b"p" | b"vp"
         )
     };
-    let lines = without_mark(head.bytes).split(|b| matches!(b, b'\n' | b'\r')).map(<[u8]>::trim_ascii);
+    let lines = without_mark(bytes).split(|b| matches!(b, b'\n' | b'\r')).map(<[u8]>::trim_ascii);
     let mut said = lines.filter(|l| !l.is_empty() && !l.starts_with(b"#")).take(1000).peekable();
-    said.peek().is_some_and(|l| known(l)) && said.any(|l| vertex(l).is_some())
+    said.peek().is_some_and(|l| known(l)) && said.any(|l| word(l) == b"v")
 }
 
 /// The text after `v` in a line that gives a vertex.
@@ -60,7 +66,7 @@ fn read(mut source: Source, options: &ReadOptions) -> Result<Parsed> {
     let text = without_mark(source.feed.all()?);
     no_zeros(text)?;
     let end = line_end(text);
-    let text = joined(text);
+    let text = continued::joined(without_end_mark(text), end);
     let parts = parts(&text, PART, end);
     let read: Vec<_> = parts.par_iter().map(|p| Part::read(p, end)).collect();
     let starts = lines_before(&parts, end);
@@ -87,27 +93,6 @@ fn read(mut source: Source, options: &ReadOptions) -> Result<Parsed> {
     let mut warnings = vec![];
     let mesh = faces.mesh(positions, options.weld != Weld::None, &mut warnings)?;
     Ok(Parsed::mesh("obj", SourceMesh { mesh, ..SourceMesh::default() }, warnings))
-}
-
-/// The text with continued lines put together (then counted as one).
-fn joined(text: &[u8]) -> Cow<'_, [u8]> {
-    let continued = |i: usize| matches!(text.get(i + 1..), Some([b'\n', ..] | [b'\r', ..]));
-    if !memchr::memchr_iter(b'\\', text).any(continued) {
-        return Cow::Borrowed(text);
-    }
-    let mut out = Vec::with_capacity(text.len());
-    let mut skip = 0;
-    for (i, b) in text.iter().enumerate() {
-        if skip > 0 {
-            skip -= 1;
-        } else if *b == b'\\' && continued(i) {
-            skip = if text[i + 1..].starts_with(b"\r\n") { 2 } else { 1 };
-            out.push(b' ');
-        } else {
-            out.push(*b);
-        }
-    }
-    Cow::Owned(out)
 }
 
 fn lines_before(parts: &[&[u8]], end: u8) -> Vec<u64> {

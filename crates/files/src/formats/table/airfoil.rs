@@ -1,0 +1,115 @@
+//! Airfoils as collections publish them: a title, and rows of x and y in shares of the chord.
+//!
+//! | form | rows |
+//! |---|---|
+//! | Selig's | from the trailing edge over the leading one and back |
+//! | Lednicer's | two counts, then the upper and the lower side, each from the leading edge |
+//!
+//! A title may look like a row (`NACA 0012`), like the names of columns (`CLARK Y`) or like the number of points (`0012`). Only the rows
+//! behind it tell: all of two numbers, in the order of one of the forms.
+
+use super::cell::cell_number;
+use crate::{
+    Warning,
+    lines::{line_end, without_mark},
+};
+
+/// Fewer rows show no form.
+const FEWEST: usize = 8;
+/// x of a trailing edge is this share of its range from the greatest, at most; one side falls and the other rises but for so much.
+const EDGE: f64 = 0.1;
+/// A profile is no thicker than this share of its length.
+const THICK: f64 = 0.6;
+
+/// The text of a file in one of the forms with its title and its counts taken out, and the sides of Lednicer's form as one row around the
+/// profile; `None` of any other text.
+pub(super) fn plain(text: &[u8]) -> Option<(Vec<u8>, Warning)> {
+    let end = line_end(text);
+    let lines: Vec<&[u8]> = without_mark(text).split(|b| *b == end).collect();
+    let said: Vec<usize> = (0..lines.len()).filter(|i| !lines[*i].trim_ascii().is_empty()).collect();
+    let (first, rest) = said.split_first()?;
+    let title = row(lines[*first]).is_none();
+    let rows: Vec<usize> = if title { rest.to_vec() } else { said.clone() };
+    let values: Vec<[f64; 2]> = rows.iter().map(|i| row(lines[*i])).collect::<Option<_>>()?;
+    let name = || String::from_utf8_lossy(lines[*first].trim_ascii()).chars().take(60).collect::<String>();
+    let upper = lednicer(&values);
+    if upper.is_none() && !(title && is_selig(&values) && !names_columns(lines[*first])) {
+        return None;
+    }
+    let mut kept = lines.clone();
+    if title {
+        kept[*first] = b"";
+    }
+    if let Some(upper) = upper {
+        kept[rows[0]] = b"";
+        // Both sides begin with the leading edge.
+        let once = usize::from(values[1] == values[1 + upper]);
+        let order = (1 + once..=upper).rev().chain(1 + upper..rows.len());
+        let turned: Vec<&[u8]> = order.map(|k| lines[rows[k]]).collect();
+        let places = &rows[1 + once..];
+        kept[rows[1]] = b"";
+        places.iter().zip(turned).for_each(|(place, line)| kept[*place] = line);
+    }
+    let form = if upper.is_some() { "Lednicer" } else { "Selig" };
+    Some((kept.join(&end), Warning::Airfoil { form, title: title.then(name) }))
+}
+
+/// The two numbers of a line that holds nothing else.
+fn row(line: &[u8]) -> Option<[f64; 2]> {
+    let parts = |b: &u8| b.is_ascii_whitespace() || *b == b',';
+    let mut words = line.split(parts).filter(|w| !w.is_empty()).map(|w| cell_number(w, b'.'));
+    let found = [words.next()??, words.next()??];
+    words.next().is_none().then_some(found)
+}
+
+/// Whether a line names x and y.
+fn names_columns(line: &[u8]) -> bool {
+    let text = String::from_utf8_lossy(line).to_lowercase();
+    let words = || text.split(|c: char| !c.is_alphanumeric());
+    words().any(|w| w == "x") && words().any(|w| w == "y")
+}
+
+/// Least and greatest of one coordinate.
+fn range(values: &[[f64; 2]], k: usize) -> (f64, f64) {
+    values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), p| (a.min(p[k]), b.max(p[k])))
+}
+
+/// Whether rows run from the greatest x to the least and back, and lie in a thin strip.
+fn is_selig(values: &[[f64; 2]]) -> bool {
+    let ((low, high), (bottom, top)) = (range(values, 0), range(values, 1));
+    let (chord, n) = (high - low, values.len());
+    if n < FEWEST || chord <= 0.0 || top - bottom > THICK * chord {
+        return false;
+    }
+    let Some(nose) = (0..n).min_by(|a, b| values[*a][0].total_cmp(&values[*b][0])) else { return false };
+    let near = |p: &[f64; 2]| high - p[0] <= EDGE * chord;
+    let on = |w: &[[f64; 2]], sign: f64| sign * (w[1][0] - w[0][0]) >= -EDGE * EDGE * chord;
+    nose >= 2
+        && nose + 2 < n
+        && near(&values[0])
+        && near(&values[n - 1])
+        && values[..=nose].windows(2).all(|w| on(w, -1.0))
+        && values[nose..].windows(2).all(|w| on(w, 1.0))
+}
+
+/// The number of rows of the upper side, where the first row counts those of both, and each side runs from the least x to the greatest.
+fn lednicer(values: &[[f64; 2]]) -> Option<usize> {
+    let ([upper, lower], rows) = (*values.first()?, &values[1..]);
+    let whole = |x: f64| (2.0..1e6).contains(&x) && x.fract() == 0.0;
+    if !whole(upper) || !whole(lower) || rows.len() < FEWEST || (upper + lower) as usize != rows.len() {
+        return None;
+    }
+    let sides = rows.split_at(upper as usize);
+    let (low, high) = range(rows, 0);
+    let chord = high - low;
+    let rises = |side: &[[f64; 2]]| {
+        let (first, last) = (side[0][0], side[side.len() - 1][0]);
+        first - low <= EDGE * chord
+            && high - last <= EDGE * chord
+            && side.windows(2).all(|w| w[1][0] - w[0][0] >= -EDGE * EDGE * chord)
+    };
+    (chord > 0.0 && rises(sides.0) && rises(sides.1)).then_some(upper as usize)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,73 @@
+//! Airfoils in the forms of collections, under any title, and texts that are none.
+
+use super::plain;
+
+/// Rows of a symmetrical profile from the trailing edge over the leading one and back, as x and y.
+fn around(each: i32) -> Vec<[f64; 2]> {
+    let place = |k: i32| {
+        let x = (f64::from(k) / f64::from(each)).powi(2);
+        [x, 0.1 * f64::from(k.signum()) * (x.sqrt() - x)]
+    };
+    (-each..=each).rev().map(place).collect()
+}
+
+fn text(title: Option<&str>, rows: &[[f64; 2]], end: &str) -> String {
+    let line = |[x, y]: &[f64; 2]| format!("  {x:.6}  {y:.6}{end}");
+    title.map_or(String::new(), |t| format!("{t}{end}")) + &rows.iter().map(line).collect::<String>()
+}
+
+fn numbers(text: &[u8]) -> Vec<[f64; 2]> {
+    let text = String::from_utf8(text.to_vec()).unwrap();
+    let row = |l: &str| l.split_whitespace().map(|w| w.parse::<f64>().unwrap()).collect::<Vec<_>>();
+    text.split(['\n', '\r']).map(row).filter(|r| !r.is_empty()).map(|r| [r[0], r[1]]).collect()
+}
+
+#[test]
+fn titles_that_look_like_rows_names_or_counts_are_titles() {
+    for each in [6, 30, 100] {
+        let rows = around(each);
+        for title in ["NACA 0012", "CLARK Y", "0012", "NACA 23012 (smoothed)", "E 387", "S1223", "x of 2 3 4"]
+        {
+            for end in ["\n", "\r\n", "\r"] {
+                let (found, told) = plain(text(Some(title), &rows, end).as_bytes()).unwrap();
+                assert_eq!(numbers(&found), numbers(text(None, &rows, end).as_bytes()), "{title}");
+                assert!(told.to_string().contains(title) && told.to_string().contains("Selig"), "{told}");
+            }
+        }
+    }
+}
+
+#[test]
+fn both_sides_of_the_other_form_become_one_row() {
+    for (each, shared) in [(6, true), (30, false), (60, true)] {
+        let rows = around(each);
+        let nose = each as usize;
+        let upper: Vec<[f64; 2]> = rows[..=nose].iter().rev().copied().collect();
+        let lower = &rows[nose + usize::from(!shared)..];
+        let counts = [upper.len() as f64, lower.len() as f64];
+        let all = [&[counts], &upper[..], lower].concat();
+        for title in [Some("CLARK Y AIRFOIL"), None] {
+            let (found, told) = plain(text(title, &all, "\n").as_bytes()).unwrap();
+            assert_eq!(numbers(&found), numbers(text(None, &rows, "\n").as_bytes()), "{each} {shared}");
+            assert!(told.to_string().contains("Lednicer"), "{told}");
+        }
+    }
+}
+
+/// Names of columns, rows of another order or number of cells, and a wrong count are left to the table's own rules.
+#[test]
+fn other_rows_are_no_airfoil() {
+    let rows = around(30);
+    assert_eq!(plain(text(None, &rows, "\n").as_bytes()), None);
+    assert_eq!(plain(text(Some("x y"), &rows, "\n").as_bytes()), None);
+    assert_eq!(plain(text(Some("X [mm], Y [mm]"), &rows, "\n").as_bytes()), None);
+    assert_eq!(plain(text(Some("A 1"), &rows[..40], "\n").as_bytes()), None);
+    let mut mixed = rows.clone();
+    mixed.swap(10, 20);
+    assert_eq!(plain(text(Some("A 1"), &mixed, "\n").as_bytes()), None);
+    let counted = [&[[33.0, 33.0]], &rows[..]].concat();
+    assert_eq!(plain(text(None, &counted, "\n").as_bytes()), None);
+    assert_eq!(plain((text(Some("A 1"), &rows, "\n") + "1 2 3\n").as_bytes()), None);
+    assert_eq!(plain(b""), None);
+    assert_eq!(plain(b"\n\n"), None);
+}
