@@ -53,6 +53,14 @@ pub(super) trait Family<const P: usize>: Sync {
     fn more_starts(_points: &[Point]) -> Vec<Element> {
         Vec::new()
     }
+    /// An element close by that a search may not reach, as distances have a corner there.
+    fn at_corner(_element: &Element, _sample: &Sample) -> Option<Element> {
+        None
+    }
+    /// Whether a point lies so close to a corner of the distances that they are not linear in the unknowns.
+    fn has_corner(_element: &Element, _sample: &Sample, _within: f64) -> bool {
+        false
+    }
     /// The element in the frame of the points.
     fn shape(element: &Element, sample: &Sample) -> Shape;
     /// The element of a shape given by the caller; `None` if it is of another family or has no direction.

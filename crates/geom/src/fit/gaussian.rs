@@ -6,7 +6,7 @@ use super::normal::{Alike, sums};
 use super::sample::Sample;
 use super::scatter::Scatter;
 use super::solution::{Covariance, Fit, Residuals};
-use super::{FitError, Kind, Options, Shape, dense, survey};
+use super::{FitError, Kind, Options, Shape, dense, hardly, survey};
 use crate::progress::Progress;
 use crate::shape::MOST_NUMBERS;
 use crate::space::{Point, plus, times};
@@ -32,9 +32,14 @@ pub(super) fn gaussian<const P: usize, F: Family<P>>(
     progress.advance(sample.len() as u64);
     let element = optimum.element;
     let residuals = residuals::<P, F>(&element, sample);
-    let covariance = residuals
-        .std_dev
-        .and_then(|std_dev| covariance::<P, F>(&element, &inverse, std_dev * sample.scale, sample));
+    let linear = inverse.and_then(|inverse| {
+        covariance::<P, F>(&element, &inverse, residuals.std_dev? * sample.scale, sample)
+    });
+    let covariance = match inverse {
+        Some(_) if !hardly::is_bent::<P, F>(&element, sample, residuals.rms * sample.scale) => linear,
+        Some(_) => hardly::covariance::<P, F>(&element, sample).or(linear),
+        None => Some(hardly::covariance::<P, F>(&element, sample).ok_or_else(|| nothing(sample, kind))?),
+    };
     Ok(Fit {
         shape: F::shape(&element, sample),
         method: options.method,
@@ -54,17 +59,17 @@ pub(super) fn near<const P: usize, F: Family<P>>(
     options: &Options,
 ) -> Result<Element, FitError> {
     let some = sample.thinned(SOME);
-    let (optimum, _) = optimum::<P, F>(&some, kind, options, &crate::progress::Silent)?;
-    Ok(optimum.element)
+    let (optimum, inverse) = optimum::<P, F>(&some, kind, options, &crate::progress::Silent)?;
+    inverse.map(|_| optimum.element).ok_or_else(|| nothing(&some, kind))
 }
 
-/// The element with the least sum of squares, and the inverse of its normal matrix.
+/// The element with the least sum of squares, and the inverse of its normal matrix if it has one.
 pub(super) fn optimum<const P: usize, F: Family<P>>(
     sample: &Sample,
     kind: Kind,
     options: &Options,
     progress: &dyn Progress,
-) -> Result<(Optimum<P>, [[f64; P]; P]), FitError> {
+) -> Result<(Optimum<P>, Option<[[f64; P]; P]>), FitError> {
     let starts = match &options.start {
         Some(shape) => vec![F::element(shape, sample).ok_or(FitError::WrongStart { kind })?],
         None => F::starts(&sample.thinned(FEW).units().collect::<Vec<Point>>()),
@@ -74,16 +79,26 @@ pub(super) fn optimum<const P: usize, F: Family<P>>(
         return Err(FitError::Cancelled);
     }
     let best = F::settled(best);
-    let mut optimum =
-        minimize::<P, F, _>(&best, sample, &Alike, FULL).ok_or_else(|| nothing(sample, kind))?;
+    let mut optimum = around::<P, F>(&best, sample, FULL).ok_or_else(|| nothing(sample, kind))?;
     let settled = F::settled(optimum.element);
     if settled != optimum.element {
         // The sums belong to the frame they were taken in.
         optimum.element = settled;
         optimum.sums = sums::<P, F, _>(&settled, sample, &Alike);
     }
-    let inverse = determined(&optimum).ok_or_else(|| nothing(sample, kind))?;
-    Ok((optimum, inverse))
+    Ok((optimum, determined(&optimum)))
+}
+
+/// The local minimum reached from `start`, or the corner beside it if that is lower.
+fn around<const P: usize, F: Family<P>>(
+    start: &Element,
+    sample: &Sample,
+    effort: Effort,
+) -> Option<Optimum<P>> {
+    let from = |start: &Element| minimize::<P, F, _>(start, sample, &Alike, effort);
+    let smooth = from(start)?;
+    let corner = F::at_corner(&smooth.element, sample).and_then(|start| from(&start));
+    Some(corner.filter(|c| c.sums.square < smooth.sums.square).unwrap_or(smooth))
 }
 
 /// The least-squares element of the few points given, good enough to be compared with others.
@@ -97,7 +112,7 @@ pub(super) fn quick<const P: usize, F: Family<P>>(sample: &Sample) -> Option<Ele
 /// again while their points change.
 pub(super) fn improved<const P: usize, F: Family<P>>(sample: &Sample, start: &Shape) -> Option<(Shape, f64)> {
     let start = F::element(start, sample)?;
-    let found = minimize::<P, F, _>(&start, sample, &Alike, ROUGH)?;
+    let found = around::<P, F>(&start, sample, ROUGH)?;
     let element = F::settled(found.element);
     let rms = (found.sums.square / found.sums.weight).sqrt() / sample.scale;
     Some((F::shape(&element, sample), rms))

@@ -11,7 +11,7 @@
 //! | `unknown` | what an unknown does to an element |
 //! | `family` | what an element is to the solvers; `line` … `torus` hold one each |
 //! | `revolution`, `osculating`, `round`, `bent`, `scatter` | where to start |
-//! | `normal`, `gauss`, `gaussian` | least squares |
+//! | `normal`, `gauss`, `gaussian`, `hardly` | least squares |
 //! | `linear`, `minimax`, `zone` | least greatest distance |
 //! | `robust` | scans with outliers |
 //! | `survey` | distances of all points |
@@ -27,6 +27,7 @@ mod ellipse;
 mod family;
 mod gauss;
 mod gaussian;
+mod hardly;
 mod lanes;
 mod line;
 mod linear;

@@ -7,6 +7,9 @@
 //! 2. **From within.** A patch looks like a cylinder: its curvature across the generators tells how the cone's half angle goes
 //!    with the distance of its apex, on either side. So all distances are tried, from half the patch to the cylinder.
 //!
+//! 3. **From a tip.** All directions from the apex to points lie on a circle of the unit sphere, so its plane has the axis. Points at
+//!    the ends of the principal directions are tried as apexes: exact where one of them is.
+//!
 //! About an axis a cone is a straight line through distance over height, by orthogonal least squares.
 
 use super::family::{Element, Family};
@@ -38,6 +41,7 @@ pub(super) fn cones<F: Family<6>>(points: &[Point]) -> Vec<Element> {
     };
     let mut first = best(cones(all_around(points, &scatter)), IMPROVED);
     first.extend(best(cones(from_within(points, &scatter)), IMPROVED));
+    first.extend(best(cones(from_tips(points, &scatter)), IMPROVED));
     let sample = Sample { points: Cow::Borrowed(&few), center: [0.0; 3], scale: 1.0, station: [0.0; 3] };
     let improved = first.iter().filter_map(|start| {
         let end = minimize::<6, F, _>(start, &sample, &Alike, FEW_STEPS)?;
@@ -51,13 +55,34 @@ pub(super) fn cones<F: Family<6>>(points: &[Point]) -> Vec<Element> {
 fn judges(points: &[Point], scatter: &Scatter) -> Vec<Point> {
     let mut few: Vec<Point> = points.iter().copied().step_by(points.len().div_ceil(JUDGES).max(1)).collect();
     if few.len() < points.len() {
-        for axis in scatter.axes {
-            let along = |p: &&Point, q: &&Point| dot(**p, axis).total_cmp(&dot(**q, axis));
-            few.extend(points.iter().min_by(along));
-            few.extend(points.iter().max_by(along));
-        }
+        few.extend(ends(points, scatter));
     }
     few
+}
+
+/// The points at the ends of each principal direction.
+fn ends(points: &[Point], scatter: &Scatter) -> Vec<Point> {
+    let each = scatter.axes.into_iter().flat_map(|axis| {
+        let along = move |p: &&Point, q: &&Point| dot(**p, axis).total_cmp(&dot(**q, axis));
+        [points.iter().min_by(along), points.iter().max_by(along)]
+    });
+    each.flatten().copied().collect()
+}
+
+/// Axes of the cones with their apex at an end.
+fn from_tips(points: &[Point], scatter: &Scatter) -> Vec<Pose> {
+    ends(points, scatter).into_iter().map(|tip| from_tip(tip, points)).collect()
+}
+
+/// The axis of the cone with its apex there.
+fn from_tip(tip: Point, points: &[Point]) -> Pose {
+    let ways: Vec<Vector> = points.iter().filter_map(|&p| Some(unit(minus(p, tip))?.0)).collect();
+    Pose::along(tip, Scatter::of(&ways).axes[0])
+}
+
+/// The cone with its apex near `tip`.
+pub(super) fn with_apex<F: Family<6>>(tip: Point, points: &[Point]) -> Element {
+    F::settled(refooted(about::<F>(&from_tip(tip, points), points).1, [0.0; 3]))
 }
 
 /// The `count` best.

@@ -195,3 +195,54 @@ fn rates_over_many_cones() {
         println!("{method:?}: right, told, wrong, open: {counts:?}\n{}", bad.join("\n"));
     }
 }
+
+/// The apex and one ring, exact but for rounding: distances tell of a tilt by its square only, so the half angle is sure to about
+/// the root of rounding.
+#[test]
+fn a_fan_is_exact_though_distances_determine_it_in_second_order_only() {
+    let mut random = Random::new(23);
+    for k in 0..60 {
+        let half_angle = (0.5 + 89.0 * random.unit()).to_radians();
+        let chords = 6 + random.below(43);
+        let size = between(&mut random, 1e-2, 1e4);
+        let pose = Pose::along(times(3.0 * size, direction(&mut random)), direction(&mut random));
+        let (sin, cos) = half_angle.sin_cos();
+        let place = |[x, y, z]: Point| {
+            let [u, v, w] = pose.axes;
+            plus(pose.origin, plus(plus(times(size * x, u), times(size * y, v)), times(size * z, w)))
+        };
+        let ring = (0..chords).map(|k| {
+            let (y, x) = (TAU * k as f64 / chords as f64).sin_cos();
+            place([sin * x, sin * y, cos])
+        });
+        let points: Vec<Point> = ring.chain([pose.origin]).collect();
+        let fit = fit(&points, Kind::Cone, &Options::default(), &Silent);
+        let Ok(fit) = fit else { panic!("{k}: {:.3}°, {chords} chords: {fit:?}", half_angle.to_degrees()) };
+        let off = (self::half_angle(&fit.shape) - half_angle).abs();
+        let told = uncertainty(&fit, fit.residuals.std_dev.unwrap()).unwrap();
+        assert!(
+            off < 1e-8 && told < 1e-3,
+            "{k}: {:.3}°, {chords} chords: off {off:.1e}, told {told:.1e}",
+            half_angle.to_degrees()
+        );
+    }
+}
+
+#[test]
+fn circles_determine_no_cone() {
+    for chords in [6, 7, 12, 40] {
+        let ring = |at: f64| {
+            (0..chords)
+                .map(move |k| TAU * f64::from(k) / f64::from(chords))
+                .map(move |t| [3.0 * t.cos(), 3.0 * t.sin(), at])
+        };
+        for points in [ring(0.0).collect::<Vec<_>>(), ring(0.0).chain([[0.0; 3]]).collect()] {
+            let found = fit(&points, Kind::Cone, &Options::default(), &Silent);
+            assert!(
+                matches!(found, Err(FitError::Undetermined { .. })),
+                "{chords} chords, {} points",
+                points.len()
+            );
+        }
+    }
+}

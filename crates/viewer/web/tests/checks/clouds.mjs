@@ -224,7 +224,8 @@ export const clouds = [
           all++
           found += Number([-3, 0, 3].some((a) => [-3, 0, 3].some((b) => blue(picture.at(i + a, j + b)))))
         }
-        if (view_ === '6') assert.ok(found < 0.05 * all, `from below: ${found} of ${all}`)
+        // From below only through gaps between the points.
+        if (view_ === '6') assert.ok(found < 0.1 * all, `from below: ${found} of ${all}`)
         else assert.ok(found > 0.75 * all, `view ${view_}: ${found} of ${all}`)
       }
       // The cursor reads what is seen.

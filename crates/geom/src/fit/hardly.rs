@@ -1,0 +1,107 @@
+//! Elements that distances determine only in second order: a cone by its apex and one ring. Each small tilt of such a cone moves
+//! the distances by its square, so the normal matrix has no inverse; yet no other cone runs through the points.
+//!
+//! Whether there is one element, and how certain it is, is tried out: fits from some way off come back to it; and fits to the points
+//! with noise of the size found spread by the uncertainty.
+
+use super::Kind;
+use super::family::{Element, Family};
+use super::gauss::{FULL, minimize};
+use super::normal::Alike;
+use super::sample::Sample;
+use super::solution::Covariance;
+use crate::num::random::Random;
+use crate::shape::{MOST_NUMBERS, Quantity};
+use crate::space::Point;
+use std::borrow::Cow;
+
+/// Fits that are tried: the spread of so many is known to a fifth.
+const TRIALS: u64 = 16;
+/// Points that they are made with.
+const POINTS: usize = 1024;
+/// How far off they start that are to come back, in each unknown of the unit frame.
+const OFF: f64 = 2e-3;
+/// Spread in the unit frame up to which they did: a fifth of that.
+const ONE: f64 = 0.2 * OFF;
+/// Root mean square distance, in the unit frame and in noise, beyond which a fit is of another element: in a valley that flat the
+/// search ends somewhat above rounding.
+const ANOTHER: (f64, f64) = (1e-8, 8.0);
+/// Distances of the size of rounding in the unit frame.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
+
+/// Root mean square distances from a corner within which a point has no linear distance.
+const CORNER: f64 = 30.0;
+
+/// Whether the linear uncertainty of an element does not hold, as one of few points lies at a corner of the distances.
+pub(super) fn is_bent<const P: usize, F: Family<P>>(element: &Element, sample: &Sample, rms: f64) -> bool {
+    sample.len() <= POINTS && F::has_corner(element, sample, CORNER * rms.max(ROUNDING))
+}
+
+/// The covariance of the parameters of `element`; `None` if the points do not determine it.
+pub(super) fn covariance<const P: usize, F: Family<P>>(
+    element: &Element,
+    sample: &Sample,
+) -> Option<Covariance> {
+    let some = sample.thinned(POINTS);
+    let points: Vec<Point> = some.units().collect();
+    let unit =
+        Sample { points: Cow::Borrowed(&points), center: [0.0; 3], scale: 1.0, station: sample.station };
+    let rms = |element: &Element| {
+        let square = |&p: &Point| F::distance(element.size, element.pose.local(p)).powi(2);
+        (points.iter().map(square).sum::<f64>() / points.len() as f64).sqrt()
+    };
+    let noise = rms(element).max(ROUNDING);
+    let kind = F::shape(element, &unit).kind();
+    let (best, size) = F::shape(element, &unit).flattened();
+    // Mean squares and products of how far the ends of fits are off, for points with noise and starts so far off.
+    let spread = |noise: f64, off: f64| {
+        let mut squares = [[0.0; MOST_NUMBERS]; MOST_NUMBERS];
+        let mut found = 0;
+        for trial in 0..TRIALS {
+            let mut random = Random::stream(17, trial);
+            // Uniform, of standard deviation 1.
+            let mut next = || 12f64.sqrt() * (random.unit() - 0.5);
+            let step: [f64; P] = std::array::from_fn(|_| off * next());
+            let moved: Vec<Point> = points.iter().map(|p| p.map(|x| x + noise * next())).collect();
+            let end = (element.moved(&F::LOCAL, &step))
+                .and_then(|start| minimize::<P, F, _>(&start, &unit.with(moved.into()), &Alike, FULL));
+            let Some(end) = end.map(|end| F::settled(end.element)) else { continue };
+            // Another minimum says nothing of this one.
+            if rms(&end) > ANOTHER.0.max(ANOTHER.1 * noise) {
+                continue;
+            }
+            found += 1;
+            let (numbers, _) = F::shape(&end, &unit).flattened();
+            for (row, x) in squares.iter_mut().zip(numbers.iter().zip(&best)) {
+                for (square, y) in row.iter_mut().zip(numbers.iter().zip(&best)) {
+                    *square += (x.0 - x.1) * (y.0 - y.1);
+                }
+            }
+        }
+        (2 * found >= TRIALS).then(|| squares.map(|row| row.map(|x| x / found as f64)))
+    };
+    // The apex of a cone follows from its other numbers, far off where the half angle is small.
+    let first = if kind == Kind::Cone { 3 } else { 0 };
+    let back = spread(0.0, OFF)?;
+    if (first..size).any(|k| back[k][k].sqrt() > ONE) {
+        return None;
+    }
+    let covariance = spread(noise, 0.0)?;
+    let units = units(kind, 1.0 / sample.scale);
+    let values = (0..size * size).map(|at| {
+        let [i, j] = [at / size, at % size];
+        covariance[i][j] * units[i] * units[j]
+    });
+    Some(Covariance { size, values: values.collect() })
+}
+
+/// What each number of an element is multiplied with where lengths are.
+fn units(kind: Kind, length: f64) -> Vec<f64> {
+    let each = kind.parameters().iter().flat_map(|(_, quantity)| match quantity {
+        Quantity::Length => vec![length],
+        Quantity::Place => vec![length; 3],
+        Quantity::Angle => vec![1.0],
+        Quantity::Direction => vec![1.0; 3],
+    });
+    each.collect()
+}
