@@ -1,8 +1,8 @@
 //! Elements that distances determine only in second order: a cone by its apex and one ring. Each small tilt of such a cone moves
 //! the distances by its square, so the normal matrix has no inverse; yet no other cone runs through the points.
 //!
-//! Whether there is one element, and how certain it is, is tried out: fits from some way off come back to it; and fits to the points
-//! with noise of the size found spread by the uncertainty.
+//! Whether there is one element, and how certain it is, is tried out: no fit from some way off ends elsewhere and as well; and fits to
+//! the points with noise of the size found spread by the uncertainty.
 
 use super::Kind;
 use super::family::{Element, Family};
@@ -19,13 +19,14 @@ use std::borrow::Cow;
 const TRIALS: u64 = 16;
 /// Points that they are made with.
 const POINTS: usize = 1024;
-/// How far off they start that are to come back, in each unknown of the unit frame.
+/// How far off those start, in each unknown of the unit frame, that show whether another element is as good.
 const OFF: f64 = 2e-3;
-/// Spread in the unit frame up to which they did: a fifth of that.
-const ONE: f64 = 0.2 * OFF;
-/// Root mean square distance, in the unit frame and in noise, beyond which a fit is of another element: in a valley that flat the
-/// search ends somewhat above rounding.
-const ANOTHER: (f64, f64) = (1e-8, 8.0);
+/// Far from the element: a fifth of that.
+const FAR: f64 = 0.2 * OFF;
+/// Root mean square distance in the unit frame that is as good as none: in a valley that flat a search ends above rounding.
+const AS_GOOD: f64 = 1e-12;
+/// Standard deviation of a number in the unit frame beyond which the points tell nothing of it.
+const LOOSE: f64 = 0.1;
 /// Distances of the size of rounding in the unit frame.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
@@ -53,44 +54,39 @@ pub(super) fn covariance<const P: usize, F: Family<P>>(
     let noise = rms(element).max(ROUNDING);
     let kind = F::shape(element, &unit).kind();
     let (best, size) = F::shape(element, &unit).flattened();
-    // Mean squares and products of how far the ends of fits are off, for points with noise and starts so far off.
-    let spread = |noise: f64, off: f64| {
-        let mut squares = [[0.0; MOST_NUMBERS]; MOST_NUMBERS];
-        let mut found = 0;
-        for trial in 0..TRIALS {
+    // Ends of fits to points with noise from starts some way off, as far as they are of this element and not of another.
+    let ends = |noise: f64, off: f64| -> Vec<(f64, [f64; MOST_NUMBERS])> {
+        let end = |trial: u64| {
             let mut random = Random::stream(17, trial);
             // Uniform, of standard deviation 1.
             let mut next = || 12f64.sqrt() * (random.unit() - 0.5);
             let step: [f64; P] = std::array::from_fn(|_| off * next());
             let moved: Vec<Point> = points.iter().map(|p| p.map(|x| x + noise * next())).collect();
-            let end = (element.moved(&F::LOCAL, &step))
-                .and_then(|start| minimize::<P, F, _>(&start, &unit.with(moved.into()), &Alike, FULL));
-            let Some(end) = end.map(|end| F::settled(end.element)) else { continue };
-            // Another minimum says nothing of this one.
-            if rms(&end) > ANOTHER.0.max(ANOTHER.1 * noise) {
-                continue;
-            }
-            found += 1;
-            let (numbers, _) = F::shape(&end, &unit).flattened();
-            for (row, x) in squares.iter_mut().zip(numbers.iter().zip(&best)) {
-                for (square, y) in row.iter_mut().zip(numbers.iter().zip(&best)) {
-                    *square += (x.0 - x.1) * (y.0 - y.1);
-                }
-            }
-        }
-        (2 * found >= TRIALS).then(|| squares.map(|row| row.map(|x| x / found as f64)))
+            let start = element.moved(&F::LOCAL, &step)?;
+            let end = minimize::<P, F, _>(&start, &unit.with(moved.into()), &Alike, FULL)?;
+            let end = F::settled(end.element);
+            let rms = rms(&end);
+            (rms <= (8.0 * noise).max(OFF * OFF)).then(|| (rms, F::shape(&end, &unit).flattened().0))
+        };
+        (0..TRIALS).filter_map(end).collect()
     };
     // The apex of a cone follows from its other numbers, far off where the half angle is small.
     let first = if kind == Kind::Cone { 3 } else { 0 };
-    let back = spread(0.0, OFF)?;
-    if (first..size).any(|k| back[k][k].sqrt() > ONE) {
+    let is_far = |end: &[f64; MOST_NUMBERS]| (first..size).any(|k| (end[k] - best[k]).abs() > FAR);
+    if ends(0.0, OFF).iter().any(|(rms, end)| *rms <= AS_GOOD.max(noise) && is_far(end)) {
         return None;
     }
-    let covariance = spread(noise, 0.0)?;
+    let ends = ends(noise, noise.sqrt());
+    let covariance = |i: usize, j: usize| {
+        ends.iter().map(|(_, end)| (end[i] - best[i]) * (end[j] - best[j])).sum::<f64>() / ends.len() as f64
+    };
+    if 2 * ends.len() < TRIALS as usize || (first..size).any(|k| covariance(k, k).sqrt() > LOOSE) {
+        return None;
+    }
     let units = units(kind, 1.0 / sample.scale);
     let values = (0..size * size).map(|at| {
         let [i, j] = [at / size, at % size];
-        covariance[i][j] * units[i] * units[j]
+        covariance(i, j) * units[i] * units[j]
     });
     Some(Covariance { size, values: values.collect() })
 }

@@ -141,7 +141,9 @@ pub(super) fn verdict(case: &Case, found: &Result<Fit, FitError>) -> Verdict {
     let Some(known) = known else { return Verdict::Open };
     let Shape::Cone { direction: found_axis, .. } = found.shape else { return Verdict::Wrong };
     let Shape::Cone { direction: axis, .. } = case.truth else { return Verdict::Wrong };
-    let allowed = (5.0 * known).max(1e-7);
+    // What it says of itself counts too: a fan with noise has a flat valley of cones.
+    let own = found.residuals.std_dev.and_then(|s| uncertainty(found, s)).unwrap_or(0.0);
+    let allowed = (5.0 * known.max(own.min(3f64.to_radians()))).max(1e-7);
     let off = (half_angle(&found.shape) - half_angle(&case.truth)).abs();
     // The direction may be uncertain where the half angle is not; a far direction is another cone.
     let turned = norm(cross(found_axis, axis));
