@@ -48,6 +48,8 @@ const FEWER: f64 = 0.7;
 const GROWTH: (f64, usize) = (1.4, 24);
 /// A tree reaches over so many cells.
 const REACH: f64 = 4.0;
+/// To the middle of the next cell, across a corner too, a tree reaches over so many.
+const NEXT_CELL: f64 = 1.5;
 /// The longest gap by chance is no larger than this share of all.
 const LARGEST: f64 = 0.25;
 /// Fewest cells and points of a contour.
@@ -97,6 +99,10 @@ pub fn order(points: &[[f64; 2]], gap: Option<f64>, progress: &dyn Progress) -> 
             break;
         }
         wider_cells *= GROWTH.0;
+        // Cells of this width reach over a gap that is given.
+        if gap.is_some_and(|gap| NEXT_CELL * wider_cells > gap) {
+            break;
+        }
         let Some(cells) = Some(Cells::new(points, wider_cells)).filter(|c| c.middles.len() >= 2 * FEWEST.0)
         else {
             break;
@@ -104,7 +110,7 @@ pub fn order(points: &[[f64; 2]], gap: Option<f64>, progress: &dyn Progress) -> 
         if progress.cancelled() {
             return Err(Cancelled);
         }
-        let reach = gap.map_or(REACH * wider_cells, |g| g.min(REACH * wider_cells).max(1.5 * wider_cells));
+        let reach = gap.map_or(REACH * wider_cells, |g| g.min(REACH * wider_cells));
         let tree = cells.tree(reach);
         let mut other = rows(points, Grown { cells, tree, reach, follows: true }, gap, size);
         let is_parted = parted(points, &mut other.0, gap, progress)?;
@@ -134,7 +140,7 @@ fn rows(points: &[[f64; 2]], grown: Grown, gap: Option<f64>, size: f64) -> (Vec<
     let Grown { cells, tree, reach, follows } = grown;
     let ways = tree_paths(&cells, &tree);
     let gap = match (gap, follows) {
-        (Some(gap), _) => gap.max(1.5 * cells.width),
+        (Some(gap), _) => gap.max(NEXT_CELL * cells.width),
         (None, true) => {
             let all = ways.iter().map(|way| cells.along(points, way, false).0);
             let steps = all.flat_map(|all| all.windows(2).map(|w| w[1].0 - w[0].0).collect::<Vec<f64>>());
@@ -275,7 +281,7 @@ fn grow(
             return Err(Cancelled);
         }
         let cells = Cells::new(points, width);
-        let reach = gap.map_or(REACH * width, |g| g.min(REACH * width).max(1.5 * width));
+        let reach = gap.map_or(REACH * width, |g| g.min(REACH * width).max(NEXT_CELL * width));
         let tree = cells.tree(reach);
         let n = cells.middles.len();
         let branching = tree.iter().filter(|near| near.len() > 2).count() as f64;

@@ -35,7 +35,7 @@ const SHORTER: f64 = 8.0;
 const SHORTER_FAR: f64 = 2.0;
 /// Strays follow each other in runs of so many points; more are a piece of the contour beyond a gap.
 const RUN: usize = 2;
-/// Strays are this share of a row, and so many at least.
+/// Strays are this share of a row, and so many at least; no more than these follow each other.
 const SHARE: f64 = 0.05;
 const FEW: usize = 3;
 /// Fewer points do not tell which of them is stray.
@@ -98,6 +98,21 @@ struct Run {
     to: usize,
 }
 
+/// Runs of so few points that they may be stray, and the pieces of the contour. Short runs one behind another are a piece that is sparser
+/// than the rest, where they are too many for strays.
+fn parted(runs: Vec<Run>) -> (Vec<Run>, Vec<Run>) {
+    let is_short = |r: &Run| r.to - r.from < RUN;
+    let (mut few, mut main) = (vec![], vec![]);
+    for group in runs.chunk_by(|a, b| is_short(a) && is_short(b)) {
+        let (first, last) = (group[0], group[group.len() - 1]);
+        match is_short(&first) && last.to - first.from < FEW {
+            true => few.extend(group),
+            false => main.push(Run { from: first.from, to: last.to }),
+        }
+    }
+    (few, main)
+}
+
 /// What the row is without its strays.
 struct Rest {
     runs: Vec<Run>,
@@ -134,7 +149,7 @@ impl Way<'_> {
         let starts = std::iter::once(0).chain(at.iter().map(|i| i + 1));
         let ends = at.iter().copied().chain(std::iter::once(self.0.len() - 1));
         let runs: Vec<Run> = starts.zip(ends).map(|(from, to)| Run { from, to }).collect();
-        let (few, main): (Vec<Run>, Vec<Run>) = runs.into_iter().partition(|r| r.to - r.from < RUN);
+        let (few, main) = parted(runs);
         let strays: usize = few.iter().map(|r| r.to + 1 - r.from).sum();
         if few.is_empty() || main.is_empty() || strays > most {
             return Strays::default();

@@ -110,9 +110,9 @@ const MISSED: f64 = 20.0;
 /// Points of a segment, so many at least, that scatter by more noises than this about it do not follow it.
 const SCATTERED: (usize, f64) = (8, 2.0);
 
-/// Between vertices on a curve a chord lies off it by a quarter of what the vertices lie off the chord between their neighbors: points within facets
-/// are off by up to this share of that, twice as much.
-const WITHIN: f64 = 0.5;
+/// Between vertices on a curve a chord lies off it by a quarter of what the vertices lie off the chord between their neighbors. Points within facets
+/// are off by no more than this share of that in the root mean square, and at most by twice as much, where facets are uneven.
+const WITHIN: [f64; 2] = [0.25, 0.5];
 /// A line or arc that runs along its points is as long as the way through them, to this factor.
 const AS_LONG: f64 = 1.25;
 
@@ -134,7 +134,7 @@ fn within_facets(contour: Contour, points: &[[f64; 2]]) -> Contour {
         let (s, [sum, most], way) = (&segments[*k], heights[*k], ways[*k]);
         let as_long = s.length <= AS_LONG * way + ends && way <= AS_LONG * s.length + ends;
         let rms = (sum / s.count.max(1) as f64).sqrt();
-        s.geometry.kind() != SegmentKind::Spline && as_long && s.rms <= WITHIN * rms && s.max <= WITHIN * most
+        s.geometry.kind() != SegmentKind::Spline && as_long && s.rms <= WITHIN[0] * rms && s.max <= WITHIN[1] * most
     };
     let astray = all.astray.iter().copied().filter(|k| !runs_along(k)).collect();
     all.astray = astray;

@@ -12,6 +12,8 @@ const CORNERS: usize = 3;
 const ENDS: f64 = 5.0;
 /// Between points that are not at joins chords are as long as those beside, to this factor.
 const GAP: f64 = 2.0;
+/// A chord over vertices that are missing is one over a whole number of the others, to this share of one.
+const MULTIPLE: f64 = 0.02;
 /// Curves touch each other to within so many roundings.
 const TOUCH: f64 = 4.0;
 
@@ -191,14 +193,21 @@ impl Seen<'_> {
         (off - 1.0 / curvature.abs()).abs() <= most
     }
 
-    /// Whether one arc and one chord of its circle are no whole circle, or regular polygon: the chord is far longer than those of the arc.
+    /// Whether one arc and one chord of its circle are no whole circle, or regular polygon: the chord is far longer than those of the arc, or
+    /// these are even to rounding, and no whole number of them goes into the chord.
     fn is_no_circle(&self) -> bool {
         let [a, b] = self.pieces else { return self.pieces.len() > 1 };
         if !self.polygon.closed || a.is_arc() == b.is_arc() {
             return true;
         }
         let (arc, line) = if a.is_arc() { (a, b) } else { (b, a) };
-        let longest = (arc.item.from..arc.item.to).map(|i| self.polygon.facet_length(i)).fold(0.0, f64::max);
-        self.polygon.facet_length(line.item.from) > GAP * longest
+        let LineOrArc::Arc(_, curvature) = arc.item.shape else { return true };
+        let chords = || (arc.item.from..arc.item.to).map(|i| self.polygon.facet_length(i));
+        let (least, longest) = chords().fold((f64::INFINITY, 0.0_f64), |(a, b), c| (a.min(c), b.max(c)));
+        let own = self.polygon.facet_length(line.item.from);
+        let half_turn = |chord: f64| libm::asin((0.5 * chord * curvature.abs()).min(1.0));
+        let fits = half_turn(own) / half_turn(longest);
+        let is_uneven = longest - least > TOUCH * self.rounding || (fits - fits.round()).abs() < MULTIPLE;
+        own > GAP * longest || fits > 1.0 && !is_uneven
     }
 }

@@ -1,6 +1,7 @@
 //! Contours of rows with stray points: the row is searched without them, and they are put back as outliers.
 
 use super::result::{Contour, Options};
+use super::sheet::{nearest, starts};
 use super::stray::Strays;
 
 /// A row, and what of it is searched.
@@ -42,17 +43,13 @@ impl Searched {
         for (k, &i) in kept.iter().enumerate() {
             (all.labels[i], all.residuals[i], all.stations[i]) = (own.0[k], own.1[k], own.2[k]);
         }
-        let ends = all.segments.iter().scan(0.0, |sum, s| {
-            *sum += s.length;
-            Some(*sum - s.length)
-        });
-        let starts: Vec<f64> = ends.collect();
+        let starts = starts(&all.segments);
+        // A stray is as far off as it lies from the segments around its place in the row.
         for &i in &strays.out {
-            let feet = all.segments.iter().map(|s| s.nearest(points[i])).enumerate();
-            let nearest = feet.min_by(|a, b| a.1.distance.abs().total_cmp(&b.1.distance.abs()));
-            let Some((k, foot)) = nearest else { continue };
-            (all.labels[i], all.residuals[i]) = (k as u32, foot.distance);
-            all.stations[i] = starts[k] + foot.share * all.segments[k].length;
+            let next = kept.partition_point(|k| *k < i);
+            let around = [next.saturating_sub(1), next.min(kept.len() - 1)].map(|k| own.0[k]);
+            (all.labels[i], all.stations[i], all.residuals[i]) =
+                nearest(&all.segments, &starts, around.into_iter(), points[i]);
         }
         all
     }

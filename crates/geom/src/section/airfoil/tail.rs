@@ -2,22 +2,26 @@
 //!
 //! An outline turns by half a turn, less its wedge, at either end. The edge is the shortest stretch that takes most of that turn: one
 //! point of a sharp edge, the face between two corners of a blunt one, with points on it or none, an arc of a round one. So the sides
-//! end where their own points end, and are led no farther. Behind a trailing edge the sides run straight; behind a leading one they go
-//! on turning.
+//! end where their own points end, and are led no farther. A trailing edge has corners where the leading one is round. Where both are
+//! round the trailing one is thinner. Where points are too few to tell that one is round, sides run straight behind a trailing edge, and
+//! go on turning behind a leading one.
 
+use super::super::exact::off_line;
 use super::super::polygon::turn;
 use super::super::row::distance;
 
 /// What an edge takes of the turn at its end, radians: two thirds of half a turn. Wedges turn by less than the rest, and one corner of a
 /// face by less than this.
 const MOST_OF_TURN: f64 = 2.1;
-/// The turns of the first and the last corner of a face are this share of all of its stretch; those of a round edge are a half at most,
-/// with four points.
-const AT_CORNERS: f64 = 0.75;
+/// What lies between the corners of a face is off the line between them by less than this share of its length. An arc that takes most of the turn
+/// is off by 0.29, its middle one of three corners by 0.18.
+const BULGE: f64 = 0.12;
 /// Points are passed over that lie no farther off the line between others than so many standard deviations of their noise.
 const WITHIN: f64 = 4.0;
 /// Sides are looked at from their edge to the first share of the chord, and on to the second.
 const SIDE: [f64; 2] = [0.06, 0.2];
+/// The widths of two round ends are compared at this share of the chord.
+const STATION: f64 = 0.05;
 /// An edge lies within this share of the chord from the end.
 const END: f64 = 0.15;
 
@@ -37,12 +41,40 @@ pub(super) fn tail(row: &[[f64; 2]], noise: f64) -> Tail {
     let (a, b) = diameter(row);
     let chord = distance(row[a], row[b]);
     let outline = Outline { row, at: simplified(row, [a, b], WITHIN * noise), chord };
-    let ends = [a, b].map(|tip| Some((outline.edge(tip)?, outline.bend(tip)?)));
-    match ends {
-        [Some((edge, own)), Some((_, other))] if own < other => edge,
-        [_, Some((edge, _))] | [Some((edge, _)), None] => edge,
-        [None, None] => Tail { ends: [b; 2], round: true, tip: b },
+    let edges = [a, b].map(|tip| outline.edge(tip));
+    let corners = edges.map(|edge| edge.filter(|e| !e.round));
+    match corners {
+        [Some(own), Some(other)] => {
+            let bends = [own, other].map(|edge| outline.bend(&edge).unwrap_or(f64::INFINITY));
+            if bends[0] < bends[1] { own } else { other }
+        }
+        [Some(edge), None] | [None, Some(edge)] => edge,
+        [None, None] => {
+            let thin = usize::from(width(row, b, a) <= width(row, a, b));
+            let tip = [a, b][thin];
+            edges[thin].unwrap_or(Tail { ends: [tip; 2], round: true, tip })
+        }
     }
+}
+
+/// Width of the profile across the chord, near the end `own` of it.
+fn width(row: &[[f64; 2]], own: usize, other: usize) -> f64 {
+    let (o, e) = (row[own], row[other]);
+    let chord = distance(o, e);
+    let along = [(e[0] - o[0]) / chord, (e[1] - o[1]) / chord];
+    let local = |p: [f64; 2]| {
+        let d = [p[0] - o[0], p[1] - o[1]];
+        (d[0] * along[0] + d[1] * along[1] - STATION * chord, along[0] * d[1] - along[1] * d[0])
+    };
+    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+    for i in 0..row.len() {
+        let ((s, h), (t, g)) = (local(row[i]), local(row[(i + 1) % row.len()]));
+        if (s < 0.0) != (t < 0.0) {
+            let at = h + (g - h) * s / (s - t);
+            (low, high) = (low.min(at), high.max(at));
+        }
+    }
+    high - low
 }
 
 /// The corners of an outline.
@@ -87,15 +119,15 @@ impl Outline<'_> {
                 }
             }
         }
-        let (_, turned, from, to) = best?;
-        let corners = self.turn(from) + if to > from { self.turn(to) } else { 0.0 };
-        let round = corners.abs() < AT_CORNERS * turned;
+        let (_, _, from, to) = best?;
+        let (a, b) = (self.place(from), self.place(to));
+        let off = (from + 1..to).map(|k| off_line([a, b], self.place(k))).fold(0.0, f64::max);
+        let round = off > BULGE * distance(a, b);
         Some(Tail { ends: [self.at[from % n], self.at[to % n]], round, tip })
     }
 
-    /// By how much the two sides behind the edge at the end `tip` turn.
-    fn bend(&self, tip: usize) -> Option<f64> {
-        let edge = self.edge(tip)?;
+    /// By how much the two sides behind an edge turn.
+    fn bend(&self, edge: &Tail) -> Option<f64> {
         let n = self.row.len();
         let side = |start: usize, step: usize| {
             let far = |share: f64| {
