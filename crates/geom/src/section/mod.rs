@@ -17,7 +17,7 @@
 //! | `resolved`, `kept` | rows of curves without noise, as B-splines between corners; B-splines that keep to points |
 //! | `profile` | intervals of the joins |
 //! | `paper` | one line and one curve by the steps of a paper |
-//! | `slab`, `order`, `link`, `untangle`, `walls` | points of a cloud near a plane; put in order; their ways linked over gaps; short stretches; both faces of thin walls |
+//! | `slab`, `order`, `cells`, `link`, `untangle`, `walls` | points of a cloud near a plane; put in order; their ways linked over gaps; short stretches; both faces of thin walls |
 //! | `bent` | slabs across which a surface bends |
 //! | `cut`, `stack` | where a plane cuts a mesh; which facets each of many planes may cut |
 //! | `facets`, `sheet`, `tessellated` | what the facets of a mesh tell exactly; contours of exact lines and arcs; of a mesh's sections |
@@ -42,6 +42,7 @@ mod bent;
 mod blocks;
 mod blunt;
 mod budget;
+mod cells;
 mod chain;
 mod contour;
 mod convert;

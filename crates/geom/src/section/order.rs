@@ -6,11 +6,12 @@
 //! linked over gaps that uneven points have by chance. A way along both faces of a thin wall is parted in two. (After Lee, Curve reconstruction from unorganized points, Computer Aided
 //! Geometric Design 17, 2000; cells in place of moving least squares.)
 
-use super::link::{Limits, Linked, Way, gap_to_close, link, longest_by_chance};
+use super::cells::{Cells, FEWEST, Tree, tree_paths};
+use super::facets::length;
+use super::link::{Limits, Linked, gap_to_close, link, longest_by_chance};
 use super::untangle::untangle;
-use super::walls::{Faces, faces};
+use super::walls::{Faces, Wall, faces};
 use crate::progress::{Cancelled, Progress};
-use std::collections::HashMap;
 
 /// Points that follow each other along one contour.
 #[derive(Clone, Debug, PartialEq)]
@@ -52,8 +53,8 @@ const REACH: f64 = 4.0;
 const NEXT_CELL: f64 = 1.5;
 /// The longest gap by chance is no larger than this share of all.
 const LARGEST: f64 = 0.25;
-/// Fewest cells and points of a contour.
-const FEWEST: (usize, usize) = (4, 8);
+/// Fewest points of a contour.
+const FEWEST_POINTS: usize = 8;
 /// So many open contours are suspicious where they are more than half of all.
 const SUSPICIOUS: usize = 6;
 
@@ -80,7 +81,7 @@ pub fn order(points: &[[f64; 2]], gap: Option<f64>, progress: &dyn Progress) -> 
         points.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), p| (a.min(p[k]), b.max(p[k])))
     };
     let size = libm::hypot(range(0).1 - range(0).0, range(1).1 - range(1).0);
-    if n < FEWEST.1 || size <= 0.0 || !size.is_finite() {
+    if n < FEWEST_POINTS || size <= 0.0 || !size.is_finite() {
         return Ok(Order { gap: gap.unwrap_or(0.0), ..Order::default() });
     }
     let Some(grown) = grow(points, 2.0 * size / n as f64, gap, progress)? else {
@@ -103,7 +104,7 @@ pub fn order(points: &[[f64; 2]], gap: Option<f64>, progress: &dyn Progress) -> 
         if gap.is_some_and(|gap| NEXT_CELL * wider_cells > gap) {
             break;
         }
-        let Some(cells) = Some(Cells::new(points, wider_cells)).filter(|c| c.middles.len() >= 2 * FEWEST.0)
+        let Some(cells) = Some(Cells::new(points, wider_cells)).filter(|c| c.middles.len() >= 2 * FEWEST)
         else {
             break;
         };
@@ -126,8 +127,11 @@ pub fn order(points: &[[f64; 2]], gap: Option<f64>, progress: &dyn Progress) -> 
         found.0.iter_mut().for_each(|row| row.layered = row.layered.or(layered));
     }
     let (mut rows, gap) = found;
-    rows.retain(|r| r.numbers.len() >= FEWEST.1);
+    rows.retain(|r| r.numbers.len() >= FEWEST_POINTS);
     rows.sort_by_key(|r| std::cmp::Reverse(r.numbers.len()));
+    for k in 1..rows.len() {
+        rows[k].layered = rows[k].layered.or(beside(points, &rows, k, gap));
+    }
     let wider = wider(points, &rows, gap);
     Ok(Order { rows, gap, wider })
 }
@@ -149,9 +153,16 @@ fn rows(points: &[[f64; 2]], grown: Grown, gap: Option<f64>, size: f64) -> (Vec<
         // A tree that branches everywhere follows no contour: nothing is known of its gaps.
         (None, false) => reach,
     };
-    let limits = Limits { gap, closing: reach, fewest: 2 * FEWEST.0 };
+    let limits = Limits { gap, closing: reach, fewest: 2 * FEWEST };
     let linked = link(ways, &cells.middles, &limits);
-    (linked.iter().map(|way| cells.row(points, way)).collect(), gap)
+    (linked.iter().map(|way| row(&cells, points, way)).collect(), gap)
+}
+
+fn row(cells: &Cells, points: &[[f64; 2]], Linked { way, closed }: &Linked) -> Ordered {
+    let (all, way) = cells.along(points, way, *closed);
+    let mut numbers: Vec<usize> = all.into_iter().map(|(_, i)| i).collect();
+    untangle(points, &mut numbers, *closed, way);
+    Ordered { numbers, closed: *closed, way, layered: None }
 }
 
 fn count(rows: &[Ordered]) -> usize {
@@ -160,7 +171,7 @@ fn count(rows: &[Ordered]) -> usize {
 
 /// Open ends of rows, and rows.
 fn ends(rows: &[Ordered]) -> usize {
-    let counted = rows.iter().filter(|r| r.numbers.len() >= FEWEST.1);
+    let counted = rows.iter().filter(|r| r.numbers.len() >= FEWEST_POINTS);
     counted.map(|r| if r.closed { 1 } else { 3 }).sum()
 }
 
@@ -182,6 +193,14 @@ fn is_mixed(rows: &[Ordered], faces: &[Ordered], count: usize) -> bool {
     rows.iter().any(mixed)
 }
 
+/// A row along both faces of a wall, the wall, and the points of each face: those of the row, and of shorter rows beside it.
+struct Walled {
+    row: Ordered,
+    wall: Wall,
+    own: [Vec<usize>; 2],
+    beside: [Vec<usize>; 2],
+}
+
 /// Parts rows along both faces of a wall in one for each face; whether there was one.
 fn parted(
     points: &[[f64; 2]],
@@ -189,63 +208,87 @@ fn parted(
     gap: Option<f64>,
     progress: &dyn Progress,
 ) -> Result<bool, Cancelled> {
-    let mut any = false;
-    let mut all = vec![];
+    let (mut walls, mut rest): (Vec<Walled>, Vec<Ordered>) = (vec![], vec![]);
+    let places = |row: &Ordered| row.numbers.iter().map(|i| points[*i]).collect::<Vec<_>>();
     for mut row in std::mem::take(rows) {
-        let places: Vec<[f64; 2]> = row.numbers.iter().map(|i| points[*i]).collect();
-        let upper = match faces(&places, row.closed) {
-            Faces::Two { upper, unclear } => {
-                row.layered = unclear;
-                upper
-            }
-            Faces::One => {
-                all.push(row);
-                continue;
-            }
+        match faces(&places(&row), row.closed) {
+            Faces::One => rest.push(row),
             Faces::Unclear { apart } => {
                 row.layered = Some(apart);
-                all.push(row);
-                continue;
+                rest.push(row);
             }
-        };
-        any = true;
-        for side in [false, true] {
-            let numbers: Vec<usize> =
-                row.numbers.iter().zip(&upper).filter(|(_, u)| **u == side).map(|(i, _)| *i).collect();
-            all.extend(face(points, numbers, &row, gap, progress)?);
+            Faces::Two { upper, unclear, wall } => {
+                row.layered = unclear;
+                let mut own = [vec![], vec![]];
+                row.numbers.iter().zip(upper).for_each(|(i, u)| own[usize::from(u)].push(*i));
+                walls.push(Walled { row, wall, own, beside: [vec![], vec![]] });
+            }
         }
     }
-    *rows = all;
-    Ok(any)
+    // What the tree branched into across the wall is of its faces.
+    for row in rest {
+        let is_short = |w: &&mut Walled| row.numbers.len() as f64 <= BRANCH * w.row.numbers.len() as f64;
+        let found = walls.iter_mut().filter(is_short).find_map(|w| Some((w.wall.faces_of(&places(&row))?, w)));
+        match found {
+            Some((upper, wall)) => {
+                row.numbers.iter().zip(upper).for_each(|(i, u)| wall.beside[usize::from(u)].push(*i));
+            }
+            None => rows.push(row),
+        }
+    }
+    for wall in &walls {
+        for side in [0, 1] {
+            rows.push(face(points, wall, side, gap, progress)?);
+        }
+    }
+    Ok(!walls.is_empty())
 }
 
-/// The rows of the points of one face of a wall: as they follow each other by themselves, or as they lay along the wall.
+/// Rows of no more points than this share of a wall's may be branches of it.
+const BRANCH: f64 = 0.1;
+
+/// The row of the points of one face of a wall: as they follow each other by themselves, or as they lay along the wall.
 fn face(
     points: &[[f64; 2]],
-    mut numbers: Vec<usize>,
-    wall: &Ordered,
+    wall: &Walled,
+    side: usize,
     gap: Option<f64>,
     progress: &dyn Progress,
-) -> Result<Vec<Ordered>, Cancelled> {
+) -> Result<Ordered, Cancelled> {
+    let numbers = [&wall.own[side][..], &wall.beside[side]].concat();
     let own: Vec<[f64; 2]> = numbers.iter().map(|i| points[*i]).collect();
     let size = super::row::size(&own);
     let alone = match size > 0.0 {
         true => grow(&own, 2.0 * size / own.len() as f64, gap, progress)?,
         false => None,
     };
-    let found = alone.map(|grown| rows(&own, grown, gap, size).0);
-    if let Some([one]) = found.as_deref()
+    let found = alone.map(|grown| rows(&own, grown, gap, size).0).unwrap_or_default();
+    if let Some(one) = found.iter().max_by_key(|r| r.numbers.len())
         && one.numbers.len() as f64 >= WALL.0 * own.len() as f64
-        && one.closed == wall.closed
+        && one.closed == wall.row.closed
     {
-        return Ok(vec![Ordered {
-            numbers: one.numbers.iter().map(|k| numbers[*k]).collect(),
-            layered: wall.layered,
-            ..one.clone()
-        }]);
+        let numbers = one.numbers.iter().map(|k| numbers[*k]).collect();
+        return Ok(Ordered { numbers, layered: wall.row.layered, ..one.clone() });
     }
-    untangle(points, &mut numbers, wall.closed, wall.way);
-    Ok(vec![Ordered { numbers, ..wall.clone() }])
+    let mut numbers = wall.own[side].clone();
+    untangle(points, &mut numbers, wall.row.closed, wall.row.way);
+    Ok(Ordered { numbers, ..wall.row.clone() })
+}
+
+/// How far a short open row lies beside longer ones, where it does all along, no farther off than contours go on over: it is a piece of
+/// these, or of a face that was not told from them.
+fn beside(points: &[[f64; 2]], rows: &[Ordered], k: usize, gap: f64) -> Option<f64> {
+    let own = &rows[k];
+    let short = BRANCH * rows[0].numbers.len() as f64;
+    if own.closed || own.numbers.len() as f64 > short || !(gap > 0.0) {
+        return None;
+    }
+    let longer = rows[..k].iter().filter(|r| r.numbers.len() as f64 * BRANCH >= own.numbers.len() as f64);
+    let others: Vec<[f64; 2]> = longer.flat_map(|r| r.numbers.iter().map(|i| points[*i])).collect();
+    let cells = Cells::new(&others, gap);
+    let near = |i: &usize| cells.around(points[*i]).map(|j| length(points[*i], others[j])).find(|d| *d <= gap);
+    let all: Option<Vec<f64>> = own.numbers.iter().map(near).collect();
+    all.map(|all| all.iter().sum::<f64>() / all.len() as f64)
 }
 
 /// The gap that would let most ends of open contours meet, where these are suspiciously many.
@@ -287,7 +330,7 @@ fn grow(
         let branching = tree.iter().filter(|near| near.len() > 2).count() as f64;
         let lonely = tree.iter().filter(|near| near.is_empty()).count() as f64;
         let pieces = n - tree.iter().map(Vec::len).sum::<usize>() / 2;
-        let enough = n >= 2 * FEWEST.0;
+        let enough = n >= 2 * FEWEST;
         let follows = (branching + lonely) / n as f64 <= BRANCHING;
         if best.is_some() && !enough {
             break;
@@ -305,179 +348,4 @@ fn grow(
         width *= GROWTH.0;
     }
     Ok(best.map(|(grown, _)| grown))
-}
-
-/// Points gathered in square cells.
-struct Cells {
-    width: f64,
-    /// Mean of the points of each cell.
-    middles: Vec<[f64; 2]>,
-    members: Vec<Vec<usize>>,
-    at: HashMap<[i64; 2], usize>,
-    keys: Vec<[i64; 2]>,
-}
-
-/// Cells with the neighbors on the tree.
-type Tree = Vec<Vec<usize>>;
-
-fn far(a: [f64; 2], b: [f64; 2]) -> f64 {
-    libm::hypot(b[0] - a[0], b[1] - a[1])
-}
-
-impl Cells {
-    fn new(points: &[[f64; 2]], width: f64) -> Cells {
-        let mut cells = Cells { width, middles: vec![], members: vec![], at: HashMap::new(), keys: vec![] };
-        for (i, p) in points.iter().enumerate() {
-            let key = p.map(|x| (x / width).floor() as i64);
-            let next = cells.members.len();
-            let cell = *cells.at.entry(key).or_insert(next);
-            if cell == next {
-                cells.members.push(vec![]);
-                cells.keys.push(key);
-            }
-            cells.members[cell].push(i);
-        }
-        cells.middles = cells
-            .members
-            .iter()
-            .map(|own| [0, 1].map(|k| own.iter().map(|i| points[*i][k]).sum::<f64>() / own.len() as f64))
-            .collect();
-        cells
-    }
-
-    /// The shortest tree over cells, by Kruskal's method, without edges longer than `reach`.
-    fn tree(&self, reach: f64) -> Tree {
-        let n = self.middles.len();
-        let around = ((reach / self.width).ceil() as i64).clamp(1, 12);
-        let mut edges: Vec<(f64, usize, usize)> = vec![];
-        for (i, [x, y]) in self.keys.iter().enumerate() {
-            // Each pair from one of the two: the other half of the cells around look for this one.
-            for dx in 0..=around {
-                for dy in if dx == 0 { 1 } else { -around }..=around {
-                    let Some(&j) = self.at.get(&[x + dx, y + dy]) else { continue };
-                    let d = far(self.middles[i], self.middles[j]);
-                    if d <= reach {
-                        edges.push((d, i.min(j), i.max(j)));
-                    }
-                }
-            }
-        }
-        edges.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)).then(a.2.cmp(&b.2)));
-        let mut root: Vec<usize> = (0..n).collect();
-        let mut tree = vec![vec![]; n];
-        for (_, i, j) in edges {
-            let (a, b) = (find(&mut root, i), find(&mut root, j));
-            if a != b {
-                root[a.max(b)] = a.min(b);
-                tree[i].push(j);
-                tree[j].push(i);
-            }
-        }
-        tree
-    }
-
-    /// The points of the cells along a way, each cell with what hangs beside it, in order, each with its place along; the length
-    /// of the way.
-    fn along(&self, points: &[[f64; 2]], way: &Way, closed: bool) -> (Vec<(f64, usize)>, f64) {
-        let m = way.len();
-        let middle = |k: usize| self.middles[way[k].0];
-        let mut all: Vec<(f64, usize)> = vec![];
-        let mut station = 0.0;
-        for k in 0..m {
-            let (before, after) = match closed {
-                true => (middle((k + m - 1) % m), middle((k + 1) % m)),
-                false => (middle(k.saturating_sub(1)), middle((k + 1).min(m - 1))),
-            };
-            let length = far(before, after).max(f64::MIN_POSITIVE);
-            let along = [(after[0] - before[0]) / length, (after[1] - before[1]) / length];
-            let own = std::iter::once(&way[k].0).chain(&way[k].1).flat_map(|c| &self.members[*c]);
-            for i in own {
-                let (p, q) = (points[*i], middle(k));
-                all.push((station + (p[0] - q[0]) * along[0] + (p[1] - q[1]) * along[1], *i));
-            }
-            station += if k + 1 < m { far(middle(k), middle(k + 1)) } else { 0.0 };
-        }
-        all.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        (all, station + if closed { far(middle(m - 1), middle(0)) } else { 0.0 })
-    }
-
-    fn row(&self, points: &[[f64; 2]], Linked { way, closed }: &Linked) -> Ordered {
-        let (all, way) = self.along(points, way, *closed);
-        let mut numbers: Vec<usize> = all.into_iter().map(|(_, i)| i).collect();
-        untangle(points, &mut numbers, *closed, way);
-        Ordered { numbers, closed: *closed, way, layered: None }
-    }
-}
-
-fn find(root: &mut [usize], mut i: usize) -> usize {
-    while root[i] != i {
-        root[i] = root[root[i]];
-        i = root[i];
-    }
-    i
-}
-
-/// The longest ways through each tree: cells in order, each with the cells of short branches beside it.
-fn tree_paths(cells: &Cells, tree: &Tree) -> Vec<Way> {
-    let n = tree.len();
-    let mut used = vec![false; n];
-    let mut ways = vec![];
-    let mut open: Vec<usize> = (0..n).rev().collect();
-    while let Some(start) = open.pop() {
-        if used[start] {
-            continue;
-        }
-        let (from, _) = farthest(cells, tree, &used, start);
-        let (to, before) = farthest(cells, tree, &used, from);
-        let mut way = vec![to];
-        while let Some(&last) = before.get(&way[way.len() - 1]) {
-            way.push(last);
-        }
-        way.iter().for_each(|c| used[*c] = true);
-        let mut rows: Way = vec![];
-        for cell in way {
-            let mut beside = vec![];
-            for &next in &tree[cell] {
-                if !used[next] {
-                    let branch = reachable(tree, &used, next);
-                    if branch.len() < FEWEST.0 {
-                        branch.iter().for_each(|c| used[*c] = true);
-                        beside.extend(branch);
-                    }
-                }
-            }
-            rows.push((cell, beside));
-        }
-        ways.push(rows);
-    }
-    ways
-}
-
-/// The unused cell farthest from `start` along the tree, and for each cell the one before it on the way.
-fn farthest(cells: &Cells, tree: &Tree, used: &[bool], start: usize) -> (usize, HashMap<usize, usize>) {
-    let mut before = HashMap::new();
-    let mut best = (0.0, start);
-    let mut stack = vec![(start, start, 0.0)];
-    while let Some((cell, from, length)) = stack.pop() {
-        if length > best.0 {
-            best = (length, cell);
-        }
-        for &next in tree[cell].iter().filter(|c| **c != from && !used[**c]) {
-            before.insert(next, cell);
-            stack.push((next, cell, length + far(cells.middles[cell], cells.middles[next])));
-        }
-    }
-    (best.1, before)
-}
-
-fn reachable(tree: &Tree, used: &[bool], start: usize) -> Vec<usize> {
-    let mut all = vec![start];
-    let mut stack = vec![(start, start)];
-    while let Some((cell, from)) = stack.pop() {
-        for &next in tree[cell].iter().filter(|c| **c != from && !used[**c]) {
-            all.push(next);
-            stack.push((next, cell));
-        }
-    }
-    all
 }

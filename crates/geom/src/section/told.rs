@@ -1,11 +1,11 @@
 //! Whether a cover of exact points by lines and arcs is told by these, or by chance.
 
-use super::facets::{Item, LineOrArc, Polygon, SHARP, angle, length};
+use super::facets::{Item, LineOrArc, Polygon, SHARP, angle, length, round};
 
 /// What a cover saves is no chance where so many coincidences among as many points are less likely than e to the power of minus this.
 const CHANCE: f64 = 5.0;
 /// A coincidence is one to within rounding of this share of a chord, or of what vertices lie off the chord between their neighbors where
-/// these are no corners of a few sides.
+/// these are no corners of a few sides, or off one circle.
 const SCALE: f64 = 0.25;
 const CORNERS: usize = 3;
 /// A segment ends where the next vertex lies off it by more than so many roundings.
@@ -37,10 +37,6 @@ impl Piece {
     }
     pub fn chords(&self) -> usize {
         self.item.to - self.item.from
-    }
-    /// Points that lie on it though they need not: beyond the two of a line, and the three of a circle.
-    fn explains(&self) -> f64 {
-        self.chords().saturating_sub(if self.is_arc() { 2 } else { 1 }) as f64
     }
     /// Whether it goes on into another one with the same direction.
     pub fn is_tangent(&self, next: &Piece) -> bool {
@@ -82,6 +78,25 @@ impl Seen<'_> {
         [before.is_some_and(|b| b.is_tangent(own)), after.is_some_and(|a| own.is_tangent(a))]
     }
 
+    /// Points that lie on a piece though they need not: beyond the two of a line, and the three of a circle. The four corners of a trapezoid
+    /// with equal legs always lie on one, as of any symmetric curve.
+    fn explains(&self, piece: &Piece) -> f64 {
+        let beyond = piece.chords().saturating_sub(if piece.is_arc() { 2 } else { 1 });
+        let chord = |k: usize| self.polygon.facet_length(piece.item.from + k);
+        let same = |a: f64, b: f64| (a - b).abs() <= TOUCH * self.rounding;
+        let is_trapezoid =
+            piece.is_arc() && piece.chords() == 3 && same(chord(0), chord(2)) && !same(chord(0), chord(1));
+        if is_trapezoid { 0.0 } else { beyond as f64 }
+    }
+
+    /// What the points lie off one circle by, as of a round part that scatters.
+    fn off_one_circle(&self) -> f64 {
+        let points = &self.polygon.at;
+        let Some((center, radius)) = round(points) else { return f64::INFINITY };
+        let sum: f64 = points.iter().map(|p| (length(center, *p) - radius).powi(2)).sum();
+        (sum / points.len() as f64).sqrt()
+    }
+
     /// Four points of a circle, or three of one that is tangent to what is beside.
     fn has_an_arc(&self) -> bool {
         let arc = |(k, p): (usize, &Piece)| p.is_arc() && (p.chords() > 2 || self.tangent(k) == [true; 2]);
@@ -94,7 +109,7 @@ impl Seen<'_> {
         let count = self.polygon.at.len() as f64;
         let joins = if self.polygon.closed { n } else { n - 1 };
         let tangent = (0..joins).filter(|k| self.tangent(*k)[1]).count() as f64;
-        let saved = tangent + self.pieces.iter().map(Piece::explains).sum::<f64>();
+        let saved = tangent + self.pieces.iter().map(|p| self.explains(p)).sum::<f64>();
         let mut chords: Vec<f64> = (0..self.polygon.facets()).map(|i| self.polygon.facet_length(i)).collect();
         chords.sort_by(f64::total_cmp);
         let mut scale = SCALE * chords[chords.len() / 2];
@@ -110,6 +125,10 @@ impl Seen<'_> {
         if free.len() >= CORNERS {
             free.sort_by(f64::total_cmp);
             scale = scale.min(free[free.len() / 2]);
+        }
+        // An arc and its chord have all their points on one circle.
+        if self.polygon.closed && (n > 2 || self.pieces.iter().all(Piece::is_arc)) {
+            scale = scale.min(self.off_one_circle());
         }
         let expected = count * self.rounding / scale.max(f64::MIN_POSITIVE);
         saved >= 2.0 && saved * (libm::log(saved / expected) - 1.0) >= CHANCE
@@ -159,7 +178,9 @@ impl Seen<'_> {
         (0..self.pieces.len()).all(|k| {
             let chord = &self.pieces[k];
             let [Some(before), Some(after)] = self.beside(k) else { return true };
-            if chord.chords() > 1 || self.tangent(k) == [true; 2] {
+            // Of an arc and its chord alone it is asked whether they are a circle.
+            let is_only_chord = self.polygon.closed && self.pieces.len() == 2;
+            if is_only_chord || chord.chords() > 1 || self.tangent(k) == [true; 2] {
                 return true;
             }
             let several = [before, after].map(|p| p.chords() > 1);

@@ -9,9 +9,13 @@
 use super::facets::length;
 use crate::fit::solve;
 
-/// Points of a window, and windows that begin within as many points.
+/// Fewest points of a window, and by what powers of 2 it grows at most.
 const WINDOW: usize = 24;
-const STRIDE: usize = 6;
+const GROWN: u32 = 4;
+/// Windows begin within this share of one.
+const STRIDE: usize = 4;
+/// Windows are so many times as long as their points scatter, most of them: shorter ones do not tell along from across.
+const ASPECT: f64 = 4.0;
 /// Two faces leave less than the first of these shares of the variance of one, in more than so large a share of the windows. Of 500 rows
 /// of one face with normal or even scatter the most was 0.03 of them.
 const LEFT: f64 = 1.0 / 14.0;
@@ -25,10 +29,36 @@ const ROUNDS: usize = 12;
 /// Points farther off than so many standard deviations are of neither face, or of both; no more of them than this share are left in silence.
 const WITHIN: f64 = 5.0;
 const HIDDEN: f64 = 0.01;
+/// A point beside a wall is of the nearer face where it lies off it by no more than this share of half the thickness; of a row all but this share.
+const NEARER: f64 = 0.5;
+const STRANGE: f64 = 0.1;
 /// So many windows tell whether there are two faces.
 const MOST: usize = 2000;
 /// Fewer windows tell nothing.
 const FEWEST: usize = 6;
+
+/// Both courses of a wall, window by window.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Wall {
+    windows: Vec<Window>,
+    noise: f64,
+}
+
+impl Wall {
+    /// The face of each of other points, where nearly all lie on one.
+    pub fn faces_of(&self, points: &[[f64; 2]]) -> Option<Vec<bool>> {
+        let mut far = 0;
+        let mut face = |p: &[f64; 2]| {
+            let near = self.windows.iter().filter(|w| w.local(*p)[0].abs() <= 1.0);
+            let window = near.min_by(|a, b| a.off(*p).0.total_cmp(&b.off(*p).0))?;
+            let (off, upper) = window.off(*p);
+            far += usize::from(off > (WITHIN * self.noise).max(NEARER * window.half));
+            Some(upper)
+        };
+        let upper: Option<Vec<bool>> = points.iter().map(&mut face).collect();
+        upper.filter(|_| far as f64 <= STRANGE * points.len() as f64)
+    }
+}
 
 /// What a row is of.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,14 +66,16 @@ pub(super) enum Faces {
     /// Of one face, as far as its points tell.
     One,
     /// Of two, with the face of each place of the row, and how far they are apart where that is unclear for some.
-    Two { upper: Vec<bool>, unclear: Option<f64> },
+    Two { upper: Vec<bool>, unclear: Option<f64>, wall: Wall },
     /// Of one that scatters, or two this far apart.
     Unclear { apart: f64 },
 }
 
 /// Two courses of one shape in a window of a row.
+#[derive(Clone, Debug, PartialEq)]
 struct Window {
     from: usize,
+    count: usize,
     /// Middle, and direction of the row.
     middle: [f64; 2],
     along: [f64; 2],
@@ -69,6 +101,7 @@ impl Window {
         let along = [(last[0] - first[0]) / reach, (last[1] - first[1]) / reach];
         let mut window = Window {
             from,
+            count: n,
             middle,
             along,
             reach,
@@ -120,6 +153,17 @@ impl Window {
         let [x, y] = self.local(p);
         y - self.shape[0] - x * (self.shape[1] + x * self.shape[2])
     }
+
+    /// How far a point lies off the nearer course, and whether that is the upper one.
+    fn off(&self, p: [f64; 2]) -> (f64, bool) {
+        let above = self.above(p);
+        ((above.abs() - self.half).abs(), above > 0.0)
+    }
+
+    /// How many times as long as its points scatter about one course.
+    fn aspect(&self) -> f64 {
+        self.reach / (self.variance / self.left).sqrt().max(f64::MIN_POSITIVE)
+    }
 }
 
 /// The least-squares parabola of points, with half the distance of two where the upper ones are given.
@@ -140,63 +184,78 @@ fn fitted(points: &[[f64; 2]], upper: Option<&[bool]>) -> Option<Vec<f64>> {
 /// Whether a row of points runs along two faces at once.
 pub(super) fn faces(row: &[[f64; 2]], closed: bool) -> Faces {
     let n = row.len();
-    if n < WINDOW + STRIDE {
-        return Faces::One;
+    let mut all = vec![];
+    for count in (0..=GROWN).map(|k| WINDOW << k) {
+        if n < count + count / STRIDE {
+            break;
+        }
+        let windows = windows(row, closed, count, MOST);
+        if windows.len() < FEWEST {
+            break;
+        }
+        all = windows;
+        if 2 * all.iter().filter(|w| w.aspect() >= ASPECT).count() >= all.len() {
+            break;
+        }
     }
-    let all = windows(row, closed, MOST);
-    if all.len() < FEWEST {
-        return Faces::One;
-    }
+    let Some(count) = all.first().map(|w| w.count) else { return Faces::One };
     let good: Vec<&Window> = all.iter().filter(|w| w.left < LEFT).collect();
-    let mean = |of: &dyn Fn(&Window) -> f64, some: &[&Window]| {
-        some.iter().map(|w| of(w)).sum::<f64>() / some.len() as f64
-    };
-    let mixed = |some: &[&Window]| mean(&|w| w.changes.min(2.0), some) >= CHANGES;
     let share = good.len() as f64 / all.len() as f64;
     if share >= SHARE && mixed(&good) {
-        let every = windows(row, closed, usize::MAX);
-        let good: Vec<&Window> = every.iter().filter(|w| w.left < LEFT).collect();
-        let (upper, off) = sides(row, closed, &good);
-        let noise = mean(&|w| w.variance, &good).sqrt();
+        let mut windows = windows(row, closed, count, usize::MAX);
+        windows.retain(|w| w.left < LEFT);
+        let apart = apart(&windows.iter().collect::<Vec<_>>());
+        let noise = (windows.iter().map(|w| w.variance).sum::<f64>() / windows.len() as f64).sqrt();
+        let (upper, off) = sides(row, closed, &windows);
         let far = off.iter().filter(|off| **off > WITHIN * noise).count() as f64;
-        let unclear = far > HIDDEN * n as f64;
-        return Faces::Two { upper, unclear: unclear.then(|| 2.0 * mean(&|w| w.half, &good)) };
+        let unclear = (far > HIDDEN * n as f64).then_some(apart);
+        return Faces::Two { upper, unclear, wall: Wall { windows, noise } };
     }
     let mut lefts: Vec<f64> = all.iter().map(|w| w.left).collect();
     lefts.sort_by(f64::total_cmp);
     let every: Vec<&Window> = all.iter().collect();
     let (some, rest) = if share >= UNCLEAR.0 { (true, &good) } else { (false, &every) };
     if (some || lefts[lefts.len() / 2] < UNCLEAR.1) && mixed(rest) {
-        return Faces::Unclear { apart: 2.0 * mean(&|w| w.half, rest) };
+        return Faces::Unclear { apart: apart(rest) };
     }
     Faces::One
 }
 
-/// Windows along a row, about `most` of them.
-fn windows(row: &[[f64; 2]], closed: bool, most: usize) -> Vec<Window> {
+/// Mean distance of the courses.
+fn apart(windows: &[&Window]) -> f64 {
+    2.0 * windows.iter().map(|w| w.half).sum::<f64>() / windows.len() as f64
+}
+
+/// Whether points change from face to face as by chance.
+fn mixed(windows: &[&Window]) -> bool {
+    windows.iter().map(|w| w.changes.min(2.0)).sum::<f64>() >= CHANGES * windows.len() as f64
+}
+
+/// Windows of `count` points along a row, about `most` of them.
+fn windows(row: &[[f64; 2]], closed: bool, count: usize, most: usize) -> Vec<Window> {
     let n = row.len();
-    let starts = if closed { n } else { n - WINDOW + 1 };
-    let points = |from: usize| (from..from + WINDOW).map(|i| row[i % n]).collect::<Vec<_>>();
-    (0..starts).step_by(STRIDE.max(starts / most)).filter_map(|i| Window::of(i, &points(i))).collect()
+    let starts = if closed { n } else { n - count + 1 };
+    let points = |from: usize| (from..from + count).map(|i| row[i % n]).collect::<Vec<_>>();
+    let stride = (count / STRIDE).max(starts / most);
+    (0..starts).step_by(stride).filter_map(|i| Window::of(i, &points(i))).collect()
 }
 
 /// The face of each point, and how far it lies off that: that of the window near it whose courses it lies nearest to. Beyond its ends a window's courses lead on for as
 /// long as it is: so they reach the corners, where windows tell nothing.
-fn sides(row: &[[f64; 2]], closed: bool, windows: &[&Window]) -> (Vec<bool>, Vec<f64>) {
+fn sides(row: &[[f64; 2]], closed: bool, windows: &[Window]) -> (Vec<bool>, Vec<f64>) {
     let n = row.len();
     let mut best: Vec<(f64, bool)> = vec![(f64::INFINITY, false); n];
     for window in windows {
-        let (from, to) = (window.from as i64 - WINDOW as i64 / 2, (window.from + WINDOW + WINDOW / 2) as i64);
-        for i in from..to {
+        let (from, count) = (window.from as i64, window.count as i64);
+        for i in from - count / 2..from + count + count / 2 {
             let i = match closed {
                 true => i.rem_euclid(n as i64) as usize,
                 false if (0..n as i64).contains(&i) => i as usize,
                 false => continue,
             };
-            let above = window.above(row[i]);
-            let off = (above.abs() - window.half).abs();
-            if off < best[i].0 {
-                best[i] = (off, above > 0.0);
+            let off = window.off(row[i]);
+            if off.0 < best[i].0 {
+                best[i] = off;
             }
         }
     }
