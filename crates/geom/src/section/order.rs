@@ -175,8 +175,8 @@ fn ends(rows: &[Ordered]) -> usize {
     counted.map(|r| if r.closed { 1 } else { 3 }).sum()
 }
 
-/// Share of a row's points that lie on another face by chance, as where noise hides whose they are.
-const MIXED: f64 = 0.02;
+/// Share of a row's points that others tell to be on another face, though they are not, as where these are torn.
+const MIXED: f64 = 0.15;
 
 /// Whether a row runs along several faces that others of the `count` points tell apart.
 fn is_mixed(rows: &[Ordered], faces: &[Ordered], count: usize) -> bool {
@@ -228,7 +228,8 @@ fn parted(
     // What the tree branched into across the wall is of its faces.
     for row in rest {
         let is_short = |w: &&mut Walled| row.numbers.len() as f64 <= BRANCH * w.row.numbers.len() as f64;
-        let found = walls.iter_mut().filter(is_short).find_map(|w| Some((w.wall.faces_of(&places(&row))?, w)));
+        let found =
+            walls.iter_mut().filter(is_short).find_map(|w| Some((w.wall.faces_of(&places(&row))?, w)));
         match found {
             Some((upper, wall)) => {
                 row.numbers.iter().zip(upper).for_each(|(i, u)| wall.beside[usize::from(u)].push(*i));
@@ -286,7 +287,8 @@ fn beside(points: &[[f64; 2]], rows: &[Ordered], k: usize, gap: f64) -> Option<f
     let longer = rows[..k].iter().filter(|r| r.numbers.len() as f64 * BRANCH >= own.numbers.len() as f64);
     let others: Vec<[f64; 2]> = longer.flat_map(|r| r.numbers.iter().map(|i| points[*i])).collect();
     let cells = Cells::new(&others, gap);
-    let near = |i: &usize| cells.around(points[*i]).map(|j| length(points[*i], others[j])).find(|d| *d <= gap);
+    let near =
+        |i: &usize| cells.around(points[*i]).map(|j| length(points[*i], others[j])).find(|d| *d <= gap);
     let all: Option<Vec<f64>> = own.numbers.iter().map(near).collect();
     all.map(|all| all.iter().sum::<f64>() / all.len() as f64)
 }

@@ -134,7 +134,10 @@ fn within_facets(contour: Contour, points: &[[f64; 2]]) -> Contour {
         let (s, [sum, most], way) = (&segments[*k], heights[*k], ways[*k]);
         let as_long = s.length <= AS_LONG * way + ends && way <= AS_LONG * s.length + ends;
         let rms = (sum / s.count.max(1) as f64).sqrt();
-        s.geometry.kind() != SegmentKind::Spline && as_long && s.rms <= WITHIN[0] * rms && s.max <= WITHIN[1] * most
+        s.geometry.kind() != SegmentKind::Spline
+            && as_long
+            && s.rms <= WITHIN[0] * rms
+            && s.max <= WITHIN[1] * most
     };
     let astray = all.astray.iter().copied().filter(|k| !runs_along(k)).collect();
     all.astray = astray;

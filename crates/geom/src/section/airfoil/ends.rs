@@ -1,14 +1,11 @@
 //! Where a profile ends: which end is the trailing one, and whether it is sharp, blunt or round.
 
-use super::super::start::noise;
+use super::super::start::noise_beyond_form;
 use super::error::AirfoilError;
 use super::tail::{Tail, tail};
 
 /// The ends of an open row are no farther apart than this share of the chord.
 const APART: f64 = 0.2;
-
-/// Share of the mean step that noise is taken to be, at most.
-const FORM: f64 = 0.05;
 
 /// What the trailing edge is.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -68,9 +65,7 @@ impl Around {
             });
         }
         let n = row.len();
-        // What local fits of few points call noise is the form of the leading edge.
-        let steps: f64 = (0..n).map(|i| distance(row[i], row[(i + 1) % n])).sum();
-        let noise = noise(row, true).0.min(FORM * steps / n as f64);
+        let noise = noise_beyond_form(row, true);
         let Tail { ends: [before, after], round, tip } = tail(row, noise);
         let run = |from: usize, count: usize| -> Vec<[f64; 2]> {
             (from..=from + count).map(|i| row[i % n]).collect()

@@ -2,9 +2,8 @@
 //!
 //! An outline turns by half a turn, less its wedge, at either end. The edge is the shortest stretch that takes most of that turn: one
 //! point of a sharp edge, the face between two corners of a blunt one, with points on it or none, an arc of a round one. So the sides
-//! end where their own points end, and are led no farther. A trailing edge has corners where the leading one is round. Where both are
-//! round the trailing one is thinner. Where points are too few to tell that one is round, sides run straight behind a trailing edge, and
-//! go on turning behind a leading one.
+//! end where their own points end, and are led no farther. Behind a trailing edge the sides run straight; behind a leading one they go
+//! on turning. Where both are round they may go on alike, and the trailing one is thinner.
 
 use super::super::exact::off_line;
 use super::super::polygon::turn;
@@ -16,8 +15,9 @@ const MOST_OF_TURN: f64 = 2.1;
 /// What lies between the corners of a face is off the line between them by less than this share of its length. An arc that takes most of the turn
 /// is off by 0.29, its middle one of three corners by 0.18.
 const BULGE: f64 = 0.12;
-/// Points are passed over that lie no farther off the line between others than so many standard deviations of their noise.
-const WITHIN: f64 = 4.0;
+/// Points are passed over that lie no farther off the line between others than so many standard deviations of their noise: four of what a point
+/// lies off that line.
+const WITHIN: f64 = 5.0;
 /// Sides are looked at from their edge to the first share of the chord, and on to the second.
 const SIDE: [f64; 2] = [0.06, 0.2];
 /// The widths of two round ends are compared at this share of the chord.
@@ -42,19 +42,16 @@ pub(super) fn tail(row: &[[f64; 2]], noise: f64) -> Tail {
     let chord = distance(row[a], row[b]);
     let outline = Outline { row, at: simplified(row, [a, b], WITHIN * noise), chord };
     let edges = [a, b].map(|tip| outline.edge(tip));
-    let corners = edges.map(|edge| edge.filter(|e| !e.round));
-    match corners {
-        [Some(own), Some(other)] => {
-            let bends = [own, other].map(|edge| outline.bend(&edge).unwrap_or(f64::INFINITY));
-            if bends[0] < bends[1] { own } else { other }
+    let is_round = |edge: &Option<Tail>| edge.is_none_or(|e| e.round);
+    let trailing = match edges.iter().all(is_round) {
+        true => usize::from(width(row, b, a) <= width(row, a, b)),
+        false => {
+            let bends = edges.map(|edge| edge.and_then(|e| outline.bend(&e)).unwrap_or(f64::INFINITY));
+            usize::from(bends[1] <= bends[0])
         }
-        [Some(edge), None] | [None, Some(edge)] => edge,
-        [None, None] => {
-            let thin = usize::from(width(row, b, a) <= width(row, a, b));
-            let tip = [a, b][thin];
-            edges[thin].unwrap_or(Tail { ends: [tip; 2], round: true, tip })
-        }
-    }
+    };
+    let tip = [a, b][trailing];
+    edges[trailing].unwrap_or(Tail { ends: [tip; 2], round: true, tip })
 }
 
 /// Width of the profile across the chord, near the end `own` of it.
