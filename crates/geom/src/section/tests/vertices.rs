@@ -1,7 +1,7 @@
 //! Rows of the ends of lines and the vertices of arcs: outlines of random parts, exact to the digits of a file.
 
 use super::*;
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 /// A corner of an outline, and the radius it is rounded by; 0: it is sharp. Or an arc over the way to the next corner.
 #[derive(Clone, Copy)]
@@ -261,4 +261,36 @@ fn outlines_by_vertices_are_right() {
     println!("{found:?} {all:?}");
     assert_eq!(found[2], 0);
     assert!(20 * found[0] >= 19 * count);
+}
+
+/// Circles by even, uneven or too few points, polygons that scatter and symmetric curves are no outlines of lines and arcs.
+#[test]
+fn other_rows_are_no_outlines() {
+    let random = &mut Random::new(3);
+    for k in 0..600 {
+        let mut between = |a: f64, b: f64| a + (b - a) * random.unit();
+        let (n, r, first) = (between(5.0, 60.99) as usize, between(5.0, 40.0), between(0.0, TAU));
+        let (step, missing) = (between(0.1, 0.9), between(0.0, n as f64) as usize);
+        let at = |a: f64| [r * libm::cos(a + first), r * libm::sin(a + first)];
+        let even = |i: usize| at(TAU * i as f64 / n as f64);
+        let points: Vec<[f64; 2]> = match k % 6 {
+            0 => (0..n).map(even).collect(),
+            1 => (0..n).map(|i| at(TAU * (i as f64 + between(0.0, 0.3)) / n as f64)).collect(),
+            2 => (0..).map(|i| step * f64::from(i)).take_while(|a| *a < TAU - 1e-3).map(at).collect(),
+            3 => (0..n).filter(|i| *i != missing).map(even).collect(),
+            4 => {
+                let few = 4 + n % 6;
+                let round = (0..few).map(|i| at(TAU * i as f64 / few as f64));
+                round.map(|p| p.map(|x| x + 0.003 * normal(random))).collect()
+            }
+            _ => {
+                (0..n).map(|i| libm::sincos(TAU * i as f64 / n as f64)).map(|(s, c)| [r * c, 0.5 * r * s]).collect()
+            }
+        };
+        let decimals = [1e3, 1e4, 1e6][k / 6 % 3];
+        let points: Vec<[f64; 2]> =
+            points.iter().map(|p| p.map(|x| (x * decimals).round() / decimals)).collect();
+        let found = crate::section::vertices::vertices(&points, &points, true, false);
+        assert!(found.is_none(), "{k} {n}: {:?}", found.map(|v| v.items));
+    }
 }

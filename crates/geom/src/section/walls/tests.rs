@@ -59,12 +59,14 @@ pub(super) struct Made {
     pub kind: usize,
 }
 
-pub(super) fn wall(seed: u64) -> Made {
+/// A wall between 0.3 and 5 spacings thick, or one up to 30 that scatters across many points of its faces.
+pub(super) fn wall(seed: u64, dense: bool) -> Made {
     let random = &mut Random::stream(31, seed);
     let spacing = 0.1;
-    let wall = spacing * libm::pow(10.0, between(random, -0.52, 0.7));
+    let [low, high] = if dense { [0.7, 1.5] } else { [-0.52, 0.7] };
+    let wall = spacing * libm::pow(10.0, between(random, low, high));
     let noise = wall * between(random, 0.01, 0.12);
-    let noise = noise.min(0.3 * spacing);
+    let noise = if dense { noise } else { noise.min(0.3 * spacing) };
     let kind = random.below(5) as usize;
     let (w, h) = (between(random, 8.0, 25.0), between(random, 8.0, 25.0));
     let (mid, closed): (Vec<[f64; 2]>, bool) = match kind {
@@ -149,17 +151,28 @@ pub(super) fn judged(made: &Made) -> (usize, String) {
 
 #[test]
 fn faces_of_thin_walls_are_parted_or_told() {
+    let [right, told, pieces, wrong] = rates(40, false);
+    assert!(wrong == 0 && right > 32, "{right} {told} {pieces} {wrong}");
+}
+
+/// Of walls that are thick for how near points lie windows grow with what the faces scatter by.
+#[test]
+fn faces_of_dense_walls_are_parted_or_told() {
+    let [right, told, pieces, wrong] = rates(40, true);
+    assert!(wrong == 0 && right > 32, "{right} {told} {pieces} {wrong}");
+}
+
+fn rates(walls: u64, dense: bool) -> [usize; 4] {
     let mut counts = [0; 4];
-    for seed in 0..40 {
-        let made = wall(seed);
+    for seed in 0..walls {
+        let made = wall(seed, dense);
         let (k, text) = judged(&made);
         counts[k] += 1;
         if k > 0 {
             println!("{seed} {k} {text}");
         }
     }
-    let [right, told, pieces, wrong] = counts;
-    assert!(wrong == 0 && right > 32, "{right} {told} {pieces} {wrong}");
+    counts
 }
 
 /// One face, whatever its scatter, and teeth and waves are no wall.
