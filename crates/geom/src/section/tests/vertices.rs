@@ -283,9 +283,10 @@ fn other_rows_are_no_outlines() {
                 let round = (0..few).map(|i| at(TAU * i as f64 / few as f64));
                 round.map(|p| p.map(|x| x + 0.003 * normal(random))).collect()
             }
-            _ => {
-                (0..n).map(|i| libm::sincos(TAU * i as f64 / n as f64)).map(|(s, c)| [r * c, 0.5 * r * s]).collect()
-            }
+            _ => (0..n)
+                .map(|i| libm::sincos(TAU * i as f64 / n as f64))
+                .map(|(s, c)| [r * c, 0.5 * r * s])
+                .collect(),
         };
         let decimals = [1e3, 1e4, 1e6][k / 6 % 3];
         let points: Vec<[f64; 2]> =
