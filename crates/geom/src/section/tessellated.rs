@@ -143,7 +143,7 @@ fn within_facets(contour: Contour, points: &[[f64; 2]]) -> Contour {
         let share = WITHIN[usize::from(products[*k][0] < BY_TURNS * products[*k][1])];
         s.geometry.kind() != SegmentKind::Spline
             && as_long
-            && s.rms <= WITHIN[0] * rms
+            && s.rms <= share * rms
             && s.max <= WITHIN[1] * most
     };
     let astray = all.astray.iter().copied().filter(|k| !runs_along(k)).collect();
