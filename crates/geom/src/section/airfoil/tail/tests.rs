@@ -112,6 +112,12 @@ pub(crate) fn made(seed: u64) -> Made {
         distance([x - sign * half(x) * s, y + sign * half(x) * c], tip)
     });
     let chord = far.fold(0.0, f64::max);
+    let (points, size, noise) = placed(all, random);
+    Made { points, chord: size * chord, edge: size * edge, kind, noise: size * noise }
+}
+
+/// The points of a random size, place, direction and first point, perhaps with noise; that size, and the noise as a share of it.
+fn placed(all: Vec<[f64; 2]>, random: &mut Random) -> (Vec<[f64; 2]>, f64, f64) {
     let size = libm::pow(10.0, between(random, 0.0, 3.0));
     let noise = if random.below(2) == 0 { 0.0 } else { 1e-4 };
     let (s, c) = libm::sincos(if random.below(2) == 0 { 0.0 } else { TAU * random.unit() });
@@ -128,7 +134,7 @@ pub(crate) fn made(seed: u64) -> Made {
     if random.below(2) == 0 {
         points.reverse();
     }
-    Made { points, chord: size * chord, edge: size * edge, kind, noise: size * noise }
+    (points, size, noise)
 }
 
 /// Of so many profiles those whose chord is off by more than a share, whose edge is, and whose edge is of another kind.
