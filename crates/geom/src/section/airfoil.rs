@@ -11,6 +11,7 @@ mod edge;
 mod ends;
 mod error;
 mod profile;
+mod tail;
 
 use super::direction::from_the_end;
 use super::result::{Contour, Geometry, Uncertainty};
@@ -62,8 +63,8 @@ pub struct Airfoil {
 /// Measures the profile whose points are `points`, of which `contour` was found.
 ///
 /// Of the contour are used whether it is closed, and which points were left out. The trailing edge of an open row is at its ends;
-/// of a closed one at the end where the profile is thinner, a twentieth of the chord from it. It is sharp with one corner, blunt
-/// with two, else round. Cost: fits of up to 2,000 points, and inscribed circles as the square of 2,000 places.
+/// of a closed one at the end behind which the sides run straighter. It is the shortest stretch that takes two thirds of half a turn:
+/// sharp at one point, blunt between two corners, with points on the face or none, else round. Sides are led no farther than their points. Cost: fits of up to 2,000 points, and inscribed circles as the square of 2,000 places.
 ///
 /// # Errors
 /// [`AirfoilError`]: too few points, an open row whose ends lie apart, points that enclose nothing, cancelled.

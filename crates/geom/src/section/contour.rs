@@ -10,10 +10,13 @@ use super::exact::missed;
 use super::levels::{MARGIN, SAME, Start, hidden};
 use super::plan::{Chains, Plan, RESOLUTION};
 use super::resolved::{Among, misses, resolved};
-use super::result::{Continuity, Contour, Join, Options, SectionError};
+use super::result::{Continuity, Contour, Join, Options, SectionError, Taken};
 use super::row::{Clean, check_row};
+use super::sheet::Sheet;
 use super::span::{Found, single};
 use super::start::noise;
+use super::vertices::vertices;
+use super::without::Searched;
 use crate::num::special::student_quantile;
 use crate::progress::Progress;
 use std::cell::Cell;
@@ -31,8 +34,8 @@ const FARTHEST: f64 = 20.0;
 /// Corners are where neighboring parts of a first partition differ in heading; between corners, all joins are tangent. The
 /// number and kinds of segments come from a penalized likelihood, the intervals from the likelihood with a join held. The
 /// points are taken to scatter normally across the contour, all alike. A row given the other way round has the same contour, the
-/// other way round. Points that repeat the one before, and single points
-/// far off what their neighbors tell, are left out and listed. A search of more than a dozen seconds ends with the cheapest contour so far, as of
+/// other way round. Points that repeat the one before, single points far off what their neighbors tell, and stray ones far off the
+/// row are left out and listed; points that may be stray are [`Contour::doubtful`]. A search of more than a dozen seconds ends with the cheapest contour so far, as of
 /// spirals of many turns; the contour tells that it was cut short.
 ///
 /// # Errors
@@ -64,6 +67,18 @@ pub(super) fn contour_within(
     progress: &dyn Progress,
 ) -> Result<Contour, SectionError> {
     check_row(points, options)?;
+    let searched = Searched::of(points, options);
+    let found = either_way(products, &searched.row(points), options, progress)?;
+    Ok(searched.whole(found, points))
+}
+
+/// The contour of a row without strays, from whichever end it is found better.
+fn either_way(
+    products: f64,
+    points: &[[f64; 2]],
+    options: &Options,
+    progress: &dyn Progress,
+) -> Result<Contour, SectionError> {
     let turned: Vec<[f64; 2]> = points.iter().rev().copied().collect();
     let backward = from_the_end(points);
     let ways = if backward { [&turned[..], points] } else { [points, &turned] };
@@ -147,8 +162,15 @@ fn in_order(
     if progress.cancelled() {
         return Err(SectionError::Cancelled(crate::progress::Cancelled));
     }
-    let mut start = Start::new(clean, options);
     let free = options.noise.is_none() && options.continuity.is_none();
+    let mut start = Start::new(clean, options);
+    if free
+        && !start.exact
+        && options.resolution.is_none()
+        && let Some(found) = by_vertices(points, options)
+    {
+        return Ok(found);
+    }
     if free && let Some(found) = resolved(&start, options, Among::Rows) {
         return Ok(found.whole(points.len()));
     }
@@ -203,6 +225,19 @@ fn in_order(
         contour.residuals[k] = contour.segments[contour.labels[k] as usize].nearest(points[k]).distance;
     }
     Ok(contour)
+}
+
+/// The contour of a row of the ends of lines and the vertices of arcs, where it is one.
+fn by_vertices(points: &[[f64; 2]], options: &Options) -> Option<Contour> {
+    let clean = Clean::new(points, options).ok()?;
+    let given: Vec<[f64; 2]> = clean.numbers.iter().map(|i| points[*i]).collect();
+    let found = vertices(&clean.points, &given, clean.closed, options.closed == Some(false))?;
+    let (rounding, polygon) = (found.rounding, found.polygon);
+    let closed = polygon.closed;
+    let contour = Sheet { points: &clean.points, polygon, rounding, options }.exact(&found.items);
+    let mut all = Joined::of(Contour { taken: Taken::Row, ..contour });
+    all.finish(&Clean { closed, ..clean }, 0, points.len(), vec![]);
+    Some(all.contour)
 }
 
 /// Whether segments do not run along their points, or join in corners.

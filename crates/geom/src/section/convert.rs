@@ -97,8 +97,7 @@ fn interpolated(values: &[f64], share: f64) -> f64 {
     values[k] + (at - k as f64) * (values[k + 1] - values[k])
 }
 
-/// Standard uncertainty of the length of piece `g` between the joins of its chain. Beside free pieces intervals of joins are
-/// longer than the covariance of the unknowns tells, and the length is as much more uncertain.
+/// Standard uncertainty of the length of piece `g` between the joins of its chain, as the intervals of these tell it.
 fn of_length(found: &Found, g: usize) -> Option<f64> {
     let spread = found.spread.as_ref()?;
     if found.circle {
@@ -111,12 +110,28 @@ fn of_length(found: &Found, g: usize) -> Option<f64> {
     let (n, closed) = (found.pieces().len(), found.state.chain.closed);
     let first = usize::from(!closed);
     let ends = [(closed || g > 0).then_some(g), (closed || g + 1 < n).then_some((g + 1) % n)];
-    let ratio = |join: usize| {
-        let linear = spread.places[join - first] * found.noise;
-        found.intervals[join - first].uncertainty / linear.max(f64::MIN_POSITIVE)
-    };
-    let wider = ends.into_iter().flatten().map(ratio).fold(1.0, f64::max);
-    Some(spread.lengths[g] * found.noise * wider)
+    // Standard uncertainties of its joins by the covariance, and by their intervals.
+    let own: Vec<[f64; 2]> = (ends.into_iter().flatten())
+        .map(|join| join - first)
+        .map(|k| [spread.places[k] * found.noise, found.intervals[k].uncertainty])
+        .collect();
+    let linear = spread.lengths[g] * found.noise;
+    Some(between(&own, linear)).filter(|u| u.is_finite())
+}
+
+/// Standard uncertainty of the length between joins, each with its uncertainty by the covariance and by its interval, and of that length by the
+/// covariance, which tells how the joins go together. Where a curvature grows from that of the neighbor the covariance alone holds
+/// nothing: the join moves by the square root of what the points allow, and intervals are far shorter than it says.
+fn between(joins: &[[f64; 2]], linear: f64) -> f64 {
+    let ratio = |[by_covariance, own]: [f64; 2]| own / by_covariance.max(f64::MIN_POSITIVE);
+    match joins {
+        [one] => linear * ratio(*one),
+        [[a, x], [b, y]] => {
+            let together = (a * a + b * b - linear * linear) / (2.0 * a * b).max(f64::MIN_POSITIVE);
+            (x * x + y * y - 2.0 * together.clamp(-1.0, 1.0) * x * y).max(0.0).sqrt()
+        }
+        _ => linear,
+    }
 }
 
 impl Contour {

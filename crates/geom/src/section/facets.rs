@@ -15,7 +15,7 @@ pub(super) const SHARP: f64 = 0.6;
 /// more, all are lines.
 const NEAR: f64 = 1.15;
 /// A chord of an arc that is tangent to the facets beside may turn by a right angle.
-const WIDE: f64 = std::f64::consts::FRAC_PI_2;
+pub(super) const WIDE: f64 = std::f64::consts::FRAC_PI_2;
 /// Three chords of an arc are not more uneven than this.
 const UNEVEN: f64 = 3.0;
 /// Most chords of an arc that is known by its tangents.
@@ -329,7 +329,7 @@ impl Polygon {
 }
 
 /// The circle nearest to points, by Taubin's method.
-fn round(points: &[[f64; 2]]) -> Option<([f64; 2], f64)> {
+pub(super) fn round(points: &[[f64; 2]]) -> Option<([f64; 2], f64)> {
     let n = points.len() as f64;
     let mean = [0, 1].map(|k| points.iter().map(|p| p[k]).sum::<f64>() / n);
     let mut sums = [0.0; 7];

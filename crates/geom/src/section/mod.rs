@@ -3,6 +3,7 @@
 //! | file | what |
 //! |---|---|
 //! | `row` | rows as they come: what is wrong with them |
+//! | `stray`, `without` | points that belong to no contour, as header rows and fillers; the row without them |
 //! | `direction` | the end that a row is measured from |
 //! | `levels` | the partition that the search begins with, at one level of noise or several |
 //! | `begin` | models that the search begins with: lines and arcs with a common tangent |
@@ -12,13 +13,14 @@
 //! | `criterion`, `base`, `search`, `smooth` | number and kinds of pieces |
 //! | `near`, `blocks` | long chains by pieces near each other; long rows by blocks of points |
 //! | `polygon`, `exact` | rows that are polygons, or lines and arcs tangent to them, exactly |
+//! | `vertices`, `told` | rows of the ends of lines and the vertices of arcs |
 //! | `resolved`, `kept` | rows of curves without noise, as B-splines between corners; B-splines that keep to points |
 //! | `profile` | intervals of the joins |
 //! | `paper` | one line and one curve by the steps of a paper |
-//! | `slab`, `link`, `untangle` | points of a cloud near a plane, put in order; their ways linked over gaps; short stretches |
+//! | `slab`, `order`, `cells`, `link`, `untangle`, `walls` | points of a cloud near a plane; put in order; their ways linked over gaps; short stretches; both faces of thin walls |
 //! | `bent` | slabs across which a surface bends |
 //! | `cut`, `stack` | where a plane cuts a mesh; which facets each of many planes may cut |
-//! | `facets`, `tessellated` | what the facets of a mesh tell exactly; contours of its sections |
+//! | `facets`, `sheet`, `tessellated` | what the facets of a mesh tell exactly; contours of exact lines and arcs; of a mesh's sections |
 //! | `foot` | where on a segment the foot of a point is |
 //! | `dimension` | angles, widths, distances of centers, gaps |
 //! | `airfoil` | chord, camber, thickness and edges of a profile |
@@ -40,6 +42,7 @@ mod bent;
 mod blocks;
 mod blunt;
 mod budget;
+mod cells;
 mod chain;
 mod contour;
 mod convert;
@@ -64,6 +67,7 @@ mod levels;
 mod link;
 mod near;
 mod nominal;
+mod order;
 mod paper;
 mod plan;
 mod polygon;
@@ -72,16 +76,22 @@ mod resolved;
 mod result;
 mod row;
 mod search;
+mod sheet;
 mod slab;
 mod smooth;
 mod span;
 mod stack;
 mod start;
+mod stray;
 mod task;
 mod tessellated;
 #[cfg(test)]
 mod tests;
+mod told;
 mod untangle;
+mod vertices;
+mod walls;
+mod without;
 
 pub use airfoil::{Airfoil, AirfoilError, EdgeRadius, TrailingEdge, airfoil};
 pub use bent::{Bent, bent_across};
@@ -94,8 +104,9 @@ pub use dimension::{Dimension, DimensionKind, dimensions};
 pub use foot::SegmentFoot;
 pub use joined::joined;
 pub use nominal::{OffNominal, Outline, off_nominal, with_material_inside};
+pub use order::{Order, Ordered, order};
 pub use paper::{Method, Search, line_and_curve, method_contour};
 pub use result::{Continuity, Contour, Geometry, Join, Options, SectionError, Segment, Taken, Uncertainty};
-pub use slab::{Order, Ordered, order, ordered_contour, slab};
+pub use slab::{ordered_contour, slab};
 pub use stack::facets_near;
 pub use tessellated::{chain_contour, rounding};

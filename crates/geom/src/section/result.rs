@@ -244,6 +244,13 @@ pub struct Contour {
     pub stations: Vec<f64>,
     /// Points that were left out as outliers, by their numbers.
     pub outliers: Vec<usize>,
+    /// Points that may be strays, by their numbers: the step to them is many times as long as any other, and does not go straight on.
+    /// They were kept.
+    pub doubtful: Vec<usize>,
+    /// Points as far from the rest of the row, by their numbers, that lie where the row leads straight on. They were kept.
+    pub straight_on: Vec<usize>,
+    /// Points of a cloud may be of both faces of a wall about so thick, which they do not tell apart.
+    pub layered: Option<f64>,
     /// Points that repeat the one before, by their numbers; they were left out.
     pub repeated: Vec<usize>,
     /// Gaps along the contour between neighboring points of more than five times the median distance, outliers passed over: the number

@@ -1,13 +1,15 @@
 //! Contours of sections of meshes: exact lines and arcs where the facets are those of a drawing, a row of points where they
 //! are those of a scan.
 
+use super::chain::SegmentKind;
 use super::contour::contour;
 use super::cut::{Chain, PlaneFrame};
-use super::facets::{Item, LineOrArc, Polygon, SHARP, angle, length};
-use super::result::{Continuity, Contour, Geometry, Join, Options, SectionError, Segment, Taken};
+use super::exact::off_line;
+use super::facets::{Item, LineOrArc, Polygon, SHARP, length};
+use super::result::{Contour, Join, Options, SectionError, Segment, Taken};
 use super::row::check;
+use super::sheet::{Sheet, nearest, starts};
 use crate::mesh::Mesh;
-use crate::num::special::student_quantile;
 use crate::progress::Progress;
 
 /// A polyline of fewer vertices is taken as it is: points so few tell no noise.
@@ -73,7 +75,7 @@ pub fn chain_contour(
             let items = polygon.items(rounding);
             Sheet { points: &points, polygon, rounding, options }.contour(&items, progress)
         }
-        found => Ok(spread(found?, &kept, &points, Taken::Scan)),
+        found => Ok(within_facets(spread(found?, &kept, &points, Taken::Scan), &points)),
     }
 }
 
@@ -107,6 +109,47 @@ const MISSED: f64 = 20.0;
 
 /// Points of a segment, so many at least, that scatter by more noises than this about it do not follow it.
 const SCATTERED: (usize, f64) = (8, 2.0);
+
+/// Between vertices on a curve a chord lies off it by a quarter of what the vertices lie off the chord between their neighbors. Points within facets
+/// are off by no more than this share of that in the root mean square; at most, and where they lie in and out by turns, by twice as much.
+const WITHIN: [f64; 2] = [0.25, 0.5];
+/// Points on edges around and across a curve lie in and out by turns: the products of neighboring distances sum to less than this share of the
+/// squares. Those of noise do so once in 300 rows of 80 points.
+const BY_TURNS: f64 = -0.3;
+/// A line or arc that runs along its points is as long as the way through them, to this factor.
+const AS_LONG: f64 = 1.25;
+
+/// Lines and arcs whose points lie off them by no more than facets lie off the curve they stand for run along these: what looks like hidden form
+/// there, with the period of the facets, is the facets'. Points of a scan, whose heights are its noise, lie farther off.
+fn within_facets(contour: Contour, points: &[[f64; 2]]) -> Contour {
+    let (n, mut all) = (points.len(), contour);
+    let inner = if all.closed { 0..n } else { 1..n.saturating_sub(1) };
+    let mut heights = vec![[0.0_f64; 2]; all.segments.len()];
+    let mut ways = vec![0.0; all.segments.len()];
+    let mut products = vec![[0.0; 2]; all.segments.len()];
+    for i in inner {
+        let [a, b, c] = [(i + n - 1) % n, i, (i + 1) % n].map(|i| points[i]);
+        let (k, height) = (all.labels[i] as usize, off_line([a, c], b));
+        heights[k] = [heights[k][0] + height * height, heights[k][1].max(height)];
+        ways[k] += 0.5 * (length(a, b) + length(b, c));
+        let [off, next] = [i, (i + 1) % n].map(|i| all.residuals[i]);
+        products[k] = [products[k][0] + off * next, products[k][1] + off * off];
+    }
+    let (segments, ends) = (&all.segments, if all.closed { 0.0 } else { 2.0 * all.spacing });
+    let runs_along = |k: &usize| {
+        let (s, [sum, most], way) = (&segments[*k], heights[*k], ways[*k]);
+        let as_long = s.length <= AS_LONG * way + ends && way <= AS_LONG * s.length + ends;
+        let rms = (sum / s.count.max(1) as f64).sqrt();
+        let share = WITHIN[usize::from(products[*k][0] < BY_TURNS * products[*k][1])];
+        s.geometry.kind() != SegmentKind::Spline
+            && as_long
+            && s.rms <= share * rms
+            && s.max <= WITHIN[1] * most
+    };
+    let astray = all.astray.iter().copied().filter(|k| !runs_along(k)).collect();
+    all.astray = astray;
+    all
+}
 
 /// A contour found from some of the points, for all of them. Segments that others lie far off are astray.
 fn spread(found: Contour, kept: &[usize], points: &[[f64; 2]], taken: Taken) -> Contour {
@@ -150,34 +193,6 @@ fn spread(found: Contour, kept: &[usize], points: &[[f64; 2]], taken: Taken) -> 
     all
 }
 
-/// Lengths before each segment.
-fn starts(segments: &[Segment]) -> Vec<f64> {
-    segments
-        .iter()
-        .scan(0.0, |sum, s| {
-            *sum += s.length;
-            Some(*sum - s.length)
-        })
-        .collect()
-}
-
-/// Of these segments the nearest to a point: its number, the station and the distance.
-fn nearest(
-    segments: &[Segment],
-    starts: &[f64],
-    among: impl Iterator<Item = u32>,
-    point: [f64; 2],
-) -> (u32, f64, f64) {
-    let mut best = (0, 0.0, f64::INFINITY);
-    for label in among {
-        let (station, off) = segments[label as usize].foot(point);
-        if off.abs() < best.2.abs() {
-            best = (label, starts[label as usize] + station, off);
-        }
-    }
-    best
-}
-
 /// An edge so many times as long as the facets beside it are in the middle is that of a flat face.
 const LONG: f64 = 8.0;
 
@@ -185,14 +200,6 @@ const LONG: f64 = 8.0;
 struct Run {
     items: Vec<Item>,
     curve: Option<Contour>,
-}
-
-/// A polyline of exact facets.
-struct Sheet<'a> {
-    points: &'a [[f64; 2]],
-    polygon: Polygon,
-    rounding: f64,
-    options: &'a Options,
 }
 
 impl Sheet<'_> {
@@ -319,18 +326,6 @@ impl Sheet<'_> {
         turns >= CURVE.0 || arcs.unwrap_or(0) >= CURVE.1
     }
 
-    /// Whether two segments have a common tangent at a vertex, where their directions are uncertain by `slack` at least.
-    fn is_tangent(&self, before: &Segment, after: &Segment, vertex: usize, slack: f64) -> bool {
-        let turn = angle(before.directions()[1], after.directions()[0]);
-        turn.abs() <= slack.max(self.polygon.slack(self.beside(vertex), self.rounding))
-    }
-
-    /// Length of the shorter facet beside a vertex.
-    fn beside(&self, vertex: usize) -> f64 {
-        let n = self.polygon.at.len();
-        self.polygon.facet_length((vertex + n - 1) % n).min(self.polygon.facet_length(vertex % n))
-    }
-
     /// Median turn between the facets of a curve.
     fn chord_turn(&self, items: &[Item]) -> f64 {
         let (from, to) = (items[0].from, items[items.len() - 1].to);
@@ -371,94 +366,9 @@ impl Sheet<'_> {
             Options { closed: Some(closed), ordered: true, resolution: Some(chordal), ..*self.options };
         contour(&row, &options, progress)
     }
-
-    fn segment(&self, item: &Item) -> Segment {
-        let (start, end) = (self.polygon.vertex(item.from), self.polygon.vertex(item.to));
-        let base = Segment::line(start, end);
-        let LineOrArc::Arc(center, curvature) = item.shape else { return base };
-        let out = |i: usize| {
-            let p = self.polygon.vertex(i);
-            [p[0] - center[0], p[1] - center[1]]
-        };
-        let whole = self.polygon.closed && item.to - item.from == self.polygon.facets();
-        let turned: f64 = (item.from..item.to).map(|i| angle(out(i), out(i + 1))).sum();
-        let sweep = if whole { std::f64::consts::TAU * turned.signum() } else { turned };
-        let radius = 1.0 / curvature.abs();
-        let at = libm::atan2(out(item.from)[1], out(item.from)[0]);
-        let geometry = Geometry::Arc { center, radius, start: at, sweep };
-        Segment { geometry, length: radius * sweep.abs(), curvature: [curvature; 2], ..base }
-    }
-
-    /// The join of two exact segments at a vertex, or of one with a curve whose direction there is uncertain by `slack`.
-    fn join(&self, before: &Segment, after: &Segment, vertex: usize, slack: f64) -> Join {
-        let turn = angle(before.directions()[1], after.directions()[0]);
-        let beside = self.beside(vertex);
-        let smooth = self.is_tangent(before, after, vertex, slack);
-        // Where the two are no farther apart than what rounding loses.
-        let uncertainty = match smooth {
-            true => {
-                let jump = (before.curvature[1] - after.curvature[0]).abs();
-                (2.0 * self.rounding / jump.max(f64::MIN_POSITIVE)).sqrt().min(beside)
-            }
-            false => self.rounding / libm::sin(0.5 * turn.abs()).max(1e-3),
-        };
-        let [along, next] = [before.directions()[1], after.directions()[0]].map(|v| {
-            let size = libm::hypot(v[0], v[1]).max(f64::MIN_POSITIVE);
-            [v[0] / size, v[1] / size]
-        });
-        let along = if smooth { along } else { [along[0] - next[0], along[1] - next[1]] };
-        let size = libm::hypot(along[0], along[1]).max(f64::MIN_POSITIVE);
-        let reach = student_quantile(1.0 - self.options.level, 1e6) * uncertainty / size;
-        let point = self.polygon.vertex(vertex);
-        Join {
-            point,
-            continuity: if smooth { Continuity::G1 } else { Continuity::G0 },
-            interval: [-reach, reach].map(|x| [point[0] + x * along[0], point[1] + x * along[1]]),
-            uncertainty,
-            open: [false; 2],
-            turn: if smooth { 0.0 } else { turn },
-        }
-    }
-
-    /// Puts the contour together: what the points say of each segment.
-    fn finish(
-        &self,
-        segments: Vec<Segment>,
-        joins: Vec<Join>,
-        owners: &[(Item, std::ops::Range<usize>)],
-    ) -> Contour {
-        let count = self.points.len();
-        let mut all = Contour { closed: self.polygon.closed, segments, joins, ..Contour::default() };
-        all.taken = Taken::Facets;
-        (all.labels, all.residuals, all.stations) = (vec![0; count], vec![0.0; count], vec![0.0; count]);
-        let starts = starts(&all.segments);
-        for (item, range) in owners {
-            let number = |i: usize| self.polygon.numbers[i % self.polygon.at.len()];
-            let (from, to) = (number(item.from), number(item.to));
-            let whole = self.polygon.closed && item.to - item.from == self.polygon.facets();
-            let steps = if whole { count } else { (to + count - from) % count };
-            // The last point of all belongs to the last segment, that of others to the next.
-            let steps = steps + usize::from(!self.polygon.closed && to + 1 == count);
-            for i in (from..from + steps).map(|i| i % count) {
-                let among = range.clone().map(|l| l as u32);
-                (all.labels[i], all.stations[i], all.residuals[i]) =
-                    nearest(&all.segments, &starts, among, self.points[i]);
-            }
-        }
-        all.segments.iter_mut().for_each(|s| (s.count, s.rms, s.max) = (0, 0.0, 0.0));
-        for (label, off) in all.labels.iter().zip(&all.residuals) {
-            let segment = &mut all.segments[*label as usize];
-            segment.count += 1;
-            segment.rms += off * off;
-            segment.max = segment.max.max(off.abs());
-        }
-        all.segments.iter_mut().for_each(|s| s.rms = (s.rms / s.count.max(1) as f64).sqrt());
-        let sum: f64 = all.residuals.iter().map(|r| r * r).sum();
-        all.noise = (sum / count as f64).sqrt();
-        all.spacing = all.length() / count as f64;
-        all
-    }
 }
 
+#[cfg(test)]
+mod round;
 #[cfg(test)]
 mod tests;

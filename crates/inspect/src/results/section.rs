@@ -169,6 +169,10 @@ pub struct ContourRecord {
     /// status is 1.
     #[serde(default)]
     pub astray: Vec<u64>,
+    /// What makes the contour doubtful, each with what may help: points that may be strays, walls too thin to be told apart. With any, the
+    /// exit status is 1.
+    #[serde(skip_serializing_if = "Vec::is_empty", default)]
+    pub doubts: Vec<String>,
     /// What to heed about it, each with what may help: points of a row off their plane, a noise given that they contradict, radii that the
     /// thickness of a slab moves.
     #[serde(skip_serializing_if = "Vec::is_empty", default)]
@@ -297,6 +301,7 @@ impl SectionDocument {
                 let bent = section.bent.get(k).map_or(&[][..], |bent| bent);
                 ContourRecord {
                     hints: hints::hints(section, c, bent, options),
+                    doubts: hints::doubts(c),
                     ..contour(c, &section.frame, number)
                 }
             })
@@ -414,6 +419,7 @@ fn contour(found: &Contour, frame: &FrameRecord, plane: Option<u64>) -> ContourR
         gaps: numbers(&found.gaps),
         crossings: found.crossings.clone(),
         astray: numbers(&found.astray),
+        doubts: vec![],
         hints: vec![],
         residuals: found.residuals.clone(),
         labels: found.labels.clone(),

@@ -29,7 +29,7 @@ use trueness_inspect::results::section::{AirfoilRecord, Section, SectionDocument
 /// Of points in the order in which they follow each other along a contour, or where planes cut a mesh or a cloud. Finds
 /// number and kinds of the segments, refines all together and tells every join with its uncertainty.
 #[derive(Args, Debug)]
-#[command(after_help = exit::help("segments do not run along their points and tell nothing of the part; files are written all the same", "\
+#[command(after_help = exit::help("segments do not run along their points and tell nothing of the part, or a contour is doubtful; files are written all the same", "\
 Examples:
   trueness section profile.txt
   trueness section profile.csv --noise 0.003 --dxf profile.dxf --json profile.json
@@ -178,6 +178,11 @@ fn run(args: &SectionArgs, common: &Common) -> anyhow::Result<Outcome> {
     });
     let mut document = SectionDocument::new(&sections, inputs, &options);
     (document.nominal, document.airfoils) = (nominal, airfoils);
+    for found in document.airfoils.iter().flatten() {
+        if let Some(contour) = document.contours.get_mut(found.contour as usize) {
+            contour.doubts.extend(found.doubt());
+        }
+    }
     args.planes.tell_raised_gap(&mut document.planes);
     if let Some((chosen, interval, table)) = methods {
         document = document.with_methods(chosen, interval, &table);
@@ -187,8 +192,8 @@ fn run(args: &SectionArgs, common: &Common) -> anyhow::Result<Outcome> {
     args.drawings.write(&sections, &rows, document.nominal.as_ref())?;
     args.document.write(&document)?;
     args.document.table(|| table::table(&document))?;
-    let astray = document.contours.iter().any(|c| !c.astray.is_empty());
-    Ok(if astray { Outcome::NotConforming } else { Outcome::Conforming })
+    let doubtful = document.contours.iter().any(|c| !c.astray.is_empty() || !c.doubts.is_empty());
+    Ok(if doubtful { Outcome::NotConforming } else { Outcome::Conforming })
 }
 
 /// The report, with the points of each contour.

@@ -39,7 +39,7 @@ pub fn table(document: &SectionDocument) -> String {
             if *contour.taken == Taken::Facets { "rms" } else { "noise" },
             scientific(contour.noise, 2)
         );
-        contour.hints.iter().for_each(|hint| _ = writeln!(out, "! {hint}"));
+        contour.doubts.iter().chain(&contour.hints).for_each(|hint| _ = writeln!(out, "! {hint}"));
         if !contour.astray.is_empty() {
             out.push_str(&astray(contour));
         }

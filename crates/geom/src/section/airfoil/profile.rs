@@ -53,22 +53,21 @@ impl Profile {
         contour: &Contour,
         progress: &dyn Progress,
     ) -> Result<(Around, Profile, Option<Profile>), AirfoilError> {
-        let around = Around::new(row, contour.closed, None)?;
+        let around = Around::new(row, contour.closed)?;
         let smooth = Smooth::new(&thinned(&around.row), progress);
         if let Err(AirfoilError::Cancelled(e)) = smooth {
             return Err(e.into());
         }
         let mut other = None;
         if !contour.segments.is_empty() && contour.astray.is_empty() {
-            let corners = contour.joins.iter().filter(|j| j.continuity == Continuity::G0);
-            let corners: Vec<[f64; 2]> = corners.map(|j| j.point).collect();
-            let own = Around::new(row, contour.closed, Some(&corners))?;
             let count = smooth.as_ref().map_or(row.len(), |s| s.count) as f64;
-            if let Some((cost, course)) = of_contour(&own, own.ends.map(|i| numbers[i]), contour, count) {
+            if let Some((cost, course)) = of_contour(&around, around.ends.map(|i| numbers[i]), contour, count)
+            {
                 if smooth.as_ref().map_or(true, |s| cost < s.cost) {
                     // What a free curve of a contour takes from scatter, a B-spline does not, or elsewhere.
                     let free = contour.segments.iter().any(|s| s.geometry.kind() == SegmentKind::Spline);
-                    return Ok((own, course, smooth.ok().filter(|_| free).map(|s| s.course(&around))));
+                    let smooth = smooth.ok().filter(|_| free).map(|s| s.course(&around));
+                    return Ok((around, course, smooth));
                 }
                 other = Some(course);
             }
@@ -139,21 +138,25 @@ fn of_contour(around: &Around, ends: [usize; 2], contour: &Contour, as_many: f64
     let cost = cost(share * sum, share * unknowns, penalty, as_many, contour.spacing);
     let stations = ends.map(|i| contour.stations[i]);
     let corners = corners(contour);
-    let at_corner = |station: f64| {
-        let off = |c: &f64| {
-            let d = (c - station).rem_euclid(whole);
-            d.min(whole - d)
-        };
-        let near = corners.iter().copied().min_by(|a, b| off(a).total_cmp(&off(b)));
-        near.filter(|c| off(c) < NEAR * contour.spacing)
+    // The way on from a station to the corner nearest to it, below 0 the way back.
+    let to_corner = |station: f64| {
+        let way = |c: &f64| (c - station + 0.5 * whole).rem_euclid(whole) - 0.5 * whole;
+        let near = corners.iter().map(way).min_by(|a, b| a.abs().total_cmp(&b.abs()));
+        near.filter(|way| way.abs() < NEAR * contour.spacing)
     };
     let over = whole / 16.0;
     let (from, to) = match around.trailing {
         TrailingEdge::Open(_) => (0.0, whole),
         TrailingEdge::Round => (stations[0] - over, stations[0] + whole + over),
-        TrailingEdge::Sharp => at_corner(stations[0]).map(|c| (c, c + whole))?,
+        TrailingEdge::Sharp => {
+            to_corner(stations[0]).map(|way| (stations[0] + way, stations[0] + way + whole))?
+        }
+        // Where no point lies on the face the contour leads the sides on to one corner: they end with their points.
         TrailingEdge::Blunt(_) => {
-            let (from, to) = (at_corner(stations[0])?, at_corner(stations[1])?);
+            // A corner farther within a side is none of its end.
+            let inside = |way: f64| (way <= contour.spacing).then_some(way.max(0.0));
+            let from = stations[0] + inside(to_corner(stations[0])?)?;
+            let to = stations[1] - inside(-to_corner(stations[1])?)?;
             (from, if to <= from { to + whole } else { to })
         }
     };

@@ -3,7 +3,8 @@
 use super::*;
 use crate::num::random::Random;
 use crate::progress::Silent;
-use crate::section::{Plane, SegmentKind, cut};
+use crate::section::{Continuity, Geometry};
+use crate::section::{Plane, cut};
 
 /// The walls of prisms over closed outlines, each quad in two facets, rounded to single precision.
 fn prisms(outlines: &[Vec<[f64; 2]>], noise: f64) -> Mesh {

@@ -1,6 +1,7 @@
 //! Sections with known joins: closed forms, exact data, rigid motions, coverage over fresh noise, wrong and ugly rows.
 
 mod astray;
+mod clothoids;
 mod direction;
 mod gentle;
 mod levels;
@@ -11,6 +12,7 @@ mod rounded;
 mod scattered;
 mod smooth;
 mod sparse;
+mod vertices;
 
 use super::*;
 use crate::num::random::Random;

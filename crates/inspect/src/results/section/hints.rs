@@ -20,7 +20,44 @@ pub(super) fn hints(section: &Section, found: &Contour, bent: &[Bent], options: 
         .chain(noise(found, options))
         .chain(slab(section, found, bent))
         .chain(cut_short(found))
+        .chain(straight_on(found))
         .collect()
+}
+
+/// What makes a contour doubtful.
+pub(super) fn doubts(found: &Contour) -> Vec<String> {
+    strays(found).into_iter().chain(layers(found)).collect()
+}
+
+/// Both faces of a wall in one contour.
+fn layers(found: &Contour) -> Option<String> {
+    let apart = digits(found.layered?);
+    Some(format!(
+        "the points lie in two layers about {apart} apart, or scatter as much: the contour may run between the faces of a thin wall; scan \
+         the faces apart, or cut where points are denser"
+    ))
+}
+
+/// Points that may be strays.
+fn strays(found: &Contour) -> Option<String> {
+    let [first, others @ ..] = &found.doubtful[..] else { return None };
+    let (which, are, them) = match others.len() {
+        0 => (format!("point {first}"), "is", "it"),
+        n => (format!("points {first} and {n} more"), "are", "them"),
+    };
+    Some(format!(
+        "{which} (from 0) {are} many times as far from the rest as its points from each other, and no line leads there: a stray row, \
+         or the contour is missing between; the length counts the way to {them}; delete {them}, or add the points between"
+    ))
+}
+
+/// Far points that the row leads straight to.
+fn straight_on(found: &Contour) -> Option<String> {
+    let first = found.straight_on.first()?;
+    Some(format!(
+        "the step to point {first} (from 0) is many times as long as any other; it goes straight on and was taken for the end of a line; \
+         delete the point if it is none"
+    ))
 }
 
 /// A row in space that lies in no plane.

@@ -31,7 +31,7 @@ pub fn contours(s: Style, document: &SectionDocument) -> Markup {
                     strong { (s.len(&contour.segments)) }
                 }
                 (facts(s, contour))
-                @for hint in &contour.hints {
+                @for hint in contour.doubts.iter().chain(&contour.hints) {
                     p.note { strong.warning { "⚠" } " " (Text(hint)) }
                 }
                 @if !contour.astray.is_empty() {
