@@ -296,3 +296,33 @@ fn the_least_greatest_excess_over_tolerances() {
     assert_eq!(status(&trueness(words)), 2);
     assert_eq!(status(&trueness(["align", scan, block, "--tolerance", "0.1"])), 2);
 }
+
+#[test]
+fn places_almost_on_a_line_are_told() {
+    let folder = Folder::new();
+    let part = wedge();
+    let nominal = folder.write("nominal.off", part.text(&Rigid::IDENTITY));
+    let rows = [
+        "5 5 0 5 5 0 0 0 1",
+        "55 5 0 55 5 0 0 0 1",
+        "30 5.4 0 30 5.4 0 0 0 1",
+        "5 0 5 5 0 5 0 1 0",
+        "55 0 5 55 0 5 0 1 0",
+        "0 25 5 0 25 5 1 0 0",
+    ];
+    let near = folder.write("near.txt", rows.join("\n"));
+    let far = folder.write("far.txt", rows.join("\n").replace("5.4", "20"));
+    let words = |rows: &std::path::Path| {
+        let words = ["align", "NOMINAL", "NOMINAL", "--method", "3-2-1", "--points", "ROWS"];
+        words.map(|w| w.replace("NOMINAL", nominal.to_str().unwrap()).replace("ROWS", rows.to_str().unwrap()))
+    };
+    let found = document(words(&near));
+    // The box of the wedge ends at y = 35.
+    assert!((found["pairs"][2]["amplification"].as_f64().unwrap() - 30.0 / 0.4).abs() < 1e-6, "{found}");
+    assert_eq!(found["warnings"][0]["kind"], "amplified", "{found}");
+    assert!(found["warnings"][0]["text"].as_str().unwrap().starts_with("row 3:"), "{found}");
+    assert!(
+        stdout(&trueness(words(&near))).contains("1 mm of error there moves the farthest corner by 75.00 mm")
+    );
+    assert_eq!(document(words(&far))["warnings"], serde_json::json!([]));
+}

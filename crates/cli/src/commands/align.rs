@@ -183,7 +183,8 @@ fn run(args: &AlignArgs, common: &Common) -> anyhow::Result<Outcome> {
                 MethodArg::ThreeTwoOne => "3-2-1",
                 MethodArg::Rps => "rps",
             };
-            AlignDocument::of_rows(&found, name, records, common.seed)
+            let corners = reference.mesh.bounds().corners();
+            AlignDocument::of_rows(&found, name, &corners, records, common.seed)
         }
         (None, _) => best_fit(args, &scan, &reference.mesh, records, common)?,
     };
@@ -370,7 +371,16 @@ fn table(document: &AlignDocument, loss: Option<&str>) -> String {
         let _ = writeln!(out, "standard uncertainty: rotation {degrees} degrees, translation {lengths} mm");
     }
     for pair in &document.pairs {
-        let _ = writeln!(out, "row {}: {}", pair.row + 1, six_digits(pair.residual));
+        let amplified = pair
+            .amplification
+            .map(|by| format!("   1 mm of error there moves the farthest corner by {} mm", fixed(by, 2)));
+        let _ = writeln!(
+            out,
+            "row {}: {}{}",
+            pair.row + 1,
+            six_digits(pair.residual),
+            amplified.unwrap_or_default()
+        );
     }
     for warning in &document.warnings {
         let _ = writeln!(out, "! {}", warning.text);

@@ -54,7 +54,7 @@ pub use error::AlignError;
 pub use freedom::Freedom;
 pub use minimax::{Minimax, minimax};
 pub use response::{Response, response};
-pub use rows::{Row, RowFit, constrained, pairs};
+pub use rows::{AMPLIFIED, Row, RowFit, constrained, pairs};
 pub use sample::Measured;
 pub use target::Target;
 pub use zones::{InZones, ZoneAt, into_zones};

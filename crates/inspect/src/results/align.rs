@@ -211,6 +211,9 @@ pub struct PairRecord {
     pub row: u64,
     /// What is left: the distance of a pair, the signed distance along the direction of a row.
     pub residual: f64,
+    /// How many millimeters the corner of the reference's box that moves farthest moves per millimeter of error in this row; absent of pairs.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub amplification: Option<f64>,
 }
 
 impl From<&Freedom> for FreeMotion {
@@ -320,10 +323,21 @@ impl AlignDocument {
         }
     }
 
-    /// Of an alignment by rows of a table: `method` is `pairs`, `3-2-1` or `rps`.
-    pub fn of_rows(found: &RowFit, method: &str, inputs: Vec<InputRecord>, seed: u64) -> AlignDocument {
+    /// Of an alignment by rows of a table: `method` is `pairs`, `3-2-1` or `rps`; `corners` are those of the part, in the frame of the reference.
+    pub fn of_rows(
+        found: &RowFit,
+        method: &str,
+        corners: &[[f64; 3]],
+        inputs: Vec<InputRecord>,
+        seed: u64,
+    ) -> AlignDocument {
         let count = found.residuals.len().max(1) as f64;
-        let row = |(row, residual): (usize, &f64)| PairRecord { row: row as u64, residual: *residual };
+        let amplifications = found.amplifications(corners);
+        let row = |(row, residual): (usize, &f64)| PairRecord {
+            row: row as u64,
+            residual: *residual,
+            amplification: amplifications.get(row).copied(),
+        };
         AlignDocument {
             schema: SCHEMA.into(),
             version: VERSION.into(),
@@ -342,7 +356,7 @@ impl AlignDocument {
             chebyshev: None,
             zones: None,
             pairs: found.residuals.iter().enumerate().map(row).collect(),
-            warnings: found.warnings.iter().map(AlignNote::of).collect(),
+            warnings: AlignNote::of_rows(found, corners),
             seed,
         }
     }

@@ -4,12 +4,12 @@ use crate::results::Word;
 use crate::results::word::named;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use trueness_geom::align::{AlignWarning, Alignment, Freedom, NotCounted};
+use trueness_geom::align::{AMPLIFIED, AlignWarning, Alignment, Freedom, NotCounted, RowFit};
 
 /// Something to be said about an alignment.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct AlignNote {
-    /// `poor`, `ambiguous`, `free`, `normals_turned`, `scale`, `few`, `unconfirmed`, `left_out` or `not_converged`; of an inspection also `size_ratio` and
+    /// `poor`, `ambiguous`, `free`, `normals_turned`, `scale`, `few`, `unconfirmed`, `left_out`, `amplified` or `not_converged`; of an inspection also `size_ratio` and
     /// `hardly_overlapping`.
     pub kind: Word<AlignNoteKind>,
     /// One sentence for people.
@@ -35,6 +35,8 @@ pub enum AlignNoteKind {
     Unconfirmed,
     /// Much of the measured does not count.
     LeftOut,
+    /// Errors of a row move the part many times as far.
+    Amplified,
     /// The iteration did not settle.
     NotConverged,
     /// The measured and the nominal part have different sizes.
@@ -45,7 +47,7 @@ pub enum AlignNoteKind {
 
 impl AlignNoteKind {
     /// All, in the order above.
-    pub const ALL: [AlignNoteKind; 11] = [
+    pub const ALL: [AlignNoteKind; 12] = [
         AlignNoteKind::Poor,
         AlignNoteKind::Ambiguous,
         AlignNoteKind::Free,
@@ -54,6 +56,7 @@ impl AlignNoteKind {
         AlignNoteKind::Few,
         AlignNoteKind::Unconfirmed,
         AlignNoteKind::LeftOut,
+        AlignNoteKind::Amplified,
         AlignNoteKind::NotConverged,
         AlignNoteKind::SizeRatio,
         AlignNoteKind::HardlyOverlapping,
@@ -70,6 +73,7 @@ impl AlignNoteKind {
             AlignNoteKind::Few => "few",
             AlignNoteKind::Unconfirmed => "unconfirmed",
             AlignNoteKind::LeftOut => "left_out",
+            AlignNoteKind::Amplified => "amplified",
             AlignNoteKind::NotConverged => "not_converged",
             AlignNoteKind::SizeRatio => "size_ratio",
             AlignNoteKind::HardlyOverlapping => "hardly_overlapping",
@@ -80,7 +84,10 @@ impl AlignNoteKind {
     /// what was left out, are only told.
     pub fn is_doubt(self) -> bool {
         match self {
-            AlignNoteKind::Free | AlignNoteKind::NormalsTurned | AlignNoteKind::LeftOut => false,
+            AlignNoteKind::Free
+            | AlignNoteKind::NormalsTurned
+            | AlignNoteKind::LeftOut
+            | AlignNoteKind::Amplified => false,
             AlignNoteKind::Poor
             | AlignNoteKind::Ambiguous
             | AlignNoteKind::Scale
@@ -173,6 +180,28 @@ impl AlignNote {
             }
         };
         AlignNote { kind: Word(kind), text }
+    }
+
+    /// Those of an alignment by rows, of a part with these corners.
+    pub fn of_rows(found: &RowFit, corners: &[[f64; 3]]) -> Vec<AlignNote> {
+        let mut notes: Vec<AlignNote> = found.warnings.iter().map(AlignNote::of).collect();
+        let amplified = found.amplifications(corners);
+        let most = amplified.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1));
+        if let Some((row, by)) = most.filter(|(_, by)| **by >= AMPLIFIED) {
+            let rows = amplified.iter().filter(|by| **by >= AMPLIFIED).count();
+            let others = match rows {
+                1 => String::new(),
+                _ => format!(" ({rows} rows are amplified tenfold or more)"),
+            };
+            let text = format!(
+                "row {}: an error of 0.01 mm there moves the farthest corner of the part by {:.3} mm{others}: the places held along its direction \
+                 lie near to each other or to one line; take places that are farther apart, over all of the part",
+                row + 1,
+                0.01 * by
+            );
+            notes.push(AlignNote { kind: Word(AlignNoteKind::Amplified), text });
+        }
+        notes
     }
 
     /// Those of the best fit `from` that a search for the least greatest distance began with, and of what did not count in it. What did not count in the
