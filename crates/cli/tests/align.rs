@@ -317,12 +317,13 @@ fn places_almost_on_a_line_are_told() {
         words.map(|w| w.replace("NOMINAL", nominal.to_str().unwrap()).replace("ROWS", rows.to_str().unwrap()))
     };
     let found = document(words(&near));
-    // The box of the wedge ends at y = 35.
-    assert!((found["pairs"][2]["amplification"].as_f64().unwrap() - 30.0 / 0.4).abs() < 1e-6, "{found}");
+    // The box of the wedge ends at y = 35 and z = 20: 30 and 15 from the axis along x that the other rows leave.
+    let known = (30.0_f64 * 30.0 + 15.0 * 15.0).sqrt() / 0.4;
+    assert!((found["pairs"][2]["amplification"].as_f64().unwrap() - known).abs() < 1e-6, "{found}");
     assert_eq!(found["warnings"][0]["kind"], "amplified", "{found}");
     assert!(found["warnings"][0]["text"].as_str().unwrap().starts_with("row 3:"), "{found}");
     assert!(
-        stdout(&trueness(words(&near))).contains("1 mm of error there moves the farthest corner by 75.00 mm")
+        stdout(&trueness(words(&near))).contains("1 mm of error there moves the farthest corner by 83.85 mm")
     );
     assert_eq!(document(words(&far))["warnings"], serde_json::json!([]));
 }
