@@ -118,8 +118,8 @@ pub fn pairs(measured: &[Point], reference: &[Point], weights: Option<&[f64]>) -
     })
 }
 
-/// What a mirror image may leave of pairs, over what they leave, for them to look mirrored.
-const MIRRORED: f64 = 0.5;
+/// What a mirror image may leave, over what pairs or a best fit leave, for them to look mirrored.
+pub(super) const MIRRORED: f64 = 0.5;
 
 /// The motion of the least weighted sum of squares and the distances that it leaves; `None` where another does as well.
 fn nearest(

@@ -9,8 +9,8 @@ use trueness_geom::align::{AMPLIFIED, AlignWarning, Alignment, Freedom, NotCount
 /// Something to be said about an alignment.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct AlignNote {
-    /// `poor`, `ambiguous`, `free`, `normals_turned`, `scale`, `few`, `unconfirmed`, `left_out`, `amplified` or `not_converged`; of an inspection also `size_ratio` and
-    /// `hardly_overlapping`.
+    /// `poor`, `ambiguous`, `free`, `normals_turned`, `scale`, `few`, `unconfirmed`, `left_out`, `amplified`, `undetermined`, `mirrored` or
+    /// `not_converged`; of an inspection also `size_ratio` and `hardly_overlapping`.
     pub kind: Word<AlignNoteKind>,
     /// One sentence for people.
     pub text: String,
@@ -37,6 +37,10 @@ pub enum AlignNoteKind {
     LeftOut,
     /// Errors of a row move the part many times as far.
     Amplified,
+    /// A motion is not held, and the reference is not the same along it.
+    Undetermined,
+    /// The best fit of a mirror image is much better.
+    Mirrored,
     /// The iteration did not settle.
     NotConverged,
     /// The measured and the nominal part have different sizes.
@@ -47,7 +51,7 @@ pub enum AlignNoteKind {
 
 impl AlignNoteKind {
     /// All, in the order above.
-    pub const ALL: [AlignNoteKind; 12] = [
+    pub const ALL: [AlignNoteKind; 14] = [
         AlignNoteKind::Poor,
         AlignNoteKind::Ambiguous,
         AlignNoteKind::Free,
@@ -57,6 +61,8 @@ impl AlignNoteKind {
         AlignNoteKind::Unconfirmed,
         AlignNoteKind::LeftOut,
         AlignNoteKind::Amplified,
+        AlignNoteKind::Undetermined,
+        AlignNoteKind::Mirrored,
         AlignNoteKind::NotConverged,
         AlignNoteKind::SizeRatio,
         AlignNoteKind::HardlyOverlapping,
@@ -74,6 +80,8 @@ impl AlignNoteKind {
             AlignNoteKind::Unconfirmed => "unconfirmed",
             AlignNoteKind::LeftOut => "left_out",
             AlignNoteKind::Amplified => "amplified",
+            AlignNoteKind::Undetermined => "undetermined",
+            AlignNoteKind::Mirrored => "mirrored",
             AlignNoteKind::NotConverged => "not_converged",
             AlignNoteKind::SizeRatio => "size_ratio",
             AlignNoteKind::HardlyOverlapping => "hardly_overlapping",
@@ -93,6 +101,8 @@ impl AlignNoteKind {
             | AlignNoteKind::Scale
             | AlignNoteKind::Few
             | AlignNoteKind::Unconfirmed
+            | AlignNoteKind::Undetermined
+            | AlignNoteKind::Mirrored
             | AlignNoteKind::NotConverged
             | AlignNoteKind::SizeRatio
             | AlignNoteKind::HardlyOverlapping => true,
@@ -105,7 +115,6 @@ named!(AlignNoteKind, "kind of note", Self::ALL, |kind| kind.name());
 impl AlignNote {
     /// Of a warning.
     pub fn of(warning: &AlignWarning) -> AlignNote {
-        let three = |v: [f64; 3]| format!("({:.3} {:.3} {:.3})", v[0], v[1], v[2]);
         let (kind, text) = match warning {
             AlignWarning::Poor { share } => (
                 AlignNoteKind::Poor,
@@ -125,16 +134,24 @@ impl AlignNote {
                     if *count == 1 { "pose fits about" } else { "poses fit about" }
                 ),
             ),
-            AlignWarning::Free(Freedom::Slides { direction }) => (
-                AlignNoteKind::Free,
-                format!("the shape leaves it free to slide along {}", three(*direction)),
-            ),
-            AlignWarning::Free(Freedom::Turns { point, direction }) => (
-                AlignNoteKind::Free,
+            AlignWarning::Free(motion) => {
+                (AlignNoteKind::Free, format!("the shape leaves it free to {}", way(motion)))
+            }
+            AlignWarning::Undetermined { motion, width } => (
+                AlignNoteKind::Undetermined,
                 format!(
-                    "the shape leaves it free to turn about the axis along {} through {}",
-                    three(*direction),
-                    three(*point)
+                    "the measured does not tell where it lies: it is free to {}{}, and the reference is not the same there; measure a face that \
+                     holds it, or align roughly and --lock it",
+                    way(motion),
+                    width.map_or_else(String::new, |w| format!(", by {w:.3} mm from rim to rim"))
+                ),
+            ),
+            AlignWarning::Mirrored { ratio } => (
+                AlignNoteKind::Mirrored,
+                format!(
+                    "the measured looks mirrored: its mirror image leaves {:.0} % of what it leaves itself; is it a part of the other hand, or \
+                     was the sign of an axis reversed?",
+                    100.0 * ratio
                 ),
             ),
             AlignWarning::NormalsTurned => (
@@ -229,6 +246,17 @@ impl AlignNote {
         );
         notes.push(AlignNote { kind: Word(AlignNoteKind::LeftOut), text });
         notes
+    }
+}
+
+/// A motion in words.
+fn way(motion: &Freedom) -> String {
+    let three = |v: &[f64; 3]| format!("({:.3} {:.3} {:.3})", v[0], v[1], v[2]);
+    match motion {
+        Freedom::Slides { direction } => format!("slide along {}", three(direction)),
+        Freedom::Turns { point, direction } => {
+            format!("turn about the axis along {} through {}", three(direction), three(point))
+        }
     }
 }
 
