@@ -7,7 +7,7 @@
 
 use super::AlignError;
 use super::freedom::{BARELY, HELD, SLIDES, TRIED};
-use super::icp::{MOST, Problem, small_motion};
+use super::icp::{MOST, Match, Problem, small_motion};
 use super::rims::at_rims;
 use super::system::{Six, Spectrum, eigen_six, padded, slope};
 use super::twist::{Twist, inner};
@@ -16,6 +16,8 @@ use crate::progress::Progress;
 use crate::rigid::Rigid;
 use crate::space::minus;
 
+/// Upper quartile of the size of normal errors, in standard deviations.
+const UPPER_QUARTILE: f64 = 1.15;
 /// Standard deviations from a rim within which noise may decide which face is closest.
 const NEAR: f64 = 6.0;
 /// Standard deviations, squared, by which two poses that fit as well may differ: noise brings three motions so far once in 900.
@@ -138,10 +140,10 @@ impl<'a> Place<'a> {
         progress: &dyn Progress,
     ) -> Result<Place<'a>, AlignError> {
         let mut matches = problem.matches(pose, f64::INFINITY, progress)?;
-        let sigma = problem.deviation(&matches);
+        let sigma = spread(&matches);
         problem.weigh(&mut matches, sigma);
         let system = problem.system(&matches, pose);
-        let (sigma, count, radius) = (system.rms(), system.count(), system.radius);
+        let (count, radius) = (system.count(), system.radius);
         let step = TRIED * radius;
         matches.truncate(PART);
         let weight: f64 = matches.iter().map(|m| m.equation.weight).sum();
@@ -237,38 +239,41 @@ impl<'a> Place<'a> {
         Ok(0.0)
     }
 
-    /// The middle of what fits roughly: of chords along the weak directions and between them, one after the other, as a pose in a corner
-    /// of the range has no chord along some of them. `None` where there is no chord. What is held follows.
+    /// The middle of what fits roughly: of chords along the weak directions, one after the other, or, as a pose in a corner of the range has
+    /// none of these, between them. `None` where there is no chord. What is held follows.
     fn middle(&self, progress: &dyn Progress) -> Result<Option<Rigid>, AlignError> {
         let part = self.problem.samples.first(PART);
         let few = Problem { samples: &part, ..*self.problem };
-        let mut chords = self.weak.clone();
+        let mut between = vec![];
         for (i, a) in self.weak.iter().enumerate() {
             for b in &self.weak[..i] {
                 for sign in [-1.0, 1.0] {
                     let sum = std::array::from_fn(|k| std::f64::consts::FRAC_1_SQRT_2 * (a[k] + sign * b[k]));
-                    chords.push(sum);
+                    between.push(sum);
                 }
             }
         }
         let mut pose = self.pose;
-        let mut any = false;
-        for _ in 0..ROUNDS {
-            let mut longest = 0.0_f64;
-            for six in &chords {
+        let mut longest = 0.0_f64;
+        let mut to_middles = |chords: &[Six]| -> Result<bool, AlignError> {
+            let mut any = false;
+            for six in chords {
                 let mut at = Place { problem: &few, pose, weak: vec![], ..*self };
                 at.least = few.cost(&pose, at.cap(), progress)?;
                 let forth = at.rough_way(six, progress)?;
                 let back = at.rough_way(&six.map(|x| -x), progress)?;
+                any |= forth.max(back) > 0.0;
                 longest = longest.max(forth.max(back));
                 pose = at.moved(six, 0.5 * (forth - back));
             }
-            if longest == 0.0 {
+            Ok(any)
+        };
+        for _ in 0..ROUNDS {
+            if !to_middles(&self.weak)? && !to_middles(&between)? {
                 break;
             }
-            any = true;
         }
-        if !any {
+        if longest == 0.0 {
             return Ok(None);
         }
         let there = Place::new(self.problem, &pose, progress)?;
@@ -311,6 +316,17 @@ impl<'a> Place<'a> {
         }
         (at, inner(&way, &way).sqrt())
     }
+}
+
+/// The standard deviation of the distances, from their upper quartile: of points in a face that noise moved out of a wall, half lie within it
+/// exactly.
+fn spread(matches: &[Match]) -> f64 {
+    let mut distances: Vec<f64> = matches.iter().map(|m| m.distance).filter(|d| d.is_finite()).collect();
+    if distances.is_empty() {
+        return 0.0;
+    }
+    let quarter = distances.len() * 3 / 4;
+    *distances.select_nth_unstable_by(quarter, f64::total_cmp).1 / UPPER_QUARTILE
 }
 
 /// The directions that are held by less than `enough`. Slides are parted from turns, and either are taken apart by how well they are held.

@@ -41,14 +41,18 @@ impl<'a> Settle<'a> {
         progress: &dyn Progress,
     ) -> Result<Alignment, AlignError> {
         let Settle { work, all, surface, part, some } = self;
-        let reach = work.reach(sigma);
+        let mut reach = work.reach(sigma);
         // What does not settle on some of them does not on all, which would take as many times as long.
         let few = work.problem(some);
         let begun = few.run(pose, reach, MOST, progress)?;
         let most = if begun.converged { LAST } else { FEW_ROUNDS };
-        let loose;
-        (pose, loose) = explore(&few, &begun.pose, &work.start(), progress)?;
-        let stay = if loose.ends { loose.untold() } else { vec![] };
+        let (within, loose) = explore(&few, &begun.pose, &work.start(), progress)?;
+        pose = within;
+        let mut stay = vec![];
+        if loose.ends {
+            // Elsewhere the distances are others.
+            (stay, reach) = (loose.untold(), f64::INFINITY);
+        }
         let staying = |problem: &Problem<'a>| Problem { stay: &stay, ..*problem };
         let all = &staying(all);
         if let Some(part) = part {

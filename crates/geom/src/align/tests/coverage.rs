@@ -1,6 +1,6 @@
 //! How often the stated uncertainty holds the true pose.
 
-use super::parts::{block, bracket, moved, normal, random_pose};
+use super::parts::{block, bracket, normal};
 use crate::align::{Alignment, BestFit, Measured, Start, Target, best_fit};
 use crate::closest::Tree;
 use crate::mesh::Mesh;
@@ -8,6 +8,10 @@ use crate::num::random::Random;
 use crate::progress::Silent;
 use crate::rigid::Rigid;
 use crate::space::{Point, Vector, cross, dot, minus, plus, times, unit};
+
+/// Views of each part, and scans from each.
+const VIEWS: usize = 40;
+const TRIALS: usize = 4;
 
 /// Places on the facets that look along `view`, every so many of area, with white noise in all directions or waves.
 fn view(mesh: &Mesh, view: Vector, count: usize, noise: f64, wave: f64, random: &mut Random) -> Vec<Point> {
@@ -76,25 +80,26 @@ fn held(
     [within as f64, squares].map(|x| x / (6 * trials) as f64)
 }
 
+/// Views from any side, of noise and of waves of form: the block is held at its rims by few points in some of them.
 #[test]
 fn views_of_one_side_hold_what_they_say() {
     let random = &mut Random::new(8);
-    let looks: [Vector; 4] = [[0.2, 0.1, 1.0], [0.6, 0.5, 0.6], [-0.9, 0.2, 0.4], [0.1, -1.0, 0.3]];
     let block = block([0.0; 3], [60.0, 40.0, 15.0], 60.0);
-    let (mut all, mut cases) = (0.0, 0.0);
-    for (name, part) in [("bracket", bracket(200.0)), ("block", block)] {
-        for looks in looks {
-            let share = held(&part, unit(looks).unwrap().0, [2000, 40], 0.01, 0.0, random);
-            println!("{name} {looks:?}: {:.3} squares {:.2}", share[0], share[1]);
-            all += share[0];
-            cases += 1.0;
+    let mut shares = vec![];
+    for (name, part, wave) in [("block", &block, 0.0), ("bracket", &bracket(200.0), 0.0), ("block", &block, 0.01)] {
+        let (mut all, mut squares) = (0.0, 0.0);
+        for _ in 0..VIEWS {
+            let looks = std::array::from_fn(|_| normal(random));
+            let share = held(part, unit(looks).unwrap().0, [1000, TRIALS], 0.01, wave, random);
+            all += share[0] / VIEWS as f64;
+            squares += share[1] / VIEWS as f64;
         }
+        println!("{name}, waves of {wave}: {all:.3} hold, squares {squares:.2}");
+        shares.push(all);
     }
-    println!("all {:.3}", all / cases);
-    for looks in looks {
-        let share =
-            held(&moved(&bracket(200.0), &random_pose(random, 0.0)), looks, [2000, 20], 0.005, 0.01, random);
-        println!("waves {looks:?}: {:.3} squares {:.2}", share[0], share[1]);
-    }
-    assert!((0.93..0.97).contains(&(all / cases)), "{}", all / cases);
+    assert!(shares.iter().all(|share| *share > 0.93), "{shares:?}");
+    // The views that hold least: three faces, one of them seen flat.
+    let share = held(&block, unit([0.6, 0.5, 0.6]).unwrap().0, [2000, 40], 0.01, 0.0, random);
+    println!("three faces: {share:?}");
+    assert!(share[0] > 0.92, "{share:?}");
 }
