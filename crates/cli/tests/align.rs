@@ -373,7 +373,8 @@ fn walls_alone_leave_their_height_free() {
     }
     // What follows from such a pose is no verdict.
     let scan = folder.file("scan.xyz");
-    let words = ["compare", scan.to_str().unwrap(), nominal.to_str().unwrap(), "--align", "--tolerance", "0.1"];
+    let words =
+        ["compare", scan.to_str().unwrap(), nominal.to_str().unwrap(), "--align", "--tolerance", "0.1"];
     let compared = document(words.into_iter().chain(["--min-coverage", "0"]));
     let found = &compared["comparisons"][0];
     assert_eq!(found["verdict"], "undecided", "{found}");

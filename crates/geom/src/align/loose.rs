@@ -134,11 +134,7 @@ struct Place<'a> {
 }
 
 impl<'a> Place<'a> {
-    fn new(
-        problem: &'a Problem<'a>,
-        pose: &Rigid,
-        progress: &dyn Progress,
-    ) -> Result<Place<'a>, AlignError> {
+    fn new(problem: &'a Problem<'a>, pose: &Rigid, progress: &dyn Progress) -> Result<Place<'a>, AlignError> {
         let mut matches = problem.matches(pose, f64::INFINITY, progress)?;
         let sigma = spread(&matches);
         problem.weigh(&mut matches, sigma);
@@ -156,8 +152,7 @@ impl<'a> Place<'a> {
         let spectrum = Spectrum::without(&inside, &problem.stays(&inside, pose));
         let center = inside.center;
         let weak = weak(&spectrum, HELD * weight);
-        let mut place =
-            Place { problem, pose: *pose, center, radius, step, sigma, count, least: 0.0, weak };
+        let mut place = Place { problem, pose: *pose, center, radius, step, sigma, count, least: 0.0, weak };
         if !place.weak.is_empty() {
             place.least = problem.cost(pose, place.cap(), progress)?;
         }

@@ -25,9 +25,8 @@ pub(super) fn at_rims(
     let mut normals = vec![];
     for way in 0..WAYS {
         let there: Vec<Point> = matches.iter().map(|m| aside(m, way, reach)).collect();
-        let of_hit = |i: usize, hit: Option<Hit>| {
-            hit.and_then(|hit| normal_of(&tree.foot(&there[i], &hit).corners))
-        };
+        let of_hit =
+            |i: usize, hit: Option<Hit>| hit.and_then(|hit| normal_of(&tree.foot(&there[i], &hit).corners));
         tree.map_closest_into(&there, &Query::default(), progress, of_hit, &mut normals)?;
         for ((at_rim, m), normal) in all.iter_mut().zip(matches).zip(&normals) {
             *at_rim |= normal.is_none_or(|n| dot(n, m.facet).abs() < BENT);

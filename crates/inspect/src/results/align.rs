@@ -288,7 +288,11 @@ impl AlignDocument {
             converged: found.converged,
             degrees_of_freedom: 6 - found.freedoms.len().min(6) as u64,
             free: found.freedoms.iter().map(FreeMotion::from).collect(),
-            slack: found.slack.iter().map(|(f, width)| SlackMotion { motion: f.into(), width: *width }).collect(),
+            slack: found
+                .slack
+                .iter()
+                .map(|(f, width)| SlackMotion { motion: f.into(), width: *width })
+                .collect(),
             lock: None,
             best_fit: Some(BestFitRecord {
                 median: found.median,

@@ -86,7 +86,9 @@ fn views_of_one_side_hold_what_they_say() {
     let random = &mut Random::new(8);
     let block = block([0.0; 3], [60.0, 40.0, 15.0], 60.0);
     let mut shares = vec![];
-    for (name, part, wave) in [("block", &block, 0.0), ("bracket", &bracket(200.0), 0.0), ("block", &block, 0.01)] {
+    for (name, part, wave) in
+        [("block", &block, 0.0), ("bracket", &bracket(200.0), 0.0), ("block", &block, 0.01)]
+    {
         let (mut all, mut squares) = (0.0, 0.0);
         for _ in 0..VIEWS {
             let looks = std::array::from_fn(|_| normal(random));

@@ -167,7 +167,8 @@ fn a_key_holds_the_turn() {
         let shaft = keyed(false);
         let mut points: Vec<Point> = vec![];
         for k in 0..4000 {
-            let (t, z) = (std::f64::consts::TAU * (f64::from(k) + random.unit()) / 4000.0, 40.0 * random.unit());
+            let (t, z) =
+                (std::f64::consts::TAU * (f64::from(k) + random.unit()) / 4000.0, 40.0 * random.unit());
             let r = 10.0 * libm::cos(std::f64::consts::PI / 64.0) + noise * normal(random);
             // Off the key.
             if libm::fabs(r * libm::sin(t)) > 1.2 || t > 1.6 && t < 4.7 {
@@ -179,7 +180,11 @@ fn a_key_holds_the_turn() {
             points.push([r * libm::cos(t), r * libm::sin(t), 40.0 * f64::from(k % 2)]);
         }
         let flanks = (0..60).map(|k| {
-            [10.2 + 1.6 * random.unit(), f64::from(2 * (k % 2) - 1) + noise * normal(random), 11.0 + 18.0 * random.unit()]
+            [
+                10.2 + 1.6 * random.unit(),
+                f64::from(2 * (k % 2) - 1) + noise * normal(random),
+                11.0 + 18.0 * random.unit(),
+            ]
         });
         let flanks: Vec<Point> = flanks.collect();
         let start = Start::Given(Rigid::IDENTITY);

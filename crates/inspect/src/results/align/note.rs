@@ -137,15 +137,9 @@ impl AlignNote {
             AlignWarning::Free(motion) => {
                 (AlignNoteKind::Free, format!("the shape leaves it free to {}", way(motion)))
             }
-            AlignWarning::Undetermined { motion, width } => (
-                AlignNoteKind::Undetermined,
-                format!(
-                    "the measured does not tell where it lies: it is free to {}{}, and the reference is not the same there; measure a face that \
-                     holds it, or align roughly and --lock it",
-                    way(motion),
-                    width.map_or_else(String::new, |w| format!(", by {w:.3} mm from rim to rim"))
-                ),
-            ),
+            AlignWarning::Undetermined { motion, width } => {
+                (AlignNoteKind::Undetermined, undetermined(motion, *width))
+            }
             AlignWarning::Mirrored { ratio } => (
                 AlignNoteKind::Mirrored,
                 format!(
@@ -258,6 +252,16 @@ fn way(motion: &Freedom) -> String {
             format!("turn about the axis along {} through {}", three(direction), three(point))
         }
     }
+}
+
+/// What is said of a motion that is not held.
+fn undetermined(motion: &Freedom, width: Option<f64>) -> String {
+    let by = width.map_or_else(String::new, |w| format!(", by {w:.3} mm from rim to rim"));
+    format!(
+        "the measured does not tell where it lies: it is free to {}{by}, and the reference is not the same there; measure a face that holds \
+         it, or align roughly and start --from-here with --lock",
+        way(motion)
+    )
 }
 
 /// What is said of rows of places that do not fit.
