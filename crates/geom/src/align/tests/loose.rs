@@ -110,17 +110,9 @@ fn walls_alone_do_not_hold_their_height_and_nothing_tilts() {
         let slides = told(&found)[0] == 1;
         let well = slides && tilt(&off) <= tilted && beside < 3.0 * noise + 1e-2;
         let spoken = slides || found.warnings.iter().any(|w| !matches!(w, AlignWarning::Free(_)));
-        println!(
-            "{trial} {well} half {half} band {band:.2} noise {noise} {start:?}: tilt {:.1e} beside {beside:.1e} told {:?} slack {:?} {:?}",
-            tilt(&off),
-            told(&found),
-            found.slack.iter().map(|s| s.1).collect::<Vec<f64>>(),
-            found.warnings
-        );
         right += usize::from(well);
         silent += usize::from(!spoken);
     }
-    println!("walls: right {right} silent {silent} of 24");
     assert!(right >= 20 && silent == 0, "{right} {silent}");
 }
 
@@ -138,11 +130,9 @@ fn a_contour_from_anywhere_is_told() {
         let off = found.reference_from_measured.after(&pose);
         let spoken = told(&found)[0] > 0;
         let well = spoken && tilt(&off) < 0.02;
-        println!("{trial} {well}: tilt {:.1e} {:?} {:?}", tilt(&off), told(&found), found.warnings);
         right += usize::from(well);
         silent += usize::from(found.warnings.is_empty());
     }
-    println!("contours: right {right} silent {silent} of 8");
     assert!(right >= 6 && silent == 0, "{right} {silent}");
 }
 
@@ -162,7 +152,7 @@ fn keyed(key: bool) -> Mesh {
 fn a_key_holds_the_turn() {
     let random = &mut Random::new(9);
     let with = keyed(true);
-    for trial in 0..6 {
+    for trial in 0..4 {
         let noise = [0.002, 0.01][trial % 2];
         let shaft = keyed(false);
         let mut points: Vec<Point> = vec![];
@@ -189,13 +179,10 @@ fn a_key_holds_the_turn() {
         let flanks: Vec<Point> = flanks.collect();
         let start = Start::Given(Rigid::IDENTITY);
         let seen = fit(&[points.clone(), flanks].concat(), &with, start);
-        println!("{trial} seen {:?} {:?}", seen.warnings, seen.slack);
         assert!(seen.freedoms.is_empty() && seen.slack.is_empty(), "{trial}: {:?}", seen.warnings);
         let unseen = fit(&points, &with, start);
-        println!("{trial} unseen {:?}", unseen.warnings);
         assert!(told(&unseen)[1] == 1, "{trial}: {:?}", unseen.warnings);
         let whole = fit(&points, &shaft, start);
-        println!("{trial} whole {:?}", whole.warnings);
         assert!(told(&whole) == [0, 0], "{trial}: {:?}", whole.warnings);
     }
 }
