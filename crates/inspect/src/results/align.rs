@@ -216,7 +216,7 @@ pub struct SlackMotion {
     /// The motion.
     #[serde(flatten)]
     pub motion: FreeMotion,
-    /// How far the measured may go from end to end, root mean square; within it any pose fits as well.
+    /// How far the measured may go at least, root mean square; within it any pose fits as well.
     pub width: f64,
 }
 

@@ -121,7 +121,7 @@ fn walls_alone_do_not_hold_their_height_and_nothing_tilts() {
 fn a_contour_from_anywhere_is_told() {
     let random = &mut Random::new(17);
     let (mut right, mut silent) = (0, 0);
-    for trial in 0..8 {
+    for _ in 0..8 {
         let reference = prism(&ELL, [-1.0, 1.0]);
         let pose = random_pose(random, 100.0);
         let points: Vec<Point> =

@@ -256,7 +256,7 @@ fn way(motion: &Freedom) -> String {
 
 /// What is said of a motion that is not held.
 fn undetermined(motion: &Freedom, width: Option<f64>) -> String {
-    let by = width.map_or_else(String::new, |w| format!(", by {w:.3} mm from rim to rim"));
+    let by = width.map_or_else(String::new, |w| format!(", by {w:.3} mm at least"));
     format!(
         "the measured does not tell where it lies: it is free to {}{by}, and the reference is not the same there; measure a face that holds \
          it, or align roughly and start --from-here with --lock",
