@@ -296,3 +296,132 @@ fn the_least_greatest_excess_over_tolerances() {
     assert_eq!(status(&trueness(words)), 2);
     assert_eq!(status(&trueness(["align", scan, block, "--tolerance", "0.1"])), 2);
 }
+
+#[test]
+fn places_almost_on_a_line_are_told() {
+    let folder = Folder::new();
+    let part = wedge();
+    let nominal = folder.write("nominal.off", part.text(&Rigid::IDENTITY));
+    let rows = [
+        "5 5 0 5 5 0 0 0 1",
+        "55 5 0 55 5 0 0 0 1",
+        "30 5.4 0 30 5.4 0 0 0 1",
+        "5 0 5 5 0 5 0 1 0",
+        "55 0 5 55 0 5 0 1 0",
+        "0 25 5 0 25 5 1 0 0",
+    ];
+    let near = folder.write("near.txt", rows.join("\n"));
+    let far = folder.write("far.txt", rows.join("\n").replace("5.4", "20"));
+    let words = |rows: &std::path::Path| {
+        let words = ["align", "NOMINAL", "NOMINAL", "--method", "3-2-1", "--points", "ROWS"];
+        words.map(|w| w.replace("NOMINAL", nominal.to_str().unwrap()).replace("ROWS", rows.to_str().unwrap()))
+    };
+    let found = document(words(&near));
+    // The box of the wedge ends at y = 35 and z = 20: 30 and 15 from the axis along x that the other rows leave.
+    let known = (30.0_f64 * 30.0 + 15.0 * 15.0).sqrt() / 0.4;
+    assert!((found["pairs"][2]["amplification"].as_f64().unwrap() - known).abs() < 1e-6, "{found}");
+    assert_eq!(found["warnings"][0]["kind"], "amplified", "{found}");
+    assert!(found["warnings"][0]["text"].as_str().unwrap().starts_with("row 3:"), "{found}");
+    assert!(
+        stdout(&trueness(words(&near))).contains("1 mm of error there moves the farthest corner by 83.85 mm")
+    );
+    assert_eq!(document(words(&far))["warnings"], serde_json::json!([]));
+}
+
+/// Points of the walls of the wedge, which lie along z, between two heights, moved up.
+fn walls_of_a_block([low, high]: [f64; 2]) -> String {
+    let mut text = String::new();
+    for k in 0..1200 {
+        let (side, along) = (k % 4, f64::from(k / 4) / 300.0);
+        let z = low + (high - low) * (f64::from(k * 7 % 300) / 299.0);
+        let [x, y] = [[60.0 * along, 0.0], [60.0, 35.0 * along], [60.0 * along, 35.0], [0.0, 35.0 * along]]
+            [side as usize];
+        // The third wall is cut off, so that no half turn fits as well.
+        if side != 2 || x < 25.0 {
+            text += &format!("{x} {y} {z}\n");
+        }
+    }
+    text
+}
+
+#[test]
+fn walls_alone_leave_their_height_free() {
+    let folder = Folder::new();
+    let block = Off {
+        points: (0..8)
+            .map(|k| [60.0 * f64::from(k % 2), 35.0 * f64::from(k / 2 % 2), 12.0 * f64::from(k / 4)])
+            .collect(),
+        faces: CUBE.lines().filter(|l| l.starts_with("3 ")).map(str::to_string).collect(),
+    };
+    let nominal = folder.write("nominal.off", block.text(&Rigid::IDENTITY));
+    // A band that ends at a rim, and one in between.
+    for (heights, more) in [([9.0, 12.0], 0.0), ([3.0, 6.0], 0.0), ([3.0, 6.0], 20.0)] {
+        let points = walls_of_a_block([heights[0] + more, heights[1] + more]);
+        let scan = folder.write("scan.xyz", points);
+        let words =
+            ["align", scan.to_str().unwrap(), nominal.to_str().unwrap(), "--from-here", "--keep-outliers"];
+        let found = document(words);
+        let motions = [&found["free"][0], &found["slack"][0]];
+        assert!(motions.iter().any(|m| m["kind"] == "slides"), "{found}");
+        assert_eq!(found["warnings"][0]["kind"], "undetermined", "{found}");
+        assert_eq!(status(&trueness(words)), 1);
+        let motion = transform(&found);
+        assert!(motion.angle() < 1e-4, "{found}");
+        let z = motion.translation()[2];
+        assert!(more > 0.0 || z.abs() < 2e-3, "{z}");
+        assert!(heights[0] + more + z > -1e-3 && heights[1] + more + z < 12.0 + 1e-3, "{z}");
+    }
+    // What follows from such a pose is no verdict.
+    let scan = folder.file("scan.xyz");
+    let words =
+        ["compare", scan.to_str().unwrap(), nominal.to_str().unwrap(), "--align", "--tolerance", "0.1"];
+    let compared = document(words.into_iter().chain(["--min-coverage", "0"]));
+    let found = &compared["comparisons"][0];
+    assert_eq!(found["verdict"], "undecided", "{found}");
+    assert_eq!(found["verdict_reasons"][0]["kind"], "alignment", "{found}");
+}
+
+#[test]
+fn axes_are_locked_from_here() {
+    let folder = Folder::new();
+    let part = wedge();
+    let pose = Rigid::translation_by([0.2, -0.1, 0.3]);
+    let scan = folder.write("scan.off", part.text(&pose));
+    let nominal = folder.write("nominal.off", part.text(&Rigid::IDENTITY));
+    let words = ["align", scan.to_str().unwrap(), nominal.to_str().unwrap()];
+    let found = document(words.into_iter().chain(["--from-here", "--lock", "tx,rx,ry,rz"]));
+    let motion = transform(&found);
+    assert!(motion.angle() < 1e-12 && motion.translation()[0].abs() < 1e-12, "{found}");
+    assert_eq!(found["lock"]["axes"], serde_json::json!(["tx", "rx", "ry", "rz"]));
+    assert_eq!(found["degrees_of_freedom"], 2);
+    for (more, why) in [
+        (vec!["--lock", "tz"], "--from-here"),
+        (vec!["--from-here", "--lock", "tz", "--method", "chebyshev"], "--lock is for --method best-fit"),
+        (vec!["--from-here", "--lock", "up"], "possible values: tx"),
+    ] {
+        let answer = trueness(words.into_iter().chain(more));
+        assert_eq!(status(&answer), 2, "{why}");
+        assert!(stderr(&answer).contains(why), "{why}: {}", stderr(&answer));
+    }
+}
+
+#[test]
+fn a_mirrored_part_is_named_and_has_status_1() {
+    let folder = Folder::new();
+    // Far from its own mirror image.
+    let mut part = wedge();
+    part.points[5][2] = 45.0;
+    let mut other = wedge();
+    other.points.clone_from(&part.points);
+    other.points.iter_mut().for_each(|p| p[2] = -p[2]);
+    for face in &mut other.faces {
+        let words: Vec<String> = face.split_whitespace().map(str::to_string).collect();
+        *face = format!("3 {} {} {}", words[1], words[3], words[2]);
+    }
+    let scan = folder.write("scan.off", other.text(&motion()));
+    let nominal = folder.write("nominal.off", part.text(&Rigid::IDENTITY));
+    let words = ["align", scan.to_str().unwrap(), nominal.to_str().unwrap()];
+    let answer = trueness(words);
+    assert_eq!(status(&answer), 1, "{}", stdout(&answer));
+    assert!(stdout(&answer).contains("looks mirrored"), "{}", stdout(&answer));
+}

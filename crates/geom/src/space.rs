@@ -117,6 +117,12 @@ impl Aabb {
     pub fn diagonal(&self) -> f64 {
         if self.is_empty() { 0.0 } else { norm(self.sides()) }
     }
+    /// Its eight corners.
+    pub fn corners(&self) -> [Point; 8] {
+        let corner =
+            |i: usize| std::array::from_fn(|k| if i >> k & 1 == 0 { self.min[k] } else { self.max[k] });
+        std::array::from_fn(corner)
+    }
     /// True if it holds no point.
     pub fn is_empty(&self) -> bool {
         (0..3).any(|k| self.min[k] > self.max[k])

@@ -14,7 +14,7 @@ use clap::{Args, ValueEnum};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use trueness_files::write::{self, Block, Layout, Writable};
-use trueness_geom::align::{self, AlignError, BestFit, Measured, Row, RowFit, Start, Target};
+use trueness_geom::align::{self, AlignError, BestFit, Lock, Measured, Row, RowFit, Start, Target};
 use trueness_geom::closest::Tree;
 use trueness_geom::deviation::surface::{ReferenceSurface, SurfaceOptions};
 use trueness_geom::mesh::Mesh;
@@ -29,13 +29,14 @@ use trueness_inspect::results::{InputRecord, Role};
 /// The best fit has the least mean square distance to the surface of the reference, weighted by area where the scan is a
 /// mesh; outliers do not count. Whole and partial scans, meshes and points.
 #[derive(Args, Debug)]
-#[command(after_help = exit::help("the result cannot be relied on: poor, ambiguous, of a wrong unit, of few points or not settled, or out of tolerance; files are written all the same", "\
+#[command(after_help = exit::help("the result cannot be relied on: poor, ambiguous, mirrored, not held by what was measured, of a wrong unit, of few points or not settled, or out of tolerance; files are written all the same", "\
 Tables of --points, one row a line, mm: of pairs, x y z measured and x y z of the reference; of 3-2-1 and rps, these six and
 the direction in which the point is held. A last column, if there, is the weight.
 
 Examples:
   trueness align scan.stl nominal.stl -o aligned.stl
   trueness align scan.ply nominal.stl --json transform.json
+  trueness align scan.stl nominal.stl --from-here --lock tz,rx,ry -o aligned.stl
   trueness align scan.stl nominal.stl --method chebyshev -o aligned.stl
   trueness align scan.stl nominal.stl --method zones --tolerance 0.2 --regions regions.toml -o aligned.stl
   trueness align scan.stl nominal.stl --method rps --points rps.csv -o aligned.stl"))]
@@ -62,6 +63,10 @@ pub struct AlignArgs {
     /// Start from the pose in the files instead of looking for one
     #[arg(long)]
     from_here: bool,
+    /// Components of the motion from here that stay zero: tx, ty, tz of the translation of the middle of the scan, rx, ry, rz of the rotation
+    /// about it, in the frame of the reference; for best-fit
+    #[arg(long, value_delimiter = ',', value_name = "AXES", requires = "from_here")]
+    lock: Vec<LockArg>,
     /// Let all points count, however far off they are
     #[arg(long)]
     keep_outliers: bool,
@@ -88,6 +93,17 @@ enum MethodArg {
     ThreeTwoOne,
     /// A reference point system: rows held along their directions, by weight.
     Rps,
+}
+
+/// A component of a motion, in the order of [`Lock::axes`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum LockArg {
+    Tx,
+    Ty,
+    Tz,
+    Rx,
+    Ry,
+    Rz,
 }
 
 fn out_help() -> String {
@@ -166,6 +182,10 @@ fn run(args: &AlignArgs, common: &Common) -> anyhow::Result<Outcome> {
             Usage("--points is for the methods pairs, 3-2-1 and rps; name one by --method".into()).into()
         );
     }
+    if args.method != MethodArg::BestFit && !args.lock.is_empty() {
+        let why = "the other methods begin with a best fit of all six degrees of freedom, or take the rows of a table";
+        return Err(Usage(format!("--lock is for --method best-fit: {why}")).into());
+    }
     let mut scan = Scan::open(args)?;
     if let Some(path) = &args.out {
         scan.holds().check(path)?;
@@ -183,7 +203,8 @@ fn run(args: &AlignArgs, common: &Common) -> anyhow::Result<Outcome> {
                 MethodArg::ThreeTwoOne => "3-2-1",
                 MethodArg::Rps => "rps",
             };
-            AlignDocument::of_rows(&found, name, records, common.seed)
+            let corners = reference.mesh.bounds().corners();
+            AlignDocument::of_rows(&found, name, &corners, records, common.seed)
         }
         (None, _) => best_fit(args, &scan, &reference.mesh, records, common)?,
     };
@@ -218,6 +239,10 @@ fn best_fit(
         start: if args.from_here { Start::Given(Rigid::IDENTITY) } else { Start::Anywhere },
         robust: !args.keep_outliers,
         seed: common.seed,
+        lock: (!args.lock.is_empty()).then(|| {
+            let axes = std::array::from_fn(|k| args.lock.iter().any(|axis| *axis as usize == k));
+            Lock::new(axes, &measured, Rigid::IDENTITY)
+        }),
     };
     let target = Target::new(reference, &tree);
     let failed = |e: AlignError| match e {
@@ -240,7 +265,13 @@ fn best_fit(
             let found = align::into_zones(&measured, &target, &surface, &zones, &fit, &options, &stage);
             Ok(AlignDocument::of_zones(&found.map_err(failed)?, &fit, records, common.seed))
         }
-        _ => Ok(AlignDocument::of_best_fit(&fit, records, common.seed)),
+        _ => {
+            let document = AlignDocument::of_best_fit(&fit, records, common.seed);
+            Ok(match &options.lock {
+                Some(lock) => document.with_lock(lock),
+                None => document,
+            })
+        }
     }
 }
 
@@ -318,6 +349,46 @@ fn table(document: &AlignDocument, loss: Option<&str>) -> String {
         settled,
         counted(document.iterations, ["step", "steps"])
     );
+    if let Some(lock) = &document.lock {
+        let [x, y, z] = lock.center.map(six_digits);
+        let _ = writeln!(out, "locked: {}, about {x}, {y}, {z}", lock.axes.join(", "));
+    }
+    searched(document, &mut out);
+    if let Some(fit) = &document.best_fit {
+        let _ = writeln!(
+            out,
+            "{} count, {} left out   share of the surface {} %   median {}",
+            counted(fit.used, POINTS),
+            grouped(fit.left_out),
+            fixed(100.0 * fit.share, 1),
+            six_digits(fit.median)
+        );
+        let u = fit.std_uncertainty;
+        let degrees = [0, 1, 2].map(|k| scientific(u[k].to_degrees(), 1)).join(" ");
+        let lengths = [3, 4, 5].map(|k| scientific(u[k], 1)).join(" ");
+        let _ = writeln!(out, "standard uncertainty: rotation {degrees} degrees, translation {lengths} mm");
+    }
+    for pair in &document.pairs {
+        let amplified = pair
+            .amplification
+            .map(|by| format!("   1 mm of error there moves the farthest corner by {} mm", fixed(by, 2)));
+        let _ = writeln!(
+            out,
+            "row {}: {}{}",
+            pair.row + 1,
+            six_digits(pair.residual),
+            amplified.unwrap_or_default()
+        );
+    }
+    for warning in &document.warnings {
+        let _ = writeln!(out, "! {}", warning.text);
+    }
+    out.extend(loss.map(|text| format!("{text}\n")));
+    out
+}
+
+/// What a search that began with the best fit found.
+fn searched(document: &AlignDocument, out: &mut String) {
     if let Some(found) = &document.chebyshev {
         let [x, y, z] = found.at.map(six_digits);
         let _ = writeln!(
@@ -355,26 +426,4 @@ fn table(document: &AlignDocument, loss: Option<&str>) -> String {
             "{within}, {without} at places without a tolerance, {left_out} left out in the search; of the best fit:"
         );
     }
-    if let Some(fit) = &document.best_fit {
-        let _ = writeln!(
-            out,
-            "{} count, {} left out   share of the surface {} %   median {}",
-            counted(fit.used, POINTS),
-            grouped(fit.left_out),
-            fixed(100.0 * fit.share, 1),
-            six_digits(fit.median)
-        );
-        let u = fit.std_uncertainty;
-        let degrees = [0, 1, 2].map(|k| scientific(u[k].to_degrees(), 1)).join(" ");
-        let lengths = [3, 4, 5].map(|k| scientific(u[k], 1)).join(" ");
-        let _ = writeln!(out, "standard uncertainty: rotation {degrees} degrees, translation {lengths} mm");
-    }
-    for pair in &document.pairs {
-        let _ = writeln!(out, "row {}: {}", pair.row + 1, six_digits(pair.residual));
-    }
-    for warning in &document.warnings {
-        let _ = writeln!(out, "! {}", warning.text);
-    }
-    out.extend(loss.map(|text| format!("{text}\n")));
-    out
 }

@@ -1,6 +1,7 @@
 //! How a best fit is asked for, and what it gives.
 
 use super::freedom::Freedom;
+use super::twist::Lock;
 use crate::rigid::Rigid;
 use crate::space::Point;
 
@@ -23,11 +24,13 @@ pub struct BestFit {
     pub robust: bool,
     /// Seed of the random choices.
     pub seed: u64,
+    /// Components of the motion that stay zero; `None` for a motion that is looked for.
+    pub lock: Option<Lock>,
 }
 
 impl Default for BestFit {
     fn default() -> Self {
-        BestFit { start: Start::Anywhere, robust: true, seed: 0 }
+        BestFit { start: Start::Anywhere, robust: true, seed: 0, lock: None }
     }
 }
 
@@ -44,6 +47,9 @@ pub struct Alternative {
 
 /// Share of the size from which on what is left of a fit is poor.
 pub(super) const POOR: f64 = 0.01;
+
+/// Ratios of units that are confused.
+pub(super) const UNITS: [f64; 6] = [25.4, 1.0 / 25.4, 10.0, 0.1, 1000.0, 1e-3];
 
 /// What is to be said about an alignment.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -71,8 +77,15 @@ pub enum AlignWarning {
         /// How many were found.
         count: usize,
     },
-    /// The shape leaves this freedom.
+    /// The shape leaves this freedom, and the reference is the same along it.
     Free(Freedom),
+    /// The measured does not hold this motion, though the reference is not the same along it: where it lies is not known.
+    Undetermined {
+        /// The motion.
+        motion: Freedom,
+        /// How far it may go from end to end until a rim, root mean square, millimeters; `None` where none was met.
+        width: Option<f64>,
+    },
     /// The normals of the measured and of the reference point to opposite sides.
     NormalsTurned,
     /// The measured fits when it is made this many times as large.
@@ -100,6 +113,11 @@ pub enum AlignWarning {
         farthest: f64,
         /// Distance from which on nothing counts, millimeters.
         limit: f64,
+    },
+    /// The mirror image of the measured fits much better.
+    Mirrored {
+        /// Root mean square distance that it leaves over what the measured leaves, no distance counted for more than twenty standard deviations.
+        ratio: f64,
     },
     /// The iteration did not settle.
     NotConverged,
@@ -136,6 +154,8 @@ pub struct Alignment {
     pub condition: Option<f64>,
     /// Motions that the shape leaves free.
     pub freedoms: Vec<Freedom>,
+    /// Motions that rims alone hold, with the way from end to end, root mean square, millimeters: within it any pose fits as well.
+    pub slack: Vec<(Freedom, f64)>,
     /// Other poses that fit nearly as well, best first.
     pub alternatives: Vec<Alternative>,
     /// What is to be said about it.

@@ -71,7 +71,7 @@ impl Work<'_> {
             let apart = |p: &Rigid| search.apart(p, &other) > search.spacing;
             let between = other.after(&pose.inverse());
             let new = apart(&pose) && found.iter().all(|f| apart(&f.reference_from_measured));
-            if ratio <= AS_WELL && new && !allowed(&between, &result.freedoms, search.spacing) {
+            if ratio <= AS_WELL && new && !allowed(&between, &unheld(result), search.spacing) {
                 found.push(Alternative { reference_from_measured: other, angle: between.angle(), ratio });
             }
         }
@@ -123,7 +123,12 @@ pub(super) fn better(search: &Search, result: &Alignment) -> Option<Rigid> {
 pub(super) fn is_same(search: &Search, result: &Alignment, pose: &Rigid) -> bool {
     let own = result.reference_from_measured;
     let between = pose.after(&own.inverse());
-    search.apart(pose, &own) <= search.spacing || allowed(&between, &result.freedoms, search.spacing)
+    search.apart(pose, &own) <= search.spacing || allowed(&between, &unheld(result), search.spacing)
+}
+
+/// The motions that are free, and those that rims alone hold.
+fn unheld(result: &Alignment) -> Vec<Freedom> {
+    result.freedoms.iter().copied().chain(result.slack.iter().map(|s| s.0)).collect()
 }
 
 /// Whether a motion is one of those that the shape leaves free, to within `tolerance` of its axes.

@@ -61,6 +61,8 @@ impl Counting {
             robust: options.robust,
             radius: moments.radius(),
             rounding: 4.0 * f64::EPSILON * moments.radius().max(reference.bounds.diagonal()),
+            stay: &[],
+            lock: None,
         };
         let matches = problem.matches(&from.reference_from_measured, f64::INFINITY, progress)?;
         let limit = match options.robust {

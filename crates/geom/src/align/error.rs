@@ -51,6 +51,9 @@ pub enum AlignError {
         /// How many.
         free: usize,
     },
+    /// Components of a motion are locked whose start is looked for.
+    #[error("what is locked keeps the value that it has at the start: give the start (--from-here)")]
+    LockedSearch,
     /// No point that counts lies where something is asked.
     #[error("no point lies over a place that has a tolerance: give one to places where there are points")]
     NoZone,

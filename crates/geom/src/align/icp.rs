@@ -11,6 +11,7 @@
 use super::field::normal_of;
 use super::sample::{Samples, agree};
 use super::system::{Constraint, Equation, Six, Spectrum, System};
+use super::twist::{Lock, Twist, directions};
 use super::{AlignError, Target};
 use crate::closest::{BoundaryEdges, Feature, Query};
 use crate::num::sum::Sum;
@@ -40,6 +41,9 @@ pub(super) struct Problem<'a> {
     pub radius: f64,
     /// Distances that arithmetic cannot tell from zero.
     pub rounding: f64,
+    /// Motions that are not made, and components of the motion that stay zero.
+    pub stay: &'a [Twist],
+    pub lock: Option<&'a Lock>,
 }
 
 /// One sample at a pose.
@@ -179,7 +183,7 @@ impl Problem<'_> {
         progress: &dyn Progress,
     ) -> Result<Ended, AlignError> {
         let (ended, last) = self.iterate(start, reach, most, &mut Room::default(), progress)?;
-        Ok(Ended { pose: last.after(&ended.pose), ..ended })
+        Ok(Ended { pose: self.locked(last.after(&ended.pose)), ..ended })
     }
 
     /// As [`Problem::run`], but the last step, which is none, is not made but given: where it converged, the matches in `room` are those at
@@ -207,7 +211,7 @@ impl Problem<'_> {
             if system.weight <= 0.0 {
                 return Ok((ended(pose, iteration, false), Rigid::IDENTITY));
             }
-            let spectrum = Spectrum::of(&system);
+            let spectrum = Spectrum::without(&system, &self.stays(&system, &pose));
             let step = spectrum.solve(&system.right, 0);
             let motion = moved(&system, &step);
             // Of a displacement: the rotations are counted in it.
@@ -217,12 +221,23 @@ impl Problem<'_> {
             if size <= (SMALL * uncertainty).max(self.rounding) {
                 return Ok((ended(pose, iteration + 1, true), motion));
             }
-            pose = motion.after(&pose);
+            pose = self.locked(motion.after(&pose));
             if self.robust {
                 reach = reach.min((2.0 * NONE * sigma + 2.0 * size).max(64.0 * self.rounding));
             }
         }
         Ok((ended(pose, most, false), Rigid::IDENTITY))
+    }
+
+    /// The directions of the unknowns of a system along which nothing moves.
+    pub fn stays(&self, system: &System, pose: &Rigid) -> Vec<Six> {
+        let locked = self.lock.map(|lock| lock.twists(pose)).unwrap_or_default();
+        directions(&[self.stay, &locked].concat(), system.center, system.radius)
+    }
+
+    /// The pose without what is locked.
+    fn locked(&self, pose: Rigid) -> Rigid {
+        self.lock.map_or(pose, |lock| lock.applied(&pose))
     }
 
     /// The equations of the matches about the mean of the samples at `pose`.
@@ -268,10 +283,14 @@ fn edge(corners: &[Point; 3], k: usize) -> Vector {
 
 /// The motion that a step stands for.
 pub(super) fn moved(system: &System, step: &Six) -> Rigid {
-    let turn: Vector = std::array::from_fn(|k| step[k] / system.radius);
+    small_motion(system.center, system.radius, step)
+}
+
+/// The same about a center, rotations counted at `radius`.
+pub(super) fn small_motion(center: Point, radius: f64, step: &Six) -> Rigid {
+    let turn: Vector = std::array::from_fn(|k| step[k] / radius);
     let shift: Vector = std::array::from_fn(|k| step[k + 3]);
-    let turned = Rigid::rotation_about(system.center, turn);
-    Rigid::translation_by(shift).after(&turned)
+    Rigid::translation_by(shift).after(&Rigid::rotation_about(center, turn))
 }
 
 /// The distance up to which half of the weight lies, of those that are finite and have weight. `values` is scratch.

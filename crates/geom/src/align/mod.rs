@@ -3,6 +3,7 @@
 //! | task | where |
 //! |---|---|
 //! | best fit of a scan from any pose | [`best_fit`] |
+//! | the same with a scale | [`best_fit_scaled`] |
 //! | the pose with the least greatest distance | [`minimax`] |
 //! | the pose with the least greatest excess over tolerances | [`into_zones`] |
 //! | how a best fit answers to small shifts of what was measured | [`response`] |
@@ -14,7 +15,8 @@
 //!    on a grid of distances about the reference; the best are refined on a few hundred samples.
 //! 2. *Iteration* (`icp`, `system`): closest points and small motions, the whole surface, area-weighted, normals compatible,
 //!    outliers without weight, until a step is less than a thousandth of its own uncertainty.
-//! 3. *What the result is worth* (`freedom`, `wall`): covariance, freedom that the shape leaves, other poses that fit as well.
+//! 3. *What the result is worth* (`loose`, `rims`, `freedom`, `covariance`, `wall`): covariance, motions that are not held, other poses that fit as
+//!    well (`look`, `mirror`).
 //!
 //! [`minimax`] and [`into_zones`] begin there and search on by linear programs (`counting`, `beside`).
 //!
@@ -27,22 +29,29 @@ mod alternatives;
 mod beside;
 mod best_fit;
 mod counting;
+mod covariance;
 mod error;
 mod features;
 mod field;
 mod freedom;
 mod icp;
+mod look;
+mod loose;
 mod minimax;
+mod mirror;
 mod near;
 mod response;
 mod revolved;
+mod rims;
 mod rows;
 mod sample;
+mod settle;
 mod start;
 mod system;
 mod target;
 #[cfg(test)]
 mod tests;
+mod twist;
 mod wall;
 mod work;
 mod zones;
@@ -54,7 +63,8 @@ pub use error::AlignError;
 pub use freedom::Freedom;
 pub use minimax::{Minimax, minimax};
 pub use response::{Response, response};
-pub use rows::{Row, RowFit, constrained, pairs};
+pub use rows::{AMPLIFIED, Row, RowFit, constrained, pairs};
 pub use sample::Measured;
 pub use target::Target;
+pub use twist::Lock;
 pub use zones::{InZones, ZoneAt, into_zones};

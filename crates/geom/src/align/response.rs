@@ -4,10 +4,12 @@
 //! vertex changes the distances of its facets along their normals (JCGM 102:2011, 6.2: the propagation of covariances through a
 //! least-squares estimate). Weights and facets met are those of the pose.
 
+use super::freedom::twists;
 use super::sample::{Measured, Samples};
 use super::system::{Six, Spectrum, slope};
+use super::twist::directions;
 use super::work::Work;
-use super::{AlignError, AlignWarning, Alignment, BestFit, Target};
+use super::{AlignError, AlignWarning, Alignment, BestFit, Freedom, Target};
 use crate::closest::BoundaryEdges;
 use crate::progress::Progress;
 use crate::rigid::Rigid;
@@ -75,7 +77,10 @@ pub fn response(
     let sigma = problem.deviation(&matches);
     problem.weigh(&mut matches, sigma);
     let system = problem.system_of_facets(&matches, &Rigid::IDENTITY);
-    let spectrum = Spectrum::of(&system);
+    let slack: Vec<Freedom> = fit.slack.iter().map(|s| s.0).collect();
+    let still = problem.lock.map(|lock| lock.twists(&Rigid::IDENTITY)).unwrap_or_default();
+    let untold = [still, twists(&fit.freedoms), twists(&slack)].concat();
+    let spectrum = Spectrum::without(&system, &directions(&untold, system.center, system.radius));
     let mut gains = vec![[[0.0; 3]; 6]; measured.points().len()];
     let facets = match measured {
         Measured::Mesh(mesh) => Samples::facets(mesh),
@@ -95,12 +100,11 @@ pub fn response(
             _ => add(k, 1.0),
         }
     }
-    let free = fit.freedoms.len();
     let unit = |i: usize| if i < 3 { 1.0 / system.radius } else { 1.0 };
     for gain in gains.iter_mut().filter(|g| g.iter().any(|row| dot(*row, *row) > 0.0)) {
         for axis in 0..3 {
             let right: Six = std::array::from_fn(|i| -gain[i][axis]);
-            let solved = spectrum.solve(&right, free);
+            let solved = spectrum.solve(&right, 0);
             for i in 0..6 {
                 gain[i][axis] = unit(i) * solved[i];
             }

@@ -95,7 +95,7 @@ fn axis(
         part.weigh(&mut matches, sigma);
         let system = part.system_of_facets(&matches, pose);
         let spectrum = Spectrum::of(&system);
-        let axis = match named(&system, &spectrum, 1)[..] {
+        let axis = match named(system.center, system.radius, &spectrum.vectors[..1])[..] {
             [Freedom::Turns { point, direction }] => Some((point, direction)),
             _ => None,
         };

@@ -3,11 +3,11 @@
 
 use super::alignment::POOR;
 use super::icp::moved;
-use super::system::{Constraint, Equation, SixBySix, Spectrum, System, eigen_six};
+use super::system::{Constraint, Equation, SixBySix, Spectrum, System, eigen_six, slope};
 use super::{AlignError, AlignWarning};
 use crate::closest::check_points;
 use crate::rigid::Rigid;
-use crate::space::{Aabb, Point, Vector, dot, minus, norm, plus, times, unit};
+use crate::space::{Aabb, Point, Vector, cross, dot, minus, norm, plus, times, unit};
 
 /// One row of a reference point system: the measured point is to lie in the plane through `nominal` across `direction`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,6 +29,11 @@ pub struct RowFit {
     pub reference_from_measured: Rigid,
     /// Of each row: the distance left along its direction, signed; of each pair: the distance left.
     pub residuals: Vec<f64>,
+    /// Of each row that is held along a direction: the change of the pose per millimeter of error in that row, a rotation vector about `center`
+    /// (radians per millimeter) and a translation; none of pairs.
+    pub gains: Vec<[f64; 6]>,
+    /// What those rotation vectors are about, in the frame of the reference.
+    pub center: Point,
     /// Root of their weighted mean square.
     pub rms: f64,
     /// Steps taken.
@@ -38,6 +43,23 @@ pub struct RowFit {
     /// What is to be said about it.
     pub warnings: Vec<AlignWarning>,
 }
+
+impl RowFit {
+    /// Of each row: how far a millimeter of error in it moves the corner that it moves farthest, in millimeters (the column of the inverse of the
+    /// equations; JCGM 102:2011, 6.2). From [`AMPLIFIED`] on the places of the rows lie too near to a line, or to each other, for the part.
+    pub fn amplifications(&self, corners: &[Point]) -> Vec<f64> {
+        let of = |gain: &[f64; 6]| {
+            let [a, b, c, x, y, z] = *gain;
+            let moves = |p: &Point| norm(plus([x, y, z], cross([a, b, c], minus(*p, self.center))));
+            corners.iter().map(moves).fold(0.0, f64::max)
+        };
+        self.gains.iter().map(of).collect()
+    }
+}
+
+/// Millimeters that a corner moves per millimeter of error from which on that is told: a part that is ten times as long as its places lie apart
+/// does not lie where the places say, for all practical purposes.
+pub const AMPLIFIED: f64 = 10.0;
 
 /// The motion that brings `measured[i]` nearest to `reference[i]`, by the least weighted sum of squared distances.
 ///
@@ -84,11 +106,20 @@ pub fn pairs(measured: &[Point], reference: &[Point], weights: Option<&[f64]>) -
         *mirrored = fit(&image).is_some_and(|(_, residuals)| left(&residuals) < MIRRORED * rms);
     }
     let warnings = poor.into_iter().collect();
-    Ok(RowFit { reference_from_measured: motion, residuals, rms, iterations: 1, converged: true, warnings })
+    Ok(RowFit {
+        reference_from_measured: motion,
+        residuals,
+        gains: vec![],
+        center: [0.0; 3],
+        rms,
+        iterations: 1,
+        converged: true,
+        warnings,
+    })
 }
 
-/// What a mirror image may leave of pairs, over what they leave, for them to look mirrored.
-const MIRRORED: f64 = 0.5;
+/// What a mirror image may leave, over what pairs or a best fit leave, for them to look mirrored.
+pub(super) const MIRRORED: f64 = 0.5;
 
 /// The motion of the least weighted sum of squares and the distances that it leaves; `None` where another does as well.
 fn nearest(
@@ -234,10 +265,38 @@ pub fn constrained(rows: &[Row], start: Option<Rigid>) -> Result<RowFit, AlignEr
         converged = step.iter().all(|x| x.abs() <= 8.0 * f64::EPSILON * size);
     }
     let residuals: Vec<f64> = (0..rows.len()).map(|i| residual(&pose, i)).collect();
+    let gains = gains(rows, &held, &pose, middle, radius);
     let rms = mean_square(&residuals, &weight, total).sqrt();
     let settled = (!converged).then_some(AlignWarning::NotConverged);
     let warnings = poor([&measured, &nominal], &residuals, &weight, rms).into_iter().chain(settled).collect();
-    Ok(RowFit { reference_from_measured: pose, residuals, rms, iterations, converged, warnings })
+    Ok(RowFit {
+        reference_from_measured: pose,
+        residuals,
+        gains,
+        center: middle,
+        rms,
+        iterations,
+        converged,
+        warnings,
+    })
+}
+
+/// The change of the pose per error of each row at `pose`.
+fn gains(rows: &[Row], held: &[Vector], pose: &Rigid, center: Point, radius: f64) -> Vec<[f64; 6]> {
+    let equation = |i: usize| Equation {
+        point: pose.point(rows[i].measured),
+        away: [0.0; 3],
+        hold: Constraint::Plane(held[i]),
+        weight: rows[i].weight,
+    };
+    let numbers: Vec<usize> = (0..rows.len()).collect();
+    let spectrum = Spectrum::of(&System::new(&numbers, |i| equation(*i), center, radius));
+    let gain = |i: usize| {
+        let row = slope(equation(i).point, held[i], center, radius);
+        let step = spectrum.solve(&row.map(|x| -rows[i].weight * x), 0);
+        std::array::from_fn(|k| if k < 3 { step[k] / radius } else { step[k] })
+    };
+    numbers.into_iter().map(gain).collect()
 }
 
 /// The sum of the weights, each of which must be a number from 0 upwards, and not all of them 0.

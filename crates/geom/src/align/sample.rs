@@ -211,6 +211,12 @@ impl Samples {
         Samples { normals: self.normals.iter().map(|n| times(-1.0, *n)).collect(), ..self.clone() }
     }
 
+    /// Their mirror image: x reversed. Outward normals stay outward.
+    pub fn mirrored(&self) -> Samples {
+        let image = |all: &[Vector]| all.iter().map(|[x, y, z]| [-x, *y, *z]).collect();
+        Samples { points: image(&self.points), normals: image(&self.normals), ..self.clone() }
+    }
+
     /// The same `factor` times as large.
     pub fn scaled(&self, factor: f64) -> Samples {
         Samples { points: self.points.iter().map(|p| times(factor, *p)).collect(), ..self.clone() }

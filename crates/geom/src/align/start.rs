@@ -110,6 +110,22 @@ impl Search {
         self.known.moments.mean
     }
 
+    /// The same seen in the mirrors across the principal axes of the reference: where it is its own mirror image, a pose of a mirrored part and
+    /// one of the part lie to each other so.
+    pub fn in_mirrors(&self, pose: &Rigid) -> Vec<Rigid> {
+        let Moments { mean, axes, .. } = &self.known.moments;
+        let seen = |axis: &Vector| {
+            // x was reversed before: both together are a motion.
+            let rows = pose.rotation().map(|[x, y, z]| [-x, y, z]);
+            let across = |v: Vector| minus(v, times(2.0 * dot(v, *axis), *axis));
+            let columns: [Vector; 3] = std::array::from_fn(|c| across([rows[0][c], rows[1][c], rows[2][c]]));
+            let rows = std::array::from_fn(|r| [columns[0][r], columns[1][r], columns[2][r]]);
+            let zero = plus(*mean, across(minus(pose.point([0.0; 3]), *mean)));
+            Rigid::of_rotation(rows, [0.0; 3], zero)
+        };
+        axes.iter().map(seen).collect()
+    }
+
     /// Root mean square radius of the measured over that of the reference.
     pub fn size_ratio(&self) -> f64 {
         self.measured.radius() / self.known.moments.radius()

@@ -175,6 +175,18 @@ pub(super) fn eigen_six(a: &SixBySix) -> (Six, SixBySix) {
     (order.map(|i| a[i][i]), order.map(|i| rows[i]))
 }
 
+/// A symmetric matrix of fewer rows; the others stand above all its eigenvalues.
+pub(super) fn padded(count: usize, of: &dyn Fn(usize, usize) -> f64) -> SixBySix {
+    let trace: f64 = (0..count).map(|k| of(k, k)).sum();
+    let above = 4.0 * (1.0 + trace);
+    std::array::from_fn(|i| {
+        std::array::from_fn(|j| match i < count && j < count {
+            true => of(i, j),
+            false => f64::from(u8::from(i == j)) * above,
+        })
+    })
+}
+
 /// One rotation in the plane of `p` and `q` that makes their common entry zero.
 fn rotate(a: &mut SixBySix, rows: &mut SixBySix, p: usize, q: usize) {
     let theta = (a[q][q] - a[p][p]) / (2.0 * a[p][q]);
@@ -200,14 +212,39 @@ pub(super) struct Spectrum {
     pub vectors: SixBySix,
     /// Number of directions, from the least, along which no step is made.
     pub fixed: usize,
+    /// How many of them were taken out before.
+    pub stay: usize,
 }
 
 impl Spectrum {
     /// Of the matrix of a system.
     pub fn of(system: &System) -> Spectrum {
-        let (values, vectors) = eigen_six(&system.matrix);
+        Spectrum::without(system, &[])
+    }
+
+    /// Of what is left of the matrix without these orthonormal directions, which stand first, below all others.
+    pub fn without(system: &System, directions: &[Six]) -> Spectrum {
+        let mut matrix = system.matrix;
+        for d in directions {
+            let along: Six = std::array::from_fn(|i| (0..6).map(|j| matrix[i][j] * d[j]).sum());
+            let twice: f64 = (0..6).map(|i| along[i] * d[i]).sum();
+            for i in 0..6 {
+                for j in 0..6 {
+                    matrix[i][j] += twice * d[i] * d[j] - along[i] * d[j] - d[i] * along[j];
+                }
+            }
+        }
+        let trace: f64 = (0..6).map(|k| matrix[k][k]).sum();
+        for d in directions {
+            for i in 0..6 {
+                for j in 0..6 {
+                    matrix[i][j] -= (1.0 + trace) * d[i] * d[j];
+                }
+            }
+        }
+        let (values, vectors) = eigen_six(&matrix);
         let fixed = values.iter().filter(|&&v| v <= NOTHING * values[5]).count();
-        Spectrum { values, vectors, fixed }
+        Spectrum { values, vectors, fixed: fixed.max(directions.len()), stay: directions.len() }
     }
 
     /// The step that solves the equations best, none along the first `fixed` directions.
@@ -220,15 +257,6 @@ impl Spectrum {
             }
         }
         x
-    }
-
-    /// `H⁺ M H⁺` for the pseudo-inverse `H⁺` of this matrix.
-    pub fn sandwich(&self, m: &SixBySix, fixed: usize) -> SixBySix {
-        let columns: Vec<Six> =
-            (0..6).map(|j| self.solve(&std::array::from_fn(|i| m[i][j]), fixed)).collect();
-        let rows: Vec<Six> =
-            (0..6).map(|i| self.solve(&std::array::from_fn(|j| columns[j][i]), fixed)).collect();
-        rows.try_into().unwrap_or([[0.0; 6]; 6])
     }
 }
 

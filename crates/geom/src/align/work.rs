@@ -2,13 +2,18 @@
 
 use super::icp::Problem;
 use super::sample::Samples;
-use super::{AlignError, BestFit, Target};
+use super::start::{Candidate, Search};
+use super::{AlignError, BestFit, Start, Target};
 use crate::closest::BoundaryEdges;
 use crate::parallel::prelude::*;
 use crate::progress::Progress;
 use crate::rigid::Rigid;
 use crate::space::{Aabb, norm};
 
+/// Samples for a start.
+pub(super) const FEW: usize = 400;
+/// Starts whose cost is within this ratio of the best are iterated to the end.
+const PROMISING: f64 = 4.0;
 /// Samples of these on which poses are compared first, and the cost over the least there beyond which a pose is not compared further: the
 /// means of so many squares differ by a tenth from those of all.
 pub(super) const PART: usize = 1000;
@@ -58,6 +63,11 @@ impl<'a> Work<'a> {
         }
     }
 
+    /// The diagonal of the smaller of both.
+    pub fn size(&self, samples: &Samples) -> f64 {
+        self.target.bounds.diagonal().min(Aabb::of(&samples.points).diagonal())
+    }
+
     /// The iteration over samples.
     pub fn problem<'b>(&'b self, samples: &'b Samples) -> Problem<'b> {
         Problem {
@@ -68,7 +78,29 @@ impl<'a> Work<'a> {
             robust: self.options.robust,
             radius: self.radius,
             rounding: self.rounding,
+            stay: &[],
+            lock: self.options.lock.as_ref(),
         }
+    }
+
+    /// The pose that motions are measured from: the given one, or that of the files.
+    pub fn start(&self) -> Rigid {
+        match self.options.start {
+            Start::Given(pose) => pose,
+            Start::Anywhere => Rigid::IDENTITY,
+        }
+    }
+
+    /// The best of the candidates, refined on the samples of the search.
+    pub fn promising(
+        &self,
+        search: &Search,
+        candidates: &[Candidate],
+        progress: &dyn Progress,
+    ) -> Result<Vec<Rigid>, AlignError> {
+        let refined = search.refine(candidates, 0.0, &self.problem(&search.samples), progress)?;
+        let least = refined.first().map_or(0.0, |r| r.0);
+        Ok(refined.iter().filter(|r| r.0 <= PROMISING * least).map(|r| r.1).collect())
     }
 
     /// How far a pose with distances of this deviation is looked around at first.

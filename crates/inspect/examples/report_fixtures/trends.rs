@@ -128,6 +128,8 @@ fn result(number: usize, found: &[Found]) -> InspectDocument {
             greatest: None,
             excess: None,
             residuals: None,
+            amplifications: None,
+            left_out: None,
             iterations: None,
             converged: None,
             warnings: vec![],

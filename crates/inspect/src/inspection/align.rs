@@ -21,7 +21,7 @@ use trueness_geom::deviation::surface::{ReferenceSurface, SurfaceOptions};
 use trueness_geom::feature::Nominal;
 use trueness_geom::progress::Progress;
 use trueness_geom::rigid::Rigid;
-use trueness_geom::space::{Vector, dot, times};
+use trueness_geom::space::{Point, Vector, dot, times};
 use trueness_geom::zone::datum::{Datum, DatumError, Rule, System};
 
 /// What brought the measured data where they are evaluated.
@@ -44,8 +44,8 @@ pub enum Found {
     Chebyshev(Minimax, Box<align::Alignment>),
     /// The least greatest excess over the zones, and the best fit that it began with.
     Zones(InZones, Box<align::Alignment>),
-    /// A fit of pairs or reference points.
-    Rows(RowFit),
+    /// A fit of pairs or reference points, and the corners of the part.
+    Rows(RowFit, Vec<Point>),
 }
 
 impl Found {
@@ -53,7 +53,7 @@ impl Found {
     fn best_fit(&self) -> Option<&align::Alignment> {
         match self {
             Found::BestFit(fit) | Found::Chebyshev(_, fit) | Found::Zones(_, fit) => Some(fit),
-            Found::Nothing | Found::Rows(_) => None,
+            Found::Nothing | Found::Rows(..) => None,
         }
     }
     /// Whether the facets of the measured mesh were found to point inward.
@@ -72,7 +72,14 @@ pub(super) fn aligned(
     let rows = |fit: Result<RowFit, AlignError>| {
         // The places stand in the plan.
         let fit = fit.map_err(|e| failed(e).nominal())?;
-        Ok::<_, Stop>(Alignment { motion: fit.reference_from_measured, found: Found::Rows(fit) })
+        // What is evaluated lies on the part, also where there is no mesh of it.
+        let there = data.reference.as_ref().or(data.measured.as_ref());
+        let corners = there.map_or(vec![], |mesh| match data.reference.is_some() {
+            true => mesh.bounds().corners().to_vec(),
+            false => mesh.bounds().corners().map(|p| fit.reference_from_measured.point(p)).to_vec(),
+        });
+        let motion = fit.reference_from_measured;
+        Ok::<_, Stop>(Alignment { motion, found: Found::Rows(fit, corners) })
     };
     let mut alignment = match &plan.align {
         Align::None => Alignment { motion: Rigid::IDENTITY, found: Found::Nothing },

@@ -86,6 +86,8 @@ impl AlignmentRecord {
             greatest: None,
             excess: None,
             residuals: None,
+            amplifications: None,
+            left_out: None,
             iterations: None,
             converged: None,
             warnings: vec![],
@@ -95,6 +97,7 @@ impl AlignmentRecord {
             Found::BestFit(fit) => AlignmentRecord {
                 rms: Some(fit.rms),
                 mean_abs: Some(fit.mean_abs),
+                left_out: Some(fit.left_out),
                 iterations: Some(fit.iterations as u64),
                 converged: Some(fit.converged),
                 warnings: fit.warnings.iter().map(AlignNote::of).collect(),
@@ -104,6 +107,7 @@ impl AlignmentRecord {
                 rms: Some(minimax.rms),
                 mean_abs: Some(minimax.mean_abs),
                 greatest: Some(minimax.greatest),
+                left_out: Some(minimax.left_out.count),
                 iterations: Some(fit.iterations as u64),
                 converged: Some(fit.converged),
                 warnings: AlignNote::of_search(fit, &minimax.left_out),
@@ -113,20 +117,22 @@ impl AlignmentRecord {
                 rms: Some(zones.rms),
                 mean_abs: Some(zones.mean_abs),
                 excess: Some(zones.excess),
+                left_out: Some(zones.left_out.count),
                 iterations: Some(fit.iterations as u64),
                 converged: Some(fit.converged),
                 warnings: AlignNote::of_search(fit, &zones.left_out),
                 ..bare
             },
-            Found::Rows(fit) => AlignmentRecord {
+            Found::Rows(fit, corners) => AlignmentRecord {
                 rms: Some(fit.rms),
                 mean_abs: Some(
                     fit.residuals.iter().map(|r| r.abs()).sum::<f64>() / fit.residuals.len() as f64,
                 ),
                 residuals: Some(fit.residuals.clone()),
+                amplifications: Some(fit.amplifications(corners)).filter(|by| !by.is_empty()),
                 iterations: Some(fit.iterations as u64),
                 converged: Some(fit.converged),
-                warnings: fit.warnings.iter().map(AlignNote::of).collect(),
+                warnings: AlignNote::of_rows(fit, corners),
                 ..bare
             },
         };

@@ -8,7 +8,7 @@ pub use note::{AlignNote, AlignNoteKind};
 use super::{InputRecord, UNITS, VERSION};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use trueness_geom::align::{Alignment, Freedom, InZones, Minimax, NotCounted, RowFit};
+use trueness_geom::align::{Alignment, Freedom, InZones, Lock, Minimax, NotCounted, RowFit};
 
 /// Name of this document's schema.
 pub const SCHEMA: &str = "trueness/align/1";
@@ -42,6 +42,12 @@ pub struct AlignDocument {
     pub degrees_of_freedom: u64,
     /// The motions that stay free.
     pub free: Vec<FreeMotion>,
+    /// The motions that rims alone hold, with the way that they leave.
+    #[serde(skip_serializing_if = "Vec::is_empty", default)]
+    pub slack: Vec<SlackMotion>,
+    /// The components of the motion that were to stay zero.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub lock: Option<LockRecord>,
     /// What a best fit tells beyond that, also the one that `chebyshev` or `zones` began with; absent for the other methods.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub best_fit: Option<BestFitRecord>,
@@ -204,6 +210,35 @@ pub struct FreeMotion {
     pub point: Option<[f64; 3]>,
 }
 
+/// A motion that rims alone hold.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct SlackMotion {
+    /// The motion.
+    #[serde(flatten)]
+    pub motion: FreeMotion,
+    /// How far the measured may go at least, root mean square; within it any pose fits as well.
+    pub width: f64,
+}
+
+/// Components of a motion that stay zero.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct LockRecord {
+    /// Which: `tx`, `ty`, `tz` of the translation of `center`, `rx`, `ry`, `rz` of the rotation vector, in the frame of the reference.
+    pub axes: Vec<String>,
+    /// What the motion turns about.
+    pub center: [f64; 3],
+}
+
+/// Names of the components of a motion: of the translation, then of the rotation vector.
+const AXES: [&str; 6] = ["tx", "ty", "tz", "rx", "ry", "rz"];
+
+impl From<&Lock> for LockRecord {
+    fn from(lock: &Lock) -> LockRecord {
+        let axes = AXES.iter().zip(lock.axes).filter(|a| a.1).map(|a| a.0.to_string());
+        LockRecord { axes: axes.collect(), center: lock.center }
+    }
+}
+
 /// A row of the table of places.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct PairRecord {
@@ -211,6 +246,9 @@ pub struct PairRecord {
     pub row: u64,
     /// What is left: the distance of a pair, the signed distance along the direction of a row.
     pub residual: f64,
+    /// How many millimeters the corner of the reference's box that moves farthest moves per millimeter of error in this row; absent of pairs.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub amplification: Option<f64>,
 }
 
 impl From<&Freedom> for FreeMotion {
@@ -250,6 +288,12 @@ impl AlignDocument {
             converged: found.converged,
             degrees_of_freedom: 6 - found.freedoms.len().min(6) as u64,
             free: found.freedoms.iter().map(FreeMotion::from).collect(),
+            slack: found
+                .slack
+                .iter()
+                .map(|(f, width)| SlackMotion { motion: f.into(), width: *width })
+                .collect(),
+            lock: None,
             best_fit: Some(BestFitRecord {
                 median: found.median,
                 used: found.used,
@@ -268,6 +312,14 @@ impl AlignDocument {
             warnings: found.warnings.iter().map(AlignNote::of).collect(),
             seed,
         }
+    }
+
+    /// The same with components of the motion that stayed zero.
+    pub fn with_lock(mut self, lock: &Lock) -> AlignDocument {
+        let locked = lock.axes.iter().filter(|locked| **locked).count() as u64;
+        self.degrees_of_freedom = self.degrees_of_freedom.saturating_sub(locked);
+        self.lock = Some(lock.into());
+        self
     }
 
     /// Of the least greatest distance, found from the best fit `from`.
@@ -320,10 +372,21 @@ impl AlignDocument {
         }
     }
 
-    /// Of an alignment by rows of a table: `method` is `pairs`, `3-2-1` or `rps`.
-    pub fn of_rows(found: &RowFit, method: &str, inputs: Vec<InputRecord>, seed: u64) -> AlignDocument {
+    /// Of an alignment by rows of a table: `method` is `pairs`, `3-2-1` or `rps`; `corners` are those of the part, in the frame of the reference.
+    pub fn of_rows(
+        found: &RowFit,
+        method: &str,
+        corners: &[[f64; 3]],
+        inputs: Vec<InputRecord>,
+        seed: u64,
+    ) -> AlignDocument {
         let count = found.residuals.len().max(1) as f64;
-        let row = |(row, residual): (usize, &f64)| PairRecord { row: row as u64, residual: *residual };
+        let amplifications = found.amplifications(corners);
+        let row = |(row, residual): (usize, &f64)| PairRecord {
+            row: row as u64,
+            residual: *residual,
+            amplification: amplifications.get(row).copied(),
+        };
         AlignDocument {
             schema: SCHEMA.into(),
             version: VERSION.into(),
@@ -338,11 +401,13 @@ impl AlignDocument {
             converged: found.converged,
             degrees_of_freedom: 6,
             free: vec![],
+            slack: vec![],
+            lock: None,
             best_fit: None,
             chebyshev: None,
             zones: None,
             pairs: found.residuals.iter().enumerate().map(row).collect(),
-            warnings: found.warnings.iter().map(AlignNote::of).collect(),
+            warnings: AlignNote::of_rows(found, corners),
             seed,
         }
     }

@@ -99,6 +99,12 @@ pub struct AlignmentRecord {
     /// Of pairs the distance left of each, of reference points the signed one along its direction; absent of other ways.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub residuals: Option<Vec<f64>>,
+    /// Of reference points, in the same order: how many millimeters the farthest corner of the part moves per millimeter of error; absent of other ways.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub amplifications: Option<Vec<f64>>,
+    /// Points without a weight in the fit, also in the one that datums began with; absent of other ways. They are evaluated all the same.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub left_out: Option<u64>,
     /// Steps of the iteration.
     pub iterations: Option<u64>,
     /// Whether the iteration settled.

@@ -17,7 +17,7 @@ fn fitted(
     let tree = Tree::build(mesh).unwrap();
     let target = Target::new(mesh, &tree);
     let measured = Measured::Points { points, normals: None };
-    let options = BestFit { start: Start::Given(start), robust: false, seed: 0 };
+    let options = BestFit { start: Start::Given(start), robust: false, ..BestFit::default() };
     let fit = best_fit(&measured, &target, &options, &Silent).unwrap();
     let found = minimax(&measured, &target, &fit, &options, &Silent);
     (fit, found)
@@ -111,7 +111,7 @@ fn a_vertex_between_large_facets_counts() {
     measured.positions[deep][2] -= 0.08;
     let tree = Tree::build(&mesh).unwrap();
     let target = Target::new(&mesh, &tree);
-    let options = BestFit { start: Start::Given(Rigid::IDENTITY), robust: false, seed: 0 };
+    let options = BestFit { start: Start::Given(Rigid::IDENTITY), robust: false, ..BestFit::default() };
     let fit = best_fit(&Measured::Mesh(&measured), &target, &options, &Silent).unwrap();
     let found = minimax(&Measured::Mesh(&measured), &target, &fit, &options, &Silent).unwrap();
     let worst = greatest(&measured.positions, &mesh, &found.reference_from_measured);

@@ -1,8 +1,12 @@
 //! What an alignment must do, against closed forms, brute force and properties.
 
+mod asked;
+mod coverage;
 mod field;
 mod flat;
+mod loose;
 mod minimax;
+mod mirror;
 mod parts;
 mod poses;
 mod response;

@@ -129,3 +129,52 @@ fn rows_hold_along_their_directions_only() {
     let found = constrained(&more, None).unwrap();
     assert!(found.residuals[6].abs() < found.residuals[5].abs() && found.residuals[5].abs() < 0.5);
 }
+
+/// Three places held along z almost on a line: the plane through them tilts about the line of the first two, which lies 0.4 from the third. Of any
+/// rows, against the same alignment done again with one of them off.
+#[test]
+fn errors_of_a_row_are_amplified_as_is_told() {
+    let row = |nominal: Point, axis: usize| Row {
+        measured: nominal,
+        nominal,
+        direction: std::array::from_fn(|k| f64::from(u8::from(k == axis))),
+        weight: 1.0,
+    };
+    let rows = [
+        row([5.0, 5.0, 0.0], 2),
+        row([75.0, 5.0, 0.0], 2),
+        row([40.0, 5.4, 0.0], 2),
+        row([5.0, 0.0, 0.0], 1),
+        row([75.0, 0.0, 0.0], 1),
+        row([0.0, 25.0, 0.0], 0),
+    ];
+    let corners: Vec<Point> =
+        (0..4).map(|k| [80.0 * f64::from(k % 2), 50.0 * f64::from(k / 2), 0.0]).collect();
+    let told = constrained(&rows, None).unwrap().amplifications(&corners);
+    assert!((told[2] - 45.0 / 0.4).abs() < 1e-9, "{told:?}");
+    assert!(told[5] > 0.9 && told[5] < 2.0, "{told:?}");
+    let random = &mut Random::new(12);
+    for trial in 0..20 {
+        let nominal = places(random, 9);
+        let pose = random_pose(random, 50.0).inverse();
+        let rows: Vec<Row> = (0..[6, 9][trial % 2])
+            .map(|i| Row {
+                measured: pose.point(nominal[i]),
+                nominal: nominal[i],
+                direction: std::array::from_fn(|_| random.unit() - 0.5),
+                weight: 0.5 + random.unit(),
+            })
+            .collect();
+        let Ok(rest) = constrained(&rows, Some(pose.inverse())) else { continue };
+        for (i, told) in rest.amplifications(&corners).into_iter().enumerate() {
+            let size = 1e-7 / told;
+            let mut off = rows.clone();
+            let d = off[i].direction;
+            off[i].nominal = minus(off[i].nominal, times(size / norm(d), d));
+            let again = constrained(&off, Some(rest.reference_from_measured)).unwrap();
+            let between = again.reference_from_measured.after(&rest.reference_from_measured.inverse());
+            let moved = corners.iter().map(|p| between.displacement(*p)).fold(0.0, f64::max);
+            assert!((moved / (told * size) - 1.0).abs() < 1e-3, "{trial} {i}: {moved} {told}");
+        }
+    }
+}

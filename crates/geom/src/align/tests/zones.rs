@@ -21,7 +21,7 @@ fn fitted(points: &[Point], mesh: &Mesh, start: Rigid, zones: &ZoneAt) -> Result
     let target = Target::new(mesh, &tree);
     let surface = ReferenceSurface::new(&tree, mesh, &SurfaceOptions::default(), &Silent).unwrap();
     let measured = Measured::Points { points, normals: None };
-    let options = BestFit { start: Start::Given(start), robust: false, seed: 0 };
+    let options = BestFit { start: Start::Given(start), robust: false, ..BestFit::default() };
     let fit = best_fit(&measured, &target, &options, &Silent).unwrap();
     into_zones(&measured, &target, &surface, zones, &fit, &options, &Silent)
 }
@@ -79,7 +79,7 @@ fn equal_zones_are_the_least_greatest_distance() {
     assert!((found.excess - 0.13).abs() < 1e-9, "{}", found.excess);
     let tree = Tree::build(&mesh).unwrap();
     let (target, measured) = (Target::new(&mesh, &tree), Measured::Points { points: &points, normals: None });
-    let options = BestFit { start: Start::Given(Rigid::IDENTITY), robust: false, seed: 0 };
+    let options = BestFit { start: Start::Given(Rigid::IDENTITY), robust: false, ..BestFit::default() };
     let fit = best_fit(&measured, &target, &options, &Silent).unwrap();
     let least = minimax(&measured, &target, &fit, &options, &Silent).unwrap();
     assert!((least.greatest - 0.02 - found.excess).abs() < 1e-9);
@@ -164,7 +164,7 @@ fn clutter_does_not_count_in_the_search_and_is_judged() {
     let surface = ReferenceSurface::new(&tree, &mesh, &SurfaceOptions::default(), &Silent).unwrap();
     let measured = Measured::Points { points: &points, normals: None };
     for robust in [true, false] {
-        let options = BestFit { start: Start::Given(Rigid::IDENTITY), robust, seed: 0 };
+        let options = BestFit { start: Start::Given(Rigid::IDENTITY), robust, ..BestFit::default() };
         let fit = best_fit(&measured, &target, &options, &Silent).unwrap();
         let zones = |_: u32, p: &Point| (p[2] < 3.99).then_some([-0.1, 0.1]);
         let found = into_zones(&measured, &target, &surface, &zones, &fit, &options, &Silent).unwrap();

@@ -4,13 +4,13 @@ use crate::results::Word;
 use crate::results::word::named;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use trueness_geom::align::{AlignWarning, Alignment, Freedom, NotCounted};
+use trueness_geom::align::{AMPLIFIED, AlignWarning, Alignment, Freedom, NotCounted, RowFit};
 
 /// Something to be said about an alignment.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct AlignNote {
-    /// `poor`, `ambiguous`, `free`, `normals_turned`, `scale`, `few`, `unconfirmed`, `left_out` or `not_converged`; of an inspection also `size_ratio` and
-    /// `hardly_overlapping`.
+    /// `poor`, `ambiguous`, `free`, `normals_turned`, `scale`, `few`, `unconfirmed`, `left_out`, `amplified`, `undetermined`, `mirrored` or
+    /// `not_converged`; of an inspection also `size_ratio` and `hardly_overlapping`.
     pub kind: Word<AlignNoteKind>,
     /// One sentence for people.
     pub text: String,
@@ -35,6 +35,12 @@ pub enum AlignNoteKind {
     Unconfirmed,
     /// Much of the measured does not count.
     LeftOut,
+    /// Errors of a row move the part many times as far.
+    Amplified,
+    /// A motion is not held, and the reference is not the same along it.
+    Undetermined,
+    /// The best fit of a mirror image is much better.
+    Mirrored,
     /// The iteration did not settle.
     NotConverged,
     /// The measured and the nominal part have different sizes.
@@ -45,7 +51,7 @@ pub enum AlignNoteKind {
 
 impl AlignNoteKind {
     /// All, in the order above.
-    pub const ALL: [AlignNoteKind; 11] = [
+    pub const ALL: [AlignNoteKind; 14] = [
         AlignNoteKind::Poor,
         AlignNoteKind::Ambiguous,
         AlignNoteKind::Free,
@@ -54,6 +60,9 @@ impl AlignNoteKind {
         AlignNoteKind::Few,
         AlignNoteKind::Unconfirmed,
         AlignNoteKind::LeftOut,
+        AlignNoteKind::Amplified,
+        AlignNoteKind::Undetermined,
+        AlignNoteKind::Mirrored,
         AlignNoteKind::NotConverged,
         AlignNoteKind::SizeRatio,
         AlignNoteKind::HardlyOverlapping,
@@ -70,6 +79,9 @@ impl AlignNoteKind {
             AlignNoteKind::Few => "few",
             AlignNoteKind::Unconfirmed => "unconfirmed",
             AlignNoteKind::LeftOut => "left_out",
+            AlignNoteKind::Amplified => "amplified",
+            AlignNoteKind::Undetermined => "undetermined",
+            AlignNoteKind::Mirrored => "mirrored",
             AlignNoteKind::NotConverged => "not_converged",
             AlignNoteKind::SizeRatio => "size_ratio",
             AlignNoteKind::HardlyOverlapping => "hardly_overlapping",
@@ -80,12 +92,17 @@ impl AlignNoteKind {
     /// what was left out, are only told.
     pub fn is_doubt(self) -> bool {
         match self {
-            AlignNoteKind::Free | AlignNoteKind::NormalsTurned | AlignNoteKind::LeftOut => false,
+            AlignNoteKind::Free
+            | AlignNoteKind::NormalsTurned
+            | AlignNoteKind::LeftOut
+            | AlignNoteKind::Amplified => false,
             AlignNoteKind::Poor
             | AlignNoteKind::Ambiguous
             | AlignNoteKind::Scale
             | AlignNoteKind::Few
             | AlignNoteKind::Unconfirmed
+            | AlignNoteKind::Undetermined
+            | AlignNoteKind::Mirrored
             | AlignNoteKind::NotConverged
             | AlignNoteKind::SizeRatio
             | AlignNoteKind::HardlyOverlapping => true,
@@ -98,7 +115,6 @@ named!(AlignNoteKind, "kind of note", Self::ALL, |kind| kind.name());
 impl AlignNote {
     /// Of a warning.
     pub fn of(warning: &AlignWarning) -> AlignNote {
-        let three = |v: [f64; 3]| format!("({:.3} {:.3} {:.3})", v[0], v[1], v[2]);
         let (kind, text) = match warning {
             AlignWarning::Poor { share } => (
                 AlignNoteKind::Poor,
@@ -118,16 +134,18 @@ impl AlignNote {
                     if *count == 1 { "pose fits about" } else { "poses fit about" }
                 ),
             ),
-            AlignWarning::Free(Freedom::Slides { direction }) => (
-                AlignNoteKind::Free,
-                format!("the shape leaves it free to slide along {}", three(*direction)),
-            ),
-            AlignWarning::Free(Freedom::Turns { point, direction }) => (
-                AlignNoteKind::Free,
+            AlignWarning::Free(motion) => {
+                (AlignNoteKind::Free, format!("the shape leaves it free to {}", way(motion)))
+            }
+            AlignWarning::Undetermined { motion, width } => {
+                (AlignNoteKind::Undetermined, undetermined(motion, *width))
+            }
+            AlignWarning::Mirrored { ratio } => (
+                AlignNoteKind::Mirrored,
                 format!(
-                    "the shape leaves it free to turn about the axis along {} through {}",
-                    three(*direction),
-                    three(*point)
+                    "the measured looks mirrored: its mirror image leaves {:.0} % of what it leaves itself; is it a part of the other hand, or \
+                     was the sign of an axis reversed?",
+                    100.0 * ratio
                 ),
             ),
             AlignWarning::NormalsTurned => (
@@ -175,6 +193,28 @@ impl AlignNote {
         AlignNote { kind: Word(kind), text }
     }
 
+    /// Those of an alignment by rows, of a part with these corners.
+    pub fn of_rows(found: &RowFit, corners: &[[f64; 3]]) -> Vec<AlignNote> {
+        let mut notes: Vec<AlignNote> = found.warnings.iter().map(AlignNote::of).collect();
+        let amplified = found.amplifications(corners);
+        let most = amplified.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1));
+        if let Some((row, by)) = most.filter(|(_, by)| **by >= AMPLIFIED) {
+            let rows = amplified.iter().filter(|by| **by >= AMPLIFIED).count();
+            let others = match rows {
+                1 => String::new(),
+                _ => format!(" ({rows} rows are amplified tenfold or more)"),
+            };
+            let text = format!(
+                "row {}: an error of 0.01 mm there moves the farthest corner of the part by {:.3} mm{others}: the places held along its direction \
+                 lie near to each other or to one line; take places that are farther apart, over all of the part",
+                row + 1,
+                0.01 * by
+            );
+            notes.push(AlignNote { kind: Word(AlignNoteKind::Amplified), text });
+        }
+        notes
+    }
+
     /// Those of the best fit `from` that a search for the least greatest distance began with, and of what did not count in it. What did not count in the
     /// best fit may count there.
     pub fn of_search(from: &Alignment, left_out: &NotCounted) -> Vec<AlignNote> {
@@ -201,6 +241,27 @@ impl AlignNote {
         notes.push(AlignNote { kind: Word(AlignNoteKind::LeftOut), text });
         notes
     }
+}
+
+/// A motion in words.
+fn way(motion: &Freedom) -> String {
+    let three = |v: &[f64; 3]| format!("({:.3} {:.3} {:.3})", v[0], v[1], v[2]);
+    match motion {
+        Freedom::Slides { direction } => format!("slide along {}", three(direction)),
+        Freedom::Turns { point, direction } => {
+            format!("turn about the axis along {} through {}", three(direction), three(point))
+        }
+    }
+}
+
+/// What is said of a motion that is not held.
+fn undetermined(motion: &Freedom, width: Option<f64>) -> String {
+    let by = width.map_or_else(String::new, |w| format!(", by {w:.3} mm at least"));
+    format!(
+        "the measured does not tell where it lies: it is free to {}{by}, and the reference is not the same there; measure a face that holds \
+         it, or align roughly and start --from-here with --lock",
+        way(motion)
+    )
 }
 
 /// What is said of rows of places that do not fit.

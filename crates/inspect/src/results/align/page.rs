@@ -1,9 +1,9 @@
 //! How the measured part was brought to its reference: the same section in every report that aligns.
 
 use crate::report::number::Style;
-use crate::report::page::parts::{fact, section};
+use crate::report::page::parts::{fact, key_number, section};
 use crate::report::values::Text;
-use crate::results::align::AlignNote;
+use crate::results::align::{AlignNote, AlignNoteKind, AlignedTo};
 use maud::{Markup, Render, html};
 
 /// What there is to be said of an alignment.
@@ -20,6 +20,41 @@ pub struct Facts<'a> {
     pub left_out: Option<u64>,
     /// What is to be said about the result.
     pub warnings: &'a [AlignNote],
+}
+
+impl<'a> Facts<'a> {
+    /// Of the best fit that a comparison began with.
+    pub fn of_best_fit(of: &'a AlignedTo) -> Facts<'a> {
+        Facts {
+            method: "best-fit",
+            rms: Some(of.rms),
+            greatest: None,
+            excess: None,
+            left_out: Some(of.left_out),
+            warnings: &of.warnings,
+        }
+    }
+}
+
+/// The chip at the head of a page: what the pose leaves, and how many points were left out of it. It warns where the result cannot be relied
+/// on, and where so many were left out that a note says so.
+pub fn chip(s: Style, of: &Facts, digits: usize) -> Option<Markup> {
+    let doubtful = of.warnings.iter().any(|w| w.kind.is_doubt() || w.kind.0 == AlignNoteKind::LeftOut);
+    let left_out = of.left_out.filter(|points| *points > 0);
+    if of.rms.is_none() && left_out.is_none() && !doubtful {
+        return None;
+    }
+    let rms_word = if of.method == "datum" { "align.rms_of_start" } else { "rms" };
+    Some(key_number(
+        s,
+        "alignment",
+        if doubtful { "warn" } else { "" },
+        html! {
+            @if doubtful { "⚠\u{a0}" }
+            @if let Some(rms) = of.rms { (s.word(rms_word)) "\u{a0}" (s.number(rms, digits)) }
+            @if let Some(points) = left_out { " " small { (s.word("align.left_out.short")) "\u{a0}" (s.count(points)) } }
+        },
+    ))
 }
 
 /// The section.

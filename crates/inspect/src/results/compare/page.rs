@@ -11,6 +11,7 @@ use crate::report::page::parts::{Headline, key_number};
 use crate::report::subject::{Head, Map, Pick, Subject};
 use crate::results::ReasonKind;
 use crate::results::align::AlignedTo;
+use crate::results::align::page::{Facts, chip};
 use crate::results::check::found;
 use crate::results::check::page as check;
 use crate::results::compare::MeasuredKind;
@@ -138,11 +139,7 @@ fn numbers(s: Style, (c, n): (&Comparison, usize), decimals: usize, aligned: Opt
             } @else {
                 (key_number(s, "soundness", "warn", html! { "⚠\u{a0}" (s.word("not_sound")) }))
             }
-            @if let Some(a) = aligned {
-                (key_number(s, "alignment", if a.sound() { "" } else { "warn" }, html! {
-                    @if !a.sound() { "⚠\u{a0}" } (s.word("rms")) "\u{a0}" (s.number(a.rms, decimals + 1))
-                }))
-            }
+            @if let Some(chip) = aligned.and_then(|a| chip(s, &Facts::of_best_fit(a), decimals + 1)) { (chip) }
             @for warning in &c.warnings {
                 (key_number(s, warning_key(warning.kind), "warn", html! { "⚠\u{a0}" (s.number(warning.value, 3)) }))
             }

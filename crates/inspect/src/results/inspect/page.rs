@@ -6,11 +6,12 @@ use crate::report::page::symbols::{datum_name, path, requirement, symbol};
 use crate::report::subject::{Frame, Head, Map, Pick, Subject};
 use crate::report::values::{Name, Optional, Percent, Text};
 use crate::results::Verdict;
-use crate::results::align::page::{Facts, alignment};
+use crate::results::align::page::{Facts, alignment, chip};
 use crate::results::compare::page as compare;
 use crate::results::compare::{Comparison, ToleranceShares};
 use crate::results::inspect::{
-    CharacteristicRecord, FeatureRecord, FrameSource, InspectDocument, MeasuredPlace, PlaceRecord,
+    AlignmentRecord, CharacteristicRecord, FeatureRecord, FrameSource, InspectDocument, MeasuredPlace,
+    PlaceRecord,
 };
 use crate::scale::Scale;
 use maud::{Markup, html};
@@ -42,6 +43,8 @@ impl Subject for InspectDocument {
         let alone = outside && self.counts.fail == 0;
         let share = |t| html! { (share(s, t)) @if t.required < 1.0 { " " small { (required(s, t)) } } };
         let all = s.len(&self.characteristics);
+        let of = facts(&self.alignment);
+        let told = Some(&of).filter(|of| of.left_out.is_some_and(|n| n > 0) || !of.warnings.is_empty());
         html! {
             dl.key-numbers {
                 @if let Some(c) = regions.filter(|_| alone) {
@@ -61,20 +64,13 @@ impl Subject for InspectDocument {
                 @if let Some(t) = within.filter(|_| !alone) {
                     (key_number(s, "deviations.within", if outside { "warn" } else { "" }, share(t)))
                 }
+                @if let Some(chip) = told.and_then(|of| chip(s, of, 4)) { (chip) }
             }
         }
     }
 
     fn list(&self, s: Style) -> Markup {
-        let (of, left_out) = (&self.alignment, None);
-        let facts = Facts {
-            method: &of.method,
-            rms: of.rms,
-            greatest: of.greatest,
-            excess: of.excess,
-            left_out,
-            warnings: &of.warnings,
-        };
+        let (of, facts) = (&self.alignment, facts(&self.alignment));
         // Where nothing else can be believed, this comes first.
         let (first, last) =
             if of.doubts().next().is_some() { (Some(&facts), None) } else { (None, Some(&facts)) };
@@ -130,6 +126,18 @@ impl Subject for InspectDocument {
 
     fn json(&self) -> serde_json::Result<Value> {
         serde_json::to_value(self)
+    }
+}
+
+/// What there is to be said of the alignment.
+fn facts(of: &AlignmentRecord) -> Facts<'_> {
+    Facts {
+        method: &of.method,
+        rms: of.rms,
+        greatest: of.greatest,
+        excess: of.excess,
+        left_out: of.left_out,
+        warnings: &of.warnings,
     }
 }
 

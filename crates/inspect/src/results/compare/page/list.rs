@@ -44,14 +44,7 @@ pub fn list(s: Style, result: &CompareDocument) -> Markup {
             "\n"
         }
         @if let Some(a) = &result.alignment {
-            (alignment(s, &Facts {
-                method: "best-fit",
-                rms: Some(a.rms),
-                greatest: None,
-                excess: None,
-                left_out: Some(a.left_out),
-                warnings: &a.warnings,
-            }))
+            (alignment(s, &Facts::of_best_fit(a)))
         }
     }
 }

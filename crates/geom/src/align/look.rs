@@ -1,0 +1,169 @@
+//! Looking further from a best fit: again where much does not lie on the reference, beside it, about an axis, in a mirror, and in poses that
+//! fit as well.
+
+use super::alignment::POOR;
+use super::alternatives::{better, is_same};
+use super::mirror::Mirror;
+use super::sample::Samples;
+use super::settle::Settle;
+use super::start::Search;
+use super::work::{BRIEF, FEW, PART, Work};
+use super::{AlignError, AlignWarning, Alignment, Freedom, near, revolved};
+use crate::progress::Progress;
+use crate::rigid::Rigid;
+use crate::stats::SIGMA_OVER_MAD;
+
+/// Share of the measured that counts below which the start is looked for again, so many times, with other samples and pairs.
+const EXPLAINED: f64 = 0.95;
+const AGAIN: usize = 2;
+/// How often, from where the last round ended, and the share of the spacing that is no other pose.
+const ROUNDS: usize = 3;
+const SAME: f64 = 0.02;
+
+/// What looking further is done with.
+pub(super) struct Look<'a> {
+    pub settle: &'a Settle<'a>,
+    pub search: &'a Search,
+    /// All that is measured.
+    pub samples: &'a Samples,
+}
+
+impl Look<'_> {
+    /// Puts the best that is found in place of the result, at whose start the distances had the deviation `sigma`, and adds the poses that were
+    /// found to those of the start. Gives what is to be said.
+    pub fn around(
+        &self,
+        poses: &mut Vec<Rigid>,
+        (result, sigma): (&mut Alignment, f64),
+        progress: &dyn Progress,
+    ) -> Result<Vec<AlignWarning>, AlignError> {
+        let Look { settle, search, samples } = *self;
+        let (work, some) = (settle.work, settle.some);
+        let mut told = vec![];
+        if work.options.robust && result.share < EXPLAINED {
+            told.extend(self.again(poses, result, progress)?);
+        }
+        if result.share < EXPLAINED || result.median > POOR * work.size(samples) {
+            match work.mirror(search, result, samples, some, progress)? {
+                Mirror::Same => {}
+                Mirror::Better(pose) => {
+                    poses.push(result.reference_from_measured);
+                    let (pose, sigma) =
+                        work.choose(&[result.reference_from_measured, pose], some, progress)?;
+                    *result = settle.from(pose, sigma, progress)?;
+                }
+                Mirror::Mirrored { ratio } => told.push(AlignWarning::Mirrored { ratio }),
+            }
+        }
+        let revolved = work.revolved(search, result, some, progress)?;
+        let own = result.reference_from_measured;
+        if let Some(near) = revolved.iter().find(|p| search.apart(p, &own) <= search.spacing) {
+            let (pose, sigma) = work.choose(&[own, *near], some, progress)?;
+            if search.apart(&own, &pose) > SAME * search.spacing {
+                *result = settle.from(pose, sigma, progress)?;
+            }
+        }
+        let poses = (&poses[..], &revolved[..]);
+        result.alternatives = work.alternatives(search, poses, result, some, progress)?;
+        if let Some(pose) = better(search, result) {
+            *result = settle.from(pose, sigma, progress)?;
+            result.alternatives = work.alternatives(search, poses, result, some, progress)?;
+        }
+        Ok(told)
+    }
+
+    /// Looks for the start again, and beside where it leads.
+    fn again(
+        &self,
+        poses: &mut Vec<Rigid>,
+        result: &mut Alignment,
+        progress: &dyn Progress,
+    ) -> Result<Option<AlignWarning>, AlignError> {
+        let Look { settle, search, samples } = *self;
+        let (work, some) = (settle.work, settle.some);
+        let own = result.reference_from_measured;
+        let again = work.sought_again(search, result, samples, some, progress)?;
+        poses.push(own);
+        poses.extend(&again);
+        let (pose, sigma) = work.choose(&[&[own][..], &again].concat(), some, progress)?;
+        *result = settle.from(pose, sigma, progress)?;
+        for _ in 0..ROUNDS {
+            let pose = work.around(search, result, some, progress)?;
+            if search.apart(&result.reference_from_measured, &pose) <= SAME * search.spacing {
+                break;
+            }
+            *result = settle.from(pose, sigma, progress)?;
+        }
+        let found = [own].iter().chain(&again).filter(|pose| is_same(search, result, pose)).count();
+        Ok((found < 2).then_some(AlignWarning::Unconfirmed { searches: 1 + AGAIN }))
+    }
+}
+
+impl Work<'_> {
+    /// The best pose of each further search, with samples and pairs of its own: where much does not lie on the reference, a search
+    /// may miss the place. As soon as one ends at that of the result it is enough; else [`AGAIN`] poses, fewer where a search finds nothing.
+    fn sought_again(
+        &self,
+        search: &Search,
+        result: &Alignment,
+        samples: &Samples,
+        some: &Samples,
+        progress: &dyn Progress,
+    ) -> Result<Vec<Rigid>, AlignError> {
+        let mut found = vec![];
+        for k in 1..=AGAIN as u64 {
+            let seed = self.options.seed.wrapping_add(k);
+            let again = search.again(samples.few(FEW, seed), seed);
+            let candidates = again.candidates(&[Rigid::IDENTITY], progress)?;
+            let mut poses = self.promising(&again, &candidates, progress)?;
+            poses.truncate(BRIEF);
+            if !poses.is_empty() {
+                found.push(self.choose(&poses, some, progress)?.0);
+            }
+            if found.last().is_some_and(|pose| is_same(search, result, pose)) {
+                break;
+            }
+        }
+        Ok(found)
+    }
+
+    /// The best pose about that of the result.
+    pub(super) fn around(
+        &self,
+        search: &Search,
+        result: &Alignment,
+        some: &Samples,
+        progress: &dyn Progress,
+    ) -> Result<Rigid, AlignError> {
+        let pose = result.reference_from_measured;
+        let few = self.problem(&search.samples);
+        let mut matches = few.matches(&pose, f64::INFINITY, progress)?;
+        let sigma = few.deviation(&matches);
+        few.weigh(&mut matches, sigma);
+        let system = few.system_of_facets(&matches, &pose);
+        let tried = near::poses(&system, &result.freedoms, &pose, search.spacing);
+        let cap = self.cap(SIGMA_OVER_MAD * result.median);
+        let best = search.nearest_of(&tried, &pose, &few, cap, progress)?;
+        if best.is_empty() {
+            return Ok(pose);
+        }
+        Ok(self.choose(&[&[pose][..], &best].concat(), some, progress)?.0)
+    }
+
+    /// Poses turned about the axis of a reference that is a body of revolution but for a detail; none where the shape leaves a turn free.
+    fn revolved(
+        &self,
+        search: &Search,
+        result: &Alignment,
+        some: &Samples,
+        progress: &dyn Progress,
+    ) -> Result<Vec<Rigid>, AlignError> {
+        if result.freedoms.iter().any(|f| matches!(f, Freedom::Turns { .. })) {
+            return Ok(vec![]);
+        }
+        let part = some.first(PART);
+        let [few, part] = [&search.samples, &part].map(|s| self.problem(s));
+        let cap = self.cap(SIGMA_OVER_MAD * result.median);
+        revolved::poses(search, &result.reference_from_measured, [&few, &part], cap, progress)
+    }
+}

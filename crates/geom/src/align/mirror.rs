@@ -1,0 +1,58 @@
+//! Whether the measured is the mirror image of the reference: a part of the other hand, or an axis of other sign.
+
+use super::rows::MIRRORED;
+use super::sample::Samples;
+use super::start::Search;
+use super::work::{BRIEF, FEW, Work};
+use super::{AlignError, Alignment};
+use crate::progress::Progress;
+use crate::rigid::Rigid;
+
+/// What the mirror image of the measured tells.
+pub(super) enum Mirror {
+    /// Nothing: it fits no better.
+    Same,
+    /// It led to a better pose: the reference is its own mirror image.
+    Better(Rigid),
+    /// It fits much better, so many times as well.
+    Mirrored {
+        /// Root mean square of what it leaves over what the measured leaves.
+        ratio: f64,
+    },
+}
+
+impl Work<'_> {
+    /// Looks for the mirror image of what fits badly. The cost is that of one more search.
+    pub(super) fn mirror(
+        &self,
+        search: &Search,
+        result: &Alignment,
+        samples: &Samples,
+        some: &Samples,
+        progress: &dyn Progress,
+    ) -> Result<Mirror, AlignError> {
+        let image = samples.mirrored();
+        let again = search.again(image.few(FEW, self.options.seed), self.options.seed);
+        let candidates = again.candidates(&[], progress)?;
+        let mut poses = self.promising(&again, &candidates, progress)?;
+        poses.truncate(BRIEF);
+        if poses.is_empty() {
+            return Ok(Mirror::Same);
+        }
+        let image = some.mirrored();
+        let (there, sigma) = self.choose(&poses, &image, progress)?;
+        let cap = self.cap(sigma);
+        let own = self.problem(some).cost(&result.reference_from_measured, cap, progress)?;
+        let enough = MIRRORED * MIRRORED * own;
+        let left = self.problem(&image).cost(&there, cap, progress)?;
+        if left >= enough {
+            return Ok(Mirror::Same);
+        }
+        // What is its own mirror image fits as well in another pose, which the search did not find.
+        let other = self.choose(&search.in_mirrors(&there), some, progress)?.0;
+        if self.problem(some).cost(&other, cap, progress)? < enough {
+            return Ok(Mirror::Better(other));
+        }
+        Ok(Mirror::Mirrored { ratio: (left / own).sqrt() })
+    }
+}
