@@ -5,8 +5,11 @@ mod common;
 
 use common::{Folder, corpus, document};
 
+/// Rows, kinds and lengths of the segments, and whether the row must be told that it is closed.
+type Outline = (String, Vec<(&'static str, f64)>, bool);
+
 /// A rectangle of 20 by 12 with corners of radius 3, an obround of radius 4, and a half disc, in `count` points to an arc.
-fn outlines(count: usize) -> [(String, Vec<(&'static str, f64)>, bool); 3] {
+fn outlines(count: usize) -> [Outline; 3] {
     let arc = |center: [f64; 2], r: f64, from: f64, sweep: f64| -> String {
         let at = |i: usize| (from + sweep * i as f64 / (count - 1) as f64).to_radians();
         (0..count)

@@ -35,11 +35,12 @@ pub(super) fn gaussian<const P: usize, F: Family<P>>(
     let linear = inverse.and_then(|inverse| {
         covariance::<P, F>(&element, &inverse, residuals.std_dev? * sample.scale, sample)
     });
-    let covariance = match inverse {
-        Some(_) if !hardly::is_bent::<P, F>(&element, sample, residuals.rms * sample.scale) => linear,
-        Some(_) => hardly::covariance::<P, F>(&element, sample).or(linear),
-        None => Some(hardly::covariance::<P, F>(&element, sample).ok_or_else(|| nothing(sample, kind))?),
-    };
+    let is_bent = hardly::is_bent::<P, F>(&element, sample, residuals.rms * sample.scale);
+    let tried = if is_bent { hardly::covariance::<P, F>(&element, sample) } else { None };
+    if inverse.is_none() && tried.is_none() {
+        return Err(nothing(sample, kind));
+    }
+    let covariance = tried.or(linear);
     Ok(Fit {
         shape: F::shape(&element, sample),
         method: options.method,
@@ -63,13 +64,16 @@ pub(super) fn near<const P: usize, F: Family<P>>(
     inverse.map(|_| optimum.element).ok_or_else(|| nothing(&some, kind))
 }
 
-/// The element with the least sum of squares, and the inverse of its normal matrix if it has one.
+/// An optimum, and the inverse of its normal matrix if it has one.
+type Determined<const P: usize> = (Optimum<P>, Option<[[f64; P]; P]>);
+
+/// The element with the least sum of squares.
 pub(super) fn optimum<const P: usize, F: Family<P>>(
     sample: &Sample,
     kind: Kind,
     options: &Options,
     progress: &dyn Progress,
-) -> Result<(Optimum<P>, Option<[[f64; P]; P]>), FitError> {
+) -> Result<Determined<P>, FitError> {
     let starts = match &options.start {
         Some(shape) => vec![F::element(shape, sample).ok_or(FitError::WrongStart { kind })?],
         None => F::starts(&sample.thinned(FEW).units().collect::<Vec<Point>>()),

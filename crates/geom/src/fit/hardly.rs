@@ -17,7 +17,7 @@ use std::borrow::Cow;
 
 /// Fits that are tried: the spread of so many is known to a fifth.
 const TRIALS: u64 = 16;
-/// Points that they are made with.
+/// Points up to which they are made; among more, one counts for nothing.
 const POINTS: usize = 1024;
 /// How far off those start, in each unknown of the unit frame, that show whether another element is as good.
 const OFF: f64 = 2e-3;
@@ -33,7 +33,7 @@ const ROUNDING: f64 = 4.0 * f64::EPSILON;
 /// Root mean square distances from a corner within which a point has no linear distance.
 const CORNER: f64 = 30.0;
 
-/// Whether the linear uncertainty of an element does not hold, as one of few points lies at a corner of the distances.
+/// Whether distances are not linear in the unknowns, as one of few points lies at a corner of theirs.
 pub(super) fn is_bent<const P: usize, F: Family<P>>(element: &Element, sample: &Sample, rms: f64) -> bool {
     sample.len() <= POINTS && F::has_corner(element, sample, CORNER * rms.max(ROUNDING))
 }
@@ -43,8 +43,7 @@ pub(super) fn covariance<const P: usize, F: Family<P>>(
     element: &Element,
     sample: &Sample,
 ) -> Option<Covariance> {
-    let some = sample.thinned(POINTS);
-    let points: Vec<Point> = some.units().collect();
+    let points: Vec<Point> = sample.units().collect();
     let unit =
         Sample { points: Cow::Borrowed(&points), center: [0.0; 3], scale: 1.0, station: sample.station };
     let rms = |element: &Element| {

@@ -281,7 +281,7 @@ fn face(
 fn beside(points: &[[f64; 2]], rows: &[Ordered], k: usize, gap: f64) -> Option<f64> {
     let own = &rows[k];
     let short = BRANCH * rows[0].numbers.len() as f64;
-    if own.closed || own.numbers.len() as f64 > short || !(gap > 0.0) {
+    if own.closed || own.numbers.len() as f64 > short || gap.is_nan() || gap <= 0.0 {
         return None;
     }
     let longer = rows[..k].iter().filter(|r| r.numbers.len() as f64 * BRANCH >= own.numbers.len() as f64);

@@ -111,7 +111,7 @@ impl Window {
             variance: 0.0,
             changes: 0.0,
         };
-        if !(reach > 0.0) {
+        if reach.is_nan() || reach <= 0.0 {
             return None;
         }
         let local: Vec<[f64; 2]> = points.iter().map(|p| window.local(*p)).collect();
