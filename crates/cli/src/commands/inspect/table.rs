@@ -102,8 +102,10 @@ fn said(document: &InspectDocument, verbose: bool) -> String {
 /// How far the feature of a position or profile is from its true place, along each axis of the frame.
 fn place(c: &CharacteristicRecord) -> Option<String> {
     let place = c.place.as_ref()?;
+    // As drawn, where it is; a model in single precision has 51.999999602 for 52.
+    let drawn = |exact: f64| written((1e4 * exact).round() / 1e4);
     let all = place.coordinates().map(|(name, exact, measured, off)| {
-        format!("d{name} {} ({} for {})", short_signed(off), fixed(measured, 4), written(exact))
+        format!("d{name} {} ({} for {})", short_signed(off), fixed(measured, 4), drawn(exact))
     });
     let all: Vec<String> = all.collect();
     let frame = match *place.frame {
