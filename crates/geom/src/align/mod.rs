@@ -3,7 +3,6 @@
 //! | task | where |
 //! |---|---|
 //! | best fit of a scan from any pose | [`best_fit`] |
-//! | the same with a scale | [`best_fit_scaled`] |
 //! | the pose with the least greatest distance | [`minimax`] |
 //! | the pose with the least greatest excess over tolerances | [`into_zones`] |
 //! | how a best fit answers to small shifts of what was measured | [`response`] |
