@@ -7,7 +7,7 @@ use super::mirror::Mirror;
 use super::sample::Samples;
 use super::settle::Settle;
 use super::start::Search;
-use super::work::{BRIEF, FEW, PART, Work};
+use super::work::{FEW, PART, Work};
 use super::{AlignError, AlignWarning, Alignment, Freedom, near, revolved};
 use crate::progress::Progress;
 use crate::rigid::Rigid;
@@ -114,9 +114,7 @@ impl Work<'_> {
         for k in 1..=AGAIN as u64 {
             let seed = self.options.seed.wrapping_add(k);
             let again = search.again(samples.few(FEW, seed), seed);
-            let candidates = again.candidates(&[Rigid::IDENTITY], progress)?;
-            let mut poses = self.promising(&again, &candidates, progress)?;
-            poses.truncate(BRIEF);
+            let poses = self.briefly(&again, &[Rigid::IDENTITY], progress)?;
             if !poses.is_empty() {
                 found.push(self.choose(&poses, some, progress)?.0);
             }

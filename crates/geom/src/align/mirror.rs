@@ -3,7 +3,7 @@
 use super::rows::MIRRORED;
 use super::sample::Samples;
 use super::start::Search;
-use super::work::{BRIEF, FEW, Work};
+use super::work::{FEW, Work};
 use super::{AlignError, Alignment};
 use crate::progress::Progress;
 use crate::rigid::Rigid;
@@ -33,9 +33,7 @@ impl Work<'_> {
     ) -> Result<Mirror, AlignError> {
         let image = samples.mirrored();
         let again = search.again(image.few(FEW, self.options.seed), self.options.seed);
-        let candidates = again.candidates(&[], progress)?;
-        let mut poses = self.promising(&again, &candidates, progress)?;
-        poses.truncate(BRIEF);
+        let poses = self.briefly(&again, &[], progress)?;
         if poses.is_empty() {
             return Ok(Mirror::Same);
         }

@@ -103,6 +103,19 @@ impl<'a> Work<'a> {
         Ok(refined.iter().filter(|r| r.0 <= PROMISING * least).map(|r| r.1).collect())
     }
 
+    /// A few of the best poses of one more search; none where it finds none.
+    pub fn briefly(
+        &self,
+        search: &Search,
+        from: &[Rigid],
+        progress: &dyn Progress,
+    ) -> Result<Vec<Rigid>, AlignError> {
+        let candidates = search.candidates(from, progress)?;
+        let mut poses = self.promising(search, &candidates, progress)?;
+        poses.truncate(BRIEF);
+        Ok(poses)
+    }
+
     /// How far a pose with distances of this deviation is looked around at first.
     pub fn reach(&self, sigma: f64) -> f64 {
         if self.options.robust { (2.0 * FAR * sigma).max(64.0 * self.rounding) } else { f64::INFINITY }

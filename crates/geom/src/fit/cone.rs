@@ -7,13 +7,8 @@ use super::sample::Sample;
 use super::unknown::Local;
 use crate::frame::Pose;
 use crate::shape::Shape;
-use crate::space::{Point, dot, minus, plus, times, unit};
+use crate::space::{Point, minus, norm, plus, times, unit};
 use std::f64::consts::{FRAC_PI_2, PI};
-
-/// Distance from the apex, in the unit frame, at which a point may be the tip.
-const AT_TIP: f64 = 0.1;
-/// Points that the cone with its apex there is taken from.
-const FEW: usize = 256;
 
 /// Cone about the third axis of its frame, opening along it. Its sizes are the distance of the origin from the
 /// surface and the half angle: unlike radius and apex they stay finite from the cylinder to the plane. On the way there an
@@ -64,13 +59,14 @@ impl Family<6> for Cone {
     fn starts(points: &[Point]) -> Vec<Element> {
         osculating::cones::<Cone>(points)
     }
-    /// With its apex at the point next to it, if that is close.
-    fn at_corner(element: &Element, sample: &Sample) -> Option<Element> {
-        let tip = tip(element, sample, AT_TIP)?;
-        Some(osculating::with_apex::<Cone>(tip, &sample.thinned(FEW).units().collect::<Vec<Point>>()))
-    }
-    fn has_corner(element: &Element, sample: &Sample, within: f64) -> bool {
-        tip(element, sample, within).is_some()
+    /// With its apex at the point next to it.
+    fn at_corner(element: &Element, sample: &Sample, within: f64) -> Option<Element> {
+        let below = -element.size[0] / libm::sin(element.size[1]);
+        let apex = plus(element.pose.origin, times(below, element.pose.axes[2]));
+        let far = |p: &Point| norm(minus(*p, apex));
+        let points: Vec<Point> = sample.units().collect();
+        let tip = points.iter().min_by(|p, q| far(p).total_cmp(&far(q)))?;
+        (far(tip) <= within).then(|| osculating::with_apex::<Cone>(*tip, &points))
     }
     fn settled(mut element: Element) -> Element {
         if element.size[1] < 0.0 {
@@ -106,18 +102,6 @@ impl Family<6> for Cone {
         let size = [radius * sample.scale * libm::cos(half_angle), half_angle];
         Some(refooted(Element { pose, size }, [0.0; 3]))
     }
-}
-
-/// The point next to the apex, if it is that close.
-fn tip(element: &Element, sample: &Sample, within: f64) -> Option<Point> {
-    let below = -element.size[0] / libm::sin(element.size[1]);
-    let apex = plus(element.pose.origin, times(below, element.pose.axes[2]));
-    let far = |p: &Point| {
-        let q = minus(*p, apex);
-        dot(q, q)
-    };
-    let nearest = sample.units().min_by(|p, q| far(p).total_cmp(&far(q)))?;
-    (far(&nearest) <= within * within).then_some(nearest)
 }
 
 /// Whether the apex is the nearest place: the foot on the generator, by its height above the apex times the sine, is none.

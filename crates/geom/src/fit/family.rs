@@ -53,13 +53,10 @@ pub(super) trait Family<const P: usize>: Sync {
     fn more_starts(_points: &[Point]) -> Vec<Element> {
         Vec::new()
     }
-    /// An element close by that a search may not reach, as distances have a corner there.
-    fn at_corner(_element: &Element, _sample: &Sample) -> Option<Element> {
+    /// The element with a corner of its distances at a point, if one lies so close to such a corner. Distances are not linear there, and a
+    /// search may not reach it.
+    fn at_corner(_element: &Element, _sample: &Sample, _within: f64) -> Option<Element> {
         None
-    }
-    /// Whether a point lies so close to a corner of the distances that they are not linear in the unknowns.
-    fn has_corner(_element: &Element, _sample: &Sample, _within: f64) -> bool {
-        false
     }
     /// The element in the frame of the points.
     fn shape(element: &Element, sample: &Sample) -> Shape;

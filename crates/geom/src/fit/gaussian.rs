@@ -18,6 +18,9 @@ const FEWER: usize = 64;
 /// Points that a start is improved on before all are looked at.
 const SOME: usize = 8192;
 
+/// Distance from a corner of the distances, in the unit frame, up to which a point may belong there.
+const AT_CORNER: f64 = 0.1;
+
 /// A root mean square distance in the unit frame that looks like a wrong minimum.
 const POOR: f64 = 5e-3;
 
@@ -101,7 +104,7 @@ fn around<const P: usize, F: Family<P>>(
 ) -> Option<Optimum<P>> {
     let from = |start: &Element| minimize::<P, F, _>(start, sample, &Alike, effort);
     let smooth = from(start)?;
-    let corner = F::at_corner(&smooth.element, sample).and_then(|start| from(&start));
+    let corner = hardly::corner::<P, F>(&smooth.element, sample, AT_CORNER).and_then(|start| from(&start));
     Some(corner.filter(|c| c.sums.square < smooth.sums.square).unwrap_or(smooth))
 }
 

@@ -17,12 +17,14 @@ use std::borrow::Cow;
 
 /// Fits that are tried: the spread of so many is known to a fifth.
 const TRIALS: u64 = 16;
-/// Points up to which they are made; among more, one counts for nothing.
-const POINTS: usize = 1024;
+/// Points up to which one at a corner counts: among more it is nothing.
+const MOST_POINTS: usize = 1024;
 /// How far off those start, in each unknown of the unit frame, that show whether another element is as good.
-const OFF: f64 = 2e-3;
-/// Far from the element: a fifth of that.
-const FAR: f64 = 0.2 * OFF;
+const START_OFF: f64 = 2e-3;
+/// Change of a number from which on an element is another one: a fifth of that.
+const ANOTHER: f64 = 0.2 * START_OFF;
+/// Times the noise that a fit to points with noise leaves at most.
+const NOISE_LEFT: f64 = 8.0;
 /// Root mean square distance in the unit frame that is as good as none: in a valley that flat a search ends above rounding.
 const AS_GOOD: f64 = 1e-12;
 /// Standard deviation of a number in the unit frame beyond which the points tell nothing of it.
@@ -31,11 +33,20 @@ const LOOSE: f64 = 0.1;
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// Root mean square distances from a corner within which a point has no linear distance.
-const CORNER: f64 = 30.0;
+const NOT_LINEAR: f64 = 30.0;
+
+/// The element with a corner at one of few points.
+pub(super) fn corner<const P: usize, F: Family<P>>(
+    element: &Element,
+    sample: &Sample,
+    within: f64,
+) -> Option<Element> {
+    if sample.len() <= MOST_POINTS { F::at_corner(element, sample, within) } else { None }
+}
 
 /// Whether distances are not linear in the unknowns, as one of few points lies at a corner of theirs.
 pub(super) fn is_bent<const P: usize, F: Family<P>>(element: &Element, sample: &Sample, rms: f64) -> bool {
-    sample.len() <= POINTS && F::has_corner(element, sample, CORNER * rms.max(ROUNDING))
+    corner::<P, F>(element, sample, NOT_LINEAR * rms.max(ROUNDING)).is_some()
 }
 
 /// The covariance of the parameters of `element`; `None` if the points do not determine it.
@@ -65,14 +76,15 @@ pub(super) fn covariance<const P: usize, F: Family<P>>(
             let end = minimize::<P, F, _>(&start, &unit.with(moved.into()), &Alike, FULL)?;
             let end = F::settled(end.element);
             let rms = rms(&end);
-            (rms <= (8.0 * noise).max(OFF * OFF)).then(|| (rms, F::shape(&end, &unit).flattened().0))
+            (rms <= (NOISE_LEFT * noise).max(START_OFF * START_OFF))
+                .then(|| (rms, F::shape(&end, &unit).flattened().0))
         };
         (0..TRIALS).filter_map(end).collect()
     };
     // The apex of a cone follows from its other numbers, far off where the half angle is small.
     let first = if kind == Kind::Cone { 3 } else { 0 };
-    let is_far = |end: &[f64; MOST_NUMBERS]| (first..size).any(|k| (end[k] - best[k]).abs() > FAR);
-    if ends(0.0, OFF).iter().any(|(rms, end)| *rms <= AS_GOOD.max(noise) && is_far(end)) {
+    let is_far = |end: &[f64; MOST_NUMBERS]| (first..size).any(|k| (end[k] - best[k]).abs() > ANOTHER);
+    if ends(0.0, START_OFF).iter().any(|(rms, end)| *rms <= AS_GOOD.max(noise) && is_far(end)) {
         return None;
     }
     let ends = ends(noise, noise.sqrt());

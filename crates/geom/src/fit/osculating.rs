@@ -6,7 +6,6 @@
 //!    Where the axis lies follows from the moments of the points ([`Powers`]).
 //! 2. **From within.** A patch looks like a cylinder: its curvature across the generators tells how the cone's half angle goes
 //!    with the distance of its apex, on either side. So all distances are tried, from half the patch to the cylinder.
-//!
 //! 3. **From a tip.** All directions from the apex to points lie on a circle of the unit sphere, so its plane has the axis. Points at
 //!    the ends of the principal directions are tried as apexes: exact where one of them is.
 //!
