@@ -19,7 +19,7 @@ use trueness_geom::closest::Tree;
 use trueness_geom::deviation::surface::{ReferenceSurface, SurfaceOptions};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::rigid::Rigid;
-use trueness_geom::space::Point;
+use trueness_geom::space::{Point, times};
 use trueness_inspect::compare::Regions;
 use trueness_inspect::results::align::AlignDocument;
 use trueness_inspect::results::{InputRecord, Role};
@@ -37,6 +37,7 @@ Examples:
   trueness align scan.stl nominal.stl -o aligned.stl
   trueness align scan.ply nominal.stl --json transform.json
   trueness align scan.stl nominal.stl --from-here --lock tz,rx,ry -o aligned.stl
+  trueness align scan.stl nominal.stl --scale -o aligned.stl
   trueness align scan.stl nominal.stl --method chebyshev -o aligned.stl
   trueness align scan.stl nominal.stl --method zones --tolerance 0.2 --regions regions.toml -o aligned.stl
   trueness align scan.stl nominal.stl --method rps --points rps.csv -o aligned.stl"))]
@@ -67,6 +68,9 @@ pub struct AlignArgs {
     /// about it, in the frame of the reference; for best-fit
     #[arg(long, value_delimiter = ',', value_name = "AXES", requires = "from_here")]
     lock: Vec<LockArg>,
+    /// Find a scale, too: how many times as large the scan has to be made; for best-fit
+    #[arg(long, conflicts_with = "lock")]
+    scale: bool,
     /// Let all points count, however far off they are
     #[arg(long)]
     keep_outliers: bool,
@@ -150,9 +154,10 @@ impl Scan {
         if self.mesh.faces.is_empty() { Writable::Points } else { Writable::Mesh }
     }
 
-    /// Writes it as it lies after `motion`. Gives what the format could not hold, for people.
-    fn write(&self, path: &Path, motion: &Rigid) -> anyhow::Result<Option<String>> {
-        let positions: Vec<Point> = self.mesh.positions.iter().map(|p| motion.point(*p)).collect();
+    /// Writes it as it lies after `motion`, made `factor` times as large before. Gives what the format could not hold, for people.
+    fn write(&self, path: &Path, factor: f64, motion: &Rigid) -> anyhow::Result<Option<String>> {
+        let moved = |p: &Point| motion.point(times(factor, *p));
+        let positions: Vec<Point> = self.mesh.positions.iter().map(moved).collect();
         if self.holds() == Writable::Points {
             let mut file = write::points(path, Layout::default())?;
             file.write(&Block { points: &positions, ..Block::default() })?;
@@ -182,9 +187,10 @@ fn run(args: &AlignArgs, common: &Common) -> anyhow::Result<Outcome> {
             Usage("--points is for the methods pairs, 3-2-1 and rps; name one by --method".into()).into()
         );
     }
-    if args.method != MethodArg::BestFit && !args.lock.is_empty() {
+    if args.method != MethodArg::BestFit && (args.scale || !args.lock.is_empty()) {
+        let what = if args.scale { "--scale" } else { "--lock" };
         let why = "the other methods begin with a best fit of all six degrees of freedom, or take the rows of a table";
-        return Err(Usage(format!("--lock is for --method best-fit: {why}")).into());
+        return Err(Usage(format!("{what} is for --method best-fit: {why}")).into());
     }
     let mut scan = Scan::open(args)?;
     if let Some(path) = &args.out {
@@ -208,8 +214,9 @@ fn run(args: &AlignArgs, common: &Common) -> anyhow::Result<Outcome> {
         }
         (None, _) => best_fit(args, &scan, &reference.mesh, records, common)?,
     };
-    let motion = Rigid::from_matrix(document.transform).context("the motion found")?;
-    let loss = args.out.as_ref().map(|path| scan.write(path, &motion)).transpose()?.flatten();
+    let motion = Rigid::from_matrix(document.motion()).context("the motion found")?;
+    let factor = document.scale.unwrap_or(1.0);
+    let loss = args.out.as_ref().map(|path| scan.write(path, factor, &motion)).transpose()?.flatten();
     args.document.write(&document)?;
     args.document.table(|| table(&document, loss.as_deref()))?;
     // Against a reference that was not read in whole nothing is proven.
@@ -249,6 +256,10 @@ fn best_fit(
         AlignError::Cancelled(e) => e.into(),
         e => anyhow::anyhow!("{}: {e}", args.measured.display()),
     };
+    if args.scale {
+        let (fit, scale) = align::best_fit_scaled(&measured, &target, &options, &stage).map_err(failed)?;
+        return Ok(AlignDocument::of_best_fit(&fit, records, common.seed).with_scale(&scale));
+    }
     let fit = align::best_fit(&measured, &target, &options, &stage).map_err(failed)?;
     match args.method {
         MethodArg::Chebyshev => {
@@ -349,6 +360,14 @@ fn table(document: &AlignDocument, loss: Option<&str>) -> String {
         settled,
         counted(document.iterations, ["step", "steps"])
     );
+    if let (Some(scale), Some(u)) = (document.scale, document.scale_std_uncertainty) {
+        let _ = writeln!(
+            out,
+            "scale {} ± {} (one standard deviation): the scan is made so many times as large",
+            fixed(scale, 9),
+            scientific(u, 1)
+        );
+    }
     if let Some(lock) = &document.lock {
         let [x, y, z] = lock.center.map(six_digits);
         let _ = writeln!(out, "locked: {}, about {x}, {y}, {z}", lock.axes.join(", "));

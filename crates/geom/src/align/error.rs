@@ -54,6 +54,9 @@ pub enum AlignError {
     /// Components of a motion are locked whose start is looked for.
     #[error("what is locked keeps the value that it has at the start: give the start (--from-here)")]
     LockedSearch,
+    /// The shape tells no scale.
+    #[error("the shape does not tell a scale: measure faces that look at each other, or leave the scale out")]
+    ScaleFree,
     /// No point that counts lies where something is asked.
     #[error("no point lies over a place that has a tolerance: give one to places where there are points")]
     NoZone,

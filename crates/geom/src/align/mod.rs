@@ -3,6 +3,7 @@
 //! | task | where |
 //! |---|---|
 //! | best fit of a scan from any pose | [`best_fit`] |
+//! | the same of a part that may be larger or smaller as a whole | [`best_fit_scaled`] |
 //! | the pose with the least greatest distance | [`minimax`] |
 //! | the pose with the least greatest excess over tolerances | [`into_zones`] |
 //! | how a best fit answers to small shifts of what was measured | [`response`] |
@@ -44,6 +45,7 @@ mod revolved;
 mod rims;
 mod rows;
 mod sample;
+mod scaled;
 mod settle;
 mod start;
 mod system;
@@ -64,6 +66,7 @@ pub use minimax::{Minimax, minimax};
 pub use response::{Response, response};
 pub use rows::{AMPLIFIED, Row, RowFit, constrained, pairs};
 pub use sample::Measured;
+pub use scaled::{Scale, best_fit_scaled};
 pub use target::Target;
 pub use twist::Lock;
 pub use zones::{InZones, ZoneAt, into_zones};

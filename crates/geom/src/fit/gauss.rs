@@ -64,6 +64,9 @@ const DAMPING: (f64, f64) = (1e-7, 1e-3);
 /// What is known of a step before it is tried.
 struct Step {
     length: f64,
+    /// What the distances may change by beyond that: the square of the change of the unknowns, as distances bend by no more than the size of
+    /// the points. Where distances hardly determine an unknown, a step without length may lead far off.
+    bend: f64,
     /// Length of the step taken before; infinite for the first.
     last_length: f64,
     /// The sum of squares would fall by less than its own rounding; and it is not damped, so that it leads to the optimum.
@@ -77,10 +80,10 @@ impl Step {
     /// the length of the next one: this one times the quotient of the last two. That is compared with `enough`. And where steps
     /// in the reach of rounding no longer become shorter by half, they are rounding themselves.
     fn is_last(&self, enough: f64) -> bool {
-        let &Step { length, last_length, invisible } = self;
+        let &Step { length, last_length, invisible, .. } = self;
         let shrinking = if invisible && last_length < 1.0 { (length / last_length).min(1.0) } else { 1.0 };
         let is_rounding = invisible && length < ROUNDING_REACH && length > 0.5 * last_length;
-        length * shrinking <= enough || is_rounding
+        (length * shrinking).max(self.bend) <= enough || is_rounding
     }
 
     /// Whether the normal matrix is good enough for the next step too.
@@ -116,7 +119,8 @@ pub(super) fn minimize<const P: usize, F: Family<P>, W: Weighing>(
         };
         let fall = now.sums.fall(&step);
         let invisible = damping == 0.0 && fall <= VISIBLE_FALL * now.sums.square;
-        let this = Step { length: now.sums.length(&step), last_length, invisible };
+        let bend = step.iter().map(|x| x * x).sum();
+        let this = Step { length: now.sums.length(&step), bend, last_length, invisible };
         if this.is_last(effort.enough) {
             now.element = element;
             now.converged = true;

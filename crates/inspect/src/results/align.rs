@@ -8,7 +8,7 @@ pub use note::{AlignNote, AlignNoteKind};
 use super::{InputRecord, UNITS, VERSION};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use trueness_geom::align::{Alignment, Freedom, InZones, Lock, Minimax, NotCounted, RowFit};
+use trueness_geom::align::{Alignment, Freedom, InZones, Lock, Minimax, NotCounted, RowFit, Scale};
 
 /// Name of this document's schema.
 pub const SCHEMA: &str = "trueness/align/1";
@@ -26,8 +26,15 @@ pub struct AlignDocument {
     pub inputs: Vec<InputRecord>,
     /// `best-fit`, `chebyshev`, `zones`, `pairs`, `3-2-1` or `rps`.
     pub method: String,
-    /// 4×4, row by row, acting on columns (x, y, z, 1): takes measured coordinates to those of the reference.
+    /// 4×4, row by row, acting on columns (x, y, z, 1): takes measured coordinates to those of the reference. With a `scale` its rotation is
+    /// multiplied by it.
     pub transform: [[f64; 4]; 4],
+    /// How many times as large the measured was made, where that was asked for.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub scale: Option<f64>,
+    /// Its standard uncertainty.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub scale_std_uncertainty: Option<f64>,
     /// Angle of its rotation, radians.
     pub angle: f64,
     /// Root of the weighted mean square distance of what counts.
@@ -281,6 +288,8 @@ impl AlignDocument {
             inputs,
             method: "best-fit".into(),
             transform: found.reference_from_measured.matrix(),
+            scale: None,
+            scale_std_uncertainty: None,
             angle: found.reference_from_measured.angle(),
             rms: found.rms,
             mean_abs: found.mean_abs,
@@ -322,6 +331,23 @@ impl AlignDocument {
         self
     }
 
+    /// The same of a best fit with a scale.
+    pub fn with_scale(mut self, scale: &Scale) -> AlignDocument {
+        for row in &mut self.transform[..3] {
+            row[..3].iter_mut().for_each(|x| *x *= scale.factor);
+        }
+        (self.scale, self.scale_std_uncertainty) = (Some(scale.factor), Some(scale.std_uncertainty));
+        self
+    }
+
+    /// The motion of `transform`, without its scale.
+    pub fn motion(&self) -> [[f64; 4]; 4] {
+        let mut matrix = self.transform;
+        let factor = self.scale.unwrap_or(1.0);
+        matrix[..3].iter_mut().for_each(|row| row[..3].iter_mut().for_each(|x| *x /= factor));
+        matrix
+    }
+
     /// Of the least greatest distance, found from the best fit `from`.
     pub fn of_minimax(
         found: &Minimax,
@@ -332,6 +358,8 @@ impl AlignDocument {
         AlignDocument {
             method: "chebyshev".into(),
             transform: found.reference_from_measured.matrix(),
+            scale: None,
+            scale_std_uncertainty: None,
             angle: found.reference_from_measured.angle(),
             rms: found.rms,
             mean_abs: found.mean_abs,
@@ -352,6 +380,8 @@ impl AlignDocument {
         AlignDocument {
             method: "zones".into(),
             transform: found.reference_from_measured.matrix(),
+            scale: None,
+            scale_std_uncertainty: None,
             angle: found.reference_from_measured.angle(),
             rms: found.rms,
             mean_abs: found.mean_abs,
@@ -394,6 +424,8 @@ impl AlignDocument {
             inputs,
             method: method.into(),
             transform: found.reference_from_measured.matrix(),
+            scale: None,
+            scale_std_uncertainty: None,
             angle: found.reference_from_measured.angle(),
             rms: found.rms,
             mean_abs: found.residuals.iter().map(|r| r.abs()).sum::<f64>() / count,

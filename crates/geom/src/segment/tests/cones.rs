@@ -51,6 +51,8 @@ struct Drawn {
     /// Steps along its generators: 1 as drawn.
     steps: usize,
     noise: f64,
+    /// Greatest rounding of a coordinate, where the part lies elsewhere and is written in single precision.
+    rounding: f64,
 }
 
 impl Drawn {
@@ -65,7 +67,23 @@ impl Drawn {
         let is_scan = seed % 5 == 4;
         let noise = if is_scan { between(1e-5, 3e-4) * radius } else { 0.0 };
         let (chords, steps) = if is_scan { (96, 24) } else { (chords, 1) };
-        Drawn { radius, degrees, chords, top, base: random.below(3), steps, noise }
+        Drawn { radius, degrees, chords, top, base: random.below(3), steps, noise, rounding: 0.0 }
+    }
+    /// The part as most files hold it.
+    fn in_single_precision(&mut self, part: Part) -> Part {
+        let mut part = part.moved();
+        for x in part.mesh.positions.iter_mut().flatten() {
+            let single = f64::from(*x as f32);
+            self.rounding = (*x - single).abs().max(self.rounding);
+            *x = single;
+        }
+        part
+    }
+    /// How far the half angle may be off, radians. The apex and one ring of a cone determine it in second order only.
+    fn allowed(&self) -> f64 {
+        let noise = 20.0 * self.noise.max(self.rounding) / self.radius;
+        let is_fan = self.top == 0.0 && self.steps == 1;
+        if is_fan { noise.sqrt().max(1e-6) } else { noise.max(1e-6) }
     }
     fn part(&self, seed: u64) -> Part {
         let Drawn { radius, degrees, chords, top, base, steps, noise } = *self;
@@ -140,8 +158,7 @@ fn verdict(drawn: &Drawn, part: &Part, found: &Segmentation) -> Verdict {
     let held = counts[best] as f64 >= share * own.len() as f64;
     match found.regions[best].fit.shape {
         Shape::Cone { half_angle, .. } if held => {
-            let allowed = if drawn.noise > 0.0 { 20.0 * drawn.noise / drawn.radius } else { 1e-6 };
-            if (half_angle - angle).abs() <= allowed { Verdict::Right } else { Verdict::Wrong }
+            if (half_angle - angle).abs() <= drawn.allowed() { Verdict::Right } else { Verdict::Wrong }
         }
         _ => {
             let is_plane = |k: &usize| counts[*k] == 0 || found.regions[*k].fit.shape.kind() == Kind::Plane;
@@ -156,11 +173,14 @@ fn verdict(drawn: &Drawn, part: &Part, found: &Segmentation) -> Verdict {
     }
 }
 
-fn rates(seeds: std::ops::Range<u64>) -> ([usize; 3], [usize; 3], Vec<String>) {
+fn rates(seeds: std::ops::Range<u64>, single: bool) -> ([usize; 3], [usize; 3], Vec<String>) {
     let (mut of_cones, mut of_others, mut bad) = ([0; 3], [0; 3], vec![]);
     for seed in seeds {
-        let drawn = Drawn::random(seed);
-        let part = drawn.part(seed);
+        let mut drawn = Drawn::random(seed);
+        let mut part = drawn.part(seed);
+        if single {
+            part = drawn.in_single_precision(part);
+        }
         let found = mesh(&part.mesh, &Options::default(), &Silent).unwrap();
         let verdict = verdict(&drawn, &part, &found);
         let is_cone = drawn.is_cone() && drawn.shows(&found);
@@ -178,12 +198,23 @@ fn rates(seeds: std::ops::Range<u64>) -> ([usize; 3], [usize; 3], Vec<String>) {
     (of_cones, of_others, bad)
 }
 
+/// As drawn, and as files in single precision hold them: none wrong without a word among the first, and few are missed.
+#[test]
+fn cones_are_found_as_drawn_and_in_single_precision() {
+    for single in [false, true] {
+        let (of_cones, of_others, bad) = rates(0..40, single);
+        assert!(of_cones[2] + of_others[2] == 0 && of_cones[1] <= 1, "{of_cones:?} {of_others:?} {bad:#?}");
+    }
+}
+
 #[test]
 #[ignore = "measures rates over many cones"]
 fn rates_over_many_cones() {
-    let (of_cones, of_others, bad) = rates(0..500);
-    println!(
-        "right, told, wrong: cones {of_cones:?}, pyramids and what does not show {of_others:?}\n{}",
-        bad.join("\n")
-    );
+    for single in [false, true] {
+        let (of_cones, of_others, bad) = rates(0..500, single);
+        println!(
+            "single {single}: right, told, wrong: cones {of_cones:?}, pyramids and what does not show {of_others:?}\n{}",
+            bad.join("\n")
+        );
+    }
 }

@@ -1,0 +1,181 @@
+//! The best fit of a part that may be larger or smaller as a whole: a seventh unknown, on request alone, as a scale hides what a part is off.
+//!
+//! Pose and scale are found in turns: a best fit of the scaled part, then one step of the scale in which the pose gives way (the Schur
+//! complement of the pose in the normal equations of all seven; Björck, Numerical methods for least squares problems, 1996, 2.2). The steps
+//! are Newton's for both together.
+
+use super::alignment::UNITS;
+use super::covariance::cell_of;
+use super::icp::Match;
+use super::sample::{Measured, Samples};
+use super::system::{Constraint, Six, Spectrum, System, slope};
+use super::twist::inner;
+use super::work::Work;
+use super::{AlignError, AlignWarning, Alignment, BestFit, Start, Target, best_fit};
+use crate::closest::BoundaryEdges;
+use crate::mesh::Mesh;
+use crate::progress::Progress;
+use crate::rigid::Rigid;
+use crate::space::{Point, dot, minus, times};
+use std::collections::BTreeMap;
+
+/// Turns of pose and scale.
+const TURNS: usize = 30;
+/// Share of its own standard uncertainty below which a step of the scale is none.
+const SMALL: f64 = 1e-2;
+/// Mean square displacement along the normals that a scale must make, per unit of mean square displacement, to be told: what is flat has any.
+const TOLD: f64 = 1e-4;
+/// Share by which a scale may differ from a ratio of units that is named.
+const UNIT: f64 = 0.005;
+
+/// How many times as large the measured has to be made.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Scale {
+    /// That factor: measured coordinates times it are those that the motion of the fit acts on.
+    pub factor: f64,
+    /// Its standard uncertainty, the pose being free.
+    pub std_uncertainty: f64,
+}
+
+impl Scale {
+    /// The ratio of units that it is, nearly.
+    pub fn unit(&self) -> Option<f64> {
+        UNITS.into_iter().find(|unit| (self.factor / unit - 1.0).abs() <= UNIT)
+    }
+}
+
+/// The best fit with a scale: [`best_fit`] of the measured made [`Scale::factor`] times as large, about the origin of its coordinates.
+///
+/// # Errors
+/// As [`best_fit`]; [`AlignError::ScaleFree`] where the shape does not tell a scale, as that of a plane.
+pub fn best_fit_scaled(
+    measured: &Measured,
+    reference: &Target,
+    options: &BestFit,
+    progress: &dyn Progress,
+) -> Result<(Alignment, Scale), AlignError> {
+    let mut fit = best_fit(measured, reference, options, progress)?;
+    let unit = fit.warnings.iter().find_map(|w| match w {
+        AlignWarning::Scale { factor } => Some(*factor),
+        _ => None,
+    });
+    let mut scale = Scale { factor: unit.unwrap_or(1.0), std_uncertainty: 0.0 };
+    if unit.is_some() {
+        fit = of_scaled(measured, scale.factor, reference, options, progress)?;
+    }
+    for _ in 0..TURNS {
+        let step = Step::new(&scaled(measured, scale.factor), reference, options, &fit, progress)?;
+        scale.std_uncertainty = step.uncertainty * scale.factor;
+        // Never to nothing, and to no other sign.
+        let by = 1.0 + step.size.clamp(-0.5, 1.0);
+        scale.factor *= by;
+        // About the middle of the measured.
+        let pose = fit.reference_from_measured;
+        let shift = times(by - 1.0, minus(pose.translation(), fit.center));
+        let there = Rigid::translation_by(shift).after(&pose);
+        let near = BestFit { start: Start::Given(there), ..*options };
+        fit = of_scaled(measured, scale.factor, reference, &near, progress)?;
+        if step.size.abs() <= (SMALL * step.uncertainty).max(step.rounding) {
+            break;
+        }
+    }
+    if options.start == Start::Anywhere {
+        fit = of_scaled(measured, scale.factor, reference, options, progress)?;
+    }
+    fit.warnings.retain(|w| !matches!(w, AlignWarning::Scale { .. }));
+    fit.warnings.extend(scale.unit().map(|factor| AlignWarning::Scale { factor }));
+    Ok((fit, scale))
+}
+
+/// What is measured, of its own.
+enum Owned {
+    Mesh(Mesh),
+    Points(Vec<Point>, Option<Vec<Point>>),
+}
+
+impl Owned {
+    fn measured(&self) -> Measured<'_> {
+        match self {
+            Owned::Mesh(mesh) => Measured::Mesh(mesh),
+            Owned::Points(points, normals) => Measured::Points { points, normals: normals.as_deref() },
+        }
+    }
+}
+
+fn scaled(measured: &Measured, factor: f64) -> Owned {
+    let positions = measured.points().iter().map(|p| times(factor, *p)).collect();
+    match measured {
+        Measured::Mesh(mesh) => Owned::Mesh(Mesh { positions, faces: mesh.faces.clone() }),
+        Measured::Points { normals, .. } => Owned::Points(positions, normals.map(<[Point]>::to_vec)),
+    }
+}
+
+fn of_scaled(
+    measured: &Measured,
+    factor: f64,
+    reference: &Target,
+    options: &BestFit,
+    progress: &dyn Progress,
+) -> Result<Alignment, AlignError> {
+    best_fit(&scaled(measured, factor).measured(), reference, options, progress)
+}
+
+/// A step of the scale at a pose, relative, and its standard uncertainty.
+struct Step {
+    size: f64,
+    uncertainty: f64,
+    /// A step that arithmetic cannot tell from none.
+    rounding: f64,
+}
+
+impl Step {
+    fn new(
+        measured: &Owned,
+        reference: &Target,
+        options: &BestFit,
+        fit: &Alignment,
+        progress: &dyn Progress,
+    ) -> Result<Step, AlignError> {
+        let all = Samples::of_surface(&measured.measured());
+        let turned = fit.warnings.contains(&AlignWarning::NormalsTurned);
+        let samples = if turned { all.turned() } else { all };
+        let edges = BoundaryEdges::watched(reference.tree, progress)?;
+        let work = Work::new(reference, &edges, options, &samples);
+        let (problem, pose) = (work.problem(&samples), fit.reference_from_measured);
+        let mut matches = problem.matches(&pose, f64::INFINITY, progress)?;
+        let sigma = problem.deviation(&matches);
+        problem.weigh(&mut matches, sigma);
+        let flat = |m: &Match| super::system::Equation { hold: Constraint::Plane(m.facet), ..m.equation };
+        let system = System::new(&matches, flat, pose.point(problem.mean), problem.radius);
+        if system.weight <= 0.0 {
+            return Err(AlignError::NoOverlap);
+        }
+        let row = |m: &Match| slope(m.equation.point, m.facet, system.center, system.radius);
+        let grows = |m: &Match| dot(minus(m.equation.point, system.center), m.facet);
+        let counts = || matches.iter().filter(|m| m.equation.weight > 0.0);
+        let (mut with, mut own): (Six, f64) = ([0.0; 6], 0.0);
+        for m in counts() {
+            let (row, grows) = (row(m), grows(m));
+            (0..6).for_each(|k| with[k] += m.equation.weight * row[k] * grows);
+            own += m.equation.weight * grows * grows;
+        }
+        let spectrum = Spectrum::of(&system);
+        // The pose gives way.
+        let gives = spectrum.solve(&with, fit.freedoms.len());
+        let told = own - inner(&with, &gives);
+        if told <= TOLD * system.weight * system.radius * system.radius {
+            return Err(AlignError::ScaleFree);
+        }
+        let mut cells: BTreeMap<[i64; 3], f64> = BTreeMap::new();
+        for m in counts() {
+            let alone = grows(m) - inner(&row(m), &gives);
+            *cells.entry(cell_of(m.equation.point, &system)).or_insert(0.0) +=
+                m.equation.weight * alone * dot(m.equation.away, m.facet);
+        }
+        let sum: f64 = cells.values().sum();
+        let squares: f64 = cells.values().map(|x| x * x).sum();
+        let count = cells.len() as f64;
+        let uncertainty = (squares * count / (count - 7.0).max(1.0)).sqrt() / told;
+        Ok(Step { size: -sum / told, uncertainty, rounding: problem.rounding / problem.radius })
+    }
+}
