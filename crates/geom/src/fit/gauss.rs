@@ -49,6 +49,8 @@ const VISIBLE_FALL: f64 = 1e-11;
 /// Steps below this length can be rounding alone: distances are rounded by 1e-16, and unknowns that the points hardly
 /// determine magnify that, here by a million at most.
 const ROUNDING_REACH: f64 = 1e-10;
+/// Share of the root mean square distance by which a step may change a distance unseen.
+const BENT: f64 = 1e-3;
 /// Steps up to this length are taken to leave the normal matrix as it is.
 const KEEPS_MATRIX: f64 = 1e-5;
 /// … if the step is at most this share of the one before: then the matrix has three digits and more, enough for steps and
@@ -64,9 +66,8 @@ const DAMPING: (f64, f64) = (1e-7, 1e-3);
 /// What is known of a step before it is tried.
 struct Step {
     length: f64,
-    /// What the distances may change by beyond that: the square of the change of the unknowns, as distances bend by no more than the size of
-    /// the points. Where distances hardly determine an unknown, a step without length may lead far off.
-    bend: f64,
+    /// Whether no distance can change by more. Where they hardly determine an unknown, a step without length may lead far off.
+    straight: bool,
     /// Length of the step taken before; infinite for the first.
     last_length: f64,
     /// The sum of squares would fall by less than its own rounding; and it is not damped, so that it leads to the optimum.
@@ -80,10 +81,10 @@ impl Step {
     /// the length of the next one: this one times the quotient of the last two. That is compared with `enough`. And where steps
     /// in the reach of rounding no longer become shorter by half, they are rounding themselves.
     fn is_last(&self, enough: f64) -> bool {
-        let &Step { length, last_length, invisible, .. } = self;
+        let &Step { length, straight, last_length, invisible } = self;
         let shrinking = if invisible && last_length < 1.0 { (length / last_length).min(1.0) } else { 1.0 };
         let is_rounding = invisible && length < ROUNDING_REACH && length > 0.5 * last_length;
-        (length * shrinking).max(self.bend) <= enough || is_rounding
+        straight && length * shrinking <= enough || is_rounding
     }
 
     /// Whether the normal matrix is good enough for the next step too.
@@ -118,9 +119,12 @@ pub(super) fn minimize<const P: usize, F: Family<P>, W: Weighing>(
             continue;
         };
         let fall = now.sums.fall(&step);
-        let invisible = damping == 0.0 && fall <= VISIBLE_FALL * now.sums.square;
-        let bend = step.iter().map(|x| x * x).sum();
-        let this = Step { length: now.sums.length(&step), bend, last_length, invisible };
+        // That of a point on the axis of a cone changes as the axis moves, whatever its slope.
+        let most = step.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let rms = (now.sums.square / now.sums.weight).sqrt();
+        let straight = most <= effort.enough.max(ROUNDING_REACH).max(BENT * rms);
+        let invisible = damping == 0.0 && straight && fall <= VISIBLE_FALL * now.sums.square;
+        let this = Step { length: now.sums.length(&step), straight, last_length, invisible };
         if this.is_last(effort.enough) {
             now.element = element;
             now.converged = true;
@@ -131,7 +135,8 @@ pub(super) fn minimize<const P: usize, F: Family<P>, W: Weighing>(
         } else {
             sums::<P, F, W>(&element, sample, weigh)
         };
-        let gain = (now.sums.square - next.square) / fall;
+        // Of a matrix without an inverse rounding makes one, and steps that lead up.
+        let gain = if fall > 0.0 { (now.sums.square - next.square) / fall } else { f64::NEG_INFINITY };
         if invisible || gain > ACCEPTED_GAIN {
             now.element = element;
             now.sums = next;
@@ -143,8 +148,8 @@ pub(super) fn minimize<const P: usize, F: Family<P>, W: Weighing>(
             } else {
                 damping
             };
-        } else if this.length < ROUNDING_REACH {
-            // Not even a step that short is taken: the element is as good as rounding allows.
+        } else if this.length < effort.enough.max(ROUNDING_REACH) {
+            // Not even a step that short is taken: the element is as good as can be.
             now.converged = true;
             break;
         } else {

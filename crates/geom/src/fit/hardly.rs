@@ -19,10 +19,12 @@ use std::borrow::Cow;
 const TRIALS: u64 = 16;
 /// Points up to which one at a corner counts: among more it is nothing.
 const MOST_POINTS: usize = 1024;
-/// How far off those start, in each unknown of the unit frame, that show whether another element is as good.
-const START_OFF: f64 = 2e-3;
-/// Change of a number from which on an element is another one: a fifth of that.
-const ANOTHER: f64 = 0.2 * START_OFF;
+/// How far off those start, in each unknown of the unit frame, that show whether another element is as good: so many times what noise hides in
+/// second order, between these limits.
+const START_OFF: f64 = 100.0;
+const START_OFF_LIMITS: [f64; 2] = [2e-3, LOOSE];
+/// Share of that from which on a number is of another element.
+const ANOTHER: f64 = 0.2;
 /// Times the noise that a fit to points with noise leaves at most.
 const NOISE_LEFT: f64 = 8.0;
 /// Root mean square distance in the unit frame that is as good as none: in a valley that flat a search ends above rounding.
@@ -76,15 +78,17 @@ pub(super) fn covariance<const P: usize, F: Family<P>>(
             let end = minimize::<P, F, _>(&start, &unit.with(moved.into()), &Alike, FULL)?;
             let end = F::settled(end.element);
             let rms = rms(&end);
-            (rms <= (NOISE_LEFT * noise).max(START_OFF * START_OFF))
+            (rms <= (NOISE_LEFT * noise).max(off * off).max(AS_GOOD))
                 .then(|| (rms, F::shape(&end, &unit).flattened().0))
         };
         (0..TRIALS).filter_map(end).collect()
     };
     // The apex of a cone follows from its other numbers, far off where the half angle is small.
     let first = if kind == Kind::Cone { 3 } else { 0 };
-    let is_far = |end: &[f64; MOST_NUMBERS]| (first..size).any(|k| (end[k] - best[k]).abs() > ANOTHER);
-    if ends(0.0, START_OFF).iter().any(|(rms, end)| *rms <= AS_GOOD.max(noise) && is_far(end)) {
+    let [least, most] = START_OFF_LIMITS;
+    let off = (START_OFF * noise.sqrt()).clamp(least, most);
+    let is_far = |end: &[f64; MOST_NUMBERS]| (first..size).any(|k| (end[k] - best[k]).abs() > ANOTHER * off);
+    if ends(0.0, off).iter().any(|(rms, end)| *rms <= AS_GOOD.max(noise) && is_far(end)) {
         return None;
     }
     let ends = ends(noise, noise.sqrt());
