@@ -56,6 +56,9 @@ fn is_clear(lower: &str, upper: &str) -> bool {
 
 /// What a text without signs can mean, each as it should be written.
 fn both_readings(text: &str, (lower, upper): (f64, f64)) -> String {
+    if lower >= upper {
+        return format!("‘{text}’: the lower limit comes first: write {upper:+},{lower:+}");
+    }
     let zone = format!("{lower:+},{upper:+}");
     let number = text.replacen(',', ".", 1);
     match number.trim().parse::<f64>() {

@@ -14,6 +14,16 @@ pub fn badness(deviation: f64, zone: Option<[f64; 2]>) -> f64 {
     zone.map_or(deviation.abs(), |[lower, upper]| (deviation - upper).max(lower - deviation))
 }
 
+/// Why points farther away than `max_distance`, which do not count, would hide what is out of one of these zones; nothing where they do not.
+pub fn cannot_fail(max_distance: f64, zones: impl Iterator<Item = Tolerance>) -> Option<String> {
+    let limits = zones.flat_map(|zone| [zone.lower, zone.upper]);
+    let hidden =
+        limits.filter(|limit| max_distance <= limit.abs()).max_by(|a, b| a.abs().total_cmp(&b.abs()))?;
+    Some(format!(
+        "points farther away do not count, so that none could be out of a tolerance of {hidden:+} mm; give several times the tolerance"
+    ))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

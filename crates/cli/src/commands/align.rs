@@ -66,7 +66,7 @@ pub struct AlignArgs {
     from_here: bool,
     /// Components of the motion from here that stay zero: tx, ty, tz of the translation of the middle of the scan, rx, ry, rz of the rotation
     /// about it, in the frame of the reference; for best-fit
-    #[arg(long, value_delimiter = ',', value_name = "AXES", requires = "from_here")]
+    #[arg(long, value_delimiter = ',', value_name = "AXES", requires = "from_here", ignore_case = true)]
     lock: Vec<LockArg>,
     /// Find a scale, too: how many times as large the scan has to be made; for best-fit
     #[arg(long, conflicts_with = "lock")]
@@ -383,8 +383,10 @@ fn table(document: &AlignDocument, loss: Option<&str>) -> String {
             six_digits(fit.median)
         );
         let u = fit.std_uncertainty;
-        let degrees = [0, 1, 2].map(|k| scientific(u[k].to_degrees(), 1)).join(" ");
-        let lengths = [3, 4, 5].map(|k| scientific(u[k], 1)).join(" ");
+        let open = document.open();
+        let told = |k: usize, x: f64| if open[k] { "free".into() } else { scientific(x, 1) };
+        let degrees = [0, 1, 2].map(|k| told(k, u[k].to_degrees())).join(" ");
+        let lengths = [3, 4, 5].map(|k| told(k, u[k])).join(" ");
         let _ = writeln!(out, "standard uncertainty: rotation {degrees} degrees, translation {lengths} mm");
     }
     for pair in &document.pairs {

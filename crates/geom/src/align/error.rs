@@ -27,14 +27,17 @@ pub enum AlignError {
         /// Of the others.
         found: usize,
     },
-    /// A weight is negative or no number, or all are zero.
-    #[error("row {row} has a weight that is not a number from 0 upwards")]
+    /// A weight is negative or no number.
+    #[error("row {} has a weight that is not a number from 0 upwards", row + 1)]
     BadWeight {
         /// From 0.
         row: usize,
     },
+    /// All weights are zero.
+    #[error("all rows have a weight of 0: give one above 0 to those that count")]
+    NoWeight,
     /// A direction has no length.
-    #[error("row {row} has a direction of no length")]
+    #[error("row {} has a direction of no length", row + 1)]
     NoDirection {
         /// From 0.
         row: usize,

@@ -67,7 +67,7 @@ pub const AMPLIFIED: f64 = 10.0;
 /// Soc. Am. A 4, 1987. A mirror image is never taken for a rotation. Without `weights` all count alike.
 ///
 /// # Errors
-/// [`AlignError::Uneven`], [`AlignError::TooFewPoints`] below three, [`AlignError::Collinear`], [`AlignError::BadWeight`],
+/// [`AlignError::Uneven`], [`AlignError::TooFewPoints`] below three, [`AlignError::Collinear`], [`AlignError::BadWeight`], [`AlignError::NoWeight`],
 /// [`AlignError::Point`] for a coordinate that is no number.
 ///
 /// ```
@@ -201,7 +201,7 @@ const MOST: usize = 100;
 ///
 /// # Errors
 /// [`AlignError::TooFewPoints`] below six rows; [`AlignError::Underdetermined`] names how many freedoms stay open;
-/// [`AlignError::NoDirection`], [`AlignError::BadWeight`], [`AlignError::Point`]; those of [`pairs`] without a start.
+/// [`AlignError::NoDirection`], [`AlignError::BadWeight`], [`AlignError::NoWeight`], [`AlignError::Point`]; those of [`pairs`] without a start.
 ///
 /// ```
 /// use trueness_geom::{align::{constrained, Row}, rigid::Rigid};
@@ -305,7 +305,7 @@ fn checked_weights(count: usize, weight: &impl Fn(usize) -> f64) -> Result<f64, 
         Some(row) => Err(AlignError::BadWeight { row }),
         None => {
             let total: f64 = (0..count).map(weight).sum();
-            if total > 0.0 { Ok(total) } else { Err(AlignError::BadWeight { row: 0 }) }
+            if total > 0.0 { Ok(total) } else { Err(AlignError::NoWeight) }
         }
     }
 }

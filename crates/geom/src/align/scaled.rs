@@ -16,7 +16,7 @@ use crate::closest::BoundaryEdges;
 use crate::mesh::Mesh;
 use crate::progress::Progress;
 use crate::rigid::Rigid;
-use crate::space::{Point, dot, minus, times};
+use crate::space::{Aabb, Point, dot, minus, times};
 use std::collections::BTreeMap;
 
 /// Turns of pose and scale.
@@ -54,15 +54,23 @@ pub fn best_fit_scaled(
     options: &BestFit,
     progress: &dyn Progress,
 ) -> Result<(Alignment, Scale), AlignError> {
-    let mut fit = best_fit(measured, reference, options, progress)?;
-    let unit = fit.warnings.iter().find_map(|w| match w {
+    let as_is = best_fit(measured, reference, options, progress)?;
+    let unit = as_is.warnings.iter().find_map(|w| match w {
         AlignWarning::Scale { factor } => Some(*factor),
         _ => None,
     });
-    let mut scale = Scale { factor: unit.unwrap_or(1.0), std_uncertainty: 0.0 };
-    if unit.is_some() {
-        fit = of_scaled(measured, scale.factor, reference, options, progress)?;
+    // Of a whole part that of the sizes is near, of a piece of one that as it is.
+    let sizes = reference.mesh.bounds().diagonal() / Aabb::of(measured.points()).diagonal();
+    let (mut fit, mut factor) = (as_is, 1.0);
+    let other = unit.or(Some(sizes).filter(|ratio| ratio.is_finite() && *ratio > 0.0));
+    if let Some(other) = other {
+        let there = of_scaled(measured, other, reference, options, progress)?;
+        // A smaller part is nearer to anything.
+        if unit.is_some() || there.median / other < fit.median {
+            (fit, factor) = (there, other);
+        }
     }
+    let mut scale = Scale { factor, std_uncertainty: 0.0 };
     for _ in 0..TURNS {
         let step = Step::new(&scaled(measured, scale.factor), reference, options, &fit, progress)?;
         scale.std_uncertainty = step.uncertainty * scale.factor;

@@ -3,7 +3,7 @@
 //! The sample is that of reports ([`ShownPoints`](super::ShownPoints)): even, and the same however the points come in blocks. Up to
 //! [`MOST`] points it holds all of them.
 
-use super::map::{Flagged, Foot, MapSurface, PointMap};
+use super::map::{Foot, MapSurface, PointMap};
 use super::options::Coverage;
 use super::shown::scramble;
 use trueness_geom::mesh::Mesh;
@@ -52,19 +52,14 @@ impl CoverageSample {
         self.between.push(foot);
     }
 
-    /// Whether all points are in it.
-    pub fn is_whole(&self) -> bool {
-        self.level == 0
-    }
-
-    /// The surface with what the sample covers; each of `flagged` is a vertex of it.
-    pub fn surface(&self, mesh: &Mesh, flagged: &[Flagged], coverage: Coverage) -> MapSurface {
+    /// The surface with what the sample covers.
+    pub fn surface(&self, mesh: &Mesh, coverage: Coverage) -> MapSurface {
         let mut map = PointMap::new(mesh, None, false);
         for foot in self.feet.iter().map(|(_, foot)| foot).chain(&self.between) {
             let own = map.foot(mesh, foot.face(), foot.weights());
             map.add(own, 0.0);
         }
-        MapSurface::of(mesh, &map, flagged, coverage)
+        MapSurface::of(mesh, &map, &[], coverage)
     }
 }
 

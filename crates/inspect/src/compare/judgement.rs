@@ -3,13 +3,18 @@
 
 use super::options::Options;
 use crate::results::align::AlignNoteKind;
-use crate::results::compare::{Bounds, Comparison, CoverageRecord, ToleranceShares, Warning, WarningKind};
-use crate::results::{InputRecord, ReasonKind, Verdict, VerdictReason, judged, percent};
+use crate::results::compare::{
+    BetweenRecord, Bounds, Comparison, CoverageRecord, ToleranceShares, Warning, WarningKind,
+};
+use crate::results::{InputRecord, ReasonKind, Verdict, VerdictReason, judged, percent, percents};
 use trueness_geom::space::{minus, norm};
 
 /// Points whose mean distance is no more than this share of their own size lie on the reference: what an alignment is called poor by.
 /// Boxes in a ratio of units are then those of a small piece.
 const ON_REFERENCE: f64 = 0.01;
+
+/// Share of the size of a reference from which on a reach covers what no point is near.
+const FAR: f64 = 0.25;
 
 /// What is known beside the comparison itself.
 pub struct Grounds<'a> {
@@ -47,6 +52,7 @@ pub fn judge(c: &mut Comparison, grounds: &Grounds, options: &Options) {
     }
     let mut reasons: Vec<VerdictReason> = all.iter().filter_map(|(id, t)| share(*id, t)).collect();
     reasons.extend(doubts);
+    reasons.extend(c.between_vertices.and_then(|found| between(&found, options.required_share)));
     reasons.extend(covered(c.coverage.as_ref(), grounds.reference, options.min_coverage));
     reasons.sort_by_key(|r| ReasonKind::ALL.iter().position(|k| k == &*r.kind));
     let (verdict, reasons) = judged(&reasons);
@@ -110,6 +116,17 @@ fn share(region: Option<&str>, t: &ToleranceShares) -> Option<VerdictReason> {
     }
 }
 
+/// That a mesh is off between its vertices, by more of the places than may be.
+fn between(found: &BetweenRecord, required: f64) -> Option<VerdictReason> {
+    let share = found.beyond as f64 / found.places as f64;
+    let [x, y, z] = found.point;
+    let text = format!(
+        "between its vertices the measured mesh is out of tolerance at {} of {} places, by {:+.4} mm at {x:.3}, {y:.3}, {z:.3}",
+        found.beyond, found.places, found.deviation
+    );
+    (share > 1.0 - required).then(|| VerdictReason::new(ReasonKind::BetweenVertices, text))
+}
+
 /// Whether so much of the reference is covered as is asked for. What is less than a whole surface is counted whole: more of it than is covered
 /// may be none of the part.
 fn covered(
@@ -118,13 +135,21 @@ fn covered(
     least: f64,
 ) -> Option<VerdictReason> {
     let share = coverage.and_then(CoverageRecord::covered_share);
+    let size = reference.and_then(|r| r.bounds.as_ref()).map(|b| norm(minus(b.max, b.min)));
+    let reach = coverage.map_or(0.0, |c| c.reach);
     match share {
         _ if least <= 0.0 => None,
+        _ if size.is_some_and(|size| reach > FAR * size) => {
+            let text = format!(
+                "within a reach of {reach:.4} mm points cover what they are far from: ask for less than a quarter of the part"
+            );
+            Some(VerdictReason::new(ReasonKind::CoverageUnknown, text))
+        }
         Some(share) if share >= least => None,
         Some(share) => {
             let trimmed = reference.and_then(|r| r.trimmed_faces);
             let whole = trimmed.map_or("", |_| ", whose trimmed faces count whole");
-            let (share, least) = (percent(share), percent(least));
+            let [share, least] = percents([share, least]);
             let text = format!("the points cover {share} of the reference{whole}; a pass needs {least}");
             Some(VerdictReason::new(ReasonKind::Coverage, text))
         }

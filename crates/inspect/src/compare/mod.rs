@@ -2,6 +2,7 @@
 
 mod against;
 mod along;
+mod between_vertices;
 mod covered;
 mod document;
 mod excluded;

@@ -2,6 +2,7 @@
 
 use super::against::{Reference, ReferenceError};
 use super::along::{AlongRule, Lines};
+use super::between_vertices::BetweenVertices;
 use super::covered::{CoverageSample, Covered};
 use super::excluded::Excluded;
 use super::extremes::Extremes;
@@ -65,8 +66,8 @@ pub struct Compared {
     pub map: Option<MapSurface>,
     /// What of the reference the points cover, where it is asked.
     pub covered: Option<Covered>,
-    /// Places between the vertices of the measured mesh that count in the map.
-    pub between: u64,
+    /// Places between the vertices of the measured mesh.
+    pub between: BetweenVertices,
     /// Mean deviations at places that are the same for every part, where they are asked for.
     pub places: Option<PlaceMeans>,
 }
@@ -161,7 +162,7 @@ pub struct Running<'a> {
     paper: Option<(Paper, Differences)>,
     map: Option<PointMap>,
     sample: Option<CoverageSample>,
-    between: u64,
+    between: BetweenVertices,
 }
 
 impl<'a> Running<'a> {
@@ -210,7 +211,7 @@ impl<'a> Running<'a> {
                 PointMap::new(mesh, options.tolerance.filter(|_| regions.is_none()), options.places)
             }),
             sample: options.tells_coverage().then(CoverageSample::default),
-            between: 0,
+            between: BetweenVertices::default(),
             regions,
             mesh,
             left_out: reference.left_out.0.to_vec(),
@@ -290,12 +291,9 @@ impl<'a> Running<'a> {
                 sample.add(index, foot);
             }
         }
-        let judged = |i: usize| match (&self.regions, taken.regions.get(i)) {
-            (Some(regions), Some(region)) => {
-                let own = regions.zone(*region).map(|t| [t.lower, t.upper]);
-                let zone = own.or_else(|| self.limits.as_ref().map(|l| [l.lower, l.upper]));
-                (badness(deviations[i], zone), *region)
-            }
+        let zone = |region: u16| zone(self.regions.as_ref(), self.limits.as_ref(), region);
+        let judged = |i: usize| match taken.regions.get(i) {
+            Some(region) => (badness(deviations[i], zone(*region)), *region),
             _ => (deviations[i].abs(), 0),
         };
         self.worst.add(start, points, deviations, judged);
@@ -304,8 +302,8 @@ impl<'a> Running<'a> {
         measured
     }
 
-    /// Adds places of the measured mesh between its vertices, the first with number `start`, to the map and to nothing else. The paper's
-    /// method knows vertices only.
+    /// Adds places of the measured mesh between its vertices, the first with number `start`: to the map, and to what a verdict must know,
+    /// but to no statistics. The paper's method knows vertices only.
     pub fn between(
         &mut self,
         start: u64,
@@ -319,9 +317,15 @@ impl<'a> Running<'a> {
         let map = self.map.as_ref().map(|map| (map, self.mesh));
         // All of them: they are few.
         let all = CoverageSample::default();
-        let asked = Asked { start, map, sample: Some(&all), facing: self.facing.as_ref(), regions: None };
+        let asked = Asked {
+            start,
+            map,
+            sample: Some(&all),
+            facing: self.facing.as_ref(),
+            regions: self.regions.as_ref(),
+        };
         let found = self.target.measure(places, &asked, progress)?;
-        for (foot, deviation) in found.feet.into_iter().zip(found.deviations) {
+        for (i, (foot, deviation)) in found.feet.into_iter().zip(found.deviations).enumerate() {
             let deviation = self.judged(deviation);
             let Some(foot) = foot.filter(|_| deviation.is_finite()) else { continue };
             if let Some(map) = &mut self.map {
@@ -330,7 +334,9 @@ impl<'a> Running<'a> {
             if let Some(sample) = &mut self.sample {
                 sample.add_between(foot);
             }
-            self.between += 1;
+            let region = found.regions.get(i).copied().unwrap_or(0);
+            let zone = zone(self.regions.as_ref(), self.limits.as_ref(), region);
+            self.between.add(places[i], deviation, zone);
         }
         Ok(())
     }
@@ -387,11 +393,8 @@ impl<'a> Running<'a> {
         let mut map = self.map;
         let places = map.as_mut().and_then(PointMap::take_places);
         let map = map.map(|map| MapSurface::of(self.mesh, &map, &flagged, self.coverage));
-        let covered = self.sample.map(|sample| match &map {
-            // The same surface.
-            Some(map) if sample.is_whole() => Covered::of(map),
-            _ => Covered::of(&sample.surface(self.mesh, &flagged, self.coverage)),
-        });
+        // Whether a map is drawn, and what is flagged in it, must not change what is covered.
+        let covered = self.sample.map(|sample| Covered::of(&sample.surface(self.mesh, self.coverage)));
         Ok(Compared {
             places: places.zip(map.as_ref()).map(|(places, map)| places.means(map.carried)),
             diagonal: self.mesh.bounds().diagonal(),
@@ -470,6 +473,12 @@ impl Values {
             Values::Many(many) => many.summary(),
         }
     }
+}
+
+/// What deviations may be in this region, 0 for none; nothing where all may be.
+fn zone(regions: Option<&Regions>, limits: Option<&Limits>, region: u16) -> Option<[f64; 2]> {
+    let own = regions.and_then(|regions| regions.zone(region)).map(|t| [t.lower, t.upper]);
+    own.or_else(|| limits.map(|l| [l.lower, l.upper]))
 }
 
 /// The worst places with their nearest places on the reference.

@@ -32,6 +32,15 @@ impl InspectDocument {
         let (deviation, scale) = deviation(found, &inputs, &alignment).unzip();
         let doubts = doubts(&alignment, &inputs);
         let count = |verdict| characteristics.iter().filter(|c| c.verdict == verdict).count() as u64;
+        let verdict = match doubts.is_empty() {
+            true => overall(
+                (characteristics.iter().map(|c| c.verdict)).chain(deviation.as_ref().and_then(|d| d.verdict)),
+            ),
+            // The values may be those of another pose or another face.
+            false => Verdict::Undecided,
+        };
+        let open = deviation.as_ref().filter(|d| d.verdict == Some(Verdict::Undecided));
+        let of_deviation = open.map_or(vec![], |d| d.verdict_reasons.clone());
         InspectDocument {
             schema: SCHEMA.into(),
             version: VERSION.into(),
@@ -49,15 +58,11 @@ impl InspectDocument {
                 undecided: count(Verdict::Undecided),
                 not_measured: count(Verdict::NotMeasured),
             },
-            verdict: match doubts.is_empty() {
-                true => overall(
-                    (characteristics.iter().map(|c| c.verdict))
-                        .chain(deviation.as_ref().and_then(|d| d.verdict)),
-                ),
-                // The values may be those of another pose or another face.
-                false => Verdict::Undecided,
+            verdict,
+            verdict_reasons: match (verdict, doubts.is_empty()) {
+                (Verdict::Undecided, true) => of_deviation,
+                _ => doubts,
             },
-            verdict_reasons: doubts,
             characteristics,
             deviation,
             deviation_map: None,
@@ -165,7 +170,8 @@ fn deviation(
         scale: None,
         reverse: vec![],
         alignment: None,
-        doubts: alignment.doubts().map(|note| *note.kind).collect(),
+        // Of poses that fit as well each characteristic takes the one that suits it; the deviations are those of one.
+        doubts: alignment.warnings.iter().map(|note| *note.kind).filter(|kind| kind.is_doubt()).collect(),
     };
     let mut document = compare::document(&deviations.found, inputs, &deviations.options);
     Some((document.comparisons.pop()?, document.scale))

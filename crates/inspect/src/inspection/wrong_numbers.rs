@@ -165,7 +165,7 @@ pub(super) fn sizes_text(plan: &Plan, spec: &Spec, value: f64, other: Option<&st
     let (model, is) = (number(value), number(nominal));
     match other {
         Some(what) => format!(
-            "\"{}\": the nominal value is {is}, but the model has {model} there: {is} is {what}; write nominal = {model}",
+            "\"{}\": the nominal value is {is}, but its feature has {model} in the plan: {is} is {what}; write nominal = {model}, or mend the feature if that is wrong",
             spec.id
         ),
         None => format!(

@@ -6,7 +6,7 @@ use super::feature::Feature;
 use super::text::{AlongText, CoverageText, DeviationText, PlanText};
 use super::tolerance_region::{ToleranceRegion, regions, share, zone};
 use crate::compare::{AlongRule, Coverage, MIN_COVERAGE, OutlierRule};
-use crate::tolerance::Tolerance;
+use crate::tolerance::{Tolerance, cannot_fail};
 
 /// What is asked of the deviations. Lengths in millimeters.
 #[derive(Clone, Debug, PartialEq)]
@@ -70,9 +70,16 @@ pub(super) fn deviation(
         None => f64::INFINITY,
         Some(d) => checker.not_negative(d, "max_distance")?,
     };
+    let regions = regions(checker, &written.region, features)?;
+    if let Some(d) = &written.max_distance {
+        let zones = tolerance.into_iter().chain(regions.iter().map(|r| r.rule.tolerance));
+        if let Some(why) = cannot_fail(max_distance, zones) {
+            return checker.wrong(&d.span, format!("max_distance is {}: {why}", d.value));
+        }
+    }
     Ok(Some(Deviation {
         tolerance,
-        regions: regions(checker, &written.region, features)?,
+        regions,
         required_share,
         max_distance,
         skip_boundary: written.skip_boundary,

@@ -94,6 +94,15 @@ fn between(
         );
         return checker.wrong(span, what);
     }
+    if unit == "mm" && middle > 0.0 && middle + l < 0.0 {
+        let what = format!(
+            "the lower limit is {}, below 0: {} beside a nominal value of {} is in another unit, or meant as a size",
+            short(nominal.value + lower.value),
+            lower.value,
+            nominal.value
+        );
+        return checker.wrong(&lower.span, what);
+    }
     if l > u {
         let what =
             format!("the lower limit deviation {} is above the upper one {}", lower.value, upper.value);

@@ -7,6 +7,7 @@ use super::feature::{Feature, named};
 use super::numbers;
 use super::text::{RegionText, RegionsText, ZoneText};
 use crate::compare::{Extent, RegionRule};
+use crate::results::of_percent;
 use crate::tolerance::Tolerance;
 use std::ops::Range;
 
@@ -106,11 +107,10 @@ pub(super) fn zone(checker: &Checker, written: &At<ZoneText>) -> Result<Toleranc
 
 /// Percent as a share.
 pub(super) fn share(checker: &Checker, written: &At<f64>, key: &str) -> Result<f64, PlanError> {
-    if (0.0..=100.0).contains(&written.value) {
-        return Ok(written.value / 100.0);
+    match of_percent(written.value) {
+        Ok(share) => Ok(share),
+        Err(what) => checker.wrong(&written.span, format!("{key} is {}; {what}", written.value)),
     }
-    let what = format!("{key} is {}; a share is from 0 to 100 percent", written.value);
-    checker.wrong(&written.span, what)
 }
 
 fn extent(

@@ -9,6 +9,10 @@ use super::{InputRecord, UNITS, VERSION};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use trueness_geom::align::{Alignment, Freedom, InZones, Lock, Minimax, NotCounted, RowFit, Scale};
+use trueness_geom::space::{cross, minus, norm};
+
+/// Share of a free motion from which on a component takes part in it.
+const OPEN: f64 = 1e-3;
 
 /// Name of this document's schema.
 pub const SCHEMA: &str = "trueness/align/1";
@@ -338,6 +342,25 @@ impl AlignDocument {
         }
         (self.scale, self.scale_std_uncertainty) = (Some(scale.factor), Some(scale.std_uncertainty));
         self
+    }
+
+    /// Which components of the motion the measured leaves open: of the rotation vector about the center of a best fit, then of its translation.
+    pub fn open(&self) -> [bool; 6] {
+        let center = self.best_fit.as_ref().map_or([0.0; 3], |fit| fit.center);
+        let mut open = [false; 6];
+        for motion in self.free.iter().chain(self.slack.iter().map(|s| &s.motion)) {
+            let d = motion.direction;
+            let (turn, shift) = match motion.point {
+                None => ([0.0; 3], d),
+                Some(point) => (d, cross(d, minus(center, point))),
+            };
+            for k in 0..3 {
+                open[k] |= turn[k].abs() > OPEN;
+                open[k + 3] |=
+                    shift[k].abs() > OPEN * norm(minus(center, motion.point.unwrap_or(center))).max(1.0);
+            }
+        }
+        open
     }
 
     /// The motion of `transform`, without its scale.

@@ -127,6 +127,9 @@ pub struct Comparison {
     /// with a report.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub coverage: Option<CoverageRecord>,
+    /// Places between the vertices of the measured mesh that are out of tolerance; absent where there are none.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub between_vertices: Option<BetweenRecord>,
     /// Shares against the tolerance; absent without one.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub tolerance: Option<ToleranceShares>,
@@ -232,9 +235,23 @@ pub struct CoverageRecord {
     pub reach: f64,
     /// How far the points' nearest places lie apart, millimeters.
     pub spacing: f64,
-    /// Places on large facets of the measured mesh, between its vertices, that count here and in the map, and nowhere else.
+    /// Places on large facets of the measured mesh, between its vertices, that count here and in the map, and in no statistics.
     #[serde(skip_serializing_if = "none", default)]
     pub between: u64,
+}
+
+/// Places on large facets of the measured mesh, between its vertices. They are in no statistics, but what passes must keep its tolerance there
+/// too: a facet across a bore that was not made has its corners on the part.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct BetweenRecord {
+    /// Places that count, evenly spread.
+    pub places: u64,
+    /// Those out of tolerance.
+    pub beyond: u64,
+    /// The deviation of the worst, millimeters.
+    pub deviation: f64,
+    /// Where it is.
+    pub point: [f64; 3],
 }
 
 fn none(count: &u64) -> bool {

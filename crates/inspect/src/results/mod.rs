@@ -27,7 +27,7 @@ mod word;
 
 pub use bounds::Bounds;
 pub use input::{ColumnRecord, IncompleteRecord, InputRecord, Role, TableRecord, UNITS, VERSION};
-pub use percent::percent;
+pub use percent::{of_percent, percent, percents};
 pub(crate) use reason::judged;
 pub use reason::{ReasonKind, VerdictReason};
 pub use statistics::{BySide, Histogram, Percentiles, Statistics};

@@ -8,8 +8,8 @@ use serde::{Deserialize, Serialize};
 /// What makes a verdict fail or undecided.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct VerdictReason {
-    /// `out_of_tolerance`, `alignment`, `size_ratio`, `hardly_overlapping`, `incomplete_reference`, `not_measured`, `coverage` or
-    /// `coverage_unknown`.
+    /// `out_of_tolerance`, `alignment`, `size_ratio`, `hardly_overlapping`, `incomplete_reference`, `not_measured`,
+    /// `between_vertices`, `coverage` or `coverage_unknown`.
     pub kind: Word<ReasonKind>,
     /// One sentence for people.
     pub text: String,
@@ -30,6 +30,8 @@ pub enum ReasonKind {
     IncompleteReference,
     /// No point counts.
     NotMeasured,
+    /// Between its vertices the measured mesh is out of tolerance.
+    BetweenVertices,
     /// The points cover less of the reference than is asked for.
     Coverage,
     /// How much of the reference the points cover is not known.
@@ -38,13 +40,14 @@ pub enum ReasonKind {
 
 impl ReasonKind {
     /// All, in the order in which they are told.
-    pub const ALL: [ReasonKind; 8] = [
+    pub const ALL: [ReasonKind; 9] = [
         ReasonKind::OutOfTolerance,
         ReasonKind::Alignment,
         ReasonKind::SizeRatio,
         ReasonKind::HardlyOverlapping,
         ReasonKind::IncompleteReference,
         ReasonKind::NotMeasured,
+        ReasonKind::BetweenVertices,
         ReasonKind::Coverage,
         ReasonKind::CoverageUnknown,
     ];
@@ -58,6 +61,7 @@ impl ReasonKind {
             ReasonKind::HardlyOverlapping => "hardly_overlapping",
             ReasonKind::IncompleteReference => "incomplete_reference",
             ReasonKind::NotMeasured => "not_measured",
+            ReasonKind::BetweenVertices => "between_vertices",
             ReasonKind::Coverage => "coverage",
             ReasonKind::CoverageUnknown => "coverage_unknown",
         }
@@ -71,7 +75,10 @@ impl ReasonKind {
             | ReasonKind::SizeRatio
             | ReasonKind::HardlyOverlapping
             | ReasonKind::IncompleteReference => Bearing::Doubts,
-            ReasonKind::NotMeasured | ReasonKind::Coverage | ReasonKind::CoverageUnknown => Bearing::Lacks,
+            ReasonKind::NotMeasured
+            | ReasonKind::BetweenVertices
+            | ReasonKind::Coverage
+            | ReasonKind::CoverageUnknown => Bearing::Lacks,
         }
     }
 }

@@ -20,6 +20,15 @@ export function svg<K extends keyof SVGElementTagNameMap>(tag: K, attributes: At
   return fill(document.createElementNS(SVG, tag), attributes, children)
 }
 
+/** Width of a text as the page's style shows it in `drawing`, in the drawing's own units; 0 where the drawing is not shown. */
+export function textWidth(drawing: SVGElement, text: string, name = ''): number {
+  const shown = svg('text', { class: name, visibility: 'hidden' }, text)
+  drawing.append(shown)
+  const width = shown.getComputedTextLength()
+  shown.remove()
+  return width
+}
+
 /** An element that the page is written with. */
 export function need(id: string): HTMLElement {
   const element = document.getElementById(id)

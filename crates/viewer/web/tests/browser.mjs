@@ -1,4 +1,6 @@
 // A browser without a network, pages opened from disk, and pixels as they are on the screen.
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs'
+import { tmpdir } from 'node:os'
 import { inflateSync } from 'node:zlib'
 import { join } from 'node:path'
 import { pathToFileURL } from 'node:url'
@@ -12,10 +14,16 @@ const FLAGS = [
 export async function open(executablePath, folder) {
   const browser = await chromium.launch({ executablePath, headless: true, args: FLAGS })
   const contexts = []
+  const edited = mkdtempSync(join(tmpdir(), 'trueness-edited-'))
+  /** A copy of a report with other numbers, names or words in it. */
+  const copy = (name, edit) => {
+    writeFileSync(join(edited, `${name}.html`), edit(readFileSync(join(folder, `${name}.html`), 'utf8')))
+    return edited
+  }
   return {
     folder,
-    /** A page with what it asked for and complained about in `page.seen`. */
-    async report(name, { width = 1280, height = 800, scripts = true, init, hash = '', live = true, ...rest } = {}) {
+    /** A page with what it asked for and complained about in `page.seen`; `edit` makes of the report's text that of another. */
+    async report(name, { width = 1280, height = 800, scripts = true, init, edit, hash = '', live = true, ...rest } = {}) {
       const context = await browser.newContext({ viewport: { width, height }, javaScriptEnabled: scripts, ...rest })
       contexts.push(context)
       // Software rendering on a busy machine is slow, and slow is not wrong.
@@ -32,14 +40,17 @@ export async function open(executablePath, folder) {
           document.addEventListener('securitypolicyviolation', (e) => window.violations.push(e.violatedDirective))
         })
       if (init) await page.addInitScript(init)
-      await page.goto(pathToFileURL(join(folder, `${name}.html`)).href + hash)
+      await page.goto(pathToFileURL(join(edit ? copy(name, edit) : folder, `${name}.html`)).href + hash)
       if (scripts && live) await settled(page)
       return page
     },
     async tidy() {
       await Promise.all(contexts.splice(0).map((c) => c.close()))
     },
-    close: () => browser.close(),
+    async close() {
+      await browser.close()
+      rmSync(edited, { recursive: true })
+    },
   }
 }
 

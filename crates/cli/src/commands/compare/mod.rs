@@ -30,7 +30,9 @@ use trueness_inspect::compare::{
 use trueness_inspect::results::align::AlignedTo;
 use trueness_inspect::results::compare::MeasuredKind;
 use trueness_inspect::results::compare::{Reverse, Sampling};
+use trueness_inspect::results::of_percent;
 use trueness_inspect::scale::Scale;
+use trueness_inspect::tolerance::cannot_fail;
 use words::FacingArg;
 
 /// Deviations of measured points (or a mesh) from one or several reference meshes or B-spline surfaces
@@ -106,9 +108,9 @@ pub struct CompareArgs {
     /// purpose. Where less is covered, what does not fail is undecided
     #[arg(long, value_name = "PERCENT", default_value_t = 100.0 * MIN_COVERAGE, allow_hyphen_values = true)]
     min_coverage: f64,
-    /// Name at most N worst places above the reference, and as many below
-    #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u16).range(1..=1000))]
-    worst: u16,
+    /// Name at most N worst places above the reference, and as many below [default: 3; the table names them with this option]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1000))]
+    worst: Option<u16>,
     /// Compare N points spread evenly over the measured mesh's area instead of its vertices
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     sample: Option<u64>,
@@ -151,13 +153,11 @@ enum SignArg {
 
 impl CompareArgs {
     fn options(&self, common: &Common) -> anyhow::Result<Options> {
-        if !(0.0..=100.0).contains(&self.inside) {
-            return Err(Usage(format!("--inside {}: a share is from 0 to 100 percent", self.inside)).into());
-        }
-        if !(0.0..=100.0).contains(&self.min_coverage) {
-            let what = format!("--min-coverage {}: a share is from 0 to 100 percent", self.min_coverage);
-            return Err(Usage(what).into());
-        }
+        let share = |name: &str, written: f64| {
+            of_percent(written).map_err(|what| Usage(format!("{name} {written}: {what}")))
+        };
+        let required_share = share("--inside", self.inside)?;
+        let min_coverage = share("--min-coverage", self.min_coverage)?;
         let max_distance = self.max_distance.unwrap_or(f64::INFINITY);
         if self.max_distance.is_some_and(|d| !(0.0..f64::INFINITY).contains(&d)) {
             return Err(Usage(format!(
@@ -166,6 +166,11 @@ impl CompareArgs {
             .into());
         }
         self.check_along()?;
+        let regions = self.regions.as_deref().map(read::regions).transpose()?.unwrap_or_default();
+        let zones = self.tolerance.iter().map(|t| t.0).chain(regions.iter().map(|r| r.tolerance));
+        if let Some(why) = cannot_fail(max_distance, zones) {
+            return Err(Usage(format!("--max-distance {max_distance}: {why}")).into());
+        }
         Ok(Options {
             method: match self.method {
                 MethodArg::Exact => Method::Exact,
@@ -184,11 +189,11 @@ impl CompareArgs {
             along: self.along.map(|rule| Lines::new(rule, vec![])),
             outliers: self.outliers,
             coverage: self.coverage,
-            min_coverage: self.min_coverage / 100.0,
-            regions: self.regions.as_deref().map(read::regions).transpose()?.unwrap_or_default(),
+            min_coverage,
+            regions,
             tolerance: self.tolerance.map(|t| t.0),
-            worst: usize::from(self.worst),
-            required_share: self.inside / 100.0,
+            worst: self.worst.map_or(Options::default().worst, usize::from),
+            required_share,
             shown: self.output.report.shown(),
             research: self.research,
             seed: common.seed,
@@ -301,7 +306,7 @@ fn run(args: &CompareArgs, common: &Common) -> anyhow::Result<Outcome> {
         files.finish(&document.scale)?;
     }
     args.output.document.write(&document)?;
-    args.output.document.table(|| table::text(&document, common.verbose))?;
+    args.output.document.table(|| table::text(&document, common.verbose, args.worst.is_some()))?;
     Ok(if document.conforms() { Outcome::Conforming } else { Outcome::NotConforming })
 }
 

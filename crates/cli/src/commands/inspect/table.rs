@@ -145,6 +145,9 @@ fn deviation(out: &mut String, c: &Comparison, verbose: bool) {
         let _ = write!(text, ": {}", verdict.word());
     }
     *out += &sentence(&text, verbose);
+    for reason in &c.verdict_reasons {
+        *out += &sentence(&format!("! deviation: {}", reason.text), verbose);
+    }
     if !c.regions.is_empty() {
         out.push_str(regions(c).trim_start());
     }

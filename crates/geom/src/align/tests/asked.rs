@@ -67,7 +67,15 @@ fn a_scale_is_found_with_the_pose_and_told_by_its_unit() {
     let tree = Tree::build(&reference).unwrap();
     let target = Target::new(&reference, &tree);
     let random = &mut Random::new(2);
-    for (factor, unit) in [(1.012, None), (0.97, None), (1.0, None), (25.4, Some(25.4)), (1e-3, Some(1e-3))] {
+    for (factor, unit) in [
+        (1.012, None),
+        (0.97, None),
+        (1.0, None),
+        (2.0, None),
+        (0.4, None),
+        (25.4, Some(25.4)),
+        (1e-3, Some(1e-3)),
+    ] {
         let mut scan = moved(&bracket(4.0), &random_pose(random, 50.0));
         scan.positions.iter_mut().for_each(|p| *p = times(1.0 / factor, *p));
         let (found, scale) =
@@ -84,7 +92,6 @@ fn a_scale_is_found_with_the_pose_and_told_by_its_unit() {
         let scan = Mesh { positions: noisy, faces: clean.faces.clone() };
         let options = BestFit { start: Start::Given(Rigid::IDENTITY), ..BestFit::default() };
         let (_, scale) = best_fit_scaled(&Measured::Mesh(&scan), &target, &options, &Silent).unwrap();
-        println!("{scale:?}");
         sum += ((scale.factor - 1.0) / scale.std_uncertainty).powi(2) / 30.0;
     }
     assert!((0.5..1.7).contains(&sum), "{sum}");

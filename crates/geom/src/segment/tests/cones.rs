@@ -86,7 +86,7 @@ impl Drawn {
         if is_fan { noise.sqrt().max(1e-6) } else { noise.max(1e-6) }
     }
     fn part(&self, seed: u64) -> Part {
-        let Drawn { radius, degrees, chords, top, base, steps, noise } = *self;
+        let Drawn { radius, degrees, chords, top, base, steps, noise, .. } = *self;
         let half_angle = degrees.to_radians();
         let height = radius / half_angle.tan();
         let cone = Shape::Cone {
@@ -158,7 +158,11 @@ fn verdict(drawn: &Drawn, part: &Part, found: &Segmentation) -> Verdict {
     let held = counts[best] as f64 >= share * own.len() as f64;
     match found.regions[best].fit.shape {
         Shape::Cone { half_angle, .. } if held => {
-            if (half_angle - angle).abs() <= drawn.allowed() { Verdict::Right } else { Verdict::Wrong }
+            if (half_angle - angle).abs() <= drawn.allowed() {
+                Verdict::Right
+            } else {
+                Verdict::Wrong
+            }
         }
         _ => {
             let is_plane = |k: &usize| counts[*k] == 0 || found.regions[*k].fit.shape.kind() == Kind::Plane;

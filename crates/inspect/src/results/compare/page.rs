@@ -77,11 +77,12 @@ impl Subject for CompareDocument {
     }
 
     fn picks(&self) -> Vec<Pick> {
+        let decimals = self.scale.decimals as usize;
         let mut first_mark = 0;
         let mut picks = vec![];
         for (n, c) in self.comparisons.iter().enumerate() {
             let map = Some(n);
-            picks.extend(c.worst.iter().map(|w| pick(w, n)));
+            picks.extend(listed_worst(c, decimals).iter().map(|w| pick(w, n)));
             let found = found(&c.soundness.findings);
             picks.extend(check::picks(&found, first_mark).into_iter().map(|p| Pick { map, ..p }));
             first_mark += found.iter().map(|(_, d)| d.items.len()).sum::<usize>();
@@ -101,6 +102,16 @@ pub fn map(c: &Comparison) -> Map<'_> {
     let tolerance = c.tolerance.clone().filter(|_| c.regions.is_empty());
     let histogram = c.histogram.as_ref();
     Map { name: &c.reference, count: all.count, mean: all.mean, tolerance, histogram, ..Map::default() }
+}
+
+/// The worst places that have a row and a flag: none where all would read zero.
+pub fn listed_worst(c: &Comparison, decimals: usize) -> &[Worst] {
+    if c.worst.iter().all(|w| shows_zero(w.deviation, decimals)) { &[] } else { &c.worst }
+}
+
+/// Whether a number with so many digits after the point reads zero.
+fn shows_zero(value: f64, decimals: usize) -> bool {
+    !format!("{value:.decimals$}").bytes().any(|b| (b'1'..=b'9').contains(&b))
 }
 
 /// One of the worst places of comparison `n`.
@@ -166,5 +177,18 @@ fn lead(s: Style, c: &Comparison, decimals: usize) -> Markup {
                 (key_number(s, "most_within", "lead", html! { (value(p.p2_5)) "\u{2009}…\u{2009}" (value(p.p97_5)) }))
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn zero_is_what_reads_zero() {
+        let zero = [(0.0, 3), (-0.0, 3), (3.2e-18, 3), (-0.00049, 3), (0.4, 0)];
+        let other = [(0.00051, 3), (-0.001, 3), (0.6, 0), (10.0, 0), (1e-7, 7)];
+        assert!(zero.into_iter().all(|(value, decimals)| shows_zero(value, decimals)));
+        assert!(!other.into_iter().any(|(value, decimals)| shows_zero(value, decimals)));
     }
 }

@@ -108,7 +108,9 @@ impl Subject for InspectDocument {
             frame: c.anchor.map(|_| frame(c)),
             ..Pick::default()
         };
-        let worst = self.deviation.iter().flat_map(|d| &d.worst).map(|w| compare::pick(w, 0));
+        let judged = self.deviation.iter().zip(&self.scale);
+        let worst = judged.flat_map(|(c, scale)| compare::listed_worst(c, scale.decimals as usize));
+        let worst = worst.map(|w| compare::pick(w, 0));
         self.rows().into_iter().enumerate().map(of).chain(worst).collect()
     }
 

@@ -27,6 +27,8 @@ export function scaleColumn(state: State, words: Words): void {
   const draw = () => {
     const box = area.getBoundingClientRect()
     drawing = drawScale(chart, state, words, Math.max(80, Math.round(box.height)), Math.max(100, Math.round(box.width)), true)
+    // The column makes room, and is drawn anew when it has.
+    area.style.minWidth = `${drawing.breadth}px`
     lyingDrawing = drawScale(lying, state, words, 760, 130, false)
   }
   const say = () => {

@@ -1,4 +1,4 @@
-import { svg } from '../dom'
+import { svg, textWidth } from '../dom'
 import type { State } from '../state'
 import type { Words } from '../words'
 import { barsOf, domainOf } from './axis'
@@ -7,13 +7,17 @@ import { hex } from './scale'
 /** Where things lie across the axis, in pixels. */
 const STRIP = 18
 const TICK = 4
-const LABEL = 52
-/** And what a digit beyond the third takes more, upright. */
-const DIGIT = 7
-/** Room for the shares beside the bars, upright. */
+/** Between a label and what is beside it. */
+const GAP = 3
+/** Room for the labels under the strip, lying. */
+const FOOT = 44
+/** Least room for the bars, and room for the shares beside them, upright. */
+const BARS = 30
 const SHARE = 56
 
 export interface Drawing {
+  /** Least breadth at which all of it is seen: labels are as long as their numbers. */
+  breadth: number
   /** Pixel along the axis for a deviation. */
   at(value: number): number
   /** Deviation for a pixel along the axis. */
@@ -36,10 +40,13 @@ export function drawScale(target: SVGSVGElement, state: State, words: Words, len
   }
   const value = (pixel: number) => domain[0] + ((upright ? length - pixel : pixel) / length) * (domain[1] - domain[0])
   const [w, h] = upright ? [breadth, length] : [length, breadth]
-  // Lying, the numbers at both ends reach beyond the axis.
-  target.setAttribute('viewBox', upright ? `0 0 ${w} ${h}` : `-44 0 ${w + 88} ${h}`)
   target.replaceChildren(svg('title', {}, words.of('figure.title')))
-  const strip = upright ? LABEL + DIGIT * Math.max(0, scale.decimals - 3) : breadth - LABEL + 8
+  const rank = (v: number) => (scale.tolerance?.includes(v) ? 0 : v === scale.lower || v === scale.upper ? 1 : 2)
+  const labels = colors.limits.map((limit) => ({ limit, text: words.onScale(limit, scale), name: rank(limit) === 0 ? 'tick bold' : 'tick' }))
+  const widest = Math.ceil(Math.max(...labels.map(({ text, name }) => textWidth(target, text, name))))
+  // Lying, the numbers at both ends reach beyond the axis.
+  target.setAttribute('viewBox', upright ? `0 0 ${w} ${h}` : `${-widest / 2} 0 ${w + widest} ${h}`)
+  const strip = upright ? widest + 2 * GAP + TICK : breadth - FOOT
   const bars = strip + (upright ? STRIP + 4 : -4)
   const end = upright ? breadth - SHARE : 0
   const room = Math.abs(end - bars)
@@ -93,20 +100,17 @@ export function drawScale(target: SVGSVGElement, state: State, words: Words, len
 
   // Ticks at the limits, the tolerance across the bars, zero and mean.
   const [near, far] = upright ? [strip - TICK, strip] : [strip + STRIP, strip + STRIP + TICK]
-  const rank = (v: number) => (scale.tolerance?.includes(v) ? 0 : v === scale.lower || v === scale.upper ? 1 : 2)
   const written: number[] = []
-  for (const limit of [...limits].sort((a, b) => rank(a) - rank(b))) {
-    const isLimit = rank(limit) === 0
+  for (const { limit, text: label, name } of labels.sort((a, b) => rank(a.limit) - rank(b.limit))) {
     target.append(across(limit, near, far, 'tick'))
-    if (isLimit) target.append(across(limit, far, end, 'limit'))
-    if (written.some((w) => Math.abs(w - at(limit)) < (upright ? 12 : 84))) continue
+    if (rank(limit) === 0) target.append(across(limit, far, end, 'limit'))
+    if (written.some((w) => Math.abs(w - at(limit)) < (upright ? 12 : widest + 4 * GAP))) continue
     written.push(at(limit))
-    const label = words.onScale(limit, scale)
-    target.append(text(limit, upright ? strip - TICK - 3 : strip + STRIP + TICK + 14, label, isLimit ? 'tick bold' : 'tick'))
+    target.append(text(limit, upright ? near - GAP : far + 14, label, name))
   }
   if (limits.length % 2 === 0 && limits[0] < 0 && limits[limits.length - 1] > 0) {
     target.append(across(0, near, end, 'zero'))
-    if (written.every((w) => Math.abs(w - at(0)) > (upright ? 14 : 60))) target.append(text(0, upright ? strip - TICK - 3 : strip + STRIP + TICK + 12, '0', 'tick'))
+    if (written.every((w) => Math.abs(w - at(0)) > (upright ? 14 : widest / 2 + 4 * GAP))) target.append(text(0, upright ? near - GAP : far + 12, '0', 'tick'))
   }
   const mean = state.current?.mean
   if (mean !== null && mean !== undefined && mean > domain[0] && mean < domain[1]) target.append(across(mean, bars, end, 'mean'))
@@ -130,5 +134,5 @@ export function drawScale(target: SVGSVGElement, state: State, words: Words, len
     target.append(marked)
   }
   mark(state.hover)
-  return { at, value, mark }
+  return { breadth: strip + STRIP + 4 + BARS + SHARE, at, value, mark }
 }

@@ -1,5 +1,5 @@
 import type { Vector3 } from 'three'
-import { el, svg } from '../dom'
+import { el, need, svg, textWidth } from '../dom'
 import type { Pick } from '../manifest'
 import type { State } from '../state'
 import type { Words } from '../words'
@@ -17,13 +17,8 @@ const LEADER = 9
 const CUBE = 110
 /** Height of the line at the foot. */
 const FOOT = 34
-/** Width and height of a flag on paper. */
-const PAPER = { width: 124, height: 28 }
-/** And what a note beside the value takes more. */
-const PAPER_NOTE = 104
-/** Width of a sign and of a letter on paper. */
-const PAPER_SIGN = 22
-const PAPER_LETTER = 8.6
+/** Height of a flag on paper, room at both its ends, and width of a sign. */
+const PAPER = { height: 28, rim: 8, sign: 22 }
 
 interface Flag {
   number: number
@@ -142,7 +137,7 @@ export class Flags {
 
   /** The same on paper. */
   get roomOnPaper(): number {
-    return RIM + Math.max(0, ...this.flags.map((f) => sizeOnPaper(f).width)) + 2 * GAP
+    return RIM + Math.max(0, ...this.flags.map((f) => this.sizeOnPaper(f).width)) + 2 * GAP
   }
 
   /** Puts the flags beside the part, nearest side first, without crossing leaders. */
@@ -172,17 +167,27 @@ export class Flags {
     }
   }
 
+  /** What a flag says on paper: its label, a sign if it has one, and the rest, with the places from its left end where they begin. */
+  private onPaper({ pick, label, text }: Flag): { sign: number; start: number; said: string } {
+    const said = pick.off ? `${text} · ${this.words.of('flag.off')}` : text
+    const sign = PAPER.rim + textWidth(need('flagged') as Element as SVGSVGElement, `${label}\u2002`)
+    return { sign, start: sign + (pick.frame?.sign ? PAPER.sign : 0), said }
+  }
+
+  private sizeOnPaper(flag: Flag): { width: number; height: number } {
+    const { start, said } = this.onPaper(flag)
+    return { width: start + textWidth(need('flagged') as Element as SVGSVGElement, said) + PAPER.rim, height: PAPER.height }
+  }
+
   /** The flags as they belong into a picture of the eye's size, for print. */
   drawInto(target: SVGSVGElement): void {
     const { width, pixels } = this.stage.eye
     target.setAttribute('viewBox', `0 0 ${width} ${pixels}`)
     target.replaceChildren()
-    for (const { flag, hidden, reached, x, y, inner, start: begin, left, top, width: w, height: h } of this.layout(sizeOnPaper, RIM)) {
-      const text = flag.pick.off ? `${flag.text} · ${this.words.of('flag.off')}` : flag.text
+    for (const { flag, hidden, reached, x, y, inner, start: begin, left, top, width: w, height: h } of this.layout((f) => this.sizeOnPaper(f), RIM)) {
+      const { sign, start, said } = this.onPaper(flag)
       const { frame } = flag.pick
       const name = `${hidden ? 'hidden' : ''} ${frame ? `frame ${frame.verdict}` : ''}`
-      const start = left + 8 + (frame ? PAPER_LETTER * (flag.label.length + 1) : 0)
-      const sign = frame?.sign ? [signOf(frame.sign, { x: start, y: top + h / 2 - 8 })] : []
       if (flag.surface) {
         const foot = this.stage.eye.project(flag.surface)
         target.append(svg('line', { class: 'way', x1: x, y1: y, x2: foot.x, y2: foot.y }))
@@ -192,9 +197,9 @@ export class Flags {
         svg('line', { class: `leader ${name}`, x1: begin, y1: top + h / 2, x2: x, y2: y }),
         ...(reached ? [svg('circle', { class: 'anchor', cx: x, cy: y, r: 3.5 })] : []),
         svg('rect', { class: name, x: left, y: top, width: w, height: h, rx: 4 }),
-        ...sign,
-        ...(frame ? [svg('text', { class: name, x: left + 8, y: top + h / 2 }, flag.label)] : []),
-        svg('text', { class: name, x: start + PAPER_SIGN * sign.length, y: top + h / 2 }, frame ? text : `${flag.label}  ${text}`),
+        ...(frame?.sign ? [signOf(frame.sign, { x: left + sign, y: top + h / 2 - 8 })] : []),
+        ...(frame ? [svg('text', { class: name, x: left + PAPER.rim, y: top + h / 2 }, flag.label)] : []),
+        svg('text', { class: name, x: left + (frame ? start : PAPER.rim), y: top + h / 2 }, frame ? said : `${flag.label}\u2002${said}`),
       )
     }
   }
@@ -229,12 +234,6 @@ export class Flags {
     })
     return kept.flat()
   }
-}
-
-function sizeOnPaper({ pick, text, label }: Flag): { width: number; height: number } {
-  const { frame } = pick
-  const own = frame ? PAPER_SIGN * Number(frame.sign !== null) + PAPER_LETTER * (label.length + 2 + text.length) + 16 : PAPER.width
-  return { height: PAPER.height, width: own + (pick.off ? PAPER_NOTE : 0) }
 }
 
 function write(element: Element, attributes: Record<string, number>): void {

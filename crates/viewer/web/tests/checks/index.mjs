@@ -2,6 +2,7 @@
 import { clouds } from './clouds.mjs'
 import { colors } from './colors.mjs'
 import { curvature } from './curvature.mjs'
+import { cut } from './cut.mjs'
 import { defects } from './defects.mjs'
 import { edges } from './edges.mjs'
 import { first } from './first.mjs'
@@ -20,5 +21,5 @@ import { trust } from './trust.mjs'
 import { views } from './views.mjs'
 import { words } from './words.mjs'
 
-export const checks = [...trust, ...clouds, ...colors, ...scale, ...reading, ...first, ...edges, ...flags, ...defects, ...fit, ...repair, ...segment, ...curvature, ...inspect, ...drawing, ...trend, ...views, ...words, ...layout]
+export const checks = [...trust, ...clouds, ...colors, ...scale, ...reading, ...first, ...edges, ...flags, ...defects, ...fit, ...repair, ...segment, ...curvature, ...inspect, ...drawing, ...trend, ...views, ...words, ...layout, ...cut]
 export const alone = pace

@@ -1,8 +1,10 @@
 //! All that the document of a comparison tells, as a table for people.
 
-use super::line::{short, verdict};
+use super::line::{line, short, verdict};
 use crate::console::columns;
-use crate::number::{FACETS, POINTS, counted, fixed, grouped, signed, six_digits as number};
+use crate::number::{
+    FACETS, POINTS, counted, fixed, grouped, short as shortest, short_signed, signed, six_digits as number,
+};
 use trueness_geom::deviation::sign_choice::SignMethod;
 use trueness_inspect::compare::Excluded;
 use trueness_inspect::results::Named;
@@ -20,8 +22,24 @@ pub fn text(d: &CompareDocument) -> String {
         [only] => out.push_str(&one(only)),
         several => out.push_str(&ranking(d, several)),
     }
+    d.comparisons.iter().for_each(|c| out.push_str(&worst(d, c)));
     out.push('\n');
     out.push_str(&verdict(d.verdict, &d.verdict_reasons));
+    out
+}
+
+/// The worst places, a line each; those of a region with its name.
+pub fn worst(d: &CompareDocument, c: &Comparison) -> String {
+    let of = if d.comparisons.len() > 1 { format!(" of {}", short(&c.reference)) } else { String::new() };
+    let mut out = String::new();
+    for (n, place) in (1..).zip(&c.worst) {
+        let [x, y, z] = place.point.map(shortest);
+        let region = place.region.as_ref().map(|r| format!(", region \"{r}\"")).unwrap_or_default();
+        out.push_str(&line(
+            &format!("worst {n}"),
+            &format!("{} mm at {x}, {y}, {z}{region}{of}", short_signed(place.deviation)),
+        ));
+    }
     out
 }
 

@@ -8,7 +8,7 @@ pub use full::{along, coverage, outliers, regions};
 
 use trueness_inspect::results::compare::CompareDocument;
 
-/// The whole text.
-pub fn text(d: &CompareDocument, verbose: bool) -> String {
-    if verbose { full::text(d) } else { result::text(d) }
+/// The whole text: all of it, or the result alone, with a list of the worst places or without.
+pub fn text(d: &CompareDocument, verbose: bool, places: bool) -> String {
+    if verbose { full::text(d) } else { result::text(d, places) }
 }

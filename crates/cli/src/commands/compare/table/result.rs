@@ -11,7 +11,7 @@ use trueness_inspect::results::compare::{
 use trueness_inspect::results::{InputRecord, Named, Role, Verdict, percent};
 
 /// The whole text.
-pub fn text(d: &CompareDocument) -> String {
+pub fn text(d: &CompareDocument, places: bool) -> String {
     let mut out = String::new();
     for input in &d.inputs {
         out.push_str(&of_file(input));
@@ -32,6 +32,9 @@ pub fn text(d: &CompareDocument) -> String {
     match &d.comparisons[..] {
         [only] => one(&mut out, d, only),
         several => ranking(&mut out, d, several),
+    }
+    if places {
+        d.comparisons.iter().for_each(|c| out.push_str(&full::worst(d, c)));
     }
     out.push_str(&verdict(d.verdict, &d.verdict_reasons));
     out

@@ -1,5 +1,6 @@
 //! The list beside the stage: ranking, worst places, statistics, what was left out, how far the numbers can be trusted, files.
 
+use super::listed_worst;
 use super::words::{headline, in_words, sign_key, warning_key};
 use crate::report::number::Style;
 use crate::report::page::parts::{
@@ -22,13 +23,13 @@ use maud::{Markup, Render, html};
 pub fn list(s: Style, result: &CompareDocument) -> Markup {
     // Rows lead to the worst places, then to the defects, comparison by comparison.
     let found: Vec<_> = result.comparisons.iter().map(|c| found(&c.soundness.findings)).collect();
+    let decimals = result.scale.decimals as usize;
     let starts = result.comparisons.iter().zip(&found).scan(0, |next, (c, found)| {
         let start = *next;
-        *next += c.worst.len() + check::picks(found, 0).len();
+        *next += listed_worst(c, decimals).len() + check::picks(found, 0).len();
         Some(start)
     });
     let several = result.comparisons.len() > 1;
-    let decimals = result.scale.decimals as usize;
     html! {
         @if several { (ranking(s, result)) }
         @for (n, ((c, found), first)) in result.comparisons.iter().zip(&found).zip(starts).enumerate() {
@@ -38,7 +39,7 @@ pub fn list(s: Style, result: &CompareDocument) -> Markup {
                 (reasons(s, &c.verdict_reasons))
                 (worst(s, c, decimals, first)) (regions(s, c, decimals)) (statistics(s, c, decimals)) (trust(s, result, c))
                 @if !found.is_empty() {
-                    (section(s, "reference.defects", check::kinds(s, found, first + c.worst.len())))
+                    (section(s, "reference.defects", check::kinds(s, found, first + listed_worst(c, decimals).len())))
                 }
             }
             "\n"
@@ -51,12 +52,15 @@ pub fn list(s: Style, result: &CompareDocument) -> Markup {
 
 /// Why a verdict is not a pass, in few words, for the head of a page; nothing where there is no reason.
 pub fn because(s: Style, reasons: &[VerdictReason]) -> Markup {
+    // Several regions may have the same.
+    let mut kinds: Vec<_> = reasons.iter().map(|reason| &reason.kind).collect();
+    kinds.dedup();
     html! {
-        @if !reasons.is_empty() {
+        @if !kinds.is_empty() {
             (key_number(s, "because", "warn", html! {
-                @for (n, reason) in reasons.iter().enumerate() {
+                @for (n, kind) in kinds.into_iter().enumerate() {
                     @if n > 0 { ", " }
-                    (s.word(format!("because.{}", reason.kind)))
+                    (s.word(format!("because.{kind}")))
                 }
             }))
         }
@@ -136,7 +140,8 @@ fn paired(s: Style, result: &CompareDocument) -> Markup {
 
 /// The worst places; nothing where there are none.
 pub fn worst(s: Style, c: &Comparison, decimals: usize, first_pick: usize) -> Markup {
-    if c.worst.is_empty() {
+    let places = listed_worst(c, decimals);
+    if places.is_empty() {
         return Markup::default();
     }
     // Each by the tolerance of its own region.
@@ -152,7 +157,7 @@ pub fn worst(s: Style, c: &Comparison, decimals: usize, first_pick: usize) -> Ma
             table.pick {
                 thead { tr { th {} th.r { (s.word("deviation")) } (place_heads()) } }
                 tbody {
-                    @for (n, w) in c.worst.iter().enumerate() {
+                    @for (n, w) in places.iter().enumerate() {
                         tr data-pick=(first_pick + n) class=[outside(w).then_some("out")] {
                             td { (n + 1) }
                             td.r { (s.number(w.deviation, decimals).signed()) }
