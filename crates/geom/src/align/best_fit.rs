@@ -91,6 +91,9 @@ pub fn best_fit(
     let settle = Settle { work: &work, all, surface, part, some: &some };
     let (pose, sigma) = work.choose(&start.poses, &some, progress)?;
     let mut result = settle.from(pose, sigma, progress)?;
+    if let Some(pose) = work.where_all_count(&result, &some, progress)? {
+        result = settle.from(pose, sigma, progress)?;
+    }
     let mut told = vec![];
     if let Some(search) = start.search.take() {
         let look = Look { settle: &settle, search: &search, samples: &samples };

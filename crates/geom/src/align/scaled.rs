@@ -16,9 +16,13 @@ use crate::closest::BoundaryEdges;
 use crate::mesh::Mesh;
 use crate::progress::Progress;
 use crate::rigid::Rigid;
-use crate::space::{Aabb, Point, dot, minus, times};
+use crate::space::{Point, dot, minus, times};
 use std::collections::BTreeMap;
 
+/// Scales that are tried, beside that of a wrong unit and that of the sizes, while none fits: a piece of a part tells nothing by its size.
+const STARTS: [f64; 6] = [0.9, 1.1, 0.8, 1.25, 0.7, 1.4];
+/// Median distance over the size from which on a scale does not fit.
+const FOUND: f64 = 2e-3;
 /// Turns of pose and scale.
 const TURNS: usize = 30;
 /// Share of its own standard uncertainty below which a step of the scale is none.
@@ -59,18 +63,20 @@ pub fn best_fit_scaled(
         AlignWarning::Scale { factor } => Some(*factor),
         _ => None,
     });
-    // Of a whole part that of the sizes is near, of a piece of one that as it is.
-    let sizes = reference.mesh.bounds().diagonal() / Aabb::of(measured.points()).diagonal();
-    let (mut fit, mut factor) = (as_is, 1.0);
-    let other = unit.or(Some(sizes).filter(|ratio| ratio.is_finite() && *ratio > 0.0));
-    if let Some(other) = other {
+    let (mut fit, mut scale) = (as_is, Scale { factor: 1.0, std_uncertainty: 0.0 });
+    let radius = |measured: &Measured| Samples::all(measured).moments().radius();
+    let ratio = radius(&Measured::Mesh(reference.mesh)) / radius(measured);
+    for other in unit.into_iter().chain([ratio]).chain(STARTS) {
+        let size = fit.median / scale.factor / radius(measured);
+        if !(other.is_finite() && other > 0.0) || size <= FOUND {
+            continue;
+        }
         let there = of_scaled(measured, other, reference, options, progress)?;
         // A smaller part is nearer to anything.
-        if unit.is_some() || there.median / other < fit.median {
-            (fit, factor) = (there, other);
+        if there.median / other < fit.median / scale.factor {
+            (fit, scale.factor) = (there, other);
         }
     }
-    let mut scale = Scale { factor, std_uncertainty: 0.0 };
     for _ in 0..TURNS {
         let step = Step::new(&scaled(measured, scale.factor), reference, options, &fit, progress)?;
         scale.std_uncertainty = step.uncertainty * scale.factor;

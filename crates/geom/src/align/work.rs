@@ -1,14 +1,14 @@
 //! What the steps of a best fit share: problems of its samples, and which of many poses is the best.
 
-use super::icp::Problem;
+use super::icp::{MOST, Problem};
 use super::sample::Samples;
 use super::start::{Candidate, Search};
-use super::{AlignError, BestFit, Start, Target};
+use super::{AlignError, Alignment, BestFit, Start, Target};
 use crate::closest::BoundaryEdges;
 use crate::parallel::prelude::*;
 use crate::progress::Progress;
 use crate::rigid::Rigid;
-use crate::space::{Aabb, norm};
+use crate::space::{Aabb, Point, minus, norm};
 
 /// Samples for a start.
 pub(super) const FEW: usize = 400;
@@ -142,6 +142,26 @@ impl<'a> Work<'a> {
             }
         }
         best.map(|b| (b.pose, b.sigma)).ok_or(AlignError::NoOverlap)
+    }
+
+    /// Where the iteration ends from where all samples counted, if that lies better: the walls of a flat plate are few and far enough at its
+    /// start to be taken for outliers, and without them it slides and turns in its plane.
+    pub fn where_all_count(
+        &self,
+        result: &Alignment,
+        some: &Samples,
+        progress: &dyn Progress,
+    ) -> Result<Option<Rigid>, AlignError> {
+        if !self.options.robust || result.left_out == 0 {
+            return Ok(None);
+        }
+        let own = result.reference_from_measured;
+        let all = Problem { robust: false, ..self.problem(some) };
+        let there = all.run(own, f64::INFINITY, MOST, progress)?.pose;
+        let (pose, sigma) = self.choose(&[own, there], some, progress)?;
+        let moved = |p: &Point| norm(minus(pose.point(*p), own.point(*p)));
+        let farthest = some.points.iter().map(moved).fold(0.0, f64::max);
+        Ok((farthest > sigma.max(self.rounding)).then_some(pose))
     }
 
     /// Poses iterated on samples, in their order, with what they cost there under one cap.

@@ -421,6 +421,7 @@ fn comparison(
         along: None,
         regions: vec![],
         outliers: None,
+        between_vertices: None,
         coverage: None,
         verdict: shares.as_ref().map(|s| match s.inside {
             Some(inside) if inside >= s.required => Verdict::Pass,

@@ -121,8 +121,8 @@ fn between(found: &BetweenRecord, required: f64) -> Option<VerdictReason> {
     let share = found.beyond as f64 / found.places as f64;
     let [x, y, z] = found.point;
     let text = format!(
-        "between its vertices the measured mesh is out of tolerance at {} of {} places, by {:+.4} mm at {x:.3}, {y:.3}, {z:.3}",
-        found.beyond, found.places, found.deviation
+        "between vertices the mesh is off by {:+.4} mm at {x:.1}, {y:.1}, {z:.1}; {} of {} places are out",
+        found.deviation, found.beyond, found.places
     );
     (share > 1.0 - required).then(|| VerdictReason::new(ReasonKind::BetweenVertices, text))
 }
@@ -141,7 +141,7 @@ fn covered(
         _ if least <= 0.0 => None,
         _ if size.is_some_and(|size| reach > FAR * size) => {
             let text = format!(
-                "within a reach of {reach:.4} mm points cover what they are far from: ask for less than a quarter of the part"
+                "a reach of {reach:.1} mm covers what no point is near: ask for less than a quarter of the part"
             );
             Some(VerdictReason::new(ReasonKind::CoverageUnknown, text))
         }

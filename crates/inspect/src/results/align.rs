@@ -12,7 +12,7 @@ use trueness_geom::align::{Alignment, Freedom, InZones, Lock, Minimax, NotCounte
 use trueness_geom::space::{cross, minus, norm};
 
 /// Share of a free motion from which on a component takes part in it.
-const OPEN: f64 = 1e-3;
+const OPEN: f64 = 0.03;
 
 /// Name of this document's schema.
 pub const SCHEMA: &str = "trueness/align/1";
