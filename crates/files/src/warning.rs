@@ -187,6 +187,36 @@ impl Warning {
 }
 
 impl Warning {
+    /// The text of those that tables have; nothing of others.
+    fn of_tables(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Warning::RunningNumber => {
+                write!(f, "the first column counts the rows; the three after it were taken as x, y, z")
+            }
+            Warning::Airfoil { form, title } => {
+                let title = title.as_ref().map_or(String::new(), |t| format!(" with the title \"{t}\""));
+                write!(
+                    f,
+                    "an airfoil in {form}'s form{title}; what is no row of it was left out, and both sides are one row around it"
+                )
+            }
+            Warning::NamesUnknown { names } => {
+                write!(
+                    f,
+                    "the header names no coordinate; {} were taken as x, y, z in this order",
+                    names.join(", ")
+                )
+            }
+            Warning::NoUnit { name } => {
+                write!(f, "the name \"{name}\" gives no unit that is known")
+            }
+            Warning::UnitOverruled { header, asked } => {
+                write!(f, "the header gives the unit {header}, but {asked} was asked for and taken")
+            }
+            _ => Ok(()),
+        }
+    }
+
     /// The text of those that CAD files and drawings have; nothing of others.
     fn of_cad(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -277,29 +307,11 @@ impl fmt::Display for Warning {
             Warning::Welded { distance, before, after } => {
                 write!(f, "{before} vertices became {after}: those within {distance} mm were joined")
             }
-            Warning::RunningNumber => {
-                write!(f, "the first column counts the rows; the three after it were taken as x, y, z")
-            }
-            Warning::Airfoil { form, title } => {
-                let title = title.as_ref().map_or(String::new(), |t| format!(" with the title \"{t}\""));
-                write!(
-                    f,
-                    "an airfoil in {form}'s form{title}; what is no row of it was left out, and both sides are one row around it"
-                )
-            }
-            Warning::NamesUnknown { names } => {
-                write!(
-                    f,
-                    "the header names no coordinate; {} were taken as x, y, z in this order",
-                    names.join(", ")
-                )
-            }
-            Warning::NoUnit { name } => {
-                write!(f, "the name \"{name}\" gives no unit that is known")
-            }
-            Warning::UnitOverruled { header, asked } => {
-                write!(f, "the header gives the unit {header}, but {asked} was asked for and taken")
-            }
+            Warning::RunningNumber
+            | Warning::Airfoil { .. }
+            | Warning::NamesUnknown { .. }
+            | Warning::NoUnit { .. }
+            | Warning::UnitOverruled { .. } => self.of_tables(f),
             Warning::UnitKept { said, asked } => {
                 write!(
                     f,
