@@ -27,6 +27,13 @@ pub enum Warning {
         /// The first such line, from 1.
         line: u64,
     },
+    /// Lines of text behind the last solid of an STL file were passed over.
+    TextBehind {
+        /// The first of them, from 1.
+        line: u64,
+        /// What it says, shortened.
+        text: String,
+    },
     /// The last solid of an STL file is not closed by `endsolid`.
     NoEndsolid,
     /// Several solids became one mesh.
@@ -117,6 +124,20 @@ pub enum Warning {
         /// How many of which kinds.
         what: String,
     },
+    /// Entities of a drawing that are not seen were left out.
+    Unseen {
+        /// How many are marked as invisible.
+        marked: u64,
+        /// How many lie on layers that are frozen or switched off.
+        on_layers: u64,
+        /// The names of these layers.
+        layers: String,
+    },
+    /// What was read of a drawing lies on several layers.
+    SeveralLayers {
+        /// Their names, with how many entities each holds.
+        layers: String,
+    },
     /// Splines of a drawing are given by the points alone that they pass through; they are drawn as cubics.
     ThroughPoints {
         /// How many.
@@ -166,6 +187,36 @@ impl Warning {
 }
 
 impl Warning {
+    /// The text of those that tables have; nothing of others.
+    fn of_tables(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Warning::RunningNumber => {
+                write!(f, "the first column counts the rows; the three after it were taken as x, y, z")
+            }
+            Warning::Airfoil { form, title } => {
+                let title = title.as_ref().map_or(String::new(), |t| format!(" with the title \"{t}\""));
+                write!(
+                    f,
+                    "an airfoil in {form}'s form{title}; what is no row of it was left out, and both sides are one row around it"
+                )
+            }
+            Warning::NamesUnknown { names } => {
+                write!(
+                    f,
+                    "the header names no coordinate; {} were taken as x, y, z in this order",
+                    names.join(", ")
+                )
+            }
+            Warning::NoUnit { name } => {
+                write!(f, "the name \"{name}\" gives no unit that is known")
+            }
+            Warning::UnitOverruled { header, asked } => {
+                write!(f, "the header gives the unit {header}, but {asked} was asked for and taken")
+            }
+            _ => Ok(()),
+        }
+    }
+
     /// The text of those that CAD files and drawings have; nothing of others.
     fn of_cad(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -184,6 +235,23 @@ impl Warning {
             Warning::PassedOver { what } => {
                 write!(f, "the drawing holds what is not read, and was passed over: {what}")
             }
+            Warning::Unseen { marked, on_layers, layers } => {
+                let on = match layers.is_empty() {
+                    true => String::new(),
+                    false => format!(" ({layers})"),
+                };
+                write!(
+                    f,
+                    "{} entities that are not seen in the drawing were left out: {marked} marked as invisible, {on_layers} on layers that are frozen \
+                     or switched off{on}",
+                    marked + on_layers
+                )
+            }
+            Warning::SeveralLayers { layers } => write!(
+                f,
+                "the drawing has entities on several layers: {layers}; lines that are no outline cannot be told from others: switch off or \
+                 delete layers of center and construction lines"
+            ),
             Warning::ThroughPoints { count } => write!(
                 f,
                 "{count} spline(s) by the points alone that they pass through, drawn as cubics; between the points the program that made them may \
@@ -213,6 +281,12 @@ impl fmt::Display for Warning {
                 "line {line}: what follows the coordinates or corners is unlike other rows or no color and was passed over; \
                  check that no number is missing"
             ),
+            Warning::TextBehind { line, text } => {
+                write!(
+                    f,
+                    "line {line}: text behind the last solid is no part of the mesh and was passed over: {text}"
+                )
+            }
             Warning::NoEndsolid => write!(f, "the last solid is not closed; the file may be cut short"),
             Warning::Solids { count } => write!(f, "{count} solids read as one mesh"),
             Warning::Polygons { count } => {
@@ -233,29 +307,11 @@ impl fmt::Display for Warning {
             Warning::Welded { distance, before, after } => {
                 write!(f, "{before} vertices became {after}: those within {distance} mm were joined")
             }
-            Warning::RunningNumber => {
-                write!(f, "the first column counts the rows; the three after it were taken as x, y, z")
-            }
-            Warning::Airfoil { form, title } => {
-                let title = title.as_ref().map_or(String::new(), |t| format!(" with the title \"{t}\""));
-                write!(
-                    f,
-                    "an airfoil in {form}'s form{title}; what is no row of it was left out, and both sides are one row around it"
-                )
-            }
-            Warning::NamesUnknown { names } => {
-                write!(
-                    f,
-                    "the header names no coordinate; {} were taken as x, y, z in this order",
-                    names.join(", ")
-                )
-            }
-            Warning::NoUnit { name } => {
-                write!(f, "the name \"{name}\" gives no unit that is known")
-            }
-            Warning::UnitOverruled { header, asked } => {
-                write!(f, "the header gives the unit {header}, but {asked} was asked for and taken")
-            }
+            Warning::RunningNumber
+            | Warning::Airfoil { .. }
+            | Warning::NamesUnknown { .. }
+            | Warning::NoUnit { .. }
+            | Warning::UnitOverruled { .. } => self.of_tables(f),
             Warning::UnitKept { said, asked } => {
                 write!(
                     f,
@@ -266,6 +322,8 @@ impl fmt::Display for Warning {
             | Warning::Trimmed { .. }
             | Warning::FacesLeftOut { .. }
             | Warning::PassedOver { .. }
+            | Warning::Unseen { .. }
+            | Warning::SeveralLayers { .. }
             | Warning::ThroughPoints { .. }
             | Warning::NothingDrawn => self.of_cad(f),
             Warning::HeaderLines { count, line, text } => {

@@ -187,3 +187,126 @@ fn a_long_file_that_declares_little_is_not_read_as_a_whole() {
     cut(&path, 1 << 40);
     assert!(read(&path).unwrap_err().to_string().contains("zero bytes"));
 }
+
+/// Lengths of what stands behind each facet, as its attribute word says. They are passed over where they fill the file up
+/// exactly, and are colors where the file is as long without them.
+#[test]
+fn bytes_behind_each_facet_are_passed_over_where_the_length_proves_them() {
+    let folder = Folder::new();
+    let mut random = common::Random(11);
+    for case in 0..60 {
+        let facets = 1 + random.below(40);
+        let (mut bytes, mut wanted) = ([&[b' '; 80][..], &(facets as u32).to_le_bytes()].concat(), vec![]);
+        let mut payload = 0;
+        for _ in 0..facets {
+            let corners: [[f32; 3]; 3] =
+                std::array::from_fn(|_| std::array::from_fn(|_| random.below(1000) as f32));
+            let length = if case % 3 == 0 { 4 } else { random.below(70) };
+            bytes.extend([0; 12]);
+            bytes.extend(corners.as_flattened().iter().flat_map(|x| x.to_le_bytes()));
+            bytes.extend((length as u16).to_le_bytes());
+            bytes.extend((0..length).map(|_| random.bits() as u8));
+            wanted.extend(corners.map(|p| p.map(f64::from)));
+            payload += length;
+        }
+        let corners = |bytes: &[u8]| {
+            let input = open(&folder.file("a.stl", bytes), &ReadOptions::default()).unwrap();
+            let Body::Mesh(source) = input.body else { panic!("no mesh") };
+            let places = source.mesh.faces.iter().flatten().map(|v| source.mesh.positions[*v as usize]);
+            (places.collect::<Vec<_>>(), input.warnings)
+        };
+        assert_eq!(corners(&bytes), (wanted.clone(), vec![]), "{case}");
+        if payload == 0 {
+            continue;
+        }
+        // A byte more or less proves nothing: what follows as many facets of 50 bytes is told.
+        for other in [[&bytes[..], &[0]].concat(), bytes[..bytes.len() - 1].to_vec()] {
+            let told = corners(&other).1[0].to_string();
+            assert!(told.contains("bytes after the declared content"), "{case} {told}");
+        }
+        // The same facets with these words and nothing behind them: colors.
+        let mut plain = bytes[..84].to_vec();
+        for (f, corners) in wanted.as_chunks::<3>().0.iter().enumerate() {
+            plain.extend([0; 12]);
+            plain.extend(corners.as_flattened().iter().flat_map(|x| (*x as f32).to_le_bytes()));
+            plain.extend([f as u8, 0x80]);
+        }
+        assert_eq!(corners(&plain), (wanted, vec![]), "{case}");
+    }
+}
+
+/// What stands behind `endsolid` on its line is a name; lines of text behind it are told; what may be facets is refused.
+#[test]
+fn words_behind_the_end_of_a_solid() {
+    let folder = Folder::new();
+    let facet = " facet normal 0 0 1\n  outer loop\n   vertex 0 0 0\n   vertex 1 0 0\n   vertex 0 1 0\n  endloop\n endfacet\n";
+    let names = [
+        "",
+        "part",
+        "name of the part",
+        "v2, 12 facets (facet 3)",
+        "a facet normal",
+        "solid",
+        "endsolid x",
+        "vertex 1 2 3",
+        "# made by",
+        "end loop",
+    ];
+    let tails = ["", "# a comment", "some words here", "12 facets written\n\n2 files", "-- end of file --"];
+    let mut random = common::Random(3);
+    for name in names {
+        for behind in names {
+            for tail in tails {
+                let end = ["\n", "\r\n", "\r"][random.below(3)];
+                let solids = 1 + random.below(2);
+                let one = format!("solid {name}\n{facet}endsolid {behind}\n");
+                let text = (one.repeat(solids) + tail).replace('\n', end);
+                let found =
+                    read(&folder.file("a.stl", text.as_bytes())).unwrap_or_else(|e| panic!("{text}\n{e}"));
+                let warnings = usize::from(solids > 1) + usize::from(!tail.is_empty());
+                assert_eq!((found.faces, found.warnings), (solids, warnings), "{text}");
+            }
+        }
+    }
+    for tail in [
+        "text\nfacet normal 0 0 1\n",
+        "text\n vertex 0 0 0\n",
+        "facett normal 0 0 1\n outer loop\n",
+        "a\nend loop\n",
+    ] {
+        let text = format!("solid a\n{facet}endsolid a\n{tail}");
+        let said = read(&folder.file("a.stl", text.as_bytes())).unwrap_err().to_string();
+        assert!(said.contains("line 10"), "{said}");
+    }
+}
+
+/// Numbers behind the rows of an OFF file are colors; words there are refused at their line, unless `#` begins them.
+#[test]
+fn words_behind_the_rows_of_off() {
+    let folder = Folder::new();
+    let file = |header: &str, vertex: &str, face: &str, end: &str| {
+        format!("{header}\n3 1 0\n0 0 0\n1 0 0{vertex}\n0 1 0\n3 0 1 2{face}\n{end}")
+    };
+    for (header, vertex, face, end) in [
+        ("OFF", "", "", ""),
+        ("OFF # name of the part", " # a corner", " # a face", "# the end"),
+        ("OFF", "", " 255 0 0", ""),
+        ("OFF", "", " 0.5 0.5 0.5 1", ""),
+        ("OFF", "", " 7", ""),
+    ] {
+        let text = file(header, vertex, face, end);
+        let found = read(&folder.file("a.off", text.as_bytes())).unwrap_or_else(|e| panic!("{text}\n{e}"));
+        assert_eq!((found.faces, found.warnings), (1, 0), "{text}");
+    }
+    for (header, vertex, face, line) in [
+        ("OFF", " a corner", "", "line 4"),
+        ("OFF", "", " red", "line 6"),
+        ("OFF", "", " // a face", "line 6"),
+        ("OFF", "", " 255 0 0 red", "line 6"),
+        ("OFF name", "", "", "line 1"),
+    ] {
+        let text = file(header, vertex, face, "");
+        let said = read(&folder.file("a.off", text.as_bytes())).unwrap_err().to_string();
+        assert!(said.contains(line), "{text}\n{said}");
+    }
+}

@@ -2,6 +2,7 @@
 
 use super::entities::Said;
 use super::groups::Group;
+use super::hidden::{Hidden, State, Unseen};
 use super::place::Placing;
 use crate::drawing::{Drawing, DrawnEntity};
 use crate::error::{Fault, Located, Result};
@@ -26,6 +27,13 @@ pub(super) struct Block {
     pub items: Vec<Item>,
     /// Entities in it that have no course in the plane.
     pub passed_over: BTreeMap<String, u64>,
+    /// Entities in it that are not seen.
+    pub unseen: Unseen,
+}
+
+/// Whether what lies on a layer of a block takes the layer that the block is inserted on.
+pub(super) fn is_layer_0(layer: &str) -> bool {
+    layer == "0" || layer.is_empty()
 }
 
 /// A place of a block, or rows and columns of places.
@@ -72,24 +80,31 @@ impl Insert {
 }
 
 /// A drawing while blocks are placed in it.
-pub(super) struct Placed {
+pub(super) struct Placed<'h> {
     /// Blocks by their names; a faulty one is a fault where it is inserted.
     pub blocks: BTreeMap<String, Result<Block>>,
     pub drawing: Drawing,
     pub passed_over: BTreeMap<String, u64>,
+    pub unseen: Unseen,
+    hidden: &'h Hidden,
     left: u64,
 }
 
-impl Placed {
-    pub fn new(blocks: BTreeMap<String, Result<Block>>, passed_over: BTreeMap<String, u64>) -> Placed {
-        Placed { blocks, drawing: Drawing::default(), passed_over, left: MOST }
+impl<'h> Placed<'h> {
+    pub fn new(
+        blocks: BTreeMap<String, Result<Block>>,
+        passed_over: BTreeMap<String, u64>,
+        unseen: Unseen,
+        hidden: &'h Hidden,
+    ) -> Placed<'h> {
+        Placed { blocks, drawing: Drawing::default(), passed_over, unseen, hidden, left: MOST }
     }
 
     /// The entities of the drawing itself, with those of the blocks inserted.
     pub fn place(&mut self, items: Vec<Item>) -> Result<()> {
         for item in items {
             match item {
-                Item::Drawn(entity) => self.drawing.entities.push(entity),
+                Item::Drawn(entity) => self.show(entity),
                 Item::Insert(insert) => {
                     // A fault of a block is one of the file.
                     let mut blocks = std::mem::take(&mut self.blocks);
@@ -101,6 +116,14 @@ impl Placed {
         Ok(())
     }
 
+    /// Takes up an entity unless its layer is hidden.
+    fn show(&mut self, entity: DrawnEntity) {
+        match self.hidden.state(&entity.layer) {
+            Some(_) => self.unseen.on(&entity.layer),
+            None => self.drawing.entities.push(entity),
+        }
+    }
+
     fn insert(
         &mut self,
         blocks: &mut BTreeMap<String, Result<Block>>,
@@ -110,7 +133,11 @@ impl Placed {
         depth: usize,
     ) -> Result<()> {
         // What is on layer 0 of a block is on that of its place.
-        let layer = if insert.layer == "0" || insert.layer.is_empty() { layer } else { &insert.layer };
+        let layer = if is_layer_0(&insert.layer) { layer } else { &insert.layer };
+        if self.hidden.state(layer) == Some(State::Frozen) {
+            self.unseen.on(layer);
+            return Ok(());
+        }
         let wrong = |what: &str, remedy: &'static str| -> Located {
             Fault::Unsupported { what: what.into(), remedy }.at_line(insert.line)
         };
@@ -137,20 +164,17 @@ impl Placed {
                 match item {
                     Item::Insert(inner) => self.insert(blocks, inner, &placing, layer, depth + 1)?,
                     Item::Drawn(entity) => {
-                        let own = if entity.layer == "0" || entity.layer.is_empty() {
-                            layer
-                        } else {
-                            &entity.layer
-                        };
+                        let own = if is_layer_0(&entity.layer) { layer } else { &entity.layer };
                         let drawn = placing.drawn(&entity.drawn).map_err(|f| f.at_line(insert.line))?;
                         let of = |drawn| DrawnEntity { layer: own.to_owned(), drawn };
-                        self.drawing.entities.extend(drawn.into_iter().map(of));
+                        drawn.into_iter().map(of).for_each(|entity| self.show(entity));
                     }
                 }
             }
             for (name, count) in &block.passed_over {
                 *self.passed_over.entry(name.clone()).or_default() += count;
             }
+            self.unseen.join(&block.unseen);
             self.left = self.left.saturating_sub(1 + block.items.len() as u64);
             if self.left == 0 {
                 let what = format!("inserted blocks make more than {MOST} entities");

@@ -4,6 +4,9 @@ mod blocks;
 mod conic;
 mod entities;
 mod groups;
+mod hidden;
+#[cfg(test)]
+mod hidden_tests;
 mod place;
 mod read;
 #[cfg(test)]

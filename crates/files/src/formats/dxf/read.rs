@@ -1,8 +1,9 @@
 //! The entities of a DXF file.
 
-use super::blocks::{Block, Insert, Item, Placed, block_name};
+use super::blocks::{Block, Insert, Item, Placed, block_name, is_layer_0};
 use super::entities::{Said, Vertex, arc, ellipse, line, polyline, spline, vertex, vertices};
 use super::groups::{BINARY, Group, Groups};
+use super::hidden::{Hidden, Unseen, several};
 use crate::drawing::DrawnEntity;
 use crate::error::{Fault, Result};
 use crate::format::{Parsed, ReadOptions};
@@ -20,24 +21,26 @@ pub(super) fn read(mut source: Source, options: &ReadOptions) -> Result<Parsed> 
     no_zeros(source.feed.ahead(HEAD)?)?;
     let text = source.feed.all()?;
     no_zeros(text)?;
-    let said = unit(&mut Groups::new(text))?;
+    let (said, hidden) = settings(&mut Groups::new(text))?;
     let unit = options.unit_of(said);
-    let (mut own, mut blocks) = (Reader::new(unit), BTreeMap::new());
+    let (mut own, mut blocks) = (Reader::new(unit, &hidden), BTreeMap::new());
     let mut groups = Groups::new(text);
     while let Some(name) = section(&mut groups)? {
         match name.value {
             b"ENTITIES" => own.entities(&records(&mut groups, b"ENDSEC")?)?,
-            b"BLOCKS" => own.through += read_blocks(&mut groups, unit, &mut blocks)?,
+            b"BLOCKS" => own.through += read_blocks(&mut groups, unit, &hidden, &mut blocks)?,
             _ => while !groups.next()?.is(0, b"ENDSEC") {},
         }
     }
-    let mut placed = Placed::new(blocks, own.passed_over);
+    let mut placed = Placed::new(blocks, own.passed_over, own.unseen, &hidden);
     placed.place(own.items)?;
     let mut warnings = vec![];
     if !placed.passed_over.is_empty() {
         let kinds = placed.passed_over.iter().map(|(name, count)| format!("{count} {name}"));
         warnings.push(Warning::PassedOver { what: kinds.collect::<Vec<_>>().join(", ") });
     }
+    warnings.extend(placed.unseen.warning());
+    warnings.extend(several(placed.drawing.entities.iter().map(|e| e.layer.as_str())));
     if own.through > 0 {
         warnings.push(Warning::ThroughPoints { count: own.through });
     }
@@ -60,10 +63,14 @@ fn section<'a>(groups: &mut Groups<'a>) -> Result<Option<Group<'a>>> {
     }
 }
 
-/// The unit that the header says.
-fn unit(groups: &mut Groups) -> Result<Option<Unit>> {
-    let mut found = None;
+/// The unit that the header says, and which layers are hidden.
+fn settings(groups: &mut Groups) -> Result<(Option<Unit>, Hidden)> {
+    let (mut found, mut hidden) = (None, Hidden::default());
     while let Some(name) = section(groups)? {
+        if name.value == b"TABLES" {
+            hidden = layers(groups)?;
+            continue;
+        }
         let mut insunits = false;
         loop {
             let group = groups.next()?;
@@ -76,7 +83,31 @@ fn unit(groups: &mut Groups) -> Result<Option<Unit>> {
             insunits = group.is(9, b"$INSUNITS");
         }
     }
-    let Some(group) = found else { return Ok(None) };
+    Ok((found.map(unit).transpose()?.flatten(), hidden))
+}
+
+/// The hidden layers of the tables up to the end of their section.
+fn layers(groups: &mut Groups) -> Result<Hidden> {
+    let (mut hidden, mut layer) = (Hidden::default(), None::<Vec<Group>>);
+    loop {
+        let group = groups.next()?;
+        if group.code != 0 {
+            layer.iter_mut().for_each(|record| record.push(group));
+            continue;
+        }
+        if let Some(record) = layer.take() {
+            hidden.add(&record)?;
+        }
+        match group.value {
+            b"ENDSEC" => return Ok(hidden),
+            b"LAYER" => layer = Some(vec![]),
+            _ => {}
+        }
+    }
+}
+
+/// The unit of a number of the header; `None` where it says none.
+fn unit(group: Group) -> Result<Option<Unit>> {
     Ok(Some(match group.integer()? {
         0 => return Ok(None),
         1 => Unit::Inch,
@@ -115,6 +146,7 @@ fn records<'a>(groups: &mut Groups<'a>, end: &[u8]) -> Result<Vec<Record<'a>>> {
 fn read_blocks<'a>(
     groups: &mut Groups<'a>,
     unit: Unit,
+    hidden: &Hidden,
     blocks: &mut BTreeMap<String, Result<Block>>,
 ) -> Result<u64> {
     let mut through = 0;
@@ -125,10 +157,10 @@ fn read_blocks<'a>(
         let mut read = || {
             let said = Said { groups: &own[first].groups, line: own[first].name.line, unit };
             let base = [said.length_or_0(10)?, said.length_or_0(20)?];
-            let mut reader = Reader::new(unit);
+            let mut reader = Reader::new(unit, hidden);
             reader.entities(&own[first + 1..])?;
             own_through += reader.through;
-            Ok(Block { base, items: reader.items, passed_over: reader.passed_over })
+            Ok(Block { base, items: reader.items, passed_over: reader.passed_over, unseen: reader.unseen })
         };
         blocks.insert(block_name(&own[first].groups), read());
         through += own_through;
@@ -136,17 +168,34 @@ fn read_blocks<'a>(
     Ok(through)
 }
 
-struct Reader {
+struct Reader<'h> {
     unit: Unit,
+    hidden: &'h Hidden,
     items: Vec<Item>,
     passed_over: BTreeMap<String, u64>,
+    unseen: Unseen,
     /// Splines by the points that they pass through.
     through: u64,
 }
 
-impl Reader {
-    fn new(unit: Unit) -> Reader {
-        Reader { unit, items: vec![], passed_over: BTreeMap::new(), through: 0 }
+impl<'h> Reader<'h> {
+    fn new(unit: Unit, hidden: &'h Hidden) -> Reader<'h> {
+        let (items, passed_over) = (vec![], BTreeMap::new());
+        Reader { unit, hidden, items, passed_over, unseen: Unseen::default(), through: 0 }
+    }
+
+    /// Whether an entity is not seen, which is counted. What blocks hold on layer 0 shows only where they are inserted.
+    fn is_unseen(&mut self, said: &Said) -> Result<bool> {
+        if said.integer(60)? == 1 {
+            self.unseen.mark();
+            return Ok(true);
+        }
+        let layer = layer(said);
+        let hidden = !is_layer_0(&layer) && self.hidden.state(&layer).is_some();
+        if hidden {
+            self.unseen.on(&layer);
+        }
+        Ok(hidden)
     }
 
     fn entities(&mut self, records: &[Record]) -> Result<()> {
@@ -177,6 +226,9 @@ impl Reader {
 
     /// A `POLYLINE` with its vertices: one in the plane, neither a mesh nor the control points of a curve.
     fn polyline(&mut self, said: &Said, vertices: &[Vertex]) -> Result<()> {
+        if said.integer(67)? == 1 || self.is_unseen(said)? {
+            return Ok(());
+        }
         let flags = said.integer(70)?;
         // 8: in space, 16, 64: meshes; 2, 4: the vertices of a curve fitted to them stand among its control points.
         if flags & (2 | 4 | 8 | 16 | 64) != 0 {
@@ -190,6 +242,8 @@ impl Reader {
         match name {
             // What stands on paper is none of the part.
             _ if said.integer(67)? == 1 => Ok(()),
+            // Whether a block shows depends on the layers of what it holds as well.
+            _ if (name != b"INSERT" || said.integer(60)? == 1) && self.is_unseen(said)? => Ok(()),
             b"LINE" => self.add(said, |out| line(said, out)),
             b"ARC" => self.add(said, |out| arc(said, false, out)),
             b"CIRCLE" => self.add(said, |out| arc(said, true, out)),

@@ -7,7 +7,7 @@
 use super::facet::Facet;
 use crate::{
     FacetRegions, Warning,
-    error::{Fault, Result},
+    error::{Fault, Result, quoted},
     lines::{line_end, line_of, without_mark},
     number::number,
 };
@@ -56,12 +56,13 @@ pub(super) fn read(bytes: &[u8]) -> Result<Read> {
     let parsed: Vec<std::result::Result<Part, (usize, Fault)>> =
         parts.into_par_iter().map(|(from, to)| Part::read(text, from, to)).collect();
     let mut all = Part::default();
-    let mut open = false;
+    let (mut open, mut behind) = (false, None);
     let mut facets = Vec::new();
     let mut regions = FacetRegions::default();
     for part in parsed {
         let part = part.map_err(|(at, fault)| fault.at_line(line_of(text, at)))?;
         open = part.open.unwrap_or(open);
+        behind = part.text.or(behind);
         all.solids += part.solids;
         // Facets before the first name of a part are of the solid that was open at its start.
         let mut names = part.names.into_iter().peekable();
@@ -80,6 +81,10 @@ pub(super) fn read(bytes: &[u8]) -> Result<Read> {
     }
     if open {
         warnings.push(Warning::NoEndsolid);
+    }
+    if let Some(at) = behind {
+        let first = text[at..].split(|b| matches!(b, b'\n' | b'\r')).next().unwrap_or_default();
+        warnings.push(Warning::TextBehind { line: line_of(text, at), text: quoted(first) });
     }
     Ok(Read { facets: facets.concat(), regions: (all.solids > 1).then_some(regions), warnings })
 }
@@ -108,6 +113,8 @@ struct Part {
     names: Vec<(usize, String)>,
     /// Whether a solid is open at the end; `None` if no solid begins or ends here.
     open: Option<bool>,
+    /// Where text begins that stands behind the last solid.
+    text: Option<usize>,
 }
 
 impl Part {
@@ -132,12 +139,23 @@ impl Part {
                 part.names.push((part.facets.len(), name));
                 part.solids += 1;
                 part.open = Some(true);
+            } else if part.open == Some(false) && to == text.len() && is_prose(&text[at..]) {
+                part.text = Some(at);
+                break;
             } else {
                 return Err((at, Fault::unexpected("\"facet\", \"solid\" or \"endsolid\"", word)));
             }
         }
         Ok(part)
     }
+}
+
+/// Whether no line of a text begins with a word of the format.
+fn is_prose(text: &[u8]) -> bool {
+    const WORDS: [&str; 9] =
+        ["facet", "solid", "outer", "vertex", "end", "loop", "endloop", "endfacet", "endsolid"];
+    let mut first = text.split(|b| matches!(b, b'\n' | b'\r')).filter_map(|line| Words::new(line, 0).next());
+    first.all(|(_, word)| !WORDS.iter().any(|known| is(word, known)))
 }
 
 fn is(word: &[u8], name: &str) -> bool {

@@ -5,14 +5,17 @@
 //! | Selig's | from the trailing edge over the leading one and back |
 //! | Lednicer's | two counts, then the upper and the lower side, each from the leading edge |
 //!
-//! A title may look like a row (`NACA 0012`), like the names of columns (`CLARK Y`) or like the number of points (`0012`). Only the rows
-//! behind it tell: all of two numbers, in the order of one of the forms.
+//! A title may look like a row (`NACA 0012`, `0.12 0.5`), like the names of columns (`CLARK Y`) or like the number of points (`0012`), and
+//! have several lines. Only the rows behind it tell: all of two numbers, in the order of one of the forms.
 
 use super::cell::cell_number;
+use super::stream::TextPoints;
 use crate::{
-    Warning,
+    Place, Warning,
+    error::{Located, Result},
     lines::{line_end, without_mark},
 };
+use trueness_geom::{cloud::PointStream, space::Point};
 
 /// Fewer rows show no form.
 const FEWEST: usize = 8;
@@ -21,37 +24,84 @@ const EDGE: f64 = 0.1;
 /// A profile is no thicker than this share of its length.
 const THICK: f64 = 0.6;
 
-/// The text of a file in one of the forms with its title and its counts taken out, and the sides of Lednicer's form as one row around the
-/// profile; `None` of any other text.
-pub(super) fn plain(text: &[u8]) -> Option<(Vec<u8>, Warning)> {
+/// A file in one of the forms.
+#[derive(Debug, PartialEq)]
+pub(super) struct Airfoil {
+    /// Its text with title and counts taken out, and the sides of Lednicer's form as one row around the profile.
+    pub text: Vec<u8>,
+    pub told: Warning,
+    /// Of each line of this text its number in the file, both from 1.
+    pub file_lines: Vec<u64>,
+}
+
+/// Longest title told.
+const TITLE: usize = 60;
+
+/// A file in one of the forms; `None` of any other text.
+pub(super) fn plain(text: &[u8]) -> Option<Airfoil> {
     let end = line_end(text);
     let lines: Vec<&[u8]> = without_mark(text).split(|b| *b == end).collect();
     let said: Vec<usize> = (0..lines.len()).filter(|i| !lines[*i].trim_ascii().is_empty()).collect();
-    let (first, rest) = said.split_first()?;
-    let title = row(lines[*first]).is_none();
-    let rows: Vec<usize> = if title { rest.to_vec() } else { said.clone() };
-    let values: Vec<[f64; 2]> = rows.iter().map(|i| row(lines[*i])).collect::<Option<_>>()?;
-    let name = || String::from_utf8_lossy(lines[*first].trim_ascii()).chars().take(60).collect::<String>();
-    let upper = lednicer(&values);
-    if upper.is_none() && !(title && is_selig(&values) && !names_columns(lines[*first])) {
-        return None;
-    }
+    // The title ends where nothing but rows of two numbers follows.
+    let words = said.iter().rposition(|i| row(lines[*i]).is_none()).map_or(0, |last| last + 1);
+    let values: Vec<[f64; 2]> = said[words..].iter().filter_map(|i| row(lines[*i])).collect();
+    // One more line of it may look like a row.
+    let starts = || (0..=1).filter(|more| *more < values.len());
+    let two_sides = starts().find_map(|more| Some((more, lednicer(&values[more..])?)));
+    let around = || starts().find(|more| is_selig(&values[*more..])).filter(|more| words + more > 0);
+    let named = said[..words].iter().any(|i| names_columns(lines[*i]));
+    let (more, upper) = match two_sides {
+        Some((more, upper)) => (more, Some(upper)),
+        None => (around().filter(|_| !named)?, None),
+    };
+    let (title, rows) = said.split_at(words + more);
+    let values = &values[more..];
+    let mut order: Vec<usize> = (0..lines.len()).collect();
     let mut kept = lines.clone();
-    if title {
-        kept[*first] = b"";
-    }
+    title.iter().for_each(|i| kept[*i] = b"");
     if let Some(upper) = upper {
-        kept[rows[0]] = b"";
         // Both sides begin with the leading edge.
         let once = usize::from(values[1] == values[1 + upper]);
-        let order = (1 + once..=upper).rev().chain(1 + upper..rows.len());
-        let turned: Vec<&[u8]> = order.map(|k| lines[rows[k]]).collect();
-        let places = &rows[1 + once..];
-        kept[rows[1]] = b"";
-        places.iter().zip(turned).for_each(|(place, line)| kept[*place] = line);
+        rows[..=once].iter().for_each(|i| kept[*i] = b"");
+        let around = (1 + once..=upper).rev().chain(1 + upper..rows.len());
+        for (place, k) in rows[1 + once..].iter().zip(around) {
+            (kept[*place], order[*place]) = (lines[rows[k]], rows[k]);
+        }
     }
     let form = if upper.is_some() { "Lednicer" } else { "Selig" };
-    Some((kept.join(&end), Warning::Airfoil { form, title: title.then(name) }))
+    let title: Vec<String> =
+        title.iter().map(|i| String::from_utf8_lossy(lines[*i].trim_ascii()).into_owned()).collect();
+    let shown = title.join(" / ").chars().take(TITLE).collect();
+    let told = Warning::Airfoil { form, title: (!title.is_empty()).then_some(shown) };
+    let file_lines = order.iter().map(|i| *i as u64 + 1).collect();
+    Some(Airfoil { text: kept.join(&end), told, file_lines })
+}
+
+/// A fault of the text in [`Airfoil`], at its line in the file.
+pub(super) fn in_file(fault: Located, file_lines: &[u64]) -> Located {
+    match fault.place {
+        Place::Line(line) => {
+            let at = usize::try_from(line).ok().and_then(|n| file_lines.get(n.wrapping_sub(1)));
+            fault.fault.at_line(at.copied().unwrap_or(line))
+        }
+        _ => fault,
+    }
+}
+
+/// Points of the text in [`Airfoil`].
+pub(super) struct Around {
+    pub points: TextPoints,
+    pub file_lines: Vec<u64>,
+}
+
+impl PointStream for Around {
+    type Error = Located;
+    fn expected(&self) -> Option<u64> {
+        self.points.expected()
+    }
+    fn next_block(&mut self, block: &mut Vec<Point>) -> Result<()> {
+        self.points.next_block(block).map_err(|fault| in_file(fault, &self.file_lines))
+    }
 }
 
 /// The two numbers of a line that holds nothing else.

@@ -95,7 +95,8 @@ pub(super) fn filled(cells: &[&[u8]]) -> usize {
     cells.iter().rposition(|c| !c.is_empty()).map_or(0, |last| last + 1)
 }
 
-fn unquoted(cell: &[u8]) -> &[u8] {
+/// A cell without its quotes and the blanks around it.
+pub(super) fn unquoted(cell: &[u8]) -> &[u8] {
     let cell = cell.trim_ascii();
     match cell {
         [b'"', inner @ .., b'"'] => inner.trim_ascii(),

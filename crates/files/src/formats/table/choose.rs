@@ -69,7 +69,7 @@ fn guessed(tried: &Tried) -> Vec<usize> {
 fn named(tried: &Tried, header: &Header, named: Vec<usize>, guessed: Vec<usize>) -> Result<Chosen> {
     let (names, cells) = (header.names.len(), tried.width);
     let longest = tried.rows.iter().map(|l| l.cells.len()).max().unwrap_or(cells);
-    let even = names == cells || names <= longest && names >= cells;
+    let even = names == cells || names <= longest && names >= tried.least_names();
     if !even {
         // A comment may be prose: "# the points x y z" over three columns, or "# x y z of the housing". It counts where
         // it may be names, and must not contradict the rows.
@@ -156,8 +156,8 @@ fn grouped(tried: &Tried, first: usize, second: usize) -> bool {
 /// Whether a column goes up by one from row to row, in digits alone.
 fn counts_rows(tried: &Tried, column: usize) -> bool {
     let numbers: Option<Vec<u64>> = tried.texts(column).map(count).collect();
-    let by_one = |n: Vec<u64>| n.windows(2).all(|w| w[0].checked_add(1) == Some(w[1]));
-    tried.rows.len() > 2 && numbers.is_some_and(by_one)
+    let by_one = |n: Vec<u64>| n.len() > 2 && n.windows(2).all(|w| w[0].checked_add(1) == Some(w[1]));
+    numbers.is_some_and(by_one)
 }
 
 /// Whether the first row is 0, 1, 2 … or 1, 2, 3 …, and all others have decimals: libraries write such headers.
@@ -165,7 +165,7 @@ fn numbered_columns(tried: &Tried, columns: &[usize]) -> bool {
     let first: Option<Vec<u64>> = columns.iter().map(|&i| count(tried.texts(i).next()?)).collect();
     let counts = first.is_some_and(|n| n[0] <= 1 && n.windows(2).all(|w| w[0] + 1 == w[1]));
     let decimal = |cell: &[u8]| cell.iter().any(|b| matches!(b, b'.' | b',' | b'e' | b'E'));
-    counts && tried.rows.len() > 1 && columns.iter().all(|&i| tried.texts(i).skip(1).all(decimal))
+    counts && tried.texts(0).count() > 1 && columns.iter().all(|&i| tried.texts(i).skip(1).all(decimal))
 }
 
 fn unclear(tried: &Tried, header: &Header, what: &str) -> Located {

@@ -8,8 +8,9 @@ use super::{
     cell::{Separator, run_together},
     choose::{self, Chosen},
     header::{Header, Said, unit_of},
+    line::is_blank_line,
     row::{Layout, Row},
-    tried::{Tried, is_blank_line},
+    tried::Tried,
 };
 use crate::{
     Columns, Unit, Warning,
@@ -60,40 +61,72 @@ pub(super) fn plausible(head: &[u8]) -> bool {
 pub(super) fn detect(head: &[u8], columns: Option<&Columns>, unit_asked: bool) -> Result<Found> {
     let lines = sample(head);
     let end = line_end(head);
-    let mut best: Option<(Rank, Tried, std::result::Result<Chosen, Located>)> = None;
+    let mut ways: Vec<Way> = vec![];
     let tabs = Tried::new((Separator::Byte(b'\t'), b'.'), &lines).is_some_and(|t| t.clearly_parted());
     for dialect in DIALECTS.iter().filter(|d| d.0 != Separator::Blanks || !tabs) {
         let Some(tried) = Tried::new(*dialect, &lines) else { continue };
         let chosen = choose::columns(&tried, columns);
-        let rank = rank(&tried, &chosen, end);
-        if best.as_ref().is_none_or(|(b, ..)| rank > *b) {
-            best = Some((rank, tried, chosen));
-        }
+        ways.push(Way::of(tried, chosen, end));
     }
-    match best {
-        Some((_, tried, chosen)) => found(head, &lines, &tried, chosen?, unit_asked),
+    match best(ways) {
+        Some(Way { tried, chosen, .. }) => found(head, &lines, &tried, chosen?, unit_asked),
         None => Err(no_rows(&lines)),
     }
+}
+
+/// A way of writing and what it reads.
+struct Way<'a> {
+    tried: Tried<'a>,
+    chosen: std::result::Result<Chosen, Located>,
+    rank: Rank,
+    /// Lines that it reads as rows, or would, if it were clear which columns are meant.
+    good: Vec<usize>,
+}
+
+/// The best way. What it skips before its first row must not be rows of another way, more than it reads itself: a line
+/// behind a table, written otherwise than this, would be read alone.
+fn best(mut ways: Vec<Way>) -> Option<Way> {
+    let mut best = 0;
+    for i in 1..ways.len() {
+        if ways[i].rank > ways[best].rank {
+            best = i;
+        }
+    }
+    let chosen = ways.get(best)?;
+    let skipped = |w: &Way| w.good.iter().filter(|line| **line < chosen.tried.start).count();
+    let mut larger = (chosen.good.len(), best);
+    for (i, way) in ways.iter().enumerate().filter(|_| chosen.chosen.is_ok()) {
+        if skipped(way) > larger.0 {
+            larger = (skipped(way), i);
+        }
+    }
+    Some(ways.swap_remove(larger.1))
 }
 
 /// Whether every row was read, how many were, how many coordinates they have, and how many cells are numbers.
 type Rank = (bool, usize, usize, usize);
 
-fn rank(tried: &Tried, chosen: &std::result::Result<Chosen, Located>, end: u8) -> Rank {
-    let numbers = tried.numbers();
-    let Ok(chosen) = chosen else { return (false, 0, 0, numbers) };
-    let layout = tried.layout(end, &chosen.columns);
-    let (mut good, mut bad) = (0, 0);
-    for line in &tried.rows {
-        match layout.row(line.text) {
-            Ok(Row::Point(_)) => good += 1,
-            Ok(_) => {}
-            Err(_) => bad += 1,
+impl<'a> Way<'a> {
+    fn of(tried: Tried<'a>, chosen: std::result::Result<Chosen, Located>, end: u8) -> Way<'a> {
+        let numbers = tried.numbers();
+        let Ok(known) = &chosen else {
+            let good = tried.rows_of_numbers().collect();
+            return Way { tried, chosen, rank: (false, 0, 0, numbers), good };
+        };
+        let layout = tried.layout(end, &known.columns);
+        let (mut good, mut bad) = (vec![], 0);
+        for line in &tried.rows {
+            match layout.row(line.text) {
+                Ok(Row::Point(_)) => good.push(line.index),
+                Ok(_) => {}
+                Err(_) => bad += 1,
+            }
         }
+        let all = bad == 0 && !good.is_empty();
+        // Rows read in part say little about the number of coordinates.
+        let (some, coordinates) = if all { (0, known.columns.len()) } else { (good.len(), 0) };
+        Way { tried, chosen, rank: (all, some, coordinates, numbers), good }
     }
-    let all = bad == 0 && good > 0;
-    // Rows read in part say little about the number of coordinates.
-    (all, if all { 0 } else { good }, if all { chosen.columns.len() } else { 0 }, numbers)
 }
 
 /// The first lines, without one that the end of the sample cuts.

@@ -5,7 +5,7 @@
 //!
 //! 1. Separators are semicolon, tab, comma or blanks; decimal signs point or comma, but not both commas. The first 400
 //!    lines decide: a way of writing that reads all their rows goes before one that does not, three coordinates before
-//!    two. Where equally many tabs stand in all rows, tabs separate.
+//!    two; it must not skip more rows of another way than it reads. Where equally many tabs stand in all rows, tabs separate.
 //! 2. The table begins at the line after a header that names x and y, else at the first line that has as many cells as
 //!    the rows and a number in one of them, or several numbers and nothing else. From there on, every line that is
 //!    neither blank nor a comment is a row.
@@ -13,7 +13,8 @@
 //!    be equally many; else the first three (or two) that do not hold words in every looked-at row.
 //! 4. A cell of these columns that is no finite number is an error with line and column: empty cells, marks such as `NA`
 //!    or `-`, thousands separators, units, the other decimal sign, what a spreadsheet could not compute. U+2212 is a minus.
-//! 5. A row of more cells than the others is an error; with blanks, which cannot show an empty cell, one of fewer as well.
+//! 5. A row of more or fewer cells than the others is an error. Only text behind the last column of numbers may be missing, and
+//!    be several words between blanks. A line before the first row that lacks one cell, or is the start of a row, is a row.
 //! 6. What can be meant in two ways is refused: commas that may be decimal signs, a first column that may be x or a
 //!    running number, names that fit x twice or not at all.
 //! 7. Behind the last row may stand what ends texts: Ctrl-Z, `END`, `EOF`.
@@ -28,11 +29,16 @@ mod detect;
 #[cfg(test)]
 mod ends_tests;
 mod header;
+mod length;
+mod line;
 mod row;
 mod stream;
 #[cfg(test)]
 mod tests;
 mod tried;
+mod uneven;
+#[cfg(test)]
+mod uneven_tests;
 mod write;
 
 use crate::{
@@ -79,15 +85,15 @@ fn before_end_mark(head: &[u8]) -> &[u8] {
 }
 
 fn read(mut source: Source, options: &ReadOptions) -> Result<Parsed> {
-    let mut form = None;
+    let (mut form, mut file_lines) = (None, None);
     let whole = source.feed.ahead(HEAD)?;
     // Collections of airfoils hold a hundred rows; longer files have none of their forms.
     if options.columns.is_none()
         && whole.len() < HEAD
-        && let Some((plain, told)) = airfoil::plain(before_end_mark(whole))
+        && let Some(airfoil) = airfoil::plain(before_end_mark(whole))
     {
-        form = Some(told);
-        source.feed = Feed::memory(plain);
+        (form, file_lines) = (Some(airfoil.told), Some(airfoil.file_lines));
+        source.feed = Feed::memory(airfoil.text);
     }
     let head = source.feed.ahead(HEAD)?;
     let head = before_end_mark(&head[..head.len().min(HEAD)]);
@@ -95,7 +101,11 @@ fn read(mut source: Source, options: &ReadOptions) -> Result<Parsed> {
         crate::unicode::no_zeros(head)?;
         return Err(Fault::unexpected("rows of numbers", head).at_byte(0));
     }
-    let mut found = detect::detect(head, options.columns.as_ref(), options.units.is_some())?;
+    let found = detect::detect(head, options.columns.as_ref(), options.units.is_some());
+    let mut found = match &file_lines {
+        Some(lines) => found.map_err(|fault| airfoil::in_file(fault, lines))?,
+        None => found?,
+    };
     if let (Some(header), Some(asked)) = (found.unit, options.units)
         && header != asked
     {
@@ -110,11 +120,9 @@ fn read(mut source: Source, options: &ReadOptions) -> Result<Parsed> {
     };
     let planar = found.layout.planar;
     let points = TextPoints::new(source.feed, found.layout, found.lines, limit, options.block * width);
-    Ok(Parsed {
-        planar,
-        warnings: found.warnings,
-        table: Some(found.reading),
-        unit: found.unit,
-        ..Parsed::points(found.variant, points)
-    })
+    let parsed = match file_lines {
+        Some(file_lines) => Parsed::points(found.variant, airfoil::Around { points, file_lines }),
+        None => Parsed::points(found.variant, points),
+    };
+    Ok(Parsed { planar, warnings: found.warnings, table: Some(found.reading), unit: found.unit, ..parsed })
 }

@@ -4,9 +4,10 @@
 //! cut into cells and looked at again; whatever the first way reads, the second reads to the same number.
 
 use super::cell::{
-    Class, END_MARK, Separator, cell_end, cell_number, cells, class, filled, is_comment, is_end, next_cell,
+    Class, END_MARK, Separator, cell_end, cell_number, cells, class, is_comment, is_end, next_cell,
     run_together, skip_blanks,
 };
+use super::length::{Counted, Length};
 use crate::{
     error::{Fault, quoted},
     number::{count, number},
@@ -25,9 +26,8 @@ pub(crate) struct Layout {
     pub planar: bool,
     /// A row of one whole number announces so many rows, as in PTS files.
     pub announced: bool,
-    /// Cells that a row may have, empty ones at its end not counted; with blanks, those it must have. `None` leaves the
-    /// end of a row alone.
-    pub width: Option<usize>,
+    /// How long rows are; `None` leaves the end of a row alone.
+    pub length: Option<Length>,
     /// The byte that ends lines.
     pub end: u8,
 }
@@ -55,7 +55,7 @@ impl Layout {
         for (axis, &column) in wanted.iter().enumerate().take(3) {
             columns[column] = axis as u8;
         }
-        Layout { separator, point, columns, planar: wanted.len() == 2, announced: false, width: None, end }
+        Layout { separator, point, columns, planar: wanted.len() == 2, announced: false, length: None, end }
     }
 
     /// What a line gives, or what is wrong with it.
@@ -110,30 +110,23 @@ impl Layout {
     /// Whether what follows the last wanted column, which ends at `at`, is as it should be.
     #[inline]
     fn tail(&self, line: &[u8], at: usize) -> bool {
-        let Some(width) = self.width else { return true };
-        let next = skip_blanks(line, at, self.separator);
-        if next >= line.len() {
-            return self.fits(self.columns.len(), width);
-        }
-        self.counted(line, at).is_some_and(|n| self.fits(n, width))
+        let Some(length) = &self.length else { return true };
+        let counted = match skip_blanks(line, at, self.separator) >= line.len() {
+            true => Some(Counted::from(self.columns.len())),
+            false => self.counted(line, at, length),
+        };
+        counted.is_some_and(|row| length.fits(&row, self.separator, self.point))
     }
 
-    fn fits(&self, cells: usize, width: usize) -> bool {
-        if self.separator == Separator::Blanks { cells == width } else { cells <= width }
-    }
-
-    /// Number of cells, empty ones at the end not counted, of a row whose last wanted one ends at `end`.
-    fn counted(&self, line: &[u8], mut end: usize) -> Option<usize> {
-        let (mut n, mut last) = (self.columns.len(), self.columns.len());
+    /// The cells of a row whose last wanted one ends at `end`.
+    fn counted<'a>(&self, line: &'a [u8], mut end: usize, length: &Length) -> Option<Counted<'a>> {
+        let mut row = Counted::from(self.columns.len());
         while let Some(next) = next_cell(line, end, self.separator) {
             end = cell_end(line, next, self.separator)?;
-            n += 1;
-            if !line[next..end].trim_ascii().is_empty() {
-                last = n;
-            }
+            row.push(&line[next..end], length);
         }
         // Something behind a blank that no separator parts from the cell before.
-        (skip_blanks(line, end, self.separator) >= line.len()).then_some(last)
+        (skip_blanks(line, end, self.separator) >= line.len()).then_some(row)
     }
 
     /// A line that is not read at first sight.
@@ -158,22 +151,21 @@ impl Layout {
         let Some(cells) = cells(line, self.separator) else {
             return Err(Fault::unexpected("a quote that is closed on the same line", text));
         };
+        let row = self.length.map(|length| (Counted::of(&cells, &length), length));
+        let unfit = row.filter(|(row, length)| !length.fits(row, self.separator, self.point));
+        let fault = |(row, length): &(Counted, Length)| length.fault(row, self.separator, text);
+        // A row that lacks a cell holds wrong numbers; one of too many first tells of the number that is cut in two.
+        if let Some(short) = unfit.as_ref().filter(|(row, length)| length.is_short(row, self.separator)) {
+            let together = cells.iter().find(|c| run_together(c).is_some());
+            return Err(together.map_or_else(|| fault(short), |cell| self.fault(0, 0, cell)));
+        }
         let mut point = [0.0; 3];
         for (i, &axis) in self.columns.iter().enumerate().filter(|(_, axis)| **axis != UNWANTED) {
             let cell = cells.get(i).copied().unwrap_or_default();
             let number = cell_number(cell, self.point);
             point[usize::from(axis)] = number.ok_or_else(|| self.fault(i, axis, cell))?;
         }
-        match self.width {
-            Some(width) if !self.fits(filled(&cells), width) => {
-                let (expected, found) = (format!("a row of {width} cells"), filled(&cells));
-                Err(Fault::Unexpected {
-                    expected: expected.into(),
-                    found: format!("{found} in {}", quoted(text)),
-                })
-            }
-            _ => Ok(Row::Point(point)),
-        }
+        unfit.as_ref().map_or(Ok(Row::Point(point)), |row| Err(fault(row)))
     }
 
     /// What is wrong with a cell that should hold a number, and what to do.

@@ -1,20 +1,14 @@
 //! One way of writing, tried on the first lines: which of them are rows, which the header, and what the cells are.
 
 use super::{
-    cell::{Class, Separator, cells, class, filled, is_comment, is_end},
+    cell::{Class, Separator, class, is_comment, is_end},
     header::{Axes, Header, Name},
+    length::{Counted, Length},
+    line::{Line, is_blank_line},
     row::Layout,
+    uneven::Kinds,
 };
 use crate::number::count;
-
-/// A row of the sample.
-pub(super) struct Line<'a> {
-    /// Its number, from 0.
-    pub index: usize,
-    pub text: &'a [u8],
-    pub cells: Vec<&'a [u8]>,
-    pub classes: Vec<Class>,
-}
 
 /// A way of writing and what it makes of the sample.
 pub(super) struct Tried<'a> {
@@ -26,68 +20,14 @@ pub(super) struct Tried<'a> {
     pub rows: Vec<Line<'a>>,
     /// Cells of a row, those at the end that are empty in every row not counted.
     pub width: usize,
+    /// How long a row is.
+    length: Length,
     /// The line that names the columns.
     pub header: Option<Header>,
     /// Number of points as announced.
     pub announced: Option<u64>,
     /// Lines with two numbers or more.
     pub numeric: usize,
-}
-
-/// Whether a line has nothing on it.
-pub(super) fn is_blank_line(line: &[u8]) -> bool {
-    line.trim_ascii().is_empty()
-}
-
-impl<'a> Line<'a> {
-    fn of(index: usize, text: &'a [u8], (separator, point): (Separator, u8)) -> Line<'a> {
-        // A quote that is not closed: the row will be refused.
-        let cells = cells(text, separator).unwrap_or_else(|| vec![text]);
-        let classes = cells.iter().map(|c| class(c, point)).collect();
-        Line { index, text, cells, classes }
-    }
-    fn numbers(&self) -> usize {
-        self.count(&[Class::Number])
-    }
-    fn count(&self, kinds: &[Class]) -> usize {
-        self.classes.iter().filter(|c| kinds.contains(c)).count()
-    }
-    fn filled(&self) -> usize {
-        filled(&self.cells)
-    }
-    /// A row of cells like those of other rows, or of nothing but numbers.
-    fn is_row(&self, width: usize, kinds: &[Class]) -> bool {
-        let numbers = self.count(kinds);
-        numbers > 0 && (self.cells.len() == width || self.filled() == width)
-            || numbers > 1 && numbers == self.filled()
-    }
-    /// Every cell is a mark for a missing value, or empty, but not all are empty.
-    fn is_gap(&self, width: usize) -> bool {
-        self.filled() > 0 && self.cells.len() == width && self.classes.iter().all(|c| *c == Class::Missing)
-    }
-    /// Cells that may have been meant as numbers, and hardly a word among them: a row to be refused by its place.
-    fn is_broken(&self, width: usize) -> bool {
-        let [words, unreadable] = [Class::Word, Class::Unreadable].map(|kind| self.count(&[kind]));
-        let starts = self.text.trim_ascii().first().is_some_and(|b| b.is_ascii_digit() || b"+-.".contains(b));
-        // One cell of all the text: a quote was not closed.
-        let open = self.cells.len() == 1
-            && self.text.contains(&b'"')
-            && self.text.iter().any(|b| self.separates(*b));
-        open && starts
-            || self.filled() > 1
-                && unreadable > 0
-                && (words == 0 || words < unreadable && self.cells.len() == width)
-    }
-    /// A line drawn with characters.
-    fn is_rule(&self) -> bool {
-        let drawn =
-            |b: &u8| matches!(b, b'-' | b'=' | b'_' | b'+' | b'|' | b'~' | b'*') || self.separates(*b);
-        let dashes = self.text.iter().filter(|b| matches!(b, b'-' | b'=' | b'_' | b'~' | b'*')).count();
-        dashes > 2 * self.cells.len() && self.text.iter().all(drawn)
-    }
-    fn separates(&self, byte: u8) -> bool {
-        matches!(byte, b' ' | b'\t' | b'\r' | b';' | b',')
-    }
 }
 
 impl<'a> Tried<'a> {
@@ -103,17 +43,26 @@ impl<'a> Tried<'a> {
         // Where no line has two numbers, cells that may have been meant as such show the rows, to be refused by their place.
         let kinds: &[Class] =
             if numeric > 0 { &[Class::Number] } else { &[Class::Number, Class::Unreadable] };
-        let rows = said.iter().filter(|l| l.count(kinds) >= 2);
-        let most = most_frequent(rows.map(|l| l.cells.len()))?;
+        let rows = || said.iter().filter(|l| l.count(kinds) >= 2);
+        // Text at the end of a row is as many cells as it has words, so that the last number shows which rows are alike.
+        let last_number = |l: &&Line| l.classes.iter().rposition(|c| kinds.contains(c));
+        let alike = most_frequent(rows().filter_map(|l| last_number(&l)))?;
+        let by_blanks = dialect.0 == Separator::Blanks;
+        let ended_alike = || rows().filter(|l| !by_blanks || last_number(l) == Some(alike));
+        let most = most_frequent(ended_alike().map(|l| l.cells.len()))?;
+        let varied = by_blanks && rows().any(|l| l.cells.len() != most);
+        let text = varied && ended_alike().any(|l| l.classes.get(alike + 1) == Some(&Class::Word));
+        let ending = text.then_some(alike);
         let first = said.iter().position(|l| l.is_row(most, kinds)).unwrap_or(0);
         let header = named(dialect.0, lines, said[first].index);
         let mut start = match &header {
             Some(header) if !header.comment => {
                 said.iter().position(|l| l.index > header.line).unwrap_or(first)
             }
-            // Rows of nothing but marks for missing values, or of what is meant as numbers, are rows as well.
+            // Rows of nothing but marks for missing values, of what is meant as numbers, or of a cell too few are rows as well.
             _ => {
-                let row = |l: &Line| l.is_gap(most) || l.is_broken(most);
+                let kinds = Kinds::of(&said[first..], most, dialect.0, ending);
+                let row = |l: &Line| l.is_gap(most) || l.is_broken(most) || kinds.nearly_take(l);
                 said[..first].iter().rposition(|l| !row(l)).map_or(0, |before| before + 1)
             }
         };
@@ -133,14 +82,38 @@ impl<'a> Tried<'a> {
         rows.retain(|l| announced.is_none() || count(l.text.trim_ascii()).is_none());
         let filled = rows.iter().filter(|l| l.cells.len() <= most).map(Line::filled).max().unwrap_or(most);
         let width = header.as_ref().map_or(filled, |h| filled.max(h.names.len().min(most)));
-        let rows = rows.into_iter().filter(|l| l.filled() > 0 && !is_end(l.text)).collect();
-        Some(Tried { dialect, start: start_line, rows, width, header, announced, numeric })
+        let rows: Vec<Line> = rows.into_iter().filter(|l| l.filled() > 0 && !is_end(l.text)).collect();
+        let kinds = Kinds::of(&rows, most, dialect.0, ending);
+        // Where all rows between blanks are alike, none may be shorter.
+        let fixed = if by_blanks && !text { width } else { kinds.fixed };
+        let length = Length { width, fixed, full: most, ends_in_number: kinds.ends_in_number() };
+        Some(Tried { dialect, start: start_line, rows, width, length, header, announced, numeric })
     }
 
     /// The layout that takes these columns.
     pub fn layout(&self, end: u8, columns: &[usize]) -> Layout {
         let layout = Layout::of(self.dialect.0, self.dialect.1, end, columns);
-        Layout { width: Some(self.width), announced: self.announced.is_some(), ..layout }
+        let fixed = self.length.fixed.max(layout.columns.len());
+        let length = Some(Length { fixed, ..self.length });
+        Layout { length, announced: self.announced.is_some(), ..layout }
+    }
+
+    /// The rows that have all of their cells.
+    fn whole(&self) -> impl Iterator<Item = &Line<'a>> {
+        let fits = |l: &&Line| {
+            self.length.fits(&Counted::of(&l.cells, &self.length), self.dialect.0, self.dialect.1)
+        };
+        self.rows.iter().filter(fits)
+    }
+
+    /// Names that a header has at least: text between blanks is as many cells as it has words.
+    pub fn least_names(&self) -> usize {
+        if self.dialect.0 == Separator::Blanks { self.length.fixed } else { self.width }
+    }
+
+    /// Lines that are rows of several numbers, be the columns clear or not.
+    pub fn rows_of_numbers(&self) -> impl Iterator<Item = usize> {
+        self.whole().filter(|l| l.numbers() > 1).map(|l| l.index)
     }
 
     /// Cells that are numbers.
@@ -150,12 +123,12 @@ impl<'a> Tried<'a> {
 
     /// What the cells of a column are, row by row.
     pub fn column(&self, i: usize) -> impl Iterator<Item = Class> {
-        self.rows.iter().map(move |l| l.classes.get(i).copied().unwrap_or(Class::Missing))
+        self.whole().map(move |l| l.classes.get(i).copied().unwrap_or(Class::Missing))
     }
 
     /// The text of the cells of a column.
     pub fn texts(&self, i: usize) -> impl Iterator<Item = &'a [u8]> {
-        self.rows.iter().map(move |l| l.cells.get(i).copied().unwrap_or_default())
+        self.whole().map(move |l| l.cells.get(i).copied().unwrap_or_default())
     }
 
     /// Equally many cells in every row, and none of them numbers separated by blanks: what stands between is no alignment.
