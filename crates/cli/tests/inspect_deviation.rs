@@ -210,3 +210,40 @@ fn a_plan_aligns_by_the_least_greatest_distance() {
     let o = trueness(["inspect", plan.to_str().unwrap()]);
     assert!(status(&o) == 3, "{}", stderr(&o));
 }
+
+/// Of a plain block four poses fit as well. Each characteristic may take the one that suits it; the deviations are those of one pose and prove
+/// nothing. Table, document and page tell the reason.
+#[test]
+fn poses_that_fit_as_well_leave_deviations_undecided() {
+    let folder = Folder::new();
+    let mut points = String::new();
+    for k in 0..2400_u32 {
+        let (i, j, side) = (k % 20, k / 20 % 20, k / 400);
+        let (u, v) = ((f64::from(i) + 0.5) / 20.0, (f64::from(j) + 0.5) / 20.0);
+        let [x, y, z] = match side {
+            0 => [30.0 * u, 20.0 * v, 0.0],
+            1 => [30.0 * u, 20.0 * v, 12.0],
+            2 => [30.0 * u, 0.0, 12.0 * v],
+            3 => [30.0 * u, 20.0, 12.0 * v],
+            4 => [0.0, 20.0 * u, 12.0 * v],
+            _ => [30.0, 20.0 * u, 12.0 * v],
+        };
+        points += &format!("{x} {y} {z}\n");
+    }
+    folder.write("scan.xyz", points);
+    let corners = (0..8).map(|k| format!("v {} {} {}\n", 30 * (k & 1), 20 * (k >> 1 & 1), 12 * (k >> 2)));
+    let faces = [[1, 3, 4, 2], [5, 6, 8, 7], [1, 2, 6, 5], [3, 7, 8, 4], [1, 5, 7, 3], [2, 4, 8, 6]];
+    let faces = faces.map(|f| format!("f {} {} {} {}\n", f[0], f[1], f[2], f[3]));
+    folder.write("nominal.obj", corners.chain(faces).collect::<String>());
+    let head = "schema = \"trueness/plan/1\"\nmeasured = \"scan.xyz\"\nreference = \"nominal.obj\"\n";
+    let plan = folder
+        .write("plan.toml", format!("{head}[align]\nmethod = \"best-fit\"\n[deviation]\ntolerance = 0.1\n"));
+    let [json, html] = ["r.json", "r.html"].map(|n| folder.file(n).to_str().unwrap().to_string());
+    let o = trueness(["inspect", plan.to_str().unwrap(), "--json", &json, "--html", &html]);
+    let answer: serde_json::Value = serde_json::from_str(&std::fs::read_to_string(&json).unwrap()).unwrap();
+    let reason = "the alignment cannot be relied on (ambiguous)";
+    assert_eq!((status(&o), answer["verdict"].as_str()), (1, Some("undecided")), "{}", stdout(&o));
+    assert_eq!(answer["verdict_reasons"][0]["text"].as_str(), Some(reason));
+    assert!(stdout(&o).contains(reason), "{}", stdout(&o));
+    assert!(std::fs::read_to_string(&html).unwrap().contains(reason));
+}
