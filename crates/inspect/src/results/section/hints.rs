@@ -21,6 +21,7 @@ pub(super) fn hints(section: &Section, found: &Contour, bent: &[Bent], options: 
         .chain(slab(section, found, bent))
         .chain(cut_short(found))
         .chain(straight_on(found))
+        .chain(circle_or_polygon(found))
         .collect()
 }
 
@@ -46,7 +47,7 @@ fn strays(found: &Contour) -> Option<String> {
         n => (format!("points {first} and {n} more"), "are", "them"),
     };
     Some(format!(
-        "{which} (from 0) {are} many times as far from the rest as its points from each other, and no line leads there: a stray row, \
+        "{which} (from 0) {are} farther from the rest than its points from each other, and no curve leads there: a stray row, \
          or the contour is missing between; the length counts the way to {them}; delete {them}, or add the points between"
     ))
 }
@@ -58,6 +59,18 @@ fn straight_on(found: &Contour) -> Option<String> {
         "the step to point {first} (from 0) is many times as long as any other; it goes straight on and was taken for the end of a line; \
          delete the point if it is none"
     ))
+}
+
+/// Few points of a circle that may be corners.
+fn circle_or_polygon(found: &Contour) -> Option<String> {
+    let count = found.labels.len() - found.repeated.len();
+    let taken = if found.segments.len() == 1 { "circle" } else { "polygon" };
+    found.circle_or_polygon.then(|| {
+        format!(
+            "the {count} points lie on a circle and are the corners of a polygon as well: the {taken} was taken; give more points on the circle \
+             or on the sides"
+        )
+    })
 }
 
 /// A row in space that lies in no plane.
@@ -146,5 +159,13 @@ mod tests {
         assert_eq!(cut_short(&Contour::default()), None);
         let hint = cut_short(&Contour { cut_short: true, ..Contour::default() }).unwrap();
         assert!(hint.contains("before all was tried"), "{hint}");
+    }
+
+    #[test]
+    fn circles_that_may_be_polygons_are_told() {
+        let few = Contour { labels: vec![0; 7], repeated: vec![6], ..Contour::default() };
+        assert_eq!(circle_or_polygon(&few), None);
+        let hint = circle_or_polygon(&Contour { circle_or_polygon: true, ..few }).unwrap();
+        assert!(hint.contains("the 6 points") && hint.contains("the polygon was taken"), "{hint}");
     }
 }
