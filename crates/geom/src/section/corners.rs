@@ -16,6 +16,9 @@ use super::told::{SCALE, is_no_chance};
 
 /// Coordinates are exact to this share of the size.
 const ROUNDED: f64 = 1e-6;
+/// Where others turn gently, fewer sharp corners are those of no polygon.
+const TRIANGLE: usize = 3;
+const QUADRANGLE: usize = 4;
 /// Corners of one circle lie off it by no more than this share of its radius.
 const ROUND: f64 = 1e-3;
 
@@ -25,10 +28,12 @@ pub(super) struct Corners {
     polygon: Polygon,
     lines: Vec<Item>,
     rounding: f64,
+    /// Some of its corners turn gently into each other, as points of a curve do.
+    is_curve: bool,
 }
 
 impl Corners {
-    /// Of a row of few points; `None` where some of them turn gently into each other.
+    /// Of a row of few points; `None` where it has fewer corners than a polygon.
     pub fn of(points: &[[f64; 2]], options: &Options) -> Option<Corners> {
         let clean = Clean::new(points, options).ok().filter(|c| c.points.len() < SHORT)?;
         let (n, closed, rounding) = (clean.points.len(), clean.closed, ROUNDED * size(&clean.points));
@@ -46,8 +51,11 @@ impl Corners {
         };
         let line = |w: &[usize]| Item { shape: LineOrArc::Line, from: w[0], to: w[1] };
         let lines: Vec<Item> = ends.windows(2).map(line).collect();
-        let corners = Corners { clean, polygon, lines, rounding };
-        (corners.lines.len() > 1 && !corners.has_a_curve()).then_some(corners)
+        let mut corners = Corners { clean, polygon, lines, rounding, is_curve: false };
+        corners.is_curve = corners.has_a_curve();
+        let turns = (corners.lines.len() + usize::from(closed)).saturating_sub(1);
+        let sharp = (0..turns).filter(|k| corners.turn(*k) > SHARP).count();
+        (corners.lines.len() > 1 && (!corners.is_curve || sharp >= TRIANGLE)).then_some(corners)
     }
 
     /// Whether three chords turn gently into each other.
@@ -68,33 +76,48 @@ impl Corners {
         angle(along(k), along(k + 1)).abs()
     }
 
-    /// The contour found of the same row where coincidences speak for it, or the polygon.
+    /// The contour found of the same row where coincidences speak for it, or the polygon. Where the points speak for neither, they may be of both.
     pub fn or(self, found: Option<Contour>, options: &Options) -> Contour {
-        let is_round = self.is_round();
-        match found.filter(|f| self.speaks_for(f)) {
-            Some(found) => {
-                let whole =
-                    matches!(found.segments[..], [ref s] if matches!(s.geometry, Geometry::Arc { .. }));
-                Contour { circle_or_polygon: whole && found.closed, ..found }
+        match found {
+            Some(found) if self.speaks_for(&found) => {
+                let may_be_polygon = !self.is_curve && found.closed && is_round(&found);
+                Contour { may_be_polygon, ..found }
             }
-            None => Contour { circle_or_polygon: is_round, ..self.contour(options) },
+            // Four corners, of which a search says itself that it passes them by, tell too little.
+            Some(found) if self.lines.len() <= QUADRANGLE && !found.astray.is_empty() => found,
+            Some(found) if self.is_curve => Contour { may_be_polygon: true, ..found },
+            _ => Contour { may_be_polygon: self.is_square(), ..self.contour(options) },
         }
+    }
+
+    /// What the points scatter by about one circle, where they speak for it and the contour found is another one.
+    pub fn off_a_circle(&self, found: Option<&Contour>) -> Option<f64> {
+        let points = &self.polygon.at;
+        let (count, (center, radius)) = (points.len() as f64, round(points)?);
+        let sum: f64 = points.iter().map(|p| (length(center, *p) - radius).powi(2)).sum();
+        let off = (sum / (count - 3.0).max(1.0)).sqrt().max(self.rounding);
+        let speaks = self.polygon.closed && is_no_chance(count - 3.0, count * off / self.scale());
+        (speaks && !found.is_some_and(|f| self.speaks_for(f))).then_some(off)
+    }
+
+    /// A coincidence is one to within a share of this.
+    fn scale(&self) -> f64 {
+        let mut chords: Vec<f64> = (0..self.polygon.facets()).map(|i| self.polygon.facet_length(i)).collect();
+        chords.sort_by(f64::total_cmp);
+        (SCALE * chords[chords.len() / 2]).max(f64::MIN_POSITIVE)
     }
 
     /// Whether chance does not make so many points lie so near to a contour.
     fn speaks_for(&self, found: &Contour) -> bool {
         let is_curve = found.segments.iter().any(|s| matches!(s.geometry, Geometry::Spline { .. }));
         let count = self.clean.points.len() as f64;
-        let mut chords: Vec<f64> = (0..self.polygon.facets()).map(|i| self.polygon.facet_length(i)).collect();
-        chords.sort_by(f64::total_cmp);
-        let scale = SCALE * chords[chords.len() / 2];
-        let expected = count * rms(found).max(self.rounding) / scale.max(f64::MIN_POSITIVE);
+        let expected = count * rms(found).max(self.rounding) / self.scale();
         let saved = count - found.outliers.len() as f64 - found.unknowns;
         found.astray.is_empty() && !is_curve && is_no_chance(saved, expected)
     }
 
-    /// Whether the corners are those of a regular polygon.
-    fn is_round(&self) -> bool {
+    /// Whether the corners are those of a square, or of another regular polygon.
+    fn is_square(&self) -> bool {
         let points = &self.polygon.at;
         let chords = || (0..self.polygon.facets()).map(|i| self.polygon.facet_length(i));
         let (least, most) = chords().fold((f64::INFINITY, 0.0_f64), |(a, b), c| (a.min(c), b.max(c)));
@@ -106,11 +129,16 @@ impl Corners {
 
     /// The polygon.
     fn contour(self, options: &Options) -> Contour {
-        let Corners { clean, polygon, lines, rounding } = self;
+        let Corners { clean, polygon, lines, rounding, .. } = self;
         let total = clean.numbers.iter().chain(&clean.repeated).max().map_or(0, |i| i + 1);
         let contour = Sheet { points: &clean.points, polygon, rounding, options }.exact(&lines);
         let mut all = Joined::of(Contour { taken: Taken::Row, ..contour });
         all.finish(&clean, 0, total, vec![]);
         all.contour
     }
+}
+
+/// Whether a contour is one circle.
+pub(super) fn is_round(found: &Contour) -> bool {
+    matches!(found.segments[..], [ref s] if matches!(s.geometry, Geometry::Arc { .. }))
 }

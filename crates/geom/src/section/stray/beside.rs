@@ -6,7 +6,7 @@
 
 use super::super::row::distance;
 use super::super::start::{noise, noise_beyond_form};
-use super::{LEAST, SHORTER_FAR, STRAIGHT};
+use super::{BENT, LEAST, SHORTER_FAR, STRAIGHT};
 
 /// So many points next to an end tell how the row goes on.
 const NEXT: usize = 6;
@@ -61,15 +61,18 @@ pub(super) fn first(row: &[[f64; 2]], scatter: Scatter) -> End {
     // A closed row comes back to its other end.
     let rest = row[1..].windows(2).map(|w| distance(w[0], w[1])).fold(0.0, f64::max);
     let closes = distance(tip, row[row.len() - 1]) <= SHORTER_FAR * rest;
-    if step < LONGER * longest || closes || !leaves(tip, &next, longest, scatter.sigma) {
+    let measured = scatter.beyond_form > MEASURED * longest;
+    // Curves without noise bend faster toward an end: of 20,000 profiles of four digits none left its nose by more than 0.47.
+    let least = if measured { 0.0 } else { BENT };
+    if step < LONGER * longest || closes || !leaves(tip, &next, longest, scatter.sigma, least) {
         return End::Sound;
     }
-    let measured = scatter.beyond_form > MEASURED * longest;
     if measured && step >= SHORTER_FAR * longest { End::Stray } else { End::Doubtful }
 }
 
-/// Whether a point lies off where the curve of those `next` to it leads: straight on, or on with up to twice its curvature.
-fn leaves(tip: [f64; 2], next: &[[f64; 2]], longest: f64, sigma: f64) -> bool {
+/// Whether a point lies off where the curve of those `next` to it leads: straight on, or on with up to twice its curvature; by an
+/// angle of more than `least`, too.
+fn leaves(tip: [f64; 2], next: &[[f64; 2]], longest: f64, sigma: f64, least: f64) -> bool {
     let (near, far) = (next[0], next[next.len() - 1]);
     let length = distance(far, near);
     if length == 0.0 {
@@ -109,5 +112,5 @@ fn leaves(tip: [f64; 2], next: &[[f64; 2]], longest: f64, sigma: f64) -> bool {
     let Some(moved) = crate::fit::solve(a, at.to_vec()) else { return false };
     let variance = 1.0 + (0..3).map(|i| at[i] * moved[i]).sum::<f64>();
     let uncertain = OFF * sigma.max(rest) * variance.sqrt() / off;
-    (turned - bend).abs() > bend.abs() + STRAIGHT + uncertain
+    (turned - bend).abs() > (bend.abs() + STRAIGHT + uncertain).max(least)
 }

@@ -21,7 +21,7 @@ pub(super) fn hints(section: &Section, found: &Contour, bent: &[Bent], options: 
         .chain(slab(section, found, bent))
         .chain(cut_short(found))
         .chain(straight_on(found))
-        .chain(circle_or_polygon(found))
+        .chain(few_points(found))
         .collect()
 }
 
@@ -61,15 +61,13 @@ fn straight_on(found: &Contour) -> Option<String> {
     ))
 }
 
-/// Few points of a circle that may be corners.
-fn circle_or_polygon(found: &Contour) -> Option<String> {
-    let count = found.labels.len() - found.repeated.len();
-    let taken = if found.segments.len() == 1 { "circle" } else { "polygon" };
-    found.circle_or_polygon.then(|| {
-        format!(
-            "the {count} points lie on a circle and are the corners of a polygon as well: the {taken} was taken; give more points on the circle \
-             or on the sides"
-        )
+/// Few points that may be corners.
+fn few_points(found: &Contour) -> Option<String> {
+    let is_polygon = found.segments.iter().all(|s| s.geometry == Geometry::Line);
+    let (taken, other) =
+        if is_polygon { ("lines were", "points of a curve") } else { ("curve was", "corners of a polygon") };
+    found.may_be_polygon.then(|| {
+        format!("the points are few and may be {other} as well: the {taken} taken; give more points on the lines or the curve")
     })
 }
 
@@ -162,10 +160,9 @@ mod tests {
     }
 
     #[test]
-    fn circles_that_may_be_polygons_are_told() {
-        let few = Contour { labels: vec![0; 7], repeated: vec![6], ..Contour::default() };
-        assert_eq!(circle_or_polygon(&few), None);
-        let hint = circle_or_polygon(&Contour { circle_or_polygon: true, ..few }).unwrap();
-        assert!(hint.contains("the 6 points") && hint.contains("the polygon was taken"), "{hint}");
+    fn few_points_of_a_curve_or_polygon_are_told() {
+        assert_eq!(few_points(&Contour::default()), None);
+        let hint = few_points(&Contour { may_be_polygon: true, ..Contour::default() }).unwrap();
+        assert!(hint.contains("points of a curve as well: the lines were taken"), "{hint}");
     }
 }
