@@ -4,6 +4,7 @@ use super::assembly::Joined;
 use super::budget::Budget;
 use super::convert::segments;
 use super::corner::crossing;
+use super::corners::{Corners, is_round};
 use super::crossings::crossings_with_loops;
 use super::direction::from_the_end;
 use super::exact::missed;
@@ -150,8 +151,33 @@ fn rank(found: &Contour, count: usize) -> (usize, f64) {
     (found.astray.len(), cost)
 }
 
-/// The contour of a row, found from its first point; `budget` and `hasty` as of the search.
+/// The contour of a row, found from its first point, or the polygon whose corners its points are where these speak for no other contour.
 fn in_order(
+    points: &[[f64; 2]],
+    options: &Options,
+    budget: &Budget,
+    hasty: Option<&Cell<bool>>,
+    progress: &dyn Progress,
+) -> Result<Contour, SectionError> {
+    let found = searched(points, options, budget, hasty, progress);
+    let free = options.noise.is_none() && options.continuity.is_none() && options.resolution.is_none();
+    // Points put in order, of a cloud or a scan, are none that somebody chose.
+    let is_given = !options.ordered && matches!(found, Ok(_) | Err(SectionError::Astray));
+    let Some(corners) = (if free && is_given { Corners::of(points, options) } else { None }) else {
+        return found;
+    };
+    let found = found.ok();
+    let noise = corners.off_a_circle(found.as_ref());
+    let options = &Options { noise, ..*options };
+    let circle = match noise {
+        Some(_) => searched(points, options, budget, None, progress).ok().filter(is_round),
+        None => None,
+    };
+    Ok(corners.or(circle.or(found), options))
+}
+
+/// The contour that the search finds; `budget` and `hasty` as of the search.
+fn searched(
     points: &[[f64; 2]],
     options: &Options,
     budget: &Budget,

@@ -27,7 +27,7 @@ const PASSES: usize = 6;
 /// Noise of a first partition below this share of that of local fits: these are not fits of noise.
 const LEAST_OF_LOCAL: f64 = 0.3;
 /// In rows of fewer points than this, local fits take form for noise: no more than this share of the distance between points is.
-const SHORT: usize = 24;
+pub(super) const SHORT: usize = 24;
 const FORM: f64 = 0.05;
 
 /// Longer rows have enough points to a segment for most of their local fits to lie within one.

@@ -14,6 +14,7 @@
 //! | `near`, `blocks` | long chains by pieces near each other; long rows by blocks of points |
 //! | `polygon`, `exact` | rows that are polygons, or lines and arcs tangent to them, exactly |
 //! | `vertices`, `told` | rows of the ends of lines and the vertices of arcs |
+//! | `corners` | rows of the corners of a polygon |
 //! | `resolved`, `kept` | rows of curves without noise, as B-splines between corners; B-splines that keep to points |
 //! | `profile` | intervals of the joins |
 //! | `paper` | one line and one curve by the steps of a paper |
@@ -47,6 +48,7 @@ mod chain;
 mod contour;
 mod convert;
 mod corner;
+mod corners;
 mod covered;
 mod criterion;
 mod crossings;

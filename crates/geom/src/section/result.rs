@@ -249,6 +249,8 @@ pub struct Contour {
     pub doubtful: Vec<usize>,
     /// Points as far from the rest of the row, by their numbers, that lie where the row leads straight on. They were kept.
     pub straight_on: Vec<usize>,
+    /// Its few points may be the corners of a polygon, or of a curve, as well: which of the two is meant they do not tell.
+    pub may_be_polygon: bool,
     /// Points of a cloud may be of both faces of a wall about so thick, which they do not tell apart.
     pub layered: Option<f64>,
     /// Points that repeat the one before, by their numbers; they were left out.

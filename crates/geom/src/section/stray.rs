@@ -6,8 +6,11 @@
 //! closed row is near the first point. Where a step is long and neither holds, the point is left out if the rest of the row is far
 //! smaller than the way to it, and told as doubtful else: nothing is lost in silence.
 
+mod beside;
+
 use super::polygon::turn;
 use super::row::distance;
+use beside::{End, Scatter};
 
 /// Points of a row that lie off it, by their numbers, ascending.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -75,6 +78,7 @@ impl Strays {
             };
             rest = (0..rest.len()).filter(|k| !seen(k)).map(|k| rest[k]).collect();
         }
+        found.beside_the_ends(points, &groups, most);
         [&mut found.out, &mut found.doubtful, &mut found.straight_on]
             .into_iter()
             .for_each(|list| list.sort_unstable());
@@ -83,6 +87,29 @@ impl Strays {
 }
 
 impl Strays {
+    /// Adds the points beside an end of the row.
+    fn beside_the_ends(&mut self, points: &[[f64; 2]], groups: &[Vec<usize>], most: usize) {
+        let passed = |g: &&Vec<usize>| !self.out.contains(&g[0]) && !self.straight_on.contains(&g[0]);
+        let mut kept: Vec<&Vec<usize>> = groups.iter().filter(passed).collect();
+        let row = |kept: &[&Vec<usize>]| kept.iter().map(|g| points[g[0]]).collect::<Vec<_>>();
+        let scatter = Scatter::of(&row(&kept));
+        for _ in 0..2 {
+            kept.reverse();
+            let Some(end) = kept.first() else { return };
+            match beside::first(&row(&kept), scatter) {
+                End::Stray if self.doubtful.contains(&end[0]) || self.count() < most => {
+                    self.doubtful.retain(|i| !end.contains(i));
+                    self.out.extend(*end);
+                    kept.remove(0);
+                }
+                End::Doubtful if !self.doubtful.contains(&end[0]) && self.count() < most => {
+                    self.doubtful.extend(*end);
+                }
+                _ => (),
+            }
+        }
+    }
+
     fn count(&self) -> usize {
         self.out.len() + self.doubtful.len() + self.straight_on.len()
     }
@@ -193,7 +220,8 @@ impl Way<'_> {
         let certain = ratio >= SHORTER && rest.count >= LEAST[0];
         let verdict = |certain: bool| if certain { Verdict::Stray } else { Verdict::Doubtful };
         if run.from > first.to && run.to < last.from {
-            return verdict(certain);
+            // Two points in succession may be corners of the part as well.
+            return verdict(certain && run.from == run.to);
         }
         // The last corner of a closed row is near its first point.
         let (end, other) = if run.to < first.from { (first, last.to) } else { (last, first.from) };

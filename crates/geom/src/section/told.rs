@@ -6,7 +6,7 @@ use super::facets::{Item, LineOrArc, Polygon, SHARP, angle, length, round};
 const CHANCE: f64 = 5.0;
 /// A coincidence is one to within rounding of this share of a chord, or of what vertices lie off the chord between their neighbors where
 /// these are no corners of a few sides, or off one circle.
-const SCALE: f64 = 0.25;
+pub(super) const SCALE: f64 = 0.25;
 const CORNERS: usize = 3;
 /// A segment ends where the next vertex lies off it by more than so many roundings.
 const ENDS: f64 = 5.0;
@@ -53,6 +53,12 @@ pub(super) fn is_told(polygon: &Polygon, pieces: &[Piece], rounding: f64) -> boo
     let seen = Seen { polygon, pieces, rounding };
     let is_a_cover = || seen.is_no_chance() && seen.is_no_curve() && seen.all_end();
     seen.has_an_arc() && is_a_cover() && seen.joins_at_points() && seen.is_no_circle()
+}
+
+/// Whether so many coincidences are none of chance where so many are expected, by the upper tail of the binomial distribution. One is no evidence: the
+/// four corners of a rectangle lie on a circle.
+pub(super) fn is_no_chance(saved: f64, expected: f64) -> bool {
+    saved >= 2.0 && saved * (libm::log(saved / expected) - 1.0) >= CHANCE
 }
 
 struct Seen<'a> {
@@ -103,7 +109,7 @@ impl Seen<'_> {
         self.pieces.iter().enumerate().any(arc)
     }
 
-    /// Whether so many coincidences as the cover saves are none of chance, by the upper tail of the binomial distribution.
+    /// Whether so many coincidences as the cover saves are none of chance.
     fn is_no_chance(&self) -> bool {
         let n = self.pieces.len();
         let count = self.polygon.at.len() as f64;
@@ -131,7 +137,7 @@ impl Seen<'_> {
             scale = scale.min(self.off_one_circle());
         }
         let expected = count * self.rounding / scale.max(f64::MIN_POSITIVE);
-        saved >= 2.0 && saved * (libm::log(saved / expected) - 1.0) >= CHANCE
+        is_no_chance(saved, expected)
     }
 
     /// Whether nowhere three chords turn gently into each other: these are those of a curve.

@@ -1,7 +1,9 @@
 //! Sections with known joins: closed forms, exact data, rigid motions, coverage over fresh noise, wrong and ugly rows.
 
 mod astray;
+mod beside;
 mod clothoids;
+mod corners;
 mod direction;
 mod gentle;
 mod levels;

@@ -21,6 +21,7 @@ pub(super) fn hints(section: &Section, found: &Contour, bent: &[Bent], options: 
         .chain(slab(section, found, bent))
         .chain(cut_short(found))
         .chain(straight_on(found))
+        .chain(few_points(found))
         .collect()
 }
 
@@ -46,7 +47,7 @@ fn strays(found: &Contour) -> Option<String> {
         n => (format!("points {first} and {n} more"), "are", "them"),
     };
     Some(format!(
-        "{which} (from 0) {are} many times as far from the rest as its points from each other, and no line leads there: a stray row, \
+        "{which} (from 0) {are} farther from the rest than its points from each other, and no curve leads there: a stray row, \
          or the contour is missing between; the length counts the way to {them}; delete {them}, or add the points between"
     ))
 }
@@ -58,6 +59,16 @@ fn straight_on(found: &Contour) -> Option<String> {
         "the step to point {first} (from 0) is many times as long as any other; it goes straight on and was taken for the end of a line; \
          delete the point if it is none"
     ))
+}
+
+/// Few points that may be corners.
+fn few_points(found: &Contour) -> Option<String> {
+    let is_polygon = found.segments.iter().all(|s| s.geometry == Geometry::Line);
+    let (taken, other) =
+        if is_polygon { ("lines were", "points of a curve") } else { ("curve was", "corners of a polygon") };
+    found.may_be_polygon.then(|| {
+        format!("the points are few and may be {other} as well: the {taken} taken; give more points on the lines or the curve")
+    })
 }
 
 /// A row in space that lies in no plane.
@@ -146,5 +157,12 @@ mod tests {
         assert_eq!(cut_short(&Contour::default()), None);
         let hint = cut_short(&Contour { cut_short: true, ..Contour::default() }).unwrap();
         assert!(hint.contains("before all was tried"), "{hint}");
+    }
+
+    #[test]
+    fn few_points_of_a_curve_or_polygon_are_told() {
+        assert_eq!(few_points(&Contour::default()), None);
+        let hint = few_points(&Contour { may_be_polygon: true, ..Contour::default() }).unwrap();
+        assert!(hint.contains("points of a curve as well: the lines were taken"), "{hint}");
     }
 }
