@@ -3,7 +3,9 @@
 mod list;
 mod words;
 
-pub use list::{OUTSIDE, because, by_side, excluded, passing, reasons, regions, rules, statistics, worst};
+pub use list::{
+    OUTSIDE, because, by_side, excluded, listed_worst, passing, reasons, regions, rules, statistics, worst,
+};
 
 use crate::compare::Method;
 use crate::report::number::Style;
@@ -104,16 +106,6 @@ pub fn map(c: &Comparison) -> Map<'_> {
     Map { name: &c.reference, count: all.count, mean: all.mean, tolerance, histogram, ..Map::default() }
 }
 
-/// The worst places that have a row and a flag: none where all would read zero.
-pub fn listed_worst(c: &Comparison, decimals: usize) -> &[Worst] {
-    if c.worst.iter().all(|w| shows_zero(w.deviation, decimals)) { &[] } else { &c.worst }
-}
-
-/// Whether a number with so many digits after the point reads zero.
-fn shows_zero(value: f64, decimals: usize) -> bool {
-    !format!("{value:.decimals$}").bytes().any(|b| (b'1'..=b'9').contains(&b))
-}
-
 /// One of the worst places of comparison `n`.
 pub fn pick(w: &Worst, n: usize) -> Pick {
     let (value, surface) = (Some(w.deviation), Some(w.nearest));
@@ -177,18 +169,5 @@ fn lead(s: Style, c: &Comparison, decimals: usize) -> Markup {
                 (key_number(s, "most_within", "lead", html! { (value(p.p2_5)) "\u{2009}…\u{2009}" (value(p.p97_5)) }))
             }
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn zero_is_what_reads_zero() {
-        let zero = [(0.0, 3), (-0.0, 3), (3.2e-18, 3), (-0.00049, 3), (0.4, 0)];
-        let other = [(0.00051, 3), (-0.001, 3), (0.6, 0), (10.0, 0), (1e-7, 7)];
-        assert!(zero.into_iter().all(|(value, decimals)| shows_zero(value, decimals)));
-        assert!(!other.into_iter().any(|(value, decimals)| shows_zero(value, decimals)));
     }
 }

@@ -1,6 +1,5 @@
 //! The list beside the stage: ranking, worst places, statistics, what was left out, how far the numbers can be trusted, files.
 
-use super::listed_worst;
 use super::words::{headline, in_words, sign_key, warning_key};
 use crate::report::number::Style;
 use crate::report::page::parts::{
@@ -18,6 +17,16 @@ use crate::results::compare::{
 use crate::results::statistics::PAGE_ROWS;
 use crate::results::{Verdict, VerdictReason};
 use maud::{Markup, Render, html};
+
+/// The worst places that have a row and a flag: none where all would read zero.
+pub fn listed_worst(c: &Comparison, decimals: usize) -> &[Worst] {
+    if c.worst.iter().all(|w| shows_zero(w.deviation, decimals)) { &[] } else { &c.worst }
+}
+
+/// Whether a number with so many digits after the point reads zero.
+fn shows_zero(value: f64, decimals: usize) -> bool {
+    !format!("{value:.decimals$}").bytes().any(|b| (b'1'..=b'9').contains(&b))
+}
 
 /// All sections.
 pub fn list(s: Style, result: &CompareDocument) -> Markup {
@@ -382,5 +391,18 @@ fn soundness(s: Style, c: &Comparison) -> Markup {
             br; (s.word(key)) ": " (s.count(count))
         }
         br; small { (s.word("not_sound.means")) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn zero_is_what_reads_zero() {
+        let zero = [(0.0, 3), (-0.0, 3), (3.2e-18, 3), (-0.00049, 3), (0.4, 0)];
+        let other = [(0.00051, 3), (-0.001, 3), (0.6, 0), (10.0, 0), (1e-7, 7)];
+        assert!(zero.into_iter().all(|(value, decimals)| shows_zero(value, decimals)));
+        assert!(!other.into_iter().any(|(value, decimals)| shows_zero(value, decimals)));
     }
 }
