@@ -131,21 +131,14 @@ const DOUBTFUL: f64 = 1.3;
 /// Whether segments of a contour are astray, or its points scatter more than about local fits.
 fn is_doubtful(found: &Contour, points: &[[f64; 2]], options: &Options) -> bool {
     let own = options.noise.unwrap_or_else(|| noise(points, found.closed).0);
-    !found.astray.is_empty() || own > 0.0 && rms(found) > DOUBTFUL * own
-}
-
-/// Root mean square distance of the points from a contour, outliers left out.
-pub(super) fn rms(found: &Contour) -> f64 {
-    let kept = found.residuals.iter().enumerate().filter(|(i, _)| found.outliers.binary_search(i).is_err());
-    let (sum, count) = kept.fold((0.0, 0.0), |(sum, count), (_, r)| (sum + r * r, count + 1.0));
-    (sum / f64::max(count, 1.0)).sqrt()
+    !found.astray.is_empty() || own > 0.0 && found.rms() > DOUBTFUL * own
 }
 
 /// By which of two contours of a row the one to take is told: segments astray first, then twice the negative logarithm of the
 /// likelihood and the penalty for the unknowns.
 fn rank(found: &Contour, count: usize) -> (usize, f64) {
     let (count, floor) = (count as f64, RESOLUTION * found.spacing);
-    let off = rms(found);
+    let off = found.rms();
     let cost = count * libm::log(off * off + floor * floor)
         + (found.unknowns + found.joins.len() as f64) * libm::log(count);
     (found.astray.len(), cost)

@@ -6,7 +6,6 @@
 //! unless they turn gently into each other as those of a curve do.
 
 use super::assembly::Joined;
-use super::contour::rms;
 use super::facets::{Item, LineOrArc, Polygon, SHARP, angle, length, round};
 use super::levels::SHORT;
 use super::result::{Contour, Geometry, Options, Taken};
@@ -111,7 +110,7 @@ impl Corners {
     fn speaks_for(&self, found: &Contour) -> bool {
         let is_curve = found.segments.iter().any(|s| matches!(s.geometry, Geometry::Spline { .. }));
         let count = self.clean.points.len() as f64;
-        let expected = count * rms(found).max(self.rounding) / self.scale();
+        let expected = count * found.rms().max(self.rounding) / self.scale();
         let saved = count - found.outliers.len() as f64 - found.unknowns;
         found.astray.is_empty() && !is_curve && is_no_chance(saved, expected)
     }

@@ -267,6 +267,15 @@ pub struct Contour {
     pub cut_short: bool,
 }
 
+impl Contour {
+    /// Root mean square distance of the points from the contour, outliers left out.
+    pub(super) fn rms(&self) -> f64 {
+        let kept = self.residuals.iter().enumerate().filter(|(i, _)| self.outliers.binary_search(i).is_err());
+        let (sum, count) = kept.fold((0.0, 0.0), |(sum, count), (_, r)| (sum + r * r, count + 1.0));
+        (sum / f64::max(count, 1.0)).sqrt()
+    }
+}
+
 /// What is asked about a row.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {

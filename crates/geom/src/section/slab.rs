@@ -1,6 +1,6 @@
 //! Points of a cloud near a plane, and the contours of those that were put in order.
 
-use super::contour::{contour, rms};
+use super::contour::contour;
 use super::cut::{Plane, PlaneFrame};
 use super::nominal::Outline;
 use super::order::Ordered;
@@ -58,7 +58,7 @@ pub fn ordered_contour(
 /// Whether the band of two standard deviations on either side of a contour is wider than what a closed one encloses is in the mean, or
 /// than half of an open one is long: then nothing tells which points are of which side.
 fn scatters_across(found: &Contour) -> bool {
-    let (band, length) = (4.0 * rms(found), found.length());
+    let (band, length) = (4.0 * found.rms(), found.length());
     if found.closed { band * length > 2.0 * Outline::of(found).area().abs() } else { 2.0 * band > length }
 }
 
@@ -139,7 +139,7 @@ mod tests {
                 Ordered { numbers: (0..points.len()).collect(), closed, way: f64::INFINITY, layered: None };
             let options = Options { noise: Some(sigma), ..Options::default() };
             let found = ordered_contour(&points, &row, &options, &Silent).unwrap();
-            (found.astray.len() == found.segments.len(), rms(&found), found.length())
+            (found.astray.len() == found.segments.len(), found.rms(), found.length())
         };
         for (sigma, closed, want) in
             [(1.0, true, false), (3.5, true, true), (1.0, false, false), (8.0, false, true)]

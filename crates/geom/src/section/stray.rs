@@ -7,10 +7,12 @@
 //! smaller than the way to it, and told as doubtful else: nothing is lost in silence.
 
 mod beside;
+mod limits;
 
 use super::polygon::turn;
 use super::row::distance;
 use beside::{End, Scatter};
+use limits::{BENT, LEAST, SHORTER_FAR, STRAIGHT};
 
 /// Points of a row that lie off it, by their numbers, ascending.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -34,22 +36,13 @@ enum Verdict {
 /// Without a stray the longest step is so many times shorter. Of 200 rows of even, cosine and random spacing without a stray none came
 /// to 4.
 const SHORTER: f64 = 8.0;
-/// The same of one that lies farther from the row than the row is large.
-const SHORTER_FAR: f64 = 2.0;
 /// Strays follow each other in runs of so many points; more are a piece of the contour beyond a gap.
 const RUN: usize = 2;
 /// Strays are this share of a row, and so many at least; no more than these follow each other.
 const SHARE: f64 = 0.05;
 const FEW: usize = 3;
-/// Fewer points do not tell which of them is stray.
-const LEAST: [usize; 2] = [8, 4];
-/// A line goes on straight where its far end lies off its direction by no more than this, beside half the turn of a step, radians: the
-/// sagitta of coordinates that are rounded to a hundredth of a step.
-const STRAIGHT: f64 = 0.02;
 /// A line is at most so many times as long as the row that it leads to.
 const LONGEST_LINE: f64 = 100.0;
-/// A piece beyond a gap is off by half of what the row turns over as long a stretch, and by as much again; beyond this nobody knows.
-const BENT: f64 = 0.5;
 
 impl Strays {
     /// Of a row; points that repeat the one before are as it is.

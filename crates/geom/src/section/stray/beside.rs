@@ -6,7 +6,7 @@
 
 use super::super::row::distance;
 use super::super::start::{noise, noise_beyond_form};
-use super::{BENT, LEAST, SHORTER_FAR, STRAIGHT};
+use super::limits::{BENT, LEAST, SHORTER_FAR, STRAIGHT};
 
 /// So many points next to an end tell how the row goes on.
 const NEXT: usize = 6;
@@ -105,7 +105,7 @@ fn leaves(tip: [f64; 2], next: &[[f64; 2]], longest: f64, sigma: f64, least: f64
     let turned = (libm::atan2(to[1], to[0]) - heading).rem_euclid(std::f64::consts::TAU);
     let turned = if turned > std::f64::consts::PI { turned - std::f64::consts::TAU } else { turned };
     // A chord turns by half of what its arc does.
-    let bend = x[2] / length / (1.0 + x[1] * x[1]).powf(1.5) * off;
+    let bend = x[2] / length / libm::pow(1.0 + x[1] * x[1], 1.5) * off;
     // As far from the points the parabola, bent half as much, is as uncertain as its coefficients are together.
     let t = off / length;
     let at = [1.0, t, 0.5 * t * t];
