@@ -8,6 +8,7 @@
 use super::assembly::Joined;
 use super::facets::{Item, LineOrArc, Polygon, SHARP, angle, length, round};
 use super::levels::SHORT;
+use super::polygon::CORNER;
 use super::result::{Contour, Geometry, Options, Taken};
 use super::row::{Clean, size};
 use super::sheet::Sheet;
@@ -27,7 +28,7 @@ pub(super) struct Corners {
     polygon: Polygon,
     lines: Vec<Item>,
     rounding: f64,
-    /// Some of its corners turn gently into each other, as points of a curve do.
+    /// Some of its corners turn gently into each other, as points of a curve do, or hardly at all.
     is_curve: bool,
 }
 
@@ -51,8 +52,9 @@ impl Corners {
         let line = |w: &[usize]| Item { shape: LineOrArc::Line, from: w[0], to: w[1] };
         let lines: Vec<Item> = ends.windows(2).map(line).collect();
         let mut corners = Corners { clean, polygon, lines, rounding, is_curve: false };
-        corners.is_curve = corners.has_a_curve();
         let turns = (corners.lines.len() + usize::from(closed)).saturating_sub(1);
+        // Points that lie on a side but for their scatter are no corners.
+        corners.is_curve = corners.has_a_curve() || (0..turns).any(|k| corners.turn(k) < CORNER);
         let sharp = (0..turns).filter(|k| corners.turn(*k) > SHARP).count();
         (corners.lines.len() > 1 && (!corners.is_curve || sharp >= TRIANGLE)).then_some(corners)
     }
