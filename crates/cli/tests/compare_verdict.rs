@@ -217,8 +217,8 @@ fn a_part_that_is_meant_passes_and_what_was_not_measured_does_not() {
     let (said, ..) = run(&folder, &scan, &reference, &with(&["--min-coverage", "15"]));
     assert_eq!(said, Said::of("pass"));
     // Nothing counts: there is nothing that could pass or fail.
-    let off = folder.write("off.xyz", xyz(part().map(|p| p.map(|x| x - 40.0))));
-    let none = with(&["--min-coverage", "0", "--max-distance", "0.5"]);
+    let off = folder.write("off.xyz", xyz(part().map(|p| p.map(|x| x + 0.05))));
+    let none = ["--tolerance", "0.0005", "--min-coverage", "0", "--max-distance", "0.001"];
     let (said, document, _) = run(&folder, &off, &reference, &none);
     assert_eq!((said, kinds(&document)), (Said::of("undecided"), vec!["not_measured"]));
     // A tenth of the part looks by its box as if it were in another unit; its points tell that it is not.

@@ -78,8 +78,9 @@ pub fn best_fit_scaled(
         }
     }
     for _ in 0..TURNS {
-        let step = Step::new(&scaled(measured, scale.factor), reference, options, &fit, progress)?;
-        scale.std_uncertainty = step.uncertainty * scale.factor;
+        let there = scaled(measured, scale.factor);
+        let surface = Samples::of_surface(&there.measured());
+        let step = Step::new(surface, reference, options, &fit, progress)?;
         // Never to nothing, and to no other sign.
         let by = 1.0 + step.size.clamp(-0.5, 1.0);
         scale.factor *= by;
@@ -96,6 +97,9 @@ pub fn best_fit_scaled(
     if options.start == Start::Anywhere {
         fit = of_scaled(measured, scale.factor, reference, options, progress)?;
     }
+    // Errors of a scan are independent at its points at best, and facets share them.
+    let points = Samples::all(&scaled(measured, scale.factor).measured());
+    scale.std_uncertainty = scale.factor * Step::new(points, reference, options, &fit, progress)?.uncertainty;
     fit.warnings.retain(|w| !matches!(w, AlignWarning::Scale { .. }));
     fit.warnings.extend(scale.unit().map(|factor| AlignWarning::Scale { factor }));
     Ok((fit, scale))
@@ -144,13 +148,12 @@ struct Step {
 
 impl Step {
     fn new(
-        measured: &Owned,
+        all: Samples,
         reference: &Target,
         options: &BestFit,
         fit: &Alignment,
         progress: &dyn Progress,
     ) -> Result<Step, AlignError> {
-        let all = Samples::of_surface(&measured.measured());
         let turned = fit.warnings.contains(&AlignWarning::NormalsTurned);
         let samples = if turned { all.turned() } else { all };
         let edges = BoundaryEdges::watched(reference.tree, progress)?;

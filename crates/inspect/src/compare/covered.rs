@@ -8,8 +8,7 @@ use super::options::Coverage;
 use super::shown::scramble;
 use trueness_geom::mesh::Mesh;
 
-/// Points of the sample, at most. The border of what is covered is then certain to about a hundredth of the reference's size, and 1 million
-/// points on 400 thousand facets take a fiftieth longer.
+/// Points of the sample, at most. The border of what is covered is then certain to about a hundredth of the reference's size.
 const MOST: usize = 1 << 16;
 
 /// The nearest places of an even sample of the points that count.

@@ -163,12 +163,23 @@ fn outliers(found: &Outliers, c: &Compared) -> OutliersRecord {
     }
 }
 
-/// The reasons of the comparisons that have the verdict, each once.
+/// The reasons of the comparisons that have the verdict: what all references share once, the others with the reference that they are of.
 fn reasons(comparisons: &[Comparison], verdict: Option<Verdict>) -> Vec<VerdictReason> {
     let mut all: Vec<VerdictReason> = vec![];
-    for reason in comparisons.iter().filter(|c| c.verdict == verdict).flat_map(|c| &c.verdict_reasons) {
-        if !all.contains(reason) {
-            all.push(reason.clone());
+    for c in comparisons.iter().filter(|c| c.verdict == verdict) {
+        for reason in &c.verdict_reasons {
+            let text = match comparisons.iter().all(|c| c.verdict_reasons.contains(reason)) {
+                true => reason.text.clone(),
+                false => format!(
+                    "{}: {}",
+                    c.reference.rsplit(['/', '\\']).next().unwrap_or(&c.reference),
+                    reason.text
+                ),
+            };
+            let told = VerdictReason { text, ..reason.clone() };
+            if !all.contains(&told) {
+                all.push(told);
+            }
         }
     }
     all

@@ -75,7 +75,8 @@ pub(crate) fn incomplete(reference: &InputRecord) -> Option<VerdictReason> {
 
 /// That an alignment with these doubts cannot be relied on.
 pub(crate) fn unreliable_alignment(doubts: &[AlignNoteKind]) -> Option<VerdictReason> {
-    let names: Vec<String> = doubts.iter().map(|kind| kind.name().replace('_', " ")).collect();
+    let mut names: Vec<String> = doubts.iter().map(|kind| kind.name().replace('_', " ")).collect();
+    names.dedup();
     let text = || format!("the alignment cannot be relied on ({})", names.join(", "));
     (!names.is_empty()).then(|| VerdictReason::new(ReasonKind::Alignment, text()))
 }
