@@ -21,16 +21,16 @@ use std::collections::BTreeMap;
 
 /// Scales that are tried, beside that of a wrong unit and that of the sizes, while none fits: a piece of a part tells nothing by its size.
 const STARTS: [f64; 6] = [0.9, 1.1, 0.8, 1.25, 0.7, 1.4];
-/// Median distance over the size from which on a scale does not fit.
-const FOUND: f64 = 2e-3;
+/// Median distance over the size up to which a scale fits.
+const FITS: f64 = 2e-3;
 /// Turns of pose and scale.
 const TURNS: usize = 30;
 /// Share of its own standard uncertainty below which a step of the scale is none.
-const SMALL: f64 = 1e-2;
+const SETTLED_STEP: f64 = 1e-2;
 /// Mean square displacement along the normals that a scale must make, per unit of mean square displacement, to be told: what is flat has any.
-const TOLD: f64 = 1e-4;
+const LEAST_TOLD: f64 = 1e-4;
 /// Share by which a scale may differ from a ratio of units that is named.
-const UNIT: f64 = 0.005;
+const UNIT_NEAR: f64 = 0.005;
 
 /// How many times as large the measured has to be made.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,14 +44,33 @@ pub struct Scale {
 impl Scale {
     /// The ratio of units that it is, nearly.
     pub fn unit(&self) -> Option<f64> {
-        UNITS.into_iter().find(|unit| (self.factor / unit - 1.0).abs() <= UNIT)
+        UNITS.into_iter().find(|unit| (self.factor / unit - 1.0).abs() <= UNIT_NEAR)
     }
 }
 
 /// The best fit with a scale: [`best_fit`] of the measured made [`Scale::factor`] times as large, about the origin of its coordinates.
 ///
+/// Cost: two to ten best fits. A scale between those that are tried first may be missed where a small piece of the part is measured.
+///
 /// # Errors
 /// As [`best_fit`]; [`AlignError::ScaleFree`] where the shape does not tell a scale, as that of a plane.
+///
+/// ```
+/// use trueness_geom::align::{best_fit_scaled, BestFit, Measured, Start, Target};
+/// use trueness_geom::{closest::Tree, mesh::Mesh, progress::Silent, rigid::Rigid};
+/// let reference = Mesh {
+///     positions: vec![[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 7.0, 0.0], [0.0, 0.0, 11.0]],
+///     faces: vec![[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]],
+/// };
+/// // The same, shrunk by two percent.
+/// let positions = reference.positions.iter().map(|p| p.map(|x| 0.98 * x)).collect();
+/// let scan = Mesh { positions, faces: reference.faces.clone() };
+/// let tree = Tree::build(&reference)?;
+/// let near = BestFit { start: Start::Given(Rigid::IDENTITY), ..BestFit::default() };
+/// let (_, scale) = best_fit_scaled(&Measured::Mesh(&scan), &Target::new(&reference, &tree), &near, &Silent)?;
+/// assert!((0.98 * scale.factor - 1.0).abs() < 1e-6);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn best_fit_scaled(
     measured: &Measured,
     reference: &Target,
@@ -65,10 +84,9 @@ pub fn best_fit_scaled(
     });
     let (mut fit, mut scale) = (as_is, Scale { factor: 1.0, std_uncertainty: 0.0 });
     let radius = |measured: &Measured| Samples::all(measured).moments().radius();
-    let ratio = radius(&Measured::Mesh(reference.mesh)) / radius(measured);
-    for other in unit.into_iter().chain([ratio]).chain(STARTS) {
-        let size = fit.median / scale.factor / radius(measured);
-        if !(other.is_finite() && other > 0.0) || size <= FOUND {
+    let size = radius(measured);
+    for other in unit.into_iter().chain([radius(&Measured::Mesh(reference.mesh)) / size]).chain(STARTS) {
+        if fit.median / scale.factor <= FITS * size || !other.is_normal() {
             continue;
         }
         let there = of_scaled(measured, other, reference, options, progress)?;
@@ -90,7 +108,7 @@ pub fn best_fit_scaled(
         let there = Rigid::translation_by(shift).after(&pose);
         let near = BestFit { start: Start::Given(there), ..*options };
         fit = of_scaled(measured, scale.factor, reference, &near, progress)?;
-        if step.size.abs() <= (SMALL * step.uncertainty).max(step.rounding) {
+        if step.size.abs() <= (SETTLED_STEP * step.uncertainty).max(step.rounding) {
             break;
         }
     }
@@ -180,7 +198,7 @@ impl Step {
         // The pose gives way.
         let gives = spectrum.solve(&with, fit.freedoms.len());
         let told = own - inner(&with, &gives);
-        if told <= TOLD * system.weight * system.radius * system.radius {
+        if told <= LEAST_TOLD * system.weight * system.radius * system.radius {
             return Err(AlignError::ScaleFree);
         }
         let mut cells: BTreeMap<[i64; 3], f64> = BTreeMap::new();

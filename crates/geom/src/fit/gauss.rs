@@ -50,7 +50,7 @@ const VISIBLE_FALL: f64 = 1e-11;
 /// determine magnify that, here by a million at most.
 const ROUNDING_REACH: f64 = 1e-10;
 /// Share of the root mean square distance by which a step may change a distance unseen.
-const BENT: f64 = 1e-3;
+const UNSEEN_CHANGE: f64 = 1e-3;
 /// Steps up to this length are taken to leave the normal matrix as it is.
 const KEEPS_MATRIX: f64 = 1e-5;
 /// … if the step is at most this share of the one before: then the matrix has three digits and more, enough for steps and
@@ -122,7 +122,7 @@ pub(super) fn minimize<const P: usize, F: Family<P>, W: Weighing>(
         // That of a point on the axis of a cone changes as the axis moves, whatever its slope.
         let most = step.iter().map(|x| x * x).sum::<f64>().sqrt();
         let rms = (now.sums.square / now.sums.weight).sqrt();
-        let straight = most <= effort.enough.max(ROUNDING_REACH).max(BENT * rms);
+        let straight = most <= effort.enough.max(ROUNDING_REACH).max(UNSEEN_CHANGE * rms);
         let invisible = damping == 0.0 && straight && fall <= VISIBLE_FALL * now.sums.square;
         let this = Step { length: now.sums.length(&step), straight, last_length, invisible };
         if this.is_last(effort.enough) {

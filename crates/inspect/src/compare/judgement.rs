@@ -14,7 +14,7 @@ use trueness_geom::space::{minus, norm};
 const ON_REFERENCE: f64 = 0.01;
 
 /// Share of the size of a reference from which on a reach covers what no point is near.
-const FAR: f64 = 0.25;
+const FAR_REACH: f64 = 0.25;
 
 /// What is known beside the comparison itself.
 pub struct Grounds<'a> {
@@ -140,7 +140,7 @@ fn covered(
     let reach = coverage.map_or(0.0, |c| c.reach);
     match share {
         _ if least <= 0.0 => None,
-        _ if size.is_some_and(|size| reach > FAR * size) => {
+        _ if size.is_some_and(|size| reach > FAR_REACH * size) => {
             let text = format!(
                 "a reach of {reach:.1} mm covers what no point is near: ask for less than a quarter of the part"
             );

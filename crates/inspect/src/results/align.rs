@@ -347,17 +347,19 @@ impl AlignDocument {
     /// Which components of the motion the measured leaves open: of the rotation vector about the center of a best fit, then of its translation.
     pub fn open(&self) -> [bool; 6] {
         let center = self.best_fit.as_ref().map_or([0.0; 3], |fit| fit.center);
+        let bounds = self.inputs.first().and_then(|measured| measured.bounds.as_ref());
+        // Turns move the center as far as they move the part where its axis lies that far off.
+        let size = bounds.map_or(0.0, |b| norm(minus(b.max, b.min)));
         let mut open = [false; 6];
         for motion in self.free.iter().chain(self.slack.iter().map(|s| &s.motion)) {
             let d = motion.direction;
-            let (turn, shift) = match motion.point {
-                None => ([0.0; 3], d),
-                Some(point) => (d, cross(d, minus(center, point))),
+            let (turn, shift, whole) = match motion.point {
+                None => ([0.0; 3], d, 1.0),
+                Some(point) => (d, cross(d, minus(center, point)), size),
             };
             for k in 0..3 {
                 open[k] |= turn[k].abs() > OPEN;
-                open[k + 3] |=
-                    shift[k].abs() > OPEN * norm(minus(center, motion.point.unwrap_or(center))).max(1.0);
+                open[k + 3] |= shift[k].abs() > OPEN * whole;
             }
         }
         open

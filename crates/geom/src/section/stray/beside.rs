@@ -13,7 +13,7 @@ const NEXT: usize = 6;
 /// A step to a stray is at least so many times as long as the longest between them.
 const LONGER: f64 = 1.5;
 /// A stray lies off the curve through them by more standard deviations of the noise than this.
-const OFF: f64 = 8.0;
+const OFF_CURVE: f64 = 8.0;
 /// The points next to an end agree to so many standard deviations, or to this share of their steps: what a parabola leaves of an arc.
 const AGREED: (f64, f64) = (3.0, 0.05);
 /// They are dense where their curve turns by less than this, radians: a parabola tells it.
@@ -111,6 +111,6 @@ fn leaves(tip: [f64; 2], next: &[[f64; 2]], longest: f64, sigma: f64, least: f64
     let at = [1.0, t, 0.5 * t * t];
     let Some(moved) = crate::fit::solve(a, at.to_vec()) else { return false };
     let variance = 1.0 + (0..3).map(|i| at[i] * moved[i]).sum::<f64>();
-    let uncertain = OFF * sigma.max(rest) * variance.sqrt() / off;
+    let uncertain = OFF_CURVE * sigma.max(rest) * variance.sqrt() / off;
     (turned - bend).abs() > (bend.abs() + STRAIGHT + uncertain).max(least)
 }
