@@ -66,7 +66,8 @@ impl Scale {
 /// let positions = reference.positions.iter().map(|p| p.map(|x| 0.98 * x)).collect();
 /// let scan = Mesh { positions, faces: reference.faces.clone() };
 /// let tree = Tree::build(&reference)?;
-/// let near = BestFit { start: Start::Given(Rigid::IDENTITY), ..BestFit::default() };
+/// // All faces count: three of them lie on theirs, and the fourth would be taken for an outlier.
+/// let near = BestFit { start: Start::Given(Rigid::IDENTITY), robust: false, ..BestFit::default() };
 /// let (_, scale) = best_fit_scaled(&Measured::Mesh(&scan), &Target::new(&reference, &tree), &near, &Silent)?;
 /// assert!((0.98 * scale.factor - 1.0).abs() < 1e-6);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -95,10 +96,12 @@ pub fn best_fit_scaled(
             (fit, scale.factor) = (there, other);
         }
     }
+    let mut of_surface = 0.0;
     for _ in 0..TURNS {
         let there = scaled(measured, scale.factor);
         let surface = Samples::of_surface(&there.measured());
         let step = Step::new(surface, reference, options, &fit, progress)?;
+        of_surface = step.uncertainty;
         // Never to nothing, and to no other sign.
         let by = 1.0 + step.size.clamp(-0.5, 1.0);
         scale.factor *= by;
@@ -115,9 +118,13 @@ pub fn best_fit_scaled(
     if options.start == Start::Anywhere {
         fit = of_scaled(measured, scale.factor, reference, options, progress)?;
     }
-    // Errors of a scan are independent at its points at best, and facets share them.
+    // Errors of a scan are independent at its points at best, and facets share them. Corners alone may tell no scale.
     let points = Samples::all(&scaled(measured, scale.factor).measured());
-    scale.std_uncertainty = scale.factor * Step::new(points, reference, options, &fit, progress)?.uncertainty;
+    let of_points = match Step::new(points, reference, options, &fit, progress) {
+        Err(AlignError::ScaleFree) => 0.0,
+        step => step?.uncertainty,
+    };
+    scale.std_uncertainty = scale.factor * of_points.max(of_surface);
     fit.warnings.retain(|w| !matches!(w, AlignWarning::Scale { .. }));
     fit.warnings.extend(scale.unit().map(|factor| AlignWarning::Scale { factor }));
     Ok((fit, scale))
