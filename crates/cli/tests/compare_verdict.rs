@@ -139,6 +139,9 @@ enum Pose {
     OtherPart,
 }
 
+/// Points of a scan.
+const POINTS: usize = 1600;
+
 /// Every pose with every coverage, reference and deviation.
 #[test]
 fn document_status_table_and_page_say_the_same() {
@@ -146,9 +149,9 @@ fn document_status_table_and_page_say_the_same() {
     let facets = angle();
     let whole = folder.write("whole.stl", stl(&facets, false));
     let lacking = folder.write("lacking.stl", stl(&facets, true));
-    let all = places(&facets, 4000, &mut Numbers(7));
+    let all = places(&facets, POINTS, &mut Numbers(7));
     let sphere = |k: usize| {
-        let (z, turn) = (1.0 - 2.0 * (k as f64 + 0.5) / 4000.0, k as f64 * 2.399_963);
+        let (z, turn) = (1.0 - 2.0 * (k as f64 + 0.5) / POINTS as f64, k as f64 * 2.399_963);
         let r = (1.0 - z * z).sqrt();
         [30.0 + 25.0 * r * turn.cos(), 20.0 + 25.0 * r * turn.sin(), 7.0 + 25.0 * z]
     };
@@ -204,7 +207,7 @@ fn a_part_that_is_meant_passes_and_what_was_not_measured_does_not() {
     let folder = Folder::new();
     let facets = angle();
     let reference = folder.write("whole.stl", stl(&facets, false));
-    let all = places(&facets, 4000, &mut Numbers(7));
+    let all = places(&facets, POINTS, &mut Numbers(7));
     let part = || all.iter().map(|p| p.0).filter(|p| p[0] < 12.0);
     let scan = folder.write("part.xyz", xyz(part()));
     let tolerance = ["--tolerance", "0.1"];

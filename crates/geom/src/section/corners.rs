@@ -12,13 +12,12 @@ use super::polygon::CORNER;
 use super::result::{Contour, Geometry, Options, Taken};
 use super::row::{Clean, size};
 use super::sheet::Sheet;
-use super::told::{SCALE, is_no_chance};
+use super::told::{GAP, SCALE, is_no_chance};
 
 /// Coordinates are exact to this share of the size.
 const ROUNDED: f64 = 1e-6;
 /// Where others turn gently, fewer sharp corners are those of no polygon.
 const TRIANGLE: usize = 3;
-const QUADRANGLE: usize = 4;
 /// Corners of one circle lie off it by no more than this share of its radius.
 const ROUND: f64 = 1e-3;
 
@@ -84,8 +83,6 @@ impl Corners {
                 let may_be_polygon = !self.is_curve && found.closed && is_round(&found);
                 Contour { may_be_polygon, ..found }
             }
-            // Four corners, of which a search says itself that it passes them by, tell too little.
-            Some(found) if self.lines.len() <= QUADRANGLE && !found.astray.is_empty() => found,
             Some(found) if self.is_curve => Contour { may_be_polygon: true, ..found },
             _ => Contour { may_be_polygon: self.is_square(), ..self.contour(options) },
         }
@@ -97,8 +94,15 @@ impl Corners {
         let (count, (center, radius)) = (points.len() as f64, round(points)?);
         let sum: f64 = points.iter().map(|p| (length(center, *p) - radius).powi(2)).sum();
         let off = (sum / (count - 3.0).max(1.0)).sqrt().max(self.rounding);
-        let speaks = self.polygon.closed && is_no_chance(count - 3.0, count * off / self.scale());
+        let speaks = self.is_even() && is_no_chance(count - 3.0, count * off / self.scale());
         (speaks && !found.is_some_and(|f| self.speaks_for(f))).then_some(off)
+    }
+
+    /// Whether chords all around are about as long as those beside, as those of points taken along a curve.
+    fn is_even(&self) -> bool {
+        let n = self.polygon.facets();
+        let beside = |i: usize| [i, (i + 1) % n].map(|k| self.polygon.facet_length(k));
+        self.polygon.closed && (0..n).map(beside).all(|[a, b]| a.max(b) <= GAP * a.min(b))
     }
 
     /// A coincidence is one to within a share of this.

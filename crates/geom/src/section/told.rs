@@ -11,7 +11,7 @@ const CORNERS: usize = 3;
 /// A segment ends where the next vertex lies off it by more than so many roundings.
 const ENDS: f64 = 5.0;
 /// Between points that are not at joins chords are as long as those beside, to this factor.
-const GAP: f64 = 2.0;
+pub(super) const GAP: f64 = 2.0;
 /// A chord over vertices that are missing is one over a whole number of the others, to this share of one.
 const MULTIPLE: f64 = 0.02;
 /// Curves touch each other to within so many roundings.

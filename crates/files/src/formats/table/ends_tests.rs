@@ -4,7 +4,7 @@ use super::*;
 use crate::{error::Located, feed::Feed};
 use trueness_geom::space::Point;
 
-fn read(text: &[u8]) -> std::result::Result<Vec<Point>, String> {
+pub(super) fn read(text: &[u8]) -> std::result::Result<Vec<Point>, String> {
     let said = |e: Located| e.in_file("f").to_string();
     let source = Source { feed: Feed::memory(text.to_vec()), bytes: 0, gzip: false };
     let parsed = super::read(source, &ReadOptions::default()).map_err(said)?;

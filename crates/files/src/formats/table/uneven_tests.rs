@@ -1,22 +1,10 @@
 //! Rows that lack a cell or have one too many: read to the numbers that were written, or refused at their line.
 
 use super::*;
-use crate::{error::Located, feed::Feed};
 use trueness_geom::space::Point;
 
 fn read(text: &str) -> std::result::Result<Vec<Point>, String> {
-    let said = |e: Located| e.in_file("f").to_string();
-    let source = Source { feed: Feed::memory(text.as_bytes().to_vec()), bytes: 0, gzip: false };
-    let parsed = super::read(source, &ReadOptions::default()).map_err(said)?;
-    let crate::format::Parts::Points(mut stream) = parsed.content else { panic!("a mesh") };
-    let (mut points, mut block) = (vec![], vec![]);
-    loop {
-        stream.next_block(&mut block).map_err(said)?;
-        if block.is_empty() {
-            return Ok(points);
-        }
-        points.append(&mut block);
-    }
+    ends_tests::read(text.as_bytes())
 }
 
 /// Tables with a row that would be read as other numbers, or lost; the line and what the refusal must say.

@@ -141,14 +141,6 @@ fn exact_polygons_have_their_corners() {
     }
 }
 
-/// Four corners alone do not tell a rectangle: what is drawn passes its points by, and is said to.
-#[test]
-fn what_passes_its_points_by_is_astray() {
-    let corners = [[0.0, 0.0], [10.0, 0.0], [10.0, 6.0], [0.0, 6.0]];
-    let contour = contour(&corners, &Options { closed: Some(true), ..Options::default() }, &Silent).unwrap();
-    assert_eq!(contour.astray.len(), contour.segments.len());
-}
-
 #[test]
 fn wavy_closed_rows_are_followed() {
     // Few points a wave and much noise. A loop between two points costs a sum of squares nothing, and a chain that was laid out
