@@ -7,6 +7,7 @@ mod exit;
 mod instructions;
 mod layout;
 mod memory;
+mod noise;
 mod number;
 mod options;
 mod output;

@@ -29,6 +29,46 @@ fn two_columns_are_fitted_in_the_plane() {
     assert!(stdout(&table).contains("form error 0.312500000"), "{}", stdout(&table));
 }
 
+/// A plane of 3,600 points whose noise is the mean of nine neighbors: nine points tell as much as one, and the uncertainty of their plane is three
+/// times that of independent ones.
+#[test]
+fn uncertainties_know_what_neighbors_share() {
+    let mut state = 1u64;
+    let mut unit = || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 33) as f64 / f64::from(1u32 << 31) - 0.5
+    };
+    let raw: Vec<f64> = (0..62 * 62).map(|_| 0.03 * unit()).collect();
+    let mean = |x: usize, y: usize| (0..9).map(|k| raw[(y + k / 3) * 62 + x + k % 3]).sum::<f64>() / 9.0;
+    let text = |side: usize| -> String {
+        (0..side * side)
+            .map(|i| format!("{} {} {:.6}\n", i % side, i / side, mean(i % side, i / side)))
+            .collect()
+    };
+    let folder = Folder::new();
+    let scan = folder.write("scan.xyz", text(60));
+    let words = ["fit", scan.to_str().unwrap(), "--shape", "plane"];
+    let [shared, independent] = [document(words), document(words.into_iter().chain(["--independent"]))];
+    let noise = &shared["shared_noise"];
+    let points = noise["points_per_independent"].as_f64().unwrap();
+    assert!((7.0..11.0).contains(&points), "{noise}");
+    let planted = 0.03 / 12f64.sqrt() / 3.0;
+    assert!((noise["deviation"].as_f64().unwrap() / planted - 1.0).abs() < 0.1, "{noise}");
+    let stated = |d: &serde_json::Value| d["uncertainty"]["point"][2].as_f64().unwrap();
+    assert!((stated(&shared) / stated(&independent) / points.sqrt() - 1.0).abs() < 1e-12, "{shared}");
+    assert!(independent["shared_noise"].is_null());
+    assert!(independent["shared_noise_reason"].as_str().unwrap().contains("--independent"));
+    assert!(stdout(&trueness(words)).contains("points tell as much as an independent one"));
+    // Too few points to tell.
+    let few = folder.write("few.xyz", text(20));
+    let few = document(["fit", few.to_str().unwrap(), "--shape", "plane"]);
+    assert!(few["shared_noise_reason"].as_str().unwrap().starts_with("it has too few points"), "{few}");
+    // The same of a region of the scan.
+    let found = document(["segment", scan.to_str().unwrap()]);
+    let points = found["shared_noise"]["points_per_independent"].as_f64().unwrap();
+    assert!((6.0..12.0).contains(&points), "{}", found["shared_noise"]);
+}
+
 #[test]
 fn too_few_points_are_refused_with_the_file() {
     let folder = Folder::new();

@@ -13,6 +13,7 @@
 //! | lines, planes, cylinders …: parameters, distances | [`shape`] |
 //! | elements fitted to points | [`fit`] |
 //! | elements found in a mesh or cloud | [`segment`] |
+//! | noise of a scan, and how far neighbors share it | [`noise`] |
 //! | features found with the nominal | [`feature`] |
 //! | tolerance zones, datum systems | [`zone`] |
 //! | lines, arcs and curves of a section, and their joins | [`section`] |
@@ -41,6 +42,7 @@ pub mod fit;
 mod frame;
 mod memory;
 pub mod mesh;
+pub mod noise;
 pub mod num;
 pub mod parallel;
 pub mod progress;

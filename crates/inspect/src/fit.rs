@@ -8,19 +8,55 @@ mod view;
 pub use view::{View, side_color};
 
 use crate::results::fit::FitDocument;
-use crate::results::{Histogram, InputRecord};
+use crate::results::{Histogram, InputRecord, NoiseOrReason};
 use crate::scale::Scale;
 use distances::distances;
 use trueness_geom::fit::Fit;
+use trueness_geom::mesh::Mesh;
+use trueness_geom::noise::{self, NoNoise};
+use trueness_geom::progress::{Cancelled, Progress};
 use trueness_geom::space::Point;
 use trueness_geom::stats::statistics::Summary;
 
-/// The document of a fit to `points`, which are those of `inputs` in their order: with the points' extent on the element,
+/// The noise of the vertices, or without facets the points, of `scan` about the element fitted to them, and how far neighbors share it; or why
+/// none is told: the element is a curve, or there are too few points.
+///
+/// # Errors
+/// Cancelled.
+pub fn noise(fit: &Fit, scan: &Mesh, seed: u64, progress: &dyn Progress) -> Result<NoiseOrReason, Cancelled> {
+    if fit.shape.kind().is_curve() {
+        return Ok(Err("it is a curve: how far neighbors share noise is found along surfaces".into()));
+    }
+    // What a robust fit left out lies beyond the rest.
+    let [(least, _), (most, _)] = [fit.residuals.min, fit.residuals.max];
+    let counted = |d: f64| if (least..=most).contains(&d) { d } else { f64::NAN };
+    let distances: Vec<f64> = distances(&fit.shape, &scan.positions).into_iter().map(counted).collect();
+    told(noise::about(scan, &distances, seed, progress))
+}
+
+/// The noise as documents hold it.
+///
+/// # Errors
+/// Cancelled.
+pub fn told(found: Result<noise::Noise, NoNoise>) -> Result<NoiseOrReason, Cancelled> {
+    match found {
+        Err(NoNoise::Cancelled(e)) => Err(e),
+        found => Ok(found.map(Into::into).map_err(|e| e.to_string())),
+    }
+}
+
+/// The document of a fit to `points`, which are those of `inputs` in their order, with their noise: with the points' extent on the element,
 /// the histogram of their distances, and colors for them.
 ///
 /// Cost: some passes over the points, and one number a point.
-pub fn document(fit: &Fit, points: &[Point], inputs: Vec<InputRecord>, seed: u64) -> FitDocument {
-    let mut document = FitDocument::new(fit, inputs, seed);
+pub fn document(
+    fit: &Fit,
+    noise: &NoiseOrReason,
+    points: &[Point],
+    inputs: Vec<InputRecord>,
+    seed: u64,
+) -> FitDocument {
+    let mut document = FitDocument::new(fit, noise, inputs, seed);
     let place = |index: u64| points.get(index as usize).copied();
     document.minimum.position = place(document.minimum.point);
     document.maximum.position = place(document.maximum.point);

@@ -3,6 +3,7 @@
 use crate::command::Run;
 use crate::console;
 use crate::exit::{Outcome, Usage};
+use crate::noise::{self, NoiseArgs};
 use crate::number::{POINTS, counted, fixed, scientific};
 use crate::options::{Common, DocumentArgs, PointInputArgs};
 use crate::progress::Stage;
@@ -14,6 +15,7 @@ use clap::{Args, ValueEnum};
 use std::fmt::Write;
 use std::path::PathBuf;
 use trueness_geom::fit::{self, FitError, Method, Options};
+use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::Cancelled;
 use trueness_geom::shape::Kind;
 use trueness_inspect::fit::View;
@@ -41,6 +43,8 @@ pub struct FitArgs {
     method: MethodArg,
     #[command(flatten)]
     input: PointInputArgs,
+    #[command(flatten)]
+    noise: NoiseArgs,
     #[command(flatten)]
     document: DocumentArgs,
     #[command(flatten)]
@@ -112,24 +116,30 @@ impl Run for FitArgs {
 fn run(args: &FitArgs, common: &Common) -> anyhow::Result<Outcome> {
     let Opened { mut record, body, planar, .. } =
         read::open(&args.points, Role::Measured, &args.input.reading())?;
-    let points = match body {
-        Body::Mesh(mesh) => mesh.mesh.positions,
-        Body::Points(source) => read::all_points(&args.points, source)?,
+    let scan = match body {
+        Body::Mesh(mesh) => mesh.mesh,
+        Body::Points(source) => {
+            Mesh { positions: read::all_points(&args.points, source)?, faces: Vec::new() }
+        }
     };
-    read::describe(&mut record, &points);
+    let points = &scan.positions;
+    read::describe(&mut record, points);
     read::hash(&mut record, &args.points)?;
     let options = Options { method: args.method.into(), start: None, seed: common.seed };
     let stage = Stage::new(common.progress, "fitting", "points", Some(points.len() as u64));
-    let fit = fit::fit(&points, shape(&args.shape, planar)?, &options, &stage);
+    let fit = fit::fit(points, shape(&args.shape, planar)?, &options, &stage);
     stage.end(&fit);
     let fit = fit.map_err(|e| match e {
         FitError::Cancelled => anyhow::Error::from(Cancelled),
         e @ FitError::NoSuchMethod { .. } => Usage(e.to_string()).into(),
         e => anyhow::anyhow!("{}: {e}", args.points.display()),
     })?;
-    let document = trueness_inspect::fit::document(&fit, &points, vec![record], common.seed);
+    let stage = Stage::new(common.progress, "finding the noise", "patches", None);
+    let noise = args.noise.or_independent(|| trueness_inspect::fit::noise(&fit, &scan, common.seed, &stage));
+    stage.end(&noise);
+    let document = trueness_inspect::fit::document(&fit, &noise?, points, vec![record], common.seed);
     if args.report.html.is_some() {
-        let view = View::new(&document, &document.inputs[0].path, &fit.shape, &points);
+        let view = View::new(&document, &document.inputs[0].path, &fit.shape, points);
         args.report.write(&document, &view.objects(), &view.marks, common.progress)?;
     }
     args.document.write(&document)?;
@@ -164,6 +174,7 @@ fn table(document: &FitDocument) -> String {
         fixed(document.rms, 9),
         counted(document.count, POINTS)
     );
+    out.push_str(&noise::line(document.shared_noise.as_ref()));
     if document.outliers > 0 {
         let _ = writeln!(out, "{} left out", counted(document.outliers, ["outlier", "outliers"]));
     }

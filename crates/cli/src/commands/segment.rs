@@ -3,6 +3,7 @@
 use crate::command::Run;
 use crate::console;
 use crate::exit::{Outcome, Usage};
+use crate::noise::{self, NoiseArgs};
 use crate::number::{FACETS, POINTS, counted, fixed, grouped, scientific};
 use crate::options::{Common, DocumentArgs, PointInputArgs};
 use crate::progress::Stage;
@@ -19,6 +20,7 @@ use trueness_geom::mesh::Mesh;
 use trueness_geom::segment::{self, KINDS, Options, SegmentError, Segmentation};
 use trueness_geom::shape::{Kind, Quantity};
 use trueness_inspect::file_numbers::LeftOut;
+use trueness_inspect::fit::told;
 use trueness_inspect::results::Role;
 use trueness_inspect::results::fit::Number;
 use trueness_inspect::results::segment::{PieceKind, RegionRecord, SegmentDocument};
@@ -60,6 +62,8 @@ pub struct SegmentArgs {
     min_points: usize,
     #[command(flatten)]
     reading: PointInputArgs,
+    #[command(flatten)]
+    noise: NoiseArgs,
     #[command(flatten)]
     document: DocumentArgs,
     /// List the facets or points of every region in the document
@@ -149,7 +153,10 @@ fn run(args: &SegmentArgs, common: &Common) -> anyhow::Result<Outcome> {
         regions(path, &mesh.positions, pieces, &labels, |label| color(usize::try_from(label).ok()))?;
     }
     let members = args.members.then_some(LeftOut(&left_out));
-    let document = SegmentDocument::new(&found, kind, vec![record], &options, members);
+    let stage = Stage::new(common.progress, "finding the noise", "patches", None);
+    let noise = args.noise.or_independent(|| told(found.shared_noise(&mesh, common.seed, &stage)));
+    stage.end(&noise);
+    let document = SegmentDocument::new(&found, &noise?, kind, vec![record], &options, members);
     if args.report.html.is_some() {
         let view = View::new(&document, &mesh, &found.labels);
         args.report.write(&document, &view.objects(), &view.marks, common.progress)?;
@@ -195,6 +202,7 @@ fn table(document: &SegmentDocument, found: &Segmentation) -> String {
         scientific(document.noise, 2),
         scientific(document.tolerance, 2)
     );
+    out.push_str(&noise::line(document.shared_noise.as_ref()));
     out
 }
 

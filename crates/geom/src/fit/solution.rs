@@ -65,6 +65,15 @@ pub struct Covariance {
 }
 
 impl Covariance {
+    /// The covariance where so many points tell as much as an independent one, as neighbors share their errors
+    /// ([`Noise::points_per_independent`](crate::noise::Noise)): that of a fit takes them as independent.
+    ///
+    /// For errors shared over distances in which the element hardly bends.
+    pub fn of_shared(mut self, points_per_independent: f64) -> Covariance {
+        self.values.iter_mut().for_each(|x| *x *= points_per_independent);
+        self
+    }
+
     /// Standard uncertainty of each parameter of `shape`, with its name; of a vector, coordinate by coordinate.
     pub fn uncertainties(&self, shape: &Shape) -> Vec<(&'static str, Parameter)> {
         let deviation = |k: usize| self.values[k * self.size + k].max(0.0).sqrt();

@@ -37,6 +37,7 @@ mod tests;
 
 use crate::fit::{self, Fit};
 use crate::mesh::Mesh;
+use crate::noise::NoNoise;
 use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress, Silent};
 use crate::shape::{Kind, Shape};
@@ -119,6 +120,32 @@ pub struct Segmentation {
     pub tolerance: f64,
     /// Least share of the regions.
     pub min_share: f64,
+    /// Whether the half of the surface and more shows that it was drawn, not measured.
+    pub is_drawn: bool,
+}
+
+impl Segmentation {
+    /// The noise of the points about their elements, and how far neighbors share it: [`points_per_independent`](crate::noise::Noise) is what the covariances of [`Region::fit`] have to be multiplied with. `of` is what was segmented, a cloud as a mesh without facets.
+    ///
+    /// # Errors
+    /// [`NoNoise`]: drawn, too few points that hang together, cancelled.
+    pub fn shared_noise(
+        &self,
+        of: &Mesh,
+        seed: u64,
+        progress: &dyn Progress,
+    ) -> Result<crate::noise::Noise, NoNoise> {
+        if self.is_drawn {
+            return Err(NoNoise::Drawn);
+        }
+        let mut distances = vec![f64::NAN; of.positions.len()];
+        for region in &self.regions {
+            for &point in &region.points {
+                distances[point as usize] = region.fit.shape.distance(of.positions[point as usize]);
+            }
+        }
+        crate::noise::about(of, &distances, seed, progress)
+    }
 }
 
 /// Why nothing could be looked for.
@@ -262,7 +289,7 @@ fn segment(
     regions.par_iter_mut().for_each(|region| context.reconsidered(region));
     borders::move_borders(&context, &regions, &mut labels);
     let (regions, labels) = finished(&context, regions, &labels, total, &limits);
-    Ok(Segmentation { regions, labels, noise, tolerance, min_share })
+    Ok(Segmentation { regions, labels, noise, tolerance, min_share, is_drawn: surface.is_drawn })
 }
 
 /// The regions as users get them, largest first, and their labels.

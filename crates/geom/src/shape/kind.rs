@@ -168,6 +168,10 @@ impl Kind {
     pub fn named(name: &str, flat: bool) -> Option<Kind> {
         Kind::ALL.into_iter().find(|kind| kind.name() == name && kind.is_flat() == flat)
     }
+    /// Whether it is a curve, not a surface.
+    pub fn is_curve(self) -> bool {
+        matches!(self, Kind::Line2 | Kind::Line | Kind::Circle2 | Kind::Circle | Kind::Ellipse2)
+    }
     /// Whether it lies in the plane z = 0.
     pub fn is_flat(self) -> bool {
         matches!(self, Kind::Line2 | Kind::Circle2 | Kind::Ellipse2)

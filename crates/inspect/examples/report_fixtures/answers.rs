@@ -184,7 +184,8 @@ pub fn fit_page(points: &[Point], method: Method, options: &ReportOptions) -> (V
     let fit = fit::fit(points, Kind::Cylinder, &wish, &Silent).unwrap();
     let cloud = Mesh { positions: points.to_vec(), faces: vec![] };
     let files = vec![file(Role::Measured, "bore.xyz", &cloud)];
-    let document = trueness_inspect::fit::document(&fit, points, files, 1);
+    let noise = trueness_inspect::fit::noise(&fit, &cloud, 1, &Silent).unwrap();
+    let document = trueness_inspect::fit::document(&fit, &noise, points, files, 1);
     let view = trueness_inspect::fit::View::new(&document, "bore.xyz", &fit.shape, points);
     let (objects, marks) = (view.objects(), &view.marks[..]);
     let page = super::bytes(&ReportInput { result: &document, objects: &objects, marks, options });
@@ -226,7 +227,8 @@ pub fn segment_page(mesh: &Mesh, options: &ReportOptions) -> (Vec<u8>, SegmentDo
     let wish = segment::Options::default();
     let found = segment::mesh(mesh, &wish, &Silent).unwrap();
     let files = vec![file(Role::Measured, "peg.stl", mesh)];
-    let document = SegmentDocument::new(&found, PieceKind::Facets, files, &wish, None);
+    let noise = trueness_inspect::fit::told(found.shared_noise(mesh, 0, &Silent)).unwrap();
+    let document = SegmentDocument::new(&found, &noise, PieceKind::Facets, files, &wish, None);
     let view = trueness_inspect::segment::View::new(&document, mesh, &found.labels);
     let (objects, marks) = (view.objects(), &view.marks[..]);
     let result = &document;

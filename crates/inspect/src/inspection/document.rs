@@ -183,7 +183,7 @@ fn feature(plan: &crate::plan::Feature, taken: &Taken) -> FeatureRecord {
         _ => None,
     };
     let (u, u_reason) = match fit {
-        Some(fit) => uncertainty(fit),
+        Some(fit) => uncertainty(fit, 1.0),
         None => (None, Some("there is no fitted element".into())),
     };
     let ray = |point, key: &str, direction| {

@@ -2,8 +2,9 @@
 
 mod page;
 
-use super::Histogram;
-use super::{InputRecord, UNITS, VERSION, Word};
+use super::{
+    Histogram, InputRecord, NoiseOrReason, SharedNoise, UNITS, VERSION, Word, points_per_independent,
+};
 use crate::scale::Scale;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -34,11 +35,18 @@ pub struct FitDocument {
     /// The element, by names: `point`, `direction`, `normal`, `center`, `apex`, `radius`, `half_angle`,
     /// `major_radius`, `minor_radius`, as the shape has them.
     pub parameters: BTreeMap<String, Number>,
-    /// Standard uncertainty of each parameter; of places and directions, coordinate by coordinate.
+    /// Standard uncertainty of each parameter; of places and directions, coordinate by coordinate. Errors are shared by neighbors as far as
+    /// `shared_noise` tells, else independent.
     pub uncertainty: Option<BTreeMap<String, Number>>,
     /// Why there is none.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub uncertainty_reason: Option<String>,
+    /// The noise of the points about the element, and how far neighbors share it.
+    #[serde(default)]
+    pub shared_noise: Option<SharedNoise>,
+    /// Why none is told: the uncertainties are those of independent points.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub shared_noise_reason: Option<String>,
     /// Greatest less least signed distance, or the width of the zone; of a curve in space, twice the greatest distance.
     pub form_error: f64,
     /// Root mean square of the distances.
@@ -139,9 +147,13 @@ pub(crate) fn named(parameters: Vec<(&'static str, Parameter)>) -> BTreeMap<Stri
 /// Why there is nothing to judge the points' scatter by.
 const NONE_LEFT: &str = "there are no more points than unknowns";
 
-/// The standard uncertainties of the parameters, or why there are none.
-pub(crate) fn uncertainty(fit: &Fit) -> (Option<BTreeMap<String, Number>>, Option<String>) {
-    let found = fit.covariance.as_ref().map(|c| named(c.uncertainties(&fit.shape)));
+/// The standard uncertainties of the parameters, or why there are none, where so many points tell as much as an independent one.
+pub(crate) fn uncertainty(
+    fit: &Fit,
+    points_per_independent: f64,
+) -> (Option<BTreeMap<String, Number>>, Option<String>) {
+    let shared = fit.covariance.clone().map(|c| c.of_shared(points_per_independent));
+    let found = shared.map(|c| named(c.uncertainties(&fit.shape)));
     let reason = match (&found, fit.touching.is_empty()) {
         (Some(_), _) => None,
         (None, true) => Some(NONE_LEFT.to_string()),
@@ -156,12 +168,12 @@ impl FitDocument {
         Kind::named(self.shape.name(), self.planar).unwrap_or(*self.shape)
     }
 
-    /// The document of a fit to the points of `inputs`.
-    pub fn new(fit: &Fit, inputs: Vec<InputRecord>, seed: u64) -> FitDocument {
+    /// The document of a fit to the points of `inputs`, with their noise.
+    pub fn new(fit: &Fit, noise: &NoiseOrReason, inputs: Vec<InputRecord>, seed: u64) -> FitDocument {
         let residuals = &fit.residuals;
         let extreme =
             |(distance, point): (f64, usize)| Extreme { distance, point: point as u64, position: None };
-        let (uncertainty, uncertainty_reason) = uncertainty(fit);
+        let (uncertainty, uncertainty_reason) = uncertainty(fit, points_per_independent(noise));
         FitDocument {
             schema: SCHEMA.into(),
             version: VERSION.into(),
@@ -173,6 +185,8 @@ impl FitDocument {
             parameters: named(fit.shape.parameters()),
             uncertainty,
             uncertainty_reason,
+            shared_noise: noise.as_ref().ok().copied(),
+            shared_noise_reason: noise.as_ref().err().cloned(),
             form_error: residuals.form_error,
             rms: residuals.rms,
             std_dev: residuals.std_dev,
@@ -218,7 +232,7 @@ mod tests {
         for method in Method::ALL {
             let options = Options { method, ..Options::default() };
             let fit = fit(&points, Kind::Circle2, &options, &Silent).unwrap();
-            let document = FitDocument::new(&fit, vec![], 0);
+            let document = FitDocument::new(&fit, &Err("few points".into()), vec![], 0);
             let text = serde_json::to_string(&document).unwrap();
             let back: FitDocument = serde_json::from_str(&text).unwrap();
             assert_eq!((back.parameters.clone(), back.kind()), (document.parameters.clone(), Kind::Circle2));

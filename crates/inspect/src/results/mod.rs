@@ -12,6 +12,7 @@ pub mod curvature;
 pub mod fit;
 mod input;
 pub mod inspect;
+mod noise;
 mod percent;
 pub mod place_map;
 mod reason;
@@ -27,6 +28,8 @@ mod word;
 
 pub use bounds::Bounds;
 pub use input::{ColumnRecord, IncompleteRecord, InputRecord, Role, TableRecord, UNITS, VERSION};
+pub(crate) use noise::points_per_independent;
+pub use noise::{NoiseOrReason, SharedNoise};
 pub use percent::{of_percent, percent, percents};
 pub(crate) use reason::judged;
 pub use reason::{ReasonKind, VerdictReason};

@@ -2,9 +2,8 @@
 
 mod page;
 
-use super::Bounds;
 use super::fit::{Number, named, uncertainty};
-use super::{InputRecord, UNITS, VERSION, Word};
+use super::{Bounds, InputRecord, NoiseOrReason, SharedNoise, UNITS, VERSION, Word, points_per_independent};
 use crate::file_numbers::LeftOut;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -34,6 +33,12 @@ pub struct SegmentDocument {
     pub unassigned: u64,
     /// Standard deviation of the noise found in the data.
     pub noise: f64,
+    /// The noise of the points about their elements, and how far neighbors share it: the uncertainties take it into account.
+    #[serde(default)]
+    pub shared_noise: Option<SharedNoise>,
+    /// Why none is told: the uncertainties are those of independent points.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub shared_noise_reason: Option<String>,
     /// Distance up to which points belong to an element: no point of a region lies farther off.
     pub tolerance: f64,
     /// Whether that distance was given, not found.
@@ -97,10 +102,11 @@ pub struct RegionRecord {
 }
 
 impl SegmentDocument {
-    /// The document of what was found in the file of `inputs`; with `members`, the pieces of each region are listed by their
+    /// The document of what was found in the file of `inputs`, with its noise; with `members`, the pieces of each region are listed by their
     /// numbers in the file.
     pub fn new(
         found: &Segmentation,
+        noise: &NoiseOrReason,
         pieces: PieceKind,
         inputs: Vec<InputRecord>,
         options: &Options,
@@ -112,7 +118,8 @@ impl SegmentDocument {
                 list.push(members.unwrap_or_default().in_file(piece as u32));
             }
         }
-        let record = |((number, region), members)| record(number, region, pieces, members);
+        let shared = points_per_independent(noise);
+        let record = |((number, region), members)| record(number, region, shared, pieces, members);
         SegmentDocument {
             schema: SCHEMA.into(),
             version: VERSION.into(),
@@ -122,6 +129,8 @@ impl SegmentDocument {
             count: found.labels.len() as u64,
             unassigned: found.labels.iter().filter(|&&label| label == u32::MAX).count() as u64,
             noise: found.noise,
+            shared_noise: noise.as_ref().ok().copied(),
+            shared_noise_reason: noise.as_ref().err().cloned(),
             tolerance: found.tolerance,
             tolerance_given: options.tolerance.is_some(),
             crease: options.crease,
@@ -132,9 +141,15 @@ impl SegmentDocument {
     }
 }
 
-fn record(number: usize, region: &Region, pieces: PieceKind, members: Option<Vec<u32>>) -> RegionRecord {
+fn record(
+    number: usize,
+    region: &Region,
+    points_per_independent: f64,
+    pieces: PieceKind,
+    members: Option<Vec<u32>>,
+) -> RegionRecord {
     let residuals = &region.fit.residuals;
-    let (uncertainty, uncertainty_reason) = uncertainty(&region.fit);
+    let (uncertainty, uncertainty_reason) = uncertainty(&region.fit, points_per_independent);
     let area = (pieces == PieceKind::Facets).then_some(region.area);
     RegionRecord {
         number: number as u64,

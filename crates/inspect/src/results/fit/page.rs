@@ -8,6 +8,7 @@ use crate::report::page::parts::{
 use crate::report::subject::{Head, Map, Pick, Subject};
 use crate::report::values::{self, Optional, Text};
 use crate::results::fit::{Extent, Extreme, FitDocument, Number};
+use crate::results::noise::shared;
 use crate::scale::Scale;
 use maud::{Markup, html};
 use serde_json::Value;
@@ -64,6 +65,9 @@ impl Subject for FitDocument {
                 (key_number(s, "rms", "", s.optional(Some(self.rms), digits + 1)))
                 (key_number(s, "std_dev", "", std_dev(s, self)))
                 (key_number(s, "points", "", s.count(self.count)))
+                @if let Some(points) = shared(self.shared_noise) {
+                    (key_number(s, "points_per_independent", "", s.number(points, 1)))
+                }
                 @if self.outliers > 0 { (key_number(s, "outliers", "warn", s.count(self.outliers))) }
                 (key_number(s, "fit.method", "", s.word(method(*self.method))))
                 @if !self.converged {

@@ -4,6 +4,7 @@ use crate::report::number::Style;
 use crate::report::page::parts::{Headline, Tone, fact, key_number, section, swatch};
 use crate::report::subject::{Head, Pick, Subject};
 use crate::results::fit::Number;
+use crate::results::noise::shared;
 use crate::results::segment::{RegionRecord, SegmentDocument};
 use crate::segment::color;
 use maud::{Markup, Render, html};
@@ -30,6 +31,9 @@ impl Subject for SegmentDocument {
                 (key_number(s, "elements", "lead", s.len(&self.regions)))
                 (key_number(s, "assigned", "", s.percent(assigned, 1)))
                 (key_number(s, "noise", "", html! { (micro(s, self.noise)) "\u{a0}mm" }))
+                @if let Some(points) = shared(self.shared_noise) {
+                    (key_number(s, "points_per_independent", "", s.number(points, 1)))
+                }
                 (key_number(s, "tolerance.used", "", html! { (micro(s, self.tolerance)) "\u{a0}mm" }))
             }
         }

@@ -1,0 +1,41 @@
+//! How far neighbors share errors: the option of the commands that state uncertainties, and the line of their tables.
+
+use crate::number::{fixed, scientific};
+use clap::Args;
+use trueness_geom::progress::Cancelled;
+use trueness_inspect::results::{NoiseOrReason, SharedNoise};
+
+/// How far neighbors share errors.
+#[derive(Args, Debug)]
+pub struct NoiseArgs {
+    /// Take the errors of the points as independent, as of points probed one by one. Without it what neighbors share is found in the data,
+    /// and uncertainties take it into account
+    #[arg(long)]
+    independent: bool,
+}
+
+impl NoiseArgs {
+    /// What is found, unless errors are independent.
+    pub fn or_independent(
+        &self,
+        found: impl FnOnce() -> Result<NoiseOrReason, Cancelled>,
+    ) -> Result<NoiseOrReason, Cancelled> {
+        if self.independent {
+            Ok(Err("errors are independent, as --independent says".into()))
+        } else {
+            found()
+        }
+    }
+}
+
+/// The line that tells it, where neighbors share noise.
+pub fn line(noise: Option<&SharedNoise>) -> String {
+    noise.filter(|n| n.points_per_independent > 1.0).map_or_else(String::new, |n| {
+        format!(
+            "noise {}, shared over {} mm: {} points tell as much as an independent one, and ± says so\n",
+            scientific(n.deviation, 2),
+            fixed(n.reach, 2),
+            fixed(n.points_per_independent, 1)
+        )
+    })
+}

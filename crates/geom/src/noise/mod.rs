@@ -1,0 +1,187 @@
+//! The noise of a scan, found without a nominal: its standard deviation, how far neighbors share it, and how many points count as one.
+//!
+//! What scanners and the programs behind them write is smoothed: the errors of neighboring points are alike, so `n` points tell as much as
+//! `n / τ` independent ones. Both are found together. Around places of the surface a polynomial is fitted to a patch of neighbors, and the
+//! products of its residuals are summed by the distance of the two points. A fit takes a part of the noise with it, and of shared noise
+//! the greater part, so the sums are not the covariances; but what they are expected to be is linear in the covariances
+//! (`E[rᵀBr] = tr(P B P C)` with the projection `P` of the residuals, the principle of MINQUE: C. R. Rao, Journal of the American Statistical
+//! Association 67 (1972) 112–115). The covariance that explains the sums best is found among those of the form
+//!
+//! `C(d) = white [d = 0] + shared φ(d / reach)`, `φ(t) = (1 − t)⁴ (4 t + 1)`
+//!
+//! with Wendland's compact function `φ` (Advances in Computational Mathematics 4 (1995) 389–396), which is positive definite in space.
+//! Patches that lie over edges, or over form that bends faster than a polynomial of degree four follows, have greater sums than the noise
+//! allows; they are left out by the distribution that sums of squares of the noise found have.
+//!
+//! | file | what |
+//! |---|---|
+//! | `patch` | neighbors along a mesh, or in a cloud |
+//! | `moments` | sums of products of a patch, and what they are expected to be |
+//! | `covariance` | the covariance that explains the sums |
+
+mod covariance;
+mod moments;
+mod patch;
+#[cfg(test)]
+mod tests;
+
+use crate::mesh::Mesh;
+use crate::num::random::Random;
+use crate::parallel::prelude::*;
+use crate::progress::{Cancelled, Progress};
+use crate::space::Point;
+use moments::Moments;
+use patch::{Around, InCloud, OnMesh};
+
+/// Patches looked at, at most; of few points so many that each is in two on average.
+const PATCHES: usize = 160;
+const OFTEN: usize = 2;
+/// Fewest patches that the noise is told from: the standard deviation of eight is known to a tenth, with shared noise to a fifth.
+const FEWEST_PATCHES: usize = 8;
+
+/// The noise of a scan.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Noise {
+    /// Standard deviation of a point across the surface, millimeters.
+    pub deviation: f64,
+    /// Share of its variance that no neighbor has, 0 to 1.
+    pub white: f64,
+    /// Distance beyond which two points share no noise, millimeters; 0 where none do.
+    pub reach: f64,
+    /// Points that tell as much as one independent point, 1 or more: the sum of the correlations of a point with all, itself counted.
+    pub points_per_independent: f64,
+    /// Distance of neighboring points, millimeters: the root of the area of a point, the median over the patches.
+    pub spacing: f64,
+    /// Patches that the noise is told from.
+    pub patches: usize,
+    /// Patches left out, which lie over edges or form.
+    pub left_out: usize,
+}
+
+impl Noise {
+    /// Correlation of the noise of two points at a distance in millimeters.
+    pub fn correlation(&self, distance: f64) -> f64 {
+        if distance == 0.0 {
+            return 1.0;
+        }
+        if self.reach > 0.0 { (1.0 - self.white) * covariance::shared(distance / self.reach) } else { 0.0 }
+    }
+}
+
+/// Why no noise is told.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum NoNoise {
+    /// Too few points, or none of them have neighbors enough.
+    #[error("it has too few points to tell how far neighbors share noise: {found} patches of {needed}, {least} are needed")]
+    Few {
+        /// Patches found.
+        found: usize,
+        /// Points of a patch.
+        needed: usize,
+        /// Patches needed.
+        least: usize,
+    },
+    /// A coordinate is infinite or not a number.
+    #[error("point {index} has a coordinate that is not a finite number; remove it")]
+    NotFinite {
+        /// Index of the first such point.
+        index: usize,
+    },
+    /// A facet names a vertex that does not exist.
+    #[error("facet {facet} names a vertex that does not exist")]
+    NoSuchVertex {
+        /// Index of the first such facet.
+        facet: usize,
+    },
+    /// The mesh was drawn: its vertices lie where somebody put them.
+    #[error("it is drawn, not measured")]
+    Drawn,
+    /// Stopped through the progress argument.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
+
+/// The noise of the `V` vertices of a mesh, millimeters. Neighbors are found through edges: weld first what is not welded. Vertices that no
+/// facet uses are no neighbors of any.
+///
+/// Of a mesh that is drawn, not measured, patches reach over edges, and what is told is how far the part departs from smooth surfaces
+/// at the spacing of its vertices. Deterministic for any number of threads. Cost: a pass over the facets, and the patches, whose
+/// number does not grow with the mesh. `progress` counts patches.
+/// ```
+/// use trueness_geom::{mesh::Mesh, noise, num::random::Random, progress::Silent};
+/// // A plane of 61 × 61 vertices with independent noise, evenly within ±0.01 × √3.
+/// let mut random = Random::new(1);
+/// let place = |i: u32| [f64::from(i % 61), f64::from(i / 61), 0.01 * 12f64.sqrt() * (random.unit() - 0.5)];
+/// let positions = (0..3721).map(place).collect();
+/// let faces = (0..3600u32).flat_map(|k| {
+///     let a = k / 60 * 61 + k % 60;
+///     [[a, a + 1, a + 62], [a, a + 62, a + 61]]
+/// });
+/// let found = noise::mesh(&Mesh { positions, faces: faces.collect() }, 0, &Silent).unwrap();
+/// assert!((found.deviation / 0.01 - 1.0).abs() < 0.05);
+/// assert!(found.points_per_independent < 1.5);
+/// ```
+///
+/// # Errors
+/// [`NoNoise`]: too few vertices that hang together, a coordinate that is no number, a facet that names no vertex, cancelled.
+pub fn mesh(mesh: &Mesh, seed: u64, progress: &dyn Progress) -> Result<Noise, NoNoise> {
+    found(mesh, None, seed, progress)
+}
+
+/// The noise of `N` points, millimeters. Neighbors are the nearest ones. As [`mesh()`] otherwise.
+///
+/// # Errors
+/// As [`mesh()`].
+pub fn cloud(points: &[Point], seed: u64, progress: &dyn Progress) -> Result<Noise, NoNoise> {
+    found(&Mesh { positions: points.to_vec(), faces: vec![] }, None, seed, progress)
+}
+
+/// The noise of the `V` vertices of a mesh, or without facets of `V` points, whose distances from surfaces fitted to them are known: form is
+/// told from noise with less doubt, and where the surface bends much from one point to the next. Points whose distance is no number do
+/// not count. As [`mesh()`] otherwise.
+///
+/// # Errors
+/// As [`mesh()`].
+pub fn about(scan: &Mesh, distances: &[f64], seed: u64, progress: &dyn Progress) -> Result<Noise, NoNoise> {
+    found(scan, Some(distances), seed, progress)
+}
+
+fn found(
+    scan: &Mesh,
+    distances: Option<&[f64]>,
+    seed: u64,
+    progress: &dyn Progress,
+) -> Result<Noise, NoNoise> {
+    let points = &scan.positions;
+    if let Some(index) = points.iter().position(|p| p.iter().any(|x| !x.is_finite())) {
+        return Err(NoNoise::NotFinite { index });
+    }
+    let counts = |i: u32| distances.is_none_or(|all| all[i as usize].is_finite());
+    let counted: Vec<u32> = (0..points.len() as u32).filter(|i| counts(*i)).collect();
+    let around: Box<dyn Around> = match scan.faces.is_empty() {
+        true => Box::new(InCloud { points, counted: &counted }),
+        false => Box::new(OnMesh::new(scan, counts)?),
+    };
+    let count = PATCHES.min(OFTEN * counted.len() / moments::POINTS);
+    let centers = Random::new(seed).choose(count, counted.len());
+    let patches: Vec<Option<Moments>> = (centers.par_iter())
+        .map(|&center| {
+            if progress.cancelled() {
+                return None;
+            }
+            let patch = around.patch(counted[center]);
+            let places: Vec<Point> = patch.iter().map(|i| points[*i as usize]).collect();
+            let heights = distances.map(|all| patch.iter().map(|i| all[*i as usize]).collect::<Vec<f64>>());
+            progress.advance(1);
+            Moments::of(&places, heights.as_deref())
+        })
+        .collect();
+    if progress.cancelled() {
+        return Err(Cancelled.into());
+    }
+    let patches: Vec<Moments> = patches.into_iter().flatten().collect();
+    if patches.len() < FEWEST_PATCHES {
+        return Err(NoNoise::Few { found: patches.len(), needed: moments::POINTS, least: FEWEST_PATCHES });
+    }
+    Ok(covariance::found(&patches))
+}
