@@ -14,6 +14,7 @@
 //! | elements fitted to points | [`fit`] |
 //! | elements found in a mesh or cloud | [`segment`] |
 //! | noise of a scan, and how far neighbors share it | [`noise`] |
+//! | the points of a scan parted among the faces of its nominal | [`partition`] |
 //! | features found with the nominal | [`feature`] |
 //! | tolerance zones, datum systems | [`zone`] |
 //! | lines, arcs and curves of a section, and their joins | [`section`] |
@@ -45,6 +46,7 @@ pub mod mesh;
 pub mod noise;
 pub mod num;
 pub mod parallel;
+pub mod partition;
 pub mod progress;
 pub mod repair;
 pub mod rigid;

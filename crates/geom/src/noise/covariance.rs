@@ -1,7 +1,7 @@
 //! The covariance of the noise that explains the sums of the patches best.
 
-use super::Noise;
 use super::moments::{BINS, LAGS, Moments, middle};
+use super::terms::{Noise, shared};
 use crate::num::special::chi_square_quantile;
 
 /// Reaches tried, in spacings, from the first by this quotient: below the first no neighbors share anything.
@@ -18,11 +18,6 @@ const ROUNDS: usize = 12;
 /// Sum of squares, in standard deviations, by which noise that neighbors share must explain the sums better than independent noise does: its share
 /// and reach are two unknowns more, for which chance makes as much once in a thousand times, as patches lie over each other.
 const CLEARLY: f64 = 13.8;
-
-/// Correlation of shared noise at a distance in reaches (Wendland).
-pub(super) fn shared(t: f64) -> f64 {
-    if t < 1.0 { (1.0 - t).powi(4) * (4.0 * t + 1.0) } else { 0.0 }
-}
 
 /// A covariance: variances, mm², and the reach in spacings.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,7 +1,7 @@
 //! Patches: the points around a point.
 
-use super::NoNoise;
 use super::moments::POINTS;
+use super::terms::NoNoise;
 use crate::mesh::Mesh;
 use crate::parallel::prelude::*;
 use crate::space::{Point, dot, minus};

@@ -11,9 +11,10 @@
 //!
 //! Gains are quotients of weights (area, or number of points), fits are compared by root mean square distances.
 
-use super::pieces::PieceGraph;
+use super::pieces::{PieceGraph, step};
 use super::region::GrownRegion;
-use crate::shape::Kind;
+use crate::shape::{Kind, Shape};
+use crate::space::{dot, minus};
 
 /// Quotient of the distances below which another kind fits clearly better. Where the simpler element is just doubtful, this
 /// is a root mean square of 0.94: what the noise alone leaves.
@@ -42,6 +43,9 @@ const ALONG_COVER: f64 = 0.4;
 const CHORD_POINTS: usize = 8;
 /// The apex of a fan and six corners.
 const FAN_POINTS: usize = 7;
+/// Circles about the axis that show a torus, and the steps of single precision within which corners lie on one.
+const CIRCLES: usize = 4;
+const ROUNDED_STEPS: f64 = 16.0;
 /// Least quotient of the areas of chords that are equally wide.
 const ALIKE: f64 = 0.999;
 
@@ -119,6 +123,26 @@ pub(super) fn is_shown(surface: &PieceGraph, kind: Kind, pieces: &[u32], points:
     points >= fewest_points(kind) || chords()
 }
 
+/// Whether the corners of what is drawn show a torus: any three circles about one axis lie on one, as those of a chamfer and the face beside it, so they lie
+/// on four at least. Of other elements, and of what is measured, there is nothing to ask.
+pub(super) fn has_circles(surface: &PieceGraph, shape: &Shape, pieces: &[u32]) -> bool {
+    let Shape::Torus { minor_radius, .. } = *shape else { return true };
+    if !surface.is_drawn {
+        return true;
+    }
+    let (origin, axes) = shape.frame();
+    let tube = |p: u32| {
+        let q = minus(surface.points[p as usize], origin);
+        shape.coordinates(axes.map(|a| dot(a, q)))[1]
+    };
+    let points = surface.points_of(pieces.iter().copied());
+    let mut around: Vec<f64> = points.into_iter().map(tube).collect();
+    around.sort_by(f64::total_cmp);
+    let same = ROUNDED_STEPS * step(surface.points) / minor_radius;
+    let parted = around.windows(2).filter(|w| w[1] - w[0] > same).count();
+    parted + 1 >= CIRCLES
+}
+
 /// Whether all facets share a corner.
 fn meet(surface: &PieceGraph, pieces: &[u32]) -> bool {
     let Some(&first) = pieces.first().filter(|_| surface.is_mesh()) else { return false };
@@ -130,7 +154,6 @@ fn meet(surface: &PieceGraph, pieces: &[u32]) -> bool {
 mod tests {
     use super::super::tests::one_of_each;
     use super::*;
-    use crate::shape::Shape;
 
     /// Which of two tells more, by what they cover and how well they fit; noise is 0.01.
     #[test]

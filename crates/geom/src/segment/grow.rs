@@ -1,7 +1,7 @@
 //! One region: from a patch to all that belongs to its element.
 
 use super::chords::is_chord;
-use super::criterion::{BETTER, CLEARLY, better, is_shown, may_give_way};
+use super::criterion::{BETTER, CLEARLY, better, has_circles, is_shown, may_give_way};
 use super::estimate::{estimate, is_sound};
 use super::flood::{Marks, Order, flood, patch, rings, strip};
 use super::pieces::{Band, PieceGraph};
@@ -230,6 +230,9 @@ impl Context<'_> {
                 improved(&points, &shape).filter(|f| is_sound(&f.0, self.size, self.band.distance))?;
             let full = pieces.len() >= limit.min(most);
             if pieces.len() >= most || (!full && pieces.len() <= last + last / stop_gain) {
+                if pieces.len() < most && !has_circles(self.surface, &better, &pieces) {
+                    return None;
+                }
                 let (weight, middles) = (self.surface.weight(&pieces), self.middles(&better, &pieces));
                 return Some(GrownRegion { shape: better, pieces, weight, rms, middles });
             }

@@ -1,0 +1,37 @@
+//! The face of each point that costs least.
+
+use super::faces::{NONE, Seat};
+
+/// A point near a face.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Candidate {
+    pub point: u32,
+    pub seat: Seat,
+}
+
+/// The face of each point that costs least.
+pub(super) struct Best {
+    pub owner: Vec<u32>,
+    pub cost: Vec<f64>,
+    pub second: Vec<f64>,
+    pub seat: Vec<Option<Seat>>,
+}
+
+impl Best {
+    pub(super) fn new(count: usize) -> Best {
+        let far = vec![f64::INFINITY; count];
+        Best { owner: vec![NONE; count], cost: far.clone(), second: far, seat: vec![None; count] }
+    }
+    pub(super) fn forget(&mut self, p: usize) {
+        (self.owner[p], self.cost[p], self.seat[p]) = (NONE, f64::INFINITY, None);
+    }
+    pub(super) fn add(&mut self, c: &Candidate, face: u32, cost: f64) {
+        let p = c.point as usize;
+        if cost < self.cost[p] {
+            self.second[p] = self.cost[p];
+            (self.owner[p], self.cost[p], self.seat[p]) = (face, cost, Some(c.seat));
+        } else if cost < self.second[p] {
+            self.second[p] = cost;
+        }
+    }
+}

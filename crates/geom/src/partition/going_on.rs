@@ -1,0 +1,123 @@
+//! Where the surface of a face goes on near its border, by the sure points around.
+
+use super::faces::{Face, Seat};
+use super::placed::Placed;
+use super::terms::EXPLAINED;
+use crate::num::random::Random;
+use crate::parallel::prelude::*;
+use crate::shape::upon;
+use crate::space::{Point, Vector, dot, minus};
+use crate::spatial::neighbors::PointTree;
+
+/// Points around that tell it.
+const AROUND: usize = 16;
+/// Places of a face where the noise is looked at.
+const PLACES: usize = 60;
+const UNKNOWNS: usize = 3;
+
+/// The sure points of a face.
+pub(super) struct Sure<'a> {
+    face: &'a Face,
+    placed: &'a Placed,
+    places: Vec<Point>,
+    offs: Vec<f64>,
+    tree: PointTree,
+}
+
+/// What the points around tell of the surface at a place.
+struct Told {
+    /// How far it lies off the face where that really is.
+    off: f64,
+    /// Variance of that over that of a point.
+    share: f64,
+    /// What the points around deviate by.
+    deviation: f64,
+}
+
+impl<'a> Sure<'a> {
+    pub(super) fn new(face: &'a Face, placed: &'a Placed, points: &[Point], sure: &[u32]) -> Sure<'a> {
+        // What the face does not explain, as a wall that stands on it, tells nothing of it.
+        let seated = sure.iter().filter_map(|i| {
+            let p = points[*i as usize];
+            let off = placed.off(face, p, face.seat(p, f64::INFINITY)?);
+            (off.abs() <= EXPLAINED * placed.deviation).then_some((p, off))
+        });
+        let (places, offs): (Vec<Point>, Vec<f64>) = seated.unzip();
+        Sure { face, placed, tree: PointTree::new(&places), places, offs }
+    }
+
+    /// How many deviations a point lies off the surface that the points around tell; `None` beyond the reach.
+    pub(super) fn off_over(&self, p: Point, seat: Seat, reach: f64, noise: f64) -> Option<f64> {
+        let off = self.placed.off(self.face, p, seat);
+        let over = || match self.told(p, seat.normal) {
+            Some(told) => (off - told.off).abs() / ((1.0 + told.share).sqrt() * told.deviation.max(noise)),
+            None => off.abs() / self.placed.deviation.max(noise),
+        };
+        (off.abs() <= reach).then(over)
+    }
+
+    fn told(&self, p: Point, normal: Vector) -> Option<Told> {
+        if self.places.len() <= AROUND {
+            return None;
+        }
+        let near = self.tree.k_nearest(&p, AROUND, None);
+        let axes = upon(normal);
+        let reach = near.last()?.0.sqrt().max(f64::MIN_POSITIVE);
+        let rows: Vec<([f64; UNKNOWNS], f64)> = near
+            .iter()
+            .map(|n| {
+                let q = minus(self.places[n.1 as usize], p);
+                ([1.0, dot(q, axes[0]) / reach, dot(q, axes[1]) / reach], self.offs[n.1 as usize])
+            })
+            .collect();
+        let mut normal_matrix = [[0.0; UNKNOWNS]; UNKNOWNS];
+        let mut right = [0.0; UNKNOWNS];
+        for (row, off) in &rows {
+            for i in 0..UNKNOWNS {
+                right[i] += row[i] * off;
+                (0..UNKNOWNS).for_each(|j| normal_matrix[i][j] += row[i] * row[j]);
+            }
+        }
+        let inverse = inverted(normal_matrix)?;
+        let solution: [f64; UNKNOWNS] =
+            std::array::from_fn(|i| (0..UNKNOWNS).map(|j| inverse[i][j] * right[j]).sum());
+        let left = |(row, off): &([f64; UNKNOWNS], f64)| {
+            off - (0..UNKNOWNS).map(|i| row[i] * solution[i]).sum::<f64>()
+        };
+        let squares: f64 = rows.iter().map(|r| left(r).powi(2)).sum();
+        Some(Told {
+            off: solution[0],
+            share: inverse[0][0].max(0.0),
+            deviation: (squares / (rows.len() - UNKNOWNS) as f64).sqrt(),
+        })
+    }
+}
+
+/// The inverse of a symmetric matrix, `None` where it has none.
+fn inverted(m: [[f64; UNKNOWNS]; UNKNOWNS]) -> Option<[[f64; UNKNOWNS]; UNKNOWNS]> {
+    let minor = |i: usize, j: usize| {
+        let [a, b] = [(i + 1) % 3, (i + 2) % 3];
+        let [c, d] = [(j + 1) % 3, (j + 2) % 3];
+        m[a][c] * m[b][d] - m[a][d] * m[b][c]
+    };
+    let determinant: f64 = (0..3).map(|j| m[0][j] * minor(0, j)).sum();
+    let greatest = m[0][0] * m[1][1] * m[2][2];
+    (determinant > 1e-9 * greatest)
+        .then(|| std::array::from_fn(|i| std::array::from_fn(|j| minor(j, i) / determinant)))
+}
+
+/// What points scatter by about the surface that their neighbors tell: the median over some places of all faces.
+pub(super) fn noise(all: &[Sure], seed: u64) -> f64 {
+    let mut found: Vec<f64> = (all.par_iter())
+        .flat_map_iter(|sure| {
+            let chosen = Random::new(seed).choose(PLACES, sure.places.len());
+            chosen.into_iter().filter_map(|i| {
+                let p = sure.places[i];
+                let seat = sure.face.seat(p, f64::INFINITY)?;
+                sure.told(p, seat.normal).map(|t| t.deviation)
+            })
+        })
+        .collect();
+    found.sort_by(f64::total_cmp);
+    found.get(found.len() / 2).copied().unwrap_or(0.0)
+}

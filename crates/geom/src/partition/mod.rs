@@ -1,0 +1,273 @@
+//! Whose point is it: one partition of a scan among the faces of its nominal.
+//!
+//! Partition is an operation of its own (ISO 17450-1), done once for the whole part, by likelihood, and not anew for each feature:
+//!
+//! 1. The nominal is cut into [`Faces`]: planes, cylinders, cones, spheres and tori, and what is free between creases.
+//! 2. Each face is put where it really is, by the points that are surely its own: near it, facing as it does, clear of its border.
+//! 3. A point that one face alone can have belongs to it. Near borders each of the faces there is asked where its surface goes on, by
+//!    the sure points around; the point belongs to the one that it lies off by the least part of what noise and the going on allow.
+//! 4. Points that no face explains are looked at together with their neighbors. What hangs together with points beyond the reach of
+//!    all faces goes on into the material ([`Class::Deep`]) or out of it ([`Class::High`]) farther than the reach: a hole, a bump, a thing that
+//!    stands there. What lies along a border alone is [`Class::Edge`]: a burr, a groove, a chamfer that is not drawn; the rest is form of
+//!    the face: a dent.
+//!
+//! | file | what |
+//! |---|---|
+//! | `terms` | what is asked and told |
+//! | `best` | the face of each point that costs least |
+//! | `faces` | the nominal cut into faces; where a point lies on a face |
+//! | `placed` | where a face really is |
+//! | `going_on` | where its surface goes on near a border |
+//! | `unexplained` | what no face explains |
+
+mod best;
+mod faces;
+mod going_on;
+mod placed;
+mod terms;
+#[cfg(test)]
+mod tests;
+mod unexplained;
+
+pub use faces::{Face, Faces, NONE};
+pub use placed::Placed;
+pub use terms::{Class, Options, Partition, PartitionError};
+
+use crate::mesh::Mesh;
+use crate::parallel::prelude::*;
+use crate::progress::{Cancelled, Progress};
+use crate::space::{Point, Vector, cross, dot, minus, plus, unit};
+use crate::spatial::neighbors::PointTree;
+use best::{Best, Candidate};
+use going_on::Sure;
+use terms::EXPLAINED;
+
+/// Share of its diagonal that a face reaches where nothing else is said.
+const SHARE: f64 = 0.02;
+/// Reaches from the nominal within which a face is looked for: the reach is about where it really is.
+const AWAY: f64 = 2.0;
+/// Cost of a point beyond a border, for each distance of neighbors: borders move with the faces that make them, and are known no sharper.
+const BEYOND: f64 = 2.0;
+/// Distances of neighbors beyond a border that cost nothing.
+const FREE: f64 = 0.3;
+/// A point is asked about again, by what is around, where the second of its faces costs less than this, or the best more than `ASKED`.
+const SECOND: f64 = 6.0 * EXPLAINED;
+const ASKED: f64 = 0.6 * EXPLAINED;
+/// Cosine of the angle (37°) up to which a sure point faces as its face does.
+const FACING: f64 = 0.8;
+/// Distances of neighbors from the border at which points are surely of a face: the first of these that leaves enough.
+const CLEAR: [f64; 3] = [2.5, 1.5, 0.75];
+/// Enough of them.
+const ENOUGH: usize = 20;
+/// Neighbors whose farthest tells the distance of neighbors, and places where that is looked at.
+const NEIGHBORS: usize = 16;
+const PLACES: usize = 200;
+
+/// Parts the vertices of a measured mesh, or without facets the points of a cloud, among the faces of the nominal; both in millimeters and in one frame.
+///
+/// Vertices of a mesh have faces by where they lie and how they face; points of a cloud by where they lie alone. Points within noise of two faces are of
+/// one of them. Deterministic for any number of threads. Cost: for each face a pass over the points, and a search for each point within its reach.
+/// ```
+/// use trueness_geom::partition::{Class, Faces, NONE, Options, partition};
+/// use trueness_geom::{mesh::Mesh, progress::Silent};
+/// // The four faces of a tetrahedron, and places of its largest, 0.1 above it; one place is far off.
+/// let nominal = Mesh {
+///     positions: vec![[0.0, 0.0, 0.0], [30.0, 0.0, 0.0], [0.0, 30.0, 0.0], [0.0, 0.0, -30.0]],
+///     faces: vec![[0, 1, 2], [0, 3, 1], [0, 2, 3], [1, 3, 2]],
+/// };
+/// let faces = Faces::of(&nominal, &Silent)?;
+/// let place = |k: u32| [f64::from(k % 20) + 0.5, f64::from(k / 20) + 0.5, 0.1];
+/// let mut positions: Vec<_> = (0..400).map(place).filter(|p| p[0] + p[1] < 29.0).collect();
+/// positions.push([5.0, 5.0, 40.0]);
+/// let scan = Mesh { positions, faces: vec![] };
+/// let found = partition(&scan, &faces, &Options { distance: Some(1.0), seed: 0 }, &Silent)?;
+/// let top = faces.of_facets[0];
+/// assert_eq!((found.owners[0], found.classes[0]), (top, Class::Face));
+/// assert!((found.placed[top as usize].offset - 0.1).abs() < 1e-9);
+/// assert_eq!(found.owners.last(), Some(&NONE));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`PartitionError`]: a coordinate that is no number, cancelled.
+pub fn partition(
+    scan: &Mesh,
+    faces: &Faces,
+    options: &Options,
+    progress: &dyn Progress,
+) -> Result<Partition, PartitionError> {
+    let points = &scan.positions;
+    if let Some(index) = points.iter().position(|p| p.iter().any(|x| !x.is_finite())) {
+        return Err(PartitionError::NotFinite { index });
+    }
+    let normals = (!scan.faces.is_empty()).then(|| vertex_normals(scan));
+    let spacing = spacing(points, options.seed);
+    let reach = faces
+        .all
+        .iter()
+        .map(|f| options.distance.unwrap_or(SHARE * f.bounds.diagonal()))
+        .collect::<Vec<f64>>();
+    let mut candidates = vec![];
+    for (face, reach) in faces.all.iter().zip(&reach) {
+        candidates.push(near(face, points, normals.as_deref(), AWAY * reach, spacing));
+        cancelled(progress)?;
+    }
+    let work = Work { points, faces: &faces.all, reach, candidates, spacing };
+    let sure = work.sure(normals.as_deref());
+    let floor = rounding(points);
+    let placed: Vec<Placed> = (faces.all.par_iter().zip(&sure))
+        .map(|(face, sure)| Placed::of(face, points, sure, floor, options.seed))
+        .collect();
+    cancelled(progress)?;
+    let around: Vec<Sure> = (faces.all.par_iter().zip(&placed).zip(&sure))
+        .map(|((face, placed), sure)| Sure::new(face, placed, points, sure))
+        .collect();
+    let noise = going_on::noise(&around, options.seed).max(floor);
+    let mut best = work.by_faces(&placed, noise);
+    cancelled(progress)?;
+    work.by_what_is_around(&mut best, &around, noise);
+    cancelled(progress)?;
+    let classes = unexplained::classes(scan, &mut best, spacing);
+    drop(around);
+    Ok(Partition { owners: best.owner, classes, placed, spacing, noise })
+}
+
+/// Points and the faces that they may be of.
+struct Work<'a> {
+    points: &'a [Point],
+    faces: &'a [Face],
+    /// Of each face.
+    reach: Vec<f64>,
+    candidates: Vec<Vec<Candidate>>,
+    spacing: f64,
+}
+
+impl Work<'_> {
+    /// The points that are surely of each face: it is the nearest of those over which they lie, they face as it does and lie clear of its border.
+    fn sure(&self, normals: Option<&[Vector]>) -> Vec<Vec<u32>> {
+        let mut least = vec![f64::INFINITY; self.points.len()];
+        for c in self.candidates.iter().flatten().filter(|c| c.seat.within > 0.0) {
+            let least = &mut least[c.point as usize];
+            *least = least.min(c.seat.off.abs());
+        }
+        let clear = |near: &[Candidate], reach: f64, times: f64| -> Vec<u32> {
+            let is_own = |c: &&Candidate| {
+                let (p, off) = (c.point as usize, c.seat.off.abs());
+                c.seat.within > times * self.spacing
+                    && off <= reach.min(least[p])
+                    && normals.is_none_or(|n| dot(n[p], c.seat.normal) > FACING)
+            };
+            near.iter().filter(is_own).map(|c| c.point).collect()
+        };
+        let of_face = |(near, reach): (&Vec<Candidate>, &f64)| {
+            let mut found = vec![];
+            for times in CLEAR {
+                found = clear(near, *reach, times);
+                if found.len() >= ENOUGH {
+                    break;
+                }
+            }
+            found
+        };
+        self.candidates.par_iter().zip(&self.reach).map(of_face).collect()
+    }
+
+    /// The face of each point by the distance from where the faces really are.
+    fn by_faces(&self, placed: &[Placed], noise: f64) -> Best {
+        let mut best = Best::new(self.points.len());
+        for (number, face) in self.faces.iter().enumerate() {
+            let scale = placed[number].deviation.max(noise);
+            for c in &self.candidates[number] {
+                let off = placed[number].off(face, self.points[c.point as usize], c.seat).abs();
+                let is_there = c.seat.within > -FREE * self.spacing || off <= EXPLAINED * scale;
+                if is_there && off <= self.reach[number] {
+                    best.add(c, number as u32, off / scale + self.beyond(c.seat.within));
+                }
+            }
+        }
+        best
+    }
+
+    /// Those whose face is not certain by that, by what is around them.
+    fn by_what_is_around(&self, best: &mut Best, around: &[Sure], noise: f64) {
+        let asked: Vec<bool> = (best.cost.iter().zip(&best.second))
+            .map(|(cost, second)| cost.is_finite() && (*second < SECOND || *cost > ASKED))
+            .collect();
+        let again: Vec<Vec<(Candidate, f64)>> = (self.candidates.par_iter().zip(around).zip(&self.reach))
+            .map(|((near, around), reach)| {
+                let ask = |c: &Candidate| {
+                    let z = around.off_over(self.points[c.point as usize], c.seat, *reach, noise)?;
+                    Some((*c, z + self.beyond(c.seat.within + FREE * self.spacing)))
+                };
+                near.iter().filter(|c| asked[c.point as usize]).filter_map(ask).collect()
+            })
+            .collect();
+        (0..self.points.len()).filter(|p| asked[*p]).for_each(|p| best.forget(p));
+        for (number, near) in (0u32..).zip(&again) {
+            near.iter().for_each(|(c, cost)| best.add(c, number, *cost));
+        }
+    }
+
+    fn beyond(&self, within: f64) -> f64 {
+        BEYOND * (-within).max(0.0) / self.spacing
+    }
+}
+
+/// The points near a face: within so far of it, and no farther beyond its border.
+fn near(
+    face: &Face,
+    points: &[Point],
+    normals: Option<&[Vector]>,
+    reach: f64,
+    spacing: f64,
+) -> Vec<Candidate> {
+    let bounds = face.bounds.widened(reach + spacing);
+    let seated = |(i, p): (usize, &Point)| {
+        if !bounds.holds(p) {
+            return None;
+        }
+        let seat = face.seat(*p, reach)?;
+        let is_near = seat.off.abs() <= reach && seat.within >= -reach - spacing;
+        let faces = normals.is_none_or(|n| dot(n[i], seat.normal) > 0.0);
+        (is_near && faces).then_some(Candidate { point: i as u32, seat })
+    };
+    points.par_iter().enumerate().filter_map(seated).collect()
+}
+
+/// Distance of neighboring points: the root of the area of one, the median over some places.
+fn spacing(points: &[Point], seed: u64) -> f64 {
+    let tree = PointTree::new(points);
+    let mut all: Vec<f64> = crate::num::random::Random::new(seed)
+        .choose(PLACES, points.len())
+        .into_iter()
+        .filter_map(|i| {
+            let near = tree.k_nearest(&points[i], NEIGHBORS, None);
+            let square = near.last()?.0;
+            Some((std::f64::consts::PI * square / near.len() as f64).sqrt())
+        })
+        .filter(|d| *d > 0.0)
+        .collect();
+    all.sort_by(f64::total_cmp);
+    all.get(all.len() / 2).copied().unwrap_or(1.0)
+}
+
+/// Half a step of single precision of the coordinates.
+fn rounding(points: &[Point]) -> f64 {
+    let greatest = points.iter().flatten().fold(0.0f64, |m, x| m.max(x.abs()));
+    0.5 * greatest * f64::from(f32::EPSILON)
+}
+
+/// Unit normals of vertices, by the areas of their facets; zero where there is none.
+fn vertex_normals(scan: &Mesh) -> Vec<Vector> {
+    let mut sums = vec![[0.0; 3]; scan.positions.len()];
+    for face in &scan.faces {
+        let [a, b, c] = face.map(|v| scan.positions[v as usize]);
+        let area = cross(minus(b, a), minus(c, a));
+        face.iter().for_each(|v| sums[*v as usize] = plus(sums[*v as usize], area));
+    }
+    sums.into_iter().map(|n| unit(n).map_or([0.0; 3], |n| n.0)).collect()
+}
+
+fn cancelled(progress: &dyn Progress) -> Result<(), Cancelled> {
+    if progress.cancelled() { Err(Cancelled) } else { Ok(()) }
+}

@@ -1,0 +1,81 @@
+//! Where a face really is.
+
+use super::faces::{Face, Seat};
+use crate::fit::{Method, Options, fit};
+use crate::num::random::Random;
+use crate::progress::Silent;
+use crate::shape::Shape;
+use crate::space::Point;
+
+/// Points that a face is placed by, at most.
+const SOME: usize = 2000;
+/// Points for each unknown from which on a face is fitted; with fewer it is moved along its normal.
+const PER_UNKNOWN: usize = 4;
+/// Share of the deviation below which a fit is clearly better than a move along the normal. Points along one line or circle of a narrow face do not tell
+/// how it leans.
+const CLEARLY: f64 = 0.75;
+/// The standard deviation over the median magnitude, of normal noise.
+const MEDIAN: f64 = 1.4826;
+
+/// Where a face really is, by the points that are surely its own.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Placed {
+    /// The element fitted to them; `None` of a free face, and where they are too few.
+    pub shape: Option<Shape>,
+    /// How far it lies off the nominal, out of the material, where nothing was fitted, millimeters.
+    pub offset: f64,
+    /// What they deviate by from it, millimeters: noise and form.
+    pub deviation: f64,
+    /// Their number.
+    pub points: usize,
+}
+
+impl Placed {
+    pub(super) fn of(face: &Face, points: &[Point], sure: &[u32], floor: f64, seed: u64) -> Placed {
+        let chosen = Random::new(seed).choose(SOME, sure.len());
+        let places: Vec<Point> = chosen.into_iter().map(|i| points[sure[i] as usize]).collect();
+        let with = |shape: Option<Shape>| {
+            let mut placed = Placed { shape, offset: 0.0, deviation: 0.0, points: sure.len() };
+            let off = |placed: &Placed| -> Vec<f64> {
+                let seated = places.iter().filter_map(|p| Some((p, face.seat(*p, f64::INFINITY)?)));
+                seated.map(|(p, seat)| placed.off(face, *p, seat)).filter(|x| x.is_finite()).collect()
+            };
+            if shape.is_none() {
+                placed.offset = median(off(&placed));
+            }
+            placed.deviation = (MEDIAN * median(off(&placed).into_iter().map(f64::abs).collect())).max(floor);
+            placed
+        };
+        let moved = with(None);
+        let fitted = face.shape.filter(|s| places.len() >= PER_UNKNOWN * s.kind().unknowns()).and_then(|s| {
+            let options = Options { method: Method::Robust, start: Some(s), seed };
+            let found = fit(&places, s.kind(), &options, &Silent).ok()?;
+            found.converged.then(|| with(Some(alike(found.shape, face, &places))))
+        });
+        fitted.filter(|fitted| fitted.deviation < CLEARLY * moved.deviation).unwrap_or(moved)
+    }
+
+    /// Distance of a point across the face where it really is, positive outside of the material.
+    pub(super) fn off(&self, face: &Face, p: Point, seat: Seat) -> f64 {
+        match self.shape {
+            Some(shape) => face.outward * shape.distance(p),
+            None => seat.off - self.offset,
+        }
+    }
+}
+
+/// The same element, planes with their normal to the side of the face's.
+fn alike(found: Shape, face: &Face, places: &[Point]) -> Shape {
+    match (found, face.shape, places.first()) {
+        (Shape::Plane { point, normal }, Some(nominal), Some(p)) => {
+            let turned = crate::space::dot(normal, nominal.normal(*p)) < 0.0;
+            Shape::Plane { point, normal: if turned { normal.map(|x| -x) } else { normal } }
+        }
+        _ => found,
+    }
+}
+
+fn median(mut all: Vec<f64>) -> f64 {
+    all.sort_by(f64::total_cmp);
+    all.get(all.len() / 2).copied().unwrap_or(0.0)
+}
