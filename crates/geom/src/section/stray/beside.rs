@@ -12,8 +12,9 @@ use super::limits::{BENT, LEAST, SHORTER_FAR, STRAIGHT};
 const NEXT: usize = 6;
 /// A step to a stray is at least so many times as long as the longest between them.
 const LONGER: f64 = 1.5;
-/// A stray lies off the curve through them by more standard deviations of the noise than this.
+/// A stray lies off the curve through them by more standard deviations of the noise than this; a point is doubted from fewer.
 const OFF_CURVE: f64 = 8.0;
+const DOUBTED: f64 = 3.0;
 /// The points next to an end agree to so many standard deviations, or to this share of their steps: what a parabola leaves of an arc.
 const AGREED: (f64, f64) = (3.0, 0.05);
 /// They are dense where their curve turns by less than this, radians: a parabola tells it.
@@ -64,15 +65,16 @@ pub(super) fn first(row: &[[f64; 2]], scatter: Scatter) -> End {
     let measured = scatter.beyond_form > MEASURED * longest;
     // Curves without noise bend faster toward an end: of 20,000 profiles of four digits none left its nose by more than 0.47.
     let least = if measured { 0.0 } else { BENT };
-    if step < LONGER * longest || closes || !leaves(tip, &next, longest, scatter.sigma, least) {
+    let by = |deviations: f64| leaves(tip, &next, longest, [scatter.sigma, deviations], least);
+    if step < LONGER * longest || closes || !by(DOUBTED) {
         return End::Sound;
     }
-    if measured && step >= SHORTER_FAR * longest { End::Stray } else { End::Doubtful }
+    if measured && step >= SHORTER_FAR * longest && by(OFF_CURVE) { End::Stray } else { End::Doubtful }
 }
 
-/// Whether a point lies off where the curve of those `next` to it leads: straight on, or on with up to twice its curvature; by an
-/// angle of more than `least`, too.
-fn leaves(tip: [f64; 2], next: &[[f64; 2]], longest: f64, sigma: f64, least: f64) -> bool {
+/// Whether a point lies off where the curve of those `next` to it leads, by so many standard deviations: straight on, or on with up to twice its
+/// curvature; by an angle of more than `least`, too.
+fn leaves(tip: [f64; 2], next: &[[f64; 2]], longest: f64, [sigma, deviations]: [f64; 2], least: f64) -> bool {
     let (near, far) = (next[0], next[next.len() - 1]);
     let length = distance(far, near);
     if length == 0.0 {
@@ -111,6 +113,6 @@ fn leaves(tip: [f64; 2], next: &[[f64; 2]], longest: f64, sigma: f64, least: f64
     let at = [1.0, t, 0.5 * t * t];
     let Some(moved) = crate::fit::solve(a, at.to_vec()) else { return false };
     let variance = 1.0 + (0..3).map(|i| at[i] * moved[i]).sum::<f64>();
-    let uncertain = OFF_CURVE * sigma.max(rest) * variance.sqrt() / off;
+    let uncertain = deviations * sigma.max(rest) * variance.sqrt() / off;
     (turned - bend).abs() > (bend.abs() + STRAIGHT + uncertain).max(least)
 }
