@@ -1,7 +1,10 @@
 //! How far neighbors share errors: the option of the commands that state uncertainties, and the line of their tables.
 
 use crate::number::{fixed, scientific};
+use crate::options::ProgressStyle;
+use crate::progress::Stage;
 use clap::Args;
+use trueness_geom::noise::PATCHES;
 use trueness_geom::progress::Cancelled;
 use trueness_inspect::results::{NoiseOrReason, SharedNoise};
 
@@ -15,16 +18,19 @@ pub struct NoiseArgs {
 }
 
 impl NoiseArgs {
-    /// What is found, unless errors are independent.
-    pub fn or_independent(
+    /// What is found, in a stage of its own, unless errors are independent.
+    pub fn found(
         &self,
-        found: impl FnOnce() -> Result<NoiseOrReason, Cancelled>,
+        style: ProgressStyle,
+        find: impl FnOnce(&Stage) -> Result<NoiseOrReason, Cancelled>,
     ) -> Result<NoiseOrReason, Cancelled> {
         if self.independent {
-            Ok(Err("errors are independent, as --independent says".into()))
-        } else {
-            found()
+            return Ok(Err("errors are independent, as --independent says".into()));
         }
+        let stage = Stage::new(style, "finding the noise", "patches", Some(PATCHES as u64));
+        let found = find(&stage);
+        stage.end(&found);
+        found
     }
 }
 

@@ -134,10 +134,10 @@ fn run(args: &FitArgs, common: &Common) -> anyhow::Result<Outcome> {
         e @ FitError::NoSuchMethod { .. } => Usage(e.to_string()).into(),
         e => anyhow::anyhow!("{}: {e}", args.points.display()),
     })?;
-    let stage = Stage::new(common.progress, "finding the noise", "patches", None);
-    let noise = args.noise.or_independent(|| trueness_inspect::fit::noise(&fit, &scan, common.seed, &stage));
-    stage.end(&noise);
-    let document = trueness_inspect::fit::document(&fit, &noise?, points, vec![record], common.seed);
+    let noise = args
+        .noise
+        .found(common.progress, |stage| trueness_inspect::fit::noise(&fit, &scan, common.seed, stage))?;
+    let document = trueness_inspect::fit::document(&fit, &noise, points, vec![record], common.seed);
     if args.report.html.is_some() {
         let view = View::new(&document, &document.inputs[0].path, &fit.shape, points);
         args.report.write(&document, &view.objects(), &view.marks, common.progress)?;

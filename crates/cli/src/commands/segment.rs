@@ -153,10 +153,9 @@ fn run(args: &SegmentArgs, common: &Common) -> anyhow::Result<Outcome> {
         regions(path, &mesh.positions, pieces, &labels, |label| color(usize::try_from(label).ok()))?;
     }
     let members = args.members.then_some(LeftOut(&left_out));
-    let stage = Stage::new(common.progress, "finding the noise", "patches", None);
-    let noise = args.noise.or_independent(|| told(found.shared_noise(&mesh, common.seed, &stage)));
-    stage.end(&noise);
-    let document = SegmentDocument::new(&found, &noise?, kind, vec![record], &options, members);
+    let noise =
+        args.noise.found(common.progress, |stage| told(found.shared_noise(&mesh, common.seed, stage)))?;
+    let document = SegmentDocument::new(&found, &noise, kind, vec![record], &options, members);
     if args.report.html.is_some() {
         let view = View::new(&document, &mesh, &found.labels);
         args.report.write(&document, &view.objects(), &view.marks, common.progress)?;

@@ -36,8 +36,9 @@ use moments::Moments;
 use patch::{Around, InCloud, OnMesh};
 pub use terms::{NoNoise, Noise};
 
-/// Patches looked at, at most; of few points so many that each is in two on average.
-const PATCHES: usize = 160;
+/// Patches looked at, at most: what `progress` counts.
+pub const PATCHES: usize = 160;
+/// Patches that a point is in, on average, where there are few.
 const OFTEN: usize = 2;
 /// Fewest patches that the noise is told from: the standard deviation of eight is known to a tenth, with shared noise to a fifth.
 const FEWEST_PATCHES: usize = 8;
