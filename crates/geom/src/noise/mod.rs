@@ -79,8 +79,8 @@ pub fn cloud(points: &[Point], seed: u64, progress: &dyn Progress) -> Result<Noi
 }
 
 /// The noise of the `V` vertices of a mesh, or without facets of `V` points, whose distances from surfaces fitted to them are known: form is
-/// told from noise with less doubt, and where the surface bends much from one point to the next. Points whose distance is no number do
-/// not count. As [`mesh()`] otherwise.
+/// told from noise with less doubt, and where the surface bends much from one point to the next. Points without a distance
+/// that is a number do not count. As [`mesh()`] otherwise.
 ///
 /// # Errors
 /// As [`mesh()`].
@@ -98,7 +98,7 @@ fn found(
     if let Some(index) = points.iter().position(|p| p.iter().any(|x| !x.is_finite())) {
         return Err(NoNoise::NotFinite { index });
     }
-    let counts = |i: u32| distances.is_none_or(|all| all[i as usize].is_finite());
+    let counts = |i: u32| distances.is_none_or(|all| all.get(i as usize).is_some_and(|d| d.is_finite()));
     let counted: Vec<u32> = (0..points.len() as u32).filter(|i| counts(*i)).collect();
     let around: Box<dyn Around> = match scan.faces.is_empty() {
         true => Box::new(InCloud { points, counted: &counted }),

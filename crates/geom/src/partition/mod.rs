@@ -89,7 +89,7 @@ const PLACES: usize = 200;
 /// ```
 ///
 /// # Errors
-/// [`PartitionError`]: a coordinate that is no number, cancelled.
+/// [`PartitionError`]: a coordinate that is no number, a facet that names no vertex, cancelled.
 pub fn partition(
     scan: &Mesh,
     faces: &Faces,
@@ -99,6 +99,9 @@ pub fn partition(
     let points = &scan.positions;
     if let Some(index) = points.iter().position(|p| p.iter().any(|x| !x.is_finite())) {
         return Err(PartitionError::NotFinite { index });
+    }
+    if let Some(facet) = scan.faces.iter().position(|f| f.iter().any(|v| *v as usize >= points.len())) {
+        return Err(PartitionError::NoSuchVertex { facet });
     }
     let normals = (!scan.faces.is_empty()).then(|| vertex_normals(scan));
     let spacing = spacing(points, options.seed);

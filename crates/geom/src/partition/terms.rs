@@ -59,6 +59,12 @@ pub enum PartitionError {
         /// Index of the first such point.
         index: usize,
     },
+    /// A measured facet names a vertex that does not exist.
+    #[error("facet {facet} names a vertex that does not exist")]
+    NoSuchVertex {
+        /// Index of the first such facet.
+        facet: usize,
+    },
     /// Stopped through the progress argument.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),

@@ -251,6 +251,9 @@ fn wrong_coordinates_are_refused_and_nothing_has_no_faces() {
     let nan = Mesh { positions: vec![[0.0; 3], [f64::NAN, 0.0, 0.0]], faces: vec![] };
     let found = partition(&nan, &faces, &OPTIONS, &Silent);
     assert_eq!(found.err(), Some(PartitionError::NotFinite { index: 1 }));
+    let no_vertex = Mesh { positions: vec![[0.0; 3]; 3], faces: vec![[0, 1, 2], [0, 1, 3]] };
+    let found = partition(&no_vertex, &faces, &OPTIONS, &Silent);
+    assert_eq!(found.err(), Some(PartitionError::NoSuchVertex { facet: 1 }));
     let nothing = partition(&Mesh::default(), &faces, &OPTIONS, &Silent).unwrap();
     assert!(nothing.owners.is_empty() && nothing.classes.is_empty());
 }
