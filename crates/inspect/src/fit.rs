@@ -8,12 +8,12 @@ mod view;
 pub use view::{View, side_color};
 
 use crate::results::fit::FitDocument;
-use crate::results::{Histogram, InputRecord, NoiseOrReason};
+use crate::results::{Histogram, InputRecord, NoiseOrReason, noise_or_reason};
 use crate::scale::Scale;
 use distances::distances;
 use trueness_geom::fit::Fit;
 use trueness_geom::mesh::Mesh;
-use trueness_geom::noise::{self, NoNoise};
+use trueness_geom::noise;
 use trueness_geom::progress::{Cancelled, Progress};
 use trueness_geom::space::Point;
 use trueness_geom::stats::statistics::Summary;
@@ -31,18 +31,7 @@ pub fn noise(fit: &Fit, scan: &Mesh, seed: u64, progress: &dyn Progress) -> Resu
     let [(least, _), (most, _)] = [fit.residuals.min, fit.residuals.max];
     let counted = |d: f64| if (least..=most).contains(&d) { d } else { f64::NAN };
     let distances: Vec<f64> = distances(&fit.shape, &scan.positions).into_iter().map(counted).collect();
-    told(noise::about(scan, &distances, seed, progress))
-}
-
-/// The noise as documents hold it.
-///
-/// # Errors
-/// Cancelled.
-pub fn told(found: Result<noise::Noise, NoNoise>) -> Result<NoiseOrReason, Cancelled> {
-    match found {
-        Err(NoNoise::Cancelled(e)) => Err(e),
-        found => Ok(found.map(Into::into).map_err(|e| e.to_string())),
-    }
+    noise_or_reason(noise::about(scan, &distances, seed, progress))
 }
 
 /// The document of a fit to `points`, which are those of `inputs` in their order, with their noise: with the points' extent on the element,

@@ -20,10 +20,9 @@ use trueness_geom::mesh::Mesh;
 use trueness_geom::segment::{self, KINDS, Options, SegmentError, Segmentation};
 use trueness_geom::shape::{Kind, Quantity};
 use trueness_inspect::file_numbers::LeftOut;
-use trueness_inspect::fit::told;
-use trueness_inspect::results::Role;
 use trueness_inspect::results::fit::Number;
 use trueness_inspect::results::segment::{PieceKind, RegionRecord, SegmentDocument};
+use trueness_inspect::results::{Role, noise_or_reason};
 use trueness_inspect::segment::{View, color};
 
 /// Planes, cylinders, cones, spheres and tori in a mesh or cloud, without a nominal
@@ -153,8 +152,9 @@ fn run(args: &SegmentArgs, common: &Common) -> anyhow::Result<Outcome> {
         regions(path, &mesh.positions, pieces, &labels, |label| color(usize::try_from(label).ok()))?;
     }
     let members = args.members.then_some(LeftOut(&left_out));
-    let noise =
-        args.noise.found(common.progress, |stage| told(found.shared_noise(&mesh, common.seed, stage)))?;
+    let noise = args
+        .noise
+        .found(common.progress, |stage| noise_or_reason(found.shared_noise(&mesh, common.seed, stage)))?;
     let document = SegmentDocument::new(&found, &noise, kind, vec![record], &options, members);
     if args.report.html.is_some() {
         let view = View::new(&document, &mesh, &found.labels);

@@ -127,6 +127,10 @@ fn explained(patches: &[Moments], kept: &[bool]) -> Model {
         (0..LAGS).map(|lag| (w * white[lag] + s * together[lag] - wanted[lag]).powi(2)).sum()
     };
     let alone = inner(&white, &wanted) / inner(&white, &white);
+    if !(alone.is_finite() && alone > 0.0) {
+        // No patch scatters, or all by the same: there is nothing to tell reaches by.
+        return Model { white: products[0] / expected[0][0], shared: 0.0, reach };
+    }
     // A sum over patches scatters by the root of their number less than that of one.
     let clearly = CLEARLY / count;
     let mut best = (error(alone, 0.0, &white) - clearly, Model { white: alone, shared: 0.0, reach });

@@ -208,12 +208,20 @@ fn planted_noise_is_found_with_what_neighbors_share() {
     rates(3);
 }
 
+/// Of a plane without noise the deviation is 0, a number.
+#[test]
+fn what_has_no_noise_has_the_deviation_0() {
+    let positions: Vec<Point> = (0..1600).map(|i| [f64::from(i % 40), f64::from(i / 40), 0.0]).collect();
+    let found = cloud(&positions, 0, &Silent).unwrap();
+    assert_eq!((found.deviation, found.white, found.points_per_independent), (0.0, 1.0, 1.0), "{found:?}");
+}
+
 /// Radii of noisy balls scatter by the stated uncertainty times the root of the points that count as one.
 #[test]
 fn radii_of_balls_scatter_as_stated() {
     let copies: u64 = std::env::var("COPIES").map_or(40, |x| x.parse().unwrap());
     for rounds in 0..4 {
-        let (mut squares, mut stated, mut all) = (0.0, 0.0, vec![]);
+        let (mut squares, mut stated, mut independent, mut all) = (0.0, 0.0, 0.0, vec![]);
         for seed in 0..copies {
             let (scan, shared) = ball(rounds, &mut Random::stream(seed, rounds as u64));
             let fit = fit(&scan.positions, Kind::Sphere, &Options::default(), &Silent).unwrap();
@@ -224,12 +232,15 @@ fn radii_of_balls_scatter_as_stated() {
             let Shape::Sphere { radius, .. } = fit.shape else { panic!() };
             squares += (radius - 10.0).powi(2) / copies as f64;
             stated += u * u * found.points_per_independent / copies as f64;
+            independent += u * u / copies as f64;
             all.push(ratios(&found, shared));
         }
         let [deviation, shared] = [0, 1].map(|r| spread(all.iter().map(|a| a[r]).collect()));
-        let ratio = (squares / stated).sqrt();
+        let [ratio, alone] = [stated, independent].map(|s| (squares / s).sqrt());
         // Of 40 copies a scatter is known to a ninth.
         assert!((0.75..1.3).contains(&ratio), "{rounds}: {ratio}");
-        println!("{rounds}: scatter over stated {ratio:.3}, deviation {deviation:.3?}, shared {shared:.3?}");
+        println!(
+            "{rounds}: scatter over stated {ratio:.3}, of independent points {alone:.3}, deviation {deviation:.3?}, shared {shared:.3?}"
+        );
     }
 }

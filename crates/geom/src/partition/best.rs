@@ -1,6 +1,6 @@
 //! The face of each point that costs least.
 
-use super::faces::{NONE, Seat};
+use super::faces::{NO_FACE, Seat};
 
 /// A point near a face.
 #[derive(Clone, Copy, Debug)]
@@ -20,10 +20,10 @@ pub(super) struct Best {
 impl Best {
     pub(super) fn new(count: usize) -> Best {
         let far = vec![f64::INFINITY; count];
-        Best { owner: vec![NONE; count], cost: far.clone(), second: far, seat: vec![None; count] }
+        Best { owner: vec![NO_FACE; count], cost: far.clone(), second: far, seat: vec![None; count] }
     }
     pub(super) fn forget(&mut self, p: usize) {
-        (self.owner[p], self.cost[p], self.seat[p]) = (NONE, f64::INFINITY, None);
+        (self.owner[p], self.cost[p], self.seat[p]) = (NO_FACE, f64::INFINITY, None);
     }
     pub(super) fn add(&mut self, c: &Candidate, face: u32, cost: f64) {
         let p = c.point as usize;

@@ -5,13 +5,11 @@ use crate::mesh::Mesh;
 use crate::progress::Progress;
 use crate::segment::{self, Options, SegmentError};
 use crate::shape::Shape;
-use crate::space::{Aabb, Point, Vector, cross, dot, minus, norm, plus, times, unit};
+use crate::space::{self, Aabb, Point, Vector, cross, dot, minus, norm, plus, times, unit};
 use std::collections::BTreeMap;
 
 /// No face.
-pub const NONE: u32 = u32::MAX;
-/// Angle between facets from which on free faces end, radians: 32°, as of segmentation.
-const CREASE: f64 = 0.558_505_360_638_185_5;
+pub const NO_FACE: u32 = u32::MAX;
 
 /// A face of the nominal.
 pub struct Face {
@@ -45,7 +43,7 @@ pub(super) struct Seat {
 pub struct Faces {
     /// The faces.
     pub all: Vec<Face>,
-    /// The face of each facet; [`NONE`] of those without area.
+    /// The face of each facet; [`NO_FACE`] of those without area.
     pub of_facets: Vec<u32>,
 }
 
@@ -55,12 +53,13 @@ impl Faces {
     /// # Errors
     /// [`SegmentError`]: no facets, coordinates that are no numbers.
     pub fn of(nominal: &Mesh, progress: &dyn Progress) -> Result<Faces, SegmentError> {
-        let found = segment::mesh(nominal, &Options::default(), progress)?;
+        let options = Options::default();
+        let found = segment::mesh(nominal, &options, progress)?;
         let mut of_facets = found.labels.clone();
         let mut shapes: Vec<Option<Shape>> = found.regions.iter().map(|r| Some(r.fit.shape)).collect();
-        free(nominal, &mut of_facets, &mut shapes);
+        free(nominal, options.crease, &mut of_facets, &mut shapes);
         let mut facets: Vec<Vec<u32>> = vec![vec![]; shapes.len()];
-        for (facet, &face) in (0u32..).zip(&of_facets).filter(|f| *f.1 != NONE) {
+        for (facet, &face) in (0u32..).zip(&of_facets).filter(|f| *f.1 != NO_FACE) {
             facets[face as usize].push(facet);
         }
         let all = facets.into_iter().zip(shapes).map(|(facets, shape)| Face::new(nominal, facets, shape));
@@ -68,11 +67,11 @@ impl Faces {
     }
 }
 
-/// Gives facets without a face new ones, each up to creases and to the other faces.
-fn free(nominal: &Mesh, of_facets: &mut [u32], shapes: &mut Vec<Option<Shape>>) {
+/// Gives facets without a face new ones, each up to creases from this angle on and to the other faces.
+fn free(nominal: &Mesh, crease: f64, of_facets: &mut [u32], shapes: &mut Vec<Option<Shape>>) {
     let normals: Vec<Option<Vector>> = nominal.faces.iter().map(|f| normal(nominal, f)).collect();
     let mut sides: BTreeMap<[u32; 2], Vec<u32>> = BTreeMap::new();
-    let is_free = |facet: usize, of: &[u32]| of[facet] == NONE && normals[facet].is_some();
+    let is_free = |facet: usize, of: &[u32]| of[facet] == NO_FACE && normals[facet].is_some();
     for (facet, f) in nominal.faces.iter().enumerate().filter(|(i, _)| is_free(*i, of_facets)) {
         for k in 0..3 {
             let (a, b) = (f[k], f[(k + 1) % 3]);
@@ -93,10 +92,10 @@ fn free(nominal: &Mesh, of_facets: &mut [u32], shapes: &mut Vec<Option<Shape>>) 
                 let (a, b) = (f[k], f[(k + 1) % 3]);
                 for &other in sides.get(&[a.min(b), a.max(b)]).into_iter().flatten() {
                     let smooth = match (normals[facet as usize], normals[other as usize]) {
-                        (Some(a), Some(b)) => dot(a, b) >= libm::cos(CREASE),
+                        (Some(a), Some(b)) => dot(a, b) >= libm::cos(crease),
                         _ => false,
                     };
-                    if smooth && of_facets[other as usize] == NONE {
+                    if smooth && of_facets[other as usize] == NO_FACE {
                         of_facets[other as usize] = number;
                         waiting.push(other);
                     }
@@ -107,8 +106,7 @@ fn free(nominal: &Mesh, of_facets: &mut [u32], shapes: &mut Vec<Option<Shape>>) 
 }
 
 fn normal(mesh: &Mesh, f: &[u32; 3]) -> Option<Vector> {
-    let [a, b, c] = f.map(|v| mesh.positions[v as usize]);
-    unit(cross(minus(b, a), minus(c, a))).map(|n| n.0)
+    space::normal(f.map(|v| mesh.positions[v as usize]))
 }
 
 /// Facets of a mesh as one of their own.

@@ -29,7 +29,7 @@ mod terms;
 mod tests;
 mod unexplained;
 
-pub use faces::{Face, Faces, NONE};
+pub use faces::{Face, Faces, NO_FACE};
 pub use placed::Placed;
 pub use terms::{Class, Options, Partition, PartitionError};
 
@@ -57,8 +57,8 @@ const ASKED: f64 = 0.6 * EXPLAINED;
 const FACING: f64 = 0.8;
 /// Distances of neighbors from the border at which points are surely of a face: the first of these that leaves enough.
 const CLEAR: [f64; 3] = [2.5, 1.5, 0.75];
-/// Enough of them.
-const ENOUGH: usize = 20;
+/// Fewest sure points that are enough.
+const FEWEST_SURE: usize = 20;
 /// Neighbors whose farthest tells the distance of neighbors, and places where that is looked at.
 const NEIGHBORS: usize = 16;
 const PLACES: usize = 200;
@@ -68,7 +68,7 @@ const PLACES: usize = 200;
 /// Vertices of a mesh have faces by where they lie and how they face; points of a cloud by where they lie alone. Points within noise of two faces are of
 /// one of them. Deterministic for any number of threads. Cost: for each face a pass over the points, and a search for each point within its reach.
 /// ```
-/// use trueness_geom::partition::{Class, Faces, NONE, Options, partition};
+/// use trueness_geom::partition::{Class, Faces, NO_FACE, Options, partition};
 /// use trueness_geom::{mesh::Mesh, progress::Silent};
 /// // The four faces of a tetrahedron, and places of its largest, 0.1 above it; one place is far off.
 /// let nominal = Mesh {
@@ -84,7 +84,7 @@ const PLACES: usize = 200;
 /// let top = faces.of_facets[0];
 /// assert_eq!((found.owners[0], found.classes[0]), (top, Class::Face));
 /// assert!((found.placed[top as usize].offset - 0.1).abs() < 1e-9);
-/// assert_eq!(found.owners.last(), Some(&NONE));
+/// assert_eq!(found.owners.last(), Some(&NO_FACE));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
@@ -166,7 +166,7 @@ impl Work<'_> {
             let mut found = vec![];
             for times in CLEAR {
                 found = clear(near, *reach, times);
-                if found.len() >= ENOUGH {
+                if found.len() >= FEWEST_SURE {
                     break;
                 }
             }

@@ -8,7 +8,7 @@ use crate::shape::Shape;
 use crate::space::Point;
 
 /// Points that a face is placed by, at most.
-const SOME: usize = 2000;
+const MOST_PLACES: usize = 2000;
 /// Points for each unknown from which on a face is fitted; with fewer it is moved along its normal.
 const PER_UNKNOWN: usize = 4;
 /// Share of the deviation below which a fit is clearly better than a move along the normal. Points along one line or circle of a narrow face do not tell
@@ -32,7 +32,7 @@ pub struct Placed {
 
 impl Placed {
     pub(super) fn of(face: &Face, points: &[Point], sure: &[u32], floor: f64, seed: u64) -> Placed {
-        let chosen = Random::new(seed).choose(SOME, sure.len());
+        let chosen = Random::new(seed).choose(MOST_PLACES, sure.len());
         let places: Vec<Point> = chosen.into_iter().map(|i| points[sure[i] as usize]).collect();
         let with = |shape: Option<Shape>| {
             let mut placed = Placed { shape, offset: 0.0, deviation: 0.0, points: sure.len() };

@@ -35,7 +35,7 @@ pub enum Class {
 /// A scan parted among faces.
 #[derive(Clone, Debug)]
 pub struct Partition {
-    /// The face of each point; [`NONE`](super::NONE) where it has none.
+    /// The face of each point; [`NO_FACE`](super::NO_FACE) where it has none.
     pub owners: Vec<u32>,
     /// What each point is.
     pub classes: Vec<Class>,

@@ -108,13 +108,13 @@ fn wrong(
     let mut far: (usize, f64) = (0, 0.0);
     for (p, side) in sides.iter().enumerate() {
         let owner = found.owners[p];
-        let right = owner != NONE && of_faces[owner as usize] == *side && found.classes[p] == Class::Face;
+        let right = owner != NO_FACE && of_faces[owner as usize] == *side && found.classes[p] == Class::Face;
         if right {
             continue;
         }
         far.0 += 1;
         // How far off the side that it was given to.
-        let given = if owner == NONE { *side } else { of_faces[owner as usize] };
+        let given = if owner == NO_FACE { *side } else { of_faces[owner as usize] };
         let [a, b] = [truth[given], truth[(given + 1) % truth.len()]];
         let q = scan.positions[p];
         let off = minus2([libm::hypot(q[0], q[1]), q[2]], a);

@@ -1,7 +1,7 @@
 //! What no face explains.
 
 use super::best::Best;
-use super::faces::NONE;
+use super::faces::NO_FACE;
 use super::terms::{Class, EXPLAINED};
 use crate::mesh::Mesh;
 use crate::space::Point;
@@ -20,7 +20,7 @@ pub(super) fn classes(scan: &Mesh, best: &mut Best, spacing: f64) -> Vec<Class> 
     let count = scan.positions.len();
     let is_open = |p: usize| best.cost[p].is_nan() || best.cost[p] > EXPLAINED;
     let mut classes: Vec<Class> =
-        best.owner.iter().map(|o| if *o == NONE { Class::Beyond } else { Class::Face }).collect();
+        best.owner.iter().map(|o| if *o == NO_FACE { Class::Beyond } else { Class::Face }).collect();
     let open: Vec<u32> = (0..count as u32).filter(|p| is_open(*p as usize)).collect();
     let mut groups = Groups((0..count as u32).collect());
     match scan.faces.is_empty() {
@@ -50,13 +50,13 @@ pub(super) fn classes(scan: &Mesh, best: &mut Best, spacing: f64) -> Vec<Class> 
     members.sort_unstable();
     for group in members.chunk_by(|a, b| a.0 == b.0) {
         let of_faces: Vec<usize> =
-            group.iter().map(|m| m.1 as usize).filter(|p| best.owner[*p] != NONE).collect();
+            group.iter().map(|m| m.1 as usize).filter(|p| best.owner[*p] != NO_FACE).collect();
         let seats = || of_faces.iter().filter_map(|p| best.seat[*p]);
         let (total, outside) = (seats().count(), seats().filter(|s| s.off > 0.0).count());
         let along = seats().filter(|s| s.within < ALONG * spacing).count();
         let class = if group.len() - of_faces.len() >= SEVERAL {
             for p in of_faces.iter().filter(|p| best.seat[**p].is_none_or(|s| s.within <= 0.0)) {
-                best.owner[*p] = NONE;
+                best.owner[*p] = NO_FACE;
             }
             if 2 * outside >= total { Class::High } else { Class::Deep }
         } else if 2 * along > total {
@@ -65,7 +65,7 @@ pub(super) fn classes(scan: &Mesh, best: &mut Best, spacing: f64) -> Vec<Class> 
             continue;
         };
         for p in of_faces {
-            classes[p] = if best.owner[p] == NONE { Class::Beyond } else { class };
+            classes[p] = if best.owner[p] == NO_FACE { Class::Beyond } else { class };
         }
     }
     classes

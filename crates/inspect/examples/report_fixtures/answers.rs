@@ -227,7 +227,7 @@ pub fn segment_page(mesh: &Mesh, options: &ReportOptions) -> (Vec<u8>, SegmentDo
     let wish = segment::Options::default();
     let found = segment::mesh(mesh, &wish, &Silent).unwrap();
     let files = vec![file(Role::Measured, "peg.stl", mesh)];
-    let noise = trueness_inspect::fit::told(found.shared_noise(mesh, 0, &Silent)).unwrap();
+    let noise = trueness_inspect::results::noise_or_reason(found.shared_noise(mesh, 0, &Silent)).unwrap();
     let document = SegmentDocument::new(&found, &noise, PieceKind::Facets, files, &wish, None);
     let view = trueness_inspect::segment::View::new(&document, mesh, &found.labels);
     let (objects, marks) = (view.objects(), &view.marks[..]);

@@ -29,7 +29,7 @@ mod word;
 pub use bounds::Bounds;
 pub use input::{ColumnRecord, IncompleteRecord, InputRecord, Role, TableRecord, UNITS, VERSION};
 pub(crate) use noise::points_per_independent;
-pub use noise::{NoiseOrReason, SharedNoise};
+pub use noise::{NoiseOrReason, SharedNoise, noise_or_reason};
 pub use percent::{of_percent, percent, percents};
 pub(crate) use reason::judged;
 pub use reason::{ReasonKind, VerdictReason};

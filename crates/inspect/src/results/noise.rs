@@ -2,7 +2,8 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use trueness_geom::noise::Noise;
+use trueness_geom::noise::{NoNoise, Noise};
+use trueness_geom::progress::Cancelled;
 
 /// The noise of what was measured: what its points scatter by about smooth surfaces, and how far neighbors share it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -36,6 +37,17 @@ impl From<Noise> for SharedNoise {
 
 /// The noise, or why none is told and points count as independent.
 pub type NoiseOrReason = Result<SharedNoise, String>;
+
+/// What was found, as documents hold it.
+///
+/// # Errors
+/// Cancelled.
+pub fn noise_or_reason(found: Result<Noise, NoNoise>) -> Result<NoiseOrReason, Cancelled> {
+    match found {
+        Err(NoNoise::Cancelled(e)) => Err(e),
+        found => Ok(found.map(Into::into).map_err(|e| e.to_string())),
+    }
+}
 
 /// Points that tell as much as an independent one, where neighbors share noise.
 pub(crate) fn shared(noise: Option<SharedNoise>) -> Option<f64> {
