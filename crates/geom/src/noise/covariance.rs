@@ -52,6 +52,10 @@ pub(super) fn found(patches: &[Moments]) -> Noise {
     let mut kept = cleaner_half(patches);
     let mut model = explained(patches, &kept);
     for _ in 0..ROUNDS {
+        // Data without noise, or with that of rounding alone, leave nothing to choose patches by.
+        if model.variance() < f64::MIN_POSITIVE.sqrt() {
+            break;
+        }
         let next = clean(patches, &model);
         if next == kept || !next.contains(&true) {
             break;
