@@ -1,6 +1,7 @@
 //! Nominal features: what is looked for, and how near to it.
 
 use super::bounds::Polygon;
+use crate::shape::Shape;
 use crate::space::{Point, Vector, plus, times, unit};
 
 /// A feature as the model has it, in the model's coordinates, millimeters and radians. Directions need not be unit vectors.
@@ -96,6 +97,9 @@ pub enum FeatureError {
     /// The boundary of a plane encloses nothing.
     #[error("the boundary of the nominal plane needs at least three corners that enclose an area")]
     Boundary,
+    /// An edge is no face.
+    #[error("an edge is no face")]
+    NoFace,
     /// Stopped through the progress argument.
     #[error("cancelled")]
     Cancelled,
@@ -130,6 +134,30 @@ impl Nominal {
             | Nominal::Edge { direction, .. } => Some(*direction),
             Nominal::Sphere { .. } => None,
         }
+    }
+
+    /// The element that it lies on, with unit directions; `None` of an edge, and where a direction has no length.
+    ///
+    /// ```
+    /// use trueness_geom::{feature::Nominal, shape::Shape};
+    /// let bore = Nominal::Cylinder { point: [0.0; 3], direction: [0.0, 0.0, 2.0], radius: 4.0, length: 9.0 };
+    /// assert_eq!(bore.shape(), Some(Shape::Cylinder { point: [0.0; 3], direction: [0.0, 0.0, 1.0], radius: 4.0 }));
+    /// ```
+    pub fn shape(&self) -> Option<Shape> {
+        let way = |v: Vector| unit(v).map(|u| u.0);
+        Some(match *self {
+            Nominal::Plane { point, normal, .. } => Shape::Plane { point, normal: way(normal)? },
+            Nominal::Cylinder { point, direction, radius, .. } => {
+                Shape::Cylinder { point, direction: way(direction)?, radius }
+            }
+            Nominal::Cone { apex, direction, half_angle, between: [from, to] } => {
+                let (direction, along) = (way(direction)?, 0.5 * (from + to));
+                let radius = along * libm::tan(half_angle);
+                Shape::Cone { apex, direction, half_angle, point: plus(apex, times(along, direction)), radius }
+            }
+            Nominal::Sphere { center, radius } => Shape::Sphere { center, radius },
+            Nominal::Edge { .. } => return None,
+        })
     }
 
     /// Area of the feature as the model has it, holes in it not taken off, mm²; of an edge, `None`.

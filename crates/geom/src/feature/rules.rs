@@ -87,21 +87,19 @@ impl<'a> Rules<'a> {
         // Discs across an axis.
         let around = |discs: [(Point, f64); 2], axis: Vector| {
             let all = discs.map(|(center, radius)| {
-                let reach = axis.map(|d| radius.max(0.0) * (1.0 - d * d).max(0.0).sqrt());
+                // Along an axis of its own a disc has no extent, however large it is.
+                let across = axis.map(|d| (1.0 - d * d).max(0.0).sqrt());
+                let reach = across.map(|share| if share > 0.0 { radius.max(0.0) * share } else { 0.0 });
                 Aabb { min: minus(center, reach), max: plus(center, reach) }
             });
             all[0].union(&all[1])
         };
         let bounds = match &self.kind {
-            CheckedNominal::Plane { point, normal, boundary } => {
-                let axes = boundary.axes();
-                let mut bounds =
-                    Aabb::of(&boundary.around(beyond).map(|at| lifted(at, axes, *point, *normal)));
-                let dropped = dropped(axes);
-                let off = distance / normal[dropped].abs();
-                bounds.min[dropped] -= off;
-                bounds.max[dropped] += off;
-                bounds
+            CheckedNominal::Plane { normal, boundary, .. } => {
+                let flat = Aabb::of(&boundary.around(beyond));
+                // Across an axis along which the plane lies it has no extent, however far it reaches.
+                let off = normal.map(|n| if n == 0.0 { 0.0 } else { distance * n.abs() });
+                Aabb { min: minus(flat.min, off), max: plus(flat.max, off) }
             }
             CheckedNominal::Cylinder { point, direction, radius, length } => {
                 let ends = [-beyond, length + beyond].map(|along| plus(*point, times(along, *direction)));
@@ -175,6 +173,25 @@ impl<'a> Rules<'a> {
         }
     }
 
+    /// How far a place lies within the bounds of the feature, along it; below zero beyond them, infinite where it has none.
+    pub(super) fn within(&self, p: Point) -> f64 {
+        let between = |along: f64, low: f64, high: f64| (along - low).min(high - along);
+        match &self.kind {
+            CheckedNominal::Plane { boundary, .. } => boundary.within(p),
+            CheckedNominal::Cylinder { point, direction, length, .. }
+            | CheckedNominal::Edge { point, direction, length, .. } => {
+                between(polar(p, *point, *direction).1, 0.0, *length)
+            }
+            CheckedNominal::Cone { apex, direction, half_angle, between: [from, to] } => {
+                let (off, along) = polar(p, *apex, *direction);
+                // Along the surface, from its foot there.
+                let (sine, cosine) = (libm::sin(*half_angle), libm::cos(*half_angle));
+                between(along * cosine + off * sine, from / cosine, to / cosine)
+            }
+            CheckedNominal::Sphere { .. } => f64::INFINITY,
+        }
+    }
+
     /// Whether a facet about `center` faces as the feature does there, within `angle`.
     fn faces(&self, center: Point, facing: Vector, angle: f64) -> bool {
         // Inwards in a bore, outwards on a boss.
@@ -227,10 +244,7 @@ impl<'a> Rules<'a> {
         };
         const LEVELS: [f64; 3] = [0.5, 0.2, 0.8];
         match &self.kind {
-            CheckedNominal::Plane { point, normal, boundary } => {
-                let axes = boundary.axes();
-                boundary.places().into_iter().map(|at| lifted(at, axes, *point, *normal)).collect()
-            }
+            CheckedNominal::Plane { boundary, .. } => boundary.places(),
             CheckedNominal::Cylinder { point, direction, radius, length } => LEVELS
                 .iter()
                 .flat_map(|t| ring(plus(*point, times(t * length, *direction)), *direction, *radius))
@@ -254,20 +268,6 @@ impl<'a> Rules<'a> {
             }
         }
     }
-}
-
-/// The place of a plane that has two coordinates.
-fn lifted(at: [f64; 2], axes: [usize; 2], point: Point, normal: Vector) -> Point {
-    let dropped = dropped(axes);
-    let mut p = point;
-    (p[axes[0]], p[axes[1]]) = (at[0], at[1]);
-    p[dropped] -= dot(minus(p, point), normal) / normal[dropped];
-    p
-}
-
-/// The third axis.
-fn dropped(axes: [usize; 2]) -> usize {
-    3 - axes[0] - axes[1]
 }
 
 /// Distance from an axis, and place along it.

@@ -1,6 +1,7 @@
 //! The face of each point that costs least.
 
-use super::faces::{NO_FACE, Seat};
+use super::faces::Seat;
+use super::terms::NO_FACE;
 
 /// A point near a face.
 #[derive(Clone, Copy, Debug)]
@@ -15,12 +16,14 @@ pub(super) struct Best {
     pub cost: Vec<f64>,
     pub second: Vec<f64>,
     pub seat: Vec<Option<Seat>>,
+    /// The number of faces that it lies nearer to than neighbors lie apart.
+    pub near: Vec<u8>,
 }
 
 impl Best {
     pub(super) fn new(count: usize) -> Best {
         let far = vec![f64::INFINITY; count];
-        Best { owner: vec![NO_FACE; count], cost: far.clone(), second: far, seat: vec![None; count] }
+        Best { owner: vec![NO_FACE; count], cost: far.clone(), second: far, seat: vec![None; count], near: vec![0; count] }
     }
     pub(super) fn forget(&mut self, p: usize) {
         (self.owner[p], self.cost[p], self.seat[p]) = (NO_FACE, f64::INFINITY, None);

@@ -1,15 +1,16 @@
 //! The nominal cut into faces, and where a point lies on a face.
 
-use crate::closest::{BoundaryEdges, Tree};
+use super::cut::{self, Cut};
+use crate::feature::{Extent, FeatureError, Nominal};
+use crate::closest::{BoundaryEdges, Query, QueryError, Tree};
 use crate::mesh::Mesh;
-use crate::progress::Progress;
-use crate::segment::{self, Options, SegmentError};
-use crate::shape::Shape;
+use crate::parallel::prelude::*;
+use crate::progress::{Cancelled, Progress, Silent};
+use crate::segment::SegmentError;
+use crate::shape::{Kind, Shape};
+use crate::spatial::neighbors::PointTree;
 use crate::space::{self, Aabb, Point, Vector, cross, dot, minus, norm, plus, times, unit};
 use std::collections::BTreeMap;
-
-/// No face.
-pub const NO_FACE: u32 = u32::MAX;
 
 /// A face of the nominal.
 pub struct Face {
@@ -21,6 +22,21 @@ pub struct Face {
     pub bounds: Aabb,
     /// 1 where distances of the element are positive outside of the material, else −1.
     pub(super) outward: f64,
+    goes: Goes,
+}
+
+/// How far a face goes.
+enum Goes {
+    /// As far as its facets.
+    Facets(Facets),
+    /// As far as the bounds of a nominal feature.
+    Nominal(Extent),
+    /// As far as measured points that were found to be of it, which lie no farther apart.
+    Points(PointTree, f64),
+}
+
+/// The facets of a face.
+struct Facets {
     mesh: Mesh,
     tree: Tree,
     rim: BoundaryEdges,
@@ -48,60 +64,47 @@ pub struct Faces {
 }
 
 impl Faces {
+    /// No face yet.
+    pub fn none() -> Faces {
+        Faces { all: vec![], of_facets: vec![] }
+    }
+
+    /// Adds a nominal feature as a face: its number. `inward` is whether it faces its axis or center. Where it ends is known by its bounds alone, not where
+    /// other faces cut it.
+    ///
+    /// # Errors
+    /// [`FeatureError`]: a nominal feature that makes no sense, or an edge, which is no face.
+    pub fn add_nominal(&mut self, nominal: &Nominal, inward: bool) -> Result<u32, FeatureError> {
+        let extent = Extent::new(nominal)?;
+        let shape = nominal.shape().ok_or(FeatureError::NoFace)?;
+        let is_plane = matches!(nominal, Nominal::Plane { .. });
+        let outward = if inward && !is_plane { -1.0 } else { 1.0 };
+        let bounds = extent.bounds();
+        Ok(self.add(Face { facets: vec![], shape: Some(shape), bounds, outward, goes: Goes::Nominal(extent) }))
+    }
+
+    /// Adds an element that measured points were found to lie on as a face: its number. It goes as far as these points, which lie no farther apart than
+    /// `apart`. `outward` is whether distances of the element are positive outside of the material.
+    pub fn add_measured(&mut self, points: &[Point], shape: Shape, apart: f64, outward: bool) -> u32 {
+        let goes = Goes::Points(PointTree::new(points), apart);
+        let outward = if outward { 1.0 } else { -1.0 };
+        self.add(Face { facets: vec![], shape: Some(shape), bounds: Aabb::of(points), outward, goes })
+    }
+
+    fn add(&mut self, face: Face) -> u32 {
+        self.all.push(face);
+        self.all.len() as u32 - 1
+    }
+
     /// The faces of a nominal with outward facets that share vertices. Facets without area are of none.
     ///
     /// # Errors
     /// [`SegmentError`]: no facets, coordinates that are no numbers.
     pub fn of(nominal: &Mesh, progress: &dyn Progress) -> Result<Faces, SegmentError> {
-        let options = Options::default();
-        let found = segment::mesh(nominal, &options, progress)?;
-        let mut of_facets = found.labels.clone();
-        let mut shapes: Vec<Option<Shape>> = found.regions.iter().map(|r| Some(r.fit.shape)).collect();
-        free(nominal, options.crease, &mut of_facets, &mut shapes);
-        let mut facets: Vec<Vec<u32>> = vec![vec![]; shapes.len()];
-        for (facet, &face) in (0u32..).zip(&of_facets).filter(|f| *f.1 != NO_FACE) {
-            facets[face as usize].push(facet);
-        }
-        let all = facets.into_iter().zip(shapes).map(|(facets, shape)| Face::new(nominal, facets, shape));
-        Ok(Faces { all: all.collect::<Option<_>>().ok_or(SegmentError::NoSurface)?, of_facets })
-    }
-}
-
-/// Gives facets without a face new ones, each up to creases from this angle on and to the other faces.
-fn free(nominal: &Mesh, crease: f64, of_facets: &mut [u32], shapes: &mut Vec<Option<Shape>>) {
-    let normals: Vec<Option<Vector>> = nominal.faces.iter().map(|f| normal(nominal, f)).collect();
-    let mut sides: BTreeMap<[u32; 2], Vec<u32>> = BTreeMap::new();
-    let is_free = |facet: usize, of: &[u32]| of[facet] == NO_FACE && normals[facet].is_some();
-    for (facet, f) in nominal.faces.iter().enumerate().filter(|(i, _)| is_free(*i, of_facets)) {
-        for k in 0..3 {
-            let (a, b) = (f[k], f[(k + 1) % 3]);
-            sides.entry([a.min(b), a.max(b)]).or_default().push(facet as u32);
-        }
-    }
-    for start in 0..of_facets.len() {
-        if !is_free(start, of_facets) {
-            continue;
-        }
-        let number = shapes.len() as u32;
-        shapes.push(None);
-        of_facets[start] = number;
-        let mut waiting = vec![start as u32];
-        while let Some(facet) = waiting.pop() {
-            let f = nominal.faces[facet as usize];
-            for k in 0..3 {
-                let (a, b) = (f[k], f[(k + 1) % 3]);
-                for &other in sides.get(&[a.min(b), a.max(b)]).into_iter().flatten() {
-                    let smooth = match (normals[facet as usize], normals[other as usize]) {
-                        (Some(a), Some(b)) => dot(a, b) >= libm::cos(crease),
-                        _ => false,
-                    };
-                    if smooth && of_facets[other as usize] == NO_FACE {
-                        of_facets[other as usize] = number;
-                        waiting.push(other);
-                    }
-                }
-            }
-        }
+        let Cut { of_facets, facets, shapes } = cut::cut(nominal, progress)?;
+        let faces = facets.into_par_iter().zip(shapes);
+        let all = faces.map(|(facets, shape)| Face::new(nominal, facets, shape)).collect::<Option<_>>();
+        Ok(Faces { all: all.ok_or(SegmentError::NoSurface)?, of_facets })
     }
 }
 
@@ -149,43 +152,175 @@ impl Face {
         };
         let facing = shape.map_or(1.0, |s| mesh.faces.iter().map(|f| towards(s, f)).sum());
         let bounds = Aabb::of(&mesh.positions);
-        Some(Face { facets, shape, bounds, outward: 1f64.copysign(facing), mesh, tree, rim, border })
+        let goes = Goes::Facets(Facets { mesh, tree, rim, border });
+        Some(Face { facets, shape, bounds, outward: 1f64.copysign(facing), goes })
     }
 
-    /// Where a point lies on the face; `None` where that is farther than the reach, or the element has no direction there.
-    pub(super) fn seat(&self, p: Point, reach: f64) -> Option<Seat> {
-        match self.shape {
-            Some(shape) => {
-                let off = self.outward * shape.distance(p);
-                if off.is_nan() || off.abs() > reach {
-                    return None;
-                }
-                let normal = times(self.outward, unit(shape.normal(p))?.0);
-                let foot = minus(p, times(off, normal));
-                let place = self.tree.closest(&foot, f64::INFINITY).ok()??;
-                let within = match self.rim.holds(&place) {
-                    true => -place.distance,
-                    false => self.to_border(&foot),
-                };
-                Some(Seat { off, within, normal })
-            }
-            None => {
-                let place = self.tree.closest(&p, f64::INFINITY).ok()??;
-                let away = minus(p, place.point);
-                let normal = normal(&self.mesh, self.mesh.faces.get(place.face as usize)?)?;
-                let across = dot(away, normal);
-                let along = norm(minus(away, times(across, normal)));
-                let (off, within) = match self.rim.holds(&place) {
-                    true => (across, -along),
-                    false => (norm(away).copysign(across), self.to_border(&place.point)),
-                };
-                (off.abs() <= reach).then_some(Seat { off, within, normal })
-            }
+    /// Where points lie on the face; `None` of those farther off than `reach`, or beyond its border by more than `far`, and where the element has no
+    /// direction. Borders farther than `far` are not looked for: infinitely far within.
+    ///
+    /// Cost: two closest points each, in batches.
+    pub(super) fn seats(
+        &self,
+        points: &[Point],
+        reach: f64,
+        far: f64,
+        progress: &dyn Progress,
+    ) -> Result<Vec<Option<Seat>>, Cancelled> {
+        let across: Vec<Option<(f64, Vector)>> = match self.shape {
+            Some(shape) => points.par_iter().map(|p| self.across(shape, *p, reach)).collect(),
+            None => vec![None; points.len()],
+        };
+        let foot = |(p, across): (&Point, &Option<(f64, Vector)>)| match across {
+            Some((off, normal)) => minus(*p, times(*off, *normal)),
+            None => *p,
+        };
+        let feet: Vec<Point> = points.iter().zip(&across).map(foot).collect();
+        let within: Vec<f64> = match &self.goes {
+            Goes::Nominal(extent) => feet.par_iter().map(|p| extent.within(*p)).collect(),
+            Goes::Points(tree, apart) => feet.par_iter().map(|p| beyond(tree, *apart, p)).collect(),
+            Goes::Facets(facets) => match self.shape {
+                Some(_) => facets.within(&feet, far, progress)?,
+                None => return facets.free(points, reach, far, progress),
+            },
+        };
+        let seat = |(across, within): (Option<(f64, Vector)>, f64)| {
+            let (off, normal) = across?;
+            (within >= -far).then_some(Seat { off, within, normal })
+        };
+        Ok(across.into_par_iter().zip(within).map(seat).collect())
+    }
+
+    /// How far a point is off the element, positive outside of the material, and the normal there.
+    fn across(&self, shape: Shape, p: Point, reach: f64) -> Option<(f64, Vector)> {
+        let off = self.outward * shape.distance(p);
+        (off.abs() <= reach).then_some((off, times(self.outward, unit(shape.normal(p))?.0)))
+    }
+
+    /// Its unit normal near a place, out of the material.
+    pub(super) fn facing(&self, p: &Point) -> Option<Vector> {
+        match (self.shape, &self.goes) {
+            (Some(shape), _) => self.across(shape, *p, f64::INFINITY).map(|a| a.1),
+            (None, Goes::Facets(facets)) => facets.facing(p),
+            (None, _) => None,
         }
+    }
+
+    /// How far a point lies off the face, positive outside of the material, and the unit normal there; `None` of points that do not lie over it or are
+    /// farther off than `reach`.
+    pub fn over(&self, p: &Point, reach: f64) -> Option<(f64, Vector)> {
+        let seats = self.seats(&[*p], reach, 0.0, &Silent);
+        seats.ok()?.first().copied()?.map(|seat| (seat.off, seat.normal))
+    }
+
+    /// Of a cylinder, cone, sphere or torus, whether it faces its axis or center, as a bore does.
+    pub fn inward(&self) -> Option<bool> {
+        let plane = self.shape.is_none_or(|s| s.kind() == Kind::Plane);
+        (!plane).then_some(self.outward < 0.0)
+    }
+
+    /// How far the foot of a point is from the border of the face; infinite where it has none.
+    pub fn to_border(&self, p: &Point) -> f64 {
+        let across = self.shape.and_then(|shape| self.across(shape, *p, f64::INFINITY));
+        let foot = across.map_or(*p, |(off, normal)| minus(*p, times(off, normal)));
+        match &self.goes {
+            Goes::Facets(facets) => facets.to_border(&foot),
+            Goes::Nominal(extent) => extent.within(foot).abs(),
+            Goes::Points(..) => f64::INFINITY,
+        }
+    }
+}
+
+/// Infinite within measured points; how far beyond them, below zero.
+fn beyond(points: &PointTree, apart: f64, p: &Point) -> f64 {
+    let away = points.nearest(p).map_or(f64::INFINITY, |n| n.0.sqrt());
+    if away <= apart { f64::INFINITY } else { apart - away }
+}
+
+impl Facets {
+    /// How far feet lie within the border; borders farther than `far` are not looked for: infinitely far within.
+    fn within(&self, feet: &[Point], far: f64, progress: &dyn Progress) -> Result<Vec<f64>, Cancelled> {
+        let on = self.on(feet, progress)?;
+        let borders = self.borders(feet, far, progress)?;
+        let within = |(on, border): (Option<On>, Option<f64>)| match on {
+            Some(on) if on.rim => -on.distance,
+            Some(_) => border.unwrap_or(f64::INFINITY),
+            None => f64::NEG_INFINITY,
+        };
+        Ok(on.into_iter().zip(borders).map(within).collect())
+    }
+
+    /// Where points lie on a free face.
+    fn free(
+        &self,
+        points: &[Point],
+        reach: f64,
+        far: f64,
+        progress: &dyn Progress,
+    ) -> Result<Vec<Option<Seat>>, Cancelled> {
+        let on = self.on(points, progress)?;
+        let feet: Vec<Point> = points.iter().zip(&on).map(|(p, on)| on.map_or(*p, |on| on.point)).collect();
+        let borders = self.borders(&feet, far, progress)?;
+        let seat = |i: usize| {
+            let (on, border) = (on[i]?, borders[i].unwrap_or(f64::INFINITY));
+            let away = minus(points[i], on.point);
+            let normal = normal(&self.mesh, self.mesh.faces.get(on.face as usize)?)?;
+            let across = dot(away, normal);
+            let along = norm(minus(away, times(across, normal)));
+            let seat = match on.rim {
+                true => Seat { off: across, within: -along, normal },
+                false => Seat { off: norm(away).copysign(across), within: border, normal },
+            };
+            (seat.off.abs() <= reach && seat.within >= -far).then_some(seat)
+        };
+        Ok((0..points.len()).into_par_iter().map(seat).collect())
+    }
+
+    fn on(&self, feet: &[Point], progress: &dyn Progress) -> Result<Vec<Option<On>>, Cancelled> {
+        let on = self.tree.map_closest(feet, &Query::default(), progress, |i, hit| {
+            let place = self.tree.place(&feet[i], &hit?);
+            let rim = self.rim.holds(&place);
+            Some(On { face: place.face, point: place.point, distance: place.distance, rim })
+        });
+        asked(on, feet.len())
+    }
+
+    fn borders(
+        &self,
+        feet: &[Point],
+        far: f64,
+        progress: &dyn Progress,
+    ) -> Result<Vec<Option<f64>>, Cancelled> {
+        let Some(border) = &self.border else { return Ok(vec![None; feet.len()]) };
+        let query = Query { max_distance: far, ..Query::default() };
+        let found = border.map_closest(feet, &query, progress, |_, hit| hit.map(|h| h.distance()));
+        asked(found, feet.len())
+    }
+
+    fn facing(&self, p: &Point) -> Option<Vector> {
+        let place = self.tree.closest(p, f64::INFINITY).ok()??;
+        normal(&self.mesh, self.mesh.faces.get(place.face as usize)?)
     }
 
     fn to_border(&self, foot: &Point) -> f64 {
         let Some(border) = &self.border else { return f64::INFINITY };
         border.closest(foot, f64::INFINITY).ok().flatten().map_or(f64::INFINITY, |c| c.distance)
+    }
+}
+
+/// The place of some facets that is closest to a foot.
+#[derive(Clone, Copy)]
+struct On {
+    face: u32,
+    point: Point,
+    distance: f64,
+    rim: bool,
+}
+
+/// Closest places of points near a face: what is near it can be asked.
+fn asked<T: Copy>(found: Result<Vec<Option<T>>, QueryError>, count: usize) -> Result<Vec<Option<T>>, Cancelled> {
+    match found {
+        Err(QueryError::Cancelled(e)) => Err(e),
+        found => Ok(found.unwrap_or_else(|_| vec![None; count])),
     }
 }

@@ -1,5 +1,6 @@
 //! Where the surface of a face goes on near its border, by the sure points around.
 
+use super::best::Candidate;
 use super::faces::{Face, Seat};
 use super::placed::Placed;
 use super::terms::EXPLAINED;
@@ -20,6 +21,7 @@ pub(super) struct Sure<'a> {
     face: &'a Face,
     placed: &'a Placed,
     places: Vec<Point>,
+    normals: Vec<Vector>,
     offs: Vec<f64>,
     tree: PointTree,
 }
@@ -35,15 +37,19 @@ struct Told {
 }
 
 impl<'a> Sure<'a> {
-    pub(super) fn new(face: &'a Face, placed: &'a Placed, points: &[Point], sure: &[u32]) -> Sure<'a> {
+    pub(super) fn new(face: &'a Face, placed: &'a Placed, points: &[Point], sure: &[Candidate]) -> Sure<'a> {
         // What the face does not explain, as a wall that stands on it, tells nothing of it.
-        let seated = sure.iter().filter_map(|i| {
-            let p = points[*i as usize];
-            let off = placed.off(face, p, face.seat(p, f64::INFINITY)?);
-            (off.abs() <= EXPLAINED * placed.deviation).then_some((p, off))
-        });
-        let (places, offs): (Vec<Point>, Vec<f64>) = seated.unzip();
-        Sure { face, placed, tree: PointTree::new(&places), places, offs }
+        let (mut places, mut normals, mut offs) = (vec![], vec![], vec![]);
+        for c in sure {
+            let p = points[c.point as usize];
+            let off = placed.off(face, p, c.seat);
+            if off.abs() <= EXPLAINED * placed.deviation {
+                places.push(p);
+                normals.push(c.seat.normal);
+                offs.push(off);
+            }
+        }
+        Sure { face, placed, tree: PointTree::new(&places), places, normals, offs }
     }
 
     /// How many deviations a point lies off the surface that the points around tell; `None` beyond the reach.
@@ -54,6 +60,11 @@ impl<'a> Sure<'a> {
             None => off.abs() / self.placed.deviation.max(noise),
         };
         (off.abs() <= reach).then(over)
+    }
+
+    /// How far the nearest sure point is.
+    pub(super) fn nearest(&self, p: &Point) -> Option<f64> {
+        self.tree.nearest(p).map(|n| n.0.sqrt())
     }
 
     fn told(&self, p: Point, normal: Vector) -> Option<Told> {
@@ -111,11 +122,8 @@ pub(super) fn noise(all: &[Sure], seed: u64) -> f64 {
     let mut found: Vec<f64> = (all.par_iter())
         .flat_map_iter(|sure| {
             let chosen = Random::new(seed).choose(PLACES, sure.places.len());
-            chosen.into_iter().filter_map(|i| {
-                let p = sure.places[i];
-                let seat = sure.face.seat(p, f64::INFINITY)?;
-                sure.told(p, seat.normal).map(|t| t.deviation)
-            })
+            let told = |i: usize| sure.told(sure.places[i], sure.normals[i]);
+            chosen.into_iter().filter_map(move |i| told(i).map(|t| t.deviation))
         })
         .collect();
     found.sort_by(f64::total_cmp);

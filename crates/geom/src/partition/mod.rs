@@ -15,12 +15,16 @@
 //! |---|---|
 //! | `terms` | what is asked and told |
 //! | `best` | the face of each point that costs least |
-//! | `faces` | the nominal cut into faces; where a point lies on a face |
+//! | `by_facets` | what the facets of a mesh tell |
+//! | `cut` | the nominal cut into faces |
+//! | `faces` | a face, and where a point lies on it |
 //! | `placed` | where a face really is |
 //! | `going_on` | where its surface goes on near a border |
 //! | `unexplained` | what no face explains |
 
 mod best;
+mod by_facets;
+mod cut;
 mod faces;
 mod going_on;
 mod placed;
@@ -29,18 +33,21 @@ mod terms;
 mod tests;
 mod unexplained;
 
-pub use faces::{Face, Faces, NO_FACE};
+pub use cut::element;
+pub use faces::{Face, Faces};
 pub use placed::Placed;
-pub use terms::{Class, Options, Partition, PartitionError};
+pub use terms::{Beyond, Class, NO_FACE, Options, Partition, PartitionError};
 
 use crate::mesh::Mesh;
 use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress};
-use crate::space::{Point, Vector, cross, dot, minus, plus, unit};
+use crate::space::{Aabb, Point, Vector, cross, dot, minus, plus, unit};
 use crate::spatial::neighbors::PointTree;
 use best::{Best, Candidate};
+use faces::Seat;
 use going_on::Sure;
 use terms::EXPLAINED;
+use unexplained::Over;
 
 /// Share of its diagonal that a face reaches where nothing else is said.
 const SHARE: f64 = 0.02;
@@ -53,17 +60,21 @@ const FREE: f64 = 0.3;
 /// A point is asked about again, by what is around, where the second of its faces costs less than this, or the best more than `ASKED`.
 const SECOND: f64 = 6.0 * EXPLAINED;
 const ASKED: f64 = 0.6 * EXPLAINED;
+/// A corner of facets is of each face that costs at most so much more than its best one: at a sharp edge of two.
+const SHARED: f64 = 1.0;
 /// Cosine of the angle (37°) up to which a sure point faces as its face does.
 const FACING: f64 = 0.8;
 /// Distances of neighbors from the border at which points are surely of a face: the first of these that leaves enough.
 const CLEAR: [f64; 3] = [2.5, 1.5, 0.75];
 /// Fewest sure points that are enough.
 const FEWEST_SURE: usize = 20;
+/// Share of the diagonal of all faces up to which what lies beyond the reach of a face may be of it.
+const ELSEWHERE: f64 = 0.1;
 /// Neighbors whose farthest tells the distance of neighbors, and places where that is looked at.
 const NEIGHBORS: usize = 16;
 const PLACES: usize = 200;
 
-/// Parts the vertices of a measured mesh, or without facets the points of a cloud, among the faces of the nominal; both in millimeters and in one frame.
+/// Parts the vertices of a measured mesh, or without facets the points of a cloud, among faces; all in millimeters and in one frame.
 ///
 /// Vertices of a mesh have faces by where they lie and how they face; points of a cloud by where they lie alone. Points within noise of two faces are of
 /// one of them. Deterministic for any number of threads. Cost: for each face a pass over the points, and a search for each point within its reach.
@@ -80,7 +91,8 @@ const PLACES: usize = 200;
 /// let mut positions: Vec<_> = (0..400).map(place).filter(|p| p[0] + p[1] < 29.0).collect();
 /// positions.push([5.0, 5.0, 40.0]);
 /// let scan = Mesh { positions, faces: vec![] };
-/// let found = partition(&scan, &faces, &Options { distance: Some(1.0), seed: 0 }, &Silent)?;
+/// let all: Vec<_> = faces.all.iter().collect();
+/// let found = partition(&scan, &all, &Options { distance: Some(1.0), ..Options::default() }, &Silent)?;
 /// let top = faces.of_facets[0];
 /// assert_eq!((found.owners[0], found.classes[0]), (top, Class::Face));
 /// assert!((found.placed[top as usize].offset - 0.1).abs() < 1e-9);
@@ -89,10 +101,10 @@ const PLACES: usize = 200;
 /// ```
 ///
 /// # Errors
-/// [`PartitionError`]: a coordinate that is no number, a facet that names no vertex, cancelled.
+/// [`PartitionError`]: a coordinate that is no number, a facet that names no vertex, a reach that is no length, cancelled.
 pub fn partition(
     scan: &Mesh,
-    faces: &Faces,
+    faces: &[&Face],
     options: &Options,
     progress: &dyn Progress,
 ) -> Result<Partition, PartitionError> {
@@ -103,42 +115,58 @@ pub fn partition(
     if let Some(facet) = scan.faces.iter().position(|f| f.iter().any(|v| *v as usize >= points.len())) {
         return Err(PartitionError::NoSuchVertex { facet });
     }
+    let reach = reaches(faces, options)?;
     let normals = (!scan.faces.is_empty()).then(|| vertex_normals(scan));
     let spacing = spacing(points, options.seed);
-    let reach = faces
-        .all
-        .iter()
-        .map(|f| options.distance.unwrap_or(SHARE * f.bounds.diagonal()))
-        .collect::<Vec<f64>>();
     let mut candidates = vec![];
-    for (face, reach) in faces.all.iter().zip(&reach) {
-        candidates.push(near(face, points, normals.as_deref(), AWAY * reach, spacing));
-        cancelled(progress)?;
+    for (face, reach) in faces.iter().zip(&reach) {
+        candidates.push(near(face, points, normals.as_deref(), AWAY * reach, spacing, progress)?);
     }
-    let work = Work { points, faces: &faces.all, reach, candidates, spacing };
-    let sure = work.sure(normals.as_deref());
+    let work = Work { points, faces, reach, candidates, spacing };
+    let mut sure = work.sure(normals.as_deref());
+    by_facets::add(scan, &work, &mut sure, progress)?;
     let floor = rounding(points);
-    let placed: Vec<Placed> = (faces.all.par_iter().zip(&sure))
+    let placed: Vec<Placed> = (faces.par_iter().zip(&sure))
         .map(|(face, sure)| Placed::of(face, points, sure, floor, options.seed))
         .collect();
     cancelled(progress)?;
-    let around: Vec<Sure> = (faces.all.par_iter().zip(&placed).zip(&sure))
+    let around: Vec<Sure> = (faces.par_iter().zip(&placed).zip(&sure))
         .map(|((face, placed), sure)| Sure::new(face, placed, points, sure))
         .collect();
+    drop(sure);
+    cancelled(progress)?;
     let noise = going_on::noise(&around, options.seed).max(floor);
     let mut best = work.by_faces(&placed, noise);
     cancelled(progress)?;
-    work.by_what_is_around(&mut best, &around, noise);
+    let shared = work.by_what_is_around(&mut best, &around, noise);
     cancelled(progress)?;
-    let classes = unexplained::classes(scan, &mut best, spacing);
+    drop(work);
+    let (classes, hanging) = unexplained::classes(scan, &mut best, spacing);
+    let facets = by_facets::owners(scan, (&best.owner, &classes), &shared, faces);
+    let size = faces.iter().fold(Aabb::EMPTY, |b, f| b.union(&f.bounds)).diagonal();
+    let over = Over { points, faces, around: &around, spacing, far: ELSEWHERE * size };
+    let beyond = over.faces(&hanging, progress)?;
     drop(around);
-    Ok(Partition { owners: best.owner, classes, placed, spacing, noise })
+    let inside = best.seat.iter().map(|s| s.is_some_and(|s| s.within >= 0.0)).collect();
+    let owners = best.owner;
+    Ok(Partition { owners, classes, inside, facets, beyond, placed, spacing, noise, rounding: floor })
+}
+
+/// How far each face reaches.
+fn reaches(faces: &[&Face], options: &Options) -> Result<Vec<f64>, PartitionError> {
+    let of = |(number, face): (usize, &&Face)| {
+        let own = options.reaches.get(&(number as u32)).copied().or(options.distance);
+        let value = own.unwrap_or(SHARE * face.bounds.diagonal());
+        let is_length = value > 0.0 && value.is_finite();
+        is_length.then_some(value).ok_or(PartitionError::Reach { face: number, value })
+    };
+    faces.iter().enumerate().map(of).collect()
 }
 
 /// Points and the faces that they may be of.
 struct Work<'a> {
     points: &'a [Point],
-    faces: &'a [Face],
+    faces: &'a [&'a Face],
     /// Of each face.
     reach: Vec<f64>,
     candidates: Vec<Vec<Candidate>>,
@@ -147,20 +175,20 @@ struct Work<'a> {
 
 impl Work<'_> {
     /// The points that are surely of each face: it is the nearest of those over which they lie, they face as it does and lie clear of its border.
-    fn sure(&self, normals: Option<&[Vector]>) -> Vec<Vec<u32>> {
+    fn sure(&self, normals: Option<&[Vector]>) -> Vec<Vec<Candidate>> {
         let mut least = vec![f64::INFINITY; self.points.len()];
         for c in self.candidates.iter().flatten().filter(|c| c.seat.within > 0.0) {
             let least = &mut least[c.point as usize];
             *least = least.min(c.seat.off.abs());
         }
-        let clear = |near: &[Candidate], reach: f64, times: f64| -> Vec<u32> {
+        let clear = |near: &[Candidate], reach: f64, times: f64| -> Vec<Candidate> {
             let is_own = |c: &&Candidate| {
                 let (p, off) = (c.point as usize, c.seat.off.abs());
                 c.seat.within > times * self.spacing
                     && off <= reach.min(least[p])
                     && normals.is_none_or(|n| dot(n[p], c.seat.normal) > FACING)
             };
-            near.iter().filter(is_own).map(|c| c.point).collect()
+            near.iter().filter(is_own).copied().collect()
         };
         let of_face = |(near, reach): (&Vec<Candidate>, &f64)| {
             let mut found = vec![];
@@ -183,6 +211,10 @@ impl Work<'_> {
             for c in &self.candidates[number] {
                 let off = placed[number].off(face, self.points[c.point as usize], c.seat).abs();
                 let is_there = c.seat.within > -FREE * self.spacing || off <= EXPLAINED * scale;
+                if off <= self.spacing && c.seat.within >= -self.spacing {
+                    let near = &mut best.near[c.point as usize];
+                    *near = near.saturating_add(1);
+                }
                 if is_there && off <= self.reach[number] {
                     best.add(c, number as u32, off / scale + self.beyond(c.seat.within));
                 }
@@ -191,8 +223,9 @@ impl Work<'_> {
         best
     }
 
-    /// Those whose face is not certain by that, by what is around them.
-    fn by_what_is_around(&self, best: &mut Best, around: &[Sure], noise: f64) {
+    /// Those whose face is not certain by that, by what is around them. Tells points, ascending, with all faces that explain them about as
+    /// well as the best.
+    fn by_what_is_around(&self, best: &mut Best, around: &[Sure], noise: f64) -> Vec<(u32, u32)> {
         let asked: Vec<bool> = (best.cost.iter().zip(&best.second))
             .map(|(cost, second)| cost.is_finite() && (*second < SECOND || *cost > ASKED))
             .collect();
@@ -202,13 +235,22 @@ impl Work<'_> {
                     let z = around.off_over(self.points[c.point as usize], c.seat, *reach, noise)?;
                     Some((*c, z + self.beyond(c.seat.within + FREE * self.spacing)))
                 };
-                near.iter().filter(|c| asked[c.point as usize]).filter_map(ask).collect()
+                near.par_iter().filter(|c| asked[c.point as usize]).filter_map(ask).collect()
             })
             .collect();
         (0..self.points.len()).filter(|p| asked[*p]).for_each(|p| best.forget(p));
+        let mut shared = vec![];
         for (number, near) in (0u32..).zip(&again) {
             near.iter().for_each(|(c, cost)| best.add(c, number, *cost));
         }
+        for (number, near) in (0u32..).zip(&again) {
+            let is_alike = |n: &&(Candidate, f64)| {
+                n.1 <= EXPLAINED.min(best.cost[n.0.point as usize] + SHARED)
+            };
+            shared.extend(near.iter().filter(is_alike).map(|n| (n.0.point, number)));
+        }
+        shared.sort_unstable();
+        shared
     }
 
     fn beyond(&self, within: f64) -> f64 {
@@ -223,22 +265,29 @@ fn near(
     normals: Option<&[Vector]>,
     reach: f64,
     spacing: f64,
-) -> Vec<Candidate> {
+    progress: &dyn Progress,
+) -> Result<Vec<Candidate>, Cancelled> {
+    let far = reach + CLEAR[0] * spacing;
     let bounds = face.bounds.widened(reach + spacing);
-    let seated = |(i, p): (usize, &Point)| {
-        if !bounds.holds(p) {
-            return None;
-        }
-        let seat = face.seat(*p, reach)?;
-        let is_near = seat.off.abs() <= reach && seat.within >= -reach - spacing;
-        let faces = normals.is_none_or(|n| dot(n[i], seat.normal) > 0.0);
-        (is_near && faces).then_some(Candidate { point: i as u32, seat })
+    let numbers: Vec<u32> =
+        (0..points.len() as u32).into_par_iter().filter(|i| bounds.holds(&points[*i as usize])).collect();
+    let places: Vec<Point> = numbers.par_iter().map(|i| points[*i as usize]).collect();
+    let seats = face.seats(&places, reach, far, progress)?;
+    let candidate = |(i, seat): (&u32, Option<Seat>)| {
+        let seat = seat.filter(|s| s.within >= -reach - spacing)?;
+        let faces = normals.is_none_or(|n| dot(n[*i as usize], seat.normal) > 0.0);
+        faces.then_some(Candidate { point: *i, seat })
     };
-    points.par_iter().enumerate().filter_map(seated).collect()
+    Ok(numbers.par_iter().zip(seats).filter_map(candidate).collect())
 }
 
-/// Distance of neighboring points: the root of the area of one, the median over some places.
-fn spacing(points: &[Point], seed: u64) -> f64 {
+/// Distance of neighboring points: the root of the area of one, the median over some places; 1 where there are no neighbors.
+///
+/// ```
+/// let points: Vec<_> = (0..2500).map(|i| [0.5 * f64::from(i % 50), 0.5 * f64::from(i / 50), 0.0]).collect();
+/// assert!((trueness_geom::partition::spacing(&points, 0) - 0.5).abs() < 0.1);
+/// ```
+pub fn spacing(points: &[Point], seed: u64) -> f64 {
     let tree = PointTree::new(points);
     let mut all: Vec<f64> = crate::num::random::Random::new(seed)
         .choose(PLACES, points.len())

@@ -1,5 +1,6 @@
 //! Where a face really is.
 
+use super::best::Candidate;
 use super::faces::{Face, Seat};
 use crate::fit::{Method, Options, fit};
 use crate::num::random::Random;
@@ -31,14 +32,15 @@ pub struct Placed {
 }
 
 impl Placed {
-    pub(super) fn of(face: &Face, points: &[Point], sure: &[u32], floor: f64, seed: u64) -> Placed {
+    pub(super) fn of(face: &Face, points: &[Point], sure: &[Candidate], floor: f64, seed: u64) -> Placed {
         let chosen = Random::new(seed).choose(MOST_PLACES, sure.len());
-        let places: Vec<Point> = chosen.into_iter().map(|i| points[sure[i] as usize]).collect();
+        let chosen: Vec<Candidate> = chosen.into_iter().map(|i| sure[i]).collect();
+        let places: Vec<Point> = chosen.iter().map(|c| points[c.point as usize]).collect();
         let with = |shape: Option<Shape>| {
             let mut placed = Placed { shape, offset: 0.0, deviation: 0.0, points: sure.len() };
             let off = |placed: &Placed| -> Vec<f64> {
-                let seated = places.iter().filter_map(|p| Some((p, face.seat(*p, f64::INFINITY)?)));
-                seated.map(|(p, seat)| placed.off(face, *p, seat)).filter(|x| x.is_finite()).collect()
+                let all = places.iter().zip(&chosen).map(|(p, c)| placed.off(face, *p, c.seat));
+                all.filter(|x| x.is_finite()).collect()
             };
             if shape.is_none() {
                 placed.offset = median(off(&placed));

@@ -3,16 +3,22 @@
 use super::placed::Placed;
 use crate::progress::Cancelled;
 use crate::segment::SegmentError;
+use std::collections::BTreeMap;
 
 /// Deviations beyond which a face does not explain a point: one point of two million is so far off by normal noise.
 pub(super) const EXPLAINED: f64 = 5.0;
 
+/// No face.
+pub const NO_FACE: u32 = u32::MAX;
+
 /// What is asked of a partition.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Options {
-    /// Reach of a face, millimeters: points farther off are not its own, wherever it really is; and it is looked for within the reach of the nominal.
-    /// Without it a fiftieth of the face's diagonal.
+    /// Reach of faces, millimeters: points farther off than that are not of the face, wherever it really is; and it is looked for within the reach of the
+    /// nominal. Without it a fiftieth of the face's diagonal.
     pub distance: Option<f64>,
+    /// Reach of some faces, by their numbers, instead of that.
+    pub reaches: BTreeMap<u32, f64>,
     /// Seed of random choices.
     pub seed: u64,
 }
@@ -24,27 +30,57 @@ pub enum Class {
     Face,
     /// Along a border of its face, and explained by none: a burr, a groove, a chamfer that is not drawn.
     Edge,
-    /// Within the reach of its face, and hangs together with what lies deeper in the material than that.
+    /// Hangs together with what lies deeper in the material than the reach of faces: of a face where it is within its reach.
     Deep,
-    /// Within the reach of its face, and hangs together with what lies farther out of the material than that.
+    /// Hangs together with what lies farther out of the material than the reach of faces: of a face where it is within its reach.
     High,
-    /// Of no face: beyond the reach of all, or beside them and hanging together with such points, as a table.
+    /// Beyond the reach of all faces, with no more than two such points together: a stray, or a spike that was hit once.
+    Alone,
+    /// Of no face: beyond the reach of all, as a table.
     Beyond,
 }
 
 /// A scan parted among faces.
 #[derive(Clone, Debug)]
 pub struct Partition {
-    /// The face of each point; [`NO_FACE`](super::NO_FACE) where it has none.
+    /// The face of each point; [`NO_FACE`] where it has none.
     pub owners: Vec<u32>,
     /// What each point is.
     pub classes: Vec<Class>,
+    /// Whether its face lies beneath each point: those beyond a border do not tell that anything of it was measured.
+    pub inside: Vec<bool>,
+    /// The face of each measured facet: that on which all of its corners lie. At a sharp edge a corner is of the faces of all facets about it, and its
+    /// owner one of them. [`NO_FACE`] of what straddles an edge.
+    pub facets: Vec<u32>,
+    /// Points beyond the reach of all faces that lie over faces: over those that they hang together with; those by themselves over the nearest, where nothing of
+    /// it was measured beneath, or where they are alone. By face and point.
+    pub beyond: Vec<Beyond>,
     /// Where each face really is.
     pub placed: Vec<Placed>,
     /// Distance of neighboring points, millimeters.
     pub spacing: f64,
     /// What points scatter by about the surface that their neighbors tell, millimeters.
     pub noise: f64,
+    /// What single precision leaves of the coordinates, millimeters.
+    pub(super) rounding: f64,
+}
+
+/// A point beyond the reach of all faces that lies over one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Beyond {
+    /// The point.
+    pub point: u32,
+    /// The face.
+    pub face: u32,
+    /// How far it lies off the face of the nominal, positive outside of the material, millimeters.
+    pub off: f64,
+}
+
+impl Partition {
+    /// Whether the points scatter by more than the rounding of single precision: those of a scan do, those of a computed mesh do not.
+    pub fn is_scan(&self) -> bool {
+        self.noise > self.rounding
+    }
 }
 
 /// Why there is no partition.
@@ -58,6 +94,14 @@ pub enum PartitionError {
     NotFinite {
         /// Index of the first such point.
         index: usize,
+    },
+    /// A reach is no length.
+    #[error("the reach of face {face} is {value}; it must be a finite length above 0")]
+    Reach {
+        /// Number of the face.
+        face: usize,
+        /// What was given.
+        value: f64,
     },
     /// A measured facet names a vertex that does not exist.
     #[error("facet {facet} names a vertex that does not exist")]

@@ -3,6 +3,7 @@
 use super::*;
 use crate::num::random::Random;
 use crate::progress::Silent;
+use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
 /// A profile (distance from the axis, height) that is turned about the z axis: closed, material to the left of each side.
@@ -91,8 +92,12 @@ fn sides_of(faces: &Faces, sides: usize) -> Vec<usize> {
     faces.all.iter().map(|f| f.facets[0] as usize / (2 * sides)).collect()
 }
 
+fn all_of(faces: &Faces) -> Vec<&Face> {
+    faces.all.iter().collect()
+}
+
 const SIDES: usize = 96;
-const OPTIONS: Options = Options { distance: Some(0.5), seed: 0 };
+const OPTIONS: Options = Options { distance: Some(0.5), reaches: BTreeMap::new(), seed: 0 };
 
 /// Points of a side that have another one, or none, or a class other than that of faces, and the greatest distance of one of them from its own side.
 fn wrong(
@@ -140,7 +145,7 @@ fn points_have_their_own_faces() {
         for noise in [0.0, 0.004] {
             for as_mesh in [false, true] {
                 let (scan, sides) = scan(truth, 0.6, noise, as_mesh, 1);
-                let found = partition(&scan, &faces, &OPTIONS, &Silent).unwrap();
+                let found = partition(&scan, &all_of(&faces), &OPTIONS, &Silent).unwrap();
                 let (count, far) = wrong(&nominal, &found, &faces, &scan, truth, &sides);
                 println!("{name} {noise} {as_mesh}: {count} of {}, {far}", sides.len());
                 assert!(
@@ -164,7 +169,7 @@ fn faces_are_placed() {
     for (p, _) in scan.positions.iter_mut().zip(&sides).filter(|(_, side)| **side == 4) {
         p[0] += 0.02 * (p[2] - 15.0);
     }
-    let found = partition(&scan, &faces, &OPTIONS, &Silent).unwrap();
+    let found = partition(&scan, &all_of(&faces), &OPTIONS, &Silent).unwrap();
     let of_faces = sides_of(&faces, SIDES);
     let placed = |side: usize| found.placed[of_faces.iter().position(|s| *s == side).unwrap()];
     // Out of the material is towards the axis.
@@ -196,7 +201,7 @@ fn what_is_of_no_face_is_told_apart() {
         positions.extend(more);
     }
     let scan = Mesh { positions, faces: vec![] };
-    let found = partition(&scan, &faces, &OPTIONS, &Silent).unwrap();
+    let found = partition(&scan, &all_of(&faces), &OPTIONS, &Silent).unwrap();
     let count = |from: usize, count: usize, class: Class| {
         found.classes[from..from + count].iter().filter(|c| **c == class).count()
     };
@@ -232,7 +237,7 @@ fn dents_are_of_their_face_and_grooves_along_edges_are_not() {
         };
         (p[0], p[1]) = (p[0] * (1.0 - down / rho), p[1] * (1.0 - down / rho));
     }
-    let found = partition(&scan, &faces, &OPTIONS, &Silent).unwrap();
+    let found = partition(&scan, &all_of(&faces), &OPTIONS, &Silent).unwrap();
     let of_faces = sides_of(&faces, SIDES);
     assert!(
         dent.iter().all(|i| found.classes[*i] == Class::Face && of_faces[found.owners[*i] as usize] == 4)
@@ -249,11 +254,11 @@ fn norm3(v: Vector) -> f64 {
 fn wrong_coordinates_are_refused_and_nothing_has_no_faces() {
     let faces = Faces::of(&turned(&bushing(), SIDES), &Silent).unwrap();
     let nan = Mesh { positions: vec![[0.0; 3], [f64::NAN, 0.0, 0.0]], faces: vec![] };
-    let found = partition(&nan, &faces, &OPTIONS, &Silent);
+    let found = partition(&nan, &all_of(&faces), &OPTIONS, &Silent);
     assert_eq!(found.err(), Some(PartitionError::NotFinite { index: 1 }));
     let no_vertex = Mesh { positions: vec![[0.0; 3]; 3], faces: vec![[0, 1, 2], [0, 1, 3]] };
-    let found = partition(&no_vertex, &faces, &OPTIONS, &Silent);
+    let found = partition(&no_vertex, &all_of(&faces), &OPTIONS, &Silent);
     assert_eq!(found.err(), Some(PartitionError::NoSuchVertex { facet: 1 }));
-    let nothing = partition(&Mesh::default(), &faces, &OPTIONS, &Silent).unwrap();
+    let nothing = partition(&Mesh::default(), &all_of(&faces), &OPTIONS, &Silent).unwrap();
     assert!(nothing.owners.is_empty() && nothing.classes.is_empty());
 }

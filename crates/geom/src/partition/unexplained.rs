@@ -1,34 +1,161 @@
 //! What no face explains.
 
 use super::best::Best;
-use super::faces::NO_FACE;
-use super::terms::{Class, EXPLAINED};
+use super::faces::{Face, Seat};
+use super::going_on::Sure;
+use super::terms::{Beyond, Class, EXPLAINED, NO_FACE};
 use crate::mesh::Mesh;
-use crate::space::Point;
+use crate::parallel::prelude::*;
+use crate::progress::{Cancelled, Progress};
+use crate::space::{Point, minus, times};
 use crate::spatial::neighbors::PointTree;
+use std::collections::BTreeMap;
 
 /// Points beyond all reach from which on what hangs together with them is of other things.
 const SEVERAL: usize = 3;
 /// Distances of neighbors from a border up to which points lie along it.
 const ALONG: f64 = 1.0;
+/// Nothing was measured at a place if no point is within so many distances of neighbors: by chance, where points lie at random, one time in a million.
+const GAP: f64 = 2.1;
 /// Neighbors of a point in a cloud, and distances of neighbors within which they hang together.
 const NEIGHBORS: usize = 8;
 const TOGETHER: f64 = 2.5;
 
-/// The class of each point. Points that turn out to be of no face lose their owner.
-pub(super) fn classes(scan: &Mesh, best: &mut Best, spacing: f64) -> Vec<Class> {
-    let count = scan.positions.len();
+/// The class of each point, and points beyond all reach with the faces that they hang together with. Points that turn out to be of no face lose their owner.
+pub(super) fn classes(scan: &Mesh, best: &mut Best, spacing: f64) -> (Vec<Class>, Vec<Hanging>) {
     let is_open = |p: usize| best.cost[p].is_nan() || best.cost[p] > EXPLAINED;
     let mut classes: Vec<Class> =
         best.owner.iter().map(|o| if *o == NO_FACE { Class::Beyond } else { Class::Face }).collect();
-    let open: Vec<u32> = (0..count as u32).filter(|p| is_open(*p as usize)).collect();
-    let mut groups = Groups((0..count as u32).collect());
+    let open: Vec<u32> = (0..best.owner.len() as u32).filter(|p| is_open(*p as usize)).collect();
+    let mut hanging = vec![];
+    for group in groups(scan, &open, spacing) {
+        let (of_faces, beyond): (Vec<u32>, Vec<u32>) =
+            group.into_iter().partition(|p| best.owner[*p as usize] != NO_FACE);
+        let seats = || of_faces.iter().filter_map(|p| best.seat[*p as usize]);
+        let (total, outside) = (seats().count(), seats().filter(|s| s.off > 0.0).count());
+        let is_along = |p: &&u32| {
+            let p = **p as usize;
+            best.near[p] > 1 || best.seat[p].is_some_and(|s| s.within < ALONG * spacing)
+        };
+        let along = of_faces.iter().filter(is_along).count();
+        if beyond.len() >= SEVERAL && total > 0 {
+            let class = if 2 * outside >= total { Class::High } else { Class::Deep };
+            let mut faces = vec![];
+            for p in of_faces.iter().map(|p| *p as usize) {
+                classes[p] = class;
+                match best.seat[p] {
+                    Some(seat) if seat.within > 0.0 => faces.push(best.owner[p]),
+                    _ => best.owner[p] = NO_FACE,
+                }
+            }
+            faces.sort_unstable();
+            faces.dedup();
+            beyond.iter().for_each(|p| classes[*p as usize] = class);
+            hanging.push(Hanging { points: beyond, faces });
+        } else if beyond.len() < SEVERAL {
+            if 2 * along > total {
+                of_faces.iter().for_each(|p| classes[*p as usize] = Class::Edge);
+            }
+            beyond.iter().for_each(|p| classes[*p as usize] = Class::Alone);
+            if !beyond.is_empty() {
+                hanging.push(Hanging { points: beyond, faces: vec![] });
+            }
+        } else {
+            hanging.push(Hanging { points: beyond, faces: vec![] });
+        }
+    }
+    (classes, hanging)
+}
+
+/// Points beyond the reach of all faces that hang together.
+pub(super) struct Hanging {
+    pub points: Vec<u32>,
+    /// The faces whose points hang together with them; none where they are by themselves.
+    pub faces: Vec<u32>,
+}
+
+/// Where points beyond the reach of faces may lie over one.
+pub(super) struct Over<'a> {
+    pub points: &'a [Point],
+    pub faces: &'a [&'a Face],
+    /// Of each face.
+    pub around: &'a [Sure<'a>],
+    pub spacing: f64,
+    /// How far off a face, mm.
+    pub far: f64,
+}
+
+impl Over<'_> {
+    /// The points that lie over faces: over those that they hang together with; those by themselves over the nearest, where nothing of it was measured
+    /// beneath most of them, or where they are alone.
+    pub(super) fn faces(
+        &self,
+        hanging: &[Hanging],
+        progress: &dyn Progress,
+    ) -> Result<Vec<Beyond>, Cancelled> {
+        let mut of_faces: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
+        for hanging in hanging {
+            hanging.faces.iter().for_each(|f| of_faces.entry(*f).or_default().extend(&hanging.points));
+        }
+        let mut found = vec![];
+        for (face, numbers) in of_faces {
+            found.extend(self.face(face, &numbers, progress)?);
+        }
+        let themselves: Vec<&Hanging> = hanging.iter().filter(|h| h.faces.is_empty()).collect();
+        let mut numbers: Vec<u32> = themselves.iter().flat_map(|h| h.points.iter().copied()).collect();
+        numbers.sort_unstable();
+        let mut nearest: BTreeMap<u32, Beyond> = BTreeMap::new();
+        if !numbers.is_empty() {
+            for face in 0..self.faces.len() as u32 {
+                for here in self.face(face, &numbers, progress)? {
+                    let kept = nearest.entry(here.point).or_insert(here);
+                    if here.off.abs() < kept.off.abs() {
+                        *kept = here;
+                    }
+                }
+            }
+        }
+        for hanging in themselves {
+            let over: Vec<Beyond> = hanging.points.iter().filter_map(|p| nearest.get(p)).copied().collect();
+            let gaps = over.iter().filter(|b| self.is_gap(b)).count();
+            if hanging.points.len() < SEVERAL || 2 * gaps > over.len() {
+                found.extend(over);
+            }
+        }
+        found.sort_unstable_by_key(|b| (b.face, b.point));
+        Ok(found)
+    }
+
+    /// Those of some points that lie over a face, clear of its border.
+    fn face(&self, face: u32, numbers: &[u32], progress: &dyn Progress) -> Result<Vec<Beyond>, Cancelled> {
+        let Over { points, faces, spacing, far, .. } = *self;
+        let places: Vec<Point> = numbers.iter().map(|p| points[*p as usize]).collect();
+        let seats = faces[face as usize].seats(&places, far, spacing, progress)?;
+        let over = |(p, seat): (&u32, Option<Seat>)| {
+            let seat = seat.filter(|s| s.within > spacing)?;
+            Some(Beyond { point: *p, face, off: seat.off })
+        };
+        Ok(numbers.iter().zip(seats).filter_map(over).collect())
+    }
+
+    /// Whether nothing of the face was measured beneath a point.
+    fn is_gap(&self, beyond: &Beyond) -> bool {
+        let p = self.points[beyond.point as usize];
+        let normal = self.faces[beyond.face as usize].facing(&p);
+        let foot = normal.map_or(p, |n| minus(p, times(beyond.off, n)));
+        self.around[beyond.face as usize].nearest(&foot).is_none_or(|away| away > GAP * self.spacing)
+    }
+}
+
+/// Those of some points that hang together, in the order of the first of each.
+fn groups(scan: &Mesh, open: &[u32], spacing: f64) -> Vec<Vec<u32>> {
+    let place = |p: u32| open.binary_search(&p).ok().map(|i| i as u32);
+    let mut groups = Groups((0..open.len() as u32).collect());
     match scan.faces.is_empty() {
         false => {
             for f in &scan.faces {
                 for k in 0..3 {
-                    let (a, b) = (f[k], f[(k + 1) % 3]);
-                    if is_open(a as usize) && is_open(b as usize) {
+                    if let (Some(a), Some(b)) = (place(f[k]), place(f[(k + 1) % 3])) {
                         groups.join(a, b);
                     }
                 }
@@ -37,38 +164,20 @@ pub(super) fn classes(scan: &Mesh, best: &mut Best, spacing: f64) -> Vec<Class> 
         true => {
             let places: Vec<Point> = open.iter().map(|p| scan.positions[*p as usize]).collect();
             let tree = PointTree::new(&places);
-            for (i, place) in (0u32..).zip(&places) {
-                for (square, j) in tree.k_nearest(place, NEIGHBORS, Some(i)) {
-                    if square <= (TOGETHER * spacing).powi(2) {
-                        groups.join(open[i as usize], open[j as usize]);
-                    }
-                }
+            let together = (TOGETHER * spacing).powi(2);
+            let near = |i: u32| {
+                let near = tree.k_nearest(&places[i as usize], NEIGHBORS, Some(i));
+                near.into_iter().filter(|n| n.0 <= together).map(|n| n.1).collect::<Vec<u32>>()
+            };
+            let all: Vec<Vec<u32>> = (0..open.len() as u32).into_par_iter().map(near).collect();
+            for (i, near) in (0u32..).zip(all) {
+                near.into_iter().for_each(|j| groups.join(i, j));
             }
         }
     }
-    let mut members: Vec<(u32, u32)> = open.iter().map(|p| (groups.find(*p), *p)).collect();
+    let mut members: Vec<(u32, u32)> = (0u32..).zip(open).map(|(i, p)| (groups.find(i), *p)).collect();
     members.sort_unstable();
-    for group in members.chunk_by(|a, b| a.0 == b.0) {
-        let of_faces: Vec<usize> =
-            group.iter().map(|m| m.1 as usize).filter(|p| best.owner[*p] != NO_FACE).collect();
-        let seats = || of_faces.iter().filter_map(|p| best.seat[*p]);
-        let (total, outside) = (seats().count(), seats().filter(|s| s.off > 0.0).count());
-        let along = seats().filter(|s| s.within < ALONG * spacing).count();
-        let class = if group.len() - of_faces.len() >= SEVERAL {
-            for p in of_faces.iter().filter(|p| best.seat[**p].is_none_or(|s| s.within <= 0.0)) {
-                best.owner[*p] = NO_FACE;
-            }
-            if 2 * outside >= total { Class::High } else { Class::Deep }
-        } else if 2 * along > total {
-            Class::Edge
-        } else {
-            continue;
-        };
-        for p in of_faces {
-            classes[p] = if best.owner[p] == NO_FACE { Class::Beyond } else { class };
-        }
-    }
-    classes
+    members.chunk_by(|a, b| a.0 == b.0).map(|g| g.iter().map(|m| m.1).collect()).collect()
 }
 
 /// Points that hang together.

@@ -39,7 +39,7 @@ pub struct Taken {
     pub nominal: Option<Nominal>,
     /// Share of the nominal area that was measured.
     pub coverage: Option<f64>,
-    /// Measured points that lie where the reference has it, but too far off to be part of it.
+    /// Measured points that lie over it, but too far off to be part of it.
     pub left_out: Option<LeftOut>,
     /// Measured points within its reach that were taken for those of other surfaces.
     pub others: Others,
@@ -47,13 +47,19 @@ pub struct Taken {
     pub element: Result<Element, String>,
 }
 
-/// Points within the reach of a feature that were taken for those of other surfaces.
+/// Points within the reach of a feature that are not of it, or not for certain.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Others {
     /// Where those are of which it is not certain.
     pub points: Vec<Point>,
-    /// The number of the others, which lie on surfaces that the reference has there.
-    pub known: usize,
+    /// How many of them lie along an edge and are explained by neither face.
+    pub edge: usize,
+    /// How many lie deeper in the material than the reach, or hang together with such.
+    pub deep: usize,
+    /// How many lie farther out of it, or hang together with such.
+    pub high: usize,
+    /// Points of a scan that lie beyond the reach over the feature, each alone: none of the others.
+    pub outliers: usize,
     /// Whether there is a reference.
     pub on_reference: bool,
 }
@@ -63,19 +69,17 @@ pub struct Others {
 pub struct LeftOut {
     /// Their number.
     pub points: u64,
-    /// Distance, mm, of the farthest of them from the reference, or from the nominal surface.
+    /// Distance, mm, of the farthest of them from the nominal surface.
     pub farthest: f64,
     /// The distance, mm, that they are beyond.
     pub limit: f64,
-    /// Whether the reference has the feature there; else nothing else of it was measured there.
-    pub on_reference: bool,
 }
 
 impl LeftOut {
     /// Of points so far off.
-    pub(crate) fn of(off: &[f64], limit: f64, on_reference: bool) -> LeftOut {
+    pub(crate) fn of(off: &[f64], limit: f64) -> LeftOut {
         let farthest = off.iter().fold(0.0, |m: f64, d| m.max(*d));
-        LeftOut { points: off.len() as u64, farthest, limit, on_reference }
+        LeftOut { points: off.len() as u64, farthest, limit }
     }
 }
 

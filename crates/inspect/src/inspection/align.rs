@@ -1,16 +1,15 @@
 //! The alignment of a plan.
 
-use super::belonging::Belonging;
 use super::data::{Data, Stop};
 use super::deviation;
 use super::doubts;
 use super::nearby;
-use super::seed::Seeded;
+use super::nominals::Nominals;
+use super::parted::Parted;
 use super::{Taken, take};
 use crate::characteristic::{Missing, datum_source};
 use crate::compare::Regions;
 use crate::plan::{Align, Plan};
-use std::collections::BTreeMap;
 use std::ops::Range;
 use trueness_geom::align::{
     self, AlignError, AlignWarning, BestFit, InZones, Measured, Minimax, RowFit, Target, best_fit,
@@ -66,7 +65,7 @@ impl Found {
 pub(super) fn aligned(
     plan: &Plan,
     mut data: Data,
-    seeds: &BTreeMap<usize, Seeded>,
+    nominals: &Nominals,
     progress: &dyn Progress,
 ) -> Result<(Data, Alignment), Stop> {
     let rows = |fit: Result<RowFit, AlignError>| {
@@ -90,7 +89,7 @@ pub(super) fn aligned(
             Alignment { motion: Rigid::IDENTITY, found: Found::Nothing }
         }
         Align::BestFit | Align::Chebyshev | Align::Zones | Align::Datum { start: None, .. } => {
-            best_fitted(plan, &data, seeds, progress)?
+            best_fitted(plan, &data, nominals, progress)?
         }
         Align::Pairs { measured, nominal, weights } => rows(align::pairs(measured, nominal, Some(weights)))?,
         Align::Rps { rows: held, start } => rows(align::constrained(held, *start))?,
@@ -104,7 +103,7 @@ pub(super) fn aligned(
     if alignment.motion != Rigid::IDENTITY {
         moved(&mut data, &alignment.motion);
     }
-    let onto = onto_datums(plan, &mut data, seeds, progress).map_err(|stop| match stop {
+    let onto = onto_datums(plan, &mut data, nominals, progress).map_err(|stop| match stop {
         Stop::Align(what) => {
             Stop::Align(match doubts::unit(plan, &data, &alignment.motion, alignment.found.best_fit()) {
                 Some(unit) => format!("{what}; {unit}"),
@@ -123,15 +122,16 @@ pub(super) fn aligned(
 fn onto_datums(
     plan: &Plan,
     data: &mut Data,
-    seeds: &BTreeMap<usize, Seeded>,
+    nominals: &Nominals,
     progress: &dyn Progress,
 ) -> Result<Option<Rigid>, Stop> {
     let Align::Datum { datums, rule, span, .. } = &plan.align else { return Ok(None) };
-    // A mesh has facets that tell.
-    let is_cloud = data.measured.as_ref().is_some_and(|mesh| mesh.faces.is_empty());
-    let belonging = if is_cloud { Belonging::new(plan, data, seeds, progress)? } else { None };
-    let mut taken = take::features(plan, data, seeds, belonging.as_ref(), progress)?;
-    nearby::tell(plan, data, seeds, None, &mut taken, progress)?;
+    let parted = match &data.measured {
+        Some(mesh) => Parted::new(plan, mesh, nominals, data.seed, progress)?,
+        None => None,
+    };
+    let mut taken = take::features(plan, data, nominals, parted.as_ref(), progress)?;
+    nearby::tell(plan, data, nominals, parted.as_ref(), &mut taken, progress)?;
     let motion = by_datums(&taken, datums, *rule, span, progress)?;
     moved(data, &motion);
     Ok(Some(motion))
@@ -153,12 +153,12 @@ pub(super) fn in_other_pose(
     plan: &Plan,
     data: &Data,
     motion: &Rigid,
-    seeds: &BTreeMap<usize, Seeded>,
+    nominals: &Nominals,
     progress: &dyn Progress,
 ) -> Result<Option<Data>, Stop> {
     let mut other = data.clone();
     moved(&mut other, motion);
-    match onto_datums(plan, &mut other, seeds, progress) {
+    match onto_datums(plan, &mut other, nominals, progress) {
         Ok(_) => Ok(Some(other)),
         Err(Stop::Plan { .. } | Stop::Align(_)) => Ok(None),
         Err(stop) => Err(stop),
@@ -185,7 +185,7 @@ pub(super) fn failed(e: AlignError) -> Stop {
 fn best_fitted(
     plan: &Plan,
     data: &Data,
-    seeds: &BTreeMap<usize, Seeded>,
+    nominals: &Nominals,
     progress: &dyn Progress,
 ) -> Result<Alignment, Stop> {
     let (Some(measured), Some(reference)) = (&data.measured, &data.reference) else {
@@ -203,7 +203,7 @@ fn best_fitted(
     if let (Align::Zones, Some(asked)) = (&plan.align, &plan.deviation) {
         let surface = ReferenceSurface::new(&tree, reference, &SurfaceOptions::default(), progress)
             .map_err(|e| Stop::Align(e.to_string()).nominal())?;
-        let rules = deviation::regions(asked, plan, seeds, reference, progress)?;
+        let rules = deviation::regions(asked, plan, nominals, reference)?;
         let regions = Regions::new(&rules, reference, &tree, data.seed, progress)
             .map_err(|e| Stop::Align(e.to_string()).nominal())?;
         let zones = |face, place: &_| regions.allowed(face, place, asked.tolerance);

@@ -1,7 +1,7 @@
 //! Deviations of all that was measured from the reference, as `compare` computes them.
 
 use super::data::{Data, Stop};
-use super::seed::Seeded;
+use super::nominals::Nominals;
 use crate::compare::{
     self, Between, CompareError, Comparisons, Extent, Facing, Lines, Options, Reference, RegionRule,
     vertex_normals,
@@ -10,12 +10,11 @@ use crate::file_numbers::LeftOut;
 use crate::plan::{Deviation, Plan};
 use crate::results::compare::MeasuredKind;
 use crate::results::place_map::PlaceMap;
-use std::collections::BTreeMap;
 use std::convert::Infallible;
-use trueness_geom::closest::{QueryError, Tree};
+use trueness_geom::closest::QueryError;
 use trueness_geom::cloud::Whole;
 use trueness_geom::deviation::surface::SurfaceOptions;
-use trueness_geom::feature::{FeatureError, FeatureSearch};
+use trueness_geom::feature::facets_near;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::Progress;
 
@@ -60,7 +59,7 @@ fn reference<'a>(name: &str, mesh: &'a Mesh, left_out: &'a [u32]) -> Reference<'
 pub(super) fn deviations(
     asked: &Deviation,
     plan: &Plan,
-    seeds: &BTreeMap<usize, Seeded>,
+    nominals: &Nominals,
     data: &mut Data,
     progress: &dyn Progress,
 ) -> Result<Deviations, Stop> {
@@ -92,7 +91,7 @@ pub(super) fn deviations(
             skip_boundary: asked.skip_boundary,
             ..SurfaceOptions::default()
         },
-        regions: regions(asked, plan, seeds, &reference, progress)?,
+        regions: regions(asked, plan, nominals, &reference)?,
         tolerance: asked.tolerance,
         required_share: asked.required_share,
         shown: data.shown,
@@ -117,15 +116,9 @@ pub(super) fn deviations(
 pub(super) fn regions(
     asked: &Deviation,
     plan: &Plan,
-    seeds: &BTreeMap<usize, Seeded>,
+    nominals: &Nominals,
     reference: &Mesh,
-    progress: &dyn Progress,
 ) -> Result<Vec<RegionRule>, Stop> {
-    if asked.regions.iter().all(|r| r.feature.is_none()) {
-        return Ok(asked.regions.iter().map(|r| r.rule.clone()).collect());
-    }
-    let tree = Tree::build_watched(reference, progress).map_err(|e| Stop::Nominal(e.to_string()))?;
-    let search = FeatureSearch::new(reference, tree);
     let rule = |region: &crate::plan::ToleranceRegion| -> Result<RegionRule, Stop> {
         let Some(number) = region.feature else { return Ok(region.rule.clone()) };
         let feature = &plan.features[number];
@@ -133,20 +126,24 @@ pub(super) fn regions(
             span: region.span.clone(),
             what: format!("region \"{}\": {what}", region.rule.id),
         };
-        let nominal = feature.nominal.as_ref().or_else(|| Some(&seeds.get(&number)?.nominal));
+        let nominal = nominals.of(number, feature);
         let nominal = nominal.ok_or_else(|| wrong(format!("feature \"{}\" has no nominal", feature.id)))?;
         let near = feature.near(nominal);
-        let found = search.find(nominal, &near, progress).map_err(|e| match e {
-            FeatureError::Cancelled => Stop::Cancelled,
-            e => wrong(e.to_string()),
-        })?;
-        if found.facets.is_empty() {
+        let own = nominals.own(number).zip(nominals.faces.as_ref());
+        let own: Vec<u32> = match own {
+            Some((own, faces)) => own.faces.iter().flat_map(|f| faces.all[*f as usize].facets.clone()).collect(),
+            None => (0..reference.faces.len() as u32).collect(),
+        };
+        let mut facets =
+            facets_near(reference, &own, nominal, &near).map_err(|e| wrong(e.to_string()))?;
+        facets.sort_unstable();
+        if facets.is_empty() {
             return Err(wrong(format!(
                 "the reference has nothing where feature \"{}\" should be",
                 feature.id
             )));
         }
-        Ok(RegionRule { extent: Extent::Facets(found.facets), ..region.rule.clone() })
+        Ok(RegionRule { extent: Extent::Facets(facets), ..region.rule.clone() })
     };
     asked.regions.iter().map(rule).collect()
 }

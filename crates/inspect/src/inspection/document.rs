@@ -269,13 +269,17 @@ fn nominal_place(taken: &Taken) -> Option<MeasuredPlace> {
 }
 
 fn left_out_record(taken: &Taken) -> Option<LeftOutRecord> {
-    let doubted = taken.others.points.len();
-    let (others, beyond) = ((taken.others.known + doubted) as u64, taken.left_out);
-    (others > 0 || beyond.is_some()).then(|| LeftOutRecord {
+    let (of, beyond) = (&taken.others, taken.left_out);
+    let others = of.points.len() as u64;
+    (others > 0 || of.outliers > 0 || beyond.is_some()).then(|| LeftOutRecord {
         others,
+        edge: of.edge as u64,
+        deep: of.deep as u64,
+        high: of.high as u64,
+        outliers: of.outliers as u64,
         beyond: beyond.map_or(0, |b| b.points),
         farthest: beyond.map(|b| b.farthest),
-        on_reference: beyond.map_or(others > 0 && doubted == 0, |b| b.on_reference),
+        on_reference: of.on_reference,
     })
 }
 

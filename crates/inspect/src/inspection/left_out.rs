@@ -1,105 +1,9 @@
-//! Measured points that a feature leaves out as too far off, although they lie where the reference has it.
-//!
-//! A dent deeper than the extract distance is no part of its feature, and the feature is the better for it. Where the
-//! reference is at hand, such points are told: those whose nearest place on it belongs to the feature. Without a reference those are told, of a
-//! cloud, that lie over places of the feature where nothing of it was measured, or among its points; of a mesh see `deeper`.
+//! What a verdict is worth where a feature leaves points out.
 
-use super::behind::behind;
-use super::belonging::Belonging;
-use super::data::{Data, Stop};
 use super::found::Inspection;
-use super::reference::ELSEWHERE;
-use super::seed::Seeded;
-use crate::characteristic::{LeftOut, Taken, Value};
+use crate::characteristic::{Others, Taken, Value};
 use crate::plan::{Plan, Spec};
 use crate::results::Verdict;
-use std::collections::BTreeMap;
-use trueness_geom::feature::{Nearness, Nominal, in_cloud};
-use trueness_geom::progress::Progress;
-use trueness_geom::space::{Aabb, Point, Vector, minus, times};
-use trueness_geom::spatial::neighbors::{Neighbor, PointTree};
-
-/// A place of the feature was not measured if no point is within so many mean spacings of it: the chance of that is one in a
-/// million where points lie at random.
-const GAP: f64 = 2.1;
-/// A point beyond reach is a spike of the feature if so many of its points are nearer
-const OWN: usize = 6;
-/// than so many others beyond reach.
-const OTHERS: usize = 3;
-
-/// Tells the features which points they leave out; those of a mesh without a reference are known with its facets.
-///
-/// Cost: one look at each measured point for each feature, and a search for those over or below it.
-pub(super) fn tell(
-    plan: &Plan,
-    data: &Data,
-    seeds: &BTreeMap<usize, Seeded>,
-    belonging: Option<&Belonging>,
-    features: &mut [Taken],
-    progress: &dyn Progress,
-) -> Result<(), Stop> {
-    let of = |n: usize| seeds.get(&n).map(|s| &s.nominal).or(plan.features[n].nominal.as_ref());
-    let sought: Vec<usize> = (0..plan.features.len())
-        .filter(|n| of(*n).is_some_and(|nominal| !matches!(nominal, Nominal::Edge { .. })))
-        .filter(|n| !features[*n].points.is_empty() && !data.points.contains_key(n))
-        .collect();
-    for n in sought {
-        let Some(nominal) = of(n) else { continue };
-        let near = plan.features[n].near(nominal);
-        let off = match (belonging, &data.measured) {
-            (Some(belonging), _) => {
-                let Some(own) = belonging.own(n) else { continue };
-                // As far off the nominal surface as what is left out, not off the chords of the reference.
-                let own_points = belonging.nearest.iter().zip(&belonging.measured.positions);
-                let own_points = own_points.filter(|((face, _), _)| own.has_within(*face));
-                let off = own_points.filter_map(|(_, p)| own.surface.distance(*p)).map(|(off, _)| off.abs());
-                let mut off: Vec<f64> = off.filter(|off| *off > near.distance).collect();
-                off.extend(behind(belonging, own, progress)?);
-                off
-            }
-            (None, Some(cloud)) if cloud.faces.is_empty() => {
-                over_gaps(&cloud.positions, &features[n].points, nominal, &near)
-            }
-            _ => vec![],
-        };
-        if !off.is_empty() {
-            features[n].left_out = Some(LeftOut::of(&off, near.distance, belonging.is_some()));
-        }
-    }
-    if progress.cancelled() { Err(Stop::Cancelled) } else { Ok(()) }
-}
-
-/// How far off the points of a cloud are that lie beyond the reach of a nominal, up to a tenth of the size of the cloud, over
-/// places of it where nothing was measured or among its points, mm.
-fn over_gaps(cloud: &[Point], taken: &[Point], nominal: &Nominal, near: &Nearness) -> Vec<f64> {
-    let (Some(surface), Some(area)) = (nominal.surface(), nominal.area()) else { return vec![] };
-    let farthest = ELSEWHERE * Aabb::of(cloud).diagonal();
-    let wide = Nearness { distance: farthest.max(near.distance), margin: near.margin.max(0.0), ..*near };
-    let Ok(found) = in_cloud(cloud, nominal, &wide) else { return vec![] };
-    let height = |p: u32| cloud.get(p as usize).and_then(|p| Some((*p, surface.distance(*p)?)));
-    let far: Vec<(Point, f64, Vector)> = found
-        .points
-        .iter()
-        .filter_map(|p| height(*p))
-        .filter(|(_, (off, _))| off.abs() > near.distance)
-        .map(|(p, (off, way))| (p, off, way))
-        .collect();
-    if far.is_empty() {
-        return vec![];
-    }
-    let own = PointTree::new(taken);
-    let others: Vec<Point> = far.iter().map(|f| f.0).collect();
-    let beyond = PointTree::new(&others);
-    let gap = GAP * (area / taken.len() as f64).sqrt();
-    let counts = |n: usize, (p, off, way): &(Point, f64, Vector)| {
-        let foot = minus(*p, times(*off, *way));
-        let is_gap = own.nearest(&foot).is_none_or(|(square, _)| square > gap * gap);
-        let last = |n: Vec<Neighbor>, count: usize| n.get(count - 1).map_or(f64::INFINITY, |n| n.0);
-        let reach = last(own.k_nearest(p, OWN, None), OWN);
-        is_gap || last(beyond.k_nearest(p, OTHERS, Some(n as u32)), OTHERS) > reach
-    };
-    far.iter().enumerate().filter(|(n, f)| counts(*n, f)).map(|(_, f)| f.1.abs()).collect()
-}
 
 /// A verdict, and what is to be said of the points that were left out.
 pub(super) struct Judged {
@@ -110,8 +14,7 @@ pub(super) struct Judged {
 /// The verdict of a characteristic that was reached without the points which its features, its datums and what they are derived
 /// from leave out; `with_others` is the value, and its verdict, with those of which it is not certain that they are of other surfaces.
 ///
-/// What lies where the feature is and was not judged leaves no pass: nothing is proven by the others alone. Where the verdict depends on
-/// points of which it is not certain whose they are, there is none.
+/// Where the verdict depends on points of which it is not certain whose they are, there is none.
 pub(super) fn judge_left_out(
     plan: &Plan,
     found: &Inspection,
@@ -126,55 +29,54 @@ pub(super) fn judge_left_out(
     let features: Vec<&Taken> =
         spec.numbers(&plan.features).into_iter().map(|n| &found.features[n]).collect();
     for (taken, out) in features.iter().filter_map(|t| Some((t, t.left_out?))) {
-        let where_to = if out.on_reference {
-            "lie where the reference has it"
-        } else {
-            "lie where nothing else of it was measured"
-        };
         result.notes.push(format!(
-            "feature \"{}\": {} measured points, up to {:.3} mm off, {where_to} and are left out as farther than its extract \
+            "feature \"{}\": {} measured points, up to {:.3} mm off, lie over it and are left out as farther than its extract \
              distance of {:.3} mm; give a larger one to judge them",
             taken.id, out.points, out.farthest, out.limit
         ));
-        if judged == Verdict::Pass {
-            result.verdict = Verdict::Undecided;
-        }
     }
-    for taken in features.iter().filter(|t| t.others.known > 0) {
-        result.notes.push(format!(
-            "feature \"{}\": {} points within its reach are of other surfaces of the reference and are left out",
-            taken.id, taken.others.known
-        ));
-    }
+    let outliers = features.iter().filter(|t| t.others.outliers > 0);
+    result.notes.extend(outliers.map(|taken| {
+        format!(
+            "feature \"{}\": {} lie over it beyond its extract distance, each alone, and are left out as outliers",
+            taken.id,
+            points(taken.others.outliers)
+        )
+    }));
     let Some((value, verdict)) = with_others else { return result };
-    let mut known = false;
+    // Noise and burrs leave some at every edge: they are told where they matter.
+    if verdict == judged {
+        return result;
+    }
     for taken in features.iter().filter(|t| !t.others.points.is_empty()) {
-        let count = taken.others.points.len();
-        known |= taken.others.on_reference;
-        let why = match (taken.others.on_reference, taken.facets.is_empty()) {
-            (false, true) => "face another way and go on beyond it, as walls and bores do,",
-            // Noise leaves some at every edge: they are told where they matter.
-            _ if verdict == judged => continue,
-            (true, true) => "are nearer to other surfaces of the reference, without lying on them,",
-            (_, false) => {
-                "lie where it is, but are joined to it by no facet that faces as it does, or are steep,"
-            }
-        };
-        result.notes.push(format!(
-            "feature \"{}\": {count} points within its reach {why} and are left out",
-            taken.id
-        ));
+        let why = not_certain(taken);
+        result.notes.push(format!("feature \"{}\": {why}, and are left out", taken.id));
     }
-    if verdict != judged {
-        let value = match value {
-            Ok(v) => format!("the value would be {}: {}", round(v.value), verdict.word()),
-            Err(why) => format!("there would be no value: {why}"),
-        };
-        let remedy = if known { "" } else { "; a reference, or a margin that keeps them out, decides it" };
-        result.notes.push(format!("with these points {value}{remedy}"));
-        result.verdict = Verdict::Undecided;
-    }
+    let value = match value {
+        Ok(v) => format!("the value would be {}: {}", round(v.value), verdict.word()),
+        Err(why) => format!("there would be no value: {why}"),
+    };
+    let known = features.iter().any(|t| t.others.on_reference);
+    let remedy = if known { "a margin" } else { "a reference, or a margin," };
+    result.notes.push(format!("with these points {value}; {remedy} that keeps them out decides it"));
+    result.verdict = Verdict::Undecided;
     result
+}
+
+/// Why it is not certain that some points within the reach of a feature are of it.
+fn not_certain(taken: &Taken) -> String {
+    let Others { edge, deep, high, .. } = &taken.others;
+    let why = [
+        (*edge, "along its edges are explained by no face, as burrs, grooves and chamfers that are not drawn"),
+        (*deep, "go on into the material beyond its extract distance"),
+        (*high, "go on out of the material beyond its extract distance, as what stands on it"),
+    ];
+    let told = why.iter().filter(|w| w.0 > 0).map(|(count, why)| format!("{} {why}", points(*count)));
+    told.collect::<Vec<_>>().join("; ")
+}
+
+fn points(count: usize) -> String {
+    if count == 1 { "1 point".into() } else { format!("{count} points") }
 }
 
 /// To the micrometer.

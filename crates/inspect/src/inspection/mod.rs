@@ -1,29 +1,28 @@
 //! A plan and measured data make verdicts: one pure function.
 
 mod align;
-mod at_edges;
-mod behind;
-mod belonging;
+mod around;
+mod cloud;
 mod data;
 pub mod decision;
-mod deeper;
 mod denoised;
 mod derived;
 mod deviation;
 mod document;
 mod doubts;
+mod edge;
 mod found;
 mod left_out;
 mod measure;
+mod measured;
 mod model;
 mod nearby;
 mod noise_field;
-mod of_others;
-mod own_facets;
+mod nominals;
+mod parted;
 mod places;
 mod pose_noise;
 mod readings;
-mod reference;
 mod seed;
 mod sides;
 mod take;
@@ -46,8 +45,8 @@ pub use uncertainty::Uncertainty;
 pub use view::View;
 
 use crate::plan::{Plan, Spec};
-use seed::Seeded;
-use std::collections::BTreeMap;
+use nominals::Nominals;
+use parted::Parted;
 use trueness_geom::parallel::prelude::*;
 use trueness_geom::progress::Progress;
 use uncounted::Uncounted;
@@ -80,13 +79,13 @@ pub const STEPS: u64 = 7;
 /// ```
 pub fn run(plan: &Plan, data: Data, progress: &dyn Progress) -> Result<Inspection, Stop> {
     let (counted, progress) = (progress, &Uncounted(progress) as &dyn Progress);
-    let seeds = seed::seeded(plan, &data, progress)?;
-    let mut resolved = model::resolved(plan, &seeds, progress)?;
+    let nominals = Nominals::new(plan, &data, progress)?;
+    let mut resolved = model::resolved(plan, &nominals, progress)?;
     let located = resolved.plan.clone();
     let plan = &located;
-    let (mut data, alignment) = align::aligned(plan, data, &seeds, progress)?;
+    let (mut data, alignment) = align::aligned(plan, data, &nominals, progress)?;
     counted.advance(1);
-    let features = taken(plan, &data, &seeds, progress)?;
+    let features = taken(plan, &data, &nominals, progress)?;
     sides::checked(plan, &features)?;
     resolved.by_part(&features, progress);
     counted.advance(1);
@@ -100,8 +99,8 @@ pub fn run(plan: &Plan, data: Data, progress: &dyn Progress) -> Result<Inspectio
     let mut in_other_poses = vec![];
     for motion in align::other_poses(&alignment) {
         // One after the other: each is a copy of all that was measured.
-        if let Some(other) = align::in_other_pose(plan, &data, &motion, &seeds, progress)? {
-            in_other_poses.push(all(&taken(plan, &other, &seeds, progress)?)?);
+        if let Some(other) = align::in_other_pose(plan, &data, &motion, &nominals, progress)? {
+            in_other_poses.push(all(&taken(plan, &other, &nominals, progress)?)?);
         }
     }
     counted.advance(1);
@@ -124,7 +123,7 @@ pub fn run(plan: &Plan, data: Data, progress: &dyn Progress) -> Result<Inspectio
         return Err(Stop::Cancelled);
     }
     let deviations = match &plan.deviation {
-        Some(asked) => Some(deviation::deviations(asked, plan, &seeds, &mut data, progress)?),
+        Some(asked) => Some(deviation::deviations(asked, plan, &nominals, &mut data, progress)?),
         None => None,
     };
     counted.advance(1);
@@ -148,12 +147,14 @@ pub fn run(plan: &Plan, data: Data, progress: &dyn Progress) -> Result<Inspectio
 fn taken(
     plan: &Plan,
     data: &Data,
-    seeds: &BTreeMap<usize, Seeded>,
+    nominals: &Nominals,
     progress: &dyn Progress,
 ) -> Result<Vec<Taken>, Stop> {
-    let belonging = belonging::Belonging::new(plan, data, seeds, progress)?;
-    let mut features = take::features(plan, data, seeds, belonging.as_ref(), progress)?;
-    nearby::tell(plan, data, seeds, belonging.as_ref(), &mut features, progress)?;
-    left_out::tell(plan, data, seeds, belonging.as_ref(), &mut features, progress)?;
+    let parted = match &data.measured {
+        Some(mesh) => Parted::new(plan, mesh, nominals, data.seed, progress)?,
+        None => None,
+    };
+    let mut features = take::features(plan, data, nominals, parted.as_ref(), progress)?;
+    nearby::tell(plan, data, nominals, parted.as_ref(), &mut features, progress)?;
     Ok(features)
 }

@@ -10,13 +10,12 @@
 
 use super::data::Stop;
 use super::derived::derived;
+use super::nominals::Nominals;
 use super::places::places;
 use super::readings::{Compared, OfModel, compared, fits_otherwise};
-use super::seed::Seeded;
 use super::take;
 use crate::characteristic::Taken;
 use crate::plan::{Feature, Plan, Source, Spec};
-use std::collections::BTreeMap;
 use trueness_geom::feature::Nominal;
 use trueness_geom::fit::Method;
 use trueness_geom::progress::Progress;
@@ -55,10 +54,10 @@ impl Resolved {
 /// [`Stop::Plan`]: exact dimensions, nominal values or classes that the model contradicts.
 pub(super) fn resolved(
     plan: &Plan,
-    seeds: &BTreeMap<usize, Seeded>,
+    nominals: &Nominals,
     progress: &dyn Progress,
 ) -> Result<Resolved, Stop> {
-    let model = Model::new(plan, seeds, progress)?;
+    let model = Model::new(plan, nominals, progress)?;
     let mut resolved = Resolved {
         plan: plan.clone(),
         notes: vec![vec![]; plan.specs.len()],
@@ -91,13 +90,13 @@ struct Model<'a> {
 impl<'a> Model<'a> {
     fn new(
         plan: &'a Plan,
-        seeds: &BTreeMap<usize, Seeded>,
+        nominals: &Nominals,
         progress: &'a dyn Progress,
     ) -> Result<Model<'a>, Stop> {
         let mut features: Vec<Option<Taken>> = Vec::with_capacity(plan.features.len());
         let mut reach: Vec<f64> = vec![];
         for (number, feature) in plan.features.iter().enumerate() {
-            let nominal = seeds.get(&number).map(|s| &s.nominal).or(feature.nominal.as_ref());
+            let nominal = nominals.of(number, feature);
             let (taken, near) = match (&feature.source, nominal) {
                 (Source::Derived { how, of: [a, b] }, _) => {
                     let two = features[*a].as_ref().zip(features[*b].as_ref());

@@ -1,13 +1,11 @@
 //! What lies near a feature that was not measured, but farther off than its extract distance.
 
-use super::belonging::Belonging;
 use super::data::{Data, Stop};
-use super::seed::Seeded;
+use super::nominals::Nominals;
+use super::parted::Parted;
 use super::{Taken, take};
 use crate::plan::{Plan, Source};
-use std::collections::BTreeMap;
-use trueness_geom::closest::Tree;
-use trueness_geom::feature::{FeatureError, FeatureSearch, Nearness, in_cloud};
+use trueness_geom::feature::{FeatureError, Nearness, in_cloud};
 use trueness_geom::progress::Progress;
 use trueness_geom::space::Aabb;
 
@@ -17,12 +15,12 @@ const FAR: f64 = 0.1;
 /// Adds to the reasons of features that were not measured what lies over or below their places, up to a tenth of their size off: a
 /// part that is off as a whole is not told from one without the face by "nothing was measured".
 ///
-/// Cost: nothing where all was measured; else a search tree of the mesh, and a search for each feature that was not.
+/// Cost: nothing where all was measured; else a look at each point for each feature that was not.
 pub(super) fn tell(
     plan: &Plan,
     data: &Data,
-    seeds: &BTreeMap<usize, Seeded>,
-    belonging: Option<&Belonging>,
+    nominals: &Nominals,
+    parted: Option<&Parted>,
     features: &mut Vec<Taken>,
     progress: &dyn Progress,
 ) -> Result<(), Stop> {
@@ -33,33 +31,23 @@ pub(super) fn tell(
     if missing.is_empty() {
         return Ok(());
     }
-    let facets = match mesh.faces.is_empty() {
-        true => None,
-        false => {
-            let tree = Tree::build_watched(mesh, progress).map_err(|e| Stop::Mesh(e.to_string()))?;
-            Some(FeatureSearch::new(mesh, tree))
-        }
-    };
     let mut any = false;
     for n in missing {
-        let Some(nominal) = seeds.get(&n).map(|s| &s.nominal).or(plan.features[n].nominal.as_ref()) else {
+        let Some(nominal) = nominals.of(n, &plan.features[n]) else {
             continue;
         };
         let near = plan.features[n].near(nominal);
         let wide =
             Nearness { distance: near.distance.max(FAR * Aabb::of(&nominal.places()).diagonal()), ..near };
-        let found = match &facets {
-            Some(facets) => facets.find(nominal, &wide, progress),
-            None => in_cloud(&mesh.positions, nominal, &wide),
-        };
+        let found = in_cloud(&mesh.positions, nominal, &wide);
         let found = match found {
             Err(FeatureError::Cancelled) => return Err(Stop::Cancelled),
             // Why it cannot be sought was told when it was.
             Err(_) => continue,
             Ok(found) => found,
         };
-        // What lies upon another face of the reference is of that one.
-        let is_other = |p: &u32| belonging.is_some_and(|b| b.is_upon_other(*p, n, &near));
+        let own = parted.and_then(|parted| Some((parted, parted.own(n)?)));
+        let is_other = |p: &u32| own.is_some_and(|(parted, own)| parted.is_of_others(*p, own));
         let places = found.points.iter().filter(|p| !is_other(p));
         let places = places.filter_map(|p| mesh.positions.get(*p as usize));
         let off = |p: &_| Some(nominal.surface()?.distance(*p)?.0.abs());

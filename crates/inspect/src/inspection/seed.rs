@@ -1,16 +1,18 @@
 //! Features that a plan names by a place on the reference: the region around it gives their nominal.
 
-use super::data::{Data, Stop};
+use super::data::Stop;
 use crate::compare::far_seed;
-use crate::plan::region::{facets_of, nominal_of};
+use crate::plan::region::nominal_of;
 use crate::plan::{Class, Plan, Source};
 use std::collections::BTreeMap;
 use trueness_geom::closest::Tree;
 use trueness_geom::feature::Nominal;
+use trueness_geom::mesh::Mesh;
+use trueness_geom::partition::{Face, Faces, element};
 use trueness_geom::progress::Progress;
-use trueness_geom::segment::{self, SegmentError};
+use trueness_geom::segment;
 use trueness_geom::shape::Kind;
-use trueness_geom::space::{cross, minus, norm};
+use trueness_geom::space::{Point, cross, minus, norm};
 
 /// The nominal that a seed leads to.
 pub(super) struct Seeded {
@@ -22,19 +24,15 @@ pub(super) struct Seeded {
 /// The nominals of all features with a seed, by their numbers.
 pub(super) fn seeded(
     plan: &Plan,
-    data: &Data,
+    reference: &Mesh,
+    faces: &Faces,
     progress: &dyn Progress,
 ) -> Result<BTreeMap<usize, Seeded>, Stop> {
     let mut all = BTreeMap::new();
     if !plan.features.iter().any(|f| matches!(f.source, Source::Seed(_))) {
         return Ok(all);
     }
-    let Some(reference) = &data.reference else { return Ok(all) };
-    let options = segment::Options { seed: data.seed, ..segment::Options::default() };
-    let found = segment::mesh(reference, &options, progress).map_err(|e| match e {
-        SegmentError::Cancelled(e) => e.into(),
-        e => Stop::Nominal(format!("the reference cannot be segmented: {e}")),
-    })?;
+    let crease = segment::Options::default().crease;
     let tree = Tree::build_watched(reference, progress).map_err(|e| Stop::Nominal(e.to_string()))?;
     for (number, feature) in plan.features.iter().enumerate() {
         let Source::Seed(seed) = &feature.source else { continue };
@@ -46,21 +44,26 @@ pub(super) fn seeded(
         if let Some(what) = hit.and_then(|hit| far_seed(hit.distance, hit.point, reference)) {
             return Err(wrong(what));
         }
-        let label = hit.and_then(|hit| found.labels.get(hit.face as usize).copied());
-        let region = label.and_then(|l| found.regions.get(l as usize).map(|r| (l, r)));
-        let Some((label, region)) = region else {
-            return Err(wrong(
-                "there is no plane, cylinder, cone or sphere of the reference at the seed".into(),
-            ));
+        let face = hit.and_then(|hit| faces.of_facets.get(hit.face as usize));
+        let face = face.and_then(|face| faces.all.get(*face as usize));
+        let kind = kind_of(feature.class);
+        // A narrow face may lie on elements of several kinds.
+        let asked = |face: &Face| match face.shape.filter(|shape| Some(shape.kind()) == kind) {
+            Some(shape) => Some(shape),
+            None => element(reference, &face.facets, kind?, crease),
         };
-        let kind = region.fit.shape.kind();
-        if Some(kind) != kind_of(feature.class) {
-            let what =
-                format!("the reference has a {} at the seed, not a {}", kind.name(), feature.class.word());
-            return Err(wrong(what));
-        }
-        let facets = facets_of(reference, &found, label);
-        let nominal = nominal_of(&region.fit.shape, &facets)
+        let Some((face, shape)) = face.and_then(|f| Some((f, asked(f)?))) else {
+            let there = face.and_then(|f| f.shape).map(|shape| shape.kind().name());
+            return Err(wrong(match there {
+                Some(name) => {
+                    format!("the reference has a {name} at the seed, not a {}", feature.class.word())
+                }
+                None => "there is no plane, cylinder, cone or sphere of the reference at the seed".into(),
+            }));
+        };
+        let corners = |f: &u32| reference.faces[*f as usize].map(|v| reference.positions[v as usize]);
+        let facets: Vec<[Point; 3]> = face.facets.iter().map(corners).collect();
+        let nominal = nominal_of(&shape, &facets)
             .ok_or_else(|| wrong("the region at the seed has no facets".into()))?;
         let area = facets.iter().map(|[a, b, c]| 0.5 * norm(cross(minus(*b, *a), minus(*c, *a)))).sum();
         all.insert(number, Seeded { nominal, area });

@@ -1,27 +1,20 @@
 //! Taking the features of a plan from the measured data.
 
-use super::belonging::Belonging;
+use super::cloud::Cloud;
 use super::data::{Data, Stop};
-use super::deeper::deeper;
 use super::derived::derived;
-use super::of_others::OfOthers;
-use super::own_facets::OwnFacets;
-use super::seed::Seeded;
+use super::edge;
+use super::nominals::Nominals;
+use super::parted::{OfFeature, Parted};
 use crate::characteristic::{Element, Others, Taken};
 use crate::plan::{Class, Feature, Plan, Source};
-use std::collections::BTreeMap;
-use trueness_geom::closest::Tree;
-use trueness_geom::feature::{
-    FeatureError, FeatureSearch, Found, Nearness, Nominal, Piece, covered, farthest_covered, in_cloud,
-    pieces_beside,
-};
+use trueness_geom::feature::{FeatureError, Found, Nominal, covered};
 use trueness_geom::fit::{FitError, Options, fit};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::parallel::prelude::*;
 use trueness_geom::progress::Progress;
 use trueness_geom::shape::Kind;
 use trueness_geom::space::{Point, Vector, cross, dot, minus, norm, unit};
-use trueness_geom::spatial::neighbors::PointTree;
 use trueness_geom::zone::datum::mean;
 
 /// From this angle to its nominal on an element is another one that goes through the points as well, radians.
@@ -31,21 +24,15 @@ const TURNED: f64 = std::f64::consts::FRAC_PI_4;
 pub(super) fn features(
     plan: &Plan,
     data: &Data,
-    seeds: &BTreeMap<usize, Seeded>,
-    belonging: Option<&Belonging>,
+    nominals: &Nominals,
+    parted: Option<&Parted>,
     progress: &dyn Progress,
 ) -> Result<Vec<Taken>, Stop> {
-    let sought = plan.features.iter().any(|f| matches!(f.source, Source::Nominal | Source::Seed(_)));
-    let facets = match &data.measured {
-        Some(mesh) if sought && !mesh.faces.is_empty() => {
-            let tree = Tree::build_watched(mesh, progress).map_err(|e| Stop::Mesh(e.to_string()))?;
-            Some(FeatureSearch::new(mesh, tree))
-        }
-        _ => None,
-    };
-    let cloud = data.measured.as_ref().filter(|mesh| sought && mesh.faces.is_empty());
+    let is_sought = |f: &Feature| matches!(f.source, Source::Nominal | Source::Seed(_));
+    let cloud = data.measured.as_ref().filter(|mesh| mesh.faces.is_empty());
+    let cloud = cloud.filter(|_| plan.features.iter().any(is_sought));
     let cloud = cloud.map(|mesh| Cloud::new(&mesh.positions));
-    let search = Search { facets: facets.as_ref(), cloud: cloud.as_ref(), belonging };
+    let search = Search { parted, cloud: cloud.as_ref() };
     let of = |(number, feature): (usize, &Feature)| {
         if progress.cancelled() {
             return Err(Stop::Cancelled);
@@ -61,7 +48,7 @@ pub(super) fn features(
                 taken
             }
             Source::Nominal | Source::Seed(_) => {
-                found((number, feature), seeds.get(&number), data, &search, progress)?
+                found((number, feature), nominals, data, &search)?
             }
         };
         associated(taken, feature, progress).map(Some)
@@ -125,149 +112,10 @@ pub(super) fn again(
 
 /// What features are sought with.
 struct Search<'a> {
-    /// Of a mesh.
-    facets: Option<&'a FeatureSearch<'a>>,
+    /// The data parted among faces.
+    parted: Option<&'a Parted<'a>>,
     /// Of a cloud.
     cloud: Option<&'a Cloud>,
-    belonging: Option<&'a Belonging<'a>>,
-}
-
-/// The points of a cloud, each place once: copies tell nothing new, and neighbors that are copies tell nothing at all.
-struct Cloud {
-    places: Vec<Point>,
-    /// Their numbers in the cloud; of copies the first.
-    numbers: Vec<u32>,
-    tree: PointTree,
-    /// How far at most one of them covers a feature, mm.
-    farthest: f64,
-}
-
-impl Cloud {
-    fn new(points: &[Point]) -> Cloud {
-        // Minus zero is zero.
-        let key = |n: &u32| points[*n as usize].map(|x| (x + 0.0).to_bits());
-        let mut numbers: Vec<u32> = (0..points.len() as u32).collect();
-        numbers.par_sort_unstable_by_key(|n| (key(n), *n));
-        numbers.dedup_by_key(|n| key(n));
-        numbers.sort_unstable();
-        let places: Vec<Point> = numbers.iter().map(|n| points[*n as usize]).collect();
-        let tree = PointTree::new(&places);
-        Cloud { farthest: farthest_covered(&places, &tree), tree, places, numbers }
-    }
-
-    fn number(&self, place: u32) -> u32 {
-        self.numbers[place as usize]
-    }
-}
-
-/// Takes the points of other surfaces out of those of a cloud near a nominal, which come with the numbers of their places and leave
-/// with their own.
-fn others(
-    points: &mut Vec<u32>,
-    measured: &[Point],
-    (cloud, reference): (&Cloud, Option<OfOthers>),
-    (nominal, near): (&Nominal, &Nearness),
-    progress: &dyn Progress,
-) -> Result<Others, Stop> {
-    // Of all points: those of a wall that lie upon the reference tell where the others are that noise has carried off it.
-    let beside = pieces_beside(&cloud.places, &cloud.tree, points, nominal, near, progress);
-    let mut pieces = beside.map_err(|e| match e {
-        FeatureError::Cancelled => Stop::Cancelled,
-        e => Stop::Mesh(e.to_string()),
-    })?;
-    points.iter_mut().for_each(|p| *p = cloud.number(*p));
-    pieces.iter_mut().flat_map(|piece| &mut piece.points).for_each(|p| p.0 = cloud.number(p.0));
-    let of_pieces = |pieces: &[Piece]| -> Vec<u32> {
-        pieces.iter().flat_map(|piece| piece.points.iter().map(|p| p.0)).collect()
-    };
-    let (mut out, mut doubted) = match &reference {
-        None => (vec![], of_pieces(&pieces)),
-        Some(reference) => {
-            let mut pieces = of_pieces(&reference.known(pieces)?);
-            let [mut out, mut doubted] = reference.upon(points)?;
-            without(&mut doubted, &pieces);
-            without(&mut pieces, &out);
-            without(points, &[&out[..], &doubted, &pieces].concat());
-            let [of_faces, beyond] = reference.at_edges(points, &[&pieces[..], &doubted].concat())?;
-            without(&mut pieces, &beyond);
-            out.extend(pieces.into_iter().chain(of_faces));
-            without(&mut doubted, &out);
-            doubted.extend(beyond);
-            (out, doubted)
-        }
-    };
-    for numbers in [&mut out, &mut doubted] {
-        numbers.sort_unstable();
-        numbers.dedup();
-        without(points, numbers);
-    }
-    let known = out.len();
-    let points = doubted.iter().filter_map(|p| measured.get(*p as usize).copied()).collect();
-    Ok(Others { points, known, on_reference: reference.is_some() })
-}
-
-/// Takes some numbers out of others.
-fn without(numbers: &mut Vec<u32>, out: &[u32]) {
-    let mut out = out.to_vec();
-    out.sort_unstable();
-    numbers.retain(|n| out.binary_search(n).is_err());
-}
-
-/// The facets of a measured mesh, to be judged by those that the reference has of the feature.
-struct OfMesh<'a> {
-    mesh: &'a Mesh,
-    facets: &'a FeatureSearch<'a>,
-    nominal: &'a Nominal,
-    near: &'a Nearness,
-    belonging: Option<&'a Belonging<'a>>,
-    own: Option<&'a OwnFacets>,
-}
-
-impl OfMesh<'_> {
-    /// What was found without what is of faces beside the feature and with what lies apart from it and is of it; and points of what nothing
-    /// tells.
-    fn judged(&self, mut found: Found, progress: &dyn Progress) -> Result<(Found, Others), Stop> {
-        let OfMesh { facets, nominal, near, .. } = *self;
-        let places = |of: &[u32]| -> Vec<Point> { of.iter().map(|f| mean(&self.corners(*f))).collect() };
-        let which = |of: &[u32], is: Vec<bool>| -> Vec<u32> {
-            of.iter().zip(is).filter(|(_, is)| *is).map(|(f, _)| *f).collect()
-        };
-        let failed = |e| match e {
-            FeatureError::Cancelled => Stop::Cancelled,
-            e => Stop::Mesh(e.to_string()),
-        };
-        let told = self.belonging.map(|b| &b.reference).zip(self.own);
-        if let Some((reference, own)) = told {
-            let kept = which(&found.facets, own.are_own(reference, &places(&found.facets), progress)?);
-            if kept.len() < found.facets.len() {
-                found = facets.of(&kept, near);
-            }
-        }
-        let apart = facets.apart(&found, nominal, near, progress).map_err(failed)?;
-        let (joined, mut others) = match (told, self.belonging) {
-            (Some((reference, own)), _) => {
-                let own_ones = which(&apart, own.are_own(reference, &places(&apart), progress)?);
-                let of_others = own.are_of_others(reference, &places(&own_ones), progress)?;
-                (which(&own_ones, of_others.into_iter().map(|is| !is).collect()), vec![])
-            }
-            (None, Some(_)) => (apart, vec![]),
-            (None, None) => (vec![], apart),
-        };
-        if !joined.is_empty() {
-            found = facets.joined(&found, &joined, near);
-        }
-        if let Some((reference, own)) = told {
-            let slopes = facets.slopes(&found, nominal, near, progress).map_err(failed)?;
-            others.extend(which(&slopes, own.over(reference, &places(&slopes), progress)?));
-        }
-        let points = facets.joined(&Found::default(), &others, near).points;
-        let points = points.iter().map(|v| self.mesh.positions[*v as usize]).collect();
-        Ok((found, Others { points, known: 0, on_reference: self.belonging.is_some() }))
-    }
-
-    fn corners(&self, facet: u32) -> [Point; 3] {
-        self.mesh.faces[facet as usize].map(|v| self.mesh.positions[v as usize])
-    }
 }
 
 /// The direction out of the material that a nominal has.
@@ -305,57 +153,45 @@ pub(super) fn bare(feature: &Feature) -> Taken {
 /// The points that the measured data have where the model has the feature.
 fn found(
     (number, feature): (usize, &Feature),
-    seeded: Option<&Seeded>,
+    nominals: &Nominals,
     data: &Data,
     search: &Search,
-    progress: &dyn Progress,
 ) -> Result<Taken, Stop> {
     let mut taken = bare(feature);
+    let seeded = nominals.seeds.get(&number);
     if let Some(seeded) = seeded {
         taken.nominal = Some(seeded.nominal.clone());
         taken.outward = taken.outward.or(normal(&seeded.nominal));
     }
     let (Some(mesh), Some(nominal)) = (&data.measured, taken.nominal.clone()) else { return Ok(taken) };
     let mut near = feature.near(&nominal);
-    let own = search.belonging.and_then(|belonging| belonging.own(number));
-    // The wall of a tube has a face within reach on its other side.
-    near.inward = near.inward.or(own.and_then(|own| own.inward));
+    let own = search.parted.and_then(|parted| Some((parted, parted.own(number)?)));
+    near.inward = near.inward.or(own.and_then(|(_, own)| own.inward));
     taken.inward = near.inward;
-    let found = match (search.facets, search.cloud) {
-        (Some(facets), _) => facets.find(&nominal, &near, progress),
-        (None, Some(cloud)) => in_cloud(&cloud.places, &nominal, &near),
-        (None, None) => Ok(Found::default()),
+    let of = match own {
+        Some((parted, own)) => parted.of((number, own), &nominal, &near),
+        None => edge::of(mesh, &nominal, &near),
     };
-    let stop = |e| match e {
+    let mut of = of.map_err(|e| match e {
         FeatureError::Cancelled => Stop::Cancelled,
         e => Stop::Plan { span: feature.span.clone(), what: format!("feature \"{}\": {e}", feature.id) },
-    };
-    let mut found = found.map_err(stop)?;
-    if let Some(facets) = search.facets {
-        let of_mesh =
-            OfMesh { mesh, facets, nominal: &nominal, near: &near, belonging: search.belonging, own };
-        (found, taken.others) = of_mesh.judged(found, progress)?;
-    }
-    if let (Some(facets), None) = (search.facets, search.belonging) {
-        taken.left_out = deeper(mesh, facets, &found, (&nominal, &near), progress).map_err(stop)?;
-    }
+    })?;
     if let Some(cloud) = search.cloud {
-        let reference = search.belonging.zip(own);
-        let reference =
-            reference.map(|(belonging, own)| OfOthers { belonging, own, spacing: cloud.farthest, progress });
-        let with = (cloud, reference);
-        taken.others = others(&mut found.points, &mesh.positions, with, (&nominal, &near), progress)?;
+        of.found.points.retain(|p| cloud.is_first(*p));
     }
+    let OfFeature { found, covering, others, left_out } = of;
+    (taken.others, taken.left_out) = (others, left_out);
     let places = |vertices: &[u32]| -> Vec<Point> {
         vertices.iter().filter_map(|v| mesh.positions.get(*v as usize).copied()).collect()
     };
     (taken.points, taken.rim) = (places(&found.points), places(&found.rim));
     taken.areas = areas(mesh, &found);
     let farthest = search.cloud.map_or(f64::INFINITY, |cloud| cloud.farthest);
-    let area = match search.facets {
-        Some(_) => Some(found.area),
-        None => {
-            covered(&nominal, &taken.points, farthest).zip(nominal.area()).map(|(share, area)| share * area)
+    let area = match mesh.faces.is_empty() {
+        false => Some(found.area),
+        true => {
+            let covering = covering.map_or_else(|| taken.points.clone(), |points| places(&points));
+            covered(&nominal, &covering, farthest).zip(nominal.area()).map(|(share, area)| share * area)
         }
     };
     let whole = seeded.map(|s| s.area).or_else(|| nominal.area());

@@ -170,13 +170,25 @@ pub struct FeatureRecord {
 /// Measured points that a feature leaves out.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct LeftOutRecord {
-    /// Points within its reach that were taken for those of other surfaces: walls, bores, fillets.
+    /// Points within its reach of which it is not certain that they are of it: what each value would be with them, its characteristic tells.
     pub others: u64,
+    /// Those of them along its edges that no face explains: burrs, grooves, chamfers that are not drawn. This and the next three with a reference only.
+    #[serde(default)]
+    pub edge: u64,
+    /// Those of them that go on into the material beyond its extract distance: holes, deep dents.
+    #[serde(default)]
+    pub deep: u64,
+    /// Those of them that go on out of the material: bumps, what stands on it.
+    #[serde(default)]
+    pub high: u64,
+    /// Points of a scan beyond its extract distance, each alone: outliers.
+    #[serde(default)]
+    pub outliers: u64,
     /// Points that lie where the feature is, but farther off than its extract distance.
     pub beyond: u64,
     /// How far off the farthest of these is; null where there are none.
     pub farthest: Option<f64>,
-    /// Whether a reference has the other surfaces, or the feature, at all of these points. Else nothing but the points tells of some.
+    /// Whether a reference has the feature. Else nothing but the points tells of these.
     pub on_reference: bool,
 }
 

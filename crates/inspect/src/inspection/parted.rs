@@ -1,0 +1,282 @@
+//! The measured data parted among faces, and what of them is of a feature.
+
+use super::around::Around;
+use super::data::Stop;
+use super::measured;
+use super::nominals::{Nominals, OwnFaces};
+use crate::characteristic::{LeftOut, Others};
+use crate::plan::Plan;
+use std::collections::BTreeMap;
+use std::sync::OnceLock;
+use trueness_geom::feature::{FeatureError, Found, Nearness, Nominal, facets_near, in_cloud};
+use trueness_geom::mesh::Mesh;
+use trueness_geom::partition::{
+    Beyond, Class, Face, Faces, NO_FACE, Options, Partition, PartitionError, partition,
+};
+use trueness_geom::progress::Progress;
+use trueness_geom::space::{Point, cross, dot, minus, norm, plus, times};
+
+/// The measured data parted among faces.
+pub(super) struct Parted<'a> {
+    mesh: &'a Mesh,
+    nominals: &'a Nominals,
+    /// The faces beside those of the reference: nominals that it does not have, and what else was measured where there is no reference.
+    more: Faces,
+    /// Of features that the reference does not have, their faces.
+    own: BTreeMap<usize, OwnFaces>,
+    partition: Partition,
+    /// Of each face its points and its facets, ascending.
+    points: Vec<Vec<u32>>,
+    facets: Vec<Vec<u32>>,
+    /// The facets about each vertex.
+    around: OnceLock<Around>,
+}
+
+/// Share of the greatest distance from its borders that a point of a face has, up to which a margin leaves points out there: some of a narrow face stays.
+const HALF: f64 = 0.5;
+
+/// What is of a feature.
+pub(super) struct OfFeature {
+    pub found: Found,
+    /// The points that tell how much of it was measured, where those found are others.
+    pub covering: Option<Vec<u32>>,
+    pub others: Others,
+    pub left_out: Option<LeftOut>,
+}
+
+impl<'a> Parted<'a> {
+    /// `None` where no feature is a face. Cost: one partition, and one segmentation of the measured data where there is no reference.
+    pub fn new(
+        plan: &Plan,
+        mesh: &'a Mesh,
+        nominals: &'a Nominals,
+        seed: u64,
+        progress: &dyn Progress,
+    ) -> Result<Option<Parted<'a>>, Stop> {
+        let of_reference = nominals.faces.as_ref().map_or(&[][..], |faces| &faces.all);
+        let first = of_reference.len() as u32;
+        let (mut more, mut own) = (Faces::none(), BTreeMap::new());
+        for (number, feature) in plan.features.iter().enumerate() {
+            let nominal = nominals.of(number, feature).filter(|_| nominals.own(number).is_none());
+            let Some(nominal) = nominal else { continue };
+            let near = feature.near(nominal);
+            let inward = near.inward.or_else(|| inward(mesh, nominal, &near));
+            // An edge is no face; what makes no sense is told where it is sought.
+            if let Ok(face) = more.add_nominal(nominal, inward == Some(true)) {
+                own.insert(number, OwnFaces { faces: vec![first + face], inward });
+            }
+        }
+        let reaches = reaches(plan, nominals, &own);
+        if reaches.is_empty() {
+            return Ok(None);
+        }
+        if of_reference.is_empty() {
+            measured::add(&mut more, mesh, plan, seed, progress)?;
+        }
+        let faces: Vec<&Face> = of_reference.iter().chain(&more.all).collect();
+        let distance = reaches.values().copied().reduce(f64::max).filter(|_| of_reference.is_empty());
+        let options = Options { distance, reaches, seed };
+        let partition = partition(mesh, &faces, &options, progress).map_err(|e| match e {
+            PartitionError::Cancelled(e) => e.into(),
+            e @ (PartitionError::Nominal(_) | PartitionError::Reach { .. }) => Stop::Nominal(e.to_string()),
+            e => Stop::Mesh(e.to_string()),
+        })?;
+        let of_faces = |labels: &[u32]| {
+            let mut all = vec![vec![]; faces.len()];
+            for (number, face) in (0u32..).zip(labels).filter(|l| *l.1 != NO_FACE) {
+                all[*face as usize].push(number);
+            }
+            all
+        };
+        let (points, facets) = (of_faces(&partition.owners), of_faces(&partition.facets));
+        let around = OnceLock::new();
+        Ok(Some(Parted { mesh, nominals, more, own, partition, points, facets, around }))
+    }
+
+    /// The faces of a feature; `None` of an edge, and of what was not sought.
+    pub fn own(&self, number: usize) -> Option<&OwnFaces> {
+        self.nominals.own(number).or_else(|| self.own.get(&number))
+    }
+
+    fn face(&self, number: u32) -> &Face {
+        let of_reference = self.nominals.faces.as_ref().map_or(&[][..], |faces| &faces.all);
+        let number = number as usize;
+        of_reference.get(number).unwrap_or_else(|| &self.more.all[number - of_reference.len()])
+    }
+
+    /// Whether a point is of another face than these.
+    pub fn is_of_others(&self, point: u32, own: &OwnFaces) -> bool {
+        let owner = self.partition.owners[point as usize];
+        owner != NO_FACE && self.partition.classes[point as usize] == Class::Face && !own.faces.contains(&owner)
+    }
+
+    /// What is of a feature that has these faces.
+    ///
+    /// # Errors
+    /// [`FeatureError`]: a nominal feature that makes no sense.
+    pub fn of(
+        &self,
+        (number, own): (usize, &OwnFaces),
+        nominal: &Nominal,
+        near: &Nearness,
+    ) -> Result<OfFeature, FeatureError> {
+        let Partition { classes, beyond, .. } = &self.partition;
+        let mesh = self.mesh;
+        let all = |of: &[Vec<u32>]| -> Vec<u32> {
+            own.faces.iter().flat_map(|f| of[*f as usize].iter().copied()).collect()
+        };
+        let is = |p: u32, class: Class| classes[p as usize] == class;
+        let (own_points, own_facets) = (all(&self.points), all(&self.facets));
+        // At an edge a vertex is of all faces about it.
+        let corners = own_facets.iter().flat_map(|f| mesh.faces[*f as usize]);
+        let mut points: Vec<u32> =
+            own_points.iter().copied().filter(|p| is(*p, Class::Face)).chain(corners).collect();
+        points.sort_unstable();
+        points.dedup();
+        let within = Within { parted: self, own, nominal, near };
+        let (outlined, mut left_out) = within.reach(within.bounds(points)?);
+        let border = within.border(&outlined);
+        let all_of = |points: &[u32], f: &u32| {
+            mesh.faces[*f as usize].iter().all(|v| points.binary_search(v).is_ok())
+        };
+        let mut facets = own_facets;
+        facets.retain(|f| all_of(&outlined, f));
+        let area = self.area(&facets);
+        let points = within.clear(&outlined, border);
+        facets.retain(|f| all_of(&points, f));
+        let of_class = |class: Class| -> Result<Vec<u32>, FeatureError> {
+            let those = own_points.iter().copied().filter(|p| is(*p, class)).collect();
+            Ok(within.clear(&within.reach(within.bounds(those)?).0, border))
+        };
+        let [edge, mut deep, mut high] =
+            [of_class(Class::Edge)?, of_class(Class::Deep)?, of_class(Class::High)?];
+        let over: Vec<&Beyond> = beyond.iter().filter(|b| own.faces.contains(&b.face)).collect();
+        let numbers = |which: &dyn Fn(&Beyond) -> bool| -> Result<Vec<u32>, FeatureError> {
+            let those = over.iter().filter(|b| which(b)).map(|b| b.point).collect();
+            Ok(within.clear(&within.bounds(those)?, border))
+        };
+        let is_outlier = |b: &Beyond| self.partition.is_scan() && is(b.point, Class::Alone);
+        let outliers = numbers(&is_outlier)?.len();
+        let deeper = numbers(&|b| !is_outlier(b) && b.off < 0.0)?;
+        let higher = numbers(&|b| !is_outlier(b) && b.off >= 0.0)?;
+        left_out.extend(within.off(&deeper).into_iter().chain(within.off(&higher)));
+        deep.extend(deeper);
+        high.extend(higher);
+        let places = [&edge[..], &deep, &high].concat();
+        let others = Others {
+            points: places.iter().map(|p| mesh.positions[*p as usize]).collect(),
+            edge: edge.len(),
+            deep: deep.len(),
+            high: high.len(),
+            outliers,
+            on_reference: self.nominals.own(number).is_some(),
+        };
+        let left_out = (!left_out.is_empty()).then(|| LeftOut::of(&left_out, near.distance));
+        let found = Found { area, ..self.found(points, facets, near.rim) };
+        let mut covering = outlined;
+        covering.retain(|p| self.partition.inside[*p as usize]);
+        Ok(OfFeature { found, covering: Some(covering), others, left_out })
+    }
+
+    fn area(&self, facets: &[u32]) -> f64 {
+        let area = |f: &u32| {
+            let [a, b, c] = self.mesh.faces[*f as usize].map(|v| self.mesh.positions[v as usize]);
+            0.5 * norm(cross(minus(b, a), minus(c, a)))
+        };
+        facets.iter().map(area).sum()
+    }
+
+    fn found(&self, points: Vec<u32>, facets: Vec<u32>, rim: bool) -> Found {
+        let is_shared =
+            |v: &u32| self.around().of(*v).iter().any(|facet| facets.binary_search(facet).is_err());
+        let (rim, points) = points.into_iter().partition(|v| !rim && is_shared(v));
+        Found { facets, points, rim, area: 0.0 }
+    }
+
+    fn around(&self) -> &Around {
+        self.around.get_or_init(|| Around::new(self.mesh))
+    }
+}
+
+/// What of a feature lies within its bounds and its reach.
+struct Within<'a> {
+    parted: &'a Parted<'a>,
+    own: &'a OwnFaces,
+    nominal: &'a Nominal,
+    near: &'a Nearness,
+}
+
+impl Within<'_> {
+    fn place(&self, p: u32) -> Point {
+        self.parted.mesh.positions[p as usize]
+    }
+
+    /// Those within the bounds of the nominal.
+    fn bounds(&self, points: Vec<u32>) -> Result<Vec<u32>, FeatureError> {
+        let places: Vec<Point> = points.iter().map(|p| self.place(*p)).collect();
+        let wide = Nearness { distance: f64::INFINITY, ..*self.near };
+        let found = in_cloud(&places, self.nominal, &wide)?;
+        Ok(found.points.into_iter().map(|i| points[i as usize]).collect())
+    }
+
+    /// How far a point lies from the borders of its face, or of that of the feature's which is first.
+    fn to_border(&self, p: u32) -> f64 {
+        let owner = self.parted.partition.owners[p as usize];
+        let own = if self.own.faces.contains(&owner) { owner } else { self.own.faces[0] };
+        self.parted.face(own).to_border(&self.place(p))
+    }
+
+    /// The margin at the borders of the faces, inner ones too.
+    fn border(&self, points: &[u32]) -> f64 {
+        if self.near.margin <= 0.0 {
+            return 0.0;
+        }
+        let most = points.iter().map(|p| self.to_border(*p)).fold(0.0, f64::max);
+        self.near.margin.min(HALF * most)
+    }
+
+    fn clear(&self, points: &[u32], border: f64) -> Vec<u32> {
+        points.iter().copied().filter(|p| border <= 0.0 || self.to_border(*p) >= border).collect()
+    }
+
+    fn off(&self, points: &[u32]) -> Vec<f64> {
+        let surface = self.nominal.surface();
+        let off = |p: &u32| surface.as_ref().and_then(|s| s.distance(self.place(*p))).map_or(0.0, |d| d.0.abs());
+        points.iter().map(off).collect()
+    }
+
+    /// Those within its distance, and how far off the others are.
+    fn reach(&self, points: Vec<u32>) -> (Vec<u32>, Vec<f64>) {
+        let off = self.off(&points);
+        let (near, far): (Vec<_>, Vec<_>) =
+            points.into_iter().zip(off).partition(|(_, off)| *off <= self.near.distance);
+        (near.into_iter().map(|n| n.0).collect(), far.into_iter().map(|f| f.1).collect())
+    }
+}
+
+/// How far each face reaches by the features that it is of, mm: as far as the one that is sought farthest.
+fn reaches(plan: &Plan, nominals: &Nominals, own: &BTreeMap<usize, OwnFaces>) -> BTreeMap<u32, f64> {
+    let mut reaches: BTreeMap<u32, f64> = BTreeMap::new();
+    for (number, feature) in plan.features.iter().enumerate() {
+        let Some(own) = nominals.own(number).or_else(|| own.get(&number)) else { continue };
+        let distance = nominals.of(number, feature).map_or(0.0, |nominal| feature.near(nominal).distance);
+        for face in &own.faces {
+            reaches.entry(*face).and_modify(|r| *r = r.max(distance)).or_insert(distance);
+        }
+    }
+    reaches
+}
+
+/// Whether the facets near a nominal face its axis or center, by their area; `None` of a plane, of a cloud, and where there are none.
+fn inward(mesh: &Mesh, nominal: &Nominal, near: &Nearness) -> Option<bool> {
+    let surface = nominal.surface().filter(|_| !matches!(nominal, Nominal::Plane { .. }))?;
+    let all: Vec<u32> = (0..mesh.faces.len() as u32).collect();
+    let facets = facets_near(mesh, &all, nominal, near).ok()?;
+    let along = |f: &u32| {
+        let [a, b, c] = mesh.faces[*f as usize].map(|v| mesh.positions[v as usize]);
+        let middle = times(1.0 / 3.0, plus(a, plus(b, c)));
+        Some(dot(cross(minus(b, a), minus(c, a)), surface.distance(middle)?.1))
+    };
+    let sum: f64 = facets.iter().filter_map(along).sum();
+    (sum != 0.0).then_some(sum < 0.0)
+}
