@@ -40,3 +40,39 @@ impl Mesh {
         self.positions.par_chunks(CHUNK).map(of).reduce(|| Aabb::EMPTY, |a, b| a.union(&b))
     }
 }
+
+/// The facets about each vertex of a mesh.
+///
+/// ```
+/// use trueness_geom::mesh::{FacetsAround, Mesh};
+/// let positions = vec![[0.0; 3], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+/// let around = FacetsAround::new(&Mesh { positions, faces: vec![[0, 1, 2], [0, 2, 3]] });
+/// assert_eq!((around.of(0), around.of(3)), (&[0, 1][..], &[1][..]));
+/// ```
+#[derive(Clone, Debug)]
+pub struct FacetsAround {
+    first: Vec<usize>,
+    facets: Vec<u32>,
+}
+
+impl FacetsAround {
+    /// Of a mesh whose facets name its vertices. Cost: two passes over the facets; 12 bytes for each of them and 8 for each vertex.
+    pub fn new(mesh: &Mesh) -> FacetsAround {
+        let mut first = vec![0; mesh.positions.len() + 1];
+        mesh.faces.iter().flatten().for_each(|v| first[*v as usize + 1] += 1);
+        (1..first.len()).for_each(|v| first[v] += first[v - 1]);
+        let (mut next, mut facets) = (first.clone(), vec![0; 3 * mesh.faces.len()]);
+        for (facet, corners) in (0u32..).zip(&mesh.faces) {
+            for v in corners {
+                facets[next[*v as usize]] = facet;
+                next[*v as usize] += 1;
+            }
+        }
+        FacetsAround { first, facets }
+    }
+
+    /// The facets about a vertex, ascending.
+    pub fn of(&self, v: u32) -> &[u32] {
+        &self.facets[self.first[v as usize]..self.first[v as usize + 1]]
+    }
+}

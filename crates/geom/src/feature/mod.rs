@@ -1,27 +1,20 @@
-//! Features of a measured part, found with the help of the nominal model.
+//! Nominal features: elements within bounds, how near to them measured facets and points must lie, and how much of them was measured.
 //!
-//! The facet nearest to a place of the nominal feature is the start; facets next to those found join them as long as they
-//! keep the rules of the feature: near the nominal surface, facing as it does, within its bounds. The points of the feature
-//! are the distinct vertices of the facets found. After Xu and Yang, A digital quality characterization technique for 3D
-//! printing based on the STL model (in Chinese), section 3. Where they start from one facet, several starts are taken, so
-//! that a hole at the middle or a gap in the scan loses nothing; and a distance from the nominal bounds planes too.
+//! After Xu and Yang, A digital quality characterization technique for 3D printing based on the STL model (in Chinese), section 3. Which of those near
+//! a feature are its own the [partition](crate::partition) of the whole scan tells.
 
-mod beside;
 mod bounds;
 mod covered;
 mod extent;
 mod found;
 mod nominal;
 mod rules;
-mod search;
 mod surface;
 
 pub(crate) use extent::Extent;
-pub use beside::{Piece, pieces_beside};
 pub use covered::{covered, farthest_covered};
 pub use found::Found;
 pub use nominal::{FeatureError, Nearness, Nominal};
-pub use search::FeatureSearch;
 pub use surface::NominalSurface;
 
 use crate::mesh::Mesh;
@@ -33,6 +26,15 @@ use rules::Rules;
 ///
 /// # Errors
 /// [`FeatureError`]: a nominal feature that makes no sense.
+///
+/// ```
+/// use trueness_geom::feature::{Nearness, Nominal, in_cloud};
+/// let pin = Nominal::Cylinder { point: [0.0; 3], direction: [0.0, 0.0, 1.0], radius: 2.0, length: 9.0 };
+/// let near = Nearness { distance: 0.1, angle: 0.2, margin: 1.0, rim: true, inward: None };
+/// let points = [[2.05, 0.0, 3.0], [2.05, 0.0, 0.5], [2.2, 0.0, 3.0]];
+/// assert_eq!(in_cloud(&points, &pin, &near)?.points, [0]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn in_cloud(points: &[Point], nominal: &Nominal, near: &Nearness) -> Result<Found, FeatureError> {
     let rules = Rules::new(nominal, near)?;
     let bounds = rules.bounds();
@@ -46,6 +48,19 @@ pub fn in_cloud(points: &[Point], nominal: &Nominal, near: &Nearness) -> Result<
 ///
 /// # Errors
 /// [`FeatureError`]: a nominal feature that makes no sense.
+///
+/// ```
+/// use trueness_geom::feature::{Nearness, Nominal, facets_near};
+/// use trueness_geom::mesh::Mesh;
+/// // A square floor of two facets, and a wall.
+/// let corners = vec![[0.0, 0.0, 0.0], [9.0, 0.0, 0.0], [9.0, 9.0, 0.0], [0.0, 9.0, 0.0]];
+/// let floor = Nominal::Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0], boundary: corners.clone() };
+/// let near = Nearness { distance: 0.1, angle: 0.2, margin: 0.0, rim: true, inward: None };
+/// let positions = [corners, vec![[0.0, 0.0, 9.0]]].concat();
+/// let mesh = Mesh { positions, faces: vec![[0, 1, 2], [0, 2, 3], [0, 4, 1]] };
+/// assert_eq!(facets_near(&mesh, &[0, 1, 2], &floor, &near)?, [0, 1]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn facets_near(
     mesh: &Mesh,
     facets: &[u32],
@@ -67,6 +82,13 @@ pub fn facets_near(
 ///
 /// # Errors
 /// [`FeatureError`]: a nominal feature that makes no sense.
+///
+/// ```
+/// use trueness_geom::feature::{Nominal, places_over};
+/// let ball = Nominal::Sphere { center: [0.0; 3], radius: 3.0 };
+/// assert!(places_over(&ball)?.iter().all(|[x, y, z]| ((x * x + y * y + z * z).sqrt() - 3.0).abs() < 1e-12));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn places_over(nominal: &Nominal) -> Result<Vec<Point>, FeatureError> {
     let near = Nearness { distance: 0.0, angle: 0.0, margin: 0.0, rim: true, inward: None };
     Ok(Rules::new(nominal, &near)?.starts())

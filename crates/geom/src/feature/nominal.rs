@@ -63,8 +63,7 @@ pub enum Nominal {
 pub struct Nearness {
     /// Greatest distance of its corners from the nominal surface, millimeters.
     pub distance: f64,
-    /// Greatest angle of its normal to the nominal one, radians. Steeper facets that others of the feature enclose count
-    /// too where all of them is near: a spike or a dent; but no walls of 85° and more.
+    /// Greatest angle of its normal to the nominal one, radians.
     pub angle: f64,
     /// What is left out along the bounds of the feature, millimeters; below zero, how far it may reach beyond them.
     pub margin: f64,

@@ -11,9 +11,6 @@ pub(super) struct Rules<'a> {
     kind: CheckedNominal,
 }
 
-/// The sides of a dent or a spike are not steeper than this, 85°; walls that were drawn stand at right angles.
-const STEEPEST: f64 = 85.0 / 180.0 * std::f64::consts::PI;
-
 /// Share of the coordinates by which boxes are widened: far more than rounding takes.
 const ROUNDING: f64 = 1e-9;
 
@@ -128,24 +125,6 @@ impl<'a> Rules<'a> {
             let center = times(1.0 / 3.0, plus(corners[0], plus(corners[1], corners[2])));
             self.faces(center, facing, self.near.angle)
         }
-    }
-
-    /// Whether a facet that faces otherwise may belong to the feature, where others enclose it: where all of it is near, and it is no wall
-    /// that leads away from the feature. The corners of a flat end of a cylinder lie on this, and nothing else of it; beyond the walls of
-    /// a thin plate there is its other side. Never to an edge, which is told by its angles alone.
-    pub(super) fn tilted(&self, corners: [Point; 3], facing: Option<Vector>) -> bool {
-        let [a, b, c] = corners;
-        let middle = |p: Point, q: Point| times(0.5, plus(p, q));
-        let center = times(1.0 / 3.0, plus(a, plus(b, c)));
-        let places = [a, b, c, middle(a, b), middle(b, c), middle(c, a), center];
-        !matches!(self.kind, CheckedNominal::Edge { .. })
-            && places.iter().all(|p| self.point(*p))
-            && facing.is_none_or(|n| self.faces(center, n, STEEPEST))
-    }
-
-    /// Whether a facet about `center` lies near the feature and is no wall that leads away from it.
-    pub(super) fn sloped(&self, center: Point, facing: Vector) -> bool {
-        self.point(center) && self.faces(center, facing, STEEPEST)
     }
 
     /// Whether a place is near the feature and within its bounds.

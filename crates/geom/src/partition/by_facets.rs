@@ -2,12 +2,13 @@
 
 use super::best::Candidate;
 use super::faces::{Face, Seat};
+use super::facing::Facing;
 use super::terms::{Class, NO_FACE};
 use super::{FEWEST_SURE, Work};
 use crate::mesh::Mesh;
 use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress};
-use crate::space::{Point, Vector, dot, normal, plus, times};
+use crate::space::{Point, Vector, dot, plus, times};
 
 /// Cosine of the angle (15°) up to which a facet faces as its face does.
 const PARALLEL: f64 = 0.966;
@@ -16,12 +17,12 @@ const PARALLEL: f64 = 0.966;
 /// it than to any other. A mesh with long facets has no vertices but those on edges.
 pub(super) fn add(
     scan: &Mesh,
-    work: &Work,
+    (work, facing): (&Work, &Facing),
     sure: &mut [Vec<Candidate>],
     progress: &dyn Progress,
 ) -> Result<(), Cancelled> {
     let lacking: Vec<usize> = (0..sure.len()).filter(|f| sure[*f].len() < FEWEST_SURE).collect();
-    if scan.faces.is_empty() || lacking.is_empty() {
+    if lacking.is_empty() {
         return Ok(());
     }
     let bounds: Vec<_> =
@@ -31,8 +32,8 @@ pub(super) fn add(
     let facets: Vec<(u32, Point, Vector)> = (0..scan.faces.len() as u32)
         .into_par_iter()
         .filter_map(|f| {
-            let (middle, normal) = (middle(corners(f)), normal(corners(f))?);
-            bounds.iter().any(|b| b.holds(&middle)).then_some((f, middle, normal))
+            let middle = middle(corners(f));
+            bounds.iter().any(|b| b.holds(&middle)).then_some((f, middle, facing.facets[f as usize]))
         })
         .collect();
     let middles: Vec<Point> = facets.iter().map(|f| f.1).collect();
@@ -66,12 +67,12 @@ pub(super) fn add(
     Ok(())
 }
 
-/// The face of each facet of a mesh: one that explains all its corners, or has them. Of several that which the facet faces as.
+/// The face of each facet of a mesh: one that explains all its corners, or has them, and of which it is no wall. Of several that which the facet faces as.
 pub(super) fn owners(
     scan: &Mesh,
     (owners, classes): (&[u32], &[Class]),
     shared: &[(u32, u32)],
-    faces: &[&Face],
+    (faces, facing): (&[&Face], &Facing),
 ) -> Vec<u32> {
     let owner = |v: u32| if classes[v as usize] == Class::Face { owners[v as usize] } else { NO_FACE };
     let of = |v: u32| {
@@ -79,21 +80,20 @@ pub(super) fn owners(
         shared[first..].iter().take_while(move |s| s.0 == v).map(|s| s.1)
     };
     let is_of = |v: u32, face: u32| owner(v) == face || of(v).any(|f| f == face);
-    let facet = |corners: &[u32; 3]| {
+    let facet = |(number, corners): (usize, &[u32; 3])| {
         let [a, b, c] = *corners;
         let own = owner(a);
         let all = of(a).chain((own != NO_FACE).then_some(own));
         let mut fit: Vec<u32> = all.filter(|f| is_of(b, *f) && is_of(c, *f)).collect();
         fit.sort_unstable();
         fit.dedup();
-        if fit.len() < 2 {
-            return fit.first().copied().unwrap_or(NO_FACE);
-        }
         let places = corners.map(|v| scan.positions[v as usize]);
-        let facing = normal(places).unwrap_or_default();
         let middle = times(1.0 / 3.0, plus(places[0], plus(places[1], places[2])));
-        let along = |f: &u32| faces[*f as usize].facing(&middle).map_or(-1.0, |n| dot(n, facing));
-        fit.into_iter().max_by(|a, b| along(a).total_cmp(&along(b)).then(b.cmp(a))).unwrap_or(NO_FACE)
+        let out = |face: u32| faces[face as usize].facing(&middle).unwrap_or_default();
+        let all = fit.into_iter().map(|face| (face, out(face)));
+        let all = all.filter(|(_, normal)| facing.is_along(number as u32, *normal));
+        let all = all.map(|(face, normal)| (face, dot(facing.facets[number], normal)));
+        all.max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0))).map_or(NO_FACE, |best| best.0)
     };
-    scan.faces.par_iter().map(facet).collect()
+    scan.faces.par_iter().enumerate().map(facet).collect()
 }

@@ -9,7 +9,8 @@ use crate::progress::{Cancelled, Progress, Silent};
 use crate::segment::SegmentError;
 use crate::shape::{Kind, Shape};
 use crate::spatial::neighbors::PointTree;
-use crate::space::{self, Aabb, Point, Vector, cross, dot, minus, norm, plus, times, unit};
+use crate::topology::weld;
+use crate::space::{self, MIN_COORDINATE, Aabb, Point, Vector, cross, dot, minus, norm, plus, times, unit};
 use std::collections::BTreeMap;
 
 /// A face of the nominal.
@@ -96,14 +97,15 @@ impl Faces {
         self.all.len() as u32 - 1
     }
 
-    /// The faces of a nominal with outward facets that share vertices. Facets without area are of none.
+    /// The faces of a nominal with outward facets. Facets without area are of none.
     ///
     /// # Errors
     /// [`SegmentError`]: no facets, coordinates that are no numbers.
     pub fn of(nominal: &Mesh, progress: &dyn Progress) -> Result<Faces, SegmentError> {
-        let Cut { of_facets, facets, shapes } = cut::cut(nominal, progress)?;
+        let nominal = weld::mesh(nominal)?.mesh;
+        let Cut { of_facets, facets, shapes } = cut::cut(&nominal, progress)?;
         let faces = facets.into_par_iter().zip(shapes);
-        let all = faces.map(|(facets, shape)| Face::new(nominal, facets, shape)).collect::<Option<_>>();
+        let all = faces.map(|(facets, shape)| Face::new(&nominal, facets, shape)).collect::<Option<_>>();
         Ok(Faces { all: all.ok_or(SegmentError::NoSurface)?, of_facets })
     }
 }
@@ -172,8 +174,8 @@ impl Face {
             None => vec![None; points.len()],
         };
         let foot = |(p, across): (&Point, &Option<(f64, Vector)>)| match across {
-            Some((off, normal)) => minus(*p, times(*off, *normal)),
-            None => *p,
+            Some((off, normal)) => searched(minus(*p, times(*off, *normal))),
+            None => searched(*p),
         };
         let feet: Vec<Point> = points.iter().zip(&across).map(foot).collect();
         let within: Vec<f64> = match &self.goes {
@@ -181,7 +183,7 @@ impl Face {
             Goes::Points(tree, apart) => feet.par_iter().map(|p| beyond(tree, *apart, p)).collect(),
             Goes::Facets(facets) => match self.shape {
                 Some(_) => facets.within(&feet, far, progress)?,
-                None => return facets.free(points, reach, far, progress),
+                None => return facets.free(&feet, reach, far, progress),
             },
         };
         let seat = |(across, within): (Option<(f64, Vector)>, f64)| {
@@ -198,7 +200,7 @@ impl Face {
     }
 
     /// Its unit normal near a place, out of the material.
-    pub(super) fn facing(&self, p: &Point) -> Option<Vector> {
+    pub fn facing(&self, p: &Point) -> Option<Vector> {
         match (self.shape, &self.goes) {
             (Some(shape), _) => self.across(shape, *p, f64::INFINITY).map(|a| a.1),
             (None, Goes::Facets(facets)) => facets.facing(p),
@@ -229,6 +231,11 @@ impl Face {
             Goes::Points(..) => f64::INFINITY,
         }
     }
+}
+
+/// A place that can be searched for: what is less than the least coordinate is none.
+fn searched(p: Point) -> Point {
+    p.map(|x| if x.abs() < MIN_COORDINATE { 0.0 } else { x })
 }
 
 /// Infinite within measured points; how far beyond them, below zero.
@@ -298,13 +305,13 @@ impl Facets {
     }
 
     fn facing(&self, p: &Point) -> Option<Vector> {
-        let place = self.tree.closest(p, f64::INFINITY).ok()??;
+        let place = self.tree.closest(&searched(*p), f64::INFINITY).ok()??;
         normal(&self.mesh, self.mesh.faces.get(place.face as usize)?)
     }
 
     fn to_border(&self, foot: &Point) -> f64 {
         let Some(border) = &self.border else { return f64::INFINITY };
-        border.closest(foot, f64::INFINITY).ok().flatten().map_or(f64::INFINITY, |c| c.distance)
+        border.closest(&searched(*foot), f64::INFINITY).ok().flatten().map_or(f64::INFINITY, |c| c.distance)
     }
 }
 

@@ -8,8 +8,8 @@
 //!    the sure points around; the point belongs to the one that it lies off by the least part of what noise and the going on allow.
 //! 4. Points that no face explains are looked at together with their neighbors. What hangs together with points beyond the reach of
 //!    all faces goes on into the material ([`Class::Deep`]) or out of it ([`Class::High`]) farther than the reach: a hole, a bump, a thing that
-//!    stands there. What lies along a border alone is [`Class::Edge`]: a burr, a groove, a chamfer that is not drawn; the rest is form of
-//!    the face: a dent.
+//!    stands there. What lies along a border is [`Class::Edge`] as far as scans round edges, farther [`Class::Broken`]: a burr, a groove, a chamfer
+//!    that is not drawn. The rest is form of the face: a dent.
 //!
 //! | file | what |
 //! |---|---|
@@ -18,6 +18,7 @@
 //! | `by_facets` | what the facets of a mesh tell |
 //! | `cut` | the nominal cut into faces |
 //! | `faces` | a face, and where a point lies on it |
+//! | `facing` | how the vertices of a mesh face |
 //! | `placed` | where a face really is |
 //! | `going_on` | where its surface goes on near a border |
 //! | `unexplained` | what no face explains |
@@ -26,6 +27,7 @@ mod best;
 mod by_facets;
 mod cut;
 mod faces;
+mod facing;
 mod going_on;
 mod placed;
 mod terms;
@@ -41,10 +43,11 @@ pub use terms::{Beyond, Class, NO_FACE, Options, Partition, PartitionError};
 use crate::mesh::Mesh;
 use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress};
-use crate::space::{Aabb, Point, Vector, cross, dot, minus, plus, unit};
+use crate::space::{Aabb, Point, dot};
 use crate::spatial::neighbors::PointTree;
 use best::{Best, Candidate};
 use faces::Seat;
+use facing::Facing;
 use going_on::Sure;
 use terms::EXPLAINED;
 use unexplained::Over;
@@ -61,14 +64,16 @@ const FREE: f64 = 0.3;
 const SECOND: f64 = 6.0 * EXPLAINED;
 const ASKED: f64 = 0.6 * EXPLAINED;
 /// A corner of facets is of each face that costs at most so much more than its best one: at a sharp edge of two.
-const SHARED: f64 = 1.0;
+const SHARED: f64 = 3.0;
+/// Cosine of the angle (120°) from which on faces are the two sides of a wall.
+const OTHER_SIDE: f64 = -0.5;
 /// Cosine of the angle (37°) up to which a sure point faces as its face does.
 const FACING: f64 = 0.8;
 /// Distances of neighbors from the border at which points are surely of a face: the first of these that leaves enough.
 const CLEAR: [f64; 3] = [2.5, 1.5, 0.75];
 /// Fewest sure points that are enough.
 const FEWEST_SURE: usize = 20;
-/// Share of the diagonal of all faces up to which what lies beyond the reach of a face may be of it.
+/// Share of the diagonal of all faces up to which what lies beyond the reach of a face, out of the material, may be of it. Into the material nothing else is.
 const ELSEWHERE: f64 = 0.1;
 /// Neighbors whose farthest tells the distance of neighbors, and places where that is looked at.
 const NEIGHBORS: usize = 16;
@@ -116,18 +121,23 @@ pub fn partition(
         return Err(PartitionError::NoSuchVertex { facet });
     }
     let reach = reaches(faces, options)?;
-    let normals = (!scan.faces.is_empty()).then(|| vertex_normals(scan));
+    let facing = (!scan.faces.is_empty()).then(|| Facing::new(scan));
     let spacing = spacing(points, options.seed);
     let mut candidates = vec![];
     for (face, reach) in faces.iter().zip(&reach) {
-        candidates.push(near(face, points, normals.as_deref(), AWAY * reach, spacing, progress)?);
+        candidates.push(near(face, points, facing.as_ref(), AWAY * reach, spacing, progress)?);
     }
     let work = Work { points, faces, reach, candidates, spacing };
-    let mut sure = work.sure(normals.as_deref());
-    by_facets::add(scan, &work, &mut sure, progress)?;
+    let mut sure = work.sure(facing.as_ref());
+    if let Some(facing) = &facing {
+        by_facets::add(scan, (&work, facing), &mut sure, progress)?;
+    }
     let floor = rounding(points);
-    let placed: Vec<Placed> = (faces.par_iter().zip(&sure))
-        .map(|(face, sure)| Placed::of(face, points, sure, floor, options.seed))
+    let sparse = work.sparse(facing.is_none());
+    let placed: Vec<Placed> = (faces.par_iter().zip(&sure).zip(&sparse))
+        .map(|((face, sure), sparse)| {
+            Placed::of(face, points, sure, sparse.map_or(floor, |reach| reach / EXPLAINED), options.seed)
+        })
         .collect();
     cancelled(progress)?;
     let around: Vec<Sure> = (faces.par_iter().zip(&placed).zip(&sure))
@@ -138,18 +148,27 @@ pub fn partition(
     let noise = going_on::noise(&around, options.seed).max(floor);
     let mut best = work.by_faces(&placed, noise);
     cancelled(progress)?;
-    let shared = work.by_what_is_around(&mut best, &around, noise);
+    let (shared, mut between) = work.by_what_is_around(&mut best, &around, noise);
     cancelled(progress)?;
     drop(work);
-    let (classes, hanging) = unexplained::classes(scan, &mut best, spacing);
-    let facets = by_facets::owners(scan, (&best.owner, &classes), &shared, faces);
+    let off = |p: u32, face: u32, seat: Seat| placed[face as usize].off(faces[face as usize], points[p as usize], seat);
+    // What was computed has sharp edges.
+    let rounded = if noise > floor { spacing } else { 0.0 };
+    let (mut classes, hanging) = unexplained::classes(scan, &mut best, (spacing, rounded), off);
+    between.retain(|b| classes[b.point as usize] == Class::Face);
+    for b in &between {
+        classes[b.point as usize] = Class::Between;
+    }
+    let facets = facing.as_ref().map_or(vec![], |facing| {
+        by_facets::owners(scan, (&best.owner, &classes), &shared, (faces, facing))
+    });
     let size = faces.iter().fold(Aabb::EMPTY, |b, f| b.union(&f.bounds)).diagonal();
-    let over = Over { points, faces, around: &around, spacing, far: ELSEWHERE * size };
+    let over = Over { points, faces, around: &around, spacing, far: [size, ELSEWHERE * size] };
     let beyond = over.faces(&hanging, progress)?;
     drop(around);
     let inside = best.seat.iter().map(|s| s.is_some_and(|s| s.within >= 0.0)).collect();
     let owners = best.owner;
-    Ok(Partition { owners, classes, inside, facets, beyond, placed, spacing, noise, rounding: floor })
+    Ok(Partition { owners, classes, inside, facets, beyond, between, placed, spacing, noise, rounding: floor })
 }
 
 /// How far each face reaches.
@@ -175,7 +194,7 @@ struct Work<'a> {
 
 impl Work<'_> {
     /// The points that are surely of each face: it is the nearest of those over which they lie, they face as it does and lie clear of its border.
-    fn sure(&self, normals: Option<&[Vector]>) -> Vec<Vec<Candidate>> {
+    fn sure(&self, facing: Option<&Facing>) -> Vec<Vec<Candidate>> {
         let mut least = vec![f64::INFINITY; self.points.len()];
         for c in self.candidates.iter().flatten().filter(|c| c.seat.within > 0.0) {
             let least = &mut least[c.point as usize];
@@ -186,7 +205,7 @@ impl Work<'_> {
                 let (p, off) = (c.point as usize, c.seat.off.abs());
                 c.seat.within > times * self.spacing
                     && off <= reach.min(least[p])
-                    && normals.is_none_or(|n| dot(n[p], c.seat.normal) > FACING)
+                    && facing.is_none_or(|f| dot(f.vertices[p], c.seat.normal) > FACING)
             };
             near.iter().filter(is_own).copied().collect()
         };
@@ -201,6 +220,15 @@ impl Work<'_> {
             found
         };
         self.candidates.par_iter().zip(&self.reach).map(of_face).collect()
+    }
+
+    /// Of a cloud with few points over a face, as a probe takes them: what they deviate by is not known, and all within the reach is explained.
+    fn sparse(&self, is_cloud: bool) -> Vec<Option<f64>> {
+        let few = |(near, reach): (&Vec<Candidate>, &f64)| {
+            let is_over = |c: &&Candidate| c.seat.within >= 0.0 && c.seat.off.abs() <= *reach;
+            (is_cloud && near.iter().filter(is_over).take(FEWEST_SURE).count() < FEWEST_SURE).then_some(*reach)
+        };
+        self.candidates.iter().zip(&self.reach).map(few).collect()
     }
 
     /// The face of each point by the distance from where the faces really are.
@@ -225,7 +253,12 @@ impl Work<'_> {
 
     /// Those whose face is not certain by that, by what is around them. Tells points, ascending, with all faces that explain them about as
     /// well as the best.
-    fn by_what_is_around(&self, best: &mut Best, around: &[Sure], noise: f64) -> Vec<(u32, u32)> {
+    fn by_what_is_around(
+        &self,
+        best: &mut Best,
+        around: &[Sure],
+        noise: f64,
+    ) -> (Vec<(u32, u32)>, Vec<Beyond>) {
         let asked: Vec<bool> = (best.cost.iter().zip(&best.second))
             .map(|(cost, second)| cost.is_finite() && (*second < SECOND || *cost > ASKED))
             .collect();
@@ -239,7 +272,7 @@ impl Work<'_> {
             })
             .collect();
         (0..self.points.len()).filter(|p| asked[*p]).for_each(|p| best.forget(p));
-        let mut shared = vec![];
+        let (mut shared, mut between) = (vec![], vec![]);
         for (number, near) in (0u32..).zip(&again) {
             near.iter().for_each(|(c, cost)| best.add(c, number, *cost));
         }
@@ -248,9 +281,17 @@ impl Work<'_> {
                 n.1 <= EXPLAINED.min(best.cost[n.0.point as usize] + SHARED)
             };
             shared.extend(near.iter().filter(is_alike).map(|n| (n.0.point, number)));
+            // What no face explains may be of the other side of a wall too.
+            let is_other_side = |c: &Candidate| {
+                let p = c.point as usize;
+                let own = best.seat[p].filter(|_| best.cost[p] > EXPLAINED && best.owner[p] != number);
+                c.seat.within > 0.0 && own.is_some_and(|own| dot(own.normal, c.seat.normal) < OTHER_SIDE)
+            };
+            let other_side = near.iter().map(|n| n.0).filter(is_other_side);
+            between.extend(other_side.map(|c| Beyond { point: c.point, face: number, off: c.seat.off }));
         }
         shared.sort_unstable();
-        shared
+        (shared, between)
     }
 
     fn beyond(&self, within: f64) -> f64 {
@@ -262,7 +303,7 @@ impl Work<'_> {
 fn near(
     face: &Face,
     points: &[Point],
-    normals: Option<&[Vector]>,
+    facing: Option<&Facing>,
     reach: f64,
     spacing: f64,
     progress: &dyn Progress,
@@ -275,7 +316,7 @@ fn near(
     let seats = face.seats(&places, reach, far, progress)?;
     let candidate = |(i, seat): (&u32, Option<Seat>)| {
         let seat = seat.filter(|s| s.within >= -reach - spacing)?;
-        let faces = normals.is_none_or(|n| dot(n[*i as usize], seat.normal) > 0.0);
+        let faces = facing.is_none_or(|f| f.may_be_of(*i, seat.normal));
         faces.then_some(Candidate { point: *i, seat })
     };
     Ok(numbers.par_iter().zip(seats).filter_map(candidate).collect())
@@ -307,17 +348,6 @@ pub fn spacing(points: &[Point], seed: u64) -> f64 {
 fn rounding(points: &[Point]) -> f64 {
     let greatest = points.iter().flatten().fold(0.0f64, |m, x| m.max(x.abs()));
     0.5 * greatest * f64::from(f32::EPSILON)
-}
-
-/// Unit normals of vertices, by the areas of their facets; zero where there is none.
-fn vertex_normals(scan: &Mesh) -> Vec<Vector> {
-    let mut sums = vec![[0.0; 3]; scan.positions.len()];
-    for face in &scan.faces {
-        let [a, b, c] = face.map(|v| scan.positions[v as usize]);
-        let area = cross(minus(b, a), minus(c, a));
-        face.iter().for_each(|v| sums[*v as usize] = plus(sums[*v as usize], area));
-    }
-    sums.into_iter().map(|n| unit(n).map_or([0.0; 3], |n| n.0)).collect()
 }
 
 fn cancelled(progress: &dyn Progress) -> Result<(), Cancelled> {

@@ -28,12 +28,16 @@ pub struct Options {
 pub enum Class {
     /// Of its face, with its form: dents too.
     Face,
-    /// Along a border of its face, and explained by none: a burr, a groove, a chamfer that is not drawn.
+    /// On an edge, where scans are rounded: at a border, and explained by no face.
     Edge,
+    /// Along a border of its face, farther from it than scans are rounded, and explained by none: a burr, a groove, a chamfer that is not drawn.
+    Broken,
     /// Hangs together with what lies deeper in the material than the reach of faces: of a face where it is within its reach.
     Deep,
     /// Hangs together with what lies farther out of the material than the reach of faces: of a face where it is within its reach.
     High,
+    /// Off its face and off another one that faces the other way, by more than both explain: the dent of one side of a wall or of the other.
+    Between,
     /// Beyond the reach of all faces, with no more than two such points together: a stray, or a spike that was hit once.
     Alone,
     /// Of no face: beyond the reach of all, as a table.
@@ -55,6 +59,8 @@ pub struct Partition {
     /// Points beyond the reach of all faces that lie over faces: over those that they hang together with; those by themselves over the nearest, where nothing of
     /// it was measured beneath, or where they are alone. By face and point.
     pub beyond: Vec<Beyond>,
+    /// The points of [`Class::Between`] with the faces that they may be of beside their own.
+    pub between: Vec<Beyond>,
     /// Where each face really is.
     pub placed: Vec<Placed>,
     /// Distance of neighboring points, millimeters.

@@ -1,5 +1,6 @@
 //! What no face explains.
 
+use super::CLEAR;
 use super::best::Best;
 use super::faces::{Face, Seat};
 use super::going_on::Sure;
@@ -17,18 +18,27 @@ const SEVERAL: usize = 3;
 const ALONG: f64 = 1.0;
 /// Nothing was measured at a place if no point is within so many distances of neighbors: by chance, where points lie at random, one time in a million.
 const GAP: f64 = 2.1;
+/// Distances of neighbors from a border, and off the face, up to which scans round an edge.
+const ROUNDED: f64 = 2.0;
 /// Neighbors of a point in a cloud, and distances of neighbors within which they hang together.
 const NEIGHBORS: usize = 8;
 const TOGETHER: f64 = 2.5;
 
 /// The class of each point, and points beyond all reach with the faces that they hang together with. Points that turn out to be of no face lose their owner.
-pub(super) fn classes(scan: &Mesh, best: &mut Best, spacing: f64) -> (Vec<Class>, Vec<Hanging>) {
+/// `rounded` is the distance of neighbors in a scan, which rounds edges by some of it; 0 where edges are sharp. `off` tells how far a point is off a face where
+/// that really is.
+pub(super) fn classes(
+    scan: &Mesh,
+    best: &mut Best,
+    (spacing, rounded): (f64, f64),
+    off: impl Fn(u32, u32, Seat) -> f64,
+) -> (Vec<Class>, Vec<Hanging>) {
     let is_open = |p: usize| best.cost[p].is_nan() || best.cost[p] > EXPLAINED;
     let mut classes: Vec<Class> =
         best.owner.iter().map(|o| if *o == NO_FACE { Class::Beyond } else { Class::Face }).collect();
     let open: Vec<u32> = (0..best.owner.len() as u32).filter(|p| is_open(*p as usize)).collect();
     let mut hanging = vec![];
-    for group in groups(scan, &open, spacing) {
+    for (group, beside) in groups(scan, &open, spacing) {
         let (of_faces, beyond): (Vec<u32>, Vec<u32>) =
             group.into_iter().partition(|p| best.owner[*p as usize] != NO_FACE);
         let seats = || of_faces.iter().filter_map(|p| best.seat[*p as usize]);
@@ -53,15 +63,26 @@ pub(super) fn classes(scan: &Mesh, best: &mut Best, spacing: f64) -> (Vec<Class>
             beyond.iter().for_each(|p| classes[*p as usize] = class);
             hanging.push(Hanging { points: beyond, faces });
         } else if beyond.len() < SEVERAL {
-            if 2 * along > total {
-                of_faces.iter().for_each(|p| classes[*p as usize] = Class::Edge);
+            for p in of_faces.iter().filter(|_| 2 * along > total) {
+                let number = *p as usize;
+                let is_near = |seat: Seat| {
+                    (best.near[number] > 1 || seat.within < ROUNDED * rounded)
+                        && off(*p, best.owner[number], seat).abs() < ROUNDED * rounded
+                };
+                let is_edge = best.seat[number].is_some_and(is_near);
+                classes[number] = if is_edge { Class::Edge } else { Class::Broken };
             }
             beyond.iter().for_each(|p| classes[*p as usize] = Class::Alone);
             if !beyond.is_empty() {
                 hanging.push(Hanging { points: beyond, faces: vec![] });
             }
         } else {
-            hanging.push(Hanging { points: beyond, faces: vec![] });
+            // Facets join it to points of faces.
+            let mut faces: Vec<u32> = beside.iter().map(|p| best.owner[*p as usize]).collect();
+            faces.retain(|face| *face != NO_FACE);
+            faces.sort_unstable();
+            faces.dedup();
+            hanging.push(Hanging { points: beyond, faces });
         }
     }
     (classes, hanging)
@@ -81,13 +102,13 @@ pub(super) struct Over<'a> {
     /// Of each face.
     pub around: &'a [Sure<'a>],
     pub spacing: f64,
-    /// How far off a face, mm.
-    pub far: f64,
+    /// How far off a face, into the material and out of it, mm.
+    pub far: [f64; 2],
 }
 
 impl Over<'_> {
     /// The points that lie over faces: over those that they hang together with; those by themselves over the nearest, where nothing of it was measured
-    /// beneath most of them, or where they are alone.
+    /// beneath some of them, or where they are alone.
     pub(super) fn faces(
         &self,
         hanging: &[Hanging],
@@ -99,47 +120,57 @@ impl Over<'_> {
         }
         let mut found = vec![];
         for (face, numbers) in of_faces {
-            found.extend(self.face(face, &numbers, progress)?);
+            found.extend(self.face(face, &numbers, progress)?.into_iter().map(|over| over.0));
         }
         let themselves: Vec<&Hanging> = hanging.iter().filter(|h| h.faces.is_empty()).collect();
         let mut numbers: Vec<u32> = themselves.iter().flat_map(|h| h.points.iter().copied()).collect();
         numbers.sort_unstable();
-        let mut nearest: BTreeMap<u32, Beyond> = BTreeMap::new();
-        if !numbers.is_empty() {
-            for face in 0..self.faces.len() as u32 {
-                for here in self.face(face, &numbers, progress)? {
-                    let kept = nearest.entry(here.point).or_insert(here);
-                    if here.off.abs() < kept.off.abs() {
-                        *kept = here;
-                    }
-                }
-            }
+        let mut over: Vec<BTreeMap<u32, (Beyond, f64)>> = vec![];
+        for face in 0..self.faces.len() as u32 {
+            let here = if numbers.is_empty() { vec![] } else { self.face(face, &numbers, progress)? };
+            over.push(here.into_iter().map(|over| (over.0.point, over)).collect());
         }
         for hanging in themselves {
-            let over: Vec<Beyond> = hanging.points.iter().filter_map(|p| nearest.get(p)).copied().collect();
-            let gaps = over.iter().filter(|b| self.is_gap(b)).count();
-            if hanging.points.len() < SEVERAL || 2 * gaps > over.len() {
-                found.extend(over);
+            let mut nearest: Option<(f64, Vec<Beyond>)> = None;
+            for over in &over {
+                let own: Vec<(Beyond, f64)> =
+                    hanging.points.iter().filter_map(|p| over.get(p)).copied().collect();
+                let gaps = own.iter().filter(|(b, within)| self.is_gap(b, *within)).count();
+                let own: Vec<Beyond> = own.into_iter().map(|over| over.0).collect();
+                let off = own.iter().map(|b| b.off.abs()).sum::<f64>() / own.len() as f64;
+                let counts = !own.is_empty() && (hanging.points.len() < SEVERAL || gaps >= SEVERAL);
+                if counts && nearest.as_ref().is_none_or(|n| off < n.0) {
+                    nearest = Some((off, own));
+                }
             }
+            found.extend(nearest.map_or(vec![], |n| n.1));
         }
         found.sort_unstable_by_key(|b| (b.face, b.point));
         Ok(found)
     }
 
-    /// Those of some points that lie over a face, clear of its border.
-    fn face(&self, face: u32, numbers: &[u32], progress: &dyn Progress) -> Result<Vec<Beyond>, Cancelled> {
+    /// Those of some points that lie over a face, clear of its border, and how far within it.
+    fn face(
+        &self,
+        face: u32,
+        numbers: &[u32],
+        progress: &dyn Progress,
+    ) -> Result<Vec<(Beyond, f64)>, Cancelled> {
         let Over { points, faces, spacing, far, .. } = *self;
         let places: Vec<Point> = numbers.iter().map(|p| points[*p as usize]).collect();
-        let seats = faces[face as usize].seats(&places, far, spacing, progress)?;
+        let seats = faces[face as usize].seats(&places, far[0].max(far[1]), CLEAR[0] * spacing, progress)?;
         let over = |(p, seat): (&u32, Option<Seat>)| {
-            let seat = seat.filter(|s| s.within > spacing)?;
-            Some(Beyond { point: *p, face, off: seat.off })
+            let seat = seat.filter(|s| s.within > spacing && -far[0] <= s.off && s.off <= far[1])?;
+            Some((Beyond { point: *p, face, off: seat.off }, seat.within))
         };
         Ok(numbers.iter().zip(seats).filter_map(over).collect())
     }
 
-    /// Whether nothing of the face was measured beneath a point.
-    fn is_gap(&self, beyond: &Beyond) -> bool {
+    /// Whether nothing of the face was measured beneath a point: nearer to the border than that no point is sure.
+    fn is_gap(&self, beyond: &Beyond, within: f64) -> bool {
+        if within < CLEAR[0] * self.spacing {
+            return false;
+        }
         let p = self.points[beyond.point as usize];
         let normal = self.faces[beyond.face as usize].facing(&p);
         let foot = normal.map_or(p, |n| minus(p, times(beyond.off, n)));
@@ -147,8 +178,8 @@ impl Over<'_> {
     }
 }
 
-/// Those of some points that hang together, in the order of the first of each.
-fn groups(scan: &Mesh, open: &[u32], spacing: f64) -> Vec<Vec<u32>> {
+/// Those of some points that hang together, in the order of the first of each; of a mesh with other vertices of their facets.
+fn groups(scan: &Mesh, open: &[u32], spacing: f64) -> Vec<(Vec<u32>, Vec<u32>)> {
     let place = |p: u32| open.binary_search(&p).ok().map(|i| i as u32);
     let mut groups = Groups((0..open.len() as u32).collect());
     match scan.faces.is_empty() {
@@ -177,7 +208,16 @@ fn groups(scan: &Mesh, open: &[u32], spacing: f64) -> Vec<Vec<u32>> {
     }
     let mut members: Vec<(u32, u32)> = (0u32..).zip(open).map(|(i, p)| (groups.find(i), *p)).collect();
     members.sort_unstable();
-    members.chunk_by(|a, b| a.0 == b.0).map(|g| g.iter().map(|m| m.1).collect()).collect()
+    let mut beside: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
+    for f in &scan.faces {
+        let Some(inside) = f.iter().find_map(|v| place(*v)) else { continue };
+        let others = f.iter().copied().filter(|v| place(*v).is_none());
+        beside.entry(groups.find(inside)).or_default().extend(others);
+    }
+    let group = |g: &[(u32, u32)]| {
+        (g.iter().map(|m| m.1).collect(), g.first().and_then(|m| beside.remove(&m.0)).unwrap_or_default())
+    };
+    members.chunk_by(|a, b| a.0 == b.0).map(group).collect()
 }
 
 /// Points that hang together.

@@ -52,12 +52,16 @@ pub struct Taken {
 pub struct Others {
     /// Where those are of which it is not certain.
     pub points: Vec<Point>,
-    /// How many of them lie along an edge and are explained by neither face.
-    pub edge: usize,
+    /// How many of them lie along an edge, farther from it than scans are rounded, and are explained by no face.
+    pub broken: usize,
     /// How many lie deeper in the material than the reach, or hang together with such.
     pub deep: usize,
     /// How many lie farther out of it, or hang together with such.
     pub high: usize,
+    /// How many lie between it and the other side of a wall, off both.
+    pub between: usize,
+    /// Points on its edges, where scans are rounded: none of the others.
+    pub edge: usize,
     /// Points of a scan that lie beyond the reach over the feature, each alone: none of the others.
     pub outliers: usize,
     /// Whether there is a reference.

@@ -3,10 +3,9 @@
 use super::data::{Data, Stop};
 use super::deviation;
 use super::doubts;
-use super::nearby;
+use super::features;
 use super::nominals::Nominals;
-use super::parted::Parted;
-use super::{Taken, take};
+use super::Taken;
 use crate::characteristic::{Missing, datum_source};
 use crate::compare::Regions;
 use crate::plan::{Align, Plan};
@@ -126,12 +125,7 @@ fn onto_datums(
     progress: &dyn Progress,
 ) -> Result<Option<Rigid>, Stop> {
     let Align::Datum { datums, rule, span, .. } = &plan.align else { return Ok(None) };
-    let parted = match &data.measured {
-        Some(mesh) => Parted::new(plan, mesh, nominals, data.seed, progress)?,
-        None => None,
-    };
-    let mut taken = take::features(plan, data, nominals, parted.as_ref(), progress)?;
-    nearby::tell(plan, data, nominals, parted.as_ref(), &mut taken, progress)?;
+    let taken = features::taken(plan, data, nominals, progress)?;
     let motion = by_datums(&taken, datums, *rule, span, progress)?;
     moved(data, &motion);
     Ok(Some(motion))

@@ -271,11 +271,13 @@ fn nominal_place(taken: &Taken) -> Option<MeasuredPlace> {
 fn left_out_record(taken: &Taken) -> Option<LeftOutRecord> {
     let (of, beyond) = (&taken.others, taken.left_out);
     let others = of.points.len() as u64;
-    (others > 0 || of.outliers > 0 || beyond.is_some()).then(|| LeftOutRecord {
+    (others + (of.edge + of.outliers) as u64 > 0 || beyond.is_some()).then(|| LeftOutRecord {
         others,
         edge: of.edge as u64,
+        broken: of.broken as u64,
         deep: of.deep as u64,
         high: of.high as u64,
+        between: of.between as u64,
         outliers: of.outliers as u64,
         beyond: beyond.map_or(0, |b| b.points),
         farthest: beyond.map(|b| b.farthest),

@@ -65,11 +65,12 @@ pub(super) fn judge_left_out(
 
 /// Why it is not certain that some points within the reach of a feature are of it.
 fn not_certain(taken: &Taken) -> String {
-    let Others { edge, deep, high, .. } = &taken.others;
+    let Others { broken, deep, high, between, .. } = &taken.others;
     let why = [
-        (*edge, "along its edges are explained by no face, as burrs, grooves and chamfers that are not drawn"),
+        (*broken, "along its edges are explained by no face, as burrs, grooves and chamfers that are not drawn"),
         (*deep, "go on into the material beyond its extract distance"),
         (*high, "go on out of the material beyond its extract distance, as what stands on it"),
+        (*between, "lie off it and off the other side of the wall, and may be of either"),
     ];
     let told = why.iter().filter(|w| w.0 > 0).map(|(count, why)| format!("{} {why}", points(*count)));
     told.collect::<Vec<_>>().join("; ")
@@ -87,6 +88,7 @@ pub(super) fn round(x: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::inspection::data::Data;
     use crate::inspection::run;
     use crate::inspection::test_parts::{FLOOR, floor, plane_plan};
     use crate::results::inspect::{InspectDocument, PlanRecord};

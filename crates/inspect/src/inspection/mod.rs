@@ -1,7 +1,6 @@
 //! A plan and measured data make verdicts: one pure function.
 
 mod align;
-mod around;
 mod cloud;
 mod data;
 pub mod decision;
@@ -11,6 +10,7 @@ mod deviation;
 mod document;
 mod doubts;
 mod edge;
+mod features;
 mod found;
 mod left_out;
 mod measure;
@@ -46,7 +46,6 @@ pub use view::View;
 
 use crate::plan::{Plan, Spec};
 use nominals::Nominals;
-use parted::Parted;
 use trueness_geom::parallel::prelude::*;
 use trueness_geom::progress::Progress;
 use uncounted::Uncounted;
@@ -85,7 +84,7 @@ pub fn run(plan: &Plan, data: Data, progress: &dyn Progress) -> Result<Inspectio
     let plan = &located;
     let (mut data, alignment) = align::aligned(plan, data, &nominals, progress)?;
     counted.advance(1);
-    let features = taken(plan, &data, &nominals, progress)?;
+    let features = features::taken(plan, &data, &nominals, progress)?;
     sides::checked(plan, &features)?;
     resolved.by_part(&features, progress);
     counted.advance(1);
@@ -100,7 +99,7 @@ pub fn run(plan: &Plan, data: Data, progress: &dyn Progress) -> Result<Inspectio
     for motion in align::other_poses(&alignment) {
         // One after the other: each is a copy of all that was measured.
         if let Some(other) = align::in_other_pose(plan, &data, &motion, &nominals, progress)? {
-            in_other_poses.push(all(&taken(plan, &other, &nominals, progress)?)?);
+            in_other_poses.push(all(&features::taken(plan, &other, &nominals, progress)?)?);
         }
     }
     counted.advance(1);
@@ -141,20 +140,4 @@ pub fn run(plan: &Plan, data: Data, progress: &dyn Progress) -> Result<Inspectio
         doubts,
         deviations,
     })
-}
-
-/// The features of data that lie where they are evaluated.
-fn taken(
-    plan: &Plan,
-    data: &Data,
-    nominals: &Nominals,
-    progress: &dyn Progress,
-) -> Result<Vec<Taken>, Stop> {
-    let parted = match &data.measured {
-        Some(mesh) => Parted::new(plan, mesh, nominals, data.seed, progress)?,
-        None => None,
-    };
-    let mut features = take::features(plan, data, nominals, parted.as_ref(), progress)?;
-    nearby::tell(plan, data, nominals, parted.as_ref(), &mut features, progress)?;
-    Ok(features)
 }

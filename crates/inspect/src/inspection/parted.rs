@@ -1,6 +1,5 @@
 //! The measured data parted among faces, and what of them is of a feature.
 
-use super::around::Around;
 use super::data::Stop;
 use super::measured;
 use super::nominals::{Nominals, OwnFaces};
@@ -9,12 +8,12 @@ use crate::plan::Plan;
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
 use trueness_geom::feature::{FeatureError, Found, Nearness, Nominal, facets_near, in_cloud};
-use trueness_geom::mesh::Mesh;
+use trueness_geom::mesh::{FacetsAround, Mesh};
 use trueness_geom::partition::{
     Beyond, Class, Face, Faces, NO_FACE, Options, Partition, PartitionError, partition,
 };
 use trueness_geom::progress::Progress;
-use trueness_geom::space::{Point, cross, dot, minus, norm, plus, times};
+use trueness_geom::space::{Aabb, Point, cross, dot, minus, norm, plus, times};
 
 /// The measured data parted among faces.
 pub(super) struct Parted<'a> {
@@ -29,11 +28,16 @@ pub(super) struct Parted<'a> {
     points: Vec<Vec<u32>>,
     facets: Vec<Vec<u32>>,
     /// The facets about each vertex.
-    around: OnceLock<Around>,
+    around: OnceLock<FacetsAround>,
 }
 
 /// Share of the greatest distance from its borders that a point of a face has, up to which a margin leaves points out there: some of a narrow face stays.
 const HALF: f64 = 0.5;
+
+/// Points farther off than this share of the size of what was measured are of something else.
+const ELSEWHERE: f64 = 0.1;
+/// Cosine of the angle (60°) up to which a face lies along a nominal.
+const ALONG: f64 = 0.5;
 
 /// What is of a feature.
 pub(super) struct OfFeature {
@@ -104,10 +108,16 @@ impl<'a> Parted<'a> {
         of_reference.get(number).unwrap_or_else(|| &self.more.all[number - of_reference.len()])
     }
 
-    /// Whether a point is of another face than these.
-    pub fn is_of_others(&self, point: u32, own: &OwnFaces) -> bool {
+    /// Whether a point is of another face than these: where no reference tells, of one that faces otherwise.
+    pub fn is_of_others(&self, point: u32, own: &OwnFaces, nominal: &Nominal) -> bool {
         let owner = self.partition.owners[point as usize];
-        owner != NO_FACE && self.partition.classes[point as usize] == Class::Face && !own.faces.contains(&owner)
+        if owner == NO_FACE || own.faces.contains(&owner) {
+            return false;
+        }
+        let place = self.mesh.positions[point as usize];
+        let way = nominal.surface().and_then(|s| s.distance(place));
+        let along = self.face(owner).facing(&place).zip(way).map(|(a, (_, b))| dot(a, b).abs());
+        self.nominals.faces.is_some() || along.is_none_or(|cosine| cosine < ALONG)
     }
 
     /// What is of a feature that has these faces.
@@ -148,8 +158,11 @@ impl<'a> Parted<'a> {
             let those = own_points.iter().copied().filter(|p| is(*p, class)).collect();
             Ok(within.clear(&within.reach(within.bounds(those)?).0, border))
         };
-        let [edge, mut deep, mut high] =
-            [of_class(Class::Edge)?, of_class(Class::Deep)?, of_class(Class::High)?];
+        let [edge, broken] = [of_class(Class::Edge)?, of_class(Class::Broken)?];
+        let [mut deep, mut high] = [of_class(Class::Deep)?, of_class(Class::High)?];
+        let between = self.partition.between.iter().filter(|b| own.faces.contains(&b.face));
+        let between = between.map(|b| b.point).chain(own_points.iter().copied().filter(|p| is(*p, Class::Between)));
+        let between = within.clear(&within.reach(within.bounds(between.collect())?).0, border);
         let over: Vec<&Beyond> = beyond.iter().filter(|b| own.faces.contains(&b.face)).collect();
         let numbers = |which: &dyn Fn(&Beyond) -> bool| -> Result<Vec<u32>, FeatureError> {
             let those = over.iter().filter(|b| which(b)).map(|b| b.point).collect();
@@ -160,14 +173,17 @@ impl<'a> Parted<'a> {
         let deeper = numbers(&|b| !is_outlier(b) && b.off < 0.0)?;
         let higher = numbers(&|b| !is_outlier(b) && b.off >= 0.0)?;
         left_out.extend(within.off(&deeper).into_iter().chain(within.off(&higher)));
+        left_out.extend(self.other_faces(own, &within)?);
         deep.extend(deeper);
         high.extend(higher);
-        let places = [&edge[..], &deep, &high].concat();
+        let places = [&broken[..], &deep, &high, &between].concat();
         let others = Others {
             points: places.iter().map(|p| mesh.positions[*p as usize]).collect(),
             edge: edge.len(),
+            broken: broken.len(),
             deep: deep.len(),
             high: high.len(),
+            between: between.len(),
             outliers,
             on_reference: self.nominals.own(number).is_some(),
         };
@@ -176,6 +192,32 @@ impl<'a> Parted<'a> {
         let mut covering = outlined;
         covering.retain(|p| self.partition.inside[*p as usize]);
         Ok(OfFeature { found, covering: Some(covering), others, left_out })
+    }
+
+    /// How far off a nominal points lie that were measured over it, on a face that runs along it, where no reference tells whether that was drawn.
+    fn other_faces(&self, own: &OwnFaces, within: &Within) -> Result<Vec<f64>, FeatureError> {
+        if self.nominals.faces.is_some() {
+            return Ok(vec![]);
+        }
+        let Some(surface) = within.nominal.surface() else { return Ok(vec![]) };
+        let farthest = ELSEWHERE * Aabb::of(&self.mesh.positions).diagonal();
+        let mut points = vec![];
+        for (number, face) in (0u32..).zip(&self.more.all) {
+            let is_along = |p: &&u32| {
+                let place = within.place(**p);
+                let way = face.facing(&place).zip(surface.distance(place));
+                way.is_some_and(|(facing, (off, way))| {
+                    off.abs() <= farthest && dot(facing, way).abs() >= libm::cos(within.near.angle)
+                })
+            };
+            if !own.faces.contains(&number) {
+                points.extend(self.points[number as usize].iter().filter(is_along));
+            }
+        }
+        let clear = Nearness { distance: f64::INFINITY, margin: within.near.margin.max(self.partition.spacing), ..*within.near };
+        let places: Vec<Point> = points.iter().map(|p| within.place(*p)).collect();
+        let over = in_cloud(&places, within.nominal, &clear)?.points;
+        Ok(within.reach(over.into_iter().map(|i| points[i as usize]).collect()).1)
     }
 
     fn area(&self, facets: &[u32]) -> f64 {
@@ -193,8 +235,8 @@ impl<'a> Parted<'a> {
         Found { facets, points, rim, area: 0.0 }
     }
 
-    fn around(&self) -> &Around {
-        self.around.get_or_init(|| Around::new(self.mesh))
+    fn around(&self) -> &FacetsAround {
+        self.around.get_or_init(|| FacetsAround::new(self.mesh))
     }
 }
 
@@ -280,3 +322,6 @@ fn inward(mesh: &Mesh, nominal: &Nominal, near: &Nearness) -> Option<bool> {
     let sum: f64 = facets.iter().filter_map(along).sum();
     (sum != 0.0).then_some(sum < 0.0)
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,6 +1,5 @@
 //! Taking the features of a plan from the measured data.
 
-use super::cloud::Cloud;
 use super::data::{Data, Stop};
 use super::derived::derived;
 use super::edge;
@@ -8,13 +7,14 @@ use super::nominals::Nominals;
 use super::parted::{OfFeature, Parted};
 use crate::characteristic::{Element, Others, Taken};
 use crate::plan::{Class, Feature, Plan, Source};
-use trueness_geom::feature::{FeatureError, Found, Nominal, covered};
+use trueness_geom::feature::{FeatureError, Found, Nominal, covered, farthest_covered};
 use trueness_geom::fit::{FitError, Options, fit};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::parallel::prelude::*;
 use trueness_geom::progress::Progress;
 use trueness_geom::shape::Kind;
 use trueness_geom::space::{Point, Vector, cross, dot, minus, norm, unit};
+use trueness_geom::spatial::neighbors::PointTree;
 use trueness_geom::zone::datum::mean;
 
 /// From this angle to its nominal on an element is another one that goes through the points as well, radians.
@@ -23,16 +23,15 @@ const TURNED: f64 = std::f64::consts::FRAC_PI_4;
 /// All features of the plan, in its order.
 pub(super) fn features(
     plan: &Plan,
-    data: &Data,
+    (data, measured): (&Data, Option<&Mesh>),
     nominals: &Nominals,
     parted: Option<&Parted>,
     progress: &dyn Progress,
 ) -> Result<Vec<Taken>, Stop> {
     let is_sought = |f: &Feature| matches!(f.source, Source::Nominal | Source::Seed(_));
-    let cloud = data.measured.as_ref().filter(|mesh| mesh.faces.is_empty());
-    let cloud = cloud.filter(|_| plan.features.iter().any(is_sought));
-    let cloud = cloud.map(|mesh| Cloud::new(&mesh.positions));
-    let search = Search { parted, cloud: cloud.as_ref() };
+    let cloud = measured.filter(|mesh| mesh.faces.is_empty() && plan.features.iter().any(is_sought));
+    let farthest = cloud.map(|cloud| farthest_covered(&cloud.positions, &PointTree::new(&cloud.positions)));
+    let search = Search { measured, parted, farthest: farthest.unwrap_or(f64::INFINITY) };
     let of = |(number, feature): (usize, &Feature)| {
         if progress.cancelled() {
             return Err(Stop::Cancelled);
@@ -48,7 +47,7 @@ pub(super) fn features(
                 taken
             }
             Source::Nominal | Source::Seed(_) => {
-                found((number, feature), nominals, data, &search)?
+                found((number, feature), nominals, &search)?
             }
         };
         associated(taken, feature, progress).map(Some)
@@ -112,10 +111,12 @@ pub(super) fn again(
 
 /// What features are sought with.
 struct Search<'a> {
-    /// The data parted among faces.
+    /// The measured mesh, or the distinct places of a cloud.
+    measured: Option<&'a Mesh>,
+    /// That parted among faces.
     parted: Option<&'a Parted<'a>>,
-    /// Of a cloud.
-    cloud: Option<&'a Cloud>,
+    /// How far at most one point of a cloud covers a feature, mm.
+    farthest: f64,
 }
 
 /// The direction out of the material that a nominal has.
@@ -154,7 +155,6 @@ pub(super) fn bare(feature: &Feature) -> Taken {
 fn found(
     (number, feature): (usize, &Feature),
     nominals: &Nominals,
-    data: &Data,
     search: &Search,
 ) -> Result<Taken, Stop> {
     let mut taken = bare(feature);
@@ -163,7 +163,7 @@ fn found(
         taken.nominal = Some(seeded.nominal.clone());
         taken.outward = taken.outward.or(normal(&seeded.nominal));
     }
-    let (Some(mesh), Some(nominal)) = (&data.measured, taken.nominal.clone()) else { return Ok(taken) };
+    let (Some(mesh), Some(nominal)) = (search.measured, taken.nominal.clone()) else { return Ok(taken) };
     let mut near = feature.near(&nominal);
     let own = search.parted.and_then(|parted| Some((parted, parted.own(number)?)));
     near.inward = near.inward.or(own.and_then(|(_, own)| own.inward));
@@ -172,13 +172,10 @@ fn found(
         Some((parted, own)) => parted.of((number, own), &nominal, &near),
         None => edge::of(mesh, &nominal, &near),
     };
-    let mut of = of.map_err(|e| match e {
+    let of = of.map_err(|e| match e {
         FeatureError::Cancelled => Stop::Cancelled,
         e => Stop::Plan { span: feature.span.clone(), what: format!("feature \"{}\": {e}", feature.id) },
     })?;
-    if let Some(cloud) = search.cloud {
-        of.found.points.retain(|p| cloud.is_first(*p));
-    }
     let OfFeature { found, covering, others, left_out } = of;
     (taken.others, taken.left_out) = (others, left_out);
     let places = |vertices: &[u32]| -> Vec<Point> {
@@ -186,12 +183,11 @@ fn found(
     };
     (taken.points, taken.rim) = (places(&found.points), places(&found.rim));
     taken.areas = areas(mesh, &found);
-    let farthest = search.cloud.map_or(f64::INFINITY, |cloud| cloud.farthest);
     let area = match mesh.faces.is_empty() {
         false => Some(found.area),
         true => {
             let covering = covering.map_or_else(|| taken.points.clone(), |points| places(&points));
-            covered(&nominal, &covering, farthest).zip(nominal.area()).map(|(share, area)| share * area)
+            covered(&nominal, &covering, search.farthest).zip(nominal.area()).map(|(share, area)| share * area)
         }
     };
     let whole = seeded.map(|s| s.area).or_else(|| nominal.area());

