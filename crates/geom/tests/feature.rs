@@ -71,7 +71,10 @@ fn floor() -> Nominal {
 fn a_plane_ends_at_its_boundary() {
     let mesh = rounded_step();
     let whole = found(&mesh, &floor(), NEAR);
-    assert_eq!((strips(&whole.facets), whole.facets.len(), whole.points.len()), (vec![0], 2 * LONG, 2 * (LONG + 1)));
+    assert_eq!(
+        (strips(&whole.facets), whole.facets.len(), whole.points.len()),
+        (vec![0], 2 * LONG, 2 * (LONG + 1))
+    );
     assert!((floor().area().unwrap() - 200.0).abs() < 1e-9);
     let all: Vec<u32> = (0..mesh.faces.len() as u32).collect();
     assert_eq!(facets_near(&mesh, &all, &floor(), &NEAR).unwrap(), whole.facets);

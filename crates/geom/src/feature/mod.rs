@@ -11,8 +11,8 @@ mod nominal;
 mod rules;
 mod surface;
 
-pub(crate) use extent::Extent;
 pub use covered::{covered, farthest_covered};
+pub(crate) use extent::Extent;
 pub use found::Found;
 pub use nominal::{FeatureError, Nearness, Nominal};
 pub use surface::NominalSurface;

@@ -152,7 +152,13 @@ impl Nominal {
             Nominal::Cone { apex, direction, half_angle, between: [from, to] } => {
                 let (direction, along) = (way(direction)?, 0.5 * (from + to));
                 let radius = along * libm::tan(half_angle);
-                Shape::Cone { apex, direction, half_angle, point: plus(apex, times(along, direction)), radius }
+                Shape::Cone {
+                    apex,
+                    direction,
+                    half_angle,
+                    point: plus(apex, times(along, direction)),
+                    radius,
+                }
             }
             Nominal::Sphere { center, radius } => Shape::Sphere { center, radius },
             Nominal::Edge { .. } => return None,

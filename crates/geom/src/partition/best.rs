@@ -1,7 +1,7 @@
 //! The face of each point that costs least.
 
+use super::cut::NO_FACE;
 use super::faces::Seat;
-use super::terms::NO_FACE;
 
 /// A point near a face.
 #[derive(Clone, Copy, Debug)]
@@ -23,7 +23,13 @@ pub(super) struct Best {
 impl Best {
     pub(super) fn new(count: usize) -> Best {
         let far = vec![f64::INFINITY; count];
-        Best { owner: vec![NO_FACE; count], cost: far.clone(), second: far, seat: vec![None; count], near: vec![0; count] }
+        Best {
+            owner: vec![NO_FACE; count],
+            cost: far.clone(),
+            second: far,
+            seat: vec![None; count],
+            near: vec![0; count],
+        }
     }
     pub(super) fn forget(&mut self, p: usize) {
         (self.owner[p], self.cost[p], self.seat[p]) = (NO_FACE, f64::INFINITY, None);

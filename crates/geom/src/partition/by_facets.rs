@@ -1,10 +1,11 @@
 //! What the facets of a mesh tell: which face each is of, and where faces are that have no vertices clear of their borders.
 
 use super::best::Candidate;
+use super::cut::NO_FACE;
 use super::faces::{Face, Seat};
 use super::facing::Facing;
-use super::terms::{Class, NO_FACE};
-use super::{FEWEST_SURE, Work};
+use super::terms::Class;
+use super::work::{AWAY, FEWEST_SURE, Work};
 use crate::mesh::Mesh;
 use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress};
@@ -26,7 +27,7 @@ pub(super) fn add(
         return Ok(());
     }
     let bounds: Vec<_> =
-        lacking.iter().map(|f| work.faces[*f].bounds.widened(super::AWAY * work.reach[*f])).collect();
+        lacking.iter().map(|f| work.faces[*f].bounds.widened(AWAY * work.reach[*f])).collect();
     let corners = |f: u32| scan.faces[f as usize].map(|v| work.points[v as usize]);
     let middle = |[a, b, c]: [Point; 3]| times(1.0 / 3.0, plus(a, plus(b, c)));
     let facets: Vec<(u32, Point, Vector)> = (0..scan.faces.len() as u32)
@@ -39,7 +40,7 @@ pub(super) fn add(
     let middles: Vec<Point> = facets.iter().map(|f| f.1).collect();
     let mut nearest: Vec<(f64, usize)> = vec![(f64::INFINITY, usize::MAX); facets.len()];
     for (number, face) in work.faces.iter().enumerate() {
-        let reach = super::AWAY * work.reach[number];
+        let reach = AWAY * work.reach[number];
         let inside: Vec<usize> =
             (0..middles.len()).filter(|i| face.bounds.widened(reach).holds(&middles[*i])).collect();
         let places: Vec<Point> = inside.iter().map(|i| middles[*i]).collect();

@@ -3,13 +3,15 @@
 //! A segmentation finds the elements. What it leaves beside them, as where bores meet, is completed as drawings are: corners of a drawn face lie on its
 //! element or on a chord of it, however few and long its facets are.
 
-use super::terms::NO_FACE;
 use crate::fit::{self, fit};
 use crate::mesh::Mesh;
 use crate::progress::{Progress, Silent};
 use crate::segment::{self, Options, SegmentError};
 use crate::shape::{Kind, Shape};
 use crate::space::{self, Aabb, Point, Vector, cross, dot, minus, norm, plus, times, unit};
+
+/// No face.
+pub const NO_FACE: u32 = u32::MAX;
 
 /// Steps of single precision by which corners of a drawn face may be off its element.
 const STEPS: f64 = 4.0;
@@ -87,7 +89,7 @@ impl Drawn<'_> {
         let mut sides: Vec<(u64, u32)> = (0u32..).zip(&mesh.faces).flat_map(edges).collect();
         sides.sort_unstable();
         let normals = (0..mesh.faces.len() as u32).map(|f| normal(mesh, f)).collect();
-        Drawn { mesh, normals, sides, smooth: libm::cos(crease), limit: limit(&mesh.positions) }
+        Drawn { mesh, normals, sides, smooth: libm::cos(crease), limit: rounding(&mesh.positions) }
     }
 
     /// The facets across the sides of one, without itself.
@@ -201,7 +203,7 @@ pub fn element(mesh: &Mesh, facets: &[u32], kind: Kind, angle: f64) -> Option<Sh
         return None;
     }
     let shape = fit(&places, kind, &fit::Options::default(), &Silent).ok()?.shape;
-    let limit = limit(&places).max(CHORDS * Aabb::of(&places).diagonal());
+    let limit = rounding(&places).max(CHORDS * Aabb::of(&places).diagonal());
     let facing = |f: &u32| {
         let corners = mesh.faces[*f as usize].map(|v| mesh.positions[v as usize]);
         along(&shape, corners, normal(mesh, *f)?)
@@ -220,7 +222,8 @@ fn middle([a, b, c]: [Point; 3]) -> Point {
     times(1.0 / 3.0, plus(a, plus(b, c)))
 }
 
-fn limit(places: &[Point]) -> f64 {
+/// How far places that are the same may lie apart, mm.
+pub(super) fn rounding(places: &[Point]) -> f64 {
     let greatest = places.iter().flatten().fold(0.0f64, |m, x| m.max(x.abs()));
     STEPS * f64::from(f32::EPSILON) * greatest
 }

@@ -1,16 +1,16 @@
 //! The nominal cut into faces, and where a point lies on a face.
 
 use super::cut::{self, Cut};
-use crate::feature::{Extent, FeatureError, Nominal};
 use crate::closest::{BoundaryEdges, Query, QueryError, Tree};
+use crate::feature::{Extent, FeatureError, Nominal};
 use crate::mesh::Mesh;
 use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress, Silent};
 use crate::segment::SegmentError;
 use crate::shape::{Kind, Shape};
+use crate::space::{self, Aabb, MIN_COORDINATE, Point, Vector, cross, dot, minus, norm, plus, times, unit};
 use crate::spatial::neighbors::PointTree;
 use crate::topology::weld;
-use crate::space::{self, MIN_COORDINATE, Aabb, Point, Vector, cross, dot, minus, norm, plus, times, unit};
 use std::collections::BTreeMap;
 
 /// A face of the nominal.
@@ -60,7 +60,7 @@ pub(super) struct Seat {
 pub struct Faces {
     /// The faces.
     pub all: Vec<Face>,
-    /// The face of each facet; [`NO_FACE`] of those without area.
+    /// The face of each facet; [`NO_FACE`](super::NO_FACE) of those without area.
     pub of_facets: Vec<u32>,
 }
 
@@ -75,13 +75,38 @@ impl Faces {
     ///
     /// # Errors
     /// [`FeatureError`]: a nominal feature that makes no sense, or an edge, which is no face.
+    ///
+    /// ```
+    /// use trueness_geom::feature::Nominal;
+    /// use trueness_geom::partition::{Class, Faces, NO_FACE, Options, partition};
+    /// use trueness_geom::{mesh::Mesh, progress::Silent};
+    /// let pin = Nominal::Cylinder { point: [0.0; 3], direction: [0.0, 0.0, 1.0], radius: 5.0, length: 9.0 };
+    /// let mut faces = Faces::none();
+    /// faces.add_nominal(&pin, false)?;
+    /// // Places all around it, and one far off.
+    /// let turn = |k: u32| (2.4 * f64::from(k)).sin_cos();
+    /// let mut positions: Vec<_> = (0..500).map(|k| [5.0 * turn(k).1, 5.0 * turn(k).0, 0.018 * f64::from(k)]).collect();
+    /// positions.push([9.0, 0.0, 4.0]);
+    /// let scan = Mesh { positions, faces: vec![] };
+    /// let options = Options { distance: Some(0.5), ..Options::default() };
+    /// let found = partition(&scan, &[&faces.all[0]], &options, &Silent)?;
+    /// assert!(found.owners[..500].iter().all(|face| *face == 0));
+    /// assert_eq!((found.owners[500], found.classes[500]), (NO_FACE, Class::Alone));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn add_nominal(&mut self, nominal: &Nominal, inward: bool) -> Result<u32, FeatureError> {
         let extent = Extent::new(nominal)?;
         let shape = nominal.shape().ok_or(FeatureError::NoFace)?;
         let is_plane = matches!(nominal, Nominal::Plane { .. });
         let outward = if inward && !is_plane { -1.0 } else { 1.0 };
         let bounds = extent.bounds();
-        Ok(self.add(Face { facets: vec![], shape: Some(shape), bounds, outward, goes: Goes::Nominal(extent) }))
+        Ok(self.add(Face {
+            facets: vec![],
+            shape: Some(shape),
+            bounds,
+            outward,
+            goes: Goes::Nominal(extent),
+        }))
     }
 
     /// Adds an element that measured points were found to lie on as a face: its number. It goes as far as these points, which lie no farther apart than
@@ -102,7 +127,8 @@ impl Faces {
     /// # Errors
     /// [`SegmentError`]: no facets, coordinates that are no numbers.
     pub fn of(nominal: &Mesh, progress: &dyn Progress) -> Result<Faces, SegmentError> {
-        let nominal = weld::mesh(nominal)?.mesh;
+        // Seams of what was turned are often open by the digits of a file.
+        let nominal = weld::within(nominal, cut::rounding(&nominal.positions))?.mesh;
         let Cut { of_facets, facets, shapes } = cut::cut(&nominal, progress)?;
         let faces = facets.into_par_iter().zip(shapes);
         let all = faces.map(|(facets, shape)| Face::new(&nominal, facets, shape)).collect::<Option<_>>();
@@ -325,7 +351,10 @@ struct On {
 }
 
 /// Closest places of points near a face: what is near it can be asked.
-fn asked<T: Copy>(found: Result<Vec<Option<T>>, QueryError>, count: usize) -> Result<Vec<Option<T>>, Cancelled> {
+fn asked<T: Copy>(
+    found: Result<Vec<Option<T>>, QueryError>,
+    count: usize,
+) -> Result<Vec<Option<T>>, Cancelled> {
     match found {
         Err(QueryError::Cancelled(e)) => Err(e),
         found => Ok(found.unwrap_or_else(|_| vec![None; count])),

@@ -27,9 +27,8 @@ impl Facing {
             norm(cross(minus(b, a), minus(c, a)))
         };
         let vertex = |v: u32| {
-            let sum = around.of(v).iter().fold([0.0; 3], |sum, f| {
-                plus(sum, times(area(*f), facets[*f as usize]))
-            });
+            let sum =
+                around.of(v).iter().fold([0.0; 3], |sum, f| plus(sum, times(area(*f), facets[*f as usize])));
             unit(sum).map_or([0.0; 3], |n| n.0)
         };
         let vertices = (0..scan.positions.len() as u32).into_par_iter().map(vertex).collect();

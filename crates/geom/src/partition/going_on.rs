@@ -62,11 +62,6 @@ impl<'a> Sure<'a> {
         (off.abs() <= reach).then(over)
     }
 
-    /// How far the nearest sure point is.
-    pub(super) fn nearest(&self, p: &Point) -> Option<f64> {
-        self.tree.nearest(p).map(|n| n.0.sqrt())
-    }
-
     fn told(&self, p: Point, normal: Vector) -> Option<Told> {
         if self.places.len() <= AROUND {
             return None;

@@ -21,6 +21,7 @@
 //! | `facing` | how the vertices of a mesh face |
 //! | `placed` | where a face really is |
 //! | `going_on` | where its surface goes on near a border |
+//! | `work` | which faces points may be of, and which explains each best |
 //! | `unexplained` | what no face explains |
 
 mod best;
@@ -34,45 +35,28 @@ mod terms;
 #[cfg(test)]
 mod tests;
 mod unexplained;
+mod work;
 
-pub use cut::element;
+pub use cut::{NO_FACE, element};
 pub use faces::{Face, Faces};
 pub use placed::Placed;
-pub use terms::{Beyond, Class, NO_FACE, Options, Partition, PartitionError};
+pub use terms::{Beyond, Class, Options, Partition, PartitionError};
 
 use crate::mesh::Mesh;
 use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress};
-use crate::space::{Aabb, Point, dot};
+use crate::space::{Aabb, Point};
 use crate::spatial::neighbors::PointTree;
-use best::{Best, Candidate};
+use best::Candidate;
 use faces::Seat;
 use facing::Facing;
 use going_on::Sure;
 use terms::EXPLAINED;
 use unexplained::Over;
+use work::{AWAY, CLEAR, Work};
 
 /// Share of its diagonal that a face reaches where nothing else is said.
 const SHARE: f64 = 0.02;
-/// Reaches from the nominal within which a face is looked for: the reach is about where it really is.
-const AWAY: f64 = 2.0;
-/// Cost of a point beyond a border, for each distance of neighbors: borders move with the faces that make them, and are known no sharper.
-const BEYOND: f64 = 2.0;
-/// Distances of neighbors beyond a border that cost nothing.
-const FREE: f64 = 0.3;
-/// A point is asked about again, by what is around, where the second of its faces costs less than this, or the best more than `ASKED`.
-const SECOND: f64 = 6.0 * EXPLAINED;
-const ASKED: f64 = 0.6 * EXPLAINED;
-/// A corner of facets is of each face that costs at most so much more than its best one: at a sharp edge of two.
-const SHARED: f64 = 3.0;
-/// Cosine of the angle (120°) from which on faces are the two sides of a wall.
-const OTHER_SIDE: f64 = -0.5;
-/// Cosine of the angle (37°) up to which a sure point faces as its face does.
-const FACING: f64 = 0.8;
-/// Distances of neighbors from the border at which points are surely of a face: the first of these that leaves enough.
-const CLEAR: [f64; 3] = [2.5, 1.5, 0.75];
-/// Fewest sure points that are enough.
-const FEWEST_SURE: usize = 20;
 /// Share of the diagonal of all faces up to which what lies beyond the reach of a face, out of the material, may be of it. Into the material nothing else is.
 const ELSEWHERE: f64 = 0.1;
 /// Neighbors whose farthest tells the distance of neighbors, and places where that is looked at.
@@ -150,8 +134,10 @@ pub fn partition(
     cancelled(progress)?;
     let (shared, mut between) = work.by_what_is_around(&mut best, &around, noise);
     cancelled(progress)?;
-    drop(work);
-    let off = |p: u32, face: u32, seat: Seat| placed[face as usize].off(faces[face as usize], points[p as usize], seat);
+    drop((work, around));
+    let off = |p: u32, face: u32, seat: Seat| {
+        placed[face as usize].off(faces[face as usize], points[p as usize], seat)
+    };
     // What was computed has sharp edges.
     let rounded = if noise > floor { spacing } else { 0.0 };
     let (mut classes, hanging) = unexplained::classes(scan, &mut best, (spacing, rounded), off);
@@ -159,16 +145,27 @@ pub fn partition(
     for b in &between {
         classes[b.point as usize] = Class::Between;
     }
-    let facets = facing.as_ref().map_or(vec![], |facing| {
-        by_facets::owners(scan, (&best.owner, &classes), &shared, (faces, facing))
-    });
+    let facets = facing
+        .as_ref()
+        .map_or(vec![], |facing| by_facets::owners(scan, (&best.owner, &classes), &shared, (faces, facing)));
     let size = faces.iter().fold(Aabb::EMPTY, |b, f| b.union(&f.bounds)).diagonal();
-    let over = Over { points, faces, around: &around, spacing, far: [size, ELSEWHERE * size] };
+    let far = [size, ELSEWHERE * size];
+    let over = Over { points, faces, owners: &best.owner, facing: facing.as_ref(), spacing, rounded, far };
     let beyond = over.faces(&hanging, progress)?;
-    drop(around);
     let inside = best.seat.iter().map(|s| s.is_some_and(|s| s.within >= 0.0)).collect();
     let owners = best.owner;
-    Ok(Partition { owners, classes, inside, facets, beyond, between, placed, spacing, noise, rounding: floor })
+    Ok(Partition {
+        owners,
+        classes,
+        inside,
+        facets,
+        beyond,
+        between,
+        placed,
+        spacing,
+        noise,
+        rounding: floor,
+    })
 }
 
 /// How far each face reaches.
@@ -180,123 +177,6 @@ fn reaches(faces: &[&Face], options: &Options) -> Result<Vec<f64>, PartitionErro
         is_length.then_some(value).ok_or(PartitionError::Reach { face: number, value })
     };
     faces.iter().enumerate().map(of).collect()
-}
-
-/// Points and the faces that they may be of.
-struct Work<'a> {
-    points: &'a [Point],
-    faces: &'a [&'a Face],
-    /// Of each face.
-    reach: Vec<f64>,
-    candidates: Vec<Vec<Candidate>>,
-    spacing: f64,
-}
-
-impl Work<'_> {
-    /// The points that are surely of each face: it is the nearest of those over which they lie, they face as it does and lie clear of its border.
-    fn sure(&self, facing: Option<&Facing>) -> Vec<Vec<Candidate>> {
-        let mut least = vec![f64::INFINITY; self.points.len()];
-        for c in self.candidates.iter().flatten().filter(|c| c.seat.within > 0.0) {
-            let least = &mut least[c.point as usize];
-            *least = least.min(c.seat.off.abs());
-        }
-        let clear = |near: &[Candidate], reach: f64, times: f64| -> Vec<Candidate> {
-            let is_own = |c: &&Candidate| {
-                let (p, off) = (c.point as usize, c.seat.off.abs());
-                c.seat.within > times * self.spacing
-                    && off <= reach.min(least[p])
-                    && facing.is_none_or(|f| dot(f.vertices[p], c.seat.normal) > FACING)
-            };
-            near.iter().filter(is_own).copied().collect()
-        };
-        let of_face = |(near, reach): (&Vec<Candidate>, &f64)| {
-            let mut found = vec![];
-            for times in CLEAR {
-                found = clear(near, *reach, times);
-                if found.len() >= FEWEST_SURE {
-                    break;
-                }
-            }
-            found
-        };
-        self.candidates.par_iter().zip(&self.reach).map(of_face).collect()
-    }
-
-    /// Of a cloud with few points over a face, as a probe takes them: what they deviate by is not known, and all within the reach is explained.
-    fn sparse(&self, is_cloud: bool) -> Vec<Option<f64>> {
-        let few = |(near, reach): (&Vec<Candidate>, &f64)| {
-            let is_over = |c: &&Candidate| c.seat.within >= 0.0 && c.seat.off.abs() <= *reach;
-            (is_cloud && near.iter().filter(is_over).take(FEWEST_SURE).count() < FEWEST_SURE).then_some(*reach)
-        };
-        self.candidates.iter().zip(&self.reach).map(few).collect()
-    }
-
-    /// The face of each point by the distance from where the faces really are.
-    fn by_faces(&self, placed: &[Placed], noise: f64) -> Best {
-        let mut best = Best::new(self.points.len());
-        for (number, face) in self.faces.iter().enumerate() {
-            let scale = placed[number].deviation.max(noise);
-            for c in &self.candidates[number] {
-                let off = placed[number].off(face, self.points[c.point as usize], c.seat).abs();
-                let is_there = c.seat.within > -FREE * self.spacing || off <= EXPLAINED * scale;
-                if off <= self.spacing && c.seat.within >= -self.spacing {
-                    let near = &mut best.near[c.point as usize];
-                    *near = near.saturating_add(1);
-                }
-                if is_there && off <= self.reach[number] {
-                    best.add(c, number as u32, off / scale + self.beyond(c.seat.within));
-                }
-            }
-        }
-        best
-    }
-
-    /// Those whose face is not certain by that, by what is around them. Tells points, ascending, with all faces that explain them about as
-    /// well as the best.
-    fn by_what_is_around(
-        &self,
-        best: &mut Best,
-        around: &[Sure],
-        noise: f64,
-    ) -> (Vec<(u32, u32)>, Vec<Beyond>) {
-        let asked: Vec<bool> = (best.cost.iter().zip(&best.second))
-            .map(|(cost, second)| cost.is_finite() && (*second < SECOND || *cost > ASKED))
-            .collect();
-        let again: Vec<Vec<(Candidate, f64)>> = (self.candidates.par_iter().zip(around).zip(&self.reach))
-            .map(|((near, around), reach)| {
-                let ask = |c: &Candidate| {
-                    let z = around.off_over(self.points[c.point as usize], c.seat, *reach, noise)?;
-                    Some((*c, z + self.beyond(c.seat.within + FREE * self.spacing)))
-                };
-                near.par_iter().filter(|c| asked[c.point as usize]).filter_map(ask).collect()
-            })
-            .collect();
-        (0..self.points.len()).filter(|p| asked[*p]).for_each(|p| best.forget(p));
-        let (mut shared, mut between) = (vec![], vec![]);
-        for (number, near) in (0u32..).zip(&again) {
-            near.iter().for_each(|(c, cost)| best.add(c, number, *cost));
-        }
-        for (number, near) in (0u32..).zip(&again) {
-            let is_alike = |n: &&(Candidate, f64)| {
-                n.1 <= EXPLAINED.min(best.cost[n.0.point as usize] + SHARED)
-            };
-            shared.extend(near.iter().filter(is_alike).map(|n| (n.0.point, number)));
-            // What no face explains may be of the other side of a wall too.
-            let is_other_side = |c: &Candidate| {
-                let p = c.point as usize;
-                let own = best.seat[p].filter(|_| best.cost[p] > EXPLAINED && best.owner[p] != number);
-                c.seat.within > 0.0 && own.is_some_and(|own| dot(own.normal, c.seat.normal) < OTHER_SIDE)
-            };
-            let other_side = near.iter().map(|n| n.0).filter(is_other_side);
-            between.extend(other_side.map(|c| Beyond { point: c.point, face: number, off: c.seat.off }));
-        }
-        shared.sort_unstable();
-        (shared, between)
-    }
-
-    fn beyond(&self, within: f64) -> f64 {
-        BEYOND * (-within).max(0.0) / self.spacing
-    }
 }
 
 /// The points near a face: within so far of it, and no farther beyond its border.

@@ -8,9 +8,6 @@ use std::collections::BTreeMap;
 /// Deviations beyond which a face does not explain a point: one point of two million is so far off by normal noise.
 pub(super) const EXPLAINED: f64 = 5.0;
 
-/// No face.
-pub const NO_FACE: u32 = u32::MAX;
-
 /// What is asked of a partition.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Options {
@@ -47,14 +44,14 @@ pub enum Class {
 /// A scan parted among faces.
 #[derive(Clone, Debug)]
 pub struct Partition {
-    /// The face of each point; [`NO_FACE`] where it has none.
+    /// The face of each point; [`NO_FACE`](super::NO_FACE) where it has none.
     pub owners: Vec<u32>,
     /// What each point is.
     pub classes: Vec<Class>,
     /// Whether its face lies beneath each point: those beyond a border do not tell that anything of it was measured.
     pub inside: Vec<bool>,
     /// The face of each measured facet: that on which all of its corners lie. At a sharp edge a corner is of the faces of all facets about it, and its
-    /// owner one of them. [`NO_FACE`] of what straddles an edge.
+    /// owner one of them. [`NO_FACE`](super::NO_FACE) of what straddles an edge.
     pub facets: Vec<u32>,
     /// Points beyond the reach of all faces that lie over faces: over those that they hang together with; those by themselves over the nearest, where nothing of
     /// it was measured beneath, or where they are alone. By face and point.

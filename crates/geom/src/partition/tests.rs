@@ -1,9 +1,10 @@
 //! Turned parts whose points have known faces.
 
 use super::*;
-use crate::space::{Vector, minus};
 use crate::num::random::Random;
 use crate::progress::Silent;
+use crate::space::dot;
+use crate::space::{Vector, minus};
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
@@ -261,6 +262,11 @@ fn wrong_coordinates_are_refused_and_nothing_has_no_faces() {
     let no_vertex = Mesh { positions: vec![[0.0; 3]; 3], faces: vec![[0, 1, 2], [0, 1, 3]] };
     let found = partition(&no_vertex, &all_of(&faces), &OPTIONS, &Silent);
     assert_eq!(found.err(), Some(PartitionError::NoSuchVertex { facet: 1 }));
+    for value in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let options = Options { distance: Some(value), ..Options::default() };
+        let found = partition(&Mesh::default(), &all_of(&faces), &options, &Silent);
+        assert!(matches!(found, Err(PartitionError::Reach { face: 0, .. })), "{value}");
+    }
     let nothing = partition(&Mesh::default(), &all_of(&faces), &OPTIONS, &Silent).unwrap();
     assert!(nothing.owners.is_empty() && nothing.classes.is_empty());
 }

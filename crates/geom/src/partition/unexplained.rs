@@ -1,10 +1,10 @@
 //! What no face explains.
 
-use super::CLEAR;
 use super::best::Best;
+use super::cut::NO_FACE;
 use super::faces::{Face, Seat};
-use super::going_on::Sure;
-use super::terms::{Beyond, Class, EXPLAINED, NO_FACE};
+use super::facing::Facing;
+use super::terms::{Beyond, Class, EXPLAINED};
 use crate::mesh::Mesh;
 use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress};
@@ -99,9 +99,13 @@ pub(super) struct Hanging {
 pub(super) struct Over<'a> {
     pub points: &'a [Point],
     pub faces: &'a [&'a Face],
-    /// Of each face.
-    pub around: &'a [Sure<'a>],
+    /// The face of each point.
+    pub owners: &'a [u32],
+    /// Of a mesh.
+    pub facing: Option<&'a Facing>,
     pub spacing: f64,
+    /// The same of a scan; 0 where edges are sharp, up to which points lie over a face.
+    pub rounded: f64,
     /// How far off a face, into the material and out of it, mm.
     pub far: [f64; 2],
 }
@@ -120,22 +124,23 @@ impl Over<'_> {
         }
         let mut found = vec![];
         for (face, numbers) in of_faces {
-            found.extend(self.face(face, &numbers, progress)?.into_iter().map(|over| over.0));
+            found.extend(self.face(face, &numbers, progress)?);
         }
         let themselves: Vec<&Hanging> = hanging.iter().filter(|h| h.faces.is_empty()).collect();
         let mut numbers: Vec<u32> = themselves.iter().flat_map(|h| h.points.iter().copied()).collect();
         numbers.sort_unstable();
-        let mut over: Vec<BTreeMap<u32, (Beyond, f64)>> = vec![];
+        let mut over: Vec<BTreeMap<u32, (Beyond, bool)>> = vec![];
         for face in 0..self.faces.len() as u32 {
             let here = if numbers.is_empty() { vec![] } else { self.face(face, &numbers, progress)? };
-            over.push(here.into_iter().map(|over| (over.0.point, over)).collect());
+            let gaps = self.gaps(face, &here);
+            over.push(here.into_iter().zip(gaps).map(|(b, gap)| (b.point, (b, gap))).collect());
         }
         for hanging in themselves {
             let mut nearest: Option<(f64, Vec<Beyond>)> = None;
             for over in &over {
-                let own: Vec<(Beyond, f64)> =
+                let own: Vec<(Beyond, bool)> =
                     hanging.points.iter().filter_map(|p| over.get(p)).copied().collect();
-                let gaps = own.iter().filter(|(b, within)| self.is_gap(b, *within)).count();
+                let gaps = own.iter().filter(|over| over.1).count();
                 let own: Vec<Beyond> = own.into_iter().map(|over| over.0).collect();
                 let off = own.iter().map(|b| b.off.abs()).sum::<f64>() / own.len() as f64;
                 let counts = !own.is_empty() && (hanging.points.len() < SEVERAL || gaps >= SEVERAL);
@@ -149,32 +154,33 @@ impl Over<'_> {
         Ok(found)
     }
 
-    /// Those of some points that lie over a face, clear of its border, and how far within it.
-    fn face(
-        &self,
-        face: u32,
-        numbers: &[u32],
-        progress: &dyn Progress,
-    ) -> Result<Vec<(Beyond, f64)>, Cancelled> {
-        let Over { points, faces, spacing, far, .. } = *self;
+    /// Those of some points that lie over a face, clear of its border; of a mesh those that face as it does.
+    fn face(&self, face: u32, numbers: &[u32], progress: &dyn Progress) -> Result<Vec<Beyond>, Cancelled> {
+        let Over { points, faces, rounded, far, .. } = *self;
         let places: Vec<Point> = numbers.iter().map(|p| points[*p as usize]).collect();
-        let seats = faces[face as usize].seats(&places, far[0].max(far[1]), CLEAR[0] * spacing, progress)?;
+        let seats = faces[face as usize].seats(&places, far[0].max(far[1]), rounded, progress)?;
         let over = |(p, seat): (&u32, Option<Seat>)| {
-            let seat = seat.filter(|s| s.within > spacing && -far[0] <= s.off && s.off <= far[1])?;
-            Some((Beyond { point: *p, face, off: seat.off }, seat.within))
+            let seat = seat.filter(|s| s.within >= rounded && -far[0] <= s.off && s.off <= far[1])?;
+            let faces = self.facing.is_none_or(|f| f.may_be_of(*p, seat.normal));
+            faces.then_some(Beyond { point: *p, face, off: seat.off })
         };
         Ok(numbers.iter().zip(seats).filter_map(over).collect())
     }
 
-    /// Whether nothing of the face was measured beneath a point: nearer to the border than that no point is sure.
-    fn is_gap(&self, beyond: &Beyond, within: f64) -> bool {
-        if within < CLEAR[0] * self.spacing {
-            return false;
+    /// Whether nothing of a face was measured beneath each of these points. A computed mesh was not measured.
+    fn gaps(&self, face: u32, over: &[Beyond]) -> Vec<bool> {
+        if over.is_empty() || self.rounded == 0.0 {
+            return vec![true; over.len()];
         }
-        let p = self.points[beyond.point as usize];
-        let normal = self.faces[beyond.face as usize].facing(&p);
-        let foot = normal.map_or(p, |n| minus(p, times(beyond.off, n)));
-        self.around[beyond.face as usize].nearest(&foot).is_none_or(|away| away > GAP * self.spacing)
+        let own = (0..self.points.len()).filter(|p| self.owners[*p] == face).map(|p| self.points[p]);
+        let tree = PointTree::new(&own.collect::<Vec<Point>>());
+        let is_gap = |beyond: &Beyond| {
+            let p = self.points[beyond.point as usize];
+            let normal = self.faces[face as usize].facing(&p);
+            let foot = normal.map_or(p, |n| minus(p, times(beyond.off, n)));
+            tree.nearest(&foot).is_none_or(|(square, _)| square.sqrt() > GAP * self.spacing)
+        };
+        over.iter().map(is_gap).collect()
     }
 }
 

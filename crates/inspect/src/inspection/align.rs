@@ -1,11 +1,11 @@
 //! The alignment of a plan.
 
+use super::Taken;
 use super::data::{Data, Stop};
 use super::deviation;
 use super::doubts;
 use super::features;
 use super::nominals::Nominals;
-use super::Taken;
 use crate::characteristic::{Missing, datum_source};
 use crate::compare::Regions;
 use crate::plan::{Align, Plan};

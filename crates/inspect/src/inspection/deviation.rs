@@ -131,11 +131,12 @@ pub(super) fn regions(
         let near = feature.near(nominal);
         let own = nominals.own(number).zip(nominals.faces.as_ref());
         let own: Vec<u32> = match own {
-            Some((own, faces)) => own.faces.iter().flat_map(|f| faces.all[*f as usize].facets.clone()).collect(),
+            Some((own, faces)) => {
+                own.faces.iter().flat_map(|f| faces.all[*f as usize].facets.clone()).collect()
+            }
             None => (0..reference.faces.len() as u32).collect(),
         };
-        let mut facets =
-            facets_near(reference, &own, nominal, &near).map_err(|e| wrong(e.to_string()))?;
+        let mut facets = facets_near(reference, &own, nominal, &near).map_err(|e| wrong(e.to_string()))?;
         facets.sort_unstable();
         if facets.is_empty() {
             return Err(wrong(format!(

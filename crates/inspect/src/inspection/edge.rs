@@ -32,9 +32,8 @@ fn of_facets(mesh: &Mesh, facets: Vec<u32>, rim: bool) -> Found {
     };
     let area = facets.iter().map(area).sum();
     let around = (!rim).then(|| FacetsAround::new(mesh));
-    let is_shared = |v: &u32| {
-        around.as_ref().is_some_and(|a| a.of(*v).iter().any(|f| facets.binary_search(f).is_err()))
-    };
+    let is_shared =
+        |v: &u32| around.as_ref().is_some_and(|a| a.of(*v).iter().any(|f| facets.binary_search(f).is_err()));
     let (rim, points) = vertices.into_iter().partition(is_shared);
     Found { facets, points, rim, area }
 }

@@ -67,7 +67,10 @@ pub(super) fn judge_left_out(
 fn not_certain(taken: &Taken) -> String {
     let Others { broken, deep, high, between, .. } = &taken.others;
     let why = [
-        (*broken, "along its edges are explained by no face, as burrs, grooves and chamfers that are not drawn"),
+        (
+            *broken,
+            "along its edges are explained by no face, as burrs, grooves and chamfers that are not drawn",
+        ),
         (*deep, "go on into the material beyond its extract distance"),
         (*high, "go on out of the material beyond its extract distance, as what stands on it"),
         (*between, "lie off it and off the other side of the wall, and may be of either"),

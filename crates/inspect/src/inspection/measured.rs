@@ -7,7 +7,7 @@ use trueness_geom::mesh::Mesh;
 use trueness_geom::num::random::Random;
 use trueness_geom::partition::{Faces, spacing};
 use trueness_geom::progress::Progress;
-use trueness_geom::segment::{self, Region, Segmentation, SegmentError};
+use trueness_geom::segment::{self, Region, SegmentError, Segmentation};
 use trueness_geom::space::{Point, cross, dot, minus, plus, times, unit};
 
 /// Points of a cloud that are segmented, at most.

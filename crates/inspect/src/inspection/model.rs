@@ -52,11 +52,7 @@ impl Resolved {
 ///
 /// # Errors
 /// [`Stop::Plan`]: exact dimensions, nominal values or classes that the model contradicts.
-pub(super) fn resolved(
-    plan: &Plan,
-    nominals: &Nominals,
-    progress: &dyn Progress,
-) -> Result<Resolved, Stop> {
+pub(super) fn resolved(plan: &Plan, nominals: &Nominals, progress: &dyn Progress) -> Result<Resolved, Stop> {
     let model = Model::new(plan, nominals, progress)?;
     let mut resolved = Resolved {
         plan: plan.clone(),
@@ -88,11 +84,7 @@ struct Model<'a> {
 }
 
 impl<'a> Model<'a> {
-    fn new(
-        plan: &'a Plan,
-        nominals: &Nominals,
-        progress: &'a dyn Progress,
-    ) -> Result<Model<'a>, Stop> {
+    fn new(plan: &'a Plan, nominals: &Nominals, progress: &'a dyn Progress) -> Result<Model<'a>, Stop> {
         let mut features: Vec<Option<Taken>> = Vec::with_capacity(plan.features.len());
         let mut reach: Vec<f64> = vec![];
         for (number, feature) in plan.features.iter().enumerate() {

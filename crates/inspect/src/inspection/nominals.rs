@@ -98,7 +98,8 @@ fn own_faces(
         let share = beneath.len();
         let mut all: Vec<f64> = corners.filter_map(off).chain(beneath).collect();
         all.sort_unstable_by(f64::total_cmp);
-        held.push(Held { number, share, facets: beside.len(), off: all[all.len() / 2] });
+        let off = all.get(all.len() / 2).copied().unwrap_or(f64::INFINITY);
+        held.push(Held { number, share, facets: beside.len(), off });
     }
     let Some(most) = held.iter().max_by_key(|h| (h.share, h.facets)) else { return Ok(None) };
     let limit = (LEANS * most.off).max(ON * near.distance).max(rounding(reference));

