@@ -69,6 +69,16 @@ pub fn least_axis(a: Vector) -> Vector {
     axis
 }
 
+/// Step of single precision at the greatest coordinate of some points: what files in that precision leave of them.
+///
+/// ```
+/// use trueness_geom::space::single_step;
+/// assert_eq!(single_step(&[[0.5, -8.0, 1.0]]), 8.0 * f64::from(f32::EPSILON));
+/// ```
+pub fn single_step(points: &[Point]) -> f64 {
+    points.iter().flatten().fold(0.0f64, |most, x| most.max(x.abs())) * f64::from(f32::EPSILON)
+}
+
 /// Axis-parallel box. Empty when `min > max` in some coordinate, as [`Aabb::EMPTY`] is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Aabb {

@@ -90,6 +90,5 @@ pub fn facets_near(
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn places_over(nominal: &Nominal) -> Result<Vec<Point>, FeatureError> {
-    let near = Nearness { distance: 0.0, angle: 0.0, margin: 0.0, rim: true, inward: None };
-    Ok(Rules::new(nominal, &near)?.starts())
+    Ok(Extent::new(nominal)?.places())
 }

@@ -99,9 +99,6 @@ pub enum FeatureError {
     /// An edge is no face.
     #[error("an edge is no face")]
     NoFace,
-    /// Stopped through the progress argument.
-    #[error("cancelled")]
-    Cancelled,
 }
 
 impl Nominal {

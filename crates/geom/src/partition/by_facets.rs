@@ -1,10 +1,10 @@
 //! What the facets of a mesh tell: which face each is of, and where faces are that have no vertices clear of their borders.
 
-use super::best::Candidate;
+use super::best::{Best, Candidate};
 use super::cut::NO_FACE;
 use super::faces::{Face, Seat};
 use super::facing::Facing;
-use super::terms::Class;
+use super::terms::{Class, EXPLAINED};
 use super::work::{AWAY, FEWEST_SURE, Work};
 use crate::mesh::Mesh;
 use crate::parallel::prelude::*;
@@ -68,6 +68,28 @@ pub(super) fn add(
     Ok(())
 }
 
+/// Whether the vertices of a mesh lie on the edges of its part, as those of a computed mesh do and those of a scan do not: where faces meet, more facets have a
+/// face in common with another one at a vertex than straddle both. `None` where no faces meet.
+pub(super) fn are_on_edges(
+    scan: &Mesh,
+    best: &Best,
+    shared: &[(u32, u32)],
+    (faces, facing): (&[&Face], &Facing),
+) -> Option<bool> {
+    let explained = |v: u32| best.cost[v as usize] <= EXPLAINED;
+    let class = |v: usize| if explained(v as u32) { Class::Face } else { Class::Beyond };
+    let classes: Vec<Class> = (0..best.owner.len()).map(class).collect();
+    let owners = owners(scan, (&best.owner, &classes), shared, (faces, facing));
+    let straddles = |(f, own): (&[u32; 3], &u32)| *own == NO_FACE && f.iter().all(|v| explained(*v));
+    let straddling = scan.faces.iter().zip(&owners).filter(|f| straddles(*f)).count();
+    let is_on_edge = |v: &u32| {
+        let mut about = facing.about(*v).iter().map(|f| owners[*f as usize]).filter(|own| *own != NO_FACE);
+        about.next().is_some_and(|first| about.any(|own| own != first))
+    };
+    let on_edges = (0..best.owner.len() as u32).filter(is_on_edge).count();
+    (straddling + on_edges > 0).then_some(on_edges >= straddling)
+}
+
 /// The face of each facet of a mesh: one that explains all its corners, or has them, and of which it is no wall. Of several that which the facet faces as.
 pub(super) fn owners(
     scan: &Mesh,
@@ -75,7 +97,8 @@ pub(super) fn owners(
     shared: &[(u32, u32)],
     (faces, facing): (&[&Face], &Facing),
 ) -> Vec<u32> {
-    let owner = |v: u32| if classes[v as usize] == Class::Face { owners[v as usize] } else { NO_FACE };
+    let is_of_face = |v: u32| matches!(classes[v as usize], Class::Face | Class::Dent);
+    let owner = |v: u32| if is_of_face(v) { owners[v as usize] } else { NO_FACE };
     let of = |v: u32| {
         let first = shared.partition_point(|s| s.0 < v);
         shared[first..].iter().take_while(move |s| s.0 == v).map(|s| s.1)

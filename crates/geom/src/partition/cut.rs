@@ -8,7 +8,7 @@ use crate::mesh::Mesh;
 use crate::progress::{Progress, Silent};
 use crate::segment::{self, Options, SegmentError};
 use crate::shape::{Kind, Shape};
-use crate::space::{self, Aabb, Point, Vector, cross, dot, minus, norm, plus, times, unit};
+use crate::space::{self, Aabb, Point, Vector, cross, dot, minus, norm, plus, single_step, times, unit};
 
 /// No face.
 pub const NO_FACE: u32 = u32::MAX;
@@ -224,8 +224,7 @@ fn middle([a, b, c]: [Point; 3]) -> Point {
 
 /// How far places that are the same may lie apart, mm.
 pub(super) fn rounding(places: &[Point]) -> f64 {
-    let greatest = places.iter().flatten().fold(0.0f64, |m, x| m.max(x.abs()));
-    STEPS * f64::from(f32::EPSILON) * greatest
+    STEPS * single_step(places)
 }
 
 fn normal(mesh: &Mesh, facet: u32) -> Option<Vector> {

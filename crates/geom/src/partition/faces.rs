@@ -1,4 +1,4 @@
-//! The nominal cut into faces, and where a point lies on a face.
+//! A face, and where a point lies on it.
 
 use super::cut::{self, Cut};
 use crate::closest::{BoundaryEdges, Query, QueryError, Tree};
@@ -13,9 +13,9 @@ use crate::spatial::neighbors::PointTree;
 use crate::topology::weld;
 use std::collections::BTreeMap;
 
-/// A face of the nominal.
+/// A face: of a nominal mesh, a nominal feature, or an element that measured points lie on.
 pub struct Face {
-    /// Its facets, ascending.
+    /// Its facets in the nominal mesh, ascending; none of others.
     pub facets: Vec<u32>,
     /// The element that it lies on; `None` where it is free.
     pub shape: Option<Shape>,
@@ -56,7 +56,7 @@ pub(super) struct Seat {
     pub normal: Vector,
 }
 
-/// A nominal cut into faces.
+/// Faces, those of a nominal or others.
 pub struct Faces {
     /// The faces.
     pub all: Vec<Face>,
@@ -223,6 +223,11 @@ impl Face {
     fn across(&self, shape: Shape, p: Point, reach: f64) -> Option<(f64, Vector)> {
         let off = self.outward * shape.distance(p);
         (off.abs() <= reach).then_some((off, times(self.outward, unit(shape.normal(p))?.0)))
+    }
+
+    /// Whether its border is known; of a nominal feature the bounds are, but not where other faces cut it.
+    pub(super) fn is_bounded(&self) -> bool {
+        matches!(self.goes, Goes::Facets(_))
     }
 
     /// Its unit normal near a place, out of the material.

@@ -35,6 +35,11 @@ impl Facing {
         Facing { facets, vertices, around }
     }
 
+    /// The facets about a vertex.
+    pub(super) fn about(&self, vertex: u32) -> &[u32] {
+        self.around.of(vertex)
+    }
+
     /// Whether a facet is no wall of a face with this normal.
     pub(super) fn is_along(&self, facet: u32, normal: Vector) -> bool {
         dot(self.facets[facet as usize], normal) > STEEPEST

@@ -1,4 +1,4 @@
-//! Whose point is it: one partition of a scan among the faces of its nominal.
+//! Whose point is it: one partition of a scan among faces, those of its nominal or others.
 //!
 //! Partition is an operation of its own (ISO 17450-1), done once for the whole part, by likelihood, and not anew for each feature:
 //!
@@ -8,7 +8,7 @@
 //!    the sure points around; the point belongs to the one that it lies off by the least part of what noise and the going on allow.
 //! 4. Points that no face explains are looked at together with their neighbors. What hangs together with points beyond the reach of
 //!    all faces goes on into the material ([`Class::Deep`]) or out of it ([`Class::High`]) farther than the reach: a hole, a bump, a thing that
-//!    stands there. What lies along a border is [`Class::Edge`] as far as scans round edges, farther [`Class::Broken`]: a burr, a groove, a chamfer
+//!    stands there. If it is closed, and one face alone is around it, it is a [`Class::Dent`]. What lies along a border is [`Class::Edge`] as far as scans round edges, farther [`Class::Broken`]: a burr, a groove, a chamfer
 //!    that is not drawn. The rest is form of the face: a dent.
 //!
 //! | file | what |
@@ -45,7 +45,7 @@ pub use terms::{Beyond, Class, Options, Partition, PartitionError};
 use crate::mesh::Mesh;
 use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress};
-use crate::space::{Aabb, Point};
+use crate::space::{Aabb, Point, single_step};
 use crate::spatial::neighbors::PointTree;
 use best::Candidate;
 use faces::Seat;
@@ -116,7 +116,8 @@ pub fn partition(
     if let Some(facing) = &facing {
         by_facets::add(scan, (&work, facing), &mut sure, progress)?;
     }
-    let floor = rounding(points);
+    // Half a step is what rounding takes away.
+    let floor = 0.5 * single_step(points);
     let sparse = work.sparse(facing.is_none());
     let placed: Vec<Placed> = (faces.par_iter().zip(&sure).zip(&sparse))
         .map(|((face, sure), sparse)| {
@@ -139,21 +140,32 @@ pub fn partition(
         placed[face as usize].off(faces[face as usize], points[p as usize], seat)
     };
     // What was computed has sharp edges.
-    let rounded = if noise > floor { spacing } else { 0.0 };
-    let (mut classes, hanging) = unexplained::classes(scan, &mut best, (spacing, rounded), off);
+    let on_edges = facing
+        .as_ref()
+        .and_then(|facing| by_facets::are_on_edges(scan, &best, &shared, (faces, facing)))
+        .unwrap_or(true);
+    let is_scan = noise > floor || !on_edges;
+    let rounded = if is_scan { spacing } else { 0.0 };
+    let (mut classes, hanging) =
+        unexplained::classes(scan, &mut best, (faces, facing.as_ref()), (spacing, rounded), off);
     between.retain(|b| classes[b.point as usize] == Class::Face);
     for b in &between {
         classes[b.point as usize] = Class::Between;
     }
-    let facets = facing
-        .as_ref()
-        .map_or(vec![], |facing| by_facets::owners(scan, (&best.owner, &classes), &shared, (faces, facing)));
     let size = faces.iter().fold(Aabb::EMPTY, |b, f| b.union(&f.bounds)).diagonal();
     let far = [size, ELSEWHERE * size];
     let over = Over { points, faces, owners: &best.owner, facing: facing.as_ref(), spacing, rounded, far };
-    let beyond = over.faces(&hanging, progress)?;
+    let mut beyond = over.faces(&hanging, progress)?;
+    let dents = over.dents(&hanging, &beyond, options.seed)?;
     let inside = best.seat.iter().map(|s| s.is_some_and(|s| s.within >= 0.0)).collect();
-    let owners = best.owner;
+    let mut owners = best.owner;
+    for (p, face) in dents {
+        (owners[p as usize], classes[p as usize]) = (face, Class::Dent);
+    }
+    beyond.retain(|b| classes[b.point as usize] != Class::Dent);
+    let facets = facing
+        .as_ref()
+        .map_or(vec![], |facing| by_facets::owners(scan, (&owners, &classes), &shared, (faces, facing)));
     Ok(Partition {
         owners,
         classes,
@@ -164,7 +176,7 @@ pub fn partition(
         placed,
         spacing,
         noise,
-        rounding: floor,
+        is_scan,
     })
 }
 
@@ -222,12 +234,6 @@ pub fn spacing(points: &[Point], seed: u64) -> f64 {
         .collect();
     all.sort_by(f64::total_cmp);
     all.get(all.len() / 2).copied().unwrap_or(1.0)
-}
-
-/// Half a step of single precision of the coordinates.
-fn rounding(points: &[Point]) -> f64 {
-    let greatest = points.iter().flatten().fold(0.0f64, |m, x| m.max(x.abs()));
-    0.5 * greatest * f64::from(f32::EPSILON)
 }
 
 fn cancelled(progress: &dyn Progress) -> Result<(), Cancelled> {

@@ -31,6 +31,8 @@ pub enum Class {
     Broken,
     /// Hangs together with what lies deeper in the material than the reach of faces: of a face where it is within its reach.
     Deep,
+    /// The same, but one face alone is around it, and something was measured at each of its places: a dent of that face, deeper than its reach.
+    Dent,
     /// Hangs together with what lies farther out of the material than the reach of faces: of a face where it is within its reach.
     High,
     /// Off its face and off another one that faces the other way, by more than both explain: the dent of one side of a wall or of the other.
@@ -53,8 +55,8 @@ pub struct Partition {
     /// The face of each measured facet: that on which all of its corners lie. At a sharp edge a corner is of the faces of all facets about it, and its
     /// owner one of them. [`NO_FACE`](super::NO_FACE) of what straddles an edge.
     pub facets: Vec<u32>,
-    /// Points beyond the reach of all faces that lie over faces: over those that they hang together with; those by themselves over the nearest, where nothing of
-    /// it was measured beneath, or where they are alone. By face and point.
+    /// Points beyond the reach of all faces that lie over faces: over those that they hang together with, and over the nearest other one where nothing was
+    /// measured beneath some of them, or where they are alone. By face and point.
     pub beyond: Vec<Beyond>,
     /// The points of [`Class::Between`] with the faces that they may be of beside their own.
     pub between: Vec<Beyond>,
@@ -64,8 +66,8 @@ pub struct Partition {
     pub spacing: f64,
     /// What points scatter by about the surface that their neighbors tell, millimeters.
     pub noise: f64,
-    /// What single precision leaves of the coordinates, millimeters.
-    pub(super) rounding: f64,
+    /// Whether it was measured: the points scatter by more than the rounding of single precision, or facets straddle the edges. Of a computed mesh neither holds.
+    pub is_scan: bool,
 }
 
 /// A point beyond the reach of all faces that lies over one.
@@ -77,13 +79,6 @@ pub struct Beyond {
     pub face: u32,
     /// How far it lies off the face of the nominal, positive outside of the material, millimeters.
     pub off: f64,
-}
-
-impl Partition {
-    /// Whether the points scatter by more than the rounding of single precision: those of a scan do, those of a computed mesh do not.
-    pub fn is_scan(&self) -> bool {
-        self.noise > self.rounding
-    }
 }
 
 /// Why there is no partition.

@@ -7,8 +7,9 @@ use super::facing::Facing;
 use super::terms::{Beyond, Class, EXPLAINED};
 use crate::mesh::Mesh;
 use crate::parallel::prelude::*;
-use crate::progress::{Cancelled, Progress};
-use crate::space::{Point, minus, times};
+use crate::num::random::Random;
+use crate::progress::{Cancelled, Progress, Silent};
+use crate::space::{Aabb, Point, minus, plus, times};
 use crate::spatial::neighbors::PointTree;
 use std::collections::BTreeMap;
 
@@ -20,6 +21,10 @@ const ALONG: f64 = 1.0;
 const GAP: f64 = 2.1;
 /// Distances of neighbors from a border, and off the face, up to which scans round an edge.
 const ROUNDED: f64 = 2.0;
+/// Distances that differ by less than this share are those of one place.
+const ALIKE: f64 = 1e-9;
+/// Places where it is looked whether something was measured.
+const PLACES: usize = 100;
 /// Neighbors of a point in a cloud, and distances of neighbors within which they hang together.
 const NEIGHBORS: usize = 8;
 const TOGETHER: f64 = 2.5;
@@ -30,69 +35,87 @@ const TOGETHER: f64 = 2.5;
 pub(super) fn classes(
     scan: &Mesh,
     best: &mut Best,
+    (faces, facing): (&[&Face], Option<&Facing>),
     (spacing, rounded): (f64, f64),
     off: impl Fn(u32, u32, Seat) -> f64,
 ) -> (Vec<Class>, Vec<Hanging>) {
-    let is_open = |p: usize| best.cost[p].is_nan() || best.cost[p] > EXPLAINED;
+    let is_open = |best: &Best, p: usize| best.cost[p].is_nan() || best.cost[p] > EXPLAINED;
+    let ends = |best: &Best, p: u32, seat: Seat| {
+        let own = best.owner[p as usize];
+        let is_other = |v: &u32| !is_open(best, *v as usize) && best.owner[*v as usize] != own;
+        let is_wall = |f: &u32| facing.is_some_and(|facing| !facing.is_along(*f, seat.normal));
+        let ends = |f: &u32| is_wall(f) || scan.faces[*f as usize].iter().any(is_other);
+        facing.is_some_and(|facing| facing.about(p).iter().any(ends))
+    };
+    // Where its border is not known a face ends where facets lead to another one, or to a wall.
+    let is_along = |best: &Best, p: u32, far: f64| {
+        let (own, near) = (best.owner[p as usize], best.near[p as usize] > 1);
+        let seat = best.seat[p as usize];
+        near || seat.is_some_and(|s| s.within < far || !faces[own as usize].is_bounded() && ends(best, p, s))
+    };
     let mut classes: Vec<Class> =
         best.owner.iter().map(|o| if *o == NO_FACE { Class::Beyond } else { Class::Face }).collect();
-    let open: Vec<u32> = (0..best.owner.len() as u32).filter(|p| is_open(*p as usize)).collect();
+    let open: Vec<u32> = (0..best.owner.len() as u32).filter(|p| is_open(best, *p as usize)).collect();
     let mut hanging = vec![];
     for (group, beside) in groups(scan, &open, spacing) {
         let (of_faces, beyond): (Vec<u32>, Vec<u32>) =
             group.into_iter().partition(|p| best.owner[*p as usize] != NO_FACE);
         let seats = || of_faces.iter().filter_map(|p| best.seat[*p as usize]);
         let (total, outside) = (seats().count(), seats().filter(|s| s.off > 0.0).count());
-        let is_along = |p: &&u32| {
-            let p = **p as usize;
-            best.near[p] > 1 || best.seat[p].is_some_and(|s| s.within < ALONG * spacing)
-        };
-        let along = of_faces.iter().filter(is_along).count();
-        if beyond.len() >= SEVERAL && total > 0 {
-            let class = if 2 * outside >= total { Class::High } else { Class::Deep };
-            let mut faces = vec![];
-            for p in of_faces.iter().map(|p| *p as usize) {
-                classes[p] = class;
-                match best.seat[p] {
-                    Some(seat) if seat.within > 0.0 => faces.push(best.owner[p]),
-                    _ => best.owner[p] = NO_FACE,
-                }
-            }
-            faces.sort_unstable();
-            faces.dedup();
-            beyond.iter().for_each(|p| classes[*p as usize] = class);
-            hanging.push(Hanging { points: beyond, faces });
-        } else if beyond.len() < SEVERAL {
+        let along = of_faces.iter().filter(|p| is_along(best, **p, ALONG * spacing)).count();
+        if beyond.len() < SEVERAL {
             for p in of_faces.iter().filter(|_| 2 * along > total) {
-                let number = *p as usize;
-                let is_near = |seat: Seat| {
-                    (best.near[number] > 1 || seat.within < ROUNDED * rounded)
-                        && off(*p, best.owner[number], seat).abs() < ROUNDED * rounded
-                };
-                let is_edge = best.seat[number].is_some_and(is_near);
-                classes[number] = if is_edge { Class::Edge } else { Class::Broken };
+                let own = best.owner[*p as usize];
+                let is_near = |seat: Seat| off(*p, own, seat).abs() < ROUNDED * rounded;
+                let is_edge =
+                    is_along(best, *p, ROUNDED * rounded) && best.seat[*p as usize].is_some_and(is_near);
+                classes[*p as usize] = if is_edge { Class::Edge } else { Class::Broken };
             }
             beyond.iter().for_each(|p| classes[*p as usize] = Class::Alone);
             if !beyond.is_empty() {
-                hanging.push(Hanging { points: beyond, faces: vec![] });
+                hanging.push(Hanging { points: beyond, flank: vec![], faces: vec![], around: vec![] });
             }
-        } else {
-            // Facets join it to points of faces.
-            let mut faces: Vec<u32> = beside.iter().map(|p| best.owner[*p as usize]).collect();
-            faces.retain(|face| *face != NO_FACE);
-            faces.sort_unstable();
-            faces.dedup();
-            hanging.push(Hanging { points: beyond, faces });
+            continue;
         }
+        // Facets join it to points of faces.
+        let mut faces = faces_of(&beside, &best.owner);
+        let around = faces_of(&[&beside[..], &of_faces].concat(), &best.owner);
+        let mut flank = of_faces;
+        if total > 0 {
+            let class = if 2 * outside >= total { Class::High } else { Class::Deep };
+            flank.iter().chain(&beyond).for_each(|p| classes[*p as usize] = class);
+            flank.retain(|p| {
+                let is_over = best.seat[*p as usize].is_some_and(|seat| seat.within > 0.0);
+                if !is_over {
+                    best.owner[*p as usize] = NO_FACE;
+                }
+                is_over
+            });
+            faces = faces_of(&flank, &best.owner);
+        }
+        hanging.push(Hanging { points: beyond, flank, faces, around });
     }
     (classes, hanging)
+}
+
+/// The faces of some points, ascending.
+fn faces_of(points: &[u32], owners: &[u32]) -> Vec<u32> {
+    let mut faces: Vec<u32> = points.iter().map(|p| owners[*p as usize]).collect();
+    faces.retain(|face| *face != NO_FACE);
+    faces.sort_unstable();
+    faces.dedup();
+    faces
 }
 
 /// Points beyond the reach of all faces that hang together.
 pub(super) struct Hanging {
     pub points: Vec<u32>,
-    /// The faces whose points hang together with them; none where they are by themselves.
-    pub faces: Vec<u32>,
+    /// Points of faces, within their reach, that hang together with them.
+    flank: Vec<u32>,
+    /// The faces of these, or where there are none, of points that facets join to them; none where they are by themselves.
+    faces: Vec<u32>,
+    /// All faces at the border of what hangs together, those beyond whose borders it lies too.
+    around: Vec<u32>,
 }
 
 /// Where points beyond the reach of faces may lie over one.
@@ -111,60 +134,124 @@ pub(super) struct Over<'a> {
 }
 
 impl Over<'_> {
-    /// The points that lie over faces: over those that they hang together with; those by themselves over the nearest, where nothing of it was measured
-    /// beneath some of them, or where they are alone.
+    /// The points that lie over faces: over the nearest one where nothing was measured beneath some of them, or where they are alone; what no face explains so,
+    /// over those that it hangs together with. What lies on one side of the nearest face lies on that side of all.
     pub(super) fn faces(
         &self,
         hanging: &[Hanging],
         progress: &dyn Progress,
     ) -> Result<Vec<Beyond>, Cancelled> {
-        let mut of_faces: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
-        for hanging in hanging {
-            hanging.faces.iter().for_each(|f| of_faces.entry(*f).or_default().extend(&hanging.points));
-        }
-        let mut found = vec![];
-        for (face, numbers) in of_faces {
-            found.extend(self.face(face, &numbers, progress)?);
-        }
-        let themselves: Vec<&Hanging> = hanging.iter().filter(|h| h.faces.is_empty()).collect();
-        let mut numbers: Vec<u32> = themselves.iter().flat_map(|h| h.points.iter().copied()).collect();
+        let all = self.faces.iter().fold(Aabb::EMPTY, |b, f| b.union(&f.bounds)).widened(self.far[1]);
+        let numbers = hanging.iter().flat_map(|h| h.points.iter().copied());
+        let mut numbers: Vec<u32> = numbers.filter(|p| all.holds(&self.points[*p as usize])).collect();
         numbers.sort_unstable();
+        let outside = self.outside(&numbers, progress)?;
+        let sides: Vec<(u32, bool)> = numbers.into_iter().zip(outside).collect();
         let mut over: Vec<BTreeMap<u32, (Beyond, bool)>> = vec![];
         for face in 0..self.faces.len() as u32 {
-            let here = if numbers.is_empty() { vec![] } else { self.face(face, &numbers, progress)? };
+            let here = self.face(face, &sides, progress)?;
             let gaps = self.gaps(face, &here);
             over.push(here.into_iter().zip(gaps).map(|(b, gap)| (b.point, (b, gap))).collect());
         }
-        for hanging in themselves {
-            let mut nearest: Option<(f64, Vec<Beyond>)> = None;
-            for over in &over {
-                let own: Vec<(Beyond, bool)> =
-                    hanging.points.iter().filter_map(|p| over.get(p)).copied().collect();
-                let gaps = own.iter().filter(|over| over.1).count();
-                let own: Vec<Beyond> = own.into_iter().map(|over| over.0).collect();
-                let off = own.iter().map(|b| b.off.abs()).sum::<f64>() / own.len() as f64;
-                let counts = !own.is_empty() && (hanging.points.len() < SEVERAL || gaps >= SEVERAL);
-                if counts && nearest.as_ref().is_none_or(|n| off < n.0) {
-                    nearest = Some((off, own));
-                }
-            }
-            found.extend(nearest.map_or(vec![], |n| n.1));
+        let mut found = vec![];
+        for hanging in hanging {
+            found.extend(explained(hanging, &over));
         }
         found.sort_unstable_by_key(|b| (b.face, b.point));
         Ok(found)
     }
 
-    /// Those of some points that lie over a face, clear of its border; of a mesh those that face as it does.
-    fn face(&self, face: u32, numbers: &[u32], progress: &dyn Progress) -> Result<Vec<Beyond>, Cancelled> {
+    /// Whether each of some points lies out of the material: on that side of the face that is nearest, of several about an edge on that of which it is
+    /// farther across.
+    fn outside(&self, numbers: &[u32], progress: &dyn Progress) -> Result<Vec<bool>, Cancelled> {
+        let mut nearest: Vec<(f64, f64)> = vec![(f64::INFINITY, 0.0); numbers.len()];
+        for face in self.faces {
+            let is_near = |i: &usize| {
+                let away = face.bounds.distance(&self.points[numbers[*i] as usize]);
+                away <= nearest[*i].0 * (1.0 + ALIKE)
+            };
+            let near: Vec<usize> = (0..numbers.len()).into_par_iter().filter(is_near).collect();
+            let places: Vec<Point> = near.par_iter().map(|i| self.points[numbers[*i] as usize]).collect();
+            let seats = face.seats(&places, f64::INFINITY, f64::INFINITY, progress)?;
+            for (i, seat) in near.into_iter().zip(seats) {
+                let Some(seat) = seat else { continue };
+                let away = seat.off.hypot(seat.within.min(0.0));
+                let (least, off) = nearest[i];
+                let is_alike = (away - least).abs() <= ALIKE * least;
+                if (is_alike && seat.off.abs() > off.abs()) || (!is_alike && away < least) {
+                    nearest[i] = (away, seat.off);
+                }
+            }
+        }
+        Ok(nearest.into_iter().map(|n| n.1 > 0.0).collect())
+    }
+
+    /// Those of some points, ascending and with their side, that lie over a face, clear of its border; of a mesh those that face as it does.
+    fn face(
+        &self,
+        face: u32,
+        sides: &[(u32, bool)],
+        progress: &dyn Progress,
+    ) -> Result<Vec<Beyond>, Cancelled> {
         let Over { points, faces, rounded, far, .. } = *self;
-        let places: Vec<Point> = numbers.iter().map(|p| points[*p as usize]).collect();
+        let bounds = faces[face as usize].bounds.widened(far[1]);
+        let may_be = |(p, outside): &&(u32, bool)| !outside || bounds.holds(&points[*p as usize]);
+        let sides: Vec<(u32, bool)> = sides.iter().filter(may_be).copied().collect();
+        let places: Vec<Point> = sides.iter().map(|(p, _)| points[*p as usize]).collect();
         let seats = faces[face as usize].seats(&places, far[0].max(far[1]), rounded, progress)?;
-        let over = |(p, seat): (&u32, Option<Seat>)| {
-            let seat = seat.filter(|s| s.within >= rounded && -far[0] <= s.off && s.off <= far[1])?;
+        let over = |((p, outside), seat): (&(u32, bool), Option<Seat>)| {
+            let is_far = |s: &Seat| if *outside { 0.0 < s.off && s.off <= far[1] } else { -far[0] <= s.off && s.off < 0.0 };
+            let seat = seat.filter(|s| s.within >= rounded && is_far(s))?;
             let faces = self.facing.is_none_or(|f| f.may_be_of(*p, seat.normal));
             faces.then_some(Beyond { point: *p, face, off: seat.off })
         };
-        Ok(numbers.iter().zip(seats).filter_map(over).collect())
+        Ok(sides.iter().zip(seats).filter_map(over).collect())
+    }
+
+    /// Of what goes on into the material, the points of dents, with the face that each is in: it alone is around, and something was measured at each place
+    /// over it. A hole is open, or leads to another face.
+    pub(super) fn dents(
+        &self,
+        hanging: &[Hanging],
+        beyond: &[Beyond],
+        seed: u64,
+    ) -> Result<Vec<(u32, u32)>, Cancelled> {
+        let mut found = vec![];
+        for hanging in hanging {
+            let [face] = hanging.around[..] else { continue };
+            let is_in = |p: &&u32| {
+                let at = beyond.binary_search_by_key(&(face, **p), |b| (b.face, b.point));
+                at.is_ok_and(|i| beyond[i].off < 0.0)
+            };
+            let deep = hanging.points.iter().filter(is_in).count();
+            let points = [&hanging.points[..], &hanging.flank].concat();
+            if deep >= SEVERAL && self.is_closed(face, &points, seed)? {
+                found.extend(points.into_iter().map(|p| (p, face)));
+            }
+        }
+        Ok(found)
+    }
+
+    /// Whether something was measured, at any depth, at each place of a face between some points over it. A computed mesh was not measured.
+    fn is_closed(&self, face: u32, points: &[u32], seed: u64) -> Result<bool, Cancelled> {
+        if self.rounded == 0.0 {
+            return Ok(true);
+        }
+        let feet = |places: &[Point]| -> Result<Vec<Point>, Cancelled> {
+            let seats = self.faces[face as usize].seats(places, f64::INFINITY, f64::INFINITY, &Silent)?;
+            let foot = |(p, seat): (&Point, Option<Seat>)| Some(minus(*p, times(seat?.off, seat?.normal)));
+            Ok(places.iter().zip(seats).filter_map(foot).collect())
+        };
+        let places: Vec<Point> = points.iter().map(|p| self.points[*p as usize]).collect();
+        let over = feet(&places)?;
+        let mut random = Random::new(seed);
+        let mut any = || over.get(random.below(over.len().max(1) as u64) as usize).copied();
+        let mut middle = || Some(times(0.5, plus(any()?, any()?)));
+        let between: Vec<Point> = (0..PLACES).filter_map(|_| middle()).collect();
+        let own = (0..self.points.len()).filter(|p| self.owners[*p] == face).map(|p| self.points[p]);
+        let tree = PointTree::new(&own.chain(over.iter().copied()).collect::<Vec<Point>>());
+        let is_measured = |p: &Point| tree.nearest(p).is_some_and(|n| n.0.sqrt() <= GAP * self.spacing);
+        Ok(feet(&between)?.par_iter().all(is_measured))
     }
 
     /// Whether nothing of a face was measured beneath each of these points. A computed mesh was not measured.
@@ -180,8 +267,37 @@ impl Over<'_> {
             let foot = normal.map_or(p, |n| minus(p, times(beyond.off, n)));
             tree.nearest(&foot).is_none_or(|(square, _)| square.sqrt() > GAP * self.spacing)
         };
-        over.iter().map(is_gap).collect()
+        over.par_iter().map(is_gap).collect()
     }
+}
+
+/// The faces over which what hangs together lies, by the points over each face, with whether nothing was measured beneath.
+fn explained(hanging: &Hanging, over: &[BTreeMap<u32, (Beyond, bool)>]) -> Vec<Beyond> {
+    let is_few = hanging.points.len() < SEVERAL;
+    let mut left = hanging.points.clone();
+    let mut found = vec![];
+    loop {
+        let here = |of: &BTreeMap<u32, (Beyond, bool)>| -> Vec<(Beyond, bool)> {
+            left.iter().filter_map(|p| of.get(p)).copied().collect()
+        };
+        // Out of the material a thing may hide some places; into it nothing else lies where the face was not measured.
+        let counts = |here: &Vec<(Beyond, bool)>| {
+            let needed = if here.iter().all(|(b, _)| b.off < 0.0) { 1 } else { SEVERAL };
+            !here.is_empty() && (is_few || here.iter().filter(|(_, gap)| *gap).count() >= needed)
+        };
+        let off = |here: &[(Beyond, bool)]| {
+            here.iter().map(|(b, _)| b.off.abs()).sum::<f64>() / here.len() as f64
+        };
+        let all = over.iter().map(here).filter(counts);
+        let Some(nearest) = all.min_by(|a, b| off(a).total_cmp(&off(b))) else { break };
+        let those: Vec<u32> = nearest.iter().map(|(b, _)| b.point).collect();
+        left.retain(|p| those.binary_search(p).is_err());
+        found.extend(nearest.into_iter().map(|(b, _)| b));
+    }
+    for face in &hanging.faces {
+        found.extend(left.iter().filter_map(|p| over[*face as usize].get(p)).map(|(b, _)| *b));
+    }
+    found
 }
 
 /// Those of some points that hang together, in the order of the first of each; of a mesh with other vertices of their facets.

@@ -11,10 +11,10 @@
 //!
 //! Gains are quotients of weights (area, or number of points), fits are compared by root mean square distances.
 
-use super::pieces::{PieceGraph, step};
+use super::pieces::PieceGraph;
 use super::region::GrownRegion;
 use crate::shape::{Kind, Shape};
-use crate::space::{dot, minus};
+use crate::space::{dot, minus, single_step};
 
 /// Quotient of the distances below which another kind fits clearly better. Where the simpler element is just doubtful, this
 /// is a root mean square of 0.94: what the noise alone leaves.
@@ -138,7 +138,7 @@ pub(super) fn has_circles(surface: &PieceGraph, shape: &Shape, pieces: &[u32]) -
     let points = surface.points_of(pieces.iter().copied());
     let mut around: Vec<f64> = points.into_iter().map(tube).collect();
     around.sort_by(f64::total_cmp);
-    let same = ROUNDED_STEPS * step(surface.points) / minor_radius;
+    let same = ROUNDED_STEPS * single_step(surface.points) / minor_radius;
     let parted = around.windows(2).filter(|w| w[1] - w[0] > same).count();
     parted + 1 >= CIRCLES
 }

@@ -1,9 +1,9 @@
 //! The surface of a mesh: facets, neighbors through edges.
 
-use super::pieces::{PieceGraph, Pieces, step};
+use super::pieces::{PieceGraph, Pieces};
 use crate::mesh::Mesh;
 use crate::parallel::prelude::*;
-use crate::space::{Vector, cross, dot, minus, norm, plus, times, unit};
+use crate::space::{Vector, cross, dot, minus, norm, plus, single_step, times, unit};
 use crate::spatial::lists::lists;
 
 /// Steps of single precision by which the corners of two facets, together, turn one against the other.
@@ -32,7 +32,7 @@ pub(super) fn surface(mesh: &Mesh) -> PieceGraph<'_> {
 /// single precision: what is drawn has two facets where four corners lie in a plane, and equal ones around the tip of a cone. What is measured
 /// has none such; but noise across an even grid changes the sides of its facets in second order only, so that they mirror each other.
 fn is_drawn(mesh: &Mesh, normals: &[Vector], areas: &[f64], first: &[u32], others: &[u32]) -> bool {
-    let step = step(&mesh.positions);
+    let step = single_step(&mesh.positions);
     let flat = |facet: usize| {
         let around = &others[first[facet] as usize..first[facet + 1] as usize];
         let face = |facet: usize| mesh.faces[facet];

@@ -41,13 +41,13 @@ use crate::noise::NoNoise;
 use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress, Silent};
 use crate::shape::{Kind, Shape};
-use crate::space::{Aabb, Point, dot};
+use crate::space::{Aabb, Point, dot, single_step};
 use crate::topology::weld::WeldError;
 use criterion::fewest_points;
 pub use estimate::KINDS;
 use grow::Context;
 use noise::Noise;
-use pieces::{Band, NONE, PieceGraph, Pieces, step};
+use pieces::{Band, NONE, PieceGraph, Pieces};
 use region::GrownRegion;
 use search::{Limits, search};
 use seeds::Seeds;
@@ -269,7 +269,7 @@ fn segment(
     let kinds: Vec<Kind> = KINDS.into_iter().filter(|kind| options.kinds.contains(kind)).collect();
     let bounds = Aabb::of(surface.points);
     // Coordinates have passed through single precision: they are off by half a step of it.
-    let step = step(surface.points);
+    let step = single_step(surface.points);
     let noise = distance.max(step / 12f64.sqrt());
     let tolerance = options.tolerance.unwrap_or((WIDTH * noise).max(2.0 * step));
     let turned = (3.0 * angle).clamp(ANGLES[0].to_radians(), ANGLES[1].to_radians());

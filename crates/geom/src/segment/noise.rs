@@ -2,13 +2,13 @@
 
 use super::estimate::{KINDS, estimate};
 use super::flood::{Marks, patch};
-use super::pieces::{PieceGraph, step};
+use super::pieces::PieceGraph;
 use super::probe::Probe;
 use crate::fit::improved;
 use crate::num::random::Random;
 use crate::parallel::prelude::*;
 use crate::shape::{Kind, Shape};
-use crate::space::Point;
+use crate::space::{Point, single_step};
 
 /// Patches looked at.
 const PATCHES: u64 = 400;
@@ -39,7 +39,7 @@ pub(super) fn noise(
     pick: impl Fn(&mut Random) -> u32 + Sync,
 ) -> Noise {
     let [small, large] = SIZES.map(|size| of_patches(surface, size, crease, seed, &pick));
-    if surface.is_drawn && small.distance > ROUNDED * step(surface.points) {
+    if surface.is_drawn && small.distance > ROUNDED * single_step(surface.points) {
         // Facets are as long as faces: patches went beyond them.
         return Noise { distance: 0.0, ..small };
     }

@@ -45,13 +45,6 @@ pub(super) struct Band {
     pub cosine: f64,
 }
 
-/// Step of single precision at the greatest coordinate of the points.
-pub(super) fn step(points: &[Point]) -> f64 {
-    let bounds = Aabb::of(points);
-    let greatest = bounds.min.iter().chain(&bounds.max).fold(0.0f64, |m, x| m.max(x.abs()));
-    greatest * f64::from(f32::EPSILON)
-}
-
 impl PieceGraph<'_> {
     /// Number of pieces.
     pub(super) fn len(&self) -> usize {

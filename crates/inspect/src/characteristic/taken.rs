@@ -62,6 +62,8 @@ pub struct Others {
     pub between: usize,
     /// Points on its edges, where scans are rounded: none of the others.
     pub edge: usize,
+    /// Points of it in dents that are deeper than its reach: none of the others.
+    pub dents: usize,
     /// Points of a scan that lie beyond the reach over the feature, each alone: none of the others.
     pub outliers: usize,
     /// Whether there is a reference.

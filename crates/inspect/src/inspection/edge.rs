@@ -1,10 +1,9 @@
 //! What was measured of an edge: its rounding or chamfer, told by where it lies and how it faces alone.
 
-use super::parted::OfFeature;
+use super::parted::{OfFeature, area};
 use crate::characteristic::Others;
 use trueness_geom::feature::{FeatureError, Found, Nearness, Nominal, facets_near, in_cloud};
 use trueness_geom::mesh::{FacetsAround, Mesh};
-use trueness_geom::space::{cross, minus, norm};
 
 /// The facets near an edge with their vertices, or the points of a cloud.
 ///
@@ -26,11 +25,7 @@ fn of_facets(mesh: &Mesh, facets: Vec<u32>, rim: bool) -> Found {
     let mut vertices: Vec<u32> = facets.iter().flat_map(|f| mesh.faces[*f as usize]).collect();
     vertices.sort_unstable();
     vertices.dedup();
-    let area = |f: &u32| {
-        let [a, b, c] = mesh.faces[*f as usize].map(|v| mesh.positions[v as usize]);
-        0.5 * norm(cross(minus(b, a), minus(c, a)))
-    };
-    let area = facets.iter().map(area).sum();
+    let area = area(mesh, &facets);
     let around = (!rim).then(|| FacetsAround::new(mesh));
     let is_shared =
         |v: &u32| around.as_ref().is_some_and(|a| a.of(*v).iter().any(|f| facets.binary_search(f).is_err()));

@@ -43,6 +43,14 @@ pub(super) fn judge_left_out(
             points(taken.others.outliers)
         )
     }));
+    let dents = features.iter().filter(|t| t.others.dents > 0);
+    result.notes.extend(dents.map(|taken| {
+        format!(
+            "feature \"{}\": {} of it are in dents deeper than its extract distance, and count",
+            taken.id,
+            points(taken.others.dents)
+        )
+    }));
     let Some((value, verdict)) = with_others else { return result };
     // Noise and burrs leave some at every edge: they are told where they matter.
     if verdict == judged {

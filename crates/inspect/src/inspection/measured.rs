@@ -11,7 +11,7 @@ use trueness_geom::segment::{self, Region, SegmentError, Segmentation};
 use trueness_geom::space::{Point, cross, dot, minus, plus, times, unit};
 
 /// Points of a cloud that are segmented, at most.
-const MOST: usize = 200_000;
+const MOST_SEGMENTED: usize = 200_000;
 /// A region is of a feature if this share of its points within the bounds of the nominal is within its reach.
 const MOSTLY: f64 = 0.5;
 /// Points of a region lie no farther apart than so many times their mean distance.
@@ -27,7 +27,8 @@ pub(super) fn add(
     seed: u64,
     progress: &dyn Progress,
 ) -> Result<(), Stop> {
-    let chosen = mesh.faces.is_empty().then(|| Random::new(seed).choose(MOST, mesh.positions.len()));
+    let chosen =
+        mesh.faces.is_empty().then(|| Random::new(seed).choose(MOST_SEGMENTED, mesh.positions.len()));
     let some: Option<Vec<Point>> = chosen.map(|c| c.into_iter().map(|i| mesh.positions[i]).collect());
     let points = some.as_ref().unwrap_or(&mesh.positions);
     let options = segment::Options { seed, ..segment::Options::default() };

@@ -5,7 +5,7 @@ use super::nominals::Nominals;
 use super::parted::Parted;
 use super::{Taken, take};
 use crate::plan::{Plan, Source};
-use trueness_geom::feature::{FeatureError, Nearness, in_cloud};
+use trueness_geom::feature::{Nearness, in_cloud};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::Progress;
 use trueness_geom::space::Aabb;
@@ -40,13 +40,11 @@ pub(super) fn tell(
         let near = plan.features[n].near(nominal);
         let wide =
             Nearness { distance: near.distance.max(FAR * Aabb::of(&nominal.places()).diagonal()), ..near };
-        let found = in_cloud(&mesh.positions, nominal, &wide);
-        let found = match found {
-            Err(FeatureError::Cancelled) => return Err(Stop::Cancelled),
-            // Why it cannot be sought was told when it was.
-            Err(_) => continue,
-            Ok(found) => found,
-        };
+        if progress.cancelled() {
+            return Err(Stop::Cancelled);
+        }
+        // Why it cannot be sought was told when it was.
+        let Ok(found) = in_cloud(&mesh.positions, nominal, &wide) else { continue };
         let own = parted.and_then(|parted| Some((parted, parted.own(n)?)));
         let is_other = |p: &u32| own.is_some_and(|(parted, own)| parted.is_of_others(*p, own, nominal));
         let places = found.points.iter().filter(|p| !is_other(p));

@@ -9,10 +9,10 @@ use trueness_geom::mesh::Mesh;
 use trueness_geom::partition::{Face, Faces};
 use trueness_geom::progress::Progress;
 use trueness_geom::segment::SegmentError;
-use trueness_geom::space::{Point, dot};
+use trueness_geom::space::{Point, dot, single_step};
 
 /// A face may be off the surface of a nominal by this share of the distance up to which points are sought.
-const ON: f64 = 1e-3;
+const OFF_SURFACE: f64 = 1e-3;
 /// So many times as far off as the face that holds most of a nominal its others may be: a nominal may lean, by the digits it is written with.
 const LEANS: f64 = 4.0;
 
@@ -102,7 +102,7 @@ fn own_faces(
         held.push(Held { number, share, facets: beside.len(), off });
     }
     let Some(most) = held.iter().max_by_key(|h| (h.share, h.facets)) else { return Ok(None) };
-    let limit = (LEANS * most.off).max(ON * near.distance).max(rounding(reference));
+    let limit = (LEANS * most.off).max(OFF_SURFACE * near.distance).max(single_step(&reference.positions));
     let first = &faces.all[most.number as usize];
     let inward = if matches!(nominal, Nominal::Plane { .. }) { None } else { first.inward() };
     let is_alike = |h: &&Held| h.off <= limit && faces.all[h.number as usize].inward() == first.inward();
@@ -131,10 +131,4 @@ fn beneath(face: &Face, place: Point, surface: &NominalSurface, near: &Nearness)
         (_, Some(inward)) => dot(normal, way) * if inward { -1.0 } else { 1.0 },
     };
     (along >= libm::cos(near.angle)).then_some(off)
-}
-
-/// A step of single precision of the coordinates, which meshes pass through in their files, mm.
-fn rounding(mesh: &Mesh) -> f64 {
-    let greatest = mesh.positions.iter().flatten().fold(0.0, |m: f64, x| m.max(x.abs()));
-    f64::from(f32::EPSILON) * greatest
 }

@@ -32,10 +32,10 @@ pub(super) struct Parted<'a> {
 }
 
 /// Share of the greatest distance from its borders that a point of a face has, up to which a margin leaves points out there: some of a narrow face stays.
-const HALF: f64 = 0.5;
+const HALF_WIDTH: f64 = 0.5;
 
-/// Points of a face that are many.
-const MANY: usize = 20;
+/// Points of a face from which on those at its edges are not needed.
+const POINTS_ENOUGH: usize = 20;
 /// Points farther off than this share of the size of what was measured are of something else.
 const ELSEWHERE: f64 = 0.1;
 /// Cosine of the angle (60°) up to which a face lies along a nominal.
@@ -113,13 +113,14 @@ impl<'a> Parted<'a> {
     /// Whether a point is of another face than these: where no reference tells, of one that faces otherwise.
     pub fn is_of_others(&self, point: u32, own: &OwnFaces, nominal: &Nominal) -> bool {
         let owner = self.partition.owners[point as usize];
-        if owner == NO_FACE || own.faces.contains(&owner) {
-            return false;
+        let is_other = owner != NO_FACE && !own.faces.contains(&owner);
+        if !is_other || self.nominals.faces.is_some() {
+            return is_other;
         }
         let place = self.mesh.positions[point as usize];
         let way = nominal.surface().and_then(|s| s.distance(place));
         let along = self.face(owner).facing(&place).zip(way).map(|(a, (_, b))| dot(a, b).abs());
-        self.nominals.faces.is_some() || along.is_none_or(|cosine| cosine < ALONG)
+        along.is_none_or(|cosine| cosine < ALONG)
     }
 
     /// What is of a feature that has these faces.
@@ -138,28 +139,35 @@ impl<'a> Parted<'a> {
         let mut corners: Vec<u32> = own_facets.iter().flat_map(|f| mesh.faces[*f as usize]).collect();
         let mut points: Vec<u32> = self.of_class(own, Class::Face);
         // At a sharp edge a vertex is of all faces about it. A scan has none there that tells anything of a face with many others.
-        if !self.partition.is_scan() || points.len() < MANY {
+        if !self.partition.is_scan || points.len() < POINTS_ENOUGH {
             points.extend(&corners);
         }
         for numbers in [&mut points, &mut corners] {
             numbers.sort_unstable();
             numbers.dedup();
         }
-        let (outlined, beyond) = within.reach(within.bounds(points)?);
+        let (mut outlined, beyond) = within.reach(within.bounds(points)?);
+        let dents = match self.nominals.faces.is_some() {
+            true => within.bounds(self.of_class(own, Class::Dent))?,
+            false => vec![],
+        };
+        outlined.extend(&dents);
+        outlined.sort_unstable();
         let border = within.border(&outlined);
         // Facets may have corners that are of another face as points.
         let corners = within.reach(within.bounds(corners)?).0;
-        let area = match self.partition.is_scan() {
+        let area = match self.partition.is_scan {
             true => {
                 self.area_about(&[&outlined[..], &within.bounds(self.of_class(own, Class::Edge))?].concat())
             }
-            false => self.area(&with_corners(mesh, &own_facets, &corners)),
+            false => area(mesh, &with_corners(mesh, &own_facets, &corners)),
         };
         let facets = with_corners(mesh, &own_facets, &within.clear(&corners, border));
         let found = Found { area, ..self.found(within.clear(&outlined, border), facets, near.rim) };
         let mut covering = outlined;
         covering.retain(|p| self.partition.inside[*p as usize]);
-        let (others, left_out) = self.others(number, &within, (border, beyond))?;
+        let (mut others, left_out) = self.others(number, &within, (border, beyond))?;
+        others.dents = within.clear(&dents, border).len();
         Ok(OfFeature { found, covering: Some(covering), others, left_out })
     }
 
@@ -177,11 +185,17 @@ impl<'a> Parted<'a> {
         let of_class = |class: Class| clear(self.of_class(own, class));
         let [edge, broken] = [of_class(Class::Edge)?, of_class(Class::Broken)?];
         let [mut deep, mut high] = [of_class(Class::Deep)?, of_class(Class::High)?];
+        if self.nominals.faces.is_none() {
+            // Where no reference tells what was drawn, dents may be other faces.
+            let dents = within.clear(&within.bounds(self.of_class(own, Class::Dent))?, border);
+            left_out.extend(within.off(&dents).into_iter().filter(|off| *off > near.distance));
+            deep.extend(dents);
+        }
         let between = self.partition.between.iter().filter(|b| own.faces.contains(&b.face)).map(|b| b.point);
         let between = clear(between.chain(self.of_class(own, Class::Between)).collect())?;
         let over = self.partition.beyond.iter().filter(|b| own.faces.contains(&b.face));
         let is_outlier =
-            |b: &Beyond| self.partition.is_scan() && self.partition.classes[b.point as usize] == Class::Alone;
+            |b: &Beyond| self.partition.is_scan && self.partition.classes[b.point as usize] == Class::Alone;
         let (outliers, beyond): (Vec<&Beyond>, Vec<&Beyond>) = over.partition(|b| is_outlier(b));
         let numbers = |of: &[&Beyond]| -> Result<Vec<u32>, FeatureError> {
             Ok(within.clear(&within.bounds(of.iter().map(|b| b.point).collect())?, border))
@@ -196,6 +210,7 @@ impl<'a> Parted<'a> {
         let others = Others {
             points: places.iter().map(|p| within.place(*p)).collect(),
             edge: edge.len(),
+            dents: 0,
             broken: broken.len(),
             deep: deep.len(),
             high: high.len(),
@@ -248,24 +263,19 @@ impl<'a> Parted<'a> {
         if self.mesh.faces.is_empty() {
             return 0.0;
         }
-        vertices.iter().map(|v| self.area(self.around().of(*v)) / 3.0).sum()
-    }
-
-    fn area(&self, facets: &[u32]) -> f64 {
-        let area = |f: &u32| {
-            let [a, b, c] = self.mesh.faces[*f as usize].map(|v| self.mesh.positions[v as usize]);
-            0.5 * norm(cross(minus(b, a), minus(c, a)))
-        };
-        facets.iter().map(area).sum()
+        vertices.iter().map(|v| area(self.mesh, self.around().of(*v)) / 3.0).sum()
     }
 
     fn found(&self, points: Vec<u32>, facets: Vec<u32>, rim: bool) -> Found {
         // Walls of a computed mesh that were not drawn are of no face: what they bound is form.
         let is_other = |facet: &u32| {
             let no_face = self.partition.facets[*facet as usize] == NO_FACE;
-            facets.binary_search(facet).is_err() && (self.partition.is_scan() || !no_face)
+            facets.binary_search(facet).is_err() && (self.partition.is_scan || !no_face)
         };
-        let is_shared = |v: &u32| self.around().of(*v).iter().any(is_other);
+        // No other face is about a dent.
+        let is_shared = |v: &u32| {
+            self.partition.classes[*v as usize] != Class::Dent && self.around().of(*v).iter().any(is_other)
+        };
         let (rim, points) = points.into_iter().partition(|v| !rim && is_shared(v));
         Found { facets, points, rim, area: 0.0 }
     }
@@ -273,6 +283,15 @@ impl<'a> Parted<'a> {
     fn around(&self) -> &FacetsAround {
         self.around.get_or_init(|| FacetsAround::new(self.mesh))
     }
+}
+
+/// The area of some facets, mm².
+pub(super) fn area(mesh: &Mesh, facets: &[u32]) -> f64 {
+    let area = |f: &u32| {
+        let [a, b, c] = mesh.faces[*f as usize].map(|v| mesh.positions[v as usize]);
+        0.5 * norm(cross(minus(b, a), minus(c, a)))
+    };
+    facets.iter().map(area).sum()
 }
 
 /// What some faces have, ascending.
@@ -322,7 +341,7 @@ impl Within<'_> {
             return 0.0;
         }
         let most = points.iter().map(|p| self.to_border(*p)).fold(0.0, f64::max);
-        self.near.margin.min(HALF * most)
+        self.near.margin.min(HALF_WIDTH * most)
     }
 
     fn clear(&self, points: &[u32], border: f64) -> Vec<u32> {

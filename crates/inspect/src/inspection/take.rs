@@ -166,10 +166,8 @@ fn found((number, feature): (usize, &Feature), nominals: &Nominals, search: &Sea
         Some((parted, own)) => parted.of((number, own), &nominal, &near),
         None => edge::of(mesh, &nominal, &near),
     };
-    let of = of.map_err(|e| match e {
-        FeatureError::Cancelled => Stop::Cancelled,
-        e => Stop::Plan { span: feature.span.clone(), what: format!("feature \"{}\": {e}", feature.id) },
-    })?;
+    let wrong = |e: FeatureError| format!("feature \"{}\": {e}", feature.id);
+    let of = of.map_err(|e| Stop::Plan { span: feature.span.clone(), what: wrong(e) })?;
     let OfFeature { found, covering, others, left_out } = of;
     (taken.others, taken.left_out) = (others, left_out);
     let places = |vertices: &[u32]| -> Vec<Point> {

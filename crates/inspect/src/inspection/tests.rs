@@ -113,10 +113,8 @@ fn no_defect_is_dropped() {
                     let told =
                         format!("{deep} {steep} {at:?} {}: {:?} {:?}", reference.is_some(), c.value, c.notes);
                     // Without a reference a pocket with a face of its own may have been drawn: it is told.
-                    // At the border too little of the ground lies clear of what was measured around it.
-                    let at_border = deep > 1.0 && at == [19.5, 3.0];
                     let is_told = reference.is_none() && c.notes.iter().any(|n| n.contains("lie over it"));
-                    assert!(c.verdict != Verdict::Pass || is_told || at_border, "{told}");
+                    assert!(c.verdict != Verdict::Pass || is_told, "{told}");
                     // What is within reach is judged, not only told; along an edge it may be a burr, a groove, a chamfer.
                     let inside = at != [19.5, 3.0] && at != [5.0, 0.0];
                     if deep.abs() < 1.0 && reference.is_some() && inside {
