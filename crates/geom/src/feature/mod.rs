@@ -18,7 +18,7 @@ pub use nominal::{FeatureError, Nearness, Nominal};
 pub use surface::NominalSurface;
 
 use crate::mesh::Mesh;
-use crate::space::{Point, normal};
+use crate::space::{Aabb, Point, normal};
 use rules::Rules;
 
 /// The points of a cloud that belong to `nominal`: those near it and within its bounds. A cloud without normals does not
@@ -76,6 +76,21 @@ pub fn facets_near(
         Some(inside && rules.facet([a, b, c], normal([a, b, c])?))
     };
     Ok(facets.iter().copied().filter(|f| is_near(f) == Some(true)).collect())
+}
+
+/// The box around a nominal feature.
+///
+/// # Errors
+/// [`FeatureError`]: a nominal feature that makes no sense.
+///
+/// ```
+/// use trueness_geom::feature::{Nominal, bounds_of};
+/// let ball = Nominal::Sphere { center: [0.0; 3], radius: 3.0 };
+/// assert!(bounds_of(&ball)?.holds(&[0.0, -3.0, 0.0]));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn bounds_of(nominal: &Nominal) -> Result<Aabb, FeatureError> {
+    Ok(Extent::new(nominal)?.bounds())
 }
 
 /// Places all over a nominal feature: of a plane those of a grid within its boundary, of what is round some on rings.

@@ -239,11 +239,11 @@ impl Face {
         }
     }
 
-    /// How far a point lies off the face, positive outside of the material, and the unit normal there; `None` of points that do not lie over it or are
+    /// How far points lie off the face, positive outside of the material, and the unit normals there; `None` of points that do not lie over it or are
     /// farther off than `reach`.
-    pub fn over(&self, p: &Point, reach: f64) -> Option<(f64, Vector)> {
-        let seats = self.seats(&[*p], reach, 0.0, &Silent);
-        seats.ok()?.first().copied()?.map(|seat| (seat.off, seat.normal))
+    pub fn over(&self, points: &[Point], reach: f64) -> Vec<Option<(f64, Vector)>> {
+        let seats = self.seats(points, reach, 0.0, &Silent).unwrap_or_default();
+        seats.into_iter().map(|seat| seat.map(|seat| (seat.off, seat.normal))).collect()
     }
 
     /// Of a cylinder, cone, sphere or torus, whether it faces its axis or center, as a bore does.

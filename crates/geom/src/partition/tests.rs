@@ -249,6 +249,72 @@ fn dents_are_of_their_face_and_grooves_along_edges_are_not() {
     assert!(10 * edge >= 9 * groove.len(), "{edge} of {}", groove.len());
 }
 
+/// A dent deeper than the reach is of its face, as long as it is closed.
+#[test]
+fn dents_deeper_than_the_reach_are_of_their_face_and_holes_are_not() {
+    let nominal = bushing();
+    let faces = Faces::of(&turned(&nominal, SIDES), &Silent).unwrap();
+    let of_faces = sides_of(&faces, SIDES);
+    for as_mesh in [false, true] {
+        for is_hole in [false, true] {
+            let (mut scan, sides) = scan(&nominal, 0.4, 0.002, as_mesh, 4);
+            let mut dent = vec![];
+            for (i, p) in scan.positions.iter_mut().enumerate().filter(|(i, _)| sides[*i] == 4) {
+                // On the shaft, ∅24, 1.2 deep where the reach is 0.5.
+                let (rho, away) = (libm::hypot(p[0], p[1]), norm3(minus(*p, [12.0, 0.0, 15.0])));
+                let down = if away < 2.5 { 1.2 * (1.0 - away / 2.5) } else { 0.0 };
+                if down > 0.02 {
+                    dent.push(i);
+                }
+                (p[0], p[1]) = (p[0] * (1.0 - down / rho), p[1] * (1.0 - down / rho));
+            }
+            // What is deeper than 0.7 was not measured: it may go on.
+            let is_open = |p: &Point| is_hole && libm::hypot(p[0], p[1]) < 11.3 && p[0] > 10.0 && p[2] < 20.0;
+            let gone: Vec<usize> =
+                (dent.iter().copied()).filter(|i| is_open(&scan.positions[*i])).collect();
+            scan.faces.retain(|f| f.iter().all(|v| !gone.contains(&(*v as usize))));
+            for i in &gone {
+                // Far from everything.
+                scan.positions[*i] = [500.0 + *i as f64, 0.0, 0.0];
+            }
+            dent.retain(|i| !gone.contains(i));
+            let found = partition(&scan, &all_of(&faces), &OPTIONS, &Silent).unwrap();
+            let class = if is_hole { Class::Deep } else { Class::Dent };
+            let is_right = |i: &&usize| found.classes[**i] == class && (is_hole || of_faces[found.owners[**i] as usize] == 4);
+            let right = dent.iter().filter(is_right).count();
+            assert!(10 * right >= 9 * dent.len(), "{as_mesh} {is_hole}: {right} of {}", dent.len());
+        }
+    }
+}
+
+/// What lies out of the material is in no hole of any face, through whatever material its places over that face go.
+#[test]
+fn what_lies_outside_is_deep_in_no_face() {
+    let nominal = bushing();
+    let faces = Faces::of(&turned(&nominal, SIDES), &Silent).unwrap();
+    let (mut scan, _) = scan(&nominal, 0.6, 0.002, false, 5);
+    // The bore was measured in half, and beside the flange, at its height, stands a thing.
+    scan.positions.retain(|p| libm::hypot(p[0], p[1]) > 6.5 || p[0] < 0.0);
+    let first = scan.positions.len() as u32;
+    let thing = |i: usize| [20.6 + 0.4 * (i % 12) as f64, -3.0 + 0.4 * (i / 12 % 15) as f64, 0.5 + 0.4 * (i / 180) as f64];
+    scan.positions.extend((0..1800).map(thing));
+    let found = partition(&scan, &all_of(&faces), &OPTIONS, &Silent).unwrap();
+    let deep = found.beyond.iter().find(|b| b.point >= first && b.off < 0.0);
+    assert!(deep.is_none(), "{deep:?}");
+}
+
+/// Meshes whose facets straddle edges are scans, without noise too; those with vertices on the edges are not.
+#[test]
+fn scans_are_told_from_computed_meshes() {
+    let nominal = bushing();
+    let faces = Faces::of(&turned(&nominal, SIDES), &Silent).unwrap();
+    let is_scan = |mesh: &Mesh| partition(mesh, &all_of(&faces), &OPTIONS, &Silent).unwrap().is_scan;
+    assert!(!is_scan(&turned(&nominal, SIDES)) && !is_scan(&turned(&nominal, 3 * SIDES)));
+    for noise in [0.0, 0.004] {
+        assert!(is_scan(&scan(&nominal, 0.6, noise, true, 6).0), "{noise}");
+    }
+}
+
 fn norm3(v: Vector) -> f64 {
     dot(v, v).sqrt()
 }

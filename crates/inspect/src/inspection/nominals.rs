@@ -4,12 +4,12 @@ use super::data::{Data, Stop};
 use super::seed::{self, Seeded};
 use crate::plan::{Feature, Plan};
 use std::collections::BTreeMap;
-use trueness_geom::feature::{Nearness, Nominal, NominalSurface, facets_near, places_over};
+use trueness_geom::feature::{Nearness, Nominal, NominalSurface, bounds_of, facets_near, places_over};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::partition::{Face, Faces};
 use trueness_geom::progress::Progress;
 use trueness_geom::segment::SegmentError;
-use trueness_geom::space::{Point, dot, single_step};
+use trueness_geom::space::{Point, Vector, dot, single_step};
 
 /// A face may be off the surface of a nominal by this share of the distance up to which points are sought.
 const OFF_SURFACE: f64 = 1e-3;
@@ -80,15 +80,19 @@ fn own_faces(
     progress: &dyn Progress,
 ) -> Result<Option<OwnFaces>, Stop> {
     // A nominal that makes no sense is told where it is sought.
-    let (Some(surface), Ok(places)) = (nominal.surface(), places_over(nominal)) else { return Ok(None) };
+    let (Some(surface), Ok(places), Ok(bounds)) =
+        (nominal.surface(), places_over(nominal), bounds_of(nominal))
+    else {
+        return Ok(None);
+    };
+    let bounds = bounds.widened(2.0 * near.distance);
     let wide = Nearness { margin: -near.distance, ..*near };
     let mut held: Vec<Held> = vec![];
-    for (number, face) in (0u32..).zip(&faces.all) {
+    for (number, face) in (0u32..).zip(&faces.all).filter(|(_, face)| face.bounds.meets(&bounds)) {
         if progress.cancelled() {
             return Err(Stop::Cancelled);
         }
-        let beneath: Vec<f64> =
-            places.iter().filter_map(|p| beneath(face, *p, &surface, near)).map(f64::abs).collect();
+        let beneath = beneath(face, &places, &surface, near);
         let beside = facets_near(reference, &face.facets, nominal, &wide).unwrap_or_default();
         if beneath.is_empty() && beside.is_empty() {
             continue;
@@ -121,14 +125,17 @@ struct Held {
     off: f64,
 }
 
-/// How far a face lies off a place of a nominal that lies over it; `None` where it does not, is farther off than is sought, or faces otherwise.
-fn beneath(face: &Face, place: Point, surface: &NominalSurface, near: &Nearness) -> Option<f64> {
-    let (off, normal) = face.over(&place, near.distance)?;
-    let way = surface.distance(place)?.1;
-    let along = match (surface, near.inward) {
-        (NominalSurface::Plane(..), _) => dot(normal, way),
-        (_, None) => dot(normal, way).abs(),
-        (_, Some(inward)) => dot(normal, way) * if inward { -1.0 } else { 1.0 },
+/// How far off a face lies from the places of a nominal that lie over it: those where it is no farther off than is sought, and does not face otherwise.
+fn beneath(face: &Face, places: &[Point], surface: &NominalSurface, near: &Nearness) -> Vec<f64> {
+    let off = |(place, over): (&Point, Option<(f64, Vector)>)| {
+        let (off, normal) = over?;
+        let way = surface.distance(*place)?.1;
+        let along = match (surface, near.inward) {
+            (NominalSurface::Plane(..), _) => dot(normal, way),
+            (_, None) => dot(normal, way).abs(),
+            (_, Some(inward)) => dot(normal, way) * if inward { -1.0 } else { 1.0 },
+        };
+        (along >= libm::cos(near.angle)).then_some(off.abs())
     };
-    (along >= libm::cos(near.angle)).then_some(off)
+    places.iter().zip(face.over(places, near.distance)).filter_map(off).collect()
 }

@@ -119,6 +119,19 @@ pub(crate) fn check_corners(mesh: &Mesh) -> Result<(), WeldError> {
     }
 }
 
+/// The numbers of those points that are the first at their place, ascending. At most [`MOST_FACETS`] points.
+///
+/// Cost: linear; one pass over a table of places.
+/// ```
+/// let points = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, -0.0, 0.0]];
+/// assert_eq!(trueness_geom::topology::weld::first_at_their_places(&points), [0, 1]);
+/// ```
+pub fn first_at_their_places(points: &[Point]) -> Vec<u32> {
+    let item = |i: usize| points[i].normal();
+    let first = first_of_its_kind(points.len(), points.len(), &item);
+    (0u32..).zip(&first).filter(|(number, first)| first.load(Relaxed) == *number).map(|(number, _)| number).collect()
+}
+
 /// For each of `n` items the first one equal to it. `expected` is a guess at the number of different ones.
 fn first_of_its_kind<P: Position>(
     n: usize,
