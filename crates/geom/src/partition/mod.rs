@@ -166,18 +166,7 @@ pub fn partition(
     let facets = facing
         .as_ref()
         .map_or(vec![], |facing| by_facets::owners(scan, (&owners, &classes), &shared, (faces, facing)));
-    Ok(Partition {
-        owners,
-        classes,
-        inside,
-        facets,
-        beyond,
-        between,
-        placed,
-        spacing,
-        noise,
-        is_scan,
-    })
+    Ok(Partition { owners, classes, inside, facets, beyond, between, placed, spacing, noise, is_scan })
 }
 
 /// How far each face reaches.

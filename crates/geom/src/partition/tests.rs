@@ -270,8 +270,7 @@ fn dents_deeper_than_the_reach_are_of_their_face_and_holes_are_not() {
             }
             // What is deeper than 0.7 was not measured: it may go on.
             let is_open = |p: &Point| is_hole && libm::hypot(p[0], p[1]) < 11.3 && p[0] > 10.0 && p[2] < 20.0;
-            let gone: Vec<usize> =
-                (dent.iter().copied()).filter(|i| is_open(&scan.positions[*i])).collect();
+            let gone: Vec<usize> = (dent.iter().copied()).filter(|i| is_open(&scan.positions[*i])).collect();
             scan.faces.retain(|f| f.iter().all(|v| !gone.contains(&(*v as usize))));
             for i in &gone {
                 // Far from everything.
@@ -280,7 +279,9 @@ fn dents_deeper_than_the_reach_are_of_their_face_and_holes_are_not() {
             dent.retain(|i| !gone.contains(i));
             let found = partition(&scan, &all_of(&faces), &OPTIONS, &Silent).unwrap();
             let class = if is_hole { Class::Deep } else { Class::Dent };
-            let is_right = |i: &&usize| found.classes[**i] == class && (is_hole || of_faces[found.owners[**i] as usize] == 4);
+            let is_right = |i: &&usize| {
+                found.classes[**i] == class && (is_hole || of_faces[found.owners[**i] as usize] == 4)
+            };
             let right = dent.iter().filter(is_right).count();
             assert!(10 * right >= 9 * dent.len(), "{as_mesh} {is_hole}: {right} of {}", dent.len());
         }
@@ -296,7 +297,9 @@ fn what_lies_outside_is_deep_in_no_face() {
     // The bore was measured in half, and beside the flange, at its height, stands a thing.
     scan.positions.retain(|p| libm::hypot(p[0], p[1]) > 6.5 || p[0] < 0.0);
     let first = scan.positions.len() as u32;
-    let thing = |i: usize| [20.6 + 0.4 * (i % 12) as f64, -3.0 + 0.4 * (i / 12 % 15) as f64, 0.5 + 0.4 * (i / 180) as f64];
+    let thing = |i: usize| {
+        [20.6 + 0.4 * (i % 12) as f64, -3.0 + 0.4 * (i / 12 % 15) as f64, 0.5 + 0.4 * (i / 180) as f64]
+    };
     scan.positions.extend((0..1800).map(thing));
     let found = partition(&scan, &all_of(&faces), &OPTIONS, &Silent).unwrap();
     let deep = found.beyond.iter().find(|b| b.point >= first && b.off < 0.0);

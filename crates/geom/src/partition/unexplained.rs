@@ -6,8 +6,8 @@ use super::faces::{Face, Seat};
 use super::facing::Facing;
 use super::terms::{Beyond, Class, EXPLAINED};
 use crate::mesh::Mesh;
-use crate::parallel::prelude::*;
 use crate::num::random::Random;
+use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress, Silent};
 use crate::space::{Aabb, Point, minus, plus, times};
 use crate::spatial::neighbors::PointTree;
@@ -175,7 +175,7 @@ impl Over<'_> {
             let seats = face.seats(&places, f64::INFINITY, f64::INFINITY, progress)?;
             for (i, seat) in near.into_iter().zip(seats) {
                 let Some(seat) = seat else { continue };
-                let away = seat.off.hypot(seat.within.min(0.0));
+                let away = libm::hypot(seat.off, seat.within.min(0.0));
                 let (least, off) = nearest[i];
                 let is_alike = (away - least).abs() <= ALIKE * least;
                 if (is_alike && seat.off.abs() > off.abs()) || (!is_alike && away < least) {
@@ -200,7 +200,9 @@ impl Over<'_> {
         let places: Vec<Point> = sides.iter().map(|(p, _)| points[*p as usize]).collect();
         let seats = faces[face as usize].seats(&places, far[0].max(far[1]), rounded, progress)?;
         let over = |((p, outside), seat): (&(u32, bool), Option<Seat>)| {
-            let is_far = |s: &Seat| if *outside { 0.0 < s.off && s.off <= far[1] } else { -far[0] <= s.off && s.off < 0.0 };
+            let is_far = |s: &Seat| {
+                if *outside { 0.0 < s.off && s.off <= far[1] } else { -far[0] <= s.off && s.off < 0.0 }
+            };
             let seat = seat.filter(|s| s.within >= rounded && is_far(s))?;
             let faces = self.facing.is_none_or(|f| f.may_be_of(*p, seat.normal));
             faces.then_some(Beyond { point: *p, face, off: seat.off })
@@ -285,9 +287,8 @@ fn explained(hanging: &Hanging, over: &[BTreeMap<u32, (Beyond, bool)>]) -> Vec<B
             let needed = if here.iter().all(|(b, _)| b.off < 0.0) { 1 } else { SEVERAL };
             !here.is_empty() && (is_few || here.iter().filter(|(_, gap)| *gap).count() >= needed)
         };
-        let off = |here: &[(Beyond, bool)]| {
-            here.iter().map(|(b, _)| b.off.abs()).sum::<f64>() / here.len() as f64
-        };
+        let off =
+            |here: &[(Beyond, bool)]| here.iter().map(|(b, _)| b.off.abs()).sum::<f64>() / here.len() as f64;
         let all = over.iter().map(here).filter(counts);
         let Some(nearest) = all.min_by(|a, b| off(a).total_cmp(&off(b))) else { break };
         let those: Vec<u32> = nearest.iter().map(|(b, _)| b.point).collect();

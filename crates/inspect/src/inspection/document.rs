@@ -224,6 +224,7 @@ fn feature(plan: &crate::plan::Feature, taken: &Taken) -> FeatureRecord {
         rms: fit.map(|f| f.residuals.rms),
         reason: taken.element.as_ref().err().cloned(),
         extract,
+        dents: (taken.others.dents > 0).then_some(taken.others.dents as u64),
         left_out: left_out_record(taken),
     }
 }

@@ -162,9 +162,33 @@ pub struct FeatureRecord {
     /// How near facets had to be to the nominal feature; absent where it was not sought by it.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub extract: Option<ExtractRecord>,
+    /// Points of it in dents deeper than its extract distance; absent where there are none.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub dents: Option<u64>,
     /// Measured points that it leaves out; absent where there are none.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub left_out: Option<LeftOutRecord>,
+}
+
+impl FeatureRecord {
+    /// Points in deep dents and points that it leaves out, by what they are: those of which there are some.
+    pub fn classes(&self) -> Vec<(&'static str, u64)> {
+        let of = |o: &LeftOutRecord| {
+            [
+                ("class.edge", o.edge),
+                ("class.broken", o.broken),
+                ("class.deep", o.deep),
+                ("class.high", o.high),
+                ("class.between", o.between),
+                ("class.outliers", o.outliers),
+                ("class.beyond", o.beyond),
+            ]
+        };
+        let mut all = vec![("class.dents", self.dents.unwrap_or(0))];
+        all.extend(self.left_out.as_ref().map(of).into_iter().flatten());
+        all.retain(|class| class.1 > 0);
+        all
+    }
 }
 
 /// Measured points that a feature leaves out.

@@ -129,7 +129,11 @@ pub(crate) fn check_corners(mesh: &Mesh) -> Result<(), WeldError> {
 pub fn first_at_their_places(points: &[Point]) -> Vec<u32> {
     let item = |i: usize| points[i].normal();
     let first = first_of_its_kind(points.len(), points.len(), &item);
-    (0u32..).zip(&first).filter(|(number, first)| first.load(Relaxed) == *number).map(|(number, _)| number).collect()
+    (0u32..)
+        .zip(&first)
+        .filter(|(number, first)| first.load(Relaxed) == *number)
+        .map(|(number, _)| number)
+        .collect()
 }
 
 /// For each of `n` items the first one equal to it. `expected` is a guess at the number of different ones.

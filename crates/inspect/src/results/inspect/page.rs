@@ -320,6 +320,14 @@ fn features(s: Style, d: &InspectDocument) -> Markup {
                         td.r { (s.optional(f.form_error, 4).because(reason(f))) }
                         td.r { (s.optional_percent(f.coverage, 1).because(f.coverage_reason.as_deref())) }
                     }
+                    @let classes = f.classes();
+                    @if !classes.is_empty() {
+                        tr { td colspan="4" class="note" {
+                            @for (k, (class, count)) in classes.into_iter().enumerate() {
+                                @if k > 0 { " · " } (s.count(count)) " " (s.word(class))
+                            }
+                        } }
+                    }
                     @if let Some(measured) = &f.measured {
                         tr { td colspan="4" class="note" {
                             (s.word("place.measured")) " " (place(s, measured))
