@@ -1,6 +1,7 @@
 //! A jet: the height over a plane as a polynomial, fitted to the neighbors of a place.
 
 use super::terms::{NoCurvature, unknowns};
+use crate::noise::Noise;
 use crate::space::{Point, Vector, cross, dot, least_axis, minus, plus, times, unit};
 use crate::spline::surface::{Bend, Principal};
 
@@ -18,7 +19,7 @@ pub struct Jet {
     /// Normal and curvatures.
     pub bend: Bend,
     /// Standard uncertainty of the mean curvature as the residuals tell it, 1/mm: for noise that is independent from point to
-    /// point.
+    /// point, or the greater of that and what noise that neighbors share as the options say makes it.
     pub uncertainty: f64,
     /// Standard deviation of the neighbors from the jet, millimeters.
     pub residual: f64,
@@ -44,19 +45,23 @@ impl Jet {
 /// Fits jets, one after the other, in the same memory.
 pub(super) struct Fitter {
     degree: usize,
-    unknowns: usize,
+    pub(super) unknowns: usize,
     /// The neighbors of a place, relative to it.
     pub(super) around: Vec<Vector>,
     /// Columns of the system, and behind them the heights.
-    columns: Vec<f64>,
+    pub(super) columns: Vec<f64>,
     /// The same in the frame.
-    local: Vec<Vector>,
+    pub(super) local: Vec<Vector>,
     /// Inverse of the triangle, columns.
     inverse: Vec<f64>,
+    /// First numbers of the reflections' vectors.
+    pub(super) heads: Vec<f64>,
+    noise: Option<Noise>,
 }
 
 impl Fitter {
-    pub(super) fn new(degree: usize) -> Fitter {
+    /// With noise that neighbors share, uncertainties are those of such noise.
+    pub(super) fn new(degree: usize, noise: Option<Noise>) -> Fitter {
         let unknowns = unknowns(degree);
         Fitter {
             degree,
@@ -65,6 +70,8 @@ impl Fitter {
             columns: vec![],
             local: vec![],
             inverse: vec![0.0; unknowns * unknowns],
+            heads: vec![0.0; unknowns],
+            noise: noise.filter(|noise| noise.points_per_independent > 1.0),
         }
     }
 
@@ -119,10 +126,12 @@ impl Fitter {
         let w2 = 1.0 + fx * fx + fy * fy;
         let w = w2.sqrt();
         let weights = [2.0 * (1.0 + fy * fy), -2.0 * fx * fy, 2.0 * (1.0 + fx * fx)];
-        let spread = self.spread(3, weights.map(|g| g / (2.0 * w2 * w * reach)));
+        let weights = weights.map(|g| g / (2.0 * w2 * w * reach));
+        let independent = deviation * self.spread(3, weights);
+        let shared = |noise: Noise| noise.deviation / reach * self.shared(3, weights, &noise);
         let jet = Jet {
             bend,
-            uncertainty: deviation * spread,
+            uncertainty: self.noise.map_or(independent, |noise| shared(noise).max(independent)),
             residual: reach * deviation,
             condition,
             reach,
@@ -164,11 +173,13 @@ impl Fitter {
             let (head, tail) = self.columns.split_at_mut((k + 1) * m);
             let pivot = &mut head[k * m + k..];
             let length = pivot.iter().map(|x| x * x).sum::<f64>().sqrt();
+            self.heads[k] = 0.0;
             if length == 0.0 {
                 continue;
             }
             let alpha = if pivot[0] > 0.0 { -length } else { length };
             pivot[0] -= alpha;
+            self.heads[k] = pivot[0];
             // vᵀ v / 2 for v = a − α e.
             let half = -alpha * pivot[0];
             for column in tail.chunks_exact_mut(m) {
@@ -210,10 +221,19 @@ impl Fitter {
         std::array::from_fn(|i| (i..n).map(|j| self.inverse[j * n + i] * right[j]).sum())
     }
 
+    /// The weights of the turned data, from `first` on, in a sum of three coefficients from there on; those before are 0.
+    pub(super) fn turned_weights(
+        &self,
+        first: usize,
+        weights: [f64; 3],
+    ) -> impl Iterator<Item = f64> + use<'_> {
+        let n = self.unknowns;
+        let row = move |j: usize| (0..3).map(|k| weights[k] * self.inverse[j * n + first + k]).sum();
+        (first..n).map(row)
+    }
+
     /// Standard deviation of a sum of coefficients from `first` on, for data of standard deviation 1.
     fn spread(&self, first: usize, weights: [f64; 3]) -> f64 {
-        let n = self.unknowns;
-        let row = |j: usize| (0..3).map(|k| weights[k] * self.inverse[j * n + first + k]).sum::<f64>();
-        (first..n).map(|j| row(j) * row(j)).sum::<f64>().sqrt()
+        self.turned_weights(first, weights).map(|x| x * x).sum::<f64>().sqrt()
     }
 }

@@ -14,6 +14,7 @@
 //! |---|---|
 //! | `terms` | what is asked, and why there may be no answer |
 //! | `jet` | one neighborhood |
+//! | `shared` | what noise that neighbors share does to it |
 //! | `rings` | neighbors on a mesh, through edges |
 //! | `near` | neighbors in a cloud, by distance |
 //! | `sides` | normals of a cloud to one side |
@@ -21,6 +22,7 @@
 mod jet;
 mod near;
 mod rings;
+mod shared;
 mod sides;
 mod terms;
 #[cfg(test)]
@@ -80,7 +82,7 @@ pub struct Curvatures {
 pub fn mesh(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<Curvatures, CurvatureError> {
     let terms = Terms::of(options)?;
     let rings = rings::Rings::new(mesh, progress)?;
-    let places = all(terms.degree, mesh.positions.len(), progress, || {
+    let places = all(&terms, mesh.positions.len(), progress, || {
         let mut walk = rings.walk();
         let terms = &terms;
         move |fitter: &mut Fitter, v: u32| walk.jet(v, terms, fitter)
@@ -109,7 +111,7 @@ pub fn cloud(
         return Err(CurvatureError::TooMany(points.len()));
     }
     let near = near::Near::new(points);
-    let found = all(terms.degree, points.len(), progress, || {
+    let found = all(&terms, points.len(), progress, || {
         let (near, terms) = (&near, &terms);
         move |fitter: &mut Fitter, i: u32| near.jet(i, terms, fitter)
     })?;
@@ -120,7 +122,7 @@ pub fn cloud(
 
 /// The answer of each place. `worker` makes what answers: it is called at most some dozens of times.
 fn all<T: Send, W: FnMut(&mut Fitter, u32) -> T>(
-    degree: usize,
+    terms: &Terms,
     count: usize,
     progress: &dyn Progress,
     worker: impl Fn() -> W + Sync,
@@ -130,7 +132,7 @@ fn all<T: Send, W: FnMut(&mut Fitter, u32) -> T>(
     let parts: Vec<Vec<T>> = (0..count.div_ceil(run))
         .into_par_iter()
         .map(|part| {
-            let (mut fitter, mut answer) = (Fitter::new(degree), worker());
+            let (mut fitter, mut answer) = (Fitter::new(terms.degree, terms.noise), worker());
             let (from, to) = (part * run, count.min((part + 1) * run));
             let mut answers = Vec::with_capacity(to - from);
             for first in (from..to).step_by(TASK) {

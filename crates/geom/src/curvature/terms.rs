@@ -1,5 +1,6 @@
 //! What is asked, and why there may be no answer.
 
+use crate::noise::Noise;
 use crate::progress::Cancelled;
 use crate::topology::TopologyError;
 use crate::topology::weld::WeldError;
@@ -20,11 +21,13 @@ pub struct Options {
     pub reach: Reach,
     /// Whether places on a boundary have values, from the one side that there is.
     pub boundary: bool,
+    /// How far neighbors share noise, for uncertainties; without it all errors are independent.
+    pub noise: Option<Noise>,
 }
 
 impl Default for Options {
     fn default() -> Options {
-        Options { degree: 3, reach: Reach::Auto, boundary: false }
+        Options { degree: 3, reach: Reach::Auto, boundary: false, noise: None }
     }
 }
 
@@ -146,6 +149,7 @@ pub(super) struct Terms {
     pub unknowns: usize,
     pub reach: Taken,
     pub boundary: bool,
+    pub noise: Option<Noise>,
 }
 
 /// [`Reach`] without what must be worked out.
@@ -169,6 +173,6 @@ impl Terms {
             (Reach::Radius(r), _) => return Err(CurvatureError::Radius(r)),
             (Reach::Auto | Reach::Count(_), None) => return Err(CurvatureError::Degree(degree)),
         };
-        Ok(Terms { degree, unknowns, reach, boundary: options.boundary })
+        Ok(Terms { degree, unknowns, reach, boundary: options.boundary, noise: options.noise })
     }
 }

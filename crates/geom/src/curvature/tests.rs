@@ -7,6 +7,8 @@ use crate::progress::Silent;
 use crate::space::{Vector, cross, dot, minus, norm, plus, times, unit};
 use std::f64::consts::TAU;
 
+mod shared;
+
 /// A place, its outward normal, and there the principal curvatures with the direction of the first.
 type KnownPoint = (Point, Vector, [f64; 2], Vector);
 
@@ -168,7 +170,7 @@ fn polynomials_up_to_the_degree_are_exact() {
             0.3 * x * y - 0.1 * y * y + all.sum::<f64>()
         };
         let places = (0..289u32).map(|k| (0.1 * (f64::from(k % 17) - 8.0), 0.1 * (f64::from(k / 17) - 8.0)));
-        let mut fitter = Fitter::new(degree);
+        let mut fitter = Fitter::new(degree, None);
         fitter.take([0.0; 3], places.map(|(x, y)| [x, y, height(x, y)]).filter(|p| *p != [0.0; 3]));
         let jet = fitter.jet([0.0, 0.0, 1.0]).unwrap();
         let (xx, xy, yy) = (0.04, 0.285, -0.2);

@@ -68,14 +68,14 @@ pub(super) fn add(
     Ok(())
 }
 
-/// Whether the vertices of a mesh lie on the edges of its part, as those of a computed mesh do and those of a scan do not: where faces meet, more facets have a
-/// face in common with another one at a vertex than straddle both. `None` where no faces meet.
-pub(super) fn are_on_edges(
+/// Whether facets of a mesh straddle the edges of its part, as those of a scan do: more of them than it has vertices on edges. Those of a computed mesh
+/// end there.
+pub(super) fn straddle_edges(
     scan: &Mesh,
     best: &Best,
     shared: &[(u32, u32)],
     (faces, facing): (&[&Face], &Facing),
-) -> Option<bool> {
+) -> bool {
     let explained = |v: u32| best.cost[v as usize] <= EXPLAINED;
     let class = |v: usize| if explained(v as u32) { Class::Face } else { Class::Beyond };
     let classes: Vec<Class> = (0..best.owner.len()).map(class).collect();
@@ -87,7 +87,7 @@ pub(super) fn are_on_edges(
         about.next().is_some_and(|first| about.any(|own| own != first))
     };
     let on_edges = (0..best.owner.len() as u32).filter(is_on_edge).count();
-    (straddling + on_edges > 0).then_some(on_edges >= straddling)
+    straddling > on_edges
 }
 
 /// The face of each facet of a mesh: one that explains all its corners, or has them, and of which it is no wall. Of several that which the facet faces as.

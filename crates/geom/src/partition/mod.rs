@@ -8,8 +8,8 @@
 //!    the sure points around; the point belongs to the one that it lies off by the least part of what noise and the going on allow.
 //! 4. Points that no face explains are looked at together with their neighbors. What hangs together with points beyond the reach of
 //!    all faces goes on into the material ([`Class::Deep`]) or out of it ([`Class::High`]) farther than the reach: a hole, a bump, a thing that
-//!    stands there. If it is closed, and one face alone is around it, it is a [`Class::Dent`]. What lies along a border is [`Class::Edge`] as far as scans round edges, farther [`Class::Broken`]: a burr, a groove, a chamfer
-//!    that is not drawn. The rest is form of the face: a dent.
+//!    stands there. If it is closed, and one face alone is around it, it is a [`Class::Dent`]. What lies along a border is
+//!    [`Class::Edge`] as far as scans round edges, farther [`Class::Broken`]: a burr, a groove, a chamfer that is not drawn. The rest is form of the face: a dent.
 //!
 //! | file | what |
 //! |---|---|
@@ -140,11 +140,8 @@ pub fn partition(
         placed[face as usize].off(faces[face as usize], points[p as usize], seat)
     };
     // What was computed has sharp edges.
-    let on_edges = facing
-        .as_ref()
-        .and_then(|facing| by_facets::are_on_edges(scan, &best, &shared, (faces, facing)))
-        .unwrap_or(true);
-    let is_scan = noise > floor || !on_edges;
+    let straddle = |facing: &Facing| by_facets::straddle_edges(scan, &best, &shared, (faces, facing));
+    let is_scan = noise > floor || facing.as_ref().is_some_and(straddle);
     let rounded = if is_scan { spacing } else { 0.0 };
     let (mut classes, hanging) =
         unexplained::classes(scan, &mut best, (faces, facing.as_ref()), (spacing, rounded), off);
@@ -156,7 +153,7 @@ pub fn partition(
     let far = [size, ELSEWHERE * size];
     let over = Over { points, faces, owners: &best.owner, facing: facing.as_ref(), spacing, rounded, far };
     let mut beyond = over.faces(&hanging, progress)?;
-    let dents = over.dents(&hanging, &beyond, options.seed)?;
+    let dents = over.dents(&hanging, &beyond, options.seed, progress)?;
     let inside = best.seat.iter().map(|s| s.is_some_and(|s| s.within >= 0.0)).collect();
     let mut owners = best.owner;
     for (p, face) in dents {

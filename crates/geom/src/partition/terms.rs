@@ -55,8 +55,8 @@ pub struct Partition {
     /// The face of each measured facet: that on which all of its corners lie. At a sharp edge a corner is of the faces of all facets about it, and its
     /// owner one of them. [`NO_FACE`](super::NO_FACE) of what straddles an edge.
     pub facets: Vec<u32>,
-    /// Points beyond the reach of all faces that lie over faces: over those that they hang together with, and over the nearest other one where nothing was
-    /// measured beneath some of them, or where they are alone. By face and point.
+    /// Points beyond the reach of all faces that lie over faces, by face and point: over the nearest one where nothing was measured beneath some of them, or
+    /// where they are alone; else over those that they hang together with. Dents are not among them.
     pub beyond: Vec<Beyond>,
     /// The points of [`Class::Between`] with the faces that they may be of beside their own.
     pub between: Vec<Beyond>,

@@ -8,7 +8,7 @@ use super::terms::{Beyond, Class, EXPLAINED};
 use crate::mesh::Mesh;
 use crate::num::random::Random;
 use crate::parallel::prelude::*;
-use crate::progress::{Cancelled, Progress, Silent};
+use crate::progress::{Cancelled, Progress};
 use crate::space::{Aabb, Point, minus, plus, times};
 use crate::spatial::neighbors::PointTree;
 use std::collections::BTreeMap;
@@ -23,8 +23,8 @@ const GAP: f64 = 2.1;
 const ROUNDED: f64 = 2.0;
 /// Distances that differ by less than this share are those of one place.
 const ALIKE: f64 = 1e-9;
-/// Places where it is looked whether something was measured.
-const PLACES: usize = 100;
+/// Places of a dent where it is looked whether something was measured.
+const PLACES_IN_DENT: usize = 100;
 /// Neighbors of a point in a cloud, and distances of neighbors within which they hang together.
 const NEIGHBORS: usize = 8;
 const TOGETHER: f64 = 2.5;
@@ -217,8 +217,9 @@ impl Over<'_> {
         hanging: &[Hanging],
         beyond: &[Beyond],
         seed: u64,
+        progress: &dyn Progress,
     ) -> Result<Vec<(u32, u32)>, Cancelled> {
-        let mut found = vec![];
+        let (mut found, mut own) = (vec![], BTreeMap::new());
         for hanging in hanging {
             let [face] = hanging.around[..] else { continue };
             let is_in = |p: &&u32| {
@@ -227,7 +228,11 @@ impl Over<'_> {
             };
             let deep = hanging.points.iter().filter(is_in).count();
             let points = [&hanging.points[..], &hanging.flank].concat();
-            if deep >= SEVERAL && self.is_closed(face, &points, seed)? {
+            if deep < SEVERAL {
+                continue;
+            }
+            let own = own.entry(face).or_insert_with(|| self.own(face));
+            if self.is_closed((face, own), &points, seed, progress)? {
                 found.extend(points.into_iter().map(|p| (p, face)));
             }
         }
@@ -235,12 +240,18 @@ impl Over<'_> {
     }
 
     /// Whether something was measured, at any depth, at each place of a face between some points over it. A computed mesh was not measured.
-    fn is_closed(&self, face: u32, points: &[u32], seed: u64) -> Result<bool, Cancelled> {
+    fn is_closed(
+        &self,
+        (face, own): (u32, &PointTree),
+        points: &[u32],
+        seed: u64,
+        progress: &dyn Progress,
+    ) -> Result<bool, Cancelled> {
         if self.rounded == 0.0 {
             return Ok(true);
         }
         let feet = |places: &[Point]| -> Result<Vec<Point>, Cancelled> {
-            let seats = self.faces[face as usize].seats(places, f64::INFINITY, f64::INFINITY, &Silent)?;
+            let seats = self.faces[face as usize].seats(places, f64::INFINITY, f64::INFINITY, progress)?;
             let foot = |(p, seat): (&Point, Option<Seat>)| Some(minus(*p, times(seat?.off, seat?.normal)));
             Ok(places.iter().zip(seats).filter_map(foot).collect())
         };
@@ -249,11 +260,18 @@ impl Over<'_> {
         let mut random = Random::new(seed);
         let mut any = || over.get(random.below(over.len().max(1) as u64) as usize).copied();
         let mut middle = || Some(times(0.5, plus(any()?, any()?)));
-        let between: Vec<Point> = (0..PLACES).filter_map(|_| middle()).collect();
-        let own = (0..self.points.len()).filter(|p| self.owners[*p] == face).map(|p| self.points[p]);
-        let tree = PointTree::new(&own.chain(over.iter().copied()).collect::<Vec<Point>>());
-        let is_measured = |p: &Point| tree.nearest(p).is_some_and(|n| n.0.sqrt() <= GAP * self.spacing);
+        let between: Vec<Point> = (0..PLACES_IN_DENT).filter_map(|_| middle()).collect();
+        let there = PointTree::new(&over);
+        let is_near =
+            |tree: &PointTree, p: &Point| tree.nearest(p).is_some_and(|n| n.0.sqrt() <= GAP * self.spacing);
+        let is_measured = |p: &Point| is_near(&there, p) || is_near(own, p);
         Ok(feet(&between)?.par_iter().all(is_measured))
+    }
+
+    /// The points of a face.
+    fn own(&self, face: u32) -> PointTree {
+        let own = (0..self.points.len()).filter(|p| self.owners[*p] == face).map(|p| self.points[p]);
+        PointTree::new(&own.collect::<Vec<Point>>())
     }
 
     /// Whether nothing of a face was measured beneath each of these points. A computed mesh was not measured.
@@ -261,8 +279,7 @@ impl Over<'_> {
         if over.is_empty() || self.rounded == 0.0 {
             return vec![true; over.len()];
         }
-        let own = (0..self.points.len()).filter(|p| self.owners[*p] == face).map(|p| self.points[p]);
-        let tree = PointTree::new(&own.collect::<Vec<Point>>());
+        let tree = self.own(face);
         let is_gap = |beyond: &Beyond| {
             let p = self.points[beyond.point as usize];
             let normal = self.faces[face as usize].facing(&p);

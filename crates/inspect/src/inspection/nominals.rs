@@ -85,6 +85,7 @@ fn own_faces(
     else {
         return Ok(None);
     };
+    // As far off it, and as far beyond its bounds.
     let bounds = bounds.widened(2.0 * near.distance);
     let wide = Nearness { margin: -near.distance, ..*near };
     let mut held: Vec<Held> = vec![];

@@ -89,7 +89,7 @@ impl CurvatureArgs {
             (Some(count), None) => Reach::Count(count),
             (None, None) => Reach::Auto,
         };
-        Options { degree: self.degree, reach, boundary: self.boundary }
+        Options { degree: self.degree, reach, boundary: self.boundary, ..Options::default() }
     }
 }
 
