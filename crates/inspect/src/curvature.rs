@@ -10,12 +10,28 @@ use crate::results::curvature::{
     CurvatureDocument, CurvaturePlace, Neighborhood, NormalSource, PlaceKind, Quantity, Range, SCHEMA,
 };
 use crate::results::surface::MapRecord;
-use crate::results::{self, Histogram, InputRecord, UNITS, VERSION, Word};
+use crate::results::{
+    self, Histogram, InputRecord, NoiseOrReason, UNITS, VERSION, Word, noise_or_reason, noise_record,
+};
 use crate::scale::Scale;
 use std::collections::BTreeMap;
 use trueness_geom::curvature::{Curvatures, Jet, NoCurvature, Options, Reach};
+use trueness_geom::mesh::Mesh;
+use trueness_geom::noise::{self, NoNoise};
+use trueness_geom::progress::{Cancelled, Progress};
+use trueness_geom::segment::is_drawn;
 use trueness_geom::space::{Aabb, Point};
 use trueness_geom::stats::statistics::{Statistics, Summary};
+
+/// The noise of the vertices of a mesh, or without facets of its points, and how far neighbors share it; or why none is told: it is drawn, or there
+/// are too few points.
+///
+/// # Errors
+/// Cancelled.
+pub fn noise(of: &Mesh, seed: u64, progress: &dyn Progress) -> Result<NoiseOrReason, Cancelled> {
+    let found = noise::mesh(of, seed, progress);
+    noise_or_reason(found.and_then(|noise| if is_drawn(of) { Err(NoNoise::Drawn) } else { Ok(noise) }))
+}
 
 /// The document of the curvatures at `points`, which are the vertices of a mesh or the points of a cloud, as `inputs` has them.
 /// `None` where no place has curvatures; [`without`] tells why.
@@ -26,11 +42,13 @@ pub fn document(
     points: &[Point],
     of_mesh: bool,
     options: &Options,
+    noise: &NoiseOrReason,
     inputs: Vec<InputRecord>,
 ) -> Option<CurvatureDocument> {
     let jets: Vec<&Jet> = found.places.iter().flatten().collect();
     let size =
         Aabb::of(found.places.iter().zip(points).filter(|(p, _)| p.is_ok()).map(|(_, p)| p)).diagonal();
+    let (shared_noise, shared_noise_reason) = noise_record(noise);
     let [mean, gaussian, k1, k2] = CurvatureKind::ALL.map(|kind| quantity(found, points, size, kind));
     Some(CurvatureDocument {
         schema: SCHEMA.into(),
@@ -51,6 +69,8 @@ pub fn document(
         gaussian: gaussian?,
         k1: k1?,
         k2: k2?,
+        shared_noise,
+        shared_noise_reason,
         uncertainty: range(&jets, |j| j.uncertainty)?,
         residual: range(&jets, |j| j.residual)?,
         condition: range(&jets, |j| j.condition)?,

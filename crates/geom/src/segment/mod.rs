@@ -148,6 +148,21 @@ impl Segmentation {
     }
 }
 
+/// Whether a mesh, whose facets name vertices that exist and are finite, was drawn, not measured: half of its area and more is of facets with a
+/// neighbor in their plane, or with two that mirror them and turn as far, to the rounding of single precision. A cloud is not. Cost: some passes
+/// over the facets.
+/// ```
+/// use trueness_geom::{mesh::Mesh, segment::is_drawn};
+/// let square = |lift: f64| Mesh {
+///     positions: vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, lift], [0.0, 1.0, 0.0]],
+///     faces: vec![[0, 1, 2], [0, 2, 3]],
+/// };
+/// assert!(is_drawn(&square(0.0)) && !is_drawn(&square(0.01)));
+/// ```
+pub fn is_drawn(mesh: &Mesh) -> bool {
+    !mesh.faces.is_empty() && facets::surface(mesh).is_drawn
+}
+
 /// Why nothing could be looked for.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum SegmentError {

@@ -1,9 +1,9 @@
 //! Which of several references lies nearer to the same points, and whether the difference is more than chance.
 //!
-//! All tests treat the points as independent. Neighboring points of a scan are not: their deviations go together, so
-//! the true uncertainty is larger than stated and small p values mean little where the deviations are smooth.
-//! [`super::research::blocks`] gives an interval that allows for it.
+//! Neighboring points of a scan are not independent: their deviations go together. What that does to a mean is told by
+//! [`super::research::blocks`], and taken into account where it is given.
 
+use super::research::blocks::BlockMean;
 use super::sketch::Sketch;
 use super::statistics::{Accumulator, Missing, Number, Statistics, Summary};
 use crate::num::special::{coin_p, normal_p, student_p, student_quantile};
@@ -28,6 +28,8 @@ pub struct Paired {
 pub struct Comparison {
     /// Points that have both deviations.
     pub count: u64,
+    /// Points that tell as much as an independent one, 1 or more.
+    pub points_per_independent: f64,
     /// Points nearer to the first reference.
     pub first_nearer: u64,
     /// Points nearer to the second.
@@ -63,41 +65,53 @@ impl Paired {
     pub fn summary(&self) -> Summary {
         self.differences.summary()
     }
-    /// The comparison of everything so far.
-    pub fn comparison(&self) -> Comparison {
+    /// The comparison of everything so far. `blocks` is the mean of the differences, of all points or of a sample of them, by blocks within which they
+    /// may go together; without it all points are independent.
+    ///
+    /// The tests then count as many points as would be independent: that of the mean is the cluster-robust one of the blocks, for all points; the two
+    /// others take it that ranks and signs go together as the differences do.
+    pub fn comparison(&self, blocks: Option<&BlockMean>) -> Comparison {
         let Summary { all, positive, negative, .. } = self.summary();
+        // The variance of a mean is that of one value, and the mean correlation of two times it.
+        let correlation = blocks.map_or(0.0, |b| (1.0 / b.effective_count - 1.0 / b.count as f64).max(0.0));
+        let points_per_independent = 1.0 + all.count as f64 * correlation;
+        let independent = all.count as f64 / points_per_independent;
+        let freedom = blocks.map_or(independent, |b| independent.min(b.blocks as f64)) - 1.0;
         let interval = all.std_dev.and_then(|s| Ok((all.mean?, s))).map(|(mean, s)| {
-            let half = student_quantile(0.05, all.count as f64 - 1.0) * s / (all.count as f64).sqrt();
+            let half = student_quantile(0.05, freedom) * s / independent.sqrt();
             [mean - half, mean + half]
         });
         Comparison {
             count: all.count,
+            points_per_independent,
             first_nearer: negative.count,
             second_nearer: positive.count,
             mean: all.mean,
             std_dev: all.std_dev,
             interval,
-            t_test: t_test(&all),
-            wilcoxon: wilcoxon(self.differences.sketch()),
+            t_test: t_test(&all, independent, freedom),
+            wilcoxon: wilcoxon(self.differences.sketch(), points_per_independent),
             sign_test: match positive.count + negative.count {
                 0 => Err(if all.count == 0 { Missing::NoValues } else { Missing::NoSpread }),
-                untied => Ok(coin_p(positive.count, untied)),
+                untied => {
+                    let counted = |n: u64| (n as f64 / points_per_independent).round() as u64;
+                    Ok(coin_p(counted(positive.count), counted(untied)))
+                }
             },
         }
     }
 }
 
-fn t_test(differences: &Statistics) -> Number {
+fn t_test(differences: &Statistics, independent: f64, freedom: f64) -> Number {
     let (mean, std_dev) = (differences.mean?, differences.std_dev?);
     if std_dev == 0.0 {
         return Err(Missing::NoSpread);
     }
-    let n = differences.count as f64;
-    Ok(student_p(mean / (std_dev / n.sqrt()), n - 1.0))
+    Ok(student_p(mean / (std_dev / independent.sqrt()), freedom))
 }
 
 /// Signed ranks from counts by size: a bin of the sketch is a group of ties.
-fn wilcoxon(sketch: &Sketch) -> Number {
+fn wilcoxon(sketch: &Sketch, points_per_independent: f64) -> Number {
     let mut sizes: Vec<(f64, bool, u64)> =
         sketch.bins().filter(|(d, _)| *d != 0.0).map(|(d, count)| (d.abs(), d > 0.0, count)).collect();
     sizes.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -114,12 +128,14 @@ fn wilcoxon(sketch: &Sketch) -> Number {
     }
     let expected = passed * (passed + 1.0) / 4.0;
     let variance = passed * (passed + 1.0) * (2.0 * passed + 1.0) / 24.0 - ties / 48.0;
-    Ok(normal_p((positive_ranks - expected) / variance.sqrt()))
+    Ok(normal_p((positive_ranks - expected) / (variance * points_per_independent).sqrt()))
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::research::blocks::mean_of_blocks;
     use super::*;
+    use crate::num::random::Random;
 
     fn close(found: Number, expected: f64, relative: f64) {
         let found = found.unwrap();
@@ -128,7 +144,7 @@ mod tests {
     fn paired(first: &[f64], second: &[f64]) -> Comparison {
         let mut paired = Paired::new();
         paired.push(first, second);
-        paired.comparison()
+        paired.comparison(None)
     }
 
     /// Expected: SciPy 1.17 `ttest_1samp`, `wilcoxon(zero_method="wilcox", correction=False, method="approx")`,
@@ -168,6 +184,56 @@ mod tests {
         );
         let one = paired(&[2.0], &[1.0]);
         assert_eq!((one.interval, one.t_test), (Err(Missing::OneValue), Err(Missing::OneValue)));
+    }
+
+    /// Deviations from two references that are equal in truth, with errors that neighbors along a line share: how often a difference is told at 5 %.
+    #[test]
+    fn neighbors_that_go_together_do_not_make_a_difference() {
+        let places: Vec<[f64; 3]> = (0..4000).map(|i| [f64::from(i), 0.0, 0.0]).collect();
+        let told = |shared: usize, by_blocks: bool| {
+            let scans = 200;
+            let told = (0..scans).filter(|scan| {
+                let mut random = Random::stream(7, *scan);
+                let white: Vec<f64> = (0..4000 + shared).map(|_| random.unit() - 0.5).collect();
+                let smooth: Vec<f64> = (0..4000).map(|i| white[i..i + shared].iter().sum()).collect();
+                // The errors lead nearer to the first as often as to the second.
+                let first: Vec<f64> = smooth.iter().map(|d| 100.0 + d).collect();
+                let second = vec![100.0; 4000];
+                let blocks = mean_of_blocks(&places, &smooth, 80.0).unwrap();
+                let mut paired = Paired::new();
+                paired.push(&first, &second);
+                let found = paired.comparison(by_blocks.then_some(&blocks));
+                found.t_test.unwrap() < 0.05
+            });
+            told.count() as f64 / scans as f64
+        };
+        // Of 200 at 5 % a share scatters by 1.5 %.
+        assert!(told(16, false) > 0.4, "{}", told(16, false));
+        for shared in [1, 4, 16] {
+            assert!(told(shared, true) < 0.12, "{shared}: {}", told(shared, true));
+        }
+    }
+
+    /// A sample tells how far neighbors go together; of all points it follows how many count as one.
+    #[test]
+    fn a_sample_tells_of_all_points() {
+        let mut random = Random::new(3);
+        let level: Vec<f64> = (0..400).map(|_| random.unit()).collect();
+        let place = |i: u32| [f64::from(i / 50) + 0.5, 0.1 * f64::from(i % 50), 0.5];
+        let points: Vec<[f64; 3]> = (0..20_000).map(place).collect();
+        let values: Vec<f64> = (0..20_000).map(|i| level[i / 50] + random.unit()).collect();
+        let sample: Vec<usize> = (0..20_000).step_by(10).collect();
+        let of = |all: &[usize]| {
+            let places: Vec<[f64; 3]> = all.iter().map(|i| points[*i]).collect();
+            let blocks =
+                mean_of_blocks(&places, &all.iter().map(|i| values[*i]).collect::<Vec<_>>(), 1.0).unwrap();
+            let mut paired = Paired::new();
+            paired.push(&values, &vec![0.0; values.len()]);
+            paired.comparison(Some(&blocks)).points_per_independent
+        };
+        let [whole, part] = [of(&(0..20_000).collect::<Vec<_>>()), of(&sample)];
+        // Half of the variance is that of the 50 points of a level.
+        assert!((whole / 25.5 - 1.0).abs() < 0.15 && (part / whole - 1.0).abs() < 0.15, "{whole} {part}");
     }
 
     #[test]

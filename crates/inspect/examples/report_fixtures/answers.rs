@@ -252,7 +252,12 @@ pub fn torus() -> Mesh {
 
 /// The report of curvatures, of a mesh or, without facets, of a cloud.
 pub fn curvature_page(mesh: &Mesh, options: &ReportOptions) -> Vec<u8> {
-    let wish = curvature::Options { degree: 4, ..curvature::Options::default() };
+    let noise = trueness_inspect::curvature::noise(mesh, 1, &Silent).unwrap();
+    let wish = curvature::Options {
+        degree: 4,
+        noise: noise.as_ref().ok().copied(),
+        ..curvature::Options::default()
+    };
     let of_mesh = !mesh.faces.is_empty();
     let found = match of_mesh {
         true => curvature::mesh(mesh, &wish, &Silent),
@@ -262,7 +267,8 @@ pub fn curvature_page(mesh: &Mesh, options: &ReportOptions) -> Vec<u8> {
     let name = if of_mesh { "torus.stl" } else { "torus.xyz" };
     let inputs = vec![file(Role::Measured, name, mesh)];
     let document =
-        trueness_inspect::curvature::document(&found, &mesh.positions, of_mesh, &wish, inputs).unwrap();
+        trueness_inspect::curvature::document(&found, &mesh.positions, of_mesh, &wish, &noise, inputs)
+            .unwrap();
     let view = trueness_inspect::curvature::View::new(&document, name, mesh, &found);
     let result = &document;
     super::bytes(&ReportInput { result, objects: &view.objects(), marks: &[], options })

@@ -118,6 +118,8 @@ fn result(number: usize, found: &[Found]) -> InspectDocument {
         version: VERSION.into(),
         units: UNITS.into(),
         title: Some("Bracket".into()),
+        shared_noise: None,
+        shared_noise_reason: None,
         plan: PlanRecord { path: "bracket.toml".into(), sha256: Some("a7".repeat(32)) },
         inputs: vec![super::record(Role::Measured, &format!("scans/part-{number:03}.stl"), 1000, Some(2000))],
         alignment: AlignmentRecord {

@@ -2,7 +2,7 @@
 
 use super::judgement::{Grounds, judge};
 use super::reference::{Compared, WorstPlace};
-use super::research::research;
+use super::research::{research, together};
 use super::{
     AlongRule, Comparisons, Covered, Excluded, Extreme, Facing, Options, Outliers, RegionFound, plausibility,
 };
@@ -85,7 +85,7 @@ pub fn document(found: &Comparisons, inputs: Inputs, options: &Options) -> Compa
         max_distance: Some(options.surface.max_distance).filter(|d| d.is_finite()),
         skip_boundary: options.surface.skip_boundary,
         facing: options.facing.as_ref().map(Facing::angle),
-        paired: found.paired.iter().map(|(a, b, p)| paired(*a, *b, p)).collect(),
+        paired: found.paired.iter().map(|(a, b, p)| paired((*a, *b, p), found, options)).collect(),
         scale: inputs.scale.unwrap_or_else(|| scale(found, options)),
         verdict,
         verdict_reasons: reasons(&comparisons, verdict),
@@ -323,14 +323,24 @@ fn worst(w: &WorstPlace, regions: &[RegionFound]) -> Worst {
 }
 
 /// The better reference first; the sign of the difference follows.
-fn paired(first: usize, second: usize, p: &geom::Paired) -> Paired {
-    let c = p.comparison();
+fn paired(
+    (first, second, p): (usize, usize, &geom::Paired),
+    found: &Comparisons,
+    options: &Options,
+) -> Paired {
+    let together = match options.independent {
+        true => Err("errors are independent, as was asked for".to_string()),
+        false => together(found, first, second).map_err(|e| e.to_string()),
+    };
+    let c = p.comparison(together.as_ref().ok());
     let swap = c.mean.is_ok_and(|m| m > 0.0);
     let turn = |x: f64| if swap { -x } else { x };
     Paired {
         better: if swap { second } else { first },
         other: if swap { first } else { second },
         count: c.count,
+        points_per_independent: together.is_ok().then_some(c.points_per_independent),
+        points_per_independent_reason: together.err(),
         mean_difference: c.mean.ok().map(turn),
         interval: c.interval.ok().map(|[a, b]| if swap { [-b, -a] } else { [a, b] }),
         std_dev: c.std_dev.ok(),

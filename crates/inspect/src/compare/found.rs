@@ -15,6 +15,8 @@ pub struct Comparisons {
     pub references: Vec<Compared>,
     /// `(first, second, differences)` for every pair of references.
     pub paired: Vec<(usize, usize, Paired)>,
+    /// The sample of the points by which it is told how far differences of neighbors go together; empty of one reference.
+    pub together: ShownPoints,
     /// Sample for the report.
     pub shown: ShownPoints,
     /// The worst places of every reference, as far as the sample lacks them.

@@ -136,6 +136,7 @@ pub fn run<S: PointStream + ?Sized, K>(
         count: 0,
         bounds: Aabb::EMPTY,
         references: vec![],
+        together: ShownPoints::new(if paired.is_empty() { 0 } else { research::PLACES }, references.len()),
         paired,
         shown: ShownPoints::new(places, references.len()),
         flagged: ShownPoints::new(usize::MAX, references.len()),
@@ -205,9 +206,12 @@ fn count<S, K>(
     for (first, second, p) in &mut out.paired {
         p.push(&deviations[*first], &deviations[*second]);
     }
+    let lists: Vec<&[f64]> = deviations.iter().map(Vec::as_slice).collect();
     if places > 0 {
-        let lists: Vec<&[f64]> = deviations.iter().map(Vec::as_slice).collect();
         out.shown.add(out.count, points, &lists);
+    }
+    if !out.paired.is_empty() {
+        out.together.add(out.count, points, &lists);
     }
     let block = DeviationBlock {
         points,

@@ -97,6 +97,9 @@ pub struct Options {
     /// Deviations kept in memory for exact percentiles, of all references together; beyond, percentiles come from
     /// a sketch with a stated error.
     pub kept_values: usize,
+    /// Whether the errors of the points are independent, as of points probed one by one: else paired differences take into account how far those of
+    /// neighbors go together.
+    pub independent: bool,
     /// Intervals, tests and models.
     pub research: bool,
     /// Seed of everything random.
@@ -133,6 +136,7 @@ impl Default for Options {
             shown: 0,
             worst: WORST,
             kept_values: 1 << 27,
+            independent: false,
             research: false,
             seed: 0,
         }

@@ -1,5 +1,6 @@
 //! Intervals, tests and models of the deviations from one reference.
 
+use super::found::Comparisons;
 use super::reference::{Compared, Values};
 use super::shown::ShownPoints;
 use crate::results::research::*;
@@ -58,6 +59,17 @@ pub fn research(c: &Compared, places: &ShownPoints, i: usize, seed: u64) -> Rese
             })
         }),
     }
+}
+
+/// The mean of the differences of two references, by blocks within which they may go together.
+pub fn together(
+    found: &Comparisons,
+    first: usize,
+    second: usize,
+) -> Result<blocks::BlockMean, trueness_geom::stats::statistics::Missing> {
+    let of = |n: usize| found.together.deviations.get(n).map_or(&[][..], Vec::as_slice);
+    let differences: Vec<f64> = of(first).iter().zip(of(second)).map(|(a, b)| a.abs() - b.abs()).collect();
+    blocks::mean_of_blocks(&found.together.points, &differences, BLOCK_SHARE * found.bounds.diagonal())
 }
 
 fn intervals(c: &Compared, seed: u64) -> Result<Bootstrap, trueness_geom::stats::statistics::Missing> {

@@ -10,7 +10,10 @@ use crate::results::align::{AlignNote, AlignNoteKind};
 use crate::results::compare::{Comparison, Warning, WarningKind};
 use crate::results::fit::{Number, named, uncertainty};
 use crate::results::inspect::*;
-use crate::results::{InputRecord, Role, UNITS, VERSION, Verdict, VerdictReason, Word, overall};
+use crate::results::{
+    InputRecord, NoiseOrReason, Role, UNITS, VERSION, Verdict, VerdictReason, Word, noise_record, overall,
+    points_per_independent,
+};
 use crate::scale::Scale;
 use std::collections::BTreeMap;
 use trueness_geom::feature::Nominal;
@@ -31,6 +34,7 @@ impl InspectDocument {
         let alignment = AlignmentRecord::new(plan, found);
         let (deviation, scale) = deviation(found, &inputs, &alignment).unzip();
         let doubts = doubts(&alignment, &inputs);
+        let (shared_noise, shared_noise_reason) = noise_record(&found.noise);
         let count = |verdict| characteristics.iter().filter(|c| c.verdict == verdict).count() as u64;
         let verdict = match doubts.is_empty() {
             true => overall(
@@ -49,7 +53,14 @@ impl InspectDocument {
             plan: record,
             inputs,
             alignment,
-            features: plan.features.iter().zip(&found.features).map(|(p, t)| feature(p, t)).collect(),
+            features: plan
+                .features
+                .iter()
+                .zip(&found.features)
+                .map(|(p, t)| feature(p, t, &found.noise))
+                .collect(),
+            shared_noise,
+            shared_noise_reason,
             deviation_reason: deviation.is_none().then(|| "the plan has no [deviation]".into()),
             decision_rule: plan.decision.rule.word().into(),
             counts: Counts {
@@ -177,13 +188,18 @@ fn deviation(
     Some((document.comparisons.pop()?, document.scale))
 }
 
-fn feature(plan: &crate::plan::Feature, taken: &Taken) -> FeatureRecord {
+fn feature(plan: &crate::plan::Feature, taken: &Taken, noise: &NoiseOrReason) -> FeatureRecord {
     let fit = match &taken.element {
         Ok(Element::Fit(fit)) => Some(fit.as_ref()),
         _ => None,
     };
+    // Points of files are probed one by one.
+    let shared = match plan.source {
+        Source::Nominal | Source::Seed(_) => points_per_independent(noise),
+        Source::Points(_) | Source::Derived { .. } => 1.0,
+    };
     let (u, u_reason) = match fit {
-        Some(fit) => uncertainty(fit, 1.0),
+        Some(fit) => uncertainty(fit, shared),
         None => (None, Some("there is no fitted element".into())),
     };
     let ray = |point, key: &str, direction| {
@@ -324,8 +340,13 @@ fn characteristic(plan: &Plan, found: &Inspection, n: usize) -> CharacteristicRe
             verdict(v.value, &spec.limits.widened(v.bonus), rule, uncertainty.map(|u| u.sides))
         })
     };
-    let unknown = plan.decision.noise.is_some() && measured.is_some() && uncertainty.is_none();
-    let unknown = unknown.then(|| UNKNOWN.to_string());
+    let unknown = measured.zip(plan.decision.noise).filter(|_| uncertainty.is_none());
+    let unknown = unknown.map(|(_, source)| match source.noise(&found.noise) {
+        Ok(_) => UNKNOWN.to_string(),
+        Err(why) => format!(
+            "its uncertainty is not known, as the noise is not: {why}; give the `noise` in [decision]"
+        ),
+    });
     let with_others = found.with_others[n].as_ref();
     let judged_with =
         left_out::judge_left_out(plan, found, spec, judged(value), with_others.map(|v| (v, judged(v))));

@@ -10,13 +10,13 @@ use crate::characteristic::Taken;
 use crate::plan::Plan;
 use trueness_geom::progress::Progress;
 
-/// The features of data that lie where they are evaluated.
+/// The features of data that lie where they are evaluated, and whether what they are sought in was measured, not computed.
 pub(super) fn taken(
     plan: &Plan,
     data: &Data,
     nominals: &Nominals,
     progress: &dyn Progress,
-) -> Result<Vec<Taken>, Stop> {
+) -> Result<(Vec<Taken>, bool), Stop> {
     let measured = data.measured.as_ref().map(cloud::distinct);
     let measured = measured.as_deref();
     let parted = match measured {
@@ -25,5 +25,5 @@ pub(super) fn taken(
     };
     let mut features = take::features(plan, (data, measured), nominals, parted.as_ref(), progress)?;
     nearby::tell(plan, measured, nominals, parted.as_ref(), &mut features, progress)?;
-    Ok(features)
+    Ok((features, parted.is_none_or(|parted| parted.is_scan())))
 }

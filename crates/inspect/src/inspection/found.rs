@@ -5,6 +5,7 @@ use super::deviation::Deviations;
 use super::uncertainty::Uncertainty;
 use crate::characteristic::{Taken, Value};
 use crate::plan::Spec;
+use crate::results::NoiseOrReason;
 use crate::results::compare::Warning;
 use trueness_geom::mesh::Mesh;
 
@@ -23,6 +24,8 @@ pub struct Inspection {
     pub with_others: Vec<Option<Result<Value, String>>>,
     /// The values in other poses in which the data fit about as well, where the alignment has found such.
     pub in_other_poses: Vec<Vec<Result<Value, String>>>,
+    /// The noise of what was measured, and how far neighbors share it; or why none is told.
+    pub noise: NoiseOrReason,
     /// The uncertainty of each value, where the plan states one or the noise of the points.
     pub uncertainties: Vec<Option<Uncertainty>>,
     /// The measured data where they were evaluated: aligned.

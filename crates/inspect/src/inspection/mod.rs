@@ -45,7 +45,10 @@ pub use uncertainty::Uncertainty;
 pub use view::View;
 
 use crate::plan::{Plan, Spec};
+use crate::results::{NoiseOrReason, noise_or_reason};
 use nominals::Nominals;
+use trueness_geom::mesh::Mesh;
+use trueness_geom::noise::{self, NoNoise};
 use trueness_geom::parallel::prelude::*;
 use trueness_geom::progress::Progress;
 use uncounted::Uncounted;
@@ -84,7 +87,8 @@ pub fn run(plan: &Plan, data: Data, progress: &dyn Progress) -> Result<Inspectio
     let plan = &located;
     let (mut data, alignment) = align::aligned(plan, data, &nominals, progress)?;
     counted.advance(1);
-    let features = features::taken(plan, &data, &nominals, progress)?;
+    let (features, is_scan) = features::taken(plan, &data, &nominals, progress)?;
+    let noise = noise(data.measured.as_ref(), is_scan, data.seed, progress)?;
     sides::checked(plan, &features)?;
     resolved.by_part(&features, progress);
     counted.advance(1);
@@ -99,7 +103,7 @@ pub fn run(plan: &Plan, data: Data, progress: &dyn Progress) -> Result<Inspectio
     for motion in align::other_poses(&alignment) {
         // One after the other: each is a copy of all that was measured.
         if let Some(other) = align::in_other_pose(plan, &data, &motion, &nominals, progress)? {
-            in_other_poses.push(all(&features::taken(plan, &other, &nominals, progress)?)?);
+            in_other_poses.push(all(&features::taken(plan, &other, &nominals, progress)?.0)?);
         }
     }
     counted.advance(1);
@@ -116,7 +120,7 @@ pub fn run(plan: &Plan, data: Data, progress: &dyn Progress) -> Result<Inspectio
         })
         .collect::<Result<Vec<_>, Stop>>()?;
     counted.advance(1);
-    let uncertainties = uncertainty::found(plan, (&data, &alignment), &features, progress)?;
+    let uncertainties = uncertainty::found(plan, (&data, &alignment), (&features, &noise), progress)?;
     counted.advance(1);
     if progress.cancelled() {
         return Err(Stop::Cancelled);
@@ -134,10 +138,25 @@ pub fn run(plan: &Plan, data: Data, progress: &dyn Progress) -> Result<Inspectio
         values,
         with_others,
         in_other_poses,
+        noise,
         uncertainties,
         measured,
         alignment,
         doubts,
         deviations,
     })
+}
+
+/// The noise of what was measured, and how far neighbors share it; or why none is told.
+fn noise(
+    measured: Option<&Mesh>,
+    is_scan: bool,
+    seed: u64,
+    progress: &dyn Progress,
+) -> Result<NoiseOrReason, Stop> {
+    let Some(measured) = measured else {
+        return Ok(Err("there is no measured surface: all points are from files of features".into()));
+    };
+    let found = if is_scan { noise::mesh(measured, seed, progress) } else { Err(NoNoise::Drawn) };
+    Ok(noise_or_reason(found)?)
 }

@@ -99,6 +99,11 @@ impl<'a> Parted<'a> {
         Ok(Some(Parted { mesh, nominals, more, own, partition, points, facets, around }))
     }
 
+    /// Whether it was measured: a scan, no computed mesh.
+    pub fn is_scan(&self) -> bool {
+        self.partition.is_scan
+    }
+
     /// The faces of a feature; `None` of an edge, and of what was not sought.
     pub fn own(&self, number: usize) -> Option<&OwnFaces> {
         self.nominals.own(number).or_else(|| self.own.get(&number))

@@ -94,9 +94,8 @@ impl Answer {
         of_features: impl Iterator<Item = &'a Point>,
     ) -> Answer {
         let sources = |p: &Point| {
-            let (parts, count) = parts(p, noise.correlation);
-            let size = parts.iter().map(|p| p.1 * p.1).sum::<f64>().sqrt();
-            parts.into_iter().take(count).map(move |(source, weight)| (source, weight / size))
+            let (parts, count) = parts(p, noise);
+            parts.into_iter().take(count)
         };
         let touched: HashSet<Source> = of_features.flat_map(|p| sources(p).map(|s| s.0)).collect();
         let mut own: BTreeMap<Source, [Vector; 6]> = BTreeMap::new();
@@ -194,7 +193,7 @@ mod tests {
     fn the_pose_moves_with_the_noise_of_the_points() {
         let (points, found) = fitted();
         for correlation in [0.0, 2.5] {
-            let noise = Noise { deviation: 0.01, correlation, draws: 1 };
+            let noise = Noise { deviation: 0.01, correlation, white: 0.0, draws: 1 };
             let answer = Answer::new(&found, &points, &noise, points.iter());
             for draw in 0..20 {
                 let estimated = answer.motion(&Field::new(&noise, draw));
@@ -213,7 +212,7 @@ mod tests {
     fn what_is_of_no_feature_moves_the_pose_as_far() {
         let (points, found) = fitted();
         for (correlation, touched) in [(0.0, 0), (0.0, 20), (2.5, 0), (2.5, 20)] {
-            let noise = Noise { deviation: 0.01, correlation, draws: 1 };
+            let noise = Noise { deviation: 0.01, correlation, white: 0.0, draws: 1 };
             let answer = Answer::new(&found, &points, &noise, points[..touched].iter());
             let (mut estimated, mut wanted) = ([0.0; 3], [0.0; 3]);
             for draw in 0..4000 {

@@ -25,6 +25,7 @@ use super::pose_noise::PoseNoise;
 use super::take::again;
 use crate::characteristic::{Element, Taken, Value};
 use crate::plan::{Limits, Noise, Plan, Spec};
+use crate::results::NoiseOrReason;
 use std::collections::BTreeMap;
 use trueness_geom::num::random::Random;
 use trueness_geom::parallel::prelude::*;
@@ -75,13 +76,14 @@ impl Uncertainty {
 pub(super) fn found(
     plan: &Plan,
     aligned: (&Data, &Alignment),
-    features: &[Taken],
+    (features, noise): (&[Taken], &NoiseOrReason),
     progress: &dyn Progress,
 ) -> Result<Vec<Option<Uncertainty>>, Stop> {
-    let Some(noise) = &plan.decision.noise else {
+    let Some(source) = plan.decision.noise else {
         let stated = |spec: &Spec| Some(Uncertainty::new(spec.uncertainty?, 0.0, [0.0; 2], "plan"));
         return Ok(plan.specs.iter().map(stated).collect());
     };
+    let Ok(noise) = &source.noise(noise) else { return Ok(vec![None; plan.specs.len()]) };
     let pose = PoseNoise::new(plan, noise, aligned, features, progress)?;
     let seed = aligned.0.seed;
     let draws = Draws { plan, noise, pose: &pose, seed, progress };

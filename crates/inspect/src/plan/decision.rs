@@ -1,8 +1,10 @@
 //! How verdicts are reached.
 
+use super::at::At;
 use super::checker::Checker;
 use super::error::PlanError;
-use super::text::{DecisionText, PlanText, RuleWord};
+use super::text::{DecisionText, NoiseText, NoiseWord, PlanText, RuleWord};
+use trueness_geom::noise;
 
 /// How verdicts are reached.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -12,7 +14,38 @@ pub struct Decision {
     /// Expanded uncertainty of values that have none of their own, millimeters (degrees for angles).
     pub uncertainty: Option<f64>,
     /// The noise of the measured points, from which uncertainties are found.
-    pub noise: Option<Noise>,
+    pub noise: Option<NoiseSource>,
+}
+
+/// Where the noise of measured points comes from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum NoiseSource {
+    /// The plan states it.
+    Stated(Noise),
+    /// It is found in what was measured.
+    Measured {
+        /// Number of draws.
+        draws: u32,
+    },
+}
+
+impl NoiseSource {
+    /// The noise, where this was found in what was measured.
+    ///
+    /// # Errors
+    /// Why nothing was found there.
+    pub fn noise<'a>(&self, found: &'a Result<noise::Noise, String>) -> Result<Noise, &'a str> {
+        match (self, found) {
+            (NoiseSource::Stated(noise), _) => Ok(*noise),
+            (NoiseSource::Measured { draws }, Ok(found)) => Ok(Noise {
+                deviation: found.deviation,
+                correlation: CELL * found.reach,
+                white: found.white,
+                draws: *draws,
+            }),
+            (NoiseSource::Measured { .. }, Err(why)) => Err(why),
+        }
+    }
 }
 
 /// The noise of measured points, and how often it is drawn.
@@ -22,12 +55,17 @@ pub struct Noise {
     pub deviation: f64,
     /// Length within which points move together, millimeters; 0 where each moves alone.
     pub correlation: f64,
+    /// Share of the variance that each point has alone nevertheless.
+    pub white: f64,
     /// Number of draws.
     pub draws: u32,
 }
 
 /// Draws of the noise, where the plan does not say: the standard deviation is then known to 5 %.
 const DRAWS: u32 = 200;
+/// Cells of noise that is interpolated between their corners, in reaches of the noise found: along planes of any attitude their correlations then
+/// add up to those found, within a tenth.
+const CELL: f64 = 0.43;
 /// Draws at most.
 const MOST_DRAWS: u32 = 100_000;
 
@@ -66,7 +104,7 @@ pub(super) fn decision(checker: &Checker, written: &PlanText) -> Result<Decision
     Ok(Decision { rule, uncertainty, noise: noise(checker, written)? })
 }
 
-fn noise(checker: &Checker, written: &DecisionText) -> Result<Option<Noise>, PlanError> {
+fn noise(checker: &Checker, written: &DecisionText) -> Result<Option<NoiseSource>, PlanError> {
     let Some(deviation) = &written.noise else {
         let alone = written.correlation.as_ref().map(|c| &c.span).or(written.draws.as_ref().map(|d| &d.span));
         return match alone {
@@ -76,11 +114,6 @@ fn noise(checker: &Checker, written: &DecisionText) -> Result<Option<Noise>, Pla
             None => Ok(None),
         };
     };
-    let sigma = checker.not_negative(deviation, "the noise")?;
-    let correlation = match &written.correlation {
-        Some(length) => checker.not_negative(length, "the correlation length")?,
-        None => 0.0,
-    };
     let draws = match &written.draws {
         None => DRAWS,
         Some(draws) if (10..=MOST_DRAWS).contains(&draws.value) => draws.value,
@@ -89,5 +122,20 @@ fn noise(checker: &Checker, written: &DecisionText) -> Result<Option<Noise>, Pla
             return checker.wrong(&draws.span, what);
         }
     };
-    Ok(Some(Noise { deviation: sigma, correlation, draws }))
+    let sigma = match (&deviation.value, &written.correlation) {
+        (NoiseText::Deviation(sigma), _) => At { value: *sigma, span: deviation.span.clone() },
+        (NoiseText::Word(NoiseWord::Measured), None) => return Ok(Some(NoiseSource::Measured { draws })),
+        (NoiseText::Word(NoiseWord::Measured), Some(length)) => {
+            return checker.wrong(
+                &length.span,
+                "the noise is measured, and how far points move together with it; remove this",
+            );
+        }
+    };
+    let deviation = checker.not_negative(&sigma, "the noise")?;
+    let correlation = match &written.correlation {
+        Some(length) => checker.not_negative(length, "the correlation length")?,
+        None => 0.0,
+    };
+    Ok(Some(NoiseSource::Stated(Noise { deviation, correlation, white: 0.0, draws })))
 }

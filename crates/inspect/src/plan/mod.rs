@@ -28,7 +28,7 @@ pub use align::Align;
 pub use at::At;
 pub use boundary::Boundary;
 pub use datum::DatumSpec;
-pub use decision::{Decision, Noise, Rule};
+pub use decision::{Decision, Noise, NoiseSource, Rule};
 pub use deviation::Deviation;
 pub use error::{PlanError, unknown};
 pub use feature::{Class, Extract, Feature, Source};

@@ -440,9 +440,15 @@ pub struct Paired {
     pub other: usize,
     /// Points compared.
     pub count: u64,
+    /// Points that tell as much as an independent one, as the differences of neighbors go together.
+    #[serde(default)]
+    pub points_per_independent: Option<f64>,
+    /// Why that is not told: intervals and p values are those of independent points.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub points_per_independent_reason: Option<String>,
     /// Mean difference; negative where the better one is nearer.
     pub mean_difference: Option<f64>,
-    /// Its 95 % confidence interval, as if the points were independent.
+    /// Its 95 % confidence interval.
     pub interval: Option<[f64; 2]>,
     /// Standard deviation of the differences.
     pub std_dev: Option<f64>,

@@ -4,7 +4,7 @@ pub(crate) mod page;
 
 use super::word::named;
 use super::{Histogram, Statistics};
-use super::{InputRecord, Word};
+use super::{InputRecord, SharedNoise, Word};
 use crate::scale::Scale;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -55,7 +55,13 @@ pub struct CurvatureDocument {
     pub k1: Quantity,
     /// Lesser principal curvature, 1/mm.
     pub k2: Quantity,
-    /// Standard uncertainty of the mean curvature as the residuals tell it, 1/mm.
+    /// The noise of the vertices or points, and how far neighbors share it: the uncertainties take it into account.
+    #[serde(default)]
+    pub shared_noise: Option<SharedNoise>,
+    /// Why none is told: the uncertainties are those of independent points.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub shared_noise_reason: Option<String>,
+    /// Standard uncertainty of the mean curvature, 1/mm: as the residuals tell it, or as `shared_noise` does where that is more.
     pub uncertainty: Range,
     /// Standard deviation of the neighbors from the polynomial.
     pub residual: Range,

@@ -3,7 +3,8 @@
 mod page;
 
 use super::{
-    Histogram, InputRecord, NoiseOrReason, SharedNoise, UNITS, VERSION, Word, points_per_independent,
+    Histogram, InputRecord, NoiseOrReason, SharedNoise, UNITS, VERSION, Word, noise_record,
+    points_per_independent,
 };
 use crate::scale::Scale;
 use schemars::JsonSchema;
@@ -174,6 +175,7 @@ impl FitDocument {
         let extreme =
             |(distance, point): (f64, usize)| Extreme { distance, point: point as u64, position: None };
         let (uncertainty, uncertainty_reason) = uncertainty(fit, points_per_independent(noise));
+        let (shared_noise, shared_noise_reason) = noise_record(noise);
         FitDocument {
             schema: SCHEMA.into(),
             version: VERSION.into(),
@@ -185,8 +187,8 @@ impl FitDocument {
             parameters: named(fit.shape.parameters()),
             uncertainty,
             uncertainty_reason,
-            shared_noise: noise.as_ref().ok().copied(),
-            shared_noise_reason: noise.as_ref().err().cloned(),
+            shared_noise,
+            shared_noise_reason,
             form_error: residuals.form_error,
             rms: residuals.rms,
             std_dev: residuals.std_dev,

@@ -12,7 +12,7 @@ use super::fit::Number;
 use super::place_map::PlaceMap;
 use super::verdict::rank;
 use super::word::named;
-use super::{InputRecord, Verdict, VerdictReason, Word};
+use super::{InputRecord, SharedNoise, Verdict, VerdictReason, Word};
 use crate::plan::Class;
 use crate::plan::text::{MaterialWord, SizeWord, TextureWord};
 use crate::scale::Scale;
@@ -45,6 +45,13 @@ pub struct InspectDocument {
     pub features: Vec<FeatureRecord>,
     /// The characteristics, in the plan's order.
     pub characteristics: Vec<CharacteristicRecord>,
+    /// The noise of what was measured, and how far neighbors share it: the uncertainties of the features take it into account, and with
+    /// `noise = "measured"` those of the values.
+    #[serde(default)]
+    pub shared_noise: Option<SharedNoise>,
+    /// Why none is told: the uncertainties of the features are those of independent points.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub shared_noise_reason: Option<String>,
     /// Deviations of all that was measured from the reference, as in a comparison; null where the plan asks for none.
     pub deviation: Option<Comparison>,
     /// Why there are none.

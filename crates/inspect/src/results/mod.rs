@@ -28,8 +28,8 @@ mod word;
 
 pub use bounds::Bounds;
 pub use input::{ColumnRecord, IncompleteRecord, InputRecord, Role, TableRecord, UNITS, VERSION};
-pub(crate) use noise::points_per_independent;
 pub use noise::{NoiseOrReason, SharedNoise, noise_or_reason};
+pub(crate) use noise::{points_per_independent, record as noise_record};
 pub use percent::{of_percent, percent, percents};
 pub(crate) use reason::judged;
 pub use reason::{ReasonKind, VerdictReason};

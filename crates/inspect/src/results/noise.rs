@@ -36,16 +36,24 @@ impl From<Noise> for SharedNoise {
 }
 
 /// The noise, or why none is told and points count as independent.
-pub type NoiseOrReason = Result<SharedNoise, String>;
+pub type NoiseOrReason = Result<Noise, String>;
 
-/// What was found, as documents hold it.
+/// Both, as documents hold them.
+pub(crate) fn record(noise: &NoiseOrReason) -> (Option<SharedNoise>, Option<String>) {
+    match noise {
+        Ok(noise) => (Some((*noise).into()), None),
+        Err(why) => (None, Some(why.clone())),
+    }
+}
+
+/// What was found; cancelled work tells nothing.
 ///
 /// # Errors
 /// Cancelled.
 pub fn noise_or_reason(found: Result<Noise, NoNoise>) -> Result<NoiseOrReason, Cancelled> {
     match found {
         Err(NoNoise::Cancelled(e)) => Err(e),
-        found => Ok(found.map(Into::into).map_err(|e| e.to_string())),
+        found => Ok(found.map_err(|e| e.to_string())),
     }
 }
 

@@ -3,7 +3,10 @@
 mod page;
 
 use super::fit::{Number, named, uncertainty};
-use super::{Bounds, InputRecord, NoiseOrReason, SharedNoise, UNITS, VERSION, Word, points_per_independent};
+use super::{
+    Bounds, InputRecord, NoiseOrReason, SharedNoise, UNITS, VERSION, Word, noise_record,
+    points_per_independent,
+};
 use crate::file_numbers::LeftOut;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -119,6 +122,7 @@ impl SegmentDocument {
             }
         }
         let shared = points_per_independent(noise);
+        let (shared_noise, shared_noise_reason) = noise_record(noise);
         let record = |((number, region), members)| record(number, region, shared, pieces, members);
         SegmentDocument {
             schema: SCHEMA.into(),
@@ -129,8 +133,8 @@ impl SegmentDocument {
             count: found.labels.len() as u64,
             unassigned: found.labels.iter().filter(|&&label| label == u32::MAX).count() as u64,
             noise: found.noise,
-            shared_noise: noise.as_ref().ok().copied(),
-            shared_noise_reason: noise.as_ref().err().cloned(),
+            shared_noise,
+            shared_noise_reason,
             tolerance: found.tolerance,
             tolerance_given: options.tolerance.is_some(),
             crease: options.crease,

@@ -117,6 +117,10 @@ pub struct CompareArgs {
     /// Also from the reference to the measured mesh: Hausdorff and mean distance
     #[arg(long)]
     both: bool,
+    /// Of several references: take the errors of the points as independent, as of points probed one by one. Without it paired differences take into
+    /// account how far those of neighbors go together
+    #[arg(long)]
+    independent: bool,
     /// Add bootstrap intervals, a normality test, the best distribution, Moran's I
     #[arg(long)]
     research: bool,
@@ -195,6 +199,7 @@ impl CompareArgs {
             worst: self.worst.map_or(Options::default().worst, usize::from),
             required_share,
             shown: self.output.report.shown(),
+            independent: self.independent,
             research: self.research,
             seed: common.seed,
             ..Options::default()

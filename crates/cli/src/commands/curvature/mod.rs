@@ -4,6 +4,7 @@ mod table;
 
 use crate::command::Run;
 use crate::exit::{Outcome, Usage};
+use crate::noise::NoiseArgs;
 use crate::options::{Common, DocumentArgs, PointInputArgs};
 use crate::progress::Stage;
 use crate::read::{self, Body, Opened};
@@ -15,7 +16,7 @@ use std::path::PathBuf;
 use trueness_files::write::{Values, Writable, values};
 use trueness_geom::curvature::{self, CurvatureError, Curvatures, NoCurvature, Options, Reach};
 use trueness_geom::mesh::Mesh;
-use trueness_inspect::curvature::{CurvatureKind, View, document, without};
+use trueness_inspect::curvature::{CurvatureKind, View, document, noise, without};
 use trueness_inspect::results::Role;
 use trueness_inspect::results::curvature::CurvatureDocument;
 
@@ -45,6 +46,8 @@ pub struct CurvatureArgs {
     /// Places on a boundary have values too, from the one side that there is
     #[arg(long)]
     boundary: bool,
+    #[command(flatten)]
+    noise: NoiseArgs,
     #[command(flatten)]
     reading: PointInputArgs,
     #[command(flatten)]
@@ -89,7 +92,7 @@ impl CurvatureArgs {
             (Some(count), None) => Reach::Count(count),
             (None, None) => Reach::Auto,
         };
-        Options { degree: self.degree, reach, boundary: self.boundary, ..Options::default() }
+        Options { degree: self.degree, reach, boundary: self.boundary, noise: None }
     }
 }
 
@@ -106,7 +109,7 @@ impl Run for CurvatureArgs {
 }
 
 fn run(args: &CurvatureArgs, common: &Common) -> anyhow::Result<Outcome> {
-    let options = args.options();
+    let mut options = args.options();
     let shown = args.input.display();
     let Opened { mut record, body, planar, .. } =
         read::open(&args.input, Role::Measured, &args.reading.reading())?;
@@ -120,6 +123,8 @@ fn run(args: &CurvatureArgs, common: &Common) -> anyhow::Result<Outcome> {
         }
     };
     read::describe(&mut record, &mesh.positions);
+    let noise = args.noise.found(common.progress, |stage| noise(&mesh, common.seed, stage))?;
+    options.noise = noise.as_ref().ok().copied();
     let stage = Stage::new(common.progress, "fitting", "places", Some(mesh.positions.len() as u64));
     let (hash, found) = rayon::join(
         || read::hash(&mut record, &args.input),
@@ -137,7 +142,7 @@ fn run(args: &CurvatureArgs, common: &Common) -> anyhow::Result<Outcome> {
         }
         e => anyhow::anyhow!("{shown}: {e}"),
     })?;
-    let Some(document) = document(&found, &mesh.positions, of_mesh, &options, vec![record]) else {
+    let Some(document) = document(&found, &mesh.positions, of_mesh, &options, &noise, vec![record]) else {
         bail!("{shown}: {}", nothing(&found, of_mesh, options.reach));
     };
     if args.report.html.is_some() {

@@ -1,7 +1,7 @@
 //! Curvatures for people.
 
 use crate::number::{POINTS, VERTICES, counted, fixed, grouped, scientific, six_digits};
-use crate::{console, read};
+use crate::{console, noise, read};
 use std::fmt::Write;
 use trueness_inspect::curvature::CurvatureKind;
 use trueness_inspect::results::curvature::{
@@ -51,6 +51,7 @@ pub fn table(document: &CurvatureDocument) -> String {
     ] {
         let _ = writeln!(out, "{}", spread(name, range, unit));
     }
+    out.push_str(&noise::line(document.shared_noise.as_ref()));
     for (reason, count) in &document.without {
         let _ =
             writeln!(out, "! {} without a value: {}", counted(*count, what), reason.name().replace('_', " "));

@@ -3,8 +3,8 @@
 mod words;
 
 pub use words::{
-    DatumMethodWord, FormMethodWord, KindWord, MaterialWord, OffsetText, RuleWord, RunoutWord, SizeWord,
-    TextureWord,
+    DatumMethodWord, FormMethodWord, KindWord, MaterialWord, NoiseText, NoiseWord, OffsetText, RuleWord,
+    RunoutWord, SizeWord, TextureWord,
 };
 
 use super::at::At;
@@ -466,9 +466,9 @@ pub struct DecisionText {
     pub rule: At<RuleWord>,
     /// Expanded uncertainty (k = 2) of every value that has none of its own.
     pub uncertainty: Option<At<f64>>,
-    /// Standard deviation of each coordinate of a measured point. With it the uncertainty of each value is found by moving the
-    /// points.
-    pub noise: Option<At<f64>>,
+    /// Standard deviation of each coordinate of a measured point, or "measured": found in what was measured. With it the uncertainty of each value is
+    /// found by moving the points.
+    pub noise: Option<At<NoiseText>>,
     /// Length within which the noise of points moves them together. Without it each point moves alone.
     pub correlation: Option<At<f64>>,
     /// How often the points are moved. Without it: 200.

@@ -172,3 +172,21 @@ impl JsonSchema for KindWord {
         json_schema!({ "type": "string" })
     }
 }
+
+/// The noise of measured points.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, JsonSchema)]
+#[serde(untagged, expecting = "`noise` is a length, or \"measured\"")]
+pub enum NoiseText {
+    /// Its standard deviation.
+    Deviation(f64),
+    /// What was measured tells it.
+    Word(NoiseWord),
+}
+
+/// The word for noise that is found in what was measured.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum NoiseWord {
+    /// Found there.
+    Measured,
+}

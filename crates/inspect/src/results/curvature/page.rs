@@ -9,6 +9,7 @@ use crate::report::subject::{Head, Map, Pick, Subject};
 use crate::results::curvature::{
     CurvatureDocument, CurvaturePlace, Neighborhood, NormalSource, PlaceKind, Range,
 };
+use crate::results::noise::shared;
 use crate::scale::Scale;
 use maud::{Markup, Render, html};
 use serde_json::Value;
@@ -255,6 +256,9 @@ fn known(s: Style, d: &CurvatureDocument) -> Markup {
                 }
             }))
             (fact(s, "curvature.uncertainty", range(&d.uncertainty, "mm⁻¹")))
+            @if let Some(points) = shared(d.shared_noise) {
+                (fact(s, "points_per_independent", s.number(points, 1)))
+            }
             (fact(s, "residual", range(&d.residual, "mm")))
             (fact(s, "reach", range(&d.reach, "mm")))
         }

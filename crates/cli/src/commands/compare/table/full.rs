@@ -368,7 +368,8 @@ fn ranking(d: &CompareDocument, several: &[Comparison]) -> String {
     }
     let mut out = columns(&rows);
     out.push_str("\npaired differences of |d| on the same points, mm (negative: the first is nearer)\n");
-    let mut rows = vec![["pair", "mean difference", "95 % interval", "p"].map(String::from).to_vec()];
+    let mut rows =
+        vec![["pair", "mean difference", "95 % interval", "p", "points as one"].map(String::from).to_vec()];
     for p in &d.paired {
         let name = |i: usize| several.get(i).map(|c| short(&c.reference)).unwrap_or("?");
         let interval = p.interval.map(|[a, b]| format!("{} … {}", signed(a), signed(b)));
@@ -377,6 +378,7 @@ fn ranking(d: &CompareDocument, several: &[Comparison]) -> String {
             p.mean_difference.map(signed).unwrap_or_else(|| "–".into()),
             interval.unwrap_or_else(|| "–".into()),
             p.p_value.map(p_value).unwrap_or_else(|| "–".into()),
+            p.points_per_independent.map_or_else(|| "–".into(), |points| fixed(points, 1)),
         ]);
     }
     out.push_str(&columns(&rows));

@@ -140,7 +140,7 @@ fn paired(s: Style, result: &CompareDocument) -> Markup {
                 (name(p.better)) " " (s.word("nearer_than")) " " (name(p.other)) " " (s.word("by")) " "
                 (length(mean.abs())) "\u{a0}mm"
                 @if let Some([l, u]) = p.interval {
-                    " (95\u{a0}%: " (length(l.abs().min(u.abs()))) "\u{2009}…\u{2009}" (length(l.abs().max(u.abs()))) ")"
+                    " (95\u{a0}%: " (length(-u)) "\u{2009}…\u{2009}" (length(-l)) ")"
                 }
             }
         }
