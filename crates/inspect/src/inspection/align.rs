@@ -125,7 +125,7 @@ fn onto_datums(
     progress: &dyn Progress,
 ) -> Result<Option<Rigid>, Stop> {
     let Align::Datum { datums, rule, span, .. } = &plan.align else { return Ok(None) };
-    let (taken, _) = features::taken(plan, data, nominals, progress)?;
+    let taken = features::taken(plan, data, nominals, progress)?.all;
     let motion = by_datums(&taken, datums, *rule, span, progress)?;
     moved(data, &motion);
     Ok(Some(motion))

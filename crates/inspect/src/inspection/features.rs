@@ -2,6 +2,7 @@
 
 use super::cloud;
 use super::data::{Data, Stop};
+use super::faces_view::{self, DrawnFace};
 use super::nearby;
 use super::nominals::Nominals;
 use super::parted::Parted;
@@ -10,13 +11,22 @@ use crate::characteristic::Taken;
 use crate::plan::Plan;
 use trueness_geom::progress::Progress;
 
-/// The features of data that lie where they are evaluated, and whether what they are sought in was measured, not computed.
+/// The features of a plan, and what they were found with.
+pub(super) struct Features {
+    pub all: Vec<Taken>,
+    /// Whether what they are sought in was measured, not computed.
+    pub is_scan: bool,
+    /// The partition, where a report can show it.
+    pub drawn: Vec<DrawnFace>,
+}
+
+/// The features of data that lie where they are evaluated.
 pub(super) fn taken(
     plan: &Plan,
     data: &Data,
     nominals: &Nominals,
     progress: &dyn Progress,
-) -> Result<(Vec<Taken>, bool), Stop> {
+) -> Result<Features, Stop> {
     let measured = data.measured.as_ref().map(cloud::distinct);
     let measured = measured.as_deref();
     let parted = match measured {
@@ -25,5 +35,8 @@ pub(super) fn taken(
     };
     let mut features = take::features(plan, (data, measured), nominals, parted.as_ref(), progress)?;
     nearby::tell(plan, measured, nominals, parted.as_ref(), &mut features, progress)?;
-    Ok((features, parted.is_none_or(|parted| parted.is_scan())))
+    let shown = parted.as_ref().filter(|_| data.shown > 0);
+    let drawn = shown.map_or(vec![], |parted| faces_view::drawn(plan, parted));
+    let is_scan = parted.is_none_or(|parted| parted.partition().is_scan);
+    Ok(Features { all: features, is_scan, drawn })
 }

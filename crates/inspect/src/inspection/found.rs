@@ -2,6 +2,7 @@
 
 use super::align::Alignment;
 use super::deviation::Deviations;
+use super::faces_view::DrawnFace;
 use super::uncertainty::Uncertainty;
 use crate::characteristic::{Taken, Value};
 use crate::plan::Spec;
@@ -30,6 +31,9 @@ pub struct Inspection {
     pub uncertainties: Vec<Option<Uncertainty>>,
     /// The measured data where they were evaluated: aligned.
     pub measured: Option<Mesh>,
+    /// The partition of the measured data, each face and each class of what is of none by itself; empty where no report is asked for, or
+    /// nothing is sought.
+    pub drawn: Vec<DrawnFace>,
     /// What took them there.
     pub alignment: Alignment,
     /// What makes it unlikely that the aligned data are of the part that the plan describes.

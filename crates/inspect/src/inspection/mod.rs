@@ -10,6 +10,7 @@ mod deviation;
 mod document;
 mod doubts;
 mod edge;
+mod faces_view;
 mod features;
 mod found;
 mod left_out;
@@ -40,12 +41,14 @@ pub use crate::characteristic::{Element, LeftOut, Others, Taken};
 pub use align::{Alignment, Found};
 pub use data::{Data, OwnPoints, Stop};
 pub use deviation::Deviations;
+pub use faces_view::DrawnFace;
 pub use found::Inspection;
 pub use uncertainty::Uncertainty;
 pub use view::View;
 
 use crate::plan::{Plan, Spec};
 use crate::results::{NoiseOrReason, noise_or_reason};
+use features::Features;
 use nominals::Nominals;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::noise::{self, NoNoise};
@@ -87,7 +90,7 @@ pub fn run(plan: &Plan, data: Data, progress: &dyn Progress) -> Result<Inspectio
     let plan = &located;
     let (mut data, alignment) = align::aligned(plan, data, &nominals, progress)?;
     counted.advance(1);
-    let (features, is_scan) = features::taken(plan, &data, &nominals, progress)?;
+    let Features { all: features, is_scan, drawn } = features::taken(plan, &data, &nominals, progress)?;
     let noise = noise(data.measured.as_ref(), is_scan, data.seed, progress)?;
     sides::checked(plan, &features)?;
     resolved.by_part(&features, progress);
@@ -103,7 +106,8 @@ pub fn run(plan: &Plan, data: Data, progress: &dyn Progress) -> Result<Inspectio
     for motion in align::other_poses(&alignment) {
         // One after the other: each is a copy of all that was measured.
         if let Some(other) = align::in_other_pose(plan, &data, &motion, &nominals, progress)? {
-            in_other_poses.push(all(&features::taken(plan, &other, &nominals, progress)?.0)?);
+            let other = Data { shown: 0, ..other };
+            in_other_poses.push(all(&features::taken(plan, &other, &nominals, progress)?.all)?);
         }
     }
     counted.advance(1);
@@ -132,6 +136,7 @@ pub fn run(plan: &Plan, data: Data, progress: &dyn Progress) -> Result<Inspectio
     counted.advance(1);
     let measured = data.measured;
     Ok(Inspection {
+        drawn,
         specs: plan.specs.clone(),
         notes: resolved.notes,
         features,

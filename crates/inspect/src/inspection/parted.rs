@@ -99,9 +99,14 @@ impl<'a> Parted<'a> {
         Ok(Some(Parted { mesh, nominals, more, own, partition, points, facets, around }))
     }
 
-    /// Whether it was measured: a scan, no computed mesh.
-    pub fn is_scan(&self) -> bool {
-        self.partition.is_scan
+    /// What was parted: a cloud with each place once.
+    pub fn mesh(&self) -> &Mesh {
+        self.mesh
+    }
+
+    /// How it was parted.
+    pub fn partition(&self) -> &Partition {
+        &self.partition
     }
 
     /// The faces of a feature; `None` of an edge, and of what was not sought.

@@ -1,6 +1,6 @@
 //! What a report draws of an inspection: every feature in the color of its worst verdict, and where values are reached.
 
-use super::Inspection;
+use super::{DrawnFace, Inspection};
 use crate::compare;
 use crate::report::{Geometry, Mark, MarkGroup, Marks, ViewObject, ViewRole};
 use crate::results::Verdict;
@@ -26,6 +26,8 @@ pub fn color(verdict: Verdict) -> Rgb {
 pub struct View<'a> {
     /// The measured data without the features, then a part for each drawn feature.
     parts: Vec<Part>,
+    /// Whose points are whose.
+    drawn: &'a [DrawnFace],
     /// The deviations from the reference as a comparison draws them.
     deviations: Option<&'a compare::View<'a>>,
     /// Where the values are reached, one for each row of the list, in its order.
@@ -42,7 +44,7 @@ impl<'a> View<'a> {
     /// Of what was found, which the document tells.
     pub fn new(
         document: &InspectDocument,
-        found: &Inspection,
+        found: &'a Inspection,
         deviations: Option<&'a compare::View<'a>>,
     ) -> View<'a> {
         let mut parts = Vec::new();
@@ -72,12 +74,13 @@ impl<'a> View<'a> {
             parts.push(Part { name, mesh, color });
         }
         parts.retain(|p| !p.mesh.positions.is_empty());
-        View { marks: marks(document, &parts), parts, deviations }
+        View { marks: marks(document, &parts), parts, drawn: &found.drawn, deviations }
     }
 
     /// What is drawn.
     pub fn objects(&self) -> Vec<ViewObject<'_>> {
         let mut all: Vec<ViewObject> = self.parts.iter().map(Part::object).collect();
+        all.extend(self.drawn.iter().map(|d| object(ViewRole::Partition, &d.name, Some(d.color), &d.mesh)));
         all.extend(self.deviations.into_iter().flat_map(compare::View::mapped));
         all
     }
@@ -85,19 +88,23 @@ impl<'a> View<'a> {
 
 impl Part {
     fn object(&self) -> ViewObject<'_> {
-        ViewObject {
-            role: ViewRole::Part,
-            name: &self.name,
-            color: self.color,
-            comparison: None,
-            geometry: match self.mesh.faces.is_empty() {
-                true => Geometry::Points(&self.mesh.positions),
-                false => Geometry::Mesh(&self.mesh),
-            },
-            fields: vec![],
-            keep: &[],
-            gathered: None,
-        }
+        object(ViewRole::Part, &self.name, self.color, &self.mesh)
+    }
+}
+
+fn object<'a>(role: ViewRole, name: &'a str, color: Option<Rgb>, mesh: &'a Mesh) -> ViewObject<'a> {
+    ViewObject {
+        role,
+        name,
+        color,
+        comparison: None,
+        geometry: match mesh.faces.is_empty() {
+            true => Geometry::Points(&mesh.positions),
+            false => Geometry::Mesh(mesh),
+        },
+        fields: vec![],
+        keep: &[],
+        gathered: None,
     }
 }
 

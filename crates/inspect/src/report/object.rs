@@ -33,6 +33,8 @@ pub enum ViewRole {
     Element,
     /// Deviations, on a page that is about something else: shown in place of the part.
     Deviation,
+    /// The faces that measured points are of, on a page of features: shown in place of the part.
+    Partition,
     /// Marks: what is wrong.
     Defects,
     /// Marks: points that hold an element.

@@ -174,22 +174,27 @@ export class State {
     this.tell(what === 'flags' || what === 'log' ? what : 'look')
   }
 
+  /** Rims in the colors of verdicts belong to the features, not to what is in their place. */
   private followPart(): void {
-    if ('deviation' in this.visible && 'touching' in this.visible) this.visible.touching = this.visible.part
+    const replaced = 'deviation' in this.visible || 'partition' in this.visible
+    if (replaced && 'touching' in this.visible) this.visible.touching = this.visible.part
   }
 
-  /** Of before and after, of part and deviation there is always one, so that one key swaps them. */
+  /** Of what stands in place of each other there is always one: switched off, it gives way to the first of the others. */
   show(role: string, on: boolean): void {
     this.visible[role] = on
-    const other = { before: 'after', after: 'before', part: 'deviation', deviation: 'part' }[role]
-    if (other && other in this.visible) this.visible[other] = !on
-    // Rims in the colors of verdicts belong to the features, not to the map in their place.
-    if (other === 'deviation' || other === 'part') this.followPart()
+    const places = PLACES.find((roles) => roles.includes(role)) ?? []
+    const others = places.filter((r) => r !== role && r in this.visible)
+    others.forEach((other, n) => (this.visible[other] = !on && n === 0))
+    if (places.includes('part')) this.followPart()
     this.tell('look')
   }
 }
 
 export type Change = 'scale' | 'only' | 'hover' | 'comparison' | 'look' | 'flags' | 'log' | 'pick'
+
+/** Roles that stand in place of each other. */
+const PLACES = [['after', 'before'], ['part', 'deviation', 'partition']]
 
 /** The end of a range that has none: a number, for links and the GPU. */
 export const OPEN = 1e29

@@ -26,7 +26,7 @@ pub fn first_view(objects: &[ViewObject]) -> Vec<usize> {
     let shown = |o: &ViewObject| match o.role {
         ViewRole::Measured => measured || reference.is_none(),
         ViewRole::Reference => !measured && (o.comparison.unwrap_or(0) == 0),
-        ViewRole::Before | ViewRole::Deviation => false,
+        ViewRole::Before | ViewRole::Deviation | ViewRole::Partition => false,
         _ => true,
     };
     (0..).zip(objects).filter(|(_, o)| shown(o)).map(|(n, _)| n).collect()

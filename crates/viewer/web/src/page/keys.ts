@@ -7,7 +7,7 @@ import type { Words } from '../words'
 
 /** What switches an object or a layer of marks on and off. */
 export const ROLE_KEYS: Record<string, string> = {
-  measured: 'A', part: 'A', after: 'A', reference: 'N', before: 'N', deviation: 'N', element: 'N', defects: 'D', edges: 'E', surface: 'N', iso_lines: 'E', net: 'D', reflection_lines: 'R', touching: 'D', changes: 'D',
+  measured: 'A', part: 'A', after: 'A', reference: 'N', before: 'N', deviation: 'N', partition: 'O', element: 'N', defects: 'D', edges: 'E', surface: 'N', iso_lines: 'E', net: 'D', reflection_lines: 'R', touching: 'D', changes: 'D',
 }
 
 interface Key {

@@ -69,7 +69,7 @@ export function hover(stage: Stage, overlay: HTMLElement, state: State, words: W
 function what(part: Part, valued: boolean, several: boolean, words: Words): string {
   const { kind, role, reach, name } = part.object
   if (valued && reach) return `${words.of('hover.worst')} (≤ ${words.number(reach, 2)} mm)`
-  return valued && kind === 'points' && role === 'measured' ? words.of('hover.point') : several && name ? name : words.of(role)
+  return valued && kind === 'points' && role === 'measured' ? words.of('hover.point') : several && name ? (role === 'partition' && name.startsWith('class.') ? words.of(name) : name) : words.of(role)
 }
 
 /** No more digits than the stored step carries, and no fewer than the scale's. */
