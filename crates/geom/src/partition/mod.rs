@@ -8,7 +8,8 @@
 //!    the sure points around; the point belongs to the one that it lies off by the least part of what noise and the going on allow.
 //! 4. Points that no face explains are looked at together with their neighbors. What hangs together with points beyond the reach of
 //!    all faces goes on into the material ([`Class::Deep`]) or out of it ([`Class::High`]) farther than the reach: a hole, a bump, a thing that
-//!    stands there. If it is closed, and one face alone is around it, it is a [`Class::Dent`]. What lies along a border is
+//!    stands there. If it is closed, and one face alone is around it, it is a [`Class::Dent`]. No more than two together, clear of borders of a face that was
+//!    scanned, are outliers ([`Class::Alone`]). What lies along a border is
 //!    [`Class::Edge`] as far as scans round edges, farther [`Class::Broken`]: a burr, a groove, a chamfer that is not drawn. The rest is form of the face: a dent.
 //!
 //! | file | what |
@@ -136,15 +137,12 @@ pub fn partition(
     let (shared, mut between) = work.by_what_is_around(&mut best, &around, noise);
     cancelled(progress)?;
     drop((work, around));
-    let off = |p: u32, face: u32, seat: Seat| {
-        placed[face as usize].off(faces[face as usize], points[p as usize], seat)
-    };
     // What was computed has sharp edges.
     let straddle = |facing: &Facing| by_facets::straddle_edges(scan, &best, &shared, (faces, facing));
     let is_scan = noise > floor || facing.as_ref().is_some_and(straddle);
     let rounded = if is_scan { spacing } else { 0.0 };
     let (mut classes, hanging) =
-        unexplained::classes(scan, &mut best, (faces, facing.as_ref()), (spacing, rounded), off);
+        unexplained::classes(scan, &mut best, (faces, &placed, facing.as_ref()), (spacing, rounded));
     between.retain(|b| classes[b.point as usize] == Class::Face);
     for b in &between {
         classes[b.point as usize] = Class::Between;

@@ -37,7 +37,8 @@ pub enum Class {
     High,
     /// Off its face and off another one that faces the other way, by more than both explain: the dent of one side of a wall or of the other.
     Between,
-    /// Beyond the reach of all faces, with no more than two such points together: a stray, or a spike that was hit once.
+    /// Beyond the reach of all faces, or of a scanned face and explained by none, with no more than two such points together: a stray, a spike that
+    /// was hit once.
     Alone,
     /// Of no face: beyond the reach of all, as a table.
     Beyond,

@@ -4,6 +4,7 @@ use super::best::Best;
 use super::cut::NO_FACE;
 use super::faces::{Face, Seat};
 use super::facing::Facing;
+use super::placed::Placed;
 use super::terms::{Beyond, Class, EXPLAINED};
 use crate::mesh::Mesh;
 use crate::num::random::Random;
@@ -15,6 +16,8 @@ use std::collections::BTreeMap;
 
 /// Points beyond all reach from which on what hangs together with them is of other things.
 const SEVERAL: usize = 3;
+/// Points that are surely of a face from which on it was scanned: fewer may be probed one by one, each on purpose.
+const SCANNED: usize = 200;
 /// Distances of neighbors from a border up to which points lie along it.
 const ALONG: f64 = 1.0;
 /// Nothing was measured at a place if no point is within so many distances of neighbors: by chance, where points lie at random, one time in a million.
@@ -30,15 +33,17 @@ const NEIGHBORS: usize = 8;
 const TOGETHER: f64 = 2.5;
 
 /// The class of each point, and points beyond all reach with the faces that they hang together with. Points that turn out to be of no face lose their owner.
-/// `rounded` is the distance of neighbors in a scan, which rounds edges by some of it; 0 where edges are sharp. `off` tells how far a point is off a face where
-/// that really is.
+/// `rounded` is the distance of neighbors in a scan, which rounds edges by some of it; 0 where edges are sharp. `placed` tells where the faces really are.
 pub(super) fn classes(
     scan: &Mesh,
     best: &mut Best,
-    (faces, facing): (&[&Face], Option<&Facing>),
+    (faces, placed, facing): (&[&Face], &[Placed], Option<&Facing>),
     (spacing, rounded): (f64, f64),
-    off: impl Fn(u32, u32, Seat) -> f64,
 ) -> (Vec<Class>, Vec<Hanging>) {
+    let off = |p: u32, face: u32, seat: Seat| {
+        placed[face as usize].off(faces[face as usize], scan.positions[p as usize], seat)
+    };
+    let is_scanned = |face: u32| rounded > 0.0 && placed[face as usize].points >= SCANNED;
     let is_open = |best: &Best, p: usize| best.cost[p].is_nan() || best.cost[p] > EXPLAINED;
     let ends = |best: &Best, p: u32, seat: Seat| {
         let own = best.owner[p as usize];
@@ -64,12 +69,18 @@ pub(super) fn classes(
         let (total, outside) = (seats().count(), seats().filter(|s| s.off > 0.0).count());
         let along = of_faces.iter().filter(|p| is_along(best, **p, ALONG * spacing)).count();
         if beyond.len() < SEVERAL {
-            for p in of_faces.iter().filter(|_| 2 * along > total) {
+            let is_alone = of_faces.len() + beyond.len() < SEVERAL;
+            for p in &of_faces {
                 let own = best.owner[*p as usize];
                 let is_near = |seat: Seat| off(*p, own, seat).abs() < ROUNDED * rounded;
                 let is_edge =
-                    is_along(best, *p, ROUNDED * rounded) && best.seat[*p as usize].is_some_and(is_near);
-                classes[*p as usize] = if is_edge { Class::Edge } else { Class::Broken };
+                    || is_along(best, *p, ROUNDED * rounded) && best.seat[*p as usize].is_some_and(is_near);
+                classes[*p as usize] = match 2 * along > total {
+                    true if is_edge() => Class::Edge,
+                    true => Class::Broken,
+                    false if is_alone && is_scanned(own) => Class::Alone,
+                    false => Class::Face,
+                };
             }
             beyond.iter().for_each(|p| classes[*p as usize] = Class::Alone);
             if !beyond.is_empty() {

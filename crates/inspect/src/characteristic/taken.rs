@@ -64,10 +64,20 @@ pub struct Others {
     pub edge: usize,
     /// Points of it in dents that are deeper than its reach: none of the others.
     pub dents: usize,
-    /// Points of a scan that lie beyond the reach over the feature, each alone: none of the others.
+    /// Points of a scan that stick out, with no more than two together: none of the others.
     pub outliers: usize,
+    /// How far off the farthest of them lies, millimeters.
+    pub farthest_outlier: f64,
     /// Whether there is a reference.
     pub on_reference: bool,
+}
+
+impl Others {
+    /// Counts outliers that lie so far off.
+    pub(crate) fn add_outliers(&mut self, off: Vec<f64>) {
+        self.outliers += off.len();
+        self.farthest_outlier = off.into_iter().fold(self.farthest_outlier, f64::max);
+    }
 }
 
 /// Points that were left out of a feature.

@@ -59,7 +59,8 @@ pub(super) fn drawn(plan: &Plan, parted: &Parted) -> Vec<DrawnFace> {
         }
     }
     let places: BTreeMap<u32, usize> = order.iter().enumerate().map(|(place, face)| (*face, place)).collect();
-    let of_face = |face: u32| places.get(&face).map_or(Kind::Other(face as usize % COLORS), |n| Kind::Feature(*n));
+    let of_face =
+        |face: u32| places.get(&face).map_or(Kind::Other(face as usize % COLORS), |n| Kind::Feature(*n));
     let mut pieces: BTreeMap<Kind, Vec<usize>> = BTreeMap::new();
     let count = if mesh.faces.is_empty() { mesh.positions.len() } else { mesh.faces.len() };
     for piece in 0..count {
@@ -95,7 +96,8 @@ fn point(partition: &Partition, point: usize) -> Result<u32, usize> {
 
 /// The face of a facet; else of its corners the last class in the list, or that it straddles an edge.
 fn facet(partition: &Partition, number: usize, corners: &[u32; 3]) -> Result<u32, usize> {
-    let doubts = corners.iter().filter_map(|v| point(partition, *v as usize).err()).filter(|place| *place > EDGE);
+    let doubts =
+        corners.iter().filter_map(|v| point(partition, *v as usize).err()).filter(|place| *place > EDGE);
     match (doubts.max(), partition.facets[number]) {
         (Some(place), _) => Err(place),
         (None, NO_FACE) => Err(EDGE),

@@ -38,9 +38,10 @@ pub(super) fn judge_left_out(
     let outliers = features.iter().filter(|t| t.others.outliers > 0);
     result.notes.extend(outliers.map(|taken| {
         format!(
-            "feature \"{}\": {} lie over it beyond its extract distance, each alone, and are left out as outliers",
+            "feature \"{}\": {}, up to {:.3} mm off, stick out by themselves and are left out as outliers; with outliers = true they count",
             taken.id,
-            points(taken.others.outliers)
+            points(taken.others.outliers),
+            taken.others.farthest_outlier
         )
     }));
     let dents = features.iter().filter(|t| t.others.dents > 0);
@@ -133,6 +134,58 @@ mod tests {
                 let document = InspectDocument::new(&plan, record, &found, vec![]);
                 assert_eq!(document.verdict, expected, "{height} {cloud}");
                 assert_eq!(document.characteristics[0].notes.is_empty(), left_out.is_none(), "{height}");
+            }
+        }
+    }
+
+    /// Of a scan one or two points that stick out by themselves are outliers, whatever their height; three together are form, and all are where the plan says so.
+    #[test]
+    fn spikes_of_a_scan_are_told_and_left_out() {
+        let plans = ["", ", outliers = true"]
+            .map(|more| plane_plan(FLOOR, (0.0, 0.1), &format!("distance = 0.5{more}"), ""));
+        let spikes: [&[(usize, f64)]; 5] = [
+            &[],
+            &[(220, 0.3)],
+            &[(220, 0.3), (221, 0.25), (60, -0.4)],
+            &[(220, 0.3), (221, 0.3), (222, 0.3)],
+            &[(220, 0.7)],
+        ];
+        let expected = [
+            [
+                (Verdict::Pass, 0),
+                (Verdict::Pass, 1),
+                (Verdict::Pass, 3),
+                (Verdict::Fail, 0),
+                (Verdict::Pass, 1),
+            ],
+            [
+                (Verdict::Pass, 0),
+                (Verdict::Fail, 0),
+                (Verdict::Fail, 0),
+                (Verdict::Fail, 0),
+                (Verdict::Undecided, 0),
+            ],
+        ];
+        for (plan, expected) in plans.iter().zip(expected) {
+            for (n, (spikes, (verdict, outliers))) in spikes.into_iter().zip(expected).enumerate() {
+                for cloud in [false, true] {
+                    let mut random = trueness_geom::num::random::Random::new(n as u64);
+                    let mut measured = floor(|_, _| 0.0);
+                    measured.positions.iter_mut().for_each(|p| p[2] = 0.004 * (random.unit() - 0.5));
+                    spikes.iter().for_each(|(i, height)| measured.positions[*i][2] = *height);
+                    if cloud {
+                        measured.faces.clear();
+                    }
+                    let reference = Some(floor(|_, _| 0.0));
+                    let data = Data { measured: Some(measured), reference, ..Data::default() };
+                    let found = run(plan, data, &Silent).unwrap();
+                    assert_eq!(found.features[0].others.outliers, outliers, "{n} {cloud}");
+                    let record = PlanRecord { path: String::new(), sha256: None };
+                    let document = InspectDocument::new(plan, record, &found, vec![]);
+                    assert_eq!(document.verdict, verdict, "{n} {cloud}");
+                    let told = document.characteristics[0].notes.iter().any(|note| note.contains("outliers"));
+                    assert_eq!(told, outliers > 0, "{n} {cloud}");
+                }
             }
         }
     }

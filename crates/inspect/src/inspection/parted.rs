@@ -133,21 +133,25 @@ impl<'a> Parted<'a> {
         along.is_none_or(|cosine| cosine < ALONG)
     }
 
-    /// What is of a feature that has these faces.
+    /// What is of a feature that has these faces; with `outliers` those that stick out by themselves are of it too.
     ///
     /// # Errors
     /// [`FeatureError`]: a nominal feature that makes no sense.
     pub fn of(
         &self,
         (number, own): (usize, &OwnFaces),
-        nominal: &Nominal,
-        near: &Nearness,
+        (nominal, near): (&Nominal, &Nearness),
+        outliers: bool,
     ) -> Result<OfFeature, FeatureError> {
         let mesh = self.mesh;
-        let within = Within { parted: self, own, nominal, near };
+        let within = Within { parted: self, own, nominal, near, outliers };
         let own_facets = of_faces(own, &self.facets);
         let mut corners: Vec<u32> = own_facets.iter().flat_map(|f| mesh.faces[*f as usize]).collect();
         let mut points: Vec<u32> = self.of_class(own, Class::Face);
+        let alone = self.of_class(own, Class::Alone);
+        if outliers {
+            points.extend(&alone);
+        }
         // At a sharp edge a vertex is of all faces about it. A scan has none there that tells anything of a face with many others.
         if !self.partition.is_scan || points.len() < POINTS_ENOUGH {
             points.extend(&corners);
@@ -177,6 +181,10 @@ impl<'a> Parted<'a> {
         let mut covering = outlined;
         covering.retain(|p| self.partition.inside[*p as usize]);
         let (mut others, left_out) = self.others(number, &within, (border, beyond))?;
+        if !outliers {
+            let alone = within.clear(&within.reach(within.bounds(alone)?).0, border);
+            others.add_outliers(within.off(&alone));
+        }
         others.dents = within.clear(&dents, border).len();
         Ok(OfFeature { found, covering: Some(covering), others, left_out })
     }
@@ -204,8 +212,10 @@ impl<'a> Parted<'a> {
         let between = self.partition.between.iter().filter(|b| own.faces.contains(&b.face)).map(|b| b.point);
         let between = clear(between.chain(self.of_class(own, Class::Between)).collect())?;
         let over = self.partition.beyond.iter().filter(|b| own.faces.contains(&b.face));
-        let is_outlier =
-            |b: &Beyond| self.partition.is_scan && self.partition.classes[b.point as usize] == Class::Alone;
+        let is_outlier = |b: &Beyond| {
+            let is_alone = self.partition.classes[b.point as usize] == Class::Alone;
+            self.partition.is_scan && !within.outliers && is_alone
+        };
         let (outliers, beyond): (Vec<&Beyond>, Vec<&Beyond>) = over.partition(|b| is_outlier(b));
         let numbers = |of: &[&Beyond]| -> Result<Vec<u32>, FeatureError> {
             Ok(within.clear(&within.bounds(of.iter().map(|b| b.point).collect())?, border))
@@ -217,7 +227,7 @@ impl<'a> Parted<'a> {
         deep.extend(deeper);
         high.extend(higher);
         let places = [&broken[..], &deep, &high, &between].concat();
-        let others = Others {
+        let mut others = Others {
             points: places.iter().map(|p| within.place(*p)).collect(),
             edge: edge.len(),
             dents: 0,
@@ -225,9 +235,11 @@ impl<'a> Parted<'a> {
             deep: deep.len(),
             high: high.len(),
             between: between.len(),
-            outliers: numbers(&outliers)?.len(),
+            outliers: 0,
+            farthest_outlier: 0.0,
             on_reference: self.nominals.own(number).is_some(),
         };
+        others.add_outliers(within.off(&numbers(&outliers)?));
         Ok((others, (!left_out.is_empty()).then(|| LeftOut::of(&left_out, near.distance))))
     }
 
@@ -323,6 +335,8 @@ struct Within<'a> {
     own: &'a OwnFaces,
     nominal: &'a Nominal,
     near: &'a Nearness,
+    /// Whether outliers count.
+    outliers: bool,
 }
 
 impl Within<'_> {

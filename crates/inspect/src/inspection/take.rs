@@ -163,7 +163,7 @@ fn found((number, feature): (usize, &Feature), nominals: &Nominals, search: &Sea
     near.inward = near.inward.or(own.and_then(|(_, own)| own.inward));
     taken.inward = near.inward;
     let of = match own {
-        Some((parted, own)) => parted.of((number, own), &nominal, &near),
+        Some((parted, own)) => parted.of((number, own), (&nominal, &near), feature.extract.outliers),
         None => edge::of(mesh, &nominal, &near),
     };
     let wrong = |e: FeatureError| format!("feature \"{}\": {e}", feature.id);

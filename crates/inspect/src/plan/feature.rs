@@ -395,6 +395,7 @@ fn extract(checker: &Checker, written: Option<&ExtractText>) -> Result<Extract, 
         margin: written.margin.as_ref().map(|m| checker.length(m, "the margin")).transpose()?,
         angle,
         rim: written.rim.unwrap_or(true),
+        outliers: written.outliers.unwrap_or(false),
         coverage,
     })
 }
@@ -406,6 +407,8 @@ pub struct Extract {
     margin: Option<f64>,
     angle: f64,
     rim: bool,
+    /// Whether points of a scan that stick out by themselves count.
+    pub outliers: bool,
     /// Least share of the nominal area that must have been measured.
     pub coverage: f64,
 }

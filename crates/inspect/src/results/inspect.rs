@@ -218,7 +218,7 @@ pub struct LeftOutRecord {
     /// Those of them between it and the other side of a wall, off both.
     #[serde(default)]
     pub between: u64,
-    /// Points of a scan beyond its extract distance, each alone: outliers.
+    /// Points of a scan that stick out, with no more than two together: outliers.
     #[serde(default)]
     pub outliers: u64,
     /// Points that lie where the feature is, but farther off than its extract distance.

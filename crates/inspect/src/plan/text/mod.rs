@@ -359,6 +359,8 @@ pub struct ExtractText {
     pub margin: Option<At<f64>>,
     /// Whether vertices that other facets share count (without it they do): on a sharp edge they belong to both surfaces.
     pub rim: Option<bool>,
+    /// Whether outliers count (without it they do not): points of a scan that stick out with no more than two together.
+    pub outliers: Option<bool>,
     /// Least share of the nominal area that must have been measured, 0 to 1.
     pub coverage: Option<At<f64>>,
 }
