@@ -16,8 +16,9 @@ pub(super) struct Best {
     pub cost: Vec<f64>,
     pub second: Vec<f64>,
     pub seat: Vec<Option<Seat>>,
-    /// The number of faces that it lies nearer to than neighbors lie apart.
-    pub near: Vec<u8>,
+    /// How far off it lies from the second nearest of the faces that it lies over, or hardly beyond the borders of, millimeters.
+    pub beside: Vec<f32>,
+    nearest: Vec<f32>,
 }
 
 impl Best {
@@ -28,7 +29,8 @@ impl Best {
             cost: far.clone(),
             second: far,
             seat: vec![None; count],
-            near: vec![0; count],
+            beside: vec![f32::INFINITY; count],
+            nearest: vec![f32::INFINITY; count],
         }
     }
     pub(super) fn forget(&mut self, p: usize) {
@@ -41,6 +43,18 @@ impl Best {
             (self.owner[p], self.cost[p], self.seat[p]) = (face, cost, Some(c.seat));
         } else if cost < self.second[p] {
             self.second[p] = cost;
+        }
+    }
+
+    /// A point lies over a face, or hardly beyond its border, so far off.
+    pub(super) fn lies_near(&mut self, p: u32, off: f64) {
+        let (nearest, beside) = (&mut self.nearest[p as usize], &mut self.beside[p as usize]);
+        let off = off as f32;
+        if off < *nearest {
+            *beside = *nearest;
+            *nearest = off;
+        } else {
+            *beside = beside.min(off);
         }
     }
 }

@@ -23,6 +23,7 @@
 //! | `placed` | where a face really is |
 //! | `going_on` | where its surface goes on near a border |
 //! | `work` | which faces points may be of, and which explains each best |
+//! | `rounding` | how far from its edges a scan is rounded |
 //! | `unexplained` | what no face explains |
 
 mod best;
@@ -32,6 +33,7 @@ mod faces;
 mod facing;
 mod going_on;
 mod placed;
+mod rounding;
 mod terms;
 #[cfg(test)]
 mod tests;
@@ -53,7 +55,7 @@ use faces::Seat;
 use facing::Facing;
 use going_on::Sure;
 use terms::EXPLAINED;
-use unexplained::Over;
+use unexplained::{Over, Unexplained};
 use work::{AWAY, CLEAR, Work};
 
 /// Share of its diagonal that a face reaches where nothing else is said.
@@ -139,10 +141,12 @@ pub fn partition(
     drop((work, around));
     // What was computed has sharp edges.
     let straddle = |facing: &Facing| by_facets::straddle_edges(scan, &best, &shared, (faces, facing));
-    let is_scan = noise > floor || facing.as_ref().is_some_and(straddle);
+    let rounding = rounding::width(points, &best, (faces, &placed), noise, spacing);
+    let is_scan = noise > floor || rounding > 0.0 || facing.as_ref().is_some_and(straddle);
     let rounded = if is_scan { spacing } else { 0.0 };
-    let (mut classes, hanging) =
-        unexplained::classes(scan, &mut best, (faces, &placed, facing.as_ref()), (spacing, rounded));
+    let unexplained =
+        Unexplained { scan, faces, placed: &placed, facing: facing.as_ref(), spacing, rounded, rounding };
+    let (mut classes, hanging) = unexplained.classes(&mut best);
     between.retain(|b| classes[b.point as usize] == Class::Face);
     for b in &between {
         classes[b.point as usize] = Class::Between;

@@ -5,7 +5,9 @@ use super::cut::NO_FACE;
 use super::faces::{Face, Seat};
 use super::facing::Facing;
 use super::placed::Placed;
+use super::rounding::to_edge;
 use super::terms::{Beyond, Class, EXPLAINED};
+use super::work::SCANNED;
 use crate::mesh::Mesh;
 use crate::num::random::Random;
 use crate::parallel::prelude::*;
@@ -16,8 +18,8 @@ use std::collections::BTreeMap;
 
 /// Points beyond all reach from which on what hangs together with them is of other things.
 const SEVERAL: usize = 3;
-/// Points that are surely of a face from which on it was scanned: fewer may be probed one by one, each on purpose.
-const SCANNED: usize = 200;
+/// Distances of neighbors off a face from which on no surface leads from those around to a point: it would be steeper than 45°.
+const STEEP: f64 = 1.0;
 /// Distances of neighbors from a border up to which points lie along it.
 const ALONG: f64 = 1.0;
 /// Nothing was measured at a place if no point is within so many distances of neighbors: by chance, where points lie at random, one time in a million.
@@ -32,81 +34,121 @@ const PLACES_IN_DENT: usize = 100;
 const NEIGHBORS: usize = 8;
 const TOGETHER: f64 = 2.5;
 
-/// The class of each point, and points beyond all reach with the faces that they hang together with. Points that turn out to be of no face lose their owner.
-/// `rounded` is the distance of neighbors in a scan, which rounds edges by some of it; 0 where edges are sharp. `placed` tells where the faces really are.
-pub(super) fn classes(
-    scan: &Mesh,
-    best: &mut Best,
-    (faces, placed, facing): (&[&Face], &[Placed], Option<&Facing>),
-    (spacing, rounded): (f64, f64),
-) -> (Vec<Class>, Vec<Hanging>) {
-    let off = |p: u32, face: u32, seat: Seat| {
-        placed[face as usize].off(faces[face as usize], scan.positions[p as usize], seat)
-    };
-    let is_scanned = |face: u32| rounded > 0.0 && placed[face as usize].points >= SCANNED;
-    let is_open = |best: &Best, p: usize| best.cost[p].is_nan() || best.cost[p] > EXPLAINED;
-    let ends = |best: &Best, p: u32, seat: Seat| {
-        let own = best.owner[p as usize];
-        let is_other = |v: &u32| !is_open(best, *v as usize) && best.owner[*v as usize] != own;
-        let is_wall = |f: &u32| facing.is_some_and(|facing| !facing.is_along(*f, seat.normal));
-        let ends = |f: &u32| is_wall(f) || scan.faces[*f as usize].iter().any(is_other);
-        facing.is_some_and(|facing| facing.about(p).iter().any(ends))
-    };
-    // Where its border is not known a face ends where facets lead to another one, or to a wall.
-    let is_along = |best: &Best, p: u32, far: f64| {
-        let (own, near) = (best.owner[p as usize], best.near[p as usize] > 1);
-        let seat = best.seat[p as usize];
-        near || seat.is_some_and(|s| s.within < far || !faces[own as usize].is_bounded() && ends(best, p, s))
-    };
-    let mut classes: Vec<Class> =
-        best.owner.iter().map(|o| if *o == NO_FACE { Class::Beyond } else { Class::Face }).collect();
-    let open: Vec<u32> = (0..best.owner.len() as u32).filter(|p| is_open(best, *p as usize)).collect();
-    let mut hanging = vec![];
-    for (group, beside) in groups(scan, &open, spacing) {
-        let (of_faces, beyond): (Vec<u32>, Vec<u32>) =
-            group.into_iter().partition(|p| best.owner[*p as usize] != NO_FACE);
-        let seats = || of_faces.iter().filter_map(|p| best.seat[*p as usize]);
-        let (total, outside) = (seats().count(), seats().filter(|s| s.off > 0.0).count());
-        let along = of_faces.iter().filter(|p| is_along(best, **p, ALONG * spacing)).count();
-        if beyond.len() < SEVERAL {
-            let is_alone = of_faces.len() + beyond.len() < SEVERAL;
-            for p in &of_faces {
-                let own = best.owner[*p as usize];
-                let is_near = |seat: Seat| off(*p, own, seat).abs() < ROUNDED * rounded;
-                let is_edge =
-                    || is_along(best, *p, ROUNDED * rounded) && best.seat[*p as usize].is_some_and(is_near);
-                classes[*p as usize] = match 2 * along > total {
-                    true if is_edge() => Class::Edge,
-                    true => Class::Broken,
-                    false if is_alone && is_scanned(own) => Class::Alone,
-                    false => Class::Face,
-                };
-            }
-            beyond.iter().for_each(|p| classes[*p as usize] = Class::Alone);
-            if !beyond.is_empty() {
-                hanging.push(Hanging { points: beyond, flank: vec![], faces: vec![], around: vec![] });
-            }
-            continue;
-        }
-        // Facets join it to points of faces.
-        let mut faces = faces_of(&beside, &best.owner);
-        let around = faces_of(&[&beside[..], &of_faces].concat(), &best.owner);
-        let mut flank = of_faces;
-        if total > 0 {
-            let class = if 2 * outside >= total { Class::High } else { Class::Deep };
-            flank.iter().chain(&beyond).for_each(|p| classes[*p as usize] = class);
-            flank.retain(|p| {
-                let is_over = best.seat[*p as usize].is_some_and(|seat| seat.within > 0.0);
-                if !is_over {
-                    best.owner[*p as usize] = NO_FACE;
+/// What tells of what no face explains.
+pub(super) struct Unexplained<'a> {
+    pub scan: &'a Mesh,
+    pub faces: &'a [&'a Face],
+    /// Where these really are.
+    pub placed: &'a [Placed],
+    /// Of a mesh.
+    pub facing: Option<&'a Facing>,
+    pub spacing: f64,
+    /// The same of a scan, which rounds edges by some of it; 0 where edges are sharp.
+    pub rounded: f64,
+    /// How far from edges it does, millimeters.
+    pub rounding: f64,
+}
+
+impl Unexplained<'_> {
+    /// The class of each point, and points beyond all reach with the faces that they hang together with. Points that turn out to be of no face lose their owner.
+    pub(super) fn classes(&self, best: &mut Best) -> (Vec<Class>, Vec<Hanging>) {
+        let class = |p: u32| match best.owner[p as usize] {
+            // Also what edges join together, as all of a part's.
+            _ if self.is_rounded(best, p) => Class::Edge,
+            NO_FACE => Class::Beyond,
+            _ => Class::Face,
+        };
+        let mut classes: Vec<Class> = (0..best.owner.len() as u32).map(class).collect();
+        let is_left = |p: &u32| is_open(best, *p as usize) && classes[*p as usize] != Class::Edge;
+        let open: Vec<u32> = (0..best.owner.len() as u32).filter(is_left).collect();
+        let mut hanging = vec![];
+        for (group, beside) in groups(self.scan, &open, self.spacing) {
+            let (of_faces, beyond): (Vec<u32>, Vec<u32>) =
+                group.into_iter().partition(|p| best.owner[*p as usize] != NO_FACE);
+            if beyond.len() < SEVERAL {
+                for (p, class) in self.within_reach(best, &of_faces, beyond.len()) {
+                    classes[p as usize] = class;
                 }
-                is_over
-            });
-            faces = faces_of(&flank, &best.owner);
+                beyond.iter().for_each(|p| classes[*p as usize] = Class::Alone);
+                if !beyond.is_empty() {
+                    hanging.push(Hanging { points: beyond, flank: vec![], faces: vec![], around: vec![] });
+                }
+                continue;
+            }
+            // Facets join it to points of faces.
+            let mut faces = faces_of(&beside, &best.owner);
+            let around = faces_of(&[&beside[..], &of_faces].concat(), &best.owner);
+            let mut flank = of_faces;
+            let seats: Vec<Seat> = flank.iter().filter_map(|p| best.seat[*p as usize]).collect();
+            if !seats.is_empty() {
+                let outside = seats.iter().filter(|s| s.off > 0.0).count();
+                let class = if 2 * outside >= seats.len() { Class::High } else { Class::Deep };
+                flank.iter().chain(&beyond).for_each(|p| classes[*p as usize] = class);
+                flank.retain(|p| {
+                    let is_over = best.seat[*p as usize].is_some_and(|seat| seat.within > 0.0);
+                    if !is_over {
+                        best.owner[*p as usize] = NO_FACE;
+                    }
+                    is_over
+                });
+                faces = faces_of(&flank, &best.owner);
+            }
+            hanging.push(Hanging { points: beyond, flank, faces, around });
         }
-        hanging.push(Hanging { points: beyond, flank, faces, around });
+        (classes, hanging)
     }
-    (classes, hanging)
+
+    /// The classes of points of faces that hang together with no more than some strays.
+    fn within_reach(&self, best: &Best, group: &[u32], strays: usize) -> Vec<(u32, Class)> {
+        let far = self.rounding + ALONG * self.spacing;
+        let along = group.iter().filter(|p| self.is_along(best, **p, far)).count();
+        let class = |p: u32| {
+            let own = best.owner[p as usize];
+            let off = self.off(best, p);
+            let is_scanned = self.rounded > 0.0 && self.placed[own as usize].points >= SCANNED;
+            let is_edge = || off < ROUNDED * self.rounded && self.is_along(best, p, ROUNDED * self.rounded);
+            match 2 * along > group.len() {
+                true if is_edge() => Class::Edge,
+                true => Class::Broken,
+                false if group.len() + strays < SEVERAL && is_scanned && off > STEEP * self.spacing => {
+                    Class::Alone
+                }
+                false => Class::Face,
+            }
+        };
+        group.iter().map(|p| (*p, class(*p))).collect()
+    }
+
+    /// How far a point is off its face where that really is; infinite where it has none.
+    fn off(&self, best: &Best, p: u32) -> f64 {
+        let (own, seat) = (best.owner[p as usize] as usize, best.seat[p as usize]);
+        let place = self.scan.positions[p as usize];
+        seat.map_or(f64::INFINITY, |seat| self.placed[own].off(self.faces[own], place, seat).abs())
+    }
+
+    /// Whether it lies where the scan rounds edges.
+    fn is_rounded(&self, best: &Best, p: u32) -> bool {
+        to_edge(best, self.faces, p as usize) < self.rounding
+            && (best.owner[p as usize] == NO_FACE || self.off(best, p) < ROUNDED * self.rounding)
+    }
+
+    /// Whether it lies no farther from the border of its face. Where that is not known a face ends where facets lead to another one, or to a wall.
+    fn is_along(&self, best: &Best, p: u32, far: f64) -> bool {
+        let own = best.owner[p as usize];
+        let ends = |seat: Seat| {
+            let is_other = |v: &u32| !is_open(best, *v as usize) && best.owner[*v as usize] != own;
+            let is_wall = |f: &u32| self.facing.is_some_and(|facing| !facing.is_along(*f, seat.normal));
+            let ends = |f: &u32| is_wall(f) || self.scan.faces[*f as usize].iter().any(is_other);
+            self.facing.is_some_and(|facing| facing.about(p).iter().any(ends))
+        };
+        let is_along = |s: Seat| s.within < far || !self.faces[own as usize].is_bounded() && ends(s);
+        f64::from(best.beside[p as usize]) <= self.spacing || best.seat[p as usize].is_some_and(is_along)
+    }
+}
+
+/// Whether no face explains it.
+fn is_open(best: &Best, p: usize) -> bool {
+    best.cost[p].is_nan() || best.cost[p] > EXPLAINED
 }
 
 /// The faces of some points, ascending.

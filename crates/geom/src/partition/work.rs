@@ -26,6 +26,8 @@ const OTHER_SIDE: f64 = -0.5;
 const FACING: f64 = 0.8;
 /// Distances of neighbors from the border at which points are surely of a face: the first of these that leaves enough.
 pub(super) const CLEAR: [f64; 3] = [2.5, 1.5, 0.75];
+/// Points of a face from which on it was scanned: fewer may be probed one by one, each on purpose.
+pub(super) const SCANNED: usize = 200;
 /// Fewest sure points that are enough.
 pub(super) const FEWEST_SURE: usize = 20;
 
@@ -69,14 +71,17 @@ impl Work<'_> {
         self.candidates.par_iter().zip(&self.reach).map(of_face).collect()
     }
 
-    /// Of a cloud with few points over a face, as a probe takes them: what they deviate by is not known, and all within the reach is explained.
+    /// Of a cloud with few points over each face, as a probe takes them: what they deviate by is not known where they are fewest, and all within the reach is
+    /// explained. Where a scan has few over a face, the face was hidden.
     pub(super) fn sparse(&self, is_cloud: bool) -> Vec<Option<f64>> {
-        let few = |(near, reach): (&Vec<Candidate>, &f64)| {
+        let over = |(near, reach): (&Vec<Candidate>, &f64)| {
             let is_over = |c: &&Candidate| c.seat.within >= 0.0 && c.seat.off.abs() <= *reach;
-            (is_cloud && near.iter().filter(is_over).take(FEWEST_SURE).count() < FEWEST_SURE)
-                .then_some(*reach)
+            near.iter().filter(is_over).take(SCANNED).count()
         };
-        self.candidates.iter().zip(&self.reach).map(few).collect()
+        let counts: Vec<usize> = self.candidates.par_iter().zip(&self.reach).map(over).collect();
+        let is_probed = is_cloud && counts.iter().all(|count| *count < SCANNED);
+        let few = |(count, reach): (&usize, &f64)| (is_probed && *count < FEWEST_SURE).then_some(*reach);
+        counts.iter().zip(&self.reach).map(few).collect()
     }
 
     /// The face of each point by the distance from where the faces really are.
@@ -87,9 +92,8 @@ impl Work<'_> {
             for c in &self.candidates[number] {
                 let off = placed[number].off(face, self.points[c.point as usize], c.seat).abs();
                 let is_there = c.seat.within > -FREE * self.spacing || off <= EXPLAINED * scale;
-                if off <= self.spacing && c.seat.within >= -self.spacing {
-                    let near = &mut best.near[c.point as usize];
-                    *near = near.saturating_add(1);
+                if c.seat.within >= -self.spacing {
+                    best.lies_near(c.point, off);
                 }
                 if is_there && off <= self.reach[number] {
                     best.add(c, number as u32, off / scale + self.beyond(c.seat.within));

@@ -178,7 +178,8 @@ impl<'a> Parted<'a> {
         };
         let facets = with_corners(mesh, &own_facets, &within.clear(&corners, border));
         let found = Found { area, ..self.found(within.clear(&outlined, border), facets, near.rim) };
-        let mut covering = outlined;
+        // Where edges are rounded something was measured all the same.
+        let mut covering = [&outlined[..], &within.bounds(self.of_class(own, Class::Edge))?].concat();
         covering.retain(|p| self.partition.inside[*p as usize]);
         let (mut others, left_out) = self.others(number, &within, (border, beyond))?;
         if !outliers {

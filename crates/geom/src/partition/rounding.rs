@@ -1,0 +1,63 @@
+//! How far from its edges a scan is rounded.
+//!
+//! Scanners and the programs behind them round edges: what was measured there lies off both faces, by more the nearer to the edge. How far
+//! that goes the scan itself tells: points are sorted by their distance from the edges of their faces, and where they deviate clearly more than in the
+//! middle of faces they are rounded. One number for the scan, as one program wrote it.
+
+use super::best::Best;
+use super::cut::NO_FACE;
+use super::faces::Face;
+use super::placed::Placed;
+use crate::space::Point;
+
+/// Distances from edges that are told apart, in distances of neighbors.
+const STEP: f64 = 0.25;
+/// Their number: farther than that no scan is taken to round edges, and there faces are as in their middle.
+const STEPS: usize = 12;
+/// Deviations beyond which a point counts no more: single defects tell nothing of all edges.
+const MOST: f64 = 3.0;
+/// Mean deviation over that in the middle of faces from which on points are rounded: they are moved by three quarters of a standard deviation.
+const CLEARLY: f64 = 1.25;
+/// Of normal noise the mean magnitude, in standard deviations; less is not asked of the middle.
+const NORMAL: f64 = 0.8;
+/// Fewest points that tell.
+const FEWEST: usize = 30;
+
+/// Distance of a point from the edge of its face, millimeters: where the border of the face is not known, from the face beside it.
+pub(super) fn to_edge(best: &Best, faces: &[&Face], p: usize) -> f64 {
+    let within = best.seat[p].map_or(f64::INFINITY, |seat| seat.within);
+    match best.owner[p] {
+        NO_FACE => f64::from(best.beside[p]),
+        own if faces[own as usize].is_bounded() => within,
+        _ => within.min(f64::from(best.beside[p])),
+    }
+}
+
+/// How far from edges points are rounded, millimeters, where neighbors lie so far apart; 0 where edges are sharp, as those of a computed mesh are.
+pub(super) fn width(
+    points: &[Point],
+    best: &Best,
+    (faces, placed): (&[&Face], &[Placed]),
+    noise: f64,
+    spacing: f64,
+) -> f64 {
+    let mut sums = [(0.0, 0usize); STEPS + 1];
+    for (p, place) in points.iter().enumerate() {
+        let (own, Some(seat)) = (best.owner[p] as usize, best.seat[p]) else { continue };
+        let far = to_edge(best, faces, p);
+        if far > 0.0 {
+            let off = placed[own].off(faces[own], *place, seat).abs();
+            let step = (far / (STEP * spacing)).min(STEPS as f64) as usize;
+            sums[step].0 += (off / placed[own].deviation.max(noise)).min(MOST);
+            sums[step].1 += 1;
+        }
+    }
+    let mean = |(sum, count): (f64, usize)| sum / count as f64;
+    let [edges @ .., middle] = sums;
+    let middle = if middle.1 < FEWEST { NORMAL } else { mean(middle).max(NORMAL) };
+    // Where edges are taken away few points are left beside them.
+    let is_rounded = |step: &(f64, usize)| (step.1 >= FEWEST).then(|| mean(*step) > CLEARLY * middle);
+    let steps = edges.iter().map(is_rounded).enumerate().take_while(|(_, rounded)| *rounded != Some(false));
+    let last = steps.filter(|(_, rounded)| *rounded == Some(true)).last();
+    STEP * spacing * last.map_or(0.0, |(step, _)| (step + 1) as f64)
+}
