@@ -16,9 +16,8 @@ pub(super) struct Best {
     pub cost: Vec<f64>,
     pub second: Vec<f64>,
     pub seat: Vec<Option<Seat>>,
-    /// How far off it lies from the second nearest of the faces that it lies over, or hardly beyond the borders of, millimeters.
+    /// How far off it lies from the nearest face beside its own, which faces otherwise, millimeters.
     pub beside: Vec<f32>,
-    nearest: Vec<f32>,
 }
 
 impl Best {
@@ -30,7 +29,6 @@ impl Best {
             second: far,
             seat: vec![None; count],
             beside: vec![f32::INFINITY; count],
-            nearest: vec![f32::INFINITY; count],
         }
     }
     pub(super) fn forget(&mut self, p: usize) {
@@ -43,18 +41,6 @@ impl Best {
             (self.owner[p], self.cost[p], self.seat[p]) = (face, cost, Some(c.seat));
         } else if cost < self.second[p] {
             self.second[p] = cost;
-        }
-    }
-
-    /// A point lies over a face, or hardly beyond its border, so far off.
-    pub(super) fn lies_near(&mut self, p: u32, off: f64) {
-        let (nearest, beside) = (&mut self.nearest[p as usize], &mut self.beside[p as usize]);
-        let off = off as f32;
-        if off < *nearest {
-            *beside = *nearest;
-            *nearest = off;
-        } else {
-            *beside = beside.min(off);
         }
     }
 }

@@ -230,6 +230,11 @@ impl Face {
         matches!(self.goes, Goes::Facets(_))
     }
 
+    /// Whether it goes as far as measured points that were found to be of it.
+    pub(super) fn is_measured(&self) -> bool {
+        matches!(self.goes, Goes::Points(..))
+    }
+
     /// Its unit normal near a place, out of the material.
     pub fn facing(&self, p: &Point) -> Option<Vector> {
         match (self.shape, &self.goes) {

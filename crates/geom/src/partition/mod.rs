@@ -137,6 +137,7 @@ pub fn partition(
     let mut best = work.by_faces(&placed, noise);
     cancelled(progress)?;
     let (shared, mut between) = work.by_what_is_around(&mut best, &around, noise);
+    work.beside(&mut best, &placed);
     cancelled(progress)?;
     drop((work, around));
     // What was computed has sharp edges.

@@ -7,12 +7,15 @@ use super::going_on::Sure;
 use super::placed::Placed;
 use super::terms::{Beyond, EXPLAINED};
 use crate::parallel::prelude::*;
-use crate::space::{Point, dot};
+use crate::space::{Point, Vector, dot};
+use std::collections::BTreeMap;
 
 /// Reaches from the nominal within which a face is looked for: the reach is about where it really is.
 pub(super) const AWAY: f64 = 2.0;
 /// Cost of a point beyond a border, for each distance of neighbors: borders move with the faces that make them, and are known no sharper.
 const BEYOND: f64 = 2.0;
+/// Distances of neighbors beyond the points that were found to be of an element, up to which there may be an edge of it: rounded edges are not of it.
+const MEASURED_ENDS: f64 = 3.0;
 /// Distances of neighbors beyond a border that cost nothing.
 const FREE: f64 = 0.3;
 /// A point is asked about again, by what is around, where the second of its faces costs less than this, or the best more than `ASKED`.
@@ -92,15 +95,43 @@ impl Work<'_> {
             for c in &self.candidates[number] {
                 let off = placed[number].off(face, self.points[c.point as usize], c.seat).abs();
                 let is_there = c.seat.within > -FREE * self.spacing || off <= EXPLAINED * scale;
-                if c.seat.within >= -self.spacing {
-                    best.lies_near(c.point, off);
-                }
                 if is_there && off <= self.reach[number] {
                     best.add(c, number as u32, off / scale + self.beyond(c.seat.within));
                 }
             }
         }
         best
+    }
+
+    /// Tells how far off points lie from the nearest face beside their own: that over which they lie, or hardly beyond its border, and which faces otherwise.
+    /// Of no face, beside the nearest.
+    pub(super) fn beside(&self, best: &mut Best, placed: &[Placed]) {
+        let off = |number: usize, c: &Candidate| {
+            let ends = if self.faces[number].is_measured() { MEASURED_ENDS } else { 1.0 };
+            let off = placed[number].off(self.faces[number], self.points[c.point as usize], c.seat).abs();
+            (c.seat.within >= -ends * self.spacing).then_some(off)
+        };
+        let mut nearest: BTreeMap<u32, (f64, Vector)> = BTreeMap::new();
+        for (number, near) in self.candidates.iter().enumerate() {
+            for c in near.iter().filter(|c| best.seat[c.point as usize].is_none()) {
+                let Some(off) = off(number, c) else { continue };
+                let least = nearest.entry(c.point).or_insert((f64::INFINITY, c.seat.normal));
+                if off < least.0 {
+                    *least = (off, c.seat.normal);
+                }
+            }
+        }
+        for (number, near) in self.candidates.iter().enumerate() {
+            for c in near {
+                let own = best.seat[c.point as usize].map(|seat| seat.normal);
+                let own = own.or_else(|| nearest.get(&c.point).map(|n| n.1));
+                let faces_otherwise = own.is_some_and(|own| dot(own, c.seat.normal) < FACING);
+                if let Some(off) = off(number, c).filter(|_| faces_otherwise) {
+                    let beside = &mut best.beside[c.point as usize];
+                    *beside = beside.min(off as f32);
+                }
+            }
+        }
     }
 
     /// Those whose face is not certain by that, by what is around them. Tells points, ascending, with all faces that explain them about as
