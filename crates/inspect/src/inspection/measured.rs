@@ -5,15 +5,21 @@ use crate::plan::{Feature, Plan};
 use trueness_geom::feature::{Nearness, Nominal, in_cloud};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::num::random::Random;
+use trueness_geom::parallel::prelude::*;
 use trueness_geom::partition::{Faces, spacing};
 use trueness_geom::progress::Progress;
 use trueness_geom::segment::{self, Region, SegmentError, Segmentation};
 use trueness_geom::space::{Point, cross, dot, minus, plus, times, unit};
+use trueness_geom::spatial::neighbors::PointTree;
 
 /// Points of a cloud that are segmented, at most.
 const MOST_SEGMENTED: usize = 200_000;
 /// A region is of a feature if this share of its points within the bounds of the nominal is within its reach.
 const MOSTLY: f64 = 0.5;
+/// Points of a region that are looked at for its width.
+const PLACES: usize = 500;
+/// Points within three distances of points.
+const MIDDLE: usize = 28;
 /// Points of a region lie no farther apart than so many times their mean distance.
 const APART: f64 = 1.5;
 
@@ -43,16 +49,35 @@ pub(super) fn add(
         Err(_) => return Ok(()),
     };
     let apart = APART * spacing(points, seed);
+    let wide = wide(points, &found.regions, seed);
     for (number, region) in (0u32..).zip(&found.regions) {
         let places: Vec<Point> = region.points.iter().map(|p| points[*p as usize]).collect();
         let is_of = |feature: &Feature| {
             feature.nominal.as_ref().is_some_and(|nominal| is_of(region, &places, feature, nominal))
         };
-        if !plan.features.iter().any(is_of) {
+        if wide[number as usize] && !plan.features.iter().any(is_of) {
             faces.add_measured(&places, region.fit.shape, apart, outward(mesh, &found, number));
         }
     }
     Ok(())
+}
+
+/// Which regions are wider than six distances of points somewhere: a narrower one is where a scan rounds an edge, and no face.
+fn wide(points: &[Point], regions: &[Region], seed: u64) -> Vec<bool> {
+    let mut labels = vec![u32::MAX; points.len()];
+    for (number, region) in (0u32..).zip(regions) {
+        region.points.iter().for_each(|p| labels[*p as usize] = number);
+    }
+    let tree = PointTree::new(points);
+    let is_wide = |(number, region): (usize, &Region)| {
+        let chosen = Random::new(seed).choose(PLACES, region.points.len());
+        let is_middle = |i: usize| {
+            let near = tree.k_nearest(&points[region.points[i] as usize], MIDDLE, None);
+            near.iter().all(|n| labels[n.1 as usize] == number as u32)
+        };
+        chosen.into_iter().any(is_middle)
+    };
+    regions.par_iter().enumerate().map(is_wide).collect()
 }
 
 /// Whether a region lies where a feature is sought, and faces as it does.
