@@ -33,7 +33,7 @@ enum Goes {
     /// As far as the bounds of a nominal feature.
     Nominal(Extent),
     /// As far as measured points that were found to be of it, which lie no farther apart.
-    Points(PointTree, f64),
+    Points { tree: PointTree, apart: f64, narrow: bool },
 }
 
 /// The facets of a face.
@@ -110,9 +110,16 @@ impl Faces {
     }
 
     /// Adds an element that measured points were found to lie on as a face: its number. It goes as far as these points, which lie no farther apart than
-    /// `apart`. `outward` is whether distances of the element are positive outside of the material.
-    pub fn add_measured(&mut self, points: &[Point], shape: Shape, apart: f64, outward: bool) -> u32 {
-        let goes = Goes::Points(PointTree::new(points), apart);
+    /// `apart`. `outward` is whether distances of the element are positive outside of the material, `narrow` whether it may be where a scan rounds an edge:
+    /// then no edge is told by it.
+    pub fn add_measured(
+        &mut self,
+        points: &[Point],
+        shape: Shape,
+        apart: f64,
+        (outward, narrow): (bool, bool),
+    ) -> u32 {
+        let goes = Goes::Points { tree: PointTree::new(points), apart, narrow };
         let outward = if outward { 1.0 } else { -1.0 };
         self.add(Face { facets: vec![], shape: Some(shape), bounds: Aabb::of(points), outward, goes })
     }
@@ -206,7 +213,7 @@ impl Face {
         let feet: Vec<Point> = points.iter().zip(&across).map(foot).collect();
         let within: Vec<f64> = match &self.goes {
             Goes::Nominal(extent) => feet.par_iter().map(|p| extent.within(*p)).collect(),
-            Goes::Points(tree, apart) => feet.par_iter().map(|p| beyond(tree, *apart, p)).collect(),
+            Goes::Points { tree, apart, .. } => feet.par_iter().map(|p| beyond(tree, *apart, p)).collect(),
             Goes::Facets(facets) => match self.shape {
                 Some(_) => facets.within(&feet, far, progress)?,
                 None => return facets.free(&feet, reach, far, progress),
@@ -232,7 +239,12 @@ impl Face {
 
     /// Whether it goes as far as measured points that were found to be of it.
     pub(super) fn is_measured(&self) -> bool {
-        matches!(self.goes, Goes::Points(..))
+        matches!(self.goes, Goes::Points { .. })
+    }
+
+    /// Whether it may be no face, but where a scan rounds an edge.
+    pub(super) fn is_narrow(&self) -> bool {
+        matches!(self.goes, Goes::Points { narrow: true, .. })
     }
 
     /// Its unit normal near a place, out of the material.
@@ -264,7 +276,7 @@ impl Face {
         match &self.goes {
             Goes::Facets(facets) => facets.to_border(&foot),
             Goes::Nominal(extent) => extent.within(foot).abs(),
-            Goes::Points(..) => f64::INFINITY,
+            Goes::Points { .. } => f64::INFINITY,
         }
     }
 }

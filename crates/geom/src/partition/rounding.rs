@@ -29,6 +29,7 @@ pub(super) fn to_edge(best: &Best, faces: &[&Face], p: usize) -> f64 {
     match best.owner[p] {
         NO_FACE => f64::from(best.beside[p]),
         own if faces[own as usize].is_bounded() => within,
+        own if faces[own as usize].is_narrow() => f64::INFINITY,
         _ => within.min(f64::from(best.beside[p])),
     }
 }
@@ -45,7 +46,7 @@ pub(super) fn width(
     for (p, place) in points.iter().enumerate() {
         let (own, Some(seat)) = (best.owner[p] as usize, best.seat[p]) else { continue };
         let far = to_edge(best, faces, p);
-        if far > 0.0 {
+        if far > 0.0 && !faces[own].is_narrow() {
             let off = placed[own].off(faces[own], *place, seat).abs();
             let step = (far / (STEP * spacing)).min(STEPS as f64) as usize;
             sums[step].0 += (off / placed[own].deviation.max(noise)).min(MOST);

@@ -109,7 +109,7 @@ impl Work<'_> {
         let off = |number: usize, c: &Candidate| {
             let ends = if self.faces[number].is_measured() { MEASURED_ENDS } else { 1.0 };
             let off = placed[number].off(self.faces[number], self.points[c.point as usize], c.seat).abs();
-            (c.seat.within >= -ends * self.spacing).then_some(off)
+            (!self.faces[number].is_narrow() && c.seat.within >= -ends * self.spacing).then_some(off)
         };
         let mut nearest: BTreeMap<u32, (f64, Vector)> = BTreeMap::new();
         for (number, near) in self.candidates.iter().enumerate() {

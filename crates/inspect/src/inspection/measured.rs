@@ -55,14 +55,15 @@ pub(super) fn add(
         let is_of = |feature: &Feature| {
             feature.nominal.as_ref().is_some_and(|nominal| is_of(region, &places, feature, nominal))
         };
-        if wide[number as usize] && !plan.features.iter().any(is_of) {
-            faces.add_measured(&places, region.fit.shape, apart, outward(mesh, &found, number));
+        if !plan.features.iter().any(is_of) {
+            let way = (outward(mesh, &found, number), !wide[number as usize]);
+            faces.add_measured(&places, region.fit.shape, apart, way);
         }
     }
     Ok(())
 }
 
-/// Which regions are wider than six distances of points somewhere: a narrower one is where a scan rounds an edge, and no face.
+/// Which regions are wider than six distances of points somewhere: a narrower one may be where a scan rounds an edge, and no face.
 fn wide(points: &[Point], regions: &[Region], seed: u64) -> Vec<bool> {
     let mut labels = vec![u32::MAX; points.len()];
     for (number, region) in (0u32..).zip(regions) {
