@@ -45,7 +45,7 @@ pub(super) fn add(
             (0..middles.len()).filter(|i| face.bounds.widened(reach).holds(&middles[*i])).collect();
         let places: Vec<Point> = inside.iter().map(|i| middles[*i]).collect();
         let seats = face.seats(&places, reach, 0.0, progress)?;
-        let is_over = |seat: &Seat, i: usize| dot(seat.normal, facets[i].2) > PARALLEL;
+        let is_over = |seat: &Seat, i: usize| dot(seat.normal(), facets[i].2) > PARALLEL;
         for (i, seat) in inside.into_iter().zip(seats) {
             if let Some(seat) = seat.filter(|s| is_over(s, i) && s.off.abs() < nearest[i].0) {
                 nearest[i] = (seat.off.abs(), number);

@@ -45,15 +45,29 @@ struct Facets {
     border: Option<Tree>,
 }
 
-/// Where a point lies on a face.
+/// Where a point lies on a face: one for each point of a scan and more.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Seat {
     /// Distance across the face, positive outside of the material.
     pub off: f64,
+    within: f32,
+    normal: [f32; 3],
+}
+
+impl Seat {
+    fn new(off: f64, within: f64, normal: Vector) -> Seat {
+        Seat { off, within: within as f32, normal: normal.map(|x| x as f32) }
+    }
+
     /// Distance of its foot from the border, along the face; below 0 beyond it.
-    pub within: f64,
-    /// Unit normal of the face there, out of the material.
-    pub normal: Vector,
+    pub(super) fn within(&self) -> f64 {
+        f64::from(self.within)
+    }
+
+    /// Unit normal of the face there, out of the material, in single precision.
+    pub(super) fn normal(&self) -> Vector {
+        self.normal.map(f64::from)
+    }
 }
 
 /// Faces, those of a nominal or others.
@@ -221,7 +235,7 @@ impl Face {
         };
         let seat = |(across, within): (Option<(f64, Vector)>, f64)| {
             let (off, normal) = across?;
-            (within >= -far).then_some(Seat { off, within, normal })
+            (within >= -far).then(|| Seat::new(off, within, normal))
         };
         Ok(across.into_par_iter().zip(within).map(seat).collect())
     }
@@ -260,7 +274,7 @@ impl Face {
     /// farther off than `reach`.
     pub fn over(&self, points: &[Point], reach: f64) -> Vec<Option<(f64, Vector)>> {
         let seats = self.seats(points, reach, 0.0, &Silent).unwrap_or_default();
-        seats.into_iter().map(|seat| seat.map(|seat| (seat.off, seat.normal))).collect()
+        seats.into_iter().map(|seat| seat.map(|seat| (seat.off, seat.normal()))).collect()
     }
 
     /// Of a cylinder, cone, sphere or torus, whether it faces its axis or center, as a bore does.
@@ -323,10 +337,10 @@ impl Facets {
             let across = dot(away, normal);
             let along = norm(minus(away, times(across, normal)));
             let seat = match on.rim {
-                true => Seat { off: across, within: -along, normal },
-                false => Seat { off: norm(away).copysign(across), within: border, normal },
+                true => Seat::new(across, -along, normal),
+                false => Seat::new(norm(away).copysign(across), border, normal),
             };
-            (seat.off.abs() <= reach && seat.within >= -far).then_some(seat)
+            (seat.off.abs() <= reach && seat.within() >= -far).then_some(seat)
         };
         Ok((0..points.len()).into_par_iter().map(seat).collect())
     }

@@ -45,7 +45,7 @@ impl<'a> Sure<'a> {
             let off = placed.off(face, p, c.seat);
             if off.abs() <= EXPLAINED * placed.deviation {
                 places.push(p);
-                normals.push(c.seat.normal);
+                normals.push(c.seat.normal());
                 offs.push(off);
             }
         }
@@ -55,7 +55,7 @@ impl<'a> Sure<'a> {
     /// How many deviations a point lies off the surface that the points around tell; `None` beyond the reach.
     pub(super) fn off_over(&self, p: Point, seat: Seat, reach: f64, noise: f64) -> Option<f64> {
         let off = self.placed.off(self.face, p, seat);
-        let over = || match self.told(p, seat.normal) {
+        let over = || match self.told(p, seat.normal()) {
             Some(told) => (off - told.off).abs() / ((1.0 + told.share).sqrt() * told.deviation.max(noise)),
             None => off.abs() / self.placed.deviation.max(noise),
         };

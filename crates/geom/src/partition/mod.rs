@@ -157,7 +157,7 @@ pub fn partition(
     let over = Over { points, faces, owners: &best.owner, facing: facing.as_ref(), spacing, rounded, far };
     let mut beyond = over.faces(&hanging, progress)?;
     let dents = over.dents(&hanging, &beyond, options.seed, progress)?;
-    let inside = best.seat.iter().map(|s| s.is_some_and(|s| s.within >= 0.0)).collect();
+    let inside = best.seat.iter().map(|s| s.is_some_and(|s| s.within() >= 0.0)).collect();
     let mut owners = best.owner;
     for (p, face) in dents {
         (owners[p as usize], classes[p as usize]) = (face, Class::Dent);
@@ -196,8 +196,8 @@ fn near(
     let places: Vec<Point> = numbers.par_iter().map(|i| points[*i as usize]).collect();
     let seats = face.seats(&places, reach, far, progress)?;
     let candidate = |(i, seat): (&u32, Option<Seat>)| {
-        let seat = seat.filter(|s| s.within >= -reach - spacing)?;
-        let faces = facing.is_none_or(|f| f.may_be_of(*i, seat.normal));
+        let seat = seat.filter(|s| s.within() >= -reach - spacing)?;
+        let faces = facing.is_none_or(|f| f.may_be_of(*i, seat.normal()));
         faces.then_some(Candidate { point: *i, seat })
     };
     Ok(numbers.par_iter().zip(seats).filter_map(candidate).collect())

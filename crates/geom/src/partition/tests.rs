@@ -1,5 +1,7 @@
 //! Turned parts whose points have known faces.
 
+mod rounding;
+
 use super::*;
 use crate::num::random::Random;
 use crate::progress::Silent;

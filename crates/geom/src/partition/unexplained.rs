@@ -85,7 +85,7 @@ impl Unexplained<'_> {
                 let class = if 2 * outside >= seats.len() { Class::High } else { Class::Deep };
                 flank.iter().chain(&beyond).for_each(|p| classes[*p as usize] = class);
                 flank.retain(|p| {
-                    let is_over = best.seat[*p as usize].is_some_and(|seat| seat.within > 0.0);
+                    let is_over = best.seat[*p as usize].is_some_and(|seat| seat.within() > 0.0);
                     if !is_over {
                         best.owner[*p as usize] = NO_FACE;
                     }
@@ -137,11 +137,11 @@ impl Unexplained<'_> {
         let own = best.owner[p as usize];
         let ends = |seat: Seat| {
             let is_other = |v: &u32| !is_open(best, *v as usize) && best.owner[*v as usize] != own;
-            let is_wall = |f: &u32| self.facing.is_some_and(|facing| !facing.is_along(*f, seat.normal));
+            let is_wall = |f: &u32| self.facing.is_some_and(|facing| !facing.is_along(*f, seat.normal()));
             let ends = |f: &u32| is_wall(f) || self.scan.faces[*f as usize].iter().any(is_other);
             self.facing.is_some_and(|facing| facing.about(p).iter().any(ends))
         };
-        let is_along = |s: Seat| s.within < far || !self.faces[own as usize].is_bounded() && ends(s);
+        let is_along = |s: Seat| s.within() < far || !self.faces[own as usize].is_bounded() && ends(s);
         f64::from(best.beside[p as usize]) <= self.spacing || best.seat[p as usize].is_some_and(is_along)
     }
 }
@@ -228,7 +228,7 @@ impl Over<'_> {
             let seats = face.seats(&places, f64::INFINITY, f64::INFINITY, progress)?;
             for (i, seat) in near.into_iter().zip(seats) {
                 let Some(seat) = seat else { continue };
-                let away = libm::hypot(seat.off, seat.within.min(0.0));
+                let away = libm::hypot(seat.off, seat.within().min(0.0));
                 let (least, off) = nearest[i];
                 let is_alike = (away - least).abs() <= ALIKE * least;
                 if (is_alike && seat.off.abs() > off.abs()) || (!is_alike && away < least) {
@@ -256,8 +256,8 @@ impl Over<'_> {
             let is_far = |s: &Seat| {
                 if *outside { 0.0 < s.off && s.off <= far[1] } else { -far[0] <= s.off && s.off < 0.0 }
             };
-            let seat = seat.filter(|s| s.within >= rounded && is_far(s))?;
-            let faces = self.facing.is_none_or(|f| f.may_be_of(*p, seat.normal));
+            let seat = seat.filter(|s| s.within() >= rounded && is_far(s))?;
+            let faces = self.facing.is_none_or(|f| f.may_be_of(*p, seat.normal()));
             faces.then_some(Beyond { point: *p, face, off: seat.off })
         };
         Ok(sides.iter().zip(seats).filter_map(over).collect())
@@ -305,7 +305,7 @@ impl Over<'_> {
         }
         let feet = |places: &[Point]| -> Result<Vec<Point>, Cancelled> {
             let seats = self.faces[face as usize].seats(places, f64::INFINITY, f64::INFINITY, progress)?;
-            let foot = |(p, seat): (&Point, Option<Seat>)| Some(minus(*p, times(seat?.off, seat?.normal)));
+            let foot = |(p, seat): (&Point, Option<Seat>)| Some(minus(*p, times(seat?.off, seat?.normal())));
             Ok(places.iter().zip(seats).filter_map(foot).collect())
         };
         let places: Vec<Point> = points.iter().map(|p| self.points[*p as usize]).collect();

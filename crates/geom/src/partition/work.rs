@@ -48,16 +48,16 @@ impl Work<'_> {
     /// The points that are surely of each face: it is the nearest of those over which they lie, they face as it does and lie clear of its border.
     pub(super) fn sure(&self, facing: Option<&Facing>) -> Vec<Vec<Candidate>> {
         let mut least = vec![f64::INFINITY; self.points.len()];
-        for c in self.candidates.iter().flatten().filter(|c| c.seat.within > 0.0) {
+        for c in self.candidates.iter().flatten().filter(|c| c.seat.within() > 0.0) {
             let least = &mut least[c.point as usize];
             *least = least.min(c.seat.off.abs());
         }
         let clear = |near: &[Candidate], reach: f64, times: f64| -> Vec<Candidate> {
             let is_own = |c: &&Candidate| {
                 let (p, off) = (c.point as usize, c.seat.off.abs());
-                c.seat.within > times * self.spacing
+                c.seat.within() > times * self.spacing
                     && off <= reach.min(least[p])
-                    && facing.is_none_or(|f| dot(f.vertices[p], c.seat.normal) > FACING)
+                    && facing.is_none_or(|f| dot(f.vertices[p], c.seat.normal()) > FACING)
             };
             near.iter().filter(is_own).copied().collect()
         };
@@ -78,7 +78,7 @@ impl Work<'_> {
     /// explained. Where a scan has few over a face, the face was hidden.
     pub(super) fn sparse(&self, is_cloud: bool) -> Vec<Option<f64>> {
         let over = |(near, reach): (&Vec<Candidate>, &f64)| {
-            let is_over = |c: &&Candidate| c.seat.within >= 0.0 && c.seat.off.abs() <= *reach;
+            let is_over = |c: &&Candidate| c.seat.within() >= 0.0 && c.seat.off.abs() <= *reach;
             near.iter().filter(is_over).take(SCANNED).count()
         };
         let counts: Vec<usize> = self.candidates.par_iter().zip(&self.reach).map(over).collect();
@@ -94,9 +94,9 @@ impl Work<'_> {
             let scale = placed[number].deviation.max(noise);
             for c in &self.candidates[number] {
                 let off = placed[number].off(face, self.points[c.point as usize], c.seat).abs();
-                let is_there = c.seat.within > -FREE * self.spacing || off <= EXPLAINED * scale;
+                let is_there = c.seat.within() > -FREE * self.spacing || off <= EXPLAINED * scale;
                 if is_there && off <= self.reach[number] {
-                    best.add(c, number as u32, off / scale + self.beyond(c.seat.within));
+                    best.add(c, number as u32, off / scale + self.beyond(c.seat.within()));
                 }
             }
         }
@@ -109,23 +109,23 @@ impl Work<'_> {
         let off = |number: usize, c: &Candidate| {
             let ends = if self.faces[number].is_measured() { MEASURED_ENDS } else { 1.0 };
             let off = placed[number].off(self.faces[number], self.points[c.point as usize], c.seat).abs();
-            (!self.faces[number].is_narrow() && c.seat.within >= -ends * self.spacing).then_some(off)
+            (!self.faces[number].is_narrow() && c.seat.within() >= -ends * self.spacing).then_some(off)
         };
         let mut nearest: BTreeMap<u32, (f64, Vector)> = BTreeMap::new();
         for (number, near) in self.candidates.iter().enumerate() {
             for c in near.iter().filter(|c| best.seat[c.point as usize].is_none()) {
                 let Some(off) = off(number, c) else { continue };
-                let least = nearest.entry(c.point).or_insert((f64::INFINITY, c.seat.normal));
+                let least = nearest.entry(c.point).or_insert((f64::INFINITY, c.seat.normal()));
                 if off < least.0 {
-                    *least = (off, c.seat.normal);
+                    *least = (off, c.seat.normal());
                 }
             }
         }
         for (number, near) in self.candidates.iter().enumerate() {
             for c in near {
-                let own = best.seat[c.point as usize].map(|seat| seat.normal);
+                let own = best.seat[c.point as usize].map(|seat| seat.normal());
                 let own = own.or_else(|| nearest.get(&c.point).map(|n| n.1));
-                let faces_otherwise = own.is_some_and(|own| dot(own, c.seat.normal) < FACING);
+                let faces_otherwise = own.is_some_and(|own| dot(own, c.seat.normal()) < FACING);
                 if let Some(off) = off(number, c).filter(|_| faces_otherwise) {
                     let beside = &mut best.beside[c.point as usize];
                     *beside = beside.min(off as f32);
@@ -149,7 +149,7 @@ impl Work<'_> {
             .map(|((near, around), reach)| {
                 let ask = |c: &Candidate| {
                     let z = around.off_over(self.points[c.point as usize], c.seat, *reach, noise)?;
-                    Some((*c, z + self.beyond(c.seat.within + FREE * self.spacing)))
+                    Some((*c, z + self.beyond(c.seat.within() + FREE * self.spacing)))
                 };
                 near.par_iter().filter(|c| asked[c.point as usize]).filter_map(ask).collect()
             })
@@ -167,7 +167,8 @@ impl Work<'_> {
             let is_other_side = |c: &Candidate| {
                 let p = c.point as usize;
                 let own = best.seat[p].filter(|_| best.cost[p] > EXPLAINED && best.owner[p] != number);
-                c.seat.within > 0.0 && own.is_some_and(|own| dot(own.normal, c.seat.normal) < OTHER_SIDE)
+                c.seat.within() > 0.0
+                    && own.is_some_and(|own| dot(own.normal(), c.seat.normal()) < OTHER_SIDE)
             };
             let other_side = near.iter().map(|n| n.0).filter(is_other_side);
             between.extend(other_side.map(|c| Beyond { point: c.point, face: number, off: c.seat.off }));
