@@ -56,7 +56,7 @@ use facing::Facing;
 use going_on::Sure;
 use terms::EXPLAINED;
 use unexplained::{Over, Unexplained};
-use work::{AWAY, CLEAR, Work};
+use work::{AWAY, CLEAR, ROUNDED, Work};
 
 /// Share of its diagonal that a face reaches where nothing else is said.
 const SHARE: f64 = 0.02;
@@ -112,7 +112,9 @@ pub fn partition(
     let spacing = spacing(points, options.seed);
     let mut candidates = vec![];
     for (face, reach) in faces.iter().zip(&reach) {
-        candidates.push(near(face, points, facing.as_ref(), AWAY * reach, spacing, progress)?);
+        // Edges are looked for as far as scans round them.
+        let reach = f64::max(AWAY * reach, ROUNDED * spacing);
+        candidates.push(near(face, points, facing.as_ref(), reach, spacing, progress)?);
     }
     let work = Work { points, faces, reach, candidates, spacing };
     let mut sure = work.sure(facing.as_ref());

@@ -8,12 +8,13 @@ use super::best::Best;
 use super::cut::NO_FACE;
 use super::faces::Face;
 use super::placed::Placed;
+use super::work::ROUNDED;
 use crate::space::Point;
 
 /// Distances from edges that are told apart, in distances of neighbors.
 const STEP: f64 = 0.25;
 /// Their number: farther than that no scan is taken to round edges, and there faces are as in their middle.
-const STEPS: usize = 12;
+const STEPS: usize = (ROUNDED / STEP) as usize;
 /// Deviations beyond which a point counts no more: single defects tell nothing of all edges.
 const MOST: f64 = 3.0;
 /// Mean deviation over that in the middle of faces from which on points are rounded: they are moved by three quarters of a standard deviation.

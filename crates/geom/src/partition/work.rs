@@ -14,8 +14,8 @@ use std::collections::BTreeMap;
 pub(super) const AWAY: f64 = 2.0;
 /// Cost of a point beyond a border, for each distance of neighbors: borders move with the faces that make them, and are known no sharper.
 const BEYOND: f64 = 2.0;
-/// Distances of neighbors beyond the points that were found to be of an element, up to which there may be an edge of it: rounded edges are not of it.
-const MEASURED_ENDS: f64 = 3.0;
+/// Distances of neighbors from an edge up to which scans may round it: so far beyond the points that were found to be of an element its edge may be.
+pub(super) const ROUNDED: f64 = 3.0;
 /// Distances of neighbors beyond a border that cost nothing.
 const FREE: f64 = 0.3;
 /// A point is asked about again, by what is around, where the second of its faces costs less than this, or the best more than `ASKED`.
@@ -107,7 +107,7 @@ impl Work<'_> {
     /// Of no face, beside the nearest.
     pub(super) fn beside(&self, best: &mut Best, placed: &[Placed]) {
         let off = |number: usize, c: &Candidate| {
-            let ends = if self.faces[number].is_measured() { MEASURED_ENDS } else { 1.0 };
+            let ends = if self.faces[number].is_measured() { ROUNDED } else { 1.0 };
             let off = placed[number].off(self.faces[number], self.points[c.point as usize], c.seat).abs();
             (!self.faces[number].is_narrow() && c.seat.within() >= -ends * self.spacing).then_some(off)
         };
