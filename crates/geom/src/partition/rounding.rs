@@ -59,7 +59,15 @@ pub(super) fn width(
     let middle = if middle.1 < FEWEST { NORMAL } else { mean(middle).max(NORMAL) };
     // Where edges are taken away few points are left beside them.
     let is_rounded = |step: &(f64, usize)| (step.1 >= FEWEST).then(|| mean(*step) > CLEARLY * middle);
-    let steps = edges.iter().map(is_rounded).enumerate().take_while(|(_, rounded)| *rounded != Some(false));
-    let last = steps.filter(|(_, rounded)| *rounded == Some(true)).last();
-    STEP * spacing * last.map_or(0.0, |(step, _)| (step + 1) as f64)
+    let (mut otherwise, mut steps) = (0, 0);
+    for (step, rounded) in edges.iter().map(is_rounded).enumerate() {
+        match rounded {
+            Some(true) => steps = step + 1,
+            // Those next to an edge may be of a face beside that was taken for this one.
+            Some(false) if otherwise > 0 => break,
+            Some(false) => otherwise += 1,
+            None => {}
+        }
+    }
+    STEP * spacing * steps as f64
 }
