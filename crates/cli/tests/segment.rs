@@ -107,3 +107,17 @@ fn no_member_lies_beyond_the_tolerance() {
     }
     assert!(tried > 60, "{tried}");
 }
+
+/// A stepped shaft of radii 22.9089, 18.0551 and 12.9580 with a bore of 6.4262 along it, which ends in a floor, and one of 3.8466 across.
+#[test]
+fn a_bore_between_two_circles_of_corners_is_no_sphere() {
+    let answer = document(["segment", corpus("segments/shaft_with_bores.stl").to_str().unwrap()]);
+    let regions = answer["regions"].as_array().unwrap();
+    assert!(regions.iter().all(|r| r["shape"] == "cylinder" || r["shape"] == "plane"), "{regions:#?}");
+    for radius in [22.9089, 18.0551, 12.958, 6.4262, 3.8466] {
+        let is_it = |r: &serde_json::Value| {
+            r["parameters"]["radius"].as_f64().is_some_and(|found| (found - radius).abs() < 1e-3)
+        };
+        assert!(regions.iter().any(is_it), "{radius}");
+    }
+}

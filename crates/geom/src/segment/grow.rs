@@ -157,6 +157,17 @@ impl Context<'_> {
                 break;
             }
         }
+        // The corners of two circles lie on a ball, whatever the facets between them go along: all of it shows that, without a start.
+        let is_ball = self.surface.is_drawn && best.shape.kind() == Kind::Sphere;
+        if is_ball && may_give_way(&best, self.noise) {
+            let few = self.surface.some_places(&best.pieces, FEW);
+            for &kind in self.kinds.iter().filter(|&&kind| matches!(kind, Kind::Cylinder | Kind::Cone)) {
+                let Ok(start) = fit(&few, kind, &Options::default(), &Silent) else { continue };
+                if let Some(grown) = self.grown(start.shape, &best.pieces, usize::MAX, marks, free) {
+                    best = better(Some(best), grown, self.noise);
+                }
+            }
+        }
         Some(best)
     }
 

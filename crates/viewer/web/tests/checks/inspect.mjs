@@ -93,6 +93,36 @@ export const inspect = [
     },
   ],
   [
+    'the faces stand in place of the features: each facet once, each feature in a color of its own, edges gray',
+    async (session) => {
+      const page = await session.report('plan', STILL)
+      const { objects, picks, result } = await manifest(page)
+      const faces = objects.filter((o) => o.role === 'partition')
+      const part = objects.filter((o) => o.role === 'part')
+      const count = (all) => all.reduce((n, o) => n + o.triangles, 0)
+      assert.ok(faces.length > 2 && faces.every((o) => !o.shown))
+      assert.equal(count(faces), count(part))
+      const ids = result.features.map((f) => f.id)
+      const own = faces.filter((o) => ids.includes(o.name))
+      assert.deepEqual(own.map((o) => o.name).sort(), [...ids].sort())
+      assert.equal(new Set(own.map((o) => o.color)).size, ids.length)
+      await tool(page, 'Faces')
+      await settled(page)
+      assert.equal(await page.locator('#scale').isVisible(), false)
+      const picture = await screen(page)
+      for (const [n, frame] of (await shown(page)).entries()) {
+        if (frame.hidden) continue
+        const color = bytes(own.find((o) => o.name === about(result, picks[n]).feature).color)
+        const around = [[9, 0], [-9, 0], [0, 9], [0, -9], [7, 7], [-7, -7], [7, -7], [-7, 7]].map(([dx, dy]) => picture.at(frame.x + dx, frame.y + dy))
+        assert.ok(around.some((p) => near(along(p), along(color), 0.12)), `${frame.id}: ${around} has nothing of ${color}`)
+      }
+      // One key swaps them.
+      await page.keyboard.press('o')
+      await settled(page)
+      assert.equal(await page.locator('.stage-tools button[aria-pressed="true"]').first().textContent(), 'Part')
+    },
+  ],
+  [
     'the map stands in place of the features, with its scale and flags, and only then',
     async (session) => {
       const page = await session.report('plan', STILL)
