@@ -34,7 +34,7 @@ const STEPS: [f64; 2] = [0.754_877_666_246_693, 0.569_840_290_998_053_3];
 /// Share of the area of a nominal feature, 0 to 1, that is near one of `points`, which were found for it: nearer than that point's
 /// twelfth neighbor is to it (of fewer than 240 points a nearer neighbor, the second at least; of points in rows the first one beside
 /// the row) and than `farthest` ([`farthest_covered`]), seen along the surface; points beyond its bounds cover none of it. Holes of the feature that its nominal form does not
-/// have are not covered. `None` of an edge, of a nominal feature that makes no sense, and without points.
+/// have are not covered. `None` of an edge and of a nominal feature that makes no sense, 0 without points.
 ///
 /// Cost: a search tree of the points, and some thousand nearest neighbors.
 ///
@@ -55,8 +55,8 @@ pub fn covered(nominal: &Nominal, points: &[Point], farthest: f64) -> Option<f64
     let feet: Vec<Point> = points.iter().filter_map(foot).filter(|p| rules.point(*p)).collect();
     let tree = PointTree::new(&feet);
     let places = spread(nominal, &rules)?;
-    if points.is_empty() {
-        return None;
+    if feet.is_empty() {
+        return Some(0.0);
     }
     let farthest = farthest * farthest;
     // Each point covers as far as its own neighbors are: somewhere they may lie a hundred times as dense.

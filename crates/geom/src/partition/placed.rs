@@ -45,7 +45,7 @@ impl Placed {
             if shape.is_none() {
                 placed.offset = median(off(&placed));
             }
-            placed.deviation = (MEDIAN * median(off(&placed).into_iter().map(f64::abs).collect())).max(floor);
+            placed.deviation = deviation(off(&placed).into_iter().map(f64::abs).collect(), floor);
             placed
         };
         let moved = with(None);
@@ -75,6 +75,17 @@ fn alike(found: Shape, face: &Face, places: &[Point]) -> Shape {
         }
         _ => found,
     }
+}
+
+/// The standard deviation of normal noise by its magnitudes. Where more than half are nothing, as of a plane along whose normal coordinates are rounded, the
+/// step that they are rounded to: the least of the others.
+fn deviation(all: Vec<f64>, floor: f64) -> f64 {
+    let middle = MEDIAN * median(all.clone());
+    if middle > floor {
+        return middle;
+    }
+    let least = all.into_iter().filter(|off| *off > floor).fold(f64::INFINITY, f64::min);
+    if least.is_finite() { least } else { floor }
 }
 
 fn median(mut all: Vec<f64>) -> f64 {

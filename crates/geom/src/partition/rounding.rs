@@ -24,12 +24,12 @@ const NORMAL: f64 = 0.8;
 /// Fewest points that tell.
 const FEWEST: usize = 30;
 
-/// Distance of a point from the edge of its face, millimeters: where the border of the face is not known, from the face beside it.
+/// Distance of a point from the edge of its face, millimeters: from its border or, as borders move with the faces that make them and may not be known, from
+/// the face beside it.
 pub(super) fn to_edge(best: &Best, faces: &[&Face], p: usize) -> f64 {
     let within = best.seat[p].map_or(f64::INFINITY, |seat| seat.within());
     match best.owner[p] {
         NO_FACE => f64::from(best.beside[p]),
-        own if faces[own as usize].is_bounded() => within,
         own if faces[own as usize].is_narrow() => f64::INFINITY,
         _ => within.min(f64::from(best.beside[p])),
     }

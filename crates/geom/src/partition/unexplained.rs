@@ -352,10 +352,11 @@ fn explained(hanging: &Hanging, over: &[BTreeMap<u32, (Beyond, bool)>]) -> Vec<B
         let here = |of: &BTreeMap<u32, (Beyond, bool)>| -> Vec<(Beyond, bool)> {
             left.iter().filter_map(|p| of.get(p)).copied().collect()
         };
-        // Out of the material a thing may hide some places; into it nothing else lies where the face was not measured.
+        // Out of the material a thing may hide some places; in it nothing else lies.
         let counts = |here: &Vec<(Beyond, bool)>| {
-            let needed = if here.iter().all(|(b, _)| b.off < 0.0) { 1 } else { SEVERAL };
-            !here.is_empty() && (is_few || here.iter().filter(|(_, gap)| *gap).count() >= needed)
+            let is_inside = here.iter().all(|(b, _)| b.off < 0.0);
+            !here.is_empty()
+                && (is_few || is_inside || here.iter().filter(|(_, gap)| *gap).count() >= SEVERAL)
         };
         let off =
             |here: &[(Beyond, bool)]| here.iter().map(|(b, _)| b.off.abs()).sum::<f64>() / here.len() as f64;

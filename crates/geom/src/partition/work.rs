@@ -125,7 +125,9 @@ impl Work<'_> {
             for c in near {
                 let own = best.seat[c.point as usize].map(|seat| seat.normal());
                 let own = own.or_else(|| nearest.get(&c.point).map(|n| n.1));
-                let faces_otherwise = own.is_some_and(|own| dot(own, c.seat.normal()) < FACING);
+                // The other side of a wall is no edge.
+                let otherwise = |own: Vector| (OTHER_SIDE..FACING).contains(&dot(own, c.seat.normal()));
+                let faces_otherwise = own.is_some_and(otherwise);
                 if let Some(off) = off(number, c).filter(|_| faces_otherwise) {
                     let beside = &mut best.beside[c.point as usize];
                     *beside = beside.min(off as f32);

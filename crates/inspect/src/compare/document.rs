@@ -330,7 +330,7 @@ fn paired(
 ) -> Paired {
     let together = match options.independent {
         true => Err("errors are independent, as was asked for".to_string()),
-        false => together(found, first, second).map_err(|e| e.to_string()),
+        false => together(found, first, second),
     };
     let c = p.comparison(together.as_ref().ok());
     let swap = c.mean.is_ok_and(|m| m > 0.0);

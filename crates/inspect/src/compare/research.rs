@@ -6,6 +6,7 @@ use super::shown::ShownPoints;
 use crate::results::research::*;
 use trueness_geom::stats::research::distributions::{Family, fits};
 use trueness_geom::stats::research::{blocks, bootstrap, moran, normality};
+use trueness_geom::stats::statistics::Missing;
 
 /// Points, at most, of the sample that has places.
 pub const PLACES: usize = 1 << 18;
@@ -62,14 +63,17 @@ pub fn research(c: &Compared, places: &ShownPoints, i: usize, seed: u64) -> Rese
 }
 
 /// The mean of the differences of two references, by blocks within which they may go together.
-pub fn together(
-    found: &Comparisons,
-    first: usize,
-    second: usize,
-) -> Result<blocks::BlockMean, trueness_geom::stats::statistics::Missing> {
+pub fn together(found: &Comparisons, first: usize, second: usize) -> Result<blocks::BlockMean, String> {
     let of = |n: usize| found.together.deviations.get(n).map_or(&[][..], Vec::as_slice);
     let differences: Vec<f64> = of(first).iter().zip(of(second)).map(|(a, b)| a.abs() - b.abs()).collect();
-    blocks::mean_of_blocks(&found.together.points, &differences, BLOCK_SHARE * found.bounds.diagonal())
+    // Single points far off are no measure of the part.
+    let size = found.references.get(first).map_or(0.0, |c| c.diagonal);
+    blocks::mean_of_blocks(&found.together.points, &differences, BLOCK_SHARE * size).map_err(|e| match e {
+        Missing::TooFew(least) => format!(
+            "points lie in fewer than {least} of the cubes within which they may go together, a twentieth of the reference's diagonal wide"
+        ),
+        e => e.to_string(),
+    })
 }
 
 fn intervals(c: &Compared, seed: u64) -> Result<Bootstrap, trueness_geom::stats::statistics::Missing> {

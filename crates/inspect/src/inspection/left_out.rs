@@ -74,7 +74,7 @@ pub(super) fn judge_left_out(
 
 /// Why it is not certain that some points within the reach of a feature are of it.
 fn not_certain(taken: &Taken) -> String {
-    let Others { broken, deep, high, between, .. } = &taken.others;
+    let Others { broken, deep, high, between, far, drawn, .. } = &taken.others;
     let why = [
         (
             *broken,
@@ -83,6 +83,8 @@ fn not_certain(taken: &Taken) -> String {
         (*deep, "go on into the material beyond its extract distance"),
         (*high, "go on out of the material beyond its extract distance, as what stands on it"),
         (*between, "lie off it and off the other side of the wall, and may be of either"),
+        (*far, "are of its surface, farther off than its extract distance"),
+        (*drawn, "are corners of facets that face as it does and are of no face"),
     ];
     let told = why.iter().filter(|w| w.0 > 0).map(|(count, why)| format!("{} {why}", points(*count)));
     told.collect::<Vec<_>>().join("; ")

@@ -31,6 +31,8 @@ pub(super) struct OwnFaces {
     pub faces: Vec<u32>,
     /// Of a cylinder, cone or sphere, whether they face its axis or center.
     pub inward: Option<bool>,
+    /// Whether places of the nominal lie over them.
+    pub is_over: bool,
 }
 
 impl Nominals {
@@ -52,7 +54,18 @@ impl Nominals {
         for (number, feature) in plan.features.iter().enumerate() {
             let Some(nominal) = nominals.of(number, feature) else { continue };
             let near = feature.near(nominal);
-            if let Some(own) = own_faces(reference, &faces, nominal, &near, progress)? {
+            let found = own_faces(reference, &faces, nominal, &near, progress)?;
+            let turned = turned(nominal).filter(|_| found.is_none());
+            if let Some(turned) = turned
+                && own_faces(reference, &faces, &turned, &near, progress)?.is_some_and(|own| own.is_over)
+            {
+                let what = format!(
+                    "feature \"{}\": the reference faces the other way there: turn the `normal` of the nominal, which points out of the material, or the facets of the reference",
+                    feature.id
+                );
+                return Err(Stop::Plan { span: feature.span.clone(), what });
+            }
+            if let Some(own) = found {
                 nominals.own.insert(number, own);
             }
         }
@@ -112,7 +125,13 @@ fn own_faces(
     let inward = if matches!(nominal, Nominal::Plane { .. }) { None } else { first.inward() };
     let is_alike = |h: &&Held| h.off <= limit && faces.all[h.number as usize].inward() == first.inward();
     let own = held.iter().filter(is_alike).map(|h| h.number).collect();
-    Ok(Some(OwnFaces { faces: own, inward }))
+    Ok(Some(OwnFaces { faces: own, inward, is_over: most.share > 0 && most.off <= limit }))
+}
+
+/// A plane that faces the other way.
+fn turned(nominal: &Nominal) -> Option<Nominal> {
+    let Nominal::Plane { point, normal, boundary } = nominal else { return None };
+    Some(Nominal::Plane { point: *point, normal: normal.map(|x| -x), boundary: boundary.clone() })
 }
 
 /// A face near a nominal.

@@ -27,6 +27,8 @@ pub(super) struct Parted<'a> {
     /// Of each face its points and its facets, ascending.
     points: Vec<Vec<u32>>,
     facets: Vec<Vec<u32>>,
+    /// The facets of none.
+    loose: Vec<u32>,
     /// The facets about each vertex.
     around: OnceLock<FacetsAround>,
 }
@@ -69,7 +71,7 @@ impl<'a> Parted<'a> {
             let inward = near.inward.or_else(|| inward(mesh, nominal, &near));
             // An edge is no face; what makes no sense is told where it is sought.
             if let Ok(face) = more.add_nominal(nominal, inward == Some(true)) {
-                own.insert(number, OwnFaces { faces: vec![first + face], inward });
+                own.insert(number, OwnFaces { faces: vec![first + face], inward, is_over: true });
             }
         }
         let reaches = reaches(plan, nominals, &own);
@@ -95,8 +97,9 @@ impl<'a> Parted<'a> {
             all
         };
         let (points, facets) = (of_faces(&partition.owners), of_faces(&partition.facets));
+        let loose = (0..).zip(&partition.facets).filter(|f| *f.1 == NO_FACE).map(|f| f.0).collect();
         let around = OnceLock::new();
-        Ok(Some(Parted { mesh, nominals, more, own, partition, points, facets, around }))
+        Ok(Some(Parted { mesh, nominals, more, own, partition, points, facets, loose, around }))
     }
 
     /// What was parted: a cloud with each place once.
@@ -160,7 +163,7 @@ impl<'a> Parted<'a> {
             numbers.sort_unstable();
             numbers.dedup();
         }
-        let (mut outlined, beyond) = within.reach(within.bounds(points)?);
+        let (mut outlined, far) = within.reach(within.bounds(points)?);
         let dents = match self.nominals.faces.is_some() {
             true => within.bounds(self.of_class(own, Class::Dent))?,
             false => vec![],
@@ -181,7 +184,7 @@ impl<'a> Parted<'a> {
         // Where edges are rounded something was measured all the same.
         let mut covering = [&outlined[..], &within.bounds(self.of_class(own, Class::Edge))?].concat();
         covering.retain(|p| self.partition.inside[*p as usize]);
-        let (mut others, left_out) = self.others(number, &within, (border, beyond))?;
+        let (mut others, left_out) = self.others(number, &within, (border, far))?;
         if !outliers {
             let alone = within.clear(&within.reach(within.bounds(alone)?).0, border);
             others.add_outliers(within.off(&alone));
@@ -195,9 +198,11 @@ impl<'a> Parted<'a> {
         &self,
         number: usize,
         within: &Within,
-        (border, mut left_out): (f64, Vec<f64>),
+        (border, far): (f64, Vec<u32>),
     ) -> Result<(Others, Option<LeftOut>), FeatureError> {
         let Within { own, near, .. } = *within;
+        let far = within.clear(&far, border);
+        let mut left_out = within.off(&far);
         let clear = |points: Vec<u32>| -> Result<Vec<u32>, FeatureError> {
             Ok(within.clear(&within.reach(within.bounds(points)?).0, border))
         };
@@ -227,7 +232,8 @@ impl<'a> Parted<'a> {
         left_out.extend(self.other_faces(own, within)?);
         deep.extend(deeper);
         high.extend(higher);
-        let places = [&broken[..], &deep, &high, &between].concat();
+        let drawn = within.straddled()?;
+        let places = [&broken[..], &deep, &high, &between, &far, &drawn].concat();
         let mut others = Others {
             points: places.iter().map(|p| within.place(*p)).collect(),
             edge: edge.len(),
@@ -236,6 +242,8 @@ impl<'a> Parted<'a> {
             deep: deep.len(),
             high: high.len(),
             between: between.len(),
+            far: far.len(),
+            drawn: drawn.len(),
             outliers: 0,
             farthest_outlier: 0.0,
             on_reference: self.nominals.own(number).is_some(),
@@ -278,7 +286,8 @@ impl<'a> Parted<'a> {
         };
         let places: Vec<Point> = points.iter().map(|p| within.place(*p)).collect();
         let over = in_cloud(&places, within.nominal, &clear)?.points;
-        Ok(within.reach(over.into_iter().map(|i| points[i as usize]).collect()).1)
+        let (_, far) = within.reach(over.into_iter().map(|i| points[i as usize]).collect());
+        Ok(within.off(&far))
     }
 
     /// The area that vertices stand for: at the edges of a scan facets straddle two faces.
@@ -380,12 +389,30 @@ impl Within<'_> {
         points.iter().map(off).collect()
     }
 
-    /// Those within its distance, and how far off the others are.
-    fn reach(&self, points: Vec<u32>) -> (Vec<u32>, Vec<f64>) {
+    /// Those within its distance, and the others.
+    fn reach(&self, points: Vec<u32>) -> (Vec<u32>, Vec<u32>) {
         let off = self.off(&points);
         let (near, far): (Vec<_>, Vec<_>) =
             points.into_iter().zip(off).partition(|(_, off)| *off <= self.near.distance);
-        (near.into_iter().map(|n| n.0).collect(), far.into_iter().map(|f| f.1).collect())
+        (near.into_iter().map(|n| n.0).collect(), far.into_iter().map(|f| f.0).collect())
+    }
+
+    /// The corners of facets that face as the feature does and are of no face, as all of their corners are of others: a step down to its border has none of its own.
+    fn straddled(&self) -> Result<Vec<u32>, FeatureError> {
+        let Parted { mesh, partition, loose, .. } = self.parted;
+        let is_other = |v: &u32| {
+            let owner = partition.owners[*v as usize];
+            owner != NO_FACE
+                && !self.own.faces.contains(&owner)
+                && partition.classes[*v as usize] == Class::Face
+        };
+        let is_free = |f: &&u32| mesh.faces[**f as usize].iter().all(is_other);
+        let free: Vec<u32> = loose.iter().filter(is_free).copied().collect();
+        let facets = facets_near(mesh, &free, self.nominal, self.near)?;
+        let mut corners: Vec<u32> = facets.iter().flat_map(|f| mesh.faces[*f as usize]).collect();
+        corners.sort_unstable();
+        corners.dedup();
+        Ok(corners)
     }
 }
 

@@ -186,7 +186,7 @@ fn found((number, feature): (usize, &Feature), nominals: &Nominals, search: &Sea
     };
     let whole = seeded.map(|s| s.area).or_else(|| nominal.area());
     // Noise makes facets larger than what they lie on.
-    taken.coverage = area.zip(whole).map(|(area, whole)| (area / whole).clamp(0.0, 1.0));
+    taken.coverage = area.zip(whole).map(|(area, whole)| (area / whole).clamp(0.0, 1.0) + 0.0);
     taken.facets = found.facets;
     Ok(taken)
 }
@@ -209,6 +209,18 @@ fn areas(mesh: &Mesh, found: &Found) -> Vec<f64> {
     areas
 }
 
+/// Why no point is of a feature that is sought.
+fn nothing(taken: &Taken, feature: &Feature) -> String {
+    let edge = taken.others.edge;
+    if edge > 0 {
+        return format!(
+            "all of its points ({edge}) lie on edges, as far as the scan rounds these; measure it more densely"
+        );
+    }
+    let margin = if feature.extract.has_margin() { ", or its margin leaves nothing of it" } else { "" };
+    format!("nothing was measured where the model has it{margin}")
+}
+
 /// The feature with the element of its points, or the reason why it has none.
 pub(super) fn associated(
     mut taken: Taken,
@@ -220,7 +232,7 @@ pub(super) fn associated(
             Source::Nominal | Source::Seed(_) if !taken.facets.is_empty() => {
                 "all of its vertices lie on edges, which rim = false leaves out".into()
             }
-            Source::Nominal | Source::Seed(_) => "nothing was measured where the model has it".into(),
+            Source::Nominal | Source::Seed(_) => nothing(&taken, feature),
             _ => "its file has no points".into(),
         });
         return Ok(taken);

@@ -32,6 +32,14 @@ impl Checker<'_> {
         }
     }
 
+    /// A finite length in millimeters above zero.
+    pub(super) fn positive(&self, number: &At<f64>, what: &str) -> Result<f64, PlanError> {
+        match self.length(number, what)? {
+            x if x > 0.0 => Ok(x),
+            _ => self.wrong(&number.span, format!("{what} is {}; give a length above 0", number.value)),
+        }
+    }
+
     /// A name that can be read in every result: it has letters, and none that steers a terminal or another program.
     pub(super) fn id(&self, id: &At<String>) -> Result<(), PlanError> {
         if id.value.trim().is_empty() {

@@ -391,7 +391,7 @@ fn extract(checker: &Checker, written: Option<&ExtractText>) -> Result<Extract, 
         other => other.as_ref().map_or(ANGLE, |a| a.value).to_radians(),
     };
     Ok(Extract {
-        distance: written.distance.as_ref().map(|d| checker.not_negative(d, "the distance")).transpose()?,
+        distance: written.distance.as_ref().map(|d| checker.positive(d, "the distance")).transpose()?,
         margin: written.margin.as_ref().map(|m| checker.length(m, "the margin")).transpose()?,
         angle,
         rim: written.rim.unwrap_or(true),
@@ -414,6 +414,11 @@ pub struct Extract {
 }
 
 impl Extract {
+    /// Whether something is left out along the borders.
+    pub fn has_margin(&self) -> bool {
+        self.margin.is_some_and(|margin| margin > 0.0)
+    }
+
     fn near(&self, nominal: &Nominal) -> Nearness {
         let size = match nominal {
             Nominal::Plane { boundary, .. } => trueness_geom::space::Aabb::of(boundary).diagonal(),
