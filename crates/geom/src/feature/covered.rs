@@ -244,7 +244,7 @@ mod tests {
                 > 0.9
         );
         assert_eq!(covered(&bore, &few[..1], f64::INFINITY), Some(0.0));
-        assert_eq!(covered(&bore, &[], f64::INFINITY), None);
+        assert_eq!(covered(&bore, &[], f64::INFINITY), Some(0.0));
     }
 
     /// Places in a spiral over a ball of radius 1.

@@ -15,6 +15,8 @@ const PER_UNKNOWN: usize = 4;
 /// Share of the deviation below which a fit is clearly better than a move along the normal. Points along one line or circle of a narrow face do not tell
 /// how it leans.
 const CLEARLY: f64 = 0.75;
+/// Share of the points that are off at least where coordinates are rounded to the size of the noise: fewer may be a defect.
+const ROUNDED_AWAY: f64 = 0.25;
 /// The standard deviation over the median magnitude, of normal noise.
 const MEDIAN: f64 = 1.4826;
 
@@ -84,8 +86,11 @@ fn deviation(all: Vec<f64>, floor: f64) -> f64 {
     if middle > floor {
         return middle;
     }
-    let least = all.into_iter().filter(|off| *off > floor).fold(f64::INFINITY, f64::min);
-    if least.is_finite() { least } else { floor }
+    let others: Vec<f64> = all.iter().copied().filter(|off| *off > floor).collect();
+    match (others.len() as f64) < ROUNDED_AWAY * all.len() as f64 {
+        true => floor,
+        false => others.into_iter().fold(f64::INFINITY, f64::min),
+    }
 }
 
 fn median(mut all: Vec<f64>) -> f64 {

@@ -21,8 +21,9 @@ const MOST: f64 = 3.0;
 const CLEARLY: f64 = 1.25;
 /// Of normal noise the mean magnitude, in standard deviations; less is not asked of the middle.
 const NORMAL: f64 = 0.8;
-/// Fewest points that tell.
-const FEWEST: usize = 30;
+/// Fewest points of a face that tell, and fewest faces.
+const FEWEST: usize = 20;
+const FACES: usize = 3;
 
 /// Distance of a point from the edge of its face, millimeters: from its border or, as borders move with the faces that make them and may not be known, from
 /// the face beside it.
@@ -43,24 +44,29 @@ pub(super) fn width(
     noise: f64,
     spacing: f64,
 ) -> f64 {
-    let mut sums = [(0.0, 0usize); STEPS + 1];
+    let mut sums = vec![[(0.0, 0usize); STEPS + 1]; faces.len()];
     for (p, place) in points.iter().enumerate() {
         let (own, Some(seat)) = (best.owner[p] as usize, best.seat[p]) else { continue };
         let far = to_edge(best, faces, p);
         if far > 0.0 && !faces[own].is_narrow() {
             let off = placed[own].off(faces[own], *place, seat).abs();
             let step = (far / (STEP * spacing)).min(STEPS as f64) as usize;
-            sums[step].0 += (off / placed[own].deviation.max(noise)).min(MOST);
-            sums[step].1 += 1;
+            sums[own][step].0 += (off / placed[own].deviation.max(noise)).min(MOST);
+            sums[own][step].1 += 1;
         }
     }
-    let mean = |(sum, count): (f64, usize)| sum / count as f64;
-    let [edges @ .., middle] = sums;
-    let middle = if middle.1 < FEWEST { NORMAL } else { mean(middle).max(NORMAL) };
+    // The median face tells: of a single one it may be worn.
+    let of_step = |step: usize| {
+        let told = sums.iter().map(|of_face| of_face[step]).filter(|(_, count)| *count >= FEWEST);
+        let mut means: Vec<f64> = told.map(|(sum, count)| sum / count as f64).collect();
+        means.sort_by(f64::total_cmp);
+        (means.len() >= FACES).then(|| means[means.len() / 2])
+    };
+    let middle = of_step(STEPS).map_or(NORMAL, |mean| mean.max(NORMAL));
     // Where edges are taken away few points are left beside them.
-    let is_rounded = |step: &(f64, usize)| (step.1 >= FEWEST).then(|| mean(*step) > CLEARLY * middle);
+    let is_rounded = |step: usize| of_step(step).map(|mean| mean > CLEARLY * middle);
     let (mut otherwise, mut steps) = (0, 0);
-    for (step, rounded) in edges.iter().map(is_rounded).enumerate() {
+    for (step, rounded) in (0..STEPS).map(|step| (step, is_rounded(step))) {
         match rounded {
             Some(true) => steps = step + 1,
             // Those next to an edge may be of a face beside that was taken for this one.
@@ -68,6 +74,10 @@ pub(super) fn width(
             Some(false) => otherwise += 1,
             None => {}
         }
+    }
+    // As far as nothing says otherwise: rows of points may lie where few faces tell.
+    while steps > 0 && steps < STEPS && is_rounded(steps).is_none() {
+        steps += 1;
     }
     STEP * spacing * steps as f64
 }

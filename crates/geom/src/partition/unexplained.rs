@@ -208,7 +208,7 @@ impl Over<'_> {
         }
         let mut found = vec![];
         for hanging in hanging {
-            found.extend(explained(hanging, &over));
+            found.extend(explained(hanging, &over, self.facing.is_none()));
         }
         found.sort_unstable_by_key(|b| (b.face, b.point));
         Ok(found)
@@ -344,32 +344,45 @@ impl Over<'_> {
 }
 
 /// The faces over which what hangs together lies, by the points over each face, with whether nothing was measured beneath.
-fn explained(hanging: &Hanging, over: &[BTreeMap<u32, (Beyond, bool)>]) -> Vec<Beyond> {
+fn explained(hanging: &Hanging, over: &[BTreeMap<u32, (Beyond, bool)>], is_cloud: bool) -> Vec<Beyond> {
     let is_few = hanging.points.len() < SEVERAL;
     let mut left = hanging.points.clone();
     let mut found = vec![];
+    let is_inside = |here: &[(Beyond, bool)]| here.iter().all(|(b, _)| b.off < 0.0);
+    // Out of the material a thing may hide some places; into it nothing else lies where the face was not measured.
+    take_nearest(&mut left, over, &mut found, |here| {
+        let needed = if is_inside(here) { 1 } else { SEVERAL };
+        is_few || here.iter().filter(|(_, gap)| *gap).count() >= needed
+    });
+    for face in &hanging.faces {
+        found.extend(left.iter().filter_map(|p| over[*face as usize].get(p)).map(|(b, _)| *b));
+    }
+    // Nor does anything that no facets join to other faces.
+    if is_cloud && hanging.faces.is_empty() {
+        take_nearest(&mut left, over, &mut found, is_inside);
+    }
+    found
+}
+
+/// Takes the points over the nearest face of those over which they count, until they lie over no such one.
+fn take_nearest(
+    left: &mut Vec<u32>,
+    over: &[BTreeMap<u32, (Beyond, bool)>],
+    found: &mut Vec<Beyond>,
+    counts: impl Fn(&[(Beyond, bool)]) -> bool,
+) {
     loop {
         let here = |of: &BTreeMap<u32, (Beyond, bool)>| -> Vec<(Beyond, bool)> {
             left.iter().filter_map(|p| of.get(p)).copied().collect()
         };
-        // Out of the material a thing may hide some places; in it nothing else lies.
-        let counts = |here: &Vec<(Beyond, bool)>| {
-            let is_inside = here.iter().all(|(b, _)| b.off < 0.0);
-            !here.is_empty()
-                && (is_few || is_inside || here.iter().filter(|(_, gap)| *gap).count() >= SEVERAL)
-        };
         let off =
             |here: &[(Beyond, bool)]| here.iter().map(|(b, _)| b.off.abs()).sum::<f64>() / here.len() as f64;
-        let all = over.iter().map(here).filter(counts);
+        let all = over.iter().map(here).filter(|here| !here.is_empty() && counts(here));
         let Some(nearest) = all.min_by(|a, b| off(a).total_cmp(&off(b))) else { break };
         let those: Vec<u32> = nearest.iter().map(|(b, _)| b.point).collect();
         left.retain(|p| those.binary_search(p).is_err());
         found.extend(nearest.into_iter().map(|(b, _)| b));
     }
-    for face in &hanging.faces {
-        found.extend(left.iter().filter_map(|p| over[*face as usize].get(p)).map(|(b, _)| *b));
-    }
-    found
 }
 
 /// Those of some points that hang together, in the order of the first of each; of a mesh with other vertices of their facets.

@@ -219,10 +219,10 @@ mod tests {
     fn a_sample_tells_of_all_points() {
         let mut random = Random::new(3);
         let level: Vec<f64> = (0..400).map(|_| random.unit()).collect();
-        let place = |i: u32| [f64::from(i / 50) + 0.5, 0.1 * f64::from(i % 50), 0.5];
+        let place = |i: u32| [f64::from(i / 50) + 0.5, 0.01 * f64::from(i % 50), 0.5];
         let points: Vec<[f64; 3]> = (0..20_000).map(place).collect();
         let values: Vec<f64> = (0..20_000).map(|i| level[i / 50] + random.unit()).collect();
-        let sample: Vec<usize> = (0..20_000).step_by(10).collect();
+        let sample = random.choose(2000, 20_000);
         let of = |all: &[usize]| {
             let places: Vec<[f64; 3]> = all.iter().map(|i| points[*i]).collect();
             let blocks =
@@ -233,7 +233,7 @@ mod tests {
         };
         let [whole, part] = [of(&(0..20_000).collect::<Vec<_>>()), of(&sample)];
         // Half of the variance is that of the 50 points of a level.
-        assert!((whole / 25.5 - 1.0).abs() < 0.15 && (part / whole - 1.0).abs() < 0.15, "{whole} {part}");
+        assert!((whole / 25.5 - 1.0).abs() < 0.15 && (part / whole - 1.0).abs() < 0.25, "{whole} {part}");
     }
 
     #[test]

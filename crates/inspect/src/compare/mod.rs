@@ -127,10 +127,8 @@ pub fn run<S: PointStream + ?Sized, K>(
     if let Some(points) = measured.expected() {
         running.iter_mut().for_each(|r| r.expects(points));
     }
-    let mut paired = vec![];
-    for second in 1..references.len() {
-        paired.extend((0..second).map(|first| (first, second, Paired::new())));
-    }
+    let pairs = (1..references.len()).flat_map(|second| (0..second).map(move |first| (first, second)));
+    let paired: Vec<_> = pairs.map(|(first, second)| (first, second, Paired::new())).collect();
     let places = if options.research { options.shown.max(research::PLACES) } else { options.shown };
     let mut out = Comparisons {
         count: 0,

@@ -313,6 +313,20 @@ fn extract(plan: &crate::plan::Feature, taken: &Taken) -> Option<ExtractRecord> 
 const UNKNOWN: &str =
     "its uncertainty is not known: fewer than nine in ten draws of the noise gave a finite value";
 
+/// What is to be said where the plan has a value's uncertainty found, and it was not.
+fn unknown(plan: &Plan, found: &Inspection, n: usize) -> Option<String> {
+    let source =
+        plan.decision.noise.filter(|_| found.values[n].is_ok() && found.uncertainties[n].is_none())?;
+    Some(match source.noise(&found.noise) {
+        Ok(_) => UNKNOWN.to_string(),
+        Err(why) => {
+            format!(
+                "its uncertainty is not known, as the noise is not: {why}; give the `noise` in [decision]"
+            )
+        }
+    })
+}
+
 fn characteristic(plan: &Plan, found: &Inspection, n: usize) -> CharacteristicRecord {
     let (spec, value) = (&found.specs[n], &found.values[n]);
     let id = |n: &usize| plan.features[*n].id.clone();
@@ -340,13 +354,7 @@ fn characteristic(plan: &Plan, found: &Inspection, n: usize) -> CharacteristicRe
             verdict(v.value, &spec.limits.widened(v.bonus), rule, uncertainty.map(|u| u.sides))
         })
     };
-    let unknown = measured.zip(plan.decision.noise).filter(|_| uncertainty.is_none());
-    let unknown = unknown.map(|(_, source)| match source.noise(&found.noise) {
-        Ok(_) => UNKNOWN.to_string(),
-        Err(why) => format!(
-            "its uncertainty is not known, as the noise is not: {why}; give the `noise` in [decision]"
-        ),
-    });
+    let unknown = unknown(plan, found, n);
     let with_others = found.with_others[n].as_ref();
     let judged_with =
         left_out::judge_left_out(plan, found, spec, judged(value), with_others.map(|v| (v, judged(v))));

@@ -36,6 +36,8 @@ pub(super) struct Parted<'a> {
 /// Share of the greatest distance from its borders that a point of a face has, up to which a margin leaves points out there: some of a narrow face stays.
 const HALF_WIDTH: f64 = 0.5;
 
+/// Share of the area of a face from which on facets along it without corners of their own may be a step.
+const STEP: f64 = 0.05;
 /// Points of a face from which on those at its edges are not needed.
 const POINTS_ENOUGH: usize = 20;
 /// Points farther off than this share of the size of what was measured are of something else.
@@ -409,6 +411,10 @@ impl Within<'_> {
         let is_free = |f: &&u32| mesh.faces[**f as usize].iter().all(is_other);
         let free: Vec<u32> = loose.iter().filter(is_free).copied().collect();
         let facets = facets_near(mesh, &free, self.nominal, self.near)?;
+        // Corners of a part leave some.
+        if area(mesh, &facets) < STEP * area(mesh, &of_faces(self.own, &self.parted.facets)) {
+            return Ok(vec![]);
+        }
         let mut corners: Vec<u32> = facets.iter().flat_map(|f| mesh.faces[*f as usize]).collect();
         corners.sort_unstable();
         corners.dedup();

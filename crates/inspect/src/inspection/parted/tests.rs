@@ -266,7 +266,8 @@ fn what_lies_upon_other_faces_of_the_reference_is_no_part_of_a_plane() {
         let (value, points) = flatness(&cloud, Some(&strips(&lines)), TOP, "distance = 2");
         // Of twelve thousand points with noise none is farther off than six standard deviations.
         assert!(value < 12.0 * SIGMA, "{name}: {value}");
-        assert!((11_800..12_100).contains(&points), "{name}: {points}");
+        // The wall of the step is lower than a distance of points: some beside it may be left out as on its edge.
+        assert!((11_700..12_100).contains(&points), "{name}: {points}");
     }
 }
 
@@ -311,7 +312,9 @@ fn a_wall_off_its_place_is_no_part_of_the_plane_beside_it() {
             continue;
         }
         // A chamfer wider than a scan rounds edges lies on neither, and counts.
-        let broken = [[[-9.0, 0.0], [9.0, 0.0]], [[9.0, 0.0], [10.0, -1.0]], [[10.0, -1.0], [10.0, -8.0]]];
+        let wide = 4.5 / f64::sqrt(dense);
+        let (end, low) = (10.0 - wide, -wide);
+        let broken = [[[-9.0, 0.0], [end, 0.0]], [[end, 0.0], [10.0, low]], [[10.0, low], [10.0, -8.0]]];
         let value = greatest(&strewn(&broken, dense, SIGMA), &reference, TOP, "distance = 0.5");
         assert!(value > 0.05, "{dense}: {value}");
     }
