@@ -15,6 +15,9 @@ use crate::space::Point;
 const STEP: f64 = 0.25;
 /// Their number: farther than that no scan is taken to round edges, and there faces are as in their middle.
 const STEPS: usize = (ROUNDED / STEP) as usize;
+/// Steps of a distance of neighbors, and the least that are rounded.
+const ROW: usize = 4;
+const LEAST: usize = 3;
 /// Deviations beyond which a point counts no more: single defects tell nothing of all edges.
 const MOST: f64 = 3.0;
 /// Mean deviation over that in the middle of faces from which on points are rounded: they are moved by three quarters of a standard deviation.
@@ -75,9 +78,12 @@ pub(super) fn width(
             None => {}
         }
     }
-    // As far as nothing says otherwise: rows of points may lie where few faces tell.
-    while steps > 0 && steps < STEPS && is_rounded(steps).is_none() {
-        steps += 1;
+    // Those upon an edge are of both faces: of a computed mesh all that are beside it.
+    if steps < LEAST {
+        return 0.0;
     }
-    STEP * spacing * steps as f64
+    // As far as nothing says otherwise, within a row of points.
+    let end = STEPS.min(steps + ROW);
+    let next = (steps..end).find(|step| is_rounded(*step).is_some());
+    STEP * spacing * next.unwrap_or(steps) as f64
 }
