@@ -32,7 +32,7 @@ enum Goes {
     Facets(Facets),
     /// As far as the bounds of a nominal feature.
     Nominal(Extent),
-    /// As far as measured points that were found to be of it, which lie no farther apart.
+    /// As far as measured points that were found to be of it, which lie no farther apart; narrow ones may be where a scan rounds an edge.
     Points { tree: PointTree, apart: f64, narrow: bool },
 }
 

@@ -16,17 +16,17 @@ const STEP: f64 = 0.25;
 /// Their number: farther than that no scan is taken to round edges, and there faces are as in their middle.
 const STEPS: usize = (ROUNDED / STEP) as usize;
 /// Steps of a distance of neighbors, and the least that are rounded.
-const ROW: usize = 4;
-const LEAST: usize = 3;
+const STEPS_OF_A_ROW: usize = 4;
+const LEAST_STEPS: usize = 3;
 /// Deviations beyond which a point counts no more: single defects tell nothing of all edges.
-const MOST: f64 = 3.0;
+const MOST_DEVIATIONS: f64 = 3.0;
 /// Mean deviation over that in the middle of faces from which on points are rounded: they are moved by three quarters of a standard deviation.
 const CLEARLY: f64 = 1.25;
 /// Of normal noise the mean magnitude, in standard deviations; less is not asked of the middle.
 const NORMAL: f64 = 0.8;
-/// Fewest points of a face that tell, and fewest faces.
-const FEWEST: usize = 20;
-const FACES: usize = 3;
+/// Fewest points of a face that tell of a step, and fewest faces of which the median tells.
+const FEWEST_POINTS: usize = 20;
+const FEWEST_FACES: usize = 3;
 
 /// Distance of a point from the edge of its face, millimeters: from its border or, as borders move with the faces that make them and may not be known, from
 /// the face beside it.
@@ -54,16 +54,16 @@ pub(super) fn width(
         if far > 0.0 && !faces[own].is_narrow() {
             let off = placed[own].off(faces[own], *place, seat).abs();
             let step = (far / (STEP * spacing)).min(STEPS as f64) as usize;
-            sums[own][step].0 += (off / placed[own].deviation.max(noise)).min(MOST);
+            sums[own][step].0 += (off / placed[own].deviation.max(noise)).min(MOST_DEVIATIONS);
             sums[own][step].1 += 1;
         }
     }
     // The median face tells: of a single one it may be worn.
     let of_step = |step: usize| {
-        let told = sums.iter().map(|of_face| of_face[step]).filter(|(_, count)| *count >= FEWEST);
+        let told = sums.iter().map(|of_face| of_face[step]).filter(|(_, count)| *count >= FEWEST_POINTS);
         let mut means: Vec<f64> = told.map(|(sum, count)| sum / count as f64).collect();
         means.sort_by(f64::total_cmp);
-        (means.len() >= FACES).then(|| means[means.len() / 2])
+        (means.len() >= FEWEST_FACES).then(|| means[means.len() / 2])
     };
     let middle = of_step(STEPS).map_or(NORMAL, |mean| mean.max(NORMAL));
     // Where edges are taken away few points are left beside them.
@@ -79,11 +79,11 @@ pub(super) fn width(
         }
     }
     // Those upon an edge are of both faces: of a computed mesh all that are beside it.
-    if steps < LEAST {
+    if steps < LEAST_STEPS {
         return 0.0;
     }
     // As far as nothing says otherwise, within a row of points.
-    let end = STEPS.min(steps + ROW);
+    let end = STEPS.min(steps + STEPS_OF_A_ROW);
     let next = (steps..end).find(|step| is_rounded(*step).is_some());
     STEP * spacing * next.unwrap_or(steps) as f64
 }

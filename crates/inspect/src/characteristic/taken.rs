@@ -60,12 +60,12 @@ pub struct Others {
     pub high: usize,
     /// How many lie between it and the other side of a wall, off both.
     pub between: usize,
+    /// How many are of its surface, farther off than its reach.
+    pub far: usize,
+    /// How many are corners of facets along it that are of no face.
+    pub drawn: usize,
     /// Points on its edges, where scans are rounded: none of the others.
     pub edge: usize,
-    /// Of those, points of it that lie farther off than its reach.
-    pub far: usize,
-    /// Of those, corners of facets along it that are of no face.
-    pub drawn: usize,
     /// Points of it in dents that are deeper than its reach: none of the others.
     pub dents: usize,
     /// Points of a scan that stick out, with no more than two together: none of the others.

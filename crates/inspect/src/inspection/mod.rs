@@ -106,6 +106,7 @@ pub fn run(plan: &Plan, data: Data, progress: &dyn Progress) -> Result<Inspectio
     for motion in align::other_poses(&alignment) {
         // One after the other: each is a copy of all that was measured.
         if let Some(other) = align::in_other_pose(plan, &data, &motion, &nominals, progress)? {
+            // A page shows the partition of the pose that was found.
             let other = Data { shown: 0, ..other };
             in_other_poses.push(all(&features::taken(plan, &other, &nominals, progress)?.all)?);
         }

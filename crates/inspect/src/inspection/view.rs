@@ -2,7 +2,7 @@
 
 use super::{DrawnFace, Inspection};
 use crate::compare;
-use crate::report::{Geometry, Mark, MarkGroup, Marks, ViewObject, ViewRole};
+use crate::report::{Mark, MarkGroup, Marks, ViewObject, ViewRole};
 use crate::results::Verdict;
 use crate::results::inspect::FeatureSource;
 use crate::results::inspect::InspectDocument;
@@ -80,7 +80,11 @@ impl<'a> View<'a> {
     /// What is drawn.
     pub fn objects(&self) -> Vec<ViewObject<'_>> {
         let mut all: Vec<ViewObject> = self.parts.iter().map(Part::object).collect();
-        all.extend(self.drawn.iter().map(|d| object(ViewRole::Partition, &d.name, Some(d.color), &d.mesh)));
+        all.extend(
+            self.drawn
+                .iter()
+                .map(|d| ViewObject::plain(ViewRole::Partition, &d.name, Some(d.color), &d.mesh)),
+        );
         all.extend(self.deviations.into_iter().flat_map(compare::View::mapped));
         all
     }
@@ -88,23 +92,7 @@ impl<'a> View<'a> {
 
 impl Part {
     fn object(&self) -> ViewObject<'_> {
-        object(ViewRole::Part, &self.name, self.color, &self.mesh)
-    }
-}
-
-fn object<'a>(role: ViewRole, name: &'a str, color: Option<Rgb>, mesh: &'a Mesh) -> ViewObject<'a> {
-    ViewObject {
-        role,
-        name,
-        color,
-        comparison: None,
-        geometry: match mesh.faces.is_empty() {
-            true => Geometry::Points(&mesh.positions),
-            false => Geometry::Mesh(mesh),
-        },
-        fields: vec![],
-        keep: &[],
-        gathered: None,
+        ViewObject::plain(ViewRole::Part, &self.name, self.color, &self.mesh)
     }
 }
 

@@ -129,6 +129,23 @@ impl ViewField<'_> {
 }
 
 impl<'a> ViewObject<'a> {
+    /// A mesh, or without facets a cloud, in one color and without values.
+    pub(crate) fn plain(role: ViewRole, name: &'a str, color: Option<Rgb>, mesh: &'a Mesh) -> ViewObject<'a> {
+        ViewObject {
+            role,
+            name,
+            color,
+            comparison: None,
+            geometry: match mesh.faces.is_empty() {
+                true => Geometry::Points(&mesh.positions),
+                false => Geometry::Mesh(mesh),
+            },
+            fields: vec![],
+            keep: &[],
+            gathered: None,
+        }
+    }
+
     /// Measured points without name or values.
     pub fn measured(places: &'a [Point]) -> ViewObject<'a> {
         ViewObject {

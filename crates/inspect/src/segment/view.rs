@@ -1,6 +1,6 @@
 //! What a report draws of a segmentation: every region in its own color, with the lines between them.
 
-use crate::report::{Geometry, Mark, MarkGroup, Marks, ViewObject, ViewRole};
+use crate::report::{Mark, MarkGroup, Marks, ViewObject, ViewRole};
 use crate::results::segment::SegmentDocument;
 use crate::scale::palette::{Rgb, category};
 use std::collections::HashMap;
@@ -57,18 +57,9 @@ impl<'a> View<'a> {
         let names = self.document.regions.iter().map(|r| r.shape.name()).chain([""]);
         (self.parts.iter().zip(names).enumerate())
             .filter(|(_, (part, _))| !part.positions.is_empty())
-            .map(|(n, (part, name))| ViewObject {
-                role: ViewRole::Part,
-                name,
-                color: Some(color(Some(n).filter(|n| *n < self.document.regions.len()))),
-                comparison: None,
-                geometry: match part.faces.is_empty() {
-                    true => Geometry::Points(&part.positions),
-                    false => Geometry::Mesh(part),
-                },
-                fields: vec![],
-                keep: &[],
-                gathered: None,
+            .map(|(n, (part, name))| {
+                let number = Some(n).filter(|n| *n < self.document.regions.len());
+                ViewObject::plain(ViewRole::Part, name, Some(color(number)), part)
             })
             .collect()
     }
