@@ -91,13 +91,14 @@ fn every_stage_ends_at_its_total_and_counts_what_it_names() {
         ends(&all.iter().map(|a| a.as_os_str()).collect::<Vec<_>>())
     };
     // The command, and how many of what its first stage does.
-    let runs: [(Vec<serde_json::Value>, &str, Option<u64>); 7] = [
+    let runs: [(Vec<serde_json::Value>, &str, Option<u64>); 8] = [
         (of(&["check"], cube, true), "facets", Some(12)),
         (of(&["segment"], cube, true), "facets", Some(12)),
         (of(&["segment"], points, false), "points", Some(400)),
         (of(&["fit", "--shape", "cylinder"], points, true), "points", Some(400)),
         (of(&["fit", "--shape", "plane", "--method", "minimum-zone"], points, false), "points", Some(400)),
-        (of(&["curvature"], points, false), "places", Some(400)),
+        (of(&["curvature"], points, false), "patches", Some(160)),
+        (of(&["curvature", "--independent"], points, false), "places", Some(400)),
         (of(&["inspect"], plan, true), "steps", Some(7)),
     ];
     for (stages, unit, total) in runs {
