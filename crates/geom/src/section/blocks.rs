@@ -56,7 +56,7 @@ impl Blocks {
             let p = span.points[middle];
             reduced.numbers.push(span.numbers[middle]);
             reduced.points.push([p[0] - moved * along[1], p[1] + moved * along[0]]);
-            reduced.weights.push(all.len() as f64 / size as f64);
+            reduced.weights.push(all.iter().map(|i| span.weights[*i]).sum::<f64>() / size as f64);
             feet.push(state.feet[middle]);
         }
         let place = |i: &usize| i / count * blocks + i % count / size;

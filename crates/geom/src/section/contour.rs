@@ -10,6 +10,7 @@ use super::direction::from_the_end;
 use super::exact::missed;
 use super::levels::{MARGIN, SAME, Start, hidden};
 use super::plan::{Chains, Plan, RESOLUTION};
+use super::prior::Prior;
 use super::resolved::{Among, misses, resolved};
 use super::result::{Continuity, Contour, Join, Options, SectionError, Taken};
 use super::row::{Clean, check_row};
@@ -57,19 +58,31 @@ pub fn contour(
     options: &Options,
     progress: &dyn Progress,
 ) -> Result<Contour, SectionError> {
-    contour_within(PRODUCTS, points, options, progress)
+    contour_within(PRODUCTS, points, &Prior::of(options), options, progress)
+}
+
+/// The same of points whose noise is known.
+pub(super) fn contour_with(
+    points: &[[f64; 2]],
+    prior: &Prior,
+    options: &Options,
+    progress: &dyn Progress,
+) -> Result<Contour, SectionError> {
+    contour_within(PRODUCTS, points, prior, options, progress)
 }
 
 /// The same with so many products for its searches.
 pub(super) fn contour_within(
     products: f64,
     points: &[[f64; 2]],
+    prior: &Prior,
     options: &Options,
     progress: &dyn Progress,
 ) -> Result<Contour, SectionError> {
     check_row(points, options)?;
     let searched = Searched::of(points, options);
-    let found = either_way(products, &searched.row(points), options, progress)?;
+    let row = searched.row(points);
+    let found = prior.among(searched.numbers(), |prior| either_way(products, &row, &prior, options, progress))?;
     Ok(searched.whole(found, points))
 }
 
@@ -77,12 +90,16 @@ pub(super) fn contour_within(
 fn either_way(
     products: f64,
     points: &[[f64; 2]],
+    prior: &Prior,
     options: &Options,
     progress: &dyn Progress,
 ) -> Result<Contour, SectionError> {
     let turned: Vec<[f64; 2]> = points.iter().rev().copied().collect();
     let backward = from_the_end(points);
-    let ways = if backward { [&turned[..], points] } else { [points, &turned] };
+    let back: Option<Vec<f64>> = prior.weights.map(|all| all.iter().rev().copied().collect());
+    let priors = [*prior, Prior { weights: back.as_deref(), ..*prior }];
+    let rows = [(points, &priors[0]), (&turned[..], &priors[1])];
+    let ways = if backward { [rows[1], rows[0]] } else { rows };
     let (hasty, again) = (Cell::new(false), Cell::new(false));
     let budget = &Budget::new(products);
     let mut found = in_order(ways[0], options, budget, Some(&hasty), progress);
@@ -97,7 +114,7 @@ fn either_way(
     }
     // A search that ended badly may end well from the other end.
     let doubtful =
-        |found: &Contour| !hasty.get() && is_doubtful(found, points, options) && !budget.is_spent(0.0);
+        |found: &Contour| !hasty.get() && is_doubtful(found, points, prior) && !budget.is_spent(0.0);
     if found.as_ref().map_or_else(|e| *e == SectionError::Astray, doubtful) {
         let other = match in_order(ways[1], options, budget, None, progress) {
             Err(SectionError::Cancelled(e)) => return Err(e.into()),
@@ -129,8 +146,8 @@ const ROUNDED: f64 = 3.0;
 const DOUBTFUL: f64 = 1.3;
 
 /// Whether segments of a contour are astray, or its points scatter more than about local fits.
-fn is_doubtful(found: &Contour, points: &[[f64; 2]], options: &Options) -> bool {
-    let own = options.noise.unwrap_or_else(|| noise(points, found.closed).0);
+fn is_doubtful(found: &Contour, points: &[[f64; 2]], prior: &Prior) -> bool {
+    let own = prior.noise.map_or_else(|| noise(points, found.closed).0, |n| n.deviation);
     !found.astray.is_empty() || own > 0.0 && found.rms() > DOUBTFUL * own
 }
 
@@ -146,14 +163,14 @@ fn rank(found: &Contour, count: usize) -> (usize, f64) {
 
 /// The contour of a row, found from its first point, or the polygon whose corners its points are where these speak for no other contour.
 fn in_order(
-    points: &[[f64; 2]],
+    (points, prior): (&[[f64; 2]], &Prior),
     options: &Options,
     budget: &Budget,
     hasty: Option<&Cell<bool>>,
     progress: &dyn Progress,
 ) -> Result<Contour, SectionError> {
-    let found = searched(points, options, budget, hasty, progress);
-    let free = options.noise.is_none() && options.continuity.is_none() && options.resolution.is_none();
+    let found = searched(points, prior, options, budget, hasty, progress);
+    let free = prior.noise.is_none() && options.continuity.is_none() && options.resolution.is_none();
     // Points put in order, of a cloud or a scan, are none that somebody chose.
     let is_given = !options.ordered && matches!(found, Ok(_) | Err(SectionError::Astray));
     let Some(corners) = (if free && is_given { Corners::of(points, options) } else { None }) else {
@@ -163,7 +180,7 @@ fn in_order(
     let noise = corners.off_a_circle(found.as_ref());
     let options = &Options { noise, ..*options };
     let circle = match noise {
-        Some(_) => searched(points, options, budget, None, progress).ok().filter(is_round),
+        Some(_) => searched(points, &Prior::of(options), options, budget, None, progress).ok().filter(is_round),
         None => None,
     };
     Ok(corners.or(circle.or(found), options))
@@ -172,6 +189,7 @@ fn in_order(
 /// The contour that the search finds; `budget` and `hasty` as of the search.
 fn searched(
     points: &[[f64; 2]],
+    prior: &Prior,
     options: &Options,
     budget: &Budget,
     hasty: Option<&Cell<bool>>,
@@ -181,8 +199,8 @@ fn searched(
     if progress.cancelled() {
         return Err(SectionError::Cancelled(crate::progress::Cancelled));
     }
-    let free = options.noise.is_none() && options.continuity.is_none();
-    let mut start = Start::new(clean, options);
+    let free = prior.noise.is_none() && options.continuity.is_none();
+    let mut start = Start::new(clean, prior, options);
     if free
         && !start.exact
         && options.resolution.is_none()
@@ -198,7 +216,7 @@ fn searched(
         // It is of no use.
         return Err(SectionError::Astray);
     }
-    let fine = start.fine(options);
+    let fine = start.fine();
     let mut finer = start.finer(options, fine, &chains.founds);
     while let Some(other) = finer.pop_front().filter(|_| !budget.is_spent(0.0)) {
         let bar = start.cost(&chains.founds);
@@ -228,7 +246,7 @@ fn searched(
     let mut found = start.plan(options, budget).join(chains)?;
     // Points that are rounded lie on lines and circles by chance, and about them with a period.
     let is_rounded = found.contour.noise <= ROUNDED * start.clean.rounding;
-    if options.noise.is_none() && options.resolution.is_none() && !is_rounded {
+    if prior.noise.is_none() && options.resolution.is_none() && !is_rounded {
         found.astray(missed(&start.clean.points, &found.contour));
         found.astray(fine.map_or(vec![], |fine| hidden(&found.contour, fine)));
     }
@@ -293,7 +311,7 @@ impl Plan<'_> {
         let mut all = Joined::default();
         let quantile = |f: &Found| {
             let degrees =
-                (f.span.points.len() as f64 - 4.0).max(1.0) + if self.given.is_some() { 1e6 } else { 0.0 };
+                (f.span.weights.iter().sum::<f64>() - 4.0).max(1.0) + self.known_noise.map_or(0.0, |n| n.degrees);
             student_quantile(1.0 - self.options.level, degrees)
         };
         let crossings: Vec<Option<Join>> = (0..count)
@@ -326,7 +344,10 @@ impl Plan<'_> {
         let unknowns: f64 = founds.iter().map(Found::unknowns).sum();
         all.contour.unknowns = unknowns;
         let degrees = (self.weights.iter().sum::<f64>() - unknowns).max(1.0);
-        all.contour.noise = self.given.unwrap_or_else(|| (sum / degrees).sqrt());
+        all.contour.noise = self.known_noise.map_or_else(
+            || (sum / degrees).sqrt(),
+            |n| ((sum + n.degrees * n.deviation.powi(2)) / (degrees + n.degrees)).sqrt(),
+        );
         (all.contour.closed, all.contour.spacing) = (closed, self.spacing);
         all.misdrawn(&self.clean.points, self.weights, self.step);
         all.leaving(self.weights);

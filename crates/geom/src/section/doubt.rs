@@ -67,10 +67,10 @@ impl Plan<'_> {
         let numbers: Vec<usize> = founds.iter().flat_map(|f| f.span.numbers.iter().copied()).collect();
         let count = numbers.len();
         let task = self.task(founds.len() == 1, count == self.clean.points.len(), count);
-        let criterion = task.criterion;
+        let span = Span::new(&self.clean.points, self.weights, numbers);
+        let criterion = span.criterion(&task);
         let unknowns = founds.iter().map(|f| Unknowns::of(&f.state.chain)).fold(CORNER, Unknowns::and);
         let bar = criterion.cost_of(founds.iter().map(|f| f.state.sum).sum(), unknowns);
-        let span = Span::new(&self.clean.points, self.weights, numbers);
         Ok(span.over(founds, bar, &task, progress)?)
     }
 }

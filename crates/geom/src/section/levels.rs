@@ -11,6 +11,7 @@
 use super::chain::SegmentKind;
 use super::exact::{quantized, rounded};
 use super::polygon::polygon;
+use super::prior::{Known, Prior};
 use super::result::{Continuity, Contour, Options};
 use super::row::{Clean, size};
 use super::span::Found;
@@ -56,6 +57,7 @@ pub(super) struct Start {
     pub clean: Clean,
     pub turned: usize,
     pub weights: Vec<f64>,
+    pub known_noise: Option<Known>,
     pub parts: Vec<Part>,
     pub outliers: Vec<usize>,
     /// The parts are exact lines and arcs.
@@ -74,14 +76,14 @@ pub(super) struct Start {
     least: f64,
 }
 
-fn penalty(count: usize, noise: f64, fewest: usize) -> Penalty {
-    let log = libm::log(count as f64);
+fn penalty(count: f64, noise: f64, fewest: usize) -> Penalty {
+    let log = libm::log(count.max(2.0));
     Penalty { line: 3.0 * log, arc: 4.0 * log, noise, fewest, places: PLACES }
 }
 
 impl Start {
     /// At the level that local fits tell, or that is given; of rows that are lines and arcs exactly, these.
-    pub fn new(clean: Clean, options: &Options) -> Start {
+    pub fn new(clean: Clean, prior: &Prior, options: &Options) -> Start {
         let n = clean.points.len();
         let (mut own, step) = noise(&clean.points, clean.closed);
         if n < SHORT {
@@ -90,16 +92,18 @@ impl Start {
         let least = (1e-6 * size(&clean.points)).max(options.resolution.unwrap_or(0.0));
         let rounding = clean.rounding;
         own = own.max(rounding);
-        let sigma = options.noise.unwrap_or(own).max(least);
-        let free = options.noise.is_none() && options.continuity.is_none();
+        let sigma = prior.noise.map_or(own, |n| n.deviation).max(least);
+        let free = prior.noise.is_none() && options.continuity.is_none();
         let exact = if free { rounded(&clean, least) } else { None };
         let known = exact.is_some();
-        let none = || polygon(&clean, &penalty(n, least, FEWEST * step));
-        let exact = if options.noise.is_none() { exact.or_else(none) } else { None };
+        let none = || polygon(&clean, &penalty(n as f64, least, FEWEST * step));
+        let exact = if prior.noise.is_none() { exact.or_else(none) } else { None };
+        let clean_weights = clean.numbers.iter().map(|i| prior.weight(*i)).collect();
         let mut start = Start {
             clean,
             turned: 0,
-            weights: vec![1.0; n],
+            weights: clean_weights,
+            known_noise: prior.noise,
             parts: vec![],
             outliers: vec![],
             exact: exact.is_some(),
@@ -127,7 +131,7 @@ impl Start {
             start.divide(FEWEST);
             // Where corners lie so near to each other that each local fit holds one, the partition knows the noise better.
             let found = scatter(&start.clean.points, &start.weights, &start.parts).max(start.least);
-            if options.noise.is_some() || found > LEAST_OF_LOCAL * start.sigma {
+            if prior.noise.is_some() || found > LEAST_OF_LOCAL * start.sigma {
                 break;
             }
             (start.own, start.sigma) = (start.own.min(found), found);
@@ -136,8 +140,8 @@ impl Start {
     }
 
     /// The noise that short fits tell, where it is asked for.
-    pub fn fine(&self, options: &Options) -> Option<f64> {
-        if self.exact || options.noise.is_some() { None } else { fine_noise(&self.clean, self.step) }
+    pub fn fine(&self) -> Option<f64> {
+        if self.exact || self.known_noise.is_some() { None } else { fine_noise(&self.clean, self.step) }
     }
 
     fn turn(&mut self, by: usize) {
@@ -148,7 +152,7 @@ impl Start {
 
     /// The partition at the level `sigma`; a closed row is turned so that it begins where a part does.
     fn divide(&mut self, fewest: usize) {
-        let penalty = penalty(self.clean.points.len(), self.sigma, fewest * self.step);
+        let penalty = penalty(self.weights.iter().sum(), self.sigma, fewest * self.step);
         self.parts = partition(&self.clean.points, &self.weights, &penalty);
         if self.clean.closed && self.parts.len() > 1 {
             self.turn(self.parts[self.parts.len() / 2].from);

@@ -5,6 +5,7 @@ use super::chain::SegmentKind;
 use super::criterion::Criterion;
 use super::levels::Start;
 use super::polygon::{self, turn};
+use super::prior::Known;
 use super::result::{Continuity, Options, SectionError};
 use super::row::{Clean, spacing};
 use super::span::{Found, single};
@@ -31,7 +32,7 @@ pub(super) struct Plan<'a> {
     /// Points are followed at this step: nearer ones scatter more than they are apart.
     pub step: usize,
     pub sigma: f64,
-    pub given: Option<f64>,
+    pub known_noise: Option<Known>,
     pub own: f64,
     /// The continuity that all joins have, where it is not left to the data.
     pub forced: Option<Continuity>,
@@ -63,7 +64,7 @@ impl Start {
             spacing: spacing(&self.clean, self.step),
             step: self.step,
             sigma: self.sigma,
-            given: options.noise,
+            known_noise: self.known_noise,
             own: self.own,
             forced: self.forced,
             known: self.known,
@@ -111,7 +112,7 @@ impl Plan<'_> {
                     let task = Task { draft: true, ..self.task(false, true, n) };
                     let mut open = span().find(&whole, &task, progress)?;
                     open.circle = !open.astray;
-                    open.noise = if self.given.is_some() { open.noise } else { open.scatter() };
+                    open.noise = if self.known_noise.is_some() { open.noise } else { open.scatter() };
                     found = if open.circle { open } else { found };
                 }
                 return Ok(Chains { founds: vec![found], cornered: false });
@@ -184,13 +185,13 @@ impl Plan<'_> {
 
     pub(super) fn task(&self, closed: bool, whole: bool, count: usize) -> Task<'_> {
         let n = self.clean.points.len();
-        // What the rest of the row tells about the noise; next to all if it was given.
-        let degrees = match self.given {
-            Some(_) => 1e6,
+        // What is known about the noise beforehand, or what the rest of the row tells.
+        let degrees = match self.known_noise {
+            Some(known) => known.degrees,
             None if whole || count == n => 0.0,
             None => 0.3 * (n - count) as f64,
         };
-        let noise = self.given.unwrap_or(self.own);
+        let noise = self.known_noise.map_or(self.own, |n| n.deviation);
         let even = self.options.continuity == Some(Continuity::G2);
         let (resolution, count) = (self.resolution(), count as f64);
         let criterion = Criterion { noise, degrees, resolution, count, rest: None };

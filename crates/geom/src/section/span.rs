@@ -208,7 +208,9 @@ impl Span {
                 kept.push(Part { from, to, ..*part });
             }
         }
-        let own = Span::new(&self.points, &self.weights, numbers);
+        // What neighbors share, those that are left tell instead of the others.
+        let weights: Vec<f64> = self.weights.iter().map(|w| (w * step as f64).min(1.0)).collect();
+        let own = Span::new(&self.points, &weights, numbers);
         let thinned = Task { spacing: task.spacing * step as f64, step: 1, ..*task };
         let mut search = own.search(&thinned);
         let found = search.best(&kept, task.closed, progress)?.state;

@@ -182,7 +182,7 @@ impl Sums {
     /// Line and arc through a part: their sums of squares, the arc's `None` where there is none.
     fn fit(&self, from: usize, to: usize) -> (f64, Option<(f64, [f64; 2], f64)>) {
         let d = self.between(from, to);
-        let n = d[9].max(1.0);
+        let n = d[9].max(f64::MIN_POSITIVE);
         let (mx, my, mz) = (d[0] / n, d[1] / n, d[5] / n);
         let (xx, xy, yy) = (d[2] - n * mx * mx, d[3] - n * mx * my, d[4] - n * my * my);
         let half = 0.5 * (xx - yy);
@@ -206,7 +206,7 @@ impl Sums {
 
     fn part(&self, points: &[[f64; 2]], kind: SegmentKind, from: usize, to: usize) -> Part {
         let d = self.between(from, to);
-        let n = d[9].max(1.0);
+        let n = d[9].max(f64::MIN_POSITIVE);
         let (mx, my) = (d[0] / n, d[1] / n);
         let (xx, xy, yy) = (d[2] - n * mx * mx, d[3] - n * mx * my, d[4] - n * my * my);
         let angle = 0.5 * libm::atan2(2.0 * xy, xx - yy);
@@ -332,42 +332,92 @@ pub(super) fn scatter(points: &[[f64; 2]], weights: &[f64], parts: &[Part]) -> f
 /// each. Jackson et al., An Algorithm for Optimal Partitioning of Data on an Interval, 2005; starts that can never win any more
 /// are dropped (Killick, Fearnhead and Eckley, 2012). Time grows with the square of `places` at worst.
 pub(super) fn partition(points: &[[f64; 2]], weights: &[f64], penalty: &Penalty) -> Vec<Part> {
-    let n = points.len();
     let sums = Sums::new(points, weights);
-    let stride = n.div_ceil(penalty.places.max(1)).max(1);
+    let mut breaks = vec![];
+    let stride = penalty.stride(points.len());
+    for Stretch { from, to, kind } in cheapest(&sums, points.len(), penalty, 0) {
+        breaks.push((from, kind));
+        if to == points.len() {
+            breaks.push((to, SegmentKind::Line));
+        }
+    }
+    if stride > 1 {
+        sharpen(&sums, &mut breaks, stride, penalty);
+    }
+    breaks.windows(2).map(|w| sums.part(points, w[0].1, w[0].0, w[1].0)).collect()
+}
+
+/// The same where up to so many points between two parts may belong to neither, for the price of a line.
+pub(super) fn partition_with_gaps(
+    points: &[[f64; 2]],
+    weights: &[f64],
+    penalty: &Penalty,
+    most: usize,
+) -> Vec<Part> {
+    let sums = Sums::new(points, weights);
+    let stretches = cheapest(&sums, points.len(), penalty, most);
+    stretches.into_iter().map(|s| sums.part(points, s.kind, s.from, s.to)).collect()
+}
+
+/// A part by its kind and its points alone.
+struct Stretch {
+    from: usize,
+    to: usize,
+    kind: SegmentKind,
+}
+
+impl Penalty {
+    /// Every so many points a part may start.
+    fn stride(&self, count: usize) -> usize {
+        count.div_ceil(self.places.max(1)).max(1)
+    }
+}
+
+/// The parts of a partition, with gaps of up to so many points between them.
+fn cheapest(sums: &Sums, n: usize, penalty: &Penalty, gap: usize) -> Vec<Stretch> {
+    let stride = penalty.stride(n);
     let last = n / stride;
     let index = |k: usize| if k == last { n } else { k * stride };
     let variance = penalty.noise * penalty.noise;
     let fewest = penalty.fewest.max(2);
+    // What the parts before a place cost at least: where the last of them ends there, and where it may end up to a gap before.
     let mut best = vec![f64::INFINITY; last + 1];
+    let mut entered = vec![(f64::INFINITY, 0); last + 1];
     let mut from = vec![(0, SegmentKind::Line); last + 1];
-    best[0] = 0.0;
+    (best[0], entered[0]) = (0.0, (0.0, 0));
     let mut starts: Vec<usize> = vec![];
     let mut costs: Vec<f64> = vec![];
     for j in 1..=last {
-        if best[j - 1].is_finite() {
+        if entered[j - 1].0.is_finite() {
             starts.push(j - 1);
         }
         costs.clear();
         for &i in &starts {
             let count = index(j) - index(i);
+            let before = entered[i].0;
             let mut least = f64::NEG_INFINITY;
-            if best[i].is_finite() && (count >= fewest || last < 2) {
+            if count >= fewest || last < 2 {
                 let (line, arc) = sums.fit(index(i), index(j));
                 least = line / variance;
-                let cost = best[i] + least + penalty.line;
+                let cost = before + least + penalty.line;
                 if cost < best[j] {
                     (best[j], from[j]) = (cost, (i, SegmentKind::Line));
                 }
                 if let Some((arc, _, _)) = arc.filter(|_| count > fewest) {
                     least = least.min(arc / variance);
-                    let cost = best[i] + arc / variance + penalty.arc;
+                    let cost = before + arc / variance + penalty.arc;
                     if cost < best[j] {
                         (best[j], from[j]) = (cost, (i, SegmentKind::Arc));
                     }
                 }
             }
-            costs.push(best[i] + least);
+            costs.push(before + least);
+        }
+        entered[j] = (best[j], j);
+        for end in j.saturating_sub(gap).max(1)..j {
+            if best[end] + penalty.line < entered[j].0 {
+                entered[j] = (best[end] + penalty.line, end);
+            }
         }
         // A start dearer than the best end, without any penalty, stays dearer: sums of squares only grow.
         let limit = best[j];
@@ -377,18 +427,15 @@ pub(super) fn partition(points: &[[f64; 2]], weights: &[f64], penalty: &Penalty)
             costs[k - 1] <= limit
         });
     }
-    let mut breaks = vec![(n, SegmentKind::Line)];
+    let mut all = vec![];
     let mut j = last;
     while j > 0 {
         let (i, kind) = from[j];
-        breaks.push((index(i), kind));
-        j = i;
+        all.push(Stretch { from: index(i), to: index(j), kind });
+        j = entered[i].1;
     }
-    breaks.reverse();
-    if stride > 1 {
-        sharpen(&sums, &mut breaks, stride, penalty);
-    }
-    breaks.windows(2).map(|w| sums.part(points, w[0].1, w[0].0, w[1].0)).collect()
+    all.reverse();
+    all
 }
 
 /// Moves the starts of parts, each with its kind, that were looked for at every `stride`-th point alone to the best point between;

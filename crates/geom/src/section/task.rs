@@ -47,9 +47,14 @@ impl Span {
         Span { numbers, points, weights }
     }
 
+    /// What models of its points cost.
+    pub fn criterion(&self, task: &Task) -> Criterion {
+        Criterion { count: self.weights.iter().sum::<f64>().max(2.0), ..task.criterion }
+    }
+
     pub fn search<'a>(&'a self, task: &Task<'a>) -> Search<'a> {
         let row = self.row();
-        let criterion = Criterion { count: self.weights.iter().sum::<f64>().max(2.0), ..task.criterion };
+        let criterion = self.criterion(task);
         let (work, kinds) = (Work::default(), [true, true]);
         Search {
             row,

@@ -2,14 +2,15 @@
 //! are those of a scan.
 
 use super::chain::SegmentKind;
-use super::contour::contour;
+use super::contour::{contour, contour_with};
 use super::cut::{Chain, PlaneFrame};
 use super::exact::off_line;
 use super::facets::{Item, LineOrArc, Polygon, SHARP, length};
 use super::result::{Contour, Join, Options, SectionError, Segment, Taken};
+use super::prior::{Known, Prior};
 use super::row::check;
+use super::scan::{CutMesh, ScanRow};
 use super::sheet::{Sheet, nearest, starts};
-use crate::mesh::Mesh;
 use crate::progress::Progress;
 
 /// A polyline of fewer vertices is taken as it is: points so few tell no noise.
@@ -18,14 +19,6 @@ const FEW: usize = 9;
 const EXACT: f64 = 0.3;
 /// So many facets and arcs that meet in a turn, but no sharp one, or so many arcs in succession, are chords of a curve.
 const CURVE: (usize, usize) = (8, 3);
-
-/// The distance up to which coordinates of a mesh are uncertain by the rounding of files: four roundings of the greatest in
-/// single precision, as STL holds it.
-pub fn rounding(mesh: &Mesh) -> f64 {
-    let greatest =
-        mesh.positions.iter().flatten().filter(|x| x.is_finite()).fold(0.0_f64, |m, x| m.max(x.abs()));
-    4.0 * f64::from(f32::EPSILON) * 0.5 * greatest
-}
 
 /// The lines, arcs and curves of a chain in which a plane cuts a mesh.
 ///
@@ -44,11 +37,12 @@ pub fn rounding(mesh: &Mesh) -> f64 {
 pub fn chain_contour(
     chain: &Chain,
     frame: &PlaneFrame,
-    rounding: f64,
+    mesh: &CutMesh,
     options: &Options,
     progress: &dyn Progress,
 ) -> Result<Contour, SectionError> {
     check(options)?;
+    let rounding = mesh.rounding();
     let points: Vec<[f64; 2]> = chain.points.iter().map(|p| frame.flat(*p)).collect();
     if let Some(index) = points.iter().position(|p| p.iter().any(|x| !x.is_finite())) {
         return Err(SectionError::NotFinite { index });
@@ -65,11 +59,10 @@ pub fn chain_contour(
             return Sheet { points: &points, polygon, rounding, options }.contour(&items, progress);
         }
     }
-    let independent = independent(chain);
-    let kept = if independent.len() < 3 * FEW { (0..points.len()).collect() } else { independent };
-    let row: Vec<[f64; 2]> = kept.iter().map(|i| points[*i]).collect();
+    let ScanRow { kept, points: row, weights, noise } = ScanRow::of(mesh, chain, frame, closed);
     let own = Options { closed: Some(closed), ordered: true, ..*options };
-    match contour(&row, &own, progress) {
+    let prior = Prior { noise: Known::given(options).or(noise), weights: Some(&weights) };
+    match contour_with(&row, &prior, &own, progress) {
         // What is too short for a row, as a loop around one vertex, is its lines, whatever the options.
         Err(SectionError::TooFewPoints { .. }) if polygon.at.len() >= 2 => {
             let items = polygon.items(rounding);
@@ -84,24 +77,6 @@ fn is_exact(points: &[[f64; 2]], polygon: &Polygon, items: &[Item], rounding: f6
     let chords: usize = items.iter().filter(|i| i.shape != LineOrArc::Line).map(|i| i.to - i.from - 1).sum();
     let enough = |count: usize| count as f64 >= EXACT * points.len() as f64;
     polygon.at.len() < FEW || enough(straight + chords) || enough(straight + polygon.round(rounding))
-}
-
-/// Points whose edges share no vertex with that of the one before: their noise is independent.
-fn independent(chain: &Chain) -> Vec<usize> {
-    let shares = |i: usize, j: usize| {
-        let (a, b) = (chain.edges[i], chain.edges[j]);
-        a.iter().any(|v| b.contains(v))
-    };
-    let mut kept: Vec<usize> = vec![];
-    for i in 0..chain.edges.len() {
-        if kept.last().is_none_or(|last| !shares(*last, i)) {
-            kept.push(i);
-        }
-    }
-    while chain.closed && kept.len() > 1 && shares(kept[0], kept[kept.len() - 1]) {
-        kept.pop();
-    }
-    kept
 }
 
 /// Noises of the points that a contour was found from, beyond which others lie off it: the contour does not run there.
@@ -175,7 +150,7 @@ fn spread(found: Contour, kept: &[usize], points: &[[f64; 2]], taken: Taken) -> 
             nearest(&all.segments, &starts, around.into_iter(), points[i]);
     }
     let left_out = |i: &usize| all.outliers.binary_search(i).is_ok() || all.repeated.binary_search(i).is_ok();
-    let counted: Vec<usize> = (0..points.len()).filter(|i| !left_out(i)).collect();
+    let counted: Vec<usize> = kept.iter().copied().filter(|i| !left_out(i)).collect();
     all.segments.iter_mut().for_each(|s| (s.count, s.rms, s.max) = (0, 0.0, 0.0));
     for i in counted {
         let (segment, off) = (&mut all.segments[all.labels[i] as usize], all.residuals[i]);

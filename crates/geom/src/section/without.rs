@@ -24,6 +24,11 @@ impl Searched {
         self.kept.iter().map(|i| points[*i]).collect()
     }
 
+    /// Their numbers.
+    pub fn numbers(&self) -> impl Iterator<Item = usize> {
+        self.kept.iter().copied()
+    }
+
     /// The contour found of them as that of the whole row.
     pub fn whole(self, found: Contour, points: &[[f64; 2]]) -> Contour {
         let Searched { kept, strays } = self;

@@ -141,12 +141,13 @@ type WithRows = (Section, Vec<Vec<[f64; 2]>>);
 
 /// What a mesh's facets are where planes cut it.
 pub fn mesh(mesh: &Mesh, planes: &[Cut], options: &Options, stage: &Stage) -> Found {
-    let rounding = section::rounding(mesh);
+    let noise = trueness_geom::noise::mesh(mesh, 0, stage).ok();
+    let cut_mesh = section::CutMesh::new(mesh, noise);
     let of = |cut: &Cut, facets: &[u32]| -> Result<WithRows, SectionError> {
         let chains = section::cut_facets(mesh, &cut.plane, facets, stage)?;
         let contours = chains
             .par_iter()
-            .map(|chain| section::chain_contour(chain, &cut.frame, rounding, options, stage))
+            .map(|chain| section::chain_contour(chain, &cut.frame, &cut_mesh, options, stage))
             .collect::<Result<Vec<Contour>, SectionError>>()?;
         let closed = chains.iter().all(|c| c.closed);
         let area = match closed {

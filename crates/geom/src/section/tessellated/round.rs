@@ -62,7 +62,7 @@ fn circles_through_facets_are_no_doubt() {
         let chains = cut(&mesh, &Plane { normal: [0.0, 0.0, 1.0], offset: z }, &Silent).unwrap();
         let frame = PlaneFrame { origin: [0.0, 0.0, z], x: [1.0, 0.0, 0.0], y: [0.0, 1.0, 0.0] };
         let options = Options::default();
-        let found = chain_contour(&chains[0], &frame, rounding(&mesh), &options, &Silent).unwrap();
+        let found = chain_contour(&chains[0], &frame, &CutMesh::new(&mesh, None), &options, &Silent).unwrap();
         doubts += usize::from(!found.astray.is_empty());
         match found.segments[..] {
             [Segment { geometry: Geometry::Arc { radius: r, .. }, .. }] => {

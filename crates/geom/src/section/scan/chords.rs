@@ -1,0 +1,142 @@
+//! Crossings moved from the chords on which they lie onto the surface between the vertices.
+//!
+//! The chord between two vertices of a bent surface lies within it. How far, the line or arc tells that the crossing belongs to: the
+//! distances of the vertices around from it, as a quadratic function of the way along it and of the height over the plane, are the
+//! surface; the chord between two places of this is where the mesh would be cut without noise.
+
+use super::CutMesh;
+use crate::fit::solve;
+use crate::section::chain::SegmentKind;
+use crate::section::cut::{Chain, PlaneFrame};
+use crate::section::start::Part;
+use crate::space::{cross, dot, minus};
+
+/// Vertices about an edge: those of some three rings.
+const AROUND: usize = 48;
+/// Coefficients of the quadratic function, and vertices that it takes at least.
+const TERMS: usize = 6;
+const FEWEST: usize = 2 * TERMS;
+/// Vertices count whose feet are no nearer to an end of the part than this share of the edge's length: others are those of the faces beside.
+const INSIDE: f64 = 0.3;
+/// Vertices farther off than so many edge lengths are of other faces.
+const OFF: f64 = 3.0;
+
+/// Lengths along a line or arc, and distances to the left of it.
+struct Course<'a> {
+    part: &'a Part,
+    center: [f64; 2],
+}
+
+impl Course<'_> {
+    fn new(part: &Part) -> Course<'_> {
+        let radius = 1.0 / part.curvature;
+        let center = match part.kind {
+            SegmentKind::Line => part.center,
+            _ => [part.center[0] - radius * part.along[1], part.center[1] + radius * part.along[0]],
+        };
+        Course { part, center }
+    }
+
+    /// Length along it from its middle, and distance to the left.
+    fn local(&self, p: [f64; 2]) -> [f64; 2] {
+        let (along, d) = (self.part.along, [p[0] - self.center[0], p[1] - self.center[1]]);
+        let (x, y) = (along[0] * d[0] + along[1] * d[1], along[0] * d[1] - along[1] * d[0]);
+        if self.part.kind == SegmentKind::Line {
+            return [x, y];
+        }
+        // The center lies to the left of an arc that turns left.
+        let sense = self.part.curvature.signum();
+        let radius = 1.0 / self.part.curvature.abs();
+        [radius * libm::atan2(x, -sense * y), sense * (radius - libm::hypot(x, y))]
+    }
+
+    fn place(&self, [s, off]: [f64; 2]) -> [f64; 2] {
+        let along = self.part.along;
+        let [x, y] = if self.part.kind == SegmentKind::Line {
+            [s, off]
+        } else {
+            let sense = self.part.curvature.signum();
+            let radius = 1.0 / self.part.curvature.abs();
+            let (sin, cos) = libm::sincos(s / radius);
+            let from = radius - sense * off;
+            [from * sin, -sense * from * cos]
+        };
+        [self.center[0] + along[0] * x - along[1] * y, self.center[1] + along[1] * x + along[0] * y]
+    }
+}
+
+/// The crossings of a part with their numbers, on the surface.
+pub(super) fn on_surface(
+    cut: &CutMesh,
+    chain: &Chain,
+    frame: &PlaneFrame,
+    part: &Part,
+    points: &[[f64; 2]],
+) -> Vec<(usize, [f64; 2])> {
+    let course = Course::new(part);
+    let n = points.len();
+    let ends = [part.from, part.to - 1].map(|i| course.local(points[i % n])[0]);
+    let normal = cross(frame.x, frame.y);
+    let local = |v: u32| {
+        let p = cut.mesh.positions[v as usize];
+        let [s, off] = course.local(frame.flat(p));
+        [s, off, dot(normal, minus(p, frame.origin))]
+    };
+    (part.from..part.to)
+        .map(|i| {
+            let i = i % n;
+            let [a, b] = chain.edges[i].map(local);
+            let here = course.local(points[i]);
+            let length = (libm::hypot(b[0] - a[0], b[2] - a[2])).max(f64::MIN_POSITIVE);
+            let own = around(cut, chain.edges[i]).into_iter().map(local).filter(|[s, off, _]| {
+                let inside = INSIDE * length;
+                *s >= ends[0] + inside && *s <= ends[1] - inside && off.abs() <= OFF * length
+            });
+            let surface = quadratic(own.collect(), here[0], length);
+            let height = |s: f64, z: f64| {
+                let [x, z] = [(s - here[0]) / length, z / length];
+                let terms = [1.0, z, x, z * z, x * z, x * x];
+                terms.iter().zip(&surface).map(|(t, c)| t * c).sum::<f64>()
+            };
+            let [from, to] = [a, b].map(|[s, _, z]| course.place([s, height(s, z)]));
+            let t = if b[2] == a[2] { 0.5 } else { (-a[2] / (b[2] - a[2])).clamp(0.0, 1.0) };
+            let chord = course.local([0, 1].map(|k| from[k] + t * (to[k] - from[k])));
+            let lift = height(chord[0], 0.0) - chord[1];
+            (i, course.place([here[0], here[1] + lift]))
+        })
+        .collect()
+}
+
+/// The vertices about an edge, ring by ring.
+fn around(cut: &CutMesh, edge: [u32; 2]) -> Vec<u32> {
+    let mut found = edge.to_vec();
+    let mut next = 0;
+    while next < found.len() && found.len() < AROUND {
+        for &v in cut.beside(found[next]) {
+            if found.len() < AROUND && !found.contains(&v) {
+                found.push(v);
+            }
+        }
+        next += 1;
+    }
+    found
+}
+
+/// The quadratic function of length along and height, in edge lengths, nearest to these distances; nothing where they are too few.
+fn quadratic(places: Vec<[f64; 3]>, middle: f64, length: f64) -> [f64; TERMS] {
+    if places.len() < FEWEST {
+        return [0.0; TERMS];
+    }
+    let mut a = vec![vec![0.0; TERMS]; TERMS];
+    let mut b = vec![0.0; TERMS];
+    for [s, off, z] in places {
+        let [x, z] = [(s - middle) / length, z / length];
+        let terms = [1.0, z, x, z * z, x * z, x * x];
+        for i in 0..TERMS {
+            (0..TERMS).for_each(|j| a[i][j] += terms[i] * terms[j]);
+            b[i] += terms[i] * off;
+        }
+    }
+    let found = solve(a, b).filter(|x| x.iter().all(|c| c.is_finite()));
+    found.map_or([0.0; TERMS], |x| std::array::from_fn(|k| x[k]))
+}
