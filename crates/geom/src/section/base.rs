@@ -121,20 +121,22 @@ impl Base {
         (turn(to) - turn(from)) / (to - from)
     }
 
-    /// The chains as they are, tangent to each other; with a line or an arc beside the corner, which a free piece around it may hide; and
-    /// with one free piece where they meet.
+    /// The chains as they are, tangent to each other; one line or arc where they meet; with a line or an arc beside the corner, which a free piece around it may hide; and
+    /// with one free piece there.
     pub fn joined(&self, first: usize) -> Vec<Vec<Plan>> {
         use SegmentKind::{Arc, Line, Spline};
         let [a, b] = [self.plans[first], self.plans[first + 1]];
         let most = (a.count + b.count).clamp(2, free::MOST);
         let with = |new: &[Plan]| [&self.plans[..first], new, &self.plans[first + 2..]].concat();
-        let one = |count: usize| with(&[Plan { kind: Spline, count, from: a.from, to: b.to }]);
+        let over = |kind, count| with(&[Plan { kind, count, from: a.from, to: b.to }]);
         let plain = [(Line, 0), (Arc, 1)];
+        let both = plain.map(|(kind, count)| over(kind, count));
         let before = plain.map(|(kind, count)| with(&[Plan { kind, count, ..a }, b]));
         let after = plain.map(|(kind, count)| with(&[a, Plan { kind, count, ..b }]));
         let own = self.model.state.breaks[first + 2] - self.model.state.breaks[first];
         let counts = [3, 4, 6, 8, 12, most].into_iter().filter(|count| LEAST * count <= own);
-        std::iter::once(self.plans.clone()).chain(before).chain(after).chain(counts.map(one)).collect()
+        let free = counts.map(|count| over(Spline, count));
+        std::iter::once(self.plans.clone()).chain(both).chain(before).chain(after).chain(free).collect()
     }
 
     /// Every model one step away: as lists of plans.

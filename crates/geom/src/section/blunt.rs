@@ -61,7 +61,8 @@ impl Plan<'_> {
             return Ok(None);
         }
         let (count, total) = (found.span.points.len(), self.clean.points.len());
-        let criterion = self.task(found.state.chain.closed, count == total, count).criterion;
+        let task = self.task(found.state.chain.closed, count == total, count);
+        let criterion = found.span.criterion(&task);
         let bar = criterion.cost_of(found.state.sum, Unknowns::of(&found.state.chain));
         let corner = if found.state.chain.closed { CORNER.and(OPENED) } else { CORNER };
         let cost = |states: &[(Span, State)], sum: f64| {

@@ -211,6 +211,10 @@ fn searched(
     if free && let Some(found) = resolved(&start, options, Among::Rows) {
         return Ok(found.whole(points.len()));
     }
+    if std::env::var_os("TDEBUG").is_some() {
+        eprintln!("row {} weight {:.1} known {:?} own {:.5} step {} outliers {} doubt {:?}", start.clean.points.len(), start.weights.iter().sum::<f64>(), start.known_noise, start.own, start.step, start.outliers.len(), options);
+        for p in &start.parts { let a=start.clean.points[p.from]; eprintln!("  {:?} {}..{} at {:.3} {:.3}", p.kind, p.from, p.to, a[0]+start.clean.middle[0], a[1]+start.clean.middle[1]); }
+    }
     let mut chains = Plan { hasty, ..start.plan(options, budget) }.chains(&start.parts, progress)?;
     if hasty.is_some_and(Cell::get) {
         // It is of no use.

@@ -355,7 +355,8 @@ pub(super) fn partition_with_gaps(
     most: usize,
 ) -> Vec<Part> {
     let sums = Sums::new(points, weights);
-    let stretches = cheapest(&sums, points.len(), penalty, most);
+    let gap = most.div_ceil(penalty.stride(points.len()));
+    let stretches = cheapest(&sums, points.len(), penalty, if most == 0 { 0 } else { gap });
     stretches.into_iter().map(|s| sums.part(points, s.kind, s.from, s.to)).collect()
 }
 
@@ -414,7 +415,7 @@ fn cheapest(sums: &Sums, n: usize, penalty: &Penalty, gap: usize) -> Vec<Stretch
             costs.push(before + least);
         }
         entered[j] = (best[j], j);
-        for end in j.saturating_sub(gap).max(1)..j {
+        for end in j.saturating_sub(gap)..j {
             if best[end] + penalty.line < entered[j].0 {
                 entered[j] = (best[end] + penalty.line, end);
             }
@@ -428,7 +429,7 @@ fn cheapest(sums: &Sums, n: usize, penalty: &Penalty, gap: usize) -> Vec<Stretch
         });
     }
     let mut all = vec![];
-    let mut j = last;
+    let mut j = entered[last].1;
     while j > 0 {
         let (i, kind) = from[j];
         all.push(Stretch { from: index(i), to: index(j), kind });

@@ -55,7 +55,7 @@ pub fn chain_contour(
     let forced = options.noise.is_some() || options.continuity.is_some();
     if polygon.at.len() >= 2 && !forced {
         let items = polygon.items(rounding);
-        if is_exact(&points, &polygon, &items, rounding) {
+        if is_exact(&points, &polygon, &items, rounding) && !is_remeshed(&points, &polygon, &items) {
             return Sheet { points: &points, polygon, rounding, options }.contour(&items, progress);
         }
     }
@@ -77,6 +77,21 @@ fn is_exact(points: &[[f64; 2]], polygon: &Polygon, items: &[Item], rounding: f6
     let chords: usize = items.iter().filter(|i| i.shape != LineOrArc::Line).map(|i| i.to - i.from - 1).sum();
     let enough = |count: usize| count as f64 >= EXACT * points.len() as f64;
     polygon.at.len() < FEW || enough(straight + chords) || enough(straight + polygon.round(rounding))
+}
+
+/// Facets whose edges follow each other at even distances, to this factor for nine in ten, are those of a mesh of a surface, not of a
+/// drawing, where lines or arcs of so few steps are between others: chords of curves that the edges do not run along, or the bevels of
+/// corners that no edge runs along.
+const EVEN: f64 = 4.0;
+const STEPS: usize = 2;
+
+fn is_remeshed(points: &[[f64; 2]], polygon: &Polygon, items: &[Item]) -> bool {
+    let n = points.len();
+    let mut steps: Vec<f64> = (0..n).map(|i| length(points[i], points[(i + 1) % n])).collect();
+    steps.sort_by(f64::total_cmp);
+    let number = |i: usize| polygon.numbers[i % polygon.at.len()];
+    let is_short = |item: &Item| (number(item.to) + n - number(item.from)) % n <= STEPS;
+    n >= 3 * FEW && steps[9 * n / 10] <= EVEN * steps[n / 2] && items.len() > 1 && items.iter().any(is_short)
 }
 
 /// Noises of the points that a contour was found from, beyond which others lie off it: the contour does not run there.

@@ -65,6 +65,21 @@ impl Course<'_> {
     }
 }
 
+/// Lets parts take the crossings between them that lie on the line or arc of either.
+pub(super) fn lengthen(parts: &mut [Part], points: &[[f64; 2]], within: f64) {
+    for k in 1..parts.len() {
+        let on = |part: &Part, i: usize| Course::new(part).local(points[i])[1].abs() <= within;
+        let [mut end, mut start] = [parts[k - 1].to, parts[k].from];
+        while end < start && on(&parts[k - 1], end) {
+            end += 1;
+        }
+        while end < start && on(&parts[k], start - 1) {
+            start -= 1;
+        }
+        (parts[k - 1].to, parts[k].from) = (end, start);
+    }
+}
+
 /// The crossings of a part with their numbers, on the surface.
 pub(super) fn on_surface(
     cut: &CutMesh,

@@ -72,6 +72,9 @@ const FEWEST: usize = 4;
 /// Crossings in succession that a corner may take from the mesh: edges of facets that pass it by.
 const BEVEL: usize = 4;
 
+/// What lies beside the end of a part, no farther off than so many standard deviations, belongs to it.
+const WITHIN: f64 = 2.5;
+
 impl ScanRow {
     /// The crossings of a chain, with these places in the plane.
     pub fn of(cut: &CutMesh, chain: &Chain, frame: &PlaneFrame, closed: bool) -> ScanRow {
@@ -84,7 +87,12 @@ impl ScanRow {
         let log = libm::log(count.max(2.0));
         let penalty =
             Penalty { line: 3.0 * log, arc: 4.0 * log, noise: level, fewest: FEWEST, places: PLACES };
-        let parts = partition_with_gaps(&points, &scatter.weights, &penalty, BEVEL);
+        let mut parts = partition_with_gaps(&points, &scatter.weights, &penalty, BEVEL);
+        chords::lengthen(&mut parts, &points, WITHIN * level);
+        if std::env::var_os("TDEBUG").is_some() {
+            eprintln!("scan {} count {count:.1} rough {rough:.5} deviation {deviation:?} noise {:?}", points.len(), cut.noise);
+            for p in &parts { let a=points[p.from]; eprintln!("  {:?} {}..{} at {:.3} {:.3}", p.kind, p.from, p.to, a[0], a[1]); }
+        }
         let mut kept = vec![];
         let mut moved = vec![];
         for part in &parts {
