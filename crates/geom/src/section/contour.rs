@@ -82,7 +82,8 @@ pub(super) fn contour_within(
     check_row(points, options)?;
     let searched = Searched::of(points, options);
     let row = searched.row(points);
-    let found = prior.among(searched.numbers(), |prior| either_way(products, &row, &prior, options, progress))?;
+    let found =
+        prior.among(searched.numbers(), |prior| either_way(products, &row, &prior, options, progress))?;
     Ok(searched.whole(found, points))
 }
 
@@ -180,7 +181,9 @@ fn in_order(
     let noise = corners.off_a_circle(found.as_ref());
     let options = &Options { noise, ..*options };
     let circle = match noise {
-        Some(_) => searched(points, &Prior::of(options), options, budget, None, progress).ok().filter(is_round),
+        Some(_) => {
+            searched(points, &Prior::of(options), options, budget, None, progress).ok().filter(is_round)
+        }
         None => None,
     };
     Ok(corners.or(circle.or(found), options))
@@ -210,10 +213,6 @@ fn searched(
     }
     if free && let Some(found) = resolved(&start, options, Among::Rows) {
         return Ok(found.whole(points.len()));
-    }
-    if std::env::var_os("TDEBUG").is_some() {
-        eprintln!("row {} weight {:.1} known {:?} own {:.5} step {} outliers {} doubt {:?}", start.clean.points.len(), start.weights.iter().sum::<f64>(), start.known_noise, start.own, start.step, start.outliers.len(), options);
-        for p in &start.parts { let a=start.clean.points[p.from]; eprintln!("  {:?} {}..{} at {:.3} {:.3}", p.kind, p.from, p.to, a[0]+start.clean.middle[0], a[1]+start.clean.middle[1]); }
     }
     let mut chains = Plan { hasty, ..start.plan(options, budget) }.chains(&start.parts, progress)?;
     if hasty.is_some_and(Cell::get) {
@@ -314,8 +313,8 @@ impl Plan<'_> {
         let count = founds.len();
         let mut all = Joined::default();
         let quantile = |f: &Found| {
-            let degrees =
-                (f.span.weights.iter().sum::<f64>() - 4.0).max(1.0) + self.known_noise.map_or(0.0, |n| n.degrees);
+            let degrees = (f.span.weights.iter().sum::<f64>() - 4.0).max(1.0)
+                + self.known_noise.map_or(0.0, |n| n.degrees);
             student_quantile(1.0 - self.options.level, degrees)
         };
         let crossings: Vec<Option<Join>> = (0..count)

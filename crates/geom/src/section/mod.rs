@@ -111,7 +111,7 @@ pub use nominal::{OffNominal, Outline, off_nominal, with_material_inside};
 pub use order::{Order, Ordered, order};
 pub use paper::{Method, Search, line_and_curve, method_contour};
 pub use result::{Continuity, Contour, Geometry, Join, Options, SectionError, Segment, Taken, Uncertainty};
+pub use scan::CutMesh;
 pub use slab::{ordered_contour, slab};
 pub use stack::facets_near;
-pub use scan::CutMesh;
 pub use tessellated::chain_contour;

@@ -143,7 +143,7 @@ pub(super) struct Penalty {
 /// Sums over the points before each: x, y, xx, xy, yy, z, xz, yz, zz with z = xx + yy, from the middle of the row,
 /// and the sum of the weights. Each with what rounding lost of it: a short part of a long row is a small difference of large
 /// sums.
-struct Sums {
+pub(super) struct Sums {
     before: Vec<[[f64; 2]; 10]>,
     middle: [f64; 2],
 }
@@ -158,14 +158,19 @@ fn add(sum: &mut [f64; 2], term: f64) {
 
 impl Sums {
     fn new(points: &[[f64; 2]], weights: &[f64]) -> Sums {
+        Sums::within(points, weights, &vec![0.0; points.len()])
+    }
+
+    /// Of points that lie within arcs by this power each, as those of chords do.
+    pub fn within(points: &[[f64; 2]], weights: &[f64], powers: &[f64]) -> Sums {
         let n = points.len() as f64;
         let middle = [0, 1].map(|k| points.iter().map(|p| p[k]).sum::<f64>() / n);
         let mut before = Vec::with_capacity(points.len() + 1);
         let mut sum = [[0.0; 2]; 10];
         before.push(sum);
-        for (p, w) in points.iter().zip(weights) {
+        for ((p, w), power) in points.iter().zip(weights).zip(powers) {
             let (x, y) = (p[0] - middle[0], p[1] - middle[1]);
-            let z = x * x + y * y;
+            let z = x * x + y * y + power;
             let terms = [x, y, x * x, x * y, y * y, z, x * z, y * z, z * z, 1.0];
             (0..10).for_each(|k| add(&mut sum[k], w * terms[k]));
             before.push(sum);
@@ -180,7 +185,7 @@ impl Sums {
     }
 
     /// Line and arc through a part: their sums of squares, the arc's `None` where there is none.
-    fn fit(&self, from: usize, to: usize) -> (f64, Option<(f64, [f64; 2], f64)>) {
+    pub fn fit(&self, from: usize, to: usize) -> (f64, Option<(f64, [f64; 2], f64)>) {
         let d = self.between(from, to);
         let n = d[9].max(f64::MIN_POSITIVE);
         let (mx, my, mz) = (d[0] / n, d[1] / n, d[5] / n);
@@ -204,7 +209,7 @@ impl Sums {
         )
     }
 
-    fn part(&self, points: &[[f64; 2]], kind: SegmentKind, from: usize, to: usize) -> Part {
+    pub fn part(&self, points: &[[f64; 2]], kind: SegmentKind, from: usize, to: usize) -> Part {
         let d = self.between(from, to);
         let n = d[9].max(f64::MIN_POSITIVE);
         let (mx, my) = (d[0] / n, d[1] / n);

@@ -6,8 +6,8 @@ use super::contour::{contour, contour_with};
 use super::cut::{Chain, PlaneFrame};
 use super::exact::off_line;
 use super::facets::{Item, LineOrArc, Polygon, SHARP, length};
-use super::result::{Contour, Join, Options, SectionError, Segment, Taken};
 use super::prior::{Known, Prior};
+use super::result::{Contour, Join, Options, SectionError, Segment, Taken};
 use super::row::check;
 use super::scan::{CutMesh, ScanRow};
 use super::sheet::{Sheet, nearest, starts};
@@ -80,18 +80,22 @@ fn is_exact(points: &[[f64; 2]], polygon: &Polygon, items: &[Item], rounding: f6
 }
 
 /// Facets whose edges follow each other at even distances, to this factor for nine in ten, are those of a mesh of a surface, not of a
-/// drawing, where lines or arcs of so few steps are between others: chords of curves that the edges do not run along, or the bevels of
-/// corners that no edge runs along.
+/// drawing, where lines of no more than so many steps are between others: chords of curves that the edges do not run along, or the
+/// bevels of corners that no edge runs along. Where more chords are those of circles the vertices are a drawing's.
 const EVEN: f64 = 4.0;
-const STEPS: usize = 2;
+const STEPS: f64 = 2.5;
 
 fn is_remeshed(points: &[[f64; 2]], polygon: &Polygon, items: &[Item]) -> bool {
     let n = points.len();
     let mut steps: Vec<f64> = (0..n).map(|i| length(points[i], points[(i + 1) % n])).collect();
     steps.sort_by(f64::total_cmp);
-    let number = |i: usize| polygon.numbers[i % polygon.at.len()];
-    let is_short = |item: &Item| (number(item.to) + n - number(item.from)) % n <= STEPS;
-    n >= 3 * FEW && steps[9 * n / 10] <= EVEN * steps[n / 2] && items.len() > 1 && items.iter().any(is_short)
+    let is_short = |item: &Item| {
+        item.shape == LineOrArc::Line
+            && length(polygon.vertex(item.from), polygon.vertex(item.to)) <= STEPS * steps[n / 2]
+    };
+    let short = items.iter().filter(|i| is_short(i)).count();
+    let chords: usize = items.iter().filter(|i| i.shape != LineOrArc::Line).map(|i| i.to - i.from).sum();
+    n >= 3 * FEW && steps[9 * n / 10] <= EVEN * steps[n / 2] && short > chords
 }
 
 /// Noises of the points that a contour was found from, beyond which others lie off it: the contour does not run there.

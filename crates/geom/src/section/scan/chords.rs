@@ -8,7 +8,7 @@ use super::CutMesh;
 use crate::fit::solve;
 use crate::section::chain::SegmentKind;
 use crate::section::cut::{Chain, PlaneFrame};
-use crate::section::start::Part;
+use crate::section::start::{Part, Sums};
 use crate::space::{cross, dot, minus};
 
 /// Vertices about an edge: those of some three rings.
@@ -80,46 +80,93 @@ pub(super) fn lengthen(parts: &mut [Part], points: &[[f64; 2]], within: f64) {
     }
 }
 
-/// The crossings of a part with their numbers, on the surface.
+/// Crossings of the lines and arcs by which they are moved: half before each, half behind, or all on one side.
+const WINDOW: usize = 11;
+
+/// The crossings of a chain with these places in the plane, on the surface.
+///
+/// The power of a point on a chord of a circle is known without the circle: it lies within by the product of the two parts of the chord.
+/// So lines and arcs through a few crossings are found as if these were on the surface. Of the windows about a crossing, before and
+/// behind it the one counts whose crossings lie nearest to one line or arc: no window reaches over a corner where another does not.
 pub(super) fn on_surface(
     cut: &CutMesh,
     chain: &Chain,
     frame: &PlaneFrame,
-    part: &Part,
     points: &[[f64; 2]],
-) -> Vec<(usize, [f64; 2])> {
-    let course = Course::new(part);
+    closed: bool,
+) -> Vec<[f64; 2]> {
     let n = points.len();
-    let ends = [part.from, part.to - 1].map(|i| course.local(points[i % n])[0]);
+    let width = WINDOW.min(n);
+    // Round a closed chain windows go on.
+    let total = if closed { n + width } else { n };
+    let row: Vec<[f64; 2]> = (0..total).map(|i| points[i % n]).collect();
+    let powers: Vec<f64> = (0..n)
+        .map(|i| {
+            let ends = chain.edges[i].map(|v| frame.flat(cut.mesh.positions[v as usize]));
+            let way = |a: [f64; 2], b: [f64; 2]| libm::hypot(b[0] - a[0], b[1] - a[1]);
+            way(ends[0], points[i]) * way(points[i], ends[1])
+        })
+        .collect();
+    let all: Vec<f64> = (0..total).map(|i| powers[i % n]).collect();
+    let sums = Sums::within(&row, &vec![1.0; total], &all);
+    let windows: Vec<(f64, Part)> = (0..if closed { n } else { n + 1 - width })
+        .map(|from| {
+            let (line, arc) = sums.fit(from, from + width);
+            let sum = arc.map_or(line, |(arc, _, _)| arc.min(line));
+            let kind =
+                if arc.is_some_and(|(arc, _, _)| arc < line) { SegmentKind::Arc } else { SegmentKind::Line };
+            (sum, sums.part(&row, kind, from, from + width))
+        })
+        .collect();
     let normal = cross(frame.x, frame.y);
+    let moved = |i: usize| {
+        let last = width - 1;
+        let starts = [0, last / 2, last].map(|back| match closed {
+            true => (i + n - back) % n,
+            false => i.saturating_sub(back).min(n - width),
+        });
+        let best = starts.into_iter().min_by(|a, b| windows[*a].0.total_cmp(&windows[*b].0));
+        let part = &windows[best.unwrap_or(0)].1;
+        lifted(cut, chain.edges[i], points[i], part, &row, (frame, normal))
+    };
+    (0..n).map(moved).collect()
+}
+
+/// A crossing on the surface, as the vertices about its edge beside this part of the row tell.
+fn lifted(
+    cut: &CutMesh,
+    edge: [u32; 2],
+    point: [f64; 2],
+    part: &Part,
+    row: &[[f64; 2]],
+    (frame, normal): (&PlaneFrame, [f64; 3]),
+) -> [f64; 2] {
+    let course = Course::new(part);
+    let ends = [part.from, part.to - 1].map(|i| course.local(row[i])[0]);
     let local = |v: u32| {
         let p = cut.mesh.positions[v as usize];
         let [s, off] = course.local(frame.flat(p));
         [s, off, dot(normal, minus(p, frame.origin))]
     };
-    (part.from..part.to)
-        .map(|i| {
-            let i = i % n;
-            let [a, b] = chain.edges[i].map(local);
-            let here = course.local(points[i]);
-            let length = (libm::hypot(b[0] - a[0], b[2] - a[2])).max(f64::MIN_POSITIVE);
-            let own = around(cut, chain.edges[i]).into_iter().map(local).filter(|[s, off, _]| {
-                let inside = INSIDE * length;
-                *s >= ends[0] + inside && *s <= ends[1] - inside && off.abs() <= OFF * length
-            });
-            let surface = quadratic(own.collect(), here[0], length);
-            let height = |s: f64, z: f64| {
-                let [x, z] = [(s - here[0]) / length, z / length];
-                let terms = [1.0, z, x, z * z, x * z, x * x];
-                terms.iter().zip(&surface).map(|(t, c)| t * c).sum::<f64>()
-            };
-            let [from, to] = [a, b].map(|[s, _, z]| course.place([s, height(s, z)]));
-            let t = if b[2] == a[2] { 0.5 } else { (-a[2] / (b[2] - a[2])).clamp(0.0, 1.0) };
-            let chord = course.local([0, 1].map(|k| from[k] + t * (to[k] - from[k])));
-            let lift = height(chord[0], 0.0) - chord[1];
-            (i, course.place([here[0], here[1] + lift]))
-        })
-        .collect()
+    let [a, b] = edge.map(local);
+    let here = course.local(point);
+    let length = libm::hypot(b[0] - a[0], b[2] - a[2]).max(f64::MIN_POSITIVE);
+    let inside = INSIDE * length;
+    let own = around(cut, edge)
+        .into_iter()
+        .map(local)
+        .filter(|[s, off, _]| *s >= ends[0] + inside && *s <= ends[1] - inside && off.abs() <= OFF * length);
+    let surface = quadratic(own.collect(), here[0], length);
+    let height = |s: f64, z: f64| {
+        let [x, z] = [(s - here[0]) / length, z / length];
+        let terms = [1.0, z, x, z * z, x * z, x * x];
+        terms.iter().zip(&surface).map(|(t, c)| t * c).sum::<f64>()
+    };
+    let [from, to] = [a, b].map(|[s, _, z]| course.place([s, height(s, z)]));
+    let t = if b[2] == a[2] { 0.5 } else { (-a[2] / (b[2] - a[2])).clamp(0.0, 1.0) };
+    let chord = course.local([0, 1].map(|k| from[k] + t * (to[k] - from[k])));
+    let lift = height(chord[0], 0.0) - chord[1];
+    course.place([here[0], here[1] + lift])
 }
 
 /// The vertices about an edge, ring by ring.

@@ -72,35 +72,29 @@ const FEWEST: usize = 4;
 /// Crossings in succession that a corner may take from the mesh: edges of facets that pass it by.
 const BEVEL: usize = 4;
 
+/// Of the ways by which crossings are moved this share may be lost.
+const LOST: f64 = 0.03;
 /// What lies beside the end of a part, no farther off than so many standard deviations, belongs to it.
 const WITHIN: f64 = 2.5;
 
 impl ScanRow {
     /// The crossings of a chain, with these places in the plane.
     pub fn of(cut: &CutMesh, chain: &Chain, frame: &PlaneFrame, closed: bool) -> ScanRow {
-        let points: Vec<[f64; 2]> = chain.points.iter().map(|p| frame.flat(*p)).collect();
+        let crossings: Vec<[f64; 2]> = chain.points.iter().map(|p| frame.flat(*p)).collect();
         let scatter = weights::scatter(cut, chain);
+        let points = chords::on_surface(cut, chain, frame, &crossings, closed);
+        let lifts = points.iter().zip(&crossings).map(|(p, q)| (p[0] - q[0]).powi(2) + (p[1] - q[1]).powi(2));
+        let lost = LOST * (lifts.sum::<f64>() / points.len() as f64).sqrt();
         let count: f64 = scatter.weights.iter().sum();
-        let rough = noise(&points, closed).0;
-        let deviation = cut.noise.map(|n| n.deviation * scatter.share);
-        let level = deviation.unwrap_or(0.0).max(rough).max(cut.rounding);
+        let deviation = cut.noise.map(|n| libm::hypot(n.deviation * scatter.share, lost));
+        let level = deviation.unwrap_or_else(|| noise(&points, closed).0.max(lost)).max(cut.rounding);
         let log = libm::log(count.max(2.0));
         let penalty =
             Penalty { line: 3.0 * log, arc: 4.0 * log, noise: level, fewest: FEWEST, places: PLACES };
         let mut parts = partition_with_gaps(&points, &scatter.weights, &penalty, BEVEL);
         chords::lengthen(&mut parts, &points, WITHIN * level);
-        if std::env::var_os("TDEBUG").is_some() {
-            eprintln!("scan {} count {count:.1} rough {rough:.5} deviation {deviation:?} noise {:?}", points.len(), cut.noise);
-            for p in &parts { let a=points[p.from]; eprintln!("  {:?} {}..{} at {:.3} {:.3}", p.kind, p.from, p.to, a[0], a[1]); }
-        }
-        let mut kept = vec![];
-        let mut moved = vec![];
-        for part in &parts {
-            for (i, p) in chords::on_surface(cut, chain, frame, part, &points) {
-                kept.push(i);
-                moved.push(p);
-            }
-        }
+        let kept: Vec<usize> = parts.iter().flat_map(|p| p.from..p.to).collect();
+        let moved = kept.iter().map(|i| points[*i]).collect();
         let weights = kept.iter().map(|i| scatter.weights[*i]).collect();
         let noise = cut.noise.zip(deviation);
         let noise = noise.map(|(n, deviation)| Known { deviation, degrees: n.patches as f64 });

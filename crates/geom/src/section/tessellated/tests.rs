@@ -171,7 +171,8 @@ fn a_pyramid_of_ten_sides_has_ten_lines() {
         let chains = cut(&mesh, &plane, &Silent).unwrap();
         let options = Options::default();
         let found =
-            chain_contour(&chains[0], &plane.frame().unwrap(), &CutMesh::new(&mesh, None), &options, &Silent).unwrap();
+            chain_contour(&chains[0], &plane.frame().unwrap(), &CutMesh::new(&mesh, None), &options, &Silent)
+                .unwrap();
         assert_eq!((kinds(&found), found.taken), (vec![SegmentKind::Line; sides], Taken::Facets));
     }
 }
@@ -214,7 +215,9 @@ fn loops_that_touch_have_their_corner() {
         let chains = cut(&mesh, &plane, &Silent).unwrap();
         assert_eq!(chains.len(), 2, "{around}");
         for chain in &chains {
-            let found = chain_contour(chain, &frame, &CutMesh::new(&mesh, None), &Options::default(), &Silent).unwrap();
+            let found =
+                chain_contour(chain, &frame, &CutMesh::new(&mesh, None), &Options::default(), &Silent)
+                    .unwrap();
             assert!(found.closed && found.astray.is_empty());
             assert!((found.length() / length_of_loop - 1.0).abs() < 0.004, "{around}: {}", found.length());
             let corner = found.joins.iter().find(|j| length(j.point, [0.0, 0.0]) < 1e-4).unwrap();
@@ -244,7 +247,8 @@ fn sides_of_an_oblique_slot_are_exact() {
             let mesh = prisms(&[slot], 0.0);
             let chains = cut(&mesh, &plane, &Silent).unwrap();
             let found =
-                chain_contour(&chains[0], &frame, &CutMesh::new(&mesh, None), &Options::default(), &Silent).unwrap();
+                chain_contour(&chains[0], &frame, &CutMesh::new(&mesh, None), &Options::default(), &Silent)
+                    .unwrap();
             holds_together(&found);
             // The walls' distance over the length of their normal's part in the plane.
             let along = 0.2 * cos - 0.3 * sin;
@@ -298,7 +302,8 @@ fn a_scan_is_a_row_of_independent_points() {
     let plane = Plane { normal: [0.0, 0.0, 1.0], offset: 5.0 };
     let frame = PlaneFrame { origin: [0.0, 0.0, 5.0], x: [1.0, 0.0, 0.0], y: [0.0, 1.0, 0.0] };
     let chains = cut(&mesh, &plane, &Silent).unwrap();
-    let found = chain_contour(&chains[0], &frame, &CutMesh::new(&mesh, None), &Options::default(), &Silent).unwrap();
+    let found =
+        chain_contour(&chains[0], &frame, &CutMesh::new(&mesh, None), &Options::default(), &Silent).unwrap();
     assert_eq!(found.taken, Taken::Scan);
     use SegmentKind::{Arc, Line};
     assert_eq!(kinds(&found), [Line, Arc, Line, Arc]);

@@ -73,7 +73,9 @@ fn a_search_cut_short_says_so() {
         .map(|i| 0.1 * f64::from(i))
         .map(|x| [x, 3.0 * libm::sin(x / 5.0) + libm::cos(x / 1.7) + 0.002 * normal(random)])
         .collect();
-    let within = |products| contour_within(products, &points, &Prior::default(), &Options::default(), &Silent).unwrap();
+    let within = |products| {
+        contour_within(products, &points, &Prior::default(), &Options::default(), &Silent).unwrap()
+    };
     let (whole, part) = (within(3e10), within(1e6));
     assert!(!whole.cut_short && part.cut_short);
     assert!(part.astray.is_empty() && part.noise < 0.1, "{}", part.noise);
