@@ -7,9 +7,9 @@
 //! | file | what |
 //! |---|---|
 //! | `weights` | what the crossings tell, by the covariances of the vertices |
-//! | `chords` | crossings moved onto the surface |
+//! | `lift` | crossings moved onto the surface |
 
-mod chords;
+mod lift;
 mod weights;
 
 use super::cut::{Chain, PlaneFrame};
@@ -81,8 +81,15 @@ impl ScanRow {
     /// The crossings of a chain, with these places in the plane.
     pub fn of(cut: &CutMesh, chain: &Chain, frame: &PlaneFrame, closed: bool) -> ScanRow {
         let crossings: Vec<[f64; 2]> = chain.points.iter().map(|p| frame.flat(*p)).collect();
+        let count = cut.mesh.positions.len();
+        let is_of_mesh = chain.edges.len() == crossings.len()
+            && chain.edges.iter().flatten().all(|v| (*v as usize) < count);
+        if !is_of_mesh || crossings.len() < FEWEST {
+            let weights = vec![1.0; crossings.len()];
+            return ScanRow { kept: (0..crossings.len()).collect(), points: crossings, weights, noise: None };
+        }
         let scatter = weights::scatter(cut, chain);
-        let points = chords::on_surface(cut, chain, frame, &crossings, closed);
+        let points = lift::on_surface(cut, chain, frame, &crossings, closed);
         let lifts = points.iter().zip(&crossings).map(|(p, q)| (p[0] - q[0]).powi(2) + (p[1] - q[1]).powi(2));
         let lost = LOST * (lifts.sum::<f64>() / points.len() as f64).sqrt();
         let count: f64 = scatter.weights.iter().sum();
@@ -92,7 +99,7 @@ impl ScanRow {
         let penalty =
             Penalty { line: 3.0 * log, arc: 4.0 * log, noise: level, fewest: FEWEST, places: PLACES };
         let mut parts = partition_with_gaps(&points, &scatter.weights, &penalty, BEVEL);
-        chords::lengthen(&mut parts, &points, WITHIN * level);
+        lift::lengthen(&mut parts, &points, WITHIN * level);
         let kept: Vec<usize> = parts.iter().flat_map(|p| p.from..p.to).collect();
         let moved = kept.iter().map(|i| points[*i]).collect();
         let weights = kept.iter().map(|i| scatter.weights[*i]).collect();
@@ -101,3 +108,6 @@ impl ScanRow {
         ScanRow { kept, points: moved, weights, noise }
     }
 }
+
+#[cfg(test)]
+mod tests;

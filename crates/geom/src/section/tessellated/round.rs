@@ -1,6 +1,7 @@
 //! Sections of round bodies by their facets: what lies within these is no doubt.
 
 use super::*;
+use crate::mesh::Mesh;
 use crate::num::random::Random;
 use crate::progress::Silent;
 use crate::section::{Geometry, Plane, cut};

@@ -1,6 +1,7 @@
 //! Sections of prisms whose outlines are known, of scans of them, and of what has few facets.
 
 use super::*;
+use crate::mesh::Mesh;
 use crate::num::random::Random;
 use crate::progress::Silent;
 use crate::section::{Continuity, Geometry};
@@ -340,24 +341,27 @@ fn few_points_and_wrong_options() {
         closed: false,
     };
     let options = Options::default();
+    // A mesh that the chains are not of: crossings count as they are.
+    let other = Mesh::default();
+    let mesh = &CutMesh::new(&other, None);
     let two = chain(vec![[0.0; 3], [2.0, 0.0, 0.0]]);
-    let line = chain_contour(&two, &frame, 1e-6, &options, &Silent).unwrap();
+    let line = chain_contour(&two, &frame, mesh, &options, &Silent).unwrap();
     assert!(line.segments.len() == 1 && line.joins.is_empty() && !line.closed);
     // A noise or continuity asked for is that of rows: what is too short for one is its lines all the same.
     for asked in
         [Options { noise: Some(0.1), ..options }, Options { continuity: Some(Continuity::G1), ..options }]
     {
-        let short = chain_contour(&two, &frame, 1e-6, &asked, &Silent).unwrap();
+        let short = chain_contour(&two, &frame, mesh, &asked, &Silent).unwrap();
         assert_eq!((short.segments.len(), short.length()), (1, 2.0));
     }
     let one = chain(vec![[0.0; 3]]);
     assert!(matches!(
-        chain_contour(&one, &frame, 1e-6, &options, &Silent),
+        chain_contour(&one, &frame, mesh, &options, &Silent),
         Err(SectionError::TooFewPoints { found: 1 })
     ));
     for wrong in [Options { level: 2.0, ..options }, Options { resolution: Some(f64::NAN), ..options }] {
         assert!(matches!(
-            chain_contour(&two, &frame, 1e-6, &wrong, &Silent),
+            chain_contour(&two, &frame, mesh, &wrong, &Silent),
             Err(SectionError::WrongOption { .. })
         ));
     }

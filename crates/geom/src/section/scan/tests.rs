@@ -1,0 +1,231 @@
+use super::*;
+use crate::num::random::Random;
+use crate::progress::Silent;
+use crate::section::{Contour, Geometry, Options, Plane, SegmentKind, chain_contour, cut};
+use crate::space::{Point, norm};
+
+/// A band of so many columns and rows of vertices, jittered, with diagonals, closed around where it is asked for; `place` tells where a
+/// column and row lie.
+fn band(
+    columns: usize,
+    rows: usize,
+    closed: bool,
+    jitter: f64,
+    random: &mut Random,
+    place: impl Fn(f64, f64) -> Point,
+) -> Mesh {
+    let mut mesh = Mesh::default();
+    for j in 0..rows {
+        for i in 0..columns {
+            let mut off = || jitter * (random.unit() - 0.5);
+            let (a, b) = (i as f64 + 0.5 * (j % 2) as f64 + off(), j as f64 + off());
+            mesh.positions.push(place(a, b));
+        }
+    }
+    let at = |i: usize, j: usize| (j * columns + i % columns) as u32;
+    for j in 0..rows - 1 {
+        for i in 0..columns - usize::from(!closed) {
+            let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i, j + 1), at(i + 1, j + 1)];
+            match j % 2 {
+                0 => mesh.faces.extend([[a, b, c], [b, d, c]]),
+                _ => mesh.faces.extend([[a, b, d], [a, d, c]]),
+            }
+        }
+    }
+    mesh
+}
+
+/// The mesh with independent noise of its vertices along these directions, averaged over as many rings; of this deviation in the end.
+fn noisy(mesh: &Mesh, rings: usize, sigma: f64, random: &mut Random, along: impl Fn(&Point) -> Point) -> Mesh {
+    let plain = CutMesh::new(mesh, None);
+    let mut off: Vec<f64> = mesh.positions.iter().map(|_| (0..12).map(|_| random.unit()).sum::<f64>() - 6.0).collect();
+    for _ in 0..rings {
+        off = (0..off.len() as u32)
+            .map(|v| {
+                let all = plain.beside(v).iter().chain([&v]);
+                let (sum, n) = all.fold((0.0, 0.0), |(sum, n), w| (sum + off[*w as usize], n + 1.0));
+                sum / n
+            })
+            .collect();
+    }
+    let rms = (off.iter().map(|x| x * x).sum::<f64>() / off.len() as f64).sqrt();
+    let moved = |(p, x): (&Point, &f64)| {
+        let n = along(p);
+        [0, 1, 2].map(|k| p[k] + sigma * x / rms * n[k])
+    };
+    Mesh { positions: mesh.positions.iter().zip(&off).map(moved).collect(), faces: mesh.faces.clone() }
+}
+
+fn level(height: f64) -> (Plane, PlaneFrame) {
+    let plane = Plane { normal: [0.0, 0.0, 1.0], offset: height };
+    (plane, plane.frame().unwrap())
+}
+
+/// Crossings of surfaces whose sections are known lie on these, next to all of the way from the chords.
+#[test]
+fn crossings_lie_on_the_surface() {
+    let random = &mut Random::new(5);
+    let around = |a: f64, n: f64| libm::sincos(std::f64::consts::TAU * a / n);
+    // Upright cylinder, sphere cut off its middle, cone, and a slanted cylinder: a place by column and height, and how far off a place is.
+    type Body<'a> = (&'a str, Box<dyn Fn(f64, f64) -> Point>, Box<dyn Fn([f64; 2]) -> f64>);
+    let r = 9.0;
+    let of_circle = |radius: f64| move |p: [f64; 2]| libm::hypot(p[0], p[1]) - radius;
+    let bodies: Vec<Body> = vec![
+        (
+            "cylinder",
+            Box::new(move |a, z| {
+                let (s, c) = around(a, 56.0);
+                [r * c, r * s, z - 5.0]
+            }),
+            Box::new(of_circle(r)),
+        ),
+        (
+            "sphere",
+            Box::new(move |a, z| {
+                let ((s, c), (up, out)) = (around(a, 56.0), libm::sincos((z - 2.0) / r));
+                [r * out * c, r * out * s, r * up]
+            }),
+            Box::new(of_circle((r * r - 0.01_f64).sqrt())),
+        ),
+        (
+            "slanted cylinder",
+            Box::new(move |a, z| {
+                let (s, c) = around(a, 56.0);
+                let z = z - 5.0;
+                [r * c + 0.4 * z, r * s, z]
+            }),
+            Box::new(move |p| libm::hypot(p[0] - 0.04, p[1]) - r),
+        ),
+    ];
+    for (name, place, off) in bodies {
+        let mesh = band(56, 12, true, 0.5, random, place);
+        let (plane, frame) = level(0.1);
+        let chain = &cut(&mesh, &plane, &Silent).unwrap()[0];
+        let row = ScanRow::of(&CutMesh::new(&mesh, None), chain, &frame, true);
+        assert_eq!(row.kept.len(), chain.points.len(), "{name}");
+        let far = |all: &mut dyn Iterator<Item = [f64; 2]>| all.map(|p| off(p).abs()).fold(0.0, f64::max);
+        let before = far(&mut chain.points.iter().map(|p| frame.flat(*p)));
+        let after = far(&mut row.points.iter().copied());
+        println!("{name}: {before} {after}");
+        assert!(before > 5e-3 && after < 0.03 * before, "{name}: {before} {after}");
+    }
+}
+
+/// The weights of crossings say how far their mean is uncertain: of independent noise, and of noise that neighbors share.
+#[test]
+fn weights_tell_how_uncertain_the_mean_is() {
+    let random = &mut Random::new(8);
+    let flat = band(200, 40, false, 0.5, random, |a, z| [a, 0.0, z - 20.0]);
+    let (plane, frame) = level(0.1);
+    for rings in [0, 1, 2] {
+        let (mut squares, mut stated, count) = (0.0, 0.0, 300);
+        for _ in 0..count {
+            let mesh = noisy(&flat, rings, 0.01, random, |_| [0.0, 1.0, 0.0]);
+            let noise = crate::noise::mesh(&mesh, 0, &Silent).unwrap();
+            let chain = &cut(&mesh, &plane, &Silent).unwrap()[0];
+            let row = ScanRow::of(&CutMesh::new(&mesh, Some(noise)), chain, &frame, false);
+            let whole: f64 = row.weights.iter().sum();
+            let mean = row.points.iter().zip(&row.weights).map(|(p, w)| w * p[1]).sum::<f64>() / whole;
+            squares += mean * mean / f64::from(count);
+            stated += row.noise.unwrap().deviation.powi(2) / whole / f64::from(count);
+        }
+        let ratio = (squares / stated).sqrt();
+        println!("{rings} rings: {ratio}");
+        assert!((0.85..1.2).contains(&ratio), "{rings} rings: {ratio}");
+    }
+}
+
+fn radius_of(mesh: &Mesh, plane: &Plane) -> (f64, f64, Contour) {
+    let noise = crate::noise::mesh(mesh, 0, &Silent).ok();
+    let chain = &cut(mesh, plane, &Silent).unwrap()[0];
+    let options = Options::default();
+    let found =
+        chain_contour(chain, &plane.frame().unwrap(), &CutMesh::new(mesh, noise), &options, &Silent).unwrap();
+    let [segment] = &found.segments[..] else { panic!("{:?}", found.segments) };
+    let Geometry::Arc { radius, .. } = segment.geometry else { panic!("{:?}", segment) };
+    let Some(crate::section::Uncertainty::Arc { radius: stated, .. }) = segment.uncertainty else {
+        panic!("{segment:?}")
+    };
+    (radius, stated, found)
+}
+
+/// A bore whose noise neighbors share is one circle, with its radius within what is told, and the same from the other side and for facets in
+/// any order.
+#[test]
+fn bores_of_scans_are_circles_from_either_side() {
+    let random = &mut Random::new(2);
+    let (mut inside, count) = (0, 40);
+    for k in 0..count {
+        let (r, rings) = (6.0 + 10.0 * random.unit(), k % 4);
+        let columns = (std::f64::consts::TAU * r / 0.5) as usize;
+        let even = band(columns, 24, true, 0.5, random, |a, z| {
+            let (s, c) = libm::sincos(std::f64::consts::TAU * a / columns as f64);
+            [r * c, r * s, 0.45 * (z - 12.0)]
+        });
+        let out = |p: &Point| {
+            let length = norm([p[0], p[1], 0.0]);
+            [p[0] / length, p[1] / length, 0.0]
+        };
+        let mesh = noisy(&even, rings, 0.008, random, out);
+        let plane = Plane { normal: [0.0, 0.0, 1.0], offset: 0.13 };
+        let (radius, stated, found) = radius_of(&mesh, &plane);
+        assert!(found.astray.is_empty() && found.closed, "{k}");
+        inside += usize::from((radius - r).abs() <= 1.96 * stated);
+        let back = Plane { normal: [0.0, 0.0, -1.0], offset: -0.13 };
+        let mut shuffled = mesh.clone();
+        let order = random.choose(mesh.faces.len(), mesh.faces.len());
+        shuffled.faces = order.into_iter().map(|i| mesh.faces[i]).collect();
+        for other in [radius_of(&mesh, &back).0, radius_of(&shuffled, &plane).0] {
+            assert!((other - radius).abs() < 1e-3 * stated, "{k}: {other} {radius} ± {stated}");
+        }
+    }
+    println!("{inside} of {count} within 1.96 standard uncertainties");
+    assert!(inside >= 34, "{inside}");
+}
+
+/// Corners that no edge of the mesh runs along are corners, with no segment for the facets that pass them by.
+#[test]
+fn bevels_of_the_mesh_are_no_segments() {
+    let random = &mut Random::new(4);
+    let corners = [[0.0, 0.0], [31.3, 0.0], [31.3, 19.7], [0.0, 19.7]];
+    let way = |s: f64| {
+        let mut left = s;
+        for k in 0..4 {
+            let (a, b): ([f64; 2], [f64; 2]) = (corners[k], corners[(k + 1) % 4]);
+            let long = libm::hypot(b[0] - a[0], b[1] - a[1]);
+            if left <= long {
+                return [0, 1].map(|i| a[i] + left / long * (b[i] - a[i]));
+            }
+            left -= long;
+        }
+        corners[0]
+    };
+    for sigma in [0.0, 0.004] {
+        for rings in 0..3 {
+            let columns = 163;
+            let even = band(columns, 20, true, 0.5, random, |a, z| {
+                let [x, y] = way((a * 102.0 / columns as f64).rem_euclid(102.0));
+                [x, y, 0.6 * (z - 10.0)]
+            });
+            let out = |p: &Point| match (p[0], p[1]) {
+                (0.0, _) => [-1.0, 0.0, 0.0],
+                (x, _) if x == 31.3 => [1.0, 0.0, 0.0],
+                (_, 0.0) => [0.0, -1.0, 0.0],
+                _ => [0.0, 1.0, 0.0],
+            };
+            let mesh = noisy(&even, rings, sigma, random, out);
+            let (plane, frame) = level(0.1);
+            let noise = crate::noise::mesh(&mesh, 0, &Silent).ok();
+            let chain = &cut(&mesh, &plane, &Silent).unwrap()[0];
+            let found =
+                chain_contour(chain, &frame, &CutMesh::new(&mesh, noise), &Options::default(), &Silent).unwrap();
+            assert!(found.segments.iter().all(|s| s.geometry.kind() == SegmentKind::Line), "{sigma} {rings}");
+            assert_eq!((found.segments.len(), found.astray.len()), (4, 0), "{sigma} {rings}");
+            for join in &found.joins {
+                let off = |c: &[f64; 2]| libm::hypot(c[0] - join.point[0], c[1] - join.point[1]);
+                let nearest = corners.iter().map(off).fold(f64::INFINITY, f64::min);
+                assert!(nearest <= 4.0 * join.uncertainty + 1e-6, "{nearest} {}", join.uncertainty);
+            }
+        }
+    }
+}
