@@ -28,6 +28,8 @@
 //! | `crossings` | places where a contour crosses itself |
 //! | `joined` | outlines of the segments of a drawing |
 //! | `nominal` | distances from the section of a nominal |
+//! | `onto` | the best fit onto that |
+//! | `tidy` | relations and whole numbers that the points allow, as offers |
 //! | `budget` | how long the searches of a row may take |
 //! | `plan`, `task`, `span`, `doubt`, `blunt` | corners, chains between them; corners that are none, and that chains pass over |
 //! | `contour`, `convert` | the contour as lines, arcs and B-splines |
@@ -69,6 +71,7 @@ mod levels;
 mod link;
 mod near;
 mod nominal;
+mod onto;
 mod order;
 mod paper;
 mod plan;
@@ -89,13 +92,16 @@ mod task;
 mod tessellated;
 #[cfg(test)]
 mod tests;
+mod tidy;
 mod told;
 mod untangle;
 mod vertices;
 mod walls;
 mod without;
 
-pub use airfoil::{Airfoil, AirfoilError, EdgeRadius, TrailingEdge, airfoil};
+pub use airfoil::{
+    Airfoil, AirfoilError, Chord, Chords, EdgeRadius, TrailingEdge, airfoil, chords, outline_row,
+};
 pub use bent::{Bent, bent_across};
 pub use chain::SegmentKind;
 pub use contour::contour;
@@ -106,9 +112,11 @@ pub use dimension::{Dimension, DimensionKind, dimensions};
 pub use foot::SegmentFoot;
 pub use joined::joined;
 pub use nominal::{OffNominal, Outline, off_nominal, with_material_inside};
+pub use onto::{Free, Freedom, OntoNominal, OntoNominalError, PlaneMotion, onto_nominal};
 pub use order::{Order, Ordered, order};
 pub use paper::{Method, Search, line_and_curve, method_contour};
 pub use result::{Continuity, Contour, Geometry, Join, Options, SectionError, Segment, Taken, Uncertainty};
 pub use slab::{ordered_contour, slab};
 pub use stack::facets_near;
 pub use tessellated::{chain_contour, rounding};
+pub use tidy::{Offer, OfferKind, Untidied, tidy};
