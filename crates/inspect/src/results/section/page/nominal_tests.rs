@@ -33,7 +33,7 @@ fn outlines() -> Vec<Outline> {
 fn compared(points: &[[f64; 2]], outlines: Vec<Outline>) -> SectionDocument {
     let found = off_nominal(points, &outlines, &Silent).unwrap();
     let own = contour(points, &Options::default(), &Silent).unwrap();
-    let contours = vec![Against { points, found, contour: &own }];
+    let contours = vec![Against { points, found, far: 0, contour: &own }];
     let nominal =
         NominalRecord::new("n.dxf", "drawing", vec![AgainstPlane { plane: None, outlines, contours }]);
     SectionDocument { nominal: Some(nominal), ..document(points) }

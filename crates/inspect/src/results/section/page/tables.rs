@@ -48,6 +48,7 @@ pub fn contours(s: Style, document: &SectionDocument) -> Markup {
                 @if !contour.joins.is_empty() {
                     div.wide { (joins(s, contour, numbers[n] + contour.segments.len())) }
                 }
+                (super::offers::offers(s, contour))
             }
         }
     }
