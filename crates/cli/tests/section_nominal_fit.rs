@@ -106,9 +106,9 @@ fn a_profile_is_judged() {
         let words = ["section", file.to_str().unwrap(), "--nominal", nominal.to_str().unwrap(), "--open"];
         let answer = document([&words[..], more].concat());
         let status = status(&trueness([&words[..], more].concat()));
-        let why: Vec<String> = answer["nominal"]["verdict_reasons"].as_array().map_or(vec![], |all| {
-            all.iter().map(|r| r["kind"].as_str().unwrap().to_string()).collect()
-        });
+        let why: Vec<String> = answer["nominal"]["verdict_reasons"]
+            .as_array()
+            .map_or(vec![], |all| all.iter().map(|r| r["kind"].as_str().unwrap().to_string()).collect());
         (answer["nominal"]["verdict"].as_str().unwrap_or("none").to_string(), why, status)
     };
     let is = |verdict: &str, why: &[&str], status: i32| {
@@ -165,7 +165,8 @@ fn a_blade_has_chords_twist_and_offset() {
     let html = folder.file("blade.html");
     let answer = document([&words[..], &["--html", html.to_str().unwrap()]].concat());
     let m = &answer["airfoils"][0]["measures"];
-    let names: Vec<&str> = m["chords"].as_array().unwrap().iter().map(|c| c["definition"].as_str().unwrap()).collect();
+    let names: Vec<&str> =
+        m["chords"].as_array().unwrap().iter().map(|c| c["definition"].as_str().unwrap()).collect();
     assert_eq!(names, ["farthest", "camber_ends", "bitangent"]);
     for (k, within) in [(0, 3e-4), (1, 3e-3), (2, 3e-4)] {
         let twist = number(m, &format!("/chords/{k}/twist"));
@@ -182,7 +183,10 @@ fn a_blade_has_chords_twist_and_offset() {
     let given = document([&words[..], &["--stacking", "0,0"]].concat());
     let s = &given["airfoils"][0]["measures"]["stacking"];
     assert_eq!(s["by"], "given");
-    assert!((number(s, "/offset/0") - 0.2).abs() < 3e-3 && (number(s, "/offset/1") - 0.5).abs() < 3e-3, "{s}");
+    assert!(
+        (number(s, "/offset/0") - 0.2).abs() < 3e-3 && (number(s, "/offset/1") - 0.5).abs() < 3e-3,
+        "{s}"
+    );
     // Twist is that of the section as it lies.
     let fitted = document([&words[..], &["--fit", "free"]].concat());
     let twist = number(&fitted["airfoils"][0]["measures"], "/chords/0/twist");
@@ -197,7 +201,10 @@ fn a_blade_has_chords_twist_and_offset() {
     let alone = document(["section", measured.to_str().unwrap(), "--airfoil"]);
     let m = &alone["airfoils"][0]["measures"];
     assert!(m["chords"][0]["twist"].is_null() && m["stacking"].is_null(), "{m}");
-    assert!((number(m, "/chords/0/angle") - number(&answer["airfoils"][0]["measures"], "/chords/0/angle")).abs() < 1e-12);
+    assert!(
+        (number(m, "/chords/0/angle") - number(&answer["airfoils"][0]["measures"], "/chords/0/angle")).abs()
+            < 1e-12
+    );
 }
 
 #[test]

@@ -6,7 +6,6 @@
 //! approximation using nearest neighbors and the normal field, 2012: there a ball is shrunk point by point, here its radius is the
 //! least over all places at once).
 
-mod chords;
 mod circles;
 mod edge;
 mod ends;
@@ -17,7 +16,6 @@ mod tail;
 use super::direction::from_the_end;
 use super::result::{Contour, Geometry, Uncertainty};
 use crate::progress::Progress;
-pub use chords::{Chord, Chords, chords, outline_row};
 use circles::Inscribed;
 pub use edge::EdgeRadius;
 pub use ends::TrailingEdge;

@@ -25,6 +25,7 @@
 //! | `foot` | where on a segment the foot of a point is |
 //! | `dimension` | angles, widths, distances of centers, gaps |
 //! | `airfoil` | chord, camber, thickness and edges of a profile |
+//! | `chords` | its chord by each of the usual definitions |
 //! | `crossings` | places where a contour crosses itself |
 //! | `joined` | outlines of the segments of a drawing |
 //! | `nominal` | distances from the section of a nominal |
@@ -47,6 +48,7 @@ mod blunt;
 mod budget;
 mod cells;
 mod chain;
+mod chords;
 mod contour;
 mod convert;
 mod corner;
@@ -99,11 +101,10 @@ mod vertices;
 mod walls;
 mod without;
 
-pub use airfoil::{
-    Airfoil, AirfoilError, Chord, Chords, EdgeRadius, TrailingEdge, airfoil, chords, outline_row,
-};
+pub use airfoil::{Airfoil, AirfoilError, EdgeRadius, TrailingEdge, airfoil};
 pub use bent::{Bent, bent_across};
 pub use chain::SegmentKind;
+pub use chords::{Chord, Chords, chords, outline_row};
 pub use contour::contour;
 pub use covered::{Covered, Passed, covered};
 pub use crossings::crossings;

@@ -50,7 +50,9 @@ pub enum OntoNominalError {
     #[error("the nominal has no outline in this plane; give the plane of one, or leave --fit out")]
     NoOutline,
     /// Too few points count.
-    #[error("{found} points have a counterpart on the nominal, a fit of {unknowns} unknowns needs more than that; bring both together with trueness align, or widen --max-distance")]
+    #[error(
+        "{found} points have a counterpart on the nominal, a fit of {unknowns} unknowns needs more than that; bring both together with trueness align, or widen --max-distance"
+    )]
     TooFewPoints {
         /// Points that count.
         found: usize,

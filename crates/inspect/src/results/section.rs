@@ -2,6 +2,7 @@
 
 mod airfoil;
 mod blade;
+mod chord;
 mod dimension;
 mod doubts;
 mod fitted;
@@ -12,28 +13,32 @@ mod near_arc;
 mod nominal;
 mod outline;
 mod page;
+mod profile;
 mod tidy;
 mod verdict;
 
 pub use airfoil::{AirfoilMeasures, AirfoilRecord};
-pub use blade::{ChordBy, ChordRecord, LeanRecord, StackingRecord, against_nominal, lean};
+pub use chord::{ChordBy, ChordRecord, LeanRecord, StackingRecord};
 pub use dimension::{DimensionRecord, DimensionsRecord, MemberRecord};
 pub use doubts::{NominalWarning, NominalWarningKind};
 pub use fitted::FitRecord;
 pub use found::{FrameRecord, Section};
 pub use methods::{MethodRecord, MethodsRecord, ResidualsRecord};
 pub use near_arc::NearArc;
-pub use nominal::{BEYOND_END, MAX_DISTANCE, NO_OUTLINE, NominalRecord, Positive, WorstRecord};
+pub use nominal::{BEYOND_END, MAX_DISTANCE, NO_OUTLINE, NominalRecord, Positive};
 pub use outline::{Against, AgainstPlane, OutlineRecord};
+pub use profile::{ProfileRecord, WorstRecord};
 pub use tidy::OfferRecord;
-pub use verdict::{ProfileRecord, ProfileRule};
+pub use verdict::ProfileRule;
 
 use super::{InputRecord, UNITS, VERSION, Word};
+use blade::Whereabouts;
 use near_arc::near_arc;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use trueness_geom::progress::{Cancelled, Progress};
 use trueness_geom::section::{
-    Continuity, Contour, Geometry, Options, Segment, SegmentKind, Taken, Uncertainty,
+    Continuity, Contour, Geometry, Method, Options, Search, Segment, SegmentKind, Taken, Uncertainty,
 };
 
 /// Name of this document's schema.
@@ -305,8 +310,56 @@ impl SectionDocument {
 
     /// The same with the offers for each contour, whose points are `rows`.
     pub fn with_offers(mut self, sections: &[Section], rows: &[Vec<[f64; 2]>]) -> SectionDocument {
-        tidy::add(&mut self.contours, sections, rows);
+        for (contour, offers) in self.contours.iter_mut().zip(tidy::offers(sections, rows)) {
+            match offers {
+                Ok(offers) => contour.tidy = Some(offers),
+                Err(reason) => contour.tidy_reason = Some(reason),
+            }
+        }
         self
+    }
+
+    /// The same with what the paper's methods found: each with its number of points of the curve.
+    pub fn with_methods(
+        self,
+        chosen: Search,
+        interval: &str,
+        methods: &[(Method, usize)],
+    ) -> SectionDocument {
+        let methods = Some(MethodsRecord::new(chosen, interval, methods));
+        SectionDocument { methods, ..self }
+    }
+
+    /// The same with twist, offset and lean of its airfoils; `stacking` is the stacking point given, in the nominal's coordinates.
+    ///
+    /// # Errors
+    /// [`Cancelled`], when asked to stop.
+    pub fn with_blades(
+        mut self,
+        stacking: Option<[f64; 2]>,
+        progress: &dyn Progress,
+    ) -> Result<SectionDocument, Cancelled> {
+        let places: Vec<Whereabouts> = self.contours.iter().map(|c| self.whereabouts(c)).collect();
+        if let Some(airfoils) = &mut self.airfoils {
+            blade::against_nominal(airfoils, &places, self.nominal.as_ref(), stacking, progress)?;
+            self.lean = blade::lean(airfoils, &places);
+        }
+        Ok(self)
+    }
+
+    fn whereabouts(&self, contour: &ContourRecord) -> Whereabouts {
+        let plane = contour.plane.and_then(|n| self.planes.get(n as usize));
+        let ends = || contour.segments.iter().flat_map(|s| [s.start, s.end]);
+        let middle = |k: usize| {
+            let low = ends().map(|p| p[k]).fold(f64::INFINITY, f64::min);
+            let high = ends().map(|p| p[k]).fold(f64::NEG_INFINITY, f64::max);
+            0.5 * (low + high)
+        };
+        Whereabouts {
+            plane: contour.plane,
+            height: plane.map(|p| (p.normal, p.offset)),
+            middle: [middle(0), middle(1)],
+        }
     }
 }
 

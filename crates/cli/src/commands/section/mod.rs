@@ -18,11 +18,10 @@ use crate::run_files::RunFiles;
 use clap::{Args, ValueEnum};
 use found::{Found, described};
 use std::path::PathBuf;
-use trueness_geom::progress::Cancelled;
 use trueness_geom::section::{self, Continuity, Options, PlaneFrame, SectionError};
 use trueness_geom::space::Point;
 use trueness_inspect::report::{ViewObject, flat};
-use trueness_inspect::results::section::{AirfoilRecord, Section, SectionDocument, against_nominal, lean};
+use trueness_inspect::results::section::{AirfoilRecord, Section, SectionDocument};
 use trueness_inspect::results::{Role, Verdict};
 
 /// The lines, arcs and curves of a section, and the exact places where they join
@@ -126,7 +125,8 @@ fn percent(text: &str) -> Result<f64, String> {
 
 /// A place in the plane.
 fn place(text: &str) -> Result<[f64; 2], String> {
-    let numbers = text.split_once(',').and_then(|(x, y)| Some([x.trim().parse().ok()?, y.trim().parse().ok()?]));
+    let numbers =
+        text.split_once(',').and_then(|(x, y)| Some([x.trim().parse().ok()?, y.trim().parse().ok()?]));
     let finite = numbers.filter(|p: &[f64; 2]| p.iter().all(|x| x.is_finite()));
     finite.ok_or_else(|| format!("‘{text}’ is no place; write two numbers of mm, such as 12.5,-3"))
 }
@@ -202,7 +202,7 @@ fn run(args: &SectionArgs, common: &Common) -> anyhow::Result<Outcome> {
             contour.doubts.extend(found.doubt());
         }
     }
-    blades(args.stacking, &mut document, &stage)?;
+    document = document.with_blades(args.stacking, &stage)?;
     if args.tidy {
         document = document.with_offers(&sections, &rows);
     }
@@ -219,20 +219,6 @@ fn run(args: &SectionArgs, common: &Common) -> anyhow::Result<Outcome> {
     let judged = document.nominal.as_ref().and_then(|nominal| nominal.verdict);
     let fails = judged.is_some_and(|verdict| verdict != Verdict::Pass);
     Ok(if doubtful || fails { Outcome::NotConforming } else { Outcome::Conforming })
-}
-
-/// Twist, offset and lean of the airfoils.
-fn blades(
-    stacking: Option<[f64; 2]>,
-    document: &mut SectionDocument,
-    stage: &Stage,
-) -> Result<(), Cancelled> {
-    let (contours, nominal) = (&document.contours, document.nominal.as_ref());
-    if let Some(airfoils) = &mut document.airfoils {
-        against_nominal(airfoils, contours, nominal, stacking, stage)?;
-        document.lean = lean(airfoils, contours, &document.planes);
-    }
-    Ok(())
 }
 
 /// The report, with the points of each contour.

@@ -19,11 +19,11 @@ use trueness_geom::section::{
 };
 use trueness_geom::space::{Aabb, Point, dot};
 use trueness_inspect::compare::{MIN_COVERAGE, plausibility};
-use trueness_inspect::results::{InputRecord, of_percent};
 use trueness_inspect::results::compare::{Bounds, Warning};
 use trueness_inspect::results::section::{
     Against, AgainstPlane, FitRecord, NominalRecord, NominalWarning, ProfileRule, Section,
 };
+use trueness_inspect::results::{InputRecord, of_percent};
 use trueness_inspect::tolerance::cannot_fail;
 
 /// What the section should be.
@@ -42,7 +42,13 @@ pub struct NominalArgs {
     #[arg(long, value_name = "T | -L,+U", allow_hyphen_values = true, requires = "nominal")]
     tolerance: Option<ToleranceArg>,
     /// Share of the points that must lie within the tolerance, in percent
-    #[arg(long, value_name = "PERCENT", default_value = "100", requires = "tolerance", allow_hyphen_values = true)]
+    #[arg(
+        long,
+        value_name = "PERCENT",
+        default_value = "100",
+        requires = "tolerance",
+        allow_hyphen_values = true
+    )]
     inside: f64,
     /// Share of the nominal's length that must be measured for a pass, and of the points that must have a counterpart on it, in
     /// percent as --inside; 0: a part of it is measured on purpose. Where it is less, what does not fail is undecided
@@ -175,25 +181,16 @@ impl NominalArgs {
             let plane = section.plane.map(|_| n as u64);
             let mut outlines = outlines;
             if let Some(freedom) = freedom.filter(|_| !outlines.is_empty() && !own.is_empty()) {
-                let points: Vec<&[[f64; 2]]> = own.iter().map(|r| &r[..]).collect();
-                let found = onto(&points, &outlines, freedom.1, max_distance, stage);
+                let found = onto(&own, &outlines, freedom.1, max_distance, stage);
                 let found = found.map_err(|e| with_place(e, &shown.to_string(), plane))?;
                 // Coordinates stay those of the section.
                 let back = found.motion.inverse();
                 outlines = outlines.iter().map(|o| o.moved(&back)).collect();
                 fits.push(FitRecord::new(plane, freedom, &found));
             }
-            let against = |(points, contour): (&'a Vec<[f64; 2]>, &'a Contour)| {
-                let mut found = section::off_nominal(points, &outlines, stage)?;
-                let mut far = 0;
-                for off in &mut found {
-                    if off.is_some_and(|o| o.deviation.abs() > max_distance) {
-                        (*off, far) = (None, far + 1);
-                    }
-                }
-                Ok::<_, Cancelled>(Against { points, found, far, contour })
-            };
-            let contours = own.into_iter().zip(&section.contours).map(against).collect::<Result<_, _>>()?;
+            let contours = (own.into_iter().zip(&section.contours))
+                .map(|(points, contour)| against(points, contour, &outlines, max_distance, stage))
+                .collect::<Result<_, _>>()?;
             all.push(AgainstPlane { plane, outlines, contours });
         }
         if all.iter().all(|plane| plane.outlines.is_empty()) {
@@ -220,22 +217,44 @@ impl NominalArgs {
     }
 }
 
+/// The points of a contour against outlines; those farther than `max_distance` are left out.
+fn against<'a>(
+    points: &'a [[f64; 2]],
+    contour: &'a Contour,
+    outlines: &[Outline],
+    max_distance: f64,
+    stage: &Stage,
+) -> Result<Against<'a>, Cancelled> {
+    let mut found = section::off_nominal(points, outlines, stage)?;
+    let mut far = 0;
+    for off in &mut found {
+        if off.is_some_and(|o| o.deviation.abs() > max_distance) {
+            (*off, far) = (None, far + 1);
+        }
+    }
+    Ok(Against { points, found, far, contour })
+}
+
 /// The best fit of a plane's points.
 fn onto(
-    points: &[&[[f64; 2]]],
+    rows: &[&Vec<[f64; 2]>],
     outlines: &[Outline],
     freedom: Freedom,
     max_distance: f64,
     stage: &Stage,
 ) -> Result<OntoNominal, OntoNominalError> {
-    section::onto_nominal(points, outlines, freedom, max_distance, stage)
+    let points: Vec<&[[f64; 2]]> = rows.iter().map(|r| &r[..]).collect();
+    section::onto_nominal(&points, outlines, freedom, max_distance, stage)
 }
 
 /// Why there is no best fit, with the file and the plane.
 fn with_place(e: OntoNominalError, shown: &str, plane: Option<u64>) -> anyhow::Error {
     match e {
         OntoNominalError::Cancelled(e) => e.into(),
-        e => anyhow::anyhow!("{shown}: --fit{}: {e}", plane.map_or(String::new(), |n| format!(" in plane {}", n + 1))),
+        e => anyhow::anyhow!(
+            "{shown}: --fit{}: {e}",
+            plane.map_or(String::new(), |n| format!(" in plane {}", n + 1))
+        ),
     }
 }
 

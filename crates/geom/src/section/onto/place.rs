@@ -139,7 +139,8 @@ fn smooth(outline: &Outline, number: usize, share: f64) -> Option<[f64; 2]> {
         let other = all.get(k % n).filter(|o| (outline.closed || !is_end) && o.geometry == Geometry::Line);
         let met = other.and_then(|other| {
             let a = along(other)?;
-            let gentle = libm::atan2(own[0] * a[1] - own[1] * a[0], own[0] * a[0] + own[1] * a[1]).abs() < GENTLE;
+            let gentle =
+                libm::atan2(own[0] * a[1] - own[1] * a[0], own[0] * a[0] + own[1] * a[1]).abs() < GENTLE;
             gentle.then(|| unit([0, 1].map(|k| own[k] * other.length + a[k] * segment.length)))?
         });
         met.unwrap_or(own)

@@ -202,7 +202,8 @@ fn too_few_points_and_no_outline() {
 fn outlines_move_rigidly() {
     let motion = PlaneMotion { center: [3.0, -2.0], turn: 0.7, shift: [5.0, 1.0] };
     let random = &mut Random::new(6);
-    let points: Vec<[f64; 2]> = (0..50).map(|_| [80.0 * random.unit() - 10.0, 50.0 * random.unit() - 10.0]).collect();
+    let points: Vec<[f64; 2]> =
+        (0..50).map(|_| [80.0 * random.unit() - 10.0, 50.0 * random.unit() - 10.0]).collect();
     let moved: Vec<[f64; 2]> = points.iter().map(|p| motion.apply(*p)).collect();
     let before = off_nominal(&points, &[plate()], &Silent).unwrap();
     let after = off_nominal(&moved, &[plate().moved(&motion)], &Silent).unwrap();

@@ -1,8 +1,8 @@
 //! Relations: directions of lines, right angles, tangents, radii and centers that agree.
 
 use super::super::result::{Continuity, Contour};
+use super::offer::{LEAST_P, MOST_CHANCE, Offer, OfferKind, REACH, Untidied, Value};
 use super::spread::{Shape, Spread, off_tangent, turned, turns_alike};
-use super::{LEAST_P, MOST_CHANCE, Offer, OfferKind, REACH, Untidied, Value};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Lines, and arcs, of a plane whose pairs are looked at.
@@ -97,17 +97,15 @@ pub(super) fn all(contours: &[Contour], spreads: &[Result<Spread, Untidied>]) ->
         let beside = find(next(a.of[1]));
         offers.extend(beside.and_then(|b| tangent(&contours[a.of[0]], a, b)));
         // Over one arc, as a rounded corner, too.
-        let over = beside.filter(|b| b.circle().is_some() && !last(b.of[1])).and_then(|b| find(next(b.of[1])));
+        let over =
+            beside.filter(|b| b.circle().is_some() && !last(b.of[1])).and_then(|b| find(next(b.of[1])));
         offers.extend([beside, over].into_iter().flatten().filter_map(|b| right_angle(a, b)).next());
     }
     offers
 }
 
 /// The offer of the first of the earlier segments that has one; the chance grows with their number.
-fn first_of<'a>(
-    earlier: &[Member<'a>],
-    offer: impl Fn(&Member<'a>, f64) -> Option<Offer>,
-) -> Option<Offer> {
+fn first_of<'a>(earlier: &[Member<'a>], offer: impl Fn(&Member<'a>, f64) -> Option<Offer>) -> Option<Offer> {
     earlier.iter().find_map(|other| offer(other, earlier.len() as f64))
 }
 

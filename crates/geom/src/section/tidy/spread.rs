@@ -6,7 +6,7 @@
 //! covariance is scaled to agree with that.
 
 use super::super::result::{Continuity, Contour, Geometry, Taken, Uncertainty};
-use super::Untidied;
+use super::offer::Untidied;
 use crate::num::cholesky::Cholesky;
 
 /// Segments of a tangent chain of which the covariance is still found.
@@ -182,11 +182,7 @@ impl Spread {
     }
 
     /// How a value of segments grows with each of their unknowns: chain, number in it, slope.
-    fn slopes(
-        &self,
-        of: &[usize],
-        value: &dyn Fn(&[Shape]) -> f64,
-    ) -> Option<Vec<(usize, usize, f64)>> {
+    fn slopes(&self, of: &[usize], value: &dyn Fn(&[Shape]) -> f64) -> Option<Vec<(usize, usize, f64)>> {
         let shapes: Vec<Shape> = of.iter().map(|k| self.shapes[*k]).collect::<Option<_>>()?;
         let mut all = vec![];
         for (i, k) in of.iter().enumerate() {

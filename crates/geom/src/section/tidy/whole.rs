@@ -1,9 +1,9 @@
 //! Whole numbers: radii, diameters, lengths, distances of parallel lines and of centers.
 
 use super::super::result::{Contour, Geometry};
+use super::offer::{MOST_CHANCE, Offer, OfferKind, REACH, Untidied, Value};
 use super::relation::{Member, across, between_them, limited, members, parallel};
 use super::spread::{Shape, Spread};
-use super::{MOST_CHANCE, Offer, OfferKind, REACH, Untidied, Value};
 use std::f64::consts::TAU;
 
 /// The coarsest step, millimeters; the next ones are its half, fifth of that, and so on.

@@ -1,11 +1,13 @@
 //! Measures of airfoils and blades.
 
-use super::blade::{self, ChordRecord, StackingRecord};
+use super::chord::{self, ChordRecord, StackingRecord};
 use super::found::Section;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use trueness_geom::progress::{Cancelled, Progress};
-use trueness_geom::section::{Airfoil, AirfoilError, Chords, Contour, EdgeRadius, TrailingEdge, airfoil, chords};
+use trueness_geom::section::{
+    Airfoil, AirfoilError, Chords, Contour, EdgeRadius, TrailingEdge, airfoil, chords,
+};
 
 /// The measures of a contour as a profile, or why there are none.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
@@ -127,7 +129,7 @@ impl AirfoilMeasures {
     fn with_chords(mut self, found: Result<Chords, AirfoilError>) -> AirfoilMeasures {
         match found {
             Ok(found) => {
-                self.chords = blade::records(&found);
+                self.chords = chord::records(&found);
                 (self.centroid, self.area) = (Some(found.centroid), Some(found.area));
             }
             Err(e) => self.chords_reason = Some(e.to_string()),

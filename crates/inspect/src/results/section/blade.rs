@@ -1,117 +1,23 @@
-//! Chords of blades by their usual definitions, and twist, offset and lean against the nominal.
+//! Twist, offset and lean of blades against the nominal.
 
 use super::airfoil::AirfoilRecord;
+use super::chord::{LeanRecord, StackingRecord};
 use super::nominal::NominalRecord;
-use super::{ContourRecord, PlaneRecord};
-use crate::results::Word;
-use crate::results::word::named;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 use trueness_geom::progress::{Cancelled, Progress};
 use trueness_geom::section::{
-    AirfoilError, Chord, Chords, Options, Outline, PlaneMotion, SectionError, airfoil, chords, contour, outline_row,
+    AirfoilError, Chord, Chords, Options, Outline, PlaneMotion, SectionError, airfoil, chords, contour,
+    outline_row,
 };
 
-/// What a chord is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ChordBy {
-    /// Between the two places that are farthest from each other.
-    Farthest,
-    /// Between the ends of the camber line, led on to the profile.
-    CamberEnds,
-    /// The extent along the flat tangent, which touches the hollow side at two places.
-    Bitangent,
-}
-
-impl ChordBy {
-    /// All of them.
-    pub const ALL: [ChordBy; 3] = [ChordBy::Farthest, ChordBy::CamberEnds, ChordBy::Bitangent];
-
-    /// The word for it: `farthest`, `camber_ends`, `bitangent`.
-    pub fn name(self) -> &'static str {
-        match self {
-            ChordBy::Farthest => "farthest",
-            ChordBy::CamberEnds => "camber_ends",
-            ChordBy::Bitangent => "bitangent",
-        }
-    }
-}
-
-named!(ChordBy, "chord", Self::ALL, |by| by.name());
-
-/// A chord.
-#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
-pub struct ChordRecord {
-    /// `farthest`: between the two places of the profile that are farthest from each other; `camber_ends`: between the ends of the camber
-    /// line, led on to the profile; `bitangent`: the extent along the flat tangent, the line that touches the hollow side at two places.
-    pub definition: Word<ChordBy>,
-    /// Its end at the leading edge.
-    pub leading: Option<[f64; 2]>,
-    /// Its end at the trailing edge.
-    pub trailing: Option<[f64; 2]>,
-    /// Its length.
-    pub length: Option<f64>,
-    /// Angle of the way from leading to trailing edge with the first axis, radians.
-    pub angle: Option<f64>,
-    /// Why there is no such chord.
-    #[serde(skip_serializing_if = "Option::is_none", default)]
-    pub length_reason: Option<String>,
-    /// Twist: by how much its angle is greater than that of the nominal's chord of the same definition, radians.
-    pub twist: Option<f64>,
-    /// Why there is no twist.
-    #[serde(skip_serializing_if = "Option::is_none", default)]
-    pub twist_reason: Option<String>,
-}
-
-/// Where a profile is, against where it should be.
-#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
-pub struct StackingRecord {
-    /// The stacking point: the one given, or the centroid of the nominal's profile.
-    pub point: [f64; 2],
-    /// `given` or `centroid`.
-    pub by: String,
-    /// How far the profile's own stacking point is from it. With a nominal it goes with the profile as centroid and twist (of the chord between
-    /// the farthest places) say; without one it is the centroid.
-    pub offset: [f64; 2],
-    /// The same along the profile's farthest chord, positive toward the trailing edge.
-    pub along_chord: f64,
-    /// The same across it, positive to its left.
-    pub across_chord: f64,
-}
-
-/// How the offsets of the stacking points grow from plane to plane.
-#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
-pub struct LeanRecord {
-    /// Angles by which the stacking line leans toward the first and the second axis of the planes, radians: of the line of least squares.
-    pub lean: [f64; 2],
-    /// Greatest distance of an offset from that line.
-    pub greatest: f64,
-    /// Planes that it is of.
-    pub planes: u64,
-}
-
-/// The chords of a profile as records, without twist.
-pub(super) fn records(found: &Chords) -> Vec<ChordRecord> {
-    let all = [
-        (ChordBy::Farthest, Ok(found.farthest)),
-        (ChordBy::CamberEnds, Ok(found.camber_ends)),
-        (ChordBy::Bitangent, found.bitangent),
-    ];
-    all.into_iter().map(|(by, chord)| record(by, chord)).collect()
-}
-
-fn record(by: ChordBy, chord: Result<Chord, AirfoilError>) -> ChordRecord {
-    let found = chord.ok();
-    ChordRecord {
-        definition: Word(by),
-        leading: found.map(|c| c.leading),
-        trailing: found.map(|c| c.trailing),
-        length: found.map(|c| c.length()),
-        angle: found.map(|c| c.angle()),
-        length_reason: chord.err().map(|e| e.to_string()),
-        twist: None,
-        twist_reason: Some("there is no nominal to compare with; the angle is that with the first axis".into()),
-    }
+/// Where a contour is.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Whereabouts {
+    /// Number of its plane.
+    pub plane: Option<u64>,
+    /// Normal and offset of that.
+    pub height: Option<([f64; 3], f64)>,
+    /// Middle of the box around it.
+    pub middle: [f64; 2],
 }
 
 /// The chords of an outline of the nominal, or why there are none.
@@ -133,9 +39,9 @@ fn of_nominal(outline: &Outline, progress: &dyn Progress) -> Result<Result<Chord
 ///
 /// # Errors
 /// [`Cancelled`], when asked to stop.
-pub fn against_nominal(
+pub(super) fn against_nominal(
     all: &mut [AirfoilRecord],
-    contours: &[ContourRecord],
+    contours: &[Whereabouts],
     nominal: Option<&NominalRecord>,
     stacking: Option<[f64; 2]>,
     progress: &dyn Progress,
@@ -157,12 +63,8 @@ pub fn against_nominal(
 }
 
 /// The outline of the contour's plane whose box is nearest to the contour's.
-fn nearest_outline<'a>(nominal: &'a NominalRecord, contour: &ContourRecord) -> Option<&'a Outline> {
-    let ends = || contour.segments.iter().flat_map(|s| [s.start, s.end]);
-    let middle = [0, 1].map(|k| {
-        let [low, high] = ends().fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], p| [l.min(p[k]), h.max(p[k])]);
-        0.5 * (low + high)
-    });
+fn nearest_outline<'a>(nominal: &'a NominalRecord, contour: &Whereabouts) -> Option<&'a Outline> {
+    let middle = contour.middle;
     let far = |o: &[f64; 2]| libm::hypot(o[0] - middle[0], o[1] - middle[1]);
     let own = nominal.outlines.iter().filter(|o| o.plane == contour.plane && !o.hole);
     own.min_by(|a, b| far(&a.center).total_cmp(&far(&b.center))).map(|o| &o.drawn)
@@ -224,17 +126,20 @@ fn within_half_a_turn(angle: f64) -> f64 {
 }
 
 /// The lean of the profiles of parallel planes, one in each; `None` of fewer than two.
-pub fn lean(all: &[AirfoilRecord], contours: &[ContourRecord], planes: &[PlaneRecord]) -> Option<LeanRecord> {
-    let first = planes.first()?;
-    let parallel = |p: &PlaneRecord| (0..3).all(|k| (p.normal[k] - first.normal[k]).abs() < PARALLEL);
+pub(super) fn lean(all: &[AirfoilRecord], contours: &[Whereabouts]) -> Option<LeanRecord> {
     let mut places: Vec<(u64, f64, [f64; 2])> = vec![];
+    let mut normals: Vec<[f64; 3]> = vec![];
     for found in all {
         let Some(stacking) = found.measures.as_ref().and_then(|m| m.stacking.as_ref()) else { continue };
-        let plane = contours.get(found.contour as usize)?.plane?;
-        places.push((plane, planes.get(plane as usize)?.offset, stacking.offset));
+        let contour = contours.get(found.contour as usize)?;
+        let (normal, offset) = contour.height?;
+        places.push((contour.plane?, offset, stacking.offset));
+        normals.push(normal);
     }
+    let first = *normals.first()?;
+    let parallel = |n: &[f64; 3]| (0..3).all(|k| (n[k] - first[k]).abs() < PARALLEL);
     let once = places.windows(2).all(|w| w[0].0 != w[1].0);
-    if places.len() < 2 || !once || !planes.iter().all(parallel) {
+    if places.len() < 2 || !once || !normals.iter().all(parallel) {
         return None;
     }
     let n = places.len() as f64;

@@ -1,6 +1,5 @@
 //! The paper's methods, side by side.
 
-use super::SectionDocument;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use trueness_geom::section::{Method, Search};
@@ -46,17 +45,11 @@ pub struct ResidualsRecord {
     pub max: f64,
 }
 
-impl SectionDocument {
-/// The same with what the paper's methods found: each with its number of points of the curve.
-    pub fn with_methods(
-        self,
-        chosen: Search,
-        interval: &str,
-        methods: &[(Method, usize)],
-    ) -> SectionDocument {
+impl MethodsRecord {
+    /// What the methods found, each with its number of points of the curve.
+    pub(super) fn new(chosen: Search, interval: &str, methods: &[(Method, usize)]) -> MethodsRecord {
         let table = methods.iter().map(|(m, on_curve)| method(m, *on_curve)).collect();
-        let methods = Some(MethodsRecord { chosen: chosen.name().into(), interval: interval.into(), table });
-        SectionDocument { methods, ..self }
+        MethodsRecord { chosen: chosen.name().into(), interval: interval.into(), table }
     }
 }
 

@@ -6,7 +6,7 @@ use super::super::word::named;
 use super::doubts::{NominalWarning, doubts};
 use super::fitted::FitRecord;
 use super::outline::{self, AgainstPlane, OutlineRecord};
-use super::verdict::ProfileRecord;
+use super::profile::{ProfileRecord, WorstRecord};
 use crate::results::{Verdict, VerdictReason};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -95,21 +95,6 @@ pub struct NominalRecord {
     /// The place nearest to each point of each contour, for the page.
     #[serde(skip)]
     pub nearest: Vec<Vec<Option<[f64; 2]>>>,
-}
-
-/// A point far off the nominal.
-#[derive(Clone, Copy, Debug, Serialize, Deserialize, JsonSchema)]
-pub struct WorstRecord {
-    /// Number of its contour, from 0.
-    pub contour: u64,
-    /// Its number in the contour, from 0.
-    pub index: u64,
-    /// The point, in its plane.
-    pub point: [f64; 2],
-    /// The place of the nominal nearest to it.
-    pub nearest: [f64; 2],
-    /// Its deviation.
-    pub deviation: f64,
 }
 
 impl NominalRecord {

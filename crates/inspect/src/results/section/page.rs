@@ -3,6 +3,7 @@
 mod airfoil;
 mod course;
 mod fitted;
+mod head;
 mod nominal;
 mod nominal_tables;
 #[cfg(test)]

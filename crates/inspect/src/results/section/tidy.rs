@@ -2,7 +2,6 @@
 
 use super::dimension::MemberRecord;
 use super::found::Section;
-use super::ContourRecord;
 use crate::results::Word;
 use crate::results::word::named;
 use schemars::JsonSchema;
@@ -37,23 +36,24 @@ pub struct OfferRecord {
     pub chance: f64,
 }
 
-/// The offers of each contour, plane after plane: to the contour of their first segment; of some why there are none.
-pub(super) fn add(contours: &mut [ContourRecord], sections: &[Section], rows: &[Vec<[f64; 2]>]) {
-    let mut before = 0;
+/// The offers of a contour, or why there are none.
+pub(super) type Offers = Result<Vec<OfferRecord>, String>;
+
+/// The offers of each contour, plane after plane: to the contour of their first segment.
+pub(super) fn offers(sections: &[Section], rows: &[Vec<[f64; 2]>]) -> Vec<Offers> {
+    let mut all: Vec<Offers> = vec![];
     for section in sections {
-        let end = (before + section.contours.len()).min(rows.len()).min(contours.len());
-        let own: Vec<&[[f64; 2]]> = rows[before..end].iter().map(|r| &r[..]).collect();
+        let before = all.len();
+        let own: Vec<&[[f64; 2]]> =
+            rows.iter().skip(before).take(section.contours.len()).map(|r| &r[..]).collect();
         let (offers, why) = tidy(&section.contours, &own);
-        for (contour, why) in contours[before..end].iter_mut().zip(why) {
-            contour.tidy_reason = why.map(|why| why.reason().into());
-            contour.tidy = why.is_none().then(Vec::new);
-        }
+        all.extend(why.into_iter().map(|why| why.map_or(Ok(vec![]), |why| Err(why.reason().into()))));
         for offer in &offers {
-            let own = offer.of.first().and_then(|[c, _]| contours.get_mut(before + c)?.tidy.as_mut());
+            let own = offer.of.first().and_then(|[c, _]| all.get_mut(before + c)?.as_mut().ok());
             own.into_iter().for_each(|all| all.push(record(offer, before)));
         }
-        before = end;
     }
+    all
 }
 
 fn record(offer: &Offer, before: usize) -> OfferRecord {

@@ -1,12 +1,11 @@
 //! The verdict on the profile of a line: what shares, fit, file and coverage say together.
 
 use super::doubts::NominalWarningKind;
-use super::nominal::{NominalRecord, WorstRecord};
+use super::nominal::NominalRecord;
+use super::profile::{ProfileRecord, WorstRecord};
 use crate::results::compare::ToleranceShares;
 use crate::results::{InputRecord, ReasonKind, Verdict, VerdictReason, judged, percent, percents};
 use crate::tolerance::{Tolerance, badness};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 
 /// What a section must keep.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,37 +18,22 @@ pub struct ProfileRule {
     pub min_coverage: f64,
 }
 
-/// The deviations against a tolerance of the profile (ISO 1101, profile any line).
-#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
-pub struct ProfileRecord {
-    /// Limits of the deviation, and the shares of the points.
-    #[serde(flatten)]
-    pub shares: ToleranceShares,
-    /// Width of the zone: `upper` − `lower`. Of ±T it is 2 T, the number in the frame of a drawing; the zone is even about the nominal then.
-    pub zone_width: f64,
-    /// The point farthest beyond the limits, or nearest to them where all are within.
-    pub worst: Option<WorstRecord>,
-    /// Share of the nominal's length that points run along (0 to 1).
-    pub covered: f64,
-    /// Share of the points that have a counterpart on the nominal (0 to 1).
-    pub counterparts: f64,
-    /// The share of both that a pass needs.
-    pub min_coverage: f64,
-}
-
 impl NominalRecord {
     /// The same, judged by a rule; `reference` is the nominal's file.
     pub fn judge(&mut self, rule: &ProfileRule, reference: &InputRecord) {
         let profile = self.profile(rule);
         let mut reasons = self.doubts(rule, reference);
         reasons.extend(beyond(&profile.shares));
-        let [covered, counterparts, least] = percents([profile.covered, profile.counterparts, rule.min_coverage]);
         if profile.covered < rule.min_coverage {
+            let [covered, least] = percents([profile.covered, rule.min_coverage]);
             let text = format!("the points cover {covered} of the nominal; a pass needs {least}");
             reasons.push(VerdictReason::new(ReasonKind::Coverage, text));
         }
         if profile.counterparts < rule.min_coverage {
-            let text = format!("{counterparts} of the points have a counterpart on the nominal; a pass needs {least}");
+            let [counterparts, least] = percents([profile.counterparts, rule.min_coverage]);
+            let text = format!(
+                "{counterparts} of the points have a counterpart on the nominal; a pass needs {least}"
+            );
             reasons.push(VerdictReason::new(ReasonKind::Coverage, text));
         }
         reasons.sort_by_key(|r| ReasonKind::ALL.iter().position(|k| k == &*r.kind));
@@ -115,7 +99,11 @@ impl NominalRecord {
         }
         let incomplete = reference.incomplete.as_ref().map(|found| found.text.clone());
         let blocks = reference.warnings.iter().find(|w| w.contains("passed over") && w.contains(" INSERT"));
-        all.extend(incomplete.or(blocks.cloned()).map(|text| VerdictReason::new(ReasonKind::IncompleteReference, text)));
+        all.extend(
+            incomplete
+                .or(blocks.cloned())
+                .map(|text| VerdictReason::new(ReasonKind::IncompleteReference, text)),
+        );
         all
     }
 }

@@ -30,12 +30,13 @@ pub fn chords(m: &AirfoilMeasures) -> String {
     }
     out.push_str(&console::columns(&rows));
     for chord in &m.chords {
-        for reason in &chord.length_reason {
+        if let Some(reason) = &chord.length_reason {
             let _ = writeln!(out, "no {} chord: {reason}", chord.definition.name().replace('_', " "));
         }
     }
     // One reason for all: that there is no nominal is no news.
-    let told = m.chords.iter().filter_map(|c| c.twist_reason.as_deref()).find(|r| r.starts_with("the nominal is"));
+    let told =
+        m.chords.iter().filter_map(|c| c.twist_reason.as_deref()).find(|r| r.starts_with("the nominal is"));
     told.into_iter().for_each(|reason| _ = writeln!(out, "no twist: {reason}"));
     if let Some([x, y]) = m.centroid.map(|c| c.map(|x| fixed(x, 6))) {
         let area = m.area.map_or(String::new(), |a| format!("   area {}", fixed(a, 6)));

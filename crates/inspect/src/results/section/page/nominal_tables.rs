@@ -1,8 +1,8 @@
 //! How the points differ from the nominal, in tables: where they are farthest off, and what was not measured.
 
 use super::fitted;
+use super::head::head;
 use super::pieces::{drawn_pieces, lacking};
-use super::tables::head;
 use crate::report::number::{Style, decimals};
 use crate::report::page::parts::{fact, file_name, listed, row_class};
 use crate::report::values::Text;

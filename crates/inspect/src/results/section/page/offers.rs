@@ -1,6 +1,6 @@
 //! What a drawing of a contour would have, in a table.
 
-use super::tables::head;
+use super::head::head;
 use crate::report::number::{Style, decimals};
 use crate::report::page::parts::not_printed;
 use crate::report::values::Text;

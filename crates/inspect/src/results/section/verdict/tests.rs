@@ -20,7 +20,11 @@ fn compared(off: &dyn Fn(usize) -> f64, kept: f64, reach: f64) -> NominalRecord 
     let count = found.iter().filter(|o| far(o)).count();
     found.iter_mut().for_each(|o| *o = o.filter(|_| !far(&*o)));
     let contours = vec![Against { points: &points, found, far: count, contour: &contour }];
-    NominalRecord::new("n.dxf", "drawing", vec![AgainstPlane { plane: None, outlines: vec![square], contours }])
+    NominalRecord::new(
+        "n.dxf",
+        "drawing",
+        vec![AgainstPlane { plane: None, outlines: vec![square], contours }],
+    )
 }
 
 fn reference() -> InputRecord {
@@ -65,7 +69,14 @@ fn verdicts_by_shares_coverage_and_doubts() {
             Verdict::Undecided,
             &["coverage", "coverage"],
         ),
-        (compared(&even, 1.0, 0.001), zone, 1.0, 0.9, Verdict::Undecided, &["not_measured", "coverage", "coverage"]),
+        (
+            compared(&even, 1.0, 0.001),
+            zone,
+            1.0,
+            0.9,
+            Verdict::Undecided,
+            &["not_measured", "coverage", "coverage"],
+        ),
     ] {
         let record = judged_by(record, zone, share, cover);
         assert_eq!(told(&record), (verdict, reasons.to_vec()), "{zone:?} {share} {cover}");

@@ -1,8 +1,9 @@
 //! The chord of a profile by each of its usual definitions, and its centroid.
 
-use super::super::nominal::Outline;
-use super::super::result::{Contour, Geometry};
-use super::{Airfoil, AirfoilError, TrailingEdge, distance};
+use super::airfoil::{Airfoil, AirfoilError, TrailingEdge};
+use super::facets::length as distance;
+use super::nominal::Outline;
+use super::result::{Contour, Geometry};
 
 /// A chord, from the leading to the trailing edge.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -63,19 +64,51 @@ pub fn chords(points: &[[f64; 2]], contour: &Contour, found: &Airfoil) -> Result
         true => Chord { leading: a, trailing: b },
         false => Chord { leading: b, trailing: a },
     };
-    let (mut far, mut most) = ([hull[0]; 2], 0.0);
-    for (i, a) in hull.iter().enumerate() {
-        for b in &hull[i + 1..] {
-            let d = distance(*a, *b);
-            if d > most {
-                (far, most) = ([*a, *b], d);
-            }
-        }
-    }
-    let farthest = toward(far[0], far[1]);
+    let [a, b] = farthest_pair(&hull);
+    let farthest = toward(a, b);
     let camber_ends = camber_ends(found, &places);
     Ok(Chords { farthest, camber_ends, bitangent: bitangent(&hull, &farthest), centroid, area })
 }
+
+/// The two places of a hull that are farthest from each other, between its corners where these follow a curve.
+fn farthest_pair(hull: &[[f64; 2]]) -> [[f64; 2]; 2] {
+    let (mut pair, mut most) = ([0; 2], 0.0);
+    for (i, a) in hull.iter().enumerate() {
+        for (j, b) in hull.iter().enumerate().skip(i + 1) {
+            let d = distance(*a, *b);
+            if d > most {
+                (pair, most) = ([i, j], d);
+            }
+        }
+    }
+    let mut far = pair.map(|i| hull[i]);
+    for _ in 0..REFINED {
+        for side in 0..2 {
+            far[side] = top(hull, pair[side], far[1 - side]);
+        }
+    }
+    far
+}
+
+/// The place farthest from another on the parabola through a corner of a hull and the two beside; the corner itself where it is sharp.
+fn top(hull: &[[f64; 2]], i: usize, from: [f64; 2]) -> [f64; 2] {
+    let n = hull.len();
+    let [a, b, c] = [hull[(i + n - 1) % n], hull[i], hull[(i + 1) % n]];
+    let [u, v] = [[b[0] - a[0], b[1] - a[1]], [c[0] - b[0], c[1] - b[1]]];
+    let turn = libm::atan2(u[0] * v[1] - u[1] * v[0], u[0] * v[0] + u[1] * v[1]).abs();
+    let [x, y, z] = [a, b, c].map(|p| distance(p, from));
+    let bend = x - 2.0 * y + z;
+    if turn > SHARP || bend >= 0.0 {
+        return b;
+    }
+    let t = (0.5 * (x - z) / bend).clamp(-1.0, 1.0);
+    [0, 1].map(|k| b[k] + 0.5 * t * (c[k] - a[k]) + 0.5 * t * t * (a[k] - 2.0 * b[k] + c[k]))
+}
+
+/// Turns between the two ends of the farthest way.
+const REFINED: usize = 8;
+/// A hull that turns by more at a corner is sharp there, radians.
+const SHARP: f64 = 0.2;
 
 /// Extent along the longest side of the hull, if that is a long one beside the profile.
 fn bitangent(hull: &[[f64; 2]], farthest: &Chord) -> Result<Chord, AirfoilError> {
@@ -97,7 +130,8 @@ fn bitangent(hull: &[[f64; 2]], farthest: &Chord) -> Result<Chord, AirfoilError>
     let sense = if (b[0] - a[0]) * way[0] + (b[1] - a[1]) * way[1] < 0.0 { -1.0 } else { 1.0 };
     let along = [0, 1].map(|k| sense * (b[k] - a[k]) / size(i));
     let far = |p: &[f64; 2]| (p[0] - a[0]) * along[0] + (p[1] - a[1]) * along[1];
-    let [low, high] = hull.iter().map(far).fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], x| [l.min(x), h.max(x)]);
+    let [low, high] =
+        hull.iter().map(far).fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], x| [l.min(x), h.max(x)]);
     let at = |x: f64| [a[0] + x * along[0], a[1] + x * along[1]];
     Ok(Chord { leading: at(low), trailing: at(high) })
 }
@@ -151,7 +185,8 @@ fn evenly(outline: &Outline, count: usize) -> Vec<[f64; 2]> {
 
 /// An outline of a nominal as a row of points: the ends of chords, or even places where it has arcs or curves, or only a few lines.
 pub fn outline_row(outline: &Outline) -> Vec<[f64; 2]> {
-    let chords = outline.segments.len() > FEW && outline.segments.iter().all(|s| s.geometry == Geometry::Line);
+    let chords =
+        outline.segments.len() > FEW && outline.segments.iter().all(|s| s.geometry == Geometry::Line);
     evenly(outline, if chords { 1 } else { ROW })
 }
 
