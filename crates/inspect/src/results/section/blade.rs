@@ -5,8 +5,7 @@ use super::chord::{LeanRecord, StackingRecord};
 use super::nominal::NominalRecord;
 use trueness_geom::progress::{Cancelled, Progress};
 use trueness_geom::section::{
-    AirfoilError, Chord, Chords, Options, Outline, PlaneMotion, SectionError, airfoil, chords, contour,
-    outline_row,
+    AirfoilError, Chord, Chords, Contour, Outline, PlaneMotion, airfoil, chords, outline_row,
 };
 
 /// Where a contour is.
@@ -23,13 +22,11 @@ pub(super) struct Whereabouts {
 /// The chords of an outline of the nominal, or why there are none.
 fn of_nominal(outline: &Outline, progress: &dyn Progress) -> Result<Result<Chords, String>, Cancelled> {
     let row = outline_row(outline);
-    let options = Options { closed: Some(outline.closed), ordered: true, ..Options::default() };
-    let found = match contour(&row, &options, progress) {
-        Err(SectionError::Cancelled(e)) => return Err(e),
-        Err(e) => return Ok(Err(e.to_string())),
-        Ok(found) => found,
-    };
-    match airfoil(&row, &found, progress).and_then(|blade| chords(&row, &found, &blade)) {
+    let spacing = outline.length() / row.len().max(1) as f64;
+    // The edges are those of a smooth curve through the places, the chords those of the outline itself.
+    let bare = Contour { closed: outline.closed, spacing, ..Contour::default() };
+    let drawn = Contour { segments: outline.segments.clone(), ..bare.clone() };
+    match airfoil(&row, &bare, progress).and_then(|blade| chords(&row, &drawn, &blade)) {
         Err(AirfoilError::Cancelled(e)) => Err(e),
         found => Ok(found.map_err(|e| e.to_string())),
     }
