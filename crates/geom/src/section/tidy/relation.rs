@@ -136,7 +136,7 @@ pub(super) fn parallel(a: &Member, b: &Member, others: f64) -> Option<Offer> {
 }
 
 fn right_angle(a: &Member, b: &Member) -> Option<Offer> {
-    (a.angle()?, b.angle()?);
+    a.angle().zip(b.angle())?;
     let value = a.with(b, &|s| between(s, FRAC_PI_2))?;
     value.offer(OfferKind::RightAngle, &[a.of, b.of], FRAC_PI_2, 2.0 * REACH * value.uncertainty / PI)
 }

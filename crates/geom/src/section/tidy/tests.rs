@@ -82,7 +82,6 @@ fn what_was_drawn_is_offered() {
         }
     }
     assert!(counts["found"] >= 36, "{counts:?}");
-    println!("{counts:?}");
     // Two of two lines within 95 % each are 90 %, four right angles that go together about 85 %.
     for (name, least) in [
         ("horizontal", 0.8),
@@ -127,7 +126,6 @@ fn what_was_not_drawn_is_seldom_offered() {
     }
     // Three radii, lengths, two distances, three of centers, three pairs of radii.
     let each = f64::from(false_ones as u32) / f64::from(plates as u32);
-    println!("{each} false offers a plate of {plates}");
     assert!(plates >= 34 && each < 0.8, "{each} of {plates}");
 }
 
@@ -189,7 +187,6 @@ fn uncertainties_are_those_of_fresh_noise() {
     }
     assert!(count >= 70.0, "{count}");
     let squares = sums.map(|s| s / count);
-    println!("{squares:?} {:?}", sweep.iter().sum::<f64>() / sweep.len() as f64);
     assert!(squares.iter().all(|s| (0.6..1.5).contains(s)), "{squares:?}");
     // Coordinates of the center, scaled with the radius, are those told.
     assert!(sweep.iter().all(|s| (0.8..1.25).contains(s)), "{sweep:?}");

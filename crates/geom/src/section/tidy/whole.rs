@@ -18,8 +18,7 @@ impl Value {
         for finer in [2.0, 5.0].into_iter().cycle() {
             let step = COARSEST / divisor;
             let chance = 2.0 * REACH * self.uncertainty / step;
-            // Also of no number.
-            if !(chance <= MOST_CHANCE) || step < SMALLEST {
+            if chance.is_nan() || chance > MOST_CHANCE || step < SMALLEST {
                 return None;
             }
             let offered = (self.found * divisor / COARSEST).round() / divisor * COARSEST;
