@@ -25,9 +25,12 @@
 //! | `foot` | where on a segment the foot of a point is |
 //! | `dimension` | angles, widths, distances of centers, gaps |
 //! | `airfoil` | chord, camber, thickness and edges of a profile |
+//! | `chords` | its chord by each of the usual definitions |
 //! | `crossings` | places where a contour crosses itself |
 //! | `joined` | outlines of the segments of a drawing |
 //! | `nominal` | distances from the section of a nominal |
+//! | `onto` | the best fit onto that |
+//! | `tidy` | relations and whole numbers that the points allow, as offers |
 //! | `budget` | how long the searches of a row may take |
 //! | `plan`, `task`, `span`, `doubt`, `blunt` | corners, chains between them; corners that are none, and that chains pass over |
 //! | `contour`, `convert` | the contour as lines, arcs and B-splines |
@@ -45,6 +48,7 @@ mod blunt;
 mod budget;
 mod cells;
 mod chain;
+mod chords;
 mod contour;
 mod convert;
 mod corner;
@@ -69,6 +73,7 @@ mod levels;
 mod link;
 mod near;
 mod nominal;
+mod onto;
 mod order;
 mod paper;
 mod plan;
@@ -91,6 +96,7 @@ mod task;
 mod tessellated;
 #[cfg(test)]
 mod tests;
+mod tidy;
 mod told;
 mod untangle;
 mod vertices;
@@ -100,6 +106,7 @@ mod without;
 pub use airfoil::{Airfoil, AirfoilError, EdgeRadius, TrailingEdge, airfoil};
 pub use bent::{Bent, bent_across};
 pub use chain::SegmentKind;
+pub use chords::{Chord, Chords, chords, outline_row};
 pub use contour::contour;
 pub use covered::{Covered, Passed, covered};
 pub use crossings::crossings;
@@ -108,6 +115,7 @@ pub use dimension::{Dimension, DimensionKind, dimensions};
 pub use foot::SegmentFoot;
 pub use joined::joined;
 pub use nominal::{OffNominal, Outline, off_nominal, with_material_inside};
+pub use onto::{Free, Freedom, OntoNominal, OntoNominalError, PlaneMotion, onto_nominal};
 pub use order::{Order, Ordered, order};
 pub use paper::{Method, Search, line_and_curve, method_contour};
 pub use result::{Continuity, Contour, Geometry, Join, Options, SectionError, Segment, Taken, Uncertainty};
@@ -115,3 +123,4 @@ pub use scan::CutMesh;
 pub use slab::{ordered_contour, slab};
 pub use stack::facets_near;
 pub use tessellated::chain_contour;
+pub use tidy::{Offer, OfferKind, Untidied, tidy};

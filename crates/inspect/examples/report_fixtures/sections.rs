@@ -63,7 +63,7 @@ fn against() -> Vec<u8> {
     let outlines = vec![whole, Outline { segments: vec![hole], closed: true }];
     let own = contour(&points, &wish, &Silent).unwrap();
     let found = off_nominal(&points, &outlines, &Silent).unwrap();
-    let contours = vec![Against { points: &points, found, contour: &own }];
+    let contours = vec![Against { points: &points, found, far: 0, contour: &own }];
     let nominal = NominalRecord::new(
         "nominal.dxf",
         "drawing",

@@ -1,27 +1,42 @@
 //! `trueness/section/1`: the lines, arcs and curves of sections, and where they join.
 
 mod airfoil;
+mod blade;
+mod chord;
 mod dimension;
 mod doubts;
+mod fitted;
 mod found;
 mod hints;
+mod methods;
 mod near_arc;
 mod nominal;
 mod outline;
 mod page;
+mod profile;
+mod tidy;
+mod verdict;
 
 pub use airfoil::{AirfoilMeasures, AirfoilRecord};
+pub use chord::{ChordBy, ChordRecord, LeanRecord, StackingRecord};
 pub use dimension::{DimensionRecord, DimensionsRecord, MemberRecord};
 pub use doubts::{NominalWarning, NominalWarningKind};
+pub use fitted::FitRecord;
 pub use found::{FrameRecord, Section};
+pub use methods::{MethodRecord, MethodsRecord, ResidualsRecord};
 pub use near_arc::NearArc;
-pub use nominal::{BEYOND_END, NO_OUTLINE, NominalRecord, Positive, WorstRecord};
+pub use nominal::{BEYOND_END, MAX_DISTANCE, NO_OUTLINE, NominalRecord, Positive};
 pub use outline::{Against, AgainstPlane, OutlineRecord};
+pub use profile::{ProfileRecord, WorstRecord};
+pub use tidy::OfferRecord;
+pub use verdict::ProfileRule;
 
 use super::{InputRecord, UNITS, VERSION, Word};
+use blade::Whereabouts;
 use near_arc::near_arc;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use trueness_geom::progress::{Cancelled, Progress};
 use trueness_geom::section::{
     Continuity, Contour, Geometry, Method, Options, Search, Segment, SegmentKind, Taken, Uncertainty,
 };
@@ -57,53 +72,15 @@ pub struct SectionDocument {
     /// Chord, camber, thickness and edges of each contour, where they were asked for.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub airfoils: Option<Vec<AirfoilRecord>>,
+    /// How the stacking points of the profiles lean from plane to plane: of parallel planes with one profile each.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub lean: Option<LeanRecord>,
     /// How the points differ from the section of a nominal, where one was given.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub nominal: Option<NominalRecord>,
     /// The three methods of the paper, side by side, where one was asked for; the contour is that of the one chosen.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub methods: Option<MethodsRecord>,
-}
-
-/// The paper's methods of finding the join of one line and one curve.
-#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
-pub struct MethodsRecord {
-    /// The one that the contour is of: `stepwise`, `improved` or `golden`.
-    pub chosen: String,
-    /// How the interval of `golden` was found: `paper` or `profile`.
-    pub interval: String,
-    /// What each found.
-    pub table: Vec<MethodRecord>,
-}
-
-/// What one method found.
-#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
-pub struct MethodRecord {
-    /// `stepwise`, `improved` or `golden`.
-    pub method: String,
-    /// Where it looked for the join, from the line to the curve.
-    pub interval: [[f64; 2]; 2],
-    /// Length of that.
-    pub interval_length: f64,
-    /// The join.
-    pub join: [f64; 2],
-    /// Points of the line, and their distances from it.
-    pub line: ResidualsRecord,
-    /// Points of the curve, and their distances from it.
-    pub curve: ResidualsRecord,
-    /// Control points of the curve.
-    pub control_points: u64,
-}
-
-/// Distances of points from a segment.
-#[derive(Clone, Copy, Debug, Serialize, Deserialize, JsonSchema)]
-pub struct ResidualsRecord {
-    /// Number of points.
-    pub points: u64,
-    /// Root mean square.
-    pub rms: f64,
-    /// Greatest magnitude.
-    pub max: f64,
 }
 
 /// A plane that a mesh or cloud was cut by: all places `p` with `normal · p = offset`.
@@ -177,6 +154,12 @@ pub struct ContourRecord {
     /// thickness of a slab moves.
     #[serde(skip_serializing_if = "Vec::is_empty", default)]
     pub hints: Vec<String>,
+    /// What a drawing would have, as offers that the points allow, where they were asked for. None of them is put into the contour.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub tidy: Option<Vec<OfferRecord>>,
+    /// Why there are no offers.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub tidy_reason: Option<String>,
     /// Signed distance of each point from the contour, positive to the left.
     pub residuals: Vec<f64>,
     /// Number of the segment of each point.
@@ -319,9 +302,21 @@ impl SectionDocument {
             contours: contours.collect(),
             dimensions: DimensionsRecord::new(sections),
             airfoils: None,
+            lean: None,
             nominal: None,
             methods: None,
         }
+    }
+
+    /// The same with the offers for each contour, whose points are `rows`.
+    pub fn with_offers(mut self, sections: &[Section], rows: &[Vec<[f64; 2]>]) -> SectionDocument {
+        for (contour, offers) in self.contours.iter_mut().zip(tidy::offers(sections, rows)) {
+            match offers {
+                Ok(offers) => contour.tidy = Some(offers),
+                Err(reason) => contour.tidy_reason = Some(reason),
+            }
+        }
+        self
     }
 
     /// The same with what the paper's methods found: each with its number of points of the curve.
@@ -331,23 +326,40 @@ impl SectionDocument {
         interval: &str,
         methods: &[(Method, usize)],
     ) -> SectionDocument {
-        let table = methods.iter().map(|(m, on_curve)| method(m, *on_curve)).collect();
-        let methods = Some(MethodsRecord { chosen: chosen.name().into(), interval: interval.into(), table });
+        let methods = Some(MethodsRecord::new(chosen, interval, methods));
         SectionDocument { methods, ..self }
     }
-}
 
-fn method(found: &Method, on_curve: usize) -> MethodRecord {
-    let [a, b] = found.interval;
-    let record = |points: usize, [rms, max]: [f64; 2]| ResidualsRecord { points: points as u64, rms, max };
-    MethodRecord {
-        method: found.search.name().into(),
-        interval: found.interval,
-        interval_length: ((b[0] - a[0]).powi(2) + (b[1] - a[1]).powi(2)).sqrt(),
-        join: found.join,
-        line: record(found.on_line, found.line_residuals),
-        curve: record(on_curve, found.curve_residuals),
-        control_points: found.curve.points().len() as u64,
+    /// The same with twist, offset and lean of its airfoils; `stacking` is the stacking point given, in the nominal's coordinates.
+    ///
+    /// # Errors
+    /// [`Cancelled`], when asked to stop.
+    pub fn with_blades(
+        mut self,
+        stacking: Option<[f64; 2]>,
+        progress: &dyn Progress,
+    ) -> Result<SectionDocument, Cancelled> {
+        let places: Vec<Whereabouts> = self.contours.iter().map(|c| self.whereabouts(c)).collect();
+        if let Some(airfoils) = &mut self.airfoils {
+            blade::against_nominal(airfoils, &places, self.nominal.as_ref(), stacking, progress)?;
+            self.lean = blade::lean(airfoils, &places);
+        }
+        Ok(self)
+    }
+
+    fn whereabouts(&self, contour: &ContourRecord) -> Whereabouts {
+        let plane = contour.plane.and_then(|n| self.planes.get(n as usize));
+        let ends = || contour.segments.iter().flat_map(|s| [s.start, s.end]);
+        let middle = |k: usize| {
+            let low = ends().map(|p| p[k]).fold(f64::INFINITY, f64::min);
+            let high = ends().map(|p| p[k]).fold(f64::NEG_INFINITY, f64::max);
+            0.5 * (low + high)
+        };
+        Whereabouts {
+            plane: contour.plane,
+            height: plane.map(|p| (p.normal, p.offset)),
+            middle: [middle(0), middle(1)],
+        }
     }
 }
 
@@ -421,6 +433,8 @@ fn contour(found: &Contour, frame: &FrameRecord, plane: Option<u64>) -> ContourR
         astray: numbers(&found.astray),
         doubts: vec![],
         hints: vec![],
+        tidy: None,
+        tidy_reason: None,
         residuals: found.residuals.clone(),
         labels: found.labels.clone(),
         stations: found.stations.clone(),

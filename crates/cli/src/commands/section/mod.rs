@@ -21,20 +21,22 @@ use std::path::PathBuf;
 use trueness_geom::section::{self, Continuity, Options, PlaneFrame, SectionError};
 use trueness_geom::space::Point;
 use trueness_inspect::report::{ViewObject, flat};
-use trueness_inspect::results::Role;
 use trueness_inspect::results::section::{AirfoilRecord, Section, SectionDocument};
+use trueness_inspect::results::{Role, Verdict};
 
 /// The lines, arcs and curves of a section, and the exact places where they join
 ///
 /// Of points in the order in which they follow each other along a contour, or where planes cut a mesh or a cloud. Finds
 /// number and kinds of the segments, refines all together and tells every join with its uncertainty.
 #[derive(Args, Debug)]
-#[command(after_help = exit::help("segments do not run along their points and tell nothing of the part, or a contour is doubtful; files are written all the same", "\
+#[command(after_help = exit::help("out of tolerance or undecided, segments do not run along their points and tell nothing of the part, or a contour is doubtful; files are written all the same", "\
 Examples:
   trueness section profile.txt
   trueness section profile.csv --noise 0.003 --dxf profile.dxf --json profile.json
   trueness section profile.csv --html report.html
   trueness section blade.csv --airfoil
+  trueness section profile.csv --tidy
+  trueness section profile.csv --nominal profile.dxf --fit free --tolerance 0.05
   trueness section part.stl --plane 0,0,1,12.5 --dxf at-12.5.dxf
   trueness section part.stl --stack 0,0,1,0,40,5
   trueness section scan.stl --plane 0,0,1,12.5 --nominal part.stl
@@ -59,9 +61,17 @@ pub struct SectionArgs {
     /// Confidence of the intervals, percent
     #[arg(long, value_name = "PERCENT", default_value = "95", value_parser = percent)]
     level: f64,
-    /// Measure each contour as an airfoil or blade: chord, camber line, greatest thickness, radii of its edges
+    /// Measure each contour as an airfoil or blade: chords, camber line, greatest thickness, radii of its edges; with --nominal
+    /// also twist and offset
     #[arg(long)]
     airfoil: bool,
+    /// Stacking point of the airfoils in the nominal's coordinates of the plane, mm [default: the centroid of the nominal's profile]
+    #[arg(long, value_name = "X,Y", requires = "airfoil", allow_hyphen_values = true, value_parser = place)]
+    stacking: Option<[f64; 2]>,
+    /// Offer what a drawing would have, where the points allow it: parallel lines, right angles, tangents, equal radii, common
+    /// centers, whole numbers; the contour stays as it is found
+    #[arg(long)]
+    tidy: bool,
     #[command(flatten)]
     method: method::MethodArgs,
     #[command(flatten)]
@@ -113,6 +123,14 @@ fn percent(text: &str) -> Result<f64, String> {
     }
 }
 
+/// A place in the plane.
+fn place(text: &str) -> Result<[f64; 2], String> {
+    let numbers =
+        text.split_once(',').and_then(|(x, y)| Some([x.trim().parse().ok()?, y.trim().parse().ok()?]));
+    let finite = numbers.filter(|p: &[f64; 2]| p.iter().all(|x| x.is_finite()));
+    finite.ok_or_else(|| format!("‘{text}’ is no place; write two numbers of mm, such as 12.5,-3"))
+}
+
 impl Run for SectionArgs {
     fn files(&self) -> anyhow::Result<RunFiles> {
         let inputs = std::iter::once(&self.input).chain(&self.nominal.nominal);
@@ -126,6 +144,7 @@ impl Run for SectionArgs {
 
 fn run(args: &SectionArgs, common: &Common) -> anyhow::Result<Outcome> {
     let options = args.options();
+    args.nominal.rule()?;
     let Opened { mut record, body, planar, .. } =
         read::open(&args.input, Role::Measured, &args.file.reading())?;
     let shown = args.input.display();
@@ -183,6 +202,10 @@ fn run(args: &SectionArgs, common: &Common) -> anyhow::Result<Outcome> {
             contour.doubts.extend(found.doubt());
         }
     }
+    document = document.with_blades(args.stacking, &stage)?;
+    if args.tidy {
+        document = document.with_offers(&sections, &rows);
+    }
     args.planes.tell_raised_gap(&mut document.planes);
     if let Some((chosen, interval, table)) = methods {
         document = document.with_methods(chosen, interval, &table);
@@ -193,7 +216,9 @@ fn run(args: &SectionArgs, common: &Common) -> anyhow::Result<Outcome> {
     args.document.write(&document)?;
     args.document.table(|| table::table(&document))?;
     let doubtful = document.contours.iter().any(|c| !c.astray.is_empty() || !c.doubts.is_empty());
-    Ok(if doubtful { Outcome::NotConforming } else { Outcome::Conforming })
+    let judged = document.nominal.as_ref().and_then(|nominal| nominal.verdict);
+    let fails = judged.is_some_and(|verdict| verdict != Verdict::Pass);
+    Ok(if doubtful || fails { Outcome::NotConforming } else { Outcome::Conforming })
 }
 
 /// The report, with the points of each contour.

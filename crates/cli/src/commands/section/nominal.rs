@@ -7,18 +7,24 @@ use crate::exit::Usage;
 use crate::options::{PointInputArgs, ReferenceArgs};
 use crate::progress::Stage;
 use crate::read::{self, Body, Opened};
-use clap::Args;
+use crate::tolerance::ToleranceArg;
+use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 use trueness_files::ReadOptions;
 use trueness_files::drawing::{Drawing, Drawn};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::Cancelled;
-use trueness_geom::section::{self, Contour, Options, Outline, Plane, PlaneFrame, Segment};
+use trueness_geom::section::{
+    self, Contour, Freedom, OntoNominal, OntoNominalError, Options, Outline, Plane, PlaneFrame, Segment,
+};
 use trueness_geom::space::{Aabb, Point, dot};
-use trueness_inspect::compare::plausibility;
-use trueness_inspect::results::InputRecord;
+use trueness_inspect::compare::{MIN_COVERAGE, plausibility};
 use trueness_inspect::results::compare::{Bounds, Warning};
-use trueness_inspect::results::section::{Against, AgainstPlane, NominalRecord, NominalWarning, Section};
+use trueness_inspect::results::section::{
+    Against, AgainstPlane, FitRecord, NominalRecord, NominalWarning, ProfileRule, Section,
+};
+use trueness_inspect::results::{InputRecord, of_percent};
+use trueness_inspect::tolerance::cannot_fail;
 
 /// What the section should be.
 #[derive(Args, Debug)]
@@ -28,8 +34,68 @@ pub struct NominalArgs {
     /// drawing in the plane's coordinates, or points in order, of which the contour is found
     #[arg(long, value_name = "FILE")]
     pub nominal: Option<PathBuf>,
+    /// Bring the section nearest to the nominal first, within its plane, by least squares [default: none, it stays where it is]
+    #[arg(long, value_enum, value_name = "WAY", requires = "nominal")]
+    fit: Option<FitArg>,
+    /// Allowed deviation of the profile: T for ±T (a zone of the width 2 T, even about the nominal: write half of the profile
+    /// tolerance of a drawing), or -L,+U with both signs; the exit status is then the verdict
+    #[arg(long, value_name = "T | -L,+U", allow_hyphen_values = true, requires = "nominal")]
+    tolerance: Option<ToleranceArg>,
+    /// Share of the points that must lie within the tolerance, in percent
+    #[arg(
+        long,
+        value_name = "PERCENT",
+        default_value = "100",
+        requires = "tolerance",
+        allow_hyphen_values = true
+    )]
+    inside: f64,
+    /// Share of the nominal's length that must be measured for a pass, and of the points that must have a counterpart on it, in
+    /// percent as --inside; 0: a part of it is measured on purpose. Where it is less, what does not fail is undecided
+    #[arg(
+        long,
+        value_name = "PERCENT",
+        default_value_t = 100.0 * MIN_COVERAGE,
+        requires = "tolerance",
+        allow_hyphen_values = true
+    )]
+    min_coverage: f64,
+    /// Exclude (and count) points farther from the nominal than this, mm; the best fit does not look at them either
+    #[arg(long, value_name = "MM", requires = "nominal", allow_hyphen_values = true)]
+    max_distance: Option<f64>,
     #[command(flatten)]
     reading: ReferenceArgs,
+}
+
+/// What of a section may move for the best fit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum FitArg {
+    /// Shifts along both axes and a turn.
+    Free,
+    /// Shifts along both axes.
+    Xy,
+    /// A shift along the first axis.
+    X,
+    /// A shift along the second axis.
+    Y,
+    /// A turn about the origin of the plane's axes.
+    Turn,
+    /// Nothing.
+    None,
+}
+
+impl FitArg {
+    /// Its name and what may move.
+    fn freedom(self) -> Option<(&'static str, Freedom)> {
+        match self {
+            FitArg::Free => Some(("free", Freedom::FREE)),
+            FitArg::Xy => Some(("xy", Freedom::SHIFT)),
+            FitArg::X => Some(("x", Freedom::X)),
+            FitArg::Y => Some(("y", Freedom::Y)),
+            FitArg::Turn => Some(("turn", Freedom::TURN)),
+            FitArg::None => None,
+        }
+    }
 }
 
 /// What the nominal file held.
@@ -44,6 +110,29 @@ enum Nominal {
 const SHARE: f64 = 1e-6;
 
 impl NominalArgs {
+    /// What the profile must keep, if anything, and from what distance on points do not count.
+    pub fn rule(&self) -> Result<(Option<ProfileRule>, f64), Usage> {
+        let share = |name: &str, written: f64| {
+            of_percent(written).map_err(|what| Usage(format!("{name} {written}: {what}")))
+        };
+        let max_distance = self.max_distance.unwrap_or(f64::INFINITY);
+        if self.max_distance.is_some_and(|d| !(d > 0.0 && d.is_finite())) {
+            return Err(Usage(format!(
+                "--max-distance {max_distance}: a distance is a finite number of mm above 0; without the option there is no limit"
+            )));
+        }
+        let Some(ToleranceArg(tolerance)) = self.tolerance else { return Ok((None, max_distance)) };
+        if let Some(why) = cannot_fail(max_distance, std::iter::once(tolerance)) {
+            return Err(Usage(format!("--max-distance {max_distance}: {why}")));
+        }
+        let rule = ProfileRule {
+            tolerance,
+            required_share: share("--inside", self.inside)?,
+            min_coverage: share("--min-coverage", self.min_coverage)?,
+        };
+        Ok((Some(rule), max_distance))
+    }
+
     /// How the points of the sections differ from the nominal, and what there is to say about its file; nothing where none was
     /// given.
     pub fn compare<'a>(
@@ -62,7 +151,9 @@ impl NominalArgs {
             Nominal::Drawing(drawing) => Layers::of(drawing, sections.len(), &shown.to_string())?,
             _ => Layers::default(),
         };
-        let mut all = vec![];
+        let (rule, max_distance) = self.rule()?;
+        let freedom = self.fit.and_then(FitArg::freedom);
+        let (mut all, mut fits) = (vec![], vec![]);
         let mut rows = rows.iter();
         for (n, section) in sections.iter().enumerate() {
             let outlines = match &nominal {
@@ -86,13 +177,20 @@ impl NominalArgs {
             if !matches!(nominal, Nominal::Mesh(_)) {
                 refuse_crossings(&outlines, &shown.to_string(), stage)?;
             }
-            let own = rows.by_ref().take(section.contours.len());
-            let against = |(points, contour): (&'a Vec<[f64; 2]>, &'a Contour)| {
-                let found = section::off_nominal(points, &outlines, stage)?;
-                Ok::<_, Cancelled>(Against { points, found, contour })
-            };
-            let contours = own.zip(&section.contours).map(against).collect::<Result<_, _>>()?;
+            let own: Vec<&'a Vec<[f64; 2]>> = rows.by_ref().take(section.contours.len()).collect();
             let plane = section.plane.map(|_| n as u64);
+            let mut outlines = outlines;
+            if let Some(freedom) = freedom.filter(|_| !outlines.is_empty() && !own.is_empty()) {
+                let found = onto(&own, &outlines, freedom.1, max_distance, stage);
+                let found = found.map_err(|e| with_place(e, &shown.to_string(), plane))?;
+                // Coordinates stay those of the section.
+                let back = found.motion.inverse();
+                outlines = outlines.iter().map(|o| o.moved(&back)).collect();
+                fits.push(FitRecord::new(plane, freedom, &found));
+            }
+            let contours = (own.into_iter().zip(&section.contours))
+                .map(|(points, contour)| against(points, contour, &outlines, max_distance, stage))
+                .collect::<Result<_, _>>()?;
             all.push(AgainstPlane { plane, outlines, contours });
         }
         if all.iter().all(|plane| plane.outlines.is_empty()) {
@@ -111,7 +209,52 @@ impl NominalArgs {
         let unlikely = unlikely(sections, &all).into_iter().map(NominalWarning::from);
         let mut found = NominalRecord::new(&record.path, outline, all);
         found.warnings.splice(0..0, unlikely.chain(layers.passed_over));
+        found.fits = fits;
+        if let Some(rule) = rule {
+            found.judge(&rule, &record);
+        }
         Ok(Some((found, record)))
+    }
+}
+
+/// The points of a contour against outlines; those farther than `max_distance` are left out.
+fn against<'a>(
+    points: &'a [[f64; 2]],
+    contour: &'a Contour,
+    outlines: &[Outline],
+    max_distance: f64,
+    stage: &Stage,
+) -> Result<Against<'a>, Cancelled> {
+    let mut found = section::off_nominal(points, outlines, stage)?;
+    let mut far = 0;
+    for off in &mut found {
+        if off.is_some_and(|o| o.deviation.abs() > max_distance) {
+            (*off, far) = (None, far + 1);
+        }
+    }
+    Ok(Against { points, found, far, contour })
+}
+
+/// The best fit of a plane's points.
+fn onto(
+    rows: &[&Vec<[f64; 2]>],
+    outlines: &[Outline],
+    freedom: Freedom,
+    max_distance: f64,
+    stage: &Stage,
+) -> Result<OntoNominal, OntoNominalError> {
+    let points: Vec<&[[f64; 2]]> = rows.iter().map(|r| &r[..]).collect();
+    section::onto_nominal(&points, outlines, freedom, max_distance, stage)
+}
+
+/// Why there is no best fit, with the file and the plane.
+fn with_place(e: OntoNominalError, shown: &str, plane: Option<u64>) -> anyhow::Error {
+    match e {
+        OntoNominalError::Cancelled(e) => e.into(),
+        e => anyhow::anyhow!(
+            "{shown}: --fit{}: {e}",
+            plane.map_or(String::new(), |n| format!(" in plane {}", n + 1))
+        ),
     }
 }
 

@@ -1,12 +1,16 @@
 //! Sections for people.
 
+mod blade;
+mod fitted;
+mod offers;
+
 use crate::number::{fixed, grouped, scientific};
 use crate::{console, read};
 use std::fmt::Write;
 use trueness_geom::section::{DimensionKind, Taken};
 use trueness_inspect::results::section::{
     AirfoilMeasures, AirfoilRecord, BEYOND_END, ContourRecord, DimensionsRecord, FrameRecord, GeometryRecord,
-    MethodsRecord, NominalRecord, OutlineRecord, Positive, SectionDocument, SegmentRecord,
+    MAX_DISTANCE, MethodsRecord, NominalRecord, OutlineRecord, Positive, SectionDocument, SegmentRecord,
 };
 
 /// Rows of a contour that are shown.
@@ -63,6 +67,7 @@ pub fn table(document: &SectionDocument) -> String {
         if let Some(reason) = &contour.joins_reason {
             let _ = writeln!(out, "no join: {reason}");
         }
+        out.push_str(&offers::offers(contour));
         let odd = [
             ("outliers", &contour.outliers),
             ("repeated points", &contour.repeated),
@@ -79,6 +84,7 @@ pub fn table(document: &SectionDocument) -> String {
     for found in document.airfoils.iter().flatten().take(CONTOURS) {
         out.push_str(&airfoil(found));
     }
+    out.push_str(&document.lean.as_ref().map_or(String::new(), blade::lean));
     if let Some(found) = &document.nominal {
         out.push_str(&nominal(found, document.planes.len() > 1));
     }
@@ -307,7 +313,7 @@ fn airfoil(found: &AirfoilRecord) -> String {
     for reason in m.leading_radius_reason.iter().chain(&m.trailing_radius_reason) {
         let _ = writeln!(out, "no radius: {reason}");
     }
-    out
+    out + &blade::chords(m)
 }
 
 /// The row of a trailing edge: its radius, or how thick it is.
@@ -327,6 +333,7 @@ fn nominal(found: &NominalRecord, several: bool) -> String {
         Positive::Both => "+ outside of its closed contours, + left of its open ones",
     };
     let mut out = format!("deviation from {} ({}), {side}\n", found.path, found.outline);
+    out.push_str(&fitted::fits(&found.fits, several));
     let mut rows =
         vec![["", "points", "least", "greatest", "mean", "std dev", "rms"].map(String::from).to_vec()];
     let d = &found.deviation;
@@ -337,12 +344,16 @@ fn nominal(found: &NominalRecord, several: bool) -> String {
     }
     out.push_str(&console::columns(&rows));
     for (reason, count) in &found.excluded {
-        let words =
-            if reason == BEYOND_END { "beyond the end of the nominal" } else { "in planes without nominal" };
+        let words = match &reason[..] {
+            BEYOND_END => "beyond the end of the nominal",
+            MAX_DISTANCE => "farther than --max-distance",
+            _ => "in planes without nominal",
+        };
         let _ = writeln!(out, "points {words}: {}", grouped(*count));
     }
     found.warnings.iter().for_each(|warning| _ = writeln!(out, "! {}", warning.text));
     out.push_str(&lacking(&found.outlines, several));
+    out.push_str(&fitted::verdict(found));
     out
 }
 

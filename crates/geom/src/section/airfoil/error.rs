@@ -51,6 +51,9 @@ pub enum AirfoilError {
     /// The points around the edge bend the other way or not at all.
     #[error("the points around the edge do not bend")]
     Flat,
+    /// No line touches one side of the profile at two places.
+    #[error("no line touches one side of the profile at two places: none of them is hollow or flat")]
+    NotHollow,
     /// Stopped through the progress argument.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),

@@ -1,10 +1,13 @@
 //! Measures of airfoils and blades.
 
+use super::chord::{self, ChordRecord, StackingRecord};
 use super::found::Section;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use trueness_geom::progress::{Cancelled, Progress};
-use trueness_geom::section::{Airfoil, AirfoilError, Contour, EdgeRadius, TrailingEdge, airfoil};
+use trueness_geom::section::{
+    Airfoil, AirfoilError, Chords, Contour, EdgeRadius, TrailingEdge, airfoil, chords,
+};
 
 /// The measures of a contour as a profile, or why there are none.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
@@ -29,6 +32,21 @@ pub struct AirfoilMeasures {
     pub chord: f64,
     /// Angle of the way from leading to trailing edge with the first axis, radians.
     pub chord_angle: f64,
+    /// The chord by each of its usual definitions, with their angles and twists.
+    #[serde(default)]
+    pub chords: Vec<ChordRecord>,
+    /// Why there are none, nor centroid and area.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub chords_reason: Option<String>,
+    /// Center of the area that the profile encloses.
+    #[serde(default)]
+    pub centroid: Option<[f64; 2]>,
+    /// That area.
+    #[serde(default)]
+    pub area: Option<f64>,
+    /// How far the profile's stacking point is from where it should be, where a nominal or that point was given.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub stacking: Option<StackingRecord>,
     /// Diameter of the greatest inscribed circle.
     pub thickness: f64,
     /// Its standard uncertainty, from the scatter of the points.
@@ -93,7 +111,10 @@ impl AirfoilRecord {
         let contours = sections.iter().flat_map(|s| &s.contours);
         let each = |(n, (contour, row)): (usize, (&Contour, &Vec<[f64; 2]>))| {
             let (measures, reason) = match airfoil(row, contour, progress) {
-                Ok(found) => (Some(AirfoilMeasures::new(&found)), None),
+                Ok(found) => {
+                    let chords = chords(row, contour, &found);
+                    (Some(AirfoilMeasures::new(&found).with_chords(chords)), None)
+                }
                 Err(AirfoilError::Cancelled(e)) => return Err(e),
                 Err(e) => (None, Some(e.to_string())),
             };
@@ -104,6 +125,18 @@ impl AirfoilRecord {
 }
 
 impl AirfoilMeasures {
+    /// The same with its chords.
+    fn with_chords(mut self, found: Result<Chords, AirfoilError>) -> AirfoilMeasures {
+        match found {
+            Ok(found) => {
+                self.chords = chord::records(&found);
+                (self.centroid, self.area) = (Some(found.centroid), Some(found.area));
+            }
+            Err(e) => self.chords_reason = Some(e.to_string()),
+        }
+        self
+    }
+
     fn new(found: &Airfoil) -> AirfoilMeasures {
         let ([a, b], [c, d]) = (found.leading, found.trailing);
         let edge = |radius: &Result<EdgeRadius, AirfoilError>| {
@@ -119,6 +152,11 @@ impl AirfoilMeasures {
             trailing_edge: found.trailing,
             chord: found.chord,
             chord_angle: libm::atan2(d - b, c - a),
+            chords: vec![],
+            chords_reason: None,
+            centroid: None,
+            area: None,
+            stacking: None,
             thickness: found.thickness,
             thickness_uncertainty: found.thickness_uncertainty,
             thickness_at: found.thickness_at,

@@ -4,7 +4,10 @@ use super::super::Word;
 use super::super::compare::{BySide, Histogram};
 use super::super::word::named;
 use super::doubts::{NominalWarning, doubts};
+use super::fitted::FitRecord;
 use super::outline::{self, AgainstPlane, OutlineRecord};
+use super::profile::{ProfileRecord, WorstRecord};
+use crate::results::{Verdict, VerdictReason};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -36,6 +39,8 @@ impl Positive {
 
 /// Reason why a point is left out: it lies beyond the end of an open outline.
 pub const BEYOND_END: &str = "beyond_end";
+/// Reason why a point is left out: it lies farther off than was said.
+pub const MAX_DISTANCE: &str = "max_distance";
 /// Reason why a point is left out: there is no outline in its plane.
 pub const NO_OUTLINE: &str = "no_outline";
 
@@ -58,7 +63,19 @@ pub struct NominalRecord {
     pub positive: Word<Positive>,
     /// Statistics of the deviations: all, those above zero, those below zero.
     pub deviation: BySide,
-    /// Points left out, by reason: [`BEYOND_END`], [`NO_OUTLINE`].
+    /// The best fit of each plane before the deviations were taken, where one was asked for.
+    #[serde(skip_serializing_if = "Vec::is_empty", default)]
+    pub fits: Vec<FitRecord>,
+    /// The deviations against the tolerance of the profile, where one was given.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub profile: Option<ProfileRecord>,
+    /// The verdict on them: what table, page and exit status go by. Without a tolerance it is absent.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub verdict: Option<Verdict>,
+    /// Why it is not a pass.
+    #[serde(skip_serializing_if = "Vec::is_empty", default)]
+    pub verdict_reasons: Vec<VerdictReason>,
+    /// Points left out, by reason: [`BEYOND_END`], [`NO_OUTLINE`], [`MAX_DISTANCE`].
     pub excluded: BTreeMap<String, u64>,
     /// Counts of the deviations; absent when there are none.
     pub histogram: Option<Histogram>,
@@ -72,24 +89,12 @@ pub struct NominalRecord {
     /// What makes the deviations doubtful, although each is computed right.
     #[serde(skip_serializing_if = "Vec::is_empty", default)]
     pub warnings: Vec<NominalWarning>,
+    /// The least and the greatest deviation, for the verdict.
+    #[serde(skip)]
+    pub extremes: Vec<WorstRecord>,
     /// The place nearest to each point of each contour, for the page.
     #[serde(skip)]
     pub nearest: Vec<Vec<Option<[f64; 2]>>>,
-}
-
-/// A point far off the nominal.
-#[derive(Clone, Copy, Debug, Serialize, Deserialize, JsonSchema)]
-pub struct WorstRecord {
-    /// Number of its contour, from 0.
-    pub contour: u64,
-    /// Its number in the contour, from 0.
-    pub index: u64,
-    /// The point, in its plane.
-    pub point: [f64; 2],
-    /// The place of the nominal nearest to it.
-    pub nearest: [f64; 2],
-    /// Its deviation.
-    pub deviation: f64,
 }
 
 impl NominalRecord {
@@ -97,25 +102,41 @@ impl NominalRecord {
     pub fn new(path: &str, outline: &str, planes: Vec<AgainstPlane>) -> NominalRecord {
         let mut excluded: BTreeMap<String, u64> = BTreeMap::new();
         let mut worst: [Option<WorstRecord>; 2] = [None; 2];
+        let mut extremes: [Option<WorstRecord>; 2] = [None; 2];
         let mut values = vec![];
         let contours = planes.iter().flat_map(|p| p.contours.iter().map(|c| (p.outlines.is_empty(), c)));
         for (contour, (bare, against)) in contours.enumerate() {
+            if against.far > 0 {
+                *excluded.entry(MAX_DISTANCE.into()).or_default() += against.far as u64;
+            }
+            let mut far = against.far;
             for (index, (point, found)) in against.points.iter().zip(&against.found).enumerate() {
                 let Some(off) = found else {
+                    // Those that are too far off are counted above.
+                    if far > 0 {
+                        far -= 1;
+                        continue;
+                    }
                     let reason = if bare { NO_OUTLINE } else { BEYOND_END };
                     *excluded.entry(reason.into()).or_default() += 1;
                     continue;
                 };
                 values.push(off.deviation);
                 let slot = &mut worst[usize::from(off.deviation < 0.0)];
+                let own = WorstRecord {
+                    contour: contour as u64,
+                    index: index as u64,
+                    point: *point,
+                    nearest: off.place,
+                    deviation: off.deviation,
+                };
                 if off.deviation != 0.0 && slot.is_none_or(|w| w.deviation.abs() < off.deviation.abs()) {
-                    *slot = Some(WorstRecord {
-                        contour: contour as u64,
-                        index: index as u64,
-                        point: *point,
-                        nearest: off.place,
-                        deviation: off.deviation,
-                    });
+                    *slot = Some(own);
+                }
+                for (slot, sign) in extremes.iter_mut().zip([-1.0, 1.0]) {
+                    if slot.is_none_or(|w| sign * w.deviation < sign * off.deviation) {
+                        *slot = Some(own);
+                    }
                 }
             }
         }
@@ -130,6 +151,11 @@ impl NominalRecord {
             outline: outline.into(),
             positive: Word(Positive::of(&outlines)),
             deviation: BySide::of(&summary),
+            fits: vec![],
+            profile: None,
+            verdict: None,
+            verdict_reasons: vec![],
+            extremes: extremes.into_iter().flatten().collect(),
             excluded,
             histogram: Histogram::counted(&summary.all, &values),
             worst: worst.into_iter().flatten().collect(),

@@ -11,6 +11,8 @@ pub struct Against<'a> {
     pub points: &'a [[f64; 2]],
     /// Of each, the nearest place; `None` beyond the end of an open outline.
     pub found: Vec<Option<OffNominal>>,
+    /// So many of these are farther off than was said.
+    pub far: usize,
     /// The contour.
     pub contour: &'a Contour,
 }

@@ -2,10 +2,13 @@
 
 mod airfoil;
 mod course;
+mod fitted;
+mod head;
 mod nominal;
 mod nominal_tables;
 #[cfg(test)]
 mod nominal_tests;
+mod offers;
 mod path;
 mod pieces;
 mod plan;
@@ -29,7 +32,8 @@ impl Subject for SectionDocument {
     }
 
     fn headline(&self) -> Headline {
-        Headline { key: "sectioned", tone: Tone::Neutral }
+        let verdict = self.nominal.as_ref().and_then(|nominal| nominal.verdict);
+        verdict.map_or(Headline { key: "sectioned", tone: Tone::Neutral }, Headline::from)
     }
 
     fn convention(&self) -> Option<&'static str> {

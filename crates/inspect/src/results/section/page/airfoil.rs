@@ -48,6 +48,20 @@ fn facts(s: Style, m: &AirfoilMeasures) -> Markup {
             (fact(s, "airfoil.trailing",
                 radius(m.trailing_radius, m.trailing_radius_uncertainty, &m.trailing_radius_reason)))
             @if let Some(gap) = m.trailing_thickness { (fact(s, "airfoil.gap", length(gap, None))) }
+            @for chord in &m.chords {
+                (fact(s, &format!("airfoil.chord.{}", chord.definition), html! {
+                    (s.optional(chord.length, 4).because(chord.length_reason.as_deref()))
+                    @if let Some(angle) = chord.angle { "\u{a0}mm · ∠\u{a0}" (s.number(angle.to_degrees(), 4)) "°" }
+                    @if let Some(twist) = chord.twist {
+                        " · " (s.word("airfoil.twist")) "\u{a0}" (s.number(twist.to_degrees(), 4).signed()) "°"
+                    }
+                }))
+            }
+            @if let Some(stacking) = &m.stacking {
+                (fact(s, "airfoil.stacking", html! {
+                    "x\u{a0}" (s.number(stacking.offset[0], 4).signed()) " · y\u{a0}" (s.number(stacking.offset[1], 4).signed()) "\u{a0}mm"
+                }))
+            }
         }
     }
 }

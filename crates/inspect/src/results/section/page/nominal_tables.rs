@@ -1,7 +1,8 @@
 //! How the points differ from the nominal, in tables: where they are farthest off, and what was not measured.
 
+use super::fitted;
+use super::head::head;
 use super::pieces::{drawn_pieces, lacking};
-use super::tables::head;
 use crate::report::number::{Style, decimals};
 use crate::report::page::parts::{fact, file_name, listed, row_class};
 use crate::report::values::Text;
@@ -28,6 +29,8 @@ pub fn nominal(s: Style, document: &SectionDocument, found: &NominalRecord) -> M
             (s.word(sign(*found.positive)))
         }
         @for warning in &found.warnings { p.note { strong.warning { "⚠" } " " (Text(&warning.text)) } }
+        (fitted::verdict(s, found))
+        (fitted::fits(s, document, found))
         (by_side(s, &found.deviation, digits, sides))
         dl.facts.pairs {
             @for (reason, count) in &found.excluded { (fact(s, &format!("nominal.{reason}"), s.count(*count))) }

@@ -33,7 +33,7 @@ fn outlines() -> Vec<Outline> {
 fn compared(points: &[[f64; 2]], outlines: Vec<Outline>) -> SectionDocument {
     let found = off_nominal(points, &outlines, &Silent).unwrap();
     let own = contour(points, &Options::default(), &Silent).unwrap();
-    let contours = vec![Against { points, found, contour: &own }];
+    let contours = vec![Against { points, found, far: 0, contour: &own }];
     let nominal =
         NominalRecord::new("n.dxf", "drawing", vec![AgainstPlane { plane: None, outlines, contours }]);
     SectionDocument { nominal: Some(nominal), ..document(points) }
@@ -285,7 +285,8 @@ fn an_outline_is_dashed_where_it_was_not_measured() {
 fn against(rows: &[Vec<[f64; 2]>], outlines: &[Outline]) -> NominalRecord {
     let bare = Contour::default();
     let of = |points: &'_ [[f64; 2]]| off_nominal(points, outlines, &Silent).unwrap();
-    let contours = rows.iter().map(|points| Against { points, found: of(points), contour: &bare }).collect();
+    let contours =
+        rows.iter().map(|points| Against { points, found: of(points), far: 0, contour: &bare }).collect();
     let plane = AgainstPlane { plane: None, outlines: outlines.to_vec(), contours };
     NominalRecord::new("n.dxf", "drawing", vec![plane])
 }

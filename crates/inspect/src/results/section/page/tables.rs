@@ -1,5 +1,6 @@
 //! The tables of sections.
 
+use super::head::head;
 use super::pieces::{kind, pick_numbers};
 use crate::report::number::{Style, decimals};
 use crate::report::page::parts::{fact, not_printed, row_class};
@@ -48,6 +49,7 @@ pub fn contours(s: Style, document: &SectionDocument) -> Markup {
                 @if !contour.joins.is_empty() {
                     div.wide { (joins(s, contour, numbers[n] + contour.segments.len())) }
                 }
+                (super::offers::offers(s, contour))
             }
         }
     }
@@ -70,19 +72,6 @@ fn facts(s: Style, contour: &ContourRecord) -> Markup {
             (fact(s, "spacing", html! { (s.small(contour.spacing)) "\u{a0}mm" }))
             @for (key, list) in lists.into_iter().filter(|(_, list)| !list.is_empty()) {
                 (fact(s, key, s.len(list)))
-            }
-        }
-    }
-}
-
-/// The head of a table: two columns without a name, then these.
-pub(super) fn head(s: Style, words: &[&str]) -> Markup {
-    html! {
-        thead {
-            tr {
-                th {} th {}
-                // Coordinates are called the same in all languages.
-                @for word in words { th.r { @if word.len() == 1 { (word) } @else { (s.word(word)) } } }
             }
         }
     }
