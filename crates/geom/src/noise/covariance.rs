@@ -67,13 +67,6 @@ pub(super) fn found(patches: &[Moments]) -> Noise {
     let count = of_kept().count();
     let variance = model.variance();
     let sums = of_kept().map(|p| model.sum(&p.about_center)).sum::<f64>() / count as f64;
-    if std::env::var_os("TDEBUG").is_some() {
-        let mut r: Vec<(f64, f64)> = of_kept().map(|p| (p.products[0] / model.sum(&p.expected[0]), model.degrees(p))).collect();
-        r.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let q = |s: f64| { let k = (s * r.len() as f64) as usize; (r[k].0, chi_square_quantile(s, r[k].1) / r[k].1) };
-        let (a, b, c, d) = (q(0.1), q(0.25), q(0.5), q(0.75));
-        eprintln!("even {:?} ratios q10 {:.3}/{:.3} q25 {:.3}/{:.3} q50 {:.3}/{:.3} q75 {:.3}/{:.3} dof {:.1} model {:?} kept {} of {}", libm::log(c.0 / a.0) / libm::log(c.1 / a.1), a.0,a.1,b.0,b.1,c.0,c.1,d.0,d.1, r[r.len()/2].1, model, count, patches.len());
-    }
     let mut spacings: Vec<f64> = of_kept().map(|p| p.spacing).collect();
     spacings.sort_by(f64::total_cmp);
     let spacing = spacings[count / 2];
@@ -86,7 +79,23 @@ pub(super) fn found(patches: &[Moments]) -> Noise {
         spacing,
         patches: count,
         left_out: patches.len() - count,
+        unevenness: unevenness(&of_kept().collect::<Vec<_>>(), &model),
     }
+}
+
+/// How much the variances of patches differ, in what chance makes: from their first decile to their median, which patches over form do not
+/// reach.
+fn unevenness(patches: &[&Moments], model: &Model) -> f64 {
+    let of_patch = |p: &&Moments| (p.products[0] / model.sum(&p.expected[0]), model.degrees(p));
+    let mut all: Vec<(f64, f64)> = patches.iter().map(of_patch).collect();
+    all.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let at = |share: f64| {
+        let (ratio, degrees) = all[(share * all.len() as f64) as usize];
+        (ratio, chi_square_quantile(share, degrees) / degrees)
+    };
+    let (low, middle) = (at(0.1), at(0.5));
+    let found = libm::log(middle.0 / low.0) / libm::log(middle.1 / low.1);
+    if found.is_finite() { found.max(0.0) } else { 0.0 }
 }
 
 /// The half of the patches with the lesser variances.

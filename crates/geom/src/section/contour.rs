@@ -346,6 +346,7 @@ impl Plan<'_> {
         let sum: f64 = all.contour.residuals.iter().zip(self.weights).map(|(r, w)| w * r * r).sum();
         let unknowns: f64 = founds.iter().map(Found::unknowns).sum();
         all.contour.unknowns = unknowns;
+        all.contour.independent = self.weights.iter().sum();
         let degrees = (self.weights.iter().sum::<f64>() - unknowns).max(1.0);
         all.contour.noise = self.known_noise.map_or_else(
             || (sum / degrees).sqrt(),

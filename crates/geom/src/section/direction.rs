@@ -38,6 +38,8 @@ impl Contour {
         self.astray = self.astray.into_iter().rev().map(|s| count - 1 - s).collect();
         self.residuals = self.residuals.into_iter().rev().map(|r| 0.0 - r).collect();
         self.stations = self.stations.into_iter().rev().map(|s| whole - s).collect();
+        self.bevels = self.bevels.into_iter().rev().map(|i| n - 1 - i).collect();
+        self.moved.reverse();
         let passed = Passed::of(points, !self.closed);
         // Of points at the same place the first stands for all.
         let first = |i: usize| {

@@ -244,6 +244,12 @@ pub struct Contour {
     pub stations: Vec<f64>,
     /// Points that were left out as outliers, by their numbers.
     pub outliers: Vec<usize>,
+    /// Crossings of a scan's edges, by their numbers, where its facets pass a corner of the part by: they belong to no segment.
+    pub bevels: Vec<usize>,
+    /// Places of a scan's crossings on the surface that its facets stand for: those that residuals are of. Empty of other points.
+    pub moved: Vec<[f64; 2]>,
+    /// Independent points that the points tell as much as; 0 of exact facets.
+    pub independent: f64,
     /// Points that may be strays, by their numbers: the step to them is many times as long as any other, and does not go straight on.
     /// They were kept.
     pub doubtful: Vec<usize>,

@@ -61,14 +61,28 @@ pub fn chain_contour(
     }
     let ScanRow { kept, points: row, weights, noise } = ScanRow::of(mesh, chain, frame, closed);
     let own = Options { closed: Some(closed), ordered: true, ..*options };
-    let prior = Prior { noise: Known::given(options).or(noise), weights: Some(&weights) };
-    match contour_with(&row, &prior, &own, progress) {
+    let mut places = points.clone();
+    kept.iter().zip(&row).for_each(|(i, p)| places[*i] = *p);
+    let find = |noise: Option<Known>| {
+        let found = contour_with(&row, &Prior { noise, weights: Some(&weights) }, &own, progress)?;
+        let found = Contour { moved: places.clone(), ..found };
+        Ok(within_facets(spread(found, &kept, noise, &places, Taken::Scan), &points))
+    };
+    let known = Known::given(options).or(noise);
+    let first = find(known);
+    // Where the noise of the whole mesh is not that of the section, this tells its own.
+    let is_lost = |found: &Result<Contour, SectionError>| found.as_ref().is_ok_and(|c| !c.astray.is_empty());
+    let found = match options.noise.is_none() && known.is_some() && is_lost(&first) {
+        true => find(None).or(first),
+        false => first,
+    };
+    match found {
         // What is too short for a row, as a loop around one vertex, is its lines, whatever the options.
         Err(SectionError::TooFewPoints { .. }) if polygon.at.len() >= 2 => {
             let items = polygon.items(rounding);
             Sheet { points: &points, polygon, rounding, options }.contour(&items, progress)
         }
-        found => Ok(within_facets(spread(found?, &kept, &points, Taken::Scan), &points)),
+        found => found,
     }
 }
 
@@ -102,7 +116,7 @@ fn is_remeshed(points: &[[f64; 2]], polygon: &Polygon, items: &[Item]) -> bool {
 const MISSED: f64 = 20.0;
 
 /// Points of a segment, so many at least, that scatter by more noises than this about it do not follow it.
-const SCATTERED: (usize, f64) = (8, 2.0);
+const SCATTERED: (usize, f64) = (8, 3.0);
 
 /// Between vertices on a curve a chord lies off it by a quarter of what the vertices lie off the chord between their neighbors. Points within facets
 /// are off by no more than this share of that in the root mean square; at most, and where they lie in and out by turns, by twice as much.
@@ -145,14 +159,21 @@ fn within_facets(contour: Contour, points: &[[f64; 2]]) -> Contour {
     all
 }
 
-/// A contour found from some of the points, for all of them. Segments that others lie far off are astray.
-fn spread(found: Contour, kept: &[usize], points: &[[f64; 2]], taken: Taken) -> Contour {
+/// A contour found from some of the points, of this noise where it is known, for all of them. Segments that others lie far off are astray.
+fn spread(
+    found: Contour,
+    kept: &[usize],
+    known: Option<Known>,
+    points: &[[f64; 2]],
+    taken: Taken,
+) -> Contour {
     let starts: Vec<f64> = starts(&found.segments);
     let n = kept.len();
     let mut all = Contour { taken, ..found };
     let row =
         [std::mem::take(&mut all.outliers), std::mem::take(&mut all.repeated), std::mem::take(&mut all.gaps)];
     [all.outliers, all.repeated, all.gaps] = row.map(|list| list.into_iter().map(|i| kept[i]).collect());
+    all.bevels = (0..points.len()).filter(|i| kept.binary_search(i).is_err()).collect();
     let own = (all.labels.clone(), all.residuals.clone(), all.stations.clone());
     all.labels = vec![0; points.len()];
     all.residuals = vec![0.0; points.len()];
@@ -178,8 +199,9 @@ fn spread(found: Contour, kept: &[usize], points: &[[f64; 2]], taken: Taken) -> 
         segment.max = segment.max.max(off.abs());
     }
     all.segments.iter_mut().for_each(|s| s.rms = (s.rms / s.count.max(1) as f64).sqrt());
-    let most = MISSED * all.noise;
-    let scattered = |s: &Segment| s.count >= SCATTERED.0 && s.rms > SCATTERED.1 * all.noise;
+    let noise = known.map_or(all.noise, |n| n.deviation);
+    let most = MISSED * noise;
+    let scattered = |s: &Segment| s.count >= SCATTERED.0 && s.rms > SCATTERED.1 * noise;
     let far = all.segments.iter().enumerate().filter(|(_, s)| s.max > most || scattered(s));
     all.astray.extend(far.map(|(k, _)| k).collect::<Vec<_>>());
     all.astray.sort_unstable();

@@ -31,7 +31,7 @@ pub use profile::{ProfileRecord, WorstRecord};
 pub use tidy::OfferRecord;
 pub use verdict::ProfileRule;
 
-use super::{InputRecord, UNITS, VERSION, Word};
+use super::{InputRecord, NoiseOrReason, SharedNoise, UNITS, VERSION, Word, noise_record};
 use blade::Whereabouts;
 use near_arc::near_arc;
 use schemars::JsonSchema;
@@ -59,6 +59,13 @@ pub struct SectionDocument {
     pub level: f64,
     /// Standard deviation of the points across the contour, where it was given.
     pub noise_given: Option<f64>,
+    /// The noise of a mesh's vertices, and how far neighbors share it: of contours taken from a scan's facets the search and the
+    /// uncertainties take it into account.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub shared_noise: Option<SharedNoise>,
+    /// Why none is told.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub shared_noise_reason: Option<String>,
     /// Continuity of all joins, where it was asked for: `g0`, `g1` or `g2`.
     pub continuity_given: Option<Word<Continuity>>,
     /// Where the plane of the section lies in space; of several, the first.
@@ -135,6 +142,9 @@ pub struct ContourRecord {
     pub joins_reason: Option<String>,
     /// Points left out as outliers, by their numbers from 0.
     pub outliers: Vec<u64>,
+    /// Crossings of a scan's edges, by their numbers from 0, where its facets pass a corner of the part by: they belong to no segment.
+    #[serde(skip_serializing_if = "Vec::is_empty", default)]
+    pub bevels: Vec<u64>,
     /// Points that repeat the one before, by their numbers; they were left out.
     pub repeated: Vec<u64>,
     /// Gaps: the number of the point before.
@@ -274,6 +284,13 @@ pub struct JoinRecord {
     pub turn: f64,
 }
 
+impl ContourRecord {
+    /// Whether a point belongs to no segment.
+    fn is_left_out(&self, point: usize) -> bool {
+        [&self.outliers, &self.bevels].iter().any(|list| list.binary_search(&(point as u64)).is_ok())
+    }
+}
+
 impl SectionDocument {
     /// The document of what was found in the file of `inputs`.
     pub fn new(sections: &[Section], inputs: Vec<InputRecord>, options: &Options) -> SectionDocument {
@@ -296,6 +313,8 @@ impl SectionDocument {
             inputs,
             level: options.level,
             noise_given: options.noise,
+            shared_noise: None,
+            shared_noise_reason: None,
             continuity_given: options.continuity.map(Word),
             frame: sections.first().map_or(FrameRecord::FLAT, |s| s.frame),
             planes,
@@ -305,6 +324,14 @@ impl SectionDocument {
             lean: None,
             nominal: None,
             methods: None,
+        }
+    }
+
+    /// With the noise of the mesh's vertices, or why none is told; of contours that no scan's facets tell, nothing.
+    pub fn tell_noise(&mut self, noise: Option<&NoiseOrReason>) {
+        let of_scan = self.contours.iter().any(|c| c.taken.0 == Taken::Scan);
+        if let Some(noise) = noise.filter(|_| of_scan) {
+            (self.shared_noise, self.shared_noise_reason) = noise_record(noise);
         }
     }
 
@@ -427,6 +454,7 @@ fn contour(found: &Contour, frame: &FrameRecord, plane: Option<u64>) -> ContourR
         joins,
         joins_reason: reason.map(Into::into),
         outliers: numbers(&found.outliers),
+        bevels: numbers(&found.bevels),
         repeated: numbers(&found.repeated),
         gaps: numbers(&found.gaps),
         crossings: found.crossings.clone(),

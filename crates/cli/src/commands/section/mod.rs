@@ -10,6 +10,7 @@ mod write;
 
 use crate::command::Run;
 use crate::exit::{self, Outcome, Usage};
+use crate::noise::NoiseArgs;
 use crate::options::{Common, DocumentArgs, PointInputArgs};
 use crate::progress::{STEPS, Stage};
 use crate::read::{self, Body, Opened};
@@ -18,11 +19,12 @@ use crate::run_files::RunFiles;
 use clap::{Args, ValueEnum};
 use found::{Found, described};
 use std::path::PathBuf;
+use trueness_geom::noise::{self, Noise};
 use trueness_geom::section::{self, Continuity, Options, PlaneFrame, SectionError};
 use trueness_geom::space::Point;
 use trueness_inspect::report::{ViewObject, flat};
 use trueness_inspect::results::section::{AirfoilRecord, Section, SectionDocument};
-use trueness_inspect::results::{Role, Verdict};
+use trueness_inspect::results::{Role, Verdict, noise_or_reason};
 
 /// The lines, arcs and curves of a section, and the exact places where they join
 ///
@@ -72,6 +74,8 @@ pub struct SectionArgs {
     /// centers, whole numbers; the contour stays as it is found
     #[arg(long)]
     tidy: bool,
+    #[command(flatten)]
+    shared: NoiseArgs,
     #[command(flatten)]
     method: method::MethodArgs,
     #[command(flatten)]
@@ -150,14 +154,19 @@ fn run(args: &SectionArgs, common: &Common) -> anyhow::Result<Outcome> {
     let shown = args.input.display();
     let planes = args.planes.planes()?;
     let stage = Stage::new(common.progress, "finding segments", STEPS, None);
-    let mut methods = None;
+    let (mut methods, mut shared) = (None, None);
     let found = match body {
         Body::Mesh(source) => {
             args.planes.fit_a_mesh(&shown.to_string())?;
             args.method.only_for_rows()?;
-            planes::mesh(&source.mesh, &planes, &options, &stage)
+            let mesh = &source.mesh;
+            let find =
+                |stage: &Stage| noise_or_reason(noise::mesh(mesh, common.seed, stage).and_then(Noise::even));
+            let own = shared.insert(args.shared.found(common.progress, find)?).as_ref().ok().copied();
+            planes::mesh(mesh, own, &planes, &options, &stage)
         }
         Body::Points(source) => {
+            args.shared.only_for_meshes(&shown.to_string())?;
             let points = read::all_points(&args.input, source)?;
             read::describe(&mut record, &points);
             match planes.is_empty() {
@@ -196,6 +205,7 @@ fn run(args: &SectionArgs, common: &Common) -> anyhow::Result<Outcome> {
         nominal
     });
     let mut document = SectionDocument::new(&sections, inputs, &options);
+    document.tell_noise(shared.as_ref());
     (document.nominal, document.airfoils) = (nominal, airfoils);
     for found in document.airfoils.iter().flatten() {
         if let Some(contour) = document.contours.get_mut(found.contour as usize) {

@@ -5,6 +5,7 @@ use crate::exit::Usage;
 use crate::progress::Stage;
 use clap::Args;
 use trueness_geom::mesh::Mesh;
+use trueness_geom::noise::Noise;
 use trueness_geom::parallel::prelude::*;
 use trueness_geom::section::{
     self, Chain, Contour, Options, Order, Ordered, Plane, PlaneFrame, SectionError,
@@ -139,9 +140,8 @@ fn cut(normal: [f64; 3], distance: f64, option: &str) -> Result<Cut, Usage> {
 /// A section and the rows of points that its contours were found in.
 type WithRows = (Section, Vec<Vec<[f64; 2]>>);
 
-/// What a mesh's facets are where planes cut it.
-pub fn mesh(mesh: &Mesh, planes: &[Cut], options: &Options, stage: &Stage) -> Found {
-    let noise = trueness_geom::noise::mesh(mesh, 0, stage).ok();
+/// What a mesh's facets are where planes cut it; `noise` is that of its vertices, if it is known.
+pub fn mesh(mesh: &Mesh, noise: Option<Noise>, planes: &[Cut], options: &Options, stage: &Stage) -> Found {
     let cut_mesh = section::CutMesh::new(mesh, noise);
     let of = |cut: &Cut, facets: &[u32]| -> Result<WithRows, SectionError> {
         let chains = section::cut_facets(mesh, &cut.plane, facets, stage)?;
@@ -154,8 +154,13 @@ pub fn mesh(mesh: &Mesh, planes: &[Cut], options: &Options, stage: &Stage) -> Fo
             true => Ok(section::area(&chains, &cut.frame)),
             false => Err("a contour is open"),
         };
-        let rows = chains.iter().map(|c: &Chain| c.points.iter().map(|p| cut.frame.flat(*p)).collect());
-        Ok((Section { area, ..cut.section(contours) }, rows.collect()))
+        let flat = |c: &Chain| c.points.iter().map(|p| cut.frame.flat(*p)).collect();
+        let places = |(chain, found): (&Chain, &Contour)| match found.moved.is_empty() {
+            true => flat(chain),
+            false => found.moved.clone(),
+        };
+        let rows = chains.iter().zip(&contours).map(places).collect();
+        Ok((Section { area, ..cut.section(contours) }, rows))
     };
     let all: Vec<Plane> = planes.iter().map(|cut| cut.plane).collect();
     let mut found = vec![];

@@ -5,7 +5,7 @@ mod fitted;
 mod offers;
 
 use crate::number::{fixed, grouped, scientific};
-use crate::{console, read};
+use crate::{console, noise, read};
 use std::fmt::Write;
 use trueness_geom::section::{DimensionKind, Taken};
 use trueness_inspect::results::section::{
@@ -22,6 +22,7 @@ const CONTOURS: usize = 40;
 /// The document as text.
 pub fn table(document: &SectionDocument) -> String {
     let mut out = read::notes(&document.inputs);
+    out.push_str(&noise::line(document.shared_noise.as_ref()));
     let mut plane = None;
     if document.planes.is_empty() && document.frame.is_in_space() {
         let _ = writeln!(out, "frame     {}", axes(&document.frame));

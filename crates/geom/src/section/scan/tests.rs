@@ -36,9 +36,16 @@ fn band(
 }
 
 /// The mesh with independent noise of its vertices along these directions, averaged over as many rings; of this deviation in the end.
-fn noisy(mesh: &Mesh, rings: usize, sigma: f64, random: &mut Random, along: impl Fn(&Point) -> Point) -> Mesh {
+fn noisy(
+    mesh: &Mesh,
+    rings: usize,
+    sigma: f64,
+    random: &mut Random,
+    along: impl Fn(&Point) -> Point,
+) -> Mesh {
     let plain = CutMesh::new(mesh, None);
-    let mut off: Vec<f64> = mesh.positions.iter().map(|_| (0..12).map(|_| random.unit()).sum::<f64>() - 6.0).collect();
+    let mut off: Vec<f64> =
+        mesh.positions.iter().map(|_| (0..12).map(|_| random.unit()).sum::<f64>() - 6.0).collect();
     for _ in 0..rings {
         off = (0..off.len() as u32)
             .map(|v| {
@@ -218,7 +225,8 @@ fn bevels_of_the_mesh_are_no_segments() {
             let noise = crate::noise::mesh(&mesh, 0, &Silent).ok();
             let chain = &cut(&mesh, &plane, &Silent).unwrap()[0];
             let found =
-                chain_contour(chain, &frame, &CutMesh::new(&mesh, noise), &Options::default(), &Silent).unwrap();
+                chain_contour(chain, &frame, &CutMesh::new(&mesh, noise), &Options::default(), &Silent)
+                    .unwrap();
             assert!(found.segments.iter().all(|s| s.geometry.kind() == SegmentKind::Line), "{sigma} {rings}");
             assert_eq!((found.segments.len(), found.astray.len()), (4, 0), "{sigma} {rings}");
             for join in &found.joins {

@@ -96,11 +96,11 @@ fn cut_short(found: &Contour) -> Option<String> {
 /// A noise given that the points contradict.
 fn noise(found: &Contour, options: &Options) -> Option<String> {
     let given = options.noise?;
-    let left_out =
-        |i: &usize| found.outliers.binary_search(i).is_ok() || found.repeated.binary_search(i).is_ok();
+    let lists = [&found.outliers, &found.repeated, &found.bevels];
+    let left_out = |i: &usize| lists.iter().any(|list| list.binary_search(i).is_ok());
     let kept: Vec<f64> =
         (0..found.residuals.len()).filter(|i| !left_out(i)).map(|i| found.residuals[i]).collect();
-    let degrees = kept.len() as f64 - found.unknowns;
+    let degrees = (kept.len() as f64).min(found.independent) - found.unknowns;
     if degrees < 4.0 {
         return None;
     }

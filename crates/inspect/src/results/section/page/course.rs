@@ -32,7 +32,7 @@ impl Axes {
             let all = contour.residuals.iter().enumerate().filter(|(i, _)| counts(*i));
             all.map(|(_, r)| r.abs()).max_by(f64::total_cmp)
         };
-        let outlier = |i: usize| contour.outliers.binary_search(&(i as u64)).is_ok();
+        let outlier = |i: usize| contour.is_left_out(i);
         let followed = greatest(&|i| !outlier(i) && !astray(contour, i));
         // Scatter about segments astray is not that of the others.
         let range = match followed.filter(|_| !contour.astray.is_empty()) {
@@ -110,7 +110,7 @@ fn interval(axes: &Axes, join: &JoinRecord, station: f64) -> Markup {
     }
 }
 
-/// Points by the kind of their segment; outliers, and points of segments astray, at the rim where they are beyond it.
+/// Points by the kind of their segment; those of none, and points of segments astray, at the rim where they are beyond it.
 fn points(axes: &Axes, contour: &ContourRecord) -> Markup {
     let names = ["line", "arc", "spline", "astray", "outlier"];
     let mut paths = names.map(|k| (k, String::new()));
@@ -119,7 +119,7 @@ fn points(axes: &Axes, contour: &ContourRecord) -> Markup {
     let all = contour.residuals.iter().zip(&contour.stations).zip(&contour.labels).enumerate();
     for (i, ((residual, station), label)) in all {
         let Some(segment) = contour.segments.get(*label as usize) else { continue };
-        let outlier = contour.outliers.binary_search(&(i as u64)).is_ok();
+        let outlier = contour.is_left_out(i);
         let name = match outlier {
             true => "outlier",
             false if astray(contour, i) => "astray",
