@@ -66,7 +66,7 @@ pub fn chain_contour(
     let find = |noise: Option<Known>| {
         let found = contour_with(&row, &Prior { noise, weights: Some(&weights) }, &own, progress)?;
         let found = Contour { moved: places.clone(), ..found };
-        Ok(within_facets(spread(found, &kept, noise, &places, Taken::Scan), &points))
+        Ok(within_facets(spread(found, &kept, noise, &places), &points))
     };
     let known = Known::given(options).or(noise);
     let first = find(known);
@@ -93,30 +93,42 @@ fn is_exact(points: &[[f64; 2]], polygon: &Polygon, items: &[Item], rounding: f6
     polygon.at.len() < FEW || enough(straight + chords) || enough(straight + polygon.round(rounding))
 }
 
-/// Facets whose edges follow each other at even distances, to this factor for nine in ten, are those of a mesh of a surface, not of a
-/// drawing, where lines of no more than so many steps are between others: chords of curves that the edges do not run along, or the
-/// bevels of corners that no edge runs along. Where more chords are those of circles the vertices are a drawing's.
+/// Flat faces of so many facets each, cut at even distances to this factor, are those of a mesh of a surface, not of a drawing, where
+/// lines of no more than so many steps are between others: chords of curves that the edges do not run along, or the bevels of corners
+/// that no edge runs along. Where more chords are those of circles the vertices are a drawing's.
+const FLAT: usize = 8;
 const EVEN: f64 = 4.0;
 const STEPS: f64 = 2.5;
 
 fn is_remeshed(points: &[[f64; 2]], polygon: &Polygon, items: &[Item]) -> bool {
     let n = points.len();
-    let mut steps: Vec<f64> = (0..n).map(|i| length(points[i], points[(i + 1) % n])).collect();
-    steps.sort_by(f64::total_cmp);
-    let is_short = |item: &Item| {
-        item.shape == LineOrArc::Line
-            && length(polygon.vertex(item.from), polygon.vertex(item.to)) <= STEPS * steps[n / 2]
-    };
-    let short = items.iter().filter(|i| is_short(i)).count();
-    let chords: usize = items.iter().filter(|i| i.shape != LineOrArc::Line).map(|i| i.to - i.from).sum();
-    n >= 3 * FEW && steps[9 * n / 10] <= EVEN * steps[n / 2] && short > chords
+    let mut sizes: Vec<f64> = points.windows(2).map(|w| length(w[0], w[1])).collect();
+    sizes.sort_by(f64::total_cmp);
+    let middle = sizes[sizes.len() / 2];
+    let number = |i: usize| polygon.numbers[i % polygon.at.len()];
+    let (mut flat, mut short, mut chords) = (0, 0, 0);
+    for item in items {
+        let steps = (number(item.to) + n - number(item.from)) % n;
+        if item.shape != LineOrArc::Line {
+            chords += item.to - item.from;
+        } else if steps >= FLAT {
+            flat += steps;
+        } else if length(polygon.vertex(item.from), polygon.vertex(item.to)) <= STEPS * middle {
+            short += 1;
+        }
+    }
+    let is_even = sizes[sizes.len() - 1] <= EVEN * middle;
+    n >= 3 * FEW && flat as f64 >= EXACT * n as f64 && is_even && short > chords
 }
 
 /// Noises of the points that a contour was found from, beyond which others lie off it: the contour does not run there.
 const MISSED: f64 = 20.0;
 
 /// Points of a segment, so many at least, that scatter by more noises than this about it do not follow it.
-const SCATTERED: (usize, f64) = (8, 3.0);
+const SCATTERED: (usize, f64) = (8, 2.0);
+
+/// What scatters by more than so many known noises hides form.
+const HIDDEN: f64 = 1.5;
 
 /// Between vertices on a curve a chord lies off it by a quarter of what the vertices lie off the chord between their neighbors. Points within facets
 /// are off by no more than this share of that in the root mean square; at most, and where they lie in and out by turns, by twice as much.
@@ -160,16 +172,10 @@ fn within_facets(contour: Contour, points: &[[f64; 2]]) -> Contour {
 }
 
 /// A contour found from some of the points, of this noise where it is known, for all of them. Segments that others lie far off are astray.
-fn spread(
-    found: Contour,
-    kept: &[usize],
-    known: Option<Known>,
-    points: &[[f64; 2]],
-    taken: Taken,
-) -> Contour {
+fn spread(found: Contour, kept: &[usize], known: Option<Known>, points: &[[f64; 2]]) -> Contour {
     let starts: Vec<f64> = starts(&found.segments);
     let n = kept.len();
-    let mut all = Contour { taken, ..found };
+    let mut all = Contour { taken: Taken::Scan, ..found };
     let row =
         [std::mem::take(&mut all.outliers), std::mem::take(&mut all.repeated), std::mem::take(&mut all.gaps)];
     [all.outliers, all.repeated, all.gaps] = row.map(|list| list.into_iter().map(|i| kept[i]).collect());
@@ -199,7 +205,7 @@ fn spread(
         segment.max = segment.max.max(off.abs());
     }
     all.segments.iter_mut().for_each(|s| s.rms = (s.rms / s.count.max(1) as f64).sqrt());
-    let noise = known.map_or(all.noise, |n| n.deviation);
+    let noise = known.map_or(all.noise, |n| all.noise.min(HIDDEN * n.deviation));
     let most = MISSED * noise;
     let scattered = |s: &Segment| s.count >= SCATTERED.0 && s.rms > SCATTERED.1 * noise;
     let far = all.segments.iter().enumerate().filter(|(_, s)| s.max > most || scattered(s));

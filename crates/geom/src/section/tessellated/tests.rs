@@ -367,23 +367,24 @@ fn few_points_and_wrong_options() {
     }
 }
 
-/// A contour that was found from some points tells nothing where the others scatter more than these about it.
+/// A contour tells nothing where its points scatter much more about it than they do by the noise that is known.
 #[test]
-fn segments_that_other_points_leave_are_astray() {
-    for (off, astray) in [(0.01, vec![]), (0.04, vec![0])] {
-        // Points to both sides of a line by turns: of even numbers 0.01 off, of odd ones `off`.
-        let y = |i: usize| if i % 4 < 2 { 1.0 } else { -1.0 } * if i.is_multiple_of(2) { 0.01 } else { off };
+fn segments_that_hide_form_are_astray() {
+    for (off, astray) in [(0.01, vec![]), (0.025, vec![]), (0.04, vec![0])] {
+        // Points to both sides of a line by turns.
+        let y = |i: usize| if i % 4 < 2 { off } else { -off };
         let points: Vec<[f64; 2]> = (0..60).map(|i| [i as f64, y(i)]).collect();
-        let kept: Vec<usize> = (0..60).step_by(2).collect();
+        let kept: Vec<usize> = (0..60).collect();
         let found = Contour {
             segments: vec![Segment::straight([0.0, 0.0], [59.0, 0.0])],
             labels: vec![0; kept.len()],
             residuals: kept.iter().map(|i| y(*i)).collect(),
             stations: kept.iter().map(|i| *i as f64).collect(),
-            noise: 0.01,
-            spacing: 2.0,
+            noise: off,
+            spacing: 1.0,
             ..Contour::default()
         };
-        assert_eq!(spread(found, &kept, &points, Taken::Scan).astray, astray, "{off}");
+        let known = Some(Known { deviation: 0.01, degrees: 50.0 });
+        assert_eq!(spread(found, &kept, known, &points).astray, astray, "{off}");
     }
 }
