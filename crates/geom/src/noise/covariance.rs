@@ -43,7 +43,8 @@ impl Model {
             pairs * (white + self.shared * shared(middle(bin) / self.reach)).powi(2)
         };
         let squares: f64 = patch.pairs.iter().enumerate().map(square).sum();
-        patch.free * patch.points * self.variance().powi(2) / squares
+        // No more than all of them, also where the squares of variances are too small for numbers.
+        (patch.free * patch.points * self.variance().powi(2) / squares).min(patch.free)
     }
 }
 

@@ -93,11 +93,12 @@ fn is_exact(points: &[[f64; 2]], polygon: &Polygon, items: &[Item], rounding: f6
     polygon.at.len() < FEW || enough(straight + chords) || enough(straight + polygon.round(rounding))
 }
 
-/// Flat faces of so many facets each, cut at even distances to this factor, are those of a mesh of a surface, not of a drawing, where
+/// Flat faces of so many facets each, cut at even distances to this factor for so many percent, are those of a mesh of a surface, not of a drawing, where
 /// lines of no more than so many steps are between others: chords of curves that the edges do not run along, or the bevels of corners
 /// that no edge runs along. Where more chords are those of circles the vertices are a drawing's.
 const FLAT: usize = 8;
 const EVEN: f64 = 4.0;
+const NEARLY: usize = 98;
 const STEPS: f64 = 2.5;
 
 fn is_remeshed(points: &[[f64; 2]], polygon: &Polygon, items: &[Item]) -> bool {
@@ -117,7 +118,7 @@ fn is_remeshed(points: &[[f64; 2]], polygon: &Polygon, items: &[Item]) -> bool {
             short += 1;
         }
     }
-    let is_even = sizes[sizes.len() - 1] <= EVEN * middle;
+    let is_even = sizes[NEARLY * (sizes.len() - 1) / 100] <= EVEN * middle;
     n >= 3 * FEW && flat as f64 >= EXACT * n as f64 && is_even && short > chords
 }
 

@@ -175,7 +175,10 @@ fn around(cut: &CutMesh, edge: [u32; 2]) -> Vec<u32> {
     let mut next = 0;
     while next < found.len() && found.len() < AROUND {
         for &v in cut.beside(found[next]) {
-            if found.len() < AROUND && !found.contains(&v) {
+            if found.len() == AROUND {
+                break;
+            }
+            if !found.contains(&v) {
                 found.push(v);
             }
         }

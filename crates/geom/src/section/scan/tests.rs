@@ -114,7 +114,7 @@ fn crossings_lie_on_the_surface() {
         let before = far(&mut chain.points.iter().map(|p| frame.flat(*p)));
         let after = far(&mut row.points.iter().copied());
         println!("{name}: {before} {after}");
-        assert!(before > 5e-3 && after < 0.05 * before, "{name}: {before} {after}");
+        assert!(before > 5e-3 && after < 0.08 * before, "{name}: {before} {after}");
     }
 }
 
