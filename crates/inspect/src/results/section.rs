@@ -14,6 +14,7 @@ mod nominal;
 mod outline;
 mod page;
 mod profile;
+mod segment;
 mod tidy;
 mod verdict;
 
@@ -28,18 +29,17 @@ pub use near_arc::NearArc;
 pub use nominal::{BEYOND_END, MAX_DISTANCE, NO_OUTLINE, NominalRecord, Positive};
 pub use outline::{Against, AgainstPlane, OutlineRecord};
 pub use profile::{ProfileRecord, WorstRecord};
+use segment::segment;
+pub use segment::{GeometryRecord, SegmentRecord, UncertaintyRecord};
 pub use tidy::OfferRecord;
 pub use verdict::ProfileRule;
 
 use super::{InputRecord, NoiseOrReason, SharedNoise, UNITS, VERSION, Word, noise_record};
 use blade::Whereabouts;
-use near_arc::near_arc;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use trueness_geom::progress::{Cancelled, Progress};
-use trueness_geom::section::{
-    Continuity, Contour, Geometry, Method, Options, Search, Segment, SegmentKind, Taken, Uncertainty,
-};
+use trueness_geom::section::{Continuity, Contour, Method, Options, Search, SegmentKind, Taken};
 
 /// Name of this document's schema.
 pub const SCHEMA: &str = "trueness/section/1";
@@ -176,93 +176,6 @@ pub struct ContourRecord {
     pub labels: Vec<u32>,
     /// Length along the contour from the start of the first segment to the foot of each point.
     pub stations: Vec<f64>,
-}
-
-/// A segment.
-#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
-pub struct SegmentRecord {
-    /// Line, arc or spline, with what it is known by.
-    #[serde(flatten)]
-    pub geometry: GeometryRecord,
-    /// Where it starts.
-    pub start: [f64; 2],
-    /// Where it ends.
-    pub end: [f64; 2],
-    /// Its length.
-    pub length: f64,
-    /// Points that belong to it.
-    pub count: u64,
-    /// Root mean square of their distances.
-    pub rms: f64,
-    /// Greatest magnitude of their distances.
-    pub max: f64,
-    /// Curvature at its start and end, positive where it turns to the left.
-    pub curvature: [f64; 2],
-    /// Of a spline that is nearly an arc, that arc: within a thousandth of its length, and the length half of the radius at least: a flatter
-    /// curve is near to many arcs. Absent for others, and for those of `facets`.
-    #[serde(skip_serializing_if = "Option::is_none", default)]
-    pub near_arc: Option<NearArc>,
-    /// Standard uncertainty of its angle, or of its center and radius, from the scatter of the points.
-    pub uncertainty: Option<UncertaintyRecord>,
-    /// Why there is none.
-    #[serde(skip_serializing_if = "Option::is_none", default)]
-    pub uncertainty_reason: Option<String>,
-    /// Standard uncertainty of its length, from the scatter of the points.
-    pub length_uncertainty: Option<f64>,
-    /// Why there is none.
-    #[serde(skip_serializing_if = "Option::is_none", default)]
-    pub length_uncertainty_reason: Option<String>,
-}
-
-/// Standard uncertainties of what a segment is known by.
-#[derive(Clone, Copy, Debug, Serialize, Deserialize, JsonSchema)]
-#[serde(untagged)]
-pub enum UncertaintyRecord {
-    /// Of a line.
-    Line {
-        /// Of its angle.
-        angle: f64,
-    },
-    /// Of an arc.
-    Arc {
-        /// Of its center.
-        center: [f64; 2],
-        /// Of its radius.
-        radius: f64,
-    },
-}
-
-/// What a segment is.
-#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
-#[serde(tag = "kind", rename_all = "snake_case")]
-pub enum GeometryRecord {
-    /// From its start straight to its end.
-    Line {
-        /// Angle of its direction with the first axis.
-        angle: f64,
-    },
-    /// Part of a circle.
-    Arc {
-        /// Center of the circle.
-        center: [f64; 2],
-        /// Its radius.
-        radius: f64,
-        /// Angle of the start, seen from the center.
-        start_angle: f64,
-        /// Angle run through, positive counter-clockwise.
-        sweep: f64,
-    },
-    /// A B-spline.
-    Spline {
-        /// Its degree.
-        degree: u64,
-        /// Its knots, the ends `degree + 1` times.
-        knots: Vec<f64>,
-        /// Its control points.
-        control_points: Vec<[f64; 2]>,
-        /// Greatest distance from the curve that was fitted.
-        deviation: f64,
-    },
 }
 
 /// A join.
@@ -466,56 +379,5 @@ fn contour(found: &Contour, frame: &FrameRecord, plane: Option<u64>) -> ContourR
         residuals: found.residuals.clone(),
         labels: found.labels.clone(),
         stations: found.stations.clone(),
-    }
-}
-
-/// A segment of a contour whose points were `taken` for this.
-fn segment(found: &Segment, taken: Taken) -> SegmentRecord {
-    let (start, end) = (found.start, found.end);
-    let geometry = match &found.geometry {
-        Geometry::Line => GeometryRecord::Line { angle: found.angle() },
-        Geometry::Arc { center, radius, start, sweep } => {
-            GeometryRecord::Arc { center: *center, radius: *radius, start_angle: *start, sweep: *sweep }
-        }
-        Geometry::Spline { curve, deviation } => GeometryRecord::Spline {
-            degree: curve.knots().degree() as u64,
-            knots: curve.knots().values().to_vec(),
-            control_points: curve.points().to_vec(),
-            deviation: *deviation,
-        },
-    };
-    let near_arc = match (&found.geometry, taken) {
-        (Geometry::Spline { curve, .. }, Taken::Row | Taken::Scan) => near_arc(curve, found.length),
-        _ => None,
-    };
-    let uncertainty = found.uncertainty.map(|u| match u {
-        Uncertainty::Line { angle } => UncertaintyRecord::Line { angle },
-        Uncertainty::Arc { center, radius } => UncertaintyRecord::Arc { center, radius },
-    });
-    let reason = match (found.geometry.kind(), taken) {
-        _ if uncertainty.is_some() => None,
-        (SegmentKind::Spline, _) => Some("a spline is not known by single numbers"),
-        (_, Taken::Facets) => Some("facets of a drawing carry no random noise"),
-        _ => Some("the points alone do not tell it"),
-    };
-    let unknown_length = match (found.length_uncertainty, taken) {
-        (Some(_), _) => None,
-        (None, Taken::Facets) => Some("facets of a drawing carry no random noise"),
-        (None, _) => Some("it ends where the points end, or they do not tell its ends"),
-    };
-    SegmentRecord {
-        geometry,
-        start,
-        end,
-        length: found.length,
-        count: found.count as u64,
-        rms: found.rms,
-        max: found.max,
-        curvature: found.curvature,
-        near_arc,
-        uncertainty,
-        uncertainty_reason: reason.map(Into::into),
-        length_uncertainty: found.length_uncertainty,
-        length_uncertainty_reason: unknown_length.map(Into::into),
     }
 }

@@ -24,7 +24,7 @@ use trueness_geom::section::{self, Continuity, Options, PlaneFrame, SectionError
 use trueness_geom::space::Point;
 use trueness_inspect::report::{ViewObject, flat};
 use trueness_inspect::results::section::{AirfoilRecord, Section, SectionDocument};
-use trueness_inspect::results::{Role, Verdict, noise_or_reason};
+use trueness_inspect::results::{NoiseOrReason, Role, Verdict, noise_or_reason};
 
 /// The lines, arcs and curves of a section, and the exact places where they join
 ///
@@ -146,6 +146,24 @@ impl Run for SectionArgs {
     }
 }
 
+/// The noise of a mesh's vertices, or why none is told; of points nothing.
+fn mesh_noise(
+    args: &SectionArgs,
+    common: &Common,
+    body: &Body,
+    shown: &str,
+) -> anyhow::Result<Option<NoiseOrReason>> {
+    let Body::Mesh(source) = body else {
+        args.shared.only_for_meshes(shown)?;
+        return Ok(None);
+    };
+    args.planes.fit_a_mesh(shown)?;
+    args.method.only_for_rows()?;
+    let find =
+        |stage: &Stage| noise_or_reason(noise::mesh(&source.mesh, common.seed, stage).and_then(Noise::even));
+    Ok(Some(args.shared.found(common.progress, find)?))
+}
+
 fn run(args: &SectionArgs, common: &Common) -> anyhow::Result<Outcome> {
     let options = args.options();
     args.nominal.rule()?;
@@ -153,20 +171,15 @@ fn run(args: &SectionArgs, common: &Common) -> anyhow::Result<Outcome> {
         read::open(&args.input, Role::Measured, &args.file.reading())?;
     let shown = args.input.display();
     let planes = args.planes.planes()?;
+    let noise = mesh_noise(args, common, &body, &shown.to_string())?;
     let stage = Stage::new(common.progress, "finding segments", STEPS, None);
-    let (mut methods, mut shared) = (None, None);
+    let mut methods = None;
     let found = match body {
         Body::Mesh(source) => {
-            args.planes.fit_a_mesh(&shown.to_string())?;
-            args.method.only_for_rows()?;
-            let mesh = &source.mesh;
-            let find =
-                |stage: &Stage| noise_or_reason(noise::mesh(mesh, common.seed, stage).and_then(Noise::even));
-            let own = shared.insert(args.shared.found(common.progress, find)?).as_ref().ok().copied();
-            planes::mesh(mesh, own, &planes, &options, &stage)
+            let known = noise.as_ref().and_then(|found| found.as_ref().ok().copied());
+            planes::mesh(&source.mesh, known, &planes, &options, &stage)
         }
         Body::Points(source) => {
-            args.shared.only_for_meshes(&shown.to_string())?;
             let points = read::all_points(&args.input, source)?;
             read::describe(&mut record, &points);
             match planes.is_empty() {
@@ -205,7 +218,7 @@ fn run(args: &SectionArgs, common: &Common) -> anyhow::Result<Outcome> {
         nominal
     });
     let mut document = SectionDocument::new(&sections, inputs, &options);
-    document.tell_noise(shared.as_ref());
+    document.tell_noise(noise.as_ref());
     (document.nominal, document.airfoils) = (nominal, airfoils);
     for found in document.airfoils.iter().flatten() {
         if let Some(contour) = document.contours.get_mut(found.contour as usize) {

@@ -4,7 +4,7 @@
 //! distances of the vertices around from it, as a quadratic function of the way along it and of the height over the plane, are the
 //! surface; the chord between two places of this is where the mesh would be cut without noise.
 
-use super::CutMesh;
+use super::cut_mesh::CutMesh;
 use crate::fit::solve;
 use crate::section::chain::SegmentKind;
 use crate::section::cut::{Chain, PlaneFrame};

@@ -1,4 +1,5 @@
 use super::*;
+use crate::mesh::Mesh;
 use crate::num::random::Random;
 use crate::progress::Silent;
 use crate::section::{Contour, Geometry, Options, Plane, SegmentKind, chain_contour, cut};

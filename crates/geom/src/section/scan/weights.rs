@@ -1,6 +1,6 @@
 //! What crossings tell, by the covariances of the vertices between which they lie.
 
-use super::CutMesh;
+use super::cut_mesh::CutMesh;
 use crate::section::cut::Chain;
 use crate::space::{minus, norm};
 
