@@ -55,7 +55,9 @@ pub fn chain_contour(
     let forced = options.noise.is_some() || options.continuity.is_some();
     if polygon.at.len() >= 2 && !forced {
         let items = polygon.items(rounding);
-        if is_exact(&points, &polygon, &items, rounding) && !is_remeshed(&points, &polygon, &items) {
+        if is_exact(&points, &polygon, &items, rounding)
+            && !is_remeshed(&points, &polygon, &items, mesh.scatters())
+        {
             return Sheet { points: &points, polygon, rounding, options }.contour(&items, progress);
         }
     }
@@ -100,8 +102,10 @@ const FLAT: usize = 8;
 const EVEN: f64 = 4.0;
 const NEARLY: usize = 98;
 const STEPS: f64 = 2.5;
+/// Where vertices scatter, smooth noise leaves a few crossings on a line or circle by chance, to rounding; those of a drawing are more.
+const EACH: usize = 6;
 
-fn is_remeshed(points: &[[f64; 2]], polygon: &Polygon, items: &[Item]) -> bool {
+fn is_remeshed(points: &[[f64; 2]], polygon: &Polygon, items: &[Item], scatters: bool) -> bool {
     let n = points.len();
     let mut sizes: Vec<f64> = points.windows(2).map(|w| length(w[0], w[1])).collect();
     sizes.sort_by(f64::total_cmp);
@@ -119,7 +123,8 @@ fn is_remeshed(points: &[[f64; 2]], polygon: &Polygon, items: &[Item]) -> bool {
         }
     }
     let is_even = sizes[NEARLY * (sizes.len() - 1) / 100] <= EVEN * middle;
-    n >= 3 * FEW && flat as f64 >= EXACT * n as f64 && is_even && short > chords
+    let is_flat = flat as f64 >= EXACT * n as f64 && short > chords;
+    n >= 3 * FEW && is_even && (is_flat || scatters && n < EACH * items.len())
 }
 
 /// Noises of the points that a contour was found from, beyond which others lie off it: the contour does not run there.

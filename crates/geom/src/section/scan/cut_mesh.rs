@@ -34,6 +34,13 @@ impl<'a> CutMesh<'a> {
         self.rounding
     }
 
+    /// Whether vertices scatter by more than rounding: they were measured.
+    pub(in crate::section) fn scatters(&self) -> bool {
+        /// Roundings that noise is more than.
+        const ROUNDINGS: f64 = 3.0;
+        self.noise.is_some_and(|n| n.deviation > ROUNDINGS * self.rounding)
+    }
+
     pub(super) fn beside(&self, vertex: u32) -> &[u32] {
         &self.beside[self.first[vertex as usize] as usize..self.first[vertex as usize + 1] as usize]
     }
