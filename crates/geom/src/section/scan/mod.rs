@@ -42,6 +42,15 @@ const LOST: f64 = 0.03;
 /// What lies beside the end of a part, no farther off than so many standard deviations, belongs to it.
 const WITHIN: f64 = 2.5;
 
+/// Crossings that scatter more where they are moved to than where they are, by more than this factor, stay: facets so large do not tell
+/// the surface.
+const ROUGHER: f64 = 1.2;
+
+fn smoother(moved: Vec<[f64; 2]>, crossings: &[[f64; 2]], closed: bool) -> Vec<[f64; 2]> {
+    let [there, here] = [&moved[..], crossings].map(|points| noise(points, closed).0);
+    if there > ROUGHER * here { crossings.to_vec() } else { moved }
+}
+
 impl ScanRow {
     /// The crossings of a chain, with these places in the plane.
     pub fn of(cut: &CutMesh, chain: &Chain, frame: &PlaneFrame, closed: bool) -> ScanRow {
@@ -54,7 +63,7 @@ impl ScanRow {
             return ScanRow { kept: (0..crossings.len()).collect(), points: crossings, weights, noise: None };
         }
         let scatter = weights::scatter(cut, chain);
-        let points = lift::on_surface(cut, chain, frame, &crossings, closed);
+        let points = smoother(lift::on_surface(cut, chain, frame, &crossings, closed), &crossings, closed);
         let lifts = points.iter().zip(&crossings).map(|(p, q)| (p[0] - q[0]).powi(2) + (p[1] - q[1]).powi(2));
         let lost = LOST * (lifts.sum::<f64>() / points.len() as f64).sqrt();
         let count: f64 = scatter.weights.iter().sum();
