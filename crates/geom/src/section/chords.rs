@@ -185,13 +185,13 @@ fn evenly(outline: &Outline, count: usize) -> Vec<[f64; 2]> {
 
 /// An outline of a nominal as a row of points: the ends of chords, or even places where it has arcs or curves, or only a few lines.
 pub fn outline_row(outline: &Outline) -> Vec<[f64; 2]> {
-    let chords =
-        outline.segments.len() > FEW && outline.segments.iter().all(|s| s.geometry == Geometry::Line);
+    let chords = outline.segments.len() > FEWEST_SIDES
+        && outline.segments.iter().all(|s| s.geometry == Geometry::Line);
     evenly(outline, if chords { 1 } else { ROW })
 }
 
 /// So few lines are no chords of a curve.
-const FEW: usize = 16;
+const FEWEST_SIDES: usize = 16;
 
 /// Area and centroid of a polygon, whichever way round it runs.
 fn of_area(polygon: &[[f64; 2]]) -> Option<(f64, [f64; 2])> {

@@ -98,11 +98,10 @@ impl Start {
         let known = exact.is_some();
         let none = || polygon(&clean, &penalty(n as f64, least, FEWEST * step));
         let exact = if prior.noise.is_none() { exact.or_else(none) } else { None };
-        let clean_weights = clean.numbers.iter().map(|i| prior.weight(*i)).collect();
         let mut start = Start {
+            weights: clean.numbers.iter().map(|i| prior.weight(*i)).collect(),
             clean,
             turned: 0,
-            weights: clean_weights,
             known_noise: prior.noise,
             parts: vec![],
             outliers: vec![],

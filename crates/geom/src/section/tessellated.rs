@@ -22,15 +22,17 @@ const CURVE: (usize, usize) = (8, 3);
 
 /// The lines, arcs and curves of a chain in which a plane cuts a mesh.
 ///
-/// `frame` is that of the plane; `rounding` the distance that the coordinates are uncertain by. The chain's points carry no
+/// `frame` is that of the plane; `mesh` the one that the chain was cut from. The chain's points carry no
 /// random noise where the facets are those of a drawing: then the edges of flat faces are lines, exactly, chords whose ends
 /// lie on a circle are an arc, and only what is neither is looked at as a row of points, with the distance between chords and
 /// curve as what cannot be told from 0. A chain of many facets of which hardly two follow each other straight or around a
-/// circle is that of a scan. Then points whose edges share no vertex are independent, and are a row as [`contour`] takes it;
-/// so too where `options` give the noise or a continuity. [`Contour::taken`] tells which it was.
+/// circle is that of a scan, and so is one of flat faces of many facets beside curves that no edges run along. Then all crossings,
+/// moved onto the surface between the vertices, are a row as [`contour`] takes it, each with the weight that the noise its
+/// neighbors share leaves it; so too where `options` give the noise or a continuity. [`Contour::taken`] tells which it was.
 ///
 /// Labels, residuals and stations are those of the chain's points. Intervals of joins of exact lines and arcs are where
-/// the two are no farther apart than `rounding`.
+/// the two are no farther apart than rounding.
+/// Chains that are not of the mesh are rows of their points as they are.
 ///
 /// # Errors
 /// Those of [`contour`]; a chain of at least two points has at least a line.
@@ -73,9 +75,13 @@ pub fn chain_contour(
     let known = Known::given(options).or(noise);
     let first = find(known);
     // Where the noise of the whole mesh is not that of the section, this tells its own.
-    let is_lost = |found: &Result<Contour, SectionError>| found.as_ref().is_ok_and(|c| !c.astray.is_empty());
-    let found = match options.noise.is_none() && known.is_some() && is_lost(&first) {
-        true => find(None).or(first),
+    let astray = first.as_ref().map_or(0, |c| c.astray.len());
+    let found = match options.noise.is_none() && known.is_some() && astray > 0 {
+        true => match find(None) {
+            Ok(other) if other.astray.len() <= astray => Ok(other),
+            Err(SectionError::Cancelled(e)) => Err(e.into()),
+            _ => first,
+        },
         false => first,
     };
     match found {
@@ -95,8 +101,8 @@ fn is_exact(points: &[[f64; 2]], polygon: &Polygon, items: &[Item], rounding: f6
     polygon.at.len() < FEW || enough(straight + chords) || enough(straight + polygon.round(rounding))
 }
 
-/// Flat faces of so many facets each, cut at even distances to this factor for so many percent, are those of a mesh of a surface, not of a drawing, where
-/// lines of no more than so many steps are between others: chords of curves that the edges do not run along, or the bevels of corners
+/// Flat faces of so many facets each, cut at even distances to this factor for so many percent, are those of a mesh of a surface, not
+/// of a drawing, where lines of no more than so many steps are between others: chords of curves that the edges do not run along, or the bevels of corners
 /// that no edge runs along. Where more chords are those of circles the vertices are a drawing's.
 const FLAT: usize = 8;
 const EVEN: f64 = 4.0;

@@ -15,11 +15,11 @@ use crate::space::{cross, dot, minus};
 const AROUND: usize = 48;
 /// Coefficients of the quadratic function, and vertices that it takes at least.
 const TERMS: usize = 6;
-const FEWEST: usize = 2 * TERMS;
+const FEWEST_VERTICES: usize = 2 * TERMS;
 /// Vertices count whose feet are no nearer to an end of the part than this share of the edge's length: others are those of the faces beside.
 const INSIDE: f64 = 0.3;
 /// Vertices farther off than so many edge lengths are of other faces.
-const OFF: f64 = 3.0;
+const FARTHEST_OFF: f64 = 3.0;
 
 /// Lengths along a line or arc, and distances to the left of it.
 struct Course<'a> {
@@ -152,10 +152,9 @@ fn lifted(
     let here = course.local(point);
     let length = libm::hypot(b[0] - a[0], b[2] - a[2]).max(f64::MIN_POSITIVE);
     let inside = INSIDE * length;
-    let own = around(cut, edge)
-        .into_iter()
-        .map(local)
-        .filter(|[s, off, _]| *s >= ends[0] + inside && *s <= ends[1] - inside && off.abs() <= OFF * length);
+    let own = around(cut, edge).into_iter().map(local).filter(|[s, off, _]| {
+        *s >= ends[0] + inside && *s <= ends[1] - inside && off.abs() <= FARTHEST_OFF * length
+    });
     let surface = quadratic(own.collect(), here[0], length);
     let height = |s: f64, z: f64| {
         let [x, z] = [(s - here[0]) / length, z / length];
@@ -189,7 +188,7 @@ fn around(cut: &CutMesh, edge: [u32; 2]) -> Vec<u32> {
 
 /// The quadratic function of length along and height, in edge lengths, nearest to these distances; nothing where they are too few.
 fn quadratic(places: Vec<[f64; 3]>, middle: f64, length: f64) -> [f64; TERMS] {
-    if places.len() < FEWEST {
+    if places.len() < FEWEST_VERTICES {
         return [0.0; TERMS];
     }
     let mut a = vec![vec![0.0; TERMS]; TERMS];

@@ -33,7 +33,7 @@ pub(super) struct ScanRow {
 /// Places at which a line or arc of the first partition may start.
 const PLACES: usize = 1200;
 /// Fewest crossings of one.
-const FEWEST: usize = 4;
+const FEWEST_CROSSINGS: usize = 4;
 /// Crossings in succession that a corner may take from the mesh: edges of facets that pass it by.
 const BEVEL: usize = 4;
 
@@ -58,7 +58,7 @@ impl ScanRow {
         let count = cut.mesh.positions.len();
         let is_of_mesh = chain.edges.len() == crossings.len()
             && chain.edges.iter().flatten().all(|v| (*v as usize) < count);
-        if !is_of_mesh || crossings.len() < FEWEST {
+        if !is_of_mesh || crossings.len() < FEWEST_CROSSINGS {
             let weights = vec![1.0; crossings.len()];
             return ScanRow { kept: (0..crossings.len()).collect(), points: crossings, weights, noise: None };
         }
@@ -70,8 +70,13 @@ impl ScanRow {
         let deviation = cut.noise.map(|n| libm::hypot(n.deviation * scatter.share, lost));
         let level = deviation.unwrap_or_else(|| noise(&points, closed).0.max(lost)).max(cut.rounding());
         let log = libm::log(count.max(2.0));
-        let penalty =
-            Penalty { line: 3.0 * log, arc: 4.0 * log, noise: level, fewest: FEWEST, places: PLACES };
+        let penalty = Penalty {
+            line: 3.0 * log,
+            arc: 4.0 * log,
+            noise: level,
+            fewest: FEWEST_CROSSINGS,
+            places: PLACES,
+        };
         let mut parts = partition_with_gaps(&points, &scatter.weights, &penalty, BEVEL);
         lift::lengthen(&mut parts, &points, WITHIN * level);
         let kept: Vec<usize> = parts.iter().flat_map(|p| p.from..p.to).collect();

@@ -6,7 +6,7 @@ use super::spread::{Shape, Spread, off_tangent, turned, turns_alike};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Lines, and arcs, of a plane whose pairs are looked at.
-pub(super) const MOST: usize = 200;
+pub(super) const MOST_MEMBERS: usize = 200;
 
 /// A segment with its contour's covariance.
 #[derive(Clone, Copy)]
@@ -71,7 +71,11 @@ pub(super) fn members(spreads: &[Result<Spread, Untidied>]) -> Vec<Member<'_>> {
 
 /// The lines, or the arcs, that pairs are made of.
 pub(super) fn limited<'a>(all: &[Member<'a>], lines: bool) -> Vec<Member<'a>> {
-    all.iter().filter(|m| matches!(m.shape, Shape::Line { .. }) == lines).take(MOST).copied().collect()
+    all.iter()
+        .filter(|m| matches!(m.shape, Shape::Line { .. }) == lines)
+        .take(MOST_MEMBERS)
+        .copied()
+        .collect()
 }
 
 /// All relations.

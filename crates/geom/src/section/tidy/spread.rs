@@ -10,7 +10,7 @@ use super::offer::Untidied;
 use crate::num::cholesky::Cholesky;
 
 /// Segments of a tangent chain of which the covariance is still found.
-const MOST: usize = 200;
+const MOST_SEGMENTS: usize = 200;
 /// Share of the normal equations' scale that holds what the points alone do not: tangent joins must.
 const HELD: f64 = 1e-10;
 /// A condition holds already where its variance is this share of that of its unknowns by themselves.
@@ -111,7 +111,7 @@ impl Spread {
             size: contour.segments.iter().map(|s| s.length).sum::<f64>(),
         };
         for chain in chains(contour, &all) {
-            if chain.len() > MOST {
+            if chain.len() > MOST_SEGMENTS {
                 return Err(Untidied::TooMany);
             }
             spread.add(contour, &chain, &points);
