@@ -6,7 +6,7 @@ use trueness_geom::check::{self, Report};
 use trueness_geom::curvature::{self, Curvatures};
 use trueness_geom::fit::{self, Fit};
 use trueness_geom::mesh::Mesh;
-use trueness_geom::noise::{self, Noise};
+use trueness_geom::noise;
 use trueness_geom::progress::Silent;
 use trueness_geom::repair::{self, Repaired};
 use trueness_geom::section::{self, Contour, Plane, SectionError};
@@ -129,8 +129,7 @@ pub fn contour(points: &[[f64; 2]]) -> Result<Contour, Error> {
 /// ```
 pub fn sections(mesh: &Mesh, plane: &Plane) -> Result<Vec<Contour>, Error> {
     let frame = plane.frame().ok_or(SectionError::NoDirection)?;
-    let (options, noise) =
-        (section::Options::default(), noise::mesh(mesh, 0, &Silent).and_then(Noise::even).ok());
+    let (options, noise) = (section::Options::default(), noise::mesh(mesh, 0, &Silent).ok());
     let mesh = &section::CutMesh::new(mesh, noise);
     let chains = section::cut(mesh.mesh, plane, &Silent).map_err(SectionError::from)?;
     let each = chains.iter().map(|chain| section::chain_contour(chain, &frame, mesh, &options, &Silent));

@@ -10,7 +10,8 @@ use super::direction::from_the_end;
 use super::exact::missed;
 use super::levels::{MARGIN, SAME, Start, hidden};
 use super::plan::{Chains, Plan, RESOLUTION};
-use super::prior::Prior;
+use super::free_row::free_form;
+use super::prior::{Known, Prior};
 use super::resolved::{Among, misses, resolved};
 use super::result::{Continuity, Contour, Join, Options, SectionError, Taken};
 use super::row::{Clean, check_row};
@@ -101,6 +102,14 @@ fn either_way(
     let priors = [*prior, Prior { weights: back.as_deref(), ..*prior }];
     let rows = [(points, &priors[0]), (&turned[..], &priors[1])];
     let ways = if backward { [rows[1], rows[0]] } else { rows };
+    if prior.is_free_form
+        && Known::given(options).is_none()
+        && options.continuity.is_none()
+        && let Some(found) = free_form(ways[0].0, options)?
+    {
+        let found = if backward { found.turned_round(points) } else { found };
+        return with_crossings(found, points, progress);
+    }
     let (hasty, again) = (Cell::new(false), Cell::new(false));
     let budget = &Budget::new(products);
     let mut found = in_order(ways[0], options, budget, Some(&hasty), progress);
@@ -131,8 +140,18 @@ fn either_way(
     }
     let found = found?;
     let mut found = if is_backward { found.turned_round(points) } else { found };
-    found.keep_gaps(points);
     found.cut_short = budget.was_cut_short();
+    with_crossings(found, points, progress)
+}
+
+/// A contour with where it crosses itself, and the gaps of its row.
+fn with_crossings(
+    found: Contour,
+    points: &[[f64; 2]],
+    progress: &dyn Progress,
+) -> Result<Contour, SectionError> {
+    let mut found = found;
+    found.keep_gaps(points);
     found.crossings = crossings_with_loops(&found.segments, found.closed, LOOP * found.spacing, progress)?;
     Ok(found)
 }

@@ -66,6 +66,7 @@ mod facets;
 mod follow;
 mod foot;
 mod free;
+mod free_row;
 mod joined;
 mod kept;
 mod least;

@@ -25,12 +25,14 @@ pub(super) struct Prior<'a> {
     pub noise: Option<Known>,
     /// How many independent points each tells as much as; all count 1 where it is not told.
     pub weights: Option<&'a [f64]>,
+    /// They are those of a form that hardly has lines and arcs.
+    pub is_free_form: bool,
 }
 
 impl Prior<'_> {
     /// That of points as they are given.
     pub fn of(options: &Options) -> Prior<'static> {
-        Prior { noise: Known::given(options), weights: None }
+        Prior { noise: Known::given(options), ..Prior::default() }
     }
 
     /// The weight of a point.
@@ -41,6 +43,6 @@ impl Prior<'_> {
     /// What is known of the points with these numbers.
     pub fn among<R>(&self, numbers: impl Iterator<Item = usize>, then: impl FnOnce(Prior) -> R) -> R {
         let own: Option<Vec<f64>> = self.weights.map(|all| numbers.map(|i| all[i]).collect());
-        then(Prior { noise: self.noise, weights: own.as_deref() })
+        then(Prior { weights: own.as_deref(), ..*self })
     }
 }

@@ -340,7 +340,7 @@ pub(super) fn partition(points: &[[f64; 2]], weights: &[f64], penalty: &Penalty)
     let sums = Sums::new(points, weights);
     let mut breaks = vec![];
     let stride = penalty.stride(points.len());
-    for Stretch { from, to, kind } in cheapest(&sums, points.len(), penalty, 0) {
+    for Stretch { from, to, kind } in cheapest(&sums, points.len(), penalty, 0, None) {
         breaks.push((from, kind));
         if to == points.len() {
             breaks.push((to, SegmentKind::Line));
@@ -361,8 +361,27 @@ pub(super) fn partition_with_gaps(
 ) -> Vec<Part> {
     let sums = Sums::new(points, weights);
     let gap = most.div_ceil(penalty.stride(points.len()));
-    let stretches = cheapest(&sums, points.len(), penalty, if most == 0 { 0 } else { gap });
+    let stretches = cheapest(&sums, points.len(), penalty, if most == 0 { 0 } else { gap }, None);
     stretches.into_iter().map(|s| sums.part(points, s.kind, s.from, s.to)).collect()
+}
+
+/// What a free curve along the row costs, in units of the noise's variance.
+pub(super) struct FreeCost {
+    /// Each part that is one.
+    pub each: f64,
+    /// What lies before each point: the squares of its distances, and its unknowns.
+    pub before: Vec<f64>,
+}
+
+/// The kinds of the parts of a partition in which parts of this free curve are one kind more.
+pub(super) fn kinds_with_free(
+    points: &[[f64; 2]],
+    weights: &[f64],
+    penalty: &Penalty,
+    free: &FreeCost,
+) -> Vec<SegmentKind> {
+    let sums = Sums::new(points, weights);
+    cheapest(&sums, points.len(), penalty, 0, Some(free)).into_iter().map(|s| s.kind).collect()
 }
 
 /// A part by its kind and its points alone.
@@ -379,8 +398,14 @@ impl Penalty {
     }
 }
 
-/// The parts of a partition, with gaps of up to so many points between them.
-fn cheapest(sums: &Sums, n: usize, penalty: &Penalty, gap: usize) -> Vec<Stretch> {
+/// The parts of a partition, with gaps of up to so many points between them; with parts of a free curve where there is one.
+fn cheapest(
+    sums: &Sums,
+    n: usize,
+    penalty: &Penalty,
+    gap: usize,
+    free: Option<&FreeCost>,
+) -> Vec<Stretch> {
     let stride = penalty.stride(n);
     let last = n / stride;
     let index = |k: usize| if k == last { n } else { k * stride };
@@ -393,11 +418,21 @@ fn cheapest(sums: &Sums, n: usize, penalty: &Penalty, gap: usize) -> Vec<Stretch
     (best[0], entered[0]) = (0.0, (0.0, 0));
     let mut starts: Vec<usize> = vec![];
     let mut costs: Vec<f64> = vec![];
+    // Where a part of the free curve starts best, and what comes before it without what the curve has there.
+    let mut free_start = (f64::INFINITY, 0);
     for j in 1..=last {
         if entered[j - 1].0.is_finite() {
             starts.push(j - 1);
         }
         costs.clear();
+        if let Some(free) = free {
+            let before = entered[j - 1].0 - free.before[index(j - 1)];
+            if before < free_start.0 {
+                free_start = (before, j - 1);
+            }
+            best[j] = free_start.0 + free.before[index(j)] + free.each;
+            from[j] = (free_start.1, SegmentKind::Spline);
+        }
         for &i in &starts {
             let count = index(j) - index(i);
             let before = entered[i].0;

@@ -67,8 +67,9 @@ pub fn chain_contour(
     let own = Options { closed: Some(closed), ordered: true, ..*options };
     let mut places = points.clone();
     kept.iter().zip(&row).for_each(|(i, p)| places[*i] = *p);
+    let is_free_form = mesh.is_free_form;
     let find = |noise: Option<Known>| {
-        let found = contour_with(&row, &Prior { noise, weights: Some(&weights) }, &own, progress)?;
+        let found = contour_with(&row, &Prior { noise, weights: Some(&weights), is_free_form }, &own, progress)?;
         let found = Contour { moved: places.clone(), ..found };
         Ok(within_facets(spread(found, &kept, noise, &places), &points))
     };

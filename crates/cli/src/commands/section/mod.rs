@@ -146,22 +146,27 @@ impl Run for SectionArgs {
     }
 }
 
-/// The noise of a mesh's vertices, or why none is told; of points nothing.
+/// The noise of a mesh's vertices, as it is and as it is told, or why it is not; of points nothing.
 fn mesh_noise(
     args: &SectionArgs,
     common: &Common,
     body: &Body,
     shown: &str,
-) -> anyhow::Result<Option<NoiseOrReason>> {
+) -> anyhow::Result<(Option<Noise>, Option<NoiseOrReason>)> {
     let Body::Mesh(source) = body else {
         args.shared.only_for_meshes(shown)?;
-        return Ok(None);
+        return Ok((None, None));
     };
     args.planes.fit_a_mesh(shown)?;
     args.method.only_for_rows()?;
-    let find =
-        |stage: &Stage| noise_or_reason(noise::mesh(&source.mesh, common.seed, stage).and_then(Noise::even));
-    Ok(Some(args.shared.found(common.progress, find)?))
+    let mut own = None;
+    let find = |stage: &Stage| {
+        let found = noise::mesh(&source.mesh, common.seed, stage);
+        own = found.as_ref().ok().copied();
+        noise_or_reason(found.and_then(Noise::even))
+    };
+    let told = args.shared.found(common.progress, find)?;
+    Ok((own.or(told.as_ref().ok().copied()), Some(told)))
 }
 
 fn run(args: &SectionArgs, common: &Common) -> anyhow::Result<Outcome> {
@@ -171,12 +176,11 @@ fn run(args: &SectionArgs, common: &Common) -> anyhow::Result<Outcome> {
         read::open(&args.input, Role::Measured, &args.file.reading())?;
     let shown = args.input.display();
     let planes = args.planes.planes()?;
-    let noise = mesh_noise(args, common, &body, &shown.to_string())?;
+    let (known, noise) = mesh_noise(args, common, &body, &shown.to_string())?;
     let stage = Stage::new(common.progress, "finding segments", STEPS, None);
     let mut methods = None;
     let found = match body {
         Body::Mesh(source) => {
-            let known = noise.as_ref().and_then(|found| found.as_ref().ok().copied());
             planes::mesh(&source.mesh, known, &planes, &options, &stage)
         }
         Body::Points(source) => {

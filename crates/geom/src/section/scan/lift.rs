@@ -21,6 +21,10 @@ const INSIDE: f64 = 0.3;
 /// Vertices farther off than so many edge lengths are of other faces.
 const FARTHEST_OFF: f64 = 3.0;
 
+/// An edge lies within a surface that its mesh tells by no more than this share of its length: by an eighth of it for each radian that facets turn
+/// along it. More is told by vertices that do not determine the surface.
+const DEEPEST: f64 = 0.25;
+
 /// Lengths along a line or arc, and distances to the left of it.
 struct Course<'a> {
     part: &'a Part,
@@ -165,6 +169,9 @@ fn lifted(
     let t = if b[2] == a[2] { 0.5 } else { (-a[2] / (b[2] - a[2])).clamp(0.0, 1.0) };
     let chord = course.local([0, 1].map(|k| from[k] + t * (to[k] - from[k])));
     let lift = height(chord[0], 0.0) - chord[1];
+    if lift.abs() > DEEPEST * length {
+        return point;
+    }
     course.place([here[0], here[1] + lift])
 }
 

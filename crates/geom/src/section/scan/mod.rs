@@ -64,6 +64,10 @@ impl ScanRow {
         }
         let scatter = weights::scatter(cut, chain);
         let points = smoother(lift::on_surface(cut, chain, frame, &crossings, closed), &crossings, closed);
+        if cut.is_free_form {
+            let kept = (0..points.len()).collect();
+            return ScanRow { kept, points, weights: scatter.weights, noise: None };
+        }
         let lifts = points.iter().zip(&crossings).map(|(p, q)| (p[0] - q[0]).powi(2) + (p[1] - q[1]).powi(2));
         let lost = LOST * (lifts.sum::<f64>() / points.len() as f64).sqrt();
         let count: f64 = scatter.weights.iter().sum();
