@@ -3,8 +3,6 @@
 use crate::fit::Scatter;
 use crate::space::{Point, dot, minus, norm};
 
-/// Points of a patch. Its radius is then eight spacings: noise that neighbors of three rings share reaches over six.
-pub(super) const POINTS: usize = 200;
 /// Degree of the polynomial, and its coefficients. With the quadratic one a cylinder of ten spacings radius has a third more noise than it has.
 const DEGREE: usize = 4;
 const TERMS: usize = (DEGREE + 1) * (DEGREE + 2) / 2;
@@ -42,10 +40,10 @@ pub(super) fn middle(bin: usize) -> f64 {
 }
 
 impl Moments {
-    /// Those of a patch whose first point is the center; `None` where it has fewer than [`POINTS`] points or they lie on a line.
+    /// Those of a patch whose first point is the center; `None` where it has fewer than `size` points or they lie on a line.
     /// `heights` are the places' distances from a surface; without them, those over the plane of the patch.
-    pub(super) fn of(places: &[Point], heights: Option<&[f64]>) -> Option<Moments> {
-        if places.len() < POINTS {
+    pub(super) fn of(places: &[Point], heights: Option<&[f64]>, size: usize) -> Option<Moments> {
+        if places.len() < size {
             return None;
         }
         let spacing = spacing(places)?;
@@ -222,8 +220,8 @@ mod tests {
     fn expected_sums_are_traces() {
         let mut random = Random::new(3);
         let places: Vec<Point> =
-            (0..POINTS).map(|_| [random.unit(), random.unit(), 0.1 * random.unit()]).collect();
-        let all = Moments::of(&places, None).unwrap();
+            (0..200).map(|_| [random.unit(), random.unit(), 0.1 * random.unit()]).collect();
+        let all = Moments::of(&places, None, places.len()).unwrap();
         let (rows, _) = polynomial(&places).unwrap();
         let n = places.len();
         let projection = |i: usize, j: usize| f64::from(u8::from(i == j)) - inner(&rows[i], &rows[j]);

@@ -1,6 +1,5 @@
 //! Patches: the points around a point.
 
-use super::moments::POINTS;
 use super::terms::NoNoise;
 use crate::mesh::Mesh;
 use crate::parallel::prelude::*;
@@ -10,8 +9,8 @@ use std::collections::BTreeSet;
 
 /// What knows the neighbors of points.
 pub(super) trait Around: Sync {
-    /// At most [`POINTS`] points around `center`, which comes first.
-    fn patch(&self, center: u32) -> Vec<u32>;
+    /// At most `size` points around `center`, which comes first.
+    fn patch(&self, center: u32, size: usize) -> Vec<u32>;
 }
 
 /// Vertices of a mesh, neighbors through edges.
@@ -40,12 +39,12 @@ impl OnMesh {
 
 impl Around for OnMesh {
     /// Ring by ring.
-    fn patch(&self, center: u32) -> Vec<u32> {
+    fn patch(&self, center: u32, size: usize) -> Vec<u32> {
         let (mut found, mut seen) = (vec![center], BTreeSet::from([center]));
         let mut next = 0;
-        while next < found.len() && found.len() < POINTS {
+        while next < found.len() && found.len() < size {
             for &v in self.beside(found[next]) {
-                if found.len() < POINTS && seen.insert(v) {
+                if found.len() < size && seen.insert(v) {
                     found.push(v);
                 }
             }
@@ -63,17 +62,17 @@ pub(super) struct InCloud<'a> {
 }
 
 impl Around for InCloud<'_> {
-    fn patch(&self, center: u32) -> Vec<u32> {
+    fn patch(&self, center: u32, size: usize) -> Vec<u32> {
         let middle = self.points[center as usize];
-        let mut near: Vec<(f64, u32)> = Vec::with_capacity(POINTS + 1);
+        let mut near: Vec<(f64, u32)> = Vec::with_capacity(size + 1);
         let mut farthest = f64::INFINITY;
         for &i in self.counted {
             let away = minus(self.points[i as usize], middle);
             let square = dot(away, away);
             if square < farthest {
                 near.insert(near.partition_point(|n| n.0 <= square), (square, i));
-                near.truncate(POINTS);
-                farthest = near.get(POINTS - 1).map_or(f64::INFINITY, |n| n.0);
+                near.truncate(size);
+                farthest = near.get(size - 1).map_or(f64::INFINITY, |n| n.0);
             }
         }
         near.into_iter().map(|n| n.1).collect()

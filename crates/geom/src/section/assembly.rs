@@ -67,21 +67,34 @@ impl Joined {
         self.astray(astray);
     }
 
-    /// Segments that leave their points for a while are astray too, at an end for the most part: so many of these after another lie
-    /// farther off to one side, in the mean, than so many standard deviations of the noise, as chance makes one of 10^15.
+    /// Segments that leave their points for a while are astray too, at an end for the most part: points after another that tell as much as so
+    /// many independent ones lie farther off to one side, in the mean, than so many standard deviations of the noise, as chance makes one
+    /// of 10^15.
     pub(super) fn leaving(&mut self, weights: &[f64]) {
-        const RUN: usize = 4;
+        const RUN: f64 = 4.0;
         const BEYOND: f64 = 4.0;
         /// What is below this share of the distance between points leaves nothing.
         const NOTHING: f64 = 0.005;
         let contour = &self.contour;
-        let counted: Vec<usize> = (0..weights.len()).filter(|i| weights[*i] > 0.0).collect();
         let most = BEYOND * contour.noise.max(NOTHING * contour.spacing / BEYOND);
-        let leaves = |w: &&[usize]| {
-            let mean = w.iter().map(|i| contour.residuals[*i]).sum::<f64>() / RUN as f64;
-            w.iter().all(|i| contour.labels[*i] == contour.labels[w[0]]) && mean.abs() > most
-        };
-        let astray = counted.windows(RUN).filter(leaves).map(|w| contour.labels[w[0]] as usize).collect();
+        let mut astray = vec![];
+        // The sums over the window that ends before a point; windows lie in one segment.
+        let (mut first, mut weight, mut sum) = (0, 0.0, 0.0);
+        for i in 0..weights.len() {
+            if contour.labels[i] != contour.labels[first] {
+                (first, weight, sum) = (i, 0.0, 0.0);
+            }
+            weight += weights[i];
+            sum += weights[i] * contour.residuals[i];
+            while weight - weights[first] >= RUN {
+                weight -= weights[first];
+                sum -= weights[first] * contour.residuals[first];
+                first += 1;
+            }
+            if weight >= RUN && sum.abs() > most * weight {
+                astray.push(contour.labels[i] as usize);
+            }
+        }
         self.astray(astray);
     }
 

@@ -8,9 +8,9 @@ use super::corners::{Corners, is_round};
 use super::crossings::crossings_with_loops;
 use super::direction::from_the_end;
 use super::exact::missed;
+use super::free_row::free_form;
 use super::levels::{MARGIN, SAME, Start, hidden};
 use super::plan::{Chains, Plan, RESOLUTION};
-use super::free_row::free_form;
 use super::prior::{Known, Prior};
 use super::resolved::{Among, misses, resolved};
 use super::result::{Continuity, Contour, Join, Options, SectionError, Taken};
@@ -22,7 +22,6 @@ use super::vertices::vertices;
 use super::without::Searched;
 use crate::num::special::student_quantile;
 use crate::progress::Progress;
-use std::cell::Cell;
 
 /// Parts are searched whose chains cost no more than so much above the cheapest found: a search takes off some pieces, hardly more.
 const FAR: f64 = 20.0;
@@ -102,43 +101,31 @@ fn either_way(
     let priors = [*prior, Prior { weights: back.as_deref(), ..*prior }];
     let rows = [(points, &priors[0]), (&turned[..], &priors[1])];
     let ways = if backward { [rows[1], rows[0]] } else { rows };
-    if prior.is_free_form
+    if let Some(form) = prior.free_form
         && Known::given(options).is_none()
         && options.continuity.is_none()
-        && let Some(found) = free_form(ways[0].0, options)?
+        && let Some(found) = free_form(ways[0].0, form, options)?
     {
         let found = if backward { found.turned_round(points) } else { found };
         return with_crossings(found, points, progress);
     }
-    let (hasty, again) = (Cell::new(false), Cell::new(false));
     let budget = &Budget::new(products);
-    let mut found = in_order(ways[0], options, budget, Some(&hasty), progress);
-    let mut is_backward = backward;
-    // What takes long from one end may be short from the other.
-    if hasty.get() && !matches!(found, Err(SectionError::Cancelled(_))) {
-        found = in_order(ways[1], options, budget, Some(&again), progress);
-        match again.get() {
-            true => found = in_order(ways[0], options, budget, None, progress),
-            false => is_backward = !backward,
-        }
-    }
+    let mut best = in_order(ways[0], options, budget, progress).map(|found| (found, backward));
     // A search that ended badly may end well from the other end.
-    let doubtful =
-        |found: &Contour| !hasty.get() && is_doubtful(found, points, prior) && !budget.is_spent(0.0);
-    if found.as_ref().map_or_else(|e| *e == SectionError::Astray, doubtful) {
-        let other = match in_order(ways[1], options, budget, None, progress) {
-            Err(SectionError::Cancelled(e)) => return Err(e.into()),
-            other => other,
+    let is_bad = match &best {
+        Ok((found, _)) => is_doubtful(found, points, prior),
+        Err(e) => *e == SectionError::Astray,
+    };
+    if is_bad && !budget.is_spent(0.0) {
+        let other = in_order(ways[1], options, budget, progress).map(|found| (found, !backward));
+        best = match (best, other) {
+            (_, Err(SectionError::Cancelled(e))) => return Err(e.into()),
+            (Ok(a), Ok(b)) if rank(&b.0, points.len()) < rank(&a.0, points.len()) => Ok(b),
+            (Err(_), other) => other,
+            (best, _) => best,
         };
-        let cheaper = match (&found, &other) {
-            (Ok(found), Ok(other)) => rank(other, points.len()) < rank(found, points.len()),
-            (_, other) => other.is_ok(),
-        };
-        if cheaper {
-            (found, is_backward) = (other, !backward);
-        }
     }
-    let found = found?;
+    let (found, is_backward) = best?;
     let mut found = if is_backward { found.turned_round(points) } else { found };
     found.cut_short = budget.was_cut_short();
     with_crossings(found, points, progress)
@@ -186,10 +173,9 @@ fn in_order(
     (points, prior): (&[[f64; 2]], &Prior),
     options: &Options,
     budget: &Budget,
-    hasty: Option<&Cell<bool>>,
     progress: &dyn Progress,
 ) -> Result<Contour, SectionError> {
-    let found = searched(points, prior, options, budget, hasty, progress);
+    let found = searched(points, prior, options, budget, progress);
     let free = prior.noise.is_none() && options.continuity.is_none() && options.resolution.is_none();
     // Points put in order, of a cloud or a scan, are none that somebody chose.
     let is_given = !options.ordered && matches!(found, Ok(_) | Err(SectionError::Astray));
@@ -200,21 +186,18 @@ fn in_order(
     let noise = corners.off_a_circle(found.as_ref());
     let options = &Options { noise, ..*options };
     let circle = match noise {
-        Some(_) => {
-            searched(points, &Prior::of(options), options, budget, None, progress).ok().filter(is_round)
-        }
+        Some(_) => searched(points, &Prior::of(options), options, budget, progress).ok().filter(is_round),
         None => None,
     };
     Ok(corners.or(circle.or(found), options))
 }
 
-/// The contour that the search finds; `budget` and `hasty` as of the search.
+/// The contour that the search finds.
 fn searched(
     points: &[[f64; 2]],
     prior: &Prior,
     options: &Options,
     budget: &Budget,
-    hasty: Option<&Cell<bool>>,
     progress: &dyn Progress,
 ) -> Result<Contour, SectionError> {
     let clean = Clean::new(points, options)?;
@@ -233,11 +216,7 @@ fn searched(
     if free && let Some(found) = resolved(&start, options, Among::Rows) {
         return Ok(found.whole(points.len()));
     }
-    let mut chains = Plan { hasty, ..start.plan(options, budget) }.chains(&start.parts, progress)?;
-    if hasty.is_some_and(Cell::get) {
-        // It is of no use.
-        return Err(SectionError::Astray);
-    }
+    let mut chains = start.plan(options, budget).chains(&start.parts, progress)?;
     let fine = start.fine();
     let mut finer = start.finer(options, fine, &chains.founds);
     while let Some(other) = finer.pop_front().filter(|_| !budget.is_spent(0.0)) {

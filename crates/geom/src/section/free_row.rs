@@ -9,8 +9,8 @@
 use super::assembly::Joined;
 use super::chain::SegmentKind;
 use super::plan::RESOLUTION;
-use super::row::Clean;
 use super::result::{Contour, Geometry, Options, SectionError, Segment};
+use super::row::Clean;
 use super::start::{FreeCost, Penalty, kinds_with_free, noise};
 use crate::num::banded::Banded;
 use crate::progress::Silent;
@@ -30,6 +30,8 @@ const HALVED: usize = 8;
 const MORE: f64 = 2.0;
 /// Fewer points to a line or arc, and less than half of a row, do not tell it from a bend of the form.
 const LONG: usize = 32;
+/// A bend of a form is no line and no arc to less than this share of what its surface departs from smooth ones by.
+const LEAST: f64 = 0.1;
 /// Of the parts of a free form one in so many is a line or an arc.
 const RARE: f64 = 1e4;
 /// Unknowns of a line, an arc and one more free curve, their joins counted.
@@ -138,7 +140,8 @@ impl Row<'_> {
         if spare <= 0.0 {
             return f64::INFINITY;
         }
-        self.count * libm::log(sum / self.count + self.least * self.least) + 2.0 * unknowns * self.count / spare
+        self.count * libm::log(sum / self.count + self.least * self.least)
+            + 2.0 * unknowns * self.count / spare
     }
 
     /// The distances from a curve, and the feet one step nearer.
@@ -218,12 +221,16 @@ impl Row<'_> {
     }
 }
 
-/// The contour of a row of a free form; `None` where lines and arcs are a part of it, or where its points are too few or scatter by more than
+/// The contour of a row of a free form, whose surface departs from smooth ones by `form`; `None` where lines and arcs are a part of it, or where its points are too few or scatter by more than
 /// they are apart.
 ///
 /// # Errors
 /// Those of the row.
-pub(super) fn free_form(points: &[[f64; 2]], options: &Options) -> Result<Option<Contour>, SectionError> {
+pub(super) fn free_form(
+    points: &[[f64; 2]],
+    form: f64,
+    options: &Options,
+) -> Result<Option<Contour>, SectionError> {
     let mut clean = Clean::new(points, options)?;
     let (noise, step) = noise(&clean.points, clean.closed);
     if step > 1 || clean.points.len() < EACH * FEWEST {
@@ -232,7 +239,7 @@ pub(super) fn free_form(points: &[[f64; 2]], options: &Options) -> Result<Option
     let outliers = clean.outliers(noise.max(clean.rounding), step);
     clean.bring_in(&outliers);
     let row = Row::new(&clean, &outliers);
-    let Some(found) = row.cheapest().filter(|f| f.is_all(&row)) else { return Ok(None) };
+    let Some(found) = row.cheapest().filter(|f| f.is_all(&row, form)) else { return Ok(None) };
     let mut found = found.joined(&row, &clean);
     found.finish(&clean, 0, points.len(), outliers);
     Ok(Some(found.contour))
@@ -251,8 +258,8 @@ impl FreeCurve {
     }
 
     /// Whether no line and no arc is a part of the row.
-    fn is_all(&self, row: &Row) -> bool {
-        let noise = self.noise(row);
+    fn is_all(&self, row: &Row, form: f64) -> bool {
+        let noise = self.noise(row).max(LEAST * form);
         let mut before = vec![0.0];
         for w in self.limits.windows(2) {
             for i in w[0]..w[1] {
@@ -265,7 +272,8 @@ impl FreeCurve {
         let places = row.points.len();
         let fewest = LONG.min(places / 2);
         let penalty = Penalty { line: line + rare, arc: arc + rare, noise, fewest, places };
-        kinds_with_free(row.points, &row.weights, &penalty, &FreeCost { each, before }) == [SegmentKind::Spline]
+        kinds_with_free(row.points, &row.weights, &penalty, &FreeCost { each, before })
+            == [SegmentKind::Spline]
     }
 
     fn joined(self, row: &Row, clean: &Clean) -> Joined {
@@ -288,7 +296,8 @@ impl FreeCurve {
         }
         let bend = [from, to].map(|t| part.curvature(t).unwrap_or(0.0));
         let places = [part.at(from), part.at(to)];
-        let mut segment = Segment::bare(Geometry::Spline { curve: part, deviation: 0.0 }, places, length, bend);
+        let mut segment =
+            Segment::bare(Geometry::Spline { curve: part, deviation: 0.0 }, places, length, bend);
         segment.count = off().count();
         segment.rms = (off().map(|r| r * r).sum::<f64>() / segment.count.max(1) as f64).sqrt();
         segment.max = off().fold(0.0, |m, r| m.max(r.abs()));

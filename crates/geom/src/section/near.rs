@@ -111,7 +111,6 @@ impl Near {
             criterion,
             work: Work::default(),
             budget: whole.budget,
-            hasty: None,
             until: f64::INFINITY,
             ..*whole
         }

@@ -12,7 +12,6 @@ use super::span::{Found, single};
 use super::start::{Part, shares};
 use super::task::{Span, Task};
 use crate::progress::Progress;
-use std::cell::Cell;
 use std::collections::VecDeque;
 use std::ops::Range;
 
@@ -42,9 +41,8 @@ pub(super) struct Plan<'a> {
     pub tangent: bool,
     /// The chains of the parts as they are, without any search.
     pub draft: bool,
-    /// As of the search, both.
+    /// As of the search.
     pub budget: &'a Budget,
-    pub hasty: Option<&'a Cell<bool>>,
 }
 
 /// Chains in the order of the row.
@@ -71,7 +69,6 @@ impl Start {
             tangent: self.tangent,
             draft: false,
             budget,
-            hasty: None,
         }
     }
 }
@@ -207,7 +204,6 @@ impl Plan<'_> {
             known: self.known,
             draft: self.draft,
             budget: self.budget,
-            hasty: self.hasty,
         }
     }
 

@@ -25,8 +25,8 @@ pub(super) struct Prior<'a> {
     pub noise: Option<Known>,
     /// How many independent points each tells as much as; all count 1 where it is not told.
     pub weights: Option<&'a [f64]>,
-    /// They are those of a form that hardly has lines and arcs.
-    pub is_free_form: bool,
+    /// Standard deviation of a form that hardly has lines and arcs from smooth surfaces, where theirs is one.
+    pub free_form: Option<f64>,
 }
 
 impl Prior<'_> {

@@ -361,7 +361,6 @@ mod tests {
             kinds: [true; 2],
             even: false,
             budget: &Budget::new(f64::INFINITY),
-            hasty: None,
             shortest: 1.0,
             until: f64::INFINITY,
         };

@@ -8,7 +8,6 @@ use super::criterion::{Criterion, Model, Plan, Unknowns};
 use super::free;
 use super::least::{Row, State, Stop, Work};
 use crate::progress::{Cancelled, Progress};
-use std::cell::Cell;
 
 /// A model that is dearer than the best by this much after four steps is not refined.
 const COST_TO_DROP: f64 = 30.0;
@@ -34,8 +33,6 @@ pub(super) struct Search<'a> {
     pub even: bool,
     /// Products that all searches of a contour may take from now on, those of this one when it ends.
     pub budget: &'a Budget,
-    /// Set where the search is given up because it takes long from this end of the row; `None`: it is not given up.
-    pub hasty: Option<&'a Cell<bool>>,
     /// Least length of a piece, in distances between points.
     pub shortest: f64,
     /// Products after which a search ends.

@@ -41,9 +41,8 @@ impl Search<'_> {
     ) -> Result<Model, Cancelled> {
         let plain = self.plain(parts, closed);
         let first = self.cheapest(plain.clone(), parts, closed);
-        let lost = first.state.chain.pieces.len() >= MANY && !self.is_near(&first.state);
         let Some(smooth) = self.smooth(&plain, first.cost) else {
-            return if self.gives_up(lost) { Ok(first) } else { self.run(first, progress) };
+            return self.run(first, progress);
         };
         let found = self.run(smooth, progress)?;
         // Joins of several free pieces are where the start put them. One that follows the row stays, where its distances are not
@@ -63,18 +62,11 @@ impl Search<'_> {
             && !self.is_near(&first.state)
             && self.row.points.len() >= ENOUGH * parts.len()
             && first.cost < found.cost + FAR;
-        if !hopeful && (self.is_near(&found.state) || self.gives_up(lost)) {
+        if !hopeful && self.is_near(&found.state) {
             return Ok(found);
         }
         let other = self.run(first, progress)?;
         Ok(if found.cost < other.cost { found } else { other })
-    }
-
-    /// Whether many lines and arcs far off the points, which free pieces do not follow either, are left to a search from the row's other
-    /// end.
-    fn gives_up(&self, lost: bool) -> bool {
-        let left = self.hasty.filter(|_| lost);
-        left.inspect(|hasty| hasty.set(true)).is_some()
     }
 
     /// One of the lines and arcs between two free pieces, where that is cheapest: the longest and those that turn most are tried. An

@@ -399,13 +399,7 @@ impl Penalty {
 }
 
 /// The parts of a partition, with gaps of up to so many points between them; with parts of a free curve where there is one.
-fn cheapest(
-    sums: &Sums,
-    n: usize,
-    penalty: &Penalty,
-    gap: usize,
-    free: Option<&FreeCost>,
-) -> Vec<Stretch> {
+fn cheapest(sums: &Sums, n: usize, penalty: &Penalty, gap: usize, free: Option<&FreeCost>) -> Vec<Stretch> {
     let stride = penalty.stride(n);
     let last = n / stride;
     let index = |k: usize| if k == last { n } else { k * stride };

@@ -4,7 +4,6 @@ use super::budget::Budget;
 use super::criterion::Criterion;
 use super::least::{Row, Work};
 use super::search::Search;
-use std::cell::Cell;
 
 /// Least length of a piece that is known, in distances between points.
 const KNOWN: f64 = 0.1;
@@ -33,9 +32,8 @@ pub(super) struct Task<'a> {
     pub level: f64,
     /// The pieces are those of the parts: nothing is searched.
     pub known: bool,
-    /// As of the search, both.
+    /// As of the search.
     pub budget: &'a Budget,
-    pub hasty: Option<&'a Cell<bool>>,
     /// The pieces are those of the parts, refined together: neither others nor intervals are looked for.
     pub draft: bool,
 }
@@ -64,7 +62,6 @@ impl Span {
             kinds,
             even: task.even,
             budget: task.budget,
-            hasty: task.hasty,
             shortest: if task.known { KNOWN } else { 2.0 * task.step as f64 },
             until: f64::INFINITY,
         }

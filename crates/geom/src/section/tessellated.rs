@@ -12,6 +12,7 @@ use super::row::check;
 use super::scan::{CutMesh, ScanRow};
 use super::sheet::{Sheet, nearest, starts};
 use crate::progress::Progress;
+use std::cell::OnceCell;
 
 /// A polyline of fewer vertices is taken as it is: points so few tell no noise.
 const FEW: usize = 9;
@@ -55,21 +56,26 @@ pub fn chain_contour(
     let closed = options.closed.unwrap_or(chain.closed);
     let polygon = Polygon::new(&points, closed, rounding);
     let forced = options.noise.is_some() || options.continuity.is_some();
+    let scan = OnceCell::new();
+    let as_scan = || ScanRow::of(mesh, chain, frame, closed);
     if polygon.at.len() >= 2 && !forced {
         let items = polygon.items(rounding);
         if is_exact(&points, &polygon, &items, rounding)
-            && !is_remeshed(&points, &polygon, &items, mesh.scatters())
+            && !is_remeshed(&points, &polygon, &items, mesh.scatters)
+            && !(mesh.is_quiet()
+                && is_even(&points)
+                && scan.get_or_init(as_scan).is_smoother_than(&points, &polygon.numbers, closed))
         {
             return Sheet { points: &points, polygon, rounding, options }.contour(&items, progress);
         }
     }
-    let ScanRow { kept, points: row, weights, noise } = ScanRow::of(mesh, chain, frame, closed);
+    let ScanRow { kept, points: row, weights, noise } = scan.into_inner().unwrap_or_else(as_scan);
     let own = Options { closed: Some(closed), ordered: true, ..*options };
     let mut places = points.clone();
     kept.iter().zip(&row).for_each(|(i, p)| places[*i] = *p);
-    let is_free_form = mesh.is_free_form;
+    let free_form = mesh.free_form;
     let find = |noise: Option<Known>| {
-        let found = contour_with(&row, &Prior { noise, weights: Some(&weights), is_free_form }, &own, progress)?;
+        let found = contour_with(&row, &Prior { noise, weights: Some(&weights), free_form }, &own, progress)?;
         let found = Contour { moved: places.clone(), ..found };
         Ok(within_facets(spread(found, &kept, noise, &places), &points))
     };
@@ -77,9 +83,10 @@ pub fn chain_contour(
     let first = find(known);
     // Where the noise of the whole mesh is not that of the section, this tells its own.
     let astray = first.as_ref().map_or(0, |c| c.astray.len());
-    let found = match options.noise.is_none() && known.is_some() && astray > 0 {
+    let most = HIDDEN * known.map_or(0.0, |n| n.deviation);
+    let found = match options.noise.is_none() && mesh.scatters && known.is_some() && astray > 0 {
         true => match find(None) {
-            Ok(other) if other.astray.len() <= astray => Ok(other),
+            Ok(other) if other.astray.len() <= astray && other.noise <= most => Ok(other),
             Err(SectionError::Cancelled(e)) => Err(e.into()),
             _ => first,
         },
@@ -129,9 +136,15 @@ fn is_remeshed(points: &[[f64; 2]], polygon: &Polygon, items: &[Item], scatters:
             short += 1;
         }
     }
-    let is_even = sizes[NEARLY * (sizes.len() - 1) / 100] <= EVEN * middle;
     let is_flat = flat as f64 >= EXACT * n as f64 && short > chords;
-    n >= 3 * FEW && is_even && (is_flat || scatters && n < EACH * items.len())
+    n >= 3 * FEW && (scatters && n < EACH * items.len() || is_flat && is_even(points))
+}
+
+/// Whether a plane cuts the facets at even distances, as those of a mesh of a surface.
+fn is_even(points: &[[f64; 2]]) -> bool {
+    let mut sizes: Vec<f64> = points.windows(2).map(|w| length(w[0], w[1])).collect();
+    sizes.sort_by(f64::total_cmp);
+    sizes[NEARLY * (sizes.len() - 1) / 100] <= EVEN * sizes[sizes.len() / 2]
 }
 
 /// Noises of the points that a contour was found from, beyond which others lie off it: the contour does not run there.
@@ -218,7 +231,7 @@ fn spread(found: Contour, kept: &[usize], known: Option<Known>, points: &[[f64; 
         segment.max = segment.max.max(off.abs());
     }
     all.segments.iter_mut().for_each(|s| s.rms = (s.rms / s.count.max(1) as f64).sqrt());
-    let noise = known.map_or(all.noise, |n| all.noise.min(HIDDEN * n.deviation));
+    let noise = known.map_or(all.noise, |n| all.noise.clamp(n.deviation, HIDDEN * n.deviation));
     let most = MISSED * noise;
     let scattered = |s: &Segment| s.count >= SCATTERED.0 && s.rms > SCATTERED.1 * noise;
     let far = all.segments.iter().enumerate().filter(|(_, s)| s.max > most || scattered(s));

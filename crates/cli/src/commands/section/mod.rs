@@ -180,9 +180,7 @@ fn run(args: &SectionArgs, common: &Common) -> anyhow::Result<Outcome> {
     let stage = Stage::new(common.progress, "finding segments", STEPS, None);
     let mut methods = None;
     let found = match body {
-        Body::Mesh(source) => {
-            planes::mesh(&source.mesh, known, &planes, &options, &stage)
-        }
+        Body::Mesh(source) => planes::mesh(&source.mesh, known, &planes, &options, &stage),
         Body::Points(source) => {
             let points = read::all_points(&args.input, source)?;
             read::describe(&mut record, &points);

@@ -37,8 +37,9 @@ const FEWEST_CROSSINGS: usize = 4;
 /// Crossings in succession that a corner may take from the mesh: edges of facets that pass it by.
 const BEVEL: usize = 4;
 
-/// Of the ways by which crossings are moved this share may be lost.
-const LOST: f64 = 0.03;
+/// Of the ways by which crossings are moved this share may be lost; it is taken of one longer than so many percent.
+const LOST: f64 = 0.08;
+const DEEP: usize = 95;
 /// What lies beside the end of a part, no farther off than so many standard deviations, belongs to it.
 const WITHIN: f64 = 2.5;
 
@@ -52,6 +53,18 @@ fn smoother(moved: Vec<[f64; 2]>, crossings: &[[f64; 2]], closed: bool) -> Vec<[
 }
 
 impl ScanRow {
+    /// Whether the crossings with these numbers, moved onto the surface, scatter less than where they are, `at`: that the surface lies
+    /// beyond the chords, those of a drawing would not tell.
+    pub fn is_smoother_than(&self, at: &[[f64; 2]], numbers: &[usize], closed: bool) -> bool {
+        let mut moved = at.to_vec();
+        self.kept.iter().zip(&self.points).for_each(|(i, p)| moved[*i] = *p);
+        let [there, here] = [&moved[..], at].map(|all| {
+            let own: Vec<[f64; 2]> = numbers.iter().map(|i| all[*i]).collect();
+            noise(&own, closed).0
+        });
+        here > ROUGHER * there
+    }
+
     /// The crossings of a chain, with these places in the plane.
     pub fn of(cut: &CutMesh, chain: &Chain, frame: &PlaneFrame, closed: bool) -> ScanRow {
         let crossings: Vec<[f64; 2]> = chain.points.iter().map(|p| frame.flat(*p)).collect();
@@ -64,12 +77,14 @@ impl ScanRow {
         }
         let scatter = weights::scatter(cut, chain);
         let points = smoother(lift::on_surface(cut, chain, frame, &crossings, closed), &crossings, closed);
-        if cut.is_free_form {
+        if cut.free_form.is_some() {
             let kept = (0..points.len()).collect();
             return ScanRow { kept, points, weights: scatter.weights, noise: None };
         }
-        let lifts = points.iter().zip(&crossings).map(|(p, q)| (p[0] - q[0]).powi(2) + (p[1] - q[1]).powi(2));
-        let lost = LOST * (lifts.sum::<f64>() / points.len() as f64).sqrt();
+        let mut lifts: Vec<f64> =
+            points.iter().zip(&crossings).map(|(p, q)| libm::hypot(p[0] - q[0], p[1] - q[1])).collect();
+        lifts.sort_by(f64::total_cmp);
+        let lost = LOST * lifts[DEEP * (lifts.len() - 1) / 100];
         let count: f64 = scatter.weights.iter().sum();
         let deviation = cut.noise.map(|n| libm::hypot(n.deviation * scatter.share, lost));
         let level = deviation.unwrap_or_else(|| noise(&points, closed).0.max(lost)).max(cut.rounding());
