@@ -45,6 +45,10 @@ const OFTEN: usize = 2;
 const SIZES: [usize; 2] = [200, 80];
 /// What the smaller ones tell is noise where it differs no more than this from patch to patch: 1.1 on parts, 2.4 and more on free forms.
 const SMALL_UNEVEN: f64 = 1.8;
+/// What is more than this share of the distance between neighbors may be form everywhere alike, as of narrow ribs; noise is no less in smaller
+/// patches than this share of what it is in larger ones.
+const GREAT: f64 = 0.1;
+const LESS: f64 = 0.7;
 /// Fewest patches that the noise is told from: the standard deviation of eight is known to a tenth, with shared noise to a fifth.
 const FEWEST_PATCHES: usize = 8;
 
@@ -111,12 +115,14 @@ fn found(
     };
     let all = Places { points, counted: &counted, around: &*around, distances };
     let wide = all.told(SIZES[0], seed, progress);
-    if matches!(wide, Err(NoNoise::Cancelled(_))) || wide.as_ref().is_ok_and(|n| n.even().is_ok()) {
+    let looks_like_noise = |n: &Noise| n.even().is_ok() && n.deviation <= GREAT * n.spacing;
+    if matches!(wide, Err(NoNoise::Cancelled(_))) || wide.as_ref().is_ok_and(looks_like_noise) {
         return wide;
     }
+    let great = wide.as_ref().map_or(f64::INFINITY, |n| n.deviation);
     match all.told(SIZES[1], seed, progress) {
         Err(NoNoise::Cancelled(e)) => Err(e.into()),
-        Ok(narrow) if narrow.unevenness <= SMALL_UNEVEN => Ok(narrow),
+        Ok(narrow) if narrow.unevenness <= SMALL_UNEVEN && narrow.deviation <= LESS * great => Ok(narrow),
         _ => wide,
     }
 }

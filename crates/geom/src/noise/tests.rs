@@ -208,6 +208,20 @@ fn planted_noise_is_found_with_what_neighbors_share() {
     rates(3);
 }
 
+/// On faces of thirteen spacings' width all large patches reach over edges, and what they tell is form: small ones tell the noise.
+#[test]
+fn narrow_faces_have_their_noise_from_small_patches() {
+    for rounds in 0..2 {
+        for seed in 0..4 {
+            let (scan, shared) = scan(Form::Folded(13.0), rounds, 71, seed);
+            let found = mesh(&scan, seed, &Silent).unwrap();
+            let [deviation, shared] = ratios(&found, shared);
+            println!("{rounds} rounds: {deviation:.2} {shared:.2} {found:?}");
+            assert!((deviation - 1.0).abs() < 0.25 && (shared - 1.0).abs() < 0.35, "{deviation} {shared}");
+        }
+    }
+}
+
 /// Of a plane without noise the deviation is 0, a number.
 #[test]
 fn what_has_no_noise_has_the_deviation_0() {

@@ -163,5 +163,13 @@ mod tests {
         // Of two segments neither leaves its points for so long.
         assert_eq!(row(&[0.01, -0.01, 0.05, 0.05, 0.05, 0.05]), [0; 0]);
         assert_eq!(row(&[0.03; 8]), [0; 0]);
+        // Points that share noise leave it together by chance: four that count as one are no more than one.
+        let mut all = Joined::default();
+        all.contour = Contour { labels: vec![0; 40], noise: 0.01, spacing: 0.5, ..Contour::default() };
+        all.contour.residuals = (0..40).map(|i| if (20..24).contains(&i) { 0.05 } else { 0.0 }).collect();
+        all.leaving(&[0.25; 40]);
+        assert!(all.contour.astray.is_empty());
+        all.leaving(&[1.0; 40]);
+        assert_eq!(all.contour.astray, [0]);
     }
 }

@@ -28,6 +28,7 @@
 //! | `chords` | its chord by each of the usual definitions |
 //! | `crossings` | places where a contour crosses itself |
 //! | `joined` | outlines of the segments of a drawing |
+//! | `free_row` | rows of free forms, as one curve |
 //! | `nominal` | distances from the section of a nominal |
 //! | `onto` | the best fit onto that |
 //! | `tidy` | relations and whole numbers that the points allow, as offers |

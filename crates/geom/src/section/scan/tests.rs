@@ -144,6 +144,32 @@ fn weights_tell_how_uncertain_the_mean_is() {
     }
 }
 
+/// Flat places without noise tell that a mesh has none, whatever its patches tell; noise of ten roundings leaves none of them.
+#[test]
+fn flats_tell_that_there_is_no_noise() {
+    let random = &mut Random::new(12);
+    // A sheet of waves half, and flat half.
+    let wave = |a: f64| if a < 100.0 { 3.0 * libm::sin(a / 2.0) } else { 0.0 };
+    let sheet = band(200, 40, false, 0.5, random, |a, z| [a, wave(a), z - 20.0]);
+    let told = |mesh: &Mesh| {
+        let noise = crate::noise::mesh(mesh, 0, &Silent).ok();
+        let cut = CutMesh::new(mesh, noise);
+        (cut.scatters, cut.free_form)
+    };
+    assert_eq!(told(&sheet), (false, None));
+    let rounding = CutMesh::new(&sheet, None).rounding();
+    let (scatters, _) = told(&noisy(&sheet, 0, 10.0 * rounding, random, |_| [0.0, 1.0, 0.0]));
+    assert!(scatters);
+    // Waves of some facets each, all over, are a free form.
+    let body = band(200, 40, false, 0.5, random, |a, z| {
+        let swell = (0.1 + libm::sin(a / 50.0).powi(2)) * (0.1 + libm::sin(z / 15.0).powi(2));
+        [a, 2.0 * swell * libm::sin(a / 2.0 + 0.3 * z) * libm::sin(z / 2.0), z - 20.0]
+    });
+    println!("{:?}", crate::noise::mesh(&body, 0, &Silent));
+    let (_, form) = told(&body);
+    assert!(form.is_some_and(|form| form > 0.1), "{form:?}");
+}
+
 fn radius_of(mesh: &Mesh, plane: &Plane) -> (f64, f64, Contour) {
     let noise = crate::noise::mesh(mesh, 0, &Silent).ok();
     let chain = &cut(mesh, plane, &Silent).unwrap()[0];
