@@ -164,9 +164,9 @@ mod tests {
         assert_eq!(row(&[0.01, -0.01, 0.05, 0.05, 0.05, 0.05]), [0; 0]);
         assert_eq!(row(&[0.03; 8]), [0; 0]);
         // Points that share noise leave it together by chance: four that count as one are no more than one.
-        let mut all = Joined::default();
-        all.contour = Contour { labels: vec![0; 40], noise: 0.01, spacing: 0.5, ..Contour::default() };
-        all.contour.residuals = (0..40).map(|i| if (20..24).contains(&i) { 0.05 } else { 0.0 }).collect();
+        let residuals = (0..40).map(|i| if (20..24).contains(&i) { 0.05 } else { 0.0 }).collect();
+        let (labels, noise) = (vec![0; 40], 0.01);
+        let mut all = Joined::of(Contour { labels, residuals, noise, spacing: 0.5, ..Contour::default() });
         all.leaving(&[0.25; 40]);
         assert!(all.contour.astray.is_empty());
         all.leaving(&[1.0; 40]);

@@ -216,11 +216,20 @@ fn chains<'a>(
             places.pop();
         }
         if places.len() > 1 {
+            // Loops begin at their least place, whatever the order of the facets.
+            let least = |a: &(Point, Edge), b: &(Point, Edge)| order(&a.0, &b.0).then(a.1.cmp(&b.1));
+            let first = (0..places.len()).min_by(|i, j| least(&places[*i], &places[*j]));
+            places.rotate_left(first.filter(|_| closed).unwrap_or(0));
             let (points, edges) = places.into_iter().unzip();
             chains.push(Chain { points, edges, closed });
         }
     }
     Ok(chains)
+}
+
+/// The order of places by their coordinates, one after the other.
+fn order(a: &Point, b: &Point) -> std::cmp::Ordering {
+    a.iter().zip(b).map(|(x, y)| x.total_cmp(y)).find(|o| o.is_ne()).unwrap_or(std::cmp::Ordering::Equal)
 }
 
 /// Where the plane cuts an edge, within its box.

@@ -23,9 +23,9 @@ pub(super) fn from_the_end(points: &[[f64; 2]]) -> bool {
 }
 
 impl Contour {
-    /// The contour of the row `points`, found from its last point, as from its first.
-    pub(super) fn turned_round(mut self, points: &[[f64; 2]]) -> Contour {
-        let (n, count) = (points.len(), self.segments.len());
+    /// The contour of a row of so many points given the other way round.
+    pub(super) fn reversed(mut self, n: usize) -> Contour {
+        let count = self.segments.len();
         let whole: f64 = self.segments.iter().map(|s| s.length).sum();
         self.segments = self.segments.into_iter().rev().map(Segment::reversed).collect();
         self.joins = self.joins.into_iter().rev().map(Join::reversed).collect();
@@ -38,20 +38,56 @@ impl Contour {
         self.astray = self.astray.into_iter().rev().map(|s| count - 1 - s).collect();
         self.residuals = self.residuals.into_iter().rev().map(|r| 0.0 - r).collect();
         self.stations = self.stations.into_iter().rev().map(|s| whole - s).collect();
-        self.bevels = self.bevels.into_iter().rev().map(|i| n - 1 - i).collect();
         self.moved.reverse();
+        for list in self.lists_of_points() {
+            list.iter_mut().for_each(|i| *i = n - 1 - *i);
+            list.reverse();
+        }
+        // A gap is known by the point before it.
+        self.gaps.iter_mut().for_each(|i| *i = (2 * n - 2 - *i) % n);
+        self.gaps.sort_unstable();
+        if let Some(first) = self.labels.first().filter(|_| self.closed) {
+            self.begin_with(*first as usize);
+        }
+        self
+    }
+
+    fn lists_of_points(&mut self) -> [&mut Vec<usize>; 5] {
+        [&mut self.outliers, &mut self.bevels, &mut self.repeated, &mut self.doubtful, &mut self.straight_on]
+    }
+
+    /// The contour of the row `points`, found from its last point, as from its first.
+    pub(super) fn turned_round(self, points: &[[f64; 2]]) -> Contour {
         let passed = Passed::of(points, !self.closed);
+        let mut all = self.reversed(points.len());
         // Of points at the same place the first stands for all.
         let first = |i: usize| {
             let of_the_end = passed.ends_meet.is_some_and(|from| i >= from);
             let before = (0..=i).rev().find(|k| *k == 0 || points[*k - 1] != points[i]);
             if of_the_end { 0 } else { before.unwrap_or(i) }
         };
-        self.outliers = self.outliers.into_iter().rev().map(|i| first(n - 1 - i)).collect();
-        self.outliers.sort_unstable();
-        self.gaps = passed.gaps(points);
-        self.repeated = passed.repeated;
-        if let Some(first) = self.labels.first().filter(|_| self.closed) {
+        all.outliers.iter_mut().for_each(|i| *i = first(*i));
+        all.outliers.sort_unstable();
+        all.gaps = passed.gaps(points);
+        all.repeated = passed.repeated;
+        all
+    }
+
+    /// The contour of a closed row that begins so many points later.
+    pub(super) fn begun_later(mut self, by: usize) -> Contour {
+        let n = self.labels.len();
+        self.labels.rotate_left(by);
+        self.residuals.rotate_left(by);
+        self.stations.rotate_left(by);
+        let moved = by.min(self.moved.len());
+        self.moved.rotate_left(moved);
+        for list in self.lists_of_points() {
+            list.iter_mut().for_each(|i| *i = (*i + n - by) % n);
+            list.sort_unstable();
+        }
+        self.gaps.iter_mut().for_each(|i| *i = (*i + n - by) % n);
+        self.gaps.sort_unstable();
+        if let Some(first) = self.labels.first() {
             self.begin_with(*first as usize);
         }
         self

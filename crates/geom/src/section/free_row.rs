@@ -24,6 +24,8 @@ const FEWEST: usize = 6;
 const FINER: f64 = 1.5;
 /// Feet are found anew so many times for a curve that is compared, and for the one that is taken.
 const PASSES: [usize; 2] = [2, 6];
+/// and so many times more on the curve that is taken as it is.
+const SETTLED: usize = 5;
 /// Spans are halved so many times at most.
 const HALVED: usize = 8;
 /// Points of a span lie off more than the noise makes them where they do by so many times its variance.
@@ -217,7 +219,11 @@ impl Row<'_> {
         }
         let even = levels.swap_remove(cheapest);
         let best = best.filter(|b| b.cost < even.cost).unwrap_or(even);
-        self.fit(&best.limits, PASSES[1])
+        let mut found = self.fit(&best.limits, PASSES[1])?;
+        for _ in 0..SETTLED {
+            found = self.seen_from(found.curve, found.feet, &found.limits);
+        }
+        Some(found)
     }
 }
 

@@ -4,6 +4,7 @@
 use super::chain::SegmentKind;
 use super::contour::{contour, contour_with};
 use super::cut::{Chain, PlaneFrame};
+use super::direction::from_the_end;
 use super::exact::off_line;
 use super::facets::{Item, LineOrArc, Polygon, SHARP, length};
 use super::prior::{Known, Prior};
@@ -45,7 +46,6 @@ pub fn chain_contour(
     progress: &dyn Progress,
 ) -> Result<Contour, SectionError> {
     check(options)?;
-    let rounding = mesh.rounding();
     let points: Vec<[f64; 2]> = chain.points.iter().map(|p| frame.flat(*p)).collect();
     if let Some(index) = points.iter().position(|p| p.iter().any(|x| !x.is_finite())) {
         return Err(SectionError::NotFinite { index });
@@ -54,6 +54,35 @@ pub fn chain_contour(
         return Err(SectionError::TooFewPoints { found: points.len() });
     }
     let closed = options.closed.unwrap_or(chain.closed);
+    // One direction, whichever the plane is seen from; a loop begins where it did.
+    let way: Vec<[f64; 2]> =
+        points.iter().copied().chain(points.first().copied().filter(|_| closed)).collect();
+    if !from_the_end(&way) {
+        return in_direction(points, chain, frame, mesh, closed, options, progress);
+    }
+    let mut turned = chain.clone();
+    turned.points.reverse();
+    turned.edges.reverse();
+    let kept = usize::from(closed);
+    turned.points.rotate_right(kept);
+    turned.edges.rotate_right(kept);
+    let n = points.len();
+    let points = turned.points.iter().map(|p| frame.flat(*p)).collect();
+    let found = in_direction(points, &turned, frame, mesh, closed, options, progress)?;
+    Ok(if closed { found.begun_later(1) } else { found }.reversed(n))
+}
+
+/// The contour of a chain in the direction in which it is looked for.
+fn in_direction(
+    points: Vec<[f64; 2]>,
+    chain: &Chain,
+    frame: &PlaneFrame,
+    mesh: &CutMesh,
+    closed: bool,
+    options: &Options,
+    progress: &dyn Progress,
+) -> Result<Contour, SectionError> {
+    let rounding = mesh.rounding();
     let polygon = Polygon::new(&points, closed, rounding);
     let forced = options.noise.is_some() || options.continuity.is_some();
     let scan = OnceCell::new();
@@ -202,9 +231,10 @@ fn spread(found: Contour, kept: &[usize], known: Option<Known>, points: &[[f64; 
     let starts: Vec<f64> = starts(&found.segments);
     let n = kept.len();
     let mut all = Contour { taken: Taken::Scan, ..found };
-    let row =
-        [std::mem::take(&mut all.outliers), std::mem::take(&mut all.repeated), std::mem::take(&mut all.gaps)];
-    [all.outliers, all.repeated, all.gaps] = row.map(|list| list.into_iter().map(|i| kept[i]).collect());
+    for list in [&mut all.outliers, &mut all.repeated, &mut all.gaps, &mut all.doubtful, &mut all.straight_on]
+    {
+        list.iter_mut().for_each(|i| *i = kept[*i]);
+    }
     all.bevels = (0..points.len()).filter(|i| kept.binary_search(i).is_err()).collect();
     let own = (all.labels.clone(), all.residuals.clone(), all.stations.clone());
     all.labels = vec![0; points.len()];

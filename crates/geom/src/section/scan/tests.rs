@@ -218,6 +218,118 @@ fn bores_of_scans_are_circles_from_either_side() {
     assert!(inside >= 34, "{inside}");
 }
 
+/// The contour of a noisy part is the same from either side of the plane, and for facets in any order: kinds, joins, places.
+#[test]
+fn contours_are_the_same_from_either_side_and_in_any_order() {
+    let random = &mut Random::new(14);
+    // A rounded triangle: three lines, three arcs.
+    let (columns, r) = (240, 6.0);
+    let corners = [[0.0, 0.0], [34.0, 3.0], [11.0, 29.0]];
+    let side = |k: usize| {
+        let (a, b): ([f64; 2], [f64; 2]) = (corners[k % 3], corners[(k + 1) % 3]);
+        let long = libm::hypot(b[0] - a[0], b[1] - a[1]);
+        (a, [(b[0] - a[0]) / long, (b[1] - a[1]) / long], long)
+    };
+    let turn = |k: usize| {
+        let (u, v) = (side(k).1, side(k + 1).1);
+        libm::atan2(u[0] * v[1] - u[1] * v[0], u[0] * v[0] + u[1] * v[1])
+    };
+    let whole: f64 = (0..3).map(|k| side(k).2 + r * turn(k)).sum();
+    let way = |s: f64| {
+        let mut left = s.rem_euclid(whole);
+        for k in 0..3 {
+            let (a, u, long) = side(k);
+            let out = [u[1], -u[0]];
+            if left <= long {
+                return ([0, 1].map(|i| a[i] + left * u[i] + r * out[i]), out);
+            }
+            left -= long;
+            if left <= r * turn(k) {
+                let (sin, cos) = libm::sincos(left / r);
+                let out = [out[0] * cos - out[1] * sin, out[0] * sin + out[1] * cos];
+                return ([0, 1].map(|i| corners[(k + 1) % 3][i] + r * out[i]), out);
+            }
+            left -= r * turn(k);
+        }
+        (corners[0], [0.0, -1.0])
+    };
+    for rings in 0..4 {
+        let at = |a: f64| way(a * whole / columns as f64);
+        let even = band(columns, 20, true, 0.5, random, |a, z| {
+            let ([x, y], _) = at(a);
+            [x, y, 0.5 * (z - 10.0)]
+        });
+        // The part is what lies no farther than the radius from the triangle.
+        let out = |p: &Point| {
+            let from = |k: usize| {
+                let (a, u, long) = side(k);
+                let s = ((p[0] - a[0]) * u[0] + (p[1] - a[1]) * u[1]).clamp(0.0, long);
+                [p[0] - a[0] - s * u[0], p[1] - a[1] - s * u[1], 0.0]
+            };
+            let way = (0..3).map(from).min_by(|a, b| norm(*a).total_cmp(&norm(*b))).unwrap_or_default();
+            way.map(|x| x / r)
+        };
+        let mesh = noisy(&even, rings, 0.006, random, out);
+        assert_eq!(same_from_everywhere(&mesh, random), 6, "{rings}");
+    }
+    // A free form, whose curve has its knots where the row begins.
+    let body = band(columns, 40, true, 0.5, random, |a, z| {
+        let t = std::f64::consts::TAU * a / columns as f64;
+        let swell = (0.1 + libm::sin(2.0 * t).powi(2)) * (0.1 + libm::sin(z / 15.0).powi(2));
+        let (s, c) = libm::sincos(t);
+        let r = 38.0 + 2.0 * swell * libm::sin(40.0 * t + 0.3 * z) * libm::sin(z / 2.0);
+        [r * c, r * s, z - 20.0]
+    });
+    assert_eq!(same_from_everywhere(&body, random), 1);
+}
+
+/// The number of segments of a contour, which is the same from either side of the plane and for facets in any order.
+fn same_from_everywhere(mesh: &Mesh, random: &mut Random) -> usize {
+    let noise = crate::noise::mesh(mesh, 0, &Silent).ok();
+    let of = |mesh: &Mesh, normal: f64| {
+        let plane = Plane { normal: [0.0, 0.0, normal], offset: 0.13 * normal };
+        let chain = &cut(mesh, &plane, &Silent).unwrap()[0];
+        let frame = plane.frame().unwrap();
+        let found =
+            chain_contour(chain, &frame, &CutMesh::new(mesh, noise), &Options::default(), &Silent).unwrap();
+        holds_the_numbers(&found, chain.points.len());
+        let mut joins: Vec<Point> = found.joins.iter().map(|j| frame.place(j.point)).collect();
+        joins.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        let mut kinds: Vec<_> = found.segments.iter().map(|s| s.geometry.kind()).collect();
+        kinds.sort();
+        (kinds, joins, found.length(), found.rms())
+    };
+    let own = of(mesh, 1.0);
+    let mut shuffled = mesh.clone();
+    let order = random.choose(mesh.faces.len(), mesh.faces.len());
+    shuffled.faces = order.into_iter().map(|i| mesh.faces[i]).collect();
+    for other in [of(mesh, -1.0), of(&shuffled, 1.0), of(&shuffled, -1.0)] {
+        assert_eq!(other.0, own.0);
+        assert!((other.2 - own.2).abs() < 1e-8, "{} {}", other.2, own.2);
+        assert!((other.3 - own.3).abs() < 1e-9, "{} {}", other.3, own.3);
+        for (a, b) in own.1.iter().zip(&other.1) {
+            assert!(norm([0, 1, 2].map(|k| a[k] - b[k])) < 1e-6, "{a:?} {b:?}");
+        }
+    }
+    own.0.len()
+}
+
+/// What is told of points is told of as many, of points that there are, along the contour.
+fn holds_the_numbers(found: &Contour, count: usize) {
+    assert!(found.labels.len() == count && found.residuals.len() == count && found.stations.len() == count);
+    for list in [&found.outliers, &found.bevels, &found.repeated, &found.gaps] {
+        assert!(list.iter().all(|i| *i < count) && list.is_sorted());
+    }
+    // Stations rise around the contour but for one step back over its start.
+    let back = found.stations.windows(2).filter(|w| w[1] < w[0] - 0.5 * found.spacing).count();
+    assert!(back <= 1, "{back}");
+    // The places lie as far off the segments they belong to as they are told to.
+    for (i, p) in found.moved.iter().enumerate().filter(|(i, _)| found.bevels.binary_search(i).is_err()) {
+        let off = found.segments[found.labels[i] as usize].foot(*p).1;
+        assert!((off.abs() - found.residuals[i].abs()).abs() < 1e-6, "{i}: {off} {}", found.residuals[i]);
+    }
+}
+
 /// Corners that no edge of the mesh runs along are corners, with no segment for the facets that pass them by.
 #[test]
 fn bevels_of_the_mesh_are_no_segments() {
