@@ -60,7 +60,7 @@ fn uncertainties_know_what_neighbors_share() {
     assert!(independent["shared_noise_reason"].as_str().unwrap().contains("--independent"));
     assert!(stdout(&trueness(words)).contains("points tell as much as an independent one"));
     // Too few points to tell.
-    let few = folder.write("few.xyz", text(20));
+    let few = folder.write("few.xyz", text(15));
     let few = document(["fit", few.to_str().unwrap(), "--shape", "plane"]);
     assert!(few["shared_noise_reason"].as_str().unwrap().starts_with("it has too few points"), "{few}");
     // The same of a region of the scan.

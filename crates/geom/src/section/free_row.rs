@@ -8,10 +8,11 @@
 
 use super::assembly::Joined;
 use super::chain::SegmentKind;
+use super::partition::{FreeCost, Penalty, kinds_with_free};
 use super::plan::RESOLUTION;
 use super::result::{Contour, Geometry, Options, SectionError, Segment};
 use super::row::Clean;
-use super::start::{FreeCost, Penalty, kinds_with_free, noise};
+use super::start::noise;
 use crate::num::banded::Banded;
 use crate::progress::Silent;
 use crate::spline::basis::Knots;

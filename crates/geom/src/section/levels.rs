@@ -10,12 +10,13 @@
 
 use super::chain::SegmentKind;
 use super::exact::{quantized, rounded};
+use super::partition::{Penalty, partition};
 use super::polygon::polygon;
 use super::prior::{Known, Prior};
 use super::result::{Continuity, Contour, Options};
 use super::row::{Clean, size};
 use super::span::Found;
-use super::start::{Part, Penalty, noise, partition, scatter};
+use super::start::{Part, noise, scatter};
 use std::collections::VecDeque;
 
 /// Places at which a part may start in the first partition.

@@ -7,7 +7,7 @@
 //! | `direction` | the end that a row is measured from |
 //! | `levels` | the partition that the search begins with, at one level of noise or several |
 //! | `begin` | models that the search begins with: lines and arcs with a common tangent |
-//! | `start` | noise; independent lines and arcs by dynamic programming |
+//! | `start`, `partition` | noise; independent lines and arcs by dynamic programming |
 //! | `chain`, `free` | pieces that join with a common tangent, as curvature along the length |
 //! | `least` | their least-squares fit |
 //! | `criterion`, `base`, `search`, `smooth` | number and kinds of pieces |
@@ -78,6 +78,7 @@ mod nominal;
 mod onto;
 mod order;
 mod paper;
+mod partition;
 mod plan;
 mod polygon;
 mod prior;

@@ -1,8 +1,9 @@
 //! Rows that are polygons, exactly.
 
 use super::chain::SegmentKind;
+use super::partition::{Penalty, partition};
 use super::row::Clean;
-use super::start::{Part, Penalty, partition, scatter};
+use super::start::{Part, scatter};
 
 /// Points on a side, at least: two are on a line by themselves.
 const FEWEST: usize = 3;

@@ -25,8 +25,8 @@ const SHARES: [f64; 2] = [0.005, 0.02];
 /// makes that way longer, and is not known well where a row is short: then the chain may be shorter.
 const LENGTHS: [std::ops::Range<f64>; 2] = [0.6..1.6, 0.3..1.6];
 const QUIET: f64 = 0.25;
-/// It is then looked for from so many equal parts, while each has so many points.
-const STARTS: [usize; 3] = [4, 8, 16];
+/// It is then looked for from so many equal parts, where each has so many points.
+const STARTS: usize = 4;
 const EACH: usize = 4;
 
 /// Steps by all points from where blocks of them have led to.
@@ -69,15 +69,13 @@ impl Span {
             return Ok(Found { astray, ..self.found((state, vec![], task.scatter, work)) });
         }
         let mut best = self.search_from(parts, task, progress)?;
-        let mut astray = self.is_astray(&best.state, task);
-        for count in STARTS.iter().take_while(|count| **count * EACH <= self.points.len()) {
-            if !astray || task.budget.is_spent(0.0) {
-                break;
-            }
-            let other = self.search_from(&shares(&self.points, &self.weights, *count), task, progress)?;
-            let lost = self.is_astray(&other.state, task);
-            if !lost || other.cost < best.cost {
-                (best, astray) = (other, lost);
+        if self.is_astray(&best.state, task)
+            && STARTS * EACH <= self.points.len()
+            && !task.budget.is_spent(0.0)
+        {
+            let other = self.search_from(&shares(&self.points, &self.weights, STARTS), task, progress)?;
+            if other.cost < best.cost || !self.is_astray(&other.state, task) {
+                best = other;
             }
         }
         let mut search = self.search(task);

@@ -15,8 +15,9 @@ mod lift;
 mod weights;
 
 use super::cut::{Chain, PlaneFrame};
+use super::partition::{Penalty, partition_with_gaps};
 use super::prior::Known;
-use super::start::{Penalty, noise, partition_with_gaps};
+use super::start::noise;
 pub use cut_mesh::CutMesh;
 
 /// The crossings of a chain that tell where the surface is.
