@@ -150,7 +150,10 @@ impl Places<'_> {
                 let places: Vec<Point> = patch.iter().map(|i| points[*i as usize]).collect();
                 let heights =
                     distances.map(|all| patch.iter().map(|i| all[*i as usize]).collect::<Vec<f64>>());
-                progress.advance(1);
+                // The smaller patches of those that are looked at again are no more of what is to be done.
+                if size == SIZES[0] {
+                    progress.advance(1);
+                }
                 Moments::of(&places, heights.as_deref(), size)
             })
             .collect();

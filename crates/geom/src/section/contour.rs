@@ -104,7 +104,7 @@ fn either_way(
     if let Some(form) = prior.free_form
         && Known::given(options).is_none()
         && options.continuity.is_none()
-        && let Some(found) = free_form(ways[0].0, form, options)?
+        && let Some(found) = free_form(ways[0].0, form, options, progress)?
     {
         let found = if backward { found.turned_round(points) } else { found };
         return with_crossings(found, points, progress);

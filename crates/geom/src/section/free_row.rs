@@ -8,31 +8,31 @@
 
 use super::assembly::Joined;
 use super::chain::SegmentKind;
-use super::partition::{FreeCost, Penalty, kinds_with_free};
+use super::partition::{FreeCost, PLACES, Penalty, kinds_with_free};
 use super::plan::RESOLUTION;
 use super::result::{Contour, Geometry, Options, SectionError, Segment};
 use super::row::Clean;
 use super::start::noise;
 use crate::num::banded::Banded;
-use crate::progress::Silent;
+use crate::progress::{Cancelled, Progress};
 use crate::spline::basis::Knots;
 use crate::spline::curve::Curve;
 
 /// Fewest points of a span, and spans of a curve.
-const EACH: usize = 4;
-const FEWEST: usize = 6;
+const FEWEST_POINTS: usize = 4;
+const FEWEST_SPANS: usize = 6;
 /// Each curve of equal spans has so many times as many as the one before.
 const FINER: f64 = 1.5;
 /// Feet are found anew so many times for a curve that is compared, and for the one that is taken.
 const PASSES: [usize; 2] = [2, 6];
-/// and so many times more on the curve that is taken as it is.
+/// On the curve that is taken feet are found so many times more, without another fit.
 const SETTLED: usize = 5;
 /// Spans are halved so many times at most.
 const HALVED: usize = 8;
 /// Points of a span lie off more than the noise makes them where they do by so many times its variance.
 const MORE: f64 = 2.0;
 /// Fewer points to a line or arc, and less than half of a row, do not tell it from a bend of the form.
-const LONG: usize = 32;
+const FEWEST_TOLD: usize = 32;
 /// A bend of a form is no line and no arc to less than this share of what its surface departs from smooth ones by.
 const LEAST: f64 = 0.1;
 /// Of the parts of a free form one in so many is a line or an arc.
@@ -108,7 +108,7 @@ impl Row<'_> {
     }
 
     /// The curve over the spans, its feet found anew so many times. `None` where the points do not determine it.
-    fn fit(&self, limits: &[usize], passes: usize) -> Option<FreeCurve> {
+    fn fit(&self, limits: &[usize], passes: usize, progress: &dyn Progress) -> Option<FreeCurve> {
         let knots = self.knots(limits)?;
         let spans = limits.len() - 1;
         let count = if self.closed { spans } else { knots.count() };
@@ -127,7 +127,7 @@ impl Row<'_> {
                     (0..2).for_each(|k| sides[*i][k] += w * a * p[k]);
                 }
             }
-            matrix.factor(&Silent).ok()?.solve(&mut sides);
+            matrix.factor(progress).ok()?.solve(&mut sides);
             let control = (0..knots.count()).map(|k| sides[self.place(k, count)]).collect();
             let curve = Curve::new(knots.clone(), control).ok()?;
             let next = self.seen_from(curve, feet, limits);
@@ -189,23 +189,23 @@ impl Row<'_> {
     }
 
     /// The cheapest curve of those whose spans are equal, and of those whose spans are halved where the points ask for it.
-    fn cheapest(&self) -> Option<FreeCurve> {
+    fn cheapest(&self, progress: &dyn Progress) -> Option<FreeCurve> {
         let n = self.points.len();
         let mut levels = vec![];
-        let mut spans = FEWEST as f64;
-        while EACH * spans as usize <= n {
-            levels.push(self.fit(&self.even(spans as usize), PASSES[0])?);
+        let mut spans = FEWEST_SPANS as f64;
+        while FEWEST_POINTS * spans as usize <= n {
+            levels.push(self.fit(&self.even(spans as usize), PASSES[0], progress)?);
             spans *= FINER;
         }
         let cheapest = (0..levels.len()).min_by(|a, b| levels[*a].cost.total_cmp(&levels[*b].cost))?;
         let variance = self.typical(&levels[levels.len() - 1]);
-        let mut own = self.fit(&self.even(FEWEST), PASSES[0])?;
+        let mut own = self.fit(&self.even(FEWEST_SPANS), PASSES[0], progress)?;
         let mut best: Option<FreeCurve> = None;
         for _ in 0..HALVED {
             let mut next = vec![0];
             for (w, square) in own.limits.windows(2).zip(self.squares(&own)) {
                 let count = w[1] - w[0];
-                if count >= 2 * EACH && square > MORE * variance * count as f64 {
+                if count >= 2 * FEWEST_POINTS && square > MORE * variance * count as f64 {
                     next.push((w[0] + w[1]) / 2);
                 }
                 next.push(w[1]);
@@ -213,14 +213,14 @@ impl Row<'_> {
             if next.len() == own.limits.len() {
                 break;
             }
-            own = self.fit(&next, PASSES[0])?;
+            own = self.fit(&next, PASSES[0], progress)?;
             if best.as_ref().is_none_or(|b| own.cost < b.cost) {
                 best = Some(own.clone());
             }
         }
         let even = levels.swap_remove(cheapest);
         let best = best.filter(|b| b.cost < even.cost).unwrap_or(even);
-        let mut found = self.fit(&best.limits, PASSES[1])?;
+        let mut found = self.fit(&best.limits, PASSES[1], progress)?;
         for _ in 0..SETTLED {
             found = self.seen_from(found.curve, found.feet, &found.limits);
         }
@@ -228,25 +228,30 @@ impl Row<'_> {
     }
 }
 
-/// The contour of a row of a free form, whose surface departs from smooth ones by `form`; `None` where lines and arcs are a part of it, or where its points are too few or scatter by more than
-/// they are apart.
+/// The contour of a row of a free form, whose surface departs from smooth ones by `form`. `None` where lines and arcs are a part of it, or
+/// where its points are too few or scatter by more than they are apart.
 ///
 /// # Errors
-/// Those of the row.
+/// Those of the row; cancelled.
 pub(super) fn free_form(
     points: &[[f64; 2]],
     form: f64,
     options: &Options,
+    progress: &dyn Progress,
 ) -> Result<Option<Contour>, SectionError> {
     let mut clean = Clean::new(points, options)?;
     let (noise, step) = noise(&clean.points, clean.closed);
-    if step > 1 || clean.points.len() < EACH * FEWEST {
+    if step > 1 || clean.points.len() < FEWEST_POINTS * FEWEST_SPANS {
         return Ok(None);
     }
     let outliers = clean.outliers(noise.max(clean.rounding), step);
     clean.bring_in(&outliers);
     let row = Row::new(&clean, &outliers);
-    let Some(found) = row.cheapest().filter(|f| f.is_all(&row, form)) else { return Ok(None) };
+    let found = row.cheapest(progress).filter(|f| f.is_all(&row, form));
+    if progress.cancelled() {
+        return Err(Cancelled.into());
+    }
+    let Some(found) = found else { return Ok(None) };
     let mut found = found.joined(&row, &clean);
     found.finish(&clean, 0, points.len(), outliers);
     Ok(Some(found.contour))
@@ -276,9 +281,8 @@ impl FreeCurve {
         }
         let [line, arc, each] = UNKNOWNS.map(|unknowns| 2.0 * unknowns);
         let rare = 2.0 * libm::log(RARE);
-        let places = row.points.len();
-        let fewest = LONG.min(places / 2);
-        let penalty = Penalty { line: line + rare, arc: arc + rare, noise, fewest, places };
+        let fewest = FEWEST_TOLD.min(row.points.len() / 2);
+        let penalty = Penalty { line: line + rare, arc: arc + rare, noise, fewest, places: PLACES };
         kinds_with_free(row.points, &row.weights, &penalty, &FreeCost { each, before })
             == [SegmentKind::Spline]
     }
@@ -313,6 +317,7 @@ impl FreeCurve {
             segments: vec![segment],
             noise,
             unknowns,
+            independent: row.count,
             spacing: clean.spacing,
             labels: vec![0; n],
             residuals: self.residuals,

@@ -10,7 +10,7 @@
 
 use super::chain::SegmentKind;
 use super::exact::{quantized, rounded};
-use super::partition::{Penalty, partition};
+use super::partition::{PLACES, Penalty, partition};
 use super::polygon::polygon;
 use super::prior::{Known, Prior};
 use super::result::{Continuity, Contour, Options};
@@ -19,8 +19,6 @@ use super::span::Found;
 use super::start::{Part, noise, scatter};
 use std::collections::VecDeque;
 
-/// Places at which a part may start in the first partition.
-const PLACES: usize = 1200;
 /// Fewest points of a part, and at finer levels.
 const FEWEST: usize = 4;
 const FEWEST_FINER: usize = 3;

@@ -3,6 +3,9 @@
 use super::chain::SegmentKind;
 use super::start::{Part, Sums};
 
+/// Places at which a part may start: time grows with the square of their number.
+pub(super) const PLACES: usize = 1200;
+
 /// Costs of the parts, in units of the noise's variance.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Penalty {

@@ -15,7 +15,7 @@ mod lift;
 mod weights;
 
 use super::cut::{Chain, PlaneFrame};
-use super::partition::{Penalty, partition_with_gaps};
+use super::partition::{PLACES, Penalty, partition_with_gaps};
 use super::prior::Known;
 use super::start::noise;
 pub use cut_mesh::CutMesh;
@@ -31,8 +31,6 @@ pub(super) struct ScanRow {
     pub noise: Option<Known>,
 }
 
-/// Places at which a line or arc of the first partition may start.
-const PLACES: usize = 1200;
 /// Fewest crossings of one.
 const FEWEST_CROSSINGS: usize = 4;
 /// Crossings in succession that a corner may take from the mesh: edges of facets that pass it by.
