@@ -14,12 +14,12 @@ mod profile;
 mod tail;
 
 use super::direction::from_the_end;
+use super::flat::distance;
 use super::result::{Contour, Geometry, Uncertainty};
 use crate::progress::Progress;
 use circles::Inscribed;
 pub use edge::EdgeRadius;
 pub use ends::TrailingEdge;
-use ends::distance;
 pub use error::AirfoilError;
 use error::FEWEST;
 use profile::{Profile, RESOLUTION};

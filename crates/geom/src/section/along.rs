@@ -4,7 +4,7 @@
 use super::base::Base;
 use super::chain::{Chain, Piece};
 use super::criterion::{Model, Plan};
-use super::facets::{angle, length};
+use super::flat::{angle, distance};
 use super::least::State;
 use super::search::Search;
 use crate::spline::curve::{self, Curve, Ends, chord_parameters, spread_knots};
@@ -38,7 +38,7 @@ impl Search<'_> {
             let turn = angle(w[0][1], w[1][1]);
             let half = 0.5 * turn;
             let longer = if half.abs() > 1e-6 { half / libm::sin(half) } else { 1.0 };
-            let way = length(w[0][0], w[1][0]) * longer;
+            let way = distance(w[0][0], w[1][0]) * longer;
             Piece::arc(way, turn / way)
         };
         let pieces: Vec<Piece> = at.windows(2).map(arc).collect();

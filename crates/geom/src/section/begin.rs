@@ -2,7 +2,7 @@
 
 use super::chain::{Chain, Ends, Piece, SegmentKind, arc_over};
 use super::criterion::Model;
-use super::facets::angle;
+use super::flat::angle;
 use super::least::{State, Stop};
 use super::near::mended;
 use super::search::Search;

@@ -7,7 +7,7 @@
 use super::chain::{Chain, Ends, Piece, Pose, SegmentKind, arc_end, arc_over};
 use super::criterion::{Model, Unknowns};
 use super::doubt::CORNER;
-use super::facets::length;
+use super::flat::distance;
 use super::least::State;
 use super::plan::{Chains, Plan};
 use super::result::SectionError;
@@ -183,10 +183,10 @@ impl Blunt {
         let last = points[(self.at - 1) % points.len()];
         if self.from > 0 || found.state.chain.closed {
             let pose = found.layout.poses[self.from];
-            return (found.layout.poses[0], piece(part, length(pose.at, last)));
+            return (found.layout.poses[0], piece(part, distance(pose.at, last)));
         }
         let first = points[0];
-        (pose(part, first), piece(part, length(first, last)))
+        (pose(part, first), piece(part, distance(first, last)))
     }
 
     /// Where the chain behind the corner starts, and its first piece.
@@ -195,11 +195,11 @@ impl Blunt {
         let first = points[self.at % points.len()];
         let count = found.pieces().len();
         if self.to == count && !found.state.chain.closed {
-            return (pose(part, first), piece(part, length(first, points[points.len() - 1])));
+            return (pose(part, first), piece(part, distance(first, points[points.len() - 1])));
         }
         // What follows stays where it is.
         let end = found.layout.poses[self.to];
-        let piece = piece(part, length(first, end.at));
+        let piece = piece(part, distance(first, end.at));
         let turn = piece.length * piece.curvature(0.0);
         let back = end.place(arc_end(-piece.length, -turn));
         (Pose::new(back, end.heading - turn), piece)

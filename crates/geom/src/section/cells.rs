@@ -1,6 +1,6 @@
 //! Points in a plane gathered in square cells, the shortest tree over these, and the longest ways through it.
 
-use super::facets::length;
+use super::flat::distance;
 use super::link::Way;
 use std::collections::HashMap;
 
@@ -51,7 +51,7 @@ impl Cells {
             for dx in 0..=around {
                 for dy in if dx == 0 { 1 } else { -around }..=around {
                     let Some(&j) = self.at.get(&[x + dx, y + dy]) else { continue };
-                    let d = length(self.middles[i], self.middles[j]);
+                    let d = distance(self.middles[i], self.middles[j]);
                     if d <= reach {
                         edges.push((d, i.min(j), i.max(j)));
                     }
@@ -84,17 +84,17 @@ impl Cells {
                 true => (middle((k + m - 1) % m), middle((k + 1) % m)),
                 false => (middle(k.saturating_sub(1)), middle((k + 1).min(m - 1))),
             };
-            let whole = length(before, after).max(f64::MIN_POSITIVE);
+            let whole = distance(before, after).max(f64::MIN_POSITIVE);
             let along = [(after[0] - before[0]) / whole, (after[1] - before[1]) / whole];
             let own = std::iter::once(&way[k].0).chain(&way[k].1).flat_map(|c| &self.members[*c]);
             for i in own {
                 let (p, q) = (points[*i], middle(k));
                 all.push((station + (p[0] - q[0]) * along[0] + (p[1] - q[1]) * along[1], *i));
             }
-            station += if k + 1 < m { length(middle(k), middle(k + 1)) } else { 0.0 };
+            station += if k + 1 < m { distance(middle(k), middle(k + 1)) } else { 0.0 };
         }
         all.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        (all, station + if closed { length(middle(m - 1), middle(0)) } else { 0.0 })
+        (all, station + if closed { distance(middle(m - 1), middle(0)) } else { 0.0 })
     }
 
     /// Points of the cell a place is in, and of those around it.
@@ -164,7 +164,7 @@ fn farthest(cells: &Cells, tree: &Tree, used: &[bool], start: usize) -> (usize, 
         }
         for &next in tree[cell].iter().filter(|c| **c != from && !used[**c]) {
             before.insert(next, cell);
-            stack.push((next, cell, way + length(cells.middles[cell], cells.middles[next])));
+            stack.push((next, cell, way + distance(cells.middles[cell], cells.middles[next])));
         }
     }
     (best.1, before)

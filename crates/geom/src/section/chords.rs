@@ -1,7 +1,7 @@
 //! The chord of a profile by each of its usual definitions, and its centroid.
 
 use super::airfoil::{Airfoil, AirfoilError, TrailingEdge};
-use super::facets::length as distance;
+use super::flat::distance;
 use super::nominal::Outline;
 use super::result::{Contour, Geometry};
 

@@ -6,7 +6,8 @@
 //! unless they turn gently into each other as those of a curve do.
 
 use super::assembly::Joined;
-use super::facets::{Item, LineOrArc, Polygon, SHARP, angle, length, round};
+use super::facets::{Item, LineOrArc, Polygon, SHARP, round};
+use super::flat::{angle, distance};
 use super::levels::SHORT;
 use super::polygon::CORNER;
 use super::result::{Contour, Geometry, Options, Taken};
@@ -92,7 +93,7 @@ impl Corners {
     pub fn off_a_circle(&self, found: Option<&Contour>) -> Option<f64> {
         let points = &self.polygon.at;
         let (count, (center, radius)) = (points.len() as f64, round(points)?);
-        let sum: f64 = points.iter().map(|p| (length(center, *p) - radius).powi(2)).sum();
+        let sum: f64 = points.iter().map(|p| (distance(center, *p) - radius).powi(2)).sum();
         let off = (sum / (count - 3.0).max(1.0)).sqrt().max(self.rounding);
         let speaks = self.is_even() && is_no_chance(count - 3.0, count * off / self.scale());
         (speaks && !found.is_some_and(|f| self.speaks_for(f))).then_some(off)
@@ -127,7 +128,7 @@ impl Corners {
         let chords = || (0..self.polygon.facets()).map(|i| self.polygon.facet_length(i));
         let (least, most) = chords().fold((f64::INFINITY, 0.0_f64), |(a, b), c| (a.min(c), b.max(c)));
         round(points).is_some_and(|(center, radius)| {
-            let on = |p: &[f64; 2]| (length(center, *p) - radius).abs() <= ROUND * radius;
+            let on = |p: &[f64; 2]| (distance(center, *p) - radius).abs() <= ROUND * radius;
             self.polygon.closed && most - least <= ROUND * radius && points.iter().all(on)
         })
     }

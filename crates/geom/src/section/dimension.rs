@@ -4,7 +4,7 @@
 //! of one chain is only nearly independent: each is known by its own points for the most part.
 
 use super::chain::SegmentKind;
-use super::facets::{angle, length};
+use super::flat::{angle, distance};
 use super::result::{Contour, Geometry, Join, Segment, Uncertainty};
 use crate::num::golden::golden;
 
@@ -240,7 +240,7 @@ impl Arc {
 }
 
 fn centers((of, a): &([usize; 2], Arc), (with, b): &([usize; 2], Arc)) -> Dimension {
-    let value = length(a.center, b.center);
+    let value = distance(a.center, b.center);
     let d = [0, 1].map(|k| b.center[k] - a.center[k]);
     let uncertainty = a.uncertainty.zip(b.uncertainty).map(|(u, v)| {
         let each = [0, 1].map(|k| libm::hypot(u[k], v[k]));
@@ -326,7 +326,7 @@ fn gap(numbers: [usize; 2], contours: [&Contour; 2], limit: f64) -> Option<Dimen
 /// radius are independent.
 fn across(contour: &Contour, k: usize, place: [f64; 2]) -> Option<f64> {
     if let Some(line) = Line::of(contour, k) {
-        return line.at(length(line.start, place));
+        return line.at(distance(line.start, place));
     }
     match (&contour.segments[k].geometry, contour.segments[k].uncertainty) {
         (Geometry::Arc { center: c, radius: r, sweep, .. }, Some(Uncertainty::Arc { center, radius }))

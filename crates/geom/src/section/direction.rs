@@ -1,7 +1,8 @@
 //! Rows are measured in one direction, whichever they are given in: a search by the likelihood may end elsewhere from the other end.
 
+use super::flat::distance;
 use super::result::{Contour, Join, Segment};
-use super::row::{GAP, Passed, distance};
+use super::row::{GAP, Passed};
 
 /// Steps that differ by less than this share are taken for equal: rounding of a motion does not turn a row round.
 const EQUAL: f64 = 1e-9;

@@ -5,7 +5,7 @@
 //! sides, and where it costs less than two chains and the corner, there is none.
 
 use super::criterion::Unknowns;
-use super::facets::angle;
+use super::flat::angle;
 use super::plan::{Chains, Plan, SHARP};
 use super::result::SectionError;
 use super::span::Found;

@@ -6,7 +6,7 @@
 
 use super::chain::{Chain, Ends, Piece, SegmentKind};
 use super::criterion::Model;
-use super::facets::{angle, length};
+use super::flat::{angle, distance, dot, left, minus, off_circle, off_line};
 use super::least::State;
 use super::polygon::CORNER;
 use super::result::Contour;
@@ -33,20 +33,6 @@ struct Run {
 /// Center and curvature of an arc between two lines; `None` where they meet in a corner.
 type Between = Option<([f64; 2], f64)>;
 
-fn minus(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
-    [a[0] - b[0], a[1] - b[1]]
-}
-
-fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
-    a[0] * b[0] + a[1] * b[1]
-}
-
-/// Distance of a point to the left of the line through `at` along a unit vector.
-fn left(p: [f64; 2], at: [f64; 2], along: [f64; 2]) -> f64 {
-    let d = minus(p, at);
-    along[0] * d[1] - along[1] * d[0]
-}
-
 /// Coordinates in files are rounded: to within the first of these shares of the size, or the second.
 const ROUNDED: [f64; 2] = [1e-6, 1e-5];
 
@@ -64,7 +50,7 @@ fn within(clean: &Clean, tolerance: f64) -> Option<(usize, Vec<Part>)> {
     }
     let straight = |i: usize| {
         let [a, b, c] = [i, i + 1, i + 2].map(|k| clean.points[k % n]);
-        let size = length(a, c);
+        let size = distance(a, c);
         size > 0.0 && left(b, a, minus(c, a).map(|x| x / size)).abs() <= tolerance
     };
     let by = if clean.closed { (0..n).find(|i| straight(*i) && !straight((i + n - 1) % n))? } else { 0 };
@@ -100,7 +86,7 @@ fn within(clean: &Clean, tolerance: f64) -> Option<(usize, Vec<Part>)> {
 fn runs(points: &[[f64; 2]], tolerance: f64) -> Vec<Run> {
     let n = points.len();
     let fits = |from: usize, to: usize| {
-        let size = length(points[from], points[to]);
+        let size = distance(points[from], points[to]);
         let along = minus(points[to], points[from]).map(|x| x / size);
         let near = |p: &[f64; 2]| left(*p, points[from], along).abs() <= tolerance;
         let onward = |w: &[[f64; 2]]| dot(minus(w[1], w[0]), along) > 0.0;
@@ -160,7 +146,7 @@ fn arc(points: &[[f64; 2]], a: &Run, b: &Run, end: usize, tolerance: f64) -> Opt
         ([0, 1].map(|k| apex[k] + far * inward[k]), far * sin)
     };
     let slack = LOOSE * tolerance;
-    let near = |p: &[f64; 2]| (length(*p, center) - radius).abs() <= slack;
+    let near = |p: &[f64; 2]| (distance(*p, center) - radius).abs() <= slack;
     // The points where it leaves the lines lie between the points of these and its own.
     let behind = dot(minus(center, last), a.along) >= -slack && dot(minus(first, center), b.along) >= -slack;
     (radius > slack && behind && between.iter().all(near)).then_some(Some((center, sense / radius)))
@@ -181,7 +167,7 @@ fn parts(points: &[[f64; 2]], runs: &[Run], arcs: &[(usize, usize, Between)]) ->
         all.push(base);
         if let Some((from, to, Some((center, curvature)))) = arcs.get(k).copied() {
             let out = minus(points[(from + to) / 2], center);
-            let size = length([0.0; 2], out).max(f64::MIN_POSITIVE);
+            let size = distance([0.0; 2], out).max(f64::MIN_POSITIVE);
             let unit = out.map(|x| x / size);
             let along = [-curvature.signum() * unit[1], curvature.signum() * unit[0]];
             let center = [0, 1].map(|i| center[i] + unit[i] / curvature.abs());
@@ -207,7 +193,7 @@ impl Search<'_> {
         let start = |k: usize| if k > 0 || closed { join((k + m - 1) % m) } else { points[0] };
         let end = |k: usize| if k + 1 < m || closed { join(k) } else { points[n - 1] };
         let piece = |(k, part): (usize, &Part)| match part.kind {
-            SegmentKind::Line => Piece::line(length(start(k), end(k))),
+            SegmentKind::Line => Piece::line(distance(start(k), end(k))),
             _ => {
                 let center = circle(part);
                 let turn = angle(minus(start(k), center), minus(end(k), center)) * part.curvature.signum();
@@ -256,25 +242,6 @@ pub(super) fn missed(points: &[[f64; 2]], contour: &Contour) -> Vec<usize> {
     }
     let scatters = |k: &usize| contour.segments[*k].rms > SHARE * noise;
     (0..contour.segments.len()).filter(scatters).collect()
-}
-
-/// Distance of a point from the line through two others.
-pub(super) fn off_line([a, b]: [[f64; 2]; 2], p: [f64; 2]) -> f64 {
-    let size = length(a, b).max(f64::MIN_POSITIVE);
-    left(p, a, minus(b, a).map(|x| x / size)).abs()
-}
-
-/// Distance of a point from the circle, or line, through three others.
-pub(super) fn off_circle([a, b, c]: [[f64; 2]; 3], p: [f64; 2]) -> f64 {
-    let (u, v, w) = (minus(b, a), minus(c, a), minus(p, a));
-    let det = 2.0 * (u[0] * v[1] - u[1] * v[0]);
-    let size = length(a, c).max(f64::MIN_POSITIVE);
-    if det.abs() <= 1e-12 * dot(u, u).max(dot(v, v)) {
-        return left(p, a, v.map(|x| x / size)).abs();
-    }
-    let (uu, vv) = (dot(u, u), dot(v, v));
-    let center = [(v[1] * uu - u[1] * vv) / det, (u[0] * vv - v[0] * uu) / det];
-    (length(w, center) - length([0.0; 2], center)).abs()
 }
 
 /// Whether all coordinates are multiples of the least step, as of the outlines of pixels.

@@ -6,6 +6,7 @@
 //! chords: four vertices on a circle are one more than determine it. Two wide chords, or a few, are an arc where its tangents at
 //! both ends are the facets before and after.
 
+use super::flat::{angle, distance, minus};
 use super::start::circle;
 
 /// A chord turns by no more than this, 34.4 degrees: midway between those of regular polygons of ten sides, which are polygons,
@@ -48,19 +49,6 @@ pub(super) struct Item {
     pub to: usize,
 }
 
-pub(super) fn length(a: [f64; 2], b: [f64; 2]) -> f64 {
-    libm::hypot(b[0] - a[0], b[1] - a[1])
-}
-
-/// Angle from one direction to another, left positive.
-pub(super) fn angle(u: [f64; 2], v: [f64; 2]) -> f64 {
-    libm::atan2(u[0] * v[1] - u[1] * v[0], u[0] * v[0] + u[1] * v[1])
-}
-
-fn minus(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
-    [a[0] - b[0], a[1] - b[1]]
-}
-
 /// The directions in which a straight run may go on: all its points lie within a tolerance of it.
 struct Cone {
     apex: [f64; 2],
@@ -75,7 +63,7 @@ impl Cone {
         Cone { apex, tolerance, range: None, farthest: 0.0 }
     }
     fn takes(&mut self, p: [f64; 2]) -> bool {
-        let d = length(self.apex, p);
+        let d = distance(self.apex, p);
         if d <= self.tolerance {
             return self.farthest <= self.tolerance;
         }
@@ -102,7 +90,7 @@ impl Polygon {
         let n = points.len();
         let middle = [0, 1].map(|k| points.iter().map(|p| p[k]).sum::<f64>() / n as f64);
         // The point farthest from the middle is a vertex.
-        let far = |i: &usize| length(middle, points[*i]);
+        let far = |i: &usize| distance(middle, points[*i]);
         let start = if closed { (0..n).max_by(|a, b| far(a).total_cmp(&far(b))).unwrap_or(0) } else { 0 };
         let point = |k: usize| points[(start + k) % n];
         let last = if closed { n } else { n - 1 };
@@ -126,7 +114,7 @@ impl Polygon {
         if closed {
             // The longest facet comes first: no arc goes on over its start, unless all is one arc.
             let facets = polygon.at.len();
-            let size = |i: &usize| length(polygon.vertex(*i), polygon.vertex(i + 1));
+            let size = |i: &usize| distance(polygon.vertex(*i), polygon.vertex(i + 1));
             let by = (0..facets).max_by(|a, b| size(a).total_cmp(&size(b)).then(b.cmp(a))).unwrap_or(0);
             polygon.at.rotate_left(by);
             polygon.numbers.rotate_left(by);
@@ -146,7 +134,7 @@ impl Polygon {
         minus(self.vertex(i + 1), self.vertex(i))
     }
     pub fn facet_length(&self, i: usize) -> f64 {
-        length(self.vertex(i), self.vertex(i + 1))
+        distance(self.vertex(i), self.vertex(i + 1))
     }
     /// Turn at a vertex between two facets.
     pub fn turn(&self, i: usize) -> f64 {
@@ -216,8 +204,8 @@ impl Polygon {
     fn arc(&self, from: usize, to: usize, widest: f64, tolerance: f64) -> Option<Item> {
         let points: Vec<[f64; 2]> = (from..=to).map(|i| self.vertex(i)).collect();
         let (center, radius) = round(&points)?;
-        let off = points.iter().map(|p| (length(center, *p) - radius).abs()).fold(0.0, f64::max);
-        let chord = points.windows(2).map(|w| length(w[0], w[1])).fold(0.0, f64::max);
+        let off = points.iter().map(|p| (distance(center, *p) - radius).abs()).fold(0.0, f64::max);
+        let chord = points.windows(2).map(|w| distance(w[0], w[1])).fold(0.0, f64::max);
         let turned: f64 = points.windows(2).map(|w| angle(minus(w[0], center), minus(w[1], center))).sum();
         let sagitta = radius * (1.0 - libm::cos(0.5 * turned.abs().min(std::f64::consts::PI)));
         let widest = 2.0 * radius * libm::sin(0.5 * widest);
@@ -256,7 +244,7 @@ impl Polygon {
             let turn = |i: usize| libm::asin((0.5 * curvature * self.facet_length(i)).abs().min(1.0)) * 2.0;
             let widest = (item.from..item.to).map(turn).fold(0.0, f64::max);
             let off =
-                |i: usize| (length(center, self.vertex(i)) * curvature.abs() - 1.0).abs() / curvature.abs();
+                |i: usize| (distance(center, self.vertex(i)) * curvature.abs() - 1.0).abs() / curvature.abs();
             let doubtful = |other: &Item| {
                 let on = off(other.from).max(off(other.to)) <= 2.0 * tolerance;
                 other.shape == LineOrArc::Line && on && turn(other.from) <= NEAR * SHARP

@@ -1,6 +1,6 @@
 //! Where on a segment the foot of a point is.
 
-use super::facets::{angle, length};
+use super::flat::{angle, distance};
 use super::result::{Geometry, Segment};
 
 /// The place of a segment nearest to a point.
@@ -40,7 +40,7 @@ impl Segment {
 
     /// A line that no points belong to.
     pub(super) fn line(start: [f64; 2], end: [f64; 2]) -> Segment {
-        Segment::bare(Geometry::Line, [start, end], length(start, end), [0.0; 2])
+        Segment::bare(Geometry::Line, [start, end], distance(start, end), [0.0; 2])
     }
 
     /// Places whose box holds the segment.
@@ -126,7 +126,7 @@ impl Segment {
                 let turned = angle([cos, sin], out) * sweep.signum();
                 let half = 0.5 * sweep.abs();
                 if turned.abs() <= half {
-                    let far = length(*center, point);
+                    let far = distance(*center, point);
                     // Of the center every place is the nearest; the middle stands for all.
                     let unit = if far > 0.0 { out.map(|x| x / far) } else { [cos, sin] };
                     let place = [center[0] + radius * unit[0], center[1] + radius * unit[1]];

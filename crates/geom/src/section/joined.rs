@@ -1,6 +1,6 @@
 //! Outlines of the segments of a drawing, which come in any order and direction.
 
-use super::facets::length;
+use super::flat::distance;
 use super::nominal::Outline;
 use super::result::{Geometry, Segment};
 use crate::spline::curve::{self, Curve, End, Ends};
@@ -85,7 +85,7 @@ fn followed(rational: &Rational<3>, tolerance: f64) -> Option<(Curve<[f64; 2]>, 
         end: End::Tangent(points[points.len() - 1], tangent(to)?),
     };
     let curve = curve::divided(&points, &parameters, 3, &spans, ends, tolerance).ok()?.curve;
-    let off = |t: f64| Some(length(curve.at(t), rational.at(t).map(flat)?));
+    let off = |t: f64| Some(distance(curve.at(t), rational.at(t).map(flat)?));
     let middle = parameters.windows(2).map(|w| off(0.5 * (w[0] + w[1])));
     let deviation = middle.chain(parameters.iter().map(|t| off(*t))).collect::<Option<Vec<f64>>>()?;
     Some((curve, deviation.into_iter().fold(0.0, f64::max)))
@@ -118,7 +118,7 @@ impl EndsAt {
         let around = (-1..=1).flat_map(|i| (-1..=1).map(move |j| [x.saturating_add(i), y.saturating_add(j)]));
         let ends = around.filter_map(|key| self.at.get(&key)).flatten().filter(|(i, _)| !used[*i]);
         let far = |(i, at_end): &(usize, bool)| {
-            length(p, if *at_end { segments[*i].end } else { segments[*i].start })
+            distance(p, if *at_end { segments[*i].end } else { segments[*i].start })
         };
         ends.map(|e| (far(e), *e))
             .filter(|(d, _)| *d <= gap)
@@ -155,7 +155,8 @@ pub fn joined(segments: Vec<Segment>, gap: f64) -> Vec<Outline> {
         for forward in [true, false] {
             while !closed {
                 let (start, end) = (chain[0].start, chain[chain.len() - 1].end);
-                closed = length(start, end) <= gap && chain.iter().map(|s| s.length).sum::<f64>() > 2.0 * gap;
+                closed =
+                    distance(start, end) <= gap && chain.iter().map(|s| s.length).sum::<f64>() > 2.0 * gap;
                 let from = if forward { end } else { start };
                 let Some((next, at_end)) = ends.near(&segments, &used, from, gap).filter(|_| !closed) else {
                     break;
@@ -229,7 +230,7 @@ mod tests {
             assert_eq!(shape, [(1, true), (2, false), (4, true), (4, true)]);
             for outline in &found {
                 for w in outline.segments.windows(2) {
-                    assert!(length(w[0].end, w[1].start) < 1e-9);
+                    assert!(distance(w[0].end, w[1].start) < 1e-9);
                 }
             }
         }

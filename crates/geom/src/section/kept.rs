@@ -1,6 +1,6 @@
 //! Curves that keep to the points of a row without noise.
 
-use super::facets::{angle, length};
+use super::flat::{angle, distance};
 use crate::spline::basis::Knots;
 use crate::spline::curve::{self, Curve, Ends};
 
@@ -24,7 +24,7 @@ fn shares(points: &[[f64; 2]]) -> Vec<f64> {
         let ends = if i == 0 || i + 2 == n { 1.0 } else { 0.5 };
         let half = 0.5 * ends * (turn(i) + turn(i + 1));
         let longer = if half.abs() > 1e-4 { half / libm::sin(half.clamp(-1.5, 1.5)) } else { 1.0 };
-        sum += length(points[i], points[i + 1]) * longer;
+        sum += distance(points[i], points[i + 1]) * longer;
         all.push(sum);
     }
     all.iter_mut().for_each(|s| *s /= sum);
@@ -93,7 +93,7 @@ fn halved(points: &[[f64; 2]], parameters: &[f64], ends: Ends<2>, tolerance: f64
         let inner: Vec<f64> = limits[1..limits.len() - 1].iter().map(|i| parameters[*i]).collect();
         let knots = Knots::clamped(3, 0.0, &inner, 1.0).ok()?;
         let fitted = curve::fit(points, parameters, &knots, ends, 0.0).ok()?.curve;
-        let off = |i: usize| length(fitted.at(parameters[i]), points[i]) > 0.7 * tolerance;
+        let off = |i: usize| distance(fitted.at(parameters[i]), points[i]) > 0.7 * tolerance;
         let mut finer = vec![0];
         for w in limits.windows(2) {
             let middle = (w[0] + w[1]) / 2;

@@ -4,7 +4,7 @@
 //! reaches so far would reach across walls, too. So the tree reaches a few cells only, and the ways that it falls into are linked
 //! end to end: over gaps that points so uneven have by chance, rather straight on than aside, and each end once.
 
-use super::facets::length;
+use super::flat::distance;
 
 /// Cells of a way in order, each with the cells of short branches beside it.
 pub(super) type Way = Vec<(usize, Vec<usize>)>;
@@ -62,7 +62,7 @@ fn end(way: &Way, last: bool, middles: &[[f64; 2]]) -> End {
     let back = BACK.min(n - 1);
     let (tip, inner) = if last { (n - 1, n - 1 - back) } else { (0, back) };
     let (at, from) = (middles[way[tip].0], middles[way[inner].0]);
-    let size = length(from, at);
+    let size = distance(from, at);
     End { at, out: (size > 0.0).then(|| [(at[0] - from[0]) / size, (at[1] - from[1]) / size]) }
 }
 
@@ -104,7 +104,7 @@ fn candidates(ends: &[End], limits: &Limits) -> Vec<(f64, usize, usize)> {
     for (k, &i) in by_x.iter().enumerate() {
         for &j in by_x[k + 1..].iter().take_while(|j| ends[**j].at[0] - ends[i].at[0] <= limits.gap) {
             let (a, b) = (i.min(j), i.max(j));
-            let apart = length(ends[a].at, ends[b].at);
+            let apart = distance(ends[a].at, ends[b].at);
             let ahead = |from: &End, to: &End| match from.out {
                 Some(out) if apart > 0.0 => {
                     (out[0] * (to.at[0] - from.at[0]) + out[1] * (to.at[1] - from.at[1])) / apart
@@ -158,7 +158,7 @@ pub(super) fn gap_to_close(ends: &[[f64; 2]], fewest: usize) -> Option<f64> {
     }
     let nearest = |i: usize| {
         let others = (0..ends.len()).filter(|j| *j != i);
-        others.map(|j| length(ends[i], ends[j])).fold(f64::INFINITY, f64::min)
+        others.map(|j| distance(ends[i], ends[j])).fold(f64::INFINITY, f64::min)
     };
     let mut all: Vec<f64> = (0..ends.len()).map(nearest).collect();
     all.sort_by(f64::total_cmp);

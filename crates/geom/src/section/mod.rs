@@ -64,6 +64,7 @@ mod doubt;
 mod edge_chain;
 mod exact;
 mod facets;
+mod flat;
 mod follow;
 mod foot;
 mod free;

@@ -7,7 +7,7 @@
 //! Geometric Design 17, 2000; cells in place of moving least squares.)
 
 use super::cells::{Cells, FEWEST, Tree, tree_paths};
-use super::facets::length;
+use super::flat::distance;
 use super::link::{Limits, Linked, gap_to_close, link, longest_by_chance};
 use super::untangle::untangle;
 use super::walls::{Faces, Wall, faces};
@@ -288,7 +288,7 @@ fn beside(points: &[[f64; 2]], rows: &[Ordered], k: usize, gap: f64) -> Option<f
     let others: Vec<[f64; 2]> = longer.flat_map(|r| r.numbers.iter().map(|i| points[*i])).collect();
     let cells = Cells::new(&others, gap);
     let near =
-        |i: &usize| cells.around(points[*i]).map(|j| length(points[*i], others[j])).find(|d| *d <= gap);
+        |i: &usize| cells.around(points[*i]).map(|j| distance(points[*i], others[j])).find(|d| *d <= gap);
     let all: Option<Vec<f64>> = own.numbers.iter().map(near).collect();
     all.map(|all| all.iter().sum::<f64>() / all.len() as f64)
 }

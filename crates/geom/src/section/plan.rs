@@ -3,8 +3,9 @@
 use super::budget::Budget;
 use super::chain::SegmentKind;
 use super::criterion::Criterion;
+use super::flat::angle;
 use super::levels::Start;
-use super::polygon::{self, turn};
+use super::polygon;
 use super::prior::Known;
 use super::result::{Continuity, Options, SectionError};
 use super::row::{Clean, spacing};
@@ -212,7 +213,7 @@ impl Plan<'_> {
         let points = &self.clean.points;
         let (a, b) = (points[before.to - 1], points[after.from % points.len()]);
         let (a, b) = (before.heading(a), after.heading(b));
-        let turn = turn(a, b).abs();
+        let turn = angle(a, b).abs();
         let spread = |part: &Part| {
             let count = (part.to - part.from) as f64;
             let factor = if part.kind == SegmentKind::Line { 3.5 } else { 14.0 };

@@ -1,6 +1,7 @@
 //! Rows that are polygons, exactly.
 
 use super::chain::SegmentKind;
+use super::flat::angle;
 use super::partition::{Penalty, partition};
 use super::row::Clean;
 use super::start::{Part, scatter};
@@ -18,19 +19,14 @@ pub(super) fn polygon(clean: &Clean, penalty: &Penalty) -> Option<(usize, Vec<Pa
     let weights = vec![1.0; n];
     let sharp = |i: usize| {
         let [a, b, c] = [i + n - 1, i, i + 1].map(|k| clean.points[k % n]);
-        turn([b[0] - a[0], b[1] - a[1]], [c[0] - b[0], c[1] - b[1]]).abs()
+        angle([b[0] - a[0], b[1] - a[1]], [c[0] - b[0], c[1] - b[1]]).abs()
     };
     let by = if clean.closed { (0..n).max_by(|i, j| sharp(*i).total_cmp(&sharp(*j)))? } else { 0 };
     points.rotate_left(by);
     let parts = partition(&points, &weights, &Penalty { fewest: FEWEST, ..*penalty });
     let sides = parts.iter().all(|p| p.kind == SegmentKind::Line && p.to - p.from >= FEWEST);
     let last = if clean.closed { parts.len() } else { parts.len() - 1 };
-    let corners = (0..last).all(|k| turn(parts[k].along, parts[(k + 1) % parts.len()].along).abs() > CORNER);
+    let corners = (0..last).all(|k| angle(parts[k].along, parts[(k + 1) % parts.len()].along).abs() > CORNER);
     let exact = scatter(&points, &weights, &parts) <= penalty.noise;
     (parts.len() > 1 && sides && corners && exact).then_some((by, parts))
-}
-
-/// Angle from one direction to another, positive to the left.
-pub(super) fn turn(a: [f64; 2], b: [f64; 2]) -> f64 {
-    libm::atan2(a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1])
 }

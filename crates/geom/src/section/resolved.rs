@@ -7,8 +7,7 @@
 
 use super::assembly::Joined;
 use super::chain::SegmentKind;
-use super::exact::{off_circle, off_line};
-use super::facets::{angle, length};
+use super::flat::{angle, distance, off_circle, off_line};
 use super::kept::{TOLERANCES, chord, followed};
 use super::levels::Start;
 use super::polygon::CORNER;
@@ -184,7 +183,7 @@ impl Turns<'_> {
         let of = |i: usize| {
             let inside = clean.closed || i > 0 && i + 1 < n;
             let [a, b, c] = [(i + n - 1) % n, i, (i + 1) % n].map(|k| points[k]);
-            inside.then(|| (angle(chord(a, b), chord(b, c)), 0.5 * (length(a, b) + length(b, c))))
+            inside.then(|| (angle(chord(a, b), chord(b, c)), 0.5 * (distance(a, b) + distance(b, c))))
         };
         Turns { clean, all: (0..n).map(of).collect() }
     }
@@ -250,7 +249,7 @@ impl Stretch {
     fn straight(&self, rounding: f64) -> Option<Segment> {
         let (a, b) = (self.points.first()?, self.points.last()?);
         let on = |p: &[f64; 2]| off_line([*a, *b], *p) <= rounding;
-        (length(*a, *b) > rounding && self.points.iter().all(on)).then(|| Segment::line(*a, *b))
+        (distance(*a, *b) > rounding && self.points.iter().all(on)).then(|| Segment::line(*a, *b))
     }
 }
 
@@ -260,13 +259,13 @@ fn heading(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> [f64; 2] {
     // The angle between chord and tangent is that of the triangle at the far end.
     let by = angle(u, v) - angle(u, w);
     let (sin, cos) = libm::sincos(by);
-    let size = length(b, c).max(f64::MIN_POSITIVE);
+    let size = distance(b, c).max(f64::MIN_POSITIVE);
     [(v[0] * cos - v[1] * sin) / size, (v[0] * sin + v[1] * cos) / size]
 }
 
 /// Curvature of the circle through three points, positive to the left.
 fn bend(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
-    2.0 * libm::sin(angle(chord(a, b), chord(b, c))) / length(a, c).max(f64::MIN_POSITIVE)
+    2.0 * libm::sin(angle(chord(a, b), chord(b, c))) / distance(a, c).max(f64::MIN_POSITIVE)
 }
 
 /// Where a corner is: at its point, or where parabolas from both sides cross between two, in the middle where they do not.
@@ -285,7 +284,7 @@ fn place(clean: &Clean, corner: &Corner) -> [f64; 2] {
         let place = [0, 1].map(|k| from[k] + s * u[k] + 0.5 * s * s * bend * normal[k]);
         (place, [0, 1].map(|k| u[k] + s * bend * normal[k]))
     };
-    let (gap, middle) = (length(a, b), [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])]);
+    let (gap, middle) = (distance(a, b), [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])]);
     let (mut s, mut t) = (0.5 * gap, 0.5 * gap);
     for _ in 0..20 {
         let ((p, u), (q, v)) = (on(a, u, bends[0], s), on(b, v, bends[1], t));
@@ -354,7 +353,7 @@ fn drawn(clean: &Clean, corners: &[Corner], least: f64, level: f64) -> Option<Co
         if let Some(side) = stretch.straight(ROUNDING * size(&clean.points)) {
             for (i, p) in stretch.points[stretch.before..].iter().take(stretch.count).enumerate() {
                 contour.labels[stretch.first + i] = k as u32;
-                contour.stations[stretch.first + i] = way + length(side.start, *p);
+                contour.stations[stretch.first + i] = way + distance(side.start, *p);
             }
             way += side.length;
             contour.segments.push(Segment { count: stretch.count, ..side });
@@ -418,7 +417,7 @@ fn join(clean: &Clean, corner: &Corner, tolerance: f64, level: f64) -> Join {
     let point = place(clean, corner);
     let [a, b] = [(corner.after + n - 1) % n, corner.after].map(|i| clean.points[i]);
     let quantile = student_quantile(1.0 - level, n as f64);
-    let width = length(a, b);
+    let width = distance(a, b);
     let along = [0, 1].map(|k| (b[k] - a[k]) / width.max(f64::MIN_POSITIVE));
     let end = |sign: f64| [0, 1].map(|k| point[k] + sign * quantile * tolerance * along[k]);
     let (interval, uncertainty) = match corner.on_point || width <= tolerance {

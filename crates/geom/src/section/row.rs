@@ -1,5 +1,6 @@
 //! Rows of points as they come: what is wrong with them, and what is passed over.
 
+use super::flat::distance;
 use super::result::{Options, SectionError};
 
 /// A row made fit for the search.
@@ -41,10 +42,6 @@ fn median(mut all: Vec<f64>) -> f64 {
     }
     let middle = all.len() / 2;
     *all.select_nth_unstable_by(middle, f64::total_cmp).1
-}
-
-pub(super) fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
-    libm::hypot(b[0] - a[0], b[1] - a[1])
 }
 
 /// Which points of a row count, and which repeat the one before.

@@ -1,6 +1,7 @@
 //! Polylines of exact lines and arcs as contours: each segment from one vertex to another.
 
-use super::facets::{Item, LineOrArc, Polygon, angle};
+use super::facets::{Item, LineOrArc, Polygon};
+use super::flat::angle;
 use super::result::{Continuity, Contour, Geometry, Join, Options, Segment, Taken};
 use crate::num::special::student_quantile;
 

@@ -4,7 +4,7 @@ use super::base::Base;
 use super::blocks::Blocks;
 use super::chain::{Layout, Piece, Pose, SegmentKind, arc_end};
 use super::criterion::Model;
-use super::facets::angle;
+use super::flat::angle;
 use super::free;
 use super::least::{Spread, State, Work};
 use super::profile::Interval;

@@ -9,8 +9,7 @@
 mod beside;
 mod limits;
 
-use super::polygon::turn;
-use super::row::distance;
+use super::flat::{angle, distance};
 use beside::{End, Scatter};
 use limits::{BENT, LEAST, SHORTER_FAR, STRAIGHT};
 
@@ -241,8 +240,8 @@ impl Way<'_> {
         }
         let [a, b, c] = near.map(|i| self.0[i]);
         let way = |p: [f64; 2], q: [f64; 2]| [q[0] - p[0], q[1] - p[1]];
-        let bend = turn(way(c, b), way(b, a));
-        let off = turn(way(b, a), way(a, self.0[tip])) - 0.5 * bend;
+        let bend = angle(way(c, b), way(b, a));
+        let off = angle(way(b, a), way(a, self.0[tip])) - 0.5 * bend;
         let straight = 0.5 * bend.abs() + STRAIGHT;
         let gap = distance(a, self.0[tip]) / distance(a, b).max(f64::MIN_POSITIVE);
         let bent = if far { 0.0 } else { (bend.abs() * gap).min(BENT) };

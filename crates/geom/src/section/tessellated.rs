@@ -5,8 +5,8 @@ use super::chain::SegmentKind;
 use super::contour::{contour, contour_with};
 use super::cut::{Chain, PlaneFrame};
 use super::direction::from_the_end;
-use super::exact::off_line;
-use super::facets::{Item, LineOrArc, Polygon, SHARP, length};
+use super::facets::{Item, LineOrArc, Polygon, SHARP};
+use super::flat::{distance, off_line};
 use super::prior::{Known, Prior};
 use super::result::{Contour, Join, Options, SectionError, Segment, Taken};
 use super::row::check;
@@ -150,7 +150,7 @@ const EACH: usize = 6;
 
 fn is_remeshed(points: &[[f64; 2]], polygon: &Polygon, items: &[Item], scatters: bool) -> bool {
     let n = points.len();
-    let mut sizes: Vec<f64> = points.windows(2).map(|w| length(w[0], w[1])).collect();
+    let mut sizes: Vec<f64> = points.windows(2).map(|w| distance(w[0], w[1])).collect();
     sizes.sort_by(f64::total_cmp);
     let middle = sizes[sizes.len() / 2];
     let number = |i: usize| polygon.numbers[i % polygon.at.len()];
@@ -161,7 +161,7 @@ fn is_remeshed(points: &[[f64; 2]], polygon: &Polygon, items: &[Item], scatters:
             chords += item.to - item.from;
         } else if steps >= FLAT {
             flat += steps;
-        } else if length(polygon.vertex(item.from), polygon.vertex(item.to)) <= STEPS * middle {
+        } else if distance(polygon.vertex(item.from), polygon.vertex(item.to)) <= STEPS * middle {
             short += 1;
         }
     }
@@ -171,7 +171,7 @@ fn is_remeshed(points: &[[f64; 2]], polygon: &Polygon, items: &[Item], scatters:
 
 /// Whether a plane cuts the facets at even distances, as those of a mesh of a surface.
 fn is_even(points: &[[f64; 2]]) -> bool {
-    let mut sizes: Vec<f64> = points.windows(2).map(|w| length(w[0], w[1])).collect();
+    let mut sizes: Vec<f64> = points.windows(2).map(|w| distance(w[0], w[1])).collect();
     sizes.sort_by(f64::total_cmp);
     sizes[NEARLY * (sizes.len() - 1) / 100] <= EVEN * sizes[sizes.len() / 2]
 }
@@ -206,7 +206,7 @@ fn within_facets(contour: Contour, points: &[[f64; 2]]) -> Contour {
         let [a, b, c] = [(i + n - 1) % n, i, (i + 1) % n].map(|i| points[i]);
         let (k, height) = (all.labels[i] as usize, off_line([a, c], b));
         heights[k] = [heights[k][0] + height * height, heights[k][1].max(height)];
-        ways[k] += 0.5 * (length(a, b) + length(b, c));
+        ways[k] += 0.5 * (distance(a, b) + distance(b, c));
         let [off, next] = [i, (i + 1) % n].map(|i| all.residuals[i]);
         products[k] = [products[k][0] + off * next, products[k][1] + off * off];
     }
@@ -431,7 +431,7 @@ impl Sheet<'_> {
         let mut row = vec![];
         for i in from..to {
             let (a, b) = (self.polygon.vertex(i), self.polygon.vertex(i + 1));
-            let parts = (length(a, b) / spacing).round().clamp(1.0, 1000.0) as usize;
+            let parts = (distance(a, b) / spacing).round().clamp(1.0, 1000.0) as usize;
             for k in 0..parts {
                 let t = k as f64 / parts as f64;
                 row.push([a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])]);

@@ -1,6 +1,7 @@
 //! Whether a cover of exact points by lines and arcs is told by these, or by chance.
 
-use super::facets::{Item, LineOrArc, Polygon, SHARP, angle, length, round};
+use super::facets::{Item, LineOrArc, Polygon, SHARP, round};
+use super::flat::{angle, distance};
 
 /// What a cover saves is no chance where so many coincidences among as many points are less likely than e to the power of minus this.
 const CHANCE: f64 = 5.0;
@@ -99,7 +100,7 @@ impl Seen<'_> {
     fn off_one_circle(&self) -> f64 {
         let points = &self.polygon.at;
         let Some((center, radius)) = round(points) else { return f64::INFINITY };
-        let sum: f64 = points.iter().map(|p| (length(center, *p) - radius).powi(2)).sum();
+        let sum: f64 = points.iter().map(|p| (distance(center, *p) - radius).powi(2)).sum();
         (sum / points.len() as f64).sqrt()
     }
 
@@ -124,7 +125,7 @@ impl Seen<'_> {
         let height = |k: usize| {
             let at = self.pieces[k].item.to;
             let [a, b, c] = [at - 1, at, at + 1].map(|i| self.polygon.vertex(i));
-            let whole = length(a, c).max(f64::MIN_POSITIVE);
+            let whole = distance(a, c).max(f64::MIN_POSITIVE);
             ((c[0] - a[0]) * (b[1] - a[1]) - (c[1] - a[1]) * (b[0] - a[0])).abs() / whole
         };
         let mut free: Vec<f64> = (0..joins).filter(|k| plain(*k)).map(height).collect();
@@ -170,7 +171,7 @@ impl Seen<'_> {
     fn off(&self, piece: &Piece, i: usize) -> f64 {
         let p = self.polygon.vertex(i);
         match piece.item.shape {
-            LineOrArc::Arc(center, curvature) => (length(center, p) - 1.0 / curvature.abs()).abs(),
+            LineOrArc::Arc(center, curvature) => (distance(center, p) - 1.0 / curvature.abs()).abs(),
             LineOrArc::Line => {
                 let (a, u) = (self.polygon.vertex(piece.item.from), piece.along[0]);
                 (u[0] * (p[1] - a[1]) - u[1] * (p[0] - a[0])).abs()
@@ -206,7 +207,7 @@ impl Seen<'_> {
         match (a.item.shape, b.item.shape) {
             (LineOrArc::Line, LineOrArc::Line) => false,
             (LineOrArc::Arc(c, k), LineOrArc::Arc(d, m)) => {
-                let (apart, r, s) = (length(c, d), 1.0 / k.abs(), 1.0 / m.abs());
+                let (apart, r, s) = (distance(c, d), 1.0 / k.abs(), 1.0 / m.abs());
                 (apart - (r + s)).abs().min((apart - (r - s).abs()).abs()) <= most
             }
             (LineOrArc::Arc(c, k), LineOrArc::Line) => self.touches(b, c, k, most),

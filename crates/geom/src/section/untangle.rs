@@ -3,7 +3,7 @@
 //! Around a corner the way through cells cuts across it, and points of both sides come mixed. (Croes, A method for solving
 //! traveling-salesman problems, Operations Research 6, 1958; within a few points.)
 
-use super::facets::length;
+use super::flat::distance;
 
 /// Stretches of up to so many points are turned round.
 const LONGEST: usize = 8;
@@ -17,7 +17,7 @@ const THIN: f64 = 1.3;
 pub(super) fn untangle(points: &[[f64; 2]], numbers: &mut [usize], closed: bool, way: f64) {
     let n = numbers.len();
     let at = |i: usize| points[i];
-    let whole: f64 = numbers.windows(2).map(|w| length(at(w[0]), at(w[1]))).sum();
+    let whole: f64 = numbers.windows(2).map(|w| distance(at(w[0]), at(w[1]))).sum();
     if n < LONGEST || whole > THIN * way {
         return;
     }
@@ -26,7 +26,7 @@ pub(super) fn untangle(points: &[[f64; 2]], numbers: &mut [usize], closed: bool,
         for i in 1..n - 1 {
             for j in i + 1..(i + LONGEST).min(n - 1) {
                 let [a, b, c, d] = [i - 1, i, j, j + 1].map(|k| at(numbers[k]));
-                let (now, turned) = (length(a, b) + length(c, d), length(a, c) + length(b, d));
+                let (now, turned) = (distance(a, b) + distance(c, d), distance(a, c) + distance(b, d));
                 if turned < now * (1.0 - 1e-9) {
                     numbers[i..=j].reverse();
                     changed = true;

@@ -6,7 +6,8 @@
 //! that turns out tangent a direction, and a circle costs its curvature. The cheapest cover of the row by lines and arcs that share
 //! their ends is found by dynamic programming. It is taken where what it saves is no chance, and where each of its segments ends for certain.
 
-use super::facets::{Item, LineOrArc, Polygon, SHARP, WIDE, angle, length, round};
+use super::facets::{Item, LineOrArc, Polygon, SHARP, WIDE, round};
+use super::flat::{angle, distance};
 use super::row::size;
 use super::told::{Piece, is_told};
 
@@ -48,7 +49,7 @@ pub(super) fn vertices(
     if !(4..=MOST).contains(&points.len()) {
         return None;
     }
-    let mut chords: Vec<f64> = points.windows(2).map(|w| length(w[0], w[1])).collect();
+    let mut chords: Vec<f64> = points.windows(2).map(|w| distance(w[0], w[1])).collect();
     chords.sort_by(f64::total_cmp);
     let most = COARSE * chords[chords.len() / 2];
     // Finer than their digits points tell nothing.
@@ -198,7 +199,7 @@ impl Cover {
 
     fn line(&self, from: usize, to: usize) -> Option<Piece> {
         let (a, b) = (self.polygon.vertex(from), self.polygon.vertex(to));
-        let whole = length(a, b);
+        let whole = distance(a, b);
         let along = [(b[0] - a[0]) / whole, (b[1] - a[1]) / whole];
         let seen = |i: usize| {
             let p = self.polygon.vertex(i);
@@ -223,7 +224,7 @@ impl Cover {
         let points: Vec<[f64; 2]> = (from..=to).map(|i| self.polygon.vertex(i)).collect();
         let (center, radius) = round(&points)?;
         let out = |p: [f64; 2]| [p[0] - center[0], p[1] - center[1]];
-        let off = points.iter().map(|p| (length(center, *p) - radius).abs()).fold(0.0, f64::max);
+        let off = points.iter().map(|p| (distance(center, *p) - radius).abs()).fold(0.0, f64::max);
         let turns: Vec<f64> = points.windows(2).map(|w| angle(out(w[0]), out(w[1]))).collect();
         let turned: f64 = turns.iter().sum();
         let widest = turns.iter().fold(0.0_f64, |m, t| m.max(t.abs()));

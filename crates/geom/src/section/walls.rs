@@ -6,7 +6,7 @@
 //! scatter); of two faces it leaves that of the noise alone. Windows at corners tell nothing and count little: there are few. Teeth, too,
 //! lie on two levels, but one after the other, where points of two faces come as by chance.
 
-use super::facets::length;
+use super::flat::distance;
 use crate::fit::solve;
 
 /// Fewest points of a window, and by what powers of 2 it grows at most.
@@ -97,7 +97,7 @@ impl Window {
         let mean =
             |part: &[[f64; 2]]| [0, 1].map(|k| part.iter().map(|p| p[k]).sum::<f64>() / part.len() as f64);
         let (first, last, middle) = (mean(&points[..n / 3]), mean(&points[n - n / 3..]), mean(points));
-        let reach = length(first, last);
+        let reach = distance(first, last);
         let along = [(last[0] - first[0]) / reach, (last[1] - first[1]) / reach];
         let mut window = Window {
             from,

@@ -1,8 +1,8 @@
 //! Circles inscribed into a profile.
 
 use super::super::crossings::crossing_chords;
+use super::super::flat::distance;
 use super::super::nominal::inside;
-use super::ends::distance;
 use super::error::AirfoilError;
 use super::profile::Profile;
 use crate::progress::{Cancelled, Progress};

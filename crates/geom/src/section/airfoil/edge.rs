@@ -1,6 +1,6 @@
 //! Radius of curvature at the edge of a profile, from the measured points around it.
 
-use super::ends::distance;
+use super::super::flat::distance;
 use super::error::AirfoilError;
 
 /// What a radius of an edge is.

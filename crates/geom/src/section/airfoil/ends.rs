@@ -1,5 +1,6 @@
 //! Where a profile ends: which end is the trailing one, and whether it is sharp, blunt or round.
 
+use super::super::flat::distance;
 use super::super::start::noise_beyond_form;
 use super::error::AirfoilError;
 use super::tail::{Tail, tail};
@@ -30,10 +31,6 @@ impl TrailingEdge {
             TrailingEdge::Open(_) => "open",
         }
     }
-}
-
-pub(super) fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
-    libm::hypot(b[0] - a[0], b[1] - a[1])
 }
 
 /// A profile from its trailing edge over the leading one and back.

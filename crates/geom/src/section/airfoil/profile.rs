@@ -5,8 +5,9 @@
 //! beside. A contour that ends at the same edges, and costs less by the same measure, is taken in its place.
 
 use super::super::chain::SegmentKind;
+use super::super::flat::distance;
 use super::super::result::{Continuity, Contour};
-use super::ends::{Around, TrailingEdge, distance};
+use super::ends::{Around, TrailingEdge};
 use super::error::AirfoilError;
 use crate::progress::{Cancelled, Progress};
 use crate::spline::curve::{self, Curve, Ends, Fitted};

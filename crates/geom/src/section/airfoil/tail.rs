@@ -5,9 +5,7 @@
 //! end where their own points end, and are led no farther. Behind a trailing edge the sides run straight; behind a leading one they go
 //! on turning. Where both are round they may go on alike, and the trailing one is thinner.
 
-use super::super::exact::off_line;
-use super::super::polygon::turn;
-use super::super::row::distance;
+use super::super::flat::{angle, distance, off_line};
 
 /// What an edge takes of the turn at its end, radians: two thirds of half a turn. Wedges turn by less than the rest, and one corner of a
 /// face by less than this.
@@ -90,7 +88,7 @@ impl Outline<'_> {
     fn turn(&self, k: usize) -> f64 {
         let n = self.at.len();
         let [a, b, c] = [k + n - 1, k, k + 1].map(|k| self.place(k));
-        turn([b[0] - a[0], b[1] - a[1]], [c[0] - b[0], c[1] - b[1]])
+        angle([b[0] - a[0], b[1] - a[1]], [c[0] - b[0], c[1] - b[1]])
     }
 
     /// The shortest stretch near the end `tip` that takes most of the turn.
@@ -135,7 +133,7 @@ impl Outline<'_> {
             };
             let (near, beyond) = (far(SIDE[0])?, far(SIDE[1])?);
             let [a, b, c] = [start, near, beyond].map(|i| self.row[i]);
-            Some(turn([b[0] - a[0], b[1] - a[1]], [c[0] - b[0], c[1] - b[1]]).abs())
+            Some(angle([b[0] - a[0], b[1] - a[1]], [c[0] - b[0], c[1] - b[1]]).abs())
         };
         Some(side(edge.ends[0], n - 1)? + side(edge.ends[1], 1)?)
     }

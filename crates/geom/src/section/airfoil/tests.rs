@@ -1,5 +1,6 @@
 //! Profiles with measures in closed form: envelopes of circles, NACA's four digits, ellipses.
 
+use super::super::flat::distance;
 use super::*;
 use crate::num::random::Random;
 use crate::progress::Silent;

@@ -46,7 +46,7 @@ fn a_slot_has_a_width_and_two_centers() {
     assert!((centers.value - 20.0).abs() < 4.0 * centers.uncertainty.unwrap(), "{centers:?}");
     // Measured across, in the middle.
     let [p, q] = width.between;
-    assert!((p[0] - q[0]).abs() < 0.01 && p[0].abs() < 0.1 && (length(p, q) - width.value).abs() < 1e-12);
+    assert!((p[0] - q[0]).abs() < 0.01 && p[0].abs() < 0.1 && (distance(p, q) - width.value).abs() < 1e-12);
 }
 
 /// A segment that does not run along its points is measured by none: neither widths nor centers, angles or gaps.
@@ -184,7 +184,7 @@ fn least_distances_are_those_of_brute_force() {
             let mut place = || [10.0 * random.unit(), 10.0 * random.unit()];
             let (p, q, r, s) = (place(), place(), place(), place());
             match k {
-                0 => segment(Geometry::Line, p, q, length(p, q)),
+                0 => segment(Geometry::Line, p, q, distance(p, q)),
                 1 => {
                     let (radius, start, sweep) = (0.3 * q[0], q[1], 0.9 * (r[0] - 5.0));
                     let at = |a: f64| [p[0] + radius * libm::cos(a), p[1] + radius * libm::sin(a)];
@@ -202,11 +202,11 @@ fn least_distances_are_those_of_brute_force() {
         for (a, b) in [(0, 0), (0, 1), (1, 1), (0, 2), (1, 2), (2, 2)] {
             let (a, b) = (one(a), one(b));
             let (value, [p, q]) = nearest(&a, &b);
-            assert!((length(p, q) - value).abs() < 1e-9, "{value} {p:?} {q:?}");
+            assert!((distance(p, q) - value).abs() < 1e-9, "{value} {p:?} {q:?}");
             let places = |s: &Segment| (0..=400).map(|i| s.place(f64::from(i) / 400.0)).collect::<Vec<_>>();
             let (of_a, of_b) = (places(&a), places(&b));
             let brute =
-                of_a.iter().flat_map(|p| of_b.iter().map(|q| length(*p, *q))).fold(f64::INFINITY, f64::min);
+                of_a.iter().flat_map(|p| of_b.iter().map(|q| distance(*p, *q))).fold(f64::INFINITY, f64::min);
             // Neighboring places are no farther apart than 0.11: the derivative of a spline is below 43.
             assert!(value <= brute + 1e-12 && value > brute - 0.11, "{value} {brute} {a:?} {b:?}");
         }

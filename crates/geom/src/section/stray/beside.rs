@@ -4,7 +4,7 @@
 //! the next one may lie, and their steps tell how far off. A point beyond both is stray in a row that was measured, as steps of a scan are alike. In a row
 //! without noise it may be the far end of a line that is given by its ends: there it is doubted.
 
-use super::super::row::distance;
+use super::super::flat::distance;
 use super::super::start::{noise, noise_beyond_form};
 use super::limits::{BENT, LEAST, SHORTER_FAR, STRAIGHT};
 

@@ -63,8 +63,8 @@ fn kinds(contour: &Contour) -> Vec<SegmentKind> {
 fn holds_together(contour: &Contour) {
     let n = contour.segments.len();
     for (i, join) in contour.joins.iter().enumerate() {
-        assert!(length(contour.segments[i].end, join.point) < 1e-5, "{i}");
-        assert!(length(contour.segments[(i + 1) % n].start, join.point) < 1e-5, "{i}");
+        assert!(distance(contour.segments[i].end, join.point) < 1e-5, "{i}");
+        assert!(distance(contour.segments[(i + 1) % n].start, join.point) < 1e-5, "{i}");
     }
     let count: usize = contour.segments.iter().map(|s| s.count).sum();
     assert_eq!((count, contour.labels.len()), (contour.residuals.len(), contour.stations.len()));
@@ -106,7 +106,7 @@ fn bores_are_circles_and_slots_and_fillets_have_arcs() {
         let Geometry::Arc { center: c, radius: r, sweep, .. } = contour.segments[0].geometry else {
             panic!()
         };
-        assert!(length(c, center) < 1e-5 && (r - radius).abs() < 1e-5, "{c:?} {r}");
+        assert!(distance(c, center) < 1e-5 && (r - radius).abs() < 1e-5, "{c:?} {r}");
         assert!((sweep.abs() - std::f64::consts::TAU).abs() < 1e-9);
         holds_together(contour);
     }
@@ -114,7 +114,7 @@ fn bores_are_circles_and_slots_and_fillets_have_arcs() {
     assert_eq!(kinds(&found[2]), [Line, Arc, Line, Arc]);
     for join in &found[2].joins {
         assert_eq!(join.continuity, Continuity::G1);
-        let at = [80.0, 100.0].map(|x| length([x, join.point[1].signum() * 6.0], join.point));
+        let at = [80.0, 100.0].map(|x| distance([x, join.point[1].signum() * 6.0], join.point));
         assert!(at[0].min(at[1]) < 1e-5, "{join:?}");
     }
     assert_eq!(kinds(&found[3]), [Line, Line, Line, Arc, Line, Arc]);
@@ -221,7 +221,7 @@ fn loops_that_touch_have_their_corner() {
                     .unwrap();
             assert!(found.closed && found.astray.is_empty());
             assert!((found.length() / length_of_loop - 1.0).abs() < 0.004, "{around}: {}", found.length());
-            let corner = found.joins.iter().find(|j| length(j.point, [0.0, 0.0]) < 1e-4).unwrap();
+            let corner = found.joins.iter().find(|j| distance(j.point, [0.0, 0.0]) < 1e-4).unwrap();
             assert_eq!(corner.continuity, Continuity::G0, "{around}");
             // What is drawn ends there.
             let near =
@@ -309,9 +309,9 @@ fn a_scan_is_a_row_of_independent_points() {
     use SegmentKind::{Arc, Line};
     assert_eq!(kinds(&found), [Line, Arc, Line, Arc]);
     for truth in [[0.0, 0.0], [50.0, 0.0], [50.0, 20.0], [0.0, 20.0]] {
-        let join = found.joins.iter().find(|j| length(j.point, truth) < 0.5).unwrap();
+        let join = found.joins.iter().find(|j| distance(j.point, truth) < 0.5).unwrap();
         // Chords of up to 0.7 mm lie up to 0.006 mm inside of the circle; that moves a join by no more than twice as much.
-        assert!(length(join.point, truth) < 5.0 * join.uncertainty + 0.012, "{join:?}");
+        assert!(distance(join.point, truth) < 5.0 * join.uncertainty + 0.012, "{join:?}");
     }
     assert_eq!(found.labels.len(), chains[0].points.len());
     assert!(found.residuals.iter().all(|r| r.abs() < 0.03));

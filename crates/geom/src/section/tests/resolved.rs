@@ -1,5 +1,6 @@
 //! Rows of curves without noise.
 
+use super::super::flat::angle;
 use super::*;
 
 /// Upper and lower side of a profile of NACA's four digits, chord 100, with a sharp trailing edge: `a` from 0 to 2 π around it.
@@ -83,7 +84,7 @@ fn ellipses_have_no_corners() {
             assert!(contour.closed && contour.joins.is_empty(), "{small} {count}");
             let Geometry::Spline { curve, .. } = &contour.segments[0].geometry else { unreachable!() };
             let (a, b) = (curve.derivative(0.0, 1), curve.derivative(1.0, 1));
-            assert!(super::super::facets::angle(a, b).abs() < 1e-9, "{small} {count}");
+            assert!(angle(a, b).abs() < 1e-9, "{small} {count}");
             let most = if count == 100 { 0.01 } else { 1e-3 };
             let off = off(&contour, (0..3000).map(|i| at(f64::from(i) / 3000.0)));
             assert!(off < most, "{small} {count}: {off}");

@@ -1,7 +1,7 @@
 //! Rates over random thin walls and single contours: parted in two right faces, told, or wrong without a word.
 
+use super::super::flat::distance;
 use super::super::order::order;
-use super::super::row::distance;
 use crate::num::random::Random;
 use crate::progress::Silent;
 use std::f64::consts::TAU;

@@ -1,6 +1,6 @@
 //! Rates over random profiles: their trailing edge and their chord.
 
-use super::super::super::row::distance;
+use super::super::super::flat::distance;
 use super::tail;
 use crate::num::random::Random;
 use std::f64::consts::{PI, TAU};
