@@ -8,11 +8,11 @@
 //! methods that the paper compares with: `stepwise` takes the measured point at which the curvature leaves that of the line,
 //! `improved` searches an interval about that point, where the paper has one picked by hand.
 //!
-//! The straight part, which the paper has marked by hand, is the longest that the noise of [`contour`](super::contour) allows,
+//! The straight part, which the paper has marked by hand, is the longest that the noise of [`contour`](crate::section::row::contour) allows,
 //! less a tenth of it. See docs/section.md for what is weak in the rules of the interval.
 
-use super::result::{Contour, Geometry, Options, SectionError, Segment};
 use crate::progress::{Cancelled, Progress};
+use crate::section::model::result::{Contour, Geometry, Options, SectionError, Segment};
 use crate::spline::curve::{self, Curve, End, Ends};
 
 /// How the join is looked for.
@@ -86,9 +86,9 @@ const ABOUT: f64 = 2.0;
 /// there.
 ///
 /// # Errors
-/// Those of [`contour`](super::contour); [`SectionError::NoLine`] where neither end of the row is a line; a closed row.
+/// Those of [`contour`](crate::section::row::contour); [`SectionError::NoLine`] where neither end of the row is a line; a closed row.
 ///
-/// Cost: some sixty fits of the curve. See [`contour`](super::contour) for the default, which finds any number of segments.
+/// Cost: some sixty fits of the curve. See [`contour`](crate::section::row::contour) for the default, which finds any number of segments.
 pub fn line_and_curve(
     points: &[[f64; 2]],
     found: &Contour,
@@ -372,7 +372,7 @@ pub fn method_contour(
     reversed: bool,
     options: &Options,
 ) -> Contour {
-    use super::result::{Continuity, Join};
+    use crate::section::model::result::{Continuity, Join};
     let n = points.len();
     let (middle, u) = method.line;
     let first = if reversed { points[n - 1] } else { points[0] };

@@ -114,7 +114,7 @@ fn blunt_corners_are_found() {
 
 /// The place after a length from the origin on an arc that starts in a direction.
 fn bent(length: f64, heading: f64, curvature: f64) -> [f64; 2] {
-    let [x, y] = super::super::chain::arc_end(length, length * curvature);
+    let [x, y] = crate::section::model::chain::arc_end(length, length * curvature);
     let (sin, cos) = libm::sincos(heading);
     [x * cos - y * sin, x * sin + y * cos]
 }

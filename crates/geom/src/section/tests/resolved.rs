@@ -1,7 +1,7 @@
 //! Rows of curves without noise.
 
-use super::super::flat::angle;
 use super::*;
+use crate::section::model::flat::angle;
 
 /// Upper and lower side of a profile of NACA's four digits, chord 100, with a sharp trailing edge: `a` from 0 to 2 π around it.
 fn naca(camber: f64, thickness: f64, a: f64) -> [f64; 2] {

@@ -1,9 +1,9 @@
 //! Smooth rows of which the first partition makes many pieces.
 
-use super::super::contour::contour_within;
-use super::super::prior::Prior;
 use super::*;
 use crate::progress::Progress;
+use crate::section::model::prior::Prior;
+use crate::section::row::contour::contour_within;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Counts how often it is asked whether to stop: once for each round of the search.

@@ -291,7 +291,7 @@ fn other_rows_are_no_outlines() {
         let decimals = [1e3, 1e4, 1e6][k / 6 % 3];
         let points: Vec<[f64; 2]> =
             points.iter().map(|p| p.map(|x| (x * decimals).round() / decimals)).collect();
-        let found = crate::section::vertices::vertices(&points, &points, true, false);
+        let found = crate::section::row::vertices::vertices(&points, &points, true, false);
         assert!(found.is_none(), "{k} {n}: {:?}", found.map(|v| v.items));
     }
 }
