@@ -6,14 +6,18 @@
 //! unless they turn gently into each other as those of a curve do.
 
 use super::assembly::Joined;
+use super::candidate::{Candidate, Question};
+use super::chains;
 use super::clean::{Clean, size};
 use super::facets::{Item, LineOrArc, Polygon, SHARP, round};
 use super::levels::SHORT;
 use super::polygon::CORNER;
 use super::sheet::Sheet;
 use super::told::{GAP, SCALE, is_no_chance};
+use crate::progress::Progress;
 use crate::section::model::flat::{angle, distance};
-use crate::section::model::result::{Contour, Geometry, Options, Taken};
+use crate::section::model::prior::Prior;
+use crate::section::model::result::{Contour, Geometry, Options, SectionError, Taken};
 
 /// Coordinates are exact to this share of the size.
 const ROUNDED: f64 = 1e-6;
@@ -22,8 +26,34 @@ const TRIANGLE: usize = 3;
 /// Corners of one circle lie off it by no more than this share of its radius.
 const ROUND: f64 = 1e-3;
 
+/// The circle that the points scatter about where they speak for one, and what was found is another contour.
+pub(super) fn propose_circle(
+    asked: &Question,
+    best: Option<&Contour>,
+    progress: &dyn Progress,
+) -> Result<Option<Candidate>, SectionError> {
+    let Some(noise) = Corners::asked(asked).and_then(|corners| corners.off_a_circle(best)) else {
+        return Ok(None);
+    };
+    let options = Options { noise: Some(noise), ..*asked.options };
+    let told = Question::new(asked.points, Prior::of(&options), &options, asked.budget)?;
+    let found = told.cheapest(&[chains::propose], progress)?;
+    Ok(found.filter(is_round).and_then(Candidate::instead))
+}
+
+/// The polygon whose corners the points are, where these speak for no other contour; where they speak for neither, the contour tells that it may be
+/// both.
+pub(super) fn propose(
+    asked: &Question,
+    best: Option<&Contour>,
+    _: &dyn Progress,
+) -> Result<Option<Candidate>, SectionError> {
+    let corners = Corners::asked(asked);
+    Ok(corners.and_then(|corners| Candidate::instead(corners.or(best.cloned(), asked.options))))
+}
+
 /// A polygon that a row may be.
-pub(super) struct Corners {
+struct Corners {
     clean: Clean,
     polygon: Polygon,
     lines: Vec<Item>,
@@ -33,9 +63,15 @@ pub(super) struct Corners {
 }
 
 impl Corners {
+    /// Of the row that is asked for. Points put in order, of a cloud or a scan, are no corners that somebody chose.
+    fn asked(asked: &Question) -> Option<Corners> {
+        let is_given = !asked.options.ordered && asked.may_be_exact();
+        if is_given { Corners::of(&asked.clean) } else { None }
+    }
+
     /// Of a row of few points; `None` where it has fewer corners than a polygon.
-    pub fn of(points: &[[f64; 2]], options: &Options) -> Option<Corners> {
-        let clean = Clean::new(points, options).ok().filter(|c| c.points.len() < SHORT)?;
+    fn of(clean: &Clean) -> Option<Corners> {
+        let clean = Some(clean).filter(|c| c.points.len() < SHORT)?.clone();
         let (n, closed, rounding) = (clean.points.len(), clean.closed, ROUNDED * size(&clean.points));
         let polygon = Polygon { at: clean.points.clone(), numbers: (0..n).collect(), closed };
         let is_straight = |i: usize| {
@@ -78,7 +114,7 @@ impl Corners {
     }
 
     /// The contour found of the same row where coincidences speak for it, or the polygon. Where the points speak for neither, they may be of both.
-    pub fn or(self, found: Option<Contour>, options: &Options) -> Contour {
+    fn or(self, found: Option<Contour>, options: &Options) -> Contour {
         match found {
             Some(found) if self.speaks_for(&found) => {
                 let may_be_polygon = !self.is_curve && found.closed && is_round(&found);
@@ -90,7 +126,7 @@ impl Corners {
     }
 
     /// What the points scatter by about one circle, where they speak for it and the contour found is another one.
-    pub fn off_a_circle(&self, found: Option<&Contour>) -> Option<f64> {
+    fn off_a_circle(&self, found: Option<&Contour>) -> Option<f64> {
         let points = &self.polygon.at;
         let (count, (center, radius)) = (points.len() as f64, round(points)?);
         let sum: f64 = points.iter().map(|p| (distance(center, *p) - radius).powi(2)).sum();
@@ -145,6 +181,6 @@ impl Corners {
 }
 
 /// Whether a contour is one circle.
-pub(super) fn is_round(found: &Contour) -> bool {
+fn is_round(found: &Contour) -> bool {
     matches!(found.segments[..], [ref s] if matches!(s.geometry, Geometry::Arc { .. }))
 }

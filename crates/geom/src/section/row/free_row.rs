@@ -7,12 +7,13 @@
 //! curve is one kind more: what it costs from one point to another is a difference of two sums.
 
 use super::assembly::Joined;
+use super::candidate::{Candidate, Question};
 use super::clean::Clean;
 use super::plan::RESOLUTION;
 use crate::num::banded::Banded;
 use crate::progress::{Cancelled, Progress};
 use crate::section::model::chain::SegmentKind;
-use crate::section::model::result::{Contour, Geometry, Options, SectionError, Segment};
+use crate::section::model::result::{Contour, Geometry, SectionError, Segment};
 use crate::section::search::partition::{FreeCost, PLACES, Penalty, kinds_with_free};
 use crate::section::search::start::noise;
 use crate::spline::basis::Knots;
@@ -228,18 +229,24 @@ impl Row<'_> {
     }
 }
 
+/// The contour of a row of a free form, as the surface that it was cut from tells.
+pub(super) fn propose(
+    asked: &Question,
+    best: Option<&Contour>,
+    progress: &dyn Progress,
+) -> Result<Option<Candidate>, SectionError> {
+    let told = asked.options.noise.is_some() || asked.options.continuity.is_some();
+    let Some(form) = asked.prior.free_form.filter(|_| !told && best.is_none()) else { return Ok(None) };
+    Ok(free_form(asked, form, progress)?.and_then(Candidate::told))
+}
+
 /// The contour of a row of a free form, whose surface departs from smooth ones by `form`. `None` where lines and arcs are a part of it, or
 /// where its points are too few or scatter by more than they are apart.
 ///
 /// # Errors
-/// Those of the row; cancelled.
-pub(super) fn free_form(
-    points: &[[f64; 2]],
-    form: f64,
-    options: &Options,
-    progress: &dyn Progress,
-) -> Result<Option<Contour>, SectionError> {
-    let mut clean = Clean::new(points, options)?;
+/// Cancelled.
+fn free_form(asked: &Question, form: f64, progress: &dyn Progress) -> Result<Option<Contour>, SectionError> {
+    let mut clean = asked.clean.clone();
     let (noise, step) = noise(&clean.points, clean.closed);
     if step > 1 || clean.points.len() < FEWEST_POINTS * FEWEST_SPANS {
         return Ok(None);
@@ -253,7 +260,7 @@ pub(super) fn free_form(
     }
     let Some(found) = found else { return Ok(None) };
     let mut found = found.joined(&row, &clean);
-    found.finish(&clean, 0, points.len(), outliers);
+    found.finish(&clean, 0, asked.points.len(), outliers);
     Ok(Some(found.contour))
 }
 

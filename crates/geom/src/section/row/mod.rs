@@ -5,8 +5,8 @@
 //! | `clean` | rows as they come: what is wrong with them |
 //! | `direction` | the end that a row is measured from; contours turned round |
 //! | `stray`, `without` | points that belong to no contour, as header rows and fillers; the row without them |
-//! | `contour` | the ways to a contour, and which is taken |
-//! | `levels`, `plan` | the partition that the search begins with, at one level of noise or several; chains between its corners |
+//! | `contour`, `candidate` | the ways to a contour, and which of those that they propose is taken |
+//! | `chains`, `levels`, `plan` | the partition that the search begins with, at one level of noise or several; chains between its corners |
 //! | `doubt`, `blunt` | corners that are none, and that chains pass over |
 //! | `corner`, `convert`, `assembly` | where chains cross; the contour put together |
 //! | `facets`, `sheet` | polygons: what facets and vertices tell exactly; contours of exact lines and arcs |
@@ -18,6 +18,8 @@
 
 mod assembly;
 mod blunt;
+mod candidate;
+mod chains;
 pub(super) mod clean;
 pub(super) mod contour;
 mod convert;

@@ -6,14 +6,16 @@
 //! corners B-splines keep within a ten-thousandth of the distance between points, over as few spans as that takes.
 
 use super::assembly::Joined;
+use super::candidate::{Candidate, Question, is_cornered};
 use super::clean::{Clean, size};
 use super::kept::{TOLERANCES, chord, followed};
 use super::levels::Start;
 use super::polygon::CORNER;
 use crate::num::special::student_quantile;
+use crate::progress::Progress;
 use crate::section::model::chain::SegmentKind;
 use crate::section::model::flat::{angle, distance, off_circle, off_line};
-use crate::section::model::result::{Continuity, Contour, Geometry, Join, Options, Segment};
+use crate::section::model::result::{Continuity, Contour, Geometry, Join, Options, SectionError, Segment};
 use crate::section::search::start::{Part, noise_beyond_form};
 use crate::spline::curve::{End, Ends};
 
@@ -46,9 +48,35 @@ const LEAST: f64 = 1e-6;
 /// A contour misses the points that scatter about it so many times as much as about one that keeps to them.
 const MISSED: f64 = 5.0;
 
+/// The contour of a row of curves without noise, of which no lines and arcs are to be found: there is nothing to search.
+pub(super) fn propose(
+    asked: &Question,
+    best: Option<&Contour>,
+    _: &dyn Progress,
+) -> Result<Option<Candidate>, SectionError> {
+    if best.is_some() || !asked.is_free() {
+        return Ok(None);
+    }
+    let found = resolved(asked.start(), asked.options, Among::Rows);
+    Ok(found.and_then(|found| Candidate::told(found.whole(asked.points.len()))))
+}
+
+/// Such a contour in place of one with corners, or that misses its points, where these speak for it.
+pub(super) fn propose_instead(
+    asked: &Question,
+    best: Option<&Contour>,
+    _: &dyn Progress,
+) -> Result<Option<Candidate>, SectionError> {
+    let is_asked = |found: &&Contour| asked.is_free() && (is_cornered(found) || misses(found, 0.0));
+    let Some(other) = best.filter(is_asked) else { return Ok(None) };
+    let found = resolved(asked.start(), asked.options, Among::Contours);
+    let better = found.filter(|found| found.is_better_than(other));
+    Ok(better.and_then(|found| Candidate::instead(found.whole(asked.points.len()))))
+}
+
 /// The contour of a row of points that lie on smooth curves without noise; `None` where they do not, where lines and arcs do, or
 /// where the points are too few for the curve.
-pub(super) fn resolved(start: &Start, options: &Options, among: Among) -> Option<Resolved> {
+fn resolved(start: &Start, options: &Options, among: Among) -> Option<Resolved> {
     let clean = &start.clean;
     let n = clean.points.len();
     if !(FEWEST.0..=MOST).contains(&n)
@@ -102,7 +130,7 @@ pub(super) fn resolved(start: &Start, options: &Options, among: Among) -> Option
 
 /// What such a contour is looked for among.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Among {
+enum Among {
     /// Rows of which no lines and arcs are to be found: there is nothing to search.
     Rows,
     /// What a search found is there to compare it with.
@@ -110,7 +138,7 @@ pub(super) enum Among {
 }
 
 /// A contour, and the row that its numbers are those of.
-pub(super) struct Resolved {
+struct Resolved {
     contour: Contour,
     clean: Clean,
     turned: usize,
@@ -147,7 +175,7 @@ impl Resolved {
 }
 
 /// Whether the points of a row of this noise scatter about its contour for other reasons.
-pub(super) fn misses(contour: &Contour, noise: f64) -> bool {
+fn misses(contour: &Contour, noise: f64) -> bool {
     contour.noise > MISSED * (noise + NONE[0] * contour.spacing)
 }
 

@@ -6,10 +6,15 @@
 //! that turns out tangent a direction, and a circle costs its curvature. The cheapest cover of the row by lines and arcs that share
 //! their ends is found by dynamic programming. It is taken where what it saves is no chance, and where each of its segments ends for certain.
 
-use super::clean::size;
+use super::assembly::Joined;
+use super::candidate::{Candidate, Question};
+use super::clean::{Clean, size};
 use super::facets::{Item, LineOrArc, Polygon, SHARP, WIDE, round};
+use super::sheet::Sheet;
 use super::told::{Piece, is_told};
+use crate::progress::Progress;
 use crate::section::model::flat::{angle, distance};
+use crate::section::model::result::{Contour, SectionError, Taken};
 
 /// Longer rows tell their segments themselves.
 const MOST: usize = 2000;
@@ -36,6 +41,30 @@ pub(crate) struct Vertices {
     pub polygon: Polygon,
     pub items: Vec<Item>,
     pub rounding: f64,
+}
+
+/// The contour of a row of the ends of lines and the vertices of arcs, where it is one.
+pub(super) fn propose(
+    asked: &Question,
+    best: Option<&Contour>,
+    _: &dyn Progress,
+) -> Result<Option<Candidate>, SectionError> {
+    if best.is_some() || !asked.may_be_exact() || asked.start().exact {
+        return Ok(None);
+    }
+    let clean = &asked.clean;
+    let given: Vec<[f64; 2]> = clean.numbers.iter().map(|i| asked.points[*i]).collect();
+    let Some(found) = vertices(&clean.points, &given, clean.closed, asked.options.closed == Some(false))
+    else {
+        return Ok(None);
+    };
+    let (rounding, polygon) = (found.rounding, found.polygon);
+    let closed = polygon.closed;
+    let contour =
+        Sheet { points: &clean.points, polygon, rounding, options: asked.options }.exact(&found.items);
+    let mut all = Joined::of(Contour { taken: Taken::Row, ..contour });
+    all.finish(&Clean { closed, ..clean.clone() }, 0, asked.points.len(), vec![]);
+    Ok(Candidate::told(all.contour))
 }
 
 /// The lines and arcs whose ends and vertices the points are; `given` are the same in the coordinates of the file. An open row closes where its

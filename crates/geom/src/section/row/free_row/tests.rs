@@ -1,6 +1,14 @@
 use super::*;
 use crate::num::random::Random;
 use crate::progress::Silent;
+use crate::section::model::budget::Budget;
+use crate::section::model::prior::Prior;
+use crate::section::model::result::Options;
+
+fn free_form(points: &[[f64; 2]], progress: &dyn Progress) -> Result<Option<Contour>, SectionError> {
+    let (options, budget) = (Options::default(), Budget::new(0.0));
+    super::free_form(&Question::new(points, Prior::default(), &options, &budget)?, 0.3, progress)
+}
 
 /// A bell curve's number.
 fn normal(random: &mut Random) -> f64 {
@@ -25,7 +33,7 @@ fn bodies_are_one_curve_of_the_noise_planted() {
     for (count, noise) in [(200, 0.05), (400, 0.02), (400, 0.1), (900, 0.05)] {
         for _ in 0..5 {
             let points = body(count, noise, random);
-            let found = free_form(&points, 0.3, &Options::default(), &Silent).unwrap().unwrap();
+            let found = free_form(&points, &Silent).unwrap().unwrap();
             let [segment] = &found.segments[..] else { panic!("{} segments", found.segments.len()) };
             let Geometry::Spline { curve, .. } = &segment.geometry else { panic!("no spline") };
             assert!(found.closed && found.joins.is_empty() && segment.count == count);
@@ -56,7 +64,7 @@ fn length_between(a: [f64; 2], b: [f64; 2]) -> f64 {
 fn cubics_come_back_exactly() {
     let points: Vec<[f64; 2]> =
         (0..60).map(|i| f64::from(i) / 59.0).map(|t| [10.0 * t, t + 3.0 * t * t - 2.0 * t * t * t]).collect();
-    let found = free_form(&points, 0.3, &Options::default(), &Silent).unwrap().unwrap();
+    let found = free_form(&points, &Silent).unwrap().unwrap();
     assert!(found.segments[0].max < 1e-4 * found.spacing, "{}", found.segments[0].max);
 }
 
@@ -68,8 +76,8 @@ fn flats_are_no_free_form() {
         let all = body(400, noise, random);
         let cut: Vec<[f64; 2]> =
             all.iter().map(|p| [p[0], p[1].max(-20.0 + noise * normal(random))]).collect();
-        assert!(free_form(&all, 0.3, &Options::default(), &Silent).unwrap().is_some());
-        assert!(free_form(&cut, 0.3, &Options::default(), &Silent).unwrap().is_none(), "{noise}");
+        assert!(free_form(&all, &Silent).unwrap().is_some());
+        assert!(free_form(&cut, &Silent).unwrap().is_none(), "{noise}");
     }
 }
 
@@ -79,7 +87,7 @@ fn where_a_row_begins_hardly_matters() {
     let random = &mut Random::new(7);
     let points = body(300, 0.03, random);
     let area = |points: &[[f64; 2]]| {
-        let found = free_form(points, 0.3, &Options::default(), &Silent).unwrap().unwrap();
+        let found = free_form(points, &Silent).unwrap().unwrap();
         let Geometry::Spline { curve, .. } = &found.segments[0].geometry else { panic!("no spline") };
         let places = curve.sample(4000);
         0.5 * places.windows(2).map(|w| w[0][0] * w[1][1] - w[0][1] * w[1][0]).sum::<f64>()
@@ -103,10 +111,7 @@ impl Progress for Stopped {
 #[test]
 fn long_rows_are_one_curve_and_can_be_stopped() {
     let points = body(6000, 0.004, &mut Random::new(8));
-    let found = free_form(&points, 0.3, &Options::default(), &Silent).unwrap().unwrap();
+    let found = free_form(&points, &Silent).unwrap().unwrap();
     assert_eq!((found.segments.len(), found.labels.len()), (1, 6000));
-    assert!(matches!(
-        free_form(&points, 0.3, &Options::default(), &Stopped),
-        Err(SectionError::Cancelled(_))
-    ));
+    assert!(matches!(free_form(&points, &Stopped), Err(SectionError::Cancelled(_))));
 }
