@@ -17,9 +17,46 @@ pub fn of_crate(source: &Path, name: &str) -> io::Result<Vec<String>> {
     let mut all = BTreeSet::new();
     for root in ["lib.rs", "main.rs"].into_iter().filter(|root| source.join(root).exists()) {
         let arrows = arrows(source, root)?;
-        all.extend(rings(&arrows).iter().map(|ring| told(name, ring, &arrows)));
+        all.extend(rings(&arrows).iter().map(|ring| told(name, "files", ring, &arrows)));
     }
     Ok(all.into_iter().collect())
+}
+
+/// The circles among the rooms of a library, where none of them is one of files alone: folders, and files beside them, that reach one another through any of
+/// their files.
+///
+/// # Errors
+/// A file that cannot be read or is not Rust.
+pub fn of_rooms(source: &Path, name: &str) -> io::Result<Vec<String>> {
+    let arrows = arrows(source, "lib.rs")?;
+    let folders: BTreeSet<PathBuf> =
+        arrows.keys().flat_map(|file| file.ancestors().skip(1).map(Path::to_path_buf)).collect();
+    let mut all = vec![];
+    for folder in folders {
+        let rooms = between_rooms(&arrows, &folder);
+        all.extend(rings(&rooms).iter().map(|ring| told(name, "rooms", ring, &rooms)));
+    }
+    Ok(all)
+}
+
+/// The arrows among what lies in a folder, each file as the room that it is in or stands for; the head of the folder is none of them.
+fn between_rooms(arrows: &Arrows, folder: &Path) -> Arrows {
+    let room = |file: &Path| {
+        let first = file.strip_prefix(folder).ok()?.components().next()?;
+        let room = folder.join(first).with_extension("");
+        let is_head = ["mod", "lib", "main"].iter().any(|head| room.file_name().is_some_and(|n| n == *head));
+        (!is_head).then_some(room)
+    };
+    let mut all = Arrows::new();
+    for (from, to, names) in arrows.iter().flat_map(|(from, to)| to.iter().map(move |(to, n)| (from, to, n))) {
+        if let (Some(from), Some(to)) = (room(from), room(to))
+            && from != to
+        {
+            all.entry(to.clone()).or_default();
+            all.entry(from).or_default().entry(to).or_default().extend(names.iter().cloned());
+        }
+    }
+    all
 }
 
 fn arrows(source: &Path, root: &str) -> io::Result<Arrows> {
@@ -66,8 +103,8 @@ fn reach<'a>(arrows: &'a Arrows, file: &'a PathBuf) -> BTreeSet<&'a PathBuf> {
     reached
 }
 
-fn told(name: &str, ring: &[PathBuf], arrows: &Arrows) -> String {
-    let mut text = format!("{name}: a circle of {} files", ring.len());
+fn told(name: &str, what: &str, ring: &[PathBuf], arrows: &Arrows) -> String {
+    let mut text = format!("{name}: a circle of {} {what}", ring.len());
     for from in ring {
         for (to, names) in arrows.get(from).into_iter().flatten().filter(|(to, _)| ring.contains(to)) {
             let names: Vec<&str> = names.iter().map(String::as_str).collect();

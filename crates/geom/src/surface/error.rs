@@ -1,6 +1,6 @@
 //! Why there is no surface.
 
-use super::flatten::not_a_disc::NotADisc;
+use super::not_a_disc::NotADisc;
 use super::options::HIGHEST_DEGREE;
 use crate::fit::FitError;
 use crate::progress::Cancelled;

@@ -42,6 +42,7 @@ mod grain;
 mod gram;
 mod hold;
 mod nearest;
+mod not_a_disc;
 mod options;
 mod outliers;
 mod outline;
@@ -60,8 +61,8 @@ mod upright;
 
 pub use base::{Base, STANDING};
 pub use error::SurfaceError;
-pub use flatten::NotADisc;
 pub use found::{Reached, Support, SurfaceFit};
+pub use not_a_disc::NotADisc;
 pub use options::{BaseKind, Fairness, HIGHEST_DEGREE, Layout, Options};
 pub use outline::{Outline, OutlineRegion};
 pub use rectangle::{Rectangle, minimum_rectangle};

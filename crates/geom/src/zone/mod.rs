@@ -21,6 +21,7 @@ mod circle;
 pub mod datum;
 mod error;
 mod local_size;
+mod mean;
 mod median_line;
 pub mod motion;
 mod opposite;
@@ -32,6 +33,7 @@ mod tubes;
 
 pub use error::ZoneError;
 pub use local_size::{TwoPoint, two_point_diameters, two_point_distances};
+pub use mean::mean;
 pub use median_line::{MedianLine, median_line};
 pub use opposite::{Opposite, opposite_planes};
 pub use planes::{Slab, parallel_planes, slab, slab_at_angle};

@@ -1,8 +1,8 @@
 //! The narrowest pair of parallel planes, of a given attitude, that holds all points.
 
 use super::azimuth::Cone;
-use super::datum::mean;
 use super::error::{ZoneError, sane};
+use super::mean::mean;
 use crate::space::{Point, Vector, dot, minus, unit};
 
 /// Two parallel planes that hold points between them.

@@ -8,7 +8,8 @@ use trueness_geom::fit::Method;
 use trueness_geom::rigid::Rigid;
 use trueness_geom::shape::Kind;
 use trueness_geom::space::{dot, minus, times};
-use trueness_geom::zone::datum::{Datum, DatumError, Freedom, Rule, Source, System, mean};
+use trueness_geom::zone::datum::{Datum, DatumError, Freedom, Rule, Source, System};
+use trueness_geom::zone::mean;
 
 /// The frame in which true places are given, and what it leaves free: that of the datums, or the one that the plan gives.
 pub(crate) fn frame(m: &Measuring) -> Result<(Rigid, Freedom), Missing> {

@@ -7,7 +7,7 @@ use crate::plan::text::SizeWord;
 use crate::tolerance_class::Table;
 use trueness_geom::fit::Method;
 use trueness_geom::shape::{Kind, Shape};
-use trueness_geom::zone::datum::mean;
+use trueness_geom::zone::mean;
 use trueness_geom::zone::{
     TwoPoint, ZoneError, opposite_planes, parallel_planes, two_point_diameters, two_point_distances,
 };

@@ -8,7 +8,8 @@ use trueness_geom::progress::Progress;
 use trueness_geom::rigid::Rigid;
 use trueness_geom::shape::{Kind, Shape};
 use trueness_geom::space::{Point, Vector, dot, minus, plus, times};
-use trueness_geom::zone::datum::{Datum, mean};
+use trueness_geom::zone::datum::Datum;
+use trueness_geom::zone::mean;
 
 /// A feature of a plan, measured or not.
 #[derive(Clone, Debug)]

@@ -5,7 +5,7 @@ use crate::characteristic::{Characteristic, Size, Taken};
 use crate::plan::{Plan, Spec};
 use crate::tolerance_class::wrong_side;
 use trueness_geom::space::{dot, minus};
-use trueness_geom::zone::datum::mean;
+use trueness_geom::zone::mean;
 
 /// Refuses classes of shafts on holes and of holes on shafts.
 ///

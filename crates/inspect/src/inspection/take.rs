@@ -15,7 +15,7 @@ use trueness_geom::progress::Progress;
 use trueness_geom::shape::Kind;
 use trueness_geom::space::{Point, Vector, cross, dot, minus, norm, unit};
 use trueness_geom::spatial::neighbors::PointTree;
-use trueness_geom::zone::datum::mean;
+use trueness_geom::zone::mean;
 
 /// From this angle to its nominal on an element is another one that goes through the points as well, radians.
 const TURNED: f64 = std::f64::consts::FRAC_PI_4;

@@ -131,3 +131,78 @@ impl Candidate {
 pub(super) fn is_cornered(contour: &Contour) -> bool {
     !contour.astray.is_empty() || contour.joins.iter().any(|j| j.continuity == Continuity::G0)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::progress::Silent;
+
+    /// Proposes a contour whose points lie so many micrometres off.
+    fn off<const MICRONS: u32>(
+        asked: &Question,
+        _: Option<&Contour>,
+        _: &dyn Progress,
+    ) -> Result<Option<Candidate>, SectionError> {
+        let off = f64::from(MICRONS) * 1e-3;
+        let residuals = vec![off; asked.points.len()];
+        Ok(Candidate::of(Contour { residuals, spacing: 1.0, ..Contour::default() }))
+    }
+
+    /// The same, none of whose segments runs along its points.
+    fn astray<const MICRONS: u32>(
+        asked: &Question,
+        best: Option<&Contour>,
+        progress: &dyn Progress,
+    ) -> Result<Option<Candidate>, SectionError> {
+        let found = off::<MICRONS>(asked, best, progress)?;
+        Ok(found.and_then(|c| Candidate::of(Contour { astray: vec![0], ..c.contour })))
+    }
+
+    fn none(_: &Question, _: Option<&Contour>, _: &dyn Progress) -> Result<Option<Candidate>, SectionError> {
+        Ok(None)
+    }
+
+    fn told(
+        asked: &Question,
+        best: Option<&Contour>,
+        progress: &dyn Progress,
+    ) -> Result<Option<Candidate>, SectionError> {
+        Ok(off::<9>(asked, best, progress)?.and_then(|c| Candidate::told(c.contour)))
+    }
+
+    fn instead(
+        asked: &Question,
+        best: Option<&Contour>,
+        progress: &dyn Progress,
+    ) -> Result<Option<Candidate>, SectionError> {
+        Ok(off::<8>(asked, best, progress)?.and_then(|c| Candidate::instead(c.contour)))
+    }
+
+    /// One proposer more never raises the cost, wherever it stands in the list and whatever it proposes; what points tell ends the list.
+    #[test]
+    fn a_proposer_more_never_raises_the_cost() {
+        let points: Vec<[f64; 2]> = (0..20).map(|i| [f64::from(i), 0.0]).collect();
+        let (options, budget) = (Options::default(), Budget::new(1e9));
+        let asked = Question::new(&points, Prior::default(), &options, &budget).unwrap();
+        let cost = |list: &[Proposer]| {
+            let found = asked.cheapest(list, &Silent).unwrap();
+            found.map_or((usize::MAX, f64::INFINITY), |found| asked.cost(&found))
+        };
+        let all: [Proposer; 6] = [off::<3>, none, astray::<1>, off::<2>, astray::<4>, off::<5>];
+        for subset in 0..1u32 << all.len() {
+            let has = |k: &usize| subset >> k & 1 == 1;
+            let list: Vec<Proposer> = (0..all.len()).filter(has).map(|k| all[k]).collect();
+            for more in all {
+                for at in 0..=list.len() {
+                    let mut longer = list.clone();
+                    longer.insert(at, more);
+                    assert!(cost(&longer) <= cost(&list), "{subset:b} {at}");
+                }
+            }
+        }
+        let rms = |list: &[Proposer]| asked.cheapest(list, &Silent).unwrap().unwrap().residuals[0];
+        assert_eq!(rms(&[off::<3>, told, off::<1>]), 0.009);
+        assert_eq!(rms(&[off::<3>, instead]), 0.008);
+        assert_eq!(rms(&[instead, off::<3>]), 0.003);
+    }
+}

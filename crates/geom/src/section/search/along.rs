@@ -77,19 +77,33 @@ impl Search<'_> {
         let most = (NEAR * self.criterion.noise).max(self.criterion.resolution);
         let mut count = FIRST;
         while EACH * count <= n {
-            let knots = spread_knots(3, count, &parameters);
-            let fitted = curve::fit(points, &parameters, &knots, Ends::FREE, 0.0).ok()?.curve;
-            let square = |(p, t): (&[f64; 2], &f64)| {
-                let (at, along) = (fitted.at(*t), fitted.derivative(*t, 1));
-                let across = along[0] * (p[1] - at[1]) - along[1] * (p[0] - at[0]);
-                across * across / (along[0] * along[0] + along[1] * along[1])
-            };
-            let sum: f64 = points.iter().zip(&parameters).map(square).sum();
+            let (fitted, sum) = self.off_curve(points, &parameters, count)?;
             if sum <= most * most * (n - count) as f64 {
                 return Some((fitted, parameters));
             }
             count *= 2;
         }
         None
+    }
+
+    /// The curve of so many control points along points, and the sum of squares that they lie off it.
+    pub fn off_curve(
+        &self,
+        points: &[[f64; 2]],
+        parameters: &[f64],
+        count: usize,
+    ) -> Option<(Curve<[f64; 2]>, f64)> {
+        if count > points.len() {
+            return None;
+        }
+        let knots = spread_knots(3, count, parameters);
+        let fitted = curve::fit(points, parameters, &knots, Ends::FREE, 0.0).ok()?.curve;
+        let square = |(p, t): (&[f64; 2], &f64)| {
+            let (at, along) = (fitted.at(*t), fitted.derivative(*t, 1));
+            let across = along[0] * (p[1] - at[1]) - along[1] * (p[0] - at[0]);
+            across * across / (along[0] * along[0] + along[1] * along[1])
+        };
+        let sum: f64 = points.iter().zip(parameters).map(square).sum();
+        Some((fitted, sum))
     }
 }

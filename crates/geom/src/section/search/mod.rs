@@ -14,6 +14,7 @@ mod along;
 mod base;
 mod begin;
 mod blocks;
+mod gather;
 mod known;
 mod near;
 pub(super) mod partition;

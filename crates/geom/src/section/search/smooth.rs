@@ -1,5 +1,6 @@
 //! Smooth rows, of which the first partition makes many lines and arcs.
 
+use super::base::Base;
 use super::rounds::Search;
 use super::start::Part;
 use crate::progress::{Cancelled, Progress};
@@ -8,14 +9,17 @@ use crate::section::model::criterion::{Model, Plan};
 use crate::section::model::free;
 use crate::section::model::least::State;
 
-/// From so many lines and arcs on, one free piece of one of these numbers of coefficients is tried in their place.
+/// From so many lines and arcs on, free pieces are tried in their place.
 const MANY: usize = 8;
-/// In so many pieces of equal length; several of so many coefficients each at least.
+/// In so many pieces of equal length; several of so many coefficients each at least, with so many points to each.
 const PIECES: [usize; 6] = [1, 2, 3, 4, 6, 8];
-/// with so many points to a coefficient.
 const LONG: usize = 16;
 const EACH: usize = 5;
-const COUNTS: [usize; 7] = [6, 8, 12, 16, 24, 34, free::MOST];
+/// Numbers of their coefficients.
+const COUNTS: [usize; 8] = [4, 6, 8, 12, 16, 24, 34, free::MOST];
+/// A dozen steps leave free pieces no dearer than this for each point above the cheapest, where they can follow the row: their points are
+/// then 1.65 times as far off.
+const POINT_COST_TO_DROP: f64 = 1.0;
 /// What is found from there is good enough where its points are no farther off than this many times the noise that local fits
 /// tell, or this many times what is not told from 0.
 const KNOWN: f64 = 1.1;
@@ -26,12 +30,9 @@ const ENOUGH: usize = 10;
 const FINE: f64 = 4.0;
 /// and nearly so up to this many times.
 const NEARLY: f64 = 1.3;
-/// A dozen steps leave free pieces no dearer than this for each point above the cheapest, where they can follow the row: their points are
-/// then 1.65 times as far off.
-const POINT_COST_TO_DROP: f64 = 1.0;
 
 impl Search<'_> {
-    /// The cheapest model reachable from that of the parts, or from one free piece where many lines and arcs stand for a smooth curve.
+    /// The cheapest model reachable from that of the parts, or from free pieces where many lines and arcs stand for smooth curves.
     /// Merging them one by one takes as many rounds as there are pieces, each of as many models.
     pub fn best(
         &mut self,
@@ -45,18 +46,6 @@ impl Search<'_> {
             return self.run(first, progress);
         };
         let found = self.run(smooth, progress)?;
-        // Joins of several free pieces are where the start put them. One that follows the row stays, where its distances are not
-        // told from 0: then costs tell rounding, and no kinds.
-        let off = (found.state.sum / self.criterion.count).sqrt();
-        if (found.state.chain.pieces.len() > 1 || off > FINE * self.criterion.resolution)
-            && !self.is_spent()
-            && let Some(held) = self.held(&plain, found.cost)
-        {
-            let other = self.run(held, progress)?;
-            if other.cost < found.cost {
-                return Ok(other);
-            }
-        }
         // Free pieces that nearly follow the points may stand for lines and arcs that are not far from the first model.
         let hopeful = self.is_within(&found.state, NEARLY)
             && !self.is_near(&first.state)
@@ -67,39 +56,6 @@ impl Search<'_> {
         }
         let other = self.run(first, progress)?;
         Ok(if found.cost < other.cost { found } else { other })
-    }
-
-    /// One of the lines and arcs between two free pieces, where that is cheapest: the longest and those that turn most are tried. An
-    /// arc that free pieces run into takes all their coefficients where they stand for it, too.
-    fn held(&mut self, first: &Model, bar: f64) -> Option<Model> {
-        let base = self.base(first.clone());
-        let (from, to) = (base.plans.first()?.from, base.plans.last()?.to);
-        let pieces = &first.state.chain.pieces;
-        let turn = |k: &usize| (pieces[*k].length * pieces[*k].curvature(0.0)).abs();
-        let length = |k: &usize| pieces[*k].length;
-        let inner = || 1..pieces.len() - 1;
-        let by_turn = inner().max_by(|a, b| turn(a).total_cmp(&turn(b)))?;
-        let by_length = inner().max_by(|a, b| length(a).total_cmp(&length(b)))?;
-        let mut most = vec![by_turn, by_length];
-        most.dedup();
-        let mut best: Option<Model> = None;
-        for k in most {
-            let own = base.plans[k];
-            for count in COUNTS {
-                let free = |from: f64, to: f64| Plan { kind: SegmentKind::Spline, count, from, to };
-                let plans = [free(from, own.from), own, free(own.to, to)];
-                let built = self.build(&base, &plans, f64::INFINITY);
-                let mut model = self.converge(&built);
-                let least = best.as_ref().map_or(bar, |b| b.cost);
-                let dearer = model.cost > least;
-                if model.cost < least && self.follows(&mut model.state) {
-                    best = Some(model);
-                } else if dearer && best.is_some() {
-                    break;
-                }
-            }
-        }
-        best
     }
 
     /// Whether the points are no farther off than local fits tell.
@@ -113,44 +69,62 @@ impl Search<'_> {
         off <= (times * self.criterion.noise).max(FINE * self.criterion.resolution)
     }
 
-    /// As few free pieces of equal length as are cheapest in place of many lines and arcs, where that costs less than `bar`.
+    /// Free pieces in place of runs of many lines and arcs, where that costs less than `bar`.
     fn smooth(&mut self, first: &Model, bar: f64) -> Option<Model> {
         let mut base = self.base(first.clone());
         if base.plans.len() < MANY || !self.kinds[1] {
             return None;
         }
+        let mut plans = self.gathered(&base);
+        let own = plans.as_ref().unwrap_or(&base.plans);
         if !self.is_near(&first.state)
-            && let Some(along) = self.along(&first.state, &base.plans)
+            && let Some(along) = self.along(&first.state, own)
         {
-            base = along;
+            (plans, base) = (plans.map(|_| along.plans.clone()), along);
+        }
+        let is_free = |p: &Plan| p.kind == SegmentKind::Spline;
+        let mut best: Option<Model> = None;
+        // A B-spline by itself takes other coefficients than pieces that go on into each other.
+        for count in COUNTS.into_iter().take_while(|_| plans.is_some()) {
+            let of = |p: &Plan| if is_free(p) { Plan { count, ..*p } } else { *p };
+            let own: Vec<Plan> = plans.iter().flatten().map(of).collect();
+            best = self.cheaper(&base, &own, bar, best);
+        }
+        let are_free = |w: &[Plan]| w.iter().all(is_free);
+        let is_told = plans.is_some_and(|p| !are_free(&p) && !p.windows(2).any(are_free));
+        // Joins of free pieces are where those of lines and arcs happened to be: so are others.
+        if is_told && best.is_some() {
+            return best;
         }
         let (from, to) = (base.plans.first()?.from, base.plans.last()?.to);
-        let mut best: Option<Model> = None;
         for pieces in PIECES {
             if self.is_spent() {
                 break;
             }
-            let mut better = false;
+            let before = best.as_ref().map(|b| b.cost);
             // Several pieces are for curves that one of most coefficients cannot follow.
             let held = self.row.points.len() / EACH / pieces;
             for count in COUNTS.into_iter().filter(|c| pieces == 1 || (LONG..=held).contains(c)) {
                 let at = |k: usize| from + (to - from) * k as f64 / pieces as f64;
                 let plan = |k: usize| Plan { kind: SegmentKind::Spline, count, from: at(k), to: at(k + 1) };
-                let plans: Vec<Plan> = (0..pieces).map(plan).collect();
-                let built = self.build(&base, &plans, f64::INFINITY);
-                let least = best.as_ref().map_or(bar, |b| b.cost);
-                if built.cost > least + POINT_COST_TO_DROP * self.criterion.count {
-                    continue;
-                }
-                let mut model = self.converge(&built);
-                if model.cost < least && self.follows(&mut model.state) {
-                    (best, better) = (Some(model), true);
-                }
+                best = self.cheaper(&base, &(0..pieces).map(plan).collect::<Vec<_>>(), bar, best);
             }
+            let better = best.as_ref().map(|b| b.cost) != before;
             if best.as_ref().is_some_and(|b| !better || self.is_near(&b.state)) {
                 break;
             }
         }
         best
+    }
+
+    /// The model of these plans where it costs less than `bar` and the best one so far; else that.
+    fn cheaper(&mut self, base: &Base, plans: &[Plan], bar: f64, best: Option<Model>) -> Option<Model> {
+        let least = best.as_ref().map_or(bar, |b| b.cost);
+        let built = self.build(base, plans, f64::INFINITY);
+        if built.cost > least + POINT_COST_TO_DROP * self.criterion.count {
+            return best;
+        }
+        let mut model = self.converge(&built);
+        if model.cost < least && self.follows(&mut model.state) { Some(model) } else { best }
     }
 }

@@ -61,7 +61,8 @@ fn long_waves_are_few_free_curves() {
         let contour = contour(&points, &Options::default(), &rounds).unwrap();
         assert!(kinds(&contour).iter().all(|k| *k == SegmentKind::Spline), "{count}: {:?}", kinds(&contour));
         assert!(contour.segments.len() <= 4 && contour.noise < 1.2 * noise, "{count}: {}", contour.noise);
-        assert!(rounds.0.into_inner() <= 12, "{count}");
+        let rounds = rounds.0.into_inner();
+        assert!(rounds <= 12, "{count}: {rounds} rounds");
     }
 }
 
@@ -79,7 +80,8 @@ fn a_search_cut_short_says_so() {
     let (whole, part) = (within(3e10), within(1e6));
     assert!(!whole.cut_short && part.cut_short);
     assert!(part.astray.is_empty() && part.noise < 0.1, "{}", part.noise);
-    assert!(part.segments.len() > whole.segments.len());
+    // What a few steps find is no better than what the whole search does.
+    assert!(part.noise > 0.999 * whole.noise && part.segments.len() >= whole.segments.len());
 }
 
 /// The edge of a blade between two free curves is an arc, at any noise: a search that begins with free pieces alone puts their join

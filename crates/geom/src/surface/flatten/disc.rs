@@ -1,10 +1,10 @@
 //! A mesh that can be laid into the plane: one part, with a rim, without handles.
 
-use super::not_a_disc::NotADisc;
 use crate::mesh::Mesh;
 use crate::progress::Progress;
 use crate::space::{minus, norm};
 use crate::surface::SurfaceError;
+use crate::surface::not_a_disc::NotADisc;
 use crate::topology::{Topology, TopologyError};
 
 /// One part with a rim.

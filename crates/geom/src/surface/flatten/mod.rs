@@ -6,13 +6,10 @@
 
 mod disc;
 mod mean_value;
-pub(super) mod not_a_disc;
 mod relax;
 #[cfg(test)]
 mod tests;
 mod triangle;
-
-pub use not_a_disc::NotADisc;
 
 use super::SurfaceError;
 use super::crossing::cross;

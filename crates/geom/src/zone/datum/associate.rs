@@ -1,7 +1,6 @@
 //! Ideal elements associated with datum features.
 
 use super::attitude::{AS_DRAWN, Held, nearest};
-use super::element::mean;
 use super::frame::beside;
 use super::{Datum, DatumError, Rule, Source};
 use crate::fit::{self, Method, Options};
@@ -10,6 +9,7 @@ use crate::rigid::Rigid;
 use crate::shape::{Kind, Shape};
 use crate::space::{Point, Vector, dot, least_axis, minus, plus, times, unit};
 use crate::zone::ZoneError;
+use crate::zone::mean::mean;
 use crate::zone::planes::{slab, slab_at_angle};
 use std::f64::consts::FRAC_PI_2;
 

@@ -8,11 +8,12 @@
 use super::associate::{across_normal, associate, outside};
 use super::attitude::{AS_DRAWN, Held, nearest};
 use super::joint::{Form, Joint, MOST, Stand};
-use super::{Datum, DatumError, Rule, Source, mean};
+use super::{Datum, DatumError, Rule, Source};
 use crate::fit::{self, Options};
 use crate::progress::Progress;
 use crate::shape::Kind;
 use crate::space::{Aabb, Point, Vector, cross, dot, least_axis, minus, norm, plus, times, unit};
+use crate::zone::mean::mean;
 use std::f64::consts::FRAC_PI_2;
 
 /// What a common datum is made of, and in which attitude.

@@ -7,7 +7,6 @@
 mod associate;
 mod attitude;
 mod common;
-mod element;
 mod error;
 mod frame;
 mod joint;
@@ -15,6 +14,5 @@ mod source;
 mod system;
 
 pub use attitude::{AS_DRAWN, Freedom, System};
-pub use element::mean;
 pub use error::DatumError;
 pub use source::{Datum, Rule, Source};
