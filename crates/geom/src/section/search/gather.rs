@@ -28,7 +28,7 @@ struct Run {
 }
 
 impl Search<'_> {
-    /// The pieces of the base with runs gathered to free ones; `None` where none are.
+    /// The pieces of the base with runs gathered to free ones, where each of these is between lines and arcs that stay; else `None`.
     pub fn gathered(&self, base: &Base) -> Option<Vec<Plan>> {
         let (plans, m) = (&base.plans, base.plans.len());
         if m > PARTS {
@@ -98,6 +98,9 @@ impl Search<'_> {
             to = from;
         }
         all.reverse();
-        (all.len() < m).then_some(all)
+        // Where free pieces join, joins are where those of lines and arcs happened to be.
+        let is_free = |p: &Plan| p.kind == SegmentKind::Spline;
+        let joined = all.windows(2).any(|w| w.iter().all(is_free));
+        (all.iter().any(is_free) && !all.iter().all(is_free) && !joined).then_some(all)
     }
 }

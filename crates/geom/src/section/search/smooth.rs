@@ -82,18 +82,14 @@ impl Search<'_> {
         {
             (plans, base) = (plans.map(|_| along.plans.clone()), along);
         }
-        let is_free = |p: &Plan| p.kind == SegmentKind::Spline;
         let mut best: Option<Model> = None;
         // A B-spline by itself takes other coefficients than pieces that go on into each other.
         for count in COUNTS.into_iter().take_while(|_| plans.is_some()) {
-            let of = |p: &Plan| if is_free(p) { Plan { count, ..*p } } else { *p };
+            let of = |p: &Plan| if p.kind == SegmentKind::Spline { Plan { count, ..*p } } else { *p };
             let own: Vec<Plan> = plans.iter().flatten().map(of).collect();
             best = self.cheaper(&base, &own, bar, best);
         }
-        let are_free = |w: &[Plan]| w.iter().all(is_free);
-        let is_told = plans.is_some_and(|p| !are_free(&p) && !p.windows(2).any(are_free));
-        // Joins of free pieces are where those of lines and arcs happened to be: so are others.
-        if is_told && best.is_some() {
+        if best.is_some() {
             return best;
         }
         let (from, to) = (base.plans.first()?.from, base.plans.last()?.to);

@@ -6,6 +6,7 @@ use super::*;
 use crate::num::random::Random;
 use crate::progress::{Cancelled, Silent};
 use crate::space::{Point, minus, norm};
+use crate::surface::NotADisc;
 use std::f64::consts::PI;
 
 /// Facets over a grid of places, without those whose middle is not kept.
