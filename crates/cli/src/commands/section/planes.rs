@@ -244,14 +244,18 @@ pub fn reach(plane: &Plane, record: &InputRecord) -> String {
         range[1] += ends[0].max(ends[1]);
     }
     let [low, high] = range;
-    let touches = match (low..=high).contains(&plane.offset) {
-        true => {
+    let remedy = match ((low..=high).contains(&plane.offset), record.facets) {
+        (false, _) => "",
+        (true, None | Some(0)) => "; no points lie within the slab: a larger --thickness may help",
+        (true, Some(_)) => {
             "; where a plane only touches the part, or lies in a face of it, there is no section: move it inwards"
         }
-        false => "",
     };
+    // Across the axes no more is known than the box around all.
+    let is_along_an_axis = normal.iter().filter(|x| **x != 0.0).count() == 1;
+    let (what, to) = if is_along_an_axis { ("it reaches from", "to") } else { ("it lies between", "and") };
     format!(
-        "; along the first normal it reaches from {low} to {high} mm, the first plane lies at {}{touches}",
+        "; along the first normal {what} {low} {to} {high} mm, the first plane lies at {}{remedy}",
         plane.offset
     )
 }

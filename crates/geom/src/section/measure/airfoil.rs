@@ -103,7 +103,7 @@ fn on_arc(contour: &Contour, place: [f64; 2]) -> Option<EdgeRadius> {
         {
             // Waves of the edge that scatter hides bend it more than the arc: eight times as much as they are high over its radius, with
             // three to a round.
-            let hidden = HIDDEN * contour.noise / (segment.count.max(1) as f64).sqrt();
+            let hidden = HIDDEN * contour.noise / contour.independent_of(nearest).sqrt();
             let uncertainty = libm::hypot(uncertainty, hidden);
             Some(EdgeRadius { radius: *radius, uncertainty, count: segment.count })
         }

@@ -149,8 +149,7 @@ impl Line {
             Some(Uncertainty::Line { angle }) => (angle, true),
             _ => (by_joins(contour, k) / length, false),
         };
-        let count = segment.count.max(1) as f64;
-        let across = measured.then(|| contour.noise / count.sqrt());
+        let across = measured.then(|| contour.noise / contour.independent_of(k).sqrt());
         Some(Line { start, end, length, angle, across, measured })
     }
 

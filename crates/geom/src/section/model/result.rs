@@ -280,6 +280,13 @@ impl Contour {
         let (sum, count) = kept.fold((0.0, 0.0), |(sum, count), (_, r)| (sum + r * r, count + 1.0));
         (sum / f64::max(count, 1.0)).sqrt()
     }
+
+    /// How many independent points those of a segment tell as much as: one at least.
+    pub(crate) fn independent_of(&self, segment: usize) -> f64 {
+        let counted = self.segments.iter().map(|s| s.count).sum::<usize>() as f64;
+        let share = if self.independent > 0.0 { (self.independent / counted).min(1.0) } else { 1.0 };
+        (share * self.segments[segment].count as f64).max(1.0)
+    }
 }
 
 /// What is asked about a row.

@@ -23,7 +23,7 @@ const PROPOSERS: [Proposer; 8] = [
     corners::propose,
 ];
 /// Products that the searches of a row may take: a dozen seconds. Then the cheapest found so far is taken.
-const PRODUCTS: f64 = 3e10;
+const PRODUCTS: f64 = 1e10;
 /// A loop of a contour is told that is longer than so many distances between points: it goes by points of the row.
 const LOOP: f64 = 3.0;
 

@@ -18,7 +18,7 @@ const SLOW: f64 = 0.2;
 
 /// Products after which a search ends with the cheapest model so far: some seconds. Rows of some dozen segments take a hundredth; smooth
 /// curves of many turns, which are many arcs at first and few free pieces in the end, would take minutes.
-const MOST: f64 = 1e10;
+const MOST: f64 = 5e9;
 
 /// The search over the models of one row.
 pub(crate) struct Search<'a> {

@@ -15,6 +15,7 @@ mod lift;
 mod weights;
 
 use super::plane::{Chain, PlaneFrame};
+use crate::section::model::flat::distance;
 use crate::section::model::prior::Known;
 use crate::section::search::partition::{PLACES, Penalty, partition_with_gaps};
 use crate::section::search::start::noise;
@@ -51,6 +52,33 @@ fn smoother(moved: Vec<[f64; 2]>, crossings: &[[f64; 2]], closed: bool) -> Vec<[
     if there > ROUGHER * here { crossings.to_vec() } else { moved }
 }
 
+/// A plane within rounding of a vertex cuts several of its edges at one place: crossings no farther apart than rounding are one, with the weight of all.
+fn gather_at_vertices(
+    crossings: &[[f64; 2]],
+    rounding: f64,
+    closed: bool,
+    points: &mut [[f64; 2]],
+    weights: &mut [f64],
+) {
+    let n = crossings.len();
+    let mut first = 0;
+    let mut join = |i: usize, first: usize| {
+        points[i] = points[first];
+        weights[first] = (weights[first] + weights[i]).min(1.0);
+    };
+    for i in 1..n {
+        if distance(crossings[i], crossings[first]) <= rounding {
+            join(i, first);
+        } else {
+            first = i;
+        }
+    }
+    let is_at_start = |i: &usize| distance(crossings[*i], crossings[0]) <= rounding;
+    if closed {
+        (1..n).rev().take_while(is_at_start).for_each(|i| join(i, 0));
+    }
+}
+
 impl ScanRow {
     /// Whether the crossings with these numbers, moved onto the surface, scatter less than where they are, `at`: that the surface lies
     /// beyond the chords, those of a drawing would not tell.
@@ -74,8 +102,10 @@ impl ScanRow {
             let weights = vec![1.0; crossings.len()];
             return ScanRow { kept: (0..crossings.len()).collect(), points: crossings, weights, noise: None };
         }
-        let scatter = weights::scatter(cut, chain);
-        let points = smoother(lift::on_surface(cut, chain, frame, &crossings, closed), &crossings, closed);
+        let mut scatter = weights::scatter(cut, chain);
+        let mut points =
+            smoother(lift::on_surface(cut, chain, frame, &crossings, closed), &crossings, closed);
+        gather_at_vertices(&crossings, cut.rounding(), closed, &mut points, &mut scatter.weights);
         if cut.free_form.is_some() {
             let kept = (0..points.len()).collect();
             return ScanRow { kept, points, weights: scatter.weights, noise: None };
