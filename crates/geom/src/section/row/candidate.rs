@@ -143,7 +143,7 @@ mod tests {
         _: Option<&Contour>,
         _: &dyn Progress,
     ) -> Result<Option<Candidate>, SectionError> {
-        let off = f64::from(MICRONS) * 1e-3;
+        let off = f64::from(MICRONS) / 1e3;
         let residuals = vec![off; asked.points.len()];
         Ok(Candidate::of(Contour { residuals, spacing: 1.0, ..Contour::default() }))
     }
