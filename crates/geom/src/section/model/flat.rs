@@ -1,6 +1,6 @@
 //! Places and directions in the plane.
 
-/// From one place to another.
+/// The way from `b` to `a`.
 pub(crate) fn minus(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
     [a[0] - b[0], a[1] - b[1]]
 }
@@ -9,7 +9,7 @@ pub(crate) fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
     a[0] * b[0] + a[1] * b[1]
 }
 
-/// From one place to another.
+/// How far two places are apart.
 pub(crate) fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
     libm::hypot(b[0] - a[0], b[1] - a[1])
 }

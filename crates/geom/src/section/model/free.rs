@@ -10,7 +10,7 @@ use crate::spline::curve::{self, Ends};
 use std::sync::OnceLock;
 
 /// Most coefficients of a free piece.
-pub(crate) const MOST: usize = 48;
+pub(crate) const MOST_COEFFICIENTS: usize = 48;
 /// Fewest panels over a piece, and per span of its knots.
 const PANELS: (usize, usize) = (14, 4);
 /// Gauss and Legendre's rule with four places on 0 … 1.
@@ -72,9 +72,10 @@ pub(crate) fn near(count: usize, curvatures: &[f64]) -> Vec<f64> {
 }
 
 impl Basis {
-    /// The functions for `count` coefficients, 2 to [`MOST`].
+    /// The functions for `count` coefficients, 2 to [`MOST_COEFFICIENTS`].
     pub(super) fn of(count: usize) -> &'static Basis {
-        static ALL: [OnceLock<Basis>; MOST + 1] = [const { OnceLock::new() }; MOST + 1];
+        static ALL: [OnceLock<Basis>; MOST_COEFFICIENTS + 1] =
+            [const { OnceLock::new() }; MOST_COEFFICIENTS + 1];
         ALL[count].get_or_init(|| Basis::new(count))
     }
 

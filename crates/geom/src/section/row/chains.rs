@@ -10,10 +10,9 @@ use super::plan::{Chains, Plan};
 use crate::num::special::student_quantile;
 use crate::progress::{Cancelled, Progress};
 use crate::section::model::result::{Contour, Join, SectionError};
+use crate::section::search::smooth::COST_TO_SEARCH;
 use crate::section::search::span::{Found, single};
 
-/// Parts are searched whose chains cost no more than so much above the cheapest found: a search takes off some pieces, hardly more.
-const FAR: f64 = 20.0;
 /// A crossing is followed this far from the chains' ends, in distances between points.
 const FARTHEST: f64 = 20.0;
 /// Noise of up to so many times that of rounding is rounding.
@@ -103,7 +102,7 @@ impl Question<'_> {
         match plan.all(&start.parts, progress) {
             Err(SectionError::Cancelled(e)) => Err(e.into()),
             Err(_) => Ok(false),
-            Ok(found) => Ok(start.cost(&found.founds) < bar + FAR),
+            Ok(found) => Ok(start.cost(&found.founds) < bar + COST_TO_SEARCH),
         }
     }
 }

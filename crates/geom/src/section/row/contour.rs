@@ -22,6 +22,7 @@ const PROPOSERS: [Proposer; 8] = [
     corners::propose_circle,
     corners::propose,
 ];
+
 /// Products that the searches of a row may take: a dozen seconds. Then the cheapest found so far is taken.
 const PRODUCTS: f64 = 1e10;
 /// A loop of a contour is told that is longer than so many distances between points: it goes by points of the row.

@@ -126,7 +126,7 @@ impl Base {
     pub fn joined(&self, first: usize) -> Vec<Vec<Plan>> {
         use SegmentKind::{Arc, Line, Spline};
         let [a, b] = [self.plans[first], self.plans[first + 1]];
-        let most = (a.count + b.count).clamp(2, free::MOST);
+        let most = (a.count + b.count).clamp(2, free::MOST_COEFFICIENTS);
         let with = |new: &[Plan]| [&self.plans[..first], new, &self.plans[first + 2..]].concat();
         let over = |kind, count| with(&[Plan { kind, count, from: a.from, to: b.to }]);
         let plain = [(Line, 0), (Arc, 1)];
@@ -169,7 +169,7 @@ impl Base {
             if plans[i].kind == SegmentKind::Spline {
                 let count = plans[i].count;
                 for more in [count.wrapping_sub(1), count + 1, count + 2, count + count / 2 + 1] {
-                    if (2..=free::MOST).contains(&more) {
+                    if (2..=free::MOST_COEFFICIENTS).contains(&more) {
                         one(i, i, SegmentKind::Spline, more);
                     }
                 }
@@ -185,14 +185,14 @@ impl Base {
                 if most > 1 {
                     [most + 2, both]
                         .into_iter()
-                        .filter(|c| *c <= free::MOST)
+                        .filter(|c| *c <= free::MOST_COEFFICIENTS)
                         .for_each(|c| one(i, i + 1, SegmentKind::Spline, c));
                 }
             }
         }
         for (i, j) in runs(plans) {
             if j > i + 1 {
-                let longest = (j - i + 3).min(free::MOST);
+                let longest = (j - i + 3).min(free::MOST_COEFFICIENTS);
                 [3, 4, 5, 6, 8, 10].into_iter().for_each(|count| one(i, j, SegmentKind::Spline, count));
                 if longest > 10 {
                     one(i, j, SegmentKind::Spline, longest);

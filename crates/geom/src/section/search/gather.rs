@@ -12,7 +12,7 @@ use crate::section::model::free;
 use crate::spline::curve::chord_parameters;
 
 /// Coefficients of free pieces that are tried.
-const COUNTS: [usize; 16] = [3, 4, 5, 6, 7, 8, 9, 10, 12, 14, 17, 20, 24, 29, 38, free::MOST];
+const COUNTS: [usize; 16] = [3, 4, 5, 6, 7, 8, 9, 10, 12, 14, 17, 20, 24, 29, 38, free::MOST_COEFFICIENTS];
 /// Of more lines and arcs none are gathered: time grows with the square of their number.
 const PARTS: usize = 150;
 /// A curve does not follow points that it lies off by so many times their variance in the mean.

@@ -20,7 +20,7 @@ mod near;
 pub(super) mod partition;
 mod profile;
 pub(super) mod rounds;
-mod smooth;
+pub(super) mod smooth;
 pub(super) mod span;
 pub(super) mod start;
 pub(super) mod task;

@@ -18,7 +18,7 @@ const SLOW: f64 = 0.2;
 
 /// Products after which a search ends with the cheapest model so far: some seconds. Rows of some dozen segments take a hundredth; smooth
 /// curves of many turns, which are many arcs at first and few free pieces in the end, would take minutes.
-const MOST: f64 = 5e9;
+const MOST_PRODUCTS: f64 = 5e9;
 
 /// The search over the models of one row.
 pub(crate) struct Search<'a> {
@@ -159,7 +159,7 @@ impl Search<'_> {
         let mut best = first;
         let mut idle = 0;
         let mut unchanged = vec![];
-        self.until = self.work.effort + MOST.min(self.budget.left());
+        self.until = self.work.effort + MOST_PRODUCTS.min(self.budget.left());
         for _ in 0..60 {
             if progress.cancelled() {
                 return Err(Cancelled);
@@ -268,7 +268,7 @@ impl Search<'_> {
         plans
             .iter_mut()
             .filter(|p| p.kind == SegmentKind::Spline)
-            .for_each(|p| p.count = (p.count + more.max(p.count / 2)).min(free::MOST));
+            .for_each(|p| p.count = (p.count + more.max(p.count / 2)).min(free::MOST_COEFFICIENTS));
         let built = self.build(&base, &plans, f64::INFINITY);
         self.converge(&built)
     }

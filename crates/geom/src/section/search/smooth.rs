@@ -16,7 +16,7 @@ const PIECES: [usize; 6] = [1, 2, 3, 4, 6, 8];
 const LONG: usize = 16;
 const EACH: usize = 5;
 /// Numbers of their coefficients.
-const COUNTS: [usize; 8] = [4, 6, 8, 12, 16, 24, 34, free::MOST];
+const COUNTS: [usize; 8] = [4, 6, 8, 12, 16, 24, 34, free::MOST_COEFFICIENTS];
 /// A dozen steps leave free pieces no dearer than this for each point above the cheapest, where they can follow the row: their points are
 /// then 1.65 times as far off.
 const POINT_COST_TO_DROP: f64 = 1.0;
@@ -24,7 +24,7 @@ const POINT_COST_TO_DROP: f64 = 1.0;
 /// tell, or this many times what is not told from 0.
 const KNOWN: f64 = 1.1;
 /// Lines and arcs are searched that cost no more than so much above the cheapest found: a search takes off some pieces, hardly more.
-const FAR: f64 = 20.0;
+pub(crate) const COST_TO_SEARCH: f64 = 20.0;
 /// Fewer points to a line or arc do not tell it from a curve.
 const ENOUGH: usize = 10;
 const FINE: f64 = 4.0;
@@ -50,7 +50,7 @@ impl Search<'_> {
         let hopeful = self.is_within(&found.state, NEARLY)
             && !self.is_near(&first.state)
             && self.row.points.len() >= ENOUGH * parts.len()
-            && first.cost < found.cost + FAR;
+            && first.cost < found.cost + COST_TO_SEARCH;
         if !hopeful && self.is_near(&found.state) {
             return Ok(found);
         }

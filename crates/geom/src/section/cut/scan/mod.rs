@@ -61,21 +61,20 @@ fn gather_at_vertices(
     weights: &mut [f64],
 ) {
     let n = crossings.len();
-    let mut first = 0;
     let mut join = |i: usize, first: usize| {
         points[i] = points[first];
         weights[first] = (weights[first] + weights[i]).min(1.0);
     };
-    for i in 1..n {
-        if distance(crossings[i], crossings[first]) <= rounding {
+    let near = |i: usize, j: usize| distance(crossings[i], crossings[j]) <= rounding;
+    let over_seam = if closed { (1..n).rev().take_while(|i| near(*i, 0)).count() } else { 0 };
+    (n - over_seam..n).for_each(|i| join(i, 0));
+    let mut first = 0;
+    for i in 1..n - over_seam {
+        if near(i, first) {
             join(i, first);
         } else {
             first = i;
         }
-    }
-    let is_at_start = |i: &usize| distance(crossings[*i], crossings[0]) <= rounding;
-    if closed {
-        (1..n).rev().take_while(is_at_start).for_each(|i| join(i, 0));
     }
 }
 
