@@ -86,6 +86,17 @@ pub struct ReferenceArgs {
 }
 
 impl ReferenceArgs {
+    /// Refuses what is said of a reference where there is none; `option` is what names one.
+    pub fn without_reference(&self, option: &str) -> Result<(), Usage> {
+        let given = [("units", self.reference_units.is_some()), ("format", self.reference_format.is_some())];
+        match given.iter().find(|(_, given)| *given) {
+            Some((what, _)) => {
+                Err(Usage(format!("--reference-{what} is for the file of {option}; give one")))
+            }
+            None => Ok(()),
+        }
+    }
+
     /// The same for the readers, beside what was said of the measured file.
     pub fn reading(&self, measured: &PointInputArgs) -> ReadOptions {
         ReadOptions {

@@ -87,3 +87,45 @@ fn circles_of_a_pocket_run_along_their_facets() {
         assert!(radii.into_iter().any(near), "16.{k}: {radius}");
     }
 }
+
+/// Plates with rounded corners, as their meshes are drawn and with their facets in any order: four lines and four arcs of one radius outside.
+#[test]
+fn drawn_plates_are_exact_in_any_order() {
+    let folder = Folder::new();
+    let table = std::fs::read_to_string(corpus("sections/README.md")).unwrap();
+    let rows: Vec<(String, String)> = table
+        .lines()
+        .filter_map(|line| line.strip_prefix("| `")?.split_once("` | `"))
+        .map(|(file, plane)| (file.to_string(), plane.split('`').next().unwrap().to_string()))
+        .collect();
+    assert_eq!(rows.len(), 4);
+    let check = |file: &std::path::Path, plane: &str| {
+        let answer = document(["section", file.to_str().unwrap(), "--plane", plane]);
+        let outer = answer["contours"].as_array().unwrap().iter().filter_map(|c| c["segments"].as_array());
+        let outer = outer.filter(|all| all.len() > 4).collect::<Vec<_>>();
+        let radii =
+            |all: &[serde_json::Value]| all.iter().filter_map(|s| s["radius"].as_f64()).collect::<Vec<f64>>();
+        let is_right = |all: &&&Vec<serde_json::Value>| {
+            let arcs = radii(all);
+            let lines = all.iter().filter(|s| s["kind"] == "line").count();
+            let same = arcs.iter().all(|r| (r - arcs[0]).abs() < 1e-3 * arcs[0]);
+            all.len() == 8 && lines == 4 && arcs.len() == 4 && same
+        };
+        assert!(outer.iter().any(|all| is_right(&all)), "{}: {answer:#}", file.display());
+    };
+    for (file, plane) in &rows {
+        check(&corpus(&format!("sections/{file}")), plane);
+    }
+    // Fifty bytes a facet, behind 84 of the head.
+    let (stl, plane) = (std::fs::read(corpus("sections/rounded_rectangle.stl")).unwrap(), &rows[2].1);
+    let mut facets: Vec<&[u8]> = stl[84..].chunks_exact(50).collect();
+    let mut state = 1u64;
+    for round in 0..30 {
+        for i in (1..facets.len()).rev() {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            facets.swap(i, (state >> 33) as usize % (i + 1));
+        }
+        let all = [&stl[..84], &facets.concat()].concat();
+        check(&folder.write(&format!("order{round}.stl"), all), plane);
+    }
+}

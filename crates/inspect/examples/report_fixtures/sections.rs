@@ -77,6 +77,7 @@ fn against() -> Vec<u8> {
         loose: 0,
         gap: None,
         thickness: None,
+        fills_area: false,
         bent: vec![],
         contours: vec![own.clone()],
     };
@@ -108,6 +109,7 @@ fn page(planes: &[Vec<Vec<[f64; 2]>>]) -> Vec<u8> {
             loose: 0,
             gap: None,
             thickness: None,
+            fills_area: false,
             bent: vec![],
             contours: rows.iter().map(|r| contour(r, &wish, &Silent).unwrap()).collect(),
         })

@@ -101,8 +101,7 @@ pub struct PlaneRecord {
     pub frame: FrameRecord,
     /// Contours found in it.
     pub contours: u64,
-    /// Area inside closed contours of a mesh, holes taken off, of the facets themselves. What shells share counts once for each of them, and
-    /// shells turned inside out count below 0.
+    /// Area inside closed contours of a mesh, holes taken off, of the facets themselves. What shells share counts once for each of them.
     pub area: Option<f64>,
     /// Why there is no area.
     #[serde(skip_serializing_if = "Option::is_none", default)]
@@ -318,8 +317,11 @@ fn plane(section: &Section) -> Option<PlaneRecord> {
     })
 }
 
-/// What may help where contours of a cloud are suspiciously many.
+/// What may help where a cloud has no contours, or suspiciously many.
 fn hint(section: &Section) -> Option<String> {
+    if section.fills_area {
+        return Some(Section::FILLS_AREA.into());
+    }
     let (gap, wider) = section.gap?;
     let open = section.contours.iter().filter(|c| !c.closed).count();
     Some(format!(

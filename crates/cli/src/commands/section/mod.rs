@@ -1,5 +1,6 @@
 //! `trueness section`: the lines, arcs and curves of sections, and where they join.
 
+mod faced;
 mod found;
 mod layers;
 mod method;
@@ -21,17 +22,17 @@ use found::{Found, described};
 use std::path::PathBuf;
 use trueness_geom::noise::{self, Noise};
 use trueness_geom::section::{self, Continuity, Options, PlaneFrame, SectionError};
-use trueness_geom::space::Point;
+use trueness_geom::space::{Point, minus, norm};
 use trueness_inspect::report::{ViewObject, flat};
 use trueness_inspect::results::section::{AirfoilRecord, Section, SectionDocument};
-use trueness_inspect::results::{NoiseOrReason, Role, Verdict, noise_or_reason};
+use trueness_inspect::results::{InputRecord, NoiseOrReason, Role, Verdict, noise_or_reason};
 
 /// The lines, arcs and curves of a section, and the exact places where they join
 ///
 /// Of points in the order in which they follow each other along a contour, or where planes cut a mesh or a cloud. Finds
 /// number and kinds of the segments, refines all together and tells every join with its uncertainty.
 #[derive(Args, Debug)]
-#[command(after_help = exit::help("out of tolerance or undecided, segments do not run along their points and tell nothing of the part, or a contour is doubtful; files are written all the same", "\
+#[command(after_help = exit::help("out of tolerance or undecided, segments do not run along their points and tell nothing of the part, a contour is doubtful, or a slab holds an area and no contours; files are written all the same", "\
 Examples:
   trueness section profile.txt
   trueness section profile.csv --noise 0.003 --dxf profile.dxf --json profile.json
@@ -101,6 +102,18 @@ enum ContinuityArg {
 }
 
 impl SectionArgs {
+    /// Refuses a noise that no points of this file can have.
+    fn check_noise(&self, record: &InputRecord) -> Result<(), Usage> {
+        let size = record.bounds.as_ref().map(|b| norm(minus(b.max, b.min)));
+        match self.noise.zip(size) {
+            Some((noise, size)) if noise > size => Err(Usage(format!(
+                "--noise {noise}: all of {} lies within {size:.4} mm; give the standard deviation of its points, mm",
+                record.path
+            ))),
+            _ => Ok(()),
+        }
+    }
+
     fn options(&self) -> Options {
         Options {
             noise: self.noise,
@@ -172,18 +185,26 @@ fn mesh_noise(
 fn run(args: &SectionArgs, common: &Common) -> anyhow::Result<Outcome> {
     let options = args.options();
     args.nominal.rule()?;
-    let Opened { mut record, body, planar, .. } =
+    let Opened { mut record, mut body, planar, .. } =
         read::open(&args.input, Role::Measured, &args.file.reading())?;
     let shown = args.input.display();
     let planes = args.planes.planes()?;
+    if let Body::Mesh(source) = &mut body {
+        let stage = Stage::new(common.progress, "which way facets look", STEPS, None);
+        source.mesh = faced::faced(&source.mesh, &mut record, &stage)?;
+    }
     let (known, noise) = mesh_noise(args, common, &body, &shown.to_string())?;
     let stage = Stage::new(common.progress, "finding segments", STEPS, None);
     let mut methods = None;
     let found = match body {
-        Body::Mesh(source) => planes::mesh(&source.mesh, known, &planes, &options, &stage),
+        Body::Mesh(source) => {
+            args.check_noise(&record)?;
+            planes::mesh(&source.mesh, known, &planes, &options, &stage)
+        }
         Body::Points(source) => {
             let points = read::all_points(&args.input, source)?;
             read::describe(&mut record, &points);
+            args.check_noise(&record)?;
             match planes.is_empty() {
                 true => {
                     args.planes.fit_a_row()?;
@@ -240,7 +261,8 @@ fn run(args: &SectionArgs, common: &Common) -> anyhow::Result<Outcome> {
     args.drawings.write(&sections, &rows, document.nominal.as_ref())?;
     args.document.write(&document)?;
     args.document.table(|| table::table(&document))?;
-    let doubtful = document.contours.iter().any(|c| !c.astray.is_empty() || !c.doubts.is_empty());
+    let doubtful = document.contours.iter().any(|c| !c.astray.is_empty() || !c.doubts.is_empty())
+        || sections.iter().any(|section| section.fills_area);
     let judged = document.nominal.as_ref().and_then(|nominal| nominal.verdict);
     let fails = judged.is_some_and(|verdict| verdict != Verdict::Pass);
     Ok(if doubtful || fails { Outcome::NotConforming } else { Outcome::Conforming })
@@ -278,6 +300,7 @@ fn row(points: &[Point], planar: bool, options: &Options, stage: &Stage) -> Foun
             gap: None,
             thickness: None,
             bent: vec![],
+            fills_area: false,
             contours,
         }],
         vec![flat],

@@ -1,5 +1,6 @@
 //! The nominal that a section is compared with.
 
+use super::faced::faced;
 use super::found::Sections;
 use super::layers::Layers;
 use super::planes::{self, Cut};
@@ -112,6 +113,9 @@ const SHARE: f64 = 1e-6;
 impl NominalArgs {
     /// What the profile must keep, if anything, and from what distance on points do not count.
     pub fn rule(&self) -> Result<(Option<ProfileRule>, f64), Usage> {
+        if self.nominal.is_none() {
+            self.reading.without_reference("--nominal")?;
+        }
         let share = |name: &str, written: f64| {
             of_percent(written).map_err(|what| Usage(format!("{name} {written}: {what}")))
         };
@@ -145,7 +149,7 @@ impl NominalArgs {
     ) -> anyhow::Result<Option<(NominalRecord, InputRecord)>> {
         let Some(path) = &self.nominal else { return Ok(None) };
         let shown = path.display();
-        let (nominal, mut record) = open(path, &self.reading.reading(measured))?;
+        let (nominal, mut record) = open(path, &self.reading.reading(measured), stage)?;
         read::hash(&mut record, path)?;
         let layers = match &nominal {
             Nominal::Drawing(drawing) => Layers::of(drawing, sections.len(), &shown.to_string())?,
@@ -278,13 +282,13 @@ fn unlikely(sections: &[Section], all: &[AgainstPlane]) -> Vec<Warning> {
 }
 
 /// What the file of a nominal holds.
-fn open(path: &Path, reading: &ReadOptions) -> anyhow::Result<(Nominal, InputRecord)> {
+fn open(path: &Path, reading: &ReadOptions, stage: &Stage) -> anyhow::Result<(Nominal, InputRecord)> {
     let Opened { mut record, body, planar, .. } = match read::nominal(path, reading)? {
         Ok((drawing, record)) => return Ok((Nominal::Drawing(drawing), record)),
         Err(opened) => opened,
     };
     let nominal = match body {
-        Body::Mesh(source) => Nominal::Mesh(source.mesh),
+        Body::Mesh(source) => Nominal::Mesh(faced(&source.mesh, &mut record, stage)?),
         Body::Points(source) => {
             let points = read::all_points(path, source)?;
             read::describe(&mut record, &points);

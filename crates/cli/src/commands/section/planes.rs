@@ -177,7 +177,7 @@ pub fn mesh(mesh: &Mesh, noise: Option<Noise>, planes: &[Cut], options: &Options
 pub fn cloud(points: &[Point], planes: &[Cut], slab: &Slab, options: &Options, stage: &Stage) -> Found {
     let of = |cut: &Cut| -> Result<WithRows, SectionError> {
         let (numbers, flat) = section::slab(points, &cut.plane, &cut.frame, slab.thickness);
-        let Order { rows, gap, wider } = section::order(&flat, slab.gap, stage)?;
+        let Order { rows, gap, wider, fills_area } = section::order(&flat, slab.gap, stage)?;
         let contours = (rows.par_iter())
             .map(|row| section::ordered_contour(&flat, row, options, stage))
             .collect::<Result<Vec<Contour>, SectionError>>()?;
@@ -189,7 +189,7 @@ pub fn cloud(points: &[Point], planes: &[Cut], slab: &Slab, options: &Options, s
         let loose = numbers.len() - rows.iter().map(|r| r.numbers.len()).sum::<usize>();
         let area = Err("points have no facets");
         let (gap, thickness) = (Some((gap, wider)), Some(slab.thickness));
-        Ok((Section { area, loose, gap, thickness, bent, ..cut.section(contours) }, own))
+        Ok((Section { area, loose, gap, thickness, bent, fills_area, ..cut.section(contours) }, own))
     };
     gather(planes.par_iter().map(of).collect())
 }
@@ -217,13 +217,26 @@ impl Cut {
     fn section(&self, contours: Vec<Contour>) -> Section {
         let plane = Some((self.plane.normal, self.plane.offset));
         let (frame, area) = (described(&self.frame, 0.0), Err("not asked"));
-        Section { frame, plane, area, loose: 0, gap: None, thickness: None, bent: vec![], contours }
+        Section {
+            frame,
+            plane,
+            area,
+            loose: 0,
+            gap: None,
+            thickness: None,
+            bent: vec![],
+            fills_area: false,
+            contours,
+        }
     }
 }
 
 /// Why there is no contour: where the planes are, and where the part is.
 pub fn nothing_met(planes: &[Cut], sections: &[Section], record: &InputRecord) -> String {
     let loose: usize = sections.iter().map(|s| s.loose).sum();
+    if sections.iter().any(|s| s.fills_area) {
+        return format!("{loose} points: {}", Section::FILLS_AREA);
+    }
     if loose > 0 {
         let slab = if planes.len() == 1 { "the slab holds" } else { "the slabs hold" };
         return format!(

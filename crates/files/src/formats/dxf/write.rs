@@ -166,7 +166,8 @@ fn entity(g: &mut Groups, layer: &str, entity: &Entity) -> io::Result<()> {
             for (code, count) in [(71, *degree), (72, knots.len()), (73, points.len()), (74, 0)] {
                 g.put(code, count)?;
             }
-            g.all(&[(42, "1e-10"), (43, "1e-10")])?;
+            // Below which knots, and control points, are the same: readers round to it. Knots run from 0 to 1.
+            g.all(&[(42, "1e-15"), (43, "1e-15")])?;
             knots.iter().try_for_each(|k| g.number(40, *k))?;
             points.iter().try_for_each(|p| g.point(10, *p))
         }

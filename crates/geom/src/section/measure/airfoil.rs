@@ -63,7 +63,7 @@ pub struct Airfoil {
 /// Measures the profile whose points are `points`, of which `contour` was found.
 ///
 /// Of the contour are used whether it is closed, and which points were left out. The trailing edge of an open row is at its ends;
-/// of a closed one at the end behind which the sides run straighter. It is the shortest stretch that takes two thirds of half a turn:
+/// of a closed one at the thinner end. It is the shortest stretch that takes two thirds of half a turn:
 /// sharp at one point, blunt between two corners, with points on the face or none, else round. Sides are led no farther than their points. Cost: fits of up to 2,000 points, and inscribed circles as the square of 2,000 places.
 ///
 /// # Errors

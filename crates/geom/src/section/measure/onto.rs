@@ -1,9 +1,9 @@
 //! The best fit of a section onto the section of its nominal, in their plane.
 //!
-//! Least squares of the distances to the nearest place, by Gauss and Newton: the outline is taken for its tangent at each foot, the
-//! feet are found anew after each step (Chen and Medioni, Object modelling by registration of multiple range images, 1992). It begins
-//! with weights that fall with the distance (Huber), so that points without a counterpart hardly lead it, and ends with all that count
-//! at full weight. What the outlines do not hold is named and not guessed: as a circle turns, and a line slides along itself.
+//! Least squares of the distances to the nearest place, by Gauss and Newton: the outline is taken for its tangent at each foot, or for
+//! the corner where a foot is one, and the feet are found anew after each step (Chen and Medioni, Object modelling by registration of
+//! multiple range images, 1992). A step that does not bring the points nearer is halved. It begins with weights that fall with the distance (Huber), so that points without a counterpart hardly lead it, and ends with all that
+//! count at full weight. What the outlines do not hold is named and not guessed: as a circle turns, and a line slides along itself.
 
 mod freedom;
 mod motion;
@@ -119,9 +119,9 @@ pub fn onto_nominal(
         motion: PlaneMotion::about(if freedom == Freedom::TURN { [0.0; 2] } else { middle(rows) }),
     };
     let first = search.places()?;
-    let mut iterations = search.settle(&|places| huber(places), true)?.0;
+    let mut iterations = search.settle(&huber)?.0;
     let within = |places: &Places| places.distances().map(|d| f64::from(d.abs() <= reach)).collect();
-    let (steps, converged) = search.settle(&within, false)?;
+    let (steps, converged) = search.settle(&within)?;
     iterations += steps;
     let places = search.places()?;
     let weights: Vec<f64> = within(&places);
@@ -236,11 +236,14 @@ impl Search<'_> {
         }
         let (mut matrix, mut right, mut sum) = (vec![0.0; n * n], vec![0.0; n], 0.0);
         for (p, w) in kept() {
-            let slopes = freedom::slopes(p.point, p.normal, pivot, arm);
-            for (i, a) in self.freedom.axes().enumerate() {
-                right[i] -= w * slopes[a] * p.distance;
-                for (j, b) in self.freedom.axes().enumerate().take(i + 1) {
-                    matrix[i * n + j] += w * slopes[a] * slopes[b];
+            let corner = p.is_corner.then(|| (p.across(), 0.0));
+            for (direction, distance) in std::iter::once((p.normal, p.distance)).chain(corner) {
+                let slopes = freedom::slopes(p.point, direction, pivot, arm);
+                for (i, a) in self.freedom.axes().enumerate() {
+                    right[i] -= w * slopes[a] * distance;
+                    for (j, b) in self.freedom.axes().enumerate().take(i + 1) {
+                        matrix[i * n + j] += w * slopes[a] * slopes[b];
+                    }
                 }
             }
             sum += w * p.distance * p.distance;
@@ -252,14 +255,10 @@ impl Search<'_> {
         Ok(Normal { freedom: self.freedom, factor, right, arm, square: sum, count: count as f64 })
     }
 
-    /// Steps until they are small against the uncertainty; with `halved` ones as long as the weighted distances grow.
-    fn settle(
-        &mut self,
-        weigh: &dyn Fn(&Places) -> Vec<f64>,
-        halved: bool,
-    ) -> Result<(usize, bool), OntoNominalError> {
+    /// Steps until they are small against the uncertainty, or until none brings the points nearer.
+    fn settle(&mut self, weigh: &dyn Fn(&Places) -> Vec<f64>) -> Result<(usize, bool), OntoNominalError> {
+        let mut places = self.places()?;
         for step in 0..STEPS {
-            let places = self.places()?;
             let weights = weigh(&places);
             let normal = self.normal(&places, &weights)?;
             let mut by = normal.step();
@@ -269,29 +268,25 @@ impl Search<'_> {
             }
             let size = |by: [f64; 3]| libm::hypot(libm::hypot(by[0], by[1]), by[2] * normal.arm);
             let uncertain = (normal.square / normal.count).sqrt() / normal.count.sqrt();
-            let small = size(by) <= (SETTLED * uncertain).max(ROUNDING * (normal.arm + self.motion.far()));
+            let least = (SETTLED * uncertain).max(ROUNDING * (normal.arm + self.motion.far()));
             let before = self.motion;
-            self.motion = before.then(by);
-            if small {
-                return Ok((step + 1, true));
-            }
-            let cost = |places: &Places, weights: &[f64]| -> f64 {
-                places.all().zip(weights).map(|(p, w)| w * p.distance * p.distance).sum::<f64>()
-                    / weights.iter().sum::<f64>()
-            };
-            let old = cost(&places, &weights);
-            for _ in 0..HALVINGS {
+            loop {
+                self.motion = before.then(by);
                 let tried = self.places()?;
-                if !halved || cost(&tried, &weigh(&tried)) <= 2.0 * old {
+                if places.come_nearer(&tried, &weights) {
+                    places = tried;
+                    break;
+                }
+                if size(by) <= least {
+                    self.motion = before;
                     break;
                 }
                 by = by.map(|x| 0.5 * x);
-                self.motion = before.then(by);
+            }
+            if size(by) <= least {
+                return Ok((step + 1, true));
             }
         }
         Ok((STEPS, false))
     }
 }
-
-/// How often a step that leads away is halved.
-const HALVINGS: usize = 5;

@@ -105,21 +105,39 @@ mod tests {
         }
     }
 
-    /// A grid of points that covers an area is no contour, a thin band is.
+    /// Points all over an area have no contours, at random or in a grid, with holes or not, few or many; those of a thin band, of many rings
+    /// and of a thick line have.
     #[test]
-    fn an_area_is_no_contour() {
-        let astray = |rows: u32, step: f64| {
-            let random = &mut Random::new(3);
-            let points: Vec<[f64; 2]> = (0..300)
-                .flat_map(|i| (0..rows).map(move |j| [f64::from(i) * 0.1, f64::from(j) * step]))
-                .map(|[x, y]| [x, y + 0.01 * random.unit()])
-                .collect();
-            let found = order(&points, None, &Silent).unwrap().rows;
-            let contour = ordered_contour(&points, &found[0], &Options::default(), &Silent).unwrap();
-            contour.astray.len() == contour.segments.len()
+    fn an_area_has_no_contours() {
+        let random = &mut Random::new(3);
+        let fills = |points: &[[f64; 2]]| {
+            let found = order(points, None, &Silent).unwrap();
+            assert!(!found.fills_area || found.rows.is_empty());
+            found.fills_area
         };
-        assert!(astray(30, 0.1));
-        assert!(!astray(3, 0.02));
+        for round in 0..20 {
+            let [width, height] = [40.0, 10.0 + 30.0 * random.unit()];
+            let count = 3000 + random.below(5000) as usize;
+            let is_hole = |p: &[f64; 2]| round % 2 == 0 && libm::hypot(p[0] - 12.0, p[1] - 5.0) < 4.0;
+            let mut area: Vec<[f64; 2]> =
+                (0..count).map(|_| [width * random.unit(), height * random.unit()]).collect();
+            area.retain(|p| !is_hole(p));
+            assert!(fills(&area), "{round}, {count} over {height}");
+            let rings: Vec<[f64; 2]> = (0..count)
+                .map(|i| {
+                    let (s, c) = libm::sincos(std::f64::consts::TAU * random.unit());
+                    let r = 20.0 * (1 + i % 4) as f64 / 4.0 + 0.3 * random.unit();
+                    [r * c, r * s]
+                })
+                .collect();
+            assert!(!fills(&rings), "{round}, {count} on rings");
+        }
+        let grid = |rows: u32, step: f64, random: &mut Random| -> Vec<[f64; 2]> {
+            let all =
+                (0..300).flat_map(|i| (0..rows).map(move |j| [f64::from(i) * 0.1, f64::from(j) * step]));
+            all.map(|[x, y]| [x, y + 0.01 * random.unit()]).collect()
+        };
+        assert!(fills(&grid(30, 0.1, random)) && !fills(&grid(3, 0.02, random)));
     }
 
     /// A ring whose points scatter by more than a quarter of its radius is a disk, and a row that does so by more than an eighth of its

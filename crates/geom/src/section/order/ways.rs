@@ -37,6 +37,8 @@ pub struct Order {
     pub gap: f64,
     /// Where contours are suspiciously many and open: the gap over which most of their ends would meet others, mm.
     pub wider: Option<f64>,
+    /// The points lie all over an area, as those near a plane that lies in a face: there are no contours.
+    pub fills_area: bool,
 }
 
 /// Share of branching cells up to which a tree follows a contour.
@@ -61,7 +63,8 @@ const SUSPICIOUS: usize = 6;
 /// Contours of points in the plane, in any order.
 ///
 /// A contour goes on over gaps up to `gap`; where it is not given, over gaps that points so uneven have by chance, and four cells
-/// at least. Points of no contour, fewer than eight together, are left out. Contours that touch each other are one with branches:
+/// at least. Points of no contour, fewer than eight together, are left out. Points all
+/// over an area have none. Contours that touch each other are one with branches:
 /// the longest way is a contour, each of the rest that is long enough another. Cost: the points' number times its logarithm.
 ///
 /// # Errors
@@ -87,6 +90,10 @@ pub fn order(points: &[[f64; 2]], gap: Option<f64>, progress: &dyn Progress) -> 
     let Some(grown) = grow(points, 2.0 * size / n as f64, gap, progress)? else {
         return Ok(Order::default());
     };
+    let finest = size / WIDTHS[1];
+    if !(grown.follows && grown.cells.width < finest) && fills_area(points, size) {
+        return Ok(Order { gap: gap.unwrap_or(0.0), fills_area: true, ..Order::default() });
+    }
     let (width, levels) =
         if grown.follows { (grown.cells.width, WALL.1) } else { (2.0 * size / n as f64, GROWTH.1) };
     let mut found = rows(points, grown, gap, size);
@@ -133,7 +140,18 @@ pub fn order(points: &[[f64; 2]], gap: Option<f64>, progress: &dyn Progress) -> 
         rows[k].layered = rows[k].layered.or(beside(points, &rows, k, gap));
     }
     let wider = wider(points, &rows, gap);
-    Ok(Order { rows, gap, wider })
+    Ok(Order { rows, gap, wider, fills_area: false })
+}
+
+/// Cells in which it is told whether points fill an area have these shares of its size.
+const WIDTHS: [f64; 2] = [8.0, 32.0];
+/// Of cells a quarter as wide a line fills 4 times as many, an area 16 times: between these.
+const FILLED: usize = 8;
+
+/// Whether points lie all over an area, and not along lines, at scales well below its size.
+fn fills_area(points: &[[f64; 2]], size: f64) -> bool {
+    let [wide, narrow] = WIDTHS.map(|parts| Cells::new(points, size / parts).middles.len());
+    points.len() >= 2 * narrow && narrow > FILLED * wide
 }
 
 /// Cells grow so many times more where walls may be thin; of a wall parted in two, faces keep so large a share of their points.

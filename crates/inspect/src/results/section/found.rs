@@ -50,8 +50,15 @@ pub struct Section {
     pub gap: Option<(f64, Option<f64>)>,
     /// How thick the slab of a cloud is.
     pub thickness: Option<f64>,
+    /// The points of a cloud near the plane fill an area: there are no contours.
+    pub fills_area: bool,
     /// The contours.
     pub contours: Vec<Contour>,
     /// The arcs of each contour whose radii the slab of a cloud moves; of others nothing.
     pub bent: Vec<Vec<Bent>>,
+}
+
+impl Section {
+    /// What is said of a plane near which points fill an area.
+    pub const FILLS_AREA: &str = "the slab holds an area of points, not contours: it lies in a face of the part; move the plane, or give a smaller --thickness";
 }

@@ -2,6 +2,7 @@
 
 use super::doubts::NominalWarningKind;
 use super::nominal::NominalRecord;
+use super::outline::OutlineRecord;
 use super::profile::{ProfileRecord, WorstRecord};
 use crate::results::compare::ToleranceShares;
 use crate::results::{InputRecord, ReasonKind, Verdict, VerdictReason, judged, percent, percents};
@@ -28,6 +29,10 @@ impl NominalRecord {
             let [covered, least] = percents([profile.covered, rule.min_coverage]);
             let text = format!("the points cover {covered} of the nominal; a pass needs {least}");
             reasons.push(VerdictReason::new(ReasonKind::Coverage, text));
+        } else if let Some(outline) = self.outlines.iter().find(|o| o.closed && o.covered <= 0.0)
+            && rule.min_coverage > 0.0
+        {
+            reasons.push(VerdictReason::new(ReasonKind::Coverage, not_measured(outline)));
         }
         if profile.counterparts < rule.min_coverage {
             let [counterparts, least] = percents([profile.counterparts, rule.min_coverage]);
@@ -106,6 +111,16 @@ impl NominalRecord {
         );
         all
     }
+}
+
+/// That nothing of an outline was measured.
+fn not_measured(outline: &OutlineRecord) -> String {
+    let kind = if outline.hole { "hole" } else { "outline" };
+    let ([x, y], [width, height]) = (outline.center, outline.size);
+    let plane = outline.plane.map_or(String::new(), |n| format!(" in plane {}", n + 1));
+    format!(
+        "no points run along the {kind} of {width:.4} by {height:.4} about ({x:.4}, {y:.4}){plane}: it was not measured"
+    )
 }
 
 /// Why the share inside does not conform; nothing where it does.

@@ -9,7 +9,7 @@ use crate::fit::solve;
 use crate::section::model::chain::SegmentKind;
 use crate::section::search::start::{Part, Sums};
 use crate::section::{Chain, PlaneFrame};
-use crate::space::{cross, dot, minus};
+use crate::space::{Vector, cross, dot, minus, norm};
 
 /// Vertices about an edge: those of some three rings.
 const AROUND: usize = 48;
@@ -18,8 +18,10 @@ const TERMS: usize = 6;
 const FEWEST_VERTICES: usize = 2 * TERMS;
 /// Vertices count whose feet are no nearer to an end of the part than this share of the edge's length: others are those of the faces beside.
 const INSIDE: f64 = 0.3;
-/// Vertices farther off than so many edge lengths are of other faces.
+/// Vertices farther off than so many edge lengths are of other faces, and so are those about which facets look another way than about the
+/// crossings, by more than an angle of this cosine (30°).
 const FARTHEST_OFF: f64 = 3.0;
+const FACES_ALIKE: f64 = 0.866;
 
 /// An edge lies within a surface that its mesh tells by no more than this share of its length: by an eighth of it for each radian that facets turn
 /// along it. More is told by vertices that do not determine the surface.
@@ -52,6 +54,15 @@ impl Course<'_> {
         let sense = self.part.curvature.signum();
         let radius = 1.0 / self.part.curvature.abs();
         [radius * libm::atan2(x, -sense * y), sense * (radius - libm::hypot(x, y))]
+    }
+
+    /// A direction by its parts along it where a length from its middle is, across it, and across the plane.
+    fn seen_from(&self, s: f64, direction: Vector, (frame, normal): (&PlaneFrame, Vector)) -> Vector {
+        let (sin, cos) = libm::sincos(s * self.part.curvature);
+        let [x, y] = self.part.along;
+        let [x, y] = [cos * x - sin * y, sin * x + cos * y];
+        let [a, b] = [frame.x, frame.y].map(|axis| dot(axis, direction));
+        [x * a + y * b, x * b - y * a, dot(normal, direction)]
     }
 
     fn place(&self, [s, off]: [f64; 2]) -> [f64; 2] {
@@ -131,14 +142,15 @@ pub(super) fn on_surface(
         });
         let best = starts.into_iter().min_by(|a, b| windows[*a].0.total_cmp(&windows[*b].0));
         let part = &windows[best.unwrap_or(0)].1;
-        lifted(cut, chain.edges[i], points[i], part, &row, (frame, normal))
+        let edges = (part.from..part.to).map(|i| chain.edges[i % n]);
+        lifted((cut, edges), chain.edges[i], points[i], part, &row, (frame, normal))
     };
     (0..n).map(moved).collect()
 }
 
-/// A crossing on the surface, as the vertices about its edge beside this part of the row tell.
+/// A crossing on the surface, as the vertices about its edge beside this part of the row, and of these edges, tell.
 fn lifted(
-    cut: &CutMesh,
+    (cut, edges): (&CutMesh, impl Iterator<Item = [u32; 2]>),
     edge: [u32; 2],
     point: [f64; 2],
     part: &Part,
@@ -156,8 +168,12 @@ fn lifted(
     let here = course.local(point);
     let length = libm::hypot(b[0] - a[0], b[2] - a[2]).max(f64::MIN_POSITIVE);
     let inside = INSIDE * length;
-    let own = around(cut, edge).into_iter().map(local).filter(|[s, off, _]| {
-        *s >= ends[0] + inside && *s <= ends[1] - inside && off.abs() <= FARTHEST_OFF * length
+    let looks = |v: u32, s: f64| course.seen_from(s, cut.facing(v), (frame, normal));
+    let face = middle(edges.flatten().map(|v| looks(v, local(v)[0])).collect());
+    let own = around(cut, edge).into_iter().filter_map(|v| {
+        let [s, off, z] = local(v);
+        let is_inside = s >= ends[0] + inside && s <= ends[1] - inside && off.abs() <= FARTHEST_OFF * length;
+        (is_inside && dot(looks(v, s), face) >= FACES_ALIKE * norm(face)).then_some([s, off, z])
     });
     let surface = quadratic(own.collect(), here[0], length);
     let height = |s: f64, z: f64| {
@@ -173,6 +189,17 @@ fn lifted(
         return point;
     }
     course.place([here[0], here[1] + lift])
+}
+
+/// The medians of the parts of directions.
+fn middle(all: Vec<Vector>) -> Vector {
+    std::array::from_fn(|k| {
+        let mut parts: Vec<f64> = all.iter().map(|d| d[k]).collect();
+        parts.sort_by(f64::total_cmp);
+        let n = parts.len();
+        // As of the parts seen from the other side.
+        if n == 0 { 0.0 } else { 0.5 * (parts[(n - 1) / 2] + parts[n / 2]) }
+    })
 }
 
 /// The vertices about an edge, ring by ring.

@@ -2,8 +2,8 @@
 //!
 //! An outline turns by half a turn, less its wedge, at either end. The edge is the shortest stretch that takes most of that turn: one
 //! point of a sharp edge, the face between two corners of a blunt one, with points on it or none, an arc of a round one. So the sides
-//! end where their own points end, and are led no farther. Behind a trailing edge the sides run straight; behind a leading one they go
-//! on turning. Where both are round they may go on alike, and the trailing one is thinner.
+//! end where their own points end, and are led no farther. The trailing end is the thinner one: how the sides behind it turn tells
+//! nothing of a strongly cambered profile.
 
 use crate::section::model::flat::{angle, distance, off_line};
 
@@ -16,9 +16,7 @@ const BULGE: f64 = 0.12;
 /// Points are passed over that lie no farther off the line between others than so many standard deviations of their noise: four of what a point
 /// lies off that line.
 const WITHIN: f64 = 5.0;
-/// Sides are looked at from their edge to the first share of the chord, and on to the second.
-const SIDE: [f64; 2] = [0.06, 0.2];
-/// The widths of two round ends are compared at this share of the chord.
+/// The widths of the ends are compared at this share of the chord.
 const STATION: f64 = 0.05;
 /// An edge lies within this share of the chord from the end.
 const END: f64 = 0.15;
@@ -34,22 +32,13 @@ pub(super) struct Tail {
     pub tip: usize,
 }
 
-/// The trailing edge of a closed row whose points scatter by `noise`; a round one where neither end turns back within a short stretch.
+/// The trailing edge of a closed row whose points scatter by `noise`; a round one where it does not turn back within a short stretch.
 pub(super) fn tail(row: &[[f64; 2]], noise: f64) -> Tail {
     let (a, b) = diameter(row);
     let chord = distance(row[a], row[b]);
     let outline = Outline { row, at: simplified(row, [a, b], WITHIN * noise), chord };
-    let edges = [a, b].map(|tip| outline.edge(tip));
-    let is_round = |edge: &Option<Tail>| edge.is_none_or(|e| e.round);
-    let trailing = match edges.iter().all(is_round) {
-        true => usize::from(width(row, b, a) <= width(row, a, b)),
-        false => {
-            let bends = edges.map(|edge| edge.and_then(|e| outline.bend(&e)).unwrap_or(f64::INFINITY));
-            usize::from(bends[1] <= bends[0])
-        }
-    };
-    let tip = [a, b][trailing];
-    edges[trailing].unwrap_or(Tail { ends: [tip; 2], round: true, tip })
+    let tip = if width(row, b, a) <= width(row, a, b) { b } else { a };
+    outline.edge(tip).unwrap_or(Tail { ends: [tip; 2], round: true, tip })
 }
 
 /// Width of the profile across the chord, near the end `own` of it.
@@ -119,23 +108,6 @@ impl Outline<'_> {
         let off = (from + 1..to).map(|k| off_line([a, b], self.place(k))).fold(0.0, f64::max);
         let round = off > BULGE * distance(a, b);
         Some(Tail { ends: [self.at[from % n], self.at[to % n]], round, tip })
-    }
-
-    /// By how much the two sides behind an edge turn.
-    fn bend(&self, edge: &Tail) -> Option<f64> {
-        let n = self.row.len();
-        let side = |start: usize, step: usize| {
-            let far = |share: f64| {
-                let off = |k: &usize| {
-                    distance(self.row[(start + k * step) % n], self.row[start]) >= share * self.chord
-                };
-                (1..n).find(off).map(|k| (start + k * step) % n)
-            };
-            let (near, beyond) = (far(SIDE[0])?, far(SIDE[1])?);
-            let [a, b, c] = [start, near, beyond].map(|i| self.row[i]);
-            Some(angle([b[0] - a[0], b[1] - a[1]], [c[0] - b[0], c[1] - b[1]]).abs())
-        };
-        Some(side(edge.ends[0], n - 1)? + side(edge.ends[1], 1)?)
     }
 }
 

@@ -105,11 +105,14 @@ pub(super) fn held<'a>(
 ) -> Result<(), Free> {
     let (mut matrix, mut total) = ([[0.0; 3]; 3], 0.0);
     for (p, weight) in places {
-        let s = slopes(p.place, p.smooth, pivot, arm);
         total += weight;
-        for i in freedom.axes() {
-            for j in freedom.axes() {
-                matrix[i][j] += weight * s[i] * s[j];
+        let corner = p.is_corner.then(|| p.across());
+        for direction in std::iter::once(p.smooth).chain(corner) {
+            let s = slopes(p.place, direction, pivot, arm);
+            for i in freedom.axes() {
+                for j in freedom.axes() {
+                    matrix[i][j] += weight * s[i] * s[j];
+                }
             }
         }
     }

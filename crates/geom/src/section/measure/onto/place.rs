@@ -16,6 +16,15 @@ pub(super) struct Place {
     pub normal: [f64; 2],
     /// Unit normal of the curve that the outline's chords follow.
     pub smooth: [f64; 2],
+    /// The place is a corner: the distance stays what it is to that place, whichever way the point goes.
+    pub is_corner: bool,
+}
+
+impl Place {
+    /// The direction across the normal.
+    pub fn across(&self) -> [f64; 2] {
+        [-self.normal[1], self.normal[0]]
+    }
 }
 
 /// The places of a row.
@@ -39,18 +48,34 @@ impl Places {
         self.all().map(|p| p.distance)
     }
 
+    /// Points that have a place in both: their numbers among all here, the place here, the place there.
+    fn pairs<'a>(&'a self, other: &'a Places) -> impl Iterator<Item = (usize, &'a Place, &'a Place)> {
+        let mut number = 0;
+        self.rows.iter().zip(&other.rows).flat_map(move |(own, other)| {
+            let mut other = other.places.iter().peekable();
+            let first = number;
+            number += own.places.len();
+            (first..).zip(&own.places).filter_map(move |(n, p)| {
+                while other.next_if(|o| o.index < p.index).is_some() {}
+                Some((n, p, other.next_if(|o| o.index == p.index)?))
+            })
+        })
+    }
+
+    /// Whether the weighted squares of the distances are less in `other`, of the points that have a place in both.
+    pub fn come_nearer(&self, other: &Places, weights: &[f64]) -> bool {
+        let grown = |(n, own, other): (usize, &Place, &Place)| {
+            weights[n] * (other.distance * other.distance - own.distance * own.distance)
+        };
+        self.pairs(other).map(grown).sum::<f64>() <= 0.0
+    }
+
     /// Root mean square of the distances here, of the points that are within reach in `other`.
     pub fn rms_of(&self, other: &Places, reach: f64) -> f64 {
         let (mut sum, mut count) = (0.0, 0.0);
-        for (own, other) in self.rows.iter().zip(&other.rows) {
-            let mut own = own.places.iter().peekable();
-            for p in other.places.iter().filter(|p| p.distance.abs() <= reach) {
-                while own.next_if(|o| o.index < p.index).is_some() {}
-                if let Some(o) = own.next_if(|o| o.index == p.index) {
-                    sum += o.distance * o.distance;
-                    count += 1.0;
-                }
-            }
+        for (_, own, _) in self.pairs(other).filter(|(_, _, other)| other.distance.abs() <= reach) {
+            sum += own.distance * own.distance;
+            count += 1.0;
         }
         (sum / f64::max(count, 1.0)).sqrt()
     }
@@ -71,12 +96,13 @@ impl Row {
             let left = unit([-foot.along[1], foot.along[0]])?;
             let inner = foot.share > 0.0 && foot.share < 1.0;
             let d = [point[0] - foot.place[0], point[1] - foot.place[1]];
-            let (distance, normal) = match unit(d) {
-                Some(out) if !inner => (foot.distance.abs(), out),
-                _ => (foot.distance, left),
+            let (distance, normal, at_end) = match unit(d) {
+                Some(out) if !inner => (foot.distance.abs(), out, true),
+                _ => (foot.distance, left, false),
             };
             let smooth = smooth(outline, number, foot.share).unwrap_or(left);
-            Some(Place { index, point: *point, place: foot.place, distance, normal, smooth })
+            let is_corner = at_end && is_sharp(outline, number, foot.share > 0.0);
+            Some(Place { index, point: *point, place: foot.place, distance, normal, smooth, is_corner })
         };
         Row { places: points.iter().zip(found).enumerate().filter_map(each).collect() }
     }
@@ -148,6 +174,18 @@ fn smooth(outline: &Outline, number: usize, share: f64) -> Option<[f64; 2]> {
     let [a, b] = [beside(false), beside(true)];
     let [x, y] = [0, 1].map(|k| a[k] * (1.0 - share) + b[k] * share);
     unit([-y, x])
+}
+
+/// Whether the outline turns at an end of a segment by more than what follows a curve.
+fn is_sharp(outline: &Outline, number: usize, at_its_end: bool) -> bool {
+    let (all, n) = (&outline.segments, outline.segments.len());
+    let [before, after] =
+        if at_its_end { [number, (number + 1) % n] } else { [(number + n - 1) % n, number] };
+    let is_joined = after != 0 || outline.closed;
+    let (a, b) = (&all[before], &all[after]);
+    let [a, b] = [a.nearest(a.end).along, b.nearest(b.start).along];
+    let turn = libm::atan2(a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1]);
+    is_joined && turn.abs() >= GENTLE
 }
 
 fn along(segment: &Segment) -> Option<[f64; 2]> {

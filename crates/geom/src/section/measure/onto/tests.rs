@@ -217,3 +217,51 @@ fn outlines_move_rigidly() {
         assert!(libm::hypot(back[0] - p[0], back[1] - p[1]) < 1e-12);
     }
 }
+
+/// A plate that is evenly larger than its nominal, with or without a bore, drawn by few points or many: the fit comes to rest, no
+/// farther than where it began, and finds the motion by which the plate was moved.
+#[test]
+fn even_growth_comes_to_rest() {
+    let random = &mut Random::new(21);
+    let rectangle = |grown: f64, between: usize| -> Vec<[f64; 2]> {
+        let corners = [[-20.0, -15.0], [20.0, -15.0], [20.0, 15.0], [-20.0, 15.0]];
+        let grown: Vec<[f64; 2]> = corners.iter().map(|c| c.map(|x: f64| x + grown * x.signum())).collect();
+        let side = |i: usize| {
+            let (a, b) = (grown[i], grown[(i + 1) % 4]);
+            (0..between).map(move |k| [0, 1].map(|j| a[j] + (b[j] - a[j]) * k as f64 / between as f64))
+        };
+        (0..4).flat_map(side).collect()
+    };
+    let bore = |radius: f64, count: usize| -> Vec<[f64; 2]> {
+        let at = |i: usize| libm::sincos(-TAU * (i as f64 + 0.3) / count as f64);
+        (0..count).map(at).map(|(s, c)| [6.0 + radius * c, 3.0 + radius * s]).collect()
+    };
+    for round in 0..300 {
+        let (grown, between) = (0.1 * random.unit() - 0.02, [1, 2, 3, 20][random.below(4) as usize]);
+        let planted = PlaneMotion {
+            center: [0.0; 2],
+            turn: 0.8 * random.unit() - 0.4,
+            shift: [0, 1].map(|_| 4.0 * random.unit() - 2.0),
+        };
+        let mut rows = vec![rectangle(grown, between)];
+        let mut outlines = vec![Outline::polyline(&rectangle(0.0, 1), true)];
+        if round % 2 == 0 {
+            rows.push(bore(5.0 - grown, 40));
+            outlines.push(Outline::polyline(&bore(5.0, 24), true));
+        }
+        rows.iter_mut().flatten().for_each(|p| *p = planted.apply(*p));
+        let rows: Vec<&[[f64; 2]]> = rows.iter().map(|r| &r[..]).collect();
+        let found = onto_nominal(&rows, &outlines, Freedom::FREE, f64::INFINITY, &Silent);
+        let found = found.unwrap_or_else(|e| panic!("round {round}: {e}"));
+        assert!(found.converged && found.rms <= found.rms_before, "round {round}: {found:?}");
+        // Few points within a plate come nearer to it by a turn; chords of the bore lie off its circle by more than the plate has grown.
+        if grown < 0.0 {
+            continue;
+        }
+        let off = found.motion.apply(planted.apply([0.0; 2]));
+        let within = |off: f64, by: f64| off.abs() <= 4.0 * by + 1e-6;
+        let [x, y] = [0, 1].map(|k| within(off[k], found.shift_uncertainty[k]));
+        let turn = within(found.motion.turn + planted.turn, found.turn_uncertainty);
+        assert!(x && y && turn, "round {round}, {between}, {grown}: {off:?} {found:?}");
+    }
+}

@@ -35,6 +35,7 @@ pub(super) fn document(points: &[[f64; 2]]) -> SectionDocument {
         loose: 0,
         gap: None,
         thickness: None,
+        fills_area: false,
         bent: vec![],
         contours: vec![found],
     };

@@ -83,6 +83,24 @@ fn verdicts_by_shares_coverage_and_doubts() {
     }
 }
 
+/// A small bore that was not made, or not measured, is no pass, however little of the whole length it is.
+#[test]
+fn a_bore_that_is_not_measured_is_no_pass() {
+    let at = |i: i32| libm::sincos(-std::f64::consts::TAU * f64::from(i) / 24.0);
+    let bore: Vec<[f64; 2]> = (0..24).map(at).map(|(s, c)| [5.0 + 0.4 * c, 5.0 + 0.4 * s]).collect();
+    let bore = Outline::polyline(&bore, true);
+    for (cover, verdict, reasons) in [(0.9, Verdict::Undecided, &["coverage"][..]), (0.0, Verdict::Pass, &[])]
+    {
+        let mut record = compared(&|_| 0.02, 1.0, f64::INFINITY);
+        let plane = AgainstPlane { plane: None, outlines: vec![bore.clone()], contours: vec![] };
+        record.outlines.extend(NominalRecord::new("n.dxf", "drawing", vec![plane]).outlines);
+        let record = judged_by(record, [-0.05, 0.05], 1.0, cover);
+        assert_eq!(told(&record), (verdict, reasons.to_vec()), "{cover}");
+        let [.., reason] = &record.verdict_reasons[..] else { continue };
+        assert!(reason.text.contains("0.8000 by 0.8000 about (5.0000, 5.0000)"), "{}", reason.text);
+    }
+}
+
 #[test]
 fn the_worst_place_is_the_one_farthest_beyond() {
     let off = |i: usize| match i {

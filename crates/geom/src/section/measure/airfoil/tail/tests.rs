@@ -49,8 +49,8 @@ pub(crate) fn made(seed: u64) -> Made {
     let random = &mut Random::stream(21, seed);
     let (t, m, p, five) = (
         between(random, 0.06, 0.24),
-        between(random, 0.0, 0.06),
-        between(random, 0.3, 0.5),
+        between(random, 0.0, 0.12),
+        between(random, 0.3, 0.6),
         random.below(3) == 0,
     );
     let m = if random.below(3) == 0 {
@@ -155,14 +155,16 @@ fn wrong(profiles: u64) -> [usize; 3] {
             "blunt"
         };
         let want = if made.kind == "open" { "blunt" } else { made.kind };
-        let off = (chord / made.chord - 1.0).abs() > 0.005;
+        // The point farthest from the leading edge is, of a cambered profile, beside the middle of a round edge.
+        let beside = if made.kind == "round" { 0.5 * made.edge / made.chord } else { 0.0 };
+        let off = (chord / made.chord - 1.0).abs() > 0.005 + beside;
         let thick = name == "blunt"
             && want == "blunt"
             && (distance(a, b) - made.edge).abs() > 0.2 * made.edge + 5.0 * made.noise;
         counts[0] += usize::from(off);
         counts[1] += usize::from(thick);
         counts[2] += usize::from(name != want);
-        if (off || thick || name != want) && profiles > 300 {
+        if off || thick || name != want {
             println!(
                 "{seed} {} of {}: {name} {:.4} of {:.4}, chord {:.5} of 1",
                 made.kind,

@@ -1,0 +1,165 @@
+//! Facets that agree about the outside, for what only asks on which side the material is.
+
+use super::change::Change;
+use super::error::RepairError;
+use super::options::Options;
+use super::step::{Removes, Step};
+use super::work::Work;
+use super::{orient, outward};
+use crate::check::finding;
+use crate::deviation::sign_choice::SHEET;
+use crate::mesh::Mesh;
+use crate::progress::Progress;
+use crate::space::{Point, Vector, cross, dot, minus, norm, plus, times};
+
+/// A mesh whose facets were turned where they had to be.
+#[derive(Clone, Debug)]
+pub struct Faced {
+    /// The same vertices; facets as they were, turned over, or gone because they are there twice.
+    pub mesh: Mesh,
+    /// All changes, in the order in which they were made.
+    pub changes: Vec<Change>,
+}
+
+/// Whichever way their neighbors look: which one stays is all the same, as they are turned later.
+const ONCE: Step = Step {
+    name: "duplicates",
+    about: "Of facets with the same three vertices keeps the first.",
+    removes: Removes::Nothing,
+};
+
+/// Open shells that look inwards, which the steps of a repair close before they ask.
+const OPEN: Step = Step {
+    name: "outward",
+    about: "Turns open shells over that nearly enclose a volume and look into it.",
+    removes: Removes::Nothing,
+};
+
+/// `mesh` with facets that run the same way round as their neighbors and look out of the material.
+///
+/// Of facets at the same place one stays; the smaller part of each sheet is turned; closed shells
+/// that enclose no material are turned (exactly; cavities stay). `open_too`: so are open shells that nearly enclose a volume
+/// (the length of their vector area is at most a quarter of their area) and look into it, as the nominal of a comparison;
+/// the scan of a cavity looks like that too. Nothing else is mended. Cost: linear, as finding the edges; winding numbers
+/// where closed shells lie in each other.
+///
+/// # Errors
+/// [`RepairError`]: vertices that are not there, or cancelled.
+pub fn faced(mesh: &Mesh, open_too: bool, progress: &dyn Progress) -> Result<Faced, RepairError> {
+    let options = Options::default();
+    let mut work = Work::new(mesh.clone(), &options, progress)?;
+    once(&mut work)?;
+    orient::run(&mut work)?;
+    outward::run(&mut work)?;
+    if open_too {
+        turn_open(&mut work)?;
+    }
+    let changes = std::mem::take(&mut work.state.changes);
+    Ok(Faced { mesh: work.into_mesh(), changes })
+}
+
+fn once(work: &mut Work) -> Result<(), RepairError> {
+    let known = work.known()?;
+    let again: Vec<u32> = known.topology.duplicate_facets.iter().map(|[_, again]| *again).collect();
+    for &facet in &again {
+        let (place, area) = (work.middle(facet), finding::area(work.corners(facet)));
+        work.log(&ONCE, "facets at the same place left out", place, 1, area);
+    }
+    work.replace(&again, &[]);
+    Ok(())
+}
+
+/// What facets of a shell come to: corners' mean weighted by area, vector area, volume towards the origin.
+#[derive(Clone, Copy, Default)]
+struct Sum {
+    area: f64,
+    weighted: Point,
+    vector: Vector,
+    volume: f64,
+    facets: usize,
+}
+
+impl Sum {
+    /// The volume that the shell nearly encloses, as seen from its middle; `None` for a sheet.
+    fn enclosed(&self) -> Option<f64> {
+        let middle = times(1.0 / self.area, self.weighted);
+        (self.area > 0.0 && norm(self.vector) <= SHEET * self.area)
+            .then(|| self.volume - dot(middle, self.vector) / 3.0)
+    }
+}
+
+fn turn_open(work: &mut Work) -> Result<(), RepairError> {
+    let known = work.known()?;
+    let topology = &known.topology;
+    let origin = known.properties.bounds.min;
+    let mut sums: Vec<Option<Sum>> = vec![None; topology.shells];
+    for edge in &topology.boundary_edges {
+        sums[topology.shell_of[edge.facet as usize] as usize] = Some(Sum::default());
+    }
+    let counting = || (0u32..).zip(&topology.shell_of).filter(|(_, shell)| **shell != u32::MAX);
+    for (facet, &shell) in counting() {
+        let Some(sum) = &mut sums[shell as usize] else { continue };
+        let [a, b, c] = work.corners(facet).map(|p| minus(p, origin));
+        let vector = times(0.5, cross(minus(b, a), minus(c, a)));
+        let (area, middle) = (norm(vector), times(1.0 / 3.0, plus(a, plus(b, c))));
+        sum.area += area;
+        sum.weighted = plus(sum.weighted, times(area, middle));
+        sum.vector = plus(sum.vector, vector);
+        sum.volume += dot(middle, vector) / 3.0;
+        sum.facets += 1;
+    }
+    let looks_inwards = |sum: &Option<Sum>| sum.and_then(|s| s.enclosed()).is_some_and(|v| v < 0.0);
+    let wrong: Vec<bool> = sums.iter().map(looks_inwards).collect();
+    let turned: Vec<u32> = counting().filter(|(_, shell)| wrong[**shell as usize]).map(|(f, _)| f).collect();
+    for sum in sums.iter().filter(|sum| looks_inwards(sum)).flatten() {
+        let place = plus(origin, times(1.0 / sum.area, sum.weighted));
+        work.log(&OPEN, "open shell turned over", place, sum.facets, sum.enclosed().map_or(0.0, f64::abs));
+    }
+    if !turned.is_empty() {
+        work.turn(turned);
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::faced;
+    use crate::mesh::Mesh;
+    use crate::num::random::Random;
+    use crate::progress::Silent;
+    use crate::topology::tests::block;
+
+    /// The block as it should be, some of its facets turned, some there twice, or all turned; open at one side or not.
+    #[test]
+    fn however_facets_are_turned_they_look_outwards() {
+        let random = &mut Random::new(7);
+        for round in 0..200 {
+            let whole = block(3, 2.0);
+            let is_open = round % 2 == 0;
+            // The block's center is not the origin, nor does it lie at its side.
+            let kept =
+                |face: &&[u32; 3]| !is_open || face.iter().any(|v| whole.positions[*v as usize][2] > 0.0);
+            let mut faces: Vec<[u32; 3]> = whole.faces.iter().filter(kept).copied().collect();
+            let expected = sorted(&faces);
+            let share = [0.0, 0.1, 0.4, 1.0][random.below(4) as usize];
+            faces.iter_mut().filter(|_| random.unit() < share).for_each(|face| face.swap(1, 2));
+            for _ in 0..random.below(3) {
+                let again = faces[random.below(faces.len() as u64) as usize];
+                faces.push(if random.below(2) == 0 { again } else { [again[1], again[0], again[2]] });
+            }
+            let mesh = Mesh { positions: whole.positions.clone(), faces };
+            let found = faced(&mesh, true, &Silent).unwrap();
+            assert_eq!(sorted(&found.mesh.faces), expected, "round {round}, {share} turned");
+            assert_eq!(found.changes.is_empty(), mesh.faces == found.mesh.faces);
+            assert_eq!(found.mesh.positions, mesh.positions);
+        }
+    }
+
+    /// Facets from their least vertex on, in order.
+    fn sorted(faces: &[[u32; 3]]) -> Vec<[u32; 3]> {
+        let least = |f: &[u32; 3]| (0..3).map(|k| [f[k], f[(k + 1) % 3], f[(k + 2) % 3]]).min().unwrap();
+        let mut all: Vec<[u32; 3]> = faces.iter().map(least).collect();
+        all.sort_unstable();
+        all
+    }
+}
