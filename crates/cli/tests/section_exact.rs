@@ -95,8 +95,8 @@ fn drawn_plates_are_exact_in_any_order() {
     let table = std::fs::read_to_string(corpus("sections/README.md")).unwrap();
     let rows: Vec<(String, String)> = table
         .lines()
-        .filter_map(|line| line.strip_prefix("| `")?.split_once("` | `"))
-        .map(|(file, plane)| (file.to_string(), plane.split('`').next().unwrap().to_string()))
+        .filter_map(|line| line.strip_prefix("| `")?.split_once("` | "))
+        .map(|(file, plane)| (file.to_string(), plane.split(" |").next().unwrap().to_string()))
         .collect();
     assert_eq!(rows.len(), 4);
     let check = |file: &std::path::Path, plane: &str| {
@@ -114,6 +114,7 @@ fn drawn_plates_are_exact_in_any_order() {
         assert!(outer.iter().any(|all| is_right(&all)), "{}: {answer:#}", file.display());
     };
     for (file, plane) in &rows {
+        let plane = if plane.starts_with("the same") { &rows[2].1 } else { plane };
         check(&corpus(&format!("sections/{file}")), plane);
     }
     // Fifty bytes a facet, behind 84 of the head.

@@ -42,10 +42,6 @@ fn answer(words: &[&str]) -> (Value, i32) {
     (serde_json::from_str(&stdout(&done)).unwrap_or_else(|e| panic!("{words:?}: {e}")), status(&done))
 }
 
-fn numbers(all: &Value, key: &str) -> Vec<f64> {
-    all.as_array().unwrap().iter().map(|one| one[key].as_f64().unwrap()).collect()
-}
-
 fn near(a: &[f64], b: &[f64]) -> bool {
     a.len() == b.len() && a.iter().zip(b).all(|(a, b)| (a - b).abs() <= 1e-6 * (1.0 + b.abs()))
 }
@@ -77,10 +73,12 @@ fn facets_may_be_turned() {
     let plane = ["--plane", "0,0,1,10"];
     let told = |(answer, status): (Value, i32)| {
         let warned = answer["inputs"].as_array().unwrap().iter().flat_map(|i| i["warnings"].as_array());
-        let warned = warned.flatten().any(|w| w.as_str().unwrap().contains("facets; trueness check lists"));
-        let extremes = answer["nominal"]["extremes"].clone();
-        let verdict = answer["nominal"]["verdict"].clone();
-        (warned, numbers(&extremes, "deviation"), verdict, status, numbers(&answer["planes"], "area"))
+        let warned =
+            warned.flatten().any(|w| w.as_str().unwrap().contains("for the section; trueness check"));
+        let all = &answer["nominal"]["deviation"]["all"];
+        let numbers = [&all["min"], &all["max"], &all["rms"], &answer["planes"][0]["area"]];
+        let numbers = numbers.map(|x| x.as_f64().unwrap_or_else(|| panic!("{answer}")));
+        (warned, numbers, answer["nominal"]["verdict"].clone(), status)
     };
     // A zone that holds on one side only: signs the other way round are another verdict.
     let against = |scan: &str, nominal: &str| {
@@ -89,18 +87,15 @@ fn facets_may_be_turned() {
         ))
     };
     let right = against(&scan, &nominal);
-    assert!(!right.0 && !right.1.is_empty(), "{right:?}");
+    assert!(!right.0 && right.1[1] > 0.05 && right.2 == "fail", "{right:?}");
     for file in variants(&folder, &drawn) {
         let found = against(&scan, &file);
-        assert!(
-            found.0 && near(&found.1, &right.1) && near(&found.4, &right.4),
-            "{file}: {found:?} {right:?}"
-        );
+        assert!(found.0 && near(&found.1, &right.1), "{file}: {found:?} {right:?}");
         assert_eq!((&found.2, found.3), (&right.2, right.3), "{file}");
     }
     for file in variants(&folder, &made) {
         let found = against(&file, &nominal);
-        assert!(found.0 && near(&found.4, &right.4), "{file}: {found:?} {right:?}");
+        assert!(found.0 && near(&found.1, &right.1), "{file}: {found:?} {right:?}");
         assert_eq!((&found.2, found.3), (&right.2, right.3), "{file}");
     }
 }

@@ -1,12 +1,9 @@
 //! Facets that agree about the outside, for what only asks on which side the material is.
 
-use super::change::Change;
 use super::error::RepairError;
 use super::options::Options;
-use super::step::{Removes, Step};
 use super::work::Work;
 use super::{orient, outward};
-use crate::check::finding;
 use crate::deviation::sign_choice::SHEET;
 use crate::mesh::Mesh;
 use crate::progress::Progress;
@@ -17,23 +14,13 @@ use crate::space::{Point, Vector, cross, dot, minus, norm, plus, times};
 pub struct Faced {
     /// The same vertices; facets as they were, turned over, or gone because they are there twice.
     pub mesh: Mesh,
-    /// All changes, in the order in which they were made.
-    pub changes: Vec<Change>,
+    /// Facets that are gone: others have the same three vertices.
+    pub doubled: usize,
+    /// Facets turned over to run the same way round as their neighbors.
+    pub turned: usize,
+    /// Facets of shells turned over that looked inwards.
+    pub inverted: usize,
 }
-
-/// Whichever way their neighbors look: which one stays is all the same, as they are turned later.
-const ONCE: Step = Step {
-    name: "duplicates",
-    about: "Of facets with the same three vertices keeps the first.",
-    removes: Removes::Nothing,
-};
-
-/// Open shells that look inwards, which the steps of a repair close before they ask.
-const OPEN: Step = Step {
-    name: "outward",
-    about: "Turns open shells over that nearly enclose a volume and look into it.",
-    removes: Removes::Nothing,
-};
 
 /// `mesh` with facets that run the same way round as their neighbors and look out of the material.
 ///
@@ -48,25 +35,21 @@ const OPEN: Step = Step {
 pub fn faced(mesh: &Mesh, open_too: bool, progress: &dyn Progress) -> Result<Faced, RepairError> {
     let options = Options::default();
     let mut work = Work::new(mesh.clone(), &options, progress)?;
-    once(&mut work)?;
+    let doubled = once(&mut work)?;
     orient::run(&mut work)?;
+    let turned = work.state.changes.iter().map(|c| c.facets).sum();
     outward::run(&mut work)?;
-    if open_too {
-        turn_open(&mut work)?;
-    }
-    let changes = std::mem::take(&mut work.state.changes);
-    Ok(Faced { mesh: work.into_mesh(), changes })
+    let closed = work.state.changes.iter().map(|c| c.facets).sum::<usize>() - turned;
+    let open = if open_too { turn_open(&mut work)? } else { 0 };
+    Ok(Faced { mesh: work.into_mesh(), doubled, turned, inverted: closed + open })
 }
 
-fn once(work: &mut Work) -> Result<(), RepairError> {
+/// Of facets with the same three vertices keeps the first, whichever way it looks: that is seen to later.
+fn once(work: &mut Work) -> Result<usize, RepairError> {
     let known = work.known()?;
     let again: Vec<u32> = known.topology.duplicate_facets.iter().map(|[_, again]| *again).collect();
-    for &facet in &again {
-        let (place, area) = (work.middle(facet), finding::area(work.corners(facet)));
-        work.log(&ONCE, "facets at the same place left out", place, 1, area);
-    }
     work.replace(&again, &[]);
-    Ok(())
+    Ok(again.len())
 }
 
 /// What facets of a shell come to: corners' mean weighted by area, vector area, volume towards the origin.
@@ -76,7 +59,6 @@ struct Sum {
     weighted: Point,
     vector: Vector,
     volume: f64,
-    facets: usize,
 }
 
 impl Sum {
@@ -88,7 +70,8 @@ impl Sum {
     }
 }
 
-fn turn_open(work: &mut Work) -> Result<(), RepairError> {
+/// Turns open shells over that nearly enclose a volume and look into it.
+fn turn_open(work: &mut Work) -> Result<usize, RepairError> {
     let known = work.known()?;
     let topology = &known.topology;
     let origin = known.properties.bounds.min;
@@ -106,19 +89,15 @@ fn turn_open(work: &mut Work) -> Result<(), RepairError> {
         sum.weighted = plus(sum.weighted, times(area, middle));
         sum.vector = plus(sum.vector, vector);
         sum.volume += dot(middle, vector) / 3.0;
-        sum.facets += 1;
     }
     let looks_inwards = |sum: &Option<Sum>| sum.and_then(|s| s.enclosed()).is_some_and(|v| v < 0.0);
     let wrong: Vec<bool> = sums.iter().map(looks_inwards).collect();
     let turned: Vec<u32> = counting().filter(|(_, shell)| wrong[**shell as usize]).map(|(f, _)| f).collect();
-    for sum in sums.iter().filter(|sum| looks_inwards(sum)).flatten() {
-        let place = plus(origin, times(1.0 / sum.area, sum.weighted));
-        work.log(&OPEN, "open shell turned over", place, sum.facets, sum.enclosed().map_or(0.0, f64::abs));
-    }
-    if !turned.is_empty() {
+    let count = turned.len();
+    if count > 0 {
         work.turn(turned);
     }
-    Ok(())
+    Ok(count)
 }
 
 #[cfg(test)]
@@ -150,7 +129,9 @@ mod tests {
             let mesh = Mesh { positions: whole.positions.clone(), faces };
             let found = faced(&mesh, true, &Silent).unwrap();
             assert_eq!(sorted(&found.mesh.faces), expected, "round {round}, {share} turned");
-            assert_eq!(found.changes.is_empty(), mesh.faces == found.mesh.faces);
+            let changed = found.doubled + found.turned + found.inverted;
+            assert_eq!(changed == 0, mesh.faces == found.mesh.faces);
+            assert_eq!(found.doubled, mesh.faces.len() - found.mesh.faces.len());
             assert_eq!(found.mesh.positions, mesh.positions);
         }
     }

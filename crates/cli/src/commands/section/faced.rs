@@ -2,7 +2,7 @@
 
 use crate::progress::Stage;
 use trueness_geom::mesh::Mesh;
-use trueness_geom::repair::{self, Change, RepairError};
+use trueness_geom::repair::{self, RepairError};
 use trueness_inspect::results::{InputRecord, Role};
 
 /// The mesh with its facets turned outwards where they were not; what was changed is told with the file.
@@ -12,23 +12,17 @@ pub fn faced(mesh: &Mesh, record: &mut InputRecord, stage: &Stage) -> anyhow::Re
         RepairError::Cancelled(e) => e.into(),
         e => anyhow::anyhow!("{}: {e}", record.path),
     })?;
-    record.warnings.extend(told(&found.changes, mesh.faces.len()));
-    Ok(found.mesh)
-}
-
-/// One sentence for each kind of change.
-fn told(changes: &[Change], of: usize) -> Vec<String> {
-    let mut kinds: Vec<(&str, usize)> = vec![];
-    for change in changes {
-        match kinds.iter_mut().find(|(what, _)| *what == change.what) {
-            Some((_, facets)) => *facets += change.facets,
-            None => kinds.push((change.what, change.facets)),
+    let of = mesh.faces.len();
+    for (facets, what) in [
+        (found.doubled, "are there twice and are left out"),
+        (found.turned, "run the other way round than their neighbors and are turned over"),
+        (found.inverted, "are of shells that look inwards and are turned over"),
+    ] {
+        if facets > 0 {
+            record.warnings.push(format!(
+                "{facets} of {of} facets {what} for the section; trueness check tells where, trueness repair mends the file"
+            ));
         }
     }
-    let sentence = |(what, facets): (&str, usize)| {
-        format!(
-            "{what} for the section: {facets} of {of} facets; trueness check lists them, trueness repair mends the file"
-        )
-    };
-    kinds.into_iter().map(sentence).collect()
+    Ok(found.mesh)
 }

@@ -15,7 +15,7 @@ use crate::section::row::facets::{Item, LineOrArc, Polygon, SHARP};
 use crate::section::row::sheet::{Sheet, nearest, starts};
 use std::cell::OnceCell;
 
-/// A polyline of fewer vertices is taken as it is: points so few tell no noise.
+/// A polyline of fewer vertices is taken as it is where no noise is known: points so few tell none.
 const FEW: usize = 9;
 /// Facets are those of a drawing where this share of the points lies on straight runs or between the chords of arcs.
 const EXACT: f64 = 0.3;
@@ -89,7 +89,7 @@ fn in_direction(
     let as_scan = || ScanRow::of(mesh, chain, frame, closed);
     if polygon.at.len() >= 2 && !forced {
         let items = polygon.items(rounding);
-        if is_exact(&points, &polygon, &items, rounding)
+        if is_exact(&points, &polygon, &items, mesh)
             && !is_remeshed(&points, &polygon, &items, mesh.scatters)
             && !(mesh.is_quiet()
                 && is_even(&points)
@@ -131,11 +131,12 @@ fn in_direction(
     }
 }
 
-fn is_exact(points: &[[f64; 2]], polygon: &Polygon, items: &[Item], rounding: f64) -> bool {
+fn is_exact(points: &[[f64; 2]], polygon: &Polygon, items: &[Item], mesh: &CutMesh) -> bool {
     let straight = points.len() - polygon.at.len();
     let chords: usize = items.iter().filter(|i| i.shape != LineOrArc::Line).map(|i| i.to - i.from - 1).sum();
     let enough = |count: usize| count as f64 >= EXACT * points.len() as f64;
-    polygon.at.len() < FEW || enough(straight + chords) || enough(straight + polygon.round(rounding))
+    let is_short = polygon.at.len() < FEW && !mesh.scatters;
+    is_short || enough(straight + chords) || enough(straight + polygon.round(mesh.rounding()))
 }
 
 /// Flat faces of so many facets each, cut at even distances to this factor for so many percent, are those of a mesh of a surface, not
@@ -166,7 +167,7 @@ fn is_remeshed(points: &[[f64; 2]], polygon: &Polygon, items: &[Item], scatters:
         }
     }
     let is_flat = flat as f64 >= EXACT * n as f64 && short > chords;
-    n >= 3 * FEW && (scatters && n < EACH * items.len() || is_flat && is_even(points))
+    scatters && n < EACH * items.len() || n >= 3 * FEW && is_flat && is_even(points)
 }
 
 /// Whether a plane cuts the facets at even distances, as those of a mesh of a surface.
