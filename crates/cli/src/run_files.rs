@@ -27,6 +27,8 @@ struct Output {
     holds: Option<Writable>,
     /// Whether `-` is the standard output.
     on_stdout: bool,
+    /// The endings that it may have, lower case, without dot; none: any.
+    endings: &'static [&'static str],
 }
 
 impl RunFiles {
@@ -55,6 +57,20 @@ impl RunFiles {
         self.output(option, path, None, false)
     }
 
+    /// Another file, of the option of this name, whose ending must be one of these, so that programs take it for what it is.
+    pub fn ending(
+        mut self,
+        option: &'static str,
+        path: Option<&PathBuf>,
+        endings: &'static [&'static str],
+    ) -> RunFiles {
+        self = self.output(option, path, None, false);
+        if let (Some(_), Some(last)) = (path, self.outputs.last_mut()) {
+            last.endings = endings;
+        }
+        self
+    }
+
     /// Allows `--out` to replace the input.
     pub fn in_place(self, in_place: bool) -> RunFiles {
         RunFiles { in_place, ..self }
@@ -67,7 +83,13 @@ impl RunFiles {
         holds: Option<Writable>,
         on_stdout: bool,
     ) -> RunFiles {
-        self.outputs.extend(path.map(|path| Output { option, path: path.clone(), holds, on_stdout }));
+        self.outputs.extend(path.map(|path| Output {
+            option,
+            path: path.clone(),
+            holds,
+            on_stdout,
+            endings: &[],
+        }));
         self
     }
 
@@ -89,6 +111,7 @@ impl RunFiles {
             if let Some(holds) = output.holds {
                 holds.check(&output.path)?;
             }
+            output.check_ending()?;
         }
         self.check_overlaps()?;
         let files = || self.outputs.iter().map(|o| &o.path).filter(|path| !is_dash(path));
@@ -143,6 +166,17 @@ impl RunFiles {
             taken.push((place, output));
         }
         Ok(())
+    }
+}
+
+impl Output {
+    fn check_ending(&self) -> Result<(), Usage> {
+        let ending = self.path.extension().and_then(|e| e.to_str()).unwrap_or_default().to_ascii_lowercase();
+        if self.endings.is_empty() || self.endings.contains(&&*ending) || is_stream(&self.path) {
+            return Ok(());
+        }
+        let (option, shown) = (self.option, self.path.display());
+        Err(Usage(format!("{option} {shown}: the ending must be .{}", self.endings.join(" or ."))))
     }
 }
 

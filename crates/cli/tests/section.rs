@@ -80,7 +80,12 @@ fn wrong_input_is_refused_with_a_remedy() {
     let cube = folder.write("cube.off", common::CUBE);
     let cloud = folder.write("cloud.xyz", "0 0 0\n1 0 0\n2 1 0\n0 1 1\n");
     let [few, good, cube, cloud] = [&few, &good, &cube, &cloud].map(|p| p.to_str().unwrap());
-    let twice = folder.file("a").to_str().unwrap().to_string();
+    let area: String = (1..6000)
+        .map(|i| format!("{} {} 0\n", f64::from(i) * 0.754_877_67 % 1.0, f64::from(i) * 0.569_840_3 % 1.0))
+        .collect();
+    let area = folder.write("area.xyz", area);
+    let area = area.to_str().unwrap();
+    let twice = folder.file("a.dxf").to_str().unwrap().to_string();
     for (words, want, reason) in [
         (vec![few], 3, "few.txt: a section needs at least 4 different points, there are 3"),
         (vec![good, "--noise", "0"], 2, "noise 0: it must be a length above 0"),
@@ -108,7 +113,19 @@ fn wrong_input_is_refused_with_a_remedy() {
             3,
             "the slab holds 3 points, too few in a row for a contour; a larger --thickness may help",
         ),
-        (vec![good, "--dxf", &twice, "--svg", &twice], 2, "are the same file; give each its own"),
+        (vec![good, "--dxf", &twice, "--json", &twice], 2, "are the same file; give each its own"),
+        (vec![good, "--out", &twice], 2, "a.dxf: the ending must be .csv"),
+        (vec![good, "--noise", "1e300"], 2, "--noise 1e300: all of"),
+        (
+            vec![good, "--reference-units", "inch"],
+            2,
+            "--reference-units is for the file of --nominal; give one",
+        ),
+        (
+            vec![area, "--plane", "0,0,1,0", "--thickness", "1"],
+            3,
+            "5999 points: the slab holds an area of points, not contours",
+        ),
     ] {
         let answer = trueness([&["section"][..], &words].concat());
         let text = stderr(&answer);

@@ -32,6 +32,15 @@ pub struct Faced {
 ///
 /// # Errors
 /// [`RepairError`]: vertices that are not there, or cancelled.
+///
+/// ```
+/// use trueness_geom::{mesh::Mesh, progress::Silent, repair::faced};
+/// let positions = vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+/// // Three facets of a tetrahedron look outwards, the last one inwards.
+/// let mesh = Mesh { positions, faces: vec![[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 3, 2]] };
+/// let found = faced(&mesh, false, &Silent).unwrap();
+/// assert_eq!((found.turned, found.mesh.faces[3]), (1, [1, 2, 3]));
+/// ```
 pub fn faced(mesh: &Mesh, open_too: bool, progress: &dyn Progress) -> Result<Faced, RepairError> {
     let options = Options::default();
     let mut work = Work::new(mesh.clone(), &options, progress)?;

@@ -107,7 +107,7 @@ impl SectionArgs {
         let size = record.bounds.as_ref().map(|b| norm(minus(b.max, b.min)));
         match self.noise.zip(size) {
             Some((noise, size)) if noise > size => Err(Usage(format!(
-                "--noise {noise}: all of {} lies within {size:.4} mm; give the standard deviation of its points, mm",
+                "--noise {noise:?}: all of {} lies within {size:.4} mm; give the standard deviation of its points, mm",
                 record.path
             ))),
             _ => Ok(()),

@@ -32,10 +32,12 @@ pub struct Drawings {
 impl Drawings {
     /// With these files.
     pub fn files(&self, files: RunFiles) -> RunFiles {
-        let [dxf, svg] = [("--dxf", &self.dxf), ("--svg", &self.svg)];
-        [dxf, svg, ("--step", &self.step), ("--iges", &self.iges), ("--out", &self.out)]
-            .into_iter()
-            .fold(files, |files, (option, path)| files.also(option, path.as_ref()))
+        files
+            .ending("--dxf", self.dxf.as_ref(), &["dxf"])
+            .ending("--svg", self.svg.as_ref(), &["svg"])
+            .ending("--step", self.step.as_ref(), &["stp", "step"])
+            .ending("--iges", self.iges.as_ref(), &["igs", "iges"])
+            .ending("--out", self.out.as_ref(), &["csv"])
     }
 
     /// Writes what was asked for: of each section its contours, `rows`, the points of each contour, and their deviations from the

@@ -153,7 +153,7 @@ impl SurfaceArgs {
 
 impl Run for SurfaceArgs {
     fn files(&self) -> anyhow::Result<RunFiles> {
-        self.models.check_endings()?;
+        self.models.check_chord()?;
         let inputs = std::iter::once(&self.points).chain(&self.knots);
         let files = RunFiles::of(inputs).document(self.document.json.as_ref());
         Ok(self.models.files(files.report(self.report.html.as_ref())))

@@ -36,30 +36,14 @@ pub struct Models {
 impl Models {
     /// With these files.
     pub fn files(&self, files: RunFiles) -> RunFiles {
-        [("--step", &self.step), ("--iges", &self.iges), ("--obj", &self.obj)]
-            .into_iter()
-            .fold(files, |files, (option, path)| files.also(option, path.as_ref()))
+        files
+            .ending("--step", self.step.as_ref(), &["stp", "step"])
+            .ending("--iges", self.iges.as_ref(), &["igs", "iges"])
+            .ending("--obj", self.obj.as_ref(), &["obj"])
     }
 
-    /// Refuses other endings than the format's, and a distance that is none.
-    pub fn check_endings(&self) -> Result<(), Usage> {
-        let all: [(&str, &Option<PathBuf>, &[&str]); 3] = [
-            ("--step", &self.step, &["stp", "step"]),
-            ("--iges", &self.iges, &["igs", "iges"]),
-            ("--obj", &self.obj, &["obj"]),
-        ];
-        for (option, path, endings) in all {
-            let Some(path) = path else { continue };
-            let ending = path.extension().and_then(|e| e.to_str()).unwrap_or_default().to_ascii_lowercase();
-            // `-` is refused with all other outputs.
-            if !endings.contains(&ending.as_str()) && path.as_os_str() != "-" {
-                let shown = path.display();
-                return Err(Usage(format!(
-                    "{option} {shown}: the ending must be .{}",
-                    endings.join(" or .")
-                )));
-            }
-        }
+    /// Refuses a distance that is none.
+    pub fn check_chord(&self) -> Result<(), Usage> {
         match self.chord {
             Some(chord) if not_negative("chord", chord)? == 0.0 => {
                 Err(Usage("--chord 0: give a length above 0".into()))
