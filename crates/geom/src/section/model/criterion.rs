@@ -11,8 +11,10 @@ pub(crate) struct Criterion {
     pub degrees: f64,
     /// Distances below this are not told from 0.
     pub resolution: f64,
-    /// Points that count.
+    /// As many points as are independent.
     pub count: f64,
+    /// All that count.
+    pub points: f64,
     /// What else there is of a chain of which models are a part.
     pub rest: Option<Rest>,
 }
@@ -27,7 +29,8 @@ pub(crate) struct Rest {
 /// Fewer points do not tell all that a search goes through on its way.
 const ENOUGH: f64 = 60.0;
 
-/// Cost beyond that of its unknowns of an arc and of a free piece: simple kinds are the likelier ones.
+/// Cost beyond that of its unknowns of an arc and of a free piece: simple kinds are the likelier ones, by as much however far neighbors
+/// share their noise.
 const ARC: f64 = 1.0;
 const FREE: f64 = 1.5;
 
@@ -79,7 +82,7 @@ impl Criterion {
         let total = self.count + self.degrees;
         let spare = (total - unknowns.number - 2.0).max(SPARE * total);
         let few = if total < SHORT { 1.0 } else { total / spare };
-        unknowns.weight * libm::log(self.count) * few
+        (unknowns.weight * libm::log(self.count) + unknowns.kinds * libm::log(self.points)) * few
     }
 }
 
@@ -95,6 +98,8 @@ pub(crate) struct Unknowns {
     pub number: f64,
     /// How many the criterion counts.
     pub weight: f64,
+    /// What the kinds cost beyond.
+    pub kinds: f64,
 }
 
 impl Unknowns {
@@ -103,21 +108,35 @@ impl Unknowns {
         let number = |p: &Piece| p.coefficients.len() as f64;
         let weight = |p: &Piece| match p.kind {
             SegmentKind::Line => 0.0,
-            SegmentKind::Arc => 1.0 + ARC,
-            SegmentKind::Spline => p.coefficients.len() as f64 + FREE,
+            SegmentKind::Arc => 1.0,
+            SegmentKind::Spline => p.coefficients.len() as f64,
+        };
+        let kind = |p: &Piece| match p.kind {
+            SegmentKind::Line => 0.0,
+            SegmentKind::Arc => ARC,
+            SegmentKind::Spline => FREE,
         };
         Unknowns {
             number: 2.0 + joins + chain.pieces.iter().map(number).sum::<f64>(),
             weight: 2.0 + 2.0 * joins + chain.pieces.iter().map(weight).sum::<f64>(),
+            kinds: chain.pieces.iter().map(kind).sum(),
         }
     }
     /// Those of a chain without those of a part of it.
     pub fn less(self, other: Unknowns) -> Unknowns {
-        Unknowns { number: self.number - other.number, weight: self.weight - other.weight }
+        Unknowns {
+            number: self.number - other.number,
+            weight: self.weight - other.weight,
+            kinds: self.kinds - other.kinds,
+        }
     }
     /// Those of two chains.
     pub fn and(self, other: Unknowns) -> Unknowns {
-        Unknowns { number: self.number + other.number, weight: self.weight + other.weight }
+        Unknowns {
+            number: self.number + other.number,
+            weight: self.weight + other.weight,
+            kinds: self.kinds + other.kinds,
+        }
     }
 }
 

@@ -23,7 +23,7 @@ const FEWEST: usize = 6;
 
 /// A closed chain counts as many unknowns as the open one of its pieces has without its ends, which have to meet: beyond that it has two
 /// fewer.
-const OPENED: Unknowns = Unknowns { number: 0.0, weight: 2.0 };
+const OPENED: Unknowns = Unknowns { number: 0.0, weight: 2.0, kinds: 0.0 };
 
 /// A corner in place of some pieces of a chain.
 struct Blunt {

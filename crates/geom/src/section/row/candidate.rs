@@ -79,7 +79,9 @@ impl<'a> Question<'a> {
     /// What a contour costs, to be compared: its segments that are astray first, then twice the negative logarithm of the likelihood and
     /// the penalty for the unknowns.
     fn cost(&self, found: &Contour) -> (usize, f64) {
-        let (count, floor) = (self.points.len() as f64, RESOLUTION * found.spacing);
+        // As many points as are independent.
+        let count = self.prior.weights.map_or(self.points.len() as f64, |all| all.iter().sum());
+        let floor = RESOLUTION * found.spacing;
         let off = found.rms();
         let cost = count * libm::log(off * off + floor * floor)
             + (found.unknowns + found.joins.len() as f64) * libm::log(count);

@@ -16,7 +16,7 @@ use crate::section::search::task::Span;
 /// Corners that are doubted: of more, those that turn least. Each takes a search.
 const DOUBTED: usize = 12;
 /// A corner in unknowns, beyond those of the chains on both sides: its place among the points was chosen among many.
-pub(super) const CORNER: Unknowns = Unknowns { number: 1.0, weight: 3.0 };
+pub(super) const CORNER: Unknowns = Unknowns { number: 1.0, weight: 3.0, kinds: 0.0 };
 
 /// Chains of more points are left: they have points enough for the parts of a first partition to tell a corner.
 const MOST: usize = 1500;

@@ -192,7 +192,7 @@ impl Plan<'_> {
         let noise = self.known_noise.map_or(self.own, |n| n.deviation);
         let even = self.options.continuity == Some(Continuity::G2);
         let (resolution, count) = (self.resolution(), count as f64);
-        let criterion = Criterion { noise, degrees, resolution, count, rest: None };
+        let criterion = Criterion { noise, degrees, resolution, count, points: count, rest: None };
         let closed = closed && whole;
         Task {
             criterion,

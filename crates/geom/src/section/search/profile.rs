@@ -355,7 +355,14 @@ mod tests {
         let count = points.len() as f64;
         let mut search = Search {
             row: Row { points: &points, weights: &weights },
-            criterion: Criterion { noise: 0.003, degrees: 0.0, resolution: 1e-9, count, rest: None },
+            criterion: Criterion {
+                noise: 0.003,
+                degrees: 0.0,
+                resolution: 1e-9,
+                count,
+                points: count,
+                rest: None,
+            },
             work: Work::default(),
             spacing: 0.13,
             kinds: [true; 2],

@@ -47,7 +47,8 @@ impl Span {
 
     /// What models of its points cost.
     pub fn criterion(&self, task: &Task) -> Criterion {
-        Criterion { count: self.weights.iter().sum::<f64>().max(2.0), ..task.criterion }
+        let points = (self.points.len() as f64).max(2.0);
+        Criterion { count: self.weights.iter().sum::<f64>().max(2.0), points, ..task.criterion }
     }
 
     pub fn search<'a>(&'a self, task: &Task<'a>) -> Search<'a> {
