@@ -231,35 +231,6 @@ fn a_scattered_cloud_is_one_contour_and_a_torn_one_has_a_hint() {
 }
 
 /// Points of an area need a thinner slab; two points to a side of an octagon a thicker one.
-#[test]
-fn clouds_that_tell_nothing_come_with_the_advice_that_fits() {
-    let folder = Folder::new();
-    // Roberts' sequence: neither a grid nor by chance.
-    let even = |i: u32, step: f64| 10.0 * (f64::from(i) * step).fract();
-    let area: String = (1..400)
-        .map(|i| format!("{} {} {}\n", even(i, 0.754_877_67), even(i, 0.569_840_3), 0.01 * f64::from(i % 3)))
-        .collect();
-    let corner = |k: u32| (f64::from(k) * std::f64::consts::FRAC_PI_4 + 0.3).sin_cos();
-    let octagon: String = (0..16)
-        .map(|i| {
-            // A corner, the middle of the side after it, and so on.
-            let ((s, c), (t, d)) = (corner(i / 2), corner(i.div_ceil(2)));
-            format!("{} {} {}\n", 5.0 * (c + d), 5.0 * (s + t), 0.01 * f64::from(i % 3))
-        })
-        .collect();
-    for (name, cloud, want) in
-        [("area.xyz", area, "a thinner slab"), ("octagon.xyz", octagon, "a thicker slab")]
-    {
-        let file = folder.write(name, cloud);
-        let words = ["section", file.to_str().unwrap(), "--plane", "0,0,1,0.01", "--thickness", "0.1"];
-        let answer = trueness(words);
-        let text = stdout(&answer);
-        assert_eq!(status(&answer), 1, "{text}");
-        let advice: Vec<&str> = text.lines().filter(|l| l.starts_with("! ")).collect();
-        assert!(!advice.is_empty() && advice.iter().all(|a| a.contains(want)), "{advice:?}");
-    }
-}
-
 /// A gap smaller than what lies between the points is raised, and both the table and the document tell to what.
 #[test]
 fn a_gap_that_is_raised_is_told() {

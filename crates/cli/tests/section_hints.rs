@@ -3,7 +3,7 @@
 
 mod common;
 
-use common::{Folder, document, stdout, trueness};
+use common::{Folder, document, status, stdout, trueness};
 use std::f64::consts::TAU;
 
 /// A share of 1 that follows no pattern of the numbers.
@@ -150,5 +150,34 @@ fn the_plane_of_points_in_space_is_named() {
             numbers[1].abs() < 1e-3 && numbers[4].abs() < 1e-3 && (numbers[7] - 7.0).abs() < 1e-3,
             "{named}"
         );
+    }
+}
+
+#[test]
+fn clouds_that_tell_nothing_come_with_the_advice_that_fits() {
+    let folder = Folder::new();
+    // Roberts' sequence: neither a grid nor by chance.
+    let even = |i: u32, step: f64| 10.0 * (f64::from(i) * step).fract();
+    let area: String = (1..400)
+        .map(|i| format!("{} {} {}\n", even(i, 0.754_877_67), even(i, 0.569_840_3), 0.01 * f64::from(i % 3)))
+        .collect();
+    let corner = |k: u32| (f64::from(k) * std::f64::consts::FRAC_PI_4 + 0.3).sin_cos();
+    let octagon: String = (0..16)
+        .map(|i| {
+            // A corner, the middle of the side after it, and so on.
+            let ((s, c), (t, d)) = (corner(i / 2), corner(i.div_ceil(2)));
+            format!("{} {} {}\n", 5.0 * (c + d), 5.0 * (s + t), 0.01 * f64::from(i % 3))
+        })
+        .collect();
+    for (name, cloud, want) in
+        [("area.xyz", area, "a thinner slab"), ("octagon.xyz", octagon, "a thicker slab")]
+    {
+        let file = folder.write(name, cloud);
+        let words = ["section", file.to_str().unwrap(), "--plane", "0,0,1,0.01", "--thickness", "0.1"];
+        let answer = trueness(words);
+        let text = stdout(&answer);
+        assert_eq!(status(&answer), 1, "{text}");
+        let advice: Vec<&str> = text.lines().filter(|l| l.starts_with("! ")).collect();
+        assert!(!advice.is_empty() && advice.iter().all(|a| a.contains(want)), "{advice:?}");
     }
 }

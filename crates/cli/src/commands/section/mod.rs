@@ -159,19 +159,23 @@ impl Run for SectionArgs {
     }
 }
 
-/// The noise of a mesh's vertices, as it is and as it is told, or why it is not; of points nothing.
-fn mesh_noise(
+/// Lets the facets of a mesh look outwards; the noise of its vertices, as it is and as it is told, or why it is not. Of points nothing.
+fn as_it_is(
     args: &SectionArgs,
     common: &Common,
-    body: &Body,
-    shown: &str,
+    body: &mut Body,
+    record: &mut InputRecord,
 ) -> anyhow::Result<(Option<Noise>, Option<NoiseOrReason>)> {
+    let shown = args.input.display().to_string();
     let Body::Mesh(source) = body else {
-        args.shared.only_for_meshes(shown)?;
+        args.shared.only_for_meshes(&shown)?;
         return Ok((None, None));
     };
-    args.planes.fit_a_mesh(shown)?;
+    args.planes.fit_a_mesh(&shown)?;
     args.method.only_for_rows()?;
+    let stage = Stage::new(common.progress, "which way facets look", STEPS, None);
+    source.mesh = faced::faced(&source.mesh, record, &stage)?;
+    drop(stage);
     let mut own = None;
     let find = |stage: &Stage| {
         let found = noise::mesh(&source.mesh, common.seed, stage);
@@ -189,11 +193,7 @@ fn run(args: &SectionArgs, common: &Common) -> anyhow::Result<Outcome> {
         read::open(&args.input, Role::Measured, &args.file.reading())?;
     let shown = args.input.display();
     let planes = args.planes.planes()?;
-    if let Body::Mesh(source) = &mut body {
-        let stage = Stage::new(common.progress, "which way facets look", STEPS, None);
-        source.mesh = faced::faced(&source.mesh, &mut record, &stage)?;
-    }
-    let (known, noise) = mesh_noise(args, common, &body, &shown.to_string())?;
+    let (known, noise) = as_it_is(args, common, &mut body, &mut record)?;
     let stage = Stage::new(common.progress, "finding segments", STEPS, None);
     let mut methods = None;
     let found = match body {
@@ -261,11 +261,16 @@ fn run(args: &SectionArgs, common: &Common) -> anyhow::Result<Outcome> {
     args.drawings.write(&sections, &rows, document.nominal.as_ref())?;
     args.document.write(&document)?;
     args.document.table(|| table::table(&document))?;
+    Ok(outcome(&document, &sections))
+}
+
+/// Whether all contours are beyond doubt, and the profile keeps its tolerance.
+fn outcome(document: &SectionDocument, sections: &[Section]) -> Outcome {
     let doubtful = document.contours.iter().any(|c| !c.astray.is_empty() || !c.doubts.is_empty())
         || sections.iter().any(|section| section.fills_area);
     let judged = document.nominal.as_ref().and_then(|nominal| nominal.verdict);
     let fails = judged.is_some_and(|verdict| verdict != Verdict::Pass);
-    Ok(if doubtful || fails { Outcome::NotConforming } else { Outcome::Conforming })
+    if doubtful || fails { Outcome::NotConforming } else { Outcome::Conforming }
 }
 
 /// The report, with the points of each contour.
