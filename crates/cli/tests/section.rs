@@ -117,7 +117,7 @@ fn wrong_input_is_refused_with_a_remedy() {
         (vec![good, "--out", &twice], 2, "a.dxf: the ending must be .csv"),
         (vec![good, "--noise", "1e300"], 2, "--noise 1e300: all of"),
         (
-            vec![good, "--reference-units", "inch"],
+            vec![good, "--reference-units", "in"],
             2,
             "--reference-units is for the file of --nominal; give one",
         ),

@@ -3,6 +3,7 @@
 use super::candidate::{Candidate, Proposer, Question};
 use super::clean::check_row;
 use super::direction::from_the_end;
+use super::shared::shared;
 use super::without::Searched;
 use super::{chains, corners, free_row, resolved, vertices};
 use crate::progress::Progress;
@@ -93,6 +94,14 @@ fn in_direction(
     options: &Options,
     progress: &dyn Progress,
 ) -> Result<Contour, SectionError> {
+    let told = [prior.noise.is_some(), prior.weights.is_some(), options.resolution.is_some()];
+    let alike = if told.contains(&true) { None } else { shared(points) };
+    let weights = alike.map(|(_, alike)| vec![1.0 / alike; points.len()]);
+    let prior = &Prior {
+        noise: prior.noise.or(alike.map(|(noise, _)| noise)),
+        weights: prior.weights.or(weights.as_deref()),
+        ..*prior
+    };
     let budget = &Budget::new(products);
     let ask = |points: &[[f64; 2]], prior: Prior| {
         let asked = Question::new(points, prior, options, budget)?;

@@ -15,6 +15,7 @@
 //! | `corners` | rows of the corners of a polygon |
 //! | `resolved`, `kept` | rows of curves without noise, as B-splines between corners; B-splines that keep to points |
 //! | `free_row` | rows of free forms, as one curve |
+//! | `shared` | noise that neighbors share |
 
 mod assembly;
 mod blunt;
@@ -35,6 +36,7 @@ mod levels;
 mod plan;
 mod polygon;
 mod resolved;
+mod shared;
 pub(super) mod sheet;
 mod stray;
 mod told;

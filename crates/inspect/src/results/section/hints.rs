@@ -1,7 +1,7 @@
 //! What to heed about a contour, each with what may help.
 
 use super::Section;
-use trueness_geom::section::{Bent, Contour, Geometry, Options};
+use trueness_geom::section::{Bent, Contour, Geometry, Options, Taken};
 
 /// A row lies in no plane whose points are farther off it than so many standard deviations of their scatter in it, and than this share of
 /// its length.
@@ -13,16 +13,32 @@ const LESS: f64 = 0.25;
 /// of freedom.
 const CHANCE: f64 = 4.0;
 
+/// So many points to an independent one are told.
+const ALIKE: f64 = 1.3;
+
 /// What there is to say about a contour of a section; `bent` are its arcs whose radii the slab moves.
 pub(super) fn hints(section: &Section, found: &Contour, bent: &[Bent], options: &Options) -> Vec<String> {
     let flat = off_plane(section, found);
     flat.into_iter()
         .chain(noise(found, options))
+        .chain(shared(found))
         .chain(slab(section, found, bent))
         .chain(cut_short(found))
         .chain(straight_on(found))
         .chain(few_points(found))
         .collect()
+}
+
+/// Neighbors of points in order that share noise.
+fn shared(found: &Contour) -> Option<String> {
+    let count = found.segments.iter().map(|s| s.count).sum::<usize>() as f64;
+    let alike = count / found.independent.max(1.0);
+    (found.taken == Taken::Row && found.independent > 0.0 && alike > ALIKE).then(|| {
+        format!(
+            "neighbors share noise, as of filtered profiles: {alike:.1} points tell as much as an independent one, and ± says so; \
+             give --noise if they are independent"
+        )
+    })
 }
 
 /// What makes a contour doubtful.
