@@ -94,8 +94,13 @@ fn in_direction(
     options: &Options,
     progress: &dyn Progress,
 ) -> Result<Contour, SectionError> {
+    let from_the_end = from_the_end(points);
     let told = [prior.noise.is_some(), prior.weights.is_some(), options.resolution.is_some()];
-    let alike = if told.contains(&true) { None } else { shared(points) };
+    let alike = match (told.contains(&true), from_the_end) {
+        (true, _) => None,
+        (false, false) => shared(points),
+        (false, true) => shared(&points.iter().rev().copied().collect::<Vec<_>>()),
+    };
     let weights = alike.map(|(_, alike)| vec![1.0 / alike; points.len()]);
     let prior = &Prior {
         noise: prior.noise.or(alike.map(|(noise, _)| noise)),
@@ -107,7 +112,7 @@ fn in_direction(
         let asked = Question::new(points, prior, options, budget)?;
         asked.cheapest(&PROPOSERS, progress)?.ok_or(SectionError::Astray)
     };
-    let mut found = match from_the_end(points) {
+    let mut found = match from_the_end {
         false => ask(points, *prior)?,
         true => turned(points, prior, ask)?.turned_round(points),
     };

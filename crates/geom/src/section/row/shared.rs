@@ -9,8 +9,8 @@ use crate::section::model::flat::distance;
 use crate::section::model::prior::Known;
 use crate::section::search::start::{Part, Sums};
 
-/// Points of a window, from the narrowest one on, and how many windows of points there are at least.
-const NARROWEST: usize = 24;
+/// Points of a window, of the narrowest one and of the widest one at most, and how many windows of points there are at least.
+const WIDTHS: [usize; 2] = [24, 768];
 const FEWEST_WINDOWS: usize = 4;
 /// Of all windows at least a quarter lies on one line or arc as a rule, and others whose squares are no more than so many times as large as
 /// theirs: the rest holds joins.
@@ -30,13 +30,13 @@ const BY_TURNS: f64 = -0.4;
 const GREAT: f64 = 0.1;
 
 /// Noise that neighbors share, and how many points tell as much as an independent one. `None` where neighbors share none, or form is not
-/// told from it.
+/// told from it. Cost: the number of points times the width of the windows.
 pub(super) fn shared(points: &[[f64; 2]]) -> Option<(Known, f64)> {
     let way: f64 = points.windows(2).map(|w| distance(w[0], w[1])).sum();
     let spacing = way / points.len() as f64;
     let sums = Sums::new(points, &vec![1.0; points.len()]);
-    let mut width = NARROWEST;
-    while FEWEST_WINDOWS * width <= points.len() {
+    let [mut width, widest] = WIDTHS;
+    while width <= widest && FEWEST_WINDOWS * width <= points.len() {
         let found = within(points, &sums, width)?;
         if found.alike * GROUPS <= width as f64 {
             let is_noise = found.changes >= CHANGES
