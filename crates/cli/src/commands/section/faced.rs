@@ -20,7 +20,8 @@ pub fn faced(mesh: &Mesh, record: &mut InputRecord, stage: &Stage) -> anyhow::Re
     ] {
         if facets > 0 {
             record.warnings.push(format!(
-                "{facets} of {of} facets {what} for the section; trueness check tells where, trueness repair mends the file"
+                "{}: {facets} of {of} facets {what} for the section; trueness check tells where, trueness repair mends the file",
+                record.path
             ));
         }
     }
