@@ -8,7 +8,7 @@
 //! methods that the paper compares with: `stepwise` takes the measured point at which the curvature leaves that of the line,
 //! `improved` searches an interval about that point, where the paper has one picked by hand.
 //!
-//! The straight part, which the paper has marked by hand, is the longest that the noise of [`contour`](crate::section::row::contour) allows,
+//! The straight part, which the paper has marked by hand, is the longest that the noise of [`contour`](crate::section::contour()) allows,
 //! less a tenth of it. See docs/section.md for what is weak in the rules of the interval.
 
 use crate::progress::{Cancelled, Progress};
@@ -86,9 +86,9 @@ const ABOUT: f64 = 2.0;
 /// there.
 ///
 /// # Errors
-/// Those of [`contour`](crate::section::row::contour); [`SectionError::NoLine`] where neither end of the row is a line; a closed row.
+/// Those of [`contour`](crate::section::contour()); [`SectionError::NoLine`] where neither end of the row is a line; a closed row.
 ///
-/// Cost: some sixty fits of the curve. See [`contour`](crate::section::row::contour) for the default, which finds any number of segments.
+/// Cost: some sixty fits of the curve. See [`contour`](crate::section::contour()) for the default, which finds any number of segments.
 pub fn line_and_curve(
     points: &[[f64; 2]],
     found: &Contour,
