@@ -2,8 +2,8 @@
 //!
 //! Least squares of the distances to the nearest place, by Gauss and Newton: the outline is taken for its tangent at each foot, or for
 //! the corner where a foot is one, and the feet are found anew after each step (Chen and Medioni, Object modelling by registration of
-//! multiple range images, 1992). A step that does not bring the points nearer is halved. It begins with weights that fall with the distance (Huber), so that points without a counterpart hardly lead it, and ends with all that
-//! count at full weight. What the outlines do not hold is named and not guessed: as a circle turns, and a line slides along itself.
+//! multiple range images, 1992). A step that does not bring the points nearer is halved. It begins with weights that fall with the
+//! distance (Huber), so that points without a counterpart hardly lead it, and ends with all that count at full weight. What the outlines do not hold is named and not guessed: as a circle turns, and a line slides along itself.
 
 mod freedom;
 mod motion;
@@ -277,7 +277,8 @@ impl Search<'_> {
                     places = tried;
                     break;
                 }
-                if size(by) <= least {
+                // Nor is there an end to halving what is no number.
+                if !size(by).is_finite() || least.is_nan() || size(by) <= least {
                     self.motion = before;
                     break;
                 }

@@ -265,3 +265,19 @@ fn even_growth_comes_to_rest() {
         assert!(x && y && turn, "round {round}, {between}, {grown}: {off:?} {found:?}");
     }
 }
+
+/// Numbers whose squares are none end the fit, with an answer that says it did not come to rest or with an error.
+#[test]
+fn overflow_ends_the_fit() {
+    let random = &mut Random::new(22);
+    let points = measured(&plate(), 60, 0.01, random);
+    for scale in [1e-200, 1e-100, 1e100, 1e150, 1e160, 1e200, 1e300] {
+        let scaled: Vec<[f64; 2]> = points.iter().map(|p| p.map(|x| x * scale)).collect();
+        let corners =
+            [[0.0, 0.0], [60.0, 0.0], [60.0, 30.0], [0.0, 30.0]].map(|p: [f64; 2]| p.map(|x| x * scale));
+        let found = onto(&scaled, &Outline::polyline(&corners, true), Freedom::FREE);
+        let is_number =
+            |f: &OntoNominal| f.motion.shift.iter().chain([&f.motion.turn]).all(|x| x.is_finite());
+        assert!(found.as_ref().map_or(true, |f| is_number(f) || !f.converged), "{scale}: {found:?}");
+    }
+}
