@@ -5,9 +5,10 @@
 use rayon::prelude::*;
 use trueness_bench::{Result, read_mesh, timed};
 use trueness_geom::{
+    plane::Plane,
     progress::{Cancelled, Silent},
-    section::{Chain, Plane, cut_facets, facets_near},
 };
+use trueness_section::{Chain, cut_facets, facets_near};
 
 fn main() -> Result<()> {
     let words: Vec<String> = std::env::args().skip(1).collect();

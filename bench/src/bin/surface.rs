@@ -4,10 +4,8 @@
 //! corrections of the parameters.
 
 use trueness_bench::{Result, read_npy, timed};
-use trueness_geom::{
-    progress::Silent,
-    surface::{BaseKind, Fairness, Layout, Options, fit},
-};
+use trueness_geom::progress::Silent;
+use trueness_surface::{BaseKind, Fairness, Layout, Options, fit};
 
 fn main() -> Result<()> {
     let words: Vec<String> = std::env::args().skip(1).collect();

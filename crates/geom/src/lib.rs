@@ -4,8 +4,6 @@
 //! |---|---|
 //! | welding, edges, shells, soundness | [`topology`] |
 //! | all defects of a mesh | [`check`] |
-//! | mending them | [`repair`] |
-//! | meshes cut where facets meet, unions of shells | [`arrange`] |
 //! | closest points, distances, signs | [`closest`] |
 //! | deviations from a reference | [`deviation`] |
 //! | statistics of numbers with a sign | [`stats`] |
@@ -17,26 +15,23 @@
 //! | the points of a scan parted among the faces of its nominal | [`partition`] |
 //! | features found with the nominal | [`feature`] |
 //! | tolerance zones, datum systems | [`zone`] |
-//! | lines, arcs and curves of a section, and their joins | [`section`] |
 //! | B-splines and NURBS | [`spline`] |
-//! | B-spline surfaces through scattered points | [`surface`] |
-//! | curvatures of meshes and clouds | [`curvature`] |
 //! | points, vectors, boxes | [`space`] |
 //! | triangle meshes | [`mesh`] |
 //! | point clouds in blocks | [`cloud`] |
+//! | planes, and coordinates in them | [`plane`] |
 //! | rigid motions | [`rigid`] |
 //! | neighbors among points | [`spatial`] |
 //! | sums, random numbers | [`num`] |
+//! | meshes for tests and examples | [`samples`] |
 //! | instruction sets | [`simd`] |
 //! | progress and cancellation | [`progress`] |
 #![cfg_attr(test, allow(clippy::disallowed_methods, reason = "a test does not hang on the last digit"))]
 
 pub mod align;
-pub mod arrange;
 pub mod check;
 pub mod closest;
 pub mod cloud;
-pub mod curvature;
 pub mod deviation;
 pub mod feature;
 pub mod fit;
@@ -47,10 +42,10 @@ pub mod noise;
 pub mod num;
 pub mod parallel;
 pub mod partition;
+pub mod plane;
 pub mod progress;
-pub mod repair;
 pub mod rigid;
-pub mod section;
+pub mod samples;
 pub mod segment;
 pub mod shape;
 pub mod simd;
@@ -58,6 +53,5 @@ pub mod space;
 pub mod spatial;
 pub mod spline;
 pub mod stats;
-pub mod surface;
 pub mod topology;
 pub mod zone;

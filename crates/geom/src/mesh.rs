@@ -22,12 +22,12 @@ impl Mesh {
     }
 
     /// Where the corners of a face are.
-    pub(crate) fn corners(&self, face: u32) -> [Point; 3] {
+    pub fn corners(&self, face: u32) -> [Point; 3] {
         self.faces[face as usize].map(|v| self.positions[v as usize])
     }
 
     /// Whether single precision holds all coordinates; those that are not finite do not count.
-    pub(crate) fn is_single(&self) -> bool {
+    pub fn is_single(&self) -> bool {
         let holds = |x: &f64| f64::from(*x as f32) == *x || !x.is_finite();
         self.positions.par_iter().all(|p| p.iter().all(holds))
     }

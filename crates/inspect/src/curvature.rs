@@ -15,13 +15,13 @@ use crate::results::{
 };
 use crate::scale::Scale;
 use std::collections::BTreeMap;
-use trueness_geom::curvature::{Curvatures, Jet, NoCurvature, Options, Reach};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::noise::{self, NoNoise};
 use trueness_geom::progress::{Cancelled, Progress};
 use trueness_geom::segment::is_drawn;
 use trueness_geom::space::{Aabb, Point};
 use trueness_geom::stats::statistics::{Statistics, Summary};
+use trueness_surface::curvature::{Curvatures, Jet, NoCurvature, Options, Reach};
 
 /// The noise of the vertices of a mesh, or without facets of its points, and how far neighbors share it; or why none is told: it is drawn, or there
 /// are too few points.

@@ -11,7 +11,7 @@ use crate::results::repair::{
 use crate::results::{InputRecord, UNITS, VERSION, Word};
 use std::collections::BTreeMap;
 use trueness_geom::check::Report;
-use trueness_geom::repair::{self, DeviationError, Holes, Options, Repaired, STEPS};
+use trueness_solid::repair::{self, DeviationError, Holes, Options, Repaired, STEPS};
 
 /// What is known about a repair besides its result.
 pub struct Around {

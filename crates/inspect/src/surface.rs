@@ -17,7 +17,7 @@ use trueness_geom::parallel::prelude::*;
 use trueness_geom::space::{Aabb, Point};
 use trueness_geom::spline::surface::{Bend, Patches};
 use trueness_geom::stats::statistics::{Statistics, Summary};
-use trueness_geom::surface::{
+use trueness_surface::{
     Base, BaseKind, Fairness, Layout, Options, Outline, OutlineRegion, STANDING, SurfaceFit,
     minimum_rectangle,
 };

@@ -10,8 +10,8 @@ use trueness_geom::check::{self, Report, check};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::num::random::Random;
 use trueness_geom::progress::Silent;
-use trueness_geom::repair::{self, Holes, Repaired, repair};
 use trueness_geom::topology::weld;
+use trueness_solid::repair::{self, Holes, Repaired, repair};
 
 /// The check.
 pub const CHECK: Target = Target { name: "check", run: |case, _| checked(&decoded(case)), ..MESHES };

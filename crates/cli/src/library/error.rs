@@ -4,13 +4,13 @@ use trueness_files::{ReadError, WriteError};
 use trueness_geom::align::AlignError;
 use trueness_geom::check::CheckError;
 use trueness_geom::closest::{MeshError, QueryError};
-use trueness_geom::curvature::CurvatureError;
 use trueness_geom::fit::FitError;
-use trueness_geom::repair::RepairError;
-use trueness_geom::section::SectionError;
 use trueness_geom::segment::SegmentError;
-use trueness_geom::surface::SurfaceError;
 use trueness_geom::topology::TopologyError;
+use trueness_section::SectionError;
+use trueness_solid::repair::RepairError;
+use trueness_surface::SurfaceError;
+use trueness_surface::curvature::CurvatureError;
 
 /// Why there is no answer: that of the task, with a sentence that says what is wrong and what to do.
 ///

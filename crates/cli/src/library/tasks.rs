@@ -3,17 +3,18 @@
 use super::error::Error;
 use super::part::Part;
 use trueness_geom::check::{self, Report};
-use trueness_geom::curvature::{self, Curvatures};
 use trueness_geom::fit::{self, Fit};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::noise;
+use trueness_geom::plane::Plane;
 use trueness_geom::progress::Silent;
-use trueness_geom::repair::{self, Repaired};
-use trueness_geom::section::{self, Contour, Plane, SectionError};
 use trueness_geom::segment::{self, Segmentation};
 use trueness_geom::shape::Kind;
 use trueness_geom::space::Point;
-use trueness_geom::surface::{self, SurfaceFit};
+use trueness_section::{self as section, Contour, SectionError};
+use trueness_solid::repair::{self, Repaired};
+use trueness_surface::curvature::{self, Curvatures};
+use trueness_surface::{self as surface, SurfaceFit};
 
 /// The defects of a mesh with their places: all are counted, the first 1,000 of each kind listed. The facets that the reader left out
 /// count as defects too. It is exact for coordinates that are 0 or from 1e-50 to 1e45 mm. A mesh that was not read needs vertices shared by

@@ -1,7 +1,7 @@
 //! What drawings are made of.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
-use trueness_geom::section::PlaneFrame;
+use trueness_geom::plane::PlaneFrame;
 use trueness_geom::spline::rational::Rational;
 
 /// An entity of a drawing. Lengths in millimeters, angles in radians. Splines are written as [`Clamped`] and read as [`Drawn`].

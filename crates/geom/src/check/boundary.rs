@@ -11,8 +11,10 @@ use crate::topology::Topology;
 
 /// Rings and chains as the vertices they pass, in the order of their lowest edge.
 #[derive(Debug, Default, PartialEq)]
-pub(crate) struct Boundary {
+pub struct Boundary {
+    /// Closed ones; the last vertex joins the first.
     pub rings: Vec<Vec<u32>>,
+    /// Open ones, from end to end.
     pub chains: Vec<Vec<u32>>,
 }
 

@@ -102,7 +102,7 @@ pub struct DefectKind {
     /// Why it may not be looked for; `None`: it always is.
     pub missing: Option<&'static str>,
     /// Looks for it; `None` where it cannot be looked for.
-    pub(crate) find: fn(&Inspected) -> Option<Found>,
+    pub find: fn(&Inspected) -> Option<Found>,
 }
 
 /// One place where something is wrong.
@@ -190,7 +190,7 @@ impl Inspected<'_> {
 }
 
 /// Area of a triangle.
-pub(crate) fn area([a, b, c]: [Point; 3]) -> f64 {
+pub fn area([a, b, c]: [Point; 3]) -> f64 {
     use crate::space::{cross, minus, norm};
     0.5 * norm(cross(minus(b, a), minus(c, a)))
 }

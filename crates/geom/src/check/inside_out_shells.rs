@@ -161,12 +161,11 @@ fn by_shell(shell_of: &[u32], shells: usize) -> Vec<Vec<u32>> {
 #[cfg(test)]
 mod tests {
     use super::KIND;
-    use crate::check::tests::{add, inverted};
     use crate::check::{Options, check};
     use crate::mesh::Mesh;
     use crate::num::random::Random;
     use crate::progress::Silent;
-    use crate::topology::tests::block;
+    use crate::samples::{add, block, inverted};
 
     fn wrong(mesh: &Mesh) -> Vec<u32> {
         let report = check(mesh, None, &Options::default(), &Silent).unwrap();

@@ -10,9 +10,12 @@ use std::sync::OnceLock;
 
 /// What follows from a mesh.
 #[derive(Debug)]
-pub(crate) struct Known {
+pub struct Known {
+    /// Edges, shells, and how facets hang together.
     pub topology: Topology,
+    /// Counts, area, volume, genus.
     pub properties: Properties,
+    /// The boundary edges as rings and chains.
     pub boundary: Boundary,
     /// As in [`Inspected`].
     pub depths: OnceLock<Vec<i32>>,

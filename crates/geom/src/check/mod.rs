@@ -5,14 +5,13 @@
 //! is decided exactly. What only a tolerance can decide has one in [`Options`], with a default that follows from the
 //! precision of the coordinates.
 
-pub(crate) mod around;
 pub(crate) mod boundary;
 mod boundary_edges;
 mod cracks;
 mod dangling_facets;
 mod degenerate_facets;
 mod duplicate_facets;
-pub(crate) mod finding;
+pub mod finding;
 mod holes;
 mod inconsistent_orientation;
 mod inside_out_shells;
@@ -20,8 +19,8 @@ pub mod intersect;
 mod islands;
 mod kinds;
 mod known;
-pub(crate) mod near;
-pub(crate) mod nesting;
+pub mod near;
+pub mod nesting;
 mod non_manifold_edges;
 mod non_manifold_vertices;
 mod not_finite_facets;
@@ -39,7 +38,7 @@ mod unshared_vertices;
 
 pub use finding::{DefectKind, Finding, Found, Inspected, Measure, Severity, Shows};
 pub use kinds::*;
-pub(crate) use known::Known;
+pub use known::Known;
 pub use options::Options;
 pub use precision::spacing;
 pub use precondition::Precondition;
@@ -147,7 +146,7 @@ pub fn check(
 ///
 /// # Errors
 /// [`CheckError`].
-pub(crate) fn known(mesh: &Mesh, progress: &dyn Progress) -> Result<Known, CheckError> {
+pub fn known(mesh: &Mesh, progress: &dyn Progress) -> Result<Known, CheckError> {
     let topology = Topology::watched(mesh, progress)?;
     let open = topology.boundary_edges.len();
     if open > MOST_BOUNDARY_EDGES {
@@ -160,7 +159,7 @@ pub(crate) fn known(mesh: &Mesh, progress: &dyn Progress) -> Result<Known, Check
 ///
 /// # Errors
 /// [`Cancelled`].
-pub(crate) fn report(inspected: &Inspected) -> Result<Report, Cancelled> {
+pub fn report(inspected: &Inspected) -> Result<Report, Cancelled> {
     let &Inspected { topology, properties, gap, progress, .. } = inspected;
     let mut defects = vec![];
     for kind in KINDS {

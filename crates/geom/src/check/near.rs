@@ -10,7 +10,7 @@ use std::ops::Range;
 const LEAF: usize = 8;
 
 /// Points with a number each.
-pub(crate) struct Near {
+pub struct Near {
     points: Vec<(Point, u32)>,
     /// Box of each node; the children of node `i` are `2 i + 1` and `2 i + 2`, each with half of its points.
     boxes: Vec<Aabb>,
@@ -18,7 +18,7 @@ pub(crate) struct Near {
 
 impl Near {
     /// n log n.
-    pub(crate) fn new(points: Vec<(Point, u32)>) -> Near {
+    pub fn new(points: Vec<(Point, u32)>) -> Near {
         let mut near = Near { boxes: vec![], points };
         let count = near.points.len();
         let mut leaves = 1;
@@ -31,7 +31,7 @@ impl Near {
     }
 
     /// Hands every point of the leaves that `reaches` says yes for, and for all boxes around them, to `take`.
-    pub(crate) fn visit(&self, reaches: impl Fn(&Aabb) -> bool, mut take: impl FnMut(&Point, u32)) {
+    pub fn visit(&self, reaches: impl Fn(&Aabb) -> bool, mut take: impl FnMut(&Point, u32)) {
         let look = |_: usize, b: &Aabb| if reaches(b) { Look::Into } else { Look::Past };
         self.look(look, |p, number| {
             take(p, number);
@@ -41,7 +41,7 @@ impl Near {
 }
 
 /// What to do with the points in a box.
-pub(crate) enum Look {
+pub enum Look {
     /// None of them counts.
     Past,
     /// Look at them one by one.
@@ -52,11 +52,7 @@ pub(crate) enum Look {
 
 impl Near {
     /// Hands points to `take`, with the word that it need not look at all of them: it says when it has had enough.
-    pub(crate) fn look(
-        &self,
-        look: impl Fn(usize, &Aabb) -> Look,
-        mut take: impl FnMut(&Point, u32) -> bool,
-    ) {
+    pub fn look(&self, look: impl Fn(usize, &Aabb) -> Look, mut take: impl FnMut(&Point, u32) -> bool) {
         if self.points.is_empty() || matches!(look(0, &self.boxes[0]), Look::Past) {
             return;
         }
@@ -133,13 +129,7 @@ pub(crate) fn farthest(at: Point, bounds: &Aabb) -> f64 {
 impl Near {
     /// The numbers of the points nearest to `at`, `most` of them and no farther than `reach` in each coordinate, of those
     /// that `counts`; the nearest first, of equally near ones the lowest number. Visits little more than it finds.
-    pub(crate) fn nearest(
-        &self,
-        at: Point,
-        reach: f64,
-        most: usize,
-        counts: impl Fn(u32) -> bool,
-    ) -> Vec<u32> {
+    pub fn nearest(&self, at: Point, reach: f64, most: usize, counts: impl Fn(u32) -> bool) -> Vec<u32> {
         // Those found, farthest first out; nodes still to be looked at, nearest first.
         let mut found: BinaryHeap<(Far, u32)> = BinaryHeap::new();
         let mut nodes = BinaryHeap::from([(Reverse(Far(0.0)), 0usize, 0, self.points.len())]);
@@ -213,7 +203,7 @@ fn build(points: &mut [(Point, u32)], boxes: &mut [Aabb], node: usize) {
 }
 
 /// Whether the segment from `a` to `b` comes within `gap` of the box, in each coordinate.
-pub(crate) fn segment_reaches(a: Point, b: Point, gap: f64, bounds: &Aabb) -> bool {
+pub fn segment_reaches(a: Point, b: Point, gap: f64, bounds: &Aabb) -> bool {
     let (mut from, mut to) = (0.0f64, 1.0f64);
     for k in 0..3 {
         let (low, high) = (bounds.min[k] - gap - a[k], bounds.max[k] + gap - a[k]);

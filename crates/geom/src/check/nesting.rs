@@ -12,7 +12,7 @@ use crate::spatial::columns::Columns;
 use crate::spatial::seen::seen;
 
 /// A closed shell, ready to be asked about points by rays along an axis.
-pub(crate) struct Container<'a> {
+pub struct Container<'a> {
     mesh: &'a Mesh,
     /// Of the rays.
     axis: usize,
@@ -21,18 +21,18 @@ pub(crate) struct Container<'a> {
 
 impl<'a> Container<'a> {
     /// Of these facets, which must have finite corners, for rays along `axis`. n log n.
-    pub(crate) fn new(mesh: &'a Mesh, facets: &[u32], axis: usize) -> Container<'a> {
+    pub fn new(mesh: &'a Mesh, facets: &[u32], axis: usize) -> Container<'a> {
         Container { mesh, axis, columns: Columns::new(mesh, facets, axis) }
     }
 
     /// As [`Container::new`], to be asked about these places only: linear, and n log n for the facets seen there.
-    pub(crate) fn at(mesh: &'a Mesh, facets: &[u32], axis: usize, places: &[Point]) -> Container<'a> {
+    pub fn at(mesh: &'a Mesh, facets: &[u32], axis: usize, places: &[Point]) -> Container<'a> {
         Container::new(mesh, &seen(mesh, facets, axis, places), axis)
     }
 
     /// How often the shell winds around `p`: 0 outside. `None` where `p` lies on the shell, or in the plane of one of its facets
     /// and as near to it as boxes and strips along its longest side tell.
-    pub(crate) fn winding(&self, p: &Point) -> Option<i32> {
+    pub fn winding(&self, p: &Point) -> Option<i32> {
         let touches = |f: u32, own: &Aabb| {
             let [a, b, c] = self.corners(f);
             (0..3).all(|k| own.min[k] <= p[k] && p[k] <= own.max[k]) && side_of_plane(&a, &b, &c, p) == 0
@@ -49,7 +49,7 @@ impl<'a> Container<'a> {
     /// Hands to `take` each facet that a ray passes behind facet `from`, and how often it winds around the ray. The ray starts in
     /// the plane of `from` where that is seen at `target`; `from` and what lies in its plane are not behind it. Where others meet
     /// it just there, the ray beside is meant that [`Container::around`] means.
-    pub(crate) fn behind(&self, from: u32, target: &Point, mut take: impl FnMut(u32, i32)) {
+    pub fn behind(&self, from: u32, target: &Point, mut take: impl FnMut(u32, i32)) {
         let [start, end] = self.span(from);
         self.columns.pass(target, self.beyond(start), |f, own| {
             let around = if f == from { 0 } else { self.around(f, target) };
@@ -61,7 +61,7 @@ impl<'a> Container<'a> {
 
     /// The same of all others that the line through `target` passes, `from` among them. Around the whole line a closed surface
     /// winds 0 times.
-    pub(crate) fn not_behind(&self, from: u32, target: &Point, mut take: impl FnMut(u32, i32)) {
+    pub fn not_behind(&self, from: u32, target: &Point, mut take: impl FnMut(u32, i32)) {
         let [start, end] = self.span(from);
         let before = |b: &Aabb| b.min[self.axis] <= end;
         self.columns.pass(target, before, |f, own| {
@@ -74,7 +74,7 @@ impl<'a> Container<'a> {
     }
 
     /// Whether more than half of the extent along the axis lies behind `p`.
-    pub(crate) fn is_early(&self, p: &Point) -> bool {
+    pub fn is_early(&self, p: &Point) -> bool {
         let Aabb { min, max } = self.columns.bounds();
         p[self.axis] < 0.5 * min[self.axis] + 0.5 * max[self.axis]
     }
@@ -134,7 +134,7 @@ impl<'a> Container<'a> {
 
     /// How often a facet winds around `p`, both seen along the axis: +1 where it looks along it, −1 where it looks back, 0
     /// where it lies beside. Its edges are half open: of facets that hang together one winds around each point.
-    pub(crate) fn around(&self, f: u32, p: &Point) -> i32 {
+    pub fn around(&self, f: u32, p: &Point) -> i32 {
         let [a, b, c] = self.corners(f);
         [[a, b], [b, c], [c, a]].iter().map(|e| passes(self.axis, e, p)).sum()
     }
@@ -155,7 +155,7 @@ fn passes(axis: usize, [u, v]: &[Point; 2], p: &Point) -> i32 {
 mod tests {
     use super::*;
     use crate::num::random::Random;
-    use crate::topology::tests::block;
+    use crate::samples::block;
 
     #[test]
     fn a_block_contains_what_lies_between_its_sides() {

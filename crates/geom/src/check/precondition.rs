@@ -76,7 +76,7 @@ fn findings(inspected: &Inspected) -> Vec<(&'static DefectKind, Found)> {
 mod tests {
     use super::*;
     use crate::progress::Silent;
-    use crate::topology::tests::block;
+    use crate::samples::block;
 
     #[test]
     fn a_sound_mesh_has_no_findings_and_a_broken_one_those_of_its_check() {

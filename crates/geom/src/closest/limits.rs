@@ -85,7 +85,7 @@ pub fn sane(p: &Point) -> bool {
 }
 
 /// True if every coordinate is 0 or from [`MIN_COORDINATE`] to [`MAX_VERTEX`] in magnitude.
-pub(crate) fn sane_vertex(p: &Point) -> bool {
+pub fn sane_vertex(p: &Point) -> bool {
     sane(p) && p.iter().all(|x| x.abs() <= MAX_VERTEX)
 }
 

@@ -55,7 +55,7 @@ pub use hit::Hit;
 pub use limits::{
     MAX_COORDINATE, MAX_FACES, MAX_VERTEX, MIN_COORDINATE, MIN_EXTENT, MeshError, QueryError, sane,
 };
-pub(crate) use limits::{check_mesh, check_points, sane_vertex};
+pub use limits::{check_mesh, check_points, sane_vertex};
 pub use query::Query;
 pub use sign::Signs;
 pub use tree::{Closest, Tree};

@@ -85,7 +85,7 @@ pub enum SignReason {
 
 /// Above this ratio of vector area to area a surface is a sheet and encloses nothing. A hemisphere without its base has 0.5, a
 /// scanned figure open at its foot 0.01 to 0.1.
-pub(crate) const SHEET: f64 = 0.25;
+pub const SHEET: f64 = 0.25;
 
 impl SignChoice {
     /// That of B-spline surfaces: their normal, unless no sign is asked for.

@@ -61,7 +61,7 @@ pub(super) fn inverse<const N: usize>(a: &[[f64; N]; N]) -> Option<[[f64; N]; N]
 
 /// Solution of the square system `a x = b` by elimination with row exchange, or `None` where a pivot is zero
 /// or not finite. `a` holds `n` rows of `n` numbers.
-pub(crate) fn solve(mut a: Vec<Vec<f64>>, mut b: Vec<f64>) -> Option<Vec<f64>> {
+pub fn solve(mut a: Vec<Vec<f64>>, mut b: Vec<f64>) -> Option<Vec<f64>> {
     let n = b.len();
     for k in 0..n {
         let pivot = (k..n).max_by(|&i, &j| a[i][k].abs().total_cmp(&a[j][k].abs()))?;
@@ -91,7 +91,7 @@ pub(crate) fn solve(mut a: Vec<Vec<f64>>, mut b: Vec<f64>) -> Option<Vec<f64>> {
 /// Eigenvalues in ascending order and their unit eigenvectors (as rows) of a symmetric 3×3 matrix.
 ///
 /// Jacobi's rotations: small eigenvalues keep their digits better than in any formula by roots of the cubic.
-pub(crate) fn eigen(mut a: [[f64; 3]; 3]) -> ([f64; 3], [[f64; 3]; 3]) {
+pub fn eigen(mut a: [[f64; 3]; 3]) -> ([f64; 3], [[f64; 3]; 3]) {
     let mut rows = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     for _ in 0..30 {
         let off = a[0][1].abs() + a[0][2].abs() + a[1][2].abs();

@@ -53,10 +53,10 @@ mod zone;
 use crate::progress::Progress;
 use crate::shape::{Kind, Shape};
 use crate::space::Point;
-pub(crate) use dense::{eigen, solve};
+pub use dense::{eigen, solve};
 pub(crate) use linear::{Function, lowest};
 pub use request::{FitError, Method, Options};
-pub(crate) use scatter::Scatter;
+pub use scatter::Scatter;
 pub use solution::{Covariance, Fit, Residuals, Touching};
 
 /// Calls the function with the family of the kind and its number of unknowns.

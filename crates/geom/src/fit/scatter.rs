@@ -6,7 +6,8 @@ use crate::space::{Point, Vector, cross, minus, plus, times};
 
 /// Mean of points and the eigenvectors of their scatter.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Scatter {
+pub struct Scatter {
+    /// Mean of the points.
     pub mean: Point,
     /// Variances, ascending.
     pub variance: [f64; 3],
@@ -16,7 +17,7 @@ pub(crate) struct Scatter {
 
 impl Scatter {
     /// Of points in space.
-    pub(crate) fn of(points: &[Point]) -> Scatter {
+    pub fn of(points: &[Point]) -> Scatter {
         let mean = mean(points);
         let mut matrix = [[0.0; 3]; 3];
         for &p in points {

@@ -185,7 +185,7 @@ fn dots(rows: [&[f64]; 4], x: &[f64]) -> [f64; 4] {
 
 /// Sum of products, in lanes that the compiler keeps side by side.
 #[inline(always)]
-pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
+pub fn dot(a: &[f64], b: &[f64]) -> f64 {
     let mut sums = [0.0f64; 8];
     let (a, a_rest) = a.as_chunks::<8>();
     let (b, b_rest) = b.as_chunks::<8>();

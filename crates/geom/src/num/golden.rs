@@ -5,7 +5,7 @@ const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
 /// The place of the least value between two places, where the function has one valley, and the value there. Each step leaves
 /// 0.618 of the range.
-pub(crate) fn golden(value: &impl Fn(f64) -> f64, mut low: f64, mut high: f64, steps: usize) -> (f64, f64) {
+pub fn golden(value: &impl Fn(f64) -> f64, mut low: f64, mut high: f64, steps: usize) -> (f64, f64) {
     let (mut a, mut b) = (high - GOLDEN * (high - low), low + GOLDEN * (high - low));
     let (mut at_a, mut at_b) = (value(a), value(b));
     for _ in 0..steps {

@@ -5,7 +5,7 @@ pub mod big;
 pub mod cholesky;
 pub(crate) mod double;
 pub mod exact;
-pub(crate) mod golden;
+pub mod golden;
 pub mod interval;
 pub mod multigrid;
 pub mod predicates;

@@ -2,13 +2,11 @@
 
 use super::*;
 use crate::check::{self, Precondition, check, intersect};
-use crate::closest::tests::{cube, sphere};
 use crate::closest::{BoundaryEdges, Query, Signs, Tree, Winding};
 use crate::deviation::surface::{ReferenceSurface, SurfaceOptions};
 use crate::mesh::Mesh;
-use crate::repair::{self, repair};
+use crate::samples::{add, cube, on_threads, sphere};
 use crate::topology::Topology;
-use crate::topology::tests::on_threads;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 /// Wants to stop from the question of this number on; counts the questions.
@@ -28,7 +26,7 @@ fn broken() -> Mesh {
         f += 1;
         f % 97 != 0
     });
-    check::tests::add(&mut mesh, &sphere(20, 6.0, [0.0; 3]), [8.0, 1.0, 0.5]);
+    add(&mut mesh, &sphere(20, 6.0, [0.0; 3]), [8.0, 1.0, 0.5]);
     mesh.faces.extend_from_within(30..60);
     mesh.faces[100].swap(0, 1);
     mesh
@@ -46,7 +44,6 @@ fn jobs<'a>(mesh: &'a Mesh, tree: &'a Tree, whole: &'a ReferenceSurface) -> Vec<
         ("topology", Box::new(|p| Topology::watched(mesh, p).is_err())),
         ("precondition", Box::new(|p| Precondition::of(mesh, 9, p).is_err())),
         ("check", Box::new(|p| check(mesh, None, &check::Options::default(), p).is_err())),
-        ("repair", Box::new(|p| repair(mesh, &repair::Options::default(), p).is_err())),
         ("crossings", Box::new(move |p| intersect::self_intersections(mesh, &topology, p).is_err())),
         (
             "few crossings",

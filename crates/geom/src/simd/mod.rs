@@ -6,6 +6,6 @@ pub(crate) mod lanes;
 #[cfg(target_arch = "x86_64")]
 pub(crate) mod lanes_x86;
 mod level;
-pub(crate) mod widest;
+pub mod widest;
 
 pub use level::Level;

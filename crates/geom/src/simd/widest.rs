@@ -6,6 +6,7 @@
 
 /// Compiles `$body` twice, for wide registers with fused multiply-add and for any processor, and takes what this processor has
 /// within the limit of [`Level`](crate::simd::Level).
+#[macro_export]
 macro_rules! widest {
     ($(#[$attribute:meta])* fn $name:ident [$($generics:tt)*] [$($use:tt)*] ($($arg:ident : $type:ty),* $(,)?) $(-> $out:ty)? = $body:expr) => {
         $(#[$attribute])*
@@ -24,4 +25,4 @@ macro_rules! widest {
         }
     };
 }
-pub(crate) use widest;
+pub use widest;

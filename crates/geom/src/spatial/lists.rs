@@ -4,7 +4,7 @@ use crate::parallel::prelude::*;
 
 /// For each of `count` numbers the place of its list's begin, and one more for the end; and the lists: the second of each
 /// pair, listed by the first, ascending and once each.
-pub(crate) fn lists(count: usize, mut pairs: Vec<[u32; 2]>) -> (Vec<u32>, Vec<u32>) {
+pub fn lists(count: usize, mut pairs: Vec<[u32; 2]>) -> (Vec<u32>, Vec<u32>) {
     pairs.par_sort_unstable();
     pairs.dedup();
     let mut first = vec![0u32; count + 1];

@@ -1,6 +1,6 @@
 //! Search among points and facets.
 
 pub(crate) mod columns;
-pub(crate) mod lists;
+pub mod lists;
 pub mod neighbors;
 pub(crate) mod seen;

@@ -13,11 +13,11 @@ mod edge;
 mod fans;
 mod properties;
 pub(crate) mod same;
-pub(crate) mod sides;
+pub mod sides;
 mod soundness;
 #[cfg(test)]
 pub(crate) mod tests;
-pub(crate) mod union;
+pub mod union;
 pub mod weld;
 
 pub use connected::{Topology, TopologyError};

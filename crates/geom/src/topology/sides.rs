@@ -8,9 +8,10 @@ use crate::progress::Silent;
 
 /// A facet at an edge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) struct Side {
+pub struct Side {
     /// The ends, the lower vertex first.
     pub ends: [u32; 2],
+    /// The facet.
     pub facet: u32,
     /// Whether the facet runs from the lower to the higher vertex.
     pub up: bool,
@@ -20,7 +21,7 @@ pub(crate) struct Side {
 /// errors, the one of the least edge is returned.
 ///
 /// Linear, but for vertices with very many facets. Faces must not name a vertex twice.
-pub(crate) fn each_edge<E: Send>(
+pub fn each_edge<E: Send>(
     vertices: usize,
     faces: &[[u32; 3]],
     take: impl Fn(&[Side]) -> Result<(), E> + Sync,
@@ -30,7 +31,7 @@ pub(crate) fn each_edge<E: Send>(
 
 impl Topology {
     /// As [`each_edge`], of the facets of `mesh` that count. `mesh` is the one this was made of.
-    pub(crate) fn each_edge<E: Send>(
+    pub fn each_edge<E: Send>(
         &self,
         mesh: &Mesh,
         take: impl Fn(&[Side]) -> Result<(), E> + Sync,

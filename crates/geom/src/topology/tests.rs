@@ -3,41 +3,13 @@ use super::*;
 use crate::mesh::Mesh;
 use crate::num::predicates;
 use crate::num::random::Random;
+use crate::samples::{block, on_threads};
 use crate::simd::Level;
 use crate::space::Point;
 use std::collections::BTreeMap;
 
-/// Runs `job` in a pool of its own.
-pub(crate) fn on_threads<T: Send>(threads: usize, job: impl FnOnce() -> T + Send) -> T {
-    rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap().install(job)
-}
-
 pub(crate) fn levels() -> impl Iterator<Item = Level> {
     [Level::Plain, Level::Avx2, Level::Avx512].into_iter().filter(|l| *l <= Level::detect())
-}
-
-/// Box from the origin, `n` cells along each side, closed and looking outwards.
-pub(crate) fn block(n: u32, size: f64) -> Mesh {
-    let mut facets = vec![];
-    let step = size / f64::from(n);
-    for axis in 0..3 {
-        for i in 0..n {
-            for j in 0..n {
-                let at = |di: u32, dj: u32, far: bool| {
-                    let mut p = [0.0; 3];
-                    p[axis] = if far { size } else { 0.0 };
-                    p[(axis + 1) % 3] = f64::from(i + di) * step;
-                    p[(axis + 2) % 3] = f64::from(j + dj) * step;
-                    p
-                };
-                for far in [true, false] {
-                    let [a, b, c, d] = [at(0, 0, far), at(1, 0, far), at(1, 1, far), at(0, 1, far)];
-                    facets.extend(if far { [[a, b, c], [a, c, d]] } else { [[a, c, b], [a, d, c]] });
-                }
-            }
-        }
-    }
-    weld::corners(facets.len(), |f, k| facets[f][k]).unwrap()
 }
 
 /// Random facets among `vertices` places of a coarse grid: every kind of mess.

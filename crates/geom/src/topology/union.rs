@@ -9,11 +9,11 @@ const PART: usize = 1 << 16;
 
 /// Sets of the numbers `0..n`. A parent never has a larger number than its child, so the least member of a set ends
 /// up as its root whatever the threads do.
-pub(crate) struct Sets(Vec<AtomicU32>);
+pub struct Sets(Vec<AtomicU32>);
 
 impl Sets {
     /// `n` sets of one.
-    pub(crate) fn new(n: usize) -> Sets {
+    pub fn new(n: usize) -> Sets {
         let sets = Sets(atomics(n));
         let fill = |(i, part): (usize, &[AtomicU32])| {
             for (j, parent) in part.iter().enumerate() {
@@ -30,7 +30,7 @@ impl Sets {
 
     /// The least member of the set of `a`, once all joins are done. Halves the path on the way.
     #[inline(always)]
-    pub(crate) fn root(&self, mut a: u32) -> u32 {
+    pub fn root(&self, mut a: u32) -> u32 {
         loop {
             let parent = self.0[a as usize].load(Relaxed);
             if parent == a {
@@ -47,7 +47,7 @@ impl Sets {
 
     /// Makes one set of those of `a` and `b`.
     #[inline(always)]
-    pub(crate) fn join(&self, a: u32, b: u32) {
+    pub fn join(&self, a: u32, b: u32) {
         let (mut a, mut b) = (self.root(a), self.root(b));
         while a != b {
             if a < b {
@@ -63,7 +63,7 @@ impl Sets {
     /// Number of sets that hold a member for which `counts` says yes, and for each member the number of its set,
     /// [`u32::MAX`] where `counts` says no. Sets are numbered by their least member. Members of one set must agree
     /// about `counts`.
-    pub(crate) fn numbered(&self, counts: impl Fn(u32) -> bool + Sync) -> (usize, Vec<u32>) {
+    pub fn numbered(&self, counts: impl Fn(u32) -> bool + Sync) -> (usize, Vec<u32>) {
         let is_first = |i: &u32| self.0[*i as usize].load(Relaxed) == *i && counts(*i);
         let n = self.0.len();
         let firsts: Vec<Vec<u32>> = (0..n.div_ceil(PART))

@@ -6,15 +6,12 @@ use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 use std::path::Path;
 use trueness_geom::check::check;
-use trueness_geom::curvature;
 use trueness_geom::fit::{self, Method};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::Silent;
-use trueness_geom::repair;
 use trueness_geom::segment;
 use trueness_geom::shape::Kind;
 use trueness_geom::space::Point;
-use trueness_geom::surface;
 use trueness_inspect::repair::Around;
 use trueness_inspect::report::{ReportInput, ReportOptions};
 use trueness_inspect::results::check::CheckDocument;
@@ -22,6 +19,9 @@ use trueness_inspect::results::fit::FitDocument;
 use trueness_inspect::results::repair::OutputRecord;
 use trueness_inspect::results::segment::{PieceKind, SegmentDocument};
 use trueness_inspect::results::{InputRecord, Role};
+use trueness_solid::repair;
+use trueness_surface as surface;
+use trueness_surface::curvature;
 
 /// All of them, into `folder`.
 pub fn write_all(folder: &Path) {

@@ -4,13 +4,13 @@ use std::f64::consts::TAU;
 use std::path::Path;
 use trueness_geom::num::random::Random;
 use trueness_geom::progress::Silent;
-use trueness_geom::section::{Options, Outline, Segment, contour, off_nominal};
 use trueness_geom::space::Point;
 use trueness_inspect::report::{ReportInput, ReportOptions, ViewObject, flat};
 use trueness_inspect::results::Role;
 use trueness_inspect::results::section::{
     Against, AgainstPlane, FrameRecord, NominalRecord, Section, SectionDocument,
 };
+use trueness_section::{Options, Outline, Segment, contour, off_nominal};
 
 /// All of them, into `folder`.
 pub fn write_all(folder: &Path) {

@@ -1,8 +1,8 @@
 //! The curvatures of a place, each with its name, unit and value.
 
 use crate::results::curvature::{CurvatureDocument, Quantity};
-use trueness_geom::curvature::Curvatures;
 use trueness_geom::spline::surface::Bend;
+use trueness_surface::curvature::Curvatures;
 
 /// One of the curvatures of a place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

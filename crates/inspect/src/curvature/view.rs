@@ -3,8 +3,8 @@
 use super::kind::{CurvatureKind, values};
 use crate::report::{Geometry, NoValue, ViewField, ViewObject, ViewRole};
 use crate::results::curvature::CurvatureDocument;
-use trueness_geom::curvature::{Curvatures, NoCurvature};
 use trueness_geom::mesh::Mesh;
+use trueness_surface::curvature::{Curvatures, NoCurvature};
 
 /// Curvatures prepared for drawing.
 pub struct View<'a> {

@@ -1,7 +1,7 @@
 //! Whether what a repair left is still the same part.
 
 use crate::results::repair::Effect;
-use trueness_geom::repair::{Deviation, NotEnclosed, Removes, Repaired};
+use trueness_solid::repair::{Deviation, NotEnclosed, Removes, Repaired};
 
 /// Compares volume and surface with their limits; `volume` is that after the repair.
 pub(super) fn record(

@@ -6,8 +6,8 @@ use crate::scale::palette::{Rgb, category};
 use std::collections::HashSet;
 use trueness_geom::closest::Tree;
 use trueness_geom::mesh::Mesh;
-use trueness_geom::repair::Step;
 use trueness_geom::space::{Point, Vector, normal};
+use trueness_solid::repair::Step;
 
 /// Facets drawn as new or gone, at most.
 const MOST: usize = 100_000;

@@ -84,9 +84,10 @@ mod tests {
         use crate::results::Named;
         use crate::results::compare::SignBy;
         use crate::results::section::{BEYOND_END, NO_OUTLINE, Positive};
-        use trueness_geom::curvature::NoCurvature;
-        use trueness_geom::section::{Continuity, DimensionKind, SegmentKind, Taken};
-        use trueness_geom::{check, repair, shape};
+        use trueness_geom::{check, shape};
+        use trueness_section::{Continuity, DimensionKind, SegmentKind, Taken};
+        use trueness_solid::repair;
+        use trueness_surface::curvature::NoCurvature;
         fn of<T: Named>(before: &str) -> Vec<String> {
             T::all().iter().map(|entry| format!("{before}.{}", entry.name())).collect()
         }

@@ -9,8 +9,8 @@ use crate::scale::Scale;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-use trueness_geom::curvature::NoCurvature;
 use trueness_geom::spline::surface::Bend;
+use trueness_surface::curvature::NoCurvature;
 
 /// Name of this document's schema.
 pub const SCHEMA: &str = "trueness/curvature/1";

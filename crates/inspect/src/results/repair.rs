@@ -6,7 +6,7 @@ use super::{InputRecord, Word};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-use trueness_geom::repair::Step;
+use trueness_solid::repair::Step;
 
 /// Name of this document's schema.
 pub const SCHEMA: &str = "trueness/repair/1";

@@ -39,7 +39,7 @@ use blade::Whereabouts;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use trueness_geom::progress::{Cancelled, Progress};
-use trueness_geom::section::{Continuity, Contour, Method, Options, Search, SegmentKind, Taken};
+use trueness_section::{Continuity, Contour, Method, Options, Search, SegmentKind, Taken};
 
 /// Name of this document's schema.
 pub const SCHEMA: &str = "trueness/section/1";

@@ -9,7 +9,7 @@ use crate::scale::Scale;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-use trueness_geom::surface::{BaseKind, Reached};
+use trueness_surface::{BaseKind, Reached};
 
 /// Name of this document's schema.
 pub const SCHEMA: &str = "trueness/surface/1";

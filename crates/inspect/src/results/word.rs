@@ -98,16 +98,16 @@ pub(crate) use named;
 
 named!(trueness_geom::shape::Kind, "shape", Self::ALL, |kind| kind.name());
 named!(trueness_geom::fit::Method, "method of a fit", Self::ALL, |method| method.name());
-named!(trueness_geom::curvature::NoCurvature, "reason", Self::ALL, |reason| reason.name());
-named!(&'static trueness_geom::repair::Step, "step of a repair", trueness_geom::repair::STEPS, |step| step
+named!(trueness_surface::curvature::NoCurvature, "reason", Self::ALL, |reason| reason.name());
+named!(&'static trueness_solid::repair::Step, "step of a repair", trueness_solid::repair::STEPS, |step| step
     .name);
 named!(trueness_geom::check::Severity, "severity", Self::ALL, |severity| severity.name());
 
-named!(trueness_geom::surface::BaseKind, "base of a surface", Self::ALL, |kind| kind.name());
-named!(trueness_geom::surface::Reached, "reason to stop", Self::ALL, |reached| reached.name());
-named!(trueness_geom::section::Continuity, "continuity", Self::ALL, |continuity| continuity.name());
-named!(trueness_geom::section::Taken, "kind of row", Self::ALL, |taken| taken.name());
-named!(trueness_geom::section::DimensionKind, "kind of dimension", Self::ALL, |kind| kind.name());
+named!(trueness_surface::BaseKind, "base of a surface", Self::ALL, |kind| kind.name());
+named!(trueness_surface::Reached, "reason to stop", Self::ALL, |reached| reached.name());
+named!(trueness_section::Continuity, "continuity", Self::ALL, |continuity| continuity.name());
+named!(trueness_section::Taken, "kind of row", Self::ALL, |taken| taken.name());
+named!(trueness_section::DimensionKind, "kind of dimension", Self::ALL, |kind| kind.name());
 
 named!(crate::plan::Class, "class of features", Self::ALL, |class| class.word());
 
@@ -115,8 +115,8 @@ named!(crate::plan::Class, "class of features", Self::ALL, |class| class.word())
 mod tests {
     use super::*;
     use std::collections::BTreeMap;
-    use trueness_geom::curvature::NoCurvature;
     use trueness_geom::fit::Method;
+    use trueness_surface::curvature::NoCurvature;
 
     #[test]
     fn words_are_strings_and_come_back() {

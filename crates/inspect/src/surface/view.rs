@@ -10,7 +10,7 @@ use trueness_geom::mesh::Mesh;
 use trueness_geom::parallel::prelude::*;
 use trueness_geom::space::{Point, Vector};
 use trueness_geom::spline::surface::{Bend, Patches, Surface};
-use trueness_geom::surface::{Outline, SurfaceFit};
+use trueness_surface::{Outline, SurfaceFit};
 
 /// Vertices of the drawn surface, about.
 const VERTICES: f64 = 160_000.0;

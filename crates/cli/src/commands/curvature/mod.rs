@@ -14,11 +14,11 @@ use anyhow::bail;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 use trueness_files::write::{Values, Writable, values};
-use trueness_geom::curvature::{self, CurvatureError, Curvatures, NoCurvature, Options, Reach};
 use trueness_geom::mesh::Mesh;
 use trueness_inspect::curvature::{CurvatureKind, View, document, noise, without};
 use trueness_inspect::results::Role;
 use trueness_inspect::results::curvature::CurvatureDocument;
+use trueness_surface::curvature::{self, CurvatureError, Curvatures, NoCurvature, Options, Reach};
 
 /// Principal, mean and Gaussian curvature at every vertex of a mesh or point of a cloud
 ///

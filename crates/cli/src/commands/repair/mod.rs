@@ -15,10 +15,10 @@ use trueness_files::write::{MeshFile, Writable};
 use trueness_geom::check;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::Progress;
-use trueness_geom::repair::{self, Holes, Options, RepairError, Repaired, STEPS, Step};
 use trueness_inspect::repair::{Around, View, at_least, defects, document};
 use trueness_inspect::results::Role;
 use trueness_inspect::results::repair::OutputRecord;
+use trueness_solid::repair::{self, Holes, Options, RepairError, Repaired, STEPS, Step};
 
 /// A mesh without its defects
 ///

@@ -2,8 +2,8 @@
 
 use crate::progress::Stage;
 use trueness_geom::mesh::Mesh;
-use trueness_geom::repair::{self, RepairError};
 use trueness_inspect::results::{InputRecord, Role};
+use trueness_solid::repair::{self, RepairError};
 
 /// The mesh with its facets turned outwards where they were not; what was changed is told with the file.
 pub fn faced(mesh: &Mesh, record: &mut InputRecord, stage: &Stage) -> anyhow::Result<Mesh> {

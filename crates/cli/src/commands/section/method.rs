@@ -4,7 +4,7 @@ use super::found::Sections;
 use crate::exit::Usage;
 use crate::progress::Stage;
 use clap::{Args, ValueEnum};
-use trueness_geom::section::{self, Method, Options, Search, SectionError, SegmentKind};
+use trueness_section::{self as section, Method, Options, Search, SectionError, SegmentKind};
 
 /// How the join of a line and a curve is found, if not by the likelihood of the whole contour.
 #[derive(Args, Debug)]

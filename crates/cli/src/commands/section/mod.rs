@@ -21,11 +21,12 @@ use clap::{Args, ValueEnum};
 use found::{Found, described};
 use std::path::PathBuf;
 use trueness_geom::noise::{self, Noise};
-use trueness_geom::section::{self, Continuity, Options, PlaneFrame, SectionError};
+use trueness_geom::plane::PlaneFrame;
 use trueness_geom::space::{Point, minus, norm};
 use trueness_inspect::report::{ViewObject, flat};
 use trueness_inspect::results::section::{AirfoilRecord, Section, SectionDocument};
 use trueness_inspect::results::{InputRecord, NoiseOrReason, Role, Verdict, noise_or_reason};
+use trueness_section::{self as section, Continuity, Options, SectionError};
 
 /// The lines, arcs and curves of a section, and the exact places where they join
 ///

@@ -14,10 +14,8 @@ use std::path::{Path, PathBuf};
 use trueness_files::ReadOptions;
 use trueness_files::drawing::{Drawing, Drawn};
 use trueness_geom::mesh::Mesh;
+use trueness_geom::plane::{Plane, PlaneFrame};
 use trueness_geom::progress::Cancelled;
-use trueness_geom::section::{
-    self, Contour, Freedom, OntoNominal, OntoNominalError, Options, Outline, Plane, PlaneFrame, Segment,
-};
 use trueness_geom::space::{Aabb, Point, dot};
 use trueness_inspect::compare::{MIN_COVERAGE, plausibility};
 use trueness_inspect::results::compare::{Bounds, Warning};
@@ -26,6 +24,9 @@ use trueness_inspect::results::section::{
 };
 use trueness_inspect::results::{InputRecord, of_percent};
 use trueness_inspect::tolerance::cannot_fail;
+use trueness_section::{
+    self as section, Contour, Freedom, OntoNominal, OntoNominalError, Options, Outline, Segment,
+};
 
 /// What the section should be.
 #[derive(Args, Debug)]

@@ -7,12 +7,11 @@ use clap::Args;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::noise::Noise;
 use trueness_geom::parallel::prelude::*;
-use trueness_geom::section::{
-    self, Chain, Contour, Options, Order, Ordered, Plane, PlaneFrame, SectionError,
-};
+use trueness_geom::plane::{Plane, PlaneFrame};
 use trueness_geom::space::{Point, dot};
 use trueness_inspect::results::InputRecord;
 use trueness_inspect::results::section::{PlaneRecord, Section};
+use trueness_section::{self as section, Chain, Contour, Options, Order, Ordered, SectionError};
 
 /// Where a mesh or cloud is cut.
 #[derive(Args, Debug)]

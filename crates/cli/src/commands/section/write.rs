@@ -5,8 +5,9 @@ use crate::run_files::RunFiles;
 use clap::Args;
 use std::path::PathBuf;
 use trueness_files::drawing::{self, Clamped, Entity, Layer};
-use trueness_geom::section::{Geometry, PlaneFrame, Segment};
+use trueness_geom::plane::PlaneFrame;
 use trueness_inspect::results::section::{FrameRecord, NominalRecord, Section};
+use trueness_section::{Geometry, Segment};
 
 /// Files that a section can write.
 #[derive(Args, Debug)]

@@ -15,9 +15,9 @@ use anyhow::bail;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 use trueness_geom::mesh::Mesh;
-use trueness_geom::surface::{self, BaseKind, Fairness, Layout, Options, SurfaceError};
 use trueness_inspect::results::Role;
 use trueness_inspect::surface::View;
+use trueness_surface::{self as surface, BaseKind, Fairness, Layout, Options, SurfaceError};
 
 /// A B-spline surface through scattered points, with its deviation and its curvature
 ///

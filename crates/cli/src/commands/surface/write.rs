@@ -10,7 +10,7 @@ use trueness_files::cad::{self, Bound, SplineSurface, TrimmedFace};
 use trueness_geom::progress::Progress;
 use trueness_geom::space::{Aabb, Point};
 use trueness_geom::spline::surface::Surface;
-use trueness_geom::surface::{Outline, OutlineRegion, trimmed};
+use trueness_surface::{Outline, OutlineRegion, trimmed};
 
 /// Facets that are written at most.
 const MOST_FACETS: usize = 20_000_000;

@@ -7,7 +7,7 @@ use super::super::step::real;
 use super::entry::{Entry, file};
 use crate::drawing::entity::{Clamped, Entity, Layer, bounds, whole};
 use std::io::{self, Write};
-use trueness_geom::section::PlaneFrame;
+use trueness_geom::plane::PlaneFrame;
 
 /// Writes a drawing.
 pub fn write(out: &mut dyn Write, layers: &[Layer]) -> io::Result<()> {

@@ -6,7 +6,7 @@
 use super::instances::{Instances, file, list, product, real};
 use crate::drawing::entity::{Clamped, Entity, Layer, whole};
 use std::io::{self, Write};
-use trueness_geom::section::PlaneFrame;
+use trueness_geom::plane::PlaneFrame;
 
 /// Writes a drawing.
 pub fn write(out: &mut dyn Write, layers: &[Layer]) -> io::Result<()> {

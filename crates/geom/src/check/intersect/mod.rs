@@ -21,12 +21,12 @@ mod hub;
 mod masks;
 mod meet;
 mod pairs;
-mod reaching;
-pub(crate) mod seen;
+pub mod reaching;
+pub mod seen;
 #[cfg(test)]
 mod tests;
 mod tree;
-pub(crate) mod views;
+pub mod views;
 mod walls;
 
 use crate::mesh::Mesh;
@@ -40,7 +40,7 @@ use crate::topology::Topology;
 use hub::Hub;
 use masks::Masks;
 use pairs::{Copies, Pairs, Wanted};
-pub(crate) use reaching::{reaching, reaching_any};
+pub use reaching::{reaching, reaching_any};
 use std::sync::atomic::AtomicUsize;
 use std::sync::atomic::Ordering::Relaxed;
 use tree::{Boxes, Leaf, Tree, W};
@@ -82,7 +82,7 @@ pub struct Crossings {
 
 impl Crossings {
     /// What [`first_self_intersections`] tells where these, sorted, are all pairs; `None` where it would have given up.
-    pub(crate) fn of_all(pairs: &[[u32; 2]], limit: usize) -> Option<Crossings> {
+    pub fn of_all(pairs: &[[u32; 2]], limit: usize) -> Option<Crossings> {
         let first = pairs[..limit.min(pairs.len())].to_vec();
         let known = pairs.len() <= MOST.max(limit);
         known.then_some(Crossings { count: pairs.len(), at_least: false, first })

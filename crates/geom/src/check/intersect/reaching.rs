@@ -13,7 +13,7 @@ use std::sync::atomic::Ordering::Relaxed;
 ///
 /// # Errors
 /// [`Cancelled`].
-pub(crate) fn reaching(
+pub fn reaching(
     mesh: &Mesh,
     topology: &Topology,
     boxes: &[Aabb],
@@ -44,7 +44,7 @@ pub(crate) fn reaching(
 ///
 /// # Errors
 /// [`Cancelled`].
-pub(crate) fn reaching_any(
+pub fn reaching_any(
     mesh: &Mesh,
     topology: &Topology,
     boxes: &[Aabb],

@@ -16,7 +16,7 @@ fn direction(from: Point, to: Point) -> Option<Point> {
 }
 
 /// Box of the directions from `center` to the places of a segment.
-pub(crate) fn segment(center: Point, a: Point, b: Point) -> Aabb {
+pub fn segment(center: Point, a: Point, b: Point) -> Aabb {
     match (direction(center, a), direction(center, b)) {
         (Some(u), Some(v)) => arc(u, v),
         _ => ANYWHERE,

@@ -2,8 +2,9 @@ use super::*;
 use crate::num::predicates;
 use crate::num::random::Random;
 use crate::progress::Silent;
+use crate::samples::on_threads;
 use crate::space::{Aabb, Point, plus};
-use crate::topology::tests::{levels, on_threads};
+use crate::topology::tests::levels;
 use crate::topology::weld;
 use std::collections::HashMap;
 
@@ -146,7 +147,7 @@ fn a_cancelled_search_says_so() {
             true
         }
     }
-    let mesh = crate::topology::tests::block(5, 1.0);
+    let mesh = crate::samples::block(5, 1.0);
     let topology = Topology::of(&mesh).unwrap();
     assert_eq!(self_intersections(&mesh, &topology, &Never), Err(Cancelled));
     assert_eq!(self_intersections(&mesh, &topology, &Silent), Ok(vec![]));
@@ -249,7 +250,7 @@ fn crowds_take_n_log_n() {
         (0..n / 2).flat_map(of).collect()
     };
     let coincident = |n: usize| -> Vec<Facet> {
-        let block = crate::topology::tests::block(1, 1.0);
+        let block = crate::samples::block(1, 1.0);
         let facets = block.faces.iter().map(|f| f.map(|v| block.positions[v as usize]));
         facets.cycle().take(12 * (n / 12)).collect()
     };

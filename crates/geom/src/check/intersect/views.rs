@@ -4,19 +4,24 @@ use crate::space::Aabb;
 use std::ops::Range;
 
 /// A facet or an edge as it is seen.
-pub(crate) struct View {
+pub struct View {
     /// Which one.
     pub number: u32,
     /// Of its directions.
     pub seen: Aabb,
+    /// Where it lies.
     pub bounds: Aabb,
 }
 
 /// Some of the views.
-pub(crate) struct Node {
+pub struct Node {
+    /// Which of the views.
     pub range: Range<usize>,
+    /// Their directions.
     pub seen: Aabb,
+    /// Where they lie.
     pub bounds: Aabb,
+    /// Both halves of them; none where they are few.
     pub halves: Option<Box<[Node; 2]>>,
 }
 
@@ -25,7 +30,7 @@ const FEW: usize = 8;
 
 impl Node {
     /// Of all views; puts neighbors near each other.
-    pub(crate) fn of(views: &mut [View]) -> Node {
+    pub fn of(views: &mut [View]) -> Node {
         node(views, 0)
     }
 }
@@ -48,6 +53,6 @@ fn node(views: &mut [View], start: usize) -> Node {
 }
 
 /// Whether two boxes have a place in common.
-pub(crate) fn overlap(a: &Aabb, b: &Aabb) -> bool {
+pub fn overlap(a: &Aabb, b: &Aabb) -> bool {
     (0..3).all(|k| a.min[k] <= b.max[k] && b.min[k] <= a.max[k])
 }

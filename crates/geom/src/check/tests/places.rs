@@ -1,9 +1,9 @@
 //! What a finding says of its size and place, against plain calculations from the facets and vertices it names.
 
-use super::{planted, sound};
 use crate::check::{Finding, KINDS, Options, check};
 use crate::mesh::Mesh;
 use crate::progress::Silent;
+use crate::samples::{planted, sound};
 use crate::space::{Aabb, Point};
 
 fn distance(p: Point, q: Point) -> f64 {

@@ -11,6 +11,7 @@ mod window;
 use crate::closest::{Closest, Hit, Query, Tree};
 use crate::mesh::Mesh;
 use crate::progress::{Progress, Silent};
+pub(crate) use crate::samples::{cube, sphere};
 use crate::simd::Level;
 use crate::space::{Point, plus};
 use std::f64::consts::PI;
@@ -44,55 +45,6 @@ impl TestRandom {
             }
         }
     }
-}
-
-/// A sphere of `n x n` quads, each cut in two.
-pub fn sphere(n: usize, r: f64, at: Point) -> Mesh {
-    let mut positions = vec![];
-    for i in 0..=n {
-        for j in 0..n {
-            let (a, b) = (PI * i as f64 / n as f64, 2.0 * PI * j as f64 / n as f64);
-            let s = if i == 0 || i == n { 0.0 } else { a.sin() };
-            positions.push(plus(at, [r * s * b.cos(), r * s * b.sin(), r * a.cos()]));
-        }
-    }
-    let id = |i: usize, j: usize| match i {
-        0 => 0,
-        _ if i == n => (n * n) as u32,
-        _ => (i * n + j % n) as u32,
-    };
-    let mut faces = vec![];
-    for i in 0..n {
-        for j in 0..n {
-            if i + 1 < n {
-                faces.push([id(i, j), id(i + 1, j), id(i + 1, j + 1)]);
-            }
-            if i > 0 {
-                faces.push([id(i, j), id(i + 1, j + 1), id(i, j + 1)]);
-            }
-        }
-    }
-    Mesh { positions, faces }
-}
-
-/// The cube `[0, size]³`, outward, twelve faces.
-pub fn cube(size: f64) -> Mesh {
-    let positions = (0..8).map(|i| [i & 1, i >> 1 & 1, i >> 2].map(|b| b as f64 * size)).collect();
-    let faces = vec![
-        [0, 2, 1],
-        [1, 2, 3],
-        [4, 5, 6],
-        [5, 7, 6],
-        [0, 1, 4],
-        [1, 5, 4],
-        [2, 6, 3],
-        [3, 6, 7],
-        [0, 4, 2],
-        [2, 4, 6],
-        [1, 3, 5],
-        [3, 7, 5],
-    ];
-    Mesh { positions, faces }
 }
 
 /// `n` triangles without a common vertex.

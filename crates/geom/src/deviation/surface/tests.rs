@@ -2,11 +2,10 @@
 
 use super::super::sign_choice::SignReason;
 use super::*;
-use crate::check::tests::{add, inverted};
-use crate::closest::tests::{TestRandom, cube, sphere};
+use crate::closest::tests::TestRandom;
 use crate::deviation::along::Along;
+use crate::samples::{add, block, cube, inverted, sphere};
 use crate::space::{cross, dot, minus, norm, plus};
-use crate::topology::tests::block;
 
 fn ask(mesh: &Mesh, options: SurfaceOptions, points: &[Point]) -> (SignChoice, Vec<f64>, Disagreement) {
     let tree = Tree::build(mesh).unwrap();

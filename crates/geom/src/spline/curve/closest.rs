@@ -59,7 +59,7 @@ impl<const D: usize> Curve<[f64; D]> {
     }
 
     /// Newton's method on the condition that the difference is at right angles to the curve, kept within a range.
-    pub(crate) fn closest_from(&self, point: [f64; D], start: f64, range: (f64, f64)) -> Foot<D> {
+    pub fn closest_from(&self, point: [f64; D], start: f64, range: (f64, f64)) -> Foot<D> {
         let (mut t, mut low, mut high) = (start, range.0, range.1);
         for _ in 0..40 {
             let mut d = [[0.0; D]; 3];

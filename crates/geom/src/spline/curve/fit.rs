@@ -373,7 +373,7 @@ pub fn approximate<const D: usize>(
 }
 
 /// Fits, and fits again at the parameters of the nearest places.
-pub(crate) fn corrected<const D: usize>(
+pub fn corrected<const D: usize>(
     points: &[[f64; D]],
     parameters: &mut [f64],
     knots: &Knots,

@@ -13,5 +13,5 @@ mod tests;
 pub use b_spline::Curve;
 pub use closest::Foot;
 pub use divide::divided;
-pub(crate) use fit::corrected;
+pub use fit::corrected;
 pub use fit::{End, Ends, FitCurveError, Fitted, approximate, chord_parameters, fit, spread_knots};

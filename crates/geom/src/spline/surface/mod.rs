@@ -23,7 +23,7 @@ pub use closest::SurfaceFoot;
 pub use degenerate::Degenerate;
 pub use foot_error::FootError;
 pub use nurbs::Nurbs;
-pub(crate) use patches::Jet;
+pub use patches::Jet;
 pub use patches::Patches;
 pub use rational::RationalSurface;
 pub use search::{FootSearch, NearestFoot, SHARE};

@@ -28,7 +28,8 @@ pub struct Patches<const D: usize = 3> {
 
 /// A place of a surface with its derivatives by `u` and `v`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Jet {
+pub struct Jet {
+    /// The place.
     pub place: Point,
     /// By `u` and by `v`.
     pub first: [Vector; 2],
@@ -53,7 +54,7 @@ impl Patches {
     }
 
     /// Place and derivatives at `u`, `v`.
-    pub(crate) fn jet(&self, u: f64, v: f64) -> Jet {
+    pub fn jet(&self, u: f64, v: f64) -> Jet {
         let [place, su, sv, suu, suv, svv] = self.six(self.spans[0].locate(u), self.spans[1].locate(v));
         Jet { place, first: [su, sv], second: [suu, suv, svv] }
     }
@@ -67,7 +68,7 @@ impl Patches {
 
 impl<const D: usize> Patches<D> {
     /// Of control points over spans, `n` to a row.
-    pub(crate) fn of(spans: [Spans; 2], points: &[[f64; D]], n: usize) -> Patches<D> {
+    pub fn of(spans: [Spans; 2], points: &[[f64; D]], n: usize) -> Patches<D> {
         let [p, q] = [spans[0].degree() + 1, spans[1].degree() + 1];
         let mut coefficients = Vec::with_capacity(spans[0].count() * spans[1].count() * p * q);
         let mut rows = vec![[0.0; D]; p * q];
@@ -100,14 +101,14 @@ impl<const D: usize> Patches<D> {
     }
 
     /// The coefficients of patch number `cell`.
-    pub(crate) fn patch(&self, cell: usize) -> (&[[f64; D]], usize) {
+    pub fn patch(&self, cell: usize) -> (&[[f64; D]], usize) {
         let [p, q] = [self.spans[0].degree() + 1, self.spans[1].degree() + 1];
         (&self.coefficients[cell * p * q..(cell + 1) * p * q], q)
     }
 
     /// The value at the coordinates `s`, `t` of a patch.
     #[inline]
-    pub(crate) fn value(&self, cell: usize, s: f64, t: f64) -> [f64; D] {
+    pub fn value(&self, cell: usize, s: f64, t: f64) -> [f64; D] {
         let (own, q) = self.patch(cell);
         // The degrees in use have loops of known length.
         match q {

@@ -55,7 +55,7 @@ impl Surface<Point> {
     }
 
     /// Parameters of the rows and columns of facets within `tolerance`; `None` if they make more than `most`.
-    pub(crate) fn grid(&self, tolerance: f64, most: usize) -> Option<[Vec<f64>; 2]> {
+    pub fn grid(&self, tolerance: f64, most: usize) -> Option<[Vec<f64>; 2]> {
         let bounds = self.second_derivatives();
         let [us, vs] = [self.lines(0, &bounds, tolerance)?, self.lines(1, &bounds, tolerance)?];
         let facets = (us.len() - 1).saturating_mul(vs.len() - 1).saturating_mul(2);

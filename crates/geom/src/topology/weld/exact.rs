@@ -100,7 +100,7 @@ pub(super) fn renumbered(mesh: &Mesh, first_of: impl Fn(u32) -> u32) -> Welded {
 }
 
 /// That every corner of `mesh` can be numbered and names a vertex that is there.
-pub(crate) fn check_corners(mesh: &Mesh) -> Result<(), WeldError> {
+pub fn check_corners(mesh: &Mesh) -> Result<(), WeldError> {
     let (facets, vertices) = (mesh.faces.len(), mesh.positions.len());
     if facets > MOST_FACETS {
         return Err(WeldError::TooManyFacets { facets });
@@ -276,7 +276,7 @@ fn are_distinct(mesh: &Mesh) -> Result<bool, WeldError> {
 }
 
 /// The mesh itself if its vertices are distinct places that facets use; else welded.
-pub(crate) fn as_it_is(this: &Mesh) -> Result<Mesh, WeldError> {
+pub fn as_it_is(this: &Mesh) -> Result<Mesh, WeldError> {
     let mut used = vec![false; this.positions.len()];
     if are_distinct(this)? {
         this.faces.iter().flatten().for_each(|v| used[*v as usize] = true);
@@ -290,7 +290,7 @@ pub(crate) fn as_it_is(this: &Mesh) -> Result<Mesh, WeldError> {
 
 /// The mesh whose facets name the first of several vertices at one place. Far from the origin, rounding can put a vertex that was
 /// added beside another at the same place.
-pub(crate) fn rejoined(mut of: Mesh) -> Result<Mesh, WeldError> {
+pub fn rejoined(mut of: Mesh) -> Result<Mesh, WeldError> {
     if are_distinct(&of)? {
         return Ok(of);
     }
@@ -305,7 +305,7 @@ pub(crate) fn rejoined(mut of: Mesh) -> Result<Mesh, WeldError> {
 }
 
 /// The mesh without the vertices that no facet uses, but always with the first `keep`; the others keep their order.
-pub(crate) fn compact(mesh: Mesh, keep: usize) -> Mesh {
+pub fn compact(mesh: Mesh, keep: usize) -> Mesh {
     let mut number: Vec<u32> = vec![u32::MAX; mesh.positions.len()];
     mesh.faces.iter().flatten().for_each(|v| number[*v as usize] = 0);
     let mut positions: Vec<Point> = vec![];

@@ -1,7 +1,7 @@
 //! Deviations as whole numbers, with apart codes for what has no value.
 
-use trueness_geom::curvature::NoCurvature;
 use trueness_geom::deviation::surface::Exclusion;
+use trueness_surface::curvature::NoCurvature;
 
 /// Why a point or vertex has no deviation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

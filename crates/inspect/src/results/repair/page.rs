@@ -265,7 +265,7 @@ mod tests {
     use super::*;
     use crate::report::text::Language;
     use std::path::{Path, PathBuf};
-    use trueness_geom::repair::STEPS;
+    use trueness_solid::repair::STEPS;
 
     fn sources(folder: &Path) -> Vec<PathBuf> {
         let all = std::fs::read_dir(folder).unwrap().map(|e| e.unwrap().path());

@@ -5,9 +5,7 @@ use super::found::Section;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use trueness_geom::progress::{Cancelled, Progress};
-use trueness_geom::section::{
-    Airfoil, AirfoilError, Chords, Contour, EdgeRadius, TrailingEdge, airfoil, chords,
-};
+use trueness_section::{Airfoil, AirfoilError, Chords, Contour, EdgeRadius, TrailingEdge, airfoil, chords};
 
 /// The measures of a contour as a profile, or why there are none.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]

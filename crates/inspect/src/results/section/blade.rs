@@ -4,7 +4,7 @@ use super::airfoil::AirfoilRecord;
 use super::chord::{LeanRecord, StackingRecord};
 use super::nominal::NominalRecord;
 use trueness_geom::progress::{Cancelled, Progress};
-use trueness_geom::section::{
+use trueness_section::{
     AirfoilError, Chord, Chords, Contour, Outline, PlaneMotion, airfoil, chords, outline_row,
 };
 

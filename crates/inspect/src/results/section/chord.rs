@@ -4,7 +4,7 @@ use crate::results::Word;
 use crate::results::word::named;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use trueness_geom::section::{AirfoilError, Chord, Chords};
+use trueness_section::{AirfoilError, Chord, Chords};
 
 /// What a chord is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -4,7 +4,7 @@ use super::found::Section;
 use crate::results::Word;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use trueness_geom::section::{Dimension, DimensionKind, Taken, dimensions};
+use trueness_section::{Dimension, DimensionKind, Taken, dimensions};
 
 /// Dimensions that are listed.
 const LISTED: usize = 1000;

@@ -5,8 +5,8 @@ use super::outline::{Against, AgainstPlane};
 use crate::results::compare::{Bounds, Warning, WarningKind};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use trueness_geom::section::Outline;
 use trueness_geom::space::{Aabb, minus, norm};
+use trueness_section::Outline;
 
 /// Something that makes the deviations doubtful, although each is computed right.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]

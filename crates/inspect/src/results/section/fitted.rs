@@ -2,7 +2,7 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use trueness_geom::section::{Freedom, OntoNominal, PlaneMotion};
+use trueness_section::{Freedom, OntoNominal, PlaneMotion};
 
 /// The motion that brought the section of a plane nearest to the nominal, before its deviations were taken: from the section as it lies to the
 /// nominal. Coordinates of contours, worst points and outlines stay those of the section as it lies.

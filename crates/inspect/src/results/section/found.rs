@@ -2,7 +2,7 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use trueness_geom::section::{Bent, Contour};
+use trueness_section::{Bent, Contour};
 
 /// The plane of a section: a place of it and the directions of its two axes.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize, JsonSchema)]

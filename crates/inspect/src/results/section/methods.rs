@@ -2,7 +2,7 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use trueness_geom::section::{Method, Search};
+use trueness_section::{Method, Search};
 
 /// The paper's methods of finding the join of one line and one curve.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]

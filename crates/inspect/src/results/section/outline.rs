@@ -2,7 +2,7 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use trueness_geom::section::{Contour, OffNominal, Outline, Passed, Taken, covered};
+use trueness_section::{Contour, OffNominal, Outline, Passed, Taken, covered};
 
 /// What the points of a contour were measured against.
 #[derive(Clone, Debug)]

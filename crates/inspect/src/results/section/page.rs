@@ -24,7 +24,7 @@ use crate::report::{Up, ViewObject};
 use crate::results::section::{ContourRecord, FrameRecord, SectionDocument};
 use maud::{Markup, html};
 use serde_json::Value;
-use trueness_geom::section::Taken;
+use trueness_section::Taken;
 
 impl Subject for SectionDocument {
     fn head(&self) -> Head<'_> {

@@ -3,7 +3,7 @@
 use super::near_arc::{NearArc, near_arc};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use trueness_geom::section::{Geometry, Segment, SegmentKind, Taken, Uncertainty};
+use trueness_section::{Geometry, Segment, SegmentKind, Taken, Uncertainty};
 
 /// A segment.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]

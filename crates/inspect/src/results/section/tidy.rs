@@ -6,7 +6,7 @@ use crate::results::Word;
 use crate::results::word::named;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use trueness_geom::section::{Offer, OfferKind, tidy};
+use trueness_section::{Offer, OfferKind, tidy};
 
 named!(OfferKind, "kind of offer", Self::ALL, |kind| kind.name());
 

@@ -16,7 +16,7 @@ use crate::scale::Scale;
 use crate::surface::is_doubtful;
 use maud::{Markup, Render, html};
 use serde_json::Value;
-use trueness_geom::surface::BaseKind;
+use trueness_surface::BaseKind;
 
 impl Subject for SurfaceDocument {
     fn head(&self) -> Head<'_> {

@@ -1,6 +1,6 @@
 use super::*;
 use crate::num::random::Random;
-use crate::topology::tests::on_threads;
+use crate::samples::on_threads;
 use std::collections::HashMap;
 
 /// Facets with corners on a grid of `side`³ places, some at −0 and some at NaN.

@@ -11,7 +11,7 @@ use crate::report::{Up, ViewObject};
 use crate::results::section::SectionDocument;
 use maud::{Markup, html};
 use std::fmt::Write;
-use trueness_geom::section::{Outline, Segment};
+use trueness_section::{Outline, Segment};
 
 /// Bytes that a measured point takes in the drawing, and a whisker.
 pub const DOT: usize = 26;

@@ -9,8 +9,8 @@ use crate::results::section::{
 };
 use std::f64::consts::{FRAC_PI_2, TAU};
 use trueness_geom::progress::Silent;
-use trueness_geom::section::{Contour, Geometry, Options, Outline, Segment, contour, off_nominal};
 use trueness_geom::spline::{basis::Knots, curve::Curve};
+use trueness_section::{Contour, Geometry, Options, Outline, Segment, contour, off_nominal};
 
 /// A line, an arc of radius 8 and a curve, near to [`row`]; and a round hole that no point is near to.
 fn outlines() -> Vec<Outline> {

@@ -2,9 +2,9 @@
 
 use crate::results::section::{GeometryRecord, SegmentRecord};
 use std::f64::consts::{FRAC_PI_8, TAU};
-use trueness_geom::section::{Geometry, Segment};
 use trueness_geom::spline::basis::Knots;
 use trueness_geom::spline::curve::Curve;
+use trueness_section::{Geometry, Segment};
 
 /// What is drawn of a segment: straight lines through places, or cubic Bézier curves one after the other, ends shared.
 #[derive(Clone, Debug, PartialEq)]

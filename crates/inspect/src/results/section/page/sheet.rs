@@ -14,7 +14,7 @@ use crate::report::{Up, ViewObject};
 use crate::results::section::{ContourRecord, SectionDocument};
 use maud::{Markup, html};
 use std::fmt::Write;
-use trueness_geom::section::Continuity;
+use trueness_section::Continuity;
 
 /// More joins than this have no numbers until the script finds room for them.
 const NUMBERED: usize = 40;

@@ -10,7 +10,7 @@ use crate::results::section::{
     SegmentRecord, UncertaintyRecord,
 };
 use maud::{Markup, html};
-use trueness_geom::section::{DimensionKind, Taken};
+use trueness_section::{DimensionKind, Taken};
 
 /// Contours that are listed open.
 const OPEN: usize = 3;

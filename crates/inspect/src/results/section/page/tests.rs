@@ -7,8 +7,8 @@ use crate::report::flat;
 use crate::results::section::{GeometryRecord, Section};
 use trueness_geom::num::random::Random;
 use trueness_geom::progress::Silent;
-use trueness_geom::section::{Options, contour};
 use trueness_geom::space::Point;
+use trueness_section::{Options, contour};
 
 /// Far from the origin: a line, an arc of radius 8, a line, a corner, a free curve.
 pub(super) fn row(noise: f64) -> Vec<[f64; 2]> {

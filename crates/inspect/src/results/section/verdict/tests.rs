@@ -3,7 +3,7 @@
 use super::*;
 use crate::results::section::{Against, AgainstPlane};
 use trueness_geom::progress::Silent;
-use trueness_geom::section::{Contour, Outline, off_nominal};
+use trueness_section::{Contour, Outline, off_nominal};
 
 /// A square of 10 measured at 400 places that lie off by `off` of their number, of which only `kept` of 1 follow.
 fn compared(off: &dyn Fn(usize) -> f64, kept: f64, reach: f64) -> NominalRecord {
@@ -16,7 +16,7 @@ fn compared(off: &dyn Fn(usize) -> f64, kept: f64, reach: f64) -> NominalRecord 
     let points: Vec<[f64; 2]> = (0..(400.0 * kept) as usize).map(place).collect();
     let contour = Contour { closed: kept == 1.0, ..Contour::default() };
     let mut found = off_nominal(&points, std::slice::from_ref(&square), &Silent).unwrap();
-    let far = |o: &Option<trueness_geom::section::OffNominal>| o.is_some_and(|o| o.deviation.abs() > reach);
+    let far = |o: &Option<trueness_section::OffNominal>| o.is_some_and(|o| o.deviation.abs() > reach);
     let count = found.iter().filter(|o| far(o)).count();
     found.iter_mut().for_each(|o| *o = o.filter(|_| !far(&*o)));
     let contours = vec![Against { points: &points, found, far: count, contour: &contour }];

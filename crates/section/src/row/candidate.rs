@@ -1,0 +1,210 @@
+//! What is asked of the ways to a contour of a row, and what they propose.
+
+use super::clean::Clean;
+use super::levels::Start;
+use super::plan::RESOLUTION;
+use crate::model::budget::Budget;
+use crate::model::prior::Prior;
+use crate::model::result::{Continuity, Contour, Options, SectionError};
+use crate::search::start::noise;
+use std::cell::OnceCell;
+use trueness_geom::progress::Progress;
+
+/// What is asked: the contour of a row in one direction, without strays.
+pub(super) struct Question<'a> {
+    pub points: &'a [[f64; 2]],
+    pub prior: Prior<'a>,
+    pub options: &'a Options,
+    pub budget: &'a Budget,
+    /// The row made fit for a search.
+    pub clean: Clean,
+    start: OnceCell<Start>,
+}
+
+/// A contour that is proposed.
+pub(super) struct Candidate {
+    contour: Contour,
+    standing: Standing,
+}
+
+/// What a contour is taken by.
+enum Standing {
+    /// What it costs.
+    Cost,
+    /// The points speak against the one found before.
+    Instead,
+    /// The points tell it, beyond chance: nothing more is asked.
+    Told,
+}
+
+/// A way to a contour, in view of the one found so far; `None` where it has none to propose.
+pub(super) type Proposer =
+    fn(&Question, Option<&Contour>, &dyn Progress) -> Result<Option<Candidate>, SectionError>;
+
+/// Points scatter about a contour this many times as much as about local fits where it hides form.
+const DOUBTFUL: f64 = 1.3;
+
+impl<'a> Question<'a> {
+    pub fn new(
+        points: &'a [[f64; 2]],
+        prior: Prior<'a>,
+        options: &'a Options,
+        budget: &'a Budget,
+    ) -> Result<Question<'a>, SectionError> {
+        let clean = Clean::new(points, options)?;
+        Ok(Question { points, prior, options, budget, clean, start: OnceCell::new() })
+    }
+
+    /// Where a search by likelihood begins.
+    pub fn start(&self) -> &Start {
+        self.start.get_or_init(|| Start::new(self.clean.clone(), &self.prior, self.options))
+    }
+
+    /// Whether noise and joins are left to the points.
+    pub fn is_free(&self) -> bool {
+        self.prior.noise.is_none() && self.options.continuity.is_none()
+    }
+
+    /// Whether points may be exact, too.
+    pub fn may_be_exact(&self) -> bool {
+        self.is_free() && self.options.resolution.is_none()
+    }
+
+    /// Whether segments of a contour are astray, or its points scatter more than about local fits.
+    pub fn doubts(&self, found: &Contour) -> bool {
+        let own = self.prior.noise.map_or_else(|| noise(self.points, found.closed).0, |n| n.deviation);
+        !found.astray.is_empty() || own > 0.0 && found.rms() > DOUBTFUL * own
+    }
+
+    /// What a contour costs, to be compared: its segments that are astray first, then twice the negative logarithm of the likelihood and
+    /// the penalty for the unknowns.
+    fn cost(&self, found: &Contour) -> (usize, f64) {
+        // As many points as are independent.
+        let count = self.prior.weights.map_or(self.points.len() as f64, |all| all.iter().sum());
+        let floor = RESOLUTION * found.spacing;
+        let off = found.rms();
+        let cost = count * libm::log(off * off + floor * floor)
+            + (found.unknowns + found.joins.len() as f64) * libm::log(count);
+        (found.astray.len(), cost)
+    }
+
+    /// The contour that all ways lead to: of each proposal and what was found before the cheaper one,
+    /// unless the points tell.
+    pub fn cheapest(
+        &self,
+        proposers: &[Proposer],
+        progress: &dyn Progress,
+    ) -> Result<Option<Contour>, SectionError> {
+        let mut best: Option<Contour> = None;
+        for propose in proposers {
+            let Some(Candidate { contour, standing }) = propose(self, best.as_ref(), progress)? else {
+                continue;
+            };
+            let costs_less = || best.as_ref().is_none_or(|b| self.cost(&contour) < self.cost(b));
+            match standing {
+                Standing::Told => return Ok(Some(contour)),
+                Standing::Instead => best = Some(contour),
+                Standing::Cost if costs_less() => best = Some(contour),
+                Standing::Cost => {}
+            }
+        }
+        Ok(best)
+    }
+}
+
+impl Candidate {
+    /// One that is compared by what it costs.
+    pub fn of(contour: Contour) -> Option<Candidate> {
+        Some(Candidate { contour, standing: Standing::Cost })
+    }
+
+    /// One that the points speak for against what was found before.
+    pub fn instead(contour: Contour) -> Option<Candidate> {
+        Some(Candidate { contour, standing: Standing::Instead })
+    }
+
+    /// One that the points tell, beyond chance.
+    pub fn told(contour: Contour) -> Option<Candidate> {
+        Some(Candidate { contour, standing: Standing::Told })
+    }
+}
+
+/// Whether segments do not run along their points, or join in corners.
+pub(super) fn is_cornered(contour: &Contour) -> bool {
+    !contour.astray.is_empty() || contour.joins.iter().any(|j| j.continuity == Continuity::G0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use trueness_geom::progress::Silent;
+
+    /// Proposes a contour whose points lie so many micrometres off.
+    fn off<const MICRONS: u32>(
+        asked: &Question,
+        _: Option<&Contour>,
+        _: &dyn Progress,
+    ) -> Result<Option<Candidate>, SectionError> {
+        let off = f64::from(MICRONS) / 1e3;
+        let residuals = vec![off; asked.points.len()];
+        Ok(Candidate::of(Contour { residuals, spacing: 1.0, ..Contour::default() }))
+    }
+
+    /// The same, none of whose segments runs along its points.
+    fn astray<const MICRONS: u32>(
+        asked: &Question,
+        best: Option<&Contour>,
+        progress: &dyn Progress,
+    ) -> Result<Option<Candidate>, SectionError> {
+        let found = off::<MICRONS>(asked, best, progress)?;
+        Ok(found.and_then(|c| Candidate::of(Contour { astray: vec![0], ..c.contour })))
+    }
+
+    fn none(_: &Question, _: Option<&Contour>, _: &dyn Progress) -> Result<Option<Candidate>, SectionError> {
+        Ok(None)
+    }
+
+    fn told(
+        asked: &Question,
+        best: Option<&Contour>,
+        progress: &dyn Progress,
+    ) -> Result<Option<Candidate>, SectionError> {
+        Ok(off::<9>(asked, best, progress)?.and_then(|c| Candidate::told(c.contour)))
+    }
+
+    fn instead(
+        asked: &Question,
+        best: Option<&Contour>,
+        progress: &dyn Progress,
+    ) -> Result<Option<Candidate>, SectionError> {
+        Ok(off::<8>(asked, best, progress)?.and_then(|c| Candidate::instead(c.contour)))
+    }
+
+    /// One proposer more never raises the cost, wherever it stands in the list and whatever it proposes; what points tell ends the list.
+    #[test]
+    fn a_proposer_more_never_raises_the_cost() {
+        let points: Vec<[f64; 2]> = (0..20).map(|i| [f64::from(i), 0.0]).collect();
+        let (options, budget) = (Options::default(), Budget::new(1e9));
+        let asked = Question::new(&points, Prior::default(), &options, &budget).unwrap();
+        let cost = |list: &[Proposer]| {
+            let found = asked.cheapest(list, &Silent).unwrap();
+            found.map_or((usize::MAX, f64::INFINITY), |found| asked.cost(&found))
+        };
+        let all: [Proposer; 6] = [off::<3>, none, astray::<1>, off::<2>, astray::<4>, off::<5>];
+        for subset in 0..1u32 << all.len() {
+            let has = |k: &usize| subset >> k & 1 == 1;
+            let list: Vec<Proposer> = (0..all.len()).filter(has).map(|k| all[k]).collect();
+            for more in all {
+                for at in 0..=list.len() {
+                    let mut longer = list.clone();
+                    longer.insert(at, more);
+                    assert!(cost(&longer) <= cost(&list), "{subset:b} {at}");
+                }
+            }
+        }
+        let rms = |list: &[Proposer]| asked.cheapest(list, &Silent).unwrap().unwrap().residuals[0];
+        assert_eq!(rms(&[off::<3>, told, off::<1>]), 0.009);
+        assert_eq!(rms(&[off::<3>, instead]), 0.008);
+        assert_eq!(rms(&[instead, off::<3>]), 0.003);
+    }
+}

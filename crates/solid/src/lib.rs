@@ -1,0 +1,11 @@
+//! Meshes as boundaries of solids: what [`check`](trueness_geom::check) finds is mended, and crossing shells become one.
+//!
+//! | task | where |
+//! |---|---|
+//! | defects mended without moving a vertex | [`repair`] |
+//! | meshes cut where facets meet, unions of shells | [`arrange`] |
+#![cfg_attr(test, allow(clippy::disallowed_methods, reason = "a test does not hang on the last digit"))]
+
+mod around;
+pub mod arrange;
+pub mod repair;

@@ -1,0 +1,222 @@
+//! Points that contradict their neighbors.
+//!
+//! What a surface of few knots passes by is the part's own shape as often as it is an outlier, so a point is asked what its neighbors
+//! say of it. The heights of the 24 nearest places tell a plane by least median of squares
+//! (Rousseeuw 1984), and the noise around it. A point far off that plane contradicts them, unless a quarter of them lie as it does: a step or
+//! an edge has points on both sides.
+
+use super::{Base, BaseKind};
+use trueness_geom::fit::Scatter;
+use trueness_geom::parallel::prelude::*;
+use trueness_geom::progress::{Cancelled, Progress};
+use trueness_geom::space::{Point, dot, minus};
+use trueness_geom::spatial::neighbors::PointTree;
+
+/// Neighbors that are asked.
+const AROUND: usize = 24;
+/// Of fewer none is believed.
+const FEWEST: usize = 12;
+/// Planes through three of them that are tried: of 24 with a third of outliers all fail in one of 300 cases.
+const TRIALS: usize = 16;
+/// Of the median of the sizes to a standard deviation, with the factor for so few of them (Rousseeuw and Leroy 1987).
+const SPREAD: f64 = 1.4826 * (1.0 + 5.0 / (AROUND - 3) as f64);
+/// Standard deviations from the first plane within which a neighbor tells the second.
+const NEAR: f64 = 2.5;
+/// Standard deviations from which on a point contradicts: at the rim of what is curved the plane itself is two to three off.
+const FAR: f64 = 6.0;
+/// Neighbors that lie off the plane as the point does, within a quarter of its distance, from which on it is no outlier.
+const ALIKE: usize = 6;
+/// Square of the distance of the nearest neighbor from which on, as a share of that of the farthest, the point lies apart from them.
+const APART: f64 = 0.8;
+/// Of neighbors narrower than this share of their length, which are those of one row of a scanner, only the heights along it tell: where
+/// the row leans, noise moves points across it.
+const ROW: f64 = 0.2;
+/// Slope of the steepest plane: a row of a scanner lies in a plane on edge, with all its outliers.
+const STEEPEST: f64 = 2.0;
+/// Share of the size of the numbers below which a difference is rounding.
+const ROUNDING: f64 = 1e-12;
+/// Points between two questions whether to stop.
+const CHUNK: usize = 1024;
+
+/// What the neighbors of a point say of it.
+struct Judged {
+    /// Its distance from their plane.
+    off: f64,
+    /// Their standard deviation.
+    spread: f64,
+    /// Neighbors that lie as it does.
+    alike: usize,
+}
+
+/// The points that contradict their neighbors by their heights over the base, in ascending order; `places` are theirs over it.
+///
+/// A dense group of outliers, from a quarter of the neighbors on, is not told from a shape of the part. Of fewer than 13 places none is an
+/// outlier. Cost: a search for neighbors and sixteen planes for each point.
+pub(super) fn outliers(
+    points: &[Point],
+    base: &Base,
+    places: &[[f64; 2]],
+    progress: &dyn Progress,
+) -> Result<Vec<u32>, Cancelled> {
+    let own = distinct(places);
+    let tree = PointTree::new(&own.iter().map(|i| flat(places[*i as usize])).collect::<Vec<_>>());
+    let judge = |i: usize| {
+        let mut near = tree.k_nearest(&flat(places[i]), AROUND + 1, None);
+        near.retain(|(square, _)| *square > 0.0);
+        near.truncate(AROUND);
+        // Of neighbors that lie apart none knows how the surface goes on to here.
+        if near.first()?.0 > APART * near.last()?.0 {
+            return None;
+        }
+        let around: Vec<usize> = near.iter().map(|(_, n)| own[*n as usize] as usize).collect();
+        let up = match base.kind {
+            BaseKind::Mesh => Scatter::of(&around.iter().map(|n| points[*n]).collect::<Vec<_>>()).axes[0],
+            _ => base.up(points[i]),
+        };
+        let from = |n: &usize| {
+            let [u, v] = [0, 1].map(|k| places[*n][k] - places[i][k]);
+            [u, v, dot(minus(points[*n], points[i]), up)]
+        };
+        judged(&around.iter().map(from).collect::<Vec<_>>())
+    };
+    let indices: Vec<usize> = (0..places.len()).collect();
+    let chunk = |part: &[usize]| {
+        if progress.cancelled() {
+            Err(Cancelled)
+        } else {
+            Ok(part.iter().map(|i| judge(*i)).collect::<Vec<_>>())
+        }
+    };
+    let found: Result<Vec<Vec<Option<Judged>>>, Cancelled> = indices.par_chunks(CHUNK).map(chunk).collect();
+    let found: Vec<Option<Judged>> = found?.into_iter().flatten().collect();
+    let mut spreads: Vec<f64> = found.iter().flatten().map(|judged| judged.spread).collect();
+    if spreads.is_empty() {
+        return Ok(vec![]);
+    }
+    let middle = spreads.len() / 2;
+    let usual = *spreads.select_nth_unstable_by(middle, f64::total_cmp).1;
+    let largest = points.iter().flatten().fold(0.0f64, |m, x| m.max(x.abs()));
+    let contradicts = |judged: &Judged| {
+        let least = (FAR * judged.spread.max(usual)).max(ROUNDING * largest);
+        judged.alike < ALIKE && judged.off.abs() > least
+    };
+    let far = (0u32..).zip(&found).filter(|(_, judged)| judged.as_ref().is_some_and(contradicts));
+    Ok(far.map(|(i, _)| i).collect())
+}
+
+/// All but those with these numbers, which ascend.
+pub(super) fn others<T: Copy>(all: &[T], out: &[u32]) -> Vec<T> {
+    let mut out = out.iter().peekable();
+    (0u32..).zip(all).filter(|(i, _)| out.next_if_eq(&i).is_none()).map(|(_, one)| *one).collect()
+}
+
+fn flat([u, v]: [f64; 2]) -> Point {
+    [u, v, 0.0]
+}
+
+/// The first point at each place: many at one place would all be asked for each other.
+fn distinct(parameters: &[[f64; 2]]) -> Vec<u32> {
+    let mut order: Vec<u32> = (0..parameters.len() as u32).collect();
+    let place = |i: &u32| parameters[*i as usize];
+    order.sort_by(|a, b| {
+        let (p, q) = (place(a), place(b));
+        p[0].total_cmp(&q[0]).then(p[1].total_cmp(&q[1])).then(a.cmp(b))
+    });
+    order.dedup_by(|a, b| place(a) == place(b));
+    order
+}
+
+/// What neighbors say of the point at the origin, which they are given from; `None` of too few.
+fn judged(around: &[[f64; 3]]) -> Option<Judged> {
+    let count = around.len();
+    if count < FEWEST {
+        return None;
+    }
+    let around = along_row(around);
+    let sizes = |plane: &[f64; 3]| around.iter().map(|n| off(plane, n).abs()).collect::<Vec<f64>>();
+    let median = |plane: &[f64; 3]| -> f64 {
+        let mut sizes = sizes(plane);
+        *sizes.select_nth_unstable_by(count / 2, f64::total_cmp).1
+    };
+    // Three that stand apart in the order of their distances, always others.
+    let trial = |t: usize| {
+        let [a, b, c] = [t, t + 8 + t / 3, t + 16 + t / 5].map(|k| around[k % count]);
+        through([a, b, c])
+    };
+    let is_flat = |[a, b, _]: &[f64; 3]| libm::hypot(*a, *b) <= STEEPEST;
+    let first = (0..TRIALS)
+        .map(trial)
+        .filter(is_flat)
+        .map(|plane| (median(&plane), plane))
+        .fold((f64::INFINITY, [0.0; 3]), |best, next| if next.0 < best.0 { next } else { best });
+    if first.0 == f64::INFINITY {
+        return None;
+    }
+    let near = NEAR * SPREAD * first.0;
+    let held: Vec<[f64; 3]> = around.iter().copied().filter(|n| off(&first.1, n).abs() <= near).collect();
+    let plane = least_squares(&held).filter(is_flat).unwrap_or(first.1);
+    let square: f64 = held.iter().map(|n| off(&plane, n)).map(|d| d * d).sum();
+    let spread = (square / (held.len() as f64 - 3.0).max(1.0)).sqrt();
+    let own = -plane[2];
+    let alike = around.iter().filter(|n| (off(&plane, n) - own).abs() <= own.abs() / 4.0).count();
+    Some(Judged { off: own, spread, alike })
+}
+
+/// How far a neighbor is above the plane `a u + b v + c`.
+fn off([a, b, c]: &[f64; 3], [u, v, height]: &[f64; 3]) -> f64 {
+    height - (a * u + b * v + c)
+}
+
+/// The plane through three places; where they stand nearly on a line, the one that is level across it.
+fn through([p, q, r]: [[f64; 3]; 3]) -> [f64; 3] {
+    /// Sine of the angle of two sides below which they are one line.
+    const LINE: f64 = 0.1;
+    let (d, e) = (minus(q, p), minus(r, p));
+    let det = d[0] * e[1] - d[1] * e[0];
+    let [dd, ee] = [d, e].map(|x| x[0] * x[0] + x[1] * x[1]);
+    let [a, b] = if det.abs() > LINE * (dd * ee).sqrt() {
+        [(d[2] * e[1] - d[1] * e[2]) / det, (d[0] * e[2] - d[2] * e[0]) / det]
+    } else {
+        let (long, square) = if dd > ee { (d, dd) } else { (e, ee) };
+        let slope = if square > 0.0 { long[2] / square } else { 0.0 };
+        [slope * long[0], slope * long[1]]
+    };
+    [a, b, p[2] - a * p[0] - b * p[1]]
+}
+
+/// The same places; those of one row with their length along it as the first coordinate, and the second 0.
+fn along_row(around: &[[f64; 3]]) -> Vec<[f64; 3]> {
+    let mean = [0, 1].map(|k| around.iter().map(|p| p[k]).sum::<f64>() / around.len() as f64);
+    let moment = |i: usize, k: usize| around.iter().map(|p| (p[i] - mean[i]) * (p[k] - mean[k])).sum::<f64>();
+    let angle = 0.5 * libm::atan2(2.0 * moment(0, 1), moment(0, 0) - moment(1, 1));
+    let (s, c) = (libm::sin(angle), libm::cos(angle));
+    let median = |of: &dyn Fn([f64; 2]) -> f64| {
+        let mut sizes: Vec<f64> = around.iter().map(|p| of([p[0] - mean[0], p[1] - mean[1]]).abs()).collect();
+        *sizes.select_nth_unstable_by(around.len() / 2, f64::total_cmp).1
+    };
+    if median(&|[u, v]| c * v - s * u) < ROW * median(&|[u, v]| c * u + s * v) {
+        around.iter().map(|[u, v, height]| [c * u + s * v, 0.0, *height]).collect()
+    } else {
+        around.to_vec()
+    }
+}
+
+/// The plane of least squares, level across places on a line; `None` of places that are all the same.
+fn least_squares(places: &[[f64; 3]]) -> Option<[f64; 3]> {
+    /// Square of the ratio of the widths below which they stand on one.
+    const LINE: f64 = 1e-3;
+    let n = places.len() as f64;
+    let mean = [0, 1, 2].map(|k| places.iter().map(|p| p[k]).sum::<f64>() / n);
+    let moment = |i: usize, k: usize| places.iter().map(|p| (p[i] - mean[i]) * (p[k] - mean[k])).sum::<f64>();
+    let [uu, uv, vv, uh, vh] = [moment(0, 0), moment(0, 1), moment(1, 1), moment(0, 2), moment(1, 2)];
+    let det = uu * vv - uv * uv;
+    let [a, b] = if det > LINE * (uu + vv) * (uu + vv) {
+        [(uh * vv - vh * uv) / det, (vh * uu - uh * uv) / det]
+    } else if uu + vv > 0.0 {
+        // On a line heights are moments along it, shared out.
+        [uh / (uu + vv), vh / (uu + vv)]
+    } else {
+        return None;
+    };
+    Some([a, b, mean[2] - a * mean[0] - b * mean[1]])
+}
