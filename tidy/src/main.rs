@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 /// Crates from the lowest floor upward, and the crates of the project that each may use.
-const FLOORS: [(&str, &[&str]); 8] = [
+const FLOORS: [(&str, &[&str]); 9] = [
     ("geom", &[]),
     ("viewer", &[]),
     ("section", &["geom"]),
@@ -23,7 +23,8 @@ const FLOORS: [(&str, &[&str]); 8] = [
     ("surface", &["geom"]),
     ("files", &["geom"]),
     ("inspect", &["geom", "section", "solid", "surface", "viewer"]),
-    ("cli", &["geom", "section", "solid", "surface", "files", "inspect"]),
+    ("trueness", &["geom", "section", "solid", "surface", "files", "inspect"]),
+    ("cli", &["geom", "section", "solid", "surface", "files", "inspect", "trueness"]),
 ];
 
 fn main() -> ExitCode {

@@ -32,15 +32,13 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! Without the feature `cli` (`default-features = false`) the program and what it alone needs are left out.
+mod easy;
 
-mod library;
-
-pub use library::deviations::{Deviation, Deviations};
-pub use library::error::Error;
-pub use library::part::{Part, read, write_mesh};
-pub use library::reference::Reference;
-pub use library::tasks::{check, contour, curvature, fit, repair, sections, segment, surface};
+pub use easy::deviations::{Deviation, Deviations};
+pub use easy::error::Error;
+pub use easy::part::{Part, read, write_mesh};
+pub use easy::reference::Reference;
+pub use easy::tasks::{check, contour, curvature, fit, repair, sections, segment, surface};
 
 pub use trueness_files as files;
 pub use trueness_geom as geom;
