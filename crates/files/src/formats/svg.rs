@@ -3,7 +3,7 @@
 //! Arcs are arcs. Cubic splines are Bézier curves, exactly: their knots are inserted until each span stands alone. A spline
 //! of another degree is drawn as a polyline of 64 steps to a span.
 
-use crate::drawing::entity::{Clamped, Entity, Layer, bounds, whole};
+use crate::content::drawing::{Clamped, Entity, Layer, bounds, whole};
 use std::io::{self, Write};
 use trueness_geom::spline::basis::Knots;
 use trueness_geom::spline::curve::Curve;

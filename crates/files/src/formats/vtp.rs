@@ -3,13 +3,13 @@
 use crate::{
     AtomicFile,
     error::WriteFault,
-    format::{Format, Head},
-    write::{
-        Loss,
+    format::{
+        Format, Head,
         columns::Columns,
         corners::corner_positions,
-        named::Values,
+        loss::Loss,
         sink::{Block, Layout, PointsSink},
+        values::Values,
     },
 };
 use std::{

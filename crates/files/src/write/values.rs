@@ -2,7 +2,7 @@
 
 use super::Writable;
 use super::forms::{VALUE_FORMS, ValueForm};
-use super::named::Values;
+use crate::format::values::Values;
 #[cfg(feature = "parquet")]
 use crate::formats::parquet;
 use crate::{
