@@ -10,6 +10,7 @@
 //! | which formats there are, and their manual pages | [`FORMATS`], [`Format`] |
 //! | write points, with or without deviations | [`write::points`] |
 //! | write a mesh | [`write::mesh`] |
+//! | write a table of text, an XML document | [`write::Csv`], [`write::Xml`] |
 //! | B-spline surfaces and curves for CAD programs, and from them | [`cad`] |
 //! | a file that appears whole or not at all | [`AtomicFile`] |
 //! | what is unfinished when the program ends early | [`remove_unfinished`], [`remove_leftovers`] |
@@ -24,6 +25,7 @@ mod atomic_file;
 pub mod cad;
 mod columns;
 mod content;
+mod csv;
 mod detect;
 pub mod drawing;
 mod error;
@@ -43,6 +45,7 @@ mod unicode;
 mod unit;
 mod warning;
 pub mod write;
+mod xml;
 
 pub use atomic_file::AtomicFile;
 pub use columns::{Column, Columns, ColumnsError};

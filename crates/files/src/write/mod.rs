@@ -1,4 +1,4 @@
-//! Writing points and meshes. Files appear whole or not at all.
+//! Writing points and meshes. Files appear whole or not at all. Beside them what tables of text and XML documents are made with.
 
 mod forms;
 mod held;
@@ -10,9 +10,11 @@ pub(crate) mod scratch;
 mod values;
 mod writable;
 
+pub use crate::csv::{Csv, LineEnd};
 pub use crate::format::loss::Loss;
 pub use crate::format::sink::{Block, Layout};
 pub use crate::format::values::Values;
+pub use crate::xml::{Attributes, Xml};
 pub use held::HeldPoints;
 pub use mesh_file::{MeshFile, mesh};
 pub use points_file::{PointsFile, points};
