@@ -80,35 +80,9 @@ pub fn columns(rows: &[Vec<String>]) -> String {
     out
 }
 
-/// A cell of a table of text, in quotes where it holds what parts cells (RFC 4180). What a spreadsheet would run as a formula, and is
-/// no number, begins with an apostrophe: names come from plans and files of others.
-pub fn cell(text: String) -> String {
-    let runs = text.starts_with(['=', '+', '-', '@']) && text.parse::<f64>().is_err();
-    let text = if runs { format!("'{text}") } else { text };
-    match text.contains([',', '"', '\r', '\n']) {
-        true => format!("\"{}\"", text.replace('"', "\"\"")),
-        false => text,
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn no_text_breaks_out_of_its_cell_or_runs() {
-        assert_eq!(cell("a,\"b\"\n".into()), "\"a,\"\"b\"\"\n\"");
-        for (text, written) in [
-            ("=A1", "'=A1"),
-            ("-x", "'-x"),
-            ("-1.5e-7", "-1.5e-7"),
-            ("=A,1", "\"'=A,1\""),
-            ("A-B", "A-B"),
-            ("", ""),
-        ] {
-            assert_eq!(cell(text.into()), written);
-        }
-    }
 
     #[test]
     fn aligns_columns() {

@@ -8,8 +8,8 @@ use crate::exit::Usage;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
-use trueness_files::AtomicFile;
 use trueness_files::write::Writable;
+use trueness_files::{AtomicFile, FileSources, Sources};
 
 /// What a command reads and writes.
 #[derive(Default)]
@@ -186,7 +186,7 @@ fn is_dash(path: &Path) -> bool {
 
 /// Whether a path stands for something that can be read once only.
 pub fn is_stream(path: &Path) -> bool {
-    is_dash(path) || fs::metadata(path).is_ok_and(|there| !there.is_file() && !there.is_dir())
+    FileSources.is_stream(path)
 }
 
 /// Which file a path stands for, whatever way it is spelled and through whichever links.

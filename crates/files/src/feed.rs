@@ -9,7 +9,24 @@ use crate::error::{Fault, Result};
 use std::{
     fs::File,
     io::{ErrorKind, Read, Seek, SeekFrom},
+    sync::Arc,
 };
+
+/// Bytes in memory, with however many others hold them.
+#[derive(Clone)]
+pub(crate) struct Shared(Arc<dyn AsRef<[u8]> + Send + Sync>);
+
+impl Shared {
+    pub fn new(bytes: impl AsRef<[u8]> + Send + Sync + 'static) -> Shared {
+        Shared(Arc::new(bytes))
+    }
+}
+
+impl AsRef<[u8]> for Shared {
+    fn as_ref(&self) -> &[u8] {
+        (*self.0).as_ref()
+    }
+}
 
 /// Bytes not yet stepped over.
 pub(crate) struct Feed {
@@ -24,8 +41,8 @@ pub(crate) struct Feed {
 enum FeedSource {
     /// A file of this length when it was opened.
     File { file: File, length: u64 },
-    /// Nothing but what lies in the buffer.
-    Memory,
+    /// All of it; the buffer stays empty.
+    Memory(Shared),
     /// Anything whose length shows only at its end.
     Stream { reader: Box<dyn Read + Send>, ended: bool },
 }
@@ -38,16 +55,30 @@ const SLICE: u64 = 64 << 20;
 impl Feed {
     /// A regular file, from its start.
     pub fn file(file: File, length: u64) -> Feed {
-        Feed::of(FeedSource::File { file, length }, vec![])
+        Feed::of(FeedSource::File { file, length })
     }
     pub fn memory(bytes: Vec<u8>) -> Feed {
-        Feed::of(FeedSource::Memory, bytes)
+        Feed::shared(Shared::new(bytes))
+    }
+    pub fn shared(bytes: Shared) -> Feed {
+        Feed::of(FeedSource::Memory(bytes))
     }
     pub fn stream(reader: Box<dyn Read + Send>) -> Feed {
-        Feed::of(FeedSource::Stream { reader, ended: false }, vec![])
+        Feed::of(FeedSource::Stream { reader, ended: false })
     }
-    fn of(kind: FeedSource, buffer: Vec<u8>) -> Feed {
-        Feed { kind, buffer, at: 0, position: 0 }
+    fn of(kind: FeedSource) -> Feed {
+        Feed { kind, buffer: vec![], at: 0, position: 0 }
+    }
+
+    /// The next bytes, as far as they are in memory.
+    fn there(&self) -> &[u8] {
+        match &self.kind {
+            FeedSource::Memory(bytes) => {
+                let at = usize::try_from(self.position).unwrap_or(usize::MAX);
+                bytes.as_ref().get(at..).unwrap_or_default()
+            }
+            _ => &self.buffer[self.at..],
+        }
     }
 
     /// Bytes stepped over so far.
@@ -57,22 +88,20 @@ impl Feed {
 
     /// How many bytes are left, where that is known without reading them.
     pub fn left(&self) -> Option<u64> {
-        let buffered = (self.buffer.len() - self.at) as u64;
         match &self.kind {
             FeedSource::File { length, .. } => Some(length - self.position),
             FeedSource::Stream { ended: false, .. } => None,
-            _ => Some(buffered),
+            _ => Some(self.there().len() as u64),
         }
     }
 
     /// The next bytes: at least `want` of them, fewer only if the file ends before; possibly many more.
     pub fn ahead(&mut self, want: usize) -> Result<&[u8]> {
-        if self.buffer.len() - self.at < want {
+        let there = self.there().len();
+        if there < want {
             let more = match &self.kind {
-                FeedSource::File { length, .. } => {
-                    *length > self.position + (self.buffer.len() - self.at) as u64
-                }
-                FeedSource::Memory => false,
+                FeedSource::File { length, .. } => *length > self.position + there as u64,
+                FeedSource::Memory(_) => false,
                 FeedSource::Stream { ended, .. } => !ended,
             };
             if more {
@@ -81,7 +110,7 @@ impl Feed {
                 self.fill(want)?;
             }
         }
-        Ok(&self.buffer[self.at..])
+        Ok(self.there())
     }
 
     /// All bytes that are left.
@@ -91,8 +120,10 @@ impl Feed {
 
     /// Steps over `count` bytes, which must have been seen by [`Feed::ahead`].
     pub fn step(&mut self, count: usize) {
-        let count = count.min(self.buffer.len() - self.at);
-        self.at += count;
+        let count = count.min(self.there().len());
+        if !matches!(self.kind, FeedSource::Memory(_)) {
+            self.at += count;
+        }
         self.position += count as u64;
     }
 
@@ -116,7 +147,7 @@ impl Feed {
     fn fill(&mut self, want: usize) -> Result<()> {
         let (buffer, position) = (&mut self.buffer, self.position);
         match &mut self.kind {
-            FeedSource::Memory => Ok(()),
+            FeedSource::Memory(_) => Ok(()),
             FeedSource::File { file, length } => {
                 let want = (want.max(READ) as u64).min(*length - position);
                 file.seek(SeekFrom::Start(position + buffer.len() as u64))?;

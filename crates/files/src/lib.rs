@@ -4,14 +4,17 @@
 //! |---|---|
 //! | read a file of any kind | [`open`], told more by [`ReadOptions`] |
 //! | read the normals of its points | [`open_normals`] |
+//! | read files, memory or uploads by one function | [`open_from`], [`open_normals_from`] of [`Sources`] |
+//! | read a small text | [`Sources::text`] |
 //! | what a file held | [`Input`], [`Body`], [`SourceMesh`], [`Provenance`], [`TableReading`], [`Warning`] |
 //! | which formats there are, and their manual pages | [`FORMATS`], [`Format`] |
 //! | write points, with or without deviations | [`write::points`] |
 //! | write a mesh | [`write::mesh`] |
+//! | write a table of text, an XML document | [`write::Csv`], [`write::Xml`] |
 //! | B-spline surfaces and curves for CAD programs, and from them | [`cad`] |
 //! | a file that appears whole or not at all | [`AtomicFile`] |
 //! | what is unfinished when the program ends early | [`remove_unfinished`], [`remove_leftovers`] |
-//! | the hash of a file | [`sha256`] |
+//! | the hash of a file | [`sha256`], [`Sources::sha256`] |
 //!
 //! Readers take their input for hostile: a count in a header is compared with the bytes that are there before
 //! memory is asked for, and no input makes them panic.
@@ -22,6 +25,7 @@ mod atomic_file;
 pub mod cad;
 mod columns;
 mod content;
+mod csv;
 mod detect;
 pub mod drawing;
 mod error;
@@ -30,12 +34,10 @@ mod flow;
 mod format;
 mod formats;
 mod gzip;
-mod hash;
 mod lines;
 mod number;
 mod open;
 mod polygon;
-
 mod scalar;
 mod source;
 mod temporary;
@@ -43,6 +45,7 @@ mod unicode;
 mod unit;
 mod warning;
 pub mod write;
+mod xml;
 
 pub use atomic_file::AtomicFile;
 pub use columns::{Column, Columns, ColumnsError};
@@ -52,8 +55,8 @@ pub use content::{
 pub use error::{Fault, Place, ReadError, WriteError, WriteFault};
 pub use format::{Format, ReadOptions, Weld};
 pub use formats::FORMATS;
-pub use hash::sha256;
-pub use open::{open, open_normals};
+pub use open::{open, open_from, open_normals, open_normals_from};
+pub use source::{FileSources, MemorySources, SourceBytes, Sources, sha256};
 pub use temporary::{Leftovers, remove_leftovers, remove_unfinished};
 pub use unit::{Unit, UnitError};
 pub use warning::{Unread, Warning};

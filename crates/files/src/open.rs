@@ -5,7 +5,7 @@ use crate::{
     assemble, detect,
     error::Located,
     format::{Parts, ReadOptions, Weld},
-    source::Source,
+    source::{FileSources, Source, Sources},
 };
 use std::path::Path;
 use trueness_geom::{
@@ -22,11 +22,14 @@ use trueness_geom::{
 /// from the stream. Cost: meshes linear in the size of the file, several times that in memory; points next to
 /// nothing until the stream is read.
 pub fn open(path: &Path, options: &ReadOptions) -> Result<Input, ReadError> {
-    let file = if path == Path::new("-") { "standard input".into() } else { path.display().to_string() };
-    match Source::open(path).and_then(|source| read(source, path, &file, options)) {
-        Ok(input) => Ok(input),
-        Err(fault) => Err(fault.in_file(&file)),
-    }
+    open_from(&FileSources, path, options)
+}
+
+/// As [`open`], what goes by a name in `sources`: the same bytes give the same result wherever they come from.
+pub fn open_from(sources: &dyn Sources, name: &Path, options: &ReadOptions) -> Result<Input, ReadError> {
+    let file = sources.shown(name);
+    let source = sources.bytes(name).map_err(Into::into).and_then(Source::of);
+    source.and_then(|source| read(source, name, &file, options)).map_err(|fault| fault.in_file(&file))
 }
 
 /// The normals of the points of a file, in the order of the points and neither scaled nor normalized: of a PLY file its properties
@@ -41,6 +44,16 @@ pub fn open_normals(
     columns: Option<&Columns>,
     options: &ReadOptions,
 ) -> Result<crate::PointSource, ReadError> {
+    open_normals_from(&FileSources, path, columns, options)
+}
+
+/// As [`open_normals`], of what goes by a name in `sources`.
+pub fn open_normals_from(
+    sources: &dyn Sources,
+    name: &Path,
+    columns: Option<&Columns>,
+    options: &ReadOptions,
+) -> Result<crate::PointSource, ReadError> {
     let named = Columns(["nx", "ny", "nz"].map(|n| Column::Name(n.into())).to_vec());
     let of = |columns: &Columns| {
         let columns = Some(columns.clone());
@@ -51,12 +64,12 @@ pub fn open_normals(
             unit_else: None,
             ..options.clone()
         };
-        open(path, &options).map(|input| input.body.into_points())
+        open_from(sources, name, &options).map(|input| input.body.into_points())
     };
     match columns {
         Some(columns) => of(columns),
         None => of(&named).or_else(|e| {
-            let xyzn = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("xyzn"));
+            let xyzn = name.extension().is_some_and(|e| e.eq_ignore_ascii_case("xyzn"));
             if xyzn { of(&Columns([4, 5, 6].map(Column::Number).to_vec())) } else { Err(e) }
         }),
     }

@@ -1,7 +1,6 @@
 //! `trueness trend`: one plan over many parts.
 
 use crate::command::Run;
-use crate::console;
 use crate::exit::{self, Outcome};
 use crate::layout::{self, names, sentence};
 use crate::number::{counted, fixed, short, six_digits};
@@ -14,6 +13,7 @@ use clap::Args;
 use std::fmt::Write;
 use std::io::Read;
 use std::path::{Path, PathBuf};
+use trueness_files::write::{Csv, LineEnd};
 use trueness_inspect::results::Verdict;
 use trueness_inspect::results::inspect::{self, InspectDocument};
 use trueness_inspect::results::place_map::{MapPlace, TrendMap};
@@ -75,7 +75,7 @@ impl Run for TrendArgs {
         }
         if let Some(path) = &self.csv {
             let text = csv(&document);
-            whole_file(path, |file| file.write_all(text.as_bytes()))?;
+            whole_file(path, |file| file.write_all(&text))?;
         }
         self.report.write(&document, &[], &[], common.progress)?;
         if let (Some((path, Some(page))), Some(map)) = (page, &document.map) {
@@ -228,35 +228,28 @@ fn signaled(c: &TrendRecord) -> Vec<u64> {
 }
 
 /// One line a characteristic; numbers with all digits (RFC 4180).
-fn csv(document: &TrendDocument) -> String {
+fn csv(document: &TrendDocument) -> Vec<u8> {
     let head = "id,kind,feature,datums,unit,lower,upper,parts,measured,mean,std_dev,std_dev_within,min,max,\
                 control_lower,control_upper,cp,cp_low,cp_high,cpk,cpk_low,cpk_high,pp,pp_low,pp_high,ppk,ppk_low,ppk_high,\
                 out_of_control";
-    let mut out = format!("{head}\r\n");
-    let number = |x: Option<f64>| x.map_or_else(String::new, |x| x.to_string());
+    let mut out = vec![];
+    let mut csv = Csv::at_end_of(&mut out, LineEnd::CrLf);
+    csv.row(head.split(','));
     for c in &document.characteristics {
-        let mut cells = vec![
-            c.id.clone(),
-            c.kind.clone(),
-            c.feature.clone(),
-            c.datums.join(" "),
-            c.unit.clone(),
-            number(c.lower),
-            number(c.upper),
-            c.values.len().to_string(),
-            c.measured.to_string(),
-        ];
+        csv.text(&c.id).text(&c.kind).text(&c.feature).text(&c.datums.join(" ")).text(&c.unit);
+        csv.optional(c.lower).optional(c.upper).number(c.values.len()).number(c.measured);
         let control = |f: fn(&trueness_inspect::results::trend::Control) -> f64| c.control.as_ref().map(f);
         let numbers =
             [c.mean, c.std_dev, c.std_dev_within, c.min, c.max, control(|x| x.lower), control(|x| x.upper)];
-        cells.extend(numbers.map(number));
+        for number in numbers {
+            csv.optional(number);
+        }
         for index in [c.cp, c.cpk, c.pp, c.ppk] {
-            cells.extend([index.map(|i| i.value), index.map(|i| i.low), index.map(|i| i.high)].map(number));
+            csv.optional(index.map(|i| i.value));
+            csv.optional(index.map(|i| i.low)).optional(index.map(|i| i.high));
         }
         let parts: Vec<String> = signaled(c).iter().map(|n| (n + 1).to_string()).collect();
-        cells.push(parts.join(" "));
-        out.push_str(&cells.into_iter().map(console::cell).collect::<Vec<_>>().join(","));
-        out.push_str("\r\n");
+        csv.text(&parts.join(" ")).end_row();
     }
     out
 }

@@ -10,6 +10,7 @@ pub(crate) mod off;
 #[cfg(feature = "parquet")]
 pub(crate) mod parquet;
 pub(crate) mod ply;
+pub(crate) mod spline;
 pub(crate) mod step;
 pub(crate) mod stl;
 pub(crate) mod strided;

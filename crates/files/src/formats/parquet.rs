@@ -3,9 +3,11 @@
 use crate::{
     AtomicFile,
     error::WriteFault,
-    format::{Format, Head},
-    write::named::Values,
-    write::sink::{Block, Layout, PointsSink},
+    format::{
+        Format, Head,
+        sink::{Block, Layout, PointsSink},
+        values::Values,
+    },
 };
 use parquet::{
     basic::{Compression, LogicalType, Repetition, Type as Physical},

@@ -3,7 +3,8 @@
 //! Arcs are arcs. Cubic splines are Bézier curves, exactly: their knots are inserted until each span stands alone. A spline
 //! of another degree is drawn as a polyline of 64 steps to a span.
 
-use crate::drawing::entity::{Clamped, Entity, Layer, bounds, whole};
+use crate::content::drawing::{Clamped, Entity, Layer, bounds, whole};
+use crate::xml::Xml;
 use std::io::{self, Write};
 use trueness_geom::spline::basis::Knots;
 use trueness_geom::spline::curve::Curve;
@@ -15,52 +16,71 @@ pub fn write(out: &mut dyn Write, layers: &[Layer]) -> io::Result<()> {
     let margin = 0.02 * size[0].max(size[1]).max(1e-3);
     let [w, h] = size.map(|s| s + 2.0 * margin);
     let (x, y) = (low[0] - margin, -high[1] - margin);
-    writeln!(out, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>")?;
-    writeln!(
-        out,
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w}mm\" height=\"{h}mm\" viewBox=\"{x} {y} {w} {h}\">"
-    )?;
+    let mut xml = Xml::new(0);
+    xml.declaration(&[("encoding", "UTF-8".into())]);
+    let page = [
+        ("xmlns", "http://www.w3.org/2000/svg".into()),
+        ("width", format!("{w}mm")),
+        ("height", format!("{h}mm")),
+        ("viewBox", format!("{x} {y} {w} {h}")),
+    ];
+    xml.start("svg", &page);
     let width = w.max(h) / 500.0;
     for layer in layers {
-        let style = format!("fill=\"none\" stroke=\"black\" stroke-width=\"{width}\"");
-        writeln!(out, "<g id=\"{}\" transform=\"scale(1,-1)\" {style}>", layer.name)?;
-        layer.entities.iter().try_for_each(|e| entity(out, e))?;
-        writeln!(out, "</g>")?;
+        let style = [
+            ("id", layer.name.clone()),
+            ("transform", "scale(1,-1)".into()),
+            ("fill", "none".into()),
+            ("stroke", "black".into()),
+            ("stroke-width", width.to_string()),
+        ];
+        xml.element("g", &style, |xml| layer.entities.iter().for_each(|e| entity(xml, e)));
+        out.write_all(xml.take().as_bytes())?;
     }
-    writeln!(out, "</svg>")
+    xml.end();
+    out.write_all(xml.take().as_bytes())
 }
 
-fn entity(out: &mut dyn Write, entity: &Entity) -> io::Result<()> {
+fn entity(xml: &mut Xml, entity: &Entity) {
+    let mut path = |d: String| xml.empty("path", &[("d", d)]);
     match entity {
-        Entity::Line { start: [x, y], end: [u, v] } => writeln!(out, "<path d=\"M {x} {y} L {u} {v}\"/>"),
+        Entity::Line { start: [x, y], end: [u, v] } => path(format!("M {x} {y} L {u} {v}")),
         Entity::Arc { center: [x, y], radius, sweep, .. } if whole(*sweep) => {
-            writeln!(out, "<circle cx=\"{x}\" cy=\"{y}\" r=\"{radius}\"/>")
+            let circle = [("cx", x.to_string()), ("cy", y.to_string()), ("r", radius.to_string())];
+            xml.empty("circle", &circle);
         }
         Entity::Arc { center, radius, start, sweep } => {
             let at = |a: f64| [center[0] + radius * libm::cos(a), center[1] + radius * libm::sin(a)];
             let ([x, y], [u, v]) = (at(*start), at(start + sweep));
             let large = u8::from(sweep.abs() > std::f64::consts::PI);
             let turn = u8::from(*sweep > 0.0);
-            writeln!(out, "<path d=\"M {x} {y} A {radius} {radius} 0 {large} {turn} {u} {v}\"/>")
+            path(format!("M {x} {y} A {radius} {radius} 0 {large} {turn} {u} {v}"));
         }
-        Entity::Spline(Clamped { degree, knots, points }) => {
-            let Ok(knots) = Knots::new(*degree, knots.clone()) else { return Ok(()) };
-            let Ok(curve) = Curve::new(knots, points.clone()) else { return Ok(()) };
-            let [x, y] = curve.at(curve.domain().0);
-            write!(out, "<path d=\"M {x} {y}")?;
-            if *degree == 3 {
-                for b in curve.bezier()[1..].chunks(3) {
-                    let [p, q, r] = [0, 1, 2].map(|k| b.get(k).copied().unwrap_or_default());
-                    write!(out, " C {} {} {} {} {} {}", p[0], p[1], q[0], q[1], r[0], r[1])?;
-                }
-            } else {
-                for [x, y] in &curve.sample(64 * curve.knots().distinct().len())[1..] {
-                    write!(out, " L {x} {y}")?;
-                }
+        Entity::Spline(spline) => {
+            if let Some(d) = course(spline) {
+                path(d);
             }
-            writeln!(out, "\"/>")
         }
     }
+}
+
+/// The path of a spline; `None` where it is none.
+fn course(Clamped { degree, knots, points }: &Clamped) -> Option<String> {
+    let knots = Knots::new(*degree, knots.clone()).ok()?;
+    let curve = Curve::new(knots, points.clone()).ok()?;
+    let [x, y] = curve.at(curve.domain().0);
+    let mut d = format!("M {x} {y}");
+    if *degree == 3 {
+        for b in curve.bezier()[1..].chunks(3) {
+            let [p, q, r] = [0, 1, 2].map(|k| b.get(k).copied().unwrap_or_default());
+            d += &format!(" C {} {} {} {} {} {}", p[0], p[1], q[0], q[1], r[0], r[1]);
+        }
+    } else {
+        for [x, y] in &curve.sample(64 * curve.knots().distinct().len())[1..] {
+            d += &format!(" L {x} {y}");
+        }
+    }
+    Some(d)
 }
 
 #[cfg(test)]

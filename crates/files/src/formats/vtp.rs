@@ -3,19 +3,17 @@
 use crate::{
     AtomicFile,
     error::WriteFault,
-    format::{Format, Head},
-    write::{
-        Loss,
+    format::{
+        Format, Head,
         columns::Columns,
         corners::corner_positions,
-        named::Values,
+        loss::Loss,
         sink::{Block, Layout, PointsSink},
+        values::Values,
     },
+    xml::Xml,
 };
-use std::{
-    fmt::Write as _,
-    io::{self, Seek, SeekFrom, Write},
-};
+use std::io::{self, Seek, SeekFrom, Write};
 use trueness_geom::{mesh::Mesh, space::Point};
 
 /// XML PolyData of VTK.
@@ -51,37 +49,61 @@ fn sized_header(
     data: &[Array],
     lists: &[Array],
 ) -> Vec<u8> {
-    let mut xml = String::from("<?xml version=\"1.0\"?>\n");
-    xml.push_str(
-        "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n",
-    );
+    let mut xml = begun();
     let mut offset = 0;
-    let mut array = |xml: &mut String, (name, kind, components, bytes): &Array| {
-        // Writing to a string cannot fail.
-        let _ = writeln!(
-            xml,
-            "<DataArray type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"{components}\" format=\"appended\" offset=\"{offset}\"/>"
-        );
+    let mut array = |xml: &mut Xml, (name, kind, components, bytes): &Array| {
+        let attributes = [
+            ("type", (*kind).to_string()),
+            ("Name", (*name).to_string()),
+            ("NumberOfComponents", components.to_string()),
+            ("format", "appended".into()),
+            ("offset", offset.to_string()),
+        ];
+        xml.empty("DataArray", &attributes);
         offset += 8 + bytes;
     };
-    let _ = writeln!(
-        xml,
-        "<PolyData>\n<Piece NumberOfPoints=\"{points}\" NumberOf{cells}=\"{cell_count}\">\n<Points>"
-    );
-    array(&mut xml, &("Points", "Float64", 3, 24 * points));
-    xml.push_str("</Points>\n<PointData>\n");
-    data.iter().for_each(|a| array(&mut xml, a));
-    let _ = writeln!(xml, "</PointData>\n<{cells}>");
-    lists.iter().for_each(|a| array(&mut xml, a));
-    let _ = writeln!(xml, "</{cells}>\n</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">");
-    let mut bytes = xml.into_bytes();
+    let number_of_cells = format!("NumberOf{cells}");
+    let counts = [("NumberOfPoints", points.to_string()), (&*number_of_cells, cell_count.to_string())];
+    xml.element("PolyData", &[], |xml| {
+        xml.element("Piece", &counts, |xml| {
+            xml.element("Points", &[], |xml| array(xml, &("Points", "Float64", 3, 24 * points)));
+            xml.element("PointData", &[], |xml| data.iter().for_each(|a| array(xml, a)));
+            xml.element(cells, &[], |xml| lists.iter().for_each(|a| array(xml, a)));
+        });
+    });
+    start_of_data(&mut xml);
+    let mut bytes = xml.take().into_bytes();
     bytes.resize(bytes.len().max(size - 1), b' ');
     bytes.push(b'_');
     bytes
 }
 
+/// The document with its outermost element begun.
+fn begun() -> Xml {
+    let mut xml = Xml::new(0);
+    xml.declaration(&[]);
+    let root = [
+        ("type", "PolyData".into()),
+        ("version", "1.0".into()),
+        ("byte_order", "LittleEndian".into()),
+        ("header_type", "UInt64".into()),
+    ];
+    xml.start("VTKFile", &root);
+    xml
+}
+
+fn start_of_data(xml: &mut Xml) {
+    xml.start("AppendedData", &[("encoding", "raw".into())]);
+}
+
+/// What follows the data.
 fn end(file: &mut AtomicFile) -> io::Result<()> {
-    file.write_all(b"\n</AppendedData>\n</VTKFile>\n")
+    let mut xml = begun();
+    start_of_data(&mut xml);
+    xml.take();
+    xml.end();
+    xml.end();
+    write!(file, "\n{}", xml.take())
 }
 
 fn begin(mut file: AtomicFile, layout: Layout, _: &str) -> Result<Box<dyn PointsSink>, WriteFault> {

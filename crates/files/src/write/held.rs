@@ -1,9 +1,9 @@
 //! Points that are colored only when all of them have been seen.
 
 use super::points_file::{PointsFile, begin};
-use super::sink::{Block, Layout};
-use super::spool::Spool;
 use crate::error::{WriteError, WriteFault};
+use crate::format::sink::{Block, Layout};
+use crate::format::spool::Spool;
 use std::path::Path;
 use trueness_geom::space::Point;
 

@@ -1,27 +1,23 @@
-//! Writing points and meshes. Files appear whole or not at all.
+//! Writing points and meshes. Files appear whole or not at all. Beside them what tables of text and XML documents are made with.
 
-pub(crate) mod columns;
-pub(crate) mod corners;
 mod forms;
 mod held;
-mod loss;
 mod mesh_file;
-pub(crate) mod named;
 mod points_file;
 mod regions;
 #[cfg(test)]
 pub(crate) mod scratch;
-pub(crate) mod sink;
-pub(crate) mod spool;
 mod values;
 mod writable;
 
+pub use crate::csv::{Csv, LineEnd};
+pub use crate::format::loss::Loss;
+pub use crate::format::sink::{Block, Layout};
+pub use crate::format::values::Values;
+pub use crate::xml::{Attributes, Xml};
 pub use held::HeldPoints;
-pub use loss::Loss;
 pub use mesh_file::{MeshFile, mesh};
-pub use named::Values;
 pub use points_file::{PointsFile, points};
 pub use regions::{Pieces, regions};
-pub use sink::{Block, Layout};
 pub use values::values;
 pub use writable::Writable;

@@ -1,8 +1,8 @@
 //! A file of points, written block by block.
 
 use super::Writable;
-use super::sink::{Block, Layout, PointsSink};
-use super::spool::Spool;
+use crate::format::sink::{Block, Layout, PointsSink};
+use crate::format::spool::Spool;
 use crate::{
     AtomicFile,
     error::{WriteError, WriteFault},

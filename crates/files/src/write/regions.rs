@@ -4,6 +4,7 @@ use super::Writable;
 use super::forms::{REGION_FORMS, RegionForm};
 use crate::{
     AtomicFile,
+    csv::{Csv, LineEnd},
     error::{WriteError, WriteFault},
 };
 use std::io::{BufWriter, Write};
@@ -109,8 +110,15 @@ fn ply(
 }
 
 fn csv(file: &mut impl Write, points: &[Point], pieces: Pieces, labels: &[i32]) -> Result<(), WriteFault> {
-    writeln!(file, "x,y,z,region")?;
-    let mut row = |p: Point, label: i32| writeln!(file, "{},{},{},{label}", p[0], p[1], p[2]);
+    let mut text = vec![];
+    Csv::at_end_of(&mut text, LineEnd::Lf).row(["x", "y", "z", "region"]);
+    let mut row = |p: Point, label: i32| {
+        let mut csv = Csv::at_end_of(&mut text, LineEnd::Lf);
+        csv.number(p[0]).number(p[1]).number(p[2]).number(label).end_row();
+        file.write_all(&text)?;
+        text.clear();
+        Ok::<(), WriteFault>(())
+    };
     match pieces {
         Pieces::Points => points.iter().zip(labels).try_for_each(|(&p, &label)| row(p, label))?,
         Pieces::Facets(faces) => faces.iter().zip(labels).try_for_each(|(face, &label)| {

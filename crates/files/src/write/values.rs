@@ -2,13 +2,15 @@
 
 use super::Writable;
 use super::forms::{VALUE_FORMS, ValueForm};
-use super::named::Values;
+use crate::csv::{Csv, LineEnd};
+use crate::format::values::Values;
 #[cfg(feature = "parquet")]
 use crate::formats::parquet;
 use crate::{
     AtomicFile,
     error::{WriteError, WriteFault},
     formats::{npz, vtp},
+    number::push_number,
 };
 use std::io::{BufWriter, Write};
 use std::path::Path;
@@ -122,17 +124,20 @@ fn csv<const N: usize>(
     points: &[Point],
     values: &Values<N>,
 ) -> Result<(), WriteFault> {
-    writeln!(file, "x,y,z,{},reason", values.names.join(","))?;
+    let mut head = vec![];
+    Csv::at_end_of(&mut head, LineEnd::Lf)
+        .row(["x", "y", "z"].into_iter().chain(values.names).chain(["reason"]));
+    file.write_all(&head)?;
     rows(file, points.len(), |i, text| {
+        let mut csv = Csv::at_end_of(text, LineEnd::Lf);
         for x in points[i].iter().chain(&(values.of)(i)) {
+            let cell = csv.cell();
             if x.is_finite() {
-                crate::number::push_number(text, *x);
+                push_number(cell, *x);
             }
-            text.push(b',');
         }
         let word = values.reasons.get(usize::from((values.reason)(i))).copied().unwrap_or_default();
-        text.extend(word.as_bytes());
-        text.push(b'\n');
+        csv.text(word).end_row();
     })
 }
 

@@ -6,7 +6,7 @@ use std::{
     path::{Path, PathBuf},
     sync::atomic::{AtomicU64, Ordering::Relaxed},
 };
-use trueness_files::{Body, ReadError, ReadOptions, open};
+use trueness_files::{Body, Input, ReadError, ReadOptions, open};
 use trueness_geom::space::Point;
 
 /// An empty folder, removed when it goes out of scope.
@@ -54,7 +54,11 @@ pub fn read(path: &Path) -> Result<Whole, ReadError> {
 }
 
 pub fn read_with(path: &Path, options: &ReadOptions) -> Result<Whole, ReadError> {
-    let input = open(path, options)?;
+    whole(open(path, options)?)
+}
+
+/// An input read to its end.
+pub fn whole(input: Input) -> Result<Whole, ReadError> {
     let (kind, faces) = match &input.body {
         Body::Mesh(m) => ("mesh", m.mesh.faces.len()),
         Body::Points(_) => ("points", 0),

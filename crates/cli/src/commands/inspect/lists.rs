@@ -1,7 +1,7 @@
 //! The characteristics of one or several parts as CSV and as JUnit XML.
 
 use super::part::Part;
-use crate::console::cell;
+use trueness_files::write::{Csv, LineEnd, Xml};
 use trueness_inspect::results::compare::{RegionRecord, ToleranceShares};
 use trueness_inspect::results::inspect::{
     CharacteristicRecord, FeatureRecord, InspectDocument, MeasuredPlace,
@@ -98,8 +98,10 @@ fn undecided(document: &InspectDocument) -> Option<String> {
 
 /// One line a characteristic, one a feature, one for the deviations from the reference where they are judged, one for an alignment that cannot
 /// be relied on, and one for a part without results; numbers with all digits (RFC 4180).
-pub fn csv(parts: &[Part]) -> String {
-    let mut out = HEAD.join(",") + "\r\n";
+pub fn csv(parts: &[Part]) -> Vec<u8> {
+    let mut out = vec![];
+    let mut csv = Csv::at_end_of(&mut out, LineEnd::CrLf);
+    csv.row(HEAD);
     let number = |x: Option<f64>| x.map_or_else(String::new, |x| x.to_string());
     for part in parts {
         let document = match part {
@@ -108,8 +110,7 @@ pub fn csv(parts: &[Part]) -> String {
                 let mut cells: Row = Default::default();
                 [cells[0], cells[1], cells[2]] = [failed.name.clone(), PART.into(), PART.into()];
                 [cells[11], cells[13]] = [Verdict::NotMeasured.word().into(), failed.why.clone()];
-                out.push_str(&cells.map(cell).join(","));
-                out.push_str("\r\n");
+                csv.row(cells);
                 continue;
             }
         };
@@ -141,12 +142,10 @@ pub fn csv(parts: &[Part]) -> String {
                 number(off(1)),
                 number(off(2)),
             ];
-            out.push_str(&cells.map(cell).join(","));
-            out.push_str("\r\n");
+            csv.row(cells);
         }
         for f in &document.features {
-            out.push_str(&feature(part.name(), f).map(cell).join(","));
-            out.push_str("\r\n");
+            csv.row(feature(part.name(), f));
         }
         for (name, t, verdict) in judged(document) {
             let mut cells: Row = Default::default();
@@ -159,16 +158,14 @@ pub fn csv(parts: &[Part]) -> String {
             cells[11] = verdict.word().into();
             let why = || undecided(document).filter(|_| verdict == Verdict::Undecided);
             cells[13] = t.inside_reason.clone().or_else(why).unwrap_or_default();
-            out.push_str(&cells.map(cell).join(","));
-            out.push_str("\r\n");
+            csv.row(cells);
         }
         for (what, why) in open(document) {
             let mut cells: Row = Default::default();
             cells[0] = part.name().into();
             [cells[1], cells[2]] = [what.into(), what.into()];
             [cells[11], cells[13]] = [Verdict::Undecided.word().into(), why];
-            out.push_str(&cells.map(cell).join(","));
-            out.push_str("\r\n");
+            csv.row(cells);
         }
     }
     out
@@ -199,28 +196,27 @@ pub fn junit(parts: &[Part]) -> String {
     let failed = |v: &Verdict| matches!(v, Verdict::Fail | Verdict::NotMeasured);
     let attributes = |parts: &[Part]| {
         let all: Vec<Verdict> = parts.iter().flat_map(verdicts).collect();
-        format!(
-            "tests=\"{}\" failures=\"{}\" errors=\"{}\"",
-            all.len(),
-            all.iter().filter(|v| failed(v)).count(),
-            all.iter().filter(|v| **v == Verdict::Undecided).count()
-        )
+        let undecided = |v: &Verdict| *v == Verdict::Undecided;
+        let count = |of: &dyn Fn(&Verdict) -> bool| all.iter().filter(|v| of(v)).count().to_string();
+        [("tests", count(&|_| true)), ("failures", count(&failed)), ("errors", count(&undecided))]
     };
-    let mut out = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
-    out.push_str(&format!("<testsuites {}>\n", attributes(parts)));
-    for part in parts {
-        let name = escaped(part.name());
-        out.push_str(&format!("  <testsuite name=\"{name}\" {}>\n", attributes(std::slice::from_ref(part))));
-        match part {
-            Part::Inspected(document) => out.push_str(&cases(&name, document)),
-            Part::Failed(failed) => {
-                out.push_str(&error(&name, PART, &format!("not inspected: {}", failed.why)))
-            }
+    let mut xml = Xml::new(2);
+    xml.declaration(&[("encoding", "UTF-8".into())]);
+    xml.element("testsuites", &attributes(parts), |xml| {
+        for part in parts {
+            let name = part.name();
+            let [tests, failures, errors] = attributes(std::slice::from_ref(part));
+            let attributes = [("name", name.into()), tests, failures, errors];
+            xml.element("testsuite", &attributes, |xml| match part {
+                Part::Inspected(document) => cases(xml, name, document),
+                Part::Failed(failed) => {
+                    let why = format!("not inspected: {}", failed.why);
+                    case(xml, name, PART, Some(("error", why)));
+                }
+            });
         }
-        out.push_str("  </testsuite>\n");
-    }
-    out.push_str("</testsuites>\n");
-    out
+    });
+    xml.take()
 }
 
 /// The verdict of each test case; a part without results is one that nobody can tell.
@@ -232,10 +228,9 @@ fn verdicts(part: &Part) -> Vec<Verdict> {
 }
 
 /// The test cases of a part.
-fn cases(name: &str, document: &InspectDocument) -> String {
-    let mut out = String::new();
+fn cases(xml: &mut Xml, name: &str, document: &InspectDocument) {
     for c in &document.characteristics {
-        out.push_str(&characteristic(name, c));
+        characteristic(xml, name, c);
     }
     for (name_of, t, verdict) in judged(document) {
         let share = t.inside.map_or_else(|| "no point".into(), |s| format!("{} % of the points", 100.0 * s));
@@ -243,15 +238,14 @@ fn cases(name: &str, document: &InspectDocument) -> String {
             format!("{share} within {} to {} mm, allowed {} to 100 %", t.lower, t.upper, 100.0 * t.required);
         let why = undecided(document).filter(|_| verdict == Verdict::Undecided);
         let said = why.map_or(said.clone(), |why| format!("{said}; {why}"));
-        out.push_str(&case(name, &name_of, verdict, &said));
+        judged_case(xml, name, &name_of, verdict, &said);
     }
     for (what, why) in open(document) {
-        out.push_str(&case(name, what, Verdict::Undecided, &why));
+        judged_case(xml, name, what, Verdict::Undecided, &why);
     }
-    out
 }
 
-fn characteristic(class: &str, c: &CharacteristicRecord) -> String {
+fn characteristic(xml: &mut Xml, class: &str, c: &CharacteristicRecord) {
     let said = match (c.value, &c.reason) {
         (Some(value), _) => {
             let lower = c.lower.map_or_else(String::new, |l| format!("{l} to "));
@@ -265,52 +259,28 @@ fn characteristic(class: &str, c: &CharacteristicRecord) -> String {
         Verdict::Undecided => [std::slice::from_ref(&said), &c.notes].concat().join("; "),
         _ => said,
     };
-    case(class, &format!("{} {} {}", c.id, c.kind_in_full(), c.feature), c.verdict, &said)
+    let name = format!("{} {} {}", c.id, c.kind_in_full(), c.feature);
+    judged_case(xml, class, &name, c.verdict, &said);
 }
 
-fn case(class: &str, name: &str, verdict: Verdict, said: &str) -> String {
-    let start = format!("    <testcase classname=\"{class}\" name=\"{}\"", escaped(name));
+/// A test case with a verdict.
+fn judged_case(xml: &mut Xml, class: &str, name: &str, verdict: Verdict, said: &str) {
+    let element = match verdict {
+        Verdict::Pass => None,
+        Verdict::Undecided => Some("error"),
+        Verdict::Fail | Verdict::NotMeasured => Some("failure"),
+    };
     let said = format!("{}: {said}", verdict.word());
-    let message = escaped(&said);
-    match verdict {
-        Verdict::Pass => format!("{start}/>\n"),
-        Verdict::Undecided => error(class, name, &said),
-        Verdict::Fail | Verdict::NotMeasured => {
-            format!("{start}><failure message=\"{message}\"/></testcase>\n")
+    case(xml, class, name, element.map(|element| (element, said)));
+}
+
+/// A test case, with the element that says what is wrong with it.
+fn case(xml: &mut Xml, class: &str, name: &str, wrong: Option<(&str, String)>) {
+    let attributes = [("classname", class.into()), ("name", name.into())];
+    match wrong {
+        None => xml.empty("testcase", &attributes),
+        Some((element, message)) => {
+            xml.line("testcase", &attributes, |xml| xml.empty(element, &[("message", message)]));
         }
-    }
-}
-
-/// A test case that nobody can tell.
-fn error(class: &str, name: &str, said: &str) -> String {
-    let [name, message] = [name, said].map(escaped);
-    format!("    <testcase classname=\"{class}\" name=\"{name}\"><error message=\"{message}\"/></testcase>\n")
-}
-
-/// Text for an attribute of XML 1.0; characters that it cannot hold become U+FFFD.
-pub(super) fn escaped(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '&' => out.push_str("&amp;"),
-            '<' => out.push_str("&lt;"),
-            '>' => out.push_str("&gt;"),
-            '"' => out.push_str("&quot;"),
-            '\n' => out.push_str("&#10;"),
-            '\t' => out.push_str("&#9;"),
-            c if c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}') => out.push('\u{fffd}'),
-            c => out.push(c),
-        }
-    }
-    out
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn no_text_breaks_out_of_its_cell_or_attribute() {
-        assert_eq!(escaped("<a b=\"c\">&\u{1}\n"), "&lt;a b=&quot;c&quot;&gt;&amp;\u{fffd}&#10;");
     }
 }

@@ -127,7 +127,7 @@ fn run(args: &InspectArgs, common: &Common) -> anyhow::Result<Outcome> {
     }
     if let Some(path) = &args.csv {
         let text = lists::csv(&parts);
-        whole_file(path, |file| file.write_all(text.as_bytes()))?;
+        whole_file(path, |file| file.write_all(&text))?;
     }
     if let Some(path) = &args.junit {
         let text = lists::junit(&parts);

@@ -3,8 +3,10 @@
 use crate::output::whole_file;
 use crate::run_files::RunFiles;
 use clap::Args;
+use std::io::Write;
 use std::path::PathBuf;
 use trueness_files::drawing::{self, Clamped, Entity, Layer};
+use trueness_files::write::{Csv, LineEnd};
 use trueness_geom::plane::PlaneFrame;
 use trueness_inspect::results::section::{FrameRecord, NominalRecord, Section};
 use trueness_section::{Geometry, Segment};
@@ -63,28 +65,37 @@ impl Drawings {
             whole_file(path, |file| drawing::iges(file, &layers))?;
         }
         if let Some(path) = &self.out {
-            whole_file(path, |file| {
-                let deviation = if nominal.is_some() { ",deviation" } else { "" };
-                writeln!(file, "x,y,contour,segment,length,distance{deviation}")?;
-                let contours = sections.iter().flat_map(|s| &s.contours);
-                for (n, (contour, row)) in contours.zip(rows).enumerate() {
-                    for (i, [x, y]) in row.iter().enumerate() {
-                        let (segment, length) = (contour.labels[i] + 1, contour.stations[i]);
-                        let distance = contour.residuals[i];
-                        write!(file, "{x},{y},{},{segment},{length},{distance}", n + 1)?;
-                        match nominal.map(|nominal| nominal.deviations[n][i]) {
-                            None => writeln!(file)?,
-                            Some(off) => {
-                                writeln!(file, ",{}", off.map_or(String::new(), |off| off.to_string()))?
-                            }
-                        }
-                    }
-                }
-                Ok(())
-            })?;
+            whole_file(path, |file| points(file, sections, rows, nominal))?;
         }
         Ok(())
     }
+}
+
+/// The points of all contours, a row each.
+fn points(
+    file: &mut dyn Write,
+    sections: &[Section],
+    rows: &[Vec<[f64; 2]>],
+    nominal: Option<&NominalRecord>,
+) -> std::io::Result<()> {
+    let mut text = vec![];
+    let head = ["x", "y", "contour", "segment", "length", "distance"];
+    Csv::at_end_of(&mut text, LineEnd::Lf).row(head.into_iter().chain(nominal.map(|_| "deviation")));
+    let contours = sections.iter().flat_map(|s| &s.contours);
+    for (n, (contour, row)) in contours.zip(rows).enumerate() {
+        for (i, [x, y]) in row.iter().enumerate() {
+            let mut csv = Csv::at_end_of(&mut text, LineEnd::Lf);
+            csv.number(x).number(y).number(n + 1).number(contour.labels[i] + 1);
+            csv.number(contour.stations[i]).number(contour.residuals[i]);
+            if let Some(nominal) = nominal {
+                csv.optional(nominal.deviations[n][i]);
+            }
+            csv.end_row();
+            file.write_all(&text)?;
+            text.clear();
+        }
+    }
+    file.write_all(&text)
 }
 
 fn layer(number: usize, section: &Section) -> Layer {

@@ -4,7 +4,7 @@ use super::entities::Said;
 use super::groups::Group;
 use super::hidden::{Hidden, State, Unseen};
 use super::place::Placing;
-use crate::drawing::{Drawing, DrawnEntity};
+use crate::content::drawing::{Drawing, DrawnEntity};
 use crate::error::{Fault, Located, Result};
 use std::collections::BTreeMap;
 

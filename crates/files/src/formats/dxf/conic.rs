@@ -1,8 +1,8 @@
 //! Parts of ellipses as rational curves.
 
-use crate::cad::assemble::{Raw, curve};
-use crate::drawing::Drawn;
+use crate::content::drawing::Drawn;
 use crate::error::Fault;
+use crate::formats::spline::{Raw, curve};
 use std::f64::consts::FRAC_PI_2;
 
 /// A part of a quarter below this share of it is rounding.

@@ -4,9 +4,9 @@ use super::conic::conic;
 use super::groups::Group;
 use super::through::{Given, through};
 use crate::Unit;
-use crate::cad::assemble::{Raw, curve};
-use crate::drawing::Drawn;
+use crate::content::drawing::Drawn;
 use crate::error::{Fault, Located, Result};
+use crate::formats::spline::{Raw, curve};
 use std::f64::consts::{PI, TAU};
 
 /// Heights of an entity differ by no more than this share of its size.

@@ -1,7 +1,7 @@
 //! Where blocks are placed in a drawing.
 
 use super::conic::conic;
-use crate::drawing::Drawn;
+use crate::content::drawing::Drawn;
 use crate::error::Fault;
 use trueness_geom::spline::rational::Rational;
 use trueness_geom::spline::value::Mass;

@@ -4,7 +4,7 @@ use super::blocks::{Block, Insert, Item, Placed, block_name, is_layer_0};
 use super::entities::{Said, Vertex, arc, ellipse, line, polyline, spline, vertex, vertices};
 use super::groups::{BINARY, Group, Groups};
 use super::hidden::{Hidden, Unseen, several};
-use crate::drawing::DrawnEntity;
+use crate::content::drawing::DrawnEntity;
 use crate::error::{Fault, Result};
 use crate::format::{Parsed, ReadOptions};
 use crate::source::{HEAD, Source};
@@ -270,7 +270,7 @@ impl<'h> Reader<'h> {
     fn add(
         &mut self,
         said: &Said,
-        make: impl FnOnce(&mut Vec<crate::drawing::Drawn>) -> Result<()>,
+        make: impl FnOnce(&mut Vec<crate::content::drawing::Drawn>) -> Result<()>,
     ) -> Result<()> {
         let mut found = vec![];
         make(&mut found)?;

@@ -1,6 +1,6 @@
 //! What is written reads back; entities by their definition; what is refused.
 
-use crate::drawing::{Clamped, Drawing, Drawn, Entity, Layer};
+use crate::content::drawing::{Clamped, Drawing, Drawn, Entity, Layer};
 use crate::write::scratch::Folder;
 use crate::{Body, ReadError, ReadOptions, Unit, open};
 

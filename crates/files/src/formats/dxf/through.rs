@@ -3,7 +3,7 @@
 //! The format does not say which curve passes through the points: programs draw a cubic with continuous curvature, its parameter by the lengths
 //! of the chords. Ends without a tangent have no curvature: other programs may draw the first and the last span otherwise.
 
-use crate::drawing::Drawn;
+use crate::content::drawing::Drawn;
 use trueness_geom::spline::basis::Knots;
 use trueness_geom::spline::curve::{self, Curve};
 use trueness_geom::spline::rational::Rational;

@@ -3,7 +3,7 @@
 //! Arcs run counter-clockwise in DXF, so one of negative sweep is written from its end. The tables hold what AutoCAD's
 //! reference demands: line types, layers, styles, block records; every object has a handle and an owner.
 
-use crate::drawing::entity::{Clamped, Entity, Layer, bounds, whole};
+use crate::content::drawing::{Clamped, Entity, Layer, bounds, whole};
 use std::io::{self, Write};
 
 /// Writes groups of code and value.
@@ -177,7 +177,7 @@ fn entity(g: &mut Groups, layer: &str, entity: &Entity) -> io::Result<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::drawing::entity::tests::one_of_each;
+    use crate::content::drawing::tests::one_of_each;
 
     /// Groups of a drawing, and the numbers of the entities.
     #[test]

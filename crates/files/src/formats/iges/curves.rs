@@ -5,7 +5,7 @@
 
 use super::super::step::real;
 use super::entry::{Entry, file};
-use crate::drawing::entity::{Clamped, Entity, Layer, bounds, whole};
+use crate::content::drawing::{Clamped, Entity, Layer, bounds, whole};
 use std::io::{self, Write};
 use trueness_geom::plane::PlaneFrame;
 
@@ -66,7 +66,7 @@ fn numbers(entity: &Entity) -> (u32, Vec<String>) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::drawing::entity::tests::one_of_each;
+    use crate::content::drawing::tests::one_of_each;
 
     /// The entries point to their parameters and to the matrix, and these back to the entries.
     #[test]

@@ -1,10 +1,10 @@
 //! B-spline surfaces (entity 128) and curves (126) of an IGES file.
 
 use super::text::{Entity, Model, model, up_to_the_end};
-use crate::cad::SplineModel;
-use crate::cad::assemble::{Raw, curve, surface};
+use crate::content::spline_model::SplineModel;
 use crate::error::{Fault, Result};
 use crate::format::{Parsed, ReadOptions};
+use crate::formats::spline::{Raw, curve, surface};
 use crate::number::{integer, whole_number};
 use crate::source::{HEAD, Source};
 use crate::unicode::no_zeros;

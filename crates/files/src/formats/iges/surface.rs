@@ -5,7 +5,7 @@
 
 use super::super::step::real;
 use super::entry::{Entry, file};
-use crate::cad::{Bound, SplineSurface};
+use crate::content::spline_surface::{Bound, SplineSurface};
 use std::io::{self, Write};
 use trueness_geom::spline::curve::Curve;
 

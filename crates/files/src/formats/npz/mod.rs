@@ -5,12 +5,12 @@ mod zip;
 use crate::{
     AtomicFile,
     error::WriteFault,
-    format::{Format, Head},
-    write::{
+    format::{
+        Format, Head,
         columns::Columns,
-        named::Values,
         sink::{Block, Layout, PointsSink},
         spool::Spool,
+        values::Values,
     },
 };
 use trueness_geom::space::Point;

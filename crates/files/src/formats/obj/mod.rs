@@ -9,12 +9,11 @@ use crate::{
     AtomicFile, SourceMesh,
     assemble::{self, Faces},
     error::{Fault, Result, WriteFault},
-    format::{Format, Head, Parsed, ReadOptions, Weld},
+    format::{Format, Head, Parsed, ReadOptions, Weld, corners::corner_positions, loss::Loss},
     lines::{count_lines, is_text, line_end, parts, without_end_mark, without_mark},
     number::{integer, number, push_number},
     source::{HEAD, Source},
     unicode::no_zeros,
-    write::{Loss, corners::corner_positions},
 };
 use std::io::Write;
 use trueness_geom::parallel::prelude::*;

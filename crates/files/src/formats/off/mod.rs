@@ -6,12 +6,11 @@ use crate::{
     AtomicFile, SourceMesh, Warning, assemble,
     error::{Fault, Result, WriteFault},
     flow::Flow,
-    format::{Format, Head, Parsed, ReadOptions, Weld},
+    format::{Format, Head, Parsed, ReadOptions, Weld, corners::corner_positions, loss::Loss},
     lines::{without_filling, without_mark},
     number::{count, push_number},
     source::{HEAD, Source},
     unicode::no_zeros,
-    write::{Loss, corners::corner_positions},
 };
 use body::Counts;
 use std::io::Write;

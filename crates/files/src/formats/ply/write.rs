@@ -3,9 +3,9 @@
 use crate::{
     AtomicFile,
     error::WriteFault,
-    write::{
-        Loss,
+    format::{
         corners::corner_positions,
+        loss::Loss,
         sink::{Block, Layout, PointsSink},
     },
 };

@@ -4,7 +4,7 @@
 //! counter-clockwise about it: it is trimmed from 0 to the angle run through, whatever its sense.
 
 use super::instances::{Instances, file, list, product, real};
-use crate::drawing::entity::{Clamped, Entity, Layer, whole};
+use crate::content::drawing::{Clamped, Entity, Layer, whole};
 use std::io::{self, Write};
 use trueness_geom::plane::PlaneFrame;
 
@@ -78,7 +78,7 @@ fn trimmed(model: &mut Instances, basis: &str, [from, to]: [&str; 2], end: f64) 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::drawing::entity::tests::one_of_each;
+    use crate::content::drawing::tests::one_of_each;
 
     /// Every instance that is named is there, before it is used; each kind of entity is written once.
     #[test]

@@ -1,10 +1,10 @@
 //! B-spline surfaces and curves of a STEP file, of whatever application protocol.
 
 use super::text::{Instances, Record, Value};
-use crate::cad::SplineModel;
-use crate::cad::assemble::{Raw, curve, surface};
+use crate::content::spline_model::SplineModel;
 use crate::error::{Fault, Result};
 use crate::format::{Parsed, ReadOptions};
+use crate::formats::spline::{Raw, curve, surface};
 use crate::source::{HEAD, Source};
 use crate::unicode::no_zeros;
 use crate::{Unit, Warning};

@@ -3,7 +3,7 @@
 //! The four edges are the rows and columns of control points at the border, which are the boundary curves of a clamped surface.
 
 use super::instances::{Instances, file, grouped, list, product};
-use crate::cad::{Bound, SplineSurface, TrimmedFace};
+use crate::content::spline_surface::{Bound, SplineSurface, TrimmedFace};
 use std::io::{self, Write};
 
 /// Writes the surface.

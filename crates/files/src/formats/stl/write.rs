@@ -4,7 +4,7 @@ use super::binary::record;
 use crate::{
     AtomicFile,
     error::WriteFault,
-    write::{Loss, corners::corner_positions},
+    format::{corners::corner_positions, loss::Loss},
 };
 use std::io::Write;
 use trueness_geom::{mesh::Mesh, space::normal};

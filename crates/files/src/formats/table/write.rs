@@ -3,8 +3,8 @@
 use crate::{
     AtomicFile,
     error::WriteFault,
+    format::sink::{Block, Layout, PointsSink},
     number::push_number,
-    write::sink::{Block, Layout, PointsSink},
 };
 use std::io::Write;
 use trueness_geom::parallel::prelude::*;

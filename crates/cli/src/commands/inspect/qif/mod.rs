@@ -13,22 +13,29 @@ use super::lists::judged;
 use super::part::{Failed, Part};
 use characteristics::{Ids, status};
 use datums::Datums;
+use trueness_files::write;
 use trueness_inspect::results::inspect::{InspectDocument, PlanRecord};
 use trueness_inspect::results::{InputRecord, Role, VERSION, Verdict};
-use xml::{Value, Xml, decimal};
+use xml::{INDENT, Value, Xml, decimal};
 
 /// The results of parts of one plan with this heading.
 pub fn qif(parts: &[Part], title: Option<&str>) -> String {
-    let mut x = Xml::default();
+    let mut x = Xml::within_root();
     body(&mut x, parts, title);
     let last = x.last();
     let body = x.finish();
-    format!(
-        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n\
-         <QIFDocument xmlns=\"http://qifstandards.org/xsd/qif3\" versionQIF=\"3.0.0\" idMax=\"{last}\">\n  \
-         <QPId>{}</QPId>\n{body}</QIFDocument>\n",
-        identifier(&body)
-    )
+    let mut whole = write::Xml::new(INDENT);
+    whole.declaration(&[("encoding", "UTF-8".into())]);
+    let root = [
+        ("xmlns", "http://qifstandards.org/xsd/qif3".into()),
+        ("versionQIF", "3.0.0".into()),
+        ("idMax", last.to_string()),
+    ];
+    whole.element("QIFDocument", &root, |whole| {
+        whole.leaf("QPId", &[], &identifier(&body));
+        whole.push(&body);
+    });
+    whole.take()
 }
 
 /// A UUID of a text (RFC 9562, version 8): its FNV-1a hash of 128 bits.

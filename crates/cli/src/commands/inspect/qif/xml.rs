@@ -1,12 +1,13 @@
 //! XML of QIF documents: elements, references, attributes of the user.
 
-use super::super::lists::escaped;
+use trueness_files::write::{self, Attributes};
+
+/// Blanks for each level.
+pub const INDENT: usize = 2;
 
 /// A document under construction. What is numbered has a number of its own, from 1.
-#[derive(Default)]
 pub struct Xml {
-    text: String,
-    open: Vec<String>,
+    xml: write::Xml,
     last: u32,
 }
 
@@ -47,9 +48,14 @@ pub fn three(p: [f64; 3]) -> String {
 }
 
 impl Xml {
+    /// What stands within the outermost element.
+    pub fn within_root() -> Xml {
+        Xml { xml: write::Xml::part(INDENT, 1), last: 0 }
+    }
+
     /// The text so far.
-    pub fn finish(self) -> String {
-        self.text
+    pub fn finish(mut self) -> String {
+        self.xml.take()
     }
 
     /// A new number; the greatest is the last one.
@@ -63,35 +69,16 @@ impl Xml {
         self.last
     }
 
-    fn indent(&mut self) {
-        for _ in 0..=self.open.len() {
-            self.text.push_str("  ");
-        }
-    }
-
-    fn tag(&mut self, name: &str, attributes: &[(&str, String)], end: &str) {
-        self.indent();
-        self.text.push('<');
-        self.text.push_str(name);
-        for (key, value) in attributes {
-            self.text.push_str(&format!(" {key}=\"{}\"", escaped(value)));
-        }
-        self.text.push_str(end);
-    }
-
     /// An element with what `inside` writes.
-    pub fn element(&mut self, name: &str, attributes: &[(&str, String)], inside: impl FnOnce(&mut Xml)) {
-        self.tag(name, attributes, ">\n");
-        self.open.push(name.into());
+    pub fn element(&mut self, name: &str, attributes: Attributes, inside: impl FnOnce(&mut Xml)) {
+        self.xml.start(name, attributes);
         inside(self);
-        self.open.pop();
-        self.indent();
-        self.text.push_str(&format!("</{name}>\n"));
+        self.xml.end();
     }
 
     /// An element without content.
-    pub fn empty(&mut self, name: &str, attributes: &[(&str, String)]) {
-        self.tag(name, attributes, "/>\n");
+    pub fn empty(&mut self, name: &str, attributes: Attributes) {
+        self.xml.empty(name, attributes);
     }
 
     /// An element of text.
@@ -100,9 +87,8 @@ impl Xml {
     }
 
     /// An element of text with attributes.
-    pub fn leaf_with(&mut self, name: &str, attributes: &[(&str, String)], text: &str) {
-        self.tag(name, attributes, ">");
-        self.text.push_str(&format!("{}</{name}>\n", escaped(text)));
+    pub fn leaf_with(&mut self, name: &str, attributes: Attributes, text: &str) {
+        self.xml.leaf(name, attributes, text);
     }
 
     /// References to what is numbered so; nothing where there are none.

@@ -1,14 +1,19 @@
 //! What a format is: what its reader is told and gives, and how it is written.
 
+pub(crate) mod columns;
+pub(crate) mod corners;
+pub(crate) mod loss;
+pub(crate) mod sink;
+pub(crate) mod spool;
+pub(crate) mod values;
+
 use crate::{
     Columns, Unit, Warning,
-    cad::SplineModel,
-    content::{SourceMesh, TableReading},
-    drawing::Drawing,
+    content::{SourceMesh, TableReading, drawing::Drawing, spline_model::SplineModel},
     error::{Located, Result},
     source::Source,
-    write::sink::{MeshWriter, PointsWriter},
 };
+use sink::{MeshWriter, PointsWriter};
 use trueness_geom::{
     cloud::{PointStream, Whole},
     space::Point,

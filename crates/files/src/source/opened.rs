@@ -1,5 +1,6 @@
-//! Where bytes come from: a file or standard input; unpacked and turned into UTF-8 if need be.
+//! Bytes ready to be parsed: unpacked and turned into UTF-8 if need be.
 
+use super::bytes::{Kind, SourceBytes};
 use crate::{
     error::{Fault, Result},
     feed::Feed,
@@ -7,14 +8,13 @@ use crate::{
 };
 use std::{
     fs::File,
-    io::{self, Read},
-    path::Path,
+    io::{self, BufReader, Cursor, Read, Seek},
 };
 
 /// Opened bytes and what is known of them.
 pub(crate) struct Source {
     pub feed: Feed,
-    /// Size on disk, 0 where unknown.
+    /// Size as they lie there, packed or not; 0 where unknown.
     pub bytes: u64,
     pub gzip: bool,
 }
@@ -23,26 +23,30 @@ pub(crate) struct Source {
 pub(crate) const HEAD: usize = 1 << 16;
 
 impl Source {
-    /// Opens a path; `-` is standard input.
-    pub fn open(path: &Path) -> Result<Source> {
-        if path == Path::new("-") {
-            return Source { feed: Feed::stream(Box::new(io::stdin())), bytes: 0, gzip: false }.unpacked();
+    /// Of bytes from their start.
+    pub fn of(bytes: SourceBytes) -> Result<Source> {
+        match bytes.0 {
+            Kind::Stream(reader) => Source { feed: Feed::stream(reader), bytes: 0, gzip: false }.unpacked(),
+            Kind::File { file, length } => Source::of_file(file, length),
+            Kind::Memory(shared) => {
+                let bytes = shared.as_ref().len() as u64;
+                let gzip = gzip::is_gzip(shared.as_ref());
+                let feed = match gzip {
+                    true => Feed::stream(Box::new(gzip::unpack(Cursor::new(shared)))),
+                    false => Feed::shared(shared),
+                };
+                Source { feed, bytes, gzip }.recoded()
+            }
         }
-        let file = File::open(path)?;
-        let about = file.metadata()?;
-        if about.is_dir() {
-            return Err(Fault::Foreign("a folder").into());
-        }
-        // Pipes and devices do not say how long they are.
-        if !about.is_file() {
-            return Source { feed: Feed::stream(Box::new(file)), bytes: 0, gzip: false }.unpacked();
-        }
-        let bytes = about.len();
+    }
+
+    fn of_file(mut file: File, bytes: u64) -> Result<Source> {
         let mut head = [0; 3];
-        let packed = bytes >= 3 && (&file).read_exact(&mut head).is_ok() && gzip::is_gzip(&head);
+        let packed = bytes >= 3 && file.read_exact(&mut head).is_ok() && gzip::is_gzip(&head);
         if packed {
-            let again = io::BufReader::with_capacity(1 << 18, File::open(path)?);
-            let feed = Feed::stream(Box::new(gzip::unpack(again)));
+            file.rewind()?;
+            let packed = BufReader::with_capacity(1 << 18, file);
+            let feed = Feed::stream(Box::new(gzip::unpack(packed)));
             return Source { feed, bytes, gzip: true }.recoded();
         }
         if bytes == 0 {

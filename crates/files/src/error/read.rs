@@ -1,6 +1,6 @@
-//! Why a file was not read or written: place, what was expected, remedy.
+//! Why a file was not read: place, what was expected, remedy.
 
-use std::{borrow::Cow, fmt, io, path::Path};
+use std::{borrow::Cow, fmt, io};
 
 /// A file that could not be read.
 #[derive(Debug, thiserror::Error)]
@@ -182,6 +182,18 @@ pub enum Fault {
         /// Its length now.
         now: u64,
     },
+    /// Nothing goes by the name.
+    #[error("nothing goes by this name{}", nearest_name(.nearest))]
+    Unnamed {
+        /// The name that is nearest to it, where there are any.
+        nearest: Option<String>,
+    },
+    /// A text is longer than it may be.
+    #[error("it is longer than {longest} bytes")]
+    TooLong {
+        /// Bytes that it may have.
+        longest: u64,
+    },
     /// The file is needed as a whole, and there is no memory for that.
     #[error("{} MB of memory are needed to read it", bytes.div_ceil(1_000_000))]
     Memory {
@@ -209,6 +221,8 @@ impl Fault {
             Fault::Io(e) if e.kind() == io::ErrorKind::NotFound => "check the spelling of the path",
             Fault::Io(e) if e.kind() == io::ErrorKind::PermissionDenied => "ask for the right to read it",
             Fault::Io(_) => "check that the file can be read",
+            Fault::Unnamed { .. } => "check the spelling of the name",
+            Fault::TooLong { .. } => "check that it is the file that was meant",
             Fault::Empty => "export it again",
             Fault::Foreign(_) => {
                 "export it as STL, PLY, OBJ or OFF (mesh) or as PLY, XYZ, CSV or NPY (points)"
@@ -262,6 +276,11 @@ fn named(name: &str) -> String {
     if name.is_empty() { String::new() } else { format!(" ({name})") }
 }
 
+/// What is told of the nearest name.
+fn nearest_name(nearest: &Option<String>) -> String {
+    nearest.as_ref().map_or_else(String::new, |nearest| format!(", the nearest is {nearest}"))
+}
+
 /// The first bytes of something, as it can be shown in a message.
 pub(crate) fn quoted(found: &[u8]) -> String {
     const SHOWN: usize = 40;
@@ -303,97 +322,3 @@ impl From<io::Error> for Located {
 }
 
 pub(crate) type Result<T> = std::result::Result<T, Located>;
-
-/// A file that could not be written. Nothing is left of it.
-#[derive(Debug, thiserror::Error)]
-#[error("{file}: {fault}; nothing was written")]
-pub struct WriteError {
-    /// The file's name as it was given.
-    pub file: String,
-    /// What went wrong.
-    #[source]
-    pub fault: WriteFault,
-}
-
-/// Why a file could not be written.
-#[derive(Debug, thiserror::Error)]
-pub enum WriteFault {
-    /// The system refused; on a full disk, [`io::ErrorKind::StorageFull`].
-    #[error("{}", advice(.0))]
-    Io(#[from] io::Error),
-    /// Someone meant it to stay as it is.
-    #[error("it is protected against writing: choose another name, or lift the protection")]
-    Protected,
-    /// No writer goes by this file's extension.
-    #[error("{what} cannot be written under this name; end it in one of {known}")]
-    UnknownFormat {
-        /// `points` or `a mesh`.
-        what: &'static str,
-        /// The extensions there are.
-        known: String,
-    },
-    /// More than the format can number.
-    #[error("{count} {what} are more than {format} can hold; choose another format")]
-    TooMany {
-        /// Name of the format.
-        format: &'static str,
-        /// What is counted.
-        what: &'static str,
-        /// How many there are.
-        count: u64,
-    },
-    /// What was written cannot be read again.
-    #[error("it was written, but cannot be read again: {0}")]
-    ReadBack(Box<ReadError>),
-    /// A face names a vertex that the mesh does not have.
-    #[error("face {face} names a vertex that does not exist; check the mesh first")]
-    NoSuchVertex {
-        /// Number of the face, from 0.
-        face: usize,
-    },
-    /// A block has not as many deviations or colors as points.
-    #[error("{points} points with {values} {what}")]
-    Uneven {
-        /// `deviations`, `reasons` or `colors`.
-        what: &'static str,
-        /// Points in the block.
-        points: usize,
-        /// Values in the block.
-        values: usize,
-    },
-}
-
-impl WriteError {
-    /// What the system said about writing to `path`.
-    pub fn new(path: &Path, error: io::Error) -> WriteError {
-        WriteFault::from(error).in_file(path)
-    }
-}
-
-impl WriteFault {
-    /// Whether the question was wrong, not the answer: another name must be given.
-    pub fn is_wrong_usage(&self) -> bool {
-        matches!(self, WriteFault::UnknownFormat { .. })
-    }
-    pub(crate) fn in_file(self, path: &Path) -> WriteError {
-        WriteError { file: path.display().to_string(), fault: self }
-    }
-}
-
-/// What the system said, with a remedy where there is one.
-fn advice(e: &io::Error) -> String {
-    match e.kind() {
-        io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => {
-            "no space is left there: free some or choose another place".into()
-        }
-        io::ErrorKind::NotFound => "the folder does not exist: make it first".into(),
-        io::ErrorKind::PermissionDenied => "not permitted: choose another place".into(),
-        io::ErrorKind::IsADirectory => "this is a folder: name a file in it".into(),
-        io::ErrorKind::NotADirectory => {
-            "what should be its folder is not a folder: choose another place".into()
-        }
-        io::ErrorKind::ReadOnlyFilesystem => "nothing can be written there: choose another place".into(),
-        io::ErrorKind::InvalidFilename => "no file can have this name: choose a shorter one".into(),
-        _ => e.to_string(),
-    }
-}

@@ -1,8 +1,12 @@
 //! What a file held.
 
-use crate::cad::SplineModel;
-use crate::drawing::Drawing;
+pub(crate) mod drawing;
+pub(crate) mod spline_model;
+pub(crate) mod spline_surface;
+
 use crate::{ReadError, Unit, Warning};
+use drawing::Drawing;
+use spline_model::SplineModel;
 use trueness_geom::{cloud::PointStream, mesh::Mesh};
 
 /// A file, read or ready to be read.
