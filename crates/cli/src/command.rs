@@ -2,12 +2,12 @@
 
 use crate::exit::Outcome;
 use crate::options::Common;
-use crate::run_files::RunFiles;
+use trueness::task::RunFiles;
 
 /// A command with its words.
 pub trait Run {
     /// All files that it reads and writes. They are tried before it runs.
-    fn files(&self) -> anyhow::Result<RunFiles>;
+    fn files(&self, common: &Common) -> anyhow::Result<RunFiles>;
     /// Does the work.
     fn run(&self, common: &Common) -> anyhow::Result<Outcome>;
 }

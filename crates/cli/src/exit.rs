@@ -3,6 +3,7 @@
 use crate::{console, signals};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::process::ExitCode;
+use trueness::task::{self, ErrorKind, TaskError};
 use trueness_files::{ReadError, WriteError};
 use trueness_geom::progress::Cancelled;
 
@@ -15,6 +16,15 @@ pub enum Outcome {
     NotConforming,
     /// Some of what was asked has no answer. It was told; the exit status is this one.
     Unanswered(u8),
+}
+
+impl From<task::Outcome> for Outcome {
+    fn from(outcome: task::Outcome) -> Outcome {
+        match outcome {
+            task::Outcome::Conforming => Outcome::Conforming,
+            task::Outcome::NotConforming => Outcome::NotConforming,
+        }
+    }
 }
 
 /// What the help of a command says at its end: all exit statuses, of which `one` says what 1 means for it, then `rest`.
@@ -59,6 +69,7 @@ pub fn catch(work: impl FnOnce() -> anyhow::Result<Outcome>) -> anyhow::Result<O
 /// Whether the words of the command line are what is wrong: an option that does not fit the file, an unknown ending.
 fn is_usage(e: &(dyn std::error::Error + 'static)) -> bool {
     e.is::<Usage>()
+        || e.downcast_ref::<TaskError>().is_some_and(|e| e.kind() == ErrorKind::Usage)
         || e.downcast_ref::<ReadError>().is_some_and(|e| e.fault.is_wrong_usage())
         || e.downcast_ref::<WriteError>().is_some_and(|e| e.fault.is_wrong_usage())
 }

@@ -12,12 +12,10 @@ mod number;
 mod options;
 mod output;
 mod progress;
-mod read;
 mod report;
-mod run_files;
 mod signals;
+mod task;
 mod time_left;
-mod tolerance;
 
 use clap::Parser;
 use commands::Arguments;
@@ -51,6 +49,6 @@ fn run(arguments: &Arguments) -> anyhow::Result<Outcome> {
         rayon::ThreadPoolBuilder::new().num_threads(n.into()).build_global()?;
     }
     let command = arguments.command.get();
-    command.files()?.check()?;
+    command.files(&arguments.common)?.check(&progress::Console { style: arguments.common.progress })?;
     command.run(&arguments.common)
 }

@@ -1,9 +1,10 @@
 //! Options that several commands share, each written once.
 
-use crate::exit::{Usage, not_negative};
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
-use trueness_files::{Columns, FORMATS, Format, ReadOptions, Unit, Weld};
+use trueness::task::{Choice, FormatName, PointReading, Reading, ReferenceReading, Text};
+use trueness_files::{Columns, Unit};
 
 /// Options that every command takes.
 #[derive(Args, Debug)]
@@ -39,21 +40,31 @@ pub enum ProgressStyle {
     None,
 }
 
+/// One of the words of a choice, with what they mean in the help.
+pub fn choice<T: Choice>() -> impl TypedValueParser<Value = T> {
+    let words = T::ALL.iter().map(|(_, word, about)| match *about {
+        "" => PossibleValue::new(*word),
+        about => PossibleValue::new(*word).help(about),
+    });
+    PossibleValuesParser::new(words)
+        .try_map(|word| T::named(&word.to_lowercase()).ok_or("there is no such word"))
+}
+
 /// How a file is taken that does not say all of itself.
 #[derive(Args, Debug)]
 pub struct InputArgs {
     /// Unit of a file that does not say its own: mm cm m in um [default: mm]
     #[arg(long, value_name = "UNIT")]
-    pub units: Option<Unit>,
+    units: Option<Text<Unit>>,
     /// Format of the file [default: told by its content, then by its ending]
-    #[arg(long, value_name = "NAME", value_parser = format_named)]
-    pub format: Option<&'static Format>,
+    #[arg(long, value_name = "NAME")]
+    format: Option<Text<FormatName>>,
 }
 
 impl InputArgs {
-    /// The same for the readers.
-    pub fn reading(&self) -> ReadOptions {
-        ReadOptions { units: self.units, format: self.format, ..ReadOptions::default() }
+    /// The same for a request.
+    pub fn reading(&self) -> Reading {
+        Reading { units: self.units.clone(), format: self.format.clone() }
     }
 }
 
@@ -61,16 +72,16 @@ impl InputArgs {
 #[derive(Args, Debug)]
 pub struct PointInputArgs {
     #[command(flatten)]
-    pub file: InputArgs,
+    file: InputArgs,
     /// Columns of a table: where x, y, z are (2,3,4 or X,Y,Z), or what each column is (-,x,y,z)
     #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
-    pub columns: Option<Columns>,
+    columns: Option<Text<Columns>>,
 }
 
 impl PointInputArgs {
-    /// The same for the readers.
-    pub fn reading(&self) -> ReadOptions {
-        ReadOptions { columns: self.columns.clone(), ..self.file.reading() }
+    /// The same for a request.
+    pub fn reading(&self) -> PointReading {
+        PointReading { file: self.file.reading(), columns: self.columns.clone() }
     }
 }
 
@@ -79,30 +90,18 @@ impl PointInputArgs {
 pub struct ReferenceArgs {
     /// Unit of the reference [default: that of the measured file, --units]
     #[arg(long, value_name = "UNIT")]
-    reference_units: Option<Unit>,
+    reference_units: Option<Text<Unit>>,
     /// Format of the reference [default: told by its content; --format is that of the measured file]
-    #[arg(long, value_name = "NAME", value_parser = format_named)]
-    reference_format: Option<&'static Format>,
+    #[arg(long, value_name = "NAME")]
+    reference_format: Option<Text<FormatName>>,
 }
 
 impl ReferenceArgs {
-    /// Refuses what is said of a reference where there is none; `option` is what names one.
-    pub fn without_reference(&self, option: &str) -> Result<(), Usage> {
-        let given = [("units", self.reference_units.is_some()), ("format", self.reference_format.is_some())];
-        match given.iter().find(|(_, given)| *given) {
-            Some((what, _)) => {
-                Err(Usage(format!("--reference-{what} is for the file of {option}; give one")))
-            }
-            None => Ok(()),
-        }
-    }
-
-    /// The same for the readers, beside what was said of the measured file.
-    pub fn reading(&self, measured: &PointInputArgs) -> ReadOptions {
-        ReadOptions {
-            units: self.reference_units.or(measured.file.units),
-            format: self.reference_format,
-            ..ReadOptions::default()
+    /// The same for a request.
+    pub fn reading(&self) -> ReferenceReading {
+        ReferenceReading {
+            reference_units: self.reference_units.clone(),
+            reference_format: self.reference_format.clone(),
         }
     }
 }
@@ -113,17 +112,4 @@ pub struct DocumentArgs {
     /// Write the result document; `-` for stdout, then without a table
     #[arg(long, value_name = "FILE")]
     pub json: Option<PathBuf>,
-}
-
-/// What `--weld` asks for.
-pub fn weld(distance: Option<f64>) -> Result<Weld, Usage> {
-    distance.map_or(Ok(Weld::Same), |d| Ok(Weld::Within(not_negative("weld", d)?)))
-}
-
-/// A format of this name that is read.
-pub fn format_named(name: &str) -> Result<&'static Format, String> {
-    Format::named(name).filter(|f| f.reads()).ok_or_else(|| {
-        let known: Vec<&str> = FORMATS.iter().filter(|f| f.reads()).map(|f| f.name).collect();
-        format!("there is no such format to read; there are {}", known.join(", "))
-    })
 }

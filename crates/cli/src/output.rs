@@ -2,29 +2,14 @@
 
 use crate::console;
 use crate::options::DocumentArgs;
-use std::io::{BufWriter, Write};
 use std::path::Path;
-use trueness_files::{AtomicFile, WriteError};
-
-/// Writes a file that appears whole or not at all.
-pub fn whole_file(
-    path: &Path,
-    write: impl FnOnce(&mut dyn Write) -> std::io::Result<()>,
-) -> Result<(), WriteError> {
-    let make = || {
-        let mut file = BufWriter::new(AtomicFile::create(path)?);
-        write(&mut file)?;
-        file.into_inner().map_err(|e| e.into_error())?.commit()
-    };
-    make().map_err(|e| WriteError::new(path, e))
-}
+pub use trueness::task::whole_file;
 
 impl DocumentArgs {
     /// Writes the document if it was asked for.
     pub fn write(&self, document: &impl serde::Serialize) -> anyhow::Result<()> {
         let Some(path) = &self.json else { return Ok(()) };
-        let mut text = serde_json::to_string_pretty(document)?;
-        text.push('\n');
+        let text = trueness::task::json(document)?;
         if self.on_stdout() {
             return Ok(console::document(&text)?);
         }

@@ -8,11 +8,31 @@ use std::io::IsTerminal;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
+use trueness::task::{self, Watch};
 use trueness_geom::progress::Progress;
 
-/// What stages count whose work is of several kinds, so that no number of points or facets is what is done: each is one look at a
-/// point, a facet or a pair of them.
-pub const STEPS: &str = "steps";
+pub use trueness::task::STEPS;
+
+/// The terminal: progress on stderr, signals.
+pub struct Console {
+    /// How progress is shown.
+    pub style: ProgressStyle,
+}
+
+impl Watch for Console {
+    fn stage(&self, name: &'static str, unit: &'static str, total: Option<u64>) -> Box<dyn task::Stage + '_> {
+        Box::new(Stage::new(self.style, name, unit, total))
+    }
+    fn note(&self, text: &str) {
+        console::note(text);
+    }
+}
+
+impl task::Stage for Stage {
+    fn finish(self: Box<Self>) {
+        self.end(&Ok::<(), ()>(()));
+    }
+}
 
 /// One stage of work with a known or unknown number of items.
 ///

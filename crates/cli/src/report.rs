@@ -5,6 +5,7 @@ use crate::output::whole_file;
 use crate::progress::Stage;
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
+use trueness::task::{Done, ErrorKind, Watch};
 use trueness_inspect::report::{
     self, Language, Marks, ReportError, ReportInput, ReportOptions, Subject, Up, ViewObject,
 };
@@ -87,6 +88,30 @@ impl ReportArgs {
         if self.html.is_some() { SHOWN } else { 0 }
     }
 
+    /// The same for a report.
+    fn options(&self) -> ReportOptions {
+        ReportOptions {
+            title: self.title.clone(),
+            part: self.part.clone(),
+            serial: self.serial.clone(),
+            operator: self.operator.clone(),
+            budget: (self.html_budget * 1e6) as usize,
+            language: self.lang,
+            decimal: self.decimal,
+            up: self.up.into(),
+        }
+    }
+
+    /// Writes the report of what a task answered, if one was asked for.
+    pub fn write_done<D: Subject>(&self, done: &Done<D>, watch: &dyn Watch) -> anyhow::Result<()> {
+        let Some(path) = &self.html else { return Ok(()) };
+        let page = done.report(&self.options(), watch).map_err(|e| match e.kind() {
+            ErrorKind::Cancelled => e,
+            _ => e.context(format!("{}: cannot be made", path.display())),
+        })?;
+        Ok(whole_file(path, |file| file.write_all(&page))?)
+    }
+
     /// Writes the report, if one was asked for.
     pub fn write(
         &self,
@@ -110,16 +135,7 @@ impl ReportArgs {
         marks: &[Marks],
         progress: ProgressStyle,
     ) -> anyhow::Result<()> {
-        let options = ReportOptions {
-            title: self.title.clone(),
-            part: self.part.clone(),
-            serial: self.serial.clone(),
-            operator: self.operator.clone(),
-            budget: (self.html_budget * 1e6) as usize,
-            language: self.lang,
-            decimal: self.decimal,
-            up: self.up.into(),
-        };
+        let options = self.options();
         let input = ReportInput { result, objects, marks, options: &options };
         let stage = Stage::new(progress, "writing the report", "places", Some(report::work(objects)));
         let mut page = vec![];

@@ -33,6 +33,9 @@
 //! ```
 //!
 mod easy;
+pub mod read;
+pub mod task;
+pub mod tasks;
 
 pub use easy::deviations::{Deviation, Deviations};
 pub use easy::error::Error;

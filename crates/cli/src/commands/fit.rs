@@ -7,13 +7,14 @@ use crate::noise::{self, NoiseArgs};
 use crate::number::{POINTS, counted, fixed, scientific};
 use crate::options::{Common, DocumentArgs, PointInputArgs};
 use crate::progress::Stage;
-use crate::read::{self, Body, Opened};
 use crate::report::ReportArgs;
-use crate::run_files::RunFiles;
 use clap::builder::{PossibleValue, PossibleValuesParser};
 use clap::{Args, ValueEnum};
 use std::fmt::Write;
 use std::path::PathBuf;
+use trueness::read::{self, Body, Opened};
+use trueness::task::RunFiles;
+use trueness_files::FileSources;
 use trueness_geom::fit::{self, FitError, Method, Options};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::Cancelled;
@@ -103,7 +104,7 @@ impl From<MethodArg> for Method {
 }
 
 impl Run for FitArgs {
-    fn files(&self) -> anyhow::Result<RunFiles> {
+    fn files(&self, _: &Common) -> anyhow::Result<RunFiles> {
         Ok(RunFiles::of([&self.points])
             .document(self.document.json.as_ref())
             .report(self.report.html.as_ref()))
@@ -115,7 +116,7 @@ impl Run for FitArgs {
 
 fn run(args: &FitArgs, common: &Common) -> anyhow::Result<Outcome> {
     let Opened { mut record, body, planar, .. } =
-        read::open(&args.points, Role::Measured, &args.input.reading())?;
+        read::open(&FileSources, &args.points, Role::Measured, &args.input.reading().options())?;
     let scan = match body {
         Body::Mesh(mesh) => mesh.mesh,
         Body::Points(source) => {
@@ -124,7 +125,7 @@ fn run(args: &FitArgs, common: &Common) -> anyhow::Result<Outcome> {
     };
     let points = &scan.positions;
     read::describe(&mut record, points);
-    read::hash(&mut record, &args.points)?;
+    read::hash(&FileSources, &mut record, &args.points)?;
     let options = Options { method: args.method.into(), start: None, seed: common.seed };
     let stage = Stage::new(common.progress, "fitting", "points", Some(points.len() as u64));
     let fit = fit::fit(points, shape(&args.shape, planar)?, &options, &stage);

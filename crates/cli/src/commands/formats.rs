@@ -4,8 +4,8 @@ use crate::command::Run;
 use crate::console::document;
 use crate::exit::{Outcome, Usage};
 use crate::options::Common;
-use crate::run_files::RunFiles;
 use clap::Args;
+use trueness::task::RunFiles;
 use trueness_files::write::Writable;
 use trueness_files::{FORMATS, Format};
 
@@ -21,7 +21,7 @@ pub struct FormatsArgs {
 }
 
 impl Run for FormatsArgs {
-    fn files(&self) -> anyhow::Result<RunFiles> {
+    fn files(&self, _: &Common) -> anyhow::Result<RunFiles> {
         Ok(RunFiles::of([]))
     }
     fn run(&self, _: &Common) -> anyhow::Result<Outcome> {

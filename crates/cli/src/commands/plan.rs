@@ -6,10 +6,11 @@ use crate::exit::{Outcome, Usage};
 use crate::options::{Common, InputArgs};
 use crate::output::whole_file;
 use crate::progress::Stage;
-use crate::read;
-use crate::run_files::RunFiles;
 use clap::{Args, Subcommand};
 use std::path::{Path, PathBuf};
+use trueness::read;
+use trueness::task::RunFiles;
+use trueness_files::FileSources;
 use trueness_geom::segment::{self, Options, SegmentError};
 use trueness_inspect::plan::proposal;
 use trueness_inspect::results::Role;
@@ -42,7 +43,7 @@ struct InitArgs {
 }
 
 impl Run for PlanArgs {
-    fn files(&self) -> anyhow::Result<RunFiles> {
+    fn files(&self, _: &Common) -> anyhow::Result<RunFiles> {
         let What::Init(args) = &self.what;
         Ok(RunFiles::of([&args.nominal]).also("--out", args.out.as_ref()))
     }
@@ -59,7 +60,8 @@ fn init(args: &InitArgs, common: &Common) -> anyhow::Result<Outcome> {
             Usage(format!("--out {}: the file exists; name another or remove it", path.display())).into()
         );
     }
-    let (source, _) = read::mesh(&args.nominal, Role::Reference, &args.reading.reading())?;
+    let (source, _) =
+        read::mesh(&FileSources, &args.nominal, Role::Reference, &args.reading.reading().options())?;
     let mesh = source.mesh;
     let stage = Stage::new(common.progress, "segmenting", "facets", Some(mesh.faces.len() as u64));
     let options = Options { seed: common.seed, ..Options::default() };

@@ -7,14 +7,15 @@ use crate::noise::{self, NoiseArgs};
 use crate::number::{FACETS, POINTS, counted, fixed, grouped, scientific};
 use crate::options::{Common, DocumentArgs, PointInputArgs};
 use crate::progress::Stage;
-use crate::read::{self, Body, Opened};
 use crate::report::ReportArgs;
-use crate::run_files::RunFiles;
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 use std::fmt::Write;
 use std::path::PathBuf;
 use std::sync::LazyLock;
+use trueness::read::{self, Body, Opened};
+use trueness::task::RunFiles;
+use trueness_files::FileSources;
 use trueness_files::write::{Pieces, Writable, regions};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::segment::{self, KINDS, Options, SegmentError, Segmentation};
@@ -101,7 +102,7 @@ fn out_help() -> String {
 }
 
 impl Run for SegmentArgs {
-    fn files(&self) -> anyhow::Result<RunFiles> {
+    fn files(&self, _: &Common) -> anyhow::Result<RunFiles> {
         Ok(RunFiles::of([&self.input])
             .out(self.out.as_ref(), Writable::Regions)
             .document(self.document.json.as_ref())
@@ -114,7 +115,8 @@ impl Run for SegmentArgs {
 
 fn run(args: &SegmentArgs, common: &Common) -> anyhow::Result<Outcome> {
     let options = args.options(common.seed);
-    let Opened { mut record, body, .. } = read::open(&args.input, Role::Measured, &args.reading.reading())?;
+    let Opened { mut record, body, .. } =
+        read::open(&FileSources, &args.input, Role::Measured, &args.reading.reading().options())?;
     let (mesh, kind, left_out) = match body {
         Body::Mesh(source) => (source.mesh, PieceKind::Facets, source.nonfinite_facets),
         Body::Points(source) => (
@@ -134,7 +136,7 @@ fn run(args: &SegmentArgs, common: &Common) -> anyhow::Result<Outcome> {
     };
     let stage = Stage::new(common.progress, "segmenting", word, Some(total as u64));
     let (hash, found) = rayon::join(
-        || read::hash(&mut record, &args.input),
+        || read::hash(&FileSources, &mut record, &args.input),
         || match kind {
             PieceKind::Facets => segment::mesh(&mesh, &options, &stage),
             PieceKind::Points => segment::cloud(&mesh.positions, &options, &stage),

@@ -7,12 +7,13 @@ use crate::number::{counted, fixed, short, six_digits};
 use crate::options::{Common, DocumentArgs};
 use crate::output::whole_file;
 use crate::report::ReportArgs;
-use crate::run_files::RunFiles;
 use anyhow::{Context, anyhow, bail};
 use clap::Args;
 use std::fmt::Write;
 use std::io::Read;
 use std::path::{Path, PathBuf};
+use trueness::task::RunFiles;
+use trueness_files::FileSources;
 use trueness_files::write::{Csv, LineEnd};
 use trueness_inspect::results::Verdict;
 use trueness_inspect::results::inspect::{self, InspectDocument};
@@ -49,7 +50,7 @@ pub struct TrendArgs {
 }
 
 impl Run for TrendArgs {
-    fn files(&self) -> anyhow::Result<RunFiles> {
+    fn files(&self, _: &Common) -> anyhow::Result<RunFiles> {
         Ok(RunFiles::of(&self.results)
             .document(self.document.json.as_ref())
             .report(self.report.html.as_ref())
@@ -92,7 +93,7 @@ impl Run for TrendArgs {
 /// A result of an inspection and what it was read from.
 fn read(path: &Path) -> anyhow::Result<(ResultInput, InspectDocument)> {
     let shown = path.display();
-    if crate::run_files::is_stream(path) {
+    if trueness_files::Sources::is_stream(&FileSources, path) {
         bail!("{shown}: a result must be a file");
     }
     let mut bytes = Vec::new();

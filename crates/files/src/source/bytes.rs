@@ -1,5 +1,6 @@
 //! The bytes of a source.
 
+use crate::error::Fault;
 use crate::feed::Shared;
 use crate::source::hash;
 use std::fs::File;
@@ -55,6 +56,20 @@ impl SourceBytes {
             Kind::Stream(_) => None,
             Kind::Memory(bytes) => Some(bytes.as_ref().len() as u64),
         }
+    }
+
+    /// The first `count` of them, or all where there are fewer.
+    ///
+    /// # Errors
+    /// Those of reading.
+    pub fn head(self, count: usize) -> Result<Vec<u8>, Fault> {
+        let mut head = vec![];
+        let read = match self.0 {
+            Kind::File { file, .. } => file.take(count as u64).read_to_end(&mut head),
+            Kind::Stream(reader) => reader.take(count as u64).read_to_end(&mut head),
+            Kind::Memory(bytes) => Cursor::new(bytes).take(count as u64).read_to_end(&mut head),
+        };
+        read.map(|_| head).map_err(Fault::Io)
     }
 
     /// Their SHA-256.

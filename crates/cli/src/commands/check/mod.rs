@@ -3,19 +3,15 @@
 mod table;
 
 use crate::command::Run;
-use crate::exit::{self, Outcome, Usage, not_negative};
-use crate::options::{Common, DocumentArgs, InputArgs, weld};
-use crate::progress::Stage;
-use crate::read;
+use crate::exit::{self, Outcome};
+use crate::options::{Common, DocumentArgs, InputArgs};
 use crate::report::ReportArgs;
-use crate::run_files::RunFiles;
+use crate::task;
 use clap::Args;
 use std::path::PathBuf;
-use trueness_files::ReadOptions;
-use trueness_geom::check::{self, CheckError, Options};
-use trueness_inspect::check::View;
-use trueness_inspect::file_numbers::LeftOut;
-use trueness_inspect::results::Role;
+use trueness::task::{Request, RunFiles};
+use trueness::tasks::check::CheckRequest;
+use trueness_geom::check;
 
 /// Size and defects of a mesh
 ///
@@ -57,49 +53,29 @@ pub struct CheckArgs {
 }
 
 impl CheckArgs {
-    fn options(&self) -> Result<Options, Usage> {
-        Ok(Options {
-            limit: self.items,
-            self_intersections: !self.no_self_intersections,
-            gap: self.gap.map(|x| not_negative("gap", x)).transpose()?,
-            sliver_angle: not_negative("sliver-angle", self.sliver_angle)?.min(60.0).to_radians(),
-            island_share: not_negative("island", self.island)? / 100.0,
-        })
+    fn request(&self) -> CheckRequest {
+        CheckRequest {
+            mesh: self.mesh.clone(),
+            reading: self.input.reading(),
+            gap: self.gap,
+            weld: self.weld,
+            sliver_angle: self.sliver_angle,
+            island: self.island,
+            no_self_intersections: self.no_self_intersections,
+            items: self.items,
+            view: self.report.html.is_some(),
+        }
     }
 }
 
 impl Run for CheckArgs {
-    fn files(&self) -> anyhow::Result<RunFiles> {
-        Ok(RunFiles::of([&self.mesh]).document(self.document.json.as_ref()).report(self.report.html.as_ref()))
+    fn files(&self, _: &Common) -> anyhow::Result<RunFiles> {
+        let files = self.request().files()?.document(self.document.json.as_ref());
+        Ok(files.report(self.report.html.as_ref()))
     }
     fn run(&self, common: &Common) -> anyhow::Result<Outcome> {
-        run(self, common)
+        task::run_reported(&self.request(), (&self.document, &self.report), common, |done| {
+            table::text(&done.document, &check::KINDS)
+        })
     }
-}
-
-fn run(args: &CheckArgs, common: &Common) -> anyhow::Result<Outcome> {
-    let options = args.options()?;
-    let reading = ReadOptions { weld: weld(args.weld)?, ..args.input.reading() };
-    let (source, mut record) = read::mesh(&args.mesh, Role::Mesh, &reading)?;
-    let facets = source.mesh.faces.len() as u64;
-    let stage = Stage::new(common.progress, "checking", "facets", Some(facets));
-    let (hash, report) = rayon::join(
-        || read::hash(&mut record, &args.mesh),
-        || check::check(&source.mesh, source.stored_normals.as_deref(), &options, &stage),
-    );
-    stage.end(&report);
-    let report = report.map_err(|e| match e {
-        CheckError::Cancelled(e) => e.into(),
-        e => anyhow::anyhow!("{}: {e}", args.mesh.display()),
-    })?;
-    hash?;
-    let left_out = LeftOut(&source.nonfinite_facets);
-    let document = trueness_inspect::check::document(&report, record, facets, left_out, &options);
-    if args.report.html.is_some() {
-        let view = View::new(&document, &document.inputs[0].path, &source.mesh, left_out);
-        args.report.write(&document, &view.objects(), &view.marks, common.progress)?;
-    }
-    args.document.write(&document)?;
-    args.document.table(|| table::text(&document, &check::KINDS))?;
-    Ok(if document.sound { Outcome::Conforming } else { Outcome::NotConforming })
 }

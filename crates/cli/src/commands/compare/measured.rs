@@ -2,9 +2,10 @@
 
 use crate::exit::Usage;
 use crate::memory;
-use crate::read::{self, Body, Opened};
 use anyhow::Context;
 use std::path::Path;
+use trueness::read::{self, Body, Opened};
+use trueness_files::FileSources;
 use trueness_files::{Columns, PointSource, ReadOptions, Weld};
 use trueness_geom::align::{self, AlignError, Alignment, BestFit, Target};
 use trueness_geom::closest::Tree;
@@ -47,7 +48,7 @@ impl Measured {
         seed: u64,
     ) -> anyhow::Result<Measured> {
         let reading = ReadOptions { weld: Weld::None, ..reading.clone() };
-        let Opened { record, body, format, .. } = read::open(path, Role::Measured, &reading)?;
+        let Opened { record, body, format, .. } = read::open(&FileSources, path, Role::Measured, &reading)?;
         let mesh = match body {
             Body::Points(_) if sample.is_some() => {
                 let shown = path.display();
@@ -130,8 +131,14 @@ impl Measured {
                 MeasuredKind::Vertices | MeasuredKind::Points => vertex_normals(mesh),
             });
         }
-        let mut normals =
-            read::all_normals(path, columns, reading, what, " (or those that --normals names)")?;
+        let mut normals = read::all_normals(
+            &FileSources,
+            path,
+            columns,
+            reading,
+            what,
+            " (or those that --normals names)",
+        )?;
         if let Some(motion) = &self.motion {
             normals.iter_mut().for_each(|n| *n = motion.vector(*n));
         }

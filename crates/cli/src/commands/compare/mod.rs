@@ -8,16 +8,18 @@ mod words;
 
 use crate::command::Run;
 use crate::exit::{self, Outcome, Usage};
-use crate::options::{Common, PointInputArgs, ReferenceArgs, weld};
+use crate::options::{Common, PointInputArgs, ReferenceArgs};
 use crate::progress::{STEPS, Stage};
-use crate::read;
-use crate::run_files::RunFiles;
-use crate::tolerance::ToleranceArg;
 use clap::{Args, ValueEnum};
 use measured::Measured;
 use output::PointFiles;
 use std::path::{Path, PathBuf};
 pub use table::{along, coverage, outliers, regions};
+use trueness::read;
+use trueness::task::RunFiles;
+use trueness::task::ToleranceText;
+use trueness::task::welding;
+use trueness_files::FileSources;
 use trueness_files::{Columns, ReadError, ReadOptions, WriteError};
 use trueness_geom::closest::QueryError;
 use trueness_geom::deviation::sign_choice::SignRequest;
@@ -69,7 +71,7 @@ pub struct CompareArgs {
     sign: SignArg,
     /// Allowed deviation: T for ±T, or -L,+U with both signs; the exit status is then the verdict
     #[arg(long, value_name = "T | -L,+U", allow_hyphen_values = true)]
-    tolerance: Option<ToleranceArg>,
+    tolerance: Option<ToleranceText>,
     /// Regions of the reference with tolerances of their own: a TOML file of [[region]] with id, seed or between, tolerance
     #[arg(long, value_name = "FILE")]
     regions: Option<PathBuf>,
@@ -170,7 +172,12 @@ impl CompareArgs {
             .into());
         }
         self.check_along()?;
-        let regions = self.regions.as_deref().map(read::regions).transpose()?.unwrap_or_default();
+        let regions = self
+            .regions
+            .as_deref()
+            .map(|path| read::regions(&FileSources, path))
+            .transpose()?
+            .unwrap_or_default();
         let zones = self.tolerance.iter().map(|t| t.0).chain(regions.iter().map(|r| r.tolerance));
         if let Some(why) = cannot_fail(max_distance, zones) {
             return Err(Usage(format!("--max-distance {max_distance}: {why}")).into());
@@ -227,7 +234,7 @@ impl CompareArgs {
 }
 
 impl Run for CompareArgs {
-    fn files(&self) -> anyhow::Result<RunFiles> {
+    fn files(&self, _: &Common) -> anyhow::Result<RunFiles> {
         let inputs = [&self.measured]
             .into_iter()
             .chain(&self.references)
@@ -244,13 +251,17 @@ fn run(args: &CompareArgs, common: &Common) -> anyhow::Result<Outcome> {
     let mut options = args.options(common)?;
     let tolerance = options.tolerance.map(|t| [t.lower, t.upper]);
     let scale = args.output.read_scale()?.map(|s| s.for_tolerance(tolerance));
-    let mut measured = Measured::open(&args.measured, &args.input.reading(), args.sample, common.seed)?;
+    let mut measured =
+        Measured::open(&args.measured, &args.input.reading().options(), args.sample, common.seed)?;
     if args.both && measured.mesh.is_none() {
         return Err(
             Usage("--both needs a measured mesh: points have no facets to measure back to".into()).into()
         );
     }
-    let reading = ReadOptions { weld: weld(args.weld)?, ..args.of_references.reading(&args.input) };
+    let reading = ReadOptions {
+        weld: welding(args.weld)?,
+        ..args.of_references.reading().options(&args.input.reading())
+    };
     let (opened, records) = references::open(&args.references, &reading, &options, common)?;
     let mut files = vec![measured.record.clone()];
     files.extend(records);
@@ -276,7 +287,7 @@ fn run(args: &CompareArgs, common: &Common) -> anyhow::Result<Outcome> {
         rayon::join(
             || {
                 let paths = [&args.measured].into_iter().chain(&args.references);
-                files.iter_mut().zip(paths).try_for_each(|(file, path)| read::hash(file, path))
+                files.iter_mut().zip(paths).try_for_each(|(file, path)| read::hash(&FileSources, file, path))
             },
             || {
                 compare::run(&mut *measured.points, &references, &options, &stage, |block| {
@@ -322,7 +333,8 @@ fn beside_points(args: &CompareArgs, measured: &Measured, options: &mut Options)
     options.between = vertices.map(Between::of).unwrap_or_default();
     let between = options.between.normals.clone();
     let read = |what: &str| {
-        let own = measured.normals(&args.measured, args.normals.as_ref(), &args.input.reading(), what);
+        let own =
+            measured.normals(&args.measured, args.normals.as_ref(), &args.input.reading().options(), what);
         own.map(|own| [own, between.clone()].concat())
     };
     if args.along == Some(AlongRule::Measured) {

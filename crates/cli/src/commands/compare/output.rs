@@ -3,10 +3,10 @@
 use crate::options::DocumentArgs;
 use crate::options::ProgressStyle;
 use crate::report::ReportArgs;
-use crate::run_files::RunFiles;
 use anyhow::Context;
 use clap::Args;
 use std::path::{Path, PathBuf};
+use trueness::task::RunFiles;
 use trueness_files::WriteError;
 use trueness_files::write::{self, HeldPoints, Layout, PointsFile, Writable};
 use trueness_geom::parallel::prelude::*;

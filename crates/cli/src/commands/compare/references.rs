@@ -3,9 +3,10 @@
 use crate::exit::Usage;
 use crate::options::Common;
 use crate::progress::{STEPS, Stage};
-use crate::read::{self, ReferenceBody};
 use anyhow::Context;
 use std::path::{Path, PathBuf};
+use trueness::read::{self, ReferenceBody};
+use trueness_files::FileSources;
 use trueness_files::ReadOptions;
 use trueness_geom::deviation::sign_choice::SignRequest;
 use trueness_geom::mesh::Mesh;
@@ -49,7 +50,7 @@ pub fn open(
 ) -> anyhow::Result<(Vec<Opened>, Vec<InputRecord>)> {
     let (mut all, mut records) = (vec![], vec![]);
     for path in paths {
-        let (body, mut record) = read::reference(path, reading)?;
+        let (body, mut record) = read::reference(&FileSources, path, reading)?;
         let lacking = match &body {
             ReferenceBody::Surfaces(surfaces) => degenerate(surfaces),
             ReferenceBody::Mesh(_) => vec![],

@@ -7,12 +7,13 @@ use crate::exit::{Outcome, Usage};
 use crate::noise::NoiseArgs;
 use crate::options::{Common, DocumentArgs, PointInputArgs};
 use crate::progress::Stage;
-use crate::read::{self, Body, Opened};
 use crate::report::ReportArgs;
-use crate::run_files::RunFiles;
 use anyhow::bail;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
+use trueness::read::{self, Body, Opened};
+use trueness::task::RunFiles;
+use trueness_files::FileSources;
 use trueness_files::write::{Values, Writable, values};
 use trueness_geom::mesh::Mesh;
 use trueness_inspect::curvature::{CurvatureKind, View, document, noise, without};
@@ -97,7 +98,7 @@ impl CurvatureArgs {
 }
 
 impl Run for CurvatureArgs {
-    fn files(&self) -> anyhow::Result<RunFiles> {
+    fn files(&self, _: &Common) -> anyhow::Result<RunFiles> {
         Ok(RunFiles::of([&self.input])
             .out(self.out.as_ref(), Writable::Values)
             .document(self.document.json.as_ref())
@@ -112,7 +113,7 @@ fn run(args: &CurvatureArgs, common: &Common) -> anyhow::Result<Outcome> {
     let mut options = args.options();
     let shown = args.input.display();
     let Opened { mut record, body, planar, .. } =
-        read::open(&args.input, Role::Measured, &args.reading.reading())?;
+        read::open(&FileSources, &args.input, Role::Measured, &args.reading.reading().options())?;
     if planar {
         return Err(Usage(format!("{shown}: it has two columns; curvatures need x, y and z")).into());
     }
@@ -127,7 +128,7 @@ fn run(args: &CurvatureArgs, common: &Common) -> anyhow::Result<Outcome> {
     options.noise = noise.as_ref().ok().copied();
     let stage = Stage::new(common.progress, "fitting", "places", Some(mesh.positions.len() as u64));
     let (hash, found) = rayon::join(
-        || read::hash(&mut record, &args.input),
+        || read::hash(&FileSources, &mut record, &args.input),
         || match of_mesh {
             true => curvature::mesh(&mesh, &options, &stage),
             false => curvature::cloud(&mesh.positions, &options, &stage),

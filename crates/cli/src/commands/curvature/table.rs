@@ -1,8 +1,9 @@
 //! Curvatures for people.
 
 use crate::number::{POINTS, VERTICES, counted, fixed, grouped, scientific, six_digits};
-use crate::{console, noise, read};
+use crate::{console, noise};
 use std::fmt::Write;
+use trueness::read;
 use trueness_inspect::curvature::CurvatureKind;
 use trueness_inspect::results::curvature::{
     CurvatureDocument, CurvaturePlace, Neighborhood, PlaceKind, Range,

@@ -1,11 +1,12 @@
 //! The plan's file, and the files that it names.
 
 use super::part::Fault;
-use crate::read::{self, Body, Opened};
 use anyhow::{Context, anyhow, bail};
 use std::collections::BTreeMap;
 use std::io::Read;
 use std::path::{Path, PathBuf};
+use trueness::read::{self, Body, Opened};
+use trueness_files::FileSources;
 use trueness_files::ReadOptions;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::space::Point;
@@ -28,7 +29,7 @@ pub struct PlanFile {
 impl PlanFile {
     pub fn read(path: &Path) -> anyhow::Result<PlanFile> {
         let shown = path.display();
-        if crate::run_files::is_stream(path) {
+        if trueness_files::Sources::is_stream(&FileSources, path) {
             bail!("{shown}: a plan must be a file; its paths are relative to it");
         }
         let file = std::fs::File::open(path).with_context(|| format!("{shown}: the plan cannot be read"))?;
@@ -90,7 +91,7 @@ impl PlanFile {
             && mesh.faces.is_empty()
         {
             let what = format!("{what} of [deviation]");
-            data.normals = read::all_normals(path, None, options, &what, "")?;
+            data.normals = read::all_normals(&FileSources, path, None, options, &what, "")?;
         }
         data.measured = Some(mesh);
         Ok(record)
@@ -124,9 +125,9 @@ impl PlanFile {
         let wanted = seeded || sought || self.plan.align.uses_reference() || self.plan.deviation.is_some();
         if let Some(written) = self.plan.reference.as_ref().filter(|_| wanted) {
             let path = self.path_of(written);
-            let read = read::mesh(&path, Role::Reference, &options);
+            let read = read::mesh(&FileSources, &path, Role::Reference, &options);
             let (source, mut record) = read.with_context(|| self.at(written, "the reference"))?;
-            read::hash(&mut record, &path)?;
+            read::hash(&FileSources, &mut record, &path)?;
             (data.reference, data.reference_left_out) = (Some(source.mesh), source.nonfinite_facets);
             inputs.push(record);
         }
@@ -151,12 +152,12 @@ impl PlanFile {
 
 /// Reads a mesh or points.
 fn take(path: &Path, options: &ReadOptions) -> anyhow::Result<(Mesh, InputRecord, bool)> {
-    let Opened { mut record, body, planar, .. } = read::open(path, Role::Measured, options)?;
+    let Opened { mut record, body, planar, .. } = read::open(&FileSources, path, Role::Measured, options)?;
     let mesh = match body {
         Body::Mesh(source) => source.mesh,
         Body::Points(source) => Mesh { positions: read::all_points(path, source)?, faces: vec![] },
     };
     read::describe(&mut record, &mesh.positions);
-    read::hash(&mut record, path)?;
+    read::hash(&FileSources, &mut record, path)?;
     Ok((mesh, record, planar))
 }

@@ -14,12 +14,12 @@ use crate::options::{Common, DocumentArgs};
 use crate::output::whole_file;
 use crate::progress::{STEPS, Stage};
 use crate::report::ReportArgs;
-use crate::run_files::RunFiles;
 use anyhow::anyhow;
 use clap::Args;
 use files::PlanFile;
 use part::{Failed, Fault, Part};
 use std::path::{Path, PathBuf};
+use trueness::task::RunFiles;
 use trueness_geom::progress::{Cancelled, Progress};
 use trueness_inspect::compare;
 use trueness_inspect::inspection::{self, Deviations, Stop, View};
@@ -74,7 +74,7 @@ impl InspectArgs {
 }
 
 impl Run for InspectArgs {
-    fn files(&self) -> anyhow::Result<RunFiles> {
+    fn files(&self, _: &Common) -> anyhow::Result<RunFiles> {
         let mut inputs = vec![self.plan.clone()];
         inputs.extend(self.measured.iter().cloned());
         // What is wrong with the plan is told when it is run; here its files must not be written over.

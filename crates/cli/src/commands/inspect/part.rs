@@ -1,6 +1,7 @@
 //! The parts of a run, and what keeps one from its results.
 
 use crate::console;
+use trueness::task::TaskError;
 use trueness_inspect::results::inspect::{InspectDocument, PlanRecord};
 
 /// A part that was to be inspected.
@@ -32,6 +33,12 @@ pub enum Fault {
 impl From<anyhow::Error> for Fault {
     fn from(error: anyhow::Error) -> Fault {
         Fault::Run(error)
+    }
+}
+
+impl From<TaskError> for Fault {
+    fn from(error: TaskError) -> Fault {
+        Fault::Run(error.into())
     }
 }
 

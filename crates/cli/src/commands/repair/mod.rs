@@ -6,11 +6,12 @@ use crate::command::Run;
 use crate::exit::{self, Outcome, Usage, not_negative};
 use crate::options::{Common, DocumentArgs, InputArgs};
 use crate::progress::{self, Stage};
-use crate::read;
 use crate::report::ReportArgs;
-use crate::run_files::RunFiles;
 use clap::Args;
 use std::path::PathBuf;
+use trueness::read;
+use trueness::task::RunFiles;
+use trueness_files::FileSources;
 use trueness_files::write::{MeshFile, Writable};
 use trueness_geom::check;
 use trueness_geom::mesh::Mesh;
@@ -122,7 +123,7 @@ fn out_help() -> String {
 }
 
 impl Run for RepairArgs {
-    fn files(&self) -> anyhow::Result<RunFiles> {
+    fn files(&self, _: &Common) -> anyhow::Result<RunFiles> {
         Ok(RunFiles::of([&self.mesh])
             .in_place(self.in_place)
             .out(Some(self.target()), Writable::Mesh)
@@ -137,7 +138,8 @@ impl Run for RepairArgs {
 fn run(args: &RepairArgs, common: &Common) -> anyhow::Result<Outcome> {
     let options = args.options()?;
     let max_change = not_negative("max-change", args.max_change)? / 100.0;
-    let (source, mut record) = read::mesh(&args.mesh, Role::Mesh, &args.input.reading())?;
+    let (source, mut record) =
+        read::mesh(&FileSources, &args.mesh, Role::Mesh, &args.input.reading().options())?;
     if !source.unread.is_empty() {
         record.warnings.push(lost(&source.unread));
     }
@@ -150,7 +152,7 @@ fn run(args: &RepairArgs, common: &Common) -> anyhow::Result<Outcome> {
     let stage = Stage::new(common.progress, "measuring", progress::STEPS, None);
     // One after the other the bytes of a file leave all threads but one idle.
     let write = || -> anyhow::Result<MeshFile> {
-        read::hash(&mut record, &args.mesh)?;
+        read::hash(&FileSources, &mut record, &args.mesh)?;
         Ok(MeshFile::write(args.target(), &repaired.mesh)?)
     };
     let (deviation, file) = rayon::join(|| repaired.deviation(&source.mesh, &stage), write);

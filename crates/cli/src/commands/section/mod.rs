@@ -14,12 +14,13 @@ use crate::exit::{self, Outcome, Usage};
 use crate::noise::NoiseArgs;
 use crate::options::{Common, DocumentArgs, PointInputArgs};
 use crate::progress::{STEPS, Stage};
-use crate::read::{self, Body, Opened};
 use crate::report::ReportArgs;
-use crate::run_files::RunFiles;
 use clap::{Args, ValueEnum};
 use found::{Found, described};
 use std::path::PathBuf;
+use trueness::read::{self, Body, Opened};
+use trueness::task::RunFiles;
+use trueness_files::FileSources;
 use trueness_geom::noise::{self, Noise};
 use trueness_geom::plane::PlaneFrame;
 use trueness_geom::space::{Point, minus, norm};
@@ -150,7 +151,7 @@ fn place(text: &str) -> Result<[f64; 2], String> {
 }
 
 impl Run for SectionArgs {
-    fn files(&self) -> anyhow::Result<RunFiles> {
+    fn files(&self, _: &Common) -> anyhow::Result<RunFiles> {
         let inputs = std::iter::once(&self.input).chain(&self.nominal.nominal);
         let files = RunFiles::of(inputs).document(self.document.json.as_ref());
         Ok(self.drawings.files(files.report(self.report.html.as_ref())))
@@ -191,7 +192,7 @@ fn run(args: &SectionArgs, common: &Common) -> anyhow::Result<Outcome> {
     let options = args.options();
     args.nominal.rule()?;
     let Opened { mut record, mut body, planar, .. } =
-        read::open(&args.input, Role::Measured, &args.file.reading())?;
+        read::open(&FileSources, &args.input, Role::Measured, &args.file.reading().options())?;
     let shown = args.input.display();
     let planes = args.planes.planes()?;
     let (known, noise) = as_it_is(args, common, &mut body, &mut record)?;
@@ -223,7 +224,7 @@ fn run(args: &SectionArgs, common: &Common) -> anyhow::Result<Outcome> {
             }
         }
     };
-    read::hash(&mut record, &args.input)?;
+    read::hash(&FileSources, &mut record, &args.input)?;
     let (sections, rows) = found.map_err(|e| match e {
         SectionError::Cancelled(e) => e.into(),
         e @ SectionError::WrongOption { .. } => Usage(e.to_string()).into(),

@@ -7,10 +7,11 @@ use super::planes::{self, Cut};
 use crate::exit::Usage;
 use crate::options::{PointInputArgs, ReferenceArgs};
 use crate::progress::Stage;
-use crate::read::{self, Body, Opened};
-use crate::tolerance::ToleranceArg;
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
+use trueness::read::{self, Body, Opened};
+use trueness::task::ToleranceText;
+use trueness_files::FileSources;
 use trueness_files::ReadOptions;
 use trueness_files::drawing::{Drawing, Drawn};
 use trueness_geom::mesh::Mesh;
@@ -42,7 +43,7 @@ pub struct NominalArgs {
     /// Allowed deviation of the profile: T for ±T (a zone of the width 2 T, even about the nominal: write half of the profile
     /// tolerance of a drawing), or -L,+U with both signs; the exit status is then the verdict
     #[arg(long, value_name = "T | -L,+U", allow_hyphen_values = true, requires = "nominal")]
-    tolerance: Option<ToleranceArg>,
+    tolerance: Option<ToleranceText>,
     /// Share of the points that must lie within the tolerance, in percent
     #[arg(
         long,
@@ -115,7 +116,7 @@ impl NominalArgs {
     /// What the profile must keep, if anything, and from what distance on points do not count.
     pub fn rule(&self) -> Result<(Option<ProfileRule>, f64), Usage> {
         if self.nominal.is_none() {
-            self.reading.without_reference("--nominal")?;
+            self.reading.reading().without_reference("--nominal").map_err(|e| Usage(e.to_string()))?;
         }
         let share = |name: &str, written: f64| {
             of_percent(written).map_err(|what| Usage(format!("{name} {written}: {what}")))
@@ -126,7 +127,7 @@ impl NominalArgs {
                 "--max-distance {max_distance}: a distance is a finite number of mm above 0; without the option there is no limit"
             )));
         }
-        let Some(ToleranceArg(tolerance)) = self.tolerance else { return Ok((None, max_distance)) };
+        let Some(ToleranceText(tolerance)) = self.tolerance else { return Ok((None, max_distance)) };
         if let Some(why) = cannot_fail(max_distance, std::iter::once(tolerance)) {
             return Err(Usage(format!("--max-distance {max_distance}: {why}")));
         }
@@ -150,8 +151,8 @@ impl NominalArgs {
     ) -> anyhow::Result<Option<(NominalRecord, InputRecord)>> {
         let Some(path) = &self.nominal else { return Ok(None) };
         let shown = path.display();
-        let (nominal, mut record) = open(path, &self.reading.reading(measured), stage)?;
-        read::hash(&mut record, path)?;
+        let (nominal, mut record) = open(path, &self.reading.reading().options(&measured.reading()), stage)?;
+        read::hash(&FileSources, &mut record, path)?;
         let layers = match &nominal {
             Nominal::Drawing(drawing) => Layers::of(drawing, sections.len(), &shown.to_string())?,
             _ => Layers::default(),
@@ -284,7 +285,7 @@ fn unlikely(sections: &[Section], all: &[AgainstPlane]) -> Vec<Warning> {
 
 /// What the file of a nominal holds.
 fn open(path: &Path, reading: &ReadOptions, stage: &Stage) -> anyhow::Result<(Nominal, InputRecord)> {
-    let Opened { mut record, body, planar, .. } = match read::nominal(path, reading)? {
+    let Opened { mut record, body, planar, .. } = match read::nominal(&FileSources, path, reading)? {
         Ok((drawing, record)) => return Ok((Nominal::Drawing(drawing), record)),
         Err(opened) => opened,
     };

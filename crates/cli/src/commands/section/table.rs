@@ -5,8 +5,9 @@ mod fitted;
 mod offers;
 
 use crate::number::{fixed, grouped, scientific};
-use crate::{console, noise, read};
+use crate::{console, noise};
 use std::fmt::Write;
+use trueness::read;
 use trueness_inspect::results::section::{
     AirfoilMeasures, AirfoilRecord, BEYOND_END, ContourRecord, DimensionsRecord, FrameRecord, GeometryRecord,
     MAX_DISTANCE, MethodsRecord, NominalRecord, OutlineRecord, Positive, SectionDocument, SegmentRecord,

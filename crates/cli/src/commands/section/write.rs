@@ -1,10 +1,10 @@
 //! Drawings and tables of points of a section.
 
 use crate::output::whole_file;
-use crate::run_files::RunFiles;
 use clap::Args;
 use std::io::Write;
 use std::path::PathBuf;
+use trueness::task::RunFiles;
 use trueness_files::drawing::{self, Clamped, Entity, Layer};
 use trueness_files::write::{Csv, LineEnd};
 use trueness_geom::plane::PlaneFrame;

@@ -8,12 +8,13 @@ use crate::command::Run;
 use crate::exit::{self, Outcome, Usage};
 use crate::options::{Common, DocumentArgs, PointInputArgs};
 use crate::progress::{STEPS, Stage};
-use crate::read::{self, Body, Opened};
 use crate::report::ReportArgs;
-use crate::run_files::RunFiles;
 use anyhow::bail;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
+use trueness::read::{self, Body, Opened};
+use trueness::task::RunFiles;
+use trueness_files::FileSources;
 use trueness_geom::mesh::Mesh;
 use trueness_inspect::results::Role;
 use trueness_inspect::surface::View;
@@ -152,7 +153,7 @@ impl SurfaceArgs {
 }
 
 impl Run for SurfaceArgs {
-    fn files(&self) -> anyhow::Result<RunFiles> {
+    fn files(&self, _: &Common) -> anyhow::Result<RunFiles> {
         self.models.check_chord()?;
         let inputs = std::iter::once(&self.points).chain(&self.knots);
         let files = RunFiles::of(inputs).document(self.document.json.as_ref());
@@ -166,7 +167,7 @@ impl Run for SurfaceArgs {
 fn run(args: &SurfaceArgs, common: &Common) -> anyhow::Result<Outcome> {
     let options = args.options()?;
     let Opened { mut record, body, planar, .. } =
-        read::open(&args.points, Role::Measured, &args.input.reading())?;
+        read::open(&FileSources, &args.points, Role::Measured, &args.input.reading().options())?;
     let shown = args.points.display();
     if planar {
         return Err(Usage(format!("{shown}: it has two columns; a surface needs x, y and z")).into());
@@ -183,7 +184,7 @@ fn run(args: &SurfaceArgs, common: &Common) -> anyhow::Result<Outcome> {
     }
     let points = &mesh.positions;
     read::describe(&mut record, points);
-    read::hash(&mut record, &args.points)?;
+    read::hash(&FileSources, &mut record, &args.points)?;
     let stage = Stage::new(common.progress, "fitting", STEPS, None);
     let fit = surface::fit_mesh(&mesh, &options, &stage);
     let fit = fit.map_err(|e| match e {

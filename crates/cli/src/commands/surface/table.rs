@@ -1,8 +1,9 @@
 //! Surfaces for people.
 
+use crate::console;
 use crate::number::{POINTS, counted, fixed, grouped, scientific};
-use crate::{console, read};
 use std::fmt::Write;
+use trueness::read;
 use trueness_inspect::results::curvature::Range;
 use trueness_inspect::results::surface::{BaseRecord, SurfaceDocument};
 use trueness_surface::Reached;

@@ -2,10 +2,10 @@
 
 use crate::exit::{Usage, not_negative};
 use crate::output::whole_file;
-use crate::run_files::RunFiles;
 use anyhow::bail;
 use clap::Args;
 use std::path::PathBuf;
+use trueness::task::RunFiles;
 use trueness_files::cad::{self, Bound, SplineSurface, TrimmedFace};
 use trueness_geom::progress::Progress;
 use trueness_geom::space::{Aabb, Point};

@@ -1,17 +1,15 @@
-//! Files of the command line, read and described for the result document.
+//! What goes by the names of a request, read and described for the result document.
 
 mod surface_document;
 mod unread;
 
-use crate::exit::Usage;
-use crate::run_files::is_stream;
-use anyhow::{Context, bail};
+use crate::task::{Meaning, TaskError};
 use std::path::Path;
 use trueness_files::cad::SplineModel;
 use trueness_files::drawing::Drawing;
 use trueness_files::{
-    ColumnTaken, Columns, Input, PointSource, ReadError, ReadOptions, SourceMesh, TableReading, Warning,
-    open_normals,
+    ColumnTaken, Columns, Input, PointSource, ReadError, ReadOptions, SourceMesh, Sources, TableReading,
+    Warning, open_from, open_normals_from,
 };
 use trueness_geom::closest::{MAX_COORDINATE, MAX_VERTEX, MIN_COORDINATE};
 use trueness_geom::parallel::prelude::*;
@@ -20,6 +18,9 @@ use trueness_geom::spline::surface::Nurbs;
 use trueness_inspect::compare::RegionRule;
 use trueness_inspect::plan::regions_of_file;
 use trueness_inspect::results::{Bounds, ColumnRecord, InputRecord, Role, TableRecord};
+
+/// What reading answers.
+type Result<T> = std::result::Result<T, TaskError>;
 
 /// A file of this run: what the document says of it, and what is in it.
 pub struct Opened {
@@ -45,8 +46,8 @@ pub enum Body {
 
 /// Opens a file that is taken for `role`. Counts and box of a mesh stand in the record; those of points, which have not
 /// been read yet, do not.
-pub fn open(path: &Path, role: Role, options: &ReadOptions) -> anyhow::Result<Opened> {
-    match any(path, role, options)? {
+pub fn open(sources: &dyn Sources, path: &Path, role: Role, options: &ReadOptions) -> Result<Opened> {
+    match any(sources, path, role, options)? {
         Any::Whole(opened) => Ok(opened),
         Any::Splines(model, record) => Err(unread::refusal(path, &model, &record, MESH_OR_POINTS)),
         Any::Drawing(..) => Err(no_drawing(path)),
@@ -64,24 +65,28 @@ enum Any {
 }
 
 /// Why a drawing is refused.
-fn no_drawing(path: &Path) -> anyhow::Error {
-    anyhow::anyhow!(
+fn no_drawing(path: &Path) -> TaskError {
+    TaskError::unanswerable(format!(
         "{}: it is a drawing, but this command needs a mesh or points; drawings are nominals of `trueness section`",
         path.display()
-    )
+    ))
 }
 
 /// Opens the nominal of a section: a drawing, or a mesh or points.
-pub fn nominal(path: &Path, options: &ReadOptions) -> anyhow::Result<Result<(Drawing, InputRecord), Opened>> {
-    match any(path, Role::Reference, options)? {
+pub fn nominal(
+    sources: &dyn Sources,
+    path: &Path,
+    options: &ReadOptions,
+) -> Result<std::result::Result<(Drawing, InputRecord), Opened>> {
+    match any(sources, path, Role::Reference, options)? {
         Any::Drawing(drawing, record) => Ok(Ok((drawing, record))),
         Any::Whole(opened) => Ok(Err(opened)),
         Any::Splines(model, record) => Err(unread::refusal(path, &model, &record, MESH_OR_POINTS)),
     }
 }
 
-fn any(path: &Path, role: Role, options: &ReadOptions) -> anyhow::Result<Any> {
-    let Input { provenance, body, warnings } = trueness_files::open(path, options)?;
+fn any(sources: &dyn Sources, path: &Path, role: Role, options: &ReadOptions) -> Result<Any> {
+    let Input { provenance, body, warnings } = open_from(sources, path, options)?;
     let mut record = record(role, &provenance, &warnings);
     let body = match body {
         trueness_files::Body::Splines(model) => return Ok(Any::Splines(model, record)),
@@ -91,7 +96,7 @@ fn any(path: &Path, role: Role, options: &ReadOptions) -> anyhow::Result<Any> {
             let out =
                 |v: &u32| mesh.mesh.positions.get(*v as usize).is_some_and(|p| out_of_range(p, MAX_VERTEX));
             if let Some(v) = mesh.mesh.faces.par_iter().flat_map_iter(|f| *f).filter(out).min() {
-                bail!(refusal(path, "vertex", v as usize, MAX_VERTEX));
+                return Err(TaskError::unanswerable(refusal(path, "vertex", v as usize, MAX_VERTEX)));
             }
             describe(&mut record, &mesh.mesh.positions);
             record.facets = Some(mesh.mesh.faces.len() as u64);
@@ -112,13 +117,17 @@ pub enum ReferenceBody {
 }
 
 /// Reads a mesh or B-spline surfaces: those of a CAD file, or of a document of `trueness surface`. Points are refused with a remedy.
-pub fn reference(path: &Path, options: &ReadOptions) -> anyhow::Result<(ReferenceBody, InputRecord)> {
+pub fn reference(
+    sources: &dyn Sources,
+    path: &Path,
+    options: &ReadOptions,
+) -> Result<(ReferenceBody, InputRecord)> {
     if options.format.is_none()
-        && let Some(found) = surface_document::read(path)?
+        && let Some(found) = surface_document::read(sources, path)?
     {
         return Ok((ReferenceBody::Surfaces(vec![found.0]), found.1));
     }
-    match any(path, Role::Reference, options)? {
+    match any(sources, path, Role::Reference, options)? {
         Any::Whole(opened) => {
             opened_mesh(path, Role::Reference, opened).map(|(m, r)| (ReferenceBody::Mesh(m), r))
         }
@@ -130,7 +139,7 @@ pub fn reference(path: &Path, options: &ReadOptions) -> anyhow::Result<(Referenc
             let points: Vec<Point> =
                 model.surfaces.iter().flat_map(|s| s.control_points().into_iter().map(|p| p.0)).collect();
             if let Some(i) = points.iter().position(|p| out_of_range(p, MAX_VERTEX)) {
-                bail!(refusal(path, "control point", i, MAX_VERTEX));
+                return Err(TaskError::unanswerable(refusal(path, "control point", i, MAX_VERTEX)));
             }
             record.points = points.len() as u64;
             Ok((ReferenceBody::Surfaces(model.surfaces), record))
@@ -139,36 +148,44 @@ pub fn reference(path: &Path, options: &ReadOptions) -> anyhow::Result<(Referenc
 }
 
 /// Reads a mesh; points are refused with a remedy.
-pub fn mesh(path: &Path, role: Role, options: &ReadOptions) -> anyhow::Result<(SourceMesh, InputRecord)> {
-    opened_mesh(path, role, open(path, role, options)?)
+pub fn mesh(
+    sources: &dyn Sources,
+    path: &Path,
+    role: Role,
+    options: &ReadOptions,
+) -> Result<(SourceMesh, InputRecord)> {
+    opened_mesh(path, role, open(sources, path, role, options)?)
 }
 
-fn opened_mesh(path: &Path, role: Role, opened: Opened) -> anyhow::Result<(SourceMesh, InputRecord)> {
+fn opened_mesh(path: &Path, role: Role, opened: Opened) -> Result<(SourceMesh, InputRecord)> {
     match opened.body {
         Body::Mesh(mesh) => Ok((mesh, opened.record)),
-        Body::Points(_) if role == Role::Reference => bail!(
+        Body::Points(_) if role == Role::Reference => Err(TaskError::unanswerable(format!(
             "{}: it holds points without facets, but a reference must be a mesh (STL, PLY, OBJ, OFF) or \
              B-spline surfaces (STEP, IGES); \
              give the points first and the mesh after them",
             path.display()
-        ),
+        ))),
         // Without vertices, too, it is as empty as an STL file of no facets.
         Body::Points(_) if opened.empty => {
             let record = InputRecord { facets: Some(0), ..opened.record };
             Ok((SourceMesh::default(), record))
         }
-        Body::Points(_) => bail!(
+        Body::Points(_) => Err(TaskError::unanswerable(format!(
             "{}: it holds points without facets; this command needs a mesh (STL, PLY, OBJ, OFF)",
             path.display()
-        ),
+        ))),
     }
 }
 
+/// Longest file of regions, bytes.
+const LONGEST_TEXT: usize = 16 << 20;
+
 /// The regions of a reference with tolerances of their own, of a file.
-pub fn regions(path: &Path) -> anyhow::Result<Vec<RegionRule>> {
+pub fn regions(sources: &dyn Sources, path: &Path) -> Result<Vec<RegionRule>> {
     let shown = path.display();
-    let text = std::fs::read_to_string(path).with_context(|| format!("{shown}: cannot be read"))?;
-    regions_of_file(&text).with_context(|| shown.to_string())
+    let text = sources.text(path, LONGEST_TEXT)?;
+    regions_of_file(&text).meaning(|| shown.to_string())
 }
 
 /// Whether a coordinate has a size that no command measures with: not 0, and below what distances keep their digits of, or
@@ -188,7 +205,7 @@ fn refusal(path: &Path, what: &str, number: usize, greatest: f64) -> String {
 }
 
 /// All points of a source, which is the file at `path`.
-pub fn all_points(path: &Path, mut source: PointSource) -> anyhow::Result<Vec<Point>> {
+pub fn all_points(path: &Path, mut source: PointSource) -> Result<Vec<Point>> {
     let (mut all, mut block): (Vec<Point>, Vec<Point>) = (Vec::new(), Vec::new());
     loop {
         source.next_block(&mut block)?;
@@ -196,7 +213,7 @@ pub fn all_points(path: &Path, mut source: PointSource) -> anyhow::Result<Vec<Po
             return Ok(all);
         }
         if let Some(i) = block.iter().position(|p| out_of_range(p, MAX_COORDINATE)) {
-            bail!(refusal(path, "point", all.len() + i, MAX_COORDINATE));
+            return Err(TaskError::unanswerable(refusal(path, "point", all.len() + i, MAX_COORDINATE)));
         }
         all.extend_from_slice(&block);
     }
@@ -205,22 +222,23 @@ pub fn all_points(path: &Path, mut source: PointSource) -> anyhow::Result<Vec<Po
 /// The normals of the points of the file at `path`, one for each, for `what` that needs them; `or` tells how else their columns
 /// can be named.
 pub fn all_normals(
+    sources: &dyn Sources,
     path: &Path,
     columns: Option<&Columns>,
     reading: &ReadOptions,
     what: &str,
     or: &str,
-) -> anyhow::Result<Vec<Vector>> {
-    if is_stream(path) {
+) -> Result<Vec<Vector>> {
+    if sources.is_stream(path) {
         let what = format!(
             "{what}: {} can be read only once, but its normals need a second reading; give a file",
             path.display()
         );
-        return Err(Usage(what).into());
+        return Err(TaskError::usage(what));
     }
     let found = || {
         let (mut all, mut block) = (vec![], vec![]);
-        let mut source = open_normals(path, columns, reading)?;
+        let mut source = open_normals_from(sources, path, columns, reading)?;
         loop {
             source.next_block(&mut block)?;
             if block.is_empty() {
@@ -229,7 +247,7 @@ pub fn all_normals(
             all.append(&mut block);
         }
     };
-    found().map_err(|e: ReadError| anyhow::Error::from(e)).with_context(|| {
+    found().map_err(|e: ReadError| TaskError::from(e)).meaning(|| {
         format!(
             "{what} needs the normals of the points: columns nx, ny, nz of a table{or}, such properties of a PLY file, or a measured mesh"
         )
@@ -296,14 +314,15 @@ pub fn notes(inputs: &[InputRecord]) -> String {
 /// Fills in the hash of a file as it lies on disk.
 ///
 /// The name in the record is for people: bytes in it that are no text are replaced, so the file is found by `path`.
-pub fn hash(record: &mut InputRecord, path: &Path) -> anyhow::Result<()> {
-    if is_stream(path) {
+pub fn hash(sources: &dyn Sources, record: &mut InputRecord, path: &Path) -> Result<()> {
+    if sources.is_stream(path) {
         let what = if path == Path::new("-") { "standard input" } else { "a pipe or a device" };
         record.sha256_reason = Some(format!("read from {what}"));
         return Ok(());
     }
-    let digest = trueness_files::sha256(path)
-        .with_context(|| format!("{}: it changed or vanished while it was read", path.display()))?;
+    let digest = sources
+        .sha256(path)
+        .meaning(|| format!("{}: it changed or vanished while it was read", path.display()))?;
     record.sha256 = Some(digest.iter().map(|b| format!("{b:02x}")).collect());
     Ok(())
 }

@@ -1,17 +1,16 @@
 //! The files of a run, all of them known and tried before any work: what is read is never overwritten, two outputs never
 //! share a file, and an output that cannot be written is found out at once and not after an hour.
 //!
-//! Every command lists its files here; nothing else opens an output for the first time.
+//! Every task lists its files here; nothing else opens an output for the first time.
 
-use crate::console;
-use crate::exit::Usage;
+use super::{TaskError, Watch};
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 use trueness_files::write::Writable;
 use trueness_files::{AtomicFile, FileSources, Sources};
 
-/// What a command reads and writes.
+/// What a task reads and writes.
 #[derive(Default)]
 pub struct RunFiles {
     inputs: Vec<PathBuf>,
@@ -98,15 +97,14 @@ impl RunFiles {
     /// # Errors
     /// Wrong usage: an ending that no format has, an output that is an input or another output, a stream that would have
     /// to be read twice. Then what the system says: a missing folder, a protected file.
-    pub fn check(&self) -> anyhow::Result<()> {
+    pub fn check(&self, watch: &dyn Watch) -> Result<(), TaskError> {
         self.check_streams()?;
         for output in &self.outputs {
             if is_dash(&output.path) && !output.on_stdout {
                 let option = output.option;
-                return Err(Usage(format!(
+                return Err(TaskError::usage(format!(
                     "{option} -: only --json goes to the standard output; name a file (./- if it is to be called so)"
-                ))
-                .into());
+                )));
             }
             if let Some(holds) = output.holds {
                 holds.check(&output.path)?;
@@ -116,16 +114,16 @@ impl RunFiles {
         self.check_overlaps()?;
         let files = || self.outputs.iter().map(|o| &o.path).filter(|path| !is_dash(path));
         files().try_for_each(|path| AtomicFile::try_out(path))?;
-        remove_leftovers(files());
+        remove_leftovers(files(), watch);
         Ok(())
     }
 
     /// Standard input and pipes give their bytes once.
-    fn check_streams(&self) -> Result<(), Usage> {
+    fn check_streams(&self) -> Result<(), TaskError> {
         for (i, path) in self.inputs.iter().enumerate() {
             if is_stream(path) && self.inputs[..i].contains(path) {
                 let shown = path.display();
-                return Err(Usage(format!(
+                return Err(TaskError::usage(format!(
                     "{shown}: it can be read once only; save it in a file and name that twice"
                 )));
             }
@@ -133,7 +131,7 @@ impl RunFiles {
         Ok(())
     }
 
-    fn check_overlaps(&self) -> Result<(), Usage> {
+    fn check_overlaps(&self) -> Result<(), TaskError> {
         let mut taken: Vec<(FileIdentity, &Output)> = vec![];
         let inputs: Vec<(FileIdentity, &PathBuf)> =
             self.inputs.iter().filter_map(|path| Some((FileIdentity::of_input(path)?, path))).collect();
@@ -142,7 +140,7 @@ impl RunFiles {
             let (option, shown) = (output.option, output.path.display());
             if let Some((_, other)) = taken.iter().find(|(p, _)| *p == place) {
                 let (first, there) = (other.option, other.path.display());
-                return Err(Usage(format!(
+                return Err(TaskError::usage(format!(
                     "{option} {shown} and {first} {there} are the same file; give each its own"
                 )));
             }
@@ -153,13 +151,13 @@ impl RunFiles {
                     Some(Writable::Mesh) => "write to another file, or add --in-place",
                     _ => "write to another file",
                 };
-                return Err(Usage(format!(
+                return Err(TaskError::usage(format!(
                     "{option} {shown} would overwrite the input {input}, which is the same file; {remedy}"
                 )));
             }
             // A path of an input that does not exist is told where it is opened.
             if replaces && !inputs.is_empty() && inputs.iter().all(|(p, _)| *p != place) {
-                return Err(Usage(format!(
+                return Err(TaskError::usage(format!(
                     "--in-place writes over the input, but {option} names another file, {shown}: leave one of the two out"
                 )));
             }
@@ -170,13 +168,13 @@ impl RunFiles {
 }
 
 impl Output {
-    fn check_ending(&self) -> Result<(), Usage> {
+    fn check_ending(&self) -> Result<(), TaskError> {
         let ending = self.path.extension().and_then(|e| e.to_str()).unwrap_or_default().to_ascii_lowercase();
         if self.endings.is_empty() || self.endings.contains(&&*ending) || is_stream(&self.path) {
             return Ok(());
         }
         let (option, shown) = (self.option, self.path.display());
-        Err(Usage(format!("{option} {shown}: the ending must be .{}", self.endings.join(" or ."))))
+        Err(TaskError::usage(format!("{option} {shown}: the ending must be .{}", self.endings.join(" or ."))))
     }
 }
 
@@ -236,7 +234,7 @@ impl FileIdentity {
 }
 
 /// Clears the folders of the outputs of what killed runs left there, and says so.
-fn remove_leftovers<'a>(outputs: impl Iterator<Item = &'a PathBuf>) {
+fn remove_leftovers<'a>(outputs: impl Iterator<Item = &'a PathBuf>, watch: &dyn Watch) {
     let folders: BTreeSet<PathBuf> = outputs
         .filter_map(|path| path.parent())
         .map(|folder| if folder.as_os_str().is_empty() { PathBuf::from(".") } else { folder.into() })
@@ -244,13 +242,10 @@ fn remove_leftovers<'a>(outputs: impl Iterator<Item = &'a PathBuf>) {
     for folder in folders {
         let found = trueness_files::remove_leftovers(&folder);
         for path in found.removed {
-            console::note(&format!(
-                "removed {}: an unfinished file of a run that was killed",
-                path.display()
-            ));
+            watch.note(&format!("removed {}: an unfinished file of a run that was killed", path.display()));
         }
         for path in found.kept {
-            console::note(&format!(
+            watch.note(&format!(
                 "{}: unfinished, by a run that was killed or is still under way; remove it once none is",
                 path.display()
             ));

@@ -1,13 +1,13 @@
-//! The words of `--tolerance`: `T` for ±T, or `-L,+U`.
+//! The text of a tolerance: `T` for ±T, or `-L,+U`.
 
 use std::str::FromStr;
 use trueness_inspect::tolerance::Tolerance;
 
-/// A tolerance as written on the command line.
+/// A tolerance as it is written.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ToleranceArg(pub Tolerance);
+pub struct ToleranceText(pub Tolerance);
 
-impl FromStr for ToleranceArg {
+impl FromStr for ToleranceText {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
@@ -36,7 +36,7 @@ impl FromStr for ToleranceArg {
         if lower >= upper {
             return Err(format!("the lower limit {lower} must be below the upper limit {upper}"));
         }
-        Ok(ToleranceArg(Tolerance { lower, upper }))
+        Ok(ToleranceText(Tolerance { lower, upper }))
     }
 }
 
@@ -95,7 +95,7 @@ mod tests {
             ("+0.1,+0.2", 0.1, 0.2),
             ("-0.2,-0.1", -0.2, -0.1),
         ] {
-            assert_eq!(text.parse(), Ok(ToleranceArg(Tolerance { lower, upper })), "{text}");
+            assert_eq!(text.parse(), Ok(ToleranceText(Tolerance { lower, upper })), "{text}");
         }
     }
 
@@ -107,9 +107,9 @@ mod tests {
             ("-1,5", "1.5", "-1,+5"),
             ("0.1,0.2", "", "+0.1,+0.2"),
         ] {
-            let said = text.parse::<ToleranceArg>().unwrap_err();
+            let said = text.parse::<ToleranceText>().unwrap_err();
             assert!(said.contains(number) && said.contains(zone), "{text}: {said}");
-            assert!(zone.parse::<ToleranceArg>().is_ok(), "{zone}");
+            assert!(zone.parse::<ToleranceText>().is_ok(), "{zone}");
             assert_eq!(text == "0.1,0.2", said.contains("-0.1,+0.2"), "{text}: {said}");
         }
     }
@@ -117,7 +117,7 @@ mod tests {
     #[test]
     fn refuses_what_has_no_zone() {
         for text in ["0", "-1", "nan", "inf", "a", "0.2,0.1", "1,1", "", "0.1,"] {
-            assert!(text.parse::<ToleranceArg>().is_err(), "{text}");
+            assert!(text.parse::<ToleranceText>().is_err(), "{text}");
         }
     }
 }

@@ -1,5 +1,6 @@
 //! What of a file is not read: one place for what documents, verdicts and refusals say of it.
 
+use crate::task::TaskError;
 use std::path::Path;
 use trueness_files::cad::SplineModel;
 use trueness_files::{Unread, Warning};
@@ -36,7 +37,7 @@ pub fn trimmed(warnings: &[Warning]) -> Option<u64> {
 }
 
 /// Why a CAD file is refused where `need` is what it lacks.
-pub fn refusal(path: &Path, model: &SplineModel, record: &InputRecord, need: &str) -> anyhow::Error {
+pub fn refusal(path: &Path, model: &SplineModel, record: &InputRecord, need: &str) -> TaskError {
     let faces = record.incomplete.as_ref().and_then(|i| i.read.zip(i.of));
     let holds = match (faces, model.surfaces.len(), model.curves.len()) {
         (Some((0, of)), ..) => {
@@ -51,5 +52,5 @@ pub fn refusal(path: &Path, model: &SplineModel, record: &InputRecord, need: &st
         (None, 0, curves) => format!("it holds no B-spline surface ({curves} curves)"),
         (None, surfaces, _) => format!("it holds B-spline surfaces ({surfaces})"),
     };
-    anyhow::anyhow!("{}: {holds}; {need}: export the part as STL", path.display())
+    TaskError::unanswerable(format!("{}: {holds}; {need}: export the part as STL", path.display()))
 }

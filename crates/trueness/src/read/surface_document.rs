@@ -1,13 +1,10 @@
 //! A surface from a result document of `trueness surface`.
 
-use crate::run_files::is_stream;
-use anyhow::{Context, bail};
+use crate::task::{Meaning, TaskError};
 use serde::Deserialize;
 use serde::de::IgnoredAny;
-use std::fs::File;
-use std::io::Read;
 use std::path::Path;
-use trueness_files::Warning;
+use trueness_files::{Sources, Warning};
 use trueness_geom::spline::basis::Knots;
 use trueness_geom::spline::surface::{Nurbs, Surface};
 use trueness_inspect::results::UNITS;
@@ -37,44 +34,52 @@ struct Directions {
     v: Vec<f64>,
 }
 
+/// Bytes looked at for the first one that is no blank.
+const HEAD: usize = 64;
 /// Largest document that is taken.
 const LARGEST: u64 = 4 << 30;
 
 /// The surface; `None` if the file is no JSON. Streams are never looked into.
-pub fn read(path: &Path) -> anyhow::Result<Option<(Nurbs, InputRecord)>> {
-    if is_stream(path) || !begins_with_a_brace(path) {
+pub fn read(sources: &dyn Sources, path: &Path) -> Result<Option<(Nurbs, InputRecord)>, TaskError> {
+    if sources.is_stream(path) || !begins_with_a_brace(sources, path) {
         return Ok(None);
     }
     let shown = path.display();
-    let bytes = std::fs::metadata(path).with_context(|| format!("{shown}: it cannot be read"))?.len();
+    let bytes = sources.length(path).unwrap_or(0);
     if bytes > LARGEST {
-        bail!("{shown}: {} MB are too large for a document of a surface", bytes >> 20);
+        let text = format!("{shown}: {} MB are too large for a document of a surface", bytes >> 20);
+        return Err(TaskError::unanswerable(text));
     }
-    let text = std::fs::read(path).with_context(|| format!("{shown}: it cannot be read"))?;
+    let text = sources.text(path, LARGEST as usize)?;
     let wanted = "a reference in JSON is a document of `trueness surface --json`";
-    let document: Document = serde_json::from_slice(&text).with_context(|| format!("{shown}: {wanted}"))?;
+    let document: Document = serde_json::from_str(&text).meaning(|| format!("{shown}: {wanted}"))?;
     if document.schema != SCHEMA {
-        bail!("{shown}: this is a document {}; {wanted} ({SCHEMA})", document.schema);
+        return Err(TaskError::unanswerable(format!(
+            "{shown}: this is a document {}; {wanted} ({SCHEMA})",
+            document.schema
+        )));
     }
     if document.units.as_deref() != Some(UNITS) {
         let units = document.units.as_deref().unwrap_or("not told");
-        bail!("{shown}: its units are {units}; documents of surfaces are in {UNITS}");
+        return Err(TaskError::unanswerable(format!(
+            "{shown}: its units are {units}; documents of surfaces are in {UNITS}"
+        )));
     }
     let Document { degree, knots, control_points, trim, .. } = document;
     let direction = |name: &str, degree: usize, values: Vec<f64>| {
-        Knots::new(degree, values).with_context(|| format!("{shown}: knots of {name}"))
+        Knots::new(degree, values).meaning(|| format!("{shown}: knots of {name}"))
     };
     let knots = [direction("u", degree[0], knots.u)?, direction("v", degree[1], knots.v)?];
     let columns = knots[1].count();
     if let Some(row) = control_points.iter().position(|row| row.len() != columns) {
-        bail!(
+        return Err(TaskError::unanswerable(format!(
             "{shown}: control_points[{row}] has {} points; by the knots of v there must be {columns}",
             control_points[row].len()
-        );
+        )));
     }
     let points = control_points.concat();
     let count = points.len() as u64;
-    let surface = Surface::new(knots, points).with_context(|| format!("{shown}: control_points"))?;
+    let surface = Surface::new(knots, points).meaning(|| format!("{shown}: control_points"))?;
     let trimmed = trim.map(|trim| Warning::Trimmed { count: trim.regions.len() as u64 });
     let record = InputRecord {
         role: Role::Reference,
@@ -97,8 +102,7 @@ pub fn read(path: &Path) -> anyhow::Result<Option<(Nurbs, InputRecord)>> {
 }
 
 /// Whether the first byte that is no blank opens an object. What cannot be read is left to the other readers to say.
-fn begins_with_a_brace(path: &Path) -> bool {
-    let mut head = [0; 64];
-    let read = File::open(path).and_then(|mut file| file.read(&mut head)).unwrap_or(0);
-    head[..read].trim_ascii_start().starts_with(b"{")
+fn begins_with_a_brace(sources: &dyn Sources, path: &Path) -> bool {
+    let head = sources.bytes(path).and_then(|bytes| bytes.head(HEAD));
+    head.is_ok_and(|head| head.trim_ascii_start().starts_with(b"{"))
 }

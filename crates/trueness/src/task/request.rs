@@ -1,0 +1,28 @@
+//! What a task is asked.
+
+use super::{Done, RunFiles, TaskError, Watch};
+use schemars::JsonSchema;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use trueness_files::Sources;
+
+/// The request of a task: a plain value with defaults, which words of a command line, keywords and a JSON object become alike.
+pub trait Request: Serialize + DeserializeOwned + JsonSchema {
+    /// The result document.
+    type Document: Serialize;
+
+    /// The command of this name.
+    const COMMAND: &'static str;
+
+    /// All files that it reads and writes.
+    ///
+    /// # Errors
+    /// Values that cannot be meant.
+    fn files(&self) -> Result<RunFiles, TaskError>;
+
+    /// Runs the task.
+    ///
+    /// # Errors
+    /// Why there is no answer.
+    fn run(&self, sources: &dyn Sources, watch: &dyn Watch) -> Result<Done<Self::Document>, TaskError>;
+}

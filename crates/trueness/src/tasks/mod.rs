@@ -1,0 +1,9 @@
+//! The tasks: one file or folder for each command of the program, each a request and how it is answered.
+//!
+//! | command | request | document |
+//! |---|---|---|
+//! | `align` | [`align::AlignRequest`] | `trueness/align/1` |
+//! | `check` | [`check::CheckRequest`] | `trueness/check/1` |
+
+pub mod align;
+pub mod check;
