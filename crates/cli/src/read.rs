@@ -7,6 +7,7 @@ use crate::exit::Usage;
 use crate::run_files::is_stream;
 use anyhow::{Context, bail};
 use std::path::Path;
+use trueness_document::{Bounds, ColumnRecord, InputRecord, Role, TableRecord};
 use trueness_files::cad::SplineModel;
 use trueness_files::drawing::Drawing;
 use trueness_files::{
@@ -17,9 +18,8 @@ use trueness_geom::closest::{MAX_COORDINATE, MAX_VERTEX, MIN_COORDINATE};
 use trueness_geom::parallel::prelude::*;
 use trueness_geom::space::{Aabb, Point, Vector};
 use trueness_geom::spline::surface::Nurbs;
-use trueness_inspect::compare::RegionRule;
-use trueness_inspect::plan::regions_of_file;
-use trueness_inspect::results::{Bounds, ColumnRecord, InputRecord, Role, TableRecord};
+use trueness_measure::compare::RegionRule;
+use trueness_measure::plan::regions_of_file;
 
 /// A file of this run: what the document says of it, and what is in it.
 pub struct Opened {

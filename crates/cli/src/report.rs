@@ -5,9 +5,8 @@ use crate::output::whole_file;
 use crate::progress::Stage;
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
-use trueness_inspect::report::{
-    self, Language, Marks, ReportError, ReportInput, ReportOptions, Subject, Up, ViewObject,
-};
+use trueness_report as report;
+use trueness_report::{Language, Marks, ReportError, ReportInput, ReportOptions, Subject, Up, ViewObject};
 
 /// A self-contained report.
 #[derive(Args, Debug)]

@@ -1,7 +1,7 @@
 //! The words of `--tolerance`: `T` for ±T, or `-L,+U`.
 
 use std::str::FromStr;
-use trueness_inspect::tolerance::Tolerance;
+use trueness_document::tolerance::Tolerance;
 
 /// A tolerance as written on the command line.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -13,6 +13,8 @@ use anyhow::Context;
 use clap::{Args, ValueEnum};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
+use trueness_document::align::AlignDocument;
+use trueness_document::{InputRecord, Role};
 use trueness_files::write::{self, Block, Layout, Writable};
 use trueness_geom::align::{self, AlignError, BestFit, Lock, Measured, Row, RowFit, Start, Target};
 use trueness_geom::closest::Tree;
@@ -20,9 +22,7 @@ use trueness_geom::deviation::surface::{ReferenceSurface, SurfaceOptions};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::rigid::Rigid;
 use trueness_geom::space::{Point, times};
-use trueness_inspect::compare::Regions;
-use trueness_inspect::results::align::AlignDocument;
-use trueness_inspect::results::{InputRecord, Role};
+use trueness_measure::compare::Regions;
 
 /// Brings a scan onto its reference, from any starting pose
 ///

@@ -1,18 +1,17 @@
 //! `trueness plan init`: a plan proposed from the nominal.
 
 use crate::command::Run;
-use crate::console;
 use crate::exit::{Outcome, Usage};
 use crate::options::{Common, InputArgs};
 use crate::output::whole_file;
 use crate::progress::Stage;
-use crate::read;
 use crate::run_files::RunFiles;
+use crate::{console, read};
 use clap::{Args, Subcommand};
 use std::path::{Path, PathBuf};
+use trueness_document::Role;
 use trueness_geom::segment::{self, Options, SegmentError};
-use trueness_inspect::plan::proposal;
-use trueness_inspect::results::Role;
+use trueness_measure::plan::proposal;
 
 /// Propose an inspection plan
 #[derive(Args, Debug)]

@@ -14,11 +14,12 @@ use clap::Args;
 use std::fmt::Write;
 use std::io::Read;
 use std::path::{Path, PathBuf};
-use trueness_inspect::results::Verdict;
-use trueness_inspect::results::inspect::{self, InspectDocument};
-use trueness_inspect::results::place_map::{MapPlace, TrendMap};
-use trueness_inspect::results::trend::{IndexRecord, ResultInput, TrendDocument, TrendError, TrendRecord};
-use trueness_inspect::trend::View;
+use trueness_document::Verdict;
+use trueness_document::inspect::{self, InspectDocument};
+use trueness_document::place_map::{MapPlace, TrendMap};
+use trueness_document::trend::{IndexRecord, ResultInput, TrendDocument, TrendError, TrendRecord};
+use trueness_report::MapPage;
+use trueness_report::views::trend::View;
 
 /// Longest result that is read, bytes.
 const LONGEST: u64 = 256 << 20;
@@ -68,7 +69,7 @@ impl Run for TrendArgs {
             }
             TrendError::None => anyhow!("{e}"),
         })?;
-        let page = self.map.as_ref().map(|path| (path, document.map_page()));
+        let page = self.map.as_ref().map(|path| (path, MapPage::of(&document)));
         if let Some((path, None)) = &page {
             let why = document.map_reason.as_deref().unwrap_or("there are no places");
             bail!("{}: there is no map: {why}", path.display());
@@ -246,7 +247,7 @@ fn csv(document: &TrendDocument) -> String {
             c.values.len().to_string(),
             c.measured.to_string(),
         ];
-        let control = |f: fn(&trueness_inspect::results::trend::Control) -> f64| c.control.as_ref().map(f);
+        let control = |f: fn(&trueness_document::trend::Control) -> f64| c.control.as_ref().map(f);
         let numbers =
             [c.mean, c.std_dev, c.std_dev_within, c.min, c.max, control(|x| x.lower), control(|x| x.upper)];
         cells.extend(numbers.map(number));

@@ -7,12 +7,11 @@ use serde::de::IgnoredAny;
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
+use trueness_document::surface::SCHEMA;
+use trueness_document::{InputRecord, Role, UNITS};
 use trueness_files::Warning;
 use trueness_geom::spline::basis::Knots;
 use trueness_geom::spline::surface::{Nurbs, Surface};
-use trueness_inspect::results::UNITS;
-use trueness_inspect::results::surface::SCHEMA;
-use trueness_inspect::results::{InputRecord, Role};
 
 /// What of the document is needed.
 #[derive(Deserialize)]

@@ -11,11 +11,11 @@ use crate::report::ReportArgs;
 use crate::run_files::RunFiles;
 use clap::Args;
 use std::path::PathBuf;
+use trueness_document::Role;
 use trueness_files::ReadOptions;
 use trueness_geom::check::{self, CheckError, Options};
-use trueness_inspect::check::View;
-use trueness_inspect::file_numbers::LeftOut;
-use trueness_inspect::results::Role;
+use trueness_measure::file_numbers::LeftOut;
+use trueness_report::views::check::View;
 
 /// Size and defects of a mesh
 ///
@@ -94,7 +94,7 @@ fn run(args: &CheckArgs, common: &Common) -> anyhow::Result<Outcome> {
     })?;
     hash?;
     let left_out = LeftOut(&source.nonfinite_facets);
-    let document = trueness_inspect::check::document(&report, record, facets, left_out, &options);
+    let document = trueness_measure::check::document(&report, record, facets, left_out, &options);
     if args.report.html.is_some() {
         let view = View::new(&document, &document.inputs[0].path, &source.mesh, left_out);
         args.report.write(&document, &view.objects(), &view.marks, common.progress)?;

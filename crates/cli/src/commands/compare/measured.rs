@@ -5,6 +5,8 @@ use crate::memory;
 use crate::read::{self, Body, Opened};
 use anyhow::Context;
 use std::path::Path;
+use trueness_document::compare::MeasuredKind;
+use trueness_document::{InputRecord, Role};
 use trueness_files::{Columns, PointSource, ReadOptions, Weld};
 use trueness_geom::align::{self, AlignError, Alignment, BestFit, Target};
 use trueness_geom::closest::Tree;
@@ -15,9 +17,7 @@ use trueness_geom::progress::Progress;
 use trueness_geom::rigid::Rigid;
 use trueness_geom::space::Vector;
 use trueness_geom::topology::weld;
-use trueness_inspect::compare::{facet_normals, vertex_normals};
-use trueness_inspect::results::compare::MeasuredKind;
-use trueness_inspect::results::{InputRecord, Role};
+use trueness_measure::compare::{facet_normals, vertex_normals};
 
 /// What is compared.
 pub struct Measured {

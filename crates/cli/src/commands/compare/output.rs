@@ -1,18 +1,17 @@
 //! Where the answer of a comparison goes: document, points with deviations, report.
 
-use crate::options::DocumentArgs;
-use crate::options::ProgressStyle;
+use crate::options::{DocumentArgs, ProgressStyle};
 use crate::report::ReportArgs;
 use crate::run_files::RunFiles;
 use anyhow::Context;
 use clap::Args;
 use std::path::{Path, PathBuf};
+use trueness_document::compare::CompareDocument;
+use trueness_document::scale::Scale;
 use trueness_files::WriteError;
 use trueness_files::write::{self, HeldPoints, Layout, PointsFile, Writable};
 use trueness_geom::parallel::prelude::*;
-use trueness_inspect::compare::{self, Excluded};
-use trueness_inspect::results::compare::CompareDocument;
-use trueness_inspect::scale::Scale;
+use trueness_measure::compare::{self, Excluded};
 
 /// Files that a comparison can write.
 #[derive(Args, Debug)]
@@ -65,7 +64,7 @@ impl OutputArgs {
     pub fn write_html(
         &self,
         document: &CompareDocument,
-        view: &compare::View,
+        view: &trueness_report::views::compare::View,
         progress: ProgressStyle,
     ) -> anyhow::Result<()> {
         self.report.write(document, &view.objects(), &view.marks(document), progress)

@@ -3,9 +3,8 @@
 use crate::number::{POINTS, VERTICES, counted, fixed, grouped, scientific, six_digits};
 use crate::{console, noise, read};
 use std::fmt::Write;
-use trueness_inspect::curvature::CurvatureKind;
-use trueness_inspect::results::curvature::{
-    CurvatureDocument, CurvaturePlace, Neighborhood, PlaceKind, Range,
+use trueness_document::curvature::{
+    CurvatureDocument, CurvatureKind, CurvaturePlace, Neighborhood, PlaceKind, Range,
 };
 
 /// The document as text.

@@ -2,11 +2,9 @@
 
 use super::part::Part;
 use crate::console::cell;
-use trueness_inspect::results::compare::{RegionRecord, ToleranceShares};
-use trueness_inspect::results::inspect::{
-    CharacteristicRecord, FeatureRecord, InspectDocument, MeasuredPlace,
-};
-use trueness_inspect::results::{ReasonKind, Verdict, VerdictReason};
+use trueness_document::compare::{RegionRecord, ToleranceShares};
+use trueness_document::inspect::{CharacteristicRecord, FeatureRecord, InspectDocument, MeasuredPlace};
+use trueness_document::{ReasonKind, Verdict, VerdictReason};
 
 /// What the deviations from the reference are called beside the characteristics.
 pub(super) const DEVIATION: &str = "deviation";

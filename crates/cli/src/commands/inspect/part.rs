@@ -1,7 +1,7 @@
 //! The parts of a run, and what keeps one from its results.
 
 use crate::console;
-use trueness_inspect::results::inspect::{InspectDocument, PlanRecord};
+use trueness_document::inspect::{InspectDocument, PlanRecord};
 
 /// A part that was to be inspected.
 pub enum Part {

@@ -11,14 +11,15 @@ use crate::report::ReportArgs;
 use crate::run_files::RunFiles;
 use clap::Args;
 use std::path::PathBuf;
+use trueness_document::Role;
+use trueness_document::repair::OutputRecord;
 use trueness_files::write::{MeshFile, Writable};
 use trueness_geom::check;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::Progress;
 use trueness_geom::repair::{self, Holes, Options, RepairError, Repaired, STEPS, Step};
-use trueness_inspect::repair::{Around, View, at_least, defects, document};
-use trueness_inspect::results::Role;
-use trueness_inspect::results::repair::OutputRecord;
+use trueness_measure::repair::{Around, at_least, defects, document};
+use trueness_report::views::repair::View;
 
 /// A mesh without its defects
 ///

@@ -3,8 +3,8 @@
 use crate::console::columns;
 use crate::number::{FACETS, SHELLS, VERTICES, counted, extent, fixed, grouped, scientific, signed};
 use std::collections::BTreeMap;
+use trueness_document::repair::{RepairDocument, State};
 use trueness_geom::repair::Removes;
-use trueness_inspect::results::repair::{RepairDocument, State};
 
 /// The whole text.
 pub fn text(d: &RepairDocument) -> String {

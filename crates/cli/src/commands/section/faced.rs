@@ -1,9 +1,9 @@
 //! Meshes whose facets look out of the material, as a section needs them.
 
 use crate::progress::Stage;
+use trueness_document::{InputRecord, Role};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::repair::{self, RepairError};
-use trueness_inspect::results::{InputRecord, Role};
 
 /// The mesh with its facets turned outwards where they were not; what was changed is told with the file.
 pub fn faced(mesh: &Mesh, record: &mut InputRecord, stage: &Stage) -> anyhow::Result<Mesh> {

@@ -20,12 +20,12 @@ use crate::run_files::RunFiles;
 use clap::{Args, ValueEnum};
 use found::{Found, described};
 use std::path::PathBuf;
+use trueness_document::section::{AirfoilRecord, Section, SectionDocument};
+use trueness_document::{InputRecord, NoiseOrReason, Role, Verdict, noise_or_reason};
 use trueness_geom::noise::{self, Noise};
 use trueness_geom::section::{self, Continuity, Options, PlaneFrame, SectionError};
 use trueness_geom::space::{Point, minus, norm};
-use trueness_inspect::report::{ViewObject, flat};
-use trueness_inspect::results::section::{AirfoilRecord, Section, SectionDocument};
-use trueness_inspect::results::{InputRecord, NoiseOrReason, Role, Verdict, noise_or_reason};
+use trueness_report::{ViewObject, flat};
 
 /// The lines, arcs and curves of a section, and the exact places where they join
 ///

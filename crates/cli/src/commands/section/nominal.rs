@@ -11,6 +11,12 @@ use crate::read::{self, Body, Opened};
 use crate::tolerance::ToleranceArg;
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
+use trueness_document::compare::{Bounds, Warning};
+use trueness_document::section::{
+    Against, AgainstPlane, FitRecord, NominalRecord, NominalWarning, ProfileRule, Section,
+};
+use trueness_document::tolerance::cannot_fail;
+use trueness_document::{InputRecord, of_percent};
 use trueness_files::ReadOptions;
 use trueness_files::drawing::{Drawing, Drawn};
 use trueness_geom::mesh::Mesh;
@@ -19,13 +25,7 @@ use trueness_geom::section::{
     self, Contour, Freedom, OntoNominal, OntoNominalError, Options, Outline, Plane, PlaneFrame, Segment,
 };
 use trueness_geom::space::{Aabb, Point, dot};
-use trueness_inspect::compare::{MIN_COVERAGE, plausibility};
-use trueness_inspect::results::compare::{Bounds, Warning};
-use trueness_inspect::results::section::{
-    Against, AgainstPlane, FitRecord, NominalRecord, NominalWarning, ProfileRule, Section,
-};
-use trueness_inspect::results::{InputRecord, of_percent};
-use trueness_inspect::tolerance::cannot_fail;
+use trueness_measure::compare::{MIN_COVERAGE, plausibility};
 
 /// What the section should be.
 #[derive(Args, Debug)]

@@ -4,6 +4,8 @@ use super::found::{Found, described};
 use crate::exit::Usage;
 use crate::progress::Stage;
 use clap::Args;
+use trueness_document::InputRecord;
+use trueness_document::section::{PlaneRecord, Section};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::noise::Noise;
 use trueness_geom::parallel::prelude::*;
@@ -11,8 +13,6 @@ use trueness_geom::section::{
     self, Chain, Contour, Options, Order, Ordered, Plane, PlaneFrame, SectionError,
 };
 use trueness_geom::space::{Point, dot};
-use trueness_inspect::results::InputRecord;
-use trueness_inspect::results::section::{PlaneRecord, Section};
 
 /// Where a mesh or cloud is cut.
 #[derive(Args, Debug)]

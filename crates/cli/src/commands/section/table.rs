@@ -7,11 +7,11 @@ mod offers;
 use crate::number::{fixed, grouped, scientific};
 use crate::{console, noise, read};
 use std::fmt::Write;
-use trueness_geom::section::{DimensionKind, Taken};
-use trueness_inspect::results::section::{
+use trueness_document::section::{
     AirfoilMeasures, AirfoilRecord, BEYOND_END, ContourRecord, DimensionsRecord, FrameRecord, GeometryRecord,
     MAX_DISTANCE, MethodsRecord, NominalRecord, OutlineRecord, Positive, SectionDocument, SegmentRecord,
 };
+use trueness_geom::section::{DimensionKind, Taken};
 
 /// Rows of a contour that are shown.
 const ROWS: usize = 60;

@@ -13,8 +13,8 @@ use super::lists::judged;
 use super::part::{Failed, Part};
 use characteristics::{Ids, status};
 use datums::Datums;
-use trueness_inspect::results::inspect::{InspectDocument, PlanRecord};
-use trueness_inspect::results::{InputRecord, Role, VERSION, Verdict};
+use trueness_document::inspect::{InspectDocument, PlanRecord};
+use trueness_document::{InputRecord, Role, VERSION, Verdict};
 use xml::{Value, Xml, decimal};
 
 /// The results of parts of one plan with this heading.
