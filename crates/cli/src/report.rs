@@ -6,8 +6,8 @@ use crate::progress::Stage;
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 use trueness::task::{Done, ErrorKind, Watch};
-use trueness_inspect::report::{
-    self, Language, Marks, ReportError, ReportInput, ReportOptions, Subject, Up, ViewObject,
+use trueness_report::{
+    self as report, Language, Marks, ReportError, ReportInput, ReportOptions, Subject, Up, ViewObject,
 };
 
 /// A self-contained report.

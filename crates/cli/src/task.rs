@@ -6,7 +6,7 @@ use crate::progress::Console;
 use crate::report::ReportArgs;
 use trueness::task::{Done, Request};
 use trueness_files::FileSources;
-use trueness_inspect::report::Subject;
+use trueness_report::Subject;
 
 /// Runs the task of a request; writes its files and its document, and prints the table.
 pub fn run<R: Request>(

@@ -15,8 +15,10 @@
 //! | the same where a plane cuts a mesh | [`sections`] |
 //! | a B-spline surface through points | [`surface`] |
 //! | curvatures of a mesh | [`curvature`] |
-//! | an inspection plan: features, characteristics, verdicts | [`inspection::inspection::run`] |
-//! | everything else, with all options | [`geom`], [`files`], [`inspection`] |
+//! | an inspection plan: features, characteristics, verdicts | [`measure::inspection::run`] |
+//! | results as values and JSON; the text of plans | [`document`] |
+//! | a result as a page with pictures, one HTML file | [`report::write`](report::write()) |
+//! | everything else, with all options | [`geom`], [`files`], [`measure`] |
 //!
 //! The functions here take the defaults and tell nobody how far they are. The functions of the same names in [`geom`] take options, and a
 //! [`Progress`](geom::progress::Progress) that is told and may stop them.
@@ -43,9 +45,11 @@ pub use easy::part::{Part, read, write_mesh};
 pub use easy::reference::Reference;
 pub use easy::tasks::{check, contour, curvature, fit, repair, sections, segment, surface};
 
+pub use trueness_document as document;
 pub use trueness_files as files;
 pub use trueness_geom as geom;
-pub use trueness_inspect as inspection;
+pub use trueness_measure as measure;
+pub use trueness_report as report;
 
 pub use trueness_geom::align::Alignment;
 pub use trueness_geom::check::Report;

@@ -14,14 +14,14 @@ use std::fmt::Write;
 use std::path::PathBuf;
 use trueness::read::{self, Body, Opened};
 use trueness::task::RunFiles;
+use trueness_document::Role;
+use trueness_document::fit::{FitDocument, Number};
 use trueness_files::FileSources;
 use trueness_geom::fit::{self, FitError, Method, Options};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::Cancelled;
 use trueness_geom::shape::Kind;
-use trueness_inspect::fit::View;
-use trueness_inspect::results::Role;
-use trueness_inspect::results::fit::{FitDocument, Number};
+use trueness_report::views::fit::View;
 
 /// The best line, plane, circle, ellipse, sphere, cylinder, cone or torus through points
 ///
@@ -137,8 +137,8 @@ fn run(args: &FitArgs, common: &Common) -> anyhow::Result<Outcome> {
     })?;
     let noise = args
         .noise
-        .found(common.progress, |stage| trueness_inspect::fit::noise(&fit, &scan, common.seed, stage))?;
-    let document = trueness_inspect::fit::document(&fit, &noise, points, vec![record], common.seed);
+        .found(common.progress, |stage| trueness_measure::fit::noise(&fit, &scan, common.seed, stage))?;
+    let document = trueness_measure::fit::document(&fit, &noise, points, vec![record], common.seed);
     if args.report.html.is_some() {
         let view = View::new(&document, &document.inputs[0].path, &fit.shape, points);
         args.report.write(&document, &view.objects(), &view.marks, common.progress)?;

@@ -10,10 +10,10 @@ use clap::{Args, Subcommand};
 use std::path::{Path, PathBuf};
 use trueness::read;
 use trueness::task::RunFiles;
+use trueness_document::Role;
 use trueness_files::FileSources;
 use trueness_geom::segment::{self, Options, SegmentError};
-use trueness_inspect::plan::proposal;
-use trueness_inspect::results::Role;
+use trueness_measure::plan::proposal;
 
 /// Propose an inspection plan
 #[derive(Args, Debug)]

@@ -15,16 +15,17 @@ use std::path::PathBuf;
 use std::sync::LazyLock;
 use trueness::read::{self, Body, Opened};
 use trueness::task::RunFiles;
+use trueness_document::fit::Number;
+use trueness_document::segment::{PieceKind, RegionRecord, SegmentDocument};
+use trueness_document::{Role, noise_or_reason};
 use trueness_files::FileSources;
 use trueness_files::write::{Pieces, Writable, regions};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::segment::{self, KINDS, Options, SegmentError, Segmentation};
 use trueness_geom::shape::{Kind, Quantity};
-use trueness_inspect::file_numbers::LeftOut;
-use trueness_inspect::results::fit::Number;
-use trueness_inspect::results::segment::{PieceKind, RegionRecord, SegmentDocument};
-use trueness_inspect::results::{Role, noise_or_reason};
-use trueness_inspect::segment::{View, color};
+use trueness_measure::file_numbers::LeftOut;
+use trueness_report::views::segment::View;
+use trueness_report::views::segment::color;
 
 /// Planes, cylinders, cones, spheres and tori in a mesh or cloud, without a nominal
 ///
@@ -157,7 +158,7 @@ fn run(args: &SegmentArgs, common: &Common) -> anyhow::Result<Outcome> {
     let noise = args
         .noise
         .found(common.progress, |stage| noise_or_reason(found.shared_noise(&mesh, common.seed, stage)))?;
-    let document = SegmentDocument::new(&found, &noise, kind, vec![record], &options, members);
+    let document = trueness_measure::segment::document(&found, &noise, kind, vec![record], &options, members);
     if args.report.html.is_some() {
         let view = View::new(&document, &mesh, &found.labels);
         args.report.write(&document, &view.objects(), &view.marks, common.progress)?;

@@ -13,13 +13,14 @@ use std::fmt::Write;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 use trueness::task::RunFiles;
+use trueness_document::Verdict;
+use trueness_document::inspect::{self, InspectDocument};
+use trueness_document::place_map::{MapPlace, TrendMap};
+use trueness_document::trend::{IndexRecord, ResultInput, TrendDocument, TrendError, TrendRecord};
 use trueness_files::FileSources;
 use trueness_files::write::{Csv, LineEnd};
-use trueness_inspect::results::Verdict;
-use trueness_inspect::results::inspect::{self, InspectDocument};
-use trueness_inspect::results::place_map::{MapPlace, TrendMap};
-use trueness_inspect::results::trend::{IndexRecord, ResultInput, TrendDocument, TrendError, TrendRecord};
-use trueness_inspect::trend::View;
+use trueness_report::MapPage;
+use trueness_report::views::trend::View;
 
 /// Longest result that is read, bytes.
 const LONGEST: u64 = 256 << 20;
@@ -69,7 +70,7 @@ impl Run for TrendArgs {
             }
             TrendError::None => anyhow!("{e}"),
         })?;
-        let page = self.map.as_ref().map(|path| (path, document.map_page()));
+        let page = self.map.as_ref().map(|path| (path, MapPage::of(&document)));
         if let Some((path, None)) = &page {
             let why = document.map_reason.as_deref().unwrap_or("there are no places");
             bail!("{}: there is no map: {why}", path.display());
@@ -239,7 +240,7 @@ fn csv(document: &TrendDocument) -> Vec<u8> {
     for c in &document.characteristics {
         csv.text(&c.id).text(&c.kind).text(&c.feature).text(&c.datums.join(" ")).text(&c.unit);
         csv.optional(c.lower).optional(c.upper).number(c.values.len()).number(c.measured);
-        let control = |f: fn(&trueness_inspect::results::trend::Control) -> f64| c.control.as_ref().map(f);
+        let control = |f: fn(&trueness_document::trend::Control) -> f64| c.control.as_ref().map(f);
         let numbers =
             [c.mean, c.std_dev, c.std_dev_within, c.min, c.max, control(|x| x.lower), control(|x| x.upper)];
         for number in numbers {

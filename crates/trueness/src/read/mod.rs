@@ -5,6 +5,7 @@ mod unread;
 
 use crate::task::{Meaning, TaskError};
 use std::path::Path;
+use trueness_document::{Bounds, ColumnRecord, InputRecord, Role, TableRecord};
 use trueness_files::cad::SplineModel;
 use trueness_files::drawing::Drawing;
 use trueness_files::{
@@ -15,9 +16,8 @@ use trueness_geom::closest::{MAX_COORDINATE, MAX_VERTEX, MIN_COORDINATE};
 use trueness_geom::parallel::prelude::*;
 use trueness_geom::space::{Aabb, Point, Vector};
 use trueness_geom::spline::surface::Nurbs;
-use trueness_inspect::compare::RegionRule;
-use trueness_inspect::plan::regions_of_file;
-use trueness_inspect::results::{Bounds, ColumnRecord, InputRecord, Role, TableRecord};
+use trueness_measure::compare::RegionRule;
+use trueness_measure::plan::regions_of_file;
 
 /// What reading answers.
 type Result<T> = std::result::Result<T, TaskError>;

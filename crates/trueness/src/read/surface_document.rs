@@ -4,12 +4,12 @@ use crate::task::{Meaning, TaskError};
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 use std::path::Path;
+use trueness_document::UNITS;
+use trueness_document::surface::SCHEMA;
+use trueness_document::{InputRecord, Role};
 use trueness_files::{Sources, Warning};
 use trueness_geom::spline::basis::Knots;
 use trueness_geom::spline::surface::{Nurbs, Surface};
-use trueness_inspect::results::UNITS;
-use trueness_inspect::results::surface::SCHEMA;
-use trueness_inspect::results::{InputRecord, Role};
 
 /// What of the document is needed.
 #[derive(Deserialize)]

@@ -2,9 +2,9 @@
 
 use crate::task::TaskError;
 use std::path::Path;
+use trueness_document::{IncompleteRecord, InputRecord, Role};
 use trueness_files::cad::SplineModel;
 use trueness_files::{Unread, Warning};
-use trueness_inspect::results::{IncompleteRecord, InputRecord, Role};
 
 /// What of a file was not read, of which `facets` facets were; `None` where all of it was.
 pub fn incomplete(role: Role, warnings: &[Warning], facets: Option<u64>) -> Option<IncompleteRecord> {

@@ -3,7 +3,7 @@
 use super::{Output, TaskError, Watch, ended};
 use serde::Serialize;
 use std::path::PathBuf;
-use trueness_inspect::report::{self, Marks, ReportError, ReportInput, ReportOptions, Subject, ViewObject};
+use trueness_report::{self as report, Marks, ReportError, ReportInput, ReportOptions, Subject, ViewObject};
 
 /// What a task that ran to its end found: what its exit status, the head of its page and a server's status say.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,7 +1,7 @@
 //! The text of a tolerance: `T` for ±T, or `-L,+U`.
 
 use std::str::FromStr;
-use trueness_inspect::tolerance::Tolerance;
+use trueness_document::tolerance::Tolerance;
 
 /// A tolerance as it is written.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -8,6 +8,8 @@ use crate::task::{
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
+use trueness_document::align::AlignDocument;
+use trueness_document::{InputRecord, Role};
 use trueness_files::Sources;
 use trueness_files::write::{self, Block, Layout, MeshFile, Writable};
 use trueness_geom::align::{self, AlignError, BestFit, Lock, Measured, Row, RowFit, Start, Target};
@@ -16,9 +18,7 @@ use trueness_geom::deviation::surface::{ReferenceSurface, SurfaceOptions};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::rigid::Rigid;
 use trueness_geom::space::{Point, times};
-use trueness_inspect::compare::Regions;
-use trueness_inspect::results::align::AlignDocument;
-use trueness_inspect::results::{InputRecord, Role};
+use trueness_measure::compare::Regions;
 
 choices! {
     /// What makes a pose the best.

@@ -5,13 +5,13 @@ use crate::task::{Done, Reading, Request, RunFiles, Scene, TaskError, Watch, end
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
+use trueness_document::Role;
+use trueness_document::check::CheckDocument;
 use trueness_files::{ReadOptions, SourceMesh, Sources};
 use trueness_geom::check::{self, CheckError, Options};
-use trueness_inspect::check::View;
-use trueness_inspect::file_numbers::LeftOut;
-use trueness_inspect::report::{Marks, ViewObject};
-use trueness_inspect::results::Role;
-use trueness_inspect::results::check::CheckDocument;
+use trueness_measure::file_numbers::LeftOut;
+use trueness_report::views::check::View;
+use trueness_report::{Marks, ViewObject};
 
 /// What a check is asked.
 ///
@@ -100,7 +100,7 @@ impl Request for CheckRequest {
         })?;
         hash?;
         let left_out = LeftOut(&source.nonfinite_facets);
-        let document = trueness_inspect::check::document(&report, record, facets, left_out, &options);
+        let document = trueness_measure::check::document(&report, record, facets, left_out, &options);
         let sound = document.sound;
         let scene = self.view.then(|| Box::new(Checked(source)) as Box<dyn Scene<CheckDocument>>);
         Ok(Done { scene, ..Done::new(document, sound) })

@@ -5,7 +5,7 @@ use crate::number::{POINTS, counted, fixed, grouped, scientific, signed, six_dig
 use std::fmt::Write;
 use trueness::read;
 use trueness::task::Done;
-use trueness_inspect::results::align::AlignDocument;
+use trueness_document::align::AlignDocument;
 
 /// The document for people.
 pub fn text(done: &Done<AlignDocument>) -> String {

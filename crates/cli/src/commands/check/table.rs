@@ -2,8 +2,8 @@
 
 use crate::console::columns;
 use crate::number::{EDGES, FACETS, SHELLS, VERTICES, counted, extent, fixed, grouped};
+use trueness_document::check::{CheckDocument, Defects};
 use trueness_geom::check::DefectKind;
-use trueness_inspect::results::check::{CheckDocument, Defects};
 
 /// The whole text; kinds in the order given.
 pub fn text(d: &CheckDocument, kinds: &[&DefectKind]) -> String {

@@ -5,6 +5,8 @@ use crate::memory;
 use anyhow::Context;
 use std::path::Path;
 use trueness::read::{self, Body, Opened};
+use trueness_document::compare::MeasuredKind;
+use trueness_document::{InputRecord, Role};
 use trueness_files::FileSources;
 use trueness_files::{Columns, PointSource, ReadOptions, Weld};
 use trueness_geom::align::{self, AlignError, Alignment, BestFit, Target};
@@ -16,9 +18,7 @@ use trueness_geom::progress::Progress;
 use trueness_geom::rigid::Rigid;
 use trueness_geom::space::Vector;
 use trueness_geom::topology::weld;
-use trueness_inspect::compare::{facet_normals, vertex_normals};
-use trueness_inspect::results::compare::MeasuredKind;
-use trueness_inspect::results::{InputRecord, Role};
+use trueness_measure::compare::{facet_normals, vertex_normals};
 
 /// What is compared.
 pub struct Measured {

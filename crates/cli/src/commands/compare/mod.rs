@@ -19,22 +19,23 @@ use trueness::read;
 use trueness::task::RunFiles;
 use trueness::task::ToleranceText;
 use trueness::task::welding;
+use trueness_document::align::AlignedTo;
+use trueness_document::compare::MeasuredKind;
+use trueness_document::compare::Method;
+use trueness_document::compare::{Reverse, Sampling};
+use trueness_document::of_percent;
+use trueness_document::scale::Scale;
+use trueness_document::tolerance::cannot_fail;
 use trueness_files::FileSources;
 use trueness_files::{Columns, ReadError, ReadOptions, WriteError};
 use trueness_geom::closest::QueryError;
 use trueness_geom::deviation::sign_choice::SignRequest;
 use trueness_geom::deviation::surface::SurfaceOptions;
 use trueness_geom::mesh::Mesh;
-use trueness_inspect::compare::{
-    self, AlongRule, Between, Coverage, Facing, Inputs, Lines, MIN_COVERAGE, Method, Options, OutlierRule,
-    Reference, View,
+use trueness_measure::compare::{
+    self, AlongRule, Between, Coverage, Facing, Inputs, Lines, MIN_COVERAGE, Options, OutlierRule, Reference,
 };
-use trueness_inspect::results::align::AlignedTo;
-use trueness_inspect::results::compare::MeasuredKind;
-use trueness_inspect::results::compare::{Reverse, Sampling};
-use trueness_inspect::results::of_percent;
-use trueness_inspect::scale::Scale;
-use trueness_inspect::tolerance::cannot_fail;
+use trueness_report::views::compare::View;
 use words::FacingArg;
 
 /// Deviations of measured points (or a mesh) from one or several reference meshes or B-spline surfaces

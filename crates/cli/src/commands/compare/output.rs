@@ -7,12 +7,12 @@ use anyhow::Context;
 use clap::Args;
 use std::path::{Path, PathBuf};
 use trueness::task::RunFiles;
+use trueness_document::compare::CompareDocument;
+use trueness_document::scale::Scale;
 use trueness_files::WriteError;
 use trueness_files::write::{self, HeldPoints, Layout, PointsFile, Writable};
 use trueness_geom::parallel::prelude::*;
-use trueness_inspect::compare::{self, Excluded};
-use trueness_inspect::results::compare::CompareDocument;
-use trueness_inspect::scale::Scale;
+use trueness_measure::compare::{self, Excluded};
 
 /// Files that a comparison can write.
 #[derive(Args, Debug)]
@@ -65,7 +65,7 @@ impl OutputArgs {
     pub fn write_html(
         &self,
         document: &CompareDocument,
-        view: &compare::View,
+        view: &trueness_report::views::compare::View,
         progress: ProgressStyle,
     ) -> anyhow::Result<()> {
         self.report.write(document, &view.objects(), &view.marks(document), progress)

@@ -6,15 +6,16 @@ use crate::progress::{STEPS, Stage};
 use anyhow::Context;
 use std::path::{Path, PathBuf};
 use trueness::read::{self, ReferenceBody};
+use trueness_document::compare::Method;
+use trueness_document::{Bounds, InputRecord};
 use trueness_files::FileSources;
 use trueness_files::ReadOptions;
 use trueness_geom::deviation::sign_choice::SignRequest;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::space::Aabb;
 use trueness_geom::spline::surface::{Degenerate, FootError, FootSearch, Nurbs};
-use trueness_inspect::compare::{Method, Options, Reference};
-use trueness_inspect::file_numbers::LeftOut;
-use trueness_inspect::results::{Bounds, InputRecord};
+use trueness_measure::compare::{Options, Reference};
+use trueness_measure::file_numbers::LeftOut;
 
 /// A reference as it was read.
 pub enum Opened {

@@ -13,12 +13,14 @@ use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 use trueness::read::{self, Body, Opened};
 use trueness::task::RunFiles;
+use trueness_document::Role;
+use trueness_document::curvature::CurvatureDocument;
+use trueness_document::curvature::CurvatureKind;
 use trueness_files::FileSources;
 use trueness_files::write::{Values, Writable, values};
 use trueness_geom::mesh::Mesh;
-use trueness_inspect::curvature::{CurvatureKind, View, document, noise, without};
-use trueness_inspect::results::Role;
-use trueness_inspect::results::curvature::CurvatureDocument;
+use trueness_measure::curvature::{document, noise, value, without};
+use trueness_report::views::curvature::View;
 use trueness_surface::curvature::{self, CurvatureError, Curvatures, NoCurvature, Options, Reach};
 
 /// Principal, mean and Gaussian curvature at every vertex of a mesh or point of a cloud
@@ -229,7 +231,8 @@ fn write(
         let place = |why: &NoCurvature| NoCurvature::ALL.iter().position(|r| r == why);
         found.places[i].as_ref().err().and_then(place).map_or(0, |n| n as u8 + 1)
     };
-    let color = |i: usize| scale.color(found.places[i].as_ref().map_or(f64::NAN, |jet| kind.of(&jet.bend)));
+    let color =
+        |i: usize| scale.color(found.places[i].as_ref().map_or(f64::NAN, |jet| value(kind, &jet.bend)));
     let columns = Values {
         names: [
             "nx",

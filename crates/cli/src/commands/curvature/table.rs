@@ -4,10 +4,8 @@ use crate::number::{POINTS, VERTICES, counted, fixed, grouped, scientific, six_d
 use crate::{console, noise};
 use std::fmt::Write;
 use trueness::read;
-use trueness_inspect::curvature::CurvatureKind;
-use trueness_inspect::results::curvature::{
-    CurvatureDocument, CurvaturePlace, Neighborhood, PlaceKind, Range,
-};
+use trueness_document::curvature::CurvatureKind;
+use trueness_document::curvature::{CurvatureDocument, CurvaturePlace, Neighborhood, PlaceKind, Range};
 
 /// The document as text.
 pub fn table(document: &CurvatureDocument) -> String {

@@ -2,7 +2,7 @@
 
 use crate::layout;
 use crate::number::{fixed, grouped, short_signed};
-use trueness_inspect::results::inspect::{FeatureRecord, MeasuredPlace};
+use trueness_document::inspect::{FeatureRecord, MeasuredPlace};
 
 /// Two rows a feature: measured, and what that is off the nominal.
 pub fn table(features: &[FeatureRecord]) -> String {

@@ -6,14 +6,16 @@ use std::collections::BTreeMap;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 use trueness::read::{self, Body, Opened};
+use trueness_document::inspect::PlanRecord;
+use trueness_document::plan::{At, PlanError};
+use trueness_document::{InputRecord, Role};
 use trueness_files::FileSources;
 use trueness_files::ReadOptions;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::space::Point;
-use trueness_inspect::inspection::{Data, OwnPoints};
-use trueness_inspect::plan::{At, Plan, PlanError, Source};
-use trueness_inspect::results::inspect::PlanRecord;
-use trueness_inspect::results::{InputRecord, Role};
+use trueness_measure::inspection::{Data, OwnPoints};
+use trueness_measure::plan::Plan;
+use trueness_measure::requirement::Source;
 
 /// Longest plan that is read, bytes.
 const LONGEST: u64 = 16 << 20;

@@ -1,12 +1,10 @@
 //! The characteristics of one or several parts as CSV and as JUnit XML.
 
 use super::part::Part;
+use trueness_document::compare::{RegionRecord, ToleranceShares};
+use trueness_document::inspect::{CharacteristicRecord, FeatureRecord, InspectDocument, MeasuredPlace};
+use trueness_document::{ReasonKind, Verdict, VerdictReason};
 use trueness_files::write::{Csv, LineEnd, Xml};
-use trueness_inspect::results::compare::{RegionRecord, ToleranceShares};
-use trueness_inspect::results::inspect::{
-    CharacteristicRecord, FeatureRecord, InspectDocument, MeasuredPlace,
-};
-use trueness_inspect::results::{ReasonKind, Verdict, VerdictReason};
 
 /// What the deviations from the reference are called beside the characteristics.
 pub(super) const DEVIATION: &str = "deviation";

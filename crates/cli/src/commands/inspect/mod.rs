@@ -20,12 +20,12 @@ use files::PlanFile;
 use part::{Failed, Fault, Part};
 use std::path::{Path, PathBuf};
 use trueness::task::RunFiles;
+use trueness_document::Verdict;
+use trueness_document::inspect::InspectDocument;
+use trueness_document::plan::PlanError;
 use trueness_geom::progress::{Cancelled, Progress};
-use trueness_inspect::compare;
-use trueness_inspect::inspection::{self, Deviations, Stop, View};
-use trueness_inspect::plan::PlanError;
-use trueness_inspect::results::Verdict;
-use trueness_inspect::results::inspect::InspectDocument;
+use trueness_measure::inspection::{self, Deviations, Stop};
+use trueness_report::views::inspect::View;
 
 /// Run an inspection plan: features, tolerances, verdicts
 ///
@@ -167,14 +167,14 @@ fn inspect(
         stop if stop.of_part() => Fault::Part(anyhow!("{}: {stop}", plan.name_of(part))),
         stop => Fault::Run(anyhow!("{}: {stop}", plan.path.display())),
     })?;
-    let mut document = InspectDocument::new(&plan.plan, plan.record(), &found, inputs);
+    let mut document = inspection::document(&plan.plan, plan.record(), &found, inputs);
     if args.report.html.is_some() {
         let name = document.inputs.first().map_or("", |i| &i.path);
         let references = found.deviations.as_ref().zip(document.deviation.as_ref());
         let references = references.map(|(d, record)| d.references(&record.reference));
         let deviations = found.deviations.as_ref().zip(references.as_ref()).map(|(d, references)| {
             let mesh = found.measured.as_ref().filter(|m| !m.faces.is_empty());
-            compare::View::new(name, mesh, references, &d.found)
+            trueness_report::views::compare::View::new(name, mesh, references, &d.found)
         });
         let view = View::new(&document, &found, deviations.as_ref());
         args.report.write(&document, &view.objects(), &view.marks, common.progress)?;

@@ -2,7 +2,7 @@
 
 use crate::console;
 use trueness::task::TaskError;
-use trueness_inspect::results::inspect::{InspectDocument, PlanRecord};
+use trueness_document::inspect::{InspectDocument, PlanRecord};
 
 /// A part that was to be inspected.
 pub enum Part {

@@ -7,9 +7,9 @@ use crate::layout::{self, names, sentence};
 use crate::number::{POINTS, counted, fixed, grouped, scientific, short, short_signed, six_digits};
 use std::fmt::Write;
 use trueness::read;
-use trueness_inspect::results::Verdict;
-use trueness_inspect::results::compare::Comparison;
-use trueness_inspect::results::inspect::{CharacteristicRecord, FrameSource, InspectDocument};
+use trueness_document::Verdict;
+use trueness_document::compare::Comparison;
+use trueness_document::inspect::{CharacteristicRecord, FrameSource, InspectDocument};
 
 /// What there is to say of a part for people; of one of several it names the part. `verbose`: all of it, a line for each thing.
 pub fn table(part: &Part, one_of_several: bool, verbose: bool) -> String {

@@ -11,14 +11,15 @@ use clap::Args;
 use std::path::PathBuf;
 use trueness::read;
 use trueness::task::RunFiles;
+use trueness_document::Role;
+use trueness_document::repair::OutputRecord;
 use trueness_files::FileSources;
 use trueness_files::write::{MeshFile, Writable};
 use trueness_geom::check;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::Progress;
-use trueness_inspect::repair::{Around, View, at_least, defects, document};
-use trueness_inspect::results::Role;
-use trueness_inspect::results::repair::OutputRecord;
+use trueness_measure::repair::{Around, at_least, defects, document};
+use trueness_report::views::repair::View;
 use trueness_solid::repair::{self, Holes, Options, RepairError, Repaired, STEPS, Step};
 
 /// A mesh without its defects

@@ -3,7 +3,7 @@
 use crate::console::columns;
 use crate::number::{FACETS, SHELLS, VERTICES, counted, extent, fixed, grouped, scientific, signed};
 use std::collections::BTreeMap;
-use trueness_inspect::results::repair::{RepairDocument, State};
+use trueness_document::repair::{RepairDocument, State};
 use trueness_solid::repair::Removes;
 
 /// The whole text.

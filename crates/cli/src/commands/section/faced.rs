@@ -1,8 +1,8 @@
 //! Meshes whose facets look out of the material, as a section needs them.
 
 use crate::progress::Stage;
+use trueness_document::{InputRecord, Role};
 use trueness_geom::mesh::Mesh;
-use trueness_inspect::results::{InputRecord, Role};
 use trueness_solid::repair::{self, RepairError};
 
 /// The mesh with its facets turned outwards where they were not; what was changed is told with the file.

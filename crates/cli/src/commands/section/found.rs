@@ -1,7 +1,7 @@
 //! What was found in planes or in a row of points.
 
+use trueness_document::section::{FrameRecord, Section};
 use trueness_geom::plane::PlaneFrame;
-use trueness_inspect::results::section::{FrameRecord, Section};
 use trueness_section::SectionError;
 
 /// What was found: contours by section, and the points of each contour.

@@ -2,8 +2,8 @@
 
 use crate::exit::Usage;
 use std::collections::BTreeMap;
+use trueness_document::section::{NominalWarning, NominalWarningKind};
 use trueness_files::drawing::Drawing;
-use trueness_inspect::results::section::{NominalWarning, NominalWarningKind};
 
 /// How a drawing is divided among planes.
 #[derive(Default)]

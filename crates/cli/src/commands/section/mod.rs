@@ -20,13 +20,13 @@ use found::{Found, described};
 use std::path::PathBuf;
 use trueness::read::{self, Body, Opened};
 use trueness::task::RunFiles;
+use trueness_document::section::{AirfoilRecord, Section, SectionDocument};
+use trueness_document::{InputRecord, NoiseOrReason, Role, Verdict, noise_or_reason};
 use trueness_files::FileSources;
 use trueness_geom::noise::{self, Noise};
 use trueness_geom::plane::PlaneFrame;
 use trueness_geom::space::{Point, minus, norm};
-use trueness_inspect::report::{ViewObject, flat};
-use trueness_inspect::results::section::{AirfoilRecord, Section, SectionDocument};
-use trueness_inspect::results::{InputRecord, NoiseOrReason, Role, Verdict, noise_or_reason};
+use trueness_report::{ViewObject, flat};
 use trueness_section::{self as section, Continuity, Options, SectionError};
 
 /// The lines, arcs and curves of a section, and the exact places where they join

@@ -11,6 +11,12 @@ use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 use trueness::read::{self, Body, Opened};
 use trueness::task::ToleranceText;
+use trueness_document::compare::{Bounds, Warning};
+use trueness_document::section::{
+    Against, AgainstPlane, FitRecord, NominalRecord, NominalWarning, ProfileRule, Section,
+};
+use trueness_document::tolerance::cannot_fail;
+use trueness_document::{InputRecord, of_percent};
 use trueness_files::FileSources;
 use trueness_files::ReadOptions;
 use trueness_files::drawing::{Drawing, Drawn};
@@ -18,13 +24,7 @@ use trueness_geom::mesh::Mesh;
 use trueness_geom::plane::{Plane, PlaneFrame};
 use trueness_geom::progress::Cancelled;
 use trueness_geom::space::{Aabb, Point, dot};
-use trueness_inspect::compare::{MIN_COVERAGE, plausibility};
-use trueness_inspect::results::compare::{Bounds, Warning};
-use trueness_inspect::results::section::{
-    Against, AgainstPlane, FitRecord, NominalRecord, NominalWarning, ProfileRule, Section,
-};
-use trueness_inspect::results::{InputRecord, of_percent};
-use trueness_inspect::tolerance::cannot_fail;
+use trueness_measure::compare::{MIN_COVERAGE, plausibility};
 use trueness_section::{
     self as section, Contour, Freedom, OntoNominal, OntoNominalError, Options, Outline, Segment,
 };

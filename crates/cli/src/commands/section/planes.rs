@@ -4,13 +4,13 @@ use super::found::{Found, described};
 use crate::exit::Usage;
 use crate::progress::Stage;
 use clap::Args;
+use trueness_document::InputRecord;
+use trueness_document::section::{PlaneRecord, Section};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::noise::Noise;
 use trueness_geom::parallel::prelude::*;
 use trueness_geom::plane::{Plane, PlaneFrame};
 use trueness_geom::space::{Point, dot};
-use trueness_inspect::results::InputRecord;
-use trueness_inspect::results::section::{PlaneRecord, Section};
 use trueness_section::{self as section, Chain, Contour, Options, Order, Ordered, SectionError};
 
 /// Where a mesh or cloud is cut.

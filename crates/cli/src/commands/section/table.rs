@@ -8,7 +8,7 @@ use crate::number::{fixed, grouped, scientific};
 use crate::{console, noise};
 use std::fmt::Write;
 use trueness::read;
-use trueness_inspect::results::section::{
+use trueness_document::section::{
     AirfoilMeasures, AirfoilRecord, BEYOND_END, ContourRecord, DimensionsRecord, FrameRecord, GeometryRecord,
     MAX_DISTANCE, MethodsRecord, NominalRecord, OutlineRecord, Positive, SectionDocument, SegmentRecord,
 };

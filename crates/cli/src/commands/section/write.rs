@@ -5,10 +5,10 @@ use clap::Args;
 use std::io::Write;
 use std::path::PathBuf;
 use trueness::task::RunFiles;
+use trueness_document::section::{FrameRecord, NominalRecord, Section};
 use trueness_files::drawing::{self, Clamped, Entity, Layer};
 use trueness_files::write::{Csv, LineEnd};
 use trueness_geom::plane::PlaneFrame;
-use trueness_inspect::results::section::{FrameRecord, NominalRecord, Section};
 use trueness_section::{Geometry, Segment};
 
 /// Files that a section can write.

@@ -14,10 +14,10 @@ use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 use trueness::read::{self, Body, Opened};
 use trueness::task::RunFiles;
+use trueness_document::Role;
 use trueness_files::FileSources;
 use trueness_geom::mesh::Mesh;
-use trueness_inspect::results::Role;
-use trueness_inspect::surface::View;
+use trueness_report::views::surface::View;
 use trueness_surface::{self as surface, BaseKind, Fairness, Layout, Options, SurfaceError};
 
 /// A B-spline surface through scattered points, with its deviation and its curvature
@@ -204,7 +204,7 @@ fn run(args: &SurfaceArgs, common: &Common) -> anyhow::Result<Outcome> {
         bail!("{shown}: the points have no outline on the base to cut along; leave out --trim");
     }
     let document =
-        trueness_inspect::surface::document(&fit, points, &options, outline.as_ref(), vec![record]);
+        trueness_measure::surface::document(&fit, points, &options, outline.as_ref(), vec![record]);
     drop(stage);
     if args.report.html.is_some() {
         let view = View::new(&document, &fit, outline.as_ref(), &document.inputs[0].path, points);
@@ -216,6 +216,6 @@ fn run(args: &SurfaceArgs, common: &Common) -> anyhow::Result<Outcome> {
     args.document.write(&document)?;
     args.document.table(|| table::table(&document))?;
     let out = document.tolerance.as_ref().is_some_and(|t| !t.reached);
-    let doubtful = trueness_inspect::surface::is_doubtful(&document.base);
+    let doubtful = trueness_measure::surface::is_doubtful(&document.base);
     Ok(if out || doubtful { Outcome::NotConforming } else { Outcome::Conforming })
 }

@@ -4,8 +4,8 @@ use crate::console;
 use crate::number::{POINTS, counted, fixed, grouped, scientific};
 use std::fmt::Write;
 use trueness::read;
-use trueness_inspect::results::curvature::Range;
-use trueness_inspect::results::surface::{BaseRecord, SurfaceDocument};
+use trueness_document::curvature::Range;
+use trueness_document::surface::{BaseRecord, SurfaceDocument};
 use trueness_surface::Reached;
 
 /// The document as text.

@@ -5,15 +5,15 @@ use crate::console::columns;
 use crate::number::{
     FACETS, POINTS, counted, fixed, grouped, short as shortest, short_signed, signed, six_digits as number,
 };
-use trueness_geom::deviation::sign_choice::SignMethod;
-use trueness_inspect::compare::Excluded;
-use trueness_inspect::results::Named;
-use trueness_inspect::results::compare::{AlongKind, SignBy};
-use trueness_inspect::results::compare::{
-    AlongRecord, CompareDocument, Comparison, CoverageRecord, OutliersRecord, Statistics, SurfacesRecord,
+use trueness_document::Named;
+use trueness_document::compare::{
+    AlongKind, AlongRecord, CompareDocument, Comparison, CoverageRecord, OutliersRecord, SignBy, Statistics,
+    SurfacesRecord,
 };
-use trueness_inspect::results::research::{Finding, Research, Test};
-use trueness_inspect::results::statistics::TABLE_ROWS;
+use trueness_document::research::{Finding, Research, Test};
+use trueness_document::statistics::TABLE_ROWS;
+use trueness_geom::deviation::sign_choice::SignMethod;
+use trueness_measure::compare::Excluded;
 
 /// The whole text.
 pub fn text(d: &CompareDocument) -> String {

@@ -1,6 +1,6 @@
 //! Lines of a table: a name, and a text that keeps to the width of a page.
 
-use trueness_inspect::results::{Verdict, VerdictReason};
+use trueness_document::{Verdict, VerdictReason};
 
 /// Columns of a table.
 pub const WIDTH: usize = 100;

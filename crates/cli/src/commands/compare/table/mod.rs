@@ -6,7 +6,7 @@ mod result;
 
 pub use full::{along, coverage, outliers, regions};
 
-use trueness_inspect::results::compare::CompareDocument;
+use trueness_document::compare::CompareDocument;
 
 /// The whole text: all of it, or the result alone, with a list of the worst places or without.
 pub fn text(d: &CompareDocument, verbose: bool, places: bool) -> String {

@@ -4,11 +4,11 @@ use super::full;
 use super::line::{file, line, short as file_name, verdict};
 use crate::console::columns;
 use crate::number::{FACETS, POINTS, counted, grouped, short, short_signed};
-use trueness_geom::deviation::sign_choice::SignMethod;
-use trueness_inspect::results::compare::{
+use trueness_document::compare::{
     CompareDocument, Comparison, CoverageRecord, ExtremeRecord, SignBy, ToleranceShares,
 };
-use trueness_inspect::results::{InputRecord, Named, Role, Verdict, percent};
+use trueness_document::{InputRecord, Named, Role, Verdict, percent};
+use trueness_geom::deviation::sign_choice::SignMethod;
 
 /// The whole text.
 pub fn text(d: &CompareDocument, places: bool) -> String {

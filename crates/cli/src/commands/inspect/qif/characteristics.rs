@@ -2,10 +2,9 @@
 
 use super::datums::{Datums, letters_and_modifier};
 use super::xml::{Value, Xml, decimal};
-use trueness_inspect::plan::Class;
-use trueness_inspect::plan::text::MaterialWord;
-use trueness_inspect::results::inspect::{CharacteristicRecord, InspectDocument};
-use trueness_inspect::results::{Named, Verdict};
+use trueness_document::inspect::{CharacteristicRecord, InspectDocument};
+use trueness_document::plan::{Class, MaterialWord};
+use trueness_document::{Named, Verdict};
 
 /// Numbers of what is said of a characteristic for all parts.
 #[derive(Clone, Copy)]

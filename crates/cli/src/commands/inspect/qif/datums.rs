@@ -1,7 +1,7 @@
 //! Datums and the frames that they make.
 
 use super::xml::Xml;
-use trueness_inspect::results::inspect::InspectDocument;
+use trueness_document::inspect::InspectDocument;
 
 /// The datums of a plan.
 #[derive(Default)]

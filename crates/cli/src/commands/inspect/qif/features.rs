@@ -1,10 +1,10 @@
 //! Features as they were measured.
 
 use super::xml::{Value, Xml, decimal, three};
-use trueness_inspect::plan::Class;
-use trueness_inspect::results::Named;
-use trueness_inspect::results::fit::Number;
-use trueness_inspect::results::inspect::FeatureRecord;
+use trueness_document::Named;
+use trueness_document::fit::Number;
+use trueness_document::inspect::FeatureRecord;
+use trueness_document::plan::Class;
 
 /// Writes a feature under `id`, of the part `component`.
 pub fn measured(x: &mut Xml, f: &FeatureRecord, id: u32, component: u32) {

@@ -13,9 +13,9 @@ use super::lists::judged;
 use super::part::{Failed, Part};
 use characteristics::{Ids, status};
 use datums::Datums;
+use trueness_document::inspect::{InspectDocument, PlanRecord};
+use trueness_document::{InputRecord, Role, VERSION, Verdict};
 use trueness_files::write;
-use trueness_inspect::results::inspect::{InspectDocument, PlanRecord};
-use trueness_inspect::results::{InputRecord, Role, VERSION, Verdict};
 use xml::{INDENT, Value, Xml, decimal};
 
 /// The results of parts of one plan with this heading.

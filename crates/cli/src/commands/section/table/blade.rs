@@ -3,7 +3,7 @@
 use crate::console;
 use crate::number::fixed;
 use std::fmt::Write;
-use trueness_inspect::results::section::{AirfoilMeasures, LeanRecord};
+use trueness_document::section::{AirfoilMeasures, LeanRecord};
 
 /// The chords of a profile and its stacking point.
 pub fn chords(m: &AirfoilMeasures) -> String {

@@ -3,7 +3,7 @@
 use crate::console;
 use crate::number::{fixed, grouped, scientific};
 use std::fmt::Write;
-use trueness_inspect::results::section::{FitRecord, NominalRecord};
+use trueness_document::section::{FitRecord, NominalRecord};
 
 /// Planes whose fits are shown.
 const ROWS: usize = 40;

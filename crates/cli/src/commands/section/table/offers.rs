@@ -3,7 +3,7 @@
 use crate::console;
 use crate::number::{fixed, scientific};
 use std::fmt::Write;
-use trueness_inspect::results::section::{ContourRecord, OfferRecord};
+use trueness_document::section::{ContourRecord, OfferRecord};
 
 /// Offers of a contour that are shown.
 const ROWS: usize = 40;

@@ -1,0 +1,67 @@
+//! Features that are derived from others: median planes, intersections, midpoints, projections.
+
+use crate::characteristic::{Element, Taken};
+use trueness_document::plan::{Class, DerivedWord};
+use trueness_geom::shape::derived::{Ray, line_plane, median_plane, midpoint, plane_plane, point_plane};
+use trueness_geom::space::{Point, minus, plus, times};
+use trueness_geom::zone::datum::Datum;
+
+/// A plane or axis of a feature.
+fn ray(taken: &Taken) -> Result<Ray, String> {
+    let none = || format!("feature \"{}\" has no plane or axis", taken.id);
+    match taken.element.as_ref().map_err(|e| format!("feature \"{}\": {e}", taken.id))? {
+        Element::Derived(Datum::Plane { point, normal }) => Ok(Ray { point: *point, direction: *normal }),
+        Element::Derived(Datum::Axis { point, direction }) => {
+            Ok(Ray { point: *point, direction: *direction })
+        }
+        Element::Fit(fit) => {
+            let (point, direction) = (fit.shape.foot(), fit.shape.direction());
+            Ok(Ray { point: point.ok_or_else(none)?, direction: direction.ok_or_else(none)? })
+        }
+        Element::Point(_) | Element::Derived(Datum::Point(_)) => Err(none()),
+    }
+}
+
+fn center(taken: &Taken) -> Result<Point, String> {
+    taken.element.as_ref().map_err(|e| format!("feature \"{}\": {e}", taken.id))?;
+    let points = taken.zoned().map_err(|_| format!("feature \"{}\" has no center", taken.id))?;
+    points.first().copied().ok_or_else(|| format!("feature \"{}\" has no center", taken.id))
+}
+
+/// A feature that is made of two others; `taken` is what it is without them.
+pub(super) fn derived(mut taken: Taken, how: DerivedWord, a: &Taken, b: &Taken) -> Taken {
+    let made = match how {
+        DerivedWord::MedianPlane => median(&mut taken, a, b),
+        DerivedWord::Intersection => intersection(a, b),
+        DerivedWord::Midpoint => center(a).and_then(|p| center(b).map(|q| Element::Point(midpoint(p, q)))),
+        DerivedWord::Projection => center(a).and_then(|p| {
+            let plane = ray(b)?;
+            Ok(Element::Point(minus(p, times(point_plane(p, plane), plane.direction))))
+        }),
+    };
+    taken.element = made;
+    taken
+}
+
+/// The plane half way between two, and their points projected onto it: its extent.
+fn median(taken: &mut Taken, a: &Taken, b: &Taken) -> Result<Element, String> {
+    let (first, second) = (ray(a)?, ray(b)?);
+    let plane = median_plane(first, second).ok_or("its two planes are perpendicular to each other")?;
+    let onto = |p: &Point| plus(*p, times(-point_plane(*p, plane), plane.direction));
+    taken.points = a.points.iter().chain(&b.points).map(onto).collect();
+    taken.areas = vec![1.0; taken.points.len()];
+    Ok(Element::Derived(Datum::Plane { point: plane.point, normal: plane.direction }))
+}
+
+fn intersection(a: &Taken, b: &Taken) -> Result<Element, String> {
+    let (first, second) = (ray(a)?, ray(b)?);
+    let parallel = "its two features are parallel";
+    match (a.class, b.class) {
+        (Class::Plane, Class::Plane) => {
+            let line = plane_plane(first, second, midpoint(first.point, second.point)).ok_or(parallel)?;
+            Ok(Element::Derived(Datum::Axis { point: line.point, direction: line.direction }))
+        }
+        (Class::Plane, _) => line_plane(second, first).map(Element::Point).ok_or(parallel.into()),
+        _ => line_plane(first, second).map(Element::Point).ok_or(parallel.into()),
+    }
+}

@@ -1,0 +1,40 @@
+//! The features of a plan in the measured data.
+
+use super::data::{Data, Stop};
+use super::faces_view::{self, DrawnFace};
+use super::nominals::Nominals;
+use super::parted::Parted;
+use super::{cloud, nearby, take};
+use crate::characteristic::Taken;
+use crate::plan::Plan;
+use trueness_geom::progress::Progress;
+
+/// The features of a plan, and what they were found with.
+pub(super) struct Features {
+    pub all: Vec<Taken>,
+    /// Whether what they are sought in was measured, not computed.
+    pub is_scan: bool,
+    /// The partition, where a report can show it.
+    pub drawn: Vec<DrawnFace>,
+}
+
+/// The features of data that lie where they are evaluated.
+pub(super) fn taken(
+    plan: &Plan,
+    data: &Data,
+    nominals: &Nominals,
+    progress: &dyn Progress,
+) -> Result<Features, Stop> {
+    let measured = data.measured.as_ref().map(cloud::distinct);
+    let measured = measured.as_deref();
+    let parted = match measured {
+        Some(mesh) => Parted::new(plan, mesh, nominals, data.seed, progress)?,
+        None => None,
+    };
+    let mut features = take::features(plan, (data, measured), nominals, parted.as_ref(), progress)?;
+    nearby::tell(plan, measured, nominals, parted.as_ref(), &mut features, progress)?;
+    let shown = parted.as_ref().filter(|_| data.shown > 0);
+    let drawn = shown.map_or(vec![], |parted| faces_view::drawn(plan, parted));
+    let is_scan = parted.is_none_or(|parted| parted.partition().is_scan);
+    Ok(Features { all: features, is_scan, drawn })
+}

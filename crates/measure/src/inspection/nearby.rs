@@ -1,0 +1,117 @@
+//! What lies near a feature that was not measured, but farther off than its extract distance.
+
+use super::data::Stop;
+use super::nominals::Nominals;
+use super::parted::Parted;
+use super::{Taken, take};
+use crate::plan::Plan;
+use crate::requirement::Source;
+use trueness_geom::feature::{Nearness, in_cloud};
+use trueness_geom::mesh::Mesh;
+use trueness_geom::progress::Progress;
+use trueness_geom::space::Aabb;
+
+/// How far off such points are looked for, as a share of the size of the feature.
+const FAR: f64 = 0.1;
+
+/// Adds to the reasons of features that were not measured what lies over or below their places, up to a tenth of their size off: a
+/// part that is off as a whole is not told from one without the face by "nothing was measured".
+///
+/// Cost: nothing where all was measured; else a look at each point for each feature that was not.
+pub(super) fn tell(
+    plan: &Plan,
+    measured: Option<&Mesh>,
+    nominals: &Nominals,
+    parted: Option<&Parted>,
+    features: &mut Vec<Taken>,
+    progress: &dyn Progress,
+) -> Result<(), Stop> {
+    let Some(mesh) = measured else { return Ok(()) };
+    let sought = |n: &usize| matches!(plan.features[*n].source, Source::Nominal | Source::Seed(_));
+    let missing: Vec<usize> =
+        (0..features.len()).filter(sought).filter(|n| features[*n].element.is_err()).collect();
+    if missing.is_empty() {
+        return Ok(());
+    }
+    let mut any = false;
+    for n in missing {
+        let Some(nominal) = nominals.of(n, &plan.features[n]) else {
+            continue;
+        };
+        let near = plan.features[n].near(nominal);
+        let wide =
+            Nearness { distance: near.distance.max(FAR * Aabb::of(&nominal.places()).diagonal()), ..near };
+        if progress.cancelled() {
+            return Err(Stop::Cancelled);
+        }
+        // Why it cannot be sought was told when it was.
+        let Ok(found) = in_cloud(&mesh.positions, nominal, &wide) else { continue };
+        let own = parted.and_then(|parted| Some((parted, parted.own(n)?)));
+        let is_other = |p: &u32| own.is_some_and(|(parted, own)| parted.is_of_others(*p, own, nominal));
+        let places = found.points.iter().filter(|p| !is_other(p));
+        let places = places.filter_map(|p| mesh.positions.get(*p as usize));
+        let off = |p: &_| Some(nominal.surface()?.distance(*p)?.0.abs());
+        let beyond: Vec<f64> = places.filter_map(off).filter(|off| *off > near.distance).collect();
+        if let (Some(told), Err(reason)) = (said(&beyond, &near), &mut features[n].element) {
+            reason.push_str(&told);
+            any = true;
+        }
+    }
+    if any {
+        // What is made of them has their reasons.
+        *features = take::again(plan, features, |_| false, progress)?;
+    }
+    Ok(())
+}
+
+/// How many points lie so far off; `None` where there are none.
+fn said(beyond: &[f64], near: &Nearness) -> Option<String> {
+    let least = beyond.iter().copied().min_by(f64::total_cmp)?;
+    let most = beyond.iter().copied().max_by(f64::total_cmp)?;
+    let points = if beyond.len() == 1 { "point lies" } else { "points lie" };
+    Some(format!(
+        "; {} {points} {least:.3} to {most:.3} mm off its place, farther than the `distance` of {:.3} mm in its `extract`: a larger \
+         one judges them",
+        beyond.len(),
+        near.distance
+    ))
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::inspection::data::Data;
+    use crate::inspection::run;
+    use crate::inspection::test_parts::{FLOOR, floor, plane_plan};
+    use trueness_geom::progress::Silent;
+
+    #[test]
+    fn a_face_that_is_off_is_told_with_the_setting_that_judges_it() {
+        let line = "[[feature]]\nid = \"line\"\nderived = \"median-plane\"\nof = [\"A\", \"A\"]";
+        let plan = plane_plan(FLOOR, (0.0, 0.1), "distance = 0.2, margin = 0", line);
+        for cloud in [false, true] {
+            let reasons = |height: f64, slope: f64| {
+                let mut mesh = floor(|x, _| height + slope * x / 20.0);
+                if cloud {
+                    mesh.faces.clear();
+                }
+                let found = run(&plan, Data { measured: Some(mesh), ..Data::default() }, &Silent).unwrap();
+                let reason = |n: usize| found.features[n].element.as_ref().err().cloned();
+                assert_eq!(found.values[0].as_ref().err().is_some(), reason(0).is_some());
+                [0, 1].map(reason)
+            };
+            assert_eq!(reasons(0.1, 0.0), [None, None]);
+            let wanted = "; 441 points lie 0.300 to 0.600 mm off its place, farther than the `distance` of 0.200 mm in its `extract`: a \
+                          larger one judges them";
+            for reason in reasons(0.3, 0.3) {
+                assert!(reason.as_ref().is_some_and(|r| r.ends_with(wanted)), "{cloud}: {reason:?}");
+            }
+            // Part of it is measured, too little.
+            let [few, _] = reasons(0.15, 1.0);
+            let few = few.unwrap();
+            assert!(few.contains("; ") && few.contains(" to 1.150 mm off its place"), "{few}");
+            // Nothing lies near.
+            let [far, _] = reasons(5.0, 0.0);
+            assert!(!far.unwrap().contains(';'), "{cloud}");
+        }
+    }
+}

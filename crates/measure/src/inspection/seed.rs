@@ -1,0 +1,85 @@
+//! Features that a plan names by a place on the reference: the region around it gives their nominal.
+
+use super::data::Stop;
+use crate::compare::far_seed;
+use crate::plan::Plan;
+use crate::plan::region::nominal_of;
+use crate::requirement::Source;
+use std::collections::BTreeMap;
+use trueness_document::plan::Class;
+use trueness_geom::closest::Tree;
+use trueness_geom::feature::Nominal;
+use trueness_geom::mesh::Mesh;
+use trueness_geom::partition::{Face, Faces, element};
+use trueness_geom::progress::Progress;
+use trueness_geom::segment;
+use trueness_geom::shape::Kind;
+use trueness_geom::space::{Point, cross, minus, norm};
+
+/// The nominal that a seed leads to.
+pub(super) struct Seeded {
+    pub nominal: Nominal,
+    /// Area of the region's facets, mm².
+    pub area: f64,
+}
+
+/// The nominals of all features with a seed, by their numbers.
+pub(super) fn seeded(
+    plan: &Plan,
+    reference: &Mesh,
+    faces: &Faces,
+    progress: &dyn Progress,
+) -> Result<BTreeMap<usize, Seeded>, Stop> {
+    let mut all = BTreeMap::new();
+    if !plan.features.iter().any(|f| matches!(f.source, Source::Seed(_))) {
+        return Ok(all);
+    }
+    let crease = segment::Options::default().crease;
+    let tree = Tree::build_watched(reference, progress).map_err(|e| Stop::Nominal(e.to_string()))?;
+    for (number, feature) in plan.features.iter().enumerate() {
+        let Source::Seed(seed) = &feature.source else { continue };
+        let wrong = |what: String| Stop::Plan {
+            span: seed.span.clone(),
+            what: format!("feature \"{}\": {what}", feature.id),
+        };
+        let hit = tree.closest(&seed.value, f64::INFINITY).map_err(|e| wrong(e.to_string()))?;
+        if let Some(what) = hit.and_then(|hit| far_seed(hit.distance, hit.point, reference)) {
+            return Err(wrong(what));
+        }
+        let face = hit.and_then(|hit| faces.of_facets.get(hit.face as usize));
+        let face = face.and_then(|face| faces.all.get(*face as usize));
+        let kind = kind_of(feature.class);
+        // A narrow face may lie on elements of several kinds.
+        let asked = |face: &Face| match face.shape.filter(|shape| Some(shape.kind()) == kind) {
+            Some(shape) => Some(shape),
+            None => element(reference, &face.facets, kind?, crease),
+        };
+        let Some((face, shape)) = face.and_then(|f| Some((f, asked(f)?))) else {
+            let there = face.and_then(|f| f.shape).map(|shape| shape.kind().name());
+            return Err(wrong(match there {
+                Some(name) => {
+                    format!("the reference has a {name} at the seed, not a {}", feature.class.word())
+                }
+                None => "there is no plane, cylinder, cone or sphere of the reference at the seed".into(),
+            }));
+        };
+        let corners = |f: &u32| reference.faces[*f as usize].map(|v| reference.positions[v as usize]);
+        let facets: Vec<[Point; 3]> = face.facets.iter().map(corners).collect();
+        let nominal = nominal_of(&shape, &facets)
+            .ok_or_else(|| wrong("the region at the seed has no facets".into()))?;
+        let area = facets.iter().map(|[a, b, c]| 0.5 * norm(cross(minus(*b, *a), minus(*c, *a)))).sum();
+        all.insert(number, Seeded { nominal, area });
+    }
+    Ok(all)
+}
+
+/// The kind of region that a feature may have.
+fn kind_of(class: Class) -> Option<Kind> {
+    match class {
+        Class::Plane => Some(Kind::Plane),
+        Class::Cylinder => Some(Kind::Cylinder),
+        Class::Cone => Some(Kind::Cone),
+        Class::Sphere => Some(Kind::Sphere),
+        Class::Point | Class::Line | Class::Circle | Class::Torus => None,
+    }
+}

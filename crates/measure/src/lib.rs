@@ -1,0 +1,30 @@
+//! From geometry to result documents: characteristics, comparisons, inspections and their decisions.
+//!
+//! | task | where |
+//! |---|---|
+//! | defects of a mesh | [`check`] |
+//! | what a repair did | [`repair`] |
+//! | deviations from references | [`compare`] |
+//! | curvatures of meshes and clouds | [`curvature`] |
+//! | elements through points | [`fit`] |
+//! | elements found in a scan | [`segment`] |
+//! | surfaces through points | [`surface`] |
+//! | what a plan requires, as values | [`requirement`] |
+//! | kinds of characteristics | [`characteristic`] |
+//! | inspection plans that can be evaluated | [`plan`] |
+//! | a plan and data make verdicts | [`inspection`] |
+#![cfg_attr(test, allow(clippy::disallowed_methods, reason = "a test does not hang on the last digit"))]
+
+pub mod characteristic;
+pub mod check;
+pub mod compare;
+pub mod curvature;
+pub mod file_numbers;
+pub mod fit;
+pub mod inspection;
+pub mod plan;
+pub mod repair;
+pub mod requirement;
+pub mod segment;
+pub mod spacing;
+pub mod surface;

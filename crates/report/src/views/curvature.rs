@@ -1,0 +1,61 @@
+//! What a report draws of curvatures: the mesh or cloud in the colors of each of them.
+
+use crate::{Geometry, NoValue, ViewField, ViewObject, ViewRole};
+use trueness_document::curvature::{CurvatureDocument, CurvatureKind};
+use trueness_geom::mesh::Mesh;
+use trueness_measure::curvature::values;
+use trueness_surface::curvature::{Curvatures, NoCurvature};
+
+/// Curvatures prepared for drawing.
+pub struct View<'a> {
+    name: &'a str,
+    mesh: &'a Mesh,
+    values: [Vec<f64>; 4],
+    reasons: Vec<NoValue>,
+    /// The places that the list leads to.
+    keep: Vec<u32>,
+}
+
+impl<'a> View<'a> {
+    /// Of the vertices of a mesh, or of the points of a cloud (a mesh without facets); `name` is shown to the reader.
+    pub fn new(document: &CurvatureDocument, name: &'a str, mesh: &'a Mesh, found: &Curvatures) -> View<'a> {
+        let why = |place: &Result<_, NoCurvature>| match place {
+            Ok(_) => NoValue::Unknown,
+            Err(NoCurvature::Boundary) => NoValue::Boundary,
+            Err(NoCurvature::FewNeighbors) => NoValue::FewNeighbors,
+            Err(NoCurvature::Undetermined | NoCurvature::Folded) => NoValue::Undetermined,
+            Err(NoCurvature::NotASurface | NoCurvature::Unused | NoCurvature::NotFinite) => {
+                NoValue::NoSurface
+            }
+        };
+        let ends = |kind| [&document.quantity(kind).maximum, &document.quantity(kind).minimum];
+        View {
+            name,
+            mesh,
+            values: CurvatureKind::ALL.map(|kind| values(found, kind)),
+            reasons: found.places.iter().map(why).collect(),
+            keep: CurvatureKind::ALL.into_iter().flat_map(ends).map(|place| place.index as u32).collect(),
+        }
+    }
+
+    /// The mesh or cloud.
+    pub fn objects(&self) -> Vec<ViewObject<'_>> {
+        let fields = (0..).zip(&self.values);
+        let (role, geometry) = match self.mesh.faces.is_empty() {
+            true => (ViewRole::Measured, Geometry::Points(&self.mesh.positions)),
+            false => (ViewRole::Part, Geometry::Mesh(self.mesh)),
+        };
+        vec![ViewObject {
+            role,
+            name: self.name,
+            color: None,
+            comparison: None,
+            geometry,
+            fields: fields
+                .map(|(comparison, values)| ViewField { comparison, values, reasons: &self.reasons })
+                .collect(),
+            keep: &self.keep,
+            gathered: None,
+        }]
+    }
+}

@@ -1,0 +1,126 @@
+//! What a report draws of an inspection: every feature in the color of its worst verdict, and where values are reached.
+
+use crate::views::segment::rim;
+use crate::{Mark, MarkGroup, Marks, ViewObject, ViewRole};
+use std::collections::BTreeMap;
+use trueness_document::Verdict;
+use trueness_document::inspect::{FeatureSource, InspectDocument};
+use trueness_document::scale::palette::Rgb;
+use trueness_geom::mesh::Mesh;
+use trueness_geom::parallel::prelude::*;
+use trueness_measure::inspection::{DrawnFace, Inspection};
+use trueness_measure::segment::cut_out;
+
+/// Color of a verdict.
+pub fn color(verdict: Verdict) -> Rgb {
+    match verdict {
+        Verdict::Pass => [0x11, 0x6b, 0x2e],
+        Verdict::Fail => [0xc1, 0x1f, 0x2b],
+        Verdict::Undecided => [0x8a, 0x52, 0x00],
+        Verdict::NotMeasured => [0x57, 0x60, 0x6a],
+    }
+}
+
+/// An inspection prepared for drawing.
+pub struct View<'a> {
+    /// The measured data without the features, then a part for each drawn feature.
+    parts: Vec<Part>,
+    /// Whose points are whose.
+    drawn: &'a [DrawnFace],
+    /// The deviations from the reference as a comparison draws them.
+    deviations: Option<&'a super::compare::View<'a>>,
+    /// Where the values are reached, one for each row of the list, in its order.
+    pub marks: Vec<Marks>,
+}
+
+struct Part {
+    name: String,
+    mesh: Mesh,
+    color: Option<Rgb>,
+}
+
+impl<'a> View<'a> {
+    /// Of what was found, which the document tells.
+    pub fn new(
+        document: &InspectDocument,
+        found: &'a Inspection,
+        deviations: Option<&'a super::compare::View<'a>>,
+    ) -> View<'a> {
+        let mut parts = Vec::new();
+        let whole = found.measured.as_ref();
+        let mut free: Vec<bool> = vec![true; whole.map_or(0, |m| m.faces.len())];
+        let verdicts = document.worst();
+        for (taken, record) in found.features.iter().zip(&document.features) {
+            let worst = verdicts.get(record.id.as_str()).copied();
+            let mut own = Vec::new();
+            for &facet in &taken.facets {
+                if std::mem::replace(&mut free[facet as usize], false) {
+                    own.push(facet as usize);
+                }
+            }
+            let mesh = match whole {
+                Some(mesh) if !taken.facets.is_empty() => cut_out(mesh, &own),
+                // What is derived is drawn by what it is made of.
+                _ if *record.source == FeatureSource::Derived => continue,
+                _ => Mesh { positions: taken.points.clone(), faces: vec![] },
+            };
+            parts.push(Part { name: record.id.clone(), mesh, color: worst.map(color) });
+        }
+        if let Some(mesh) = whole {
+            let rest: Vec<usize> = (0..free.len()).filter(|f| free[*f]).collect();
+            let (name, color) = (String::new(), None);
+            let mesh = if mesh.faces.is_empty() { mesh.clone() } else { cut_out(mesh, &rest) };
+            parts.push(Part { name, mesh, color });
+        }
+        parts.retain(|p| !p.mesh.positions.is_empty());
+        View { marks: marks(document, &parts), parts, drawn: &found.drawn, deviations }
+    }
+
+    /// What is drawn.
+    pub fn objects(&self) -> Vec<ViewObject<'_>> {
+        let mut all: Vec<ViewObject> = self.parts.iter().map(Part::object).collect();
+        all.extend(
+            self.drawn
+                .iter()
+                .map(|d| ViewObject::plain(ViewRole::Partition, &d.name, Some(d.color), &d.mesh)),
+        );
+        all.extend(self.deviations.into_iter().flat_map(super::compare::View::mapped));
+        all
+    }
+}
+
+impl Part {
+    fn object(&self) -> ViewObject<'_> {
+        ViewObject::plain(ViewRole::Part, &self.name, self.color, &self.mesh)
+    }
+}
+
+/// One mark a row: the rim of the feature and the places where the value is reached, in the color of the verdict.
+fn marks(document: &InspectDocument, parts: &[Part]) -> Vec<Marks> {
+    let mut groups: Vec<MarkGroup> = Vec::new();
+    let own: Vec<&Part> = parts.iter().filter(|p| !p.mesh.faces.is_empty()).collect();
+    let rims: Vec<Mark> = own.par_iter().map(|p| rim(&p.mesh)).collect();
+    let rims: BTreeMap<&str, Mark> = own.iter().map(|p| p.name.as_str()).zip(rims).collect();
+    for c in document.rows() {
+        let key = format!("verdict.{}", key(c.verdict));
+        let mut mark = rims.get(c.feature.as_str()).cloned().unwrap_or_default();
+        mark.points = c.witness.clone();
+        if groups.last().is_none_or(|g| g.key != key) {
+            groups.push(MarkGroup { key, color: color(c.verdict), items: vec![] });
+        }
+        if let Some(group) = groups.last_mut() {
+            group.items.push(mark.finite());
+        }
+    }
+    vec![Marks { role: ViewRole::Touching, comparison: None, groups }]
+}
+
+/// The word of a verdict in the table of words.
+fn key(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Pass => "pass",
+        Verdict::Fail => "fail",
+        Verdict::Undecided => "undecided",
+        Verdict::NotMeasured => "not_measured",
+    }
+}
