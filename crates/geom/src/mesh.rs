@@ -23,7 +23,13 @@ impl Mesh {
 
     /// Where the corners of a face are.
     pub fn corners(&self, face: u32) -> [Point; 3] {
-        self.faces[face as usize].map(|v| self.positions[v as usize])
+        self.places(&self.faces[face as usize])
+    }
+
+    /// Where vertices are.
+    #[inline]
+    pub fn places<const N: usize>(&self, vertices: &[u32; N]) -> [Point; N] {
+        vertices.map(|v| self.positions[v as usize])
     }
 
     /// Whether single precision holds all coordinates; those that are not finite do not count.

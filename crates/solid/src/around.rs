@@ -25,7 +25,7 @@ impl Around {
     /// n log k for k of n facets, where the k are about equally large; a single large one brings in whatever is as near as it is
     /// large.
     pub fn new(mesh: &Mesh, asked: &[bool]) -> Option<Around> {
-        let bounds = |f: &[u32; 3]| Aabb::of(&f.map(|v| mesh.positions[v as usize]));
+        let bounds = |f: &[u32; 3]| Aabb::of(&mesh.places(f));
         let count = asked.iter().filter(|asked| **asked).count();
         if count == 0 || FEW * count > mesh.faces.len() {
             return None;
@@ -84,7 +84,7 @@ mod tests {
             mesh.positions.extend([at, corner(random), corner(random)]);
             mesh.faces.push([3 * i, 3 * i + 1, 3 * i + 2]);
         }
-        let bounds = |f: usize| Aabb::of(&mesh.faces[f].map(|v| mesh.positions[v as usize]));
+        let bounds = |f: usize| Aabb::of(&mesh.places(&mesh.faces[f]));
         for few in [1, 7, 30] {
             let asked: Vec<bool> = (0..600).map(|f| f % (600 / few) == 3).collect();
             let around = Around::new(&mesh, &asked).unwrap();

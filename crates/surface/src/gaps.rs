@@ -7,6 +7,7 @@
 use super::gram::{Binned, Sums};
 use super::raster::distances;
 use super::stencil::Stencil;
+use trueness_geom::num::median::median;
 use trueness_geom::progress::{Cancelled, Progress};
 use trueness_geom::space::Point;
 use trueness_geom::spline::surface::Patches;
@@ -38,8 +39,7 @@ fn row_distance(data: &Binned) -> Option<f64> {
         }
     }
     distances(&mut square, [rows, columns]);
-    let middle = square.len() / 2;
-    let median = square.select_nth_unstable_by(middle, f64::total_cmp).1.sqrt() / fine as f64;
+    let median = median(&mut square).unwrap_or(0.0).sqrt() / fine as f64;
     let wide = 4.0 * median;
     let of_a_point = data.cells().0 as f64 / data.len() as f64;
     (wide > WIDE && wide * wide > ROWS * of_a_point).then_some(wide)

@@ -7,6 +7,7 @@
 
 use super::{Base, BaseKind};
 use trueness_geom::fit::Scatter;
+use trueness_geom::num::median::median;
 use trueness_geom::parallel::prelude::*;
 use trueness_geom::progress::{Cancelled, Progress};
 use trueness_geom::space::{Point, dot, minus};
@@ -90,11 +91,7 @@ pub(super) fn outliers(
     let found: Result<Vec<Vec<Option<Judged>>>, Cancelled> = indices.par_chunks(CHUNK).map(chunk).collect();
     let found: Vec<Option<Judged>> = found?.into_iter().flatten().collect();
     let mut spreads: Vec<f64> = found.iter().flatten().map(|judged| judged.spread).collect();
-    if spreads.is_empty() {
-        return Ok(vec![]);
-    }
-    let middle = spreads.len() / 2;
-    let usual = *spreads.select_nth_unstable_by(middle, f64::total_cmp).1;
+    let Some(usual) = median(&mut spreads) else { return Ok(vec![]) };
     let largest = points.iter().flatten().fold(0.0f64, |m, x| m.max(x.abs()));
     let contradicts = |judged: &Judged| {
         let least = (FAR * judged.spread.max(usual)).max(ROUNDING * largest);

@@ -47,7 +47,7 @@ const SPARSE: usize = 50;
 /// let turn = Rigid::rotation_about([1.0, 2.0, 3.0], [3.0, 0.4, 0.1]);
 /// let mut points = vec![];
 /// for face in &reference.faces {
-///     let [a, b, c] = face.map(|v| reference.positions[v as usize]);
+///     let [a, b, c] = reference.places(face);
 ///     for (i, j) in (0..=12).flat_map(|i| (0..=12 - i).map(move |j| (f64::from(i) / 12.0, f64::from(j) / 12.0))) {
 ///         points.push(turn.point(std::array::from_fn(|k| a[k] + i * (b[k] - a[k]) + j * (c[k] - a[k]))));
 ///     }

@@ -197,7 +197,7 @@ const TURNED: f32 = 0.35;
 
 /// Unit normal of a face; `None` where it has no area.
 pub(super) fn facet_normal(mesh: &Mesh, face: u32) -> Option<Vector> {
-    normal_of(&mesh.faces[face as usize].map(|v| mesh.positions[v as usize]))
+    normal_of(&mesh.corners(face))
 }
 
 /// Unit normal of a triangle; `None` where it has no area.

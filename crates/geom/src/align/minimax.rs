@@ -50,7 +50,7 @@ pub struct Minimax {
 /// };
 /// let mut points = vec![];
 /// for face in &reference.faces {
-///     let [a, b, c] = face.map(|v| reference.positions[v as usize]);
+///     let [a, b, c] = reference.places(face);
 ///     for (i, j) in (1..12).flat_map(|i| (1..12 - i).map(move |j| (f64::from(i) / 12.0, f64::from(j) / 12.0))) {
 ///         points.push(std::array::from_fn(|k| a[k] + i * (b[k] - a[k]) + j * (c[k] - a[k])));
 ///     }

@@ -94,7 +94,7 @@ impl Samples {
         for face in &mesh.faces {
             let double = double_area(mesh, face);
             let parts = parts(double, total);
-            samples.spread(face.map(|v| mesh.positions[v as usize]), double, parts);
+            samples.spread(mesh.places(face), double, parts);
         }
         samples.weights.iter_mut().for_each(|w| *w /= total);
         samples
@@ -294,7 +294,7 @@ fn of_mesh(mesh: &Mesh, large: f64) -> Samples {
         let size = norm(double);
         if size > large * total {
             let parts = (size / (PART * total)).sqrt();
-            samples.spread(face.map(|v| mesh.positions[v as usize]), double, parts);
+            samples.spread(mesh.places(face), double, parts);
             continue;
         }
         for &v in face {
@@ -311,7 +311,7 @@ fn of_mesh(mesh: &Mesh, large: f64) -> Samples {
 }
 
 fn double_area(mesh: &Mesh, face: &[u32; 3]) -> Vector {
-    let [a, b, c] = face.map(|v| mesh.positions[v as usize]);
+    let [a, b, c] = mesh.places(face);
     cross(minus(b, a), minus(c, a))
 }
 
@@ -325,7 +325,7 @@ pub(super) fn on_surface(mesh: &Mesh, count: usize, seed: u64) -> Samples {
     for (face, area) in mesh.faces.iter().zip(&areas) {
         sum += area / total * count as f64;
         while next <= sum && found.len() < count {
-            let [a, b, c] = face.map(|v| mesh.positions[v as usize]);
+            let [a, b, c] = mesh.places(face);
             let (root, t) = (random.unit().sqrt(), random.unit());
             let p = plus(plus(times(1.0 - root, a), times(root * (1.0 - t), b)), times(root * t, c));
             if let Some((n, _)) = unit(double_area(mesh, face)) {

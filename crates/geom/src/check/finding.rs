@@ -179,7 +179,7 @@ impl Inspected<'_> {
 
     /// The corners of a facet.
     pub(super) fn corners(&self, facet: u32) -> [Point; 3] {
-        self.mesh.faces[facet as usize].map(|v| self.mesh.positions[v as usize])
+        self.mesh.corners(facet)
     }
 
     /// Distance of two vertices.

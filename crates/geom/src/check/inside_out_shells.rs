@@ -79,7 +79,7 @@ fn looks(m: &Inspected, shell: usize, facets: &Facets) -> i32 {
 fn exact_volume(mesh: &Mesh, facets: &[u32]) -> Exact {
     /// Facets of one task.
     const PART: usize = 1 << 10;
-    let corners = |f: u32| mesh.faces[f as usize].map(|v| mesh.positions[v as usize]);
+    let corners = |f: u32| mesh.corners(f);
     let size = |f: &u32| corners(*f).iter().flatten().fold(0.0f64, |size, x| size.max(x.abs()));
     let largest = facets.par_iter().map(size).reduce(|| 0.0, f64::max);
     let unit = 2f64.powi(-(libm::log2(largest.max(f64::MIN_POSITIVE)).floor() as i32).max(-1000));

@@ -18,7 +18,7 @@ pub(super) const KIND: DefectKind = DefectKind {
     find: |m| {
         let stored = m.stored_normals?;
         let contradicts = |(face, normal): (&[u32; 3], &[f32; 3])| {
-            let [a, b, c] = face.map(|v| m.mesh.positions[v as usize]);
+            let [a, b, c] = m.mesh.places(face);
             let computed = cross(minus(b, a), minus(c, a));
             let says = normal.iter().all(|x| x.is_finite()) && normal.iter().any(|x| *x != 0.0);
             says && computed != [0.0; 3] && dot(normal.map(f64::from), computed) <= 0.0

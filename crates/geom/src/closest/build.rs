@@ -360,7 +360,7 @@ fn build(mesh: &Mesh, progress: &dyn Progress) -> Result<Tree, Cancelled> {
         if extent > 1e-300 { libm::exp2((-libm::log2(extent).ceil()).clamp(-1000.0, 1000.0)) } else { 1.0 };
     let item = |(i, f): (usize, &[u32; 3])| {
         let mut b = Bounds::EMPTY;
-        for v in f.map(|v| mesh.positions[v as usize]) {
+        for v in mesh.places(f) {
             for k in 0..3 {
                 let x = ((v[k] - center[k]) * scale) as f32;
                 b.lo[k] = least(b.lo[k], x);

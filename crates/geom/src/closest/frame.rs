@@ -34,7 +34,7 @@ pub fn leaf(mesh: &Mesh, faces: &[u32], first: u32, scale: f64) -> Leaf {
     let mut triangles = [[[0.0; 3]; 3]; 8];
     let (mut lo, mut hi) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
     for (t, &face) in triangles.iter_mut().zip(faces) {
-        *t = mesh.faces[face as usize].map(|v| mesh.positions[v as usize]);
+        *t = mesh.corners(face);
         for v in t {
             for k in 0..3 {
                 lo[k] = if v[k] < lo[k] { v[k] } else { lo[k] };

@@ -37,7 +37,7 @@ pub struct Sample {
 /// A mesh without faces, with bad indices or coordinates, or without area.
 pub fn sample(mesh: &Mesh, count: usize, seed: u64) -> Result<Vec<Sample>, SampleError> {
     check_mesh(mesh)?;
-    let corners = |face: usize| mesh.faces[face].map(|v| mesh.positions[v as usize]);
+    let corners = |face: usize| mesh.places(&mesh.faces[face]);
     let mut total = Sum::default();
     let ends: Vec<f64> = (0..mesh.faces.len())
         .map(|face| {

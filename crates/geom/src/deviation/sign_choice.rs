@@ -132,7 +132,7 @@ impl SignChoice {
 fn openness(mesh: &Mesh) -> f64 {
     let of = |part: &[[u32; 3]]| {
         part.iter().fold(([0.0; 3], 0.0), |(vector, area): (Vector, f64), f| {
-            let [a, b, c] = f.map(|v| mesh.positions[v as usize]);
+            let [a, b, c] = mesh.places(f);
             let n = cross(minus(b, a), minus(c, a));
             (plus(vector, n), area + norm(n))
         })

@@ -149,8 +149,7 @@ fn magnitudes<const P: usize, F: Family<P>>(element: &Element, sample: &Sample) 
 /// Median magnitude of the distances.
 fn median<const P: usize, F: Family<P>>(element: &Element, sample: &Sample) -> f64 {
     let mut all = magnitudes::<P, F>(element, sample);
-    let middle = all.len() / 2;
-    *all.select_nth_unstable_by(middle, f64::total_cmp).1
+    crate::num::median::median(&mut all).unwrap_or(0.0)
 }
 
 fn share_within<const P: usize, F: Family<P>>(element: &Element, sample: &Sample, near: f64) -> f64 {

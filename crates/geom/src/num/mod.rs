@@ -7,6 +7,7 @@ pub(crate) mod double;
 pub mod exact;
 pub mod golden;
 pub mod interval;
+pub mod median;
 pub mod multigrid;
 pub mod predicates;
 pub mod random;

@@ -111,7 +111,7 @@ pub(super) fn owners(
         let mut fit: Vec<u32> = all.filter(|f| is_of(b, *f) && is_of(c, *f)).collect();
         fit.sort_unstable();
         fit.dedup();
-        let places = corners.map(|v| scan.positions[v as usize]);
+        let places = scan.places(corners);
         let middle = times(1.0 / 3.0, plus(places[0], plus(places[1], places[2])));
         let out = |face: u32| faces[face as usize].facing(&middle).unwrap_or_default();
         let all = fit.into_iter().map(|face| (face, out(face)));

@@ -161,7 +161,7 @@ impl Drawn<'_> {
     }
 
     fn corners(&self, facet: u32) -> [Point; 3] {
-        self.mesh.faces[facet as usize].map(|v| self.mesh.positions[v as usize])
+        self.mesh.corners(facet)
     }
 
     fn area(&self, facet: u32) -> f64 {
@@ -205,7 +205,7 @@ pub fn element(mesh: &Mesh, facets: &[u32], kind: Kind, angle: f64) -> Option<Sh
     let shape = fit(&places, kind, &fit::Options::default(), &Silent).ok()?.shape;
     let limit = rounding(&places).max(CHORDS * Aabb::of(&places).diagonal());
     let facing = |f: &u32| {
-        let corners = mesh.faces[*f as usize].map(|v| mesh.positions[v as usize]);
+        let corners = mesh.corners(*f);
         along(&shape, corners, normal(mesh, *f)?)
     };
     let along: Vec<f64> = facets.iter().filter_map(facing).collect();
@@ -228,7 +228,7 @@ pub(super) fn rounding(places: &[Point]) -> f64 {
 }
 
 fn normal(mesh: &Mesh, facet: u32) -> Option<Vector> {
-    space::normal(mesh.faces[facet as usize].map(|v| mesh.positions[v as usize]))
+    space::normal(mesh.corners(facet))
 }
 
 fn edge(a: u32, b: u32) -> u64 {

@@ -158,7 +158,7 @@ impl Faces {
 }
 
 fn normal(mesh: &Mesh, f: &[u32; 3]) -> Option<Vector> {
-    space::normal(f.map(|v| mesh.positions[v as usize]))
+    space::normal(mesh.places(f))
 }
 
 /// Facets of a mesh as one of their own.
@@ -195,7 +195,7 @@ impl Face {
             false => Some(Tree::build(&piece(&mesh, &border)).ok()?),
         };
         let towards = |shape: Shape, f: &[u32; 3]| {
-            let [a, b, c] = f.map(|v| mesh.positions[v as usize]);
+            let [a, b, c] = mesh.places(f);
             let middle = times(1.0 / 3.0, plus(a, plus(b, c)));
             dot(shape.normal(middle), cross(minus(b, a), minus(c, a)))
         };

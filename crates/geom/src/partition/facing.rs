@@ -19,7 +19,7 @@ pub(super) struct Facing {
 impl Facing {
     pub(super) fn new(scan: &Mesh) -> Facing {
         let around = FacetsAround::new(scan);
-        let corners = |f: &[u32; 3]| f.map(|v| scan.positions[v as usize]);
+        let corners = |f: &[u32; 3]| scan.places(f);
         let facets: Vec<Vector> =
             scan.faces.par_iter().map(|f| normal(corners(f)).unwrap_or_default()).collect();
         let area = |f: u32| {

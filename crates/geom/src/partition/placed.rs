@@ -3,6 +3,7 @@
 use super::best::Candidate;
 use super::faces::{Face, Seat};
 use crate::fit::{Method, Options, fit};
+use crate::num::median::median;
 use crate::num::random::Random;
 use crate::progress::Silent;
 use crate::shape::Shape;
@@ -45,7 +46,7 @@ impl Placed {
                 all.filter(|x| x.is_finite()).collect()
             };
             if shape.is_none() {
-                placed.offset = median(off(&placed));
+                placed.offset = median(&mut off(&placed)).unwrap_or(0.0);
             }
             placed.deviation = deviation(off(&placed).into_iter().map(f64::abs).collect(), floor);
             placed
@@ -82,7 +83,7 @@ fn alike(found: Shape, face: &Face, places: &[Point]) -> Shape {
 /// The standard deviation of normal noise by its magnitudes. Where more than half are nothing, as of a plane along whose normal coordinates are rounded, the
 /// step that they are rounded to: the least of the others.
 fn deviation(all: Vec<f64>, floor: f64) -> f64 {
-    let middle = MEDIAN * median(all.clone());
+    let middle = MEDIAN * median(&mut all.clone()).unwrap_or(0.0);
     if middle > floor {
         return middle;
     }
@@ -91,9 +92,4 @@ fn deviation(all: Vec<f64>, floor: f64) -> f64 {
         true => floor,
         false => others.into_iter().fold(f64::INFINITY, f64::min),
     }
-}
-
-fn median(mut all: Vec<f64>) -> f64 {
-    all.sort_by(f64::total_cmp);
-    all.get(all.len() / 2).copied().unwrap_or(0.0)
 }

@@ -83,7 +83,7 @@ fn plant_crossings(mesh: &mut Mesh, k: usize) {
 /// Normals of all facets as a file might store them, turned over for some.
 fn plant_normals(mesh: &Mesh, chosen: &[usize]) -> Vec<[f32; 3]> {
     let normal = |f: &[u32; 3]| {
-        let [a, b, c] = f.map(|v| mesh.positions[v as usize]);
+        let [a, b, c] = mesh.places(f);
         cross(minus(b, a), minus(c, a)).map(|x| x as f32)
     };
     let mut stored: Vec<[f32; 3]> = mesh.faces.iter().map(normal).collect();
@@ -99,7 +99,7 @@ pub fn planted(kind: &str, k: usize) -> (Mesh, Option<Vec<[f32; 3]>>, usize) {
     let chosen = apart(&mesh, k);
     let at = |mesh: &Mesh, v: u32| mesh.positions[v as usize];
     let middle = |mesh: &Mesh, f: usize| {
-        let [a, b, _] = mesh.faces[f].map(|v| mesh.positions[v as usize]);
+        let [a, b, _] = mesh.places(&mesh.faces[f]);
         times(0.5, plus(a, b))
     };
     let (mut normals, mut expected) = (None, k);

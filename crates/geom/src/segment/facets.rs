@@ -79,7 +79,7 @@ fn beyond(of: [u32; 3], not: [u32; 3]) -> Option<u32> {
 
 /// Centroid, unit normal and area; the normal of a facet without area is zero.
 fn middle(mesh: &Mesh, face: &[u32; 3]) -> ([f64; 3], Vector, f64) {
-    let [a, b, c] = face.map(|v| mesh.positions[v as usize]);
+    let [a, b, c] = mesh.places(face);
     let twice = cross(minus(b, a), minus(c, a));
     let place = times(1.0 / 3.0, plus(a, plus(b, c)));
     (place, unit(twice).map_or([0.0; 3], |(n, _)| n), 0.5 * norm(twice))

@@ -26,7 +26,7 @@ pub(crate) struct Columns {
 impl Columns {
     /// Of these facets, which must have finite corners. n log n.
     pub(crate) fn new(mesh: &Mesh, facets: &[u32], axis: usize) -> Columns {
-        let bounds = |f: u32| Aabb::of(&mesh.faces[f as usize].map(|v| mesh.positions[v as usize]));
+        let bounds = |f: u32| Aabb::of(&mesh.corners(f));
         let item = |f: &u32| {
             let bounds = bounds(*f);
             let middle = |k: usize| 0.5 * bounds.min[k] + 0.5 * bounds.max[k];
@@ -191,7 +191,7 @@ mod tests {
                     _ => std::array::from_fn(|_| 11.0 * random.unit()),
                 };
                 let meets = |f: &&u32| {
-                    let b = Aabb::of(&mesh.faces[**f as usize].map(|v| mesh.positions[v as usize]));
+                    let b = Aabb::of(&mesh.corners(**f));
                     let beside = |k: usize| p[k] < b.min[k] || b.max[k] < p[k];
                     p[axis] <= b.max[axis] && !beside((axis + 1) % 3) && !beside((axis + 2) % 3)
                 };

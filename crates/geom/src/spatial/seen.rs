@@ -63,7 +63,7 @@ impl Squares {
 /// too. Linear.
 pub(crate) fn seen(mesh: &Mesh, facets: &[u32], axis: usize, places: &[Point]) -> Vec<u32> {
     let squares = Squares::new(axis, places);
-    let near = |f: &&u32| squares.holds(mesh.faces[**f as usize].map(|v| mesh.positions[v as usize]));
+    let near = |f: &&u32| squares.holds(mesh.corners(**f));
     facets.par_iter().filter(near).copied().collect()
 }
 
@@ -92,7 +92,7 @@ mod tests {
             let found = seen(&mesh, &all, axis, &places);
             assert!(found.is_sorted() && found.len() < 3000, "{}", found.len());
             let meets = |f: u32| {
-                let b = Aabb::of(&mesh.faces[f as usize].map(|v| mesh.positions[v as usize]));
+                let b = Aabb::of(&mesh.corners(f));
                 let inside = |p: &Point, k: usize| b.min[k] <= p[k] && p[k] <= b.max[k];
                 places.iter().any(|p| inside(p, (axis + 1) % 3) && inside(p, (axis + 2) % 3))
             };

@@ -115,7 +115,7 @@ fn order(a: &Point, b: &Point) -> std::cmp::Ordering {
 
 /// Where the plane cuts an edge, within its box.
 fn place(mesh: &Mesh, plane: &Plane, edge: Edge) -> Point {
-    let [a, b] = edge.map(|v| mesh.positions[v as usize]);
+    let [a, b] = mesh.places(&edge);
     let (low, high) = (plane.height(&a), plane.height(&b));
     let t = low / (low - high);
     let t = if t.is_finite() { t.clamp(0.0, 1.0) } else { 0.5 };
@@ -191,7 +191,7 @@ mod tests {
     fn brute(mesh: &Mesh, plane: &Plane, frame: &PlaneFrame) -> f64 {
         let mut sum = 0.0;
         for face in &mesh.faces {
-            let p = face.map(|v| mesh.positions[v as usize]);
+            let p = mesh.places(face);
             let h = p.map(|p| plane.height(&p));
             let cross_at =
                 |i: usize, j: usize| frame.flat(plus(p[i], times(h[i] / (h[i] - h[j]), minus(p[j], p[i]))));

@@ -16,6 +16,7 @@ pub use freedom::{Free, Freedom};
 pub use motion::PlaneMotion;
 use place::{Places, Row};
 use trueness_geom::num::cholesky::Cholesky;
+use trueness_geom::num::median::median;
 use trueness_geom::progress::{Cancelled, Progress};
 
 /// A best fit.
@@ -156,11 +157,8 @@ fn middle(rows: &[&[[f64; 2]]]) -> [f64; 2] {
 /// Weights by which far points lead the fit no more than near ones.
 fn huber(places: &Places) -> Vec<f64> {
     let mut sizes: Vec<f64> = places.distances().map(f64::abs).collect();
-    if sizes.is_empty() {
-        return vec![];
-    }
-    let middle = sizes.len() / 2;
-    let scale = *sizes.select_nth_unstable_by(middle, f64::total_cmp).1 / MEDIAN;
+    let Some(middle) = median(&mut sizes) else { return vec![] };
+    let scale = middle / MEDIAN;
     let limit = HUBER * scale;
     places.distances().map(|d| if d.abs() <= limit { 1.0 } else { limit / d.abs() }).collect()
 }

@@ -2,6 +2,7 @@
 
 use crate::model::flat::distance;
 use crate::model::result::{Options, SectionError};
+use trueness_geom::num::median::median;
 
 /// A row made fit for the search.
 #[derive(Clone, Debug)]
@@ -36,14 +37,6 @@ const CORNER: f64 = 20.5;
 /// Outliers are looked for so many times.
 const PASSES: usize = 4;
 
-fn median(mut all: Vec<f64>) -> f64 {
-    if all.is_empty() {
-        return 0.0;
-    }
-    let middle = all.len() / 2;
-    *all.select_nth_unstable_by(middle, f64::total_cmp).1
-}
-
 /// Which points of a row count, and which repeat the one before.
 pub(crate) struct Passed {
     pub numbers: Vec<usize>,
@@ -76,7 +69,8 @@ impl Passed {
     /// The points before gaps.
     pub fn gaps(&self, points: &[[f64; 2]]) -> Vec<usize> {
         let far = |w: &[usize]| distance(points[w[0]], points[w[1]]);
-        let spacing = median(self.numbers.windows(2).map(far).collect());
+        let mut steps: Vec<f64> = self.numbers.windows(2).map(far).collect();
+        let spacing = median(&mut steps).unwrap_or(0.0);
         let wide = self.numbers.windows(2).filter(|w| far(w) > GAP * spacing);
         wide.map(|w| w[0]).collect()
     }
@@ -99,7 +93,7 @@ impl Clean {
             return Err(SectionError::TooFewPoints { found: different.len() });
         }
         let steps: Vec<f64> = all.windows(2).map(|w| distance(w[0], w[1])).collect();
-        let spacing = median(steps.clone());
+        let spacing = median(&mut steps.clone()).unwrap_or(0.0);
         let ratio = spacing / nearest(&all).max(f64::MIN_POSITIVE);
         if ratio > AGAIN && all.len() > 8 {
             return Err(SectionError::PlacesAgain);
@@ -312,7 +306,8 @@ fn nearest(points: &[[f64; 2]]) -> f64 {
             .map(|(_, p)| (p[0] - points[i][0]).powi(2) + (p[1] - points[i][1]).powi(2))
             .fold(f64::INFINITY, f64::min)
     };
-    median((0..points.len()).step_by(stride).map(of).collect()).sqrt()
+    let mut squares: Vec<f64> = (0..points.len()).step_by(stride).map(of).collect();
+    median(&mut squares).unwrap_or(0.0).sqrt()
 }
 
 /// Sum of squared distances of points from the line nearest to them.

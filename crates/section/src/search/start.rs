@@ -1,6 +1,7 @@
 //! Where the search starts: noise, and lines and arcs through parts of a row.
 
 use crate::model::chain::SegmentKind;
+use trueness_geom::num::median::median;
 
 /// Half the number of points of a local fit of the noise.
 const HALF: usize = 4;
@@ -18,16 +19,14 @@ pub(crate) fn noise(points: &[[f64; 2]], closed: bool) -> (f64, usize) {
         let found = noise_of(&few, closed);
         let far = |w: &[[f64; 2]]| libm::hypot(w[1][0] - w[0][0], w[1][1] - w[0][1]);
         let mut steps: Vec<f64> = few.windows(2).map(far).collect();
-        let middle = steps.len() / 2;
-        let apart = *steps.select_nth_unstable_by(middle, f64::total_cmp).1;
+        let apart = median(&mut steps).unwrap_or(0.0);
         let found = found.min(least);
         if 4.0 * found <= apart || few.len() < 60 {
             return (found, step);
         }
         // Noise makes neighbors farther apart than they are; ends of a local fit far less.
         let mut chords: Vec<f64> = few.windows(2 * HALF + 1).map(|w| far(&[w[0], w[2 * HALF]])).collect();
-        let middle = chords.len() / 2;
-        if found <= *chords.select_nth_unstable_by(middle, f64::total_cmp).1 / (2 * HALF) as f64 {
+        if found <= median(&mut chords).unwrap_or(0.0) / (2 * HALF) as f64 {
             least = found;
         }
         step *= 2;
@@ -54,11 +53,7 @@ fn off_polynomials<const COEFFICIENTS: usize>(points: &[[f64; 2]], closed: bool)
     let starts = if closed { n } else { n - width + 1 };
     let window = |i: usize| std::array::from_fn(|k| points[(i + k) % n]);
     let mut all: Vec<f64> = (0..starts).filter_map(|i| mean_square_off::<COEFFICIENTS>(&window(i))).collect();
-    if all.is_empty() {
-        return 0.0;
-    }
-    let middle = all.len() / 2;
-    let median = *all.select_nth_unstable_by(middle, f64::total_cmp).1;
+    let Some(median) = median(&mut all) else { return 0.0 };
     // Median of a chi-squared variable of so many degrees over their number: Wilson and Hilferty.
     let share: f64 = 1.0 - 2.0 / (9 * (width - COEFFICIENTS)) as f64;
     (median / (share * share * share)).sqrt()

@@ -163,7 +163,7 @@ fn between(points: &Points, axes: [usize; 2], [a, b]: [u32; 2], p: u32) -> bool 
 
 /// The axis along which a facet is seen best.
 pub(super) fn axis_of(mesh: &Mesh, facet: u32) -> usize {
-    let [a, b, c] = mesh.faces[facet as usize].map(|v| mesh.positions[v as usize]);
+    let [a, b, c] = mesh.corners(facet);
     let n = cross(minus(b, a), minus(c, a)).map(f64::abs);
     let best = (0..3).fold(0, |k, j| if n[j] > n[k] { j } else { k });
     let seen = |k: &usize| side_of_line(*k, &a, &b, &c) != 0;
@@ -182,7 +182,7 @@ impl Planes {
     }
 
     fn crossing(&mut self, mesh: &Mesh, cluster: &Cluster, [i, j]: [usize; 2]) -> Option<ExactPoint> {
-        let ends = |e: Edge| e.map(|v| mesh.positions[v as usize]);
+        let ends = |e: Edge| mesh.places(&e);
         let lines = [i, j].map(|i| cluster.segments[i].line);
         for line in lines {
             if let Line::Cut(facet) = line {
@@ -205,5 +205,5 @@ impl Planes {
 
 /// The plane of a facet.
 pub(super) fn plane_of(mesh: &Mesh, facet: u32) -> Plane {
-    Plane::through(mesh.faces[facet as usize].map(|v| mesh.positions[v as usize]))
+    Plane::through(mesh.corners(facet))
 }

@@ -122,7 +122,7 @@ impl Names {
         names.par_sort_unstable();
         names.dedup();
         let place = |(e, f): &(Edge, u32)| {
-            let ends = e.map(|v| mesh.positions[v as usize]);
+            let ends = mesh.places(e);
             // Its ends lie on either side of the plane.
             ExactPoint::on_line(ends, &plane_of(mesh, *f)).unwrap_or_else(|| ExactPoint::of(ends[0]))
         };

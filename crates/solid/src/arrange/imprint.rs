@@ -180,7 +180,7 @@ fn lies(mesh: &Mesh, (v, p): (u32, &Point), facet: u32, reach: f64) -> Lies {
 
 /// Whether a place is no farther than `reach` from an edge.
 fn is_on(mesh: &Mesh, p: &Point, e: Edge, reach: f64) -> bool {
-    let [a, b] = e.map(|v| mesh.positions[v as usize]);
+    let [a, b] = mesh.places(&e);
     let (u, w) = (minus(b, a), minus(*p, a));
     let t = dot(u, w) / dot(u, u);
     (0.0..=1.0).contains(&t) && norm(minus(w, times(t, u))) <= reach

@@ -34,6 +34,6 @@ pub(super) fn not_too_many(pairs: Vec<[u32; 2]>, mesh: &Mesh) -> Result<Vec<[u32
 /// to no shell are not considered.
 pub(super) fn in_range(mesh: &Mesh, topology: &Topology) -> Result<(), ArrangeError> {
     let facets = mesh.faces.iter().zip(&topology.shell_of).filter(|(_, shell)| **shell != u32::MAX);
-    let mut corners = facets.flat_map(|(face, _)| face.map(|v| mesh.positions[v as usize]));
+    let mut corners = facets.flat_map(|(face, _)| mesh.places(face));
     corners.find(|p| !sane_vertex(p)).map_or(Ok(()), |position| Err(ArrangeError::Range { position }))
 }

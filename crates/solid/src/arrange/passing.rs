@@ -139,7 +139,7 @@ fn bundles(mesh: &Mesh, sides: &[Sides], reach: f64) -> Vec<Bundle> {
 
 /// Box of the directions from a hub to an edge (without one, the box of the edge), and of the edge; both widened by the reach.
 fn views(mesh: &Mesh, hub: u32, edge: Edge, reach: f64) -> (Aabb, Aabb) {
-    let [a, b] = edge.map(|v| mesh.positions[v as usize]);
+    let [a, b] = mesh.places(&edge);
     let bounds = widened(Aabb::of([&a, &b]), WIDER * reach);
     if hub == NONE {
         return (bounds, bounds);
@@ -218,7 +218,7 @@ fn pass(mesh: &Mesh, [e, d]: [Edge; 2], reach: f64) -> Option<Point> {
     if e.iter().any(|v| d.contains(v)) {
         return None;
     }
-    let ([a, b], [p, q]) = (e.map(|v| mesh.positions[v as usize]), d.map(|v| mesh.positions[v as usize]));
+    let ([a, b], [p, q]) = (mesh.places(&e), mesh.places(&d));
     let (u, v, w) = (minus(b, a), minus(q, p), minus(p, a));
     let n = cross(u, v);
     if norm(n) <= reach * norm(u).max(norm(v)) {

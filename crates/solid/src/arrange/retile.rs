@@ -171,7 +171,7 @@ fn tiled(
     let numbers: BTreeSet<u32> = facets.iter().flat_map(|f| &marked[f]).copied().collect();
     let numbers: Vec<u32> = numbers.into_iter().collect();
     let local = |v: &u32| numbers.binary_search(v).ok().map(|i| i as u32);
-    let size = |f: u32| area(mesh.faces[f as usize].map(|v| mesh.positions[v as usize]));
+    let size = |f: u32| area(mesh.corners(f));
     let largest = facets.iter().max_by(|f, g| size(**f).total_cmp(&size(**g)).then(g.cmp(f)))?;
     let seen = Seen { mesh, axis: axis_of(mesh, *largest), numbers: &numbers };
     let mut fixed: Vec<[u32; 2]> = vec![];

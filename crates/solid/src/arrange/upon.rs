@@ -60,7 +60,7 @@ fn at_edges(mesh: &Mesh, topology: &Topology, close: Closeness) -> Vec<[u32; 2]>
     const MANY: usize = 64;
     let of_edge = |[a, b]: [u32; 2]| {
         let facets = topology.facets_at_edge(mesh, [a, b]);
-        let [p, q] = [a, b].map(|v| mesh.positions[v as usize]);
+        let [p, q] = mesh.places(&[a, b]);
         let along = minus(q, p);
         // From the edge into the facet.
         let into = |f: u32| {

@@ -160,7 +160,7 @@ fn gone(
     let bounding = before.faces.par_iter().enumerate().zip(&enclosed.bounds);
     let is_gone = bounding.filter(|((_, face), bounds)| **bounds && !kept.holds(before, face));
     let asked_of = |((f, face), _): ((usize, &[u32; 3]), &bool)| {
-        let places = places(face.map(|v| before.positions[v as usize]));
+        let places = places(before.places(face));
         asked_about(f as u32, &places[..3], &places[3..])
     };
     let of_piece =
@@ -243,7 +243,7 @@ impl Gaps<'_> {
     /// Whether there is material on both sides of a facet at a place of it, as near as the reach. Where gaps meet, one side may lie in
     /// the other gap: places beside are asked about too.
     fn hold(&self, facet: u32, p: Point) -> bool {
-        let [a, b, c] = self.mesh.faces[facet as usize].map(|v| self.mesh.positions[v as usize]);
+        let [a, b, c] = self.mesh.corners(facet);
         let (along, across) = (minus(b, a), minus(c, a));
         let Some(((normal, _), (u, _))) = unit(cross(along, across)).zip(unit(along)) else { return false };
         let v = cross(normal, u);

@@ -139,7 +139,7 @@ pub(super) fn way(
     progress: &dyn Progress,
 ) -> Result<Way, DeviationError> {
     let there = Same::of(to, |_| true);
-    let corners = |f: &[u32; 3]| f.map(|v| from.positions[v as usize]);
+    let corners = |f: &[u32; 3]| from.places(f);
     let counts =
         |f: &&[u32; 3]| corners(f).iter().flatten().all(|x| x.is_finite()) && !without.holds(from, f);
     let asked = |f: &[u32; 3]| (area(corners(f)), (!there.holds(from, f)).then(|| corners(f)));

@@ -165,7 +165,7 @@ fn log(work: &mut Work, mesh: &Mesh, gone: &[u32], is_cut: &[bool]) {
     }
     let mut members: Vec<(u32, u32)> = (0..).zip(gone).map(|(i, f)| (places.root(i), *f)).collect();
     members.par_sort_unstable();
-    let corners = |f: u32| mesh.faces[f as usize].map(|v| mesh.positions[v as usize]);
+    let corners = |f: u32| mesh.corners(f);
     let mut changes: Vec<(&'static str, Point, usize, f64)> = vec![];
     for place in members.chunk_by(|a, b| a.0 == b.0) {
         let facet = place[0].1;

@@ -45,7 +45,7 @@ impl Rings<'_> {
         let counting = || mesh.faces.iter().zip(&out).filter(|(_, out)| !**out).map(|(f, _)| f);
         let mut normals = vec![[0.0; 3]; count];
         for face in counting() {
-            let [a, b, c] = face.map(|v| mesh.positions[v as usize]);
+            let [a, b, c] = mesh.places(face);
             let area = cross(minus(b, a), minus(c, a));
             face.iter().for_each(|v| normals[*v as usize] = plus(normals[*v as usize], area));
         }

@@ -154,7 +154,7 @@ fn a_whole_torus_has_its_curvatures_normals_and_directions() {
     // Gauss and Bonnet: the integral over a torus is 0; the area of a vertex is a third of that of its facets.
     let mut area = vec![0.0; mesh.positions.len()];
     for face in &mesh.faces {
-        let [a, b, c] = face.map(|v| mesh.positions[v as usize]);
+        let [a, b, c] = mesh.places(face);
         face.iter().for_each(|v| area[*v as usize] += norm(cross(minus(b, a), minus(c, a))) / 6.0);
     }
     let integral: f64 = of_mesh.places.iter().zip(&area).map(|(p, a)| p.unwrap().bend.gaussian * a).sum();
@@ -195,7 +195,7 @@ fn another_solver_says_the_same() {
         // The frame at the start, from the facets around.
         let mut up = [0.0; 3];
         for face in mesh.faces.iter().filter(|f| f.contains(&(MIDDLE as u32))) {
-            let [a, b, c] = face.map(|v| mesh.positions[v as usize]);
+            let [a, b, c] = mesh.places(face);
             up = plus(up, cross(minus(b, a), minus(c, a)));
         }
         let up = unit(up).unwrap().0;

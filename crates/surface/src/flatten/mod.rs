@@ -42,7 +42,7 @@ const FEW: f64 = 0.01;
 pub(super) fn flatten(mesh: &Mesh, progress: &dyn Progress) -> Result<Flat, SurfaceError> {
     let disc = Disc::of(mesh, progress)?;
     let triangles: Vec<Triangle> =
-        disc.faces.par_iter().map(|face| Triangle::of(face.map(|v| mesh.positions[v as usize]))).collect();
+        disc.faces.par_iter().map(|face| Triangle::of(mesh.places(face))).collect();
     let area = triangles.iter().map(|t| 0.5 * t.doubled_area()).sum();
     let circle = mean_value::within_circle(&mesh.positions, &disc, area, progress)?;
     let mut places = circle.clone();

@@ -128,7 +128,7 @@ fn no_facet_turns_over_within_the_circle() {
         };
         let circle = mean_value::within_circle(&mesh.positions, &disc, 1.0, &Silent).unwrap();
         assert_eq!(turned_over(&disc, &circle), 0.0, "{case}");
-        let triangle = |f: &[u32; 3]| Triangle::of(f.map(|v| mesh.positions[v as usize]));
+        let triangle = |f: &[u32; 3]| Triangle::of(mesh.places(f));
         let triangles: Vec<Triangle> = disc.faces.iter().map(triangle).collect();
         let mut relaxed = circle.clone();
         relax::relax(&disc, &triangles, &mut relaxed, &Silent).unwrap();

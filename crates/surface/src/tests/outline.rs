@@ -170,7 +170,7 @@ fn facets_fill_the_outline_within_the_tolerance() {
         let mesh = trimmed(&surface, &outline, 0.05, 1_000_000, &Silent).unwrap().unwrap();
         let (mut edges, mut area) = (HashMap::new(), 0.0);
         for face in &mesh.faces {
-            let [a, b, c] = face.map(|v| mesh.positions[v as usize]);
+            let [a, b, c] = mesh.places(face);
             area += 0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]));
             (0..3).for_each(|k| *edges.entry([face[k], face[(k + 1) % 3]]).or_insert(0) += 1);
             for w in [[1.0 / 3.0; 3], [0.5, 0.5, 0.0], [0.0, 0.5, 0.5], [0.5, 0.0, 0.5]] {

@@ -15,7 +15,7 @@ const TRIALS: usize = 4;
 
 /// Places on the facets that look along `view`, every so many of area, with white noise in all directions or waves.
 fn view(mesh: &Mesh, view: Vector, count: usize, noise: f64, wave: f64, random: &mut Random) -> Vec<Point> {
-    let corner = |f: &[u32; 3]| f.map(|v| mesh.positions[v as usize]);
+    let corner = |f: &[u32; 3]| mesh.places(f);
     let double = |f: &[u32; 3]| {
         let [a, b, c] = corner(f);
         cross(minus(b, a), minus(c, a))

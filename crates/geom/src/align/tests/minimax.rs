@@ -33,7 +33,7 @@ fn greatest(points: &[Point], mesh: &Mesh, motion: &Rigid) -> f64 {
 fn places(low: Point, high: Point, step: f64) -> Vec<Point> {
     let mesh = block(low, high, step);
     let middle = |f: &[u32; 3]| {
-        let [a, b, c] = f.map(|v| mesh.positions[v as usize]);
+        let [a, b, c] = mesh.places(f);
         std::array::from_fn(|k| (a[k] + b[k] + c[k]) / 3.0)
     };
     mesh.faces.iter().map(middle).collect()

@@ -176,7 +176,7 @@ fn the_pose_is_the_least_of_the_sum_of_squares() {
     let found = best_fit(&Measured::Mesh(&scan), &Target::new(&reference, &tree), &options, &Silent).unwrap();
     let (mut places, mut vertices, mut total) = (vec![], vec![], 0.0);
     for f in &scan.faces {
-        let corners = f.map(|v| scan.positions[v as usize]);
+        let corners = scan.places(f);
         let area = triangle_area(corners);
         total += area;
         for piece in quartered(&[corners], 3) {

@@ -43,7 +43,7 @@ fn excess(points: &[Point], mesh: &Mesh, motion: &Rigid, zones: &ZoneAt) -> f64 
 fn places(step: f64) -> Vec<Point> {
     let mesh = block(LOW, HIGH, step);
     let middle = |f: &[u32; 3]| {
-        let [a, b, c] = f.map(|v| mesh.positions[v as usize]);
+        let [a, b, c] = mesh.places(f);
         std::array::from_fn(|k| (a[k] + b[k] + c[k]) / 3.0)
     };
     mesh.faces.iter().map(middle).collect()

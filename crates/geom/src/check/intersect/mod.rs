@@ -224,7 +224,7 @@ fn around_hubs<'a>(walk: &Walk, hubs: &[Hub], some: Option<&[bool]>, pairs: &mut
     let wanted = pairs.wanted;
     let triangle = |facet: u32| {
         let face = walk.mesh.faces[facet as usize];
-        (face.map(|v| walk.mesh.positions[v as usize]), face)
+        (walk.mesh.places(&face), face)
     };
     let asked = |a: u32, b: u32| some.is_none_or(|some| some[a as usize] || some[b as usize]);
     // Each answer says whether to go on.
@@ -451,7 +451,7 @@ impl Walk<'_> {
     fn decide(&self, (l, a): (&Leaf, usize), q: &Leaf, mut left: u32, out: &mut Pairs) {
         let triangle = |leaf: &Leaf, i: usize| {
             let face = self.mesh.faces[leaf.face[i] as usize];
-            (face.map(|v| self.mesh.positions[v as usize]), face)
+            (self.mesh.places(&face), face)
         };
         while left != 0 {
             let c = left.trailing_zeros() as usize;

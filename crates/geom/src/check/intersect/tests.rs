@@ -14,7 +14,7 @@ type Facet = [Point; 3];
 fn check(name: &str, facets: &[Facet]) -> usize {
     let mesh = weld::corners(facets.len(), |f, k| facets[f][k]).unwrap();
     let topology = Topology::of(&mesh).unwrap();
-    let corners = |f: &[u32; 3]| f.map(|v| mesh.positions[v as usize]);
+    let corners = |f: &[u32; 3]| mesh.places(f);
     let flat = |f: &[u32; 3]| predicates::axis(&corners(f)).is_none();
     let mut want = vec![];
     for (j, g) in mesh.faces.iter().enumerate().filter(|(_, g)| !flat(g)) {
@@ -251,7 +251,7 @@ fn crowds_take_n_log_n() {
     };
     let coincident = |n: usize| -> Vec<Facet> {
         let block = crate::samples::block(1, 1.0);
-        let facets = block.faces.iter().map(|f| f.map(|v| block.positions[v as usize]));
+        let facets = block.faces.iter().map(|f| block.places(f));
         facets.cycle().take(12 * (n / 12)).collect()
     };
     // Their tips are a hair apart.
@@ -383,7 +383,7 @@ fn a_tangle_is_not_counted_to_the_end() {
     assert_eq!(found, run(3));
     let triangle = |f: u32| {
         let face = mesh.faces[f as usize];
-        (face.map(|v| mesh.positions[v as usize]), face)
+        (mesh.places(&face), face)
     };
     assert!(found.first.iter().all(|[a, b]| a < b && meet::meet(&triangle(*a), &triangle(*b))));
 }

@@ -54,7 +54,7 @@ fn no_line_slips_through_at_edges_and_corners() {
         }
         let tree = Tree::build(&mesh).unwrap();
         for face in &mesh.faces {
-            let [a, b, _] = face.map(|v| mesh.positions[v as usize]);
+            let [a, b, _] = mesh.places(face);
             for s in [0.0, 0.5, 0.25, 0.25 + 0.2 * d.unit()] {
                 let to = plus(times(1.0 - s, a), times(s, b));
                 let inside = plus(shift, rotation(if exact { [0.5; 3] } else { [0.4, 0.45, 0.5] }));

@@ -62,7 +62,7 @@ fn check(name: &str, mesh: Mesh, d: &mut TestRandom, n: usize) {
 /// The single query gives the same face, and a place on it at the distance it says.
 fn place_is_right(mesh: &Mesh, p: &Point, want: (f64, u32), got: &Closest) {
     assert_eq!((got.distance.to_bits(), got.face), (want.0.sqrt().to_bits(), want.1), "at {p:?}");
-    let corners = mesh.faces[got.face as usize].map(|v| mesh.positions[v as usize]);
+    let corners = mesh.corners(got.face);
     let extent = corners.iter().chain([p]).flatten().fold(0.0, |m: f64, x| m.max(x.abs()));
     // Rounding of the foot: a needle's plane is known to 1e-16 / 3e-8 of the distance from it.
     let slack = 1e-14 * extent + 1e-8 * got.distance;

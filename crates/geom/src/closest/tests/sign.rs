@@ -34,7 +34,7 @@ fn sharp_corners_and_edges_have_the_right_side() {
         for (p, got) in points.iter().zip(distances) {
             // A tetrahedron is where all four planes have the point behind them.
             let behind = mesh.faces.iter().all(|f| {
-                let [a, b, c] = f.map(|v| mesh.positions[v as usize]);
+                let [a, b, c] = mesh.places(f);
                 let n = crate::space::cross(crate::space::minus(b, a), crate::space::minus(c, a));
                 crate::space::dot(crate::space::minus(*p, a), n) < 0.0
             });

@@ -158,7 +158,7 @@ fn shells_that_touch_are_signed_by_winding_number() {
 fn points_on_the_surface_take_no_part_in_the_disagreement() {
     let mesh = sphere(20, 10.0, [100.0; 3]);
     let middles = mesh.faces.iter().map(|f| {
-        let [a, b, c] = f.map(|v| mesh.positions[v as usize]);
+        let [a, b, c] = mesh.places(f);
         std::array::from_fn(|k| (a[k] + b[k] + c[k]) / 3.0)
     });
     let on: Vec<Point> = mesh.positions.iter().copied().chain(middles).collect();

@@ -352,7 +352,7 @@ fn chords_of_a_cylinder_that_is_cut_into_are_no_planes() {
         for pair in sides.chunks(2) {
             let [[a, b, c], [_, _, d]] = [pair[0], pair[1]];
             let [s, t] = [0.2 + 0.6 * random.unit(), 0.2 + 0.6 * random.unit()];
-            let [p, q] = [a, b].map(|v| mesh.positions[v as usize]);
+            let [p, q] = mesh.places(&[a, b]);
             let middle = mesh.positions.len() as u32;
             mesh.positions.push([p[0] + s * (q[0] - p[0]), p[1] + s * (q[1] - p[1]), 30.0 * t]);
             mesh.faces.extend([[a, b, middle], [b, c, middle], [c, d, middle], [d, a, middle]]);
@@ -380,7 +380,7 @@ fn a_cloud_has_the_same_faces() {
     let mut points: Vec<Point> = Vec::new();
     let mut labels = Vec::new();
     for (face, &label) in part.mesh.faces.iter().zip(&part.labels) {
-        let [a, b, c] = face.map(|v| part.mesh.positions[v as usize]);
+        let [a, b, c] = part.mesh.places(face);
         let (ab, ac) = (minus(b, a), minus(c, a));
         let area = 0.5 * norm(crate::space::cross(ab, ac));
         for _ in 0..(3.0 * area + random.unit()) as usize {

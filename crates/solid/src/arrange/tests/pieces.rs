@@ -64,7 +64,7 @@ fn pieces_tile_their_facets() {
             of_facet[*facet as usize].push(if *same { [a, b, c] } else { [a, c, b] });
         }
         for (face, pieces) in mesh.faces.iter().zip(&of_facet) {
-            let at = face.map(|v| mesh.positions[v as usize]);
+            let at = mesh.places(face);
             let Some(axis) = trueness_geom::num::predicates::axis(&at) else {
                 assert!(pieces.is_empty());
                 continue;

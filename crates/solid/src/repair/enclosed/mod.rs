@@ -245,7 +245,7 @@ struct Solid<'a> {
 impl Solid<'_> {
     fn facet(&self, f: u32) -> Facet {
         let vertices = self.mesh.faces[f as usize];
-        let places = vertices.map(|v| self.mesh.positions[v as usize]);
+        let places = self.mesh.places(&vertices);
         Facet { vertices, places, local: places.map(|p| minus(p, self.center)) }
     }
 

@@ -172,7 +172,7 @@ fn pieces_reach_to_the_corners_of_what_bounds() {
     let found = of(&mesh).unwrap();
     let mut corners: Vec<Point> = found.pieces.iter().flat_map(|p| p.corners).collect();
     let whole = mesh.faces.iter().zip(&found.bounds).filter(|(_, bounds)| **bounds);
-    corners.extend(whole.flat_map(|(face, _)| face.map(|v| mesh.positions[v as usize])));
+    corners.extend(whole.flat_map(|(face, _)| mesh.places(face)));
     let within = |p: &Point, low: f64, shift: Vector| {
         (0..3).all(|k| low < p[k] - shift[k] && p[k] - shift[k] < 2.0 - low)
     };

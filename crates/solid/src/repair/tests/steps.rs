@@ -384,7 +384,7 @@ fn cap(mesh: &mut Mesh, a: u32, b: u32) {
     let runs = |f: &[u32; 3]| (0..3).position(|k| [f[k], f[(k + 1) % 3]] == [a, b]);
     let (i, k) = mesh.faces.iter().enumerate().find_map(|(i, f)| Some((i, runs(f)?))).unwrap();
     let (c, n) = (mesh.faces[i][(k + 2) % 3], mesh.positions.len() as u32);
-    let [p, q] = [a, b].map(|v| mesh.positions[v as usize]);
+    let [p, q] = mesh.places(&[a, b]);
     mesh.positions.push(std::array::from_fn(|k| (p[k] + q[k]) / 2.0));
     mesh.faces[i] = [a, n, c];
     mesh.faces.extend([[n, b, c], [a, b, n]]);

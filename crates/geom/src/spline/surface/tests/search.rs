@@ -169,7 +169,7 @@ fn facets_and_weights_belong_to_the_place() {
     for _ in 0..500 {
         let p = random_point(&mut random, 14.0);
         let found = search.nearest(&p);
-        let corners = mesh.faces[found.face as usize].map(|v| mesh.positions[v as usize]);
+        let corners = mesh.corners(found.face);
         let place: Point = std::array::from_fn(|k| (0..3).map(|c| found.weights[c] * corners[c][k]).sum());
         assert!(found.weights.iter().all(|w| *w >= 0.0));
         assert!(norm(minus(place, found.foot.place)) <= search.mesh_distance() + 1e-12);
