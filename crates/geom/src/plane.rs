@@ -1,6 +1,6 @@
 //! Planes, and coordinates in them.
 
-use crate::fit::eigen;
+use crate::num::dense::eigen;
 use crate::num::exact::Exact;
 use crate::space::{Point, Vector, cross, dot, minus, plus, times, unit};
 

@@ -7,8 +7,8 @@
 //! The pose itself is that of the surface: every facet is represented by its middle, or the middles of equal parts of it. Of a
 //! square of what is linear on a facet its corners make twice of the variation within it, its middle none.
 
-use crate::fit::eigen;
 use crate::mesh::Mesh;
+use crate::num::dense::eigen;
 use crate::num::random::Random;
 use crate::parallel::prelude::*;
 use crate::space::{Point, Vector, cross, dot, minus, norm, plus, times, unit};

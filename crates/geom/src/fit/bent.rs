@@ -4,9 +4,9 @@
 //! wrong minimum. The tube itself is well known: it is nearly a cylinder. So a cylinder is taken first and its axis bent then:
 //! the curvature of the spine, a vector across it, is one more pair of unknowns that may be zero, which a ring's radius may not.
 
-use super::dense::{cholesky, cholesky_solve};
 use super::family::Element;
 use crate::frame::Pose;
+use crate::num::dense::{cholesky, cholesky_solve};
 use crate::space::{Point, cross, minus, plus, times};
 
 /// A tube about an arc: it passes through the origin of the frame along the third axis.

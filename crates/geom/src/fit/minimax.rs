@@ -5,9 +5,9 @@
 //! fewer touch, curvature decides, and a Newton step on the conditions of Karush, Kuhn and Tucker is tried with
 //! the points that hold the linear program. R. Fletcher, Practical Methods of Optimization (1987), section 14.
 
-use super::dense;
 use super::family::{Element, Family, slope};
 use super::linear::{Function, Lowest, lowest};
+use crate::num::dense;
 use crate::space::Point;
 
 /// What is to be least.

@@ -3,10 +3,10 @@
 //! Points are cut into blocks of fixed size; a block is summed group by group, blocks are added in their order.
 //! The sums are therefore the same bits on one thread and on many.
 
-use super::dense;
 use super::family::{Element, Family, Rows};
 use super::lanes::{GROUP, Lanes, Sum, group, groups};
 use super::sample::Sample;
+use crate::num::dense;
 use crate::parallel::prelude::*;
 use crate::simd::widest::widest;
 use crate::space::{Point, Vector, dot, times};

@@ -120,11 +120,11 @@ impl Powers {
                 let aa = dot6(&along, &covariance(&along));
                 normal.push(vec![dot(g, u), dot(g, v), dot(g, w), aa]);
                 let right = vec![dot(f, u), dot(f, v), dot(f, w), dot6(&along, &covariance(&across))];
-                let mut x = super::dense::solve(normal.clone(), right.clone());
+                let mut x = crate::num::dense::solve(normal.clone(), right.clone());
                 if profile == Profile::Opening && x.as_ref().is_none_or(|x| x[3] < 0.0) {
                     normal.truncate(3);
                     normal.iter_mut().for_each(|row| row.truncate(3));
-                    x = super::dense::solve(normal, right[..3].to_vec());
+                    x = crate::num::dense::solve(normal, right[..3].to_vec());
                 }
                 let x = x?;
                 let explained: f64 = x.iter().zip(&right).map(|(a, b)| a * b).sum();

@@ -1,7 +1,7 @@
 //! Starts for circles and spheres.
 
-use super::dense;
 use super::scatter::Scatter;
+use crate::num::dense;
 use crate::space::{Point, dot, minus, plus, times};
 
 /// Guards the division by a distance that may be zero: the derivative there is taken as zero.

@@ -1,7 +1,7 @@
 //! Mean and principal directions of points.
 
-use super::dense;
 use super::sample::mean;
+use crate::num::dense;
 use crate::space::{Point, Vector, cross, minus, plus, times};
 
 /// Mean of points and the eigenvectors of their scatter.

@@ -3,6 +3,7 @@
 pub mod banded;
 pub mod big;
 pub mod cholesky;
+pub mod dense;
 pub(crate) mod double;
 pub mod exact;
 pub mod golden;

@@ -4,6 +4,7 @@ use super::best::Candidate;
 use super::faces::{Face, Seat};
 use super::placed::Placed;
 use super::terms::EXPLAINED;
+use crate::num::median::median;
 use crate::num::random::Random;
 use crate::parallel::prelude::*;
 use crate::shape::upon;
@@ -121,6 +122,5 @@ pub(super) fn noise(all: &[Sure], seed: u64) -> f64 {
             chosen.into_iter().filter_map(move |i| told(i).map(|t| t.deviation))
         })
         .collect();
-    found.sort_by(f64::total_cmp);
-    found.get(found.len() / 2).copied().unwrap_or(0.0)
+    median(&mut found).unwrap_or(0.0)
 }

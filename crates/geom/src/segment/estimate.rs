@@ -5,7 +5,7 @@
 //! coordinates (H. Pottmann, J. Wallner, Computational Line Geometry, 2001, chapter 7).
 
 use super::points::flattest;
-use crate::fit::{eigen, solve};
+use crate::num::dense::{eigen, solve};
 use crate::shape::{Kind, Shape};
 use crate::space::{Point, Vector, cross, dot, minus, norm, plus, times, unit};
 

@@ -1,7 +1,7 @@
 //! The surface of a cloud: points, normals by local planes, neighbors by nearness.
 
 use super::pieces::{PieceGraph, Pieces};
-use crate::fit::eigen;
+use crate::num::dense::eigen;
 use crate::parallel::prelude::*;
 use crate::space::{Point, Vector, cross, dot, minus, plus, times, unit};
 use crate::spatial::lists::lists;

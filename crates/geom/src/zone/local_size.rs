@@ -4,8 +4,8 @@
 //! other side, which is interpolated among the points nearest to there: a plane of least squares through their heights, never beyond the
 //! heights themselves, or where they lie in a row the line between its two neighbors. A point whose other end is not between points has no size.
 
-use crate::fit::eigen;
 use crate::frame::Pose;
+use crate::num::dense::eigen;
 use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress};
 use crate::space::{Point, Vector, dot, minus, plus, times, unit};

@@ -130,7 +130,7 @@ pub fn parallel_planes(first: &[Point], second: &[Point]) -> Option<(Vector, f64
             }
         }
     }
-    let (moments, axes) = crate::fit::eigen(scatter);
+    let (moments, axes) = crate::num::dense::eigen(scatter);
     // Points along one line: the middle moment is rounding as the least one is.
     if moments[1] <= 1e-12 * moments[2] {
         return None;

@@ -7,7 +7,7 @@
 //! lie on two levels, but one after the other, where points of two faces come as by chance.
 
 use crate::model::flat::distance;
-use trueness_geom::fit::solve;
+use trueness_geom::num::dense::solve;
 
 /// Fewest points of a window, and by what powers of 2 it grows at most.
 const WINDOW: usize = 24;

@@ -341,7 +341,7 @@ fn off_parabola(near: &[[f64; 2]], point: [f64; 2]) -> Option<(f64, f64)> {
             b[i] += row[i] * y;
         }
     }
-    let x = trueness_geom::fit::solve(a, b)?;
+    let x = trueness_geom::num::dense::solve(a, b)?;
     let sum: f64 = all.iter().map(|(t, y)| (y - x[0] - x[1] * t - x[2] * t * t).powi(2)).sum();
     Some((x[0].abs(), (sum / (all.len() - 3) as f64).sqrt()))
 }

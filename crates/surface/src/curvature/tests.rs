@@ -214,7 +214,7 @@ fn another_solver_says_the_same() {
             }
             square += z * z;
         }
-        let c = trueness_geom::fit::solve(a, b.clone()).unwrap();
+        let c = trueness_geom::num::dense::solve(a, b.clone()).unwrap();
         let left = square - c.iter().zip(&b).map(|(c, b)| c * b).sum::<f64>();
         let (fx, fy, xx, xy, yy) = (c[1], c[2], 2.0 * c[3], c[4], 2.0 * c[5]);
         let w = (1.0 + fx * fx + fy * fy).sqrt();

@@ -302,7 +302,7 @@ impl System {
                 b[i] += change[i] * s.iter().zip(&residual).map(|(x, y)| x * y).sum::<f64>();
             }
         }
-        let lengths = crate::fit::solve(a, b).unwrap_or_else(|| vec![0.0; k]);
+        let lengths = crate::num::dense::solve(a, b).unwrap_or_else(|| vec![0.0; k]);
         for ((answer, (_, direction)), length) in answers.iter().zip(handles).zip(lengths) {
             for (c, w) in control.iter_mut().zip(answer) {
                 *c = c.plus(length.max(0.0) * w[0], *direction);

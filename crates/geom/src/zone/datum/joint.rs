@@ -6,8 +6,9 @@
 //! Practical Methods of Optimization, 1987, section 14), over a working set that takes in what sticks out most.
 
 use super::Source;
-use crate::fit::{Function, lowest, solve};
+use crate::fit::{Function, lowest};
 use crate::frame::Pose;
+use crate::num::dense::solve;
 use crate::progress::Progress;
 use crate::shape::Kind;
 use crate::space::{Aabb, Point, Vector, minus, plus, times};

@@ -8,7 +8,7 @@ use super::cut_mesh::CutMesh;
 use crate::Chain;
 use crate::model::chain::SegmentKind;
 use crate::search::start::{Part, Sums};
-use trueness_geom::fit::solve;
+use trueness_geom::num::dense::solve;
 use trueness_geom::plane::PlaneFrame;
 use trueness_geom::space::{Vector, cross, dot, minus, norm};
 

@@ -94,7 +94,7 @@ fn leaves(tip: [f64; 2], next: &[[f64; 2]], longest: f64, [sigma, deviations]: [
             b[i] += row[i] * y;
         }
     }
-    let Some(x) = trueness_geom::fit::solve(a.clone(), b) else { return false };
+    let Some(x) = trueness_geom::num::dense::solve(a.clone(), b) else { return false };
     let sum: f64 = all.iter().map(|[t, y]| (y - x[0] - x[1] * t - x[2] * t * t).powi(2)).sum();
     let rest = length * (sum / (all.len() - 3) as f64).sqrt();
     let window = libm::atan(x[1]) - libm::atan(x[1] - 2.0 * x[2]);
@@ -111,7 +111,7 @@ fn leaves(tip: [f64; 2], next: &[[f64; 2]], longest: f64, [sigma, deviations]: [
     // As far from the points the parabola, bent half as much, is as uncertain as its coefficients are together.
     let t = off / length;
     let at = [1.0, t, 0.5 * t * t];
-    let Some(moved) = trueness_geom::fit::solve(a, at.to_vec()) else { return false };
+    let Some(moved) = trueness_geom::num::dense::solve(a, at.to_vec()) else { return false };
     let variance = 1.0 + (0..3).map(|i| at[i] * moved[i]).sum::<f64>();
     let uncertain = deviations * sigma.max(rest) * variance.sqrt() / off;
     (turned - bend).abs() > (bend.abs() + STRAIGHT + uncertain).max(least)

@@ -1,11 +1,11 @@
-//! The few dense operations a fit needs, for matrices of at most nine rows.
+//! Linear algebra of a few unknowns: dense matrices of at most nine rows.
 
 /// Lower triangle `L` of `L Lᵀ = a`, or `None` where `a` is not positive definite to working accuracy. Its diagonal
 /// holds the reciprocals: they are what is multiplied by, and dividing takes long.
 ///
 /// A pivot that lost all but [`f64::EPSILON`] of its diagonal entry counts as zero: the rows then say nothing
 /// about that unknown.
-pub(super) fn cholesky<const N: usize>(a: &[[f64; N]; N]) -> Option<[[f64; N]; N]> {
+pub fn cholesky<const N: usize>(a: &[[f64; N]; N]) -> Option<[[f64; N]; N]> {
     let mut l = [[0.0; N]; N];
     for i in 0..N {
         for j in 0..=i {
@@ -25,7 +25,7 @@ pub(super) fn cholesky<const N: usize>(a: &[[f64; N]; N]) -> Option<[[f64; N]; N
 }
 
 /// Solution of `L Lᵀ x = b` for `L` as [`cholesky`] gives it.
-pub(super) fn cholesky_solve<const N: usize>(l: &[[f64; N]; N], b: &[f64; N]) -> [f64; N] {
+pub fn cholesky_solve<const N: usize>(l: &[[f64; N]; N], b: &[f64; N]) -> [f64; N] {
     let mut x = *b;
     for i in 0..N {
         let sum: f64 = (0..i).map(|k| l[i][k] * x[k]).sum();
@@ -40,7 +40,7 @@ pub(super) fn cholesky_solve<const N: usize>(l: &[[f64; N]; N], b: &[f64; N]) ->
 
 /// Inverse of the positive definite `a`, or `None` as in [`cholesky`]. Rows and columns are brought to a unit
 /// diagonal first, so that unknowns of different units do not disturb each other.
-pub(super) fn inverse<const N: usize>(a: &[[f64; N]; N]) -> Option<[[f64; N]; N]> {
+pub fn inverse<const N: usize>(a: &[[f64; N]; N]) -> Option<[[f64; N]; N]> {
     let scale: [f64; N] = std::array::from_fn(|i| 1.0 / a[i][i].sqrt());
     if scale.iter().any(|s| !s.is_finite()) {
         return None;
