@@ -15,26 +15,49 @@ type Arrows = BTreeMap<PathBuf, BTreeMap<PathBuf, BTreeSet<String>>>;
 /// A file that cannot be read or is not Rust.
 pub fn of_crate(source: &Path, name: &str) -> io::Result<Vec<String>> {
     let mut all = BTreeSet::new();
-    for root in ["lib.rs", "main.rs"].into_iter().filter(|root| source.join(root).exists()) {
+    for root in roots(source) {
         let arrows = arrows(source, root)?;
         all.extend(rings(&arrows).iter().map(|ring| told(name, "files", ring, &arrows)));
     }
     Ok(all.into_iter().collect())
 }
 
-/// The circles among the rooms of a library, where none of them is one of files alone: folders, and files beside them, that reach one another through any of
-/// their files.
+/// The files that a crate's modules begin from: those of its library and of its program.
+pub fn roots(source: &Path) -> impl Iterator<Item = &'static str> {
+    ["lib.rs", "main.rs"].into_iter().filter(|root| source.join(root).exists())
+}
+
+/// A circle among what lies in one folder.
+pub struct OfRooms {
+    /// The folder, relative to the sources.
+    pub folder: PathBuf,
+    /// Pairs in which one names items of the other.
+    pub arrows: usize,
+    /// The circle with its arrows, for people.
+    pub text: String,
+}
+
+/// The circles among rooms, at every depth: folders, and files beside them, that reach one another through any of their files.
 ///
 /// # Errors
 /// A file that cannot be read or is not Rust.
-pub fn of_rooms(source: &Path, name: &str) -> io::Result<Vec<String>> {
-    let arrows = arrows(source, "lib.rs")?;
-    let folders: BTreeSet<PathBuf> =
-        arrows.keys().flat_map(|file| file.ancestors().skip(1).map(Path::to_path_buf)).collect();
-    let mut all = vec![];
-    for folder in folders {
-        let rooms = between_rooms(&arrows, &folder);
-        all.extend(rings(&rooms).iter().map(|ring| told(name, "rooms", ring, &rooms)));
+pub fn of_rooms(source: &Path, name: &str) -> io::Result<Vec<OfRooms>> {
+    let mut all: Vec<OfRooms> = vec![];
+    for root in roots(source) {
+        let arrows = arrows(source, root)?;
+        let folders: BTreeSet<PathBuf> =
+            arrows.keys().flat_map(|file| file.ancestors().skip(1).map(Path::to_path_buf)).collect();
+        for folder in folders {
+            let rooms = between_rooms(&arrows, &folder);
+            for ring in rings(&rooms) {
+                let text = told(name, "rooms", &ring, &rooms);
+                // Modules that the library and the program share are seen twice.
+                if all.iter().all(|known| known.text != text) {
+                    let arrows = inside(&ring, &rooms).count();
+                    all.push(OfRooms { folder: folder.clone(), arrows, text });
+                }
+            }
+        }
     }
     Ok(all)
 }
@@ -48,7 +71,8 @@ fn between_rooms(arrows: &Arrows, folder: &Path) -> Arrows {
         (!is_head).then_some(room)
     };
     let mut all = Arrows::new();
-    for (from, to, names) in arrows.iter().flat_map(|(from, to)| to.iter().map(move |(to, n)| (from, to, n))) {
+    for (from, to, names) in arrows.iter().flat_map(|(from, to)| to.iter().map(move |(to, n)| (from, to, n)))
+    {
         if let (Some(from), Some(to)) = (room(from), room(to))
             && from != to
         {
@@ -103,13 +127,21 @@ fn reach<'a>(arrows: &'a Arrows, file: &'a PathBuf) -> BTreeSet<&'a PathBuf> {
     reached
 }
 
+/// The arrows of a circle: from, to, and the names that are taken.
+fn inside<'a>(
+    ring: &'a [PathBuf],
+    arrows: &'a Arrows,
+) -> impl Iterator<Item = (&'a PathBuf, &'a PathBuf, &'a BTreeSet<String>)> {
+    let from = ring.iter().filter_map(|from| arrows.get_key_value(from));
+    let all = from.flat_map(|(from, to)| to.iter().map(move |(to, names)| (from, to, names)));
+    all.filter(|(_, to, _)| ring.contains(to))
+}
+
 fn told(name: &str, what: &str, ring: &[PathBuf], arrows: &Arrows) -> String {
     let mut text = format!("{name}: a circle of {} {what}", ring.len());
-    for from in ring {
-        for (to, names) in arrows.get(from).into_iter().flatten().filter(|(to, _)| ring.contains(to)) {
-            let names: Vec<&str> = names.iter().map(String::as_str).collect();
-            text += &format!("\n    {} -> {}: {}", from.display(), to.display(), names.join(", "));
-        }
+    for (from, to, names) in inside(ring, arrows) {
+        let names: Vec<&str> = names.iter().map(String::as_str).collect();
+        text += &format!("\n    {} -> {}: {}", from.display(), to.display(), names.join(", "));
     }
     text
 }
@@ -119,15 +151,19 @@ mod tests {
     use super::*;
     use std::fs;
 
-    /// Files of a crate in a folder of their own, and what is found in them.
+    /// Files of a crate in a folder of their own, and the circles of files that are found in them.
     fn found(name: &str, files: &[(&str, &str)]) -> Vec<String> {
+        looked_at(name, files, |folder| of_crate(folder, "crate").unwrap())
+    }
+
+    fn looked_at<T>(name: &str, files: &[(&str, &str)], look: fn(&Path) -> T) -> T {
         let folder = std::env::temp_dir().join(format!("tidy-{}-{name}", std::process::id()));
         for (file, text) in files {
             let path = folder.join(file);
             fs::create_dir_all(path.parent().unwrap()).unwrap();
             fs::write(path, text).unwrap();
         }
-        let found = of_crate(&folder, "crate").unwrap();
+        let found = look(&folder);
         fs::remove_dir_all(&folder).unwrap();
         found
     }
@@ -196,5 +232,23 @@ mod tests {
             ("b.rs", "pub struct B; #[cfg(test)] mod tests { use crate::a::A; }"),
         ];
         assert!(found("tests", &files).is_empty());
+    }
+
+    #[test]
+    fn folders_that_reach_each_other_through_other_files_are_a_circle_at_every_depth() {
+        let files = [
+            ("lib.rs", "mod top;"),
+            ("top/mod.rs", "mod a; mod b; mod c;"),
+            ("top/a/mod.rs", "mod x; mod y; pub use x::X;"),
+            ("top/a/x.rs", "pub struct X;"),
+            ("top/a/y.rs", "use crate::top::b::B; use crate::top::c::C;"),
+            ("top/b.rs", "use super::a::X; pub struct B;"),
+            ("top/c.rs", "pub struct C;"),
+        ];
+        assert!(found("through", &files).is_empty());
+        let rooms = looked_at("rooms", &files, |folder| of_rooms(folder, "crate").unwrap());
+        assert_eq!(rooms.len(), 1);
+        assert_eq!((rooms[0].folder.as_path(), rooms[0].arrows), (Path::new("top"), 2));
+        assert!(rooms[0].text.contains("top/a -> top/b: B") && !rooms[0].text.contains("top/c"));
     }
 }

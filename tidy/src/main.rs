@@ -1,12 +1,18 @@
-//! The rules of ARCHITECTURE.md that the compiler does not check: the direction of imports, and the size of files and functions.
+//! The rules of ARCHITECTURE.md that the compiler does not check: the direction of imports, the size of files and functions, and
+//! that what is counted in a room does not grow (`limits.tsv`).
+//!
+//! `--write` writes the counts down, `--verbose` tells all that is told in part.
 //!
 //! Within a crate the modules form a graph: an arrow goes from the file that names an item to the file that defines it.
 //! A re-export is followed to the definition, so `mod.rs` may list its children and they may use one another.
 //! Modules marked `#[cfg(test)]` are left out. Methods are found through their type, so a call of a method draws no arrow.
 
 mod circles;
+mod limits;
 mod modules;
+mod numbers;
 mod paths;
+mod rooms;
 mod size;
 
 use std::fs;
@@ -23,12 +29,27 @@ const FLOORS: [(&str, &[&str]); 5] = [
     ("cli", &["geom", "files", "inspect"]),
 ];
 
+/// What was found.
+#[derive(Default)]
+struct Report {
+    /// What breaks a rule.
+    failures: Vec<String>,
+    /// What is worth a look.
+    notes: Vec<String>,
+}
+
 fn main() -> ExitCode {
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));
-    match findings(here.parent().unwrap_or(here)) {
+    let words: Vec<String> = std::env::args().skip(1).collect();
+    let given = |word: &str| words.iter().any(|w| w == word);
+    if let Some(unknown) = words.iter().find(|word| !["--write", "--verbose"].contains(&word.as_str())) {
+        eprintln!("`{unknown}` is unknown: give --write or --verbose");
+        return ExitCode::from(2);
+    }
+    match report(here.parent().unwrap_or(here), given("--write"), given("--verbose")) {
         Ok(found) => {
-            found.iter().for_each(|f| println!("{f}"));
-            if found.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+            found.notes.iter().chain(&found.failures).for_each(|f| println!("{f}"));
+            if found.failures.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE }
         }
         Err(e) => {
             eprintln!("{e}");
@@ -37,29 +58,72 @@ fn main() -> ExitCode {
     }
 }
 
-/// All places under `root` that break a rule.
+/// All places under `root` that break a rule, and what is worth a look.
 ///
 /// # Errors
 /// A file that cannot be read or is not Rust.
-fn findings(root: &Path) -> io::Result<Vec<String>> {
-    let mut found = vec![];
+fn report(root: &Path, write: bool, verbose: bool) -> io::Result<Report> {
+    let mut report = counted(root, write, verbose)?;
     for (name, below) in FLOORS {
         let folder = root.join("crates").join(name);
-        found.extend(upward(&folder, name, below)?);
-        found.extend(circles::of_crate(&folder.join("src"), &format!("crates/{name}/src"))?);
-        // The rooms of the other crates reach each other still.
-        if name == "geom" {
-            found.extend(circles::of_rooms(&folder.join("src"), &format!("crates/{name}/src"))?);
-        }
+        report.failures.extend(upward(&folder, name, below)?);
+        report.failures.extend(circles::of_crate(&folder.join("src"), &format!("crates/{name}/src"))?);
     }
+    let mut long = vec![];
     for folder in ["crates", "xtask", "bench", "fuzz", "tidy"] {
         for file in sources(&root.join(folder))? {
             let text = fs::read_to_string(&file)?;
             let shown = file.strip_prefix(root).unwrap_or(&file).display().to_string();
-            found.extend(size::findings(&shown, &text).map_err(io::Error::other)?);
+            long.extend(size::findings(&shown, &text).map_err(io::Error::other)?);
         }
     }
-    Ok(found)
+    let (failures, told): (Vec<_>, Vec<_>) = long.into_iter().partition(size::Long::is_failure);
+    report.failures.extend(failures.into_iter().map(|one| one.text));
+    report.notes.extend(size::summary(told, verbose));
+    Ok(report)
+}
+
+/// What has become more than is written down; with `write`, all is written down first.
+///
+/// # Errors
+/// A file that cannot be read, written or is not Rust.
+fn counted(root: &Path, write: bool, verbose: bool) -> io::Result<Report> {
+    /// Names that are told, of those with several definitions.
+    const SHOWN: usize = 10;
+    let file = root.join("tidy/limits.tsv");
+    let (mut now, mut names, mut circles) = (limits::Table::new(), rooms::Names::new(), vec![]);
+    for (name, _) in FLOORS {
+        let mut found = rooms::of_crate(&root.join("crates").join(name).join("src"), name, &mut names)?;
+        now.append(&mut found.counts);
+        circles.append(&mut found.circles);
+    }
+    let shared = rooms::shared(&names);
+    now.insert(limits::PROJECT.to_string(), limits::Counts([shared, 0, 0]));
+    let mut report = Report::default();
+    let mut allowed = if file.exists() { limits::read(&file)? } else { limits::Table::new() };
+    if write {
+        report.notes.extend(limits::raised(&now, &allowed));
+        limits::write(&file, &now)?;
+        allowed = now.clone();
+    }
+    let grown: Vec<&String> = now
+        .iter()
+        .filter(|(place, counts)| counts.0[2] > allowed.get(*place).map_or(0, |limit| limit.0[2]))
+        .map(|(place, _)| place)
+        .collect();
+    let shown = circles.iter().filter(|(place, _)| verbose || grown.contains(&place));
+    report.notes.extend(shown.map(|(_, text)| text.clone()));
+    let found = limits::compare(&now, &allowed);
+    report.failures.extend(found.failures);
+    report.notes.extend(found.notes);
+    let constants: usize = names.values().sum();
+    let most = if verbose { names.len() } else { SHOWN };
+    report.notes.push(format!(
+        "{constants} constants have {} names; {shared} share theirs: {}",
+        names.len(),
+        rooms::worst(&names, most)
+    ));
+    Ok(report)
 }
 
 /// Dependencies on crates that lie higher, or beside.
