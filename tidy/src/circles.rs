@@ -8,23 +8,50 @@ use std::path::{Path, PathBuf};
 /// From a file to those it takes names from, with the names.
 type Arrows = BTreeMap<PathBuf, BTreeMap<PathBuf, BTreeSet<String>>>;
 
-/// The circles among the files of a library, and among those of its program, each with the arrows that make it; `name` stands for the
-/// crate's sources.
-///
-/// # Errors
-/// A file that cannot be read or is not Rust.
-pub fn of_crate(source: &Path, name: &str) -> io::Result<Vec<String>> {
-    let mut all = BTreeSet::new();
-    for root in roots(source) {
-        let arrows = arrows(source, root)?;
-        all.extend(rings(&arrows).iter().map(|ring| told(name, "files", ring, &arrows)));
-    }
-    Ok(all.into_iter().collect())
-}
+/// Who names whose items among the files of a library, and among those of its program.
+pub struct Graphs(Vec<Arrows>);
 
-/// The files that a crate's modules begin from: those of its library and of its program.
-pub fn roots(source: &Path) -> impl Iterator<Item = &'static str> {
-    ["lib.rs", "main.rs"].into_iter().filter(|root| source.join(root).exists())
+impl Graphs {
+    /// Reads a crate's sources.
+    ///
+    /// # Errors
+    /// A file that cannot be read or is not Rust.
+    pub fn read(source: &Path) -> io::Result<Graphs> {
+        let roots = ["lib.rs", "main.rs"].into_iter().filter(|root| source.join(root).exists());
+        roots.map(|root| arrows(source, root)).collect::<io::Result<_>>().map(Graphs)
+    }
+    /// All files, relative to the sources.
+    pub fn files(&self) -> BTreeSet<&Path> {
+        self.0.iter().flat_map(|arrows| arrows.keys().map(PathBuf::as_path)).collect()
+    }
+    /// The circles of files, each with the arrows that make it; `name` stands for the crate's sources.
+    pub fn of_files(&self, name: &str) -> Vec<String> {
+        let all: BTreeSet<String> = self
+            .0
+            .iter()
+            .flat_map(|arrows| rings(arrows).into_iter().map(|ring| told(name, "files", &ring, arrows)))
+            .collect();
+        all.into_iter().collect()
+    }
+    /// The circles of rooms, at every depth: folders, and files beside them, that reach one another through any of their files.
+    pub fn of_rooms(&self, name: &str) -> Vec<OfRooms> {
+        let mut all: Vec<OfRooms> = vec![];
+        for arrows in &self.0 {
+            let folders: BTreeSet<&Path> = arrows.keys().flat_map(|file| file.ancestors().skip(1)).collect();
+            for folder in folders {
+                let rooms = between_rooms(arrows, folder);
+                for ring in rings(&rooms) {
+                    let text = told(name, "rooms", &ring, &rooms);
+                    // Modules that the library and the program share are seen twice.
+                    if all.iter().all(|known| known.text != text) {
+                        let arrows = inside(&ring, &rooms).count();
+                        all.push(OfRooms { folder: folder.to_path_buf(), arrows, text });
+                    }
+                }
+            }
+        }
+        all
+    }
 }
 
 /// A circle among what lies in one folder.
@@ -35,31 +62,6 @@ pub struct OfRooms {
     pub arrows: usize,
     /// The circle with its arrows, for people.
     pub text: String,
-}
-
-/// The circles among rooms, at every depth: folders, and files beside them, that reach one another through any of their files.
-///
-/// # Errors
-/// A file that cannot be read or is not Rust.
-pub fn of_rooms(source: &Path, name: &str) -> io::Result<Vec<OfRooms>> {
-    let mut all: Vec<OfRooms> = vec![];
-    for root in roots(source) {
-        let arrows = arrows(source, root)?;
-        let folders: BTreeSet<PathBuf> =
-            arrows.keys().flat_map(|file| file.ancestors().skip(1).map(Path::to_path_buf)).collect();
-        for folder in folders {
-            let rooms = between_rooms(&arrows, &folder);
-            for ring in rings(&rooms) {
-                let text = told(name, "rooms", &ring, &rooms);
-                // Modules that the library and the program share are seen twice.
-                if all.iter().all(|known| known.text != text) {
-                    let arrows = inside(&ring, &rooms).count();
-                    all.push(OfRooms { folder: folder.clone(), arrows, text });
-                }
-            }
-        }
-    }
-    Ok(all)
 }
 
 /// The arrows among what lies in a folder, each file as the room that it is in or stands for; the head of the folder is none of them.
@@ -104,25 +106,24 @@ fn arrows(source: &Path, root: &str) -> io::Result<Arrows> {
 
 /// Groups of files that reach one another, of two and more; a file is in one group at most.
 fn rings(arrows: &Arrows) -> Vec<Vec<PathBuf>> {
-    let reached: BTreeMap<&PathBuf, BTreeSet<&PathBuf>> =
-        arrows.keys().map(|file| (file, reach(arrows, file))).collect();
-    let mut rings: BTreeSet<Vec<PathBuf>> = BTreeSet::new();
-    for (file, all) in &reached {
-        if all.contains(*file) {
-            let mutual =
-                all.iter().filter(|other| reached.get(**other).is_some_and(|back| back.contains(*file)));
-            rings.insert(mutual.map(|path| (*path).clone()).collect());
-        }
+    let files: Vec<&PathBuf> = arrows.keys().collect();
+    let numbers: BTreeMap<&PathBuf, usize> = files.iter().enumerate().map(|(n, file)| (*file, n)).collect();
+    let to: Vec<Vec<usize>> =
+        arrows.values().map(|to| to.keys().filter_map(|file| numbers.get(file).copied()).collect()).collect();
+    let reached: Vec<Vec<bool>> = (0..files.len()).map(|from| reach(&to, from)).collect();
+    let mut rings: BTreeSet<Vec<usize>> = BTreeSet::new();
+    for (from, all) in reached.iter().enumerate().filter(|(from, all)| all[*from]) {
+        rings.insert((0..files.len()).filter(|other| all[*other] && reached[*other][from]).collect());
     }
-    rings.into_iter().collect()
+    rings.into_iter().map(|ring| ring.into_iter().map(|n| files[n].clone()).collect()).collect()
 }
 
-/// Files that can be reached from `file` by one arrow or more.
-fn reach<'a>(arrows: &'a Arrows, file: &'a PathBuf) -> BTreeSet<&'a PathBuf> {
-    let mut reached = BTreeSet::new();
-    let mut open = vec![file];
+/// Which of all can be reached from `from` by one arrow or more.
+fn reach(to: &[Vec<usize>], from: usize) -> Vec<bool> {
+    let mut reached = vec![false; to.len()];
+    let mut open = vec![from];
     while let Some(at) = open.pop() {
-        open.extend(arrows.get(at).into_iter().flat_map(|to| to.keys()).filter(|to| reached.insert(*to)));
+        open.extend(to[at].iter().filter(|next| !std::mem::replace(&mut reached[**next], true)));
     }
     reached
 }
@@ -153,7 +154,7 @@ mod tests {
 
     /// Files of a crate in a folder of their own, and the circles of files that are found in them.
     fn found(name: &str, files: &[(&str, &str)]) -> Vec<String> {
-        looked_at(name, files, |folder| of_crate(folder, "crate").unwrap())
+        looked_at(name, files, |folder| Graphs::read(folder).unwrap().of_files("crate"))
     }
 
     fn looked_at<T>(name: &str, files: &[(&str, &str)], look: fn(&Path) -> T) -> T {
@@ -246,7 +247,7 @@ mod tests {
             ("top/c.rs", "pub struct C;"),
         ];
         assert!(found("through", &files).is_empty());
-        let rooms = looked_at("rooms", &files, |folder| of_rooms(folder, "crate").unwrap());
+        let rooms = looked_at("rooms", &files, |folder| Graphs::read(folder).unwrap().of_rooms("crate"));
         assert_eq!(rooms.len(), 1);
         assert_eq!((rooms[0].folder.as_path(), rooms[0].arrows), (Path::new("top"), 2));
         assert!(rooms[0].text.contains("top/a -> top/b: B") && !rooms[0].text.contains("top/c"));

@@ -8,6 +8,7 @@
 //! Modules marked `#[cfg(test)]` are left out. Methods are found through their type, so a call of a method draws no arrow.
 
 mod circles;
+mod count;
 mod limits;
 mod modules;
 mod numbers;
@@ -15,6 +16,7 @@ mod paths;
 mod rooms;
 mod size;
 
+use count::Count;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -31,11 +33,11 @@ const FLOORS: [(&str, &[&str]); 5] = [
 
 /// What was found.
 #[derive(Default)]
-struct Report {
+pub struct Report {
     /// What breaks a rule.
-    failures: Vec<String>,
+    pub failures: Vec<String>,
     /// What is worth a look.
-    notes: Vec<String>,
+    pub notes: Vec<String>,
 }
 
 fn main() -> ExitCode {
@@ -63,12 +65,16 @@ fn main() -> ExitCode {
 /// # Errors
 /// A file that cannot be read or is not Rust.
 fn report(root: &Path, write: bool, verbose: bool) -> io::Result<Report> {
-    let mut report = counted(root, write, verbose)?;
+    let mut report = Report::default();
+    let mut count = Count::default();
     for (name, below) in FLOORS {
         let folder = root.join("crates").join(name);
+        let graphs = circles::Graphs::read(&folder.join("src"))?;
         report.failures.extend(upward(&folder, name, below)?);
-        report.failures.extend(circles::of_crate(&folder.join("src"), &format!("crates/{name}/src"))?);
+        report.failures.extend(graphs.of_files(&format!("crates/{name}/src")));
+        count.add(&folder.join("src"), &graphs, name)?;
     }
+    count.compare(&root.join("tidy/limits.tsv"), write, verbose, &mut report)?;
     let mut long = vec![];
     for folder in ["crates", "xtask", "bench", "fuzz", "tidy"] {
         for file in sources(&root.join(folder))? {
@@ -80,49 +86,6 @@ fn report(root: &Path, write: bool, verbose: bool) -> io::Result<Report> {
     let (failures, told): (Vec<_>, Vec<_>) = long.into_iter().partition(size::Long::is_failure);
     report.failures.extend(failures.into_iter().map(|one| one.text));
     report.notes.extend(size::summary(told, verbose));
-    Ok(report)
-}
-
-/// What has become more than is written down; with `write`, all is written down first.
-///
-/// # Errors
-/// A file that cannot be read, written or is not Rust.
-fn counted(root: &Path, write: bool, verbose: bool) -> io::Result<Report> {
-    /// Names that are told, of those with several definitions.
-    const SHOWN: usize = 10;
-    let file = root.join("tidy/limits.tsv");
-    let (mut now, mut names, mut circles) = (limits::Table::new(), rooms::Names::new(), vec![]);
-    for (name, _) in FLOORS {
-        let mut found = rooms::of_crate(&root.join("crates").join(name).join("src"), name, &mut names)?;
-        now.append(&mut found.counts);
-        circles.append(&mut found.circles);
-    }
-    let shared = rooms::shared(&names);
-    now.insert(limits::PROJECT.to_string(), limits::Counts([shared, 0, 0]));
-    let mut report = Report::default();
-    let mut allowed = if file.exists() { limits::read(&file)? } else { limits::Table::new() };
-    if write {
-        report.notes.extend(limits::raised(&now, &allowed));
-        limits::write(&file, &now)?;
-        allowed = now.clone();
-    }
-    let grown: Vec<&String> = now
-        .iter()
-        .filter(|(place, counts)| counts.0[2] > allowed.get(*place).map_or(0, |limit| limit.0[2]))
-        .map(|(place, _)| place)
-        .collect();
-    let shown = circles.iter().filter(|(place, _)| verbose || grown.contains(&place));
-    report.notes.extend(shown.map(|(_, text)| text.clone()));
-    let found = limits::compare(&now, &allowed);
-    report.failures.extend(found.failures);
-    report.notes.extend(found.notes);
-    let constants: usize = names.values().sum();
-    let most = if verbose { names.len() } else { SHOWN };
-    report.notes.push(format!(
-        "{constants} constants have {} names; {shared} share theirs: {}",
-        names.len(),
-        rooms::worst(&names, most)
-    ));
     Ok(report)
 }
 

@@ -1,11 +1,12 @@
 //! What is counted in each room of a crate.
 
+use super::circles::Graphs;
 use super::limits::{Counts, Table};
-use super::{circles, modules, numbers};
-use std::collections::{BTreeMap, BTreeSet};
+use super::numbers;
+use std::collections::BTreeMap;
 use std::fs;
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Definitions of each constant's name in the project.
 pub type Names = BTreeMap<String, usize>;
@@ -22,24 +23,20 @@ pub struct Crate {
 ///
 /// # Errors
 /// A file that cannot be read or is not Rust.
-pub fn of_crate(source: &Path, name: &str, names: &mut Names) -> io::Result<Crate> {
+pub fn of_crate(source: &Path, graphs: &Graphs, name: &str, names: &mut Names) -> io::Result<Crate> {
     let mut found = Crate { counts: Table::from([(name.to_string(), Counts::default())]), circles: vec![] };
-    let mut files: BTreeSet<PathBuf> = BTreeSet::new();
-    for root in circles::roots(source) {
-        files.extend(modules::of_crate(source, root)?.into_iter().map(|module| module.file));
-    }
-    for file in files {
-        let text = fs::read_to_string(source.join(&file))?;
+    for file in graphs.files() {
+        let text = fs::read_to_string(source.join(file))?;
         let numbers = numbers::of_text(&text)
-            .map_err(|e| io::Error::other(format!("{}: {e}", source.join(&file).display())))?;
-        let Counts(counts) = found.counts.entry(room(source, name, &file)).or_default();
+            .map_err(|e| io::Error::other(format!("{}: {e}", source.join(file).display())))?;
+        let Counts(counts) = found.counts.entry(room(source, name, file)).or_default();
         counts[0] += numbers.compared;
         counts[1] += numbers.constants.len();
         for constant in numbers.constants {
             *names.entry(constant).or_default() += 1;
         }
     }
-    for circle in circles::of_rooms(source, name)? {
+    for circle in graphs.of_rooms(name) {
         // Circles among the rooms stand in the crate's own line.
         let place = if circle.folder.as_os_str().is_empty() {
             name.to_string()
@@ -66,12 +63,20 @@ pub fn shared(names: &Names) -> usize {
     names.values().filter(|count| **count > 1).sum()
 }
 
-/// The names with the most definitions, with their number.
-pub fn worst(names: &Names, most: usize) -> String {
+/// How many constants and names there are, and the names with the most definitions, or all of them.
+pub fn summary(names: &Names, verbose: bool) -> String {
+    const SHOWN: usize = 10;
     let mut all: Vec<(&String, &usize)> = names.iter().collect();
     all.sort_by_key(|(name, count)| (std::cmp::Reverse(**count), *name));
-    let shown: Vec<String> = all.iter().take(most).map(|(name, count)| format!("{name} {count}")).collect();
-    shown.join(", ")
+    let shown = all.iter().take(if verbose { all.len() } else { SHOWN });
+    let shown: Vec<String> = shown.map(|(name, count)| format!("{name} {count}")).collect();
+    format!(
+        "{} constants have {} names; {} share theirs: {}",
+        names.values().sum::<usize>(),
+        names.len(),
+        shared(names),
+        shown.join(", ")
+    )
 }
 
 #[cfg(test)]
@@ -96,11 +101,11 @@ mod tests {
             fs::write(path, text).unwrap();
         }
         let mut names = Names::new();
-        let found = of_crate(&folder, "n", &mut names).unwrap();
+        let found = of_crate(&folder, &Graphs::read(&folder).unwrap(), "n", &mut names).unwrap();
         fs::remove_dir_all(&folder).unwrap();
         let counts = |place: &str| found.counts[place].0;
         assert_eq!((counts("n"), counts("n/a"), counts("n/b")), ([0, 1, 2], [0, 2, 2], [2, 1, 0]));
         assert_eq!(found.counts.len(), 3);
-        assert_eq!((shared(&names), worst(&names, 1)), (3, "MAX 3".to_string()));
+        assert_eq!(summary(&names, false), "4 constants have 2 names; 3 share theirs: MAX 3, Y 1");
     }
 }
