@@ -8,35 +8,49 @@ use std::path::{Path, PathBuf};
 /// From a file to those it takes names from, with the names.
 type Arrows = BTreeMap<PathBuf, BTreeMap<PathBuf, BTreeSet<String>>>;
 
-/// The circles among the files of a library, and among those of its program, each with the arrows that make it; `name` stands for the
-/// crate's sources.
-///
-/// # Errors
-/// A file that cannot be read or is not Rust.
-pub fn of_crate(source: &Path, name: &str) -> io::Result<Vec<String>> {
-    let mut all = BTreeSet::new();
-    for root in ["lib.rs", "main.rs"].into_iter().filter(|root| source.join(root).exists()) {
-        let arrows = arrows(source, root)?;
-        all.extend(rings(&arrows).iter().map(|ring| told(name, "files", ring, &arrows)));
-    }
-    Ok(all.into_iter().collect())
-}
+/// Who names whose items among the files of a library, and among those of its program.
+pub struct Graphs(Vec<Arrows>);
 
-/// The circles among the rooms of a library, where none of them is one of files alone: folders, and files beside them, that reach one another through any of
-/// their files.
-///
-/// # Errors
-/// A file that cannot be read or is not Rust.
-pub fn of_rooms(source: &Path, name: &str) -> io::Result<Vec<String>> {
-    let arrows = arrows(source, "lib.rs")?;
-    let folders: BTreeSet<PathBuf> =
-        arrows.keys().flat_map(|file| file.ancestors().skip(1).map(Path::to_path_buf)).collect();
-    let mut all = vec![];
-    for folder in folders {
-        let rooms = between_rooms(&arrows, &folder);
-        all.extend(rings(&rooms).iter().map(|ring| told(name, "rooms", ring, &rooms)));
+impl Graphs {
+    /// Reads a crate's sources.
+    ///
+    /// # Errors
+    /// A file that cannot be read or is not Rust.
+    pub fn read(source: &Path) -> io::Result<Graphs> {
+        let roots = ["lib.rs", "main.rs"].into_iter().filter(|root| source.join(root).exists());
+        roots.map(|root| arrows(source, root)).collect::<io::Result<_>>().map(Graphs)
     }
-    Ok(all)
+    /// All files, relative to the sources.
+    pub fn files(&self) -> BTreeSet<&Path> {
+        self.0.iter().flat_map(|arrows| arrows.keys().map(PathBuf::as_path)).collect()
+    }
+    /// The circles of files, each with the arrows that make it; `name` stands for the crate's sources.
+    pub fn of_files(&self, name: &str) -> Vec<String> {
+        let all: BTreeSet<String> = self
+            .0
+            .iter()
+            .flat_map(|arrows| rings(arrows).into_iter().map(|ring| told(name, "files", &ring, arrows)))
+            .collect();
+        all.into_iter().collect()
+    }
+    /// The circles of rooms, at every depth: folders, and files beside them, that reach one another through any of their files.
+    pub fn of_rooms(&self, name: &str) -> Vec<String> {
+        let mut all: Vec<String> = vec![];
+        for arrows in &self.0 {
+            let folders: BTreeSet<&Path> = arrows.keys().flat_map(|file| file.ancestors().skip(1)).collect();
+            for folder in folders {
+                let rooms = between_rooms(arrows, folder);
+                for ring in rings(&rooms) {
+                    let text = told(name, "rooms", &ring, &rooms);
+                    // Modules that the library and the program share are seen twice.
+                    if !all.contains(&text) {
+                        all.push(text);
+                    }
+                }
+            }
+        }
+        all
+    }
 }
 
 /// The arrows among what lies in a folder, each file as the room that it is in or stands for; the head of the folder is none of them.
@@ -48,7 +62,8 @@ fn between_rooms(arrows: &Arrows, folder: &Path) -> Arrows {
         (!is_head).then_some(room)
     };
     let mut all = Arrows::new();
-    for (from, to, names) in arrows.iter().flat_map(|(from, to)| to.iter().map(move |(to, n)| (from, to, n))) {
+    for (from, to, names) in arrows.iter().flat_map(|(from, to)| to.iter().map(move |(to, n)| (from, to, n)))
+    {
         if let (Some(from), Some(to)) = (room(from), room(to))
             && from != to
         {
@@ -80,36 +95,43 @@ fn arrows(source: &Path, root: &str) -> io::Result<Arrows> {
 
 /// Groups of files that reach one another, of two and more; a file is in one group at most.
 fn rings(arrows: &Arrows) -> Vec<Vec<PathBuf>> {
-    let reached: BTreeMap<&PathBuf, BTreeSet<&PathBuf>> =
-        arrows.keys().map(|file| (file, reach(arrows, file))).collect();
-    let mut rings: BTreeSet<Vec<PathBuf>> = BTreeSet::new();
-    for (file, all) in &reached {
-        if all.contains(*file) {
-            let mutual =
-                all.iter().filter(|other| reached.get(**other).is_some_and(|back| back.contains(*file)));
-            rings.insert(mutual.map(|path| (*path).clone()).collect());
-        }
+    let files: Vec<&PathBuf> = arrows.keys().collect();
+    let numbers: BTreeMap<&PathBuf, usize> = files.iter().enumerate().map(|(n, file)| (*file, n)).collect();
+    let to: Vec<Vec<usize>> =
+        arrows.values().map(|to| to.keys().filter_map(|file| numbers.get(file).copied()).collect()).collect();
+    let reached: Vec<Vec<bool>> = (0..files.len()).map(|from| reach(&to, from)).collect();
+    let mut rings: BTreeSet<Vec<usize>> = BTreeSet::new();
+    for (from, all) in reached.iter().enumerate().filter(|(from, all)| all[*from]) {
+        rings.insert((0..files.len()).filter(|other| all[*other] && reached[*other][from]).collect());
     }
-    rings.into_iter().collect()
+    rings.into_iter().map(|ring| ring.into_iter().map(|n| files[n].clone()).collect()).collect()
 }
 
-/// Files that can be reached from `file` by one arrow or more.
-fn reach<'a>(arrows: &'a Arrows, file: &'a PathBuf) -> BTreeSet<&'a PathBuf> {
-    let mut reached = BTreeSet::new();
-    let mut open = vec![file];
+/// Which of all can be reached from `from` by one arrow or more.
+fn reach(to: &[Vec<usize>], from: usize) -> Vec<bool> {
+    let mut reached = vec![false; to.len()];
+    let mut open = vec![from];
     while let Some(at) = open.pop() {
-        open.extend(arrows.get(at).into_iter().flat_map(|to| to.keys()).filter(|to| reached.insert(*to)));
+        open.extend(to[at].iter().filter(|next| !std::mem::replace(&mut reached[**next], true)));
     }
     reached
 }
 
+/// The arrows of a circle: from, to, and the names that are taken.
+fn inside<'a>(
+    ring: &'a [PathBuf],
+    arrows: &'a Arrows,
+) -> impl Iterator<Item = (&'a PathBuf, &'a PathBuf, &'a BTreeSet<String>)> {
+    let from = ring.iter().filter_map(|from| arrows.get_key_value(from));
+    let all = from.flat_map(|(from, to)| to.iter().map(move |(to, names)| (from, to, names)));
+    all.filter(|(_, to, _)| ring.contains(to))
+}
+
 fn told(name: &str, what: &str, ring: &[PathBuf], arrows: &Arrows) -> String {
     let mut text = format!("{name}: a circle of {} {what}", ring.len());
-    for from in ring {
-        for (to, names) in arrows.get(from).into_iter().flatten().filter(|(to, _)| ring.contains(to)) {
-            let names: Vec<&str> = names.iter().map(String::as_str).collect();
-            text += &format!("\n    {} -> {}: {}", from.display(), to.display(), names.join(", "));
-        }
+    for (from, to, names) in inside(ring, arrows) {
+        let names: Vec<&str> = names.iter().map(String::as_str).collect();
+        text += &format!("\n    {} -> {}: {}", from.display(), to.display(), names.join(", "));
     }
     text
 }
@@ -119,15 +141,19 @@ mod tests {
     use super::*;
     use std::fs;
 
-    /// Files of a crate in a folder of their own, and what is found in them.
+    /// Files of a crate in a folder of their own, and the circles of files that are found in them.
     fn found(name: &str, files: &[(&str, &str)]) -> Vec<String> {
+        looked_at(name, files, |folder| Graphs::read(folder).unwrap().of_files("crate"))
+    }
+
+    fn looked_at<T>(name: &str, files: &[(&str, &str)], look: fn(&Path) -> T) -> T {
         let folder = std::env::temp_dir().join(format!("tidy-{}-{name}", std::process::id()));
         for (file, text) in files {
             let path = folder.join(file);
             fs::create_dir_all(path.parent().unwrap()).unwrap();
             fs::write(path, text).unwrap();
         }
-        let found = of_crate(&folder, "crate").unwrap();
+        let found = look(&folder);
         fs::remove_dir_all(&folder).unwrap();
         found
     }
@@ -196,5 +222,22 @@ mod tests {
             ("b.rs", "pub struct B; #[cfg(test)] mod tests { use crate::a::A; }"),
         ];
         assert!(found("tests", &files).is_empty());
+    }
+
+    #[test]
+    fn folders_that_reach_each_other_through_other_files_are_a_circle_at_every_depth() {
+        let files = [
+            ("lib.rs", "mod top;"),
+            ("top/mod.rs", "mod a; mod b; mod c;"),
+            ("top/a/mod.rs", "mod x; mod y; pub use x::X;"),
+            ("top/a/x.rs", "pub struct X;"),
+            ("top/a/y.rs", "use crate::top::b::B; use crate::top::c::C;"),
+            ("top/b.rs", "use super::a::X; pub struct B;"),
+            ("top/c.rs", "pub struct C;"),
+        ];
+        assert!(found("through", &files).is_empty());
+        let rooms = looked_at("rooms", &files, |folder| Graphs::read(folder).unwrap().of_rooms("crate"));
+        assert_eq!(rooms.len(), 1);
+        assert!(rooms[0].contains("top/a -> top/b: B") && !rooms[0].contains("top/c"));
     }
 }

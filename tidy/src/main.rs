@@ -1,14 +1,22 @@
-//! The rules of ARCHITECTURE.md that the compiler does not check: the direction of imports, and the size of files and functions.
+//! The rules of ARCHITECTURE.md that the compiler does not check: the direction of imports, the size of files and functions, and
+//! that what is counted in a room does not grow (`limits.tsv`).
+//!
+//! `--write` writes the counts down, `--verbose` tells all that is told in part.
 //!
 //! Within a crate the modules form a graph: an arrow goes from the file that names an item to the file that defines it.
 //! A re-export is followed to the definition, so `mod.rs` may list its children and they may use one another.
 //! Modules marked `#[cfg(test)]` are left out. Methods are found through their type, so a call of a method draws no arrow.
 
 mod circles;
+mod count;
+mod limits;
 mod modules;
+mod numbers;
 mod paths;
+mod rooms;
 mod size;
 
+use count::Count;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -29,12 +37,27 @@ const FLOORS: [(&str, &[&str]); 11] = [
     ("cli", &["geom", "section", "solid", "surface", "files", "document", "measure", "report", "trueness"]),
 ];
 
+/// What was found.
+#[derive(Default)]
+pub struct Report {
+    /// What breaks a rule.
+    pub failures: Vec<String>,
+    /// What is worth a look.
+    pub notes: Vec<String>,
+}
+
 fn main() -> ExitCode {
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));
-    match findings(here.parent().unwrap_or(here)) {
+    let words: Vec<String> = std::env::args().skip(1).collect();
+    let given = |word: &str| words.iter().any(|w| w == word);
+    if let Some(unknown) = words.iter().find(|word| !["--write", "--verbose"].contains(&word.as_str())) {
+        eprintln!("`{unknown}` is unknown: give --write or --verbose");
+        return ExitCode::from(2);
+    }
+    match report(here.parent().unwrap_or(here), given("--write"), given("--verbose")) {
         Ok(found) => {
-            found.iter().for_each(|f| println!("{f}"));
-            if found.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+            found.notes.iter().chain(&found.failures).for_each(|f| println!("{f}"));
+            if found.failures.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE }
         }
         Err(e) => {
             eprintln!("{e}");
@@ -43,29 +66,33 @@ fn main() -> ExitCode {
     }
 }
 
-/// All places under `root` that break a rule.
+/// All places under `root` that break a rule, and what is worth a look.
 ///
 /// # Errors
 /// A file that cannot be read or is not Rust.
-fn findings(root: &Path) -> io::Result<Vec<String>> {
-    let mut found = vec![];
+fn report(root: &Path, write: bool, verbose: bool) -> io::Result<Report> {
+    let mut report = Report::default();
+    let mut count = Count::default();
     for (name, below) in FLOORS {
         let folder = root.join("crates").join(name);
-        found.extend(upward(&folder, name, below)?);
-        found.extend(circles::of_crate(&folder.join("src"), &format!("crates/{name}/src"))?);
-        // The rooms of the other crates reach each other still.
-        if name != "cli" {
-            found.extend(circles::of_rooms(&folder.join("src"), &format!("crates/{name}/src"))?);
-        }
+        let graphs = circles::Graphs::read(&folder.join("src"))?;
+        report.failures.extend(upward(&folder, name, below)?);
+        report.failures.extend(graphs.of_files(&format!("crates/{name}/src")));
+        count.add(&folder.join("src"), &graphs, name)?;
     }
+    count.compare(&root.join("tidy/limits.tsv"), write, verbose, &mut report)?;
+    let mut long = vec![];
     for folder in ["crates", "xtask", "bench", "fuzz", "tidy"] {
         for file in sources(&root.join(folder))? {
             let text = fs::read_to_string(&file)?;
             let shown = file.strip_prefix(root).unwrap_or(&file).display().to_string();
-            found.extend(size::findings(&shown, &text).map_err(io::Error::other)?);
+            long.extend(size::findings(&shown, &text).map_err(io::Error::other)?);
         }
     }
-    Ok(found)
+    let (failures, told): (Vec<_>, Vec<_>) = long.into_iter().partition(size::Long::is_failure);
+    report.failures.extend(failures.into_iter().map(|one| one.text));
+    report.notes.extend(size::summary(told, verbose));
+    Ok(report)
 }
 
 /// Dependencies on crates that lie higher, or beside.

@@ -126,7 +126,8 @@ fn imports(tree: &UseTree, path: &mut Vec<String>, module: &mut Module) {
     }
 }
 
-fn for_tests(attributes: &[Attribute]) -> bool {
+/// Whether something stands in tests alone.
+pub fn for_tests(attributes: &[Attribute]) -> bool {
     attributes.iter().any(|a| match &a.meta {
         Meta::List(list) => list.path.is_ident("cfg") && list.tokens.to_string() == "test",
         _ => false,

@@ -1,14 +1,16 @@
 //! The same bytes on any machine: what the commands write over the corpus, under each instruction set, on one thread and on three.
 //!
-//! Kept are hashes, in `golden/bytes.tsv`. After a change that is meant, write them anew with `TRUENESS_BLESS=1`, and say in the
-//! commit why they changed. Of a report the scripts and styles of the viewer are left out.
+//! Kept are hashes: in `golden/numbers.tsv` those of documents, point files and models, in `golden/words.tsv` those of pages, tables,
+//! drawings and help texts. After a change that is meant, write them anew with `TRUENESS_BLESS=numbers`, `words` or `1` (both), and say
+//! in the commit why they changed. A change of words leaves the numbers as they are. Of a report the scripts and styles of the viewer
+//! are left out.
 #![allow(clippy::unwrap_used, clippy::panic, missing_docs)]
 
 mod common;
 use common::*;
-use std::fmt::Write;
-use std::path::Path;
-use std::process::Command;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
 
 /// Files of the corpus that the commands read, by the name they have there.
 const INPUTS: &[&str] = &[
@@ -59,31 +61,84 @@ const RUNS: &[(&str, &str)] = &[
     ("trend", "trend inspect.json inspect_nominal.json --json ….json --csv ….csv --html ….html"),
 ];
 
-/// All that is written, by file: its hash.
-fn written(level: &str, threads: &str) -> Option<String> {
+/// What a file is for, which says where its hash is kept.
+#[derive(Clone, Copy, PartialEq)]
+enum Kind {
+    /// Documents, point files and models.
+    Numbers,
+    /// Pages, tables, drawings and help texts.
+    Words,
+}
+
+impl Kind {
+    fn name(self) -> &'static str {
+        match self {
+            Kind::Numbers => "numbers",
+            Kind::Words => "words",
+        }
+    }
+    fn of(file: &str) -> Kind {
+        let is_table = ["inspect.csv", "trend.csv"].contains(&file);
+        let ending = file.rsplit('.').next().unwrap();
+        if is_table || ["html", "xml", "svg", "stdout", "help"].contains(&ending) {
+            Kind::Words
+        } else {
+            Kind::Numbers
+        }
+    }
+}
+
+/// The hash of each file that is written, and of what is printed.
+type Hashes = BTreeMap<String, u64>;
+
+fn written(level: &str, threads: &str) -> Option<Hashes> {
     let f = Folder::new();
     for input in INPUTS {
         let name = Path::new(input).file_name().unwrap();
         std::fs::copy(corpus(input), f.0.join(name)).unwrap();
     }
     let given = f.names();
+    let mut all = Hashes::new();
     for (name, line) in RUNS {
         let words: Vec<String> = line.split(' ').map(|word| word.replace('…', name)).collect();
         let mut command = Command::new(env!("CARGO_BIN_EXE_trueness"));
-        command.args(&words).args(["--threads", threads, "--quiet"]);
+        command.args(&words).args(["--threads", threads]).env_remove("COLUMNS").stdin(Stdio::null());
         let o = command.current_dir(&f.0).env("TRUENESS_INSTRUCTIONS", level).output().unwrap();
         if stderr(&o).contains("this processor lacks") {
             return None;
         }
         assert!(status(&o) <= 1, "{name}: {}", stderr(&o));
+        all.insert(format!("{name}.stdout"), hash(&o.stdout));
     }
-    let mut all = String::new();
     for name in f.names().into_iter().filter(|name| !given.contains(name)) {
         let bytes = std::fs::read(f.file(&name)).unwrap();
         let bytes = if name.ends_with(".html") { without_viewer(&bytes) } else { bytes };
-        writeln!(all, "{name}\t{:016x}", hash(&bytes)).unwrap();
+        all.insert(name, hash(&bytes));
     }
     Some(all)
+}
+
+/// The help of the program, of every command that it lists, and of those that these list.
+fn help_texts() -> Hashes {
+    let mut hashes = Hashes::new();
+    let mut open: Vec<Vec<String>> = vec![vec![]];
+    while let Some(words) = open.pop() {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_trueness"));
+        let o =
+            command.args(&words).arg("--help").env_remove("COLUMNS").stdin(Stdio::null()).output().unwrap();
+        assert_eq!(status(&o), 0, "{words:?}: {}", stderr(&o));
+        let text = stdout(&o);
+        let listed =
+            text.lines().skip_while(|line| *line != "Commands:").skip(1).take_while(|line| !line.is_empty());
+        // A line that goes on is indented deeper. `help` has no help.
+        let names = listed.filter_map(|line| line.strip_prefix("  ")?.split(' ').next());
+        for name in names.filter(|name| !["", "help"].contains(name)) {
+            open.push([&words[..], &[name.to_string()]].concat());
+        }
+        hashes.insert(format!("trueness {}.help", words.join(" ")).replace(" .", "."), hash(text.as_bytes()));
+    }
+    assert!(hashes.len() > 10, "{hashes:?}");
+    hashes
 }
 
 /// A page without its scripts and styles, but with its data.
@@ -103,25 +158,45 @@ fn hash(bytes: &[u8]) -> u64 {
     bytes.iter().fold(0xcbf2_9ce4_8422_2325, |h, b| (h ^ u64::from(*b)).wrapping_mul(0x0100_0000_01b3))
 }
 
+fn kept(kind: Kind) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden").join(kind.name()).with_extension("tsv")
+}
+
+/// Lines of this kind that are kept.
+fn lines(hashes: &Hashes, kind: Kind) -> Vec<String> {
+    let of_kind = hashes.iter().filter(|(name, _)| Kind::of(name) == kind);
+    of_kind.map(|(name, hash)| format!("{name}\t{hash:016x}")).collect()
+}
+
 #[test]
 fn every_instruction_set_writes_the_bytes_that_are_kept() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden/bytes.tsv");
-    if std::env::var_os("TRUENESS_BLESS").is_some() {
-        std::fs::write(&path, written("plain", "1").unwrap()).unwrap();
+    let help = help_texts();
+    let now = |level: &str, threads: &str| {
+        let mut now = written(level, threads)?;
+        now.extend(help.clone());
+        Some(now)
+    };
+    for kind in [Kind::Numbers, Kind::Words].into_iter().filter(|kind| is_blessed(kind.name())) {
+        std::fs::write(kept(kind), lines(&now("plain", "1").unwrap(), kind).join("\n") + "\n").unwrap();
     }
-    let kept = std::fs::read_to_string(&path).unwrap();
+    let mut other = vec![];
     for (level, threads) in [("plain", "1"), ("avx2", "3"), ("avx512", "2")] {
-        let Some(now) = written(level, threads) else {
+        let Some(now) = now(level, threads) else {
             println!("NOT TRIED: {level}, which this processor lacks");
             continue;
         };
-        let other: Vec<&str> = now.lines().filter(|line| !kept.lines().any(|k| k == *line)).collect();
-        assert!(
-            other.is_empty() && now.lines().count() == kept.lines().count(),
-            "{level}: other bytes in\n{}",
-            other.join("\n")
-        );
+        for kind in [Kind::Numbers, Kind::Words] {
+            let kept = std::fs::read_to_string(kept(kind)).unwrap();
+            let (now, kept) = (lines(&now, kind), kept.lines().map(String::from).collect::<Vec<_>>());
+            let told = |have: &[String], lack: &[String], what: &str, other: &mut Vec<String>| {
+                let lines = have.iter().filter(|line| !lack.contains(line));
+                other.extend(lines.map(|line| format!("{level}: {}: {what} {line}", kind.name())));
+            };
+            told(&now, &kept, "now", &mut other);
+            told(&kept, &now, "kept", &mut other);
+        }
     }
+    assert!(other.is_empty(), "other bytes:\n{}", other.join("\n"));
 }
 
 #[test]

@@ -75,6 +75,16 @@ pub fn document<S: AsRef<std::ffi::OsStr>>(words: impl IntoIterator<Item = S>) -
     serde_json::from_slice(&o.stdout).unwrap()
 }
 
+/// Whether what is kept of this kind (`numbers`, `words`) shall be written anew: `TRUENESS_BLESS` names it, or is 1 for all.
+pub fn is_blessed(kind: &str) -> bool {
+    match std::env::var("TRUENESS_BLESS").as_deref() {
+        Err(_) => false,
+        Ok("1") => true,
+        Ok(given @ ("numbers" | "words")) => given == kind,
+        Ok(other) => panic!("TRUENESS_BLESS={other}: give numbers, words or 1 for both"),
+    }
+}
+
 /// The unit cube as an OFF file, outward.
 pub const CUBE: &str = "OFF\n8 12 0\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 0 1\n1 0 1\n0 1 1\n1 1 1\n\
 3 0 2 1\n3 1 2 3\n3 4 5 6\n3 5 7 6\n3 0 1 4\n3 1 5 4\n3 2 6 3\n3 3 6 7\n3 0 4 2\n3 2 4 6\n3 1 3 5\n3 3 7 5\n";
