@@ -5,7 +5,9 @@
 //! | `align` | [`align::AlignRequest`] | `trueness/align/1` |
 //! | `check` | [`check::CheckRequest`] | `trueness/check/1` |
 //! | `fit` | [`fit::FitRequest`] | `trueness/fit/1` |
+//! | `segment` | [`segment::SegmentRequest`] | `trueness/segment/1` |
 
 pub mod align;
 pub mod check;
 pub mod fit;
+pub mod segment;
