@@ -5,6 +5,7 @@ use crate::number::{fixed, scientific};
 use crate::options::ProgressStyle;
 use crate::progress::Stage;
 use clap::Args;
+use trueness::task::Independence;
 use trueness_document::{NoiseOrReason, SharedNoise};
 use trueness_geom::noise::PATCHES;
 use trueness_geom::progress::Cancelled;
@@ -19,6 +20,11 @@ pub struct NoiseArgs {
 }
 
 impl NoiseArgs {
+    /// The same for a request.
+    pub fn request(&self) -> Independence {
+        Independence { independent: self.independent }
+    }
+
     /// Refused for what counts as independent without being asked.
     pub fn only_for_meshes(&self, shown: &str) -> Result<(), Usage> {
         match self.independent {

@@ -6,7 +6,7 @@ use crate::scale::Scale;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-use trueness_surface::{BaseKind, Reached};
+use trueness_surface::{BaseKind, Reached, STANDING};
 
 /// Name of this document's schema.
 pub const SCHEMA: &str = "trueness/surface/1";
@@ -126,6 +126,36 @@ pub struct BaseRecord {
     /// Whether a mesh was laid within a circle: laid out freely, its rim would cross itself.
     #[serde(skip_serializing_if = "is_false", default)]
     pub round: bool,
+}
+
+/// Share of points in layers beyond which the surface is doubtful.
+pub const FOLDED: f64 = 0.01;
+
+/// Factor to which lengths may shrink as a mesh is laid flat: of what is laid flat more densely the knots tell one place from the next no
+/// more.
+const CRUSHED: f64 = 0.05;
+
+impl BaseRecord {
+    /// Whether so many points lie in layers or stand on edge over the base, or one lies so near to its pole, or the mesh is crushed so much
+    /// as it is laid flat, that the surface is not theirs.
+    pub fn is_doubtful(&self) -> bool {
+        self.folded_share > FOLDED
+            || self.standing_share > STANDING
+            || self.pole
+            || self.stretch.is_some_and(is_crushed)
+    }
+}
+
+/// Whether lengths shrink so much, where they grow by such factors as a mesh is laid flat, that the knots no longer tell places apart.
+pub fn is_crushed([least, _]: [f64; 2]) -> bool {
+    least < CRUSHED
+}
+
+impl SurfaceDocument {
+    /// Whether the surface is that of its points, and reaches the tolerance, where there is one.
+    pub fn conforms(&self) -> bool {
+        self.tolerance.as_ref().is_none_or(|t| t.reached) && !self.base.is_doubtful()
+    }
 }
 
 fn is_false(flag: &bool) -> bool {

@@ -4,8 +4,8 @@ use crate::curvature::{map, value};
 use trueness_document::curvature::{CurvatureKind, Range};
 use trueness_document::scale::Scale;
 use trueness_document::surface::{
-    BaseRecord, CurvatureRecord, KnotsRecord, MapRecord, PlaceCurvature, RegionRecord, Residual, SCHEMA,
-    SupportRecord, SurfaceDocument, ToleranceRecord, TrimRecord, WorstPoint,
+    BaseRecord, CurvatureRecord, FOLDED, KnotsRecord, MapRecord, PlaceCurvature, RegionRecord, Residual,
+    SCHEMA, SupportRecord, SurfaceDocument, ToleranceRecord, TrimRecord, WorstPoint, is_crushed,
 };
 use trueness_document::{self as results, InputRecord, UNITS, VERSION, Word};
 use trueness_geom::parallel::prelude::*;
@@ -17,27 +17,8 @@ use trueness_surface::{
     minimum_rectangle,
 };
 
-/// Share of points in layers beyond which the surface is doubtful.
-const FOLDED: f64 = 0.01;
-
 /// Factor by which lengths may grow or shrink as a mesh is laid flat.
 const STRETCHED: f64 = 2.0;
-
-/// Factor to which they may shrink: of what is laid flat more densely the knots tell one place from the next no more.
-const CRUSHED: f64 = 0.05;
-
-/// Whether so many points lie in layers or stand on edge over the base, or one lies so near to its pole, or the mesh is crushed so much as
-/// it is laid flat, that the surface is not theirs.
-pub fn is_doubtful(base: &BaseRecord) -> bool {
-    base.folded_share > FOLDED
-        || base.standing_share > STANDING
-        || base.pole
-        || base.stretch.is_some_and(is_crushed)
-}
-
-fn is_crushed([least, _]: [f64; 2]) -> bool {
-    least < CRUSHED
-}
 
 /// Sides of the rectangle of the points with a lesser ratio make a strip.
 const SLIM: f64 = 1e-3;

@@ -2,26 +2,19 @@
 
 use crate::command::Run;
 use crate::console;
-use crate::exit::{Outcome, Usage};
+use crate::exit::Outcome;
 use crate::noise::{self, NoiseArgs};
 use crate::number::{POINTS, counted, fixed, scientific};
-use crate::options::{Common, DocumentArgs, PointInputArgs};
-use crate::progress::Stage;
+use crate::options::{Common, DocumentArgs, PointInputArgs, choice};
 use crate::report::ReportArgs;
-use clap::builder::{PossibleValue, PossibleValuesParser};
-use clap::{Args, ValueEnum};
+use crate::task;
+use clap::Args;
 use std::fmt::Write;
 use std::path::PathBuf;
-use trueness::read::{self, Body, Opened};
-use trueness::task::RunFiles;
-use trueness_document::Role;
+use trueness::read;
+use trueness::task::{Request, RunFiles};
+use trueness::tasks::fit::{Element, FitRequest, Method};
 use trueness_document::fit::{FitDocument, Number};
-use trueness_files::FileSources;
-use trueness_geom::fit::{self, FitError, Method, Options};
-use trueness_geom::mesh::Mesh;
-use trueness_geom::progress::Cancelled;
-use trueness_geom::shape::Kind;
-use trueness_report::views::fit::View;
 
 /// The best line, plane, circle, ellipse, sphere, cylinder, cone or torus through points
 ///
@@ -37,11 +30,11 @@ pub struct FitArgs {
     /// The points, or a mesh (its vertices are taken); `-` reads stdin
     points: PathBuf,
     /// What is fitted
-    #[arg(long, value_parser = shapes())]
-    shape: String,
+    #[arg(long, value_parser = choice::<Element>())]
+    shape: Element,
     /// What makes an element the best
-    #[arg(long, value_enum, default_value = "gaussian")]
-    method: MethodArg,
+    #[arg(long, value_parser = choice::<Method>(), default_value = "gaussian")]
+    method: Method,
     #[command(flatten)]
     input: PointInputArgs,
     #[command(flatten)]
@@ -52,100 +45,30 @@ pub struct FitArgs {
     report: ReportArgs,
 }
 
-/// The names of all shapes, each once.
-fn shapes() -> PossibleValuesParser {
-    let mut names: Vec<&str> = Kind::ALL.iter().map(|kind| kind.name()).collect();
-    names.dedup();
-    names
-        .into_iter()
-        .map(|name| {
-            let only_flat = Kind::named(name, false).is_none();
-            let value = PossibleValue::new(name);
-            if only_flat {
-                value.help("In the plane: of points of two columns, or of x and y")
-            } else {
-                value
-            }
-        })
-        .collect::<Vec<_>>()
-        .into()
-}
-
-/// The shape of a name, in the plane where the points are and there is such, else as there is one.
-fn shape(name: &str, planar: bool) -> anyhow::Result<Kind> {
-    let known = Kind::named(name, planar).or_else(|| Kind::named(name, !planar));
-    known.ok_or_else(|| Usage(format!("--shape {name} is not known")).into())
-}
-
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum MethodArg {
-    /// Least squares.
-    Gaussian,
-    /// The narrowest zone that holds all points.
-    MinimumZone,
-    /// The smallest circle, sphere or cylinder around all points.
-    MinimumCircumscribed,
-    /// The largest circle, sphere or cylinder within the points.
-    MaximumInscribed,
-    /// Outliers do not count.
-    Robust,
-}
-
-impl From<MethodArg> for Method {
-    fn from(method: MethodArg) -> Method {
-        match method {
-            MethodArg::Gaussian => Method::Gaussian,
-            MethodArg::MinimumZone => Method::MinimumZone,
-            MethodArg::MinimumCircumscribed => Method::MinimumCircumscribed,
-            MethodArg::MaximumInscribed => Method::MaximumInscribed,
-            MethodArg::Robust => Method::Robust,
+impl FitArgs {
+    fn request(&self, common: &Common) -> FitRequest {
+        FitRequest {
+            points: self.points.clone(),
+            shape: Some(self.shape),
+            method: self.method,
+            reading: self.input.reading(),
+            noise: self.noise.request(),
+            seed: common.seed,
+            view: self.report.html.is_some(),
         }
     }
 }
 
 impl Run for FitArgs {
-    fn files(&self, _: &Common) -> anyhow::Result<RunFiles> {
-        Ok(RunFiles::of([&self.points])
-            .document(self.document.json.as_ref())
-            .report(self.report.html.as_ref()))
+    fn files(&self, common: &Common) -> anyhow::Result<RunFiles> {
+        let files = self.request(common).files()?.document(self.document.json.as_ref());
+        Ok(files.report(self.report.html.as_ref()))
     }
     fn run(&self, common: &Common) -> anyhow::Result<Outcome> {
-        run(self, common)
+        task::run_reported(&self.request(common), (&self.document, &self.report), common, |done| {
+            table(&done.document)
+        })
     }
-}
-
-fn run(args: &FitArgs, common: &Common) -> anyhow::Result<Outcome> {
-    let Opened { mut record, body, planar, .. } =
-        read::open(&FileSources, &args.points, Role::Measured, &args.input.reading().options())?;
-    let scan = match body {
-        Body::Mesh(mesh) => mesh.mesh,
-        Body::Points(source) => {
-            Mesh { positions: read::all_points(&args.points, source)?, faces: Vec::new() }
-        }
-    };
-    let points = &scan.positions;
-    read::describe(&mut record, points);
-    read::hash(&FileSources, &mut record, &args.points)?;
-    let options = Options { method: args.method.into(), start: None, seed: common.seed };
-    let stage = Stage::new(common.progress, "fitting", "points", Some(points.len() as u64));
-    let fit = fit::fit(points, shape(&args.shape, planar)?, &options, &stage);
-    stage.end(&fit);
-    let fit = fit.map_err(|e| match e {
-        FitError::Cancelled => anyhow::Error::from(Cancelled),
-        e @ FitError::NoSuchMethod { .. } => Usage(e.to_string()).into(),
-        e => anyhow::anyhow!("{}: {e}", args.points.display()),
-    })?;
-    let noise = args
-        .noise
-        .found(common.progress, |stage| trueness_measure::fit::noise(&fit, &scan, common.seed, stage))?;
-    let document = trueness_measure::fit::document(&fit, &noise, points, vec![record], common.seed);
-    if args.report.html.is_some() {
-        let view = View::new(&document, &document.inputs[0].path, &fit.shape, points);
-        args.report.write(&document, &view.objects(), &view.marks, common.progress)?;
-    }
-    args.document.write(&document)?;
-    args.document.table(|| table(&document))?;
-    Ok(Outcome::Conforming)
 }
 
 /// The document for people.

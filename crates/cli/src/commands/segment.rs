@@ -2,30 +2,22 @@
 
 use crate::command::Run;
 use crate::console;
-use crate::exit::{Outcome, Usage};
+use crate::exit::Outcome;
 use crate::noise::{self, NoiseArgs};
 use crate::number::{FACETS, POINTS, counted, fixed, grouped, scientific};
-use crate::options::{Common, DocumentArgs, PointInputArgs};
-use crate::progress::Stage;
+use crate::options::{Common, DocumentArgs, PointInputArgs, choice};
 use crate::report::ReportArgs;
+use crate::task;
 use clap::Args;
-use clap::builder::PossibleValuesParser;
 use std::fmt::Write;
 use std::path::PathBuf;
-use std::sync::LazyLock;
-use trueness::read::{self, Body, Opened};
-use trueness::task::RunFiles;
+use trueness::read;
+use trueness::task::{Request, RunFiles};
+use trueness::tasks::segment::{Element, SegmentRequest};
 use trueness_document::fit::Number;
 use trueness_document::segment::{PieceKind, RegionRecord, SegmentDocument};
-use trueness_document::{Role, noise_or_reason};
-use trueness_files::FileSources;
-use trueness_files::write::{Pieces, Writable, regions};
-use trueness_geom::mesh::Mesh;
-use trueness_geom::segment::{self, KINDS, Options, SegmentError, Segmentation};
-use trueness_geom::shape::{Kind, Quantity};
-use trueness_measure::file_numbers::LeftOut;
-use trueness_report::views::segment::View;
-use trueness_report::views::segment::color;
+use trueness_files::write::Writable;
+use trueness_geom::shape::Quantity;
 
 /// Planes, cylinders, cones, spheres and tori in a mesh or cloud, without a nominal
 ///
@@ -43,12 +35,12 @@ pub struct SegmentArgs {
     /// What is looked for
     #[arg(
         long,
-        value_parser = PossibleValuesParser::new(names()),
+        value_parser = choice::<Element>(),
         value_delimiter = ',',
         value_name = "LIST",
-        default_value = ALL.as_str()
+        default_value = "plane,cylinder,cone,sphere,torus"
     )]
-    shapes: Vec<String>,
+    shapes: Vec<Element>,
     /// Distance up to which a point belongs to an element, mm [default: eight standard deviations of the noise found]
     #[arg(long, value_name = "MM")]
     tolerance: Option<f64>,
@@ -77,102 +69,46 @@ pub struct SegmentArgs {
     report: ReportArgs,
 }
 
-/// What is looked for unless something else is asked for.
-static ALL: LazyLock<String> = LazyLock::new(|| names().join(","));
-
-/// The names of the shapes that can be found.
-fn names() -> [&'static str; KINDS.len()] {
-    KINDS.map(Kind::name)
-}
-
-impl SegmentArgs {
-    fn options(&self, seed: u64) -> Options {
-        Options {
-            kinds: self.shapes.iter().filter_map(|name| Kind::named(name, false)).collect(),
-            tolerance: self.tolerance,
-            crease: self.crease.to_radians(),
-            min_share: self.min_share.map(|percent| percent / 100.0),
-            min_points: self.min_points,
-            seed,
-        }
-    }
-}
-
 fn out_help() -> String {
     format!("Write the facets or points with the number of their region ({})", Writable::Regions.shown())
 }
 
-impl Run for SegmentArgs {
-    fn files(&self, _: &Common) -> anyhow::Result<RunFiles> {
-        Ok(RunFiles::of([&self.input])
-            .out(self.out.as_ref(), Writable::Regions)
-            .document(self.document.json.as_ref())
-            .report(self.report.html.as_ref()))
-    }
-    fn run(&self, common: &Common) -> anyhow::Result<Outcome> {
-        run(self, common)
+impl SegmentArgs {
+    fn request(&self, common: &Common) -> SegmentRequest {
+        SegmentRequest {
+            input: self.input.clone(),
+            shapes: self.shapes.clone(),
+            tolerance: self.tolerance,
+            crease: self.crease,
+            min_share: self.min_share,
+            min_points: self.min_points,
+            reading: self.reading.reading(),
+            noise: self.noise.request(),
+            members: self.members,
+            out: self.out.clone(),
+            seed: common.seed,
+            view: self.report.html.is_some(),
+        }
     }
 }
 
-fn run(args: &SegmentArgs, common: &Common) -> anyhow::Result<Outcome> {
-    let options = args.options(common.seed);
-    let Opened { mut record, body, .. } =
-        read::open(&FileSources, &args.input, Role::Measured, &args.reading.reading().options())?;
-    let (mesh, kind, left_out) = match body {
-        Body::Mesh(source) => (source.mesh, PieceKind::Facets, source.nonfinite_facets),
-        Body::Points(source) => (
-            Mesh { positions: read::all_points(&args.input, source)?, faces: Vec::new() },
-            PieceKind::Points,
-            vec![],
-        ),
-    };
-    read::describe(&mut record, &mesh.positions);
-    let pieces = match kind {
-        PieceKind::Facets => Pieces::Facets(&mesh.faces),
-        PieceKind::Points => Pieces::Points,
-    };
-    let (word, total) = match kind {
-        PieceKind::Facets => ("facets", mesh.faces.len()),
-        PieceKind::Points => ("points", mesh.positions.len()),
-    };
-    let stage = Stage::new(common.progress, "segmenting", word, Some(total as u64));
-    let (hash, found) = rayon::join(
-        || read::hash(&FileSources, &mut record, &args.input),
-        || match kind {
-            PieceKind::Facets => segment::mesh(&mesh, &options, &stage),
-            PieceKind::Points => segment::cloud(&mesh.positions, &options, &stage),
-        },
-    );
-    stage.end(&found);
-    hash?;
-    let found = found.map_err(|e| match e {
-        SegmentError::Cancelled(e) => e.into(),
-        e @ (SegmentError::WrongOption { .. } | SegmentError::NoKind) => Usage(e.to_string()).into(),
-        e => anyhow::anyhow!("{}: {e}", args.input.display()),
-    })?;
-    if let Some(path) = &args.out {
-        let labels: Vec<i32> = found.labels.iter().map(|&label| label as i32).collect();
-        regions(path, &mesh.positions, pieces, &labels, |label| color(usize::try_from(label).ok()))?;
+impl Run for SegmentArgs {
+    fn files(&self, common: &Common) -> anyhow::Result<RunFiles> {
+        let files = self.request(common).files()?.document(self.document.json.as_ref());
+        Ok(files.report(self.report.html.as_ref()))
     }
-    let members = args.members.then_some(LeftOut(&left_out));
-    let noise = args
-        .noise
-        .found(common.progress, |stage| noise_or_reason(found.shared_noise(&mesh, common.seed, stage)))?;
-    let document = trueness_measure::segment::document(&found, &noise, kind, vec![record], &options, members);
-    if args.report.html.is_some() {
-        let view = View::new(&document, &mesh, &found.labels);
-        args.report.write(&document, &view.objects(), &view.marks, common.progress)?;
+    fn run(&self, common: &Common) -> anyhow::Result<Outcome> {
+        task::run_reported(&self.request(common), (&self.document, &self.report), common, |done| {
+            table(&done.document)
+        })
     }
-    args.document.write(&document)?;
-    args.document.table(|| table(&document, &found))?;
-    Ok(Outcome::Conforming)
 }
 
 /// Rows of the table.
 const ROWS: usize = 60;
 
 /// The document for people.
-fn table(document: &SegmentDocument, found: &Segmentation) -> String {
+fn table(document: &SegmentDocument) -> String {
     let head = ["region", "shape", "size", "share", "points", "rms", "max"];
     let mut rows = vec![head.map(String::from).to_vec()];
     for region in document.regions.iter().take(ROWS) {
@@ -198,7 +134,7 @@ fn table(document: &SegmentDocument, found: &Segmentation) -> String {
     let _ = writeln!(
         out,
         "{}; {} of {} in none   noise {}   tolerance {}   mm and degrees",
-        counted(found.regions.len() as u64, ["region", "regions"]),
+        counted(document.regions.len() as u64, ["region", "regions"]),
         grouped(document.unassigned),
         counted(document.count, what),
         scientific(document.noise, 2),

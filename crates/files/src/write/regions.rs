@@ -22,7 +22,7 @@ pub enum Pieces<'a> {
 
 /// Writes `points` (millimeters) and `pieces`, each with its label, −1 for none, and in a PLY file with a color. In a
 /// PLY file labels are a property `region` of vertices or faces; a CSV file has a row for each point or for the middle
-/// of each facet.
+/// of each facet. The file lies unfinished beside its place until it is committed.
 ///
 /// # Errors
 /// An extension other than .ply and .csv; a facet that names no point; as many labels as pieces must be given;
@@ -33,8 +33,8 @@ pub fn regions(
     pieces: Pieces,
     labels: &[i32],
     color: impl Fn(i32) -> [u8; 3],
-) -> Result<(), WriteError> {
-    let write = || -> Result<(), WriteFault> {
+) -> Result<AtomicFile, WriteError> {
+    let write = || -> Result<AtomicFile, WriteFault> {
         let form = Writable::Regions.form(path, REGION_FORMS)?;
         let count = check(points, pieces)?;
         if labels.len() != count {
@@ -45,8 +45,7 @@ pub fn regions(
             RegionForm::Ply => ply(&mut file, points, pieces, labels, &color)?,
             RegionForm::Csv => csv(&mut file, points, pieces, labels)?,
         }
-        file.into_inner().map_err(|e| e.into_error())?.commit()?;
-        Ok(())
+        Ok(file.into_inner().map_err(|e| e.into_error())?)
     };
     write().map_err(|e| e.in_file(path))
 }
@@ -146,7 +145,7 @@ mod tests {
     fn a_mesh_is_read_back_with_its_labels() {
         let folder = Folder::new();
         let path = folder.path().join("r.ply");
-        regions(&path, &POINTS, Pieces::Facets(&FACES), &[4, -1], color).unwrap();
+        regions(&path, &POINTS, Pieces::Facets(&FACES), &[4, -1], color).unwrap().commit().unwrap();
         let Body::Mesh(mesh) = open(&path, &ReadOptions::default()).unwrap().body else { panic!() };
         assert_eq!((&mesh.mesh.positions[..], &mesh.mesh.faces[..]), (&POINTS[..], &FACES[..]));
         let bytes = std::fs::read(&path).unwrap();
@@ -161,12 +160,12 @@ mod tests {
         let folder = Folder::new();
         let (ply, csv) = (folder.path().join("p.ply"), folder.path().join("p.csv"));
         let labels = [0, 1, -1, 2];
-        regions(&ply, &POINTS, Pieces::Points, &labels, color).unwrap();
+        regions(&ply, &POINTS, Pieces::Points, &labels, color).unwrap().commit().unwrap();
         assert!(matches!(open(&ply, &ReadOptions::default()).unwrap().body, Body::Points(_)));
-        regions(&csv, &POINTS, Pieces::Points, &labels, color).unwrap();
+        regions(&csv, &POINTS, Pieces::Points, &labels, color).unwrap().commit().unwrap();
         let text = std::fs::read_to_string(&csv).unwrap();
         assert_eq!(text, "x,y,z,region\n0,0,0,0\n1,0,0,1\n0,3,0,-1\n0,0,1.5,2\n");
-        regions(&csv, &POINTS, Pieces::Facets(&FACES), &[3, 5], color).unwrap();
+        regions(&csv, &POINTS, Pieces::Facets(&FACES), &[3, 5], color).unwrap().commit().unwrap();
         assert!(std::fs::read_to_string(&csv).unwrap().ends_with("0,1,0.5,5\n"));
     }
 

@@ -35,7 +35,7 @@ fn buffered(
 /// A `.ply` or `.vtp` file has each number by its name, `reason` as a number (that the header of a PLY file explains), a color, and
 /// the facets. A `.csv` file has a column of each name, empty where there is no number, and `reason` as a word; a `.parquet` file the
 /// same without the word's spelling out: null, and the reason's number. A `.npz` file has an array of each name, `reason`, and the
-/// facets.
+/// facets. The file lies unfinished beside its place until it is committed.
 ///
 /// # Errors
 /// Another extension; a facet that names no point; those of the system.
@@ -44,24 +44,22 @@ pub fn values<const N: usize>(
     points: &[Point],
     faces: &[[u32; 3]],
     values: &Values<N>,
-) -> Result<(), WriteError> {
-    let write = || -> Result<(), WriteFault> {
+) -> Result<AtomicFile, WriteError> {
+    let write = || -> Result<AtomicFile, WriteFault> {
         let form = Writable::Values.form(path, VALUE_FORMS)?;
         let lost = |face: &[u32; 3]| face.iter().any(|v| *v as usize >= points.len());
         if let Some(face) = faces.iter().position(lost) {
             return Err(WriteFault::NoSuchVertex { face });
         }
         let file = AtomicFile::create(path)?;
-        let file = match form {
+        Ok(match form {
             ValueForm::Npz => npz::values(file, points, faces, values)?,
             ValueForm::Vtp => vtp::values(file, points, faces, values)?,
             #[cfg(feature = "parquet")]
             ValueForm::Parquet => parquet::values(file, points, values)?,
             ValueForm::Ply => buffered(file, |file| ply(file, points, faces, values))?,
             ValueForm::Csv => buffered(file, |file| csv(file, points, values))?,
-        };
-        file.commit()?;
-        Ok(())
+        })
     };
     write().map_err(|e| e.in_file(path))
 }
@@ -164,7 +162,7 @@ mod tests {
     fn a_mesh_is_read_back_with_its_numbers() {
         let folder = Folder::new();
         let path = folder.path().join("k.ply");
-        known(|v| values(&path, &POINTS, &FACES, v).unwrap());
+        known(|v| values(&path, &POINTS, &FACES, v).unwrap().commit().unwrap());
         let Body::Mesh(mesh) = open(&path, &ReadOptions::default()).unwrap().body else { panic!() };
         assert_eq!((&mesh.mesh.positions[..], &mesh.mesh.faces[..]), (&POINTS[..], &FACES[..]));
         let bytes = std::fs::read(&path).unwrap();
@@ -179,7 +177,7 @@ mod tests {
     fn a_table_has_empty_cells_and_the_reason() {
         let folder = Folder::new();
         let path = folder.path().join("k.csv");
-        known(|v| values(&path, &POINTS, &FACES, v).unwrap());
+        known(|v| values(&path, &POINTS, &FACES, v).unwrap().commit().unwrap());
         let text = std::fs::read_to_string(&path).unwrap();
         assert_eq!(
             text,
@@ -192,7 +190,7 @@ mod tests {
     fn an_archive_has_an_array_of_each_name() {
         let folder = Folder::new();
         let path = folder.path().join("k.npz");
-        known(|v| values(&path, &POINTS, &FACES, v).unwrap());
+        known(|v| values(&path, &POINTS, &FACES, v).unwrap().commit().unwrap());
         let bytes = std::fs::read(&path).unwrap();
         let array = |name: &str, header: &str| {
             let start = memchr::memmem::find(&bytes, format!("{name}.npy").as_bytes()).unwrap();
@@ -217,7 +215,7 @@ mod tests {
         let folder = Folder::new();
         for faces in [&FACES[..], &[]] {
             let path = folder.path().join("k.vtp");
-            known(|v| values(&path, &POINTS, faces, v).unwrap());
+            known(|v| values(&path, &POINTS, faces, v).unwrap().commit().unwrap());
             let bytes = std::fs::read(&path).unwrap();
             let data = 4096;
             assert_eq!(bytes[data - 1], b'_');

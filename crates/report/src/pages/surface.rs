@@ -13,7 +13,6 @@ use trueness_document::compare::ToleranceShares;
 use trueness_document::curvature::{CurvatureKind, Range};
 use trueness_document::scale::Scale;
 use trueness_document::surface::{MapRecord, SurfaceDocument};
-use trueness_measure::surface::is_doubtful;
 use trueness_surface::BaseKind;
 
 impl Subject for SurfaceDocument {
@@ -23,7 +22,7 @@ impl Subject for SurfaceDocument {
 
     fn headline(&self) -> Headline {
         match &self.tolerance {
-            _ if is_doubtful(&self.base) => Verdict::Undecided.into(),
+            _ if self.base.is_doubtful() => Verdict::Undecided.into(),
             Some(t) if t.reached => Verdict::Pass.into(),
             Some(_) => Verdict::Fail.into(),
             None => Headline { key: "surface", tone: Tone::Neutral },

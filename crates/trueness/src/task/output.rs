@@ -23,9 +23,13 @@ impl Output {
             write(&mut file)?;
             file.into_inner().map_err(|e| e.into_error())
         };
+        Ok(Output::file(path, make().map_err(|e| WriteError::new(path, e))?))
+    }
+
+    /// A file that is written.
+    pub fn file(path: &Path, file: AtomicFile) -> Output {
         let place = path.to_path_buf();
-        let file = make().map_err(|e| WriteError::new(path, e))?;
-        Ok(Output::later(move || file.commit().map_err(|e| WriteError::new(&place, e))))
+        Output::later(move || file.commit().map_err(|e| WriteError::new(&place, e)))
     }
 
     /// A file that `finish` puts in its place.

@@ -4,6 +4,14 @@
 //! |---|---|---|
 //! | `align` | [`align::AlignRequest`] | `trueness/align/1` |
 //! | `check` | [`check::CheckRequest`] | `trueness/check/1` |
+//! | `curvature` | [`curvature::CurvatureRequest`] | `trueness/curvature/1` |
+//! | `fit` | [`fit::FitRequest`] | `trueness/fit/1` |
+//! | `segment` | [`segment::SegmentRequest`] | `trueness/segment/1` |
+//! | `surface` | [`surface::SurfaceRequest`] | `trueness/surface/1` |
 
 pub mod align;
 pub mod check;
+pub mod curvature;
+pub mod fit;
+pub mod segment;
+pub mod surface;
