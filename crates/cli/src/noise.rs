@@ -1,10 +1,10 @@
 //! How far neighbors share errors: the option of the commands that state uncertainties, and the line of their tables.
 
-use crate::exit::Usage;
 use crate::number::{fixed, scientific};
 use crate::options::ProgressStyle;
 use crate::progress::Stage;
 use clap::Args;
+use trueness::task::Independence;
 use trueness_document::{NoiseOrReason, SharedNoise};
 use trueness_geom::noise::PATCHES;
 use trueness_geom::progress::Cancelled;
@@ -19,14 +19,9 @@ pub struct NoiseArgs {
 }
 
 impl NoiseArgs {
-    /// Refused for what counts as independent without being asked.
-    pub fn only_for_meshes(&self, shown: &str) -> Result<(), Usage> {
-        match self.independent {
-            true => Err(Usage(format!(
-                "--independent is for meshes: the points of {shown} count as independent without it"
-            ))),
-            false => Ok(()),
-        }
+    /// The same for a request.
+    pub fn request(&self) -> Independence {
+        Independence { independent: self.independent }
     }
 
     /// What is found, in a stage of its own, unless errors are independent.
