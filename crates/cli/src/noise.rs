@@ -1,6 +1,5 @@
 //! How far neighbors share errors: the option of the commands that state uncertainties, and the line of their tables.
 
-use crate::exit::Usage;
 use crate::number::{fixed, scientific};
 use crate::options::ProgressStyle;
 use crate::progress::Stage;
@@ -23,16 +22,6 @@ impl NoiseArgs {
     /// The same for a request.
     pub fn request(&self) -> Independence {
         Independence { independent: self.independent }
-    }
-
-    /// Refused for what counts as independent without being asked.
-    pub fn only_for_meshes(&self, shown: &str) -> Result<(), Usage> {
-        match self.independent {
-            true => Err(Usage(format!(
-                "--independent is for meshes: the points of {shown} count as independent without it"
-            ))),
-            false => Ok(()),
-        }
     }
 
     /// What is found, in a stage of its own, unless errors are independent.

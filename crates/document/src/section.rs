@@ -113,6 +113,9 @@ pub struct PlaneRecord {
     /// What may help where contours of a cloud are suspiciously many.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub hint: Option<String>,
+    /// Whether the points of a cloud in its slab fill an area, so that there are no contours; `hint` says so.
+    #[serde(skip)]
+    pub fills_area: bool,
 }
 
 /// A contour.
@@ -320,6 +323,7 @@ fn plane(section: &Section) -> Option<PlaneRecord> {
         loose: section.loose as u64,
         gap: section.gap.map(|(gap, _)| gap),
         hint: hint(section),
+        fills_area: section.fills_area,
     })
 }
 

@@ -61,4 +61,24 @@ pub struct Section {
 impl Section {
     /// What is said of a plane near which points fill an area.
     pub const FILLS_AREA: &str = "the slab holds an area of points, not contours: it lies in a face of the part; move the plane, or give a smaller --thickness";
+
+    /// What was found in a plane, or in the plane of a row of points, but for what only a cloud has.
+    pub fn new(
+        frame: FrameRecord,
+        plane: Option<([f64; 3], f64)>,
+        area: Result<f64, &'static str>,
+        contours: Vec<Contour>,
+    ) -> Section {
+        Section {
+            frame,
+            plane,
+            area,
+            loose: 0,
+            gap: None,
+            thickness: None,
+            fills_area: false,
+            contours,
+            bent: vec![],
+        }
+    }
 }

@@ -70,17 +70,8 @@ fn against() -> Vec<u8> {
         vec![AgainstPlane { plane: Some(0), outlines, contours }],
     );
     let frame = FrameRecord { origin: [0.0; 3], x: [1.0, 0.0, 0.0], y: [0.0, 0.0, -1.0], flatness: 0.0 };
-    let section = Section {
-        frame,
-        plane: Some(([0.0, 1.0, 0.0], 0.0)),
-        area: Err("points have no facets"),
-        loose: 0,
-        gap: None,
-        thickness: None,
-        fills_area: false,
-        bent: vec![],
-        contours: vec![own.clone()],
-    };
+    let section =
+        Section::new(frame, Some(([0.0, 1.0, 0.0], 0.0)), Err("points have no facets"), vec![own.clone()]);
     let files = [(Role::Measured, "profile.txt"), (Role::Reference, "nominal.dxf")];
     let files = files.map(|(role, name)| super::record(role, name, points.len(), None)).to_vec();
     let document =
@@ -97,21 +88,11 @@ fn page(planes: &[Vec<Vec<[f64; 2]>>]) -> Vec<u8> {
     let sections: Vec<Section> = planes
         .iter()
         .enumerate()
-        .map(|(n, rows)| Section {
-            frame: FrameRecord {
-                origin: [0.0, 0.0, n as f64],
-                x: [1.0, 0.0, 0.0],
-                y: [0.0, 1.0, 0.0],
-                flatness: 0.0,
-            },
-            plane: (!one).then_some(([0.0, 0.0, 1.0], n as f64)),
-            area: Err("points have no facets"),
-            loose: 0,
-            gap: None,
-            thickness: None,
-            fills_area: false,
-            bent: vec![],
-            contours: rows.iter().map(|r| contour(r, &wish, &Silent).unwrap()).collect(),
+        .map(|(n, rows)| {
+            let frame = FrameRecord { origin: [0.0, 0.0, n as f64], ..FrameRecord::FLAT };
+            let plane = (!one).then_some(([0.0, 0.0, 1.0], n as f64));
+            let contours = rows.iter().map(|r| contour(r, &wish, &Silent).unwrap()).collect();
+            Section::new(frame, plane, Err("points have no facets"), contours)
         })
         .collect();
     let places: Vec<Vec<Point>> = planes.iter().flatten().map(|r| flat(r)).collect();

@@ -6,6 +6,7 @@
 //! | `check` | [`check::CheckRequest`] | `trueness/check/1` |
 //! | `curvature` | [`curvature::CurvatureRequest`] | `trueness/curvature/1` |
 //! | `fit` | [`fit::FitRequest`] | `trueness/fit/1` |
+//! | `section` | [`section::SectionRequest`] | `trueness/section/1` |
 //! | `segment` | [`segment::SegmentRequest`] | `trueness/segment/1` |
 //! | `surface` | [`surface::SurfaceRequest`] | `trueness/surface/1` |
 
@@ -13,5 +14,6 @@ pub mod align;
 pub mod check;
 pub mod curvature;
 pub mod fit;
+pub mod section;
 pub mod segment;
 pub mod surface;

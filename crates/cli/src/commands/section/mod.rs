@@ -1,8 +1,5 @@
 //! `trueness section`: the lines, arcs and curves of sections, and where they join.
 
-mod faced;
-mod found;
-mod layers;
 mod method;
 mod nominal;
 mod planes;
@@ -10,24 +7,15 @@ mod table;
 mod write;
 
 use crate::command::Run;
-use crate::exit::{self, Outcome, Usage};
+use crate::exit::{self, Outcome};
 use crate::noise::NoiseArgs;
-use crate::options::{Common, DocumentArgs, PointInputArgs};
-use crate::progress::{STEPS, Stage};
+use crate::options::{Common, DocumentArgs, PointInputArgs, choice};
 use crate::report::ReportArgs;
-use clap::{Args, ValueEnum};
-use found::{Found, described};
+use crate::task;
+use clap::Args;
 use std::path::PathBuf;
-use trueness::read::{self, Body, Opened};
-use trueness::task::RunFiles;
-use trueness_document::section::{AirfoilRecord, Section, SectionDocument};
-use trueness_document::{InputRecord, NoiseOrReason, Role, Verdict, noise_or_reason};
-use trueness_files::FileSources;
-use trueness_geom::noise::{self, Noise};
-use trueness_geom::plane::PlaneFrame;
-use trueness_geom::space::{Point, minus, norm};
-use trueness_report::{ViewObject, flat};
-use trueness_section::{self as section, Continuity, Options, SectionError};
+use trueness::task::{Request, RunFiles};
+use trueness::tasks::section::{Continuity, SectionRequest, level};
 
 /// The lines, arcs and curves of a section, and the exact places where they join
 ///
@@ -55,8 +43,8 @@ pub struct SectionArgs {
     #[arg(long, value_name = "MM")]
     noise: Option<f64>,
     /// Continuity of all joins [default: told from the data]
-    #[arg(long, value_enum, value_name = "G")]
-    continuity: Option<ContinuityArg>,
+    #[arg(long, value_parser = choice::<Continuity>(), value_name = "G")]
+    continuity: Option<Continuity>,
     /// The contour is closed [default: told from the gap between its ends]
     #[arg(long, conflicts_with = "open")]
     closed: bool,
@@ -93,53 +81,31 @@ pub struct SectionArgs {
     report: ReportArgs,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum ContinuityArg {
-    /// Corners everywhere.
-    G0,
-    /// Common tangents everywhere.
-    G1,
-    /// Common tangents, and common curvatures at the ends of splines.
-    G2,
-}
-
 impl SectionArgs {
-    /// Refuses a noise that no points of this file can have.
-    fn check_noise(&self, record: &InputRecord) -> Result<(), Usage> {
-        let size = record.bounds.as_ref().map(|b| norm(minus(b.max, b.min)));
-        match self.noise.zip(size) {
-            Some((noise, size)) if noise > size => Err(Usage(format!(
-                "--noise {noise:?}: all of {} lies within {size:.4} mm; give the standard deviation of its points, mm",
-                record.path
-            ))),
-            _ => Ok(()),
-        }
-    }
-
-    fn options(&self) -> Options {
-        Options {
+    fn request(&self, common: &Common) -> SectionRequest {
+        let request = SectionRequest {
+            input: self.input.clone(),
+            reading: self.file.reading(),
             noise: self.noise,
-            continuity: self.continuity.map(|c| match c {
-                ContinuityArg::G0 => Continuity::G0,
-                ContinuityArg::G1 => Continuity::G1,
-                ContinuityArg::G2 => Continuity::G2,
-            }),
-            closed: (self.closed || self.open).then_some(self.closed),
-            level: self.level / 100.0,
-            ..Options::default()
-        }
+            continuity: self.continuity,
+            closed: self.closed,
+            open: self.open,
+            level: self.level,
+            airfoil: self.airfoil,
+            stacking: self.stacking,
+            tidy: self.tidy,
+            independence: self.shared.request(),
+            seed: common.seed,
+            view: self.report.html.is_some(),
+            ..SectionRequest::default()
+        };
+        self.drawings.ask(self.nominal.ask(self.method.ask(self.planes.ask(request))))
     }
 }
 
-/// A level of confidence: a share of 1 written by mistake is refused, since it would make all intervals tiny.
+/// A level of confidence.
 fn percent(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(level) if level > 1.0 && level < 100.0 => Ok(level),
-        Ok(level) if level > 0.0 && level <= 1.0 => {
-            Err(format!("it is in percent: write {} for a share of {level}", 100.0 * level))
-        }
-        _ => Err("a number of percent between 1 and 100, such as 95".into()),
-    }
+    level(text.parse().unwrap_or(f64::NAN))
 }
 
 /// A place in the plane.
@@ -151,165 +117,13 @@ fn place(text: &str) -> Result<[f64; 2], String> {
 }
 
 impl Run for SectionArgs {
-    fn files(&self, _: &Common) -> anyhow::Result<RunFiles> {
-        let inputs = std::iter::once(&self.input).chain(&self.nominal.nominal);
-        let files = RunFiles::of(inputs).document(self.document.json.as_ref());
-        Ok(self.drawings.files(files.report(self.report.html.as_ref())))
+    fn files(&self, common: &Common) -> anyhow::Result<RunFiles> {
+        let first = RunFiles::default().document(self.document.json.as_ref());
+        Ok(first.report(self.report.html.as_ref()).and(self.request(common).files()?))
     }
     fn run(&self, common: &Common) -> anyhow::Result<Outcome> {
-        run(self, common)
+        task::run_reported(&self.request(common), (&self.document, &self.report), common, |done| {
+            table::table(&done.document)
+        })
     }
-}
-
-/// Lets the facets of a mesh look outwards; the noise of its vertices, as it is and as it is told, or why it is not. Of points nothing.
-fn as_it_is(
-    args: &SectionArgs,
-    common: &Common,
-    body: &mut Body,
-    record: &mut InputRecord,
-) -> anyhow::Result<(Option<Noise>, Option<NoiseOrReason>)> {
-    let shown = args.input.display().to_string();
-    let Body::Mesh(source) = body else {
-        args.shared.only_for_meshes(&shown)?;
-        return Ok((None, None));
-    };
-    args.planes.fit_a_mesh(&shown)?;
-    args.method.only_for_rows()?;
-    let stage = Stage::new(common.progress, "which way facets look", STEPS, None);
-    source.mesh = faced::faced(&source.mesh, record, &stage)?;
-    drop(stage);
-    let mut own = None;
-    let find = |stage: &Stage| {
-        let found = noise::mesh(&source.mesh, common.seed, stage);
-        own = found.as_ref().ok().copied();
-        noise_or_reason(found.and_then(Noise::even))
-    };
-    let told = args.shared.found(common.progress, find)?;
-    Ok((own.or(told.as_ref().ok().copied()), Some(told)))
-}
-
-fn run(args: &SectionArgs, common: &Common) -> anyhow::Result<Outcome> {
-    let options = args.options();
-    args.nominal.rule()?;
-    let Opened { mut record, mut body, planar, .. } =
-        read::open(&FileSources, &args.input, Role::Measured, &args.file.reading().options())?;
-    let shown = args.input.display();
-    let planes = args.planes.planes()?;
-    let (known, noise) = as_it_is(args, common, &mut body, &mut record)?;
-    let stage = Stage::new(common.progress, "finding segments", STEPS, None);
-    let mut methods = None;
-    let found = match body {
-        Body::Mesh(source) => {
-            args.check_noise(&record)?;
-            planes::mesh(&source.mesh, known, &planes, &options, &stage)
-        }
-        Body::Points(source) => {
-            let points = read::all_points(&args.input, source)?;
-            read::describe(&mut record, &points);
-            args.check_noise(&record)?;
-            match planes.is_empty() {
-                true => {
-                    args.planes.fit_a_row()?;
-                    row(&points, planar, &options, &stage).and_then(|found| {
-                        let (found, table) = args.method.apply(found, &options, &stage)?;
-                        methods = table;
-                        Ok(found)
-                    })
-                }
-                false => {
-                    args.method.only_for_rows()?;
-                    let slab = args.planes.slab(&shown.to_string(), planar)?;
-                    planes::cloud(&points, &planes, &slab, &options, &stage)
-                }
-            }
-        }
-    };
-    read::hash(&FileSources, &mut record, &args.input)?;
-    let (sections, rows) = found.map_err(|e| match e {
-        SectionError::Cancelled(e) => e.into(),
-        e @ SectionError::WrongOption { .. } => Usage(e.to_string()).into(),
-        e => anyhow::anyhow!("{shown}: {e}"),
-    })?;
-    if !planes.is_empty() && rows.is_empty() {
-        anyhow::bail!("{shown}: {}", planes::nothing_met(&planes, &sections, &record));
-    }
-    let mut inputs = vec![record];
-    let found = (sections, rows);
-    let nominal = args.nominal.compare(&args.file, &found, &planes, &options, &stage)?;
-    let (sections, rows) = found;
-    let airfoils = args.airfoil.then(|| AirfoilRecord::all(&sections, &rows, &stage)).transpose()?;
-    let nominal = nominal.map(|(nominal, file)| {
-        inputs.push(file);
-        nominal
-    });
-    let mut document = SectionDocument::new(&sections, inputs, &options);
-    document.tell_noise(noise.as_ref());
-    (document.nominal, document.airfoils) = (nominal, airfoils);
-    for found in document.airfoils.iter().flatten() {
-        if let Some(contour) = document.contours.get_mut(found.contour as usize) {
-            contour.doubts.extend(found.doubt());
-        }
-    }
-    document = document.with_blades(args.stacking, &stage)?;
-    if args.tidy {
-        document = document.with_offers(&sections, &rows);
-    }
-    args.planes.tell_raised_gap(&mut document.planes);
-    if let Some((chosen, interval, table)) = methods {
-        document = document.with_methods(chosen, interval, &table);
-    }
-    drop(stage);
-    report(args, common, &document, &rows)?;
-    args.drawings.write(&sections, &rows, document.nominal.as_ref())?;
-    args.document.write(&document)?;
-    args.document.table(|| table::table(&document))?;
-    Ok(outcome(&document, &sections))
-}
-
-/// Whether all contours are beyond doubt, and the profile keeps its tolerance.
-fn outcome(document: &SectionDocument, sections: &[Section]) -> Outcome {
-    let doubtful = document.contours.iter().any(|c| !c.astray.is_empty() || !c.doubts.is_empty())
-        || sections.iter().any(|section| section.fills_area);
-    let judged = document.nominal.as_ref().and_then(|nominal| nominal.verdict);
-    let fails = judged.is_some_and(|verdict| verdict != Verdict::Pass);
-    if doubtful || fails { Outcome::NotConforming } else { Outcome::Conforming }
-}
-
-/// The report, with the points of each contour.
-fn report(
-    args: &SectionArgs,
-    common: &Common,
-    document: &SectionDocument,
-    rows: &[Vec<[f64; 2]>],
-) -> anyhow::Result<()> {
-    if args.report.html.is_none() {
-        return Ok(());
-    }
-    let places: Vec<Vec<Point>> = rows.iter().map(|row| flat(row)).collect();
-    let objects: Vec<ViewObject> = places.iter().map(|p| ViewObject::measured(p)).collect();
-    args.report.write(document, &objects, &[], common.progress)
-}
-
-/// A row in space in the plane nearest to it; a row of two columns as it is.
-fn row(points: &[Point], planar: bool, options: &Options, stage: &Stage) -> Found {
-    let through = if planar { None } else { PlaneFrame::through(points) };
-    let (frame, flatness) = through.unwrap_or_default();
-    let flat: Vec<[f64; 2]> = points.iter().map(|p| frame.flat(*p)).collect();
-    let contours = vec![section::contour(&flat, options, stage)?];
-    let area = Err("points in order have no facets");
-    let frame = described(&frame, flatness);
-    Ok((
-        vec![Section {
-            frame,
-            plane: None,
-            area,
-            loose: 0,
-            gap: None,
-            thickness: None,
-            bent: vec![],
-            fills_area: false,
-            contours,
-        }],
-        vec![flat],
-    ))
 }

@@ -1,15 +1,8 @@
 //! Drawings and tables of points of a section.
 
-use crate::output::whole_file;
 use clap::Args;
-use std::io::Write;
 use std::path::PathBuf;
-use trueness::task::RunFiles;
-use trueness_document::section::{FrameRecord, NominalRecord, Section};
-use trueness_files::drawing::{self, Clamped, Entity, Layer};
-use trueness_files::write::{Csv, LineEnd};
-use trueness_geom::plane::PlaneFrame;
-use trueness_section::{Geometry, Segment};
+use trueness::tasks::section::SectionRequest;
 
 /// Files that a section can write.
 #[derive(Args, Debug)]
@@ -33,84 +26,15 @@ pub struct Drawings {
 }
 
 impl Drawings {
-    /// With these files.
-    pub fn files(&self, files: RunFiles) -> RunFiles {
-        files
-            .ending("--dxf", self.dxf.as_ref(), &["dxf"])
-            .ending("--svg", self.svg.as_ref(), &["svg"])
-            .ending("--step", self.step.as_ref(), &["stp", "step"])
-            .ending("--iges", self.iges.as_ref(), &["igs", "iges"])
-            .ending("--out", self.out.as_ref(), &["csv"])
-    }
-
-    /// Writes what was asked for: of each section its contours, `rows`, the points of each contour, and their deviations from the
-    /// nominal, where there is one.
-    pub fn write(
-        &self,
-        sections: &[Section],
-        rows: &[Vec<[f64; 2]>],
-        nominal: Option<&NominalRecord>,
-    ) -> anyhow::Result<()> {
-        let layers: Vec<Layer> = sections.iter().enumerate().map(|(n, s)| layer(n, s)).collect();
-        if let Some(path) = &self.dxf {
-            whole_file(path, |file| drawing::dxf(file, &layers))?;
-        }
-        if let Some(path) = &self.svg {
-            whole_file(path, |file| drawing::svg(file, &layers))?;
-        }
-        if let Some(path) = &self.step {
-            whole_file(path, |file| drawing::step(file, &layers))?;
-        }
-        if let Some(path) = &self.iges {
-            whole_file(path, |file| drawing::iges(file, &layers))?;
-        }
-        if let Some(path) = &self.out {
-            whole_file(path, |file| points(file, sections, rows, nominal))?;
-        }
-        Ok(())
-    }
-}
-
-/// The points of all contours, a row each.
-fn points(
-    file: &mut dyn Write,
-    sections: &[Section],
-    rows: &[Vec<[f64; 2]>],
-    nominal: Option<&NominalRecord>,
-) -> std::io::Result<()> {
-    let mut text = vec![];
-    let head = ["x", "y", "contour", "segment", "length", "distance"];
-    Csv::at_end_of(&mut text, LineEnd::Lf).row(head.into_iter().chain(nominal.map(|_| "deviation")));
-    let contours = sections.iter().flat_map(|s| &s.contours);
-    for (n, (contour, row)) in contours.zip(rows).enumerate() {
-        for (i, [x, y]) in row.iter().enumerate() {
-            let mut csv = Csv::at_end_of(&mut text, LineEnd::Lf);
-            csv.number(x).number(y).number(n + 1).number(contour.labels[i] + 1);
-            csv.number(contour.stations[i]).number(contour.residuals[i]);
-            if let Some(nominal) = nominal {
-                csv.optional(nominal.deviations[n][i]);
-            }
-            csv.end_row();
-            file.write_all(&text)?;
-            text.clear();
+    /// The request with these.
+    pub fn ask(&self, request: SectionRequest) -> SectionRequest {
+        SectionRequest {
+            dxf: self.dxf.clone(),
+            svg: self.svg.clone(),
+            step: self.step.clone(),
+            iges: self.iges.clone(),
+            out: self.out.clone(),
+            ..request
         }
     }
-    file.write_all(&text)
-}
-
-fn layer(number: usize, section: &Section) -> Layer {
-    let entity = |segment: &Segment| match &segment.geometry {
-        Geometry::Line => Entity::Line { start: segment.start, end: segment.end },
-        Geometry::Arc { center, radius, start, sweep } => {
-            Entity::Arc { center: *center, radius: *radius, start: *start, sweep: *sweep }
-        }
-        Geometry::Spline { curve, .. } => Entity::Spline(Clamped {
-            degree: curve.knots().degree(),
-            knots: curve.knots().values().to_vec(),
-            points: curve.points().to_vec(),
-        }),
-    };
-    let entities = section.contours.iter().flat_map(|c| &c.segments).map(entity).collect();
-    let FrameRecord { origin, x, y, .. } = section.frame;
-    Layer { name: format!("section-{}", number + 1), frame: PlaneFrame { origin, x, y }, entities }
 }

@@ -372,6 +372,7 @@ fn planes_and_sizes_are_told() {
         loose: 0,
         gap: None,
         hint: None,
+        fills_area: false,
     };
     let farthest = |document: &SectionDocument| {
         let list = document.list(ENGLISH).into_string();

@@ -27,17 +27,7 @@ pub(super) fn document(points: &[[f64; 2]]) -> SectionDocument {
     let options = Options::default();
     let found = contour(points, &options, &Silent).unwrap();
     let frame = FrameRecord { origin: [0.0; 3], x: [1.0, 0.0, 0.0], y: [0.0, 1.0, 0.0], flatness: 0.0 };
-    let section = Section {
-        frame,
-        plane: None,
-        area: Err("none"),
-        loose: 0,
-        gap: None,
-        thickness: None,
-        fills_area: false,
-        bent: vec![],
-        contours: vec![found],
-    };
+    let section = Section::new(frame, None, Err("none"), vec![found]);
     SectionDocument::new(&[section], vec![], &options)
 }
 

@@ -1,16 +1,17 @@
 //! Meshes whose facets look out of the material, as a section needs them.
 
-use crate::progress::Stage;
+use crate::task::TaskError;
 use trueness_document::{InputRecord, Role};
 use trueness_geom::mesh::Mesh;
+use trueness_geom::progress::Progress;
 use trueness_solid::repair::{self, RepairError};
 
 /// The mesh with its facets turned outwards where they were not; what was changed is told with the file.
-pub fn faced(mesh: &Mesh, record: &mut InputRecord, stage: &Stage) -> anyhow::Result<Mesh> {
-    let found = repair::faced(mesh, record.role == Role::Reference, stage);
+pub fn faced(mesh: &Mesh, record: &mut InputRecord, progress: &dyn Progress) -> Result<Mesh, TaskError> {
+    let found = repair::faced(mesh, record.role == Role::Reference, progress);
     let found = found.map_err(|e| match e {
         RepairError::Cancelled(e) => e.into(),
-        e => anyhow::anyhow!("{}: {e}", record.path),
+        e => TaskError::unanswerable(format!("{}: {e}", record.path)),
     })?;
     let of = mesh.faces.len();
     for (facets, what) in [

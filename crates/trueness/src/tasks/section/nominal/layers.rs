@@ -1,6 +1,6 @@
 //! Which layers of a drawing are of which plane.
 
-use crate::exit::Usage;
+use crate::task::TaskError;
 use std::collections::BTreeMap;
 use trueness_document::section::{NominalWarning, NominalWarningKind};
 use trueness_files::drawing::Drawing;
@@ -20,12 +20,12 @@ const NAMED: usize = 8;
 impl Layers {
     /// Of a drawing that so many planes are compared with. Of several planes, and of a drawing with several sections as `--dxf` writes them,
     /// the layers `section-1`, `section-2`, … are those of the planes in their order.
-    pub fn of(drawing: &Drawing, planes: usize, shown: &str) -> Result<Layers, Usage> {
+    pub fn of(drawing: &Drawing, planes: usize, shown: &str) -> Result<Layers, TaskError> {
         let mut counts: BTreeMap<&str, u64> = BTreeMap::new();
         drawing.entities.iter().for_each(|e| *counts.entry(e.layer.as_str()).or_default() += 1);
         let sections = counts.keys().filter(|layer| is_of_a_section(layer)).count();
         if planes > 1 && sections == 0 {
-            return Err(Usage(format!(
+            return Err(TaskError::usage(format!(
                 "--nominal {shown}: a drawing is of one plane, unless its layers are named section-1, section-2, …; give one --plane"
             )));
         }
@@ -34,7 +34,7 @@ impl Layers {
             return Ok(Layers::default());
         }
         if planes == 1 && !counts.contains_key(&*name(0)) {
-            return Err(Usage(format!(
+            return Err(TaskError::usage(format!(
                 "--nominal {shown}: its layers are of several planes, and none is named {}, which is that of a single plane",
                 name(0)
             )));
