@@ -53,17 +53,6 @@ fn out_of_memory(size: usize) -> ! {
     std::process::exit(3)
 }
 
-/// `bytes` as people read them.
-pub fn shown(bytes: u128) -> String {
-    let units = ["kB", "MB", "GB", "TB", "PB"];
-    let mut size = bytes as f64 / 1e3;
-    let mut unit = 0;
-    while size >= 999.5 && unit + 1 < units.len() {
-        (size, unit) = (size / 1e3, unit + 1);
-    }
-    format!("{} {}", crate::number::fixed(size, 1), units[unit])
-}
-
 /// Bytes that can be had without driving other programs out, where the system tells.
 #[cfg(target_os = "linux")]
 pub fn available() -> Option<u64> {

@@ -2,7 +2,7 @@
 
 use crate::options::ProgressStyle;
 use crate::time_left::{TimeLeft, shown};
-use crate::{console, number, signals};
+use crate::{console, memory, number, signals};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle as BarStyle};
 use std::io::IsTerminal;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -25,6 +25,9 @@ impl Watch for Console {
     }
     fn note(&self, text: &str) {
         console::note(text);
+    }
+    fn memory(&self) -> Option<u64> {
+        memory::available()
     }
 }
 

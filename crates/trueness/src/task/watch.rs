@@ -13,6 +13,11 @@ pub trait Watch: Sync {
 
     /// Hears of something beside the result, such as a leftover file that was removed.
     fn note(&self, _text: &str) {}
+
+    /// Bytes of memory that there are for the task, where that is known. What needs more is refused before it begins.
+    fn memory(&self) -> Option<u64> {
+        None
+    }
 }
 
 /// A stage under way: hears of its items, and says whether to stop.

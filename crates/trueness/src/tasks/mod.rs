@@ -4,6 +4,7 @@
 //! |---|---|---|
 //! | `align` | [`align::AlignRequest`] | `trueness/align/1` |
 //! | `check` | [`check::CheckRequest`] | `trueness/check/1` |
+//! | `compare` | [`compare::CompareRequest`] | `trueness/compare/1` |
 //! | `curvature` | [`curvature::CurvatureRequest`] | `trueness/curvature/1` |
 //! | `fit` | [`fit::FitRequest`] | `trueness/fit/1` |
 //! | `section` | [`section::SectionRequest`] | `trueness/section/1` |
@@ -12,6 +13,7 @@
 
 pub mod align;
 pub mod check;
+pub mod compare;
 pub mod curvature;
 pub mod fit;
 pub mod section;

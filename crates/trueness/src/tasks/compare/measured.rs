@@ -1,16 +1,13 @@
 //! The measured side: a cloud as a stream, or the vertices or samples of a mesh.
 
-use crate::exit::Usage;
-use crate::memory;
-use anyhow::Context;
+use crate::read::{self, Body, Opened};
+use crate::task::{Meaning, TaskError, Watch};
 use std::path::Path;
-use trueness::read::{self, Body, Opened};
 use trueness_document::compare::MeasuredKind;
 use trueness_document::{InputRecord, Role};
-use trueness_files::FileSources;
-use trueness_files::{Columns, PointSource, ReadOptions, Weld};
+use trueness_files::{Columns, PointSource, ReadOptions, Sources, Weld};
 use trueness_geom::align::{self, AlignError, Alignment, BestFit, Target};
-use trueness_geom::closest::Tree;
+use trueness_geom::closest::{MeshError, Tree};
 use trueness_geom::cloud::Whole;
 use trueness_geom::deviation::sample::sample as sample_mesh;
 use trueness_geom::mesh::Mesh;
@@ -46,13 +43,14 @@ impl Measured {
         reading: &ReadOptions,
         sample: Option<u64>,
         seed: u64,
-    ) -> anyhow::Result<Measured> {
+        (sources, watch): (&dyn Sources, &dyn Watch),
+    ) -> Result<Measured, TaskError> {
         let reading = ReadOptions { weld: Weld::None, ..reading.clone() };
-        let Opened { record, body, format, .. } = read::open(&FileSources, path, Role::Measured, &reading)?;
+        let Opened { record, body, format, .. } = read::open(sources, path, Role::Measured, &reading)?;
         let mesh = match body {
             Body::Points(_) if sample.is_some() => {
-                let shown = path.display();
-                return Err(Usage(format!("--sample needs a measured mesh, but {shown} holds points")).into());
+                let text = format!("--sample needs a measured mesh, but {} holds points", path.display());
+                return Err(TaskError::usage(text));
             }
             Body::Points(points) => {
                 let (faces, motion) = (vec![], None);
@@ -66,16 +64,15 @@ impl Measured {
                 });
             }
             Body::Mesh(mesh) if format.starts_with("stl") => {
-                weld::mesh(&mesh.mesh).with_context(|| path.display().to_string())?.mesh
+                weld::mesh(&mesh.mesh).meaning(|| path.display().to_string())?.mesh
             }
             Body::Mesh(mesh) => mesh.mesh,
         };
         let mut faces = vec![];
         let (points, kind) = match sample {
             Some(n) => {
-                check_memory(n)?;
-                let samples =
-                    sample_mesh(&mesh, n as usize, seed).with_context(|| path.display().to_string())?;
+                check_memory(n, watch)?;
+                let samples = sample_mesh(&mesh, n as usize, seed).meaning(|| path.display().to_string())?;
                 faces.extend(samples.iter().map(|s| s.face));
                 (samples.into_iter().map(|s| s.point).collect(), MeasuredKind::Samples)
             }
@@ -94,10 +91,13 @@ impl Measured {
         reference: &Mesh,
         seed: u64,
         progress: &dyn Progress,
-    ) -> anyhow::Result<Alignment> {
+    ) -> Result<Alignment, TaskError> {
         let stream = std::mem::replace(&mut self.points, Box::new(Whole::new(vec![])));
         let mut points = read::all_points(path, stream)?;
-        let tree = Tree::build_watched(reference, progress)?;
+        let tree = Tree::build_watched(reference, progress).map_err(|e| match e {
+            MeshError::Cancelled(e) => e.into(),
+            e => TaskError::because(e),
+        })?;
         let scan = match &self.mesh {
             Some(mesh) => align::Measured::Mesh(mesh),
             None => align::Measured::Points { points: &points, normals: None },
@@ -106,7 +106,7 @@ impl Measured {
         let found = align::best_fit(&scan, &Target::new(reference, &tree), &options, progress);
         let found = found.map_err(|e| match e {
             AlignError::Cancelled(e) => e.into(),
-            e => anyhow::anyhow!("{}: {e}", path.display()),
+            e => TaskError::unanswerable(format!("{}: {e}", path.display())),
         })?;
         let motion = &found.reference_from_measured;
         let own = self.mesh.iter_mut().flat_map(|m| &mut m.positions);
@@ -120,25 +120,19 @@ impl Measured {
     /// `path`. All are held in memory.
     pub fn normals(
         &self,
-        path: &Path,
+        (sources, path): (&dyn Sources, &Path),
         columns: Option<&Columns>,
         reading: &ReadOptions,
         what: &str,
-    ) -> anyhow::Result<Vec<Vector>> {
+    ) -> Result<Vec<Vector>, TaskError> {
         if let Some(mesh) = &self.mesh {
             return Ok(match self.kind {
                 MeasuredKind::Samples => facet_normals(mesh, self.faces.iter().copied()),
                 MeasuredKind::Vertices | MeasuredKind::Points => vertex_normals(mesh),
             });
         }
-        let mut normals = read::all_normals(
-            &FileSources,
-            path,
-            columns,
-            reading,
-            what,
-            " (or those that --normals names)",
-        )?;
+        let mut normals =
+            read::all_normals(sources, path, columns, reading, what, " (or those that --normals names)")?;
         if let Some(motion) = &self.motion {
             normals.iter_mut().for_each(|n| *n = motion.vector(*n));
         }
@@ -150,14 +144,25 @@ impl Measured {
 const SAMPLE: u128 = 32 + 24 + 8 + 8;
 
 /// Refuses so many samples as there is no memory for.
-fn check_memory(samples: u64) -> Result<(), Usage> {
+fn check_memory(samples: u64, watch: &dyn Watch) -> Result<(), TaskError> {
     let needed = SAMPLE * u128::from(samples);
-    match memory::available() {
-        Some(there) if needed > u128::from(there) => Err(Usage(format!(
+    match watch.memory() {
+        Some(there) if needed > u128::from(there) => Err(TaskError::usage(format!(
             "--sample {samples} needs {} of memory, and {} are free; give a smaller number",
-            memory::shown(needed),
-            memory::shown(there.into())
+            shown(needed),
+            shown(there.into())
         ))),
         _ => Ok(()),
     }
+}
+
+/// `bytes` as people read them.
+fn shown(bytes: u128) -> String {
+    let units = ["kB", "MB", "GB", "TB", "PB"];
+    let mut size = bytes as f64 / 1e3;
+    let mut unit = 0;
+    while size >= 999.5 && unit + 1 < units.len() {
+        (size, unit) = (size / 1e3, unit + 1);
+    }
+    format!("{size:.1} {}", units[unit])
 }

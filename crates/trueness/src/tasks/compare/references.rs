@@ -1,15 +1,11 @@
 //! The references: meshes, and B-spline surfaces made ready to be searched.
 
-use crate::exit::Usage;
-use crate::options::Common;
-use crate::progress::{STEPS, Stage};
-use anyhow::Context;
+use crate::read::{self, ReferenceBody};
+use crate::task::{Meaning, STEPS, TaskError, Watch};
 use std::path::{Path, PathBuf};
-use trueness::read::{self, ReferenceBody};
 use trueness_document::compare::Method;
 use trueness_document::{Bounds, InputRecord};
-use trueness_files::FileSources;
-use trueness_files::ReadOptions;
+use trueness_files::{ReadOptions, Sources};
 use trueness_geom::deviation::sign_choice::SignRequest;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::space::Aabb;
@@ -33,7 +29,7 @@ impl Opened {
         }
     }
     /// The same for the comparison.
-    pub fn reference(&self, name: String) -> Reference<'_> {
+    fn reference(&self, name: String) -> Reference<'_> {
         let (splines, left_out) = match self {
             Opened::Mesh(_, left_out) => (None, LeftOut(left_out)),
             Opened::Surfaces(search, _) => (Some(&**search), LeftOut::default()),
@@ -42,16 +38,21 @@ impl Opened {
     }
 }
 
+/// All of them for the comparison, by the names of their files.
+pub fn named<'a>(all: &'a [Opened], files: &[InputRecord]) -> Vec<Reference<'a>> {
+    all.iter().zip(files).map(|(opened, file)| opened.reference(file.path.clone())).collect()
+}
+
 /// Reads all references.
 pub fn open(
     paths: &[PathBuf],
     reading: &ReadOptions,
     options: &Options,
-    common: &Common,
-) -> anyhow::Result<(Vec<Opened>, Vec<InputRecord>)> {
+    (sources, watch): (&dyn Sources, &dyn Watch),
+) -> Result<(Vec<Opened>, Vec<InputRecord>), TaskError> {
     let (mut all, mut records) = (vec![], vec![]);
     for path in paths {
-        let (body, mut record) = read::reference(&FileSources, path, reading)?;
+        let (body, mut record) = read::reference(sources, path, reading)?;
         let lacking = match &body {
             ReferenceBody::Surfaces(surfaces) => degenerate(surfaces),
             ReferenceBody::Mesh(_) => vec![],
@@ -60,7 +61,7 @@ pub fn open(
             ReferenceBody::Mesh(mesh) => Opened::Mesh(mesh.mesh, mesh.nonfinite_facets),
             ReferenceBody::Surfaces(surfaces) => {
                 allowed(path, options)?;
-                prepared(path, &surfaces, common)?
+                prepared(path, &surfaces, watch)?
             }
         };
         if matches!(opened, Opened::Surfaces(..)) {
@@ -91,39 +92,40 @@ fn degenerate(surfaces: &[Nurbs]) -> Vec<String> {
 }
 
 /// Refuses what is asked of facets only.
-fn allowed(path: &Path, options: &Options) -> Result<(), Usage> {
+fn allowed(path: &Path, options: &Options) -> Result<(), TaskError> {
     let shown = path.display();
     if options.method == Method::Paper {
-        return Err(Usage(format!(
+        return Err(TaskError::usage(format!(
             "--method paper: it measures to the facets of a mesh, and {shown} holds B-spline surfaces; leave it out"
         )));
     }
     if options.along.is_some() {
-        return Err(Usage(format!(
+        return Err(TaskError::usage(format!(
             "--along: its lines meet the facets of a mesh, and {shown} holds B-spline surfaces; leave it out"
         )));
     }
     if !options.regions.is_empty() {
-        return Err(Usage(format!(
+        return Err(TaskError::usage(format!(
             "--regions: they are made of the facets of a mesh, and {shown} holds B-spline surfaces; leave it out"
         )));
     }
     match options.surface.sign {
         SignRequest::Auto | SignRequest::None => Ok(()),
-        SignRequest::Pseudonormal | SignRequest::Winding => Err(Usage(format!(
+        SignRequest::Pseudonormal | SignRequest::Winding => Err(TaskError::usage(format!(
             "--sign {}: it is for meshes, and {shown} holds B-spline surfaces; take auto, for the side of their normal, or none",
             options.surface.sign.name()
         ))),
     }
 }
 
-fn prepared(path: &Path, surfaces: &[Nurbs], common: &Common) -> anyhow::Result<Opened> {
-    let stage = Stage::new(common.progress, "preparing the surfaces", STEPS, None);
-    let search = FootSearch::new(surfaces, &stage).map_err(|e| match e {
-        FootError::Cancelled(e) => anyhow::Error::from(e),
-        e => anyhow::Error::from(e),
+/// Surfaces ready to be searched, with the mesh that draws them.
+fn prepared(path: &Path, surfaces: &[Nurbs], watch: &dyn Watch) -> Result<Opened, TaskError> {
+    let stage = watch.stage("preparing the surfaces", STEPS, None);
+    let search = FootSearch::new(surfaces, &*stage).map_err(|e| match e {
+        FootError::Cancelled(e) => e.into(),
+        e => TaskError::because(e),
     });
-    let search = search.with_context(|| path.display().to_string())?;
+    let search = search.meaning(|| path.display().to_string())?;
     let mesh = search.mesh();
     Ok(Opened::Surfaces(Box::new(search), mesh))
 }

@@ -1,0 +1,62 @@
+//! How far normals may turn away.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::fmt::Display;
+use std::str::FromStr;
+
+/// An angle between normals in degrees, above 0 and at most 180.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(try_from = "f64", into = "f64")]
+pub struct FacingAngle(f64);
+
+impl FacingAngle {
+    /// The same in radians.
+    pub fn radians(self) -> f64 {
+        self.0.to_radians()
+    }
+}
+
+impl TryFrom<f64> for FacingAngle {
+    type Error = String;
+    fn try_from(degrees: f64) -> Result<FacingAngle, String> {
+        match degrees > 0.0 && degrees <= 180.0 {
+            true => Ok(FacingAngle(degrees)),
+            false => Err(refusal(degrees)),
+        }
+    }
+}
+
+impl From<FacingAngle> for f64 {
+    fn from(angle: FacingAngle) -> f64 {
+        angle.0
+    }
+}
+
+impl FromStr for FacingAngle {
+    type Err = String;
+    fn from_str(text: &str) -> Result<FacingAngle, String> {
+        let degrees = text.trim().parse::<f64>().map_err(|_| refusal(text))?;
+        FacingAngle::try_from(degrees).map_err(|_| refusal(text))
+    }
+}
+
+fn refusal(written: impl Display) -> String {
+    format!("‘{written}’ is no angle between normals; write degrees above 0 and up to 180")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn angles() {
+        assert_eq!("180".parse(), Ok(FacingAngle(180.0)));
+        assert_eq!(serde_json::from_str::<FacingAngle>("60").unwrap(), FacingAngle(60.0));
+        assert_eq!(serde_json::to_string(&FacingAngle(60.0)).unwrap(), "60.0");
+        for bad in ["0", "-5", "181", "nan", "wide"] {
+            assert!(bad.parse::<FacingAngle>().is_err(), "{bad}");
+            assert!(serde_json::from_str::<FacingAngle>(bad).is_err(), "{bad}");
+        }
+    }
+}
