@@ -20,6 +20,7 @@ pub trait Choice: Copy + PartialEq + Send + Sync + 'static {
 macro_rules! choices {
     ($(#[$about:meta])* pub enum $name:ident { $first:ident = $first_word:literal: $first_help:literal, $($variant:ident = $word:literal: $help:literal),* $(,)? }) => {
         $(#[$about])*
+        #[allow(clippy::empty_docs, reason = "a word may say it all")]
         #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
         pub enum $name {
             #[doc = $first_help]

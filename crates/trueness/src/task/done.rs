@@ -29,17 +29,16 @@ pub struct Rounding {
     pub farthest: f64,
 }
 
+/// Takes what a report draws.
+pub type Page<'a> = dyn FnMut(&[ViewObject], &[Marks]) -> Result<(), TaskError> + 'a;
+
 /// What the report of a document draws, where the request asked for it.
 pub trait Scene<D>: Send {
     /// Hands over meshes, clouds and marks.
     ///
     /// # Errors
     /// Those of `page`.
-    fn draw(
-        &self,
-        document: &D,
-        page: &mut dyn FnMut(&[ViewObject], &[Marks]) -> Result<(), TaskError>,
-    ) -> Result<(), TaskError>;
+    fn draw<'a>(&self, document: &D, page: &'a mut Page<'a>) -> Result<(), TaskError>;
 }
 
 /// What a task answers. Files that were asked for are in their places after [`Done::commit`]; without it there are none.

@@ -16,7 +16,7 @@ mod watch;
 
 pub use choice::Choice;
 pub(crate) use choice::choices;
-pub use done::{Done, Outcome, Rounding, Scene};
+pub use done::{Done, Outcome, Page, Rounding, Scene};
 pub use error::{ErrorKind, Meaning, TaskError};
 pub use files::RunFiles;
 pub use output::{Output, json, whole_file};

@@ -4,6 +4,8 @@
 //! |---|---|---|
 //! | `align` | [`align::AlignRequest`] | `trueness/align/1` |
 //! | `check` | [`check::CheckRequest`] | `trueness/check/1` |
+//! | `repair` | [`repair::RepairRequest`] | `trueness/repair/1` |
 
 pub mod align;
 pub mod check;
+pub mod repair;
