@@ -4,8 +4,10 @@
 //! |---|---|---|
 //! | `align` | [`align::AlignRequest`] | `trueness/align/1` |
 //! | `check` | [`check::CheckRequest`] | `trueness/check/1` |
+//! | `plan init` | [`plan_init::PlanInitRequest`] | a text in TOML: [`plan_init::ProposedPlan`] |
 //! | `repair` | [`repair::RepairRequest`] | `trueness/repair/1` |
 
 pub mod align;
 pub mod check;
+pub mod plan_init;
 pub mod repair;
