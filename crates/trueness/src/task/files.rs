@@ -70,6 +70,14 @@ impl RunFiles {
         self
     }
 
+    /// These, then those of `other`.
+    pub fn and(mut self, other: RunFiles) -> RunFiles {
+        self.inputs.extend(other.inputs);
+        self.outputs.extend(other.outputs);
+        self.in_place |= other.in_place;
+        self
+    }
+
     /// Allows `--out` to replace the input.
     pub fn in_place(self, in_place: bool) -> RunFiles {
         RunFiles { in_place, ..self }

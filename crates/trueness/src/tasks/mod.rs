@@ -4,10 +4,12 @@
 //! |---|---|---|
 //! | `align` | [`align::AlignRequest`] | `trueness/align/1` |
 //! | `check` | [`check::CheckRequest`] | `trueness/check/1` |
+//! | `inspect` | [`inspect::InspectRequest`] | `trueness/inspect/1` |
 //! | `plan init` | [`plan_init::PlanInitRequest`] | a text in TOML: [`plan_init::ProposedPlan`] |
 //! | `repair` | [`repair::RepairRequest`] | `trueness/repair/1` |
 
 pub mod align;
 pub mod check;
+pub mod inspect;
 pub mod plan_init;
 pub mod repair;
