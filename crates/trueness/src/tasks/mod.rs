@@ -7,9 +7,11 @@
 //! | `inspect` | [`inspect::InspectRequest`] | `trueness/inspect/1` |
 //! | `plan init` | [`plan_init::PlanInitRequest`] | a text in TOML: [`plan_init::ProposedPlan`] |
 //! | `repair` | [`repair::RepairRequest`] | `trueness/repair/1` |
+//! | `trend` | [`trend::TrendRequest`] | `trueness/trend/1` |
 
 pub mod align;
 pub mod check;
 pub mod inspect;
 pub mod plan_init;
 pub mod repair;
+pub mod trend;
