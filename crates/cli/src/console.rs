@@ -2,6 +2,7 @@
 
 use std::io::{ErrorKind, Write};
 use std::sync::atomic::{AtomicBool, Ordering};
+use trueness::task::causes;
 
 static QUIET: AtomicBool = AtomicBool::new(false);
 
@@ -42,24 +43,10 @@ pub fn note(text: &str) {
 }
 
 /// Prints an error and what led to it on stderr, as one line for each cause.
-pub fn error(error: &anyhow::Error) {
+pub fn error(error: &(dyn std::error::Error + 'static)) {
     for (n, text) in causes(error).iter().enumerate() {
         note(&format!("{}{text}", if n == 0 { "trueness: " } else { "  because: " }));
     }
-}
-
-/// An error and what led to it, a text each.
-pub fn causes(error: &anyhow::Error) -> Vec<String> {
-    let mut all: Vec<String> = vec![];
-    let mut last: Option<String> = None;
-    for text in error.chain().map(ToString::to_string) {
-        // Transparent wrappers repeat their cause.
-        if last.as_ref().is_none_or(|last| !last.contains(&text)) {
-            all.push(text.clone());
-        }
-        last = Some(text);
-    }
-    all
 }
 
 /// Lays rows out in columns: the first column flush left, the others flush right, two spaces between.

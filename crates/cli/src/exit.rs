@@ -23,6 +23,11 @@ impl From<task::Outcome> for Outcome {
         match outcome {
             task::Outcome::Conforming => Outcome::Conforming,
             task::Outcome::NotConforming => Outcome::NotConforming,
+            task::Outcome::Unanswered(kind) => Outcome::Unanswered(match kind {
+                ErrorKind::Usage => 2,
+                ErrorKind::Unanswerable => 3,
+                ErrorKind::Cancelled => signals::status(),
+            }),
         }
     }
 }
@@ -82,12 +87,12 @@ pub fn code(outcome: anyhow::Result<Outcome>) -> ExitCode {
         Ok(Outcome::Unanswered(status)) => return ExitCode::from(status),
         Err(error) => error,
     };
-    console::error(&error);
+    console::error(error.as_ref());
     ExitCode::from(status(&error))
 }
 
 /// The exit status of a run that ends with this error.
-pub fn status(error: &anyhow::Error) -> u8 {
+fn status(error: &anyhow::Error) -> u8 {
     let is = |test: fn(&(dyn std::error::Error + 'static)) -> bool| error.chain().any(test);
     if is(is_usage) {
         2

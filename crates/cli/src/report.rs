@@ -104,7 +104,19 @@ impl ReportArgs {
 
     /// Writes the report of what a task answered, if one was asked for.
     pub fn write_done<D: Subject>(&self, done: &Done<D>, watch: &dyn Watch) -> anyhow::Result<()> {
-        let Some(path) = &self.html else { return Ok(()) };
+        match &self.html {
+            Some(path) => self.write_done_to(path, done, watch),
+            None => Ok(()),
+        }
+    }
+
+    /// Writes a report of what a task answered with these options to `path`.
+    pub fn write_done_to<D: Subject>(
+        &self,
+        path: &Path,
+        done: &Done<D>,
+        watch: &dyn Watch,
+    ) -> anyhow::Result<()> {
         let page = done.report(&self.options(), watch).map_err(|e| match e.kind() {
             ErrorKind::Cancelled => e,
             _ => e.context(format!("{}: cannot be made", path.display())),

@@ -32,7 +32,8 @@ pub fn run_reported<R: Request<Document: Subject>>(
     finish(done, document, table)
 }
 
-fn finish<D: serde::Serialize>(
+/// Puts the files of a task in their places, writes its document and prints the table.
+pub fn finish<D: serde::Serialize>(
     mut done: Done<D>,
     document: &DocumentArgs,
     table: impl FnOnce(&Done<D>) -> String,

@@ -414,6 +414,11 @@ pub struct Counts {
 }
 
 impl InspectDocument {
+    /// Whether all of it passes.
+    pub fn conforms(&self) -> bool {
+        self.verdict == Verdict::Pass
+    }
+
     /// The characteristics in the order in which people look at them: by verdict, the worst first, then those that take up
     /// most of what is allowed.
     pub fn rows(&self) -> Vec<&CharacteristicRecord> {

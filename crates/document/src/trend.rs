@@ -140,6 +140,11 @@ impl TrendDocument {
         })
     }
 
+    /// Whether every part passes and no value is out of control.
+    pub fn conforms(&self) -> bool {
+        self.verdict == Verdict::Pass && self.in_control
+    }
+
     /// Numbers of the characteristics in the order in which people look at them: by their worst verdict, then by how many
     /// parts have it, then what is out of control, then the least of Ppk.
     pub fn rows(&self) -> Vec<usize> {

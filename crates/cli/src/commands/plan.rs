@@ -2,18 +2,14 @@
 
 use crate::command::Run;
 use crate::console;
-use crate::exit::{Outcome, Usage};
+use crate::exit::Outcome;
 use crate::options::{Common, InputArgs};
-use crate::output::whole_file;
-use crate::progress::Stage;
+use crate::progress::Console;
 use clap::{Args, Subcommand};
-use std::path::{Path, PathBuf};
-use trueness::read;
-use trueness::task::RunFiles;
-use trueness_document::Role;
+use std::path::PathBuf;
+use trueness::task::{Request, RunFiles};
+use trueness::tasks::plan_init::PlanInitRequest;
 use trueness_files::FileSources;
-use trueness_geom::segment::{self, Options, SegmentError};
-use trueness_measure::plan::proposal;
 
 /// Propose an inspection plan
 #[derive(Args, Debug)]
@@ -42,53 +38,29 @@ struct InitArgs {
     out: Option<PathBuf>,
 }
 
+impl InitArgs {
+    fn request(&self, common: &Common) -> PlanInitRequest {
+        PlanInitRequest {
+            nominal: self.nominal.clone(),
+            reading: self.reading.reading(),
+            out: self.out.clone(),
+            seed: common.seed,
+        }
+    }
+}
+
 impl Run for PlanArgs {
-    fn files(&self, _: &Common) -> anyhow::Result<RunFiles> {
+    fn files(&self, common: &Common) -> anyhow::Result<RunFiles> {
         let What::Init(args) = &self.what;
-        Ok(RunFiles::of([&args.nominal]).also("--out", args.out.as_ref()))
+        Ok(args.request(common).files()?)
     }
     fn run(&self, common: &Common) -> anyhow::Result<Outcome> {
         let What::Init(args) = &self.what;
-        init(args, common)
+        let mut done = args.request(common).run(&FileSources, &Console { style: common.progress })?;
+        done.commit()?;
+        if args.out.is_none() {
+            console::document(&done.document.text)?;
+        }
+        Ok(done.outcome.into())
     }
-}
-
-fn init(args: &InitArgs, common: &Common) -> anyhow::Result<Outcome> {
-    // A plan is written by hand in the end: it is never replaced.
-    if let Some(path) = args.out.as_ref().filter(|path| path.exists()) {
-        return Err(
-            Usage(format!("--out {}: the file exists; name another or remove it", path.display())).into()
-        );
-    }
-    let (source, _) =
-        read::mesh(&FileSources, &args.nominal, Role::Reference, &args.reading.reading().options())?;
-    let mesh = source.mesh;
-    let stage = Stage::new(common.progress, "segmenting", "facets", Some(mesh.faces.len() as u64));
-    let options = Options { seed: common.seed, ..Options::default() };
-    let found = segment::mesh(&mesh, &options, &stage);
-    stage.end(&found);
-    let found = found.map_err(|e| match e {
-        SegmentError::Cancelled(e) => anyhow::Error::from(e),
-        e => anyhow::anyhow!("{}: {e}", args.nominal.display()),
-    })?;
-    let text = proposal(&mesh, &found, &reference(args));
-    match &args.out {
-        Some(path) => whole_file(path, |file| file.write_all(text.as_bytes()))?,
-        None => console::document(&text)?,
-    }
-    Ok(Outcome::Conforming)
-}
-
-/// The nominal as the plan names it: relative to its folder where it lies beside it.
-fn reference(args: &InitArgs) -> String {
-    let folder = |path: &Path| match path.parent() {
-        Some(parent) if !parent.as_os_str().is_empty() => parent.canonicalize().ok(),
-        _ => Path::new(".").canonicalize().ok(),
-    };
-    let beside = args.out.as_ref().is_none_or(|out| folder(out) == folder(&args.nominal));
-    let name = match beside {
-        true => args.nominal.file_name().map(PathBuf::from),
-        false => args.nominal.canonicalize().ok(),
-    };
-    name.unwrap_or_else(|| args.nominal.clone()).to_string_lossy().into_owned()
 }

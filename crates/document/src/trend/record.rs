@@ -75,6 +75,15 @@ pub struct TrendRecord {
     pub capability_reason: Option<String>,
 }
 
+impl TrendRecord {
+    /// The parts that are out of control, from 0, each once.
+    pub fn signaled(&self) -> Vec<u64> {
+        let mut parts: Vec<u64> = self.out_of_control.iter().map(|o| o.part).collect();
+        parts.dedup();
+        parts
+    }
+}
+
 /// Limits of the control charts of individuals and moving ranges (ISO 7870-2).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Control {

@@ -128,7 +128,10 @@ impl Subject for InspectDocument {
     }
 
     fn json(&self) -> serde_json::Result<Value> {
-        serde_json::to_value(self)
+        let mut document = serde_json::to_value(self)?;
+        // The page has a map of its own.
+        document.as_object_mut().and_then(|members| members.shift_remove("deviation_map"));
+        Ok(document)
     }
 }
 

@@ -2,6 +2,9 @@
 
 mod surface_document;
 mod unread;
+mod whole;
+
+pub use whole::{bytes, digest};
 
 use crate::task::{Meaning, TaskError};
 use std::path::Path;
@@ -323,6 +326,6 @@ pub fn hash(sources: &dyn Sources, record: &mut InputRecord, path: &Path) -> Res
     let digest = sources
         .sha256(path)
         .meaning(|| format!("{}: it changed or vanished while it was read", path.display()))?;
-    record.sha256 = Some(digest.iter().map(|b| format!("{b:02x}")).collect());
+    record.sha256 = Some(whole::hexadecimal(digest));
     Ok(())
 }

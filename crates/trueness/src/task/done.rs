@@ -1,6 +1,6 @@
 //! What a task answers.
 
-use super::{Output, TaskError, Watch, ended};
+use super::{ErrorKind, Output, TaskError, Watch, ended};
 use serde::Serialize;
 use std::path::PathBuf;
 use trueness_report::{self as report, Marks, ReportError, ReportInput, ReportOptions, Subject, ViewObject};
@@ -12,6 +12,8 @@ pub enum Outcome {
     Conforming,
     /// Done, but out of tolerance, not sound or undecided.
     NotConforming,
+    /// Some of what was asked has no answer, for a reason of this kind.
+    Unanswered(ErrorKind),
 }
 
 impl From<bool> for Outcome {

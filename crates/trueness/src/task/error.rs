@@ -55,6 +55,22 @@ impl TaskError {
     }
 }
 
+/// An error and what led to it, a text each; what only repeats its cause is told once.
+pub fn causes(error: &(dyn Error + 'static)) -> Vec<String> {
+    let mut all: Vec<String> = vec![];
+    let mut last: Option<String> = None;
+    let mut next = Some(error);
+    while let Some(error) = next {
+        let text = error.to_string();
+        // Transparent wrappers repeat their cause.
+        if last.as_ref().is_none_or(|last| !last.contains(&text)) {
+            all.push(text.clone());
+        }
+        (last, next) = (Some(text), error.source());
+    }
+    all
+}
+
 /// What an error means.
 pub trait Meaning<T> {
     /// The same with a sentence for what the error means, of which it then is the cause.
@@ -110,6 +126,8 @@ mod tests {
             (ErrorKind::Cancelled, "part.stl: cannot be checked")
         );
         assert_eq!(error.source().unwrap().to_string(), Cancelled.to_string());
+        assert_eq!(causes(&error), ["part.stl: cannot be checked".to_string(), Cancelled.to_string()]);
+        assert_eq!(causes(&TaskError::because(Cancelled)), [Cancelled.to_string()]);
         assert_eq!(TaskError::usage("--gap -1: give a number from 0 upwards").kind(), ErrorKind::Usage);
     }
 }

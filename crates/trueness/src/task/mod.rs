@@ -18,7 +18,7 @@ mod watch;
 pub use choice::Choice;
 pub(crate) use choice::choices;
 pub use done::{Done, Outcome, Page, Rounding, Scene};
-pub use error::{ErrorKind, Meaning, TaskError};
+pub use error::{ErrorKind, Meaning, TaskError, causes};
 pub use files::RunFiles;
 pub use noise::Independence;
 pub use output::{Output, json, whole_file};

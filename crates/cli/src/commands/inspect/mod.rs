@@ -1,31 +1,19 @@
 //! `trueness inspect`: a plan and measured parts make verdicts.
 
 mod features;
-mod files;
-mod lists;
-mod part;
-mod qif;
 mod table;
 
 use crate::command::Run;
 use crate::console;
-use crate::exit::{self, Outcome, Usage};
+use crate::exit::{self, Outcome};
 use crate::options::{Common, DocumentArgs};
-use crate::output::whole_file;
-use crate::progress::{STEPS, Stage};
+use crate::progress::Console;
 use crate::report::ReportArgs;
-use anyhow::anyhow;
 use clap::Args;
-use files::PlanFile;
-use part::{Failed, Fault, Part};
-use std::path::{Path, PathBuf};
-use trueness::task::RunFiles;
-use trueness_document::Verdict;
-use trueness_document::inspect::InspectDocument;
-use trueness_document::plan::PlanError;
-use trueness_geom::progress::{Cancelled, Progress};
-use trueness_measure::inspection::{self, Deviations, Stop};
-use trueness_report::views::inspect::View;
+use std::path::PathBuf;
+use trueness::task::{Request, RunFiles};
+use trueness::tasks::inspect::{InspectRequest, Part};
+use trueness_files::FileSources;
 
 /// Run an inspection plan: features, tolerances, verdicts
 ///
@@ -64,123 +52,47 @@ pub struct InspectArgs {
 }
 
 impl InspectArgs {
-    /// The parts: files in place of the plan's own, or that one.
-    fn parts(&self) -> Vec<Option<&Path>> {
-        match self.measured.is_empty() {
-            true => vec![None],
-            false => self.measured.iter().map(|p| Some(p.as_path())).collect(),
+    fn request(&self, common: &Common) -> InspectRequest {
+        InspectRequest {
+            plan: self.plan.clone(),
+            measured: self.measured.clone(),
+            places: self.places,
+            csv: self.csv.clone(),
+            junit: self.junit.clone(),
+            qif: self.qif.clone(),
+            seed: common.seed,
+            view: self.report.html.is_some(),
         }
     }
 }
 
 impl Run for InspectArgs {
-    fn files(&self, _: &Common) -> anyhow::Result<RunFiles> {
-        let mut inputs = vec![self.plan.clone()];
-        inputs.extend(self.measured.iter().cloned());
-        // What is wrong with the plan is told when it is run; here its files must not be written over.
-        if let Ok(plan) = PlanFile::read(&self.plan) {
-            inputs.extend(plan.inputs(self.measured.is_empty()));
-        }
-        Ok(RunFiles::of(&inputs)
-            .document(self.document.json.as_ref())
-            .report(self.report.html.as_ref())
-            .also("--csv", self.csv.as_ref())
-            .also("--junit", self.junit.as_ref())
-            .also("--qif", self.qif.as_ref()))
+    fn files(&self, common: &Common) -> anyhow::Result<RunFiles> {
+        let document = RunFiles::default().document(self.document.json.as_ref());
+        Ok(document.report(self.report.html.as_ref()).and(self.request(common).files()?))
     }
     fn run(&self, common: &Common) -> anyhow::Result<Outcome> {
-        run(self, common)
-    }
-}
-
-fn run(args: &InspectArgs, common: &Common) -> anyhow::Result<Outcome> {
-    if args.measured.len() > 1 && (args.document.json.is_some() || args.report.html.is_some()) {
-        let what =
-            "--json and --html hold one part; give one --measured, or --csv, --junit and --qif for all";
-        return Err(Usage(what.into()).into());
-    }
-    let plan = PlanFile::read(&args.plan)?;
-    if !args.measured.is_empty() && plan.plan.measured.is_none() {
-        let what =
-            "--measured replaces the plan's measured data, but the plan names none; add `measured` to it";
-        return Err(Usage(what.into()).into());
-    }
-    if args.places && plan.plan.deviation.is_none() {
-        let what = "--places keeps deviations from the reference, but the plan has no [deviation]; add it";
-        return Err(Usage(what.into()).into());
-    }
-    let several = args.measured.len() > 1;
-    let (mut parts, mut status) = (Vec::new(), None);
-    for file in args.parts() {
-        let part = match inspect(args, &plan, file, common) {
-            Ok(document) => Part::Inspected(Box::new(document)),
-            Err(Fault::Run(error)) => return Err(error),
-            // Whatever is wrong with a part, the others are inspected.
-            Err(Fault::Part(error)) => {
-                console::error(&error);
-                status = status.or(Some(exit::status(&error)));
-                Part::Failed(Failed::new(plan.name_of(file), &error, plan.record()))
-            }
-        };
-        args.document.table(|| table::table(&part, several, common.verbose))?;
-        parts.push(part);
-    }
-    if let Some(path) = &args.csv {
-        let text = lists::csv(&parts);
-        whole_file(path, |file| file.write_all(&text))?;
-    }
-    if let Some(path) = &args.junit {
-        let text = lists::junit(&parts);
-        whole_file(path, |file| file.write_all(text.as_bytes()))?;
-    }
-    if let Some(path) = &args.qif {
-        let text = qif::qif(&parts, plan.plan.title.as_deref());
-        whole_file(path, |file| file.write_all(text.as_bytes()))?;
-    }
-    if let Some(status) = status {
-        return Ok(Outcome::Unanswered(status));
-    }
-    let pass = parts.iter().filter_map(Part::document).all(|d| d.verdict == Verdict::Pass);
-    Ok(if pass { Outcome::Conforming } else { Outcome::NotConforming })
-}
-
-/// One part.
-fn inspect(
-    args: &InspectArgs,
-    plan: &PlanFile,
-    part: Option<&Path>,
-    common: &Common,
-) -> Result<InspectDocument, Fault> {
-    let (mut data, inputs) = plan.data(part, common.seed, args.report.shown())?;
-    data.places = args.places;
-    let stage = Stage::new(common.progress, "inspecting", STEPS, Some(inspection::STEPS));
-    let found = inspection::run(&plan.plan, data, &stage);
-    let cancelled = stage.cancelled();
-    stage.end(&found);
-    let found = found.map_err(|stop| match stop {
-        // Whatever it stopped at: nothing of it is told.
-        _ if cancelled => Fault::Run(Cancelled.into()),
-        Stop::Cancelled => Fault::Run(Cancelled.into()),
-        Stop::Plan { span, what } => {
-            Fault::Run(anyhow!("{}: {}", plan.path.display(), PlanError::at(&plan.text, &span, what)))
+        let (request, watch) = (self.request(common), Console { style: common.progress });
+        if self.document.json.is_some() {
+            request.one_part()?;
         }
-        stop if stop.of_part() => Fault::Part(anyhow!("{}: {stop}", plan.name_of(part))),
-        stop => Fault::Run(anyhow!("{}: {stop}", plan.path.display())),
-    })?;
-    let mut document = inspection::document(&plan.plan, plan.record(), &found, inputs);
-    if args.report.html.is_some() {
-        let name = document.inputs.first().map_or("", |i| &i.path);
-        let references = found.deviations.as_ref().zip(document.deviation.as_ref());
-        let references = references.map(|(d, record)| d.references(&record.reference));
-        let deviations = found.deviations.as_ref().zip(references.as_ref()).map(|(d, references)| {
-            let mesh = found.measured.as_ref().filter(|m| !m.faces.is_empty());
-            trueness_report::views::compare::View::new(name, mesh, references, &d.found)
-        });
-        let view = View::new(&document, &found, deviations.as_ref());
-        args.report.write(&document, &view.objects(), &view.marks, common.progress)?;
+        let inspecting = request.open(&FileSources, &watch)?;
+        let several = request.measured.len() > 1;
+        let mut parts = vec![];
+        for part in inspecting.parts() {
+            let part = part?;
+            match &part {
+                Part::Inspected(done) => {
+                    self.report.write_done(done, &watch)?;
+                    self.document.write(&done.document)?;
+                }
+                Part::Failed(failed) => console::error(&failed.error),
+            }
+            self.document.table(|| table::table(&part, several, common.verbose))?;
+            parts.push(part);
+        }
+        let mut done = inspecting.finish(parts)?;
+        done.commit()?;
+        Ok(done.outcome.into())
     }
-    // Pages do without: they have a map of their own.
-    document.deviation_map = found.deviations.as_ref().and_then(Deviations::place_map);
-    args.document.write(&document)?;
-    Ok(document)
 }

@@ -1,12 +1,12 @@
 //! The document of an inspection for people.
 
 use super::features;
-use super::part::{Part, name};
 use crate::commands::compare::{along, coverage, outliers, regions};
 use crate::layout::{self, names, sentence};
 use crate::number::{POINTS, counted, fixed, grouped, scientific, short, short_signed, six_digits};
 use std::fmt::Write;
 use trueness::read;
+use trueness::tasks::inspect::Part;
 use trueness_document::Verdict;
 use trueness_document::compare::Comparison;
 use trueness_document::inspect::{CharacteristicRecord, FrameSource, InspectDocument};
@@ -14,18 +14,17 @@ use trueness_document::inspect::{CharacteristicRecord, FrameSource, InspectDocum
 /// What there is to say of a part for people; of one of several it names the part. `verbose`: all of it, a line for each thing.
 pub fn table(part: &Part, one_of_several: bool, verbose: bool) -> String {
     match part {
-        Part::Inspected(document) => inspected(document, one_of_several, verbose),
+        Part::Inspected(done) => inspected(&done.document, one_of_several.then(|| part.name()), verbose),
         Part::Failed(failed) if one_of_several => format!("! {}: not inspected\n", failed.name),
         // It was told as an error.
         Part::Failed(_) => String::new(),
     }
 }
 
-/// The document for people.
-fn inspected(document: &InspectDocument, one_of_several: bool, verbose: bool) -> String {
+/// The document for people; `part` is what one of several parts is called.
+fn inspected(document: &InspectDocument, part: Option<&str>, verbose: bool) -> String {
     let mut out = read::notes(&document.inputs);
-    let part = one_of_several.then(|| name(document).to_owned());
-    let heading: Vec<String> = document.title.iter().cloned().chain(part).collect();
+    let heading: Vec<&str> = document.title.as_deref().into_iter().chain(part).collect();
     if !heading.is_empty() {
         let _ = writeln!(out, "{}", heading.join("   "));
     }

@@ -3,24 +3,16 @@
 mod table;
 
 use crate::command::Run;
-use crate::exit::{self, Outcome, Usage, not_negative};
+use crate::exit::{self, Outcome};
 use crate::options::{Common, DocumentArgs, InputArgs};
-use crate::progress::{self, Stage};
 use crate::report::ReportArgs;
+use crate::task;
 use clap::Args;
 use std::path::PathBuf;
-use trueness::read;
-use trueness::task::RunFiles;
-use trueness_document::Role;
-use trueness_document::repair::OutputRecord;
-use trueness_files::FileSources;
-use trueness_files::write::{MeshFile, Writable};
-use trueness_geom::check;
-use trueness_geom::mesh::Mesh;
-use trueness_geom::progress::Progress;
-use trueness_measure::repair::{Around, at_least, defects, document};
-use trueness_report::views::repair::View;
-use trueness_solid::repair::{self, Holes, Options, RepairError, Repaired, STEPS, Step};
+use trueness::task::{Request, RunFiles};
+use trueness::tasks::repair::RepairRequest;
+use trueness_files::write::Writable;
+use trueness_solid::repair::STEPS;
 
 /// A mesh without its defects
 ///
@@ -85,38 +77,24 @@ fn help() -> String {
 }
 
 impl RepairArgs {
-    /// Where the mended mesh goes.
-    fn target(&self) -> &PathBuf {
-        self.out.as_ref().unwrap_or(&self.mesh)
+    fn request(&self) -> RepairRequest {
+        RepairRequest {
+            mesh: self.mesh.clone(),
+            reading: self.input.reading(),
+            out: self.out.clone(),
+            in_place: self.in_place,
+            only: self.only.clone(),
+            skip: self.skip.clone(),
+            gap: self.gap,
+            holes: self.holes,
+            all_holes: self.all_holes,
+            stitch: self.stitch,
+            remove_islands: self.remove_islands,
+            max_change: self.max_change,
+            items: self.items,
+            view: self.report.html.is_some(),
+        }
     }
-
-    fn options(&self) -> Result<Options, Usage> {
-        let (only, skip) = (names("only", &self.only)?, names("skip", &self.skip)?);
-        let wanted = |s: &&'static Step| (only.is_empty() || only.contains(s)) && !skip.contains(s);
-        Ok(Options {
-            steps: STEPS.into_iter().filter(wanted).collect(),
-            gap: self.gap.map(|x| not_negative("gap", x)).transpose()?,
-            stitch: self.stitch.map(|x| not_negative("stitch", x)).transpose()?,
-            islands: (self.remove_islands.map(|x| not_negative("remove-islands", x)).transpose()?)
-                .map(|x| x / 100.0),
-            single: self.target().extension().is_some_and(|e| e.eq_ignore_ascii_case("stl")),
-            holes: match self.all_holes {
-                true => Holes::All,
-                false => Holes::UpTo(not_negative("holes", self.holes)? / 100.0),
-            },
-        })
-    }
-}
-
-/// The steps of these names.
-fn names(option: &str, given: &[String]) -> Result<Vec<&'static Step>, Usage> {
-    let find = |name: &String| {
-        repair::step(&name.replace('-', "_")).ok_or_else(|| {
-            let known: Vec<&str> = STEPS.iter().map(|s| s.name).collect();
-            Usage(format!("--{option} {name}: there is no such step; there are {}", known.join(", ")))
-        })
-    };
-    given.iter().map(find).collect()
 }
 
 fn out_help() -> String {
@@ -125,87 +103,12 @@ fn out_help() -> String {
 
 impl Run for RepairArgs {
     fn files(&self, _: &Common) -> anyhow::Result<RunFiles> {
-        Ok(RunFiles::of([&self.mesh])
-            .in_place(self.in_place)
-            .out(Some(self.target()), Writable::Mesh)
-            .document(self.document.json.as_ref())
-            .report(self.report.html.as_ref()))
+        let files = self.request().files()?.document(self.document.json.as_ref());
+        Ok(files.report(self.report.html.as_ref()))
     }
     fn run(&self, common: &Common) -> anyhow::Result<Outcome> {
-        run(self, common)
+        task::run_reported(&self.request(), (&self.document, &self.report), common, |done| {
+            table::text(&done.document)
+        })
     }
-}
-
-fn run(args: &RepairArgs, common: &Common) -> anyhow::Result<Outcome> {
-    let options = args.options()?;
-    let max_change = not_negative("max-change", args.max_change)? / 100.0;
-    let (source, mut record) =
-        read::mesh(&FileSources, &args.mesh, Role::Mesh, &args.input.reading().options())?;
-    if !source.unread.is_empty() {
-        record.warnings.push(lost(&source.unread));
-    }
-    let stage = Stage::new(common.progress, "repairing", progress::STEPS, None);
-    let repaired = repair::repair(&source.mesh, &options, &stage).map_err(|e| match e {
-        RepairError::Cancelled(e) => e.into(),
-        e => anyhow::anyhow!("{}: {e}", args.mesh.display()),
-    })?;
-    drop(stage);
-    let stage = Stage::new(common.progress, "measuring", progress::STEPS, None);
-    // One after the other the bytes of a file leave all threads but one idle.
-    let write = || -> anyhow::Result<MeshFile> {
-        read::hash(&FileSources, &mut record, &args.mesh)?;
-        Ok(MeshFile::write(args.target(), &repaired.mesh)?)
-    };
-    let (deviation, file) = rayon::join(|| repaired.deviation(&source.mesh, &stage), write);
-    let mut file = file?;
-    drop(stage);
-    let stage = Stage::new(common.progress, "checking the file", progress::STEPS, None);
-    let output = again(args, &mut file, &repaired, &stage)?;
-    drop(stage);
-    let left_out = source.nonfinite_facets.len() as u64;
-    let around = Around { file: record, left_out, output, deviation, limit: args.items, max_change };
-    let document = document(&repaired, &options, around);
-    if args.report.html.is_some() {
-        let view = View::new(&document, &document.inputs[0].path, &source.mesh, &repaired.mesh);
-        args.report.write(&document, &view.objects(), &view.marks, common.progress)?;
-    }
-    file.finish()?;
-    args.document.write(&document)?;
-    args.document.table(|| table::text(&document))?;
-    Ok(if document.sound { Outcome::Conforming } else { Outcome::NotConforming })
-}
-
-/// What the file read tells of its vertices and facets and the file written will not.
-fn lost(names: &[String]) -> String {
-    /// A header may name thousands.
-    const NAMED: usize = 12;
-    let named = names.iter().take(NAMED).map(String::as_str).collect::<Vec<_>>().join(", ");
-    let more = if names.len() > NAMED { ", …" } else { "" };
-    format!("the mended mesh has places and facets only; the file's other data are not in it: {named}{more}")
-}
-
-/// Reads the file written and checks it.
-fn again(
-    args: &RepairArgs,
-    file: &mut MeshFile,
-    repaired: &Repaired,
-    progress: &dyn Progress,
-) -> anyhow::Result<OutputRecord> {
-    let back: Option<Mesh> = file.read_back()?;
-    let options = check::Options { gap: args.gap, ..check::Options::default() };
-    let report = match &back {
-        // The same mesh has the same report.
-        Some(mesh) if *mesh == repaired.mesh => Some(repaired.after.clone()),
-        Some(mesh) => Some(check::check(mesh, None, &options, progress)?),
-        None => None,
-    };
-    Ok(OutputRecord {
-        path: args.target().display().to_string(),
-        rounded_vertices: file.loss.moved + repaired.rounded.vertices,
-        rounding: file.loss.farthest.max(repaired.rounded.farthest),
-        sound: report.as_ref().map(|r| r.sound),
-        sound_reason: report.is_none().then(|| "it cannot be read again".into()),
-        defects: report.as_ref().map(defects).unwrap_or_default(),
-        at_least: report.as_ref().map(at_least).unwrap_or_default(),
-    })
 }

@@ -173,7 +173,7 @@ fn results(x: &mut Xml, parts: &[Part], ids: &[Ids], shares: &[Share]) {
             for (part, component) in parts.iter().zip(&components) {
                 let id = x.number();
                 x.element("MeasurementResults", &[("id", id.to_string())], |x| match part {
-                    Part::Inspected(document) => one_part(x, document, ids, shares, *component),
+                    Part::Inspected(done) => one_part(x, &done.document, ids, shares, *component),
                     Part::Failed(failed) => without_results(x, failed, *component),
                 });
             }
@@ -194,7 +194,7 @@ fn results(x: &mut Xml, parts: &[Part], ids: &[Ids], shares: &[Share]) {
 
 /// A part that has none.
 fn without_results(x: &mut Xml, failed: &Failed, component: u32) {
-    x.attributes(&[("not_inspected", failed.why.as_str().into())]);
+    x.attributes(&[("not_inspected", failed.why().into())]);
     x.element("ExternalFileReferences", &[("n", "1".into())], |x| plan_file(x, &failed.plan));
     inspection_status(x, "InspectionStatus", Verdict::NotMeasured);
     x.references("ActualComponentIds", &[component]);

@@ -1,16 +1,14 @@
 //! The plan's file, and the files that it names.
 
 use super::part::Fault;
-use anyhow::{Context, anyhow, bail};
+use crate::read::{self, Body, Opened};
+use crate::task::{Meaning, TaskError};
 use std::collections::BTreeMap;
-use std::io::Read;
 use std::path::{Path, PathBuf};
-use trueness::read::{self, Body, Opened};
 use trueness_document::inspect::PlanRecord;
 use trueness_document::plan::{At, PlanError};
 use trueness_document::{InputRecord, Role};
-use trueness_files::FileSources;
-use trueness_files::ReadOptions;
+use trueness_files::{ReadOptions, Sources};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::space::Point;
 use trueness_measure::inspection::{Data, OwnPoints};
@@ -18,7 +16,7 @@ use trueness_measure::plan::Plan;
 use trueness_measure::requirement::Source;
 
 /// Longest plan that is read, bytes.
-const LONGEST: u64 = 16 << 20;
+const LONGEST: usize = 16 << 20;
 
 /// A plan with its text.
 pub struct PlanFile {
@@ -29,30 +27,22 @@ pub struct PlanFile {
 }
 
 impl PlanFile {
-    pub fn read(path: &Path) -> anyhow::Result<PlanFile> {
+    pub fn read(sources: &dyn Sources, path: &Path) -> Result<PlanFile, TaskError> {
         let shown = path.display();
-        if trueness_files::Sources::is_stream(&FileSources, path) {
-            bail!("{shown}: a plan must be a file; its paths are relative to it");
+        let wrong = |what: String| TaskError::unanswerable(format!("{shown}: {what}"));
+        if sources.is_stream(path) {
+            return Err(wrong("a plan must be a file; its paths are relative to it".into()));
         }
-        let file = std::fs::File::open(path).with_context(|| format!("{shown}: the plan cannot be read"))?;
-        let mut bytes = Vec::new();
-        let read = file.take(LONGEST + 1).read_to_end(&mut bytes);
-        read.with_context(|| format!("{shown}: the plan cannot be read"))?;
-        if bytes.len() as u64 > LONGEST {
-            bail!("{shown}: it is longer than 16 MB; a plan is a short text");
-        }
+        let bytes = read::bytes(sources, path, "plan", LONGEST)?
+            .ok_or_else(|| wrong("it is longer than 16 MB; a plan is a short text".into()))?;
         let text = String::from_utf8(bytes).map_err(|e| {
             let valid = String::from_utf8_lossy(&e.as_bytes()[..e.utf8_error().valid_up_to()]).into_owned();
             let end = valid.len();
-            anyhow!(
-                "{shown}: {}",
-                PlanError::at(&valid, &(end..end), "the text is not UTF-8; save the plan as UTF-8")
-            )
+            let what = "the text is not UTF-8; save the plan as UTF-8";
+            wrong(PlanError::at(&valid, &(end..end), what).to_string())
         })?;
-        let plan = Plan::parse(&text).map_err(|e| anyhow!("{shown}: {e}"))?;
-        let digest = trueness_files::sha256(path).ok();
-        let sha256 = digest.map(|d| d.iter().map(|b| format!("{b:02x}")).collect());
-        Ok(PlanFile { path: path.to_owned(), text, plan, sha256 })
+        let plan = Plan::parse(&text).map_err(|e| wrong(e.to_string()))?;
+        Ok(PlanFile { path: path.to_owned(), text, plan, sha256: read::digest(sources, path) })
     }
 
     pub fn record(&self) -> PlanRecord {
@@ -87,13 +77,19 @@ impl PlanFile {
     }
 
     /// Reads the measured data at `path`.
-    fn measured(&self, path: &Path, options: &ReadOptions, data: &mut Data) -> anyhow::Result<InputRecord> {
-        let (mesh, record, _) = take(path, options)?;
+    fn measured(
+        &self,
+        sources: &dyn Sources,
+        path: &Path,
+        options: &ReadOptions,
+        data: &mut Data,
+    ) -> Result<InputRecord, TaskError> {
+        let (mesh, record, _) = take(sources, path, options)?;
         if let Some(what) = self.plan.deviation.as_ref().and_then(|d| d.needs_normals())
             && mesh.faces.is_empty()
         {
             let what = format!("{what} of [deviation]");
-            data.normals = read::all_normals(&FileSources, path, None, options, &what, "")?;
+            data.normals = read::all_normals(sources, path, None, options, &what, "")?;
         }
         data.measured = Some(mesh);
         Ok(record)
@@ -103,6 +99,7 @@ impl PlanFile {
     /// `shown` points are kept for a report.
     pub fn data(
         &self,
+        sources: &dyn Sources,
         part: Option<&Path>,
         seed: u64,
         shown: usize,
@@ -113,11 +110,11 @@ impl PlanFile {
         let (mut data, mut inputs) = (Data { seed, shown, ..Data::default() }, Vec::new());
         if let Some(own) = &self.plan.measured {
             let path = part.map_or_else(|| self.path_of(own), Path::to_owned);
-            let measured = self.measured(&path, &options, &mut data);
+            let measured = self.measured(sources, &path, &options, &mut data);
             let measured = match part {
                 Some(_) => measured,
                 None => measured
-                    .with_context(|| self.at(own, "the measured data (--measured FILE names another file)")),
+                    .meaning(|| self.at(own, "the measured data (--measured FILE names another file)")),
             };
             inputs.push(measured.map_err(Fault::Part)?);
         }
@@ -127,9 +124,9 @@ impl PlanFile {
         let wanted = seeded || sought || self.plan.align.uses_reference() || self.plan.deviation.is_some();
         if let Some(written) = self.plan.reference.as_ref().filter(|_| wanted) {
             let path = self.path_of(written);
-            let read = read::mesh(&FileSources, &path, Role::Reference, &options);
-            let (source, mut record) = read.with_context(|| self.at(written, "the reference"))?;
-            read::hash(&FileSources, &mut record, &path)?;
+            let read = read::mesh(sources, &path, Role::Reference, &options);
+            let (source, mut record) = read.meaning(|| self.at(written, "the reference"))?;
+            read::hash(sources, &mut record, &path)?;
             (data.reference, data.reference_left_out) = (Some(source.mesh), source.nonfinite_facets);
             inputs.push(record);
         }
@@ -140,7 +137,7 @@ impl PlanFile {
             if !seen.contains_key(&path) {
                 let what = format!("the points of feature \"{}\"", feature.id);
                 let (mesh, record, planar) =
-                    take(&path, &options).with_context(|| self.at(written, &what))?;
+                    take(sources, &path, &options).meaning(|| self.at(written, &what))?;
                 inputs.push(record);
                 seen.insert(path.clone(), (mesh.positions, planar));
             }
@@ -153,13 +150,17 @@ impl PlanFile {
 }
 
 /// Reads a mesh or points.
-fn take(path: &Path, options: &ReadOptions) -> anyhow::Result<(Mesh, InputRecord, bool)> {
-    let Opened { mut record, body, planar, .. } = read::open(&FileSources, path, Role::Measured, options)?;
+fn take(
+    sources: &dyn Sources,
+    path: &Path,
+    options: &ReadOptions,
+) -> Result<(Mesh, InputRecord, bool), TaskError> {
+    let Opened { mut record, body, planar, .. } = read::open(sources, path, Role::Measured, options)?;
     let mesh = match body {
         Body::Mesh(source) => source.mesh,
         Body::Points(source) => Mesh { positions: read::all_points(path, source)?, faces: vec![] },
     };
     read::describe(&mut record, &mesh.positions);
-    read::hash(&FileSources, &mut record, path)?;
+    read::hash(sources, &mut record, path)?;
     Ok((mesh, record, planar))
 }

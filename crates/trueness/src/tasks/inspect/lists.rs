@@ -103,11 +103,11 @@ pub fn csv(parts: &[Part]) -> Vec<u8> {
     let number = |x: Option<f64>| x.map_or_else(String::new, |x| x.to_string());
     for part in parts {
         let document = match part {
-            Part::Inspected(document) => document,
+            Part::Inspected(done) => &done.document,
             Part::Failed(failed) => {
                 let mut cells: Row = Default::default();
                 [cells[0], cells[1], cells[2]] = [failed.name.clone(), PART.into(), PART.into()];
-                [cells[11], cells[13]] = [Verdict::NotMeasured.word().into(), failed.why.clone()];
+                [cells[11], cells[13]] = [Verdict::NotMeasured.word().into(), failed.why()];
                 csv.row(cells);
                 continue;
             }
@@ -206,9 +206,9 @@ pub fn junit(parts: &[Part]) -> String {
             let [tests, failures, errors] = attributes(std::slice::from_ref(part));
             let attributes = [("name", name.into()), tests, failures, errors];
             xml.element("testsuite", &attributes, |xml| match part {
-                Part::Inspected(document) => cases(xml, name, document),
+                Part::Inspected(done) => cases(xml, name, &done.document),
                 Part::Failed(failed) => {
-                    let why = format!("not inspected: {}", failed.why);
+                    let why = format!("not inspected: {}", failed.why());
                     case(xml, name, PART, Some(("error", why)));
                 }
             });

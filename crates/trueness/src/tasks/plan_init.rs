@@ -1,0 +1,95 @@
+//! A plan proposed from the nominal.
+
+use crate::read;
+use crate::task::{Done, Output, Reading, Request, RunFiles, TaskError, Watch, ended};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::path::{Path, PathBuf};
+use trueness_document::{InputRecord, Role};
+use trueness_files::Sources;
+use trueness_geom::segment::{self, Options, SegmentError};
+use trueness_measure::plan::proposal;
+
+/// What a proposal is asked.
+///
+/// ```
+/// use trueness::task::Request;
+/// use trueness::{files::FileSources, geom::progress::Silent, tasks::plan_init::PlanInitRequest};
+/// let request = PlanInitRequest { nominal: "../../corpus/shapes/mayo__258_cube.off".into(), ..PlanInitRequest::default() };
+/// let plan = request.run(&FileSources, &Silent)?.document;
+/// assert_eq!(plan.text.matches("shape = \"plane\"").count(), 6);
+/// # Ok::<(), trueness::task::TaskError>(())
+/// ```
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct PlanInitRequest {
+    /// The nominal: a mesh.
+    pub nominal: PathBuf,
+    /// How it is taken.
+    #[serde(flatten)]
+    pub reading: Reading,
+    /// Where to write the plan: a new file.
+    pub out: Option<PathBuf>,
+    /// Seed of everything random.
+    pub seed: u64,
+}
+
+/// A proposed plan.
+#[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
+pub struct ProposedPlan {
+    /// The file read.
+    pub inputs: Vec<InputRecord>,
+    /// The plan, a text in TOML.
+    pub text: String,
+}
+
+impl Request for PlanInitRequest {
+    type Document = ProposedPlan;
+    const COMMAND: &'static str = "plan init";
+
+    fn files(&self) -> Result<RunFiles, TaskError> {
+        Ok(RunFiles::of([&self.nominal]).also("--out", self.out.as_ref()))
+    }
+
+    fn run(&self, sources: &dyn Sources, watch: &dyn Watch) -> Result<Done<ProposedPlan>, TaskError> {
+        // A plan is written by hand in the end: it is never replaced.
+        if let Some(path) = self.out.as_ref().filter(|path| path.exists()) {
+            let text = format!("--out {}: the file exists; name another or remove it", path.display());
+            return Err(TaskError::usage(text));
+        }
+        let reading = self.reading.options();
+        let (source, mut record) = read::mesh(sources, &self.nominal, Role::Reference, &reading)?;
+        read::hash(sources, &mut record, &self.nominal)?;
+        let mesh = source.mesh;
+        let stage = watch.stage("segmenting", "facets", Some(mesh.faces.len() as u64));
+        let options = Options { seed: self.seed, ..Options::default() };
+        let found = segment::mesh(&mesh, &options, &*stage);
+        let found = ended(stage, found).map_err(|e| match e {
+            SegmentError::Cancelled(e) => e.into(),
+            e => TaskError::unanswerable(format!("{}: {e}", self.nominal.display())),
+        })?;
+        let text = proposal(&mesh, &found, &self.reference());
+        let mut done = Done::new(ProposedPlan { inputs: vec![record], text }, true);
+        if let Some(path) = &self.out {
+            let text = done.document.text.as_bytes();
+            done.outputs.push(Output::written(path, |file| file.write_all(text))?);
+        }
+        Ok(done)
+    }
+}
+
+impl PlanInitRequest {
+    /// The nominal as the plan names it: relative to its folder where it lies beside it.
+    fn reference(&self) -> String {
+        let folder = |path: &Path| match path.parent() {
+            Some(parent) if !parent.as_os_str().is_empty() => parent.canonicalize().ok(),
+            _ => Path::new(".").canonicalize().ok(),
+        };
+        let beside = self.out.as_ref().is_none_or(|out| folder(out) == folder(&self.nominal));
+        let name = match beside {
+            true => self.nominal.file_name().map(PathBuf::from),
+            false => self.nominal.canonicalize().ok(),
+        };
+        name.unwrap_or_else(|| self.nominal.clone()).to_string_lossy().into_owned()
+    }
+}
