@@ -1,7 +1,7 @@
 //! What a command is to the program.
 
-use crate::exit::Outcome;
 use crate::options::Common;
+use trueness::task::Outcome;
 use trueness::task::RunFiles;
 
 /// A command with its words.

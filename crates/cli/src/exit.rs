@@ -3,32 +3,15 @@
 use crate::{console, signals};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::process::ExitCode;
-use trueness::task::{self, ErrorKind, TaskError};
-use trueness_files::{ReadError, WriteError};
-use trueness_geom::progress::Cancelled;
+use trueness::task::{ErrorKind, Outcome, TaskError};
+use trueness_files::WriteError;
 
-/// What a command that ran to its end found.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Outcome {
-    /// Done and conforming.
-    Conforming,
-    /// Done, but out of tolerance, not sound or undecided.
-    NotConforming,
-    /// Some of what was asked has no answer. It was told; the exit status is this one.
-    Unanswered(u8),
-}
-
-impl From<task::Outcome> for Outcome {
-    fn from(outcome: task::Outcome) -> Outcome {
-        match outcome {
-            task::Outcome::Conforming => Outcome::Conforming,
-            task::Outcome::NotConforming => Outcome::NotConforming,
-            task::Outcome::Unanswered(kind) => Outcome::Unanswered(match kind {
-                ErrorKind::Usage => 2,
-                ErrorKind::Unanswerable => 3,
-                ErrorKind::Cancelled => signals::status(),
-            }),
-        }
+/// The exit status of a run that has no answer, or none to some of what was asked.
+fn unanswered(kind: ErrorKind) -> u8 {
+    match kind {
+        ErrorKind::Usage => 2,
+        ErrorKind::Unanswerable => 3,
+        ErrorKind::Cancelled => signals::status(),
     }
 }
 
@@ -44,14 +27,6 @@ pub fn help(one: &str, rest: &str) -> String {
 #[derive(Debug, thiserror::Error)]
 #[error("{0}")]
 pub struct Usage(pub String);
-
-/// `x`, the value of the option `name`, if it is finite and not below 0.
-pub fn not_negative(name: &str, x: f64) -> Result<f64, Usage> {
-    match x.is_finite() && x >= 0.0 {
-        true => Ok(x),
-        false => Err(Usage(format!("--{name} {x}: give a number from 0 upwards"))),
-    }
-}
 
 /// A fault of the program itself.
 #[derive(Debug, thiserror::Error)]
@@ -71,20 +46,12 @@ pub fn catch(work: impl FnOnce() -> anyhow::Result<Outcome>) -> anyhow::Result<O
     })
 }
 
-/// Whether the words of the command line are what is wrong: an option that does not fit the file, an unknown ending.
-fn is_usage(e: &(dyn std::error::Error + 'static)) -> bool {
-    e.is::<Usage>()
-        || e.downcast_ref::<TaskError>().is_some_and(|e| e.kind() == ErrorKind::Usage)
-        || e.downcast_ref::<ReadError>().is_some_and(|e| e.fault.is_wrong_usage())
-        || e.downcast_ref::<WriteError>().is_some_and(|e| e.fault.is_wrong_usage())
-}
-
 /// Prints the error, if any, and chooses the exit status.
 pub fn code(outcome: anyhow::Result<Outcome>) -> ExitCode {
     let error = match outcome {
         Ok(Outcome::Conforming) => return ExitCode::SUCCESS,
         Ok(Outcome::NotConforming) => return ExitCode::from(1),
-        Ok(Outcome::Unanswered(status)) => return ExitCode::from(status),
+        Ok(Outcome::Unanswered(kind)) => return ExitCode::from(unanswered(kind)),
         Err(error) => error,
     };
     console::error(error.as_ref());
@@ -93,14 +60,17 @@ pub fn code(outcome: anyhow::Result<Outcome>) -> ExitCode {
 
 /// The exit status of a run that ends with this error.
 fn status(error: &anyhow::Error) -> u8 {
-    let is = |test: fn(&(dyn std::error::Error + 'static)) -> bool| error.chain().any(test);
-    if is(is_usage) {
-        2
-    } else if is(|e| e.is::<Cancelled>()) {
-        signals::status()
-    } else if is(|e| e.is::<Internal>()) {
-        4
-    } else {
-        3
+    let kind = |e: &(dyn std::error::Error + 'static)| {
+        let task = || e.downcast_ref().map(TaskError::kind);
+        let written = || e.downcast_ref().map(|e: &WriteError| wrong(e.fault.is_wrong_usage()));
+        task().or_else(written).or(e.is::<Usage>().then_some(ErrorKind::Usage))
+    };
+    if error.chain().any(|e| e.is::<Internal>()) {
+        return 4;
     }
+    unanswered(error.chain().find_map(kind).unwrap_or(ErrorKind::Unanswerable))
+}
+
+fn wrong(usage: bool) -> ErrorKind {
+    if usage { ErrorKind::Usage } else { ErrorKind::Unanswerable }
 }

@@ -19,8 +19,8 @@ mod time_left;
 
 use clap::Parser;
 use commands::Arguments;
-use exit::Outcome;
 use std::process::ExitCode;
+use trueness::task::Outcome;
 
 #[global_allocator]
 static MEMORY: memory::Allocator = memory::Allocator;

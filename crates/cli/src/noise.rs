@@ -1,13 +1,9 @@
 //! How far neighbors share errors: the option of the commands that state uncertainties, and the line of their tables.
 
 use crate::number::{fixed, scientific};
-use crate::options::ProgressStyle;
-use crate::progress::Stage;
 use clap::Args;
 use trueness::task::Independence;
-use trueness_document::{NoiseOrReason, SharedNoise};
-use trueness_geom::noise::PATCHES;
-use trueness_geom::progress::Cancelled;
+use trueness_document::SharedNoise;
 
 /// How far neighbors share errors.
 #[derive(Args, Debug)]
@@ -22,21 +18,6 @@ impl NoiseArgs {
     /// The same for a request.
     pub fn request(&self) -> Independence {
         Independence { independent: self.independent }
-    }
-
-    /// What is found, in a stage of its own, unless errors are independent.
-    pub fn found(
-        &self,
-        style: ProgressStyle,
-        find: impl FnOnce(&Stage) -> Result<NoiseOrReason, Cancelled>,
-    ) -> Result<NoiseOrReason, Cancelled> {
-        if self.independent {
-            return Ok(Err("errors are independent, as --independent says".into()));
-        }
-        let stage = Stage::new(style, "finding the noise", "patches", Some(PATCHES as u64));
-        let found = find(&stage);
-        stage.end(&found);
-        found
     }
 }
 

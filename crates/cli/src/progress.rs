@@ -11,8 +11,6 @@ use std::time::{Duration, Instant};
 use trueness::task::{self, Watch};
 use trueness_geom::progress::Progress;
 
-pub use trueness::task::STEPS;
-
 /// The terminal: progress on stderr, signals.
 pub struct Console {
     /// How progress is shown.

@@ -1,14 +1,10 @@
 //! The report that every command can write: its options, and the writing.
 
-use crate::options::ProgressStyle;
 use crate::output::whole_file;
-use crate::progress::Stage;
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 use trueness::task::{Done, ErrorKind, Watch};
-use trueness_report::{
-    self as report, Language, Marks, ReportError, ReportInput, ReportOptions, Subject, Up, ViewObject,
-};
+use trueness_report::{Language, ReportOptions, Subject, Up};
 
 /// A self-contained report.
 #[derive(Args, Debug)]
@@ -79,15 +75,7 @@ fn decimal_sign(sign: &str) -> Result<char, String> {
     }
 }
 
-/// Points that a report has at its disposal.
-const SHOWN: usize = 1_000_000;
-
 impl ReportArgs {
-    /// Points that are kept for it; none where none is wanted.
-    pub fn shown(&self) -> usize {
-        if self.html.is_some() { SHOWN } else { 0 }
-    }
-
     /// The same for a report.
     fn options(&self) -> ReportOptions {
         ReportOptions {
@@ -120,42 +108,6 @@ impl ReportArgs {
         let page = done.report(&self.options(), watch).map_err(|e| match e.kind() {
             ErrorKind::Cancelled => e,
             _ => e.context(format!("{}: cannot be made", path.display())),
-        })?;
-        Ok(whole_file(path, |file| file.write_all(&page))?)
-    }
-
-    /// Writes the report, if one was asked for.
-    pub fn write(
-        &self,
-        result: &dyn Subject,
-        objects: &[ViewObject],
-        marks: &[Marks],
-        progress: ProgressStyle,
-    ) -> anyhow::Result<()> {
-        match &self.html {
-            Some(path) => self.write_to(path, result, objects, marks, progress),
-            None => Ok(()),
-        }
-    }
-
-    /// Writes a report with these options to `path`.
-    pub fn write_to(
-        &self,
-        path: &Path,
-        result: &dyn Subject,
-        objects: &[ViewObject],
-        marks: &[Marks],
-        progress: ProgressStyle,
-    ) -> anyhow::Result<()> {
-        let options = self.options();
-        let input = ReportInput { result, objects, marks, options: &options };
-        let stage = Stage::new(progress, "writing the report", "places", Some(report::work(objects)));
-        let mut page = vec![];
-        let written = report::write(&input, &stage, &mut page);
-        stage.end(&written);
-        written.map_err(|e| match e {
-            ReportError::Cancelled(e) => e.into(),
-            e => anyhow::Error::from(e).context(format!("{}: cannot be made", path.display())),
         })?;
         Ok(whole_file(path, |file| file.write_all(&page))?)
     }

@@ -1,9 +1,9 @@
 //! A task on the terminal: run, written and printed.
 
-use crate::exit::Outcome;
 use crate::options::{Common, DocumentArgs};
 use crate::progress::Console;
 use crate::report::ReportArgs;
+use trueness::task::Outcome;
 use trueness::task::{Done, Request};
 use trueness_files::FileSources;
 use trueness_report::Subject;
@@ -41,5 +41,5 @@ pub fn finish<D: serde::Serialize>(
     done.commit()?;
     document.write(&done.document)?;
     document.table(|| table(&done))?;
-    Ok(done.outcome.into())
+    Ok(done.outcome)
 }

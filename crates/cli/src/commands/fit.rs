@@ -2,7 +2,6 @@
 
 use crate::command::Run;
 use crate::console;
-use crate::exit::Outcome;
 use crate::noise::{self, NoiseArgs};
 use crate::number::{POINTS, counted, fixed, scientific};
 use crate::options::{Common, DocumentArgs, PointInputArgs, choice};
@@ -12,6 +11,7 @@ use clap::Args;
 use std::fmt::Write;
 use std::path::PathBuf;
 use trueness::read;
+use trueness::task::Outcome;
 use trueness::task::{Request, RunFiles};
 use trueness::tasks::fit::{Element, FitRequest, Method};
 use trueness_document::fit::{FitDocument, Number};

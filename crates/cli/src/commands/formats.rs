@@ -2,9 +2,10 @@
 
 use crate::command::Run;
 use crate::console::document;
-use crate::exit::{Outcome, Usage};
+use crate::exit::Usage;
 use crate::options::Common;
 use clap::Args;
+use trueness::task::Outcome;
 use trueness::task::RunFiles;
 use trueness_files::write::Writable;
 use trueness_files::{FORMATS, Format};

@@ -2,11 +2,11 @@
 
 use crate::command::Run;
 use crate::console;
-use crate::exit::Outcome;
 use crate::options::{Common, InputArgs};
 use crate::progress::Console;
 use clap::{Args, Subcommand};
 use std::path::PathBuf;
+use trueness::task::Outcome;
 use trueness::task::{Request, RunFiles};
 use trueness::tasks::plan_init::PlanInitRequest;
 use trueness_files::FileSources;
@@ -61,6 +61,6 @@ impl Run for PlanArgs {
         if args.out.is_none() {
             console::document(&done.document.text)?;
         }
-        Ok(done.outcome.into())
+        Ok(done.outcome)
     }
 }

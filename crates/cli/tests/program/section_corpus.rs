@@ -1,4 +1,5 @@
 //! Sections of every closed mesh of the corpus: by random planes, and through its vertices, edges and facets.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};

@@ -1,5 +1,7 @@
 //! Linear algebra of a few unknowns: dense matrices of at most nine rows.
 
+#![allow(clippy::needless_range_loop, reason = "matrices are read by row and column")]
+
 /// Lower triangle `L` of `L Lᵀ = a`, or `None` where `a` is not positive definite to working accuracy. Its diagonal
 /// holds the reciprocals: they are what is multiplied by, and dividing takes long.
 ///

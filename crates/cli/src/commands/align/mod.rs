@@ -3,11 +3,12 @@
 mod table;
 
 use crate::command::Run;
-use crate::exit::{self, Outcome};
+use crate::exit;
 use crate::options::{Common, DocumentArgs, PointInputArgs, ReferenceArgs, choice};
 use crate::task;
 use clap::Args;
 use std::path::PathBuf;
+use trueness::task::Outcome;
 use trueness::task::{Request, RunFiles, Text, ToleranceText};
 use trueness::tasks::align::{AlignRequest, Axis, Method};
 use trueness_files::write::Writable;

@@ -3,12 +3,13 @@
 mod table;
 
 use crate::command::Run;
-use crate::exit::{self, Outcome};
+use crate::exit;
 use crate::options::{Common, DocumentArgs, InputArgs};
 use crate::report::ReportArgs;
 use crate::task;
 use clap::Args;
 use std::path::PathBuf;
+use trueness::task::Outcome;
 use trueness::task::{Request, RunFiles};
 use trueness::tasks::check::CheckRequest;
 use trueness_geom::check;

@@ -4,12 +4,13 @@ mod output;
 mod table;
 
 use crate::command::Run;
-use crate::exit::{self, Outcome};
+use crate::exit;
 use crate::options::{Common, PointInputArgs, ReferenceArgs, choice};
 use crate::task;
 use clap::Args;
 use std::path::PathBuf;
 pub use table::{along, coverage, outliers, regions};
+use trueness::task::Outcome;
 use trueness::task::{Request, RunFiles, Text, ToleranceText};
 use trueness::tasks::compare::{CompareRequest, FacingAngle, Method, Sign, View};
 use trueness_files::Columns;

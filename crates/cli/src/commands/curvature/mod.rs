@@ -3,13 +3,13 @@
 mod table;
 
 use crate::command::Run;
-use crate::exit::Outcome;
 use crate::noise::NoiseArgs;
 use crate::options::{Common, DocumentArgs, PointInputArgs, choice};
 use crate::report::ReportArgs;
 use crate::task;
 use clap::Args;
 use std::path::PathBuf;
+use trueness::task::Outcome;
 use trueness::task::{Request, RunFiles};
 use trueness::tasks::curvature::{Color, CurvatureRequest};
 use trueness_files::write::Writable;

@@ -5,12 +5,13 @@ mod table;
 
 use crate::command::Run;
 use crate::console;
-use crate::exit::{self, Outcome};
+use crate::exit;
 use crate::options::{Common, DocumentArgs};
 use crate::progress::Console;
 use crate::report::ReportArgs;
 use clap::Args;
 use std::path::PathBuf;
+use trueness::task::Outcome;
 use trueness::task::{Request, RunFiles};
 use trueness::tasks::inspect::{InspectRequest, Part};
 use trueness_files::FileSources;
@@ -93,6 +94,6 @@ impl Run for InspectArgs {
         }
         let mut done = inspecting.finish(parts)?;
         done.commit()?;
-        Ok(done.outcome.into())
+        Ok(done.outcome)
     }
 }

@@ -7,13 +7,14 @@ mod table;
 mod write;
 
 use crate::command::Run;
-use crate::exit::{self, Outcome};
+use crate::exit;
 use crate::noise::NoiseArgs;
 use crate::options::{Common, DocumentArgs, PointInputArgs, choice};
 use crate::report::ReportArgs;
 use crate::task;
 use clap::Args;
 use std::path::PathBuf;
+use trueness::task::Outcome;
 use trueness::task::{Request, RunFiles};
 use trueness::tasks::section::{Continuity, SectionRequest, level};
 

@@ -3,12 +3,13 @@
 mod table;
 
 use crate::command::Run;
-use crate::exit::{self, Outcome};
+use crate::exit;
 use crate::options::{Common, DocumentArgs, PointInputArgs, choice};
 use crate::report::ReportArgs;
 use crate::task;
 use clap::Args;
 use std::path::PathBuf;
+use trueness::task::Outcome;
 use trueness::task::{Request, RunFiles, Text};
 use trueness::tasks::surface::{Base, Gap, MAX_CORRECTIONS, Pair, SurfaceRequest, Weight};
 

@@ -3,7 +3,7 @@
 mod table;
 
 use crate::command::Run;
-use crate::exit::{self, Outcome};
+use crate::exit;
 use crate::options::{Common, DocumentArgs};
 use crate::progress::Console;
 use crate::report::ReportArgs;
@@ -11,6 +11,7 @@ use crate::task;
 use anyhow::anyhow;
 use clap::Args;
 use std::path::PathBuf;
+use trueness::task::Outcome;
 use trueness::task::{Request, RunFiles};
 use trueness::tasks::trend::{TrendRequest, maps};
 use trueness_files::FileSources;
