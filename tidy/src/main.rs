@@ -18,7 +18,7 @@ use std::process::ExitCode;
 const FLOORS: [(&str, &[&str]); 7] = [
     ("geom", &[]),
     ("viewer", &[]),
-    ("document", &["geom"]),
+    ("document", &[]),
     ("files", &["geom"]),
     ("measure", &["geom", "document"]),
     ("report", &["geom", "viewer", "document", "measure"]),

@@ -5,9 +5,10 @@ use crate::number::{fixed, scientific};
 use crate::options::ProgressStyle;
 use crate::progress::Stage;
 use clap::Args;
-use trueness_document::{NoiseOrReason, SharedNoise};
+use trueness_document::SharedNoise;
 use trueness_geom::noise::PATCHES;
 use trueness_geom::progress::Cancelled;
+use trueness_measure::NoiseOrReason;
 
 /// How far neighbors share errors.
 #[derive(Args, Debug)]

@@ -7,7 +7,7 @@ use crate::exit::Usage;
 use crate::run_files::is_stream;
 use anyhow::{Context, bail};
 use std::path::Path;
-use trueness_document::{Bounds, ColumnRecord, InputRecord, Role, TableRecord};
+use trueness_document::{ColumnRecord, InputRecord, Role, TableRecord};
 use trueness_files::cad::SplineModel;
 use trueness_files::drawing::Drawing;
 use trueness_files::{
@@ -239,7 +239,7 @@ pub fn all_normals(
 /// Fills in number and box of the points of a file.
 pub fn describe(record: &mut InputRecord, points: &[Point]) {
     record.points = points.len() as u64;
-    record.bounds = Bounds::of(&Aabb::of(points));
+    record.bounds = trueness_measure::bounds(&Aabb::of(points));
 }
 
 /// What the document says about a file; its counts and hash are filled in later.

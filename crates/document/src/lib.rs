@@ -35,6 +35,7 @@ pub mod research;
 pub mod scale;
 pub mod section;
 pub mod segment;
+pub mod shape;
 pub mod statistics;
 pub mod surface;
 pub mod tolerance;
@@ -45,7 +46,7 @@ pub mod word;
 
 pub use bounds::Bounds;
 pub use input::{ColumnRecord, IncompleteRecord, InputRecord, Role, TableRecord, UNITS, VERSION};
-pub use noise::{NoiseOrReason, SharedNoise, noise_or_reason, points_per_independent};
+pub use noise::SharedNoise;
 pub use percent::{of_percent, percent, percents};
 pub use reason::{ReasonKind, VerdictReason, judged};
 pub use statistics::{BySide, Histogram, Percentiles, Statistics};

@@ -1,12 +1,12 @@
 //! `trueness/surface/1`: a B-spline surface fitted to points.
 
 use super::curvature::{BendRecord, Range};
+use super::word::words;
 use super::{Histogram, InputRecord, Statistics, Word};
 use crate::scale::Scale;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-use trueness_geom::surface::{BaseKind, Reached};
 
 /// Name of this document's schema.
 pub const SCHEMA: &str = "trueness/surface/1";
@@ -248,4 +248,34 @@ pub struct SupportRecord {
     pub cells: u64,
     /// Of those, without a point.
     pub empty_cells: u64,
+}
+
+words! {
+    /// What the parameters of a surface are measured along.
+    BaseKind, "base of a surface", {
+        /// The least-squares plane.
+        Plane = "plane",
+        /// x and y themselves.
+        Xy = "xy",
+        /// The least-squares cylinder.
+        Cylinder = "cylinder",
+        /// The least-squares sphere.
+        Sphere = "sphere",
+        /// The facets of a mesh, laid flat.
+        Mesh = "mesh",
+    }
+}
+
+words! {
+    /// Why a surface has no more knots.
+    Reached, "reason to stop", {
+        /// All points are within the tolerance.
+        Tolerance = "tolerance",
+        /// More knots followed the noise of the points only.
+        Noise = "noise",
+        /// There would be more control points than points, or spans without points to set knots by.
+        Points = "points",
+        /// The matrix would take more memory than allowed.
+        Memory = "memory",
+    }
 }

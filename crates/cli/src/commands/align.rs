@@ -22,6 +22,7 @@ use trueness_geom::deviation::surface::{ReferenceSurface, SurfaceOptions};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::rigid::Rigid;
 use trueness_geom::space::{Point, times};
+use trueness_measure::align as align_document;
 use trueness_measure::compare::Regions;
 
 /// Brings a scan onto its reference, from any starting pose
@@ -210,7 +211,7 @@ fn run(args: &AlignArgs, common: &Common) -> anyhow::Result<Outcome> {
                 MethodArg::Rps => "rps",
             };
             let corners = reference.mesh.bounds().corners();
-            AlignDocument::of_rows(&found, name, &corners, records, common.seed)
+            align_document::rows(&found, name, &corners, records, common.seed)
         }
         (None, _) => best_fit(args, &scan, &reference.mesh, records, common)?,
     };
@@ -258,13 +259,13 @@ fn best_fit(
     };
     if args.scale {
         let (fit, scale) = align::best_fit_scaled(&measured, &target, &options, &stage).map_err(failed)?;
-        return Ok(AlignDocument::of_best_fit(&fit, records, common.seed).with_scale(&scale));
+        return Ok(align_document::with_scale(align_document::best_fit(&fit, records, common.seed), &scale));
     }
     let fit = align::best_fit(&measured, &target, &options, &stage).map_err(failed)?;
     match args.method {
         MethodArg::Chebyshev => {
             let found = align::minimax(&measured, &target, &fit, &options, &stage).map_err(failed)?;
-            Ok(AlignDocument::of_minimax(&found, &fit, records, common.seed))
+            Ok(align_document::minimax(&found, &fit, records, common.seed))
         }
         MethodArg::Zones => {
             let surface = ReferenceSurface::new(&tree, reference, &SurfaceOptions::default(), &stage)?;
@@ -274,12 +275,12 @@ fn best_fit(
             let elsewhere = args.tolerance.map(|t| t.0);
             let zones = |face, place: &Point| regions.allowed(face, place, elsewhere);
             let found = align::into_zones(&measured, &target, &surface, &zones, &fit, &options, &stage);
-            Ok(AlignDocument::of_zones(&found.map_err(failed)?, &fit, records, common.seed))
+            Ok(align_document::zones(&found.map_err(failed)?, &fit, records, common.seed))
         }
         _ => {
-            let document = AlignDocument::of_best_fit(&fit, records, common.seed);
+            let document = align_document::best_fit(&fit, records, common.seed);
             Ok(match &options.lock {
-                Some(lock) => document.with_lock(lock),
+                Some(lock) => align_document::with_lock(document, lock),
                 None => document,
             })
         }
@@ -383,7 +384,7 @@ fn table(document: &AlignDocument, loss: Option<&str>) -> String {
             six_digits(fit.median)
         );
         let u = fit.std_uncertainty;
-        let open = document.open();
+        let open = align_document::open(document);
         let told = |k: usize, x: f64| if open[k] { "free".into() } else { scientific(x, 1) };
         let degrees = [0, 1, 2].map(|k| told(k, u[k].to_degrees())).join(" ");
         let lengths = [3, 4, 5].map(|k| told(k, u[k])).join(" ");

@@ -15,14 +15,16 @@ use clap::builder::PossibleValuesParser;
 use std::fmt::Write;
 use std::path::PathBuf;
 use std::sync::LazyLock;
+use trueness_document::Role;
 use trueness_document::fit::Number;
 use trueness_document::segment::{PieceKind, RegionRecord, SegmentDocument};
-use trueness_document::{Role, noise_or_reason};
 use trueness_files::write::{Pieces, Writable, regions};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::segment::{self, KINDS, Options, SegmentError, Segmentation};
 use trueness_geom::shape::{Kind, Quantity};
 use trueness_measure::file_numbers::LeftOut;
+use trueness_measure::noise_or_reason;
+use trueness_measure::words::ToGeometry;
 use trueness_report::views::segment::{View, color};
 
 /// Planes, cylinders, cones, spheres and tori in a mesh or cloud, without a nominal
@@ -213,7 +215,7 @@ fn size(region: &RegionRecord) -> String {
         // The radius of a cone is that at some place.
         let own = name != "radius" || !region.parameters.contains_key("half_angle");
         let Some(Number::One(value)) = region.parameters.get(name).filter(|_| own) else { continue };
-        let is_angle = region.shape.quantity(name) == Some(Quantity::Angle);
+        let is_angle = region.shape.geometry().quantity(name) == Some(Quantity::Angle);
         let scale = if is_angle { 180.0 / std::f64::consts::PI } else { 1.0 };
         let mut word = format!("{short} {}", fixed(value * scale, 4));
         if let Some(Number::One(u)) = region.uncertainty.as_ref().and_then(|u| u.get(name)) {

@@ -61,7 +61,7 @@ impl Run for TrendArgs {
         let read = self.results.iter().map(|path| read(path));
         let (inputs, results): (Vec<_>, Vec<_>) =
             read.collect::<anyhow::Result<Vec<_>>>()?.into_iter().unzip();
-        let document = TrendDocument::new(inputs, &results).map_err(|e| match &e {
+        let document = trueness_measure::trend::document(inputs, &results).map_err(|e| match &e {
             TrendError::Different { index, .. }
             | TrendError::Twice { index, .. }
             | TrendError::Changed { index, .. } => {

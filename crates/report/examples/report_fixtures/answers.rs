@@ -224,7 +224,7 @@ pub fn segment_page(mesh: &Mesh, options: &ReportOptions) -> (Vec<u8>, SegmentDo
     let wish = segment::Options::default();
     let found = segment::mesh(mesh, &wish, &Silent).unwrap();
     let files = vec![file(Role::Measured, "peg.stl", mesh)];
-    let noise = trueness_document::noise_or_reason(found.shared_noise(mesh, 0, &Silent)).unwrap();
+    let noise = trueness_measure::noise_or_reason(found.shared_noise(mesh, 0, &Silent)).unwrap();
     let document = trueness_measure::segment::document(&found, &noise, PieceKind::Facets, files, &wish, None);
     let view = trueness_report::views::segment::View::new(&document, mesh, &found.labels);
     let (objects, marks) = (view.objects(), &view.marks[..]);

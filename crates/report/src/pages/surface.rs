@@ -12,8 +12,7 @@ use trueness_document::Verdict;
 use trueness_document::compare::ToleranceShares;
 use trueness_document::curvature::{CurvatureKind, Range};
 use trueness_document::scale::Scale;
-use trueness_document::surface::{MapRecord, SurfaceDocument};
-use trueness_geom::surface::BaseKind;
+use trueness_document::surface::{BaseKind, MapRecord, SurfaceDocument};
 use trueness_measure::surface::is_doubtful;
 
 impl Subject for SurfaceDocument {

@@ -343,7 +343,7 @@ fn aligned(
 ) -> anyhow::Result<AlignedTo> {
     let stage = Stage::new(common.progress, "aligning", STEPS, None);
     let found = measured.align(&args.measured, reference, common.seed, &stage)?;
-    Ok(AlignedTo::new(&found, name.into()))
+    Ok(trueness_measure::align::aligned_to(&found, name.into()))
 }
 
 /// Points times references, where the number of points is known.

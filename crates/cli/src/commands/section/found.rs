@@ -1,7 +1,8 @@
 //! What was found in planes or in a row of points.
 
-use trueness_document::section::{FrameRecord, Section};
+use trueness_document::section::FrameRecord;
 use trueness_geom::section::{PlaneFrame, SectionError};
+use trueness_measure::section::Section;
 
 /// What was found: contours by section, and the points of each contour.
 pub type Sections = (Vec<Section>, Vec<Vec<[f64; 2]>>);

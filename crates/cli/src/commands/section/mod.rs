@@ -20,11 +20,13 @@ use crate::run_files::RunFiles;
 use clap::{Args, ValueEnum};
 use found::{Found, described};
 use std::path::PathBuf;
-use trueness_document::section::{AirfoilRecord, Section, SectionDocument};
-use trueness_document::{InputRecord, NoiseOrReason, Role, Verdict, noise_or_reason};
+use trueness_document::section::SectionDocument;
+use trueness_document::{InputRecord, Role, Verdict};
 use trueness_geom::noise::{self, Noise};
 use trueness_geom::section::{self, Continuity, Options, PlaneFrame, SectionError};
 use trueness_geom::space::{Point, minus, norm};
+use trueness_measure::section::Section;
+use trueness_measure::{NoiseOrReason, noise_or_reason};
 use trueness_report::{ViewObject, flat};
 
 /// The lines, arcs and curves of a section, and the exact places where they join
@@ -235,26 +237,27 @@ fn run(args: &SectionArgs, common: &Common) -> anyhow::Result<Outcome> {
     let found = (sections, rows);
     let nominal = args.nominal.compare(&args.file, &found, &planes, &options, &stage)?;
     let (sections, rows) = found;
-    let airfoils = args.airfoil.then(|| AirfoilRecord::all(&sections, &rows, &stage)).transpose()?;
+    let airfoils =
+        args.airfoil.then(|| trueness_measure::section::airfoils(&sections, &rows, &stage)).transpose()?;
     let nominal = nominal.map(|(nominal, file)| {
         inputs.push(file);
         nominal
     });
-    let mut document = SectionDocument::new(&sections, inputs, &options);
-    document.tell_noise(noise.as_ref());
+    let mut document = trueness_measure::section::document(&sections, inputs, &options);
+    trueness_measure::section::tell_noise(&mut document, noise.as_ref());
     (document.nominal, document.airfoils) = (nominal, airfoils);
     for found in document.airfoils.iter().flatten() {
         if let Some(contour) = document.contours.get_mut(found.contour as usize) {
             contour.doubts.extend(found.doubt());
         }
     }
-    document = document.with_blades(args.stacking, &stage)?;
+    document = trueness_measure::section::with_blades(document, args.stacking, &stage)?;
     if args.tidy {
-        document = document.with_offers(&sections, &rows);
+        document = trueness_measure::section::with_offers(document, &sections, &rows);
     }
     args.planes.tell_raised_gap(&mut document.planes);
     if let Some((chosen, interval, table)) = methods {
-        document = document.with_methods(chosen, interval, &table);
+        document = trueness_measure::section::with_methods(document, chosen, interval, &table);
     }
     drop(stage);
     report(args, common, &document, &rows)?;

@@ -11,10 +11,8 @@ use crate::read::{self, Body, Opened};
 use crate::tolerance::ToleranceArg;
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
-use trueness_document::compare::{Bounds, Warning};
-use trueness_document::section::{
-    Against, AgainstPlane, FitRecord, NominalRecord, NominalWarning, ProfileRule, Section,
-};
+use trueness_document::compare::Warning;
+use trueness_document::section::{NominalRecord, NominalWarning, ProfileRule};
 use trueness_document::tolerance::cannot_fail;
 use trueness_document::{InputRecord, of_percent};
 use trueness_files::ReadOptions;
@@ -26,6 +24,7 @@ use trueness_geom::section::{
 };
 use trueness_geom::space::{Aabb, Point, dot};
 use trueness_measure::compare::{MIN_COVERAGE, plausibility};
+use trueness_measure::section::{Against, AgainstPlane, Section};
 
 /// What the section should be.
 #[derive(Args, Debug)]
@@ -190,7 +189,7 @@ impl NominalArgs {
                 // Coordinates stay those of the section.
                 let back = found.motion.inverse();
                 outlines = outlines.iter().map(|o| o.moved(&back)).collect();
-                fits.push(FitRecord::new(plane, freedom, &found));
+                fits.push(trueness_measure::section::fit_record(plane, freedom, &found));
             }
             let contours = (own.into_iter().zip(&section.contours))
                 .map(|(points, contour)| against(points, contour, &outlines, max_distance, stage))
@@ -211,7 +210,7 @@ impl NominalArgs {
             Nominal::Drawing(_) => "drawing",
         };
         let unlikely = unlikely(sections, &all).into_iter().map(NominalWarning::from);
-        let mut found = NominalRecord::new(&record.path, outline, all);
+        let mut found = trueness_measure::section::nominal(&record.path, outline, all);
         found.warnings.splice(0..0, unlikely.chain(layers.passed_over));
         found.fits = fits;
         if let Some(rule) = rule {
@@ -274,7 +273,7 @@ fn unlikely(sections: &[Section], all: &[AgainstPlane]) -> Vec<Warning> {
             nominal.extend([[0, 0], [0, 1], [1, 0], [1, 1]].map(corner));
         }
     }
-    let [measured, nominal] = [measured, nominal].map(|places| Bounds::of(&Aabb::of(&places)));
+    let [measured, nominal] = [measured, nominal].map(|places| trueness_measure::bounds(&Aabb::of(&places)));
     match (measured, nominal) {
         (Some(m), Some(n)) => plausibility::warnings(&m, &n, "--units, --reference-units"),
         _ => vec![],

@@ -5,7 +5,7 @@ use crate::exit::Usage;
 use crate::progress::Stage;
 use clap::Args;
 use trueness_document::InputRecord;
-use trueness_document::section::{PlaneRecord, Section};
+use trueness_document::section::PlaneRecord;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::noise::Noise;
 use trueness_geom::parallel::prelude::*;
@@ -13,6 +13,7 @@ use trueness_geom::section::{
     self, Chain, Contour, Options, Order, Ordered, Plane, PlaneFrame, SectionError,
 };
 use trueness_geom::space::{Point, dot};
+use trueness_measure::section::Section;
 
 /// Where a mesh or cloud is cut.
 #[derive(Args, Debug)]

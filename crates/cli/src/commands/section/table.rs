@@ -8,10 +8,10 @@ use crate::number::{fixed, grouped, scientific};
 use crate::{console, noise, read};
 use std::fmt::Write;
 use trueness_document::section::{
-    AirfoilMeasures, AirfoilRecord, BEYOND_END, ContourRecord, DimensionsRecord, FrameRecord, GeometryRecord,
-    MAX_DISTANCE, MethodsRecord, NominalRecord, OutlineRecord, Positive, SectionDocument, SegmentRecord,
+    AirfoilMeasures, AirfoilRecord, BEYOND_END, ContourRecord, DimensionKind, DimensionsRecord, FrameRecord,
+    GeometryRecord, MAX_DISTANCE, MethodsRecord, NominalRecord, OutlineRecord, Positive, SectionDocument,
+    SegmentRecord, Taken,
 };
-use trueness_geom::section::{DimensionKind, Taken};
 
 /// Rows of a contour that are shown.
 const ROWS: usize = 60;

@@ -4,9 +4,10 @@ use crate::output::whole_file;
 use crate::run_files::RunFiles;
 use clap::Args;
 use std::path::PathBuf;
-use trueness_document::section::{FrameRecord, NominalRecord, Section};
+use trueness_document::section::{FrameRecord, NominalRecord};
 use trueness_files::drawing::{self, Clamped, Entity, Layer};
 use trueness_geom::section::{Geometry, PlaneFrame, Segment};
+use trueness_measure::section::Section;
 
 /// Files that a section can write.
 #[derive(Args, Debug)]

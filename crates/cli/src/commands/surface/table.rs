@@ -4,8 +4,7 @@ use crate::number::{POINTS, counted, fixed, grouped, scientific};
 use crate::{console, read};
 use std::fmt::Write;
 use trueness_document::curvature::Range;
-use trueness_document::surface::{BaseRecord, SurfaceDocument};
-use trueness_geom::surface::Reached;
+use trueness_document::surface::{BaseRecord, Reached, SurfaceDocument};
 
 /// The document as text.
 pub fn table(document: &SurfaceDocument) -> String {

@@ -3,11 +3,12 @@
 use super::pieces::kind;
 use super::*;
 use crate::{Language, flat};
-use trueness_document::section::{FrameRecord, GeometryRecord, Section};
+use trueness_document::section::{FrameRecord, GeometryRecord};
 use trueness_geom::num::random::Random;
 use trueness_geom::progress::Silent;
 use trueness_geom::section::{Options, contour};
 use trueness_geom::space::Point;
+use trueness_measure::section::Section;
 
 /// Far from the origin: a line, an arc of radius 8, a line, a corner, a free curve.
 pub(super) fn row(noise: f64) -> Vec<[f64; 2]> {
@@ -38,7 +39,7 @@ pub(super) fn document(points: &[[f64; 2]]) -> SectionDocument {
         bent: vec![],
         contours: vec![found],
     };
-    SectionDocument::new(&[section], vec![], &options)
+    trueness_measure::section::document(&[section], vec![], &options)
 }
 
 pub(super) fn drawn(document: &SectionDocument, places: &[Point], room: usize) -> String {

@@ -1,7 +1,10 @@
 //! Verdicts over planted deviations, coverage and doubts.
 
+use super::super::outline::Against;
 use super::*;
-use crate::section::{Against, AgainstPlane};
+use trueness_document::section::{NominalWarning, NominalWarningKind, ProfileRule};
+use trueness_document::tolerance::Tolerance;
+use trueness_document::{InputRecord, Verdict};
 use trueness_geom::progress::Silent;
 use trueness_geom::section::{Contour, Outline, off_nominal};
 
@@ -20,11 +23,7 @@ fn compared(off: &dyn Fn(usize) -> f64, kept: f64, reach: f64) -> NominalRecord 
     let count = found.iter().filter(|o| far(o)).count();
     found.iter_mut().for_each(|o| *o = o.filter(|_| !far(&*o)));
     let contours = vec![Against { points: &points, found, far: count, contour: &contour }];
-    NominalRecord::new(
-        "n.dxf",
-        "drawing",
-        vec![AgainstPlane { plane: None, outlines: vec![square], contours }],
-    )
+    nominal("n.dxf", "drawing", vec![AgainstPlane { plane: None, outlines: vec![square], contours }])
 }
 
 fn reference() -> InputRecord {
@@ -93,7 +92,7 @@ fn a_bore_that_is_not_measured_is_no_pass() {
     {
         let mut record = compared(&|_| 0.02, 1.0, f64::INFINITY);
         let plane = AgainstPlane { plane: None, outlines: vec![bore.clone()], contours: vec![] };
-        record.outlines.extend(NominalRecord::new("n.dxf", "drawing", vec![plane]).outlines);
+        record.outlines.extend(nominal("n.dxf", "drawing", vec![plane]).outlines);
         let record = judged_by(record, [-0.05, 0.05], 1.0, cover);
         assert_eq!(told(&record), (verdict, reasons.to_vec()), "{cover}");
         let [.., reason] = &record.verdict_reasons[..] else { continue };
@@ -120,7 +119,7 @@ fn the_worst_place_is_the_one_farthest_beyond() {
 #[test]
 fn doubts_leave_it_undecided() {
     let mut record = compared(&|_| 0.2, 1.0, f64::INFINITY);
-    record.warnings.push(crate::section::NominalWarning {
+    record.warnings.push(NominalWarning {
         kind: NominalWarningKind::SizeRatio,
         value: 25.4,
         text: String::new(),
