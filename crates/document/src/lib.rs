@@ -11,6 +11,7 @@
 //! | color scale | [`scale`] |
 //! | tolerance | [`tolerance`] |
 //! | tolerance classes by letters | [`tolerance_class`] |
+//! | documents from JSON | [`json`] |
 //! | JSON schemas | [`schemas`] |
 //!
 //! Every document starts with the same header and names its inputs. A number that does not exist is `null`
@@ -25,6 +26,7 @@ pub mod curvature;
 pub mod fit;
 mod input;
 pub mod inspect;
+pub mod json;
 pub mod noise;
 mod percent;
 pub mod place_map;
