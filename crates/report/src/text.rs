@@ -88,8 +88,10 @@ mod tests {
         use trueness_document::section::{
             BEYOND_END, Continuity, DimensionKind, NO_OUTLINE, Positive, Taken,
         };
+        use trueness_geom::check;
+        use trueness_geom::repair;
         use trueness_geom::section::SegmentKind;
-        use trueness_geom::{check, repair, shape};
+        use trueness_geom::shape;
         fn of<T: Named>(before: &str) -> Vec<String> {
             T::all().iter().map(|entry| format!("{before}.{}", entry.name())).collect()
         }

@@ -11,12 +11,15 @@ use trueness_document::repair::OutputRecord;
 use trueness_document::segment::{PieceKind, SegmentDocument};
 use trueness_document::{InputRecord, Role};
 use trueness_geom::check::check;
+use trueness_geom::curvature;
 use trueness_geom::fit::{self, Method};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::Silent;
+use trueness_geom::repair;
+use trueness_geom::segment;
 use trueness_geom::shape::Kind;
 use trueness_geom::space::Point;
-use trueness_geom::{curvature, repair, segment, surface};
+use trueness_geom::surface;
 use trueness_measure::repair::Around;
 use trueness_report::{ReportInput, ReportOptions};
 
