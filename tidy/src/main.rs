@@ -30,7 +30,7 @@ const FLOORS: [(&str, &[&str]); 11] = [
     ("solid", &["geom"]),
     ("surface", &["geom"]),
     ("files", &["geom"]),
-    ("document", &["geom", "section", "solid", "surface"]),
+    ("document", &[]),
     ("measure", &["geom", "section", "solid", "surface", "document"]),
     ("report", &["geom", "section", "solid", "surface", "viewer", "document", "measure"]),
     ("trueness", &["geom", "section", "solid", "surface", "files", "document", "measure", "report"]),

@@ -1,10 +1,10 @@
 //! `trueness/check/1`: size and defects of a mesh.
 
+use super::word::words;
 use super::{Bounds, InputRecord, Word};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-use trueness_geom::check::{DefectKind, KINDS, Severity};
 
 /// Name of this document's schema.
 pub const SCHEMA: &str = "trueness/check/1";
@@ -122,18 +122,12 @@ pub struct Item {
     pub measures: BTreeMap<String, f64>,
 }
 
-impl CheckDocument {
-    /// Kinds that were found, as [`found`] orders them.
-    pub fn found(&self) -> Vec<(&'static DefectKind, &Defects)> {
-        found(&self.defects)
+words! {
+    /// How bad a defect is.
+    Severity, "severity", {
+        /// The mesh does not bound a solid, or not a sensible one.
+        Error = "error",
+        /// The mesh is sound, but something may be meant otherwise.
+        Warning = "warning",
     }
-}
-
-/// Kinds of which there are any: errors first, what only follows from holes and cracks after these, else in the order in
-/// which the check tells them.
-pub fn found(defects: &BTreeMap<String, Defects>) -> Vec<(&'static DefectKind, &Defects)> {
-    let all = KINDS.into_iter().filter_map(|kind| Some((kind, defects.get(kind.name)?)));
-    let mut found: Vec<_> = all.filter(|(_, d)| d.count.is_some_and(|n| n > 0)).collect();
-    found.sort_by_key(|(kind, d)| (d.severity.0, kind.follows));
-    found
 }

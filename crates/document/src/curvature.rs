@@ -1,8 +1,10 @@
 //! `trueness/curvature/1`: curvatures of a mesh or cloud, place by place.
 
 mod kind;
+mod without;
 
 pub use kind::CurvatureKind;
+pub use without::NoCurvature;
 
 use super::word::named;
 use super::{Histogram, InputRecord, SharedNoise, Statistics, Word};
@@ -10,8 +12,6 @@ use crate::scale::Scale;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-use trueness_geom::spline::surface::Bend;
-use trueness_surface::curvature::NoCurvature;
 
 /// Name of this document's schema.
 pub const SCHEMA: &str = "trueness/curvature/1";
@@ -173,21 +173,6 @@ pub struct BendRecord {
     pub mean: f64,
     /// Gaussian curvature, 1/mm².
     pub gaussian: f64,
-}
-
-impl From<&Bend> for BendRecord {
-    fn from(bend: &Bend) -> BendRecord {
-        let [first, second] = bend.principal;
-        BendRecord {
-            normal: bend.normal,
-            k1: first.curvature,
-            k2: second.curvature,
-            k1_direction: first.direction,
-            k2_direction: second.direction,
-            mean: bend.mean,
-            gaussian: bend.gaussian,
-        }
-    }
 }
 
 /// Range of a quantity.

@@ -1,15 +1,11 @@
 //! `trueness/fit/1`: an element fitted to points.
 
-use super::{
-    Histogram, InputRecord, NoiseOrReason, SharedNoise, UNITS, VERSION, Word, points_per_independent,
-};
-use crate::noise::record as noise_record;
+use super::shape::{FitMethod, ShapeKind};
+use super::{Histogram, InputRecord, SharedNoise, Word};
 use crate::scale::Scale;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-use trueness_geom::fit::{Fit, Method};
-use trueness_geom::shape::{Kind, Parameter};
 
 /// Name of this document's schema.
 pub const SCHEMA: &str = "trueness/fit/1";
@@ -26,11 +22,11 @@ pub struct FitDocument {
     /// The file read.
     pub inputs: Vec<InputRecord>,
     /// `line`, `plane`, `circle`, `ellipse`, `sphere`, `cylinder`, `cone` or `torus`.
-    pub shape: Word<Kind>,
+    pub shape: Word<ShapeKind>,
     /// True if the element lies in the plane z = 0, as points of two columns do.
     pub planar: bool,
     /// `gaussian`, `minimum-zone`, `minimum-circumscribed`, `maximum-inscribed` or `robust`.
-    pub method: Word<Method>,
+    pub method: Word<FitMethod>,
     /// The element, by names: `point`, `direction`, `normal`, `center`, `apex`, `radius`, `half_angle`,
     /// `major_radius`, `minor_radius`, as the shape has them.
     pub parameters: BTreeMap<String, Number>,
@@ -134,33 +130,6 @@ pub struct Touching {
     pub position: Option<[f64; 3]>,
 }
 
-/// Parameters by their names.
-pub fn named(parameters: Vec<(&'static str, Parameter)>) -> BTreeMap<String, Number> {
-    let number = |p| match p {
-        Parameter::Number(x) => Number::One(x),
-        Parameter::Vector(v) => Number::Three(v),
-    };
-    parameters.into_iter().map(|(name, p)| (name.to_string(), number(p))).collect()
-}
-
-/// Why there is nothing to judge the points' scatter by.
-const NONE_LEFT: &str = "there are no more points than unknowns";
-
-/// The standard uncertainties of the parameters, or why there are none, where so many points tell as much as an independent one.
-pub fn uncertainty(
-    fit: &Fit,
-    points_per_independent: f64,
-) -> (Option<BTreeMap<String, Number>>, Option<String>) {
-    let shared = fit.covariance.clone().map(|c| c.of_shared(points_per_independent));
-    let found = shared.map(|c| named(c.uncertainties(&fit.shape)));
-    let reason = match (&found, fit.touching.is_empty()) {
-        (Some(_), _) => None,
-        (None, true) => Some(NONE_LEFT.to_string()),
-        (None, false) => Some("the element rests on its few touching points".to_string()),
-    };
-    (found, reason)
-}
-
 impl FitDocument {
     /// Digits after the point that show the form error.
     pub fn digits(&self) -> usize {
@@ -170,87 +139,5 @@ impl FitDocument {
     /// The farthest points on either side.
     pub fn extremes(&self) -> [&Extreme; 2] {
         [&self.maximum, &self.minimum]
-    }
-
-    /// Which element it is, in the plane or in space.
-    pub fn kind(&self) -> Kind {
-        Kind::named(self.shape.name(), self.planar).unwrap_or(*self.shape)
-    }
-
-    /// The document of a fit to the points of `inputs`, with their noise.
-    pub fn new(fit: &Fit, noise: &NoiseOrReason, inputs: Vec<InputRecord>, seed: u64) -> FitDocument {
-        let residuals = &fit.residuals;
-        let extreme =
-            |(distance, point): (f64, usize)| Extreme { distance, point: point as u64, position: None };
-        let (uncertainty, uncertainty_reason) = uncertainty(fit, points_per_independent(noise));
-        let (shared_noise, shared_noise_reason) = noise_record(noise);
-        FitDocument {
-            schema: SCHEMA.into(),
-            version: VERSION.into(),
-            units: UNITS.into(),
-            inputs,
-            shape: Word(fit.shape.kind()),
-            planar: fit.shape.kind().is_flat(),
-            method: Word(fit.method),
-            parameters: named(fit.shape.parameters()),
-            uncertainty,
-            uncertainty_reason,
-            shared_noise,
-            shared_noise_reason,
-            form_error: residuals.form_error,
-            rms: residuals.rms,
-            std_dev: residuals.std_dev,
-            std_dev_reason: residuals.std_dev.is_none().then(|| NONE_LEFT.into()),
-            count: residuals.count as u64,
-            outliers: fit.outliers as u64,
-            minimum: extreme(residuals.min),
-            maximum: extreme(residuals.max),
-            touching: fit
-                .touching
-                .iter()
-                .map(|t| Touching {
-                    point: t.point as u64,
-                    side: t.side,
-                    multiplier: t.multiplier,
-                    position: None,
-                })
-                .collect(),
-            extent: None,
-            histogram: None,
-            scale: None,
-            iterations: fit.iterations as u64,
-            converged: fit.converged,
-            seed,
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use trueness_geom::fit::{Options, fit};
-    use trueness_geom::progress::Silent;
-
-    #[test]
-    fn a_document_is_read_back_as_it_was_written() {
-        let points: Vec<[f64; 3]> = (0..12)
-            .map(|k| {
-                let (a, r) = (f64::from(k), 10.0 + 0.01 * f64::from(k % 3));
-                [r * a.cos(), r * a.sin(), 0.0]
-            })
-            .collect();
-        for method in Method::ALL {
-            let options = Options { method, ..Options::default() };
-            let fit = fit(&points, Kind::Circle2, &options, &Silent).unwrap();
-            let document = FitDocument::new(&fit, &Err("few points".into()), vec![], 0);
-            let text = serde_json::to_string(&document).unwrap();
-            let back: FitDocument = serde_json::from_str(&text).unwrap();
-            assert_eq!((back.parameters.clone(), back.kind()), (document.parameters.clone(), Kind::Circle2));
-            let value: serde_json::Value = serde_json::from_str(&text).unwrap();
-            assert_eq!(value["shape"], "circle");
-            assert_eq!(value["parameters"]["center"].as_array().unwrap().len(), 3);
-            assert_eq!(value["uncertainty"].is_null(), value["uncertainty_reason"].is_string());
-            assert_eq!(value["touching"].as_array().unwrap().is_empty(), fit.touching.is_empty());
-        }
     }
 }

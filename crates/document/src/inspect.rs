@@ -9,6 +9,7 @@ use super::align::{AlignNote, AlignNoteKind};
 use super::compare::Comparison;
 use super::fit::Number;
 use super::place_map::PlaceMap;
+use super::shape::FitMethod;
 use super::verdict::rank;
 use super::word::named;
 use super::{InputRecord, SharedNoise, Verdict, VerdictReason, Word};
@@ -17,7 +18,6 @@ use crate::scale::Scale;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-use trueness_geom::fit::Method;
 
 /// Name of this document's schema.
 pub const SCHEMA: &str = "trueness/inspect/1";
@@ -143,7 +143,7 @@ pub struct FeatureRecord {
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub coverage_reason: Option<String>,
     /// How its element was associated.
-    pub method: Word<Method>,
+    pub method: Word<FitMethod>,
     /// The element, by names, as in a fit; null where there is none.
     pub parameters: Option<BTreeMap<String, Number>>,
     /// Where it was measured, and its size; null where there is no element.

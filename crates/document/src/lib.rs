@@ -11,6 +11,7 @@
 //! | color scale | [`scale`] |
 //! | tolerance | [`tolerance`] |
 //! | tolerance classes by letters | [`tolerance_class`] |
+//! | documents from JSON | [`json`] |
 //! | JSON schemas | [`schemas`] |
 //!
 //! Every document starts with the same header and names its inputs. A number that does not exist is `null`
@@ -25,6 +26,7 @@ pub mod curvature;
 pub mod fit;
 mod input;
 pub mod inspect;
+pub mod json;
 pub mod noise;
 mod percent;
 pub mod place_map;
@@ -35,6 +37,7 @@ pub mod research;
 pub mod scale;
 pub mod section;
 pub mod segment;
+pub mod shape;
 pub mod statistics;
 pub mod surface;
 pub mod tolerance;
@@ -45,7 +48,7 @@ pub mod word;
 
 pub use bounds::Bounds;
 pub use input::{ColumnRecord, IncompleteRecord, InputRecord, Role, TableRecord, UNITS, VERSION};
-pub use noise::{NoiseOrReason, SharedNoise, noise_or_reason, points_per_independent};
+pub use noise::SharedNoise;
 pub use percent::{of_percent, percent, percents};
 pub use reason::{ReasonKind, VerdictReason, judged};
 pub use statistics::{BySide, Histogram, Percentiles, Statistics};

@@ -1,10 +1,10 @@
 //! `trueness/repair/1`: what was mended in a mesh, and what that cost.
 
+use super::word::words;
 use super::{InputRecord, Word};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-use trueness_solid::repair::Step;
 
 /// Name of this document's schema.
 pub const SCHEMA: &str = "trueness/repair/1";
@@ -40,10 +40,10 @@ pub struct RepairDocument {
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub deviation_reason: Option<String>,
     /// Names of the steps that were allowed, in their order.
-    pub steps: Vec<Word<&'static Step>>,
+    pub steps: Vec<Word<RepairStep>>,
     /// Steps that were not done, because with them some defect would have become more frequent, or surface would have been removed
     /// and the mesh still not been sound.
-    pub taken_back: Vec<Word<&'static Step>>,
+    pub taken_back: Vec<Word<RepairStep>>,
     /// Why closed shells that meet were not united, where they were not.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub not_united: Option<String>,
@@ -183,7 +183,7 @@ pub struct Distances {
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct Change {
     /// The step that did it.
-    pub step: Word<&'static Step>,
+    pub step: Word<RepairStep>,
     /// What was done.
     pub what: String,
     /// Where, mm.
@@ -192,4 +192,40 @@ pub struct Change {
     pub facets: u64,
     /// How big: mm for vertices and edges, mm² for facets, mm³ for shells.
     pub size: f64,
+}
+
+words! {
+    /// A step of a repair.
+    RepairStep, "step of a repair", {
+        /// Facets with coordinates that are no numbers go.
+        NotFinite = "not_finite",
+        /// Edges of a boundary that lie on each other are joined.
+        Stitch = "stitch",
+        /// Facets without area go.
+        Degenerate = "degenerate",
+        /// Bodies that overlap become one.
+        Union = "union",
+        /// Facets that are there twice go.
+        Duplicates = "duplicates",
+        /// Edges are parted where vertices lie on them.
+        TJunctions = "t_junctions",
+        /// Facets that stick out of the surface go.
+        Fins = "fins",
+        /// Neighbors are made to look the same way.
+        Orient = "orient",
+        /// Edges of more than two facets are parted.
+        NonManifoldEdges = "non_manifold_edges",
+        /// Facets that cross each other are cut and rid of what is inside.
+        SelfIntersections = "self_intersections",
+        /// Holes are filled.
+        Holes = "holes",
+        /// Pieces of a few facets go.
+        Scraps = "scraps",
+        /// Vertices where surfaces only touch are parted.
+        NonManifoldVertices = "non_manifold_vertices",
+        /// Shells are made to look outward.
+        Outward = "outward",
+        /// Small shells go.
+        Islands = "islands",
+    }
 }

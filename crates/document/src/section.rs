@@ -1,13 +1,11 @@
 //! `trueness/section/1`: the lines, arcs and curves of sections, and where they join.
 
 mod airfoil;
-mod blade;
 mod chord;
 mod dimension;
 mod doubts;
 mod fitted;
-mod found;
-mod hints;
+mod frame;
 mod methods;
 mod near_arc;
 mod nominal;
@@ -16,30 +14,27 @@ mod profile;
 mod segment;
 mod tidy;
 mod verdict;
+mod vocabulary;
 
 pub use airfoil::{AirfoilMeasures, AirfoilRecord};
 pub use chord::{ChordBy, ChordRecord, LeanRecord, StackingRecord};
 pub use dimension::{DimensionRecord, DimensionsRecord, MemberRecord};
 pub use doubts::{NominalWarning, NominalWarningKind};
 pub use fitted::FitRecord;
-pub use found::{FrameRecord, Section};
+pub use frame::FrameRecord;
 pub use methods::{MethodRecord, MethodsRecord, ResidualsRecord};
 pub use near_arc::NearArc;
 pub use nominal::{BEYOND_END, MAX_DISTANCE, NO_OUTLINE, NominalRecord, Positive};
-pub use outline::{Against, AgainstPlane, OutlineRecord};
+pub use outline::OutlineRecord;
 pub use profile::{ProfileRecord, WorstRecord};
-use segment::segment;
 pub use segment::{GeometryRecord, SegmentRecord, UncertaintyRecord};
 pub use tidy::OfferRecord;
 pub use verdict::ProfileRule;
+pub use vocabulary::{Continuity, DimensionKind, OfferKind, Taken};
 
-use super::{InputRecord, NoiseOrReason, SharedNoise, UNITS, VERSION, Word};
-use crate::noise::record as noise_record;
-use blade::Whereabouts;
+use super::{InputRecord, SharedNoise, Word};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use trueness_geom::progress::{Cancelled, Progress};
-use trueness_section::{Continuity, Contour, Method, Options, Search, SegmentKind, Taken};
 
 /// Name of this document's schema.
 pub const SCHEMA: &str = "trueness/section/1";
@@ -211,185 +206,5 @@ impl SectionDocument {
     pub fn frame_in(&self, plane: Option<u64>) -> &FrameRecord {
         let plane = plane.and_then(|n| self.planes.get(n as usize));
         plane.map_or(&self.frame, |p| &p.frame)
-    }
-
-    /// The document of what was found in the file of `inputs`.
-    pub fn new(sections: &[Section], inputs: Vec<InputRecord>, options: &Options) -> SectionDocument {
-        let planes = sections.iter().filter_map(plane).collect();
-        let contours = sections.iter().enumerate().flat_map(|(n, section)| {
-            let number = section.plane.map(|_| n as u64);
-            section.contours.iter().enumerate().map(move |(k, c)| {
-                let bent = section.bent.get(k).map_or(&[][..], |bent| bent);
-                ContourRecord {
-                    hints: hints::hints(section, c, bent, options),
-                    doubts: hints::doubts(c),
-                    ..contour(c, &section.frame, number)
-                }
-            })
-        });
-        SectionDocument {
-            schema: SCHEMA.into(),
-            version: VERSION.into(),
-            units: UNITS.into(),
-            inputs,
-            level: options.level,
-            noise_given: options.noise,
-            shared_noise: None,
-            shared_noise_reason: None,
-            continuity_given: options.continuity.map(Word),
-            frame: sections.first().map_or(FrameRecord::FLAT, |s| s.frame),
-            planes,
-            contours: contours.collect(),
-            dimensions: DimensionsRecord::new(sections),
-            airfoils: None,
-            lean: None,
-            nominal: None,
-            methods: None,
-        }
-    }
-
-    /// With the noise of the mesh's vertices, or why none is told; of contours that no scan's facets tell, nothing.
-    pub fn tell_noise(&mut self, noise: Option<&NoiseOrReason>) {
-        let of_scan = self.contours.iter().any(|c| c.taken.0 == Taken::Scan);
-        if let Some(noise) = noise.filter(|_| of_scan) {
-            (self.shared_noise, self.shared_noise_reason) = noise_record(noise);
-        }
-    }
-
-    /// The same with the offers for each contour, whose points are `rows`.
-    pub fn with_offers(mut self, sections: &[Section], rows: &[Vec<[f64; 2]>]) -> SectionDocument {
-        for (contour, offers) in self.contours.iter_mut().zip(tidy::offers(sections, rows)) {
-            match offers {
-                Ok(offers) => contour.tidy = Some(offers),
-                Err(reason) => contour.tidy_reason = Some(reason),
-            }
-        }
-        self
-    }
-
-    /// The same with what the paper's methods found: each with its number of points of the curve.
-    pub fn with_methods(
-        self,
-        chosen: Search,
-        interval: &str,
-        methods: &[(Method, usize)],
-    ) -> SectionDocument {
-        let methods = Some(MethodsRecord::new(chosen, interval, methods));
-        SectionDocument { methods, ..self }
-    }
-
-    /// The same with twist, offset and lean of its airfoils; `stacking` is the stacking point given, in the nominal's coordinates.
-    ///
-    /// # Errors
-    /// [`Cancelled`], when asked to stop.
-    pub fn with_blades(
-        mut self,
-        stacking: Option<[f64; 2]>,
-        progress: &dyn Progress,
-    ) -> Result<SectionDocument, Cancelled> {
-        let places: Vec<Whereabouts> = self.contours.iter().map(|c| self.whereabouts(c)).collect();
-        if let Some(airfoils) = &mut self.airfoils {
-            blade::against_nominal(airfoils, &places, self.nominal.as_ref(), stacking, progress)?;
-            self.lean = blade::lean(airfoils, &places);
-        }
-        Ok(self)
-    }
-
-    fn whereabouts(&self, contour: &ContourRecord) -> Whereabouts {
-        let plane = contour.plane.and_then(|n| self.planes.get(n as usize));
-        let ends = || contour.segments.iter().flat_map(|s| [s.start, s.end]);
-        let middle = |k: usize| {
-            let low = ends().map(|p| p[k]).fold(f64::INFINITY, f64::min);
-            let high = ends().map(|p| p[k]).fold(f64::NEG_INFINITY, f64::max);
-            0.5 * (low + high)
-        };
-        Whereabouts {
-            plane: contour.plane,
-            height: plane.map(|p| (p.normal, p.offset)),
-            middle: [middle(0), middle(1)],
-        }
-    }
-}
-
-fn plane(section: &Section) -> Option<PlaneRecord> {
-    let (normal, offset) = section.plane?;
-    Some(PlaneRecord {
-        normal,
-        offset,
-        frame: section.frame,
-        contours: section.contours.len() as u64,
-        area: section.area.ok(),
-        area_reason: section.area.err().map(Into::into),
-        loose: section.loose as u64,
-        gap: section.gap.map(|(gap, _)| gap),
-        hint: hint(section),
-        fills_area: section.fills_area,
-    })
-}
-
-/// What may help where a cloud has no contours, or suspiciously many.
-fn hint(section: &Section) -> Option<String> {
-    if section.fills_area {
-        return Some(Section::FILLS_AREA.into());
-    }
-    let (gap, wider) = section.gap?;
-    let open = section.contours.iter().filter(|c| !c.closed).count();
-    Some(format!(
-        "{open} of {} contours are open and end near each other: points are missing over more than the gap of {}; \
-         --gap {} lets most of them go on, a thicker slab (--thickness) brings points nearer together",
-        section.contours.len(),
-        hints::digits(gap),
-        hints::digits(wider? * 1.05)
-    ))
-}
-
-fn contour(found: &Contour, frame: &FrameRecord, plane: Option<u64>) -> ContourRecord {
-    let numbers = |list: &[usize]| list.iter().map(|i| *i as u64).collect();
-    let joins: Vec<JoinRecord> = found
-        .joins
-        .iter()
-        .map(|join| JoinRecord {
-            point: join.point,
-            position: frame.place(join.point),
-            continuity: Word(join.continuity),
-            interval: join.interval,
-            std_uncertainty: join.uncertainty,
-            interval_open: join.open,
-            turn: join.turn,
-        })
-        .collect();
-    let reason = match &found.segments[..] {
-        // A closed curve with a corner joins itself.
-        _ if !joins.is_empty() => None,
-        [one] if one.geometry.kind() != SegmentKind::Line => {
-            Some("one segment fits all points; no line segment found")
-        }
-        [_] => Some("one line fits all points"),
-        _ => None,
-    };
-    ContourRecord {
-        plane,
-        taken: Word(found.taken),
-        closed: found.closed,
-        length: found.length(),
-        noise: found.noise,
-        spacing: found.spacing,
-        points: found.labels.len() as u64,
-        segments: found.segments.iter().map(|s| segment(s, found.taken)).collect(),
-        joins,
-        joins_reason: reason.map(Into::into),
-        outliers: numbers(&found.outliers),
-        bevels: numbers(&found.bevels),
-        repeated: numbers(&found.repeated),
-        gaps: numbers(&found.gaps),
-        crossings: found.crossings.clone(),
-        astray: numbers(&found.astray),
-        doubts: vec![],
-        hints: vec![],
-        tidy: None,
-        tidy_reason: None,
-        residuals: found.residuals.clone(),
-        labels: found.labels.clone(),
-        stations: found.stations.clone(),
     }
 }

@@ -1,11 +1,11 @@
 //! `trueness/segment/1`: elements found in a mesh or cloud.
 
 use super::fit::Number;
+use super::shape::ShapeKind;
 use super::{Bounds, InputRecord, SharedNoise, Word};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-use trueness_geom::shape::Kind;
 
 /// Name of this document's schema.
 pub const SCHEMA: &str = "trueness/segment/1";
@@ -65,7 +65,7 @@ pub struct RegionRecord {
     /// Its number, from 0; the label of its facets or points.
     pub number: u64,
     /// `plane`, `cylinder`, `cone`, `sphere` or `torus`.
-    pub shape: Word<Kind>,
+    pub shape: Word<ShapeKind>,
     /// The element by least squares, by names, as in a fit.
     pub parameters: BTreeMap<String, Number>,
     /// Standard uncertainty of each parameter; of places and directions, coordinate by coordinate.

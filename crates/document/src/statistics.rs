@@ -2,12 +2,6 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use trueness_geom::stats::histogram::nice_edges;
-
-mod geom {
-    pub use trueness_geom::stats::histogram::Histogram;
-    pub use trueness_geom::stats::statistics::{Statistics, Summary};
-}
 
 /// Statistics of all deviations and of each side.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
@@ -40,18 +34,6 @@ macro_rules! statistics {
             pub percentiles: Percentiles,
             /// Largest relative error of median, mad and percentiles; 0 when they are exact.
             pub percentile_error: f64,
-        }
-
-        impl Statistics {
-            /// The document's form of a set of statistics; `quantile_error` is the relative error of order statistics.
-            pub fn of(s: &geom::Statistics, quantile_error: f64) -> Statistics {
-                Statistics {
-                    count: s.count,
-                    $($name: s.$name.ok(), $reason: s.$name.err().map(|e| e.to_string()),)*
-                    percentiles: Percentiles::of(s),
-                    percentile_error: quantile_error,
-                }
-            }
         }
     };
 }
@@ -167,25 +149,6 @@ pub struct Percentiles {
     pub p99_9: Option<f64>,
 }
 
-impl BySide {
-    /// The document's form of the statistics of all values and of each side.
-    pub fn of(summary: &geom::Summary) -> BySide {
-        let error = summary.quantile_error;
-        BySide {
-            all: Statistics::of(&summary.all, error),
-            positive: Statistics::of(&summary.positive, error),
-            negative: Statistics::of(&summary.negative, error),
-        }
-    }
-}
-
-impl Percentiles {
-    fn of(s: &geom::Statistics) -> Percentiles {
-        let [p0_1, p1, p2_5, p5, p25, p50, p75, p95, p97_5, p99, p99_9] = s.percentiles.map(Result::ok);
-        Percentiles { p0_1, p1, p2_5, p5, p25, p50, p75, p95, p97_5, p99, p99_9 }
-    }
-}
-
 /// Counts of deviations between edges; bin `i` holds `edges[i] <= d < edges[i + 1]`, the last one its upper edge too.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
 pub struct Histogram {
@@ -197,23 +160,4 @@ pub struct Histogram {
     pub below: u64,
     /// Deviations above the last edge.
     pub above: u64,
-}
-
-impl Histogram {
-    /// The document's form of a histogram.
-    pub fn of(h: &geom::Histogram) -> Histogram {
-        Histogram {
-            edges: h.edges().to_vec(),
-            counts: h.counts().to_vec(),
-            below: h.below(),
-            above: h.above(),
-        }
-    }
-
-    /// Counts of values between round edges; `all` are their statistics. `None` where there is nothing to count.
-    pub fn counted(all: &geom::Statistics, values: &[f64]) -> Option<Histogram> {
-        let mut counted = geom::Histogram::new(nice_edges(all)?).ok()?;
-        counted.push(values);
-        Some(Histogram::of(&counted))
-    }
 }

@@ -1,12 +1,12 @@
 //! `trueness/surface/1`: a B-spline surface fitted to points.
 
 use super::curvature::{BendRecord, Range};
+use super::word::words;
 use super::{Histogram, InputRecord, Statistics, Word};
 use crate::scale::Scale;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-use trueness_surface::{BaseKind, Reached, STANDING};
 
 /// Name of this document's schema.
 pub const SCHEMA: &str = "trueness/surface/1";
@@ -130,6 +130,9 @@ pub struct BaseRecord {
 
 /// Share of points in layers beyond which the surface is doubtful.
 pub const FOLDED: f64 = 0.01;
+
+/// Share of points whose surface stands on edge beyond which the surface is not theirs.
+pub const STANDING: f64 = 0.1;
 
 /// Factor to which lengths may shrink as a mesh is laid flat: of what is laid flat more densely the knots tell one place from the next no
 /// more.
@@ -278,4 +281,34 @@ pub struct SupportRecord {
     pub cells: u64,
     /// Of those, without a point.
     pub empty_cells: u64,
+}
+
+words! {
+    /// What the parameters of a surface are measured along.
+    BaseKind, "base of a surface", {
+        /// The least-squares plane.
+        Plane = "plane",
+        /// x and y themselves.
+        Xy = "xy",
+        /// The least-squares cylinder.
+        Cylinder = "cylinder",
+        /// The least-squares sphere.
+        Sphere = "sphere",
+        /// The facets of a mesh, laid flat.
+        Mesh = "mesh",
+    }
+}
+
+words! {
+    /// Why a surface has no more knots.
+    Reached, "reason to stop", {
+        /// All points are within the tolerance.
+        Tolerance = "tolerance",
+        /// More knots followed the noise of the points only.
+        Noise = "noise",
+        /// There would be more control points than points, or spans without points to set knots by.
+        Points = "points",
+        /// The matrix would take more memory than allowed.
+        Memory = "memory",
+    }
 }

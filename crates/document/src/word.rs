@@ -96,25 +96,39 @@ macro_rules! named {
 }
 pub(crate) use named;
 
-named!(trueness_geom::shape::Kind, "shape", Self::ALL, |kind| kind.name());
-named!(trueness_geom::fit::Method, "method of a fit", Self::ALL, |method| method.name());
-named!(trueness_surface::curvature::NoCurvature, "reason", Self::ALL, |reason| reason.name());
-named!(&'static trueness_solid::repair::Step, "step of a repair", trueness_solid::repair::STEPS, |step| step
-    .name);
-named!(trueness_geom::check::Severity, "severity", Self::ALL, |severity| severity.name());
+/// Makes an enum of words: its variants with their names, and the list of all; `"what"` is what a reader is told that an unknown name is none
+/// of.
+macro_rules! words {
+    ($(#[$meta:meta])* $name:ident, $what:literal, { $($(#[$about:meta])* $variant:ident = $word:literal,)* }) => {
+        $(#[$meta])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+        pub enum $name {
+            $($(#[$about])* $variant,)*
+        }
 
-named!(trueness_surface::BaseKind, "base of a surface", Self::ALL, |kind| kind.name());
-named!(trueness_surface::Reached, "reason to stop", Self::ALL, |reached| reached.name());
-named!(trueness_section::Continuity, "continuity", Self::ALL, |continuity| continuity.name());
-named!(trueness_section::Taken, "kind of row", Self::ALL, |taken| taken.name());
-named!(trueness_section::DimensionKind, "kind of dimension", Self::ALL, |kind| kind.name());
+        impl $name {
+            /// All of them.
+            pub const ALL: [$name; [$($name::$variant),*].len()] = [$($name::$variant),*];
+
+            /// Its name in documents.
+            pub fn name(self) -> &'static str {
+                match self {
+                    $($name::$variant => $word,)*
+                }
+            }
+        }
+
+        $crate::word::named!($name, $what, $name::ALL, |word| word.name());
+    };
+}
+pub(crate) use words;
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::curvature::NoCurvature;
+    use crate::shape::FitMethod as Method;
     use std::collections::BTreeMap;
-    use trueness_geom::fit::Method;
-    use trueness_surface::curvature::NoCurvature;
 
     #[test]
     fn words_are_strings_and_come_back() {

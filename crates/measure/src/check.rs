@@ -1,11 +1,14 @@
 //! From the findings of a check to the result document.
 
+use crate::bounds::bounds;
 use crate::file_numbers::LeftOut;
+use crate::words::ToWord;
+use std::collections::BTreeMap;
 use trueness_document::check::{CheckDocument, Defects, Item, SCHEMA, Tolerances};
-use trueness_document::compare::Bounds;
-use trueness_document::{InputRecord, UNITS, VERSION, Word};
+use trueness_document::{InputRecord, UNITS, VERSION};
 use trueness_geom::check::{
-    DefectKind, Finding, Found, INSIDE_OUT_SHELLS, NOT_FINITE_FACETS, Options, Report, SELF_INTERSECTIONS,
+    DefectKind, Finding, Found, INSIDE_OUT_SHELLS, KINDS, NOT_FINITE_FACETS, Options, Report,
+    SELF_INTERSECTIONS,
 };
 
 /// Makes the document. The facets `left_out` of the file were not handed to the check, for a coordinate that is not finite.
@@ -34,8 +37,8 @@ pub fn document(
         vertices: report.vertices as u64,
         edges: report.edges as u64,
         shells: s.shells as u64,
-        bounds: Bounds::of(&p.bounds),
-        dimensions: Bounds::of(&p.bounds).map(|_| p.bounds.sides()),
+        bounds: bounds(&p.bounds),
+        dimensions: bounds(&p.bounds).map(|_| p.bounds.sides()),
         area: p.area,
         volume: solid.then_some(p.signed_volume),
         volume_reason: (!solid).then(why_not),
@@ -72,7 +75,7 @@ fn overlaps(report: &Report) -> bool {
 /// The findings of a kind as the documents have them, by the numbers of the file; `None` where they were not looked for.
 pub(crate) fn defects(kind: &DefectKind, found: Option<&Found>, left_out: LeftOut) -> Defects {
     let mut defects = Defects {
-        severity: Word(kind.severity),
+        severity: kind.severity.word(),
         count: found.map(|f| f.count as u64),
         at_least: found.is_some_and(|f| f.at_least),
         count_reason: found.map_or(kind.missing, |_| None).map(str::to_string),
@@ -94,8 +97,17 @@ fn item(finding: &Finding) -> Item {
         facets: finding.facets.clone(),
         vertices: finding.vertices.clone(),
         position: finding.position,
-        bounds: Bounds::of(&finding.bounds),
+        bounds: bounds(&finding.bounds),
         size: finding.size,
         measures: finding.measures.iter().map(|(name, x)| (name.to_string(), *x)).collect(),
     }
+}
+
+/// Kinds of which there are any: errors first, what only follows from holes and cracks after these, else in the order in
+/// which the check tells them.
+pub fn found(defects: &BTreeMap<String, Defects>) -> Vec<(&'static DefectKind, &Defects)> {
+    let all = KINDS.into_iter().filter_map(|kind| Some((kind, defects.get(kind.name)?)));
+    let mut found: Vec<_> = all.filter(|(_, d)| d.count.is_some_and(|n| n > 0)).collect();
+    found.sort_by_key(|(kind, d)| (d.severity.0, kind.follows));
+    found
 }

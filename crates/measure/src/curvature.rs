@@ -1,27 +1,29 @@
 //! From the curvatures of a mesh or cloud to the result document, and to what a report draws of them.
 
+mod bend;
 mod values;
 
+pub use bend::bend_record;
 pub use values::{value, values};
 
+use crate::noise::{NoiseOrReason, noise_or_reason, record};
+use crate::statistics::{counted, statistics};
+use crate::words::ToWord;
 use std::collections::BTreeMap;
 use trueness_document::curvature::{
-    CurvatureDocument, CurvatureKind, CurvaturePlace, Neighborhood, NormalSource, PlaceKind, Quantity, Range,
-    SCHEMA,
+    CurvatureDocument, CurvatureKind, CurvaturePlace, Neighborhood, NoCurvature, NormalSource, PlaceKind,
+    Quantity, Range, SCHEMA,
 };
-use trueness_document::noise::record as noise_record;
 use trueness_document::scale::Scale;
 use trueness_document::surface::MapRecord;
-use trueness_document::{
-    self as results, Histogram, InputRecord, NoiseOrReason, UNITS, VERSION, Word, noise_or_reason,
-};
+use trueness_document::{InputRecord, UNITS, VERSION, Word};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::noise::{self, NoNoise};
 use trueness_geom::progress::{Cancelled, Progress};
 use trueness_geom::segment::is_drawn;
 use trueness_geom::space::{Aabb, Point};
 use trueness_geom::stats::statistics::{Statistics, Summary};
-use trueness_surface::curvature::{Curvatures, Jet, NoCurvature, Options, Reach};
+use trueness_surface::curvature::{Curvatures, Jet, Options, Reach};
 
 /// The noise of the vertices of a mesh, or without facets of its points, and how far neighbors share it; or why none is told: it is drawn, or there
 /// are too few points.
@@ -48,7 +50,7 @@ pub fn document(
     let jets: Vec<&Jet> = found.places.iter().flatten().collect();
     let size =
         Aabb::of(found.places.iter().zip(points).filter(|(p, _)| p.is_ok()).map(|(_, p)| p)).diagonal();
-    let (shared_noise, shared_noise_reason) = noise_record(noise);
+    let (shared_noise, shared_noise_reason) = record(noise);
     let [mean, gaussian, k1, k2] = CurvatureKind::ALL.map(|kind| quantity(found, points, size, kind));
     Some(CurvatureDocument {
         schema: SCHEMA.into(),
@@ -90,7 +92,7 @@ fn neighborhood(options: &Options) -> Neighborhood {
 pub fn without(found: &Curvatures) -> BTreeMap<Word<NoCurvature>, u64> {
     let mut all = BTreeMap::new();
     for why in found.places.iter().filter_map(|p| p.as_ref().err()) {
-        *all.entry(Word(*why)).or_insert(0) += 1;
+        *all.entry(why.word()).or_insert(0) += 1;
     }
     all
 }
@@ -105,7 +107,7 @@ fn quantity(found: &Curvatures, points: &[Point], size: f64, kind: CurvatureKind
     };
     let place = |index: usize| Some(place(index, points, found.places[index].as_ref().ok()?));
     Some(Quantity {
-        statistics: results::Statistics::of(&all_known, 0.0),
+        statistics: statistics(&all_known, 0.0),
         histogram: map.histogram,
         maximum: place(extreme(|a, b| a > b)?)?,
         minimum: place(extreme(|a, b| a < b)?)?,
@@ -121,7 +123,7 @@ pub(crate) fn map(known: &[f64], kind: CurvatureKind, size: f64) -> (Statistics,
     let most = p2_5.map_or(0.0, f64::abs).max(p97_5.map_or(0.0, f64::abs));
     let scale = Scale::for_values(most.max(kind.least(size)), kind.unit());
     let mean = all.mean.ok();
-    let record = MapRecord { histogram: Histogram::counted(&all, known), mean, scale };
+    let record = MapRecord { histogram: counted(&all, known), mean, scale };
     (all, record)
 }
 
@@ -129,7 +131,7 @@ fn place(index: usize, points: &[Point], jet: &Jet) -> CurvaturePlace {
     CurvaturePlace {
         index: index as u64,
         position: points[index],
-        bend: (&jet.bend).into(),
+        bend: bend_record(&jet.bend),
         uncertainty: jet.uncertainty,
         residual: jet.residual,
         condition: jet.condition,

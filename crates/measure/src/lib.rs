@@ -15,6 +15,8 @@
 //! | a plan and data make verdicts | [`inspection`] |
 #![cfg_attr(test, allow(clippy::disallowed_methods, reason = "a test does not hang on the last digit"))]
 
+pub mod align;
+mod bounds;
 pub mod characteristic;
 pub mod check;
 pub mod compare;
@@ -22,9 +24,18 @@ pub mod curvature;
 pub mod file_numbers;
 pub mod fit;
 pub mod inspection;
+mod noise;
 pub mod plan;
 pub mod repair;
 pub mod requirement;
+pub mod section;
 pub mod segment;
 pub mod spacing;
+mod statistics;
 pub mod surface;
+pub mod trend;
+pub mod words;
+
+pub use bounds::bounds;
+pub use noise::{NoiseOrReason, noise_or_reason, points_per_independent};
+pub use statistics::{by_side, counted, histogram, statistics};

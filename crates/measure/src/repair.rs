@@ -2,11 +2,12 @@
 
 mod effect;
 
+use crate::words::ToWord;
 use std::collections::BTreeMap;
 use trueness_document::repair::{
     Change, Deviation, Distances, FacetCounts, OutputRecord, RepairDocument, SCHEMA, State, VertexCounts,
 };
-use trueness_document::{InputRecord, UNITS, VERSION, Word};
+use trueness_document::{InputRecord, UNITS, VERSION};
 use trueness_geom::check::Report;
 use trueness_solid::repair::{self, DeviationError, Holes, Options, Repaired, STEPS};
 
@@ -43,7 +44,7 @@ pub fn document(repaired: &Repaired, options: &Options, around: Around) -> Repai
     let after = state(&repaired.after, facets);
     let effect = effect::record(repaired, after.volume, around.deviation.as_ref().ok(), around.max_change);
     let way = |w: repair::Way| Distances { max: w.max, mean: w.mean };
-    let steps = STEPS.into_iter().filter(|s| options.steps.contains(s)).map(Word);
+    let steps = STEPS.into_iter().filter(|s| options.steps.contains(s)).map(ToWord::word);
     RepairDocument {
         schema: SCHEMA.into(),
         version: VERSION.into(),
@@ -70,7 +71,7 @@ pub fn document(repaired: &Repaired, options: &Options, around: Around) -> Repai
         deviation_reason: around.deviation.err().map(|e| e.to_string()),
         steps: steps.collect(),
         not_united: repaired.not_united.map(|e| e.to_string()),
-        taken_back: repaired.taken_back.iter().copied().map(Word).collect(),
+        taken_back: repaired.taken_back.iter().copied().map(ToWord::word).collect(),
         hole_limit: match options.holes {
             Holes::UpTo(share) => Some(share),
             Holes::All => None,
@@ -84,7 +85,7 @@ pub fn document(repaired: &Repaired, options: &Options, around: Around) -> Repai
 
 fn change(c: &repair::Change) -> Change {
     Change {
-        step: Word(c.step),
+        step: c.step.word(),
         what: c.what.into(),
         position: c.position,
         facets: c.facets as u64,

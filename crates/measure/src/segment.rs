@@ -1,11 +1,12 @@
 //! From a segmentation to the result document.
 
 use crate::file_numbers::LeftOut;
+use crate::fit::{named, uncertainty};
+use crate::noise::{NoiseOrReason, points_per_independent, record as noise_record};
+use crate::words::ToWord;
 use std::collections::HashMap;
-use trueness_document::fit::{named, uncertainty};
-use trueness_document::noise::record as noise_record;
 use trueness_document::segment::{PieceKind, RegionRecord, SCHEMA, SegmentDocument};
-use trueness_document::{Bounds, InputRecord, NoiseOrReason, UNITS, VERSION, Word, points_per_independent};
+use trueness_document::{Bounds, InputRecord, UNITS, VERSION};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::segment::{Options, Region, Segmentation};
 
@@ -60,7 +61,7 @@ fn record(
     let area = (pieces == PieceKind::Facets).then_some(region.area);
     RegionRecord {
         number: number as u64,
-        shape: Word(region.fit.shape.kind()),
+        shape: region.fit.shape.kind().word(),
         parameters: named(region.fit.shape.parameters()),
         uncertainty,
         uncertainty_reason,

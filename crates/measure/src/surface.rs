@@ -1,13 +1,15 @@
 //! From a surface fitted to points to its result document.
 
-use crate::curvature::{map, value};
+use crate::curvature::{bend_record, map, value};
+use crate::statistics::{counted, statistics};
+use crate::words::ToWord;
 use trueness_document::curvature::{CurvatureKind, Range};
 use trueness_document::scale::Scale;
 use trueness_document::surface::{
     BaseRecord, CurvatureRecord, FOLDED, KnotsRecord, MapRecord, PlaceCurvature, RegionRecord, Residual,
     SCHEMA, SupportRecord, SurfaceDocument, ToleranceRecord, TrimRecord, WorstPoint, is_crushed,
 };
-use trueness_document::{self as results, InputRecord, UNITS, VERSION, Word};
+use trueness_document::{InputRecord, UNITS, VERSION};
 use trueness_geom::parallel::prelude::*;
 use trueness_geom::space::{Aabb, Point};
 use trueness_geom::spline::surface::{Bend, Patches};
@@ -53,7 +55,7 @@ pub fn document(
         degrees_of_freedom: fit.degrees_of_freedom,
         degrees_of_freedom_reason: fit.degrees_of_freedom.is_none().then(|| "the fairness was given".into()),
         map: deviation_map(&all, &deviations, options),
-        deviation: results::Statistics::of(&all, 0.0),
+        deviation: statistics(&all, 0.0),
         worst: worst(fit, points),
         residual: Residual {
             sum_of_squares: fit.sum_of_squares,
@@ -81,7 +83,7 @@ pub fn document(
 
 fn base(found: &Base) -> BaseRecord {
     BaseRecord {
-        kind: Word(found.kind),
+        kind: found.kind.word(),
         origin: found.origin,
         axes: found.axes,
         turned: found.turned,
@@ -111,7 +113,7 @@ fn worst(fit: &SurfaceFit, points: &[Point]) -> WorstPoint {
 fn tolerance(fit: &SurfaceFit, deviations: &[f64], options: &Options) -> Option<ToleranceRecord> {
     let (Layout::Tolerance(value), Some(reached)) = (&options.layout, fit.reached) else { return None };
     let outside = deviations.iter().filter(|d| d.abs() > *value).count() as u64;
-    Some(ToleranceRecord { value: *value, reached: outside == 0, outside, stopped_by: Word(reached) })
+    Some(ToleranceRecord { value: *value, reached: outside == 0, outside, stopped_by: reached.word() })
 }
 
 fn trim(fit: &SurfaceFit, outline: &Outline) -> TrimRecord {
@@ -135,7 +137,7 @@ fn deviation_map(all: &Statistics, deviations: &[f64], options: &Options) -> Map
         _ => None,
     };
     MapRecord {
-        histogram: results::Histogram::counted(all, deviations),
+        histogram: counted(all, deviations),
         mean: all.mean.ok(),
         scale: Scale::for_deviations(most, zone),
     }
@@ -151,7 +153,7 @@ fn curvature(fit: &SurfaceFit, points: &[Point]) -> CurvatureRecord {
     let middle = fit.surface.bend(parameters[0], parameters[1]).map(|bend| PlaceCurvature {
         parameters,
         position: fit.surface.at(parameters[0], parameters[1]),
-        bend: (&bend).into(),
+        bend: bend_record(&bend),
     });
     let size = Aabb::of(points).diagonal();
     let drawn = |kind: CurvatureKind| {
@@ -270,4 +272,13 @@ fn warnings(fit: &SurfaceFit, outline: Option<&Outline>) -> Vec<String> {
         ));
     }
     all
+}
+
+#[cfg(test)]
+mod tests {
+    /// Documents know no geometry, and hold the limit of the fit.
+    #[test]
+    fn what_stands_on_edge_is_the_same_for_fit_and_document() {
+        assert_eq!(trueness_document::surface::STANDING, trueness_surface::STANDING);
+    }
 }

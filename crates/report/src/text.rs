@@ -82,12 +82,16 @@ mod tests {
     fn every_entry_has_its_words() {
         use crate::NoValue;
         use trueness_document::Named;
+        use trueness_document::check::Severity;
         use trueness_document::compare::SignBy;
-        use trueness_document::section::{BEYOND_END, NO_OUTLINE, Positive};
-        use trueness_geom::{check, shape};
-        use trueness_section::{Continuity, DimensionKind, SegmentKind, Taken};
+        use trueness_document::curvature::NoCurvature;
+        use trueness_document::section::{
+            BEYOND_END, Continuity, DimensionKind, NO_OUTLINE, Positive, Taken,
+        };
+        use trueness_geom::check;
+        use trueness_geom::shape;
+        use trueness_section::SegmentKind;
         use trueness_solid::repair;
-        use trueness_surface::curvature::NoCurvature;
         fn of<T: Named>(before: &str) -> Vec<String> {
             T::all().iter().map(|entry| format!("{before}.{}", entry.name())).collect()
         }
@@ -99,7 +103,7 @@ mod tests {
             of::<Positive>("nominal"),
             of::<SignBy>("sign.by"),
             of::<Taken>("taken"),
-            of::<check::Severity>("severity"),
+            of::<Severity>("severity"),
             of::<trueness_document::plan::Class>("shape"),
             [BEYOND_END, NO_OUTLINE].map(|reason| format!("nominal.{reason}")).to_vec(),
             [SegmentKind::Line, SegmentKind::Arc, SegmentKind::Spline]

@@ -198,7 +198,7 @@ fn rows_lead_to_the_places_of_the_document() {
     let total: u64 = marks["groups"].as_array().unwrap().iter().map(|g| g["count"].as_u64().unwrap()).sum();
     assert_eq!(total, document.defects.values().map(|d| d.items.len() as u64).sum::<u64>());
     // The longest boundary edge comes first among its kind, wherever it stands in the document.
-    let found = document.found();
+    let found = trueness_measure::check::found(&document.defects);
     let before: Vec<usize> = found
         .iter()
         .take_while(|(kind, _)| kind.name != "boundary_edges")

@@ -18,6 +18,7 @@ use trueness_document::fit::Number;
 use trueness_document::segment::{PieceKind, RegionRecord, SegmentDocument};
 use trueness_files::write::Writable;
 use trueness_geom::shape::Quantity;
+use trueness_measure::words::ToGeometry;
 
 /// Planes, cylinders, cones, spheres and tori in a mesh or cloud, without a nominal
 ///
@@ -152,7 +153,7 @@ fn size(region: &RegionRecord) -> String {
         // The radius of a cone is that at some place.
         let own = name != "radius" || !region.parameters.contains_key("half_angle");
         let Some(Number::One(value)) = region.parameters.get(name).filter(|_| own) else { continue };
-        let is_angle = region.shape.quantity(name) == Some(Quantity::Angle);
+        let is_angle = region.shape.geometry().quantity(name) == Some(Quantity::Angle);
         let scale = if is_angle { 180.0 / std::f64::consts::PI } else { 1.0 };
         let mut word = format!("{short} {}", fixed(value * scale, 4));
         if let Some(Number::One(u)) = region.uncertainty.as_ref().and_then(|u| u.get(name)) {

@@ -1,7 +1,6 @@
 //! The words of comparisons.
 
-use crate::word::named;
-use trueness_geom::deviation::sign_choice::SignMethod;
+use crate::word::{named, words};
 
 /// What was measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,30 +24,21 @@ named!(
     }
 );
 
-/// How the signs of one reference, or of several, were found.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum SignBy {
-    /// All by this one.
-    Method(SignMethod),
-    /// Not all by the same.
-    Several,
-}
-
-named!(
-    SignBy,
-    "sign method",
-    [
-        SignBy::Method(SignMethod::Pseudonormal),
-        SignBy::Method(SignMethod::Winding),
-        SignBy::Method(SignMethod::Normal),
-        SignBy::Method(SignMethod::None),
-        SignBy::Several,
-    ],
-    |by| match by {
-        SignBy::Method(method) => method.name(),
-        SignBy::Several => "several",
+words! {
+    /// How the signs of deviations were found.
+    SignBy, "sign method", {
+        /// Side of the angle-weighted pseudonormal of the facet, edge or vertex hit.
+        Pseudonormal = "pseudonormal",
+        /// Inside where the winding number exceeds one half.
+        Winding = "winding",
+        /// Side of the normal of a B-spline surface.
+        Normal = "normal",
+        /// No sign: distances.
+        None = "none",
+        /// Each reference has a method of its own.
+        Several = "several",
     }
-);
+}
 
 /// Along what lines deviations are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

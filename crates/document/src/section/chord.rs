@@ -4,7 +4,6 @@ use crate::Word;
 use crate::word::named;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use trueness_section::{AirfoilError, Chord, Chords};
 
 /// What a chord is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -82,30 +81,4 @@ pub struct LeanRecord {
     pub greatest: f64,
     /// Planes that it is of.
     pub planes: u64,
-}
-
-/// The chords of a profile as records, without twist.
-pub(super) fn records(found: &Chords) -> Vec<ChordRecord> {
-    let all = [
-        (ChordBy::Farthest, Ok(found.farthest)),
-        (ChordBy::CamberEnds, Ok(found.camber_ends)),
-        (ChordBy::Bitangent, found.bitangent),
-    ];
-    all.into_iter().map(|(by, chord)| record(by, chord)).collect()
-}
-
-fn record(by: ChordBy, chord: Result<Chord, AirfoilError>) -> ChordRecord {
-    let found = chord.ok();
-    ChordRecord {
-        definition: Word(by),
-        leading: found.map(|c| c.leading),
-        trailing: found.map(|c| c.trailing),
-        length: found.map(|c| c.length()),
-        angle: found.map(|c| c.angle()),
-        length_reason: chord.err().map(|e| e.to_string()),
-        twist: None,
-        twist_reason: Some(
-            "there is no nominal to compare with; the angle is that with the first axis".into(),
-        ),
-    }
 }

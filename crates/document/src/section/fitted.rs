@@ -2,7 +2,6 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use trueness_section::{Freedom, OntoNominal, PlaneMotion};
 
 /// The motion that brought the section of a plane nearest to the nominal, before its deviations were taken: from the section as it lies to the
 /// nominal. Coordinates of contours, worst points and outlines stay those of the section as it lies.
@@ -38,37 +37,4 @@ pub struct FitRecord {
     pub iterations: u64,
     /// Whether it came to rest.
     pub converged: bool,
-    /// The motion.
-    #[serde(skip, default = "nothing")]
-    pub motion: PlaneMotion,
-}
-
-fn nothing() -> PlaneMotion {
-    PlaneMotion::about([0.0; 2])
-}
-
-impl FitRecord {
-    /// The record of a fit in a plane; `freedom` by its name.
-    pub fn new(plane: Option<u64>, (name, freedom): (&str, Freedom), found: &OntoNominal) -> FitRecord {
-        let of = |k: usize, u: f64| freedom.axes[k].then_some(u);
-        let [x, y] = found.shift_uncertainty;
-        FitRecord {
-            plane,
-            freedom: name.into(),
-            center: found.motion.center,
-            shift: found.motion.shift,
-            shift_uncertainty: [of(0, x), of(1, y)],
-            turn: found.motion.turn,
-            turn_uncertainty: of(2, found.turn_uncertainty),
-            transform: found.motion.rows(),
-            rms_before: found.rms_before,
-            rms: found.rms,
-            correlated: found.correlated,
-            used: found.used as u64,
-            left_out: found.left_out as u64,
-            iterations: found.iterations as u64,
-            converged: found.converged,
-            motion: found.motion,
-        }
-    }
 }

@@ -5,10 +5,6 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use trueness_geom::fit::{Options, fit};
-use trueness_geom::progress::Silent;
-use trueness_geom::shape::{Kind, Shape};
-use trueness_geom::spline::curve::Curve;
 
 /// The arc that a curve is near to.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize, JsonSchema)]
@@ -21,24 +17,6 @@ pub struct NearArc {
     pub rms: f64,
     /// Greatest distance of the curve from it.
     pub max: f64,
-}
-
-/// Of the length: curves farther than this from their arc are none.
-const NEAR: f64 = 1e-3;
-/// Angle run through, radians: a flatter curve is near to many arcs.
-const LEAST: f64 = 0.5;
-/// Places of the curve that are looked at.
-const PLACES: usize = 200;
-
-/// The arc of least squares through places of a curve, where all of the curve is near it.
-pub(super) fn near_arc(curve: &Curve<[f64; 2]>, length: f64) -> Option<NearArc> {
-    let places: Vec<[f64; 3]> = curve.sample(PLACES).into_iter().map(|[x, y]| [x, y, 0.0]).collect();
-    let found = fit(&places, Kind::Circle2, &Options::default(), &Silent).ok()?;
-    let Shape::Circle2 { center: [x, y, _], radius } = found.shape else { return None };
-    let off = |p: &[f64; 3]| libm::hypot(p[0] - x, p[1] - y) - radius;
-    let max = places.iter().map(|p| off(p).abs()).fold(0.0, f64::max);
-    let rms = (places.iter().map(|p| off(p) * off(p)).sum::<f64>() / places.len() as f64).sqrt();
-    (max <= NEAR * length && length >= LEAST * radius).then_some(NearArc { center: [x, y], radius, rms, max })
 }
 
 impl NearArc {

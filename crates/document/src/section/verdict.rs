@@ -147,6 +147,3 @@ fn beyond(t: &ToleranceShares) -> Option<VerdictReason> {
         _ => Some(VerdictReason::new(ReasonKind::NotMeasured, "no point counts")),
     }
 }
-
-#[cfg(test)]
-mod tests;

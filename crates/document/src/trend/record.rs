@@ -4,7 +4,6 @@ use crate::Verdict;
 use crate::inspect::Counts;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use trueness_geom::stats::process::{Index, Rule};
 
 /// A characteristic over all parts.
 #[derive(Clone, Debug, Serialize, Deserialize, JsonSchema)]
@@ -134,17 +133,6 @@ impl RuleRecord {
     }
 }
 
-impl From<Rule> for RuleRecord {
-    fn from(rule: Rule) -> RuleRecord {
-        match rule {
-            Rule::Beyond => RuleRecord::Beyond,
-            Rule::Range => RuleRecord::Range,
-            Rule::Run => RuleRecord::Run,
-            Rule::Steady => RuleRecord::Steady,
-        }
-    }
-}
-
 /// An index of capability with its confidence interval.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct IndexRecord {
@@ -154,12 +142,6 @@ pub struct IndexRecord {
     pub low: f64,
     /// Upper end.
     pub high: f64,
-}
-
-impl From<Index> for IndexRecord {
-    fn from(index: Index) -> IndexRecord {
-        IndexRecord { value: index.value, low: index.low, high: index.high }
-    }
 }
 
 /// Why results make no trend. Results are counted from 0, in the order given.

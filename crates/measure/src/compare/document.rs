@@ -7,6 +7,8 @@ use super::{
     AlongRule, Comparisons, Covered, Excluded, Extreme, Facing, Options, Outliers, RegionFound, plausibility,
 };
 use crate::file_numbers::LeftOut;
+use crate::statistics::{by_side, histogram, statistics};
+use crate::words::ToWord;
 use std::collections::BTreeMap;
 use trueness_document::align::{AlignNoteKind, AlignedTo};
 use trueness_document::check::Defects;
@@ -44,7 +46,7 @@ pub fn document(found: &Comparisons, inputs: Inputs, options: &Options) -> Compa
     let mut files = inputs.files;
     if let Some(measured) = files.first_mut() {
         measured.points = found.count;
-        measured.bounds = Bounds::of(&found.bounds);
+        measured.bounds = crate::bounds(&found.bounds);
     }
     let names: Vec<String> = files.iter().skip(1).map(|f| f.path.clone()).collect();
     let ranks = ranks(&found.references);
@@ -69,7 +71,7 @@ pub fn document(found: &Comparisons, inputs: Inputs, options: &Options) -> Compa
     let of_alignment = inputs.alignment.iter().flat_map(AlignedTo::doubts);
     let doubts: Vec<AlignNoteKind> = of_alignment.chain(inputs.doubts).collect();
     for (n, c) in comparisons.iter_mut().enumerate() {
-        let (reference, measured) = (files.get(n + 1), Bounds::of(&found.bounds));
+        let (reference, measured) = (files.get(n + 1), crate::bounds(&found.bounds));
         judge(c, &Grounds { doubts: &doubts, reference, measured: measured.as_ref() }, options);
     }
     let verdict = worst_of(comparisons.iter().filter_map(|c| c.verdict));
@@ -78,7 +80,11 @@ pub fn document(found: &Comparisons, inputs: Inputs, options: &Options) -> Compa
         version: VERSION.into(),
         units: UNITS.into(),
         inputs: files,
-        measured: Measured { kind: Word(inputs.kind), count: found.count, bounds: Bounds::of(&found.bounds) },
+        measured: Measured {
+            kind: Word(inputs.kind),
+            count: found.count,
+            bounds: crate::bounds(&found.bounds),
+        },
         alignment: inputs.alignment,
         method: Word(options.method),
         sign: overall_sign(&comparisons, options),
@@ -116,7 +122,7 @@ fn comparison(
         along: c.along.map(along),
         sign: sign(&c.sign, c.disagreement.as_ref()),
         soundness: soundness(c),
-        deviation: BySide::of(&c.summary),
+        deviation: by_side(&c.summary),
         excluded: c.excluded.iter().map(|(e, n)| (e.name().to_string(), *n)).collect::<BTreeMap<_, _>>(),
         outliers: c.outliers.map(|o| outliers(&o, c)),
         coverage: c.covered.as_ref().map(|found| coverage(found, c.between.count, options)),
@@ -131,7 +137,7 @@ fn comparison(
         others_verdict: None,
         tolerance,
         regions,
-        histogram: c.histogram.as_ref().map(Histogram::of),
+        histogram: c.histogram.as_ref().map(histogram),
         lowest: c.extremes.lowest.map(extreme),
         highest: c.extremes.highest.map(extreme),
         worst: c.worst.iter().map(|w| worst(w, &c.regions)).collect(),
@@ -210,7 +216,7 @@ fn sign(choice: &SignChoice, disagreement: Option<&Disagreement>) -> SignRecord 
     let share = disagreement.filter(|d| d.sample > 0).map(|d| d.differing as f64 / d.sample as f64);
     SignRecord {
         requested: choice.requested.name().into(),
-        method: Word(SignBy::Method(choice.method)),
+        method: choice.method.word(),
         reason: choice.to_string(),
         disagreement: share,
         disagreement_reason: share.is_none().then(|| match disagreement {
@@ -228,7 +234,7 @@ fn overall_sign(comparisons: &[Comparison], options: &Options) -> SignRecord {
     let signs = || comparisons.windows(2).map(|w| (&w[0].sign, &w[1].sign));
     let mut out = first.unwrap_or_else(|| SignRecord {
         requested: options.surface.sign.name().into(),
-        method: Word(SignBy::Method(SignMethod::None)),
+        method: Word(SignBy::None),
         reason: "there is no reference".into(),
         disagreement: None,
         disagreement_reason: Some("there is no reference".into()),
@@ -298,7 +304,7 @@ fn region(found: &RegionFound) -> RegionRecord {
     let tolerance = shares(&found.limits, found.rule.required_share);
     RegionRecord {
         id: found.rule.id.clone(),
-        deviation: Statistics::of(&found.summary.all, found.summary.quantile_error),
+        deviation: statistics(&found.summary.all, found.summary.quantile_error),
         verdict: Verdict::NotMeasured,
         tolerance,
     }

@@ -1,7 +1,8 @@
 //! From the reference back to the measured mesh: what a one-way comparison cannot see is missing material.
 
 use super::reference::Compared;
-use trueness_document::compare::{Reverse, Statistics};
+use crate::statistics::statistics;
+use trueness_document::compare::Reverse;
 use trueness_geom::closest::{MeshError, Query, QueryError, Tree};
 use trueness_geom::deviation::sample::TwoSided;
 use trueness_geom::mesh::Mesh;
@@ -45,6 +46,6 @@ pub fn reverse(
     Ok(Reverse {
         hausdorff: both.hausdorff.ok(),
         mean: both.mean.ok(),
-        deviation: Statistics::of(&back.all, back.quantile_error),
+        deviation: statistics(&back.all, back.quantile_error),
     })
 }

@@ -2,23 +2,23 @@
 
 use super::decision::{utilization, verdict};
 use super::{Element, Found, Inspection, Taken, Uncertainty, left_out};
+use crate::align::{note, notes_of_rows, notes_of_search};
 use crate::characteristic::{
     Characteristic, FrameOf, Missing, Place, Question, Spec, Texture, Value, nearest,
 };
 use crate::compare;
+use crate::fit::{named, uncertainty};
+use crate::noise::{NoiseOrReason, points_per_independent, record as noise_record};
 use crate::plan::Plan;
 use crate::requirement::{Limits, Source, ZoneOffset};
+use crate::words::ToWord;
 use std::collections::BTreeMap;
 use trueness_document::align::{AlignNote, AlignNoteKind};
 use trueness_document::compare::{Comparison, Warning, WarningKind};
-use trueness_document::fit::{Number, named, uncertainty};
+use trueness_document::fit::Number;
 use trueness_document::inspect::*;
-use trueness_document::noise::record as noise_record;
 use trueness_document::scale::Scale;
-use trueness_document::{
-    InputRecord, NoiseOrReason, Role, UNITS, VERSION, Verdict, VerdictReason, Word, overall,
-    points_per_independent,
-};
+use trueness_document::{InputRecord, Role, UNITS, VERSION, Verdict, VerdictReason, Word, overall};
 use trueness_geom::feature::Nominal;
 use trueness_geom::fit::Method;
 use trueness_geom::shape::Shape;
@@ -116,7 +116,7 @@ fn alignment_record(plan: &Plan, found: &Inspection) -> AlignmentRecord {
             left_out: Some(fit.left_out),
             iterations: Some(fit.iterations as u64),
             converged: Some(fit.converged),
-            warnings: fit.warnings.iter().map(AlignNote::of).collect(),
+            warnings: fit.warnings.iter().map(note).collect(),
             ..bare
         },
         Found::Chebyshev(minimax, fit) => AlignmentRecord {
@@ -126,7 +126,7 @@ fn alignment_record(plan: &Plan, found: &Inspection) -> AlignmentRecord {
             left_out: Some(minimax.left_out.count),
             iterations: Some(fit.iterations as u64),
             converged: Some(fit.converged),
-            warnings: AlignNote::of_search(fit, &minimax.left_out),
+            warnings: notes_of_search(fit, &minimax.left_out),
             ..bare
         },
         Found::Zones(zones, fit) => AlignmentRecord {
@@ -136,7 +136,7 @@ fn alignment_record(plan: &Plan, found: &Inspection) -> AlignmentRecord {
             left_out: Some(zones.left_out.count),
             iterations: Some(fit.iterations as u64),
             converged: Some(fit.converged),
-            warnings: AlignNote::of_search(fit, &zones.left_out),
+            warnings: notes_of_search(fit, &zones.left_out),
             ..bare
         },
         Found::Rows(fit, corners) => AlignmentRecord {
@@ -146,7 +146,7 @@ fn alignment_record(plan: &Plan, found: &Inspection) -> AlignmentRecord {
             amplifications: Some(fit.amplifications(corners)).filter(|by| !by.is_empty()),
             iterations: Some(fit.iterations as u64),
             converged: Some(fit.converged),
-            warnings: AlignNote::of_rows(fit, corners),
+            warnings: notes_of_rows(fit, corners),
             ..bare
         },
     };
@@ -227,7 +227,7 @@ fn feature(plan: &crate::requirement::Feature, taken: &Taken, noise: &NoiseOrRea
             .coverage
             .is_none()
             .then(|| "there is no nominal area, or no measured one".into()),
-        method: Word(plan.method),
+        method: plan.method.word(),
         parameters,
         measured: measured_place(taken),
         nominal: nominal_place(taken),

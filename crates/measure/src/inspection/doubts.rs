@@ -1,12 +1,12 @@
 //! Whether the data lie where the reference or the plan's features are, and in their unit.
 
 use super::data::Data;
+use crate::align::note;
 use crate::characteristic::Taken;
 use crate::compare::plausibility;
 use crate::plan::Plan;
 use crate::requirement::{Feature, Source};
-use trueness_document::align::AlignNote;
-use trueness_document::compare::{Bounds, Warning, WarningKind};
+use trueness_document::compare::{Warning, WarningKind};
 use trueness_geom::align::{AlignWarning, Alignment};
 use trueness_geom::feature::Nominal;
 use trueness_geom::rigid::Rigid;
@@ -43,7 +43,7 @@ pub(super) fn doubts(plan: &Plan, data: &Data, motion: &Rigid, features: &[Taken
 pub(super) fn unit(plan: &Plan, data: &Data, motion: &Rigid, fit: Option<&Alignment>) -> Option<String> {
     let of_fit = fit.and_then(|fit| fit.warnings.iter().find(|w| matches!(w, AlignWarning::Scale { .. })));
     if let Some(warning) = of_fit {
-        return Some(AlignNote::of(warning).text);
+        return Some(note(warning).text);
     }
     let found = match data.reference {
         Some(_) => boxes(plan, data).into_iter().find(|w| w.kind == WarningKind::SizeRatio),
@@ -59,7 +59,7 @@ fn boxes(plan: &Plan, data: &Data) -> Vec<Warning> {
         Some(reference) => reference.bounds(),
         None => Aabb::of(&places(plan)),
     };
-    let bounds = Bounds::of(&measured.bounds()).zip(Bounds::of(&reference));
+    let bounds = crate::bounds(&measured.bounds()).zip(crate::bounds(&reference));
     bounds.map_or(vec![], |(m, r)| plausibility::warnings(&m, &r, REMEDY))
 }
 

@@ -5,7 +5,7 @@ use super::deviation::Deviations;
 use super::faces_view::DrawnFace;
 use super::uncertainty::Uncertainty;
 use crate::characteristic::{Spec, Taken, Value};
-use trueness_document::NoiseOrReason;
+use crate::noise::NoiseOrReason;
 use trueness_document::compare::Warning;
 use trueness_geom::mesh::Mesh;
 

@@ -46,10 +46,10 @@ pub use found::Inspection;
 pub use uncertainty::Uncertainty;
 
 use crate::characteristic::Spec;
+use crate::noise::{NoiseOrReason, noise_or_reason};
 use crate::plan::Plan;
 use features::Features;
 use nominals::Nominals;
-use trueness_document::{NoiseOrReason, noise_or_reason};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::noise::{self, NoNoise};
 use trueness_geom::parallel::prelude::*;

@@ -20,7 +20,8 @@ use trueness_geom::space::Point;
 use trueness_measure::repair::Around;
 use trueness_report::{ReportInput, ReportOptions};
 use trueness_solid::repair;
-use trueness_surface::{self as surface, curvature};
+use trueness_surface as surface;
+use trueness_surface::curvature;
 
 /// All of them, into `folder`.
 pub fn write_all(folder: &Path) {
@@ -226,7 +227,7 @@ pub fn segment_page(mesh: &Mesh, options: &ReportOptions) -> (Vec<u8>, SegmentDo
     let wish = segment::Options::default();
     let found = segment::mesh(mesh, &wish, &Silent).unwrap();
     let files = vec![file(Role::Measured, "peg.stl", mesh)];
-    let noise = trueness_document::noise_or_reason(found.shared_noise(mesh, 0, &Silent)).unwrap();
+    let noise = trueness_measure::noise_or_reason(found.shared_noise(mesh, 0, &Silent)).unwrap();
     let document = trueness_measure::segment::document(&found, &noise, PieceKind::Facets, files, &wish, None);
     let view = trueness_report::views::segment::View::new(&document, mesh, &found.labels);
     let (objects, marks) = (view.objects(), &view.marks[..]);

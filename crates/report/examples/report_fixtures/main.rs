@@ -33,7 +33,6 @@ use trueness_document::compare::Method;
 use trueness_document::compare::*;
 use trueness_document::scale::Scale;
 use trueness_document::{InputRecord, Role, UNITS, VERSION, Verdict, Word};
-use trueness_geom::deviation::sign_choice::SignMethod;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::{Progress, Silent};
 use trueness_geom::space::Point;
@@ -370,7 +369,7 @@ fn record(role: Role, path: &str, points: usize, facets: Option<u64>) -> InputRe
 fn sign() -> SignRecord {
     SignRecord {
         requested: "auto".into(),
-        method: Word(SignBy::Method(SignMethod::Pseudonormal)),
+        method: Word(SignBy::Pseudonormal),
         reason: "the reference is closed and consistently oriented".into(),
         disagreement: Some(0.0),
         disagreement_reason: None,

@@ -3,12 +3,11 @@
 use std::f64::consts::TAU;
 use std::path::Path;
 use trueness_document::Role;
-use trueness_document::section::{
-    Against, AgainstPlane, FrameRecord, NominalRecord, Section, SectionDocument,
-};
+use trueness_document::section::{FrameRecord, SectionDocument};
 use trueness_geom::num::random::Random;
 use trueness_geom::progress::Silent;
 use trueness_geom::space::Point;
+use trueness_measure::section::{Against, AgainstPlane, Section};
 use trueness_report::{ReportInput, ReportOptions, ViewObject, flat};
 use trueness_section::{Options, Outline, Segment, contour, off_nominal};
 
@@ -64,7 +63,7 @@ fn against() -> Vec<u8> {
     let own = contour(&points, &wish, &Silent).unwrap();
     let found = off_nominal(&points, &outlines, &Silent).unwrap();
     let contours = vec![Against { points: &points, found, far: 0, contour: &own }];
-    let nominal = NominalRecord::new(
+    let nominal = trueness_measure::section::nominal(
         "nominal.dxf",
         "drawing",
         vec![AgainstPlane { plane: Some(0), outlines, contours }],
@@ -74,8 +73,10 @@ fn against() -> Vec<u8> {
         Section::new(frame, Some(([0.0, 1.0, 0.0], 0.0)), Err("points have no facets"), vec![own.clone()]);
     let files = [(Role::Measured, "profile.txt"), (Role::Reference, "nominal.dxf")];
     let files = files.map(|(role, name)| super::record(role, name, points.len(), None)).to_vec();
-    let document =
-        SectionDocument { nominal: Some(nominal), ..SectionDocument::new(&[section], files, &wish) };
+    let document = SectionDocument {
+        nominal: Some(nominal),
+        ..trueness_measure::section::document(&[section], files, &wish)
+    };
     let places = flat(&points);
     let objects = [ViewObject::measured(&places)];
     super::bytes(&ReportInput { result: &document, objects: &objects, marks: &[], options: &options })
@@ -98,7 +99,7 @@ fn page(planes: &[Vec<Vec<[f64; 2]>>]) -> Vec<u8> {
     let places: Vec<Vec<Point>> = planes.iter().flatten().map(|r| flat(r)).collect();
     let count = places.iter().map(Vec::len).sum();
     let files = vec![super::record(Role::Measured, "profile.txt", count, None)];
-    let document = SectionDocument::new(&sections, files, &wish);
+    let document = trueness_measure::section::document(&sections, files, &wish);
     let objects: Vec<ViewObject> = places.iter().map(|p| ViewObject::measured(p)).collect();
     let result = &document;
     super::bytes(&ReportInput { result, objects: &objects, marks: &[], options: &options })

@@ -41,7 +41,7 @@ fn trend(parts: &[Vec<Found>]) -> TrendDocument {
         unit_assumed: UNITS.into(),
     };
     let results: Vec<InspectDocument> = parts.iter().enumerate().map(|(n, found)| result(n, found)).collect();
-    TrendDocument::new((0..parts.len()).map(input).collect(), &results).unwrap()
+    trueness_measure::trend::document((0..parts.len()).map(input).collect(), &results).unwrap()
 }
 
 /// Fourteen parts: one too high, one undecided, one not measured, a drift; values that are all alike; a limit that is far off;

@@ -9,9 +9,10 @@ use crate::subject::{Head, Pick, Subject};
 use crate::values::Text;
 use maud::{Markup, Render, html};
 use serde_json::Value;
-use trueness_document::check::{CheckDocument, Defects, Item};
+use trueness_document::check::{CheckDocument, Defects, Item, Severity};
 use trueness_document::scale::palette::{Rgb, category};
-use trueness_geom::check::{DefectKind, Measure, Severity};
+use trueness_geom::check::{DefectKind, Measure};
+use trueness_measure::check::found;
 
 /// Rows of a kind at most, the worst first.
 const LISTED: usize = 100;
@@ -22,7 +23,7 @@ impl Subject for CheckDocument {
     }
 
     fn headline(&self) -> Headline {
-        let warned = self.found().iter().any(|(_, d)| *d.severity == Severity::Warning);
+        let warned = found(&self.defects).iter().any(|(_, d)| *d.severity == Severity::Warning);
         match (self.sound, warned) {
             (true, false) => Headline { key: "sound", tone: Tone::Pass },
             (true, true) => Headline { key: "sound_warned", tone: Tone::Pass },
@@ -54,7 +55,7 @@ impl Subject for CheckDocument {
 
     fn list(&self, s: Style) -> Markup {
         html! {
-            (section(s, "defects", html! { (kinds(s, &self.found(), 0)) (absent(s, self)) }))
+            (section(s, "defects", html! { (kinds(s, &found(&self.defects), 0)) (absent(s, self)) }))
             (section(s, "model", model(s, self)))
         }
     }
@@ -68,12 +69,12 @@ impl Subject for CheckDocument {
     }
 
     fn picks(&self) -> Vec<Pick> {
-        picks(&self.found(), 0)
+        picks(&found(&self.defects), 0)
     }
 
     /// Errors before warnings, the largest first.
     fn important(&self, picks: &[Pick]) -> Vec<usize> {
-        let kinds = self.found();
+        let kinds = found(&self.defects);
         let errors = |(_, d): &(&DefectKind, &Defects)| {
             std::iter::repeat_n(*d.severity == Severity::Error, d.items.len().min(LISTED))
         };
@@ -141,7 +142,7 @@ fn measure(measure: Measure) -> (&'static str, &'static str) {
 
 /// How many kinds of defects of a severity there are, at how many places.
 fn severity(s: Style, d: &CheckDocument, key: &str, severity: Severity, class: &str) -> Markup {
-    let kinds = d.found().iter().filter(|(_, d)| *d.severity == severity).count() as u64;
+    let kinds = found(&d.defects).iter().filter(|(_, d)| *d.severity == severity).count() as u64;
     let of = d.defects.values().filter(|d| *d.severity == severity);
     let places: u64 = of.filter_map(|d| d.count).sum();
     let value = html! {

@@ -17,9 +17,9 @@ use maud::{Markup, html};
 use serde_json::Value;
 use trueness_document::ReasonKind;
 use trueness_document::align::AlignedTo;
-use trueness_document::check::found;
 use trueness_document::compare::{CompareDocument, Comparison, MeasuredKind, Method, Worst};
 use trueness_document::scale::Scale;
+use trueness_measure::check::found;
 use words::{headline, sign_key, warning_key};
 
 impl Subject for CompareDocument {

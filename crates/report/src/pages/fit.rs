@@ -12,9 +12,10 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 use trueness_document::fit::{Extent, FitDocument, Number};
 use trueness_document::noise::shared;
 use trueness_document::scale::Scale;
-use trueness_geom::fit::Method;
+use trueness_document::shape::FitMethod;
 use trueness_geom::shape::{Coordinate, Quantity, Sides};
 use trueness_geom::space::{Vector, plus, times};
+use trueness_measure::fit::kind;
 
 impl Subject for FitDocument {
     fn head(&self) -> Head<'_> {
@@ -29,7 +30,7 @@ impl Subject for FitDocument {
     }
 
     fn convention(&self) -> Option<&'static str> {
-        Some(match self.kind().sides() {
+        Some(match kind(self).sides() {
             Sides::None => "sign.none",
             Sides::OfNormal => "sign.plane",
             Sides::InAndOut => "sign.fit",
@@ -40,7 +41,7 @@ impl Subject for FitDocument {
         let Extent { axes: [a, b, w], u, v, .. } = *self.extent.as_ref()?;
         let middle = 0.5 * (u[0] + u[1]);
         use Coordinate::{Latitude, Length, None as Nothing, Turn};
-        match self.kind().coordinates() {
+        match kind(self).coordinates() {
             [Length, Length] | [Turn, Nothing] => Some(w),
             [Nothing, _] => self.planar.then_some([0.0, 0.0, 1.0]),
             [_, Latitude] => (v[0] > -FRAC_PI_2).then_some(w),
@@ -109,7 +110,7 @@ impl Subject for FitDocument {
     }
 
     fn quantity(&self) -> [&'static str; 3] {
-        match self.kind().sides() {
+        match kind(self).sides() {
             Sides::None => ["distance.title", "ends.unsigned.high", "ends.unsigned.low"],
             Sides::OfNormal => ["distance.title", "ends.plane.high", "ends.plane.low"],
             Sides::InAndOut => ["distance.title", "ends.fit.high", "ends.fit.low"],
@@ -139,13 +140,13 @@ impl Subject for FitDocument {
 }
 
 /// Key of a method's word.
-fn method(method: Method) -> &'static str {
+fn method(method: FitMethod) -> &'static str {
     match method {
-        Method::Gaussian => "fit.gaussian",
-        Method::MinimumZone => "fit.minimum_zone",
-        Method::MinimumCircumscribed => "fit.minimum_circumscribed",
-        Method::MaximumInscribed => "fit.maximum_inscribed",
-        Method::Robust => "fit.robust",
+        FitMethod::Gaussian => "fit.gaussian",
+        FitMethod::MinimumZone => "fit.minimum_zone",
+        FitMethod::MinimumCircumscribed => "fit.minimum_circumscribed",
+        FitMethod::MaximumInscribed => "fit.maximum_inscribed",
+        FitMethod::Robust => "fit.robust",
     }
 }
 
@@ -172,7 +173,7 @@ fn parameters(s: Style, d: &FitDocument) -> Markup {
 /// The rows of a parameter.
 fn parameter(s: Style, d: &FitDocument, name: &str, value: &Number) -> Markup {
     let uncertainty = d.uncertainty.as_ref().and_then(|u| u.get(name));
-    let quantity = d.kind().quantity(name);
+    let quantity = kind(d).quantity(name);
     match *value {
         Number::One(x) => {
             let u = uncertainty.and_then(|u| if let Number::One(u) = u { Some(*u) } else { None });
@@ -222,7 +223,7 @@ fn residuals(s: Style, d: &FitDocument) -> Markup {
             (fact(s, "rms", html! { (s.optional(Some(d.rms), digits + 1)) "\u{a0}mm" }))
             (fact(s, "std_dev", html! { (std_dev(s, d)) @if d.std_dev.is_some() { "\u{a0}mm" } }))
             (fact(s, "points", s.count(d.count)))
-            @if *d.method == Method::Robust { (fact(s, "outliers", s.count(d.outliers))) }
+            @if *d.method == FitMethod::Robust { (fact(s, "outliers", s.count(d.outliers))) }
             (fact(s, "iterations", s.count(d.iterations)))
         }
         table.pick {

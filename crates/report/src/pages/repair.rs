@@ -147,7 +147,7 @@ fn changes(s: Style, d: &RepairDocument) -> Markup {
         @for (n, ((of, changes), first)) in steps.iter().zip(starts).enumerate() {
             details.kind open[steps.len() == 1] {
                 summary {
-                    (swatch(category(n))) span.kind-name { (s.word(format!("step.{}", of.name))) }
+                    (swatch(category(n))) span.kind-name { (s.word(format!("step.{}", of.name()))) }
                     strong { (s.len(changes)) }
                 }
                 "\n" (step(s, changes, first))

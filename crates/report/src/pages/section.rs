@@ -24,8 +24,7 @@ use crate::subject::{Drawn, Head, Pick, Subject};
 use crate::{Up, ViewObject};
 use maud::{Markup, html};
 use serde_json::Value;
-use trueness_document::section::{ContourRecord, SectionDocument};
-use trueness_section::Taken;
+use trueness_document::section::{ContourRecord, SectionDocument, Taken};
 
 impl Subject for SectionDocument {
     fn head(&self) -> Head<'_> {

@@ -12,8 +12,7 @@ use trueness_document::Verdict;
 use trueness_document::compare::ToleranceShares;
 use trueness_document::curvature::{CurvatureKind, Range};
 use trueness_document::scale::Scale;
-use trueness_document::surface::{MapRecord, SurfaceDocument};
-use trueness_surface::BaseKind;
+use trueness_document::surface::{BaseKind, MapRecord, SurfaceDocument};
 
 impl Subject for SurfaceDocument {
     fn head(&self) -> Head<'_> {

@@ -7,6 +7,7 @@ use trueness_geom::check::{DefectKind, Shows};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::space::{Point, cross, minus, plus, unit};
 use trueness_geom::topology::Topology;
+use trueness_measure::check::found;
 use trueness_measure::file_numbers::LeftOut;
 
 /// A checked mesh prepared for drawing.
@@ -20,7 +21,7 @@ pub struct View<'a> {
 impl<'a> View<'a> {
     /// Of the mesh that the document is of, without the facets `left_out` of the file; `name` is shown to the reader.
     pub fn new(document: &CheckDocument, name: &'a str, mesh: &'a Mesh, left_out: LeftOut) -> View<'a> {
-        let groups = groups(&document.found(), mesh, left_out);
+        let groups = groups(&found(&document.defects), mesh, left_out);
         let marks = Marks { role: ViewRole::Defects, comparison: None, groups };
         View { name, mesh, marks: vec![marks] }
     }

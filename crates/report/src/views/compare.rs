@@ -4,10 +4,10 @@ use crate::shown::first_view;
 use crate::views::check::groups;
 use crate::{Gathered, Geometry, Marks, NoValue, ViewField, ViewObject, ViewRole};
 use std::collections::BTreeSet;
-use trueness_document::check::found;
 use trueness_document::compare::{CompareDocument, Comparison};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::space::Point;
+use trueness_measure::check::found;
 use trueness_measure::compare::{Comparisons, Excluded, Reference, Values};
 
 /// Deviations prepared for drawing.

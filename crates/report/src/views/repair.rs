@@ -2,12 +2,11 @@
 
 use crate::{Geometry, Mark, MarkGroup, Marks, ViewObject, ViewRole};
 use std::collections::HashSet;
-use trueness_document::repair::{Change, RepairDocument};
+use trueness_document::repair::{Change, RepairDocument, RepairStep};
 use trueness_document::scale::palette::{Rgb, category};
 use trueness_geom::closest::Tree;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::space::{Point, Vector, normal};
-use trueness_solid::repair::Step;
 
 /// Facets drawn as new or gone, at most.
 const MOST: usize = 100_000;
@@ -26,8 +25,8 @@ pub struct View<'a> {
 }
 
 /// The listed changes step by step, steps in the order of their first change.
-pub fn by_step(document: &RepairDocument) -> Vec<(&'static Step, Vec<&Change>)> {
-    let mut steps: Vec<(&'static Step, Vec<&Change>)> = vec![];
+pub fn by_step(document: &RepairDocument) -> Vec<(RepairStep, Vec<&Change>)> {
+    let mut steps: Vec<(RepairStep, Vec<&Change>)> = vec![];
     for change in &document.changes {
         match steps.iter_mut().find(|(step, _)| *step == *change.step) {
             Some((_, changes)) => changes.push(change),
@@ -43,7 +42,7 @@ impl<'a> View<'a> {
         let surface = MendedMesh { mesh: after, tree: Tree::build(after).ok() };
         let steps = by_step(document).into_iter().enumerate();
         let groups = steps.map(|(n, (step, changes))| MarkGroup {
-            key: format!("step.{}", step.name),
+            key: format!("step.{}", step.name()),
             color: category(n),
             items: changes.into_iter().map(|c| surface.dot(c)).collect(),
         });

@@ -18,7 +18,7 @@ impl View {
     pub fn new(map: &TrendMap) -> View {
         let greatest = [&map.means, &map.std_devs].into_iter().filter_map(|q| q.greatest);
         View {
-            mesh: map.mesh(),
+            mesh: trueness_measure::trend::mesh(map),
             values: [map.drawn(&map.mean), map.drawn(&map.std_dev)],
             reasons: map.parts.iter().map(reason).collect(),
             keep: greatest.map(|g| g.index as u32).collect(),

@@ -8,7 +8,7 @@ pub use whole::{bytes, digest};
 
 use crate::task::{Meaning, TaskError};
 use std::path::Path;
-use trueness_document::{Bounds, ColumnRecord, InputRecord, Role, TableRecord};
+use trueness_document::{ColumnRecord, InputRecord, Role, TableRecord};
 use trueness_files::cad::SplineModel;
 use trueness_files::drawing::Drawing;
 use trueness_files::{
@@ -260,7 +260,7 @@ pub fn all_normals(
 /// Fills in number and box of the points of a file.
 pub fn describe(record: &mut InputRecord, points: &[Point]) {
     record.points = points.len() as u64;
-    record.bounds = Bounds::of(&Aabb::of(points));
+    record.bounds = trueness_measure::bounds(&Aabb::of(points));
 }
 
 /// What the document says about a file; its counts and hash are filled in later.

@@ -3,9 +3,9 @@
 use super::{TaskError, Watch, ended};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use trueness_document::NoiseOrReason;
 use trueness_geom::noise::PATCHES;
 use trueness_geom::progress::{Cancelled, Progress};
+use trueness_measure::NoiseOrReason;
 
 /// How far neighbors share errors.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]

@@ -149,13 +149,16 @@ impl AlignRequest {
         if self.scale {
             let found = align::best_fit_scaled(&measured, &target, &options, &*stage);
             let (fit, scale) = found.map_err(failed)?;
-            return Ok(AlignDocument::of_best_fit(&fit, records, self.seed).with_scale(&scale));
+            return Ok(trueness_measure::align::with_scale(
+                trueness_measure::align::best_fit(&fit, records, self.seed),
+                &scale,
+            ));
         }
         let fit = align::best_fit(&measured, &target, &options, &*stage).map_err(failed)?;
         match self.method {
             Method::Chebyshev => {
                 let found = align::minimax(&measured, &target, &fit, &options, &*stage).map_err(failed)?;
-                Ok(AlignDocument::of_minimax(&found, &fit, records, self.seed))
+                Ok(trueness_measure::align::minimax(&found, &fit, records, self.seed))
             }
             Method::Zones => {
                 let surface = ReferenceSurface::new(&tree, reference, &SurfaceOptions::default(), &*stage)
@@ -167,12 +170,12 @@ impl AlignRequest {
                 let elsewhere = self.tolerance.as_ref().map(|t| t.value.0);
                 let zones = |face, place: &Point| regions.allowed(face, place, elsewhere);
                 let found = align::into_zones(&measured, &target, &surface, &zones, &fit, &options, &*stage);
-                Ok(AlignDocument::of_zones(&found.map_err(failed)?, &fit, records, self.seed))
+                Ok(trueness_measure::align::zones(&found.map_err(failed)?, &fit, records, self.seed))
             }
             _ => {
-                let document = AlignDocument::of_best_fit(&fit, records, self.seed);
+                let document = trueness_measure::align::best_fit(&fit, records, self.seed);
                 Ok(match &options.lock {
-                    Some(lock) => document.with_lock(lock),
+                    Some(lock) => trueness_measure::align::with_lock(document, lock),
                     None => document,
                 })
             }
@@ -205,7 +208,7 @@ impl Request for AlignRequest {
             Some(path) => {
                 let found = by_rows(sources, path, self.method)?;
                 let corners = reference.mesh.bounds().corners();
-                AlignDocument::of_rows(&found, self.method.word(), &corners, records, self.seed)
+                trueness_measure::align::rows(&found, self.method.word(), &corners, records, self.seed)
             }
             None => self.best_fit((&scan, &reference.mesh), records, (sources, watch))?,
         };

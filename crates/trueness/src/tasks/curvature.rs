@@ -8,14 +8,15 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use trueness_document::Role;
-use trueness_document::curvature::{CurvatureDocument, CurvatureKind};
+use trueness_document::curvature::{CurvatureDocument, CurvatureKind, NoCurvature};
 use trueness_files::Sources;
 use trueness_files::write::{Values, Writable, values};
 use trueness_geom::mesh::Mesh;
 use trueness_measure::curvature::{document, noise, value, without};
+use trueness_measure::words::ToWord;
 use trueness_report::views::curvature::View;
 use trueness_report::{Marks, ViewObject};
-use trueness_surface::curvature::{self, CurvatureError, Curvatures, NoCurvature, Options, Reach};
+use trueness_surface::curvature::{self, CurvatureError, Curvatures, Options, Reach};
 
 choices! {
     /// The curvature that a file is colored by.
@@ -252,7 +253,7 @@ fn write(
         ]
     };
     let code = |i: usize| {
-        let place = |why: &NoCurvature| NoCurvature::ALL.iter().position(|r| r == why);
+        let place = |why: &curvature::NoCurvature| NoCurvature::ALL.iter().position(|r| *r == *why.word());
         found.places[i].as_ref().err().and_then(place).map_or(0, |n| n as u8 + 1)
     };
     let color =

@@ -8,14 +8,15 @@ use crate::task::{
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
+use trueness_document::Role;
 use trueness_document::segment::{PieceKind, SegmentDocument};
-use trueness_document::{Role, noise_or_reason};
 use trueness_files::Sources;
 use trueness_files::write::{Pieces, Writable, regions};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::segment::{self, Options, SegmentError, Segmentation};
 use trueness_geom::shape::Kind;
 use trueness_measure::file_numbers::LeftOut;
+use trueness_measure::noise_or_reason;
 use trueness_report::views::segment::{View, color};
 use trueness_report::{Marks, ViewObject};
 

@@ -4,6 +4,7 @@ use crate::console::columns;
 use crate::number::{FACETS, SHELLS, VERTICES, counted, extent, fixed, grouped, scientific, signed};
 use std::collections::BTreeMap;
 use trueness_document::repair::{RepairDocument, State};
+use trueness_measure::words::ToGeometry;
 use trueness_solid::repair::Removes;
 
 /// The whole text.
@@ -156,7 +157,7 @@ fn verdict(d: &RepairDocument) -> String {
         steps => {
             format!(
                 " Done without {}: with that, some defect would be there more often, or surface be removed in vain.",
-                steps.iter().map(|step| step.name).collect::<Vec<_>>().join(", ")
+                steps.iter().map(|step| step.name()).collect::<Vec<_>>().join(", ")
             )
         }
     };
@@ -169,7 +170,7 @@ fn verdict(d: &RepairDocument) -> String {
             "\nSOUND IN MEMORY ONLY: {written}; the format does not hold the repair. Write .ply, .obj or .off instead.\n"
         ),
         (true, _) if d.effect.changed => {
-            let removed = d.changes.iter().any(|change| change.step.removes == Removes::Sheets);
+            let removed = d.changes.iter().any(|change| change.step.geometry().removes == Removes::Sheets);
             let sheets = match (removed, d.hole_limit) {
                 (true, Some(_)) => {
                     " Loose sheets were removed: --all-holes closes them, --skip scraps keeps them."

@@ -12,7 +12,7 @@ use trueness_document::section::{
     AirfoilMeasures, AirfoilRecord, BEYOND_END, ContourRecord, DimensionsRecord, FrameRecord, GeometryRecord,
     MAX_DISTANCE, MethodsRecord, NominalRecord, OutlineRecord, Positive, SectionDocument, SegmentRecord,
 };
-use trueness_section::{DimensionKind, Taken};
+use trueness_document::section::{DimensionKind, Taken};
 
 /// Rows of a contour that are shown.
 const ROWS: usize = 60;

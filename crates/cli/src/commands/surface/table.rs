@@ -5,8 +5,8 @@ use crate::number::{POINTS, counted, fixed, grouped, scientific};
 use std::fmt::Write;
 use trueness::read;
 use trueness_document::curvature::Range;
+use trueness_document::surface::Reached;
 use trueness_document::surface::{BaseRecord, SurfaceDocument};
-use trueness_surface::Reached;
 
 /// The document as text.
 pub fn table(document: &SurfaceDocument) -> String {

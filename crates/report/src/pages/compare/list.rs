@@ -8,13 +8,13 @@ use crate::pages::align::{Facts, alignment};
 use crate::pages::check;
 use crate::values::{Name, Text};
 use maud::{Markup, Render, html};
-use trueness_document::check::found;
 use trueness_document::compare::{
     AlongKind, AlongRecord, BySide, CompareDocument, Comparison, CoverageRecord, OutliersRecord, SignRecord,
     Statistics, ToleranceShares, Worst,
 };
 use trueness_document::statistics::PAGE_ROWS;
 use trueness_document::{Verdict, VerdictReason};
+use trueness_measure::check::found;
 
 /// The worst places that have a row and a flag: none where all would read zero.
 pub fn listed_worst(c: &Comparison, decimals: usize) -> &[Worst] {

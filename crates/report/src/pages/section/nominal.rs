@@ -11,6 +11,7 @@ use crate::{Up, ViewObject};
 use maud::{Markup, html};
 use std::fmt::Write;
 use trueness_document::section::SectionDocument;
+use trueness_measure::section::divided;
 use trueness_section::{Outline, Segment};
 
 /// Bytes that a measured point takes in the drawing, and a whisker.
@@ -47,7 +48,7 @@ impl Rooms {
             let plan = |sheet: &Sheet| Plan::of(sheet, document, document.frame_in(sheet.plane), up);
             let plans: Vec<Plan> = sheets.iter().map(plan).collect();
             let strokes: Vec<(&Plan, [Vec<Outline>; 2])> = (sheets.iter().zip(&plans))
-                .flat_map(|(sheet, plan)| sheet.outlines.iter().map(move |(_, o)| (plan, o.divided())))
+                .flat_map(|(sheet, plan)| sheet.outlines.iter().map(move |(_, o)| (plan, divided(o))))
                 .collect();
             let bytes = |within: f64| {
                 let of = |(plan, parts): &(&Plan, [Vec<Outline>; 2])| {
@@ -139,7 +140,7 @@ pub fn outlines(plan: &Plan, sheet: &Sheet, document: &SectionDocument, rooms: &
     let listed = lacking(document);
     html! {
         @for (number, record) in &sheet.outlines {
-            @let [measured, missed] = record.divided().map(|parts| path(plan, &parts, within));
+            @let [measured, missed] = divided(record).map(|parts| path(plan, &parts, within));
             @if !measured.is_empty() { (leaf("path", &[("class", &"nominal"), ("d", &measured)])) "\n" }
             @if !missed.is_empty() {
                 @match listed.binary_search(number) {

@@ -5,11 +5,10 @@ use super::tests::{attributes, document, drawn, far, numbers, places, row};
 use super::*;
 use crate::{Language, flat};
 use std::f64::consts::{FRAC_PI_2, TAU};
-use trueness_document::section::{
-    Against, AgainstPlane, FrameRecord, NominalRecord, NominalWarningKind, PlaneRecord, Positive,
-};
+use trueness_document::section::{FrameRecord, NominalRecord, NominalWarningKind, PlaneRecord, Positive};
 use trueness_geom::progress::Silent;
 use trueness_geom::spline::{basis::Knots, curve::Curve};
+use trueness_measure::section::{Against, AgainstPlane};
 use trueness_section::{Contour, Geometry, Options, Outline, Segment, contour, off_nominal};
 
 /// A line, an arc of radius 8 and a curve, near to [`row`]; and a round hole that no point is near to.
@@ -34,8 +33,11 @@ fn compared(points: &[[f64; 2]], outlines: Vec<Outline>) -> SectionDocument {
     let found = off_nominal(points, &outlines, &Silent).unwrap();
     let own = contour(points, &Options::default(), &Silent).unwrap();
     let contours = vec![Against { points, found, far: 0, contour: &own }];
-    let nominal =
-        NominalRecord::new("n.dxf", "drawing", vec![AgainstPlane { plane: None, outlines, contours }]);
+    let nominal = trueness_measure::section::nominal(
+        "n.dxf",
+        "drawing",
+        vec![AgainstPlane { plane: None, outlines, contours }],
+    );
     SectionDocument { nominal: Some(nominal), ..document(points) }
 }
 
@@ -288,7 +290,7 @@ fn against(rows: &[Vec<[f64; 2]>], outlines: &[Outline]) -> NominalRecord {
     let contours =
         rows.iter().map(|points| Against { points, found: of(points), far: 0, contour: &bare }).collect();
     let plane = AgainstPlane { plane: None, outlines: outlines.to_vec(), contours };
-    NominalRecord::new("n.dxf", "drawing", vec![plane])
+    trueness_measure::section::nominal("n.dxf", "drawing", vec![plane])
 }
 
 fn circle([x, y]: [f64; 2], r: f64) -> Vec<[f64; 2]> {

@@ -2,8 +2,8 @@
 
 use std::f64::consts::{FRAC_PI_8, TAU};
 use trueness_document::section::{GeometryRecord, SegmentRecord};
-use trueness_geom::spline::basis::Knots;
 use trueness_geom::spline::curve::Curve;
+use trueness_measure::section::curve;
 use trueness_section::{Geometry, Segment};
 
 /// What is drawn of a segment: straight lines through places, or cubic Bézier curves one after the other, ends shared.
@@ -74,13 +74,6 @@ fn arc(center: [f64; 2], radius: f64, start: f64, sweep: f64) -> Vec<[f64; 2]> {
         }
     }
     all
-}
-
-/// The curve of a spline.
-fn curve(segment: &SegmentRecord) -> Option<Curve<[f64; 2]>> {
-    let GeometryRecord::Spline { degree, knots, control_points, .. } = &segment.geometry else { return None };
-    let knots = Knots::new(*degree as usize, knots.clone()).ok()?;
-    Curve::new(knots, control_points.clone()).ok()
 }
 
 /// A tooth of a curvature comb.

@@ -52,7 +52,7 @@ pub struct Plan {
 pub fn sheets(document: &SectionDocument) -> Vec<Sheet<'_>> {
     let mut contours = document.contours.iter().enumerate().peekable();
     let outlines = document.nominal.iter().flat_map(|n| n.outlines.iter().enumerate());
-    let mut outlines = outlines.filter(|(_, o)| !o.drawn.segments.is_empty()).peekable();
+    let mut outlines = outlines.filter(|(_, o)| !o.drawn.is_empty()).peekable();
     let mut all: Vec<Sheet> = vec![];
     loop {
         let [a, b] = [contours.peek().map(|(_, c)| c.plane), outlines.peek().map(|(_, o)| o.plane)];

@@ -13,8 +13,7 @@ use crate::values::leaf;
 use crate::{Up, ViewObject};
 use maud::{Markup, html};
 use std::fmt::Write;
-use trueness_document::section::{ContourRecord, SectionDocument};
-use trueness_section::Continuity;
+use trueness_document::section::{Continuity, ContourRecord, SectionDocument};
 
 /// More joins than this have no numbers until the script finds room for them.
 const NUMBERED: usize = 40;

@@ -7,10 +7,9 @@ use crate::page::parts::{fact, not_printed, row_class};
 use crate::values::{Number, Optional, Text};
 use maud::{Markup, html};
 use trueness_document::section::{
-    ContourRecord, DimensionsRecord, GeometryRecord, MethodsRecord, PlaneRecord, SectionDocument,
-    SegmentRecord, UncertaintyRecord,
+    ContourRecord, DimensionKind, DimensionsRecord, GeometryRecord, MethodsRecord, PlaneRecord,
+    SectionDocument, SegmentRecord, Taken, UncertaintyRecord,
 };
-use trueness_section::{DimensionKind, Taken};
 
 /// Contours that are listed open.
 const OPEN: usize = 3;

@@ -3,10 +3,11 @@
 use super::pieces::kind;
 use super::*;
 use crate::{Language, flat};
-use trueness_document::section::{FrameRecord, GeometryRecord, Section};
+use trueness_document::section::{FrameRecord, GeometryRecord};
 use trueness_geom::num::random::Random;
 use trueness_geom::progress::Silent;
 use trueness_geom::space::Point;
+use trueness_measure::section::Section;
 use trueness_section::{Options, contour};
 
 /// Far from the origin: a line, an arc of radius 8, a line, a corner, a free curve.
@@ -27,8 +28,18 @@ pub(super) fn document(points: &[[f64; 2]]) -> SectionDocument {
     let options = Options::default();
     let found = contour(points, &options, &Silent).unwrap();
     let frame = FrameRecord { origin: [0.0; 3], x: [1.0, 0.0, 0.0], y: [0.0, 1.0, 0.0], flatness: 0.0 };
-    let section = Section::new(frame, None, Err("none"), vec![found]);
-    SectionDocument::new(&[section], vec![], &options)
+    let section = Section {
+        frame,
+        plane: None,
+        area: Err("none"),
+        loose: 0,
+        gap: None,
+        thickness: None,
+        fills_area: false,
+        bent: vec![],
+        contours: vec![found],
+    };
+    trueness_measure::section::document(&[section], vec![], &options)
 }
 
 pub(super) fn drawn(document: &SectionDocument, places: &[Point], room: usize) -> String {

@@ -67,7 +67,7 @@ impl Prepared {
         let stage = watch.stage("aligning", STEPS, None);
         let reference = self.opened[0].mesh();
         let found = self.measured.align(&request.measured, reference, request.seed, &*stage)?;
-        self.alignment = Some(AlignedTo::new(&found, self.files[1].path.clone()));
+        self.alignment = Some(trueness_measure::align::aligned_to(&found, self.files[1].path.clone()));
         Ok(())
     }
 

@@ -3,8 +3,8 @@
 use crate::read::{self, ReferenceBody};
 use crate::task::{Meaning, STEPS, TaskError, Watch};
 use std::path::{Path, PathBuf};
+use trueness_document::InputRecord;
 use trueness_document::compare::Method;
-use trueness_document::{Bounds, InputRecord};
 use trueness_files::{ReadOptions, Sources};
 use trueness_geom::deviation::sign_choice::SignRequest;
 use trueness_geom::mesh::Mesh;
@@ -65,7 +65,7 @@ pub fn open(
             }
         };
         if matches!(opened, Opened::Surfaces(..)) {
-            record.bounds = Bounds::of(&Aabb::of(&opened.mesh().positions));
+            record.bounds = trueness_measure::bounds(&Aabb::of(&opened.mesh().positions));
         }
         record.warnings.extend(lacking);
         all.push(opened);

@@ -1,7 +1,8 @@
 //! What was found in planes or in a row of points.
 
-use trueness_document::section::{FrameRecord, Section};
+use trueness_document::section::FrameRecord;
 use trueness_geom::plane::PlaneFrame;
+use trueness_measure::section::Section;
 use trueness_section::{Method, Search};
 
 /// What was found.

@@ -14,12 +14,13 @@ use crate::read::{self, Body, Opened};
 use crate::task::{Done, Page, Request, RunFiles, STEPS, Scene, TaskError, Watch};
 use found::{Found, Methods};
 use planes::Cut;
-use trueness_document::section::{AirfoilRecord, SectionDocument};
-use trueness_document::{InputRecord, NoiseOrReason, Role, noise_or_reason};
+use trueness_document::section::SectionDocument;
+use trueness_document::{InputRecord, Role};
 use trueness_files::Sources;
 use trueness_geom::noise::{self, Noise};
 use trueness_geom::progress::{Cancelled, Progress};
 use trueness_geom::space::{Point, minus, norm};
+use trueness_measure::{NoiseOrReason, noise_or_reason};
 use trueness_report::{ViewObject, flat};
 use trueness_section::{Options, SectionError};
 
@@ -58,8 +59,8 @@ impl Request for SectionRequest {
         let compared = nominal::compare(self, sources, (&found, &planes), (&rule, &options), &*stage)?;
         let (nominal, file) = compared.unzip();
         let inputs = std::iter::once(record).chain(file).collect();
-        let mut document = SectionDocument::new(&found.sections, inputs, &options);
-        document.tell_noise(noise.told.as_ref());
+        let mut document = trueness_measure::section::document(&found.sections, inputs, &options);
+        trueness_measure::section::tell_noise(&mut document, noise.told.as_ref());
         document.nominal = nominal;
         let document = self.complete(document, &found, &*stage)?;
         drop(stage);
@@ -151,19 +152,22 @@ impl SectionRequest {
         progress: &dyn Progress,
     ) -> Result<SectionDocument, Cancelled> {
         let (sections, rows) = (&found.sections, &found.rows);
-        document.airfoils = self.airfoil.then(|| AirfoilRecord::all(sections, rows, progress)).transpose()?;
+        document.airfoils = self
+            .airfoil
+            .then(|| trueness_measure::section::airfoils(sections, rows, progress))
+            .transpose()?;
         for found in document.airfoils.iter().flatten() {
             if let Some(contour) = document.contours.get_mut(found.contour as usize) {
                 contour.doubts.extend(found.doubt());
             }
         }
-        document = document.with_blades(self.stacking, progress)?;
+        document = trueness_measure::section::with_blades(document, self.stacking, progress)?;
         if self.tidy {
-            document = document.with_offers(sections, rows);
+            document = trueness_measure::section::with_offers(document, sections, rows);
         }
         self.tell_raised_gap(&mut document.planes);
         if let Some(Methods { chosen, interval, table }) = &found.methods {
-            document = document.with_methods(*chosen, interval, table);
+            document = trueness_measure::section::with_methods(document, *chosen, interval, table);
         }
         Ok(document)
     }

@@ -4,13 +4,14 @@ use super::found::{Found, described};
 use super::request::SectionRequest;
 use crate::task::TaskError;
 use trueness_document::InputRecord;
-use trueness_document::section::{PlaneRecord, Section};
+use trueness_document::section::PlaneRecord;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::noise::Noise;
 use trueness_geom::parallel::prelude::*;
 use trueness_geom::plane::{Plane, PlaneFrame};
 use trueness_geom::progress::Progress;
 use trueness_geom::space::{Point, dot};
+use trueness_measure::section::Section;
 use trueness_section::{self as section, Chain, Contour, Options, Order, Ordered, SectionError};
 
 /// Most planes of a stack.

@@ -3,10 +3,10 @@
 use super::found::{Found, Methods, described};
 use super::request::{Interval, SectionRequest};
 use crate::task::TaskError;
-use trueness_document::section::Section;
 use trueness_geom::plane::PlaneFrame;
 use trueness_geom::progress::Progress;
 use trueness_geom::space::Point;
+use trueness_measure::section::Section;
 use trueness_section::{self as section, Options, SectionError, SegmentKind};
 
 /// A row in space in the plane nearest to it; a row of two columns as it is. Its contour is that of the method asked for, if one was.

@@ -3,10 +3,11 @@
 use super::request::SectionRequest;
 use crate::task::{Output, TaskError};
 use std::io::Write;
-use trueness_document::section::{FrameRecord, NominalRecord, Section};
+use trueness_document::section::{FrameRecord, NominalRecord};
 use trueness_files::drawing::{self, Clamped, Entity, Layer};
 use trueness_files::write::{Csv, LineEnd};
 use trueness_geom::plane::PlaneFrame;
+use trueness_measure::section::Section;
 use trueness_section::{Geometry, Segment};
 
 /// The files that were asked for, unfinished: of each section its contours, `rows`, the points of each contour, and their deviations from

@@ -68,7 +68,7 @@ impl Request for TrendRequest {
         let read = self.results.iter().map(|path| result(sources, path));
         let (inputs, results): (Vec<_>, Vec<_>) =
             read.collect::<Result<Vec<_>, TaskError>>()?.into_iter().unzip();
-        let document = TrendDocument::new(inputs, &results).map_err(|e| match &e {
+        let document = trueness_measure::trend::document(inputs, &results).map_err(|e| match &e {
             TrendError::Different { index, .. }
             | TrendError::Twice { index, .. }
             | TrendError::Changed { index, .. } => {

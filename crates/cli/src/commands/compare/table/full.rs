@@ -5,14 +5,12 @@ use crate::console::columns;
 use crate::number::{
     FACETS, POINTS, counted, fixed, grouped, short as shortest, short_signed, signed, six_digits as number,
 };
-use trueness_document::Named;
 use trueness_document::compare::{
     AlongKind, AlongRecord, CompareDocument, Comparison, CoverageRecord, OutliersRecord, SignBy, Statistics,
     SurfacesRecord,
 };
 use trueness_document::research::{Finding, Research, Test};
 use trueness_document::statistics::TABLE_ROWS;
-use trueness_geom::deviation::sign_choice::SignMethod;
 use trueness_measure::compare::Excluded;
 
 /// The whole text.
@@ -88,7 +86,7 @@ fn head(d: &CompareDocument) -> String {
             rows.push(("!".into(), format!("{of}the reference is not sound: {}", unsound(c))));
             rows.extend(places(c).map(|place| (String::new(), format!("  {of}{place}"))));
             let signs = match *c.sign.method {
-                SignBy::Method(SignMethod::None) => "the deviations have no sign".into(),
+                SignBy::None => "the deviations have no sign".into(),
                 method => format!("the signs are those of the method {}", method.name()),
             };
             rows.push((String::new(), format!("  {of}it is compared all the same; {signs}")));
@@ -212,7 +210,7 @@ fn places(c: &Comparison) -> impl Iterator<Item = String> {
 
 /// One reference: statistics in rows, sides in columns.
 fn one(c: &Comparison) -> String {
-    let has_sign = *c.sign.method != SignBy::Method(SignMethod::None);
+    let has_sign = *c.sign.method != SignBy::None;
     let sides: Vec<&Statistics> = if has_sign {
         vec![&c.deviation.all, &c.deviation.positive, &c.deviation.negative]
     } else {

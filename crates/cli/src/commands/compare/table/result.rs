@@ -7,8 +7,7 @@ use crate::number::{FACETS, POINTS, counted, grouped, short, short_signed};
 use trueness_document::compare::{
     CompareDocument, Comparison, CoverageRecord, ExtremeRecord, SignBy, ToleranceShares,
 };
-use trueness_document::{InputRecord, Named, Role, Verdict, percent};
-use trueness_geom::deviation::sign_choice::SignMethod;
+use trueness_document::{InputRecord, Role, Verdict, percent};
 
 /// The whole text.
 pub fn text(d: &CompareDocument, places: bool) -> String {
@@ -112,7 +111,7 @@ fn one(out: &mut String, d: &CompareDocument, c: &Comparison) {
         (Some(t), true) => out.push_str(&line("within", &within(t))),
         (None, true) => {}
     }
-    let signless = *c.sign.method == SignBy::Method(SignMethod::None);
+    let signless = *c.sign.method == SignBy::None;
     if signless && d.verdict.is_some() {
         out.push_str(&line("!", "the deviations have no sign"));
     }
@@ -169,7 +168,7 @@ fn within(t: &ToleranceShares) -> String {
 /// What is wrong with a reference, in a line.
 fn unsound(c: &Comparison) -> Option<String> {
     let signs = match *c.sign.method {
-        SignBy::Method(SignMethod::None) => "no signs".into(),
+        SignBy::None => "no signs".into(),
         method => format!("signs by {}", method.name()),
     };
     (!c.soundness.sound).then(|| format!("the reference is not sound ({}); {signs}", full::unsound(c)))

@@ -8,16 +8,15 @@ use super::planes::{self, Cut};
 use super::request::SectionRequest;
 use crate::task::{TaskError, ToleranceText};
 use outlines::{Nominal, plane_of};
-use trueness_document::compare::{Bounds, Warning};
-use trueness_document::section::{
-    Against, AgainstPlane, FitRecord, NominalRecord, NominalWarning, ProfileRule, Section,
-};
+use trueness_document::compare::Warning;
+use trueness_document::section::{NominalRecord, NominalWarning, ProfileRule};
 use trueness_document::tolerance::cannot_fail;
 use trueness_document::{InputRecord, of_percent};
 use trueness_files::Sources;
 use trueness_geom::progress::{Cancelled, Progress};
 use trueness_geom::space::Aabb;
 use trueness_measure::compare::plausibility;
+use trueness_measure::section::{Against, AgainstPlane, Section};
 use trueness_section::{self as section, Contour, OntoNominalError, Options, Outline};
 
 /// What a section must be near to.
@@ -84,7 +83,7 @@ pub fn compare(
             // Coordinates stay those of the section.
             let back = fit.motion.inverse();
             outlines = outlines.iter().map(|o| o.moved(&back)).collect();
-            fits.push(FitRecord::new(plane, freedom, &fit));
+            fits.push(trueness_measure::section::fit_record(plane, freedom, &fit));
         }
         let contours = (own.into_iter().zip(&section.contours))
             .map(|(points, contour)| against(points, contour, &outlines, rule.max_distance, progress))
@@ -100,7 +99,7 @@ pub fn compare(
         )));
     }
     let unlikely = unlikely(sections, &all).into_iter().map(NominalWarning::from);
-    let mut found = NominalRecord::new(&nominal.record.path, nominal.kind(), all);
+    let mut found = trueness_measure::section::nominal(&nominal.record.path, nominal.kind(), all);
     found.warnings.splice(0..0, unlikely.chain(nominal.passed_over()));
     found.fits = fits;
     if let Some(profile) = &rule.profile {
@@ -150,7 +149,7 @@ fn unlikely(sections: &[Section], all: &[AgainstPlane]) -> Vec<Warning> {
             nominal.extend([[0, 0], [0, 1], [1, 0], [1, 1]].map(corner));
         }
     }
-    let [measured, nominal] = [measured, nominal].map(|places| Bounds::of(&Aabb::of(&places)));
+    let [measured, nominal] = [measured, nominal].map(|places| trueness_measure::bounds(&Aabb::of(&places)));
     match (measured, nominal) {
         (Some(m), Some(n)) => plausibility::warnings(&m, &n, "--units, --reference-units"),
         _ => vec![],

@@ -8,13 +8,14 @@ use crate::read::{self, Body, Opened};
 use crate::task::TaskError;
 use std::path::Path;
 use trueness_document::InputRecord;
-use trueness_document::section::{NominalWarning, Section};
+use trueness_document::section::NominalWarning;
 use trueness_files::drawing::{Drawing, Drawn};
 use trueness_files::{ReadOptions, Sources};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::plane::{Plane, PlaneFrame};
 use trueness_geom::progress::Progress;
 use trueness_geom::space::{Point, dot};
+use trueness_measure::section::Section;
 use trueness_section::{self as section, Options, Outline, SectionError, Segment};
 
 /// A nominal as it stands in its file.

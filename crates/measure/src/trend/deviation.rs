@@ -1,9 +1,9 @@
 //! The course of the deviations from the reference: the share of the points within tolerance, of each region and of all others.
 
-use super::record::{TrendError, TrendRecord};
-use crate::Verdict;
-use crate::compare::ToleranceShares;
-use crate::inspect::{Counts, InspectDocument};
+use trueness_document::Verdict;
+use trueness_document::compare::ToleranceShares;
+use trueness_document::inspect::{Counts, InspectDocument};
+use trueness_document::trend::{TrendError, TrendRecord};
 
 /// What the records of deviations are called, and their kind.
 pub(super) const DEVIATION: &str = "deviation";

@@ -1,8 +1,8 @@
 //! What no inspection writes: the document was changed since.
 
-use crate::inspect::{CharacteristicRecord, Counts, InspectDocument, ZoneForm};
-use crate::{UNITS, Verdict, overall};
 use std::collections::BTreeSet;
+use trueness_document::inspect::{CharacteristicRecord, Counts, InspectDocument, ZoneForm};
+use trueness_document::{UNITS, Verdict, overall};
 
 /// Units of values.
 const VALUE_UNITS: [&str; 3] = ["mm", "deg", "1"];

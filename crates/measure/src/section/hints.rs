@@ -1,6 +1,6 @@
 //! What to heed about a contour, each with what may help.
 
-use super::Section;
+use super::found::Section;
 use trueness_section::{Bent, Contour, Geometry, Options, Taken};
 
 /// A row lies in no plane whose points are farther off it than so many standard deviations of their scatter in it, and than this share of

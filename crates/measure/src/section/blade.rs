@@ -1,8 +1,7 @@
 //! Twist, offset and lean of blades against the nominal.
 
-use super::airfoil::AirfoilRecord;
-use super::chord::{LeanRecord, StackingRecord};
-use super::nominal::NominalRecord;
+use super::convert::{motion, outline};
+use trueness_document::section::{AirfoilRecord, LeanRecord, NominalRecord, OutlineRecord, StackingRecord};
 use trueness_geom::progress::{Cancelled, Progress};
 use trueness_section::{
     AirfoilError, Chord, Chords, Contour, Outline, PlaneMotion, airfoil, chords, outline_row,
@@ -49,8 +48,8 @@ pub(super) fn against_nominal(
         let chords = match own {
             Some((nominal, outline)) => {
                 let fit = nominal.fits.iter().find(|f| f.plane == contour.plane);
-                let motion = fit.map_or(PlaneMotion::about([0.0; 2]), |f| f.motion);
-                Some(of_nominal(&outline.moved(&motion), progress)?)
+                let motion = fit.map_or(PlaneMotion::about([0.0; 2]), motion);
+                Some(of_nominal(&self::outline(outline).moved(&motion), progress)?)
             }
             None => None,
         };
@@ -60,11 +59,11 @@ pub(super) fn against_nominal(
 }
 
 /// The outline of the contour's plane whose box is nearest to the contour's.
-fn nearest_outline<'a>(nominal: &'a NominalRecord, contour: &Whereabouts) -> Option<&'a Outline> {
+fn nearest_outline<'a>(nominal: &'a NominalRecord, contour: &Whereabouts) -> Option<&'a OutlineRecord> {
     let middle = contour.middle;
     let far = |o: &[f64; 2]| libm::hypot(o[0] - middle[0], o[1] - middle[1]);
     let own = nominal.outlines.iter().filter(|o| o.plane == contour.plane && !o.hole);
-    own.min_by(|a, b| far(&a.center).total_cmp(&far(&b.center))).map(|o| &o.drawn)
+    own.min_by(|a, b| far(&a.center).total_cmp(&far(&b.center)))
 }
 
 /// Puts twist and offset into a record.

@@ -1,9 +1,12 @@
 //! Verdicts over planted deviations, coverage and doubts.
 
+use super::super::outline::Against;
 use super::*;
-use crate::section::{Against, AgainstPlane, FrameRecord, Section};
+use trueness_document::section::{NominalWarning, NominalWarningKind, ProfileRule};
+use trueness_document::tolerance::Tolerance;
+use trueness_document::{InputRecord, Verdict};
 use trueness_geom::progress::Silent;
-use trueness_section::{Contour, Options, Outline, off_nominal};
+use trueness_section::{Contour, Outline, off_nominal};
 
 /// A square of 10 measured at 400 places that lie off by `off` of their number, of which only `kept` of 1 follow.
 fn compared(off: &dyn Fn(usize) -> f64, kept: f64, reach: f64) -> NominalRecord {
@@ -20,11 +23,7 @@ fn compared(off: &dyn Fn(usize) -> f64, kept: f64, reach: f64) -> NominalRecord 
     let count = found.iter().filter(|o| far(o)).count();
     found.iter_mut().for_each(|o| *o = o.filter(|_| !far(&*o)));
     let contours = vec![Against { points: &points, found, far: count, contour: &contour }];
-    NominalRecord::new(
-        "n.dxf",
-        "drawing",
-        vec![AgainstPlane { plane: None, outlines: vec![square], contours }],
-    )
+    nominal("n.dxf", "drawing", vec![AgainstPlane { plane: None, outlines: vec![square], contours }])
 }
 
 fn reference() -> InputRecord {
@@ -93,7 +92,7 @@ fn a_bore_that_is_not_measured_is_no_pass() {
     {
         let mut record = compared(&|_| 0.02, 1.0, f64::INFINITY);
         let plane = AgainstPlane { plane: None, outlines: vec![bore.clone()], contours: vec![] };
-        record.outlines.extend(NominalRecord::new("n.dxf", "drawing", vec![plane]).outlines);
+        record.outlines.extend(nominal("n.dxf", "drawing", vec![plane]).outlines);
         let record = judged_by(record, [-0.05, 0.05], 1.0, cover);
         assert_eq!(told(&record), (verdict, reasons.to_vec()), "{cover}");
         let [.., reason] = &record.verdict_reasons[..] else { continue };
@@ -120,35 +119,11 @@ fn the_worst_place_is_the_one_farthest_beyond() {
 #[test]
 fn doubts_leave_it_undecided() {
     let mut record = compared(&|_| 0.2, 1.0, f64::INFINITY);
-    record.warnings.push(crate::section::NominalWarning {
+    record.warnings.push(NominalWarning {
         kind: NominalWarningKind::SizeRatio,
         value: 25.4,
         text: String::new(),
     });
     let record = judged_by(record, [-0.1, 0.1], 1.0, 0.9);
     assert_eq!(told(&record), (Verdict::Undecided, vec!["size_ratio"]));
-}
-
-/// A section without doubts conforms; a stray segment, a doubt, a slab that holds an area and a verdict other than a pass say no, each alone.
-#[test]
-fn a_section_conforms_beyond_doubt_and_within_tolerance() {
-    let contour = Contour::default();
-    let found = |plane| Section::new(FrameRecord::FLAT, plane, Err("none"), vec![contour.clone()]);
-    let document = |section| SectionDocument::new(&[section], vec![], &Options::default());
-    let with = |change: &dyn Fn(&mut SectionDocument)| {
-        let mut document = document(found(None));
-        change(&mut document);
-        document.conforms()
-    };
-    let judged = |verdict| {
-        let nominal = NominalRecord { verdict, ..compared(&|_| 0.02, 1.0, f64::INFINITY) };
-        with(&|document| document.nominal = Some(nominal.clone()))
-    };
-    assert!(with(&|_| ()));
-    assert!(!with(&|document| document.contours[0].astray.push(0)));
-    assert!(!with(&|document| document.contours[0].doubts.push("thin".into())));
-    let slab = Section { fills_area: true, ..found(Some(([0.0, 0.0, 1.0], 0.0))) };
-    assert!(!document(slab).conforms());
-    let verdicts = [None, Some(Verdict::Pass), Some(Verdict::Fail), Some(Verdict::Undecided)];
-    assert_eq!(verdicts.map(judged), [true, true, false, false]);
 }
