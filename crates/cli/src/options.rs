@@ -81,7 +81,8 @@ pub struct PointInputArgs {
 impl PointInputArgs {
     /// The same for a request.
     pub fn reading(&self) -> PointReading {
-        PointReading { file: self.file.reading(), columns: self.columns.clone() }
+        let Reading { units, format } = self.file.reading();
+        PointReading { units, format, columns: self.columns.clone() }
     }
 }
 

@@ -26,13 +26,15 @@ impl Reading {
     }
 }
 
-/// How a file is taken that may be a table of points.
+/// How a file is taken that may be a table of points. Its fields stand here and not in a flattened [`Reading`]: a request takes the fields of
+/// what it flattens, but not of what that flattens in turn.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default)]
 pub struct PointReading {
-    /// Unit and format.
-    #[serde(flatten)]
-    pub file: Reading,
+    /// Unit of a file that does not say its own: `mm`, `cm`, `m`, `in`, `um`; without it `mm`.
+    pub units: Option<Text<Unit>>,
+    /// Format of the file; without it told by its content, then by its ending.
+    pub format: Option<Text<FormatName>>,
     /// Columns of a table: where x, y, z are (`2,3,4` or `X,Y,Z`), or what each column is (`-,x,y,z`).
     pub columns: Option<Text<Columns>>,
 }
@@ -40,7 +42,8 @@ pub struct PointReading {
 impl PointReading {
     /// The same for the readers.
     pub fn options(&self) -> ReadOptions {
-        ReadOptions { columns: self.columns.as_ref().map(|c| c.value.clone()), ..self.file.options() }
+        let file = Reading { units: self.units.clone(), format: self.format.clone() };
+        ReadOptions { columns: self.columns.as_ref().map(|c| c.value.clone()), ..file.options() }
     }
 }
 
@@ -71,7 +74,7 @@ impl ReferenceReading {
 
     /// The same for the readers, beside what was said of the measured file.
     pub fn options(&self, measured: &PointReading) -> ReadOptions {
-        let own = self.reference_units.as_ref().or(measured.file.units.as_ref());
+        let own = self.reference_units.as_ref().or(measured.units.as_ref());
         ReadOptions {
             units: own.map(|u| u.value),
             format: self.reference_format.as_ref().map(|f| f.value.0),
