@@ -32,7 +32,7 @@ pub use tidy::OfferRecord;
 pub use verdict::ProfileRule;
 pub use vocabulary::{Continuity, DimensionKind, OfferKind, Taken};
 
-use super::{InputRecord, SharedNoise, Word};
+use super::{InputRecord, SharedNoise, Verdict, Word};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -192,6 +192,16 @@ pub struct JoinRecord {
     pub interval_open: [bool; 2],
     /// Angle of the corner, positive to the left; 0 of a tangent join.
     pub turn: f64,
+}
+
+impl SectionDocument {
+    /// Whether all contours are beyond doubt, and the profile keeps its tolerance, where it has one.
+    pub fn conforms(&self) -> bool {
+        let doubtful = self.contours.iter().any(|c| !c.astray.is_empty() || !c.doubts.is_empty())
+            || self.planes.iter().any(|plane| plane.fills_area);
+        let judged = self.nominal.as_ref().and_then(|nominal| nominal.verdict);
+        !doubtful && judged.is_none_or(|verdict| verdict == Verdict::Pass)
+    }
 }
 
 impl ContourRecord {

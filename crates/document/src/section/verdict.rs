@@ -1,6 +1,5 @@
 //! The verdict on the profile of a line: what shares, fit, file and coverage say together.
 
-use super::SectionDocument;
 use super::doubts::NominalWarningKind;
 use super::nominal::NominalRecord;
 use super::outline::OutlineRecord;
@@ -18,16 +17,6 @@ pub struct ProfileRule {
     pub required_share: f64,
     /// Share of the nominal's length that must be measured, and of the points that must have a counterpart (0 to 1).
     pub min_coverage: f64,
-}
-
-impl SectionDocument {
-    /// Whether all contours are beyond doubt, and the profile keeps its tolerance, where it has one.
-    pub fn conforms(&self) -> bool {
-        let doubtful = self.contours.iter().any(|c| !c.astray.is_empty() || !c.doubts.is_empty())
-            || self.planes.iter().any(|plane| plane.fills_area);
-        let judged = self.nominal.as_ref().and_then(|nominal| nominal.verdict);
-        !doubtful && judged.is_none_or(|verdict| verdict == Verdict::Pass)
-    }
 }
 
 impl NominalRecord {

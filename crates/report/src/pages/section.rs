@@ -24,6 +24,7 @@ use crate::subject::{Drawn, Head, Pick, Subject};
 use crate::{Up, ViewObject};
 use maud::{Markup, html};
 use serde_json::Value;
+use trueness_document::Verdict;
 use trueness_document::section::{ContourRecord, SectionDocument, Taken};
 
 impl Subject for SectionDocument {
@@ -32,8 +33,13 @@ impl Subject for SectionDocument {
     }
 
     fn headline(&self) -> Headline {
-        let verdict = self.nominal.as_ref().and_then(|nominal| nominal.verdict);
-        verdict.map_or(Headline { key: "sectioned", tone: Tone::Neutral }, Headline::from)
+        match self.nominal.as_ref().and_then(|nominal| nominal.verdict) {
+            // A profile within its tolerance, of which something is doubtful.
+            Some(Verdict::Pass) if !self.conforms() => Verdict::Undecided.into(),
+            Some(verdict) => verdict.into(),
+            None if self.conforms() => Headline { key: "sectioned", tone: Tone::Neutral },
+            None => Headline { key: "sectioned", tone: Tone::Undecided },
+        }
     }
 
     fn convention(&self) -> Option<&'static str> {

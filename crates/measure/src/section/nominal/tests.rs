@@ -2,11 +2,14 @@
 
 use super::super::outline::Against;
 use super::*;
-use trueness_document::section::{NominalWarning, NominalWarningKind, ProfileRule};
+use crate::section::{Section, document};
+use trueness_document::section::{
+    FrameRecord, NominalWarning, NominalWarningKind, ProfileRule, SectionDocument,
+};
 use trueness_document::tolerance::Tolerance;
 use trueness_document::{InputRecord, Verdict};
 use trueness_geom::progress::Silent;
-use trueness_section::{Contour, Outline, off_nominal};
+use trueness_section::{Contour, Options, Outline, off_nominal};
 
 /// A square of 10 measured at 400 places that lie off by `off` of their number, of which only `kept` of 1 follow.
 fn compared(off: &dyn Fn(usize) -> f64, kept: f64, reach: f64) -> NominalRecord {
@@ -126,4 +129,27 @@ fn doubts_leave_it_undecided() {
     });
     let record = judged_by(record, [-0.1, 0.1], 1.0, 0.9);
     assert_eq!(told(&record), (Verdict::Undecided, vec!["size_ratio"]));
+}
+
+/// A section without doubts conforms; a stray segment, a doubt, a slab that holds an area and a verdict other than a pass say no, each alone.
+#[test]
+fn a_section_conforms_beyond_doubt_and_within_tolerance() {
+    let found = |plane| Section::new(FrameRecord::FLAT, plane, Err("none"), vec![Contour::default()]);
+    let made = |section| document(&[section], vec![], &Options::default());
+    let with = |change: &dyn Fn(&mut SectionDocument)| {
+        let mut document = made(found(None));
+        change(&mut document);
+        document.conforms()
+    };
+    let judged = |verdict| {
+        let nominal = NominalRecord { verdict, ..compared(&|_| 0.02, 1.0, f64::INFINITY) };
+        with(&|document| document.nominal = Some(nominal.clone()))
+    };
+    assert!(with(&|_| ()));
+    assert!(!with(&|document| document.contours[0].astray.push(0)));
+    assert!(!with(&|document| document.contours[0].doubts.push("thin".into())));
+    let slab = Section { fills_area: true, ..found(Some(([0.0, 0.0, 1.0], 0.0))) };
+    assert!(!made(slab).conforms());
+    let verdicts = [None, Some(Verdict::Pass), Some(Verdict::Fail), Some(Verdict::Undecided)];
+    assert_eq!(verdicts.map(judged), [true, true, false, false]);
 }
