@@ -79,7 +79,7 @@ impl Default for View {
 /// let done = request.run(&FileSources, &Silent)?;
 /// assert_eq!(done.outcome, Outcome::Conforming);
 /// let all = &done.document.comparisons[0].deviation.all;
-/// assert!(all.count == 1887 && all.rms.is_some_and(|rms| (rms - 1.376).abs() < 0.001));
+/// assert!(all.count == 1889 && all.rms.is_some_and(|rms| (rms - 1.378).abs() < 0.001));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
