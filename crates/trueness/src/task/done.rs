@@ -43,6 +43,9 @@ pub trait Scene<D>: Send {
     fn draw<'a>(&self, document: &D, page: &'a mut Page<'a>) -> Result<(), TaskError>;
 }
 
+/// Measured points that are kept for a report at most.
+pub const REPORT_POINTS: usize = 1_000_000;
+
 /// What a task answers. Files that were asked for are in their places after [`Done::commit`]; without it there are none.
 pub struct Done<D> {
     /// The result document.

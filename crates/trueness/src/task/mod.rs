@@ -17,7 +17,7 @@ mod watch;
 
 pub use choice::Choice;
 pub(crate) use choice::choices;
-pub use done::{Done, Outcome, Page, Rounding, Scene};
+pub use done::{Done, Outcome, Page, REPORT_POINTS, Rounding, Scene};
 pub use error::{ErrorKind, Meaning, TaskError, causes};
 pub use files::RunFiles;
 pub use noise::Independence;

@@ -47,7 +47,7 @@ pub fn text(done: &Done<AlignDocument>) -> String {
             six_digits(fit.median)
         );
         let u = fit.std_uncertainty;
-        let open = trueness_measure::align::open(&document);
+        let open = trueness_measure::align::open(document);
         let told = |k: usize, x: f64| if open[k] { "free".into() } else { scientific(x, 1) };
         let degrees = [0, 1, 2].map(|k| told(k, u[k].to_degrees())).join(" ");
         let lengths = [3, 4, 5].map(|k| told(k, u[k])).join(" ");

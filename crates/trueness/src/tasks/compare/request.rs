@@ -1,7 +1,7 @@
 //! What a comparison is asked.
 
 use super::facing::FacingAngle;
-use crate::task::{PointReading, ReferenceReading, Text, ToleranceText, choices};
+use crate::task::{PointReading, REPORT_POINTS, ReferenceReading, Text, ToleranceText, choices};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
@@ -55,12 +55,9 @@ pub struct View {
     pub shown: usize,
 }
 
-/// Points that a report has at its disposal unless another number is asked for.
-const SHOWN: usize = 1_000_000;
-
 impl Default for View {
     fn default() -> View {
-        View { shown: SHOWN }
+        View { shown: REPORT_POINTS }
     }
 }
 

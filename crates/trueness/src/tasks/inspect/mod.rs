@@ -8,7 +8,9 @@ mod scene;
 
 pub use part::{Failed, Part};
 
-use crate::task::{Done, Outcome, Output, Request, RunFiles, STEPS, Scene, TaskError, Watch, ended};
+use crate::task::{
+    Done, Outcome, Output, REPORT_POINTS, Request, RunFiles, STEPS, Scene, TaskError, Watch, ended,
+};
 use part::Fault;
 use plan_file::PlanFile;
 use scene::Inspected;
@@ -20,9 +22,6 @@ use trueness_document::plan::PlanError;
 use trueness_files::Sources;
 use trueness_geom::progress::Cancelled;
 use trueness_measure::inspection::{self, Deviations, Stop};
-
-/// Points that a report has at its disposal.
-const SHOWN: usize = 1_000_000;
 
 /// What an inspection is asked.
 ///
@@ -206,7 +205,7 @@ impl Inspecting<'_> {
     fn inspect(&self, part: Option<&Path>) -> Result<Done<InspectDocument>, Fault> {
         let plan = &self.plan;
         let InspectRequest { places, seed, view, .. } = *self.request;
-        let (mut data, inputs) = plan.data(self.sources, part, seed, if view { SHOWN } else { 0 })?;
+        let (mut data, inputs) = plan.data(self.sources, part, seed, if view { REPORT_POINTS } else { 0 })?;
         data.places = places;
         let stage = self.watch.stage("inspecting", STEPS, Some(inspection::STEPS));
         let found = inspection::run(&plan.plan, data, &*stage);
