@@ -15,7 +15,7 @@ cargo xtask long      the checks that take longer: ignored tests, many cases, fu
 cargo xtask tidy      lists circles between modules, long files and long functions, rooms with more numbers than before
 cargo xtask licences  the licences and double versions of what the workspace depends on
 cargo xtask readback  what the program writes, read by other programs (needs Python 3)
-cargo xtask schema    writes the JSON schemas of the result documents to docs/schema/";
+cargo xtask schema    writes the JSON schemas of result documents and requests to docs/schema/";
 
 /// A check: its name and what decides it.
 enum Step {
@@ -162,6 +162,12 @@ const LONG: &[Step] = &[
 /// The rules that the compiler does not check.
 const TIDY: Call = cargo("tidy", &["run", "--quiet", "--manifest-path", "tidy/Cargo.toml"]);
 
+/// The schemas of result documents and of requests.
+const SCHEMAS: &[Call] = &[
+    cargo("schema", &["run", "--quiet", "--locked", "--example", "schema"]),
+    cargo("schema of requests", &["run", "--quiet", "--locked", "--example", "request_schema"]),
+];
+
 const NPM: &str = if cfg!(windows) { "npm.cmd" } else { "npm" };
 
 fn main() -> ExitCode {
@@ -171,7 +177,7 @@ fn main() -> ExitCode {
         Some("tidy") => run(&TIDY),
         Some("licences") => dependencies::run(&root()),
         Some("readback") => readback::run(&root()),
-        Some("schema") => run(&cargo("schema", &["run", "--quiet", "--locked", "--example", "schema"])),
+        Some("schema") => SCHEMAS.iter().all(run),
         _ => {
             eprintln!("{HELP}");
             return ExitCode::from(2);

@@ -5,7 +5,7 @@ use trueness::files::{FileSources, MemorySources, Sources};
 use trueness::geom::progress::Silent;
 use trueness::report::ReportOptions;
 use trueness::task::{Done, ErrorKind, Outcome, Request, TaskError};
-use trueness::tasks::compare::{CompareRequest, FacingAngle, View};
+use trueness::tasks::compare::{CompareRequest, FacingAngle};
 use trueness_document::compare::CompareDocument;
 
 const SCAN: &str = "../../corpus/bunny/zipper_res3.ply";
@@ -52,9 +52,9 @@ fn memory_and_files_give_the_same() {
     let asked = request(&serde_json::json!({
         "measured": SCAN, "references": [NOMINAL], "units": "mm", "tolerance": "-5,+5", "inside": 90,
         "regions": regions, "scale": scale, "facing": 60, "outliers": "mad:9", "coverage": "auto", "worst": 2,
-        "both": true, "seed": 3, "view": { "shown": 100 }
+        "both": true, "seed": 3, "view": true
     }));
-    assert_eq!(asked.view, Some(View { shown: 100 }));
+    assert!(asked.view);
     let mut memory = MemorySources::new();
     for name in [SCAN, NOMINAL, &regions, &scale] {
         memory.insert(name, std::fs::read(name).unwrap());
@@ -101,7 +101,7 @@ fn a_request_is_the_same_there_and_back() {
         along: Some("0,0,1".parse().unwrap()),
         normals: Some("nx,ny,nz".parse().unwrap()),
         facing,
-        view: Some(View::default()),
+        view: true,
         ..CompareRequest::default()
     };
     let json = serde_json::to_value(&request).unwrap();
@@ -113,7 +113,6 @@ fn a_request_is_the_same_there_and_back() {
 fn what_cannot_be_meant_is_refused() {
     for (json, said) in [
         (r#"{"max_distanc": 1}"#, "unknown field `max_distanc`"),
-        (r#"{"view": {"show": 1}}"#, "unknown field `show`"),
         (r#"{"facing": 0}"#, "‘0’ is no angle between normals"),
         (r#"{"method": "fast"}"#, "unknown variant `fast`"),
     ] {

@@ -43,6 +43,7 @@ mod segment;
 mod surface;
 mod surface_bases;
 mod tables;
+mod tasks;
 mod trend;
 mod wrong_inputs;
 mod wrong_questions;

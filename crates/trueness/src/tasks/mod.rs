@@ -27,3 +27,30 @@ pub mod section;
 pub mod segment;
 pub mod surface;
 pub mod trend;
+
+/// Name and JSON schema of every request, as kept under `docs/schema/requests/`.
+pub fn schemas() -> Vec<(&'static str, String)> {
+    let text = |mut schema: schemars::Schema| {
+        // Without the example, which is in Rust.
+        if let Some(serde_json::Value::String(about)) = schema.get_mut("description") {
+            about.truncate(about.find("\n\n```").unwrap_or(about.len()));
+        }
+        let mut text = serde_json::to_string_pretty(&schema).unwrap_or_default();
+        text.push('\n');
+        text
+    };
+    vec![
+        ("align", text(schemars::schema_for!(align::AlignRequest))),
+        ("check", text(schemars::schema_for!(check::CheckRequest))),
+        ("compare", text(schemars::schema_for!(compare::CompareRequest))),
+        ("curvature", text(schemars::schema_for!(curvature::CurvatureRequest))),
+        ("fit", text(schemars::schema_for!(fit::FitRequest))),
+        ("inspect", text(schemars::schema_for!(inspect::InspectRequest))),
+        ("plan-init", text(schemars::schema_for!(plan_init::PlanInitRequest))),
+        ("repair", text(schemars::schema_for!(repair::RepairRequest))),
+        ("section", text(schemars::schema_for!(section::SectionRequest))),
+        ("segment", text(schemars::schema_for!(segment::SegmentRequest))),
+        ("surface", text(schemars::schema_for!(surface::SurfaceRequest))),
+        ("trend", text(schemars::schema_for!(trend::TrendRequest))),
+    ]
+}

@@ -12,7 +12,7 @@ use std::path::PathBuf;
 pub use table::{along, coverage, outliers, regions};
 use trueness::task::Outcome;
 use trueness::task::{Request, RunFiles, Text, ToleranceText};
-use trueness::tasks::compare::{CompareRequest, FacingAngle, Method, Sign, View};
+use trueness::tasks::compare::{CompareRequest, FacingAngle, Method, Sign};
 use trueness_files::Columns;
 use trueness_measure::compare::{AlongRule, Coverage, MIN_COVERAGE, OutlierRule};
 
@@ -146,7 +146,7 @@ impl CompareArgs {
             independent: self.independent,
             research: self.research,
             seed: common.seed,
-            view: self.output.report.html.as_ref().map(|_| View::default()),
+            view: self.output.report.html.is_some(),
         }
     }
 }

@@ -9,7 +9,7 @@ mod references;
 mod request;
 
 pub use facing::FacingAngle;
-pub use request::{CompareRequest, Method, Sign, View};
+pub use request::{CompareRequest, Method, Sign};
 
 use crate::task::{Done, Request, RunFiles, Scene, TaskError, Watch};
 use points::{PointFiles, numbered};
@@ -45,13 +45,13 @@ impl Request for CompareRequest {
         let kind = measured.kind;
         let inputs = Inputs { files, kind, scale, reverse, alignment, doubts: vec![] };
         let mut document = compare::document(&found, inputs, &options);
-        if self.view.is_some() {
+        if self.view {
             let vertices = kind == MeasuredKind::Vertices;
             let shown = if vertices { found.count } else { found.shown.points.len() as u64 };
             document.sampling = Some(Sampling { shown, total: found.count });
         }
         let outputs = points.map_or(vec![], |files| files.outputs(&document.scale));
-        let scene = self.view.map(|_| {
+        let scene = self.view.then(|| {
             let mesh = measured.mesh.filter(|_| kind == MeasuredKind::Vertices);
             Box::new(Compared { mesh, opened, found }) as Box<dyn Scene<CompareDocument>>
         });

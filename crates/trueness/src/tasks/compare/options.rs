@@ -2,7 +2,7 @@
 
 use super::request::{CompareRequest, Method};
 use crate::read;
-use crate::task::{Meaning, TaskError};
+use crate::task::{Meaning, REPORT_POINTS, TaskError};
 use std::path::Path;
 use trueness_document::of_percent;
 use trueness_document::scale::Scale;
@@ -54,7 +54,7 @@ impl CompareRequest {
             tolerance,
             worst: self.worst.map_or(Options::default().worst, usize::from),
             required_share,
-            shown: self.view.map_or(0, |view| view.shown),
+            shown: if self.view { REPORT_POINTS } else { 0 },
             independent: self.independent,
             research: self.research,
             seed: self.seed,

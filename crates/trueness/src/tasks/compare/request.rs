@@ -1,7 +1,7 @@
 //! What a comparison is asked.
 
 use super::facing::FacingAngle;
-use crate::task::{PointReading, REPORT_POINTS, ReferenceReading, Text, ToleranceText, choices};
+use crate::task::{PointReading, ReferenceReading, Text, ToleranceText, choices};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
@@ -44,20 +44,6 @@ impl From<Sign> for SignRequest {
             Sign::Winding => SignRequest::Winding,
             Sign::None => SignRequest::None,
         }
-    }
-}
-
-/// What is kept for a report.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct View {
-    /// Points that the report has at its disposal, where they are not the vertices of a mesh.
-    pub shown: usize,
-}
-
-impl Default for View {
-    fn default() -> View {
-        View { shown: REPORT_POINTS }
     }
 }
 
@@ -141,7 +127,7 @@ pub struct CompareRequest {
     /// Seed of everything random.
     pub seed: u64,
     /// Keep what a report draws.
-    pub view: Option<View>,
+    pub view: bool,
 }
 
 impl Default for CompareRequest {
@@ -174,7 +160,7 @@ impl Default for CompareRequest {
             independent: false,
             research: false,
             seed: 0,
-            view: None,
+            view: false,
         }
     }
 }
