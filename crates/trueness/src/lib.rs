@@ -1,10 +1,10 @@
-//! 3D inspection as a library: what the program `trueness` does, with data in place of files.
+//! 3D inspection as a library: what the program `trueness` does, from files, uploads or memory.
 //!
 //! Lengths are millimeters, angles radians, deviations positive outside of the material. Answers are the same for any number of threads.
 //!
 //! | task | where |
 //! |---|---|
-//! | read a file of any kind; write a mesh | [`read`], [`write_mesh`] |
+//! | read a file of any kind; write a mesh | [`read`](read()), [`write_mesh`] |
 //! | signed deviations of points from a mesh, their statistics | [`Reference`], [`Deviations`] |
 //! | bring a scan onto its reference | [`Reference::align`] |
 //! | is a mesh sound? | [`check`] |
@@ -13,14 +13,15 @@
 //! | planes, cylinders … found in a scan | [`segment`] |
 //! | lines, arcs and curves of a profile | [`contour`] |
 //! | the same where a plane cuts a mesh | [`sections`] |
-//! | a B-spline surface through points | [`surface`] |
+//! | a B-spline surface through points | [`surface`](surface()) |
 //! | curvatures of a mesh | [`curvature`] |
-//! | an inspection plan: features, characteristics, verdicts | [`measure::inspection::run`] |
+//! | what each command of the program does, from files or memory, with document, page and outcome | [`tasks`] |
+//! | an inspection plan: features, characteristics, verdicts | [`tasks::inspect`] |
 //! | results as values and JSON; the text of plans | [`document`] |
 //! | a result as a page with pictures, one HTML file | [`report::write`](report::write()) |
-//! | everything else, with all options | [`geom`], [`files`], [`measure`] |
+//! | everything else, with all options | [`geom`], [`section`](mod@section), [`solid`], [`surface`](mod@surface), [`files`], [`measure`] |
 //!
-//! The functions here take the defaults and tell nobody how far they are. The functions of the same names in [`geom`] take options, and a
+//! The functions here take the defaults and tell nobody how far they are. The functions of the same names in the crates of geometry take options, and a
 //! [`Progress`](geom::progress::Progress) that is told and may stop them.
 //!
 //! ```
@@ -34,6 +35,25 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
+//! A task answers with a document, which is JSON, and a page:
+//! ```
+//! use trueness::report::ReportOptions;
+//! use trueness::task::{Outcome, Request};
+//! use trueness::{files::FileSources, geom::progress::Silent, tasks::compare::CompareRequest};
+//! let request = CompareRequest {
+//!     measured: "../../corpus/bunny/zipper_res3.ply".into(),
+//!     references: vec!["../../corpus/bunny/zipper_res4.ply".into()],
+//!     tolerance: Some("-0.5,+0.5".parse()?),
+//!     view: true,
+//!     ..CompareRequest::default()
+//! };
+//! let done = request.run(&FileSources, &Silent)?;
+//! assert_eq!(done.outcome, Outcome::NotConforming);
+//! let page = done.report(&ReportOptions::default(), &Silent)?;
+//! assert!(page.starts_with(b"<!doctype html>"));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
 mod easy;
 pub mod read;
 pub mod task;
@@ -50,6 +70,9 @@ pub use trueness_files as files;
 pub use trueness_geom as geom;
 pub use trueness_measure as measure;
 pub use trueness_report as report;
+pub use trueness_section as section;
+pub use trueness_solid as solid;
+pub use trueness_surface as surface;
 
 pub use trueness_geom::align::Alignment;
 pub use trueness_geom::check::Report;

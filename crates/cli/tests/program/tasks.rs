@@ -54,7 +54,10 @@ fn document<R: Request>(words: &str, request: Value) -> i32 {
 /// The same, with the page; its head says pass or nothing where the exit status is 0, and neither where it is 1.
 fn page<R: Request<Document: Subject>>(words: &str, request: Value) -> i32 {
     let mut with_view = request.clone();
-    with_view["view"] = json!(true);
+    // The page of a trend draws nothing in space.
+    if R::COMMAND != TrendRequest::COMMAND {
+        with_view["view"] = json!(true);
+    }
     let status = document::<R>(words, request);
     let done = run::<R>(with_view);
     let folder = Folder::new();
@@ -153,8 +156,10 @@ fn plans() {
 #[test]
 fn every_command_is_a_task() {
     let (_, help) = program("--help");
-    let listed =
+    let lines =
         help.lines().skip_while(|line| *line != "Commands:").skip(1).take_while(|line| !line.is_empty());
+    // What goes on on a further line begins farther in.
+    let listed = lines.filter_map(|line| line.strip_prefix("  ").filter(|line| !line.starts_with(' ')));
     let commands: BTreeSet<&str> = listed.filter_map(|line| line.split_whitespace().next()).collect();
     let tasks = [
         AlignRequest::COMMAND,
