@@ -274,7 +274,7 @@ mod tests {
 
     /// What the steps log: the text in each call of `log`, and in the branches that such a text is chosen from.
     fn logged() -> Vec<String> {
-        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../geom/src/repair");
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../solid/src/repair");
         let mut all = vec![];
         for file in sources(&folder).iter().filter(|p| !p.ends_with("tests.rs")) {
             let text = std::fs::read_to_string(file).unwrap();
