@@ -32,7 +32,8 @@ pub struct Chain {
 /// [`Cancelled`], when asked to stop.
 ///
 /// ```
-/// use trueness_geom::{mesh::Mesh, progress::Silent, section::{cut, Plane}};
+/// use trueness_geom::{mesh::Mesh, plane::Plane, progress::Silent};
+/// use trueness_section::cut;
 /// let positions = vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 /// let mesh = Mesh { positions, faces: vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]] };
 /// let chains = cut(&mesh, &Plane { normal: [0.0, 0.0, 1.0], offset: 0.5 }, &Silent).unwrap();

@@ -25,7 +25,8 @@ const ROOM: usize = 1 << 24;
 /// [`Cancelled`], when asked to stop, and what `each` gives.
 ///
 /// ```
-/// use trueness_geom::{mesh::Mesh, progress::{Cancelled, Silent}, section::{facets_near, Plane}};
+/// use trueness_geom::{mesh::Mesh, plane::Plane, progress::{Cancelled, Silent}};
+/// use trueness_section::facets_near;
 /// let positions = vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 /// let mesh = Mesh { positions, faces: vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]] };
 /// let planes = [0.5, 2.0].map(|offset| Plane { normal: [0.0, 0.0, 1.0], offset });

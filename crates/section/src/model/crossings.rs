@@ -88,7 +88,8 @@ pub(crate) fn crossing_chords(
 /// [`Cancelled`], when asked to stop.
 ///
 /// ```
-/// use trueness_geom::{progress::Silent, section::{crossings, Segment}};
+/// use trueness_geom::progress::Silent;
+/// use trueness_section::{Segment, crossings};
 /// let tie = [[0.0, 0.0], [2.0, 2.0], [2.0, 0.0], [0.0, 2.0]];
 /// let sides: Vec<Segment> = (0..4).map(|i| Segment::straight(tie[i], tie[(i + 1) % 4])).collect();
 /// assert_eq!(crossings(&sides, true, &Silent).unwrap(), [[1.0, 1.0]]);

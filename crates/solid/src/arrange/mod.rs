@@ -70,7 +70,8 @@ pub struct Arranged {
 /// about `k` log `k`, some microseconds for each place where cuts meet. The same result for any number of threads.
 ///
 /// ```
-/// use trueness_geom::{arrange::arrange, mesh::Mesh, progress::Silent};
+/// use trueness_geom::{mesh::Mesh, progress::Silent};
+/// use trueness_solid::arrange::arrange;
 /// let positions = vec![
 ///     [0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0],
 ///     [1.0, 1.0, -1.0], [1.0, 1.0, 1.0], [9.0, 9.0, 0.0],

@@ -34,7 +34,8 @@ pub struct Faced {
 /// [`RepairError`]: vertices that are not there, or cancelled.
 ///
 /// ```
-/// use trueness_geom::{mesh::Mesh, progress::Silent, repair::faced};
+/// use trueness_geom::{mesh::Mesh, progress::Silent};
+/// use trueness_solid::repair::faced;
 /// let positions = vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 /// // Three facets of a tetrahedron look outwards, the last one inwards.
 /// let mesh = Mesh { positions, faces: vec![[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 3, 2]] };
