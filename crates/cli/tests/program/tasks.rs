@@ -1,5 +1,6 @@
 //! Each task by the command line and by its function: the same document and page to the byte, and one outcome for document, page and exit
 //! status.
+#![allow(clippy::unwrap_used, clippy::panic)]
 
 use crate::common::{Folder, corpus, status, stderr, stdout, trueness};
 use serde_json::{Value, json};
