@@ -111,7 +111,7 @@ const STEPS: &[Step] = &[
 ];
 
 /// What takes too long for every change.
-const LONG: &[Step] = &[
+const LONG_STEPS: &[Step] = &[
     Step::Own("advisories", dependencies::deny),
     Step::Own("oldest compiler", oldest::run),
     Step::Command(cargo(
@@ -172,7 +172,7 @@ const NPM: &str = if cfg!(windows) { "npm.cmd" } else { "npm" };
 fn main() -> ExitCode {
     let ok = match std::env::args().nth(1).as_deref() {
         Some("test") => all(STEPS),
-        Some("long") => all(LONG),
+        Some("long") => all(LONG_STEPS),
         Some("tidy") => run(&TIDY),
         Some("licences") => dependencies::run(&root()),
         Some("readback") => readback::run(&root()),

@@ -182,12 +182,12 @@ fn opened_mesh(path: &Path, role: Role, opened: Opened) -> Result<(SourceMesh, I
 }
 
 /// Longest file of regions, bytes.
-const LONGEST_TEXT: usize = 16 << 20;
+const LONGEST_REGIONS: usize = 16 << 20;
 
 /// The regions of a reference with tolerances of their own, of a file.
 pub fn regions(sources: &dyn Sources, path: &Path) -> Result<Vec<RegionRule>> {
     let shown = path.display();
-    let text = sources.text(path, LONGEST_TEXT)?;
+    let text = sources.text(path, LONGEST_REGIONS)?;
     regions_of_file(&text).meaning(|| shown.to_string())
 }
 

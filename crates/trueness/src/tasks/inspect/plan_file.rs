@@ -16,7 +16,7 @@ use trueness_measure::plan::Plan;
 use trueness_measure::requirement::Source;
 
 /// Longest plan that is read, bytes.
-const LONGEST: usize = 16 << 20;
+const LONGEST_PLAN: usize = 16 << 20;
 
 /// A plan with its text.
 pub struct PlanFile {
@@ -33,7 +33,7 @@ impl PlanFile {
         if sources.is_stream(path) {
             return Err(wrong("a plan must be a file; its paths are relative to it".into()));
         }
-        let bytes = read::bytes(sources, path, "plan", LONGEST)?
+        let bytes = read::bytes(sources, path, "plan", LONGEST_PLAN)?
             .ok_or_else(|| wrong("it is longer than 16 MB; a plan is a short text".into()))?;
         let text = String::from_utf8(bytes).map_err(|e| {
             let valid = String::from_utf8_lossy(&e.as_bytes()[..e.utf8_error().valid_up_to()]).into_owned();

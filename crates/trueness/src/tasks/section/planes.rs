@@ -15,7 +15,7 @@ use trueness_measure::section::Section;
 use trueness_section::{self as section, Chain, Contour, Options, Order, Ordered, SectionError};
 
 /// Most planes of a stack.
-const MOST: f64 = 100_000.0;
+const MAX_PLANES_OF_STACK: f64 = 100_000.0;
 
 /// How points are taken to lie on a plane.
 pub struct Slab {
@@ -38,9 +38,9 @@ impl SectionRequest {
         }
         for [x, y, z, from, to, step] in &self.stack {
             let count = ((to - from) / step + 1e-9).floor();
-            if !(0.0..MOST).contains(&count) {
+            if !(0.0..MAX_PLANES_OF_STACK).contains(&count) {
                 return Err(TaskError::usage(format!(
-                    "--stack …,{from},{to},{step}: the step must lead from the first distance to the last in less than {MOST} steps"
+                    "--stack …,{from},{to},{step}: the step must lead from the first distance to the last in less than {MAX_PLANES_OF_STACK} steps"
                 )));
             }
             for k in 0..=count as u32 {

@@ -14,7 +14,7 @@ use trueness_report::MapPage;
 use trueness_report::views::trend::View;
 
 /// Longest result that is read, bytes.
-const LONGEST: usize = 256 << 20;
+const LONGEST_RESULT: usize = 256 << 20;
 
 /// What a trend is asked.
 ///
@@ -93,7 +93,7 @@ fn result(sources: &dyn Sources, path: &Path) -> Result<(ResultInput, InspectDoc
     if sources.is_stream(path) {
         return Err(wrong("a result must be a file".into()));
     }
-    let bytes = read::bytes(sources, path, "result", LONGEST)?
+    let bytes = read::bytes(sources, path, "result", LONGEST_RESULT)?
         .ok_or_else(|| wrong("it is longer than 256 MB; this is no result of an inspection".into()))?;
     let value: serde_json::Value = serde_json::from_slice(&bytes)
         .map_err(|e| wrong(format!("it is no JSON ({e}); give what `trueness inspect --json` wrote")))?;
