@@ -213,14 +213,10 @@ impl Request for AlignRequest {
             None => self.best_fit((&scan, &reference.mesh), records, (sources, watch))?,
         };
         let motion = Rigid::from_matrix(document.motion()).meaning(|| "the motion found".into())?;
-        let mut done = Done::new(document, true);
-        // Against a reference that was not read in whole nothing is proven.
-        let document = &done.document;
-        let whole = document.inputs.iter().all(|i| i.role != Role::Reference || i.incomplete.is_none());
-        let within = document.zones.as_ref().is_none_or(|z| z.beyond == 0 && whole);
-        done.outcome = (document.sound() && within).into();
+        let conforms = document.conforms();
+        let mut done = Done::new(document, conforms);
         if let Some(path) = &self.out {
-            let (output, loss) = scan.write(path, document.scale.unwrap_or(1.0), &motion)?;
+            let (output, loss) = scan.write(path, done.document.scale.unwrap_or(1.0), &motion)?;
             done.outputs.push(output);
             done.losses.extend(loss);
         }
