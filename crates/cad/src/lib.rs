@@ -1,0 +1,16 @@
+//! CAD models: faces on exact surfaces, cut out by exact edges. Numbers in, numbers out: no files, no clock, no printing.
+//!
+//! | what | where |
+//! |---|---|
+//! | axes of curves and surfaces; where a part stands | [`frame`] |
+//! | lines, conics, splines in space | [`curve`] |
+//! | planes, quadrics, tori, splines, swept surfaces | [`surface`] |
+//! | vertices, edges, faces, shells, solids | [`brep`] |
+//! | parts, their instances, what could not be read | [`model`] |
+#![cfg_attr(test, allow(clippy::disallowed_methods, reason = "a test does not hang on the last digit"))]
+
+pub mod brep;
+pub mod curve;
+pub mod frame;
+pub mod model;
+pub mod surface;
