@@ -45,11 +45,11 @@ pub struct Alternative {
     pub ratio: f64,
 }
 
-/// Share of the size from which on what is left of a fit is poor.
-pub(super) const POOR: f64 = 0.01;
+/// Share of the size from which on the residuals of a fit are poor.
+pub(super) const POOR_RESIDUAL_SHARE: f64 = 0.01;
 
 /// Ratios of units that are confused.
-pub(super) const UNITS: [f64; 6] = [25.4, 1.0 / 25.4, 10.0, 0.1, 1000.0, 1e-3];
+pub(super) const CONFUSED_UNIT_RATIOS: [f64; 6] = [25.4, 1.0 / 25.4, 10.0, 0.1, 1000.0, 1e-3];
 
 /// What is to be said about an alignment.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -3,7 +3,7 @@
 use super::icp::Problem;
 use super::sample::Samples;
 use super::start::{Candidate, Search};
-use super::work::{BRIEF, PART, RIVAL, SOON, Work};
+use super::work::{BRIEF_STARTS, COMPARED_ITERATIONS, MAX_RIVAL_RATIO, RIVAL_SAMPLES, Work};
 use super::{AlignError, Alignment, Alternative, Freedom, wall};
 use crate::progress::Progress;
 use crate::rigid::Rigid;
@@ -11,9 +11,9 @@ use crate::space::{cross, dot, norm, times};
 use crate::stats::SIGMA_OVER_MAD;
 
 /// A pose whose capped root mean square distance is within this ratio of the best one's fits as well.
-const AS_WELL: f64 = 1.25;
-/// Within this ratio it fits equally: what is symmetric is not turned without need.
-const EQUAL: f64 = 1.01;
+const AS_GOOD_COST_RATIO: f64 = 1.25;
+/// Within this ratio a pose fits equally: a symmetric part is not turned without need.
+const EQUAL_COST_RATIO: f64 = 1.01;
 
 impl Work<'_> {
     /// Other poses that fit about as well: where it lies, the other starts, those of a `revolved` body, turns of the kind that common
@@ -36,7 +36,7 @@ impl Work<'_> {
             of.retain(|c| search.apart(&c.pose, &pose) > search.spacing);
             of
         });
-        let (problem, part) = (self.problem(some), some.first(PART));
+        let (problem, part) = (self.problem(some), some.first(RIVAL_SAMPLES));
         let part = self.problem(&part);
         let cap = self.cap(SIGMA_OVER_MAD * result.median);
         let (own_few, own_part) = (few.cost(&pose, cap, progress)?, part.cost(&pose, cap, progress)?);
@@ -47,7 +47,9 @@ impl Work<'_> {
             let [cost, least] = costs(&problem, [&others, &own], cap);
             Ok(((cost + floor) / (least + floor)).sqrt())
         };
-        let worse = |cost: f64, own: f64, by: f64| cost > by * AS_WELL * AS_WELL * own.max(1e-3 * cap * cap);
+        let worse = |cost: f64, own: f64, by: f64| {
+            cost > by * AS_GOOD_COST_RATIO * AS_GOOD_COST_RATIO * own.max(1e-3 * cap * cap)
+        };
         let mut others: Vec<Rigid> = vec![];
         let known = search.worth(&pose);
         let mut refined = search.refine(&home, known, &few, progress)?;
@@ -62,8 +64,8 @@ impl Work<'_> {
         let mut found: Vec<Alternative> = vec![];
         for other in others {
             let reach = self.reach(result.median);
-            let other = part.run(other, reach, SOON, progress)?.pose;
-            if worse(part.cost(&other, cap, progress)?, own_part, RIVAL) {
+            let other = part.run(other, reach, COMPARED_ITERATIONS, progress)?.pose;
+            if worse(part.cost(&other, cap, progress)?, own_part, MAX_RIVAL_RATIO) {
                 continue;
             }
             let other = problem.run(other, reach, 30, progress)?.pose;
@@ -71,7 +73,7 @@ impl Work<'_> {
             let apart = |p: &Rigid| search.apart(p, &other) > search.spacing;
             let between = other.after(&pose.inverse());
             let new = apart(&pose) && found.iter().all(|f| apart(&f.reference_from_measured));
-            if ratio <= AS_WELL && new && !allowed(&between, &unheld(result), search.spacing) {
+            if ratio <= AS_GOOD_COST_RATIO && new && !allowed(&between, &unheld(result), search.spacing) {
                 found.push(Alternative { reference_from_measured: other, angle: between.angle(), ratio });
             }
         }
@@ -80,7 +82,7 @@ impl Work<'_> {
         {
             let bases: Vec<Rigid> =
                 std::iter::once(pose).chain(found.iter().map(|f| f.reference_from_measured)).collect();
-            for base in bases.iter().take(BRIEF) {
+            for base in bases.iter().take(BRIEF_STARTS) {
                 // From the other side of the wall the way through it is the opposite one.
                 for sign in [1.0, -1.0] {
                     let other = Rigid::translation_by(times(sign, through)).after(base);
@@ -88,7 +90,7 @@ impl Work<'_> {
                     let ratio = ratio(&other)?;
                     let apart = |p: &Rigid| search.apart(p, &other) > 0.5 * norm(through);
                     let new = apart(&pose) && found.iter().all(|f| apart(&f.reference_from_measured));
-                    if ratio <= AS_WELL && new {
+                    if ratio <= AS_GOOD_COST_RATIO && new {
                         let angle = other.after(&pose.inverse()).angle();
                         found.push(Alternative { reference_from_measured: other, angle, ratio });
                     }
@@ -110,11 +112,12 @@ fn costs(problem: &Problem, distances: [&[f64]; 2], cap: f64) -> [f64; 2] {
 
 /// A pose that fits better than the result's; else of those that fit equally well the one that moves least, if it is another.
 pub(super) fn better(search: &Search, result: &Alignment) -> Option<Rigid> {
-    if let Some(best) = result.alternatives.first().filter(|a| a.ratio * EQUAL < 1.0) {
+    if let Some(best) = result.alternatives.first().filter(|a| a.ratio * EQUAL_COST_RATIO < 1.0) {
         return Some(best.reference_from_measured);
     }
     let far = |pose: &Rigid| search.apart(&Rigid::IDENTITY, pose);
-    let equal = result.alternatives.iter().filter(|a| a.ratio <= EQUAL).map(|a| a.reference_from_measured);
+    let equal =
+        result.alternatives.iter().filter(|a| a.ratio <= EQUAL_COST_RATIO).map(|a| a.reference_from_measured);
     let least = equal.min_by(|a, b| far(a).total_cmp(&far(b)))?;
     (far(&least) + search.spacing < far(&result.reference_from_measured)).then_some(least)
 }

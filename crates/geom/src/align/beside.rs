@@ -14,17 +14,18 @@ use crate::space::{Aabb, Point, plus, times};
 use crate::zone::datum::Freedom;
 use crate::zone::motion::{Distance, Placed, Search, placed_from, placed_within};
 
-/// Poses tried in a round, and how far they are from its best one, as shares of the greatest distance that counts, in turn.
-const TRIES: usize = 9;
-const SIZES: [f64; 3] = [0.3, 1.0, 2.0];
+/// Poses tried in a round.
+const POSES_PER_ROUND: usize = 9;
+/// Distances of these poses from the best one, in turn, as shares of the greatest distance that counts.
+const POSE_OFFSET_SHARES: [f64; 3] = [0.3, 1.0, 2.0];
 /// Most rounds; the last is the first that finds nothing lower.
-const ROUNDS: usize = 4;
+const MAX_POSE_ROUNDS: usize = 4;
 /// Points that stick out most, over which poses are tried.
-const FEW: usize = 500;
-/// Poses that end lowest over these, which are tried over all points.
-const PROMISING: usize = 2;
-/// Share of the greatest distance by which less is lower.
-const LOWER: f64 = 1e-9;
+const MAX_FARTHEST_POINTS: usize = 500;
+/// Poses that end lowest over these points; they are tried over all points.
+const MAX_LOWEST_ENDS: usize = 2;
+/// Share of the greatest distance by which a pose must be lower to count as lower.
+const MIN_FALL_SHARE: f64 = 1e-9;
 
 /// What is searched: `distance` and `room` as for [`placed_within`].
 pub(super) struct Searched<'a> {
@@ -52,13 +53,13 @@ impl Searched<'_> {
         if best.half > far.excess {
             best = self.ended(start, &[], Freedom::NONE, progress)?;
         }
-        for round in 0..ROUNDS as u64 {
+        for round in 0..MAX_POSE_ROUNDS as u64 {
             far = self.far(&best.motion)?;
-            let low = best.half - LOWER * far.greatest;
+            let low = best.half - MIN_FALL_SHARE * far.greatest;
             let mut ends = self.tried(&far, &best.motion, round, progress);
             ends.retain(|end| end.half < low);
             ends.sort_by(|a, b| a.half.total_cmp(&b.half));
-            for end in ends.iter().take(PROMISING) {
+            for end in ends.iter().take(MAX_LOWEST_ENDS) {
                 let end = self.ended(end.motion, &far.few, Freedom::ALL, progress)?;
                 if end.half < best.half {
                     best = end;
@@ -90,7 +91,7 @@ impl Searched<'_> {
         let excess = |i: &usize| far[*i] - self.room.get(*i).copied().unwrap_or(0.0);
         let mut few: Vec<usize> = (0..far.len()).collect();
         few.sort_unstable_by(|i, j| excess(j).total_cmp(&excess(i)).then(i.cmp(j)));
-        few.truncate(FEW);
+        few.truncate(MAX_FARTHEST_POINTS);
         let most = few.first().map_or(f64::NEG_INFINITY, excess);
         Ok(Far { excess: most, few, greatest: far.into_iter().fold(0.0, f64::max) })
     }
@@ -106,15 +107,15 @@ impl Searched<'_> {
         let middle = times(0.5, plus(bounds.min, bounds.max));
         let radius = (0.5 * bounds.diagonal()).max(f64::MIN_POSITIVE);
         let one = |k: usize| {
-            let mut random = Random::stream(self.seed, round * TRIES as u64 + k as u64);
-            let size = SIZES[k % SIZES.len()] * far.greatest;
+            let mut random = Random::stream(self.seed, round * POSES_PER_ROUND as u64 + k as u64);
+            let size = POSE_OFFSET_SHARES[k % POSE_OFFSET_SHARES.len()] * far.greatest;
             let mut some =
                 |size: f64| -> Point { std::array::from_fn(|_| size * (2.0 * random.unit() - 1.0)) };
             let turned = Rigid::rotation_about(middle, some(size / radius));
             let start = Rigid::translation_by(some(size)).after(&turned).after(pose);
             placed_within(&points, &distance, &room, &from(start), progress).ok()
         };
-        let ends: Vec<Option<Placed>> = (0..TRIES).into_par_iter().map(one).collect();
+        let ends: Vec<Option<Placed>> = (0..POSES_PER_ROUND).into_par_iter().map(one).collect();
         ends.into_iter().flatten().collect()
     }
 }

@@ -14,7 +14,7 @@ use crate::space::Point;
 use crate::zone::ZoneError;
 
 /// Share of the diagonal of the reference within which every point counts, however little the others scatter.
-const NEAR: f64 = 0.01;
+const ALWAYS_COUNTED_SHARE: f64 = 0.01;
 
 /// The points that count in a search from a best fit, with their weights.
 pub(super) struct Counting {
@@ -66,9 +66,10 @@ impl Counting {
         };
         let matches = problem.matches(&from.reference_from_measured, f64::INFINITY, progress)?;
         let limit = match options.robust {
-            true => {
-                problem.limit(problem.deviation(&matches)).max(NEAR * reference.bounds.diagonal()).max(near)
-            }
+            true => problem
+                .limit(problem.deviation(&matches))
+                .max(ALWAYS_COUNTED_SHARE * reference.bounds.diagonal())
+                .max(near),
             false => f64::INFINITY,
         };
         let within = |m: &Match| m.distance.is_finite() && m.distance <= limit && m.equation.weight > 0.0;

@@ -1,6 +1,6 @@
 //! The covariance of a best fit.
 
-use super::freedom::HELD;
+use super::freedom::HELD_MOTION_SHARE;
 use super::icp::Match;
 use super::system::{Six, SixBySix, Spectrum, System, eigen_six, padded, slope};
 use super::twist::inner;
@@ -8,16 +8,16 @@ use crate::parallel::prelude::*;
 use crate::space::{Point, minus};
 use std::collections::BTreeMap;
 
-/// Cells along the radius within which residuals may go together.
-const CELLS: f64 = 4.0;
+/// Cells along the radius; residuals within one cell may go together.
+const CELLS_PER_RADIUS: f64 = 4.0;
 /// Matches added in one go: sums do not depend on the number of threads.
-const CHUNK: usize = 1 << 16;
-/// Share of what holds a motion that a cell may count for at most where it is asked what the others say without it.
-const ALONE: f64 = 0.8;
+const MATCHES_PER_SUM: usize = 1 << 16;
+/// Largest share of the hold on a motion that one cell may count for, where the others are asked without it.
+const MAX_CELL_SHARE: f64 = 0.8;
 
 /// The cell of a point.
 pub(super) fn cell_of(point: Point, system: &System) -> [i64; 3] {
-    minus(point, system.center).map(|x| (x * CELLS / system.radius).floor() as i64)
+    minus(point, system.center).map(|x| (x * CELLS_PER_RADIUS / system.radius).floor() as i64)
 }
 
 /// What one cell says.
@@ -72,7 +72,7 @@ pub(super) fn covariance(
         // How many times the variance is that of independent residuals, along what is held well.
         let alone =
             |k: usize| system.rms() * system.rms() / system.count() * system.weight / spectrum.values[k];
-        let held = (spectrum.stay..6).filter(|&k| spectrum.values[k] >= HELD * system.weight);
+        let held = (spectrum.stay..6).filter(|&k| spectrum.values[k] >= HELD_MOTION_SHARE * system.weight);
         let ratio = |k: usize| along(&out, &spectrum.vectors[k]) / alone(k);
         let ratios: Vec<f64> = held.map(ratio).filter(|ratio| ratio.is_finite()).collect();
         let together = (ratios.iter().sum::<f64>() / ratios.len().max(1) as f64).max(1.0);
@@ -110,7 +110,7 @@ fn cells(system: &System, matches: &[Match]) -> BTreeMap<[i64; 3], Cell> {
         }
         cells
     };
-    let parts: Vec<BTreeMap<[i64; 3], Cell>> = matches.par_chunks(CHUNK).map(part).collect();
+    let parts: Vec<BTreeMap<[i64; 3], Cell>> = matches.par_chunks(MATCHES_PER_SUM).map(part).collect();
     let mut cells: BTreeMap<[i64; 3], Cell> = BTreeMap::new();
     for (key, cell) in parts.into_iter().flatten() {
         cells.entry(key).or_default().add(&cell);
@@ -132,7 +132,7 @@ fn left_out(spectrum: &Spectrum, cell: &Cell) -> Six {
     let mut moves = [0.0; 6];
     for k in 0..free {
         let along: f64 = (0..free).map(|i| rows[k][i] * score(i)).sum();
-        let more = along / (1.0 - shares[k].clamp(0.0, ALONE));
+        let more = along / (1.0 - shares[k].clamp(0.0, MAX_CELL_SHARE));
         for i in 0..free {
             let white = white(i);
             (0..6).for_each(|d| moves[d] += more * rows[k][i] * white[d]);

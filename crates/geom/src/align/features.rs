@@ -14,7 +14,7 @@ use crate::space::{Point, Vector, cross, dot, minus, norm, plus, times, unit};
 use std::f64::consts::PI;
 
 /// Cells of each of the angles from 0 to π.
-const ANGLES: usize = 16;
+const CELLS_PER_ANGLE: usize = 16;
 
 /// A place with its normal.
 pub(super) type Oriented = (Point, Vector);
@@ -34,13 +34,13 @@ pub(super) struct PairTable {
 
 /// Cosines at the ends of the cells of the angles and at their middles, descending.
 struct Walls {
-    ends: [f64; ANGLES - 1],
-    middles: [f64; ANGLES],
+    ends: [f64; CELLS_PER_ANGLE - 1],
+    middles: [f64; CELLS_PER_ANGLE],
 }
 
 impl Walls {
     fn new() -> Walls {
-        let cosine = |cells: f64| libm::cos(cells * (PI / ANGLES as f64));
+        let cosine = |cells: f64| libm::cos(cells * (PI / CELLS_PER_ANGLE as f64));
         Walls {
             ends: std::array::from_fn(|k| cosine((k + 1) as f64)),
             middles: std::array::from_fn(|k| cosine(k as f64 + 0.5)),
@@ -109,7 +109,7 @@ impl PairTable {
                 sample.iter().map(key).collect()
             })
             .collect();
-        let mut first = vec![0u32; lengths * ANGLES.pow(3) + 1];
+        let mut first = vec![0u32; lengths * CELLS_PER_ANGLE.pow(3) + 1];
         let known = || keys.iter().flatten().filter(|&&k| k != u32::MAX);
         known().for_each(|&k| first[k as usize + 1] += 1);
         for i in 1..first.len() {
@@ -128,7 +128,7 @@ impl PairTable {
 
     /// Where the pairs of the reference are that lie to each other about as these two: those of its cell and of the nearer neighbors.
     fn near(&self, a: Oriented, b: Oriented) -> impl Iterator<Item = std::ops::Range<usize>> + '_ {
-        let limits = [self.lengths, ANGLES, ANGLES, ANGLES];
+        let limits = [self.lengths, CELLS_PER_ANGLE, CELLS_PER_ANGLE, CELLS_PER_ANGLE];
         let relation = Relation::of(a, b, self.step, 0.0, &self.walls);
         // The cell in which a number lies, and the one on the side to which it is nearer: from the lower of both on.
         let upper = relation.map(|r| {
@@ -171,8 +171,9 @@ impl PairTable {
 /// Index of a cell.
 #[inline(always)]
 fn cell(at: [usize; 4], lengths: usize) -> usize {
-    let angle = |k: usize| at[k].min(ANGLES - 1);
-    ((at[0].min(lengths - 1) * ANGLES + angle(1)) * ANGLES + angle(2)) * ANGLES + angle(3)
+    let angle = |k: usize| at[k].min(CELLS_PER_ANGLE - 1);
+    ((at[0].min(lengths - 1) * CELLS_PER_ANGLE + angle(1)) * CELLS_PER_ANGLE + angle(2)) * CELLS_PER_ANGLE
+        + angle(3)
 }
 
 /// A frame that goes with a pair: the first axis along the pair, the third along the normals.

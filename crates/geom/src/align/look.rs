@@ -1,24 +1,26 @@
 //! Looking further from a best fit: again where much does not lie on the reference, beside it, about an axis, in a mirror, and in poses that
 //! fit as well.
 
-use super::alignment::POOR;
+use super::alignment::POOR_RESIDUAL_SHARE;
 use super::alternatives::{better, is_same};
 use super::mirror::Mirror;
 use super::sample::Samples;
 use super::settle::Settle;
 use super::start::Search;
-use super::work::{FEW, PART, Work};
+use super::work::{RIVAL_SAMPLES, START_SAMPLES, Work};
 use super::{AlignError, AlignWarning, Alignment, Freedom, near, revolved};
 use crate::progress::Progress;
 use crate::rigid::Rigid;
 use crate::stats::SIGMA_OVER_MAD;
 
-/// Share of the measured that counts below which the start is looked for again, so many times, with other samples and pairs.
-const EXPLAINED: f64 = 0.95;
-const AGAIN: usize = 2;
-/// How often, from where the last round ended, and the share of the spacing that is no other pose.
-const ROUNDS: usize = 3;
-const SAME: f64 = 0.02;
+/// Share of the measured that counts below which the start is looked for again.
+const MIN_COUNTED_SHARE: f64 = 0.95;
+/// Times that it is looked for again, each with other samples and pairs.
+const REPEATED_SEARCHES: usize = 2;
+/// Rounds of the search about a pose, each from where the last one ended.
+const MAX_LOOK_ROUNDS: usize = 3;
+/// Share of the spacing within which two poses are one.
+const SAME_POSE_SPACINGS: f64 = 0.02;
 
 /// What looking further is done with.
 pub(super) struct Look<'a> {
@@ -40,10 +42,10 @@ impl Look<'_> {
         let Look { settle, search, samples } = *self;
         let (work, some) = (settle.work, settle.some);
         let mut told = vec![];
-        if work.options.robust && result.share < EXPLAINED {
+        if work.options.robust && result.share < MIN_COUNTED_SHARE {
             told.extend(self.again(poses, result, progress)?);
         }
-        if result.share < EXPLAINED || result.median > POOR * work.size(samples) {
+        if result.share < MIN_COUNTED_SHARE || result.median > POOR_RESIDUAL_SHARE * work.size(samples) {
             match work.mirror(search, result, samples, some, progress)? {
                 Mirror::Same => {}
                 Mirror::Better(pose) => {
@@ -59,7 +61,7 @@ impl Look<'_> {
         let own = result.reference_from_measured;
         if let Some(near) = revolved.iter().find(|p| search.apart(p, &own) <= search.spacing) {
             let (pose, sigma) = work.choose(&[own, *near], some, progress)?;
-            if search.apart(&own, &pose) > SAME * search.spacing {
+            if search.apart(&own, &pose) > SAME_POSE_SPACINGS * search.spacing {
                 *result = settle.from(pose, sigma, progress)?;
             }
         }
@@ -87,21 +89,21 @@ impl Look<'_> {
         poses.extend(&again);
         let (pose, sigma) = work.choose(&[&[own][..], &again].concat(), some, progress)?;
         *result = settle.from(pose, sigma, progress)?;
-        for _ in 0..ROUNDS {
+        for _ in 0..MAX_LOOK_ROUNDS {
             let pose = work.around(search, result, some, progress)?;
-            if search.apart(&result.reference_from_measured, &pose) <= SAME * search.spacing {
+            if search.apart(&result.reference_from_measured, &pose) <= SAME_POSE_SPACINGS * search.spacing {
                 break;
             }
             *result = settle.from(pose, sigma, progress)?;
         }
         let found = [own].iter().chain(&again).filter(|pose| is_same(search, result, pose)).count();
-        Ok((found < 2).then_some(AlignWarning::Unconfirmed { searches: 1 + AGAIN }))
+        Ok((found < 2).then_some(AlignWarning::Unconfirmed { searches: 1 + REPEATED_SEARCHES }))
     }
 }
 
 impl Work<'_> {
     /// The best pose of each further search, with samples and pairs of its own: where much does not lie on the reference, a search
-    /// may miss the place. As soon as one ends at that of the result it is enough; else [`AGAIN`] poses, fewer where a search finds nothing.
+    /// may miss the place. As soon as one ends at that of the result it is enough; else [`REPEATED_SEARCHES`] poses, fewer where a search finds nothing.
     fn sought_again(
         &self,
         search: &Search,
@@ -111,9 +113,9 @@ impl Work<'_> {
         progress: &dyn Progress,
     ) -> Result<Vec<Rigid>, AlignError> {
         let mut found = vec![];
-        for k in 1..=AGAIN as u64 {
+        for k in 1..=REPEATED_SEARCHES as u64 {
             let seed = self.options.seed.wrapping_add(k);
-            let again = search.again(samples.few(FEW, seed), seed);
+            let again = search.again(samples.few(START_SAMPLES, seed), seed);
             let poses = self.briefly(&again, &[Rigid::IDENTITY], progress)?;
             if !poses.is_empty() {
                 found.push(self.choose(&poses, some, progress)?.0);
@@ -159,7 +161,7 @@ impl Work<'_> {
         if result.freedoms.iter().any(|f| matches!(f, Freedom::Turns { .. })) {
             return Ok(vec![]);
         }
-        let part = some.first(PART);
+        let part = some.first(RIVAL_SAMPLES);
         let [few, part] = [&search.samples, &part].map(|s| self.problem(s));
         let cap = self.cap(SIGMA_OVER_MAD * result.median);
         revolved::poses(search, &result.reference_from_measured, [&few, &part], cap, progress)

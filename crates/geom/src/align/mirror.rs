@@ -1,9 +1,9 @@
 //! Whether the measured is the mirror image of the reference: a part of the other hand, or an axis of other sign.
 
-use super::rows::MIRRORED;
+use super::rows::MIRROR_RMS_RATIO;
 use super::sample::Samples;
 use super::start::Search;
-use super::work::{FEW, Work};
+use super::work::{START_SAMPLES, Work};
 use super::{AlignError, Alignment};
 use crate::progress::Progress;
 use crate::rigid::Rigid;
@@ -32,7 +32,7 @@ impl Work<'_> {
         progress: &dyn Progress,
     ) -> Result<Mirror, AlignError> {
         let image = samples.mirrored();
-        let again = search.again(image.few(FEW, self.options.seed), self.options.seed);
+        let again = search.again(image.few(START_SAMPLES, self.options.seed), self.options.seed);
         let poses = self.briefly(&again, &[], progress)?;
         if poses.is_empty() {
             return Ok(Mirror::Same);
@@ -41,7 +41,7 @@ impl Work<'_> {
         let (there, sigma) = self.choose(&poses, &image, progress)?;
         let cap = self.cap(sigma);
         let own = self.problem(some).cost(&result.reference_from_measured, cap, progress)?;
-        let enough = MIRRORED * MIRRORED * own;
+        let enough = MIRROR_RMS_RATIO * MIRROR_RMS_RATIO * own;
         let left = self.problem(&image).cost(&there, cap, progress)?;
         if left >= enough {
             return Ok(Mirror::Same);

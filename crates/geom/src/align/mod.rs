@@ -64,7 +64,7 @@ pub use error::AlignError;
 pub use freedom::Freedom;
 pub use minimax::{Minimax, minimax};
 pub use response::{Response, response};
-pub use rows::{AMPLIFIED, Row, RowFit, constrained, pairs};
+pub use rows::{MIN_AMPLIFICATION, Row, RowFit, constrained, pairs};
 pub use sample::Measured;
 pub use scaled::{Scale, best_fit_scaled};
 pub use target::Target;

@@ -1,7 +1,7 @@
 //! Alignment by places that belong together: pairs of points, and rows of a measured point, its nominal place and the
 //! direction in which it is held, as in 3-2-1 and reference point systems.
 
-use super::alignment::POOR;
+use super::alignment::POOR_RESIDUAL_SHARE;
 use super::icp::moved;
 use super::system::{Constraint, Equation, SixBySix, Spectrum, System, eigen_six, slope};
 use super::{AlignError, AlignWarning};
@@ -46,7 +46,7 @@ pub struct RowFit {
 
 impl RowFit {
     /// Of each row: how far a millimeter of error in it moves the corner that it moves farthest, in millimeters (the column of the inverse of the
-    /// equations; JCGM 102:2011, 6.2). From [`AMPLIFIED`] on the places of the rows lie too near to a line, or to each other, for the part.
+    /// equations; JCGM 102:2011, 6.2). From [`MIN_AMPLIFICATION`] on the places of the rows lie too near to a line, or to each other, for the part.
     pub fn amplifications(&self, corners: &[Point]) -> Vec<f64> {
         let of = |gain: &[f64; 6]| {
             let [a, b, c, x, y, z] = *gain;
@@ -57,9 +57,9 @@ impl RowFit {
     }
 }
 
-/// Millimeters that a corner moves per millimeter of error from which on that is told: a part that is ten times as long as its places lie apart
-/// does not lie where the places say, for all practical purposes.
-pub const AMPLIFIED: f64 = 10.0;
+/// Millimeters that a corner moves per millimeter of error from which on a warning says so. A part ten times as long as its
+/// places lie apart does not lie where the places say, for all practical purposes.
+pub const MIN_AMPLIFICATION: f64 = 10.0;
 
 /// The motion that brings `measured[i]` nearest to `reference[i]`, by the least weighted sum of squared distances.
 ///
@@ -103,7 +103,7 @@ pub fn pairs(measured: &[Point], reference: &[Point], weights: Option<&[f64]>) -
     let mut poor = poor([measured, reference], &residuals, &weight, rms);
     if let Some(AlignWarning::PoorRows { mirrored, .. }) = &mut poor {
         let image: Vec<Point> = measured.iter().map(|[x, y, z]| [-x, *y, *z]).collect();
-        *mirrored = fit(&image).is_some_and(|(_, residuals)| left(&residuals) < MIRRORED * rms);
+        *mirrored = fit(&image).is_some_and(|(_, residuals)| left(&residuals) < MIRROR_RMS_RATIO * rms);
     }
     let warnings = poor.into_iter().collect();
     Ok(RowFit {
@@ -118,8 +118,8 @@ pub fn pairs(measured: &[Point], reference: &[Point], weights: Option<&[f64]>) -
     })
 }
 
-/// What a mirror image may leave, over what pairs or a best fit leave, for them to look mirrored.
-pub(super) const MIRRORED: f64 = 0.5;
+/// Root mean square residual of a mirror image over that of pairs or a best fit, below which they look mirrored.
+pub(super) const MIRROR_RMS_RATIO: f64 = 0.5;
 
 /// The motion of the least weighted sum of squares and the distances that it leaves; `None` where another does as well.
 fn nearest(
@@ -161,7 +161,7 @@ fn poor(
     let share = rms / a.min(b);
     let row = counts.into_iter().max_by(|&i, &j| residuals[i].abs().total_cmp(&residuals[j].abs()))?;
     let left = residuals[row].abs();
-    (share > POOR).then_some(AlignWarning::PoorRows { share, row, left, mirrored: false })
+    (share > POOR_RESIDUAL_SHARE).then_some(AlignWarning::PoorRows { share, row, left, mirrored: false })
 }
 
 /// The rotation of greatest `Σ s_ab R_ba`, and whether no other does as well.
@@ -190,7 +190,7 @@ fn quaternion_rotation(s: &[[f64; 3]; 3]) -> ([Vector; 3], bool) {
 }
 
 /// Steps after which rows count as not settling.
-const MOST: usize = 100;
+const MAX_ROW_STEPS: usize = 100;
 
 /// The motion that brings the measured point of every row into the plane across its direction: exactly for six rows that
 /// hold all six freedoms (3-2-1), by the least weighted sum of squares for more (RPS). A point held in two or three
@@ -246,7 +246,7 @@ pub fn constrained(rows: &[Row], start: Option<Rigid>) -> Result<RowFit, AlignEr
     let residual = |pose: &Rigid, i: usize| dot(held[i], minus(pose.point(measured[i]), nominal[i]));
     let size = nominal.iter().flatten().fold(radius, |m, x| m.max(x.abs()));
     let (mut iterations, mut converged) = (0, false);
-    while iterations < MOST && !converged {
+    while iterations < MAX_ROW_STEPS && !converged {
         let equation = |i: usize| Equation {
             point: pose.point(measured[i]),
             away: minus(pose.point(measured[i]), nominal[i]),

@@ -52,14 +52,14 @@ pub(super) struct Samples {
 }
 
 /// Neighbors that make the normal of a point of a cloud.
-const NEIGHBORS: usize = 16;
-/// Points among which they are looked for, at most.
-const DENSE: usize = 100_000;
+const NORMAL_NEIGHBORS: usize = 16;
+/// Most points among which these neighbors are looked for.
+const MAX_NEIGHBOR_POINTS: usize = 100_000;
 
 impl Samples {
     /// All that is measured. Vertices that no facet uses are left out.
     pub fn all(measured: &Measured) -> Samples {
-        Samples::of(measured, LARGE)
+        Samples::of(measured, SAMPLED_FACET_SHARE)
     }
 
     /// The points that were measured: of a mesh its vertices alone, however large their facets. What decides by the worst place looks at these.
@@ -198,7 +198,8 @@ impl Samples {
     pub fn few(&self, count: usize, seed: u64) -> Samples {
         let mut few = self.thinned(count, seed);
         if few.normals.is_empty() {
-            let part = (self.points.len() > DENSE).then(|| self.thinned(DENSE, seed).points);
+            let part = (self.points.len() > MAX_NEIGHBOR_POINTS)
+                .then(|| self.thinned(MAX_NEIGHBOR_POINTS, seed).points);
             let among = part.as_ref().unwrap_or(&self.points);
             let tree = PointTree::new(among);
             few.normals = few.points.par_iter().map(|p| local_normal(p, among, &tree)).collect();
@@ -268,20 +269,21 @@ impl Moments {
 
 /// The direction in which the nearest neighbors spread least; zero where they lie on a line.
 fn local_normal(p: &Point, among: &[Point], tree: &PointTree) -> Vector {
-    let near = tree.k_nearest(p, NEIGHBORS, None);
+    let near = tree.k_nearest(p, NORMAL_NEIGHBORS, None);
     let moments = Moments::of(near.iter().map(|n| (among[n.1 as usize], 1.0)));
     if moments.variances[1] > 1e-6 * moments.variances[2] { moments.axes[0] } else { [0.0; 3] }
 }
 
-/// A facet of more than this share of the whole area is represented by places on it, each for at most this share.
-const LARGE: f64 = 1.0 / 1000.0;
-const PART: f64 = 1.0 / 4000.0;
+/// Share of the whole area above which a facet is represented by places on it.
+const SAMPLED_FACET_SHARE: f64 = 1.0 / 1000.0;
+/// Largest share of the whole area that each of these places stands for.
+const FACET_PART_SHARE: f64 = 1.0 / 4000.0;
 /// No place of the surface stands for more than this share of the area.
-const FINE: f64 = 1.0 / 50_000.0;
+const MAX_PLACE_SHARE: f64 = 1.0 / 50_000.0;
 
 /// Parts into which the sides of a facet are cut where the whole surface is represented.
 fn parts(double: Vector, total: f64) -> f64 {
-    (norm(double) / (FINE * total)).sqrt()
+    (norm(double) / (MAX_PLACE_SHARE * total)).sqrt()
 }
 
 fn of_mesh(mesh: &Mesh, large: f64) -> Samples {
@@ -293,7 +295,7 @@ fn of_mesh(mesh: &Mesh, large: f64) -> Samples {
         let double = double_area(mesh, face);
         let size = norm(double);
         if size > large * total {
-            let parts = (size / (PART * total)).sqrt();
+            let parts = (size / (FACET_PART_SHARE * total)).sqrt();
             samples.spread(mesh.places(face), double, parts);
             continue;
         }

@@ -1,7 +1,7 @@
 //! The end of an iteration over all that is measured, and what the result is worth.
 
 use super::covariance::covariance;
-use super::icp::{Ended, MOST, Match, Problem, Room, median_distance};
+use super::icp::{Ended, MAX_ITERATIONS, Match, Problem, Room, median_distance};
 use super::loose::{Loose, explore};
 use super::sample::Samples;
 use super::system::Spectrum;
@@ -13,13 +13,14 @@ use crate::progress::Progress;
 use crate::rigid::Rigid;
 use crate::stats::SIGMA_OVER_MAD;
 
-/// Rounds over a part of very many samples: what the iteration is off then is a few uncertainties.
-const FIRST: usize = 2;
-/// Rounds over all samples at most once the iteration has settled on some of them, and where it has not.
-const LAST: usize = 30;
-const FEW_ROUNDS: usize = 3;
-/// Share of the measured that does not count from which on that is told.
-const MUCH: f64 = 0.1;
+/// Rounds over a part of very many samples: the iteration is then off by a few uncertainties.
+const PART_ROUNDS: usize = 2;
+/// Most rounds over all samples once the iteration has settled on some of them.
+const MAX_SETTLED_ROUNDS: usize = 30;
+/// Most rounds over all samples where it has not settled.
+const MAX_UNSETTLED_ROUNDS: usize = 3;
+/// Share of the measured that does not count, from which on a warning says so.
+const MIN_REPORTED_EXCLUSION: f64 = 0.1;
 
 /// What the end of an iteration is made with.
 pub(super) struct Settle<'a> {
@@ -44,8 +45,8 @@ impl<'a> Settle<'a> {
         let mut reach = work.reach(sigma);
         // What does not settle on some of them does not on all, which would take as many times as long.
         let few = work.problem(some);
-        let begun = few.run(pose, reach, MOST, progress)?;
-        let most = if begun.converged { LAST } else { FEW_ROUNDS };
+        let begun = few.run(pose, reach, MAX_ITERATIONS, progress)?;
+        let most = if begun.converged { MAX_SETTLED_ROUNDS } else { MAX_UNSETTLED_ROUNDS };
         let (within, loose) = explore(&few, &begun.pose, &work.start(), progress)?;
         pose = within;
         let mut stay = vec![];
@@ -56,7 +57,7 @@ impl<'a> Settle<'a> {
         let staying = |problem: &Problem<'a>| Problem { stay: &stay, ..*problem };
         let all = &staying(all);
         if let Some(part) = part {
-            pose = staying(part).run(pose, reach, FIRST, progress)?.pose;
+            pose = staying(part).run(pose, reach, PART_ROUNDS, progress)?.pose;
         }
         let mut room = Room::default();
         let ended = match surface {
@@ -139,7 +140,7 @@ impl Work<'_> {
             freedoms: named(&loose.free),
             slack: loose.slack.iter().filter_map(with_width).collect(),
             alternatives: vec![],
-            warnings: if share > MUCH { vec![left_out] } else { vec![] },
+            warnings: if share > MIN_REPORTED_EXCLUSION { vec![left_out] } else { vec![] },
         })
     }
 }

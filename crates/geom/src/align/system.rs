@@ -64,7 +64,7 @@ pub(super) struct System {
 }
 
 /// Equations added in one go: sums do not depend on the number of threads.
-const CHUNK: usize = 4096;
+const EQUATIONS_PER_SUM: usize = 4096;
 
 impl System {
     /// Adds up the equations of `items` about `center`; those of weight 0 do not count.
@@ -93,7 +93,7 @@ impl System {
             }
             s
         };
-        let parts: Vec<System> = items.par_chunks(CHUNK).map(add).collect();
+        let parts: Vec<System> = items.par_chunks(EQUATIONS_PER_SUM).map(add).collect();
         let mut sum = parts.into_iter().fold(empty(), |mut sum, part| {
             for i in 0..6 {
                 for j in 0..=i {
@@ -204,7 +204,7 @@ fn rotate(a: &mut SixBySix, rows: &mut SixBySix, p: usize, q: usize) {
 }
 
 /// Share of the greatest eigenvalue below which a direction counts as undetermined by arithmetic: no step is made along it.
-const NOTHING: f64 = 1e-12;
+const UNDETERMINED_SHARE: f64 = 1e-12;
 
 /// The matrix taken apart.
 pub(super) struct Spectrum {
@@ -243,7 +243,7 @@ impl Spectrum {
             }
         }
         let (values, vectors) = eigen_six(&matrix);
-        let fixed = values.iter().filter(|&&v| v <= NOTHING * values[5]).count();
+        let fixed = values.iter().filter(|&&v| v <= UNDETERMINED_SHARE * values[5]).count();
         Spectrum { values, vectors, fixed: fixed.max(directions.len()), stay: directions.len() }
     }
 

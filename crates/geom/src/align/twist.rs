@@ -38,8 +38,8 @@ impl Twist {
     }
 }
 
-/// Part of a direction that must be its own for it to be another than those before it.
-const OWN: f64 = 1e-6;
+/// Part of a direction that the directions before it must not hold, for it to be a new one.
+const MIN_NEW_DIRECTION: f64 = 1e-6;
 
 /// Orthonormal directions of unknowns about `center` that span the twists (Gram and Schmidt).
 pub(super) fn directions(twists: &[Twist], center: Point, radius: f64) -> Vec<Six> {
@@ -53,7 +53,7 @@ pub(super) fn directions(twists: &[Twist], center: Point, radius: f64) -> Vec<Si
             }
         }
         let size = inner(&six, &six).sqrt();
-        if size > OWN {
+        if size > MIN_NEW_DIRECTION {
             all.push(six.map(|x| x / size));
         }
     }

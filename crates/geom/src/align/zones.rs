@@ -17,10 +17,11 @@ use crate::space::{Point, Vector, minus, times};
 pub type ZoneAt<'a> = dyn Fn(u32, &Point) -> Option<[f64; 2]> + Sync + 'a;
 
 /// Rounds after which points still change zones: the best pose so far is taken.
-const ROUNDS: usize = 8;
+const MAX_ZONE_ROUNDS: usize = 8;
 
-/// How many times its zone a point may be off in the best fit to count in the search in any case: no pose nearby has one farther off within.
-const OFF: f64 = 10.0;
+/// Deviation in the best fit over the zone up to which a point counts in the search in any case. No pose nearby has a point
+/// within that is farther off.
+const COUNTED_ZONE_RATIO: f64 = 10.0;
 
 /// The pose with the least greatest excess over the zones.
 #[derive(Clone, Debug, PartialEq)]
@@ -101,7 +102,7 @@ pub fn into_zones(
     let (all, start) = (measured.points(), from.reference_from_measured);
     let wide = |widest: f64, j: &Judged| widest.max(j.zone[0].abs()).max(j.zone[1].abs());
     let widest = work.judged(all, &start)?.iter().flatten().fold(0.0, wide);
-    let counting = Counting::of(measured, reference, from, options, OFF * widest, progress)?;
+    let counting = Counting::of(measured, reference, from, options, COUNTED_ZONE_RATIO * widest, progress)?;
     let (mut motion, mut least) = work.sought(&counting.points, start)?;
     if let Start::Given(pose) = options.start {
         let there = worst(&work.judged(&counting.points, &pose)?).map(|(_, w)| w.excess());
@@ -189,7 +190,7 @@ impl Work<'_> {
         let judged = self.judged(points, &start)?;
         let mut own = zones(&judged);
         let mut best = worst(&judged).map(|(_, w)| (start, w.excess()));
-        for _ in 0..ROUNDS {
+        for _ in 0..MAX_ZONE_ROUNDS {
             let end = self.placed(points, start, &own)?;
             let judged = self.judged(points, &end)?;
             let excess = worst(&judged).ok_or(AlignError::NoZone)?.1.excess();

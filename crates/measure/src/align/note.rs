@@ -2,7 +2,7 @@
 
 use trueness_document::Word;
 use trueness_document::align::{AlignNote, AlignNoteKind};
-use trueness_geom::align::{AMPLIFIED, AlignWarning, Alignment, Freedom, NotCounted, RowFit};
+use trueness_geom::align::{AlignWarning, Alignment, Freedom, MIN_AMPLIFICATION, NotCounted, RowFit};
 
 /// The note that a warning makes.
 pub fn note(warning: &AlignWarning) -> AlignNote {
@@ -86,8 +86,8 @@ pub fn notes_of_rows(found: &RowFit, corners: &[[f64; 3]]) -> Vec<AlignNote> {
     let mut notes: Vec<AlignNote> = found.warnings.iter().map(note).collect();
     let amplified = found.amplifications(corners);
     let most = amplified.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1));
-    if let Some((row, by)) = most.filter(|(_, by)| **by >= AMPLIFIED) {
-        let rows = amplified.iter().filter(|by| **by >= AMPLIFIED).count();
+    if let Some((row, by)) = most.filter(|(_, by)| **by >= MIN_AMPLIFICATION) {
+        let rows = amplified.iter().filter(|by| **by >= MIN_AMPLIFICATION).count();
         let others = match rows {
             1 => String::new(),
             _ => format!(" ({rows} rows are amplified tenfold or more)"),
