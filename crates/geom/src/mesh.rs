@@ -40,10 +40,11 @@ impl Mesh {
 
     /// Box of the positions that are finite. Runs on the current rayon pool.
     pub fn finite_bounds(&self) -> Aabb {
-        const CHUNK: usize = 1 << 14;
+        /// Vertices whose box one task finds.
+        const VERTICES_PER_BOX: usize = 1 << 14;
         let finite = |p: &&Point| p.iter().all(|x| x.is_finite());
         let of = |part: &[Point]| Aabb::of(part.iter().filter(finite));
-        self.positions.par_chunks(CHUNK).map(of).reduce(|| Aabb::EMPTY, |a, b| a.union(&b))
+        self.positions.par_chunks(VERTICES_PER_BOX).map(of).reduce(|| Aabb::EMPTY, |a, b| a.union(&b))
     }
 }
 

@@ -25,13 +25,13 @@ pub struct PlaneFrame {
 }
 
 /// Components of a normal that differ by less than this are alike: rounding and noise do not decide between them.
-const ALIKE: f64 = 0.1;
+const ALIKE_COMPONENTS: f64 = 0.1;
 
-/// Sums of squares that differ by so many variances do not tell two planes apart: the tilt of one of them has two unknowns, which chance makes
-/// that large in one row of four hundred.
-const UNTOLD: f64 = 12.0;
-/// Squares of heights that are this share of those of the lengths are rounding.
-const ROUNDING: f64 = 1e-20;
+/// Sums of squares that differ by fewer variances do not tell two planes apart. The tilt of one of them has two unknowns, which
+/// chance makes that large in one row of four hundred.
+const MIN_TILT_VARIANCES: f64 = 12.0;
+/// Share of the squares of the lengths up to which squares of heights are rounding.
+const HEIGHT_ROUNDING: f64 = 1e-20;
 
 impl Plane {
     /// A frame in the plane: its origin is the foot of the coordinates' origin, its first axis runs as that axis of the coordinates does
@@ -39,7 +39,7 @@ impl Plane {
     pub fn frame(&self) -> Option<PlaneFrame> {
         let (normal, length) = unit(self.normal)?;
         let low = normal.iter().fold(1.0, |low: f64, x| low.min(x.abs()));
-        let least = (0..3).find(|k| normal[*k].abs() <= low + ALIKE)?;
+        let least = (0..3).find(|k| normal[*k].abs() <= low + ALIKE_COMPONENTS)?;
         let mut axis = [0.0; 3];
         axis[least] = 1.0;
         let (y, _) = unit(cross(normal, axis))?;
@@ -110,11 +110,11 @@ impl PlaneFrame {
             return None;
         }
         let high = rows[0].iter().fold(0.0, |high: f64, x| high.max(x.abs()));
-        let greatest = (0..3).find(|k| rows[0][*k].abs() >= high - ALIKE)?;
+        let greatest = (0..3).find(|k| rows[0][*k].abs() >= high - ALIKE_COMPONENTS)?;
         let mut normal = times(1.0_f64.copysign(rows[0][greatest]), rows[0]);
         let square = |i: usize| dot(normal, minus(in_turn(i), middle)).powi(2);
         let squares: f64 = (0..points.len()).map(square).sum();
-        let untold = UNTOLD * squares / (n - 3.0).max(1.0) + ROUNDING * values[2];
+        let untold = MIN_TILT_VARIANCES * squares / (n - 3.0).max(1.0) + HEIGHT_ROUNDING * values[2];
         if scatter[greatest][greatest] - squares <= untold {
             normal = std::array::from_fn(|k| if k == greatest { 1.0 } else { 0.0 });
         }

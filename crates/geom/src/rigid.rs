@@ -48,7 +48,7 @@ pub enum RigidError {
 }
 
 /// Largest entry of `Rᵀ R − 1` at which a matrix still counts as a rotation whose numbers were rounded to six digits.
-const ROUNDED: f64 = 1e-5;
+const MAX_ROTATION_ROUNDING: f64 = 1e-5;
 
 impl Rigid {
     /// The motion that moves nothing.
@@ -80,12 +80,14 @@ impl Rigid {
         let uneven =
             |k: usize| (dot(columns[k], columns[(k + 1) % 3]).abs()).max((lengths[k] - factor).abs());
         let skew = (0..3).map(uneven).fold(0.0, f64::max);
-        if (factor - 1.0).abs() > ROUNDED && skew <= ROUNDED * factor.max(1.0) * factor {
+        if (factor - 1.0).abs() > MAX_ROTATION_ROUNDING
+            && skew <= MAX_ROTATION_ROUNDING * factor.max(1.0) * factor
+        {
             return Err(RigidError::Scale { factor });
         }
         let entry = |i: usize, j: usize| (dot(columns[i], columns[j]) - f64::from(u8::from(i == j))).abs();
         let off = (0..9).map(|k| entry(k / 3, k % 3)).fold(0.0, f64::max);
-        if off > ROUNDED {
+        if off > MAX_ROTATION_ROUNDING {
             return Err(RigidError::NotRotation { off });
         }
         if dot(columns[0], cross(columns[1], columns[2])) < 0.0 {

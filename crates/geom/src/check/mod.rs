@@ -91,7 +91,7 @@ pub enum CheckError {
     Weld(#[from] WeldError),
     /// The ends of boundary edges are numbered in 32 bits.
     #[error(
-        "{edges} edges with one facet are more than the {MOST_BOUNDARY_EDGES} that can be walked: weld the mesh, or split the model"
+        "{edges} edges with one facet are more than the {MAX_BOUNDARY_EDGES} that can be walked: weld the mesh, or split the model"
     )]
     TooManyBoundaryEdges {
         /// Number of edges with one facet.
@@ -111,8 +111,8 @@ impl From<TopologyError> for CheckError {
     }
 }
 
-/// Boundary edges whose ends can be numbered by a `u32`.
-const MOST_BOUNDARY_EDGES: usize = u32::MAX as usize / 2;
+/// Most boundary edges whose ends can be numbered by a `u32`.
+const MAX_BOUNDARY_EDGES: usize = u32::MAX as usize / 2;
 
 /// Looks for every kind of defect.
 ///
@@ -149,7 +149,7 @@ pub fn check(
 pub fn known(mesh: &Mesh, progress: &dyn Progress) -> Result<Known, CheckError> {
     let topology = Topology::watched(mesh, progress)?;
     let open = topology.boundary_edges.len();
-    if open > MOST_BOUNDARY_EDGES {
+    if open > MAX_BOUNDARY_EDGES {
         return Err(CheckError::TooManyBoundaryEdges { edges: open });
     }
     Ok(Known::of(mesh, topology))

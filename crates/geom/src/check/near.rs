@@ -6,8 +6,8 @@ use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
 use std::ops::Range;
 
-/// Points of a leaf, at most.
-const LEAF: usize = 8;
+/// Most points of a leaf.
+const MAX_POINTS_PER_NEAR_LEAF: usize = 8;
 
 /// Points with a number each.
 pub struct Near {
@@ -22,7 +22,7 @@ impl Near {
         let mut near = Near { boxes: vec![], points };
         let count = near.points.len();
         let mut leaves = 1;
-        while count.div_ceil(leaves) > LEAF {
+        while count.div_ceil(leaves) > MAX_POINTS_PER_NEAR_LEAF {
             leaves *= 2;
         }
         near.boxes = vec![Aabb::EMPTY; 2 * leaves - 1];

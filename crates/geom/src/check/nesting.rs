@@ -93,8 +93,8 @@ impl<'a> Container<'a> {
 
     /// Whether the ray passes the plane of the second facet behind that of the first. It runs along neither.
     fn is_behind(&self, facets: [u32; 2], target: &Point) -> bool {
-        /// Rounding takes less of the product of the sizes: below a hundred roundings of 2^-53.
-        const ROUNDING: f64 = 1e-13;
+        /// Share of the product of the sizes that rounding cannot reach: it stays below a hundred roundings of 2^-53.
+        const NESTING_ROUNDING: f64 = 1e-13;
         let corners = facets.map(|f| self.corners(f));
         let mut from = *target;
         from[self.axis] = corners[0][0][self.axis];
@@ -107,8 +107,8 @@ impl<'a> Container<'a> {
         });
         let [(d, m, s), (e, n, t)] = rough;
         let further = e * m - d * n;
-        let clear = m.abs() > ROUNDING * s * s && n.abs() > ROUNDING * t * t;
-        if clear && further.abs() > 32.0 * ROUNDING * s * s * t * t * (s + t) {
+        let clear = m.abs() > NESTING_ROUNDING * s * s && n.abs() > NESTING_ROUNDING * t * t;
+        if clear && further.abs() > 32.0 * NESTING_ROUNDING * s * s * t * t * (s + t) {
             return (further > 0.0) == ((m > 0.0) == (n > 0.0));
         }
         let [(first, d), (second, e)] = corners.map(|[a, b, c]| {

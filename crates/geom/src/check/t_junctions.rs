@@ -7,7 +7,7 @@ use crate::space::{Point, dot, minus, norm, plus, times};
 use crate::topology::EdgeAt;
 
 /// Edges of one task.
-const PART: usize = 1 << 9;
+const BOUNDARY_EDGES_PER_TASK: usize = 1 << 9;
 
 pub(super) const KIND: DefectKind = DefectKind {
     name: "t_junctions",
@@ -53,7 +53,7 @@ pub(super) const KIND: DefectKind = DefectKind {
             (count, first)
         };
         let parts: Vec<(usize, Vec<Junction>)> =
-            m.topology.boundary_edges.par_chunks(PART).map(part).collect();
+            m.topology.boundary_edges.par_chunks(BOUNDARY_EDGES_PER_TASK).map(part).collect();
         let count = parts.iter().map(|p| p.0).sum();
         let first = parts.iter().flat_map(|p| &p.1).take(m.options.limit);
         Some(Found { count, at_least: false, items: first.map(|j| junction(m, j)).collect() })

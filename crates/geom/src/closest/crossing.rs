@@ -9,7 +9,7 @@ use crate::closest::limits::{QueryError, sane};
 use crate::closest::line::Line;
 use crate::closest::order;
 use crate::closest::query::Query;
-use crate::closest::tree::Tree;
+use crate::closest::tree::{TREE_ROUNDING, Tree};
 use crate::memory::{Shared, large_pages};
 use crate::progress::Progress;
 use crate::space::{Point, Vector, plus, times};
@@ -26,9 +26,6 @@ pub struct Crossing {
     /// Weights of the face's corners: `point` is their weighted mean.
     pub barycentric: [f64; 3],
 }
-
-/// Share by which lengths along a line may be off, from rounding the line to the tree's coordinates and dividing.
-const SLACK: f64 = 1e-12;
 
 /// The nearest crossing found so far.
 #[derive(Clone, Copy)]
@@ -58,7 +55,7 @@ impl Scaled {
         let origin = std::array::from_fn(|k| (line.point[k] - tree.center[k]) * tree.scale);
         let far =
             origin.iter().chain(&tree.center.map(|c| c * tree.scale)).fold(1.0f64, |m, x| m.max(x.abs()));
-        Scaled { origin, inverse: line.direction.map(|d| 1.0 / d), pad: SLACK * far }
+        Scaled { origin, inverse: line.direction.map(|d| 1.0 / d), pad: TREE_ROUNDING * far }
     }
 
     /// Least distance along the line from its point to the box of a node's child; infinite where it passes by.
@@ -81,7 +78,7 @@ impl Scaled {
             from = from.max(s.min(t));
             to = to.min(s.max(t));
         }
-        let slack = SLACK * (from.abs() + to.abs());
+        let slack = TREE_ROUNDING * (from.abs() + to.abs());
         if from > to + slack {
             return f64::INFINITY;
         }

@@ -5,10 +5,10 @@ use crate::closest::triangle::Feature;
 use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress, Silent};
 
-/// From so many triangles at both ends of an edge on, it is looked up in a sorted list.
-const MANY: usize = 64;
+/// Triangles at both ends of an edge from which on the edge is looked up in a sorted list.
+const MIN_LISTED_TRIANGLES: usize = 64;
 /// Items of a loop after which it is asked whether to go on.
-pub(super) const ASK: u32 = 1 << 12;
+pub(super) const ITEMS_PER_QUESTION: u32 = 1 << 12;
 
 /// What lies across an edge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -71,7 +71,7 @@ impl<'a> Fans<'a> {
                 return Across::Unclear;
             }
             let (a, b) = if self.size(b) < self.size(a) { (b, a) } else { (a, b) };
-            if self.size(a) > MANY {
+            if self.size(a) > MIN_LISTED_TRIANGLES {
                 let from = crowded.partition_point(|e| (e.0, e.1) < (a.min(b), a.max(b)));
                 let at_edge = crowded[from..].iter().take_while(|e| (e.0, e.1) == (a.min(b), a.max(b)));
                 return only(at_edge.map(|e| e.2).filter(|o| *o != s));
@@ -82,7 +82,7 @@ impl<'a> Fans<'a> {
             }))
         };
         let of_slot = |(s, t): (usize, &[u32; 3])| {
-            if (s as u32).is_multiple_of(ASK) && progress.cancelled() {
+            if (s as u32).is_multiple_of(ITEMS_PER_QUESTION) && progress.cancelled() {
                 return [Across::Unclear; 3];
             }
             std::array::from_fn(|k| of_edge(s as u32, t[k], t[(k + 1) % 3]))
@@ -96,7 +96,9 @@ impl<'a> Fans<'a> {
             let t = *t;
             (0..3).map(move |k| (t[k].min(t[(k + 1) % 3]), t[k].max(t[(k + 1) % 3]), s as u32))
         };
-        let both = |e: &(u32, u32, u32)| self.size(e.0) > MANY && self.size(e.1) > MANY;
+        let both = |e: &(u32, u32, u32)| {
+            self.size(e.0) > MIN_LISTED_TRIANGLES && self.size(e.1) > MIN_LISTED_TRIANGLES
+        };
         let mut all: Vec<(u32, u32, u32)> =
             self.slots.par_iter().enumerate().flat_map_iter(edges).filter(both).collect();
         all.par_sort_unstable();

@@ -14,16 +14,16 @@ use crate::space::{Point, Vector, cross, dot, minus, times, unit};
 pub struct Line {
     /// Where distances along it begin.
     pub point: Point,
-    /// Length 1; components below [`NOTHING`] are zero.
+    /// Length 1; components below [`MIN_DIRECTION_COMPONENT`] are zero.
     pub direction: Vector,
 }
 
-/// Components of a direction smaller than this are none: their products would leave the range of numbers.
-const NOTHING: f64 = 1e-30;
+/// Smaller components of a direction count as zero: their products would leave the range of numbers.
+const MIN_DIRECTION_COMPONENT: f64 = 1e-30;
 
 /// Bound of the rounding of an edge's product, as a share of the sum of its terms' sizes: Shewchuk's for the same seven
 /// roundings is 7.8e-16.
-const ROUNDING: f64 = 1e-15;
+const EDGE_PRODUCT_ROUNDING: f64 = 1e-15;
 
 /// Where a line meets a triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,7 +38,7 @@ impl Line {
     /// `None` for a direction without length or that is no number.
     pub fn new(point: Point, direction: Vector) -> Option<Line> {
         let (d, _) = unit(direction)?;
-        let direction = d.map(|x| if x.abs() < NOTHING { 0.0 } else { x });
+        let direction = d.map(|x| if x.abs() < MIN_DIRECTION_COMPONENT { 0.0 } else { x });
         Some(Line { point, direction })
     }
 
@@ -72,7 +72,7 @@ impl Line {
             let (i, j) = ((k + 1) % 3, (k + 2) % 3);
             d[k].abs() * ((u[i] * v[j]).abs() + (u[j] * v[i]).abs())
         };
-        let bound = ROUNDING * (terms(0) + terms(1) + terms(2));
+        let bound = EDGE_PRODUCT_ROUNDING * (terms(0) + terms(1) + terms(2));
         let sign = match product.abs() > bound {
             true => product.signum(),
             false => self.exact_side(a, b),

@@ -16,11 +16,11 @@ const BUCKET_BITS: u32 = 12;
 /// Bits of the key below the bucket's.
 const LOW_BITS: u32 = 30 - BUCKET_BITS;
 
-/// Points sorted together. Bounds the memory for the order to 64 MiB; sorting more at once would make neighbors nearer
-/// and the answers a little faster.
-const SLICE: usize = 1 << 23;
-/// Points a thread takes at a time, about: buckets are joined until they have this many.
-const CHUNK: usize = 8192;
+/// Points sorted together. It bounds the memory for the order to 64 MiB. More at once would make neighbors nearer and the
+/// answers a little faster.
+const POINTS_PER_SLICE: usize = 1 << 23;
+/// Points that a thread takes at a time, about: buckets are joined until they have so many.
+const POINTS_PER_BUCKET: usize = 8192;
 
 /// Calls `answer(scratch, slice, base, items)` for portions of neighboring points, until every point was named once by
 /// the low 32 bits of an item: the point's index in `slice`, which begins at point `base`. Runs on the current rayon pool;
@@ -32,8 +32,8 @@ pub fn for_each_bucket<S: Default>(
     progress: &dyn Progress,
     answer: impl Fn(&mut S, &[Point], usize, &[u64]) + Sync,
 ) -> Result<(), QueryError> {
-    for (n, slice) in points.chunks(SLICE).enumerate() {
-        let base = n * SLICE;
+    for (n, slice) in points.chunks(POINTS_PER_SLICE).enumerate() {
+        let base = n * POINTS_PER_SLICE;
         let mut buckets = buckets(slice).map_err(|i| QueryError::BadPoint(base + i))?;
         chunks(&mut buckets).into_par_iter().try_for_each_init(
             || (S::default(), vec![]),
@@ -173,14 +173,14 @@ fn counting_pass(from: &[u64], to: &mut [u64], shift: u32, bits: u32) {
     }
 }
 
-/// Neighboring buckets joined to portions of about [`CHUNK`] points.
+/// Neighboring buckets joined to portions of about [`POINTS_PER_BUCKET`] points.
 fn chunks(buckets: &mut Buckets) -> Vec<Vec<&mut [u64]>> {
     let mut chunks: Vec<Vec<&mut [u64]>> = vec![];
     let (mut rest, mut filled) = (&mut buckets.items[..], usize::MAX);
     for w in buckets.limits.windows(2).filter(|w| w[1] > w[0]) {
         let (part, tail) = rest.split_at_mut(w[1] - w[0]);
         rest = tail;
-        if filled.saturating_add(part.len()) > CHUNK {
+        if filled.saturating_add(part.len()) > POINTS_PER_BUCKET {
             chunks.push(vec![]);
             filled = 0;
         }

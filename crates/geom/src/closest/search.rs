@@ -3,7 +3,7 @@
 //! SAFETY, here and for every function: the caller promises that the processor has the instructions of the types.
 #![expect(unsafe_code, reason = "loads of vector types need their instructions")]
 
-use crate::closest::block::{BLOCK, LENGTH_UP, PointBlock, SurfacePoint};
+use crate::closest::block::{LENGTH_UP, POINTS_PER_BLOCK, PointBlock, SurfacePoint};
 use crate::closest::decide::{Undecided, decide};
 use crate::closest::hit::Hit;
 use crate::closest::prune::{Survivors, prune};
@@ -40,20 +40,20 @@ pub unsafe fn answer<V: Lanes<8>, W: Lanes<16>, D: Real>(
     s: &mut Scratch,
     sink: Sink,
 ) {
-    for (n, part) in items.chunks(BLOCK).enumerate() {
+    for (n, part) in items.chunks(POINTS_PER_BLOCK).enumerate() {
         // The points lie scattered in memory, a third of them across two cache lines: ask early for the block after next.
-        if let Some(next) = items.get((n + 2) * BLOCK..) {
-            for &i in &next[..next.len().min(BLOCK)] {
+        if let Some(next) = items.get((n + 2) * POINTS_PER_BLOCK..) {
+            for &i in &next[..next.len().min(POINTS_PER_BLOCK)] {
                 let p = &points[i as u32 as usize];
                 prefetch(p);
                 prefetch(&p[2]);
             }
         }
-        let mut p = [[0.0; 3]; BLOCK];
+        let mut p = [[0.0; 3]; POINTS_PER_BLOCK];
         for (p, &i) in p.iter_mut().zip(part) {
             *p = points[i as u32 as usize];
         }
-        let mut hits = [Hit::NONE; BLOCK];
+        let mut hits = [Hit::NONE; POINTS_PER_BLOCK];
         unsafe { answer_block::<V, W, D>(tree, &p[..part.len()], max_distance, s, &mut hits) };
         sink(part, &hits[..part.len()]);
     }
@@ -66,7 +66,7 @@ unsafe fn answer_block<V: Lanes<8>, W: Lanes<16>, D: Real>(
     points: &[Point],
     max_distance: f64,
     s: &mut Scratch,
-    hits: &mut [Hit; BLOCK],
+    hits: &mut [Hit; POINTS_PER_BLOCK],
 ) {
     let b = PointBlock::new(tree, points);
     if !b.in_range() {

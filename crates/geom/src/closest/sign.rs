@@ -6,7 +6,7 @@
 //! does on a closed, consistently oriented mesh without self-intersections (Bærentzen & Aanæs, "Signed distance
 //! computation using the angle weighted pseudonormal", IEEE TVCG 2005). For other meshes see the module `winding`.
 
-use crate::closest::edges::{ASK, Across, Fans};
+use crate::closest::edges::{Across, Fans, ITEMS_PER_QUESTION};
 use crate::closest::hit::Hit;
 use crate::closest::limits::QueryError;
 use crate::closest::query::Query;
@@ -33,8 +33,8 @@ pub struct Signs {
     outer: f64,
 }
 
-/// In diagonals of the box.
-const FAR: f64 = 1e9;
+/// Diagonals of the box from which on a point is far.
+const FAR_DIAGONALS: f64 = 1e9;
 
 /// Unit normal of a triangle, or zero if it has none.
 fn normal(t: &[Point; 3]) -> Vector {
@@ -75,7 +75,7 @@ impl Signs {
     fn found(tree: &Tree, progress: &dyn Progress) -> Self {
         let fans = Fans::new(tree);
         let of_vertex = |v: u32| {
-            if v.is_multiple_of(ASK) && progress.cancelled() {
+            if v.is_multiple_of(ITEMS_PER_QUESTION) && progress.cancelled() {
                 return [0.0; 3];
             }
             // Summed in slot order.
@@ -90,7 +90,7 @@ impl Signs {
         let outer = if volume(tree, bounds.min) < 0.0 { -1.0 } else { 1.0 };
         let mut signs = Signs { tree: tree.clone(), across, corner, far: f64::INFINITY, outer };
         if signs.loose_edges() == 0 {
-            signs.far = FAR * bounds.diagonal();
+            signs.far = FAR_DIAGONALS * bounds.diagonal();
         }
         signs
     }

@@ -1,7 +1,7 @@
 //! Distance from a point to a thin triangle, in twice the precision.
 //!
 //! The normal of a triangle is a difference of products: of an angle whose sine is `s`, double precision keeps it to
-//! 2^-53 / s only, and with it the height of a point over the plane. From [`THIN`] on downwards the same is done with
+//! 2^-53 / s only, and with it the height of a point over the plane. From [`MIN_SINE_SQUARED`] on downwards the same is done with
 //! twice the digits, so the distance stays as good as that to a segment. The brute-force twin and the search both come
 //! here.
 
@@ -10,7 +10,7 @@ use crate::space::{self, Point};
 
 /// Square of the sine of the angle at the first corner below which a triangle is thin. There double precision would keep
 /// the height to 2^-53 / 2^-10 of the distance from that corner.
-pub const THIN: f64 = 1.0 / (1 << 20) as f64;
+pub const MIN_SINE_SQUARED: f64 = 1.0 / (1 << 20) as f64;
 
 type Wide = [Double; 3];
 
@@ -76,17 +76,19 @@ pub fn foot(p: &Point, [a, b, c]: &[Point; 3]) -> Option<Foot> {
 /// by `11 u` of the product of the four lengths, taken as sums of magnitudes; twice as much is allowed for. [`foot`] itself
 /// is off by far less, so this changes no answer.
 fn is_surely_outside(p: &Point, [a, b, c]: &[Point; 3]) -> bool {
-    const ROUNDING: f64 = 11.0 * f64::EPSILON;
+    /// Bound of the rounding of a weight, as a share of the product of the four lengths: see above.
+    const WEIGHT_ROUNDING: f64 = 11.0 * f64::EPSILON;
     // More than what products of these lengths lose at the lower end of the numbers.
-    const LOST: f64 = 1e-300;
+    /// More than products of these lengths lose at the lower end of the numbers.
+    const PRODUCT_UNDERFLOW: f64 = 1e-300;
     let size = |v: Point| v[0].abs() + v[1].abs() + v[2].abs();
     let (ab, ac, bc) = (space::minus(*b, *a), space::minus(*c, *a), space::minus(*c, *b));
     let (ap, bp) = (space::minus(*p, *a), space::minus(*p, *b));
     let n = space::cross(ab, ac);
-    let margin = ROUNDING * size(ab) * size(ac);
+    let margin = WEIGHT_ROUNDING * size(ab) * size(ac);
     [(bc, bp), (ap, ac), (ab, ap)]
         .iter()
-        .any(|&(v, w)| space::dot(n, space::cross(v, w)) < -(margin * size(v) * size(w) + LOST))
+        .any(|&(v, w)| space::dot(n, space::cross(v, w)) < -(margin * size(v) * size(w) + PRODUCT_UNDERFLOW))
 }
 
 /// Squared distance and height of `p`, as `triangle::squared` has them; `rim` is its squared distance to the nearest edge.

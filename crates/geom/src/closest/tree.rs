@@ -21,6 +21,10 @@ use crate::space::{Point, minus, norm};
 use std::ops::Deref;
 use std::sync::Arc;
 
+/// Share of coordinates and lengths that they may be off by in the coordinates of a tree: more than what rounding to these, and a
+/// division by a direction, take.
+pub const TREE_ROUNDING: f64 = 1e-12;
+
 /// A mesh prepared for closest-point queries: build once, ask often, from any number of threads.
 ///
 /// Holds its own copy of the triangles, about 120 bytes a face; the mesh may be dropped. Clones share it.

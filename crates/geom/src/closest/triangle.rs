@@ -6,11 +6,11 @@
 //! Method. The distance is the least of the distances to the three edges and, when the foot of the perpendicular falls
 //! inside, the distance to the plane. Testing the edges always (instead of sorting the point into one of seven regions,
 //! Ericson 2005 §5.1.5) costs a few operations and makes every degenerate triangle an ordinary case: a needle, a segment
-//! or a point is answered by its edges. Where the normal is not well determined ([`THIN`]), [`thin`] goes on.
+//! or a point is answered by its edges. Where the normal is not well determined ([`MIN_SINE_SQUARED`]), [`thin`] goes on.
 #![expect(unsafe_code, reason = "constants of a vector type need its instructions")]
 
 use crate::closest::segment::{along, aside, dot, edge, sub};
-use crate::closest::thin::{self, THIN};
+use crate::closest::thin::{self, MIN_SINE_SQUARED};
 use crate::simd::lanes::Real;
 use crate::space::Point;
 
@@ -28,7 +28,7 @@ fn cross<T: Real>(a: [T; 3], b: [T; 3]) -> [T; 3] {
 #[inline(always)]
 pub unsafe fn squared<T: Real>(p: [T; 3], [a, b, c]: [[T; 3]; 3]) -> (T, T, T) {
     // SAFETY: the caller's promise.
-    let (zero, one, thin) = unsafe { (T::splat(0.0), T::splat(1.0), T::splat(THIN)) };
+    let (zero, one, thin) = unsafe { (T::splat(0.0), T::splat(1.0), T::splat(MIN_SINE_SQUARED)) };
     let (ab, ac, bc) = (sub(b, a), sub(c, a), sub(c, b));
     let (ap, bp) = (sub(p, a), sub(p, b));
     let (aa, cc) = (dot(ab, ab), dot(ac, ac));
@@ -58,7 +58,7 @@ pub fn squared_distance(p: &Point, t: &[Point; 3]) -> (f64, f64) {
 fn is_thin([a, b, c]: &[Point; 3]) -> bool {
     let (ab, ac) = (sub(*b, *a), sub(*c, *a));
     let n = cross(ab, ac);
-    dot(n, n) <= THIN * dot(ab, ab) * dot(ac, ac)
+    dot(n, n) <= MIN_SINE_SQUARED * dot(ab, ab) * dot(ac, ac)
 }
 
 /// The normal of a triangle, its length twice the area.
@@ -97,8 +97,9 @@ pub(super) fn foot(p: &Point, t: &[Point; 3], height: f64, distance_squared: f64
     let (ab, ac) = (sub(b, a), sub(c, a));
     let n = cross(ab, ac);
     let nn = dot(n, n);
-    let inside =
-        height != 0.0 && nn > THIN * dot(ab, ab) * dot(ac, ac) && height * height / nn <= distance_squared;
+    let inside = height != 0.0
+        && nn > MIN_SINE_SQUARED * dot(ab, ab) * dot(ac, ac)
+        && height * height / nn <= distance_squared;
     let s = height / nn;
     inside.then(|| [p[0] - s * n[0], p[1] - s * n[1], p[2] - s * n[2]])
 }

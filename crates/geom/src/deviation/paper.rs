@@ -33,12 +33,12 @@ use crate::space::{Aabb, Point};
 use crate::spatial::neighbors::PointTree;
 use crate::topology::weld;
 
-/// Facets that the window must hold (1).
-const FACETS: usize = 10;
-/// The window's first half-size as a share of length + width + height (2).
-const WINDOW_SHARE: f64 = 300.0;
+/// Least facets that the window must hold (1).
+const MIN_WINDOW_FACETS: usize = 10;
+/// Length + width + height over the window's first half-size (2).
+const WINDOW_DIVISOR: f64 = 300.0;
 /// Points that one thread takes at a time.
-const CHUNK: usize = 1024;
+const PAPER_POINTS_PER_TASK: usize = 1024;
 
 /// Why there are no values.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -103,7 +103,7 @@ impl Paper {
             around[next[corner] as usize] = face;
             next[corner] += 1;
         }
-        let half = (sides[0] + sides[1] + sides[2]) / WINDOW_SHARE;
+        let half = (sides[0] + sides[1] + sides[2]) / WINDOW_DIVISOR;
         Ok(Paper { tree: PointTree::new(&vertices), vertices, faces, starts, around, half })
     }
 
@@ -114,16 +114,19 @@ impl Paper {
     pub fn values(&self, points: &[Point], progress: &dyn Progress) -> Result<Vec<Value>, PaperError> {
         check_points(points)?;
         let mut values = vec![Value { distance: 0.0, rounding: 0.0 }; points.len()];
-        values.par_chunks_mut(CHUNK).zip(points.par_chunks(CHUNK)).try_for_each(|(values, points)| {
-            if progress.cancelled() {
-                return Err(Cancelled);
-            }
-            for (value, m) in values.iter_mut().zip(points) {
-                *value = self.value(m);
-            }
-            progress.advance(points.len() as u64);
-            Ok(())
-        })?;
+        values
+            .par_chunks_mut(PAPER_POINTS_PER_TASK)
+            .zip(points.par_chunks(PAPER_POINTS_PER_TASK))
+            .try_for_each(|(values, points)| {
+                if progress.cancelled() {
+                    return Err(Cancelled);
+                }
+                for (value, m) in values.iter_mut().zip(points) {
+                    *value = self.value(m);
+                }
+                progress.advance(points.len() as u64);
+                Ok(())
+            })?;
         Ok(values)
     }
 
@@ -165,8 +168,8 @@ impl Paper {
     }
 
     fn holds_enough(&self, window: &Aabb) -> bool {
-        let enough = FACETS.min(self.faces.len());
-        let mut facets: Vec<u32> = Vec::with_capacity(FACETS);
+        let enough = MIN_WINDOW_FACETS.min(self.faces.len());
+        let mut facets: Vec<u32> = Vec::with_capacity(MIN_WINDOW_FACETS);
         self.tree.in_box(window, |_, v| {
             for f in self.facets(v as usize) {
                 if facets.len() < enough && !facets.contains(f) {

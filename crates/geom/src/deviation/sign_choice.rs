@@ -83,9 +83,9 @@ pub enum SignReason {
     },
 }
 
-/// Above this ratio of vector area to area a surface is a sheet and encloses nothing. A hemisphere without its base has 0.5, a
+/// Ratio of vector area to area above which a surface is a sheet and encloses nothing. A hemisphere without its base has 0.5, a
 /// scanned figure open at its foot 0.01 to 0.1.
-pub const SHEET: f64 = 0.25;
+pub const MIN_SHEET_OPENNESS: f64 = 0.25;
 
 impl SignChoice {
     /// That of B-spline surfaces: their normal, unless no sign is asked for.
@@ -109,21 +109,23 @@ impl SignChoice {
         let valid = soundness.oriented() && !known.shells_overlap;
         let (method, reason) = match requested {
             SignRequest::None => (SignMethod::None, SignReason::Requested),
-            SignRequest::Winding if openness > SHEET => (SignMethod::Winding, SignReason::RequestedUnsound),
+            SignRequest::Winding if openness > MIN_SHEET_OPENNESS => {
+                (SignMethod::Winding, SignReason::RequestedUnsound)
+            }
             SignRequest::Winding => (SignMethod::Winding, SignReason::Requested),
             SignRequest::Pseudonormal if valid => (SignMethod::Pseudonormal, SignReason::Requested),
             SignRequest::Pseudonormal => (SignMethod::Pseudonormal, SignReason::RequestedUnsound),
             SignRequest::Auto if valid => (SignMethod::Pseudonormal, SignReason::Closed),
             SignRequest::Auto if soundness.oriented() => (SignMethod::Winding, SignReason::Overlapping),
             SignRequest::Auto if soundness.closed => (SignMethod::Winding, SignReason::Inconsistent),
-            SignRequest::Auto if openness > SHEET => {
+            SignRequest::Auto if openness > MIN_SHEET_OPENNESS => {
                 (SignMethod::Pseudonormal, SignReason::OpenSheet { openness })
             }
             SignRequest::Auto => {
                 (SignMethod::Winding, SignReason::NearlyClosed { boundary_edges: soundness.boundary_edges })
             }
         };
-        let encloses = method != SignMethod::None && openness <= SHEET;
+        let encloses = method != SignMethod::None && openness <= MIN_SHEET_OPENNESS;
         SignChoice { requested, method, reason, inside_out: encloses && !soundness.outward }
     }
 }

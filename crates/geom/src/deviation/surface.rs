@@ -42,8 +42,8 @@ pub enum Exclusion {
 }
 
 /// NaNs of their own, which are only ever copied: no arithmetic sees them.
-const NO_CROSSING: u64 = 0x7ff8_0000_0000_0005;
-const NO_DIRECTION: u64 = 0x7ff8_0000_0000_0006;
+const NO_CROSSING_BITS: u64 = 0x7ff8_0000_0000_0005;
+const NO_DIRECTION_BITS: u64 = 0x7ff8_0000_0000_0006;
 
 impl Exclusion {
     /// All, in the order of reports.
@@ -55,8 +55,8 @@ impl Exclusion {
         match value.to_bits() {
             _ if value.is_finite() => None,
             _ if value.is_infinite() => Some(Exclusion::MaxDistance),
-            NO_CROSSING => Some(Exclusion::NoCrossing),
-            NO_DIRECTION => Some(Exclusion::NoDirection),
+            NO_CROSSING_BITS => Some(Exclusion::NoCrossing),
+            NO_DIRECTION_BITS => Some(Exclusion::NoDirection),
             _ => Some(Exclusion::BoundaryEdge),
         }
     }
@@ -66,8 +66,8 @@ impl Exclusion {
         match self {
             Exclusion::MaxDistance => f64::INFINITY,
             Exclusion::BoundaryEdge => f64::NAN,
-            Exclusion::NoCrossing => f64::from_bits(NO_CROSSING),
-            Exclusion::NoDirection => f64::from_bits(NO_DIRECTION),
+            Exclusion::NoCrossing => f64::from_bits(NO_CROSSING_BITS),
+            Exclusion::NoDirection => f64::from_bits(NO_DIRECTION_BITS),
         }
     }
 
@@ -110,7 +110,7 @@ fn winding(
 }
 
 /// Flaws of each kind that are listed; all are counted.
-const FLAWS: usize = 100;
+const MAX_LISTED_FLAWS: usize = 100;
 
 enum Side {
     Pseudonormal(Signs),
@@ -129,7 +129,7 @@ impl ReferenceSurface {
         options: &SurfaceOptions,
         progress: &dyn Progress,
     ) -> Result<ReferenceSurface, TopologyError> {
-        let precondition = Precondition::of(mesh, FLAWS, progress)?;
+        let precondition = Precondition::of(mesh, MAX_LISTED_FLAWS, progress)?;
         let soundness = &precondition.soundness;
         let choice = SignChoice::new(options.sign, &precondition, mesh);
         let side = match choice.method {
@@ -258,7 +258,7 @@ pub struct Disagreement {
 }
 
 /// Points nearer to a facet than this share of its longest edge have no side that winding numbers could tell.
-const ON_SURFACE: f64 = 1e-6;
+const ON_SURFACE_SHARE: f64 = 1e-6;
 
 impl ReferenceSurface {
     /// Asks both sign methods about `points`, whichever is in use. Points on the surface are left out: they have no side.
@@ -294,7 +294,7 @@ impl ReferenceSurface {
     ) -> Result<Vec<f64>, QueryError> {
         self.tree.map_closest(points, &Query::default(), progress, |i, hit| {
             let Some(hit) = hit else { return 0.0 };
-            let away = hit.distance() > ON_SURFACE * self.tree.longest_edge(&hit);
+            let away = hit.distance() > ON_SURFACE_SHARE * self.tree.longest_edge(&hit);
             if away { signs.sign(&points[i], &hit) } else { 0.0 }
         })
     }

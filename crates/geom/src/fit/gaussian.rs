@@ -9,7 +9,7 @@ use super::solution::{Covariance, Fit, Residuals};
 use super::{FitError, Kind, Options, Shape, hardly, survey};
 use crate::num::dense;
 use crate::progress::Progress;
-use crate::shape::MOST_NUMBERS;
+use crate::shape::MAX_SHAPE_NUMBERS;
 use crate::space::{Point, plus, times};
 
 /// Points that starts are looked for and compared on.
@@ -210,10 +210,10 @@ pub(super) fn covariance<const P: usize, F: Family<P>>(
     sample: &Sample,
 ) -> Option<Covariance> {
     let size = F::shape(element, sample).flattened().1;
-    let numbers = |step: [f64; P]| -> Option<[f64; MOST_NUMBERS]> {
+    let numbers = |step: [f64; P]| -> Option<[f64; MAX_SHAPE_NUMBERS]> {
         Some(F::shape(&element.nudged(&F::LOCAL, &step)?, sample).flattened().0)
     };
-    let mut slopes = [[0.0; MOST_NUMBERS]; P];
+    let mut slopes = [[0.0; MAX_SHAPE_NUMBERS]; P];
     for k in 0..P {
         let h = (std_dev * inverse[k][k].sqrt()).clamp(1e-9, 1e-4);
         let at = |h: f64| numbers(std::array::from_fn(|i| if i == k { h } else { 0.0 }));
@@ -221,7 +221,7 @@ pub(super) fn covariance<const P: usize, F: Family<P>>(
         slopes[k] = std::array::from_fn(|n| (more[n] - less[n]) / (2.0 * h));
     }
     // inverse · slopes
-    let mut inverse_slopes = [[0.0; MOST_NUMBERS]; P];
+    let mut inverse_slopes = [[0.0; MAX_SHAPE_NUMBERS]; P];
     for a in 0..P {
         for b in 0..P {
             for n in 0..size {
@@ -246,9 +246,9 @@ pub(super) fn covariance<const P: usize, F: Family<P>>(
             F::shape(element, &there).flattened().0
         };
         let (more, less) = (at(h), at(-h));
-        let slope: [f64; MOST_NUMBERS] = std::array::from_fn(|n| (more[n] - less[n]) / (2.0 * h));
+        let slope: [f64; MAX_SHAPE_NUMBERS] = std::array::from_fn(|n| (more[n] - less[n]) / (2.0 * h));
         // The unknowns follow the mean, where they do, so that the two are not independent.
-        let with: [f64; MOST_NUMBERS] =
+        let with: [f64; MAX_SHAPE_NUMBERS] =
             std::array::from_fn(|n| (0..P).map(|a| answer[a] * slopes[a][n]).sum());
         let variance = std_dev * std_dev / sample.len() as f64;
         for (i, row) in values.chunks_mut(size).enumerate() {

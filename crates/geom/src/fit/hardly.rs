@@ -11,7 +11,7 @@ use super::normal::Alike;
 use super::sample::Sample;
 use super::solution::Covariance;
 use crate::num::random::Random;
-use crate::shape::{MOST_NUMBERS, Quantity};
+use crate::shape::{MAX_SHAPE_NUMBERS, Quantity};
 use crate::space::Point;
 use std::borrow::Cow;
 
@@ -67,7 +67,7 @@ pub(super) fn covariance<const P: usize, F: Family<P>>(
     let kind = F::shape(element, &unit).kind();
     let (best, size) = F::shape(element, &unit).flattened();
     // Ends of fits to points with noise from starts some way off, as far as they are of this element and not of another.
-    let ends = |noise: f64, off: f64| -> Vec<(f64, [f64; MOST_NUMBERS])> {
+    let ends = |noise: f64, off: f64| -> Vec<(f64, [f64; MAX_SHAPE_NUMBERS])> {
         let end = |trial: u64| {
             let mut random = Random::stream(17, trial);
             // Uniform, of standard deviation 1.
@@ -87,7 +87,8 @@ pub(super) fn covariance<const P: usize, F: Family<P>>(
     let first = if kind == Kind::Cone { 3 } else { 0 };
     let [least, most] = START_OFF_LIMITS;
     let off = (START_OFF * noise.sqrt()).clamp(least, most);
-    let is_far = |end: &[f64; MOST_NUMBERS]| (first..size).any(|k| (end[k] - best[k]).abs() > ANOTHER * off);
+    let is_far =
+        |end: &[f64; MAX_SHAPE_NUMBERS]| (first..size).any(|k| (end[k] - best[k]).abs() > ANOTHER * off);
     if ends(0.0, off).iter().any(|(rms, end)| *rms <= AS_GOOD.max(noise) && is_far(end)) {
         return None;
     }

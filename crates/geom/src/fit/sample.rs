@@ -1,7 +1,7 @@
 //! The points of a fit, checked once, with the center and scale that take size and position out of it.
 
 use super::FitError;
-use crate::num::random::GOLDEN;
+use crate::num::random::GOLDEN_STEP;
 use crate::simd::widest::widest;
 use crate::space::{Aabb, Point, Vector, minus, plus, times};
 use std::borrow::Cow;
@@ -84,7 +84,7 @@ impl<'a> Sample<'a> {
     /// Indices of at most `count` points, as [`Sample::thinned`] takes them.
     pub(super) fn spread(&self, count: usize) -> impl Iterator<Item = usize> {
         let all = self.len();
-        let turn = |k: usize| u128::from((k as u64).wrapping_mul(GOLDEN));
+        let turn = |k: usize| u128::from((k as u64).wrapping_mul(GOLDEN_STEP));
         let pick = move |k: usize| ((turn(k) * all as u128) >> 64) as usize;
         (0..count.min(all)).map(move |k| if all <= count { k } else { pick(k) })
     }

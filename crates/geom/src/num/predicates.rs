@@ -45,11 +45,11 @@ pub fn axis(triangle: &[Point; 3]) -> Option<usize> {
 #[inline]
 pub fn is_flat(triangle: [&Point; 3]) -> bool {
     // Each component is formed with fewer than ten roundings of 2^-53; this allows for a hundred.
-    const ROUNDING: f64 = 1e-14;
+    const PRODUCT_DIFFERENCE_ROUNDING: f64 = 1e-14;
     let d = |j: usize, k: usize| triangle[j][k] - triangle[0][k];
     let clear = |a: usize, b: usize| {
         let (s, t) = (d(1, a) * d(2, b), d(1, b) * d(2, a));
-        (s - t).abs() > ROUNDING * (s.abs() + t.abs())
+        (s - t).abs() > PRODUCT_DIFFERENCE_ROUNDING * (s.abs() + t.abs())
     };
     !(clear(0, 1) || clear(1, 2) || clear(2, 0)) && axis(&triangle.map(|p| *p)).is_none()
 }

@@ -20,7 +20,7 @@ pub(crate) fn foot([a, b]: [f64; 2], x: f64, y: f64) -> Foot {
     let (ea, eb) = ((a * a - b * b) / a, (b * b - a * a) / b);
     let mut cos = std::f64::consts::FRAC_1_SQRT_2;
     let mut sin = cos;
-    for _ in 0..STEPS {
+    for _ in 0..ELLIPSE_FOOT_STEPS {
         let (ex, ey) = (ea * cos * cos * cos, eb * sin * sin * sin);
         let (rx, ry) = (a * cos - ex, b * sin - ey);
         let (qx, qy) = (px - ex, py - ey);
@@ -39,7 +39,7 @@ pub(crate) fn foot([a, b]: [f64; 2], x: f64, y: f64) -> Foot {
 }
 
 /// Steps of the search. Each more than doubles the digits; long ellipses need the first few to come near.
-const STEPS: usize = 12;
+const ELLIPSE_FOOT_STEPS: usize = 12;
 
 /// Signed distance of `q` from the ellipse with half axes `size` along the first two coordinates.
 pub(crate) fn distance(size: [f64; 2], q: Point) -> f64 {

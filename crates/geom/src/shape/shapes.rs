@@ -41,8 +41,8 @@ pub enum Parameter {
     Vector([f64; 3]),
 }
 
-/// Numbers of the shape that has most: a cone.
-pub(crate) const MOST_NUMBERS: usize = 11;
+/// Numbers of the shape that has the most: a cone.
+pub(crate) const MAX_SHAPE_NUMBERS: usize = 11;
 
 impl Shape {
     /// Which element this is.
@@ -115,8 +115,8 @@ impl Shape {
         }
     }
     /// The parameters' numbers one after the other, and how many they are; zeros follow.
-    pub(crate) fn flattened(&self) -> ([f64; MOST_NUMBERS], usize) {
-        let (mut numbers, mut count) = ([0.0; MOST_NUMBERS], 0);
+    pub(crate) fn flattened(&self) -> ([f64; MAX_SHAPE_NUMBERS], usize) {
+        let (mut numbers, mut count) = ([0.0; MAX_SHAPE_NUMBERS], 0);
         let mut push = |x: f64| {
             numbers[count] = x;
             count += 1;

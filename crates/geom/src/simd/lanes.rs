@@ -96,7 +96,7 @@ pub trait Real: Arithmetic {
     /// The outcome of a comparison, lane by lane.
     type Mask: Copy;
     /// Lanes in this type, at most 8.
-    const N: usize;
+    const LANES: usize;
     /// `x` in every lane.
     ///
     /// # Safety
@@ -226,7 +226,7 @@ fn fused(a: f32, b: f32, c: f32) -> f32 {
 
 impl Real for f64 {
     type Mask = bool;
-    const N: usize = 1;
+    const LANES: usize = 1;
     #[inline(always)]
     unsafe fn splat(x: f64) -> f64 {
         x

@@ -4,12 +4,13 @@
 //! too, along the longest side of the facet (of the first one in the leaf).
 
 use crate::mesh::Mesh;
+use crate::num::rounding::PRODUCT_SUM_ROUNDING;
 use crate::space::{Aabb, Point};
 
-/// Facets of a leaf, at most.
-const LEAF: usize = 8;
-/// Parts of more facets than this are ordered side by side.
-const ALONE: usize = 1 << 14;
+/// Most facets of a leaf.
+const MAX_FACETS_PER_COLUMN_LEAF: usize = 8;
+/// Parts with more facets are sorted by several threads.
+const MAX_FACETS_SORTED_ALONE: usize = 1 << 14;
 
 /// Facets of a mesh, ready for rays along an axis.
 pub(crate) struct Columns {
@@ -34,7 +35,7 @@ impl Columns {
         };
         let mut items: Vec<Item> = facets.iter().map(item).collect();
         let mut leaves = 1;
-        while items.len().div_ceil(leaves) > LEAF {
+        while items.len().div_ceil(leaves) > MAX_FACETS_PER_COLUMN_LEAF {
             leaves *= 2;
         }
         let mut boxes = vec![Aabb::EMPTY; 2 * leaves - 1];
@@ -96,8 +97,6 @@ impl Strip {
 
     /// Along the longest side of the triangle that the first three corners form, as wide as all need.
     fn of(axis: usize, corners: &[Point]) -> Strip {
-        /// Of the sum of magnitudes: more than both products and their sum are rounded by, here and for the place asked about.
-        const ROUNDING: f64 = 16.0 * f64::EPSILON;
         let seen = |p: &Point| [p[(axis + 1) % 3], p[(axis + 2) % 3]];
         let [a, b, c, ..] = corners else { return Strip::EVERYWHERE };
         let way = |p: &Point, q: &Point| {
@@ -117,7 +116,11 @@ impl Strip {
             (low, high, most) = (low.min(at), high.max(at), most.max(size(&p)));
         }
         // Places beyond the box are none of its concern, so no coordinate asked about is larger.
-        Strip { across, low: low - 2.0 * ROUNDING * most, high: high + 2.0 * ROUNDING * most }
+        Strip {
+            across,
+            low: low - 2.0 * PRODUCT_SUM_ROUNDING * most,
+            high: high + 2.0 * PRODUCT_SUM_ROUNDING * most,
+        }
     }
 
     fn holds(&self, p: [f64; 2]) -> bool {
@@ -154,7 +157,7 @@ fn build((mesh, axis): (&Mesh, usize), items: &mut [Item], (boxes, strips): (&mu
     let (of_first, of_second) = inner.split_at_mut(inner.len() / 2);
     let mut one = || build((mesh, axis), low, (&mut *first, of_first));
     let mut other = || build((mesh, axis), high, (&mut *second, of_second));
-    if middle > ALONE {
+    if middle > MAX_FACETS_SORTED_ALONE {
         rayon::join(one, other);
     } else {
         one();

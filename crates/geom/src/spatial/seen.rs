@@ -6,9 +6,10 @@ use crate::mesh::Mesh;
 use crate::parallel::prelude::*;
 use crate::space::{Aabb, Point};
 
-/// Squares for each place, about, and at most.
-const SHARE: usize = 64;
-const MOST: usize = 1 << 20;
+/// Squares for each place, about.
+const SQUARES_PER_PLACE: usize = 64;
+/// Most squares, about.
+const MAX_SQUARES: usize = 1 << 20;
 
 /// The squares of a grid, and how many places lie in those below and left of each line.
 struct Squares {
@@ -24,7 +25,7 @@ impl Squares {
     fn new(axis: usize, places: &[Point]) -> Squares {
         let sides = [(axis + 1) % 3, (axis + 2) % 3];
         let bounds = Aabb::of(places);
-        let count = ((SHARE * places.len()).min(MOST) as f64).sqrt() as usize + 1;
+        let count = ((SQUARES_PER_PLACE * places.len()).min(MAX_SQUARES) as f64).sqrt() as usize + 1;
         let low = sides.map(|k| bounds.min[k]);
         let scale = sides.map(|k| count as f64 / (bounds.max[k] - bounds.min[k]));
         let mut squares = Squares { sides, count, low, scale, sums: vec![0; (count + 1) * (count + 1)] };

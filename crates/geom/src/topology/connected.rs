@@ -41,7 +41,7 @@ pub struct Topology {
     pub shells: usize,
     /// For each facet the number of its shell, [`u32::MAX`] where it does not count.
     pub shell_of: Vec<u32>,
-    /// Vertices with more facets than [`connect::MANY`].
+    /// Vertices with more facets than [`connect::MIN_CROWDED_FACETS`].
     pub(crate) hubs: Vec<u32>,
     pub(super) fans: Fans,
 }
@@ -84,10 +84,10 @@ impl Topology {
         weld::check_corners(mesh)?;
         let finite = mesh.positions.par_iter().all(|p| p.iter().all(|x| x.is_finite()));
         let shape = |f: &[u32; 3]| shape(mesh, f, finite);
-        let odd: Vec<(u32, FacetState)> = (mesh.faces.par_chunks(fans::CHUNK).enumerate())
+        let odd: Vec<(u32, FacetState)> = (mesh.faces.par_chunks(fans::TOPOLOGY_ITEMS_PER_TASK).enumerate())
             .filter(|_| !progress.cancelled())
             .flat_map_iter(|(i, part)| {
-                let first = (i * fans::CHUNK) as u32;
+                let first = (i * fans::TOPOLOGY_ITEMS_PER_TASK) as u32;
                 let numbered = (first..).zip(part);
                 numbered.map(|(i, f)| (i, shape(f))).filter(|(_, s)| *s != FacetState::Fine)
             })

@@ -1,7 +1,7 @@
 //! The facets at each edge, gone through by the lower end of the edge, many at once: no list of all edges is made.
 
 use super::connected::Topology;
-use super::fans::{CHUNK, Fans, Spoke};
+use super::fans::{Fans, Spoke, TOPOLOGY_ITEMS_PER_TASK};
 use crate::mesh::Mesh;
 use crate::parallel::prelude::*;
 use crate::progress::Silent;
@@ -47,7 +47,7 @@ fn through<E: Send>(
 ) -> Result<(), E> {
     let refused = |part: usize| -> Option<E> {
         let (mut spokes, mut sides): (Vec<Spoke>, Vec<Side>) = (vec![], vec![]);
-        for v in part * CHUNK..fans.len().min((part + 1) * CHUNK) {
+        for v in part * TOPOLOGY_ITEMS_PER_TASK..fans.len().min((part + 1) * TOPOLOGY_ITEMS_PER_TASK) {
             let v = v as u32;
             fans.spokes(faces, v, &mut spokes);
             sides.clear();
@@ -63,6 +63,6 @@ fn through<E: Send>(
         }
         None
     };
-    let parts = (0..fans.len().div_ceil(CHUNK)).into_par_iter();
+    let parts = (0..fans.len().div_ceil(TOPOLOGY_ITEMS_PER_TASK)).into_par_iter();
     parts.find_map_first(refused).map_or(Ok(()), Err)
 }

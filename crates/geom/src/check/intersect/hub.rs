@@ -33,8 +33,8 @@ pub(super) struct Hub {
     root: Node,
 }
 
-/// From so many facets on, an edge at a hub is a book.
-const BOOK: usize = 64;
+/// Facets from which on an edge at a hub is a book.
+const MIN_BOOK_FACETS: usize = 64;
 
 /// The hubs of a mesh, without the facets that `left_out` names. A facet at several of them is at the one with the most
 /// facets.
@@ -53,7 +53,7 @@ pub(super) fn hubs(mesh: &Mesh, topology: &Topology, left_out: impl Fn(u32) -> b
         let mut ends: Vec<(u32, u32)> = facets.iter().flat_map(|f| others(f).map(|v| (v, *f))).collect();
         ends.sort_unstable();
         let mut paged = std::collections::BTreeSet::new();
-        for edge in ends.chunk_by(|a, b| a.0 == b.0).filter(|edge| edge.len() > BOOK) {
+        for edge in ends.chunk_by(|a, b| a.0 == b.0).filter(|edge| edge.len() > MIN_BOOK_FACETS) {
             let pages: Vec<u32> = edge.iter().map(|e| e.1).filter(|f| paged.insert(*f)).collect();
             hubs.push(Hub::new(mesh, vertex, Some(edge[0].0), &pages));
         }

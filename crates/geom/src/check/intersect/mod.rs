@@ -43,7 +43,7 @@ use pairs::{Copies, Pairs, Wanted};
 pub use reaching::{reaching, reaching_any};
 use std::sync::atomic::AtomicUsize;
 use std::sync::atomic::Ordering::Relaxed;
-use tree::{Boxes, Leaf, Tree, W};
+use tree::{Boxes, Leaf, TREE_WIDTH, Tree};
 
 const EVERYWHERE: [f32; 6] = {
     let i = f32::INFINITY;
@@ -84,13 +84,13 @@ impl Crossings {
     /// What [`first_self_intersections`] tells where these, sorted, are all pairs; `None` where it would have given up.
     pub fn of_all(pairs: &[[u32; 2]], limit: usize) -> Option<Crossings> {
         let first = pairs[..limit.min(pairs.len())].to_vec();
-        let known = pairs.len() <= MOST.max(limit);
+        let known = pairs.len() <= MAX_PAIRS_TO_FIRST.max(limit);
         known.then_some(Crossings { count: pairs.len(), at_least: false, first })
     }
 }
 
-/// Beyond so many pairs the search for the first is given up: a tangle of 20,000 facets may have a hundred million.
-const MOST: usize = 1_000_000;
+/// Pairs beyond which the search for the first is given up: a tangle of 20,000 facets may have a hundred million.
+const MAX_PAIRS_TO_FIRST: usize = 1_000_000;
 
 /// As [`self_intersections`], but keeps `limit` pairs only, and counts up to a million. In a tangle the number of pairs
 /// grows with the square of that of the facets: memory and time stay bounded, and the result says so.
@@ -103,7 +103,8 @@ pub fn first_self_intersections(
     limit: usize,
     progress: &dyn Progress,
 ) -> Result<Crossings, Cancelled> {
-    let search = Search { mesh, topology, some: None, limit, most: MOST.max(limit), alone: false };
+    let search =
+        Search { mesh, topology, some: None, limit, most: MAX_PAIRS_TO_FIRST.max(limit), alone: false };
     let found = with(&search, progress, Level::detect())?;
     if found.count <= search.most {
         return Ok(found);
@@ -159,8 +160,9 @@ struct Search<'a> {
     alone: bool,
 }
 
-/// Pairs of boxes that overlap, for each facet, beyond which crowds are looked for: a scan has six, a mesh of needles some tens.
-const CROWDED: usize = 64;
+/// Pairs of boxes that overlap, for each facet, beyond which crowds are looked for. A scan has six, a mesh of needles some
+/// tens.
+const MAX_OVERLAPS_PER_FACET: usize = 64;
 
 fn with(search: &Search, progress: &dyn Progress, level: Level) -> Result<Crossings, Cancelled> {
     let &Search { mesh, topology, .. } = search;
@@ -169,7 +171,7 @@ fn with(search: &Search, progress: &dyn Progress, level: Level) -> Result<Crossi
     let mut hubs = hub::hubs(mesh, topology, |f| copies.later(f));
     hubs.iter().flat_map(Hub::facets).for_each(|f| free[f as usize] = false);
     topology.duplicate_facets.iter().for_each(|d| free[d[1] as usize] = false);
-    let limits = [CROWDED * (mesh.faces.len() + 1000), usize::MAX];
+    let limits = [MAX_OVERLAPS_PER_FACET * (mesh.faces.len() + 1000), usize::MAX];
     for enough in limits {
         if let Some(found) = attempt(search, (&copies, &hubs, &free), enough, progress, level)? {
             return Ok(found);
@@ -220,7 +222,7 @@ fn attempt(
 /// Finds the pairs of which one facet is at a hub.
 fn around_hubs<'a>(walk: &Walk, hubs: &[Hub], some: Option<&[bool]>, pairs: &mut Pairs<'a>) {
     /// Facets of one task.
-    const PART: usize = 1 << 10;
+    const INTERSECTED_FACETS_PER_TASK: usize = 1 << 10;
     let wanted = pairs.wanted;
     let triangle = |facet: u32| {
         let face = walk.mesh.faces[facet as usize];
@@ -251,16 +253,16 @@ fn around_hubs<'a>(walk: &Walk, hubs: &[Hub], some: Option<&[bool]>, pairs: &mut
             part
         };
         if walk.alone {
-            others.chunks(PART).for_each(|others| pairs.append(part(others)));
+            others.chunks(INTERSECTED_FACETS_PER_TASK).for_each(|others| pairs.append(part(others)));
         } else {
-            let parts: Vec<Pairs> = others.par_chunks(PART).map(part).collect();
+            let parts: Vec<Pairs> = others.par_chunks(INTERSECTED_FACETS_PER_TASK).map(part).collect();
             parts.into_iter().for_each(|part| pairs.append(part));
         }
     }
 }
 
 /// Nodes up to this level are not worth the work of several threads.
-const ALONE: usize = 2;
+const MAX_SEQUENTIAL_LEVEL: usize = 2;
 
 struct Walk<'a> {
     mesh: &'a Mesh,
@@ -284,7 +286,7 @@ type Deeper = for<'a> unsafe fn(&Walk, usize, usize, &[u32], &mut Pairs<'a>);
 
 fn plain<'a>(walk: &Walk, level: usize, i: usize, list: &[u32], out: &mut Pairs<'a>) {
     // SAFETY: plain Rust.
-    unsafe { walk.descend::<Plain<W>>(level, i, list, out, plain) }
+    unsafe { walk.descend::<Plain<TREE_WIDTH>>(level, i, list, out, plain) }
 }
 
 /// # Safety
@@ -327,18 +329,18 @@ impl Walk<'_> {
             // SAFETY: handed on.
             return unsafe { self.leaf_pairs::<L>(i, list, out) };
         }
-        let children = 0..W.min(self.tree.levels[level - 1].len() - i * W);
-        if level <= ALONE {
+        let children = 0..TREE_WIDTH.min(self.tree.levels[level - 1].len() - i * TREE_WIDTH);
+        if level <= MAX_SEQUENTIAL_LEVEL {
             let mut next = vec![];
             for a in children.clone() {
                 next.clear();
                 // SAFETY: handed on.
                 unsafe { self.inherit::<L>(level, i, a, list, &mut next) };
                 // SAFETY: the instructions of `deeper` are those of `L`.
-                unsafe { deeper(self, level - 1, i * W + a, &next, out) };
+                unsafe { deeper(self, level - 1, i * TREE_WIDTH + a, &next, out) };
             }
             if level == 1 {
-                self.progress.advance((children.len() * W) as u64);
+                self.progress.advance((children.len() * TREE_WIDTH) as u64);
             }
             return;
         }
@@ -347,7 +349,7 @@ impl Walk<'_> {
             let mut next = vec![];
             // SAFETY: handed on.
             unsafe { self.inherit::<L>(level, i, a, list, &mut next) };
-            lists.push((i * W + a, next));
+            lists.push((i * TREE_WIDTH + a, next));
         }
         if self.alone {
             // SAFETY: as above.
@@ -383,7 +385,7 @@ impl Walk<'_> {
                 m &= u32::MAX << a;
             }
             while m != 0 {
-                next.push(j * W as u32 + m.trailing_zeros());
+                next.push(j * TREE_WIDTH as u32 + m.trailing_zeros());
                 m &= m - 1;
             }
         }
@@ -405,7 +407,7 @@ impl Walk<'_> {
         for j in list.iter().map(|&j| j as usize) {
             let (q, boxes) = (&t.leaves[j], &t.levels[0][j]);
             // Box of the other leaf; unknown where there is one leaf only, and then all is decided exactly.
-            let other = t.levels.get(1).map_or(EVERYWHERE, |up| lane(&up[j / W], j % W));
+            let other = t.levels.get(1).map_or(EVERYWHERE, |up| lane(&up[j / TREE_WIDTH], j % TREE_WIDTH));
             // SAFETY: handed on.
             let mut rows = unsafe { filter::overlap::<L>(own, &other) };
             while rows != 0 {
@@ -434,7 +436,7 @@ impl Walk<'_> {
                 self.decide((l, a), q, left, out);
             }
             // A leaf may have very many neighbors.
-            if out.count > before || tried > W * W * W {
+            if out.count > before || tried > TREE_WIDTH * TREE_WIDTH * TREE_WIDTH {
                 self.found.fetch_add(out.count - before, Relaxed);
                 self.tried.fetch_add(std::mem::take(&mut tried), Relaxed);
                 before = out.count;

@@ -104,9 +104,9 @@ impl<'a> Pairs<'a> {
 
     /// Drops what is not of interest, once there are more than `slack` (and a few) beyond those asked for.
     pub fn cut(&mut self, slack: usize) {
-        /// Never sorted out sooner: most meshes have few pairs.
-        const FEW: usize = 1 << 10;
-        let (few, limit) = (if slack == 0 { 0 } else { FEW }, self.wanted.limit);
+        /// Pairs are never sorted out sooner: most meshes have few.
+        const MIN_PAIRS_TO_CUT: usize = 1 << 10;
+        let (few, limit) = (if slack == 0 { 0 } else { MIN_PAIRS_TO_CUT }, self.wanted.limit);
         if self.first.len() > limit.saturating_add(slack).saturating_add(few) {
             if limit > 0 {
                 self.first.select_nth_unstable(limit - 1);

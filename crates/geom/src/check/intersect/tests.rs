@@ -379,7 +379,7 @@ fn a_tangle_is_not_counted_to_the_end() {
     let run =
         |threads| on_threads(threads, || first_self_intersections(&mesh, &topology, 50, &Silent)).unwrap();
     let found = run(1);
-    assert_eq!((found.count, found.at_least, found.first.len()), (MOST, true, 50));
+    assert_eq!((found.count, found.at_least, found.first.len()), (MAX_PAIRS_TO_FIRST, true, 50));
     assert_eq!(found, run(3));
     let triangle = |f: u32| {
         let face = mesh.faces[f as usize];

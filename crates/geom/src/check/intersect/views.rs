@@ -25,8 +25,8 @@ pub struct Node {
     pub halves: Option<Box<[Node; 2]>>,
 }
 
-/// Views of a node that is not halved.
-const FEW: usize = 8;
+/// Most views of a node that is not halved.
+const MAX_VIEWS_PER_LEAF: usize = 8;
 
 impl Node {
     /// Of all views; puts neighbors near each other.
@@ -40,7 +40,7 @@ fn node(views: &mut [View], start: usize) -> Node {
     let seen = views.iter().fold(Aabb::EMPTY, |all, v| all.union(&v.seen));
     let bounds = views.iter().fold(Aabb::EMPTY, |all, v| all.union(&v.bounds));
     let range = start..start + views.len();
-    if views.len() <= FEW {
+    if views.len() <= MAX_VIEWS_PER_LEAF {
         return Node { range, seen, bounds, halves: None };
     }
     let sides = seen.sides();

@@ -3,10 +3,8 @@
 //! In a plane, two fans on both sides of a line see each other's facets long and thin, and boxes and directions exclude only half.
 //! But all corners of most of them lie beyond a side of the facet.
 
+use crate::num::rounding::PRODUCT_SUM_ROUNDING;
 use crate::space::{Aabb, Point, Vector, cross, dot, minus, times, unit};
-
-/// Of the sum of magnitudes: more than a product of three numbers and their sum are rounded by, on both sides.
-const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 /// Planes with a facet on one side, as far as a place lies on the other side of them.
 pub(super) struct Walls {
@@ -55,5 +53,5 @@ impl Walls {
 
 /// More than rounding may change the product of the two.
 fn off(across: &Vector, p: &Point) -> f64 {
-    ROUNDING * (0..3).map(|k| (across[k] * p[k]).abs()).sum::<f64>()
+    PRODUCT_SUM_ROUNDING * (0..3).map(|k| (across[k] * p[k]).abs()).sum::<f64>()
 }

@@ -16,7 +16,7 @@ pub struct Value {
 }
 
 /// Bound of the roundings of one evaluation, with those of the exact method.
-const ROUNDINGS: f64 = 16.0 * f64::EPSILON;
+const EVALUATION_ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 /// The least distance of `m` to the facets (18).
 pub(super) fn least(m: &Point, facets: impl Iterator<Item = [Point; 3]>) -> Value {
@@ -42,12 +42,12 @@ fn of(m: &Point, [a, b, c]: [Point; 3]) -> Value {
     if angles && size > 0.0 {
         let slender = (ab * ca).sqrt() / size;
         let distance = dot(n, minus(*m, a)).abs() / size;
-        return Value { distance, rounding: ROUNDINGS * (1.0 + slender) * farthest };
+        return Value { distance, rounding: EVALUATION_ROUNDING * (1.0 + slender) * farthest };
     }
     let edges = [(a, b, ma, mb, ab), (b, c, mb, mc, bc), (c, a, mc, ma, ca)];
     let distance =
         edges.map(|(a, b, ma, mb, ab)| edge(m, &a, &b, ma, mb, ab)).into_iter().fold(f64::INFINITY, f64::min);
-    Value { distance, rounding: ROUNDINGS * farthest }
+    Value { distance, rounding: EVALUATION_ROUNDING * farthest }
 }
 
 /// Distance of `m` to the segment `ab` (14): `ma`, `mb`, `ab` are squared lengths.
