@@ -12,7 +12,7 @@ pub(super) struct Rules<'a> {
 }
 
 /// Share of the coordinates by which boxes are widened: far more than rounding takes.
-const ROUNDING: f64 = 1e-9;
+const BOX_WIDENING: f64 = 1e-9;
 
 enum CheckedNominal {
     Plane { point: Point, normal: Vector, boundary: Polygon },
@@ -116,7 +116,7 @@ impl<'a> Rules<'a> {
             }
         };
         let greatest = bounds.min.iter().chain(&bounds.max).fold(0.0, |m: f64, x| m.max(x.abs()));
-        bounds.widened(ROUNDING * greatest)
+        bounds.widened(BOX_WIDENING * greatest)
     }
 
     /// Whether a facet with this unit normal belongs to the feature.
@@ -208,7 +208,7 @@ impl<'a> Rules<'a> {
 
     /// Places of the nominal feature to start from.
     pub(super) fn starts(&self) -> Vec<Point> {
-        const TURNS: usize = 12;
+        const RING_PLACES: usize = 12;
         let about = |axis: Vector| -> [Vector; 2] {
             let frame = Rigid::into_frame([0.0; 3], axis, least_axis(axis)).unwrap_or(Rigid::IDENTITY);
             [frame.rotation()[0], frame.rotation()[1]]
@@ -216,19 +216,19 @@ impl<'a> Rules<'a> {
         let ring = |center: Point, axis: Vector, radius: f64| -> Vec<Point> {
             let [u, v] = about(axis);
             let at = |k: usize| {
-                let phi = std::f64::consts::TAU * k as f64 / TURNS as f64;
+                let phi = std::f64::consts::TAU * k as f64 / RING_PLACES as f64;
                 plus(times(radius * libm::cos(phi), u), times(radius * libm::sin(phi), v))
             };
-            (0..TURNS).map(|k| plus(center, at(k))).collect()
+            (0..RING_PLACES).map(|k| plus(center, at(k))).collect()
         };
-        const LEVELS: [f64; 3] = [0.5, 0.2, 0.8];
+        const RING_LEVELS: [f64; 3] = [0.5, 0.2, 0.8];
         match &self.kind {
             CheckedNominal::Plane { boundary, .. } => boundary.places(),
-            CheckedNominal::Cylinder { point, direction, radius, length } => LEVELS
+            CheckedNominal::Cylinder { point, direction, radius, length } => RING_LEVELS
                 .iter()
                 .flat_map(|t| ring(plus(*point, times(t * length, *direction)), *direction, *radius))
                 .collect(),
-            CheckedNominal::Cone { apex, direction, half_angle, between: [from, to] } => LEVELS
+            CheckedNominal::Cone { apex, direction, half_angle, between: [from, to] } => RING_LEVELS
                 .iter()
                 .flat_map(|t| {
                     let z = from + t * (to - from);

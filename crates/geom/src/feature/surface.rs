@@ -68,7 +68,7 @@ impl NominalSurface {
         let within = |gradient: Vector| unit(minus(gradient, times(dot(gradient, normal), normal)));
         let (mut away, _) = within(self.distance(p)?.1)?;
         let mut distance = 0.0;
-        for _ in 0..ROUNDS {
+        for _ in 0..MAX_FOOT_ROUNDS {
             let foot = minus(p, times(distance, away));
             let (off, gradient) = self.distance(foot)?;
             let (next, slope) = within(gradient)?;
@@ -77,7 +77,7 @@ impl NominalSurface {
             distance += step;
             let turned = norm(minus(next, away));
             away = next;
-            if step.abs() <= SETTLED * (1.0 + distance.abs()) && turned <= SETTLED {
+            if step.abs() <= SETTLED_FOOT_STEP * (1.0 + distance.abs()) && turned <= SETTLED_FOOT_STEP {
                 return distance.is_finite().then_some((distance, away));
             }
         }
@@ -86,9 +86,9 @@ impl NominalSurface {
 }
 
 /// Most rounds of the search for a foot: each gains as many digits as the distance is smaller than the radius of curvature.
-const ROUNDS: usize = 200;
-/// A step, and a turn, that are rounding.
-const SETTLED: f64 = 1e-14;
+const MAX_FOOT_ROUNDS: usize = 200;
+/// Length of a step, and of a turn, up to which it is rounding.
+const SETTLED_FOOT_STEP: f64 = 1e-14;
 
 /// Unit vector away from an axis, and the distance from it.
 fn radial(p: Point, point: Point, direction: Vector) -> Option<(Vector, f64)> {

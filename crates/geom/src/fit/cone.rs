@@ -2,7 +2,7 @@
 
 use super::family::{Element, Family, Rows};
 use super::osculating::{self, refooted};
-use super::round::TINY;
+use super::round::MIN_DIVISOR;
 use super::sample::Sample;
 use super::unknown::Local;
 use crate::frame::Pose;
@@ -32,12 +32,12 @@ impl Family<6> for Cone {
             let apex = -size[0] / sin;
             let height = z - apex;
             let far = cos.signum() * (square + height * height).sqrt();
-            let inverse = 1.0 / far.abs().max(TINY).copysign(far);
+            let inverse = 1.0 / far.abs().max(MIN_DIVISOR).copysign(far);
             let (nu, nv, nw) = (x * inverse, y * inverse, height * inverse / sin);
             rows.row(far, [-nu, -nv, -(apex * nu), -(apex * nv), nw, apex * cos * nw]);
             return;
         }
-        let inverse = 1.0 / rho.max(TINY);
+        let inverse = 1.0 / rho.max(MIN_DIVISOR);
         let (nu, nv) = (cos * x * inverse, cos * y * inverse);
         rows.row(
             rho * cos - z * sin - size[0],

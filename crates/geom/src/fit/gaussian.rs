@@ -13,17 +13,17 @@ use crate::shape::MAX_SHAPE_NUMBERS;
 use crate::space::{Point, plus, times};
 
 /// Points that starts are looked for and compared on.
-const FEW: usize = 256;
+const STARTING_POINTS: usize = 256;
 /// Points that a single start is improved on first: it is not compared with others.
-const FEWER: usize = 64;
+const SINGLE_START_POINTS: usize = 64;
 /// Points that a start is improved on before all are looked at.
-const SOME: usize = 8192;
+const IMPROVING_POINTS: usize = 8192;
 
 /// Distance from a corner of the distances, in the unit frame, up to which a point may belong there.
-const AT_CORNER: f64 = 0.1;
+const CORNER_REACH: f64 = 0.1;
 
-/// A root mean square distance in the unit frame that looks like a wrong minimum.
-const POOR: f64 = 5e-3;
+/// Root mean square distance in the unit frame from which on a minimum may be a wrong one.
+const POOR_FIT_RMS: f64 = 5e-3;
 
 /// The least-squares fit.
 pub(super) fn gaussian<const P: usize, F: Family<P>>(
@@ -63,7 +63,7 @@ pub(super) fn near<const P: usize, F: Family<P>>(
     kind: Kind,
     options: &Options,
 ) -> Result<Element, FitError> {
-    let some = sample.thinned(SOME);
+    let some = sample.thinned(IMPROVING_POINTS);
     let (optimum, inverse) = optimum::<P, F>(&some, kind, options, &crate::progress::Silent)?;
     inverse.map(|_| optimum.element).ok_or_else(|| nothing(&some, kind))
 }
@@ -80,7 +80,7 @@ pub(super) fn optimum<const P: usize, F: Family<P>>(
 ) -> Result<Determined<P>, FitError> {
     let starts = match &options.start {
         Some(shape) => vec![F::element(shape, sample).ok_or(FitError::WrongStart { kind })?],
-        None => F::starts(&sample.thinned(FEW).units().collect::<Vec<Point>>()),
+        None => F::starts(&sample.thinned(STARTING_POINTS).units().collect::<Vec<Point>>()),
     };
     let best = best_of::<P, F>(&starts, sample).ok_or_else(|| nothing(sample, kind))?;
     if progress.cancelled() {
@@ -105,7 +105,7 @@ fn around<const P: usize, F: Family<P>>(
 ) -> Option<Optimum<P>> {
     let from = |start: &Element| minimize::<P, F, _>(start, sample, &Alike, effort);
     let smooth = from(start)?;
-    let corner = hardly::corner::<P, F>(&smooth.element, sample, AT_CORNER).and_then(|start| from(&start));
+    let corner = hardly::corner::<P, F>(&smooth.element, sample, CORNER_REACH).and_then(|start| from(&start));
     Some(corner.filter(|c| c.sums.square < smooth.sums.square).unwrap_or(smooth))
 }
 
@@ -132,16 +132,16 @@ fn best_of<const P: usize, F: Family<P>>(starts: &[Element], sample: &Sample) ->
         minimize::<P, F, _>(start, &sample.thinned(count), &Alike, effort)
     };
     let best = match starts {
-        [one] if sample.len() <= 2 * FEWER => *one,
-        [one] => improved(one, FEWER, NEAR).map_or(*one, |o| o.element),
+        [one] if sample.len() <= 2 * SINGLE_START_POINTS => *one,
+        [one] => improved(one, SINGLE_START_POINTS, NEAR).map_or(*one, |o| o.element),
         many => {
-            let few = sample.thinned(FEW);
+            let few = sample.thinned(STARTING_POINTS);
             let best = |starts: &[Element]| {
                 let ends = starts.iter().filter_map(|start| minimize::<P, F, _>(start, &few, &Alike, ROUGH));
                 ends.min_by(|a, b| a.sums.square.total_cmp(&b.sums.square))
             };
             let first = best(many);
-            if first.is_some_and(|o| o.sums.square <= POOR * POOR * few.len() as f64) {
+            if first.is_some_and(|o| o.sums.square <= POOR_FIT_RMS * POOR_FIT_RMS * few.len() as f64) {
                 first?.element
             } else {
                 let further = best(&F::more_starts(&few.units().collect::<Vec<Point>>()));
@@ -150,17 +150,18 @@ fn best_of<const P: usize, F: Family<P>>(starts: &[Element], sample: &Sample) ->
             }
         }
     };
-    if sample.len() <= 2 * SOME {
+    if sample.len() <= 2 * IMPROVING_POINTS {
         return Some(best);
     }
-    Some(improved(&best, SOME, ROUGH).map_or(best, |o| o.element))
+    Some(improved(&best, IMPROVING_POINTS, ROUGH).map_or(best, |o| o.element))
 }
 
 /// The inverse of the normal matrix; `None` if a distance the size of rounding could move an unknown by the size of the
 /// part.
 pub(super) fn determined<const P: usize>(optimum: &Optimum<P>) -> Option<[[f64; P]; P]> {
-    const WEAKEST: f64 = 1e-4 / f64::EPSILON;
-    let firm = |variance: f64| (variance * optimum.sums.weight).sqrt() < WEAKEST;
+    /// Gain at which a distance of the size of rounding moves an unknown by 1e-4 of the size of the part.
+    const MAX_ROUNDING_GAIN: f64 = 1e-4 / f64::EPSILON;
+    let firm = |variance: f64| (variance * optimum.sums.weight).sqrt() < MAX_ROUNDING_GAIN;
     dense::inverse(&optimum.sums.symmetric()).filter(|inverse| (0..P).all(|k| firm(inverse[k][k])))
 }
 

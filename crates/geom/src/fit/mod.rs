@@ -52,7 +52,7 @@ mod zone;
 use crate::progress::Progress;
 use crate::shape::{Kind, Shape};
 use crate::space::Point;
-pub(crate) use linear::{Function, lowest};
+pub(crate) use linear::{Function, HIDDEN_FALL, MAX_JOINING_POINTS, MAX_POINTS_ALL_WORKING, lowest};
 pub use request::{FitError, Method, Options};
 pub use scatter::Scatter;
 pub use solution::{Covariance, Fit, Residuals, Touching};
@@ -114,7 +114,7 @@ pub fn fit(
         }
     };
     // Among the threads once and for all: from outside, each pass over the points would wake one and wait for it.
-    if points.len() <= normal::BLOCK { work() } else { rayon::scope(|_| work()) }
+    if points.len() <= normal::POINTS_PER_NORMAL_BLOCK { work() } else { rayon::scope(|_| work()) }
 }
 
 /// The least-squares element near `start` and the root mean square distance, to about seven digits and without the

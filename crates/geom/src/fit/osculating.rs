@@ -23,10 +23,11 @@ use crate::space::{Point, Vector, dot, minus, plus, times, unit};
 use std::borrow::Cow;
 
 /// Points that cones are compared by.
-const JUDGES: usize = 128;
-/// Cones that are improved by a few steps, and those of them that are starts.
-const IMPROVED: usize = 24;
-const STARTS: usize = 6;
+const CONE_JUDGES: usize = 128;
+/// Cones that are improved by a few steps.
+const MAX_IMPROVED_CONES: usize = 24;
+/// Improved cones that are starts.
+const MAX_CONE_STARTS: usize = 6;
 const FEW_STEPS: Effort = Effort { steps: 8, enough: 1e-3 };
 /// Distances of the apex from the middle of a patch, in halves of its length: near, far, and nowhere.
 const APEX_DISTANCES: [f64; 8] = [0.5, 1.0, 1.5, 2.5, 5.0, 12.0, 40.0, f64::INFINITY];
@@ -38,21 +39,22 @@ pub(super) fn cones<F: Family<6>>(points: &[Point]) -> Vec<Element> {
     let cones = |poses: Vec<Pose>| -> Vec<(f64, Element)> {
         poses.iter().map(|pose| about::<F>(pose, &few)).collect()
     };
-    let mut first = best(cones(all_around(points, &scatter)), IMPROVED);
-    first.extend(best(cones(from_within(points, &scatter)), IMPROVED));
-    first.extend(best(cones(from_tips(points, &scatter)), IMPROVED));
+    let mut first = best(cones(all_around(points, &scatter)), MAX_IMPROVED_CONES);
+    first.extend(best(cones(from_within(points, &scatter)), MAX_IMPROVED_CONES));
+    first.extend(best(cones(from_tips(points, &scatter)), MAX_IMPROVED_CONES));
     let sample = Sample { points: Cow::Borrowed(&few), center: [0.0; 3], scale: 1.0, station: [0.0; 3] };
     let improved = first.iter().filter_map(|start| {
         let end = minimize::<6, F, _>(start, &sample, &Alike, FEW_STEPS)?;
         Some((end.sums.square, end.element))
     });
-    let starts = best(improved.collect(), STARTS);
+    let starts = best(improved.collect(), MAX_CONE_STARTS);
     starts.into_iter().map(|cone| F::settled(refooted(cone, [0.0; 3]))).collect()
 }
 
 /// Some of the points, and those at the ends of each principal direction: the tip of a cone may be a single point.
 fn judges(points: &[Point], scatter: &Scatter) -> Vec<Point> {
-    let mut few: Vec<Point> = points.iter().copied().step_by(points.len().div_ceil(JUDGES).max(1)).collect();
+    let mut few: Vec<Point> =
+        points.iter().copied().step_by(points.len().div_ceil(CONE_JUDGES).max(1)).collect();
     if few.len() < points.len() {
         few.extend(ends(points, scatter));
     }

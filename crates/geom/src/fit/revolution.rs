@@ -204,22 +204,22 @@ fn apart(mut rest: Vec<Axis>, count: usize) -> Vec<Axis> {
 
 /// Whether two axes are of two valleys: their directions differ by more than 12°.
 fn apart_from(a: &Axis, b: &Axis) -> bool {
-    const COSINE: f64 = 0.978;
-    dot(a.pose.axes[2], b.pose.axes[2]).abs() < COSINE
+    const OTHER_VALLEY_COSINE: f64 = 0.978;
+    dot(a.pose.axes[2], b.pose.axes[2]).abs() < OTHER_VALLEY_COSINE
 }
 
 /// Directions of the even grid over the half sphere: about 15° apart.
-const GRID: usize = 80;
+const GRID_DIRECTIONS: usize = 80;
 
 /// The directions of the grid.
 pub(super) fn directions() -> impl Iterator<Item = Vector> {
-    static ALL: LazyLock<[Vector; GRID]> = LazyLock::new(|| std::array::from_fn(grid_direction));
+    static ALL: LazyLock<[Vector; GRID_DIRECTIONS]> = LazyLock::new(|| std::array::from_fn(grid_direction));
     ALL.iter().copied()
 }
 
 /// The `k`-th direction of the grid: a spiral of the golden angle.
 fn grid_direction(k: usize) -> Vector {
-    let z = (k as f64 + 0.5) / GRID as f64;
+    let z = (k as f64 + 0.5) / GRID_DIRECTIONS as f64;
     let across = (1.0 - z * z).sqrt();
     let angle = k as f64 * (3.0 - 5f64.sqrt()) * std::f64::consts::PI;
     [across * libm::cos(angle), across * libm::sin(angle), z]

@@ -5,7 +5,7 @@ use crate::num::dense;
 use crate::space::{Point, dot, minus, plus, times};
 
 /// Guards the division by a distance that may be zero: the derivative there is taken as zero.
-pub(super) const TINY: f64 = f64::MIN_POSITIVE;
+pub(super) const MIN_DIVISOR: f64 = f64::MIN_POSITIVE;
 
 /// Centers and radii of circles (`D = 2`) or spheres (`D = 3`) near the given points: the algebraic fit of
 /// Kåsa, which is right for wide arcs and too small for flat ones, and the osculating one of a parabola over

@@ -6,7 +6,7 @@
 
 use super::datum::Freedom;
 use super::error::{ZoneError, sane};
-use crate::fit::{Function, lowest};
+use crate::fit::{Function, MAX_JOINING_POINTS, MAX_POINTS_ALL_WORKING, lowest};
 use crate::parallel::prelude::*;
 use crate::progress::Progress;
 use crate::rigid::Rigid;
@@ -31,10 +31,6 @@ pub struct Placed {
     pub max: (f64, usize),
 }
 
-/// Points up to which all are in the working set.
-const SMALL: usize = 2000;
-/// Points that join the working set in one round.
-const JOINING: usize = 24;
 /// Most linear programs of one working set.
 const STEPS: usize = 250;
 
@@ -141,7 +137,11 @@ pub(crate) fn placed_from(
     if search.free.is_none() && !search.floating {
         return work.surveyed(search.middle, &motion).map(|s| s.placed(search, &motion));
     }
-    let stride = if points.len() <= SMALL { 1 } else { points.len().div_ceil(SMALL / 4) };
+    let stride = if points.len() <= MAX_POINTS_ALL_WORKING {
+        1
+    } else {
+        points.len().div_ceil(MAX_POINTS_ALL_WORKING / 4)
+    };
     let mut working: Vec<usize> = (0..points.len()).step_by(stride).collect();
     working.extend(first.iter().filter(|i| !i.is_multiple_of(stride)));
     let mut middle = search.middle;
@@ -158,7 +158,7 @@ pub(crate) fn placed_from(
                 (0..points.len()).filter(|&i| work.off(i, all.values[i], middle) > low.half).collect();
             let far = |i: &usize| work.off(*i, all.values[*i], middle);
             out.sort_by(|i, j| far(j).total_cmp(&far(i)).then(i.cmp(j)));
-            out.truncate(JOINING);
+            out.truncate(MAX_JOINING_POINTS);
             out.retain(|i| !working.contains(i));
             working.extend(out);
         }

@@ -6,7 +6,7 @@
 //! Practical Methods of Optimization, 1987, section 14), over a working set that takes in what sticks out most.
 
 use super::Source;
-use crate::fit::{Function, lowest};
+use crate::fit::{Function, HIDDEN_FALL, MAX_JOINING_POINTS, MAX_POINTS_ALL_WORKING, lowest};
 use crate::frame::Pose;
 use crate::num::dense::solve;
 use crate::progress::Progress;
@@ -46,12 +46,6 @@ pub(super) struct Joint<'a> {
     free: [bool; UNKNOWNS],
 }
 
-/// Points up to which all are in the working set.
-const SMALL: usize = 2000;
-/// Points that join the working set in one round.
-const JOINING: usize = 24;
-/// A step, or a fall, that rounding hides, at unit size.
-const NOTHING: f64 = 2e-16;
 /// Steps below this are in the reach of rounding: the sum of squares no longer shows them.
 const ROUNDING_REACH: f64 = 1e-9;
 
@@ -169,7 +163,7 @@ impl<'a> Joint<'a> {
             if sum < square || unseen {
                 (stand, square) = (next, sum);
                 damping = if damping < 1e-6 { 0.0 } else { damping / 8.0 };
-                if length <= NOTHING || (unseen && length > 0.5 * last) {
+                if length <= HIDDEN_FALL || (unseen && length > 0.5 * last) {
                     break;
                 }
                 last = length;
@@ -208,7 +202,11 @@ impl<'a> Joint<'a> {
 
     /// The elements near `start` whose greatest distance from a point is the least.
     pub(super) fn least_greatest(&self, start: &Stand, progress: &dyn Progress) -> Result<Stand, ZoneError> {
-        let stride = if self.points.len() <= SMALL { 1 } else { self.points.len().div_ceil(SMALL / 4) };
+        let stride = if self.points.len() <= MAX_POINTS_ALL_WORKING {
+            1
+        } else {
+            self.points.len().div_ceil(MAX_POINTS_ALL_WORKING / 4)
+        };
         let mut working: Vec<usize> = (0..self.points.len()).step_by(stride).collect();
         let mut stand = *start;
         for _ in 0..60 {
@@ -218,10 +216,12 @@ impl<'a> Joint<'a> {
             let half;
             (stand, half) = self.lowered(&working, stand).ok_or(ZoneError::NotSettled)?;
             let far = |i: usize| self.distance(&stand, self.points[i]).0.abs();
-            let mut out: Vec<(f64, usize)> =
-                (0..self.points.len()).map(|i| (far(i), i)).filter(|(d, _)| *d > half + NOTHING).collect();
+            let mut out: Vec<(f64, usize)> = (0..self.points.len())
+                .map(|i| (far(i), i))
+                .filter(|(d, _)| *d > half + HIDDEN_FALL)
+                .collect();
             out.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
-            out.truncate(JOINING);
+            out.truncate(MAX_JOINING_POINTS);
             out.retain(|(_, i)| !working.contains(i));
             if out.is_empty() {
                 return Ok(stand);
@@ -248,7 +248,7 @@ impl<'a> Joint<'a> {
             }
             let program = lowest(&functions, reach)?;
             let fall = half - program.value;
-            if fall <= NOTHING || reach < 1e-15 {
+            if fall <= HIDDEN_FALL || reach < 1e-15 {
                 break;
             }
             // No function tells the program where held unknowns are: it leaves them at a side of the box.
