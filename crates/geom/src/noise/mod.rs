@@ -36,21 +36,22 @@ use moments::Moments;
 use patch::{Around, InCloud, OnMesh};
 pub use terms::{NoNoise, Noise};
 
-/// Patches looked at, at most: what `progress` counts.
-pub const PATCHES: usize = 160;
-/// Patches that a point is in, on average, where there are few.
-const OFTEN: usize = 2;
-/// Points of a patch. The radius of the first is eight spacings: noise that neighbors of three rings share reaches over six. On parts whose
-/// faces hold few of these, and where what they tell is form, smaller ones tell the noise, whose reach they underestimate.
-const SIZES: [usize; 2] = [200, 80];
-/// What the smaller ones tell is noise where it differs no more than this from patch to patch: 1.1 on parts, 2.4 and more on free forms.
-const SMALL_UNEVEN: f64 = 1.8;
-/// What is more than this share of the distance between neighbors may be form everywhere alike, as of narrow ribs; noise is no less in smaller
-/// patches than this share of what it is in larger ones.
-const GREAT: f64 = 0.1;
-const LESS: f64 = 0.7;
-/// Fewest patches that the noise is told from: the standard deviation of eight is known to a tenth, with shared noise to a fifth.
-const FEWEST_PATCHES: usize = 8;
+/// Most patches looked at: `progress` counts them.
+pub const MAX_PATCHES: usize = 160;
+/// Patches that hold a point, on average, where there are few.
+const PATCHES_PER_POINT: usize = 2;
+/// Points of a patch. The radius of the first size is eight spacings: noise that neighbors of three rings share reaches over
+/// six. Smaller patches serve parts whose faces hold few of these, or where the large ones show form. They tell the noise, and
+/// underestimate its reach.
+const POINTS_PER_PATCH: [usize; 2] = [200, 80];
+/// Unevenness up to which smaller patches tell noise: 1.1 on parts, 2.4 and more on free forms.
+const MAX_SMALL_UNEVENNESS: f64 = 1.8;
+/// Share of the distance between neighbors from which on noise may be form everywhere alike, such as narrow ribs.
+const FORM_LIKE_NOISE_SHARE: f64 = 0.1;
+/// Share of the noise of larger patches up to which that of smaller ones counts instead: noise is no less in smaller patches.
+const MAX_NARROW_NOISE_SHARE: f64 = 0.7;
+/// Least patches that tell the noise. The standard deviation of eight is known to a tenth, with shared noise to a fifth.
+const MIN_PATCHES: usize = 8;
 
 /// The noise of the `V` vertices of a mesh, millimeters. Neighbors are found through edges: weld first what is not welded. Vertices that no
 /// facet uses are no neighbors of any.
@@ -114,15 +115,20 @@ fn found(
         false => Box::new(OnMesh::new(scan, counts)?),
     };
     let all = Places { points, counted: &counted, around: &*around, distances };
-    let wide = all.told(SIZES[0], seed, progress);
-    let looks_like_noise = |n: &Noise| n.even().is_ok() && n.deviation <= GREAT * n.spacing;
+    let wide = all.told(POINTS_PER_PATCH[0], seed, progress);
+    let looks_like_noise = |n: &Noise| n.even().is_ok() && n.deviation <= FORM_LIKE_NOISE_SHARE * n.spacing;
     if matches!(wide, Err(NoNoise::Cancelled(_))) || wide.as_ref().is_ok_and(looks_like_noise) {
         return wide;
     }
     let great = wide.as_ref().map_or(f64::INFINITY, |n| n.deviation);
-    match all.told(SIZES[1], seed, progress) {
+    match all.told(POINTS_PER_PATCH[1], seed, progress) {
         Err(NoNoise::Cancelled(e)) => Err(e.into()),
-        Ok(narrow) if narrow.unevenness <= SMALL_UNEVEN && narrow.deviation <= LESS * great => Ok(narrow),
+        Ok(narrow)
+            if narrow.unevenness <= MAX_SMALL_UNEVENNESS
+                && narrow.deviation <= MAX_NARROW_NOISE_SHARE * great =>
+        {
+            Ok(narrow)
+        }
         _ => wide,
     }
 }
@@ -139,7 +145,7 @@ impl Places<'_> {
     /// What patches of so many points tell.
     fn told(&self, size: usize, seed: u64, progress: &dyn Progress) -> Result<Noise, NoNoise> {
         let Places { points, counted, around, distances } = self;
-        let count = PATCHES.min(OFTEN * counted.len() / size);
+        let count = MAX_PATCHES.min(PATCHES_PER_POINT * counted.len() / size);
         let centers = Random::new(seed).choose(count, counted.len());
         let patches: Vec<Option<Moments>> = (centers.par_iter())
             .map(|&center| {
@@ -151,7 +157,7 @@ impl Places<'_> {
                 let heights =
                     distances.map(|all| patch.iter().map(|i| all[*i as usize]).collect::<Vec<f64>>());
                 // The smaller patches of those that are looked at again are no more of what is to be done.
-                if size == SIZES[0] {
+                if size == POINTS_PER_PATCH[0] {
                     progress.advance(1);
                 }
                 Moments::of(&places, heights.as_deref(), size)
@@ -161,8 +167,8 @@ impl Places<'_> {
             return Err(Cancelled.into());
         }
         let patches: Vec<Moments> = patches.into_iter().flatten().collect();
-        if patches.len() < FEWEST_PATCHES {
-            return Err(NoNoise::Few { found: patches.len(), needed: size, least: FEWEST_PATCHES });
+        if patches.len() < MIN_PATCHES {
+            return Err(NoNoise::Few { found: patches.len(), needed: size, least: MIN_PATCHES });
         }
         Ok(covariance::found(&patches))
     }

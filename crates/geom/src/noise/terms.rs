@@ -28,9 +28,9 @@ pub struct Noise {
     pub unevenness: f64,
 }
 
-/// Noise differs no more than this from patch to patch: random scans with noise of zero to three rings up to 1.5, scans of free forms
-/// from 3.4 on.
-const UNEVEN: f64 = 2.5;
+/// Greatest unevenness of noise from patch to patch. Random scans with noise of zero to three rings show up to 1.5, scans of
+/// free forms 3.4 and more.
+const MAX_UNEVENNESS: f64 = 2.5;
 
 impl Noise {
     /// This noise, where it is the same everywhere; what differs from patch to patch is form.
@@ -38,7 +38,7 @@ impl Noise {
     /// # Errors
     /// [`NoNoise::Uneven`].
     pub fn even(self) -> Result<Noise, NoNoise> {
-        if self.unevenness <= UNEVEN { Ok(self) } else { Err(NoNoise::Uneven) }
+        if self.unevenness <= MAX_UNEVENNESS { Ok(self) } else { Err(NoNoise::Uneven) }
     }
 
     /// Correlation of the noise of two points at a distance in millimeters.

@@ -14,14 +14,14 @@ use crate::space::{self, Aabb, Point, Vector, cross, dot, minus, norm, plus, sin
 pub const NO_FACE: u32 = u32::MAX;
 
 /// Steps of single precision by which corners of a drawn face may be off its element.
-const STEPS: f64 = 4.0;
+const ROUNDED_CORNER_STEPS: f64 = 4.0;
 /// Share of its size that the chords of a face may be off its element.
-const CHORDS: f64 = 1e-3;
+const MAX_CHORD_SHARE: f64 = 1e-3;
 /// Corners for each unknown from which on they tell that a face lies on an element.
-const PER_UNKNOWN: usize = 2;
-/// So many times as far off its element as the middles of the facets of a face may those of others be that join it, and their corners, which lie on chords
-/// where faces meet. The flat of a shaft has all its corners on the shaft too.
-const BULGE: f64 = 2.0;
+const CORNERS_PER_UNKNOWN: usize = 2;
+/// Ratio of distances from an element: of the middles of facets of a face that join it, and of their corners, to the middles of
+/// its own facets. Corners lie on chords where faces meet. The flat of a shaft has all its corners on the shaft too.
+const MAX_BULGE_RATIO: f64 = 2.0;
 /// Elements that a face may lie on where the segmentation has not told: the simplest first.
 const ELEMENTS: [Kind; 4] = [Kind::Plane, Kind::Cylinder, Kind::Sphere, Kind::Cone];
 
@@ -116,7 +116,7 @@ impl Drawn<'_> {
             let own: Vec<u32> =
                 facets[face].iter().copied().filter(|f| of_facets[*f as usize] == face as u32).collect();
             let side = own.iter().filter_map(|f| self.along(&shape, *f)).sum::<f64>().signum();
-            let bulge = BULGE * own.iter().map(|f| self.bulge(&shape, *f)).fold(0.0, f64::max);
+            let bulge = MAX_BULGE_RATIO * own.iter().map(|f| self.bulge(&shape, *f)).fold(0.0, f64::max);
             let bulge = bulge.max(self.limit);
             let is_on = |f: u32| {
                 self.corners(f).iter().all(|p| shape.distance(*p).abs() <= bulge)
@@ -199,11 +199,11 @@ pub fn element(mesh: &Mesh, facets: &[u32], kind: Kind, angle: f64) -> Option<Sh
     corners.sort_unstable();
     corners.dedup();
     let places: Vec<Point> = corners.iter().map(|v| mesh.positions[*v as usize]).collect();
-    if places.len() < PER_UNKNOWN * kind.unknowns() {
+    if places.len() < CORNERS_PER_UNKNOWN * kind.unknowns() {
         return None;
     }
     let shape = fit(&places, kind, &fit::Options::default(), &Silent).ok()?.shape;
-    let limit = rounding(&places).max(CHORDS * Aabb::of(&places).diagonal());
+    let limit = rounding(&places).max(MAX_CHORD_SHARE * Aabb::of(&places).diagonal());
     let facing = |f: &u32| {
         let corners = mesh.corners(*f);
         along(&shape, corners, normal(mesh, *f)?)
@@ -224,7 +224,7 @@ fn middle([a, b, c]: [Point; 3]) -> Point {
 
 /// How far places that are the same may lie apart, mm.
 pub(super) fn rounding(places: &[Point]) -> f64 {
-    STEPS * single_step(places)
+    ROUNDED_CORNER_STEPS * single_step(places)
 }
 
 fn normal(mesh: &Mesh, facet: u32) -> Option<Vector> {

@@ -54,17 +54,19 @@ use best::Candidate;
 use faces::Seat;
 use facing::Facing;
 use going_on::Sure;
-use terms::EXPLAINED;
+use terms::MAX_EXPLAINED_DEVIATIONS;
 use unexplained::{Over, Unexplained};
-use work::{AWAY, CLEAR, ROUNDED, Work};
+use work::{ROUNDED_EDGE_SPACINGS, SEARCH_REACHES, SURE_BORDER_SPACINGS, Work};
 
-/// Share of its diagonal that a face reaches where nothing else is said.
-const SHARE: f64 = 0.02;
-/// Share of the diagonal of all faces up to which what lies beyond the reach of a face, out of the material, may be of it. Into the material nothing else is.
-const ELSEWHERE: f64 = 0.1;
-/// Neighbors whose farthest tells the distance of neighbors, and places where that is looked at.
-const NEIGHBORS: usize = 16;
-const PLACES: usize = 200;
+/// Share of its diagonal that a face reaches where no reach is given.
+const DEFAULT_REACH_SHARE: f64 = 0.02;
+/// Share of the diagonal of all faces: up to it, points out of the material and beyond the reach of a face may belong to the
+/// face. Into the material nothing else lies.
+const OUTWARD_REACH_SHARE: f64 = 0.1;
+/// Neighbors whose farthest tells the spacing.
+const SPACING_NEIGHBORS: usize = 16;
+/// Places where the spacing is looked at.
+const SPACING_PLACES: usize = 200;
 
 /// Parts the vertices of a measured mesh, or without facets the points of a cloud, among faces; all in millimeters and in one frame.
 ///
@@ -113,7 +115,7 @@ pub fn partition(
     let mut candidates = vec![];
     for (face, reach) in faces.iter().zip(&reach) {
         // Edges are looked for as far as scans round them.
-        let reach = f64::max(AWAY * reach, ROUNDED * spacing);
+        let reach = f64::max(SEARCH_REACHES * reach, ROUNDED_EDGE_SPACINGS * spacing);
         candidates.push(near(face, points, facing.as_ref(), reach, spacing, progress)?);
     }
     let work = Work { points, faces, reach, candidates, spacing };
@@ -126,7 +128,13 @@ pub fn partition(
     let sparse = work.sparse(facing.is_none());
     let placed: Vec<Placed> = (faces.par_iter().zip(&sure).zip(&sparse))
         .map(|((face, sure), sparse)| {
-            Placed::of(face, points, sure, sparse.map_or(floor, |reach| reach / EXPLAINED), options.seed)
+            Placed::of(
+                face,
+                points,
+                sure,
+                sparse.map_or(floor, |reach| reach / MAX_EXPLAINED_DEVIATIONS),
+                options.seed,
+            )
         })
         .collect();
     cancelled(progress)?;
@@ -155,7 +163,7 @@ pub fn partition(
         classes[b.point as usize] = Class::Between;
     }
     let size = faces.iter().fold(Aabb::EMPTY, |b, f| b.union(&f.bounds)).diagonal();
-    let far = [size, ELSEWHERE * size];
+    let far = [size, OUTWARD_REACH_SHARE * size];
     let over = Over { points, faces, owners: &best.owner, facing: facing.as_ref(), spacing, rounded, far };
     let mut beyond = over.faces(&hanging, progress)?;
     let dents = over.dents(&hanging, &beyond, options.seed, progress)?;
@@ -175,7 +183,7 @@ pub fn partition(
 fn reaches(faces: &[&Face], options: &Options) -> Result<Vec<f64>, PartitionError> {
     let of = |(number, face): (usize, &&Face)| {
         let own = options.reaches.get(&(number as u32)).copied().or(options.distance);
-        let value = own.unwrap_or(SHARE * face.bounds.diagonal());
+        let value = own.unwrap_or(DEFAULT_REACH_SHARE * face.bounds.diagonal());
         let is_length = value > 0.0 && value.is_finite();
         is_length.then_some(value).ok_or(PartitionError::Reach { face: number, value })
     };
@@ -191,7 +199,7 @@ fn near(
     spacing: f64,
     progress: &dyn Progress,
 ) -> Result<Vec<Candidate>, Cancelled> {
-    let far = reach + CLEAR[0] * spacing;
+    let far = reach + SURE_BORDER_SPACINGS[0] * spacing;
     let bounds = face.bounds.widened(reach + spacing);
     let numbers: Vec<u32> =
         (0..points.len() as u32).into_par_iter().filter(|i| bounds.holds(&points[*i as usize])).collect();
@@ -214,10 +222,10 @@ fn near(
 pub fn spacing(points: &[Point], seed: u64) -> f64 {
     let tree = PointTree::new(points);
     let mut all: Vec<f64> = crate::num::random::Random::new(seed)
-        .choose(PLACES, points.len())
+        .choose(SPACING_PLACES, points.len())
         .into_iter()
         .filter_map(|i| {
-            let near = tree.k_nearest(&points[i], NEIGHBORS, None);
+            let near = tree.k_nearest(&points[i], SPACING_NEIGHBORS, None);
             let square = near.last()?.0;
             Some((std::f64::consts::PI * square / near.len() as f64).sqrt())
         })

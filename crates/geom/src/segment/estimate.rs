@@ -16,9 +16,9 @@ pub(super) type Patch = [(Point, Vector)];
 pub const KINDS: [Kind; 5] = [Kind::Plane, Kind::Cylinder, Kind::Cone, Kind::Sphere, Kind::Torus];
 
 /// Greatest radius, in diagonals of the part.
-const MOST_SIZES: f64 = 10.0;
+const MAX_RADIUS_DIAGONALS: f64 = 10.0;
 /// Greatest quotient of the radii of a torus: a thicker one is as good as a sphere of the same points.
-const THICKEST: f64 = 0.95;
+const MAX_TORUS_RATIO: f64 = 0.95;
 
 /// An element of the kind near the patch; `None` where the patch does not show one, and of kinds that are not in [`KINDS`].
 pub(super) fn estimate(kind: Kind, patch: &Patch) -> Option<Shape> {
@@ -35,7 +35,7 @@ pub(super) fn estimate(kind: Kind, patch: &Patch) -> Option<Shape> {
 /// Whether a part of this size can show the element. A cone has no limit of its half angle but what shows: over all of the part it
 /// leaves the plane, or the cylinder, that it tends to by more than pieces may lie off.
 pub(super) fn is_sound(shape: &Shape, size: f64, tolerance: f64) -> bool {
-    let most = MOST_SIZES * size;
+    let most = MAX_RADIUS_DIAGONALS * size;
     match *shape {
         Shape::Sphere { radius, .. } | Shape::Cylinder { radius, .. } => radius < most,
         Shape::Cone { half_angle, radius, .. } => {
@@ -44,7 +44,7 @@ pub(super) fn is_sound(shape: &Shape, size: f64, tolerance: f64) -> bool {
             radius > 0.0 && size * size * cos > 8.0 * radius * tolerance && size * sin > tolerance
         }
         Shape::Torus { major_radius, minor_radius, .. } => {
-            major_radius < most && minor_radius < THICKEST * major_radius
+            major_radius < most && minor_radius < MAX_TORUS_RATIO * major_radius
         }
         Shape::Plane { .. } => true,
         // Curves are no faces.

@@ -7,7 +7,7 @@ use crate::space::{Vector, cross, dot, minus, norm, plus, single_step, times, un
 use crate::spatial::lists::lists;
 
 /// Steps of single precision by which the corners of two facets, together, turn one against the other.
-const ROUNDED_CORNERS: f64 = 4.0;
+const CORNER_ROUNDING_STEPS: f64 = 4.0;
 
 /// The facets of a mesh whose corners exist and are finite.
 pub(super) fn surface(mesh: &Mesh) -> PieceGraph<'_> {
@@ -47,7 +47,7 @@ fn is_drawn(mesh: &Mesh, normals: &[Vector], areas: &[f64], first: &[u32], other
         let [a, b, c] = face(facet).map(|v| mesh.positions[v as usize]);
         let longest =
             [[a, b], [b, c], [c, a]].into_iter().fold(0.0, |most: f64, [p, q]| most.max(norm(minus(p, q))));
-        let off = ROUNDED_CORNERS * step * longest / (2.0 * areas[facet]);
+        let off = CORNER_ROUNDING_STEPS * step * longest / (2.0 * areas[facet]);
         (0..turns.len()).any(|i| turns[..i].iter().any(|turn| (turn - turns[i]).abs() <= off))
     };
     let is_flat: Vec<bool> = (0..mesh.faces.len()).into_par_iter().map(flat).collect();

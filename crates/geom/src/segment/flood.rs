@@ -110,7 +110,7 @@ pub(super) enum Order {
 }
 
 /// Neighbors of a piece beyond which a strip does not go on from it: around one vertex with so many facets there is no strip.
-const CROWD: usize = 1000;
+const MAX_STRIP_NEIGHBORS: usize = 1000;
 
 /// About `most` free facets from `seed` on, each across an edge without a crease from one before, in the given order. Where facets
 /// are as long as their face, as programs write them that draw parts, this stays on the face when [`patch`] does not: along a
@@ -132,7 +132,7 @@ pub(super) fn strip(
         }
         reached.push(from);
         let around = surface.neighbors(from);
-        for &piece in around.iter().filter(|_| around.len() <= CROWD) {
+        for &piece in around.iter().filter(|_| around.len() <= MAX_STRIP_NEIGHBORS) {
             let across = surface.turn(piece, from);
             let joins =
                 surface.counts(piece) && free(piece) && across >= crease && !marks.seen[piece as usize];

@@ -47,7 +47,7 @@ use criterion::fewest_points;
 pub use estimate::KINDS;
 use grow::Context;
 use noise::Noise;
-use pieces::{Band, NONE, PieceGraph, Pieces};
+use pieces::{Band, NO_PIECE, PieceGraph, Pieces};
 use region::GrownRegion;
 use search::{Limits, search};
 use seeds::Seeds;
@@ -264,11 +264,11 @@ fn check(points: &[Point], options: &Options) -> Result<(), SegmentError> {
 }
 
 /// Standard deviations of the noise within which points belong to an element: form error comes on top of noise.
-const WIDTH: f64 = 8.0;
-/// Least shares of regions of what is measured, and of what is drawn.
-const SHARES: [f64; 2] = [0.002, 1e-4];
-/// Angles between a piece and its element that are always allowed and never exceeded.
-const ANGLES: [f64; 2] = [12.0, 45.0];
+const BAND_SIGMAS: f64 = 8.0;
+/// Least share of a region: of a measured surface, and of a drawn one.
+const MIN_REGION_SHARES: [f64; 2] = [0.002, 1e-4];
+/// Angle between a piece and its element that is always allowed, and the one that is never exceeded, degrees.
+const PIECE_ANGLE_LIMITS: [f64; 2] = [12.0, 45.0];
 
 fn segment(
     surface: PieceGraph,
@@ -286,8 +286,8 @@ fn segment(
     // Coordinates have passed through single precision: they are off by half a step of it.
     let step = single_step(surface.points);
     let noise = distance.max(step / 12f64.sqrt());
-    let tolerance = options.tolerance.unwrap_or((WIDTH * noise).max(2.0 * step));
-    let turned = (3.0 * angle).clamp(ANGLES[0].to_radians(), ANGLES[1].to_radians());
+    let tolerance = options.tolerance.unwrap_or((BAND_SIGMAS * noise).max(2.0 * step));
+    let turned = (3.0 * angle).clamp(PIECE_ANGLE_LIMITS[0].to_radians(), PIECE_ANGLE_LIMITS[1].to_radians());
     let context = Context {
         surface: &surface,
         kinds: &kinds,
@@ -297,7 +297,7 @@ fn segment(
         size: bounds.diagonal(),
     };
     let total = surface.weights.iter().sum::<f64>();
-    let min_share = options.min_share.unwrap_or(SHARES[usize::from(surface.is_drawn)]);
+    let min_share = options.min_share.unwrap_or(MIN_REGION_SHARES[usize::from(surface.is_drawn)]);
     let limits = Limits { weight: min_share * total, points: options.min_points, seed: options.seed };
     let (mut regions, mut labels) = search(&context, &limits, progress)?;
     merge::merge(&context, &mut regions, &mut labels);
@@ -317,7 +317,7 @@ fn finished(
 ) -> (Vec<Region>, Vec<u32>) {
     let surface = context.surface;
     let mut members: Vec<Vec<u32>> = vec![Vec::new(); grown.len()];
-    for (piece, &label) in labels.iter().enumerate().filter(|(_, l)| **l != NONE) {
+    for (piece, &label) in labels.iter().enumerate().filter(|(_, l)| **l != NO_PIECE) {
         members[label as usize].push(piece as u32);
     }
     let depths = depths(context, labels);
@@ -330,7 +330,7 @@ fn finished(
         })
         .collect();
     named.sort_by(|a, b| b.1.share.total_cmp(&a.1.share).then(a.0.cmp(&b.0)));
-    let mut new_labels = vec![NONE; labels.len()];
+    let mut new_labels = vec![NO_PIECE; labels.len()];
     for (new, (_, _, pieces)) in (0u32..).zip(&named) {
         pieces.iter().for_each(|&piece| new_labels[piece as usize] = new);
     }
@@ -338,7 +338,7 @@ fn finished(
 }
 
 /// Fits of a region until every piece of it lies within the tolerance; each takes pieces away.
-const FITS: usize = 20;
+const MAX_REGION_FITS: usize = 20;
 
 /// The region with its element, and those of its pieces whose measured points all lie within the tolerance of it: where it
 /// grew, elements were those of some of its points, and one corner of a facet might lie beyond an edge. `None` where no
@@ -352,7 +352,7 @@ fn region(
 ) -> Option<(Region, Vec<u32>)> {
     let surface = context.surface;
     let (mut shape, mut beside) = (grown.shape, BTreeSet::new());
-    for _ in 0..FITS {
+    for _ in 0..MAX_REGION_FITS {
         let inside = |p: &u32| if beside.contains(p) { 0 } else { depths[*p as usize] };
         let (fit, points) = fitted(surface, &shape, &pieces, inside)?;
         let farthest = |piece: u32| {
@@ -430,7 +430,7 @@ fn depths(context: &Context, labels: &[u32]) -> Vec<u8> {
     for (piece, (face, &label)) in (0u32..).zip(faces.iter().zip(labels)) {
         let smooth = foreign(piece).any(|n| {
             let across = dot(surface.normals[piece as usize], surface.normals[n as usize]);
-            labels[n as usize] != NONE && across >= context.crease
+            labels[n as usize] != NO_PIECE && across >= context.crease
         });
         for &v in face {
             let v = v as usize;

@@ -6,7 +6,7 @@ use super::probe::Probe;
 use crate::space::{Aabb, Point, Vector, dot, minus, norm, times};
 
 /// No region, no piece.
-pub(super) const NONE: u32 = u32::MAX;
+pub(super) const NO_PIECE: u32 = u32::MAX;
 
 /// The measured places of a piece.
 #[derive(Debug)]

@@ -1,6 +1,6 @@
 //! Where to try next: random pieces, large ones more often, each neighborhood once.
 
-use super::pieces::{NONE, PieceGraph};
+use super::pieces::{NO_PIECE, PieceGraph};
 use crate::num::random::Random;
 
 /// Draws pieces with a chance that is proportional to their weight.
@@ -29,12 +29,12 @@ impl Seeds {
     pub(super) fn is_empty(&self) -> bool {
         self.pieces.is_empty()
     }
-    /// A piece, or [`NONE`] where there is none.
+    /// A piece, or [`NO_PIECE`] where there is none.
     pub(super) fn draw(&self, random: &mut Random) -> u32 {
-        let Some(&total) = self.sums.last() else { return NONE };
+        let Some(&total) = self.sums.last() else { return NO_PIECE };
         let at = random.unit() * total;
         let index = self.sums.partition_point(|&s| s <= at);
-        self.pieces.get(index).or(self.pieces.last()).copied().unwrap_or(NONE)
+        self.pieces.get(index).or(self.pieces.last()).copied().unwrap_or(NO_PIECE)
     }
 }
 

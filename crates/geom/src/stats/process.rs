@@ -7,12 +7,12 @@
 use crate::num::special::{chi_square_quantile, normal_quantile};
 use std::f64::consts::{FRAC_2_SQRT_PI, PI};
 
-/// Mean range of two normal values of standard deviation 1.
-const D2: f64 = FRAC_2_SQRT_PI;
+/// Mean range of two normal values of standard deviation 1: d₂ of the control charts.
+const MEAN_RANGE_OF_TWO: f64 = FRAC_2_SQRT_PI;
 /// Values in a row on one side of the mean that are no chance.
-const RUN: usize = 9;
+const MIN_RUN: usize = 9;
 /// Values in a row, each above (below) the one before, that are no chance.
-const STEADY: usize = 6;
+const MIN_TREND: usize = 6;
 
 /// A series of values as a control chart shows it.
 #[derive(Clone, Debug, PartialEq)]
@@ -72,8 +72,8 @@ pub struct Index {
     pub high: f64,
 }
 
-/// Values that all differ by less than this share of the greatest do not vary: what their last digits tell is rounding.
-const ALIKE: f64 = 1e-9;
+/// Share of the greatest value up to which values that differ by less do not vary: their last digits tell rounding.
+const EQUAL_VALUES_SHARE: f64 = 1e-9;
 
 /// Capability of a process; `None` where limits are missing, or nothing varies.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -105,7 +105,7 @@ impl ControlChart {
         let n = values.len() as f64;
         let greatest = values.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
         let all_alike = vec![values[0]; values.len()];
-        let alike = values.iter().all(|x| (x - values[0]).abs() <= ALIKE * greatest);
+        let alike = values.iter().all(|x| (x - values[0]).abs() <= EQUAL_VALUES_SHARE * greatest);
         let values = if alike { &all_alike[..] } else { values };
         // From the first value on: no digit is lost where all are alike.
         let first = values[0];
@@ -113,9 +113,9 @@ impl ControlChart {
         let std_dev = (values.iter().map(|x| (x - mean) * (x - mean)).sum::<f64>() / (n - 1.0)).sqrt();
         let ranges: Vec<f64> = values.windows(2).map(|w| (w[1] - w[0]).abs()).collect();
         let moving_range = ranges.iter().sum::<f64>() / (n - 1.0);
-        let within = moving_range / D2;
+        let within = moving_range / MEAN_RANGE_OF_TWO;
         // The standard deviation of a range of two is √(2 − 4/π).
-        let range_limit = moving_range * (1.0 + 3.0 * (2.0 - 4.0 / PI).sqrt() / D2);
+        let range_limit = moving_range * (1.0 + 3.0 * (2.0 - 4.0 / PI).sqrt() / MEAN_RANGE_OF_TWO);
         let mut chart = ControlChart {
             count: values.len(),
             mean,
@@ -148,8 +148,8 @@ impl ControlChart {
             let rules = [
                 (Rule::Beyond, *x < self.limits[0] || *x > self.limits[1]),
                 (Rule::Range, index > 0 && ranges[index - 1] > self.range_limit),
-                (Rule::Run, run.1 >= RUN),
-                (Rule::Steady, steady.1 >= STEADY),
+                (Rule::Run, run.1 >= MIN_RUN),
+                (Rule::Steady, steady.1 >= MIN_TREND),
             ];
             signals.extend(rules.into_iter().filter(|r| r.1).map(|(rule, _)| Signal { index, rule }));
         }

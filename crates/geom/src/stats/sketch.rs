@@ -18,7 +18,7 @@ const SLOTS: usize = 1 << SLOT_BITS;
 const PAGE_BITS: u32 = 12;
 const DROPPED_BITS: u32 = 64 - PAGE_BITS - SLOT_BITS;
 /// Values counted by one worker before its counts are added to the rest.
-const PIECE: usize = 1 << 20;
+const SKETCHED_VALUES_PER_TASK: usize = 1 << 20;
 
 /// Counts of numbers by their leading bits. Values below 2.3e-308 in size count as zero; NaN is not allowed for.
 #[derive(Clone, Debug)]
@@ -40,14 +40,15 @@ impl Sketch {
     }
     /// Counts finite values.
     pub fn push(&mut self, values: &[f64]) {
-        if values.len() < PIECE {
+        if values.len() < SKETCHED_VALUES_PER_TASK {
             values.iter().for_each(|x| self.count_one(*x));
             return;
         }
-        let counted = values.par_chunks(PIECE).fold(Sketch::default, |mut sketch, piece| {
-            piece.iter().for_each(|x| sketch.count_one(*x));
-            sketch
-        });
+        let counted =
+            values.par_chunks(SKETCHED_VALUES_PER_TASK).fold(Sketch::default, |mut sketch, piece| {
+                piece.iter().for_each(|x| sketch.count_one(*x));
+                sketch
+            });
         self.merge(&counted.reduce(Sketch::default, |mut a, b| {
             a.merge(&b);
             a

@@ -1,6 +1,6 @@
 //! Statistics of deviations: all, the positive and the negative ones apart.
 
-use super::moments::{CHUNK, MomentTree, Moments};
+use super::moments::{MomentTree, Moments, VALUES_PER_CHUNK};
 pub use super::part::Part;
 use super::quantiles::{Keyed, NO_KEY, PERCENTILES, interpolate, key_of, position};
 use super::sketch::Sketch;
@@ -203,7 +203,7 @@ impl Accumulator {
 #[derive(Clone, Debug, Default)]
 struct SignedMoments {
     chunks: Chunks,
-    /// The unfinished chunk: fewer than [`CHUNK`] values.
+    /// The unfinished chunk: fewer than [`VALUES_PER_CHUNK`] values.
     pending: Vec<f64>,
 }
 
@@ -226,7 +226,7 @@ struct Chunk {
 impl Chunk {
     fn of(values: &[f64]) -> Chunk {
         // One place more than values: the next place is always there to be written.
-        let (mut positive, mut negative) = ([0.0; CHUNK + 1], [0.0; CHUNK + 1]);
+        let (mut positive, mut negative) = ([0.0; VALUES_PER_CHUNK + 1], [0.0; VALUES_PER_CHUNK + 1]);
         let (mut p, mut n, mut zeros) = (0, 0, 0);
         for x in values {
             // Writing always and counting sometimes spares a branch that scattered signs would mispredict.
@@ -247,15 +247,15 @@ impl Chunk {
 
 impl SignedMoments {
     fn push(&mut self, values: &[f64]) {
-        let missing = (CHUNK - self.pending.len()) % CHUNK;
+        let missing = (VALUES_PER_CHUNK - self.pending.len()) % VALUES_PER_CHUNK;
         let (head, rest) = values.split_at(missing.min(values.len()));
         self.pending.extend_from_slice(head);
-        if self.pending.len() == CHUNK {
+        if self.pending.len() == VALUES_PER_CHUNK {
             self.chunks.push(Chunk::of(&self.pending));
             self.pending.clear();
         }
-        let (whole, tail) = rest.split_at(rest.len() / CHUNK * CHUNK);
-        let chunks: Vec<Chunk> = whole.par_chunks(CHUNK).map(Chunk::of).collect();
+        let (whole, tail) = rest.split_at(rest.len() / VALUES_PER_CHUNK * VALUES_PER_CHUNK);
+        let chunks: Vec<Chunk> = whole.par_chunks(VALUES_PER_CHUNK).map(Chunk::of).collect();
         chunks.into_iter().for_each(|chunk| self.chunks.push(chunk));
         self.pending.extend_from_slice(tail);
     }

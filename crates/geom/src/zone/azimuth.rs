@@ -10,11 +10,11 @@ use crate::rigid::Rigid;
 use crate::space::{Vector, least_axis, plus, times};
 
 /// Samples of a full turn.
-const SAMPLES: usize = 1440;
+const SAMPLES_PER_TURN: usize = 1440;
 /// Sampled minima that are followed.
-const FOLLOWED: usize = 12;
+const MAX_FOLLOWED_MINIMA: usize = 12;
 /// Steps of the golden section: the range is then 1e-19 of what it was.
-const STEPS: usize = 90;
+const GOLDEN_STEPS: usize = 90;
 
 /// Directions at a fixed angle to an axis.
 #[derive(Clone, Copy, Debug)]
@@ -43,16 +43,19 @@ impl Cone {
 
     /// The azimuth of the least `value`.
     pub(super) fn least(&self, value: impl Fn(Vector) -> f64) -> f64 {
-        let step = self.period / SAMPLES as f64;
+        let step = self.period / SAMPLES_PER_TURN as f64;
         let at = |phi: f64| value(self.direction(phi));
-        let samples: Vec<f64> = (0..SAMPLES).map(|k| at(k as f64 * step)).collect();
-        let around = |k: usize| [samples[(k + SAMPLES - 1) % SAMPLES], samples[(k + 1) % SAMPLES]];
-        let mut low: Vec<usize> =
-            (0..SAMPLES).filter(|&k| around(k).iter().all(|neighbor| samples[k] <= *neighbor)).collect();
+        let samples: Vec<f64> = (0..SAMPLES_PER_TURN).map(|k| at(k as f64 * step)).collect();
+        let around = |k: usize| {
+            [samples[(k + SAMPLES_PER_TURN - 1) % SAMPLES_PER_TURN], samples[(k + 1) % SAMPLES_PER_TURN]]
+        };
+        let mut low: Vec<usize> = (0..SAMPLES_PER_TURN)
+            .filter(|&k| around(k).iter().all(|neighbor| samples[k] <= *neighbor))
+            .collect();
         low.sort_by(|&i, &j| samples[i].total_cmp(&samples[j]).then(i.cmp(&j)));
-        low.truncate(FOLLOWED);
+        low.truncate(MAX_FOLLOWED_MINIMA);
         let bottoms = low.into_iter().map(|k| {
-            let (phi, value) = golden(&at, (k as f64 - 1.0) * step, (k as f64 + 1.0) * step, STEPS);
+            let (phi, value) = golden(&at, (k as f64 - 1.0) * step, (k as f64 + 1.0) * step, GOLDEN_STEPS);
             (value, phi)
         });
         bottoms.min_by(|a, b| a.0.total_cmp(&b.0)).map_or(0.0, |b| b.1)

@@ -14,7 +14,7 @@ pub(super) struct Circle {
 }
 
 /// Rounding of distances, relative to the radius.
-const ROUNDING: f64 = 4.0 * f64::EPSILON;
+const RADIUS_ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// The smallest circle around all `points`; of none, a circle of radius 0 about the origin.
 pub(super) fn smallest(points: &[[f64; 2]]) -> Circle {
@@ -25,7 +25,7 @@ pub(super) fn smallest(points: &[[f64; 2]]) -> Circle {
     for _ in 0..points.len().max(64) {
         let far = |i: usize| distance(points[i], circle.center);
         let farthest = (0..points.len()).fold((0.0, 0), |m, i| if far(i) > m.0 { (far(i), i) } else { m });
-        if farthest.0 <= circle.radius * (1.0 + ROUNDING) || circle.touching.contains(&farthest.1) {
+        if farthest.0 <= circle.radius * (1.0 + RADIUS_ROUNDING) || circle.touching.contains(&farthest.1) {
             // What rounding leaves outside belongs to the zone.
             circle.radius = circle.radius.max(farthest.0);
             break;
@@ -62,8 +62,9 @@ fn around_few(points: &[[f64; 2]], few: &[usize]) -> Option<Circle> {
             }
         }
     }
-    let holds =
-        |c: &Circle| few.iter().all(|&i| distance(points[i], c.center) <= c.radius * (1.0 + 4.0 * ROUNDING));
+    let holds = |c: &Circle| {
+        few.iter().all(|&i| distance(points[i], c.center) <= c.radius * (1.0 + 4.0 * RADIUS_ROUNDING))
+    };
     candidates.into_iter().filter(holds).min_by(|a, b| a.radius.total_cmp(&b.radius))
 }
 

@@ -12,15 +12,15 @@ use crate::space::{Point, Vector, dot, minus, plus, times, unit};
 use crate::spatial::neighbors::PointTree;
 
 /// Points that the other end is interpolated among.
-const AMONG: usize = 8;
+const INTERPOLATION_POINTS: usize = 8;
 /// Part of a turn, radians, beyond which neighbors tell nothing of a place on a cylinder.
-const REACH: f64 = std::f64::consts::FRAC_PI_4;
-/// Neighbors lie in a row where their moment across it is below this share of that along it: then they tell no slope across.
-const ROW: f64 = 0.03;
+const MAX_NEIGHBOR_TURN: f64 = std::f64::consts::FRAC_PI_4;
+/// Moment across a row over that along it below which neighbors lie in a row: then they tell no slope across.
+const MAX_ROW_MOMENT_SHARE: f64 = 0.03;
 /// Angle by which rounding may bend a row that a place is the middle of.
-const ROUNDING: f64 = 1e-9;
-/// How far beside a row a place may be, as a share of the row's root mean square length.
-const BESIDE: f64 = 0.3;
+const MAX_ROW_BEND: f64 = 1e-9;
+/// Distance from a row that a place may have, as a share of the row's root mean square length.
+const MAX_ROW_DISTANCE: f64 = 0.3;
 
 /// A two-point size.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -74,7 +74,7 @@ pub fn two_point_diameters(
         [Some(near(*turn)), (turn.abs() > std::f64::consts::FRAC_PI_2).then(|| near(beyond))]
     };
     let outside = places.iter().filter(|p| finite(p) && p[2] > 0.0);
-    let sheet = Sheet::of(outside.flat_map(unrolled).flatten().collect(), REACH * mean);
+    let sheet = Sheet::of(outside.flat_map(unrolled).flatten().collect(), MAX_NEIGHBOR_TURN * mean);
     let ends = |(p, [turn, along, radius]): (&Point, &[f64; 3])| {
         if progress.cancelled() {
             return Err(Cancelled);
@@ -146,7 +146,7 @@ impl Sheet {
         if !(u.is_finite() && v.is_finite()) {
             return None;
         }
-        let near = self.tree.k_nearest(&[u, v, 0.0], AMONG, None);
+        let near = self.tree.k_nearest(&[u, v, 0.0], INTERPOLATION_POINTS, None);
         let away = near.iter().map(|(_, n)| self.places[*n as usize]).map(|[a, b, h]| [a - u, b - v, h]);
         let near: Vec<[f64; 3]> = away.filter(|[a, ..]| a.abs() <= self.reach).collect();
         if let Some([.., height]) = near.iter().find(|[a, b, _]| *a == 0.0 && *b == 0.0) {
@@ -168,12 +168,12 @@ fn between(places: &[[f64; 3]]) -> Option<f64> {
     }
     let (moments, axes) = eigen(scatter);
     let along = |k: usize, p: &[f64; 3]| dot(axes[k], [p[0], p[1], 0.0]);
-    let row = moments[1] < ROW * moments[2];
+    let row = moments[1] < MAX_ROW_MOMENT_SHARE * moments[2];
     // The second axis is any one where all lie in a row exactly.
     let (middle, on) = (libm::hypot(mean[0], mean[1]), along(2, &mean));
     let beside = (middle * middle - on * on).max(0.0).sqrt();
     if row {
-        return (beside <= BESIDE * (moments[2] / n).sqrt())
+        return (beside <= MAX_ROW_DISTANCE * (moments[2] / n).sqrt())
             .then(|| in_row(places.iter().map(|p| [along(2, p), p[2]])))
             .flatten();
     }
@@ -213,7 +213,7 @@ fn surrounded(places: &[[f64; 3]]) -> bool {
     turns.sort_by(f64::total_cmp);
     let (Some(first), Some(last)) = (turns.first(), turns.last()) else { return false };
     let around = first + std::f64::consts::TAU - last;
-    turns.windows(2).map(|w| w[1] - w[0]).fold(around, f64::max) <= std::f64::consts::PI + ROUNDING
+    turns.windows(2).map(|w| w[1] - w[0]).fold(around, f64::max) <= std::f64::consts::PI + MAX_ROW_BEND
 }
 
 #[cfg(test)]

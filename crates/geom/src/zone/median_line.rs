@@ -1,7 +1,7 @@
 //! The extracted median line of a cylinder (ISO 17450-3:2016): the centers of its sections across the associated axis, each the
 //! center of the circle of least squares.
 
-use super::sections::{FEWEST, sections};
+use super::sections::{MIN_POINTS_PER_RING, sections};
 use crate::fit::{FitError, Method, Options, fit};
 use crate::frame::Pose;
 use crate::progress::{Cancelled, Progress};
@@ -67,7 +67,7 @@ fn global(frame: &Pose, local: Point) -> Point {
 
 /// The center of a section, at its mean height. `None` where the points do not go around.
 fn center(section: &[Point], progress: &dyn Progress) -> Result<Option<Point>, Cancelled> {
-    if section.len() < FEWEST {
+    if section.len() < MIN_POINTS_PER_RING {
         return Ok(None);
     }
     let flat: Vec<Point> = section.iter().map(|[x, y, _]| [*x, *y, 0.0]).collect();

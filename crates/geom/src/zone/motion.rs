@@ -32,7 +32,7 @@ pub struct Placed {
 }
 
 /// Most linear programs of one working set.
-const STEPS: usize = 250;
+const MAX_WORKING_SET_STEPS: usize = 250;
 
 /// How the search is set up.
 #[derive(Clone, Copy, Debug)]
@@ -206,7 +206,7 @@ impl Surveyed {
 }
 
 /// Unknowns: three shifts, three turns, the middle.
-const UNKNOWNS: usize = 7;
+const MOTION_UNKNOWNS: usize = 7;
 
 impl Work<'_> {
     fn room(&self, i: usize) -> f64 {
@@ -254,7 +254,12 @@ impl Work<'_> {
     }
 
     /// Both sides of each point's zone, and how they answer to the free motions.
-    fn functions(&self, working: &[usize], motion: &Rigid, middle: f64) -> Option<Vec<Function<UNKNOWNS>>> {
+    fn functions(
+        &self,
+        working: &[usize],
+        motion: &Rigid,
+        middle: f64,
+    ) -> Option<Vec<Function<MOTION_UNKNOWNS>>> {
         let mut all = Vec::with_capacity(2 * working.len());
         for &i in working {
             let p = motion.point(self.points[i]);
@@ -262,7 +267,7 @@ impl Work<'_> {
             let lever = times(1.0 / self.reach, cross(minus(p, self.turning()), gradient));
             let free = self.search.free;
             let held = |free: bool, x: f64| if free { x } else { 0.0 };
-            let mut slope: [f64; UNKNOWNS] = std::array::from_fn(|k| match k {
+            let mut slope: [f64; MOTION_UNKNOWNS] = std::array::from_fn(|k| match k {
                 0..3 => held(free.shift[k], gradient[k]),
                 3..6 => held(free.turn[k - 3], lever[k - 3]),
                 _ => 0.0,
@@ -279,14 +284,14 @@ impl Work<'_> {
 
     /// The step without what is held: no function tells the program where those unknowns are, so it leaves them at a side of
     /// the box.
-    fn freed(&self, mut x: [f64; UNKNOWNS]) -> [f64; UNKNOWNS] {
+    fn freed(&self, mut x: [f64; MOTION_UNKNOWNS]) -> [f64; MOTION_UNKNOWNS] {
         let Search { free, floating, .. } = self.search;
         let all = free.shift.iter().chain(&free.turn).chain([floating]);
         x.iter_mut().zip(all).filter(|(_, free)| !**free).for_each(|(x, _)| *x = 0.0);
         x
     }
 
-    fn stepped(&self, motion: &Rigid, x: &[f64; UNKNOWNS]) -> Rigid {
+    fn stepped(&self, motion: &Rigid, x: &[f64; MOTION_UNKNOWNS]) -> Rigid {
         let turn = times(1.0 / self.reach, [x[3], x[4], x[5]]);
         let turned = Rigid::rotation_about(self.turning(), turn);
         Rigid::translation_by([x[0], x[1], x[2]]).after(&turned).after(motion)
@@ -310,7 +315,7 @@ impl Work<'_> {
         let lost = ZoneError::NotSettled;
         let mut half = self.greatest(working, &motion, middle).ok_or(lost)?;
         let mut reach = 4.0 * self.range(working, &motion, middle, half).max(1e-9);
-        for _ in 0..STEPS {
+        for _ in 0..MAX_WORKING_SET_STEPS {
             let functions = self.functions(working, &motion, middle).ok_or(lost)?;
             let program = lowest(&functions, reach).ok_or(lost)?;
             let step = self.freed(program.x);

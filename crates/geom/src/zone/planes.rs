@@ -53,9 +53,9 @@ fn across(points: &[Point], normal: Vector) -> Slab {
 }
 
 /// Points up to which all are searched at once.
-const SMALL: usize = 4096;
+const MAX_POINTS_AT_ONCE: usize = 4096;
 /// Points of the first working set, where there are more.
-const SPREAD: usize = 512;
+const SPREAD_POINTS: usize = 512;
 
 /// The narrowest planes whose normal stands at `angle` (radians, 0 to π/2) to `axis` and is free to turn about it: zones of
 /// perpendicularity and angularity to a single datum (ISO 1101:2017, 17.11 and 17.12: the zone is held by the datum in its
@@ -81,7 +81,7 @@ pub fn slab_at_angle(points: &[Point], axis: Vector, angle: f64) -> Result<Slab,
     }
     let cone = Cone::about(axis, angle).ok_or(ZoneError::NoDirection)?;
     let pick = |index: &usize| points[*index];
-    let stride = if points.len() <= SMALL { 1 } else { points.len() / SPREAD };
+    let stride = if points.len() <= MAX_POINTS_AT_ONCE { 1 } else { points.len() / SPREAD_POINTS };
     let mut working: Vec<Point> = points.iter().step_by(stride).copied().collect();
     // Each round takes in the two points that stick out most; the working set's least is a lower bound of all points'.
     loop {

@@ -11,26 +11,26 @@ use crate::num::banded::dot;
 use crate::num::random::Random;
 use crate::space::{Aabb, Point};
 
-/// Functions at most.
-const MOST: usize = 120;
+/// Most functions.
+const MAX_FUNCTIONS: usize = 120;
 /// Multiplications that the basis may cost, about.
-const WORK: f64 = 4e8;
-/// Share of the points that functions may be.
-const OF_POINTS: usize = 4;
-/// Share of its own size that a function must have beside the others to be a new one.
-const NEW: f64 = 1e-6;
+const MAX_BASIS_WORK: f64 = 4e8;
+/// Least points for each function.
+const POINTS_PER_FUNCTION: usize = 4;
+/// Share of its own size that a function must have beyond the others to be a new one.
+const MIN_NEW_FUNCTION_SHARE: f64 = 1e-6;
 /// Standard deviations of its noise from which on a coefficient stands out.
-const STANDS_OUT: f64 = 2.0;
-/// Deviations of the noise beyond the greatest to be expected of all from which on a place is single.
-const SINGLE: f64 = 0.7;
-/// Of so many places one at most is single: else they are a rough form.
-const OF_PLACES: usize = 20;
-/// Rounds in which waves and single places are parted.
-const ROUNDS: usize = 6;
+const SIGNIFICANT_SIGMAS: f64 = 2.0;
+/// Deviations of the noise beyond the greatest to be expected of all, from which on a place is single.
+const SINGLE_PLACE_EXCESS: f64 = 0.7;
+/// Places for each single one at least: more single ones are a rough form.
+const PLACES_PER_SINGLE: usize = 20;
+/// Most rounds in which waves and single places are parted.
+const MAX_PARTING_ROUNDS: usize = 6;
 /// Draws that tell a mean range, to about 3 %.
-const RANGES: usize = 16;
+const RANGE_DRAWS: usize = 16;
 /// Standard errors of a variance beyond which it is larger than that of the noise.
-const CLEAR: f64 = 3.0;
+const LARGER_VARIANCE_ERRORS: f64 = 3.0;
 
 /// A form below noise.
 #[derive(Clone, Debug, PartialEq)]
@@ -68,14 +68,14 @@ pub fn smooth(places: &[Point], heights: &[f64], noise: f64, drawn: &[Vec<f64>])
     let basis = Basis::new(places);
     let variances = basis.variances(noise, drawn);
     let n = heights.len();
-    let limit = noise * ((2.0 * libm::log(n as f64)).sqrt() + SINGLE);
+    let limit = noise * ((2.0 * libm::log(n as f64)).sqrt() + SINGLE_PLACE_EXCESS);
     let mut single = vec![0.0; n];
     let mut waves = basis.waves(heights, &variances);
-    for _ in 0..ROUNDS {
+    for _ in 0..MAX_PARTING_ROUNDS {
         let beyond = |(h, w): (&f64, &f64)| if (h - w).abs() > limit { h - w } else { 0.0 };
         let next: Vec<f64> = heights.iter().zip(&waves.heights).map(beyond).collect();
         let count = next.iter().filter(|s| **s != 0.0).count();
-        if count * OF_PLACES > n {
+        if count * PLACES_PER_SINGLE > n {
             single = vec![0.0; n];
             waves = basis.waves(heights, &variances);
             break;
@@ -92,7 +92,7 @@ pub fn smooth(places: &[Point], heights: &[f64], noise: f64, drawn: &[Vec<f64>])
     let squares: f64 = rest.iter().map(|r| r * r).sum();
     let of_noise = n as f64 * noise * noise;
     let expected = (of_noise - waves.taken).max(0.0);
-    let clear = 1.0 + CLEAR * (2.0 / n as f64).sqrt();
+    let clear = 1.0 + LARGER_VARIANCE_ERRORS * (2.0 / n as f64).sqrt();
     let rough = if squares > clear * expected { (1.0 - expected / squares).sqrt() } else { 0.0 };
     Smooth {
         heights: (0..n).map(|i| waves.heights[i] + single[i] + rough * rest[i]).collect(),
@@ -121,13 +121,15 @@ impl Basis {
     /// As many whole degrees as points and time allow.
     fn new(places: &[Point]) -> Basis {
         let n = places.len();
-        let most = MOST.min(n / OF_POINTS).min((WORK / n as f64).sqrt() as usize);
+        let most =
+            MAX_FUNCTIONS.min(n / POINTS_PER_FUNCTION).min((MAX_BASIS_WORK / n as f64).sqrt() as usize);
         let bounds = Aabb::of(places);
         let half = 0.5 * bounds.diagonal();
         let coordinate = |k: usize| -> Option<Vec<f64>> {
             let (middle, reach) =
                 (0.5 * (bounds.min[k] + bounds.max[k]), 0.5 * (bounds.max[k] - bounds.min[k]));
-            (reach > NEW * half).then(|| places.iter().map(|p| (p[k] - middle) / reach).collect())
+            (reach > MIN_NEW_FUNCTION_SHARE * half)
+                .then(|| places.iter().map(|p| (p[k] - middle) / reach).collect())
         };
         let coordinates: Vec<Vec<f64>> = (0..3).filter_map(coordinate).collect();
         let mut functions = vec![vec![1.0 / (n as f64).sqrt(); n]];
@@ -178,7 +180,7 @@ impl Basis {
         let mut taken = 0.0;
         for j in 0..degrees {
             let c = coefficients[j];
-            if c * c > STANDS_OUT * STANDS_OUT * variances[j] {
+            if c * c > SIGNIFICANT_SIGMAS * SIGNIFICANT_SIGMAS * variances[j] {
                 taken += variances[j];
                 waves.iter_mut().zip(&self.functions[j]).for_each(|(w, f)| *w += c * f);
             }
@@ -196,7 +198,7 @@ impl Basis {
         let random = &mut Random::new(0);
         let n = self.functions[0].len();
         let (mut left, mut whole) = (0.0, 0.0);
-        for draw in 0..RANGES {
+        for draw in 0..RANGE_DRAWS {
             let mut waves = vec![0.0; n];
             for (f, v) in self.functions[..degrees].iter().zip(variances) {
                 let c = v.sqrt() * normal(random);
@@ -228,7 +230,7 @@ fn beside(mut function: Vec<f64>, others: &[Vec<f64>]) -> Option<Vec<f64>> {
         }
     }
     let left = dot(&function, &function).sqrt();
-    if left.is_nan() || left <= NEW * whole {
+    if left.is_nan() || left <= MIN_NEW_FUNCTION_SHARE * whole {
         return None;
     }
     function.iter_mut().for_each(|f| *f /= left);

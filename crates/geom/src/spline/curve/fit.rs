@@ -312,7 +312,7 @@ impl System {
 }
 
 /// Distances at parameters that were not found anew come down by this factor at most, as a rule.
-const FAR: f64 = 2.0;
+const REFINED_FALL: f64 = 2.0;
 
 /// A curve of as few control points as keep every point within `tolerance`: from many to few.
 ///
@@ -358,7 +358,7 @@ pub fn approximate<const D: usize>(
                 best = fitted;
                 continue;
             }
-            Ok(fitted) if fitted.max > FAR * tolerance => {
+            Ok(fitted) if fitted.max > REFINED_FALL * tolerance => {
                 kept.push(knots.values()[index]);
                 continue;
             }

@@ -11,7 +11,7 @@ const GAUSS: [(f64, f64); 3] = [
 ];
 
 /// Roundings of the greatest coordinate that the length of a span is uncertain by.
-const ROUNDINGS: f64 = 16.0;
+const LENGTH_ROUNDINGS: f64 = 16.0;
 
 impl<const D: usize> Curve<[f64; D]> {
     /// Length of the curve between two parameters, to about twelve digits; negative where `to < from`.
@@ -27,7 +27,7 @@ impl<const D: usize> Curve<[f64; D]> {
         places.extend(self.knots.distinct().into_iter().filter(|k| *k > from && *k < to));
         places.push(to);
         let greatest = self.points.iter().flatten().fold(0.0_f64, |m, x| m.max(x.abs()));
-        let lost = ROUNDINGS * f64::EPSILON * greatest;
+        let lost = LENGTH_ROUNDINGS * f64::EPSILON * greatest;
         places.windows(2).map(|w| self.halved(w[0], w[1], self.rule(w[0], w[1]), lost, 40)).sum()
     }
 

@@ -11,7 +11,7 @@ use super::super::value::Value;
 use crate::space::{Aabb, Point, Vector, dot};
 
 /// Rounding of a coefficient, as a share of the greatest of its kind: each is the sum of some dozens of products.
-const ROUNDING: f64 = 64.0 * f64::EPSILON;
+const COEFFICIENT_ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// A part of a surface about a point in Bernstein form.
 #[derive(Clone)]
@@ -45,7 +45,11 @@ impl Bernstein {
         let moment = |v: &[f64; 4]| v[0].abs().max(v[1].abs()).max(v[2].abs());
         let most = net.values.iter().map(moment).fold(0.0, f64::max);
         let square = squares.values.iter().map(|v| v[0].abs()).fold(0.0, f64::max);
-        Bernstein { moments: net, squares, noise: [ROUNDING * most, ROUNDING * square] }
+        Bernstein {
+            moments: net,
+            squares,
+            noise: [COEFFICIENT_ROUNDING * most, COEFFICIENT_ROUNDING * square],
+        }
     }
 
     /// The box of the coefficients, which holds the part.

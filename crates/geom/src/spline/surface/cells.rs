@@ -368,7 +368,7 @@ fn patch_bounds(surface: &Nurbs, shape: &Polynomials) -> Vec<[f64; 3]> {
 }
 
 /// Most steps in a span.
-const MOST: f64 = 65536.0;
+const MAX_STEPS_PER_SPAN: f64 = 65536.0;
 
 /// Steps in each span of both directions, so that each direction has half of the slack.
 fn steps(shape: &Polynomials, bounds: &[[f64; 3]], slack: f64) -> [Vec<usize>; 2] {
@@ -380,7 +380,7 @@ fn steps(shape: &Polynomials, bounds: &[[f64; 3]], slack: f64) -> [Vec<usize>; 2
     for (cell, [ss, st, tt]) in bounds.iter().enumerate() {
         let bends = [ss + ratio * st, tt + st / ratio];
         for (k, at) in [cell / counts[1], cell % counts[1]].into_iter().enumerate() {
-            let n = (bends[k] / slack).sqrt().ceil().clamp(1.0, MOST);
+            let n = (bends[k] / slack).sqrt().ceil().clamp(1.0, MAX_STEPS_PER_SPAN);
             out[k][at] = out[k][at].max(n as usize);
         }
     }

@@ -18,9 +18,10 @@ pub enum Degenerate {
 }
 
 /// Share of the coordinates below which a size is that of their rounding: twelve digits are written.
-const NO_SIZE: f64 = 1e-12;
-/// Share of the size below which control points are at one place or on one line: what is left of coordinates written with ten digits.
-const NEAR: f64 = 1e-9;
+const NO_SIZE_DIGITS: f64 = 1e-12;
+/// Share of the size below which control points lie at one place or on one line: coordinates written with ten digits are
+/// rounded so far.
+const SAME_POINT_SHARE: f64 = 1e-9;
 
 impl Nurbs {
     /// What the surface lacks: nothing of a sound one, one entry where it has no area, else one for each edge that is a single place.
@@ -37,10 +38,10 @@ impl Nurbs {
         let (bounds, [m, n]) = (Aabb::of(&points), self.counts());
         let greatest = bounds.min.iter().chain(&bounds.max).fold(0.0, |g: f64, x| g.max(x.abs()));
         let size = bounds.diagonal();
-        if size <= NO_SIZE * greatest {
+        if size <= NO_SIZE_DIGITS * greatest {
             return vec![Degenerate::Place];
         }
-        let near = NEAR * size;
+        let near = SAME_POINT_SHARE * size;
         let far = points.iter().map(|p| minus(*p, points[0]));
         let far = far.reduce(|a, b| if norm(b) > norm(a) { b } else { a });
         if let Some((along, _)) = far.and_then(unit)

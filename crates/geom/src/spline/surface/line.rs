@@ -11,7 +11,7 @@ use super::super::value::Value;
 use super::tensor::Surface;
 
 /// Places nearer to each other on the line than this share of it are one.
-const SAME: f64 = 1e-12;
+const SAME_LINE_PLACE: f64 = 1e-12;
 
 impl<V: Value> Surface<V> {
     /// The curve `S(from + t (to − from))` for `t` from 0 to 1, exactly: a B-spline of degree `p + q`, with a knot `p + q` times where
@@ -77,9 +77,10 @@ impl<V: Value> Surface<V> {
 /// Where a line crosses inner knots, as shares of its length, ascending; not at its ends.
 fn crossings(knots: &[Knots; 2], from: [f64; 2], to: [f64; 2]) -> Vec<f64> {
     let of = |k: usize| knots[k].distinct().into_iter().map(move |knot| (knot - from[k]) / (to[k] - from[k]));
-    let mut all: Vec<f64> = of(0).chain(of(1)).filter(|t| (SAME..=1.0 - SAME).contains(t)).collect();
+    let mut all: Vec<f64> =
+        of(0).chain(of(1)).filter(|t| (SAME_LINE_PLACE..=1.0 - SAME_LINE_PLACE).contains(t)).collect();
     all.sort_by(f64::total_cmp);
-    all.dedup_by(|b, a| *b - *a < SAME);
+    all.dedup_by(|b, a| *b - *a < SAME_LINE_PLACE);
     all
 }
 

@@ -12,8 +12,8 @@
 use super::Patches;
 use crate::space::{Vector, cross, dot, minus, norm, times, unit};
 
-/// Steps to the direction of the greatest spread. It need not be met: any plane is good, the best one says most.
-const STEPS: usize = 32;
+/// Steps to the direction of the greatest spread. It need not be met: any plane is valid, the best one says most.
+const SPREAD_STEPS: usize = 32;
 
 impl Patches {
     /// A distance: of points nearer than that to a foot, a place where the squared distance stands still, no other place is nearer.
@@ -81,7 +81,7 @@ impl Patches {
             }
         }
         let mut found = unit(cross(u, v)).map_or([0.0, 0.0, 1.0], |(n, _)| n);
-        for _ in 0..STEPS {
+        for _ in 0..SPREAD_STEPS {
             let next = spread.map(|row| dot(row, found));
             found = unit(next).map_or(found, |(n, _)| n);
         }

@@ -7,7 +7,7 @@
 
 use super::associate::{across_normal, associate, outside};
 use super::attitude::{AS_DRAWN, Held, nearest};
-use super::joint::{Form, Joint, MOST, Stand};
+use super::joint::{Form, Joint, MAX_COMMON_FEATURES, Stand};
 use super::{Datum, DatumError, Rule, Source};
 use crate::fit::{self, Options};
 use crate::progress::Progress;
@@ -29,7 +29,7 @@ pub(super) struct Common<'a> {
 impl Common<'_> {
     /// The datum.
     pub(super) fn associated(&self) -> Result<Datum, DatumError> {
-        if !(2..=MOST).contains(&self.sources.len()) {
+        if !(2..=MAX_COMMON_FEATURES).contains(&self.sources.len()) {
             return Err(self.wrong("it is made of two or three features"));
         }
         let all = |kinds: &[Kind]| self.sources.iter().all(|s| kinds.contains(&s.kind));

@@ -15,9 +15,9 @@ use crate::space::{Aabb, Point, Vector, minus, plus, times};
 use crate::zone::ZoneError;
 
 /// Most features that one datum is made of.
-pub(super) const MOST: usize = 3;
+pub(super) const MAX_COMMON_FEATURES: usize = 3;
 /// Unknowns: shifts along x and y, tilts towards x and y, the sizes.
-const UNKNOWNS: usize = 4 + MOST;
+const JOINT_UNKNOWNS: usize = 4 + MAX_COMMON_FEATURES;
 
 /// What the elements share.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,7 +33,7 @@ pub(super) enum Form {
 pub(super) struct Stand {
     pub pose: Pose,
     /// Radius or height of each; heights are along z from the frame's origin.
-    pub sizes: [f64; MOST],
+    pub sizes: [f64; MAX_COMMON_FEATURES],
 }
 
 /// The features of one datum, seen from their middle and at unit size, so that neither place nor size costs digits.
@@ -43,11 +43,11 @@ pub(super) struct Joint<'a> {
     points: Vec<(usize, Point)>,
     center: Point,
     scale: f64,
-    free: [bool; UNKNOWNS],
+    free: [bool; JOINT_UNKNOWNS],
 }
 
 /// Steps below this are in the reach of rounding: the sum of squares no longer shows them.
-const ROUNDING_REACH: f64 = 1e-9;
+const HIDDEN_SQUARES_STEP: f64 = 1e-9;
 
 impl<'a> Joint<'a> {
     /// `shift` and `tilt`: what the frame may do, along and towards its x and y.
@@ -70,7 +70,7 @@ impl<'a> Joint<'a> {
     /// The elements of all features about this axis or normal, through `at`, each of its mean size.
     pub(super) fn about(&self, at: Point, z: Vector, toward: Vector) -> Stand {
         let pose = Pose::toward(times(self.scale, minus(at, self.center)), z, toward);
-        let mut stand = Stand { pose, sizes: [0.0; MOST] };
+        let mut stand = Stand { pose, sizes: [0.0; MAX_COMMON_FEATURES] };
         for (part, size) in stand.sizes.iter_mut().enumerate().take(self.sources.len()) {
             if self.free[4 + part] {
                 let own = self.points.iter().filter(|(p, _)| *p == part);
@@ -96,9 +96,9 @@ impl<'a> Joint<'a> {
     }
 
     /// Distance of a point from its feature's element, and its derivatives by the unknowns.
-    fn distance(&self, stand: &Stand, (part, q): (usize, Point)) -> (f64, [f64; UNKNOWNS]) {
+    fn distance(&self, stand: &Stand, (part, q): (usize, Point)) -> (f64, [f64; JOINT_UNKNOWNS]) {
         let [x, y, z] = stand.pose.local(q);
-        let mut slope = [0.0; UNKNOWNS];
+        let mut slope = [0.0; JOINT_UNKNOWNS];
         let (value, sized) = match self.form {
             Form::Axis => {
                 let r = libm::hypot(x, y);
@@ -116,7 +116,7 @@ impl<'a> Joint<'a> {
     }
 
     /// The residuals of a point for least squares: of a line in space there are two.
-    fn rows(&self, stand: &Stand, at: (usize, Point), mut take: impl FnMut(f64, [f64; UNKNOWNS])) {
+    fn rows(&self, stand: &Stand, at: (usize, Point), mut take: impl FnMut(f64, [f64; JOINT_UNKNOWNS])) {
         if self.form == Form::Axis && self.sources[at.0].kind == Kind::Line {
             let [x, y, z] = stand.pose.local(at.1);
             take(x, self.freed([-1.0, 0.0, -z, 0.0, 0.0, 0.0, 0.0]));
@@ -127,12 +127,12 @@ impl<'a> Joint<'a> {
         take(d, slope);
     }
 
-    fn freed(&self, mut x: [f64; UNKNOWNS]) -> [f64; UNKNOWNS] {
+    fn freed(&self, mut x: [f64; JOINT_UNKNOWNS]) -> [f64; JOINT_UNKNOWNS] {
         x.iter_mut().zip(self.free).filter(|(_, free)| !free).for_each(|(x, _)| *x = 0.0);
         x
     }
 
-    fn moved(&self, stand: &Stand, x: &[f64; UNKNOWNS]) -> Stand {
+    fn moved(&self, stand: &Stand, x: &[f64; JOINT_UNKNOWNS]) -> Stand {
         let pose = stand.pose.moved([x[0], x[1], 0.0], [x[2], x[3]], 0.0);
         Stand { pose, sizes: std::array::from_fn(|k| stand.sizes[k] + x[4 + k]) }
     }
@@ -159,7 +159,7 @@ impl<'a> Joint<'a> {
             let length = step.iter().fold(0.0f64, |m, x| m.max(x.abs()));
             let next = self.moved(&stand, &step);
             let sum = self.square(&next);
-            let unseen = damping == 0.0 && length < ROUNDING_REACH;
+            let unseen = damping == 0.0 && length < HIDDEN_SQUARES_STEP;
             if sum < square || unseen {
                 (stand, square) = (next, sum);
                 damping = if damping < 1e-6 { 0.0 } else { damping / 8.0 };
@@ -167,7 +167,7 @@ impl<'a> Joint<'a> {
                     break;
                 }
                 last = length;
-            } else if length < ROUNDING_REACH || damping > 1e12 {
+            } else if length < HIDDEN_SQUARES_STEP || damping > 1e12 {
                 break;
             } else {
                 damping = (8.0 * damping).max(1e-3);
@@ -177,9 +177,9 @@ impl<'a> Joint<'a> {
     }
 
     /// Marquardt's step; `None` where the points leave an unknown without influence.
-    fn step(&self, stand: &Stand, damping: f64) -> Option<[f64; UNKNOWNS]> {
-        let mut normal = vec![vec![0.0; UNKNOWNS]; UNKNOWNS];
-        let mut right = vec![0.0; UNKNOWNS];
+    fn step(&self, stand: &Stand, damping: f64) -> Option<[f64; JOINT_UNKNOWNS]> {
+        let mut normal = vec![vec![0.0; JOINT_UNKNOWNS]; JOINT_UNKNOWNS];
+        let mut right = vec![0.0; JOINT_UNKNOWNS];
         for at in &self.points {
             self.rows(stand, *at, |d, g| {
                 for ((row, sum), slope) in normal.iter_mut().zip(&mut right).zip(g) {
@@ -195,7 +195,7 @@ impl<'a> Joint<'a> {
             }
         }
         let x = solve(normal, right)?;
-        let step: [f64; UNKNOWNS] = std::array::from_fn(|k| x[k]);
+        let step: [f64; JOINT_UNKNOWNS] = std::array::from_fn(|k| x[k]);
         // Longer than the parts together: the normal matrix has lost its digits.
         step.iter().all(|x| x.abs() < 10.0).then_some(step)
     }
