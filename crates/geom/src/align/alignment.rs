@@ -12,7 +12,7 @@ pub enum Start {
     #[default]
     Anywhere,
     /// From this motion, which should be near: `reference_from_measured`.
-    Given(Rigid),
+    From(Rigid),
 }
 
 /// How a best fit is done.
@@ -67,8 +67,8 @@ pub enum AlignWarning {
         share: f64,
         /// The worst row, from 0.
         row: usize,
-        /// What is left of it, millimeters.
-        left: f64,
+        /// Its residual, millimeters.
+        residual: f64,
         /// Whether a mirror image would leave less than half as much.
         mirrored: bool,
     },
@@ -94,7 +94,7 @@ pub enum AlignWarning {
         factor: f64,
     },
     /// So few points that a pose which fits them may be found by chance, or the right one missed.
-    Few {
+    FewPoints {
         /// Points given.
         count: usize,
     },
@@ -106,7 +106,7 @@ pub enum AlignWarning {
     },
     /// Much of the measured does not count: it is so much farther from the reference than the rest that it was taken for something else,
     /// as an outlier is. A face that was made wrong looks the same.
-    LeftOut {
+    Excluded {
         /// Share of it, 0 to 1.
         share: f64,
         /// Distance of the farthest of it that has a place on the reference, millimeters.
@@ -141,7 +141,7 @@ pub struct Alignment {
     /// Points with a weight.
     pub used: u64,
     /// Points without: outliers, those beside a boundary edge, those whose normal looks away.
-    pub left_out: u64,
+    pub excluded_points: u64,
     /// Share of the measured surface that counts, 0 to 1.
     pub share: f64,
     /// Covariance of the rotation vector about `center` (radians) and the translation (mm), in the frame of the

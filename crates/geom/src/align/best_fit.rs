@@ -20,8 +20,8 @@ const COMPARING_SAMPLES: usize = 5000;
 const MAX_SINGLE_STAGE_SAMPLES: usize = 100_000;
 /// Samples for each one of that part.
 const SAMPLES_PER_FIRST_STAGE: usize = 8;
-/// Worth of a start below which normals are tried the other way round.
-const MIN_CERTAIN_WORTH: f64 = 0.6;
+/// Score of a start below which normals are tried the other way round.
+const MIN_CERTAIN_SCORE: f64 = 0.6;
 /// Fewer points than these are found wrongly now and then: of clouds of 20 about one in ten, of 25 none in tries with a bracket.
 const MIN_CERTAIN_POINTS: usize = 50;
 
@@ -74,11 +74,11 @@ pub fn best_fit(
     let work = Work::new(reference, &boundary_edges, options, &samples);
     let mut start = match options.start {
         Start::Anywhere => work.search(&samples, progress)?,
-        Start::Given(pose) => Found { poses: vec![pose], turned: false, scale: None, search: None },
+        Start::From(pose) => Found { poses: vec![pose], turned: false, scale: None, search: None },
     };
     let turned = |samples: Samples| if start.turned { samples.turned() } else { samples };
     let samples = turned(samples);
-    let some = samples.thinned(COMPARING_SAMPLES, options.seed);
+    let subset = samples.thinned(COMPARING_SAMPLES, options.seed);
     // The pose is that of the surface, its figures are those of the points: errors of a scan are independent there at best.
     let all = work.problem(&samples);
     let surface = match measured {
@@ -90,20 +90,20 @@ pub fn best_fit(
         .then(|| whole.thinned(whole.points.len() / SAMPLES_PER_FIRST_STAGE, options.seed));
     let part = part.as_ref().map(|p| work.problem(p));
     let surface = surface.as_ref().map(|s| work.problem(s));
-    let settle = Settle { work: &work, all, surface, part, some: &some };
-    let (pose, sigma) = work.choose(&start.poses, &some, progress)?;
+    let settle = Settle { work: &work, all, surface, part, subset: &subset };
+    let (pose, sigma) = work.choose(&start.poses, &subset, progress)?;
     let mut result = settle.from(pose, sigma, progress)?;
-    if let Some(pose) = work.where_all_count(&result, &some, progress)? {
+    if let Some(pose) = work.where_all_count(&result, &subset, progress)? {
         result = settle.from(pose, sigma, progress)?;
     }
-    let mut told = vec![];
+    let mut warnings = vec![];
     if let Some(search) = start.search.take() {
         let look = Look { settle: &settle, search: &search, samples: &samples };
-        told = look.around(&mut start.poses, (&mut result, sigma), progress)?;
+        warnings = look.around(&mut start.poses, (&mut result, sigma), progress)?;
         start.search = Some(search);
     }
     result.warnings = work.warnings(&result, &start, measured, progress)?;
-    result.warnings.extend(told);
+    result.warnings.extend(warnings);
     Ok(result)
 }
 
@@ -144,14 +144,14 @@ struct Found {
 impl Work<'_> {
     /// Looks for starts.
     fn search(&self, samples: &Samples, progress: &dyn Progress) -> Result<Found, AlignError> {
-        let few = samples.few(START_SAMPLES, self.options.seed);
-        let mut search = Search::new(self.target, few, self.options.seed, progress)?;
+        let start_samples = samples.oriented_subset(START_SAMPLES, self.options.seed);
+        let mut search = Search::new(self.target, start_samples, self.options.seed, progress)?;
         let mut candidates = search.candidates(&[Rigid::IDENTITY], progress)?;
-        let best = |c: &[Candidate]| c.first().map_or(0.0, |c| c.worth);
+        let best = |c: &[Candidate]| c.first().map_or(0.0, |c| c.score);
         let as_is = best(&candidates);
         let mut scale = self.scale(&search, as_is, progress)?;
         let mut turned = false;
-        if as_is < MIN_CERTAIN_WORTH && scale.is_none() && search.samples.oriented {
+        if as_is < MIN_CERTAIN_SCORE && scale.is_none() && search.samples.oriented {
             search.turn();
             let others = search.candidates(&[Rigid::IDENTITY], progress)?;
             scale = self.scale(&search, best(&others).max(as_is), progress)?;
@@ -176,9 +176,9 @@ impl Work<'_> {
                 continue;
             }
             let scaled = search.scaled(factor);
-            let worth = scaled.candidates(&[Rigid::IDENTITY], progress)?.first().map_or(0.0, |c| c.worth);
+            let score = scaled.candidates(&[Rigid::IDENTITY], progress)?.first().map_or(0.0, |c| c.score);
             // A tiny piece lies well on any flat place: what counts is that all of it fits at full size.
-            if worth > MIN_CERTAIN_WORTH && (worth > as_is || ratio < 1.0) {
+            if score > MIN_CERTAIN_SCORE && (score > as_is || ratio < 1.0) {
                 return Ok(Some(factor));
             }
         }
@@ -217,11 +217,11 @@ impl Work<'_> {
         }
         let undetermined = |&(motion, width)| AlignWarning::Undetermined { motion, width: Some(width) };
         warnings.extend(result.slack.iter().map(undetermined));
-        let few = match measured {
+        let is_sparse = match measured {
             Measured::Points { points, .. } => start.search.is_some() && points.len() < MIN_CERTAIN_POINTS,
             Measured::Mesh(_) => false,
         };
-        warnings.extend(few.then_some(AlignWarning::Few { count: measured.points().len() }));
+        warnings.extend(is_sparse.then_some(AlignWarning::FewPoints { count: measured.points().len() }));
         warnings.extend((!result.converged).then_some(AlignWarning::NotConverged));
         Ok(warnings)
     }

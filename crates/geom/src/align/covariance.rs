@@ -58,7 +58,7 @@ pub(super) fn covariance(
     let count = cells.len() as f64;
     let mut out = [[0.0; 6]; 6];
     for cell in cells.values() {
-        let moves = left_out(spectrum, cell);
+        let moves = shift_without_cell(spectrum, cell);
         for i in 0..6 {
             for j in 0..6 {
                 out[i][j] += moves[i] * moves[j] * (count - 1.0).max(1.0) / count;
@@ -119,7 +119,7 @@ fn cells(system: &System, matches: &[Match]) -> BTreeMap<[i64; 3], Cell> {
 }
 
 /// How far the fit moves when a cell is left out, to first order: what the others say without it, in the unknowns in which all say 1.
-fn left_out(spectrum: &Spectrum, cell: &Cell) -> Six {
+fn shift_without_cell(spectrum: &Spectrum, cell: &Cell) -> Six {
     let first = spectrum.fixed;
     let free = 6 - first;
     let white = |k: usize| spectrum.vectors[first + k].map(|x| x / spectrum.values[first + k].sqrt());

@@ -88,9 +88,9 @@ impl Field {
     }
 
     /// How well samples fit the surface, one after the other: the sum over them of 1 on it, 0 beyond `reach` of it or turned away.
-    pub fn worth(&self, placed: &Placed, blocks: &[SampleBlock], reach: f64) -> f64 {
+    pub fn score(&self, placed: &Placed, blocks: &[SampleBlock], reach: f64) -> f64 {
         let per_reach = (1.0 / (reach * self.scale)) as f32;
-        let sums = worths(self, placed, blocks, per_reach);
+        let sums = scores(self, placed, blocks, per_reach);
         sums.iter().map(|s| f64::from(*s)).sum()
     }
 }
@@ -143,7 +143,7 @@ impl SampleBlock {
 
 widest! {
     /// The sums of the worths of every eighth sample.
-    fn worths[][](field: &Field, placed: &Placed, blocks: &[SampleBlock], per_reach: f32) -> [f32; SAMPLES_PER_BLOCK] = {
+    fn scores[][](field: &Field, placed: &Placed, blocks: &[SampleBlock], per_reach: f32) -> [f32; SAMPLES_PER_BLOCK] = {
         let mut sums = [0.0f32; SAMPLES_PER_BLOCK];
         let outside = field.cells.len() - 1;
         let counts = field.counts.map(|c| c as u32);
@@ -186,9 +186,9 @@ widest! {
             }
             for l in 0..SAMPLES_PER_BLOCK {
                 let share = height[l] * per_reach;
-                let worth = (1.0 - share * share).max(0.0);
+                let score = (1.0 - share * share).max(0.0);
                 let agrees = cosine[l].max(-cosine[l] * block.either) >= block.least[l];
-                sums[l] += if agrees { worth } else { 0.0 };
+                sums[l] += if agrees { score } else { 0.0 };
             }
         }
         sums

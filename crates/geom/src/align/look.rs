@@ -40,38 +40,38 @@ impl Look<'_> {
         progress: &dyn Progress,
     ) -> Result<Vec<AlignWarning>, AlignError> {
         let Look { settle, search, samples } = *self;
-        let (work, some) = (settle.work, settle.some);
-        let mut told = vec![];
+        let (work, subset) = (settle.work, settle.subset);
+        let mut warnings = vec![];
         if work.options.robust && result.share < MIN_COUNTED_SHARE {
-            told.extend(self.again(poses, result, progress)?);
+            warnings.extend(self.again(poses, result, progress)?);
         }
         if result.share < MIN_COUNTED_SHARE || result.median > POOR_RESIDUAL_SHARE * work.size(samples) {
-            match work.mirror(search, result, samples, some, progress)? {
+            match work.mirror(search, result, samples, subset, progress)? {
                 Mirror::Same => {}
                 Mirror::Better(pose) => {
                     poses.push(result.reference_from_measured);
                     let (pose, sigma) =
-                        work.choose(&[result.reference_from_measured, pose], some, progress)?;
+                        work.choose(&[result.reference_from_measured, pose], subset, progress)?;
                     *result = settle.from(pose, sigma, progress)?;
                 }
-                Mirror::Mirrored { ratio } => told.push(AlignWarning::Mirrored { ratio }),
+                Mirror::Mirrored { ratio } => warnings.push(AlignWarning::Mirrored { ratio }),
             }
         }
-        let revolved = work.revolved(search, result, some, progress)?;
+        let revolved = work.revolved(search, result, subset, progress)?;
         let own = result.reference_from_measured;
         if let Some(near) = revolved.iter().find(|p| search.apart(p, &own) <= search.spacing) {
-            let (pose, sigma) = work.choose(&[own, *near], some, progress)?;
+            let (pose, sigma) = work.choose(&[own, *near], subset, progress)?;
             if search.apart(&own, &pose) > SAME_POSE_SPACINGS * search.spacing {
                 *result = settle.from(pose, sigma, progress)?;
             }
         }
         let poses = (&poses[..], &revolved[..]);
-        result.alternatives = work.alternatives(search, poses, result, some, progress)?;
+        result.alternatives = work.alternatives(search, poses, result, subset, progress)?;
         if let Some(pose) = better(search, result) {
             *result = settle.from(pose, sigma, progress)?;
-            result.alternatives = work.alternatives(search, poses, result, some, progress)?;
+            result.alternatives = work.alternatives(search, poses, result, subset, progress)?;
         }
-        Ok(told)
+        Ok(warnings)
     }
 
     /// Looks for the start again, and beside where it leads.
@@ -82,15 +82,15 @@ impl Look<'_> {
         progress: &dyn Progress,
     ) -> Result<Option<AlignWarning>, AlignError> {
         let Look { settle, search, samples } = *self;
-        let (work, some) = (settle.work, settle.some);
+        let (work, subset) = (settle.work, settle.subset);
         let own = result.reference_from_measured;
-        let again = work.sought_again(search, result, samples, some, progress)?;
+        let again = work.sought_again(search, result, samples, subset, progress)?;
         poses.push(own);
         poses.extend(&again);
-        let (pose, sigma) = work.choose(&[&[own][..], &again].concat(), some, progress)?;
+        let (pose, sigma) = work.choose(&[&[own][..], &again].concat(), subset, progress)?;
         *result = settle.from(pose, sigma, progress)?;
         for _ in 0..MAX_LOOK_ROUNDS {
-            let pose = work.around(search, result, some, progress)?;
+            let pose = work.around(search, result, subset, progress)?;
             if search.apart(&result.reference_from_measured, &pose) <= SAME_POSE_SPACINGS * search.spacing {
                 break;
             }
@@ -109,16 +109,16 @@ impl Work<'_> {
         search: &Search,
         result: &Alignment,
         samples: &Samples,
-        some: &Samples,
+        subset: &Samples,
         progress: &dyn Progress,
     ) -> Result<Vec<Rigid>, AlignError> {
         let mut found = vec![];
         for k in 1..=REPEATED_SEARCHES as u64 {
             let seed = self.options.seed.wrapping_add(k);
-            let again = search.again(samples.few(START_SAMPLES, seed), seed);
+            let again = search.again(samples.oriented_subset(START_SAMPLES, seed), seed);
             let poses = self.briefly(&again, &[Rigid::IDENTITY], progress)?;
             if !poses.is_empty() {
-                found.push(self.choose(&poses, some, progress)?.0);
+                found.push(self.choose(&poses, subset, progress)?.0);
             }
             if found.last().is_some_and(|pose| is_same(search, result, pose)) {
                 break;
@@ -132,22 +132,22 @@ impl Work<'_> {
         &self,
         search: &Search,
         result: &Alignment,
-        some: &Samples,
+        subset: &Samples,
         progress: &dyn Progress,
     ) -> Result<Rigid, AlignError> {
         let pose = result.reference_from_measured;
-        let few = self.problem(&search.samples);
-        let mut matches = few.matches(&pose, f64::INFINITY, progress)?;
-        let sigma = few.deviation(&matches);
-        few.weigh(&mut matches, sigma);
-        let system = few.system_of_facets(&matches, &pose);
+        let coarse = self.problem(&search.samples);
+        let mut matches = coarse.matches(&pose, f64::INFINITY, progress)?;
+        let sigma = coarse.deviation(&matches);
+        coarse.weigh(&mut matches, sigma);
+        let system = coarse.system_of_facets(&matches, &pose);
         let tried = near::poses(&system, &result.freedoms, &pose, search.spacing);
         let cap = self.cap(SIGMA_OVER_MAD * result.median);
-        let best = search.nearest_of(&tried, &pose, &few, cap, progress)?;
+        let best = search.nearest_of(&tried, &pose, &coarse, cap, progress)?;
         if best.is_empty() {
             return Ok(pose);
         }
-        Ok(self.choose(&[&[pose][..], &best].concat(), some, progress)?.0)
+        Ok(self.choose(&[&[pose][..], &best].concat(), subset, progress)?.0)
     }
 
     /// Poses turned about the axis of a reference that is a body of revolution but for a detail; none where the shape leaves a turn free.
@@ -155,15 +155,15 @@ impl Work<'_> {
         &self,
         search: &Search,
         result: &Alignment,
-        some: &Samples,
+        subset: &Samples,
         progress: &dyn Progress,
     ) -> Result<Vec<Rigid>, AlignError> {
         if result.freedoms.iter().any(|f| matches!(f, Freedom::Turns { .. })) {
             return Ok(vec![]);
         }
-        let part = some.first(RIVAL_SAMPLES);
-        let [few, part] = [&search.samples, &part].map(|s| self.problem(s));
+        let finer = subset.first(RIVAL_SAMPLES);
+        let [coarse, finer] = [&search.samples, &finer].map(|s| self.problem(s));
         let cap = self.cap(SIGMA_OVER_MAD * result.median);
-        revolved::poses(search, &result.reference_from_measured, [&few, &part], cap, progress)
+        revolved::poses(search, &result.reference_from_measured, [&coarse, &finer], cap, progress)
     }
 }

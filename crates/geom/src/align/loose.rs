@@ -241,7 +241,7 @@ impl<'a> Place<'a> {
     /// none of these, between them. `None` where there is no chord. What is held follows.
     fn middle(&self, progress: &dyn Progress) -> Result<Option<Rigid>, AlignError> {
         let part = self.problem.samples.first(RIVAL_SAMPLES);
-        let few = Problem { samples: &part, ..*self.problem };
+        let sampled = Problem { samples: &part, ..*self.problem };
         let mut between = vec![];
         for (i, a) in self.weak.iter().enumerate() {
             for b in &self.weak[..i] {
@@ -256,8 +256,8 @@ impl<'a> Place<'a> {
         let mut to_middles = |chords: &[Six]| -> Result<bool, AlignError> {
             let mut any = false;
             for six in chords {
-                let mut at = Place { problem: &few, pose, weak: vec![], ..*self };
-                at.least = few.cost(&pose, at.cap(), progress)?;
+                let mut at = Place { problem: &sampled, pose, weak: vec![], ..*self };
+                at.least = sampled.cost(&pose, at.cap(), progress)?;
                 let forth = at.rough_way(six, progress)?;
                 let back = at.rough_way(&six.map(|x| -x), progress)?;
                 any |= forth.max(back) > 0.0;

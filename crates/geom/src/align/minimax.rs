@@ -3,8 +3,8 @@
 //! Least squares share the deviations out; here the worst place alone decides, so that a part is as far within a zone about its
 //! reference as it can be. A sequence of linear programs in small motions (`zone::motion`), over those points that stick out most.
 
-use super::beside::Searched;
 use super::counting::{Counting, NotCounted, weighted_mean};
+use super::perturbed::Searched;
 use super::sample::Measured;
 use super::{AlignError, Alignment, BestFit, Start, Target};
 use crate::progress::Progress;
@@ -27,12 +27,12 @@ pub struct Minimax {
     /// Points that count.
     pub used: u64,
     /// Points that do not.
-    pub left_out: NotCounted,
+    pub not_counted: NotCounted,
 }
 
 /// The motion near `from`, a best fit of the same `measured` to the same `reference`, after which the greatest distance of a point
 /// from the surface is least. Of a mesh its vertices count. Not those, unless `options` say so, that lie beyond ten standard deviations of the best fit
-/// and a hundredth of the diagonal of the reference: they are told in `left_out`, with those that have no place on the reference.
+/// and a hundredth of the diagonal of the reference: they are told in `not_counted`, with those that have no place on the reference.
 ///
 /// A local search, begun again beside where it ends, and at a given start that is better: the best fit decides near which pose. Cost: three to ten
 /// closest-point searches of all points, one by one, as many for each time that it goes on from beside, and some thousand of single points.
@@ -58,7 +58,7 @@ pub struct Minimax {
 /// let tree = Tree::build(&reference)?;
 /// let target = Target::new(&reference, &tree);
 /// let measured = Measured::Points { points: &points, normals: None };
-/// let options = BestFit { start: Start::Given(Rigid::IDENTITY), ..BestFit::default() };
+/// let options = BestFit { start: Start::From(Rigid::IDENTITY), ..BestFit::default() };
 /// let fit = best_fit(&measured, &target, &options, &Silent)?;
 /// assert!(minimax(&measured, &target, &fit, &options, &Silent)?.greatest < 1e-12);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -84,7 +84,7 @@ pub fn minimax(
     };
     let searched = Searched { points, distance: &distance, room: &[], seed: options.seed };
     let mut found = searched.lowest(start, progress)?;
-    if let Start::Given(pose) = options.start
+    if let Start::From(pose) = options.start
         && points.iter().all(|p| distance(0, pose.point(*p)).is_some_and(|d| d.0 < found.half))
     {
         found = searched.lowest(pose, progress)?;
@@ -99,6 +99,6 @@ pub fn minimax(
         rms: sum(&|d| d * d).sqrt(),
         mean_abs: sum(&|d| d),
         used: points.len() as u64,
-        left_out: counting.not_counted(&motion, reference, progress)?,
+        not_counted: counting.not_counted(&motion, reference, progress)?,
     })
 }

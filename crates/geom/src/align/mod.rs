@@ -18,7 +18,7 @@
 //! 3. *What the result is worth* (`loose`, `rims`, `freedom`, `covariance`, `wall`): covariance, motions that are not held, other poses that fit as
 //!    well (`look`, `mirror`).
 //!
-//! [`minimax`] and [`into_zones`] begin there and search on by linear programs (`counting`, `beside`).
+//! [`minimax`] and [`into_zones`] begin there and search on by linear programs (`counting`, `perturbed`).
 //!
 //! All answers are the same for any number of threads; random choices depend on the seed alone.
 
@@ -26,7 +26,6 @@
 
 mod alignment;
 mod alternatives;
-mod beside;
 mod best_fit;
 mod counting;
 mod covariance;
@@ -40,6 +39,7 @@ mod loose;
 mod minimax;
 mod mirror;
 mod near;
+mod perturbed;
 mod response;
 mod revolved;
 mod rims;

@@ -15,8 +15,8 @@ use std::f64::consts::{PI, TAU};
 
 /// Turns about the axis that are tried.
 const AXIS_TURNS: i32 = 144;
-/// Share of the worth at the pose that half of these turns must have: then it is a body of revolution.
-const ALIKE_TURN_WORTH: f64 = 0.7;
+/// Share of the score at the pose that half of these turns must have: then it is a body of revolution.
+const ALIKE_TURN_SCORE: f64 = 0.7;
 /// Iterations that bring each turned pose to rest.
 const TURN_ITERATIONS: usize = 6;
 /// Best turns of either end that are looked around.
@@ -29,28 +29,28 @@ const FINE_TURNS_PER_SIDE: i32 = 24;
 const AXIS_PROBE_TURNS: [f64; 3] = [0.11, 0.29, 0.43];
 
 /// The best poses that differ from `pose` by a turn about the axis of the reference, and the same with its ends interchanged, best first; none
-/// where the reference is no such body. They come to lie on the samples of `few` and are compared on those of `part`; no distance
+/// where the reference is no such body. They come to lie on the samples of `coarse` and are compared on those of `finer`; no distance
 /// counts there for more than `cap`.
 pub(super) fn poses(
     search: &Search,
     pose: &Rigid,
-    [few, part]: [&Problem; 2],
+    [coarse, finer]: [&Problem; 2],
     cap: f64,
     progress: &dyn Progress,
 ) -> Result<Vec<Rigid>, AlignError> {
-    let Some((point, direction)) = axis(search, pose, part, progress)? else { return Ok(vec![]) };
+    let Some((point, direction)) = axis(search, pose, finer, progress)? else { return Ok(vec![]) };
     let by = |turn: f64| Rigid::rotation_about(point, times(turn * TAU / f64::from(AXIS_TURNS), direction));
-    let enough = ALIKE_TURN_WORTH * search.worth(pose);
-    let alike = (0..AXIS_TURNS).filter(|k| search.worth(&by(f64::from(*k)).after(pose)) >= enough).count();
+    let enough = ALIKE_TURN_SCORE * search.score(pose);
+    let alike = (0..AXIS_TURNS).filter(|k| search.score(&by(f64::from(*k)).after(pose)) >= enough).count();
     if 2 * alike < AXIS_TURNS as usize {
         return Ok(vec![]);
     }
     let Some((across, _)) = unit(cross(direction, least_axis(direction))) else { return Ok(vec![]) };
     let other = Rigid::rotation_about(search.reference_mean(), times(PI, across)).after(pose);
-    let ends = [*pose, settled(search, &other, part, progress)?];
+    let ends = [*pose, settled(search, &other, finer, progress)?];
     // Far turned the axis is not known well enough; a short way about it is.
-    let cost = |pose: Rigid| Ok::<_, AlignError>((part.cost(&pose, cap, progress)?, pose));
-    let brought = |pose: Rigid| cost(few.run(pose, 2.0 * search.spacing, TURN_ITERATIONS, progress)?.pose);
+    let cost = |pose: Rigid| Ok::<_, AlignError>((finer.cost(&pose, cap, progress)?, pose));
+    let brought = |pose: Rigid| cost(coarse.run(pose, 2.0 * search.spacing, TURN_ITERATIONS, progress)?.pose);
     let mut found = vec![];
     for end in ends {
         let turned: Vec<Rigid> = (0..AXIS_TURNS).map(|k| by(f64::from(k)).after(&end)).collect();
@@ -79,11 +79,11 @@ pub(super) fn poses(
 fn settled(
     search: &Search,
     pose: &Rigid,
-    part: &Problem,
+    finer: &Problem,
     progress: &dyn Progress,
 ) -> Result<Rigid, AlignError> {
-    let pose = search.wide(part).run(*pose, 2.0 * search.spacing, COMPARED_ITERATIONS, progress)?.pose;
-    Ok(part.run(pose, 2.0 * search.spacing, COMPARED_ITERATIONS, progress)?.pose)
+    let pose = search.wide(finer).run(*pose, 2.0 * search.spacing, COMPARED_ITERATIONS, progress)?.pose;
+    Ok(finer.run(pose, 2.0 * search.spacing, COMPARED_ITERATIONS, progress)?.pose)
 }
 
 /// The axis of the reference, a point and a direction: that of the motion which the samples hold least. Turned away from where it belongs the
@@ -91,14 +91,14 @@ fn settled(
 fn axis(
     search: &Search,
     pose: &Rigid,
-    part: &Problem,
+    finer: &Problem,
     progress: &dyn Progress,
 ) -> Result<Option<(Point, Vector)>, AlignError> {
     let of = |pose: &Rigid| -> Result<(f64, Option<(Point, Vector)>), AlignError> {
-        let mut matches = part.matches(pose, f64::INFINITY, progress)?;
-        let sigma = part.deviation(&matches);
-        part.weigh(&mut matches, sigma);
-        let system = part.system_of_facets(&matches, pose);
+        let mut matches = finer.matches(pose, f64::INFINITY, progress)?;
+        let sigma = finer.deviation(&matches);
+        finer.weigh(&mut matches, sigma);
+        let system = finer.system_of_facets(&matches, pose);
         let spectrum = Spectrum::of(&system);
         let axis = match named(system.center, system.radius, &spectrum.vectors[..1])[..] {
             [Freedom::Turns { point, direction }] => Some((point, direction)),
@@ -111,10 +111,10 @@ fn axis(
     for away in AXIS_PROBE_TURNS {
         let turned = Rigid::rotation_about(point, times(away * TAU, direction)).after(pose);
         // Where it clearly does not lie on the reference, that is no such body.
-        if search.worth(&turned) == 0.0 {
+        if search.score(&turned) == 0.0 {
             continue;
         }
-        let (held, other) = of(&settled(search, &turned, part, progress)?)?;
+        let (held, other) = of(&settled(search, &turned, finer, progress)?)?;
         if held < least && other.is_some() {
             (least, axis) = (held, other);
         }

@@ -160,8 +160,8 @@ fn poor(
     let [a, b] = places.map(|p| Aabb::of(counts.iter().map(|&i| &p[i])).diagonal());
     let share = rms / a.min(b);
     let row = counts.into_iter().max_by(|&i, &j| residuals[i].abs().total_cmp(&residuals[j].abs()))?;
-    let left = residuals[row].abs();
-    (share > POOR_RESIDUAL_SHARE).then_some(AlignWarning::PoorRows { share, row, left, mirrored: false })
+    let residual = residuals[row].abs();
+    (share > POOR_RESIDUAL_SHARE).then_some(AlignWarning::PoorRows { share, row, residual, mirrored: false })
 }
 
 /// The rotation of greatest `Σ s_ab R_ba`, and whether no other does as well.

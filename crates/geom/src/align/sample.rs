@@ -195,16 +195,17 @@ impl Samples {
 
     /// About `count` of them, as [`Samples::thinned`], with normals: where there are none, by local planes, without sides. Of a dense cloud a
     /// part makes the planes: its nearest neighbors scatter more than they lie apart.
-    pub fn few(&self, count: usize, seed: u64) -> Samples {
-        let mut few = self.thinned(count, seed);
-        if few.normals.is_empty() {
+    pub fn oriented_subset(&self, count: usize, seed: u64) -> Samples {
+        let mut oriented_subset = self.thinned(count, seed);
+        if oriented_subset.normals.is_empty() {
             let part = (self.points.len() > MAX_NEIGHBOR_POINTS)
                 .then(|| self.thinned(MAX_NEIGHBOR_POINTS, seed).points);
             let among = part.as_ref().unwrap_or(&self.points);
             let tree = PointTree::new(among);
-            few.normals = few.points.par_iter().map(|p| local_normal(p, among, &tree)).collect();
+            oriented_subset.normals =
+                oriented_subset.points.par_iter().map(|p| local_normal(p, among, &tree)).collect();
         }
-        few
+        oriented_subset
     }
 
     /// The same with every normal turned round.

@@ -69,7 +69,7 @@ impl Scale {
 /// let scan = Mesh { positions, faces: reference.faces.clone() };
 /// let tree = Tree::build(&reference)?;
 /// // All faces count: three of them lie on theirs, and the fourth would be taken for an outlier.
-/// let near = BestFit { start: Start::Given(Rigid::IDENTITY), robust: false, ..BestFit::default() };
+/// let near = BestFit { start: Start::From(Rigid::IDENTITY), robust: false, ..BestFit::default() };
 /// let (_, scale) = best_fit_scaled(&Measured::Mesh(&scan), &Target::new(&reference, &tree), &near, &Silent)?;
 /// assert!((0.98 * scale.factor - 1.0).abs() < 1e-6);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -112,7 +112,7 @@ pub fn best_fit_scaled(
         let pose = fit.reference_from_measured;
         let shift = times(by - 1.0, minus(pose.translation(), fit.center));
         let there = Rigid::translation_by(shift).after(&pose);
-        let near = BestFit { start: Start::Given(there), ..*options };
+        let near = BestFit { start: Start::From(there), ..*options };
         fit = of_scaled(measured, scale.factor, reference, &near, progress)?;
         if step.size.abs() <= (SETTLED_SCALE_SHARE * step.uncertainty).max(step.rounding) {
             break;
@@ -207,8 +207,8 @@ impl Step {
         let spectrum = Spectrum::of(&system);
         // The pose gives way.
         let gives = spectrum.solve(&with, fit.freedoms.len());
-        let told = own - inner(&with, &gives);
-        if told <= MIN_SCALE_HOLD * system.weight * system.radius * system.radius {
+        let hold = own - inner(&with, &gives);
+        if hold <= MIN_SCALE_HOLD * system.weight * system.radius * system.radius {
             return Err(AlignError::ScaleFree);
         }
         let mut cells: BTreeMap<[i64; 3], f64> = BTreeMap::new();
@@ -220,7 +220,7 @@ impl Step {
         let sum: f64 = cells.values().sum();
         let squares: f64 = cells.values().map(|x| x * x).sum();
         let count = cells.len() as f64;
-        let uncertainty = (squares * count / (count - 7.0).max(1.0)).sqrt() / told;
-        Ok(Step { size: -sum / told, uncertainty, rounding: problem.rounding / problem.radius })
+        let uncertainty = (squares * count / (count - 7.0).max(1.0)).sqrt() / hold;
+        Ok(Step { size: -sum / hold, uncertainty, rounding: problem.rounding / problem.radius })
     }
 }

@@ -16,8 +16,8 @@ use std::sync::Arc;
 const REFERENCE_PLACES: usize = 900;
 /// Samples of the measured surface that a pose is tried on: first few, then all.
 const SAMPLES_PER_STAGE: [usize; 3] = [24, 96, 400];
-/// Share of the samples' worth that a pose must have to be tried further.
-const MIN_STAGE_WORTH: [f64; 2] = [0.25, 0.35];
+/// Share of the samples' score that a pose must have to be tried further.
+const MIN_STAGE_SCORE: [f64; 2] = [0.25, 0.35];
 /// Pairs of the measured surface that are looked up.
 const MAX_LOOKUP_PAIRS: usize = 4000;
 /// Poses tried of the rarest pairs, and as many of others.
@@ -28,19 +28,19 @@ const MAX_COUNTERPARTS: usize = 300;
 const PAIRS_PER_ROUND: usize = 16;
 /// Pairs that must lead to one pose to be enough.
 const MIN_AGREEING_PAIRS: usize = 20;
-/// Worth that this pose must have.
-const MIN_AGREED_WORTH: f64 = 0.7;
-/// Share of the best worth that others must have to be refined.
-const MIN_REFINED_WORTH: f64 = 0.5;
+/// Score that this pose must have.
+const MIN_AGREED_SCORE: f64 = 0.7;
+/// Share of the best score that others must have to be refined.
+const MIN_REFINED_SCORE: f64 = 0.5;
 /// Starts that are refined.
 const MAX_REFINED_STARTS: usize = 32;
 /// Starts whose refined pose is looked at closely.
 const MAX_CLOSE_STARTS: usize = 12;
-/// Steps after which starts with too little worth are dropped. A few steps take away the error of the pair of places, and with
+/// Steps after which starts with too low a score are dropped. A few steps take away the error of the pair of places, and with
 /// it most of what a right start lacks.
 const FIRST_START_STEPS: usize = 3;
-/// Share of the best worth there that a start must have to be refined further.
-const MIN_LIVELY_WORTH: f64 = 0.7;
+/// Share of the best score there that a start must have to be refined further.
+const MIN_LIVELY_SCORE: f64 = 0.7;
 /// Share of the spacing within which places count where poses close together are told apart.
 const APART_REACH_SPACINGS: f64 = 0.5;
 /// Share of the spacing that the first steps take for zero: ten standard deviations are half a spacing then.
@@ -73,11 +73,11 @@ struct Known {
     moments: Moments,
 }
 
-/// A pose and what it is worth, from 0 to 1.
+/// A pose and its score, from 0 to 1.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Candidate {
     pub pose: Rigid,
-    pub worth: f64,
+    pub score: f64,
 }
 
 impl Search {
@@ -147,11 +147,15 @@ impl Search {
     }
 
     /// The best poses, best first: no two nearly the same.
-    pub fn candidates(&self, given: &[Rigid], progress: &dyn Progress) -> Result<Vec<Candidate>, AlignError> {
-        let mut all: Vec<Rigid> = given.to_vec();
+    pub fn candidates(
+        &self,
+        known_poses: &[Rigid],
+        progress: &dyn Progress,
+    ) -> Result<Vec<Candidate>, AlignError> {
+        let mut all: Vec<Rigid> = known_poses.to_vec();
         all.extend(self.of_axes());
         let mut found: Vec<Candidate> =
-            all.iter().map(|&pose| Candidate { pose, worth: self.worth(&pose) }).collect();
+            all.iter().map(|&pose| Candidate { pose, score: self.score(&pose) }).collect();
         found.extend(self.of_pairs(progress)?);
         Ok(self.distinct(found))
     }
@@ -248,11 +252,11 @@ impl Search {
     /// Whether most samples lie on the reference at the best pose, and so many pairs lead there.
     fn agreed(&self, found: &[Vec<Candidate>]) -> bool {
         let all = found.iter().flatten();
-        let Some(best) = all.max_by(|a, b| a.worth.total_cmp(&b.worth)) else { return false };
+        let Some(best) = all.max_by(|a, b| a.score.total_cmp(&b.score)) else { return false };
         let there = |pair: &&Vec<Candidate>| {
             pair.iter().any(|c| self.apart(&c.pose, &best.pose) < 2.0 * self.spacing)
         };
-        best.worth >= MIN_AGREED_WORTH
+        best.score >= MIN_AGREED_SCORE
             && found.iter().filter(there).take(MIN_AGREEING_PAIRS).count() == MIN_AGREEING_PAIRS
     }
 
@@ -264,27 +268,27 @@ impl Search {
         let mut best: Vec<Candidate> = vec![];
         for &pair in like.iter().step_by(every) {
             let Some(pose) = self.known.table.pose(&frame, pair) else { continue };
-            let worth = self.worth(&pose);
-            if worth > 0.0 && best.get(1).is_none_or(|b| worth > b.worth) {
-                best.push(Candidate { pose, worth });
-                best.sort_by(|x, y| y.worth.total_cmp(&x.worth));
+            let score = self.score(&pose);
+            if score > 0.0 && best.get(1).is_none_or(|b| score > b.score) {
+                best.push(Candidate { pose, score });
+                best.sort_by(|x, y| y.score.total_cmp(&x.score));
                 best.truncate(2);
             }
         }
         best
     }
 
-    /// Mean worth of the samples at a pose; 0 as soon as it is clearly poor.
-    pub fn worth(&self, pose: &Rigid) -> f64 {
+    /// Mean score of the samples at a pose; 0 as soon as it is clearly poor.
+    pub fn score(&self, pose: &Rigid) -> f64 {
         let field = &self.known.field;
         let placed = field.placed(pose, self.measured.mean);
         let (mut sum, mut done) = (0.0, 0);
         for (stage, &until) in SAMPLES_PER_STAGE.iter().enumerate() {
             let until = until.min(self.samples.points.len());
             let blocks = &self.blocks[done / SAMPLES_PER_BLOCK..until.div_ceil(SAMPLES_PER_BLOCK)];
-            sum += field.worth(&placed, blocks, field.reach);
+            sum += field.score(&placed, blocks, field.reach);
             done = until;
-            if stage < 2 && sum < MIN_STAGE_WORTH[stage] * done as f64 {
+            if stage < 2 && sum < MIN_STAGE_SCORE[stage] * done as f64 {
                 return 0.0;
             }
         }
@@ -293,10 +297,10 @@ impl Search {
 
     /// The best of each heap of nearly equal poses, best first.
     fn distinct(&self, mut all: Vec<Candidate>) -> Vec<Candidate> {
-        all.sort_by(|x, y| y.worth.total_cmp(&x.worth));
+        all.sort_by(|x, y| y.score.total_cmp(&x.score));
         let mut kept: Vec<Candidate> = vec![];
         for c in all {
-            let enough = kept.first().is_none_or(|best| c.worth >= MIN_REFINED_WORTH * best.worth);
+            let enough = kept.first().is_none_or(|best| c.score >= MIN_REFINED_SCORE * best.score);
             if enough
                 && kept.len() < MAX_REFINED_STARTS
                 && !kept.iter().any(|k| self.apart(&k.pose, &c.pose) < 2.0 * self.spacing)
@@ -320,7 +324,7 @@ impl Search {
     }
 
     /// Refines the candidates on the samples and sorts them anew by what is left, least first: pose and capped mean
-    /// square distance. Those that are worth far less than the best of them, or than `known`, are left out.
+    /// square distance. Those with a score far below that of the best of them, or than `known`, are left out.
     pub fn refine(
         &self,
         candidates: &[Candidate],
@@ -332,12 +336,12 @@ impl Search {
         let begun: Result<Vec<Candidate>, AlignError> = (candidates.par_iter())
             .map(|c| {
                 let pose = problem.run(c.pose, 2.0 * self.spacing, FIRST_START_STEPS, progress)?.pose;
-                Ok(Candidate { pose, worth: self.worth(&pose) })
+                Ok(Candidate { pose, score: self.score(&pose) })
             })
             .collect();
         let mut begun = begun?;
-        let enough = MIN_LIVELY_WORTH * begun.iter().fold(known, |m, c| m.max(c.worth));
-        begun.retain(|c| c.worth >= enough);
+        let enough = MIN_LIVELY_SCORE * begun.iter().fold(known, |m, c| m.max(c.score));
+        begun.retain(|c| c.score >= enough);
         let refined: Result<Vec<(f64, Rigid)>, AlignError> = (begun.par_iter())
             .map(|c| {
                 let pose = problem.run(c.pose, 2.0 * self.spacing, 12 - FIRST_START_STEPS, progress)?.pose;
@@ -367,7 +371,7 @@ impl Search {
     ) -> Result<Vec<Rigid>, AlignError> {
         let reach = APART_REACH_SPACINGS * self.spacing;
         let mut tried: Vec<(f64, Rigid)> =
-            poses.par_iter().map(|p| (self.worth_within(p, reach), *p)).collect();
+            poses.par_iter().map(|p| (self.score_within(p, reach), *p)).collect();
         tried.sort_by(|x, y| y.0.total_cmp(&x.0));
         tried.truncate(MAX_REFINED_STARTS);
         let wide = self.wide(problem);
@@ -396,11 +400,11 @@ impl Search {
         Problem { rounding: problem.rounding.max(START_ROUNDING_SPACINGS * self.spacing), ..*problem }
     }
 
-    /// Mean worth of all samples at a pose, within a reach of its own.
-    fn worth_within(&self, pose: &Rigid, reach: f64) -> f64 {
+    /// Mean score of all samples at a pose, within a reach of its own.
+    fn score_within(&self, pose: &Rigid, reach: f64) -> f64 {
         let field = &self.known.field;
         let placed = field.placed(pose, self.measured.mean);
-        field.worth(&placed, &self.blocks, reach) / self.samples.points.len() as f64
+        field.score(&placed, &self.blocks, reach) / self.samples.points.len() as f64
     }
 
     /// Poses in which a part with the symmetries of common parts would fit as well as in `pose`: turned about the
@@ -425,9 +429,9 @@ impl Search {
             let quarters = [1.0, 2.0, 3.0].map(|k| times(0.5 * k * std::f64::consts::PI, axis));
             all.extend(quarters.map(|q| Rigid::rotation_about(middle, q).after(pose)));
         }
-        let found = all.iter().map(|&pose| Candidate { pose, worth: self.worth(&pose) });
-        let enough = 0.8 * self.worth(pose);
-        self.distinct(found.filter(|c| c.worth > enough).collect())
+        let found = all.iter().map(|&pose| Candidate { pose, score: self.score(&pose) });
+        let enough = 0.8 * self.score(pose);
+        self.distinct(found.filter(|c| c.score > enough).collect())
     }
 }
 

@@ -87,7 +87,7 @@ impl<'a> Work<'a> {
     /// The pose that motions are measured from: the given one, or that of the files.
     pub fn start(&self) -> Rigid {
         match self.options.start {
-            Start::Given(pose) => pose,
+            Start::From(pose) => pose,
             Start::Anywhere => Rigid::IDENTITY,
         }
     }
@@ -131,17 +131,17 @@ impl<'a> Work<'a> {
     pub fn choose(
         &self,
         poses: &[Rigid],
-        some: &Samples,
+        subset: &Samples,
         progress: &dyn Progress,
     ) -> Result<(Rigid, f64), AlignError> {
         let mut rivals = poses.to_vec();
-        if rivals.len() > 1 && some.points.len() > 2 * RIVAL_SAMPLES {
-            let ended = self.ended(&rivals, &some.first(RIVAL_SAMPLES), progress)?;
+        if rivals.len() > 1 && subset.points.len() > 2 * RIVAL_SAMPLES {
+            let ended = self.ended(&rivals, &subset.first(RIVAL_SAMPLES), progress)?;
             let least = ended.iter().map(|e| e.cost).fold(f64::INFINITY, f64::min);
             rivals = ended.iter().filter(|e| e.cost <= MAX_RIVAL_RATIO * least).map(|e| e.pose).collect();
         }
         let mut best: Option<Compared> = None;
-        for one in self.ended(&rivals, some, progress)? {
+        for one in self.ended(&rivals, subset, progress)? {
             if best.as_ref().is_none_or(|b| one.cost < b.cost) {
                 best = Some(one);
             }
@@ -154,18 +154,18 @@ impl<'a> Work<'a> {
     pub fn where_all_count(
         &self,
         result: &Alignment,
-        some: &Samples,
+        subset: &Samples,
         progress: &dyn Progress,
     ) -> Result<Option<Rigid>, AlignError> {
-        if !self.options.robust || result.left_out == 0 {
+        if !self.options.robust || result.excluded_points == 0 {
             return Ok(None);
         }
         let own = result.reference_from_measured;
-        let all = Problem { robust: false, ..self.problem(some) };
+        let all = Problem { robust: false, ..self.problem(subset) };
         let there = all.run(own, f64::INFINITY, MAX_ITERATIONS, progress)?.pose;
-        let (pose, sigma) = self.choose(&[own, there], some, progress)?;
+        let (pose, sigma) = self.choose(&[own, there], subset, progress)?;
         let moved = |p: &Point| norm(minus(pose.point(*p), own.point(*p)));
-        let farthest = some.points.iter().map(moved).fold(0.0, f64::max);
+        let farthest = subset.points.iter().map(moved).fold(0.0, f64::max);
         Ok((farthest > sigma.max(self.rounding)).then_some(pose))
     }
 

@@ -4,8 +4,8 @@
 //! signs. A point near the border of two zones may change from one to the other as the part moves: the search is done again with the
 //! zones where it ended, until none changes.
 
-use super::beside::Searched;
 use super::counting::{Counting, NotCounted, weighted_mean};
+use super::perturbed::Searched;
 use super::sample::Measured;
 use super::{AlignError, Alignment, BestFit, Start, Target, field};
 use crate::deviation::surface::ReferenceSurface;
@@ -47,7 +47,7 @@ pub struct InZones {
     /// Points with a zone: all of them are judged.
     pub used: u64,
     /// Points that do not count in the search; they are judged with the others.
-    pub left_out: NotCounted,
+    pub not_counted: NotCounted,
     /// Points at places where nothing is asked.
     pub without_zone: u64,
 }
@@ -82,7 +82,7 @@ pub struct InZones {
 /// let target = Target::new(&reference, &tree);
 /// let surface = ReferenceSurface::new(&tree, &reference, &SurfaceOptions::default(), &Silent)?;
 /// let measured = Measured::Points { points: &points, normals: None };
-/// let options = BestFit { start: Start::Given(Rigid::IDENTITY), ..BestFit::default() };
+/// let options = BestFit { start: Start::From(Rigid::IDENTITY), ..BestFit::default() };
 /// let fit = best_fit(&measured, &target, &options, &Silent)?;
 /// // A perfect part: 0.1 of room on every side is what is left.
 /// let found = into_zones(&measured, &target, &surface, &|_, _| Some([-0.1, 0.1]), &fit, &options, &Silent)?;
@@ -104,7 +104,7 @@ pub fn into_zones(
     let widest = work.judged(all, &start)?.iter().flatten().fold(0.0, wide);
     let counting = Counting::of(measured, reference, from, options, COUNTED_ZONE_RATIO * widest, progress)?;
     let (mut motion, mut least) = work.sought(&counting.points, start)?;
-    if let Start::Given(pose) = options.start {
+    if let Start::From(pose) = options.start {
         let there = worst(&work.judged(&counting.points, &pose)?).map(|(_, w)| w.excess());
         if there.is_some_and(|excess| excess < least) {
             (motion, least) = work.sought(&counting.points, pose)?;
@@ -127,7 +127,7 @@ pub fn into_zones(
         rms: weighted_mean(&weights, &values, &|d| d * d).sqrt(),
         mean_abs: weighted_mean(&weights, &values, &f64::abs),
         used: used as u64,
-        left_out: counting.not_counted(&motion, reference, progress)?,
+        not_counted: counting.not_counted(&motion, reference, progress)?,
         without_zone: (judged.len() - used) as u64,
     })
 }

@@ -30,11 +30,11 @@ impl Near {
         near
     }
 
-    /// Hands every point of the leaves that `reaches` says yes for, and for all boxes around them, to `take`.
-    pub fn visit(&self, reaches: impl Fn(&Aabb) -> bool, mut take: impl FnMut(&Point, u32)) {
+    /// Hands every point of the leaves that `reaches` says yes for, and for all boxes around them, to `visit`.
+    pub fn visit(&self, reaches: impl Fn(&Aabb) -> bool, mut visit: impl FnMut(&Point, u32)) {
         let look = |_: usize, b: &Aabb| if reaches(b) { Look::Into } else { Look::Past };
         self.look(look, |p, number| {
-            take(p, number);
+            visit(p, number);
             false
         });
     }
@@ -51,8 +51,8 @@ pub enum Look {
 }
 
 impl Near {
-    /// Hands points to `take`, with the word that it need not look at all of them: it says when it has had enough.
-    pub fn look(&self, look: impl Fn(usize, &Aabb) -> Look, mut take: impl FnMut(&Point, u32) -> bool) {
+    /// Hands points to `visit`, with the word that it need not look at all of them: it says when it has had enough.
+    pub fn look(&self, look: impl Fn(usize, &Aabb) -> Look, mut visit: impl FnMut(&Point, u32) -> bool) {
         if self.points.is_empty() || matches!(look(0, &self.boxes[0]), Look::Past) {
             return;
         }
@@ -66,11 +66,11 @@ impl Near {
             match look(node, &self.boxes[node]) {
                 Look::Past => {}
                 Look::Any => {
-                    self.points[range].iter().find(|(p, number)| take(p, *number));
+                    self.points[range].iter().find(|(p, number)| visit(p, *number));
                 }
                 Look::Into if 2 * node + 1 >= self.boxes.len() => {
                     self.points[range].iter().for_each(|(p, number)| {
-                        take(p, *number);
+                        visit(p, *number);
                     });
                 }
                 Look::Into => {

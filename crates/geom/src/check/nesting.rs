@@ -46,29 +46,29 @@ impl<'a> Container<'a> {
         (!on_it).then_some(sum)
     }
 
-    /// Hands to `take` each facet that a ray passes behind facet `from`, and how often it winds around the ray. The ray starts in
+    /// Hands to `visit` each facet that a ray passes behind facet `from`, and how often it winds around the ray. The ray starts in
     /// the plane of `from` where that is seen at `target`; `from` and what lies in its plane are not behind it. Where others meet
     /// it just there, the ray beside is meant that [`Container::around`] means.
-    pub fn behind(&self, from: u32, target: &Point, mut take: impl FnMut(u32, i32)) {
+    pub fn facets_behind(&self, from: u32, target: &Point, mut visit: impl FnMut(u32, i32)) {
         let [start, end] = self.span(from);
         self.columns.pass(target, self.beyond(start), |f, own| {
             let around = if f == from { 0 } else { self.around(f, target) };
             if around != 0 && (own.min[self.axis] > end || self.is_behind([from, f], target)) {
-                take(f, around);
+                visit(f, around);
             }
         });
     }
 
     /// The same of all others that the line through `target` passes, `from` among them. Around the whole line a closed surface
     /// winds 0 times.
-    pub fn not_behind(&self, from: u32, target: &Point, mut take: impl FnMut(u32, i32)) {
+    pub fn facets_not_behind(&self, from: u32, target: &Point, mut visit: impl FnMut(u32, i32)) {
         let [start, end] = self.span(from);
         let before = |b: &Aabb| b.min[self.axis] <= end;
         self.columns.pass(target, before, |f, own| {
             let around = self.around(f, target);
             let is_first = || f == from || own.max[self.axis] < start || !self.is_behind([from, f], target);
             if around != 0 && is_first() {
-                take(f, around);
+                visit(f, around);
             }
         });
     }

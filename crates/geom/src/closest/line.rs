@@ -56,8 +56,8 @@ impl Line {
         let weights = match sum.is_normal() {
             true => size.map(|s| s / sum),
             false => {
-                let some = sides.map(|(sign, _)| sign.abs());
-                times(1.0 / some.iter().sum::<f64>(), some)
+                let weights = sides.map(|(sign, _)| sign.abs());
+                times(1.0 / weights.iter().sum::<f64>(), weights)
             }
         };
         let along = [a, b, c].map(|x| dot(self.direction, minus(*x, self.point)));

@@ -5,7 +5,7 @@
 //! 2. `prune`: collect, breadth first, the leaves and nodes that could hold a triangle closer than `x` to *some* point of
 //!    the block, as long as they are few;
 //! 3. few leaves and nothing else (points dense compared with triangles): test every triangle that is left against all
-//!    sixteen points at once (`few_leaves`); else the sixteen points search on from there in lockstep, each with its own
+//!    sixteen points at once (`leaf_triangles`); else the sixteen points search on from there in lockstep, each with its own
 //!    bound (`lockstep`);
 //! 4. `decide`: every triangle within the error bound of a point's best is computed in double precision; ties go to the
 //!    lowest face.

@@ -8,7 +8,7 @@ use crate::closest::decide::{Undecided, decide};
 use crate::closest::hit::Hit;
 use crate::closest::prune::{Survivors, prune};
 use crate::closest::tree::Tree;
-use crate::closest::{few_leaves, lockstep, triangle};
+use crate::closest::{leaf_triangles, lockstep, triangle};
 use crate::memory::prefetch;
 use crate::simd::lanes::{Lanes, Real};
 use crate::space::Point;
@@ -24,7 +24,7 @@ pub struct Scratch {
     /// it.)
     last_winner: u32,
     survivors: Survivors,
-    few_leaves: few_leaves::Buffers,
+    leaf_triangles: leaf_triangles::Buffers,
     lockstep: lockstep::Buffers,
     undecided: Vec<Undecided>,
 }
@@ -84,7 +84,7 @@ unsafe fn answer_block<V: Lanes<8>, W: Lanes<16>, D: Real>(
         prune::<V>(tree, &b, &near, limit, survivors);
         undecided.clear();
         if survivors.are_few() {
-            few_leaves::test_all::<V, W>(tree, &b, &survivors.leaves, &mut s.few_leaves, undecided);
+            leaf_triangles::test_all::<V, W>(tree, &b, &survivors.leaves, &mut s.leaf_triangles, undecided);
         } else {
             lockstep::search::<V>(tree, &b, &near, limit, survivors, &mut s.lockstep, undecided);
         }

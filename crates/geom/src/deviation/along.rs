@@ -82,8 +82,8 @@ impl ReferenceSurface {
                     usize::try_from(start).ok().and_then(|s| normals.get(s + i)).copied()
                 }
             };
-            let some = |d: &Vector| d.iter().any(|x| *x != 0.0) && d.iter().all(|x| x.is_finite());
-            (deviation, direction.filter(|d| deviation.is_finite() && some(d)))
+            let is_direction = |d: &Vector| d.iter().any(|x| *x != 0.0) && d.iter().all(|x| x.is_finite());
+            (deviation, direction.filter(|d| deviation.is_finite() && is_direction(d)))
         })?;
         let other = OnlyCancels(progress);
         self.tree().map_crossings(

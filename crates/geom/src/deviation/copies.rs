@@ -73,9 +73,9 @@ fn edges((corners, up): &Facet) -> [([u32; 2], i64); 3] {
 
 /// For each of these facets the orientation in which it closes what is open; `None` where none does.
 fn orientations(doubled: &[[u32; 3]], open: &BTreeMap<[u32; 2], i64>) -> Vec<Option<bool>> {
-    let mut beside: BTreeMap<[u32; 2], Vec<usize>> = BTreeMap::new();
+    let mut at_edge: BTreeMap<[u32; 2], Vec<usize>> = BTreeMap::new();
     for (n, corners) in doubled.iter().enumerate() {
-        edges(&(*corners, true)).iter().for_each(|(edge, _)| beside.entry(*edge).or_default().push(n));
+        edges(&(*corners, true)).iter().for_each(|(edge, _)| at_edge.entry(*edge).or_default().push(n));
     }
     let mut up: Vec<Option<bool>> = vec![None; doubled.len()];
     let mut out = vec![None; doubled.len()];
@@ -90,7 +90,7 @@ fn orientations(doubled: &[[u32; 3]], open: &BTreeMap<[u32; 2], i64>) -> Vec<Opt
             let n = part[next];
             next += 1;
             for (edge, way) in edges(&(doubled[n], up[n] == Some(true))) {
-                let Some([a, b]) = beside.get(&edge).and_then(|b| <[usize; 2]>::try_from(b.as_slice()).ok())
+                let Some([a, b]) = at_edge.get(&edge).and_then(|b| <[usize; 2]>::try_from(b.as_slice()).ok())
                 else {
                     continue;
                 };

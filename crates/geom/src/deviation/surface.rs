@@ -41,8 +41,9 @@ pub enum Exclusion {
     NoDirection,
 }
 
-/// NaNs of their own, which are only ever copied: no arithmetic sees them.
+/// Bits of a NaN of its own. It is only ever copied: no arithmetic sees it.
 const NO_CROSSING_BITS: u64 = 0x7ff8_0000_0000_0005;
+/// The same for a point without a direction.
 const NO_DIRECTION_BITS: u64 = 0x7ff8_0000_0000_0006;
 
 impl Exclusion {

@@ -76,6 +76,7 @@ impl Polygon {
 
     /// Places inside, on a grid of 5 × 5 over the rectangle.
     pub(super) fn places(&self) -> Vec<Point> {
+        /// Places along each side of the grid.
         const GRID_SIDE: usize = 5;
         let (x, y) = (self.range(0), self.range(1));
         let at = |[low, high]: [f64; 2], i: usize| low + (high - low) * (i as f64 + 0.5) / GRID_SIDE as f64;

@@ -208,6 +208,7 @@ impl<'a> Rules<'a> {
 
     /// Places of the nominal feature to start from.
     pub(super) fn starts(&self) -> Vec<Point> {
+        /// Places of a ring.
         const RING_PLACES: usize = 12;
         let about = |axis: Vector| -> [Vector; 2] {
             let frame = Rigid::into_frame([0.0; 3], axis, least_axis(axis)).unwrap_or(Rigid::IDENTITY);
@@ -221,6 +222,7 @@ impl<'a> Rules<'a> {
             };
             (0..RING_PLACES).map(|k| plus(center, at(k))).collect()
         };
+        /// Shares of the length at which rings lie, the middle first.
         const RING_LEVELS: [f64; 3] = [0.5, 0.2, 0.8];
         match &self.kind {
             CheckedNominal::Plane { boundary, .. } => boundary.places(),

@@ -63,9 +63,9 @@ pub(super) fn near<const P: usize, F: Family<P>>(
     kind: Kind,
     options: &Options,
 ) -> Result<Element, FitError> {
-    let some = sample.thinned(IMPROVING_POINTS);
-    let (optimum, inverse) = optimum::<P, F>(&some, kind, options, &crate::progress::Silent)?;
-    inverse.map(|_| optimum.element).ok_or_else(|| nothing(&some, kind))
+    let subset = sample.thinned(IMPROVING_POINTS);
+    let (optimum, inverse) = optimum::<P, F>(&subset, kind, options, &crate::progress::Silent)?;
+    inverse.map(|_| optimum.element).ok_or_else(|| nothing(&subset, kind))
 }
 
 /// An optimum, and the inverse of its normal matrix if it has one.
@@ -135,16 +135,17 @@ fn best_of<const P: usize, F: Family<P>>(starts: &[Element], sample: &Sample) ->
         [one] if sample.len() <= 2 * SINGLE_START_POINTS => *one,
         [one] => improved(one, SINGLE_START_POINTS, NEAR).map_or(*one, |o| o.element),
         many => {
-            let few = sample.thinned(STARTING_POINTS);
+            let subset = sample.thinned(STARTING_POINTS);
             let best = |starts: &[Element]| {
-                let ends = starts.iter().filter_map(|start| minimize::<P, F, _>(start, &few, &Alike, ROUGH));
+                let ends =
+                    starts.iter().filter_map(|start| minimize::<P, F, _>(start, &subset, &Alike, ROUGH));
                 ends.min_by(|a, b| a.sums.square.total_cmp(&b.sums.square))
             };
             let first = best(many);
-            if first.is_some_and(|o| o.sums.square <= POOR_FIT_RMS * POOR_FIT_RMS * few.len() as f64) {
+            if first.is_some_and(|o| o.sums.square <= POOR_FIT_RMS * POOR_FIT_RMS * subset.len() as f64) {
                 first?.element
             } else {
-                let further = best(&F::more_starts(&few.units().collect::<Vec<Point>>()));
+                let further = best(&F::more_starts(&subset.units().collect::<Vec<Point>>()));
                 let both = first.into_iter().chain(further);
                 both.min_by(|a, b| a.sums.square.total_cmp(&b.sums.square))?.element
             }

@@ -152,13 +152,13 @@ fn inverted(mut a: Square, n: usize) -> Option<Square> {
             a[k][c] *= one;
             inverse[k][c] *= one;
         }
-        let (row, beside) = (a[k], inverse[k]);
+        let (row, inverse_row) = (a[k], inverse[k]);
         for i in 0..n {
             let factor = a[i][k];
             if i != k && factor != 0.0 {
                 for c in 0..MAX_PROGRAM_UNKNOWNS {
                     a[i][c] -= factor * row[c];
-                    inverse[i][c] -= factor * beside[c];
+                    inverse[i][c] -= factor * inverse_row[c];
                 }
             }
         }

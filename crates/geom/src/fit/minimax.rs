@@ -212,6 +212,7 @@ fn newton<const P: usize, F: Family<P>>(
         }
         sum
     };
+    /// Step to either side of the central differences of gradients, in the unit frame.
     const DIFFERENCE_STEP: f64 = 1e-5;
     for k in 0..P {
         if unit[k] == 0.0 {

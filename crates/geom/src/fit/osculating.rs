@@ -35,14 +35,14 @@ const APEX_DISTANCES: [f64; 8] = [0.5, 1.0, 1.5, 2.5, 5.0, 12.0, 40.0, f64::INFI
 /// Cones near which the best one is to be sought.
 pub(super) fn cones<F: Family<6>>(points: &[Point]) -> Vec<Element> {
     let scatter = Scatter::of(points);
-    let few = judges(points, &scatter);
+    let judging = judges(points, &scatter);
     let cones = |poses: Vec<Pose>| -> Vec<(f64, Element)> {
-        poses.iter().map(|pose| about::<F>(pose, &few)).collect()
+        poses.iter().map(|pose| about::<F>(pose, &judging)).collect()
     };
     let mut first = best(cones(all_around(points, &scatter)), MAX_IMPROVED_CONES);
     first.extend(best(cones(from_within(points, &scatter)), MAX_IMPROVED_CONES));
     first.extend(best(cones(from_tips(points, &scatter)), MAX_IMPROVED_CONES));
-    let sample = Sample { points: Cow::Borrowed(&few), center: [0.0; 3], scale: 1.0, station: [0.0; 3] };
+    let sample = Sample { points: Cow::Borrowed(&judging), center: [0.0; 3], scale: 1.0, station: [0.0; 3] };
     let improved = first.iter().filter_map(|start| {
         let end = minimize::<6, F, _>(start, &sample, &Alike, FEW_STEPS)?;
         Some((end.sums.square, end.element))
@@ -53,12 +53,12 @@ pub(super) fn cones<F: Family<6>>(points: &[Point]) -> Vec<Element> {
 
 /// Some of the points, and those at the ends of each principal direction: the tip of a cone may be a single point.
 fn judges(points: &[Point], scatter: &Scatter) -> Vec<Point> {
-    let mut few: Vec<Point> =
+    let mut judging: Vec<Point> =
         points.iter().copied().step_by(points.len().div_ceil(CONE_JUDGES).max(1)).collect();
-    if few.len() < points.len() {
-        few.extend(ends(points, scatter));
+    if judging.len() < points.len() {
+        judging.extend(ends(points, scatter));
     }
-    few
+    judging
 }
 
 /// The points at the ends of each principal direction.

@@ -204,6 +204,7 @@ fn apart(mut rest: Vec<Axis>, count: usize) -> Vec<Axis> {
 
 /// Whether two axes are of two valleys: their directions differ by more than 12°.
 fn apart_from(a: &Axis, b: &Axis) -> bool {
+    /// Cosine of 12°.
     const OTHER_VALLEY_COSINE: f64 = 0.978;
     dot(a.pose.axes[2], b.pose.axes[2]).abs() < OTHER_VALLEY_COSINE
 }

@@ -66,15 +66,15 @@ pub(super) fn robust<const P: usize, F: Family<P>>(
         Some(shape) => F::element(shape, sample).ok_or(FitError::WrongStart { kind })?,
         None => trials::<P, F>(sample, kind, options.seed, progress)?,
     };
-    let some = sample.thinned(DEVIATION_POINTS);
+    let subset = sample.thinned(DEVIATION_POINTS);
     let mut element = F::settled(start);
     let mut biweight = Biweight { sharpness: 1.0 };
     // The scale and the element settle together.
     for _ in 0..6 {
-        let cutoff = BIWEIGHT_CUTOFF * SIGMA_OVER_MAD * median::<P, F>(&element, &some);
+        let cutoff = BIWEIGHT_CUTOFF * SIGMA_OVER_MAD * median::<P, F>(&element, &subset);
         // Points without noise: anything off is an outlier, rounding is not.
         biweight.sharpness = cutoff.max(1e-13).powi(-2);
-        let Some(better) = minimize::<P, F, _>(&element, &some, &biweight, ROUGH) else { break };
+        let Some(better) = minimize::<P, F, _>(&element, &subset, &biweight, ROUGH) else { break };
         element = better.element;
     }
     if progress.cancelled() {
@@ -124,8 +124,8 @@ fn trials<const P: usize, F: Family<P>>(
         }
         let points: Vec<Point> =
             random.choose(each, sample.len()).into_iter().map(|k| sample.points[k]).collect();
-        let few = sample.with(points.into());
-        let Some(found) = gaussian::quick::<P, F>(&few).map(judged) else { continue };
+        let drawn = sample.with(points.into());
+        let Some(found) = gaussian::quick::<P, F>(&drawn).map(judged) else { continue };
         if best.as_ref().is_none_or(|b| found.0 < b.0) {
             let near = 3.0 * SIGMA_OVER_MAD * found.0;
             let share = share_within::<P, F>(&found.1, &judging, near);

@@ -26,7 +26,7 @@ struct Distances(Lanes);
 impl Distances {
     /// Takes those of the points given.
     #[inline(always)]
-    fn take<const P: usize, F: Family<P>>(
+    fn compute<const P: usize, F: Family<P>>(
         &mut self,
         group: &[Point; POINTS_PER_GROUP],
         size: [f64; 2],
@@ -45,7 +45,7 @@ fn block<const P: usize, F: Family<P>>(points: &[Point], size: [f64; 2], placing
     let (mut distances, mut filled) = (Distances([0.0; POINTS_PER_GROUP]), [[0.0; 3]; POINTS_PER_GROUP]);
     for k in 0..groups(points) {
         let (group, count) = group(points, k, &mut filled);
-        distances.take::<P, F>(group, size, placing);
+        distances.compute::<P, F>(group, size, placing);
         for first in 0..POINTS_PER_GROUP / NUMBERS_AT_ONCE {
             for l in 0..NUMBERS_AT_ONCE {
                 let d = distances.0[NUMBERS_AT_ONCE * first + l];
@@ -109,7 +109,7 @@ fn find_in<const P: usize, F: Family<P>>(
     let (mut distances, mut filled) = (Distances([0.0; POINTS_PER_GROUP]), [[0.0; 3]; POINTS_PER_GROUP]);
     for k in 0..groups(points) {
         let (group, _) = group(points, k, &mut filled);
-        distances.take::<P, F>(group, size, placing);
+        distances.compute::<P, F>(group, size, placing);
         if let Some(l) = distances.0.iter().position(|&d| d == distance) {
             return Some((k * POINTS_PER_GROUP + l).min(points.len() - 1));
         }

@@ -107,11 +107,12 @@ fn best(mut all: Vec<(f64, Element)>, count: usize) -> Vec<Element> {
 
 /// Cylinders that are bent: the starts of short pieces.
 fn bent(powers: &Powers, principal: &[Vector; 3], points: &[Point]) -> Vec<Element> {
-    let few: Vec<Point> = points.iter().copied().step_by(points.len().div_ceil(MAX_TUBE_POINTS)).collect();
+    let subset: Vec<Point> = points.iter().copied().step_by(points.len().div_ceil(MAX_TUBE_POINTS)).collect();
     let cylinders = powers.axes(Profile::Constant, principal, TUBE_CYLINDERS);
-    let tubes = cylinders.iter().map(|axis| Tube::near(axis.pose, axis.radius_squared.sqrt(), &few).torus());
+    let tubes =
+        cylinders.iter().map(|axis| Tube::near(axis.pose, axis.radius_squared.sqrt(), &subset).torus());
     let sound = tubes.filter(|torus| Torus::sound(torus.size));
-    best(sound.map(|torus| judged(torus, &few)).filter(|t| t.0.is_finite()).collect(), MAX_TUBES)
+    best(sound.map(|torus| judged(torus, &subset)).filter(|t| t.0.is_finite()).collect(), MAX_TUBES)
 }
 
 /// The `count` best tori about the axes of the frames.

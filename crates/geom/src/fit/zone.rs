@@ -135,7 +135,7 @@ impl<'a, const P: usize, F: Family<P>> Search<'a, P, F> {
         search.join(first, f64::NEG_INFINITY, &blocks);
         // Points all over the surface keep the element from leaving through a gap between the few extreme ones.
         for index in sample.spread(COVERING_POINTS) {
-            search.take(index);
+            search.add_working(index);
         }
         search
     }
@@ -161,12 +161,12 @@ impl<'a, const P: usize, F: Family<P>> Search<'a, P, F> {
         found.sort_unstable();
         found.dedup();
         for index in found {
-            self.take(index);
+            self.add_working(index);
         }
         worst
     }
 
-    fn take(&mut self, index: usize) {
+    fn add_working(&mut self, index: usize) {
         if !self.working.contains(&index) {
             self.working.push(index);
             self.places.push(self.sample.unit(self.sample.points[index]));

@@ -82,7 +82,7 @@ pub(super) fn found(patches: &[Moments]) -> Noise {
         points_per_independent: if is_shared { (sums / variance).max(1.0) } else { 1.0 },
         spacing,
         patches: count,
-        left_out: patches.len() - count,
+        excluded_patches: patches.len() - count,
         unevenness: unevenness(&of_kept().collect::<Vec<_>>(), &model),
     }
 }

@@ -115,13 +115,13 @@ fn found(
         false => Box::new(OnMesh::new(scan, counts)?),
     };
     let all = Places { points, counted: &counted, around: &*around, distances };
-    let wide = all.told(POINTS_PER_PATCH[0], seed, progress);
+    let wide = all.from_patches(POINTS_PER_PATCH[0], seed, progress);
     let looks_like_noise = |n: &Noise| n.even().is_ok() && n.deviation <= FORM_LIKE_NOISE_SHARE * n.spacing;
     if matches!(wide, Err(NoNoise::Cancelled(_))) || wide.as_ref().is_ok_and(looks_like_noise) {
         return wide;
     }
     let great = wide.as_ref().map_or(f64::INFINITY, |n| n.deviation);
-    match all.told(POINTS_PER_PATCH[1], seed, progress) {
+    match all.from_patches(POINTS_PER_PATCH[1], seed, progress) {
         Err(NoNoise::Cancelled(e)) => Err(e.into()),
         Ok(narrow)
             if narrow.unevenness <= MAX_SMALL_UNEVENNESS
@@ -143,7 +143,7 @@ struct Places<'a> {
 
 impl Places<'_> {
     /// What patches of so many points tell.
-    fn told(&self, size: usize, seed: u64, progress: &dyn Progress) -> Result<Noise, NoNoise> {
+    fn from_patches(&self, size: usize, seed: u64, progress: &dyn Progress) -> Result<Noise, NoNoise> {
         let Places { points, counted, around, distances } = self;
         let count = MAX_PATCHES.min(PATCHES_PER_POINT * counted.len() / size);
         let centers = Random::new(seed).choose(count, counted.len());
@@ -168,7 +168,7 @@ impl Places<'_> {
         }
         let patches: Vec<Moments> = patches.into_iter().flatten().collect();
         if patches.len() < MIN_PATCHES {
-            return Err(NoNoise::Few { found: patches.len(), needed: size, least: MIN_PATCHES });
+            return Err(NoNoise::FewPatches { found: patches.len(), needed: size, least: MIN_PATCHES });
         }
         Ok(covariance::found(&patches))
     }

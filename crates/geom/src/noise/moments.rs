@@ -75,8 +75,8 @@ impl Moments {
             }
             for (l, half) in half.iter().enumerate() {
                 // The element (i, j) of P B P, B being 1 for the pairs of the lag.
-                let taken = inner(&polynomial[i], &half[j]) + inner(&half[i], &polynomial[j]);
-                all.expected[l][bin] += both * (f64::from(u8::from(lag == Some(l))) - taken);
+                let projected = inner(&polynomial[i], &half[j]) + inner(&half[i], &polynomial[j]);
+                all.expected[l][bin] += both * (f64::from(u8::from(lag == Some(l))) - projected);
             }
         });
         Some(all)

@@ -23,7 +23,7 @@ pub struct Noise {
     /// Patches that the noise is told from.
     pub patches: usize,
     /// Patches left out, which lie over edges or form.
-    pub left_out: usize,
+    pub excluded_patches: usize,
     /// How much the variances of the patches differ, in what chance makes: about 1 where the noise is the same everywhere.
     pub unevenness: f64,
 }
@@ -57,7 +57,7 @@ pub enum NoNoise {
     #[error(
         "it has too few points to tell how far neighbors share noise: {found} patches of {needed}, {least} are needed"
     )]
-    Few {
+    FewPatches {
         /// Patches found.
         found: usize,
         /// Points of a patch.

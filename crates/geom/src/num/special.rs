@@ -46,9 +46,9 @@ pub fn chi_square_quantile(share: f64, degrees: f64) -> f64 {
 }
 /// Two-sided p value of `heads` among `tosses` of a fair coin, exactly.
 pub fn coin_p(heads: u64, tosses: u64) -> f64 {
-    let few = heads.min(tosses - heads) as f64;
-    // At most `few` heads: the incomplete beta function at one half.
-    (2.0 * beta_share(tosses as f64 - few, few + 1.0, 0.5)).min(1.0)
+    let rarer = heads.min(tosses - heads) as f64;
+    // At most `rarer` heads: the incomplete beta function at one half.
+    (2.0 * beta_share(tosses as f64 - rarer, rarer + 1.0, 0.5)).min(1.0)
 }
 
 /// Where `below` turns from true to false between `low` and `high`.

@@ -4,7 +4,7 @@ use super::best::{Best, Candidate};
 use super::cut::NO_FACE;
 use super::faces::{Face, Seat};
 use super::facing::Facing;
-use super::terms::{Class, MAX_EXPLAINED_DEVIATIONS};
+use super::terms::{Class, EXPLAINED_SIGMAS};
 use super::work::{MIN_SURE_POINTS, SEARCH_REACHES, Work};
 use crate::mesh::Mesh;
 use crate::parallel::prelude::*;
@@ -76,7 +76,7 @@ pub(super) fn straddle_edges(
     shared: &[(u32, u32)],
     (faces, facing): (&[&Face], &Facing),
 ) -> bool {
-    let explained = |v: u32| best.cost[v as usize] <= MAX_EXPLAINED_DEVIATIONS;
+    let explained = |v: u32| best.cost[v as usize] <= EXPLAINED_SIGMAS;
     let class = |v: usize| if explained(v as u32) { Class::Face } else { Class::Beyond };
     let classes: Vec<Class> = (0..best.owner.len()).map(class).collect();
     let owners = owners(scan, (&best.owner, &classes), shared, (faces, facing));

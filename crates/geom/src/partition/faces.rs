@@ -23,11 +23,11 @@ pub struct Face {
     pub bounds: Aabb,
     /// 1 where distances of the element are positive outside of the material, else −1.
     pub(super) outward: f64,
-    goes: Goes,
+    extent: FaceExtent,
 }
 
 /// How far a face goes.
-enum Goes {
+enum FaceExtent {
     /// As far as its facets.
     Facets(Facets),
     /// As far as the bounds of a nominal feature.
@@ -119,7 +119,7 @@ impl Faces {
             shape: Some(shape),
             bounds,
             outward,
-            goes: Goes::Nominal(extent),
+            extent: FaceExtent::Nominal(extent),
         }))
     }
 
@@ -133,9 +133,9 @@ impl Faces {
         apart: f64,
         (outward, narrow): (bool, bool),
     ) -> u32 {
-        let goes = Goes::Points { tree: PointTree::new(points), apart, narrow };
+        let extent = FaceExtent::Points { tree: PointTree::new(points), apart, narrow };
         let outward = if outward { 1.0 } else { -1.0 };
-        self.add(Face { facets: vec![], shape: Some(shape), bounds: Aabb::of(points), outward, goes })
+        self.add(Face { facets: vec![], shape: Some(shape), bounds: Aabb::of(points), outward, extent })
     }
 
     fn add(&mut self, face: Face) -> u32 {
@@ -201,8 +201,8 @@ impl Face {
         };
         let facing = shape.map_or(1.0, |s| mesh.faces.iter().map(|f| towards(s, f)).sum());
         let bounds = Aabb::of(&mesh.positions);
-        let goes = Goes::Facets(Facets { mesh, tree, rim, border });
-        Some(Face { facets, shape, bounds, outward: 1f64.copysign(facing), goes })
+        let extent = FaceExtent::Facets(Facets { mesh, tree, rim, border });
+        Some(Face { facets, shape, bounds, outward: 1f64.copysign(facing), extent })
     }
 
     /// Where points lie on the face; `None` of those farther off than `reach`, or beyond its border by more than `far`, and where the element has no
@@ -225,10 +225,12 @@ impl Face {
             None => searched(*p),
         };
         let feet: Vec<Point> = points.iter().zip(&across).map(foot).collect();
-        let within: Vec<f64> = match &self.goes {
-            Goes::Nominal(extent) => feet.par_iter().map(|p| extent.within(*p)).collect(),
-            Goes::Points { tree, apart, .. } => feet.par_iter().map(|p| beyond(tree, *apart, p)).collect(),
-            Goes::Facets(facets) => match self.shape {
+        let within: Vec<f64> = match &self.extent {
+            FaceExtent::Nominal(extent) => feet.par_iter().map(|p| extent.within(*p)).collect(),
+            FaceExtent::Points { tree, apart, .. } => {
+                feet.par_iter().map(|p| beyond(tree, *apart, p)).collect()
+            }
+            FaceExtent::Facets(facets) => match self.shape {
                 Some(_) => facets.within(&feet, far, progress)?,
                 None => return facets.free(&feet, reach, far, progress),
             },
@@ -248,24 +250,24 @@ impl Face {
 
     /// Whether its border is known; of a nominal feature the bounds are, but not where other faces cut it.
     pub(super) fn is_bounded(&self) -> bool {
-        matches!(self.goes, Goes::Facets(_))
+        matches!(self.extent, FaceExtent::Facets(_))
     }
 
     /// Whether it goes as far as measured points that were found to be of it.
     pub(super) fn is_measured(&self) -> bool {
-        matches!(self.goes, Goes::Points { .. })
+        matches!(self.extent, FaceExtent::Points { .. })
     }
 
     /// Whether it may be no face, but where a scan rounds an edge.
     pub(super) fn is_narrow(&self) -> bool {
-        matches!(self.goes, Goes::Points { narrow: true, .. })
+        matches!(self.extent, FaceExtent::Points { narrow: true, .. })
     }
 
     /// Its unit normal near a place, out of the material.
     pub fn facing(&self, p: &Point) -> Option<Vector> {
-        match (self.shape, &self.goes) {
+        match (self.shape, &self.extent) {
             (Some(shape), _) => self.across(shape, *p, f64::INFINITY).map(|a| a.1),
-            (None, Goes::Facets(facets)) => facets.facing(p),
+            (None, FaceExtent::Facets(facets)) => facets.facing(p),
             (None, _) => None,
         }
     }
@@ -287,10 +289,10 @@ impl Face {
     pub fn to_border(&self, p: &Point) -> f64 {
         let across = self.shape.and_then(|shape| self.across(shape, *p, f64::INFINITY));
         let foot = across.map_or(*p, |(off, normal)| minus(*p, times(off, normal)));
-        match &self.goes {
-            Goes::Facets(facets) => facets.to_border(&foot),
-            Goes::Nominal(extent) => extent.within(foot).abs(),
-            Goes::Points { .. } => f64::INFINITY,
+        match &self.extent {
+            FaceExtent::Facets(facets) => facets.to_border(&foot),
+            FaceExtent::Nominal(extent) => extent.within(foot).abs(),
+            FaceExtent::Points { .. } => f64::INFINITY,
         }
     }
 }

@@ -21,17 +21,17 @@
 //! | `faces` | a face, and where a point lies on it |
 //! | `facing` | how the vertices of a mesh face |
 //! | `placed` | where a face really is |
-//! | `going_on` | where its surface goes on near a border |
+//! | `continuation` | where its surface goes on near a border |
 //! | `work` | which faces points may be of, and which explains each best |
 //! | `rounding` | how far from its edges a scan is rounded |
 //! | `unexplained` | what no face explains |
 
 mod best;
 mod by_facets;
+mod continuation;
 mod cut;
 mod faces;
 mod facing;
-mod going_on;
 mod placed;
 mod rounding;
 mod terms;
@@ -51,10 +51,10 @@ use crate::progress::{Cancelled, Progress};
 use crate::space::{Aabb, Point, single_step};
 use crate::spatial::neighbors::PointTree;
 use best::Candidate;
+use continuation::Sure;
 use faces::Seat;
 use facing::Facing;
-use going_on::Sure;
-use terms::MAX_EXPLAINED_DEVIATIONS;
+use terms::EXPLAINED_SIGMAS;
 use unexplained::{Over, Unexplained};
 use work::{ROUNDED_EDGE_SPACINGS, SEARCH_REACHES, SURE_BORDER_SPACINGS, Work};
 
@@ -128,13 +128,8 @@ pub fn partition(
     let sparse = work.sparse(facing.is_none());
     let placed: Vec<Placed> = (faces.par_iter().zip(&sure).zip(&sparse))
         .map(|((face, sure), sparse)| {
-            Placed::of(
-                face,
-                points,
-                sure,
-                sparse.map_or(floor, |reach| reach / MAX_EXPLAINED_DEVIATIONS),
-                options.seed,
-            )
+            let least = sparse.map_or(floor, |reach| reach / EXPLAINED_SIGMAS);
+            Placed::of(face, points, sure, least, options.seed)
         })
         .collect();
     cancelled(progress)?;
@@ -143,11 +138,11 @@ pub fn partition(
         .collect();
     drop(sure);
     cancelled(progress)?;
-    let noise = going_on::noise(&around, options.seed).max(floor);
+    let noise = continuation::noise(&around, options.seed).max(floor);
     let mut best = work.by_faces(&placed, noise);
     cancelled(progress)?;
     let (shared, mut between) = work.by_what_is_around(&mut best, &around, noise);
-    work.beside(&mut best, &placed);
+    work.adjacent_face(&mut best, &placed);
     cancelled(progress)?;
     drop((work, around));
     // What was computed has sharp edges.

@@ -36,9 +36,9 @@ const MIN_FACES_PER_STEP: usize = 3;
 pub(super) fn to_edge(best: &Best, faces: &[&Face], p: usize) -> f64 {
     let within = best.seat[p].map_or(f64::INFINITY, |seat| seat.within());
     match best.owner[p] {
-        NO_FACE => f64::from(best.beside[p]),
+        NO_FACE => f64::from(best.adjacent_face[p]),
         own if faces[own as usize].is_narrow() => f64::INFINITY,
-        _ => within.min(f64::from(best.beside[p])),
+        _ => within.min(f64::from(best.adjacent_face[p])),
     }
 }
 
@@ -63,9 +63,9 @@ pub(super) fn width(
     }
     // The median face tells: of a single one it may be worn.
     let of_step = |step: usize| {
-        let told =
+        let counted =
             sums.iter().map(|of_face| of_face[step]).filter(|(_, count)| *count >= MIN_POINTS_PER_STEP);
-        let mut means: Vec<f64> = told.map(|(sum, count)| sum / count as f64).collect();
+        let mut means: Vec<f64> = counted.map(|(sum, count)| sum / count as f64).collect();
         means.sort_by(f64::total_cmp);
         (means.len() >= MIN_FACES_PER_STEP).then(|| means[means.len() / 2])
     };

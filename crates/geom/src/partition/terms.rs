@@ -6,7 +6,7 @@ use crate::segment::SegmentError;
 use std::collections::BTreeMap;
 
 /// Deviations beyond which a face does not explain a point: one point of two million is so far off by normal noise.
-pub(super) const MAX_EXPLAINED_DEVIATIONS: f64 = 5.0;
+pub(super) const EXPLAINED_SIGMAS: f64 = 5.0;
 
 /// What is asked of a partition.
 #[derive(Clone, Debug, Default, PartialEq)]

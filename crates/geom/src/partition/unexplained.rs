@@ -6,7 +6,7 @@ use super::faces::{Face, Seat};
 use super::facing::Facing;
 use super::placed::Placed;
 use super::rounding::to_edge;
-use super::terms::{Beyond, Class, MAX_EXPLAINED_DEVIATIONS};
+use super::terms::{Beyond, Class, EXPLAINED_SIGMAS};
 use super::work::MIN_SCANNED_POINTS;
 use crate::mesh::Mesh;
 use crate::num::random::Random;
@@ -64,7 +64,7 @@ impl Unexplained<'_> {
         let is_left = |p: &u32| is_open(best, *p as usize) && classes[*p as usize] != Class::Edge;
         let open: Vec<u32> = (0..best.owner.len() as u32).filter(is_left).collect();
         let mut hanging = vec![];
-        for (group, beside) in groups(self.scan, &open, self.spacing) {
+        for (group, adjacent_points) in groups(self.scan, &open, self.spacing) {
             let (of_faces, beyond): (Vec<u32>, Vec<u32>) =
                 group.into_iter().partition(|p| best.owner[*p as usize] != NO_FACE);
             if beyond.len() < MIN_OTHER_POINTS {
@@ -78,8 +78,8 @@ impl Unexplained<'_> {
                 continue;
             }
             // Facets join it to points of faces.
-            let mut faces = faces_of(&beside, &best.owner);
-            let around = faces_of(&[&beside[..], &of_faces].concat(), &best.owner);
+            let mut faces = faces_of(&adjacent_points, &best.owner);
+            let around = faces_of(&[&adjacent_points[..], &of_faces].concat(), &best.owner);
             let mut flank = of_faces;
             let seats: Vec<Seat> = flank.iter().filter_map(|p| best.seat[*p as usize]).collect();
             if !seats.is_empty() {
@@ -151,13 +151,14 @@ impl Unexplained<'_> {
             self.facing.is_some_and(|facing| facing.about(p).iter().any(ends))
         };
         let is_along = |s: Seat| s.within() < far || !self.faces[own as usize].is_bounded() && ends(s);
-        f64::from(best.beside[p as usize]) <= self.spacing || best.seat[p as usize].is_some_and(is_along)
+        f64::from(best.adjacent_face[p as usize]) <= self.spacing
+            || best.seat[p as usize].is_some_and(is_along)
     }
 }
 
 /// Whether no face explains it.
 fn is_open(best: &Best, p: usize) -> bool {
-    best.cost[p].is_nan() || best.cost[p] > MAX_EXPLAINED_DEVIATIONS
+    best.cost[p].is_nan() || best.cost[p] > EXPLAINED_SIGMAS
 }
 
 /// The faces of some points, ascending.
@@ -425,14 +426,17 @@ fn groups(scan: &Mesh, open: &[u32], spacing: f64) -> Vec<(Vec<u32>, Vec<u32>)> 
     }
     let mut members: Vec<(u32, u32)> = (0u32..).zip(open).map(|(i, p)| (groups.find(i), *p)).collect();
     members.sort_unstable();
-    let mut beside: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
+    let mut adjacent_points: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
     for f in &scan.faces {
         let Some(inside) = f.iter().find_map(|v| place(*v)) else { continue };
         let others = f.iter().copied().filter(|v| place(*v).is_none());
-        beside.entry(groups.find(inside)).or_default().extend(others);
+        adjacent_points.entry(groups.find(inside)).or_default().extend(others);
     }
     let group = |g: &[(u32, u32)]| {
-        (g.iter().map(|m| m.1).collect(), g.first().and_then(|m| beside.remove(&m.0)).unwrap_or_default())
+        (
+            g.iter().map(|m| m.1).collect(),
+            g.first().and_then(|m| adjacent_points.remove(&m.0)).unwrap_or_default(),
+        )
     };
     members.chunk_by(|a, b| a.0 == b.0).map(group).collect()
 }

@@ -1,11 +1,11 @@
 //! Which faces points may be of, and which explains each best.
 
 use super::best::{Best, Candidate};
+use super::continuation::Sure;
 use super::faces::Face;
 use super::facing::Facing;
-use super::going_on::Sure;
 use super::placed::Placed;
-use super::terms::{Beyond, MAX_EXPLAINED_DEVIATIONS};
+use super::terms::{Beyond, EXPLAINED_SIGMAS};
 use crate::parallel::prelude::*;
 use crate::space::{Point, Vector, dot};
 use std::collections::BTreeMap;
@@ -20,9 +20,9 @@ pub(super) const ROUNDED_EDGE_SPACINGS: f64 = 3.0;
 /// Distances of neighbors beyond a border that cost nothing.
 const FREE_SPACINGS: f64 = 0.3;
 /// A point is asked again, by the points around it, where the second of its faces costs less.
-const MAX_RIVAL_COST: f64 = 6.0 * MAX_EXPLAINED_DEVIATIONS;
+const MAX_RIVAL_COST: f64 = 6.0 * EXPLAINED_SIGMAS;
 /// It is asked again too where its best face costs more.
-const MIN_ASKED_COST: f64 = 0.6 * MAX_EXPLAINED_DEVIATIONS;
+const MIN_ASKED_COST: f64 = 0.6 * EXPLAINED_SIGMAS;
 /// A corner of facets belongs to each face that costs at most so much more than its best one: at a sharp edge to two.
 const MAX_SHARED_COST: f64 = 3.0;
 /// Cosine of the angle (120°) from which on faces are the two sides of a wall.
@@ -85,8 +85,9 @@ impl Work<'_> {
         };
         let counts: Vec<usize> = self.candidates.par_iter().zip(&self.reach).map(over).collect();
         let is_probed = is_cloud && counts.iter().all(|count| *count < MIN_SCANNED_POINTS);
-        let few = |(count, reach): (&usize, &f64)| (is_probed && *count < MIN_SURE_POINTS).then_some(*reach);
-        counts.iter().zip(&self.reach).map(few).collect()
+        let probed =
+            |(count, reach): (&usize, &f64)| (is_probed && *count < MIN_SURE_POINTS).then_some(*reach);
+        counts.iter().zip(&self.reach).map(probed).collect()
     }
 
     /// The face of each point by the distance from where the faces really are.
@@ -96,8 +97,8 @@ impl Work<'_> {
             let scale = placed[number].deviation.max(noise);
             for c in &self.candidates[number] {
                 let off = placed[number].off(face, self.points[c.point as usize], c.seat).abs();
-                let is_there = c.seat.within() > -FREE_SPACINGS * self.spacing
-                    || off <= MAX_EXPLAINED_DEVIATIONS * scale;
+                let is_there =
+                    c.seat.within() > -FREE_SPACINGS * self.spacing || off <= EXPLAINED_SIGMAS * scale;
                 if is_there && off <= self.reach[number] {
                     best.add(c, number as u32, off / scale + self.beyond(c.seat.within()));
                 }
@@ -108,7 +109,7 @@ impl Work<'_> {
 
     /// Tells how far off points lie from the nearest face beside their own: that over which they lie, or hardly beyond its border, and which faces otherwise.
     /// Of no face, beside the nearest.
-    pub(super) fn beside(&self, best: &mut Best, placed: &[Placed]) {
+    pub(super) fn adjacent_face(&self, best: &mut Best, placed: &[Placed]) {
         let off = |number: usize, c: &Candidate| {
             let ends = if self.faces[number].is_measured() { ROUNDED_EDGE_SPACINGS } else { 1.0 };
             let off = placed[number].off(self.faces[number], self.points[c.point as usize], c.seat).abs();
@@ -134,8 +135,8 @@ impl Work<'_> {
                 };
                 let faces_otherwise = own.is_some_and(otherwise);
                 if let Some(off) = off(number, c).filter(|_| faces_otherwise) {
-                    let beside = &mut best.beside[c.point as usize];
-                    *beside = beside.min(off as f32);
+                    let adjacent_face = &mut best.adjacent_face[c.point as usize];
+                    *adjacent_face = adjacent_face.min(off as f32);
                 }
             }
         }
@@ -168,14 +169,13 @@ impl Work<'_> {
         }
         for (number, near) in (0u32..).zip(&again) {
             let is_alike = |n: &&(Candidate, f64)| {
-                n.1 <= MAX_EXPLAINED_DEVIATIONS.min(best.cost[n.0.point as usize] + MAX_SHARED_COST)
+                n.1 <= EXPLAINED_SIGMAS.min(best.cost[n.0.point as usize] + MAX_SHARED_COST)
             };
             shared.extend(near.iter().filter(is_alike).map(|n| (n.0.point, number)));
             // What no face explains may be of the other side of a wall too.
             let is_other_side = |c: &Candidate| {
                 let p = c.point as usize;
-                let own = best.seat[p]
-                    .filter(|_| best.cost[p] > MAX_EXPLAINED_DEVIATIONS && best.owner[p] != number);
+                let own = best.seat[p].filter(|_| best.cost[p] > EXPLAINED_SIGMAS && best.owner[p] != number);
                 c.seat.within() > 0.0
                     && own.is_some_and(|own| dot(own.normal(), c.seat.normal()) < OPPOSITE_FACE_COSINE)
             };

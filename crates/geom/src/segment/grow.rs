@@ -41,7 +41,7 @@ const MIN_GOING_ON_SHARE: f64 = 0.3;
 const START_PIECES: usize = 60;
 /// Share of the least weight asked for that a region must have for other kinds to be tried on it. They may cover more, but not
 /// many times as much.
-pub(super) const PROMISING_WEIGHT_SHARE: f64 = 0.3;
+pub(super) const PROMISING_SHARE: f64 = 0.3;
 /// How often a whole region may change its kind.
 const MAX_KIND_CHANGES: usize = 3;
 
@@ -131,7 +131,7 @@ impl Context<'_> {
         free: &impl Fn(u32) -> bool,
     ) -> Option<GrownRegion> {
         let mut best = self.grown(trial.shape, &trial.pieces, usize::MAX, marks, free)?;
-        if best.is_doubtful(self.noise) && best.weight >= PROMISING_WEIGHT_SHARE * enough {
+        if best.is_doubtful(self.noise) && best.weight >= PROMISING_SHARE * enough {
             // It may have gone beyond its face: begin again with the other kinds.
             for &kind in self.kinds.iter().filter(|&&kind| kind != trial.shape.kind()) {
                 let Some((shape, _)) = self.shown(kind, &trial.pieces, MIN_AGREEING_SHARE) else { continue };
@@ -140,7 +140,7 @@ impl Context<'_> {
             }
         }
         for _ in 0..MAX_KIND_CHANGES {
-            if best.weight < PROMISING_WEIGHT_SHARE * enough {
+            if best.weight < PROMISING_SHARE * enough {
                 break;
             }
             let before = (best.shape.kind(), best.pieces.len());
@@ -161,9 +161,9 @@ impl Context<'_> {
         // The corners of two circles lie on a ball, whatever the facets between them go along: all of it shows that, without a start.
         let is_ball = self.surface.is_drawn && best.shape.kind() == Kind::Sphere;
         if is_ball && may_give_way(&best, self.noise) {
-            let few = self.surface.some_places(&best.pieces, START_PIECES);
+            let start_places = self.surface.sampled_places(&best.pieces, START_PIECES);
             for &kind in self.kinds.iter().filter(|&&kind| matches!(kind, Kind::Cylinder | Kind::Cone)) {
-                let Ok(start) = fit(&few, kind, &Options::default(), &Silent) else { continue };
+                let Ok(start) = fit(&start_places, kind, &Options::default(), &Silent) else { continue };
                 if let Some(grown) = self.grown(start.shape, &best.pieces, usize::MAX, marks, free) {
                     best = better(Some(best), grown, self.noise);
                 }
@@ -179,10 +179,10 @@ impl Context<'_> {
         if own != Kind::Sphere || !region.is_doubtful(self.noise) {
             return;
         }
-        let [few, points] =
-            [START_PIECES, MAX_FITTED_POINTS].map(|most| self.surface.some_places(&region.pieces, most));
+        let [start_places, points] =
+            [START_PIECES, MAX_FITTED_POINTS].map(|most| self.surface.sampled_places(&region.pieces, most));
         for &kind in self.kinds.iter().filter(|kind| kind.unknowns() > own.unknowns()) {
-            let Ok(start) = fit(&few, kind, &Options::default(), &Silent) else { continue };
+            let Ok(start) = fit(&start_places, kind, &Options::default(), &Silent) else { continue };
             let Some((shape, rms)) = improved(&points, &start.shape) else { continue };
             let clearly =
                 rms < CLEARLY_BETTER_RMS * region.rms && is_sound(&shape, self.size, self.band.distance);
@@ -194,10 +194,10 @@ impl Context<'_> {
 
     /// The share of the pieces that belong to the element; of many, some are asked.
     fn agreeing(&self, shape: &Shape, pieces: &[u32]) -> f64 {
-        let some = pieces.iter().step_by(pieces.len().div_ceil(MAX_FITTED_POINTS).max(1));
-        let all = some.clone().count().max(1);
+        let sampled = pieces.iter().step_by(pieces.len().div_ceil(MAX_FITTED_POINTS).max(1));
+        let all = sampled.clone().count().max(1);
         let element = Probe::new(shape);
-        some.filter(|&&p| self.surface.belongs(p, &element, &self.band)).count() as f64 / all as f64
+        sampled.filter(|&&p| self.surface.belongs(p, &element, &self.band)).count() as f64 / all as f64
     }
 
     /// The element of one kind that the patch shows, if the given share of it agrees, and its root mean square distance.
@@ -208,7 +208,7 @@ impl Context<'_> {
             .filter(|o| o.1 != [0.0; 3])
             .collect();
         let first = estimate(kind, &oriented)?;
-        let points = surface.some_places(patch, MAX_FITTED_POINTS);
+        let points = surface.sampled_places(patch, MAX_FITTED_POINTS);
         if !is_shown(surface, kind, patch, points.len()) {
             return None;
         }
@@ -275,7 +275,7 @@ impl Context<'_> {
 
     /// Some points of the pieces, those that lie within the band.
     fn within(&self, element: &Probe, pieces: &[u32]) -> Vec<Point> {
-        let mut points = self.surface.some_places(pieces, MAX_FITTED_POINTS);
+        let mut points = self.surface.sampled_places(pieces, MAX_FITTED_POINTS);
         points.retain(|&p| element.distance(p).abs() <= self.band.distance);
         points
     }

@@ -41,7 +41,7 @@ fn next(context: &Context, regions: &[GrownRegion], labels: &[u32]) -> Option<(u
 fn joint(context: &Context, large: &GrownRegion, small: &GrownRegion) -> Option<(Shape, f64)> {
     let surface = context.surface;
     let places = |region: &GrownRegion| -> Vec<Point> {
-        let mut places = surface.some_places(&region.pieces, MAX_FITTED_POINTS);
+        let mut places = surface.sampled_places(&region.pieces, MAX_FITTED_POINTS);
         places.retain(|&p| region.shape.distance(p).abs() <= context.band.distance);
         places
     };
@@ -111,7 +111,7 @@ mod tests {
     /// A region of these pieces.
     fn region(context: &Context, start: Shape, pieces: Vec<u32>) -> GrownRegion {
         let (shape, rms) =
-            improved(&context.surface.some_places(&pieces, MAX_FITTED_POINTS), &start).unwrap();
+            improved(&context.surface.sampled_places(&pieces, MAX_FITTED_POINTS), &start).unwrap();
         GrownRegion { shape, weight: context.surface.weight(&pieces), pieces, rms, middles: rms }
     }
 

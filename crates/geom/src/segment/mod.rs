@@ -351,9 +351,9 @@ fn region(
     total: f64,
 ) -> Option<(Region, Vec<u32>)> {
     let surface = context.surface;
-    let (mut shape, mut beside) = (grown.shape, BTreeSet::new());
+    let (mut shape, mut excluded) = (grown.shape, BTreeSet::new());
     for _ in 0..MAX_REGION_FITS {
-        let inside = |p: &u32| if beside.contains(p) { 0 } else { depths[*p as usize] };
+        let inside = |p: &u32| if excluded.contains(p) { 0 } else { depths[*p as usize] };
         let (fit, points) = fitted(surface, &shape, &pieces, inside)?;
         let farthest = |piece: u32| {
             let (corners, count) = surface.corners(piece);
@@ -365,7 +365,7 @@ fn region(
         shape = fit.shape;
         if !far.is_empty() {
             // Points of what lies off are at an edge.
-            beside.extend(surface.points_of(far));
+            excluded.extend(surface.points_of(far));
             pieces = near;
             continue;
         }

@@ -78,7 +78,7 @@ fn of_patches(
 /// Root mean square distance of the points from the best simple surface through the patch, with the unknowns taken
 /// into account, and the median angle of the pieces to it.
 fn best(surface: &PieceGraph, pieces: &[u32]) -> Option<(f64, f64)> {
-    let points = surface.some_places(pieces, usize::MAX);
+    let points = surface.sampled_places(pieces, usize::MAX);
     let oriented: Vec<_> =
         pieces.iter().map(|&p| (surface.places[p as usize], surface.normals[p as usize])).collect();
     let fits = KINDS.into_iter().filter_map(|kind| {

@@ -123,10 +123,10 @@ impl PieceGraph<'_> {
         (1e3 * a.min(b) / a.max(b)).round() / 1e3
     }
     /// At most about `most` places of the measured points of `pieces`, taken evenly over the list.
-    pub(super) fn some_places(&self, pieces: &[u32], most: usize) -> Vec<Point> {
+    pub(super) fn sampled_places(&self, pieces: &[u32], most: usize) -> Vec<Point> {
         let stride = pieces.len().div_ceil(most).max(1);
-        let some = self.points_of(pieces.iter().copied().step_by(stride));
-        some.into_iter().map(|i| self.points[i as usize]).collect()
+        let sampled = self.points_of(pieces.iter().copied().step_by(stride));
+        sampled.into_iter().map(|i| self.points[i as usize]).collect()
     }
     /// Whether a piece lies within `band` of the element. Of a facet two corners must; the third, which may be one of
     /// a neighboring face that is shared at an edge, may be four times as far.

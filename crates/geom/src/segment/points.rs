@@ -67,12 +67,12 @@ fn around(points: &[Point], p: &Point, normal: Vector, near: &[Neighbor]) -> Vec
     });
     let Some((u, _)) = first else { return near.iter().take(GROWTH_NEIGHBORS).map(|n| n.1).collect() };
     let v = cross(normal, u);
-    let mut taken = [false; GROWTH_NEIGHBORS];
+    let mut occupied = [false; GROWTH_NEIGHBORS];
     // The first neighbor is in the middle of its sector, so that a row lies in two of them.
     let mut alone = |n: &&Neighbor| {
         let q = minus(points[n.1 as usize], *p);
         let turns = libm::atan2(dot(q, v), dot(q, u)) / TAU + 1.0 + 0.5 / GROWTH_NEIGHBORS as f64;
-        !std::mem::replace(&mut taken[(turns * GROWTH_NEIGHBORS as f64) as usize % GROWTH_NEIGHBORS], true)
+        !std::mem::replace(&mut occupied[(turns * GROWTH_NEIGHBORS as f64) as usize % GROWTH_NEIGHBORS], true)
     };
     let (mut chosen, others): (Vec<&Neighbor>, Vec<&Neighbor>) = near.iter().partition(|n| alone(n));
     let missing = GROWTH_NEIGHBORS - chosen.len();

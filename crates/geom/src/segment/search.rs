@@ -6,7 +6,7 @@
 
 use super::criterion::{fewest_points, is_of_corners, is_shown};
 use super::flood::{Marks, patch};
-use super::grow::{Context, PROMISING_WEIGHT_SHARE};
+use super::grow::{Context, PROMISING_SHARE};
 use super::pieces::NO_PIECE;
 use super::region::GrownRegion;
 use super::seeds::Seeds;
@@ -17,7 +17,7 @@ use crate::progress::{Cancelled, Progress};
 /// Seeds tried against the same state: the answer depends on it, not on the number of threads.
 const SEEDS_PER_BATCH: u64 = 32;
 /// Pieces that a trial may reach; regions that are taken grow on.
-const MAX_TRIAL_PIECES: usize = 500;
+const TRIAL_PIECES: usize = 500;
 /// Pieces of a neighborhood that was tried in vain.
 const MAX_TRIED_PIECES: usize = 16;
 /// Trials for each region that could be there: the chance to miss a face of the smallest share asked for is e^-4.
@@ -69,20 +69,12 @@ pub(super) fn search(
         }
         let free = |piece: u32| labels[piece as usize] == NO_PIECE;
         let trials: Vec<Option<GrownRegion>> = (drawn.par_iter())
-            .map_init(
-                || Marks::new(surface),
-                |marks, &seed| context.around(seed, MAX_TRIAL_PIECES, marks, &free),
-            )
+            .map_init(|| Marks::new(surface), |marks, &seed| context.around(seed, TRIAL_PIECES, marks, &free))
             .collect();
         let mut promising: Vec<(u32, GrownRegion)> = Vec::new();
         for (&seed, trial) in drawn.iter().zip(trials) {
             match trial {
-                Some(grown)
-                    if grown.pieces.len() >= MAX_TRIAL_PIECES
-                        || grown.weight >= PROMISING_WEIGHT_SHARE * limits.weight =>
-                {
-                    promising.push((seed, grown));
-                }
+                Some(grown) if is_promising(&grown, limits) => promising.push((seed, grown)),
                 _ => mark_tried(context, seed, limits, &mut tried, &mut marks),
             }
         }
@@ -122,12 +114,16 @@ pub(super) fn search(
     Ok((found, labels))
 }
 
+fn is_promising(grown: &GrownRegion, limits: &Limits) -> bool {
+    grown.pieces.len() >= TRIAL_PIECES || grown.weight >= PROMISING_SHARE * limits.weight
+}
+
 fn enough(context: &Context, grown: &GrownRegion, limits: &Limits) -> bool {
     let (surface, kind) = (context.surface, grown.shape.kind());
     // Enough to tell, and not a million.
-    let some = &grown.pieces[..grown.pieces.len().min(8 * limits.points.max(fewest_points(kind)))];
-    let points = surface.points_of(some.iter().copied()).len();
-    grown.weight >= limits.weight && points >= limits.points && is_shown(surface, kind, some, points)
+    let first_pieces = &grown.pieces[..grown.pieces.len().min(8 * limits.points.max(fewest_points(kind)))];
+    let points = surface.points_of(first_pieces.iter().copied()).len();
+    grown.weight >= limits.weight && points >= limits.points && is_shown(surface, kind, first_pieces, points)
 }
 
 /// Nothing starts from the seed and its nearest neighbors again. Next to a drawn facet that could be a face by itself there may be another face.

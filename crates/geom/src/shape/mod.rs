@@ -14,4 +14,4 @@ mod shapes;
 
 pub use kind::{Coordinate, Kind, Quantity, Sides};
 pub(crate) use shapes::MAX_SHAPE_NUMBERS;
-pub use shapes::{Parameter, Shape, upon};
+pub use shapes::{Parameter, Shape, axes_along};

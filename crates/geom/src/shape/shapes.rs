@@ -66,12 +66,12 @@ impl Shape {
         self.each(|name, parameter| all.push((name, parameter)));
         all
     }
-    /// Hands name and value of each parameter to `take`, in their order.
-    fn each(&self, mut take: impl FnMut(&'static str, Parameter)) {
+    /// Hands name and value of each parameter to `visit`, in their order.
+    fn each(&self, mut visit: impl FnMut(&'static str, Parameter)) {
         let mut parameters = self.kind().parameters().iter();
         let mut next = |value| {
             if let Some((name, _)) = parameters.next() {
-                take(name, value);
+                visit(name, value);
             }
         };
         use Parameter::{Number, Vector};
@@ -247,12 +247,12 @@ impl Shape {
             Shape::Line2 { point, direction }
             | Shape::Line { point, direction }
             | Shape::Cylinder { point, direction, .. }
-            | Shape::Cone { point, direction, .. } => (point, upon(direction)),
-            Shape::Plane { point, normal } => (point, upon(normal)),
-            Shape::Circle2 { center, .. } | Shape::Sphere { center, .. } => (center, upon(UP)),
-            Shape::Circle { center, normal, .. } => (center, upon(normal)),
+            | Shape::Cone { point, direction, .. } => (point, axes_along(direction)),
+            Shape::Plane { point, normal } => (point, axes_along(normal)),
+            Shape::Circle2 { center, .. } | Shape::Sphere { center, .. } => (center, axes_along(UP)),
+            Shape::Circle { center, normal, .. } => (center, axes_along(normal)),
             Shape::Ellipse2 { center, direction, .. } => (center, [direction, cross(UP, direction), UP]),
-            Shape::Torus { center, direction, .. } => (center, upon(direction)),
+            Shape::Torus { center, direction, .. } => (center, axes_along(direction)),
         }
     }
     /// The two coordinates of the place nearest to `q`, which is told in the [frame](Shape::frame); they run as
@@ -298,7 +298,7 @@ impl Shape {
 }
 
 /// Three axes of which the last is `w`.
-pub fn upon(w: Vector) -> [Vector; 3] {
+pub fn axes_along(w: Vector) -> [Vector; 3] {
     let (v, _) = unit(cross(w, least_axis(w))).unwrap_or(([0.0, 1.0, 0.0], 1.0));
     [cross(v, w), v, w]
 }

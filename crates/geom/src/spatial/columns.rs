@@ -52,9 +52,9 @@ impl Columns {
         &self.boxes[0]
     }
 
-    /// Hands to `take` every facet that the line through `p` along the axis passes, with its box, as far as the box and all that hold
+    /// Hands to `visit` every facet that the line through `p` along the axis passes, with its box, as far as the box and all that hold
     /// it `reach`; and others whose box the line meets, but for most of the long thin ones that it misses.
-    pub(crate) fn pass(&self, p: &Point, reach: impl Fn(&Aabb) -> bool, mut take: impl FnMut(u32, &Aabb)) {
+    pub(crate) fn pass(&self, p: &Point, reach: impl Fn(&Aabb) -> bool, mut visit: impl FnMut(u32, &Aabb)) {
         let sides = [(self.axis + 1) % 3, (self.axis + 2) % 3];
         let meets = |b: &Aabb| reach(b) && sides.iter().all(|&k| b.min[k] <= p[k] && p[k] <= b.max[k]);
         let (seen, [of_facets, of_nodes]) = (sides.map(|k| p[k]), &self.strips);
@@ -67,7 +67,7 @@ impl Columns {
             }
             if nodes == 1 {
                 let is_met = |i: &usize| meets(&self.own[*i]) && of_facets[*i].holds(seen);
-                range.filter(is_met).for_each(|i| take(self.facets[i], &self.own[i]));
+                range.filter(is_met).for_each(|i| visit(self.facets[i], &self.own[i]));
                 continue;
             }
             let (middle, half) = (range.start + range.len() / 2, nodes / 2);
@@ -195,8 +195,8 @@ mod tests {
                 };
                 let meets = |f: &&u32| {
                     let b = Aabb::of(&mesh.corners(**f));
-                    let beside = |k: usize| p[k] < b.min[k] || b.max[k] < p[k];
-                    p[axis] <= b.max[axis] && !beside((axis + 1) % 3) && !beside((axis + 2) % 3)
+                    let is_outside = |k: usize| p[k] < b.min[k] || b.max[k] < p[k];
+                    p[axis] <= b.max[axis] && !is_outside((axis + 1) % 3) && !is_outside((axis + 2) % 3)
                 };
                 let mut all: Vec<u32> = facets.iter().filter(meets).copied().collect();
                 all.sort_unstable();

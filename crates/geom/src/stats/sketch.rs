@@ -5,17 +5,20 @@
 //! neither on the order of the values nor on how the stream was shared out. Memory: 128 KiB for every power of two
 //! that occurs, some 5 MB in practice.
 
-use super::part::Part;
 use super::quantiles::{from_key, key_of};
+use super::selection::Selection;
 use crate::parallel::prelude::*;
 
 /// Greatest relative error of a quantile: half a bin.
 pub const RELATIVE_ERROR: f64 = 1.0 / (1u64 << 15) as f64;
 
+/// Bits of the fraction that choose the slot: a bin is 2^-14 of its value wide, twice [`RELATIVE_ERROR`].
 const SLOT_BITS: u32 = 14;
+/// Slots of a page.
 const SLOTS: usize = 1 << SLOT_BITS;
 /// Sign and exponent.
 const PAGE_BITS: u32 = 12;
+/// Bits of the fraction that a bin does not tell apart.
 const DROPPED_BITS: u32 = 64 - PAGE_BITS - SLOT_BITS;
 /// Values counted by one worker before its counts are added to the rest.
 const SKETCHED_VALUES_PER_TASK: usize = 1 << 20;
@@ -102,7 +105,7 @@ impl Sketch {
         weighted_ranks(self.bins(), ranks)
     }
     /// The same for the distances of a part's values from `center`, each within [`RELATIVE_ERROR`] of the value.
-    pub(crate) fn distances_at(&self, part: Part, center: f64, ranks: &[u64]) -> Vec<f64> {
+    pub(crate) fn distances_at(&self, part: Selection, center: f64, ranks: &[u64]) -> Vec<f64> {
         let mut distances: Vec<(f64, u64)> = self
             .bins()
             .filter(|(x, _)| part.holds(*x))

@@ -1,8 +1,8 @@
 //! Statistics of deviations: all, the positive and the negative ones apart.
 
 use super::moments::{MomentTree, Moments, VALUES_PER_CHUNK};
-pub use super::part::Part;
 use super::quantiles::{Keyed, NO_KEY, PERCENTILES, interpolate, key_of, position};
+pub use super::selection::Selection;
 use super::sketch::Sketch;
 use crate::parallel::prelude::*;
 
@@ -93,24 +93,24 @@ impl Statistics {
 
     fn new(moments: &Moments, mean_abs: f64, ordered: Option<Ordered>) -> Statistics {
         let n = moments.count as f64;
-        let some = |x: f64| match moments.count {
+        let known = |x: f64| match moments.count {
             0 => Err(Missing::NoValues),
             _ if !x.is_finite() => Err(Missing::Overflow),
             _ => Ok(x),
         };
-        let spread = |x: f64| if moments.count == 1 { Err(Missing::OneValue) } else { some(x) };
+        let spread = |x: f64| if moments.count == 1 { Err(Missing::OneValue) } else { known(x) };
         let [m2, m3, m4] = moments.powers;
-        let shape = |x: f64| if moments.count > 0 && m2 == 0.0 { Err(Missing::NoSpread) } else { some(x) };
+        let shape = |x: f64| if moments.count > 0 && m2 == 0.0 { Err(Missing::NoSpread) } else { known(x) };
         let mean = moments.mean.value();
         let std_dev = spread((m2 / (n - 1.0)).sqrt());
         let zero_mean = mean.abs() <= MEAN_ROUNDING * mean_abs;
         let ordered_number = |pick: fn(&Ordered) -> f64| ordered.as_ref().map(pick).ok_or(Missing::NoValues);
         Statistics {
             count: moments.count,
-            min: some(moments.min),
-            max: some(moments.max),
-            range: some(moments.max - moments.min),
-            mean: some(mean),
+            min: known(moments.min),
+            max: known(moments.max),
+            range: known(moments.max - moments.min),
+            mean: known(mean),
             variance: spread(m2 / (n - 1.0)),
             std_dev,
             cv: if zero_mean && std_dev.is_ok() {
@@ -118,8 +118,8 @@ impl Statistics {
             } else {
                 std_dev.map(|s| s / mean.abs())
             },
-            rms: some((mean * mean + m2 / n).sqrt()),
-            mean_abs: some(mean_abs),
+            rms: known((mean * mean + m2 / n).sqrt()),
+            mean_abs: known(mean_abs),
             median: ordered_number(|o| o.percentiles[5]),
             mad: ordered_number(|o| o.mad),
             skewness: shape(m3 / n / (m2 / n * (m2 / n).sqrt())),
@@ -271,7 +271,7 @@ impl SignedMoments {
             [&positive, &negative].map(|m| m.mean.value().abs() * (m.count as f64 / all.count as f64));
         let [of_all, of_positive, of_negative] =
             ordered(values, [&all, &positive, &negative], negative.count + zeros);
-        let sizes = values.distances_at(Part::All, &all, 0.0, &neighbors(0, all.count, 95.0));
+        let sizes = values.distances_at(Selection::All, &all, 0.0, &neighbors(0, all.count, 95.0));
         Summary {
             p95_abs: match sizes[..] {
                 [a, b] => Ok(interpolate(a, b, position(all.count, 95.0).1)),
@@ -301,7 +301,7 @@ trait Order {
     /// The values of these ranks among all finite values, whose moments are known.
     fn at(&self, all: &Moments, ranks: &[u64]) -> Vec<f64>;
     /// The same for the distances of a part's values from `center`.
-    fn distances_at(&self, part: Part, moments: &Moments, center: f64, ranks: &[u64]) -> Vec<f64>;
+    fn distances_at(&self, part: Selection, moments: &Moments, center: f64, ranks: &[u64]) -> Vec<f64>;
 }
 
 /// Values in memory. The moments' extremes bound what is searched.
@@ -315,7 +315,7 @@ impl Order for Exact<'_> {
         let high = if all.max == 0.0 { 0.0 } else { all.max };
         Keyed { values: self.0, key, low: key_of(low), high: key_of(high), count: all.count }.at(ranks)
     }
-    fn distances_at(&self, part: Part, moments: &Moments, center: f64, ranks: &[u64]) -> Vec<f64> {
+    fn distances_at(&self, part: Selection, moments: &Moments, center: f64, ranks: &[u64]) -> Vec<f64> {
         let (above, below) = part.limits();
         // No branch: scattered signs would mispredict it.
         let key =
@@ -330,7 +330,7 @@ impl Order for Sketch {
     fn at(&self, _: &Moments, ranks: &[u64]) -> Vec<f64> {
         self.at(ranks)
     }
-    fn distances_at(&self, part: Part, _: &Moments, center: f64, ranks: &[u64]) -> Vec<f64> {
+    fn distances_at(&self, part: Selection, _: &Moments, center: f64, ranks: &[u64]) -> Vec<f64> {
         self.distances_at(part, center, ranks)
     }
 }
@@ -342,7 +342,7 @@ struct Ordered {
 
 /// Percentiles and MAD of all values, the positive ones (from rank `first_positive` on) and the negative ones.
 fn ordered(values: &impl Order, moments: [&Moments; 3], first_positive: u64) -> [Option<Ordered>; 3] {
-    let parts = [(Part::All, 0), (Part::Positive, first_positive), (Part::Negative, 0)];
+    let parts = [(Selection::All, 0), (Selection::Positive, first_positive), (Selection::Negative, 0)];
     let ranks: Vec<u64> = std::iter::zip(parts, moments)
         .flat_map(|((_, first), m)| PERCENTILES.iter().flat_map(move |p| neighbors(first, m.count, *p)))
         .collect();

@@ -17,16 +17,16 @@ pub struct Side {
     pub up: bool,
 }
 
-/// Calls `take` with the sides at each edge of these faces, ascending; the faces name vertices below `vertices`. Where `take` returns
+/// Calls `visit` with the sides at each edge of these faces, ascending; the faces name vertices below `vertices`. Where `visit` returns
 /// errors, the one of the least edge is returned.
 ///
 /// Linear, but for vertices with very many facets. Faces must not name a vertex twice.
 pub fn each_edge<E: Send>(
     vertices: usize,
     faces: &[[u32; 3]],
-    take: impl Fn(&[Side]) -> Result<(), E> + Sync,
+    visit: impl Fn(&[Side]) -> Result<(), E> + Sync,
 ) -> Result<(), E> {
-    through(&Fans::new(vertices, faces, |_| true, &Silent), faces, take)
+    through(&Fans::new(vertices, faces, |_| true, &Silent), faces, visit)
 }
 
 impl Topology {
@@ -34,16 +34,16 @@ impl Topology {
     pub fn each_edge<E: Send>(
         &self,
         mesh: &Mesh,
-        take: impl Fn(&[Side]) -> Result<(), E> + Sync,
+        visit: impl Fn(&[Side]) -> Result<(), E> + Sync,
     ) -> Result<(), E> {
-        through(&self.fans, &mesh.faces, take)
+        through(&self.fans, &mesh.faces, visit)
     }
 }
 
 fn through<E: Send>(
     fans: &Fans,
     faces: &[[u32; 3]],
-    take: impl Fn(&[Side]) -> Result<(), E> + Sync,
+    visit: impl Fn(&[Side]) -> Result<(), E> + Sync,
 ) -> Result<(), E> {
     let refused = |part: usize| -> Option<E> {
         let (mut spokes, mut sides): (Vec<Spoke>, Vec<Side>) = (vec![], vec![]);
@@ -56,7 +56,7 @@ fn through<E: Send>(
                 sides.extend(both.map(|(end, up)| Side { ends: [v, end], facet, up }));
             }
             sides.sort_unstable();
-            let refused = sides.chunk_by(|a, b| a.ends == b.ends).find_map(|edge| take(edge).err());
+            let refused = sides.chunk_by(|a, b| a.ends == b.ends).find_map(|edge| visit(edge).err());
             if refused.is_some() {
                 return refused;
             }

@@ -32,7 +32,7 @@ pub(super) fn smallest(points: &[[f64; 2]]) -> Circle {
         }
         let mut four = circle.touching.clone();
         four.push(farthest.1);
-        match around_few(points, &four) {
+        match smallest_around(points, &four) {
             Some(next) if next.radius > circle.radius => circle = next,
             _ => break,
         }
@@ -45,14 +45,14 @@ fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
 }
 
 /// The smallest circle around at most four points: that of two or three of them that holds the others.
-fn around_few(points: &[[f64; 2]], few: &[usize]) -> Option<Circle> {
+fn smallest_around(points: &[[f64; 2]], chosen: &[usize]) -> Option<Circle> {
     let mut candidates = Vec::new();
-    for (k, &i) in few.iter().enumerate() {
-        for (l, &j) in few.iter().enumerate().skip(k + 1) {
+    for (k, &i) in chosen.iter().enumerate() {
+        for (l, &j) in chosen.iter().enumerate().skip(k + 1) {
             let (a, b) = (points[i], points[j]);
             let center = [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])];
             candidates.push(Circle { center, radius: 0.5 * distance(a, b), touching: vec![i, j] });
-            for &m in &few[l + 1..] {
+            for &m in &chosen[l + 1..] {
                 let center = through(a, b, points[m]);
                 candidates.extend(center.map(|center| {
                     let radius =
@@ -63,7 +63,7 @@ fn around_few(points: &[[f64; 2]], few: &[usize]) -> Option<Circle> {
         }
     }
     let holds = |c: &Circle| {
-        few.iter().all(|&i| distance(points[i], c.center) <= c.radius * (1.0 + 4.0 * RADIUS_ROUNDING))
+        chosen.iter().all(|&i| distance(points[i], c.center) <= c.radius * (1.0 + 4.0 * RADIUS_ROUNDING))
     };
     candidates.into_iter().filter(holds).min_by(|a, b| a.radius.total_cmp(&b.radius))
 }

@@ -171,9 +171,9 @@ fn between(places: &[[f64; 3]]) -> Option<f64> {
     let row = moments[1] < MAX_ROW_MOMENT_SHARE * moments[2];
     // The second axis is any one where all lie in a row exactly.
     let (middle, on) = (libm::hypot(mean[0], mean[1]), along(2, &mean));
-    let beside = (middle * middle - on * on).max(0.0).sqrt();
+    let off_row = (middle * middle - on * on).max(0.0).sqrt();
     if row {
-        return (beside <= MAX_ROW_DISTANCE * (moments[2] / n).sqrt())
+        return (off_row <= MAX_ROW_DISTANCE * (moments[2] / n).sqrt())
             .then(|| in_row(places.iter().map(|p| [along(2, p), p[2]])))
             .flatten();
     }
@@ -202,8 +202,8 @@ fn plane(places: &[[f64; 3]]) -> f64 {
 /// The height at zero between the nearest place of a row before it and that behind it; `None` where one is missing.
 fn in_row(places: impl Iterator<Item = [f64; 2]> + Clone) -> Option<f64> {
     let [before, first] = places.clone().filter(|p| p[0] <= 0.0).max_by(|a, b| a[0].total_cmp(&b[0]))?;
-    let [behind, second] = places.filter(|p| p[0] >= 0.0).min_by(|a, b| a[0].total_cmp(&b[0]))?;
-    let way = behind - before;
+    let [after, second] = places.filter(|p| p[0] >= 0.0).min_by(|a, b| a[0].total_cmp(&b[0]))?;
+    let way = after - before;
     Some(if way > 0.0 { first - before / way * (second - first) } else { first })
 }
 

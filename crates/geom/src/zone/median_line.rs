@@ -15,7 +15,7 @@ pub struct MedianLine {
     /// One for each section, in the order along the axis, mm.
     pub centers: Vec<Point>,
     /// Sections without a center: too few points, or half of the turn without any.
-    pub left_out: usize,
+    pub excluded: usize,
 }
 
 /// The median line of the cylinder with the axis through `point` along `direction` (any length but 0), from its points (mm).
@@ -54,7 +54,7 @@ pub fn median_line(
         let section: Vec<Point> = section.into_iter().map(|i| frame.local(points[i])).collect();
         match center(&section, progress)? {
             Some(center) => line.centers.push(global(&frame, center)),
-            None => line.left_out += 1,
+            None => line.excluded += 1,
         }
     }
     Ok(line)
@@ -114,7 +114,7 @@ mod tests {
     #[test]
     fn the_centers_of_a_bent_pin_lie_on_its_bow() {
         let line = median_line(&scan(20_000, TAU), [0.0; 3], [0.0, 0.0, 2.0], &Silent).unwrap();
-        assert_eq!((line.centers.len(), line.left_out), (24, 0));
+        assert_eq!((line.centers.len(), line.excluded), (24, 0));
         for [x, y, z] in line.centers {
             assert!((x - bow(z)).abs() < 1e-3 && y.abs() < 1e-3, "{x} {y} {z}");
         }
@@ -124,7 +124,7 @@ mod tests {
     #[test]
     fn half_a_pin_has_no_median_line() {
         let half = median_line(&scan(2000, 0.9 * PI), [0.0; 3], [0.0, 0.0, 1.0], &Silent).unwrap();
-        assert!(half.centers.is_empty() && half.left_out == 24);
+        assert!(half.centers.is_empty() && half.excluded == 24);
         let mut points = scan(2000, TAU);
         let sound = median_line(&points, [0.0; 3], [0.0, 0.0, 1.0], &Silent).unwrap();
         points.push([f64::NAN, 0.0, 0.0]);

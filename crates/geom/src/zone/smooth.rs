@@ -91,12 +91,12 @@ pub fn smooth(places: &[Point], heights: &[f64], noise: f64, drawn: &[Vec<f64>])
     let rest: Vec<f64> = (0..n).map(|i| heights[i] - waves.heights[i] - single[i]).collect();
     let squares: f64 = rest.iter().map(|r| r * r).sum();
     let of_noise = n as f64 * noise * noise;
-    let expected = (of_noise - waves.taken).max(0.0);
+    let expected = (of_noise - waves.noise_squares).max(0.0);
     let clear = 1.0 + LARGER_VARIANCE_ERRORS * (2.0 / n as f64).sqrt();
     let rough = if squares > clear * expected { (1.0 - expected / squares).sqrt() } else { 0.0 };
     Smooth {
         heights: (0..n).map(|i| waves.heights[i] + single[i] + rough * rest[i]).collect(),
-        noise_left: basis.left(waves.degrees, &single, (&variances, noise, drawn)),
+        noise_left: basis.remaining(waves.degrees, &single, (&variances, noise, drawn)),
         rough,
     }
 }
@@ -112,7 +112,7 @@ struct Basis {
 struct Waves {
     heights: Vec<f64>,
     /// Sum of squares of the noise in the functions that are used.
-    taken: f64,
+    noise_squares: f64,
     /// Functions of the degrees among which they were chosen.
     degrees: usize,
 }
@@ -143,7 +143,7 @@ impl Basis {
                     break;
                 }
                 let grown = functions[last].iter().zip(axis).map(|(f, x)| f * x).collect();
-                functions.extend(beside(grown, &functions));
+                functions.extend(orthogonal_part(grown, &functions));
             }
             if functions.len() > most || functions.len() == end {
                 functions.truncate(end);
@@ -177,19 +177,19 @@ impl Basis {
             }
         }
         let mut waves = vec![0.0; heights.len()];
-        let mut taken = 0.0;
+        let mut noise_squares = 0.0;
         for j in 0..degrees {
             let c = coefficients[j];
             if c * c > SIGNIFICANT_SIGMAS * SIGNIFICANT_SIGMAS * variances[j] {
-                taken += variances[j];
+                noise_squares += variances[j];
                 waves.iter_mut().zip(&self.functions[j]).for_each(|(w, f)| *w += c * f);
             }
         }
-        Waves { heights: waves, taken, degrees }
+        Waves { heights: waves, noise_squares, degrees }
     }
 
     /// The mean range of noise in the first `degrees` functions and at single places, which keep theirs, over that of the noise itself.
-    fn left(
+    fn remaining(
         &self,
         degrees: usize,
         single: &[f64],
@@ -197,7 +197,7 @@ impl Basis {
     ) -> f64 {
         let random = &mut Random::new(0);
         let n = self.functions[0].len();
-        let (mut left, mut whole) = (0.0, 0.0);
+        let (mut remaining, mut whole) = (0.0, 0.0);
         for draw in 0..RANGE_DRAWS {
             let mut waves = vec![0.0; n];
             for (f, v) in self.functions[..degrees].iter().zip(variances) {
@@ -209,18 +209,18 @@ impl Basis {
                 .zip(single)
                 .filter(|s| *s.1 != 0.0)
                 .for_each(|(w, _)| *w = noise * normal(random));
-            left += range(&waves);
+            remaining += range(&waves);
             whole += match drawn.get(draw) {
                 Some(drawn) => range(drawn),
                 None => noise * range(&(0..n).map(|_| normal(random)).collect::<Vec<_>>()),
             };
         }
-        if whole > 0.0 { (left / whole).min(1.0) } else { 0.0 }
+        if whole > 0.0 { (remaining / whole).min(1.0) } else { 0.0 }
     }
 }
 
 /// What a function has beside orthonormal others, of unit length; `None` where that is nothing.
-fn beside(mut function: Vec<f64>, others: &[Vec<f64>]) -> Option<Vec<f64>> {
+fn orthogonal_part(mut function: Vec<f64>, others: &[Vec<f64>]) -> Option<Vec<f64>> {
     let whole = dot(&function, &function).sqrt();
     // Twice is enough (Giraud, Langou, Rozložník, 2005).
     for _ in 0..2 {
@@ -229,11 +229,11 @@ fn beside(mut function: Vec<f64>, others: &[Vec<f64>]) -> Option<Vec<f64>> {
             function.iter_mut().zip(other).for_each(|(f, o)| *f -= c * o);
         }
     }
-    let left = dot(&function, &function).sqrt();
-    if left.is_nan() || left <= MIN_NEW_FUNCTION_SHARE * whole {
+    let remaining = dot(&function, &function).sqrt();
+    if remaining.is_nan() || remaining <= MIN_NEW_FUNCTION_SHARE * whole {
         return None;
     }
-    function.iter_mut().for_each(|f| *f /= left);
+    function.iter_mut().for_each(|f| *f /= remaining);
     Some(function)
 }
 

@@ -26,8 +26,8 @@ pub(super) fn crowds(mesh: &Mesh, free: &mut [bool]) -> Vec<Hub> {
         cells.retain(|cell| cell.len() > MIN_CROWD_FACETS);
         cells.sort_by(|a, b| b.len().cmp(&a.len()).then(a[0].cmp(&b[0])));
         for cell in cells {
-            let taken = cell.iter().filter(|(_, f, _)| std::mem::take(&mut free[*f as usize]));
-            let (facets, corners): (Vec<u32>, Vec<usize>) = taken.map(|(_, f, k)| (*f, *k)).unzip();
+            let claimed = cell.iter().filter(|(_, f, _)| std::mem::take(&mut free[*f as usize]));
+            let (facets, corners): (Vec<u32>, Vec<usize>) = claimed.map(|(_, f, k)| (*f, *k)).unzip();
             if !facets.is_empty() {
                 found.push(Hub::crowd(mesh, middle(mesh, &facets, &corners), &facets));
             }

@@ -108,7 +108,7 @@ unsafe fn both<L: Masks>(boxes: &Boxes, b: &[f32; 6], k: usize) -> L::Mask {
 /// # Safety
 /// The processor has the instructions of `L`.
 #[inline(always)]
-pub(super) unsafe fn left_over<L: Masks>(
+pub(super) unsafe fn unseparated<L: Masks>(
     (l, i, planes): (&Leaf, usize, &Planes),
     q: &Leaf,
     reach: f32,

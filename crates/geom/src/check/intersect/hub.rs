@@ -36,18 +36,18 @@ pub(super) struct Hub {
 /// Facets from which on an edge at a hub is a book.
 const MIN_BOOK_FACETS: usize = 64;
 
-/// The hubs of a mesh, without the facets that `left_out` names. A facet at several of them is at the one with the most
+/// The hubs of a mesh, without the facets that `is_excluded` names. A facet at several of them is at the one with the most
 /// facets.
-pub(super) fn hubs(mesh: &Mesh, topology: &Topology, left_out: impl Fn(u32) -> bool) -> Vec<Hub> {
+pub(super) fn hubs(mesh: &Mesh, topology: &Topology, is_excluded: impl Fn(u32) -> bool) -> Vec<Hub> {
     let at = |v: &u32| (*v, topology.facets_at_vertex(*v));
     let mut all: Vec<(u32, Vec<u32>)> = topology.hubs.iter().map(at).collect();
     all.sort_by(|a, b| b.1.len().cmp(&a.1.len()).then(a.0.cmp(&b.0)));
-    let mut taken = vec![false; if all.is_empty() { 0 } else { mesh.faces.len() }];
+    let mut claimed = vec![false; if all.is_empty() { 0 } else { mesh.faces.len() }];
     let mut hubs = vec![];
     for (vertex, mut facets) in all {
         facets.retain(|f| {
-            let free = topology.collinear.binary_search(f).is_err() && !left_out(*f);
-            free && !std::mem::replace(&mut taken[*f as usize], true)
+            let free = topology.collinear.binary_search(f).is_err() && !is_excluded(*f);
+            free && !std::mem::replace(&mut claimed[*f as usize], true)
         });
         let others = |f: &u32| mesh.faces[*f as usize].into_iter().filter(|v| *v != vertex);
         let mut ends: Vec<(u32, u32)> = facets.iter().flat_map(|f| others(f).map(|v| (v, *f))).collect();
@@ -123,7 +123,7 @@ impl Hub {
             overlap(&one.seen, seen)
                 && overlap(&one.bounds, &others.union(&self.place))
                 && !sides.miss(seen)
-                && !walls.part(others)
+                && !walls.separate(others)
         };
         self.below(&self.root, &may_meet, &mut |other| decide(facet, other))
     }

@@ -65,7 +65,7 @@ pub fn self_intersections(
     topology: &Topology,
     progress: &dyn Progress,
 ) -> Result<Vec<[u32; 2]>, Cancelled> {
-    let search = Search { mesh, topology, some: None, limit: usize::MAX, most: usize::MAX, alone: false };
+    let search = Search { mesh, topology, selected: None, limit: usize::MAX, most: usize::MAX, alone: false };
     with(&search, progress, Level::detect()).map(|all| all.first)
 }
 
@@ -104,31 +104,31 @@ pub fn first_self_intersections(
     progress: &dyn Progress,
 ) -> Result<Crossings, Cancelled> {
     let search =
-        Search { mesh, topology, some: None, limit, most: MAX_PAIRS_TO_FIRST.max(limit), alone: false };
+        Search { mesh, topology, selected: None, limit, most: MAX_PAIRS_TO_FIRST.max(limit), alone: false };
     let found = with(&search, progress, Level::detect())?;
     if found.count <= search.most {
         return Ok(found);
     }
     // Which pairs were found before the end depends on the threads. So it is searched once more, on one thread and in a fixed order, for
     // as many pairs as are listed.
-    let few = Search { most: limit.saturating_sub(1), alone: true, ..search };
-    let first = with(&few, progress, Level::detect())?.first;
+    let first_only = Search { most: limit.saturating_sub(1), alone: true, ..search };
+    let first = with(&first_only, progress, Level::detect())?.first;
     Ok(Crossings { count: search.most, at_least: true, first })
 }
 
-/// As [`self_intersections`], but only pairs of which at least one facet is among `some` (a flag for each facet): what
+/// As [`self_intersections`], but only pairs of which at least one facet is among `selected` (a flag for each facet): what
 /// has changed against everything, say. `None` if there are more than `most`: the search ends where that is known.
 ///
 /// # Errors
 /// [`Cancelled`].
-pub fn few_self_intersections(
+pub fn selected_self_intersections(
     mesh: &Mesh,
     topology: &Topology,
-    some: &[bool],
+    selected: &[bool],
     most: usize,
     progress: &dyn Progress,
 ) -> Result<Option<Vec<[u32; 2]>>, Cancelled> {
-    let search = Search { mesh, topology, some: Some(some), limit: usize::MAX, most, alone: false };
+    let search = Search { mesh, topology, selected: Some(selected), limit: usize::MAX, most, alone: false };
     let found = with(&search, progress, Level::detect())?;
     Ok((found.count <= most).then_some(found.first))
 }
@@ -142,7 +142,7 @@ pub fn any_self_intersection(
     topology: &Topology,
     progress: &dyn Progress,
 ) -> Result<bool, Cancelled> {
-    let search = Search { mesh, topology, some: None, limit: 0, most: 0, alone: false };
+    let search = Search { mesh, topology, selected: None, limit: 0, most: 0, alone: false };
     Ok(with(&search, progress, Level::detect())?.count > 0)
 }
 
@@ -151,7 +151,7 @@ struct Search<'a> {
     mesh: &'a Mesh,
     topology: &'a Topology,
     /// Flags of the facets of which each pair has one; `None`: all.
-    some: Option<&'a [bool]>,
+    selected: Option<&'a [bool]>,
     /// How many of the pairs are listed.
     limit: usize,
     /// Beyond so many pairs there is no need to find more.
@@ -190,14 +190,14 @@ fn attempt(
     level: Level,
 ) -> Result<Option<Crossings>, Cancelled> {
     let &Search { mesh, topology, limit, most, alone, .. } = search;
-    let joined = search.some.map(|some| copies.joined(some));
-    let some = joined.as_deref();
-    let tree = Tree::build(mesh, topology, free, some, progress);
-    let wanted = Wanted { copies, some: search.some, limit };
+    let joined = search.selected.map(|selected| copies.joined(selected));
+    let selected = joined.as_deref();
+    let tree = Tree::build(mesh, topology, free, selected, progress);
+    let wanted = Wanted { copies, selected: search.selected, limit };
     let [found, tried] = [0, 0].map(AtomicUsize::new);
     let walk = Walk { mesh, tree: &tree, progress, most, enough, alone, found, tried };
     let mut pairs = Pairs::new(wanted);
-    around_hubs(&walk, hubs, some, &mut pairs);
+    around_hubs(&walk, hubs, selected, &mut pairs);
     if !tree.leaves.is_empty() && !walk.is_over() {
         let top = tree.levels.len() - 1;
         match level.min(Level::detect()) {
@@ -220,7 +220,7 @@ fn attempt(
 }
 
 /// Finds the pairs of which one facet is at a hub.
-fn around_hubs<'a>(walk: &Walk, hubs: &[Hub], some: Option<&[bool]>, pairs: &mut Pairs<'a>) {
+fn around_hubs<'a>(walk: &Walk, hubs: &[Hub], selected: Option<&[bool]>, pairs: &mut Pairs<'a>) {
     /// Facets of one task.
     const INTERSECTED_FACETS_PER_TASK: usize = 1 << 10;
     let wanted = pairs.wanted;
@@ -228,7 +228,7 @@ fn around_hubs<'a>(walk: &Walk, hubs: &[Hub], some: Option<&[bool]>, pairs: &mut
         let face = walk.mesh.faces[facet as usize];
         (walk.mesh.places(&face), face)
     };
-    let asked = |a: u32, b: u32| some.is_none_or(|some| some[a as usize] || some[b as usize]);
+    let asked = |a: u32, b: u32| selected.is_none_or(|selected| selected[a as usize] || selected[b as usize]);
     // Each answer says whether to go on.
     let decide = |part: &mut Pairs<'a>, a: u32, b: u32| {
         if asked(a, b) && meet::meet(&triangle(a), &triangle(b)) {
@@ -282,7 +282,7 @@ struct Walk<'a> {
 ///
 /// # Safety
 /// The processor has these instructions.
-type Deeper = for<'a> unsafe fn(&Walk, usize, usize, &[u32], &mut Pairs<'a>);
+type Descend = for<'a> unsafe fn(&Walk, usize, usize, &[u32], &mut Pairs<'a>);
 
 fn plain<'a>(walk: &Walk, level: usize, i: usize, list: &[u32], out: &mut Pairs<'a>) {
     // SAFETY: plain Rust.
@@ -315,7 +315,7 @@ impl Walk<'_> {
     /// Everything below node `i` of `level` against itself and the later nodes of `list`, which holds `i` too.
     ///
     /// # Safety
-    /// The processor has the instructions of `L` and of `deeper`.
+    /// The processor has the instructions of `L` and of `descend_below`.
     #[inline(always)]
     unsafe fn descend<L: Masks>(
         &self,
@@ -323,7 +323,7 @@ impl Walk<'_> {
         i: usize,
         list: &[u32],
         out: &mut Pairs,
-        deeper: Deeper,
+        descend_below: Descend,
     ) {
         if level == 0 {
             // SAFETY: handed on.
@@ -336,8 +336,8 @@ impl Walk<'_> {
                 next.clear();
                 // SAFETY: handed on.
                 unsafe { self.inherit::<L>(level, i, a, list, &mut next) };
-                // SAFETY: the instructions of `deeper` are those of `L`.
-                unsafe { deeper(self, level - 1, i * TREE_WIDTH + a, &next, out) };
+                // SAFETY: the instructions of `descend_below` are those of `L`.
+                unsafe { descend_below(self, level - 1, i * TREE_WIDTH + a, &next, out) };
             }
             if level == 1 {
                 self.progress.advance((children.len() * TREE_WIDTH) as u64);
@@ -353,15 +353,16 @@ impl Walk<'_> {
         }
         if self.alone {
             // SAFETY: as above.
-            let one =
-                |(child, next): (usize, Vec<u32>)| unsafe { deeper(self, level - 1, child, &next, out) };
+            let one = |(child, next): (usize, Vec<u32>)| unsafe {
+                descend_below(self, level - 1, child, &next, out)
+            };
             return lists.into_iter().for_each(one);
         }
         let wanted = out.wanted;
         let parts = lists.into_par_iter().map(|(child, next)| {
             let mut part = Pairs::new(wanted);
             // SAFETY: as above.
-            unsafe { deeper(self, level - 1, child, &next, &mut part) };
+            unsafe { descend_below(self, level - 1, child, &next, &mut part) };
             part
         });
         parts.collect::<Vec<_>>().into_iter().for_each(|part| out.append(part));
@@ -432,7 +433,8 @@ impl Walk<'_> {
                         - if other[k] < b[k] { other[k] } else { b[k] };
                 }
                 // SAFETY: handed on.
-                let left = unsafe { filter::left_over::<L>((l, a, &planes), q, reach, t.frame.slack, among) };
+                let left =
+                    unsafe { filter::unseparated::<L>((l, a, &planes), q, reach, t.frame.slack, among) };
                 self.decide((l, a), q, left, out);
             }
             // A leaf may have very many neighbors.

@@ -30,7 +30,7 @@ fn check(name: &str, facets: &[Facet]) -> usize {
             let search = Search {
                 mesh: &mesh,
                 topology: &topology,
-                some: None,
+                selected: None,
                 limit,
                 most: usize::MAX,
                 alone: threads == 1,
@@ -45,12 +45,12 @@ fn check(name: &str, facets: &[Facet]) -> usize {
         let chosen: [&dyn Fn(usize) -> bool; 4] =
             [&|f| f >= n - n / 10, &|f| f % 3 == 0, &|f| f == 0, &|_| false];
         for (i, chosen) in chosen.into_iter().enumerate() {
-            let some: Vec<bool> = (0..n).map(chosen).collect();
+            let selected: Vec<bool> = (0..n).map(chosen).collect();
             let mut want = want.clone();
-            want.retain(|pair| pair.iter().any(|f| some[*f as usize]));
+            want.retain(|pair| pair.iter().any(|f| selected[*f as usize]));
             for most in [usize::MAX, want.len(), want.len().saturating_sub(1), 3] {
-                let (some, limit) = (Some(&some[..]), usize::MAX);
-                let search = Search { mesh: &mesh, topology: &topology, some, limit, most, alone: false };
+                let (selected, limit) = (Some(&selected[..]), usize::MAX);
+                let search = Search { mesh: &mesh, topology: &topology, selected, limit, most, alone: false };
                 let got = on_threads(threads, || with(&search, &Silent, level)).unwrap();
                 assert_eq!(got.count > most, want.len() > most, "{name} {i} {level:?} {threads} {most}");
                 assert!(got.count > most || got.first == want, "{name} {i} {level:?} {threads} {most}");

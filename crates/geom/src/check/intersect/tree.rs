@@ -51,7 +51,7 @@ pub(super) struct Tree {
     pub leaves: Vec<Leaf>,
     pub levels: Vec<Vec<Boxes>>,
     pub frame: Frame,
-    /// For each node of each level the children (bit by bit) that hold a facet of `some`; nothing at all where all do.
+    /// For each node of each level the children (bit by bit) that hold a facet of `selected`; nothing at all where all do.
     pub asked: Vec<Vec<u32>>,
 }
 
@@ -220,9 +220,9 @@ fn bits(flags: impl Iterator<Item = bool>) -> u32 {
     (0..).zip(flags).fold(0, |bits, (i, flag)| bits | u32::from(flag) << i)
 }
 
-/// Which facets of each leaf are among `some`.
-fn asked(leaves: &[Leaf], some: &[bool]) -> Vec<u32> {
-    let flag = |facet: u32| some.get(facet as usize).copied().unwrap_or(false);
+/// Which facets of each leaf are among `selected`.
+fn asked(leaves: &[Leaf], selected: &[bool]) -> Vec<u32> {
+    let flag = |facet: u32| selected.get(facet as usize).copied().unwrap_or(false);
     leaves.par_iter().map(|leaf| bits(leaf.face.into_iter().map(flag))).collect()
 }
 
@@ -233,7 +233,7 @@ impl Tree {
         mesh: &Mesh,
         topology: &Topology,
         wanted: &[bool],
-        some: Option<&[bool]>,
+        selected: Option<&[bool]>,
         progress: &dyn Progress,
     ) -> Tree {
         let bounds = mesh.finite_bounds();
@@ -261,7 +261,8 @@ impl Tree {
         });
         // SAFETY: all written above.
         unsafe { (leaves.set_len(n), boxes.set_len(n)) };
-        let mut asked: Vec<Vec<u32>> = some.map(|some| asked(&leaves, some)).into_iter().collect();
+        let mut asked: Vec<Vec<u32>> =
+            selected.map(|selected| asked(&leaves, selected)).into_iter().collect();
         let mut levels = vec![boxes];
         while levels[levels.len() - 1].len() > 1 {
             let up = levels[levels.len() - 1].par_chunks(TREE_WIDTH).map(|part| {
@@ -282,7 +283,7 @@ impl Tree {
         Tree { leaves, levels, frame, asked }
     }
 
-    /// Whether child `a` of node `i` holds a facet of `some`: then its pairs with all others are asked for.
+    /// Whether child `a` of node `i` holds a facet of `selected`: then its pairs with all others are asked for.
     #[inline(always)]
     pub fn is_asked(&self, level: usize, i: usize, a: usize) -> bool {
         self.asked.get(level).is_none_or(|asked| asked[i] >> a & 1 == 1)

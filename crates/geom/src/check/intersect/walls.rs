@@ -40,7 +40,7 @@ impl Walls {
     }
 
     /// Whether the triangle meets no triangle with the center as one corner and the other two in this box.
-    pub fn part(&self, others: &Aabb) -> bool {
+    pub fn separate(&self, others: &Aabb) -> bool {
         let nearest = |n: &Vector| -> Point {
             std::array::from_fn(|k| if n[k] < 0.0 { others.max[k] } else { others.min[k] })
         };

@@ -131,9 +131,9 @@ impl<V: Value> Curve<V> {
         let point = |i: usize| {
             let span = self.inner_span(u, i, p + 1);
             let all = &u[i + 1..=i + p];
-            (0..p).fold(V::ZERO, |sum, left_out| {
+            (0..p).fold(V::ZERO, |sum, excluded| {
                 let rest: Vec<f64> =
-                    all.iter().enumerate().filter(|(k, _)| *k != left_out).map(|(_, x)| *x).collect();
+                    all.iter().enumerate().filter(|(k, _)| *k != excluded).map(|(_, x)| *x).collect();
                 sum.plus(1.0 / p as f64, blossom(self.knots.values(), &self.points, span, &rest))
             })
         };

@@ -66,10 +66,10 @@ impl Bernstein {
 
     /// Whether no place of the part is nearer to the point than `least`; `way` is the unit vector from the point to the best place.
     pub(super) fn is_beyond(&self, least: f64, way: Vector) -> bool {
-        let behind = |[x, y, z, w]: &[f64; 4]| dot([*x, *y, *z], way) >= least * w + self.noise[0];
+        let in_half_space = |[x, y, z, w]: &[f64; 4]| dot([*x, *y, *z], way) >= least * w + self.noise[0];
         let square = least * least;
         least <= 0.0
-            || self.moments.values.iter().all(behind)
+            || self.moments.values.iter().all(in_half_space)
             || self.squares.values.iter().all(|[s, w]| *s >= square * w + self.noise[1])
     }
 

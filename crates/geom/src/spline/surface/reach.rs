@@ -40,9 +40,9 @@ impl Patches {
         for cell in 0..self.spans[0].count() * self.spans[1].count() {
             let all = self.derivatives_of(cell);
             let own = all.stretch(|c| norm(*c), [[0.0; 3]; 2]);
-            let beside = all.stretch(|c| plane.seen(c), middle);
+            let shifted = all.stretch(|c| plane.seen(c), middle);
             most = most.max(libm::hypot(own[0], own[1]));
-            off = off.max(libm::hypot(beside[0], beside[1]));
+            off = off.max(libm::hypot(shifted[0], shifted[1]));
             bend = bend.max(all.bend());
         }
         let least = plane.least - off;

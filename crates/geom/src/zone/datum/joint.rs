@@ -116,15 +116,15 @@ impl<'a> Joint<'a> {
     }
 
     /// The residuals of a point for least squares: of a line in space there are two.
-    fn rows(&self, stand: &Stand, at: (usize, Point), mut take: impl FnMut(f64, [f64; JOINT_UNKNOWNS])) {
+    fn rows(&self, stand: &Stand, at: (usize, Point), mut visit: impl FnMut(f64, [f64; JOINT_UNKNOWNS])) {
         if self.form == Form::Axis && self.sources[at.0].kind == Kind::Line {
             let [x, y, z] = stand.pose.local(at.1);
-            take(x, self.freed([-1.0, 0.0, -z, 0.0, 0.0, 0.0, 0.0]));
-            take(y, self.freed([0.0, -1.0, 0.0, -z, 0.0, 0.0, 0.0]));
+            visit(x, self.freed([-1.0, 0.0, -z, 0.0, 0.0, 0.0, 0.0]));
+            visit(y, self.freed([0.0, -1.0, 0.0, -z, 0.0, 0.0, 0.0]));
             return;
         }
         let (d, slope) = self.distance(stand, at);
-        take(d, slope);
+        visit(d, slope);
     }
 
     fn freed(&self, mut x: [f64; JOINT_UNKNOWNS]) -> [f64; JOINT_UNKNOWNS] {

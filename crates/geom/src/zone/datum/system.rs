@@ -58,7 +58,7 @@ impl System {
     pub fn of(datums: &[Datum]) -> Result<System, DatumError> {
         let mut state = State::default();
         for (datum, d) in datums.iter().enumerate() {
-            state.take(datum, d)?;
+            state.add(datum, d)?;
         }
         state.finished(datums)
     }

@@ -3,11 +3,11 @@
 use super::best::Candidate;
 use super::faces::{Face, Seat};
 use super::placed::Placed;
-use super::terms::MAX_EXPLAINED_DEVIATIONS;
+use super::terms::EXPLAINED_SIGMAS;
 use crate::num::median::median;
 use crate::num::random::Random;
 use crate::parallel::prelude::*;
-use crate::shape::upon;
+use crate::shape::axes_along;
 use crate::space::{Point, Vector, dot, minus};
 use crate::spatial::neighbors::PointTree;
 
@@ -28,7 +28,7 @@ pub(super) struct Sure<'a> {
 }
 
 /// What the points around tell of the surface at a place.
-struct Told {
+struct Continuation {
     /// How far it lies off the face where that really is.
     off: f64,
     /// Variance of that over that of a point.
@@ -44,7 +44,7 @@ impl<'a> Sure<'a> {
         for c in sure {
             let p = points[c.point as usize];
             let off = placed.off(face, p, c.seat);
-            if off.abs() <= MAX_EXPLAINED_DEVIATIONS * placed.deviation {
+            if off.abs() <= EXPLAINED_SIGMAS * placed.deviation {
                 places.push(p);
                 normals.push(c.seat.normal());
                 offs.push(off);
@@ -56,19 +56,22 @@ impl<'a> Sure<'a> {
     /// How many deviations a point lies off the surface that the points around tell; `None` beyond the reach.
     pub(super) fn off_over(&self, p: Point, seat: Seat, reach: f64, noise: f64) -> Option<f64> {
         let off = self.placed.off(self.face, p, seat);
-        let over = || match self.told(p, seat.normal()) {
-            Some(told) => (off - told.off).abs() / ((1.0 + told.share).sqrt() * told.deviation.max(noise)),
+        let over = || match self.continuation(p, seat.normal()) {
+            Some(continuation) => {
+                (off - continuation.off).abs()
+                    / ((1.0 + continuation.share).sqrt() * continuation.deviation.max(noise))
+            }
             None => off.abs() / self.placed.deviation.max(noise),
         };
         (off.abs() <= reach).then(over)
     }
 
-    fn told(&self, p: Point, normal: Vector) -> Option<Told> {
+    fn continuation(&self, p: Point, normal: Vector) -> Option<Continuation> {
         if self.places.len() <= PLANE_NEIGHBORS {
             return None;
         }
         let near = self.tree.k_nearest(&p, PLANE_NEIGHBORS, None);
-        let axes = upon(normal);
+        let axes = axes_along(normal);
         let reach = near.last()?.0.sqrt().max(f64::MIN_POSITIVE);
         let rows: Vec<([f64; PLANE_UNKNOWNS], f64)> = near
             .iter()
@@ -92,7 +95,7 @@ impl<'a> Sure<'a> {
             off - (0..PLANE_UNKNOWNS).map(|i| row[i] * solution[i]).sum::<f64>()
         };
         let squares: f64 = rows.iter().map(|r| left(r).powi(2)).sum();
-        Some(Told {
+        Some(Continuation {
             off: solution[0],
             share: inverse[0][0].max(0.0),
             deviation: (squares / (rows.len() - PLANE_UNKNOWNS) as f64).sqrt(),
@@ -118,8 +121,8 @@ pub(super) fn noise(all: &[Sure], seed: u64) -> f64 {
     let mut found: Vec<f64> = (all.par_iter())
         .flat_map_iter(|sure| {
             let chosen = Random::new(seed).choose(NOISE_PLACES, sure.places.len());
-            let told = |i: usize| sure.told(sure.places[i], sure.normals[i]);
-            chosen.into_iter().filter_map(move |i| told(i).map(|t| t.deviation))
+            let continuation = |i: usize| sure.continuation(sure.places[i], sure.normals[i]);
+            chosen.into_iter().filter_map(move |i| continuation(i).map(|t| t.deviation))
         })
         .collect();
     median(&mut found).unwrap_or(0.0)

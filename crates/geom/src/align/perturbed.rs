@@ -38,7 +38,7 @@ pub(super) struct Searched<'a> {
 /// What sticks out at a pose.
 struct Far {
     /// The points that stick out most, by their numbers.
-    few: Vec<usize>,
+    farthest: Vec<usize>,
     /// The greatest excess.
     excess: f64,
     /// The greatest distance, whatever its room.
@@ -49,7 +49,7 @@ impl Searched<'_> {
     /// The lowest pose near `start`, no higher than that: takes the points to where their distances are told.
     pub fn lowest(&self, start: Rigid, progress: &dyn Progress) -> Result<Placed, AlignError> {
         let mut far = self.far(&start)?;
-        let mut best = self.ended(start, &far.few, Freedom::ALL, progress)?;
+        let mut best = self.ended(start, &far.farthest, Freedom::ALL, progress)?;
         if best.half > far.excess {
             best = self.ended(start, &[], Freedom::NONE, progress)?;
         }
@@ -60,7 +60,7 @@ impl Searched<'_> {
             ends.retain(|end| end.half < low);
             ends.sort_by(|a, b| a.half.total_cmp(&b.half));
             for end in ends.iter().take(MAX_LOWEST_ENDS) {
-                let end = self.ended(end.motion, &far.few, Freedom::ALL, progress)?;
+                let end = self.ended(end.motion, &far.farthest, Freedom::ALL, progress)?;
                 if end.half < best.half {
                     best = end;
                 }
@@ -89,19 +89,19 @@ impl Searched<'_> {
         let far: Option<Vec<f64>> = self.points.par_iter().enumerate().map(far).collect();
         let far = far.ok_or(AlignError::NotSettled)?;
         let excess = |i: &usize| far[*i] - self.room.get(*i).copied().unwrap_or(0.0);
-        let mut few: Vec<usize> = (0..far.len()).collect();
-        few.sort_unstable_by(|i, j| excess(j).total_cmp(&excess(i)).then(i.cmp(j)));
-        few.truncate(MAX_FARTHEST_POINTS);
-        let most = few.first().map_or(f64::NEG_INFINITY, excess);
-        Ok(Far { excess: most, few, greatest: far.into_iter().fold(0.0, f64::max) })
+        let mut farthest: Vec<usize> = (0..far.len()).collect();
+        farthest.sort_unstable_by(|i, j| excess(j).total_cmp(&excess(i)).then(i.cmp(j)));
+        farthest.truncate(MAX_FARTHEST_POINTS);
+        let most = farthest.first().map_or(f64::NEG_INFINITY, excess);
+        Ok(Far { excess: most, farthest, greatest: far.into_iter().fold(0.0, f64::max) })
     }
 
-    /// Where searches over `few` points end that begin beside a pose.
+    /// Where searches over `farthest` points end that begin beside a pose.
     fn tried(&self, far: &Far, pose: &Rigid, round: u64, progress: &dyn Progress) -> Vec<Placed> {
-        let few = &far.few;
-        let points: Vec<Point> = few.iter().map(|&i| self.points[i]).collect();
-        let room: Vec<f64> = few.iter().filter_map(|&i| self.room.get(i).copied()).collect();
-        let distance = |k: usize, p: Point| (self.distance)(few[k], p);
+        let farthest = &far.farthest;
+        let points: Vec<Point> = farthest.iter().map(|&i| self.points[i]).collect();
+        let room: Vec<f64> = farthest.iter().filter_map(|&i| self.room.get(i).copied()).collect();
+        let distance = |k: usize, p: Point| (self.distance)(farthest[k], p);
         let moved: Vec<Point> = self.points.iter().map(|p| pose.point(*p)).collect();
         let bounds = Aabb::of(&moved);
         let middle = times(0.5, plus(bounds.min, bounds.max));
@@ -109,10 +109,10 @@ impl Searched<'_> {
         let one = |k: usize| {
             let mut random = Random::stream(self.seed, round * POSES_PER_ROUND as u64 + k as u64);
             let size = POSE_OFFSET_SHARES[k % POSE_OFFSET_SHARES.len()] * far.greatest;
-            let mut some =
+            let mut random_vector =
                 |size: f64| -> Point { std::array::from_fn(|_| size * (2.0 * random.unit() - 1.0)) };
-            let turned = Rigid::rotation_about(middle, some(size / radius));
-            let start = Rigid::translation_by(some(size)).after(&turned).after(pose);
+            let turned = Rigid::rotation_about(middle, random_vector(size / radius));
+            let start = Rigid::translation_by(random_vector(size)).after(&turned).after(pose);
             placed_within(&points, &distance, &room, &from(start), progress).ok()
         };
         let ends: Vec<Option<Placed>> = (0..POSES_PER_ROUND).into_par_iter().map(one).collect();
