@@ -1,7 +1,6 @@
 //! Large arrays for the inner loops: zero until written, in large pages where the system has them.
 //!
-//! On meshes of a million facets a third of the time of a weld goes into page faults; asking for large pages saves
-//! most of it.
+//! On meshes of a million facets a third of the time of a weld goes into page faults. Asking for large pages saves most of it.
 #![expect(
     unsafe_code,
     reason = "advice to the system and the processor about memory, and arrays of atomics without a pass over them"
@@ -55,7 +54,7 @@ pub(crate) fn triples(v: Vec<AtomicU32>) -> Vec<[u32; 3]> {
             .map(|t| t.each_ref().map(|x| x.load(std::sync::atomic::Ordering::Relaxed)))
             .collect();
     }
-    // SAFETY: three atomics have the size and alignment of [u32; 3]; the capacity is a whole number of triples, so the
+    // SAFETY: three atomics have the size and alignment of [u32; 3]. The capacity is a whole number of triples, so the
     // allocation's layout is that of the new vector; `v` is not dropped.
     unsafe { Vec::from_raw_parts(v.as_mut_ptr().cast(), length, capacity) }
 }

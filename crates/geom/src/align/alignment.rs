@@ -51,17 +51,17 @@ pub(super) const POOR_RESIDUAL_SHARE: f64 = 0.01;
 /// Ratios of units that are confused.
 pub(super) const CONFUSED_UNIT_RATIOS: [f64; 6] = [25.4, 1.0 / 25.4, 10.0, 0.1, 1000.0, 1e-3];
 
-/// What is to be said about an alignment.
+/// The warnings about an alignment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum AlignWarning {
-    /// Half of the points are farther from the reference than this share of the size of the smaller of both: it is hardly
-    /// the same part, or the start was not found.
+    /// Half of the points are farther from the reference than this share of the size of the smaller of both. It is hardly the
+    /// same part, or the start was not found.
     Poor {
         /// Median distance over the diagonal.
         share: f64,
     },
-    /// The rows that belong together still lie apart, root mean square, by more than a hundredth of their size: some do not belong
-    /// together, or they are of another part.
+    /// The rows that belong together still lie apart, root mean square, by more than a hundredth of their size. Some do not
+    /// belong together, or they are of another part.
     PoorRows {
         /// That root mean square over the diagonal of the smaller of both boxes.
         share: f64,
@@ -98,14 +98,14 @@ pub enum AlignWarning {
         /// Points given.
         count: usize,
     },
-    /// Much of the measured does not lie on the reference, and of several independent searches one alone found this pose: a
+    /// Much of the measured does not lie on the reference, and only one of several independent searches found this pose. A
     /// better one may have been missed.
     Unconfirmed {
         /// Searches made.
         searches: usize,
     },
-    /// Much of the measured does not count: it is so much farther from the reference than the rest that it was taken for something else,
-    /// as an outlier is. A face that was made wrong looks the same.
+    /// Much of the measured does not count. It is so much farther from the reference than the rest that it was taken for
+    /// something else, as an outlier is. A face that was made wrong looks the same.
     Excluded {
         /// Share of it, 0 to 1.
         share: f64,
@@ -149,8 +149,8 @@ pub struct Alignment {
     pub covariance: [[f64; 6]; 6],
     /// Mean of the measured points in the frame of the reference.
     pub center: Point,
-    /// Greatest over least eigenvalue of the normal equations, rotations counted as displacements at the points' root mean
-    /// square distance from `center`; `None` where a motion is free.
+    /// Greatest over least eigenvalue of the normal equations. Rotations count as displacements at the points' root mean square
+    /// distance from `center`. `None` where a motion is free.
     pub condition: Option<f64>,
     /// Motions that the shape leaves free.
     pub freedoms: Vec<Freedom>,
@@ -158,6 +158,6 @@ pub struct Alignment {
     pub slack: Vec<(Freedom, f64)>,
     /// Other poses that fit nearly as well, best first.
     pub alternatives: Vec<Alternative>,
-    /// What is to be said about it.
+    /// Warnings about the alignment.
     pub warnings: Vec<AlignWarning>,
 }

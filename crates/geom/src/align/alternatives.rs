@@ -16,8 +16,9 @@ const AS_GOOD_RATIO: f64 = 1.25;
 const EQUAL_RATIO: f64 = 1.01;
 
 impl Work<'_> {
-    /// Other poses that fit about as well: where it lies, the other starts, those of a `revolved` body, turns of the kind that common
-    /// symmetries have, and for points without sides the other side of a wall. What the freedom of the shape allows is no other pose.
+    /// Other poses that fit about as well. The candidates are where it lies, the other starts, those of a `revolved` body, and
+    /// turns that common symmetries have. For points without sides the other side of a wall joins them. A motion that the
+    /// freedom of the shape allows makes no other pose.
     pub fn alternatives(
         &self,
         search: &Search,
@@ -31,7 +32,7 @@ impl Work<'_> {
         let mut candidates = search.symmetric(&pose);
         let candidate = |&pose: &Rigid| Candidate { pose, score: search.score(&pose) };
         candidates.extend(poses.iter().map(candidate));
-        // Of poses that fit equally more may be found than are kept: the one that moves least is sought on its own.
+        // More poses that fit equally may be found than are kept: the one that moves least is sought on its own.
         let [home, candidates] = [vec![candidate(&Rigid::IDENTITY)], candidates].map(|mut of| {
             of.retain(|c| search.apart(&c.pose, &pose) > search.spacing);
             of
@@ -104,7 +105,8 @@ fn is_worse(cost: f64, own: f64, by: f64, cap: f64) -> bool {
     cost > by * AS_GOOD_RATIO * AS_GOOD_RATIO * own.max(1e-3 * cap * cap)
 }
 
-/// What two poses cost by their distances, without what is on the reference in neither: a table around the part tells nothing of either.
+/// The costs of two poses by their distances, without the points that lie on the reference in neither. A table around the part
+/// tells nothing of either.
 fn costs(problem: &Problem, distances: [&[f64]; 2], cap: f64) -> [f64; 2] {
     let [a, b] = distances;
     let tells: Vec<bool> = a.iter().zip(b).map(|(a, b)| a.min(*b) < cap).collect();

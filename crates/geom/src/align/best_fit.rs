@@ -22,14 +22,15 @@ const MAX_SINGLE_STAGE_SAMPLES: usize = 100_000;
 const SAMPLES_PER_FIRST_STAGE: usize = 8;
 /// Score of a start below which normals are tried the other way round.
 const MIN_CERTAIN_SCORE: f64 = 0.6;
-/// Fewer points than these are found wrongly now and then: of clouds of 20 about one in ten, of 25 none in tries with a bracket.
+/// A search over fewer points now and then finds a wrong pose. In tries with a bracket it was one cloud of 20 points in ten,
+/// and none of 25.
 const MIN_CERTAIN_POINTS: usize = 50;
 
-/// The motion that brings `measured` onto `reference` with the least weighted mean square distance to its surface: of
-/// a mesh, weighted by area, or of points; outliers do not count unless `options` say so.
+/// The motion that brings `measured` onto `reference` with the least weighted mean square distance to its surface. A mesh is
+/// weighted by area, points are not. Outliers do not count unless `options` say so.
 ///
-/// From any starting pose, of whole and partial scans, with clutter. What cannot be told is named in the warnings: poses
-/// that fit as well, motions that the shape leaves free, inverted normals, a wrong unit, a poor fit, too few points.
+/// From any starting pose, of whole and partial scans, with clutter. The warnings name whatever cannot be told: poses that fit
+/// as well, motions that the shape leaves free, inverted normals. They also name a wrong unit, a poor fit, too few points.
 ///
 /// Runs on the current rayon pool; the answer does not depend on its size. Cost: about 0.1 s for the start on two cores,
 /// then three to five closest-point searches of all points.
@@ -163,7 +164,7 @@ impl Work<'_> {
             }
         }
         let poses = self.promising(&search, &candidates, progress)?;
-        // What has a wrong unit lies nowhere: no use to look on.
+        // A measured part with a wrong unit lies nowhere: there is no use in looking on.
         let search = scale.is_none().then_some(search);
         Ok(Found { poses, turned, scale, search })
     }

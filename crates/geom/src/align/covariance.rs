@@ -20,7 +20,7 @@ pub(super) fn cell_of(point: Point, system: &System) -> [i64; 3] {
     minus(point, system.center).map(|x| (x * CELLS_PER_RADIUS / system.radius).floor() as i64)
 }
 
-/// What one cell says.
+/// The sums over one cell.
 #[derive(Clone, Copy, Default)]
 struct Cell {
     /// Sums of slopes times weights, with residuals and with themselves.
@@ -37,17 +37,18 @@ impl Cell {
     }
 }
 
-/// Covariance of the six unknowns (rotation vector about the center of the system, radians; translation, mm), none along
-/// directions that were taken out of the spectrum; along those that are `barely` held at least as uncertain as how far they may move.
+/// Covariance of the six unknowns: rotation vector about the center of the system, radians; translation, mm. It is zero along
+/// directions that were taken out of the spectrum. Along those that are `barely` held it is at least the distance that they may
+/// move.
 ///
-/// Residuals of a part go together over some distance: form deviations and a scanner's errors are waves. Samples of one
-/// cell of space are therefore taken for one observation (cluster-robust covariance: Liang, Zeger, Longitudinal data
-/// analysis using generalized linear models, Biometrika 73, 1986): right for independent residuals as well as for
-/// correlated ones, as long as their range is below the cells' size, a quarter of the points' radius.
+/// Residuals of a part go together over some distance: form deviations and a scanner's errors are waves. Samples of one cell of
+/// space are therefore taken for one observation. (Cluster-robust covariance: Liang, Zeger, Longitudinal data analysis using
+/// generalized linear models, Biometrika 73, 1986.) That is right for independent residuals, and for correlated ones whose
+/// range is below the cells' size, a quarter of the points' radius.
 ///
-/// A fit draws its own residuals down, most where few cells hold a motion, as those of a wall at the rim of a view of one side. What counts
-/// is therefore how far the fit moves when a cell is left out (the jackknife: Bell, McCaffrey, Bias reduction in standard errors for linear
-/// regression with multi-stage samples, Survey Methodology 28, 2002).
+/// A fit draws its own residuals down, most where few cells hold a motion. Such are the cells of a wall at the rim of a view of
+/// one side. The measure is therefore how far the fit moves when a cell is left out. (The jackknife: Bell, McCaffrey, Bias
+/// reduction in standard errors for linear regression with multi-stage samples, Survey Methodology 28, 2002.)
 pub(super) fn covariance(
     system: &System,
     spectrum: &Spectrum,
@@ -94,7 +95,7 @@ pub(super) fn covariance(
     out
 }
 
-/// What all cells say.
+/// The sums over all cells.
 fn cells(system: &System, matches: &[Match]) -> BTreeMap<[i64; 3], Cell> {
     let part = |matches: &[Match]| {
         let mut cells: BTreeMap<[i64; 3], Cell> = BTreeMap::new();
@@ -118,7 +119,8 @@ fn cells(system: &System, matches: &[Match]) -> BTreeMap<[i64; 3], Cell> {
     cells
 }
 
-/// How far the fit moves when a cell is left out, to first order: what the others say without it, in the unknowns in which all say 1.
+/// How far the fit moves when a cell is left out, to first order. That is the pose of the others alone, in the unknowns in
+/// which all say 1.
 fn shift_without_cell(spectrum: &Spectrum, cell: &Cell) -> Six {
     let first = spectrum.fixed;
     let free = 6 - first;

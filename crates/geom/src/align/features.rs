@@ -1,11 +1,11 @@
 //! Poses from pairs of points with normals: two places of the measured surface that lie to each other as two places of
 //! the reference do.
 //!
-//! Four numbers say how two points with normals lie to each other, whatever the pose: their distance, the angles of both
-//! normals with the line between them, and the angle between the normals (Drost, Ulrich, Navab, Ilic: Model globally,
-//! match locally, CVPR 2010). All pairs of a sample of the reference are sorted into cells of these four numbers. A pair
-//! of the measured surface looks its cell up: each pair there gives one pose, which is tried at once (Papazov, Burschka:
-//! An efficient RANSAC for 3D object recognition, ACCV 2010). Pairs with few counterparts are tried first: they tell most.
+//! Four numbers say how two points with normals lie to each other, whatever the pose. They are their distance, the angles of
+//! both normals with the line between them, and the angle between the normals. (Drost, Ulrich, Navab, Ilic: Model globally,
+//! match locally, CVPR 2010.) All pairs of a sample of the reference are sorted into cells of these four numbers. A pair of the
+//! measured surface looks its cell up. Each pair there gives one pose, which is tried at once. (Papazov, Burschka: An efficient
+//! RANSAC for 3D object recognition, ACCV 2010.) Pairs with few counterparts are tried first: they tell most.
 
 use super::sample::Samples;
 use crate::parallel::prelude::*;
@@ -87,7 +87,8 @@ impl Relation {
 }
 
 impl PairTable {
-    /// Of at most 65,535 places with normals; pairs nearer than `least` are left out. `step` is the accuracy of places.
+    /// The table of at most 65,535 places with normals; pairs nearer than `least` are left out. `step` is the accuracy of
+    /// places.
     pub fn new(sample: &Samples, step: f64, least: f64) -> PairTable {
         let sample: Vec<Oriented> =
             sample.points.iter().copied().zip(sample.normals.iter().copied()).collect();
@@ -185,7 +186,7 @@ pub(super) struct PairFrame {
 }
 
 impl PairFrame {
-    /// Of the sum or difference of the normals. `None` where it lies along the pair.
+    /// The frame by the sum or difference of the normals. `None` where it lies along the pair.
     fn new(a: Oriented, b: Oriented, sum: bool) -> Option<PairFrame> {
         let (x, _) = unit(minus(b.0, a.0))?;
         let n = if sum { plus(a.1, b.1) } else { minus(a.1, b.1) };
@@ -198,7 +199,7 @@ impl PairFrame {
         })
     }
 
-    /// Of whichever is farther from the direction of the pair.
+    /// The frame by whichever of the two is farther from the direction of the pair.
     pub fn best(a: Oriented, b: Oriented) -> Option<PairFrame> {
         let x = minus(b.0, a.0);
         let across = |n: Vector| norm(cross(n, x));

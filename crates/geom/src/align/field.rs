@@ -1,8 +1,8 @@
 //! A grid about the reference that tells at once how far a place is from it, about: for trying very many poses.
 //!
-//! A cell is 8 bytes and samples are tried eight at a time in single precision: first where each of them comes to lie, then their
-//! cells all at once, then what they say. The grid of a part then lies in the second-level cache, and the loads of a block go
-//! side by side. All is in units of cells. No operation is fused or put in another order: all levels give the same bits.
+//! A cell is 8 bytes, and samples are tried eight at a time in single precision. First come the places of all eight, then their
+//! cells at once, then their scores. The grid of a part then lies in the second-level cache, and the loads of a block go side
+//! by side. All is in units of cells. No operation is fused or put in another order: all levels give the same bits.
 
 use super::sample::Samples;
 use crate::closest::{Query, QueryError, Tree};
@@ -21,8 +21,8 @@ pub(super) const SAMPLES_PER_BLOCK: usize = 8;
 /// Added to a number below 2²², it leaves the nearest whole number in the last bits.
 const WHOLE_NUMBER_SHIFT: f32 = 12_582_912.0;
 
-/// What a cell knows of the surface near its middle: its distance along the normal, in steps of [`Field::step`], and the three
-/// components of the normal of the nearest facet, 16 bits each from the least. Where the surface is beyond reach: as far as can be told.
+/// The surface near the middle of a cell: its distance along the normal, in steps of [`Field::step`], and the normal of the
+/// nearest facet. All four numbers have 16 bits each, from the least. Where the surface is beyond reach: as far as can be told.
 type Cell = u64;
 
 /// Distances near a mesh.
@@ -48,7 +48,7 @@ fn cell_of(steps: f64, normal: Vector) -> Cell {
 }
 
 impl Field {
-    /// Of the mesh of `tree`, as far as `reach`. Cost: some ten thousand closest points.
+    /// The field of the mesh of `tree`, as far as `reach`. Cost: some ten thousand closest points.
     pub fn new(tree: &Tree, bounds: &Aabb, reach: f64, progress: &dyn Progress) -> Result<Field, QueryError> {
         let cell = bounds.diagonal() / CELLS_PER_DIAGONAL;
         let low = bounds.min.map(|x| x - reach - cell);
@@ -87,7 +87,8 @@ impl Field {
         }
     }
 
-    /// How well samples fit the surface, one after the other: the sum over them of 1 on it, 0 beyond `reach` of it or turned away.
+    /// How well samples fit the surface, one after the other. Each adds 1 where it lies on the surface, and 0 beyond `reach` of
+    /// it or turned away.
     pub fn score(&self, placed: &Placed, blocks: &[SampleBlock], reach: f64) -> f64 {
         let per_reach = (1.0 / (reach * self.scale)) as f32;
         let sums = scores(self, placed, blocks, per_reach);

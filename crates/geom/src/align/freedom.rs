@@ -40,9 +40,10 @@ pub(super) const CAPPED_SIGMAS: f64 = 6.0;
 /// How often the interval in which a motion begins to cost is halved.
 const COST_INTERVAL_HALVINGS: usize = 8;
 
-/// Of motions that facets hardly hold though they are not free, unit directions of the unknowns, how far the pose may move along
-/// each, to the side where it may move farther, until the likelihood falls by the factor of one standard deviation. Points of a single face
-/// are held by its rim: those that lie beyond it, and only once they do. The equations at the pose know of the few that do there, or of none.
+/// Motions that facets hardly hold though they are not free: unit directions of the unknowns, and how far the pose may move
+/// along each. The way ends where the likelihood has fallen by the factor of one standard deviation, to the side where that is
+/// farther. Points of a single face are held by its rim: those that lie beyond it, and only once they do. The equations at the
+/// pose know of the few that do there, or of none.
 pub(super) fn barely_held(
     problem: &Problem,
     system: &System,

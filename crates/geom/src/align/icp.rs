@@ -1,12 +1,12 @@
 //! The iteration: closest points, one small motion that brings the points nearest to them, and again.
 //!
-//! Chen, Medioni: Object modelling by registration of multiple range images, Image and Vision Computing 10, 1992: the
-//! distance is measured across the facet, edge or corner where the closest place lies. The steps then end at the least sum
-//! of squared *distances to the surface*, not of distances to fixed points.
+//! The distance is measured across the facet, edge or corner where the closest place lies. (Chen, Medioni: Object modelling by
+//! registration of multiple range images, Image and Vision Computing 10, 1992.) The steps then end at the least sum of squared
+//! *distances to the surface*, not of distances to fixed points.
 //!
-//! Points that do not belong to the surface count less and less from six and not at all from ten standard deviations on
-//! (Hampel's redescending weights, with the standard deviation from the median, Rousseeuw and Leroy: Robust regression,
-//! 1987); where none is that far, the result is the plain weighted least-squares pose.
+//! Points that do not belong to the surface count less and less from six standard deviations on, and not at all from ten on.
+//! (Hampel's redescending weights, with the standard deviation from the median: Rousseeuw and Leroy, Robust regression, 1987.)
+//! Where none is that far, the result is the plain weighted least-squares pose.
 
 use super::field::normal_of;
 use super::sample::{Samples, agree};
@@ -30,7 +30,7 @@ pub(super) const MAX_ITERATIONS: usize = 200;
 /// Share of its own standard uncertainty below which a step counts as none.
 const SETTLED_STEP_SHARE: f64 = 1e-3;
 
-/// What the iteration works on.
+/// The problem that the iteration works on.
 pub(super) struct Problem<'a> {
     pub target: &'a Target<'a>,
     pub boundary_edges: Option<&'a BoundaryEdges>,
@@ -188,8 +188,8 @@ impl Problem<'_> {
         Ok(Ended { pose: self.locked(last.after(&ended.pose)), ..ended })
     }
 
-    /// As [`Problem::run`], but the last step, which is none, is not made but given: where it converged, the matches in `room` are those at
-    /// the pose where it ends, the farther ones with less weight and those out of reach with no distance.
+    /// As [`Problem::run`], but the last step is not made but given, as it moves nothing. Where the search converged, the
+    /// matches in `room` are those at its final pose. The farther ones have less weight, those out of reach no distance.
     pub fn iterate(
         &self,
         start: Rigid,
@@ -216,7 +216,7 @@ impl Problem<'_> {
             let spectrum = Spectrum::without(&system, &self.stays(&system, &pose));
             let step = spectrum.solve(&system.right, 0);
             let motion = moved(&system, &step);
-            // Of a displacement: the rotations are counted in it.
+            // The size of a displacement, with the rotations counted in it.
             let spread: f64 = spectrum.values[spectrum.fixed..].iter().map(|v| system.weight / v).sum();
             let uncertainty = system.rms() * (spread / system.count()).sqrt();
             let size = step.iter().map(|x| x * x).sum::<f64>().sqrt();
@@ -301,7 +301,7 @@ pub(super) fn median_distance(matches: &[Match], values: &mut Vec<(f64, f64)>) -
     let counts = |m: &&Match| m.distance.is_finite() && m.equation.weight > 0.0;
     values.extend(matches.iter().filter(counts).map(|m| (m.distance, m.equation.weight)));
     let half = 0.5 * values.iter().map(|v| v.1).sum::<f64>();
-    // What is left of them, and the weight of those that are less.
+    // The values still open, and the weight of those that are less.
     let (mut left, mut less) = (&mut values[..], 0.0);
     while left.len() > 1 {
         let middle = left.len() / 2;

@@ -1,5 +1,5 @@
-//! Looking further from a best fit: again where much does not lie on the reference, beside it, about an axis, in a mirror, and in poses that
-//! fit as well.
+//! Further looks from a best fit. They begin where much does not lie on the reference, near the pose, about an axis, in a
+//! mirror. They also begin in poses that fit as well.
 
 use super::alignment::POOR_RESIDUAL_SHARE;
 use super::alternatives::{better, is_same};
@@ -22,7 +22,7 @@ const MAX_LOOK_ROUNDS: usize = 3;
 /// Share of the spacing within which two poses are one.
 const SAME_POSE_SPACINGS: f64 = 0.02;
 
-/// What looking further is done with.
+/// The means of looking further.
 pub(super) struct Look<'a> {
     pub settle: &'a Settle<'a>,
     pub search: &'a Search,
@@ -31,7 +31,7 @@ pub(super) struct Look<'a> {
 }
 
 impl Look<'_> {
-    /// Puts the best that is found in place of the result, at whose start the distances had the deviation `sigma`, and adds the poses that were
+    /// Puts the best pose found in place of the result, at whose start the distances had the deviation `sigma`. Adds the poses
     /// found to those of the start. Gives what is to be said.
     pub fn around(
         &self,
@@ -102,8 +102,9 @@ impl Look<'_> {
 }
 
 impl Work<'_> {
-    /// The best pose of each further search, with samples and pairs of its own: where much does not lie on the reference, a search
-    /// may miss the place. As soon as one ends at that of the result it is enough; else [`REPEATED_SEARCHES`] poses, fewer where a search finds nothing.
+    /// The best pose of each further search, with samples and pairs of its own. Where much does not lie on the reference, a
+    /// search may miss the place. As soon as one ends at that of the result it is enough; else [`REPEATED_SEARCHES`] poses,
+    /// fewer where a search finds nothing.
     fn sought_again(
         &self,
         search: &Search,
@@ -150,7 +151,8 @@ impl Work<'_> {
         Ok(self.choose(&[&[pose][..], &best].concat(), subset, progress)?.0)
     }
 
-    /// Poses turned about the axis of a reference that is a body of revolution but for a detail; none where the shape leaves a turn free.
+    /// Poses turned about the axis of a reference that is a body of revolution but for a detail. There are none where the shape
+    /// leaves a turn free.
     fn revolved(
         &self,
         search: &Search,

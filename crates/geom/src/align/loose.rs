@@ -1,9 +1,10 @@
-//! What the measured does not hold, and how far such motions go.
+//! Motions that the measured does not hold, and how far they go.
 //!
-//! A motion is held by points whose closest place lies inside a face. Rims hold it only once points lie beyond them: between its ends the
-//! sum of squares is flat. Least squares end at a rim there: a point with noise that lies within the material is nearer to the face beyond the
-//! rim than to its own. So what the insides of faces hardly hold is tried by finite motions, with the closest places found anew: first
-//! roughly, to find the middle of what fits, and from there exactly, how far the sum of squares rises by no more than noise makes it.
+//! A motion is held by points whose closest place lies inside a face. Rims hold it only once points lie beyond them: between
+//! its ends the sum of squares is flat. Least squares end at a rim there. A point with noise that lies within the material is
+//! nearer to the face beyond the rim than to its own. So motions that the insides of faces hardly hold are tried as finite
+//! ones, with the closest places found anew. Rough ways find the middle of the poses that fit. From there exact ways tell how
+//! far the sum of squares rises by no more than noise makes it.
 
 use super::AlignError;
 use super::freedom::{FREE_RISE_SHARE, FREEDOM_STEP_SHARE, HELD_MOTION_SHARE, MAX_SLIDE_ROTATION};
@@ -41,25 +42,25 @@ const LEAST_MOTION_STEPS: usize = 5;
 /// Motions that the insides of faces hardly hold, in the frame of the reference.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Loose {
-    /// Those that are free.
+    /// The free motions.
     pub free: Vec<Twist>,
-    /// Those that rims leave some way, and how far from end to end, root mean square, millimeters.
+    /// The motions that rims leave some way, and how far from end to end, root mean square, millimeters.
     pub slack: Vec<(Twist, f64)>,
-    /// Those that are held all the same.
+    /// The motions that are held all the same.
     pub held: Vec<Twist>,
     /// Whether one of the free or slack ones has an end: then they stay where they were put.
     pub ends: bool,
 }
 
 impl Loose {
-    /// Those along which the pose is not one that the points tell.
+    /// The motions along which the points do not tell the pose.
     pub fn untold(&self) -> Vec<Twist> {
         self.free.iter().copied().chain(self.slack.iter().map(|s| s.0)).collect()
     }
 }
 
-/// The motions that are hardly held at `pose`, where least squares end, and the pose within their ranges; `start` is what a motion is
-/// measured from.
+/// The motions that are hardly held at `pose`, where least squares end, and the pose within their ranges. Each motion is
+/// measured from `start`.
 pub(super) fn explore(
     problem: &Problem,
     pose: &Rigid,
@@ -130,7 +131,7 @@ struct Place<'a> {
     count: f64,
     /// Mean square distance, none counted for more than the step or [`RIM_SIGMAS`] standard deviations.
     least: f64,
-    /// What is hardly held: slides before turns, the freest first.
+    /// The hardly held motions: slides before turns, the freest first.
     weak: Vec<Six>,
 }
 
@@ -237,8 +238,9 @@ impl<'a> Place<'a> {
         Ok(0.0)
     }
 
-    /// The middle of what fits roughly: of chords along the weak directions, one after the other, or, as a pose in a corner of the range has
-    /// none of these, between them. `None` where there is no chord. What is held follows.
+    /// The middle of the poses that fit, roughly. It is found on chords along the weak directions, one after the other, or
+    /// between them. A pose in a corner of the range has no such chords. `None` where there is no chord. The held motions
+    /// follow.
     fn middle(&self, progress: &dyn Progress) -> Result<Option<Rigid>, AlignError> {
         let part = self.problem.samples.first(RIVAL_SAMPLES);
         let sampled = Problem { samples: &part, ..*self.problem };
@@ -316,8 +318,8 @@ impl<'a> Place<'a> {
     }
 }
 
-/// The standard deviation of the distances, from their upper quartile: of points in a face that noise moved out of a wall, half lie within it
-/// exactly.
+/// The standard deviation of the distances, from their upper quartile. Noise moves some points of a face out of a wall, and
+/// half of these lie within it exactly.
 fn spread(matches: &[Match]) -> f64 {
     let mut distances: Vec<f64> = matches.iter().map(|m| m.distance).filter(|d| d.is_finite()).collect();
     if distances.is_empty() {

@@ -1,7 +1,8 @@
 //! The best fit by the least greatest distance (Chebyshev), from a pose that is near.
 //!
-//! Least squares share the deviations out; here the worst place alone decides, so that a part is as far within a zone about its
-//! reference as it can be. A sequence of linear programs in small motions (`zone::motion`), over those points that stick out most.
+//! Least squares share the deviations out. Here the worst place alone decides, so that a part is as far within a zone about its
+//! reference as it can be. A sequence of linear programs in small motions (`zone::motion`), over those points that stick out
+//! most.
 
 use super::counting::{Counting, NotCounted, weighted_mean};
 use super::perturbed::Searched;
@@ -30,12 +31,14 @@ pub struct Minimax {
     pub not_counted: NotCounted,
 }
 
-/// The motion near `from`, a best fit of the same `measured` to the same `reference`, after which the greatest distance of a point
-/// from the surface is least. Of a mesh its vertices count. Not those, unless `options` say so, that lie beyond ten standard deviations of the best fit
-/// and a hundredth of the diagonal of the reference: they are told in `not_counted`, with those that have no place on the reference.
+/// The motion after which the greatest distance of a point from the surface is least. It lies near `from`, a best fit of the
+/// same `measured` to the same `reference`. The vertices of a mesh count. Points beyond ten standard deviations of the best fit
+/// and a hundredth of the diagonal of the reference do not, unless `options` say so. `not_counted` reports them, with those
+/// that have no place on the reference.
 ///
-/// A local search, begun again beside where it ends, and at a given start that is better: the best fit decides near which pose. Cost: three to ten
-/// closest-point searches of all points, one by one, as many for each time that it goes on from beside, and some thousand of single points.
+/// A local search, begun again beside where it ends, and at a given start that is better: the best fit decides near which pose.
+/// Cost: three to ten closest-point searches of all points, one by one. Each time that the search goes on from a pose nearby
+/// costs as many, and some thousand of single points.
 ///
 /// # Errors
 /// [`AlignError::Free`] where the best fit left a motion free, [`AlignError::NotSettled`], [`AlignError::Cancelled`], and those of

@@ -8,7 +8,7 @@ use super::{AlignError, Alignment};
 use crate::progress::Progress;
 use crate::rigid::Rigid;
 
-/// What the mirror image of the measured tells.
+/// The evidence of the mirror image of the measured.
 pub(super) enum Mirror {
     /// Nothing: it fits no better.
     Same,
@@ -46,7 +46,7 @@ impl Work<'_> {
         if left >= enough {
             return Ok(Mirror::Same);
         }
-        // What is its own mirror image fits as well in another pose, which the search did not find.
+        // A part that is its own mirror image fits as well in another pose, which the search did not find.
         let other = self.choose(&search.in_mirrors(&there), subset, progress)?.0;
         if self.problem(subset).cost(&other, cap, progress)? < enough {
             return Ok(Mirror::Better(other));

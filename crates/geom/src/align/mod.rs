@@ -11,10 +11,10 @@
 //! | 3-2-1 and reference point systems (RPS) | [`constrained`] |
 //!
 //! [`best_fit`] goes three steps:
-//! 1. *Start* (`features`, `field`, `start`): poses from principal axes and from pairs of points with normals, each tried
-//!    on a grid of distances about the reference; the best are refined on a few hundred samples.
-//! 2. *Iteration* (`icp`, `system`): closest points and small motions, the whole surface, area-weighted, normals compatible,
-//!    outliers without weight, until a step is less than a thousandth of its own uncertainty.
+//! 1. *Start* (`features`, `field`, `start`): poses from principal axes and from pairs of points with normals. Each is tried on
+//!    a grid of distances about the reference. The best are refined on a few hundred samples.
+//! 2. *Iteration* (`icp`, `system`): closest points and small motions over the whole surface, weighted by area. Normals must be
+//!    compatible, and outliers have no weight. It ends when a step is less than a thousandth of its own uncertainty.
 //! 3. *What the result is worth* (`loose`, `rims`, `freedom`, `covariance`, `wall`): covariance, motions that are not held, other poses that fit as
 //!    well (`look`, `mirror`).
 //!

@@ -1,8 +1,9 @@
 //! The least greatest distance among the ends of local searches from several poses near each other.
 //!
-//! Beside an edge the nearest place of a point changes from one face to the other, and its distance is the lesser of two. A search by linear
-//! programs ends where it can fall no further on the faces at hand, although it would fall on with a point on the other face. So the search is
-//! begun again from poses beside its end, with the points that stick out most, and goes on where these end lower.
+//! Beside an edge the nearest place of a point changes from one face to the other, and its distance is the lesser of two. A
+//! search by linear programs ends where it can fall no further on the faces at hand. It might fall on with a point on the other
+//! face. So the search is begun again from poses beside its end, with the points that stick out most, and goes on where these
+//! end lower.
 
 use super::AlignError;
 use super::counting::unsettled;
@@ -27,7 +28,7 @@ const MAX_LOWEST_ENDS: usize = 2;
 /// Share of the greatest distance by which a pose must be lower to count as lower.
 const MIN_FALL_SHARE: f64 = 1e-9;
 
-/// What is searched: `distance` and `room` as for [`placed_within`].
+/// The search: `distance` and `room` as for [`placed_within`].
 pub(super) struct Searched<'a> {
     pub points: &'a [Point],
     pub distance: &'a Distance<'a>,
@@ -35,7 +36,7 @@ pub(super) struct Searched<'a> {
     pub seed: u64,
 }
 
-/// What sticks out at a pose.
+/// The excess of the points at a pose.
 struct Far {
     /// The points that stick out most, by their numbers.
     farthest: Vec<usize>,

@@ -1,5 +1,5 @@
-//! Poses of a body of revolution but for a detail, such as a shaft with a keyway: the detail alone tells the angle and the end, a few
-//! hundred samples hardly see it, and no small step leads from one angle to another.
+//! Poses of a body of revolution but for a detail, such as a shaft with a keyway. The detail alone tells the angle and the end.
+//! A few hundred samples hardly see it, and no small step leads from one angle to another.
 
 use super::AlignError;
 use super::freedom::{Freedom, named};
@@ -28,9 +28,9 @@ const FINE_TURNS_PER_SIDE: i32 = 24;
 /// Turns by which a detail is brought away from its place.
 const AXIS_PROBE_TURNS: [f64; 3] = [0.11, 0.29, 0.43];
 
-/// The best poses that differ from `pose` by a turn about the axis of the reference, and the same with its ends interchanged, best first; none
-/// where the reference is no such body. They come to lie on the samples of `coarse` and are compared on those of `finer`; no distance
-/// counts there for more than `cap`.
+/// The best poses that differ from `pose` by a turn about the axis of the reference, and the same with its ends interchanged.
+/// They come best first; there are none where the reference is no such body. They come to lie on the samples of `coarse` and
+/// are compared on those of `finer`; no distance counts there for more than `cap`.
 pub(super) fn poses(
     search: &Search,
     pose: &Rigid,

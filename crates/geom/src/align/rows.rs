@@ -1,4 +1,4 @@
-//! Alignment by places that belong together: pairs of points, and rows of a measured point, its nominal place and the
+//! Alignment by places that belong together: pairs of points, or rows. A row has a measured point, its nominal place and the
 //! direction in which it is held, as in 3-2-1 and reference point systems.
 
 use super::alignment::POOR_RESIDUAL_SHARE;
@@ -27,12 +27,12 @@ pub struct Row {
 pub struct RowFit {
     /// Takes measured coordinates to those of the reference.
     pub reference_from_measured: Rigid,
-    /// Of each row: the distance left along its direction, signed; of each pair: the distance left.
+    /// The distance left along the direction of each row, signed; for pairs the distance left.
     pub residuals: Vec<f64>,
-    /// Of each row that is held along a direction: the change of the pose per millimeter of error in that row, a rotation vector about `center`
-    /// (radians per millimeter) and a translation; none of pairs.
+    /// The change of the pose per millimeter of error in each row that is held along a direction. It is a rotation vector about
+    /// `center` (radians per millimeter) and a translation; pairs have none.
     pub gains: Vec<[f64; 6]>,
-    /// What those rotation vectors are about, in the frame of the reference.
+    /// Center of those rotation vectors, in the frame of the reference.
     pub center: Point,
     /// Root of their weighted mean square.
     pub rms: f64,
@@ -40,13 +40,14 @@ pub struct RowFit {
     pub iterations: usize,
     /// Whether the steps settled.
     pub converged: bool,
-    /// What is to be said about it.
+    /// Warnings about the alignment.
     pub warnings: Vec<AlignWarning>,
 }
 
 impl RowFit {
-    /// Of each row: how far a millimeter of error in it moves the corner that it moves farthest, in millimeters (the column of the inverse of the
-    /// equations; JCGM 102:2011, 6.2). From [`MIN_AMPLIFICATION`] on the places of the rows lie too near to a line, or to each other, for the part.
+    /// For each row, how far a millimeter of error in it moves the corner that it moves farthest, in millimeters. It is the
+    /// column of the inverse of the equations (JCGM 102:2011, 6.2). From [`MIN_AMPLIFICATION`] on the places of the rows lie
+    /// too near to a line, or to each other, for the part.
     pub fn amplifications(&self, corners: &[Point]) -> Vec<f64> {
         let of = |gain: &[f64; 6]| {
             let [a, b, c, x, y, z] = *gain;
@@ -192,9 +193,9 @@ fn quaternion_rotation(s: &[[f64; 3]; 3]) -> ([Vector; 3], bool) {
 /// Steps after which rows count as not settling.
 const MAX_ROW_STEPS: usize = 100;
 
-/// The motion that brings the measured point of every row into the plane across its direction: exactly for six rows that
-/// hold all six freedoms (3-2-1), by the least weighted sum of squares for more (RPS). A point held in two or three
-/// directions has as many rows.
+/// The motion that brings the measured point of every row into the plane across its direction. Six rows that hold all six
+/// freedoms are met exactly (3-2-1), more by the least weighted sum of squares (RPS). A point held in two or three directions
+/// has as many rows.
 ///
 /// It starts from `start`, or from the points taken as pairs; the planes are few, so a start far off may lead to another
 /// solution. Steps of Gauss and Newton.

@@ -1,11 +1,11 @@
-//! What is aligned, as weighted points: every point stands for its share of the measured surface.
+//! The measured data as weighted points: every point stands for its share of the measured surface.
 //!
-//! Where a pose is looked for, a vertex of a mesh stands for a third of the area of its facets, so that a scan that is dense in one
-//! place and thin in another is not drawn towards the dense place. A large facet is represented by places spread over it instead
-//! of its corners: what a mesh of few facets says of the surface lies between its vertices. A point of a cloud stands for itself.
+//! Where a pose is looked for, a vertex of a mesh stands for a third of the area of its facets. A scan that is dense in one
+//! place and thin in another is then not drawn towards the dense place. A large facet is represented by places spread over it
+//! instead of its corners. In a mesh of few facets the surface lies between the vertices. A point of a cloud stands for itself.
 //!
-//! The pose itself is that of the surface: every facet is represented by its middle, or the middles of equal parts of it. Of a
-//! square of what is linear on a facet its corners make twice of the variation within it, its middle none.
+//! The pose itself is that of the surface: every facet is represented by its middle, or the middles of equal parts of it. The
+//! corners make twice the variation within a facet of the square of a linear function, the middle makes none.
 
 use crate::mesh::Mesh;
 use crate::num::dense::eigen;
@@ -14,7 +14,7 @@ use crate::parallel::prelude::*;
 use crate::space::{Point, Vector, cross, dot, minus, norm, plus, times, unit};
 use crate::spatial::neighbors::PointTree;
 
-/// What is brought to the reference, millimeters, in a frame of its own.
+/// The measured data that are brought to the reference, millimeters, in a frame of their own.
 #[derive(Clone, Copy, Debug)]
 pub enum Measured<'a> {
     /// A mesh with outward facets. Its surface is aligned: the middles of its facets, or of equal parts of large ones, each with
@@ -62,7 +62,8 @@ impl Samples {
         Samples::of(measured, SAMPLED_FACET_SHARE)
     }
 
-    /// The points that were measured: of a mesh its vertices alone, however large their facets. What decides by the worst place looks at these.
+    /// The points that were measured: of a mesh its vertices alone, however large their facets. Decisions by the worst place
+    /// look at these.
     pub fn vertices(measured: &Measured) -> Samples {
         Samples::of(measured, f64::INFINITY)
     }
@@ -120,8 +121,8 @@ impl Samples {
         self.weights.push(weight);
     }
 
-    /// Adds the middles of the equal parts into which a facet falls when each side is cut into at least `parts`: the sum
-    /// over them is exact for what is linear on the facet.
+    /// Adds the middles of the equal parts of a facet, each side being cut into at least `parts`. The sum over them is exact
+    /// for functions that are linear on the facet.
     fn spread(&mut self, [a, b, c]: [Point; 3], double: Vector, parts: f64) {
         let Some((normal, size)) = unit(double) else { return };
         let n = parts.ceil();
@@ -193,8 +194,8 @@ impl Samples {
         }
     }
 
-    /// About `count` of them, as [`Samples::thinned`], with normals: where there are none, by local planes, without sides. Of a dense cloud a
-    /// part makes the planes: its nearest neighbors scatter more than they lie apart.
+    /// About `count` of them, as [`Samples::thinned`], with normals: where there are none, by local planes, without sides. A
+    /// part of a dense cloud makes the planes: its nearest neighbors scatter more than they lie apart.
     pub fn oriented_subset(&self, count: usize, seed: u64) -> Samples {
         let mut oriented_subset = self.thinned(count, seed);
         if oriented_subset.normals.is_empty() {
@@ -240,7 +241,7 @@ pub(super) struct Moments {
 }
 
 impl Moments {
-    /// Of weighted points.
+    /// The moments of weighted points.
     pub fn of(points: impl Iterator<Item = (Point, f64)> + Clone) -> Moments {
         let (mut mean, mut total) = ([0.0; 3], 0.0);
         for (p, w) in points.clone() {

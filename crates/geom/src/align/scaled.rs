@@ -1,8 +1,9 @@
-//! The best fit of a part that may be larger or smaller as a whole: a seventh unknown, on request alone, as a scale hides what a part is off.
+//! The best fit of a part that may be larger or smaller as a whole. The scale is a seventh unknown, on request alone, as it
+//! hides errors of the part.
 //!
-//! Pose and scale are found in turns: a best fit of the scaled part, then one step of the scale in which the pose gives way (the Schur
-//! complement of the pose in the normal equations of all seven; Björck, Numerical methods for least squares problems, 1996, 2.2). The steps
-//! are Newton's for both together.
+//! Pose and scale are found in turns. A best fit of the scaled part comes first, then one step of the scale in which the pose
+//! gives way. The step takes the Schur complement of the pose in the normal equations of all seven. (Björck, Numerical methods
+//! for least squares problems, 1996, 2.2.) The steps are Newton's for both together.
 
 use super::alignment::CONFUSED_UNIT_RATIOS;
 use super::covariance::cell_of;
@@ -133,7 +134,7 @@ pub fn best_fit_scaled(
     Ok((fit, scale))
 }
 
-/// What is measured, of its own.
+/// The measured data that the fit owns.
 enum Owned {
     Mesh(Mesh),
     Points(Vec<Point>, Option<Vec<Point>>),

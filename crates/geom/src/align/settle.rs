@@ -22,11 +22,11 @@ const MAX_UNSETTLED_ROUNDS: usize = 3;
 /// Share of the measured that does not count, from which on a warning says so.
 const MIN_REPORTED_EXCLUSION: f64 = 0.1;
 
-/// What the end of an iteration is made with.
+/// The means that the end of an iteration is made with.
 pub(super) struct Settle<'a> {
     pub work: &'a Work<'a>,
     pub all: Problem<'a>,
-    /// Of a mesh.
+    /// The problem of the surface of a mesh.
     pub surface: Option<Problem<'a>>,
     /// An eighth of very many.
     pub part: Option<Problem<'a>>,
@@ -43,7 +43,7 @@ impl<'a> Settle<'a> {
     ) -> Result<Alignment, AlignError> {
         let Settle { work, all, surface, part, subset } = self;
         let mut reach = work.reach(sigma);
-        // What does not settle on some of them does not on all, which would take as many times as long.
+        // An iteration that does not settle on some of them does not settle on all, which would take as many times as long.
         let sampled = work.problem(subset);
         let begun = sampled.run(pose, reach, MAX_ITERATIONS, progress)?;
         let most = if begun.converged { MAX_SETTLED_ROUNDS } else { MAX_UNSETTLED_ROUNDS };
@@ -101,7 +101,7 @@ impl Work<'_> {
             // Without noise the range alone tells.
             barely.extend(loose.slack.iter().map(|(t, width)| (t.six(system.center, system.radius), *width)));
         }
-        // What is free is told by the facets; edges of a faceted cylinder would hold it.
+        // The facets tell the free motions; edges of a faceted cylinder would hold them.
         let facets;
         let equations = match loose.free.is_empty() {
             true => &system,

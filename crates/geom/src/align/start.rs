@@ -62,11 +62,12 @@ pub(super) struct Search {
     pub spacing: f64,
     measured: Moments,
     seed: u64,
-    /// Whether it may end early: where what was found then does not lie on the reference as a whole, it is looked for again in full.
+    /// Whether the search may end early. Where its result then does not lie on the reference as a whole, the search is made
+    /// again in full.
     brief: bool,
 }
 
-/// What is known of the reference.
+/// The known facts about the reference.
 struct Known {
     field: Field,
     table: PairTable,
@@ -115,8 +116,8 @@ impl Search {
         self.known.moments.mean
     }
 
-    /// The same seen in the mirrors across the principal axes of the reference: where it is its own mirror image, a pose of a mirrored part and
-    /// one of the part lie to each other so.
+    /// The same seen in the mirrors across the principal axes of the reference. Where the reference is its own mirror image,
+    /// these mirrors relate a pose of a mirrored part to one of the part.
     pub fn in_mirrors(&self, pose: &Rigid) -> Vec<Rigid> {
         let Moments { mean, axes, .. } = &self.known.moments;
         let seen = |axis: &Vector| {
@@ -210,7 +211,8 @@ impl Search {
             .collect();
         rare.retain(|r| r.0 > 0);
         rare.sort_unstable();
-        // The rarest tell most. What belongs to no part is rare too: as many poses more are of pairs as they were drawn.
+        // The rarest tell most. Pairs that belong to no part are rare too: as many poses more come from pairs as they were
+        // drawn.
         let poses = |pairs: &[(usize, usize)]| {
             let mut left = MAX_POSES;
             let fits = |r: &&(usize, usize)| {
@@ -323,8 +325,8 @@ impl Search {
         (dot(d, d) + ends.sum::<f64>()).sqrt()
     }
 
-    /// Refines the candidates on the samples and sorts them anew by what is left, least first: pose and capped mean
-    /// square distance. Those with a score far below that of the best of them, or than `known`, are left out.
+    /// Refines the candidates on the samples and sorts them anew by what is left, least first: pose and capped mean square
+    /// distance. Candidates with a score far below that of the best of them, or than `known`, are left out.
     pub fn refine(
         &self,
         candidates: &[Candidate],
@@ -359,8 +361,8 @@ impl Search {
         Ok(kept)
     }
 
-    /// Those of many poses, refined, that are other than `own` and not clearly worse, best first; they may lie close together. No distance
-    /// counts for more than `cap`.
+    /// The refined poses, out of many, that are other than `own` and not clearly worse, best first; they may lie close
+    /// together. No distance counts for more than `cap`.
     pub fn nearest_of(
         &self,
         poses: &[Rigid],
@@ -407,8 +409,8 @@ impl Search {
         field.score(&placed, &self.blocks, reach) / self.samples.points.len() as f64
     }
 
-    /// Poses in which a part with the symmetries of common parts would fit as well as in `pose`: turned about the
-    /// principal axes of the reference by halves, thirds, … twelfths, and by the turns of a cube; and about those of the measured by
+    /// Poses in which a part with the symmetries of common parts would fit as well as in `pose`. Turns about the principal axes
+    /// of the reference go by halves, thirds, … twelfths, and by those of a cube. Turns about the axes of the measured go by
     /// quarters and halves: a part of a surface may have symmetries that the whole does not.
     pub fn symmetric(&self, pose: &Rigid) -> Vec<Candidate> {
         let center = self.known.moments.mean;

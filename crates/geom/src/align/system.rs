@@ -6,7 +6,7 @@
 use crate::parallel::prelude::*;
 use crate::space::{Point, Vector, cross, dot, least_axis, minus, times, unit};
 
-/// What a point is held by: the shape of the surface where it is nearest.
+/// The constraint of a point: the shape of the surface where it is nearest.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Constraint {
     /// Inside a facet with this unit normal: along that.
@@ -143,7 +143,7 @@ impl System {
     }
 }
 
-/// What a unit of each unknown moves `point` along `direction`.
+/// How far a unit of each unknown moves `point` along `direction`.
 #[inline(always)]
 pub(super) fn slope(point: Point, direction: Vector, center: Point, radius: f64) -> Six {
     let turn = times(1.0 / radius, cross(minus(point, center), direction));
@@ -217,12 +217,12 @@ pub(super) struct Spectrum {
 }
 
 impl Spectrum {
-    /// Of the matrix of a system.
+    /// The spectrum of the matrix of a system.
     pub fn of(system: &System) -> Spectrum {
         Spectrum::without(system, &[])
     }
 
-    /// Of what is left of the matrix without these orthonormal directions, which stand first, below all others.
+    /// The spectrum of the rest of the matrix without these orthonormal directions, which stand first, below all others.
     pub fn without(system: &System, directions: &[Six]) -> Spectrum {
         let mut matrix = system.matrix;
         for d in directions {

@@ -1,4 +1,4 @@
-//! What the steps of a best fit share: problems of its samples, and which of many poses is the best.
+//! The common ground of the steps of a best fit: problems of its samples, and the choice of the best of many poses.
 
 use super::icp::{MAX_ITERATIONS, Problem};
 use super::sample::Samples;
@@ -26,7 +26,7 @@ pub(super) const COMPARED_ITERATIONS: usize = 20;
 /// Standard deviations from which on a distance counts no more when poses are compared.
 const FAR_RESIDUAL_SIGMAS: f64 = 20.0;
 
-/// What all steps share.
+/// The inputs that all steps share.
 pub(super) struct Work<'a> {
     pub target: &'a Target<'a>,
     pub boundary_edges: Option<&'a BoundaryEdges>,
@@ -149,8 +149,8 @@ impl<'a> Work<'a> {
         best.map(|b| (b.pose, b.sigma)).ok_or(AlignError::NoOverlap)
     }
 
-    /// Where the iteration ends from where all samples counted, if that lies better: the walls of a flat plate are few and far enough at its
-    /// start to be taken for outliers, and without them it slides and turns in its plane.
+    /// The end of the iteration from the pose where all samples counted, if that lies better. The walls of a flat plate are
+    /// few, and far enough at its start to be taken for outliers. Without them the plate slides and turns in its plane.
     pub fn where_all_count(
         &self,
         result: &Alignment,

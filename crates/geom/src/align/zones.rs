@@ -1,8 +1,8 @@
 //! The best fit into tolerance zones: the pose whose greatest excess over the zones is least.
 //!
-//! As [`minimax`](super::minimax), but each point has the zone of the place that it lies over. Zones may lie to one side, so distances have
-//! signs. A point near the border of two zones may change from one to the other as the part moves: the search is done again with the
-//! zones where it ended, until none changes.
+//! As [`minimax`](super::minimax), but each point has the zone of the place that it lies over. Zones may lie to one side, so
+//! distances have signs. A point near the border of two zones may change from one to the other as the part moves. The search is
+//! made again with the zones where it ended, until none changes.
 
 use super::counting::{Counting, NotCounted, weighted_mean};
 use super::perturbed::Searched;
@@ -52,12 +52,13 @@ pub struct InZones {
     pub without_zone: u64,
 }
 
-/// The motion near `from`, a best fit of the same `measured` to the same `reference`, after which the greatest excess of a point over the zone
-/// at its place is least. `surface` is the reference made ready for signs; `zones` says what is allowed where.
+/// The motion after which the greatest excess of a point over the zone at its place is least. It lies near `from`, a best fit
+/// of the same `measured` to the same `reference`. `surface` is the reference made ready for signs; `zones` says what is
+/// allowed where.
 ///
-/// All points are judged, of a mesh its vertices. Those count in the search that do in that of [`minimax`](super::minimax()), and those that are off by no
-/// more than ten times the widest zone. A local search: the best fit decides near which pose. Cost: per round three to ten
-/// closest-point searches of all points, one by one; one to three rounds are the rule.
+/// All points are judged, of a mesh its vertices. The points that count in a search of [`minimax`](super::minimax()) count
+/// here, and those that are off by no more than ten times the widest zone. A local search: the best fit decides near which
+/// pose. Cost: per round three to ten closest-point searches of all points, one by one; one to three rounds are the rule.
 ///
 /// # Errors
 /// [`AlignError::Free`] where the best fit left a motion free, [`AlignError::NoZone`] where no point has a zone,

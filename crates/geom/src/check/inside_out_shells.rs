@@ -41,8 +41,8 @@ pub(super) const KIND: DefectKind = DefectKind {
     },
 };
 
-/// For each shell of a mesh that is closed and consistently oriented: the way it looks (outwards 1, inwards −1, 0 where it
-/// encloses nothing), and how often the others wind around it.
+/// For each shell of a closed, consistently oriented mesh the way it looks, and how often the others wind around it. It looks
+/// outwards (1) or inwards (−1), or encloses nothing (0).
 pub(super) fn orientations(m: &Inspected) -> Vec<(i32, i32)> {
     let closed = closed_shells(m);
     let facets = Facets::new(Box::new(|| by_shell(&m.topology.shell_of, closed.len())));
@@ -136,8 +136,8 @@ fn depths(m: &Inspected, closed: &[bool], bounds: &[(u32, Aabb)], facets: &Facet
     depth
 }
 
-/// How often the container winds around the shell. Asks about corners until one does not lie on the container; of shells that
-/// share their corners, about the middles of facets, which rounding moves by less than a step of the numbers.
+/// How often the container winds around the shell. Asks about corners until one does not lie on the container. For shells that
+/// share their corners it asks about the middles of facets, which rounding moves by less than a step of the numbers.
 fn winding(m: &Inspected, shell: &[u32], container: &Container) -> i32 {
     /// Shells that touch in more places are taken to lie side by side.
     const MAX_TOUCHING_PLACES: usize = 64;

@@ -40,7 +40,7 @@ impl Near {
     }
 }
 
-/// What to do with the points in a box.
+/// The decision about the points in a box.
 pub enum Look {
     /// None of them counts.
     Past,
@@ -127,10 +127,10 @@ pub(crate) fn farthest(at: Point, bounds: &Aabb) -> f64 {
 }
 
 impl Near {
-    /// The numbers of the points nearest to `at`, `most` of them and no farther than `reach` in each coordinate, of those
-    /// that `counts`; the nearest first, of equally near ones the lowest number. Visits little more than it finds.
+    /// The numbers of the `most` points nearest to `at`, no farther than `reach` in each coordinate, among those that `counts`.
+    /// The nearest come first, among equally near ones the lowest number. Visits little more than it finds.
     pub fn nearest(&self, at: Point, reach: f64, most: usize, counts: impl Fn(u32) -> bool) -> Vec<u32> {
-        // Those found, farthest first out; nodes still to be looked at, nearest first.
+        // The points found, farthest first out; nodes still to be looked at, nearest first.
         let mut found: BinaryHeap<(Far, u32)> = BinaryHeap::new();
         let mut nodes = BinaryHeap::from([(Reverse(Far(0.0)), 0usize, 0, self.points.len())]);
         let is_full = |found: &BinaryHeap<(Far, u32)>, far: Far| {

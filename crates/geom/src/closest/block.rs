@@ -29,7 +29,7 @@ pub struct PointBlock {
 }
 
 impl PointBlock {
-    /// Of one to sixteen points.
+    /// The block of one to sixteen points.
     #[inline(always)]
     pub fn new(tree: &Tree, points: &[Point]) -> PointBlock {
         let len = points.len();
@@ -80,8 +80,8 @@ impl PointBlock {
         std::array::from_fn(|k| self.at[k] + self.offset[k][i])
     }
 
-    /// Squared box distance up to which a box can hold a triangle nearer to point `i` than `best`, the least distance found,
-    /// with error bound `error`. The point's place and the boxes are rounded too, at the scale of the whole mesh.
+    /// Squared box distance up to which a box can hold a triangle nearer to point `i` than `best`, the least distance found.
+    /// `error` is the bound of its error. The point's place and the boxes are rounded too, at the scale of the whole mesh.
     #[inline(always)]
     pub fn bound(&self, i: usize, best: f32, error: f32) -> f32 {
         let size = self.place(i).iter().fold(1.0, |m, x| if x.abs() > m { x.abs() } else { m });
@@ -96,8 +96,8 @@ impl PointBlock {
     }
 }
 
-/// A point of the surface near the block, and how far rounding may have put it off the surface. Of a mesh that is small for
-/// its distance from the origin, neighboring values of a coordinate can lie farther apart than the points do.
+/// A point of the surface near the block, and how far rounding may have put it off the surface. Neighboring values of a
+/// coordinate can lie farther apart than the points do, where a mesh is small for its distance from the origin.
 pub struct SurfacePoint {
     pub point: Point,
     /// Greatest distance from the surface, scaled.
@@ -112,7 +112,7 @@ impl SurfacePoint {
         const MAX_KEPT_BOUND: f64 = 1e15;
         let t = tree.triangle(slot);
         let point = triangle::closest_point(&b.center, &t).point;
-        // Of lengths up to the size of the mesh, which is about 1.
+        // The rounding of lengths up to the size of the mesh, which is about 1.
         let rounding = 16.0 * f64::EPSILON;
         let off = triangle::squared_distance(&point, &t).0.sqrt() * tree.scale + rounding;
         // A NaN is not below either.

@@ -1,12 +1,11 @@
 //! Building the tree: parallel binned surface-area heuristic, straight into nodes of eight.
 //!
-//! A range of triangles is split in two where the *surface-area heuristic* (MacDonald & Booth 1990), evaluated at 16 bins
-//! per axis (Wald 2007), is least; the cost of a side is its box area times the number of full leaves it needs, which
-//! favors splits at multiples of eight. A large range is judged by a sample; of a small one, the axes of its largest
-//! extent are enough; a few triangles are sorted and every cut tried, which costs less than bins. To make a node of
-//! eight children, the child with the largest box is split again until there are eight (Wald, Benthin & Boulos 2008); no
-//! binary tree is ever stored.
-//! Large children are built in parallel and their node lists joined in a fixed order, so the tree does not depend
+//! A range of triangles is split in two where the *surface-area heuristic* is least (MacDonald & Booth 1990), evaluated at 16
+//! bins per axis (Wald 2007). The cost of a side is its box area times the number of full leaves it needs, which favors splits
+//! at multiples of eight. A large range is judged by a sample. A small one is judged along the axes of its largest extent
+//! alone. A few triangles are sorted and every cut is tried, which costs less than bins. To make a node of eight children, the
+//! child with the largest box is split again until there are eight (Wald, Benthin & Boulos 2008). No binary tree is ever
+//! stored. Large children are built in parallel and their node lists are joined in a fixed order. So the tree does not depend
 //! on the number of threads.
 
 use crate::closest::frame;
@@ -338,8 +337,8 @@ impl Tree {
     /// a million faces on two cores.
     ///
     /// # Errors
-    /// [`MeshError`], if there are no faces, too many, one naming a vertex that does not exist, or a vertex that is not
-    /// finite or beyond [`MAX_VERTEX`](crate::closest::MAX_VERTEX); or faces that extend over less than
+    /// [`MeshError`], if there are no faces or too many, or one names a vertex that does not exist. Also if a vertex is not
+    /// finite or beyond [`MAX_VERTEX`](crate::closest::MAX_VERTEX). Also if the faces extend over less than
     /// [`MIN_EXTENT`](crate::closest::MIN_EXTENT), for which the powers in distances would lose their digits.
     pub fn build(mesh: &Mesh) -> Result<Tree, MeshError> {
         Tree::build_watched(mesh, &Silent)
@@ -348,7 +347,7 @@ impl Tree {
     /// As [`Tree::build`], asking `progress` whether to go on.
     ///
     /// # Errors
-    /// Those of [`Tree::build`], and [`MeshError::Cancelled`].
+    /// The errors of [`Tree::build`], and [`MeshError::Cancelled`].
     pub fn build_watched(mesh: &Mesh, progress: &dyn Progress) -> Result<Tree, MeshError> {
         limits::check_mesh(mesh)?;
         Ok(build(mesh, progress)?)

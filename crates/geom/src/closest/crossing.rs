@@ -46,7 +46,7 @@ impl Best {
 struct Scaled {
     origin: [f64; 3],
     inverse: [f64; 3],
-    /// What boxes are widened by.
+    /// The amount by which boxes are widened.
     pad: f64,
 }
 
@@ -127,10 +127,10 @@ fn try_slot(tree: &Tree, line: &Line, slot: u32, best: &mut Best) {
 }
 
 impl Tree {
-    /// Where the line through `p` along `direction` (any length) meets the mesh nearest to `p`, ahead or behind: exactly the face of
-    /// all that it meets whose crossing is nearest in double precision, ties to the lowest. `None` where it meets none within
-    /// `max_distance` (which may be infinite), or without a direction. Whether a face is met is decided without rounding, its rim
-    /// belongs to it; a face that the line lies in is not met, its neighbors are.
+    /// Where the line through `p` along `direction` (any length) meets the mesh nearest to `p`, ahead or behind. It is exactly
+    /// the face, of all that it meets, whose crossing is nearest in double precision, ties to the lowest. `None` where it meets
+    /// none within `max_distance` (which may be infinite), or without a direction. Whether a face is met is decided without
+    /// rounding, and its rim belongs to it. A face that the line lies in is not met, its neighbors are.
     ///
     /// Cost: about as for [`Tree::closest`] of one point; in proportion to the faces that the line grazes.
     ///
@@ -160,13 +160,13 @@ impl Tree {
         Ok(line.and_then(|line| nearest(self, &line, max_distance, &mut vec![])).map(|b| self.at(&b)))
     }
 
-    /// `f(index, crossing)` of the line through every point, in the order of `points`, as [`Tree::crossing`] finds it;
-    /// `direction(index)` is that of a line, which is not asked for where it is `None`.
+    /// `f(index, crossing)` of the line through every point, in the order of `points`, as [`Tree::crossing`] finds it.
+    /// `direction(index)` is the direction of a line, which is not asked for where it is `None`.
     ///
     /// Runs on the current rayon pool and tells `progress` of points. Memory: 8 bytes a point, 64 MiB at most.
     ///
     /// # Errors
-    /// Those of [`Tree::for_each_closest`].
+    /// The errors of [`Tree::for_each_closest`].
     pub fn map_crossings<T: Copy + Send>(
         &self,
         points: &[Point],

@@ -10,7 +10,7 @@ const MIN_LISTED_TRIANGLES: usize = 64;
 /// Items of a loop after which it is asked whether to go on.
 pub(super) const ITEMS_PER_QUESTION: u32 = 1 << 12;
 
-/// What lies across an edge.
+/// The face across an edge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Across {
     /// Nothing: a boundary edge.
@@ -59,7 +59,7 @@ impl<'a> Fans<'a> {
         (self.start[v as usize + 1] - self.start[v as usize]) as usize
     }
 
-    /// What lies across each edge (corner `k` to `k + 1`) of each slot. Worth nothing where `progress` says that it is
+    /// The face across each edge (corner `k` to `k + 1`) of each slot. Worth nothing where `progress` says that it is
     /// cancelled.
     ///
     /// An edge is looked for among the triangles at that end which has fewer. Where both have very many, in a sorted
@@ -108,7 +108,7 @@ impl<'a> Fans<'a> {
     }
 }
 
-/// What these triangles make of an edge.
+/// The kind of an edge by these triangles.
 fn only(mut others: impl Iterator<Item = u32>) -> Across {
     match (others.next(), others.next()) {
         (None, _) => Across::Free,
@@ -119,9 +119,9 @@ fn only(mut others: impl Iterator<Item = u32>) -> Across {
 
 /// The boundary edges of a mesh, those of one face only: the rim of a scan or of a hole.
 ///
-/// A point whose closest place lies on such an edge is beside the mesh rather than above it, and its distance says more
-/// about where the mesh ends than about its shape. Vertices must be shared by index: to faces that only have equal
-/// coordinates at their corners, every edge is free. One byte a face.
+/// A point whose closest place lies on such an edge is outside the mesh rather than above it. Its distance says more about
+/// where the mesh ends than about its shape. Vertices must be shared by index: to faces that only have equal coordinates at
+/// their corners, every edge is free. One byte a face.
 pub struct BoundaryEdges {
     /// For each face: bit `i` if edge `i` is free, bit `3 + i` if corner `i` lies on a boundary edge.
     flags: Vec<u8>,

@@ -73,7 +73,7 @@ fn any_perpendicular(x: Vector) -> Vector {
 
 /// The direction of the part of `ac` perpendicular to the unit vector `x`, `base` being about as long as `ac`.
 ///
-/// What is left of a needle is mostly rounding and not yet perpendicular: it is taken again. If little is left once more, the
+/// The rest of a needle is mostly rounding and not yet perpendicular: it is taken again. If little is left once more, the
 /// rounding pointed along `x`; then the three corners lie on a line, and any perpendicular will do.
 fn perpendicular(ac: Vector, base: f64, x: Vector) -> Vector {
     /// Height over the base below which rounding decides the direction of the height.

@@ -148,12 +148,12 @@ impl<V: Lanes<8>> Domination<V> {
     }
 }
 
-/// The least of `dist²(p, box) - |p - x|²` over all points `p` of the block, for the boxes of a node's children: where it
-/// is positive, nothing in the box can be closer than `x` to any point of the block.
+/// The least of `dist²(p, box) - |p - x|²` over all points `p` of the block, for the boxes of a node's children. Where it is
+/// positive, nothing in the box can be closer than `x` to any point of the block.
 ///
-/// Along one axis the difference is a concave function of `p`, so its least value is at one of the two sides of the
-/// block: two box distances an axis give the exact answer. This is the optimal decision criterion of Emrich, Kriegel,
-/// Kröger, Renz & Züfle, "Boosting spatial pruning: on optimal pruning of MBRs" (SIGMOD 2010).
+/// Along one axis the difference is a concave function of `p`, so its least value is at one of the two sides of the block. Two
+/// box distances an axis give the exact answer. This is the optimal decision criterion of Emrich, Kriegel, Kröger, Renz &
+/// Züfle, "Boosting spatial pruning: on optimal pruning of MBRs" (SIGMOD 2010).
 #[inline(always)]
 pub unsafe fn domination_margin<V: Lanes<8>>(node: &Node, r: &Domination<V>) -> V {
     unsafe {

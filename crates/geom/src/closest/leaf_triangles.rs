@@ -26,8 +26,8 @@ pub struct Buffers {
     table: Vec<[f32; POINTS_PER_BLOCK]>,
 }
 
-/// Tests the triangles of `leaves` (at most [`MAX_LEAVES_TESTED_SINGLY`]) that are near enough to the block against all its points, and
-/// lists in `undecided` those that may be the closest.
+/// Tests the triangles of `leaves` that are near enough to the block against all its points. There are at most
+/// [`MAX_LEAVES_TESTED_SINGLY`] leaves. Lists in `undecided` the triangles that may be the closest.
 ///
 /// # Safety
 /// The processor has the instructions of both types.

@@ -1,10 +1,10 @@
 //! Where a line meets a triangle. Whether it does is decided exactly, so no line slips through between two neighbors.
 //!
-//! The side on which the line passes an edge is the sign of `d · ((a - p) × (b - p))`: rounded where that is beyond doubt, else as
-//! a sum without rounding (J. R. Shewchuk, "Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates",
-//! 1997). Two triangles that share an edge see it with opposite signs. The place follows from the sizes of the three products
-//! (T. Möller and B. Trumbore, "Fast, minimum storage ray-triangle intersection", 1997), as a mean of the corners, so it never
-//! leaves the triangle.
+//! The side on which the line passes an edge is the sign of `d · ((a - p) × (b - p))`. It is rounded where that is beyond
+//! doubt, else a sum without rounding. (J. R. Shewchuk, "Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric
+//! Predicates", 1997.) Two triangles that share an edge see it with opposite signs. The place follows from the sizes of the
+//! three products, as a mean of the corners, so it never leaves the triangle. (T. Möller and B. Trumbore, "Fast, minimum
+//! storage ray-triangle intersection", 1997.)
 
 use crate::num::exact::Exact;
 use crate::space::{Point, Vector, cross, dot, minus, times, unit};
@@ -21,7 +21,7 @@ pub struct Line {
 /// Smaller components of a direction count as zero: their products would leave the range of numbers.
 const MIN_DIRECTION_COMPONENT: f64 = 1e-30;
 
-/// Bound of the rounding of an edge's product, as a share of the sum of its terms' sizes: Shewchuk's for the same seven
+/// Bound of the rounding of an edge's product, as a share of the sum of its terms' sizes. Shewchuk's for the same seven
 /// roundings is 7.8e-16.
 const EDGE_PRODUCT_ROUNDING: f64 = 1e-15;
 

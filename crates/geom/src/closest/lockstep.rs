@@ -23,7 +23,7 @@ use crate::memory::prefetch;
 use crate::num::rounding::SINGLE_DISTANCE_ROUNDING;
 use crate::simd::lanes::Lanes;
 
-/// What is known of a point's distance.
+/// The bounds known for a point's distance.
 #[derive(Clone, Copy, Default)]
 struct Best {
     /// Square of the least distance found.
@@ -45,7 +45,7 @@ struct LeafDistances {
 /// Memory of this stage, kept from block to block.
 #[derive(Default)]
 pub struct Buffers {
-    /// What pruning has left, as children of nodes of their own.
+    /// The survivors of pruning, as children of nodes of their own.
     start: Vec<Node>,
     /// (point, node) and (point, leaf) pairs.
     queue: Vec<[i32; 2]>,

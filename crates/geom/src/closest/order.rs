@@ -1,8 +1,8 @@
 //! Sorting the points along a space-filling curve, so that neighbors in the list are neighbors in space.
 //!
-//! The points themselves are not moved: what is sorted is `(key, index)` in one `u64`. A first pass scatters these into
-//! buckets by the high bits of the key, in parallel; each bucket is then sorted in cache by the thread that is about to
-//! answer it ([`for_each_bucket`]). The order only decides the speed, never the answer.
+//! The points themselves are not moved: what is sorted is `(key, index)` in one `u64`. A first pass scatters these into buckets
+//! by the high bits of the key, in parallel. Each bucket is then sorted in cache by the thread that is about to answer it
+//! ([`for_each_bucket`]). The order only decides the speed, never the answer.
 #![expect(unsafe_code, reason = "several threads scatter into one list, each to places of its own")]
 
 use crate::closest::limits::{QueryError, sane};
@@ -22,9 +22,9 @@ const POINTS_PER_SLICE: usize = 1 << 23;
 /// Points that a thread takes at a time, about: buckets are joined until they have so many.
 const POINTS_PER_BUCKET: usize = 8192;
 
-/// Calls `answer(scratch, slice, base, items)` for portions of neighboring points, until every point was named once by
-/// the low 32 bits of an item: the point's index in `slice`, which begins at point `base`. Runs on the current rayon pool;
-/// a thread keeps its scratch. Tells `progress` of the points answered.
+/// Calls `answer(scratch, slice, base, items)` for portions of neighboring points until every point was named once. The low 32
+/// bits of an item are the point's index in `slice`, which begins at point `base`. Runs on the current rayon pool; a thread
+/// keeps its scratch. Tells `progress` of the points answered.
 ///
 /// The portions and the order in them do not depend on the number of threads.
 pub fn for_each_bucket<S: Default>(
@@ -94,8 +94,8 @@ fn survey(points: &[Point], chunk: usize) -> (Point, Point, bool) {
     )
 }
 
-/// Groups the points by the high bits of their Morton key (Morton 1966): the interleaved bits of their cell in a grid of
-/// 1024 cells along the longest side. Fails with the index of the first point that is not finite or too large.
+/// Groups the points by the high bits of their Morton key (Morton 1966). The key interleaves the bits of their cell in a grid
+/// of 1024 cells along the longest side. Fails with the index of the first point that is not finite or too large.
 fn buckets(points: &[Point]) -> Result<Buckets, usize> {
     let n = points.len();
     let chunk = n.div_ceil(4 * rayon::current_num_threads()).max(1 << 14);

@@ -1,6 +1,6 @@
 //! First stage: exclude what cannot matter to any point of a block.
 //!
-//! What is left are the few leaves and nodes that can hold the closest triangle of some point.
+//! The few leaves and nodes remain that can hold the closest triangle of some point.
 //!
 //! SAFETY, here and for every function: the caller promises that the processor has the instructions of `V`.
 #![expect(unsafe_code, reason = "loads of vector types need their instructions")]
@@ -28,7 +28,7 @@ pub struct ChildRef {
     pub lane: u32,
 }
 
-/// What is not excluded for a block.
+/// The leaves and nodes that are not excluded for a block.
 #[derive(Default)]
 pub struct Survivors {
     /// Leaves that can hold the closest triangle of some point.
@@ -46,8 +46,8 @@ impl Survivors {
 }
 
 /// Finds the leaves that the surface point `near` does not dominate for the whole block, breadth first. A node whose children
-/// would make the list longer than [`MAX_SURVIVORS`] stays open. What is farther than `limit` (scaled) from every point of the block
-/// is left out.
+/// would make the list longer than [`MAX_SURVIVORS`] stays open. Nodes farther than `limit` (scaled) from every point of the
+/// block are left out.
 #[inline(always)]
 pub unsafe fn prune<V: Lanes<8>>(
     tree: &Tree,
@@ -57,7 +57,7 @@ pub unsafe fn prune<V: Lanes<8>>(
     s: &mut Survivors,
 ) {
     let x: [f32; 3] = std::array::from_fn(|k| ((near.point[k] - tree.center[k]) * tree.scale) as f32);
-    // Of x, of the block's place, of the boxes.
+    // The error of x, of the block's place, of the boxes.
     let error =
         near.off + SINGLE_DISTANCE_ROUNDING * x.iter().chain(&b.at).fold(1.0, |m: f32, v| m.max(v.abs()));
     let far = norm(std::array::from_fn(|k| b.at[k] - x[k])) + error + b.reach;

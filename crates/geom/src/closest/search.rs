@@ -17,7 +17,7 @@ use crate::space::Point;
 /// instruction set and not once more for everybody who asks.
 pub type Sink<'a> = &'a dyn Fn(&[u64], &[Hit]);
 
-/// What one thread keeps from block to block: the memory of each stage, and where to begin.
+/// The state that one thread keeps from block to block: the memory of each stage, and where to begin.
 #[derive(Default)]
 pub struct Scratch {
     /// Slot of the triangle closest to the last point answered: the next block begins there. (The answers do not depend on

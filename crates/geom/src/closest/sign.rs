@@ -1,10 +1,10 @@
 //! Inside or outside a closed mesh, by angle-weighted pseudonormals.
 //!
-//! The sign is that of `(p - c) · n`, where `c` is the closest point and `n` the pseudonormal of the feature that `c` lies
-//! on: the face's normal, the sum of the two unit normals at an edge, the angle-weighted sum at a corner. With the normal
-//! of the closest *face* alone some points near sharp edges and corners get the wrong sign; with the pseudonormal none
-//! does on a closed, consistently oriented mesh without self-intersections (Bærentzen & Aanæs, "Signed distance
-//! computation using the angle weighted pseudonormal", IEEE TVCG 2005). For other meshes see the module `winding`.
+//! The sign is that of `(p - c) · n`, where `c` is the closest point and `n` the pseudonormal of its feature. The pseudonormal
+//! is the face's normal, the sum of the two unit normals at an edge, the angle-weighted sum at a corner. With the normal of the
+//! closest *face* alone some points near sharp edges and corners get the wrong sign. With the pseudonormal none does on a
+//! closed, consistently oriented mesh without self-intersections. (Bærentzen & Aanæs, "Signed distance computation using the
+//! angle weighted pseudonormal", IEEE TVCG 2005.) For other meshes see the module `winding`.
 
 use crate::closest::edges::{Across, Fans, ITEMS_PER_QUESTION};
 use crate::closest::hit::Hit;
@@ -16,19 +16,19 @@ use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress, Silent};
 use crate::space::{Aabb, Point, Vector, cross, dot, minus, norm, plus, times, unit};
 
-/// What the sign of a distance needs besides the tree: the neighbors and the pseudonormals. 36 bytes a face.
+/// The means that the sign of a distance needs in addition to the tree: the neighbors and the pseudonormals. 36 bytes a face.
 ///
-/// Vertices must be shared by index (weld an STL first), and edges must have two faces each, or the sign near them is
-/// that of the closest face alone: [`Signs::loose_edges`] tells. A face without area has no normal and adds nothing to
-/// those of its edges and corners.
+/// Vertices must be shared by index (weld an STL first), and edges must have two faces each. Else the sign near them is that of
+/// the closest face alone: [`Signs::loose_edges`] tells. A face without area has no normal and adds nothing to those of its
+/// edges and corners.
 pub struct Signs {
     tree: Tree,
-    /// What lies across edge `i` (corner `i` to `i + 1`) of each slot.
+    /// The face across edge `i` (corner `i` to `i + 1`) of each slot.
     across: Vec<[Across; 3]>,
     /// Angle-weighted normal of each vertex of the tree (not of unit length).
     corner: Vec<Vector>,
-    /// Farther away than this all places have the sign `outer`: where the mesh is closed and so far away that rounding has
-    /// eaten the direction to it.
+    /// Farther away than this all places have the sign `outer`, where the mesh is closed. So far away rounding has eaten the
+    /// direction to it.
     far: f64,
     outer: f64,
 }
@@ -101,9 +101,9 @@ impl Signs {
         self.across.iter().flatten().filter(|a| !matches!(a, Across::One(_))).count()
     }
 
-    /// The side of the surface that `p` is on, `hit` being its closest place in the same tree: +1 outside, -1 inside; +1
-    /// on the surface, and where the pseudonormal is zero. Farther away than 10⁹ diagonals of a closed mesh it is that of all
-    /// places outside.
+    /// The side of the surface that `p` is on, `hit` being its closest place in the same tree: +1 outside, -1 inside. It is +1
+    /// on the surface too, and where the pseudonormal is zero. Farther away than 10⁹ diagonals of a closed mesh it is that of
+    /// all places outside.
     ///
     /// # Panics
     /// If `hit` comes from another tree with more faces.
@@ -121,8 +121,8 @@ impl Signs {
         if dot(minus(*p, place.point), self.pseudonormal(hit, place.feature)) < 0.0 { -1.0 } else { 1.0 }
     }
 
-    /// Normal of the surface at the place that `hit` found for `p`, not of unit length: of the face; on an edge the sum of both
-    /// unit normals, at a corner the sum weighted by angle. `None` where it is zero.
+    /// Normal of the surface at the place that `hit` found for `p`, not of unit length. It is that of the face; on an edge the
+    /// sum of both unit normals, at a corner the sum weighted by angle. `None` where it is zero.
     ///
     /// # Panics
     /// If `hit` comes from another tree with more faces.
@@ -151,7 +151,7 @@ impl Signs {
     /// `query.max_distance`. Its size is the one of [`Tree::distances`] in every bit.
     ///
     /// # Errors
-    /// Those of [`Tree::for_each_closest`].
+    /// The errors of [`Tree::for_each_closest`].
     pub fn distances(
         &self,
         points: &[Point],

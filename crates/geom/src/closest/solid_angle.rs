@@ -1,7 +1,7 @@
 //! Solid angles of the tree's groups and triangles, seen from sixteen points at once.
 //!
-//! Each point decides for itself which groups it opens: the walk carries the set of points that still need a group opened,
-//! and whatever is computed for the others counts nothing. So a point's number does not depend on its neighbors.
+//! Each point decides for itself which groups it opens. The walk carries the set of points that still need a group opened;
+//! values computed for the others count nothing. So a point's number does not depend on its neighbors.
 //!
 //! SAFETY, here and for every function: the caller promises that the processor has the instructions of `V`.
 #![expect(unsafe_code, reason = "loads of vector types need their instructions")]
@@ -34,8 +34,8 @@ impl Group {
     }
 }
 
-/// Half of a solid angle for each point, kept as a complex number of that phase, so that angles add by multiplication
-/// and one arc tangent serves all; and the full turns that the phase has lost.
+/// Half of a solid angle for each point, and the full turns that its phase has lost. It is kept as a complex number of that
+/// phase, so that angles add by multiplication and one arc tangent serves all.
 struct Angle<V> {
     re: V,
     im: V,

@@ -1,12 +1,12 @@
 //! Distance from a point to one triangle, in double precision: the definition of the answer.
 //!
-//! [`squared`] is written once over [`Real`], so the scalar brute-force twin and the vector kernel run the same
-//! operations in the same order and agree bit for bit.
+//! [`squared`] is written once over [`Real`]. So the scalar brute-force twin and the vector kernel run the same operations in
+//! the same order and agree bit for bit.
 //!
-//! Method. The distance is the least of the distances to the three edges and, when the foot of the perpendicular falls
-//! inside, the distance to the plane. Testing the edges always (instead of sorting the point into one of seven regions,
-//! Ericson 2005 §5.1.5) costs a few operations and makes every degenerate triangle an ordinary case: a needle, a segment
-//! or a point is answered by its edges. Where the normal is not well determined ([`MIN_SINE_SQUARED`]), [`thin`] goes on.
+//! Method. The distance is the least of the distances to the three edges. Where the foot of the perpendicular falls inside, the
+//! distance to the plane joins these. Testing the edges always (instead of sorting the point into one of seven regions, Ericson
+//! 2005 §5.1.5) costs a few operations. It makes every degenerate triangle an ordinary case: a needle, a segment or a point is
+//! answered by its edges. Where the normal is not well determined ([`MIN_SINE_SQUARED`]), [`thin`] goes on.
 #![expect(unsafe_code, reason = "constants of a vector type need its instructions")]
 
 use crate::closest::segment::{along, aside, dot, edge, sub};
@@ -19,9 +19,10 @@ fn cross<T: Real>(a: [T; 3], b: [T; 3]) -> [T; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
-/// Squared distance from `p` to the triangle `a b c`, any of which may coincide; where the closest point lies inside the
-/// triangle, the height of `p` over the plane times the length of the normal (0 where it lies on the rim); and 1 where
-/// the triangle is thin, so that the distance is that to its rim and [`thin::squared`] must be asked for the rest, else 0.
+/// Squared distance from `p` to the triangle `a b c`, any of which may coincide, a height, and a mark. Where the closest point
+/// lies inside the triangle, the height is that of `p` over the plane times the length of the normal. On the rim it is 0. The
+/// mark is 1 where the triangle is thin, else 0. Then the distance is that to its rim, and [`thin::squared`] must be asked for
+/// the rest.
 ///
 /// # Safety
 /// The processor has the instructions of `T` (none for `f64`).
@@ -50,7 +51,7 @@ pub unsafe fn squared<T: Real>(p: [T; 3], [a, b, c]: [[T; 3]; 3]) -> (T, T, T) {
 pub fn squared_distance(p: &Point, t: &[Point; 3]) -> (f64, f64) {
     // SAFETY: `f64` needs no special instructions.
     let (distance, height, thin) = unsafe { squared::<f64>(*p, *t) };
-    // Of a thin triangle this is the distance from its rim.
+    // For a thin triangle this is the distance from its rim.
     if thin == 0.0 { (distance, height) } else { thin::squared(p, t, distance) }
 }
 
@@ -85,12 +86,12 @@ pub struct PointOfTriangle {
     pub point: Point,
     /// Weights of the corners: the point is their weighted mean.
     pub barycentric: [f64; 3],
-    /// What it lies on.
+    /// The feature that it lies on.
     pub feature: Feature,
 }
 
-/// The point of triangle `t` closest to `p` where the search has found it inside, at this height and squared distance; `None` where it lies
-/// on the rim or must be looked for: by [`closest_point`], which finds the same.
+/// The point of triangle `t` closest to `p` where the search has found it inside, at this height and squared distance. `None`
+/// where it lies on the rim or must be looked for by [`closest_point`], which finds the same.
 #[inline(always)]
 pub(super) fn foot(p: &Point, t: &[Point; 3], height: f64, distance_squared: f64) -> Option<Point> {
     let [a, b, c] = *t;

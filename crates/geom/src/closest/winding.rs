@@ -1,11 +1,12 @@
 //! Inside or outside a mesh with holes, by the generalized winding number.
 //!
-//! The winding number of a point is the sum of the signed solid angles of all triangles over 4π: 1 inside and 0 outside a
-//! closed mesh, and a smooth blend near the holes of an open one (Jacobson, Kavan & Sorkine-Hornung 2013). Far from a
-//! group of triangles the sum is nearly that of one dipole at their center, so it is gathered along the search tree and a
-//! group is opened only for points within some times its radius (Barill, Dickson, Schmidt, Levin & Jacobson, "Fast
-//! winding numbers for soups and clouds", 2018; here with the first-order term only, and a wider opening to make up for
-//! it). Who only asks for the side is answered from few groups where that is clear. Sixteen neighboring points walk together (module `solid_angle`), each with its own decisions.
+//! The winding number of a point is the sum of the signed solid angles of all triangles over 4π. It is 1 inside and 0 outside a
+//! closed mesh, and blends smoothly near the holes of an open one (Jacobson, Kavan & Sorkine-Hornung 2013). Far from a group of
+//! triangles the sum is nearly that of one dipole at their center. So it is gathered along the search tree, and a group is
+//! opened only for points within some times its radius. (Barill, Dickson, Schmidt, Levin & Jacobson, "Fast winding numbers for
+//! soups and clouds", 2018.) Here the dipole has the first-order term only, and a wider opening makes up for it. Who only asks
+//! for the side is answered from few groups where that is clear. Sixteen neighboring points walk together (module
+//! `solid_angle`), each with its own decisions.
 #![expect(
     unsafe_code,
     reason = "choosing the instruction set at run time; answers written to places of their own"
@@ -39,7 +40,7 @@ struct Dipole {
     vector: Vector,
     center: Point,
     area: f64,
-    /// Of a sphere about the center that holds the triangles.
+    /// Radius of a sphere about the center that holds the triangles.
     radius: f64,
 }
 
@@ -78,10 +79,10 @@ impl Winding {
     /// Winding number of each point, in the order of `points`. It depends on nothing but mesh and point; the last digits
     /// also on the instructions that the processor has.
     ///
-    /// Differs from the exact sum by at most 0.05, and by less than 0.004 in the mean, where the mesh covers itself once
-    /// (found by test, not proved); of each further layer as much again. A point nearer to the surface than a millionth
-    /// of the size of the faces there may be taken to the other side, and a point on it has some finite number. Runs on
-    /// the current rayon pool and tells `progress` of points answered. Cost: 0.3 to 1.5 µs a point and core.
+    /// Where the mesh covers itself once, it differs from the exact sum by at most 0.05, and by less than 0.004 in the mean.
+    /// Each further layer adds as much (found by test, not proved). A point nearer to the surface than a millionth of the size
+    /// of the faces there may be taken to the other side. A point on it has some finite number. Runs on the current rayon pool
+    /// and tells `progress` of points answered. Cost: 0.3 to 1.5 µs a point and core.
     ///
     /// # Errors
     /// [`QueryError::BadPoint`], [`QueryError::Cancelled`].
@@ -93,12 +94,11 @@ impl Winding {
 
     /// Whether the winding number of each point is above `limit`, in the order of `points`: above one half is inside.
     ///
-    /// Three times as fast as [`Winding::numbers`], and nearer the truth where it matters: a number that is not clearly
-    /// above or below is found again with an error of at most 0.01, of each further layer as much again (found by test,
-    /// not proved).
+    /// Three times as fast as [`Winding::numbers`], and nearer the truth where it matters. A number that is not clearly above
+    /// or below is found again with an error of at most 0.01. Each further layer adds as much (found by test, not proved).
     ///
     /// # Errors
-    /// Those of [`Winding::numbers`].
+    /// The errors of [`Winding::numbers`].
     pub fn above(
         &self,
         limit: f64,
@@ -120,7 +120,7 @@ impl Winding {
         })
     }
 
-    /// What `f` tells of each point, in their order. It is given sixteen neighbors at a time, and which of them count.
+    /// The value of `f` for each point, in their order. It is given sixteen neighbors at a time, and which of them count.
     fn map<T: Send>(
         &self,
         points: &[Point],

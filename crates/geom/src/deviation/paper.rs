@@ -1,21 +1,21 @@
 //! The deviation of a point as the paper on verifying triangulated models words it, for those who must reproduce it.
 //!
 //! Dobroskok, Garashchenko, Latysh, Verification of triangulation models after optical digitising, 2012 (equations in
-//! brackets). A window about the point, half as wide as a 300th of length, width and height of the model together
-//! (2), grows until it holds ten facets or all (1); a point on a vertex deviates by nothing (3); otherwise the nearest
-//! vertex in the window (4) is found, and the least distance to the facets around it (18): to the plane (7, 8–10)
-//! where six angles say that the foot is inside (5), else to the edges (11–17).
+//! brackets). A window about the point is half as wide as a 300th of length, width and height of the model together (2). It
+//! grows until it holds ten facets or all (1). A point on a vertex deviates by nothing (3). Otherwise the nearest vertex in the
+//! window (4) is found, and the least distance to the facets around it (18). That is the distance to the plane (7, 8–10) where
+//! six angles say that the foot is inside (5), else to the edges (11–17).
 //!
-//! The misprints of (9), (14) and (15) are mended. What the paper leaves open: equal positions are one vertex; a facet
-//! is in the window when one of its vertices is; the window is a closed cube and doubles; of equally near vertices the
-//! first in the file counts; a right angle passes (5), decided by l² + l² − l² ≥ 0; a facet without area has only edges.
+//! The misprints of (9), (14) and (15) are mended. Where the paper leaves a choice open, equal positions are one vertex. A
+//! facet is in the window when one of its vertices is. The window is a closed cube and doubles. The first of equally near
+//! vertices in the file counts. A right angle passes (5), decided by l² + l² − l² ≥ 0. A facet without area has only edges.
 //!
-//! **This is not the distance to the surface.** (5) tests three slabs, not the triangle: points beside an acute
-//! triangle pass it and get the (too small) distance to the plane; and the nearest facet need not touch the nearest
-//! vertex, which gives too large values. On scans a third of the values are wrong. See [`Differences`].
+//! **This is not the distance to the surface.** (5) tests three slabs, not the triangle. Points outside an acute triangle pass
+//! it and get the (too small) distance to the plane. And the nearest facet need not touch the nearest vertex, which gives too
+//! large values. On scans a third of the values are wrong. See [`Differences`].
 //!
-//! The values have no sign, as in the paper. A sign may be taken from the exact method for the same point; the side of
-//! the facet that gave the value is not reliable where that value is wrong.
+//! The values have no sign, as in the paper. A sign may be taken from the exact method for the same point. The side of the
+//! facet that gave the value is not reliable where that value is wrong.
 
 mod differences;
 mod facet;
@@ -63,7 +63,7 @@ impl From<Cancelled> for PaperError {
 /// Distances of `points` from `mesh` by the paper's method, in the order of the points, millimeters, unsigned.
 ///
 /// # Errors
-/// Those of [`Paper::new`] and [`Paper::values`].
+/// The errors of [`Paper::new`] and [`Paper::values`].
 pub fn distances(mesh: &Mesh, points: &[Point], progress: &dyn Progress) -> Result<Vec<f64>, PaperError> {
     let values = Paper::new(mesh)?.values(points, progress)?;
     Ok(values.into_iter().map(|v| v.distance).collect())
@@ -147,8 +147,8 @@ impl Paper {
 
     /// The vertex nearest to `m` among those in the window.
     ///
-    /// The nearest of all is the answer as soon as a window holds it, for windows only grow; so facets are counted
-    /// only where a smaller window may hold ten of them and not the nearest vertex.
+    /// The nearest of all is the answer as soon as a window holds it, for windows only grow. So facets are counted only where a
+    /// smaller window may hold ten of them and not the nearest vertex.
     fn vertex_of(&self, m: &Point) -> u32 {
         let nearest = self.tree.nearest(m).map_or(0, |(_, v)| v);
         let place = self.vertices[nearest as usize];

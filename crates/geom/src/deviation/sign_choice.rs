@@ -1,12 +1,12 @@
 //! Which sign method is valid for a reference, and why.
 //!
-//! Pseudonormals (Bærentzen & Aanæs 2005) are exact wherever every edge has two facets that agree on the outside, and the
-//! surface winds around each place once or not at all. Shells that overlap break the second: there the winding number
-//! counts the solids around a place, and one or more is material. So a shell in another one that looks the same way is
-//! material in material, one that looks the other way a cavity.
-//! The generalized winding number (Jacobson et al. 2013) tolerates gaps and doubled facets as long as the surface nearly encloses
-//! a volume; on an open sheet it never reaches one half. What tells the two apart is the *vector area*: the sum of
-//! the facets' area vectors is zero for a closed surface, and as long as the area itself for a flat sheet.
+//! Pseudonormals (Bærentzen & Aanæs 2005) are exact on one condition. Every edge has two facets that agree on the outside, and
+//! the surface winds around each place once or not at all. Shells that overlap break the second: there the winding number
+//! counts the solids around a place, and one or more is material. So a shell in another one that looks the same way is material
+//! in material, one that looks the other way a cavity. The generalized winding number (Jacobson et al. 2013) tolerates gaps and
+//! doubled facets as long as the surface nearly encloses a volume. On an open sheet it never reaches one half. The *vector
+//! area* tells the two apart. The sum of the facets' area vectors is zero for a closed surface, and as long as the area itself
+//! for a flat sheet.
 
 use crate::check::Precondition;
 use crate::mesh::Mesh;
@@ -14,7 +14,7 @@ use crate::parallel::prelude::*;
 use crate::space::{Vector, cross, minus, norm, plus};
 use std::fmt;
 
-/// What the user asks for.
+/// The user's request.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum SignRequest {
     /// The valid method for this reference.
@@ -28,7 +28,7 @@ pub enum SignRequest {
     None,
 }
 
-/// What is used.
+/// The method that is used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SignMethod {
     /// Side of the angle-weighted pseudonormal of the facet, edge or vertex hit.
@@ -44,7 +44,7 @@ pub enum SignMethod {
 /// The method and the reason for it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SignChoice {
-    /// What was asked for.
+    /// The request.
     pub requested: SignRequest,
     /// The method.
     pub method: SignMethod,
@@ -98,8 +98,8 @@ impl SignChoice {
     }
     /// Chooses for a mesh of which this is known. Cost: linear in the facets.
     ///
-    /// One shell that crosses itself is not told from one that does not: where it overlaps itself, pseudonormals may
-    /// call the inside outside, and winding numbers must be asked for.
+    /// One shell that crosses itself is not told from one that does not. Where it overlaps itself, pseudonormals may call the
+    /// inside outside, and winding numbers must be asked for.
     ///
     /// # Panics
     /// If a facet names a vertex that does not exist.

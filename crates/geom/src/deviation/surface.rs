@@ -9,7 +9,7 @@ use crate::progress::{Cancelled, Progress, Silent};
 use crate::space::Point;
 use crate::topology::{Soundness, TopologyError};
 
-/// What is asked of a [`ReferenceSurface`].
+/// The options of a [`ReferenceSurface`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfaceOptions {
     /// Sign method.
@@ -51,7 +51,7 @@ impl Exclusion {
     pub const ALL: [Exclusion; 4] =
         [Exclusion::MaxDistance, Exclusion::BoundaryEdge, Exclusion::NoCrossing, Exclusion::NoDirection];
 
-    /// What a value among deviations stands for; `None` for a deviation.
+    /// The reason that a value among deviations stands for; `None` for a deviation.
     pub fn of(value: f64) -> Option<Exclusion> {
         match value.to_bits() {
             _ if value.is_finite() => None,
@@ -123,7 +123,7 @@ impl ReferenceSurface {
     /// Prepares `mesh`, whose search tree is `tree`: looks at its topology and chooses the sign method.
     ///
     /// # Errors
-    /// Those of [`Precondition::of`].
+    /// The errors of [`Precondition::of`].
     pub fn new(
         tree: &Tree,
         mesh: &Mesh,
@@ -163,11 +163,11 @@ impl ReferenceSurface {
     pub fn sign(&self) -> &SignChoice {
         &self.choice
     }
-    /// What the topology says about the mesh.
+    /// The topology's verdict on the mesh.
     pub fn soundness(&self) -> &Soundness {
         &self.precondition.soundness
     }
-    /// What breaks the rule that statistics rest on, with its places; nothing where the mesh is sound.
+    /// The faults that break the rule that statistics rest on, with their places; none where the mesh is sound.
     pub fn precondition(&self) -> &Precondition {
         &self.precondition
     }
@@ -184,7 +184,7 @@ impl ReferenceSurface {
     /// `f(index, deviation, hit)` of each point, in the order of `points`; the hit is missing beyond the greatest distance.
     ///
     /// # Errors
-    /// Those of [`ReferenceSurface::deviations`].
+    /// The errors of [`ReferenceSurface::deviations`].
     pub fn map<T: Copy + Send>(
         &self,
         points: &[Point],
@@ -217,7 +217,7 @@ impl ReferenceSurface {
     /// ask for few points many times.
     ///
     /// # Errors
-    /// Those of [`ReferenceSurface::deviations`].
+    /// The errors of [`ReferenceSurface::deviations`].
     pub fn at(&self, p: &Point) -> Result<Option<(f64, Closest)>, QueryError> {
         let Some(hit) = self.tree.hit(p, self.max_distance)? else { return Ok(None) };
         let place = self.tree.place(p, &hit);
@@ -266,7 +266,7 @@ impl ReferenceSurface {
     /// Cost: that of preparing the other method, and of the points.
     ///
     /// # Errors
-    /// Those of [`ReferenceSurface::deviations`].
+    /// The errors of [`ReferenceSurface::deviations`].
     pub fn disagreement(
         &self,
         points: &[Point],

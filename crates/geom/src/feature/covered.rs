@@ -28,14 +28,15 @@ const COVERED_QUANTILE: f64 = 0.99;
 const SLANT_FACTOR: f64 = 2.0;
 /// Share of the size of a feature up to which a distance is none.
 const NO_SIZE_SHARE: f64 = 1e-6;
-/// Steps of the sequence of places: powers of the root of x³ = x + 1, which leaves the least gaps in two dimensions
-/// (M. Roberts, The unreasonable effectiveness of quasirandom sequences, 2018).
+/// Steps of the sequence of places: powers of the root of x³ = x + 1, which leaves the least gaps in two dimensions. (M.
+/// Roberts, The unreasonable effectiveness of quasirandom sequences, 2018.)
 const PLACE_STEPS: [f64; 2] = [0.754_877_666_246_693, 0.569_840_290_998_053_3];
 
-/// Share of the area of a nominal feature, 0 to 1, that is near one of `points`, which were found for it: nearer than that point's
-/// twelfth neighbor is to it (of fewer than 240 points a nearer neighbor, the second at least; of points in rows the first one beside
-/// the row) and than `farthest` ([`farthest_covered`]), seen along the surface; points beyond its bounds cover none of it. Holes of the feature that its nominal form does not
-/// have are not covered. `None` of an edge and of a nominal feature that makes no sense, 0 without points.
+/// Share of the area of a nominal feature, 0 to 1, that is near one of `points`, which were found for it. A place is near if it
+/// is nearer to that point, seen along the surface, than the point's twelfth neighbor is and than `farthest`
+/// ([`farthest_covered`]). With fewer than 240 points a nearer neighbor counts, the second at least; for points in rows it is
+/// the first one outside the row. Points beyond its bounds cover none of it. Holes of the feature that its nominal form does
+/// not have are not covered. `None` of an edge and of a nominal feature that makes no sense, 0 without points.
 ///
 /// Cost: a search tree of the points, and some thousand nearest neighbors.
 ///
@@ -107,7 +108,7 @@ fn reach(points: &[Point], tree: &PointTree, n: u32) -> f64 {
     more.into_iter().find(is_beside).map_or(last.0, |beside| beside.0)
 }
 
-/// What lies on a nominal feature and within its bounds.
+/// Places on a nominal feature and within its bounds.
 fn on_surface(nominal: &Nominal) -> Nearness {
     let rounding = NO_SIZE_SHARE * nominal.area().unwrap_or(0.0).sqrt();
     Nearness { distance: rounding, angle: 1.0, margin: -rounding, rim: true, inward: None }

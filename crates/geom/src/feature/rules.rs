@@ -1,4 +1,4 @@
-//! What makes a facet or a point part of a nominal feature.
+//! The rules that make a facet or a point part of a nominal feature.
 
 use super::bounds::Polygon;
 use super::{FeatureError, Nearness, Nominal};

@@ -1,8 +1,8 @@
 //! Starts for short pieces of a torus: tubes that are hardly bent.
 //!
-//! The axis of a torus of which little is seen is known by nothing but the bend of its tube, and a search from a wrong axis ends in a
-//! wrong minimum. The tube itself is well known: it is nearly a cylinder. So a cylinder is taken first and its axis bent then:
-//! the curvature of the spine, a vector across it, is one more pair of unknowns that may be zero, which a ring's radius may not.
+//! Only the bend of its tube tells the axis of a torus of which little is seen. A search from a wrong axis ends in a wrong
+//! minimum. The tube itself is well known: it is nearly a cylinder. So a cylinder is taken first and its axis bent then. The
+//! curvature of the spine, a vector across it, is one more pair of unknowns that may be zero, which a ring's radius may not.
 
 use super::family::Element;
 use crate::frame::Pose;
@@ -24,8 +24,8 @@ const MIN_BENT_CURVATURE: f64 = 1e-3;
 const BEND_STEPS: usize = 6;
 
 impl Tube {
-    /// The tube near the straight one about the third axis of `frame`, bent to fit the points: steps of Gauss and Newton as long
-    /// as they bring it nearer.
+    /// The tube near the straight one about the third axis of `frame`, bent to fit the points. Steps of Gauss and Newton follow
+    /// as long as they bring it nearer.
     pub(super) fn near(frame: Pose, radius: f64, points: &[Point]) -> Tube {
         let mut best = Tube { frame, radius, bend: [0.0; 2] };
         let Some((mut square, mut step)) = best.step(points) else { return best };

@@ -10,10 +10,10 @@ use crate::shape::Shape;
 use crate::space::{Point, minus, norm, plus, times, unit};
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Cone about the third axis of its frame, opening along it. Its sizes are the distance of the origin from the
-/// surface and the half angle: unlike radius and apex they stay finite from the cylinder to the plane. On the way there an
-/// angle may pass through either: below zero the cone opens against its axis, beyond a right angle it is the one of the other
-/// side of the plane with its inside out. [`Family::settled`] writes both as they are told.
+/// Cone about the third axis of its frame, opening along it. Its sizes are the distance of the origin from the surface and the
+/// half angle. Unlike radius and apex they stay finite from the cylinder to the plane. On the way there an angle may pass
+/// through either. Below zero the cone opens against its axis. Beyond a right angle it is the cone on the other side of the
+/// plane with its inside out. [`Family::settled`] writes both as they are told.
 ///
 /// A cone ends at its apex. Beyond it the apex is the nearest place.
 pub(super) struct Cone;

@@ -9,8 +9,8 @@
 //! 4. While steps are short, and shrink as they do with the right normal matrix, that matrix is kept and only the gradient
 //!    is summed.
 //!
-//! **When it stops.** There is one rule ([`Step::is_last`]): the search ends with the step after which nothing is left to go
-//! that can be told apart from rounding. All lengths are root mean square changes of the distances, in the unit frame.
+//! **When it stops.** There is one rule ([`Step::is_last`]). The search ends with the step after which the way left cannot be
+//! told apart from rounding. All lengths are root mean square changes of the distances, in the unit frame.
 
 use super::family::{Element, Family};
 use super::normal::{Sums, Weighing, sums, sums_near};
@@ -37,8 +37,8 @@ pub(super) const NEAR: Effort = Effort { steps: 40, enough: 1e-3 };
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Optimum<const P: usize> {
     pub element: Element,
-    /// Of the last pass: before the very last step, which changes nothing that shows. The normal matrix may be of one or
-    /// two passes before, as long as the steps since were short ([`MAX_STEP_KEEPING_MATRIX`]).
+    /// The sums of the last pass: before the very last step, which changes nothing that shows. The normal matrix may be of one
+    /// or two passes before, as long as the steps since were short ([`MAX_STEP_KEEPING_MATRIX`]).
     pub sums: Sums<P>,
     pub steps: usize,
     pub converged: bool,
@@ -63,7 +63,7 @@ const MAX_DAMPING: f64 = 1e12;
 /// Damping below which none is used, and the first damping used once it is needed.
 const DAMPING_BOUNDS: (f64, f64) = (1e-7, 1e-3);
 
-/// What is known of a step before it is tried.
+/// The facts known of a step before it is tried.
 struct Step {
     length: f64,
     /// Whether no distance can change by more. Where they hardly determine an unknown, a step without length may lead far off.
@@ -77,9 +77,9 @@ struct Step {
 impl Step {
     /// Whether nothing is left to go after this step that can be told apart from rounding.
     ///
-    /// Left to go is at most about the length of the step itself; where undamped steps shrink steadily, as they do near the optimum,
-    /// the length of the next one: this one times the quotient of the last two. That is compared with `enough`. And where steps
-    /// in the reach of rounding no longer become shorter by half, they are rounding themselves.
+    /// The way left is at most about the length of the step itself. Where undamped steps shrink steadily, as they do near the
+    /// optimum, it is the length of the next one. That is this length times the quotient of the last two. That is compared with
+    /// `enough`. And where steps in the reach of rounding no longer become shorter by half, they are rounding themselves.
     fn is_last(&self, enough: f64) -> bool {
         let &Step { length, straight, last_length, invisible } = self;
         let shrinking = if invisible && last_length < 1.0 { (length / last_length).min(1.0) } else { 1.0 };
@@ -136,7 +136,7 @@ pub(super) fn minimize<const P: usize, F: Family<P>, W: Weighing>(
         } else {
             sums::<P, F, W>(&element, sample, weigh)
         };
-        // Of a matrix without an inverse rounding makes one, and steps that lead up.
+        // Rounding makes an inverse of a matrix without one, and steps that lead up.
         let gain = if fall > 0.0 { (now.sums.square - next.square) / fall } else { f64::NEG_INFINITY };
         if invisible || gain > MIN_ACCEPTED_GAIN {
             now.element = element;

@@ -200,11 +200,11 @@ pub(super) fn statistics<const P: usize, F: Family<P>>(
     }
 }
 
-/// Covariance of the parameters from the inverse of the normal matrix of the unknowns of `element` and the standard
-/// deviation of one distance in the unit frame, carried over by differences of one standard deviation of each unknown.
+/// Covariance of the parameters from the inverse of the normal matrix of the unknowns of `element`. The standard deviation of
+/// one distance in the unit frame scales it. Differences of one standard deviation of each unknown carry it over.
 ///
 /// Along its free axes an element is given at the foot of the mean of all n points. The mean is uncertain by the standard
-/// deviation over √n, noise being the same in all directions; and the foot moves with the axis, if the mean lies beside it.
+/// deviation over √n, noise being the same in all directions. The foot moves with the axis, if the mean lies off it.
 pub(super) fn covariance<const P: usize, F: Family<P>>(
     element: &Element,
     inverse: &[[f64; P]; P],

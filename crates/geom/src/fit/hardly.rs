@@ -1,8 +1,8 @@
-//! Elements that distances determine only in second order: a cone by its apex and one ring. Each small tilt of such a cone moves
-//! the distances by its square, so the normal matrix has no inverse; yet no other cone runs through the points.
+//! Elements that distances determine only in second order: a cone by its apex and one ring. Each small tilt of such a cone
+//! moves the distances by its square, so the normal matrix has no inverse. Yet no other cone runs through the points.
 //!
-//! Whether there is one element, and how certain it is, is tried out: no fit from some way off ends elsewhere and as well; and fits to
-//! the points with noise of the size found spread by the uncertainty.
+//! Trials show whether there is one element, and how certain it is. No fit from some way off ends elsewhere and as well. Fits
+//! to the points with noise of the size found spread by the uncertainty.
 
 use super::Kind;
 use super::family::{Element, Family};
@@ -111,7 +111,7 @@ pub(super) fn covariance<const P: usize, F: Family<P>>(
     Some(Covariance { size, values: values.collect() })
 }
 
-/// What each number of an element is multiplied with where lengths are.
+/// The factor of each number of an element that is a length.
 fn units(kind: Kind, length: f64) -> Vec<f64> {
     let each = kind.parameters().iter().flat_map(|(_, quantity)| match quantity {
         Quantity::Length => vec![length],

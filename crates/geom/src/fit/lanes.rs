@@ -1,9 +1,9 @@
 //! Points a group at a time: loops of a fixed length over arrays, which the compiler turns into wide registers. (Not in
 //! closures: one that is not inlined is compiled for any processor.)
 //!
-//! Only operations that IEEE 754 rounds alike everywhere are used, and sums are kept in four parts that are added in one
-//! order: the results are the same bits with wide registers and without. Products are added fused, with one rounding,
-//! which a processor without such an instruction (x86 before 2013) takes its time for.
+//! Only operations that IEEE 754 rounds alike everywhere are used, and sums are kept in four parts that are added in one order.
+//! The results are the same bits with wide registers and without. Products are added fused, with one rounding, which a
+//! processor without such an instruction (x86 before 2013) takes its time for.
 
 use crate::space::Point;
 

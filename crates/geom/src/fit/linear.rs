@@ -1,9 +1,9 @@
 //! The linear program of a minimax step: lower the greatest of linear functions within a box.
 //!
-//! Minimize t over (x, t) with slopeᵢ·x + levelᵢ ≤ t for all i and |x_k| ≤ reach. Solved by exchange, which is
-//! the dual simplex method: as many constraints as unknowns are held with equality, the one violated most comes
-//! in, the one whose multiplier would turn negative first goes out. The box gives a first set that needs no
-//! search. E. Ya. Remez, 1934; E. W. Cheney, Introduction to Approximation Theory (1966), chapter 2.
+//! Minimize t over (x, t) with slopeᵢ·x + levelᵢ ≤ t for all i and |x_k| ≤ reach. Solved by exchange, which is the dual simplex
+//! method. As many constraints as unknowns are held with equality. The one violated most comes in, the one whose multiplier
+//! would turn negative first goes out. The box gives a first set that needs no search. E. Ya. Remez, 1934; E. W. Cheney,
+//! Introduction to Approximation Theory (1966), chapter 2.
 
 /// Points up to which all are in the working set of an exchange from the first.
 pub(crate) const MAX_POINTS_ALL_WORKING: usize = 2000;

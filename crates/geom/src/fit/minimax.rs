@@ -1,16 +1,16 @@
 //! The least greatest distance over a small set of points, solved to the end.
 //!
-//! A sequence of linear programs in the small motions of the element, each within a box that grows while the
-//! linear model holds. Where as many points touch as there are unknowns and one, this is Newton's method. Where
-//! fewer touch, curvature decides, and a Newton step on the conditions of Karush, Kuhn and Tucker is tried with
-//! the points that hold the linear program. R. Fletcher, Practical Methods of Optimization (1987), section 14.
+//! A sequence of linear programs in the small motions of the element, each within a box that grows while the linear model
+//! holds. Where as many points touch as there are unknowns and one, this is Newton's method. Where fewer touch, curvature
+//! decides. Then a Newton step on the conditions of Karush, Kuhn and Tucker is tried with the points that hold the linear
+//! program. R. Fletcher, Practical Methods of Optimization (1987), section 14.
 
 use super::family::{Element, Family, slope};
 use super::linear::{Function, HIDDEN_FALL, Lowest, lowest};
 use crate::num::dense;
 use crate::space::Point;
 
-/// What is to be least.
+/// The quantity that is made least.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Aim {
     /// Distances count on the outer side.

@@ -14,7 +14,7 @@ use crate::space::{Point, Vector, dot, times};
 /// Points of one block: large enough to make sharing out cheap, small enough for the nearest caches.
 pub(super) const POINTS_PER_NORMAL_BLOCK: usize = 8192;
 
-/// What one pass over the points gives, in the unit frame.
+/// The sums of one pass over the points, in the unit frame.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sums<const P: usize> {
     /// Σ w·gᵀg, upper half.
@@ -27,11 +27,11 @@ pub(super) struct Sums<const P: usize> {
     pub weight: f64,
 }
 
-/// What a distance costs.
+/// The cost of a distance.
 pub(super) trait Weighing: Sync {
     /// Whether every point counts alike: its loss is d², its weight 1.
     const EVEN: bool;
-    /// What is summed and made least.
+    /// The sum that is made least.
     fn loss(&self, d: f64) -> f64;
     /// Derivative of the loss by d²: the weight of the point's rows.
     fn weight(&self, d: f64) -> f64;
@@ -91,7 +91,7 @@ const MAX_ROWS_PER_POINT: usize = 2;
 struct Work<const P: usize> {
     distance: Lanes,
     slope: [Lanes; P],
-    /// Of the points, where they do not count alike.
+    /// The weights of the points, where they do not count alike.
     weight: Lanes,
     loss: Lanes,
 }
@@ -260,8 +260,8 @@ impl<const P: usize> Sums<P> {
     pub(super) fn symmetric(&self) -> [[f64; P]; P] {
         std::array::from_fn(|i| std::array::from_fn(|j| self.normal[i.min(j)][i.max(j)]))
     }
-    /// The step that minimizes the linearized sum of squares, each unknown held back by `damping` times its own
-    /// weight; `None` where the rows do not determine one.
+    /// The step that minimizes the linearized sum of squares, each unknown held back by `damping` times its own weight. `None`
+    /// where the rows do not determine one.
     pub(super) fn step(&self, damping: f64) -> Option<[f64; P]> {
         let scale: [f64; P] = std::array::from_fn(|i| 1.0 / self.normal[i][i].sqrt());
         if scale.iter().any(|s| !s.is_finite()) {

@@ -1,10 +1,10 @@
 //! Starts for cones of any half angle, from nearly cylinders to nearly planes, and of any pattern of points.
 //!
 //! Proposers give axes, each axis its best cone in closed form, one comparison by the true distances chooses:
-//! 1. **All around.** Directions over the half sphere, evenly spread, and as evenly in the coordinates in which the points spread
-//!    alike or inversely: the valley of a flat cone's axis is as narrow as the cone is flat, that of a long thin one as it is thin.
-//!    Where the axis lies follows from the moments of the points ([`Powers`]).
-//! 2. **From within.** A patch looks like a cylinder: its curvature across the generators tells how the cone's half angle goes
+//! 1. **All around.** Directions over the half sphere, evenly spread, and as evenly in the coordinates in which the points
+//!    spread alike or inversely. The valley of a flat cone's axis is as narrow as the cone is flat, that of a long thin one as
+//!    it is thin. Where the axis lies follows from the moments of the points ([`Powers`]).
+//! 2. **From within.** A patch looks like a cylinder. Its curvature across the generators tells how the cone's half angle goes
 //!    with the distance of its apex, on either side. So all distances are tried, from half the patch to the cylinder.
 //! 3. **From a tip.** All directions from the apex to points lie on a circle of the unit sphere, so its plane has the axis. Points at
 //!    the ends of the principal directions are tried as apexes: exact where one of them is.

@@ -1,9 +1,9 @@
 //! Starts for surfaces of revolution: which directions could be the axis, and where does it lie?
 //!
-//! The points are condensed once into the covariance of their first and second powers. For any direction the
-//! best algebraic cylinder (|q⊥|² linear in the coordinates across) or body of revolution (|q⊥|² a parabola
-//! along the axis besides) then costs a few dozen operations, so the whole half sphere of directions can be
-//! looked through. The cylinder part follows D. Eberly, "Fitting 3D data with a cylinder" (2003).
+//! The points are condensed once into the covariance of their first and second powers. The best algebraic cylinder for any
+//! direction has |q⊥|² linear in the coordinates across. The best body of revolution has |q⊥|² a parabola along the axis
+//! besides. Either costs a few dozen operations, so the whole half sphere of directions can be looked through. The cylinder
+//! part follows D. Eberly, "Fitting 3D data with a cylinder" (2003).
 
 use super::sample::mean;
 use crate::frame::Pose;
@@ -29,7 +29,7 @@ pub(super) struct Axis {
     pub radius_squared: f64,
 }
 
-/// What the square of the distance from the axis may be along the axis.
+/// The profiles that the square of the distance from the axis may have along the axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Profile {
     /// Constant: cylinders.

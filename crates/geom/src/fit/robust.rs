@@ -1,9 +1,9 @@
 //! Fits that outliers do not pull: a start from random trials, then the biweight.
 //!
-//! Each trial fits few random points. Its measure is the median distance of a sample of all points, which stays meaningful as long
-//! as less than half of them are outliers (P. J. Rousseeuw, "Least median of squares regression", JASA 79, 1984). From the best
-//! trial on, the sum of J. W. Tukey's biweight is minimized. Its weights fall to zero at 4.685 standard deviations, which keeps
-//! 95 % of the efficiency of least squares on normal noise.
+//! Each trial fits few random points. Its measure is the median distance of a sample of all points, which stays meaningful as
+//! long as less than half of them are outliers. (P. J. Rousseeuw, "Least median of squares regression", JASA 79, 1984.) From
+//! the best trial on, the sum of J. W. Tukey's biweight is minimized. Its weights fall to zero at 4.685 standard deviations,
+//! which keeps 95 % of the efficiency of least squares on normal noise.
 
 use super::family::{Element, Family};
 use super::gauss::{FULL, ROUGH, minimize};

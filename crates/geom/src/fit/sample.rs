@@ -6,8 +6,8 @@ use crate::simd::widest::widest;
 use crate::space::{Aabb, Point, Vector, minus, plus, times};
 use std::borrow::Cow;
 
-/// Points, and the unit frame they are seen in: the middle of their box is its origin and half the longest
-/// side of the box is between 1/2 and 1 long. The scale is a power of two, so that nothing is rounded by it.
+/// Points, and the unit frame they are seen in. The middle of their box is its origin, and half the longest side of the box is
+/// between 1/2 and 1 long. The scale is a power of two, so that nothing is rounded by it.
 #[derive(Clone, Debug)]
 pub(super) struct Sample<'a> {
     pub points: Cow<'a, [Point]>,
@@ -56,8 +56,8 @@ impl<'a> Sample<'a> {
     }
     /// At most `count` of the points, spread over the whole list.
     ///
-    /// They are taken at multiples of the golden section: a fixed stride would pick one and the same column of
-    /// a grid of points, or one generator of a cylinder measured ring by ring.
+    /// They are taken at multiples of the golden section. A fixed stride would pick one and the same column of a grid of
+    /// points, or one generator of a cylinder measured ring by ring.
     pub(super) fn thinned(&self, count: usize) -> Sample<'_> {
         if self.len() <= count {
             return self.with(Cow::Borrowed(&self.points));

@@ -193,8 +193,8 @@ impl<'a, const P: usize, F: Family<P>> Search<'a, P, F> {
         None
     }
 
-    /// Whether the optimum belongs to the feature: it has not left through a gap between the points, and its
-    /// distances range not much farther than those of the first element.
+    /// Whether the optimum belongs to the feature. It has not left through a gap between the points, and its distances range
+    /// not much farther than those of the first element.
     fn near(&self, low: &Low, blocks: &[survey::Survey]) -> bool {
         let most = OTHER_OPTIMUM_RANGE * self.range.max(TOUCHING_ROUNDING);
         self.only_one || (range(blocks) <= most && !(self.aim.pinned && low.value.abs() > most))

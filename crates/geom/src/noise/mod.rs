@@ -1,17 +1,18 @@
 //! The noise of a scan, found without a nominal: its standard deviation, how far neighbors share it, and how many points count as one.
 //!
-//! What scanners and the programs behind them write is smoothed: the errors of neighboring points are alike, so `n` points tell as much as
-//! `n / τ` independent ones. Both are found together. Around places of the surface a polynomial is fitted to a patch of neighbors, and the
-//! products of its residuals are summed by the distance of the two points. A fit takes a part of the noise with it, and of shared noise
-//! the greater part, so the sums are not the covariances; but what they are expected to be is linear in the covariances
-//! (`E[rᵀBr] = tr(P B P C)` with the projection `P` of the residuals, the principle of MINQUE: C. R. Rao, Journal of the American Statistical
-//! Association 67 (1972) 112–115). The covariance that explains the sums best is found among those of the form
+//! Scanners and the programs behind them write smoothed data. The errors of neighboring points are alike, so `n` points tell as
+//! much as `n / τ` independent ones. Both are found together. Around places of the surface a polynomial is fitted to a patch of
+//! neighbors. The products of its residuals are summed by the distance of the two points. A fit takes a part of the noise with
+//! it, and of shared noise the greater part, so the sums are not the covariances. But their expectations are linear in the
+//! covariances: `E[rᵀBr] = tr(P B P C)` with the projection `P` of the residuals. (The principle of MINQUE: C. R. Rao, Journal
+//! of the American Statistical Association 67 (1972) 112–115.) The covariance that explains the sums best is found among those
+//! of the form
 //!
 //! `C(d) = white [d = 0] + shared φ(d / reach)`, `φ(t) = (1 − t)⁴ (4 t + 1)`
 //!
-//! with Wendland's compact function `φ` (Advances in Computational Mathematics 4 (1995) 389–396), which is positive definite in space.
-//! Patches that lie over edges, or over form that bends faster than a polynomial of degree four follows, have greater sums than the noise
-//! allows; they are left out by the distribution that sums of squares of the noise found have.
+//! with Wendland's compact function `φ` (Advances in Computational Mathematics 4 (1995) 389–396), which is positive definite in
+//! space. Some patches lie over edges, or over form that bends faster than a polynomial of degree four follows. They have
+//! greater sums than the noise allows. The distribution of sums of squares of the noise found leaves them out.
 //!
 //! | file | what |
 //! |---|---|
@@ -56,9 +57,9 @@ const MIN_PATCHES: usize = 8;
 /// The noise of the `V` vertices of a mesh, millimeters. Neighbors are found through edges: weld first what is not welded. Vertices that no
 /// facet uses are no neighbors of any.
 ///
-/// Of a mesh that is drawn, not measured, patches reach over edges, and what is told is how far the part departs from smooth surfaces
-/// at the spacing of its vertices. Deterministic for any number of threads. Cost: a pass over the facets, and the patches, whose
-/// number does not grow with the mesh. `progress` counts patches.
+/// On a mesh that is drawn, not measured, patches reach over edges. Then the result is how far the part departs from smooth
+/// surfaces at the spacing of its vertices. Deterministic for any number of threads. Cost: a pass over the facets, and the
+/// patches, whose number does not grow with the mesh. `progress` counts patches.
 /// ```
 /// use trueness_geom::{mesh::Mesh, noise, num::random::Random, progress::Silent};
 /// // A plane of 61 × 61 vertices with independent noise, evenly within ±0.01 × √3.
@@ -88,9 +89,9 @@ pub fn cloud(points: &[Point], seed: u64, progress: &dyn Progress) -> Result<Noi
     found(&Mesh { positions: points.to_vec(), faces: vec![] }, None, seed, progress)
 }
 
-/// The noise of the `V` vertices of a mesh, or without facets of `V` points, whose distances from surfaces fitted to them are known: form is
-/// told from noise with less doubt, and where the surface bends much from one point to the next. Points without a distance
-/// that is a number do not count. As [`mesh()`] otherwise.
+/// The noise of the `V` vertices of a mesh, or without facets of `V` points, whose distances from surfaces fitted to them are
+/// known. Form is told from noise with less doubt, and also where the surface bends much from one point to the next. Points
+/// without a distance that is a number do not count. As [`mesh()`] otherwise.
 ///
 /// # Errors
 /// As [`mesh()`].
@@ -142,7 +143,7 @@ struct Places<'a> {
 }
 
 impl Places<'_> {
-    /// What patches of so many points tell.
+    /// The noise that patches of so many points tell.
     fn from_patches(&self, size: usize, seed: u64, progress: &dyn Progress) -> Result<Noise, NoNoise> {
         let Places { points, counted, around, distances } = self;
         let count = MAX_PATCHES.min(PATCHES_PER_POINT * counted.len() / size);

@@ -18,12 +18,12 @@ pub(super) const COVARIANCE_BINS: usize = 41;
 /// Length that rounding leaves of a column of length 1 that the columns before it hold.
 const MAX_DEPENDENT_LENGTH: f64 = 1e-8;
 
-/// What a patch tells.
+/// The sums of a patch.
 #[derive(Clone, Debug)]
 pub(super) struct Moments {
     /// For each lag the sum of the products of two residuals, over ordered pairs.
     pub products: [f64; LAG_COUNT],
-    /// What covariance 1 of one bin adds to each of these sums.
+    /// The contribution of covariance 1 of one bin to each of these sums.
     pub expected: [[f64; COVARIANCE_BINS]; LAG_COUNT],
     /// Ordered pairs of points in each bin.
     pub pairs: [f64; COVARIANCE_BINS],
@@ -42,8 +42,8 @@ pub(super) fn middle(bin: usize) -> f64 {
 }
 
 impl Moments {
-    /// Those of a patch whose first point is the center; `None` where it has fewer than `size` points or they lie on a line.
-    /// `heights` are the places' distances from a surface; without them, those over the plane of the patch.
+    /// The moments of a patch whose first point is the center. `None` where it has fewer than `size` points or they lie on a
+    /// line. `heights` are the places' distances from a surface; without them, those over the plane of the patch.
     pub(super) fn of(places: &[Point], heights: Option<&[f64]>, size: usize) -> Option<Moments> {
         if places.len() < size {
             return None;
@@ -218,7 +218,7 @@ mod tests {
     use super::*;
     use crate::num::random::Random;
 
-    /// What the sums are expected to be, against the product of the matrices themselves.
+    /// The expectations of the sums, against the product of the matrices themselves.
     #[test]
     fn expected_sums_are_traces() {
         let mut random = Random::new(3);

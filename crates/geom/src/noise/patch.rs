@@ -7,7 +7,7 @@ use crate::space::{Point, dot, minus};
 use crate::spatial::lists::lists;
 use std::collections::BTreeSet;
 
-/// What knows the neighbors of points.
+/// A source of the neighbors of points.
 pub(super) trait Around: Sync {
     /// At most `size` points around `center`, which comes first.
     fn patch(&self, center: u32, size: usize) -> Vec<u32>;
@@ -20,7 +20,7 @@ pub(super) struct OnMesh {
 }
 
 impl OnMesh {
-    /// Of the vertices that count.
+    /// The neighbors of the vertices that count.
     pub(super) fn new(mesh: &Mesh, counts: impl Fn(u32) -> bool + Sync) -> Result<OnMesh, NoNoise> {
         let vertices = mesh.positions.len();
         if let Some(facet) = mesh.faces.iter().position(|f| f.iter().any(|v| *v as usize >= vertices)) {

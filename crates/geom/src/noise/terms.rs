@@ -77,7 +77,7 @@ pub enum NoNoise {
         /// Index of the first such facet.
         facet: usize,
     },
-    /// What is left of patches is form.
+    /// The rest of patches is form.
     #[error("it departs from smooth surfaces by more in one place than in another: that is its form")]
     Uneven,
     /// The mesh was drawn: its vertices lie where somebody put them.

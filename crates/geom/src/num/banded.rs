@@ -1,8 +1,8 @@
 //! Symmetric positive definite systems whose entries lie near the diagonal.
 //!
-//! The rows are cut into blocks of 32. All rows of a block hold the same columns, from the band's width before its first
-//! row to its end, so that products of two rows are products of slices. The rows of a block do not depend on each
-//! other left of it: they are computed on all threads, each entry in one fixed order, so the bits are the same on any number.
+//! The rows are cut into blocks of 32. All rows of a block hold the same columns, from the band's width before its first row to
+//! its end. So products of two rows are products of slices. The rows of a block do not depend on each other left of it. They
+//! are computed on all threads, each entry in one fixed order, so the bits are the same on any number.
 
 use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress};

@@ -18,7 +18,8 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(x, y)| x * y).sum()
 }
 
-/// The entries of the next rows of the factor below the rows `done`: those of each row one after the other, of all rows at once.
+/// The entries of the next rows of the factor below the rows `done`. The entries of each row come one after the other, of all
+/// rows at once.
 fn against_done(done: &[f64], next: &mut [f64], columns: &mut [[f64; ROWS_AT_ONCE]], n: usize, rows: usize) {
     for j in 0..columns.len() {
         let (before, this) = columns.split_at_mut(j);

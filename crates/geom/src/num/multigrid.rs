@@ -1,11 +1,11 @@
 //! Large sparse systems with an unknown for each vertex of a mesh.
 //!
-//! Neighbors are gathered into groups of about seven, these into groups of groups, until few are left; what changes slowly over the mesh
-//! is found among the groups, what changes fast by a sweep over the vertices. One round of that is the preconditioner
-//! of an iteration for matrices that need not be symmetric. The number of rounds hardly depends on the size of the mesh.
+//! Neighbors are gathered into groups of about seven, these into groups of groups, until few are left. Slow changes over the
+//! mesh are found among the groups, fast ones by a sweep over the vertices. One round of that is the preconditioner of an
+//! iteration for matrices that need not be symmetric. The number of rounds hardly depends on the size of the mesh.
 //!
-//! Sources: Vaněk, Mandel, Brezina, Algebraic multigrid by smoothed aggregation for second and fourth order elliptic
-//! problems, Computing 56, 1996; van der Vorst, Bi-CGSTAB, SIAM Journal on Scientific and Statistical Computing 13, 1992.
+//! Sources: Vaněk, Mandel, Brezina, Algebraic multigrid by smoothed aggregation for second and fourth order elliptic problems,
+//! Computing 56, 1996. Van der Vorst, Bi-CGSTAB, SIAM Journal on Scientific and Statistical Computing 13, 1992.
 
 use super::sparse::Sparse;
 use crate::progress::{Cancelled, Progress};
@@ -37,7 +37,7 @@ struct Level {
 }
 
 impl Multigrid {
-    /// Of a matrix with a positive diagonal in which each unknown is about a mean of its neighbors.
+    /// The solver of a matrix with a positive diagonal in which each unknown is about a mean of its neighbors.
     ///
     /// Cost: linear; memory about three times that of the matrix.
     pub fn new(matrix: Sparse) -> Multigrid {
@@ -45,7 +45,7 @@ impl Multigrid {
         while matrix.rows() > MAX_DIRECT_UNKNOWNS {
             let diagonal = matrix.diagonal();
             let (group, groups) = gathered(&matrix, &diagonal, strong);
-            // What hardly hangs together is left to the sweeps: nothing is below.
+            // Unknowns that hardly hang together are left to the sweeps: nothing is below.
             let hangs_together = 10 * groups <= 9 * matrix.rows();
             let down = match hangs_together {
                 true => smoothed(&matrix, &diagonal, &group, groups),
@@ -182,7 +182,8 @@ fn gathered(matrix: &Sparse, diagonal: &[f64], strong: f64) -> (Vec<usize>, usiz
     (group, groups)
 }
 
-/// What the members take of their groups: all of their own, smoothed by one step over the neighbors where these are not too many.
+/// The shares that members take of their groups: all of their own, smoothed by one step over the neighbors where these are not
+/// too many.
 fn smoothed(matrix: &Sparse, diagonal: &[f64], group: &[usize], groups: usize) -> Sparse {
     let mut entries = vec![];
     for i in 0..matrix.rows() {

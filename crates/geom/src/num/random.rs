@@ -1,8 +1,8 @@
 //! Random numbers that are the same on every machine and for every number of threads.
 //!
-//! SplitMix64: Steele, Lea and Flood, Fast Splittable Pseudorandom Number Generators, OOPSLA 2014. One addition and
-//! one mixing function per number, so the state after `n` numbers is known without drawing them, and item `i` of a
-//! parallel loop can own stream `i`.
+//! SplitMix64: Steele, Lea and Flood, Fast Splittable Pseudorandom Number Generators, OOPSLA 2014. One addition and one mixing
+//! function per number. So the state after `n` numbers is known without drawing them, and item `i` of a parallel loop can own
+//! stream `i`.
 
 /// A seeded generator of uniform 64-bit numbers (period 2^64).
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -11,7 +11,7 @@ pub struct Sparse {
 }
 
 impl Sparse {
-    /// Of entries as row, column, value; those of one place are added up in their order.
+    /// The matrix of entries as row, column, value; those of one place are added up in their order.
     ///
     /// Cost: linear, but for the sorting of each row.
     pub fn new(rows: usize, width: usize, entries: &[(u32, u32, f64)]) -> Sparse {

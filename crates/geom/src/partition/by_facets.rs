@@ -1,4 +1,4 @@
-//! What the facets of a mesh tell: which face each is of, and where faces are that have no vertices clear of their borders.
+//! The evidence of the facets of a mesh: the face of each, and faces that have no vertices clear of their borders.
 
 use super::best::{Best, Candidate};
 use super::cut::NO_FACE;
@@ -14,8 +14,8 @@ use crate::space::{Point, Vector, dot, plus, times};
 /// Cosine of the angle (15°) up to which a facet faces as its face does.
 const FACING_FACET_COSINE: f64 = 0.966;
 
-/// Adds, to the faces with few sure points, the corners of facets that are surely theirs: over the face, facing as it does, and nearer to
-/// it than to any other. A mesh with long facets has no vertices but those on edges.
+/// Adds, to the faces with few sure points, the corners of facets that are surely theirs. Such a facet lies over the face,
+/// faces as it does, and is nearer to it than to any other. A mesh with long facets has no vertices but those on edges.
 pub(super) fn add(
     scan: &Mesh,
     (work, facing): (&Work, &Facing),
@@ -68,8 +68,8 @@ pub(super) fn add(
     Ok(())
 }
 
-/// Whether facets of a mesh straddle the edges of its part, as those of a scan do: more of them than it has vertices on edges. Those of a computed mesh
-/// end there.
+/// Whether facets of a mesh straddle the edges of its part, as those of a scan do. Then more of them straddle than it has
+/// vertices on edges. The facets of a computed mesh end there.
 pub(super) fn straddle_edges(
     scan: &Mesh,
     best: &Best,
@@ -90,7 +90,8 @@ pub(super) fn straddle_edges(
     straddling > on_edges
 }
 
-/// The face of each facet of a mesh: one that explains all its corners, or has them, and of which it is no wall. Of several that which the facet faces as.
+/// The face of each facet of a mesh: one that explains all its corners, or has them, and of which it is no wall. The face, out
+/// of several, that the facet faces as.
 pub(super) fn owners(
     scan: &Mesh,
     (owners, classes): (&[u32], &[Class]),

@@ -27,19 +27,19 @@ pub(super) struct Sure<'a> {
     tree: PointTree,
 }
 
-/// What the points around tell of the surface at a place.
+/// The surface at a place as the points around continue it.
 struct Continuation {
     /// How far it lies off the face where that really is.
     off: f64,
     /// Variance of that over that of a point.
     share: f64,
-    /// What the points around deviate by.
+    /// Deviation of the points around.
     deviation: f64,
 }
 
 impl<'a> Sure<'a> {
     pub(super) fn new(face: &'a Face, placed: &'a Placed, points: &[Point], sure: &[Candidate]) -> Sure<'a> {
-        // What the face does not explain, as a wall that stands on it, tells nothing of it.
+        // Points that the face does not explain, such as a wall that stands on it, tell nothing of it.
         let (mut places, mut normals, mut offs) = (vec![], vec![], vec![]);
         for c in sure {
             let p = points[c.point as usize];
@@ -116,7 +116,7 @@ fn inverted(m: [[f64; PLANE_UNKNOWNS]; PLANE_UNKNOWNS]) -> Option<[[f64; PLANE_U
         .then(|| std::array::from_fn(|i| std::array::from_fn(|j| minor(j, i) / determinant)))
 }
 
-/// What points scatter by about the surface that their neighbors tell: the median over some places of all faces.
+/// The scatter of points about the surface that their neighbors tell: the median over some places of all faces.
 pub(super) fn noise(all: &[Sure], seed: u64) -> f64 {
     let mut found: Vec<f64> = (all.par_iter())
         .flat_map_iter(|sure| {

@@ -1,7 +1,7 @@
 //! The nominal cut into faces.
 //!
-//! A segmentation finds the elements. What it leaves beside them, as where bores meet, is completed as drawings are: corners of a drawn face lie on its
-//! element or on a chord of it, however few and long its facets are.
+//! A segmentation finds the elements. Bores that meet leave facets out, and these are completed as drawings are. Corners of a
+//! drawn face lie on its element or on a chord of it, however few and long its facets are.
 
 use crate::fit::{self, fit};
 use crate::mesh::Mesh;
@@ -19,8 +19,9 @@ const ROUNDED_CORNER_STEPS: f64 = 4.0;
 const MAX_CHORD_SHARE: f64 = 1e-3;
 /// Corners for each unknown from which on they tell that a face lies on an element.
 const CORNERS_PER_UNKNOWN: usize = 2;
-/// Ratio of distances from an element: of the middles of facets of a face that join it, and of their corners, to the middles of
-/// its own facets. Corners lie on chords where faces meet. The flat of a shaft has all its corners on the shaft too.
+/// Ratio of distances from an element: those of other facets' middles and corners over those of the middles of its own facets.
+/// It is the limit for facets that join a face. Corners lie on chords where faces meet. The flat of a shaft has all its corners
+/// on the shaft too.
 const MAX_BULGE_RATIO: f64 = 2.0;
 /// Elements that a face may lie on where the segmentation has not told: the simplest first.
 const ELEMENTS: [Kind; 4] = [Kind::Plane, Kind::Cylinder, Kind::Sphere, Kind::Cone];
@@ -51,7 +52,7 @@ pub(super) fn cut(nominal: &Mesh, progress: &dyn Progress) -> Result<Cut, Segmen
     }
     drawn.grow(&mut of_facets, &shapes);
     let facets = facets_of(&of_facets, shapes.len());
-    // Those that others have taken all facets of are none.
+    // A face whose facets others have all taken is none.
     let kept: Vec<usize> = (0..shapes.len()).filter(|face| !facets[*face].is_empty()).collect();
     let mut numbers = vec![NO_FACE; shapes.len()];
     (0u32..).zip(&kept).for_each(|(number, face)| numbers[*face] = number);
@@ -180,7 +181,8 @@ impl Drawn<'_> {
     }
 }
 
-/// The element of a kind that all corners of some facets lie on and that they face as, within so many radians; `None` where there is none.
+/// The element of a kind on which all corners of some facets lie, and which they face within so many radians. `None` where
+/// there is none.
 ///
 /// Cost: one fit.
 /// ```

@@ -32,7 +32,8 @@ enum FaceExtent {
     Facets(Facets),
     /// As far as the bounds of a nominal feature.
     Nominal(Extent),
-    /// As far as measured points that were found to be of it, which lie no farther apart; narrow ones may be where a scan rounds an edge.
+    /// As far as measured points that were found to belong to it, which lie no farther apart. Narrow ones may be where a scan
+    /// rounds an edge.
     Points { tree: PointTree, apart: f64, narrow: bool },
 }
 
@@ -123,9 +124,9 @@ impl Faces {
         }))
     }
 
-    /// Adds an element that measured points were found to lie on as a face: its number. It goes as far as these points, which lie no farther apart than
-    /// `apart`. `outward` is whether distances of the element are positive outside of the material, `narrow` whether it may be where a scan rounds an edge:
-    /// then no edge is told by it.
+    /// Adds an element that measured points were found to lie on as a face: its number. It goes as far as these points, which
+    /// lie no farther apart than `apart`. `outward` is whether distances of the element are positive outside of the material.
+    /// `narrow` is whether the face may be where a scan rounds an edge: then no edge is told by it.
     pub fn add_measured(
         &mut self,
         points: &[Point],
@@ -205,8 +206,8 @@ impl Face {
         Some(Face { facets, shape, bounds, outward: 1f64.copysign(facing), extent })
     }
 
-    /// Where points lie on the face; `None` of those farther off than `reach`, or beyond its border by more than `far`, and where the element has no
-    /// direction. Borders farther than `far` are not looked for: infinitely far within.
+    /// Where points lie on the face. `None` for those farther off than `reach`, or beyond its border by more than `far`, and
+    /// where the element has no direction. Borders farther than `far` are not looked for: infinitely far within.
     ///
     /// Cost: two closest points each, in batches.
     pub(super) fn seats(
@@ -272,14 +273,14 @@ impl Face {
         }
     }
 
-    /// How far points lie off the face, positive outside of the material, and the unit normals there; `None` of points that do not lie over it or are
-    /// farther off than `reach`.
+    /// How far points lie off the face, positive outside of the material, and the unit normals there. `None` for points that do
+    /// not lie over it or are farther off than `reach`.
     pub fn over(&self, points: &[Point], reach: f64) -> Vec<Option<(f64, Vector)>> {
         let seats = self.seats(points, reach, 0.0, &Silent).unwrap_or_default();
         seats.into_iter().map(|seat| seat.map(|seat| (seat.off, seat.normal()))).collect()
     }
 
-    /// Of a cylinder, cone, sphere or torus, whether it faces its axis or center, as a bore does.
+    /// For a cylinder, cone, sphere or torus, whether it faces its axis or center, as a bore does.
     pub fn inward(&self) -> Option<bool> {
         let plane = self.shape.is_none_or(|s| s.kind() == Kind::Plane);
         (!plane).then_some(self.outward < 0.0)

@@ -3,14 +3,17 @@
 //! Partition is an operation of its own (ISO 17450-1), done once for the whole part, by likelihood, and not anew for each feature:
 //!
 //! 1. The nominal is cut into [`Faces`]: planes, cylinders, cones, spheres and tori, and what is free between creases.
-//! 2. Each face is put where it really is, by the points that are surely its own: near it, facing as it does, clear of its border.
-//! 3. A point that one face alone can have belongs to it. Near borders each of the faces there is asked where its surface goes on, by
-//!    the sure points around; the point belongs to the one that it lies off by the least part of what noise and the going on allow.
-//! 4. Points that no face explains are looked at together with their neighbors. What hangs together with points beyond the reach of
-//!    all faces goes on into the material ([`Class::Deep`]) or out of it ([`Class::High`]) farther than the reach: a hole, a bump, a thing that
-//!    stands there. If it is closed, and one face alone is around it, it is a [`Class::Dent`]. No more than two together, clear of borders of a face that was
-//!    scanned, are outliers ([`Class::Alone`]). What lies along a border is
-//!    [`Class::Edge`] as far as scans round edges, farther [`Class::Broken`]: a burr, a groove, a chamfer that is not drawn. The rest is form of the face: a dent.
+//! 2. Each face is put where it really is, by the points that are surely its own. They are near it, face as it does, and lie
+//!    clear of its border.
+//! 3. A point that one face alone can have belongs to it. Near borders each of the faces there is asked where its surface goes
+//!    on, by the sure points around. The point belongs to the face with the least distance, as a share of the allowance for
+//!    noise and continuation.
+//! 4. Points that no face explains are looked at together with their neighbors. Points that hang together with others beyond
+//!    the reach of all faces go on into the material ([`Class::Deep`]) or out of it ([`Class::High`]). They are a hole, a bump,
+//!    a thing that stands there. If it is closed, and one face alone is around it, it is a [`Class::Dent`]. No more than two
+//!    together, clear of borders of a face that was scanned, are outliers ([`Class::Alone`]). Points along a border are
+//!    [`Class::Edge`] as far as scans round edges, farther [`Class::Broken`]: a burr, a groove, a chamfer that is not drawn.
+//!    The rest is form of the face: a dent.
 //!
 //! | file | what |
 //! |---|---|
@@ -60,7 +63,7 @@ use work::{ROUNDED_EDGE_SPACINGS, SEARCH_REACHES, SURE_BORDER_SPACINGS, Work};
 
 /// Share of its diagonal that a face reaches where no reach is given.
 const DEFAULT_REACH_SHARE: f64 = 0.02;
-/// Share of the diagonal of all faces: up to it, points out of the material and beyond the reach of a face may belong to the
+/// Share of the diagonal of all faces. Up to it, points out of the material and beyond the reach of a face may belong to the
 /// face. Into the material nothing else lies.
 const OUTWARD_REACH_SHARE: f64 = 0.1;
 /// Neighbors whose farthest tells the spacing.
@@ -145,7 +148,7 @@ pub fn partition(
     work.adjacent_face(&mut best, &placed);
     cancelled(progress)?;
     drop((work, around));
-    // What was computed has sharp edges.
+    // Computed meshes have sharp edges.
     let straddle = |facing: &Facing| by_facets::straddle_edges(scan, &best, &shared, (faces, facing));
     let rounding = rounding::width(points, &best, (faces, &placed), noise, spacing);
     let is_scan = noise > floor || rounding > 0.0 || facing.as_ref().is_some_and(straddle);

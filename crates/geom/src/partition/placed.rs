@@ -28,7 +28,7 @@ pub struct Placed {
     pub shape: Option<Shape>,
     /// How far it lies off the nominal, out of the material, where nothing was fitted, millimeters.
     pub offset: f64,
-    /// What they deviate by from it, millimeters: noise and form.
+    /// Deviation of the points from it, millimeters: noise and form.
     pub deviation: f64,
     /// Their number.
     pub points: usize,
@@ -81,8 +81,8 @@ fn alike(found: Shape, face: &Face, places: &[Point]) -> Shape {
     }
 }
 
-/// The standard deviation of normal noise by its magnitudes. Where more than half are nothing, as of a plane along whose normal coordinates are rounded, the
-/// step that they are rounded to: the least of the others.
+/// The standard deviation of normal noise by its magnitudes. More than half may be zero, as on a plane along whose normal
+/// coordinates are rounded. Then it is the step that they are rounded to: the least of the others.
 fn deviation(all: Vec<f64>, floor: f64) -> f64 {
     let middle = SIGMA_OVER_MEDIAN * median(&mut all.clone()).unwrap_or(0.0);
     if middle > floor {

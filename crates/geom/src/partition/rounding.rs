@@ -1,8 +1,8 @@
 //! How far from its edges a scan is rounded.
 //!
-//! Scanners and the programs behind them round edges: what was measured there lies off both faces, by more the nearer to the edge. How far
-//! that goes the scan itself tells: points are sorted by their distance from the edges of their faces, and where they deviate clearly more than in the
-//! middle of faces they are rounded. One number for the scan, as one program wrote it.
+//! Scanners and the programs behind them round edges: what was measured there lies off both faces, by more the nearer to the
+//! edge. The scan itself tells how far that goes. Points are sorted by their distance from the edges of their faces. Where they
+//! deviate clearly more than in the middle of faces they are rounded. One number for the scan, as one program wrote it.
 
 use super::best::Best;
 use super::cut::NO_FACE;
@@ -31,8 +31,8 @@ const MIN_POINTS_PER_STEP: usize = 20;
 /// Least faces whose median tells of a step.
 const MIN_FACES_PER_STEP: usize = 3;
 
-/// Distance of a point from the edge of its face, millimeters: from its border or, as borders move with the faces that make them and may not be known, from
-/// the face beside it.
+/// Distance of a point from the edge of its face, millimeters. It is measured from the border or from the adjacent face, as
+/// borders move with the faces that make them and may not be known.
 pub(super) fn to_edge(best: &Best, faces: &[&Face], p: usize) -> f64 {
     let within = best.seat[p].map_or(f64::INFINITY, |seat| seat.within());
     match best.owner[p] {
@@ -42,7 +42,8 @@ pub(super) fn to_edge(best: &Best, faces: &[&Face], p: usize) -> f64 {
     }
 }
 
-/// How far from edges points are rounded, millimeters, where neighbors lie so far apart; 0 where edges are sharp, as those of a computed mesh are.
+/// How far from edges points are rounded, millimeters, where neighbors lie so far apart. 0 where edges are sharp, as those of a
+/// computed mesh are.
 pub(super) fn width(
     points: &[Point],
     best: &Best,
@@ -76,13 +77,13 @@ pub(super) fn width(
     for (step, rounded) in (0..EDGE_STEPS).map(|step| (step, is_rounded(step))) {
         match rounded {
             Some(true) => steps = step + 1,
-            // Those next to an edge may be of a face beside that was taken for this one.
+            // Points next to an edge may belong to an adjacent face that was taken for this one.
             Some(false) if otherwise > 0 => break,
             Some(false) => otherwise += 1,
             None => {}
         }
     }
-    // Those upon an edge are of both faces: of a computed mesh all that are beside it.
+    // Points on an edge belong to both faces: on a computed mesh all that are at it.
     if steps < MIN_ROUNDED_STEPS {
         return 0.0;
     }

@@ -1,4 +1,4 @@
-//! What no face explains.
+//! Points that no face explains.
 
 use super::best::Best;
 use super::cut::NO_FACE;
@@ -36,13 +36,13 @@ const HANGING_NEIGHBORS: usize = 8;
 /// Spacings within which they do.
 const HANGING_SPACINGS: f64 = 2.5;
 
-/// What tells of what no face explains.
+/// The evidence about points that no face explains.
 pub(super) struct Unexplained<'a> {
     pub scan: &'a Mesh,
     pub faces: &'a [&'a Face],
     /// Where these really are.
     pub placed: &'a [Placed],
-    /// Of a mesh.
+    /// How the facets of a mesh face.
     pub facing: Option<&'a Facing>,
     pub spacing: f64,
     /// The same of a scan, which rounds edges by some of it; 0 where edges are sharp.
@@ -187,7 +187,7 @@ pub(super) struct Over<'a> {
     pub faces: &'a [&'a Face],
     /// The face of each point.
     pub owners: &'a [u32],
-    /// Of a mesh.
+    /// How the facets of a mesh face.
     pub facing: Option<&'a Facing>,
     pub spacing: f64,
     /// The same of a scan; 0 where edges are sharp, up to which points lie over a face.
@@ -197,8 +197,9 @@ pub(super) struct Over<'a> {
 }
 
 impl Over<'_> {
-    /// The points that lie over faces: over the nearest one where nothing was measured beneath some of them, or where they are alone; what no face explains so,
-    /// over those that it hangs together with. What lies on one side of the nearest face lies on that side of all.
+    /// The points that lie over faces. They lie over the nearest one where nothing was measured beneath some of them, or where
+    /// they are alone. Points that no face explains so lie over those that they hang together with. Points on one side of the
+    /// nearest face lie on that side of all.
     pub(super) fn faces(
         &self,
         hanging: &[Hanging],
@@ -224,8 +225,8 @@ impl Over<'_> {
         Ok(found)
     }
 
-    /// Whether each of some points lies out of the material: on that side of the face that is nearest, of several about an edge on that of which it is
-    /// farther across.
+    /// Whether each of some points lies out of the material. It lies on that side of the nearest face; of several about an edge
+    /// on that of the face which it is farther across.
     fn outside(&self, numbers: &[u32], progress: &dyn Progress) -> Result<Vec<bool>, Cancelled> {
         let mut nearest: Vec<(f64, f64)> = vec![(f64::INFINITY, 0.0); numbers.len()];
         for face in self.faces {
@@ -249,7 +250,8 @@ impl Over<'_> {
         Ok(nearest.into_iter().map(|n| n.1 > 0.0).collect())
     }
 
-    /// Those of some points, ascending and with their side, that lie over a face, clear of its border; of a mesh those that face as it does.
+    /// The points, ascending and with their side, that lie over a face, clear of its border; of a mesh those that face as it
+    /// does.
     fn face(
         &self,
         face: u32,
@@ -273,8 +275,8 @@ impl Over<'_> {
         Ok(sides.iter().zip(seats).filter_map(over).collect())
     }
 
-    /// Of what goes on into the material, the points of dents, with the face that each is in: it alone is around, and something was measured at each place
-    /// over it. A hole is open, or leads to another face.
+    /// The points of dents among those that go on into the material, with the face that each is in. That face alone is around,
+    /// and something was measured at each place over it. A hole is open, or leads to another face.
     pub(super) fn dents(
         &self,
         hanging: &[Hanging],
@@ -396,7 +398,7 @@ fn take_nearest(
     }
 }
 
-/// Those of some points that hang together, in the order of the first of each; of a mesh with other vertices of their facets.
+/// The groups of points that hang together, in the order of the first of each; of a mesh with other vertices of their facets.
 fn groups(scan: &Mesh, open: &[u32], spacing: f64) -> Vec<(Vec<u32>, Vec<u32>)> {
     let place = |p: u32| open.binary_search(&p).ok().map(|i| i as u32);
     let mut groups = Groups((0..open.len() as u32).collect());

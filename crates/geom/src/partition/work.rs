@@ -40,14 +40,15 @@ pub(super) const MIN_SURE_POINTS: usize = 20;
 pub(super) struct Work<'a> {
     pub points: &'a [Point],
     pub faces: &'a [&'a Face],
-    /// Of each face.
+    /// The reach of each face.
     pub reach: Vec<f64>,
     pub candidates: Vec<Vec<Candidate>>,
     pub spacing: f64,
 }
 
 impl Work<'_> {
-    /// The points that are surely of each face: it is the nearest of those over which they lie, they face as it does and lie clear of its border.
+    /// The points that surely belong to each face. It is the nearest of those over which they lie, they face as it does and lie
+    /// clear of its border.
     pub(super) fn sure(&self, facing: Option<&Facing>) -> Vec<Vec<Candidate>> {
         let mut least = vec![f64::INFINITY; self.points.len()];
         for c in self.candidates.iter().flatten().filter(|c| c.seat.within() > 0.0) {
@@ -76,8 +77,8 @@ impl Work<'_> {
         self.candidates.par_iter().zip(&self.reach).map(of_face).collect()
     }
 
-    /// Of a cloud with few points over each face, as a probe takes them: what they deviate by is not known where they are fewest, and all within the reach is
-    /// explained. Where a scan has few over a face, the face was hidden.
+    /// In a cloud with few points over each face, as a probe takes them, their deviation is not known where they are fewest.
+    /// All within the reach is explained. Where a scan has few over a face, the face was hidden.
     pub(super) fn sparse(&self, is_cloud: bool) -> Vec<Option<f64>> {
         let over = |(near, reach): (&Vec<Candidate>, &f64)| {
             let is_over = |c: &&Candidate| c.seat.within() >= 0.0 && c.seat.off.abs() <= *reach;
@@ -107,8 +108,8 @@ impl Work<'_> {
         best
     }
 
-    /// Tells how far off points lie from the nearest face beside their own: that over which they lie, or hardly beyond its border, and which faces otherwise.
-    /// Of no face, beside the nearest.
+    /// Tells how far off points lie from the nearest face adjacent to their own. They lie over that face, or hardly beyond its
+    /// border, and it faces otherwise. For points of no face it is adjacent to the nearest.
     pub(super) fn adjacent_face(&self, best: &mut Best, placed: &[Placed]) {
         let off = |number: usize, c: &Candidate| {
             let ends = if self.faces[number].is_measured() { ROUNDED_EDGE_SPACINGS } else { 1.0 };
@@ -142,8 +143,8 @@ impl Work<'_> {
         }
     }
 
-    /// Those whose face is not certain by that, by what is around them. Tells points, ascending, with all faces that explain them about as
-    /// well as the best.
+    /// Points whose face is not certain by that, by the points around them. Tells points, ascending, with all faces that
+    /// explain them about as well as the best.
     pub(super) fn by_what_is_around(
         &self,
         best: &mut Best,
@@ -172,7 +173,7 @@ impl Work<'_> {
                 n.1 <= EXPLAINED_SIGMAS.min(best.cost[n.0.point as usize] + MAX_SHARED_COST)
             };
             shared.extend(near.iter().filter(is_alike).map(|n| (n.0.point, number)));
-            // What no face explains may be of the other side of a wall too.
+            // A point that no face explains may belong to the other side of a wall too.
             let is_other_side = |c: &Candidate| {
                 let p = c.point as usize;
                 let own = best.seat[p].filter(|_| best.cost[p] > EXPLAINED_SIGMAS && best.owner[p] != number);

@@ -9,8 +9,8 @@ use crate::parallel::prelude::*;
 /// Rings by which a border may move.
 const BORDER_RINGS: usize = 4;
 
-/// Moves borders and lets pieces of no region join a neighboring one that they nearly belong to: normals at an edge
-/// are those of neither face.
+/// Moves borders and lets pieces of no region join a neighboring one that they nearly belong to. Normals at an edge belong to
+/// neither face.
 pub(super) fn move_borders(context: &Context, regions: &[GrownRegion], labels: &mut Vec<u32>) {
     let surface = context.surface;
     // Twice the angle.

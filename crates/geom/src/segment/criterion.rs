@@ -1,13 +1,13 @@
 //! Which of two elements explains a region better.
 //!
-//! An element with more unknowns fits the same points at least as well and mostly reaches farther: a cylinder contains nearly
-//! planes, a torus nearly spheres and cylinders. So of two regions around the same seed the one with more unknowns must
-//! earn them, by one of three kinds of evidence: it covers clearly more surface ([`MIN_COVER_GAIN`], [`COVER_GAIN_PER_UNKNOWN`]), or it covers
-//! the same and fits clearly better where the simpler one fits worse than the noise allows ([`GrownRegion::is_doubtful`], [`CLEARLY_BETTER_RMS`]),
-//! or it covers the same and is the one that the facets go along (`goes_along`).
-//! Before all that, one that has corners of facets on it and not the facets gives way to one that a large part of them goes along
-//! (`is_of_corners`), whatever each covers.
-//! Whatever is not clear stays the simpler element. Of two with equally many unknowns the larger one is kept.
+//! An element with more unknowns fits the same points at least as well and mostly reaches farther. A cylinder nearly contains
+//! planes, a torus nearly spheres and cylinders. So out of two regions around the same seed the one with more unknowns must
+//! earn them, by one of three kinds of evidence. It covers clearly more surface ([`MIN_COVER_GAIN`],
+//! [`COVER_GAIN_PER_UNKNOWN`]). Or it covers the same and fits clearly better where the simpler one fits worse than the noise
+//! allows ([`GrownRegion::is_doubtful`], [`CLEARLY_BETTER_RMS`]). Or it covers the same and is the one that the facets follow
+//! (`goes_along`). Before all that, an element may have corners of facets on it and not the facets. It gives way to one that a
+//! large part of them follows (`is_of_corners`), whatever each covers. Whatever is not clear stays the simpler element. The
+//! larger of two with equally many unknowns is kept.
 //!
 //! Gains are quotients of weights (area, or number of points), fits are compared by root mean square distances.
 
@@ -109,10 +109,10 @@ pub(super) fn fewest_points(kind: Kind) -> usize {
     if kind == Kind::Plane { 4 } else { 2 * kind.unknowns() + 2 }
 }
 
-/// Whether so many points of the pieces show an element of the kind: [`fewest_points`], or of what is drawn fewer where the facets are
-/// chords of equal width. Of a cylinder the corners of three, as a chamfer and the planes beside it have a cylinder of their corners
-/// too: eight points for five unknowns. A fan of a cone leaves as much over with six corners about its apex, where all facets meet: each
-/// has the right distance from the apex's axis, and the apex takes three unknowns.
+/// Whether so many points of the pieces show an element of the kind: [`fewest_points`]. Fewer do on a drawn surface where the
+/// facets are chords of equal width. A cylinder needs the corners of three, as a chamfer and the adjacent planes have a
+/// cylinder of their corners too. That is eight points for five unknowns. A fan of a cone leaves as much over with six corners
+/// about its apex, where all facets meet. Each has the right distance from the apex's axis, and the apex takes three unknowns.
 pub(super) fn is_shown(surface: &PieceGraph, kind: Kind, pieces: &[u32], points: usize) -> bool {
     let fewest = match kind {
         Kind::Cylinder => CHORD_POINTS,
@@ -126,8 +126,8 @@ pub(super) fn is_shown(surface: &PieceGraph, kind: Kind, pieces: &[u32], points:
     points >= fewest_points(kind) || chords()
 }
 
-/// Whether the corners of what is drawn show a torus: any three circles about one axis lie on one, as those of a chamfer and the face beside it, so they lie
-/// on four at least. Of other elements, and of what is measured, there is nothing to ask.
+/// Whether the corners of a drawn surface show a torus. Any three circles about one axis lie on one, as those of a chamfer and
+/// its adjacent face. So the corners lie on four at least. Other elements, and measured surfaces, have nothing to ask.
 pub(super) fn has_circles(surface: &PieceGraph, shape: &Shape, pieces: &[u32]) -> bool {
     let Shape::Torus { minor_radius, .. } = *shape else { return true };
     if !surface.is_drawn {
@@ -185,7 +185,7 @@ mod tests {
             !second((cylinder, 1.0, 0.01), (plane, 1.0, 0.01))
                 && !second((cylinder, 1.0, 0.01), (plane, 0.9, 0.001))
         );
-        // Of one kind the larger one.
+        // The larger one of one kind.
         let leaning = Shape::Plane { point: [0.0; 3], normal: [0.0, 0.6, 0.8] };
         assert!(second((plane, 1.0, 0.01), (leaning, 1.01, 0.02)));
         assert!(!second((plane, 1.0, 0.01), (leaning, 0.99, 0.0)));

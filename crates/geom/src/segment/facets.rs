@@ -28,9 +28,10 @@ pub(super) fn surface(mesh: &Mesh) -> PieceGraph<'_> {
     }
 }
 
-/// Whether the half of the area is of facets with a neighbor in their plane, or with two that mirror them and turn as far, to the rounding of
-/// single precision: what is drawn has two facets where four corners lie in a plane, and equal ones around the tip of a cone. What is measured
-/// has none such; but noise across an even grid changes the sides of its facets in second order only, so that they mirror each other.
+/// Whether half of the area belongs to facets with a neighbor in their plane, or with two that mirror them and turn as far. The
+/// rounding of single precision is allowed for. A drawn surface has two facets where four corners lie in a plane, and equal
+/// ones around the tip of a cone. A measured surface has none such. But noise across an even grid changes the sides of its
+/// facets in second order only, so that they mirror each other.
 fn is_drawn(mesh: &Mesh, normals: &[Vector], areas: &[f64], first: &[u32], others: &[u32]) -> bool {
     let step = single_step(&mesh.positions);
     let flat = |facet: usize| {
@@ -55,8 +56,8 @@ fn is_drawn(mesh: &Mesh, normals: &[Vector], areas: &[f64], first: &[u32], other
     flat >= 0.5 * areas.iter().sum::<f64>()
 }
 
-/// Whether the four corners of two facets lie in one plane, where each may be off by `step`: the volume between them is no more than
-/// that of `step` over the four sides.
+/// Whether the four corners of two facets lie in one plane, where each may be off by `step`. The volume between them is then no
+/// more than that of `step` over the four sides.
 fn is_flat(mesh: &Mesh, one: [u32; 3], other: [u32; 3], step: f64) -> bool {
     let Some(far) = beyond(other, one) else { return false };
     let [a, b, c, d] = [one[0], one[1], one[2], far].map(|v| mesh.positions[v as usize]);
@@ -108,7 +109,7 @@ mod tests {
     use super::*;
     use crate::num::random::Random;
 
-    /// Of an even grid noise across it changes no side that shows in single precision.
+    /// Noise across an even grid changes no side that shows in single precision.
     #[test]
     fn an_even_grid_with_noise_is_measured_and_a_fan_is_drawn() {
         let random = &mut Random::new(8);

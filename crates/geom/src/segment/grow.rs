@@ -45,7 +45,7 @@ pub(super) const PROMISING_SHARE: f64 = 0.3;
 /// How often a whole region may change its kind.
 const MAX_KIND_CHANGES: usize = 3;
 
-/// What all regions of a search have in common.
+/// The inputs that all regions of a search have in common.
 #[derive(Debug)]
 pub(super) struct Context<'a> {
     pub surface: &'a PieceGraph<'a>,
@@ -100,8 +100,8 @@ impl Context<'_> {
         best
     }
 
-    /// Grows what each kind of element shows of a patch and keeps the best; whether no other can cover more than it, all
-    /// that a trial may reach.
+    /// Grows each kind of element that a patch shows and keeps the best. Also whether no other can cover more than it, all that
+    /// a trial may reach.
     fn tried(
         &self,
         best: &mut Option<GrownRegion>,
@@ -172,8 +172,8 @@ impl Context<'_> {
         Some(best)
     }
 
-    /// A ball as another kind, where its pieces fit a ball worse than noise and that one clearly better: a short fillet
-    /// passes for a ball where its small patches are too noisy to show a torus. All of it shows one, without a start.
+    /// A ball as another kind, where its pieces fit a ball worse than noise and that kind clearly better. A short fillet passes
+    /// for a ball where its small patches are too noisy to show a torus. All of it shows one, without a start.
     pub(super) fn reconsidered(&self, region: &mut GrownRegion) {
         let own = region.shape.kind();
         if own != Kind::Sphere || !region.is_doubtful(self.noise) {

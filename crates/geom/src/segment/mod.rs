@@ -1,9 +1,9 @@
 //! Planes, cylinders, cones, spheres and tori in a mesh or cloud, found without a nominal.
 //!
-//! [`mesh`] and [`cloud`] are the entrances. A surface is cut into pieces (facets, or points with normals); patches of
-//! pieces around random seeds show an element each, which grows over its neighbors and is fitted again in turns;
-//! neighboring regions that one element explains as well are joined; each region's element is fitted by least squares
-//! in the end. The noise of the data sets how far a piece may lie off.
+//! [`mesh`] and [`cloud`] are the entrances. A surface is cut into pieces: facets, or points with normals. Patches of pieces
+//! around random seeds show an element each, which grows over its neighbors and is fitted again in turns. Neighboring regions
+//! that one element explains as well are joined. In the end each region's element is fitted by least squares. The noise of the
+//! data sets how far a piece may lie off.
 //!
 //! | file | what |
 //! |---|---|
@@ -53,7 +53,7 @@ use search::{Limits, search};
 use seeds::Seeds;
 use std::collections::BTreeSet;
 
-/// What to look for.
+/// The options of a segmentation.
 #[derive(Clone, Debug)]
 pub struct Options {
     /// Elements looked for; those of [`KINDS`] count.
@@ -106,7 +106,7 @@ pub struct Region {
     pub farthest: f64,
 }
 
-/// What was found.
+/// The result of a segmentation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Segmentation {
     /// The regions, largest first.
@@ -125,7 +125,9 @@ pub struct Segmentation {
 }
 
 impl Segmentation {
-    /// The noise of the points about their elements, and how far neighbors share it: [`points_per_independent`](crate::noise::Noise) is what the covariances of [`Region::fit`] have to be multiplied with. `of` is what was segmented, a cloud as a mesh without facets.
+    /// The noise of the points about their elements, and how far neighbors share it. The covariances of [`Region::fit`] have to
+    /// be multiplied with [`points_per_independent`](crate::noise::Noise). `of` is what was segmented, a cloud as a mesh
+    /// without facets.
     ///
     /// # Errors
     /// [`NoNoise`]: drawn, too few points that hang together, cancelled.
@@ -148,9 +150,9 @@ impl Segmentation {
     }
 }
 
-/// Whether a mesh, whose facets name vertices that exist and are finite, was drawn, not measured: half of its area and more is of facets with a
-/// neighbor in their plane, or with two that mirror them and turn as far, to the rounding of single precision. A cloud is not. Cost: some passes
-/// over the facets.
+/// Whether a mesh was drawn, not measured; its facets name vertices that exist and are finite. Half of its area and more
+/// belongs to facets with a neighbor in their plane, or with two that mirror them and turn as far. The rounding of single
+/// precision is allowed for. A cloud is not. Cost: some passes over the facets.
 /// ```
 /// use trueness_geom::{mesh::Mesh, segment::is_drawn};
 /// let square = |lift: f64| Mesh {
@@ -183,9 +185,9 @@ pub enum SegmentError {
     WrongOption {
         /// Which one.
         name: &'static str,
-        /// What was given.
+        /// The value that was passed.
         value: f64,
-        /// What it may be.
+        /// The range that it may have.
         range: &'static str,
     },
     /// None of the kinds asked for can be found.
@@ -201,9 +203,9 @@ pub enum SegmentError {
 
 /// The elements of a mesh. Facets are neighbors through the vertices they share: weld first what is not welded.
 ///
-/// Labels are those of facets. Facets without area belong to nothing. Deterministic for any number of threads; memory
-/// grows with the number of facets (about 250 bytes each), time with it and with the number of faces. `progress` counts
-/// facets that found their region.
+/// Labels are those of facets. Facets without area belong to nothing. Deterministic for any number of threads. Memory grows
+/// with the number of facets (about 250 bytes each), time with it and with the number of faces. `progress` counts facets that
+/// found their region.
 ///
 /// # Errors
 /// [`SegmentError`]: no facets, a coordinate that is no number, options out of range.
@@ -340,9 +342,9 @@ fn finished(
 /// Fits of a region until every piece of it lies within the tolerance; each takes pieces away.
 const MAX_REGION_FITS: usize = 20;
 
-/// The region with its element, and those of its pieces whose measured points all lie within the tolerance of it: where it
-/// grew, elements were those of some of its points, and one corner of a facet might lie beyond an edge. `None` where no
-/// element keeps any.
+/// The region with its element, and those of its pieces whose measured points all lie within the tolerance of it. While it
+/// grew, elements came from some of its points, and one corner of a facet might lie beyond an edge. `None` where no element
+/// keeps any.
 fn region(
     context: &Context,
     grown: &GrownRegion,
@@ -408,9 +410,9 @@ fn fitted(
     })
 }
 
-/// How far inside its region each measured point lies: 0 where pieces around it are of several regions or of none, for
-/// at an edge it belongs to no face alone; 1 where it is next to a border without an edge, which is known no better
-/// than the noise allows; 2 elsewhere.
+/// How far inside its region each measured point lies. It is 0 where pieces around it belong to several regions or none, for at
+/// an edge it belongs to no face alone. It is 1 next to a border without an edge, which is known no better than the noise
+/// allows. It is 2 elsewhere.
 fn depths(context: &Context, labels: &[u32]) -> Vec<u8> {
     let surface = context.surface;
     let foreign = |p: u32| {

@@ -22,7 +22,7 @@ const MAX_DIGIT_STEPS: f64 = 32.0;
 /// The standard deviation over the lower quartile of those found in patches, for normal noise.
 const SIGMA_OVER_QUARTILE: f64 = 1.15;
 
-/// What one piece tells by itself, and how well.
+/// The noise that one piece tells by itself, and how well.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Noise {
     /// Standard deviation of the measured points across the surface, millimeters.
@@ -47,7 +47,7 @@ pub(super) fn noise(
     Noise { distance: if believed { large.distance.max(small.distance) } else { small.distance }, ..small }
 }
 
-/// What patches of one size tell.
+/// The noise that patches of one size tell.
 fn of_patches(
     surface: &PieceGraph,
     size: usize,
@@ -66,7 +66,7 @@ fn of_patches(
         )
         .collect();
     let mut found: Vec<(f64, f64)> = found.into_iter().flatten().collect();
-    // Of the clean half, the median: a quarter of all.
+    // The median of the clean half: a quarter of all.
     found.sort_by(|a, b| a.0.total_cmp(&b.0));
     found.truncate(found.len().div_ceil(2));
     let distance = found.get(found.len() / 2).map_or(0.0, |f| f.0);
@@ -75,8 +75,8 @@ fn of_patches(
     Noise { distance: SIGMA_OVER_QUARTILE * distance, angle }
 }
 
-/// Root mean square distance of the points from the best simple surface through the patch, with the unknowns taken
-/// into account, and the median angle of the pieces to it.
+/// Root mean square distance of the points from the best simple surface through the patch, with the unknowns taken into
+/// account. Also the median angle of the pieces to it.
 fn best(surface: &PieceGraph, pieces: &[u32]) -> Option<(f64, f64)> {
     let points = surface.sampled_places(pieces, usize::MAX);
     let oriented: Vec<_> =

@@ -1,4 +1,4 @@
-//! What regions are grown on: pieces of surface with a normal, and which of them are neighbors.
+//! The ground that regions are grown on: pieces of surface with a normal, and which of them are neighbors.
 //!
 //! The pieces are the facets of a mesh or the points of a cloud; everything after this file treats both alike.
 
@@ -128,8 +128,8 @@ impl PieceGraph<'_> {
         let sampled = self.points_of(pieces.iter().copied().step_by(stride));
         sampled.into_iter().map(|i| self.points[i as usize]).collect()
     }
-    /// Whether a piece lies within `band` of the element. Of a facet two corners must; the third, which may be one of
-    /// a neighboring face that is shared at an edge, may be four times as far.
+    /// Whether a piece lies within `band` of the element. Two corners of a facet must. The third, which may belong to a
+    /// neighboring face that is shared at an edge, may be four times as far.
     #[inline]
     pub(super) fn belongs(&self, piece: u32, element: &Probe, band: &Band) -> bool {
         let i = piece as usize;

@@ -58,8 +58,8 @@ fn about(points: &[Point], tree: &PointTree, p: &Point, i: u32) -> (Vector, Vec<
     (flattest(&places(&near)), near)
 }
 
-/// The neighbors that a region grows to from `p`: the nearest one in each direction along the surface, for the nearest
-/// of all may lie on one row, and then the nearest of the others.
+/// The neighbors that a region grows to from `p`. They are the nearest one in each direction along the surface, and then the
+/// nearest of the others. The nearest of all may lie on one row.
 fn around(points: &[Point], p: &Point, normal: Vector, near: &[Neighbor]) -> Vec<u32> {
     let first = near.iter().find_map(|n| {
         let q = minus(points[n.1 as usize], *p);

@@ -1,8 +1,8 @@
 //! The search: seeds are tried a batch at a time, the best of a batch take their regions first.
 //!
-//! R. Schnabel, R. Wahl, R. Klein, "Efficient RANSAC for point-cloud shape detection", Computer Graphics Forum 26
-//! (2007). Ours differs: a trial is a patch around a random piece, not a handful of points, which stands noise and
-//! makes nearly every trial on a face a success; and a region is connected from the first.
+//! R. Schnabel, R. Wahl, R. Klein, "Efficient RANSAC for point-cloud shape detection", Computer Graphics Forum 26 (2007). Ours
+//! differs: a trial is a patch around a random piece, not a handful of points. That stands noise and makes nearly every trial
+//! on a face a success. A region is connected from the first.
 
 use super::criterion::{fewest_points, is_of_corners, is_shown};
 use super::flood::{Marks, patch};
@@ -23,7 +23,7 @@ const MAX_TRIED_PIECES: usize = 16;
 /// Trials for each region that could be there: the chance to miss a face of the smallest share asked for is e^-4.
 const TRIALS_PER_REGION: f64 = 4.0;
 
-/// What the search is limited by.
+/// The limits of the search.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Limits {
     /// Least weight of a region.
@@ -85,7 +85,7 @@ pub(super) fn search(
             if labels[seed as usize] != NO_PIECE || tried[seed as usize] {
                 continue;
             }
-            // What is left of it is tried again when the others have their regions.
+            // The rest of it is tried again when the others have their regions.
             let along = |(own, other): &(u32, GrownRegion)| {
                 labels[*own as usize] == NO_PIECE
                     && is_of_corners(trial, other, context.noise)

@@ -12,7 +12,7 @@ pub(super) struct Seeds {
 }
 
 impl Seeds {
-    /// Of the pieces that `open` says yes to.
+    /// The seeds among the pieces that `open` says yes to.
     pub(super) fn new(surface: &PieceGraph, open: impl Fn(u32) -> bool) -> Seeds {
         let pieces: Vec<u32> = (0..surface.len() as u32).filter(|&p| surface.counts(p) && open(p)).collect();
         let mut sum = 0.0;
@@ -43,7 +43,7 @@ mod tests {
     use super::super::{facets, tests::parts::bored};
     use super::*;
 
-    /// Of 20,000 draws each face gets its share of the area, within four standard deviations.
+    /// In 20,000 draws each face gets its share of the area, within four standard deviations.
     #[test]
     fn faces_are_drawn_as_often_as_they_are_large() {
         const DRAWS: u64 = 20_000;

@@ -11,9 +11,8 @@ pub(crate) struct Foot {
     pub(crate) distance: f64,
 }
 
-/// Foot of (x, y). The search steps along the circle of curvature (A. Chou, "A simple method for distance to an
-/// ellipse", 2017, a variant of B. Maisonobe's), in the first quadrant, a fixed number of times: the last steps
-/// change nothing.
+/// Foot of (x, y). The search steps along the circle of curvature in the first quadrant, a fixed number of times: the last
+/// steps change nothing. (A. Chou, "A simple method for distance to an ellipse", 2017, a variant of B. Maisonobe's.)
 #[inline(always)]
 pub(crate) fn foot([a, b]: [f64; 2], x: f64, y: f64) -> Foot {
     let (px, py) = (x.abs(), y.abs());

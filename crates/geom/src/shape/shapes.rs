@@ -127,9 +127,9 @@ impl Shape {
         });
         (numbers, count)
     }
-    /// Distance of `p` from the element, positive on the outer side: away from the axis or center, along the
-    /// normal of a plane, to the left of a line in the plane. For lines and circles in space it has no sign.
-    /// Not a number where `p` is none.
+    /// Distance of `p` from the element, positive on the outer side. That is away from the axis or center, along the normal of
+    /// a plane, to the left of a line in the plane. For lines and circles in space it has no sign. Not a number where `p` is
+    /// none.
     pub fn distance(&self, p: Point) -> f64 {
         match *self {
             Shape::Line2 { point, direction } => dot(minus(p, point), [-direction[1], direction[0], 0.0]),
@@ -162,8 +162,8 @@ impl Shape {
             }
         }
     }
-    /// A normal of the element at the place of it nearest to `p`, to the side where distances are positive, not of unit length:
-    /// the direction in which the distance grows. Zero where there are many.
+    /// A normal of the element at the place of it nearest to `p`, not of unit length. It points to the side where distances are
+    /// positive: the direction in which the distance grows. Zero where there are many.
     pub fn normal(&self, p: Point) -> Vector {
         match *self {
             Shape::Line2 { direction, .. } => [-direction[1], direction[0], 0.0],
@@ -239,8 +239,8 @@ impl Shape {
         }
     }
 
-    /// The frame that its places are told in: an origin and three axes. Of what is round the third is the axis; which way the
-    /// others look about it does not matter to the element.
+    /// The frame that its places are told in: an origin and three axes. On a round element the third is the axis; the element
+    /// does not determine which way the others look about it.
     pub fn frame(&self) -> (Point, [Vector; 3]) {
         const UP: Vector = [0.0, 0.0, 1.0];
         match *self {
@@ -256,7 +256,7 @@ impl Shape {
         }
     }
     /// The two coordinates of the place nearest to `q`, which is told in the [frame](Shape::frame); they run as
-    /// [`Kind::coordinates`] says. Of an ellipse the first is the eccentric angle, and about the nearest place only.
+    /// [`Kind::coordinates`] says. On an ellipse the first is the eccentric angle, and only the nearest place is known.
     pub fn coordinates(&self, q: Point) -> [f64; 2] {
         let turn = || libm::atan2(q[1], q[0]);
         match *self {
@@ -309,8 +309,8 @@ fn across(p: Point, point: Point, direction: Vector) -> Vector {
     minus(q, times(dot(q, direction), direction))
 }
 
-/// Whether the apex is the place of a cone nearest to what lies `rho` off the axis and `z` along it from where the radius is
-/// `radius`: the foot on the generator would lie beyond the apex.
+/// Whether the apex is the place of a cone nearest to a point. The point lies `rho` off the axis and `z` along it from where
+/// the radius is `radius`. Then the foot on the generator would lie beyond the apex.
 fn is_beyond_apex(half_angle: f64, radius: f64, rho: f64, z: f64) -> bool {
     let (sin, cos) = libm::sincos(half_angle);
     (rho * sin + z * cos) * sin + radius * cos * cos < 0.0

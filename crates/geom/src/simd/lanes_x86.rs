@@ -1,7 +1,7 @@
 //! [`Lanes`] and [`Real`] in AVX2 and AVX-512.
 //!
-//! SAFETY of every intrinsic below: the value it works on was made by `splat` or `load`, whose caller answers for the
-//! processor having the instructions; loads and stores go through references to arrays of exactly their size.
+//! SAFETY of every intrinsic below: the value it works on was made by `splat` or `load`, whose caller answers for the processor
+//! having the instructions. Loads and stores go through references to arrays of exactly their size.
 #![expect(unsafe_code, reason = "vendor intrinsics")]
 
 use crate::simd::lanes::{Lanes, Real};

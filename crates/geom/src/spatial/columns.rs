@@ -1,7 +1,7 @@
 //! Facets ordered for rays along an axis: a balanced tree of boxes over the places that they cover as seen along it.
 //!
-//! Long thin facets, those of a fan say, fill next to nothing of their boxes. So each facet, and each leaf of the tree, has a strip
-//! too, along the longest side of the facet (of the first one in the leaf).
+//! Long thin facets, those of a fan say, fill next to nothing of their boxes. So each facet, and each leaf of the tree, has a
+//! strip too. It runs along the longest side of the facet (of the first one in the leaf).
 
 use crate::mesh::Mesh;
 use crate::num::rounding::PRODUCT_SUM_ROUNDING;
@@ -16,16 +16,16 @@ const MAX_FACETS_SORTED_ALONE: usize = 1 << 14;
 pub(crate) struct Columns {
     axis: usize,
     facets: Vec<u32>,
-    /// Of each facet.
+    /// The box of each facet.
     own: Vec<Aabb>,
-    /// Of each node, in the order of a walk that takes a node before its children. Each child has half of the facets.
+    /// The box of each node, in the order of a walk that takes a node before its children. Each child has half of the facets.
     boxes: Vec<Aabb>,
-    /// Of each facet, and of each node; all places for a node that is no leaf.
+    /// The strip of each facet, and of each node; all places for a node that is no leaf.
     strips: [Vec<Strip>; 2],
 }
 
 impl Columns {
-    /// Of these facets, which must have finite corners. n log n.
+    /// The columns of these facets, which must have finite corners. n log n.
     pub(crate) fn new(mesh: &Mesh, facets: &[u32], axis: usize) -> Columns {
         let bounds = |f: u32| Aabb::of(&mesh.corners(f));
         let item = |f: &u32| {
@@ -52,8 +52,9 @@ impl Columns {
         &self.boxes[0]
     }
 
-    /// Hands to `visit` every facet that the line through `p` along the axis passes, with its box, as far as the box and all that hold
-    /// it `reach`; and others whose box the line meets, but for most of the long thin ones that it misses.
+    /// Hands to `visit` every facet that the line through `p` along the axis passes, with its box. It goes as far as the box
+    /// and all that hold it `reach`. Others whose box the line meets come too, but most of the long thin ones that it misses do
+    /// not.
     pub(crate) fn pass(&self, p: &Point, reach: impl Fn(&Aabb) -> bool, mut visit: impl FnMut(u32, &Aabb)) {
         let sides = [(self.axis + 1) % 3, (self.axis + 2) % 3];
         let meets = |b: &Aabb| reach(b) && sides.iter().all(|&k| b.min[k] <= p[k] && p[k] <= b.max[k]);
@@ -216,8 +217,8 @@ mod tests {
         !(sides.contains(&1) && sides.contains(&-1))
     }
 
-    /// A fan turned so that the boxes of its thin facets overlap with a quarter of the others: a ray is handed some few of them,
-    /// however many there are.
+    /// A fan is turned so that the boxes of its thin facets overlap with a quarter of the others. A ray is handed some few of
+    /// them, however many there are.
     #[test]
     fn of_a_fan_few_facets_are_handed_out() {
         for n in [500u32, 4000, 32_000] {

@@ -1,8 +1,8 @@
 //! Neighbors among points: nearest, `k` nearest, all in a box.
 //!
-//! A balanced k-d tree (Bentley 1975) without nodes: the points lie in the order of the tree, the middle one of every
-//! range splits it at the coordinate in which the range is longest. Equal distances are decided by the lower number,
-//! so answers do not depend on how the tree was built.
+//! A balanced k-d tree (Bentley 1975) without nodes. The points lie in the order of the tree. The middle one of every range
+//! splits it at the coordinate in which the range is longest. Equal distances are decided by the lower number, so answers do
+//! not depend on how the tree was built.
 
 use crate::space::{Aabb, Point, minus};
 

@@ -1,4 +1,4 @@
-//! Facets that a ray through one of some places may pass: those that cover, as seen along an axis, a square in which such a place lies.
+//! Facets that a ray through one of some places may pass. Seen along an axis, they cover a square in which such a place lies.
 //!
 //! Where few places are asked about, hardly any facet is left to be ordered for the rays.
 
@@ -43,8 +43,8 @@ impl Squares {
         squares
     }
 
-    /// The square nearest to a place, given by its two coordinates. Each operation keeps the order of its operands, rounded or not, so no square between those of
-    /// two places is missed; where the places have no extent all is in one square.
+    /// The square nearest to a place, given by its two coordinates. Each operation keeps the order of its operands, rounded or
+    /// not, so no square between those of two places is missed. Where the places have no extent all is in one square.
     fn of(&self, p: [f64; 2]) -> [usize; 2] {
         let square = |i: usize| (p[i] - self.low[i]) * self.scale[i];
         [0, 1].map(|i| (square(i) as usize).min(self.count - 1))
@@ -60,7 +60,7 @@ impl Squares {
     }
 }
 
-/// Of these facets, which must have finite corners, all whose boxes a line along `axis` through one of the places meets; others
+/// All of these facets, which must have finite corners, whose boxes a line along `axis` through one of the places meets; others
 /// too. Linear.
 pub(crate) fn seen(mesh: &Mesh, facets: &[u32], axis: usize, places: &[Point]) -> Vec<u32> {
     let squares = Squares::new(axis, places);

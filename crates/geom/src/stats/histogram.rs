@@ -110,10 +110,10 @@ impl Histogram {
     }
 }
 
-/// Round edges for values with these statistics, or `None` where there is none: from the 0.1 to the 99.9 percentile,
+/// Round edges for values with these statistics, or `None` where there is none. They go from the 0.1 to the 99.9 percentile,
 /// widened to whole multiples of 1, 2 or 5 times a power of ten.
 ///
-/// The width is that of Freedman and Diaconis (1981), twice the interquartile range over the cube root of the count,
+/// The width is that of Freedman and Diaconis (1981), twice the interquartile range over the cube root of the count. It is
 /// within 10 to 200 bins, and rounded up.
 pub fn nice_edges(statistics: &Statistics) -> Option<Vec<f64>> {
     let (low, high, width) = spread(statistics)?;
@@ -174,12 +174,11 @@ fn multiple(count: i64, power: i32) -> f64 {
 }
 
 impl Sketch {
-    /// The histogram of what was counted, for a stream that has gone by. Edges are moved to the nearest limits of the
-    /// sketch's bins, by a relative 2^-14 at most (edges that fall together become one); for the edges it then has, the
-    /// counts are exact.
+    /// The histogram of what was counted, for a stream that has gone by. Edges are moved to the nearest limits of the sketch's
+    /// bins, by a relative 2^-14 at most; edges that fall together become one. For the edges it then has, the counts are exact.
     ///
     /// # Errors
-    /// Those of [`Histogram::new`].
+    /// The errors of [`Histogram::new`].
     pub fn histogram(&self, edges: &[f64]) -> Result<Histogram, EdgesError> {
         let mut moved: Vec<f64> =
             Histogram::new(edges.to_vec())?.edges.iter().map(|e| Sketch::around(*e).0).collect();

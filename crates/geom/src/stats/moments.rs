@@ -1,8 +1,8 @@
 //! Moments of a stream of numbers: one pass, the same bits for any number of threads and any cutting into blocks.
 //!
-//! The stream is cut into chunks of [`VALUES_PER_CHUNK`] values counted from its start. Each chunk is summed in a fixed order;
-//! the chunks' moments are merged in pairs, like the digits of a binary counter, so that the tree of additions
-//! depends on the count alone and rounding errors grow with its logarithm.
+//! The stream is cut into chunks of [`VALUES_PER_CHUNK`] values counted from its start. Each chunk is summed in a fixed order.
+//! The chunks' moments are merged in pairs, like the digits of a binary counter. So the tree of additions depends on the count
+//! alone and rounding errors grow with its logarithm.
 //!
 //! Merging: Pébay, Formulas for robust, one-pass parallel computation of covariances and arbitrary-order statistical
 //! moments, Sandia SAND2008-6212. Ours carries the mean as two numbers, so that it stays good to the last place

@@ -1,8 +1,8 @@
 //! A process seen through the values of its parts, in their order: control limits and capability.
 //!
-//! Individuals and moving ranges of two (ISO 7870-2:2013): the spread within is the mean moving range over `d₂ = 2/√π`, and
-//! the limits lie three of it from the mean. Capability (ISO 22514-2:2017): the tolerance over six spreads, by the spread
-//! within (Cp, Cpk) and by the standard deviation of all values (Pp, Ppk).
+//! Individuals and moving ranges of two (ISO 7870-2:2013). The spread within is the mean moving range over `d₂ = 2/√π`, and the
+//! limits lie three of it from the mean. Capability (ISO 22514-2:2017): the tolerance over six spreads, by the spread within
+//! (Cp, Cpk) and by the standard deviation of all values (Pp, Ppk).
 
 use crate::num::special::{chi_square_quantile, normal_quantile};
 use std::f64::consts::{FRAC_2_SQRT_PI, PI};
@@ -48,7 +48,7 @@ pub struct Signal {
     pub rule: Rule,
 }
 
-/// What chance seldom does (ISO 7870-2:2013; L. S. Nelson, Journal of Quality Technology 16, 1984, tests 1 to 3).
+/// Events that chance seldom makes (ISO 7870-2:2013; L. S. Nelson, Journal of Quality Technology 16, 1984, tests 1 to 3).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Rule {
     /// The value is beyond a control limit.
@@ -158,10 +158,10 @@ impl ControlChart {
 
     /// Its capability against limits, with intervals of this confidence (0.95: 95 %).
     ///
-    /// The intervals take the values for normal and independent. Those of Cp and Pp are exact for the variance's
-    /// χ² distribution (ISO 22514-2:2017); the spread within counts for 0.605 of its degrees of freedom (J. D. Cryer and
-    /// T. P. Ryan, Journal of Quality Technology 22, 1990). Those of Cpk and Ppk are the normal approximation of A. F. Bissell
-    /// (Applied Statistics 39, 1990).
+    /// The intervals take the values for normal and independent. The intervals of Cp and Pp are exact for the variance's χ²
+    /// distribution (ISO 22514-2:2017). The spread within counts for 0.605 of its degrees of freedom (J. D. Cryer and T. P.
+    /// Ryan, Journal of Quality Technology 22, 1990). The intervals of Cpk and Ppk are the normal approximation of A. F.
+    /// Bissell (Applied Statistics 39, 1990).
     pub fn capability(&self, lower: Option<f64>, upper: Option<f64>, confidence: f64) -> Capability {
         let freedom = self.count as f64 - 1.0;
         let by = |spread: f64, freedom: f64| -> (Option<Index>, Option<Index>) {

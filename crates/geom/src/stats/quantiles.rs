@@ -1,8 +1,8 @@
 //! Order statistics of many numbers without sorting or copying them.
 //!
-//! The numbers are mapped to integers of the same order and counted in some 10^5 equal steps between the least and
-//! the greatest; only those in the steps that hold a wanted rank are looked at again. Counting is exact, so the
-//! result does not depend on threads.
+//! The numbers are mapped to integers of the same order and counted in some 10^5 equal steps between the least and the
+//! greatest. Only numbers in the steps that hold a wanted rank are looked at again. Counting is exact, so the result does not
+//! depend on threads.
 
 use super::moments::VALUES_PER_TASK;
 use crate::parallel::prelude::*;
@@ -192,7 +192,7 @@ impl<F: Fn(f64) -> u64 + Sync> Keyed<'_, F> {
 }
 
 impl Span {
-    /// Those steps of 2^`shift` keys, counted in `counts`, that hold a wanted rank.
+    /// The steps of 2^`shift` keys, counted in `counts`, that hold a wanted rank.
     fn steps(&self, shift: u32, counts: &[u64]) -> Vec<Span> {
         let mut steps = Vec::new();
         let (mut before, mut ranks) = (self.before, &self.ranks[..]);
@@ -238,7 +238,7 @@ impl Finder<'_> {
         }
         Finder { spans, low, shift, near }
     }
-    /// Those of at most [`KEYS_PER_BATCH`] keys that may lie in a span, without a branch that could be mispredicted.
+    /// The keys, out of at most [`KEYS_PER_BATCH`], that may lie in a span, without a branch that could be mispredicted.
     fn near<'b>(
         &self,
         keys: impl Iterator<Item = u64>,

@@ -5,9 +5,9 @@
 pub enum Selection {
     /// All of them.
     All,
-    /// Those above zero.
+    /// The deviations above zero.
     Positive,
-    /// Those below zero.
+    /// The deviations below zero.
     Negative,
 }
 

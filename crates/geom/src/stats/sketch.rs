@@ -1,9 +1,8 @@
 //! Quantiles of streams too large to keep: counts per leading bits of the number.
 //!
-//! A bin holds the numbers with the same sign, exponent and first 14 bits of the mantissa. So a quantile is known to
-//! a relative error of 2^-15, whatever the distribution, and because only whole numbers are added the result depends
-//! neither on the order of the values nor on how the stream was shared out. Memory: 128 KiB for every power of two
-//! that occurs, some 5 MB in practice.
+//! A bin holds the numbers with the same sign, exponent and first 14 bits of the mantissa. So a quantile is known to a relative
+//! error of 2^-15, whatever the distribution. Only whole numbers are added: the result depends neither on the order of the
+//! values nor on how the stream was shared out. Memory: 128 KiB for every power of two that occurs, some 5 MB in practice.
 
 use super::quantiles::{from_key, key_of};
 use super::selection::Selection;

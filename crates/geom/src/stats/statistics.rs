@@ -70,7 +70,7 @@ pub struct Statistics {
     pub percentiles: [Number; PERCENTILES.len()],
 }
 
-/// What rounding of the values and of the sums may make of a mean that is truly zero, relative to the mean size.
+/// The mean that rounding of the values and of the sums may make of a true zero, relative to the mean size.
 const MEAN_ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 impl Statistics {
@@ -137,9 +137,9 @@ impl Statistics {
 pub struct Summary {
     /// All finite values.
     pub all: Statistics,
-    /// Those above zero.
+    /// The deviations above zero.
     pub positive: Statistics,
-    /// Those below zero.
+    /// The deviations below zero.
     pub negative: Statistics,
     /// 95 % of the absolute values are no greater; the range of a color scale.
     pub p95_abs: Number,
@@ -147,9 +147,9 @@ pub struct Summary {
     pub zeros: u64,
     /// NaN and infinite values: left out everywhere.
     pub not_finite: u64,
-    /// Greatest relative error of the percentiles, median and MAD: 0 where all values were at hand,
-    /// [`super::sketch::RELATIVE_ERROR`] where they came as a stream (for the MAD it is relative to the values, not
-    /// to their distances from the median).
+    /// Greatest relative error of the percentiles, median and MAD. It is 0 where all values were at hand,
+    /// [`super::sketch::RELATIVE_ERROR`] where they came as a stream. For the MAD it is relative to the values, not to their
+    /// distances from the median.
     pub quantile_error: f64,
 }
 
@@ -167,8 +167,8 @@ impl Summary {
 
 /// Statistics of values that arrive block by block.
 ///
-/// The result is the same for any number of threads and for any cutting of the stream into blocks; the order of the
-/// values decides the last bits of the moments. Memory: some 5 MB, whatever the count.
+/// The result is the same for any number of threads and for any cutting of the stream into blocks. The order of the values
+/// decides the last bits of the moments. Memory: some 5 MB, whatever the count.
 #[derive(Clone, Debug, Default)]
 pub struct Accumulator {
     moments: SignedMoments,
@@ -207,7 +207,7 @@ struct SignedMoments {
     pending: Vec<f64>,
 }
 
-/// What is known of all finished chunks.
+/// The moments of all finished chunks.
 #[derive(Clone, Debug, Default)]
 struct Chunks {
     positive: MomentTree,

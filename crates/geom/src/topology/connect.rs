@@ -1,9 +1,9 @@
 //! How the facets of a mesh hang together: edges, shells, and every place where they do not form a surface.
 //!
 //! No list of edges is made. Each vertex is examined on its own. Every facet at it has a next and a previous corner there; an
-//! edge to vertex `w` means that `w` is among these. The vertex is in order if the next corners and the previous corners
-//! match one to one and form a single ring; comparisons of sixteen numbers at a time find that out. Every other vertex takes
-//! the general way: its corners are sorted and counted. Each edge is counted at its lower end.
+//! edge to vertex `w` means that `w` is among these. The vertex is in order if the next corners and the previous corners match
+//! one to one and form a single ring. Comparisons of sixteen numbers at a time find that out. Every other vertex takes the
+//! general way: its corners are sorted and counted. Each edge is counted at its lower end.
 #![allow(unsafe_code, reason = "vector instructions that the processor is known to have")]
 
 use super::EdgeAt;
@@ -191,7 +191,7 @@ impl Part<'_> {
         group.iter().for_each(|e| self.shells.join(at.facet, facet(e)));
     }
 
-    /// Facets at `v` that have the same three corners, of which `v` is the lowest. Those without area are another defect.
+    /// Facets at `v` that have the same three corners, of which `v` is the lowest. Facets without area are another defect.
     fn duplicates(&mut self, v: u32, spokes: &[Spoke]) {
         let others = |s: &Spoke| (s[0].min(s[1]), s[0].max(s[1]), s[2]);
         let mut here: Vec<_> = spokes.iter().map(others).filter(|o| o.0 > v).collect();

@@ -57,7 +57,7 @@ pub enum TopologyError {
     Cancelled(#[from] Cancelled),
 }
 
-/// What makes a facet count or not.
+/// The reasons why a facet counts or not.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum FacetState {
     Fine,
@@ -69,9 +69,9 @@ enum FacetState {
 impl Topology {
     /// Connects the facets of `mesh` through the vertices they share.
     ///
-    /// Two vertices at one place are two vertices here: weld first where that is not meant (an STL file always, as the
-    /// readers of files do). Linear in the number of facets, but for vertices with very many facets. The result is the
-    /// same for any number of threads; uses the current rayon pool and about 30 bytes a facet.
+    /// Two vertices at one place are two vertices here. Weld first where that is not meant (an STL file always, as the readers
+    /// of files do). Linear in the number of facets, but for vertices with very many facets. The result is the same for any
+    /// number of threads; uses the current rayon pool and about 30 bytes a facet.
     ///
     /// # Errors
     /// [`WeldError::NoSuchVertex`], [`WeldError::TooManyFacets`].
@@ -169,8 +169,8 @@ impl Topology {
         if a == b { vec![] } else { self.fans.at_edge(&mesh.faces, [a, b]) }
     }
 
-    /// Whether a facet of `mesh` that counts has the edge between two vertices. Of an edge with very many facets this is faster than
-    /// to list them.
+    /// Whether a facet of `mesh` that counts has the edge between two vertices. For an edge with very many facets this is
+    /// faster than to list them.
     pub fn has_edge(&self, mesh: &Mesh, [a, b]: [u32; 2]) -> bool {
         a != b && self.fans.has_edge(&mesh.faces, [a, b])
     }

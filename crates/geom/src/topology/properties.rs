@@ -1,8 +1,8 @@
 //! Area, volume and center of mass.
 //!
-//! The volume is the sum over the facets of the signed tetrahedra to one place (the divergence theorem). That place is
-//! the middle of the box, so little cancels, and sums are carried in two numbers: the result is good to about 1e-15 of
-//! the volume of the box. Chunks are fixed, so it has the same bits for any number of threads.
+//! The volume is the sum over the facets of the signed tetrahedra to one place (the divergence theorem). That place is the
+//! middle of the box, so little cancels, and sums are carried in two numbers. The result is good to about 1e-15 of the volume
+//! of the box. Chunks are fixed, so it has the same bits for any number of threads.
 
 use super::Topology;
 use crate::mesh::Mesh;
@@ -33,8 +33,8 @@ pub struct Properties {
     pub shell_volumes: Vec<f64>,
 }
 
-/// Sums over some facets, lengths measured from the middle of the box: area, area times three times the center of each
-/// facet, six times the volume, and six times the volume times four times the center of each tetrahedron.
+/// Sums over some facets, lengths measured from the middle of the box. They are the area, and the area times three times the
+/// center of each facet. Then follow six times the volume, and that times four times the center of each tetrahedron.
 type Moments = [Sum; 8];
 /// Place of the area among the sums; times the center follows.
 const AREA_SUM: usize = 0;
@@ -49,7 +49,7 @@ fn add(a: Sum, b: Sum) -> Sum {
 }
 
 impl Properties {
-    /// Of `mesh`, the one that `topology` was made of. Linear time.
+    /// The properties of `mesh`, which `topology` was made of. Linear time.
     pub fn of(mesh: &Mesh, topology: &Topology) -> Properties {
         let bounds = mesh.finite_bounds();
         let origin: Point = std::array::from_fn(|k| bounds.min[k] + (bounds.max[k] - bounds.min[k]) / 2.0);
@@ -71,7 +71,7 @@ impl Properties {
             plus(origin, times(scale, std::array::from_fn(|k| all[of + 1 + k].value())))
         };
         let sides = bounds.sides();
-        // What rounding can make of a volume that is really zero.
+        // The rounding of a volume that is really zero.
         let noise = 1e-14 * sides[0] * sides[1] * sides[2];
         Properties {
             bounds,
@@ -105,7 +105,7 @@ fn chunk(mesh: &Mesh, origin: Point, faces: &[[u32; 3]], shells: &[u32]) -> (Mom
     (all, runs)
 }
 
-/// What a facet adds to the [`Moments`].
+/// The contribution of a facet to the [`Moments`].
 #[inline(always)]
 fn terms([a, b, c]: [Point; 3]) -> [f64; 8] {
     let area = 0.5 * norm(cross(minus(b, a), minus(c, a)));

@@ -7,8 +7,8 @@ use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 /// Members set up, or numbered, by one task.
 const MEMBERS_PER_TASK: usize = 1 << 16;
 
-/// Sets of the numbers `0..n`. A parent never has a larger number than its child, so the least member of a set ends
-/// up as its root whatever the threads do.
+/// Sets of the numbers `0..n`. A parent never has a larger number than its child. So the least member of a set ends up as its
+/// root whatever the threads do.
 pub struct Sets(Vec<AtomicU32>);
 
 impl Sets {
@@ -60,9 +60,9 @@ impl Sets {
         }
     }
 
-    /// Number of sets that hold a member for which `counts` says yes, and for each member the number of its set,
-    /// [`u32::MAX`] where `counts` says no. Sets are numbered by their least member. Members of one set must agree
-    /// about `counts`.
+    /// Number of sets that hold a member for which `counts` says yes, and for each member the number of its set. That is
+    /// [`u32::MAX`] where `counts` says no. Sets are numbered by their least member. Members of one set must agree about
+    /// `counts`.
     pub fn numbered(&self, counts: impl Fn(u32) -> bool + Sync) -> (usize, Vec<u32>) {
         let is_first = |i: &u32| self.0[*i as usize].load(Relaxed) == *i && counts(*i);
         let n = self.0.len();

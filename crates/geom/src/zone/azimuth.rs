@@ -1,9 +1,9 @@
 //! The least of a function of one angle: all directions that stand at a given angle to an axis.
 //!
-//! The width of a feature as a function of the angle about a datum has many local minima over a full turn, but near each of
-//! them it is all but convex: the greatest of functions that are straight to second order in the height of the feature. So
-//! the turn is sampled, and each low sample is followed to the bottom by golden section, which needs no derivative (J. Kiefer,
-//! Sequential minimax search for a maximum, 1953).
+//! The width of a feature as a function of the angle about a datum has many local minima over a full turn. Near each of them it
+//! is all but convex: the greatest of functions that are straight to second order in the height of the feature. So the turn is
+//! sampled, and each low sample is followed to the bottom by golden section, which needs no derivative. (J. Kiefer, Sequential
+//! minimax search for a maximum, 1953.)
 
 use crate::num::golden::golden;
 use crate::rigid::Rigid;

@@ -1,8 +1,8 @@
 //! The smallest circle around points of the plane.
 //!
-//! The circle of at most three points is held; the point farthest outside joins them, and the smallest circle around these
-//! four is the next one. The radius grows in every round, so no set of three comes twice (the dual simplex method for this
-//! problem; B. Gärtner, Fast and robust smallest enclosing balls, 1999).
+//! The circle of at most three points is held. The point farthest outside joins them, and the smallest circle around these four
+//! is the next one. The radius grows in every round, so no set of three comes twice. (The dual simplex method for this problem;
+//! B. Gärtner, Fast and robust smallest enclosing balls, 1999.)
 
 /// The circle and the points on it.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,7 +26,7 @@ pub(super) fn smallest(points: &[[f64; 2]]) -> Circle {
         let far = |i: usize| distance(points[i], circle.center);
         let farthest = (0..points.len()).fold((0.0, 0), |m, i| if far(i) > m.0 { (far(i), i) } else { m });
         if farthest.0 <= circle.radius * (1.0 + RADIUS_ROUNDING) || circle.touching.contains(&farthest.1) {
-            // What rounding leaves outside belongs to the zone.
+            // Points that rounding leaves outside belong to the zone.
             circle.radius = circle.radius.max(farthest.0);
             break;
         }

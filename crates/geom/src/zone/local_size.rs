@@ -1,8 +1,9 @@
 //! Two-point sizes (ISO 17450-3:2016, ISO 14405-1:2016, 3.6): the distance of two opposite places of a feature of size.
 //!
-//! Each measured point is one end. The other lies where the line through it, across the axis or along the common normal, meets the
-//! other side, which is interpolated among the points nearest to there: a plane of least squares through their heights, never beyond the
-//! heights themselves, or where they lie in a row the line between its two neighbors. A point whose other end is not between points has no size.
+//! Each measured point is one end. The other lies where the line through it, across the axis or along the common normal, meets
+//! the other side. That side is interpolated among the points nearest to there by a plane of least squares through their
+//! heights, never beyond the heights themselves. Where they lie in a row it is the line between its two neighbors. A point
+//! whose other end is not between points has no size.
 
 use crate::frame::Pose;
 use crate::num::dense::eigen;
@@ -31,9 +32,9 @@ pub struct TwoPoint {
     pub ends: [Point; 2],
 }
 
-/// The two-point diameters of a cylinder or circle about the axis through `point` along `direction` (of length 1): one for each of
-/// `points` whose opposite place is between others, in their order. Millimeters. Points on the axis and those that are not
-/// finite have none. Cost: `n log n`.
+/// The two-point diameters of a cylinder or circle about the axis through `point` along `direction` (of length 1). There is one
+/// for each of `points` whose opposite place is between others, in their order. Millimeters. Points on the axis and those that
+/// are not finite have none. Cost: `n log n`.
 ///
 /// # Errors
 /// [`Cancelled`].
@@ -92,9 +93,9 @@ pub fn two_point_diameters(
     Ok(all.into_iter().flatten().collect())
 }
 
-/// The two-point sizes of two opposite planes along their common `normal` (of length 1): of each point of either with a place
-/// opposite that is between points of the other; those of the first, then those of the second. Millimeters.
-/// Cost: `n log n`.
+/// The two-point sizes of two opposite planes along their common `normal` (of length 1). There is one for each point of either
+/// with a place opposite that is between points of the other. The sizes of the first come first, then those of the second.
+/// Millimeters. Cost: `n log n`.
 ///
 /// # Errors
 /// [`Cancelled`].
@@ -156,8 +157,8 @@ impl Sheet {
     }
 }
 
-/// The height at the origin of a plane through heights at places around it, or between its neighbors where they lie in
-/// a row; `None` where the origin is not between them. No height is beyond the least and greatest of theirs.
+/// The height at the origin of a plane through heights at places around it, or between its neighbors where they lie in a row.
+/// `None` where the origin is not between them. No height is beyond the least and greatest of theirs.
 fn between(places: &[[f64; 3]]) -> Option<f64> {
     let n = places.len() as f64;
     let mean = [0, 1, 2].map(|k| places.iter().map(|p| p[k]).sum::<f64>() / n);
@@ -183,7 +184,7 @@ fn between(places: &[[f64; 3]]) -> Option<f64> {
     (surrounded(places) && height.is_finite()).then(|| height.clamp(least, greatest))
 }
 
-/// The height at the origin of the plane of least squares through heights at places other than it, each with the inverse square of its
+/// The height at the origin of the plane of least squares through heights at other places. Each has the inverse square of its
 /// distance as its weight: far ones would take the crests off lobes of a few points.
 fn plane(places: &[[f64; 3]]) -> f64 {
     let weigh = |p: &[f64; 3]| 1.0 / (p[0] * p[0] + p[1] * p[1]);
@@ -255,8 +256,8 @@ mod tests {
         }
     }
 
-    /// Five lobes of 0.05 mm on a bore measured at 71 places of each level, farther apart along it than around: opposite a crest lies a trough,
-    /// and every size is twice the radius.
+    /// Five lobes of 0.05 mm on a bore measured at 71 places of each level, farther apart along it than around. Opposite a
+    /// crest lies a trough, and every size is twice the radius.
     #[test]
     fn lobes_are_not_smoothed_where_levels_are_far_apart() {
         for apart in [0.6, 0.9, 1.5, 4.0] {
@@ -317,8 +318,8 @@ mod tests {
         }
     }
 
-    /// Two rims of a bore, as a tessellated one has them: however little the points of a rim leave their row, the sizes change by no
-    /// more than the points do.
+    /// Two rims of a bore, as a tessellated one has them. However little the points of a rim leave their row, the sizes change
+    /// by no more than the points do.
     #[test]
     fn noise_changes_sizes_by_no_more_than_itself() {
         let mut random = Random::new(11);

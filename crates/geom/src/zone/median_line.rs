@@ -1,5 +1,5 @@
-//! The extracted median line of a cylinder (ISO 17450-3:2016): the centers of its sections across the associated axis, each the
-//! center of the circle of least squares.
+//! The extracted median line of a cylinder (ISO 17450-3:2016). It holds the centers of its sections across the associated axis,
+//! each the center of the circle of least squares.
 
 use super::sections::{MIN_POINTS_PER_RING, sections};
 use crate::fit::{FitError, Method, Options, fit};
@@ -20,8 +20,8 @@ pub struct MedianLine {
 
 /// The median line of the cylinder with the axis through `point` along `direction` (any length but 0), from its points (mm).
 ///
-/// The sections are those of [`sections`]: rings where the points lie in such, else up to 24 of equal height, and then a bend
-/// shorter than a section is not seen. A point that is not finite belongs to none. Cost: `n log n`.
+/// The sections are those of [`sections`]. They are rings where the points lie in such. Else they are up to 24 of equal height,
+/// and then a bend shorter than a section is not seen. A point that is not finite belongs to none. Cost: `n log n`.
 ///
 /// # Errors
 /// [`Cancelled`].
@@ -110,7 +110,8 @@ mod tests {
         (0..count).map(|_| at()).collect()
     }
 
-    /// Of a scan each section has the bow of its height; sections are 4 mm high, the bow bends by less than 1e-4 within one.
+    /// Each section of a scan has the bow of its height. Sections are 4 mm high, and the bow bends by less than 1e-4 within
+    /// one.
     #[test]
     fn the_centers_of_a_bent_pin_lie_on_its_bow() {
         let line = median_line(&scan(20_000, TAU), [0.0; 3], [0.0, 0.0, 2.0], &Silent).unwrap();

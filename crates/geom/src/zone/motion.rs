@@ -1,8 +1,8 @@
 //! The motion, among those left free, that brings points nearest to a true geometry: least greatest distance.
 //!
-//! A sequence of linear programs in the free small motions about where the points stand, each within a box that grows while
-//! the linear model holds (R. Fletcher, Practical Methods of Optimization, 1987, section 14), over a working set that takes
-//! in what sticks out most.
+//! A sequence of linear programs in the free small motions about where the points stand. Each stays within a box that grows
+//! while the linear model holds. (R. Fletcher, Practical Methods of Optimization, 1987, section 14.) They go over a working set
+//! that takes in the points that stick out most.
 
 use super::datum::Freedom;
 use super::error::{ZoneError, sane};
@@ -12,15 +12,15 @@ use crate::progress::Progress;
 use crate::rigid::Rigid;
 use crate::space::{Aabb, Point, Vector, cross, minus, norm, plus, times};
 
-/// Distance of a place from the true geometry, with the sign that the geometry gives it, and its gradient: a unit vector
-/// where the distance is not zero. `None` where the geometry has no answer. The index is that of the point that came to lie
-/// there: points may have geometries of their own.
+/// Distance of a place from the true geometry, with the sign that the geometry gives it, and its gradient. The gradient is a
+/// unit vector where the distance is not zero. `None` where the geometry has no answer. The index is that of the point that
+/// came to lie there: points may have geometries of their own.
 pub type Distance<'a> = dyn Fn(usize, Point) -> Option<(f64, Vector)> + Sync + 'a;
 
 /// Where the points come to lie.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Placed {
-    /// Half the width of the narrowest zone about the geometry (or about its offset by the middle) that holds all points:
+    /// Half the width of the narrowest zone about the geometry (or about its offset by the middle) that holds all points. It is
     /// the greatest magnitude of the distances less the middle.
     pub half: f64,
     /// Takes the coordinates of the points to those in which the geometry stands.
@@ -84,12 +84,13 @@ pub fn placed(
     placed_within(points, distance, &[], search, progress)
 }
 
-/// As [`placed`], where each point has a `room` of its own that is taken off its magnitude before the greatest counts, millimeters: half the
-/// width of the zone that it may fill. `half` is the greatest excess, negative where all points are within their rooms. Without any rooms
-/// (an empty list) it is [`placed`]; a list of another length than `points` has rooms of zero where it lacks them.
+/// As [`placed`], where each point has a `room` of its own, millimeters: half the width of the zone that it may fill. It is
+/// taken off the point's magnitude before the greatest counts. `half` is the greatest excess, negative where all points are
+/// within their rooms. Without any rooms (an empty list) it is [`placed`]; a list of another length than `points` has rooms of
+/// zero where it lacks them.
 ///
 /// # Errors
-/// Those of [`placed`].
+/// The errors of [`placed`].
 ///
 /// ```
 /// use trueness_geom::progress::Silent;
@@ -114,11 +115,11 @@ pub fn placed_within(
     placed_from(points, distance, room, &[], search, progress)
 }
 
-/// As [`placed_within`], with the points numbered in `first` in the working set from the beginning: those that stick out at the start keep a search over many points
-/// near it.
+/// As [`placed_within`], with the points numbered in `first` in the working set from the beginning. Points that stick out at
+/// the start keep a search over many points near it.
 ///
 /// # Errors
-/// Those of [`placed`].
+/// The errors of [`placed`].
 pub(crate) fn placed_from(
     points: &[Point],
     distance: &Distance,

@@ -13,8 +13,8 @@ const RING_GAP_SHARE: f64 = 0.01;
 
 /// The sections of points (mm) across a direction (of length 1), each by the indices of its points, in the order along it.
 ///
-/// Points that were taken in thin rings or rows across the direction, at least three with six points each, have a section for each;
-/// others are sorted into up to 24 sections of equal height with 24 points or more on average. A point that is not finite
+/// Points that were taken in thin rings or rows across the direction, at least three with six points each, have a section for
+/// each. Others are sorted into up to 24 sections of equal height with 24 points or more on average. A point that is not finite
 /// belongs to none. Cost: `n log n`.
 ///
 /// ```
@@ -42,7 +42,7 @@ type Heights = [(f64, usize)];
 fn rings(sorted: &Heights) -> Option<Vec<&Heights>> {
     let extent = sorted.last()?.0 - sorted.first()?.0;
     let found: Vec<&Heights> = sorted.chunk_by(|a, b| b.0 - a.0 <= RING_GAP_SHARE * extent).collect();
-    // What is between two gaps of a scan is no ring.
+    // The points between two gaps of a scan are no ring.
     let thin = |ring: &Heights| ring[ring.len() - 1].0 - ring[0].0 <= RING_GAP_SHARE * extent;
     (found.len() >= 3 && found.iter().all(|ring| ring.len() >= MIN_POINTS_PER_RING && thin(ring)))
         .then_some(found)

@@ -1,11 +1,12 @@
 //! The form below the noise: heights over an element, as they would be if nothing but noise were taken off them.
 //!
-//! Waves first: polynomials of the places, restricted to the surface, of as many degrees as lower the estimated risk (Mallows: Some comments on
-//! Cp, Technometrics 15, 1973; with correlated noise each coefficient has the variance that the noise gives it), and of these what stands out
-//! of the noise. On a plane they are polynomials of two coordinates, about a cylinder waves around times polynomials along, on a sphere
-//! spherical harmonics: the basis grows by a coordinate at a time and keeps what is new (Brubeck, Nakatsukasa, Trefethen: Vandermonde with
-//! Arnoldi, SIAM Review 63, 2021), so no shape has parameters of its own here. Then single places that no wave and no noise explains. What is
-//! left, if it is larger than noise, is a rough form: it is kept in the size that its variance tells.
+//! Waves come first: polynomials of the places, restricted to the surface, of as many degrees as lower the estimated risk.
+//! (Mallows: Some comments on Cp, Technometrics 15, 1973.) With correlated noise each coefficient has the variance that the
+//! noise gives it. Only polynomials that stand out of the noise are kept. On a plane they are polynomials of two coordinates,
+//! about a cylinder waves around times polynomials along, on a sphere spherical harmonics. The basis grows by a coordinate at a
+//! time and keeps new functions alone, so no shape has parameters of its own here. (Brubeck, Nakatsukasa, Trefethen:
+//! Vandermonde with Arnoldi, SIAM Review 63, 2021.) Then single places that no wave and no noise explains. The rest, if it is
+//! larger than noise, is a rough form. It is kept in the size that its variance tells.
 
 use crate::num::banded::dot;
 use crate::num::random::Random;
@@ -37,10 +38,11 @@ const LARGER_VARIANCE_ERRORS: f64 = 3.0;
 pub struct Smooth {
     /// As many heights as were given, millimeters.
     pub heights: Vec<f64>,
-    /// Range of the noise that is left in its waves and single places over the range of the noise of the points, 0 to 1: how far its extremes
-    /// stand out too far.
+    /// Range of the noise left in its waves and single places over the range of the noise of the points, 0 to 1. It tells how
+    /// far its extremes stand out too far.
     pub noise_left: f64,
-    /// Share of the rest beside waves and single places that is kept as a rough form, 0 to 1: its places are not known one by one.
+    /// Share of the rest beyond waves and single places that is kept as a rough form, 0 to 1. Its places are not known one by
+    /// one.
     pub rough: f64,
 }
 
@@ -219,7 +221,7 @@ impl Basis {
     }
 }
 
-/// What a function has beside orthonormal others, of unit length; `None` where that is nothing.
+/// The part of a function orthogonal to orthonormal others, of unit length; `None` where that is nothing.
 fn orthogonal_part(mut function: Vec<f64>, others: &[Vec<f64>]) -> Option<Vec<f64>> {
     let whole = dot(&function, &function).sqrt();
     // Twice is enough (Giraud, Langou, Rozložník, 2005).
@@ -286,7 +288,7 @@ mod tests {
         }
     }
 
-    /// Of noise alone next to nothing is left; of three lobes the lobes, to the noise of the few waves that they are.
+    /// Next to nothing is left of noise alone. Three lobes remain, to the noise of the few waves that they are.
     #[test]
     fn lobes_are_told_from_noise() {
         let places = cylinder();
@@ -322,7 +324,7 @@ mod tests {
         assert!(form.heights.iter().enumerate().all(|(i, h)| i == 77 || h.abs() < 1.0));
         // The noise of that place stays: its mean size is 0.8 deviations, of a range of 5.9.
         assert!((0.08..0.3).contains(&form.noise_left), "{}", form.noise_left);
-        // Of a rough form of twice the noise about that variance.
+        // About that variance is left of a rough form of twice the noise.
         let heights: Vec<f64> = places.iter().map(|_| 2.0 * normal(random) + normal(random)).collect();
         let form = smooth(&places, &heights, 1.0, &[]);
         let variance = form.heights.iter().map(|h| h * h).sum::<f64>() / 400.0;

@@ -52,8 +52,8 @@ fn along(points: &[Point], direction: Vector) -> Option<Tube> {
     Some(Tube { point, direction, diameter: 2.0 * circle.radius, touching: circle.touching })
 }
 
-/// The thinnest cylinder whose direction stands at `angle` (radians, 0 to π/2) to `axis` and is free to turn about it: the
-/// angularity of an axis to a single datum (ISO 1101:2017, 17.12).
+/// The thinnest cylinder whose direction stands at `angle` (radians, 0 to π/2) to `axis` and is free to turn about it. It is
+/// the angularity of an axis to a single datum (ISO 1101:2017, 17.12).
 ///
 /// The least over the whole turn, to rounding. Some thousand passes over the points; meant for the points of an axis.
 ///

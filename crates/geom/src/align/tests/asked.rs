@@ -1,4 +1,4 @@
-//! What is asked of a best fit besides: components that stay zero, and a scale.
+//! Requests to a best fit besides: components that stay zero, and a scale.
 
 use super::parts::{block, bracket, moved, normal, random_pose};
 use crate::align::{
@@ -11,7 +11,7 @@ use crate::progress::Silent;
 use crate::rigid::Rigid;
 use crate::space::{Point, times};
 
-/// Of a block moved by little, each component that is locked stays zero, and the sum of squares is the least of what is left.
+/// A block is moved by little: each component that is locked stays zero, and the sum of squares of the residuals is the least.
 #[test]
 fn locked_components_stay_zero_and_the_others_are_the_least() {
     let reference = bracket(8.0);

@@ -27,8 +27,8 @@ fn samples(oriented: bool) -> Samples {
     samples
 }
 
-/// The score of a pose is that of exact distances, as far as a grid can tell: within the share of reach by which a surface may bend in
-/// half a cell, for nearly all samples.
+/// The score of a pose is that of exact distances, as far as a grid can tell. For nearly all samples it is within the share of
+/// reach by which a surface may bend in half a cell.
 #[test]
 fn the_grid_tells_what_exact_distances_do() {
     let reference = bracket(4.0);
@@ -70,8 +70,8 @@ fn the_grid_tells_what_exact_distances_do() {
     }
 }
 
-/// A pair finds all pairs whose four numbers are within half a cell of its own, and none that are more than one and a half away; there are as
-/// many as are counted.
+/// A pair finds all pairs whose four numbers are within half a cell of its own. It finds none more than one and a half cells
+/// away. It finds as many as are counted.
 #[test]
 fn pairs_are_found_where_they_lie() {
     let places = on_surface(&bracket(4.0), 60, 3);

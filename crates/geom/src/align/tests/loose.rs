@@ -9,7 +9,7 @@ use crate::progress::Silent;
 use crate::rigid::Rigid;
 use crate::space::{Point, norm};
 
-/// Of an L; the caps fan out from its inner corner, the first.
+/// The caps of an L fan out from its inner corner, the first.
 const ELL: [[f64; 2]; 6] = [[15.0, 12.0], [15.0, 40.0], [0.0, 40.0], [0.0, 0.0], [60.0, 0.0], [60.0, 12.0]];
 
 /// A prism over an outline whose caps fan out from its first corner.
@@ -187,7 +187,7 @@ fn a_key_holds_the_turn() {
     }
 }
 
-/// What faces hold by their insides is held: three faces of a block with noise, seen to their rims and not.
+/// The insides of faces hold a motion: three faces of a block with noise, seen to their rims and not.
 #[test]
 fn faces_of_three_directions_leave_nothing_free() {
     let random = &mut Random::new(5);

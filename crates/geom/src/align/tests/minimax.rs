@@ -41,7 +41,7 @@ fn places(low: Point, high: Point, step: f64) -> Vec<Point> {
 
 #[test]
 fn half_of_a_single_bump_in_closed_form() {
-    // A bump of 0.3 at the middle of one side: the block moves half of it back, and then its far side sticks out as much.
+    // One side has a bump of 0.3 at its middle. The block moves half of it back, and then its far side sticks out as much.
     let (low, high) = ([-10.0, -6.0, -4.0], [10.0, 6.0, 4.0]);
     let mesh = block(low, high, 40.0);
     let mut points = places(low, high, 1.0);
@@ -101,7 +101,7 @@ fn what_is_free_has_no_such_pose() {
     assert!(matches!(found, Err(AlignError::Free { free: 3 })), "{found:?}");
 }
 
-/// Of a mesh of large facets every vertex counts: the distance told is the greatest of all.
+/// Every vertex of a mesh of large facets counts: the distance told is the greatest of all.
 #[test]
 fn a_vertex_between_large_facets_counts() {
     let mesh = block([0.0; 3], [60.0, 40.0, 20.0], 80.0);

@@ -84,8 +84,8 @@ fn clutter_around_a_piece_of_the_part_does_not_hide_its_place() {
     assert_eq!(right, 10);
 }
 
-/// The top of a plate with two pegs, off by some millimeters and degrees: the plate holds what is seen of it where it is, the pegs count
-/// as outliers, and no small step leads to where they fit.
+/// The top of a plate with two pegs is off by some millimeters and degrees. The plate holds its seen part where it is and the
+/// pegs count as outliers. No small step leads to where they fit.
 #[test]
 fn a_pose_beside_the_right_one_is_left() {
     let plate = block([0.0; 3], [60.0, 40.0, 5.0], 2.0);
@@ -167,8 +167,9 @@ fn wavy(mesh: &Mesh, size: f64) -> Mesh {
 
 #[test]
 fn the_pose_is_the_least_of_the_sum_of_squares() {
-    // By brute force: no small motion about the result has a lower integral of squared distances over the surface, each facet cut
-    // into 64 equal ones, of which the middles are taken. The figures are those of the vertices, with a third of the area around.
+    // By brute force: no small motion about the result has a lower integral of squared distances over the surface. Each facet
+    // is cut into 64 equal ones, whose middles are taken. The figures are those of the vertices, with a third of the area
+    // around.
     let reference = bracket(8.0);
     let scan = wavy(&bracket(3.0), 0.02);
     let tree = Tree::build(&reference).unwrap();
@@ -311,7 +312,7 @@ fn a_part_that_looks_the_same_in_several_ways_is_told() {
     assert!(found.freedoms.is_empty() && found.condition.is_some());
 }
 
-/// Of poses that fit equally the one that moves least is taken, whatever the samples.
+/// Out of poses that fit equally the one that moves least is taken, whatever the samples.
 #[test]
 fn a_symmetric_part_is_not_turned_without_need() {
     for sides in [[40.0, 25.0, 10.0], [40.0, 40.0, 10.0], [20.0, 20.0, 20.0]] {
@@ -354,8 +355,7 @@ fn a_patch_of_a_plane_slides_and_turns() {
 
 #[test]
 fn noise_and_uncertainty_agree() {
-    // Of noisy copies, the pose is off by what the covariance says: the mean of the squared normalized error of each of
-    // the six is 1.
+    // Noisy copies put the pose off by its covariance: the mean of the squared normalized error of each of the six is 1.
     let reference = bracket(6.0);
     let tree = Tree::build(&reference).unwrap();
     let target = Target::new(&reference, &tree);

@@ -132,8 +132,8 @@ fn rows_hold_along_their_directions_only() {
     assert!(found.residuals[6].abs() < found.residuals[5].abs() && found.residuals[5].abs() < 0.5);
 }
 
-/// Three places held along z almost on a line: the plane through them tilts about the line of the first two, which lies 0.4 from the third. Of any
-/// rows, against the same alignment done again with one of them off.
+/// Three places are held along z almost on a line. The plane through them tilts about the line of the first two, which lies 0.4
+/// from the third. The gains of any rows, against the same alignment done again with one of them off.
 #[test]
 fn errors_of_a_row_are_amplified_as_is_told() {
     let row = |nominal: Point, axis: usize| Row {

@@ -48,8 +48,8 @@ fn the_other_side_of_a_plate_is_told() {
     }
 }
 
-/// Along the face the pose is as uncertain as it says: the few points beyond the rim hold it, and no equation tells how far it may go until
-/// they do.
+/// Along the face the pose is as uncertain as it says. The few points beyond the rim hold it, and no equation tells how far it
+/// may go until they do.
 #[test]
 fn a_face_is_held_by_its_rim_no_better_than_is_said() {
     let (mut far, mut most) = (0, 0.0_f64);

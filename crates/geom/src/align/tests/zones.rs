@@ -49,7 +49,7 @@ fn places(step: f64) -> Vec<Point> {
     mesh.faces.iter().map(middle).collect()
 }
 
-/// The top may be 0 to 0.4 too high, all else 0.1 either way: a perfect block rises by 0.05 and has 0.05 left on both sides.
+/// The top may be 0 to 0.4 too high, all else 0.1 either way. A perfect block rises by 0.05 and has 0.05 left on both sides.
 #[test]
 fn room_is_shared_out_in_closed_form() {
     let mesh = block(LOW, HIGH, 40.0);
@@ -121,7 +121,8 @@ fn no_pose_nearby_is_better_and_moving_the_scan_changes_nothing() {
     }
 }
 
-/// Of a part without noise the best fit leaves a bump of 0.2 and a dent of 0.24 out as outliers. Here they are shared out, and judged.
+/// A part without noise has a bump of 0.2 and a dent of 0.24, which the best fit leaves out as outliers. Here they are shared
+/// out, and judged.
 #[test]
 fn a_bump_and_a_dent_count_however_little_the_rest_scatters() {
     let mesh = block(LOW, HIGH, 40.0);
@@ -153,7 +154,7 @@ fn a_bump_and_a_dent_count_however_little_the_rest_scatters() {
     assert!((least.greatest - 0.1 - tight.excess).abs() < 1e-6 && least.not_counted.count == 0, "{least:?}");
 }
 
-/// What lies far off does not decide the pose, but it is judged: nothing is within that is not.
+/// Points that lie far off do not decide the pose, but they are judged: no point counts as within that is not.
 #[test]
 fn clutter_does_not_count_in_the_search_and_is_judged() {
     let mesh = block(LOW, HIGH, 40.0);

@@ -1,8 +1,8 @@
 //! Facets around an edge that very many have in common, by their angle: a *book* with its pages around the *spine*.
 //!
-//! Seen from an end of the spine, all pages contain the direction of the spine, so boxes of directions exclude nothing. Angles around
-//! the spine do: two pages meet only if they have the same angle, and any other facet meets only pages at angles between those of
-//! its corners.
+//! Seen from an end of the spine, all pages contain the direction of the spine, so boxes of directions exclude nothing. Angles
+//! around the spine do: two pages meet only if they have the same angle. Any other facet meets only pages at angles between
+//! those of its corners.
 
 use crate::mesh::Mesh;
 use crate::space::{Point, cross, dot, minus, norm, times, unit};

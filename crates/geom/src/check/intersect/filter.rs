@@ -1,9 +1,9 @@
 //! Which of eight triangles cannot meet one: seen in single precision, from four planes.
 //!
-//! Of a triangle four planes are looked at: its own and the three that stand on its edges. A pair is settled when the
-//! corners of the other triangle lie all beyond one of them, where corners shared with the first *and in that plane*
-//! count as beyond: then the plane contains all that the two have in common, and that is a shared corner or edge. A
-//! corner counts as beyond when the rounded distance says so by more than its error.
+//! Four planes of a triangle are looked at: its own and the three that stand on its edges. A pair is settled when the corners
+//! of the other triangle lie all beyond one of them. Corners shared with the first *and in that plane* count as beyond. Then
+//! the plane contains all that the two have in common, a shared corner or edge. A corner counts as beyond when the rounded
+//! distance says so by more than its error.
 #![expect(clippy::needless_range_loop, reason = "lanes are indices into several arrays at once")]
 
 use super::masks::Masks;
@@ -16,8 +16,8 @@ use crate::space::{Point, cross, dot, minus};
 /// slacks, and two to spare.
 const SLACKS_PER_DISTANCE: f32 = 8.0;
 
-/// Directions (greatest component 1) of the plane and the three edge planes of each triangle of a leaf, and the place
-/// of the second edge along its direction. Zero where the triangle is too thin to trust them.
+/// Directions (greatest component 1) of the plane and the three edge planes of each triangle of a leaf. The place of the second
+/// edge along its direction stands with them. Zero where the triangle is too thin to trust them.
 pub(super) struct Planes {
     direction: [[[f32; TREE_WIDTH]; 3]; 4],
     offset: [f32; TREE_WIDTH],
@@ -102,8 +102,8 @@ unsafe fn both<L: Masks>(boxes: &Boxes, b: &[f32; 6], k: usize) -> L::Mask {
     }
 }
 
-/// Which triangles `among` those of leaf `q` may meet triangle `i` of leaf `l`; `reach` is the sum of the sides of a
-/// box around all of them.
+/// The triangles `among` those of leaf `q` that may meet triangle `i` of leaf `l`. `reach` is the sum of the sides of a box
+/// around all of them.
 ///
 /// # Safety
 /// The processor has the instructions of `L`.

@@ -1,12 +1,12 @@
 //! Pairs of facets of which one lies at a vertex that very many have in common.
 //!
-//! The boxes of such facets all overlap at that vertex, the *hub*, and the boxes of long thin facets overlap many others: boxes
+//! The boxes of such facets all overlap at that vertex, the *hub*. The boxes of long thin facets overlap many others: boxes
 //! exclude next to nothing. Directions exclude more. Projected from the hub onto a sphere around it, a facet at the hub is an
-//! arc of a great circle, from the direction of one corner to that of the other; any other facet is a triangle of the sphere.
-//! Two facets that meet outside of the hub have a direction in common there. So two boxes are compared, that of the directions
-//! and that of the facet itself, and `meet` decides about the few pairs left. A fan of `n` facets takes O(n log n), and so do
-//! two fans that do not lie upon each other. Fans on both sides of a line in a plane are seen upon each other: of these, walls
-//! along a facet (`walls`) leave out those beside it.
+//! arc of a great circle. The arc runs from the direction of one corner to that of the other. Any other facet is a triangle of
+//! the sphere. Two facets that meet outside of the hub have a direction in common there. So two boxes are compared, that of the
+//! directions and that of the facet itself, and `meet` decides about the few pairs left. A fan of `n` facets takes O(n log n),
+//! and so do two fans that do not lie upon each other. Fans on both sides of a line in a plane are seen one upon the other.
+//! Walls along a facet (`walls`) leave out those on its other side.
 //!
 //! Facets at one edge of very many are a hub of their own, a [`Book`].
 

@@ -1,17 +1,17 @@
 //! All pairs of facets that cross, touch or overlap where they should not.
 //!
 //! The search has four parts:
-//! 1. *Tree.* A node gets from its parent the list of nodes of its own level whose boxes overlap the parent's box, and keeps
+//! 1. *Tree.* A node gets from its parent the list of nodes of its own level whose boxes overlap the parent's box. It keeps
 //!    those that overlap its own; eight boxes in one comparison. So no search begins at the root. The children of the lowest
 //!    nodes are triangles.
 //! 2. *Filter.* Most of the pairs left are excluded in single precision, whether the triangles share corners or not (`filter`).
 //! 3. *Exact.* The rest is decided by `meet`.
 //! 4. *Hubs.* The boxes of all facets at a vertex overlap there. Facets at a vertex with very many are therefore not in the
 //!    tree. They are searched separately, among each other and against the facets of the tree (`hub`).
-//! 5. *Crowds.* Where far too many boxes overlap, the search ends and begins again with facets that end near one place, but not at
-//!    one vertex, as further hubs (`crowd`).
+//! 5. *Crowds.* Where far too many boxes overlap, the search ends and begins again with further hubs (`crowd`). These are
+//!    facets that end near one place, but not at one vertex.
 //!
-//! Of several facets with the same three corners only the first is searched (`pairs`).
+//! Only the first of several facets with the same three corners is searched (`pairs`).
 #![allow(unsafe_code, reason = "vector instructions that the processor is known to have")]
 
 mod book;
@@ -53,10 +53,10 @@ const EVERYWHERE: [f32; 6] = {
 /// Pairs of facets of a welded mesh that meet anywhere else than in the vertices or the edge they share: the lower
 /// facet first, sorted.
 ///
-/// Decided exactly for coordinates between 1e-80 and 1e60 in magnitude. Facets without area and facets with the
-/// same three vertices (duplicates) are not looked at. Time grows with the number of pairs of overlapping boxes, about six
-/// a facet on a scan; n facets around one vertex or edge, or upon each other, take n log n and what they find. Facets done
-/// are told to `progress`. The result is the same for any number of threads.
+/// Decided exactly for coordinates between 1e-80 and 1e60 in magnitude. Facets without area and facets with the same three
+/// vertices (duplicates) are not looked at. Time grows with the number of pairs of overlapping boxes, about six a facet on a
+/// scan. Take n facets around one vertex or edge, or upon each other: they cost n log n and the time for the pairs they find.
+/// Facets done are told to `progress`. The result is the same for any number of threads.
 ///
 /// # Errors
 /// [`Cancelled`].
@@ -81,7 +81,7 @@ pub struct Crossings {
 }
 
 impl Crossings {
-    /// What [`first_self_intersections`] tells where these, sorted, are all pairs; `None` where it would have given up.
+    /// The result of [`first_self_intersections`] where these, sorted, are all pairs; `None` where it would have given up.
     pub fn of_all(pairs: &[[u32; 2]], limit: usize) -> Option<Crossings> {
         let first = pairs[..limit.min(pairs.len())].to_vec();
         let known = pairs.len() <= MAX_PAIRS_TO_FIRST.max(limit);
@@ -92,8 +92,8 @@ impl Crossings {
 /// Pairs beyond which the search for the first is given up: a tangle of 20,000 facets may have a hundred million.
 const MAX_PAIRS_TO_FIRST: usize = 1_000_000;
 
-/// As [`self_intersections`], but keeps `limit` pairs only, and counts up to a million. In a tangle the number of pairs
-/// grows with the square of that of the facets: memory and time stay bounded, and the result says so.
+/// As [`self_intersections`], but keeps `limit` pairs only, and counts up to a million. In a tangle the number of pairs grows
+/// with the square of that of the facets. Memory and time stay bounded, and the result says so.
 ///
 /// # Errors
 /// [`Cancelled`].
@@ -146,7 +146,7 @@ pub fn any_self_intersection(
     Ok(with(&search, progress, Level::detect())?.count > 0)
 }
 
-/// What is searched.
+/// The request of a search.
 struct Search<'a> {
     mesh: &'a Mesh,
     topology: &'a Topology,
@@ -210,7 +210,7 @@ fn attempt(
     if progress.cancelled() {
         return Err(Cancelled);
     }
-    // Of a search that found too many pairs all is known that is asked for.
+    // A search that found too many pairs has told all that is asked for.
     if walk.is_crowded() && pairs.count <= most {
         return Ok(None);
     }

@@ -47,7 +47,7 @@ impl Copies {
     }
 }
 
-/// What of the pairs found is of interest.
+/// The pairs found that are of interest.
 #[derive(Clone, Copy)]
 pub(super) struct Wanted<'a> {
     pub copies: &'a Copies,
@@ -61,7 +61,7 @@ pub(super) struct Wanted<'a> {
 pub(super) struct Pairs<'a> {
     pub wanted: Wanted<'a>,
     pub count: usize,
-    /// Those, and perhaps others that are not yet sorted out.
+    /// The pairs of interest, and perhaps others that are not yet sorted out.
     pub first: Vec<[u32; 2]>,
 }
 

@@ -153,8 +153,7 @@ fn a_cancelled_search_says_so() {
     assert_eq!(self_intersections(&mesh, &topology, &Silent), Ok(vec![]));
 }
 
-/// Fans of very many facets around one vertex: flat, on a cone, with corners near and far, and with facets that are not
-/// where they should be.
+/// Fans of very many facets around one vertex: flat, on a cone, with corners near and far, and with facets at wrong places.
 #[test]
 fn vertices_with_very_many_facets() {
     let random = &mut Random::new(4);
@@ -368,7 +367,7 @@ fn books_and_copies_that_cross() {
     assert!(check("copies", &facets) > 1000);
 }
 
-/// Of a tangle the count is a lower bound, and what is listed does not hang on the threads.
+/// The count of a tangle is a lower bound, and the list does not depend on the threads.
 #[test]
 fn a_tangle_is_not_counted_to_the_end() {
     let random = &mut Random::new(8);

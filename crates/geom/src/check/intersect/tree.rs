@@ -1,8 +1,8 @@
 //! Triangles in space-filling order, eight to a leaf, leaves eight to a node, and so on: no pointers.
 //!
-//! Coordinates are kept in single precision. Where those of the mesh are single precision (any STL), that is exact.
-//! Otherwise they are moved and scaled (by a power of two) into [−1, 1] before they are rounded, and `slack` bounds what
-//! rounding has done: boxes are that much larger, and the filter that much more careful.
+//! Coordinates are kept in single precision. Where those of the mesh are single precision (any STL), that is exact. Otherwise
+//! they are moved and scaled (by a power of two) into [−1, 1] before they are rounded, and `slack` bounds that rounding. Boxes
+//! are that much larger, and the filter that much more careful.
 #![expect(unsafe_code, reason = "arrays written by several threads, each place once")]
 #![expect(clippy::needless_range_loop, reason = "axes and lanes are indices into several arrays at once")]
 
@@ -100,8 +100,8 @@ fn spread(x: u32) -> u64 {
     (x | x << 2) & 0x2492_4924_9249
 }
 
-/// Faces that are `wanted`, sorted by the Morton code of the centers of their boxes, as keys; and how many low bits of
-/// a key are the face.
+/// Faces that are `wanted`, sorted by the Morton code of the centers of their boxes, as keys. The low bits of a key, so many,
+/// are the face.
 fn sorted(
     mesh: &Mesh,
     frame: &Frame,
@@ -173,7 +173,7 @@ const NOTHING: Boxes = Boxes([
     [f32::NEG_INFINITY; TREE_WIDTH],
 ]);
 
-/// A leaf and its boxes. Those of the triangles without area, `flat`, stay empty, and these are never found.
+/// A leaf and its boxes. The places of the triangles without area, `flat`, stay empty, and these are never found.
 fn leaf(mesh: &Mesh, frame: &Frame, flat: &[u32], faces: impl Iterator<Item = usize>) -> (Leaf, Boxes) {
     let mut leaf = Leaf {
         at: [[[0.0; TREE_WIDTH]; 3]; 3],

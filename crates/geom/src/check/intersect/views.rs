@@ -1,4 +1,4 @@
-//! What is seen from a place, halved again and again: boxes of directions beside boxes in space.
+//! The facets seen from a place, halved again and again: boxes of directions together with boxes in space.
 
 use crate::space::Aabb;
 use std::ops::Range;
@@ -7,7 +7,7 @@ use std::ops::Range;
 pub struct View {
     /// Which one.
     pub number: u32,
-    /// Of its directions.
+    /// The box of its directions.
     pub seen: Aabb,
     /// Where it lies.
     pub bounds: Aabb,
@@ -29,7 +29,7 @@ pub struct Node {
 const MAX_VIEWS_PER_LEAF: usize = 8;
 
 impl Node {
-    /// Of all views; puts neighbors near each other.
+    /// The box of all views; puts neighbors near each other.
     pub fn of(views: &mut [View]) -> Node {
         node(views, 0)
     }

@@ -1,4 +1,4 @@
-//! Planes along the rim of a facet, and its own plane: a facet of a hub that lies beyond one of them does not meet it.
+//! Planes along the rim of a facet, and its own plane. A facet of a hub that lies beyond one of them does not meet it.
 //!
 //! In a plane, two fans on both sides of a line see each other's facets long and thin, and boxes and directions exclude only half.
 //! But all corners of most of them lie beyond a side of the facet.
@@ -14,13 +14,13 @@ pub(super) struct Walls {
 /// The places `p` with `dot(across, p) <= highest` hold the facet.
 #[derive(Clone, Copy)]
 struct Wall {
-    /// Of length 1, or zero where it parts nothing.
+    /// The normal, of length 1, or zero where it parts nothing.
     across: Vector,
     highest: f64,
 }
 
 impl Walls {
-    /// Those of a triangle that have `center` beyond them.
+    /// The walls of a triangle that have `center` beyond them.
     pub fn of(corners: [Point; 3], center: Point) -> Walls {
         let [a, b, c] = corners;
         let sides = [minus(b, a), minus(c, b), minus(a, c)];

@@ -7,11 +7,11 @@ use crate::space::{Point, cross, dot, minus, norm};
 pub struct Value {
     /// Millimeters, unsigned.
     pub distance: f64,
-    /// What rounding in this evaluation and in that of the exact distance to the same facet may amount to, millimeters.
+    /// Greatest rounding in this evaluation and in that of the exact distance to the same facet, millimeters.
     ///
-    /// Both see differences of coordinates, which are good to half a unit in the last place, so errors go with the
-    /// distances to the corners, not with the coordinates. To a segment that is a dozen roundings. To a plane the
-    /// normal's direction is uncertain too, by 1/sin of the angle between the edges that span it.
+    /// Both see differences of coordinates, which are good to half a unit in the last place. So errors go with the distances to
+    /// the corners, not with the coordinates. To a segment that is a dozen roundings. To a plane the normal's direction is
+    /// uncertain too, by 1/sin of the angle between the edges that span it.
     pub rounding: f64,
 }
 

@@ -11,11 +11,11 @@ const MAX_DIVISIONS: (usize, usize) = (8, 12);
 /// Least points of a part: between fewer the curve may swing as it likes.
 const MIN_POINTS_PER_PART: usize = 3;
 
-/// A curve of degree `degree` within `tolerance` of every point at its parameter, over as few spans as that needs: those
-/// between the rising numbers `spans`, divided where the fit is farther off.
+/// A curve of degree `degree` within `tolerance` of every point at its parameter, over as few spans as that needs. The spans
+/// are those between the rising numbers `spans`, divided where the fit is farther off.
 ///
-/// The error of a fit falls with the power `degree + 1` of the width of its spans, so that it tells how many parts a span needs:
-/// few fits do, where knots taken out one by one need one for each. Parameters stay what they are: for points that follow a curve
+/// The error of a fit falls with the power `degree + 1` of the width of its spans, so it tells how many parts a span needs. Few
+/// fits do, where knots taken out one by one need one for each. Parameters stay what they are: for points that follow a curve
 /// at steps of its length. No span is divided into parts of fewer than three points. Where no more spans are of use, the last
 /// curve is the answer: [`Fitted::max`] says so.
 ///

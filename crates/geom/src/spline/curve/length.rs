@@ -17,7 +17,7 @@ impl<const D: usize> Curve<[f64; D]> {
     /// Length of the curve between two parameters, to about twelve digits; negative where `to < from`.
     ///
     /// Each span is halved until two halves and the whole agree, or differ by no more than the rounding of the control points'
-    /// coordinates: of a curve far shorter than it is away from the origin, fewer digits are known. Not a number, where a
+    /// coordinates. Fewer digits are known of a curve far shorter than it is away from the origin. Not a number, where a
     /// control point is none.
     pub fn length(&self, from: f64, to: f64) -> f64 {
         if to < from {

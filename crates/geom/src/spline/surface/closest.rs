@@ -35,8 +35,8 @@ const LAST_STEP_SHARE: f64 = 1e-9;
 impl Patches {
     /// The place nearest to `point` that a descent from the parameters `start` comes to.
     ///
-    /// Newton's method on the squared distance, kept within the domain; where the distance is not convex, the method of Gauss
-    /// and Newton; steps that do not lead nearer are halved. Cost: some evaluations.
+    /// Newton's method on the squared distance, kept within the domain. Where the distance is not convex, the method of Gauss
+    /// and Newton takes its place. Steps that do not lead nearer are halved. Cost: some evaluations.
     pub fn foot_from(&self, point: Point, start: [f64; 2]) -> SurfaceFoot {
         descend(|at| self.jet(at[0], at[1]), self.domain(), point, start).0
     }
@@ -100,8 +100,8 @@ pub(super) fn descend(
     (foot, jet)
 }
 
-/// The step to the least of a quadratic model, along an edge of the domain where it would leave it there, and whether the
-/// model is Newton's.
+/// The step to the least of a quadratic model, and whether the model is Newton's. It goes along an edge of the domain where it
+/// would leave it there.
 fn step(jet: &Jet, away: Vector, at: [f64; 2], domain: [(f64, f64); 2]) -> ([f64; 2], bool) {
     let [su, sv] = jet.first;
     let gradient = [dot(away, su), dot(away, sv)];
@@ -159,10 +159,10 @@ const MAX_CELL_DEPTH: u32 = 3;
 impl Surface<Point> {
     /// The place nearest to `point`.
     ///
-    /// The surface lies within the box of its control points, also part by part: parts are cut in four, three times over, and those whose
-    /// box is no nearer than the best place are left out; in the others Newton's method starts from the middle and the
-    /// corners. Places equally far may be taken for one another. Cost: some hundred evaluations for each part that is near; for
-    /// many points near the surface take [`Patches::foot_from`].
+    /// The surface lies within the box of its control points, also part by part. Parts are cut in four, three times over, and
+    /// those whose box is no nearer than the best place are left out. In the others Newton's method starts from the middle and
+    /// the corners. Places equally far may be taken for one another. Cost: some hundred evaluations for each part that is near;
+    /// for many points near the surface take [`Patches::foot_from`].
     pub fn closest(&self, point: Point) -> SurfaceFoot {
         let patches = Patches::new(self);
         let [(u0, u1), (v0, v1)] = self.domain();

@@ -4,7 +4,7 @@ use super::{Direction, Nurbs};
 use crate::space::{Aabb, Point, cross, minus, norm, unit};
 use std::fmt;
 
-/// What a surface lacks.
+/// The defect of a surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Degenerate {
     /// All control points lie at one place.
@@ -24,7 +24,8 @@ const NO_SIZE_DIGITS: f64 = 1e-12;
 const SAME_POINT_SHARE: f64 = 1e-9;
 
 impl Nurbs {
-    /// What the surface lacks: nothing of a sound one, one entry where it has no area, else one for each edge that is a single place.
+    /// The defects of the surface: none of a sound one, one entry where it has no area. Else there is one for each edge that is
+    /// a single place.
     ///
     /// ```
     /// use trueness_geom::spline::{basis::Knots, surface::{Degenerate, Direction, Nurbs}};

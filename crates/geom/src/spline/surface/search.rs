@@ -1,10 +1,11 @@
 //! The place of one or several surfaces nearest to a point, beyond doubt.
 //!
-//! Each surface is laid over a grid of cells whose distance from two facets is bounded ([`super::cells`]), and the cells into a tree
-//! of boxes. From a cell that may hold a nearer place than the best one known, Newton's method starts; then the cell is
-//! done away with in one of four ways. Its bound says that it is too far. Or its Bernstein coefficients do ([`super::bernstein`]), which
-//! need no normal. Or it lies within a neighborhood of the best place over which the squared distance is convex, by a bound of its
-//! second derivatives, so that the minimum found is the only one. Or it is halved along what bends more, until its bounds are [`FOOT_TOLERANCE`] of the surfaces' size.
+//! Each surface is laid over a grid of cells whose distance from two facets is bounded ([`super::cells`]), and the cells into a
+//! tree of boxes. Newton's method starts from a cell that may hold a nearer place than the best one known. Then the cell is
+//! done away with in one of four ways. Its bound says that it is too far. Or its Bernstein coefficients do
+//! ([`super::bernstein`]), which need no normal. Or it lies within a neighborhood of the best place over which the squared
+//! distance is convex, by a bound of its second derivatives. Then the minimum found is the only one. Or it is halved along what
+//! bends more, until its bounds are [`FOOT_TOLERANCE`] of the surfaces' size.
 
 use super::Nurbs;
 use super::bernstein::Bernstein;
@@ -84,8 +85,8 @@ struct Best {
     alone: Option<Alone>,
 }
 
-/// A neighborhood of a place in which the squared distance is convex: all within the parameters `from` to `to` whose scaled
-/// distance from `at` is no more than `radius`.
+/// A neighborhood of a place in which the squared distance is convex. It holds all within the parameters `from` to `to` whose
+/// scaled distance from `at` is no more than `radius`.
 struct Alone {
     at: [f64; 2],
     scale: [f64; 2],
@@ -125,7 +126,7 @@ impl FootSearch {
             return Err(FootError::TooMany(pairs));
         }
         let farthest = bounds.min.iter().chain(&bounds.max).fold(0.0, |m: f64, x| m.max(x.abs()));
-        // What is smaller than the rounding of its places is one cell.
+        // A surface smaller than the rounding of its places is one cell.
         let mut slack = (1e-5 * bounds.diagonal()).max(PLACE_ROUNDING * farthest).max(f64::MIN_POSITIVE);
         let bent: Vec<Bent> = surfaces.par_iter().map(Bent::new).collect();
         let cells = |slack: f64| bent.iter().map(|b| b.cells(slack)).sum::<f64>();
@@ -166,8 +167,8 @@ impl FootSearch {
         self.grids.iter().map(of).fold(0.0, f64::max)
     }
 
-    /// The place nearest to a point. Two that are equally far are told apart by the normals: the one whose normal the point
-    /// lies along more is taken, as both sides of a crease must have one sign.
+    /// The place nearest to a point. The normals decide between two that are equally far. The one whose normal the point lies
+    /// along more is taken, as both sides of a crease must have one sign.
     ///
     /// Cost: a few microseconds; a hundred times that where very many places are nearly as near. A point that is not finite
     /// has a distance that is not.
@@ -432,10 +433,10 @@ impl Alone {
 
 /// The neighborhood in which a place is the only minimum, if one can be named.
 ///
-/// Parameters are scaled so that the derivatives have length 1 at the place; with the cosine `c` of their angle, the derivative in
-/// any direction is there at least `√(1 − c)` long, and within `r` of it no shorter than `√(1 − c) − M r`, with a bound `M` of the second
-/// derivatives. Half the second derivative of the squared distance is that squared plus the difference times the second derivative: above
-/// `(√(1 − c) − M r)² − M (d + r (√2 + M r / 2))`.
+/// Parameters are scaled so that the derivatives have length 1 at the place. With the cosine `c` of their angle, the derivative
+/// in any direction is there at least `√(1 − c)` long. Within `r` of it, it is no shorter than `√(1 − c) − M r`, with a bound
+/// `M` of the second derivatives. Half the second derivative of the squared distance is that squared plus the difference times
+/// the second derivative: above `(√(1 − c) − M r)² − M (d + r (√2 + M r / 2))`.
 fn alone(grid: &Grid, part: &Part, foot: &SurfaceFoot, jet: &Jet, p: Point, size: f64) -> Option<Alone> {
     let scale = jet.first.map(norm);
     let away: Vector = minus(jet.place, p);

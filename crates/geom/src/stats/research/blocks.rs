@@ -26,10 +26,10 @@ const MIN_BLOCKS: u64 = 10;
 /// The mean of the finite `values` at `points`, its uncertainty taken from the scatter of whole cubes of side `size`
 /// (millimeters) instead of single points.
 ///
-/// Values in different cubes are taken as independent, those in one cube as correlated in any way whatever: the
-/// cluster-robust variance (Liang and Zeger 1986) with Student's t for the number of cubes. So `size` should exceed the
-/// distance over which deviations go together; too small a size gives too small an interval. The paired differences of
-/// two references may be put in as well as deviations.
+/// Values in different cubes are taken as independent, those in one cube as correlated in any way whatever. The variance is the
+/// cluster-robust one (Liang and Zeger 1986), with Student's t for the number of cubes. So `size` should exceed the distance
+/// over which deviations go together; too small a size gives too small an interval. The paired differences of two references
+/// may be put in as well as deviations.
 ///
 /// # Errors
 /// Fewer than ten occupied cubes, or values that are all equal.

@@ -4,9 +4,9 @@
 //! intervals, JASA 82, 1987; the acceleration from the values' influence (the infinitesimal jackknife).
 //!
 //! Up to [`MAX_DIRECT_VALUES`] values, resamples are drawn value by value. More are gathered first into groups narrower than a
-//! 64th of σ, and each group's share of a resample is a Poisson number (Hanley and MacGibbon, Creating non-parametric
-//! bootstrap samples using Poisson frequencies, 2006). The groups hide 2·10^-5 of the variance at most; an outlier stays
-//! a group of its own.
+//! 64th of σ, and each group's share of a resample is a Poisson number. (Hanley and MacGibbon, Creating non-parametric
+//! bootstrap samples using Poisson frequencies, 2006.) The groups hide 2·10^-5 of the variance at most; an outlier stays a
+//! group of its own.
 
 use super::super::quantiles::{interpolate, position};
 use super::super::sketch::Sketch;
@@ -41,9 +41,9 @@ impl Default for Options {
 /// Intervals, as if the values were independent.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Intervals {
-    /// Of the mean, millimeters.
+    /// Interval of the mean, millimeters.
     pub mean: [f64; 2],
-    /// Of the sample standard deviation, millimeters.
+    /// Interval of the sample standard deviation, millimeters.
     pub std_dev: [f64; 2],
     /// Values behind them.
     pub count: u64,
@@ -89,7 +89,7 @@ pub fn bootstrap_sketch(sketch: &Sketch, options: &Options) -> Result<Intervals,
     resample(&groups, false, options)
 }
 
-/// Of values with counts.
+/// Moments of values with counts.
 struct Moments {
     count: u64,
     mean: f64,

@@ -1,7 +1,7 @@
 //! Are the deviations normally distributed?
 //!
-//! With the many points of a scan every real distribution is found not to be normal; the size of skewness and kurtosis
-//! tells more than the p value.
+//! With the many points of a scan every real distribution is found not to be normal. The size of skewness and kurtosis tells
+//! more than the p value.
 
 use super::super::statistics::{Missing, Statistics, Summary};
 use crate::num::special::normal_below;

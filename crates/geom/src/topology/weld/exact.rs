@@ -3,10 +3,10 @@
 //! Positions are the same when all three coordinates have the same bits, −0 counting as 0 (and a NaN as itself).
 //!
 //! One open-addressing table serves all threads. A slot holds one more than the number of the item that stands for its
-//! position; coordinates are compared where they lie (in the caller's file, for example), so a slot is four bytes.
-//! A thread that meets a position represented by a later item than its own takes the slot over and leaves a forwarding
-//! entry; following those at the end leads to the first item, whatever the threads did. Slots are prefetched a batch
-//! ahead: the table is larger than any cache, and most of the time of a weld is spent waiting for memory.
+//! position. Coordinates are compared where they lie (in the caller's file, for example), so a slot is four bytes. A thread may
+//! meet a position represented by a later item than its own. It takes the slot over and leaves a forwarding entry; following
+//! those at the end leads to the first item, whatever the threads did. Slots are prefetched a batch ahead. The table is larger
+//! than any cache, and most of the time of a weld is spent waiting for memory.
 
 use super::bits::Bits;
 use super::error::{MAX_FACETS, WeldError};
@@ -143,8 +143,8 @@ fn first_of_its_kind<P: Position>(
     item: &(impl Fn(usize) -> P + Sync),
 ) -> Vec<AtomicU32> {
     let first = atomics(n);
-    // A table that is found too full still takes in the chunks under way, one for each thread: it must have room for
-    // them above its limit, or be large enough for everything.
+    // A table that is found too full still takes in the chunks under way, one for each thread. It must have room for them above
+    // its limit, or be large enough for everything.
     let under_way = rayon::current_num_threads() * WELDED_ITEMS_PER_TASK;
     let mut size = (2 * expected).max(3 * under_way).min(2 * n).max(2).next_power_of_two();
     while !enter(size, item, &first) {

@@ -14,7 +14,7 @@ pub(super) fn misfit(datum: usize, angle: f64) -> DatumError {
     }
 }
 
-/// What is fixed so far.
+/// The motions fixed so far.
 #[derive(Default)]
 pub(super) struct State {
     z: Option<Vector>,

@@ -1,9 +1,10 @@
 //! Ideal elements that share an axis or an attitude, associated with several features at once.
 //!
-//! The unknowns are small motions of the frame that all elements share, and one size a feature: the radius of a cylinder,
-//! the height of a plane. Least squares by Levenberg and Marquardt's steps (D. W. Marquardt, 1963); least greatest
-//! distance by a sequence of linear programs, each within a box that grows while the linear model holds (R. Fletcher,
-//! Practical Methods of Optimization, 1987, section 14), over a working set that takes in what sticks out most.
+//! The unknowns are small motions of the frame that all elements share, and one size a feature. The size is the radius of a
+//! cylinder, the height of a plane. Least squares go by Levenberg and Marquardt's steps (D. W. Marquardt, 1963). The least
+//! greatest distance is found by a sequence of linear programs, each within a box that grows while the linear model holds. (R.
+//! Fletcher, Practical Methods of Optimization, 1987, section 14.) They go over a working set that takes in the points that
+//! stick out most.
 
 use super::Source;
 use crate::fit::{Function, HIDDEN_FALL, MAX_JOINING_POINTS, MAX_POINTS_ALL_WORKING, lowest};
@@ -19,7 +20,7 @@ pub(super) const MAX_COMMON_FEATURES: usize = 3;
 /// Unknowns: shifts along x and y, tilts towards x and y, the sizes.
 const JOINT_UNKNOWNS: usize = 4 + MAX_COMMON_FEATURES;
 
-/// What the elements share.
+/// The form that the elements share.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Form {
     /// An axis: z of the frame. Cylinders of any radii, and lines.
@@ -82,7 +83,7 @@ impl<'a> Joint<'a> {
         stand
     }
 
-    /// What a size is the mean of: distance from the axis, or height.
+    /// The quantity whose mean a size is: distance from the axis, or height.
     fn reading(&self, pose: &Pose, q: Point) -> f64 {
         let [x, y, z] = pose.local(q);
         if self.form == Form::Axis { libm::hypot(x, y) } else { z }
