@@ -128,7 +128,7 @@ impl PairTable {
     }
 
     /// Where the pairs of the reference are that lie to each other about as these two: those of its cell and of the nearer neighbors.
-    fn near(&self, a: Oriented, b: Oriented) -> impl Iterator<Item = std::ops::Range<usize>> + '_ {
+    fn ranges_near(&self, a: Oriented, b: Oriented) -> impl Iterator<Item = std::ops::Range<usize>> + '_ {
         let limits = [self.lengths, CELLS_PER_ANGLE, CELLS_PER_ANGLE, CELLS_PER_ANGLE];
         let relation = Relation::of(a, b, self.step, 0.0, &self.walls);
         // The cell in which a number lies, and the one on the side to which it is nearer: from the lower of both on.
@@ -149,12 +149,12 @@ impl PairTable {
 
     /// The pairs of the reference that lie to each other about as these two.
     pub fn like(&self, a: Oriented, b: Oriented) -> Vec<[u16; 2]> {
-        self.near(a, b).flat_map(|range| &self.pairs[range]).copied().collect()
+        self.ranges_near(a, b).flat_map(|range| &self.pairs[range]).copied().collect()
     }
 
     /// How many these are.
     pub fn count_like(&self, a: Oriented, b: Oriented) -> usize {
-        self.near(a, b).map(|range| range.len()).sum()
+        self.ranges_near(a, b).map(|range| range.len()).sum()
     }
 
     /// The motion that lays the measured pair on a pair of the reference. `None` where a frame has no direction.

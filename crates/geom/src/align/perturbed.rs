@@ -49,13 +49,13 @@ struct Far {
 impl Searched<'_> {
     /// The lowest pose near `start`, no higher than that: takes the points to where their distances are told.
     pub fn lowest(&self, start: Rigid, progress: &dyn Progress) -> Result<Placed, AlignError> {
-        let mut far = self.far(&start)?;
+        let mut far = self.farthest_at(&start)?;
         let mut best = self.ended(start, &far.farthest, Freedom::ALL, progress)?;
         if best.half > far.excess {
             best = self.ended(start, &[], Freedom::NONE, progress)?;
         }
         for round in 0..MAX_POSE_ROUNDS as u64 {
-            far = self.far(&best.motion)?;
+            far = self.farthest_at(&best.motion)?;
             let low = best.half - MIN_FALL_SHARE * far.greatest;
             let mut ends = self.tried(&far, &best.motion, round, progress);
             ends.retain(|end| end.half < low);
@@ -85,7 +85,7 @@ impl Searched<'_> {
     }
 
     /// The points that stick out most at a pose.
-    fn far(&self, motion: &Rigid) -> Result<Far, AlignError> {
+    fn farthest_at(&self, motion: &Rigid) -> Result<Far, AlignError> {
         let far = |(i, p): (usize, &Point)| Some((self.distance)(i, motion.point(*p))?.0.abs());
         let far: Option<Vec<f64>> = self.points.par_iter().enumerate().map(far).collect();
         let far = far.ok_or(AlignError::NotSettled)?;

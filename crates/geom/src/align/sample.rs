@@ -94,7 +94,7 @@ impl Samples {
         let total: f64 = mesh.faces.iter().map(|f| norm(double_area(mesh, f))).sum();
         for face in &mesh.faces {
             let double = double_area(mesh, face);
-            let parts = parts(double, total);
+            let parts = side_parts(double, total);
             samples.spread(mesh.places(face), double, parts);
         }
         samples.weights.iter_mut().for_each(|w| *w /= total);
@@ -108,7 +108,7 @@ impl Samples {
         for (number, face) in mesh.faces.iter().enumerate() {
             let double = double_area(mesh, face);
             if unit(double).is_some() {
-                let rows = parts(double, total).ceil() as usize;
+                let rows = side_parts(double, total).ceil() as usize;
                 facets.extend(std::iter::repeat_n(number as u32, rows * rows));
             }
         }
@@ -284,7 +284,7 @@ const FACET_PART_SHARE: f64 = 1.0 / 4000.0;
 const MAX_PLACE_SHARE: f64 = 1.0 / 50_000.0;
 
 /// Parts into which the sides of a facet are cut where the whole surface is represented.
-fn parts(double: Vector, total: f64) -> f64 {
+fn side_parts(double: Vector, total: f64) -> f64 {
     (norm(double) / (MAX_PLACE_SHARE * total)).sqrt()
 }
 

@@ -131,7 +131,7 @@ pub struct BoundaryEdges {
 impl BoundaryEdges {
     /// Linear time, as [`Signs::new`](super::Signs::new).
     pub fn new(tree: &Tree) -> Self {
-        BoundaryEdges::found(tree, &Silent)
+        BoundaryEdges::with_progress(tree, &Silent)
     }
 
     /// As [`BoundaryEdges::new`], asking `progress` whether to go on.
@@ -139,11 +139,11 @@ impl BoundaryEdges {
     /// # Errors
     /// [`Cancelled`].
     pub fn watched(tree: &Tree, progress: &dyn Progress) -> Result<Self, Cancelled> {
-        let edges = BoundaryEdges::found(tree, progress);
+        let edges = BoundaryEdges::with_progress(tree, progress);
         if progress.cancelled() { Err(Cancelled) } else { Ok(edges) }
     }
 
-    fn found(tree: &Tree, progress: &dyn Progress) -> Self {
+    fn with_progress(tree: &Tree, progress: &dyn Progress) -> Self {
         let across = Fans::new(tree).across(progress);
         let mut on_rim = vec![false; tree.corners.len()];
         let mut count = 0;

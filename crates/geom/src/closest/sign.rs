@@ -59,7 +59,7 @@ fn angle(t: &[Point; 3], i: usize) -> f64 {
 impl Signs {
     /// Finds neighbors and corner normals, in linear time where no two vertices with more than 64 faces are neighbors. The result does not depend on the number of threads.
     pub fn new(tree: &Tree) -> Self {
-        Signs::found(tree, &Silent)
+        Signs::with_progress(tree, &Silent)
     }
 
     /// As [`Signs::new`], asking `progress` whether to go on.
@@ -67,12 +67,12 @@ impl Signs {
     /// # Errors
     /// [`Cancelled`].
     pub fn watched(tree: &Tree, progress: &dyn Progress) -> Result<Self, Cancelled> {
-        let signs = Signs::found(tree, progress);
+        let signs = Signs::with_progress(tree, progress);
         if progress.cancelled() { Err(Cancelled) } else { Ok(signs) }
     }
 
     /// Worth nothing where `progress` says that it is cancelled.
-    fn found(tree: &Tree, progress: &dyn Progress) -> Self {
+    fn with_progress(tree: &Tree, progress: &dyn Progress) -> Self {
         let fans = Fans::new(tree);
         let of_vertex = |v: u32| {
             if v.is_multiple_of(ITEMS_PER_QUESTION) && progress.cancelled() {

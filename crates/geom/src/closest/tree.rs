@@ -6,7 +6,7 @@
 //!
 //! **Leaf frames.** A leaf holds each triangle in the triangle's own right-handed orthonormal frame. The origin is a corner
 //! `A`, `x` runs along the longest edge `AB`, `y` in the plane towards `C`, `z` along the normal. A query is moved into the
-//! frame by nine multiply-adds. What remains is the distance in a plane to a triangle with one side on the x axis; see
+//! frame by nine multiply-adds. The remaining task is the distance in a plane to a triangle with one side on the x axis; see
 //! `kernel`. A rotation is perfectly conditioned. So the error of the computed distance is a few roundings of the lengths
 //! involved for *every* triangle, needles and points included. A Gram matrix (the usual barycentric way) loses digits with the
 //! square of the aspect ratio and costs about 70 instead of 45 operations.

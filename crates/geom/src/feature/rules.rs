@@ -22,14 +22,14 @@ enum CheckedNominal {
     Edge { point: Point, direction: Vector, length: f64, normals: [Vector; 2] },
 }
 
-fn way(what: &'static str, v: Vector) -> Result<Vector, FeatureError> {
+fn checked_direction(what: &'static str, v: Vector) -> Result<Vector, FeatureError> {
     if v.iter().any(|x| !x.is_finite()) {
         return Err(FeatureError::NotFinite);
     }
     unit(v).map(|u| u.0).ok_or(FeatureError::NoDirection { what })
 }
 
-fn size(what: &'static str, value: f64) -> Result<f64, FeatureError> {
+fn checked_size(what: &'static str, value: f64) -> Result<f64, FeatureError> {
     match value {
         _ if !value.is_finite() => Err(FeatureError::NotFinite),
         _ if value > 0.0 => Ok(value),
@@ -48,30 +48,30 @@ impl<'a> Rules<'a> {
                 for corner in boundary {
                     place(*corner)?;
                 }
-                let normal = way("normal", *normal)?;
+                let normal = checked_direction("normal", *normal)?;
                 let boundary = Polygon::new(*point, normal, boundary).ok_or(FeatureError::Boundary)?;
                 CheckedNominal::Plane { point: place(*point)?, normal, boundary }
             }
             Nominal::Cylinder { point, direction, radius, length } => CheckedNominal::Cylinder {
                 point: place(*point)?,
-                direction: way("direction", *direction)?,
-                radius: size("radius", *radius)?,
-                length: size("length", *length)?,
+                direction: checked_direction("direction", *direction)?,
+                radius: checked_size("radius", *radius)?,
+                length: checked_size("length", *length)?,
             },
             Nominal::Cone { apex, direction, half_angle, between: [from, to] } => CheckedNominal::Cone {
                 apex: place(*apex)?,
-                direction: way("direction", *direction)?,
-                half_angle: size("half angle", *half_angle)?,
-                between: [from.min(*to), size("end", from.max(*to))?],
+                direction: checked_direction("direction", *direction)?,
+                half_angle: checked_size("half angle", *half_angle)?,
+                between: [from.min(*to), checked_size("end", from.max(*to))?],
             },
             Nominal::Sphere { center, radius } => {
-                CheckedNominal::Sphere { center: place(*center)?, radius: size("radius", *radius)? }
+                CheckedNominal::Sphere { center: place(*center)?, radius: checked_size("radius", *radius)? }
             }
             Nominal::Edge { point, direction, length, normals: [a, b] } => CheckedNominal::Edge {
                 point: place(*point)?,
-                direction: way("direction", *direction)?,
-                length: size("length", *length)?,
-                normals: [way("first normal", *a)?, way("second normal", *b)?],
+                direction: checked_direction("direction", *direction)?,
+                length: checked_size("length", *length)?,
+                normals: [checked_direction("first normal", *a)?, checked_direction("second normal", *b)?],
             },
         };
         Ok(Rules { near, kind })

@@ -87,7 +87,7 @@ pub(super) fn optimum<const P: usize, F: Family<P>>(
         return Err(FitError::Cancelled);
     }
     let best = F::settled(best);
-    let mut optimum = around::<P, F>(&best, sample, FULL).ok_or_else(|| nothing(sample, kind))?;
+    let mut optimum = local_minimum::<P, F>(&best, sample, FULL).ok_or_else(|| nothing(sample, kind))?;
     let settled = F::settled(optimum.element);
     if settled != optimum.element {
         // The sums belong to the frame they were taken in.
@@ -98,7 +98,7 @@ pub(super) fn optimum<const P: usize, F: Family<P>>(
 }
 
 /// The local minimum reached from `start`, or the corner beside it if that is lower.
-fn around<const P: usize, F: Family<P>>(
+fn local_minimum<const P: usize, F: Family<P>>(
     start: &Element,
     sample: &Sample,
     effort: Effort,
@@ -120,7 +120,7 @@ pub(super) fn quick<const P: usize, F: Family<P>>(sample: &Sample) -> Option<Ele
 /// again while their points change.
 pub(super) fn improved<const P: usize, F: Family<P>>(sample: &Sample, start: &Shape) -> Option<(Shape, f64)> {
     let start = F::element(start, sample)?;
-    let found = around::<P, F>(&start, sample, ROUGH)?;
+    let found = local_minimum::<P, F>(&start, sample, ROUGH)?;
     let element = F::settled(found.element);
     let rms = (found.sums.square / found.sums.weight).sqrt() / sample.scale;
     Some((F::shape(&element, sample), rms))

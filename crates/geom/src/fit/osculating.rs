@@ -37,7 +37,7 @@ pub(super) fn cones<F: Family<6>>(points: &[Point]) -> Vec<Element> {
     let scatter = Scatter::of(points);
     let judging = judges(points, &scatter);
     let cones = |poses: Vec<Pose>| -> Vec<(f64, Element)> {
-        poses.iter().map(|pose| about::<F>(pose, &judging)).collect()
+        poses.iter().map(|pose| cone_about::<F>(pose, &judging)).collect()
     };
     let mut first = best(cones(all_around(points, &scatter)), MAX_IMPROVED_CONES);
     first.extend(best(cones(from_within(points, &scatter)), MAX_IMPROVED_CONES));
@@ -83,7 +83,7 @@ fn from_tip(tip: Point, points: &[Point]) -> Pose {
 
 /// The cone with its apex near `tip`.
 pub(super) fn with_apex<F: Family<6>>(tip: Point, points: &[Point]) -> Element {
-    F::settled(refooted(about::<F>(&from_tip(tip, points), points).1, [0.0; 3]))
+    F::settled(refooted(cone_about::<F>(&from_tip(tip, points), points).1, [0.0; 3]))
 }
 
 /// The `count` best.
@@ -102,7 +102,7 @@ pub(super) fn refooted(element: Element, place: Point) -> Element {
 }
 
 /// The best cone about the third axis of a frame, and the sum of the squared distances.
-fn about<F: Family<6>>(pose: &Pose, points: &[Point]) -> (f64, Element) {
+fn cone_about<F: Family<6>>(pose: &Pose, points: &[Point]) -> (f64, Element) {
     let section: Vec<[f64; 2]> = (points.iter())
         .map(|&p| {
             let [x, y, z] = pose.local(p);

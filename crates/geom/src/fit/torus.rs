@@ -117,11 +117,14 @@ fn bent(powers: &Powers, principal: &[Vector; 3], points: &[Point]) -> Vec<Eleme
 
 /// The `count` best tori about the axes of the frames.
 fn ranked(frames: impl Iterator<Item = Pose>, points: &[Point], count: usize) -> Vec<Element> {
-    best(frames.flat_map(|frame| about(&frame, points)).map(|torus| judged(torus, points)).collect(), count)
+    best(
+        frames.flat_map(|frame| tori_about(&frame, points)).map(|torus| judged(torus, points)).collect(),
+        count,
+    )
 }
 
 /// Tori about the axis of `frame`: circles through height over distance from it.
-fn about(frame: &Pose, points: &[Point]) -> Vec<Element> {
+fn tori_about(frame: &Pose, points: &[Point]) -> Vec<Element> {
     let section: Vec<Point> = points
         .iter()
         .map(|&p| {

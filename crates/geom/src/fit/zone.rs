@@ -186,7 +186,7 @@ impl<'a, const P: usize, F: Family<P>> Search<'a, P, F> {
             let before = self.working.len();
             let worst = self.join(&low.element, low.value + TOUCHING_ROUNDING, &blocks);
             if worst <= low.value + TOUCHING_ROUNDING || self.working.len() == before {
-                return self.near(&low, &blocks).then_some(low);
+                return self.belongs_to_feature(&low, &blocks).then_some(low);
             }
             element = low.element;
         }
@@ -195,7 +195,7 @@ impl<'a, const P: usize, F: Family<P>> Search<'a, P, F> {
 
     /// Whether the optimum belongs to the feature. It has not left through a gap between the points, and its distances range
     /// not much farther than those of the first element.
-    fn near(&self, low: &Low, blocks: &[survey::Survey]) -> bool {
+    fn belongs_to_feature(&self, low: &Low, blocks: &[survey::Survey]) -> bool {
         let most = OTHER_OPTIMUM_RANGE * self.range.max(TOUCHING_ROUNDING);
         self.only_one || (range(blocks) <= most && !(self.aim.pinned && low.value.abs() > most))
     }

@@ -78,7 +78,7 @@ const MIN_PATCHES: usize = 8;
 /// # Errors
 /// [`NoNoise`]: too few vertices that hang together, a coordinate that is no number, a facet that names no vertex, cancelled.
 pub fn mesh(mesh: &Mesh, seed: u64, progress: &dyn Progress) -> Result<Noise, NoNoise> {
-    found(mesh, None, seed, progress)
+    noise_of(mesh, None, seed, progress)
 }
 
 /// The noise of `N` points, millimeters. Neighbors are the nearest ones. As [`mesh()`] otherwise.
@@ -86,7 +86,7 @@ pub fn mesh(mesh: &Mesh, seed: u64, progress: &dyn Progress) -> Result<Noise, No
 /// # Errors
 /// As [`mesh()`].
 pub fn cloud(points: &[Point], seed: u64, progress: &dyn Progress) -> Result<Noise, NoNoise> {
-    found(&Mesh { positions: points.to_vec(), faces: vec![] }, None, seed, progress)
+    noise_of(&Mesh { positions: points.to_vec(), faces: vec![] }, None, seed, progress)
 }
 
 /// The noise of the `V` vertices of a mesh, or without facets of `V` points, whose distances from surfaces fitted to them are
@@ -96,10 +96,10 @@ pub fn cloud(points: &[Point], seed: u64, progress: &dyn Progress) -> Result<Noi
 /// # Errors
 /// As [`mesh()`].
 pub fn about(scan: &Mesh, distances: &[f64], seed: u64, progress: &dyn Progress) -> Result<Noise, NoNoise> {
-    found(scan, Some(distances), seed, progress)
+    noise_of(scan, Some(distances), seed, progress)
 }
 
-fn found(
+fn noise_of(
     scan: &Mesh,
     distances: Option<&[f64]>,
     seed: u64,
@@ -116,13 +116,13 @@ fn found(
         false => Box::new(OnMesh::new(scan, counts)?),
     };
     let all = Places { points, counted: &counted, around: &*around, distances };
-    let wide = all.from_patches(POINTS_PER_PATCH[0], seed, progress);
+    let wide = all.noise_of_patches(POINTS_PER_PATCH[0], seed, progress);
     let looks_like_noise = |n: &Noise| n.even().is_ok() && n.deviation <= FORM_LIKE_NOISE_SHARE * n.spacing;
     if matches!(wide, Err(NoNoise::Cancelled(_))) || wide.as_ref().is_ok_and(looks_like_noise) {
         return wide;
     }
     let great = wide.as_ref().map_or(f64::INFINITY, |n| n.deviation);
-    match all.from_patches(POINTS_PER_PATCH[1], seed, progress) {
+    match all.noise_of_patches(POINTS_PER_PATCH[1], seed, progress) {
         Err(NoNoise::Cancelled(e)) => Err(e.into()),
         Ok(narrow)
             if narrow.unevenness <= MAX_SMALL_UNEVENNESS
@@ -144,7 +144,7 @@ struct Places<'a> {
 
 impl Places<'_> {
     /// The noise that patches of so many points tell.
-    fn from_patches(&self, size: usize, seed: u64, progress: &dyn Progress) -> Result<Noise, NoNoise> {
+    fn noise_of_patches(&self, size: usize, seed: u64, progress: &dyn Progress) -> Result<Noise, NoNoise> {
         let Places { points, counted, around, distances } = self;
         let count = MAX_PATCHES.min(PATCHES_PER_POINT * counted.len() / size);
         let centers = Random::new(seed).choose(count, counted.len());

@@ -116,12 +116,12 @@ impl Drawn<'_> {
             let Some(shape) = shapes[face] else { continue };
             let own: Vec<u32> =
                 facets[face].iter().copied().filter(|f| of_facets[*f as usize] == face as u32).collect();
-            let side = own.iter().filter_map(|f| self.along(&shape, *f)).sum::<f64>().signum();
+            let side = own.iter().filter_map(|f| self.cosine_to(&shape, *f)).sum::<f64>().signum();
             let bulge = MAX_BULGE_RATIO * own.iter().map(|f| self.bulge(&shape, *f)).fold(0.0, f64::max);
             let bulge = bulge.max(self.limit);
             let is_on = |f: u32| {
                 self.corners(f).iter().all(|p| shape.distance(*p).abs() <= bulge)
-                    && self.along(&shape, f).is_some_and(|along| side * along >= self.smooth)
+                    && self.cosine_to(&shape, f).is_some_and(|along| side * along >= self.smooth)
                     && self.bulge(&shape, f) <= bulge
             };
             let mut waiting = own;
@@ -171,8 +171,8 @@ impl Drawn<'_> {
     }
 
     /// Cosine of the angle of a facet to its element; `None` of one without area.
-    fn along(&self, shape: &Shape, facet: u32) -> Option<f64> {
-        along(shape, self.corners(facet), self.normals[facet as usize]?)
+    fn cosine_to(&self, shape: &Shape, facet: u32) -> Option<f64> {
+        cosine_to(shape, self.corners(facet), self.normals[facet as usize]?)
     }
 
     /// How far an element bulges over the middle of a facet, mm.
@@ -208,7 +208,7 @@ pub fn element(mesh: &Mesh, facets: &[u32], kind: Kind, angle: f64) -> Option<Sh
     let limit = rounding(&places).max(MAX_CHORD_SHARE * Aabb::of(&places).diagonal());
     let facing = |f: &u32| {
         let corners = mesh.corners(*f);
-        along(&shape, corners, normal(mesh, *f)?)
+        cosine_to(&shape, corners, normal(mesh, *f)?)
     };
     let along: Vec<f64> = facets.iter().filter_map(facing).collect();
     let side = along.iter().sum::<f64>().signum();
@@ -216,7 +216,7 @@ pub fn element(mesh: &Mesh, facets: &[u32], kind: Kind, angle: f64) -> Option<Sh
     (is_on && along.iter().all(|c| side * c >= libm::cos(angle))).then_some(shape)
 }
 
-fn along(shape: &Shape, corners: [Point; 3], facing: Vector) -> Option<f64> {
+fn cosine_to(shape: &Shape, corners: [Point; 3], facing: Vector) -> Option<f64> {
     Some(dot(facing, unit(shape.normal(middle(corners)))?.0))
 }
 

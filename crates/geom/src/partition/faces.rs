@@ -229,7 +229,7 @@ impl Face {
         let within: Vec<f64> = match &self.extent {
             FaceExtent::Nominal(extent) => feet.par_iter().map(|p| extent.within(*p)).collect(),
             FaceExtent::Points { tree, apart, .. } => {
-                feet.par_iter().map(|p| beyond(tree, *apart, p)).collect()
+                feet.par_iter().map(|p| gap_to_points(tree, *apart, p)).collect()
             }
             FaceExtent::Facets(facets) => match self.shape {
                 Some(_) => facets.within(&feet, far, progress)?,
@@ -304,7 +304,7 @@ fn searched(p: Point) -> Point {
 }
 
 /// Infinite within measured points; how far beyond them, below zero.
-fn beyond(points: &PointTree, apart: f64, p: &Point) -> f64 {
+fn gap_to_points(points: &PointTree, apart: f64, p: &Point) -> f64 {
     let away = points.nearest(p).map_or(f64::INFINITY, |n| n.0.sqrt());
     if away <= apart { f64::INFINITY } else { apart - away }
 }

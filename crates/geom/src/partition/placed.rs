@@ -56,7 +56,7 @@ impl Placed {
             face.shape.filter(|s| places.len() >= PLACES_PER_UNKNOWN * s.kind().unknowns()).and_then(|s| {
                 let options = Options { method: Method::Robust, start: Some(s), seed };
                 let found = fit(&places, s.kind(), &options, &Silent).ok()?;
-                found.converged.then(|| with(Some(alike(found.shape, face, &places))))
+                found.converged.then(|| with(Some(facing_as(found.shape, face, &places))))
             });
         fitted.filter(|fitted| fitted.deviation < CLEAR_FIT_SHARE * moved.deviation).unwrap_or(moved)
     }
@@ -71,7 +71,7 @@ impl Placed {
 }
 
 /// The same element, planes with their normal to the side of the face's.
-fn alike(found: Shape, face: &Face, places: &[Point]) -> Shape {
+fn facing_as(found: Shape, face: &Face, places: &[Point]) -> Shape {
     match (found, face.shape, places.first()) {
         (Shape::Plane { point, normal }, Some(nominal), Some(p)) => {
             let turned = crate::space::dot(normal, nominal.normal(*p)) < 0.0;

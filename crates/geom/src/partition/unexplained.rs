@@ -296,7 +296,7 @@ impl Over<'_> {
             if deep < MIN_OTHER_POINTS {
                 continue;
             }
-            let own = own.entry(face).or_insert_with(|| self.own(face));
+            let own = own.entry(face).or_insert_with(|| self.points_of_face(face));
             if self.is_closed((face, own), &points, seed, progress)? {
                 found.extend(points.into_iter().map(|p| (p, face)));
             }
@@ -335,7 +335,7 @@ impl Over<'_> {
     }
 
     /// The points of a face.
-    fn own(&self, face: u32) -> PointTree {
+    fn points_of_face(&self, face: u32) -> PointTree {
         let own = (0..self.points.len()).filter(|p| self.owners[*p] == face).map(|p| self.points[p]);
         PointTree::new(&own.collect::<Vec<Point>>())
     }
@@ -345,7 +345,7 @@ impl Over<'_> {
         if over.is_empty() || self.rounded == 0.0 {
             return vec![true; over.len()];
         }
-        let tree = self.own(face);
+        let tree = self.points_of_face(face);
         let is_gap = |beyond: &Beyond| {
             let p = self.points[beyond.point as usize];
             let normal = self.faces[face as usize].facing(&p);

@@ -59,7 +59,7 @@ fn is_drawn(mesh: &Mesh, normals: &[Vector], areas: &[f64], first: &[u32], other
 /// Whether the four corners of two facets lie in one plane, where each may be off by `step`. The volume between them is then no
 /// more than that of `step` over the four sides.
 fn is_flat(mesh: &Mesh, one: [u32; 3], other: [u32; 3], step: f64) -> bool {
-    let Some(far) = beyond(other, one) else { return false };
+    let Some(far) = other_corner(other, one) else { return false };
     let [a, b, c, d] = [one[0], one[1], one[2], far].map(|v| mesh.positions[v as usize]);
     let sides = [[a, b, c], [a, b, d], [a, c, d], [b, c, d]];
     let area: f64 = sides.iter().map(|[p, q, r]| norm(cross(minus(*q, *p), minus(*r, *p)))).sum();
@@ -68,13 +68,13 @@ fn is_flat(mesh: &Mesh, one: [u32; 3], other: [u32; 3], step: f64) -> bool {
 
 /// Whether the sides of one facet are as long as those of the other, at both ends of their edge.
 fn is_mirrored(mesh: &Mesh, one: [u32; 3], other: [u32; 3], step: f64) -> bool {
-    let (Some(near), Some(far)) = (beyond(one, other), beyond(other, one)) else { return false };
+    let (Some(near), Some(far)) = (other_corner(one, other), other_corner(other, one)) else { return false };
     let length = |from: u32, to: u32| norm(minus(mesh.positions[from as usize], mesh.positions[to as usize]));
     one.into_iter().filter(|v| *v != near).all(|v| (length(near, v) - length(far, v)).abs() <= 2.0 * step)
 }
 
 /// The corner of one facet that the other does not have.
-fn beyond(of: [u32; 3], not: [u32; 3]) -> Option<u32> {
+fn other_corner(of: [u32; 3], not: [u32; 3]) -> Option<u32> {
     of.into_iter().find(|v| !not.contains(v))
 }
 

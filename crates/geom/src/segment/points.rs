@@ -21,8 +21,8 @@ pub(super) fn surface(points: &[Point]) -> PieceGraph<'_> {
     let found: Vec<(Vector, Vec<[u32; 2]>)> = (points.par_iter().enumerate())
         .map(|(i, p)| {
             let i = i as u32;
-            let (normal, near) = about(points, &tree, p, i);
-            let around = around(points, p, normal, &near);
+            let (normal, near) = normal_at(points, &tree, p, i);
+            let around = growth_neighbors(points, p, normal, &near);
             (normal, around.into_iter().flat_map(|n| [[i, n], [n, i]]).collect())
         })
         .collect();
@@ -46,7 +46,7 @@ pub(super) fn surface(points: &[Point]) -> PieceGraph<'_> {
 }
 
 /// Normal at point `i`, which lies at `p`, and the neighbors that made it, nearest first.
-fn about(points: &[Point], tree: &PointTree, p: &Point, i: u32) -> (Vector, Vec<Neighbor>) {
+fn normal_at(points: &[Point], tree: &PointTree, p: &Point, i: u32) -> (Vector, Vec<Neighbor>) {
     let places =
         |near: &[Neighbor]| -> Vec<Point> { near.iter().map(|n| points[n.1 as usize]).chain([*p]).collect() };
     let near = tree.k_nearest(p, NORMAL_NEIGHBOR_COUNTS[0], Some(i));
@@ -60,7 +60,7 @@ fn about(points: &[Point], tree: &PointTree, p: &Point, i: u32) -> (Vector, Vec<
 
 /// The neighbors that a region grows to from `p`. They are the nearest one in each direction along the surface, and then the
 /// nearest of the others. The nearest of all may lie on one row.
-fn around(points: &[Point], p: &Point, normal: Vector, near: &[Neighbor]) -> Vec<u32> {
+fn growth_neighbors(points: &[Point], p: &Point, normal: Vector, near: &[Neighbor]) -> Vec<u32> {
     let first = near.iter().find_map(|n| {
         let q = minus(points[n.1 as usize], *p);
         unit(minus(q, times(dot(q, normal), normal)))

@@ -181,10 +181,10 @@ impl Sketch {
     /// The errors of [`Histogram::new`].
     pub fn histogram(&self, edges: &[f64]) -> Result<Histogram, EdgesError> {
         let mut moved: Vec<f64> =
-            Histogram::new(edges.to_vec())?.edges.iter().map(|e| Sketch::around(*e).0).collect();
+            Histogram::new(edges.to_vec())?.edges.iter().map(|e| Sketch::bin_of(*e).0).collect();
         // The upper edge of the last bin belongs to it: it is the last value before the next sketch bin.
         if let (Some(last), Some(edge)) = (moved.last_mut(), edges.last()) {
-            *last = Sketch::around(*edge).1;
+            *last = Sketch::bin_of(*edge).1;
         }
         moved.dedup();
         let mut histogram = Histogram::new(moved)?;

@@ -170,8 +170,9 @@ impl ControlChart {
             let nearest = [lower.map(|l| self.mean - l), upper.map(|u| u - self.mean)];
             let nearest = nearest.into_iter().flatten().min_by(f64::total_cmp);
             let wide = both.zip(spread).map(|(width, s)| wide(width / (6.0 * s), freedom, confidence));
-            let near =
-                nearest.zip(spread).map(|(room, s)| near(room / (3.0 * s), self.count, freedom, confidence));
+            let near = nearest
+                .zip(spread)
+                .map(|(room, s)| index_of_mean(room / (3.0 * s), self.count, freedom, confidence));
             (wide, near)
         };
         let ((cp, cpk), (pp, ppk)) = (by(self.within, 0.605 * freedom), by(self.std_dev, freedom));
@@ -187,7 +188,7 @@ fn wide(value: f64, freedom: f64, confidence: f64) -> Index {
 }
 
 /// An index of spread and mean.
-fn near(value: f64, count: usize, freedom: f64, confidence: f64) -> Index {
+fn index_of_mean(value: f64, count: usize, freedom: f64, confidence: f64) -> Index {
     let z = normal_quantile(0.5 + 0.5 * confidence);
     let half = z * (1.0 / (9.0 * count as f64) + value * value / (2.0 * freedom)).sqrt();
     Index { value, low: value - half, high: value + half }

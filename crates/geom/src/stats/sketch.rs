@@ -94,7 +94,7 @@ impl Sketch {
         self.used().map(|(page, slot, count)| (from_key(limits(page, slot).0), count))
     }
     /// The least and the greatest value of the bin that holds `x`.
-    pub(crate) fn around(x: f64) -> (f64, f64) {
+    pub(crate) fn bin_of(x: f64) -> (f64, f64) {
         let low = key_of(x + 0.0) >> DROPPED_BITS << DROPPED_BITS;
         (from_key(low), from_key(low | ((1 << DROPPED_BITS) - 1)))
     }

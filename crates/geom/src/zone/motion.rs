@@ -156,8 +156,8 @@ pub(crate) fn placed_from(
         let before = working.len();
         if all.half > low.half {
             let mut out: Vec<usize> =
-                (0..points.len()).filter(|&i| work.off(i, all.values[i], middle) > low.half).collect();
-            let far = |i: &usize| work.off(*i, all.values[*i], middle);
+                (0..points.len()).filter(|&i| work.excess(i, all.values[i], middle) > low.half).collect();
+            let far = |i: &usize| work.excess(*i, all.values[*i], middle);
             out.sort_by(|i, j| far(j).total_cmp(&far(i)).then(i.cmp(j)));
             out.truncate(MAX_JOINING_POINTS);
             out.retain(|i| !working.contains(i));
@@ -215,7 +215,7 @@ impl Work<'_> {
     }
 
     /// How far the distance of point `i` is out of the middle and its room, on the sides that count.
-    fn off(&self, i: usize, d: f64, middle: f64) -> f64 {
+    fn excess(&self, i: usize, d: f64, middle: f64) -> f64 {
         let out = if self.search.outer { d - middle } else { (d - middle).abs() };
         out - self.room(i)
     }
@@ -230,7 +230,7 @@ impl Work<'_> {
             return Err(ZoneError::NotFinite { index });
         }
         let values: Vec<f64> = values.into_iter().flatten().collect();
-        let off = values.iter().enumerate().map(|(i, d)| self.off(i, *d, middle));
+        let off = values.iter().enumerate().map(|(i, d)| self.excess(i, *d, middle));
         let half = off.fold(f64::NEG_INFINITY, f64::max);
         Ok(Surveyed { values, half })
     }
@@ -238,7 +238,7 @@ impl Work<'_> {
     fn greatest(&self, working: &[usize], motion: &Rigid, middle: f64) -> Option<f64> {
         working.iter().try_fold(f64::NEG_INFINITY, |most, &i| {
             let (d, _) = (self.distance)(i, motion.point(self.points[i]))?;
-            d.is_finite().then(|| most.max(self.off(i, d, middle)))
+            d.is_finite().then(|| most.max(self.excess(i, d, middle)))
         })
     }
 

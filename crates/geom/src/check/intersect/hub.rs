@@ -68,15 +68,15 @@ impl Hub {
     fn new(mesh: &Mesh, vertex: u32, spine: Option<u32>, facets: &[u32]) -> Hub {
         let center = mesh.positions[vertex as usize];
         let book = spine.map(|spine| Book::new(mesh, [vertex, spine], facets));
-        Hub { book, ..Hub::around(mesh, (Some(vertex), center), Aabb::of([&center]), facets) }
+        Hub { book, ..Hub::with_views(mesh, (Some(vertex), center), Aabb::of([&center]), facets) }
     }
 
     /// Facets with corners near a place, which need not be one of them.
     pub fn crowd(mesh: &Mesh, center: Point, facets: &[u32]) -> Hub {
-        Hub::around(mesh, (None, center), Aabb::EMPTY, facets)
+        Hub::with_views(mesh, (None, center), Aabb::EMPTY, facets)
     }
 
-    fn around(mesh: &Mesh, (vertex, center): (Option<u32>, Point), place: Aabb, facets: &[u32]) -> Hub {
+    fn with_views(mesh: &Mesh, (vertex, center): (Option<u32>, Point), place: Aabb, facets: &[u32]) -> Hub {
         let others = |facet: u32| mesh.faces[facet as usize].into_iter().filter(|v| Some(*v) != vertex);
         let arc = |&facet: &u32| View {
             number: facet,

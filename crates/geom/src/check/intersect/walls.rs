@@ -30,10 +30,12 @@ impl Walls {
         let outward = sides.map(|side| unit(cross(side, normal)).map_or([0.0; 3], |(out, _)| out));
         let [x, y, z] = outward;
         let wall = |across: Vector| {
-            let highest =
-                corners.iter().map(|p| dot(across, *p) + off(&across, p)).fold(f64::NEG_INFINITY, f64::max);
+            let highest = corners
+                .iter()
+                .map(|p| dot(across, *p) + product_rounding(&across, p))
+                .fold(f64::NEG_INFINITY, f64::max);
             // True for what is no number.
-            let parts = dot(across, center) - off(&across, &center) > highest;
+            let parts = dot(across, center) - product_rounding(&across, &center) > highest;
             if parts { Wall { across, highest } } else { Wall { across: [0.0; 3], highest: 0.0 } }
         };
         Walls { walls: [normal, times(-1.0, normal), x, y, z].map(wall) }
@@ -46,12 +48,12 @@ impl Walls {
         };
         self.walls.iter().any(|wall| {
             let p = nearest(&wall.across);
-            dot(wall.across, p) - off(&wall.across, &p) > wall.highest
+            dot(wall.across, p) - product_rounding(&wall.across, &p) > wall.highest
         })
     }
 }
 
 /// More than rounding may change the product of the two.
-fn off(across: &Vector, p: &Point) -> f64 {
+fn product_rounding(across: &Vector, p: &Point) -> f64 {
     PRODUCT_SUM_ROUNDING * (0..3).map(|k| (across[k] * p[k]).abs()).sum::<f64>()
 }
