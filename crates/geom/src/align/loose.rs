@@ -26,7 +26,7 @@ const INDISTINCT_VARIANCES: f64 = 16.0;
 /// Root mean square rise per way that belongs to the path: a held motion moves along by its second order.
 const PATH_RISE_SHARE: f64 = 1e-3;
 /// Least length of a rough way, in standard deviations of a single distance. Noise at a rim lowers the root mean square by up
-/// to 0.6, which is [`BARELY`] of this.
+/// to 0.6, which is [`FREE_RISE_SHARE`] of this.
 const MIN_ROUGH_SIGMAS: f64 = 30.0;
 /// Standard deviations of a single distance from which on a range without hold is wide: noise of single points blurs its ends.
 const MIN_WIDE_SIGMAS: f64 = 20.0;
