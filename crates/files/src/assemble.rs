@@ -133,7 +133,7 @@ pub(crate) fn corners<P: Corner>(
 fn too_many(error: &WeldError, facets: usize) -> Located {
     match *error {
         WeldError::TooManyFacets { .. } => {
-            Fault::TooMany { what: "facets", count: facets as u64, limit: weld::MOST_FACETS as u64 }.into()
+            Fault::TooMany { what: "facets", count: facets as u64, limit: weld::MAX_FACETS as u64 }.into()
         }
         WeldError::NoSuchVertex { vertex, vertices, .. } => {
             Fault::NoSuchVertex { index: i64::from(vertex), count: vertices as u64 }.into()

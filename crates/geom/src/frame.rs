@@ -1,8 +1,8 @@
 //! A right-handed frame, and small motions of it.
 //!
-//! A fit writes every element in a frame of its own: the axis (or normal) is the third axis, the center the
-//! origin. A step shifts and tilts that frame by small amounts about where it is now, so that no direction is
-//! singular, whatever way the element lies.
+//! A fit writes every element in a frame of its own: the axis (or normal) is the third axis, the center the origin. A step
+//! shifts and tilts that frame by small amounts about where it is now. So no direction is singular, whatever way the element
+//! lies.
 
 use crate::space::{Point, Vector, cross, dot, least_axis, minus, plus, times, unit};
 

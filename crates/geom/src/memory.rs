@@ -1,7 +1,6 @@
 //! Large arrays for the inner loops: zero until written, in large pages where the system has them.
 //!
-//! On meshes of a million facets a third of the time of a weld goes into page faults; asking for large pages saves
-//! most of it.
+//! On meshes of a million facets a third of the time of a weld goes into page faults. Asking for large pages saves most of it.
 #![expect(
     unsafe_code,
     reason = "advice to the system and the processor about memory, and arrays of atomics without a pass over them"
@@ -14,18 +13,22 @@ unsafe extern "C" {
     fn madvise(at: *mut u8, length: usize, advice: i32) -> i32;
 }
 
+/// Bytes of a page of memory.
+pub(crate) const PAGE_BYTES: usize = 4096;
+
 /// `v` itself, with the advice to keep it in large pages. Useful only before the memory is first touched.
 pub(crate) fn large_pages<T>(v: Vec<T>) -> Vec<T> {
     #[cfg(target_os = "linux")]
     {
-        const PAGE: usize = 4096;
-        const WORTH_IT: usize = 1 << 21;
-        const HUGEPAGE: i32 = 14;
+        /// Bytes from which on large pages are asked for: the size of one.
+        const MIN_HUGE_BYTES: usize = 1 << 21;
+        /// The advice `MADV_HUGEPAGE` of `madvise`.
+        const MADV_HUGEPAGE: i32 = 14;
         let (at, bytes) = (v.as_ptr() as usize, v.capacity() * size_of::<T>());
-        let (from, to) = (at.next_multiple_of(PAGE), (at + bytes) / PAGE * PAGE);
-        if bytes >= WORTH_IT {
+        let (from, to) = (at.next_multiple_of(PAGE_BYTES), (at + bytes) / PAGE_BYTES * PAGE_BYTES);
+        if bytes >= MIN_HUGE_BYTES {
             // SAFETY: whole pages within one live allocation; this advice changes no content.
-            unsafe { madvise(from as *mut u8, to - from, HUGEPAGE) };
+            unsafe { madvise(from as *mut u8, to - from, MADV_HUGEPAGE) };
         }
     }
     v
@@ -51,7 +54,7 @@ pub(crate) fn triples(v: Vec<AtomicU32>) -> Vec<[u32; 3]> {
             .map(|t| t.each_ref().map(|x| x.load(std::sync::atomic::Ordering::Relaxed)))
             .collect();
     }
-    // SAFETY: three atomics have the size and alignment of [u32; 3]; the capacity is a whole number of triples, so the
+    // SAFETY: three atomics have the size and alignment of [u32; 3]. The capacity is a whole number of triples, so the
     // allocation's layout is that of the new vector; `v` is not dropped.
     unsafe { Vec::from_raw_parts(v.as_mut_ptr().cast(), length, capacity) }
 }

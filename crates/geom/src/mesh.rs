@@ -5,8 +5,8 @@ use crate::space::{Aabb, Point};
 
 /// Vertices (millimeters) and faces of three vertex numbers each, outward normal by the right hand.
 ///
-/// Nothing is promised beyond that: faces may be degenerate, doubled, or name a vertex that does not exist.
-/// What relies on more checks it.
+/// Nothing is promised beyond that: faces may be degenerate, doubled, or name a vertex that does not exist. Callers that rely
+/// on more check it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mesh {
     /// `V` places.
@@ -40,10 +40,11 @@ impl Mesh {
 
     /// Box of the positions that are finite. Runs on the current rayon pool.
     pub fn finite_bounds(&self) -> Aabb {
-        const CHUNK: usize = 1 << 14;
+        /// Vertices whose box one task finds.
+        const VERTICES_PER_BOX: usize = 1 << 14;
         let finite = |p: &&Point| p.iter().all(|x| x.is_finite());
         let of = |part: &[Point]| Aabb::of(part.iter().filter(finite));
-        self.positions.par_chunks(CHUNK).map(of).reduce(|| Aabb::EMPTY, |a, b| a.union(&b))
+        self.positions.par_chunks(VERTICES_PER_BOX).map(of).reduce(|| Aabb::EMPTY, |a, b| a.union(&b))
     }
 }
 
@@ -62,7 +63,8 @@ pub struct FacetsAround {
 }
 
 impl FacetsAround {
-    /// Of a mesh whose facets name its vertices. Cost: two passes over the facets; 12 bytes for each of them and 8 for each vertex.
+    /// The box of a mesh whose facets name its vertices. Cost: two passes over the facets; 12 bytes for each of them and 8 for
+    /// each vertex.
     pub fn new(mesh: &Mesh) -> FacetsAround {
         let mut first = vec![0; mesh.positions.len() + 1];
         mesh.faces.iter().flatten().for_each(|v| first[*v as usize + 1] += 1);

@@ -25,21 +25,21 @@ pub struct PlaneFrame {
 }
 
 /// Components of a normal that differ by less than this are alike: rounding and noise do not decide between them.
-const ALIKE: f64 = 0.1;
+const ALIKE_COMPONENTS: f64 = 0.1;
 
-/// Sums of squares that differ by so many variances do not tell two planes apart: the tilt of one of them has two unknowns, which chance makes
-/// that large in one row of four hundred.
-const UNTOLD: f64 = 12.0;
-/// Squares of heights that are this share of those of the lengths are rounding.
-const ROUNDING: f64 = 1e-20;
+/// Sums of squares that differ by fewer variances do not tell two planes apart. The tilt of one of them has two unknowns, which
+/// chance makes that large in one row of four hundred.
+const MIN_TILT_VARIANCES: f64 = 12.0;
+/// Share of the squares of the lengths up to which squares of heights are rounding.
+const HEIGHT_ROUNDING: f64 = 1e-20;
 
 impl Plane {
-    /// A frame in the plane: its origin is the foot of the coordinates' origin, its first axis runs as that axis of the coordinates does
-    /// which the normal leans on least, the first of those that it leans on alike. `None` where the normal has no direction.
+    /// A frame in the plane. Its origin is the foot of the coordinates' origin. Its first axis runs as that axis of the
+    /// coordinates does which the normal leans on least; the first of equal ones. `None` where the normal has no direction.
     pub fn frame(&self) -> Option<PlaneFrame> {
         let (normal, length) = unit(self.normal)?;
         let low = normal.iter().fold(1.0, |low: f64, x| low.min(x.abs()));
-        let least = (0..3).find(|k| normal[*k].abs() <= low + ALIKE)?;
+        let least = (0..3).find(|k| normal[*k].abs() <= low + ALIKE_COMPONENTS)?;
         let mut axis = [0.0; 3];
         axis[least] = 1.0;
         let (y, _) = unit(cross(normal, axis))?;
@@ -92,8 +92,9 @@ impl PlaneFrame {
     }
 
     /// The plane of least squares through points in space, and their greatest distance from it. `None` where they lie on a
-    /// line, or are fewer than three. The greatest component of its normal is positive, the first of those that are alike; where the points do
-    /// not tell it from that axis of the coordinates, the normal is the axis: far from the origin the least tilt moves all coordinates.
+    /// line, or are fewer than three. The greatest component of its normal is positive, the first of those that are alike.
+    /// Where the points do not tell it from that axis of the coordinates, the normal is the axis. Far from the origin the least
+    /// tilt moves all coordinates.
     pub fn through(points: &[Point]) -> Option<(PlaneFrame, f64)> {
         let n = points.len() as f64;
         // From the same end whichever way round they are given: sums round as their order is.
@@ -110,11 +111,11 @@ impl PlaneFrame {
             return None;
         }
         let high = rows[0].iter().fold(0.0, |high: f64, x| high.max(x.abs()));
-        let greatest = (0..3).find(|k| rows[0][*k].abs() >= high - ALIKE)?;
+        let greatest = (0..3).find(|k| rows[0][*k].abs() >= high - ALIKE_COMPONENTS)?;
         let mut normal = times(1.0_f64.copysign(rows[0][greatest]), rows[0]);
         let square = |i: usize| dot(normal, minus(in_turn(i), middle)).powi(2);
         let squares: f64 = (0..points.len()).map(square).sum();
-        let untold = UNTOLD * squares / (n - 3.0).max(1.0) + ROUNDING * values[2];
+        let untold = MIN_TILT_VARIANCES * squares / (n - 3.0).max(1.0) + HEIGHT_ROUNDING * values[2];
         if scatter[greatest][greatest] - squares <= untold {
             normal = std::array::from_fn(|k| if k == greatest { 1.0 } else { 0.0 });
         }
@@ -130,8 +131,8 @@ mod tests {
     use crate::num::random::Random;
     use crate::space::norm;
 
-    /// Rows around an ellipse in planes whose normals are on the verge of another frame, of exact numbers and with noise, either way round:
-    /// always the frame of the plane itself.
+    /// Rows around an ellipse in planes whose normals are on the verge of another frame, of exact numbers and with noise,
+    /// either way round. The result is always the frame of the plane itself.
     #[test]
     fn rows_in_space_have_the_frame_of_their_plane() {
         let random = &mut Random::new(3);
@@ -161,7 +162,7 @@ mod tests {
                 let turn = [minus(found.x, frame.x), minus(found.y, frame.y)].map(norm);
                 assert!(turn.iter().all(|t| *t <= noise + 1e-12), "{normal:?} {noise} {found:?}");
                 assert!(off <= 5.0 * noise + 1e-12);
-                // What chance tilts an axis by moves nothing that far off, but for a row or two.
+                // The tilt of an axis by chance moves nothing that far off, but for a row or two.
                 if normal.contains(&1.0) && offset == 5.0 {
                     assert_eq!([found.x, found.y], [frame.x, frame.y], "{noise}");
                 }

@@ -1,7 +1,7 @@
 //! Rigid motions of space: a rotation and a translation.
 //!
-//! A motion is named target first: `reference_from_measured` takes coordinates of the measured frame to those of the
-//! reference frame, and `a_from_c = a_from_b.after(&b_from_c)`: the frames that meet have the same name.
+//! A motion is named target first. `reference_from_measured` takes coordinates of the measured frame to those of the reference
+//! frame. In `a_from_c = a_from_b.after(&b_from_c)` the frames that meet have the same name.
 
 use crate::space::{MIN_COORDINATE, Point, Vector, cross, dot, minus, norm, plus, times, unit};
 
@@ -48,7 +48,7 @@ pub enum RigidError {
 }
 
 /// Largest entry of `Rᵀ R − 1` at which a matrix still counts as a rotation whose numbers were rounded to six digits.
-const ROUNDED: f64 = 1e-5;
+const MAX_ROTATION_ROUNDING: f64 = 1e-5;
 
 impl Rigid {
     /// The motion that moves nothing.
@@ -80,12 +80,14 @@ impl Rigid {
         let uneven =
             |k: usize| (dot(columns[k], columns[(k + 1) % 3]).abs()).max((lengths[k] - factor).abs());
         let skew = (0..3).map(uneven).fold(0.0, f64::max);
-        if (factor - 1.0).abs() > ROUNDED && skew <= ROUNDED * factor.max(1.0) * factor {
+        if (factor - 1.0).abs() > MAX_ROTATION_ROUNDING
+            && skew <= MAX_ROTATION_ROUNDING * factor.max(1.0) * factor
+        {
             return Err(RigidError::Scale { factor });
         }
         let entry = |i: usize, j: usize| (dot(columns[i], columns[j]) - f64::from(u8::from(i == j))).abs();
         let off = (0..9).map(|k| entry(k / 3, k % 3)).fold(0.0, f64::max);
-        if off > ROUNDED {
+        if off > MAX_ROTATION_ROUNDING {
             return Err(RigidError::NotRotation { off });
         }
         if dot(columns[0], cross(columns[1], columns[2])) < 0.0 {
@@ -157,9 +159,9 @@ impl Rigid {
         Rigid { rows, translation: minus(center, turned) }
     }
 
-    /// The motion that takes the frame with origin `origin` and right-handed axes to coordinates in that frame: the origin
-    /// goes to zero, a point along the first axis to the x axis. `None` where `z` and `toward` do not span a plane.
-    /// The third axis is along `z`, the first in the half plane of `toward`.
+    /// The motion that takes the frame with origin `origin` and right-handed axes to coordinates in that frame. The origin goes
+    /// to zero, a point along the first axis to the x axis. `None` where `z` and `toward` do not span a plane. The third axis
+    /// is along `z`, the first in the half plane of `toward`.
     pub fn into_frame(origin: Point, z: Vector, toward: Vector) -> Option<Rigid> {
         let (w, _) = unit(z)?;
         let (t, _) = unit(toward)?;
@@ -201,7 +203,7 @@ impl Rigid {
         let told = |x: f64| if x.abs() < MIN_COORDINATE { 0.0 } else { x };
         [told(x), told(y), told(z)]
     }
-    /// What the motion makes of a direction: only the rotation acts.
+    /// The direction after the motion: only the rotation acts.
     #[inline(always)]
     pub fn vector(&self, v: Vector) -> Vector {
         [dot(self.rows[0], v), dot(self.rows[1], v), dot(self.rows[2], v)]
@@ -247,7 +249,7 @@ fn transposed(m: [Vector; 3]) -> [Vector; 3] {
     std::array::from_fn(|i| std::array::from_fn(|j| m[j][i]))
 }
 
-/// The rotation nearest to a matrix that is one but for roundings: Newton's iteration of the polar decomposition
+/// The rotation nearest to a matrix that is one but for roundings. Newton's iteration of the polar decomposition finds it
 /// (Higham, Computing the polar decomposition, SIAM J. Sci. Stat. Comput. 7, 1986), which converges quadratically.
 fn nearest_rotation(mut m: [Vector; 3]) -> [Vector; 3] {
     for _ in 0..3 {

@@ -1,15 +1,15 @@
 //! Points, vectors and boxes in space.
 //!
-//! A point is a plain array of three `f64` (millimeters, right-handed), so that a cloud is one flat block of
-//! memory that any caller can hand over without a copy.
+//! A point is a plain array of three `f64` (millimeters, right-handed). So a cloud is one flat block of memory that any caller
+//! can hand over without a copy.
 
 /// A place, millimeters.
 pub type Point = [f64; 3];
 /// A direction or difference of two places, millimeters.
 pub type Vector = [f64; 3];
 
-/// Smallest coordinate of a place that is not zero, millimeters: the fourth power of what is smaller leaves the range of
-/// normal numbers, and distances would lose their digits without a word. Searches refuse smaller ones.
+/// Smallest coordinate of a place that is not zero, millimeters. The fourth power of a smaller one leaves the range of normal
+/// numbers, and distances would lose their digits without a word. Searches refuse smaller ones.
 pub const MIN_COORDINATE: f64 = 1e-50;
 
 /// Scalar product.

@@ -57,8 +57,8 @@ fn bearings() -> [Vec<Point>; 2] {
     [round([0.0, OFF], 20.0, &[0.0, 10.0], 12), round([0.0, -OFF], 15.0, &[90.0, 100.0], 12)]
 }
 
-/// By least squares the slope is that of the regression through the four centers, 180 / 8200 of the offset; by minimum zone
-/// that of the line nearest to all four, 1 / 45 of it.
+/// By least squares the slope is that of the regression through the four centers, 180 / 8200 of the offset. By minimum zone it
+/// is that of the line nearest to all four, 1 / 45 of it.
 #[test]
 fn the_axis_of_two_bearings_is_that_of_their_centers() {
     let [a, b] = bearings();

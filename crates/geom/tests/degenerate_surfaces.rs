@@ -11,7 +11,7 @@ use trueness_geom::spline::surface::{Degenerate, Direction, FootSearch, Nurbs};
 /// Control points along a direction.
 const N: usize = 6;
 
-/// What is wrong with a surface.
+/// The faults of a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Family {
     Sound,

@@ -90,7 +90,8 @@ fn a_plane_ends_at_its_boundary() {
     assert_eq!(found(&mesh, &below, NEAR), Found::default());
 }
 
-/// A fine floor with a spike, a dent and a step at the rim of what was measured, all steeper than the angle: nothing tells that they are of anything else.
+/// A fine floor has a spike, a dent and a step at the rim of the measured area, all steeper than the angle. Nothing tells that
+/// they belong to anything else.
 #[test]
 fn what_is_steep_within_a_plane_belongs_to_it() {
     const N: usize = 20;
@@ -117,8 +118,8 @@ fn what_is_steep_within_a_plane_belongs_to_it() {
     assert!(!found(&mesh, &floor, NEAR).points.contains(&at(5, 5)));
 }
 
-/// A prism along z over a regular polygon of radius 10, or over a tube of it, with flat ends whose vertices all lie on its rims; the sides come
-/// first, two facets each.
+/// A prism along z over a regular polygon of radius 10, or over a tube of it. The vertices of its flat ends all lie on its
+/// rims. The sides come first, two facets each.
 fn prism(sides: u32, height: f64, inner: Option<f64>) -> Mesh {
     let mut mesh = Mesh::default();
     let rings = [Some(10.0), inner].into_iter().flatten();
@@ -149,7 +150,8 @@ fn prism(sides: u32, height: f64, inner: Option<f64>) -> Mesh {
     mesh
 }
 
-/// What the walls of a feature enclose is none of it: the flat ends of a boss, the bore of a thin tube, the other side of a thin plate.
+/// The inside of the walls of a feature is none of it. Such are the flat ends of a boss, the bore of a thin tube, the other
+/// side of a thin plate.
 #[test]
 fn what_lies_beyond_walls_is_of_something_else() {
     let near = Nearness { distance: 0.5, angle: 0.2, margin: -0.5, rim: true, inward: None };

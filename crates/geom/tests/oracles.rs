@@ -58,8 +58,8 @@ fn distribution_functions_are_those_of_statrs() {
     }
 }
 
-/// The logarithm of the likelihood, the criteria and the greatest difference of shares of every fitted family follow from its
-/// parameters by other functions than ours.
+/// The logarithm of the likelihood, the criteria and the greatest difference of shares follow from the parameters of every
+/// fitted family. They do so by other functions than ours.
 #[test]
 fn fitted_distributions_are_judged_as_by_statrs() {
     let mut random = Random::new(7);

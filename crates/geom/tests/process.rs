@@ -17,7 +17,7 @@ fn chi_square_has_its_closed_forms() {
         let z = normal_quantile(0.5 + 0.5 * share);
         close(chi_square_quantile(share, 1.0), z * z, 1e-9);
     }
-    // Of even degrees the share above is a sum of Poisson's terms.
+    // For even degrees the share above is a sum of Poisson's terms.
     for (degrees, share) in [(10.0, 0.95), (24.0, 0.025), (24.0, 0.975), (58.0, 0.5)] {
         let half = 0.5 * chi_square_quantile(share, degrees);
         let mut term = (-half).exp();

@@ -1,7 +1,7 @@
 //! Laws that hold for any input, tried on inputs that `proptest` makes and, where one fails, makes smaller.
 //!
-//! Coordinates are small whole numbers: then faces without area, equal distances, coinciding vertices and points on planes
-//! come often, and whole numbers tell the exact answer.
+//! Coordinates are small whole numbers. Then faces without area, equal distances, coinciding vertices and points on planes come
+//! often, and whole numbers tell the exact answer.
 #![allow(clippy::disallowed_methods, clippy::unwrap_used, clippy::expect_used, clippy::panic, missing_docs)]
 
 use proptest::prelude::*;

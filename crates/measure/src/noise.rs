@@ -22,7 +22,7 @@ fn shared(noise: &Noise) -> SharedNoise {
         points_per_independent: noise.points_per_independent,
         spacing: noise.spacing,
         patches: noise.patches as u64,
-        left_out: noise.left_out as u64,
+        left_out: noise.excluded_patches as u64,
     }
 }
 

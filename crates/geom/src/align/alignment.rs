@@ -12,7 +12,7 @@ pub enum Start {
     #[default]
     Anywhere,
     /// From this motion, which should be near: `reference_from_measured`.
-    Given(Rigid),
+    From(Rigid),
 }
 
 /// How a best fit is done.
@@ -45,30 +45,30 @@ pub struct Alternative {
     pub ratio: f64,
 }
 
-/// Share of the size from which on what is left of a fit is poor.
-pub(super) const POOR: f64 = 0.01;
+/// Share of the size from which on the residuals of a fit are poor.
+pub(super) const POOR_RESIDUAL_SHARE: f64 = 0.01;
 
 /// Ratios of units that are confused.
-pub(super) const UNITS: [f64; 6] = [25.4, 1.0 / 25.4, 10.0, 0.1, 1000.0, 1e-3];
+pub(super) const CONFUSED_UNIT_RATIOS: [f64; 6] = [25.4, 1.0 / 25.4, 10.0, 0.1, 1000.0, 1e-3];
 
-/// What is to be said about an alignment.
+/// The warnings about an alignment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum AlignWarning {
-    /// Half of the points are farther from the reference than this share of the size of the smaller of both: it is hardly
-    /// the same part, or the start was not found.
+    /// Half of the points are farther from the reference than this share of the size of the smaller of both. It is hardly the
+    /// same part, or the start was not found.
     Poor {
         /// Median distance over the diagonal.
         share: f64,
     },
-    /// The rows that belong together still lie apart, root mean square, by more than a hundredth of their size: some do not belong
-    /// together, or they are of another part.
+    /// The rows that belong together still lie apart, root mean square, by more than a hundredth of their size. Some do not
+    /// belong together, or they are of another part.
     PoorRows {
         /// That root mean square over the diagonal of the smaller of both boxes.
         share: f64,
         /// The worst row, from 0.
         row: usize,
-        /// What is left of it, millimeters.
-        left: f64,
+        /// Its residual, millimeters.
+        residual: f64,
         /// Whether a mirror image would leave less than half as much.
         mirrored: bool,
     },
@@ -94,19 +94,19 @@ pub enum AlignWarning {
         factor: f64,
     },
     /// So few points that a pose which fits them may be found by chance, or the right one missed.
-    Few {
+    FewPoints {
         /// Points given.
         count: usize,
     },
-    /// Much of the measured does not lie on the reference, and of several independent searches one alone found this pose: a
+    /// Much of the measured does not lie on the reference, and only one of several independent searches found this pose. A
     /// better one may have been missed.
     Unconfirmed {
         /// Searches made.
         searches: usize,
     },
-    /// Much of the measured does not count: it is so much farther from the reference than the rest that it was taken for something else,
-    /// as an outlier is. A face that was made wrong looks the same.
-    LeftOut {
+    /// Much of the measured does not count. It is so much farther from the reference than the rest that it was taken for
+    /// something else, as an outlier is. A face that was made wrong looks the same.
+    Excluded {
         /// Share of it, 0 to 1.
         share: f64,
         /// Distance of the farthest of it that has a place on the reference, millimeters.
@@ -141,7 +141,7 @@ pub struct Alignment {
     /// Points with a weight.
     pub used: u64,
     /// Points without: outliers, those beside a boundary edge, those whose normal looks away.
-    pub left_out: u64,
+    pub excluded_points: u64,
     /// Share of the measured surface that counts, 0 to 1.
     pub share: f64,
     /// Covariance of the rotation vector about `center` (radians) and the translation (mm), in the frame of the
@@ -149,8 +149,8 @@ pub struct Alignment {
     pub covariance: [[f64; 6]; 6],
     /// Mean of the measured points in the frame of the reference.
     pub center: Point,
-    /// Greatest over least eigenvalue of the normal equations, rotations counted as displacements at the points' root mean
-    /// square distance from `center`; `None` where a motion is free.
+    /// Greatest over least eigenvalue of the normal equations. Rotations count as displacements at the points' root mean square
+    /// distance from `center`. `None` where a motion is free.
     pub condition: Option<f64>,
     /// Motions that the shape leaves free.
     pub freedoms: Vec<Freedom>,
@@ -158,6 +158,6 @@ pub struct Alignment {
     pub slack: Vec<(Freedom, f64)>,
     /// Other poses that fit nearly as well, best first.
     pub alternatives: Vec<Alternative>,
-    /// What is to be said about it.
+    /// Warnings about the alignment.
     pub warnings: Vec<AlignWarning>,
 }

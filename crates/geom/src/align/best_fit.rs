@@ -1,34 +1,36 @@
 //! The best fit from any pose: start, iteration, and what the result is worth.
 
-use super::alignment::{POOR, UNITS};
-use super::freedom::{TRIED, twists};
+use super::alignment::{CONFUSED_UNIT_RATIOS, POOR_RESIDUAL_SHARE};
+use super::freedom::{FREEDOM_STEP_SHARE, twists};
 use super::look::Look;
 use super::loose::is_symmetry;
 use super::sample::{Measured, Samples, on_surface};
 use super::settle::Settle;
 use super::start::{Candidate, Search};
-use super::work::{FEW, PART, Work};
+use super::work::{RIVAL_SAMPLES, START_SAMPLES, Work};
 use super::{AlignError, AlignWarning, Alignment, BestFit, Freedom, Start, Target};
 use crate::closest::{BoundaryEdges, check_mesh, check_points};
 use crate::progress::Progress;
 use crate::rigid::Rigid;
 use crate::space::Aabb;
 
-/// Samples for choosing among poses, and above which the iteration first goes over those alone.
-const SOME: usize = 5000;
-/// Samples from which on the iteration first goes over one of so many.
-const LARGE: usize = 100_000;
-const SHARE: usize = 8;
-/// Worth of a start below which normals are tried the other way round.
-const DOUBTFUL: f64 = 0.6;
-/// Fewer points than these are found wrongly now and then: of clouds of 20 about one in ten, of 25 none in tries with a bracket.
-const SPARSE: usize = 50;
+/// Samples for choosing among poses. With more than these the iteration first goes over these alone.
+const COMPARING_SAMPLES: usize = 5000;
+/// With more samples the iteration first goes over a part of them.
+const MAX_SINGLE_STAGE_SAMPLES: usize = 100_000;
+/// Samples for each one of that part.
+const SAMPLES_PER_FIRST_STAGE: usize = 8;
+/// Score of a start below which normals are tried the other way round.
+const MIN_CERTAIN_SCORE: f64 = 0.6;
+/// A search over fewer points now and then finds a wrong pose. In tries with a bracket it was one cloud of 20 points in ten,
+/// and none of 25.
+const MIN_CERTAIN_POINTS: usize = 50;
 
-/// The motion that brings `measured` onto `reference` with the least weighted mean square distance to its surface: of
-/// a mesh, weighted by area, or of points; outliers do not count unless `options` say so.
+/// The motion that brings `measured` onto `reference` with the least weighted mean square distance to its surface. A mesh is
+/// weighted by area, points are not. Outliers do not count unless `options` say so.
 ///
-/// From any starting pose, of whole and partial scans, with clutter. What cannot be told is named in the warnings: poses
-/// that fit as well, motions that the shape leaves free, inverted normals, a wrong unit, a poor fit, too few points.
+/// From any starting pose, of whole and partial scans, with clutter. The warnings name whatever cannot be told: poses that fit
+/// as well, motions that the shape leaves free, inverted normals. They also name a wrong unit, a poor fit, too few points.
 ///
 /// Runs on the current rayon pool; the answer does not depend on its size. Cost: about 0.1 s for the start on two cores,
 /// then three to five closest-point searches of all points.
@@ -73,11 +75,11 @@ pub fn best_fit(
     let work = Work::new(reference, &boundary_edges, options, &samples);
     let mut start = match options.start {
         Start::Anywhere => work.search(&samples, progress)?,
-        Start::Given(pose) => Found { poses: vec![pose], turned: false, scale: None, search: None },
+        Start::From(pose) => Found { poses: vec![pose], turned: false, scale: None, search: None },
     };
     let turned = |samples: Samples| if start.turned { samples.turned() } else { samples };
     let samples = turned(samples);
-    let some = samples.thinned(SOME, options.seed);
+    let subset = samples.thinned(COMPARING_SAMPLES, options.seed);
     // The pose is that of the surface, its figures are those of the points: errors of a scan are independent there at best.
     let all = work.problem(&samples);
     let surface = match measured {
@@ -85,23 +87,24 @@ pub fn best_fit(
         Measured::Points { .. } => None,
     };
     let whole = surface.as_ref().unwrap_or(&samples);
-    let part = (whole.points.len() > LARGE).then(|| whole.thinned(whole.points.len() / SHARE, options.seed));
+    let part = (whole.points.len() > MAX_SINGLE_STAGE_SAMPLES)
+        .then(|| whole.thinned(whole.points.len() / SAMPLES_PER_FIRST_STAGE, options.seed));
     let part = part.as_ref().map(|p| work.problem(p));
     let surface = surface.as_ref().map(|s| work.problem(s));
-    let settle = Settle { work: &work, all, surface, part, some: &some };
-    let (pose, sigma) = work.choose(&start.poses, &some, progress)?;
+    let settle = Settle { work: &work, all, surface, part, subset: &subset };
+    let (pose, sigma) = work.choose(&start.poses, &subset, progress)?;
     let mut result = settle.from(pose, sigma, progress)?;
-    if let Some(pose) = work.where_all_count(&result, &some, progress)? {
+    if let Some(pose) = work.where_all_count(&result, &subset, progress)? {
         result = settle.from(pose, sigma, progress)?;
     }
-    let mut told = vec![];
+    let mut warnings = vec![];
     if let Some(search) = start.search.take() {
         let look = Look { settle: &settle, search: &search, samples: &samples };
-        told = look.around(&mut start.poses, (&mut result, sigma), progress)?;
+        warnings = look.around(&mut start.poses, (&mut result, sigma), progress)?;
         start.search = Some(search);
     }
     result.warnings = work.warnings(&result, &start, measured, progress)?;
-    result.warnings.extend(told);
+    result.warnings.extend(warnings);
     Ok(result)
 }
 
@@ -142,14 +145,14 @@ struct Found {
 impl Work<'_> {
     /// Looks for starts.
     fn search(&self, samples: &Samples, progress: &dyn Progress) -> Result<Found, AlignError> {
-        let few = samples.few(FEW, self.options.seed);
-        let mut search = Search::new(self.target, few, self.options.seed, progress)?;
+        let start_samples = samples.oriented_subset(START_SAMPLES, self.options.seed);
+        let mut search = Search::new(self.target, start_samples, self.options.seed, progress)?;
         let mut candidates = search.candidates(&[Rigid::IDENTITY], progress)?;
-        let best = |c: &[Candidate]| c.first().map_or(0.0, |c| c.worth);
+        let best = |c: &[Candidate]| c.first().map_or(0.0, |c| c.score);
         let as_is = best(&candidates);
         let mut scale = self.scale(&search, as_is, progress)?;
         let mut turned = false;
-        if as_is < DOUBTFUL && scale.is_none() && search.samples.oriented {
+        if as_is < MIN_CERTAIN_SCORE && scale.is_none() && search.samples.oriented {
             search.turn();
             let others = search.candidates(&[Rigid::IDENTITY], progress)?;
             scale = self.scale(&search, best(&others).max(as_is), progress)?;
@@ -161,7 +164,7 @@ impl Work<'_> {
             }
         }
         let poses = self.promising(&search, &candidates, progress)?;
-        // What has a wrong unit lies nowhere: no use to look on.
+        // A measured part with a wrong unit lies nowhere: there is no use in looking on.
         let search = scale.is_none().then_some(search);
         Ok(Found { poses, turned, scale, search })
     }
@@ -169,14 +172,14 @@ impl Work<'_> {
     /// The factor between units by which the measured fits better than as it is.
     fn scale(&self, search: &Search, as_is: f64, progress: &dyn Progress) -> Result<Option<f64>, AlignError> {
         let ratio = search.size_ratio();
-        for factor in UNITS {
+        for factor in CONFUSED_UNIT_RATIOS {
             if !(0.8..1.25).contains(&(ratio * factor)) {
                 continue;
             }
             let scaled = search.scaled(factor);
-            let worth = scaled.candidates(&[Rigid::IDENTITY], progress)?.first().map_or(0.0, |c| c.worth);
+            let score = scaled.candidates(&[Rigid::IDENTITY], progress)?.first().map_or(0.0, |c| c.score);
             // A tiny piece lies well on any flat place: what counts is that all of it fits at full size.
-            if worth > DOUBTFUL && (worth > as_is || ratio < 1.0) {
+            if score > MIN_CERTAIN_SCORE && (score > as_is || ratio < 1.0) {
                 return Ok(Some(factor));
             }
         }
@@ -185,9 +188,10 @@ impl Work<'_> {
 
     /// Whether the reference is the same along a motion.
     fn is_symmetry(&self, motion: &Freedom, progress: &dyn Progress) -> Result<bool, AlignError> {
-        let surface = on_surface(self.target.mesh, PART, self.options.seed);
+        let surface = on_surface(self.target.mesh, RIVAL_SAMPLES, self.options.seed);
         twists(&[*motion]).iter().try_fold(true, |same, twist| {
-            Ok(same && is_symmetry(&self.problem(&surface), twist, TRIED * self.radius, progress)?)
+            Ok(same
+                && is_symmetry(&self.problem(&surface), twist, FREEDOM_STEP_SHARE * self.radius, progress)?)
         })
     }
 
@@ -201,7 +205,7 @@ impl Work<'_> {
         let mut warnings = result.warnings.clone();
         let size = self.target.bounds.diagonal().min(Aabb::of(measured.points()).diagonal());
         let share = result.median / size;
-        warnings.extend((share > POOR).then_some(AlignWarning::Poor { share }));
+        warnings.extend((share > POOR_RESIDUAL_SHARE).then_some(AlignWarning::Poor { share }));
         warnings.extend(start.scale.map(|factor| AlignWarning::Scale { factor }));
         warnings.extend(start.turned.then_some(AlignWarning::NormalsTurned));
         let count = result.alternatives.len();
@@ -214,11 +218,11 @@ impl Work<'_> {
         }
         let undetermined = |&(motion, width)| AlignWarning::Undetermined { motion, width: Some(width) };
         warnings.extend(result.slack.iter().map(undetermined));
-        let few = match measured {
-            Measured::Points { points, .. } => start.search.is_some() && points.len() < SPARSE,
+        let is_sparse = match measured {
+            Measured::Points { points, .. } => start.search.is_some() && points.len() < MIN_CERTAIN_POINTS,
             Measured::Mesh(_) => false,
         };
-        warnings.extend(few.then_some(AlignWarning::Few { count: measured.points().len() }));
+        warnings.extend(is_sparse.then_some(AlignWarning::FewPoints { count: measured.points().len() }));
         warnings.extend((!result.converged).then_some(AlignWarning::NotConverged));
         Ok(warnings)
     }

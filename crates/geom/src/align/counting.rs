@@ -1,4 +1,4 @@
-//! What searches for the least greatest distance share: the points that count, and what is told of the others.
+//! The common ground of searches for the least greatest distance: the points that count, and the report on the others.
 //!
 //! A best fit does without what is many standard deviations off. Here that is what the search is about: of a part without noise and with a
 //! dent, the dent. Only what lies so far off that it is hardly the part's, clutter, does not count, and is told.
@@ -14,7 +14,7 @@ use crate::space::Point;
 use crate::zone::ZoneError;
 
 /// Share of the diagonal of the reference within which every point counts, however little the others scatter.
-const NEAR: f64 = 0.01;
+const ALWAYS_COUNTED_SHARE: f64 = 0.01;
 
 /// The points that count in a search from a best fit, with their weights.
 pub(super) struct Counting {
@@ -24,8 +24,8 @@ pub(super) struct Counting {
     limit: f64,
 }
 
-/// The points that do not count in a search for the least greatest distance: beyond a limit, beside a boundary edge of the reference, with a
-/// normal that looks to the other side of a wall, or of no facet.
+/// The points that do not count in a search for the least greatest distance. They lie beyond a limit, at a boundary edge of the
+/// reference, or on no facet. Or their normal looks to the other side of a wall.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NotCounted {
     /// How many.
@@ -37,7 +37,7 @@ pub struct NotCounted {
 }
 
 impl Counting {
-    /// Near the best fit `from`, which must leave nothing free. What lies within `near` counts in any case, millimeters.
+    /// Near the best fit `from`, which must leave nothing free. Points within `near`, millimeters, count in any case.
     pub fn of(
         measured: &Measured,
         reference: &Target,
@@ -66,9 +66,10 @@ impl Counting {
         };
         let matches = problem.matches(&from.reference_from_measured, f64::INFINITY, progress)?;
         let limit = match options.robust {
-            true => {
-                problem.limit(problem.deviation(&matches)).max(NEAR * reference.bounds.diagonal()).max(near)
-            }
+            true => problem
+                .limit(problem.deviation(&matches))
+                .max(ALWAYS_COUNTED_SHARE * reference.bounds.diagonal())
+                .max(near),
             false => f64::INFINITY,
         };
         let within = |m: &Match| m.distance.is_finite() && m.distance <= limit && m.equation.weight > 0.0;
@@ -85,7 +86,7 @@ impl Counting {
         Ok(Counting { points, weights, others, limit })
     }
 
-    /// What is told of the others in a pose.
+    /// The report on the others in a pose.
     pub fn not_counted(
         &self,
         motion: &Rigid,

@@ -1,6 +1,6 @@
 //! The covariance of a best fit.
 
-use super::freedom::HELD;
+use super::freedom::HELD_MOTION_SHARE;
 use super::icp::Match;
 use super::system::{Six, SixBySix, Spectrum, System, eigen_six, padded, slope};
 use super::twist::inner;
@@ -8,19 +8,19 @@ use crate::parallel::prelude::*;
 use crate::space::{Point, minus};
 use std::collections::BTreeMap;
 
-/// Cells along the radius within which residuals may go together.
-const CELLS: f64 = 4.0;
+/// Cells along the radius; residuals within one cell may go together.
+const CELLS_PER_RADIUS: f64 = 4.0;
 /// Matches added in one go: sums do not depend on the number of threads.
-const CHUNK: usize = 1 << 16;
-/// Share of what holds a motion that a cell may count for at most where it is asked what the others say without it.
-const ALONE: f64 = 0.8;
+const MATCHES_PER_SUM: usize = 1 << 16;
+/// Largest share of the hold on a motion that one cell may count for, where the others are asked without it.
+const MAX_CELL_SHARE: f64 = 0.8;
 
 /// The cell of a point.
 pub(super) fn cell_of(point: Point, system: &System) -> [i64; 3] {
-    minus(point, system.center).map(|x| (x * CELLS / system.radius).floor() as i64)
+    minus(point, system.center).map(|x| (x * CELLS_PER_RADIUS / system.radius).floor() as i64)
 }
 
-/// What one cell says.
+/// The sums over one cell.
 #[derive(Clone, Copy, Default)]
 struct Cell {
     /// Sums of slopes times weights, with residuals and with themselves.
@@ -37,17 +37,18 @@ impl Cell {
     }
 }
 
-/// Covariance of the six unknowns (rotation vector about the center of the system, radians; translation, mm), none along
-/// directions that were taken out of the spectrum; along those that are `barely` held at least as uncertain as how far they may move.
+/// Covariance of the six unknowns: rotation vector about the center of the system, radians; translation, mm. It is zero along
+/// directions that were taken out of the spectrum. Along those that are `barely` held it is at least the distance that they may
+/// move.
 ///
-/// Residuals of a part go together over some distance: form deviations and a scanner's errors are waves. Samples of one
-/// cell of space are therefore taken for one observation (cluster-robust covariance: Liang, Zeger, Longitudinal data
-/// analysis using generalized linear models, Biometrika 73, 1986): right for independent residuals as well as for
-/// correlated ones, as long as their range is below the cells' size, a quarter of the points' radius.
+/// Residuals of a part go together over some distance: form deviations and a scanner's errors are waves. Samples of one cell of
+/// space are therefore taken for one observation. (Cluster-robust covariance: Liang, Zeger, Longitudinal data analysis using
+/// generalized linear models, Biometrika 73, 1986.) That is right for independent residuals, and for correlated ones whose
+/// range is below the cells' size, a quarter of the points' radius.
 ///
-/// A fit draws its own residuals down, most where few cells hold a motion, as those of a wall at the rim of a view of one side. What counts
-/// is therefore how far the fit moves when a cell is left out (the jackknife: Bell, McCaffrey, Bias reduction in standard errors for linear
-/// regression with multi-stage samples, Survey Methodology 28, 2002).
+/// A fit draws its own residuals down, most where few cells hold a motion. Such are the cells of a wall at the rim of a view of
+/// one side. The measure is therefore how far the fit moves when a cell is left out. (The jackknife: Bell, McCaffrey, Bias
+/// reduction in standard errors for linear regression with multi-stage samples, Survey Methodology 28, 2002.)
 pub(super) fn covariance(
     system: &System,
     spectrum: &Spectrum,
@@ -58,7 +59,7 @@ pub(super) fn covariance(
     let count = cells.len() as f64;
     let mut out = [[0.0; 6]; 6];
     for cell in cells.values() {
-        let moves = left_out(spectrum, cell);
+        let moves = shift_without_cell(spectrum, cell);
         for i in 0..6 {
             for j in 0..6 {
                 out[i][j] += moves[i] * moves[j] * (count - 1.0).max(1.0) / count;
@@ -72,7 +73,7 @@ pub(super) fn covariance(
         // How many times the variance is that of independent residuals, along what is held well.
         let alone =
             |k: usize| system.rms() * system.rms() / system.count() * system.weight / spectrum.values[k];
-        let held = (spectrum.stay..6).filter(|&k| spectrum.values[k] >= HELD * system.weight);
+        let held = (spectrum.stay..6).filter(|&k| spectrum.values[k] >= HELD_MOTION_SHARE * system.weight);
         let ratio = |k: usize| along(&out, &spectrum.vectors[k]) / alone(k);
         let ratios: Vec<f64> = held.map(ratio).filter(|ratio| ratio.is_finite()).collect();
         let together = (ratios.iter().sum::<f64>() / ratios.len().max(1) as f64).max(1.0);
@@ -94,7 +95,7 @@ pub(super) fn covariance(
     out
 }
 
-/// What all cells say.
+/// The sums over all cells.
 fn cells(system: &System, matches: &[Match]) -> BTreeMap<[i64; 3], Cell> {
     let part = |matches: &[Match]| {
         let mut cells: BTreeMap<[i64; 3], Cell> = BTreeMap::new();
@@ -110,7 +111,7 @@ fn cells(system: &System, matches: &[Match]) -> BTreeMap<[i64; 3], Cell> {
         }
         cells
     };
-    let parts: Vec<BTreeMap<[i64; 3], Cell>> = matches.par_chunks(CHUNK).map(part).collect();
+    let parts: Vec<BTreeMap<[i64; 3], Cell>> = matches.par_chunks(MATCHES_PER_SUM).map(part).collect();
     let mut cells: BTreeMap<[i64; 3], Cell> = BTreeMap::new();
     for (key, cell) in parts.into_iter().flatten() {
         cells.entry(key).or_default().add(&cell);
@@ -118,8 +119,9 @@ fn cells(system: &System, matches: &[Match]) -> BTreeMap<[i64; 3], Cell> {
     cells
 }
 
-/// How far the fit moves when a cell is left out, to first order: what the others say without it, in the unknowns in which all say 1.
-fn left_out(spectrum: &Spectrum, cell: &Cell) -> Six {
+/// How far the fit moves when a cell is left out, to first order. That is the pose of the others alone, in the unknowns in
+/// which all say 1.
+fn shift_without_cell(spectrum: &Spectrum, cell: &Cell) -> Six {
     let first = spectrum.fixed;
     let free = 6 - first;
     let white = |k: usize| spectrum.vectors[first + k].map(|x| x / spectrum.values[first + k].sqrt());
@@ -132,7 +134,7 @@ fn left_out(spectrum: &Spectrum, cell: &Cell) -> Six {
     let mut moves = [0.0; 6];
     for k in 0..free {
         let along: f64 = (0..free).map(|i| rows[k][i] * score(i)).sum();
-        let more = along / (1.0 - shares[k].clamp(0.0, ALONE));
+        let more = along / (1.0 - shares[k].clamp(0.0, MAX_CELL_SHARE));
         for i in 0..free {
             let white = white(i);
             (0..6).for_each(|d| moves[d] += more * rows[k][i] * white[d]);

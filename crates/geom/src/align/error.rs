@@ -22,9 +22,9 @@ pub enum AlignError {
     Uneven {
         /// Which.
         what: &'static str,
-        /// Of the points.
+        /// The number of points.
         expected: usize,
-        /// Of the others.
+        /// The number of the others.
         found: usize,
     },
     /// A weight is negative or no number.

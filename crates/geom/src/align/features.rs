@@ -1,11 +1,11 @@
 //! Poses from pairs of points with normals: two places of the measured surface that lie to each other as two places of
 //! the reference do.
 //!
-//! Four numbers say how two points with normals lie to each other, whatever the pose: their distance, the angles of both
-//! normals with the line between them, and the angle between the normals (Drost, Ulrich, Navab, Ilic: Model globally,
-//! match locally, CVPR 2010). All pairs of a sample of the reference are sorted into cells of these four numbers. A pair
-//! of the measured surface looks its cell up: each pair there gives one pose, which is tried at once (Papazov, Burschka:
-//! An efficient RANSAC for 3D object recognition, ACCV 2010). Pairs with few counterparts are tried first: they tell most.
+//! Four numbers say how two points with normals lie to each other, whatever the pose. They are their distance, the angles of
+//! both normals with the line between them, and the angle between the normals. (Drost, Ulrich, Navab, Ilic: Model globally,
+//! match locally, CVPR 2010.) All pairs of a sample of the reference are sorted into cells of these four numbers. A pair of the
+//! measured surface looks its cell up. Each pair there gives one pose, which is tried at once. (Papazov, Burschka: An efficient
+//! RANSAC for 3D object recognition, ACCV 2010.) Pairs with few counterparts are tried first: they tell most.
 
 use super::sample::Samples;
 use crate::parallel::prelude::*;
@@ -14,7 +14,7 @@ use crate::space::{Point, Vector, cross, dot, minus, norm, plus, times, unit};
 use std::f64::consts::PI;
 
 /// Cells of each of the angles from 0 to π.
-const ANGLES: usize = 16;
+const CELLS_PER_ANGLE: usize = 16;
 
 /// A place with its normal.
 pub(super) type Oriented = (Point, Vector);
@@ -34,13 +34,13 @@ pub(super) struct PairTable {
 
 /// Cosines at the ends of the cells of the angles and at their middles, descending.
 struct Walls {
-    ends: [f64; ANGLES - 1],
-    middles: [f64; ANGLES],
+    ends: [f64; CELLS_PER_ANGLE - 1],
+    middles: [f64; CELLS_PER_ANGLE],
 }
 
 impl Walls {
     fn new() -> Walls {
-        let cosine = |cells: f64| libm::cos(cells * (PI / ANGLES as f64));
+        let cosine = |cells: f64| libm::cos(cells * (PI / CELLS_PER_ANGLE as f64));
         Walls {
             ends: std::array::from_fn(|k| cosine((k + 1) as f64)),
             middles: std::array::from_fn(|k| cosine(k as f64 + 0.5)),
@@ -87,7 +87,8 @@ impl Relation {
 }
 
 impl PairTable {
-    /// Of at most 65,535 places with normals; pairs nearer than `least` are left out. `step` is the accuracy of places.
+    /// The table of at most 65,535 places with normals; pairs nearer than `least` are left out. `step` is the accuracy of
+    /// places.
     pub fn new(sample: &Samples, step: f64, least: f64) -> PairTable {
         let sample: Vec<Oriented> =
             sample.points.iter().copied().zip(sample.normals.iter().copied()).collect();
@@ -109,7 +110,7 @@ impl PairTable {
                 sample.iter().map(key).collect()
             })
             .collect();
-        let mut first = vec![0u32; lengths * ANGLES.pow(3) + 1];
+        let mut first = vec![0u32; lengths * CELLS_PER_ANGLE.pow(3) + 1];
         let known = || keys.iter().flatten().filter(|&&k| k != u32::MAX);
         known().for_each(|&k| first[k as usize + 1] += 1);
         for i in 1..first.len() {
@@ -127,8 +128,8 @@ impl PairTable {
     }
 
     /// Where the pairs of the reference are that lie to each other about as these two: those of its cell and of the nearer neighbors.
-    fn near(&self, a: Oriented, b: Oriented) -> impl Iterator<Item = std::ops::Range<usize>> + '_ {
-        let limits = [self.lengths, ANGLES, ANGLES, ANGLES];
+    fn ranges_near(&self, a: Oriented, b: Oriented) -> impl Iterator<Item = std::ops::Range<usize>> + '_ {
+        let limits = [self.lengths, CELLS_PER_ANGLE, CELLS_PER_ANGLE, CELLS_PER_ANGLE];
         let relation = Relation::of(a, b, self.step, 0.0, &self.walls);
         // The cell in which a number lies, and the one on the side to which it is nearer: from the lower of both on.
         let upper = relation.map(|r| {
@@ -148,12 +149,12 @@ impl PairTable {
 
     /// The pairs of the reference that lie to each other about as these two.
     pub fn like(&self, a: Oriented, b: Oriented) -> Vec<[u16; 2]> {
-        self.near(a, b).flat_map(|range| &self.pairs[range]).copied().collect()
+        self.ranges_near(a, b).flat_map(|range| &self.pairs[range]).copied().collect()
     }
 
     /// How many these are.
     pub fn count_like(&self, a: Oriented, b: Oriented) -> usize {
-        self.near(a, b).map(|range| range.len()).sum()
+        self.ranges_near(a, b).map(|range| range.len()).sum()
     }
 
     /// The motion that lays the measured pair on a pair of the reference. `None` where a frame has no direction.
@@ -171,8 +172,9 @@ impl PairTable {
 /// Index of a cell.
 #[inline(always)]
 fn cell(at: [usize; 4], lengths: usize) -> usize {
-    let angle = |k: usize| at[k].min(ANGLES - 1);
-    ((at[0].min(lengths - 1) * ANGLES + angle(1)) * ANGLES + angle(2)) * ANGLES + angle(3)
+    let angle = |k: usize| at[k].min(CELLS_PER_ANGLE - 1);
+    ((at[0].min(lengths - 1) * CELLS_PER_ANGLE + angle(1)) * CELLS_PER_ANGLE + angle(2)) * CELLS_PER_ANGLE
+        + angle(3)
 }
 
 /// A frame that goes with a pair: the first axis along the pair, the third along the normals.
@@ -184,7 +186,7 @@ pub(super) struct PairFrame {
 }
 
 impl PairFrame {
-    /// Of the sum or difference of the normals. `None` where it lies along the pair.
+    /// The frame by the sum or difference of the normals. `None` where it lies along the pair.
     fn new(a: Oriented, b: Oriented, sum: bool) -> Option<PairFrame> {
         let (x, _) = unit(minus(b.0, a.0))?;
         let n = if sum { plus(a.1, b.1) } else { minus(a.1, b.1) };
@@ -197,7 +199,7 @@ impl PairFrame {
         })
     }
 
-    /// Of whichever is farther from the direction of the pair.
+    /// The frame by whichever of the two is farther from the direction of the pair.
     pub fn best(a: Oriented, b: Oriented) -> Option<PairFrame> {
         let x = minus(b.0, a.0);
         let across = |n: Vector| norm(cross(n, x));

@@ -25,23 +25,25 @@ pub enum Freedom {
     },
 }
 
-/// Mean square displacement along the facets' normals per unit of mean square displacement, above which a motion is held.
-pub(super) const HELD: f64 = 0.02;
-/// Share of the radius by which the others are tried, and the distance per way up to which they are free: a cylinder of
-/// facets holds its rotation by its edges, but only until the next facet.
-pub(super) const TRIED: f64 = 0.05;
-pub(super) const BARELY: f64 = 0.02;
+/// Mean square displacement along the facets' normals, per unit of mean square displacement. Above it a motion is held.
+pub(super) const HELD_MOTION_SHARE: f64 = 0.02;
+/// Share of the radius by which motions that are not held are tried.
+pub(super) const FREEDOM_STEP_SHARE: f64 = 0.05;
+/// Distance per way up to which a tried motion is free. The edges of a cylinder of facets hold its rotation, but only until the
+/// next facet.
+pub(super) const FREE_RISE_SHARE: f64 = 0.02;
 
 /// Share of a rotation, counted as displacement, in a motion that counts as a slide.
-pub(super) const SLIDES: f64 = 0.01;
-/// Distances from which on none counts for more where it is asked how far a pose may move, in standard deviations.
-pub(super) const CAP: f64 = 6.0;
+pub(super) const MAX_SLIDE_ROTATION: f64 = 0.01;
+/// Standard deviations from which on no distance counts for more, where it is asked how far a pose may move.
+pub(super) const CAPPED_SIGMAS: f64 = 6.0;
 /// How often the interval in which a motion begins to cost is halved.
-const HALVINGS: usize = 8;
+const COST_INTERVAL_HALVINGS: usize = 8;
 
-/// Of motions that facets hardly hold though they are not free, unit directions of the unknowns, how far the pose may move along
-/// each, to the side where it may move farther, until the likelihood falls by the factor of one standard deviation. Points of a single face
-/// are held by its rim: those that lie beyond it, and only once they do. The equations at the pose know of the few that do there, or of none.
+/// Motions that facets hardly hold though they are not free: unit directions of the unknowns, and how far the pose may move
+/// along each. The way ends where the likelihood has fallen by the factor of one standard deviation, to the side where that is
+/// farther. Points of a single face are held by its rim: those that lie beyond it, and only once they do. The equations at the
+/// pose know of the few that do there, or of none.
 pub(super) fn barely_held(
     problem: &Problem,
     system: &System,
@@ -53,9 +55,9 @@ pub(super) fn barely_held(
     if directions.is_empty() || sigma <= problem.rounding {
         return Ok(vec![]);
     }
-    let cap = CAP * sigma;
+    let cap = CAPPED_SIGMAS * sigma;
     let least = problem.cost(pose, cap, progress)?;
-    let most = TRIED * system.radius;
+    let most = FREEDOM_STEP_SHARE * system.radius;
     let mut all = vec![];
     for direction in directions {
         let mut widest = 0.0_f64;
@@ -68,7 +70,7 @@ pub(super) fn barely_held(
             while high < most && !costs(high)? {
                 (low, high) = (high, 2.0 * high);
             }
-            for _ in 0..HALVINGS {
+            for _ in 0..COST_INTERVAL_HALVINGS {
                 let middle = 0.5 * (low + high);
                 if costs(middle)? { high = middle } else { low = middle }
             }
@@ -90,12 +92,12 @@ pub(super) fn named(center: Point, radius: f64, directions: &[Six]) -> Vec<Freed
         (0..free).fold([0.0; 3], |s, k| plus(s, times(row[k], of(k))))
     };
     let slides: Vec<Vector> = (0..free)
-        .filter(|&k| values[k] < SLIDES)
+        .filter(|&k| values[k] < MAX_SLIDE_ROTATION)
         .filter_map(|k| unit(combined(&rows[k], &shift)).map(|u| u.0))
         .collect();
     let mut found: Vec<Freedom> =
         slides.iter().map(|&direction| Freedom::Slides { direction: forward(direction) }).collect();
-    for row in (0..free).filter(|&k| values[k] >= SLIDES).map(|k| &rows[k]) {
+    for row in (0..free).filter(|&k| values[k] >= MAX_SLIDE_ROTATION).map(|k| &rows[k]) {
         let omega = times(1.0 / radius, combined(row, &turn));
         let t = slides.iter().fold(combined(row, &shift), |t, s| minus(t, times(dot(t, *s), *s)));
         let Some((direction, size)) = unit(omega) else { continue };

@@ -1,12 +1,12 @@
 //! The iteration: closest points, one small motion that brings the points nearest to them, and again.
 //!
-//! Chen, Medioni: Object modelling by registration of multiple range images, Image and Vision Computing 10, 1992: the
-//! distance is measured across the facet, edge or corner where the closest place lies. The steps then end at the least sum
-//! of squared *distances to the surface*, not of distances to fixed points.
+//! The distance is measured across the facet, edge or corner where the closest place lies. (Chen, Medioni: Object modelling by
+//! registration of multiple range images, Image and Vision Computing 10, 1992.) The steps then end at the least sum of squared
+//! *distances to the surface*, not of distances to fixed points.
 //!
-//! Points that do not belong to the surface count less and less from six and not at all from ten standard deviations on
-//! (Hampel's redescending weights, with the standard deviation from the median, Rousseeuw and Leroy: Robust regression,
-//! 1987); where none is that far, the result is the plain weighted least-squares pose.
+//! Points that do not belong to the surface count less and less from six standard deviations on, and not at all from ten on.
+//! (Hampel's redescending weights, with the standard deviation from the median: Rousseeuw and Leroy, Robust regression, 1987.)
+//! Where none is that far, the result is the plain weighted least-squares pose.
 
 use super::field::normal_of;
 use super::sample::{Samples, agree};
@@ -21,15 +21,16 @@ use crate::rigid::Rigid;
 use crate::space::{Point, Vector, minus, norm, unit};
 use crate::stats::SIGMA_OVER_MAD;
 
-/// Standard deviations within which points count in full, and from which on not at all.
-const FULL: f64 = 6.0;
-const NONE: f64 = 10.0;
+/// Standard deviations within which points count in full.
+const FULL_WEIGHT_SIGMAS: f64 = 6.0;
+/// Standard deviations from which on points do not count at all.
+const ZERO_WEIGHT_SIGMAS: f64 = 10.0;
 /// Iterations before the fit counts as not converging.
-pub(super) const MOST: usize = 200;
-/// Share of its own standard uncertainty below which a step is none.
-const SMALL: f64 = 1e-3;
+pub(super) const MAX_ITERATIONS: usize = 200;
+/// Share of its own standard uncertainty below which a step counts as none.
+const SETTLED_STEP_SHARE: f64 = 1e-3;
 
-/// What the iteration works on.
+/// The problem that the iteration works on.
 pub(super) struct Problem<'a> {
     pub target: &'a Target<'a>,
     pub boundary_edges: Option<&'a BoundaryEdges>,
@@ -93,7 +94,7 @@ impl Problem<'_> {
         Room { matches, moved, .. }: &mut Room,
     ) -> Result<(), AlignError> {
         let samples = self.samples;
-        if samples.points.len() < MANY {
+        if samples.points.len() < MIN_PARALLEL_SAMPLES {
             moved.clear();
             moved.extend(samples.points.iter().map(|p| pose.point(*p)));
         } else {
@@ -112,7 +113,7 @@ impl Problem<'_> {
             let foot = tree.foot(&q, &hit);
             let Some(facet) = normal_of(&foot.corners) else { return none() };
             if let Some(normal) = samples.normals.get(i)
-                && !agree(pose.vector(*normal), facet, samples.oriented, FACING)
+                && !agree(pose.vector(*normal), facet, samples.oriented, OTHER_SIDE_COSINE)
             {
                 return none();
             }
@@ -163,14 +164,15 @@ impl Problem<'_> {
         }
         let limit = self.limit(sigma);
         for m in matches {
-            let share = NONE * (1.0 - m.distance / limit) / (NONE - FULL);
+            let share =
+                ZERO_WEIGHT_SIGMAS * (1.0 - m.distance / limit) / (ZERO_WEIGHT_SIGMAS - FULL_WEIGHT_SIGMAS);
             m.equation.weight *= share.clamp(0.0, 1.0);
         }
     }
 
     /// Distance from which on a point does not count, where any do not.
     pub fn limit(&self, sigma: f64) -> f64 {
-        NONE * sigma.max(16.0 * self.rounding)
+        ZERO_WEIGHT_SIGMAS * sigma.max(16.0 * self.rounding)
     }
 
     /// Iterates from `start` until a step is less than a thousandth of its own uncertainty, `most` times at most.
@@ -186,8 +188,8 @@ impl Problem<'_> {
         Ok(Ended { pose: self.locked(last.after(&ended.pose)), ..ended })
     }
 
-    /// As [`Problem::run`], but the last step, which is none, is not made but given: where it converged, the matches in `room` are those at
-    /// the pose where it ends, the farther ones with less weight and those out of reach with no distance.
+    /// As [`Problem::run`], but the last step is not made but given, as it moves nothing. Where the search converged, the
+    /// matches in `room` are those at its final pose. The farther ones have less weight, those out of reach no distance.
     pub fn iterate(
         &self,
         start: Rigid,
@@ -214,16 +216,16 @@ impl Problem<'_> {
             let spectrum = Spectrum::without(&system, &self.stays(&system, &pose));
             let step = spectrum.solve(&system.right, 0);
             let motion = moved(&system, &step);
-            // Of a displacement: the rotations are counted in it.
+            // The size of a displacement, with the rotations counted in it.
             let spread: f64 = spectrum.values[spectrum.fixed..].iter().map(|v| system.weight / v).sum();
             let uncertainty = system.rms() * (spread / system.count()).sqrt();
             let size = step.iter().map(|x| x * x).sum::<f64>().sqrt();
-            if size <= (SMALL * uncertainty).max(self.rounding) {
+            if size <= (SETTLED_STEP_SHARE * uncertainty).max(self.rounding) {
                 return Ok((ended(pose, iteration + 1, true), motion));
             }
             pose = self.locked(motion.after(&pose));
             if self.robust {
-                reach = reach.min((2.0 * NONE * sigma + 2.0 * size).max(64.0 * self.rounding));
+                reach = reach.min((2.0 * ZERO_WEIGHT_SIGMAS * sigma + 2.0 * size).max(64.0 * self.rounding));
             }
         }
         Ok((ended(pose, most, false), Rigid::IDENTITY))
@@ -269,12 +271,12 @@ impl Problem<'_> {
     }
 }
 
-/// Cosine of the angle between the normals of sample and facet beyond which they lie on different sides of a wall. At a
-/// sharp edge both may be those of either side, so that less would shut out what belongs there.
-const FACING: f64 = -0.5;
+/// Cosine of the angle between the normals of sample and facet beyond which they lie on different sides of a wall. At a sharp
+/// edge both may be those of either side, so a smaller angle would shut out matches that belong there.
+const OTHER_SIDE_COSINE: f64 = -0.5;
 
 /// Samples from which on their places are worked out on all threads.
-const MANY: usize = 1 << 14;
+const MIN_PARALLEL_SAMPLES: usize = 1 << 14;
 
 /// Unit direction of edge `k` of a triangle.
 fn edge(corners: &[Point; 3], k: usize) -> Vector {
@@ -299,7 +301,7 @@ pub(super) fn median_distance(matches: &[Match], values: &mut Vec<(f64, f64)>) -
     let counts = |m: &&Match| m.distance.is_finite() && m.equation.weight > 0.0;
     values.extend(matches.iter().filter(counts).map(|m| (m.distance, m.equation.weight)));
     let half = 0.5 * values.iter().map(|v| v.1).sum::<f64>();
-    // What is left of them, and the weight of those that are less.
+    // The values still open, and the weight of those that are less.
     let (mut left, mut less) = (&mut values[..], 0.0);
     while left.len() > 1 {
         let middle = left.len() / 2;

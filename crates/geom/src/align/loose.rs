@@ -1,64 +1,66 @@
-//! What the measured does not hold, and how far such motions go.
+//! Motions that the measured does not hold, and how far they go.
 //!
-//! A motion is held by points whose closest place lies inside a face. Rims hold it only once points lie beyond them: between its ends the
-//! sum of squares is flat. Least squares end at a rim there: a point with noise that lies within the material is nearer to the face beyond the
-//! rim than to its own. So what the insides of faces hardly hold is tried by finite motions, with the closest places found anew: first
-//! roughly, to find the middle of what fits, and from there exactly, how far the sum of squares rises by no more than noise makes it.
+//! A motion is held by points whose closest place lies inside a face. Rims hold it only once points lie beyond them: between
+//! its ends the sum of squares is flat. Least squares end at a rim there. A point with noise that lies within the material is
+//! nearer to the face beyond the rim than to its own. So motions that the insides of faces hardly hold are tried as finite
+//! ones, with the closest places found anew. Rough ways find the middle of the poses that fit. From there exact ways tell how
+//! far the sum of squares rises by no more than noise makes it.
 
 use super::AlignError;
-use super::freedom::{BARELY, HELD, SLIDES, TRIED};
-use super::icp::{MOST, Match, Problem, small_motion};
+use super::freedom::{FREE_RISE_SHARE, FREEDOM_STEP_SHARE, HELD_MOTION_SHARE, MAX_SLIDE_ROTATION};
+use super::icp::{MAX_ITERATIONS, Match, Problem, small_motion};
 use super::rims::at_rims;
 use super::system::{Six, Spectrum, eigen_six, padded, slope};
 use super::twist::{Twist, inner};
-use super::work::PART;
+use super::work::RIVAL_SAMPLES;
 use crate::progress::Progress;
 use crate::rigid::Rigid;
 use crate::space::minus;
 
 /// Upper quartile of the size of normal errors, in standard deviations.
-const UPPER_QUARTILE: f64 = 1.15;
+const UPPER_QUARTILE_SIGMAS: f64 = 1.15;
 /// Standard deviations from a rim within which noise may decide which face is closest.
-const NEAR: f64 = 6.0;
-/// Standard deviations, squared, by which two poses that fit as well may differ: noise brings three motions so far once in 900.
-const INDISTINCT: f64 = 16.0;
-/// Root mean square rise per way that is the path's: what is held moves along by its second order.
-const STRAIGHT: f64 = 1e-3;
-/// Standard deviations of a single distance that a rough way is long at least: noise beside a rim lowers the root mean square by up to 0.6,
-/// which is [`BARELY`] of this.
-const ROUGH_WAY: f64 = 30.0;
-/// Standard deviations of a single distance that a range is wide where nothing holds: the noise of single points blurs its ends.
-const WIDE: f64 = 20.0;
+const RIM_SIGMAS: f64 = 6.0;
+/// Variances by which two poses that fit as well may differ: noise brings three motions so far once in 900.
+const INDISTINCT_VARIANCES: f64 = 16.0;
+/// Root mean square rise per way that belongs to the path: a held motion moves along by its second order.
+const PATH_RISE_SHARE: f64 = 1e-3;
+/// Least length of a rough way, in standard deviations of a single distance. Noise at a rim lowers the root mean square by up
+/// to 0.6, which is [`FREE_RISE_SHARE`] of this.
+const MIN_ROUGH_SIGMAS: f64 = 30.0;
+/// Standard deviations of a single distance from which on a range without hold is wide: noise of single points blurs its ends.
+const MIN_WIDE_SIGMAS: f64 = 20.0;
 /// Rounds by which the middle of a range is found.
-const ROUNDS: usize = 3;
-/// How often an end of a range is halved, in the search for the middle and where it is told.
-const ROUGH: usize = 4;
-const EXACT: usize = 8;
+const MIDDLE_ROUNDS: usize = 3;
+/// Halvings of an end of a range in the search for its middle.
+const ROUGH_HALVINGS: usize = 4;
+/// Halvings of an end of a range that is reported.
+const EXACT_HALVINGS: usize = 8;
 /// Steps to the pose that moves least.
-const STEPS: usize = 5;
+const LEAST_MOTION_STEPS: usize = 5;
 
 /// Motions that the insides of faces hardly hold, in the frame of the reference.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Loose {
-    /// Those that are free.
+    /// The free motions.
     pub free: Vec<Twist>,
-    /// Those that rims leave some way, and how far from end to end, root mean square, millimeters.
+    /// The motions that rims leave some way, and how far from end to end, root mean square, millimeters.
     pub slack: Vec<(Twist, f64)>,
-    /// Those that are held all the same.
+    /// The motions that are held all the same.
     pub held: Vec<Twist>,
     /// Whether one of the free or slack ones has an end: then they stay where they were put.
     pub ends: bool,
 }
 
 impl Loose {
-    /// Those along which the pose is not one that the points tell.
+    /// The motions along which the points do not tell the pose.
     pub fn untold(&self) -> Vec<Twist> {
         self.free.iter().copied().chain(self.slack.iter().map(|s| s.0)).collect()
     }
 }
 
-/// The motions that are hardly held at `pose`, where least squares end, and the pose within their ranges; `start` is what a motion is
-/// measured from.
+/// The motions that are hardly held at `pose`, where least squares end, and the pose within their ranges. Each motion is
+/// measured from `start`.
 pub(super) fn explore(
     problem: &Problem,
     pose: &Rigid,
@@ -83,7 +85,7 @@ pub(super) fn explore(
         let width: f64 = at.range(six, progress)?.iter().sum();
         if at.goes_both_ways(six, progress)? {
             loose.free.push(twist);
-        } else if width > (WIDE * at.sigma).max(64.0 * problem.rounding) {
+        } else if width > (MIN_WIDE_SIGMAS * at.sigma).max(64.0 * problem.rounding) {
             loose.slack.push((twist, width));
         } else {
             loose.held.push(twist);
@@ -110,7 +112,7 @@ pub(super) fn is_symmetry(
     let six = twist.six(problem.mean, problem.radius);
     for sign in [-1.0, 1.0] {
         let there = small_motion(problem.mean, problem.radius, &six.map(|x| sign * way * x));
-        if problem.cost(&there, way, progress)?.sqrt() > BARELY * way {
+        if problem.cost(&there, way, progress)?.sqrt() > FREE_RISE_SHARE * way {
             return Ok(false);
         }
     }
@@ -127,9 +129,9 @@ struct Place<'a> {
     step: f64,
     sigma: f64,
     count: f64,
-    /// Mean square distance, none counted for more than the step or [`NEAR`] standard deviations.
+    /// Mean square distance, none counted for more than the step or [`RIM_SIGMAS`] standard deviations.
     least: f64,
-    /// What is hardly held: slides before turns, the freest first.
+    /// The hardly held motions: slides before turns, the freest first.
     weak: Vec<Six>,
 }
 
@@ -140,10 +142,10 @@ impl<'a> Place<'a> {
         problem.weigh(&mut matches, sigma);
         let system = problem.system(&matches, pose);
         let (count, radius) = (system.count(), system.radius);
-        let step = TRIED * radius;
-        matches.truncate(PART);
+        let step = FREEDOM_STEP_SHARE * radius;
+        matches.truncate(RIVAL_SAMPLES);
         let weight: f64 = matches.iter().map(|m| m.equation.weight).sum();
-        let reach = (NEAR * sigma).max(64.0 * problem.rounding).min(step);
+        let reach = (RIM_SIGMAS * sigma).max(64.0 * problem.rounding).min(step);
         let at_rims = at_rims(problem, &matches, reach, progress)?;
         for (m, _) in matches.iter_mut().zip(at_rims).filter(|(_, at_rim)| *at_rim) {
             m.equation.weight = 0.0;
@@ -151,7 +153,7 @@ impl<'a> Place<'a> {
         let inside = problem.system_of_facets(&matches, pose);
         let spectrum = Spectrum::without(&inside, &problem.stays(&inside, pose));
         let center = inside.center;
-        let weak = weak(&spectrum, HELD * weight);
+        let weak = weak(&spectrum, HELD_MOTION_SHARE * weight);
         let mut place = Place { problem, pose: *pose, center, radius, step, sigma, count, least: 0.0, weak };
         if !place.weak.is_empty() {
             place.least = problem.cost(pose, place.cap(), progress)?;
@@ -160,7 +162,7 @@ impl<'a> Place<'a> {
     }
 
     fn cap(&self) -> f64 {
-        self.step.max(NEAR * self.sigma)
+        self.step.max(RIM_SIGMAS * self.sigma)
     }
 
     fn twists(&self, of: &[Six]) -> Vec<Twist> {
@@ -179,13 +181,14 @@ impl<'a> Place<'a> {
     /// The rise that tells nothing, of a way so long.
     fn unseen(&self, way: f64) -> f64 {
         let noise = self.sigma.max(self.problem.rounding);
-        INDISTINCT * noise * noise / self.count + (STRAIGHT * way) * (STRAIGHT * way)
+        INDISTINCT_VARIANCES * noise * noise / self.count + (PATH_RISE_SHARE * way) * (PATH_RISE_SHARE * way)
     }
 
     /// Whether a step both ways costs next to nothing for its length.
     fn goes_both_ways(&self, six: &Six, progress: &dyn Progress) -> Result<bool, AlignError> {
         for way in [-self.step, self.step] {
-            if self.rise(&self.moved(six, way), progress)? > (BARELY * way) * (BARELY * way) {
+            if self.rise(&self.moved(six, way), progress)? > (FREE_RISE_SHARE * way) * (FREE_RISE_SHARE * way)
+            {
                 return Ok(false);
             }
         }
@@ -204,7 +207,7 @@ impl<'a> Place<'a> {
                 *end = high;
                 continue;
             }
-            for _ in 0..EXACT {
+            for _ in 0..EXACT_HALVINGS {
                 let middle = 0.5 * (low + high);
                 if fits(middle)? { low = middle } else { high = middle }
             }
@@ -216,14 +219,15 @@ impl<'a> Place<'a> {
     /// The longest way, up to the step, that costs next to nothing for its length; none below what noise hides.
     fn rough_way(&self, six: &Six, progress: &dyn Progress) -> Result<f64, AlignError> {
         let fits = |way: f64| -> Result<bool, AlignError> {
-            Ok(self.rise(&self.moved(six, way), progress)? <= (BARELY * way) * (BARELY * way))
+            Ok(self.rise(&self.moved(six, way), progress)?
+                <= (FREE_RISE_SHARE * way) * (FREE_RISE_SHARE * way))
         };
-        let least = (ROUGH_WAY * self.sigma).max(64.0 * self.problem.rounding);
+        let least = (MIN_ROUGH_SIGMAS * self.sigma).max(64.0 * self.problem.rounding);
         let mut way = self.step;
         while way >= least {
             if fits(way)? {
                 let (mut low, mut high) = (way, (2.0 * way).min(self.step));
-                for _ in 0..ROUGH {
+                for _ in 0..ROUGH_HALVINGS {
                     let middle = 0.5 * (low + high);
                     if fits(middle)? { low = middle } else { high = middle }
                 }
@@ -234,11 +238,12 @@ impl<'a> Place<'a> {
         Ok(0.0)
     }
 
-    /// The middle of what fits roughly: of chords along the weak directions, one after the other, or, as a pose in a corner of the range has
-    /// none of these, between them. `None` where there is no chord. What is held follows.
+    /// The middle of the poses that fit, roughly. It is found on chords along the weak directions, one after the other, or
+    /// between them. A pose in a corner of the range has no such chords. `None` where there is no chord. The held motions
+    /// follow.
     fn middle(&self, progress: &dyn Progress) -> Result<Option<Rigid>, AlignError> {
-        let part = self.problem.samples.first(PART);
-        let few = Problem { samples: &part, ..*self.problem };
+        let part = self.problem.samples.first(RIVAL_SAMPLES);
+        let sampled = Problem { samples: &part, ..*self.problem };
         let mut between = vec![];
         for (i, a) in self.weak.iter().enumerate() {
             for b in &self.weak[..i] {
@@ -253,8 +258,8 @@ impl<'a> Place<'a> {
         let mut to_middles = |chords: &[Six]| -> Result<bool, AlignError> {
             let mut any = false;
             for six in chords {
-                let mut at = Place { problem: &few, pose, weak: vec![], ..*self };
-                at.least = few.cost(&pose, at.cap(), progress)?;
+                let mut at = Place { problem: &sampled, pose, weak: vec![], ..*self };
+                at.least = sampled.cost(&pose, at.cap(), progress)?;
                 let forth = at.rough_way(six, progress)?;
                 let back = at.rough_way(&six.map(|x| -x), progress)?;
                 any |= forth.max(back) > 0.0;
@@ -263,7 +268,7 @@ impl<'a> Place<'a> {
             }
             Ok(any)
         };
-        for _ in 0..ROUNDS {
+        for _ in 0..MIDDLE_ROUNDS {
             if !to_middles(&self.weak)? && !to_middles(&between)? {
                 break;
             }
@@ -274,14 +279,14 @@ impl<'a> Place<'a> {
         let there = Place::new(self.problem, &pose, progress)?;
         let still = [self.problem.stay, &there.twists(&there.weak)].concat();
         let rest = Problem { stay: &still, ..*self.problem };
-        Ok(Some(rest.run(pose, f64::INFINITY, MOST, progress)?.pose))
+        Ok(Some(rest.run(pose, f64::INFINITY, MAX_ITERATIONS, progress)?.pose))
     }
 
     /// The pose that moves the samples least from `start`, of those that the directions lead to, and how far it is.
     fn nearest(&self, directions: &[Six], start: &Rigid) -> (Rigid, f64) {
         let mut at = self.pose;
         let mut way: Six = [0.0; 6];
-        for _ in 0..STEPS {
+        for _ in 0..LEAST_MOTION_STEPS {
             let (mut matrix, mut right) = ([[0.0; 6]; 6], [0.0; 6]);
             for (p, w) in self.problem.samples.points.iter().zip(&self.problem.samples.weights) {
                 let (here, there) = (at.point(*p), start.point(*p));
@@ -313,15 +318,15 @@ impl<'a> Place<'a> {
     }
 }
 
-/// The standard deviation of the distances, from their upper quartile: of points in a face that noise moved out of a wall, half lie within it
-/// exactly.
+/// The standard deviation of the distances, from their upper quartile. Noise moves some points of a face out of a wall, and
+/// half of these lie within it exactly.
 fn spread(matches: &[Match]) -> f64 {
     let mut distances: Vec<f64> = matches.iter().map(|m| m.distance).filter(|d| d.is_finite()).collect();
     if distances.is_empty() {
         return 0.0;
     }
     let quarter = distances.len() * 3 / 4;
-    *distances.select_nth_unstable_by(quarter, f64::total_cmp).1 / UPPER_QUARTILE
+    *distances.select_nth_unstable_by(quarter, f64::total_cmp).1 / UPPER_QUARTILE_SIGMAS
 }
 
 /// The directions that are held by less than `enough`. Slides are parted from turns, and either are taken apart by how well they are held.
@@ -331,7 +336,7 @@ fn weak(spectrum: &Spectrum, enough: f64) -> Vec<Six> {
     let vectors = &spectrum.vectors[stay..stay + count];
     let turns = |i: usize, j: usize| (0..3).map(|k| vectors[i][k] * vectors[j][k]).sum::<f64>();
     let (shares, rows) = eigen_six(&padded(count, &turns));
-    let slides = (0..count).filter(|&k| shares[k] < SLIDES).count();
+    let slides = (0..count).filter(|&k| shares[k] < MAX_SLIDE_ROTATION).count();
     let mut all = vec![];
     for group in [&rows[..slides], &rows[slides..count]] {
         let held = |i: usize, j: usize| {

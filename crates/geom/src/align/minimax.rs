@@ -1,10 +1,11 @@
 //! The best fit by the least greatest distance (Chebyshev), from a pose that is near.
 //!
-//! Least squares share the deviations out; here the worst place alone decides, so that a part is as far within a zone about its
-//! reference as it can be. A sequence of linear programs in small motions (`zone::motion`), over those points that stick out most.
+//! Least squares share the deviations out. Here the worst place alone decides, so that a part is as far within a zone about its
+//! reference as it can be. A sequence of linear programs in small motions (`zone::motion`), over those points that stick out
+//! most.
 
-use super::beside::Searched;
 use super::counting::{Counting, NotCounted, weighted_mean};
+use super::perturbed::Searched;
 use super::sample::Measured;
 use super::{AlignError, Alignment, BestFit, Start, Target};
 use crate::progress::Progress;
@@ -27,15 +28,17 @@ pub struct Minimax {
     /// Points that count.
     pub used: u64,
     /// Points that do not.
-    pub left_out: NotCounted,
+    pub not_counted: NotCounted,
 }
 
-/// The motion near `from`, a best fit of the same `measured` to the same `reference`, after which the greatest distance of a point
-/// from the surface is least. Of a mesh its vertices count. Not those, unless `options` say so, that lie beyond ten standard deviations of the best fit
-/// and a hundredth of the diagonal of the reference: they are told in `left_out`, with those that have no place on the reference.
+/// The motion after which the greatest distance of a point from the surface is least. It lies near `from`, a best fit of the
+/// same `measured` to the same `reference`. The vertices of a mesh count. Points beyond ten standard deviations of the best fit
+/// and a hundredth of the diagonal of the reference do not, unless `options` say so. `not_counted` reports them, with those
+/// that have no place on the reference.
 ///
-/// A local search, begun again beside where it ends, and at a given start that is better: the best fit decides near which pose. Cost: three to ten
-/// closest-point searches of all points, one by one, as many for each time that it goes on from beside, and some thousand of single points.
+/// A local search, begun again beside where it ends, and at a given start that is better: the best fit decides near which pose.
+/// Cost: three to ten closest-point searches of all points, one by one. Each time that the search goes on from a pose nearby
+/// costs as many, and some thousand of single points.
 ///
 /// # Errors
 /// [`AlignError::Free`] where the best fit left a motion free, [`AlignError::NotSettled`], [`AlignError::Cancelled`], and those of
@@ -58,7 +61,7 @@ pub struct Minimax {
 /// let tree = Tree::build(&reference)?;
 /// let target = Target::new(&reference, &tree);
 /// let measured = Measured::Points { points: &points, normals: None };
-/// let options = BestFit { start: Start::Given(Rigid::IDENTITY), ..BestFit::default() };
+/// let options = BestFit { start: Start::From(Rigid::IDENTITY), ..BestFit::default() };
 /// let fit = best_fit(&measured, &target, &options, &Silent)?;
 /// assert!(minimax(&measured, &target, &fit, &options, &Silent)?.greatest < 1e-12);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -84,7 +87,7 @@ pub fn minimax(
     };
     let searched = Searched { points, distance: &distance, room: &[], seed: options.seed };
     let mut found = searched.lowest(start, progress)?;
-    if let Start::Given(pose) = options.start
+    if let Start::From(pose) = options.start
         && points.iter().all(|p| distance(0, pose.point(*p)).is_some_and(|d| d.0 < found.half))
     {
         found = searched.lowest(pose, progress)?;
@@ -99,6 +102,6 @@ pub fn minimax(
         rms: sum(&|d| d * d).sqrt(),
         mean_abs: sum(&|d| d),
         used: points.len() as u64,
-        left_out: counting.not_counted(&motion, reference, progress)?,
+        not_counted: counting.not_counted(&motion, reference, progress)?,
     })
 }

@@ -11,14 +11,14 @@
 //! | 3-2-1 and reference point systems (RPS) | [`constrained`] |
 //!
 //! [`best_fit`] goes three steps:
-//! 1. *Start* (`features`, `field`, `start`): poses from principal axes and from pairs of points with normals, each tried
-//!    on a grid of distances about the reference; the best are refined on a few hundred samples.
-//! 2. *Iteration* (`icp`, `system`): closest points and small motions, the whole surface, area-weighted, normals compatible,
-//!    outliers without weight, until a step is less than a thousandth of its own uncertainty.
+//! 1. *Start* (`features`, `field`, `start`): poses from principal axes and from pairs of points with normals. Each is tried on
+//!    a grid of distances about the reference. The best are refined on a few hundred samples.
+//! 2. *Iteration* (`icp`, `system`): closest points and small motions over the whole surface, weighted by area. Normals must be
+//!    compatible, and outliers have no weight. It ends when a step is less than a thousandth of its own uncertainty.
 //! 3. *What the result is worth* (`loose`, `rims`, `freedom`, `covariance`, `wall`): covariance, motions that are not held, other poses that fit as
 //!    well (`look`, `mirror`).
 //!
-//! [`minimax`] and [`into_zones`] begin there and search on by linear programs (`counting`, `beside`).
+//! [`minimax`] and [`into_zones`] begin there and search on by linear programs (`counting`, `perturbed`).
 //!
 //! All answers are the same for any number of threads; random choices depend on the seed alone.
 
@@ -26,7 +26,6 @@
 
 mod alignment;
 mod alternatives;
-mod beside;
 mod best_fit;
 mod counting;
 mod covariance;
@@ -40,6 +39,7 @@ mod loose;
 mod minimax;
 mod mirror;
 mod near;
+mod perturbed;
 mod response;
 mod revolved;
 mod rims;
@@ -64,7 +64,7 @@ pub use error::AlignError;
 pub use freedom::Freedom;
 pub use minimax::{Minimax, minimax};
 pub use response::{Response, response};
-pub use rows::{AMPLIFIED, Row, RowFit, constrained, pairs};
+pub use rows::{MIN_AMPLIFICATION, Row, RowFit, constrained, pairs};
 pub use sample::Measured;
 pub use scaled::{Scale, best_fit_scaled};
 pub use target::Target;

@@ -1,8 +1,8 @@
 //! How a best fit answers to small shifts of what was measured: the derivative of the pose.
 //!
-//! Of the least sum of weighted squares of `e + J x` the answer is `x = -(Jᵀ W J)⁺ Jᵀ W e`, linear in the distances `e`, and a shift of a
-//! vertex changes the distances of its facets along their normals (JCGM 102:2011, 6.2: the propagation of covariances through a
-//! least-squares estimate). Weights and facets met are those of the pose.
+//! The least sum of weighted squares of `e + J x` lies at `x = -(Jᵀ W J)⁺ Jᵀ W e`, which is linear in the distances `e`. A
+//! shift of a vertex changes the distances of its facets along their normals. (JCGM 102:2011, 6.2: the propagation of
+//! covariances through a least-squares estimate.) Weights and facets met are those of the pose.
 
 use super::freedom::twists;
 use super::sample::{Measured, Samples};
@@ -18,9 +18,9 @@ use crate::space::{Point, Vector, dot, plus, times};
 /// How a best fit answers to small shifts of what was measured.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Response {
-    /// One of each vertex of the mesh, or point of the cloud: the products of its six vectors with a shift of it, millimeters in the frame of
-    /// the reference, are the change of the pose: a rotation vector about `center`, radians, and a translation, millimeters. Zero for what
-    /// has no weight.
+    /// One response for each vertex of the mesh, or point of the cloud. The products of its six vectors with a shift of it,
+    /// millimeters in the frame of the reference, are the change of the pose. That change is a rotation vector about `center`,
+    /// radians, and a translation, millimeters. Zero for what has no weight.
     pub gains: Vec<[Vector; 6]>,
     /// Place that the rotations are about.
     pub center: Point,
@@ -36,9 +36,9 @@ impl Response {
 
 /// How the best fit `fit` answers to small shifts of its vertices or points. `measured` lies where it took them, and `options` are its own.
 ///
-/// To first order: for shifts that are small beside the facets, and places that stay on their facet of the reference; points on its
-/// edges do not. What the shape leaves free does not move. Cost: one closest-point
-/// search of the surface, and 144 bytes a vertex.
+/// This holds to first order: for shifts that are small compared with the facets, and places that stay on their facet of the
+/// reference. Points on edges do not stay. Motions that the shape leaves free do not move. Cost: one closest-point search of
+/// the surface, and 144 bytes a vertex.
 ///
 /// # Errors
 /// [`AlignError`]: a reference that cannot be searched, cancelled.

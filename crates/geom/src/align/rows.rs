@@ -1,7 +1,7 @@
-//! Alignment by places that belong together: pairs of points, and rows of a measured point, its nominal place and the
+//! Alignment by places that belong together: pairs of points, or rows. A row has a measured point, its nominal place and the
 //! direction in which it is held, as in 3-2-1 and reference point systems.
 
-use super::alignment::POOR;
+use super::alignment::POOR_RESIDUAL_SHARE;
 use super::icp::moved;
 use super::system::{Constraint, Equation, SixBySix, Spectrum, System, eigen_six, slope};
 use super::{AlignError, AlignWarning};
@@ -27,12 +27,12 @@ pub struct Row {
 pub struct RowFit {
     /// Takes measured coordinates to those of the reference.
     pub reference_from_measured: Rigid,
-    /// Of each row: the distance left along its direction, signed; of each pair: the distance left.
+    /// The distance left along the direction of each row, signed; for pairs the distance left.
     pub residuals: Vec<f64>,
-    /// Of each row that is held along a direction: the change of the pose per millimeter of error in that row, a rotation vector about `center`
-    /// (radians per millimeter) and a translation; none of pairs.
+    /// The change of the pose per millimeter of error in each row that is held along a direction. It is a rotation vector about
+    /// `center` (radians per millimeter) and a translation; pairs have none.
     pub gains: Vec<[f64; 6]>,
-    /// What those rotation vectors are about, in the frame of the reference.
+    /// Center of those rotation vectors, in the frame of the reference.
     pub center: Point,
     /// Root of their weighted mean square.
     pub rms: f64,
@@ -40,13 +40,14 @@ pub struct RowFit {
     pub iterations: usize,
     /// Whether the steps settled.
     pub converged: bool,
-    /// What is to be said about it.
+    /// Warnings about the alignment.
     pub warnings: Vec<AlignWarning>,
 }
 
 impl RowFit {
-    /// Of each row: how far a millimeter of error in it moves the corner that it moves farthest, in millimeters (the column of the inverse of the
-    /// equations; JCGM 102:2011, 6.2). From [`AMPLIFIED`] on the places of the rows lie too near to a line, or to each other, for the part.
+    /// For each row, how far a millimeter of error in it moves the corner that it moves farthest, in millimeters. It is the
+    /// column of the inverse of the equations (JCGM 102:2011, 6.2). From [`MIN_AMPLIFICATION`] on the places of the rows lie
+    /// too near to a line, or to each other, for the part.
     pub fn amplifications(&self, corners: &[Point]) -> Vec<f64> {
         let of = |gain: &[f64; 6]| {
             let [a, b, c, x, y, z] = *gain;
@@ -57,9 +58,9 @@ impl RowFit {
     }
 }
 
-/// Millimeters that a corner moves per millimeter of error from which on that is told: a part that is ten times as long as its places lie apart
-/// does not lie where the places say, for all practical purposes.
-pub const AMPLIFIED: f64 = 10.0;
+/// Millimeters that a corner moves per millimeter of error from which on a warning says so. A part ten times as long as its
+/// places lie apart does not lie where the places say, for all practical purposes.
+pub const MIN_AMPLIFICATION: f64 = 10.0;
 
 /// The motion that brings `measured[i]` nearest to `reference[i]`, by the least weighted sum of squared distances.
 ///
@@ -103,7 +104,7 @@ pub fn pairs(measured: &[Point], reference: &[Point], weights: Option<&[f64]>) -
     let mut poor = poor([measured, reference], &residuals, &weight, rms);
     if let Some(AlignWarning::PoorRows { mirrored, .. }) = &mut poor {
         let image: Vec<Point> = measured.iter().map(|[x, y, z]| [-x, *y, *z]).collect();
-        *mirrored = fit(&image).is_some_and(|(_, residuals)| left(&residuals) < MIRRORED * rms);
+        *mirrored = fit(&image).is_some_and(|(_, residuals)| left(&residuals) < MIRROR_RMS_RATIO * rms);
     }
     let warnings = poor.into_iter().collect();
     Ok(RowFit {
@@ -118,8 +119,8 @@ pub fn pairs(measured: &[Point], reference: &[Point], weights: Option<&[f64]>) -
     })
 }
 
-/// What a mirror image may leave, over what pairs or a best fit leave, for them to look mirrored.
-pub(super) const MIRRORED: f64 = 0.5;
+/// Root mean square residual of a mirror image over that of pairs or a best fit, below which they look mirrored.
+pub(super) const MIRROR_RMS_RATIO: f64 = 0.5;
 
 /// The motion of the least weighted sum of squares and the distances that it leaves; `None` where another does as well.
 fn nearest(
@@ -160,8 +161,8 @@ fn poor(
     let [a, b] = places.map(|p| Aabb::of(counts.iter().map(|&i| &p[i])).diagonal());
     let share = rms / a.min(b);
     let row = counts.into_iter().max_by(|&i, &j| residuals[i].abs().total_cmp(&residuals[j].abs()))?;
-    let left = residuals[row].abs();
-    (share > POOR).then_some(AlignWarning::PoorRows { share, row, left, mirrored: false })
+    let residual = residuals[row].abs();
+    (share > POOR_RESIDUAL_SHARE).then_some(AlignWarning::PoorRows { share, row, residual, mirrored: false })
 }
 
 /// The rotation of greatest `Σ s_ab R_ba`, and whether no other does as well.
@@ -190,11 +191,11 @@ fn quaternion_rotation(s: &[[f64; 3]; 3]) -> ([Vector; 3], bool) {
 }
 
 /// Steps after which rows count as not settling.
-const MOST: usize = 100;
+const MAX_ROW_STEPS: usize = 100;
 
-/// The motion that brings the measured point of every row into the plane across its direction: exactly for six rows that
-/// hold all six freedoms (3-2-1), by the least weighted sum of squares for more (RPS). A point held in two or three
-/// directions has as many rows.
+/// The motion that brings the measured point of every row into the plane across its direction. Six rows that hold all six
+/// freedoms are met exactly (3-2-1), more by the least weighted sum of squares (RPS). A point held in two or three directions
+/// has as many rows.
 ///
 /// It starts from `start`, or from the points taken as pairs; the planes are few, so a start far off may lead to another
 /// solution. Steps of Gauss and Newton.
@@ -246,7 +247,7 @@ pub fn constrained(rows: &[Row], start: Option<Rigid>) -> Result<RowFit, AlignEr
     let residual = |pose: &Rigid, i: usize| dot(held[i], minus(pose.point(measured[i]), nominal[i]));
     let size = nominal.iter().flatten().fold(radius, |m, x| m.max(x.abs()));
     let (mut iterations, mut converged) = (0, false);
-    while iterations < MOST && !converged {
+    while iterations < MAX_ROW_STEPS && !converged {
         let equation = |i: usize| Equation {
             point: pose.point(measured[i]),
             away: minus(pose.point(measured[i]), nominal[i]),

@@ -1,11 +1,11 @@
-//! What is aligned, as weighted points: every point stands for its share of the measured surface.
+//! The measured data as weighted points: every point stands for its share of the measured surface.
 //!
-//! Where a pose is looked for, a vertex of a mesh stands for a third of the area of its facets, so that a scan that is dense in one
-//! place and thin in another is not drawn towards the dense place. A large facet is represented by places spread over it instead
-//! of its corners: what a mesh of few facets says of the surface lies between its vertices. A point of a cloud stands for itself.
+//! Where a pose is looked for, a vertex of a mesh stands for a third of the area of its facets. A scan that is dense in one
+//! place and thin in another is then not drawn towards the dense place. A large facet is represented by places spread over it
+//! instead of its corners. In a mesh of few facets the surface lies between the vertices. A point of a cloud stands for itself.
 //!
-//! The pose itself is that of the surface: every facet is represented by its middle, or the middles of equal parts of it. Of a
-//! square of what is linear on a facet its corners make twice of the variation within it, its middle none.
+//! The pose itself is that of the surface: every facet is represented by its middle, or the middles of equal parts of it. The
+//! corners make twice the variation within a facet of the square of a linear function, the middle makes none.
 
 use crate::mesh::Mesh;
 use crate::num::dense::eigen;
@@ -14,7 +14,7 @@ use crate::parallel::prelude::*;
 use crate::space::{Point, Vector, cross, dot, minus, norm, plus, times, unit};
 use crate::spatial::neighbors::PointTree;
 
-/// What is brought to the reference, millimeters, in a frame of its own.
+/// The measured data that are brought to the reference, millimeters, in a frame of their own.
 #[derive(Clone, Copy, Debug)]
 pub enum Measured<'a> {
     /// A mesh with outward facets. Its surface is aligned: the middles of its facets, or of equal parts of large ones, each with
@@ -52,17 +52,18 @@ pub(super) struct Samples {
 }
 
 /// Neighbors that make the normal of a point of a cloud.
-const NEIGHBORS: usize = 16;
-/// Points among which they are looked for, at most.
-const DENSE: usize = 100_000;
+const NORMAL_NEIGHBORS: usize = 16;
+/// Most points among which these neighbors are looked for.
+const MAX_NEIGHBOR_POINTS: usize = 100_000;
 
 impl Samples {
     /// All that is measured. Vertices that no facet uses are left out.
     pub fn all(measured: &Measured) -> Samples {
-        Samples::of(measured, LARGE)
+        Samples::of(measured, SAMPLED_FACET_SHARE)
     }
 
-    /// The points that were measured: of a mesh its vertices alone, however large their facets. What decides by the worst place looks at these.
+    /// The points that were measured: of a mesh its vertices alone, however large their facets. Decisions by the worst place
+    /// look at these.
     pub fn vertices(measured: &Measured) -> Samples {
         Samples::of(measured, f64::INFINITY)
     }
@@ -93,7 +94,7 @@ impl Samples {
         let total: f64 = mesh.faces.iter().map(|f| norm(double_area(mesh, f))).sum();
         for face in &mesh.faces {
             let double = double_area(mesh, face);
-            let parts = parts(double, total);
+            let parts = side_parts(double, total);
             samples.spread(mesh.places(face), double, parts);
         }
         samples.weights.iter_mut().for_each(|w| *w /= total);
@@ -107,7 +108,7 @@ impl Samples {
         for (number, face) in mesh.faces.iter().enumerate() {
             let double = double_area(mesh, face);
             if unit(double).is_some() {
-                let rows = parts(double, total).ceil() as usize;
+                let rows = side_parts(double, total).ceil() as usize;
                 facets.extend(std::iter::repeat_n(number as u32, rows * rows));
             }
         }
@@ -120,8 +121,8 @@ impl Samples {
         self.weights.push(weight);
     }
 
-    /// Adds the middles of the equal parts into which a facet falls when each side is cut into at least `parts`: the sum
-    /// over them is exact for what is linear on the facet.
+    /// Adds the middles of the equal parts of a facet, each side being cut into at least `parts`. The sum over them is exact
+    /// for functions that are linear on the facet.
     fn spread(&mut self, [a, b, c]: [Point; 3], double: Vector, parts: f64) {
         let Some((normal, size)) = unit(double) else { return };
         let n = parts.ceil();
@@ -193,17 +194,19 @@ impl Samples {
         }
     }
 
-    /// About `count` of them, as [`Samples::thinned`], with normals: where there are none, by local planes, without sides. Of a dense cloud a
-    /// part makes the planes: its nearest neighbors scatter more than they lie apart.
-    pub fn few(&self, count: usize, seed: u64) -> Samples {
-        let mut few = self.thinned(count, seed);
-        if few.normals.is_empty() {
-            let part = (self.points.len() > DENSE).then(|| self.thinned(DENSE, seed).points);
+    /// About `count` of them, as [`Samples::thinned`], with normals: where there are none, by local planes, without sides. A
+    /// part of a dense cloud makes the planes: its nearest neighbors scatter more than they lie apart.
+    pub fn oriented_subset(&self, count: usize, seed: u64) -> Samples {
+        let mut oriented_subset = self.thinned(count, seed);
+        if oriented_subset.normals.is_empty() {
+            let part = (self.points.len() > MAX_NEIGHBOR_POINTS)
+                .then(|| self.thinned(MAX_NEIGHBOR_POINTS, seed).points);
             let among = part.as_ref().unwrap_or(&self.points);
             let tree = PointTree::new(among);
-            few.normals = few.points.par_iter().map(|p| local_normal(p, among, &tree)).collect();
+            oriented_subset.normals =
+                oriented_subset.points.par_iter().map(|p| local_normal(p, among, &tree)).collect();
         }
-        few
+        oriented_subset
     }
 
     /// The same with every normal turned round.
@@ -238,7 +241,7 @@ pub(super) struct Moments {
 }
 
 impl Moments {
-    /// Of weighted points.
+    /// The moments of weighted points.
     pub fn of(points: impl Iterator<Item = (Point, f64)> + Clone) -> Moments {
         let (mut mean, mut total) = ([0.0; 3], 0.0);
         for (p, w) in points.clone() {
@@ -268,20 +271,21 @@ impl Moments {
 
 /// The direction in which the nearest neighbors spread least; zero where they lie on a line.
 fn local_normal(p: &Point, among: &[Point], tree: &PointTree) -> Vector {
-    let near = tree.k_nearest(p, NEIGHBORS, None);
+    let near = tree.k_nearest(p, NORMAL_NEIGHBORS, None);
     let moments = Moments::of(near.iter().map(|n| (among[n.1 as usize], 1.0)));
     if moments.variances[1] > 1e-6 * moments.variances[2] { moments.axes[0] } else { [0.0; 3] }
 }
 
-/// A facet of more than this share of the whole area is represented by places on it, each for at most this share.
-const LARGE: f64 = 1.0 / 1000.0;
-const PART: f64 = 1.0 / 4000.0;
+/// Share of the whole area above which a facet is represented by places on it.
+const SAMPLED_FACET_SHARE: f64 = 1.0 / 1000.0;
+/// Largest share of the whole area that each of these places stands for.
+const FACET_PART_SHARE: f64 = 1.0 / 4000.0;
 /// No place of the surface stands for more than this share of the area.
-const FINE: f64 = 1.0 / 50_000.0;
+const MAX_PLACE_SHARE: f64 = 1.0 / 50_000.0;
 
 /// Parts into which the sides of a facet are cut where the whole surface is represented.
-fn parts(double: Vector, total: f64) -> f64 {
-    (norm(double) / (FINE * total)).sqrt()
+fn side_parts(double: Vector, total: f64) -> f64 {
+    (norm(double) / (MAX_PLACE_SHARE * total)).sqrt()
 }
 
 fn of_mesh(mesh: &Mesh, large: f64) -> Samples {
@@ -293,7 +297,7 @@ fn of_mesh(mesh: &Mesh, large: f64) -> Samples {
         let double = double_area(mesh, face);
         let size = norm(double);
         if size > large * total {
-            let parts = (size / (PART * total)).sqrt();
+            let parts = (size / (FACET_PART_SHARE * total)).sqrt();
             samples.spread(mesh.places(face), double, parts);
             continue;
         }

@@ -1,10 +1,11 @@
-//! The best fit of a part that may be larger or smaller as a whole: a seventh unknown, on request alone, as a scale hides what a part is off.
+//! The best fit of a part that may be larger or smaller as a whole. The scale is a seventh unknown, on request alone, as it
+//! hides errors of the part.
 //!
-//! Pose and scale are found in turns: a best fit of the scaled part, then one step of the scale in which the pose gives way (the Schur
-//! complement of the pose in the normal equations of all seven; Björck, Numerical methods for least squares problems, 1996, 2.2). The steps
-//! are Newton's for both together.
+//! Pose and scale are found in turns. A best fit of the scaled part comes first, then one step of the scale in which the pose
+//! gives way. The step takes the Schur complement of the pose in the normal equations of all seven. (Björck, Numerical methods
+//! for least squares problems, 1996, 2.2.) The steps are Newton's for both together.
 
-use super::alignment::UNITS;
+use super::alignment::CONFUSED_UNIT_RATIOS;
 use super::covariance::cell_of;
 use super::icp::Match;
 use super::sample::{Measured, Samples};
@@ -19,18 +20,20 @@ use crate::rigid::Rigid;
 use crate::space::{Point, dot, minus, times};
 use std::collections::BTreeMap;
 
-/// Scales that are tried, beside that of a wrong unit and that of the sizes, while none fits: a piece of a part tells nothing by its size.
-const STARTS: [f64; 6] = [0.9, 1.1, 0.8, 1.25, 0.7, 1.4];
+/// Scales that are tried while none fits, beside that of a wrong unit and that of the sizes. A piece of a part tells nothing by
+/// its size.
+const TRIED_SCALES: [f64; 6] = [0.9, 1.1, 0.8, 1.25, 0.7, 1.4];
 /// Median distance over the size up to which a scale fits.
-const FITS: f64 = 2e-3;
-/// Turns of pose and scale.
-const TURNS: usize = 30;
-/// Share of its own standard uncertainty below which a step of the scale is none.
-const SETTLED_STEP: f64 = 1e-2;
-/// Mean square displacement along the normals that a scale must make, per unit of mean square displacement, to be told: what is flat has any.
-const LEAST_TOLD: f64 = 1e-4;
+const MAX_FITTING_MEDIAN: f64 = 2e-3;
+/// Most alternations between pose and scale.
+const MAX_SCALE_TURNS: usize = 30;
+/// Share of its own standard uncertainty below which a step of the scale counts as none.
+const SETTLED_SCALE_SHARE: f64 = 1e-2;
+/// Mean square displacement along the normals per unit of mean square displacement, from which on the scale is determined. A
+/// flat part allows any.
+const MIN_SCALE_HOLD: f64 = 1e-4;
 /// Share by which a scale may differ from a ratio of units that is named.
-const UNIT_NEAR: f64 = 0.005;
+const UNIT_RATIO_TOLERANCE: f64 = 0.005;
 
 /// How many times as large the measured has to be made.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,7 +47,7 @@ pub struct Scale {
 impl Scale {
     /// The ratio of units that it is, nearly.
     pub fn unit(&self) -> Option<f64> {
-        UNITS.into_iter().find(|unit| (self.factor / unit - 1.0).abs() <= UNIT_NEAR)
+        CONFUSED_UNIT_RATIOS.into_iter().find(|unit| (self.factor / unit - 1.0).abs() <= UNIT_RATIO_TOLERANCE)
     }
 }
 
@@ -67,7 +70,7 @@ impl Scale {
 /// let scan = Mesh { positions, faces: reference.faces.clone() };
 /// let tree = Tree::build(&reference)?;
 /// // All faces count: three of them lie on theirs, and the fourth would be taken for an outlier.
-/// let near = BestFit { start: Start::Given(Rigid::IDENTITY), robust: false, ..BestFit::default() };
+/// let near = BestFit { start: Start::From(Rigid::IDENTITY), robust: false, ..BestFit::default() };
 /// let (_, scale) = best_fit_scaled(&Measured::Mesh(&scan), &Target::new(&reference, &tree), &near, &Silent)?;
 /// assert!((0.98 * scale.factor - 1.0).abs() < 1e-6);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -86,8 +89,9 @@ pub fn best_fit_scaled(
     let (mut fit, mut scale) = (as_is, Scale { factor: 1.0, std_uncertainty: 0.0 });
     let radius = |measured: &Measured| Samples::all(measured).moments().radius();
     let size = radius(measured);
-    for other in unit.into_iter().chain([radius(&Measured::Mesh(reference.mesh)) / size]).chain(STARTS) {
-        if fit.median / scale.factor <= FITS * size || !other.is_normal() {
+    for other in unit.into_iter().chain([radius(&Measured::Mesh(reference.mesh)) / size]).chain(TRIED_SCALES)
+    {
+        if fit.median / scale.factor <= MAX_FITTING_MEDIAN * size || !other.is_normal() {
             continue;
         }
         let there = of_scaled(measured, other, reference, options, progress)?;
@@ -97,7 +101,7 @@ pub fn best_fit_scaled(
         }
     }
     let mut of_surface = 0.0;
-    for _ in 0..TURNS {
+    for _ in 0..MAX_SCALE_TURNS {
         let there = scaled(measured, scale.factor);
         let surface = Samples::of_surface(&there.measured());
         let step = Step::new(surface, reference, options, &fit, progress)?;
@@ -109,9 +113,9 @@ pub fn best_fit_scaled(
         let pose = fit.reference_from_measured;
         let shift = times(by - 1.0, minus(pose.translation(), fit.center));
         let there = Rigid::translation_by(shift).after(&pose);
-        let near = BestFit { start: Start::Given(there), ..*options };
+        let near = BestFit { start: Start::From(there), ..*options };
         fit = of_scaled(measured, scale.factor, reference, &near, progress)?;
-        if step.size.abs() <= (SETTLED_STEP * step.uncertainty).max(step.rounding) {
+        if step.size.abs() <= (SETTLED_SCALE_SHARE * step.uncertainty).max(step.rounding) {
             break;
         }
     }
@@ -130,7 +134,7 @@ pub fn best_fit_scaled(
     Ok((fit, scale))
 }
 
-/// What is measured, of its own.
+/// The measured data that the fit owns.
 enum Owned {
     Mesh(Mesh),
     Points(Vec<Point>, Option<Vec<Point>>),
@@ -204,8 +208,8 @@ impl Step {
         let spectrum = Spectrum::of(&system);
         // The pose gives way.
         let gives = spectrum.solve(&with, fit.freedoms.len());
-        let told = own - inner(&with, &gives);
-        if told <= LEAST_TOLD * system.weight * system.radius * system.radius {
+        let hold = own - inner(&with, &gives);
+        if hold <= MIN_SCALE_HOLD * system.weight * system.radius * system.radius {
             return Err(AlignError::ScaleFree);
         }
         let mut cells: BTreeMap<[i64; 3], f64> = BTreeMap::new();
@@ -217,7 +221,7 @@ impl Step {
         let sum: f64 = cells.values().sum();
         let squares: f64 = cells.values().map(|x| x * x).sum();
         let count = cells.len() as f64;
-        let uncertainty = (squares * count / (count - 7.0).max(1.0)).sqrt() / told;
-        Ok(Step { size: -sum / told, uncertainty, rounding: problem.rounding / problem.radius })
+        let uncertainty = (squares * count / (count - 7.0).max(1.0)).sqrt() / hold;
+        Ok(Step { size: -sum / hold, uncertainty, rounding: problem.rounding / problem.radius })
     }
 }

@@ -1,7 +1,7 @@
 //! The end of an iteration over all that is measured, and what the result is worth.
 
 use super::covariance::covariance;
-use super::icp::{Ended, MOST, Match, Problem, Room, median_distance};
+use super::icp::{Ended, MAX_ITERATIONS, Match, Problem, Room, median_distance};
 use super::loose::{Loose, explore};
 use super::sample::Samples;
 use super::system::Spectrum;
@@ -13,23 +13,24 @@ use crate::progress::Progress;
 use crate::rigid::Rigid;
 use crate::stats::SIGMA_OVER_MAD;
 
-/// Rounds over a part of very many samples: what the iteration is off then is a few uncertainties.
-const FIRST: usize = 2;
-/// Rounds over all samples at most once the iteration has settled on some of them, and where it has not.
-const LAST: usize = 30;
-const FEW_ROUNDS: usize = 3;
-/// Share of the measured that does not count from which on that is told.
-const MUCH: f64 = 0.1;
+/// Rounds over a part of very many samples: the iteration is then off by a few uncertainties.
+const PART_ROUNDS: usize = 2;
+/// Most rounds over all samples once the iteration has settled on some of them.
+const MAX_SETTLED_ROUNDS: usize = 30;
+/// Most rounds over all samples where it has not settled.
+const MAX_UNSETTLED_ROUNDS: usize = 3;
+/// Share of the measured that does not count, from which on a warning says so.
+const MIN_REPORTED_EXCLUSION: f64 = 0.1;
 
-/// What the end of an iteration is made with.
+/// The means that the end of an iteration is made with.
 pub(super) struct Settle<'a> {
     pub work: &'a Work<'a>,
     pub all: Problem<'a>,
-    /// Of a mesh.
+    /// The problem of the surface of a mesh.
     pub surface: Option<Problem<'a>>,
     /// An eighth of very many.
     pub part: Option<Problem<'a>>,
-    pub some: &'a Samples,
+    pub subset: &'a Samples,
 }
 
 impl<'a> Settle<'a> {
@@ -40,13 +41,13 @@ impl<'a> Settle<'a> {
         sigma: f64,
         progress: &dyn Progress,
     ) -> Result<Alignment, AlignError> {
-        let Settle { work, all, surface, part, some } = self;
+        let Settle { work, all, surface, part, subset } = self;
         let mut reach = work.reach(sigma);
-        // What does not settle on some of them does not on all, which would take as many times as long.
-        let few = work.problem(some);
-        let begun = few.run(pose, reach, MOST, progress)?;
-        let most = if begun.converged { LAST } else { FEW_ROUNDS };
-        let (within, loose) = explore(&few, &begun.pose, &work.start(), progress)?;
+        // An iteration that does not settle on some of them does not settle on all, which would take as many times as long.
+        let sampled = work.problem(subset);
+        let begun = sampled.run(pose, reach, MAX_ITERATIONS, progress)?;
+        let most = if begun.converged { MAX_SETTLED_ROUNDS } else { MAX_UNSETTLED_ROUNDS };
+        let (within, loose) = explore(&sampled, &begun.pose, &work.start(), progress)?;
         pose = within;
         let mut stay = vec![];
         if loose.ends {
@@ -56,7 +57,7 @@ impl<'a> Settle<'a> {
         let staying = |problem: &Problem<'a>| Problem { stay: &stay, ..*problem };
         let all = &staying(all);
         if let Some(part) = part {
-            pose = staying(part).run(pose, reach, FIRST, progress)?.pose;
+            pose = staying(part).run(pose, reach, PART_ROUNDS, progress)?.pose;
         }
         let mut room = Room::default();
         let ended = match surface {
@@ -67,18 +68,18 @@ impl<'a> Settle<'a> {
             true => all.complete(&mut room.matches, &ended.pose, progress)?,
             false => room.matches = all.matches(&ended.pose, f64::INFINITY, progress)?,
         }
-        work.worth(all, &ended, room.matches, (some, &loose), progress)
+        work.judged(all, &ended, room.matches, (subset, &loose), progress)
     }
 }
 
 impl Work<'_> {
     /// Figures of the result at the pose where it ended, of the matches of all samples there.
-    fn worth(
+    fn judged(
         &self,
         all: &Problem,
         ended: &Ended,
         mut matches: Vec<Match>,
-        (some, loose): (&Samples, &Loose),
+        (subset, loose): (&Samples, &Loose),
         progress: &dyn Progress,
     ) -> Result<Alignment, AlignError> {
         let pose = &ended.pose;
@@ -89,18 +90,18 @@ impl Work<'_> {
         if system.weight <= 0.0 {
             return Err(AlignError::NoOverlap);
         }
-        let some = self.problem(some);
+        let sampled = self.problem(subset);
         let of = |twists: &[Twist]| directions(twists, system.center, system.radius);
         let slack: Vec<Twist> = loose.slack.iter().map(|s| s.0).collect();
         let hardly = of(&[&slack[..], &loose.held].concat());
-        let locked = some.lock.map(|lock| lock.twists(pose)).unwrap_or_default();
+        let locked = sampled.lock.map(|lock| lock.twists(pose)).unwrap_or_default();
         let lock = of(&locked);
-        let mut barely = freedom::barely_held(&some, &system, hardly, pose, progress)?;
+        let mut barely = freedom::barely_held(&sampled, &system, hardly, pose, progress)?;
         if barely.is_empty() {
             // Without noise the range alone tells.
             barely.extend(loose.slack.iter().map(|(t, width)| (t.six(system.center, system.radius), *width)));
         }
-        // What is free is told by the facets; edges of a faceted cylinder would hold it.
+        // The facets tell the free motions; edges of a faceted cylinder would hold them.
         let facets;
         let equations = match loose.free.is_empty() {
             true => &system,
@@ -119,7 +120,7 @@ impl Work<'_> {
             farthest = farthest.max(if m.distance > limit { m.distance } else { 0.0 });
             sum = sum.plus(m.equation.weight * m.distance);
         }
-        let left_out = AlignWarning::LeftOut { share, farthest, limit };
+        let exclusion = AlignWarning::Excluded { share, farthest, limit };
         Ok(Alignment {
             reference_from_measured: *pose,
             rms: system.rms(),
@@ -128,7 +129,7 @@ impl Work<'_> {
             iterations: ended.iterations,
             converged: ended.converged,
             used: used as u64,
-            left_out: (matches.len() - used) as u64,
+            excluded_points: (matches.len() - used) as u64,
             share: system.weight.min(1.0),
             covariance: covariance(&system, &spectrum, &matches, &barely),
             center: system.center,
@@ -139,7 +140,7 @@ impl Work<'_> {
             freedoms: named(&loose.free),
             slack: loose.slack.iter().filter_map(with_width).collect(),
             alternatives: vec![],
-            warnings: if share > MUCH { vec![left_out] } else { vec![] },
+            warnings: if share > MIN_REPORTED_EXCLUSION { vec![exclusion] } else { vec![] },
         })
     }
 }

@@ -1,7 +1,7 @@
 //! Where to start: poses from all that could tell, tried by the hundred thousand on a grid, the best of them refined.
 
 use super::features::{Oriented, PairFrame, PairTable};
-use super::field::{Field, LANES, SampleBlock};
+use super::field::{Field, SAMPLES_PER_BLOCK, SampleBlock};
 use super::icp::Problem;
 use super::sample::{Moments, Samples, area, on_surface};
 use super::{AlignError, Target};
@@ -13,37 +13,42 @@ use crate::space::{Aabb, Point, Vector, cross, dot, minus, norm, plus, times};
 use std::sync::Arc;
 
 /// Places on the reference whose pairs are known.
-const REFERENCE: usize = 900;
+const REFERENCE_PLACES: usize = 900;
 /// Samples of the measured surface that a pose is tried on: first few, then all.
-const TRIED: [usize; 3] = [24, 96, 400];
-/// Share of the samples' worth that a pose must have to be tried further.
-const ENOUGH: [f64; 2] = [0.25, 0.35];
-/// Pairs of the measured surface that are looked up, and poses tried, once of the rarest pairs and once of others.
-const LOOKED_UP: usize = 4000;
-const POSES: usize = 60_000;
-/// Counterparts tried of each.
-const COUNTERPARTS: usize = 300;
-/// Pairs of either kind that are tried before it is asked whether they are enough; they are once so many lead to one pose with this worth.
-const ROUND: usize = 16;
-const AGREED: usize = 20;
-const SURE: f64 = 0.7;
-/// Share of the best worth that others must have to be refined.
-const COMPARABLE: f64 = 0.5;
-/// Starts that are refined, and those whose refined pose is looked at closely.
-const REFINED: usize = 32;
-const CLOSE: usize = 12;
-/// Steps after which starts are refined further only where they have this share of the best worth there: a few steps take away what
-/// the pair of places was off, and with it most of what a right start lacks.
-const BEGUN: usize = 3;
-const LIVELY: f64 = 0.7;
+const SAMPLES_PER_STAGE: [usize; 3] = [24, 96, 400];
+/// Share of the samples' score that a pose must have to be tried further.
+const MIN_STAGE_SCORE: [f64; 2] = [0.25, 0.35];
+/// Pairs of the measured surface that are looked up.
+const MAX_LOOKUP_PAIRS: usize = 4000;
+/// Poses tried of the rarest pairs, and as many of others.
+const MAX_POSES: usize = 60_000;
+/// Counterparts tried of each pair.
+const MAX_COUNTERPARTS: usize = 300;
+/// Pairs of either kind that are tried before it is asked whether they are enough.
+const PAIRS_PER_ROUND: usize = 16;
+/// Pairs that must lead to one pose to be enough.
+const MIN_AGREEING_PAIRS: usize = 20;
+/// Score that this pose must have.
+const MIN_AGREED_SCORE: f64 = 0.7;
+/// Share of the best score that others must have to be refined.
+const MIN_REFINED_SCORE: f64 = 0.5;
+/// Starts that are refined.
+const MAX_REFINED_STARTS: usize = 32;
+/// Starts whose refined pose is looked at closely.
+const MAX_CLOSE_STARTS: usize = 12;
+/// Steps after which starts with too low a score are dropped. A few steps take away the error of the pair of places, and with
+/// it most of what a right start lacks.
+const FIRST_START_STEPS: usize = 3;
+/// Share of the best score there that a start must have to be refined further.
+const MIN_LIVELY_SCORE: f64 = 0.7;
 /// Share of the spacing within which places count where poses close together are told apart.
-const NEAR: f64 = 0.5;
-/// Share of the spacing for what cannot be told from zero in the first steps: ten standard deviations are half a spacing then.
-const WIDE: f64 = 0.05 / 16.0;
-/// Cost over that of the pose there is, up to which another may be the better one: the samples are few.
-const WORSE: f64 = 1.1;
+const APART_REACH_SPACINGS: f64 = 0.5;
+/// Share of the spacing that the first steps take for zero: ten standard deviations are half a spacing then.
+const START_ROUNDING_SPACINGS: f64 = 0.05 / 16.0;
+/// Cost over that of the present pose up to which another may be the better one: the samples are few.
+const MAX_RIVAL_COST_RATIO: f64 = 1.1;
 /// Share of the spacing from which on poses are not the same.
-const OTHER: f64 = 0.05;
+const OTHER_POSE_SPACINGS: f64 = 0.05;
 
 /// The search for a start.
 pub(super) struct Search {
@@ -57,22 +62,23 @@ pub(super) struct Search {
     pub spacing: f64,
     measured: Moments,
     seed: u64,
-    /// Whether it may end early: where what was found then does not lie on the reference as a whole, it is looked for again in full.
+    /// Whether the search may end early. Where its result then does not lie on the reference as a whole, the search is made
+    /// again in full.
     brief: bool,
 }
 
-/// What is known of the reference.
+/// The known facts about the reference.
 struct Known {
     field: Field,
     table: PairTable,
     moments: Moments,
 }
 
-/// A pose and what it is worth, from 0 to 1.
+/// A pose and its score, from 0 to 1.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Candidate {
     pub pose: Rigid,
-    pub worth: f64,
+    pub score: f64,
 }
 
 impl Search {
@@ -84,8 +90,8 @@ impl Search {
         progress: &dyn Progress,
     ) -> Result<Search, AlignError> {
         let bounds = target.bounds;
-        let reference = on_surface(target.mesh, REFERENCE, seed);
-        let spacing = (area(target.mesh) / REFERENCE as f64).sqrt().max(1e-3 * bounds.diagonal());
+        let reference = on_surface(target.mesh, REFERENCE_PLACES, seed);
+        let spacing = (area(target.mesh) / REFERENCE_PLACES as f64).sqrt().max(1e-3 * bounds.diagonal());
         let reach = 1.2 * spacing;
         let field = Field::new(target.tree, &bounds, reach, progress)?;
         let table = PairTable::new(&reference, spacing, 2.0 * spacing);
@@ -110,8 +116,8 @@ impl Search {
         self.known.moments.mean
     }
 
-    /// The same seen in the mirrors across the principal axes of the reference: where it is its own mirror image, a pose of a mirrored part and
-    /// one of the part lie to each other so.
+    /// The same seen in the mirrors across the principal axes of the reference. Where the reference is its own mirror image,
+    /// these mirrors relate a pose of a mirrored part to one of the part.
     pub fn in_mirrors(&self, pose: &Rigid) -> Vec<Rigid> {
         let Moments { mean, axes, .. } = &self.known.moments;
         let seen = |axis: &Vector| {
@@ -142,11 +148,15 @@ impl Search {
     }
 
     /// The best poses, best first: no two nearly the same.
-    pub fn candidates(&self, given: &[Rigid], progress: &dyn Progress) -> Result<Vec<Candidate>, AlignError> {
-        let mut all: Vec<Rigid> = given.to_vec();
+    pub fn candidates(
+        &self,
+        known_poses: &[Rigid],
+        progress: &dyn Progress,
+    ) -> Result<Vec<Candidate>, AlignError> {
+        let mut all: Vec<Rigid> = known_poses.to_vec();
         all.extend(self.of_axes());
         let mut found: Vec<Candidate> =
-            all.iter().map(|&pose| Candidate { pose, worth: self.worth(&pose) }).collect();
+            all.iter().map(|&pose| Candidate { pose, score: self.score(&pose) }).collect();
         found.extend(self.of_pairs(progress)?);
         Ok(self.distinct(found))
     }
@@ -174,10 +184,10 @@ impl Search {
         let all: Vec<Oriented> =
             self.samples.points.iter().copied().zip(self.samples.normals.iter().copied()).collect();
         let mut pairs = vec![];
-        for _ in 0..8 * LOOKED_UP {
+        for _ in 0..8 * MAX_LOOKUP_PAIRS {
             let [i, j] = [(); 2].map(|()| random.below(all.len() as u64) as usize);
             let length = norm(minus(all[j].0, all[i].0));
-            if pairs.len() < LOOKED_UP && length >= 0.25 * size && length <= 0.9 * size {
+            if pairs.len() < MAX_LOOKUP_PAIRS && length >= 0.25 * size && length <= 0.9 * size {
                 pairs.push((i, j));
             }
         }
@@ -201,11 +211,12 @@ impl Search {
             .collect();
         rare.retain(|r| r.0 > 0);
         rare.sort_unstable();
-        // The rarest tell most. What belongs to no part is rare too: as many poses more are of pairs as they were drawn.
+        // The rarest tell most. Pairs that belong to no part are rare too: as many poses more come from pairs as they were
+        // drawn.
         let poses = |pairs: &[(usize, usize)]| {
-            let mut left = POSES;
+            let mut left = MAX_POSES;
             let fits = |r: &&(usize, usize)| {
-                let cost = r.0.min(COUNTERPARTS * signs.len());
+                let cost = r.0.min(MAX_COUNTERPARTS * signs.len());
                 left.checked_sub(cost).inspect(|l| left = *l).is_some()
             };
             pairs.iter().take_while(fits).count()
@@ -223,12 +234,12 @@ impl Search {
             signs.iter().flat_map(of_sign).collect()
         };
         let mut found: Vec<Vec<Candidate>> = vec![];
-        for round in 0..rarest.len().max(drawn.len()).div_ceil(ROUND) {
+        for round in 0..rarest.len().max(drawn.len()).div_ceil(PAIRS_PER_ROUND) {
             if progress.cancelled() {
                 return Err(Cancelled.into());
             }
             let part = |all: &[(usize, usize)]| {
-                let ends = [round, round + 1].map(|r| (r * ROUND).min(all.len()));
+                let ends = [round, round + 1].map(|r| (r * PAIRS_PER_ROUND).min(all.len()));
                 all[ends[0]..ends[1]].to_vec()
             };
             let pairs = [part(rarest), part(drawn)].concat();
@@ -243,42 +254,43 @@ impl Search {
     /// Whether most samples lie on the reference at the best pose, and so many pairs lead there.
     fn agreed(&self, found: &[Vec<Candidate>]) -> bool {
         let all = found.iter().flatten();
-        let Some(best) = all.max_by(|a, b| a.worth.total_cmp(&b.worth)) else { return false };
+        let Some(best) = all.max_by(|a, b| a.score.total_cmp(&b.score)) else { return false };
         let there = |pair: &&Vec<Candidate>| {
             pair.iter().any(|c| self.apart(&c.pose, &best.pose) < 2.0 * self.spacing)
         };
-        best.worth >= SURE && found.iter().filter(there).take(AGREED).count() == AGREED
+        best.score >= MIN_AGREED_SCORE
+            && found.iter().filter(there).take(MIN_AGREEING_PAIRS).count() == MIN_AGREEING_PAIRS
     }
 
     /// The two best poses that lay this pair on one of the reference.
     fn best_of_pair(&self, a: Oriented, b: Oriented) -> Vec<Candidate> {
         let Some(frame) = PairFrame::best(a, b) else { return vec![] };
         let like = self.known.table.like(a, b);
-        let every = like.len().div_ceil(COUNTERPARTS).max(1);
+        let every = like.len().div_ceil(MAX_COUNTERPARTS).max(1);
         let mut best: Vec<Candidate> = vec![];
         for &pair in like.iter().step_by(every) {
             let Some(pose) = self.known.table.pose(&frame, pair) else { continue };
-            let worth = self.worth(&pose);
-            if worth > 0.0 && best.get(1).is_none_or(|b| worth > b.worth) {
-                best.push(Candidate { pose, worth });
-                best.sort_by(|x, y| y.worth.total_cmp(&x.worth));
+            let score = self.score(&pose);
+            if score > 0.0 && best.get(1).is_none_or(|b| score > b.score) {
+                best.push(Candidate { pose, score });
+                best.sort_by(|x, y| y.score.total_cmp(&x.score));
                 best.truncate(2);
             }
         }
         best
     }
 
-    /// Mean worth of the samples at a pose; 0 as soon as it is clearly poor.
-    pub fn worth(&self, pose: &Rigid) -> f64 {
+    /// Mean score of the samples at a pose; 0 as soon as it is clearly poor.
+    pub fn score(&self, pose: &Rigid) -> f64 {
         let field = &self.known.field;
         let placed = field.placed(pose, self.measured.mean);
         let (mut sum, mut done) = (0.0, 0);
-        for (stage, &until) in TRIED.iter().enumerate() {
+        for (stage, &until) in SAMPLES_PER_STAGE.iter().enumerate() {
             let until = until.min(self.samples.points.len());
-            let blocks = &self.blocks[done / LANES..until.div_ceil(LANES)];
-            sum += field.worth(&placed, blocks, field.reach);
+            let blocks = &self.blocks[done / SAMPLES_PER_BLOCK..until.div_ceil(SAMPLES_PER_BLOCK)];
+            sum += field.score(&placed, blocks, field.reach);
             done = until;
-            if stage < 2 && sum < ENOUGH[stage] * done as f64 {
+            if stage < 2 && sum < MIN_STAGE_SCORE[stage] * done as f64 {
                 return 0.0;
             }
         }
@@ -287,12 +299,12 @@ impl Search {
 
     /// The best of each heap of nearly equal poses, best first.
     fn distinct(&self, mut all: Vec<Candidate>) -> Vec<Candidate> {
-        all.sort_by(|x, y| y.worth.total_cmp(&x.worth));
+        all.sort_by(|x, y| y.score.total_cmp(&x.score));
         let mut kept: Vec<Candidate> = vec![];
         for c in all {
-            let enough = kept.first().is_none_or(|best| c.worth >= COMPARABLE * best.worth);
+            let enough = kept.first().is_none_or(|best| c.score >= MIN_REFINED_SCORE * best.score);
             if enough
-                && kept.len() < REFINED
+                && kept.len() < MAX_REFINED_STARTS
                 && !kept.iter().any(|k| self.apart(&k.pose, &c.pose) < 2.0 * self.spacing)
             {
                 kept.push(c);
@@ -313,8 +325,8 @@ impl Search {
         (dot(d, d) + ends.sum::<f64>()).sqrt()
     }
 
-    /// Refines the candidates on the samples and sorts them anew by what is left, least first: pose and capped mean
-    /// square distance. Those that are worth far less than the best of them, or than `known`, are left out.
+    /// Refines the candidates on the samples and sorts them anew by what is left, least first: pose and capped mean square
+    /// distance. Candidates with a score far below that of the best of them, or than `known`, are left out.
     pub fn refine(
         &self,
         candidates: &[Candidate],
@@ -325,16 +337,16 @@ impl Search {
         let cap = 0.5 * self.spacing;
         let begun: Result<Vec<Candidate>, AlignError> = (candidates.par_iter())
             .map(|c| {
-                let pose = problem.run(c.pose, 2.0 * self.spacing, BEGUN, progress)?.pose;
-                Ok(Candidate { pose, worth: self.worth(&pose) })
+                let pose = problem.run(c.pose, 2.0 * self.spacing, FIRST_START_STEPS, progress)?.pose;
+                Ok(Candidate { pose, score: self.score(&pose) })
             })
             .collect();
         let mut begun = begun?;
-        let enough = LIVELY * begun.iter().fold(known, |m, c| m.max(c.worth));
-        begun.retain(|c| c.worth >= enough);
+        let enough = MIN_LIVELY_SCORE * begun.iter().fold(known, |m, c| m.max(c.score));
+        begun.retain(|c| c.score >= enough);
         let refined: Result<Vec<(f64, Rigid)>, AlignError> = (begun.par_iter())
             .map(|c| {
-                let pose = problem.run(c.pose, 2.0 * self.spacing, 12 - BEGUN, progress)?.pose;
+                let pose = problem.run(c.pose, 2.0 * self.spacing, 12 - FIRST_START_STEPS, progress)?.pose;
                 Ok((problem.cost(&pose, cap, progress)?, pose))
             })
             .collect();
@@ -342,15 +354,15 @@ impl Search {
         refined.sort_by(|x, y| x.0.total_cmp(&y.0));
         let mut kept: Vec<(f64, Rigid)> = vec![];
         for (cost, pose) in refined {
-            if kept.len() < CLOSE && !kept.iter().any(|k| self.apart(&k.1, &pose) < self.spacing) {
+            if kept.len() < MAX_CLOSE_STARTS && !kept.iter().any(|k| self.apart(&k.1, &pose) < self.spacing) {
                 kept.push((cost, pose));
             }
         }
         Ok(kept)
     }
 
-    /// Those of many poses, refined, that are other than `own` and not clearly worse, best first; they may lie close together. No distance
-    /// counts for more than `cap`.
+    /// The refined poses, out of many, that are other than `own` and not clearly worse, best first; they may lie close
+    /// together. No distance counts for more than `cap`.
     pub fn nearest_of(
         &self,
         poses: &[Rigid],
@@ -359,11 +371,11 @@ impl Search {
         cap: f64,
         progress: &dyn Progress,
     ) -> Result<Vec<Rigid>, AlignError> {
-        let reach = NEAR * self.spacing;
+        let reach = APART_REACH_SPACINGS * self.spacing;
         let mut tried: Vec<(f64, Rigid)> =
-            poses.par_iter().map(|p| (self.worth_within(p, reach), *p)).collect();
+            poses.par_iter().map(|p| (self.score_within(p, reach), *p)).collect();
         tried.sort_by(|x, y| y.0.total_cmp(&x.0));
-        tried.truncate(REFINED);
+        tried.truncate(MAX_REFINED_STARTS);
         let wide = self.wide(problem);
         let refined: Result<Vec<(f64, Rigid)>, AlignError> = (tried.par_iter())
             .map(|(_, pose)| {
@@ -374,11 +386,11 @@ impl Search {
             .collect();
         let mut refined = refined?;
         refined.sort_by(|x, y| x.0.total_cmp(&y.0));
-        let most = WORSE * problem.cost(own, cap, progress)?;
-        let other = |a: &Rigid, b: &Rigid| self.apart(a, b) > OTHER * self.spacing;
+        let most = MAX_RIVAL_COST_RATIO * problem.cost(own, cap, progress)?;
+        let other = |a: &Rigid, b: &Rigid| self.apart(a, b) > OTHER_POSE_SPACINGS * self.spacing;
         let mut kept: Vec<Rigid> = vec![];
         for (_, pose) in refined.into_iter().filter(|r| r.0 <= most && other(&r.1, own)) {
-            if kept.len() < CLOSE / 2 && kept.iter().all(|k| other(k, &pose)) {
+            if kept.len() < MAX_CLOSE_STARTS / 2 && kept.iter().all(|k| other(k, &pose)) {
                 kept.push(pose);
             }
         }
@@ -387,18 +399,18 @@ impl Search {
 
     /// The same where what is some way off counts as well: as outliers it would draw nothing.
     pub fn wide<'a>(&self, problem: &Problem<'a>) -> Problem<'a> {
-        Problem { rounding: problem.rounding.max(WIDE * self.spacing), ..*problem }
+        Problem { rounding: problem.rounding.max(START_ROUNDING_SPACINGS * self.spacing), ..*problem }
     }
 
-    /// Mean worth of all samples at a pose, within a reach of its own.
-    fn worth_within(&self, pose: &Rigid, reach: f64) -> f64 {
+    /// Mean score of all samples at a pose, within a reach of its own.
+    fn score_within(&self, pose: &Rigid, reach: f64) -> f64 {
         let field = &self.known.field;
         let placed = field.placed(pose, self.measured.mean);
-        field.worth(&placed, &self.blocks, reach) / self.samples.points.len() as f64
+        field.score(&placed, &self.blocks, reach) / self.samples.points.len() as f64
     }
 
-    /// Poses in which a part with the symmetries of common parts would fit as well as in `pose`: turned about the
-    /// principal axes of the reference by halves, thirds, … twelfths, and by the turns of a cube; and about those of the measured by
+    /// Poses in which a part with the symmetries of common parts would fit as well as in `pose`. Turns about the principal axes
+    /// of the reference go by halves, thirds, … twelfths, and by those of a cube. Turns about the axes of the measured go by
     /// quarters and halves: a part of a surface may have symmetries that the whole does not.
     pub fn symmetric(&self, pose: &Rigid) -> Vec<Candidate> {
         let center = self.known.moments.mean;
@@ -419,9 +431,9 @@ impl Search {
             let quarters = [1.0, 2.0, 3.0].map(|k| times(0.5 * k * std::f64::consts::PI, axis));
             all.extend(quarters.map(|q| Rigid::rotation_about(middle, q).after(pose)));
         }
-        let found = all.iter().map(|&pose| Candidate { pose, worth: self.worth(&pose) });
-        let enough = 0.8 * self.worth(pose);
-        self.distinct(found.filter(|c| c.worth > enough).collect())
+        let found = all.iter().map(|&pose| Candidate { pose, score: self.score(&pose) });
+        let enough = 0.8 * self.score(pose);
+        self.distinct(found.filter(|c| c.score > enough).collect())
     }
 }
 

@@ -6,7 +6,7 @@
 use crate::parallel::prelude::*;
 use crate::space::{Point, Vector, cross, dot, least_axis, minus, times, unit};
 
-/// What a point is held by: the shape of the surface where it is nearest.
+/// The constraint of a point: the shape of the surface where it is nearest.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Constraint {
     /// Inside a facet with this unit normal: along that.
@@ -64,7 +64,7 @@ pub(super) struct System {
 }
 
 /// Equations added in one go: sums do not depend on the number of threads.
-const CHUNK: usize = 4096;
+const EQUATIONS_PER_SUM: usize = 4096;
 
 impl System {
     /// Adds up the equations of `items` about `center`; those of weight 0 do not count.
@@ -93,7 +93,7 @@ impl System {
             }
             s
         };
-        let parts: Vec<System> = items.par_chunks(CHUNK).map(add).collect();
+        let parts: Vec<System> = items.par_chunks(EQUATIONS_PER_SUM).map(add).collect();
         let mut sum = parts.into_iter().fold(empty(), |mut sum, part| {
             for i in 0..6 {
                 for j in 0..=i {
@@ -143,7 +143,7 @@ impl System {
     }
 }
 
-/// What a unit of each unknown moves `point` along `direction`.
+/// How far a unit of each unknown moves `point` along `direction`.
 #[inline(always)]
 pub(super) fn slope(point: Point, direction: Vector, center: Point, radius: f64) -> Six {
     let turn = times(1.0 / radius, cross(minus(point, center), direction));
@@ -204,7 +204,7 @@ fn rotate(a: &mut SixBySix, rows: &mut SixBySix, p: usize, q: usize) {
 }
 
 /// Share of the greatest eigenvalue below which a direction counts as undetermined by arithmetic: no step is made along it.
-const NOTHING: f64 = 1e-12;
+const UNDETERMINED_SHARE: f64 = 1e-12;
 
 /// The matrix taken apart.
 pub(super) struct Spectrum {
@@ -217,12 +217,12 @@ pub(super) struct Spectrum {
 }
 
 impl Spectrum {
-    /// Of the matrix of a system.
+    /// The spectrum of the matrix of a system.
     pub fn of(system: &System) -> Spectrum {
         Spectrum::without(system, &[])
     }
 
-    /// Of what is left of the matrix without these orthonormal directions, which stand first, below all others.
+    /// The spectrum of the rest of the matrix without these orthonormal directions, which stand first, below all others.
     pub fn without(system: &System, directions: &[Six]) -> Spectrum {
         let mut matrix = system.matrix;
         for d in directions {
@@ -243,7 +243,7 @@ impl Spectrum {
             }
         }
         let (values, vectors) = eigen_six(&matrix);
-        let fixed = values.iter().filter(|&&v| v <= NOTHING * values[5]).count();
+        let fixed = values.iter().filter(|&&v| v <= UNDETERMINED_SHARE * values[5]).count();
         Spectrum { values, vectors, fixed: fixed.max(directions.len()), stay: directions.len() }
     }
 

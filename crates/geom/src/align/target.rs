@@ -1,4 +1,4 @@
-//! What is aligned to.
+//! The reference of an alignment.
 
 use crate::closest::Tree;
 use crate::mesh::Mesh;
@@ -13,7 +13,7 @@ pub struct Target<'a> {
 }
 
 impl<'a> Target<'a> {
-    /// Of a mesh, millimeters, whose search tree is `tree`. Vertices should be shared by index (weld an STL first).
+    /// The target for a mesh, millimeters, whose search tree is `tree`. Vertices should be shared by index (weld an STL first).
     pub fn new(mesh: &'a Mesh, tree: &'a Tree) -> Target<'a> {
         let used = mesh.faces.iter().flatten().map(|&v| &mesh.positions[v as usize]);
         Target { mesh, tree, bounds: Aabb::of(used) }

@@ -13,7 +13,7 @@ pub(super) struct Twist {
 }
 
 impl Twist {
-    /// Of a direction of unknowns about `center`, rotations counted at `radius`.
+    /// The twist for a direction of unknowns about `center`, rotations counted at `radius`.
     pub fn of(six: &Six, center: Point, radius: f64) -> Twist {
         let turn: Vector = std::array::from_fn(|k| six[k] / radius);
         let shift: Vector = std::array::from_fn(|k| six[k + 3]);
@@ -38,8 +38,8 @@ impl Twist {
     }
 }
 
-/// Part of a direction that must be its own for it to be another than those before it.
-const OWN: f64 = 1e-6;
+/// Part of a direction that the directions before it must not hold, for it to be a new one.
+const MIN_NEW_DIRECTION: f64 = 1e-6;
 
 /// Orthonormal directions of unknowns about `center` that span the twists (Gram and Schmidt).
 pub(super) fn directions(twists: &[Twist], center: Point, radius: f64) -> Vec<Six> {
@@ -53,7 +53,7 @@ pub(super) fn directions(twists: &[Twist], center: Point, radius: f64) -> Vec<Si
             }
         }
         let size = inner(&six, &six).sqrt();
-        if size > OWN {
+        if size > MIN_NEW_DIRECTION {
             all.push(six.map(|x| x / size));
         }
     }
@@ -70,14 +70,14 @@ pub(super) fn inner(a: &Six, b: &Six) -> f64 {
 pub struct Lock {
     /// Which: the translation of `center` along x, y, z of the reference, then the rotation vector's x, y, z.
     pub axes: [bool; 6],
-    /// What the motion turns about, in the frame of the reference, millimeters.
+    /// A point on the axis of the motion, in the frame of the reference, millimeters.
     pub center: Point,
     /// The pose that the motion begins at.
     pub start: Rigid,
 }
 
 impl Lock {
-    /// Of a fit from `start`: about the mean of what is measured.
+    /// The lock of a fit from `start`, about the mean of the measured.
     pub fn new(axes: [bool; 6], measured: &Measured, start: Rigid) -> Lock {
         let center = start.point(Samples::all(measured).moments().mean);
         Lock { axes, center, start }
@@ -100,7 +100,7 @@ impl Lock {
         Rigid::translation_by(shift).after(&turned).after(&self.start)
     }
 
-    /// What may not happen at `pose`.
+    /// The motions that are locked at `pose`.
     pub(super) fn twists(&self, pose: &Rigid) -> Vec<Twist> {
         let center = pose.after(&self.start.inverse()).point(self.center);
         let axis = |k: usize| -> Vector { std::array::from_fn(|i| f64::from(u8::from(i == k))) };

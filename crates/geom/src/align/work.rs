@@ -1,6 +1,6 @@
-//! What the steps of a best fit share: problems of its samples, and which of many poses is the best.
+//! The common ground of the steps of a best fit: problems of its samples, and the choice of the best of many poses.
 
-use super::icp::{MOST, Problem};
+use super::icp::{MAX_ITERATIONS, Problem};
 use super::sample::Samples;
 use super::start::{Candidate, Search};
 use super::{AlignError, Alignment, BestFit, Start, Target};
@@ -11,21 +11,22 @@ use crate::rigid::Rigid;
 use crate::space::{Aabb, Point, minus, norm};
 
 /// Samples for a start.
-pub(super) const FEW: usize = 400;
+pub(super) const START_SAMPLES: usize = 400;
 /// Starts whose cost is within this ratio of the best are iterated to the end.
-const PROMISING: f64 = 4.0;
-/// Samples of these on which poses are compared first, and the cost over the least there beyond which a pose is not compared further: the
-/// means of so many squares differ by a tenth from those of all.
-pub(super) const PART: usize = 1000;
-pub(super) const RIVAL: f64 = 2.0;
+const MAX_PROMISING_RATIO: f64 = 4.0;
+/// Samples on which poses are compared first.
+pub(super) const RIVAL_SAMPLES: usize = 1000;
+/// Cost over the least on these samples beyond which a pose is not compared further. Means of so many squares differ from those
+/// of all by a tenth.
+pub(super) const MAX_RIVAL_RATIO: f64 = 2.0;
 /// Starts that a search on the way iterates to the end.
-pub(super) const BRIEF: usize = 5;
+pub(super) const BRIEF_STARTS: usize = 5;
 /// Iterations after which poses are compared.
-pub(super) const SOON: usize = 20;
+pub(super) const COMPARED_ITERATIONS: usize = 20;
 /// Standard deviations from which on a distance counts no more when poses are compared.
-const FAR: f64 = 20.0;
+const FAR_RESIDUAL_SIGMAS: f64 = 20.0;
 
-/// What all steps share.
+/// The inputs that all steps share.
 pub(super) struct Work<'a> {
     pub target: &'a Target<'a>,
     pub boundary_edges: Option<&'a BoundaryEdges>,
@@ -86,7 +87,7 @@ impl<'a> Work<'a> {
     /// The pose that motions are measured from: the given one, or that of the files.
     pub fn start(&self) -> Rigid {
         match self.options.start {
-            Start::Given(pose) => pose,
+            Start::From(pose) => pose,
             Start::Anywhere => Rigid::IDENTITY,
         }
     }
@@ -100,7 +101,7 @@ impl<'a> Work<'a> {
     ) -> Result<Vec<Rigid>, AlignError> {
         let refined = search.refine(candidates, 0.0, &self.problem(&search.samples), progress)?;
         let least = refined.first().map_or(0.0, |r| r.0);
-        Ok(refined.iter().filter(|r| r.0 <= PROMISING * least).map(|r| r.1).collect())
+        Ok(refined.iter().filter(|r| r.0 <= MAX_PROMISING_RATIO * least).map(|r| r.1).collect())
     }
 
     /// A few of the best poses of one more search; none where it finds none.
@@ -112,13 +113,17 @@ impl<'a> Work<'a> {
     ) -> Result<Vec<Rigid>, AlignError> {
         let candidates = search.candidates(from, progress)?;
         let mut poses = self.promising(search, &candidates, progress)?;
-        poses.truncate(BRIEF);
+        poses.truncate(BRIEF_STARTS);
         Ok(poses)
     }
 
     /// How far a pose with distances of this deviation is looked around at first.
     pub fn reach(&self, sigma: f64) -> f64 {
-        if self.options.robust { (2.0 * FAR * sigma).max(64.0 * self.rounding) } else { f64::INFINITY }
+        if self.options.robust {
+            (2.0 * FAR_RESIDUAL_SIGMAS * sigma).max(64.0 * self.rounding)
+        } else {
+            f64::INFINITY
+        }
     }
 
     /// The best of the poses, iterated to the end on some samples, and the standard deviation of the distances there. Most are far from
@@ -126,17 +131,17 @@ impl<'a> Work<'a> {
     pub fn choose(
         &self,
         poses: &[Rigid],
-        some: &Samples,
+        subset: &Samples,
         progress: &dyn Progress,
     ) -> Result<(Rigid, f64), AlignError> {
         let mut rivals = poses.to_vec();
-        if rivals.len() > 1 && some.points.len() > 2 * PART {
-            let ended = self.ended(&rivals, &some.first(PART), progress)?;
+        if rivals.len() > 1 && subset.points.len() > 2 * RIVAL_SAMPLES {
+            let ended = self.ended(&rivals, &subset.first(RIVAL_SAMPLES), progress)?;
             let least = ended.iter().map(|e| e.cost).fold(f64::INFINITY, f64::min);
-            rivals = ended.iter().filter(|e| e.cost <= RIVAL * least).map(|e| e.pose).collect();
+            rivals = ended.iter().filter(|e| e.cost <= MAX_RIVAL_RATIO * least).map(|e| e.pose).collect();
         }
         let mut best: Option<Compared> = None;
-        for one in self.ended(&rivals, some, progress)? {
+        for one in self.ended(&rivals, subset, progress)? {
             if best.as_ref().is_none_or(|b| one.cost < b.cost) {
                 best = Some(one);
             }
@@ -144,23 +149,23 @@ impl<'a> Work<'a> {
         best.map(|b| (b.pose, b.sigma)).ok_or(AlignError::NoOverlap)
     }
 
-    /// Where the iteration ends from where all samples counted, if that lies better: the walls of a flat plate are few and far enough at its
-    /// start to be taken for outliers, and without them it slides and turns in its plane.
+    /// The end of the iteration from the pose where all samples counted, if that lies better. The walls of a flat plate are
+    /// few, and far enough at its start to be taken for outliers. Without them the plate slides and turns in its plane.
     pub fn where_all_count(
         &self,
         result: &Alignment,
-        some: &Samples,
+        subset: &Samples,
         progress: &dyn Progress,
     ) -> Result<Option<Rigid>, AlignError> {
-        if !self.options.robust || result.left_out == 0 {
+        if !self.options.robust || result.excluded_points == 0 {
             return Ok(None);
         }
         let own = result.reference_from_measured;
-        let all = Problem { robust: false, ..self.problem(some) };
-        let there = all.run(own, f64::INFINITY, MOST, progress)?.pose;
-        let (pose, sigma) = self.choose(&[own, there], some, progress)?;
+        let all = Problem { robust: false, ..self.problem(subset) };
+        let there = all.run(own, f64::INFINITY, MAX_ITERATIONS, progress)?.pose;
+        let (pose, sigma) = self.choose(&[own, there], subset, progress)?;
         let moved = |p: &Point| norm(minus(pose.point(*p), own.point(*p)));
-        let farthest = some.points.iter().map(moved).fold(0.0, f64::max);
+        let farthest = subset.points.iter().map(moved).fold(0.0, f64::max);
         Ok((farthest > sigma.max(self.rounding)).then_some(pose))
     }
 
@@ -175,7 +180,7 @@ impl<'a> Work<'a> {
         let run = |pose: &Rigid| -> Result<(Rigid, f64, Vec<f64>), AlignError> {
             let at_start = problem.matches(pose, f64::INFINITY, progress)?;
             let sigma = problem.deviation(&at_start);
-            let pose = problem.run(*pose, self.reach(sigma), SOON, progress)?.pose;
+            let pose = problem.run(*pose, self.reach(sigma), COMPARED_ITERATIONS, progress)?.pose;
             let matches = problem.matches(&pose, f64::INFINITY, progress)?;
             Ok((pose, problem.deviation(&matches), matches.iter().map(|m| m.distance).collect()))
         };
@@ -192,6 +197,6 @@ impl<'a> Work<'a> {
 
     /// The distance from which on none counts for more when poses are compared.
     pub fn cap(&self, sigma: f64) -> f64 {
-        (FAR * sigma).max(1e-6 * self.radius)
+        (FAR_RESIDUAL_SIGMAS * sigma).max(1e-6 * self.radius)
     }
 }

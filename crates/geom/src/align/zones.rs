@@ -1,11 +1,11 @@
 //! The best fit into tolerance zones: the pose whose greatest excess over the zones is least.
 //!
-//! As [`minimax`](super::minimax), but each point has the zone of the place that it lies over. Zones may lie to one side, so distances have
-//! signs. A point near the border of two zones may change from one to the other as the part moves: the search is done again with the
-//! zones where it ended, until none changes.
+//! As [`minimax`](super::minimax), but each point has the zone of the place that it lies over. Zones may lie to one side, so
+//! distances have signs. A point near the border of two zones may change from one to the other as the part moves. The search is
+//! made again with the zones where it ended, until none changes.
 
-use super::beside::Searched;
 use super::counting::{Counting, NotCounted, weighted_mean};
+use super::perturbed::Searched;
 use super::sample::Measured;
 use super::{AlignError, Alignment, BestFit, Start, Target, field};
 use crate::deviation::surface::ReferenceSurface;
@@ -17,10 +17,11 @@ use crate::space::{Point, Vector, minus, times};
 pub type ZoneAt<'a> = dyn Fn(u32, &Point) -> Option<[f64; 2]> + Sync + 'a;
 
 /// Rounds after which points still change zones: the best pose so far is taken.
-const ROUNDS: usize = 8;
+const MAX_ZONE_ROUNDS: usize = 8;
 
-/// How many times its zone a point may be off in the best fit to count in the search in any case: no pose nearby has one farther off within.
-const OFF: f64 = 10.0;
+/// Deviation in the best fit over the zone up to which a point counts in the search in any case. No pose nearby has a point
+/// within that is farther off.
+const COUNTED_ZONE_RATIO: f64 = 10.0;
 
 /// The pose with the least greatest excess over the zones.
 #[derive(Clone, Debug, PartialEq)]
@@ -46,17 +47,18 @@ pub struct InZones {
     /// Points with a zone: all of them are judged.
     pub used: u64,
     /// Points that do not count in the search; they are judged with the others.
-    pub left_out: NotCounted,
+    pub not_counted: NotCounted,
     /// Points at places where nothing is asked.
     pub without_zone: u64,
 }
 
-/// The motion near `from`, a best fit of the same `measured` to the same `reference`, after which the greatest excess of a point over the zone
-/// at its place is least. `surface` is the reference made ready for signs; `zones` says what is allowed where.
+/// The motion after which the greatest excess of a point over the zone at its place is least. It lies near `from`, a best fit
+/// of the same `measured` to the same `reference`. `surface` is the reference made ready for signs; `zones` says what is
+/// allowed where.
 ///
-/// All points are judged, of a mesh its vertices. Those count in the search that do in that of [`minimax`](super::minimax()), and those that are off by no
-/// more than ten times the widest zone. A local search: the best fit decides near which pose. Cost: per round three to ten
-/// closest-point searches of all points, one by one; one to three rounds are the rule.
+/// All points are judged, of a mesh its vertices. The points that count in a search of [`minimax`](super::minimax()) count
+/// here, and those that are off by no more than ten times the widest zone. A local search: the best fit decides near which
+/// pose. Cost: per round three to ten closest-point searches of all points, one by one; one to three rounds are the rule.
 ///
 /// # Errors
 /// [`AlignError::Free`] where the best fit left a motion free, [`AlignError::NoZone`] where no point has a zone,
@@ -81,7 +83,7 @@ pub struct InZones {
 /// let target = Target::new(&reference, &tree);
 /// let surface = ReferenceSurface::new(&tree, &reference, &SurfaceOptions::default(), &Silent)?;
 /// let measured = Measured::Points { points: &points, normals: None };
-/// let options = BestFit { start: Start::Given(Rigid::IDENTITY), ..BestFit::default() };
+/// let options = BestFit { start: Start::From(Rigid::IDENTITY), ..BestFit::default() };
 /// let fit = best_fit(&measured, &target, &options, &Silent)?;
 /// // A perfect part: 0.1 of room on every side is what is left.
 /// let found = into_zones(&measured, &target, &surface, &|_, _| Some([-0.1, 0.1]), &fit, &options, &Silent)?;
@@ -101,9 +103,9 @@ pub fn into_zones(
     let (all, start) = (measured.points(), from.reference_from_measured);
     let wide = |widest: f64, j: &Judged| widest.max(j.zone[0].abs()).max(j.zone[1].abs());
     let widest = work.judged(all, &start)?.iter().flatten().fold(0.0, wide);
-    let counting = Counting::of(measured, reference, from, options, OFF * widest, progress)?;
+    let counting = Counting::of(measured, reference, from, options, COUNTED_ZONE_RATIO * widest, progress)?;
     let (mut motion, mut least) = work.sought(&counting.points, start)?;
-    if let Start::Given(pose) = options.start {
+    if let Start::From(pose) = options.start {
         let there = worst(&work.judged(&counting.points, &pose)?).map(|(_, w)| w.excess());
         if there.is_some_and(|excess| excess < least) {
             (motion, least) = work.sought(&counting.points, pose)?;
@@ -126,7 +128,7 @@ pub fn into_zones(
         rms: weighted_mean(&weights, &values, &|d| d * d).sqrt(),
         mean_abs: weighted_mean(&weights, &values, &f64::abs),
         used: used as u64,
-        left_out: counting.not_counted(&motion, reference, progress)?,
+        not_counted: counting.not_counted(&motion, reference, progress)?,
         without_zone: (judged.len() - used) as u64,
     })
 }
@@ -189,7 +191,7 @@ impl Work<'_> {
         let judged = self.judged(points, &start)?;
         let mut own = zones(&judged);
         let mut best = worst(&judged).map(|(_, w)| (start, w.excess()));
-        for _ in 0..ROUNDS {
+        for _ in 0..MAX_ZONE_ROUNDS {
             let end = self.placed(points, start, &own)?;
             let judged = self.judged(points, &end)?;
             let excess = worst(&judged).ok_or(AlignError::NoZone)?.1.excess();

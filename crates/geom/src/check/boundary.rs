@@ -1,9 +1,9 @@
 //! The graph of the boundary edges, taken apart into closed rings and open chains.
 //!
-//! Where an odd number of boundary edges meet at a vertex, a chain must end; the walks that start there are the chains.
-//! What is left has an even number of edges at every vertex and falls into rings. A walk that comes back to a vertex it
-//! has passed leaves a ring behind and goes on, so rings and chains pass no vertex twice. Orientation plays no part: it may
-//! be inconsistent. Each walk takes the lowest edge and, at a vertex, the edge to the lowest neighbor first.
+//! Where an odd number of boundary edges meet at a vertex, a chain must end; the walks that start there are the chains. The
+//! rest has an even number of edges at every vertex and falls into rings. A walk that comes back to a vertex it has passed
+//! leaves a ring behind and goes on. So rings and chains pass no vertex twice. Orientation plays no part: it may be
+//! inconsistent. Each walk takes the lowest edge and, at a vertex, the edge to the lowest neighbor first.
 
 use super::near::Near;
 use crate::mesh::Mesh;
@@ -27,7 +27,7 @@ struct Graph {
 }
 
 impl Boundary {
-    /// Of the boundary edges of `topology`; n log n.
+    /// Chains of the boundary edges of `topology`; n log n.
     pub(crate) fn of(topology: &Topology) -> Boundary {
         let edges = topology.boundary_edges.iter().map(|e| e.vertices);
         Boundary::of_edges(&edges.collect::<Vec<_>>())

@@ -35,7 +35,7 @@ impl PartialEq for DefectKind {
     }
 }
 
-/// What the size of a finding is.
+/// The quantity that the size of a finding measures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Measure {
     /// Length of an edge or a line.
@@ -65,7 +65,7 @@ impl Measure {
     }
 }
 
-/// What of a finding shows where it is.
+/// The part of a finding that shows where it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shows {
     /// Its vertices.
@@ -91,11 +91,11 @@ pub struct DefectKind {
     pub severity: Severity,
     /// One sentence for the manual.
     pub about: &'static str,
-    /// What [`Finding::size`] is, with its unit.
+    /// The quantity that [`Finding::size`] measures, with its unit.
     pub size: &'static str,
     /// The same as one of few.
     pub measure: Measure,
-    /// What of a finding shows where it is.
+    /// The part of a finding that shows where it is.
     pub shows: Shows,
     /// Whether it only follows from holes and cracks, which are told before it.
     pub follows: bool,
@@ -133,7 +133,7 @@ pub struct Found {
     pub items: Vec<Finding>,
 }
 
-/// What a kind may look at.
+/// The data that a kind may look at.
 pub struct Inspected<'a> {
     /// The mesh.
     pub mesh: &'a Mesh,
@@ -149,7 +149,7 @@ pub struct Inspected<'a> {
     pub stored_normals: Option<&'a [[f32; 3]]>,
     /// Pairs of facets that meet where they should not, if looked for.
     pub crossings: Option<&'a Crossings>,
-    /// What was asked.
+    /// The options asked for.
     pub options: &'a Options,
     /// Distance, mm, up to which two places may have been meant as one.
     pub gap: f64,

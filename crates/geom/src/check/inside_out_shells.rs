@@ -41,8 +41,8 @@ pub(super) const KIND: DefectKind = DefectKind {
     },
 };
 
-/// For each shell of a mesh that is closed and consistently oriented: the way it looks (outwards 1, inwards −1, 0 where it
-/// encloses nothing), and how often the others wind around it.
+/// For each shell of a closed, consistently oriented mesh the way it looks, and how often the others wind around it. It looks
+/// outwards (1) or inwards (−1), or encloses nothing (0).
 pub(super) fn orientations(m: &Inspected) -> Vec<(i32, i32)> {
     let closed = closed_shells(m);
     let facets = Facets::new(Box::new(|| by_shell(&m.topology.shell_of, closed.len())));
@@ -65,11 +65,11 @@ type Facets<'a> = LazyLock<Vec<Vec<u32>>, Box<dyn FnOnce() -> Vec<Vec<u32>> + Se
 
 /// Whether a closed shell looks outwards (1) or inwards (−1), or encloses nothing (0): the exact sign of its volume.
 fn looks(m: &Inspected, shell: usize, facets: &Facets) -> i32 {
-    /// What rounding adds at most to the volume for each facet, as a share of the cube of half the diagonal.
-    const ROUNDING: f64 = 1e-15;
+    /// Greatest rounding that each facet adds to the volume, as a share of the cube of half the diagonal.
+    const VOLUME_ROUNDING_PER_FACET: f64 = 1e-15;
     let volume = m.properties.shell_volumes[shell];
     let radius = m.properties.bounds.diagonal() / 2.0;
-    if volume.abs() > ROUNDING * m.mesh.faces.len() as f64 * radius.powi(3) {
+    if volume.abs() > VOLUME_ROUNDING_PER_FACET * m.mesh.faces.len() as f64 * radius.powi(3) {
         return if volume > 0.0 { 1 } else { -1 };
     }
     exact_volume(m.mesh, &facets[shell]).sign()
@@ -78,7 +78,7 @@ fn looks(m: &Inspected, shell: usize, facets: &Facets) -> i32 {
 /// Six times the volume of a closed shell, in units that keep its products in the range of `f64`.
 fn exact_volume(mesh: &Mesh, facets: &[u32]) -> Exact {
     /// Facets of one task.
-    const PART: usize = 1 << 10;
+    const WINDING_FACETS_PER_TASK: usize = 1 << 10;
     let corners = |f: u32| mesh.corners(f);
     let size = |f: &u32| corners(*f).iter().flatten().fold(0.0f64, |size, x| size.max(x.abs()));
     let largest = facets.par_iter().map(size).reduce(|| 0.0, f64::max);
@@ -98,7 +98,7 @@ fn exact_volume(mesh: &Mesh, facets: &[u32]) -> Exact {
         a.merge(&b);
         a
     };
-    facets.par_chunks(PART).map(of_part).reduce(Exact::default, both)
+    facets.par_chunks(WINDING_FACETS_PER_TASK).map(of_part).reduce(Exact::default, both)
 }
 
 /// How often the other closed shells wind around each closed shell.
@@ -136,13 +136,13 @@ fn depths(m: &Inspected, closed: &[bool], bounds: &[(u32, Aabb)], facets: &Facet
     depth
 }
 
-/// How often the container winds around the shell. Asks about corners until one does not lie on the container; of shells that
-/// share their corners, about the middles of facets, which rounding moves by less than a step of the numbers.
+/// How often the container winds around the shell. Asks about corners until one does not lie on the container. For shells that
+/// share their corners it asks about the middles of facets, which rounding moves by less than a step of the numbers.
 fn winding(m: &Inspected, shell: &[u32], container: &Container) -> i32 {
-    /// Shells that touch in more places than this are taken to lie side by side.
-    const TRIES: usize = 64;
+    /// Shells that touch in more places are taken to lie side by side.
+    const MAX_TOUCHING_PLACES: usize = 64;
     let middle = |[a, b, c]: [Point; 3]| std::array::from_fn(|k| a[k] / 3.0 + b[k] / 3.0 + c[k] / 3.0);
-    let corners = || shell.iter().take(TRIES).map(|&f| m.corners(f));
+    let corners = || shell.iter().take(MAX_TOUCHING_PLACES).map(|&f| m.corners(f));
     let places = corners().map(|[a, ..]| a).chain(corners().map(middle));
     places.into_iter().find_map(|p| container.winding(&p)).unwrap_or(0)
 }

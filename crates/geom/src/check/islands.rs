@@ -40,8 +40,13 @@ pub(super) fn shell_bounds(m: &Inspected) -> Vec<(u32, Aabb)> {
         *only = m.properties.bounds;
         return bounds;
     }
-    let parts: Vec<Vec<Run>> =
-        m.topology.shell_of.par_chunks(CHUNK).enumerate().map(|(i, part)| runs(m, i * CHUNK, part)).collect();
+    let parts: Vec<Vec<Run>> = m
+        .topology
+        .shell_of
+        .par_chunks(ISLAND_FACETS_PER_TASK)
+        .enumerate()
+        .map(|(i, part)| runs(m, i * ISLAND_FACETS_PER_TASK, part))
+        .collect();
     for (shell, facet, run) in parts.into_iter().flatten() {
         let (first, all) = &mut bounds[shell as usize];
         *first = (*first).min(facet);
@@ -51,7 +56,7 @@ pub(super) fn shell_bounds(m: &Inspected) -> Vec<(u32, Aabb)> {
 }
 
 /// Facets of one task.
-const CHUNK: usize = 1 << 13;
+const ISLAND_FACETS_PER_TASK: usize = 1 << 13;
 
 /// Consecutive facets of one shell: its number, the first of them, their box.
 type Run = (u32, u32, Aabb);

@@ -1,4 +1,4 @@
-//! What follows from the corners of a mesh: asked for by the check, and by a repair again and again.
+//! Facts that follow from the corners of a mesh: the check asks for them, and a repair again and again.
 
 use super::boundary::Boundary;
 use super::intersect::Crossings;
@@ -8,7 +8,7 @@ use crate::progress::Progress;
 use crate::topology::{Properties, Topology};
 use std::sync::OnceLock;
 
-/// What follows from a mesh.
+/// Facts that follow from a mesh.
 #[derive(Debug)]
 pub struct Known {
     /// Edges, shells, and how facets hang together.
@@ -22,15 +22,15 @@ pub struct Known {
 }
 
 impl Known {
-    /// Of `mesh`, the one that `topology` was made of.
+    /// The facts for `mesh`, which `topology` was made of.
     pub fn of(mesh: &Mesh, topology: Topology) -> Known {
         let properties = Properties::of(mesh, &topology);
         let boundary = Boundary::of(&topology);
         Known { topology, properties, boundary, depths: OnceLock::new() }
     }
 
-    /// Of `mesh`, which has the same facets, without the vertices that no facet uses; `None` where facets do not count, which might use
-    /// some.
+    /// The facts for `mesh`, which has the same facets, without the vertices that no facet uses. `None` where facets do not
+    /// count, which might use some.
     pub fn compacted(&self, mesh: &Mesh) -> Option<Known> {
         let known = Known::of(mesh, self.topology.compacted()?);
         Some(Known { depths: self.depths.clone(), ..known })

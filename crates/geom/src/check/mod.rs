@@ -1,8 +1,8 @@
 //! Everything that is wrong with a mesh, found exactly and with its place.
 //!
 //! [`check`] looks for every kind of defect in [`KINDS`]: one file and one line each. A check never fails, it returns
-//! [`Finding`]s: kind, place and size as data, not text. What geometry decides (orientation, intersection, collinearity)
-//! is decided exactly. What only a tolerance can decide has one in [`Options`], with a default that follows from the
+//! [`Finding`]s: kind, place and size as data, not text. Questions of geometry (orientation, intersection, collinearity) are
+//! decided exactly. Questions that only a tolerance can decide have one in [`Options`], with a default that follows from the
 //! precision of the coordinates.
 
 pub(crate) mod boundary;
@@ -48,7 +48,7 @@ use crate::progress::{Cancelled, Progress};
 use crate::topology::weld::WeldError;
 use crate::topology::{Properties, Soundness, Topology, TopologyError};
 
-/// What [`check`] found.
+/// The result of [`check`].
 #[derive(Clone, Debug)]
 pub struct Report {
     /// No finding of a kind that is an [`Severity::Error`].
@@ -91,7 +91,7 @@ pub enum CheckError {
     Weld(#[from] WeldError),
     /// The ends of boundary edges are numbered in 32 bits.
     #[error(
-        "{edges} edges with one facet are more than the {MOST_BOUNDARY_EDGES} that can be walked: weld the mesh, or split the model"
+        "{edges} edges with one facet are more than the {MAX_BOUNDARY_EDGES} that can be walked: weld the mesh, or split the model"
     )]
     TooManyBoundaryEdges {
         /// Number of edges with one facet.
@@ -111,18 +111,18 @@ impl From<TopologyError> for CheckError {
     }
 }
 
-/// Boundary edges whose ends can be numbered by a `u32`.
-const MOST_BOUNDARY_EDGES: usize = u32::MAX as usize / 2;
+/// Most boundary edges whose ends can be numbered by a `u32`.
+const MAX_BOUNDARY_EDGES: usize = u32::MAX as usize / 2;
 
 /// Looks for every kind of defect.
 ///
-/// `mesh` must be welded, as the readers of files and [`weld`](crate::topology::weld) leave it: vertices at the same
-/// place are otherwise different vertices. `stored_normals` are those a file holds with its facets, in the order of the
-/// faces, of any length; a zero or NaN one says nothing. Any mesh will do, however broken; what geometry decides is decided exactly
-/// where coordinates are 0 or from 1e-50 to 1e45 mm. The report is the same for any
-/// number of threads. A scan of 1.6 million facets takes about 0.4 s on two cores, half of it for
-/// self-intersections; `progress` is told facets as they pass that search. Closed shells within each other are compared two
-/// and two: that grows with the square of how deep they lie (3,000 boxes, each in the next: 0.7 s; 10,000: 8 s).
+/// `mesh` must be welded, as the readers of files and [`weld`](crate::topology::weld) leave it: vertices at the same place are
+/// otherwise different vertices. `stored_normals` are those a file holds with its facets, in the order of the faces, of any
+/// length; a zero or NaN one says nothing. Any mesh will do, however broken; what geometry decides is decided exactly where
+/// coordinates are 0 or from 1e-50 to 1e45 mm. The report is the same for any number of threads. A scan of 1.6 million facets
+/// takes about 0.4 s on two cores, half of it for self-intersections. `progress` hears of facets as they pass that search.
+/// Closed shells within each other are compared two and two, which grows with the square of how deep they lie. 3,000 boxes,
+/// each in the next, take 0.7 s; 10,000 take 8 s.
 ///
 /// # Errors
 /// [`CheckError`].
@@ -142,14 +142,14 @@ pub fn check(
     Ok(report(&Inspected { stored_normals, ..inspected })?)
 }
 
-/// What [`check`] asks of a mesh before anything is looked for.
+/// The demands of [`check`] on a mesh before anything is looked for.
 ///
 /// # Errors
 /// [`CheckError`].
 pub fn known(mesh: &Mesh, progress: &dyn Progress) -> Result<Known, CheckError> {
     let topology = Topology::watched(mesh, progress)?;
     let open = topology.boundary_edges.len();
-    if open > MOST_BOUNDARY_EDGES {
+    if open > MAX_BOUNDARY_EDGES {
         return Err(CheckError::TooManyBoundaryEdges { edges: open });
     }
     Ok(Known::of(mesh, topology))

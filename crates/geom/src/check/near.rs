@@ -6,8 +6,8 @@ use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
 use std::ops::Range;
 
-/// Points of a leaf, at most.
-const LEAF: usize = 8;
+/// Most points of a leaf.
+const MAX_POINTS_PER_NEAR_LEAF: usize = 8;
 
 /// Points with a number each.
 pub struct Near {
@@ -22,7 +22,7 @@ impl Near {
         let mut near = Near { boxes: vec![], points };
         let count = near.points.len();
         let mut leaves = 1;
-        while count.div_ceil(leaves) > LEAF {
+        while count.div_ceil(leaves) > MAX_POINTS_PER_NEAR_LEAF {
             leaves *= 2;
         }
         near.boxes = vec![Aabb::EMPTY; 2 * leaves - 1];
@@ -30,17 +30,17 @@ impl Near {
         near
     }
 
-    /// Hands every point of the leaves that `reaches` says yes for, and for all boxes around them, to `take`.
-    pub fn visit(&self, reaches: impl Fn(&Aabb) -> bool, mut take: impl FnMut(&Point, u32)) {
+    /// Hands every point of the leaves that `reaches` says yes for, and for all boxes around them, to `visit`.
+    pub fn visit(&self, reaches: impl Fn(&Aabb) -> bool, mut visit: impl FnMut(&Point, u32)) {
         let look = |_: usize, b: &Aabb| if reaches(b) { Look::Into } else { Look::Past };
         self.look(look, |p, number| {
-            take(p, number);
+            visit(p, number);
             false
         });
     }
 }
 
-/// What to do with the points in a box.
+/// The decision about the points in a box.
 pub enum Look {
     /// None of them counts.
     Past,
@@ -51,8 +51,8 @@ pub enum Look {
 }
 
 impl Near {
-    /// Hands points to `take`, with the word that it need not look at all of them: it says when it has had enough.
-    pub fn look(&self, look: impl Fn(usize, &Aabb) -> Look, mut take: impl FnMut(&Point, u32) -> bool) {
+    /// Hands points to `visit`, with the word that it need not look at all of them: it says when it has had enough.
+    pub fn look(&self, look: impl Fn(usize, &Aabb) -> Look, mut visit: impl FnMut(&Point, u32) -> bool) {
         if self.points.is_empty() || matches!(look(0, &self.boxes[0]), Look::Past) {
             return;
         }
@@ -66,11 +66,11 @@ impl Near {
             match look(node, &self.boxes[node]) {
                 Look::Past => {}
                 Look::Any => {
-                    self.points[range].iter().find(|(p, number)| take(p, *number));
+                    self.points[range].iter().find(|(p, number)| visit(p, *number));
                 }
                 Look::Into if 2 * node + 1 >= self.boxes.len() => {
                     self.points[range].iter().for_each(|(p, number)| {
-                        take(p, *number);
+                        visit(p, *number);
                     });
                 }
                 Look::Into => {
@@ -127,10 +127,10 @@ pub(crate) fn farthest(at: Point, bounds: &Aabb) -> f64 {
 }
 
 impl Near {
-    /// The numbers of the points nearest to `at`, `most` of them and no farther than `reach` in each coordinate, of those
-    /// that `counts`; the nearest first, of equally near ones the lowest number. Visits little more than it finds.
+    /// The numbers of the `most` points nearest to `at`, no farther than `reach` in each coordinate, among those that `counts`.
+    /// The nearest come first, among equally near ones the lowest number. Visits little more than it finds.
     pub fn nearest(&self, at: Point, reach: f64, most: usize, counts: impl Fn(u32) -> bool) -> Vec<u32> {
-        // Those found, farthest first out; nodes still to be looked at, nearest first.
+        // The points found, farthest first out; nodes still to be looked at, nearest first.
         let mut found: BinaryHeap<(Far, u32)> = BinaryHeap::new();
         let mut nodes = BinaryHeap::from([(Reverse(Far(0.0)), 0usize, 0, self.points.len())]);
         let is_full = |found: &BinaryHeap<(Far, u32)>, far: Far| {

@@ -1,8 +1,8 @@
 //! Which closed shells lie inside which others: decided exactly.
 //!
 //! From a vertex of the one a ray goes in the direction of an axis. How often the facets of the other wind around it follows
-//! from exact signs alone: in the projection along the ray, edges are half open, so that a ray through an edge or a vertex
-//! counts once; then the vertex lies before or behind the plane of the facet.
+//! from exact signs alone. In the projection along the ray, edges are half open, so that a ray through an edge or a vertex
+//! counts once. Then the vertex lies before or behind the plane of the facet.
 
 use crate::mesh::Mesh;
 use crate::num::big;
@@ -14,13 +14,13 @@ use crate::spatial::seen::seen;
 /// A closed shell, ready to be asked about points by rays along an axis.
 pub struct Container<'a> {
     mesh: &'a Mesh,
-    /// Of the rays.
+    /// The axis of the rays.
     axis: usize,
     columns: Columns,
 }
 
 impl<'a> Container<'a> {
-    /// Of these facets, which must have finite corners, for rays along `axis`. n log n.
+    /// The container of these facets, which must have finite corners, for rays along `axis`. n log n.
     pub fn new(mesh: &'a Mesh, facets: &[u32], axis: usize) -> Container<'a> {
         Container { mesh, axis, columns: Columns::new(mesh, facets, axis) }
     }
@@ -30,8 +30,8 @@ impl<'a> Container<'a> {
         Container::new(mesh, &seen(mesh, facets, axis, places), axis)
     }
 
-    /// How often the shell winds around `p`: 0 outside. `None` where `p` lies on the shell, or in the plane of one of its facets
-    /// and as near to it as boxes and strips along its longest side tell.
+    /// How often the shell winds around `p`: 0 outside. `None` where `p` lies on the shell. Also `None` in the plane of one of
+    /// its facets, as near to it as boxes and strips along its longest side tell.
     pub fn winding(&self, p: &Point) -> Option<i32> {
         let touches = |f: u32, own: &Aabb| {
             let [a, b, c] = self.corners(f);
@@ -46,29 +46,29 @@ impl<'a> Container<'a> {
         (!on_it).then_some(sum)
     }
 
-    /// Hands to `take` each facet that a ray passes behind facet `from`, and how often it winds around the ray. The ray starts in
+    /// Hands to `visit` each facet that a ray passes behind facet `from`, and how often it winds around the ray. The ray starts in
     /// the plane of `from` where that is seen at `target`; `from` and what lies in its plane are not behind it. Where others meet
     /// it just there, the ray beside is meant that [`Container::around`] means.
-    pub fn behind(&self, from: u32, target: &Point, mut take: impl FnMut(u32, i32)) {
+    pub fn facets_behind(&self, from: u32, target: &Point, mut visit: impl FnMut(u32, i32)) {
         let [start, end] = self.span(from);
         self.columns.pass(target, self.beyond(start), |f, own| {
             let around = if f == from { 0 } else { self.around(f, target) };
             if around != 0 && (own.min[self.axis] > end || self.is_behind([from, f], target)) {
-                take(f, around);
+                visit(f, around);
             }
         });
     }
 
     /// The same of all others that the line through `target` passes, `from` among them. Around the whole line a closed surface
     /// winds 0 times.
-    pub fn not_behind(&self, from: u32, target: &Point, mut take: impl FnMut(u32, i32)) {
+    pub fn facets_not_behind(&self, from: u32, target: &Point, mut visit: impl FnMut(u32, i32)) {
         let [start, end] = self.span(from);
         let before = |b: &Aabb| b.min[self.axis] <= end;
         self.columns.pass(target, before, |f, own| {
             let around = self.around(f, target);
             let is_first = || f == from || own.max[self.axis] < start || !self.is_behind([from, f], target);
             if around != 0 && is_first() {
-                take(f, around);
+                visit(f, around);
             }
         });
     }
@@ -93,8 +93,8 @@ impl<'a> Container<'a> {
 
     /// Whether the ray passes the plane of the second facet behind that of the first. It runs along neither.
     fn is_behind(&self, facets: [u32; 2], target: &Point) -> bool {
-        /// Rounding takes less of the product of the sizes: below a hundred roundings of 2^-53.
-        const ROUNDING: f64 = 1e-13;
+        /// Share of the product of the sizes that rounding cannot reach: it stays below a hundred roundings of 2^-53.
+        const NESTING_ROUNDING: f64 = 1e-13;
         let corners = facets.map(|f| self.corners(f));
         let mut from = *target;
         from[self.axis] = corners[0][0][self.axis];
@@ -107,8 +107,8 @@ impl<'a> Container<'a> {
         });
         let [(d, m, s), (e, n, t)] = rough;
         let further = e * m - d * n;
-        let clear = m.abs() > ROUNDING * s * s && n.abs() > ROUNDING * t * t;
-        if clear && further.abs() > 32.0 * ROUNDING * s * s * t * t * (s + t) {
+        let clear = m.abs() > NESTING_ROUNDING * s * s && n.abs() > NESTING_ROUNDING * t * t;
+        if clear && further.abs() > 32.0 * NESTING_ROUNDING * s * s * t * t * (s + t) {
             return (further > 0.0) == ((m > 0.0) == (n > 0.0));
         }
         let [(first, d), (second, e)] = corners.map(|[a, b, c]| {
@@ -117,8 +117,8 @@ impl<'a> Container<'a> {
             (normal, offset)
         });
         let (m, n) = (&first[self.axis], &second[self.axis]);
-        // Where the planes meet just there, their slopes tell: in `around` the half open edges amount to a ray that is moved by a trifle
-        // along the first of the other axes, and by a trifle of that along the second.
+        // Where the planes meet just there, their slopes tell. In `around` the half open edges amount to a ray that is moved by
+        // a trifle along the first of the other axes. It is moved by a trifle of that along the second.
         let offset = || &(&e * m) - &(&d * n);
         let slope = |k: usize| &(&first[k] * n) - &(&second[k] * m);
         let order = match offset().sign() {
@@ -132,16 +132,17 @@ impl<'a> Container<'a> {
         self.mesh.corners(f)
     }
 
-    /// How often a facet winds around `p`, both seen along the axis: +1 where it looks along it, −1 where it looks back, 0
-    /// where it lies beside. Its edges are half open: of facets that hang together one winds around each point.
+    /// How often a facet winds around `p`, both seen along the axis. It is +1 where the facet looks along the axis, −1 where it
+    /// looks back, 0 where `p` lies outside it. Its edges are half open: of facets that hang together one winds around each
+    /// point.
     pub fn around(&self, f: u32, p: &Point) -> i32 {
         let [a, b, c] = self.corners(f);
         [[a, b], [b, c], [c, a]].iter().map(|e| passes(self.axis, e, p)).sum()
     }
 }
 
-/// Of the two other axes in their order: +1 where the edge passes `p` upwards in the second, on the far side in the first;
-/// −1 where it passes downwards there; else 0.
+/// By the two other axes in their order. It is +1 where the edge passes `p` upwards in the second, on the far side in the
+/// first. It is −1 where it passes downwards there; else 0.
 fn passes(axis: usize, [u, v]: &[Point; 2], p: &Point) -> i32 {
     let up = (axis + 2) % 3;
     match (u[up] <= p[up], v[up] <= p[up]) {

@@ -1,6 +1,6 @@
-//! What a check looks for.
+//! The options of a check.
 
-/// What to look for and from where on it counts.
+/// The kinds to look for and from where on they count.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
     /// Findings of each kind that are listed; all are counted.

@@ -1,9 +1,9 @@
 //! Whether closed shells bound solids that lie apart, or in each other's cavities.
 //!
-//! Only then does the surface wind around every place once or not at all, which pseudonormals need: where two solids
-//! overlap, the nearest facet may be one that lies inside the other solid, and looks the wrong way. It is so if no two
-//! facets meet outside of what they share, and if the winding number on either side of each shell is 0 or 1 (or 0 or −1, where
-//! the whole is inside out): both are decided exactly. A mesh of one shell is not looked at.
+//! Only then does the surface wind around every place once or not at all, which pseudonormals need. Where two solids overlap,
+//! the nearest facet may be one that lies inside the other solid and looks the wrong way. It is so if no two facets meet
+//! outside of the parts they share, and one condition holds. The winding number on either side of each shell is 0 or 1. Where
+//! the whole is inside out it is 0 or −1. Both are decided exactly. A mesh of one shell is not looked at.
 
 use super::Inspected;
 use super::inside_out_shells::orientations;
@@ -12,8 +12,8 @@ use super::islands::shell_bounds;
 use crate::progress::Cancelled;
 use crate::space::Aabb;
 
-/// Whether the shells of a closed mesh, all of them oriented, overlap: two meet, or one lies in another and looks the
-/// way that one does. Costs a search for self-intersections where boxes of shells overlap, else n log n of the shells.
+/// Whether the shells of a closed mesh, all of them oriented, overlap. They do where two meet, or one lies in another and looks
+/// the way that one does. Costs a search for self-intersections where boxes of shells overlap, else n log n of the shells.
 pub(super) fn shells_overlap(m: &Inspected) -> Result<bool, Cancelled> {
     if m.topology.shells < 2 {
         return Ok(false);
@@ -28,8 +28,8 @@ pub(super) fn shells_overlap(m: &Inspected) -> Result<bool, Cancelled> {
     Ok(!orientations(m).into_iter().all(parts_once))
 }
 
-/// True where planes across the axes, one cut after the other, part each box from all others; false where boxes overlap,
-/// or where no such cuts are found. n log n for each level of cuts.
+/// True where planes across the axes, one cut after the other, part each box from all others. False where boxes overlap, or
+/// where no such cuts are found. n log n for each level of cuts.
 fn apart(bounds: Vec<Aabb>) -> bool {
     let mut parts = vec![bounds];
     while let Some(part) = parts.pop() {

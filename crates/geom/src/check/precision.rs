@@ -1,4 +1,4 @@
-//! What the coordinates of a mesh can tell apart.
+//! The least distances that the coordinates of a mesh can tell apart.
 
 use crate::space::Aabb;
 

@@ -1,4 +1,4 @@
-//! What keeps statistics of deviations from a mesh from being beyond doubt, with its places.
+//! The faults of a mesh that leave doubt in statistics of deviations from it, with their places.
 
 use super::boundary::Boundary;
 use super::kinds::*;
@@ -16,8 +16,8 @@ pub struct Precondition {
     pub soundness: Soundness,
     /// Kinds that break the rule and have a finding, in the order of [`KINDS`]. None where the mesh is sound.
     pub findings: Vec<(&'static DefectKind, Found)>,
-    /// The mesh is closed and consistently oriented, but its shells cross or touch each other, or one lies in another and
-    /// looks the way that one does: the surface winds around some places more than once, or the wrong way.
+    /// The mesh is closed and consistently oriented, but its shells cross or touch, or one lies in another and looks the way
+    /// that one does. The surface winds around some places more than once, or the wrong way.
     pub shells_overlap: bool,
 }
 
@@ -34,10 +34,10 @@ const KINDS_OF_RULE: [&DefectKind; 8] = [
 ];
 
 impl Precondition {
-    /// Of a welded mesh, listing at most `limit` findings of each kind.
+    /// The precondition of a welded mesh, listing at most `limit` findings of each kind.
     ///
-    /// A sound mesh of one shell costs what [`Soundness::of`] costs; findings are only looked for in meshes that are not
-    /// sound, overlapping shells where boxes of shells overlap, which takes a search for self-intersections.
+    /// A sound mesh of one shell costs as much as [`Soundness::of`]. Findings are only looked for in meshes that are not sound.
+    /// Overlapping shells are looked for where boxes of shells overlap, which takes a search for self-intersections.
     ///
     /// # Errors
     /// As [`Topology::watched`].

@@ -7,7 +7,7 @@ use crate::space::{Point, dot, minus, norm, plus, times};
 use crate::topology::EdgeAt;
 
 /// Edges of one task.
-const PART: usize = 1 << 9;
+const BOUNDARY_EDGES_PER_TASK: usize = 1 << 9;
 
 pub(super) const KIND: DefectKind = DefectKind {
     name: "t_junctions",
@@ -25,7 +25,7 @@ pub(super) const KIND: DefectKind = DefectKind {
             let [a, b] = e.vertices.map(|v| m.mesh.positions[v as usize]);
             let mut found = vec![];
             near.visit(
-                // What is that near to an end is none: very many vertices may be.
+                // A point that near to an end is none: very many vertices may be.
                 |bounds| {
                     segment_reaches(a, b, m.gap, bounds)
                         && [a, b].iter().all(|end| farthest(*end, bounds) * (1.0 + 1e-12) > m.gap)
@@ -43,7 +43,7 @@ pub(super) const KIND: DefectKind = DefectKind {
             found.sort_unstable_by_key(|j| j.vertex);
             found
         };
-        // Of each part no more is kept than can be listed: a wide gap may bring very many.
+        // No more is kept of each part than can be listed: a wide gap may bring very many.
         let part = |edges: &[EdgeAt]| {
             let (mut count, mut first) = (0, vec![]);
             for found in edges.iter().take_while(|_| !m.progress.cancelled()).map(at_edge) {
@@ -53,7 +53,7 @@ pub(super) const KIND: DefectKind = DefectKind {
             (count, first)
         };
         let parts: Vec<(usize, Vec<Junction>)> =
-            m.topology.boundary_edges.par_chunks(PART).map(part).collect();
+            m.topology.boundary_edges.par_chunks(BOUNDARY_EDGES_PER_TASK).map(part).collect();
         let count = parts.iter().map(|p| p.0).sum();
         let first = parts.iter().flat_map(|p| &p.1).take(m.options.limit);
         Some(Found { count, at_least: false, items: first.map(|j| junction(m, j)).collect() })
@@ -73,7 +73,7 @@ fn junction(m: &Inspected, j: &Junction) -> super::Finding {
     finding
 }
 
-/// Distance of `p` from the line of `a` and `b` if it is at most `gap`, and `p` is farther than that from both ends and
+/// Distance of `p` from the line of `a` and `b` if it is at most `gap`. The point must be farther than that from both ends and
 /// between them.
 fn offset(p: Point, a: Point, b: Point, gap: f64) -> Option<f64> {
     let (along, to) = (minus(b, a), minus(p, a));

@@ -28,7 +28,7 @@ pub(super) const KIND: DefectKind = DefectKind {
             }
             free
         };
-        // Of very many vertices in one place, one speaks for all.
+        // One vertex speaks for all of very many in one place.
         let clusters = near.clusters(m.gap, &join);
         vertices.par_iter().for_each(|&v| {
             if m.progress.cancelled() {

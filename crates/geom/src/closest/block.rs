@@ -2,13 +2,11 @@
 
 use crate::closest::tree::Tree;
 use crate::closest::triangle;
+use crate::num::rounding::SINGLE_DISTANCE_ROUNDING;
 use crate::space::Point;
 
 /// Points in a block: the width of an AVX-512 register.
-pub const BLOCK: usize = 16;
-/// Unit of the error bounds: a distance computed from lengths up to `l` is right to `ROUNDING * l`. The kernels make
-/// about ten roundings of 2^-24; this allows sixteen.
-pub const ROUNDING: f32 = 1.0 / (1 << 20) as f32;
+pub const POINTS_PER_BLOCK: usize = 16;
 /// Factor that makes a length in single precision an upper bound. Making it from exact numbers takes at most eight roundings
 /// of 2^-24, this one included: 4.8e-7.
 pub const LENGTH_UP: f32 = 1.000_001;
@@ -18,12 +16,12 @@ pub const SQUARE_UP: f32 = 1.000_01;
 
 /// A block of up to sixteen points.
 pub struct PointBlock {
-    pub points: [Point; BLOCK],
+    pub points: [Point; POINTS_PER_BLOCK],
     pub len: usize,
     /// Center of the points' box.
     pub center: Point,
     /// Scaled: points relative to `center` (unused ones repeat the last), largest such length, half the box.
-    pub offset: [[f32; BLOCK]; 3],
+    pub offset: [[f32; POINTS_PER_BLOCK]; 3],
     pub reach: f32,
     pub half: [f32; 3],
     /// Scaled center relative to the tree's.
@@ -31,16 +29,16 @@ pub struct PointBlock {
 }
 
 impl PointBlock {
-    /// Of one to sixteen points.
+    /// The block of one to sixteen points.
     #[inline(always)]
     pub fn new(tree: &Tree, points: &[Point]) -> PointBlock {
         let len = points.len();
         let (mut lo, mut hi) = (points[0], points[0]);
         let mut b = PointBlock {
-            points: [points[len - 1]; BLOCK],
+            points: [points[len - 1]; POINTS_PER_BLOCK],
             len,
             center: [0.0; 3],
-            offset: [[0.0; BLOCK]; 3],
+            offset: [[0.0; POINTS_PER_BLOCK]; 3],
             reach: 0.0,
             half: [0.0; 3],
             at: [0.0; 3],
@@ -56,12 +54,12 @@ impl PointBlock {
             b.center[k] = 0.5 * (lo[k] + hi[k]);
             b.half[k] = ((hi[k] - b.center[k]).max(b.center[k] - lo[k]) * tree.scale) as f32 * LENGTH_UP;
             b.at[k] = ((b.center[k] - tree.center[k]) * tree.scale) as f32;
-            for i in 0..BLOCK {
+            for i in 0..POINTS_PER_BLOCK {
                 b.offset[k][i] = ((b.points[i][k] - b.center[k]) * tree.scale) as f32;
             }
         }
         let mut r = 0.0;
-        for i in 0..BLOCK {
+        for i in 0..POINTS_PER_BLOCK {
             let [x, y, z] = [b.offset[0][i], b.offset[1][i], b.offset[2][i]];
             let d = x * x + y * y + z * z;
             r = if d > r { d } else { r };
@@ -82,12 +80,12 @@ impl PointBlock {
         std::array::from_fn(|k| self.at[k] + self.offset[k][i])
     }
 
-    /// Squared box distance up to which a box can hold a triangle nearer to point `i` than `best`, the least distance found,
-    /// with error bound `error`. The point's place and the boxes are rounded too, at the scale of the whole mesh.
+    /// Squared box distance up to which a box can hold a triangle nearer to point `i` than `best`, the least distance found.
+    /// `error` is the bound of its error. The point's place and the boxes are rounded too, at the scale of the whole mesh.
     #[inline(always)]
     pub fn bound(&self, i: usize, best: f32, error: f32) -> f32 {
         let size = self.place(i).iter().fold(1.0, |m, x| if x.abs() > m { x.abs() } else { m });
-        let d = best + 2.0 * error + ROUNDING * (size + best);
+        let d = best + 2.0 * error + SINGLE_DISTANCE_ROUNDING * (size + best);
         d * d * SQUARE_UP
     }
 
@@ -98,8 +96,8 @@ impl PointBlock {
     }
 }
 
-/// A point of the surface near the block, and how far rounding may have put it off the surface. Of a mesh that is small for
-/// its distance from the origin, neighboring values of a coordinate can lie farther apart than the points do.
+/// A point of the surface near the block, and how far rounding may have put it off the surface. Neighboring values of a
+/// coordinate can lie farther apart than the points do, where a mesh is small for its distance from the origin.
 pub struct SurfacePoint {
     pub point: Point,
     /// Greatest distance from the surface, scaled.
@@ -111,14 +109,17 @@ impl SurfacePoint {
     #[inline(always)]
     pub fn new(tree: &Tree, b: &PointBlock, slot: u32) -> SurfacePoint {
         /// Greatest bound kept: its square is in the range of single precision.
-        const MOST: f64 = 1e15;
+        const MAX_KEPT_BOUND: f64 = 1e15;
         let t = tree.triangle(slot);
         let point = triangle::closest_point(&b.center, &t).point;
-        // Of lengths up to the size of the mesh, which is about 1.
+        // The rounding of lengths up to the size of the mesh, which is about 1.
         let rounding = 16.0 * f64::EPSILON;
         let off = triangle::squared_distance(&point, &t).0.sqrt() * tree.scale + rounding;
         // A NaN is not below either.
-        SurfacePoint { point, off: if off < MOST { off as f32 * LENGTH_UP } else { MOST as f32 } }
+        SurfacePoint {
+            point,
+            off: if off < MAX_KEPT_BOUND { off as f32 * LENGTH_UP } else { MAX_KEPT_BOUND as f32 },
+        }
     }
 }
 

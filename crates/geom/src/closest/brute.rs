@@ -22,8 +22,8 @@ pub fn closest(mesh: &Mesh, p: &Point) -> (f64, u32) {
     best
 }
 
-/// How far along `direction` (negative behind `p`) the line through `p` meets the nearest of all faces, and the lowest face that
-/// it meets there; `None` where it meets none.
+/// How far along `direction` (negative behind `p`) the line through `p` meets the nearest of all faces, and the lowest face
+/// that it meets there. `None` where it meets none.
 ///
 /// Faces that name a vertex that does not exist are passed over. Cost: proportional to the faces.
 pub fn crossing(mesh: &Mesh, p: &Point, direction: Vector) -> Option<(f64, u32)> {

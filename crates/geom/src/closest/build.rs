@@ -1,12 +1,11 @@
 //! Building the tree: parallel binned surface-area heuristic, straight into nodes of eight.
 //!
-//! A range of triangles is split in two where the *surface-area heuristic* (MacDonald & Booth 1990), evaluated at 16 bins
-//! per axis (Wald 2007), is least; the cost of a side is its box area times the number of full leaves it needs, which
-//! favors splits at multiples of eight. A large range is judged by a sample; of a small one, the axes of its largest
-//! extent are enough; a few triangles are sorted and every cut tried, which costs less than bins. To make a node of
-//! eight children, the child with the largest box is split again until there are eight (Wald, Benthin & Boulos 2008); no
-//! binary tree is ever stored.
-//! Large children are built in parallel and their node lists joined in a fixed order, so the tree does not depend
+//! A range of triangles is split in two where the *surface-area heuristic* is least (MacDonald & Booth 1990), evaluated at 16
+//! bins per axis (Wald 2007). The cost of a side is its box area times the number of full leaves it needs, which favors splits
+//! at multiples of eight. A large range is judged by a sample. A small one is judged along the axes of its largest extent
+//! alone. A few triangles are sorted and every cut is tried, which costs less than bins. To make a node of eight children, the
+//! child with the largest box is split again until there are eight (Wald, Benthin & Boulos 2008). No binary tree is ever
+//! stored. Large children are built in parallel and their node lists are joined in a fixed order. So the tree does not depend
 //! on the number of threads.
 
 use crate::closest::frame;
@@ -19,21 +18,22 @@ use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress, Silent};
 use crate::space::Aabb;
 
-/// Triangles per leaf at most.
-const LEAF: usize = 8;
-const BINS: usize = 16;
-/// Ranges larger than this are boxed by several threads: blocks of this many items, merged in any order, because least
-/// and most do not depend on it.
-const SHARE: usize = 1 << 16;
-/// Ranges larger than this are built by a task of their own.
-const TASK: usize = 1 << 15;
-/// Before ranges larger than this are divided it is asked whether to go on.
-const ASKING: usize = 1 << 12;
+/// Most triangles of a leaf.
+const MAX_TRIANGLES_PER_LEAF: usize = 8;
+/// Bins in which the places to split a range are counted.
+const SPLIT_BINS: usize = 16;
+/// Ranges with more items are boxed by several threads. They take blocks of this many items, merged in any order: least and
+/// most do not depend on it.
+const BOXED_ITEMS_PER_TASK: usize = 1 << 16;
+/// Ranges with more items are built by a task of their own.
+const MAX_ITEMS_BUILT_ALONE: usize = 1 << 15;
+/// Before larger ranges are divided it is asked whether to go on.
+const MAX_ITEMS_UNASKED: usize = 1 << 12;
 /// Boxes are widened by this (scaled units), more than the rounding of a corner to single precision.
-const PAD: f32 = 1.2e-7;
+const BOX_PADDING: f32 = 1.2e-7;
 
 /// Added to a face id that travels as a float, so that it is never a denormal or NaN (both can be slow).
-const ID: u32 = 0x3f80_0000;
+const FACE_ID_OFFSET: u32 = 0x3f80_0000;
 
 /// Box of a triangle or of many, and the face id in the fourth place of `lo`.
 #[derive(Clone, Copy)]
@@ -78,12 +78,12 @@ impl Bounds {
 type Item = Bounds;
 
 /// Items looked at, about, to choose a plane: of larger ranges every n-th.
-const SAMPLE: usize = 1024;
+const PLANE_SAMPLE_ITEMS: usize = 1024;
 
 /// Ranges up to this size are sorted along the axis of their largest extent, and every place to split is tried.
-const FEW: usize = 16;
+const MAX_SORTED_ITEMS: usize = 16;
 /// Ranges up to this size are split on one of the two axes of largest extent.
-const TWO_AXES: usize = 256;
+const MAX_TWO_AXES_ITEMS: usize = 256;
 
 /// A plane between two bins of an axis.
 #[derive(Clone, Copy)]
@@ -99,13 +99,14 @@ struct Plane {
 impl Plane {
     /// Bins per length.
     fn factor(&self) -> f32 {
-        BINS as f32 * 0.99999 / self.extent
+        SPLIT_BINS as f32 * 0.99999 / self.extent
     }
     /// The bin of an item on this axis.
     #[inline(always)]
     fn bin_of(&self, item: &Item, factor: f32) -> usize {
         // The cast saturates, and makes 0 of the NaN that denormal extents can give.
-        (((item.lo[self.axis] + item.hi[self.axis] - self.origin) * factor) as i32 as usize).min(BINS - 1)
+        (((item.lo[self.axis] + item.hi[self.axis] - self.origin) * factor) as i32 as usize)
+            .min(SPLIT_BINS - 1)
     }
 }
 
@@ -134,17 +135,17 @@ impl<'a> Range<'a> {
             a.1.add(&b.1);
             a
         };
-        let (bounds, centers) = if items.len() <= SHARE {
+        let (bounds, centers) = if items.len() <= BOXED_ITEMS_PER_TASK {
             of(items)
         } else {
-            items.par_chunks(SHARE).map(of).reduce(|| (Bounds::EMPTY, Bounds::EMPTY), merge)
+            items.par_chunks(BOXED_ITEMS_PER_TASK).map(of).reduce(|| (Bounds::EMPTY, Bounds::EMPTY), merge)
         };
         Range { items, start, bounds, centers }
     }
 
     /// The best plane that the items, or of many items a sample, can tell; `None` if all centers coincide.
     fn best_plane(&self) -> Option<Plane> {
-        let step = self.items.len().div_ceil(SAMPLE);
+        let step = self.items.len().div_ceil(PLANE_SAMPLE_ITEMS);
         self.best_plane_of_every(step).or_else(|| if step > 1 { self.best_plane_of_every(1) } else { None })
     }
 
@@ -156,7 +157,7 @@ impl<'a> Range<'a> {
             Plane { axis, bin: 0, origin: self.centers.lo[axis], extent }
         });
         axes.sort_by(|a, b| b.extent.total_cmp(&a.extent));
-        let tried = if self.items.len() <= TWO_AXES { 2 } else { 3 };
+        let tried = if self.items.len() <= MAX_TWO_AXES_ITEMS { 2 } else { 3 };
         let mut best = (f32::INFINITY, None);
         for plane in axes[..tried].iter().filter(|plane| plane.extent > 0.0) {
             let (cost, bin) = self.cheapest(plane, step);
@@ -169,23 +170,23 @@ impl<'a> Range<'a> {
 
     /// The cost of the best plane along the axis of `plane`, and its bin; infinite if one side would be empty.
     fn cheapest(&self, plane: &Plane, step: usize) -> (f32, usize) {
-        let (mut boxes, mut counts) = ([Bounds::EMPTY; BINS], [0; BINS]);
+        let (mut boxes, mut counts) = ([Bounds::EMPTY; SPLIT_BINS], [0; SPLIT_BINS]);
         let factor = plane.factor();
         for i in self.items.iter().step_by(step) {
             let bin = plane.bin_of(i, factor);
             boxes[bin].add(i);
             counts[bin] += 1;
         }
-        let mut right = [f32::INFINITY; BINS];
+        let mut right = [f32::INFINITY; SPLIT_BINS];
         let (mut bounds, mut n) = (Bounds::EMPTY, 0);
-        for j in (1..BINS).rev() {
+        for j in (1..SPLIT_BINS).rev() {
             bounds.add(&boxes[j]);
             n += counts[j];
             right[j] = if n > 0 { bounds.area() * leaves(n) } else { f32::INFINITY };
         }
         let mut best = (f32::INFINITY, 0);
         (bounds, n) = (Bounds::EMPTY, 0);
-        for j in 0..BINS - 1 {
+        for j in 0..SPLIT_BINS - 1 {
             bounds.add(&boxes[j]);
             n += counts[j];
             let cost = bounds.area() * leaves(n) + right[j + 1];
@@ -203,7 +204,7 @@ impl<'a> Range<'a> {
         let items = &mut self.items[..];
         items.sort_unstable_by(|a, b| (a.lo[k] + a.hi[k]).total_cmp(&(b.lo[k] + b.hi[k])));
         let n = items.len();
-        let mut right = [0.0; FEW + 1];
+        let mut right = [0.0; MAX_SORTED_ITEMS + 1];
         let mut bounds = Bounds::EMPTY;
         for i in (1..n).rev() {
             bounds.add(&items[i]);
@@ -223,7 +224,7 @@ impl<'a> Range<'a> {
 
     /// Splits in two non-empty ranges.
     fn split(mut self) -> (Range<'a>, Range<'a>) {
-        let middle = if self.items.len() <= FEW {
+        let middle = if self.items.len() <= MAX_SORTED_ITEMS {
             self.sort_and_cut()
         } else if let Some(plane) = self.best_plane() {
             let factor = plane.factor();
@@ -238,7 +239,7 @@ impl<'a> Range<'a> {
 
 /// Leaves that `n` items need.
 fn leaves(n: usize) -> f32 {
-    n.div_ceil(LEAF) as f32
+    n.div_ceil(MAX_TRIANGLES_PER_LEAF) as f32
 }
 
 /// Moves the items with `left` to the front; returns their number. Every item is swapped, whatever its side: a branch
@@ -263,7 +264,9 @@ struct Subtree {
 impl Subtree {
     /// Appends the tree of `range`; returns its child reference. Worth nothing where `progress` says that it is cancelled.
     fn grow(&mut self, range: Range, progress: &dyn Progress) -> i32 {
-        if range.items.len() <= LEAF || range.items.len() > ASKING && progress.cancelled() {
+        if range.items.len() <= MAX_TRIANGLES_PER_LEAF
+            || range.items.len() > MAX_ITEMS_UNASKED && progress.cancelled()
+        {
             self.leaves.push((range.start as u32, range.items.len() as u32));
             return !(self.leaves.len() as i32 - 1);
         }
@@ -272,7 +275,7 @@ impl Subtree {
         parts.extend([a, b]);
         while parts.len() < 8 {
             let widest = (0..parts.len())
-                .filter(|&i| parts[i].items.len() > LEAF)
+                .filter(|&i| parts[i].items.len() > MAX_TRIANGLES_PER_LEAF)
                 .max_by(|&i, &j| parts[i].bounds.area().total_cmp(&parts[j].bounds.area()));
             let Some(i) = widest else { break };
             let (a, b) = parts.swap_remove(i).split();
@@ -283,12 +286,12 @@ impl Subtree {
         let mut node = Node::EMPTY;
         for k in 0..3 {
             for (j, p) in parts.iter().enumerate() {
-                node.bounds[k][j] = p.bounds.lo[k] - PAD;
-                node.bounds[k + 3][j] = p.bounds.hi[k] + PAD;
+                node.bounds[k][j] = p.bounds.lo[k] - BOX_PADDING;
+                node.bounds[k + 3][j] = p.bounds.hi[k] + BOX_PADDING;
             }
         }
         self.nodes.push(node);
-        let large = parts.iter().any(|p| p.items.len() > TASK);
+        let large = parts.iter().any(|p| p.items.len() > MAX_ITEMS_BUILT_ALONE);
         if large {
             let grown: Vec<(Subtree, i32)> = parts
                 .into_par_iter()
@@ -334,8 +337,8 @@ impl Tree {
     /// a million faces on two cores.
     ///
     /// # Errors
-    /// [`MeshError`], if there are no faces, too many, one naming a vertex that does not exist, or a vertex that is not
-    /// finite or beyond [`MAX_VERTEX`](crate::closest::MAX_VERTEX); or faces that extend over less than
+    /// [`MeshError`], if there are no faces or too many, or one names a vertex that does not exist. Also if a vertex is not
+    /// finite or beyond [`MAX_VERTEX`](crate::closest::MAX_VERTEX). Also if the faces extend over less than
     /// [`MIN_EXTENT`](crate::closest::MIN_EXTENT), for which the powers in distances would lose their digits.
     pub fn build(mesh: &Mesh) -> Result<Tree, MeshError> {
         Tree::build_watched(mesh, &Silent)
@@ -344,7 +347,7 @@ impl Tree {
     /// As [`Tree::build`], asking `progress` whether to go on.
     ///
     /// # Errors
-    /// Those of [`Tree::build`], and [`MeshError::Cancelled`].
+    /// The errors of [`Tree::build`], and [`MeshError::Cancelled`].
     pub fn build_watched(mesh: &Mesh, progress: &dyn Progress) -> Result<Tree, MeshError> {
         limits::check_mesh(mesh)?;
         Ok(build(mesh, progress)?)
@@ -367,7 +370,7 @@ fn build(mesh: &Mesh, progress: &dyn Progress) -> Result<Tree, Cancelled> {
                 b.hi[k] = most(b.hi[k], x);
             }
         }
-        b.lo[3] = f32::from_bits(ID + i as u32);
+        b.lo[3] = f32::from_bits(FACE_ID_OFFSET + i as u32);
         b
     };
     let mut items: Vec<Item> = large_pages(Vec::with_capacity(mesh.faces.len()));
@@ -377,7 +380,7 @@ fn build(mesh: &Mesh, progress: &dyn Progress) -> Result<Tree, Cancelled> {
     if progress.cancelled() {
         return Err(Cancelled);
     }
-    let face: Vec<u32> = items.par_iter().map(|i| i.lo[3].to_bits() - ID).collect();
+    let face: Vec<u32> = items.par_iter().map(|i| i.lo[3].to_bits() - FACE_ID_OFFSET).collect();
     drop(items);
     let leaf = |&(first, n): &(u32, u32)| {
         // Where the work is stopped, leaves stay empty.

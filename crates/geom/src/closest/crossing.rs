@@ -9,7 +9,7 @@ use crate::closest::limits::{QueryError, sane};
 use crate::closest::line::Line;
 use crate::closest::order;
 use crate::closest::query::Query;
-use crate::closest::tree::Tree;
+use crate::closest::tree::{TREE_ROUNDING, Tree};
 use crate::memory::{Shared, large_pages};
 use crate::progress::Progress;
 use crate::space::{Point, Vector, plus, times};
@@ -26,9 +26,6 @@ pub struct Crossing {
     /// Weights of the face's corners: `point` is their weighted mean.
     pub barycentric: [f64; 3],
 }
-
-/// Share by which lengths along a line may be off, from rounding the line to the tree's coordinates and dividing.
-const SLACK: f64 = 1e-12;
 
 /// The nearest crossing found so far.
 #[derive(Clone, Copy)]
@@ -49,7 +46,7 @@ impl Best {
 struct Scaled {
     origin: [f64; 3],
     inverse: [f64; 3],
-    /// What boxes are widened by.
+    /// The amount by which boxes are widened.
     pad: f64,
 }
 
@@ -58,7 +55,7 @@ impl Scaled {
         let origin = std::array::from_fn(|k| (line.point[k] - tree.center[k]) * tree.scale);
         let far =
             origin.iter().chain(&tree.center.map(|c| c * tree.scale)).fold(1.0f64, |m, x| m.max(x.abs()));
-        Scaled { origin, inverse: line.direction.map(|d| 1.0 / d), pad: SLACK * far }
+        Scaled { origin, inverse: line.direction.map(|d| 1.0 / d), pad: TREE_ROUNDING * far }
     }
 
     /// Least distance along the line from its point to the box of a node's child; infinite where it passes by.
@@ -81,7 +78,7 @@ impl Scaled {
             from = from.max(s.min(t));
             to = to.min(s.max(t));
         }
-        let slack = SLACK * (from.abs() + to.abs());
+        let slack = TREE_ROUNDING * (from.abs() + to.abs());
         if from > to + slack {
             return f64::INFINITY;
         }
@@ -130,10 +127,10 @@ fn try_slot(tree: &Tree, line: &Line, slot: u32, best: &mut Best) {
 }
 
 impl Tree {
-    /// Where the line through `p` along `direction` (any length) meets the mesh nearest to `p`, ahead or behind: exactly the face of
-    /// all that it meets whose crossing is nearest in double precision, ties to the lowest. `None` where it meets none within
-    /// `max_distance` (which may be infinite), or without a direction. Whether a face is met is decided without rounding, its rim
-    /// belongs to it; a face that the line lies in is not met, its neighbors are.
+    /// Where the line through `p` along `direction` (any length) meets the mesh nearest to `p`, ahead or behind. It is exactly
+    /// the face, of all that it meets, whose crossing is nearest in double precision, ties to the lowest. `None` where it meets
+    /// none within `max_distance` (which may be infinite), or without a direction. Whether a face is met is decided without
+    /// rounding, and its rim belongs to it. A face that the line lies in is not met, its neighbors are.
     ///
     /// Cost: about as for [`Tree::closest`] of one point; in proportion to the faces that the line grazes.
     ///
@@ -163,13 +160,13 @@ impl Tree {
         Ok(line.and_then(|line| nearest(self, &line, max_distance, &mut vec![])).map(|b| self.at(&b)))
     }
 
-    /// `f(index, crossing)` of the line through every point, in the order of `points`, as [`Tree::crossing`] finds it;
-    /// `direction(index)` is that of a line, which is not asked for where it is `None`.
+    /// `f(index, crossing)` of the line through every point, in the order of `points`, as [`Tree::crossing`] finds it.
+    /// `direction(index)` is the direction of a line, which is not asked for where it is `None`.
     ///
     /// Runs on the current rayon pool and tells `progress` of points. Memory: 8 bytes a point, 64 MiB at most.
     ///
     /// # Errors
-    /// Those of [`Tree::for_each_closest`].
+    /// The errors of [`Tree::for_each_closest`].
     pub fn map_crossings<T: Copy + Send>(
         &self,
         points: &[Point],

@@ -31,7 +31,7 @@ pub unsafe fn decide<D: Real>(tree: &Tree, b: &PointBlock, undecided: &[Undecide
         }
     }
     let mut soa = [[0f64; 8]; 12];
-    for part in undecided.chunks(D::N) {
+    for part in undecided.chunks(D::LANES) {
         for (j, &Undecided { point: i, slot }) in part.iter().enumerate() {
             let (p, t) = (b.points[i as usize], tree.triangle(slot));
             for k in 0..3 {

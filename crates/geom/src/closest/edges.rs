@@ -5,12 +5,12 @@ use crate::closest::triangle::Feature;
 use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress, Silent};
 
-/// From so many triangles at both ends of an edge on, it is looked up in a sorted list.
-const MANY: usize = 64;
+/// Triangles at both ends of an edge from which on the edge is looked up in a sorted list.
+const MIN_LISTED_TRIANGLES: usize = 64;
 /// Items of a loop after which it is asked whether to go on.
-pub(super) const ASK: u32 = 1 << 12;
+pub(super) const ITEMS_PER_QUESTION: u32 = 1 << 12;
 
-/// What lies across an edge.
+/// The face across an edge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Across {
     /// Nothing: a boundary edge.
@@ -59,7 +59,7 @@ impl<'a> Fans<'a> {
         (self.start[v as usize + 1] - self.start[v as usize]) as usize
     }
 
-    /// What lies across each edge (corner `k` to `k + 1`) of each slot. Worth nothing where `progress` says that it is
+    /// The face across each edge (corner `k` to `k + 1`) of each slot. Worth nothing where `progress` says that it is
     /// cancelled.
     ///
     /// An edge is looked for among the triangles at that end which has fewer. Where both have very many, in a sorted
@@ -71,7 +71,7 @@ impl<'a> Fans<'a> {
                 return Across::Unclear;
             }
             let (a, b) = if self.size(b) < self.size(a) { (b, a) } else { (a, b) };
-            if self.size(a) > MANY {
+            if self.size(a) > MIN_LISTED_TRIANGLES {
                 let from = crowded.partition_point(|e| (e.0, e.1) < (a.min(b), a.max(b)));
                 let at_edge = crowded[from..].iter().take_while(|e| (e.0, e.1) == (a.min(b), a.max(b)));
                 return only(at_edge.map(|e| e.2).filter(|o| *o != s));
@@ -82,7 +82,7 @@ impl<'a> Fans<'a> {
             }))
         };
         let of_slot = |(s, t): (usize, &[u32; 3])| {
-            if (s as u32).is_multiple_of(ASK) && progress.cancelled() {
+            if (s as u32).is_multiple_of(ITEMS_PER_QUESTION) && progress.cancelled() {
                 return [Across::Unclear; 3];
             }
             std::array::from_fn(|k| of_edge(s as u32, t[k], t[(k + 1) % 3]))
@@ -96,7 +96,9 @@ impl<'a> Fans<'a> {
             let t = *t;
             (0..3).map(move |k| (t[k].min(t[(k + 1) % 3]), t[k].max(t[(k + 1) % 3]), s as u32))
         };
-        let both = |e: &(u32, u32, u32)| self.size(e.0) > MANY && self.size(e.1) > MANY;
+        let both = |e: &(u32, u32, u32)| {
+            self.size(e.0) > MIN_LISTED_TRIANGLES && self.size(e.1) > MIN_LISTED_TRIANGLES
+        };
         let mut all: Vec<(u32, u32, u32)> =
             self.slots.par_iter().enumerate().flat_map_iter(edges).filter(both).collect();
         all.par_sort_unstable();
@@ -106,7 +108,7 @@ impl<'a> Fans<'a> {
     }
 }
 
-/// What these triangles make of an edge.
+/// The kind of an edge by these triangles.
 fn only(mut others: impl Iterator<Item = u32>) -> Across {
     match (others.next(), others.next()) {
         (None, _) => Across::Free,
@@ -117,9 +119,9 @@ fn only(mut others: impl Iterator<Item = u32>) -> Across {
 
 /// The boundary edges of a mesh, those of one face only: the rim of a scan or of a hole.
 ///
-/// A point whose closest place lies on such an edge is beside the mesh rather than above it, and its distance says more
-/// about where the mesh ends than about its shape. Vertices must be shared by index: to faces that only have equal
-/// coordinates at their corners, every edge is free. One byte a face.
+/// A point whose closest place lies on such an edge is outside the mesh rather than above it. Its distance says more about
+/// where the mesh ends than about its shape. Vertices must be shared by index: to faces that only have equal coordinates at
+/// their corners, every edge is free. One byte a face.
 pub struct BoundaryEdges {
     /// For each face: bit `i` if edge `i` is free, bit `3 + i` if corner `i` lies on a boundary edge.
     flags: Vec<u8>,
@@ -129,7 +131,7 @@ pub struct BoundaryEdges {
 impl BoundaryEdges {
     /// Linear time, as [`Signs::new`](super::Signs::new).
     pub fn new(tree: &Tree) -> Self {
-        BoundaryEdges::found(tree, &Silent)
+        BoundaryEdges::with_progress(tree, &Silent)
     }
 
     /// As [`BoundaryEdges::new`], asking `progress` whether to go on.
@@ -137,11 +139,11 @@ impl BoundaryEdges {
     /// # Errors
     /// [`Cancelled`].
     pub fn watched(tree: &Tree, progress: &dyn Progress) -> Result<Self, Cancelled> {
-        let edges = BoundaryEdges::found(tree, progress);
+        let edges = BoundaryEdges::with_progress(tree, progress);
         if progress.cancelled() { Err(Cancelled) } else { Ok(edges) }
     }
 
-    fn found(tree: &Tree, progress: &dyn Progress) -> Self {
+    fn with_progress(tree: &Tree, progress: &dyn Progress) -> Self {
         let across = Fans::new(tree).across(progress);
         let mut on_rim = vec![false; tree.corners.len()];
         let mut count = 0;

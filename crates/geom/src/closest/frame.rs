@@ -1,7 +1,9 @@
 //! Filling the leaves: each triangle in a frame of its own (see the module `tree`), and the corners in leaf order.
 
 use crate::closest::block::LENGTH_UP;
-use crate::closest::layout::{AC, AXES, BASE, BC, FIELDS, Leaf, NOWHERE, ORIGIN};
+use crate::closest::layout::{
+    AB_LENGTH, AC_FIELD, BC_FIELD, CORNER_A, FIELDS_PER_TRIANGLE, FRAME_AXES, Leaf, UNUSED_LANE_HEIGHT,
+};
 use crate::mesh::Mesh;
 use crate::progress::Progress;
 use crate::space::{Point, Vector, cross, dot, least_axis, minus, times, unit};
@@ -9,11 +11,11 @@ use crate::space::{Point, Vector, cross, dot, least_axis, minus, times, unit};
 /// Triangles in slot order, vertices in order of first use. Ends early where `progress` says that it is cancelled.
 pub fn renumber(mesh: &Mesh, face: &[u32], progress: &dyn Progress) -> (Vec<[u32; 3]>, Vec<Point>) {
     /// Faces after which it is asked whether to go on.
-    const PART: usize = 1 << 16;
+    const FACES_PER_QUESTION: usize = 1 << 16;
     let mut new = vec![u32::MAX; mesh.positions.len()];
     let mut used = Vec::with_capacity(mesh.positions.len());
     let mut slots = Vec::with_capacity(face.len());
-    for part in face.chunks(PART).take_while(|_| !progress.cancelled()) {
+    for part in face.chunks(FACES_PER_QUESTION).take_while(|_| !progress.cancelled()) {
         slots.extend(part.iter().map(|&f| {
             mesh.faces[f as usize].map(|v| {
                 let n = &mut new[v as usize];
@@ -30,7 +32,7 @@ pub fn renumber(mesh: &Mesh, face: &[u32], progress: &dyn Progress) -> (Vec<[u32
 
 /// Fills one leaf with the frames of these faces, at most eight.
 pub fn leaf(mesh: &Mesh, faces: &[u32], first: u32, scale: f64) -> Leaf {
-    let mut out = Leaf { field: [[0.0; 8]; FIELDS], origin: [0.0; 3], first, radius: 0.0 };
+    let mut out = Leaf { field: [[0.0; 8]; FIELDS_PER_TRIANGLE], origin: [0.0; 3], first, radius: 0.0 };
     let mut triangles = [[[0.0; 3]; 3]; 8];
     let (mut lo, mut hi) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
     for (t, &face) in triangles.iter_mut().zip(faces) {
@@ -52,9 +54,9 @@ pub fn leaf(mesh: &Mesh, faces: &[u32], first: u32, scale: f64) -> Leaf {
     out.radius = radius2.sqrt() as f32 * LENGTH_UP;
     for j in faces.len()..8 {
         for axis in 0..3 {
-            out.field[AXES + 4 * axis][j] = 1.0;
+            out.field[FRAME_AXES + 4 * axis][j] = 1.0;
         }
-        out.field[ORIGIN + 2][j] = -NOWHERE;
+        out.field[CORNER_A + 2][j] = -UNUSED_LANE_HEIGHT;
     }
     out
 }
@@ -71,14 +73,15 @@ fn any_perpendicular(x: Vector) -> Vector {
 
 /// The direction of the part of `ac` perpendicular to the unit vector `x`, `base` being about as long as `ac`.
 ///
-/// What is left of a needle is mostly rounding and not yet perpendicular: it is taken again. If little is left once more, the
+/// The rest of a needle is mostly rounding and not yet perpendicular: it is taken again. If little is left once more, the
 /// rounding pointed along `x`; then the three corners lie on a line, and any perpendicular will do.
 fn perpendicular(ac: Vector, base: f64, x: Vector) -> Vector {
-    const CLEAR: f64 = 1e-3;
+    /// Height over the base below which rounding decides the direction of the height.
+    const MIN_CLEAR_HEIGHT: f64 = 1e-3;
     match unit(reject(ac, x)) {
-        Some((y, h)) if h > CLEAR * base => y,
+        Some((y, h)) if h > MIN_CLEAR_HEIGHT * base => y,
         Some((y, _)) => match unit(reject(y, x)) {
-            Some((y, h)) if h > CLEAR => y,
+            Some((y, h)) if h > MIN_CLEAR_HEIGHT => y,
             _ => any_perpendicular(x),
         },
         None => any_perpendicular(x),
@@ -100,12 +103,12 @@ fn frame(v: [Point; 3], mut put: impl FnMut(usize, f64)) {
     let (cx, cy) = (dot(ac, x), dot(ac, y));
     for (axis, e) in [x, y, z].into_iter().enumerate() {
         for (k, x) in e.into_iter().enumerate() {
-            put(AXES + 3 * axis + k, x);
+            put(FRAME_AXES + 3 * axis + k, x);
         }
-        put(ORIGIN + axis, dot(a, e));
+        put(CORNER_A + axis, dot(a, e));
     }
-    put(BASE, base);
-    for (at, px) in [(AC, cx), (BC, cx - base)] {
+    put(AB_LENGTH, base);
+    for (at, px) in [(AC_FIELD, cx), (BC_FIELD, cx - base)] {
         let l = (px * px + cy * cy).sqrt();
         let r = 1.0 / l;
         let (ux, uy) = if l > 0.0 { (px * r, cy * r) } else { (1.0, 0.0) };

@@ -3,7 +3,7 @@
 //! SAFETY, here and for every function: the caller promises that the processor has the instructions of `V`.
 #![expect(unsafe_code, reason = "loads of vector types need their instructions")]
 
-use crate::closest::layout::{AC, AXES, BASE, BC, Leaf, Node, ORIGIN};
+use crate::closest::layout::{AB_LENGTH, AC_FIELD, BC_FIELD, CORNER_A, FRAME_AXES, Leaf, Node};
 use crate::simd::lanes::Lanes;
 
 /// Squared distance from `(x, y, z)`, given in triangle frames, to the triangles with sides `base`, `ac`, `bc`
@@ -57,9 +57,9 @@ pub unsafe fn into_frames<V: Lanes<8>>(leaf: &Leaf, q: [f32; 3]) -> [V; 3] {
         let q = splat::<V>(q);
         let mut r = q;
         for (axis, r) in r.iter_mut().enumerate() {
-            let a = AXES + 3 * axis;
+            let a = FRAME_AXES + 3 * axis;
             let p = q[0].mul_add(field(leaf, a), q[1] * field(leaf, a + 1));
-            *r = q[2].mul_add(field(leaf, a + 2), p - field(leaf, ORIGIN + axis));
+            *r = q[2].mul_add(field(leaf, a + 2), p - field(leaf, CORNER_A + axis));
         }
         r
     }
@@ -69,9 +69,9 @@ pub unsafe fn into_frames<V: Lanes<8>>(leaf: &Leaf, q: [f32; 3]) -> [V; 3] {
 #[inline(always)]
 pub unsafe fn leaf_distance2<V: Lanes<8>>(leaf: &Leaf, c: [V; 3]) -> V {
     unsafe {
-        let ac = [field(leaf, AC), field(leaf, AC + 1), field(leaf, AC + 2)];
-        let bc = [field(leaf, BC), field(leaf, BC + 1), field(leaf, BC + 2)];
-        frame_distance2(c, field(leaf, BASE), ac, bc)
+        let ac = [field(leaf, AC_FIELD), field(leaf, AC_FIELD + 1), field(leaf, AC_FIELD + 2)];
+        let bc = [field(leaf, BC_FIELD), field(leaf, BC_FIELD + 1), field(leaf, BC_FIELD + 2)];
+        frame_distance2(c, field(leaf, AB_LENGTH), ac, bc)
     }
 }
 
@@ -88,13 +88,21 @@ pub unsafe fn triangle_distance2<V: Lanes<16>>(leaf: &Leaf, lane: usize, c: [f32
     unsafe {
         let mut r = d;
         for axis in 0..3 {
-            let a = AXES + 3 * axis;
+            let a = FRAME_AXES + 3 * axis;
             let p = d[2].mul_add(spread(leaf, lane, a + 2), V::splat(c[axis]));
             r[axis] = d[0].mul_add(spread(leaf, lane, a), d[1].mul_add(spread(leaf, lane, a + 1), p));
         }
-        let ac = [spread(leaf, lane, AC), spread(leaf, lane, AC + 1), spread(leaf, lane, AC + 2)];
-        let bc = [spread(leaf, lane, BC), spread(leaf, lane, BC + 1), spread(leaf, lane, BC + 2)];
-        frame_distance2(r, spread(leaf, lane, BASE), ac, bc)
+        let ac = [
+            spread(leaf, lane, AC_FIELD),
+            spread(leaf, lane, AC_FIELD + 1),
+            spread(leaf, lane, AC_FIELD + 2),
+        ];
+        let bc = [
+            spread(leaf, lane, BC_FIELD),
+            spread(leaf, lane, BC_FIELD + 1),
+            spread(leaf, lane, BC_FIELD + 2),
+        ];
+        frame_distance2(r, spread(leaf, lane, AB_LENGTH), ac, bc)
     }
 }
 
@@ -140,12 +148,12 @@ impl<V: Lanes<8>> Domination<V> {
     }
 }
 
-/// The least of `dist²(p, box) - |p - x|²` over all points `p` of the block, for the boxes of a node's children: where it
-/// is positive, nothing in the box can be closer than `x` to any point of the block.
+/// The least of `dist²(p, box) - |p - x|²` over all points `p` of the block, for the boxes of a node's children. Where it is
+/// positive, nothing in the box can be closer than `x` to any point of the block.
 ///
-/// Along one axis the difference is a concave function of `p`, so its least value is at one of the two sides of the
-/// block: two box distances an axis give the exact answer. This is the optimal decision criterion of Emrich, Kriegel,
-/// Kröger, Renz & Züfle, "Boosting spatial pruning: on optimal pruning of MBRs" (SIGMOD 2010).
+/// Along one axis the difference is a concave function of `p`, so its least value is at one of the two sides of the block. Two
+/// box distances an axis give the exact answer. This is the optimal decision criterion of Emrich, Kriegel, Kröger, Renz &
+/// Züfle, "Boosting spatial pruning: on optimal pruning of MBRs" (SIGMOD 2010).
 #[inline(always)]
 pub unsafe fn domination_margin<V: Lanes<8>>(node: &Node, r: &Domination<V>) -> V {
     unsafe {

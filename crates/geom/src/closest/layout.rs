@@ -28,29 +28,29 @@ impl Node {
 }
 
 /// Numbers kept for each triangle of a leaf: see the constants.
-pub const FIELDS: usize = 19;
+pub const FIELDS_PER_TRIANGLE: usize = 19;
 
 /// Frame axes: `x` in fields 0..3, `y` in 3..6, `z` in 6..9.
-pub const AXES: usize = 0;
+pub const FRAME_AXES: usize = 0;
 
 /// Corner `A` in the frame's directions: 9..12. Subtracted after the rotation.
-pub const ORIGIN: usize = 9;
+pub const CORNER_A: usize = 9;
 
 /// Length of `AB`.
-pub const BASE: usize = 12;
+pub const AB_LENGTH: usize = 12;
 
-/// Direction (x, y) and length of `AC`.
-pub const AC: usize = 13;
+/// Direction (x, y) and length of `AC_FIELD`.
+pub const AC_FIELD: usize = 13;
 
-/// Direction (x, y) and length of `BC`.
-pub const BC: usize = 16;
+/// Direction (x, y) and length of `BC_FIELD`.
+pub const BC_FIELD: usize = 16;
 
 /// Up to eight triangles, structure of arrays: `field[f][j]` is field `f` of triangle `j`.
 #[repr(C, align(64))]
 #[derive(Clone, Copy)]
 pub struct Leaf {
-    /// See [`FIELDS`].
-    pub field: [[f32; 8]; FIELDS],
+    /// See [`FIELDS_PER_TRIANGLE`].
+    pub field: [[f32; 8]; FIELDS_PER_TRIANGLE],
     /// Point (unscaled, double precision) that the leaf's numbers are relative to.
     pub origin: Point,
     /// Slot of the first triangle; triangle `j` has slot `first + j`.
@@ -60,4 +60,4 @@ pub struct Leaf {
 }
 
 /// An unused lane stands this far away (scaled) along its normal: never a candidate, and its square is finite.
-pub const NOWHERE: f32 = 1e18;
+pub const UNUSED_LANE_HEIGHT: f32 = 1e18;

@@ -1,4 +1,4 @@
-//! What the search accepts, and how it refuses the rest.
+//! Limits of the input that the search accepts, and how it refuses the rest.
 
 use crate::mesh::Mesh;
 use crate::parallel::prelude::*;
@@ -9,11 +9,11 @@ pub use crate::space::MIN_COORDINATE;
 
 /// Largest coordinate of a point accepted, millimeters.
 pub const MAX_COORDINATE: f64 = 1e60;
-/// Largest coordinate of a vertex accepted, millimeters: the fourth power of it and the square of that of a point, whose
-/// product the distance to a plane needs, are still in the range of numbers.
+/// Largest coordinate of a vertex accepted, millimeters. The distance to a plane needs the product of its fourth power and the
+/// square of a point's coordinate. That product is still in the range of numbers.
 pub const MAX_VERTEX: f64 = 1e45;
-/// Least extent accepted of a mesh that is more than one place, millimeters: with smaller ones those powers lose digits
-/// at the lower end of the numbers.
+/// Least extent accepted of a mesh that is more than one place, millimeters. With smaller ones those powers lose digits at the
+/// lower end of the numbers.
 pub const MIN_EXTENT: f64 = 1e-45;
 /// Most faces accepted: three corners of each must be countable in 32 bits.
 pub const MAX_FACES: usize = 1 << 28;
@@ -120,7 +120,7 @@ pub fn check_mesh(mesh: &Mesh) -> Result<(), MeshError> {
     let far = |f: &[u32; 3]| {
         f.iter().any(|v| (0..3).any(|k| (mesh.positions[*v as usize][k] - first[k]).abs() >= MIN_EXTENT))
     };
-    // Of nearly every mesh the first face will do.
+    // The first face of nearly every mesh will do.
     if mesh.faces.iter().any(far) {
         return Ok(());
     }

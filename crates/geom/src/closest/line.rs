@@ -1,10 +1,10 @@
 //! Where a line meets a triangle. Whether it does is decided exactly, so no line slips through between two neighbors.
 //!
-//! The side on which the line passes an edge is the sign of `d · ((a - p) × (b - p))`: rounded where that is beyond doubt, else as
-//! a sum without rounding (J. R. Shewchuk, "Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates",
-//! 1997). Two triangles that share an edge see it with opposite signs. The place follows from the sizes of the three products
-//! (T. Möller and B. Trumbore, "Fast, minimum storage ray-triangle intersection", 1997), as a mean of the corners, so it never
-//! leaves the triangle.
+//! The side on which the line passes an edge is the sign of `d · ((a - p) × (b - p))`. It is rounded where that is beyond
+//! doubt, else a sum without rounding. (J. R. Shewchuk, "Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric
+//! Predicates", 1997.) Two triangles that share an edge see it with opposite signs. The place follows from the sizes of the
+//! three products, as a mean of the corners, so it never leaves the triangle. (T. Möller and B. Trumbore, "Fast, minimum
+//! storage ray-triangle intersection", 1997.)
 
 use crate::num::exact::Exact;
 use crate::space::{Point, Vector, cross, dot, minus, times, unit};
@@ -14,16 +14,16 @@ use crate::space::{Point, Vector, cross, dot, minus, times, unit};
 pub struct Line {
     /// Where distances along it begin.
     pub point: Point,
-    /// Length 1; components below [`NOTHING`] are zero.
+    /// Length 1; components below [`MIN_DIRECTION_COMPONENT`] are zero.
     pub direction: Vector,
 }
 
-/// Components of a direction smaller than this are none: their products would leave the range of numbers.
-const NOTHING: f64 = 1e-30;
+/// Smaller components of a direction count as zero: their products would leave the range of numbers.
+const MIN_DIRECTION_COMPONENT: f64 = 1e-30;
 
-/// Bound of the rounding of an edge's product, as a share of the sum of its terms' sizes: Shewchuk's for the same seven
+/// Bound of the rounding of an edge's product, as a share of the sum of its terms' sizes. Shewchuk's for the same seven
 /// roundings is 7.8e-16.
-const ROUNDING: f64 = 1e-15;
+const EDGE_PRODUCT_ROUNDING: f64 = 1e-15;
 
 /// Where a line meets a triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,7 +38,7 @@ impl Line {
     /// `None` for a direction without length or that is no number.
     pub fn new(point: Point, direction: Vector) -> Option<Line> {
         let (d, _) = unit(direction)?;
-        let direction = d.map(|x| if x.abs() < NOTHING { 0.0 } else { x });
+        let direction = d.map(|x| if x.abs() < MIN_DIRECTION_COMPONENT { 0.0 } else { x });
         Some(Line { point, direction })
     }
 
@@ -56,8 +56,8 @@ impl Line {
         let weights = match sum.is_normal() {
             true => size.map(|s| s / sum),
             false => {
-                let some = sides.map(|(sign, _)| sign.abs());
-                times(1.0 / some.iter().sum::<f64>(), some)
+                let weights = sides.map(|(sign, _)| sign.abs());
+                times(1.0 / weights.iter().sum::<f64>(), weights)
             }
         };
         let along = [a, b, c].map(|x| dot(self.direction, minus(*x, self.point)));
@@ -72,7 +72,7 @@ impl Line {
             let (i, j) = ((k + 1) % 3, (k + 2) % 3);
             d[k].abs() * ((u[i] * v[j]).abs() + (u[j] * v[i]).abs())
         };
-        let bound = ROUNDING * (terms(0) + terms(1) + terms(2));
+        let bound = EDGE_PRODUCT_ROUNDING * (terms(0) + terms(1) + terms(2));
         let sign = match product.abs() > bound {
             true => product.signum(),
             false => self.exact_side(a, b),

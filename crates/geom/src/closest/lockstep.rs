@@ -13,16 +13,17 @@
     reason = "loads of vector types need their instructions; growing lists without a branch"
 )]
 
-use crate::closest::block::{BLOCK, PointBlock, ROUNDING, SQUARE_UP, SurfacePoint};
+use crate::closest::block::{POINTS_PER_BLOCK, PointBlock, SQUARE_UP, SurfacePoint};
 use crate::closest::decide::Undecided;
 use crate::closest::kernel;
 use crate::closest::layout::Node;
-use crate::closest::prune::{MOST, Survivors};
+use crate::closest::prune::{MAX_SURVIVORS, Survivors};
 use crate::closest::tree::Tree;
 use crate::memory::prefetch;
+use crate::num::rounding::SINGLE_DISTANCE_ROUNDING;
 use crate::simd::lanes::Lanes;
 
-/// What is known of a point's distance.
+/// The bounds known for a point's distance.
 #[derive(Clone, Copy, Default)]
 struct Best {
     /// Square of the least distance found.
@@ -44,7 +45,7 @@ struct LeafDistances {
 /// Memory of this stage, kept from block to block.
 #[derive(Default)]
 pub struct Buffers {
-    /// What pruning has left, as children of nodes of their own.
+    /// The survivors of pruning, as children of nodes of their own.
     start: Vec<Node>,
     /// (point, node) and (point, leaf) pairs.
     queue: Vec<[i32; 2]>,
@@ -66,17 +67,17 @@ pub unsafe fn search<V: Lanes<8>>(
 ) {
     gather_start(tree, survivors, &mut s.start);
     unsafe {
-        let mut place = [[0f32; 3]; BLOCK];
+        let mut place = [[0f32; 3]; POINTS_PER_BLOCK];
         for (i, q) in place.iter_mut().enumerate() {
             *q = b.place(i);
         }
-        let mut boxes = [[[0f32; 8]; MOST / 8]; BLOCK];
-        let mut here = [0; BLOCK];
+        let mut boxes = [[[0f32; 8]; MAX_SURVIVORS / 8]; POINTS_PER_BLOCK];
+        let mut here = [0; POINTS_PER_BLOCK];
         nearest_children::<V>(&s.start, &place[..b.len], &mut boxes, &mut here);
         descend::<V>(tree, &place[..b.len], &mut here);
         let x: [f32; 3] = std::array::from_fn(|k| ((near.point[k] - b.center[k]) * tree.scale) as f32);
         s.tested.clear();
-        let (mut best, mut bound) = ([Best::default(); BLOCK], [0f32; BLOCK]);
+        let (mut best, mut bound) = ([Best::default(); POINTS_PER_BLOCK], [0f32; POINTS_PER_BLOCK]);
         for i in 0..b.len {
             let to_x: [f32; 3] = std::array::from_fn(|k| b.offset[k][i] - x[k]);
             best[i].distance2 = to_x.iter().map(|e| e * e).sum::<f32>() * SQUARE_UP;
@@ -101,8 +102,9 @@ pub unsafe fn search<V: Lanes<8>>(
                 let [i, n] = s.queue[next];
                 next += 1;
                 let node = &tree.nodes[n as usize];
-                let q = kernel::splat::<V>(place[i as usize % BLOCK]);
-                let mask = kernel::box_distance2::<V>(node, q).le(V::splat(bound[i as usize % BLOCK]));
+                let q = kernel::splat::<V>(place[i as usize % POINTS_PER_BLOCK]);
+                let mask =
+                    kernel::box_distance2::<V>(node, q).le(V::splat(bound[i as usize % POINTS_PER_BLOCK]));
                 let leaf = V::negative(&node.child);
                 push::<V>(mask & !leaf, i, node, &mut s.queue);
                 push::<V>(mask & leaf, i, node, &mut s.found);
@@ -110,7 +112,7 @@ pub unsafe fn search<V: Lanes<8>>(
             let tested = at;
             while let Some(&[i, c]) = s.found.get(at) {
                 at += 1;
-                let i = i as usize % BLOCK;
+                let i = i as usize % POINTS_PER_BLOCK;
                 if c != here[i] {
                     test_leaf::<V>(tree, b, i, !c as u32, &mut s.tested, &mut best[i]);
                 }
@@ -136,8 +138,8 @@ pub unsafe fn search<V: Lanes<8>>(
 unsafe fn nearest_children<V: Lanes<8>>(
     start: &[Node],
     place: &[[f32; 3]],
-    boxes: &mut [[[f32; 8]; MOST / 8]; BLOCK],
-    here: &mut [i32; BLOCK],
+    boxes: &mut [[[f32; 8]; MAX_SURVIVORS / 8]; POINTS_PER_BLOCK],
+    here: &mut [i32; POINTS_PER_BLOCK],
 ) {
     for (i, place) in place.iter().enumerate() {
         // SAFETY: the caller's promise.
@@ -183,7 +185,7 @@ fn gather_start(tree: &Tree, survivors: &Survivors, start: &mut Vec<Node>) {
 
 /// Replaces each point's node by the leaf (as a child number) that a greedy walk down from it ends in.
 #[inline(always)]
-unsafe fn descend<V: Lanes<8>>(tree: &Tree, places: &[[f32; 3]], here: &mut [i32; BLOCK]) {
+unsafe fn descend<V: Lanes<8>>(tree: &Tree, places: &[[f32; 3]], here: &mut [i32; POINTS_PER_BLOCK]) {
     loop {
         let mut moved = false;
         for (h, q) in here.iter_mut().zip(places) {
@@ -230,21 +232,21 @@ unsafe fn test_leaf<V: Lanes<8>>(
     // If it wins, its corners are needed next.
     prefetch(&tree.slots[leaf.first as usize]);
     let r = b.relative(tree, leaf.origin);
-    let r: [f32; 3] = std::array::from_fn(|k| r[k] + b.offset[k][i % BLOCK]);
+    let r: [f32; 3] = std::array::from_fn(|k| r[k] + b.offset[k][i % POINTS_PER_BLOCK]);
     // SAFETY: the caller's promise.
     let d = unsafe { kernel::leaf_distance2(leaf, kernel::into_frames::<V>(leaf, r)) };
     tested.push(LeafDistances { distance2: d.array(), first: leaf.first, point: i as u32 });
     let least = d.least();
     best.distance2 = if least < best.distance2 { least } else { best.distance2 };
     // The sum is no less than the length of `r`, and needs no root.
-    let e = ROUNDING * (r[0].abs() + r[1].abs() + r[2].abs() + 2.0 * b.reach + leaf.radius);
+    let e = SINGLE_DISTANCE_ROUNDING * (r[0].abs() + r[1].abs() + r[2].abs() + 2.0 * b.reach + leaf.radius);
     best.error = if e > best.error { e } else { best.error };
 }
 
 /// From the tested leaves to the triangles that may be the closest.
 #[inline(always)]
 unsafe fn list_undecided<V: Lanes<8>>(
-    best: &[Best; BLOCK],
+    best: &[Best; POINTS_PER_BLOCK],
     tested: &[LeafDistances],
     undecided: &mut Vec<Undecided>,
 ) {
@@ -254,7 +256,8 @@ unsafe fn list_undecided<V: Lanes<8>>(
     });
     for leaf in tested {
         // SAFETY: the caller's promise.
-        let mut mask = unsafe { V::load(&leaf.distance2).le(V::splat(limit[leaf.point as usize % BLOCK])) };
+        let mut mask =
+            unsafe { V::load(&leaf.distance2).le(V::splat(limit[leaf.point as usize % POINTS_PER_BLOCK])) };
         while mask != 0 {
             undecided.push(Undecided { point: leaf.point, slot: leaf.first + mask.trailing_zeros() });
             mask &= mask - 1;

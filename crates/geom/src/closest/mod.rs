@@ -11,16 +11,16 @@
 //! | where a line through a point meets it | [`Tree::crossing`]; of many points [`Tree::map_crossings`] |
 //! | the definition of the answers | [`brute::closest`], [`brute::crossing`] |
 //!
-//! "Exact" means: the least, over all faces, of the distance to a face evaluated in double precision (to thin faces in
-//! twice that, see `thin`); ties go to the lowest face. It is off by no more than 2^-40 of the distance from the face's
-//! first corner, mostly by 2^-52. The answer is the same bit for bit as trying all faces, whatever the number of threads, the order of the
-//! points, the instruction set and the shape of the triangles. A point farther than `max_distance` has no answer, decided
-//! on the rounded distance.
+//! "Exact" means the least, over all faces, of the distance to a face evaluated in double precision. Thin faces take twice that
+//! precision, see `thin`. Ties go to the lowest face. It is off by no more than 2^-40 of the distance from the face's first
+//! corner, mostly by 2^-52. The answer is the same bit for bit as that of trying all faces. The number of threads, the order of
+//! the points, the instruction set and the shape of the triangles do not change it. A point farther than `max_distance` has no
+//! answer, decided on the rounded distance.
 //!
-//! How it is fast, in the order in which a point meets it: `order` sorts the points along a space-filling curve, `query`
-//! answers them in blocks of sixteen that go through the stages of `search` together, down the tree of `tree` and `build`;
-//! `kernel` tests triangles in single precision, which may only say "cannot be nearer", and `triangle` decides in double.
-//! To answer a stream, call for each block of it; blocks of 100,000 points and more cost nothing extra.
+//! How it is fast, in the order in which a point meets it. `order` sorts the points along a space-filling curve. `query`
+//! answers them in blocks of sixteen that go through the stages of `search` together, down the tree of `tree` and `build`.
+//! `kernel` tests triangles in single precision, which may only say "cannot be nearer"; `triangle` decides in double. To answer
+//! a stream, call for each block of it; blocks of 100,000 points and more cost nothing extra.
 
 mod block;
 pub mod brute;
@@ -28,11 +28,11 @@ mod build;
 mod crossing;
 mod decide;
 mod edges;
-mod few_leaves;
 mod frame;
 mod hit;
 mod kernel;
 mod layout;
+mod leaf_triangles;
 mod limits;
 mod line;
 mod lockstep;

@@ -1,8 +1,8 @@
 //! Sorting the points along a space-filling curve, so that neighbors in the list are neighbors in space.
 //!
-//! The points themselves are not moved: what is sorted is `(key, index)` in one `u64`. A first pass scatters these into
-//! buckets by the high bits of the key, in parallel; each bucket is then sorted in cache by the thread that is about to
-//! answer it ([`for_each_bucket`]). The order only decides the speed, never the answer.
+//! The points themselves are not moved: what is sorted is `(key, index)` in one `u64`. A first pass scatters these into buckets
+//! by the high bits of the key, in parallel. Each bucket is then sorted in cache by the thread that is about to answer it
+//! ([`for_each_bucket`]). The order only decides the speed, never the answer.
 #![expect(unsafe_code, reason = "several threads scatter into one list, each to places of its own")]
 
 use crate::closest::limits::{QueryError, sane};
@@ -16,15 +16,15 @@ const BUCKET_BITS: u32 = 12;
 /// Bits of the key below the bucket's.
 const LOW_BITS: u32 = 30 - BUCKET_BITS;
 
-/// Points sorted together. Bounds the memory for the order to 64 MiB; sorting more at once would make neighbors nearer
-/// and the answers a little faster.
-const SLICE: usize = 1 << 23;
-/// Points a thread takes at a time, about: buckets are joined until they have this many.
-const CHUNK: usize = 8192;
+/// Points sorted together. It bounds the memory for the order to 64 MiB. More at once would make neighbors nearer and the
+/// answers a little faster.
+const POINTS_PER_SLICE: usize = 1 << 23;
+/// Points that a thread takes at a time, about: buckets are joined until they have so many.
+const POINTS_PER_BUCKET: usize = 8192;
 
-/// Calls `answer(scratch, slice, base, items)` for portions of neighboring points, until every point was named once by
-/// the low 32 bits of an item: the point's index in `slice`, which begins at point `base`. Runs on the current rayon pool;
-/// a thread keeps its scratch. Tells `progress` of the points answered.
+/// Calls `answer(scratch, slice, base, items)` for portions of neighboring points until every point was named once. The low 32
+/// bits of an item are the point's index in `slice`, which begins at point `base`. Runs on the current rayon pool; a thread
+/// keeps its scratch. Tells `progress` of the points answered.
 ///
 /// The portions and the order in them do not depend on the number of threads.
 pub fn for_each_bucket<S: Default>(
@@ -32,8 +32,8 @@ pub fn for_each_bucket<S: Default>(
     progress: &dyn Progress,
     answer: impl Fn(&mut S, &[Point], usize, &[u64]) + Sync,
 ) -> Result<(), QueryError> {
-    for (n, slice) in points.chunks(SLICE).enumerate() {
-        let base = n * SLICE;
+    for (n, slice) in points.chunks(POINTS_PER_SLICE).enumerate() {
+        let base = n * POINTS_PER_SLICE;
         let mut buckets = buckets(slice).map_err(|i| QueryError::BadPoint(base + i))?;
         chunks(&mut buckets).into_par_iter().try_for_each_init(
             || (S::default(), vec![]),
@@ -94,8 +94,8 @@ fn survey(points: &[Point], chunk: usize) -> (Point, Point, bool) {
     )
 }
 
-/// Groups the points by the high bits of their Morton key (Morton 1966): the interleaved bits of their cell in a grid of
-/// 1024 cells along the longest side. Fails with the index of the first point that is not finite or too large.
+/// Groups the points by the high bits of their Morton key (Morton 1966). The key interleaves the bits of their cell in a grid
+/// of 1024 cells along the longest side. Fails with the index of the first point that is not finite or too large.
 fn buckets(points: &[Point]) -> Result<Buckets, usize> {
     let n = points.len();
     let chunk = n.div_ceil(4 * rayon::current_num_threads()).max(1 << 14);
@@ -173,14 +173,14 @@ fn counting_pass(from: &[u64], to: &mut [u64], shift: u32, bits: u32) {
     }
 }
 
-/// Neighboring buckets joined to portions of about [`CHUNK`] points.
+/// Neighboring buckets joined to portions of about [`POINTS_PER_BUCKET`] points.
 fn chunks(buckets: &mut Buckets) -> Vec<Vec<&mut [u64]>> {
     let mut chunks: Vec<Vec<&mut [u64]>> = vec![];
     let (mut rest, mut filled) = (&mut buckets.items[..], usize::MAX);
     for w in buckets.limits.windows(2).filter(|w| w[1] > w[0]) {
         let (part, tail) = rest.split_at_mut(w[1] - w[0]);
         rest = tail;
-        if filled.saturating_add(part.len()) > CHUNK {
+        if filled.saturating_add(part.len()) > POINTS_PER_BUCKET {
             chunks.push(vec![]);
             filled = 0;
         }

@@ -1,21 +1,22 @@
 //! First stage: exclude what cannot matter to any point of a block.
 //!
-//! What is left are the few leaves and nodes that can hold the closest triangle of some point.
+//! The few leaves and nodes remain that can hold the closest triangle of some point.
 //!
 //! SAFETY, here and for every function: the caller promises that the processor has the instructions of `V`.
 #![expect(unsafe_code, reason = "loads of vector types need their instructions")]
 
-use crate::closest::block::{PointBlock, ROUNDING, SurfacePoint, norm};
+use crate::closest::block::{PointBlock, SurfacePoint, norm};
 use crate::closest::kernel::{self, Domination};
 use crate::closest::layout::Leaf;
 use crate::closest::tree::Tree;
 use crate::memory::prefetch;
+use crate::num::rounding::SINGLE_DISTANCE_ROUNDING;
 use crate::simd::lanes::Lanes;
 
-/// Up to this many leaves, and no open node, the block is tested triangle by triangle. (8 and 12 are slower.)
-pub const FEW_LEAVES: usize = 10;
-/// Leaves and open nodes at most: the children of two nodes. (24 are slower.)
-pub const MOST: usize = 16;
+/// Up to so many leaves, and no open node, the block is tested triangle by triangle. (8 and 12 are slower.)
+pub const MAX_LEAVES_TESTED_SINGLY: usize = 10;
+/// Most leaves and open nodes: the children of two nodes. (24 are slower.)
+pub const MAX_SURVIVORS: usize = 16;
 
 /// A child of a node: what it is, and where its box stands.
 #[derive(Clone, Copy)]
@@ -27,12 +28,12 @@ pub struct ChildRef {
     pub lane: u32,
 }
 
-/// What is not excluded for a block.
+/// The leaves and nodes that are not excluded for a block.
 #[derive(Default)]
 pub struct Survivors {
     /// Leaves that can hold the closest triangle of some point.
     pub leaves: Vec<ChildRef>,
-    /// Nodes that can hold further ones; together with the leaves at most [`MOST`].
+    /// Nodes that can hold further ones; together with the leaves at most [`MAX_SURVIVORS`].
     pub open: Vec<ChildRef>,
 }
 
@@ -40,13 +41,13 @@ impl Survivors {
     /// So few triangles are left that all of them are tested against all points.
     #[inline(always)]
     pub fn are_few(&self) -> bool {
-        self.open.is_empty() && self.leaves.len() <= FEW_LEAVES
+        self.open.is_empty() && self.leaves.len() <= MAX_LEAVES_TESTED_SINGLY
     }
 }
 
 /// Finds the leaves that the surface point `near` does not dominate for the whole block, breadth first. A node whose children
-/// would make the list longer than [`MOST`] stays open. What is farther than `limit` (scaled) from every point of the block
-/// is left out.
+/// would make the list longer than [`MAX_SURVIVORS`] stays open. Nodes farther than `limit` (scaled) from every point of the
+/// block are left out.
 #[inline(always)]
 pub unsafe fn prune<V: Lanes<8>>(
     tree: &Tree,
@@ -56,10 +57,11 @@ pub unsafe fn prune<V: Lanes<8>>(
     s: &mut Survivors,
 ) {
     let x: [f32; 3] = std::array::from_fn(|k| ((near.point[k] - tree.center[k]) * tree.scale) as f32);
-    // Of x, of the block's place, of the boxes.
-    let error = near.off + ROUNDING * x.iter().chain(&b.at).fold(1.0, |m: f32, v| m.max(v.abs()));
+    // The error of x, of the block's place, of the boxes.
+    let error =
+        near.off + SINGLE_DISTANCE_ROUNDING * x.iter().chain(&b.at).fold(1.0, |m: f32, v| m.max(v.abs()));
     let far = norm(std::array::from_fn(|k| b.at[k] - x[k])) + error + b.reach;
-    let limit = limit + b.reach + 4.0 * (error + ROUNDING * (b.reach + limit));
+    let limit = limit + b.reach + 4.0 * (error + SINGLE_DISTANCE_ROUNDING * (b.reach + limit));
     s.leaves.clear();
     s.open.clear();
     if tree.root < 0 {
@@ -68,7 +70,7 @@ pub unsafe fn prune<V: Lanes<8>>(
     }
     // SAFETY: the caller's promise.
     unsafe {
-        let slack = V::splat(4.0 * error * far + error * error + 32.0 * ROUNDING * far * far);
+        let slack = V::splat(4.0 * error * far + error * error + 32.0 * SINGLE_DISTANCE_ROUNDING * far * far);
         let domination = Domination::<V>::new(b.at, b.half.map(|h| h + error), x);
         let center = kernel::splat::<V>(b.at);
         let mut n = tree.root;
@@ -79,7 +81,7 @@ pub unsafe fn prune<V: Lanes<8>>(
             if limit < far {
                 mask &= kernel::box_distance2::<V>(node, center).le(V::splat(limit * limit));
             }
-            if s.leaves.len() + s.open.len() - next + mask.count_ones() as usize > MOST {
+            if s.leaves.len() + s.open.len() - next + mask.count_ones() as usize > MAX_SURVIVORS {
                 next -= 1; // `n` stays unopened
                 break;
             }

@@ -2,16 +2,16 @@
 //!
 //! For each block (module `search`):
 //! 1. take a surface point `x` near the block: the closest one of the triangle that won in the block before;
-//! 2. `prune`: collect, breadth first, the leaves and nodes that could hold a triangle closer than `x` to *some* point of
-//!    the block, as long as they are few;
-//! 3. few leaves and nothing else (points dense compared with triangles): test every triangle that is left against all
-//!    sixteen points at once (`few_leaves`); else the sixteen points search on from there in lockstep, each with its own
-//!    bound (`lockstep`);
+//! 2. `prune`: collect, breadth first, the leaves and nodes that could hold a triangle closer than `x` to *some* point of the
+//!    block. It goes on as long as they are few;
+//! 3. few leaves and nothing else (points dense compared with triangles): test every remaining triangle against all sixteen
+//!    points at once (`leaf_triangles`). Else the sixteen points search on from there in lockstep, each with its own bound
+//!    (`lockstep`);
 //! 4. `decide`: every triangle within the error bound of a point's best is computed in double precision; ties go to the
 //!    lowest face.
 //!
-//! Single precision only excludes, so neither the order of the points nor the way they are cut into chunks, nor the
-//! number of threads, nor the instruction set can change a result.
+//! Single precision only excludes. So neither the order of the points nor their chunks, nor the number of threads, nor the
+//! instruction set can change a result.
 #![expect(
     unsafe_code,
     reason = "choosing the instruction set at run time; answers written to places of their own"
@@ -27,7 +27,7 @@ use crate::progress::Progress;
 use crate::simd::Level;
 use crate::space::Point;
 
-/// What is asked of a batch of points.
+/// The request for a batch of points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Query {
     /// Greatest distance that counts, millimeters; a point farther from the mesh has no answer. A small one makes the
@@ -55,7 +55,7 @@ impl Tree {
     /// As [`Tree::closest`], where [`Tree::place`] finds the place: of a single point what [`Tree::map_closest`] tells of many, without putting them in order.
     ///
     /// # Errors
-    /// Those of [`Tree::closest`].
+    /// The errors of [`Tree::closest`].
     pub fn hit(&self, p: &Point, max_distance: f64) -> Result<Option<Hit>, QueryError> {
         let query = Query { max_distance, ..Query::default() };
         query.check()?;
@@ -73,9 +73,9 @@ impl Tree {
     /// Calls `sink(index, hit)` exactly once for every point, from several threads and in no particular order; `None`
     /// for a point farther from the mesh than `query.max_distance`. The answers depend on nothing but mesh and point.
     ///
-    /// Runs on the current rayon pool and tells `progress` of points answered. Cost: about 0.1 to 0.3 µs a point and
-    /// core for scans, 1 µs for points far away; where very many faces are equally near (the center of a sphere, a place
-    /// many mesh sizes away), as much as brute force. Memory: 8 bytes a point, 64 MiB at most.
+    /// Runs on the current rayon pool and tells `progress` of points answered. Cost: about 0.1 to 0.3 µs a point and core for
+    /// scans, 1 µs for points far away. It is as much as brute force where very many faces are equally near. Such places are
+    /// the center of a sphere or many mesh sizes away. Memory: 8 bytes a point, 64 MiB at most.
     ///
     /// # Errors
     /// [`QueryError::BadPoint`] names the first bad point of the first 8 million that have one; earlier millions have
@@ -100,7 +100,7 @@ impl Tree {
     /// `f(index, hit)` of every point, in the order of `points`: [`Tree::for_each_closest`] with the answers collected.
     ///
     /// # Errors
-    /// Those of [`Tree::for_each_closest`].
+    /// The errors of [`Tree::for_each_closest`].
     pub fn map_closest<T: Copy + Send>(
         &self,
         points: &[Point],
@@ -116,7 +116,7 @@ impl Tree {
     /// [`Tree::map_closest`] into memory that there is: what was in `out` is dropped. Empty after an error.
     ///
     /// # Errors
-    /// Those of [`Tree::for_each_closest`].
+    /// The errors of [`Tree::for_each_closest`].
     pub(crate) fn map_closest_into<T: Copy + Send>(
         &self,
         points: &[Point],
@@ -143,7 +143,7 @@ impl Tree {
     /// Distance of each point to the mesh, millimeters, in the order of `points`; NaN beyond `query.max_distance`.
     ///
     /// # Errors
-    /// Those of [`Tree::for_each_closest`].
+    /// The errors of [`Tree::for_each_closest`].
     pub fn distances(
         &self,
         points: &[Point],

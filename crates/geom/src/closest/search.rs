@@ -3,12 +3,12 @@
 //! SAFETY, here and for every function: the caller promises that the processor has the instructions of the types.
 #![expect(unsafe_code, reason = "loads of vector types need their instructions")]
 
-use crate::closest::block::{BLOCK, LENGTH_UP, PointBlock, SurfacePoint};
+use crate::closest::block::{LENGTH_UP, POINTS_PER_BLOCK, PointBlock, SurfacePoint};
 use crate::closest::decide::{Undecided, decide};
 use crate::closest::hit::Hit;
 use crate::closest::prune::{Survivors, prune};
 use crate::closest::tree::Tree;
-use crate::closest::{few_leaves, lockstep, triangle};
+use crate::closest::{leaf_triangles, lockstep, triangle};
 use crate::memory::prefetch;
 use crate::simd::lanes::{Lanes, Real};
 use crate::space::Point;
@@ -17,14 +17,14 @@ use crate::space::Point;
 /// instruction set and not once more for everybody who asks.
 pub type Sink<'a> = &'a dyn Fn(&[u64], &[Hit]);
 
-/// What one thread keeps from block to block: the memory of each stage, and where to begin.
+/// The state that one thread keeps from block to block: the memory of each stage, and where to begin.
 #[derive(Default)]
 pub struct Scratch {
     /// Slot of the triangle closest to the last point answered: the next block begins there. (The answers do not depend on
     /// it.)
     last_winner: u32,
     survivors: Survivors,
-    few_leaves: few_leaves::Buffers,
+    leaf_triangles: leaf_triangles::Buffers,
     lockstep: lockstep::Buffers,
     undecided: Vec<Undecided>,
 }
@@ -40,20 +40,20 @@ pub unsafe fn answer<V: Lanes<8>, W: Lanes<16>, D: Real>(
     s: &mut Scratch,
     sink: Sink,
 ) {
-    for (n, part) in items.chunks(BLOCK).enumerate() {
+    for (n, part) in items.chunks(POINTS_PER_BLOCK).enumerate() {
         // The points lie scattered in memory, a third of them across two cache lines: ask early for the block after next.
-        if let Some(next) = items.get((n + 2) * BLOCK..) {
-            for &i in &next[..next.len().min(BLOCK)] {
+        if let Some(next) = items.get((n + 2) * POINTS_PER_BLOCK..) {
+            for &i in &next[..next.len().min(POINTS_PER_BLOCK)] {
                 let p = &points[i as u32 as usize];
                 prefetch(p);
                 prefetch(&p[2]);
             }
         }
-        let mut p = [[0.0; 3]; BLOCK];
+        let mut p = [[0.0; 3]; POINTS_PER_BLOCK];
         for (p, &i) in p.iter_mut().zip(part) {
             *p = points[i as u32 as usize];
         }
-        let mut hits = [Hit::NONE; BLOCK];
+        let mut hits = [Hit::NONE; POINTS_PER_BLOCK];
         unsafe { answer_block::<V, W, D>(tree, &p[..part.len()], max_distance, s, &mut hits) };
         sink(part, &hits[..part.len()]);
     }
@@ -66,7 +66,7 @@ unsafe fn answer_block<V: Lanes<8>, W: Lanes<16>, D: Real>(
     points: &[Point],
     max_distance: f64,
     s: &mut Scratch,
-    hits: &mut [Hit; BLOCK],
+    hits: &mut [Hit; POINTS_PER_BLOCK],
 ) {
     let b = PointBlock::new(tree, points);
     if !b.in_range() {
@@ -84,7 +84,7 @@ unsafe fn answer_block<V: Lanes<8>, W: Lanes<16>, D: Real>(
         prune::<V>(tree, &b, &near, limit, survivors);
         undecided.clear();
         if survivors.are_few() {
-            few_leaves::test_all::<V, W>(tree, &b, &survivors.leaves, &mut s.few_leaves, undecided);
+            leaf_triangles::test_all::<V, W>(tree, &b, &survivors.leaves, &mut s.leaf_triangles, undecided);
         } else {
             lockstep::search::<V>(tree, &b, &near, limit, survivors, &mut s.lockstep, undecided);
         }

@@ -1,12 +1,12 @@
 //! Inside or outside a closed mesh, by angle-weighted pseudonormals.
 //!
-//! The sign is that of `(p - c) · n`, where `c` is the closest point and `n` the pseudonormal of the feature that `c` lies
-//! on: the face's normal, the sum of the two unit normals at an edge, the angle-weighted sum at a corner. With the normal
-//! of the closest *face* alone some points near sharp edges and corners get the wrong sign; with the pseudonormal none
-//! does on a closed, consistently oriented mesh without self-intersections (Bærentzen & Aanæs, "Signed distance
-//! computation using the angle weighted pseudonormal", IEEE TVCG 2005). For other meshes see the module `winding`.
+//! The sign is that of `(p - c) · n`, where `c` is the closest point and `n` the pseudonormal of its feature. The pseudonormal
+//! is the face's normal, the sum of the two unit normals at an edge, the angle-weighted sum at a corner. With the normal of the
+//! closest *face* alone some points near sharp edges and corners get the wrong sign. With the pseudonormal none does on a
+//! closed, consistently oriented mesh without self-intersections. (Bærentzen & Aanæs, "Signed distance computation using the
+//! angle weighted pseudonormal", IEEE TVCG 2005.) For other meshes see the module `winding`.
 
-use crate::closest::edges::{ASK, Across, Fans};
+use crate::closest::edges::{Across, Fans, ITEMS_PER_QUESTION};
 use crate::closest::hit::Hit;
 use crate::closest::limits::QueryError;
 use crate::closest::query::Query;
@@ -16,25 +16,25 @@ use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress, Silent};
 use crate::space::{Aabb, Point, Vector, cross, dot, minus, norm, plus, times, unit};
 
-/// What the sign of a distance needs besides the tree: the neighbors and the pseudonormals. 36 bytes a face.
+/// The means that the sign of a distance needs in addition to the tree: the neighbors and the pseudonormals. 36 bytes a face.
 ///
-/// Vertices must be shared by index (weld an STL first), and edges must have two faces each, or the sign near them is
-/// that of the closest face alone: [`Signs::loose_edges`] tells. A face without area has no normal and adds nothing to
-/// those of its edges and corners.
+/// Vertices must be shared by index (weld an STL first), and edges must have two faces each. Else the sign near them is that of
+/// the closest face alone: [`Signs::loose_edges`] tells. A face without area has no normal and adds nothing to those of its
+/// edges and corners.
 pub struct Signs {
     tree: Tree,
-    /// What lies across edge `i` (corner `i` to `i + 1`) of each slot.
+    /// The face across edge `i` (corner `i` to `i + 1`) of each slot.
     across: Vec<[Across; 3]>,
     /// Angle-weighted normal of each vertex of the tree (not of unit length).
     corner: Vec<Vector>,
-    /// Farther away than this all places have the sign `outer`: where the mesh is closed and so far away that rounding has
-    /// eaten the direction to it.
+    /// Farther away than this all places have the sign `outer`, where the mesh is closed. So far away rounding has eaten the
+    /// direction to it.
     far: f64,
     outer: f64,
 }
 
-/// In diagonals of the box.
-const FAR: f64 = 1e9;
+/// Diagonals of the box from which on a point is far.
+const FAR_DIAGONALS: f64 = 1e9;
 
 /// Unit normal of a triangle, or zero if it has none.
 fn normal(t: &[Point; 3]) -> Vector {
@@ -59,7 +59,7 @@ fn angle(t: &[Point; 3], i: usize) -> f64 {
 impl Signs {
     /// Finds neighbors and corner normals, in linear time where no two vertices with more than 64 faces are neighbors. The result does not depend on the number of threads.
     pub fn new(tree: &Tree) -> Self {
-        Signs::found(tree, &Silent)
+        Signs::with_progress(tree, &Silent)
     }
 
     /// As [`Signs::new`], asking `progress` whether to go on.
@@ -67,15 +67,15 @@ impl Signs {
     /// # Errors
     /// [`Cancelled`].
     pub fn watched(tree: &Tree, progress: &dyn Progress) -> Result<Self, Cancelled> {
-        let signs = Signs::found(tree, progress);
+        let signs = Signs::with_progress(tree, progress);
         if progress.cancelled() { Err(Cancelled) } else { Ok(signs) }
     }
 
     /// Worth nothing where `progress` says that it is cancelled.
-    fn found(tree: &Tree, progress: &dyn Progress) -> Self {
+    fn with_progress(tree: &Tree, progress: &dyn Progress) -> Self {
         let fans = Fans::new(tree);
         let of_vertex = |v: u32| {
-            if v.is_multiple_of(ASK) && progress.cancelled() {
+            if v.is_multiple_of(ITEMS_PER_QUESTION) && progress.cancelled() {
                 return [0.0; 3];
             }
             // Summed in slot order.
@@ -90,7 +90,7 @@ impl Signs {
         let outer = if volume(tree, bounds.min) < 0.0 { -1.0 } else { 1.0 };
         let mut signs = Signs { tree: tree.clone(), across, corner, far: f64::INFINITY, outer };
         if signs.loose_edges() == 0 {
-            signs.far = FAR * bounds.diagonal();
+            signs.far = FAR_DIAGONALS * bounds.diagonal();
         }
         signs
     }
@@ -101,9 +101,9 @@ impl Signs {
         self.across.iter().flatten().filter(|a| !matches!(a, Across::One(_))).count()
     }
 
-    /// The side of the surface that `p` is on, `hit` being its closest place in the same tree: +1 outside, -1 inside; +1
-    /// on the surface, and where the pseudonormal is zero. Farther away than 10⁹ diagonals of a closed mesh it is that of all
-    /// places outside.
+    /// The side of the surface that `p` is on, `hit` being its closest place in the same tree: +1 outside, -1 inside. It is +1
+    /// on the surface too, and where the pseudonormal is zero. Farther away than 10⁹ diagonals of a closed mesh it is that of
+    /// all places outside.
     ///
     /// # Panics
     /// If `hit` comes from another tree with more faces.
@@ -121,8 +121,8 @@ impl Signs {
         if dot(minus(*p, place.point), self.pseudonormal(hit, place.feature)) < 0.0 { -1.0 } else { 1.0 }
     }
 
-    /// Normal of the surface at the place that `hit` found for `p`, not of unit length: of the face; on an edge the sum of both
-    /// unit normals, at a corner the sum weighted by angle. `None` where it is zero.
+    /// Normal of the surface at the place that `hit` found for `p`, not of unit length. It is that of the face; on an edge the
+    /// sum of both unit normals, at a corner the sum weighted by angle. `None` where it is zero.
     ///
     /// # Panics
     /// If `hit` comes from another tree with more faces.
@@ -151,7 +151,7 @@ impl Signs {
     /// `query.max_distance`. Its size is the one of [`Tree::distances`] in every bit.
     ///
     /// # Errors
-    /// Those of [`Tree::for_each_closest`].
+    /// The errors of [`Tree::for_each_closest`].
     pub fn distances(
         &self,
         points: &[Point],

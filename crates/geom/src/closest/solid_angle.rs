@@ -1,13 +1,13 @@
 //! Solid angles of the tree's groups and triangles, seen from sixteen points at once.
 //!
-//! Each point decides for itself which groups it opens: the walk carries the set of points that still need a group opened,
-//! and whatever is computed for the others counts nothing. So a point's number does not depend on its neighbors.
+//! Each point decides for itself which groups it opens. The walk carries the set of points that still need a group opened;
+//! values computed for the others count nothing. So a point's number does not depend on its neighbors.
 //!
 //! SAFETY, here and for every function: the caller promises that the processor has the instructions of `V`.
 #![expect(unsafe_code, reason = "loads of vector types need their instructions")]
 
-use crate::closest::block::BLOCK;
-use crate::closest::layout::{AC, AXES, BASE, Leaf, ORIGIN};
+use crate::closest::block::POINTS_PER_BLOCK;
+use crate::closest::layout::{AB_LENGTH, AC_FIELD, CORNER_A, FRAME_AXES, Leaf};
 use crate::closest::tree::Tree;
 use crate::simd::lanes::Lanes;
 use crate::space::{Point, Vector};
@@ -24,7 +24,7 @@ pub struct Group {
 }
 
 impl Group {
-    /// Unused children: dipoles of no strength, never opened, as no point is taken to be so far away ([`FARTHEST`]).
+    /// Unused children: dipoles of no strength, never opened, as no point is taken to be so far away ([`MAX_SCALED_COORDINATE`]).
     pub const EMPTY: Group = Group { child: [[1e9, 1e9, 1e9, 0.0, 0.0, 0.0, 0.0, 0.0]; 8] };
 
     /// Fills in child `j`. All scaled.
@@ -34,8 +34,8 @@ impl Group {
     }
 }
 
-/// Half of a solid angle for each point, kept as a complex number of that phase, so that angles add by multiplication
-/// and one arc tangent serves all; and the full turns that the phase has lost.
+/// Half of a solid angle for each point, and the full turns that its phase has lost. It is kept as a complex number of that
+/// phase, so that angles add by multiplication and one arc tangent serves all.
 struct Angle<V> {
     re: V,
     im: V,
@@ -66,7 +66,7 @@ impl<V: Lanes<16>> Angle<V> {
 
     /// The phases, turns included.
     #[inline(always)]
-    fn phases(&self) -> [f64; BLOCK] {
+    fn phases(&self) -> [f64; POINTS_PER_BLOCK] {
         let (re, im, turns) = (self.re.array(), self.im.array(), self.turns.array());
         std::array::from_fn(|i| {
             // Adding zero makes a negative zero positive, as the counting of turns takes it.
@@ -82,11 +82,11 @@ impl<V: Lanes<16>> Angle<V> {
 pub unsafe fn numbers<V: Lanes<16>>(
     tree: &Tree,
     groups: &[Group],
-    points: &[Point; BLOCK],
+    points: &[Point; POINTS_PER_BLOCK],
     who: u32,
     opening: f32,
     stack: &mut Stack,
-) -> [f64; BLOCK] {
+) -> [f64; POINTS_PER_BLOCK] {
     unsafe {
         let (zero, one) = (V::splat(0.0), V::splat(1.0));
         let q = from::<V>(tree, points, tree.center);
@@ -120,17 +120,18 @@ pub unsafe fn numbers<V: Lanes<16>>(
     }
 }
 
-/// Points farther away than this, scaled, are moved to it in each coordinate: from there the mesh has no solid angle left that
-/// numbers could hold.
-const FARTHEST: f64 = 1e8;
+/// Points farther away, scaled, are moved to it in each coordinate. The solid angle of the mesh from there is too small for
+/// numbers.
+const MAX_SCALED_COORDINATE: f64 = 1e8;
 
 /// The points relative to `origin`, scaled.
 #[inline(always)]
-unsafe fn from<V: Lanes<16>>(tree: &Tree, points: &[Point; BLOCK], origin: Point) -> [V; 3] {
-    let mut out = [[0f32; BLOCK]; 3];
+unsafe fn from<V: Lanes<16>>(tree: &Tree, points: &[Point; POINTS_PER_BLOCK], origin: Point) -> [V; 3] {
+    let mut out = [[0f32; POINTS_PER_BLOCK]; 3];
     for (i, p) in points.iter().enumerate() {
         for k in 0..3 {
-            out[k][i] = ((p[k] - origin[k]) * tree.scale).clamp(-FARTHEST, FARTHEST) as f32;
+            out[k][i] =
+                ((p[k] - origin[k]) * tree.scale).clamp(-MAX_SCALED_COORDINATE, MAX_SCALED_COORDINATE) as f32;
         }
     }
     unsafe { [V::load(&out[0]), V::load(&out[1]), V::load(&out[2])] }
@@ -141,7 +142,7 @@ unsafe fn from<V: Lanes<16>>(tree: &Tree, points: &[Point; BLOCK], origin: Point
 unsafe fn leaf_angle<V: Lanes<16>>(
     tree: &Tree,
     l: usize,
-    points: &[Point; BLOCK],
+    points: &[Point; POINTS_PER_BLOCK],
     who: u32,
     sum: &mut Angle<V>,
 ) {
@@ -167,12 +168,12 @@ unsafe fn triangle_angle<V: Lanes<16>>(leaf: &Leaf, lane: usize, q: [V; 3]) -> (
         let f = |i: usize| leaf.field[i][lane];
         let mut r = q;
         for (axis, r) in r.iter_mut().enumerate() {
-            let a = AXES + 3 * axis;
-            let p = q[2].fused(V::splat(f(a + 2)), V::splat(-f(ORIGIN + axis)));
+            let a = FRAME_AXES + 3 * axis;
+            let p = q[2].fused(V::splat(f(a + 2)), V::splat(-f(CORNER_A + axis)));
             *r = q[0].fused(V::splat(f(a)), q[1].fused(V::splat(f(a + 1)), p));
         }
         let [x, y, z] = r;
-        let (base, cx, cy) = (f(BASE), f(AC) * f(AC + 2), f(AC + 1) * f(AC + 2));
+        let (base, cx, cy) = (f(AB_LENGTH), f(AC_FIELD) * f(AC_FIELD + 2), f(AC_FIELD + 1) * f(AC_FIELD + 2));
         let (bx, cx, y_c) = (V::splat(base) - x, V::splat(cx) - x, V::splat(cy) - y);
         let zz = z * z;
         let yz = y.fused(y, zz);

@@ -1,16 +1,15 @@
 //! Distance from a point to a thin triangle, in twice the precision.
 //!
-//! The normal of a triangle is a difference of products: of an angle whose sine is `s`, double precision keeps it to
-//! 2^-53 / s only, and with it the height of a point over the plane. From [`THIN`] on downwards the same is done with
-//! twice the digits, so the distance stays as good as that to a segment. The brute-force twin and the search both come
-//! here.
+//! The normal of a triangle is a difference of products. At an angle whose sine is `s`, double precision keeps it to 2^-53 / s
+//! only. The height of a point over the plane is no better. From [`MIN_SINE_SQUARED`] on downwards the same is done with twice
+//! the digits, so the distance stays as good as that to a segment. The brute-force twin and the search both come here.
 
 use crate::num::double::Double;
 use crate::space::{self, Point};
 
 /// Square of the sine of the angle at the first corner below which a triangle is thin. There double precision would keep
 /// the height to 2^-53 / 2^-10 of the distance from that corner.
-pub const THIN: f64 = 1.0 / (1 << 20) as f64;
+pub const MIN_SINE_SQUARED: f64 = 1.0 / (1 << 20) as f64;
 
 type Wide = [Double; 3];
 
@@ -71,22 +70,24 @@ pub fn foot(p: &Point, [a, b, c]: &[Point; 3]) -> Option<Foot> {
 
 /// Whether double precision is enough to tell that [`foot`] finds none: some weight is negative by more than its rounding.
 ///
-/// Of a fan of thin triangles nearly all are dismissed here, which costs a fortieth. A difference of two numbers is off
-/// by `u`, so a product of two differences by `3 u`, a component of a normal by `4 u` of its two products, and a weight
-/// by `11 u` of the product of the four lengths, taken as sums of magnitudes; twice as much is allowed for. [`foot`] itself
-/// is off by far less, so this changes no answer.
+/// Nearly all triangles of a thin fan are dismissed here, which costs a fortieth. A difference of two numbers is off by `u`, so
+/// a product of two differences by `3 u`. A component of a normal is off by `4 u` of its two products, and a weight by `11 u`
+/// of the product of the four lengths. These lengths are sums of magnitudes; twice as much is allowed for. [`foot`] itself is
+/// off by far less, so this changes no answer.
 fn is_surely_outside(p: &Point, [a, b, c]: &[Point; 3]) -> bool {
-    const ROUNDING: f64 = 11.0 * f64::EPSILON;
+    /// Bound of the rounding of a weight, as a share of the product of the four lengths: see above.
+    const WEIGHT_ROUNDING: f64 = 11.0 * f64::EPSILON;
     // More than what products of these lengths lose at the lower end of the numbers.
-    const LOST: f64 = 1e-300;
+    /// More than products of these lengths lose at the lower end of the numbers.
+    const PRODUCT_UNDERFLOW: f64 = 1e-300;
     let size = |v: Point| v[0].abs() + v[1].abs() + v[2].abs();
     let (ab, ac, bc) = (space::minus(*b, *a), space::minus(*c, *a), space::minus(*c, *b));
     let (ap, bp) = (space::minus(*p, *a), space::minus(*p, *b));
     let n = space::cross(ab, ac);
-    let margin = ROUNDING * size(ab) * size(ac);
+    let margin = WEIGHT_ROUNDING * size(ab) * size(ac);
     [(bc, bp), (ap, ac), (ab, ap)]
         .iter()
-        .any(|&(v, w)| space::dot(n, space::cross(v, w)) < -(margin * size(v) * size(w) + LOST))
+        .any(|&(v, w)| space::dot(n, space::cross(v, w)) < -(margin * size(v) * size(w) + PRODUCT_UNDERFLOW))
 }
 
 /// Squared distance and height of `p`, as `triangle::squared` has them; `rim` is its squared distance to the nearest edge.
@@ -107,7 +108,7 @@ mod tests {
     use crate::num::random::Random;
     use crate::space::{minus, plus, times};
 
-    /// What is dismissed has no foot, however thin it is; and that is nearly all that has none.
+    /// A dismissed triangle has no foot, however thin it is; and nearly all without a foot are dismissed.
     #[test]
     fn what_is_dismissed_has_no_foot() {
         let (random, mut outside, mut dismissed) = (&mut Random::new(3), 0, 0);
@@ -129,7 +130,7 @@ mod tests {
         assert!(outside > 2000 && dismissed * 100 > outside * 95, "{dismissed} of {outside}");
     }
 
-    /// Of a fan of thin triangles few are left that have no foot, however many there are.
+    /// Few triangles of a thin fan are left that have no foot, however many there are.
     #[test]
     fn of_a_fan_few_are_left() {
         let random = &mut Random::new(4);

@@ -1,18 +1,18 @@
 //! The search tree: nodes with eight children, leaves with eight triangles.
 //!
-//! **Scaled space.** Nodes and leaves live in single precision, in coordinates `(x - center) * scale`, where `scale` is a
-//! power of two that makes the mesh about one unit large. So a part of 10 µm and one of 10 km, at the origin or at 1e6,
-//! are searched with the same relative precision and nothing under- or overflows.
+//! **Scaled space.** Nodes and leaves live in single precision, in coordinates `(x - center) * scale`. The power of two `scale`
+//! makes the mesh about one unit large. So a part of 10 µm and one of 10 km, at the origin or at 1e6, are searched with the
+//! same relative precision. Nothing under- or overflows.
 //!
-//! **Leaf frames.** A leaf holds each triangle in the triangle's own right-handed orthonormal frame: origin at a corner
-//! `A`, `x` along the longest edge `AB`, `y` in the plane towards `C`, `z` normal. A query is moved into the frame by nine
-//! multiply-adds; what remains is the distance in a plane to a triangle with one side on the x axis (see `kernel`). A
-//! rotation is perfectly conditioned, so the error of the computed distance is a few roundings of the lengths involved
-//! for *every* triangle, needles and points included; a Gram matrix (the usual barycentric way) loses digits with the
+//! **Leaf frames.** A leaf holds each triangle in the triangle's own right-handed orthonormal frame. The origin is a corner
+//! `A`, `x` runs along the longest edge `AB`, `y` in the plane towards `C`, `z` along the normal. A query is moved into the
+//! frame by nine multiply-adds. The remaining task is the distance in a plane to a triangle with one side on the x axis; see
+//! `kernel`. A rotation is perfectly conditioned. So the error of the computed distance is a few roundings of the lengths
+//! involved for *every* triangle, needles and points included. A Gram matrix (the usual barycentric way) loses digits with the
 //! square of the aspect ratio and costs about 70 instead of 45 operations.
 //!
-//! **Slots.** Triangles are stored again in the order of the leaves ("slots"), as indices into vertices renumbered by
-//! first use, so that the double-precision finish reads memory that neighbors in space share.
+//! **Slots.** Triangles are stored again in the order of the leaves ("slots"), as indices into vertices renumbered by first
+//! use. So the double-precision finish reads memory that neighbors in space share.
 
 use crate::closest::hit::Hit;
 use crate::closest::layout::{Leaf, Node};
@@ -20,6 +20,10 @@ use crate::closest::triangle::{self, Feature};
 use crate::space::{Point, minus, norm};
 use std::ops::Deref;
 use std::sync::Arc;
+
+/// Share by which coordinates and lengths may be off in the coordinates of a tree. It is more than rounding to these, and a
+/// division by a direction, take.
+pub const TREE_ROUNDING: f64 = 1e-12;
 
 /// A mesh prepared for closest-point queries: build once, ask often, from any number of threads.
 ///
@@ -35,7 +39,7 @@ impl Deref for Tree {
     }
 }
 
-/// What a tree holds.
+/// The arrays of a tree.
 pub struct Arrays {
     pub(super) nodes: Vec<Node>,
     pub(super) leaves: Vec<Leaf>,
@@ -62,7 +66,7 @@ pub struct Closest {
     pub face: u32,
     /// Weights of the face's corners: `point` is their weighted mean.
     pub barycentric: [f64; 3],
-    /// What part of the face it lies on.
+    /// The part of the face that it lies on.
     pub feature: Feature,
 }
 
@@ -70,7 +74,7 @@ pub struct Closest {
 pub(crate) struct Foot {
     /// Where it is.
     pub point: Point,
-    /// What part of the face it lies on.
+    /// The part of the face that it lies on.
     pub feature: Feature,
     /// The corners of the face, in its order.
     pub corners: [Point; 3],
@@ -116,7 +120,7 @@ impl Tree {
         }
     }
 
-    /// What [`Tree::place`] tells, without the weights of the corners: cheaper where the place lies inside the face, as most do.
+    /// As [`Tree::place`], without the weights of the corners: cheaper where the place lies inside the face, as most do.
     #[inline(always)]
     pub(crate) fn foot(&self, p: &Point, hit: &Hit) -> Foot {
         let corners = self.triangle(hit.slot);

@@ -1,16 +1,16 @@
 //! Distance from a point to one triangle, in double precision: the definition of the answer.
 //!
-//! [`squared`] is written once over [`Real`], so the scalar brute-force twin and the vector kernel run the same
-//! operations in the same order and agree bit for bit.
+//! [`squared`] is written once over [`Real`]. So the scalar brute-force twin and the vector kernel run the same operations in
+//! the same order and agree bit for bit.
 //!
-//! Method. The distance is the least of the distances to the three edges and, when the foot of the perpendicular falls
-//! inside, the distance to the plane. Testing the edges always (instead of sorting the point into one of seven regions,
-//! Ericson 2005 §5.1.5) costs a few operations and makes every degenerate triangle an ordinary case: a needle, a segment
-//! or a point is answered by its edges. Where the normal is not well determined ([`THIN`]), [`thin`] goes on.
+//! Method. The distance is the least of the distances to the three edges. Where the foot of the perpendicular falls inside, the
+//! distance to the plane joins these. Testing the edges always (instead of sorting the point into one of seven regions, Ericson
+//! 2005 §5.1.5) costs a few operations. It makes every degenerate triangle an ordinary case: a needle, a segment or a point is
+//! answered by its edges. Where the normal is not well determined ([`MIN_SINE_SQUARED`]), [`thin`] goes on.
 #![expect(unsafe_code, reason = "constants of a vector type need its instructions")]
 
 use crate::closest::segment::{along, aside, dot, edge, sub};
-use crate::closest::thin::{self, THIN};
+use crate::closest::thin::{self, MIN_SINE_SQUARED};
 use crate::simd::lanes::Real;
 use crate::space::Point;
 
@@ -19,16 +19,17 @@ fn cross<T: Real>(a: [T; 3], b: [T; 3]) -> [T; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
-/// Squared distance from `p` to the triangle `a b c`, any of which may coincide; where the closest point lies inside the
-/// triangle, the height of `p` over the plane times the length of the normal (0 where it lies on the rim); and 1 where
-/// the triangle is thin, so that the distance is that to its rim and [`thin::squared`] must be asked for the rest, else 0.
+/// Squared distance from `p` to the triangle `a b c`, any of which may coincide, a height, and a mark. Where the closest point
+/// lies inside the triangle, the height is that of `p` over the plane times the length of the normal. On the rim it is 0. The
+/// mark is 1 where the triangle is thin, else 0. Then the distance is that to its rim, and [`thin::squared`] must be asked for
+/// the rest.
 ///
 /// # Safety
 /// The processor has the instructions of `T` (none for `f64`).
 #[inline(always)]
 pub unsafe fn squared<T: Real>(p: [T; 3], [a, b, c]: [[T; 3]; 3]) -> (T, T, T) {
     // SAFETY: the caller's promise.
-    let (zero, one, thin) = unsafe { (T::splat(0.0), T::splat(1.0), T::splat(THIN)) };
+    let (zero, one, thin) = unsafe { (T::splat(0.0), T::splat(1.0), T::splat(MIN_SINE_SQUARED)) };
     let (ab, ac, bc) = (sub(b, a), sub(c, a), sub(c, b));
     let (ap, bp) = (sub(p, a), sub(p, b));
     let (aa, cc) = (dot(ab, ab), dot(ac, ac));
@@ -50,7 +51,7 @@ pub unsafe fn squared<T: Real>(p: [T; 3], [a, b, c]: [[T; 3]; 3]) -> (T, T, T) {
 pub fn squared_distance(p: &Point, t: &[Point; 3]) -> (f64, f64) {
     // SAFETY: `f64` needs no special instructions.
     let (distance, height, thin) = unsafe { squared::<f64>(*p, *t) };
-    // Of a thin triangle this is the distance from its rim.
+    // For a thin triangle this is the distance from its rim.
     if thin == 0.0 { (distance, height) } else { thin::squared(p, t, distance) }
 }
 
@@ -58,7 +59,7 @@ pub fn squared_distance(p: &Point, t: &[Point; 3]) -> (f64, f64) {
 fn is_thin([a, b, c]: &[Point; 3]) -> bool {
     let (ab, ac) = (sub(*b, *a), sub(*c, *a));
     let n = cross(ab, ac);
-    dot(n, n) <= THIN * dot(ab, ab) * dot(ac, ac)
+    dot(n, n) <= MIN_SINE_SQUARED * dot(ab, ab) * dot(ac, ac)
 }
 
 /// The normal of a triangle, its length twice the area.
@@ -85,20 +86,21 @@ pub struct PointOfTriangle {
     pub point: Point,
     /// Weights of the corners: the point is their weighted mean.
     pub barycentric: [f64; 3],
-    /// What it lies on.
+    /// The feature that it lies on.
     pub feature: Feature,
 }
 
-/// The point of triangle `t` closest to `p` where the search has found it inside, at this height and squared distance; `None` where it lies
-/// on the rim or must be looked for: by [`closest_point`], which finds the same.
+/// The point of triangle `t` closest to `p` where the search has found it inside, at this height and squared distance. `None`
+/// where it lies on the rim or must be looked for by [`closest_point`], which finds the same.
 #[inline(always)]
 pub(super) fn foot(p: &Point, t: &[Point; 3], height: f64, distance_squared: f64) -> Option<Point> {
     let [a, b, c] = *t;
     let (ab, ac) = (sub(b, a), sub(c, a));
     let n = cross(ab, ac);
     let nn = dot(n, n);
-    let inside =
-        height != 0.0 && nn > THIN * dot(ab, ab) * dot(ac, ac) && height * height / nn <= distance_squared;
+    let inside = height != 0.0
+        && nn > MIN_SINE_SQUARED * dot(ab, ab) * dot(ac, ac)
+        && height * height / nn <= distance_squared;
     let s = height / nn;
     inside.then(|| [p[0] - s * n[0], p[1] - s * n[1], p[2] - s * n[2]])
 }

@@ -1,17 +1,18 @@
 //! Inside or outside a mesh with holes, by the generalized winding number.
 //!
-//! The winding number of a point is the sum of the signed solid angles of all triangles over 4π: 1 inside and 0 outside a
-//! closed mesh, and a smooth blend near the holes of an open one (Jacobson, Kavan & Sorkine-Hornung 2013). Far from a
-//! group of triangles the sum is nearly that of one dipole at their center, so it is gathered along the search tree and a
-//! group is opened only for points within some times its radius (Barill, Dickson, Schmidt, Levin & Jacobson, "Fast
-//! winding numbers for soups and clouds", 2018; here with the first-order term only, and a wider opening to make up for
-//! it). Who only asks for the side is answered from few groups where that is clear. Sixteen neighboring points walk together (module `solid_angle`), each with its own decisions.
+//! The winding number of a point is the sum of the signed solid angles of all triangles over 4π. It is 1 inside and 0 outside a
+//! closed mesh, and blends smoothly near the holes of an open one (Jacobson, Kavan & Sorkine-Hornung 2013). Far from a group of
+//! triangles the sum is nearly that of one dipole at their center. So it is gathered along the search tree, and a group is
+//! opened only for points within some times its radius. (Barill, Dickson, Schmidt, Levin & Jacobson, "Fast winding numbers for
+//! soups and clouds", 2018.) Here the dipole has the first-order term only, and a wider opening makes up for it. Who only asks
+//! for the side is answered from few groups where that is clear. Sixteen neighboring points walk together (module
+//! `solid_angle`), each with its own decisions.
 #![expect(
     unsafe_code,
     reason = "choosing the instruction set at run time; answers written to places of their own"
 )]
 
-use crate::closest::block::BLOCK;
+use crate::closest::block::POINTS_PER_BLOCK;
 use crate::closest::limits::QueryError;
 use crate::closest::order;
 use crate::closest::solid_angle::{self, Group, Stack};
@@ -23,14 +24,14 @@ use crate::simd::Level;
 use crate::simd::lanes::Plain;
 use crate::space::{Point, Vector, cross, minus, norm, plus, times};
 
-/// A group is taken as a dipole from this many radii on, where the number is wanted.
-const OPENING: f32 = 3.0;
-/// Where the side is wanted: first from so many radii on, which costs a third,
-const ROUGH: f32 = 1.5;
-/// and where that is not [`CLEAR`], from so many.
-const FINE: f32 = 6.0;
+/// Where the number is wanted, a group is taken as a dipole from so many radii on.
+const NUMBER_DIPOLE_RADII: f32 = 3.0;
+/// Where the side is wanted, first from so many radii on: that costs a third.
+const ROUGH_DIPOLE_RADII: f32 = 1.5;
+/// Where the rough number is not [`MIN_CLEAR_SIDE`] from the limit, from so many.
+const FINE_DIPOLE_RADII: f32 = 6.0;
 /// A rough number tells the side if it is this far from the limit: twice the greatest error found.
-const CLEAR: f64 = 0.3;
+const MIN_CLEAR_SIDE: f64 = 0.3;
 
 /// The dipole of a group of triangles.
 #[derive(Clone, Copy, Default)]
@@ -39,7 +40,7 @@ struct Dipole {
     vector: Vector,
     center: Point,
     area: f64,
-    /// Of a sphere about the center that holds the triangles.
+    /// Radius of a sphere about the center that holds the triangles.
     radius: f64,
 }
 
@@ -78,27 +79,26 @@ impl Winding {
     /// Winding number of each point, in the order of `points`. It depends on nothing but mesh and point; the last digits
     /// also on the instructions that the processor has.
     ///
-    /// Differs from the exact sum by at most 0.05, and by less than 0.004 in the mean, where the mesh covers itself once
-    /// (found by test, not proved); of each further layer as much again. A point nearer to the surface than a millionth
-    /// of the size of the faces there may be taken to the other side, and a point on it has some finite number. Runs on
-    /// the current rayon pool and tells `progress` of points answered. Cost: 0.3 to 1.5 µs a point and core.
+    /// Where the mesh covers itself once, it differs from the exact sum by at most 0.05, and by less than 0.004 in the mean.
+    /// Each further layer adds as much (found by test, not proved). A point nearer to the surface than a millionth of the size
+    /// of the faces there may be taken to the other side. A point on it has some finite number. Runs on the current rayon pool
+    /// and tells `progress` of points answered. Cost: 0.3 to 1.5 µs a point and core.
     ///
     /// # Errors
     /// [`QueryError::BadPoint`], [`QueryError::Cancelled`].
     pub fn numbers(&self, points: &[Point], progress: &dyn Progress) -> Result<Vec<f64>, QueryError> {
         self.map(points, progress, |block, who, stack| {
-            self.block(Level::detect(), block, who, OPENING, stack)
+            self.block(Level::detect(), block, who, NUMBER_DIPOLE_RADII, stack)
         })
     }
 
     /// Whether the winding number of each point is above `limit`, in the order of `points`: above one half is inside.
     ///
-    /// Three times as fast as [`Winding::numbers`], and nearer the truth where it matters: a number that is not clearly
-    /// above or below is found again with an error of at most 0.01, of each further layer as much again (found by test,
-    /// not proved).
+    /// Three times as fast as [`Winding::numbers`], and nearer the truth where it matters. A number that is not clearly above
+    /// or below is found again with an error of at most 0.01. Each further layer adds as much (found by test, not proved).
     ///
     /// # Errors
-    /// Those of [`Winding::numbers`].
+    /// The errors of [`Winding::numbers`].
     pub fn above(
         &self,
         limit: f64,
@@ -107,29 +107,31 @@ impl Winding {
     ) -> Result<Vec<bool>, QueryError> {
         let level = Level::detect();
         self.map(points, progress, |block, who, stack| {
-            let mut numbers = self.block(level, block, who, ROUGH, stack);
-            let unclear =
-                (0..BLOCK).filter(|&i| (numbers[i] - limit).abs() < CLEAR).fold(0, |u, i| u | 1 << i) & who;
+            let mut numbers = self.block(level, block, who, ROUGH_DIPOLE_RADII, stack);
+            let unclear = (0..POINTS_PER_BLOCK)
+                .filter(|&i| (numbers[i] - limit).abs() < MIN_CLEAR_SIDE)
+                .fold(0, |u, i| u | 1 << i)
+                & who;
             if unclear != 0 {
-                let fine = self.block(level, block, unclear, FINE, stack);
-                (0..BLOCK).filter(|i| unclear >> i & 1 != 0).for_each(|i| numbers[i] = fine[i]);
+                let fine = self.block(level, block, unclear, FINE_DIPOLE_RADII, stack);
+                (0..POINTS_PER_BLOCK).filter(|i| unclear >> i & 1 != 0).for_each(|i| numbers[i] = fine[i]);
             }
             numbers.map(|w| w > limit)
         })
     }
 
-    /// What `f` tells of each point, in their order. It is given sixteen neighbors at a time, and which of them count.
+    /// The value of `f` for each point, in their order. It is given sixteen neighbors at a time, and which of them count.
     fn map<T: Send>(
         &self,
         points: &[Point],
         progress: &dyn Progress,
-        f: impl Fn(&[Point; BLOCK], u32, &mut Stack) -> [T; BLOCK] + Sync,
+        f: impl Fn(&[Point; POINTS_PER_BLOCK], u32, &mut Stack) -> [T; POINTS_PER_BLOCK] + Sync,
     ) -> Result<Vec<T>, QueryError> {
         let mut out = large_pages(Vec::with_capacity(points.len()));
         let places = Shared::of(&mut out);
         order::for_each_bucket(points, progress, |stack, slice, base, items| {
-            for part in items.chunks(BLOCK) {
-                let mut block = [[0.0; 3]; BLOCK];
+            for part in items.chunks(POINTS_PER_BLOCK) {
+                let mut block = [[0.0; 3]; POINTS_PER_BLOCK];
                 for (p, &i) in block.iter_mut().zip(part) {
                     *p = slice[i as u32 as usize];
                 }
@@ -148,27 +150,33 @@ impl Winding {
     pub(super) fn block(
         &self,
         level: Level,
-        points: &[Point; BLOCK],
+        points: &[Point; POINTS_PER_BLOCK],
         who: u32,
         opening: f32,
         stack: &mut Stack,
-    ) -> [f64; BLOCK] {
+    ) -> [f64; POINTS_PER_BLOCK] {
         #[cfg(target_arch = "x86_64")]
         {
             use crate::simd::lanes_x86::{A16, Z16};
             #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
-            fn avx2(w: &Winding, p: &[Point; BLOCK], who: u32, opening: f32, s: &mut Stack) -> [f64; BLOCK] {
+            fn avx2(
+                w: &Winding,
+                p: &[Point; POINTS_PER_BLOCK],
+                who: u32,
+                opening: f32,
+                s: &mut Stack,
+            ) -> [f64; POINTS_PER_BLOCK] {
                 // SAFETY: the features above are those of the type.
                 unsafe { solid_angle::numbers::<A16>(&w.tree, &w.groups, p, who, opening, s) }
             }
             #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx512bw,avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
             fn avx512(
                 w: &Winding,
-                p: &[Point; BLOCK],
+                p: &[Point; POINTS_PER_BLOCK],
                 who: u32,
                 opening: f32,
                 s: &mut Stack,
-            ) -> [f64; BLOCK] {
+            ) -> [f64; POINTS_PER_BLOCK] {
                 // SAFETY: the features above are those of the type.
                 unsafe { solid_angle::numbers::<Z16>(&w.tree, &w.groups, p, who, opening, s) }
             }

@@ -1,10 +1,7 @@
 //! The faces of a mesh near a place.
 
-use crate::closest::tree::Tree;
+use crate::closest::tree::{TREE_ROUNDING, Tree};
 use crate::space::{Aabb, Point};
-
-/// Share of the coordinates by which boxes are widened: more than what rounding to the tree's coordinates takes.
-const SLACK: f64 = 1e-12;
 
 impl Tree {
     /// The faces, ascending, whose boxes meet `window`, its sides included; none where it is empty or not a number.
@@ -25,7 +22,7 @@ impl Tree {
         }
         let far = self.center.map(|c| c * self.scale).iter().fold(1.0f64, |m, x| m.max(x.abs()));
         let scaled = |p: Point, pad: f64| -> Point {
-            std::array::from_fn(|k| (p[k] - self.center[k]) * self.scale + pad * SLACK * far)
+            std::array::from_fn(|k| (p[k] - self.center[k]) * self.scale + pad * TREE_ROUNDING * far)
         };
         let (low, high) = (scaled(window.min, -1.0), scaled(window.max, 1.0));
         let (mut found, mut open) = (vec![], vec![self.root]);

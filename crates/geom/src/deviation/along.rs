@@ -1,7 +1,7 @@
 //! Deviations along a line through each point instead of to its nearest place.
 //!
-//! The size is the distance to the nearest crossing of that line with the mesh, ahead or behind; the sign is that of the nearest
-//! place, since the side of a surface that a point is on does not hang on where one looks.
+//! The size is the distance to the nearest crossing of that line with the mesh, ahead or behind. The sign is that of the
+//! nearest place, since a point's side of a surface does not depend on where one looks.
 
 use super::surface::{Exclusion, OnlyCancels, ReferenceSurface};
 use crate::closest::{Crossing, QueryError, Signs};
@@ -39,15 +39,16 @@ impl ReferenceSurface {
         Ok(Along::Reference(Arc::new(Signs::watched(self.tree(), progress)?)))
     }
 
-    /// `f(index, deviation, crossing)` of each point, in the order of `points`: the deviation along a line, millimeters, + outside,
-    /// − inside; see [`Exclusion`] for points that have none, which have no crossing either. `start` is the number of the first
-    /// point among the normals of [`Along::Measured`].
+    /// `f(index, deviation, crossing)` of each point, in the order of `points`. The deviation along a line is in millimeters, +
+    /// outside, − inside. See [`Exclusion`] for points that have none, which have no crossing either. `start` is the number of
+    /// the first point among the normals of [`Along::Measured`].
     ///
-    /// What excludes a point from a nearest distance excludes it here; a line that meets nothing within the greatest distance
-    /// excludes it too. Cost: twice that of the nearest places; see [`Tree::crossing`](crate::closest::Tree::crossing).
+    /// A reason that excludes a point from a nearest distance excludes it here. A line that meets nothing within the greatest
+    /// distance excludes it too. Cost: twice that of the nearest places; see
+    /// [`Tree::crossing`](crate::closest::Tree::crossing).
     ///
     /// # Errors
-    /// Those of [`ReferenceSurface::deviations`]. `progress` hears of points once.
+    /// The errors of [`ReferenceSurface::deviations`]. `progress` hears of points once.
     ///
     /// ```
     /// use trueness_geom::closest::Tree;
@@ -82,8 +83,8 @@ impl ReferenceSurface {
                     usize::try_from(start).ok().and_then(|s| normals.get(s + i)).copied()
                 }
             };
-            let some = |d: &Vector| d.iter().any(|x| *x != 0.0) && d.iter().all(|x| x.is_finite());
-            (deviation, direction.filter(|d| deviation.is_finite() && some(d)))
+            let is_direction = |d: &Vector| d.iter().any(|x| *x != 0.0) && d.iter().all(|x| x.is_finite());
+            (deviation, direction.filter(|d| deviation.is_finite() && is_direction(d)))
         })?;
         let other = OnlyCancels(progress);
         self.tree().map_crossings(

@@ -1,9 +1,9 @@
 //! Facets that occur with both orientations: which of the copies bounds a body.
 //!
-//! In a winding number they cancel, as if the mesh had a hole there. What they are the edges around them tell: facets that close what the
-//! others leave open belong to the surface with the orientation that closes it, and the copies that look the other way do not count; a sheet
-//! that closes nothing has no inside, and its copies may cancel. Such facets are judged together as far as they hang together through
-//! edges: one alone, amid its like, has nothing around it to tell by.
+//! In a winding number they cancel, as if the mesh had a hole there. The edges around them tell which they are. Facets that
+//! close what the others leave open belong to the surface with the orientation that closes it. The copies that look the other
+//! way do not count. A sheet that closes nothing has no inside, and its copies may cancel. Such facets are judged together as
+//! far as they hang together through edges: one alone, amid its like, has nothing around it to tell by.
 
 use crate::mesh::Mesh;
 use std::collections::BTreeMap;
@@ -25,7 +25,7 @@ pub(super) fn without_opposite_copies(mesh: &Mesh) -> Option<Mesh> {
     if counts.is_empty() {
         return None;
     }
-    // What the others leave open: how often each edge is passed upward less how often downward.
+    // The edges that the others leave open: how often each is passed upward less how often downward.
     let mut open: BTreeMap<[u32; 2], i64> = BTreeMap::new();
     let others = facets.iter().flatten().filter(|(corners, _)| !counts.contains_key(corners));
     others.flat_map(edges).for_each(|(edge, way)| *open.entry(edge).or_default() += way);
@@ -73,9 +73,9 @@ fn edges((corners, up): &Facet) -> [([u32; 2], i64); 3] {
 
 /// For each of these facets the orientation in which it closes what is open; `None` where none does.
 fn orientations(doubled: &[[u32; 3]], open: &BTreeMap<[u32; 2], i64>) -> Vec<Option<bool>> {
-    let mut beside: BTreeMap<[u32; 2], Vec<usize>> = BTreeMap::new();
+    let mut at_edge: BTreeMap<[u32; 2], Vec<usize>> = BTreeMap::new();
     for (n, corners) in doubled.iter().enumerate() {
-        edges(&(*corners, true)).iter().for_each(|(edge, _)| beside.entry(*edge).or_default().push(n));
+        edges(&(*corners, true)).iter().for_each(|(edge, _)| at_edge.entry(*edge).or_default().push(n));
     }
     let mut up: Vec<Option<bool>> = vec![None; doubled.len()];
     let mut out = vec![None; doubled.len()];
@@ -90,7 +90,7 @@ fn orientations(doubled: &[[u32; 3]], open: &BTreeMap<[u32; 2], i64>) -> Vec<Opt
             let n = part[next];
             next += 1;
             for (edge, way) in edges(&(doubled[n], up[n] == Some(true))) {
-                let Some([a, b]) = beside.get(&edge).and_then(|b| <[usize; 2]>::try_from(b.as_slice()).ok())
+                let Some([a, b]) = at_edge.get(&edge).and_then(|b| <[usize; 2]>::try_from(b.as_slice()).ok())
                 else {
                     continue;
                 };

@@ -1,21 +1,21 @@
 //! The deviation of a point as the paper on verifying triangulated models words it, for those who must reproduce it.
 //!
 //! Dobroskok, Garashchenko, Latysh, Verification of triangulation models after optical digitising, 2012 (equations in
-//! brackets). A window about the point, half as wide as a 300th of length, width and height of the model together
-//! (2), grows until it holds ten facets or all (1); a point on a vertex deviates by nothing (3); otherwise the nearest
-//! vertex in the window (4) is found, and the least distance to the facets around it (18): to the plane (7, 8–10)
-//! where six angles say that the foot is inside (5), else to the edges (11–17).
+//! brackets). A window about the point is half as wide as a 300th of length, width and height of the model together (2). It
+//! grows until it holds ten facets or all (1). A point on a vertex deviates by nothing (3). Otherwise the nearest vertex in the
+//! window (4) is found, and the least distance to the facets around it (18). That is the distance to the plane (7, 8–10) where
+//! six angles say that the foot is inside (5), else to the edges (11–17).
 //!
-//! The misprints of (9), (14) and (15) are mended. What the paper leaves open: equal positions are one vertex; a facet
-//! is in the window when one of its vertices is; the window is a closed cube and doubles; of equally near vertices the
-//! first in the file counts; a right angle passes (5), decided by l² + l² − l² ≥ 0; a facet without area has only edges.
+//! The misprints of (9), (14) and (15) are mended. Where the paper leaves a choice open, equal positions are one vertex. A
+//! facet is in the window when one of its vertices is. The window is a closed cube and doubles. The first of equally near
+//! vertices in the file counts. A right angle passes (5), decided by l² + l² − l² ≥ 0. A facet without area has only edges.
 //!
-//! **This is not the distance to the surface.** (5) tests three slabs, not the triangle: points beside an acute
-//! triangle pass it and get the (too small) distance to the plane; and the nearest facet need not touch the nearest
-//! vertex, which gives too large values. On scans a third of the values are wrong. See [`Differences`].
+//! **This is not the distance to the surface.** (5) tests three slabs, not the triangle. Points outside an acute triangle pass
+//! it and get the (too small) distance to the plane. And the nearest facet need not touch the nearest vertex, which gives too
+//! large values. On scans a third of the values are wrong. See [`Differences`].
 //!
-//! The values have no sign, as in the paper. A sign may be taken from the exact method for the same point; the side of
-//! the facet that gave the value is not reliable where that value is wrong.
+//! The values have no sign, as in the paper. A sign may be taken from the exact method for the same point. The side of the
+//! facet that gave the value is not reliable where that value is wrong.
 
 mod differences;
 mod facet;
@@ -33,12 +33,12 @@ use crate::space::{Aabb, Point};
 use crate::spatial::neighbors::PointTree;
 use crate::topology::weld;
 
-/// Facets that the window must hold (1).
-const FACETS: usize = 10;
-/// The window's first half-size as a share of length + width + height (2).
-const WINDOW_SHARE: f64 = 300.0;
+/// Least facets that the window must hold (1).
+const MIN_WINDOW_FACETS: usize = 10;
+/// Length + width + height over the window's first half-size (2).
+const WINDOW_DIVISOR: f64 = 300.0;
 /// Points that one thread takes at a time.
-const CHUNK: usize = 1024;
+const PAPER_POINTS_PER_TASK: usize = 1024;
 
 /// Why there are no values.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -63,7 +63,7 @@ impl From<Cancelled> for PaperError {
 /// Distances of `points` from `mesh` by the paper's method, in the order of the points, millimeters, unsigned.
 ///
 /// # Errors
-/// Those of [`Paper::new`] and [`Paper::values`].
+/// The errors of [`Paper::new`] and [`Paper::values`].
 pub fn distances(mesh: &Mesh, points: &[Point], progress: &dyn Progress) -> Result<Vec<f64>, PaperError> {
     let values = Paper::new(mesh)?.values(points, progress)?;
     Ok(values.into_iter().map(|v| v.distance).collect())
@@ -103,7 +103,7 @@ impl Paper {
             around[next[corner] as usize] = face;
             next[corner] += 1;
         }
-        let half = (sides[0] + sides[1] + sides[2]) / WINDOW_SHARE;
+        let half = (sides[0] + sides[1] + sides[2]) / WINDOW_DIVISOR;
         Ok(Paper { tree: PointTree::new(&vertices), vertices, faces, starts, around, half })
     }
 
@@ -114,16 +114,19 @@ impl Paper {
     pub fn values(&self, points: &[Point], progress: &dyn Progress) -> Result<Vec<Value>, PaperError> {
         check_points(points)?;
         let mut values = vec![Value { distance: 0.0, rounding: 0.0 }; points.len()];
-        values.par_chunks_mut(CHUNK).zip(points.par_chunks(CHUNK)).try_for_each(|(values, points)| {
-            if progress.cancelled() {
-                return Err(Cancelled);
-            }
-            for (value, m) in values.iter_mut().zip(points) {
-                *value = self.value(m);
-            }
-            progress.advance(points.len() as u64);
-            Ok(())
-        })?;
+        values
+            .par_chunks_mut(PAPER_POINTS_PER_TASK)
+            .zip(points.par_chunks(PAPER_POINTS_PER_TASK))
+            .try_for_each(|(values, points)| {
+                if progress.cancelled() {
+                    return Err(Cancelled);
+                }
+                for (value, m) in values.iter_mut().zip(points) {
+                    *value = self.value(m);
+                }
+                progress.advance(points.len() as u64);
+                Ok(())
+            })?;
         Ok(values)
     }
 
@@ -144,8 +147,8 @@ impl Paper {
 
     /// The vertex nearest to `m` among those in the window.
     ///
-    /// The nearest of all is the answer as soon as a window holds it, for windows only grow; so facets are counted
-    /// only where a smaller window may hold ten of them and not the nearest vertex.
+    /// The nearest of all is the answer as soon as a window holds it, for windows only grow. So facets are counted only where a
+    /// smaller window may hold ten of them and not the nearest vertex.
     fn vertex_of(&self, m: &Point) -> u32 {
         let nearest = self.tree.nearest(m).map_or(0, |(_, v)| v);
         let place = self.vertices[nearest as usize];
@@ -165,8 +168,8 @@ impl Paper {
     }
 
     fn holds_enough(&self, window: &Aabb) -> bool {
-        let enough = FACETS.min(self.faces.len());
-        let mut facets: Vec<u32> = Vec::with_capacity(FACETS);
+        let enough = MIN_WINDOW_FACETS.min(self.faces.len());
+        let mut facets: Vec<u32> = Vec::with_capacity(MIN_WINDOW_FACETS);
         self.tree.in_box(window, |_, v| {
             for f in self.facets(v as usize) {
                 if facets.len() < enough && !facets.contains(f) {

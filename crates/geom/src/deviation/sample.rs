@@ -28,8 +28,8 @@ pub struct Sample {
     pub face: u32,
 }
 
-/// `count` points of the mesh, evenly spread by area: the surface, face after face, is cut into `count` strips of equal
-/// area, and each gives one random point. So each face gets its share to within one or two points.
+/// `count` points of the mesh, evenly spread by area. The surface, face after face, is cut into `count` strips of equal area,
+/// and each gives one random point. So each face gets its share to within one or two points.
 ///
 /// Point `i` depends on the mesh, the count, the seed and `i` alone. Faces without area get none.
 ///

@@ -1,12 +1,12 @@
 //! Which sign method is valid for a reference, and why.
 //!
-//! Pseudonormals (Bærentzen & Aanæs 2005) are exact wherever every edge has two facets that agree on the outside, and the
-//! surface winds around each place once or not at all. Shells that overlap break the second: there the winding number
-//! counts the solids around a place, and one or more is material. So a shell in another one that looks the same way is
-//! material in material, one that looks the other way a cavity.
-//! The generalized winding number (Jacobson et al. 2013) tolerates gaps and doubled facets as long as the surface nearly encloses
-//! a volume; on an open sheet it never reaches one half. What tells the two apart is the *vector area*: the sum of
-//! the facets' area vectors is zero for a closed surface, and as long as the area itself for a flat sheet.
+//! Pseudonormals (Bærentzen & Aanæs 2005) are exact on one condition. Every edge has two facets that agree on the outside, and
+//! the surface winds around each place once or not at all. Shells that overlap break the second: there the winding number
+//! counts the solids around a place, and one or more is material. So a shell in another one that looks the same way is material
+//! in material, one that looks the other way a cavity. The generalized winding number (Jacobson et al. 2013) tolerates gaps and
+//! doubled facets as long as the surface nearly encloses a volume. On an open sheet it never reaches one half. The *vector
+//! area* tells the two apart. The sum of the facets' area vectors is zero for a closed surface, and as long as the area itself
+//! for a flat sheet.
 
 use crate::check::Precondition;
 use crate::mesh::Mesh;
@@ -14,7 +14,7 @@ use crate::parallel::prelude::*;
 use crate::space::{Vector, cross, minus, norm, plus};
 use std::fmt;
 
-/// What the user asks for.
+/// The user's request.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum SignRequest {
     /// The valid method for this reference.
@@ -28,7 +28,7 @@ pub enum SignRequest {
     None,
 }
 
-/// What is used.
+/// The method that is used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SignMethod {
     /// Side of the angle-weighted pseudonormal of the facet, edge or vertex hit.
@@ -44,7 +44,7 @@ pub enum SignMethod {
 /// The method and the reason for it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SignChoice {
-    /// What was asked for.
+    /// The request.
     pub requested: SignRequest,
     /// The method.
     pub method: SignMethod,
@@ -83,9 +83,9 @@ pub enum SignReason {
     },
 }
 
-/// Above this ratio of vector area to area a surface is a sheet and encloses nothing. A hemisphere without its base has 0.5, a
+/// Ratio of vector area to area above which a surface is a sheet and encloses nothing. A hemisphere without its base has 0.5, a
 /// scanned figure open at its foot 0.01 to 0.1.
-pub const SHEET: f64 = 0.25;
+pub const MIN_SHEET_OPENNESS: f64 = 0.25;
 
 impl SignChoice {
     /// That of B-spline surfaces: their normal, unless no sign is asked for.
@@ -98,8 +98,8 @@ impl SignChoice {
     }
     /// Chooses for a mesh of which this is known. Cost: linear in the facets.
     ///
-    /// One shell that crosses itself is not told from one that does not: where it overlaps itself, pseudonormals may
-    /// call the inside outside, and winding numbers must be asked for.
+    /// One shell that crosses itself is not told from one that does not. Where it overlaps itself, pseudonormals may call the
+    /// inside outside, and winding numbers must be asked for.
     ///
     /// # Panics
     /// If a facet names a vertex that does not exist.
@@ -109,21 +109,23 @@ impl SignChoice {
         let valid = soundness.oriented() && !known.shells_overlap;
         let (method, reason) = match requested {
             SignRequest::None => (SignMethod::None, SignReason::Requested),
-            SignRequest::Winding if openness > SHEET => (SignMethod::Winding, SignReason::RequestedUnsound),
+            SignRequest::Winding if openness > MIN_SHEET_OPENNESS => {
+                (SignMethod::Winding, SignReason::RequestedUnsound)
+            }
             SignRequest::Winding => (SignMethod::Winding, SignReason::Requested),
             SignRequest::Pseudonormal if valid => (SignMethod::Pseudonormal, SignReason::Requested),
             SignRequest::Pseudonormal => (SignMethod::Pseudonormal, SignReason::RequestedUnsound),
             SignRequest::Auto if valid => (SignMethod::Pseudonormal, SignReason::Closed),
             SignRequest::Auto if soundness.oriented() => (SignMethod::Winding, SignReason::Overlapping),
             SignRequest::Auto if soundness.closed => (SignMethod::Winding, SignReason::Inconsistent),
-            SignRequest::Auto if openness > SHEET => {
+            SignRequest::Auto if openness > MIN_SHEET_OPENNESS => {
                 (SignMethod::Pseudonormal, SignReason::OpenSheet { openness })
             }
             SignRequest::Auto => {
                 (SignMethod::Winding, SignReason::NearlyClosed { boundary_edges: soundness.boundary_edges })
             }
         };
-        let encloses = method != SignMethod::None && openness <= SHEET;
+        let encloses = method != SignMethod::None && openness <= MIN_SHEET_OPENNESS;
         SignChoice { requested, method, reason, inside_out: encloses && !soundness.outward }
     }
 }

@@ -9,7 +9,7 @@ use crate::progress::{Cancelled, Progress, Silent};
 use crate::space::Point;
 use crate::topology::{Soundness, TopologyError};
 
-/// What is asked of a [`ReferenceSurface`].
+/// The options of a [`ReferenceSurface`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfaceOptions {
     /// Sign method.
@@ -41,22 +41,23 @@ pub enum Exclusion {
     NoDirection,
 }
 
-/// NaNs of their own, which are only ever copied: no arithmetic sees them.
-const NO_CROSSING: u64 = 0x7ff8_0000_0000_0005;
-const NO_DIRECTION: u64 = 0x7ff8_0000_0000_0006;
+/// Bits of a NaN of its own. It is only ever copied: no arithmetic sees it.
+const NO_CROSSING_BITS: u64 = 0x7ff8_0000_0000_0005;
+/// The same for a point without a direction.
+const NO_DIRECTION_BITS: u64 = 0x7ff8_0000_0000_0006;
 
 impl Exclusion {
     /// All, in the order of reports.
     pub const ALL: [Exclusion; 4] =
         [Exclusion::MaxDistance, Exclusion::BoundaryEdge, Exclusion::NoCrossing, Exclusion::NoDirection];
 
-    /// What a value among deviations stands for; `None` for a deviation.
+    /// The reason that a value among deviations stands for; `None` for a deviation.
     pub fn of(value: f64) -> Option<Exclusion> {
         match value.to_bits() {
             _ if value.is_finite() => None,
             _ if value.is_infinite() => Some(Exclusion::MaxDistance),
-            NO_CROSSING => Some(Exclusion::NoCrossing),
-            NO_DIRECTION => Some(Exclusion::NoDirection),
+            NO_CROSSING_BITS => Some(Exclusion::NoCrossing),
+            NO_DIRECTION_BITS => Some(Exclusion::NoDirection),
             _ => Some(Exclusion::BoundaryEdge),
         }
     }
@@ -66,8 +67,8 @@ impl Exclusion {
         match self {
             Exclusion::MaxDistance => f64::INFINITY,
             Exclusion::BoundaryEdge => f64::NAN,
-            Exclusion::NoCrossing => f64::from_bits(NO_CROSSING),
-            Exclusion::NoDirection => f64::from_bits(NO_DIRECTION),
+            Exclusion::NoCrossing => f64::from_bits(NO_CROSSING_BITS),
+            Exclusion::NoDirection => f64::from_bits(NO_DIRECTION_BITS),
         }
     }
 
@@ -110,7 +111,7 @@ fn winding(
 }
 
 /// Flaws of each kind that are listed; all are counted.
-const FLAWS: usize = 100;
+const MAX_LISTED_FLAWS: usize = 100;
 
 enum Side {
     Pseudonormal(Signs),
@@ -122,14 +123,14 @@ impl ReferenceSurface {
     /// Prepares `mesh`, whose search tree is `tree`: looks at its topology and chooses the sign method.
     ///
     /// # Errors
-    /// Those of [`Precondition::of`].
+    /// The errors of [`Precondition::of`].
     pub fn new(
         tree: &Tree,
         mesh: &Mesh,
         options: &SurfaceOptions,
         progress: &dyn Progress,
     ) -> Result<ReferenceSurface, TopologyError> {
-        let precondition = Precondition::of(mesh, FLAWS, progress)?;
+        let precondition = Precondition::of(mesh, MAX_LISTED_FLAWS, progress)?;
         let soundness = &precondition.soundness;
         let choice = SignChoice::new(options.sign, &precondition, mesh);
         let side = match choice.method {
@@ -162,11 +163,11 @@ impl ReferenceSurface {
     pub fn sign(&self) -> &SignChoice {
         &self.choice
     }
-    /// What the topology says about the mesh.
+    /// The topology's verdict on the mesh.
     pub fn soundness(&self) -> &Soundness {
         &self.precondition.soundness
     }
-    /// What breaks the rule that statistics rest on, with its places; nothing where the mesh is sound.
+    /// The faults that break the rule that statistics rest on, with their places; none where the mesh is sound.
     pub fn precondition(&self) -> &Precondition {
         &self.precondition
     }
@@ -183,7 +184,7 @@ impl ReferenceSurface {
     /// `f(index, deviation, hit)` of each point, in the order of `points`; the hit is missing beyond the greatest distance.
     ///
     /// # Errors
-    /// Those of [`ReferenceSurface::deviations`].
+    /// The errors of [`ReferenceSurface::deviations`].
     pub fn map<T: Copy + Send>(
         &self,
         points: &[Point],
@@ -216,7 +217,7 @@ impl ReferenceSurface {
     /// ask for few points many times.
     ///
     /// # Errors
-    /// Those of [`ReferenceSurface::deviations`].
+    /// The errors of [`ReferenceSurface::deviations`].
     pub fn at(&self, p: &Point) -> Result<Option<(f64, Closest)>, QueryError> {
         let Some(hit) = self.tree.hit(p, self.max_distance)? else { return Ok(None) };
         let place = self.tree.place(p, &hit);
@@ -258,14 +259,14 @@ pub struct Disagreement {
 }
 
 /// Points nearer to a facet than this share of its longest edge have no side that winding numbers could tell.
-const ON_SURFACE: f64 = 1e-6;
+const ON_SURFACE_SHARE: f64 = 1e-6;
 
 impl ReferenceSurface {
     /// Asks both sign methods about `points`, whichever is in use. Points on the surface are left out: they have no side.
     /// Cost: that of preparing the other method, and of the points.
     ///
     /// # Errors
-    /// Those of [`ReferenceSurface::deviations`].
+    /// The errors of [`ReferenceSurface::deviations`].
     pub fn disagreement(
         &self,
         points: &[Point],
@@ -294,7 +295,7 @@ impl ReferenceSurface {
     ) -> Result<Vec<f64>, QueryError> {
         self.tree.map_closest(points, &Query::default(), progress, |i, hit| {
             let Some(hit) = hit else { return 0.0 };
-            let away = hit.distance() > ON_SURFACE * self.tree.longest_edge(&hit);
+            let away = hit.distance() > ON_SURFACE_SHARE * self.tree.longest_edge(&hit);
             if away { signs.sign(&points[i], &hit) } else { 0.0 }
         })
     }

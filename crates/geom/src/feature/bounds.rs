@@ -76,10 +76,12 @@ impl Polygon {
 
     /// Places inside, on a grid of 5 × 5 over the rectangle.
     pub(super) fn places(&self) -> Vec<Point> {
-        const GRID: usize = 5;
+        /// Places along each side of the grid.
+        const GRID_SIDE: usize = 5;
         let (x, y) = (self.range(0), self.range(1));
-        let at = |[low, high]: [f64; 2], i: usize| low + (high - low) * (i as f64 + 0.5) / GRID as f64;
-        let cells = (0..GRID * GRID).map(|n| self.lifted([at(x, n % GRID), at(y, n / GRID)]));
+        let at = |[low, high]: [f64; 2], i: usize| low + (high - low) * (i as f64 + 0.5) / GRID_SIDE as f64;
+        let cells =
+            (0..GRID_SIDE * GRID_SIDE).map(|n| self.lifted([at(x, n % GRID_SIDE), at(y, n / GRID_SIDE)]));
         cells.filter(|p| self.within(*p) >= 0.0).collect()
     }
 }

@@ -8,33 +8,35 @@ use crate::spatial::neighbors::{Neighbor, PointTree};
 use std::f64::consts::TAU;
 
 /// Places that are asked. The share is known to about a hundredth.
-const PLACES: usize = 4096;
+const COVERAGE_PLACES: usize = 4096;
 /// The neighbor whose distance tells how far points lie apart, of many points.
-const NEIGHBOR: usize = 12;
+const SPACING_NEIGHBOR: usize = 12;
 /// The same of few, which are probed one by one.
 const NEIGHBOR_OF_FEW: usize = 2;
 /// So many points for each neighbor.
-const FEW: usize = 20;
-/// Neighbors in a row lie within this sine of its direction. Rows of a scanner are farther apart than points in a row: there the first
-/// neighbor beside the row tells.
-const ROW: f64 = 0.3;
+const POINTS_PER_NEIGHBOR: usize = 20;
+/// Sine of the angle to the direction of a row within which neighbors lie in the row. Rows of a scanner are farther apart than
+/// points in a row: there the first neighbor beside the row tells.
+const MAX_ROW_SINE: f64 = 0.3;
 /// Neighbors among which that is looked for, at most.
-const ROW_NEIGHBORS: usize = 384;
-/// Points of a cloud that are asked how far they lie apart, the share of them that lie no farther, and how many times that a point may
-/// cover: a wall is hit at a slant.
-const ASKED: usize = 2048;
-const NEARLY_ALL: f64 = 0.99;
-const SLANT: f64 = 2.0;
-/// Share of the size of a feature that is none.
-const ROUNDING: f64 = 1e-6;
-/// Steps of the sequence of places: powers of the root of x³ = x + 1, which leaves the least gaps in two dimensions
-/// (M. Roberts, The unreasonable effectiveness of quasirandom sequences, 2018).
-const STEPS: [f64; 2] = [0.754_877_666_246_693, 0.569_840_290_998_053_3];
+const MAX_ROW_NEIGHBORS: usize = 384;
+/// Points of a cloud that are asked how far they lie apart.
+const MAX_ASKED_POINTS: usize = 2048;
+/// Share of these points that lie no farther apart.
+const COVERED_QUANTILE: f64 = 0.99;
+/// Distance that a point may cover over that spacing: a wall is hit at a slant.
+const SLANT_FACTOR: f64 = 2.0;
+/// Share of the size of a feature up to which a distance is none.
+const NO_SIZE_SHARE: f64 = 1e-6;
+/// Steps of the sequence of places: powers of the root of x³ = x + 1, which leaves the least gaps in two dimensions. (M.
+/// Roberts, The unreasonable effectiveness of quasirandom sequences, 2018.)
+const PLACE_STEPS: [f64; 2] = [0.754_877_666_246_693, 0.569_840_290_998_053_3];
 
-/// Share of the area of a nominal feature, 0 to 1, that is near one of `points`, which were found for it: nearer than that point's
-/// twelfth neighbor is to it (of fewer than 240 points a nearer neighbor, the second at least; of points in rows the first one beside
-/// the row) and than `farthest` ([`farthest_covered`]), seen along the surface; points beyond its bounds cover none of it. Holes of the feature that its nominal form does not
-/// have are not covered. `None` of an edge and of a nominal feature that makes no sense, 0 without points.
+/// Share of the area of a nominal feature, 0 to 1, that is near one of `points`, which were found for it. A place is near if it
+/// is nearer to that point, seen along the surface, than the point's twelfth neighbor is and than `farthest`
+/// ([`farthest_covered`]). With fewer than 240 points a nearer neighbor counts, the second at least; for points in rows it is
+/// the first one outside the row. Points beyond its bounds cover none of it. Holes of the feature that its nominal form does
+/// not have are not covered. `None` of an edge and of a nominal feature that makes no sense, 0 without points.
 ///
 /// Cost: a search tree of the points, and some thousand nearest neighbors.
 ///
@@ -81,39 +83,40 @@ pub fn farthest_covered(points: &[Point], tree: &PointTree) -> f64 {
     if points.len() < 2 {
         return f64::INFINITY;
     }
-    let asked = (0..points.len() as u32).step_by(points.len().div_ceil(ASKED));
+    let asked = (0..points.len() as u32).step_by(points.len().div_ceil(MAX_ASKED_POINTS));
     let mut all: Vec<f64> = asked.map(|n| reach(points, tree, n)).collect();
     all.sort_unstable_by(f64::total_cmp);
-    SLANT * all[(NEARLY_ALL * (all.len() - 1) as f64) as usize].sqrt()
+    SLANT_FACTOR * all[(COVERED_QUANTILE * (all.len() - 1) as f64) as usize].sqrt()
 }
 
 /// Square of how far one of some points covers: its twelfth neighbor or, of points in rows, the first one beside the row.
 fn reach(points: &[Point], tree: &PointTree, n: u32) -> f64 {
-    let neighbor = (points.len() / FEW).clamp(NEIGHBOR_OF_FEW, NEIGHBOR).min(points.len() - 1);
+    let neighbor =
+        (points.len() / POINTS_PER_NEIGHBOR).clamp(NEIGHBOR_OF_FEW, SPACING_NEIGHBOR).min(points.len() - 1);
     let around = tree.k_nearest(&points[n as usize], neighbor, Some(n));
     let last = around.last().copied().unwrap_or((0.0, n));
-    if neighbor < NEIGHBOR {
+    if neighbor < SPACING_NEIGHBOR {
         return last.0;
     }
     let from = |q: u32| minus(points[q as usize], points[n as usize]);
     let Some((row, _)) = unit(from(last.1)) else { return last.0 };
-    let is_beside = |(_, q): &Neighbor| norm(cross(from(*q), row)) > ROW * norm(from(*q));
+    let is_beside = |(_, q): &Neighbor| norm(cross(from(*q), row)) > MAX_ROW_SINE * norm(from(*q));
     if around.iter().any(is_beside) {
         return last.0;
     }
-    let more = tree.k_nearest(&points[n as usize], ROW_NEIGHBORS, Some(n));
+    let more = tree.k_nearest(&points[n as usize], MAX_ROW_NEIGHBORS, Some(n));
     more.into_iter().find(is_beside).map_or(last.0, |beside| beside.0)
 }
 
-/// What lies on a nominal feature and within its bounds.
+/// Places on a nominal feature and within its bounds.
 fn on_surface(nominal: &Nominal) -> Nearness {
-    let rounding = ROUNDING * nominal.area().unwrap_or(0.0).sqrt();
+    let rounding = NO_SIZE_SHARE * nominal.area().unwrap_or(0.0).sqrt();
     Nearness { distance: rounding, angle: 1.0, margin: -rounding, rim: true, inward: None }
 }
 
 /// Places spread evenly over a nominal feature; `None` of an edge and of what makes no sense.
 fn spread(nominal: &Nominal, rules: &Rules) -> Option<Vec<Point>> {
-    let fractions = (1..=PLACES).map(|n| STEPS.map(|step| (step * n as f64).fract()));
+    let fractions = (1..=COVERAGE_PLACES).map(|n| PLACE_STEPS.map(|step| (step * n as f64).fract()));
     let about =
         |axis: Vector| Rigid::into_frame([0.0; 3], axis, least_axis(axis)).map(|frame| frame.inverse());
     let polar =
@@ -169,17 +172,20 @@ mod tests {
         let spread =
             |nominal: &Nominal| spread(nominal, &Rules::new(nominal, &on_surface(nominal)).unwrap()).unwrap();
         let places = spread(&cone);
-        assert_eq!(places.len(), PLACES);
+        assert_eq!(places.len(), COVERAGE_PLACES);
         let mut tenths = [0usize; 10];
         for p in places {
             assert!(surface.distance(p).unwrap().0.abs() < 1e-12);
             let along = dot(minus(p, [1.0, 2.0, 3.0]), direction);
             tenths[(10.0 * (along * along - 4.0) / 21.0) as usize] += 1;
         }
-        assert!(tenths.iter().all(|n| n.abs_diff(PLACES / 10) < 12), "{tenths:?}");
+        assert!(tenths.iter().all(|n| n.abs_diff(COVERAGE_PLACES / 10) < 12), "{tenths:?}");
         let sphere = Nominal::Sphere { center: [0.0; 3], radius: 2.0 };
         let heights = |from: f64| spread(&sphere).iter().filter(|p| p[2] > from).count();
-        assert!(heights(0.0).abs_diff(PLACES / 2) < 12 && heights(1.0).abs_diff(PLACES / 4) < 12);
+        assert!(
+            heights(0.0).abs_diff(COVERAGE_PLACES / 2) < 12
+                && heights(1.0).abs_diff(COVERAGE_PLACES / 4) < 12
+        );
         assert!(spread(&sphere).iter().all(|p| (norm(*p) - 2.0).abs() < 1e-12));
     }
 

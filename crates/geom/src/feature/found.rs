@@ -1,6 +1,6 @@
-//! What is found of a nominal feature.
+//! The data found for a nominal feature.
 
-/// What was found of a feature.
+/// The data found for a feature.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Found {
     /// Numbers of the facets, ascending; none in a cloud.

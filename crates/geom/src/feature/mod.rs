@@ -43,8 +43,8 @@ pub fn in_cloud(points: &[Point], nominal: &Nominal, near: &Nearness) -> Result<
     Ok(Found { points, ..Found::default() })
 }
 
-/// Those of some facets of a mesh that are near `nominal`: their corners as near to it as that says and within its bounds, facing as it does. Facets
-/// without area are none.
+/// The facets, out of some of a mesh, that are near `nominal`. Their corners are as near to it as that says and within its
+/// bounds, and they face as it does. Facets without area are none.
 ///
 /// # Errors
 /// [`FeatureError`]: a nominal feature that makes no sense.

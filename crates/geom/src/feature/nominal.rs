@@ -65,11 +65,12 @@ pub struct Nearness {
     pub distance: f64,
     /// Greatest angle of its normal to the nominal one, radians.
     pub angle: f64,
-    /// What is left out along the bounds of the feature, millimeters; below zero, how far it may reach beyond them.
+    /// The width left out along the bounds of the feature, millimeters; below zero, how far it may reach beyond them.
     pub margin: f64,
     /// Whether vertices that facets of other features share count: on a sharp edge they belong to both.
     pub rim: bool,
-    /// Whether the facets of a cylinder, cone or sphere face its axis or center, as those of a bore do; both ways where it is `None`.
+    /// Whether the facets of a cylinder, cone or sphere face its axis or center, as those of a bore do. Both ways count where
+    /// it is `None`.
     pub inward: Option<bool>,
 }
 

@@ -1,4 +1,4 @@
-//! What makes a facet or a point part of a nominal feature.
+//! The rules that make a facet or a point part of a nominal feature.
 
 use super::bounds::Polygon;
 use super::{FeatureError, Nearness, Nominal};
@@ -12,7 +12,7 @@ pub(super) struct Rules<'a> {
 }
 
 /// Share of the coordinates by which boxes are widened: far more than rounding takes.
-const ROUNDING: f64 = 1e-9;
+const BOX_WIDENING: f64 = 1e-9;
 
 enum CheckedNominal {
     Plane { point: Point, normal: Vector, boundary: Polygon },
@@ -22,14 +22,14 @@ enum CheckedNominal {
     Edge { point: Point, direction: Vector, length: f64, normals: [Vector; 2] },
 }
 
-fn way(what: &'static str, v: Vector) -> Result<Vector, FeatureError> {
+fn checked_direction(what: &'static str, v: Vector) -> Result<Vector, FeatureError> {
     if v.iter().any(|x| !x.is_finite()) {
         return Err(FeatureError::NotFinite);
     }
     unit(v).map(|u| u.0).ok_or(FeatureError::NoDirection { what })
 }
 
-fn size(what: &'static str, value: f64) -> Result<f64, FeatureError> {
+fn checked_size(what: &'static str, value: f64) -> Result<f64, FeatureError> {
     match value {
         _ if !value.is_finite() => Err(FeatureError::NotFinite),
         _ if value > 0.0 => Ok(value),
@@ -48,30 +48,30 @@ impl<'a> Rules<'a> {
                 for corner in boundary {
                     place(*corner)?;
                 }
-                let normal = way("normal", *normal)?;
+                let normal = checked_direction("normal", *normal)?;
                 let boundary = Polygon::new(*point, normal, boundary).ok_or(FeatureError::Boundary)?;
                 CheckedNominal::Plane { point: place(*point)?, normal, boundary }
             }
             Nominal::Cylinder { point, direction, radius, length } => CheckedNominal::Cylinder {
                 point: place(*point)?,
-                direction: way("direction", *direction)?,
-                radius: size("radius", *radius)?,
-                length: size("length", *length)?,
+                direction: checked_direction("direction", *direction)?,
+                radius: checked_size("radius", *radius)?,
+                length: checked_size("length", *length)?,
             },
             Nominal::Cone { apex, direction, half_angle, between: [from, to] } => CheckedNominal::Cone {
                 apex: place(*apex)?,
-                direction: way("direction", *direction)?,
-                half_angle: size("half angle", *half_angle)?,
-                between: [from.min(*to), size("end", from.max(*to))?],
+                direction: checked_direction("direction", *direction)?,
+                half_angle: checked_size("half angle", *half_angle)?,
+                between: [from.min(*to), checked_size("end", from.max(*to))?],
             },
             Nominal::Sphere { center, radius } => {
-                CheckedNominal::Sphere { center: place(*center)?, radius: size("radius", *radius)? }
+                CheckedNominal::Sphere { center: place(*center)?, radius: checked_size("radius", *radius)? }
             }
             Nominal::Edge { point, direction, length, normals: [a, b] } => CheckedNominal::Edge {
                 point: place(*point)?,
-                direction: way("direction", *direction)?,
-                length: size("length", *length)?,
-                normals: [way("first normal", *a)?, way("second normal", *b)?],
+                direction: checked_direction("direction", *direction)?,
+                length: checked_size("length", *length)?,
+                normals: [checked_direction("first normal", *a)?, checked_direction("second normal", *b)?],
             },
         };
         Ok(Rules { near, kind })
@@ -116,7 +116,7 @@ impl<'a> Rules<'a> {
             }
         };
         let greatest = bounds.min.iter().chain(&bounds.max).fold(0.0, |m: f64, x| m.max(x.abs()));
-        bounds.widened(ROUNDING * greatest)
+        bounds.widened(BOX_WIDENING * greatest)
     }
 
     /// Whether a facet with this unit normal belongs to the feature.
@@ -208,7 +208,8 @@ impl<'a> Rules<'a> {
 
     /// Places of the nominal feature to start from.
     pub(super) fn starts(&self) -> Vec<Point> {
-        const TURNS: usize = 12;
+        /// Places of a ring.
+        const RING_PLACES: usize = 12;
         let about = |axis: Vector| -> [Vector; 2] {
             let frame = Rigid::into_frame([0.0; 3], axis, least_axis(axis)).unwrap_or(Rigid::IDENTITY);
             [frame.rotation()[0], frame.rotation()[1]]
@@ -216,19 +217,20 @@ impl<'a> Rules<'a> {
         let ring = |center: Point, axis: Vector, radius: f64| -> Vec<Point> {
             let [u, v] = about(axis);
             let at = |k: usize| {
-                let phi = std::f64::consts::TAU * k as f64 / TURNS as f64;
+                let phi = std::f64::consts::TAU * k as f64 / RING_PLACES as f64;
                 plus(times(radius * libm::cos(phi), u), times(radius * libm::sin(phi), v))
             };
-            (0..TURNS).map(|k| plus(center, at(k))).collect()
+            (0..RING_PLACES).map(|k| plus(center, at(k))).collect()
         };
-        const LEVELS: [f64; 3] = [0.5, 0.2, 0.8];
+        /// Shares of the length at which rings lie, the middle first.
+        const RING_LEVELS: [f64; 3] = [0.5, 0.2, 0.8];
         match &self.kind {
             CheckedNominal::Plane { boundary, .. } => boundary.places(),
-            CheckedNominal::Cylinder { point, direction, radius, length } => LEVELS
+            CheckedNominal::Cylinder { point, direction, radius, length } => RING_LEVELS
                 .iter()
                 .flat_map(|t| ring(plus(*point, times(t * length, *direction)), *direction, *radius))
                 .collect(),
-            CheckedNominal::Cone { apex, direction, half_angle, between: [from, to] } => LEVELS
+            CheckedNominal::Cone { apex, direction, half_angle, between: [from, to] } => RING_LEVELS
                 .iter()
                 .flat_map(|t| {
                     let z = from + t * (to - from);

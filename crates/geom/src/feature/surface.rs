@@ -58,17 +58,17 @@ impl NominalSurface {
         distance.is_finite().then_some((distance, gradient))
     }
 
-    /// Signed distance (mm) of `p` from the line in which the plane through it across `normal` (of length 1) meets the surface,
-    /// and its gradient in that plane, a unit vector. Signs as of [`NominalSurface::distance`].
+    /// Signed distance (mm) of `p` from the line in which the plane through it across `normal` (of length 1) meets the surface.
+    /// Also its gradient in that plane, a unit vector. Signs as of [`NominalSurface::distance`].
     ///
-    /// The foot is sought along the line's own normal, again and again: right for places that are nearer to the line than its
-    /// radius of curvature. `None` where that does not settle, where the surface lies along the plane, and where `p` is no
-    /// number.
+    /// The foot is sought along the line's own normal, again and again. That is right for places that are nearer to the line
+    /// than its radius of curvature. `None` where that does not settle, where the surface lies along the plane, and where `p`
+    /// is no number.
     pub fn distance_within(&self, p: Point, normal: Vector) -> Option<(f64, Vector)> {
         let within = |gradient: Vector| unit(minus(gradient, times(dot(gradient, normal), normal)));
         let (mut away, _) = within(self.distance(p)?.1)?;
         let mut distance = 0.0;
-        for _ in 0..ROUNDS {
+        for _ in 0..MAX_FOOT_ROUNDS {
             let foot = minus(p, times(distance, away));
             let (off, gradient) = self.distance(foot)?;
             let (next, slope) = within(gradient)?;
@@ -77,7 +77,7 @@ impl NominalSurface {
             distance += step;
             let turned = norm(minus(next, away));
             away = next;
-            if step.abs() <= SETTLED * (1.0 + distance.abs()) && turned <= SETTLED {
+            if step.abs() <= SETTLED_FOOT_STEP * (1.0 + distance.abs()) && turned <= SETTLED_FOOT_STEP {
                 return distance.is_finite().then_some((distance, away));
             }
         }
@@ -86,9 +86,9 @@ impl NominalSurface {
 }
 
 /// Most rounds of the search for a foot: each gains as many digits as the distance is smaller than the radius of curvature.
-const ROUNDS: usize = 200;
-/// A step, and a turn, that are rounding.
-const SETTLED: f64 = 1e-14;
+const MAX_FOOT_ROUNDS: usize = 200;
+/// Length of a step, and of a turn, up to which it is rounding.
+const SETTLED_FOOT_STEP: f64 = 1e-14;
 
 /// Unit vector away from an axis, and the distance from it.
 fn radial(p: Point, point: Point, direction: Vector) -> Option<(Vector, f64)> {
@@ -130,7 +130,7 @@ mod tests {
         assert!(surfaces[1].distance([1.0, 2.0, 3.0]).is_none());
     }
 
-    /// In a plane across the axis a cone is a circle, in one along it two lines, a sphere a circle anywhere; a cylinder cut
+    /// In a plane across the axis a cone is a circle, in one along it two lines, a sphere a circle anywhere. A cylinder cut
     /// aslant is an ellipse, whose nearest point is sought among many.
     #[test]
     fn distances_within_a_plane_are_those_of_its_curve() {

@@ -1,8 +1,8 @@
 //! Starts for short pieces of a torus: tubes that are hardly bent.
 //!
-//! The axis of a torus of which little is seen is known by nothing but the bend of its tube, and a search from a wrong axis ends in a
-//! wrong minimum. The tube itself is well known: it is nearly a cylinder. So a cylinder is taken first and its axis bent then:
-//! the curvature of the spine, a vector across it, is one more pair of unknowns that may be zero, which a ring's radius may not.
+//! Only the bend of its tube tells the axis of a torus of which little is seen. A search from a wrong axis ends in a wrong
+//! minimum. The tube itself is well known: it is nearly a cylinder. So a cylinder is taken first and its axis bent then. The
+//! curvature of the spine, a vector across it, is one more pair of unknowns that may be zero, which a ring's radius may not.
 
 use super::family::Element;
 use crate::frame::Pose;
@@ -18,18 +18,18 @@ pub(super) struct Tube {
     bend: [f64; 2],
 }
 
-/// Curvature below which a spine is straight, in the unit frame: a ring has a radius.
-const STRAIGHT: f64 = 1e-3;
+/// Curvature in the unit frame below which a spine counts as straight: a ring has a radius.
+const MIN_BENT_CURVATURE: f64 = 1e-3;
 /// Steps of improvement.
-const STEPS: usize = 6;
+const BEND_STEPS: usize = 6;
 
 impl Tube {
-    /// The tube near the straight one about the third axis of `frame`, bent to fit the points: steps of Gauss and Newton as long
-    /// as they bring it nearer.
+    /// The tube near the straight one about the third axis of `frame`, bent to fit the points. Steps of Gauss and Newton follow
+    /// as long as they bring it nearer.
     pub(super) fn near(frame: Pose, radius: f64, points: &[Point]) -> Tube {
         let mut best = Tube { frame, radius, bend: [0.0; 2] };
         let Some((mut square, mut step)) = best.step(points) else { return best };
-        for _ in 0..STEPS {
+        for _ in 0..BEND_STEPS {
             let next = best.moved(&step);
             let Some((less, further)) = next.step(points).filter(|n| next.radius > 0.0 && n.0 < square)
             else {
@@ -94,7 +94,7 @@ impl Tube {
         let [u, v, w] = self.frame.axes;
         let (curvature, [tu, tv]) = self.curvature();
         let toward = plus(times(tu, u), times(tv, v));
-        let ring = 1.0 / curvature.max(STRAIGHT);
+        let ring = 1.0 / curvature.max(MIN_BENT_CURVATURE);
         let center = plus(self.frame.origin, times(ring, toward));
         let pose = Pose::toward(center, cross(w, toward), minus(self.frame.origin, center));
         Element { pose, size: [ring, self.radius] }

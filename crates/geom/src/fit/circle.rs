@@ -2,7 +2,7 @@
 
 use super::family::{Element, Family, Rows};
 use super::line::flat;
-use super::round::{TINY, round_starts};
+use super::round::{MIN_DIVISOR, round_starts};
 use super::sample::Sample;
 use super::scatter::Scatter;
 use super::unknown::Local;
@@ -19,7 +19,7 @@ impl Family<3> for Circle2 {
     #[inline(always)]
     fn rows(size: [f64; 2], [x, y, _]: Point, rows: &mut impl Rows<3>) {
         let rho = (x * x + y * y).sqrt();
-        let inverse = 1.0 / rho.max(TINY);
+        let inverse = 1.0 / rho.max(MIN_DIVISOR);
         rows.row(rho - size[0], [-(x * inverse), -(y * inverse), -1.0]);
     }
     #[inline(always)]
@@ -67,7 +67,7 @@ impl Family<6> for Circle {
     #[inline(always)]
     fn rows(size: [f64; 2], [x, y, z]: Point, rows: &mut impl Rows<6>) {
         let rho = (x * x + y * y).sqrt();
-        let inverse = 1.0 / rho.max(TINY);
+        let inverse = 1.0 / rho.max(MIN_DIVISOR);
         let (nu, nv) = (x * inverse, y * inverse);
         rows.row(rho - size[0], [-nu, -nv, 0.0, -(z * nu), -(z * nv), -1.0]);
         rows.row(z, [0.0, 0.0, -1.0, x, y, 0.0]);

@@ -2,7 +2,7 @@
 
 use super::family::{Element, Family, Rows};
 use super::osculating::{self, refooted};
-use super::round::TINY;
+use super::round::MIN_DIVISOR;
 use super::sample::Sample;
 use super::unknown::Local;
 use crate::frame::Pose;
@@ -10,10 +10,10 @@ use crate::shape::Shape;
 use crate::space::{Point, minus, norm, plus, times, unit};
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Cone about the third axis of its frame, opening along it. Its sizes are the distance of the origin from the
-/// surface and the half angle: unlike radius and apex they stay finite from the cylinder to the plane. On the way there an
-/// angle may pass through either: below zero the cone opens against its axis, beyond a right angle it is the one of the other
-/// side of the plane with its inside out. [`Family::settled`] writes both as they are told.
+/// Cone about the third axis of its frame, opening along it. Its sizes are the distance of the origin from the surface and the
+/// half angle. Unlike radius and apex they stay finite from the cylinder to the plane. On the way there an angle may pass
+/// through either. Below zero the cone opens against its axis. Beyond a right angle it is the cone on the other side of the
+/// plane with its inside out. [`Family::settled`] writes both as they are told.
 ///
 /// A cone ends at its apex. Beyond it the apex is the nearest place.
 pub(super) struct Cone;
@@ -32,12 +32,12 @@ impl Family<6> for Cone {
             let apex = -size[0] / sin;
             let height = z - apex;
             let far = cos.signum() * (square + height * height).sqrt();
-            let inverse = 1.0 / far.abs().max(TINY).copysign(far);
+            let inverse = 1.0 / far.abs().max(MIN_DIVISOR).copysign(far);
             let (nu, nv, nw) = (x * inverse, y * inverse, height * inverse / sin);
             rows.row(far, [-nu, -nv, -(apex * nu), -(apex * nv), nw, apex * cos * nw]);
             return;
         }
-        let inverse = 1.0 / rho.max(TINY);
+        let inverse = 1.0 / rho.max(MIN_DIVISOR);
         let (nu, nv) = (cos * x * inverse, cos * y * inverse);
         rows.row(
             rho * cos - z * sin - size[0],

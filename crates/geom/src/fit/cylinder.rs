@@ -2,7 +2,7 @@
 
 use super::family::{Element, Family, Rows};
 use super::revolution::{Powers, Profile};
-use super::round::TINY;
+use super::round::MIN_DIVISOR;
 use super::sample::Sample;
 use super::scatter::Scatter;
 use super::unknown::Local;
@@ -21,7 +21,7 @@ impl Family<5> for Cylinder {
     #[inline(always)]
     fn rows(size: [f64; 2], [x, y, z]: Point, rows: &mut impl Rows<5>) {
         let rho = (x * x + y * y).sqrt();
-        let inverse = -1.0 / rho.max(TINY);
+        let inverse = -1.0 / rho.max(MIN_DIVISOR);
         let (nu, nv) = (x * inverse, y * inverse);
         rows.row(rho - size[0], [nu, nv, z * nu, z * nv, -1.0]);
     }

@@ -1,4 +1,4 @@
-//! What an element is to the solvers: unknowns, rows and distances in its own frame.
+//! An element as the solvers see it: unknowns, rows and distances in its own frame.
 
 use super::sample::Sample;
 use super::unknown::Local;
@@ -13,8 +13,8 @@ pub(super) struct Element {
     pub size: [f64; 2],
 }
 
-/// Takes the rows of one point: one, or two where the distance is not signed. (A closure would do, but cannot be told to
-/// be inlined, and the wide registers live only in code inlined into a function compiled for them.)
+/// Takes the rows of one point: one, or two where the distance is not signed. (A closure would do, but it cannot be made sure
+/// to be inlined. The wide registers live only in code inlined into a function compiled for them.)
 pub(super) trait Rows<const P: usize> {
     /// A residual and its derivatives by the unknowns.
     fn row(&mut self, d: f64, g: [f64; P]);
@@ -35,7 +35,7 @@ pub(super) trait Family<const P: usize>: Sync {
     fn rows(size: [f64; 2], q: Point, rows: &mut impl Rows<P>);
     /// Orthogonal distance of the point `q`, positive outside.
     fn distance(size: [f64; 2], q: Point) -> f64;
-    /// What the unknowns become when all points move by a unit along a free axis and the origin stays.
+    /// The change of the unknowns when all points move by a unit along a free axis and the origin stays.
     fn answer(_size: [f64; 2]) -> [f64; P] {
         [0.0; P]
     }

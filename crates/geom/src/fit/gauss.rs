@@ -9,8 +9,8 @@
 //! 4. While steps are short, and shrink as they do with the right normal matrix, that matrix is kept and only the gradient
 //!    is summed.
 //!
-//! **When it stops.** There is one rule ([`Step::is_last`]): the search ends with the step after which nothing is left to go
-//! that can be told apart from rounding. All lengths are root mean square changes of the distances, in the unit frame.
+//! **When it stops.** There is one rule ([`Step::is_last`]). The search ends with the step after which the way left cannot be
+//! told apart from rounding. All lengths are root mean square changes of the distances, in the unit frame.
 
 use super::family::{Element, Family};
 use super::normal::{Sums, Weighing, sums, sums_near};
@@ -37,33 +37,33 @@ pub(super) const NEAR: Effort = Effort { steps: 40, enough: 1e-3 };
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Optimum<const P: usize> {
     pub element: Element,
-    /// Of the last pass: before the very last step, which changes nothing that shows. The normal matrix may be of one or
-    /// two passes before, as long as the steps since were short ([`KEEPS_MATRIX`]).
+    /// The sums of the last pass: before the very last step, which changes nothing that shows. The normal matrix may be of one
+    /// or two passes before, as long as the steps since were short ([`MAX_STEP_KEEPING_MATRIX`]).
     pub sums: Sums<P>,
     pub steps: usize,
     pub converged: bool,
 }
 
 /// Relative fall of the sum of squares that can still be told from its rounding: five digits are left to that.
-const VISIBLE_FALL: f64 = 1e-11;
-/// Steps below this length can be rounding alone: distances are rounded by 1e-16, and unknowns that the points hardly
-/// determine magnify that, here by a million at most.
-const ROUNDING_REACH: f64 = 1e-10;
+const MIN_VISIBLE_FALL: f64 = 1e-11;
+/// Steps below this length can be rounding alone. Distances are rounded by 1e-16, and unknowns that the points hardly determine
+/// magnify that, here by a million at most.
+const MAX_ROUNDING_STEP: f64 = 1e-10;
 /// Share of the root mean square distance by which a step may change a distance unseen.
-const UNSEEN_CHANGE: f64 = 1e-3;
+const UNSEEN_CHANGE_SHARE: f64 = 1e-3;
 /// Steps up to this length are taken to leave the normal matrix as it is.
-const KEEPS_MATRIX: f64 = 1e-5;
+const MAX_STEP_KEEPING_MATRIX: f64 = 1e-5;
 /// … if the step is at most this share of the one before: then the matrix has three digits and more, enough for steps and
 /// uncertainties. If more remains, it is summed anew.
-const FAST_SHRINKING: f64 = 1e-3;
+const MAX_SHRINKING_KEEPING_MATRIX: f64 = 1e-3;
 /// Share of the predicted fall of the sum of squares that a step must bring to be taken.
-const ACCEPTED_GAIN: f64 = 1e-4;
+const MIN_ACCEPTED_GAIN: f64 = 1e-4;
 /// Damping above which the matrix has no inverse at any damping: the points leave some unknown without influence.
-const GIVE_UP: f64 = 1e12;
+const MAX_DAMPING: f64 = 1e12;
 /// Damping below which none is used, and the first damping used once it is needed.
-const DAMPING: (f64, f64) = (1e-7, 1e-3);
+const DAMPING_BOUNDS: (f64, f64) = (1e-7, 1e-3);
 
-/// What is known of a step before it is tried.
+/// The facts known of a step before it is tried.
 struct Step {
     length: f64,
     /// Whether no distance can change by more. Where they hardly determine an unknown, a step without length may lead far off.
@@ -77,19 +77,20 @@ struct Step {
 impl Step {
     /// Whether nothing is left to go after this step that can be told apart from rounding.
     ///
-    /// Left to go is at most about the length of the step itself; where undamped steps shrink steadily, as they do near the optimum,
-    /// the length of the next one: this one times the quotient of the last two. That is compared with `enough`. And where steps
-    /// in the reach of rounding no longer become shorter by half, they are rounding themselves.
+    /// The way left is at most about the length of the step itself. Where undamped steps shrink steadily, as they do near the
+    /// optimum, it is the length of the next one. That is this length times the quotient of the last two. That is compared with
+    /// `enough`. And where steps in the reach of rounding no longer become shorter by half, they are rounding themselves.
     fn is_last(&self, enough: f64) -> bool {
         let &Step { length, straight, last_length, invisible } = self;
         let shrinking = if invisible && last_length < 1.0 { (length / last_length).min(1.0) } else { 1.0 };
-        let is_rounding = invisible && length < ROUNDING_REACH && length > 0.5 * last_length;
+        let is_rounding = invisible && length < MAX_ROUNDING_STEP && length > 0.5 * last_length;
         straight && length * shrinking <= enough || is_rounding
     }
 
     /// Whether the normal matrix is good enough for the next step too.
     fn keeps_matrix(&self) -> bool {
-        self.length <= KEEPS_MATRIX && self.length <= FAST_SHRINKING * self.last_length
+        self.length <= MAX_STEP_KEEPING_MATRIX
+            && self.length <= MAX_SHRINKING_KEEPING_MATRIX * self.last_length
     }
 }
 
@@ -112,7 +113,7 @@ pub(super) fn minimize<const P: usize, F: Family<P>, W: Weighing>(
             F::sound(element.size).then_some((step, element))
         });
         let Some((step, element)) = proposal else {
-            if damping > GIVE_UP {
+            if damping > MAX_DAMPING {
                 return None;
             }
             damping = more(damping);
@@ -122,8 +123,8 @@ pub(super) fn minimize<const P: usize, F: Family<P>, W: Weighing>(
         // That of a point on the axis of a cone changes as the axis moves, whatever its slope.
         let most = step.iter().map(|x| x * x).sum::<f64>().sqrt();
         let rms = (now.sums.square / now.sums.weight).sqrt();
-        let straight = most <= effort.enough.max(ROUNDING_REACH).max(UNSEEN_CHANGE * rms);
-        let invisible = damping == 0.0 && straight && fall <= VISIBLE_FALL * now.sums.square;
+        let straight = most <= effort.enough.max(MAX_ROUNDING_STEP).max(UNSEEN_CHANGE_SHARE * rms);
+        let invisible = damping == 0.0 && straight && fall <= MIN_VISIBLE_FALL * now.sums.square;
         let this = Step { length: now.sums.length(&step), straight, last_length, invisible };
         if this.is_last(effort.enough) {
             now.element = element;
@@ -135,9 +136,9 @@ pub(super) fn minimize<const P: usize, F: Family<P>, W: Weighing>(
         } else {
             sums::<P, F, W>(&element, sample, weigh)
         };
-        // Of a matrix without an inverse rounding makes one, and steps that lead up.
+        // Rounding makes an inverse of a matrix without one, and steps that lead up.
         let gain = if fall > 0.0 { (now.sums.square - next.square) / fall } else { f64::NEG_INFINITY };
-        if invisible || gain > ACCEPTED_GAIN {
+        if invisible || gain > MIN_ACCEPTED_GAIN {
             now.element = element;
             now.sums = next;
             last_length = this.length;
@@ -148,7 +149,7 @@ pub(super) fn minimize<const P: usize, F: Family<P>, W: Weighing>(
             } else {
                 damping
             };
-        } else if this.length < effort.enough.max(ROUNDING_REACH) {
+        } else if this.length < effort.enough.max(MAX_ROUNDING_STEP) {
             // Not even a step that short is taken: the element is as good as can be.
             now.converged = true;
             break;
@@ -160,11 +161,11 @@ pub(super) fn minimize<const P: usize, F: Family<P>, W: Weighing>(
 }
 
 fn more(damping: f64) -> f64 {
-    (damping * 8.0).max(DAMPING.1)
+    (damping * 8.0).max(DAMPING_BOUNDS.1)
 }
 fn less(damping: f64) -> f64 {
     let less = damping / 8.0;
-    if less < DAMPING.0 { 0.0 } else { less }
+    if less < DAMPING_BOUNDS.0 { 0.0 } else { less }
 }
 
 #[cfg(test)]

@@ -9,21 +9,21 @@ use super::solution::{Covariance, Fit, Residuals};
 use super::{FitError, Kind, Options, Shape, hardly, survey};
 use crate::num::dense;
 use crate::progress::Progress;
-use crate::shape::MOST_NUMBERS;
+use crate::shape::MAX_SHAPE_NUMBERS;
 use crate::space::{Point, plus, times};
 
 /// Points that starts are looked for and compared on.
-const FEW: usize = 256;
+const STARTING_POINTS: usize = 256;
 /// Points that a single start is improved on first: it is not compared with others.
-const FEWER: usize = 64;
+const SINGLE_START_POINTS: usize = 64;
 /// Points that a start is improved on before all are looked at.
-const SOME: usize = 8192;
+const IMPROVING_POINTS: usize = 8192;
 
 /// Distance from a corner of the distances, in the unit frame, up to which a point may belong there.
-const AT_CORNER: f64 = 0.1;
+const CORNER_REACH: f64 = 0.1;
 
-/// A root mean square distance in the unit frame that looks like a wrong minimum.
-const POOR: f64 = 5e-3;
+/// Root mean square distance in the unit frame from which on a minimum may be a wrong one.
+const POOR_FIT_RMS: f64 = 5e-3;
 
 /// The least-squares fit.
 pub(super) fn gaussian<const P: usize, F: Family<P>>(
@@ -63,9 +63,9 @@ pub(super) fn near<const P: usize, F: Family<P>>(
     kind: Kind,
     options: &Options,
 ) -> Result<Element, FitError> {
-    let some = sample.thinned(SOME);
-    let (optimum, inverse) = optimum::<P, F>(&some, kind, options, &crate::progress::Silent)?;
-    inverse.map(|_| optimum.element).ok_or_else(|| nothing(&some, kind))
+    let subset = sample.thinned(IMPROVING_POINTS);
+    let (optimum, inverse) = optimum::<P, F>(&subset, kind, options, &crate::progress::Silent)?;
+    inverse.map(|_| optimum.element).ok_or_else(|| nothing(&subset, kind))
 }
 
 /// An optimum, and the inverse of its normal matrix if it has one.
@@ -80,14 +80,14 @@ pub(super) fn optimum<const P: usize, F: Family<P>>(
 ) -> Result<Determined<P>, FitError> {
     let starts = match &options.start {
         Some(shape) => vec![F::element(shape, sample).ok_or(FitError::WrongStart { kind })?],
-        None => F::starts(&sample.thinned(FEW).units().collect::<Vec<Point>>()),
+        None => F::starts(&sample.thinned(STARTING_POINTS).units().collect::<Vec<Point>>()),
     };
     let best = best_of::<P, F>(&starts, sample).ok_or_else(|| nothing(sample, kind))?;
     if progress.cancelled() {
         return Err(FitError::Cancelled);
     }
     let best = F::settled(best);
-    let mut optimum = around::<P, F>(&best, sample, FULL).ok_or_else(|| nothing(sample, kind))?;
+    let mut optimum = local_minimum::<P, F>(&best, sample, FULL).ok_or_else(|| nothing(sample, kind))?;
     let settled = F::settled(optimum.element);
     if settled != optimum.element {
         // The sums belong to the frame they were taken in.
@@ -98,14 +98,14 @@ pub(super) fn optimum<const P: usize, F: Family<P>>(
 }
 
 /// The local minimum reached from `start`, or the corner beside it if that is lower.
-fn around<const P: usize, F: Family<P>>(
+fn local_minimum<const P: usize, F: Family<P>>(
     start: &Element,
     sample: &Sample,
     effort: Effort,
 ) -> Option<Optimum<P>> {
     let from = |start: &Element| minimize::<P, F, _>(start, sample, &Alike, effort);
     let smooth = from(start)?;
-    let corner = hardly::corner::<P, F>(&smooth.element, sample, AT_CORNER).and_then(|start| from(&start));
+    let corner = hardly::corner::<P, F>(&smooth.element, sample, CORNER_REACH).and_then(|start| from(&start));
     Some(corner.filter(|c| c.sums.square < smooth.sums.square).unwrap_or(smooth))
 }
 
@@ -120,7 +120,7 @@ pub(super) fn quick<const P: usize, F: Family<P>>(sample: &Sample) -> Option<Ele
 /// again while their points change.
 pub(super) fn improved<const P: usize, F: Family<P>>(sample: &Sample, start: &Shape) -> Option<(Shape, f64)> {
     let start = F::element(start, sample)?;
-    let found = around::<P, F>(&start, sample, ROUGH)?;
+    let found = local_minimum::<P, F>(&start, sample, ROUGH)?;
     let element = F::settled(found.element);
     let rms = (found.sums.square / found.sums.weight).sqrt() / sample.scale;
     Some((F::shape(&element, sample), rms))
@@ -132,35 +132,37 @@ fn best_of<const P: usize, F: Family<P>>(starts: &[Element], sample: &Sample) ->
         minimize::<P, F, _>(start, &sample.thinned(count), &Alike, effort)
     };
     let best = match starts {
-        [one] if sample.len() <= 2 * FEWER => *one,
-        [one] => improved(one, FEWER, NEAR).map_or(*one, |o| o.element),
+        [one] if sample.len() <= 2 * SINGLE_START_POINTS => *one,
+        [one] => improved(one, SINGLE_START_POINTS, NEAR).map_or(*one, |o| o.element),
         many => {
-            let few = sample.thinned(FEW);
+            let subset = sample.thinned(STARTING_POINTS);
             let best = |starts: &[Element]| {
-                let ends = starts.iter().filter_map(|start| minimize::<P, F, _>(start, &few, &Alike, ROUGH));
+                let ends =
+                    starts.iter().filter_map(|start| minimize::<P, F, _>(start, &subset, &Alike, ROUGH));
                 ends.min_by(|a, b| a.sums.square.total_cmp(&b.sums.square))
             };
             let first = best(many);
-            if first.is_some_and(|o| o.sums.square <= POOR * POOR * few.len() as f64) {
+            if first.is_some_and(|o| o.sums.square <= POOR_FIT_RMS * POOR_FIT_RMS * subset.len() as f64) {
                 first?.element
             } else {
-                let further = best(&F::more_starts(&few.units().collect::<Vec<Point>>()));
+                let further = best(&F::more_starts(&subset.units().collect::<Vec<Point>>()));
                 let both = first.into_iter().chain(further);
                 both.min_by(|a, b| a.sums.square.total_cmp(&b.sums.square))?.element
             }
         }
     };
-    if sample.len() <= 2 * SOME {
+    if sample.len() <= 2 * IMPROVING_POINTS {
         return Some(best);
     }
-    Some(improved(&best, SOME, ROUGH).map_or(best, |o| o.element))
+    Some(improved(&best, IMPROVING_POINTS, ROUGH).map_or(best, |o| o.element))
 }
 
 /// The inverse of the normal matrix; `None` if a distance the size of rounding could move an unknown by the size of the
 /// part.
 pub(super) fn determined<const P: usize>(optimum: &Optimum<P>) -> Option<[[f64; P]; P]> {
-    const WEAKEST: f64 = 1e-4 / f64::EPSILON;
-    let firm = |variance: f64| (variance * optimum.sums.weight).sqrt() < WEAKEST;
+    /// Gain at which a distance of the size of rounding moves an unknown by 1e-4 of the size of the part.
+    const MAX_ROUNDING_GAIN: f64 = 1e-4 / f64::EPSILON;
+    let firm = |variance: f64| (variance * optimum.sums.weight).sqrt() < MAX_ROUNDING_GAIN;
     dense::inverse(&optimum.sums.symmetric()).filter(|inverse| (0..P).all(|k| firm(inverse[k][k])))
 }
 
@@ -198,11 +200,11 @@ pub(super) fn statistics<const P: usize, F: Family<P>>(
     }
 }
 
-/// Covariance of the parameters from the inverse of the normal matrix of the unknowns of `element` and the standard
-/// deviation of one distance in the unit frame, carried over by differences of one standard deviation of each unknown.
+/// Covariance of the parameters from the inverse of the normal matrix of the unknowns of `element`. The standard deviation of
+/// one distance in the unit frame scales it. Differences of one standard deviation of each unknown carry it over.
 ///
 /// Along its free axes an element is given at the foot of the mean of all n points. The mean is uncertain by the standard
-/// deviation over √n, noise being the same in all directions; and the foot moves with the axis, if the mean lies beside it.
+/// deviation over √n, noise being the same in all directions. The foot moves with the axis, if the mean lies off it.
 pub(super) fn covariance<const P: usize, F: Family<P>>(
     element: &Element,
     inverse: &[[f64; P]; P],
@@ -210,10 +212,10 @@ pub(super) fn covariance<const P: usize, F: Family<P>>(
     sample: &Sample,
 ) -> Option<Covariance> {
     let size = F::shape(element, sample).flattened().1;
-    let numbers = |step: [f64; P]| -> Option<[f64; MOST_NUMBERS]> {
+    let numbers = |step: [f64; P]| -> Option<[f64; MAX_SHAPE_NUMBERS]> {
         Some(F::shape(&element.nudged(&F::LOCAL, &step)?, sample).flattened().0)
     };
-    let mut slopes = [[0.0; MOST_NUMBERS]; P];
+    let mut slopes = [[0.0; MAX_SHAPE_NUMBERS]; P];
     for k in 0..P {
         let h = (std_dev * inverse[k][k].sqrt()).clamp(1e-9, 1e-4);
         let at = |h: f64| numbers(std::array::from_fn(|i| if i == k { h } else { 0.0 }));
@@ -221,7 +223,7 @@ pub(super) fn covariance<const P: usize, F: Family<P>>(
         slopes[k] = std::array::from_fn(|n| (more[n] - less[n]) / (2.0 * h));
     }
     // inverse · slopes
-    let mut inverse_slopes = [[0.0; MOST_NUMBERS]; P];
+    let mut inverse_slopes = [[0.0; MAX_SHAPE_NUMBERS]; P];
     for a in 0..P {
         for b in 0..P {
             for n in 0..size {
@@ -246,9 +248,9 @@ pub(super) fn covariance<const P: usize, F: Family<P>>(
             F::shape(element, &there).flattened().0
         };
         let (more, less) = (at(h), at(-h));
-        let slope: [f64; MOST_NUMBERS] = std::array::from_fn(|n| (more[n] - less[n]) / (2.0 * h));
+        let slope: [f64; MAX_SHAPE_NUMBERS] = std::array::from_fn(|n| (more[n] - less[n]) / (2.0 * h));
         // The unknowns follow the mean, where they do, so that the two are not independent.
-        let with: [f64; MOST_NUMBERS] =
+        let with: [f64; MAX_SHAPE_NUMBERS] =
             std::array::from_fn(|n| (0..P).map(|a| answer[a] * slopes[a][n]).sum());
         let variance = std_dev * std_dev / sample.len() as f64;
         for (i, row) in values.chunks_mut(size).enumerate() {

@@ -1,12 +1,19 @@
 //! The linear program of a minimax step: lower the greatest of linear functions within a box.
 //!
-//! Minimize t over (x, t) with slopeᵢ·x + levelᵢ ≤ t for all i and |x_k| ≤ reach. Solved by exchange, which is
-//! the dual simplex method: as many constraints as unknowns are held with equality, the one violated most comes
-//! in, the one whose multiplier would turn negative first goes out. The box gives a first set that needs no
-//! search. E. Ya. Remez, 1934; E. W. Cheney, Introduction to Approximation Theory (1966), chapter 2.
+//! Minimize t over (x, t) with slopeᵢ·x + levelᵢ ≤ t for all i and |x_k| ≤ reach. Solved by exchange, which is the dual simplex
+//! method. As many constraints as unknowns are held with equality. The one violated most comes in, the one whose multiplier
+//! would turn negative first goes out. The box gives a first set that needs no search. E. Ya. Remez, 1934; E. W. Cheney,
+//! Introduction to Approximation Theory (1966), chapter 2.
+
+/// Points up to which all are in the working set of an exchange from the first.
+pub(crate) const MAX_POINTS_ALL_WORKING: usize = 2000;
+/// Most points that join the working set in one round, on each side.
+pub(crate) const MAX_JOINING_POINTS: usize = 24;
+/// A step, or a fall of the greatest distance, that rounding of the distances hides at unit size.
+pub(crate) const HIDDEN_FALL: f64 = 2e-16;
 
 /// Most unknowns, t among them.
-const MOST: usize = 8;
+const MAX_PROGRAM_UNKNOWNS: usize = 8;
 
 /// One function: its value at x = 0 and its slope.
 #[derive(Clone, Copy, Debug)]
@@ -35,19 +42,19 @@ enum Held {
     Side(usize, bool),
 }
 
-type Square = [[f64; MOST]; MOST];
+type Square = [[f64; MAX_PROGRAM_UNKNOWNS]; MAX_PROGRAM_UNKNOWNS];
 
 /// Solves the program for at least one function; `None` if the numbers are not finite.
 pub(crate) fn lowest<const P: usize>(functions: &[Function<P>], reach: f64) -> Option<Lowest<P>> {
     let n = P + 1;
     let first = (0..functions.len()).max_by(|&i, &j| functions[i].level.total_cmp(&functions[j].level))?;
-    let mut held = [Held::Function(first); MOST];
+    let mut held = [Held::Function(first); MAX_PROGRAM_UNKNOWNS];
     for k in 0..P {
         held[k] = Held::Side(k, functions[first].slope[k] < 0.0);
     }
     // Constraint as normal·(x, t) ≥ level.
-    let normal = |c: Held| -> ([f64; MOST], f64) {
-        let mut a = [0.0; MOST];
+    let normal = |c: Held| -> ([f64; MAX_PROGRAM_UNKNOWNS], f64) {
+        let mut a = [0.0; MAX_PROGRAM_UNKNOWNS];
         match c {
             Held::Function(i) => {
                 for k in 0..P {
@@ -62,23 +69,23 @@ pub(crate) fn lowest<const P: usize>(functions: &[Function<P>], reach: f64) -> O
             }
         }
     };
-    let mut y = [0.0; MOST];
-    let mut inverse = [[0.0; MOST]; MOST];
+    let mut y = [0.0; MAX_PROGRAM_UNKNOWNS];
+    let mut inverse = [[0.0; MAX_PROGRAM_UNKNOWNS]; MAX_PROGRAM_UNKNOWNS];
     for round in 0..400 {
-        let mut matrix = [[0.0; MOST]; MOST];
-        let mut level = [0.0; MOST];
+        let mut matrix = [[0.0; MAX_PROGRAM_UNKNOWNS]; MAX_PROGRAM_UNKNOWNS];
+        let mut level = [0.0; MAX_PROGRAM_UNKNOWNS];
         for (b, &c) in held[..n].iter().enumerate() {
             (matrix[b], level[b]) = normal(c);
         }
         inverse = inverted(matrix, n)?;
-        y = [0.0; MOST];
+        y = [0.0; MAX_PROGRAM_UNKNOWNS];
         for i in 0..n {
             y[i] = (0..n).map(|b| inverse[i][b] * level[b]).sum();
         }
         // Choosing the worst is fast; choosing the first ends every circle.
         let Some(enters) = violated(functions, &y, reach, round > 150) else { break };
         let (a, _) = normal(enters);
-        let alpha: [f64; MOST] =
+        let alpha: [f64; MAX_PROGRAM_UNKNOWNS] =
             std::array::from_fn(|b| if b < n { (0..n).map(|k| a[k] * inverse[k][b]).sum() } else { 0.0 });
         let greatest = alpha[..n].iter().fold(0.0f64, |m, x| m.max(x.abs()));
         let leaves = (0..n)
@@ -103,7 +110,7 @@ pub(crate) fn lowest<const P: usize>(functions: &[Function<P>], reach: f64) -> O
 /// A constraint that `y` violates by more than rounding: the worst, or the first.
 fn violated<const P: usize>(
     functions: &[Function<P>],
-    y: &[f64; MOST],
+    y: &[f64; MAX_PROGRAM_UNKNOWNS],
     reach: f64,
     any: bool,
 ) -> Option<Held> {
@@ -129,7 +136,7 @@ fn violated<const P: usize>(
 
 /// Inverse of the leading `n` rows and columns, by elimination with row exchange.
 fn inverted(mut a: Square, n: usize) -> Option<Square> {
-    let mut inverse = [[0.0; MOST]; MOST];
+    let mut inverse = [[0.0; MAX_PROGRAM_UNKNOWNS]; MAX_PROGRAM_UNKNOWNS];
     for k in 0..n {
         inverse[k][k] = 1.0;
     }
@@ -141,17 +148,17 @@ fn inverted(mut a: Square, n: usize) -> Option<Square> {
         if !one.is_finite() {
             return None;
         }
-        for c in 0..MOST {
+        for c in 0..MAX_PROGRAM_UNKNOWNS {
             a[k][c] *= one;
             inverse[k][c] *= one;
         }
-        let (row, beside) = (a[k], inverse[k]);
+        let (row, inverse_row) = (a[k], inverse[k]);
         for i in 0..n {
             let factor = a[i][k];
             if i != k && factor != 0.0 {
-                for c in 0..MOST {
+                for c in 0..MAX_PROGRAM_UNKNOWNS {
                     a[i][c] -= factor * row[c];
-                    inverse[i][c] -= factor * beside[c];
+                    inverse[i][c] -= factor * inverse_row[c];
                 }
             }
         }

@@ -1,16 +1,16 @@
 //! The least greatest distance over a small set of points, solved to the end.
 //!
-//! A sequence of linear programs in the small motions of the element, each within a box that grows while the
-//! linear model holds. Where as many points touch as there are unknowns and one, this is Newton's method. Where
-//! fewer touch, curvature decides, and a Newton step on the conditions of Karush, Kuhn and Tucker is tried with
-//! the points that hold the linear program. R. Fletcher, Practical Methods of Optimization (1987), section 14.
+//! A sequence of linear programs in the small motions of the element, each within a box that grows while the linear model
+//! holds. Where as many points touch as there are unknowns and one, this is Newton's method. Where fewer touch, curvature
+//! decides. Then a Newton step on the conditions of Karush, Kuhn and Tucker is tried with the points that hold the linear
+//! program. R. Fletcher, Practical Methods of Optimization (1987), section 14.
 
 use super::family::{Element, Family, slope};
-use super::linear::{Function, Lowest, lowest};
+use super::linear::{Function, HIDDEN_FALL, Lowest, lowest};
 use crate::num::dense;
 use crate::space::Point;
 
-/// What is to be least.
+/// The quantity that is made least.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Aim {
     /// Distances count on the outer side.
@@ -36,13 +36,11 @@ pub(super) struct Low {
     pub steps: usize,
 }
 
-/// A fall that rounding of the distances hides, in the unit frame.
-const NOTHING: f64 = 2e-16;
 /// Most linear programs of one search.
-const MOST_STEPS: usize = 120;
-/// Box in which the multipliers of the optimum are found: larger than the error of the optimum, smaller than
-/// anything that matters.
-const CERTIFICATE: f64 = 1e-7;
+const MAX_PROGRAMS: usize = 120;
+/// Box in which the multipliers of the optimum are found. It is larger than the error of the optimum, smaller than anything
+/// that matters.
+const CERTIFICATE_BOX: f64 = 1e-7;
 
 /// All functions of the points at one element.
 fn functions<const P: usize, F: Family<P>>(
@@ -99,7 +97,7 @@ pub(super) fn minimax<const P: usize, F: Family<P>>(
     let mut element = *start;
     let mut reach = first_reach;
     let mut value = greatest::<P, F>(&element, points, aim);
-    for steps in 1..=MOST_STEPS {
+    for steps in 1..=MAX_PROGRAMS {
         let (mut all, origin) = functions::<P, F>(&element, points, aim);
         let unit = scales(&all);
         for f in &mut all {
@@ -109,9 +107,9 @@ pub(super) fn minimax<const P: usize, F: Family<P>>(
         }
         let program = lowest(&all, reach)?;
         let fall = value - program.value;
-        if fall <= NOTHING || reach < 1e-15 || steps == MOST_STEPS {
+        if fall <= HIDDEN_FALL || reach < 1e-15 || steps == MAX_PROGRAMS {
             // In a box that has become tiny its sides would hold the program, not the points.
-            let certificate = lowest(&all, CERTIFICATE)?;
+            let certificate = lowest(&all, CERTIFICATE_BOX)?;
             return Some(finished(element, value, &certificate, &all, &origin, steps));
         }
         let try_step = |x: &[f64; P]| -> Option<(Element, f64)> {
@@ -214,7 +212,8 @@ fn newton<const P: usize, F: Family<P>>(
         }
         sum
     };
-    const H: f64 = 1e-5;
+    /// Step to either side of the central differences of gradients, in the unit frame.
+    const DIFFERENCE_STEP: f64 = 1e-5;
     for k in 0..P {
         if unit[k] == 0.0 {
             matrix[k][k] = 1.0;
@@ -223,9 +222,9 @@ fn newton<const P: usize, F: Family<P>>(
         let at = |h: f64| {
             element.moved(&F::LOCAL, &std::array::from_fn(|i| if i == k { h * unit[k] } else { 0.0 }))
         };
-        let (more, less) = (gradient(&at(H)?), gradient(&at(-H)?));
+        let (more, less) = (gradient(&at(DIFFERENCE_STEP)?), gradient(&at(-DIFFERENCE_STEP)?));
         for i in 0..P {
-            matrix[i][k] = (more[i] - less[i]) / (2.0 * H);
+            matrix[i][k] = (more[i] - less[i]) / (2.0 * DIFFERENCE_STEP);
         }
     }
     for (j, &(i, _)) in held.iter().enumerate() {

@@ -1,8 +1,8 @@
 //! Elements fitted to points: line, plane, circle, ellipse, sphere, cylinder, cone, torus.
 //!
-//! [`fit`] is the one entrance. Distances are orthogonal distances. The points are seen from the middle of
-//! their box and at unit size, so neither position nor size costs digits; the unknowns are small motions of the
-//! element about where it stands, so no direction is singular.
+//! [`fit`] is the one entrance. Distances are orthogonal distances. The points are seen from the middle of their box and at
+//! unit size, so neither position nor size costs digits. The unknowns are small motions of the element about where it stands,
+//! so no direction is singular.
 //!
 //! | file | what |
 //! |---|---|
@@ -52,7 +52,7 @@ mod zone;
 use crate::progress::Progress;
 use crate::shape::{Kind, Shape};
 use crate::space::Point;
-pub(crate) use linear::{Function, lowest};
+pub(crate) use linear::{Function, HIDDEN_FALL, MAX_JOINING_POINTS, MAX_POINTS_ALL_WORKING, lowest};
 pub use request::{FitError, Method, Options};
 pub use scatter::Scatter;
 pub use solution::{Covariance, Fit, Residuals, Touching};
@@ -81,8 +81,8 @@ macro_rules! with_family {
 /// or order of the points. Time grows with the number of points; beyond them nothing is stored.
 ///
 /// # Errors
-/// [`FitError`]: too few points, a coordinate that is no number, points that determine no such element, a method that there is
-/// not for this kind, cancelled.
+/// [`FitError`]: too few points, a coordinate that is no number, points that determine no such element, a method that this kind
+/// lacks, cancelled.
 pub fn fit(
     points: &[Point],
     kind: Kind,
@@ -114,11 +114,11 @@ pub fn fit(
         }
     };
     // Among the threads once and for all: from outside, each pass over the points would wake one and wait for it.
-    if points.len() <= normal::BLOCK { work() } else { rayon::scope(|_| work()) }
+    if points.len() <= normal::POINTS_PER_NORMAL_BLOCK { work() } else { rayon::scope(|_| work()) }
 }
 
-/// The least-squares element near `start` and the root mean square distance, to about seven digits and without the
-/// statistics of [`fit`]; `None` where the points determine none.
+/// The least-squares element near `start` and the root mean square distance, to about seven digits and without the statistics
+/// of [`fit`]. `None` where the points determine none.
 pub(crate) fn improved(points: &[Point], start: &Shape) -> Option<(Shape, f64)> {
     let kind = start.kind();
     if points.len() < kind.fewest_points() {

@@ -4,7 +4,7 @@
 //! The sums are therefore the same bits on one thread and on many.
 
 use super::family::{Element, Family, Rows};
-use super::lanes::{GROUP, Lanes, Sum, group, groups};
+use super::lanes::{Lanes, POINTS_PER_GROUP, Sum, group, groups};
 use super::sample::Sample;
 use crate::num::dense;
 use crate::parallel::prelude::*;
@@ -12,9 +12,9 @@ use crate::simd::widest::widest;
 use crate::space::{Point, Vector, dot, times};
 
 /// Points of one block: large enough to make sharing out cheap, small enough for the nearest caches.
-pub(super) const BLOCK: usize = 8192;
+pub(super) const POINTS_PER_NORMAL_BLOCK: usize = 8192;
 
-/// What one pass over the points gives, in the unit frame.
+/// The sums of one pass over the points, in the unit frame.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sums<const P: usize> {
     /// Σ w·gᵀg, upper half.
@@ -27,11 +27,11 @@ pub(super) struct Sums<const P: usize> {
     pub weight: f64,
 }
 
-/// What a distance costs.
+/// The cost of a distance.
 pub(super) trait Weighing: Sync {
     /// Whether every point counts alike: its loss is d², its weight 1.
     const EVEN: bool;
-    /// What is summed and made least.
+    /// The sum that is made least.
     fn loss(&self, d: f64) -> f64;
     /// Derivative of the loss by d²: the weight of the point's rows.
     fn weight(&self, d: f64) -> f64;
@@ -82,8 +82,8 @@ impl Placing {
     }
 }
 
-/// Rows of a point at most.
-const ROWS: usize = 2;
+/// Most rows of a point.
+const MAX_ROWS_PER_POINT: usize = 2;
 
 /// One row of each point of the group at hand, waiting for being summed. Aligned, as a wide register that lies in two lines
 /// of the cache takes longer.
@@ -91,7 +91,7 @@ const ROWS: usize = 2;
 struct Work<const P: usize> {
     distance: Lanes,
     slope: [Lanes; P],
-    /// Of the points, where they do not count alike.
+    /// The weights of the points, where they do not count alike.
     weight: Lanes,
     loss: Lanes,
 }
@@ -134,11 +134,11 @@ impl<const P: usize> Accumulator<P> {
             self.square.add_products(distance, distance);
         }
         for i in 0..P {
-            let mut weighted = [0.0; GROUP];
+            let mut weighted = [0.0; POINTS_PER_GROUP];
             let heavy = if W::EVEN {
                 &slope[i]
             } else {
-                for lane in 0..GROUP {
+                for lane in 0..POINTS_PER_GROUP {
                     weighted[lane] = weight[lane] * slope[i][lane];
                 }
                 &weighted
@@ -166,28 +166,32 @@ fn block<const P: usize, F: Family<P>, W: Weighing, const CURVED: bool>(
         square: Sum::ZERO,
         weight: Sum::ZERO,
     };
-    let mut work =
-        Work { distance: [0.0; GROUP], slope: [[0.0; GROUP]; P], weight: [0.0; GROUP], loss: [0.0; GROUP] };
-    let mut filled = [[0.0; 3]; GROUP];
+    let mut work = Work {
+        distance: [0.0; POINTS_PER_GROUP],
+        slope: [[0.0; POINTS_PER_GROUP]; P],
+        weight: [0.0; POINTS_PER_GROUP],
+        loss: [0.0; POINTS_PER_GROUP],
+    };
+    let mut filled = [[0.0; 3]; POINTS_PER_GROUP];
     for k in 0..groups(points) {
         let (group, count) = group(points, k, &mut filled);
         if !W::EVEN {
-            for lane in 0..GROUP {
+            for lane in 0..POINTS_PER_GROUP {
                 let d = F::distance(size, placing.local(group[lane]));
                 (work.weight[lane], work.loss[lane]) = (weigh.weight(d), weigh.loss(d));
             }
             work.loss[count..].fill(0.0);
             work.weight[count..].fill(0.0);
-            all.square.add_products(&work.loss, &[1.0; GROUP]);
-            all.weight.add_products(&work.weight, &[1.0; GROUP]);
+            all.square.add_products(&work.loss, &[1.0; POINTS_PER_GROUP]);
+            all.weight.add_products(&work.weight, &[1.0; POINTS_PER_GROUP]);
         }
-        for wanted in 0..if F::SIGNED { 1 } else { ROWS } {
-            for lane in 0..GROUP {
+        for wanted in 0..if F::SIGNED { 1 } else { MAX_ROWS_PER_POINT } {
+            for lane in 0..POINTS_PER_GROUP {
                 let Work { distance, slope, .. } = &mut work;
                 let mut writer = Writer { distance, slope, lane, wanted, row: 0 };
                 F::rows(size, placing.local(group[lane]), &mut writer);
             }
-            for lane in count..GROUP {
+            for lane in count..POINTS_PER_GROUP {
                 work.distance[lane] = 0.0;
                 for k in 0..P {
                     work.slope[k][lane] = 0.0;
@@ -236,10 +240,10 @@ fn all_sums<const P: usize, F: Family<P>, W: Weighing, const CURVED: bool>(
 ) -> Sums<P> {
     let placing = Placing::new(element, sample);
     let of = |points: &[Point]| block_sums::<P, F, W, CURVED>(points, element.size, &placing, weigh);
-    if sample.len() <= BLOCK {
+    if sample.len() <= POINTS_PER_NORMAL_BLOCK {
         return of(&sample.points);
     }
-    let blocks: Vec<Sums<P>> = sample.points.par_chunks(BLOCK).map(of).collect();
+    let blocks: Vec<Sums<P>> = sample.points.par_chunks(POINTS_PER_NORMAL_BLOCK).map(of).collect();
     blocks.into_iter().reduce(|a, b| a.plus(&b)).unwrap_or_else(|| of(&[]))
 }
 
@@ -256,8 +260,8 @@ impl<const P: usize> Sums<P> {
     pub(super) fn symmetric(&self) -> [[f64; P]; P] {
         std::array::from_fn(|i| std::array::from_fn(|j| self.normal[i.min(j)][i.max(j)]))
     }
-    /// The step that minimizes the linearized sum of squares, each unknown held back by `damping` times its own
-    /// weight; `None` where the rows do not determine one.
+    /// The step that minimizes the linearized sum of squares, each unknown held back by `damping` times its own weight. `None`
+    /// where the rows do not determine one.
     pub(super) fn step(&self, damping: f64) -> Option<[f64; P]> {
         let scale: [f64; P] = std::array::from_fn(|i| 1.0 / self.normal[i][i].sqrt());
         if scale.iter().any(|s| !s.is_finite()) {

@@ -1,10 +1,10 @@
 //! Starts for cones of any half angle, from nearly cylinders to nearly planes, and of any pattern of points.
 //!
 //! Proposers give axes, each axis its best cone in closed form, one comparison by the true distances chooses:
-//! 1. **All around.** Directions over the half sphere, evenly spread, and as evenly in the coordinates in which the points spread
-//!    alike or inversely: the valley of a flat cone's axis is as narrow as the cone is flat, that of a long thin one as it is thin.
-//!    Where the axis lies follows from the moments of the points ([`Powers`]).
-//! 2. **From within.** A patch looks like a cylinder: its curvature across the generators tells how the cone's half angle goes
+//! 1. **All around.** Directions over the half sphere, evenly spread, and as evenly in the coordinates in which the points
+//!    spread alike or inversely. The valley of a flat cone's axis is as narrow as the cone is flat, that of a long thin one as
+//!    it is thin. Where the axis lies follows from the moments of the points ([`Powers`]).
+//! 2. **From within.** A patch looks like a cylinder. Its curvature across the generators tells how the cone's half angle goes
 //!    with the distance of its apex, on either side. So all distances are tried, from half the patch to the cylinder.
 //! 3. **From a tip.** All directions from the apex to points lie on a circle of the unit sphere, so its plane has the axis. Points at
 //!    the ends of the principal directions are tried as apexes: exact where one of them is.
@@ -23,10 +23,11 @@ use crate::space::{Point, Vector, dot, minus, plus, times, unit};
 use std::borrow::Cow;
 
 /// Points that cones are compared by.
-const JUDGES: usize = 128;
-/// Cones that are improved by a few steps, and those of them that are starts.
-const IMPROVED: usize = 24;
-const STARTS: usize = 6;
+const CONE_JUDGES: usize = 128;
+/// Cones that are improved by a few steps.
+const MAX_IMPROVED_CONES: usize = 24;
+/// Improved cones that are starts.
+const MAX_CONE_STARTS: usize = 6;
 const FEW_STEPS: Effort = Effort { steps: 8, enough: 1e-3 };
 /// Distances of the apex from the middle of a patch, in halves of its length: near, far, and nowhere.
 const APEX_DISTANCES: [f64; 8] = [0.5, 1.0, 1.5, 2.5, 5.0, 12.0, 40.0, f64::INFINITY];
@@ -34,29 +35,30 @@ const APEX_DISTANCES: [f64; 8] = [0.5, 1.0, 1.5, 2.5, 5.0, 12.0, 40.0, f64::INFI
 /// Cones near which the best one is to be sought.
 pub(super) fn cones<F: Family<6>>(points: &[Point]) -> Vec<Element> {
     let scatter = Scatter::of(points);
-    let few = judges(points, &scatter);
+    let judging = judges(points, &scatter);
     let cones = |poses: Vec<Pose>| -> Vec<(f64, Element)> {
-        poses.iter().map(|pose| about::<F>(pose, &few)).collect()
+        poses.iter().map(|pose| cone_about::<F>(pose, &judging)).collect()
     };
-    let mut first = best(cones(all_around(points, &scatter)), IMPROVED);
-    first.extend(best(cones(from_within(points, &scatter)), IMPROVED));
-    first.extend(best(cones(from_tips(points, &scatter)), IMPROVED));
-    let sample = Sample { points: Cow::Borrowed(&few), center: [0.0; 3], scale: 1.0, station: [0.0; 3] };
+    let mut first = best(cones(all_around(points, &scatter)), MAX_IMPROVED_CONES);
+    first.extend(best(cones(from_within(points, &scatter)), MAX_IMPROVED_CONES));
+    first.extend(best(cones(from_tips(points, &scatter)), MAX_IMPROVED_CONES));
+    let sample = Sample { points: Cow::Borrowed(&judging), center: [0.0; 3], scale: 1.0, station: [0.0; 3] };
     let improved = first.iter().filter_map(|start| {
         let end = minimize::<6, F, _>(start, &sample, &Alike, FEW_STEPS)?;
         Some((end.sums.square, end.element))
     });
-    let starts = best(improved.collect(), STARTS);
+    let starts = best(improved.collect(), MAX_CONE_STARTS);
     starts.into_iter().map(|cone| F::settled(refooted(cone, [0.0; 3]))).collect()
 }
 
 /// Some of the points, and those at the ends of each principal direction: the tip of a cone may be a single point.
 fn judges(points: &[Point], scatter: &Scatter) -> Vec<Point> {
-    let mut few: Vec<Point> = points.iter().copied().step_by(points.len().div_ceil(JUDGES).max(1)).collect();
-    if few.len() < points.len() {
-        few.extend(ends(points, scatter));
+    let mut judging: Vec<Point> =
+        points.iter().copied().step_by(points.len().div_ceil(CONE_JUDGES).max(1)).collect();
+    if judging.len() < points.len() {
+        judging.extend(ends(points, scatter));
     }
-    few
+    judging
 }
 
 /// The points at the ends of each principal direction.
@@ -81,7 +83,7 @@ fn from_tip(tip: Point, points: &[Point]) -> Pose {
 
 /// The cone with its apex near `tip`.
 pub(super) fn with_apex<F: Family<6>>(tip: Point, points: &[Point]) -> Element {
-    F::settled(refooted(about::<F>(&from_tip(tip, points), points).1, [0.0; 3]))
+    F::settled(refooted(cone_about::<F>(&from_tip(tip, points), points).1, [0.0; 3]))
 }
 
 /// The `count` best.
@@ -100,7 +102,7 @@ pub(super) fn refooted(element: Element, place: Point) -> Element {
 }
 
 /// The best cone about the third axis of a frame, and the sum of the squared distances.
-fn about<F: Family<6>>(pose: &Pose, points: &[Point]) -> (f64, Element) {
+fn cone_about<F: Family<6>>(pose: &Pose, points: &[Point]) -> (f64, Element) {
     let section: Vec<[f64; 2]> = (points.iter())
         .map(|&p| {
             let [x, y, z] = pose.local(p);

@@ -1,15 +1,15 @@
-//! What is asked of a fit, and why it may have no answer.
+//! The request to a fit, and why it may have no answer.
 
 use crate::shape::{Kind, Shape};
 
-/// What makes an element the best.
+/// The measure by which an element is the best.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Method {
     /// Least sum of squared distances.
     #[default]
     Gaussian,
-    /// Least deviation of form: the zone between two elements of equal distance from this one is the narrowest
-    /// that holds all points. Of a line in space: the thinnest cylinder about it.
+    /// Least deviation of form: the zone between two elements of equal distance from this one is the narrowest that holds all
+    /// points. For a line in space: the thinnest cylinder about it.
     MinimumZone,
     /// The smallest circle, sphere or cylinder around all points.
     MinimumCircumscribed,
@@ -43,7 +43,7 @@ impl Method {
 /// How to fit.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Options {
-    /// What makes an element the best.
+    /// The measure by which an element is the best.
     pub method: Method,
     /// Where to start: an element of the kind asked for, near the one sought. Without it all starts are
     /// looked for.
@@ -58,7 +58,7 @@ pub enum FitError {
     /// Fewer points than unknowns.
     #[error("a {} needs at least {needed} points, there are {found}", kind.name())]
     TooFewPoints {
-        /// What was asked for.
+        /// The kind that was asked for.
         kind: Kind,
         /// Points that would do.
         needed: usize,
@@ -77,25 +77,25 @@ pub enum FitError {
     /// All points lie on one straight line.
     #[error("all points lie on one straight line: they determine no {}", kind.name())]
     Collinear {
-        /// What was asked for.
+        /// The kind that was asked for.
         kind: Kind,
     },
     /// The points fit more than one such element equally well, as points of one circle fit many spheres.
     #[error("the points determine no {}: measure more of its surface", kind.name())]
     Undetermined {
-        /// What was asked for.
+        /// The kind that was asked for.
         kind: Kind,
     },
     /// The start is not of the kind asked for, or has no direction or size.
     #[error("the start is not a sound {}", kind.name())]
     WrongStart {
-        /// What was asked for.
+        /// The kind that was asked for.
         kind: Kind,
     },
     /// The method has no meaning for the element.
     #[error("{} is not defined for a {}", method.name(), kind.name())]
     NoSuchMethod {
-        /// What was asked for.
+        /// The kind that was asked for.
         kind: Kind,
         /// How.
         method: Method,

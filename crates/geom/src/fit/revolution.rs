@@ -1,9 +1,9 @@
 //! Starts for surfaces of revolution: which directions could be the axis, and where does it lie?
 //!
-//! The points are condensed once into the covariance of their first and second powers. For any direction the
-//! best algebraic cylinder (|q⊥|² linear in the coordinates across) or body of revolution (|q⊥|² a parabola
-//! along the axis besides) then costs a few dozen operations, so the whole half sphere of directions can be
-//! looked through. The cylinder part follows D. Eberly, "Fitting 3D data with a cylinder" (2003).
+//! The points are condensed once into the covariance of their first and second powers. The best algebraic cylinder for any
+//! direction has |q⊥|² linear in the coordinates across. The best body of revolution has |q⊥|² a parabola along the axis
+//! besides. Either costs a few dozen operations, so the whole half sphere of directions can be looked through. The cylinder
+//! part follows D. Eberly, "Fitting 3D data with a cylinder" (2003).
 
 use super::sample::mean;
 use crate::frame::Pose;
@@ -29,7 +29,7 @@ pub(super) struct Axis {
     pub radius_squared: f64,
 }
 
-/// What the square of the distance from the axis may be along the axis.
+/// The profiles that the square of the distance from the axis may have along the axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Profile {
     /// Constant: cylinders.
@@ -204,22 +204,23 @@ fn apart(mut rest: Vec<Axis>, count: usize) -> Vec<Axis> {
 
 /// Whether two axes are of two valleys: their directions differ by more than 12°.
 fn apart_from(a: &Axis, b: &Axis) -> bool {
-    const COSINE: f64 = 0.978;
-    dot(a.pose.axes[2], b.pose.axes[2]).abs() < COSINE
+    /// Cosine of 12°.
+    const OTHER_VALLEY_COSINE: f64 = 0.978;
+    dot(a.pose.axes[2], b.pose.axes[2]).abs() < OTHER_VALLEY_COSINE
 }
 
 /// Directions of the even grid over the half sphere: about 15° apart.
-const GRID: usize = 80;
+const GRID_DIRECTIONS: usize = 80;
 
 /// The directions of the grid.
 pub(super) fn directions() -> impl Iterator<Item = Vector> {
-    static ALL: LazyLock<[Vector; GRID]> = LazyLock::new(|| std::array::from_fn(grid_direction));
+    static ALL: LazyLock<[Vector; GRID_DIRECTIONS]> = LazyLock::new(|| std::array::from_fn(grid_direction));
     ALL.iter().copied()
 }
 
 /// The `k`-th direction of the grid: a spiral of the golden angle.
 fn grid_direction(k: usize) -> Vector {
-    let z = (k as f64 + 0.5) / GRID as f64;
+    let z = (k as f64 + 0.5) / GRID_DIRECTIONS as f64;
     let across = (1.0 - z * z).sqrt();
     let angle = k as f64 * (3.0 - 5f64.sqrt()) * std::f64::consts::PI;
     [across * libm::cos(angle), across * libm::sin(angle), z]

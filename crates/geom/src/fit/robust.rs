@@ -1,9 +1,9 @@
 //! Fits that outliers do not pull: a start from random trials, then the biweight.
 //!
-//! Each trial fits few random points. Its measure is the median distance of a sample of all points, which stays meaningful as long
-//! as less than half of them are outliers (P. J. Rousseeuw, "Least median of squares regression", JASA 79, 1984). From the best
-//! trial on, the sum of J. W. Tukey's biweight is minimized. Its weights fall to zero at 4.685 standard deviations, which keeps
-//! 95 % of the efficiency of least squares on normal noise.
+//! Each trial fits few random points. Its measure is the median distance of a sample of all points, which stays meaningful as
+//! long as less than half of them are outliers. (P. J. Rousseeuw, "Least median of squares regression", JASA 79, 1984.) From
+//! the best trial on, the sum of J. W. Tukey's biweight is minimized. Its weights fall to zero at 4.685 standard deviations,
+//! which keeps 95 % of the efficiency of least squares on normal noise.
 
 use super::family::{Element, Family};
 use super::gauss::{FULL, ROUGH, minimize};
@@ -15,17 +15,16 @@ use super::{FitError, Kind, Options};
 use crate::num::random::Random;
 use crate::progress::Progress;
 use crate::space::Point;
+use crate::stats::SIGMA_OVER_MAD;
 
 /// Points that trials are judged by.
 const JUDGING_POINTS: usize = 512;
 /// Points that the standard deviation is found from.
-const SOME: usize = 8192;
+const DEVIATION_POINTS: usize = 8192;
 /// Most trials: enough for 40 % outliers and nine points a trial.
-const TRIALS: usize = 700;
-/// Standard deviation of normal noise over its median magnitude.
-const NORMAL: f64 = 1.482_602_218_505_602;
-/// Standard deviations beyond which a point does not count.
-const BEYOND: f64 = 4.685;
+const MAX_TRIALS: usize = 700;
+/// Standard deviations beyond which a point has no weight.
+const BIWEIGHT_CUTOFF: f64 = 4.685;
 
 /// The biweight: c²/3·(1 − (1 − d²/c²)³) up to the cutoff c, constant beyond.
 struct Biweight {
@@ -67,15 +66,15 @@ pub(super) fn robust<const P: usize, F: Family<P>>(
         Some(shape) => F::element(shape, sample).ok_or(FitError::WrongStart { kind })?,
         None => trials::<P, F>(sample, kind, options.seed, progress)?,
     };
-    let some = sample.thinned(SOME);
+    let subset = sample.thinned(DEVIATION_POINTS);
     let mut element = F::settled(start);
     let mut biweight = Biweight { sharpness: 1.0 };
     // The scale and the element settle together.
     for _ in 0..6 {
-        let cutoff = BEYOND * NORMAL * median::<P, F>(&element, &some);
+        let cutoff = BIWEIGHT_CUTOFF * SIGMA_OVER_MAD * median::<P, F>(&element, &subset);
         // Points without noise: anything off is an outlier, rounding is not.
         biweight.sharpness = cutoff.max(1e-13).powi(-2);
-        let Some(better) = minimize::<P, F, _>(&element, &some, &biweight, ROUGH) else { break };
+        let Some(better) = minimize::<P, F, _>(&element, &subset, &biweight, ROUGH) else { break };
         element = better.element;
     }
     if progress.cancelled() {
@@ -116,7 +115,7 @@ fn trials<const P: usize, F: Family<P>>(
     let mut best = gaussian::quick::<P, F>(&judging).map(judged);
     let mut random = Random::new(seed);
     let each = (P + 2).min(sample.len());
-    let mut enough = TRIALS;
+    let mut enough = MAX_TRIALS;
     let mut trial = 0;
     while trial < enough {
         trial += 1;
@@ -125,15 +124,15 @@ fn trials<const P: usize, F: Family<P>>(
         }
         let points: Vec<Point> =
             random.choose(each, sample.len()).into_iter().map(|k| sample.points[k]).collect();
-        let few = sample.with(points.into());
-        let Some(found) = gaussian::quick::<P, F>(&few).map(judged) else { continue };
+        let drawn = sample.with(points.into());
+        let Some(found) = gaussian::quick::<P, F>(&drawn).map(judged) else { continue };
         if best.as_ref().is_none_or(|b| found.0 < b.0) {
-            let near = 3.0 * NORMAL * found.0;
+            let near = 3.0 * SIGMA_OVER_MAD * found.0;
             let share = share_within::<P, F>(&found.1, &judging, near);
             let clean = share.powi(each as i32);
             // So many that with 99.9 % one of them had no outlier.
             let needed = (libm::log(0.001f64) / libm::log(1.0 - clean)).ceil();
-            enough = TRIALS.min(needed.max(8.0) as usize);
+            enough = MAX_TRIALS.min(needed.max(8.0) as usize);
             best = Some(found);
         }
     }

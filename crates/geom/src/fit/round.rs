@@ -5,11 +5,11 @@ use crate::num::dense;
 use crate::space::{Point, dot, minus, plus, times};
 
 /// Guards the division by a distance that may be zero: the derivative there is taken as zero.
-pub(super) const TINY: f64 = f64::MIN_POSITIVE;
+pub(super) const MIN_DIVISOR: f64 = f64::MIN_POSITIVE;
 
-/// Centers and radii of circles (`D = 2`) or spheres (`D = 3`) near the given points: the algebraic fit of
-/// Kåsa, which is right for wide arcs and too small for flat ones, and the osculating one of a parabola over
-/// the flattest direction, which is right for flat ones.
+/// Centers and radii of circles (`D = 2`) or spheres (`D = 3`) near the points. One is the algebraic fit of Kåsa, which is
+/// right for wide arcs and too small for flat ones. The other is the osculating one of a parabola over the flattest direction,
+/// which is right for flat ones.
 pub(super) fn round_starts<const D: usize>(points: &[Point], scatter: &Scatter) -> Vec<(Point, f64)> {
     let mut starts = Vec::with_capacity(2);
     // Coordinates along the principal directions, the flattest first; the plane's own normal is left out.

@@ -1,13 +1,13 @@
 //! The points of a fit, checked once, with the center and scale that take size and position out of it.
 
 use super::FitError;
-use crate::num::random::GOLDEN;
+use crate::num::random::GOLDEN_STEP;
 use crate::simd::widest::widest;
 use crate::space::{Aabb, Point, Vector, minus, plus, times};
 use std::borrow::Cow;
 
-/// Points, and the unit frame they are seen in: the middle of their box is its origin and half the longest
-/// side of the box is between 1/2 and 1 long. The scale is a power of two, so that nothing is rounded by it.
+/// Points, and the unit frame they are seen in. The middle of their box is its origin, and half the longest side of the box is
+/// between 1/2 and 1 long. The scale is a power of two, so that nothing is rounded by it.
 #[derive(Clone, Debug)]
 pub(super) struct Sample<'a> {
     pub points: Cow<'a, [Point]>,
@@ -56,8 +56,8 @@ impl<'a> Sample<'a> {
     }
     /// At most `count` of the points, spread over the whole list.
     ///
-    /// They are taken at multiples of the golden section: a fixed stride would pick one and the same column of
-    /// a grid of points, or one generator of a cylinder measured ring by ring.
+    /// They are taken at multiples of the golden section. A fixed stride would pick one and the same column of a grid of
+    /// points, or one generator of a cylinder measured ring by ring.
     pub(super) fn thinned(&self, count: usize) -> Sample<'_> {
         if self.len() <= count {
             return self.with(Cow::Borrowed(&self.points));
@@ -72,10 +72,10 @@ impl<'a> Sample<'a> {
     fn mean(&self) -> Point {
         use crate::parallel::prelude::*;
         let sum = |part: &[Point]| part.iter().fold([0.0; 3], |s, &p| plus(s, self.unit(p)));
-        let total = match self.len() <= BLOCK {
+        let total = match self.len() <= POINTS_PER_SAMPLE_TASK {
             true => sum(&self.points),
             false => {
-                let parts: Vec<Point> = self.points.par_chunks(BLOCK).map(sum).collect();
+                let parts: Vec<Point> = self.points.par_chunks(POINTS_PER_SAMPLE_TASK).map(sum).collect();
                 parts.into_iter().fold([0.0; 3], plus)
             }
         };
@@ -84,22 +84,25 @@ impl<'a> Sample<'a> {
     /// Indices of at most `count` points, as [`Sample::thinned`] takes them.
     pub(super) fn spread(&self, count: usize) -> impl Iterator<Item = usize> {
         let all = self.len();
-        let turn = |k: usize| u128::from((k as u64).wrapping_mul(GOLDEN));
+        let turn = |k: usize| u128::from((k as u64).wrapping_mul(GOLDEN_STEP));
         let pick = move |k: usize| ((turn(k) * all as u128) >> 64) as usize;
         (0..count.min(all)).map(move |k| if all <= count { k } else { pick(k) })
     }
 }
 
 /// Points of one task.
-const BLOCK: usize = 1 << 16;
+const POINTS_PER_SAMPLE_TASK: usize = 1 << 16;
 
 /// The box of the points, or `None` if a coordinate is not finite.
 fn bounds(points: &[Point]) -> Option<Aabb> {
     use crate::parallel::prelude::*;
-    if points.len() <= BLOCK {
+    if points.len() <= POINTS_PER_SAMPLE_TASK {
         return block_bounds(points);
     }
-    points.par_chunks(BLOCK).map(block_bounds).reduce(|| Some(Aabb::EMPTY), |a, b| Some(a?.union(&b?)))
+    points
+        .par_chunks(POINTS_PER_SAMPLE_TASK)
+        .map(block_bounds)
+        .reduce(|| Some(Aabb::EMPTY), |a, b| Some(a?.union(&b?)))
 }
 
 widest! {
@@ -109,21 +112,25 @@ widest! {
 #[inline(always)]
 fn bounds_in(points: &[Point]) -> Option<Aabb> {
     /// Coordinates side by side: those of 8 points.
-    const SIDE: usize = 24;
+    const COORDINATES_AT_ONCE: usize = 24;
     // Minima pass over NaN; a sum of zeros does not.
-    let (mut zeros, mut low, mut high) = ([0.0; SIDE], [f64::INFINITY; SIDE], [f64::NEG_INFINITY; SIDE]);
-    let (parts, _) = points.as_flattened().as_chunks::<SIDE>();
+    let (mut zeros, mut low, mut high) = (
+        [0.0; COORDINATES_AT_ONCE],
+        [f64::INFINITY; COORDINATES_AT_ONCE],
+        [f64::NEG_INFINITY; COORDINATES_AT_ONCE],
+    );
+    let (parts, _) = points.as_flattened().as_chunks::<COORDINATES_AT_ONCE>();
     for part in parts {
-        for l in 0..SIDE {
+        for l in 0..COORDINATES_AT_ONCE {
             let x = part[l];
             zeros[l] += x * 0.0;
             low[l] = if x < low[l] { x } else { low[l] };
             high[l] = if x > high[l] { x } else { high[l] };
         }
     }
-    let rest = &points[SIDE / 3 * parts.len()..];
+    let rest = &points[COORDINATES_AT_ONCE / 3 * parts.len()..];
     let mut bounds = Aabb::of(rest);
-    for l in 0..SIDE {
+    for l in 0..COORDINATES_AT_ONCE {
         bounds.min[l % 3] = bounds.min[l % 3].min(low[l]);
         bounds.max[l % 3] = bounds.max[l % 3].max(high[l]);
     }

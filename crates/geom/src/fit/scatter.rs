@@ -16,7 +16,7 @@ pub struct Scatter {
 }
 
 impl Scatter {
-    /// Of points in space.
+    /// The scatter of points in space.
     pub fn of(points: &[Point]) -> Scatter {
         let mean = mean(points);
         let mut matrix = [[0.0; 3]; 3];
@@ -29,7 +29,7 @@ impl Scatter {
         let (variance, axes) = dense::eigen(matrix);
         Scatter { mean, variance, axes: [axes[0], axes[1], cross(axes[0], axes[1])] }
     }
-    /// Of points of the plane z = 0: the first direction is that of z.
+    /// The scatter of points of the plane z = 0: the first direction is that of z.
     pub(super) fn flat(points: &[Point]) -> Scatter {
         let points: Vec<Point> = points.iter().map(|p| [p[0], p[1], 0.0]).collect();
         let all = Scatter::of(&points);

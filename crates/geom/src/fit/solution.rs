@@ -1,4 +1,4 @@
-//! What a fit tells: the element, how well the points keep to it, how well they determine it.
+//! The result of a fit: the element, how well the points keep to it, how well they determine it.
 
 use super::Method;
 use crate::shape::{Parameter, Shape};
@@ -66,7 +66,7 @@ pub struct Covariance {
 
 impl Covariance {
     /// The covariance where so many points tell as much as an independent one, as neighbors share their errors
-    /// ([`Noise::points_per_independent`](crate::noise::Noise)): that of a fit takes them as independent.
+    /// ([`Noise::points_per_independent`](crate::noise::Noise)). The covariance of a fit takes points as independent.
     ///
     /// For errors shared over distances in which the element hardly bends.
     pub fn of_shared(mut self, points_per_independent: f64) -> Covariance {

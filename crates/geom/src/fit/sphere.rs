@@ -1,7 +1,7 @@
 //! Spheres.
 
 use super::family::{Element, Family, Rows};
-use super::round::{TINY, round_starts};
+use super::round::{MIN_DIVISOR, round_starts};
 use super::sample::Sample;
 use super::scatter::Scatter;
 use super::unknown::Local;
@@ -18,7 +18,7 @@ impl Family<4> for Sphere {
     #[inline(always)]
     fn rows(size: [f64; 2], [x, y, z]: Point, rows: &mut impl Rows<4>) {
         let rho = (x * x + y * y + z * z).sqrt();
-        let inverse = -1.0 / rho.max(TINY);
+        let inverse = -1.0 / rho.max(MIN_DIVISOR);
         rows.row(rho - size[0], [x * inverse, y * inverse, z * inverse, -1.0]);
     }
     #[inline(always)]

@@ -1,7 +1,7 @@
 //! The distances of all points from a finished element: how large, how far apart, and whose are the extremes.
 
 use super::family::{Element, Family};
-use super::lanes::{GROUP, Lanes, PARTS, Sum, group, groups};
+use super::lanes::{Lanes, NUMBERS_AT_ONCE, POINTS_PER_GROUP, Sum, group, groups};
 use super::normal::Placing;
 use super::sample::Sample;
 use crate::parallel::prelude::*;
@@ -9,7 +9,7 @@ use crate::simd::widest::widest;
 use crate::space::Point;
 
 /// Points of one block.
-pub(super) const BLOCK: usize = 256;
+pub(super) const POINTS_PER_SURVEY_BLOCK: usize = 256;
 
 /// Sum of squares and extremes of the distances of one block, in the unit frame.
 #[derive(Clone, Copy, Debug)]
@@ -26,13 +26,13 @@ struct Distances(Lanes);
 impl Distances {
     /// Takes those of the points given.
     #[inline(always)]
-    fn take<const P: usize, F: Family<P>>(
+    fn compute<const P: usize, F: Family<P>>(
         &mut self,
-        group: &[Point; GROUP],
+        group: &[Point; POINTS_PER_GROUP],
         size: [f64; 2],
         placing: &Placing,
     ) {
-        for l in 0..GROUP {
+        for l in 0..POINTS_PER_GROUP {
             self.0[l] = F::distance(size, placing.local(group[l]));
         }
     }
@@ -41,14 +41,14 @@ impl Distances {
 #[inline(always)]
 fn block<const P: usize, F: Family<P>>(points: &[Point], size: [f64; 2], placing: &Placing) -> Survey {
     let mut square = Sum::ZERO;
-    let (mut least, mut greatest) = ([f64::INFINITY; PARTS], [f64::NEG_INFINITY; PARTS]);
-    let (mut distances, mut filled) = (Distances([0.0; GROUP]), [[0.0; 3]; GROUP]);
+    let (mut least, mut greatest) = ([f64::INFINITY; NUMBERS_AT_ONCE], [f64::NEG_INFINITY; NUMBERS_AT_ONCE]);
+    let (mut distances, mut filled) = (Distances([0.0; POINTS_PER_GROUP]), [[0.0; 3]; POINTS_PER_GROUP]);
     for k in 0..groups(points) {
         let (group, count) = group(points, k, &mut filled);
-        distances.take::<P, F>(group, size, placing);
-        for first in 0..GROUP / PARTS {
-            for l in 0..PARTS {
-                let d = distances.0[PARTS * first + l];
+        distances.compute::<P, F>(group, size, placing);
+        for first in 0..POINTS_PER_GROUP / NUMBERS_AT_ONCE {
+            for l in 0..NUMBERS_AT_ONCE {
+                let d = distances.0[NUMBERS_AT_ONCE * first + l];
                 least[l] = if d < least[l] { d } else { least[l] };
                 greatest[l] = if d > greatest[l] { d } else { greatest[l] };
             }
@@ -73,10 +73,10 @@ widest! {
 pub(super) fn blocks<const P: usize, F: Family<P>>(element: &Element, sample: &Sample) -> Vec<Survey> {
     let placing = Placing::new(element, sample);
     let of = |points: &[Point]| survey_block::<P, F>(points, element.size, &placing);
-    if sample.len() <= 64 * BLOCK {
-        sample.points.chunks(BLOCK).map(of).collect()
+    if sample.len() <= 64 * POINTS_PER_SURVEY_BLOCK {
+        sample.points.chunks(POINTS_PER_SURVEY_BLOCK).map(of).collect()
     } else {
-        sample.points.par_chunks(BLOCK).with_min_len(32).map(of).collect()
+        sample.points.par_chunks(POINTS_PER_SURVEY_BLOCK).with_min_len(32).map(of).collect()
     }
 }
 
@@ -88,8 +88,8 @@ pub(super) fn find<const P: usize, F: Family<P>>(
     distance: f64,
 ) -> Option<usize> {
     let placing = Placing::new(element, sample);
-    let start = block * BLOCK;
-    let points = sample.points.get(start..(start + BLOCK).min(sample.len()))?;
+    let start = block * POINTS_PER_SURVEY_BLOCK;
+    let points = sample.points.get(start..(start + POINTS_PER_SURVEY_BLOCK).min(sample.len()))?;
     Some(start + find_block::<P, F>(points, element.size, &placing, distance)?)
 }
 
@@ -106,12 +106,12 @@ fn find_in<const P: usize, F: Family<P>>(
     placing: &Placing,
     distance: f64,
 ) -> Option<usize> {
-    let (mut distances, mut filled) = (Distances([0.0; GROUP]), [[0.0; 3]; GROUP]);
+    let (mut distances, mut filled) = (Distances([0.0; POINTS_PER_GROUP]), [[0.0; 3]; POINTS_PER_GROUP]);
     for k in 0..groups(points) {
         let (group, _) = group(points, k, &mut filled);
-        distances.take::<P, F>(group, size, placing);
+        distances.compute::<P, F>(group, size, placing);
         if let Some(l) = distances.0.iter().position(|&d| d == distance) {
-            return Some((k * GROUP + l).min(points.len() - 1));
+            return Some((k * POINTS_PER_GROUP + l).min(points.len() - 1));
         }
     }
     None

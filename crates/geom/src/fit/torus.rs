@@ -3,7 +3,7 @@
 use super::bent::Tube;
 use super::family::{Element, Family, Rows};
 use super::revolution::{Powers, Profile, directions};
-use super::round::{TINY, round_starts};
+use super::round::{MIN_DIVISOR, round_starts};
 use super::sample::Sample;
 use super::scatter::Scatter;
 use super::unknown::Local;
@@ -28,10 +28,10 @@ impl Family<7> for Torus {
     #[inline(always)]
     fn rows(size: [f64; 2], [x, y, z]: Point, rows: &mut impl Rows<7>) {
         let rho = (x * x + y * y).sqrt();
-        let inverse = 1.0 / rho.max(TINY);
+        let inverse = 1.0 / rho.max(MIN_DIVISOR);
         let e = rho - size[0];
         let t = (e * e + z * z).sqrt();
-        let other = 1.0 / t.max(TINY);
+        let other = 1.0 / t.max(MIN_DIVISOR);
         let (er, ez) = (e * other, z * other);
         let (nu, nv) = (er * x * inverse, er * y * inverse);
         rows.row(t - size[1], [-nu, -nv, -ez, ez * x - z * nu, ez * y - z * nv, -er, -1.0]);
@@ -50,23 +50,23 @@ impl Family<7> for Torus {
         // A piece of a torus often looks more like a cylinder about a wrong axis: no direction is left out
         // before its torus is known.
         let axes = [Profile::Parabola, Profile::Constant].map(|profile| powers.grid(profile, &principal));
-        let mut starts = ranked(axes.into_iter().flatten().map(|axis| axis.pose), points, STARTS);
+        let mut starts = ranked(axes.into_iter().flatten().map(|axis| axis.pose), points, MAX_TORUS_STARTS);
         starts.extend(bent(&powers, &principal, points));
         starts
     }
     fn more_starts(points: &[Point]) -> Vec<Element> {
         // A short thick piece hardly determines its axis: try directions all around, near and far.
-        const TURNS: usize = 12;
+        const DIRECTIONS_AROUND: usize = 12;
         let scatter = Scatter::of(points);
         let frames = scatter.axes.into_iter().chain(directions()).flat_map(|w| {
             let frame = Pose::along(scatter.mean, w);
-            (0..TURNS).flat_map(move |k| {
-                let (sin, cos) = libm::sincos(k as f64 / TURNS as f64 * std::f64::consts::TAU);
+            (0..DIRECTIONS_AROUND).flat_map(move |k| {
+                let (sin, cos) = libm::sincos(k as f64 / DIRECTIONS_AROUND as f64 * std::f64::consts::TAU);
                 [0.3, 0.6, 1.0, 1.7, 3.0].map(|far| frame.moved([far * cos, far * sin, 0.0], [0.0; 2], 0.0))
             })
         });
         let judges: Vec<Point> = points.iter().copied().step_by(points.len().div_ceil(60)).collect();
-        ranked(frames, &judges, 3 * STARTS)
+        ranked(frames, &judges, 3 * MAX_TORUS_STARTS)
     }
     fn shape(element: &Element, sample: &Sample) -> Shape {
         Shape::Torus {
@@ -85,11 +85,13 @@ impl Family<7> for Torus {
 }
 
 /// Starts that are improved.
-const STARTS: usize = 16;
-/// Bent tubes that are improved, of those about so many cylinders, on at most so many points.
-const TUBES: usize = 3;
-const CYLINDERS: usize = 6;
-const TUBE_POINTS: usize = 64;
+const MAX_TORUS_STARTS: usize = 16;
+/// Bent tubes that are improved.
+const MAX_TUBES: usize = 3;
+/// Cylinders from which these tubes are bent.
+const TUBE_CYLINDERS: usize = 6;
+/// Most points on which tubes are improved.
+const MAX_TUBE_POINTS: usize = 64;
 
 /// Sum of the squared distances of the points from the torus, and the torus.
 fn judged(element: Element, points: &[Point]) -> (f64, Element) {
@@ -105,20 +107,24 @@ fn best(mut all: Vec<(f64, Element)>, count: usize) -> Vec<Element> {
 
 /// Cylinders that are bent: the starts of short pieces.
 fn bent(powers: &Powers, principal: &[Vector; 3], points: &[Point]) -> Vec<Element> {
-    let few: Vec<Point> = points.iter().copied().step_by(points.len().div_ceil(TUBE_POINTS)).collect();
-    let cylinders = powers.axes(Profile::Constant, principal, CYLINDERS);
-    let tubes = cylinders.iter().map(|axis| Tube::near(axis.pose, axis.radius_squared.sqrt(), &few).torus());
+    let subset: Vec<Point> = points.iter().copied().step_by(points.len().div_ceil(MAX_TUBE_POINTS)).collect();
+    let cylinders = powers.axes(Profile::Constant, principal, TUBE_CYLINDERS);
+    let tubes =
+        cylinders.iter().map(|axis| Tube::near(axis.pose, axis.radius_squared.sqrt(), &subset).torus());
     let sound = tubes.filter(|torus| Torus::sound(torus.size));
-    best(sound.map(|torus| judged(torus, &few)).filter(|t| t.0.is_finite()).collect(), TUBES)
+    best(sound.map(|torus| judged(torus, &subset)).filter(|t| t.0.is_finite()).collect(), MAX_TUBES)
 }
 
 /// The `count` best tori about the axes of the frames.
 fn ranked(frames: impl Iterator<Item = Pose>, points: &[Point], count: usize) -> Vec<Element> {
-    best(frames.flat_map(|frame| about(&frame, points)).map(|torus| judged(torus, points)).collect(), count)
+    best(
+        frames.flat_map(|frame| tori_about(&frame, points)).map(|torus| judged(torus, points)).collect(),
+        count,
+    )
 }
 
 /// Tori about the axis of `frame`: circles through height over distance from it.
-fn about(frame: &Pose, points: &[Point]) -> Vec<Element> {
+fn tori_about(frame: &Pose, points: &[Point]) -> Vec<Element> {
     let section: Vec<Point> = points
         .iter()
         .map(|&p| {

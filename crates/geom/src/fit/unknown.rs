@@ -1,4 +1,4 @@
-//! What the unknowns of a fit do to an element.
+//! The effect of the unknowns of a fit on an element.
 
 /// One unknown of a fit: what a unit of it does to the element.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -8,6 +8,7 @@
 //! At the end no point is outside, so the element is optimal for all points. The multipliers of the touching points certify it.
 
 use super::family::{Element, Family};
+use super::linear::MAX_JOINING_POINTS;
 use super::minimax::{Aim, Low, minimax};
 use super::sample::Sample;
 use super::solution::{Fit, Touching};
@@ -17,19 +18,17 @@ use crate::num::random::Random;
 use crate::progress::Progress;
 use crate::space::Point;
 
-/// Points that join the working set in one round, on each side.
-const JOINING: usize = 24;
 /// Points all over the surface that are in the working set from the first.
-const COVERING: usize = 64;
-/// Rounds of exchange. Two to five are the rule.
-const ROUNDS: usize = 60;
-/// Sticking out less than this, in the unit frame, is rounding.
-const TOUCHES: f64 = 1e-15;
-/// An optimum whose distances range this many times as far as those of the least-squares element is another
-/// one: a flat ring also fits through a cylinder that lies on its side.
-const OTHER_OPTIMUM: f64 = 6.0;
+const COVERING_POINTS: usize = 64;
+/// Most rounds of exchange. Two to five are the rule.
+const MAX_EXCHANGE_ROUNDS: usize = 60;
+/// Height in the unit frame up to which sticking out is rounding.
+const TOUCHING_ROUNDING: f64 = 1e-15;
+/// Range of the distances over that of the least-squares element from which on an optimum is another one. A flat ring also fits
+/// through a cylinder that lies on its side.
+const OTHER_OPTIMUM_RANGE: f64 = 6.0;
 /// Further starts about the first optimum.
-const STARTS: u64 = 12;
+const FURTHER_STARTS: u64 = 12;
 
 /// The fit by greatest distances.
 pub(super) fn zone<const P: usize, F: Family<P>>(
@@ -135,8 +134,8 @@ impl<'a, const P: usize, F: Family<P>> Search<'a, P, F> {
         search.reach = 4.0 * most.max(1e-12);
         search.join(first, f64::NEG_INFINITY, &blocks);
         // Points all over the surface keep the element from leaving through a gap between the few extreme ones.
-        for index in sample.spread(COVERING) {
-            search.take(index);
+        for index in sample.spread(COVERING_POINTS) {
+            search.add_working(index);
         }
         search
     }
@@ -154,7 +153,7 @@ impl<'a, const P: usize, F: Family<P>> Search<'a, P, F> {
             let mut order: Vec<usize> = (0..blocks.len()).filter(|&k| out(&blocks[k]) > value).collect();
             worst = blocks.iter().map(out).fold(worst, f64::max);
             order.sort_by(|&i, &j| out(&blocks[j]).total_cmp(&out(&blocks[i])).then(i.cmp(&j)));
-            order.truncate(JOINING);
+            order.truncate(MAX_JOINING_POINTS);
             for &block in &order {
                 found.extend(survey::find::<P, F>(element, self.sample, block, side * out(&blocks[block])));
             }
@@ -162,12 +161,12 @@ impl<'a, const P: usize, F: Family<P>> Search<'a, P, F> {
         found.sort_unstable();
         found.dedup();
         for index in found {
-            self.take(index);
+            self.add_working(index);
         }
         worst
     }
 
-    fn take(&mut self, index: usize) {
+    fn add_working(&mut self, index: usize) {
         if !self.working.contains(&index) {
             self.working.push(index);
             self.places.push(self.sample.unit(self.sample.points[index]));
@@ -177,7 +176,7 @@ impl<'a, const P: usize, F: Family<P>> Search<'a, P, F> {
     /// The optimum of all points near `start`; `None` if no optimum is reached or it is not below `limit`.
     fn all_points(&mut self, start: &Element, limit: f64) -> Option<Low> {
         let mut element = *start;
-        for _ in 0..ROUNDS {
+        for _ in 0..MAX_EXCHANGE_ROUNDS {
             let low = minimax::<P, F>(&element, &self.places, self.aim, self.reach)?;
             // Further points can only raise it.
             if low.value >= limit {
@@ -185,19 +184,19 @@ impl<'a, const P: usize, F: Family<P>> Search<'a, P, F> {
             }
             let blocks = survey::blocks::<P, F>(&low.element, self.sample);
             let before = self.working.len();
-            let worst = self.join(&low.element, low.value + TOUCHES, &blocks);
-            if worst <= low.value + TOUCHES || self.working.len() == before {
-                return self.near(&low, &blocks).then_some(low);
+            let worst = self.join(&low.element, low.value + TOUCHING_ROUNDING, &blocks);
+            if worst <= low.value + TOUCHING_ROUNDING || self.working.len() == before {
+                return self.belongs_to_feature(&low, &blocks).then_some(low);
             }
             element = low.element;
         }
         None
     }
 
-    /// Whether the optimum belongs to the feature: it has not left through a gap between the points, and its
-    /// distances range not much farther than those of the first element.
-    fn near(&self, low: &Low, blocks: &[survey::Survey]) -> bool {
-        let most = OTHER_OPTIMUM * self.range.max(TOUCHES);
+    /// Whether the optimum belongs to the feature. It has not left through a gap between the points, and its distances range
+    /// not much farther than those of the first element.
+    fn belongs_to_feature(&self, low: &Low, blocks: &[survey::Survey]) -> bool {
+        let most = OTHER_OPTIMUM_RANGE * self.range.max(TOUCHING_ROUNDING);
         self.only_one || (range(blocks) <= most && !(self.aim.pinned && low.value.abs() > most))
     }
 
@@ -207,8 +206,8 @@ impl<'a, const P: usize, F: Family<P>> Search<'a, P, F> {
         let mut random = Random::new(seed);
         let further = match self.sample.len() {
             _ if self.only_one => 0,
-            0..=1000 => 4 * STARTS,
-            _ => STARTS,
+            0..=1000 => 4 * FURTHER_STARTS,
+            _ => FURTHER_STARTS,
         };
         for k in 0..further {
             if progress.cancelled() {

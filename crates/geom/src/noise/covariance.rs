@@ -1,23 +1,26 @@
 //! The covariance of the noise that explains the sums of the patches best.
 
-use super::moments::{BINS, LAGS, Moments, middle};
+use super::moments::{COVARIANCE_BINS, LAG_COUNT, Moments, middle};
 use super::terms::{Noise, shared};
 use crate::num::special::chi_square_quantile;
 
-/// Reaches tried, in spacings, from the first by this quotient: below the first no neighbors share anything.
-const FIRST_REACH: f64 = 1.5;
-const NEXT_REACH: f64 = 1.15;
-const REACHES: usize = 14;
+/// First reach that is tried, in spacings: within a smaller one no neighbors share anything.
+const FIRST_REACH_SPACINGS: f64 = 1.5;
+/// Quotient of a reach and the one before it.
+const REACH_QUOTIENT: f64 = 1.15;
+/// Reaches that are tried.
+const REACHES_TRIED: usize = 14;
 /// Share of the patches that must be clean: their quantile is compared with that of the noise.
-const CLEAN: f64 = 0.25;
+const CLEAN_PATCH_SHARE: f64 = 0.25;
 /// Share of patches of nothing but noise that are kept.
-const KEPT: f64 = 0.995;
-/// Rounds in which patches are chosen and the covariance is found anew. Most end after three.
-const ROUNDS: usize = 12;
+const KEPT_PATCH_SHARE: f64 = 0.995;
+/// Rounds in which patches are chosen and the covariance is found anew. Most searches end after three.
+const MAX_PATCH_ROUNDS: usize = 12;
 
-/// Sum of squares, in standard deviations, by which noise that neighbors share must explain the sums better than independent noise does: its share
-/// and reach are two unknowns more, for which chance makes as much once in a thousand times, as patches lie over each other.
-const CLEARLY: f64 = 13.8;
+/// Sum of squares, in standard deviations, by which shared noise must explain the sums better than independent noise does. Its
+/// share and reach are two unknowns more. Chance makes as much of these once in a thousand times, as patches lie over each
+/// other.
+const SHARED_NOISE_GAIN: f64 = 13.8;
 
 /// A covariance: variances, mm², and the reach in spacings.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,7 +35,7 @@ impl Model {
         self.white + self.shared
     }
     /// The sum of what each bin adds, by its covariance.
-    fn sum(&self, bins: &[f64; BINS]) -> f64 {
+    fn sum(&self, bins: &[f64; COVARIANCE_BINS]) -> f64 {
         let of_bin = |(bin, x): (usize, &f64)| x * shared(middle(bin) / self.reach);
         self.white * bins[0] + self.shared * bins.iter().enumerate().map(of_bin).sum::<f64>()
     }
@@ -52,7 +55,7 @@ impl Model {
 pub(super) fn found(patches: &[Moments]) -> Noise {
     let mut kept = cleaner_half(patches);
     let mut model = explained(patches, &kept);
-    for _ in 0..ROUNDS {
+    for _ in 0..MAX_PATCH_ROUNDS {
         // Data without noise, or with that of rounding alone, leave nothing to choose patches by.
         if model.variance() < f64::MIN_POSITIVE.sqrt() {
             break;
@@ -79,7 +82,7 @@ pub(super) fn found(patches: &[Moments]) -> Noise {
         points_per_independent: if is_shared { (sums / variance).max(1.0) } else { 1.0 },
         spacing,
         patches: count,
-        left_out: patches.len() - count,
+        excluded_patches: patches.len() - count,
         unevenness: unevenness(&of_kept().collect::<Vec<_>>(), &model),
     }
 }
@@ -113,21 +116,21 @@ fn clean(patches: &[Moments], model: &Model) -> Vec<bool> {
     let all: Vec<(f64, f64)> = patches.iter().map(of_patch).collect();
     let mut sorted = all.clone();
     sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let (low, degrees) = sorted[(CLEAN * sorted.len() as f64) as usize];
+    let (low, degrees) = sorted[(CLEAN_PATCH_SHARE * sorted.len() as f64) as usize];
     let quantile = |share: f64, degrees: f64| chi_square_quantile(share, degrees) / degrees;
-    let size = low / quantile(CLEAN, degrees);
-    all.iter().map(|(ratio, degrees)| *ratio <= size * quantile(KEPT, *degrees)).collect()
+    let size = low / quantile(CLEAN_PATCH_SHARE, degrees);
+    all.iter().map(|(ratio, degrees)| *ratio <= size * quantile(KEPT_PATCH_SHARE, *degrees)).collect()
 }
 
 /// The covariance whose expected sums are nearest to those of the patches kept, each weighed by its scatter from patch to patch.
 fn explained(patches: &[Moments], kept: &[bool]) -> Model {
     let kept: Vec<&Moments> = patches.iter().zip(kept).filter(|(_, k)| **k).map(|(p, _)| p).collect();
     let count = kept.len() as f64;
-    let mut products = [0.0; LAGS];
-    let mut squares = [0.0; LAGS];
-    let mut expected = [[0.0; BINS]; LAGS];
+    let mut products = [0.0; LAG_COUNT];
+    let mut squares = [0.0; LAG_COUNT];
+    let mut expected = [[0.0; COVARIANCE_BINS]; LAG_COUNT];
     for patch in &kept {
-        for lag in 0..LAGS {
+        for lag in 0..LAG_COUNT {
             products[lag] += patch.products[lag] / count;
             squares[lag] += patch.products[lag].powi(2) / count;
             let bins = expected[lag].iter_mut().zip(&patch.expected[lag]);
@@ -138,14 +141,15 @@ fn explained(patches: &[Moments], kept: &[bool]) -> Model {
         let scatter = (squares[lag] - products[lag].powi(2)).max(0.0).sqrt();
         if scatter > 0.0 { 1.0 / scatter } else { 0.0 }
     };
-    let weights: [f64; LAGS] = std::array::from_fn(weight);
-    let wanted: [f64; LAGS] = std::array::from_fn(|lag| weights[lag] * products[lag]);
-    let of_model =
-        |model: Model| -> [f64; LAGS] { std::array::from_fn(|lag| weights[lag] * model.sum(&expected[lag])) };
-    let white = of_model(Model { white: 1.0, shared: 0.0, reach: FIRST_REACH });
-    let mut reach = FIRST_REACH;
-    let error = |w: f64, s: f64, together: &[f64; LAGS]| -> f64 {
-        (0..LAGS).map(|lag| (w * white[lag] + s * together[lag] - wanted[lag]).powi(2)).sum()
+    let weights: [f64; LAG_COUNT] = std::array::from_fn(weight);
+    let wanted: [f64; LAG_COUNT] = std::array::from_fn(|lag| weights[lag] * products[lag]);
+    let of_model = |model: Model| -> [f64; LAG_COUNT] {
+        std::array::from_fn(|lag| weights[lag] * model.sum(&expected[lag]))
+    };
+    let white = of_model(Model { white: 1.0, shared: 0.0, reach: FIRST_REACH_SPACINGS });
+    let mut reach = FIRST_REACH_SPACINGS;
+    let error = |w: f64, s: f64, together: &[f64; LAG_COUNT]| -> f64 {
+        (0..LAG_COUNT).map(|lag| (w * white[lag] + s * together[lag] - wanted[lag]).powi(2)).sum()
     };
     let alone = inner(&white, &wanted) / inner(&white, &white);
     if !(alone.is_finite() && alone > 0.0) {
@@ -153,9 +157,9 @@ fn explained(patches: &[Moments], kept: &[bool]) -> Model {
         return Model { white: products[0] / expected[0][0], shared: 0.0, reach };
     }
     // A sum over patches scatters by the root of their number less than that of one.
-    let clearly = CLEARLY / count;
+    let clearly = SHARED_NOISE_GAIN / count;
     let mut best = (error(alone, 0.0, &white) - clearly, Model { white: alone, shared: 0.0, reach });
-    for _ in 0..REACHES {
+    for _ in 0..REACHES_TRIED {
         let together = of_model(Model { white: 0.0, shared: 1.0, reach });
         for [w, s] in shares(&white, &together, &wanted) {
             let error = error(w, s, &together);
@@ -163,13 +167,13 @@ fn explained(patches: &[Moments], kept: &[bool]) -> Model {
                 best = (error, Model { white: w, shared: s, reach });
             }
         }
-        reach *= NEXT_REACH;
+        reach *= REACH_QUOTIENT;
     }
     best.1
 }
 
 /// The shares of two lists that make a third one best, none below 0: both, or one alone.
-fn shares(one: &[f64; LAGS], other: &[f64; LAGS], wanted: &[f64; LAGS]) -> Vec<[f64; 2]> {
+fn shares(one: &[f64; LAG_COUNT], other: &[f64; LAG_COUNT], wanted: &[f64; LAG_COUNT]) -> Vec<[f64; 2]> {
     let [aa, ab, bb] = [inner(one, one), inner(one, other), inner(other, other)];
     let [aw, bw] = [inner(one, wanted), inner(other, wanted)];
     let determinant = aa * bb - ab * ab;
@@ -178,6 +182,6 @@ fn shares(one: &[f64; LAGS], other: &[f64; LAGS], wanted: &[f64; LAGS]) -> Vec<[
     all.into_iter().filter(|pair| pair.iter().all(|x| x.is_finite() && *x >= 0.0)).collect()
 }
 
-fn inner(a: &[f64; LAGS], b: &[f64; LAGS]) -> f64 {
+fn inner(a: &[f64; LAG_COUNT], b: &[f64; LAG_COUNT]) -> f64 {
     a.iter().zip(b).map(|(x, y)| x * y).sum()
 }

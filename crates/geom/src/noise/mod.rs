@@ -1,17 +1,18 @@
 //! The noise of a scan, found without a nominal: its standard deviation, how far neighbors share it, and how many points count as one.
 //!
-//! What scanners and the programs behind them write is smoothed: the errors of neighboring points are alike, so `n` points tell as much as
-//! `n / τ` independent ones. Both are found together. Around places of the surface a polynomial is fitted to a patch of neighbors, and the
-//! products of its residuals are summed by the distance of the two points. A fit takes a part of the noise with it, and of shared noise
-//! the greater part, so the sums are not the covariances; but what they are expected to be is linear in the covariances
-//! (`E[rᵀBr] = tr(P B P C)` with the projection `P` of the residuals, the principle of MINQUE: C. R. Rao, Journal of the American Statistical
-//! Association 67 (1972) 112–115). The covariance that explains the sums best is found among those of the form
+//! Scanners and the programs behind them write smoothed data. The errors of neighboring points are alike, so `n` points tell as
+//! much as `n / τ` independent ones. Both are found together. Around places of the surface a polynomial is fitted to a patch of
+//! neighbors. The products of its residuals are summed by the distance of the two points. A fit takes a part of the noise with
+//! it, and of shared noise the greater part, so the sums are not the covariances. But their expectations are linear in the
+//! covariances: `E[rᵀBr] = tr(P B P C)` with the projection `P` of the residuals. (The principle of MINQUE: C. R. Rao, Journal
+//! of the American Statistical Association 67 (1972) 112–115.) The covariance that explains the sums best is found among those
+//! of the form
 //!
 //! `C(d) = white [d = 0] + shared φ(d / reach)`, `φ(t) = (1 − t)⁴ (4 t + 1)`
 //!
-//! with Wendland's compact function `φ` (Advances in Computational Mathematics 4 (1995) 389–396), which is positive definite in space.
-//! Patches that lie over edges, or over form that bends faster than a polynomial of degree four follows, have greater sums than the noise
-//! allows; they are left out by the distribution that sums of squares of the noise found have.
+//! with Wendland's compact function `φ` (Advances in Computational Mathematics 4 (1995) 389–396), which is positive definite in
+//! space. Some patches lie over edges, or over form that bends faster than a polynomial of degree four follows. They have
+//! greater sums than the noise allows. The distribution of sums of squares of the noise found leaves them out.
 //!
 //! | file | what |
 //! |---|---|
@@ -36,28 +37,29 @@ use moments::Moments;
 use patch::{Around, InCloud, OnMesh};
 pub use terms::{NoNoise, Noise};
 
-/// Patches looked at, at most: what `progress` counts.
-pub const PATCHES: usize = 160;
-/// Patches that a point is in, on average, where there are few.
-const OFTEN: usize = 2;
-/// Points of a patch. The radius of the first is eight spacings: noise that neighbors of three rings share reaches over six. On parts whose
-/// faces hold few of these, and where what they tell is form, smaller ones tell the noise, whose reach they underestimate.
-const SIZES: [usize; 2] = [200, 80];
-/// What the smaller ones tell is noise where it differs no more than this from patch to patch: 1.1 on parts, 2.4 and more on free forms.
-const SMALL_UNEVEN: f64 = 1.8;
-/// What is more than this share of the distance between neighbors may be form everywhere alike, as of narrow ribs; noise is no less in smaller
-/// patches than this share of what it is in larger ones.
-const GREAT: f64 = 0.1;
-const LESS: f64 = 0.7;
-/// Fewest patches that the noise is told from: the standard deviation of eight is known to a tenth, with shared noise to a fifth.
-const FEWEST_PATCHES: usize = 8;
+/// Most patches looked at: `progress` counts them.
+pub const MAX_PATCHES: usize = 160;
+/// Patches that hold a point, on average, where there are few.
+const PATCHES_PER_POINT: usize = 2;
+/// Points of a patch. The radius of the first size is eight spacings: noise that neighbors of three rings share reaches over
+/// six. Smaller patches serve parts whose faces hold few of these, or where the large ones show form. They tell the noise, and
+/// underestimate its reach.
+const POINTS_PER_PATCH: [usize; 2] = [200, 80];
+/// Unevenness up to which smaller patches tell noise: 1.1 on parts, 2.4 and more on free forms.
+const MAX_SMALL_UNEVENNESS: f64 = 1.8;
+/// Share of the distance between neighbors from which on noise may be form everywhere alike, such as narrow ribs.
+const FORM_LIKE_NOISE_SHARE: f64 = 0.1;
+/// Share of the noise of larger patches up to which that of smaller ones counts instead: noise is no less in smaller patches.
+const MAX_NARROW_NOISE_SHARE: f64 = 0.7;
+/// Least patches that tell the noise. The standard deviation of eight is known to a tenth, with shared noise to a fifth.
+const MIN_PATCHES: usize = 8;
 
 /// The noise of the `V` vertices of a mesh, millimeters. Neighbors are found through edges: weld first what is not welded. Vertices that no
 /// facet uses are no neighbors of any.
 ///
-/// Of a mesh that is drawn, not measured, patches reach over edges, and what is told is how far the part departs from smooth surfaces
-/// at the spacing of its vertices. Deterministic for any number of threads. Cost: a pass over the facets, and the patches, whose
-/// number does not grow with the mesh. `progress` counts patches.
+/// On a mesh that is drawn, not measured, patches reach over edges. Then the result is how far the part departs from smooth
+/// surfaces at the spacing of its vertices. Deterministic for any number of threads. Cost: a pass over the facets, and the
+/// patches, whose number does not grow with the mesh. `progress` counts patches.
 /// ```
 /// use trueness_geom::{mesh::Mesh, noise, num::random::Random, progress::Silent};
 /// // A plane of 61 × 61 vertices with independent noise, evenly within ±0.01 × √3.
@@ -76,7 +78,7 @@ const FEWEST_PATCHES: usize = 8;
 /// # Errors
 /// [`NoNoise`]: too few vertices that hang together, a coordinate that is no number, a facet that names no vertex, cancelled.
 pub fn mesh(mesh: &Mesh, seed: u64, progress: &dyn Progress) -> Result<Noise, NoNoise> {
-    found(mesh, None, seed, progress)
+    noise_of(mesh, None, seed, progress)
 }
 
 /// The noise of `N` points, millimeters. Neighbors are the nearest ones. As [`mesh()`] otherwise.
@@ -84,20 +86,20 @@ pub fn mesh(mesh: &Mesh, seed: u64, progress: &dyn Progress) -> Result<Noise, No
 /// # Errors
 /// As [`mesh()`].
 pub fn cloud(points: &[Point], seed: u64, progress: &dyn Progress) -> Result<Noise, NoNoise> {
-    found(&Mesh { positions: points.to_vec(), faces: vec![] }, None, seed, progress)
+    noise_of(&Mesh { positions: points.to_vec(), faces: vec![] }, None, seed, progress)
 }
 
-/// The noise of the `V` vertices of a mesh, or without facets of `V` points, whose distances from surfaces fitted to them are known: form is
-/// told from noise with less doubt, and where the surface bends much from one point to the next. Points without a distance
-/// that is a number do not count. As [`mesh()`] otherwise.
+/// The noise of the `V` vertices of a mesh, or without facets of `V` points, whose distances from surfaces fitted to them are
+/// known. Form is told from noise with less doubt, and also where the surface bends much from one point to the next. Points
+/// without a distance that is a number do not count. As [`mesh()`] otherwise.
 ///
 /// # Errors
 /// As [`mesh()`].
 pub fn about(scan: &Mesh, distances: &[f64], seed: u64, progress: &dyn Progress) -> Result<Noise, NoNoise> {
-    found(scan, Some(distances), seed, progress)
+    noise_of(scan, Some(distances), seed, progress)
 }
 
-fn found(
+fn noise_of(
     scan: &Mesh,
     distances: Option<&[f64]>,
     seed: u64,
@@ -114,15 +116,20 @@ fn found(
         false => Box::new(OnMesh::new(scan, counts)?),
     };
     let all = Places { points, counted: &counted, around: &*around, distances };
-    let wide = all.told(SIZES[0], seed, progress);
-    let looks_like_noise = |n: &Noise| n.even().is_ok() && n.deviation <= GREAT * n.spacing;
+    let wide = all.noise_of_patches(POINTS_PER_PATCH[0], seed, progress);
+    let looks_like_noise = |n: &Noise| n.even().is_ok() && n.deviation <= FORM_LIKE_NOISE_SHARE * n.spacing;
     if matches!(wide, Err(NoNoise::Cancelled(_))) || wide.as_ref().is_ok_and(looks_like_noise) {
         return wide;
     }
     let great = wide.as_ref().map_or(f64::INFINITY, |n| n.deviation);
-    match all.told(SIZES[1], seed, progress) {
+    match all.noise_of_patches(POINTS_PER_PATCH[1], seed, progress) {
         Err(NoNoise::Cancelled(e)) => Err(e.into()),
-        Ok(narrow) if narrow.unevenness <= SMALL_UNEVEN && narrow.deviation <= LESS * great => Ok(narrow),
+        Ok(narrow)
+            if narrow.unevenness <= MAX_SMALL_UNEVENNESS
+                && narrow.deviation <= MAX_NARROW_NOISE_SHARE * great =>
+        {
+            Ok(narrow)
+        }
         _ => wide,
     }
 }
@@ -136,10 +143,10 @@ struct Places<'a> {
 }
 
 impl Places<'_> {
-    /// What patches of so many points tell.
-    fn told(&self, size: usize, seed: u64, progress: &dyn Progress) -> Result<Noise, NoNoise> {
+    /// The noise that patches of so many points tell.
+    fn noise_of_patches(&self, size: usize, seed: u64, progress: &dyn Progress) -> Result<Noise, NoNoise> {
         let Places { points, counted, around, distances } = self;
-        let count = PATCHES.min(OFTEN * counted.len() / size);
+        let count = MAX_PATCHES.min(PATCHES_PER_POINT * counted.len() / size);
         let centers = Random::new(seed).choose(count, counted.len());
         let patches: Vec<Option<Moments>> = (centers.par_iter())
             .map(|&center| {
@@ -151,7 +158,7 @@ impl Places<'_> {
                 let heights =
                     distances.map(|all| patch.iter().map(|i| all[*i as usize]).collect::<Vec<f64>>());
                 // The smaller patches of those that are looked at again are no more of what is to be done.
-                if size == SIZES[0] {
+                if size == POINTS_PER_PATCH[0] {
                     progress.advance(1);
                 }
                 Moments::of(&places, heights.as_deref(), size)
@@ -161,8 +168,8 @@ impl Places<'_> {
             return Err(Cancelled.into());
         }
         let patches: Vec<Moments> = patches.into_iter().flatten().collect();
-        if patches.len() < FEWEST_PATCHES {
-            return Err(NoNoise::Few { found: patches.len(), needed: size, least: FEWEST_PATCHES });
+        if patches.len() < MIN_PATCHES {
+            return Err(NoNoise::FewPatches { found: patches.len(), needed: size, least: MIN_PATCHES });
         }
         Ok(covariance::found(&patches))
     }

@@ -3,30 +3,32 @@
 use crate::fit::Scatter;
 use crate::space::{Point, dot, minus, norm};
 
-/// Degree of the polynomial, and its coefficients. With the quadratic one a cylinder of ten spacings radius has a third more noise than it has.
-const DEGREE: usize = 4;
-const TERMS: usize = (DEGREE + 1) * (DEGREE + 2) / 2;
+/// Degree of the polynomial. With the quadratic one a cylinder with a radius of ten spacings shows a third more noise than it
+/// has.
+const POLYNOMIAL_DEGREE: usize = 4;
+/// Coefficients of the polynomial.
+const POLYNOMIAL_TERMS: usize = (POLYNOMIAL_DEGREE + 1) * (POLYNOMIAL_DEGREE + 2) / 2;
 /// Distances in spacings by which products are summed: 0, then each rounded to a whole number. Beyond these lags sums hold little but
 /// chance.
-pub(super) const LAGS: usize = 7;
+pub(super) const LAG_COUNT: usize = 7;
 /// Distances in spacings by which covariances are told apart: 0, then steps of this width.
-const BIN: f64 = 0.25;
-/// Their number: covariances reach ten spacings.
-pub(super) const BINS: usize = 41;
-/// What rounding leaves of a column of length 1 that the columns before it hold.
-const DEPENDENT: f64 = 1e-8;
+const COVARIANCE_BIN_WIDTH: f64 = 0.25;
+/// Number of these distances: covariances reach ten spacings.
+pub(super) const COVARIANCE_BINS: usize = 41;
+/// Length that rounding leaves of a column of length 1 that the columns before it hold.
+const MAX_DEPENDENT_LENGTH: f64 = 1e-8;
 
-/// What a patch tells.
+/// The sums of a patch.
 #[derive(Clone, Debug)]
 pub(super) struct Moments {
     /// For each lag the sum of the products of two residuals, over ordered pairs.
-    pub products: [f64; LAGS],
-    /// What covariance 1 of one bin adds to each of these sums.
-    pub expected: [[f64; BINS]; LAGS],
+    pub products: [f64; LAG_COUNT],
+    /// The contribution of covariance 1 of one bin to each of these sums.
+    pub expected: [[f64; COVARIANCE_BINS]; LAG_COUNT],
     /// Ordered pairs of points in each bin.
-    pub pairs: [f64; BINS],
+    pub pairs: [f64; COVARIANCE_BINS],
     /// Points in each bin about the center of the patch.
-    pub about_center: [f64; BINS],
+    pub about_center: [f64; COVARIANCE_BINS],
     /// Points, and those that the polynomial leaves free.
     pub points: f64,
     pub free: f64,
@@ -36,12 +38,12 @@ pub(super) struct Moments {
 
 /// The middle of a bin, in spacings.
 pub(super) fn middle(bin: usize) -> f64 {
-    if bin == 0 { 0.0 } else { (bin as f64 - 0.5) * BIN }
+    if bin == 0 { 0.0 } else { (bin as f64 - 0.5) * COVARIANCE_BIN_WIDTH }
 }
 
 impl Moments {
-    /// Those of a patch whose first point is the center; `None` where it has fewer than `size` points or they lie on a line.
-    /// `heights` are the places' distances from a surface; without them, those over the plane of the patch.
+    /// The moments of a patch whose first point is the center. `None` where it has fewer than `size` points or they lie on a
+    /// line. `heights` are the places' distances from a surface; without them, those over the plane of the patch.
     pub(super) fn of(places: &[Point], heights: Option<&[f64]>, size: usize) -> Option<Moments> {
         if places.len() < size {
             return None;
@@ -51,10 +53,10 @@ impl Moments {
         let terms = polynomial.first()?.len();
         let residuals = residuals(&polynomial, heights.unwrap_or(&own));
         let mut all = Moments {
-            products: [0.0; LAGS],
-            expected: [[0.0; BINS]; LAGS],
-            pairs: [0.0; BINS],
-            about_center: [0.0; BINS],
+            products: [0.0; LAG_COUNT],
+            expected: [[0.0; COVARIANCE_BINS]; LAG_COUNT],
+            pairs: [0.0; COVARIANCE_BINS],
+            about_center: [0.0; COVARIANCE_BINS],
             points: places.len() as f64,
             free: (places.len() - terms) as f64,
             spacing,
@@ -73,15 +75,15 @@ impl Moments {
             }
             for (l, half) in half.iter().enumerate() {
                 // The element (i, j) of P B P, B being 1 for the pairs of the lag.
-                let taken = inner(&polynomial[i], &half[j]) + inner(&half[i], &polynomial[j]);
-                all.expected[l][bin] += both * (f64::from(u8::from(lag == Some(l))) - taken);
+                let projected = inner(&polynomial[i], &half[j]) + inner(&half[i], &polynomial[j]);
+                all.expected[l][bin] += both * (f64::from(u8::from(lag == Some(l))) - projected);
             }
         });
         Some(all)
     }
 }
 
-type Row = [f64; TERMS];
+type Row = [f64; POLYNOMIAL_TERMS];
 
 fn inner(a: &Row, b: &Row) -> f64 {
     a.iter().zip(b).map(|(x, y)| x * y).sum()
@@ -105,7 +107,7 @@ fn polynomial(places: &[Point]) -> Option<(Vec<Row>, Vec<f64>)> {
         return None;
     }
     let mut columns: Vec<Vec<f64>> = vec![];
-    for degree in 0..=DEGREE {
+    for degree in 0..=POLYNOMIAL_DEGREE {
         for k in 0..=degree {
             let power = |q: &[f64; 3]| {
                 let [x, y] = [q[1] / reach, q[2] / reach];
@@ -120,7 +122,7 @@ fn polynomial(places: &[Point]) -> Option<(Vec<Row>, Vec<f64>)> {
                     column.iter_mut().zip(before).for_each(|(a, b)| *a -= share * b);
                 }
             }
-            if scale(&mut column, DEPENDENT).is_some() {
+            if scale(&mut column, MAX_DEPENDENT_LENGTH).is_some() {
                 columns.push(column);
             }
         }
@@ -140,7 +142,7 @@ fn scale(column: &mut [f64], least: f64) -> Option<()> {
 }
 
 fn residuals(polynomial: &[Row], heights: &[f64]) -> Vec<f64> {
-    let mut shares = [0.0; TERMS];
+    let mut shares = [0.0; POLYNOMIAL_TERMS];
     for (row, height) in polynomial.iter().zip(heights) {
         shares.iter_mut().zip(row).for_each(|(s, q)| *s += q * height);
     }
@@ -154,7 +156,8 @@ struct Pairs {
     kinds: Vec<[u8; 2]>,
 }
 
-const BEYOND: u8 = u8::MAX;
+/// Number of a bin or lag beyond the last one.
+const NO_BIN: u8 = u8::MAX;
 
 impl Pairs {
     fn of(places: &[Point], spacing: f64) -> Pairs {
@@ -163,9 +166,9 @@ impl Pairs {
             kinds.push([0, 0]);
             for q in &places[i + 1..] {
                 let apart = norm(minus(*p, *q)) / spacing;
-                let [bin, lag] = [1.0 + (apart / BIN).floor(), apart.round().max(1.0)];
-                let or_beyond = |x: f64, end: usize| if x < end as f64 { x as u8 } else { BEYOND };
-                kinds.push([or_beyond(bin, BINS), or_beyond(lag, LAGS)]);
+                let [bin, lag] = [1.0 + (apart / COVARIANCE_BIN_WIDTH).floor(), apart.round().max(1.0)];
+                let or_beyond = |x: f64, end: usize| if x < end as f64 { x as u8 } else { NO_BIN };
+                kinds.push([or_beyond(bin, COVARIANCE_BINS), or_beyond(lag, LAG_COUNT)]);
             }
         }
         Pairs { count: places.len(), kinds }
@@ -176,7 +179,7 @@ impl Pairs {
         let mut kinds = self.kinds.iter();
         for i in 0..self.count {
             for (j, [bin, lag]) in (i..self.count).zip(&mut kinds) {
-                let known = |x: u8| (x != BEYOND).then_some(usize::from(x));
+                let known = |x: u8| (x != NO_BIN).then_some(usize::from(x));
                 visit(i, j, known(*bin), known(*lag));
             }
         }
@@ -184,7 +187,7 @@ impl Pairs {
 
     /// For each lag `B Q − Q (Qᵀ B Q) / 2`, with the columns `Q` and 1 in `B` for its pairs: `P B P = B − Q hᵀ − h Qᵀ` with that `h`.
     fn half_products(&self, polynomial: &[Row], terms: usize) -> Vec<Vec<Row>> {
-        let mut all = vec![vec![[0.0; TERMS]; self.count]; LAGS];
+        let mut all = vec![vec![[0.0; POLYNOMIAL_TERMS]; self.count]; LAG_COUNT];
         self.each(|i, j, _, lag| {
             let Some(lag) = lag else { return };
             let of_lag = &mut all[lag];
@@ -194,7 +197,7 @@ impl Pairs {
             }
         });
         for of_lag in &mut all {
-            let mut inside = [[0.0; TERMS]; TERMS];
+            let mut inside = [[0.0; POLYNOMIAL_TERMS]; POLYNOMIAL_TERMS];
             for (row, half) in polynomial.iter().zip(&*of_lag) {
                 for (inside, q) in inside.iter_mut().zip(&row[..terms]) {
                     inside.iter_mut().zip(half).for_each(|(sum, h)| *sum += q * h);
@@ -215,7 +218,7 @@ mod tests {
     use super::*;
     use crate::num::random::Random;
 
-    /// What the sums are expected to be, against the product of the matrices themselves.
+    /// The expectations of the sums, against the product of the matrices themselves.
     #[test]
     fn expected_sums_are_traces() {
         let mut random = Random::new(3);

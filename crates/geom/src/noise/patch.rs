@@ -7,7 +7,7 @@ use crate::space::{Point, dot, minus};
 use crate::spatial::lists::lists;
 use std::collections::BTreeSet;
 
-/// What knows the neighbors of points.
+/// A source of the neighbors of points.
 pub(super) trait Around: Sync {
     /// At most `size` points around `center`, which comes first.
     fn patch(&self, center: u32, size: usize) -> Vec<u32>;
@@ -16,11 +16,11 @@ pub(super) trait Around: Sync {
 /// Vertices of a mesh, neighbors through edges.
 pub(super) struct OnMesh {
     first: Vec<u32>,
-    others: Vec<u32>,
+    all_neighbors: Vec<u32>,
 }
 
 impl OnMesh {
-    /// Of the vertices that count.
+    /// The neighbors of the vertices that count.
     pub(super) fn new(mesh: &Mesh, counts: impl Fn(u32) -> bool + Sync) -> Result<OnMesh, NoNoise> {
         let vertices = mesh.positions.len();
         if let Some(facet) = mesh.faces.iter().position(|f| f.iter().any(|v| *v as usize >= vertices)) {
@@ -29,11 +29,11 @@ impl OnMesh {
         let sides = |f: &[u32; 3]| [[0, 1], [1, 2], [2, 0], [1, 0], [2, 1], [0, 2]].map(|e| e.map(|k| f[k]));
         let sides = mesh.faces.par_iter().flat_map_iter(sides);
         let counted = sides.filter(|[a, b]| a != b && counts(*a) && counts(*b));
-        let (first, others) = lists(vertices, counted.collect());
-        Ok(OnMesh { first, others })
+        let (first, all_neighbors) = lists(vertices, counted.collect());
+        Ok(OnMesh { first, all_neighbors })
     }
-    fn beside(&self, v: u32) -> &[u32] {
-        &self.others[self.first[v as usize] as usize..self.first[v as usize + 1] as usize]
+    fn neighbors(&self, v: u32) -> &[u32] {
+        &self.all_neighbors[self.first[v as usize] as usize..self.first[v as usize + 1] as usize]
     }
 }
 
@@ -43,7 +43,7 @@ impl Around for OnMesh {
         let (mut found, mut seen) = (vec![center], BTreeSet::from([center]));
         let mut next = 0;
         while next < found.len() && found.len() < size {
-            for &v in self.beside(found[next]) {
+            for &v in self.neighbors(found[next]) {
                 if found.len() < size && seen.insert(v) {
                     found.push(v);
                 }

@@ -23,14 +23,14 @@ pub struct Noise {
     /// Patches that the noise is told from.
     pub patches: usize,
     /// Patches left out, which lie over edges or form.
-    pub left_out: usize,
+    pub excluded_patches: usize,
     /// How much the variances of the patches differ, in what chance makes: about 1 where the noise is the same everywhere.
     pub unevenness: f64,
 }
 
-/// Noise differs no more than this from patch to patch: random scans with noise of zero to three rings up to 1.5, scans of free forms
-/// from 3.4 on.
-const UNEVEN: f64 = 2.5;
+/// Greatest unevenness of noise from patch to patch. Random scans with noise of zero to three rings show up to 1.5, scans of
+/// free forms 3.4 and more.
+const MAX_UNEVENNESS: f64 = 2.5;
 
 impl Noise {
     /// This noise, where it is the same everywhere; what differs from patch to patch is form.
@@ -38,7 +38,7 @@ impl Noise {
     /// # Errors
     /// [`NoNoise::Uneven`].
     pub fn even(self) -> Result<Noise, NoNoise> {
-        if self.unevenness <= UNEVEN { Ok(self) } else { Err(NoNoise::Uneven) }
+        if self.unevenness <= MAX_UNEVENNESS { Ok(self) } else { Err(NoNoise::Uneven) }
     }
 
     /// Correlation of the noise of two points at a distance in millimeters.
@@ -57,7 +57,7 @@ pub enum NoNoise {
     #[error(
         "it has too few points to tell how far neighbors share noise: {found} patches of {needed}, {least} are needed"
     )]
-    Few {
+    FewPatches {
         /// Patches found.
         found: usize,
         /// Points of a patch.
@@ -77,7 +77,7 @@ pub enum NoNoise {
         /// Index of the first such facet.
         facet: usize,
     },
-    /// What is left of patches is form.
+    /// The rest of patches is form.
     #[error("it departs from smooth surfaces by more in one place than in another: that is its form")]
     Uneven,
     /// The mesh was drawn: its vertices lie where somebody put them.

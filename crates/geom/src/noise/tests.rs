@@ -79,8 +79,8 @@ impl Net {
         }
         values
     }
-    /// Noise that is averaged so many times, of deviation [`PLANTED`]; and how many points of it tell as much as an independent one, both
-    /// as they are at a vertex inside.
+    /// Noise that is averaged so many times, of deviation [`PLANTED`]. Also how many points of it tell as much as an
+    /// independent one, both as they are at a vertex inside.
     fn noise(&self, rounds: usize, inside: usize, random: &mut Random) -> (Vec<f64>, f64) {
         let count = self.first.len() - 1;
         let mut one = vec![0.0; count];
@@ -120,7 +120,8 @@ fn scan(form: Form, rounds: usize, side: u32, seed: u64) -> (Mesh, f64) {
     (Mesh { positions: places.collect(), faces: net.faces }, shared)
 }
 
-/// A ball of radius 10 with 2,562 vertices, an icosahedron parted four times, with noise; and how many points of it tell as much as one.
+/// A ball of radius 10 with 2,562 vertices, an icosahedron parted four times, with noise. Also how many points of it tell as
+/// much as one.
 fn ball(rounds: usize, random: &mut Random) -> (Mesh, f64) {
     let golden = 0.5 * (1.0 + 5f64.sqrt());
     let mut places: Vec<Point> = (0..3)
@@ -222,7 +223,7 @@ fn narrow_faces_have_their_noise_from_small_patches() {
     }
 }
 
-/// Of a plane without noise the deviation is 0, a number.
+/// The deviation of a plane without noise is 0, a number.
 #[test]
 fn what_has_no_noise_has_the_deviation_0() {
     let positions: Vec<Point> = (0..1600).map(|i| [f64::from(i % 40), f64::from(i / 40), 0.0]).collect();
@@ -251,7 +252,7 @@ fn radii_of_balls_scatter_as_stated() {
         }
         let [deviation, shared] = [0, 1].map(|r| spread(all.iter().map(|a| a[r]).collect()));
         let [ratio, alone] = [stated, independent].map(|s| (squares / s).sqrt());
-        // Of 40 copies a scatter is known to a ninth.
+        // A scatter of 40 copies is known to a ninth.
         assert!((0.75..1.3).contains(&ratio), "{rounds}: {ratio}");
         println!(
             "{rounds}: scatter over stated {ratio:.3}, of independent points {alone:.3}, deviation {deviation:.3?}, shared {shared:.3?}"

@@ -1,15 +1,15 @@
 //! Symmetric positive definite systems whose entries lie near the diagonal.
 //!
-//! The rows are cut into blocks of 32. All rows of a block hold the same columns, from the band's width before its first
-//! row to its end, so that products of two rows are products of slices. The rows of a block do not depend on each
-//! other left of it: they are computed on all threads, each entry in one fixed order, so the bits are the same on any number.
+//! The rows are cut into blocks of 32. All rows of a block hold the same columns, from the band's width before its first row to
+//! its end. So products of two rows are products of slices. The rows of a block do not depend on each other left of it. They
+//! are computed on all threads, each entry in one fixed order, so the bits are the same on any number.
 
 use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress};
 use crate::simd::widest::widest;
 
 /// Rows of a block.
-const BLOCK: usize = 32;
+const ROWS_PER_BLOCK: usize = 32;
 
 /// Why there is no factor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -40,16 +40,16 @@ impl Banded {
     /// All zeros.
     pub fn new(n: usize, width: usize) -> Banded {
         let width = width.min(n.saturating_sub(1));
-        let stride = width + BLOCK;
+        let stride = width + ROWS_PER_BLOCK;
         Banded { n, width, stride, rows: vec![0.0; n * stride] }
     }
     /// Bytes that a matrix of this size takes; `None` where no number holds them.
     pub fn bytes(n: usize, width: usize) -> Option<usize> {
-        n.checked_mul(width.min(n) + BLOCK)?.checked_mul(size_of::<f64>())
+        n.checked_mul(width.min(n) + ROWS_PER_BLOCK)?.checked_mul(size_of::<f64>())
     }
     /// The entry of row `i` and column `j ≤ i`, no farther from the diagonal than the width.
     pub fn entry(&mut self, i: usize, j: usize) -> &mut f64 {
-        let column = j + self.width - i / BLOCK * BLOCK;
+        let column = j + self.width - i / ROWS_PER_BLOCK * ROWS_PER_BLOCK;
         &mut self.rows[i * self.stride + column]
     }
 
@@ -61,12 +61,12 @@ impl Banded {
     /// [`BandedError`]: a pivot no greater than rounding leaves of its diagonal entry; cancelled.
     pub fn factor(self, progress: &dyn Progress) -> Result<Factor, BandedError> {
         let Banded { n, width, stride, mut rows } = self;
-        for first in (0..n).step_by(BLOCK) {
+        for first in (0..n).step_by(ROWS_PER_BLOCK) {
             if progress.cancelled() {
                 return Err(Cancelled.into());
             }
             let (done, rest) = rows.split_at_mut(first * stride);
-            let count = BLOCK.min(n - first);
+            let count = ROWS_PER_BLOCK.min(n - first);
             let block = &mut rest[..count * stride];
             let from = first.saturating_sub(width);
             let left = |four: &mut [f64]| eliminate(four, stride, done, width, first, from);
@@ -94,7 +94,7 @@ widest! {
     ) = {
     let at = |column: usize| column + width - first;
     for j in from..first {
-        let base = j / BLOCK * BLOCK;
+        let base = j / ROWS_PER_BLOCK * ROWS_PER_BLOCK;
         let row = &done[j * stride..(j + 1) * stride];
         let other = |column: usize| column + width - base;
         let length = j - from;
@@ -210,7 +210,7 @@ pub struct Factor {
 impl Factor {
     /// The entries of row `i` left of the diagonal, the first column they belong to, and the reciprocal of the diagonal.
     fn row(&self, i: usize) -> (&[f64], usize, f64) {
-        let base = i / BLOCK * BLOCK;
+        let base = i / ROWS_PER_BLOCK * ROWS_PER_BLOCK;
         let from = i.saturating_sub(self.width);
         let row = &self.rows[i * self.stride..(i + 1) * self.stride];
         let at = |column: usize| column + self.width - base;

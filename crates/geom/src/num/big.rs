@@ -118,8 +118,9 @@ impl Big {
 
     /// Good to some 60 bits: a number of up to 128 bits, and the power of 2^64 that it is to be multiplied with.
     fn rough(&self) -> (f64, i32) {
-        const BASE: f64 = 18_446_744_073_709_551_616.0;
-        let high = self.limb(self.top() - 1) as f64 * BASE + self.limb(self.top() - 2) as f64;
+        /// Values of one limb.
+        const LIMB_BASE: f64 = 18_446_744_073_709_551_616.0;
+        let high = self.limb(self.top() - 1) as f64 * LIMB_BASE + self.limb(self.top() - 2) as f64;
         (if self.negative { -high } else { high }, self.top() - 2)
     }
 

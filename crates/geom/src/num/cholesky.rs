@@ -9,21 +9,22 @@ pub struct Cholesky {
     lower: Vec<f64>,
 }
 
-/// Rows whose entries are found side by side: each entry is a sum in which every addition waits for the one before, and so many sums
-/// that do not wait for each other take little longer than one.
-const ROWS: usize = 8;
+/// Rows whose entries are found side by side. Each entry is a sum in which every addition waits for the one before. So many
+/// independent sums take little longer than one.
+const ROWS_AT_ONCE: usize = 8;
 
 /// The sum of products, in the order of the numbers.
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(x, y)| x * y).sum()
 }
 
-/// The entries of the next rows of the factor below the rows `done`: those of each row one after the other, of all rows at once.
-fn against_done(done: &[f64], next: &mut [f64], columns: &mut [[f64; ROWS]], n: usize, rows: usize) {
+/// The entries of the next rows of the factor below the rows `done`. The entries of each row come one after the other, of all
+/// rows at once.
+fn against_done(done: &[f64], next: &mut [f64], columns: &mut [[f64; ROWS_AT_ONCE]], n: usize, rows: usize) {
     for j in 0..columns.len() {
         let (before, this) = columns.split_at_mut(j);
         let other = &done[j * n..j * n + j + 1];
-        let mut sums = [-0.0; ROWS];
+        let mut sums = [-0.0; ROWS_AT_ONCE];
         for (column, y) in before.iter().zip(other) {
             sums.iter_mut().zip(column).for_each(|(s, x)| *s += x * y);
         }
@@ -37,9 +38,9 @@ fn against_done(done: &[f64], next: &mut [f64], columns: &mut [[f64; ROWS]], n: 
 impl Cholesky {
     /// The factor, or `None` where the matrix is not positive definite to working accuracy. Takes `n³ / 6` products.
     pub fn new(mut a: Vec<f64>, n: usize) -> Option<Cholesky> {
-        let mut columns = vec![[0.0; ROWS]; n];
-        for first in (0..n).step_by(ROWS) {
-            let rows = ROWS.min(n - first);
+        let mut columns = vec![[0.0; ROWS_AT_ONCE]; n];
+        for first in (0..n).step_by(ROWS_AT_ONCE) {
+            let rows = ROWS_AT_ONCE.min(n - first);
             let (done, rest) = a.split_at_mut(first * n);
             against_done(done, rest, &mut columns[..first], n, rows);
             for r in 0..rows {

@@ -1,8 +1,8 @@
 //! Numbers of twice the precision: the unevaluated sum of two `f64`, good to about 31 digits.
 //!
-//! Dekker, A floating-point technique for extending the available precision, 1971; Joldes, Muller and Popescu, Tight and
-//! rigorous error bounds for basic building blocks of double-word arithmetic, 2017 (products and sums to a few 2^-104).
-//! Right where neither results nor their errors leave the range of `f64`.
+//! Dekker, A floating-point technique for extending the available precision, 1971. Joldes, Muller and Popescu, Tight and
+//! rigorous error bounds for basic building blocks of double-word arithmetic, 2017 (products and sums to a few 2^-104). Right
+//! where neither results nor their errors leave the range of `f64`.
 
 use super::sum::two_sum;
 use std::ops::{Add, Mul, Sub};

@@ -1,7 +1,7 @@
 //! Sums without rounding.
 //!
-//! Shewchuk, Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates, 1997: a sum is kept as
-//! numbers that do not overlap, the largest last, and so grows by a number without loss.
+//! Shewchuk, Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates, 1997. A sum is kept as numbers
+//! that do not overlap, the largest last, and so grows by a number without loss.
 
 use super::sum::two_sum;
 

@@ -12,6 +12,7 @@ pub mod median;
 pub mod multigrid;
 pub mod predicates;
 pub mod random;
+pub(crate) mod rounding;
 pub mod sparse;
 pub mod special;
 pub mod sum;

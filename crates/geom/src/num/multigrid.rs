@@ -1,26 +1,26 @@
 //! Large sparse systems with an unknown for each vertex of a mesh.
 //!
-//! Neighbors are gathered into groups of about seven, these into groups of groups, until few are left; what changes slowly over the mesh
-//! is found among the groups, what changes fast by a sweep over the vertices. One round of that is the preconditioner
-//! of an iteration for matrices that need not be symmetric. The number of rounds hardly depends on the size of the mesh.
+//! Neighbors are gathered into groups of about seven, these into groups of groups, until few are left. Slow changes over the
+//! mesh are found among the groups, fast ones by a sweep over the vertices. One round of that is the preconditioner of an
+//! iteration for matrices that need not be symmetric. The number of rounds hardly depends on the size of the mesh.
 //!
-//! Sources: Vaněk, Mandel, Brezina, Algebraic multigrid by smoothed aggregation for second and fourth order elliptic
-//! problems, Computing 56, 1996; van der Vorst, Bi-CGSTAB, SIAM Journal on Scientific and Statistical Computing 13, 1992.
+//! Sources: Vaněk, Mandel, Brezina, Algebraic multigrid by smoothed aggregation for second and fourth order elliptic problems,
+//! Computing 56, 1996. Van der Vorst, Bi-CGSTAB, SIAM Journal on Scientific and Statistical Computing 13, 1992.
 
 use super::sparse::Sparse;
 use crate::progress::{Cancelled, Progress};
 
 /// Unknowns that are solved for at once.
-const FEW: usize = 300;
-/// Neighbors with an entry below this share of the root of both diagonals do not count for groups; half of it in each next round.
-const STRONG: f64 = 0.08;
+const MAX_DIRECT_UNKNOWNS: usize = 300;
+/// Neighbors with an entry below this share of the root of both diagonals do not count for groups. Each next round halves it.
+const MIN_STRONG_ENTRY: f64 = 0.08;
 /// Weight of the smoothing of groups.
-const SMOOTHED: f64 = 2.0 / 3.0;
-/// Unknowns with more neighbors have no part in the smoothing: through each of them all of its neighbors would know each other in the next
-/// level, a square of their number.
-const CROWDED: usize = 100;
-/// Rounds at most.
-const ROUNDS: usize = 200;
+const GROUP_SMOOTHING: f64 = 2.0 / 3.0;
+/// Unknowns with more neighbors have no part in the smoothing. Through each of them all its neighbors would be coupled in the
+/// next level, a square of their number.
+const MAX_SMOOTHED_NEIGHBORS: usize = 100;
+/// Most cycles of the solver.
+const MAX_CYCLES: usize = 200;
 
 /// A matrix prepared for solving.
 pub struct Multigrid {
@@ -37,15 +37,15 @@ struct Level {
 }
 
 impl Multigrid {
-    /// Of a matrix with a positive diagonal in which each unknown is about a mean of its neighbors.
+    /// The solver of a matrix with a positive diagonal in which each unknown is about a mean of its neighbors.
     ///
     /// Cost: linear; memory about three times that of the matrix.
     pub fn new(matrix: Sparse) -> Multigrid {
-        let (mut levels, mut matrix, mut strong) = (vec![], matrix, STRONG);
-        while matrix.rows() > FEW {
+        let (mut levels, mut matrix, mut strong) = (vec![], matrix, MIN_STRONG_ENTRY);
+        while matrix.rows() > MAX_DIRECT_UNKNOWNS {
             let diagonal = matrix.diagonal();
             let (group, groups) = gathered(&matrix, &diagonal, strong);
-            // What hardly hangs together is left to the sweeps: nothing is below.
+            // Unknowns that hardly hang together are left to the sweeps: nothing is below.
             let hangs_together = 10 * groups <= 9 * matrix.rows();
             let down = match hangs_together {
                 true => smoothed(&matrix, &diagonal, &group, groups),
@@ -83,7 +83,7 @@ impl Multigrid {
         let (mut rho, mut alpha, mut omega) = (1.0, 1.0, 1.0);
         let (mut along, mut image) = (vec![0.0; n], vec![0.0; n]);
         let mut best = (dot(&left, &left).sqrt() / size, x.to_vec());
-        for _ in 0..ROUNDS {
+        for _ in 0..MAX_CYCLES {
             if progress.cancelled() {
                 return Err(Cancelled);
             }
@@ -146,15 +146,16 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 
 /// The number of each unknown's group, and how many groups there are.
 fn gathered(matrix: &Sparse, diagonal: &[f64], strong: f64) -> (Vec<usize>, usize) {
-    const NONE: usize = usize::MAX;
+    /// Number of a group where there is none.
+    const NO_GROUP: usize = usize::MAX;
     let near = |i: usize| {
         matrix.row(i).filter(move |(j, a)| *j != i && a.abs() > strong * (diagonal[i] * diagonal[*j]).sqrt())
     };
     let n = matrix.rows();
-    let (mut group, mut groups) = (vec![NONE; n], 0);
+    let (mut group, mut groups) = (vec![NO_GROUP; n], 0);
     // Around each unknown with no neighbor in a group.
     for i in 0..n {
-        if group[i] == NONE && near(i).all(|(j, _)| group[j] == NONE) {
+        if group[i] == NO_GROUP && near(i).all(|(j, _)| group[j] == NO_GROUP) {
             near(i).for_each(|(j, _)| group[j] = groups);
             group[i] = groups;
             groups += 1;
@@ -163,16 +164,17 @@ fn gathered(matrix: &Sparse, diagonal: &[f64], strong: f64) -> (Vec<usize>, usiz
     // The others join the nearest one of these.
     let first = group.clone();
     for i in 0..n {
-        if first[i] == NONE {
-            let strongest = near(i)
-                .filter(|(j, _)| first[*j] != NONE)
-                .fold((NONE, 0.0), |best, (j, a)| if a.abs() > best.1 { (first[j], a.abs()) } else { best });
+        if first[i] == NO_GROUP {
+            let strongest =
+                near(i).filter(|(j, _)| first[*j] != NO_GROUP).fold((NO_GROUP, 0.0), |best, (j, a)| {
+                    if a.abs() > best.1 { (first[j], a.abs()) } else { best }
+                });
             group[i] = strongest.0;
         }
     }
     for i in 0..n {
-        if group[i] == NONE {
-            near(i).for_each(|(j, _)| group[j] = if group[j] == NONE { groups } else { group[j] });
+        if group[i] == NO_GROUP {
+            near(i).for_each(|(j, _)| group[j] = if group[j] == NO_GROUP { groups } else { group[j] });
             group[i] = groups;
             groups += 1;
         }
@@ -180,15 +182,18 @@ fn gathered(matrix: &Sparse, diagonal: &[f64], strong: f64) -> (Vec<usize>, usiz
     (group, groups)
 }
 
-/// What the members take of their groups: all of their own, smoothed by one step over the neighbors where these are not too many.
+/// The shares that members take of their groups: all of their own, smoothed by one step over the neighbors where these are not
+/// too many.
 fn smoothed(matrix: &Sparse, diagonal: &[f64], group: &[usize], groups: usize) -> Sparse {
     let mut entries = vec![];
     for i in 0..matrix.rows() {
         entries.push((i as u32, group[i] as u32, 1.0));
-        if matrix.row(i).nth(CROWDED).is_some() {
+        if matrix.row(i).nth(MAX_SMOOTHED_NEIGHBORS).is_some() {
             continue;
         }
-        entries.extend(matrix.row(i).map(|(j, a)| (i as u32, group[j] as u32, -SMOOTHED * a / diagonal[i])));
+        entries.extend(
+            matrix.row(i).map(|(j, a)| (i as u32, group[j] as u32, -GROUP_SMOOTHING * a / diagonal[i])),
+        );
     }
     Sparse::new(matrix.rows(), groups, &entries)
 }

@@ -11,8 +11,8 @@ fn sign(x: f64) -> i32 {
     i32::from(x > 0.0) - i32::from(x < 0.0)
 }
 
-/// Side of `d` on the plane through `a`, `b`, `c`: +1 where the three run clockwise as seen from `d`, −1 where they run
-/// counter-clockwise (`d` lies outside of that face), 0 in the plane.
+/// Side of `d` on the plane through `a`, `b`, `c`. It is +1 where the three run clockwise as seen from `d`, 0 in the plane. It
+/// is −1 where they run counter-clockwise: then `d` lies outside of that face.
 pub fn side_of_plane(a: &Point, b: &Point, c: &Point, d: &Point) -> i32 {
     // Sides of boxes: long arithmetic would find the same.
     if (0..3).any(|k| a[k] == d[k] && b[k] == d[k] && c[k] == d[k]) {
@@ -29,7 +29,7 @@ pub fn height([a, b, c]: [&Point; 3], d: &Point) -> f64 {
     -orient3d(p(a), p(b), p(c), p(d)) / norm(cross(minus(*b, *a), minus(*c, *a)))
 }
 
-/// Side of `c` on the line through `a` and `b`, all seen along axis `axis` (0, 1 or 2): +1 on the left, 0 on the line.
+/// Side of `c` on the line through `a` and `b`, all seen along axis `axis` (0, 1 or 2). It is +1 on the left, 0 on the line.
 pub fn side_of_line(axis: usize, a: &Point, b: &Point, c: &Point) -> i32 {
     let p = |p: &Point| Coord { x: p[(axis + 1) % 3], y: p[(axis + 2) % 3] };
     sign(orient2d(p(a), p(b), p(c)))
@@ -45,11 +45,11 @@ pub fn axis(triangle: &[Point; 3]) -> Option<usize> {
 #[inline]
 pub fn is_flat(triangle: [&Point; 3]) -> bool {
     // Each component is formed with fewer than ten roundings of 2^-53; this allows for a hundred.
-    const ROUNDING: f64 = 1e-14;
+    const PRODUCT_DIFFERENCE_ROUNDING: f64 = 1e-14;
     let d = |j: usize, k: usize| triangle[j][k] - triangle[0][k];
     let clear = |a: usize, b: usize| {
         let (s, t) = (d(1, a) * d(2, b), d(1, b) * d(2, a));
-        (s - t).abs() > ROUNDING * (s.abs() + t.abs())
+        (s - t).abs() > PRODUCT_DIFFERENCE_ROUNDING * (s.abs() + t.abs())
     };
     !(clear(0, 1) || clear(1, 2) || clear(2, 0)) && axis(&triangle.map(|p| *p)).is_none()
 }

@@ -1,8 +1,8 @@
 //! Random numbers that are the same on every machine and for every number of threads.
 //!
-//! SplitMix64: Steele, Lea and Flood, Fast Splittable Pseudorandom Number Generators, OOPSLA 2014. One addition and
-//! one mixing function per number, so the state after `n` numbers is known without drawing them, and item `i` of a
-//! parallel loop can own stream `i`.
+//! SplitMix64: Steele, Lea and Flood, Fast Splittable Pseudorandom Number Generators, OOPSLA 2014. One addition and one mixing
+//! function per number. So the state after `n` numbers is known without drawing them, and item `i` of a parallel loop can own
+//! stream `i`.
 
 /// A seeded generator of uniform 64-bit numbers (period 2^64).
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -11,7 +11,7 @@ pub struct Random {
 }
 
 /// The golden section of 2⁶⁴: its multiples, taken modulo 2⁶⁴, lie evenly spread, however many.
-pub(crate) const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
+pub(crate) const GOLDEN_STEP: u64 = 0x9e37_79b9_7f4a_7c15;
 
 impl Random {
     /// The generator with this seed.
@@ -23,11 +23,11 @@ impl Random {
     pub fn stream(seed: u64, stream: u64) -> Random {
         let mut of_seed = Random::new(seed);
         let start = of_seed.next_u64();
-        Random { state: mix(start ^ mix(stream.wrapping_mul(GOLDEN).wrapping_add(1))) }
+        Random { state: mix(start ^ mix(stream.wrapping_mul(GOLDEN_STEP).wrapping_add(1))) }
     }
     /// The next 64 random bits.
     pub fn next_u64(&mut self) -> u64 {
-        self.state = self.state.wrapping_add(GOLDEN);
+        self.state = self.state.wrapping_add(GOLDEN_STEP);
         mix(self.state)
     }
     /// The next number of [0, 1): one of 2^53 equally spaced ones.

@@ -11,7 +11,7 @@ pub struct Sparse {
 }
 
 impl Sparse {
-    /// Of entries as row, column, value; those of one place are added up in their order.
+    /// The matrix of entries as row, column, value; those of one place are added up in their order.
     ///
     /// Cost: linear, but for the sorting of each row.
     pub fn new(rows: usize, width: usize, entries: &[(u32, u32, f64)]) -> Sparse {
@@ -106,7 +106,7 @@ mod tests {
     #[test]
     fn products_are_those_of_full_matrices() {
         let random = &mut Random::new(1);
-        let mut some = |rows: usize, width: usize| {
+        let mut random_matrix = |rows: usize, width: usize| {
             let full: Vec<f64> = (0..rows * width)
                 .map(|_| if random.unit() < 0.3 { (20.0 * random.unit()).round() - 10.0 } else { 0.0 })
                 .collect();
@@ -118,7 +118,7 @@ mod tests {
             }
             (full, Sparse::new(rows, width, &entries))
         };
-        let ((a, sparse_a), (b, sparse_b)) = (some(13, 9), some(9, 17));
+        let ((a, sparse_a), (b, sparse_b)) = (random_matrix(13, 9), random_matrix(9, 17));
         let product = sparse_a.product(&sparse_b);
         let turned = sparse_b.transposed().product(&sparse_a.transposed());
         for i in 0..13 {

@@ -46,9 +46,9 @@ pub fn chi_square_quantile(share: f64, degrees: f64) -> f64 {
 }
 /// Two-sided p value of `heads` among `tosses` of a fair coin, exactly.
 pub fn coin_p(heads: u64, tosses: u64) -> f64 {
-    let few = heads.min(tosses - heads) as f64;
-    // At most `few` heads: the incomplete beta function at one half.
-    (2.0 * beta_share(tosses as f64 - few, few + 1.0, 0.5)).min(1.0)
+    let rarer = heads.min(tosses - heads) as f64;
+    // At most `rarer` heads: the incomplete beta function at one half.
+    (2.0 * beta_share(tosses as f64 - rarer, rarer + 1.0, 0.5)).min(1.0)
 }
 
 /// Where `below` turns from true to false between `low` and `high`.
@@ -64,7 +64,7 @@ fn bisect(mut low: f64, mut high: f64, below: impl Fn(f64) -> bool) -> f64 {
 
 /// The incomplete beta function as a share of the complete one, for positive `a`, `b` and `x` of [0, 1].
 ///
-/// Continued fraction 8.17.22 of the NIST Digital Library of Mathematical Functions, evaluated by Lentz's method as
+/// Continued fraction 8.17.22 of the NIST Digital Library of Mathematical Functions. It is evaluated by Lentz's method as
 /// modified by Thompson and Barnett (1986); some √max(a, b) steps.
 pub fn beta_share(a: f64, b: f64, x: f64) -> f64 {
     if x <= 0.0 || x >= 1.0 {
@@ -101,8 +101,8 @@ fn beta_share_below(a: f64, b: f64, x: f64) -> f64 {
 
 /// The lower incomplete gamma function as a share of the complete one, for positive `a` and `x`.
 ///
-/// Series 8.11.4 of the NIST Digital Library of Mathematical Functions below `a + 1`, continued fraction 8.9.2 above, by
-/// Lentz's method as modified by Thompson and Barnett (1986); some √a steps.
+/// Series 8.11.4 of the NIST Digital Library of Mathematical Functions below `a + 1`, continued fraction 8.9.2 above. Lentz's
+/// method as modified by Thompson and Barnett (1986) evaluates it in some √a steps.
 pub fn gamma_share(a: f64, x: f64) -> f64 {
     if x <= 0.0 {
         return 0.0;
@@ -150,7 +150,7 @@ fn log_beta(a: f64, b: f64) -> f64 {
         + small;
     libm::lgamma(small) + ratio
 }
-/// What Stirling's formula lacks of the logarithm of the gamma function, for `x` of 20 and more.
+/// The difference between the logarithm of the gamma function and Stirling's formula, for `x` of 20 and more.
 fn stirling(x: f64) -> f64 {
     let y = 1.0 / (x * x);
     (1.0 / 12.0 - y * (1.0 / 360.0 - y * (1.0 / 1260.0 - y * (1.0 / 1680.0 - y / 1188.0)))) / x

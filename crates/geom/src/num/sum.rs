@@ -17,7 +17,7 @@ pub fn two_sum(a: f64, b: f64) -> (f64, f64) {
 pub struct Sum {
     /// The sum to the nearest `f64`.
     pub high: f64,
-    /// What `high` lacks.
+    /// The part that `high` lacks.
     pub low: f64,
 }
 
@@ -40,7 +40,7 @@ impl Sum {
     }
 }
 
-/// `N` running sums side by side, as fast as vectors are: not brought in order after each term, as [`Sum`] is, which is
+/// `N` running sums side by side, as fast as vectors are. They are not brought in order after each term, as [`Sum`] is; that is
 /// as good for some thousand terms (Neumaier 1974).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sums<const N: usize> {
@@ -49,7 +49,7 @@ pub struct Sums<const N: usize> {
 }
 
 impl<const N: usize> Sums<N> {
-    /// Of nothing.
+    /// The sum of nothing.
     pub const ZERO: Sums<N> = Sums { high: [0.0; N], low: [0.0; N] };
 
     /// Adds term `i` to sum `i`.

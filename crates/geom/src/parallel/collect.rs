@@ -1,4 +1,4 @@
-//! What the items of a loop are put into.
+//! A container that the items of a loop are put into.
 #![expect(unsafe_code, reason = "results are written where they stay, without a copy of all of them")]
 
 use super::source::Source;
@@ -62,7 +62,7 @@ impl<A: Send, B: Send> FromParts<(A, B)> for (Vec<A>, Vec<B>) {
     }
 }
 
-/// What `of` makes of each part of `len` items, in order. `of` is given the number of the part and of its items.
+/// The results of `of` for each part of `len` items, in order. `of` is given the number of the part and of its items.
 pub(super) fn parts<T: Send>(
     len: usize,
     least: usize,

@@ -40,8 +40,8 @@ pub trait Parallel<T> {
     fn par_sort_unstable_by<F: Fn(&T, &T) -> Ordering + Sync>(&mut self, compare: F)
     where
         T: Send;
-    /// Sorts by a key; items with equal keys may change places, and end the same way on any number of threads only where
-    /// they are equal.
+    /// Sorts by a key. Items with equal keys may change places, and end the same way on any number of threads only where they
+    /// are equal.
     fn par_sort_unstable_by_key<K: Ord, F: Fn(&T) -> K + Sync>(&mut self, key: F)
     where
         T: Send;
@@ -160,14 +160,14 @@ impl<S: Source> Loop<S> {
     pub fn filter<F: Fn(&S::Item) -> bool + Sync>(self, condition: F) -> Loop<Filtered<S, F>> {
         Loop { least: self.least, source: Filtered { source: self.source, condition } }
     }
-    /// What a function makes of each item, one after another.
+    /// The results of a function for each item, one after another.
     pub fn flat_map_iter<I: IntoIterator, F: Fn(S::Item) -> I + Sync>(
         self,
         function: F,
     ) -> Loop<Flattened<S, F>> {
         Loop { least: self.least, source: Flattened { source: self.source, function } }
     }
-    /// What a function makes of an item, where it makes something.
+    /// The results of a function for an item, where there is one.
     pub fn filter_map<U, F: Fn(S::Item) -> Option<U> + Sync>(self, function: F) -> Loop<Flattened<S, F>> {
         self.flat_map_iter(function)
     }
@@ -189,14 +189,14 @@ impl<S: Source> Loop<S> {
     /// Calls `function` with each item; the first error in the order of the items, and what lies behind it may not be done.
     ///
     /// # Errors
-    /// What `function` returns.
+    /// The results of `function`.
     pub fn try_for_each<E: Send, F: Fn(S::Item) -> Result<(), E> + Sync>(self, function: F) -> Result<(), E> {
         self.map(function).collect::<Result<Vec<()>, E>>().map(drop)
     }
     /// The same with something that one thread uses again and again, made by `new` for each part.
     ///
     /// # Errors
-    /// What `function` returns.
+    /// The results of `function`.
     pub fn try_for_each_init<W, E, N, F>(self, new: N, function: F) -> Result<(), E>
     where
         E: Send,
@@ -237,7 +237,7 @@ impl<S: Source> Loop<S> {
         const { assert!(S::EXACT, "only exact loops have numbers") };
         in_place(&self.source, self.least, all);
     }
-    /// What each part makes of its items in turn, beginning with what `new` gives.
+    /// The results of each part for its items in turn, beginning with the value of `new`.
     pub fn fold<A, N, F>(self, new: N, function: F) -> Folded<S, N, F>
     where
         N: Fn() -> A + Sync,
@@ -291,7 +291,7 @@ impl<S: Source> Loop<S> {
         let source = &self.source;
         parts(source.len(), self.least, &|_, range| source.items(range).min()).into_iter().flatten().min()
     }
-    /// What `function` makes of the first item of which it makes something.
+    /// The first result of `function`, in the order of the items.
     pub fn find_map_first<U: Send, F: Fn(S::Item) -> Option<U> + Sync>(self, function: F) -> Option<U> {
         let source = &self.source;
         let found = AtomicUsize::new(usize::MAX);
@@ -363,7 +363,7 @@ pub struct Folded<S, N, F> {
 }
 
 impl<S: Source, N, F> Folded<S, N, F> {
-    /// What the parts made, joined in order; what `new` gives changes nothing.
+    /// The results of the parts, joined in order; the value of `new` changes nothing.
     pub fn reduce<A: Send>(self, new: impl Fn() -> A, join: impl Fn(A, A) -> A) -> A
     where
         N: Fn() -> A + Sync,

@@ -5,7 +5,7 @@ use std::sync::{Mutex, PoisonError};
 
 /// Items numbered from 0.
 pub trait Source: Sync {
-    /// What one of them is.
+    /// The type of one of them.
     type Item;
     /// Whether [`Source::items`] gives as many items as its range has numbers. Else as many or fewer, or several for one.
     const EXACT: bool;

@@ -3,12 +3,12 @@
 use std::ops::Range;
 
 /// Parts of a loop for each thread. More of them even out items of unequal cost; each costs a fraction of a microsecond.
-const PARTS: usize = 16;
+const PARTS_PER_THREAD: usize = 16;
 
 /// The parts that `len` items are done in, each of `least` or more of them.
 pub(super) fn count_parts(len: usize, least: usize) -> usize {
     let threads = rayon::current_num_threads();
-    let most = if threads == 1 { 1 } else { PARTS * threads };
+    let most = if threads == 1 { 1 } else { PARTS_PER_THREAD * threads };
     (len / least.max(1)).max(1).min(most).min(len)
 }
 

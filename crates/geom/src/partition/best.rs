@@ -17,7 +17,7 @@ pub(super) struct Best {
     pub second: Vec<f64>,
     pub seat: Vec<Option<Seat>>,
     /// How far off it lies from the nearest face beside its own, which faces otherwise, millimeters.
-    pub beside: Vec<f32>,
+    pub adjacent_face: Vec<f32>,
 }
 
 impl Best {
@@ -28,7 +28,7 @@ impl Best {
             cost: far.clone(),
             second: far,
             seat: vec![None; count],
-            beside: vec![f32::INFINITY; count],
+            adjacent_face: vec![f32::INFINITY; count],
         }
     }
     pub(super) fn forget(&mut self, p: usize) {

@@ -1,33 +1,33 @@
-//! What the facets of a mesh tell: which face each is of, and where faces are that have no vertices clear of their borders.
+//! The evidence of the facets of a mesh: the face of each, and faces that have no vertices clear of their borders.
 
 use super::best::{Best, Candidate};
 use super::cut::NO_FACE;
 use super::faces::{Face, Seat};
 use super::facing::Facing;
-use super::terms::{Class, EXPLAINED};
-use super::work::{AWAY, FEWEST_SURE, Work};
+use super::terms::{Class, EXPLAINED_SIGMAS};
+use super::work::{MIN_SURE_POINTS, SEARCH_REACHES, Work};
 use crate::mesh::Mesh;
 use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress};
 use crate::space::{Point, Vector, dot, plus, times};
 
 /// Cosine of the angle (15°) up to which a facet faces as its face does.
-const PARALLEL: f64 = 0.966;
+const FACING_FACET_COSINE: f64 = 0.966;
 
-/// Adds, to the faces with few sure points, the corners of facets that are surely theirs: over the face, facing as it does, and nearer to
-/// it than to any other. A mesh with long facets has no vertices but those on edges.
+/// Adds, to the faces with few sure points, the corners of facets that are surely theirs. Such a facet lies over the face,
+/// faces as it does, and is nearer to it than to any other. A mesh with long facets has no vertices but those on edges.
 pub(super) fn add(
     scan: &Mesh,
     (work, facing): (&Work, &Facing),
     sure: &mut [Vec<Candidate>],
     progress: &dyn Progress,
 ) -> Result<(), Cancelled> {
-    let lacking: Vec<usize> = (0..sure.len()).filter(|f| sure[*f].len() < FEWEST_SURE).collect();
+    let lacking: Vec<usize> = (0..sure.len()).filter(|f| sure[*f].len() < MIN_SURE_POINTS).collect();
     if lacking.is_empty() {
         return Ok(());
     }
     let bounds: Vec<_> =
-        lacking.iter().map(|f| work.faces[*f].bounds.widened(AWAY * work.reach[*f])).collect();
+        lacking.iter().map(|f| work.faces[*f].bounds.widened(SEARCH_REACHES * work.reach[*f])).collect();
     let corners = |f: u32| scan.faces[f as usize].map(|v| work.points[v as usize]);
     let middle = |[a, b, c]: [Point; 3]| times(1.0 / 3.0, plus(a, plus(b, c)));
     let facets: Vec<(u32, Point, Vector)> = (0..scan.faces.len() as u32)
@@ -40,12 +40,12 @@ pub(super) fn add(
     let middles: Vec<Point> = facets.iter().map(|f| f.1).collect();
     let mut nearest: Vec<(f64, usize)> = vec![(f64::INFINITY, usize::MAX); facets.len()];
     for (number, face) in work.faces.iter().enumerate() {
-        let reach = AWAY * work.reach[number];
+        let reach = SEARCH_REACHES * work.reach[number];
         let inside: Vec<usize> =
             (0..middles.len()).filter(|i| face.bounds.widened(reach).holds(&middles[*i])).collect();
         let places: Vec<Point> = inside.iter().map(|i| middles[*i]).collect();
         let seats = face.seats(&places, reach, 0.0, progress)?;
-        let is_over = |seat: &Seat, i: usize| dot(seat.normal(), facets[i].2) > PARALLEL;
+        let is_over = |seat: &Seat, i: usize| dot(seat.normal(), facets[i].2) > FACING_FACET_COSINE;
         for (i, seat) in inside.into_iter().zip(seats) {
             if let Some(seat) = seat.filter(|s| is_over(s, i) && s.off.abs() < nearest[i].0) {
                 nearest[i] = (seat.off.abs(), number);
@@ -68,15 +68,15 @@ pub(super) fn add(
     Ok(())
 }
 
-/// Whether facets of a mesh straddle the edges of its part, as those of a scan do: more of them than it has vertices on edges. Those of a computed mesh
-/// end there.
+/// Whether facets of a mesh straddle the edges of its part, as those of a scan do. Then more of them straddle than it has
+/// vertices on edges. The facets of a computed mesh end there.
 pub(super) fn straddle_edges(
     scan: &Mesh,
     best: &Best,
     shared: &[(u32, u32)],
     (faces, facing): (&[&Face], &Facing),
 ) -> bool {
-    let explained = |v: u32| best.cost[v as usize] <= EXPLAINED;
+    let explained = |v: u32| best.cost[v as usize] <= EXPLAINED_SIGMAS;
     let class = |v: usize| if explained(v as u32) { Class::Face } else { Class::Beyond };
     let classes: Vec<Class> = (0..best.owner.len()).map(class).collect();
     let owners = owners(scan, (&best.owner, &classes), shared, (faces, facing));
@@ -90,7 +90,8 @@ pub(super) fn straddle_edges(
     straddling > on_edges
 }
 
-/// The face of each facet of a mesh: one that explains all its corners, or has them, and of which it is no wall. Of several that which the facet faces as.
+/// The face of each facet of a mesh: one that explains all its corners, or has them, and of which it is no wall. The face, out
+/// of several, that the facet faces as.
 pub(super) fn owners(
     scan: &Mesh,
     (owners, classes): (&[u32], &[Class]),

@@ -1,7 +1,7 @@
 //! The nominal cut into faces.
 //!
-//! A segmentation finds the elements. What it leaves beside them, as where bores meet, is completed as drawings are: corners of a drawn face lie on its
-//! element or on a chord of it, however few and long its facets are.
+//! A segmentation finds the elements. Bores that meet leave facets out, and these are completed as drawings are. Corners of a
+//! drawn face lie on its element or on a chord of it, however few and long its facets are.
 
 use crate::fit::{self, fit};
 use crate::mesh::Mesh;
@@ -14,14 +14,15 @@ use crate::space::{self, Aabb, Point, Vector, cross, dot, minus, norm, plus, sin
 pub const NO_FACE: u32 = u32::MAX;
 
 /// Steps of single precision by which corners of a drawn face may be off its element.
-const STEPS: f64 = 4.0;
+const ROUNDED_CORNER_STEPS: f64 = 4.0;
 /// Share of its size that the chords of a face may be off its element.
-const CHORDS: f64 = 1e-3;
+const MAX_CHORD_SHARE: f64 = 1e-3;
 /// Corners for each unknown from which on they tell that a face lies on an element.
-const PER_UNKNOWN: usize = 2;
-/// So many times as far off its element as the middles of the facets of a face may those of others be that join it, and their corners, which lie on chords
-/// where faces meet. The flat of a shaft has all its corners on the shaft too.
-const BULGE: f64 = 2.0;
+const CORNERS_PER_UNKNOWN: usize = 2;
+/// Ratio of distances from an element: those of other facets' middles and corners over those of the middles of its own facets.
+/// It is the limit for facets that join a face. Corners lie on chords where faces meet. The flat of a shaft has all its corners
+/// on the shaft too.
+const MAX_BULGE_RATIO: f64 = 2.0;
 /// Elements that a face may lie on where the segmentation has not told: the simplest first.
 const ELEMENTS: [Kind; 4] = [Kind::Plane, Kind::Cylinder, Kind::Sphere, Kind::Cone];
 
@@ -51,7 +52,7 @@ pub(super) fn cut(nominal: &Mesh, progress: &dyn Progress) -> Result<Cut, Segmen
     }
     drawn.grow(&mut of_facets, &shapes);
     let facets = facets_of(&of_facets, shapes.len());
-    // Those that others have taken all facets of are none.
+    // A face whose facets others have all taken is none.
     let kept: Vec<usize> = (0..shapes.len()).filter(|face| !facets[*face].is_empty()).collect();
     let mut numbers = vec![NO_FACE; shapes.len()];
     (0u32..).zip(&kept).for_each(|(number, face)| numbers[*face] = number);
@@ -115,12 +116,12 @@ impl Drawn<'_> {
             let Some(shape) = shapes[face] else { continue };
             let own: Vec<u32> =
                 facets[face].iter().copied().filter(|f| of_facets[*f as usize] == face as u32).collect();
-            let side = own.iter().filter_map(|f| self.along(&shape, *f)).sum::<f64>().signum();
-            let bulge = BULGE * own.iter().map(|f| self.bulge(&shape, *f)).fold(0.0, f64::max);
+            let side = own.iter().filter_map(|f| self.cosine_to(&shape, *f)).sum::<f64>().signum();
+            let bulge = MAX_BULGE_RATIO * own.iter().map(|f| self.bulge(&shape, *f)).fold(0.0, f64::max);
             let bulge = bulge.max(self.limit);
             let is_on = |f: u32| {
                 self.corners(f).iter().all(|p| shape.distance(*p).abs() <= bulge)
-                    && self.along(&shape, f).is_some_and(|along| side * along >= self.smooth)
+                    && self.cosine_to(&shape, f).is_some_and(|along| side * along >= self.smooth)
                     && self.bulge(&shape, f) <= bulge
             };
             let mut waiting = own;
@@ -170,8 +171,8 @@ impl Drawn<'_> {
     }
 
     /// Cosine of the angle of a facet to its element; `None` of one without area.
-    fn along(&self, shape: &Shape, facet: u32) -> Option<f64> {
-        along(shape, self.corners(facet), self.normals[facet as usize]?)
+    fn cosine_to(&self, shape: &Shape, facet: u32) -> Option<f64> {
+        cosine_to(shape, self.corners(facet), self.normals[facet as usize]?)
     }
 
     /// How far an element bulges over the middle of a facet, mm.
@@ -180,7 +181,8 @@ impl Drawn<'_> {
     }
 }
 
-/// The element of a kind that all corners of some facets lie on and that they face as, within so many radians; `None` where there is none.
+/// The element of a kind on which all corners of some facets lie, and which they face within so many radians. `None` where
+/// there is none.
 ///
 /// Cost: one fit.
 /// ```
@@ -199,14 +201,14 @@ pub fn element(mesh: &Mesh, facets: &[u32], kind: Kind, angle: f64) -> Option<Sh
     corners.sort_unstable();
     corners.dedup();
     let places: Vec<Point> = corners.iter().map(|v| mesh.positions[*v as usize]).collect();
-    if places.len() < PER_UNKNOWN * kind.unknowns() {
+    if places.len() < CORNERS_PER_UNKNOWN * kind.unknowns() {
         return None;
     }
     let shape = fit(&places, kind, &fit::Options::default(), &Silent).ok()?.shape;
-    let limit = rounding(&places).max(CHORDS * Aabb::of(&places).diagonal());
+    let limit = rounding(&places).max(MAX_CHORD_SHARE * Aabb::of(&places).diagonal());
     let facing = |f: &u32| {
         let corners = mesh.corners(*f);
-        along(&shape, corners, normal(mesh, *f)?)
+        cosine_to(&shape, corners, normal(mesh, *f)?)
     };
     let along: Vec<f64> = facets.iter().filter_map(facing).collect();
     let side = along.iter().sum::<f64>().signum();
@@ -214,7 +216,7 @@ pub fn element(mesh: &Mesh, facets: &[u32], kind: Kind, angle: f64) -> Option<Sh
     (is_on && along.iter().all(|c| side * c >= libm::cos(angle))).then_some(shape)
 }
 
-fn along(shape: &Shape, corners: [Point; 3], facing: Vector) -> Option<f64> {
+fn cosine_to(shape: &Shape, corners: [Point; 3], facing: Vector) -> Option<f64> {
     Some(dot(facing, unit(shape.normal(middle(corners)))?.0))
 }
 
@@ -224,7 +226,7 @@ fn middle([a, b, c]: [Point; 3]) -> Point {
 
 /// How far places that are the same may lie apart, mm.
 pub(super) fn rounding(places: &[Point]) -> f64 {
-    STEPS * single_step(places)
+    ROUNDED_CORNER_STEPS * single_step(places)
 }
 
 fn normal(mesh: &Mesh, facet: u32) -> Option<Vector> {

@@ -23,16 +23,17 @@ pub struct Face {
     pub bounds: Aabb,
     /// 1 where distances of the element are positive outside of the material, else −1.
     pub(super) outward: f64,
-    goes: Goes,
+    extent: FaceExtent,
 }
 
 /// How far a face goes.
-enum Goes {
+enum FaceExtent {
     /// As far as its facets.
     Facets(Facets),
     /// As far as the bounds of a nominal feature.
     Nominal(Extent),
-    /// As far as measured points that were found to be of it, which lie no farther apart; narrow ones may be where a scan rounds an edge.
+    /// As far as measured points that were found to belong to it, which lie no farther apart. Narrow ones may be where a scan
+    /// rounds an edge.
     Points { tree: PointTree, apart: f64, narrow: bool },
 }
 
@@ -119,13 +120,13 @@ impl Faces {
             shape: Some(shape),
             bounds,
             outward,
-            goes: Goes::Nominal(extent),
+            extent: FaceExtent::Nominal(extent),
         }))
     }
 
-    /// Adds an element that measured points were found to lie on as a face: its number. It goes as far as these points, which lie no farther apart than
-    /// `apart`. `outward` is whether distances of the element are positive outside of the material, `narrow` whether it may be where a scan rounds an edge:
-    /// then no edge is told by it.
+    /// Adds an element that measured points were found to lie on as a face: its number. It goes as far as these points, which
+    /// lie no farther apart than `apart`. `outward` is whether distances of the element are positive outside of the material.
+    /// `narrow` is whether the face may be where a scan rounds an edge: then no edge is told by it.
     pub fn add_measured(
         &mut self,
         points: &[Point],
@@ -133,9 +134,9 @@ impl Faces {
         apart: f64,
         (outward, narrow): (bool, bool),
     ) -> u32 {
-        let goes = Goes::Points { tree: PointTree::new(points), apart, narrow };
+        let extent = FaceExtent::Points { tree: PointTree::new(points), apart, narrow };
         let outward = if outward { 1.0 } else { -1.0 };
-        self.add(Face { facets: vec![], shape: Some(shape), bounds: Aabb::of(points), outward, goes })
+        self.add(Face { facets: vec![], shape: Some(shape), bounds: Aabb::of(points), outward, extent })
     }
 
     fn add(&mut self, face: Face) -> u32 {
@@ -201,12 +202,12 @@ impl Face {
         };
         let facing = shape.map_or(1.0, |s| mesh.faces.iter().map(|f| towards(s, f)).sum());
         let bounds = Aabb::of(&mesh.positions);
-        let goes = Goes::Facets(Facets { mesh, tree, rim, border });
-        Some(Face { facets, shape, bounds, outward: 1f64.copysign(facing), goes })
+        let extent = FaceExtent::Facets(Facets { mesh, tree, rim, border });
+        Some(Face { facets, shape, bounds, outward: 1f64.copysign(facing), extent })
     }
 
-    /// Where points lie on the face; `None` of those farther off than `reach`, or beyond its border by more than `far`, and where the element has no
-    /// direction. Borders farther than `far` are not looked for: infinitely far within.
+    /// Where points lie on the face. `None` for those farther off than `reach`, or beyond its border by more than `far`, and
+    /// where the element has no direction. Borders farther than `far` are not looked for: infinitely far within.
     ///
     /// Cost: two closest points each, in batches.
     pub(super) fn seats(
@@ -225,10 +226,12 @@ impl Face {
             None => searched(*p),
         };
         let feet: Vec<Point> = points.iter().zip(&across).map(foot).collect();
-        let within: Vec<f64> = match &self.goes {
-            Goes::Nominal(extent) => feet.par_iter().map(|p| extent.within(*p)).collect(),
-            Goes::Points { tree, apart, .. } => feet.par_iter().map(|p| beyond(tree, *apart, p)).collect(),
-            Goes::Facets(facets) => match self.shape {
+        let within: Vec<f64> = match &self.extent {
+            FaceExtent::Nominal(extent) => feet.par_iter().map(|p| extent.within(*p)).collect(),
+            FaceExtent::Points { tree, apart, .. } => {
+                feet.par_iter().map(|p| gap_to_points(tree, *apart, p)).collect()
+            }
+            FaceExtent::Facets(facets) => match self.shape {
                 Some(_) => facets.within(&feet, far, progress)?,
                 None => return facets.free(&feet, reach, far, progress),
             },
@@ -248,36 +251,36 @@ impl Face {
 
     /// Whether its border is known; of a nominal feature the bounds are, but not where other faces cut it.
     pub(super) fn is_bounded(&self) -> bool {
-        matches!(self.goes, Goes::Facets(_))
+        matches!(self.extent, FaceExtent::Facets(_))
     }
 
     /// Whether it goes as far as measured points that were found to be of it.
     pub(super) fn is_measured(&self) -> bool {
-        matches!(self.goes, Goes::Points { .. })
+        matches!(self.extent, FaceExtent::Points { .. })
     }
 
     /// Whether it may be no face, but where a scan rounds an edge.
     pub(super) fn is_narrow(&self) -> bool {
-        matches!(self.goes, Goes::Points { narrow: true, .. })
+        matches!(self.extent, FaceExtent::Points { narrow: true, .. })
     }
 
     /// Its unit normal near a place, out of the material.
     pub fn facing(&self, p: &Point) -> Option<Vector> {
-        match (self.shape, &self.goes) {
+        match (self.shape, &self.extent) {
             (Some(shape), _) => self.across(shape, *p, f64::INFINITY).map(|a| a.1),
-            (None, Goes::Facets(facets)) => facets.facing(p),
+            (None, FaceExtent::Facets(facets)) => facets.facing(p),
             (None, _) => None,
         }
     }
 
-    /// How far points lie off the face, positive outside of the material, and the unit normals there; `None` of points that do not lie over it or are
-    /// farther off than `reach`.
+    /// How far points lie off the face, positive outside of the material, and the unit normals there. `None` for points that do
+    /// not lie over it or are farther off than `reach`.
     pub fn over(&self, points: &[Point], reach: f64) -> Vec<Option<(f64, Vector)>> {
         let seats = self.seats(points, reach, 0.0, &Silent).unwrap_or_default();
         seats.into_iter().map(|seat| seat.map(|seat| (seat.off, seat.normal()))).collect()
     }
 
-    /// Of a cylinder, cone, sphere or torus, whether it faces its axis or center, as a bore does.
+    /// For a cylinder, cone, sphere or torus, whether it faces its axis or center, as a bore does.
     pub fn inward(&self) -> Option<bool> {
         let plane = self.shape.is_none_or(|s| s.kind() == Kind::Plane);
         (!plane).then_some(self.outward < 0.0)
@@ -287,10 +290,10 @@ impl Face {
     pub fn to_border(&self, p: &Point) -> f64 {
         let across = self.shape.and_then(|shape| self.across(shape, *p, f64::INFINITY));
         let foot = across.map_or(*p, |(off, normal)| minus(*p, times(off, normal)));
-        match &self.goes {
-            Goes::Facets(facets) => facets.to_border(&foot),
-            Goes::Nominal(extent) => extent.within(foot).abs(),
-            Goes::Points { .. } => f64::INFINITY,
+        match &self.extent {
+            FaceExtent::Facets(facets) => facets.to_border(&foot),
+            FaceExtent::Nominal(extent) => extent.within(foot).abs(),
+            FaceExtent::Points { .. } => f64::INFINITY,
         }
     }
 }
@@ -301,7 +304,7 @@ fn searched(p: Point) -> Point {
 }
 
 /// Infinite within measured points; how far beyond them, below zero.
-fn beyond(points: &PointTree, apart: f64, p: &Point) -> f64 {
+fn gap_to_points(points: &PointTree, apart: f64, p: &Point) -> f64 {
     let away = points.nearest(p).map_or(f64::INFINITY, |n| n.0.sqrt());
     if away <= apart { f64::INFINITY } else { apart - away }
 }

@@ -4,8 +4,9 @@ use crate::mesh::{FacetsAround, Mesh};
 use crate::parallel::prelude::*;
 use crate::space::{Vector, cross, dot, minus, norm, normal, plus, times, unit};
 
-/// Cosine of the angle (85°) up to which a facet may be steep in its face, as the side of a dent; walls that were drawn stand at right angles.
-const STEEPEST: f64 = 0.087;
+/// Cosine of the angle (85°) up to which a facet may be steep in its face, such as the side of a dent. Walls that were drawn
+/// stand at right angles.
+const STEEP_FACET_COSINE: f64 = 0.087;
 
 /// How the vertices of a mesh face.
 pub(super) struct Facing {
@@ -42,7 +43,7 @@ impl Facing {
 
     /// Whether a facet is no wall of a face with this normal.
     pub(super) fn is_along(&self, facet: u32, normal: Vector) -> bool {
-        dot(self.facets[facet as usize], normal) > STEEPEST
+        dot(self.facets[facet as usize], normal) > STEEP_FACET_COSINE
     }
 
     /// Whether a vertex may be of a face with this normal: one of its facets is no wall of it. At an edge its own normal is that of neither face.

@@ -3,14 +3,17 @@
 //! Partition is an operation of its own (ISO 17450-1), done once for the whole part, by likelihood, and not anew for each feature:
 //!
 //! 1. The nominal is cut into [`Faces`]: planes, cylinders, cones, spheres and tori, and what is free between creases.
-//! 2. Each face is put where it really is, by the points that are surely its own: near it, facing as it does, clear of its border.
-//! 3. A point that one face alone can have belongs to it. Near borders each of the faces there is asked where its surface goes on, by
-//!    the sure points around; the point belongs to the one that it lies off by the least part of what noise and the going on allow.
-//! 4. Points that no face explains are looked at together with their neighbors. What hangs together with points beyond the reach of
-//!    all faces goes on into the material ([`Class::Deep`]) or out of it ([`Class::High`]) farther than the reach: a hole, a bump, a thing that
-//!    stands there. If it is closed, and one face alone is around it, it is a [`Class::Dent`]. No more than two together, clear of borders of a face that was
-//!    scanned, are outliers ([`Class::Alone`]). What lies along a border is
-//!    [`Class::Edge`] as far as scans round edges, farther [`Class::Broken`]: a burr, a groove, a chamfer that is not drawn. The rest is form of the face: a dent.
+//! 2. Each face is put where it really is, by the points that are surely its own. They are near it, face as it does, and lie
+//!    clear of its border.
+//! 3. A point that one face alone can have belongs to it. Near borders each of the faces there is asked where its surface goes
+//!    on, by the sure points around. The point belongs to the face with the least distance, as a share of the allowance for
+//!    noise and continuation.
+//! 4. Points that no face explains are looked at together with their neighbors. Points that hang together with others beyond
+//!    the reach of all faces go on into the material ([`Class::Deep`]) or out of it ([`Class::High`]). They are a hole, a bump,
+//!    a thing that stands there. If it is closed, and one face alone is around it, it is a [`Class::Dent`]. No more than two
+//!    together, clear of borders of a face that was scanned, are outliers ([`Class::Alone`]). Points along a border are
+//!    [`Class::Edge`] as far as scans round edges, farther [`Class::Broken`]: a burr, a groove, a chamfer that is not drawn.
+//!    The rest is form of the face: a dent.
 //!
 //! | file | what |
 //! |---|---|
@@ -21,17 +24,17 @@
 //! | `faces` | a face, and where a point lies on it |
 //! | `facing` | how the vertices of a mesh face |
 //! | `placed` | where a face really is |
-//! | `going_on` | where its surface goes on near a border |
+//! | `continuation` | where its surface goes on near a border |
 //! | `work` | which faces points may be of, and which explains each best |
 //! | `rounding` | how far from its edges a scan is rounded |
 //! | `unexplained` | what no face explains |
 
 mod best;
 mod by_facets;
+mod continuation;
 mod cut;
 mod faces;
 mod facing;
-mod going_on;
 mod placed;
 mod rounding;
 mod terms;
@@ -51,20 +54,22 @@ use crate::progress::{Cancelled, Progress};
 use crate::space::{Aabb, Point, single_step};
 use crate::spatial::neighbors::PointTree;
 use best::Candidate;
+use continuation::Sure;
 use faces::Seat;
 use facing::Facing;
-use going_on::Sure;
-use terms::EXPLAINED;
+use terms::EXPLAINED_SIGMAS;
 use unexplained::{Over, Unexplained};
-use work::{AWAY, CLEAR, ROUNDED, Work};
+use work::{ROUNDED_EDGE_SPACINGS, SEARCH_REACHES, SURE_BORDER_SPACINGS, Work};
 
-/// Share of its diagonal that a face reaches where nothing else is said.
-const SHARE: f64 = 0.02;
-/// Share of the diagonal of all faces up to which what lies beyond the reach of a face, out of the material, may be of it. Into the material nothing else is.
-const ELSEWHERE: f64 = 0.1;
-/// Neighbors whose farthest tells the distance of neighbors, and places where that is looked at.
-const NEIGHBORS: usize = 16;
-const PLACES: usize = 200;
+/// Share of its diagonal that a face reaches where no reach is given.
+const DEFAULT_REACH_SHARE: f64 = 0.02;
+/// Share of the diagonal of all faces. Up to it, points out of the material and beyond the reach of a face may belong to the
+/// face. Into the material nothing else lies.
+const OUTWARD_REACH_SHARE: f64 = 0.1;
+/// Neighbors whose farthest tells the spacing.
+const SPACING_NEIGHBORS: usize = 16;
+/// Places where the spacing is looked at.
+const SPACING_PLACES: usize = 200;
 
 /// Parts the vertices of a measured mesh, or without facets the points of a cloud, among faces; all in millimeters and in one frame.
 ///
@@ -113,7 +118,7 @@ pub fn partition(
     let mut candidates = vec![];
     for (face, reach) in faces.iter().zip(&reach) {
         // Edges are looked for as far as scans round them.
-        let reach = f64::max(AWAY * reach, ROUNDED * spacing);
+        let reach = f64::max(SEARCH_REACHES * reach, ROUNDED_EDGE_SPACINGS * spacing);
         candidates.push(near(face, points, facing.as_ref(), reach, spacing, progress)?);
     }
     let work = Work { points, faces, reach, candidates, spacing };
@@ -126,7 +131,8 @@ pub fn partition(
     let sparse = work.sparse(facing.is_none());
     let placed: Vec<Placed> = (faces.par_iter().zip(&sure).zip(&sparse))
         .map(|((face, sure), sparse)| {
-            Placed::of(face, points, sure, sparse.map_or(floor, |reach| reach / EXPLAINED), options.seed)
+            let least = sparse.map_or(floor, |reach| reach / EXPLAINED_SIGMAS);
+            Placed::of(face, points, sure, least, options.seed)
         })
         .collect();
     cancelled(progress)?;
@@ -135,14 +141,14 @@ pub fn partition(
         .collect();
     drop(sure);
     cancelled(progress)?;
-    let noise = going_on::noise(&around, options.seed).max(floor);
+    let noise = continuation::noise(&around, options.seed).max(floor);
     let mut best = work.by_faces(&placed, noise);
     cancelled(progress)?;
     let (shared, mut between) = work.by_what_is_around(&mut best, &around, noise);
-    work.beside(&mut best, &placed);
+    work.adjacent_face(&mut best, &placed);
     cancelled(progress)?;
     drop((work, around));
-    // What was computed has sharp edges.
+    // Computed meshes have sharp edges.
     let straddle = |facing: &Facing| by_facets::straddle_edges(scan, &best, &shared, (faces, facing));
     let rounding = rounding::width(points, &best, (faces, &placed), noise, spacing);
     let is_scan = noise > floor || rounding > 0.0 || facing.as_ref().is_some_and(straddle);
@@ -155,7 +161,7 @@ pub fn partition(
         classes[b.point as usize] = Class::Between;
     }
     let size = faces.iter().fold(Aabb::EMPTY, |b, f| b.union(&f.bounds)).diagonal();
-    let far = [size, ELSEWHERE * size];
+    let far = [size, OUTWARD_REACH_SHARE * size];
     let over = Over { points, faces, owners: &best.owner, facing: facing.as_ref(), spacing, rounded, far };
     let mut beyond = over.faces(&hanging, progress)?;
     let dents = over.dents(&hanging, &beyond, options.seed, progress)?;
@@ -175,7 +181,7 @@ pub fn partition(
 fn reaches(faces: &[&Face], options: &Options) -> Result<Vec<f64>, PartitionError> {
     let of = |(number, face): (usize, &&Face)| {
         let own = options.reaches.get(&(number as u32)).copied().or(options.distance);
-        let value = own.unwrap_or(SHARE * face.bounds.diagonal());
+        let value = own.unwrap_or(DEFAULT_REACH_SHARE * face.bounds.diagonal());
         let is_length = value > 0.0 && value.is_finite();
         is_length.then_some(value).ok_or(PartitionError::Reach { face: number, value })
     };
@@ -191,7 +197,7 @@ fn near(
     spacing: f64,
     progress: &dyn Progress,
 ) -> Result<Vec<Candidate>, Cancelled> {
-    let far = reach + CLEAR[0] * spacing;
+    let far = reach + SURE_BORDER_SPACINGS[0] * spacing;
     let bounds = face.bounds.widened(reach + spacing);
     let numbers: Vec<u32> =
         (0..points.len() as u32).into_par_iter().filter(|i| bounds.holds(&points[*i as usize])).collect();
@@ -214,10 +220,10 @@ fn near(
 pub fn spacing(points: &[Point], seed: u64) -> f64 {
     let tree = PointTree::new(points);
     let mut all: Vec<f64> = crate::num::random::Random::new(seed)
-        .choose(PLACES, points.len())
+        .choose(SPACING_PLACES, points.len())
         .into_iter()
         .filter_map(|i| {
-            let near = tree.k_nearest(&points[i], NEIGHBORS, None);
+            let near = tree.k_nearest(&points[i], SPACING_NEIGHBORS, None);
             let square = near.last()?.0;
             Some((std::f64::consts::PI * square / near.len() as f64).sqrt())
         })

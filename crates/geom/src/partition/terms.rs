@@ -1,4 +1,4 @@
-//! What is asked of a partition, and what it tells.
+//! The request to a partition, and its result.
 
 use super::placed::Placed;
 use crate::progress::Cancelled;
@@ -6,13 +6,13 @@ use crate::segment::SegmentError;
 use std::collections::BTreeMap;
 
 /// Deviations beyond which a face does not explain a point: one point of two million is so far off by normal noise.
-pub(super) const EXPLAINED: f64 = 5.0;
+pub(super) const EXPLAINED_SIGMAS: f64 = 5.0;
 
-/// What is asked of a partition.
+/// The options of a partition.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Options {
-    /// Reach of faces, millimeters: points farther off than that are not of the face, wherever it really is; and it is looked for within the reach of the
-    /// nominal. Without it a fiftieth of the face's diagonal.
+    /// Reach of faces, millimeters. Points farther off than that do not belong to the face, wherever it really is. It is looked
+    /// for within the reach of the nominal. Without it a fiftieth of the face's diagonal.
     pub distance: Option<f64>,
     /// Reach of some faces, by their numbers, instead of that.
     pub reaches: BTreeMap<u32, f64>,
@@ -20,27 +20,30 @@ pub struct Options {
     pub seed: u64,
 }
 
-/// What a point is.
+/// The class of a point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Class {
-    /// Of its face, with its form: dents too.
+    /// A point of its face, with its form: dents too.
     Face,
     /// On an edge, where scans are rounded: at a border, and explained by no face.
     Edge,
-    /// Along a border of its face, farther from it than scans are rounded, and explained by none: a burr, a groove, a chamfer that is not drawn.
+    /// Along a border of its face, farther from it than scans are rounded, and explained by none. It is a burr, a groove, a
+    /// chamfer that is not drawn.
     Broken,
     /// Hangs together with what lies deeper in the material than the reach of faces: of a face where it is within its reach.
     Deep,
-    /// The same, but one face alone is around it, and something was measured at each of its places: a dent of that face, deeper than its reach.
+    /// The same, but one face alone is around it, and something was measured at each of its places. It is a dent of that face,
+    /// deeper than its reach.
     Dent,
     /// Hangs together with what lies farther out of the material than the reach of faces: of a face where it is within its reach.
     High,
-    /// Off its face and off another one that faces the other way, by more than both explain: the dent of one side of a wall or of the other.
+    /// Off its face and off another one that faces the other way, by more than both explain. It is the dent of one side of a
+    /// wall or of the other.
     Between,
-    /// Beyond the reach of all faces, or of a scanned face and explained by none, with no more than two such points together: a stray, a spike that
-    /// was hit once.
+    /// Beyond the reach of all faces, or of a scanned face and explained by none, with no more than two such points together.
+    /// It is a stray, a spike that was hit once.
     Alone,
-    /// Of no face: beyond the reach of all, as a table.
+    /// A point of no face: beyond the reach of all, such as a table.
     Beyond,
 }
 
@@ -49,15 +52,16 @@ pub enum Class {
 pub struct Partition {
     /// The face of each point; [`NO_FACE`](super::NO_FACE) where it has none.
     pub owners: Vec<u32>,
-    /// What each point is.
+    /// The class of each point.
     pub classes: Vec<Class>,
     /// Whether its face lies beneath each point: those beyond a border do not tell that anything of it was measured.
     pub inside: Vec<bool>,
     /// The face of each measured facet: that on which all of its corners lie. At a sharp edge a corner is of the faces of all facets about it, and its
     /// owner one of them. [`NO_FACE`](super::NO_FACE) of what straddles an edge.
     pub facets: Vec<u32>,
-    /// Points beyond the reach of all faces that lie over faces, by face and point: over the nearest one where nothing was measured beneath some of them, or
-    /// where they are alone; else over those that they hang together with. Dents are not among them.
+    /// Points beyond the reach of all faces that lie over faces, by face and point. They lie over the nearest one where nothing
+    /// was measured beneath some of them, or where they are alone. Else they lie over those that they hang together with. Dents
+    /// are not among them.
     pub beyond: Vec<Beyond>,
     /// The points of [`Class::Between`] with the faces that they may be of beside their own.
     pub between: Vec<Beyond>,
@@ -65,9 +69,10 @@ pub struct Partition {
     pub placed: Vec<Placed>,
     /// Distance of neighboring points, millimeters.
     pub spacing: f64,
-    /// What points scatter by about the surface that their neighbors tell, millimeters.
+    /// The scatter of points about the surface that their neighbors tell, millimeters.
     pub noise: f64,
-    /// Whether it was measured: the points scatter by more than the rounding of single precision, or facets straddle the edges. Of a computed mesh neither holds.
+    /// Whether it was measured: the points scatter by more than the rounding of single precision, or facets straddle the edges.
+    /// A computed mesh has neither.
     pub is_scan: bool,
 }
 
@@ -99,7 +104,7 @@ pub enum PartitionError {
     Reach {
         /// Number of the face.
         face: usize,
-        /// What was given.
+        /// The value that was passed.
         value: f64,
     },
     /// A measured facet names a vertex that does not exist.

@@ -103,7 +103,8 @@ fn all_of(faces: &Faces) -> Vec<&Face> {
 const SIDES: usize = 96;
 const OPTIONS: Options = Options { distance: Some(0.5), reaches: BTreeMap::new(), seed: 0 };
 
-/// Points of a side that have another one, or none, or a class other than that of faces, and the greatest distance of one of them from its own side.
+/// Points of a side that have another one, or none, or a class other than that of faces. Also the greatest distance of one of
+/// them from its own side.
 fn wrong(
     nominal: &Profile,
     found: &Partition,
@@ -134,8 +135,8 @@ fn wrong(
     far
 }
 
-/// All points have their side, but for those that noise lays on two: a part as drawn, and one with faces off their places, as clouds and as meshes whose
-/// vertices lie on no edge.
+/// All points have their side, but for those that noise lays on two. The part is as drawn, or has faces off their places, as
+/// clouds and as meshes whose vertices lie on no edge.
 #[test]
 fn points_have_their_own_faces() {
     let nominal = bushing();
@@ -210,7 +211,7 @@ fn what_is_of_no_face_is_told_apart() {
         found.classes[from..from + count].iter().filter(|c| **c == class).count()
     };
     let [of_wall, of_table, of_hole] = [first, first + wall.len(), first + wall.len() + table.len()];
-    // What lies on the flange within noise is of it: the first row.
+    // Points on the flange within noise belong to it: the first row.
     assert_eq!(count(of_wall, wall.len(), Class::Face), 20);
     assert!(count(of_wall, wall.len(), Class::High) >= 20);
     assert_eq!(count(of_table, table.len(), Class::Face), 0);
@@ -270,7 +271,7 @@ fn dents_deeper_than_the_reach_are_of_their_face_and_holes_are_not() {
                 }
                 (p[0], p[1]) = (p[0] * (1.0 - down / rho), p[1] * (1.0 - down / rho));
             }
-            // What is deeper than 0.7 was not measured: it may go on.
+            // Nothing deeper than 0.7 was measured: it may go on.
             let is_open = |p: &Point| is_hole && libm::hypot(p[0], p[1]) < 11.3 && p[0] > 10.0 && p[2] < 20.0;
             let gone: Vec<usize> = (dent.iter().copied()).filter(|i| is_open(&scan.positions[*i])).collect();
             scan.faces.retain(|f| f.iter().all(|v| !gone.contains(&(*v as usize))));
@@ -290,7 +291,7 @@ fn dents_deeper_than_the_reach_are_of_their_face_and_holes_are_not() {
     }
 }
 
-/// What lies out of the material is in no hole of any face, through whatever material its places over that face go.
+/// Points out of the material are in no hole of any face, through whatever material its places over that face go.
 #[test]
 fn what_lies_outside_is_deep_in_no_face() {
     let nominal = bushing();

@@ -1,4 +1,4 @@
-//! What no face explains.
+//! Points that no face explains.
 
 use super::best::Best;
 use super::cut::NO_FACE;
@@ -6,8 +6,8 @@ use super::faces::{Face, Seat};
 use super::facing::Facing;
 use super::placed::Placed;
 use super::rounding::to_edge;
-use super::terms::{Beyond, Class, EXPLAINED};
-use super::work::SCANNED;
+use super::terms::{Beyond, Class, EXPLAINED_SIGMAS};
+use super::work::MIN_SCANNED_POINTS;
 use crate::mesh::Mesh;
 use crate::num::random::Random;
 use crate::parallel::prelude::*;
@@ -16,31 +16,33 @@ use crate::space::{Aabb, Point, minus, plus, times};
 use crate::spatial::neighbors::PointTree;
 use std::collections::BTreeMap;
 
-/// Points beyond all reach from which on what hangs together with them is of other things.
-const SEVERAL: usize = 3;
-/// Distances of neighbors off a face from which on no surface leads from those around to a point: it would be steeper than 45°.
-const STEEP: f64 = 1.0;
+/// Points beyond all reach from which on the points that hang together with them belong to other things.
+const MIN_OTHER_POINTS: usize = 3;
+/// Spacings off a face up to which the surface around may lead to a point. Farther off it would be steeper than 45°.
+const MAX_STEP_SPACINGS: f64 = 1.0;
 /// Distances of neighbors from a border up to which points lie along it.
-const ALONG: f64 = 1.0;
-/// Nothing was measured at a place if no point is within so many distances of neighbors: by chance, where points lie at random, one time in a million.
-const GAP: f64 = 2.1;
+const ALONG_BORDER_SPACINGS: f64 = 1.0;
+/// Spacings without a point within which nothing was measured. Where points lie at random, chance leaves such a gap one time in
+/// a million.
+const UNMEASURED_SPACINGS: f64 = 2.1;
 /// Distances of neighbors from a border, and off the face, up to which scans round an edge.
-const ROUNDED: f64 = 2.0;
+const ROUNDED_BORDER_RATIO: f64 = 2.0;
 /// Distances that differ by less than this share are those of one place.
-const ALIKE: f64 = 1e-9;
+const SAME_PLACE_SHARE: f64 = 1e-9;
 /// Places of a dent where it is looked whether something was measured.
-const PLACES_IN_DENT: usize = 100;
-/// Neighbors of a point in a cloud, and distances of neighbors within which they hang together.
-const NEIGHBORS: usize = 8;
-const TOGETHER: f64 = 2.5;
+const DENT_PLACES: usize = 100;
+/// Neighbors of a point in a cloud that may hang together with it.
+const HANGING_NEIGHBORS: usize = 8;
+/// Spacings within which they do.
+const HANGING_SPACINGS: f64 = 2.5;
 
-/// What tells of what no face explains.
+/// The evidence about points that no face explains.
 pub(super) struct Unexplained<'a> {
     pub scan: &'a Mesh,
     pub faces: &'a [&'a Face],
     /// Where these really are.
     pub placed: &'a [Placed],
-    /// Of a mesh.
+    /// How the facets of a mesh face.
     pub facing: Option<&'a Facing>,
     pub spacing: f64,
     /// The same of a scan, which rounds edges by some of it; 0 where edges are sharp.
@@ -62,10 +64,10 @@ impl Unexplained<'_> {
         let is_left = |p: &u32| is_open(best, *p as usize) && classes[*p as usize] != Class::Edge;
         let open: Vec<u32> = (0..best.owner.len() as u32).filter(is_left).collect();
         let mut hanging = vec![];
-        for (group, beside) in groups(self.scan, &open, self.spacing) {
+        for (group, adjacent_points) in groups(self.scan, &open, self.spacing) {
             let (of_faces, beyond): (Vec<u32>, Vec<u32>) =
                 group.into_iter().partition(|p| best.owner[*p as usize] != NO_FACE);
-            if beyond.len() < SEVERAL {
+            if beyond.len() < MIN_OTHER_POINTS {
                 for (p, class) in self.within_reach(best, &of_faces, beyond.len()) {
                     classes[p as usize] = class;
                 }
@@ -76,8 +78,8 @@ impl Unexplained<'_> {
                 continue;
             }
             // Facets join it to points of faces.
-            let mut faces = faces_of(&beside, &best.owner);
-            let around = faces_of(&[&beside[..], &of_faces].concat(), &best.owner);
+            let mut faces = faces_of(&adjacent_points, &best.owner);
+            let around = faces_of(&[&adjacent_points[..], &of_faces].concat(), &best.owner);
             let mut flank = of_faces;
             let seats: Vec<Seat> = flank.iter().filter_map(|p| best.seat[*p as usize]).collect();
             if !seats.is_empty() {
@@ -100,17 +102,24 @@ impl Unexplained<'_> {
 
     /// The classes of points of faces that hang together with no more than some strays.
     fn within_reach(&self, best: &Best, group: &[u32], strays: usize) -> Vec<(u32, Class)> {
-        let far = self.rounding + ALONG * self.spacing;
+        let far = self.rounding + ALONG_BORDER_SPACINGS * self.spacing;
         let along = group.iter().filter(|p| self.is_along(best, **p, far)).count();
         let class = |p: u32| {
             let own = best.owner[p as usize];
             let off = self.off(best, p);
-            let is_scanned = self.rounded > 0.0 && self.placed[own as usize].points >= SCANNED;
-            let is_edge = || off < ROUNDED * self.rounded && self.is_along(best, p, ROUNDED * self.rounded);
+            let is_scanned = self.rounded > 0.0 && self.placed[own as usize].points >= MIN_SCANNED_POINTS;
+            let is_edge = || {
+                off < ROUNDED_BORDER_RATIO * self.rounded
+                    && self.is_along(best, p, ROUNDED_BORDER_RATIO * self.rounded)
+            };
             match 2 * along > group.len() {
                 true if is_edge() => Class::Edge,
                 true => Class::Broken,
-                false if group.len() + strays < SEVERAL && is_scanned && off > STEEP * self.spacing => {
+                false
+                    if group.len() + strays < MIN_OTHER_POINTS
+                        && is_scanned
+                        && off > MAX_STEP_SPACINGS * self.spacing =>
+                {
                     Class::Alone
                 }
                 false => Class::Face,
@@ -129,7 +138,7 @@ impl Unexplained<'_> {
     /// Whether it lies where the scan rounds edges.
     fn is_rounded(&self, best: &Best, p: u32) -> bool {
         to_edge(best, self.faces, p as usize) < self.rounding
-            && (best.owner[p as usize] == NO_FACE || self.off(best, p) < ROUNDED * self.rounding)
+            && (best.owner[p as usize] == NO_FACE || self.off(best, p) < ROUNDED_BORDER_RATIO * self.rounding)
     }
 
     /// Whether it lies no farther from the border of its face. Where that is not known a face ends where facets lead to another one, or to a wall.
@@ -142,13 +151,14 @@ impl Unexplained<'_> {
             self.facing.is_some_and(|facing| facing.about(p).iter().any(ends))
         };
         let is_along = |s: Seat| s.within() < far || !self.faces[own as usize].is_bounded() && ends(s);
-        f64::from(best.beside[p as usize]) <= self.spacing || best.seat[p as usize].is_some_and(is_along)
+        f64::from(best.adjacent_face[p as usize]) <= self.spacing
+            || best.seat[p as usize].is_some_and(is_along)
     }
 }
 
 /// Whether no face explains it.
 fn is_open(best: &Best, p: usize) -> bool {
-    best.cost[p].is_nan() || best.cost[p] > EXPLAINED
+    best.cost[p].is_nan() || best.cost[p] > EXPLAINED_SIGMAS
 }
 
 /// The faces of some points, ascending.
@@ -177,7 +187,7 @@ pub(super) struct Over<'a> {
     pub faces: &'a [&'a Face],
     /// The face of each point.
     pub owners: &'a [u32],
-    /// Of a mesh.
+    /// How the facets of a mesh face.
     pub facing: Option<&'a Facing>,
     pub spacing: f64,
     /// The same of a scan; 0 where edges are sharp, up to which points lie over a face.
@@ -187,8 +197,9 @@ pub(super) struct Over<'a> {
 }
 
 impl Over<'_> {
-    /// The points that lie over faces: over the nearest one where nothing was measured beneath some of them, or where they are alone; what no face explains so,
-    /// over those that it hangs together with. What lies on one side of the nearest face lies on that side of all.
+    /// The points that lie over faces. They lie over the nearest one where nothing was measured beneath some of them, or where
+    /// they are alone. Points that no face explains so lie over those that they hang together with. Points on one side of the
+    /// nearest face lie on that side of all.
     pub(super) fn faces(
         &self,
         hanging: &[Hanging],
@@ -214,14 +225,14 @@ impl Over<'_> {
         Ok(found)
     }
 
-    /// Whether each of some points lies out of the material: on that side of the face that is nearest, of several about an edge on that of which it is
-    /// farther across.
+    /// Whether each of some points lies out of the material. It lies on that side of the nearest face; of several about an edge
+    /// on that of the face which it is farther across.
     fn outside(&self, numbers: &[u32], progress: &dyn Progress) -> Result<Vec<bool>, Cancelled> {
         let mut nearest: Vec<(f64, f64)> = vec![(f64::INFINITY, 0.0); numbers.len()];
         for face in self.faces {
             let is_near = |i: &usize| {
                 let away = face.bounds.distance(&self.points[numbers[*i] as usize]);
-                away <= nearest[*i].0 * (1.0 + ALIKE)
+                away <= nearest[*i].0 * (1.0 + SAME_PLACE_SHARE)
             };
             let near: Vec<usize> = (0..numbers.len()).into_par_iter().filter(is_near).collect();
             let places: Vec<Point> = near.par_iter().map(|i| self.points[numbers[*i] as usize]).collect();
@@ -230,7 +241,7 @@ impl Over<'_> {
                 let Some(seat) = seat else { continue };
                 let away = libm::hypot(seat.off, seat.within().min(0.0));
                 let (least, off) = nearest[i];
-                let is_alike = (away - least).abs() <= ALIKE * least;
+                let is_alike = (away - least).abs() <= SAME_PLACE_SHARE * least;
                 if (is_alike && seat.off.abs() > off.abs()) || (!is_alike && away < least) {
                     nearest[i] = (away, seat.off);
                 }
@@ -239,7 +250,8 @@ impl Over<'_> {
         Ok(nearest.into_iter().map(|n| n.1 > 0.0).collect())
     }
 
-    /// Those of some points, ascending and with their side, that lie over a face, clear of its border; of a mesh those that face as it does.
+    /// The points, ascending and with their side, that lie over a face, clear of its border; of a mesh those that face as it
+    /// does.
     fn face(
         &self,
         face: u32,
@@ -263,8 +275,8 @@ impl Over<'_> {
         Ok(sides.iter().zip(seats).filter_map(over).collect())
     }
 
-    /// Of what goes on into the material, the points of dents, with the face that each is in: it alone is around, and something was measured at each place
-    /// over it. A hole is open, or leads to another face.
+    /// The points of dents among those that go on into the material, with the face that each is in. That face alone is around,
+    /// and something was measured at each place over it. A hole is open, or leads to another face.
     pub(super) fn dents(
         &self,
         hanging: &[Hanging],
@@ -281,10 +293,10 @@ impl Over<'_> {
             };
             let deep = hanging.points.iter().filter(is_in).count();
             let points = [&hanging.points[..], &hanging.flank].concat();
-            if deep < SEVERAL {
+            if deep < MIN_OTHER_POINTS {
                 continue;
             }
-            let own = own.entry(face).or_insert_with(|| self.own(face));
+            let own = own.entry(face).or_insert_with(|| self.points_of_face(face));
             if self.is_closed((face, own), &points, seed, progress)? {
                 found.extend(points.into_iter().map(|p| (p, face)));
             }
@@ -313,16 +325,17 @@ impl Over<'_> {
         let mut random = Random::new(seed);
         let mut any = || over.get(random.below(over.len().max(1) as u64) as usize).copied();
         let mut middle = || Some(times(0.5, plus(any()?, any()?)));
-        let between: Vec<Point> = (0..PLACES_IN_DENT).filter_map(|_| middle()).collect();
+        let between: Vec<Point> = (0..DENT_PLACES).filter_map(|_| middle()).collect();
         let there = PointTree::new(&over);
-        let is_near =
-            |tree: &PointTree, p: &Point| tree.nearest(p).is_some_and(|n| n.0.sqrt() <= GAP * self.spacing);
+        let is_near = |tree: &PointTree, p: &Point| {
+            tree.nearest(p).is_some_and(|n| n.0.sqrt() <= UNMEASURED_SPACINGS * self.spacing)
+        };
         let is_measured = |p: &Point| is_near(&there, p) || is_near(own, p);
         Ok(feet(&between)?.par_iter().all(is_measured))
     }
 
     /// The points of a face.
-    fn own(&self, face: u32) -> PointTree {
+    fn points_of_face(&self, face: u32) -> PointTree {
         let own = (0..self.points.len()).filter(|p| self.owners[*p] == face).map(|p| self.points[p]);
         PointTree::new(&own.collect::<Vec<Point>>())
     }
@@ -332,12 +345,12 @@ impl Over<'_> {
         if over.is_empty() || self.rounded == 0.0 {
             return vec![true; over.len()];
         }
-        let tree = self.own(face);
+        let tree = self.points_of_face(face);
         let is_gap = |beyond: &Beyond| {
             let p = self.points[beyond.point as usize];
             let normal = self.faces[face as usize].facing(&p);
             let foot = normal.map_or(p, |n| minus(p, times(beyond.off, n)));
-            tree.nearest(&foot).is_none_or(|(square, _)| square.sqrt() > GAP * self.spacing)
+            tree.nearest(&foot).is_none_or(|(square, _)| square.sqrt() > UNMEASURED_SPACINGS * self.spacing)
         };
         over.par_iter().map(is_gap).collect()
     }
@@ -345,13 +358,13 @@ impl Over<'_> {
 
 /// The faces over which what hangs together lies, by the points over each face, with whether nothing was measured beneath.
 fn explained(hanging: &Hanging, over: &[BTreeMap<u32, (Beyond, bool)>], is_cloud: bool) -> Vec<Beyond> {
-    let is_few = hanging.points.len() < SEVERAL;
+    let is_few = hanging.points.len() < MIN_OTHER_POINTS;
     let mut left = hanging.points.clone();
     let mut found = vec![];
     let is_inside = |here: &[(Beyond, bool)]| here.iter().all(|(b, _)| b.off < 0.0);
     // Out of the material a thing may hide some places; into it nothing else lies where the face was not measured.
     take_nearest(&mut left, over, &mut found, |here| {
-        let needed = if is_inside(here) { 1 } else { SEVERAL };
+        let needed = if is_inside(here) { 1 } else { MIN_OTHER_POINTS };
         is_few || here.iter().filter(|(_, gap)| *gap).count() >= needed
     });
     for face in &hanging.faces {
@@ -385,7 +398,7 @@ fn take_nearest(
     }
 }
 
-/// Those of some points that hang together, in the order of the first of each; of a mesh with other vertices of their facets.
+/// The groups of points that hang together, in the order of the first of each; of a mesh with other vertices of their facets.
 fn groups(scan: &Mesh, open: &[u32], spacing: f64) -> Vec<(Vec<u32>, Vec<u32>)> {
     let place = |p: u32| open.binary_search(&p).ok().map(|i| i as u32);
     let mut groups = Groups((0..open.len() as u32).collect());
@@ -402,9 +415,9 @@ fn groups(scan: &Mesh, open: &[u32], spacing: f64) -> Vec<(Vec<u32>, Vec<u32>)> 
         true => {
             let places: Vec<Point> = open.iter().map(|p| scan.positions[*p as usize]).collect();
             let tree = PointTree::new(&places);
-            let together = (TOGETHER * spacing).powi(2);
+            let together = (HANGING_SPACINGS * spacing).powi(2);
             let near = |i: u32| {
-                let near = tree.k_nearest(&places[i as usize], NEIGHBORS, Some(i));
+                let near = tree.k_nearest(&places[i as usize], HANGING_NEIGHBORS, Some(i));
                 near.into_iter().filter(|n| n.0 <= together).map(|n| n.1).collect::<Vec<u32>>()
             };
             let all: Vec<Vec<u32>> = (0..open.len() as u32).into_par_iter().map(near).collect();
@@ -415,14 +428,17 @@ fn groups(scan: &Mesh, open: &[u32], spacing: f64) -> Vec<(Vec<u32>, Vec<u32>)> 
     }
     let mut members: Vec<(u32, u32)> = (0u32..).zip(open).map(|(i, p)| (groups.find(i), *p)).collect();
     members.sort_unstable();
-    let mut beside: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
+    let mut adjacent_points: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
     for f in &scan.faces {
         let Some(inside) = f.iter().find_map(|v| place(*v)) else { continue };
         let others = f.iter().copied().filter(|v| place(*v).is_none());
-        beside.entry(groups.find(inside)).or_default().extend(others);
+        adjacent_points.entry(groups.find(inside)).or_default().extend(others);
     }
     let group = |g: &[(u32, u32)]| {
-        (g.iter().map(|m| m.1).collect(), g.first().and_then(|m| beside.remove(&m.0)).unwrap_or_default())
+        (
+            g.iter().map(|m| m.1).collect(),
+            g.first().and_then(|m| adjacent_points.remove(&m.0)).unwrap_or_default(),
+        )
     };
     members.chunk_by(|a, b| a.0 == b.0).map(group).collect()
 }

@@ -1,51 +1,54 @@
 //! Which faces points may be of, and which explains each best.
 
 use super::best::{Best, Candidate};
+use super::continuation::Sure;
 use super::faces::Face;
 use super::facing::Facing;
-use super::going_on::Sure;
 use super::placed::Placed;
-use super::terms::{Beyond, EXPLAINED};
+use super::terms::{Beyond, EXPLAINED_SIGMAS};
 use crate::parallel::prelude::*;
 use crate::space::{Point, Vector, dot};
 use std::collections::BTreeMap;
 
 /// Reaches from the nominal within which a face is looked for: the reach is about where it really is.
-pub(super) const AWAY: f64 = 2.0;
-/// Cost of a point beyond a border, for each distance of neighbors: borders move with the faces that make them, and are known no sharper.
-const BEYOND: f64 = 2.0;
-/// Distances of neighbors from an edge up to which scans may round it: so far beyond the points that were found to be of an element its edge may be.
-pub(super) const ROUNDED: f64 = 3.0;
+pub(super) const SEARCH_REACHES: f64 = 2.0;
+/// Cost of a point for each spacing beyond a border. Borders move with the faces that make them, and are known no sharper.
+const COST_PER_SPACING_BEYOND: f64 = 2.0;
+/// Spacings from an edge up to which scans may round it. The edge may lie so far beyond the points that were found to belong to
+/// an element.
+pub(super) const ROUNDED_EDGE_SPACINGS: f64 = 3.0;
 /// Distances of neighbors beyond a border that cost nothing.
-const FREE: f64 = 0.3;
-/// A point is asked about again, by what is around, where the second of its faces costs less than this, or the best more than `ASKED`.
-const SECOND: f64 = 6.0 * EXPLAINED;
-const ASKED: f64 = 0.6 * EXPLAINED;
-/// A corner of facets is of each face that costs at most so much more than its best one: at a sharp edge of two.
-const SHARED: f64 = 3.0;
+const FREE_SPACINGS: f64 = 0.3;
+/// A point is asked again, by the points around it, where the second of its faces costs less.
+const MAX_RIVAL_COST: f64 = 6.0 * EXPLAINED_SIGMAS;
+/// It is asked again too where its best face costs more.
+const MIN_ASKED_COST: f64 = 0.6 * EXPLAINED_SIGMAS;
+/// A corner of facets belongs to each face that costs at most so much more than its best one: at a sharp edge to two.
+const MAX_SHARED_COST: f64 = 3.0;
 /// Cosine of the angle (120°) from which on faces are the two sides of a wall.
-const OTHER_SIDE: f64 = -0.5;
+const OPPOSITE_FACE_COSINE: f64 = -0.5;
 /// Cosine of the angle (37°) up to which a sure point faces as its face does.
-const FACING: f64 = 0.8;
-/// Distances of neighbors from the border at which points are surely of a face: the first of these that leaves enough.
-pub(super) const CLEAR: [f64; 3] = [2.5, 1.5, 0.75];
+const FACING_POINT_COSINE: f64 = 0.8;
+/// Spacings from the border from which on points surely belong to a face: the first of these that leaves enough points.
+pub(super) const SURE_BORDER_SPACINGS: [f64; 3] = [2.5, 1.5, 0.75];
 /// Points of a face from which on it was scanned: fewer may be probed one by one, each on purpose.
-pub(super) const SCANNED: usize = 200;
-/// Fewest sure points that are enough.
-pub(super) const FEWEST_SURE: usize = 20;
+pub(super) const MIN_SCANNED_POINTS: usize = 200;
+/// Least sure points that are enough.
+pub(super) const MIN_SURE_POINTS: usize = 20;
 
 /// Points and the faces that they may be of.
 pub(super) struct Work<'a> {
     pub points: &'a [Point],
     pub faces: &'a [&'a Face],
-    /// Of each face.
+    /// The reach of each face.
     pub reach: Vec<f64>,
     pub candidates: Vec<Vec<Candidate>>,
     pub spacing: f64,
 }
 
 impl Work<'_> {
-    /// The points that are surely of each face: it is the nearest of those over which they lie, they face as it does and lie clear of its border.
+    /// The points that surely belong to each face. It is the nearest of those over which they lie, they face as it does and lie
+    /// clear of its border.
     pub(super) fn sure(&self, facing: Option<&Facing>) -> Vec<Vec<Candidate>> {
         let mut least = vec![f64::INFINITY; self.points.len()];
         for c in self.candidates.iter().flatten().filter(|c| c.seat.within() > 0.0) {
@@ -57,15 +60,15 @@ impl Work<'_> {
                 let (p, off) = (c.point as usize, c.seat.off.abs());
                 c.seat.within() > times * self.spacing
                     && off <= reach.min(least[p])
-                    && facing.is_none_or(|f| dot(f.vertices[p], c.seat.normal()) > FACING)
+                    && facing.is_none_or(|f| dot(f.vertices[p], c.seat.normal()) > FACING_POINT_COSINE)
             };
             near.iter().filter(is_own).copied().collect()
         };
         let of_face = |(near, reach): (&Vec<Candidate>, &f64)| {
             let mut found = vec![];
-            for times in CLEAR {
+            for times in SURE_BORDER_SPACINGS {
                 found = clear(near, *reach, times);
-                if found.len() >= FEWEST_SURE {
+                if found.len() >= MIN_SURE_POINTS {
                     break;
                 }
             }
@@ -74,17 +77,18 @@ impl Work<'_> {
         self.candidates.par_iter().zip(&self.reach).map(of_face).collect()
     }
 
-    /// Of a cloud with few points over each face, as a probe takes them: what they deviate by is not known where they are fewest, and all within the reach is
-    /// explained. Where a scan has few over a face, the face was hidden.
+    /// In a cloud with few points over each face, as a probe takes them, their deviation is not known where they are fewest.
+    /// All within the reach is explained. Where a scan has few over a face, the face was hidden.
     pub(super) fn sparse(&self, is_cloud: bool) -> Vec<Option<f64>> {
         let over = |(near, reach): (&Vec<Candidate>, &f64)| {
             let is_over = |c: &&Candidate| c.seat.within() >= 0.0 && c.seat.off.abs() <= *reach;
-            near.iter().filter(is_over).take(SCANNED).count()
+            near.iter().filter(is_over).take(MIN_SCANNED_POINTS).count()
         };
         let counts: Vec<usize> = self.candidates.par_iter().zip(&self.reach).map(over).collect();
-        let is_probed = is_cloud && counts.iter().all(|count| *count < SCANNED);
-        let few = |(count, reach): (&usize, &f64)| (is_probed && *count < FEWEST_SURE).then_some(*reach);
-        counts.iter().zip(&self.reach).map(few).collect()
+        let is_probed = is_cloud && counts.iter().all(|count| *count < MIN_SCANNED_POINTS);
+        let probed =
+            |(count, reach): (&usize, &f64)| (is_probed && *count < MIN_SURE_POINTS).then_some(*reach);
+        counts.iter().zip(&self.reach).map(probed).collect()
     }
 
     /// The face of each point by the distance from where the faces really are.
@@ -94,7 +98,8 @@ impl Work<'_> {
             let scale = placed[number].deviation.max(noise);
             for c in &self.candidates[number] {
                 let off = placed[number].off(face, self.points[c.point as usize], c.seat).abs();
-                let is_there = c.seat.within() > -FREE * self.spacing || off <= EXPLAINED * scale;
+                let is_there =
+                    c.seat.within() > -FREE_SPACINGS * self.spacing || off <= EXPLAINED_SIGMAS * scale;
                 if is_there && off <= self.reach[number] {
                     best.add(c, number as u32, off / scale + self.beyond(c.seat.within()));
                 }
@@ -103,11 +108,11 @@ impl Work<'_> {
         best
     }
 
-    /// Tells how far off points lie from the nearest face beside their own: that over which they lie, or hardly beyond its border, and which faces otherwise.
-    /// Of no face, beside the nearest.
-    pub(super) fn beside(&self, best: &mut Best, placed: &[Placed]) {
+    /// Tells how far off points lie from the nearest face adjacent to their own. They lie over that face, or hardly beyond its
+    /// border, and it faces otherwise. For points of no face it is adjacent to the nearest.
+    pub(super) fn adjacent_face(&self, best: &mut Best, placed: &[Placed]) {
         let off = |number: usize, c: &Candidate| {
-            let ends = if self.faces[number].is_measured() { ROUNDED } else { 1.0 };
+            let ends = if self.faces[number].is_measured() { ROUNDED_EDGE_SPACINGS } else { 1.0 };
             let off = placed[number].off(self.faces[number], self.points[c.point as usize], c.seat).abs();
             (!self.faces[number].is_narrow() && c.seat.within() >= -ends * self.spacing).then_some(off)
         };
@@ -126,18 +131,20 @@ impl Work<'_> {
                 let own = best.seat[c.point as usize].map(|seat| seat.normal());
                 let own = own.or_else(|| nearest.get(&c.point).map(|n| n.1));
                 // The other side of a wall is no edge.
-                let otherwise = |own: Vector| (OTHER_SIDE..FACING).contains(&dot(own, c.seat.normal()));
+                let otherwise = |own: Vector| {
+                    (OPPOSITE_FACE_COSINE..FACING_POINT_COSINE).contains(&dot(own, c.seat.normal()))
+                };
                 let faces_otherwise = own.is_some_and(otherwise);
                 if let Some(off) = off(number, c).filter(|_| faces_otherwise) {
-                    let beside = &mut best.beside[c.point as usize];
-                    *beside = beside.min(off as f32);
+                    let adjacent_face = &mut best.adjacent_face[c.point as usize];
+                    *adjacent_face = adjacent_face.min(off as f32);
                 }
             }
         }
     }
 
-    /// Those whose face is not certain by that, by what is around them. Tells points, ascending, with all faces that explain them about as
-    /// well as the best.
+    /// Points whose face is not certain by that, by the points around them. Tells points, ascending, with all faces that
+    /// explain them about as well as the best.
     pub(super) fn by_what_is_around(
         &self,
         best: &mut Best,
@@ -145,13 +152,13 @@ impl Work<'_> {
         noise: f64,
     ) -> (Vec<(u32, u32)>, Vec<Beyond>) {
         let asked: Vec<bool> = (best.cost.iter().zip(&best.second))
-            .map(|(cost, second)| cost.is_finite() && (*second < SECOND || *cost > ASKED))
+            .map(|(cost, second)| cost.is_finite() && (*second < MAX_RIVAL_COST || *cost > MIN_ASKED_COST))
             .collect();
         let again: Vec<Vec<(Candidate, f64)>> = (self.candidates.par_iter().zip(around).zip(&self.reach))
             .map(|((near, around), reach)| {
                 let ask = |c: &Candidate| {
                     let z = around.off_over(self.points[c.point as usize], c.seat, *reach, noise)?;
-                    Some((*c, z + self.beyond(c.seat.within() + FREE * self.spacing)))
+                    Some((*c, z + self.beyond(c.seat.within() + FREE_SPACINGS * self.spacing)))
                 };
                 near.par_iter().filter(|c| asked[c.point as usize]).filter_map(ask).collect()
             })
@@ -162,15 +169,16 @@ impl Work<'_> {
             near.iter().for_each(|(c, cost)| best.add(c, number, *cost));
         }
         for (number, near) in (0u32..).zip(&again) {
-            let is_alike =
-                |n: &&(Candidate, f64)| n.1 <= EXPLAINED.min(best.cost[n.0.point as usize] + SHARED);
+            let is_alike = |n: &&(Candidate, f64)| {
+                n.1 <= EXPLAINED_SIGMAS.min(best.cost[n.0.point as usize] + MAX_SHARED_COST)
+            };
             shared.extend(near.iter().filter(is_alike).map(|n| (n.0.point, number)));
-            // What no face explains may be of the other side of a wall too.
+            // A point that no face explains may belong to the other side of a wall too.
             let is_other_side = |c: &Candidate| {
                 let p = c.point as usize;
-                let own = best.seat[p].filter(|_| best.cost[p] > EXPLAINED && best.owner[p] != number);
+                let own = best.seat[p].filter(|_| best.cost[p] > EXPLAINED_SIGMAS && best.owner[p] != number);
                 c.seat.within() > 0.0
-                    && own.is_some_and(|own| dot(own.normal(), c.seat.normal()) < OTHER_SIDE)
+                    && own.is_some_and(|own| dot(own.normal(), c.seat.normal()) < OPPOSITE_FACE_COSINE)
             };
             let other_side = near.iter().map(|n| n.0).filter(is_other_side);
             between.extend(other_side.map(|c| Beyond { point: c.point, face: number, off: c.seat.off }));
@@ -180,6 +188,6 @@ impl Work<'_> {
     }
 
     fn beyond(&self, within: f64) -> f64 {
-        BEYOND * (-within).max(0.0) / self.spacing
+        COST_PER_SPACING_BEYOND * (-within).max(0.0) / self.spacing
     }
 }

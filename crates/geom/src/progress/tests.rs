@@ -47,7 +47,9 @@ fn jobs<'a>(mesh: &'a Mesh, tree: &'a Tree, whole: &'a ReferenceSurface) -> Vec<
         ("crossings", Box::new(move |p| intersect::self_intersections(mesh, &topology, p).is_err())),
         (
             "few crossings",
-            Box::new(move |p| intersect::few_self_intersections(mesh, &again, &few, 1 << 30, p).is_err()),
+            Box::new(move |p| {
+                intersect::selected_self_intersections(mesh, &again, &few, 1 << 30, p).is_err()
+            }),
         ),
         ("tree", Box::new(|p| Tree::build_watched(mesh, p).is_err())),
         ("signs", Box::new(|p| Signs::watched(tree, p).is_err())),

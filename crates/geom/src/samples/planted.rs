@@ -66,7 +66,7 @@ fn plant_shells(mesh: &mut Mesh, k: usize) {
             mesh.faces.iter_mut().rev().take(12).for_each(|f| f.swap(0, 1));
         }
     }
-    // Those in the wall of the first cavity look inwards where they should look outwards.
+    // The facets in the wall of the first cavity look inwards where they should look outwards.
 }
 
 /// Pairs of facets that cross.

@@ -1,13 +1,13 @@
 //! Which of two elements explains a region better.
 //!
-//! An element with more unknowns fits the same points at least as well and mostly reaches farther: a cylinder contains nearly
-//! planes, a torus nearly spheres and cylinders. So of two regions around the same seed the one with more unknowns must
-//! earn them, by one of three kinds of evidence: it covers clearly more surface ([`ENTRY`], [`PER_UNKNOWN`]), or it covers
-//! the same and fits clearly better where the simpler one fits worse than the noise allows ([`GrownRegion::is_doubtful`], [`CLEARLY`]),
-//! or it covers the same and is the one that the facets go along (`goes_along`).
-//! Before all that, one that has corners of facets on it and not the facets gives way to one that a large part of them goes along
-//! (`is_of_corners`), whatever each covers.
-//! Whatever is not clear stays the simpler element. Of two with equally many unknowns the larger one is kept.
+//! An element with more unknowns fits the same points at least as well and mostly reaches farther. A cylinder nearly contains
+//! planes, a torus nearly spheres and cylinders. So out of two regions around the same seed the one with more unknowns must
+//! earn them, by one of three kinds of evidence. It covers clearly more surface ([`MIN_COVER_GAIN`],
+//! [`COVER_GAIN_PER_UNKNOWN`]). Or it covers the same and fits clearly better where the simpler one fits worse than the noise
+//! allows ([`GrownRegion::is_doubtful`], [`CLEARLY_BETTER_RMS`]). Or it covers the same and is the one that the facets follow
+//! (`goes_along`). Before all that, an element may have corners of facets on it and not the facets. It gives way to one that a
+//! large part of them follows (`is_of_corners`), whatever each covers. Whatever is not clear stays the simpler element. The
+//! larger of two with equally many unknowns is kept.
 //!
 //! Gains are quotients of weights (area, or number of points), fits are compared by root mean square distances.
 
@@ -16,38 +16,41 @@ use super::region::GrownRegion;
 use crate::shape::{Kind, Shape};
 use crate::space::{dot, minus, single_step};
 
-/// Quotient of the distances below which another kind fits clearly better. Where the simpler element is just doubtful, this
-/// is a root mean square of 0.94: what the noise alone leaves.
-pub(super) const CLEARLY: f64 = 0.75;
+/// Quotient of the distances below which another kind fits clearly better. Where the simpler element is just doubtful, this is
+/// a root mean square of 0.94: the residual of the noise alone.
+pub(super) const CLEARLY_BETTER_RMS: f64 = 0.75;
 /// Quotient of the distances below which another kind fits better at all. From twenty points, the smallest patch, the root
 /// mean square of the same noise is known to 16 %.
-pub(super) const BETTER: f64 = 0.85;
-/// Gain in cover that an element with more unknowns must have, and what each further unknown adds: the border of a region is
-/// uncertain by a ring of pieces, 10 to 20 % of a region of some hundreds, and each unknown lets it bend a little farther.
-const ENTRY: f64 = 1.15;
-const PER_UNKNOWN: f64 = 0.1;
-/// Gain that counts as "covers the same" where the fit decides against the simpler element. Below it the better fit may only
-/// come from having left out what fits badly.
-const SAME_COVER: f64 = 0.95;
-/// The same where the simpler element comes second: it may give up this much for fewer unknowns, if it fits better or …
-const SIMPLER_COVER: f64 = 0.98;
-/// … covers at least this much more.
-const SIMPLER_GAIN: f64 = 1.05;
-/// Quotient of the distances of the middles of facets below which one of two elements is clearly the one that the facets go
-/// along: as far as the sag of the chords goes, an edge along a straight line of the element halves it.
-const ALONG: f64 = 0.5;
-/// The least share that an element must cover of what another covers to be the one that the facets go along: one ring of facets
-/// of a torus, of three at least, goes along a cone.
-const ALONG_COVER: f64 = 0.4;
+pub(super) const BETTER_RMS: f64 = 0.85;
+/// Gain in cover that an element with more unknowns must have. The border of a region is uncertain by a ring of pieces, 10 to
+/// 20 % of a region of some hundreds.
+const MIN_COVER_GAIN: f64 = 1.15;
+/// Gain that each further unknown adds: each lets the border bend a little farther.
+const COVER_GAIN_PER_UNKNOWN: f64 = 0.1;
+/// Gain that counts as "covers the same" where the fit decides against the simpler element. Below it the better fit may come
+/// only from leaving out what fits badly.
+const MIN_SAME_COVER: f64 = 0.95;
+/// The same where the simpler element comes second. It may give up this much for fewer unknowns, if it fits better or covers
+/// more as below.
+const MIN_SIMPLER_COVER: f64 = 0.98;
+/// Gain in cover from which on the simpler element replaces the other without a better fit.
+const MIN_SIMPLER_GAIN: f64 = 1.05;
+/// Quotient of the distances of the middles of facets below which one of two elements is clearly the one that the facets
+/// follow. As far as the sag of the chords goes, an edge along a straight line of the element halves it.
+const ALONG_FACETS_RATIO: f64 = 0.5;
+/// Least share that an element must cover of the other's cover to be the one that the facets follow. One ring of facets of a
+/// torus, out of three at least, follows a cone.
+const MIN_ALONG_COVER: f64 = 0.4;
 /// Corners of three chords.
 const CHORD_POINTS: usize = 8;
 /// The apex of a fan and six corners.
 const FAN_POINTS: usize = 7;
-/// Circles about the axis that show a torus, and the steps of single precision within which corners lie on one.
-const CIRCLES: usize = 4;
-const ROUNDED_STEPS: f64 = 16.0;
+/// Circles about the axis that show a torus.
+const MIN_TORUS_CIRCLES: usize = 4;
+/// Steps of single precision within which corners lie on one circle.
+const CIRCLE_ROUNDING_STEPS: f64 = 16.0;
 /// Least quotient of the areas of chords that are equally wide.
-const ALIKE: f64 = 0.999;
+const MIN_EQUAL_LIKENESS: f64 = 0.999;
 
 /// The one of two regions that explains more; `noise` is the standard deviation of the points.
 pub(super) fn better(held: Option<GrownRegion>, other: GrownRegion, noise: f64) -> GrownRegion {
@@ -71,33 +74,33 @@ fn replaces(held: &GrownRegion, other: &GrownRegion, noise: f64) -> bool {
         return gain > 1.0;
     }
     if others > own {
-        let asked = ENTRY + PER_UNKNOWN * (others - own) as f64;
+        let asked = MIN_COVER_GAIN + COVER_GAIN_PER_UNKNOWN * (others - own) as f64;
         // A plane that is bowed within the tolerance is still a plane.
         let is_wrong = || {
-            let fits_better = held.is_doubtful(noise) && other.rms < CLEARLY * held.rms;
+            let fits_better = held.is_doubtful(noise) && other.rms < CLEARLY_BETTER_RMS * held.rms;
             held.shape.kind() != Kind::Plane && (fits_better || goes_along(other, held, noise))
         };
-        return gain > asked || (gain > SAME_COVER && is_wrong());
+        return gain > asked || (gain > MIN_SAME_COVER && is_wrong());
     }
-    let is_better = || other.rms < BETTER * held.rms && !goes_along(held, other, noise);
-    gain > SIMPLER_COVER && (gain > SIMPLER_GAIN || is_better())
+    let is_better = || other.rms < BETTER_RMS * held.rms && !goes_along(held, other, noise);
+    gain > MIN_SIMPLER_COVER && (gain > MIN_SIMPLER_GAIN || is_better())
 }
 
 /// Whether the facets go along `one` where those of `other` only have their corners on theirs. Two circles of corners lie on a
 /// cylinder and on a sphere; the facets between them are of the cylinder.
 fn goes_along(one: &GrownRegion, other: &GrownRegion, noise: f64) -> bool {
-    one.middles.max(noise) < ALONG * other.middles
+    one.middles.max(noise) < ALONG_FACETS_RATIO * other.middles
 }
 
 /// Whether `region` is only one of corners, of one face or several, and a large part of its facets goes along `other`.
 pub(super) fn is_of_corners(region: &GrownRegion, other: &GrownRegion, noise: f64) -> bool {
-    let of_corners = region.rms.max(noise) < ALONG * region.middles;
-    of_corners && goes_along(other, region, noise) && other.weight > ALONG_COVER * region.weight
+    let of_corners = region.rms.max(noise) < ALONG_FACETS_RATIO * region.middles;
+    of_corners && goes_along(other, region, noise) && other.weight > MIN_ALONG_COVER * region.weight
 }
 
 /// Whether the facets of `region` might go along another element.
 pub(super) fn may_give_way(region: &GrownRegion, noise: f64) -> bool {
-    noise < ALONG * region.middles
+    noise < ALONG_FACETS_RATIO * region.middles
 }
 
 /// So many points that an element of the kind is more than a coincidence: twice its unknowns and two more. Any three points have
@@ -106,10 +109,10 @@ pub(super) fn fewest_points(kind: Kind) -> usize {
     if kind == Kind::Plane { 4 } else { 2 * kind.unknowns() + 2 }
 }
 
-/// Whether so many points of the pieces show an element of the kind: [`fewest_points`], or of what is drawn fewer where the facets are
-/// chords of equal width. Of a cylinder the corners of three, as a chamfer and the planes beside it have a cylinder of their corners
-/// too: eight points for five unknowns. A fan of a cone leaves as much over with six corners about its apex, where all facets meet: each
-/// has the right distance from the apex's axis, and the apex takes three unknowns.
+/// Whether so many points of the pieces show an element of the kind: [`fewest_points`]. Fewer do on a drawn surface where the
+/// facets are chords of equal width. A cylinder needs the corners of three, as a chamfer and the adjacent planes have a
+/// cylinder of their corners too. That is eight points for five unknowns. A fan of a cone leaves as much over with six corners
+/// about its apex, where all facets meet. Each has the right distance from the apex's axis, and the apex takes three unknowns.
 pub(super) fn is_shown(surface: &PieceGraph, kind: Kind, pieces: &[u32], points: usize) -> bool {
     let fewest = match kind {
         Kind::Cylinder => CHORD_POINTS,
@@ -117,14 +120,14 @@ pub(super) fn is_shown(surface: &PieceGraph, kind: Kind, pieces: &[u32], points:
         _ => usize::MAX,
     };
     let chords = || {
-        let like = |p: &u32| surface.likeness(*p, pieces[0]) >= ALIKE;
+        let like = |p: &u32| surface.likeness(*p, pieces[0]) >= MIN_EQUAL_LIKENESS;
         surface.is_drawn && points >= fewest && pieces.iter().all(like)
     };
     points >= fewest_points(kind) || chords()
 }
 
-/// Whether the corners of what is drawn show a torus: any three circles about one axis lie on one, as those of a chamfer and the face beside it, so they lie
-/// on four at least. Of other elements, and of what is measured, there is nothing to ask.
+/// Whether the corners of a drawn surface show a torus. Any three circles about one axis lie on one, as those of a chamfer and
+/// its adjacent face. So the corners lie on four at least. Other elements, and measured surfaces, have nothing to ask.
 pub(super) fn has_circles(surface: &PieceGraph, shape: &Shape, pieces: &[u32]) -> bool {
     let Shape::Torus { minor_radius, .. } = *shape else { return true };
     if !surface.is_drawn {
@@ -138,9 +141,9 @@ pub(super) fn has_circles(surface: &PieceGraph, shape: &Shape, pieces: &[u32]) -
     let points = surface.points_of(pieces.iter().copied());
     let mut around: Vec<f64> = points.into_iter().map(tube).collect();
     around.sort_by(f64::total_cmp);
-    let same = ROUNDED_STEPS * single_step(surface.points) / minor_radius;
+    let same = CIRCLE_ROUNDING_STEPS * single_step(surface.points) / minor_radius;
     let parted = around.windows(2).filter(|w| w[1] - w[0] > same).count();
-    parted + 1 >= CIRCLES
+    parted + 1 >= MIN_TORUS_CIRCLES
 }
 
 /// Whether all facets share a corner.
@@ -182,7 +185,7 @@ mod tests {
             !second((cylinder, 1.0, 0.01), (plane, 1.0, 0.01))
                 && !second((cylinder, 1.0, 0.01), (plane, 0.9, 0.001))
         );
-        // Of one kind the larger one.
+        // The larger one of one kind.
         let leaning = Shape::Plane { point: [0.0; 3], normal: [0.0, 0.6, 0.8] };
         assert!(second((plane, 1.0, 0.01), (leaning, 1.01, 0.02)));
         assert!(!second((plane, 1.0, 0.01), (leaning, 0.99, 0.0)));

@@ -1,8 +1,8 @@
 //! Elements from a patch of places with normals, by small linear systems: starts that least squares improves.
 //!
-//! Normals may point to either side. Cylinder: the axis is the direction that the normals avoid. Cone: all tangent
-//! planes meet in the apex. Torus: every normal meets the axis, which is a linear condition on the axis' line
-//! coordinates (H. Pottmann, J. Wallner, Computational Line Geometry, 2001, chapter 7).
+//! Normals may point to either side. Cylinder: the axis is the direction that the normals avoid. Cone: all tangent planes meet
+//! in the apex. Torus: every normal meets the axis, which is a linear condition on the axis' line coordinates. (H. Pottmann, J.
+//! Wallner, Computational Line Geometry, 2001, chapter 7.)
 
 use super::points::flattest;
 use crate::num::dense::{eigen, solve};
@@ -16,9 +16,9 @@ pub(super) type Patch = [(Point, Vector)];
 pub const KINDS: [Kind; 5] = [Kind::Plane, Kind::Cylinder, Kind::Cone, Kind::Sphere, Kind::Torus];
 
 /// Greatest radius, in diagonals of the part.
-const MOST_SIZES: f64 = 10.0;
+const MAX_RADIUS_DIAGONALS: f64 = 10.0;
 /// Greatest quotient of the radii of a torus: a thicker one is as good as a sphere of the same points.
-const THICKEST: f64 = 0.95;
+const MAX_TORUS_RATIO: f64 = 0.95;
 
 /// An element of the kind near the patch; `None` where the patch does not show one, and of kinds that are not in [`KINDS`].
 pub(super) fn estimate(kind: Kind, patch: &Patch) -> Option<Shape> {
@@ -32,10 +32,10 @@ pub(super) fn estimate(kind: Kind, patch: &Patch) -> Option<Shape> {
     }
 }
 
-/// Whether a part of this size can show the element. A cone has no limit of its half angle but what shows: over all of the part it
-/// leaves the plane, or the cylinder, that it tends to by more than pieces may lie off.
+/// Whether a part of this size can show the element. A cone has no limit of its half angle but what shows. Over all of the part
+/// it leaves the plane, or the cylinder, that it tends to by more than pieces may lie off.
 pub(super) fn is_sound(shape: &Shape, size: f64, tolerance: f64) -> bool {
-    let most = MOST_SIZES * size;
+    let most = MAX_RADIUS_DIAGONALS * size;
     match *shape {
         Shape::Sphere { radius, .. } | Shape::Cylinder { radius, .. } => radius < most,
         Shape::Cone { half_angle, radius, .. } => {
@@ -44,7 +44,7 @@ pub(super) fn is_sound(shape: &Shape, size: f64, tolerance: f64) -> bool {
             radius > 0.0 && size * size * cos > 8.0 * radius * tolerance && size * sin > tolerance
         }
         Shape::Torus { major_radius, minor_radius, .. } => {
-            major_radius < most && minor_radius < THICKEST * major_radius
+            major_radius < most && minor_radius < MAX_TORUS_RATIO * major_radius
         }
         Shape::Plane { .. } => true,
         // Curves are no faces.
@@ -89,8 +89,8 @@ fn plane(patch: &Patch) -> Option<Shape> {
     Some(Shape::Plane { point: mean(patch.iter().map(|p| p.0)), normal: eigen(spread(patch)).1[2] })
 }
 
-/// Center and radius of the circle or sphere through the places, in the directions in which they spread: by their
-/// normals, which tell more of a small patch, or by the places alone, which do not care on which side the normals are.
+/// Center and radius of the circle or sphere through the places, in the directions in which they spread. The normals tell more
+/// of a small patch. The places alone do not care on which side the normals are.
 fn round(patch: &Patch) -> Option<(Point, f64)> {
     let square = |&(center, radius): &(Point, f64)| -> f64 {
         patch.iter().map(|p| (norm(minus(p.0, center)) - radius).powi(2)).sum()
@@ -169,8 +169,8 @@ fn torus(patch: &Patch) -> Option<Shape> {
     both.min_by(|a, b| square(a).total_cmp(&square(b)))
 }
 
-/// From the cylinder through the patch: the middle of the tube is c + δ + t τ + ½ t² κ at height t, which to first
-/// order changes the distance by its product with the direction outwards.
+/// From the cylinder through the patch: the middle of the tube is c + δ + t τ + ½ t² κ at height t. To first order that changes
+/// the distance by its product with the direction outwards.
 fn bent_tube(patch: &Patch) -> Option<Shape> {
     let Shape::Cylinder { point, direction, radius } = cylinder(patch)? else { return None };
     let first = minus(patch.first()?.0, point);

@@ -7,7 +7,7 @@ use crate::space::{Vector, cross, dot, minus, norm, plus, single_step, times, un
 use crate::spatial::lists::lists;
 
 /// Steps of single precision by which the corners of two facets, together, turn one against the other.
-const ROUNDED_CORNERS: f64 = 4.0;
+const CORNER_ROUNDING_STEPS: f64 = 4.0;
 
 /// The facets of a mesh whose corners exist and are finite.
 pub(super) fn surface(mesh: &Mesh) -> PieceGraph<'_> {
@@ -28,9 +28,10 @@ pub(super) fn surface(mesh: &Mesh) -> PieceGraph<'_> {
     }
 }
 
-/// Whether the half of the area is of facets with a neighbor in their plane, or with two that mirror them and turn as far, to the rounding of
-/// single precision: what is drawn has two facets where four corners lie in a plane, and equal ones around the tip of a cone. What is measured
-/// has none such; but noise across an even grid changes the sides of its facets in second order only, so that they mirror each other.
+/// Whether half of the area belongs to facets with a neighbor in their plane, or with two that mirror them and turn as far. The
+/// rounding of single precision is allowed for. A drawn surface has two facets where four corners lie in a plane, and equal
+/// ones around the tip of a cone. A measured surface has none such. But noise across an even grid changes the sides of its
+/// facets in second order only, so that they mirror each other.
 fn is_drawn(mesh: &Mesh, normals: &[Vector], areas: &[f64], first: &[u32], others: &[u32]) -> bool {
     let step = single_step(&mesh.positions);
     let flat = |facet: usize| {
@@ -47,7 +48,7 @@ fn is_drawn(mesh: &Mesh, normals: &[Vector], areas: &[f64], first: &[u32], other
         let [a, b, c] = face(facet).map(|v| mesh.positions[v as usize]);
         let longest =
             [[a, b], [b, c], [c, a]].into_iter().fold(0.0, |most: f64, [p, q]| most.max(norm(minus(p, q))));
-        let off = ROUNDED_CORNERS * step * longest / (2.0 * areas[facet]);
+        let off = CORNER_ROUNDING_STEPS * step * longest / (2.0 * areas[facet]);
         (0..turns.len()).any(|i| turns[..i].iter().any(|turn| (turn - turns[i]).abs() <= off))
     };
     let is_flat: Vec<bool> = (0..mesh.faces.len()).into_par_iter().map(flat).collect();
@@ -55,10 +56,10 @@ fn is_drawn(mesh: &Mesh, normals: &[Vector], areas: &[f64], first: &[u32], other
     flat >= 0.5 * areas.iter().sum::<f64>()
 }
 
-/// Whether the four corners of two facets lie in one plane, where each may be off by `step`: the volume between them is no more than
-/// that of `step` over the four sides.
+/// Whether the four corners of two facets lie in one plane, where each may be off by `step`. The volume between them is then no
+/// more than that of `step` over the four sides.
 fn is_flat(mesh: &Mesh, one: [u32; 3], other: [u32; 3], step: f64) -> bool {
-    let Some(far) = beyond(other, one) else { return false };
+    let Some(far) = other_corner(other, one) else { return false };
     let [a, b, c, d] = [one[0], one[1], one[2], far].map(|v| mesh.positions[v as usize]);
     let sides = [[a, b, c], [a, b, d], [a, c, d], [b, c, d]];
     let area: f64 = sides.iter().map(|[p, q, r]| norm(cross(minus(*q, *p), minus(*r, *p)))).sum();
@@ -67,13 +68,13 @@ fn is_flat(mesh: &Mesh, one: [u32; 3], other: [u32; 3], step: f64) -> bool {
 
 /// Whether the sides of one facet are as long as those of the other, at both ends of their edge.
 fn is_mirrored(mesh: &Mesh, one: [u32; 3], other: [u32; 3], step: f64) -> bool {
-    let (Some(near), Some(far)) = (beyond(one, other), beyond(other, one)) else { return false };
+    let (Some(near), Some(far)) = (other_corner(one, other), other_corner(other, one)) else { return false };
     let length = |from: u32, to: u32| norm(minus(mesh.positions[from as usize], mesh.positions[to as usize]));
     one.into_iter().filter(|v| *v != near).all(|v| (length(near, v) - length(far, v)).abs() <= 2.0 * step)
 }
 
 /// The corner of one facet that the other does not have.
-fn beyond(of: [u32; 3], not: [u32; 3]) -> Option<u32> {
+fn other_corner(of: [u32; 3], not: [u32; 3]) -> Option<u32> {
     of.into_iter().find(|v| !not.contains(v))
 }
 
@@ -108,7 +109,7 @@ mod tests {
     use super::*;
     use crate::num::random::Random;
 
-    /// Of an even grid noise across it changes no side that shows in single precision.
+    /// Noise across an even grid changes no side that shows in single precision.
     #[test]
     fn an_even_grid_with_noise_is_measured_and_a_fan_is_drawn() {
         let random = &mut Random::new(8);

@@ -105,16 +105,17 @@ pub(super) enum Order {
     Turn,
     /// The one across the longest edge.
     Edge,
-    /// The one whose area is most like that of the one it is reached from: from chord to chord of a fillet, not onto the face beside.
+    /// The neighbor whose area is most like that of the piece it is reached from. That leads from chord to chord of a fillet,
+    /// not onto the adjacent face.
     Alike,
 }
 
 /// Neighbors of a piece beyond which a strip does not go on from it: around one vertex with so many facets there is no strip.
-const CROWD: usize = 1000;
+const MAX_STRIP_NEIGHBORS: usize = 1000;
 
-/// About `most` free facets from `seed` on, each across an edge without a crease from one before, in the given order. Where facets
-/// are as long as their face, as programs write them that draw parts, this stays on the face when [`patch`] does not: along a
-/// cylinder of two circles of corners, along a narrow plane.
+/// About `most` free facets from `seed` on, each across an edge without a crease from one before, in the given order. Programs
+/// that draw parts write facets as long as their face. There this stays on the face when [`patch`] does not: along a cylinder
+/// of two circles of corners, along a narrow plane.
 pub(super) fn strip(
     surface: &PieceGraph,
     seed: u32,
@@ -132,7 +133,7 @@ pub(super) fn strip(
         }
         reached.push(from);
         let around = surface.neighbors(from);
-        for &piece in around.iter().filter(|_| around.len() <= CROWD) {
+        for &piece in around.iter().filter(|_| around.len() <= MAX_STRIP_NEIGHBORS) {
             let across = surface.turn(piece, from);
             let joins =
                 surface.counts(piece) && free(piece) && across >= crease && !marks.seen[piece as usize];

@@ -1,7 +1,7 @@
 //! One region: from a patch to all that belongs to its element.
 
 use super::chords::is_chord;
-use super::criterion::{BETTER, CLEARLY, better, has_circles, is_shown, may_give_way};
+use super::criterion::{BETTER_RMS, CLEARLY_BETTER_RMS, better, has_circles, is_shown, may_give_way};
 use super::estimate::{estimate, is_sound};
 use super::flood::{Marks, Order, flood, patch, rings, strip};
 use super::pieces::{Band, PieceGraph};
@@ -13,38 +13,39 @@ use crate::shape::{Kind, Shape};
 use crate::space::Point;
 
 /// Pieces of the first patches: small ones for small faces, large ones against noise.
-const PATCHES: [usize; 3] = [20, 64, 250];
+const PIECES_PER_PATCH: [usize; 3] = [20, 64, 250];
 /// Pieces of the first strips, and how they grow.
 const STRIPS: [(usize, Order); 4] =
     [(20, Order::Turn), (20, Order::Edge), (64, Order::Turn), (64, Order::Edge)];
-/// Facets of the least strip, which a plane may have.
-const PAIR: usize = 2;
+/// Facets of the shortest strip: a plane may have no more.
+const MIN_STRIP_FACETS: usize = 2;
 /// Strips where the surface is drawn: two facets of a plane, a fillet of few chords.
-const DRAWN_STRIPS: [(usize, Order); 3] = [(PAIR, Order::Turn), (6, Order::Alike), (16, Order::Alike)];
-/// Points that an element is fitted to while it grows.
-const ENOUGH: usize = 1500;
+const DRAWN_STRIPS: [(usize, Order); 3] =
+    [(MIN_STRIP_FACETS, Order::Turn), (6, Order::Alike), (16, Order::Alike)];
+/// Most points of a region that its element is fitted to while regions grow and merge.
+pub(super) const MAX_FITTED_POINTS: usize = 1500;
 /// A region may grow this many times before its element is fitted again.
-const GROWTH: usize = 3;
+const GROWTH_PER_FIT: usize = 3;
 /// A trial, and a region that is taken, has stopped growing when it gains less than one piece in so many.
-const STOP_GAIN: [usize; 2] = [16, 100];
-/// Fits of one growing region. Growth threefold each time, it has covered any surface before.
-const ROUNDS: usize = 30;
+const STOP_GAIN_DIVISORS: [usize; 2] = [16, 100];
+/// Most fits of one growing region. With threefold growth each time it has covered any surface before.
+const MAX_GROWTH_FITS: usize = 30;
 /// Share of a patch that must belong to the element estimated from it.
-const AGREEING: f64 = 0.6;
+const MIN_AGREEING_SHARE: f64 = 0.6;
 /// The same for a region with the two rings around it.
-const FITTING: f64 = 0.8;
+const MIN_FITTING_SHARE: f64 = 0.8;
 /// Share of those rings that must belong to another kind of element before it is tried.
-const GOES_ON: f64 = 0.3;
+const MIN_GOING_ON_SHARE: f64 = 0.3;
 
 /// Pieces whose points a start is looked for on.
-const FEW: usize = 60;
-/// Share of the least weight asked for that a region must have for other kinds to be tried on it: they may cover more, but
-/// not many times as much.
-pub(super) const PROMISING: f64 = 0.3;
+const START_PIECES: usize = 60;
+/// Share of the least weight asked for that a region must have for other kinds to be tried on it. They may cover more, but not
+/// many times as much.
+pub(super) const PROMISING_SHARE: f64 = 0.3;
 /// How often a whole region may change its kind.
-const CHANGES: usize = 3;
+const MAX_KIND_CHANGES: usize = 3;
 
-/// What all regions of a search have in common.
+/// The inputs that all regions of a search have in common.
 #[derive(Debug)]
 pub(super) struct Context<'a> {
     pub surface: &'a PieceGraph<'a>,
@@ -70,7 +71,7 @@ impl Context<'_> {
     ) -> Option<GrownRegion> {
         let mut best: Option<GrownRegion> = None;
         let mut last = 0;
-        for count in PATCHES {
+        for count in PIECES_PER_PATCH {
             let patch = patch(self.surface, seed, count, self.crease, marks, free);
             if patch.len() <= last {
                 break;
@@ -90,7 +91,7 @@ impl Context<'_> {
             let drawn = if self.surface.is_drawn { &DRAWN_STRIPS[..] } else { &[] };
             for &first in drawn.iter().chain(&STRIPS) {
                 let strip = strip(self.surface, seed, first, self.crease, marks, free);
-                if strip.len() <= PAIR && is_chord(self.surface, &strip, self.crease, marks) {
+                if strip.len() <= MIN_STRIP_FACETS && is_chord(self.surface, &strip, self.crease, marks) {
                     continue;
                 }
                 self.tried(&mut best, &strip, most, marks, free);
@@ -99,8 +100,8 @@ impl Context<'_> {
         best
     }
 
-    /// Grows what each kind of element shows of a patch and keeps the best; whether no other can cover more than it, all
-    /// that a trial may reach.
+    /// Grows each kind of element that a patch shows and keeps the best. Also whether no other can cover more than it, all that
+    /// a trial may reach.
     fn tried(
         &self,
         best: &mut Option<GrownRegion>,
@@ -110,7 +111,7 @@ impl Context<'_> {
         free: &impl Fn(u32) -> bool,
     ) -> bool {
         for &kind in self.kinds {
-            let Some((shape, _)) = self.shown(kind, patch, AGREEING) else { continue };
+            let Some((shape, _)) = self.shown(kind, patch, MIN_AGREEING_SHARE) else { continue };
             let Some(grown) = self.grown(shape, patch, most, marks, free) else { continue };
             *best = Some(better(best.take(), grown, self.noise));
             if best.as_ref().is_some_and(|b| b.pieces.len() >= most && !b.is_doubtful(self.noise)) {
@@ -130,24 +131,24 @@ impl Context<'_> {
         free: &impl Fn(u32) -> bool,
     ) -> Option<GrownRegion> {
         let mut best = self.grown(trial.shape, &trial.pieces, usize::MAX, marks, free)?;
-        if best.is_doubtful(self.noise) && best.weight >= PROMISING * enough {
+        if best.is_doubtful(self.noise) && best.weight >= PROMISING_SHARE * enough {
             // It may have gone beyond its face: begin again with the other kinds.
             for &kind in self.kinds.iter().filter(|&&kind| kind != trial.shape.kind()) {
-                let Some((shape, _)) = self.shown(kind, &trial.pieces, AGREEING) else { continue };
+                let Some((shape, _)) = self.shown(kind, &trial.pieces, MIN_AGREEING_SHARE) else { continue };
                 let Some(grown) = self.grown(shape, &trial.pieces, usize::MAX, marks, free) else { continue };
                 best = better(Some(best), grown, self.noise);
             }
         }
-        for _ in 0..CHANGES {
-            if best.weight < PROMISING * enough {
+        for _ in 0..MAX_KIND_CHANGES {
+            if best.weight < PROMISING_SHARE * enough {
                 break;
             }
             let before = (best.shape.kind(), best.pieces.len());
             let beyond = rings(self.surface, &best.pieces, marks, free);
             let wider = [&best.pieces[..], &beyond].concat();
             for &kind in self.kinds.iter().filter(|&&kind| kind != before.0) {
-                let Some((shape, rms)) = self.shown(kind, &wider, FITTING) else { continue };
-                if rms > BETTER * best.rms && self.agreeing(&shape, &beyond) < GOES_ON {
+                let Some((shape, rms)) = self.shown(kind, &wider, MIN_FITTING_SHARE) else { continue };
+                if rms > BETTER_RMS * best.rms && self.agreeing(&shape, &beyond) < MIN_GOING_ON_SHARE {
                     continue;
                 }
                 let Some(grown) = self.grown(shape, &wider, usize::MAX, marks, free) else { continue };
@@ -160,9 +161,9 @@ impl Context<'_> {
         // The corners of two circles lie on a ball, whatever the facets between them go along: all of it shows that, without a start.
         let is_ball = self.surface.is_drawn && best.shape.kind() == Kind::Sphere;
         if is_ball && may_give_way(&best, self.noise) {
-            let few = self.surface.some_places(&best.pieces, FEW);
+            let start_places = self.surface.sampled_places(&best.pieces, START_PIECES);
             for &kind in self.kinds.iter().filter(|&&kind| matches!(kind, Kind::Cylinder | Kind::Cone)) {
-                let Ok(start) = fit(&few, kind, &Options::default(), &Silent) else { continue };
+                let Ok(start) = fit(&start_places, kind, &Options::default(), &Silent) else { continue };
                 if let Some(grown) = self.grown(start.shape, &best.pieces, usize::MAX, marks, free) {
                     best = better(Some(best), grown, self.noise);
                 }
@@ -171,19 +172,21 @@ impl Context<'_> {
         Some(best)
     }
 
-    /// A ball as another kind, where its pieces fit a ball worse than noise and that one clearly better: a short fillet
-    /// passes for a ball where its small patches are too noisy to show a torus. All of it shows one, without a start.
+    /// A ball as another kind, where its pieces fit a ball worse than noise and that kind clearly better. A short fillet passes
+    /// for a ball where its small patches are too noisy to show a torus. All of it shows one, without a start.
     pub(super) fn reconsidered(&self, region: &mut GrownRegion) {
         let own = region.shape.kind();
         if own != Kind::Sphere || !region.is_doubtful(self.noise) {
             return;
         }
-        let [few, points] = [FEW, ENOUGH].map(|most| self.surface.some_places(&region.pieces, most));
+        let [start_places, points] =
+            [START_PIECES, MAX_FITTED_POINTS].map(|most| self.surface.sampled_places(&region.pieces, most));
         for &kind in self.kinds.iter().filter(|kind| kind.unknowns() > own.unknowns()) {
-            let Ok(start) = fit(&few, kind, &Options::default(), &Silent) else { continue };
+            let Ok(start) = fit(&start_places, kind, &Options::default(), &Silent) else { continue };
             let Some((shape, rms)) = improved(&points, &start.shape) else { continue };
-            let clearly = rms < CLEARLY * region.rms && is_sound(&shape, self.size, self.band.distance);
-            if clearly && self.agreeing(&shape, &region.pieces) >= FITTING {
+            let clearly =
+                rms < CLEARLY_BETTER_RMS * region.rms && is_sound(&shape, self.size, self.band.distance);
+            if clearly && self.agreeing(&shape, &region.pieces) >= MIN_FITTING_SHARE {
                 (region.shape, region.rms) = (shape, rms);
             }
         }
@@ -191,21 +194,21 @@ impl Context<'_> {
 
     /// The share of the pieces that belong to the element; of many, some are asked.
     fn agreeing(&self, shape: &Shape, pieces: &[u32]) -> f64 {
-        let some = pieces.iter().step_by(pieces.len().div_ceil(ENOUGH).max(1));
-        let all = some.clone().count().max(1);
+        let sampled = pieces.iter().step_by(pieces.len().div_ceil(MAX_FITTED_POINTS).max(1));
+        let all = sampled.clone().count().max(1);
         let element = Probe::new(shape);
-        some.filter(|&&p| self.surface.belongs(p, &element, &self.band)).count() as f64 / all as f64
+        sampled.filter(|&&p| self.surface.belongs(p, &element, &self.band)).count() as f64 / all as f64
     }
 
     /// The element of one kind that the patch shows, if the given share of it agrees, and its root mean square distance.
     fn shown(&self, kind: Kind, patch: &[u32], share: f64) -> Option<(Shape, f64)> {
         let surface = self.surface;
-        let oriented: Vec<_> = (patch.iter().step_by(patch.len().div_ceil(ENOUGH).max(1)))
+        let oriented: Vec<_> = (patch.iter().step_by(patch.len().div_ceil(MAX_FITTED_POINTS).max(1)))
             .map(|&p| (surface.places[p as usize], surface.normals[p as usize]))
             .filter(|o| o.1 != [0.0; 3])
             .collect();
         let first = estimate(kind, &oriented)?;
-        let points = surface.some_places(patch, ENOUGH);
+        let points = surface.sampled_places(patch, MAX_FITTED_POINTS);
         if !is_shown(surface, kind, patch, points.len()) {
             return None;
         }
@@ -224,10 +227,10 @@ impl Context<'_> {
         free: &impl Fn(u32) -> bool,
     ) -> Option<GrownRegion> {
         let kind = shape.kind();
-        let mut limit = GROWTH * patch.len();
-        let stop_gain = if most == usize::MAX { STOP_GAIN[1] } else { STOP_GAIN[0] };
+        let mut limit = GROWTH_PER_FIT * patch.len();
+        let stop_gain = if most == usize::MAX { STOP_GAIN_DIVISORS[1] } else { STOP_GAIN_DIVISORS[0] };
         let mut last = 0;
-        for _ in 0..ROUNDS {
+        for _ in 0..MAX_GROWTH_FITS {
             let element = Probe::new(&shape);
             let pieces = flood(self.surface, patch, limit.min(most), marks, |piece, from| {
                 let belongs = free(piece) && self.surface.belongs(piece, &element, &self.band);
@@ -250,7 +253,7 @@ impl Context<'_> {
             shape = better;
             last = if full { 0 } else { pieces.len() };
             if full {
-                limit *= GROWTH;
+                limit *= GROWTH_PER_FIT;
             }
         }
         None
@@ -260,7 +263,9 @@ impl Context<'_> {
     fn middles(&self, shape: &Shape, pieces: &[u32]) -> f64 {
         let element = Probe::new(shape);
         let (mut squares, mut weights) = (0.0, 0.0);
-        for piece in pieces.iter().step_by(pieces.len().div_ceil(ENOUGH).max(1)).map(|p| *p as usize) {
+        for piece in
+            pieces.iter().step_by(pieces.len().div_ceil(MAX_FITTED_POINTS).max(1)).map(|p| *p as usize)
+        {
             let weight = self.surface.weights[piece];
             squares += weight * element.distance(self.surface.places[piece]).powi(2);
             weights += weight;
@@ -270,7 +275,7 @@ impl Context<'_> {
 
     /// Some points of the pieces, those that lie within the band.
     fn within(&self, element: &Probe, pieces: &[u32]) -> Vec<Point> {
-        let mut points = self.surface.some_places(pieces, ENOUGH);
+        let mut points = self.surface.sampled_places(pieces, MAX_FITTED_POINTS);
         points.retain(|&p| element.distance(p).abs() <= self.band.distance);
         points
     }

@@ -1,18 +1,16 @@
 //! Neighboring regions that are one face: pieces of one element that form error or a scratch kept apart.
 
-use super::grow::Context;
-use super::pieces::NONE;
+use super::grow::{Context, MAX_FITTED_POINTS};
+use super::pieces::NO_PIECE;
 use super::probe::Probe;
 use super::region::GrownRegion;
 use crate::fit::improved;
 use crate::shape::Shape;
 use crate::space::Point;
 
-/// Points of each region that a joint element is fitted to.
-const ENOUGH: usize = 1500;
-/// Root mean square about one element over that about two, from which on they are two. Equal regions whose elements
-/// are off by one standard deviation of the points have 1.12.
-const TELLS: f64 = 1.25;
+/// Root mean square about one element over that about two, from which on they are two. Equal regions whose elements are off by
+/// one standard deviation of the points have 1.12.
+const TWO_ELEMENTS_RATIO: f64 = 1.25;
 
 /// Joins regions that one element explains as well as two. Labels of regions that are gone are replaced; the regions
 /// themselves stay in place, without pieces.
@@ -43,7 +41,7 @@ fn next(context: &Context, regions: &[GrownRegion], labels: &[u32]) -> Option<(u
 fn joint(context: &Context, large: &GrownRegion, small: &GrownRegion) -> Option<(Shape, f64)> {
     let surface = context.surface;
     let places = |region: &GrownRegion| -> Vec<Point> {
-        let mut places = surface.some_places(&region.pieces, ENOUGH);
+        let mut places = surface.sampled_places(&region.pieces, MAX_FITTED_POINTS);
         places.retain(|&p| region.shape.distance(p).abs() <= context.band.distance);
         places
     };
@@ -61,7 +59,7 @@ fn joint(context: &Context, large: &GrownRegion, small: &GrownRegion) -> Option<
     let own = square(&other, &small.shape) / other.len() as f64;
     let element = Probe::new(&shape);
     let belong = small.pieces.iter().filter(|&&p| turned(context, p, &element)).count();
-    let fits = together / count <= TELLS * TELLS * (apart / count).max(floor)
+    let fits = together / count <= TWO_ELEMENTS_RATIO * TWO_ELEMENTS_RATIO * (apart / count).max(floor)
         && alone <= 4.0 * own.max(floor)
         && 10 * belong >= 9 * small.pieces.len();
     fits.then(|| (shape, (together / count).sqrt()))
@@ -80,9 +78,10 @@ fn neighbors(context: &Context, labels: &[u32]) -> Vec<[u32; 2]> {
     let mut around: Vec<u32> = Vec::new();
     for piece in 0..surface.len() as u32 {
         around.clear();
-        around.extend(surface.neighbors(piece).iter().map(|&n| labels[n as usize]).filter(|&l| l != NONE));
+        around
+            .extend(surface.neighbors(piece).iter().map(|&n| labels[n as usize]).filter(|&l| l != NO_PIECE));
         let own = labels[piece as usize];
-        if own != NONE {
+        if own != NO_PIECE {
             around.retain(|&l| l != own);
             around.insert(0, own);
         }
@@ -111,12 +110,13 @@ mod tests {
 
     /// A region of these pieces.
     fn region(context: &Context, start: Shape, pieces: Vec<u32>) -> GrownRegion {
-        let (shape, rms) = improved(&context.surface.some_places(&pieces, ENOUGH), &start).unwrap();
+        let (shape, rms) =
+            improved(&context.surface.sampled_places(&pieces, MAX_FITTED_POINTS), &start).unwrap();
         GrownRegion { shape, weight: context.surface.weight(&pieces), pieces, rms, middles: rms }
     }
 
     fn labels(regions: &[GrownRegion], count: usize) -> Vec<u32> {
-        let mut labels = vec![NONE; count];
+        let mut labels = vec![NO_PIECE; count];
         for (label, region) in regions.iter().enumerate() {
             region.pieces.iter().for_each(|&p| labels[p as usize] = label as u32);
         }

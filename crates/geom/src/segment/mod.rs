@@ -1,9 +1,9 @@
 //! Planes, cylinders, cones, spheres and tori in a mesh or cloud, found without a nominal.
 //!
-//! [`mesh`] and [`cloud`] are the entrances. A surface is cut into pieces (facets, or points with normals); patches of
-//! pieces around random seeds show an element each, which grows over its neighbors and is fitted again in turns;
-//! neighboring regions that one element explains as well are joined; each region's element is fitted by least squares
-//! in the end. The noise of the data sets how far a piece may lie off.
+//! [`mesh`] and [`cloud`] are the entrances. A surface is cut into pieces: facets, or points with normals. Patches of pieces
+//! around random seeds show an element each, which grows over its neighbors and is fitted again in turns. Neighboring regions
+//! that one element explains as well are joined. In the end each region's element is fitted by least squares. The noise of the
+//! data sets how far a piece may lie off.
 //!
 //! | file | what |
 //! |---|---|
@@ -47,13 +47,13 @@ use criterion::fewest_points;
 pub use estimate::KINDS;
 use grow::Context;
 use noise::Noise;
-use pieces::{Band, NONE, PieceGraph, Pieces};
+use pieces::{Band, NO_PIECE, PieceGraph, Pieces};
 use region::GrownRegion;
 use search::{Limits, search};
 use seeds::Seeds;
 use std::collections::BTreeSet;
 
-/// What to look for.
+/// The options of a segmentation.
 #[derive(Clone, Debug)]
 pub struct Options {
     /// Elements looked for; those of [`KINDS`] count.
@@ -106,7 +106,7 @@ pub struct Region {
     pub farthest: f64,
 }
 
-/// What was found.
+/// The result of a segmentation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Segmentation {
     /// The regions, largest first.
@@ -125,7 +125,9 @@ pub struct Segmentation {
 }
 
 impl Segmentation {
-    /// The noise of the points about their elements, and how far neighbors share it: [`points_per_independent`](crate::noise::Noise) is what the covariances of [`Region::fit`] have to be multiplied with. `of` is what was segmented, a cloud as a mesh without facets.
+    /// The noise of the points about their elements, and how far neighbors share it. The covariances of [`Region::fit`] have to
+    /// be multiplied with [`points_per_independent`](crate::noise::Noise). `of` is what was segmented, a cloud as a mesh
+    /// without facets.
     ///
     /// # Errors
     /// [`NoNoise`]: drawn, too few points that hang together, cancelled.
@@ -148,9 +150,9 @@ impl Segmentation {
     }
 }
 
-/// Whether a mesh, whose facets name vertices that exist and are finite, was drawn, not measured: half of its area and more is of facets with a
-/// neighbor in their plane, or with two that mirror them and turn as far, to the rounding of single precision. A cloud is not. Cost: some passes
-/// over the facets.
+/// Whether a mesh was drawn, not measured; its facets name vertices that exist and are finite. Half of its area and more
+/// belongs to facets with a neighbor in their plane, or with two that mirror them and turn as far. The rounding of single
+/// precision is allowed for. A cloud is not. Cost: some passes over the facets.
 /// ```
 /// use trueness_geom::{mesh::Mesh, segment::is_drawn};
 /// let square = |lift: f64| Mesh {
@@ -183,9 +185,9 @@ pub enum SegmentError {
     WrongOption {
         /// Which one.
         name: &'static str,
-        /// What was given.
+        /// The value that was passed.
         value: f64,
-        /// What it may be.
+        /// The range that it may have.
         range: &'static str,
     },
     /// None of the kinds asked for can be found.
@@ -201,9 +203,9 @@ pub enum SegmentError {
 
 /// The elements of a mesh. Facets are neighbors through the vertices they share: weld first what is not welded.
 ///
-/// Labels are those of facets. Facets without area belong to nothing. Deterministic for any number of threads; memory
-/// grows with the number of facets (about 250 bytes each), time with it and with the number of faces. `progress` counts
-/// facets that found their region.
+/// Labels are those of facets. Facets without area belong to nothing. Deterministic for any number of threads. Memory grows
+/// with the number of facets (about 250 bytes each), time with it and with the number of faces. `progress` counts facets that
+/// found their region.
 ///
 /// # Errors
 /// [`SegmentError`]: no facets, a coordinate that is no number, options out of range.
@@ -264,11 +266,11 @@ fn check(points: &[Point], options: &Options) -> Result<(), SegmentError> {
 }
 
 /// Standard deviations of the noise within which points belong to an element: form error comes on top of noise.
-const WIDTH: f64 = 8.0;
-/// Least shares of regions of what is measured, and of what is drawn.
-const SHARES: [f64; 2] = [0.002, 1e-4];
-/// Angles between a piece and its element that are always allowed and never exceeded.
-const ANGLES: [f64; 2] = [12.0, 45.0];
+const BAND_SIGMAS: f64 = 8.0;
+/// Least share of a region: of a measured surface, and of a drawn one.
+const MIN_REGION_SHARES: [f64; 2] = [0.002, 1e-4];
+/// Angle between a piece and its element that is always allowed, and the one that is never exceeded, degrees.
+const PIECE_ANGLE_LIMITS: [f64; 2] = [12.0, 45.0];
 
 fn segment(
     surface: PieceGraph,
@@ -286,8 +288,8 @@ fn segment(
     // Coordinates have passed through single precision: they are off by half a step of it.
     let step = single_step(surface.points);
     let noise = distance.max(step / 12f64.sqrt());
-    let tolerance = options.tolerance.unwrap_or((WIDTH * noise).max(2.0 * step));
-    let turned = (3.0 * angle).clamp(ANGLES[0].to_radians(), ANGLES[1].to_radians());
+    let tolerance = options.tolerance.unwrap_or((BAND_SIGMAS * noise).max(2.0 * step));
+    let turned = (3.0 * angle).clamp(PIECE_ANGLE_LIMITS[0].to_radians(), PIECE_ANGLE_LIMITS[1].to_radians());
     let context = Context {
         surface: &surface,
         kinds: &kinds,
@@ -297,7 +299,7 @@ fn segment(
         size: bounds.diagonal(),
     };
     let total = surface.weights.iter().sum::<f64>();
-    let min_share = options.min_share.unwrap_or(SHARES[usize::from(surface.is_drawn)]);
+    let min_share = options.min_share.unwrap_or(MIN_REGION_SHARES[usize::from(surface.is_drawn)]);
     let limits = Limits { weight: min_share * total, points: options.min_points, seed: options.seed };
     let (mut regions, mut labels) = search(&context, &limits, progress)?;
     merge::merge(&context, &mut regions, &mut labels);
@@ -317,7 +319,7 @@ fn finished(
 ) -> (Vec<Region>, Vec<u32>) {
     let surface = context.surface;
     let mut members: Vec<Vec<u32>> = vec![Vec::new(); grown.len()];
-    for (piece, &label) in labels.iter().enumerate().filter(|(_, l)| **l != NONE) {
+    for (piece, &label) in labels.iter().enumerate().filter(|(_, l)| **l != NO_PIECE) {
         members[label as usize].push(piece as u32);
     }
     let depths = depths(context, labels);
@@ -330,7 +332,7 @@ fn finished(
         })
         .collect();
     named.sort_by(|a, b| b.1.share.total_cmp(&a.1.share).then(a.0.cmp(&b.0)));
-    let mut new_labels = vec![NONE; labels.len()];
+    let mut new_labels = vec![NO_PIECE; labels.len()];
     for (new, (_, _, pieces)) in (0u32..).zip(&named) {
         pieces.iter().for_each(|&piece| new_labels[piece as usize] = new);
     }
@@ -338,11 +340,11 @@ fn finished(
 }
 
 /// Fits of a region until every piece of it lies within the tolerance; each takes pieces away.
-const FITS: usize = 20;
+const MAX_REGION_FITS: usize = 20;
 
-/// The region with its element, and those of its pieces whose measured points all lie within the tolerance of it: where it
-/// grew, elements were those of some of its points, and one corner of a facet might lie beyond an edge. `None` where no
-/// element keeps any.
+/// The region with its element, and those of its pieces whose measured points all lie within the tolerance of it. While it
+/// grew, elements came from some of its points, and one corner of a facet might lie beyond an edge. `None` where no element
+/// keeps any.
 fn region(
     context: &Context,
     grown: &GrownRegion,
@@ -351,9 +353,9 @@ fn region(
     total: f64,
 ) -> Option<(Region, Vec<u32>)> {
     let surface = context.surface;
-    let (mut shape, mut beside) = (grown.shape, BTreeSet::new());
-    for _ in 0..FITS {
-        let inside = |p: &u32| if beside.contains(p) { 0 } else { depths[*p as usize] };
+    let (mut shape, mut excluded) = (grown.shape, BTreeSet::new());
+    for _ in 0..MAX_REGION_FITS {
+        let inside = |p: &u32| if excluded.contains(p) { 0 } else { depths[*p as usize] };
         let (fit, points) = fitted(surface, &shape, &pieces, inside)?;
         let farthest = |piece: u32| {
             let (corners, count) = surface.corners(piece);
@@ -365,7 +367,7 @@ fn region(
         shape = fit.shape;
         if !far.is_empty() {
             // Points of what lies off are at an edge.
-            beside.extend(surface.points_of(far));
+            excluded.extend(surface.points_of(far));
             pieces = near;
             continue;
         }
@@ -408,9 +410,9 @@ fn fitted(
     })
 }
 
-/// How far inside its region each measured point lies: 0 where pieces around it are of several regions or of none, for
-/// at an edge it belongs to no face alone; 1 where it is next to a border without an edge, which is known no better
-/// than the noise allows; 2 elsewhere.
+/// How far inside its region each measured point lies. It is 0 where pieces around it belong to several regions or none, for at
+/// an edge it belongs to no face alone. It is 1 next to a border without an edge, which is known no better than the noise
+/// allows. It is 2 elsewhere.
 fn depths(context: &Context, labels: &[u32]) -> Vec<u8> {
     let surface = context.surface;
     let foreign = |p: u32| {
@@ -430,7 +432,7 @@ fn depths(context: &Context, labels: &[u32]) -> Vec<u8> {
     for (piece, (face, &label)) in (0u32..).zip(faces.iter().zip(labels)) {
         let smooth = foreign(piece).any(|n| {
             let across = dot(surface.normals[piece as usize], surface.normals[n as usize]);
-            labels[n as usize] != NONE && across >= context.crease
+            labels[n as usize] != NO_PIECE && across >= context.crease
         });
         for &v in face {
             let v = v as usize;

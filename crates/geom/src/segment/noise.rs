@@ -11,18 +11,18 @@ use crate::shape::{Kind, Shape};
 use crate::space::{Point, single_step};
 
 /// Patches looked at.
-const PATCHES: u64 = 400;
+const NOISE_PATCHES: u64 = 400;
 /// Pieces of a patch. Noise that hangs together over a distance shows in large patches only; but those may lie on no
 /// simple surface at all.
-const SIZES: [usize; 2] = [24, 96];
+const PIECES_PER_NOISE_PATCH: [usize; 2] = [24, 96];
 /// How much more noise large patches may show than small ones, and still be believed.
-const BELIEVED: f64 = 3.0;
-/// Noise of what is drawn that may be the digits of its file, in steps of single precision.
-const ROUNDED: f64 = 32.0;
+const MAX_BELIEVED_RATIO: f64 = 3.0;
+/// Noise of a drawn surface that may be the digits of its file, in steps of single precision.
+const MAX_DIGIT_STEPS: f64 = 32.0;
 /// The standard deviation over the lower quartile of those found in patches, for normal noise.
-const QUANTILE: f64 = 1.15;
+const SIGMA_OVER_QUARTILE: f64 = 1.15;
 
-/// What one piece tells by itself, and how well.
+/// The noise that one piece tells by itself, and how well.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Noise {
     /// Standard deviation of the measured points across the surface, millimeters.
@@ -38,16 +38,16 @@ pub(super) fn noise(
     seed: u64,
     pick: impl Fn(&mut Random) -> u32 + Sync,
 ) -> Noise {
-    let [small, large] = SIZES.map(|size| of_patches(surface, size, crease, seed, &pick));
-    if surface.is_drawn && small.distance > ROUNDED * single_step(surface.points) {
+    let [small, large] = PIECES_PER_NOISE_PATCH.map(|size| of_patches(surface, size, crease, seed, &pick));
+    if surface.is_drawn && small.distance > MAX_DIGIT_STEPS * single_step(surface.points) {
         // Facets are as long as faces: patches went beyond them.
         return Noise { distance: 0.0, ..small };
     }
-    let believed = large.distance <= BELIEVED * small.distance;
+    let believed = large.distance <= MAX_BELIEVED_RATIO * small.distance;
     Noise { distance: if believed { large.distance.max(small.distance) } else { small.distance }, ..small }
 }
 
-/// What patches of one size tell.
+/// The noise that patches of one size tell.
 fn of_patches(
     surface: &PieceGraph,
     size: usize,
@@ -55,7 +55,7 @@ fn of_patches(
     seed: u64,
     pick: &(impl Fn(&mut Random) -> u32 + Sync),
 ) -> Noise {
-    let found: Vec<Option<(f64, f64)>> = (0..PATCHES)
+    let found: Vec<Option<(f64, f64)>> = (0..NOISE_PATCHES)
         .into_par_iter()
         .map_init(
             || Marks::new(surface),
@@ -66,19 +66,19 @@ fn of_patches(
         )
         .collect();
     let mut found: Vec<(f64, f64)> = found.into_iter().flatten().collect();
-    // Of the clean half, the median: a quarter of all.
+    // The median of the clean half: a quarter of all.
     found.sort_by(|a, b| a.0.total_cmp(&b.0));
     found.truncate(found.len().div_ceil(2));
     let distance = found.get(found.len() / 2).map_or(0.0, |f| f.0);
     found.sort_by(|a, b| a.1.total_cmp(&b.1));
     let angle = found.get(found.len() / 2).map_or(0.0, |f| f.1);
-    Noise { distance: QUANTILE * distance, angle }
+    Noise { distance: SIGMA_OVER_QUARTILE * distance, angle }
 }
 
-/// Root mean square distance of the points from the best simple surface through the patch, with the unknowns taken
-/// into account, and the median angle of the pieces to it.
+/// Root mean square distance of the points from the best simple surface through the patch, with the unknowns taken into
+/// account. Also the median angle of the pieces to it.
 fn best(surface: &PieceGraph, pieces: &[u32]) -> Option<(f64, f64)> {
-    let points = surface.some_places(pieces, usize::MAX);
+    let points = surface.sampled_places(pieces, usize::MAX);
     let oriented: Vec<_> =
         pieces.iter().map(|&p| (surface.places[p as usize], surface.normals[p as usize])).collect();
     let fits = KINDS.into_iter().filter_map(|kind| {

@@ -1,4 +1,4 @@
-//! What regions are grown on: pieces of surface with a normal, and which of them are neighbors.
+//! The ground that regions are grown on: pieces of surface with a normal, and which of them are neighbors.
 //!
 //! The pieces are the facets of a mesh or the points of a cloud; everything after this file treats both alike.
 
@@ -6,7 +6,7 @@ use super::probe::Probe;
 use crate::space::{Aabb, Point, Vector, dot, minus, norm, times};
 
 /// No region, no piece.
-pub(super) const NONE: u32 = u32::MAX;
+pub(super) const NO_PIECE: u32 = u32::MAX;
 
 /// The measured places of a piece.
 #[derive(Debug)]
@@ -123,13 +123,13 @@ impl PieceGraph<'_> {
         (1e3 * a.min(b) / a.max(b)).round() / 1e3
     }
     /// At most about `most` places of the measured points of `pieces`, taken evenly over the list.
-    pub(super) fn some_places(&self, pieces: &[u32], most: usize) -> Vec<Point> {
+    pub(super) fn sampled_places(&self, pieces: &[u32], most: usize) -> Vec<Point> {
         let stride = pieces.len().div_ceil(most).max(1);
-        let some = self.points_of(pieces.iter().copied().step_by(stride));
-        some.into_iter().map(|i| self.points[i as usize]).collect()
+        let sampled = self.points_of(pieces.iter().copied().step_by(stride));
+        sampled.into_iter().map(|i| self.points[i as usize]).collect()
     }
-    /// Whether a piece lies within `band` of the element. Of a facet two corners must; the third, which may be one of
-    /// a neighboring face that is shared at an edge, may be four times as far.
+    /// Whether a piece lies within `band` of the element. Two corners of a facet must. The third, which may belong to a
+    /// neighboring face that is shared at an edge, may be four times as far.
     #[inline]
     pub(super) fn belongs(&self, piece: u32, element: &Probe, band: &Band) -> bool {
         let i = piece as usize;

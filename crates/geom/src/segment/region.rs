@@ -2,9 +2,9 @@
 
 use crate::shape::Shape;
 
-/// Root mean square distance in standard deviations of the noise, beyond which another kind may be the right one. Of the right
-/// element it is 1, known to 2 % from the points that are fitted; the rest is for noise that is not the same everywhere.
-const DOUBTFUL: f64 = 1.25;
+/// Root mean square distance, in standard deviations of the noise, beyond which another kind may be the right one. The right
+/// element has 1, known to 2 % from the points that are fitted. The rest allows for noise that is not the same everywhere.
+const DOUBTFUL_RMS: f64 = 1.25;
 
 /// An element and the pieces that belong to it.
 #[derive(Clone, Debug)]
@@ -25,6 +25,6 @@ impl GrownRegion {
     }
     /// Whether it fits so much worse than the noise that its kind may be the wrong one.
     pub(super) fn is_doubtful(&self, noise: f64) -> bool {
-        self.rms > DOUBTFUL * noise
+        self.rms > DOUBTFUL_RMS * noise
     }
 }

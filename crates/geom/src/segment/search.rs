@@ -1,13 +1,13 @@
 //! The search: seeds are tried a batch at a time, the best of a batch take their regions first.
 //!
-//! R. Schnabel, R. Wahl, R. Klein, "Efficient RANSAC for point-cloud shape detection", Computer Graphics Forum 26
-//! (2007). Ours differs: a trial is a patch around a random piece, not a handful of points, which stands noise and
-//! makes nearly every trial on a face a success; and a region is connected from the first.
+//! R. Schnabel, R. Wahl, R. Klein, "Efficient RANSAC for point-cloud shape detection", Computer Graphics Forum 26 (2007). Ours
+//! differs: a trial is a patch around a random piece, not a handful of points. That stands noise and makes nearly every trial
+//! on a face a success. A region is connected from the first.
 
 use super::criterion::{fewest_points, is_of_corners, is_shown};
 use super::flood::{Marks, patch};
-use super::grow::{Context, PROMISING};
-use super::pieces::NONE;
+use super::grow::{Context, PROMISING_SHARE};
+use super::pieces::NO_PIECE;
 use super::region::GrownRegion;
 use super::seeds::Seeds;
 use crate::num::random::Random;
@@ -15,15 +15,15 @@ use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress};
 
 /// Seeds tried against the same state: the answer depends on it, not on the number of threads.
-const BATCH: u64 = 32;
+const SEEDS_PER_BATCH: u64 = 32;
 /// Pieces that a trial may reach; regions that are taken grow on.
-const TRIAL: usize = 500;
-/// A neighborhood that was tried in vain.
-const TRIED: usize = 16;
+const TRIAL_PIECES: usize = 500;
+/// Pieces of a neighborhood that was tried in vain.
+const MAX_TRIED_PIECES: usize = 16;
 /// Trials for each region that could be there: the chance to miss a face of the smallest share asked for is e^-4.
-const TRIALS: f64 = 4.0;
+const TRIALS_PER_REGION: f64 = 4.0;
 
-/// What the search is limited by.
+/// The limits of the search.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Limits {
     /// Least weight of a region.
@@ -42,41 +42,39 @@ pub(super) fn search(
 ) -> Result<(Vec<GrownRegion>, Vec<u32>), Cancelled> {
     let surface = context.surface;
     let mut found: Vec<GrownRegion> = Vec::new();
-    let mut labels = vec![NONE; surface.len()];
+    let mut labels = vec![NO_PIECE; surface.len()];
     let mut tried = vec![false; surface.len()];
     let mut seeds = Seeds::new(surface, |_| true);
     let total: f64 = surface.weights.iter().sum();
-    let most = (TRIALS * total / limits.weight.max(1e-6 * total)).ceil() as u64;
+    let most = (TRIALS_PER_REGION * total / limits.weight.max(1e-6 * total)).ceil() as u64;
     let (mut trial, mut idle) = (0, 0);
     let mut marks = Marks::new(surface);
     while trial < most && !seeds.is_empty() {
         if progress.cancelled() {
             return Err(Cancelled);
         }
-        let open = |piece: u32| labels[piece as usize] == NONE && !tried[piece as usize];
-        let drawn: Vec<u32> = (trial..trial + BATCH)
+        let open = |piece: u32| labels[piece as usize] == NO_PIECE && !tried[piece as usize];
+        let drawn: Vec<u32> = (trial..trial + SEEDS_PER_BATCH)
             .map(|k| seeds.draw(&mut Random::stream(limits.seed, k)))
             .filter(|&piece| open(piece))
             .collect();
-        trial += BATCH;
-        idle += BATCH - drawn.len() as u64;
-        if idle > 4 * BATCH {
+        trial += SEEDS_PER_BATCH;
+        idle += SEEDS_PER_BATCH - drawn.len() as u64;
+        if idle > 4 * SEEDS_PER_BATCH {
             // Most of the list is taken: draw from what is left.
             seeds = Seeds::new(surface, open);
             idle = 0;
-            trial -= 4 * BATCH;
+            trial -= 4 * SEEDS_PER_BATCH;
             continue;
         }
-        let free = |piece: u32| labels[piece as usize] == NONE;
+        let free = |piece: u32| labels[piece as usize] == NO_PIECE;
         let trials: Vec<Option<GrownRegion>> = (drawn.par_iter())
-            .map_init(|| Marks::new(surface), |marks, &seed| context.around(seed, TRIAL, marks, &free))
+            .map_init(|| Marks::new(surface), |marks, &seed| context.around(seed, TRIAL_PIECES, marks, &free))
             .collect();
         let mut promising: Vec<(u32, GrownRegion)> = Vec::new();
         for (&seed, trial) in drawn.iter().zip(trials) {
             match trial {
-                Some(grown) if grown.pieces.len() >= TRIAL || grown.weight >= PROMISING * limits.weight => {
-                    promising.push((seed, grown));
-                }
+                Some(grown) if is_promising(&grown, limits) => promising.push((seed, grown)),
                 _ => mark_tried(context, seed, limits, &mut tried, &mut marks),
             }
         }
@@ -84,19 +82,19 @@ pub(super) fn search(
         promising.sort_by(|a, b| merit(&b.1).total_cmp(&merit(&a.1)).then(a.0.cmp(&b.0)));
         for (place, (seed, trial)) in promising.iter().enumerate() {
             let seed = *seed;
-            if labels[seed as usize] != NONE || tried[seed as usize] {
+            if labels[seed as usize] != NO_PIECE || tried[seed as usize] {
                 continue;
             }
-            // What is left of it is tried again when the others have their regions.
+            // The rest of it is tried again when the others have their regions.
             let along = |(own, other): &(u32, GrownRegion)| {
-                labels[*own as usize] == NONE
+                labels[*own as usize] == NO_PIECE
                     && is_of_corners(trial, other, context.noise)
                     && trial.pieces.contains(own)
             };
             if promising[place + 1..].iter().any(along) {
                 continue;
             }
-            let free = |piece: u32| labels[piece as usize] == NONE;
+            let free = |piece: u32| labels[piece as usize] == NO_PIECE;
             let Some(grown) = context.whole(trial, limits.weight, &mut marks, &free) else {
                 mark_tried(context, seed, limits, &mut tried, &mut marks);
                 continue;
@@ -116,18 +114,22 @@ pub(super) fn search(
     Ok((found, labels))
 }
 
+fn is_promising(grown: &GrownRegion, limits: &Limits) -> bool {
+    grown.pieces.len() >= TRIAL_PIECES || grown.weight >= PROMISING_SHARE * limits.weight
+}
+
 fn enough(context: &Context, grown: &GrownRegion, limits: &Limits) -> bool {
     let (surface, kind) = (context.surface, grown.shape.kind());
     // Enough to tell, and not a million.
-    let some = &grown.pieces[..grown.pieces.len().min(8 * limits.points.max(fewest_points(kind)))];
-    let points = surface.points_of(some.iter().copied()).len();
-    grown.weight >= limits.weight && points >= limits.points && is_shown(surface, kind, some, points)
+    let first_pieces = &grown.pieces[..grown.pieces.len().min(8 * limits.points.max(fewest_points(kind)))];
+    let points = surface.points_of(first_pieces.iter().copied()).len();
+    grown.weight >= limits.weight && points >= limits.points && is_shown(surface, kind, first_pieces, points)
 }
 
 /// Nothing starts from the seed and its nearest neighbors again. Next to a drawn facet that could be a face by itself there may be another face.
 fn mark_tried(context: &Context, seed: u32, limits: &Limits, tried: &mut [bool], marks: &mut Marks) {
     let is_face = context.surface.is_drawn && context.surface.weights[seed as usize] >= limits.weight;
-    let most = if is_face { 1 } else { TRIED };
+    let most = if is_face { 1 } else { MAX_TRIED_PIECES };
     for piece in patch(context.surface, seed, most, context.crease, marks, |_| true) {
         tried[piece as usize] = true;
     }

@@ -1,6 +1,6 @@
 //! Where to try next: random pieces, large ones more often, each neighborhood once.
 
-use super::pieces::{NONE, PieceGraph};
+use super::pieces::{NO_PIECE, PieceGraph};
 use crate::num::random::Random;
 
 /// Draws pieces with a chance that is proportional to their weight.
@@ -12,7 +12,7 @@ pub(super) struct Seeds {
 }
 
 impl Seeds {
-    /// Of the pieces that `open` says yes to.
+    /// The seeds among the pieces that `open` says yes to.
     pub(super) fn new(surface: &PieceGraph, open: impl Fn(u32) -> bool) -> Seeds {
         let pieces: Vec<u32> = (0..surface.len() as u32).filter(|&p| surface.counts(p) && open(p)).collect();
         let mut sum = 0.0;
@@ -29,12 +29,12 @@ impl Seeds {
     pub(super) fn is_empty(&self) -> bool {
         self.pieces.is_empty()
     }
-    /// A piece, or [`NONE`] where there is none.
+    /// A piece, or [`NO_PIECE`] where there is none.
     pub(super) fn draw(&self, random: &mut Random) -> u32 {
-        let Some(&total) = self.sums.last() else { return NONE };
+        let Some(&total) = self.sums.last() else { return NO_PIECE };
         let at = random.unit() * total;
         let index = self.sums.partition_point(|&s| s <= at);
-        self.pieces.get(index).or(self.pieces.last()).copied().unwrap_or(NONE)
+        self.pieces.get(index).or(self.pieces.last()).copied().unwrap_or(NO_PIECE)
     }
 }
 
@@ -43,7 +43,7 @@ mod tests {
     use super::super::{facets, tests::parts::bored};
     use super::*;
 
-    /// Of 20,000 draws each face gets its share of the area, within four standard deviations.
+    /// In 20,000 draws each face gets its share of the area, within four standard deviations.
     #[test]
     fn faces_are_drawn_as_often_as_they_are_large() {
         const DRAWS: u64 = 20_000;

@@ -15,7 +15,7 @@ pub struct Ray {
 }
 
 /// Sines of angles below this are rounding of the directions themselves.
-const PARALLEL: f64 = 8.0 * f64::EPSILON;
+const MAX_PARALLEL_SINE: f64 = 8.0 * f64::EPSILON;
 
 /// Angle between two lines or two normals without regard to their sense, 0 to π/2. Exact to rounding for small
 /// angles too.
@@ -34,7 +34,7 @@ pub fn midpoint(a: Point, b: Point) -> Point {
 /// `None` where the normals are at right angles to rounding, so that neither of the two halving planes is nearer.
 pub fn median_plane(a: Ray, b: Ray) -> Option<Ray> {
     let cosine = dot(a.direction, b.direction);
-    if cosine.abs() <= PARALLEL {
+    if cosine.abs() <= MAX_PARALLEL_SINE {
         return None;
     }
     let other = times(cosine.signum(), b.direction);
@@ -51,7 +51,7 @@ pub fn median_plane(a: Ray, b: Ray) -> Option<Ray> {
 pub fn plane_plane(a: Ray, b: Ray, near: Point) -> Option<Ray> {
     let across = cross(a.direction, b.direction);
     let sine = norm(across);
-    if sine <= PARALLEL {
+    if sine <= MAX_PARALLEL_SINE {
         return None;
     }
     let direction = times(1.0 / sine, across);
@@ -64,7 +64,7 @@ pub fn plane_plane(a: Ray, b: Ray, near: Point) -> Option<Ray> {
 /// Where a line meets a plane. `None` for a line parallel to it.
 pub fn line_plane(line: Ray, plane: Ray) -> Option<Point> {
     let slope = dot(line.direction, plane.direction);
-    if slope.abs() <= PARALLEL {
+    if slope.abs() <= MAX_PARALLEL_SINE {
         return None;
     }
     let along = dot(minus(plane.point, line.point), plane.direction) / slope;
@@ -86,7 +86,7 @@ pub fn line_line(a: Ray, b: Ray) -> f64 {
     let between = minus(b.point, a.point);
     let across = cross(a.direction, b.direction);
     let sine = norm(across);
-    if sine <= PARALLEL { point_line(b.point, a) } else { dot(between, across).abs() / sine }
+    if sine <= MAX_PARALLEL_SINE { point_line(b.point, a) } else { dot(between, across).abs() / sine }
 }
 
 #[cfg(test)]

@@ -11,16 +11,15 @@ pub(crate) struct Foot {
     pub(crate) distance: f64,
 }
 
-/// Foot of (x, y). The search steps along the circle of curvature (A. Chou, "A simple method for distance to an
-/// ellipse", 2017, a variant of B. Maisonobe's), in the first quadrant, a fixed number of times: the last steps
-/// change nothing.
+/// Foot of (x, y). The search steps along the circle of curvature in the first quadrant, a fixed number of times: the last
+/// steps change nothing. (A. Chou, "A simple method for distance to an ellipse", 2017, a variant of B. Maisonobe's.)
 #[inline(always)]
 pub(crate) fn foot([a, b]: [f64; 2], x: f64, y: f64) -> Foot {
     let (px, py) = (x.abs(), y.abs());
     let (ea, eb) = ((a * a - b * b) / a, (b * b - a * a) / b);
     let mut cos = std::f64::consts::FRAC_1_SQRT_2;
     let mut sin = cos;
-    for _ in 0..STEPS {
+    for _ in 0..ELLIPSE_FOOT_STEPS {
         let (ex, ey) = (ea * cos * cos * cos, eb * sin * sin * sin);
         let (rx, ry) = (a * cos - ex, b * sin - ey);
         let (qx, qy) = (px - ex, py - ey);
@@ -39,7 +38,7 @@ pub(crate) fn foot([a, b]: [f64; 2], x: f64, y: f64) -> Foot {
 }
 
 /// Steps of the search. Each more than doubles the digits; long ellipses need the first few to come near.
-const STEPS: usize = 12;
+const ELLIPSE_FOOT_STEPS: usize = 12;
 
 /// Signed distance of `q` from the ellipse with half axes `size` along the first two coordinates.
 pub(crate) fn distance(size: [f64; 2], q: Point) -> f64 {

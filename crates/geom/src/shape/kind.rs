@@ -1,6 +1,6 @@
 //! The kinds of shape.
 
-/// What the sign of a distance from an element tells.
+/// The meaning of the sign of a distance from an element.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sides {
     /// Nothing: a curve in space has no sides.
@@ -24,7 +24,7 @@ pub enum Coordinate {
     Latitude,
 }
 
-/// What a parameter of an element is, and so its unit.
+/// The kind of quantity of a parameter of an element, and so its unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity {
     /// A number in millimeters.
@@ -40,7 +40,7 @@ pub enum Quantity {
 /// The kinds, and the list of all of them.
 macro_rules! kinds {
     ($(#[$about:meta] $name:ident,)*) => {
-        /// Which element is fitted. Those with a `2` lie in the plane z = 0 and take no notice of z.
+        /// Which element is fitted. Kinds with a `2` lie in the plane z = 0 and take no notice of z.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
         pub enum Kind {
             $(#[$about] $name,)*
@@ -114,7 +114,7 @@ impl Kind {
             ],
         }
     }
-    /// What its parameter of this name is; `None` where it has none.
+    /// The quantity of its parameter of this name; `None` where it has none.
     pub fn quantity(self, parameter: &str) -> Option<Quantity> {
         self.parameters().iter().find(|(name, _)| *name == parameter).map(|(_, quantity)| *quantity)
     }
@@ -137,7 +137,7 @@ impl Kind {
             kind => kind.unknowns(),
         }
     }
-    /// What the sign of a distance from it tells.
+    /// The meaning of the sign of a distance from it.
     pub fn sides(self) -> Sides {
         match self {
             Kind::Line | Kind::Circle => Sides::None,

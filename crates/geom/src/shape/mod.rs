@@ -13,5 +13,5 @@ mod kind;
 mod shapes;
 
 pub use kind::{Coordinate, Kind, Quantity, Sides};
-pub(crate) use shapes::MOST_NUMBERS;
-pub use shapes::{Parameter, Shape, upon};
+pub(crate) use shapes::MAX_SHAPE_NUMBERS;
+pub use shapes::{Parameter, Shape, axes_along};

@@ -41,8 +41,8 @@ pub enum Parameter {
     Vector([f64; 3]),
 }
 
-/// Numbers of the shape that has most: a cone.
-pub(crate) const MOST_NUMBERS: usize = 11;
+/// Numbers of the shape that has the most: a cone.
+pub(crate) const MAX_SHAPE_NUMBERS: usize = 11;
 
 impl Shape {
     /// Which element this is.
@@ -66,12 +66,12 @@ impl Shape {
         self.each(|name, parameter| all.push((name, parameter)));
         all
     }
-    /// Hands name and value of each parameter to `take`, in their order.
-    fn each(&self, mut take: impl FnMut(&'static str, Parameter)) {
+    /// Hands name and value of each parameter to `visit`, in their order.
+    fn each(&self, mut visit: impl FnMut(&'static str, Parameter)) {
         let mut parameters = self.kind().parameters().iter();
         let mut next = |value| {
             if let Some((name, _)) = parameters.next() {
-                take(name, value);
+                visit(name, value);
             }
         };
         use Parameter::{Number, Vector};
@@ -115,8 +115,8 @@ impl Shape {
         }
     }
     /// The parameters' numbers one after the other, and how many they are; zeros follow.
-    pub(crate) fn flattened(&self) -> ([f64; MOST_NUMBERS], usize) {
-        let (mut numbers, mut count) = ([0.0; MOST_NUMBERS], 0);
+    pub(crate) fn flattened(&self) -> ([f64; MAX_SHAPE_NUMBERS], usize) {
+        let (mut numbers, mut count) = ([0.0; MAX_SHAPE_NUMBERS], 0);
         let mut push = |x: f64| {
             numbers[count] = x;
             count += 1;
@@ -127,9 +127,9 @@ impl Shape {
         });
         (numbers, count)
     }
-    /// Distance of `p` from the element, positive on the outer side: away from the axis or center, along the
-    /// normal of a plane, to the left of a line in the plane. For lines and circles in space it has no sign.
-    /// Not a number where `p` is none.
+    /// Distance of `p` from the element, positive on the outer side. That is away from the axis or center, along the normal of
+    /// a plane, to the left of a line in the plane. For lines and circles in space it has no sign. Not a number where `p` is
+    /// none.
     pub fn distance(&self, p: Point) -> f64 {
         match *self {
             Shape::Line2 { point, direction } => dot(minus(p, point), [-direction[1], direction[0], 0.0]),
@@ -162,8 +162,8 @@ impl Shape {
             }
         }
     }
-    /// A normal of the element at the place of it nearest to `p`, to the side where distances are positive, not of unit length:
-    /// the direction in which the distance grows. Zero where there are many.
+    /// A normal of the element at the place of it nearest to `p`, not of unit length. It points to the side where distances are
+    /// positive: the direction in which the distance grows. Zero where there are many.
     pub fn normal(&self, p: Point) -> Vector {
         match *self {
             Shape::Line2 { direction, .. } => [-direction[1], direction[0], 0.0],
@@ -239,24 +239,24 @@ impl Shape {
         }
     }
 
-    /// The frame that its places are told in: an origin and three axes. Of what is round the third is the axis; which way the
-    /// others look about it does not matter to the element.
+    /// The frame that its places are told in: an origin and three axes. On a round element the third is the axis; the element
+    /// does not determine which way the others look about it.
     pub fn frame(&self) -> (Point, [Vector; 3]) {
         const UP: Vector = [0.0, 0.0, 1.0];
         match *self {
             Shape::Line2 { point, direction }
             | Shape::Line { point, direction }
             | Shape::Cylinder { point, direction, .. }
-            | Shape::Cone { point, direction, .. } => (point, upon(direction)),
-            Shape::Plane { point, normal } => (point, upon(normal)),
-            Shape::Circle2 { center, .. } | Shape::Sphere { center, .. } => (center, upon(UP)),
-            Shape::Circle { center, normal, .. } => (center, upon(normal)),
+            | Shape::Cone { point, direction, .. } => (point, axes_along(direction)),
+            Shape::Plane { point, normal } => (point, axes_along(normal)),
+            Shape::Circle2 { center, .. } | Shape::Sphere { center, .. } => (center, axes_along(UP)),
+            Shape::Circle { center, normal, .. } => (center, axes_along(normal)),
             Shape::Ellipse2 { center, direction, .. } => (center, [direction, cross(UP, direction), UP]),
-            Shape::Torus { center, direction, .. } => (center, upon(direction)),
+            Shape::Torus { center, direction, .. } => (center, axes_along(direction)),
         }
     }
     /// The two coordinates of the place nearest to `q`, which is told in the [frame](Shape::frame); they run as
-    /// [`Kind::coordinates`] says. Of an ellipse the first is the eccentric angle, and about the nearest place only.
+    /// [`Kind::coordinates`] says. On an ellipse the first is the eccentric angle, and only the nearest place is known.
     pub fn coordinates(&self, q: Point) -> [f64; 2] {
         let turn = || libm::atan2(q[1], q[0]);
         match *self {
@@ -298,7 +298,7 @@ impl Shape {
 }
 
 /// Three axes of which the last is `w`.
-pub fn upon(w: Vector) -> [Vector; 3] {
+pub fn axes_along(w: Vector) -> [Vector; 3] {
     let (v, _) = unit(cross(w, least_axis(w))).unwrap_or(([0.0, 1.0, 0.0], 1.0));
     [cross(v, w), v, w]
 }
@@ -309,8 +309,8 @@ fn across(p: Point, point: Point, direction: Vector) -> Vector {
     minus(q, times(dot(q, direction), direction))
 }
 
-/// Whether the apex is the place of a cone nearest to what lies `rho` off the axis and `z` along it from where the radius is
-/// `radius`: the foot on the generator would lie beyond the apex.
+/// Whether the apex is the place of a cone nearest to a point. The point lies `rho` off the axis and `z` along it from where
+/// the radius is `radius`. Then the foot on the generator would lie beyond the apex.
 fn is_beyond_apex(half_angle: f64, radius: f64, rho: f64, z: f64) -> bool {
     let (sin, cos) = libm::sincos(half_angle);
     (rho * sin + z * cos) * sin + radius * cos * cos < 0.0

@@ -2,13 +2,13 @@
 //!
 //! * [`Lanes`]: `N` single-precision numbers. They only *exclude* triangles, so an implementation may fuse multiply
 //!   and add as it likes; the error bounds hold either way.
-//! * [`Real`]: one or several double-precision numbers. They make the answer, so each operation is one correctly
-//!   rounded IEEE operation, in one order, never fused: a vector of eight gives the same bits as eight scalars, and
-//!   AVX2, AVX-512 and plain Rust agree to the last bit.
+//! * [`Real`]: one or several double-precision numbers. They make the answer, so each operation is one correctly rounded IEEE
+//!   operation, in one order, never fused. A vector of eight gives the same bits as eight scalars, and AVX2, AVX-512 and plain
+//!   Rust agree to the last bit.
 //!
-//! Values come into being only through `splat` and `load`, which are unsafe because they need the instructions; all
-//! else is safe on a value that exists. The methods are `inline(always)` and become vector instructions once inlined
-//! into a function with the matching `#[target_feature]` (see `answer_items` in the module `query`).
+//! Values come into being only through `splat` and `load`, which are unsafe because they need the instructions. All else is
+//! safe on a value that exists. The methods are `inline(always)` and become vector instructions once inlined into a function
+//! with the matching `#[target_feature]` (see `answer_items` in the module `query`).
 #![expect(unsafe_code, reason = "constructing a vector needs instructions that the processor may lack")]
 
 use std::ops::{Add, Div, Mul, Sub};
@@ -96,7 +96,7 @@ pub trait Real: Arithmetic {
     /// The outcome of a comparison, lane by lane.
     type Mask: Copy;
     /// Lanes in this type, at most 8.
-    const N: usize;
+    const LANES: usize;
     /// `x` in every lane.
     ///
     /// # Safety
@@ -207,13 +207,13 @@ impl<const N: usize> Lanes<N> for Plain<N> {
     }
 }
 
-/// `a * b + c`, rounded once. The product is exact in double precision; the sum is rounded to odd there, so that rounding it once more is
-/// as rounding once (Boldo & Melquiond 2008, "Emulation of a FMA and correctly rounded sums").
+/// `a * b + c`, rounded once. The product is exact in double precision. The sum is rounded to odd there, so that rounding it
+/// once more is as rounding once. (Boldo & Melquiond 2008, "Emulation of a FMA and correctly rounded sums".)
 #[inline(always)]
 fn fused(a: f32, b: f32, c: f32) -> f32 {
     let (p, c) = (f64::from(a) * f64::from(b), f64::from(c));
     let sum = p + c;
-    // What rounding the sum has lost, exactly.
+    // The part that rounding of the sum has lost, exactly.
     let back = sum - p;
     let lost = (p - (sum - back)) + (c - back);
     let bits = sum.to_bits();
@@ -226,7 +226,7 @@ fn fused(a: f32, b: f32, c: f32) -> f32 {
 
 impl Real for f64 {
     type Mask = bool;
-    const N: usize = 1;
+    const LANES: usize = 1;
     #[inline(always)]
     unsafe fn splat(x: f64) -> f64 {
         x
@@ -270,8 +270,8 @@ mod tests {
     use super::*;
     use crate::num::random::Random;
 
-    /// Beside the mathematics library, on numbers whose sums lie at or near the middle between two others, on subnormal ones, and on
-    /// what is not finite.
+    /// Compared with the mathematics library, on numbers whose sums lie at or near the middle between two others. Subnormal
+    /// numbers are tried too, and those that are not finite.
     #[test]
     fn plain_fused_rounds_once() {
         let random = &mut Random::new(3);

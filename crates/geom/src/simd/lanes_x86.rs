@@ -1,7 +1,7 @@
 //! [`Lanes`] and [`Real`] in AVX2 and AVX-512.
 //!
-//! SAFETY of every intrinsic below: the value it works on was made by `splat` or `load`, whose caller answers for the
-//! processor having the instructions; loads and stores go through references to arrays of exactly their size.
+//! SAFETY of every intrinsic below: the value it works on was made by `splat` or `load`, whose caller answers for the processor
+//! having the instructions. Loads and stores go through references to arrays of exactly their size.
 #![expect(unsafe_code, reason = "vendor intrinsics")]
 
 use crate::simd::lanes::{Lanes, Real};
@@ -261,7 +261,7 @@ impl Lanes<16> for Z16 {
 
 impl Real for A4d {
     type Mask = __m256d;
-    const N: usize = 4;
+    const LANES: usize = 4;
     methods!(A4d: least = _mm256_min_pd, most = _mm256_max_pd);
     #[inline(always)]
     unsafe fn splat(x: f64) -> Self {
@@ -295,7 +295,7 @@ impl Real for A4d {
 
 impl Real for Z8d {
     type Mask = __mmask8;
-    const N: usize = 8;
+    const LANES: usize = 8;
     methods!(Z8d: least = _mm512_min_pd, most = _mm512_max_pd);
     #[inline(always)]
     unsafe fn splat(x: f64) -> Self {

@@ -1,8 +1,8 @@
 //! Loops over arrays for wide registers: the compiler makes vectors of them.
 //!
-//! Only operations that IEEE 754 rounds alike everywhere may stand in such a loop, in one order (a sum in a fixed number of parts): the
-//! compiler neither reorders nor fuses them, so all levels give the same bits. Closures that are not inlined are compiled for any
-//! processor: inner loops stand in the body itself or in functions that are always inlined.
+//! Only operations that IEEE 754 rounds alike everywhere may stand in such a loop, in one order (a sum in a fixed number of
+//! parts). The compiler neither reorders nor fuses them, so all levels give the same bits. Closures that are not inlined are
+//! compiled for any processor: inner loops stand in the body itself or in functions that are always inlined.
 
 /// Compiles `$body` twice, for wide registers with fused multiply-add and for any processor, and takes what this processor has
 /// within the limit of [`Level`](crate::simd::Level).

@@ -1,30 +1,31 @@
 //! Facets ordered for rays along an axis: a balanced tree of boxes over the places that they cover as seen along it.
 //!
-//! Long thin facets, those of a fan say, fill next to nothing of their boxes. So each facet, and each leaf of the tree, has a strip
-//! too, along the longest side of the facet (of the first one in the leaf).
+//! Long thin facets, those of a fan say, fill next to nothing of their boxes. So each facet, and each leaf of the tree, has a
+//! strip too. It runs along the longest side of the facet (of the first one in the leaf).
 
 use crate::mesh::Mesh;
+use crate::num::rounding::PRODUCT_SUM_ROUNDING;
 use crate::space::{Aabb, Point};
 
-/// Facets of a leaf, at most.
-const LEAF: usize = 8;
-/// Parts of more facets than this are ordered side by side.
-const ALONE: usize = 1 << 14;
+/// Most facets of a leaf.
+const MAX_FACETS_PER_COLUMN_LEAF: usize = 8;
+/// Parts with more facets are sorted by several threads.
+const MAX_FACETS_SORTED_ALONE: usize = 1 << 14;
 
 /// Facets of a mesh, ready for rays along an axis.
 pub(crate) struct Columns {
     axis: usize,
     facets: Vec<u32>,
-    /// Of each facet.
+    /// The box of each facet.
     own: Vec<Aabb>,
-    /// Of each node, in the order of a walk that takes a node before its children. Each child has half of the facets.
+    /// The box of each node, in the order of a walk that takes a node before its children. Each child has half of the facets.
     boxes: Vec<Aabb>,
-    /// Of each facet, and of each node; all places for a node that is no leaf.
+    /// The strip of each facet, and of each node; all places for a node that is no leaf.
     strips: [Vec<Strip>; 2],
 }
 
 impl Columns {
-    /// Of these facets, which must have finite corners. n log n.
+    /// The columns of these facets, which must have finite corners. n log n.
     pub(crate) fn new(mesh: &Mesh, facets: &[u32], axis: usize) -> Columns {
         let bounds = |f: u32| Aabb::of(&mesh.corners(f));
         let item = |f: &u32| {
@@ -34,7 +35,7 @@ impl Columns {
         };
         let mut items: Vec<Item> = facets.iter().map(item).collect();
         let mut leaves = 1;
-        while items.len().div_ceil(leaves) > LEAF {
+        while items.len().div_ceil(leaves) > MAX_FACETS_PER_COLUMN_LEAF {
             leaves *= 2;
         }
         let mut boxes = vec![Aabb::EMPTY; 2 * leaves - 1];
@@ -51,9 +52,10 @@ impl Columns {
         &self.boxes[0]
     }
 
-    /// Hands to `take` every facet that the line through `p` along the axis passes, with its box, as far as the box and all that hold
-    /// it `reach`; and others whose box the line meets, but for most of the long thin ones that it misses.
-    pub(crate) fn pass(&self, p: &Point, reach: impl Fn(&Aabb) -> bool, mut take: impl FnMut(u32, &Aabb)) {
+    /// Hands to `visit` every facet that the line through `p` along the axis passes, with its box. It goes as far as the box
+    /// and all that hold it `reach`. Others whose box the line meets come too, but most of the long thin ones that it misses do
+    /// not.
+    pub(crate) fn pass(&self, p: &Point, reach: impl Fn(&Aabb) -> bool, mut visit: impl FnMut(u32, &Aabb)) {
         let sides = [(self.axis + 1) % 3, (self.axis + 2) % 3];
         let meets = |b: &Aabb| reach(b) && sides.iter().all(|&k| b.min[k] <= p[k] && p[k] <= b.max[k]);
         let (seen, [of_facets, of_nodes]) = (sides.map(|k| p[k]), &self.strips);
@@ -66,7 +68,7 @@ impl Columns {
             }
             if nodes == 1 {
                 let is_met = |i: &usize| meets(&self.own[*i]) && of_facets[*i].holds(seen);
-                range.filter(is_met).for_each(|i| take(self.facets[i], &self.own[i]));
+                range.filter(is_met).for_each(|i| visit(self.facets[i], &self.own[i]));
                 continue;
             }
             let (middle, half) = (range.start + range.len() / 2, nodes / 2);
@@ -96,8 +98,6 @@ impl Strip {
 
     /// Along the longest side of the triangle that the first three corners form, as wide as all need.
     fn of(axis: usize, corners: &[Point]) -> Strip {
-        /// Of the sum of magnitudes: more than both products and their sum are rounded by, here and for the place asked about.
-        const ROUNDING: f64 = 16.0 * f64::EPSILON;
         let seen = |p: &Point| [p[(axis + 1) % 3], p[(axis + 2) % 3]];
         let [a, b, c, ..] = corners else { return Strip::EVERYWHERE };
         let way = |p: &Point, q: &Point| {
@@ -117,7 +117,11 @@ impl Strip {
             (low, high, most) = (low.min(at), high.max(at), most.max(size(&p)));
         }
         // Places beyond the box are none of its concern, so no coordinate asked about is larger.
-        Strip { across, low: low - 2.0 * ROUNDING * most, high: high + 2.0 * ROUNDING * most }
+        Strip {
+            across,
+            low: low - 2.0 * PRODUCT_SUM_ROUNDING * most,
+            high: high + 2.0 * PRODUCT_SUM_ROUNDING * most,
+        }
     }
 
     fn holds(&self, p: [f64; 2]) -> bool {
@@ -154,7 +158,7 @@ fn build((mesh, axis): (&Mesh, usize), items: &mut [Item], (boxes, strips): (&mu
     let (of_first, of_second) = inner.split_at_mut(inner.len() / 2);
     let mut one = || build((mesh, axis), low, (&mut *first, of_first));
     let mut other = || build((mesh, axis), high, (&mut *second, of_second));
-    if middle > ALONE {
+    if middle > MAX_FACETS_SORTED_ALONE {
         rayon::join(one, other);
     } else {
         one();
@@ -192,8 +196,8 @@ mod tests {
                 };
                 let meets = |f: &&u32| {
                     let b = Aabb::of(&mesh.corners(**f));
-                    let beside = |k: usize| p[k] < b.min[k] || b.max[k] < p[k];
-                    p[axis] <= b.max[axis] && !beside((axis + 1) % 3) && !beside((axis + 2) % 3)
+                    let is_outside = |k: usize| p[k] < b.min[k] || b.max[k] < p[k];
+                    p[axis] <= b.max[axis] && !is_outside((axis + 1) % 3) && !is_outside((axis + 2) % 3)
                 };
                 let mut all: Vec<u32> = facets.iter().filter(meets).copied().collect();
                 all.sort_unstable();
@@ -213,8 +217,8 @@ mod tests {
         !(sides.contains(&1) && sides.contains(&-1))
     }
 
-    /// A fan turned so that the boxes of its thin facets overlap with a quarter of the others: a ray is handed some few of them,
-    /// however many there are.
+    /// A fan is turned so that the boxes of its thin facets overlap with a quarter of the others. A ray is handed some few of
+    /// them, however many there are.
     #[test]
     fn of_a_fan_few_facets_are_handed_out() {
         for n in [500u32, 4000, 32_000] {

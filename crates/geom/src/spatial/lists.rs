@@ -2,8 +2,8 @@
 
 use crate::parallel::prelude::*;
 
-/// For each of `count` numbers the place of its list's begin, and one more for the end; and the lists: the second of each
-/// pair, listed by the first, ascending and once each.
+/// For each of `count` numbers the place of its list's begin, and one more for the end; and the lists. A list holds the second
+/// of each pair, listed by the first, ascending and once each.
 pub fn lists(count: usize, mut pairs: Vec<[u32; 2]>) -> (Vec<u32>, Vec<u32>) {
     pairs.par_sort_unstable();
     pairs.dedup();

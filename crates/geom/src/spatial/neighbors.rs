@@ -1,13 +1,13 @@
 //! Neighbors among points: nearest, `k` nearest, all in a box.
 //!
-//! A balanced k-d tree (Bentley 1975) without nodes: the points lie in the order of the tree, the middle one of every
-//! range splits it at the coordinate in which the range is longest. Equal distances are decided by the lower number,
-//! so answers do not depend on how the tree was built.
+//! A balanced k-d tree (Bentley 1975) without nodes. The points lie in the order of the tree. The middle one of every range
+//! splits it at the coordinate in which the range is longest. Equal distances are decided by the lower number, so answers do
+//! not depend on how the tree was built.
 
 use crate::space::{Aabb, Point, minus};
 
-/// Ranges of at most this many points are tried one by one.
-const LEAF: usize = 8;
+/// Ranges of at most so many points are tried one by one.
+const MAX_POINTS_PER_NEIGHBOR_LEAF: usize = 8;
 
 /// A search tree over points.
 #[derive(Clone, Debug)]
@@ -66,7 +66,7 @@ impl PointTree {
     /// Offers the points of a range that may be nearer than the limit that `offer` answers.
     fn approach(&self, p: &Point, from: usize, to: usize, offer: &mut impl FnMut(Neighbor) -> f64) -> f64 {
         let mut limit = f64::INFINITY;
-        if to - from <= LEAF {
+        if to - from <= MAX_POINTS_PER_NEIGHBOR_LEAF {
             for i in from..to {
                 limit = offer(self.measure(p, i));
             }
@@ -99,7 +99,7 @@ impl PointTree {
         visit: &mut impl FnMut(&Point, u32) -> bool,
     ) -> bool {
         let inside = |q: &Point| (0..3).all(|k| window.min[k] <= q[k] && q[k] <= window.max[k]);
-        if to - from <= LEAF {
+        if to - from <= MAX_POINTS_PER_NEIGHBOR_LEAF {
             return (from..to).all(|i| !inside(&self.points[i]) || visit(&self.points[i], self.numbers[i]));
         }
         let middle = from + (to - from) / 2;
@@ -115,7 +115,7 @@ fn before(a: &Neighbor, b: &Neighbor) -> bool {
 }
 
 fn split(items: &mut [(Point, u32)], axes: &mut [u8]) {
-    if items.len() <= LEAF {
+    if items.len() <= MAX_POINTS_PER_NEIGHBOR_LEAF {
         return;
     }
     let sides = Aabb::of(items.iter().map(|(p, _)| p)).sides();

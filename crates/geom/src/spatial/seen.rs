@@ -1,4 +1,4 @@
-//! Facets that a ray through one of some places may pass: those that cover, as seen along an axis, a square in which such a place lies.
+//! Facets that a ray through one of some places may pass. Seen along an axis, they cover a square in which such a place lies.
 //!
 //! Where few places are asked about, hardly any facet is left to be ordered for the rays.
 
@@ -6,9 +6,10 @@ use crate::mesh::Mesh;
 use crate::parallel::prelude::*;
 use crate::space::{Aabb, Point};
 
-/// Squares for each place, about, and at most.
-const SHARE: usize = 64;
-const MOST: usize = 1 << 20;
+/// Squares for each place, about.
+const SQUARES_PER_PLACE: usize = 64;
+/// Most squares, about.
+const MAX_SQUARES: usize = 1 << 20;
 
 /// The squares of a grid, and how many places lie in those below and left of each line.
 struct Squares {
@@ -24,7 +25,7 @@ impl Squares {
     fn new(axis: usize, places: &[Point]) -> Squares {
         let sides = [(axis + 1) % 3, (axis + 2) % 3];
         let bounds = Aabb::of(places);
-        let count = ((SHARE * places.len()).min(MOST) as f64).sqrt() as usize + 1;
+        let count = ((SQUARES_PER_PLACE * places.len()).min(MAX_SQUARES) as f64).sqrt() as usize + 1;
         let low = sides.map(|k| bounds.min[k]);
         let scale = sides.map(|k| count as f64 / (bounds.max[k] - bounds.min[k]));
         let mut squares = Squares { sides, count, low, scale, sums: vec![0; (count + 1) * (count + 1)] };
@@ -42,8 +43,8 @@ impl Squares {
         squares
     }
 
-    /// The square nearest to a place, given by its two coordinates. Each operation keeps the order of its operands, rounded or not, so no square between those of
-    /// two places is missed; where the places have no extent all is in one square.
+    /// The square nearest to a place, given by its two coordinates. Each operation keeps the order of its operands, rounded or
+    /// not, so no square between those of two places is missed. Where the places have no extent all is in one square.
     fn of(&self, p: [f64; 2]) -> [usize; 2] {
         let square = |i: usize| (p[i] - self.low[i]) * self.scale[i];
         [0, 1].map(|i| (square(i) as usize).min(self.count - 1))
@@ -59,7 +60,7 @@ impl Squares {
     }
 }
 
-/// Of these facets, which must have finite corners, all whose boxes a line along `axis` through one of the places meets; others
+/// All of these facets, which must have finite corners, whose boxes a line along `axis` through one of the places meets; others
 /// too. Linear.
 pub(crate) fn seen(mesh: &Mesh, facets: &[u32], axis: usize, places: &[Point]) -> Vec<u32> {
     let squares = Squares::new(axis, places);

@@ -144,7 +144,7 @@ impl Knots {
         self.values.iter().filter(|k| **k == t).count()
     }
 
-    /// Index `k` of the span `knots[k] ≤ t < knots[k + 1]` within the domain; the last one at its end. What is outside, or
+    /// Index `k` of the span `knots[k] ≤ t < knots[k + 1]` within the domain; the last one at its end. A parameter outside, or
     /// NaN, is taken to the nearer end.
     pub fn span(&self, t: f64) -> usize {
         let (low, high) = (self.degree, self.count());
@@ -167,7 +167,8 @@ impl Knots {
         (k - p, self.within(t.clamp(from, to), k, p))
     }
 
-    /// As [`Knots::basis`], with the derivatives: row `i` has the `i`-th, from 0 to `order`. Those above the degree are 0.
+    /// As [`Knots::basis`], with the derivatives: row `i` has the `i`-th, from 0 to `order`. Derivatives above the degree are
+    /// 0.
     pub fn derivatives(&self, t: f64, order: usize) -> (usize, Vec<Vec<f64>>) {
         let (first, values) = self.basis(t);
         let (k, p) = (first + self.degree, self.degree);

@@ -10,7 +10,7 @@
 //! | B-spline and rational surfaces: evaluation, normals, curvatures, knots, closest point, facets | [`surface`] |
 //! | the polynomials of the basis functions, span by span | [`spans`] |
 //!
-//! Sources: Piegl and Tiller, The NURBS Book, 2nd edition, 1997; Ramshaw, Blossoming, 1987, for everything about knots: a
+//! Sources: Piegl and Tiller, The NURBS Book, 2nd edition, 1997; Ramshaw, Blossoming, 1987, for everything about knots. A
 //! control point is the blossom of consecutive knots, so insertion and elevation need no case of their own.
 
 #![allow(clippy::needless_range_loop, reason = "knots, control points and basis functions are read by index")]

@@ -30,8 +30,8 @@ pub fn neville<V: Value>(knots: &[f64], values: &[V], t: f64) -> Option<V> {
     row.first().copied()
 }
 
-/// The blossom (polar form) of the piece of a spline over the knot span `span`, at `arguments`, as many as the degree:
-/// de Boor's pyramid with an argument of its own for every level. With equal arguments it is the curve itself.
+/// The blossom (polar form) of the piece of a spline over the knot span `span`, at `arguments`, as many as the degree. It is de
+/// Boor's pyramid with an argument of its own for every level. With equal arguments it is the curve itself.
 ///
 /// `knots[span] < knots[span + 1]` must hold, with `degree` knots and control points on either side; the callers of
 /// this crate see to it.

@@ -19,14 +19,14 @@ use super::value::{Mass, Value};
 pub struct Rational<const D: usize>(Curve<Mass<D>>);
 
 impl<const D: usize> Rational<D> {
-    /// Of control points with their weights.
+    /// The curve of control points with their weights.
     ///
     /// # Errors
     /// [`KnotError::Points`] where their number does not fit the knots.
     pub fn new(knots: Knots, points: &[([f64; D], f64)]) -> Result<Rational<D>, KnotError> {
         Rational::of_masses(knots, points.iter().map(|(p, w)| Mass::new(*p, *w)).collect())
     }
-    /// Of mass points.
+    /// The curve of mass points.
     ///
     /// # Errors
     /// As [`Rational::new`].

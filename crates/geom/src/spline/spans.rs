@@ -4,8 +4,8 @@ use super::basis::Knots;
 
 /// The spans between distinct knots, each with a coordinate of its own from −1 to 1.
 ///
-/// Within a span the `degree + 1` functions that are not 0 are polynomials of that coordinate. What has many places in a
-/// span, as points of a scan have, is summed by powers of it.
+/// Within a span the `degree + 1` functions that are not 0 are polynomials of that coordinate. Spans with many places, such as
+/// the points of a scan, are summed by powers of the place.
 #[derive(Clone, Debug)]
 pub struct Spans {
     degree: usize,
@@ -13,7 +13,7 @@ pub struct Spans {
     limits: Vec<f64>,
     /// Index of the first function of each span.
     first: Vec<usize>,
-    /// Of each span, `(degree + 1)²` numbers: row `a` has the coefficients of function `first + a`, lowest power first.
+    /// `(degree + 1)²` numbers of each span: row `a` has the coefficients of function `first + a`, lowest power first.
     coefficients: Vec<f64>,
     /// Spans a unit of the parameter, were they equal.
     rate: f64,

@@ -1,8 +1,8 @@
-//! What a spline combines: anything that can be added and multiplied by a number.
+//! The values that a spline combines: anything that can be added and multiplied by a number.
 //!
-//! Weights that sum to 1 make a point of points, weights that sum to 0 a vector. A point with its mass is a vector of
-//! one more dimension (the Grassmann space): combining mass points needs no rule about the sum of the weights, and the
-//! place is found at the end by one division.
+//! Weights that sum to 1 make a point of points, weights that sum to 0 a vector. A point with its mass is a vector of one more
+//! dimension (the Grassmann space). Combining mass points needs no rule about the sum of the weights, and one division finds
+//! the place at the end.
 
 /// Values that can be combined linearly.
 pub trait Value: Copy {

@@ -1,14 +1,14 @@
 //! Counts of deviations between edges, and below, inside and above two limits.
 
+use super::moments::VALUES_PER_TASK;
 use super::sketch::Sketch;
 use super::statistics::Statistics;
 use crate::parallel::prelude::*;
 
-/// Bins where the rule for their width asks for more or fewer.
-const FEWEST_BINS: f64 = 10.0;
-const MOST_BINS: f64 = 200.0;
-/// Values that one worker counts before its counts are added.
-const PIECE: usize = 1 << 18;
+/// Least bins, where the rule for their width asks for fewer.
+const MIN_BINS: f64 = 10.0;
+/// Most bins, where it asks for more.
+const MAX_BINS: f64 = 200.0;
 
 /// Why there is no histogram.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -53,7 +53,7 @@ impl Histogram {
             counts
         };
         let none = || vec![0; self.edges.len() + 1];
-        let counts = values.par_chunks(PIECE).fold(none, count).reduce(none, |mut a, b| {
+        let counts = values.par_chunks(VALUES_PER_TASK).fold(none, count).reduce(none, |mut a, b| {
             a.iter_mut().zip(b).for_each(|(a, b)| *a += b);
             a
         });
@@ -110,10 +110,10 @@ impl Histogram {
     }
 }
 
-/// Round edges for values with these statistics, or `None` where there is none: from the 0.1 to the 99.9 percentile,
+/// Round edges for values with these statistics, or `None` where there is none. They go from the 0.1 to the 99.9 percentile,
 /// widened to whole multiples of 1, 2 or 5 times a power of ten.
 ///
-/// The width is that of Freedman and Diaconis (1981), twice the interquartile range over the cube root of the count,
+/// The width is that of Freedman and Diaconis (1981), twice the interquartile range over the cube root of the count. It is
 /// within 10 to 200 bins, and rounded up.
 pub fn nice_edges(statistics: &Statistics) -> Option<Vec<f64>> {
     let (low, high, width) = spread(statistics)?;
@@ -125,14 +125,14 @@ pub fn nice_edges(statistics: &Statistics) -> Option<Vec<f64>> {
 /// below or above.
 pub fn zone_edges(statistics: &Statistics, [lower, upper]: [f64; 2]) -> Option<Vec<f64>> {
     /// Rounding a width up makes it 2.5 times as large at most.
-    const ROUNDED_UP: f64 = 2.5;
+    const MAX_WIDTH_ROUNDING: f64 = 2.5;
     let (low, high, width) = spread(statistics)?;
     let (usual, widest) = (edges(low, high, width)?, (upper - lower) / 8.0);
     if !(widest > 0.0 && widest < usual[1] - usual[0]) {
         return Some(usual);
     }
-    let width = widest / ROUNDED_UP;
-    let (middle, reach) = (0.5 * lower + 0.5 * upper, 0.5 * MOST_BINS * width);
+    let width = widest / MAX_WIDTH_ROUNDING;
+    let (middle, reach) = (0.5 * lower + 0.5 * upper, 0.5 * MAX_BINS * width);
     let near = [low.max(middle - reach), high.min(middle + reach)];
     if near[0] < near[1] { edges(near[0], near[1], width) } else { Some(usual) }
 }
@@ -148,7 +148,7 @@ fn spread(statistics: &Statistics) -> Option<(f64, f64, f64)> {
     }
     let range = high - low;
     let width = 2.0 * quartiles / libm::cbrt(statistics.count as f64);
-    Some((low, high, width.clamp(range / MOST_BINS, range / FEWEST_BINS)))
+    Some((low, high, width.clamp(range / MAX_BINS, range / MIN_BINS)))
 }
 
 /// Whole multiples of 1, 2 or 5 times a power of ten, not less than `width`, from below `low` to above `high`.
@@ -174,18 +174,17 @@ fn multiple(count: i64, power: i32) -> f64 {
 }
 
 impl Sketch {
-    /// The histogram of what was counted, for a stream that has gone by. Edges are moved to the nearest limits of the
-    /// sketch's bins, by a relative 2^-14 at most (edges that fall together become one); for the edges it then has, the
-    /// counts are exact.
+    /// The histogram of what was counted, for a stream that has gone by. Edges are moved to the nearest limits of the sketch's
+    /// bins, by a relative 2^-14 at most; edges that fall together become one. For the edges it then has, the counts are exact.
     ///
     /// # Errors
-    /// Those of [`Histogram::new`].
+    /// The errors of [`Histogram::new`].
     pub fn histogram(&self, edges: &[f64]) -> Result<Histogram, EdgesError> {
         let mut moved: Vec<f64> =
-            Histogram::new(edges.to_vec())?.edges.iter().map(|e| Sketch::around(*e).0).collect();
+            Histogram::new(edges.to_vec())?.edges.iter().map(|e| Sketch::bin_of(*e).0).collect();
         // The upper edge of the last bin belongs to it: it is the last value before the next sketch bin.
         if let (Some(last), Some(edge)) = (moved.last_mut(), edges.last()) {
-            *last = Sketch::around(*edge).1;
+            *last = Sketch::bin_of(*edge).1;
         }
         moved.dedup();
         let mut histogram = Histogram::new(moved)?;
@@ -225,7 +224,7 @@ impl Limits {
             })
         };
         let add = |a: (u64, u64, u64), b: (u64, u64, u64)| (a.0 + b.0, a.1 + b.1, a.2 + b.2);
-        let (below, inside, above) = values.par_chunks(PIECE).map(count).reduce(|| (0, 0, 0), add);
+        let (below, inside, above) = values.par_chunks(VALUES_PER_TASK).map(count).reduce(|| (0, 0, 0), add);
         self.below += below;
         self.inside += inside;
         self.above += above;

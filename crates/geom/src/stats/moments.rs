@@ -1,8 +1,8 @@
 //! Moments of a stream of numbers: one pass, the same bits for any number of threads and any cutting into blocks.
 //!
-//! The stream is cut into chunks of [`CHUNK`] values counted from its start. Each chunk is summed in a fixed order;
-//! the chunks' moments are merged in pairs, like the digits of a binary counter, so that the tree of additions
-//! depends on the count alone and rounding errors grow with its logarithm.
+//! The stream is cut into chunks of [`VALUES_PER_CHUNK`] values counted from its start. Each chunk is summed in a fixed order.
+//! The chunks' moments are merged in pairs, like the digits of a binary counter. So the tree of additions depends on the count
+//! alone and rounding errors grow with its logarithm.
 //!
 //! Merging: Pébay, Formulas for robust, one-pass parallel computation of covariances and arbitrary-order statistical
 //! moments, Sandia SAND2008-6212. Ours carries the mean as two numbers, so that it stays good to the last place
@@ -10,9 +10,12 @@
 
 use crate::num::sum::{Sum, two_sum};
 
+/// Values that one task counts before its counts are added.
+pub(super) const VALUES_PER_TASK: usize = 1 << 18;
 /// Values that are summed together.
-pub const CHUNK: usize = 4096;
-const LANES: usize = 8;
+pub const VALUES_PER_CHUNK: usize = 4096;
+/// Values of a chunk that are summed side by side.
+const VALUES_AT_ONCE: usize = 8;
 
 /// Count, extremes, mean and central sums up to the fourth power.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -99,8 +102,8 @@ impl Moments {
 
 /// Sums of `terms` over the values, in eight interleaved partial sums: a fixed order that vector units can follow.
 fn lane_sums<const N: usize>(values: &[f64], terms: impl Fn(f64) -> [f64; N]) -> [f64; N] {
-    let mut lanes = [[0.0; LANES]; N];
-    let (groups, rest) = values.as_chunks::<LANES>();
+    let mut lanes = [[0.0; VALUES_AT_ONCE]; N];
+    let (groups, rest) = values.as_chunks::<VALUES_AT_ONCE>();
     let mut add = |lane: usize, x: f64| {
         for (sums, term) in lanes.iter_mut().zip(terms(x)) {
             sums[lane] += term;
@@ -123,9 +126,9 @@ fn lane_sums<const N: usize>(values: &[f64], terms: impl Fn(f64) -> [f64; N]) ->
 }
 
 fn extremes(values: &[f64]) -> (f64, f64) {
-    let mut low = [f64::INFINITY; LANES];
-    let mut high = [f64::NEG_INFINITY; LANES];
-    let (groups, rest) = values.as_chunks::<LANES>();
+    let mut low = [f64::INFINITY; VALUES_AT_ONCE];
+    let mut high = [f64::NEG_INFINITY; VALUES_AT_ONCE];
+    let (groups, rest) = values.as_chunks::<VALUES_AT_ONCE>();
     for group in groups {
         for (lane, x) in group.iter().enumerate() {
             low[lane] = if *x < low[lane] { *x } else { low[lane] };

@@ -1,6 +1,6 @@
 //! Which of several references lies nearer to the same points, and whether the difference is more than chance.
 //!
-//! Neighboring points of a scan are not independent: their deviations go together. What that does to a mean is told by
+//! Neighboring points of a scan are not independent: their deviations go together. The effect of that on a mean is told by
 //! [`super::research::blocks`], and taken into account where it is given.
 
 use super::research::blocks::BlockMean;
@@ -23,7 +23,7 @@ pub struct Paired {
     differences: Accumulator,
 }
 
-/// What the differences tell. Negative: the first reference is nearer.
+/// The evidence of the differences. Negative: the first reference is nearer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Comparison {
     /// Points that have both deviations.
@@ -42,8 +42,8 @@ pub struct Comparison {
     pub interval: Result<[f64; 2], Missing>,
     /// p value of the mean being zero (paired t test, two-sided).
     pub t_test: Number,
-    /// p value of the differences being symmetric about zero (Wilcoxon's signed ranks, two-sided, normal
-    /// approximation with correction for ties, zeros left out; sizes within 2^-14 of each other count as tied).
+    /// p value of the differences being symmetric about zero, by Wilcoxon's signed ranks: two-sided, normal approximation with
+    /// correction for ties, zeros left out. Sizes within 2^-14 of each other count as tied.
     pub wilcoxon: Number,
     /// p value of either reference being nearer equally often (sign test, exact, two-sided, ties left out).
     pub sign_test: Number,
@@ -65,11 +65,11 @@ impl Paired {
     pub fn summary(&self) -> Summary {
         self.differences.summary()
     }
-    /// The comparison of everything so far. `blocks` is the mean of the differences, of all points or of a sample of them, by blocks within which they
-    /// may go together; without it all points are independent.
+    /// The comparison of everything so far. `blocks` is the mean of the differences, of all points or of a sample of them, by
+    /// blocks within which they may go together. Without it all points are independent.
     ///
-    /// The tests then count as many points as would be independent: that of the mean is the cluster-robust one of the blocks, for all points; the two
-    /// others take it that ranks and signs go together as the differences do.
+    /// The tests then count as many points as would be independent. The test of the mean is the cluster-robust one of the
+    /// blocks, for all points. The two others take it that ranks and signs go together as the differences do.
     pub fn comparison(&self, blocks: Option<&BlockMean>) -> Comparison {
         let Summary { all, positive, negative, .. } = self.summary();
         // The variance of a mean is that of one value, and the mean correlation of two times it.
@@ -207,7 +207,7 @@ mod tests {
             });
             told.count() as f64 / scans as f64
         };
-        // Of 200 at 5 % a share scatters by 1.5 %.
+        // A share of 5 % out of 200 scatters by 1.5 %.
         assert!(told(16, false) > 0.4, "{}", told(16, false));
         for shared in [1, 4, 16] {
             assert!(told(shared, true) < 0.12, "{shared}: {}", told(shared, true));

@@ -1,18 +1,18 @@
 //! A process seen through the values of its parts, in their order: control limits and capability.
 //!
-//! Individuals and moving ranges of two (ISO 7870-2:2013): the spread within is the mean moving range over `d₂ = 2/√π`, and
-//! the limits lie three of it from the mean. Capability (ISO 22514-2:2017): the tolerance over six spreads, by the spread
-//! within (Cp, Cpk) and by the standard deviation of all values (Pp, Ppk).
+//! Individuals and moving ranges of two (ISO 7870-2:2013). The spread within is the mean moving range over `d₂ = 2/√π`, and the
+//! limits lie three of it from the mean. Capability (ISO 22514-2:2017): the tolerance over six spreads, by the spread within
+//! (Cp, Cpk) and by the standard deviation of all values (Pp, Ppk).
 
 use crate::num::special::{chi_square_quantile, normal_quantile};
 use std::f64::consts::{FRAC_2_SQRT_PI, PI};
 
-/// Mean range of two normal values of standard deviation 1.
-const D2: f64 = FRAC_2_SQRT_PI;
+/// Mean range of two normal values of standard deviation 1: d₂ of the control charts.
+const MEAN_RANGE_OF_TWO: f64 = FRAC_2_SQRT_PI;
 /// Values in a row on one side of the mean that are no chance.
-const RUN: usize = 9;
+const MIN_RUN: usize = 9;
 /// Values in a row, each above (below) the one before, that are no chance.
-const STEADY: usize = 6;
+const MIN_TREND: usize = 6;
 
 /// A series of values as a control chart shows it.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,7 +48,7 @@ pub struct Signal {
     pub rule: Rule,
 }
 
-/// What chance seldom does (ISO 7870-2:2013; L. S. Nelson, Journal of Quality Technology 16, 1984, tests 1 to 3).
+/// Events that chance seldom makes (ISO 7870-2:2013; L. S. Nelson, Journal of Quality Technology 16, 1984, tests 1 to 3).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Rule {
     /// The value is beyond a control limit.
@@ -72,8 +72,8 @@ pub struct Index {
     pub high: f64,
 }
 
-/// Values that all differ by less than this share of the greatest do not vary: what their last digits tell is rounding.
-const ALIKE: f64 = 1e-9;
+/// Share of the greatest value up to which values that differ by less do not vary: their last digits tell rounding.
+const EQUAL_VALUES_SHARE: f64 = 1e-9;
 
 /// Capability of a process; `None` where limits are missing, or nothing varies.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -105,7 +105,7 @@ impl ControlChart {
         let n = values.len() as f64;
         let greatest = values.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
         let all_alike = vec![values[0]; values.len()];
-        let alike = values.iter().all(|x| (x - values[0]).abs() <= ALIKE * greatest);
+        let alike = values.iter().all(|x| (x - values[0]).abs() <= EQUAL_VALUES_SHARE * greatest);
         let values = if alike { &all_alike[..] } else { values };
         // From the first value on: no digit is lost where all are alike.
         let first = values[0];
@@ -113,9 +113,9 @@ impl ControlChart {
         let std_dev = (values.iter().map(|x| (x - mean) * (x - mean)).sum::<f64>() / (n - 1.0)).sqrt();
         let ranges: Vec<f64> = values.windows(2).map(|w| (w[1] - w[0]).abs()).collect();
         let moving_range = ranges.iter().sum::<f64>() / (n - 1.0);
-        let within = moving_range / D2;
+        let within = moving_range / MEAN_RANGE_OF_TWO;
         // The standard deviation of a range of two is √(2 − 4/π).
-        let range_limit = moving_range * (1.0 + 3.0 * (2.0 - 4.0 / PI).sqrt() / D2);
+        let range_limit = moving_range * (1.0 + 3.0 * (2.0 - 4.0 / PI).sqrt() / MEAN_RANGE_OF_TWO);
         let mut chart = ControlChart {
             count: values.len(),
             mean,
@@ -148,8 +148,8 @@ impl ControlChart {
             let rules = [
                 (Rule::Beyond, *x < self.limits[0] || *x > self.limits[1]),
                 (Rule::Range, index > 0 && ranges[index - 1] > self.range_limit),
-                (Rule::Run, run.1 >= RUN),
-                (Rule::Steady, steady.1 >= STEADY),
+                (Rule::Run, run.1 >= MIN_RUN),
+                (Rule::Steady, steady.1 >= MIN_TREND),
             ];
             signals.extend(rules.into_iter().filter(|r| r.1).map(|(rule, _)| Signal { index, rule }));
         }
@@ -158,10 +158,10 @@ impl ControlChart {
 
     /// Its capability against limits, with intervals of this confidence (0.95: 95 %).
     ///
-    /// The intervals take the values for normal and independent. Those of Cp and Pp are exact for the variance's
-    /// χ² distribution (ISO 22514-2:2017); the spread within counts for 0.605 of its degrees of freedom (J. D. Cryer and
-    /// T. P. Ryan, Journal of Quality Technology 22, 1990). Those of Cpk and Ppk are the normal approximation of A. F. Bissell
-    /// (Applied Statistics 39, 1990).
+    /// The intervals take the values for normal and independent. The intervals of Cp and Pp are exact for the variance's χ²
+    /// distribution (ISO 22514-2:2017). The spread within counts for 0.605 of its degrees of freedom (J. D. Cryer and T. P.
+    /// Ryan, Journal of Quality Technology 22, 1990). The intervals of Cpk and Ppk are the normal approximation of A. F.
+    /// Bissell (Applied Statistics 39, 1990).
     pub fn capability(&self, lower: Option<f64>, upper: Option<f64>, confidence: f64) -> Capability {
         let freedom = self.count as f64 - 1.0;
         let by = |spread: f64, freedom: f64| -> (Option<Index>, Option<Index>) {
@@ -170,8 +170,9 @@ impl ControlChart {
             let nearest = [lower.map(|l| self.mean - l), upper.map(|u| u - self.mean)];
             let nearest = nearest.into_iter().flatten().min_by(f64::total_cmp);
             let wide = both.zip(spread).map(|(width, s)| wide(width / (6.0 * s), freedom, confidence));
-            let near =
-                nearest.zip(spread).map(|(room, s)| near(room / (3.0 * s), self.count, freedom, confidence));
+            let near = nearest
+                .zip(spread)
+                .map(|(room, s)| index_of_mean(room / (3.0 * s), self.count, freedom, confidence));
             (wide, near)
         };
         let ((cp, cpk), (pp, ppk)) = (by(self.within, 0.605 * freedom), by(self.std_dev, freedom));
@@ -187,7 +188,7 @@ fn wide(value: f64, freedom: f64, confidence: f64) -> Index {
 }
 
 /// An index of spread and mean.
-fn near(value: f64, count: usize, freedom: f64, confidence: f64) -> Index {
+fn index_of_mean(value: f64, count: usize, freedom: f64, confidence: f64) -> Index {
     let z = normal_quantile(0.5 + 0.5 * confidence);
     let half = z * (1.0 / (9.0 * count as f64) + value * value / (2.0 * freedom)).sqrt();
     Index { value, low: value - half, high: value + half }

@@ -1,9 +1,10 @@
 //! Order statistics of many numbers without sorting or copying them.
 //!
-//! The numbers are mapped to integers of the same order and counted in some 10^5 equal steps between the least and
-//! the greatest; only those in the steps that hold a wanted rank are looked at again. Counting is exact, so the
-//! result does not depend on threads.
+//! The numbers are mapped to integers of the same order and counted in some 10^5 equal steps between the least and the
+//! greatest. Only numbers in the steps that hold a wanted rank are looked at again. Counting is exact, so the result does not
+//! depend on threads.
 
+use super::moments::VALUES_PER_TASK;
 use crate::parallel::prelude::*;
 
 /// Percentiles that every summary holds.
@@ -11,12 +12,10 @@ pub const PERCENTILES: [f64; 11] = [0.1, 1.0, 2.5, 5.0, 25.0, 50.0, 75.0, 95.0, 
 
 /// Steps counted at once; the counters of the steps in use fit the nearest caches.
 const STEPS_LOG2: u32 = 17;
-/// Values per parallel piece of work.
-const PIECE: usize = 1 << 18;
 /// Keys sieved at once.
-const BATCH: usize = 1024;
-/// A step with more values than this share of all is cut into steps again instead of being copied out.
-const COPY_SHARE: u64 = 128;
+const KEYS_PER_BATCH: usize = 1024;
+/// A step with more than one of so many values is cut into steps again instead of being copied out.
+const COPIED_VALUES_DIVISOR: u64 = 128;
 /// The key of a value that does not take part; no finite number has it.
 pub(crate) const NO_KEY: u64 = u64::MAX;
 
@@ -151,11 +150,11 @@ impl<F: Fn(f64) -> u64 + Sync> Keyed<'_, F> {
             return open;
         }
         let finder = Finder::new(&open);
-        let small = (self.count / COPY_SHARE).max(PIECE as u64);
+        let small = (self.count / COPIED_VALUES_DIVISOR).max(VALUES_PER_TASK as u64);
         let none = || (Vec::new(), vec![(u64::MAX, 0); open.len()]);
         let look = |(mut copied, mut extents): (Vec<u64>, Vec<(u64, u64)>), piece: &[f64]| {
-            let mut near = [0; BATCH + 1];
-            for batch in piece.chunks(BATCH) {
+            let mut near = [0; KEYS_PER_BATCH + 1];
+            for batch in piece.chunks(KEYS_PER_BATCH) {
                 for key in finder.near(batch.iter().map(|x| (self.key)(*x)), &mut near) {
                     match finder.find(*key) {
                         Some(s) if open[s].count <= small => copied.push(*key),
@@ -187,13 +186,13 @@ impl<F: Fn(f64) -> u64 + Sync> Keyed<'_, F> {
         fold: impl Fn(A, &[f64]) -> A + Sync + Send,
         join: impl Fn(A, A) -> A + Sync + Send,
     ) -> A {
-        let fewest = self.values.len() / PIECE / (4 * rayon::current_num_threads()) + 1;
-        self.values.par_chunks(PIECE).with_min_len(fewest).fold(&new, fold).reduce(&new, join)
+        let fewest = self.values.len() / VALUES_PER_TASK / (4 * rayon::current_num_threads()) + 1;
+        self.values.par_chunks(VALUES_PER_TASK).with_min_len(fewest).fold(&new, fold).reduce(&new, join)
     }
 }
 
 impl Span {
-    /// Those steps of 2^`shift` keys, counted in `counts`, that hold a wanted rank.
+    /// The steps of 2^`shift` keys, counted in `counts`, that hold a wanted rank.
     fn steps(&self, shift: u32, counts: &[u64]) -> Vec<Span> {
         let mut steps = Vec::new();
         let (mut before, mut ranks) = (self.before, &self.ranks[..]);
@@ -239,8 +238,12 @@ impl Finder<'_> {
         }
         Finder { spans, low, shift, near }
     }
-    /// Those of at most [`BATCH`] keys that may lie in a span, without a branch that could be mispredicted.
-    fn near<'b>(&self, keys: impl Iterator<Item = u64>, kept: &'b mut [u64; BATCH + 1]) -> &'b [u64] {
+    /// The keys, out of at most [`KEYS_PER_BATCH`], that may lie in a span, without a branch that could be mispredicted.
+    fn near<'b>(
+        &self,
+        keys: impl Iterator<Item = u64>,
+        kept: &'b mut [u64; KEYS_PER_BATCH + 1],
+    ) -> &'b [u64] {
         let (near, low, shift) = (&self.near[..], self.low, self.shift);
         let last = near.len() - 1;
         let mut count = 0;

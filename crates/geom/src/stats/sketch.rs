@@ -1,24 +1,26 @@
 //! Quantiles of streams too large to keep: counts per leading bits of the number.
 //!
-//! A bin holds the numbers with the same sign, exponent and first 14 bits of the mantissa. So a quantile is known to
-//! a relative error of 2^-15, whatever the distribution, and because only whole numbers are added the result depends
-//! neither on the order of the values nor on how the stream was shared out. Memory: 128 KiB for every power of two
-//! that occurs, some 5 MB in practice.
+//! A bin holds the numbers with the same sign, exponent and first 14 bits of the mantissa. So a quantile is known to a relative
+//! error of 2^-15, whatever the distribution. Only whole numbers are added: the result depends neither on the order of the
+//! values nor on how the stream was shared out. Memory: 128 KiB for every power of two that occurs, some 5 MB in practice.
 
-use super::part::Part;
 use super::quantiles::{from_key, key_of};
+use super::selection::Selection;
 use crate::parallel::prelude::*;
 
 /// Greatest relative error of a quantile: half a bin.
 pub const RELATIVE_ERROR: f64 = 1.0 / (1u64 << 15) as f64;
 
+/// Bits of the fraction that choose the slot: a bin is 2^-14 of its value wide, twice [`RELATIVE_ERROR`].
 const SLOT_BITS: u32 = 14;
+/// Slots of a page.
 const SLOTS: usize = 1 << SLOT_BITS;
 /// Sign and exponent.
 const PAGE_BITS: u32 = 12;
+/// Bits of the fraction that a bin does not tell apart.
 const DROPPED_BITS: u32 = 64 - PAGE_BITS - SLOT_BITS;
 /// Values counted by one worker before its counts are added to the rest.
-const PIECE: usize = 1 << 20;
+const SKETCHED_VALUES_PER_TASK: usize = 1 << 20;
 
 /// Counts of numbers by their leading bits. Values below 2.3e-308 in size count as zero; NaN is not allowed for.
 #[derive(Clone, Debug)]
@@ -40,14 +42,15 @@ impl Sketch {
     }
     /// Counts finite values.
     pub fn push(&mut self, values: &[f64]) {
-        if values.len() < PIECE {
+        if values.len() < SKETCHED_VALUES_PER_TASK {
             values.iter().for_each(|x| self.count_one(*x));
             return;
         }
-        let counted = values.par_chunks(PIECE).fold(Sketch::default, |mut sketch, piece| {
-            piece.iter().for_each(|x| sketch.count_one(*x));
-            sketch
-        });
+        let counted =
+            values.par_chunks(SKETCHED_VALUES_PER_TASK).fold(Sketch::default, |mut sketch, piece| {
+                piece.iter().for_each(|x| sketch.count_one(*x));
+                sketch
+            });
         self.merge(&counted.reduce(Sketch::default, |mut a, b| {
             a.merge(&b);
             a
@@ -91,7 +94,7 @@ impl Sketch {
         self.used().map(|(page, slot, count)| (from_key(limits(page, slot).0), count))
     }
     /// The least and the greatest value of the bin that holds `x`.
-    pub(crate) fn around(x: f64) -> (f64, f64) {
+    pub(crate) fn bin_of(x: f64) -> (f64, f64) {
         let low = key_of(x + 0.0) >> DROPPED_BITS << DROPPED_BITS;
         (from_key(low), from_key(low | ((1 << DROPPED_BITS) - 1)))
     }
@@ -101,7 +104,7 @@ impl Sketch {
         weighted_ranks(self.bins(), ranks)
     }
     /// The same for the distances of a part's values from `center`, each within [`RELATIVE_ERROR`] of the value.
-    pub(crate) fn distances_at(&self, part: Part, center: f64, ranks: &[u64]) -> Vec<f64> {
+    pub(crate) fn distances_at(&self, part: Selection, center: f64, ranks: &[u64]) -> Vec<f64> {
         let mut distances: Vec<(f64, u64)> = self
             .bins()
             .filter(|(x, _)| part.holds(*x))

@@ -1,8 +1,8 @@
 //! Statistics of deviations: all, the positive and the negative ones apart.
 
-use super::moments::{CHUNK, MomentTree, Moments};
-pub use super::part::Part;
+use super::moments::{MomentTree, Moments, VALUES_PER_CHUNK};
 use super::quantiles::{Keyed, NO_KEY, PERCENTILES, interpolate, key_of, position};
+pub use super::selection::Selection;
 use super::sketch::Sketch;
 use crate::parallel::prelude::*;
 
@@ -70,7 +70,7 @@ pub struct Statistics {
     pub percentiles: [Number; PERCENTILES.len()],
 }
 
-/// What rounding of the values and of the sums may make of a mean that is truly zero, relative to the mean size.
+/// The mean that rounding of the values and of the sums may make of a true zero, relative to the mean size.
 const MEAN_ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 impl Statistics {
@@ -93,24 +93,24 @@ impl Statistics {
 
     fn new(moments: &Moments, mean_abs: f64, ordered: Option<Ordered>) -> Statistics {
         let n = moments.count as f64;
-        let some = |x: f64| match moments.count {
+        let known = |x: f64| match moments.count {
             0 => Err(Missing::NoValues),
             _ if !x.is_finite() => Err(Missing::Overflow),
             _ => Ok(x),
         };
-        let spread = |x: f64| if moments.count == 1 { Err(Missing::OneValue) } else { some(x) };
+        let spread = |x: f64| if moments.count == 1 { Err(Missing::OneValue) } else { known(x) };
         let [m2, m3, m4] = moments.powers;
-        let shape = |x: f64| if moments.count > 0 && m2 == 0.0 { Err(Missing::NoSpread) } else { some(x) };
+        let shape = |x: f64| if moments.count > 0 && m2 == 0.0 { Err(Missing::NoSpread) } else { known(x) };
         let mean = moments.mean.value();
         let std_dev = spread((m2 / (n - 1.0)).sqrt());
         let zero_mean = mean.abs() <= MEAN_ROUNDING * mean_abs;
         let ordered_number = |pick: fn(&Ordered) -> f64| ordered.as_ref().map(pick).ok_or(Missing::NoValues);
         Statistics {
             count: moments.count,
-            min: some(moments.min),
-            max: some(moments.max),
-            range: some(moments.max - moments.min),
-            mean: some(mean),
+            min: known(moments.min),
+            max: known(moments.max),
+            range: known(moments.max - moments.min),
+            mean: known(mean),
             variance: spread(m2 / (n - 1.0)),
             std_dev,
             cv: if zero_mean && std_dev.is_ok() {
@@ -118,8 +118,8 @@ impl Statistics {
             } else {
                 std_dev.map(|s| s / mean.abs())
             },
-            rms: some((mean * mean + m2 / n).sqrt()),
-            mean_abs: some(mean_abs),
+            rms: known((mean * mean + m2 / n).sqrt()),
+            mean_abs: known(mean_abs),
             median: ordered_number(|o| o.percentiles[5]),
             mad: ordered_number(|o| o.mad),
             skewness: shape(m3 / n / (m2 / n * (m2 / n).sqrt())),
@@ -137,9 +137,9 @@ impl Statistics {
 pub struct Summary {
     /// All finite values.
     pub all: Statistics,
-    /// Those above zero.
+    /// The deviations above zero.
     pub positive: Statistics,
-    /// Those below zero.
+    /// The deviations below zero.
     pub negative: Statistics,
     /// 95 % of the absolute values are no greater; the range of a color scale.
     pub p95_abs: Number,
@@ -147,9 +147,9 @@ pub struct Summary {
     pub zeros: u64,
     /// NaN and infinite values: left out everywhere.
     pub not_finite: u64,
-    /// Greatest relative error of the percentiles, median and MAD: 0 where all values were at hand,
-    /// [`super::sketch::RELATIVE_ERROR`] where they came as a stream (for the MAD it is relative to the values, not
-    /// to their distances from the median).
+    /// Greatest relative error of the percentiles, median and MAD. It is 0 where all values were at hand,
+    /// [`super::sketch::RELATIVE_ERROR`] where they came as a stream. For the MAD it is relative to the values, not to their
+    /// distances from the median.
     pub quantile_error: f64,
 }
 
@@ -167,8 +167,8 @@ impl Summary {
 
 /// Statistics of values that arrive block by block.
 ///
-/// The result is the same for any number of threads and for any cutting of the stream into blocks; the order of the
-/// values decides the last bits of the moments. Memory: some 5 MB, whatever the count.
+/// The result is the same for any number of threads and for any cutting of the stream into blocks. The order of the values
+/// decides the last bits of the moments. Memory: some 5 MB, whatever the count.
 #[derive(Clone, Debug, Default)]
 pub struct Accumulator {
     moments: SignedMoments,
@@ -203,11 +203,11 @@ impl Accumulator {
 #[derive(Clone, Debug, Default)]
 struct SignedMoments {
     chunks: Chunks,
-    /// The unfinished chunk: fewer than [`CHUNK`] values.
+    /// The unfinished chunk: fewer than [`VALUES_PER_CHUNK`] values.
     pending: Vec<f64>,
 }
 
-/// What is known of all finished chunks.
+/// The moments of all finished chunks.
 #[derive(Clone, Debug, Default)]
 struct Chunks {
     positive: MomentTree,
@@ -226,7 +226,7 @@ struct Chunk {
 impl Chunk {
     fn of(values: &[f64]) -> Chunk {
         // One place more than values: the next place is always there to be written.
-        let (mut positive, mut negative) = ([0.0; CHUNK + 1], [0.0; CHUNK + 1]);
+        let (mut positive, mut negative) = ([0.0; VALUES_PER_CHUNK + 1], [0.0; VALUES_PER_CHUNK + 1]);
         let (mut p, mut n, mut zeros) = (0, 0, 0);
         for x in values {
             // Writing always and counting sometimes spares a branch that scattered signs would mispredict.
@@ -247,15 +247,15 @@ impl Chunk {
 
 impl SignedMoments {
     fn push(&mut self, values: &[f64]) {
-        let missing = (CHUNK - self.pending.len()) % CHUNK;
+        let missing = (VALUES_PER_CHUNK - self.pending.len()) % VALUES_PER_CHUNK;
         let (head, rest) = values.split_at(missing.min(values.len()));
         self.pending.extend_from_slice(head);
-        if self.pending.len() == CHUNK {
+        if self.pending.len() == VALUES_PER_CHUNK {
             self.chunks.push(Chunk::of(&self.pending));
             self.pending.clear();
         }
-        let (whole, tail) = rest.split_at(rest.len() / CHUNK * CHUNK);
-        let chunks: Vec<Chunk> = whole.par_chunks(CHUNK).map(Chunk::of).collect();
+        let (whole, tail) = rest.split_at(rest.len() / VALUES_PER_CHUNK * VALUES_PER_CHUNK);
+        let chunks: Vec<Chunk> = whole.par_chunks(VALUES_PER_CHUNK).map(Chunk::of).collect();
         chunks.into_iter().for_each(|chunk| self.chunks.push(chunk));
         self.pending.extend_from_slice(tail);
     }
@@ -271,7 +271,7 @@ impl SignedMoments {
             [&positive, &negative].map(|m| m.mean.value().abs() * (m.count as f64 / all.count as f64));
         let [of_all, of_positive, of_negative] =
             ordered(values, [&all, &positive, &negative], negative.count + zeros);
-        let sizes = values.distances_at(Part::All, &all, 0.0, &neighbors(0, all.count, 95.0));
+        let sizes = values.distances_at(Selection::All, &all, 0.0, &neighbors(0, all.count, 95.0));
         Summary {
             p95_abs: match sizes[..] {
                 [a, b] => Ok(interpolate(a, b, position(all.count, 95.0).1)),
@@ -301,7 +301,7 @@ trait Order {
     /// The values of these ranks among all finite values, whose moments are known.
     fn at(&self, all: &Moments, ranks: &[u64]) -> Vec<f64>;
     /// The same for the distances of a part's values from `center`.
-    fn distances_at(&self, part: Part, moments: &Moments, center: f64, ranks: &[u64]) -> Vec<f64>;
+    fn distances_at(&self, part: Selection, moments: &Moments, center: f64, ranks: &[u64]) -> Vec<f64>;
 }
 
 /// Values in memory. The moments' extremes bound what is searched.
@@ -315,7 +315,7 @@ impl Order for Exact<'_> {
         let high = if all.max == 0.0 { 0.0 } else { all.max };
         Keyed { values: self.0, key, low: key_of(low), high: key_of(high), count: all.count }.at(ranks)
     }
-    fn distances_at(&self, part: Part, moments: &Moments, center: f64, ranks: &[u64]) -> Vec<f64> {
+    fn distances_at(&self, part: Selection, moments: &Moments, center: f64, ranks: &[u64]) -> Vec<f64> {
         let (above, below) = part.limits();
         // No branch: scattered signs would mispredict it.
         let key =
@@ -330,7 +330,7 @@ impl Order for Sketch {
     fn at(&self, _: &Moments, ranks: &[u64]) -> Vec<f64> {
         self.at(ranks)
     }
-    fn distances_at(&self, part: Part, _: &Moments, center: f64, ranks: &[u64]) -> Vec<f64> {
+    fn distances_at(&self, part: Selection, _: &Moments, center: f64, ranks: &[u64]) -> Vec<f64> {
         self.distances_at(part, center, ranks)
     }
 }
@@ -342,7 +342,7 @@ struct Ordered {
 
 /// Percentiles and MAD of all values, the positive ones (from rank `first_positive` on) and the negative ones.
 fn ordered(values: &impl Order, moments: [&Moments; 3], first_positive: u64) -> [Option<Ordered>; 3] {
-    let parts = [(Part::All, 0), (Part::Positive, first_positive), (Part::Negative, 0)];
+    let parts = [(Selection::All, 0), (Selection::Positive, first_positive), (Selection::Negative, 0)];
     let ranks: Vec<u64> = std::iter::zip(parts, moments)
         .flat_map(|((_, first), m)| PERCENTILES.iter().flat_map(move |p| neighbors(first, m.count, *p)))
         .collect();

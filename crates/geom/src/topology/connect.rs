@@ -1,14 +1,14 @@
 //! How the facets of a mesh hang together: edges, shells, and every place where they do not form a surface.
 //!
 //! No list of edges is made. Each vertex is examined on its own. Every facet at it has a next and a previous corner there; an
-//! edge to vertex `w` means that `w` is among these. The vertex is in order if the next corners and the previous corners
-//! match one to one and form a single ring; comparisons of sixteen numbers at a time find that out. Every other vertex takes
-//! the general way: its corners are sorted and counted. Each edge is counted at its lower end.
+//! edge to vertex `w` means that `w` is among these. The vertex is in order if the next corners and the previous corners match
+//! one to one and form a single ring. Comparisons of sixteen numbers at a time find that out. Every other vertex takes the
+//! general way: its corners are sorted and counted. Each edge is counted at its lower end.
 #![allow(unsafe_code, reason = "vector instructions that the processor is known to have")]
 
 use super::EdgeAt;
-use super::fans::{CHUNK, Fans, Spoke};
-use super::same::{Row, Same, W};
+use super::fans::{Fans, Spoke, TOPOLOGY_ITEMS_PER_TASK};
+use super::same::{ROW_WIDTH, Row, Same};
 use super::union::Sets;
 use crate::mesh::Mesh;
 use crate::num::predicates;
@@ -28,12 +28,12 @@ pub(super) struct Connection {
     pub inconsistent: Vec<EdgeAt>,
     pub non_manifold_vertices: Vec<u32>,
     pub duplicates: Vec<[u32; 2]>,
-    /// Vertices with more than [`MANY`] facets.
+    /// Vertices with more than [`MIN_CROWDED_FACETS`] facets.
     pub hubs: Vec<u32>,
 }
 
-/// From so many facets at a vertex on, it pays not to compare each with each.
-pub(super) const MANY: usize = 500;
+/// Facets at a vertex from which on it pays not to compare each with each.
+pub(super) const MIN_CROWDED_FACETS: usize = 500;
 
 /// An edge end at a vertex: the other end, whether the facet runs towards it, position among the spokes, third corner.
 type End = (u32, bool, u32, u32);
@@ -55,11 +55,12 @@ pub(super) fn connect(
     progress: &dyn Progress,
 ) -> Connection {
     let vertices = fans.len();
-    let parts: Vec<Connection> = (0..vertices.div_ceil(CHUNK))
+    let parts: Vec<Connection> = (0..vertices.div_ceil(TOPOLOGY_ITEMS_PER_TASK))
         .into_par_iter()
         .filter(|_| !progress.cancelled())
         .map(|i| {
-            let range = (i * CHUNK) as u32..vertices.min((i + 1) * CHUNK) as u32;
+            let range =
+                (i * TOPOLOGY_ITEMS_PER_TASK) as u32..vertices.min((i + 1) * TOPOLOGY_ITEMS_PER_TASK) as u32;
             let mut part = Part { mesh, shells, spokes: vec![], found: Connection::default() };
             match level {
                 // SAFETY: nobody asks for a level that the processor does not have.
@@ -67,7 +68,7 @@ pub(super) fn connect(
                 Level::Avx512 => unsafe { avx512(&mut part, fans, range) },
                 #[cfg(target_arch = "x86_64")]
                 Level::Avx2 => unsafe { avx2(&mut part, fans, range) },
-                _ => part.vertices::<Plain<W>>(fans, range),
+                _ => part.vertices::<Plain<ROW_WIDTH>>(fans, range),
             }
             part.found
         })
@@ -100,11 +101,11 @@ fn avx512(part: &mut Part, fans: &Fans, vertices: std::ops::Range<u32>) {
 
 impl Part<'_> {
     #[inline(always)]
-    fn vertices<S: Same<W>>(&mut self, fans: &Fans, vertices: std::ops::Range<u32>) {
+    fn vertices<S: Same<ROW_WIDTH>>(&mut self, fans: &Fans, vertices: std::ops::Range<u32>) {
         let mut spokes = std::mem::take(&mut self.spokes);
         for v in vertices {
             fans.spokes(&self.mesh.faces, v, &mut spokes);
-            let ring = (3..=W).contains(&spokes.len()) && self.ring::<S>(v, &spokes);
+            let ring = (3..=ROW_WIDTH).contains(&spokes.len()) && self.ring::<S>(v, &spokes);
             if !ring && !spokes.is_empty() {
                 self.count(v, &mut spokes);
             }
@@ -114,12 +115,12 @@ impl Part<'_> {
 
     /// True, and counted, if the facets form one ring around `v`, all running the same way.
     #[inline(always)]
-    fn ring<S: Same<W>>(&mut self, v: u32, spokes: &[Spoke]) -> bool {
-        let mut before = Row([u32::MAX; W]);
+    fn ring<S: Same<ROW_WIDTH>>(&mut self, v: u32, spokes: &[Spoke]) -> bool {
+        let mut before = Row([u32::MAX; ROW_WIDTH]);
         for (b, s) in before.0.iter_mut().zip(spokes) {
             *b = s[1];
         }
-        let (mut met, mut follower) = (0, [0u8; W]);
+        let (mut met, mut follower) = (0, [0u8; ROW_WIDTH]);
         for (f, s) in follower.iter_mut().zip(spokes) {
             // SAFETY: `connect` chose `S` among what the processor has.
             let m = unsafe { S::same(&before.0, s[0]) };
@@ -132,7 +133,7 @@ impl Part<'_> {
         let (mut at, mut steps) = (0, 0);
         loop {
             (at, steps) = (follower[at] as usize, steps + 1);
-            if at == 0 || steps > W {
+            if at == 0 || steps > ROW_WIDTH {
                 break;
             }
         }
@@ -148,7 +149,7 @@ impl Part<'_> {
 
     /// The general case: any number of facets in any arrangement around `v`.
     fn count(&mut self, v: u32, spokes: &mut [Spoke]) {
-        if spokes.len() > MANY {
+        if spokes.len() > MIN_CROWDED_FACETS {
             self.found.hubs.push(v);
         }
         spokes.sort_unstable_by_key(|s| s[2]);
@@ -190,7 +191,7 @@ impl Part<'_> {
         group.iter().for_each(|e| self.shells.join(at.facet, facet(e)));
     }
 
-    /// Facets at `v` that have the same three corners, of which `v` is the lowest. Those without area are another defect.
+    /// Facets at `v` that have the same three corners, of which `v` is the lowest. Facets without area are another defect.
     fn duplicates(&mut self, v: u32, spokes: &[Spoke]) {
         let others = |s: &Spoke| (s[0].min(s[1]), s[0].max(s[1]), s[2]);
         let mut here: Vec<_> = spokes.iter().map(others).filter(|o| o.0 > v).collect();

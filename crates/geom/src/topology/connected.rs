@@ -41,7 +41,7 @@ pub struct Topology {
     pub shells: usize,
     /// For each facet the number of its shell, [`u32::MAX`] where it does not count.
     pub shell_of: Vec<u32>,
-    /// Vertices with more facets than [`connect::MANY`].
+    /// Vertices with more facets than [`connect::MIN_CROWDED_FACETS`].
     pub(crate) hubs: Vec<u32>,
     pub(super) fans: Fans,
 }
@@ -57,7 +57,7 @@ pub enum TopologyError {
     Cancelled(#[from] Cancelled),
 }
 
-/// What makes a facet count or not.
+/// The reasons why a facet counts or not.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum FacetState {
     Fine,
@@ -69,9 +69,9 @@ enum FacetState {
 impl Topology {
     /// Connects the facets of `mesh` through the vertices they share.
     ///
-    /// Two vertices at one place are two vertices here: weld first where that is not meant (an STL file always, as the
-    /// readers of files do). Linear in the number of facets, but for vertices with very many facets. The result is the
-    /// same for any number of threads; uses the current rayon pool and about 30 bytes a facet.
+    /// Two vertices at one place are two vertices here. Weld first where that is not meant (an STL file always, as the readers
+    /// of files do). Linear in the number of facets, but for vertices with very many facets. The result is the same for any
+    /// number of threads; uses the current rayon pool and about 30 bytes a facet.
     ///
     /// # Errors
     /// [`WeldError::NoSuchVertex`], [`WeldError::TooManyFacets`].
@@ -84,10 +84,10 @@ impl Topology {
         weld::check_corners(mesh)?;
         let finite = mesh.positions.par_iter().all(|p| p.iter().all(|x| x.is_finite()));
         let shape = |f: &[u32; 3]| shape(mesh, f, finite);
-        let odd: Vec<(u32, FacetState)> = (mesh.faces.par_chunks(fans::CHUNK).enumerate())
+        let odd: Vec<(u32, FacetState)> = (mesh.faces.par_chunks(fans::TOPOLOGY_ITEMS_PER_TASK).enumerate())
             .filter(|_| !progress.cancelled())
             .flat_map_iter(|(i, part)| {
-                let first = (i * fans::CHUNK) as u32;
+                let first = (i * fans::TOPOLOGY_ITEMS_PER_TASK) as u32;
                 let numbered = (first..).zip(part);
                 numbered.map(|(i, f)| (i, shape(f))).filter(|(_, s)| *s != FacetState::Fine)
             })
@@ -169,8 +169,8 @@ impl Topology {
         if a == b { vec![] } else { self.fans.at_edge(&mesh.faces, [a, b]) }
     }
 
-    /// Whether a facet of `mesh` that counts has the edge between two vertices. Of an edge with very many facets this is faster than
-    /// to list them.
+    /// Whether a facet of `mesh` that counts has the edge between two vertices. For an edge with very many facets this is
+    /// faster than to list them.
     pub fn has_edge(&self, mesh: &Mesh, [a, b]: [u32; 2]) -> bool {
         a != b && self.fans.has_edge(&mesh.faces, [a, b])
     }

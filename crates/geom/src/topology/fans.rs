@@ -9,7 +9,7 @@ use crate::progress::Progress;
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
 /// Facets or vertices of one task.
-pub(super) const CHUNK: usize = 1 << 13;
+pub(super) const TOPOLOGY_ITEMS_PER_TASK: usize = 1 << 13;
 
 /// A facet at a vertex: the corner after the vertex, the corner before it, the facet.
 pub(super) type Spoke = [u32; 3];
@@ -33,19 +33,20 @@ impl Fans {
     ) -> Fans {
         let head = atomics(vertices);
         let mut next = large_pages(vec![0u32; 3 * faces.len()]);
-        next.par_chunks_mut(3 * CHUNK).zip(faces.par_chunks(CHUNK)).enumerate().for_each(
-            |(i, (next, faces))| {
+        next.par_chunks_mut(3 * TOPOLOGY_ITEMS_PER_TASK)
+            .zip(faces.par_chunks(TOPOLOGY_ITEMS_PER_TASK))
+            .enumerate()
+            .for_each(|(i, (next, faces))| {
                 if progress.cancelled() {
                     return;
                 }
                 for (j, face) in faces.iter().enumerate().filter(|(_, f)| counts(f)) {
                     for k in 0..3 {
-                        let number = 3 * (i * CHUNK + j) + k;
+                        let number = 3 * (i * TOPOLOGY_ITEMS_PER_TASK + j) + k;
                         next[3 * j + k] = head[face[k] as usize].swap(number as u32 + 1, Relaxed);
                     }
                 }
-            },
-        );
+            });
         Fans { head, next }
     }
 

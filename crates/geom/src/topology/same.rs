@@ -4,12 +4,12 @@
 use crate::simd::lanes::Plain;
 
 /// Numbers compared together.
-pub(crate) const W: usize = 16;
+pub(crate) const ROW_WIDTH: usize = 16;
 
 /// Sixteen numbers, aligned for vector loads.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(64))]
-pub(crate) struct Row<T>(pub [T; W]);
+pub(crate) struct Row<T>(pub [T; ROW_WIDTH]);
 
 /// An instruction set that can compare `N` numbers with one number.
 pub(crate) trait Same<const N: usize> {

@@ -1,7 +1,7 @@
 //! The facets at each edge, gone through by the lower end of the edge, many at once: no list of all edges is made.
 
 use super::connected::Topology;
-use super::fans::{CHUNK, Fans, Spoke};
+use super::fans::{Fans, Spoke, TOPOLOGY_ITEMS_PER_TASK};
 use crate::mesh::Mesh;
 use crate::parallel::prelude::*;
 use crate::progress::Silent;
@@ -17,16 +17,16 @@ pub struct Side {
     pub up: bool,
 }
 
-/// Calls `take` with the sides at each edge of these faces, ascending; the faces name vertices below `vertices`. Where `take` returns
+/// Calls `visit` with the sides at each edge of these faces, ascending; the faces name vertices below `vertices`. Where `visit` returns
 /// errors, the one of the least edge is returned.
 ///
 /// Linear, but for vertices with very many facets. Faces must not name a vertex twice.
 pub fn each_edge<E: Send>(
     vertices: usize,
     faces: &[[u32; 3]],
-    take: impl Fn(&[Side]) -> Result<(), E> + Sync,
+    visit: impl Fn(&[Side]) -> Result<(), E> + Sync,
 ) -> Result<(), E> {
-    through(&Fans::new(vertices, faces, |_| true, &Silent), faces, take)
+    through(&Fans::new(vertices, faces, |_| true, &Silent), faces, visit)
 }
 
 impl Topology {
@@ -34,20 +34,20 @@ impl Topology {
     pub fn each_edge<E: Send>(
         &self,
         mesh: &Mesh,
-        take: impl Fn(&[Side]) -> Result<(), E> + Sync,
+        visit: impl Fn(&[Side]) -> Result<(), E> + Sync,
     ) -> Result<(), E> {
-        through(&self.fans, &mesh.faces, take)
+        through(&self.fans, &mesh.faces, visit)
     }
 }
 
 fn through<E: Send>(
     fans: &Fans,
     faces: &[[u32; 3]],
-    take: impl Fn(&[Side]) -> Result<(), E> + Sync,
+    visit: impl Fn(&[Side]) -> Result<(), E> + Sync,
 ) -> Result<(), E> {
     let refused = |part: usize| -> Option<E> {
         let (mut spokes, mut sides): (Vec<Spoke>, Vec<Side>) = (vec![], vec![]);
-        for v in part * CHUNK..fans.len().min((part + 1) * CHUNK) {
+        for v in part * TOPOLOGY_ITEMS_PER_TASK..fans.len().min((part + 1) * TOPOLOGY_ITEMS_PER_TASK) {
             let v = v as u32;
             fans.spokes(faces, v, &mut spokes);
             sides.clear();
@@ -56,13 +56,13 @@ fn through<E: Send>(
                 sides.extend(both.map(|(end, up)| Side { ends: [v, end], facet, up }));
             }
             sides.sort_unstable();
-            let refused = sides.chunk_by(|a, b| a.ends == b.ends).find_map(|edge| take(edge).err());
+            let refused = sides.chunk_by(|a, b| a.ends == b.ends).find_map(|edge| visit(edge).err());
             if refused.is_some() {
                 return refused;
             }
         }
         None
     };
-    let parts = (0..fans.len().div_ceil(CHUNK)).into_par_iter();
+    let parts = (0..fans.len().div_ceil(TOPOLOGY_ITEMS_PER_TASK)).into_par_iter();
     parts.find_map_first(refused).map_or(Ok(()), Err)
 }

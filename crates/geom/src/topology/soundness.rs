@@ -1,8 +1,8 @@
 //! Whether a mesh bounds a solid, so that inside and outside have a meaning.
 //!
-//! The rule: no two facets coincide; two facets meet at every edge; the facets around every vertex form one closed fan,
-//! as many facets as edges, at least three. To it belongs, for signs, that neighbors run the same way round and that
-//! the facets look outwards. Statistics of deviations from a mesh that breaks the rule are of doubtful worth.
+//! The rule: no two facets coincide; two facets meet at every edge. The facets around every vertex form one closed fan, as many
+//! facets as edges, at least three. To it belongs, for signs, that neighbors run the same way round and that the facets look
+//! outwards. Statistics of deviations from a mesh that breaks the rule are of doubtful worth.
 
 use super::{EdgeAt, Properties, Topology, weld::WeldError};
 use crate::mesh::Mesh;
@@ -81,7 +81,7 @@ impl Soundness {
             && self.duplicate_facets == 0
     }
 
-    /// Of a welded mesh; see [`Topology::of`] for errors and cost.
+    /// The soundness of a welded mesh; see [`Topology::of`] for errors and cost.
     ///
     /// # Errors
     /// As [`Topology::of`].

@@ -5,10 +5,10 @@ use crate::parallel::prelude::*;
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
 /// Members set up, or numbered, by one task.
-const PART: usize = 1 << 16;
+const MEMBERS_PER_TASK: usize = 1 << 16;
 
-/// Sets of the numbers `0..n`. A parent never has a larger number than its child, so the least member of a set ends
-/// up as its root whatever the threads do.
+/// Sets of the numbers `0..n`. A parent never has a larger number than its child. So the least member of a set ends up as its
+/// root whatever the threads do.
 pub struct Sets(Vec<AtomicU32>);
 
 impl Sets {
@@ -17,13 +17,13 @@ impl Sets {
         let sets = Sets(atomics(n));
         let fill = |(i, part): (usize, &[AtomicU32])| {
             for (j, parent) in part.iter().enumerate() {
-                parent.store((i * PART + j) as u32, Relaxed);
+                parent.store((i * MEMBERS_PER_TASK + j) as u32, Relaxed);
             }
         };
-        if n <= PART {
+        if n <= MEMBERS_PER_TASK {
             fill((0, &sets.0));
         } else {
-            sets.0.par_chunks(PART).enumerate().for_each(fill);
+            sets.0.par_chunks(MEMBERS_PER_TASK).enumerate().for_each(fill);
         }
         sets
     }
@@ -60,15 +60,20 @@ impl Sets {
         }
     }
 
-    /// Number of sets that hold a member for which `counts` says yes, and for each member the number of its set,
-    /// [`u32::MAX`] where `counts` says no. Sets are numbered by their least member. Members of one set must agree
-    /// about `counts`.
+    /// Number of sets that hold a member for which `counts` says yes, and for each member the number of its set. That is
+    /// [`u32::MAX`] where `counts` says no. Sets are numbered by their least member. Members of one set must agree about
+    /// `counts`.
     pub fn numbered(&self, counts: impl Fn(u32) -> bool + Sync) -> (usize, Vec<u32>) {
         let is_first = |i: &u32| self.0[*i as usize].load(Relaxed) == *i && counts(*i);
         let n = self.0.len();
-        let firsts: Vec<Vec<u32>> = (0..n.div_ceil(PART))
+        let firsts: Vec<Vec<u32>> = (0..n.div_ceil(MEMBERS_PER_TASK))
             .into_par_iter()
-            .map(|part| (part * PART..n.min((part + 1) * PART)).map(|i| i as u32).filter(is_first).collect())
+            .map(|part| {
+                (part * MEMBERS_PER_TASK..n.min((part + 1) * MEMBERS_PER_TASK))
+                    .map(|i| i as u32)
+                    .filter(is_first)
+                    .collect()
+            })
             .collect();
         let firsts = firsts.concat();
         let number_of = |i: u32| firsts.partition_point(|&f| f < self.root(i)) as u32;

@@ -1,8 +1,8 @@
 //! The smallest circle around points of the plane.
 //!
-//! The circle of at most three points is held; the point farthest outside joins them, and the smallest circle around these
-//! four is the next one. The radius grows in every round, so no set of three comes twice (the dual simplex method for this
-//! problem; B. Gärtner, Fast and robust smallest enclosing balls, 1999).
+//! The circle of at most three points is held. The point farthest outside joins them, and the smallest circle around these four
+//! is the next one. The radius grows in every round, so no set of three comes twice. (The dual simplex method for this problem;
+//! B. Gärtner, Fast and robust smallest enclosing balls, 1999.)
 
 /// The circle and the points on it.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,7 +14,7 @@ pub(super) struct Circle {
 }
 
 /// Rounding of distances, relative to the radius.
-const ROUNDING: f64 = 4.0 * f64::EPSILON;
+const RADIUS_ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// The smallest circle around all `points`; of none, a circle of radius 0 about the origin.
 pub(super) fn smallest(points: &[[f64; 2]]) -> Circle {
@@ -25,14 +25,14 @@ pub(super) fn smallest(points: &[[f64; 2]]) -> Circle {
     for _ in 0..points.len().max(64) {
         let far = |i: usize| distance(points[i], circle.center);
         let farthest = (0..points.len()).fold((0.0, 0), |m, i| if far(i) > m.0 { (far(i), i) } else { m });
-        if farthest.0 <= circle.radius * (1.0 + ROUNDING) || circle.touching.contains(&farthest.1) {
-            // What rounding leaves outside belongs to the zone.
+        if farthest.0 <= circle.radius * (1.0 + RADIUS_ROUNDING) || circle.touching.contains(&farthest.1) {
+            // Points that rounding leaves outside belong to the zone.
             circle.radius = circle.radius.max(farthest.0);
             break;
         }
         let mut four = circle.touching.clone();
         four.push(farthest.1);
-        match around_few(points, &four) {
+        match smallest_around(points, &four) {
             Some(next) if next.radius > circle.radius => circle = next,
             _ => break,
         }
@@ -45,14 +45,14 @@ fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
 }
 
 /// The smallest circle around at most four points: that of two or three of them that holds the others.
-fn around_few(points: &[[f64; 2]], few: &[usize]) -> Option<Circle> {
+fn smallest_around(points: &[[f64; 2]], chosen: &[usize]) -> Option<Circle> {
     let mut candidates = Vec::new();
-    for (k, &i) in few.iter().enumerate() {
-        for (l, &j) in few.iter().enumerate().skip(k + 1) {
+    for (k, &i) in chosen.iter().enumerate() {
+        for (l, &j) in chosen.iter().enumerate().skip(k + 1) {
             let (a, b) = (points[i], points[j]);
             let center = [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])];
             candidates.push(Circle { center, radius: 0.5 * distance(a, b), touching: vec![i, j] });
-            for &m in &few[l + 1..] {
+            for &m in &chosen[l + 1..] {
                 let center = through(a, b, points[m]);
                 candidates.extend(center.map(|center| {
                     let radius =
@@ -62,8 +62,9 @@ fn around_few(points: &[[f64; 2]], few: &[usize]) -> Option<Circle> {
             }
         }
     }
-    let holds =
-        |c: &Circle| few.iter().all(|&i| distance(points[i], c.center) <= c.radius * (1.0 + 4.0 * ROUNDING));
+    let holds = |c: &Circle| {
+        chosen.iter().all(|&i| distance(points[i], c.center) <= c.radius * (1.0 + 4.0 * RADIUS_ROUNDING))
+    };
     candidates.into_iter().filter(holds).min_by(|a, b| a.radius.total_cmp(&b.radius))
 }
 

@@ -1,8 +1,9 @@
 //! Two-point sizes (ISO 17450-3:2016, ISO 14405-1:2016, 3.6): the distance of two opposite places of a feature of size.
 //!
-//! Each measured point is one end. The other lies where the line through it, across the axis or along the common normal, meets the
-//! other side, which is interpolated among the points nearest to there: a plane of least squares through their heights, never beyond the
-//! heights themselves, or where they lie in a row the line between its two neighbors. A point whose other end is not between points has no size.
+//! Each measured point is one end. The other lies where the line through it, across the axis or along the common normal, meets
+//! the other side. That side is interpolated among the points nearest to there by a plane of least squares through their
+//! heights, never beyond the heights themselves. Where they lie in a row it is the line between its two neighbors. A point
+//! whose other end is not between points has no size.
 
 use crate::frame::Pose;
 use crate::num::dense::eigen;
@@ -12,15 +13,15 @@ use crate::space::{Point, Vector, dot, minus, plus, times, unit};
 use crate::spatial::neighbors::PointTree;
 
 /// Points that the other end is interpolated among.
-const AMONG: usize = 8;
+const INTERPOLATION_POINTS: usize = 8;
 /// Part of a turn, radians, beyond which neighbors tell nothing of a place on a cylinder.
-const REACH: f64 = std::f64::consts::FRAC_PI_4;
-/// Neighbors lie in a row where their moment across it is below this share of that along it: then they tell no slope across.
-const ROW: f64 = 0.03;
+const MAX_NEIGHBOR_TURN: f64 = std::f64::consts::FRAC_PI_4;
+/// Moment across a row over that along it below which neighbors lie in a row: then they tell no slope across.
+const MAX_ROW_MOMENT_SHARE: f64 = 0.03;
 /// Angle by which rounding may bend a row that a place is the middle of.
-const ROUNDING: f64 = 1e-9;
-/// How far beside a row a place may be, as a share of the row's root mean square length.
-const BESIDE: f64 = 0.3;
+const MAX_ROW_BEND: f64 = 1e-9;
+/// Distance from a row that a place may have, as a share of the row's root mean square length.
+const MAX_ROW_DISTANCE: f64 = 0.3;
 
 /// A two-point size.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,9 +32,9 @@ pub struct TwoPoint {
     pub ends: [Point; 2],
 }
 
-/// The two-point diameters of a cylinder or circle about the axis through `point` along `direction` (of length 1): one for each of
-/// `points` whose opposite place is between others, in their order. Millimeters. Points on the axis and those that are not
-/// finite have none. Cost: `n log n`.
+/// The two-point diameters of a cylinder or circle about the axis through `point` along `direction` (of length 1). There is one
+/// for each of `points` whose opposite place is between others, in their order. Millimeters. Points on the axis and those that
+/// are not finite have none. Cost: `n log n`.
 ///
 /// # Errors
 /// [`Cancelled`].
@@ -74,7 +75,7 @@ pub fn two_point_diameters(
         [Some(near(*turn)), (turn.abs() > std::f64::consts::FRAC_PI_2).then(|| near(beyond))]
     };
     let outside = places.iter().filter(|p| finite(p) && p[2] > 0.0);
-    let sheet = Sheet::of(outside.flat_map(unrolled).flatten().collect(), REACH * mean);
+    let sheet = Sheet::of(outside.flat_map(unrolled).flatten().collect(), MAX_NEIGHBOR_TURN * mean);
     let ends = |(p, [turn, along, radius]): (&Point, &[f64; 3])| {
         if progress.cancelled() {
             return Err(Cancelled);
@@ -92,9 +93,9 @@ pub fn two_point_diameters(
     Ok(all.into_iter().flatten().collect())
 }
 
-/// The two-point sizes of two opposite planes along their common `normal` (of length 1): of each point of either with a place
-/// opposite that is between points of the other; those of the first, then those of the second. Millimeters.
-/// Cost: `n log n`.
+/// The two-point sizes of two opposite planes along their common `normal` (of length 1). There is one for each point of either
+/// with a place opposite that is between points of the other. The sizes of the first come first, then those of the second.
+/// Millimeters. Cost: `n log n`.
 ///
 /// # Errors
 /// [`Cancelled`].
@@ -146,7 +147,7 @@ impl Sheet {
         if !(u.is_finite() && v.is_finite()) {
             return None;
         }
-        let near = self.tree.k_nearest(&[u, v, 0.0], AMONG, None);
+        let near = self.tree.k_nearest(&[u, v, 0.0], INTERPOLATION_POINTS, None);
         let away = near.iter().map(|(_, n)| self.places[*n as usize]).map(|[a, b, h]| [a - u, b - v, h]);
         let near: Vec<[f64; 3]> = away.filter(|[a, ..]| a.abs() <= self.reach).collect();
         if let Some([.., height]) = near.iter().find(|[a, b, _]| *a == 0.0 && *b == 0.0) {
@@ -156,8 +157,8 @@ impl Sheet {
     }
 }
 
-/// The height at the origin of a plane through heights at places around it, or between its neighbors where they lie in
-/// a row; `None` where the origin is not between them. No height is beyond the least and greatest of theirs.
+/// The height at the origin of a plane through heights at places around it, or between its neighbors where they lie in a row.
+/// `None` where the origin is not between them. No height is beyond the least and greatest of theirs.
 fn between(places: &[[f64; 3]]) -> Option<f64> {
     let n = places.len() as f64;
     let mean = [0, 1, 2].map(|k| places.iter().map(|p| p[k]).sum::<f64>() / n);
@@ -168,12 +169,12 @@ fn between(places: &[[f64; 3]]) -> Option<f64> {
     }
     let (moments, axes) = eigen(scatter);
     let along = |k: usize, p: &[f64; 3]| dot(axes[k], [p[0], p[1], 0.0]);
-    let row = moments[1] < ROW * moments[2];
+    let row = moments[1] < MAX_ROW_MOMENT_SHARE * moments[2];
     // The second axis is any one where all lie in a row exactly.
     let (middle, on) = (libm::hypot(mean[0], mean[1]), along(2, &mean));
-    let beside = (middle * middle - on * on).max(0.0).sqrt();
+    let off_row = (middle * middle - on * on).max(0.0).sqrt();
     if row {
-        return (beside <= BESIDE * (moments[2] / n).sqrt())
+        return (off_row <= MAX_ROW_DISTANCE * (moments[2] / n).sqrt())
             .then(|| in_row(places.iter().map(|p| [along(2, p), p[2]])))
             .flatten();
     }
@@ -183,7 +184,7 @@ fn between(places: &[[f64; 3]]) -> Option<f64> {
     (surrounded(places) && height.is_finite()).then(|| height.clamp(least, greatest))
 }
 
-/// The height at the origin of the plane of least squares through heights at places other than it, each with the inverse square of its
+/// The height at the origin of the plane of least squares through heights at other places. Each has the inverse square of its
 /// distance as its weight: far ones would take the crests off lobes of a few points.
 fn plane(places: &[[f64; 3]]) -> f64 {
     let weigh = |p: &[f64; 3]| 1.0 / (p[0] * p[0] + p[1] * p[1]);
@@ -202,8 +203,8 @@ fn plane(places: &[[f64; 3]]) -> f64 {
 /// The height at zero between the nearest place of a row before it and that behind it; `None` where one is missing.
 fn in_row(places: impl Iterator<Item = [f64; 2]> + Clone) -> Option<f64> {
     let [before, first] = places.clone().filter(|p| p[0] <= 0.0).max_by(|a, b| a[0].total_cmp(&b[0]))?;
-    let [behind, second] = places.filter(|p| p[0] >= 0.0).min_by(|a, b| a[0].total_cmp(&b[0]))?;
-    let way = behind - before;
+    let [after, second] = places.filter(|p| p[0] >= 0.0).min_by(|a, b| a[0].total_cmp(&b[0]))?;
+    let way = after - before;
     Some(if way > 0.0 { first - before / way * (second - first) } else { first })
 }
 
@@ -213,7 +214,7 @@ fn surrounded(places: &[[f64; 3]]) -> bool {
     turns.sort_by(f64::total_cmp);
     let (Some(first), Some(last)) = (turns.first(), turns.last()) else { return false };
     let around = first + std::f64::consts::TAU - last;
-    turns.windows(2).map(|w| w[1] - w[0]).fold(around, f64::max) <= std::f64::consts::PI + ROUNDING
+    turns.windows(2).map(|w| w[1] - w[0]).fold(around, f64::max) <= std::f64::consts::PI + MAX_ROW_BEND
 }
 
 #[cfg(test)]
@@ -255,8 +256,8 @@ mod tests {
         }
     }
 
-    /// Five lobes of 0.05 mm on a bore measured at 71 places of each level, farther apart along it than around: opposite a crest lies a trough,
-    /// and every size is twice the radius.
+    /// Five lobes of 0.05 mm on a bore measured at 71 places of each level, farther apart along it than around. Opposite a
+    /// crest lies a trough, and every size is twice the radius.
     #[test]
     fn lobes_are_not_smoothed_where_levels_are_far_apart() {
         for apart in [0.6, 0.9, 1.5, 4.0] {
@@ -317,8 +318,8 @@ mod tests {
         }
     }
 
-    /// Two rims of a bore, as a tessellated one has them: however little the points of a rim leave their row, the sizes change by no
-    /// more than the points do.
+    /// Two rims of a bore, as a tessellated one has them. However little the points of a rim leave their row, the sizes change
+    /// by no more than the points do.
     #[test]
     fn noise_changes_sizes_by_no_more_than_itself() {
         let mut random = Random::new(11);

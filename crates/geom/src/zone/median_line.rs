@@ -1,7 +1,7 @@
-//! The extracted median line of a cylinder (ISO 17450-3:2016): the centers of its sections across the associated axis, each the
-//! center of the circle of least squares.
+//! The extracted median line of a cylinder (ISO 17450-3:2016). It holds the centers of its sections across the associated axis,
+//! each the center of the circle of least squares.
 
-use super::sections::{FEWEST, sections};
+use super::sections::{MIN_POINTS_PER_RING, sections};
 use crate::fit::{FitError, Method, Options, fit};
 use crate::frame::Pose;
 use crate::progress::{Cancelled, Progress};
@@ -15,13 +15,13 @@ pub struct MedianLine {
     /// One for each section, in the order along the axis, mm.
     pub centers: Vec<Point>,
     /// Sections without a center: too few points, or half of the turn without any.
-    pub left_out: usize,
+    pub excluded: usize,
 }
 
 /// The median line of the cylinder with the axis through `point` along `direction` (any length but 0), from its points (mm).
 ///
-/// The sections are those of [`sections`]: rings where the points lie in such, else up to 24 of equal height, and then a bend
-/// shorter than a section is not seen. A point that is not finite belongs to none. Cost: `n log n`.
+/// The sections are those of [`sections`]. They are rings where the points lie in such. Else they are up to 24 of equal height,
+/// and then a bend shorter than a section is not seen. A point that is not finite belongs to none. Cost: `n log n`.
 ///
 /// # Errors
 /// [`Cancelled`].
@@ -54,7 +54,7 @@ pub fn median_line(
         let section: Vec<Point> = section.into_iter().map(|i| frame.local(points[i])).collect();
         match center(&section, progress)? {
             Some(center) => line.centers.push(global(&frame, center)),
-            None => line.left_out += 1,
+            None => line.excluded += 1,
         }
     }
     Ok(line)
@@ -67,7 +67,7 @@ fn global(frame: &Pose, local: Point) -> Point {
 
 /// The center of a section, at its mean height. `None` where the points do not go around.
 fn center(section: &[Point], progress: &dyn Progress) -> Result<Option<Point>, Cancelled> {
-    if section.len() < FEWEST {
+    if section.len() < MIN_POINTS_PER_RING {
         return Ok(None);
     }
     let flat: Vec<Point> = section.iter().map(|[x, y, _]| [*x, *y, 0.0]).collect();
@@ -110,11 +110,12 @@ mod tests {
         (0..count).map(|_| at()).collect()
     }
 
-    /// Of a scan each section has the bow of its height; sections are 4 mm high, the bow bends by less than 1e-4 within one.
+    /// Each section of a scan has the bow of its height. Sections are 4 mm high, and the bow bends by less than 1e-4 within
+    /// one.
     #[test]
     fn the_centers_of_a_bent_pin_lie_on_its_bow() {
         let line = median_line(&scan(20_000, TAU), [0.0; 3], [0.0, 0.0, 2.0], &Silent).unwrap();
-        assert_eq!((line.centers.len(), line.left_out), (24, 0));
+        assert_eq!((line.centers.len(), line.excluded), (24, 0));
         for [x, y, z] in line.centers {
             assert!((x - bow(z)).abs() < 1e-3 && y.abs() < 1e-3, "{x} {y} {z}");
         }
@@ -124,7 +125,7 @@ mod tests {
     #[test]
     fn half_a_pin_has_no_median_line() {
         let half = median_line(&scan(2000, 0.9 * PI), [0.0; 3], [0.0, 0.0, 1.0], &Silent).unwrap();
-        assert!(half.centers.is_empty() && half.left_out == 24);
+        assert!(half.centers.is_empty() && half.excluded == 24);
         let mut points = scan(2000, TAU);
         let sound = median_line(&points, [0.0; 3], [0.0, 0.0, 1.0], &Silent).unwrap();
         points.push([f64::NAN, 0.0, 0.0]);

@@ -1,7 +1,7 @@
 //! Tolerance zones: the smallest zone of a given form and attitude that holds all points.
 //!
-//! A zone of form alone is a fit ([`crate::fit`] by minimum zone). The zones here are held by datums: their direction is
-//! given, or stands at a given angle to a given direction and is free to turn about it, or a frame leaves some motions free.
+//! A zone of form alone is a fit ([`crate::fit`] by minimum zone). Datums hold the zones here. Their direction is given, or
+//! stands at a given angle to a given direction and is free to turn about it. Or a frame leaves some motions free.
 //!
 //! | zone | where |
 //! |---|---|

@@ -1,26 +1,26 @@
 //! The motion, among those left free, that brings points nearest to a true geometry: least greatest distance.
 //!
-//! A sequence of linear programs in the free small motions about where the points stand, each within a box that grows while
-//! the linear model holds (R. Fletcher, Practical Methods of Optimization, 1987, section 14), over a working set that takes
-//! in what sticks out most.
+//! A sequence of linear programs in the free small motions about where the points stand. Each stays within a box that grows
+//! while the linear model holds. (R. Fletcher, Practical Methods of Optimization, 1987, section 14.) They go over a working set
+//! that takes in the points that stick out most.
 
 use super::datum::Freedom;
 use super::error::{ZoneError, sane};
-use crate::fit::{Function, lowest};
+use crate::fit::{Function, MAX_JOINING_POINTS, MAX_POINTS_ALL_WORKING, lowest};
 use crate::parallel::prelude::*;
 use crate::progress::Progress;
 use crate::rigid::Rigid;
 use crate::space::{Aabb, Point, Vector, cross, minus, norm, plus, times};
 
-/// Distance of a place from the true geometry, with the sign that the geometry gives it, and its gradient: a unit vector
-/// where the distance is not zero. `None` where the geometry has no answer. The index is that of the point that came to lie
-/// there: points may have geometries of their own.
+/// Distance of a place from the true geometry, with the sign that the geometry gives it, and its gradient. The gradient is a
+/// unit vector where the distance is not zero. `None` where the geometry has no answer. The index is that of the point that
+/// came to lie there: points may have geometries of their own.
 pub type Distance<'a> = dyn Fn(usize, Point) -> Option<(f64, Vector)> + Sync + 'a;
 
 /// Where the points come to lie.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Placed {
-    /// Half the width of the narrowest zone about the geometry (or about its offset by the middle) that holds all points:
+    /// Half the width of the narrowest zone about the geometry (or about its offset by the middle) that holds all points. It is
     /// the greatest magnitude of the distances less the middle.
     pub half: f64,
     /// Takes the coordinates of the points to those in which the geometry stands.
@@ -31,12 +31,8 @@ pub struct Placed {
     pub max: (f64, usize),
 }
 
-/// Points up to which all are in the working set.
-const SMALL: usize = 2000;
-/// Points that join the working set in one round.
-const JOINING: usize = 24;
 /// Most linear programs of one working set.
-const STEPS: usize = 250;
+const MAX_WORKING_SET_STEPS: usize = 250;
 
 /// How the search is set up.
 #[derive(Clone, Copy, Debug)]
@@ -88,12 +84,13 @@ pub fn placed(
     placed_within(points, distance, &[], search, progress)
 }
 
-/// As [`placed`], where each point has a `room` of its own that is taken off its magnitude before the greatest counts, millimeters: half the
-/// width of the zone that it may fill. `half` is the greatest excess, negative where all points are within their rooms. Without any rooms
-/// (an empty list) it is [`placed`]; a list of another length than `points` has rooms of zero where it lacks them.
+/// As [`placed`], where each point has a `room` of its own, millimeters: half the width of the zone that it may fill. It is
+/// taken off the point's magnitude before the greatest counts. `half` is the greatest excess, negative where all points are
+/// within their rooms. Without any rooms (an empty list) it is [`placed`]; a list of another length than `points` has rooms of
+/// zero where it lacks them.
 ///
 /// # Errors
-/// Those of [`placed`].
+/// The errors of [`placed`].
 ///
 /// ```
 /// use trueness_geom::progress::Silent;
@@ -118,11 +115,11 @@ pub fn placed_within(
     placed_from(points, distance, room, &[], search, progress)
 }
 
-/// As [`placed_within`], with the points numbered in `first` in the working set from the beginning: those that stick out at the start keep a search over many points
-/// near it.
+/// As [`placed_within`], with the points numbered in `first` in the working set from the beginning. Points that stick out at
+/// the start keep a search over many points near it.
 ///
 /// # Errors
-/// Those of [`placed`].
+/// The errors of [`placed`].
 pub(crate) fn placed_from(
     points: &[Point],
     distance: &Distance,
@@ -141,7 +138,11 @@ pub(crate) fn placed_from(
     if search.free.is_none() && !search.floating {
         return work.surveyed(search.middle, &motion).map(|s| s.placed(search, &motion));
     }
-    let stride = if points.len() <= SMALL { 1 } else { points.len().div_ceil(SMALL / 4) };
+    let stride = if points.len() <= MAX_POINTS_ALL_WORKING {
+        1
+    } else {
+        points.len().div_ceil(MAX_POINTS_ALL_WORKING / 4)
+    };
     let mut working: Vec<usize> = (0..points.len()).step_by(stride).collect();
     working.extend(first.iter().filter(|i| !i.is_multiple_of(stride)));
     let mut middle = search.middle;
@@ -155,10 +156,10 @@ pub(crate) fn placed_from(
         let before = working.len();
         if all.half > low.half {
             let mut out: Vec<usize> =
-                (0..points.len()).filter(|&i| work.off(i, all.values[i], middle) > low.half).collect();
-            let far = |i: &usize| work.off(*i, all.values[*i], middle);
+                (0..points.len()).filter(|&i| work.excess(i, all.values[i], middle) > low.half).collect();
+            let far = |i: &usize| work.excess(*i, all.values[*i], middle);
             out.sort_by(|i, j| far(j).total_cmp(&far(i)).then(i.cmp(j)));
-            out.truncate(JOINING);
+            out.truncate(MAX_JOINING_POINTS);
             out.retain(|i| !working.contains(i));
             working.extend(out);
         }
@@ -206,7 +207,7 @@ impl Surveyed {
 }
 
 /// Unknowns: three shifts, three turns, the middle.
-const UNKNOWNS: usize = 7;
+const MOTION_UNKNOWNS: usize = 7;
 
 impl Work<'_> {
     fn room(&self, i: usize) -> f64 {
@@ -214,7 +215,7 @@ impl Work<'_> {
     }
 
     /// How far the distance of point `i` is out of the middle and its room, on the sides that count.
-    fn off(&self, i: usize, d: f64, middle: f64) -> f64 {
+    fn excess(&self, i: usize, d: f64, middle: f64) -> f64 {
         let out = if self.search.outer { d - middle } else { (d - middle).abs() };
         out - self.room(i)
     }
@@ -229,7 +230,7 @@ impl Work<'_> {
             return Err(ZoneError::NotFinite { index });
         }
         let values: Vec<f64> = values.into_iter().flatten().collect();
-        let off = values.iter().enumerate().map(|(i, d)| self.off(i, *d, middle));
+        let off = values.iter().enumerate().map(|(i, d)| self.excess(i, *d, middle));
         let half = off.fold(f64::NEG_INFINITY, f64::max);
         Ok(Surveyed { values, half })
     }
@@ -237,7 +238,7 @@ impl Work<'_> {
     fn greatest(&self, working: &[usize], motion: &Rigid, middle: f64) -> Option<f64> {
         working.iter().try_fold(f64::NEG_INFINITY, |most, &i| {
             let (d, _) = (self.distance)(i, motion.point(self.points[i]))?;
-            d.is_finite().then(|| most.max(self.off(i, d, middle)))
+            d.is_finite().then(|| most.max(self.excess(i, d, middle)))
         })
     }
 
@@ -254,7 +255,12 @@ impl Work<'_> {
     }
 
     /// Both sides of each point's zone, and how they answer to the free motions.
-    fn functions(&self, working: &[usize], motion: &Rigid, middle: f64) -> Option<Vec<Function<UNKNOWNS>>> {
+    fn functions(
+        &self,
+        working: &[usize],
+        motion: &Rigid,
+        middle: f64,
+    ) -> Option<Vec<Function<MOTION_UNKNOWNS>>> {
         let mut all = Vec::with_capacity(2 * working.len());
         for &i in working {
             let p = motion.point(self.points[i]);
@@ -262,7 +268,7 @@ impl Work<'_> {
             let lever = times(1.0 / self.reach, cross(minus(p, self.turning()), gradient));
             let free = self.search.free;
             let held = |free: bool, x: f64| if free { x } else { 0.0 };
-            let mut slope: [f64; UNKNOWNS] = std::array::from_fn(|k| match k {
+            let mut slope: [f64; MOTION_UNKNOWNS] = std::array::from_fn(|k| match k {
                 0..3 => held(free.shift[k], gradient[k]),
                 3..6 => held(free.turn[k - 3], lever[k - 3]),
                 _ => 0.0,
@@ -279,14 +285,14 @@ impl Work<'_> {
 
     /// The step without what is held: no function tells the program where those unknowns are, so it leaves them at a side of
     /// the box.
-    fn freed(&self, mut x: [f64; UNKNOWNS]) -> [f64; UNKNOWNS] {
+    fn freed(&self, mut x: [f64; MOTION_UNKNOWNS]) -> [f64; MOTION_UNKNOWNS] {
         let Search { free, floating, .. } = self.search;
         let all = free.shift.iter().chain(&free.turn).chain([floating]);
         x.iter_mut().zip(all).filter(|(_, free)| !**free).for_each(|(x, _)| *x = 0.0);
         x
     }
 
-    fn stepped(&self, motion: &Rigid, x: &[f64; UNKNOWNS]) -> Rigid {
+    fn stepped(&self, motion: &Rigid, x: &[f64; MOTION_UNKNOWNS]) -> Rigid {
         let turn = times(1.0 / self.reach, [x[3], x[4], x[5]]);
         let turned = Rigid::rotation_about(self.turning(), turn);
         Rigid::translation_by([x[0], x[1], x[2]]).after(&turned).after(motion)
@@ -310,7 +316,7 @@ impl Work<'_> {
         let lost = ZoneError::NotSettled;
         let mut half = self.greatest(working, &motion, middle).ok_or(lost)?;
         let mut reach = 4.0 * self.range(working, &motion, middle, half).max(1e-9);
-        for _ in 0..STEPS {
+        for _ in 0..MAX_WORKING_SET_STEPS {
             let functions = self.functions(working, &motion, middle).ok_or(lost)?;
             let program = lowest(&functions, reach).ok_or(lost)?;
             let step = self.freed(program.x);

@@ -97,8 +97,8 @@ mod tests {
         (side(0.0), side(7.0))
     }
 
-    /// What is asked of a pair with this normal: the least (greatest) distance of planes that hold all (no) points between
-    /// them; of the minimax pair, the greatest distance from the own plane.
+    /// The measure of a pair with this normal. It is the least (greatest) distance of planes that hold all (no) points between
+    /// them. For the minimax pair it is the greatest distance from the own plane.
     fn asked(first: &[Point], second: &[Point], n: Vector, method: Method) -> f64 {
         let range = |points: &[Point]| {
             let h = points.iter().map(|p| dot(*p, n));
@@ -112,7 +112,7 @@ mod tests {
         }
     }
 
-    /// Of many normals near the one that was found none is better, and the distance is that of its normal.
+    /// Many normals near the one found are tried: none is better, and the distance is that of its normal.
     #[test]
     fn no_pair_nearby_is_better() {
         for seed in 0..20 {

@@ -53,13 +53,13 @@ fn across(points: &[Point], normal: Vector) -> Slab {
 }
 
 /// Points up to which all are searched at once.
-const SMALL: usize = 4096;
+const MAX_POINTS_AT_ONCE: usize = 4096;
 /// Points of the first working set, where there are more.
-const SPREAD: usize = 512;
+const SPREAD_POINTS: usize = 512;
 
-/// The narrowest planes whose normal stands at `angle` (radians, 0 to π/2) to `axis` and is free to turn about it: zones of
-/// perpendicularity and angularity to a single datum (ISO 1101:2017, 17.11 and 17.12: the zone is held by the datum in its
-/// angle alone).
+/// The narrowest planes whose normal stands at `angle` (radians, 0 to π/2) to `axis` and is free to turn about it. They are
+/// zones of perpendicularity and angularity to a single datum, which holds the zone in its angle alone (ISO 1101:2017, 17.11
+/// and 17.12).
 ///
 /// The least over the whole turn, to rounding. Some thousand passes over a working set, and one over all points for each of
 /// a few rounds of exchange.
@@ -81,7 +81,7 @@ pub fn slab_at_angle(points: &[Point], axis: Vector, angle: f64) -> Result<Slab,
     }
     let cone = Cone::about(axis, angle).ok_or(ZoneError::NoDirection)?;
     let pick = |index: &usize| points[*index];
-    let stride = if points.len() <= SMALL { 1 } else { points.len() / SPREAD };
+    let stride = if points.len() <= MAX_POINTS_AT_ONCE { 1 } else { points.len() / SPREAD_POINTS };
     let mut working: Vec<Point> = points.iter().step_by(stride).copied().collect();
     // Each round takes in the two points that stick out most; the working set's least is a lower bound of all points'.
     loop {
@@ -104,9 +104,9 @@ pub fn slab_at_angle(points: &[Point], axis: Vector, angle: f64) -> Result<Slab,
     }
 }
 
-/// The two parallel planes with the least sum of squared distances, each from its own points (mm): their common unit normal,
-/// from the first to the second, and their distance. `None` where the points determine no direction: fewer than two points
-/// more than planes and directions, or all in one line.
+/// The two parallel planes with the least sum of squared distances, each from its own points (mm). Returns their common unit
+/// normal, from the first to the second, and their distance. `None` where the points determine no direction: fewer than two
+/// points more than planes and directions, or all in one line.
 ///
 /// ```
 /// let floor = [[0.0, 0.0, 0.0], [9.0, 0.0, 0.0], [0.0, 9.0, 0.0]];

@@ -3,18 +3,18 @@
 use crate::space::{Point, Vector, dot, minus};
 
 /// Most sections that points which lie in no rings are sorted into.
-const SECTIONS: usize = 24;
-/// Points that each of these sections has on average, at least: noise moves its center by 0.3 of itself or less.
-const POINTS: usize = 24;
+const MAX_SECTIONS: usize = 24;
+/// Least points that each of these sections has on average: noise moves its center by 0.3 of itself or less.
+const MIN_POINTS_PER_SECTION: usize = 24;
 /// Fewest points of a ring.
-pub(super) const FEWEST: usize = 6;
+pub(super) const MIN_POINTS_PER_RING: usize = 6;
 /// Share of the extent along the direction: a gap above it separates two rings, and no ring is higher.
-const APART: f64 = 0.01;
+const RING_GAP_SHARE: f64 = 0.01;
 
 /// The sections of points (mm) across a direction (of length 1), each by the indices of its points, in the order along it.
 ///
-/// Points that were taken in thin rings or rows across the direction, at least three with six points each, have a section for each;
-/// others are sorted into up to 24 sections of equal height with 24 points or more on average. A point that is not finite
+/// Points that were taken in thin rings or rows across the direction, at least three with six points each, have a section for
+/// each. Others are sorted into up to 24 sections of equal height with 24 points or more on average. A point that is not finite
 /// belongs to none. Cost: `n log n`.
 ///
 /// ```
@@ -41,16 +41,17 @@ type Heights = [(f64, usize)];
 /// The rings that points lie in, if they do.
 fn rings(sorted: &Heights) -> Option<Vec<&Heights>> {
     let extent = sorted.last()?.0 - sorted.first()?.0;
-    let found: Vec<&Heights> = sorted.chunk_by(|a, b| b.0 - a.0 <= APART * extent).collect();
-    // What is between two gaps of a scan is no ring.
-    let thin = |ring: &Heights| ring[ring.len() - 1].0 - ring[0].0 <= APART * extent;
-    (found.len() >= 3 && found.iter().all(|ring| ring.len() >= FEWEST && thin(ring))).then_some(found)
+    let found: Vec<&Heights> = sorted.chunk_by(|a, b| b.0 - a.0 <= RING_GAP_SHARE * extent).collect();
+    // The points between two gaps of a scan are no ring.
+    let thin = |ring: &Heights| ring[ring.len() - 1].0 - ring[0].0 <= RING_GAP_SHARE * extent;
+    (found.len() >= 3 && found.iter().all(|ring| ring.len() >= MIN_POINTS_PER_RING && thin(ring)))
+        .then_some(found)
 }
 
 /// Sections of equal height; some may have no points.
 fn slabs(sorted: &Heights) -> Vec<&Heights> {
     let (Some(first), Some(last)) = (sorted.first(), sorted.last()) else { return vec![] };
-    let count = (sorted.len() / POINTS).clamp(1, SECTIONS);
+    let count = (sorted.len() / MIN_POINTS_PER_SECTION).clamp(1, MAX_SECTIONS);
     let height = (last.0 - first.0) / count as f64;
     let ends = (1..count).map(|k| sorted.partition_point(|p| p.0 < first.0 + height * k as f64));
     let mut start = 0;

@@ -1,46 +1,48 @@
 //! The form below the noise: heights over an element, as they would be if nothing but noise were taken off them.
 //!
-//! Waves first: polynomials of the places, restricted to the surface, of as many degrees as lower the estimated risk (Mallows: Some comments on
-//! Cp, Technometrics 15, 1973; with correlated noise each coefficient has the variance that the noise gives it), and of these what stands out
-//! of the noise. On a plane they are polynomials of two coordinates, about a cylinder waves around times polynomials along, on a sphere
-//! spherical harmonics: the basis grows by a coordinate at a time and keeps what is new (Brubeck, Nakatsukasa, Trefethen: Vandermonde with
-//! Arnoldi, SIAM Review 63, 2021), so no shape has parameters of its own here. Then single places that no wave and no noise explains. What is
-//! left, if it is larger than noise, is a rough form: it is kept in the size that its variance tells.
+//! Waves come first: polynomials of the places, restricted to the surface, of as many degrees as lower the estimated risk.
+//! (Mallows: Some comments on Cp, Technometrics 15, 1973.) With correlated noise each coefficient has the variance that the
+//! noise gives it. Only polynomials that stand out of the noise are kept. On a plane they are polynomials of two coordinates,
+//! about a cylinder waves around times polynomials along, on a sphere spherical harmonics. The basis grows by a coordinate at a
+//! time and keeps new functions alone, so no shape has parameters of its own here. (Brubeck, Nakatsukasa, Trefethen:
+//! Vandermonde with Arnoldi, SIAM Review 63, 2021.) Then single places that no wave and no noise explains. The rest, if it is
+//! larger than noise, is a rough form. It is kept in the size that its variance tells.
 
 use crate::num::banded::dot;
 use crate::num::random::Random;
 use crate::space::{Aabb, Point};
 
-/// Functions at most.
-const MOST: usize = 120;
+/// Most functions.
+const MAX_FUNCTIONS: usize = 120;
 /// Multiplications that the basis may cost, about.
-const WORK: f64 = 4e8;
-/// Share of the points that functions may be.
-const OF_POINTS: usize = 4;
-/// Share of its own size that a function must have beside the others to be a new one.
-const NEW: f64 = 1e-6;
+const MAX_BASIS_WORK: f64 = 4e8;
+/// Least points for each function.
+const POINTS_PER_FUNCTION: usize = 4;
+/// Share of its own size that a function must have beyond the others to be a new one.
+const MIN_NEW_FUNCTION_SHARE: f64 = 1e-6;
 /// Standard deviations of its noise from which on a coefficient stands out.
-const STANDS_OUT: f64 = 2.0;
-/// Deviations of the noise beyond the greatest to be expected of all from which on a place is single.
-const SINGLE: f64 = 0.7;
-/// Of so many places one at most is single: else they are a rough form.
-const OF_PLACES: usize = 20;
-/// Rounds in which waves and single places are parted.
-const ROUNDS: usize = 6;
+const SIGNIFICANT_SIGMAS: f64 = 2.0;
+/// Deviations of the noise beyond the greatest to be expected of all, from which on a place is single.
+const SINGLE_PLACE_EXCESS: f64 = 0.7;
+/// Places for each single one at least: more single ones are a rough form.
+const PLACES_PER_SINGLE: usize = 20;
+/// Most rounds in which waves and single places are parted.
+const MAX_PARTING_ROUNDS: usize = 6;
 /// Draws that tell a mean range, to about 3 %.
-const RANGES: usize = 16;
+const RANGE_DRAWS: usize = 16;
 /// Standard errors of a variance beyond which it is larger than that of the noise.
-const CLEAR: f64 = 3.0;
+const LARGER_VARIANCE_ERRORS: f64 = 3.0;
 
 /// A form below noise.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Smooth {
     /// As many heights as were given, millimeters.
     pub heights: Vec<f64>,
-    /// Range of the noise that is left in its waves and single places over the range of the noise of the points, 0 to 1: how far its extremes
-    /// stand out too far.
+    /// Range of the noise left in its waves and single places over the range of the noise of the points, 0 to 1. It tells how
+    /// far its extremes stand out too far.
     pub noise_left: f64,
-    /// Share of the rest beside waves and single places that is kept as a rough form, 0 to 1: its places are not known one by one.
+    /// Share of the rest beyond waves and single places that is kept as a rough form, 0 to 1. Its places are not known one by
+    /// one.
     pub rough: f64,
 }
 
@@ -68,14 +70,14 @@ pub fn smooth(places: &[Point], heights: &[f64], noise: f64, drawn: &[Vec<f64>])
     let basis = Basis::new(places);
     let variances = basis.variances(noise, drawn);
     let n = heights.len();
-    let limit = noise * ((2.0 * libm::log(n as f64)).sqrt() + SINGLE);
+    let limit = noise * ((2.0 * libm::log(n as f64)).sqrt() + SINGLE_PLACE_EXCESS);
     let mut single = vec![0.0; n];
     let mut waves = basis.waves(heights, &variances);
-    for _ in 0..ROUNDS {
+    for _ in 0..MAX_PARTING_ROUNDS {
         let beyond = |(h, w): (&f64, &f64)| if (h - w).abs() > limit { h - w } else { 0.0 };
         let next: Vec<f64> = heights.iter().zip(&waves.heights).map(beyond).collect();
         let count = next.iter().filter(|s| **s != 0.0).count();
-        if count * OF_PLACES > n {
+        if count * PLACES_PER_SINGLE > n {
             single = vec![0.0; n];
             waves = basis.waves(heights, &variances);
             break;
@@ -91,12 +93,12 @@ pub fn smooth(places: &[Point], heights: &[f64], noise: f64, drawn: &[Vec<f64>])
     let rest: Vec<f64> = (0..n).map(|i| heights[i] - waves.heights[i] - single[i]).collect();
     let squares: f64 = rest.iter().map(|r| r * r).sum();
     let of_noise = n as f64 * noise * noise;
-    let expected = (of_noise - waves.taken).max(0.0);
-    let clear = 1.0 + CLEAR * (2.0 / n as f64).sqrt();
+    let expected = (of_noise - waves.noise_squares).max(0.0);
+    let clear = 1.0 + LARGER_VARIANCE_ERRORS * (2.0 / n as f64).sqrt();
     let rough = if squares > clear * expected { (1.0 - expected / squares).sqrt() } else { 0.0 };
     Smooth {
         heights: (0..n).map(|i| waves.heights[i] + single[i] + rough * rest[i]).collect(),
-        noise_left: basis.left(waves.degrees, &single, (&variances, noise, drawn)),
+        noise_left: basis.remaining(waves.degrees, &single, (&variances, noise, drawn)),
         rough,
     }
 }
@@ -112,7 +114,7 @@ struct Basis {
 struct Waves {
     heights: Vec<f64>,
     /// Sum of squares of the noise in the functions that are used.
-    taken: f64,
+    noise_squares: f64,
     /// Functions of the degrees among which they were chosen.
     degrees: usize,
 }
@@ -121,13 +123,15 @@ impl Basis {
     /// As many whole degrees as points and time allow.
     fn new(places: &[Point]) -> Basis {
         let n = places.len();
-        let most = MOST.min(n / OF_POINTS).min((WORK / n as f64).sqrt() as usize);
+        let most =
+            MAX_FUNCTIONS.min(n / POINTS_PER_FUNCTION).min((MAX_BASIS_WORK / n as f64).sqrt() as usize);
         let bounds = Aabb::of(places);
         let half = 0.5 * bounds.diagonal();
         let coordinate = |k: usize| -> Option<Vec<f64>> {
             let (middle, reach) =
                 (0.5 * (bounds.min[k] + bounds.max[k]), 0.5 * (bounds.max[k] - bounds.min[k]));
-            (reach > NEW * half).then(|| places.iter().map(|p| (p[k] - middle) / reach).collect())
+            (reach > MIN_NEW_FUNCTION_SHARE * half)
+                .then(|| places.iter().map(|p| (p[k] - middle) / reach).collect())
         };
         let coordinates: Vec<Vec<f64>> = (0..3).filter_map(coordinate).collect();
         let mut functions = vec![vec![1.0 / (n as f64).sqrt(); n]];
@@ -141,7 +145,7 @@ impl Basis {
                     break;
                 }
                 let grown = functions[last].iter().zip(axis).map(|(f, x)| f * x).collect();
-                functions.extend(beside(grown, &functions));
+                functions.extend(orthogonal_part(grown, &functions));
             }
             if functions.len() > most || functions.len() == end {
                 functions.truncate(end);
@@ -175,19 +179,19 @@ impl Basis {
             }
         }
         let mut waves = vec![0.0; heights.len()];
-        let mut taken = 0.0;
+        let mut noise_squares = 0.0;
         for j in 0..degrees {
             let c = coefficients[j];
-            if c * c > STANDS_OUT * STANDS_OUT * variances[j] {
-                taken += variances[j];
+            if c * c > SIGNIFICANT_SIGMAS * SIGNIFICANT_SIGMAS * variances[j] {
+                noise_squares += variances[j];
                 waves.iter_mut().zip(&self.functions[j]).for_each(|(w, f)| *w += c * f);
             }
         }
-        Waves { heights: waves, taken, degrees }
+        Waves { heights: waves, noise_squares, degrees }
     }
 
     /// The mean range of noise in the first `degrees` functions and at single places, which keep theirs, over that of the noise itself.
-    fn left(
+    fn remaining(
         &self,
         degrees: usize,
         single: &[f64],
@@ -195,8 +199,8 @@ impl Basis {
     ) -> f64 {
         let random = &mut Random::new(0);
         let n = self.functions[0].len();
-        let (mut left, mut whole) = (0.0, 0.0);
-        for draw in 0..RANGES {
+        let (mut remaining, mut whole) = (0.0, 0.0);
+        for draw in 0..RANGE_DRAWS {
             let mut waves = vec![0.0; n];
             for (f, v) in self.functions[..degrees].iter().zip(variances) {
                 let c = v.sqrt() * normal(random);
@@ -207,18 +211,18 @@ impl Basis {
                 .zip(single)
                 .filter(|s| *s.1 != 0.0)
                 .for_each(|(w, _)| *w = noise * normal(random));
-            left += range(&waves);
+            remaining += range(&waves);
             whole += match drawn.get(draw) {
                 Some(drawn) => range(drawn),
                 None => noise * range(&(0..n).map(|_| normal(random)).collect::<Vec<_>>()),
             };
         }
-        if whole > 0.0 { (left / whole).min(1.0) } else { 0.0 }
+        if whole > 0.0 { (remaining / whole).min(1.0) } else { 0.0 }
     }
 }
 
-/// What a function has beside orthonormal others, of unit length; `None` where that is nothing.
-fn beside(mut function: Vec<f64>, others: &[Vec<f64>]) -> Option<Vec<f64>> {
+/// The part of a function orthogonal to orthonormal others, of unit length; `None` where that is nothing.
+fn orthogonal_part(mut function: Vec<f64>, others: &[Vec<f64>]) -> Option<Vec<f64>> {
     let whole = dot(&function, &function).sqrt();
     // Twice is enough (Giraud, Langou, Rozložník, 2005).
     for _ in 0..2 {
@@ -227,11 +231,11 @@ fn beside(mut function: Vec<f64>, others: &[Vec<f64>]) -> Option<Vec<f64>> {
             function.iter_mut().zip(other).for_each(|(f, o)| *f -= c * o);
         }
     }
-    let left = dot(&function, &function).sqrt();
-    if left.is_nan() || left <= NEW * whole {
+    let remaining = dot(&function, &function).sqrt();
+    if remaining.is_nan() || remaining <= MIN_NEW_FUNCTION_SHARE * whole {
         return None;
     }
-    function.iter_mut().for_each(|f| *f /= left);
+    function.iter_mut().for_each(|f| *f /= remaining);
     Some(function)
 }
 
@@ -284,7 +288,7 @@ mod tests {
         }
     }
 
-    /// Of noise alone next to nothing is left; of three lobes the lobes, to the noise of the few waves that they are.
+    /// Next to nothing is left of noise alone. Three lobes remain, to the noise of the few waves that they are.
     #[test]
     fn lobes_are_told_from_noise() {
         let places = cylinder();
@@ -320,7 +324,7 @@ mod tests {
         assert!(form.heights.iter().enumerate().all(|(i, h)| i == 77 || h.abs() < 1.0));
         // The noise of that place stays: its mean size is 0.8 deviations, of a range of 5.9.
         assert!((0.08..0.3).contains(&form.noise_left), "{}", form.noise_left);
-        // Of a rough form of twice the noise about that variance.
+        // About that variance is left of a rough form of twice the noise.
         let heights: Vec<f64> = places.iter().map(|_| 2.0 * normal(random) + normal(random)).collect();
         let form = smooth(&places, &heights, 1.0, &[]);
         let variance = form.heights.iter().map(|h| h * h).sum::<f64>() / 400.0;

@@ -18,7 +18,7 @@ pub struct Texture {
     pub sku: Option<f64>,
 }
 
-/// The parameters of `heights` above the form, each with its area as weight; `None` without heights, where a number is not
+/// The parameters of `heights` above the form, each with its area as weight. `None` without heights, where a number is not
 /// finite, or where the areas do not sum to more than zero. The mean height is taken off first: it belongs to the form.
 ///
 /// ```

@@ -33,10 +33,10 @@ pub struct Tube {
 /// ```
 pub fn tube(points: &[Point], direction: Vector) -> Result<Tube, ZoneError> {
     sane(points)?;
-    along(points, direction).ok_or(ZoneError::NoDirection)
+    tube_along(points, direction).ok_or(ZoneError::NoDirection)
 }
 
-fn along(points: &[Point], direction: Vector) -> Option<Tube> {
+fn tube_along(points: &[Point], direction: Vector) -> Option<Tube> {
     let (direction, _) = unit(direction)?;
     let seen = Rigid::into_frame(points[0], direction, least_axis(direction))?;
     let [u, v, _] = seen.rotation();
@@ -52,8 +52,8 @@ fn along(points: &[Point], direction: Vector) -> Option<Tube> {
     Some(Tube { point, direction, diameter: 2.0 * circle.radius, touching: circle.touching })
 }
 
-/// The thinnest cylinder whose direction stands at `angle` (radians, 0 to π/2) to `axis` and is free to turn about it: the
-/// angularity of an axis to a single datum (ISO 1101:2017, 17.12).
+/// The thinnest cylinder whose direction stands at `angle` (radians, 0 to π/2) to `axis` and is free to turn about it. It is
+/// the angularity of an axis to a single datum (ISO 1101:2017, 17.12).
 ///
 /// The least over the whole turn, to rounding. Some thousand passes over the points; meant for the points of an axis.
 ///
@@ -62,6 +62,6 @@ fn along(points: &[Point], direction: Vector) -> Option<Tube> {
 pub fn tube_at_angle(points: &[Point], axis: Vector, angle: f64) -> Result<Tube, ZoneError> {
     sane(points)?;
     let cone = Cone::about(axis, angle).ok_or(ZoneError::NoDirection)?;
-    let diameter = |direction: Vector| along(points, direction).map_or(f64::INFINITY, |t| t.diameter);
-    along(points, cone.direction(cone.least(diameter))).ok_or(ZoneError::NoDirection)
+    let diameter = |direction: Vector| tube_along(points, direction).map_or(f64::INFINITY, |t| t.diameter);
+    tube_along(points, cone.direction(cone.least(diameter))).ok_or(ZoneError::NoDirection)
 }

@@ -26,7 +26,7 @@ pub fn aligned_to(found: &Alignment, reference: String) -> AlignedTo {
         mean_abs: found.mean_abs,
         iterations: found.iterations as u64,
         converged: found.converged,
-        left_out: found.left_out,
+        left_out: found.excluded_points,
         warnings: found.warnings.iter().map(note).collect(),
     }
 }
@@ -63,7 +63,7 @@ pub fn best_fit(found: &Alignment, inputs: Vec<InputRecord>, seed: u64) -> Align
         best_fit: Some(BestFitRecord {
             median: found.median,
             used: found.used,
-            left_out: found.left_out,
+            left_out: found.excluded_points,
             share: found.share,
             center: found.center,
             covariance: found.covariance,
@@ -94,10 +94,10 @@ pub fn minimax(found: &Minimax, from: &Alignment, inputs: Vec<InputRecord>, seed
             greatest: found.greatest,
             at: found.at,
             used: found.used,
-            left_out: found.left_out.count,
-            left_out_farthest: farthest(&found.left_out),
+            left_out: found.not_counted.count,
+            left_out_farthest: farthest(&found.not_counted),
         }),
-        warnings: notes_of_search(from, &found.left_out),
+        warnings: notes_of_search(from, &found.not_counted),
         ..best_fit(from, inputs, seed)
     }
 }
@@ -120,11 +120,11 @@ pub fn zones(found: &InZones, from: &Alignment, inputs: Vec<InputRecord>, seed: 
             beyond: found.beyond,
             least: found.least,
             used: found.used,
-            left_out: found.left_out.count,
-            left_out_farthest: farthest(&found.left_out),
+            left_out: found.not_counted.count,
+            left_out_farthest: farthest(&found.not_counted),
             without_zone: found.without_zone,
         }),
-        warnings: notes_of_search(from, &found.left_out),
+        warnings: notes_of_search(from, &found.not_counted),
         ..best_fit(from, inputs, seed)
     }
 }

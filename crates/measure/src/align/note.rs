@@ -2,7 +2,7 @@
 
 use trueness_document::Word;
 use trueness_document::align::{AlignNote, AlignNoteKind};
-use trueness_geom::align::{AMPLIFIED, AlignWarning, Alignment, Freedom, NotCounted, RowFit};
+use trueness_geom::align::{AlignWarning, Alignment, Freedom, MIN_AMPLIFICATION, NotCounted, RowFit};
 
 /// The note that a warning makes.
 pub fn note(warning: &AlignWarning) -> AlignNote {
@@ -15,8 +15,8 @@ pub fn note(warning: &AlignWarning) -> AlignNote {
                 100.0 * share
             ),
         ),
-        AlignWarning::PoorRows { share, row, left, mirrored } => {
-            (AlignNoteKind::Poor, poor_rows(*share, *row, *left, *mirrored))
+        AlignWarning::PoorRows { share, row, residual, mirrored } => {
+            (AlignNoteKind::Poor, poor_rows(*share, *row, *residual, *mirrored))
         }
         AlignWarning::Ambiguous { count } => (
             AlignNoteKind::Ambiguous,
@@ -48,7 +48,7 @@ pub fn note(warning: &AlignWarning) -> AlignNote {
                 "the measured fits when it is {factor:.6} times as large: is a unit wrong? (--units, --reference-units; `units` of a plan)"
             ),
         ),
-        AlignWarning::Few { count } => (
+        AlignWarning::FewPoints { count } => (
             AlignNoteKind::Few,
             format!(
                 "{count} points are few for a search from any pose: look at the result, or align roughly and start \
@@ -62,7 +62,7 @@ pub fn note(warning: &AlignWarning) -> AlignNote {
                  result, or align roughly and start --from-here"
             ),
         ),
-        AlignWarning::LeftOut { share, farthest, limit } => (
+        AlignWarning::Excluded { share, farthest, limit } => (
             AlignNoteKind::LeftOut,
             format!(
                 "{:.0} % of the measured does not count{}: the rest lies within {limit:.4} mm; where it is the part that is off \
@@ -86,8 +86,8 @@ pub fn notes_of_rows(found: &RowFit, corners: &[[f64; 3]]) -> Vec<AlignNote> {
     let mut notes: Vec<AlignNote> = found.warnings.iter().map(note).collect();
     let amplified = found.amplifications(corners);
     let most = amplified.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1));
-    if let Some((row, by)) = most.filter(|(_, by)| **by >= AMPLIFIED) {
-        let rows = amplified.iter().filter(|by| **by >= AMPLIFIED).count();
+    if let Some((row, by)) = most.filter(|(_, by)| **by >= MIN_AMPLIFICATION) {
+        let rows = amplified.iter().filter(|by| **by >= MIN_AMPLIFICATION).count();
         let others = match rows {
             1 => String::new(),
             _ => format!(" ({rows} rows are amplified tenfold or more)"),
@@ -106,7 +106,7 @@ pub fn notes_of_rows(found: &RowFit, corners: &[[f64; 3]]) -> Vec<AlignNote> {
 /// The notes of the best fit `from` that a search for the least greatest distance began with, and of what did not count in it. What did not count in the
 /// best fit may count there.
 pub fn notes_of_search(from: &Alignment, left_out: &NotCounted) -> Vec<AlignNote> {
-    let told = from.warnings.iter().filter(|w| !matches!(w, AlignWarning::LeftOut { .. }));
+    let told = from.warnings.iter().filter(|w| !matches!(w, AlignWarning::Excluded { .. }));
     let mut notes: Vec<AlignNote> = told.map(note).collect();
     let NotCounted { count, farthest, limit } = *left_out;
     if count == 0 {
@@ -148,13 +148,13 @@ fn undetermined(motion: &Freedom, width: Option<f64>) -> String {
 }
 
 /// What is said of rows of places that do not fit.
-fn poor_rows(share: f64, row: usize, left: f64, mirrored: bool) -> String {
+fn poor_rows(share: f64, row: usize, residual: f64, mirrored: bool) -> String {
     let why = match mirrored {
         true => "they look mirrored, as with the sign of an axis reversed",
         false => "some do not belong together, or they are of another part",
     };
     format!(
-        "the places that belong together lie apart by {:.2} % of their size, row {} the most, by {left:.3} mm: {why}",
+        "the places that belong together lie apart by {:.2} % of their size, row {} the most, by {residual:.3} mm: {why}",
         100.0 * share,
         row + 1
     )

@@ -77,8 +77,8 @@ fn of_axis(m: &Measuring) -> Result<Value, Missing> {
     let fit = fit(&line.centers, Kind::Line, &options, m.progress)?;
     let mut value = of_line(m, form(&line.centers, &fit), false);
     value.parts.push(("sections", line.centers.len() as f64));
-    if line.left_out > 0 {
-        value.notes.push(format!("{} sections have too few points around the axis", line.left_out));
+    if line.excluded > 0 {
+        value.notes.push(format!("{} sections have too few points around the axis", line.excluded));
     }
     Ok(value)
 }

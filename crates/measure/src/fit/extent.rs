@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use trueness_document::fit::Extent;
-use trueness_geom::shape::{Coordinate, Shape, upon};
+use trueness_geom::shape::{Coordinate, Shape, axes_along};
 use trueness_geom::space::{Point, Vector, cross, dot, minus, plus, times, unit};
 
 /// Cells of the circle in which points are looked for.
@@ -43,7 +43,7 @@ fn frame(shape: &Shape, points: &[Point]) -> (Point, [Vector; 3]) {
         [Coordinate::Length, Coordinate::Length] => (origin, longest_first(axes, origin, points)),
         [_, Coordinate::Latitude] => {
             let middle = points.iter().fold([0.0; 3], |sum, p| plus(sum, minus(*p, origin)));
-            (origin, unit(middle).map_or(axes, |(w, _)| upon(w)))
+            (origin, unit(middle).map_or(axes, |(w, _)| axes_along(w)))
         }
         _ => (origin, axes),
     }

@@ -113,7 +113,7 @@ fn alignment_record(plan: &Plan, found: &Inspection) -> AlignmentRecord {
         Found::BestFit(fit) => AlignmentRecord {
             rms: Some(fit.rms),
             mean_abs: Some(fit.mean_abs),
-            left_out: Some(fit.left_out),
+            left_out: Some(fit.excluded_points),
             iterations: Some(fit.iterations as u64),
             converged: Some(fit.converged),
             warnings: fit.warnings.iter().map(note).collect(),
@@ -123,20 +123,20 @@ fn alignment_record(plan: &Plan, found: &Inspection) -> AlignmentRecord {
             rms: Some(minimax.rms),
             mean_abs: Some(minimax.mean_abs),
             greatest: Some(minimax.greatest),
-            left_out: Some(minimax.left_out.count),
+            left_out: Some(minimax.not_counted.count),
             iterations: Some(fit.iterations as u64),
             converged: Some(fit.converged),
-            warnings: notes_of_search(fit, &minimax.left_out),
+            warnings: notes_of_search(fit, &minimax.not_counted),
             ..bare
         },
         Found::Zones(zones, fit) => AlignmentRecord {
             rms: Some(zones.rms),
             mean_abs: Some(zones.mean_abs),
             excess: Some(zones.excess),
-            left_out: Some(zones.left_out.count),
+            left_out: Some(zones.not_counted.count),
             iterations: Some(fit.iterations as u64),
             converged: Some(fit.converged),
-            warnings: notes_of_search(fit, &zones.left_out),
+            warnings: notes_of_search(fit, &zones.not_counted),
             ..bare
         },
         Found::Rows(fit, corners) => AlignmentRecord {

@@ -237,7 +237,7 @@ fn is_clean(mesh: &Mesh, new: &[bool], progress: &dyn Progress) -> Result<bool, 
     let Some(Around { mesh, asked, .. }) = Around::new(mesh, new) else { return Ok(false) };
     let topology = Topology::of(&mesh)?;
     let fine = topology.collinear.is_empty() && topology.duplicate_facets.is_empty();
-    Ok(fine && intersect::few_self_intersections(&mesh, &topology, &asked, 0, progress)?.is_some())
+    Ok(fine && intersect::selected_self_intersections(&mesh, &topology, &asked, 0, progress)?.is_some())
 }
 
 /// The pieces of a mesh that lie between material and none.

@@ -20,7 +20,7 @@ pub(super) fn pairs(
     progress: &dyn Progress,
 ) -> Result<Vec<[u32; 2]>, ArrangeError> {
     let most = most_pairs(mesh.faces.len());
-    let found = intersect::few_self_intersections(mesh, topology, some, most, progress)?;
+    let found = intersect::selected_self_intersections(mesh, topology, some, most, progress)?;
     found.ok_or(ArrangeError::Tangle { most })
 }
 

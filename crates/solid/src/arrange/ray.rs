@@ -88,7 +88,9 @@ impl<'a> Rays<'a> {
     /// The facets that a ray from facet `from` at `target` passes, by shell.
     fn behind(&self, all: &Container, from: u32, target: &Point) -> Around {
         let mut sums: BTreeMap<u32, i32> = BTreeMap::new();
-        all.behind(from, target, |f, around| *sums.entry(self.shell_of[f as usize]).or_default() += around);
+        all.facets_behind(from, target, |f, around| {
+            *sums.entry(self.shell_of[f as usize]).or_default() += around
+        });
         sums.into_iter().filter(|s| s.1 != 0).collect()
     }
 }

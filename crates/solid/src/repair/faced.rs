@@ -4,7 +4,7 @@ use super::error::RepairError;
 use super::options::Options;
 use super::work::Work;
 use super::{orient, outward};
-use trueness_geom::deviation::sign_choice::SHEET;
+use trueness_geom::deviation::sign_choice::MIN_SHEET_OPENNESS;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::Progress;
 use trueness_geom::space::{Point, Vector, cross, dot, minus, norm, plus, times};
@@ -75,7 +75,7 @@ impl Sum {
     /// The volume that the shell nearly encloses, as seen from its middle; `None` for a sheet.
     fn enclosed(&self) -> Option<f64> {
         let middle = times(1.0 / self.area, self.weighted);
-        (self.area > 0.0 && norm(self.vector) <= SHEET * self.area)
+        (self.area > 0.0 && norm(self.vector) <= MIN_SHEET_OPENNESS * self.area)
             .then(|| self.volume - dot(middle, self.vector) / 3.0)
     }
 }

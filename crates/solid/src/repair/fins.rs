@@ -12,7 +12,7 @@ use super::step::{Removes, Step};
 use super::union::solid_shells;
 use super::work::Work;
 use std::collections::BTreeMap;
-use trueness_geom::deviation::sign_choice::SHEET;
+use trueness_geom::deviation::sign_choice::MIN_SHEET_OPENNESS;
 use trueness_geom::space::{Vector, cross, minus, norm, plus};
 
 pub(super) const STEP: Step = Step {
@@ -79,7 +79,7 @@ pub(super) fn run(work: &mut Work) -> Result<(), RepairError> {
     // In all rounds together, of what there was at first.
     let mut gone = work.state.handover.fins_gone;
     let most = FIN * (known.properties.area + gone);
-    let encloses_nothing = |s: &Sheet| norm(s.vector) > 2.0 * SHEET * s.area;
+    let encloses_nothing = |s: &Sheet| norm(s.vector) > 2.0 * MIN_SHEET_OPENNESS * s.area;
     let small = |s: &Sheet, may_go: &[f64]| !s.has_rim || 0.5 * s.area <= may_go[shell(s)];
     let is_fin = |s: &Sheet| !s.edges.is_empty() && encloses_nothing(s) && 0.5 * s.area <= may_go[shell(s)];
     for sheet in sheets.iter().filter(|s| !s.facets.is_empty() && s.has_border && !is_fin(s)) {

@@ -3,7 +3,7 @@
 use super::error::RepairError;
 use super::step::{Removes, Step};
 use super::work::Work;
-use trueness_geom::deviation::sign_choice::SHEET;
+use trueness_geom::deviation::sign_choice::MIN_SHEET_OPENNESS;
 use trueness_geom::space::{Vector, cross, minus, norm, plus};
 use trueness_geom::topology::Topology;
 
@@ -65,5 +65,7 @@ pub(super) fn sheets(work: &mut Work) -> Result<Vec<bool>, RepairError> {
             *of = plus(*of, cross(minus(b, a), minus(c, a)));
         }
     }
-    Ok((0..topology.shells).map(|s| open[s] && 0.5 * norm(vector[s]) > SHEET * areas[s]).collect())
+    Ok((0..topology.shells)
+        .map(|s| open[s] && 0.5 * norm(vector[s]) > MIN_SHEET_OPENNESS * areas[s])
+        .collect())
 }

@@ -203,7 +203,13 @@ impl<'a> Work<'a> {
     /// As [`Work::crossings`], of facets with a flag each, in the whole mesh.
     fn search(&mut self, some: &[bool]) -> Result<Option<Vec<[u32; 2]>>, RepairError> {
         let (known, most) = (self.known()?, self.most_crossings());
-        Ok(intersect::few_self_intersections(&self.state.mesh, &known.topology, some, most, self.progress)?)
+        Ok(intersect::selected_self_intersections(
+            &self.state.mesh,
+            &known.topology,
+            some,
+            most,
+            self.progress,
+        )?)
     }
 
     /// As [`Work::crossings`], of facets whose surroundings and their topology are at hand.
@@ -213,7 +219,7 @@ impl<'a> Work<'a> {
         topology: &Topology,
     ) -> Result<Option<Vec<[u32; 2]>>, RepairError> {
         let (most, Around { mesh, numbers, asked }) = (self.most_crossings(), around);
-        let found = intersect::few_self_intersections(mesh, topology, asked, most, self.progress)?;
+        let found = intersect::selected_self_intersections(mesh, topology, asked, most, self.progress)?;
         let whole =
             |pairs: Vec<[u32; 2]>| pairs.into_iter().map(|p| p.map(|f| numbers[f as usize])).collect();
         Ok(found.map(whole))

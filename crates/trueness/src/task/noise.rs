@@ -3,7 +3,7 @@
 use super::{TaskError, Watch, ended};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use trueness_geom::noise::PATCHES;
+use trueness_geom::noise::MAX_PATCHES;
 use trueness_geom::progress::{Cancelled, Progress};
 use trueness_measure::NoiseOrReason;
 
@@ -42,7 +42,7 @@ impl Independence {
         if self.independent {
             return Ok(Err("errors are independent, as --independent says".into()));
         }
-        let stage = watch.stage("finding the noise", "patches", Some(PATCHES as u64));
+        let stage = watch.stage("finding the noise", "patches", Some(MAX_PATCHES as u64));
         let found = find(&*stage);
         Ok(ended(stage, found)?)
     }

@@ -133,7 +133,7 @@ impl AlignRequest {
         })?;
         let measured = scan.measured();
         let options = BestFit {
-            start: if self.from_here { Start::Given(Rigid::IDENTITY) } else { Start::Anywhere },
+            start: if self.from_here { Start::From(Rigid::IDENTITY) } else { Start::Anywhere },
             robust: !self.keep_outliers,
             seed: self.seed,
             lock: (!self.lock.is_empty()).then(|| {

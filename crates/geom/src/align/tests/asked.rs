@@ -1,4 +1,4 @@
-//! What is asked of a best fit besides: components that stay zero, and a scale.
+//! Requests to a best fit besides: components that stay zero, and a scale.
 
 use super::parts::{block, bracket, moved, normal, random_pose};
 use crate::align::{
@@ -11,7 +11,7 @@ use crate::progress::Silent;
 use crate::rigid::Rigid;
 use crate::space::{Point, times};
 
-/// Of a block moved by little, each component that is locked stays zero, and the sum of squares is the least of what is left.
+/// A block is moved by little: each component that is locked stays zero, and the sum of squares of the residuals is the least.
 #[test]
 fn locked_components_stay_zero_and_the_others_are_the_least() {
     let reference = bracket(8.0);
@@ -25,7 +25,7 @@ fn locked_components_stay_zero_and_the_others_are_the_least() {
         let axes = std::array::from_fn(|k| set >> k & 1 == 1);
         let lock = Lock::new(axes, &measured, Rigid::IDENTITY);
         let options = BestFit {
-            start: Start::Given(Rigid::IDENTITY),
+            start: Start::From(Rigid::IDENTITY),
             robust: false,
             lock: Some(lock),
             ..BestFit::default()
@@ -48,7 +48,7 @@ fn locked_components_stay_zero_and_the_others_are_the_least() {
     let measured = Measured::Mesh(&shifted);
     let lock = Lock::new([false, true, true, true, true, true], &measured, Rigid::IDENTITY);
     let options = BestFit {
-        start: Start::Given(Rigid::IDENTITY),
+        start: Start::From(Rigid::IDENTITY),
         robust: false,
         lock: Some(lock),
         ..BestFit::default()
@@ -90,7 +90,7 @@ fn a_scale_is_found_with_the_pose_and_told_by_its_unit() {
     for _ in 0..30 {
         let noisy = clean.positions.iter().map(|p| p.map(|x| x + 0.01 * normal(random))).collect();
         let scan = Mesh { positions: noisy, faces: clean.faces.clone() };
-        let options = BestFit { start: Start::Given(Rigid::IDENTITY), ..BestFit::default() };
+        let options = BestFit { start: Start::From(Rigid::IDENTITY), ..BestFit::default() };
         let (_, scale) = best_fit_scaled(&Measured::Mesh(&scan), &target, &options, &Silent).unwrap();
         sum += ((scale.factor - 1.0) / scale.std_uncertainty).powi(2) / 30.0;
     }

@@ -68,7 +68,7 @@ fn held(
     let (mut within, mut squares) = (0, 0.0);
     for _ in 0..trials {
         let points = view(part, looks, count, noise, wave, random);
-        let options = BestFit { start: Start::Given(Rigid::IDENTITY), ..BestFit::default() };
+        let options = BestFit { start: Start::From(Rigid::IDENTITY), ..BestFit::default() };
         let found =
             best_fit(&Measured::Points { points: &points, normals: None }, &target, &options, &Silent)
                 .unwrap();

@@ -27,8 +27,8 @@ fn samples(oriented: bool) -> Samples {
     samples
 }
 
-/// The worth of a pose is that of exact distances, as far as a grid can tell: within the share of reach by which a surface may bend in
-/// half a cell, for nearly all samples.
+/// The score of a pose is that of exact distances, as far as a grid can tell. For nearly all samples it is within the share of
+/// reach by which a surface may bend in half a cell.
 #[test]
 fn the_grid_tells_what_exact_distances_do() {
     let reference = bracket(4.0);
@@ -50,8 +50,8 @@ fn the_grid_tells_what_exact_distances_do() {
                     weights: vec![1.0],
                     oriented,
                 };
-                let worth = field.worth(&placed, &SampleBlock::of(&one, middle), reach);
-                sum += worth;
+                let score = field.score(&placed, &SampleBlock::of(&one, middle), reach);
+                sum += score;
                 let p = pose.point(samples.points[i]);
                 let hit = tree.closest(&p, f64::INFINITY).unwrap().unwrap();
                 let facet = crate::align::field::facet_normal(&reference, hit.face).unwrap();
@@ -60,18 +60,18 @@ fn the_grid_tells_what_exact_distances_do() {
                 let agrees = samples.normals[i] == [0.0; 3] || cosine >= 0.35;
                 let share = (hit.distance / reach).min(1.0);
                 let exact = if agrees { 1.0 - share * share } else { 0.0 };
-                far_off += usize::from((worth - exact).abs() > 0.1);
+                far_off += usize::from((score - exact).abs() > 0.1);
             }
             assert!(far_off < samples.points.len() / 20, "{far_off}");
             // All at once: the same, but for the order of the sum.
-            let all = field.worth(&placed, &SampleBlock::of(&samples, middle), reach);
+            let all = field.score(&placed, &SampleBlock::of(&samples, middle), reach);
             assert!((all - sum).abs() < 1e-4 * sum.max(1.0), "{all} {sum}");
         }
     }
 }
 
-/// A pair finds all pairs whose four numbers are within half a cell of its own, and none that are more than one and a half away; there are as
-/// many as are counted.
+/// A pair finds all pairs whose four numbers are within half a cell of its own. It finds none more than one and a half cells
+/// away. It finds as many as are counted.
 #[test]
 fn pairs_are_found_where_they_lie() {
     let places = on_surface(&bracket(4.0), 60, 3);

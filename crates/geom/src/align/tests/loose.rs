@@ -9,7 +9,7 @@ use crate::progress::Silent;
 use crate::rigid::Rigid;
 use crate::space::{Point, norm};
 
-/// Of an L; the caps fan out from its inner corner, the first.
+/// The caps of an L fan out from its inner corner, the first.
 const ELL: [[f64; 2]; 6] = [[15.0, 12.0], [15.0, 40.0], [0.0, 40.0], [0.0, 0.0], [60.0, 0.0], [60.0, 12.0]];
 
 /// A prism over an outline whose caps fan out from its first corner.
@@ -94,7 +94,7 @@ fn walls_alone_do_not_hold_their_height_and_nothing_tilts() {
         let middle = (half - band) * (1.6 * random.unit() - 0.8);
         let noise = [0.0, 0.005, 0.02][trial / 2 % 3];
         // A given start is near.
-        let (start, most) = [(Start::Anywhere, 0.2), (Start::Given(Rigid::IDENTITY), 0.02)][trial / 3 % 2];
+        let (start, most) = [(Start::Anywhere, 0.2), (Start::From(Rigid::IDENTITY), 0.02)][trial / 3 % 2];
         let pose = Rigid::rotation_about([20.0, 15.0, 0.0], [0.0, 0.0, most * (2.0 * random.unit() - 1.0)]);
         let points: Vec<Point> = walls(random, &ELL, [middle - band, middle + band], 600, noise)
             .iter()
@@ -177,7 +177,7 @@ fn a_key_holds_the_turn() {
             ]
         });
         let flanks: Vec<Point> = flanks.collect();
-        let start = Start::Given(Rigid::IDENTITY);
+        let start = Start::From(Rigid::IDENTITY);
         let seen = fit(&[points.clone(), flanks].concat(), &with, start);
         assert!(seen.freedoms.is_empty() && seen.slack.is_empty(), "{trial}: {:?}", seen.warnings);
         let unseen = fit(&points, &with, start);
@@ -187,7 +187,7 @@ fn a_key_holds_the_turn() {
     }
 }
 
-/// What faces hold by their insides is held: three faces of a block with noise, seen to their rims and not.
+/// The insides of faces hold a motion: three faces of a block with noise, seen to their rims and not.
 #[test]
 fn faces_of_three_directions_leave_nothing_free() {
     let random = &mut Random::new(5);
@@ -205,7 +205,7 @@ fn faces_of_three_directions_leave_nothing_free() {
                 p
             }));
         }
-        let found = fit(&points, &reference, Start::Given(Rigid::IDENTITY));
+        let found = fit(&points, &reference, Start::From(Rigid::IDENTITY));
         assert!(found.freedoms.is_empty() && found.slack.is_empty(), "{trial}: {found:?}");
         assert!(norm(found.reference_from_measured.translation()) < 10.0 * noise + 1e-6, "{trial}");
     }

@@ -17,7 +17,7 @@ fn fitted(
     let tree = Tree::build(mesh).unwrap();
     let target = Target::new(mesh, &tree);
     let measured = Measured::Points { points, normals: None };
-    let options = BestFit { start: Start::Given(start), robust: false, ..BestFit::default() };
+    let options = BestFit { start: Start::From(start), robust: false, ..BestFit::default() };
     let fit = best_fit(&measured, &target, &options, &Silent).unwrap();
     let found = minimax(&measured, &target, &fit, &options, &Silent);
     (fit, found)
@@ -41,7 +41,7 @@ fn places(low: Point, high: Point, step: f64) -> Vec<Point> {
 
 #[test]
 fn half_of_a_single_bump_in_closed_form() {
-    // A bump of 0.3 at the middle of one side: the block moves half of it back, and then its far side sticks out as much.
+    // One side has a bump of 0.3 at its middle. The block moves half of it back, and then its far side sticks out as much.
     let (low, high) = ([-10.0, -6.0, -4.0], [10.0, 6.0, 4.0]);
     let mesh = block(low, high, 40.0);
     let mut points = places(low, high, 1.0);
@@ -53,7 +53,7 @@ fn half_of_a_single_bump_in_closed_form() {
         assert!((greatest(&points, &mesh, &found.reference_from_measured) - found.greatest).abs() < 1e-12);
         // The greatest distance of the least-squares pose is nearly all of the bump.
         assert!(greatest(&points, &mesh, &fit.reference_from_measured) > 0.29);
-        assert!(found.rms > fit.rms && found.used == points.len() as u64 && found.left_out.count == 0);
+        assert!(found.rms > fit.rms && found.used == points.len() as u64 && found.not_counted.count == 0);
     }
 }
 
@@ -101,7 +101,7 @@ fn what_is_free_has_no_such_pose() {
     assert!(matches!(found, Err(AlignError::Free { free: 3 })), "{found:?}");
 }
 
-/// Of a mesh of large facets every vertex counts: the distance told is the greatest of all.
+/// Every vertex of a mesh of large facets counts: the distance told is the greatest of all.
 #[test]
 fn a_vertex_between_large_facets_counts() {
     let mesh = block([0.0; 3], [60.0, 40.0, 20.0], 80.0);
@@ -111,12 +111,12 @@ fn a_vertex_between_large_facets_counts() {
     measured.positions[deep][2] -= 0.08;
     let tree = Tree::build(&mesh).unwrap();
     let target = Target::new(&mesh, &tree);
-    let options = BestFit { start: Start::Given(Rigid::IDENTITY), robust: false, ..BestFit::default() };
+    let options = BestFit { start: Start::From(Rigid::IDENTITY), robust: false, ..BestFit::default() };
     let fit = best_fit(&Measured::Mesh(&measured), &target, &options, &Silent).unwrap();
     let found = minimax(&Measured::Mesh(&measured), &target, &fit, &options, &Silent).unwrap();
     let worst = greatest(&measured.positions, &mesh, &found.reference_from_measured);
     assert!((found.greatest - worst).abs() < 1e-12, "{} {worst}", found.greatest);
-    assert_eq!((found.used, found.left_out.count), (measured.positions.len() as u64, 0));
+    assert_eq!((found.used, found.not_counted.count), (measured.positions.len() as u64, 0));
     // Half of the dent is shared out at best.
     assert!(worst > 0.039 && worst < 0.0801, "{worst}");
 }

@@ -57,7 +57,7 @@ fn a_mirrored_part_is_named() {
     assert!(found_out >= 5, "{found_out}");
 }
 
-/// What is its own mirror image is never named, however bad it fits: half of it, with clutter, one face off.
+/// A part that is its own mirror image is never named, however bad it fits: half of it, with clutter, one face off.
 #[test]
 fn a_symmetrical_part_is_not_named() {
     let random = &mut Random::new(4);

@@ -1,4 +1,4 @@
-//! What an alignment must do, against closed forms, brute force and properties.
+//! The contract of an alignment, against closed forms, brute force and properties.
 
 mod asked;
 mod coverage;

@@ -84,8 +84,8 @@ fn clutter_around_a_piece_of_the_part_does_not_hide_its_place() {
     assert_eq!(right, 10);
 }
 
-/// The top of a plate with two pegs, off by some millimeters and degrees: the plate holds what is seen of it where it is, the pegs count
-/// as outliers, and no small step leads to where they fit.
+/// The top of a plate with two pegs is off by some millimeters and degrees. The plate holds its seen part where it is and the
+/// pegs count as outliers. No small step leads to where they fit.
 #[test]
 fn a_pose_beside_the_right_one_is_left() {
     let plate = block([0.0; 3], [60.0, 40.0, 5.0], 2.0);
@@ -119,7 +119,7 @@ fn a_pose_beside_the_right_one_is_left() {
     let target = Target::new(&reference, &tree);
     let start = Rigid::translation_by([4.0, -3.0, 0.0])
         .after(&Rigid::rotation_about([30.0, 20.0, 5.0], [0.0, 0.0, 0.1]));
-    let options = BestFit { start: Start::Given(start), ..BestFit::default() };
+    let options = BestFit { start: Start::From(start), ..BestFit::default() };
     let measured = Measured::Points { points: &points, normals: None };
     let found = best_fit(&measured, &target, &options, &Silent).unwrap();
     let samples = crate::align::sample::Samples::all(&measured);
@@ -134,10 +134,10 @@ fn a_pose_beside_the_right_one_is_left() {
     };
     is_right(&found.reference_from_measured);
     let stuck = Alignment { reference_from_measured: pose, ..found };
-    let few = samples.few(400, 0);
-    let search = crate::align::start::Search::new(&target, few, 0, &Silent).unwrap();
+    let oriented_subset = samples.oriented_subset(400, 0);
+    let search = crate::align::start::Search::new(&target, oriented_subset, 0, &Silent).unwrap();
     let found = work.around(&search, &stuck, &samples, &Silent).unwrap();
-    let options = BestFit { start: Start::Given(found), ..BestFit::default() };
+    let options = BestFit { start: Start::From(found), ..BestFit::default() };
     let found = best_fit(&measured, &target, &options, &Silent).unwrap().reference_from_measured;
     is_right(&found);
 }
@@ -167,8 +167,9 @@ fn wavy(mesh: &Mesh, size: f64) -> Mesh {
 
 #[test]
 fn the_pose_is_the_least_of_the_sum_of_squares() {
-    // By brute force: no small motion about the result has a lower integral of squared distances over the surface, each facet cut
-    // into 64 equal ones, of which the middles are taken. The figures are those of the vertices, with a third of the area around.
+    // By brute force: no small motion about the result has a lower integral of squared distances over the surface. Each facet
+    // is cut into 64 equal ones, whose middles are taken. The figures are those of the vertices, with a third of the area
+    // around.
     let reference = bracket(8.0);
     let scan = wavy(&bracket(3.0), 0.02);
     let tree = Tree::build(&reference).unwrap();
@@ -247,7 +248,7 @@ fn points_without_normals_find_their_place_and_strays_do_not_count() {
     let found = fit(&Measured::Points { points: &points, normals: None }, &reference);
     let [angle, shift] = off(&found, &pose, MIDDLE);
     assert!(angle < 1e-6 && shift < 1e-5, "{angle} {shift} {found:?}");
-    assert!(found.left_out >= there as u64 / 20, "{}", found.left_out);
+    assert!(found.excluded_points >= there as u64 / 20, "{}", found.excluded_points);
 }
 
 #[test]
@@ -268,8 +269,10 @@ fn a_face_that_does_not_count_is_told() {
     let higher = block([0.0; 3], [80.0, 50.0, 20.1], 4.0);
     let found = fit(&Measured::Mesh(&higher), &reference);
     let told: Vec<&AlignWarning> =
-        found.warnings.iter().filter(|w| matches!(w, AlignWarning::LeftOut { .. })).collect();
-    let [AlignWarning::LeftOut { share, farthest, limit }] = told[..] else { panic!("{:?}", found.warnings) };
+        found.warnings.iter().filter(|w| matches!(w, AlignWarning::Excluded { .. })).collect();
+    let [AlignWarning::Excluded { share, farthest, limit }] = told[..] else {
+        panic!("{:?}", found.warnings)
+    };
     assert!((share + found.share - 1.0).abs() < 1e-12 && (0.25..0.35).contains(share), "{share}");
     assert!((farthest - 0.1).abs() < 1e-6 && *limit < 0.01, "{farthest} {limit}");
     // With noise all of it counts.
@@ -277,7 +280,7 @@ fn a_face_that_does_not_count_is_told() {
     let mut noisy = higher;
     noisy.positions.iter_mut().flatten().for_each(|x| *x += 0.1 * (random.unit() - 0.5));
     let told = fit(&Measured::Mesh(&noisy), &reference).warnings;
-    assert!(!told.iter().any(|w| matches!(w, AlignWarning::LeftOut { .. })), "{told:?}");
+    assert!(!told.iter().any(|w| matches!(w, AlignWarning::Excluded { .. })), "{told:?}");
 }
 
 #[test]
@@ -309,7 +312,7 @@ fn a_part_that_looks_the_same_in_several_ways_is_told() {
     assert!(found.freedoms.is_empty() && found.condition.is_some());
 }
 
-/// Of poses that fit equally the one that moves least is taken, whatever the samples.
+/// Out of poses that fit equally the one that moves least is taken, whatever the samples.
 #[test]
 fn a_symmetric_part_is_not_turned_without_need() {
     for sides in [[40.0, 25.0, 10.0], [40.0, 40.0, 10.0], [20.0, 20.0, 20.0]] {
@@ -352,14 +355,13 @@ fn a_patch_of_a_plane_slides_and_turns() {
 
 #[test]
 fn noise_and_uncertainty_agree() {
-    // Of noisy copies, the pose is off by what the covariance says: the mean of the squared normalized error of each of
-    // the six is 1.
+    // Noisy copies put the pose off by its covariance: the mean of the squared normalized error of each of the six is 1.
     let reference = bracket(6.0);
     let tree = Tree::build(&reference).unwrap();
     let target = Target::new(&reference, &tree);
     let random = &mut Random::new(12);
     let clean = bracket(2.5);
-    let options = BestFit { start: Start::Given(Rigid::IDENTITY), ..BestFit::default() };
+    let options = BestFit { start: Start::From(Rigid::IDENTITY), ..BestFit::default() };
     let (mut sum, trials) = (0.0, 60);
     for _ in 0..trials {
         let noisy = clean.positions.iter().map(|p| p.map(|x| x + 0.01 * normal(random))).collect();

@@ -15,7 +15,7 @@ fn the_pose_answers_to_noise_as_a_fit_done_again() {
     let scan = bracket(4.0);
     let tree = Tree::build(&reference).unwrap();
     let target = Target::new(&reference, &tree);
-    let options = BestFit { start: Start::Given(Rigid::IDENTITY), ..BestFit::default() };
+    let options = BestFit { start: Start::From(Rigid::IDENTITY), ..BestFit::default() };
     let random = &mut Random::new(5);
     // A scan with noise of its own, brought where it fits: small shifts are small beside it.
     let mut shaken = |mesh: &Mesh, size: f64| {

@@ -70,8 +70,10 @@ fn pairs_that_do_not_belong_together_are_told() {
     wrong[3] = plus(wrong[3], [0.0, 30.0, 0.0]);
     let told = |to: &[Point], weights: Option<&[f64]>| pairs(&from, to, weights).unwrap().warnings;
     let all = told(&wrong, None);
-    let [AlignWarning::PoorRows { row: 3, left, mirrored: false, .. }] = all[..] else { panic!("{all:?}") };
-    assert!(left > 5.0 && left < 30.0, "{left}");
+    let [AlignWarning::PoorRows { row: 3, residual, mirrored: false, .. }] = all[..] else {
+        panic!("{all:?}")
+    };
+    assert!(residual > 5.0 && residual < 30.0, "{residual}");
     assert_eq!(told(&wrong, Some(&[1.0, 1.0, 1.0, 0.0, 1.0, 1.0])), []);
     let image: Vec<Point> = to.iter().map(|p| [p[0], p[1], -p[2]]).collect();
     let all = told(&image, None);
@@ -130,8 +132,8 @@ fn rows_hold_along_their_directions_only() {
     assert!(found.residuals[6].abs() < found.residuals[5].abs() && found.residuals[5].abs() < 0.5);
 }
 
-/// Three places held along z almost on a line: the plane through them tilts about the line of the first two, which lies 0.4 from the third. Of any
-/// rows, against the same alignment done again with one of them off.
+/// Three places are held along z almost on a line. The plane through them tilts about the line of the first two, which lies 0.4
+/// from the third. The gains of any rows, against the same alignment done again with one of them off.
 #[test]
 fn errors_of_a_row_are_amplified_as_is_told() {
     let row = |nominal: Point, axis: usize| Row {

@@ -48,14 +48,14 @@ fn the_other_side_of_a_plate_is_told() {
     }
 }
 
-/// Along the face the pose is as uncertain as it says: the few points beyond the rim hold it, and no equation tells how far it may go until
-/// they do.
+/// Along the face the pose is as uncertain as it says. The few points beyond the rim hold it, and no equation tells how far it
+/// may go until they do.
 #[test]
 fn a_face_is_held_by_its_rim_no_better_than_is_said() {
     let (mut far, mut most) = (0, 0.0_f64);
     for seed in 0..12 {
         let points = top(&mut Random::new(100 + seed), 2000);
-        let found = fit(&points, Start::Given(Rigid::IDENTITY));
+        let found = fit(&points, Start::From(Rigid::IDENTITY));
         let moved = found.reference_from_measured.point(found.center);
         for k in 0..2 {
             let (off, sigma) = ((moved[k] - found.center[k]).abs(), found.covariance[k + 3][k + 3].sqrt());

@@ -21,7 +21,7 @@ fn fitted(points: &[Point], mesh: &Mesh, start: Rigid, zones: &ZoneAt) -> Result
     let target = Target::new(mesh, &tree);
     let surface = ReferenceSurface::new(&tree, mesh, &SurfaceOptions::default(), &Silent).unwrap();
     let measured = Measured::Points { points, normals: None };
-    let options = BestFit { start: Start::Given(start), robust: false, ..BestFit::default() };
+    let options = BestFit { start: Start::From(start), robust: false, ..BestFit::default() };
     let fit = best_fit(&measured, &target, &options, &Silent).unwrap();
     into_zones(&measured, &target, &surface, zones, &fit, &options, &Silent)
 }
@@ -49,7 +49,7 @@ fn places(step: f64) -> Vec<Point> {
     mesh.faces.iter().map(middle).collect()
 }
 
-/// The top may be 0 to 0.4 too high, all else 0.1 either way: a perfect block rises by 0.05 and has 0.05 left on both sides.
+/// The top may be 0 to 0.4 too high, all else 0.1 either way. A perfect block rises by 0.05 and has 0.05 left on both sides.
 #[test]
 fn room_is_shared_out_in_closed_form() {
     let mesh = block(LOW, HIGH, 40.0);
@@ -79,7 +79,7 @@ fn equal_zones_are_the_least_greatest_distance() {
     assert!((found.excess - 0.13).abs() < 1e-9, "{}", found.excess);
     let tree = Tree::build(&mesh).unwrap();
     let (target, measured) = (Target::new(&mesh, &tree), Measured::Points { points: &points, normals: None });
-    let options = BestFit { start: Start::Given(Rigid::IDENTITY), robust: false, ..BestFit::default() };
+    let options = BestFit { start: Start::From(Rigid::IDENTITY), robust: false, ..BestFit::default() };
     let fit = best_fit(&measured, &target, &options, &Silent).unwrap();
     let least = minimax(&measured, &target, &fit, &options, &Silent).unwrap();
     assert!((least.greatest - 0.02 - found.excess).abs() < 1e-9);
@@ -121,7 +121,8 @@ fn no_pose_nearby_is_better_and_moving_the_scan_changes_nothing() {
     }
 }
 
-/// Of a part without noise the best fit leaves a bump of 0.2 and a dent of 0.24 out as outliers. Here they are shared out, and judged.
+/// A part without noise has a bump of 0.2 and a dent of 0.24, which the best fit leaves out as outliers. Here they are shared
+/// out, and judged.
 #[test]
 fn a_bump_and_a_dent_count_however_little_the_rest_scatters() {
     let mesh = block(LOW, HIGH, 40.0);
@@ -131,9 +132,9 @@ fn a_bump_and_a_dent_count_however_little_the_rest_scatters() {
     let target = Target::new(&mesh, &tree);
     let surface = ReferenceSurface::new(&tree, &mesh, &SurfaceOptions::default(), &Silent).unwrap();
     let measured = Measured::Points { points: &points, normals: None };
-    let options = BestFit { start: Start::Given(Rigid::IDENTITY), ..BestFit::default() };
+    let options = BestFit { start: Start::From(Rigid::IDENTITY), ..BestFit::default() };
     let fit = best_fit(&measured, &target, &options, &Silent).unwrap();
-    assert_eq!(fit.left_out, 2);
+    assert_eq!(fit.excluded_points, 2);
     let into = |zone: [f64; 2]| {
         into_zones(&measured, &target, &surface, &|_, _| Some(zone), &fit, &options, &Silent).unwrap()
     };
@@ -142,7 +143,7 @@ fn a_bump_and_a_dent_count_however_little_the_rest_scatters() {
         let motion = found.reference_from_measured;
         let judged = excess(&points, &mesh, &motion, &|_, _| Some([-zone, zone]));
         assert!((judged - found.excess).abs() < 1e-12, "{judged} {}", found.excess);
-        assert_eq!((found.used, found.left_out.count), (points.len() as u64, 0));
+        assert_eq!((found.used, found.not_counted.count), (points.len() as u64, 0));
         assert!((found.least - found.excess).abs() < 1e-12);
         // As it stands the dent decides; a shift and a turn leave less of it.
         assert!(found.excess + zone < 0.2401 && found.excess + zone > 0.1, "{}", found.excess);
@@ -150,10 +151,10 @@ fn a_bump_and_a_dent_count_however_little_the_rest_scatters() {
     assert!(tight.beyond >= 2 && wide.beyond == 0, "{} {}", tight.beyond, wide.beyond);
     assert!(wide.excess <= 0.0, "{}", wide.excess);
     let least = minimax(&measured, &target, &fit, &options, &Silent).unwrap();
-    assert!((least.greatest - 0.1 - tight.excess).abs() < 1e-6 && least.left_out.count == 0, "{least:?}");
+    assert!((least.greatest - 0.1 - tight.excess).abs() < 1e-6 && least.not_counted.count == 0, "{least:?}");
 }
 
-/// What lies far off does not decide the pose, but it is judged: nothing is within that is not.
+/// Points that lie far off do not decide the pose, but they are judged: no point counts as within that is not.
 #[test]
 fn clutter_does_not_count_in_the_search_and_is_judged() {
     let mesh = block(LOW, HIGH, 40.0);
@@ -164,7 +165,7 @@ fn clutter_does_not_count_in_the_search_and_is_judged() {
     let surface = ReferenceSurface::new(&tree, &mesh, &SurfaceOptions::default(), &Silent).unwrap();
     let measured = Measured::Points { points: &points, normals: None };
     for robust in [true, false] {
-        let options = BestFit { start: Start::Given(Rigid::IDENTITY), robust, ..BestFit::default() };
+        let options = BestFit { start: Start::From(Rigid::IDENTITY), robust, ..BestFit::default() };
         let fit = best_fit(&measured, &target, &options, &Silent).unwrap();
         let zones = |_: u32, p: &Point| (p[2] < 3.99).then_some([-0.1, 0.1]);
         let found = into_zones(&measured, &target, &surface, &zones, &fit, &options, &Silent).unwrap();
@@ -174,10 +175,10 @@ fn clutter_does_not_count_in_the_search_and_is_judged() {
         let least = minimax(&measured, &target, &fit, &options, &Silent).unwrap();
         if robust {
             assert!((found.least + 0.1).abs() < 1e-9 && (found.excess - 2.9).abs() < 1e-6, "{found:?}");
-            assert_eq!((found.left_out.count, found.beyond, least.left_out.count), (2, 1, 2));
-            assert!((least.left_out.farthest - 3.0).abs() < 1e-9 && least.greatest < 1e-9, "{least:?}");
+            assert_eq!((found.not_counted.count, found.beyond, least.not_counted.count), (2, 1, 2));
+            assert!((least.not_counted.farthest - 3.0).abs() < 1e-9 && least.greatest < 1e-9, "{least:?}");
         } else {
-            assert_eq!((found.left_out.count, least.left_out.count), (0, 0));
+            assert_eq!((found.not_counted.count, least.not_counted.count), (0, 0));
             assert!(found.least == found.excess && found.excess < 2.0, "{}", found.excess);
         }
     }

@@ -1,18 +1,18 @@
 //! Facets around an edge that very many have in common, by their angle: a *book* with its pages around the *spine*.
 //!
-//! Seen from an end of the spine, all pages contain the direction of the spine, so boxes of directions exclude nothing. Angles around
-//! the spine do: two pages meet only if they have the same angle, and any other facet meets only pages at angles between those of
-//! its corners.
+//! Seen from an end of the spine, all pages contain the direction of the spine, so boxes of directions exclude nothing. Angles
+//! around the spine do: two pages meet only if they have the same angle. Any other facet meets only pages at angles between
+//! those of its corners.
 
 use crate::mesh::Mesh;
 use crate::space::{Point, cross, dot, minus, norm, times, unit};
 use std::f64::consts::{PI, TAU};
 use std::ops::Range;
 
-/// Corners of which rounding may turn the angle by more than this tell nothing.
-const VAGUE: f64 = 1e-6;
+/// Rounding may turn the angle of a corner by more than this: such a corner tells nothing.
+const MAX_CLEAR_TURN: f64 = 1e-6;
 /// Facets that reach this far around the spine may hold a part of it.
-const HALF: f64 = PI - 1e-3;
+const MAX_FACET_TURN: f64 = PI - 1e-3;
 
 /// Pages around a spine.
 pub(super) struct Book {
@@ -54,7 +54,7 @@ impl Book {
         let way = times(1.0 / self.size, minus(place, self.from));
         let arm = minus(way, times(dot(way, self.axis), self.axis));
         let turn = 1e-14 * (1.0 + norm(way)) / norm(arm);
-        (turn < VAGUE).then_some(arm)
+        (turn < MAX_CLEAR_TURN).then_some(arm)
     }
 
     fn angle(&self, arm: Point) -> Option<f64> {
@@ -64,11 +64,12 @@ impl Book {
     /// Calls `decide` with all pairs of pages whose angles are equal to rounding, until that says no.
     pub fn pairs(&self, decide: &mut impl FnMut(u32, u32) -> bool) -> bool {
         // Once more behind the end: angles go round.
-        let again = self.pages.iter().take_while(|p| p.0 < 2.0 * VAGUE - PI).map(|p| (p.0 + TAU, p.1));
+        let again =
+            self.pages.iter().take_while(|p| p.0 < 2.0 * MAX_CLEAR_TURN - PI).map(|p| (p.0 + TAU, p.1));
         let round: Vec<(f64, u32)> = self.pages.iter().copied().chain(again).collect();
         (0..self.pages.len()).all(|i| {
             let (angle, page) = self.pages[i];
-            let near = round[i + 1..].iter().take_while(|p| p.0 <= angle + 2.0 * VAGUE);
+            let near = round[i + 1..].iter().take_while(|p| p.0 <= angle + 2.0 * MAX_CLEAR_TURN);
             near.filter(|p| p.1 != page).all(|p| decide(page, p.1))
         }) && (0..self.vague.len()).all(|i| {
             let others = self.vague[i + 1..].iter().copied().chain(self.pages.iter().map(|p| p.1));
@@ -78,8 +79,8 @@ impl Book {
 
     /// The pages that may meet a facet; `None` where its corners do not tell, or that is a large part of them.
     pub fn near(&self, mesh: &Mesh, facet: u32) -> Option<impl Iterator<Item = u32>> {
-        /// More than this share is found as fast by boxes.
-        const MUCH: usize = 8;
+        /// One page of so many, or more, is found as fast by boxes.
+        const BOX_PAGES_DIVISOR: usize = 8;
         let mut angles = vec![];
         for v in mesh.faces[facet as usize] {
             // An end of the spine lies on the axis whatever rounding says: from there the facet reaches to its other corners.
@@ -91,15 +92,15 @@ impl Book {
         let n = angles.len();
         let gap = |i: usize| angles[(i + 1) % n] - angles[i] + if i + 1 == n { TAU } else { 0.0 };
         let widest = (0..n).max_by(|a, b| gap(*a).total_cmp(&gap(*b)))?;
-        if TAU - gap(widest) > HALF {
+        if TAU - gap(widest) > MAX_FACET_TURN {
             return None;
         }
-        let low = angles[(widest + 1) % n] - 2.0 * VAGUE;
-        let high = low + TAU - gap(widest) + 4.0 * VAGUE;
+        let low = angles[(widest + 1) % n] - 2.0 * MAX_CLEAR_TURN;
+        let high = low + TAU - gap(widest) + 4.0 * MAX_CLEAR_TURN;
         let ranges = [-TAU, 0.0, TAU].map(|turn| self.between(low + turn, high + turn));
         let count: usize = ranges.iter().map(Range::len).sum();
         let pages = ranges.into_iter().flat_map(|r| self.pages[r].iter().map(|p| p.1));
-        (count + self.vague.len() <= 64.max(self.pages.len() / MUCH))
+        (count + self.vague.len() <= 64.max(self.pages.len() / BOX_PAGES_DIVISOR))
             .then(|| pages.chain(self.vague.iter().copied()))
     }
 

@@ -1,37 +1,36 @@
 //! Which of eight triangles cannot meet one: seen in single precision, from four planes.
 //!
-//! Of a triangle four planes are looked at: its own and the three that stand on its edges. A pair is settled when the
-//! corners of the other triangle lie all beyond one of them, where corners shared with the first *and in that plane*
-//! count as beyond: then the plane contains all that the two have in common, and that is a shared corner or edge. A
-//! corner counts as beyond when the rounded distance says so by more than its error.
+//! Four planes of a triangle are looked at: its own and the three that stand on its edges. A pair is settled when the corners
+//! of the other triangle lie all beyond one of them. Corners shared with the first *and in that plane* count as beyond. Then
+//! the plane contains all that the two have in common, a shared corner or edge. A corner counts as beyond when the rounded
+//! distance says so by more than its error.
 #![expect(clippy::needless_range_loop, reason = "lanes are indices into several arrays at once")]
 
 use super::masks::Masks;
-use super::tree::{Boxes, Frame, Leaf, W};
+use super::tree::{Boxes, Frame, Leaf, TREE_WIDTH};
 use crate::mesh::Mesh;
+use crate::num::rounding::SINGLE_DISTANCE_ROUNDING;
 use crate::space::{Point, cross, dot, minus};
 
-/// Distances are formed with less than ten roundings of 2^-24 of the sum of their terms; this allows sixteen.
-const ROUNDING: f32 = 1.0 / (1 << 20) as f32;
-/// Directions have components up to 1, and two places that are each off by the slack in three coordinates make a
-/// distance: six of them, and two to spare.
-const SLACKS: f32 = 8.0;
+/// Directions have components up to 1. Two places that are each off by the slack in three coordinates make a distance: six
+/// slacks, and two to spare.
+const SLACKS_PER_DISTANCE: f32 = 8.0;
 
-/// Directions (greatest component 1) of the plane and the three edge planes of each triangle of a leaf, and the place
-/// of the second edge along its direction. Zero where the triangle is too thin to trust them.
+/// Directions (greatest component 1) of the plane and the three edge planes of each triangle of a leaf. The place of the second
+/// edge along its direction stands with them. Zero where the triangle is too thin to trust them.
 pub(super) struct Planes {
-    direction: [[[f32; W]; 3]; 4],
-    offset: [f32; W],
+    direction: [[[f32; TREE_WIDTH]; 3]; 4],
+    offset: [f32; TREE_WIDTH],
 }
 
 /// The corners of the triangles of a leaf in the frame, in double precision. Apart from [`planes`],
 /// so that the arithmetic there can use vectors.
 #[inline(always)]
-fn places(mesh: &Mesh, frame: &Frame, leaf: &Leaf) -> [[[f64; W]; 3]; 3] {
+fn places(mesh: &Mesh, frame: &Frame, leaf: &Leaf) -> [[[f64; TREE_WIDTH]; 3]; 3] {
     if frame.slack == 0.0 {
         return leaf.at.map(|corner| corner.map(|row| row.map(f64::from)));
     }
-    let mut at = [[[0.0; W]; 3]; 3];
+    let mut at = [[[0.0; TREE_WIDTH]; 3]; 3];
     for (corner, numbers) in at.iter_mut().zip(&leaf.corner) {
         for (i, number) in numbers.iter().enumerate() {
             let place = mesh.positions.get(*number as usize).map_or([0.0; 3], |p| frame.place(p));
@@ -47,21 +46,21 @@ fn places(mesh: &Mesh, frame: &Frame, leaf: &Leaf) -> [[[f64; W]; 3]; 3] {
 #[inline(always)]
 pub(super) fn planes(mesh: &Mesh, frame: &Frame, leaf: &Leaf) -> Planes {
     /// Height over length below which the direction of a triangle is not trusted.
-    const THIN: f64 = 1e-6;
-    /// Height in the frame below which it is not, where places are rounded: each is off by up to 2^-54, and the
-    /// direction by less than 2^-25 then.
-    const TINY: f64 = 1.0 / (1 << 26) as f64;
-    let tiny = if frame.slack == 0.0 { 0.0 } else { TINY };
-    let mut out = Planes { direction: [[[0.0; W]; 3]; 4], offset: [0.0; W] };
+    const MIN_TRUSTED_SLENDERNESS: f64 = 1e-6;
+    /// Height in the frame below which the direction is not trusted where places are rounded. Each place is off by up to 2^-54,
+    /// and the direction then by less than 2^-25.
+    const MIN_TRUSTED_HEIGHT: f64 = 1.0 / (1 << 26) as f64;
+    let tiny = if frame.slack == 0.0 { 0.0 } else { MIN_TRUSTED_HEIGHT };
+    let mut out = Planes { direction: [[[0.0; TREE_WIDTH]; 3]; 4], offset: [0.0; TREE_WIDTH] };
     let larger = |a: f64, b: f64| if a > b { a } else { b };
     let size = |x: Point| larger(larger(x[0].abs(), x[1].abs()), x[2].abs());
     let at = places(mesh, frame, leaf);
-    for i in 0..W {
+    for i in 0..TREE_WIDTH {
         let [a, b, c] = [0, 1, 2].map(|j| [at[j][0][i], at[j][1][i], at[j][2][i]]);
         let e = [minus(b, a), minus(c, b), minus(a, c)];
         let n = cross(e[0], e[1]);
         let longest = larger(larger(size(e[0]), size(e[1])), size(e[2]));
-        let trusted = size(n) > larger(THIN * longest, tiny) * longest;
+        let trusted = size(n) > larger(MIN_TRUSTED_SLENDERNESS * longest, tiny) * longest;
         let mut put = |j: usize, d: Point| {
             let f = if trusted { 1.0 / size(d) } else { 0.0 };
             for (k, x) in d.into_iter().enumerate() {
@@ -103,20 +102,20 @@ unsafe fn both<L: Masks>(boxes: &Boxes, b: &[f32; 6], k: usize) -> L::Mask {
     }
 }
 
-/// Which triangles `among` those of leaf `q` may meet triangle `i` of leaf `l`; `reach` is the sum of the sides of a
-/// box around all of them.
+/// The triangles `among` those of leaf `q` that may meet triangle `i` of leaf `l`. `reach` is the sum of the sides of a box
+/// around all of them.
 ///
 /// # Safety
 /// The processor has the instructions of `L`.
 #[inline(always)]
-pub(super) unsafe fn left_over<L: Masks>(
+pub(super) unsafe fn unseparated<L: Masks>(
     (l, i, planes): (&Leaf, usize, &Planes),
     q: &Leaf,
     reach: f32,
     slack: f32,
     among: u32,
 ) -> u32 {
-    let error = reach * ROUNDING + SLACKS * slack + f32::MIN_POSITIVE;
+    let error = reach * SINGLE_DISTANCE_ROUNDING + SLACKS_PER_DISTANCE * slack + f32::MIN_POSITIVE;
     // SAFETY: handed on. (No closures: they would not be compiled for the instructions of `L`.)
     unsafe {
         let (more, less) = (L::splat(error), L::splat(-error));
@@ -155,7 +154,7 @@ pub(super) unsafe fn left_over<L: Masks>(
 /// # Safety
 /// The processor has the instructions of `L`.
 #[inline(always)]
-unsafe fn along<L: Masks>(d: &[[f32; W]; 3], i: usize, at: &[L; 3]) -> L {
+unsafe fn along<L: Masks>(d: &[[f32; TREE_WIDTH]; 3], i: usize, at: &[L; 3]) -> L {
     // SAFETY: handed on.
     unsafe { at[2].mul_add(L::splat(d[2][i]), at[1].mul_add(L::splat(d[1][i]), at[0] * L::splat(d[0][i]))) }
 }

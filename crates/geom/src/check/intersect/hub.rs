@@ -1,12 +1,12 @@
 //! Pairs of facets of which one lies at a vertex that very many have in common.
 //!
-//! The boxes of such facets all overlap at that vertex, the *hub*, and the boxes of long thin facets overlap many others: boxes
+//! The boxes of such facets all overlap at that vertex, the *hub*. The boxes of long thin facets overlap many others: boxes
 //! exclude next to nothing. Directions exclude more. Projected from the hub onto a sphere around it, a facet at the hub is an
-//! arc of a great circle, from the direction of one corner to that of the other; any other facet is a triangle of the sphere.
-//! Two facets that meet outside of the hub have a direction in common there. So two boxes are compared, that of the directions
-//! and that of the facet itself, and `meet` decides about the few pairs left. A fan of `n` facets takes O(n log n), and so do
-//! two fans that do not lie upon each other. Fans on both sides of a line in a plane are seen upon each other: of these, walls
-//! along a facet (`walls`) leave out those beside it.
+//! arc of a great circle. The arc runs from the direction of one corner to that of the other. Any other facet is a triangle of
+//! the sphere. Two facets that meet outside of the hub have a direction in common there. So two boxes are compared, that of the
+//! directions and that of the facet itself, and `meet` decides about the few pairs left. A fan of `n` facets takes O(n log n),
+//! and so do two fans that do not lie upon each other. Fans on both sides of a line in a plane are seen one upon the other.
+//! Walls along a facet (`walls`) leave out those on its other side.
 //!
 //! Facets at one edge of very many are a hub of their own, a [`Book`].
 
@@ -33,27 +33,27 @@ pub(super) struct Hub {
     root: Node,
 }
 
-/// From so many facets on, an edge at a hub is a book.
-const BOOK: usize = 64;
+/// Facets from which on an edge at a hub is a book.
+const MIN_BOOK_FACETS: usize = 64;
 
-/// The hubs of a mesh, without the facets that `left_out` names. A facet at several of them is at the one with the most
+/// The hubs of a mesh, without the facets that `is_excluded` names. A facet at several of them is at the one with the most
 /// facets.
-pub(super) fn hubs(mesh: &Mesh, topology: &Topology, left_out: impl Fn(u32) -> bool) -> Vec<Hub> {
+pub(super) fn hubs(mesh: &Mesh, topology: &Topology, is_excluded: impl Fn(u32) -> bool) -> Vec<Hub> {
     let at = |v: &u32| (*v, topology.facets_at_vertex(*v));
     let mut all: Vec<(u32, Vec<u32>)> = topology.hubs.iter().map(at).collect();
     all.sort_by(|a, b| b.1.len().cmp(&a.1.len()).then(a.0.cmp(&b.0)));
-    let mut taken = vec![false; if all.is_empty() { 0 } else { mesh.faces.len() }];
+    let mut claimed = vec![false; if all.is_empty() { 0 } else { mesh.faces.len() }];
     let mut hubs = vec![];
     for (vertex, mut facets) in all {
         facets.retain(|f| {
-            let free = topology.collinear.binary_search(f).is_err() && !left_out(*f);
-            free && !std::mem::replace(&mut taken[*f as usize], true)
+            let free = topology.collinear.binary_search(f).is_err() && !is_excluded(*f);
+            free && !std::mem::replace(&mut claimed[*f as usize], true)
         });
         let others = |f: &u32| mesh.faces[*f as usize].into_iter().filter(|v| *v != vertex);
         let mut ends: Vec<(u32, u32)> = facets.iter().flat_map(|f| others(f).map(|v| (v, *f))).collect();
         ends.sort_unstable();
         let mut paged = std::collections::BTreeSet::new();
-        for edge in ends.chunk_by(|a, b| a.0 == b.0).filter(|edge| edge.len() > BOOK) {
+        for edge in ends.chunk_by(|a, b| a.0 == b.0).filter(|edge| edge.len() > MIN_BOOK_FACETS) {
             let pages: Vec<u32> = edge.iter().map(|e| e.1).filter(|f| paged.insert(*f)).collect();
             hubs.push(Hub::new(mesh, vertex, Some(edge[0].0), &pages));
         }
@@ -68,15 +68,15 @@ impl Hub {
     fn new(mesh: &Mesh, vertex: u32, spine: Option<u32>, facets: &[u32]) -> Hub {
         let center = mesh.positions[vertex as usize];
         let book = spine.map(|spine| Book::new(mesh, [vertex, spine], facets));
-        Hub { book, ..Hub::around(mesh, (Some(vertex), center), Aabb::of([&center]), facets) }
+        Hub { book, ..Hub::with_views(mesh, (Some(vertex), center), Aabb::of([&center]), facets) }
     }
 
     /// Facets with corners near a place, which need not be one of them.
     pub fn crowd(mesh: &Mesh, center: Point, facets: &[u32]) -> Hub {
-        Hub::around(mesh, (None, center), Aabb::EMPTY, facets)
+        Hub::with_views(mesh, (None, center), Aabb::EMPTY, facets)
     }
 
-    fn around(mesh: &Mesh, (vertex, center): (Option<u32>, Point), place: Aabb, facets: &[u32]) -> Hub {
+    fn with_views(mesh: &Mesh, (vertex, center): (Option<u32>, Point), place: Aabb, facets: &[u32]) -> Hub {
         let others = |facet: u32| mesh.faces[facet as usize].into_iter().filter(|v| Some(*v) != vertex);
         let arc = |&facet: &u32| View {
             number: facet,
@@ -123,7 +123,7 @@ impl Hub {
             overlap(&one.seen, seen)
                 && overlap(&one.bounds, &others.union(&self.place))
                 && !sides.miss(seen)
-                && !walls.part(others)
+                && !walls.separate(others)
         };
         self.below(&self.root, &may_meet, &mut |other| decide(facet, other))
     }

@@ -1,11 +1,11 @@
 //! Answers about eight lanes at once: they stay in vector registers until all that hangs on them has been put together.
 #![allow(unsafe_code, reason = "vendor intrinsics")]
 
-use super::tree::W;
+use super::tree::TREE_WIDTH;
 use crate::simd::lanes::{Lanes, Plain};
 
 /// Lanes with comparisons whose outcome is a vector.
-pub(super) trait Masks: Lanes<W> {
+pub(super) trait Masks: Lanes<TREE_WIDTH> {
     /// Yes or no, lane by lane.
     type Mask: Copy;
     /// `self <= o`
@@ -14,7 +14,7 @@ pub(super) trait Masks: Lanes<W> {
     ///
     /// # Safety
     /// The processor has the instructions.
-    unsafe fn equal(row: &[u32; W], x: u32) -> Self::Mask;
+    unsafe fn equal(row: &[u32; TREE_WIDTH], x: u32) -> Self::Mask;
     /// Where both say yes.
     fn both(a: Self::Mask, b: Self::Mask) -> Self::Mask;
     /// Where one says yes.
@@ -23,15 +23,15 @@ pub(super) trait Masks: Lanes<W> {
     fn bits(mask: Self::Mask) -> u32;
 }
 
-impl Masks for Plain<W> {
+impl Masks for Plain<TREE_WIDTH> {
     type Mask = u32;
     #[inline(always)]
     fn at_most(self, o: Self) -> u32 {
         self.le(o)
     }
     #[inline(always)]
-    unsafe fn equal(row: &[u32; W], x: u32) -> u32 {
-        (0..W).fold(0, |m, i| m | u32::from(row[i] == x) << i)
+    unsafe fn equal(row: &[u32; TREE_WIDTH], x: u32) -> u32 {
+        (0..TREE_WIDTH).fold(0, |m, i| m | u32::from(row[i] == x) << i)
     }
     #[inline(always)]
     fn both(a: u32, b: u32) -> u32 {
@@ -51,7 +51,7 @@ impl Masks for Plain<W> {
 mod x86 {
     //! SAFETY of every intrinsic: the values were made by `splat` or `load`, whose caller answers for AVX2, as does that of
     //! `equal`.
-    use super::{Masks, W};
+    use super::{Masks, TREE_WIDTH};
     use crate::simd::lanes_x86::A8;
     use std::arch::x86_64::*;
 
@@ -62,7 +62,7 @@ mod x86 {
             unsafe { _mm256_cmp_ps::<_CMP_LE_OQ>(self.0, o.0) }
         }
         #[inline(always)]
-        unsafe fn equal(row: &[u32; W], x: u32) -> __m256 {
+        unsafe fn equal(row: &[u32; TREE_WIDTH], x: u32) -> __m256 {
             unsafe {
                 let row = _mm256_loadu_si256(row.as_ptr().cast());
                 _mm256_castsi256_ps(_mm256_cmpeq_epi32(row, _mm256_set1_epi32(x as i32)))

@@ -41,7 +41,7 @@ fn segment_triangle(p: &Point, q: &Point, t: &[Point; 3]) -> bool {
 }
 
 /// Whether these corners of a triangle lie strictly on one side of the plane of another.
-fn beyond(corners: &[&Point], [a, b, c]: &[Point; 3]) -> bool {
+fn on_one_side(corners: &[&Point], [a, b, c]: &[Point; 3]) -> bool {
     let first = side_of_plane(a, b, c, corners[0]);
     first != 0 && corners[1..].iter().all(|p| side_of_plane(a, b, c, p) == first)
 }
@@ -63,16 +63,16 @@ pub(super) fn meet((t, i): &Triangle, (u, j): &Triangle) -> bool {
     let other = only(j, i);
     match (&own.0[..own.1], &other.0[..other.1]) {
         ([_, _, _], _) => {
-            !beyond(&[&t[0], &t[1], &t[2]], u)
-                && !beyond(&[&u[0], &u[1], &u[2]], t)
+            !on_one_side(&[&t[0], &t[1], &t[2]], u)
+                && !on_one_side(&[&u[0], &u[1], &u[2]], t)
                 && (0..3).any(|k| {
                     segment_triangle(&t[k], &t[(k + 1) % 3], u) || segment_triangle(&u[k], &u[(k + 1) % 3], t)
                 })
         }
         // One common corner: what they have in common ends on the side opposite to it, of one or the other.
         (&[a, b], &[c, d]) => {
-            !beyond(&[&t[a], &t[b]], u)
-                && !beyond(&[&u[c], &u[d]], t)
+            !on_one_side(&[&t[a], &t[b]], u)
+                && !on_one_side(&[&u[c], &u[d]], t)
                 && (segment_triangle(&t[a], &t[b], u) || segment_triangle(&u[c], &u[d], t))
         }
         // A common edge: only if folded flat onto each other.

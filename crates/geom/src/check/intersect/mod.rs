@@ -1,17 +1,17 @@
 //! All pairs of facets that cross, touch or overlap where they should not.
 //!
 //! The search has four parts:
-//! 1. *Tree.* A node gets from its parent the list of nodes of its own level whose boxes overlap the parent's box, and keeps
+//! 1. *Tree.* A node gets from its parent the list of nodes of its own level whose boxes overlap the parent's box. It keeps
 //!    those that overlap its own; eight boxes in one comparison. So no search begins at the root. The children of the lowest
 //!    nodes are triangles.
 //! 2. *Filter.* Most of the pairs left are excluded in single precision, whether the triangles share corners or not (`filter`).
 //! 3. *Exact.* The rest is decided by `meet`.
 //! 4. *Hubs.* The boxes of all facets at a vertex overlap there. Facets at a vertex with very many are therefore not in the
 //!    tree. They are searched separately, among each other and against the facets of the tree (`hub`).
-//! 5. *Crowds.* Where far too many boxes overlap, the search ends and begins again with facets that end near one place, but not at
-//!    one vertex, as further hubs (`crowd`).
+//! 5. *Crowds.* Where far too many boxes overlap, the search ends and begins again with further hubs (`crowd`). These are
+//!    facets that end near one place, but not at one vertex.
 //!
-//! Of several facets with the same three corners only the first is searched (`pairs`).
+//! Only the first of several facets with the same three corners is searched (`pairs`).
 #![allow(unsafe_code, reason = "vector instructions that the processor is known to have")]
 
 mod book;
@@ -43,7 +43,7 @@ use pairs::{Copies, Pairs, Wanted};
 pub use reaching::{reaching, reaching_any};
 use std::sync::atomic::AtomicUsize;
 use std::sync::atomic::Ordering::Relaxed;
-use tree::{Boxes, Leaf, Tree, W};
+use tree::{Boxes, Leaf, TREE_WIDTH, Tree};
 
 const EVERYWHERE: [f32; 6] = {
     let i = f32::INFINITY;
@@ -53,10 +53,10 @@ const EVERYWHERE: [f32; 6] = {
 /// Pairs of facets of a welded mesh that meet anywhere else than in the vertices or the edge they share: the lower
 /// facet first, sorted.
 ///
-/// Decided exactly for coordinates between 1e-80 and 1e60 in magnitude. Facets without area and facets with the
-/// same three vertices (duplicates) are not looked at. Time grows with the number of pairs of overlapping boxes, about six
-/// a facet on a scan; n facets around one vertex or edge, or upon each other, take n log n and what they find. Facets done
-/// are told to `progress`. The result is the same for any number of threads.
+/// Decided exactly for coordinates between 1e-80 and 1e60 in magnitude. Facets without area and facets with the same three
+/// vertices (duplicates) are not looked at. Time grows with the number of pairs of overlapping boxes, about six a facet on a
+/// scan. Take n facets around one vertex or edge, or upon each other: they cost n log n and the time for the pairs they find.
+/// Facets done are told to `progress`. The result is the same for any number of threads.
 ///
 /// # Errors
 /// [`Cancelled`].
@@ -65,7 +65,7 @@ pub fn self_intersections(
     topology: &Topology,
     progress: &dyn Progress,
 ) -> Result<Vec<[u32; 2]>, Cancelled> {
-    let search = Search { mesh, topology, some: None, limit: usize::MAX, most: usize::MAX, alone: false };
+    let search = Search { mesh, topology, selected: None, limit: usize::MAX, most: usize::MAX, alone: false };
     with(&search, progress, Level::detect()).map(|all| all.first)
 }
 
@@ -81,19 +81,19 @@ pub struct Crossings {
 }
 
 impl Crossings {
-    /// What [`first_self_intersections`] tells where these, sorted, are all pairs; `None` where it would have given up.
+    /// The result of [`first_self_intersections`] where these, sorted, are all pairs; `None` where it would have given up.
     pub fn of_all(pairs: &[[u32; 2]], limit: usize) -> Option<Crossings> {
         let first = pairs[..limit.min(pairs.len())].to_vec();
-        let known = pairs.len() <= MOST.max(limit);
+        let known = pairs.len() <= MAX_PAIRS_TO_FIRST.max(limit);
         known.then_some(Crossings { count: pairs.len(), at_least: false, first })
     }
 }
 
-/// Beyond so many pairs the search for the first is given up: a tangle of 20,000 facets may have a hundred million.
-const MOST: usize = 1_000_000;
+/// Pairs beyond which the search for the first is given up: a tangle of 20,000 facets may have a hundred million.
+const MAX_PAIRS_TO_FIRST: usize = 1_000_000;
 
-/// As [`self_intersections`], but keeps `limit` pairs only, and counts up to a million. In a tangle the number of pairs
-/// grows with the square of that of the facets: memory and time stay bounded, and the result says so.
+/// As [`self_intersections`], but keeps `limit` pairs only, and counts up to a million. In a tangle the number of pairs grows
+/// with the square of that of the facets. Memory and time stay bounded, and the result says so.
 ///
 /// # Errors
 /// [`Cancelled`].
@@ -103,31 +103,32 @@ pub fn first_self_intersections(
     limit: usize,
     progress: &dyn Progress,
 ) -> Result<Crossings, Cancelled> {
-    let search = Search { mesh, topology, some: None, limit, most: MOST.max(limit), alone: false };
+    let search =
+        Search { mesh, topology, selected: None, limit, most: MAX_PAIRS_TO_FIRST.max(limit), alone: false };
     let found = with(&search, progress, Level::detect())?;
     if found.count <= search.most {
         return Ok(found);
     }
     // Which pairs were found before the end depends on the threads. So it is searched once more, on one thread and in a fixed order, for
     // as many pairs as are listed.
-    let few = Search { most: limit.saturating_sub(1), alone: true, ..search };
-    let first = with(&few, progress, Level::detect())?.first;
+    let first_only = Search { most: limit.saturating_sub(1), alone: true, ..search };
+    let first = with(&first_only, progress, Level::detect())?.first;
     Ok(Crossings { count: search.most, at_least: true, first })
 }
 
-/// As [`self_intersections`], but only pairs of which at least one facet is among `some` (a flag for each facet): what
+/// As [`self_intersections`], but only pairs of which at least one facet is among `selected` (a flag for each facet): what
 /// has changed against everything, say. `None` if there are more than `most`: the search ends where that is known.
 ///
 /// # Errors
 /// [`Cancelled`].
-pub fn few_self_intersections(
+pub fn selected_self_intersections(
     mesh: &Mesh,
     topology: &Topology,
-    some: &[bool],
+    selected: &[bool],
     most: usize,
     progress: &dyn Progress,
 ) -> Result<Option<Vec<[u32; 2]>>, Cancelled> {
-    let search = Search { mesh, topology, some: Some(some), limit: usize::MAX, most, alone: false };
+    let search = Search { mesh, topology, selected: Some(selected), limit: usize::MAX, most, alone: false };
     let found = with(&search, progress, Level::detect())?;
     Ok((found.count <= most).then_some(found.first))
 }
@@ -141,16 +142,16 @@ pub fn any_self_intersection(
     topology: &Topology,
     progress: &dyn Progress,
 ) -> Result<bool, Cancelled> {
-    let search = Search { mesh, topology, some: None, limit: 0, most: 0, alone: false };
+    let search = Search { mesh, topology, selected: None, limit: 0, most: 0, alone: false };
     Ok(with(&search, progress, Level::detect())?.count > 0)
 }
 
-/// What is searched.
+/// The request of a search.
 struct Search<'a> {
     mesh: &'a Mesh,
     topology: &'a Topology,
     /// Flags of the facets of which each pair has one; `None`: all.
-    some: Option<&'a [bool]>,
+    selected: Option<&'a [bool]>,
     /// How many of the pairs are listed.
     limit: usize,
     /// Beyond so many pairs there is no need to find more.
@@ -159,8 +160,9 @@ struct Search<'a> {
     alone: bool,
 }
 
-/// Pairs of boxes that overlap, for each facet, beyond which crowds are looked for: a scan has six, a mesh of needles some tens.
-const CROWDED: usize = 64;
+/// Pairs of boxes that overlap, for each facet, beyond which crowds are looked for. A scan has six, a mesh of needles some
+/// tens.
+const MAX_OVERLAPS_PER_FACET: usize = 64;
 
 fn with(search: &Search, progress: &dyn Progress, level: Level) -> Result<Crossings, Cancelled> {
     let &Search { mesh, topology, .. } = search;
@@ -169,7 +171,7 @@ fn with(search: &Search, progress: &dyn Progress, level: Level) -> Result<Crossi
     let mut hubs = hub::hubs(mesh, topology, |f| copies.later(f));
     hubs.iter().flat_map(Hub::facets).for_each(|f| free[f as usize] = false);
     topology.duplicate_facets.iter().for_each(|d| free[d[1] as usize] = false);
-    let limits = [CROWDED * (mesh.faces.len() + 1000), usize::MAX];
+    let limits = [MAX_OVERLAPS_PER_FACET * (mesh.faces.len() + 1000), usize::MAX];
     for enough in limits {
         if let Some(found) = attempt(search, (&copies, &hubs, &free), enough, progress, level)? {
             return Ok(found);
@@ -188,14 +190,14 @@ fn attempt(
     level: Level,
 ) -> Result<Option<Crossings>, Cancelled> {
     let &Search { mesh, topology, limit, most, alone, .. } = search;
-    let joined = search.some.map(|some| copies.joined(some));
-    let some = joined.as_deref();
-    let tree = Tree::build(mesh, topology, free, some, progress);
-    let wanted = Wanted { copies, some: search.some, limit };
+    let joined = search.selected.map(|selected| copies.joined(selected));
+    let selected = joined.as_deref();
+    let tree = Tree::build(mesh, topology, free, selected, progress);
+    let wanted = Wanted { copies, selected: search.selected, limit };
     let [found, tried] = [0, 0].map(AtomicUsize::new);
     let walk = Walk { mesh, tree: &tree, progress, most, enough, alone, found, tried };
     let mut pairs = Pairs::new(wanted);
-    around_hubs(&walk, hubs, some, &mut pairs);
+    around_hubs(&walk, hubs, selected, &mut pairs);
     if !tree.leaves.is_empty() && !walk.is_over() {
         let top = tree.levels.len() - 1;
         match level.min(Level::detect()) {
@@ -208,7 +210,7 @@ fn attempt(
     if progress.cancelled() {
         return Err(Cancelled);
     }
-    // Of a search that found too many pairs all is known that is asked for.
+    // A search that found too many pairs has told all that is asked for.
     if walk.is_crowded() && pairs.count <= most {
         return Ok(None);
     }
@@ -218,15 +220,15 @@ fn attempt(
 }
 
 /// Finds the pairs of which one facet is at a hub.
-fn around_hubs<'a>(walk: &Walk, hubs: &[Hub], some: Option<&[bool]>, pairs: &mut Pairs<'a>) {
+fn around_hubs<'a>(walk: &Walk, hubs: &[Hub], selected: Option<&[bool]>, pairs: &mut Pairs<'a>) {
     /// Facets of one task.
-    const PART: usize = 1 << 10;
+    const INTERSECTED_FACETS_PER_TASK: usize = 1 << 10;
     let wanted = pairs.wanted;
     let triangle = |facet: u32| {
         let face = walk.mesh.faces[facet as usize];
         (walk.mesh.places(&face), face)
     };
-    let asked = |a: u32, b: u32| some.is_none_or(|some| some[a as usize] || some[b as usize]);
+    let asked = |a: u32, b: u32| selected.is_none_or(|selected| selected[a as usize] || selected[b as usize]);
     // Each answer says whether to go on.
     let decide = |part: &mut Pairs<'a>, a: u32, b: u32| {
         if asked(a, b) && meet::meet(&triangle(a), &triangle(b)) {
@@ -251,16 +253,16 @@ fn around_hubs<'a>(walk: &Walk, hubs: &[Hub], some: Option<&[bool]>, pairs: &mut
             part
         };
         if walk.alone {
-            others.chunks(PART).for_each(|others| pairs.append(part(others)));
+            others.chunks(INTERSECTED_FACETS_PER_TASK).for_each(|others| pairs.append(part(others)));
         } else {
-            let parts: Vec<Pairs> = others.par_chunks(PART).map(part).collect();
+            let parts: Vec<Pairs> = others.par_chunks(INTERSECTED_FACETS_PER_TASK).map(part).collect();
             parts.into_iter().for_each(|part| pairs.append(part));
         }
     }
 }
 
 /// Nodes up to this level are not worth the work of several threads.
-const ALONE: usize = 2;
+const MAX_SEQUENTIAL_LEVEL: usize = 2;
 
 struct Walk<'a> {
     mesh: &'a Mesh,
@@ -280,11 +282,11 @@ struct Walk<'a> {
 ///
 /// # Safety
 /// The processor has these instructions.
-type Deeper = for<'a> unsafe fn(&Walk, usize, usize, &[u32], &mut Pairs<'a>);
+type Descend = for<'a> unsafe fn(&Walk, usize, usize, &[u32], &mut Pairs<'a>);
 
 fn plain<'a>(walk: &Walk, level: usize, i: usize, list: &[u32], out: &mut Pairs<'a>) {
     // SAFETY: plain Rust.
-    unsafe { walk.descend::<Plain<W>>(level, i, list, out, plain) }
+    unsafe { walk.descend::<Plain<TREE_WIDTH>>(level, i, list, out, plain) }
 }
 
 /// # Safety
@@ -313,7 +315,7 @@ impl Walk<'_> {
     /// Everything below node `i` of `level` against itself and the later nodes of `list`, which holds `i` too.
     ///
     /// # Safety
-    /// The processor has the instructions of `L` and of `deeper`.
+    /// The processor has the instructions of `L` and of `descend_below`.
     #[inline(always)]
     unsafe fn descend<L: Masks>(
         &self,
@@ -321,24 +323,24 @@ impl Walk<'_> {
         i: usize,
         list: &[u32],
         out: &mut Pairs,
-        deeper: Deeper,
+        descend_below: Descend,
     ) {
         if level == 0 {
             // SAFETY: handed on.
             return unsafe { self.leaf_pairs::<L>(i, list, out) };
         }
-        let children = 0..W.min(self.tree.levels[level - 1].len() - i * W);
-        if level <= ALONE {
+        let children = 0..TREE_WIDTH.min(self.tree.levels[level - 1].len() - i * TREE_WIDTH);
+        if level <= MAX_SEQUENTIAL_LEVEL {
             let mut next = vec![];
             for a in children.clone() {
                 next.clear();
                 // SAFETY: handed on.
                 unsafe { self.inherit::<L>(level, i, a, list, &mut next) };
-                // SAFETY: the instructions of `deeper` are those of `L`.
-                unsafe { deeper(self, level - 1, i * W + a, &next, out) };
+                // SAFETY: the instructions of `descend_below` are those of `L`.
+                unsafe { descend_below(self, level - 1, i * TREE_WIDTH + a, &next, out) };
             }
             if level == 1 {
-                self.progress.advance((children.len() * W) as u64);
+                self.progress.advance((children.len() * TREE_WIDTH) as u64);
             }
             return;
         }
@@ -347,19 +349,20 @@ impl Walk<'_> {
             let mut next = vec![];
             // SAFETY: handed on.
             unsafe { self.inherit::<L>(level, i, a, list, &mut next) };
-            lists.push((i * W + a, next));
+            lists.push((i * TREE_WIDTH + a, next));
         }
         if self.alone {
             // SAFETY: as above.
-            let one =
-                |(child, next): (usize, Vec<u32>)| unsafe { deeper(self, level - 1, child, &next, out) };
+            let one = |(child, next): (usize, Vec<u32>)| unsafe {
+                descend_below(self, level - 1, child, &next, out)
+            };
             return lists.into_iter().for_each(one);
         }
         let wanted = out.wanted;
         let parts = lists.into_par_iter().map(|(child, next)| {
             let mut part = Pairs::new(wanted);
             // SAFETY: as above.
-            unsafe { deeper(self, level - 1, child, &next, &mut part) };
+            unsafe { descend_below(self, level - 1, child, &next, &mut part) };
             part
         });
         parts.collect::<Vec<_>>().into_iter().for_each(|part| out.append(part));
@@ -383,7 +386,7 @@ impl Walk<'_> {
                 m &= u32::MAX << a;
             }
             while m != 0 {
-                next.push(j * W as u32 + m.trailing_zeros());
+                next.push(j * TREE_WIDTH as u32 + m.trailing_zeros());
                 m &= m - 1;
             }
         }
@@ -405,7 +408,7 @@ impl Walk<'_> {
         for j in list.iter().map(|&j| j as usize) {
             let (q, boxes) = (&t.leaves[j], &t.levels[0][j]);
             // Box of the other leaf; unknown where there is one leaf only, and then all is decided exactly.
-            let other = t.levels.get(1).map_or(EVERYWHERE, |up| lane(&up[j / W], j % W));
+            let other = t.levels.get(1).map_or(EVERYWHERE, |up| lane(&up[j / TREE_WIDTH], j % TREE_WIDTH));
             // SAFETY: handed on.
             let mut rows = unsafe { filter::overlap::<L>(own, &other) };
             while rows != 0 {
@@ -430,11 +433,12 @@ impl Walk<'_> {
                         - if other[k] < b[k] { other[k] } else { b[k] };
                 }
                 // SAFETY: handed on.
-                let left = unsafe { filter::left_over::<L>((l, a, &planes), q, reach, t.frame.slack, among) };
+                let left =
+                    unsafe { filter::unseparated::<L>((l, a, &planes), q, reach, t.frame.slack, among) };
                 self.decide((l, a), q, left, out);
             }
             // A leaf may have very many neighbors.
-            if out.count > before || tried > W * W * W {
+            if out.count > before || tried > TREE_WIDTH * TREE_WIDTH * TREE_WIDTH {
                 self.found.fetch_add(out.count - before, Relaxed);
                 self.tried.fetch_add(std::mem::take(&mut tried), Relaxed);
                 before = out.count;

@@ -33,10 +33,10 @@ impl Copies {
     }
 
     /// The flags of facets, where a facet that stands for others has theirs too.
-    pub fn joined(&self, some: &[bool]) -> Vec<bool> {
-        let mut joined = some.to_vec();
+    pub fn joined(&self, selected: &[bool]) -> Vec<bool> {
+        let mut joined = selected.to_vec();
         for (first, all) in &self.of {
-            joined[*first as usize] = all.iter().any(|f| some[*f as usize]);
+            joined[*first as usize] = all.iter().any(|f| selected[*f as usize]);
         }
         joined
     }
@@ -47,12 +47,12 @@ impl Copies {
     }
 }
 
-/// What of the pairs found is of interest.
+/// The pairs found that are of interest.
 #[derive(Clone, Copy)]
 pub(super) struct Wanted<'a> {
     pub copies: &'a Copies,
     /// Flags of the facets of which each pair has one; `None`: all.
-    pub some: Option<&'a [bool]>,
+    pub selected: Option<&'a [bool]>,
     /// So many of the least are listed.
     pub limit: usize,
 }
@@ -61,7 +61,7 @@ pub(super) struct Wanted<'a> {
 pub(super) struct Pairs<'a> {
     pub wanted: Wanted<'a>,
     pub count: usize,
-    /// Those, and perhaps others that are not yet sorted out.
+    /// The pairs of interest, and perhaps others that are not yet sorted out.
     pub first: Vec<[u32; 2]>,
 }
 
@@ -73,14 +73,14 @@ impl<'a> Pairs<'a> {
 
     /// Takes in a pair, and those for which it stands.
     pub fn push(&mut self, a: u32, b: u32) {
-        let Wanted { copies, some, limit } = self.wanted;
+        let Wanted { copies, selected, limit } = self.wanted;
         if copies.of.is_empty() {
             self.count += 1;
             self.first.push([a.min(b), a.max(b)]);
             return self.cut(limit);
         }
         let (a, b) = (copies.all(&a), copies.all(&b));
-        let asked = |f: &u32| some.is_none_or(|some| some[*f as usize]);
+        let asked = |f: &u32| selected.is_none_or(|selected| selected[*f as usize]);
         let unasked = |all: &[u32]| all.iter().filter(|f| !asked(f)).count();
         self.count += a.len() * b.len() - unasked(a) * unasked(b);
         // By their lower facet, then by their higher one; no more than can be listed.
@@ -104,10 +104,10 @@ impl<'a> Pairs<'a> {
 
     /// Drops what is not of interest, once there are more than `slack` (and a few) beyond those asked for.
     pub fn cut(&mut self, slack: usize) {
-        /// Never sorted out sooner: most meshes have few pairs.
-        const FEW: usize = 1 << 10;
-        let (few, limit) = (if slack == 0 { 0 } else { FEW }, self.wanted.limit);
-        if self.first.len() > limit.saturating_add(slack).saturating_add(few) {
+        /// Pairs are never sorted out sooner: most meshes have few.
+        const MIN_PAIRS_TO_CUT: usize = 1 << 10;
+        let (spare, limit) = (if slack == 0 { 0 } else { MIN_PAIRS_TO_CUT }, self.wanted.limit);
+        if self.first.len() > limit.saturating_add(slack).saturating_add(spare) {
             if limit > 0 {
                 self.first.select_nth_unstable(limit - 1);
             }

@@ -2,8 +2,8 @@
 
 use crate::space::{Aabb, Point, Vector, cross, dot, minus, norm, plus, times, unit};
 
-/// Of directions: some ten roundings of 2^-53, and much to spare.
-const ROUNDING: f64 = 1e-12;
+/// Rounding of directions: some ten roundings of 2^-53, and much to spare.
+const DIRECTION_ROUNDING: f64 = 1e-12;
 
 /// All directions.
 const ANYWHERE: Aabb = Aabb { min: [-1.0; 3], max: [1.0; 3] };
@@ -26,12 +26,12 @@ pub fn segment(center: Point, a: Point, b: Point) -> Aabb {
 /// Box of the directions from `center` to the places of a triangle.
 pub(super) fn triangle(center: Point, [a, b, c]: [Point; 3]) -> Aabb {
     /// Beyond 113 degrees between two corners the center may lie in the triangle.
-    const WIDE: f64 = -0.4;
+    const MIN_CORNER_COSINE: f64 = -0.4;
     let (Some(u), Some(v), Some(w)) = (direction(center, a), direction(center, b), direction(center, c))
     else {
         return ANYWHERE;
     };
-    if dot(u, v).min(dot(v, w)).min(dot(w, u)) < WIDE {
+    if dot(u, v).min(dot(v, w)).min(dot(w, u)) < MIN_CORNER_COSINE {
         return ANYWHERE;
     }
     let mut bounds = arc(u, v).union(&arc(v, w)).union(&arc(w, u));
@@ -40,7 +40,8 @@ pub(super) fn triangle(center: Point, [a, b, c]: [Point; 3]) -> Aabb {
     for k in 0..3 {
         let through = |sign: f64| {
             let along = normals.map(|n| sign * n[k]);
-            let inside = along.iter().all(|x| *x >= -ROUNDING) || along.iter().all(|x| *x <= ROUNDING);
+            let inside = along.iter().all(|x| *x >= -DIRECTION_ROUNDING)
+                || along.iter().all(|x| *x <= DIRECTION_ROUNDING);
             // Seen, and not behind.
             inside && sign * (u[k] + v[k] + w[k]) > 0.0
         };
@@ -70,7 +71,7 @@ impl Sides {
             let normal = cross(u, v);
             let height = dot(normal, w);
             // Seen edge-on there is no telling the side: none.
-            if height.abs() > ROUNDING { times(height.signum(), normal) } else { [0.0; 3] }
+            if height.abs() > DIRECTION_ROUNDING { times(height.signum(), normal) } else { [0.0; 3] }
         };
         Sides([inward(u, v, w), inward(v, w, u), inward(w, u, v)])
     }
@@ -78,26 +79,26 @@ impl Sides {
     /// Whether all directions of a box are outside.
     pub fn miss(&self, seen: &Aabb) -> bool {
         let highest = |n: &Vector| (0..3).map(|k| (n[k] * seen.min[k]).max(n[k] * seen.max[k])).sum::<f64>();
-        self.0.iter().any(|n| highest(n) < -ROUNDING)
+        self.0.iter().any(|n| highest(n) < -DIRECTION_ROUNDING)
     }
 }
 
 /// Box of the shorter arc of a great circle between two directions.
 fn arc(u: Point, v: Point) -> Aabb {
     /// Shorter arcs rise so little over their chord that this is as good a bound.
-    const SHORT: f64 = 1e-3;
-    /// Arcs longer than this may be seen either way round.
-    const LONG: f64 = -0.999_999;
+    const MAX_SHORT_ARC_SINE: f64 = 1e-3;
+    /// Cosine of the arc from which on an arc may be seen either way round.
+    const MAX_LONG_ARC_COSINE: f64 = -0.999_999;
     let cosine = dot(u, v);
-    if cosine < LONG {
+    if cosine < MAX_LONG_ARC_COSINE {
         return ANYWHERE;
     }
     let normal = cross(u, v);
     let ends = Aabb::of([&u, &v]);
     let widened = |b: Aabb, by: f64| Aabb { min: b.min.map(|x| x - by), max: b.max.map(|x| x + by) };
-    let Some((n, sine)) = unit(normal).filter(|(_, sine)| *sine > SHORT || cosine < 0.0) else {
+    let Some((n, sine)) = unit(normal).filter(|(_, sine)| *sine > MAX_SHORT_ARC_SINE || cosine < 0.0) else {
         // No place of an arc is farther from its chord than its middle is.
-        return widened(ends, 1.0 - 0.5 * norm(plus(u, v)) + ROUNDING);
+        return widened(ends, 1.0 - 0.5 * norm(plus(u, v)) + DIRECTION_ROUNDING);
     };
     let mut bounds = ends;
     for k in 0..3 {
@@ -105,8 +106,10 @@ fn arc(u: Point, v: Point) -> Aabb {
         let axis: Point = std::array::from_fn(|i| f64::from(u8::from(i == k)));
         let top = minus(axis, times(n[k], n));
         let height = norm(top);
-        let between =
-            |p: Point| dot(cross(u, p), n) >= -ROUNDING * height && dot(cross(p, v), n) >= -ROUNDING * height;
+        let between = |p: Point| {
+            dot(cross(u, p), n) >= -DIRECTION_ROUNDING * height
+                && dot(cross(p, v), n) >= -DIRECTION_ROUNDING * height
+        };
         if between(top) {
             bounds.max[k] = height;
         }
@@ -115,7 +118,7 @@ fn arc(u: Point, v: Point) -> Aabb {
         }
     }
     // The normal is off by the rounding over the sine.
-    widened(bounds, ROUNDING / sine.max(SHORT))
+    widened(bounds, DIRECTION_ROUNDING / sine.max(MAX_SHORT_ARC_SINE))
 }
 
 #[cfg(test)]

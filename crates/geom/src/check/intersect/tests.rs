@@ -30,7 +30,7 @@ fn check(name: &str, facets: &[Facet]) -> usize {
             let search = Search {
                 mesh: &mesh,
                 topology: &topology,
-                some: None,
+                selected: None,
                 limit,
                 most: usize::MAX,
                 alone: threads == 1,
@@ -45,12 +45,12 @@ fn check(name: &str, facets: &[Facet]) -> usize {
         let chosen: [&dyn Fn(usize) -> bool; 4] =
             [&|f| f >= n - n / 10, &|f| f % 3 == 0, &|f| f == 0, &|_| false];
         for (i, chosen) in chosen.into_iter().enumerate() {
-            let some: Vec<bool> = (0..n).map(chosen).collect();
+            let selected: Vec<bool> = (0..n).map(chosen).collect();
             let mut want = want.clone();
-            want.retain(|pair| pair.iter().any(|f| some[*f as usize]));
+            want.retain(|pair| pair.iter().any(|f| selected[*f as usize]));
             for most in [usize::MAX, want.len(), want.len().saturating_sub(1), 3] {
-                let (some, limit) = (Some(&some[..]), usize::MAX);
-                let search = Search { mesh: &mesh, topology: &topology, some, limit, most, alone: false };
+                let (selected, limit) = (Some(&selected[..]), usize::MAX);
+                let search = Search { mesh: &mesh, topology: &topology, selected, limit, most, alone: false };
                 let got = on_threads(threads, || with(&search, &Silent, level)).unwrap();
                 assert_eq!(got.count > most, want.len() > most, "{name} {i} {level:?} {threads} {most}");
                 assert!(got.count > most || got.first == want, "{name} {i} {level:?} {threads} {most}");
@@ -153,8 +153,7 @@ fn a_cancelled_search_says_so() {
     assert_eq!(self_intersections(&mesh, &topology, &Silent), Ok(vec![]));
 }
 
-/// Fans of very many facets around one vertex: flat, on a cone, with corners near and far, and with facets that are not
-/// where they should be.
+/// Fans of very many facets around one vertex: flat, on a cone, with corners near and far, and with facets at wrong places.
 #[test]
 fn vertices_with_very_many_facets() {
     let random = &mut Random::new(4);
@@ -368,7 +367,7 @@ fn books_and_copies_that_cross() {
     assert!(check("copies", &facets) > 1000);
 }
 
-/// Of a tangle the count is a lower bound, and what is listed does not hang on the threads.
+/// The count of a tangle is a lower bound, and the list does not depend on the threads.
 #[test]
 fn a_tangle_is_not_counted_to_the_end() {
     let random = &mut Random::new(8);
@@ -379,7 +378,7 @@ fn a_tangle_is_not_counted_to_the_end() {
     let run =
         |threads| on_threads(threads, || first_self_intersections(&mesh, &topology, 50, &Silent)).unwrap();
     let found = run(1);
-    assert_eq!((found.count, found.at_least, found.first.len()), (MOST, true, 50));
+    assert_eq!((found.count, found.at_least, found.first.len()), (MAX_PAIRS_TO_FIRST, true, 50));
     assert_eq!(found, run(3));
     let triangle = |f: u32| {
         let face = mesh.faces[f as usize];

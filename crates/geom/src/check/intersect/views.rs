@@ -1,4 +1,4 @@
-//! What is seen from a place, halved again and again: boxes of directions beside boxes in space.
+//! The facets seen from a place, halved again and again: boxes of directions together with boxes in space.
 
 use crate::space::Aabb;
 use std::ops::Range;
@@ -7,7 +7,7 @@ use std::ops::Range;
 pub struct View {
     /// Which one.
     pub number: u32,
-    /// Of its directions.
+    /// The box of its directions.
     pub seen: Aabb,
     /// Where it lies.
     pub bounds: Aabb,
@@ -25,11 +25,11 @@ pub struct Node {
     pub halves: Option<Box<[Node; 2]>>,
 }
 
-/// Views of a node that is not halved.
-const FEW: usize = 8;
+/// Most views of a node that is not halved.
+const MAX_VIEWS_PER_LEAF: usize = 8;
 
 impl Node {
-    /// Of all views; puts neighbors near each other.
+    /// The box of all views; puts neighbors near each other.
     pub fn of(views: &mut [View]) -> Node {
         node(views, 0)
     }
@@ -40,7 +40,7 @@ fn node(views: &mut [View], start: usize) -> Node {
     let seen = views.iter().fold(Aabb::EMPTY, |all, v| all.union(&v.seen));
     let bounds = views.iter().fold(Aabb::EMPTY, |all, v| all.union(&v.bounds));
     let range = start..start + views.len();
-    if views.len() <= FEW {
+    if views.len() <= MAX_VIEWS_PER_LEAF {
         return Node { range, seen, bounds, halves: None };
     }
     let sides = seen.sides();

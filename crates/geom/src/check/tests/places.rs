@@ -1,4 +1,4 @@
-//! What a finding says of its size and place, against plain calculations from the facets and vertices it names.
+//! The size and place of a finding, against plain calculations from the facets and vertices it names.
 
 use crate::check::{Finding, KINDS, Options, check};
 use crate::mesh::Mesh;

@@ -10,7 +10,7 @@ pub struct Differences {
     pub count: u64,
     /// Points where the values differ by more than rounding can explain ([`Value::rounding`]).
     pub differing: u64,
-    /// Of those, points where the paper's value is too small.
+    /// Differing points where the paper's value is too small.
     pub too_small: u64,
     /// Greatest difference, millimeters; 0 where none differs.
     pub max_difference: f64,

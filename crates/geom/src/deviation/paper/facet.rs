@@ -7,16 +7,16 @@ use crate::space::{Point, cross, dot, minus, norm};
 pub struct Value {
     /// Millimeters, unsigned.
     pub distance: f64,
-    /// What rounding in this evaluation and in that of the exact distance to the same facet may amount to, millimeters.
+    /// Greatest rounding in this evaluation and in that of the exact distance to the same facet, millimeters.
     ///
-    /// Both see differences of coordinates, which are good to half a unit in the last place, so errors go with the
-    /// distances to the corners, not with the coordinates. To a segment that is a dozen roundings. To a plane the
-    /// normal's direction is uncertain too, by 1/sin of the angle between the edges that span it.
+    /// Both see differences of coordinates, which are good to half a unit in the last place. So errors go with the distances to
+    /// the corners, not with the coordinates. To a segment that is a dozen roundings. To a plane the normal's direction is
+    /// uncertain too, by 1/sin of the angle between the edges that span it.
     pub rounding: f64,
 }
 
 /// Bound of the roundings of one evaluation, with those of the exact method.
-const ROUNDINGS: f64 = 16.0 * f64::EPSILON;
+const EVALUATION_ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 /// The least distance of `m` to the facets (18).
 pub(super) fn least(m: &Point, facets: impl Iterator<Item = [Point; 3]>) -> Value {
@@ -42,12 +42,12 @@ fn of(m: &Point, [a, b, c]: [Point; 3]) -> Value {
     if angles && size > 0.0 {
         let slender = (ab * ca).sqrt() / size;
         let distance = dot(n, minus(*m, a)).abs() / size;
-        return Value { distance, rounding: ROUNDINGS * (1.0 + slender) * farthest };
+        return Value { distance, rounding: EVALUATION_ROUNDING * (1.0 + slender) * farthest };
     }
     let edges = [(a, b, ma, mb, ab), (b, c, mb, mc, bc), (c, a, mc, ma, ca)];
     let distance =
         edges.map(|(a, b, ma, mb, ab)| edge(m, &a, &b, ma, mb, ab)).into_iter().fold(f64::INFINITY, f64::min);
-    Value { distance, rounding: ROUNDINGS * farthest }
+    Value { distance, rounding: EVALUATION_ROUNDING * farthest }
 }
 
 /// Distance of `m` to the segment `ab` (14): `ma`, `mb`, `ab` are squared lengths.

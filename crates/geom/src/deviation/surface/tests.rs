@@ -201,7 +201,7 @@ fn deviations_along_lines() {
     assert_eq!(own[1..], [Err(NoCrossing), Err(NoDirection), Err(MaxDistance), Err(NoDirection)]);
 }
 
-/// Of a sphere, lines through its center have the nearest distance; of points beside an edge the normal is that of both facets.
+/// Lines through the center of a sphere have the nearest distance; the normal of points beyond an edge is that of both facets.
 #[test]
 fn normals_of_the_reference_are_those_of_the_nearest_place() {
     let center = [1.0, 2.0, 3.0];

@@ -131,7 +131,7 @@ pub(super) enum Verdict {
     Open,
 }
 
-/// What became of a case: compared with the fit that starts from the truth.
+/// The outcome of a case, compared with the fit that starts from the truth.
 pub(super) fn verdict(case: &Case, found: &Result<Fit, FitError>) -> Verdict {
     let near =
         fit(&case.points, Kind::Cone, &Options { start: Some(case.truth), ..Options::default() }, &Silent);
@@ -141,7 +141,7 @@ pub(super) fn verdict(case: &Case, found: &Result<Fit, FitError>) -> Verdict {
     let Some(known) = known else { return Verdict::Open };
     let Shape::Cone { direction: found_axis, .. } = found.shape else { return Verdict::Wrong };
     let Shape::Cone { direction: axis, .. } = case.truth else { return Verdict::Wrong };
-    // What it says of itself counts too: a fan with noise has a flat valley of cones.
+    // Its own statements count too: a fan with noise has a flat valley of cones.
     let own = found.residuals.std_dev.and_then(|s| uncertainty(found, s)).unwrap_or(0.0);
     let allowed = (5.0 * known.max(own.min(3f64.to_radians()))).max(1e-7);
     let off = (half_angle(&found.shape) - half_angle(&case.truth)).abs();
@@ -198,8 +198,8 @@ fn rates_over_many_cones() {
     }
 }
 
-/// The apex and one ring, exact but for rounding: distances tell of a tilt by its square only, so the half angle is sure to about
-/// the root of rounding.
+/// The apex and one ring, exact but for rounding. Distances tell of a tilt by its square only, so the half angle is sure to
+/// about the root of rounding.
 #[test]
 fn a_fan_is_exact_though_distances_determine_it_in_second_order_only() {
     let mut random = Random::new(23);
@@ -230,8 +230,8 @@ fn a_fan_is_exact_though_distances_determine_it_in_second_order_only() {
     }
 }
 
-/// Fans as files in single precision hold them, from the right start: no step without length leads off along the valley, and the root mean
-/// square told is that of the element given.
+/// Fans as files in single precision hold them, from the right start. No step without length leads off along the valley, and
+/// the root mean square told belongs to the element returned.
 #[test]
 fn a_fan_in_single_precision_stays_where_it_is() {
     let mut random = Random::new(29);

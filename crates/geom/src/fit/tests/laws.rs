@@ -1,4 +1,4 @@
-//! What must not change the answer does not; what must is refused by name.
+//! Changes that must not change the answer do not; changes that must are refused by name.
 
 use super::{Fit, FitError, Kind, Made, Method, fitted, methods, placement};
 use crate::frame::Pose;

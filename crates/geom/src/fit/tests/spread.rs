@@ -5,9 +5,9 @@ use crate::progress::Silent;
 use crate::shape::Shape;
 use crate::space::{Point, dot, minus, plus, times};
 
-/// Many sets of points with fresh noise: the standard deviation of every parameter over them is within a tenth of what the
-/// fits state. Of least squares and robust, of whole elements and of pieces. The places stay the same, and of the robust
-/// fits every tenth point lies 2 mm off.
+/// Many sets of points with fresh noise: the standard deviation of every parameter over them is within a tenth of what the fits
+/// state. The spread of least squares and robust fits, of whole elements and of pieces. The places stay the same, and of the
+/// robust fits every tenth point lies 2 mm off.
 #[test]
 fn stated_uncertainties_are_the_spread_of_repeated_fits() {
     for (method, share, trials) in
@@ -38,8 +38,8 @@ fn stated_uncertainties_are_the_spread_of_repeated_fits() {
     }
 }
 
-/// Noise across the surface alone, which is not what is stated: all that the surface itself determines has the stated spread
-/// all the same, and where along its axis an element is told is no more uncertain than stated.
+/// Noise across the surface alone, other than the stated kind. All that the surface itself determines has the stated spread all
+/// the same. The station along its axis at which an element is told is no more uncertain than stated.
 #[test]
 fn noise_across_the_surface_alone_is_never_more_than_stated() {
     const TRIALS: u64 = 1500;

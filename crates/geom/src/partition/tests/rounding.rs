@@ -28,8 +28,8 @@ fn rounded(profile: &Profile, side: usize, p: Point, width: f64) -> (Point, f64)
     ([p[0] * scale, p[1] * scale, p[2] + z_off], far)
 }
 
-/// No point that rounding moves by more than the noise is form of a face, and what is clear of the edges stays. Of edges that are sharp, or as good as
-/// sharp, nothing is left out.
+/// No point that rounding moves by more than the noise is form of a face, and what is clear of the edges stays. Nothing is left
+/// out at edges that are sharp, or as good as sharp.
 #[test]
 fn what_edges_round_is_of_no_face() {
     let profile = PIN.to_vec();

@@ -10,8 +10,8 @@ use std::f64::consts::TAU;
 
 const UP: [f64; 3] = [0.0, 0.0, 1.0];
 
-/// A section turned about the z axis: corners of distance and height, each with the face that begins there; at the axis there is one
-/// corner. The first face is the cone, the others are planes and cylinders and have no shape here.
+/// A section turned about the z axis. It has corners of distance and height, each with the face that begins there; at the axis
+/// there is one corner. The first face is the cone, the others are planes and cylinders and have no shape here.
 fn turned_about(section: &[([f64; 2], usize)], chords: usize, cone: Shape) -> Part {
     let (mut positions, mut rows) = (vec![], vec![]);
     for &([rho, z], _) in section {
@@ -46,7 +46,7 @@ struct Drawn {
     chords: usize,
     /// Radius where it is cut off; 0 where it has its apex.
     top: f64,
-    /// What it stands on: nothing but its base, a cylinder, a plate.
+    /// The stand of the cone: nothing but its base, a cylinder, a plate.
     base: u64,
     /// Steps along its generators: 1 as drawn.
     steps: usize,

@@ -38,8 +38,8 @@ pub(super) fn context<T>(mesh: &Mesh, with: impl FnOnce(&Context) -> T) -> T {
     })
 }
 
-/// For each face the region that holds most of its facets; every region must be that of one face and of its kind, and
-/// hold at least `share` of it.
+/// For each face the region that holds most of its facets. Every region must belong to one face and have its kind, and hold at
+/// least `share` of it.
 fn matched(part: &Part, found: &Segmentation, share: f64) -> Vec<usize> {
     assert_eq!(found.regions.len(), part.faces.len(), "{:#?}", kinds(found));
     assert!(found.regions.is_sorted_by(|a, b| a.share >= b.share), "{:#?}", kinds(found));
@@ -153,8 +153,8 @@ fn short_noisy_fillets_are_tori() {
     }
 }
 
-/// Every measured point of every piece of a region lies within the tolerance, and the greatest distance is that told: with
-/// little and much noise, tolerances found and given, of meshes and clouds.
+/// Every measured point of every piece of a region lies within the tolerance, and the greatest distance is that told. Noise is
+/// little and much, tolerances are found and given, on meshes and clouds.
 #[test]
 fn members_tolerance_and_greatest_distance_agree() {
     let made = |which: usize| match which {
@@ -397,8 +397,8 @@ fn a_cloud_has_the_same_faces() {
     matched(&part, &found, 0.85);
 }
 
-/// Rows of a scanner: fifteen times as far apart as the points of a row, so that a point's nearest neighbors are all on
-/// its own row.
+/// Rows of a scanner lie fifteen times as far apart as the points of a row. So a point's nearest neighbors are all on its own
+/// row.
 #[test]
 fn rows_of_points_are_one_face() {
     let half_turn = |k: i32, rho: f64, z: f64| {

@@ -106,8 +106,8 @@ pub(in crate::segment) fn bored(steps: usize) -> Part {
     swept(&stretches, [0.0, 0.0], steps, true, faces, face, around)
 }
 
-/// A sleeve as a CAD system writes it: no corners but those of its four edges, and of the steps of a fillet at the bore's mouth. Where
-/// the bore is the larger one it is the outside, and the fillet at its end.
+/// A sleeve as a CAD system writes it. It has no corners but those of its four edges, and those of the steps of a fillet at the
+/// bore's mouth. Where the bore is the larger one it is the outside, and the fillet at its end.
 pub(in crate::segment) fn sleeve(
     [bore, outside, length]: [f64; 3],
     fillet: Option<(f64, usize)>,
@@ -142,8 +142,8 @@ pub(in crate::segment) fn sleeve(
     swept(&stretches, [bore, 0.0], steps, true, faces, |_, face| face, around)
 }
 
-/// A bar of 100 mm whose section is a rectangle with corners of the given radius, of so many chords each; the faces are two ends, four
-/// sides, those of no width left out, and four corners.
+/// A bar of 100 mm whose section is a rectangle with corners of the given radius, of so many chords each. The faces are two
+/// ends, four sides (those of no width left out), and four corners.
 pub(in crate::segment) fn bar([width, height]: [f64; 2], radius: f64, chords: usize) -> Part {
     const LONG: f64 = 100.0;
     let [x, y] = [0.5 * width - radius, 0.5 * height - radius];

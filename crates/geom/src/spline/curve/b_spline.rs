@@ -19,8 +19,8 @@ pub struct Curve<V> {
     pub(super) points: Vec<V>,
 }
 
-/// Degree up to which places and derivatives are found without allocating.
-const INLINE: usize = 5;
+/// Greatest degree at which places and derivatives are found without allocating.
+const MAX_INLINE_DEGREE: usize = 5;
 
 impl<V: Value> Curve<V> {
     /// The curve of these control points.
@@ -52,7 +52,7 @@ impl<V: Value> Curve<V> {
 
     /// The curve at `t`, by de Boor's pyramid; outside of its domain that of the nearer end.
     pub fn at(&self, t: f64) -> V {
-        if self.knots.degree() <= INLINE {
+        if self.knots.degree() <= MAX_INLINE_DEGREE {
             let mut place = [V::ZERO];
             self.derivatives_into(t, &mut place);
             return place[0];
@@ -64,10 +64,10 @@ impl<V: Value> Curve<V> {
 
     /// The derivative of this order at `t`; from the right, at the last knot from the left.
     pub fn derivative(&self, t: f64, order: usize) -> V {
-        if order > INLINE {
+        if order > MAX_INLINE_DEGREE {
             return self.derivatives(t, order)[order];
         }
-        let mut all = [V::ZERO; INLINE + 1];
+        let mut all = [V::ZERO; MAX_INLINE_DEGREE + 1];
         self.derivatives_into(t, &mut all[..=order]);
         all[order]
     }
@@ -91,7 +91,7 @@ impl<V: Value> Curve<V> {
     /// ```
     pub fn derivatives_into(&self, t: f64, out: &mut [V]) {
         let p = self.knots.degree();
-        if p > INLINE {
+        if p > MAX_INLINE_DEGREE {
             let (first, rows) = self.knots.derivatives(t, out.len().saturating_sub(1));
             for (o, row) in out.iter_mut().zip(&rows) {
                 *o = row.iter().zip(&self.points[first..]).fold(V::ZERO, |sum, (n, p)| sum.plus(*n, *p));
@@ -102,9 +102,9 @@ impl<V: Value> Curve<V> {
         let (t, k) = (t.clamp(from, to), self.knots.span(t));
         let u = self.knots.values();
         // The control points of the derivative, where they act on the span.
-        let mut own = [V::ZERO; INLINE + 1];
+        let mut own = [V::ZERO; MAX_INLINE_DEGREE + 1];
         own[..=p].copy_from_slice(&self.points[k - p..=k]);
-        let (mut spare, last) = ([V::ZERO; INLINE + 1], out.len().saturating_sub(1));
+        let (mut spare, last) = ([V::ZERO; MAX_INLINE_DEGREE + 1], out.len().saturating_sub(1));
         for (d, o) in out.iter_mut().enumerate() {
             if d > p {
                 *o = V::ZERO;

@@ -21,8 +21,8 @@ fn dot<const D: usize>(a: [f64; D], b: [f64; D]) -> f64 {
 impl<const D: usize> Curve<[f64; D]> {
     /// The place nearest to `point`: each span is looked at in a few places, the best are refined by Newton's method.
     ///
-    /// Two places nearer to each other than a part of a span, and equally far from the point, may be taken for one another;
-    /// the distance is then that of one of them. Cost: a few evaluations per span.
+    /// Two places nearer to each other than a part of a span, and equally far from the point, may be taken for one another. The
+    /// distance is then that of one of them. Cost: a few evaluations per span.
     pub fn closest(&self, point: [f64; D]) -> Foot<D> {
         let distinct = self.knots.distinct();
         let steps = 2 * self.knots.degree() + 2;

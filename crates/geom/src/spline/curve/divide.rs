@@ -4,18 +4,18 @@ use super::super::basis::Knots;
 use super::super::value::Value;
 use super::fit::{Ends, FitCurveError, Fitted, fit};
 
-/// The error that a span is divided for, as a share of the tolerance: its neighbors add to it.
-const AIM: f64 = 0.7;
-/// Parts that a span is divided into at once, and times that spans are divided.
-const MOST: (usize, usize) = (8, 12);
-/// Fewest points of a part: between fewer the curve may swing as it likes.
-const HELD: usize = 3;
+/// Share of the tolerance that a span is divided for: the adjacent spans add to its error.
+const AIMED_ERROR_SHARE: f64 = 0.7;
+/// Most parts that a span is divided into at once, and most times that spans are divided.
+const MAX_DIVISIONS: (usize, usize) = (8, 12);
+/// Least points of a part: between fewer the curve may swing as it likes.
+const MIN_POINTS_PER_PART: usize = 3;
 
-/// A curve of degree `degree` within `tolerance` of every point at its parameter, over as few spans as that needs: those
-/// between the rising numbers `spans`, divided where the fit is farther off.
+/// A curve of degree `degree` within `tolerance` of every point at its parameter, over as few spans as that needs. The spans
+/// are those between the rising numbers `spans`, divided where the fit is farther off.
 ///
-/// The error of a fit falls with the power `degree + 1` of the width of its spans, so that it tells how many parts a span needs:
-/// few fits do, where knots taken out one by one need one for each. Parameters stay what they are: for points that follow a curve
+/// The error of a fit falls with the power `degree + 1` of the width of its spans, so it tells how many parts a span needs. Few
+/// fits do, where knots taken out one by one need one for each. Parameters stay what they are: for points that follow a curve
 /// at steps of its length. No span is divided into parts of fewer than three points. Where no more spans are of use, the last
 /// curve is the answer: [`Fitted::max`] says so.
 ///
@@ -39,7 +39,7 @@ pub fn divided<const D: usize>(
 ) -> Result<Fitted<D>, FitCurveError> {
     let mut spans = spans.to_vec();
     let mut last: Option<Fitted<D>> = None;
-    for _ in 0..MOST.1 {
+    for _ in 0..MAX_DIVISIONS.1 {
         let (from, to) = (spans.first().copied().unwrap_or(0.0), spans.last().copied().unwrap_or(0.0));
         let inner = spans.get(1..spans.len().saturating_sub(1)).unwrap_or_default();
         let knots = Knots::clamped(degree, from, inner, to).map_err(|_| FitCurveError::Spans)?;
@@ -82,9 +82,9 @@ fn errors<const D: usize>(
 fn finer(spans: &[f64], errors: &[(f64, usize)], degree: usize, tolerance: f64) -> Vec<f64> {
     let mut all = vec![spans[0]];
     for (w, (error, count)) in spans.windows(2).zip(errors) {
-        let parts = libm::pow(error / (AIM * tolerance), 1.0 / (degree + 1) as f64).ceil();
-        let parts = if *error > tolerance { parts.clamp(2.0, MOST.0 as f64) as usize } else { 1 };
-        let parts = parts.min(count / HELD).max(1);
+        let parts = libm::pow(error / (AIMED_ERROR_SHARE * tolerance), 1.0 / (degree + 1) as f64).ceil();
+        let parts = if *error > tolerance { parts.clamp(2.0, MAX_DIVISIONS.0 as f64) as usize } else { 1 };
+        let parts = parts.min(count / MIN_POINTS_PER_PART).max(1);
         all.extend((1..=parts).map(|k| match k == parts {
             true => w[1],
             false => w[0] + (w[1] - w[0]) * k as f64 / parts as f64,

@@ -6,15 +6,15 @@ use super::b_spline::Curve;
 use super::fair::bending;
 use crate::num::cholesky::Cholesky;
 
-/// What an end of the curve must keep to.
+/// The condition that an end of the curve must keep.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum End<const D: usize> {
     /// Nothing.
     Free,
     /// It passes through a place.
     Through([f64; D]),
-    /// It passes through a place and is tangent to a direction there, as the curve runs: the next control point lies on
-    /// that side along it, or on the place itself where the points want it on the other side.
+    /// It passes through a place and is tangent to a direction there, as the curve runs. The next control point lies on that
+    /// side along it, or on the place itself where the points want it on the other side.
     Tangent([f64; D], [f64; D]),
 }
 
@@ -312,7 +312,7 @@ impl System {
 }
 
 /// Distances at parameters that were not found anew come down by this factor at most, as a rule.
-const FAR: f64 = 2.0;
+const REFINED_FALL: f64 = 2.0;
 
 /// A curve of as few control points as keep every point within `tolerance`: from many to few.
 ///
@@ -351,14 +351,14 @@ pub fn approximate<const D: usize>(
             return Ok(best);
         };
         let Some(fewer) = knots.without(index) else { return Ok(best) };
-        // The parameters are those of the nearest places of a curve that is hardly another: most often they will do, and
-        // where the distances at them are far too large, nearer places would not help.
+        // The parameters are those of the nearest places of a curve that is hardly another. Most often they will do, and where
+        // the distances at them are far too large, nearer places would not help.
         match fit(points, &parameters, &fewer, ends, 0.0) {
             Ok(fitted) if fitted.max <= tolerance => {
                 best = fitted;
                 continue;
             }
-            Ok(fitted) if fitted.max > FAR * tolerance => {
+            Ok(fitted) if fitted.max > REFINED_FALL * tolerance => {
                 kept.push(knots.values()[index]);
                 continue;
             }

@@ -1,7 +1,7 @@
 //! Knots in and out, and degrees up, without changing the curve.
 //!
-//! Every control point is the blossom of the curve at the knots it belongs to (Ramshaw 1987; Goldman and Lyche, Knot
-//! Insertion and Deletion Algorithms, 1993), so the points of new knots are blossoms at the new knots.
+//! Every control point is the blossom of the curve at the knots it belongs to. So the points of new knots are blossoms at the
+//! new knots. (Ramshaw 1987; Goldman and Lyche, Knot Insertion and Deletion Algorithms, 1993.)
 
 use super::super::basis::{KnotError, Knots};
 use super::super::pyramid::blossom;
@@ -64,7 +64,7 @@ impl<V: Value> Curve<V> {
                 curve = curve.insert(end)?;
             }
         }
-        // Of `degree` equal knots within the domain the point before them is the curve's place there.
+        // Where `degree` equal knots lie within the domain, the point before them is the curve's place there.
         let (low, high) = self.domain();
         let values = curve.knots.values();
         let first = if from > low { values.partition_point(|k| *k < from) - 1 } else { 0 };
@@ -75,8 +75,8 @@ impl<V: Value> Curve<V> {
         Curve::new(knots, curve.points.get(first..past).unwrap_or_default().to_vec())
     }
 
-    /// The same curve over another domain, which starts before its second knot and ends after its last but one: beyond its own ends it goes
-    /// on as the polynomials there do.
+    /// The same curve over another domain, which starts before its second knot and ends after its last but one. Beyond its own
+    /// ends it goes on as the polynomials there do.
     ///
     /// # Errors
     /// [`KnotError`] where the domain is another one.
@@ -131,9 +131,9 @@ impl<V: Value> Curve<V> {
         let point = |i: usize| {
             let span = self.inner_span(u, i, p + 1);
             let all = &u[i + 1..=i + p];
-            (0..p).fold(V::ZERO, |sum, left_out| {
+            (0..p).fold(V::ZERO, |sum, excluded| {
                 let rest: Vec<f64> =
-                    all.iter().enumerate().filter(|(k, _)| *k != left_out).map(|(_, x)| *x).collect();
+                    all.iter().enumerate().filter(|(k, _)| *k != excluded).map(|(_, x)| *x).collect();
                 sum.plus(1.0 / p as f64, blossom(self.knots.values(), &self.points, span, &rest))
             })
         };
@@ -141,8 +141,8 @@ impl<V: Value> Curve<V> {
         Curve { knots, points }
     }
 
-    /// The curve without the inner knot number `index`, if it then moves by no more than `tolerance` (greatest change of a
-    /// coordinate of a control point, which bounds that of the curve), and by how much that is.
+    /// The curve without the inner knot number `index`, if it then moves by no more than `tolerance`, and by how much that is.
+    /// The measure is the greatest change of a coordinate of a control point, which bounds that of the curve.
     ///
     /// The new control points are computed from either side and meet in the middle: Piegl and Tiller, algorithm A5.8.
     pub fn remove(&self, index: usize, tolerance: f64) -> Option<(Curve<V>, f64)> {

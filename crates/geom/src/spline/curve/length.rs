@@ -11,13 +11,13 @@ const GAUSS: [(f64, f64); 3] = [
 ];
 
 /// Roundings of the greatest coordinate that the length of a span is uncertain by.
-const ROUNDINGS: f64 = 16.0;
+const LENGTH_ROUNDINGS: f64 = 16.0;
 
 impl<const D: usize> Curve<[f64; D]> {
     /// Length of the curve between two parameters, to about twelve digits; negative where `to < from`.
     ///
     /// Each span is halved until two halves and the whole agree, or differ by no more than the rounding of the control points'
-    /// coordinates: of a curve far shorter than it is away from the origin, fewer digits are known. Not a number, where a
+    /// coordinates. Fewer digits are known of a curve far shorter than it is away from the origin. Not a number, where a
     /// control point is none.
     pub fn length(&self, from: f64, to: f64) -> f64 {
         if to < from {
@@ -27,7 +27,7 @@ impl<const D: usize> Curve<[f64; D]> {
         places.extend(self.knots.distinct().into_iter().filter(|k| *k > from && *k < to));
         places.push(to);
         let greatest = self.points.iter().flatten().fold(0.0_f64, |m, x| m.max(x.abs()));
-        let lost = ROUNDINGS * f64::EPSILON * greatest;
+        let lost = LENGTH_ROUNDINGS * f64::EPSILON * greatest;
         places.windows(2).map(|w| self.halved(w[0], w[1], self.rule(w[0], w[1]), lost, 40)).sum()
     }
 

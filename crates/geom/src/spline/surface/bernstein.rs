@@ -1,17 +1,18 @@
 //! Lower bounds of the distance of a part of a surface from a point, by coefficients in Bernstein form.
 //!
-//! A polynomial on a rectangle is nowhere below the least of its Bernstein coefficients, and the surface lies within the hull of its own.
-//! Two bounds follow. All of the part lies behind the plane through the best place at right angles to the way from the point to it, if its
-//! coefficients do: so is done away at once with what bends away from the point, with a whole edge that is one place, and with what is
-//! folded into a plane or onto a line. And all of the part is farther than `r` if no coefficient of `|X − p w|² − r² w²` is below 0: of
-//! what bends towards the point this leaves a part that shrinks with the square of a step, and nothing of a sphere around its center.
-//! Neither bound asks that the surface has a normal.
+//! A polynomial on a rectangle is nowhere below the least of its Bernstein coefficients, and the surface lies within the hull
+//! of its own. Two bounds follow. A plane runs through the best place at right angles to the way from the point to it. All of
+//! the part lies behind that plane if its coefficients do. That does away at once with parts that bend away from the point, and
+//! with a whole edge at one place. Parts folded into a plane or onto a line go too. And all of the part is farther than `r` if
+//! no coefficient of `|X − p w|² − r² w²` is below 0. Where the surface bends towards the point this leaves a part that shrinks
+//! with the square of a step. It leaves nothing of a sphere around its center. Neither bound asks that the surface has a
+//! normal.
 
 use super::super::value::Value;
 use crate::space::{Aabb, Point, Vector, dot};
 
 /// Rounding of a coefficient, as a share of the greatest of its kind: each is the sum of some dozens of products.
-const ROUNDING: f64 = 64.0 * f64::EPSILON;
+const COEFFICIENT_ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// A part of a surface about a point in Bernstein form.
 #[derive(Clone)]
@@ -32,7 +33,7 @@ struct Net<const D: usize> {
 }
 
 impl Bernstein {
-    /// Of coefficients of powers on `[−1, 1]²`, `q` to a row, the part from `from` to `to`.
+    /// The part from `from` to `to` for coefficients of powers on `[−1, 1]²`, `q` to a row.
     pub(super) fn new(powers: Vec<[f64; 4]>, q: usize, from: [f64; 2], to: [f64; 2]) -> Bernstein {
         let counts = [powers.len() / q, q];
         let mut net = Net { counts, values: powers };
@@ -45,7 +46,11 @@ impl Bernstein {
         let moment = |v: &[f64; 4]| v[0].abs().max(v[1].abs()).max(v[2].abs());
         let most = net.values.iter().map(moment).fold(0.0, f64::max);
         let square = squares.values.iter().map(|v| v[0].abs()).fold(0.0, f64::max);
-        Bernstein { moments: net, squares, noise: [ROUNDING * most, ROUNDING * square] }
+        Bernstein {
+            moments: net,
+            squares,
+            noise: [COEFFICIENT_ROUNDING * most, COEFFICIENT_ROUNDING * square],
+        }
     }
 
     /// The box of the coefficients, which holds the part.
@@ -62,10 +67,10 @@ impl Bernstein {
 
     /// Whether no place of the part is nearer to the point than `least`; `way` is the unit vector from the point to the best place.
     pub(super) fn is_beyond(&self, least: f64, way: Vector) -> bool {
-        let behind = |[x, y, z, w]: &[f64; 4]| dot([*x, *y, *z], way) >= least * w + self.noise[0];
+        let in_half_space = |[x, y, z, w]: &[f64; 4]| dot([*x, *y, *z], way) >= least * w + self.noise[0];
         let square = least * least;
         least <= 0.0
-            || self.moments.values.iter().all(behind)
+            || self.moments.values.iter().all(in_half_space)
             || self.squares.values.iter().all(|[s, w]| *s >= square * w + self.noise[1])
     }
 

@@ -1,9 +1,9 @@
 //! A surface over a grid of cells, each with a bound on its distance from the two facets between its corners.
 //!
-//! Over steps `h` and `k` of the parameters a surface keeps within `(h² M₁ + 2hk M₂ + k² M₃) / 8` of the facets, with bounds `M` of its
-//! second derivatives (Filip, Magedson and Markot, Surface algorithms using bounds on derivatives, Computer Aided Geometric
-//! Design 3, 1986). Here they are bounded patch by patch by the sizes of the coefficients of its polynomial. A rational
-//! surface `X / w` is bounded through the derivatives of `X` and `w`, as seen from the middle of the patch.
+//! Over steps `h` and `k` of the parameters a surface keeps within `(h² M₁ + 2hk M₂ + k² M₃) / 8` of the facets, with bounds
+//! `M` of its second derivatives. (Filip, Magedson and Markot, Surface algorithms using bounds on derivatives, Computer Aided
+//! Geometric Design 3, 1986.) Here they are bounded patch by patch by the sizes of the coefficients of its polynomial. A
+//! rational surface `X / w` is bounded through the derivatives of `X` and `w`, as seen from the middle of the patch.
 
 use super::bernstein::Bernstein;
 use super::degenerate::Degenerate;
@@ -332,7 +332,8 @@ impl Grid {
     }
 }
 
-/// How far a part of a patch may be from its facets, with its steps and the bounds of the second derivatives by coordinates of the patch.
+/// How far a part of a patch may be from its facets. It follows from its steps and the bounds of the second derivatives by
+/// coordinates of the patch.
 pub(super) fn slack([h, k]: [f64; 2], [ss, st, tt]: [f64; 3]) -> f64 {
     (h * h * ss + 2.0 * h * k * st + k * k * tt) / 8.0
 }
@@ -368,7 +369,7 @@ fn patch_bounds(surface: &Nurbs, shape: &Polynomials) -> Vec<[f64; 3]> {
 }
 
 /// Most steps in a span.
-const MOST: f64 = 65536.0;
+const MAX_STEPS_PER_SPAN: f64 = 65536.0;
 
 /// Steps in each span of both directions, so that each direction has half of the slack.
 fn steps(shape: &Polynomials, bounds: &[[f64; 3]], slack: f64) -> [Vec<usize>; 2] {
@@ -380,7 +381,7 @@ fn steps(shape: &Polynomials, bounds: &[[f64; 3]], slack: f64) -> [Vec<usize>; 2
     for (cell, [ss, st, tt]) in bounds.iter().enumerate() {
         let bends = [ss + ratio * st, tt + st / ratio];
         for (k, at) in [cell / counts[1], cell % counts[1]].into_iter().enumerate() {
-            let n = (bends[k] / slack).sqrt().ceil().clamp(1.0, MOST);
+            let n = (bends[k] / slack).sqrt().ceil().clamp(1.0, MAX_STEPS_PER_SPAN);
             out[k][at] = out[k][at].max(n as usize);
         }
     }

@@ -27,16 +27,16 @@ impl SurfaceFoot {
     }
 }
 
-/// Steps of Newton's method at most.
-const STEPS: usize = 30;
+/// Most steps of Newton's method.
+const MAX_NEWTON_STEPS: usize = 30;
 /// Length of a step, relative to the place, after which the next one is rounding.
-const NEARLY: f64 = 1e-9;
+const LAST_STEP_SHARE: f64 = 1e-9;
 
 impl Patches {
     /// The place nearest to `point` that a descent from the parameters `start` comes to.
     ///
-    /// Newton's method on the squared distance, kept within the domain; where the distance is not convex, the method of Gauss
-    /// and Newton; steps that do not lead nearer are halved. Cost: some evaluations.
+    /// Newton's method on the squared distance, kept within the domain. Where the distance is not convex, the method of Gauss
+    /// and Newton takes its place. Steps that do not lead nearer are halved. Cost: some evaluations.
     pub fn foot_from(&self, point: Point, start: [f64; 2]) -> SurfaceFoot {
         descend(|at| self.jet(at[0], at[1]), self.domain(), point, start).0
     }
@@ -56,7 +56,7 @@ pub(super) fn descend(
     let mut away = minus(jet.place, point);
     let mut square = dot(away, away);
     let mut settled = false;
-    for _ in 0..STEPS {
+    for _ in 0..MAX_NEWTON_STEPS {
         let (step, newton) = step(&jet, away, at, domain);
         let scale = [norm(jet.first[0]), norm(jet.first[1])];
         // A move below the rounding of the place itself.
@@ -73,7 +73,7 @@ pub(super) fn descend(
             let new = jet_at(tried);
             let to = minus(new.place, point);
             // A step of Newton's that moves so little has one of its square after it: it is the last one.
-            let last = newton && factor == 1.0 && moved <= NEARLY * (norm(jet.place) + norm(away));
+            let last = newton && factor == 1.0 && moved <= LAST_STEP_SHARE * (norm(jet.place) + norm(away));
             if last && dot(to, to) <= square * (1.0 + 1e-9) {
                 (at, jet, away) = (tried, new, to);
                 square = dot(away, away);
@@ -100,8 +100,8 @@ pub(super) fn descend(
     (foot, jet)
 }
 
-/// The step to the least of a quadratic model, along an edge of the domain where it would leave it there, and whether the
-/// model is Newton's.
+/// The step to the least of a quadratic model, and whether the model is Newton's. It goes along an edge of the domain where it
+/// would leave it there.
 fn step(jet: &Jet, away: Vector, at: [f64; 2], domain: [(f64, f64); 2]) -> ([f64; 2], bool) {
     let [su, sv] = jet.first;
     let gradient = [dot(away, su), dot(away, sv)];
@@ -154,15 +154,15 @@ struct Cell {
 }
 
 /// How often a cell is cut in four before its starts are trusted.
-const DEPTH: u32 = 3;
+const MAX_CELL_DEPTH: u32 = 3;
 
 impl Surface<Point> {
     /// The place nearest to `point`.
     ///
-    /// The surface lies within the box of its control points, also part by part: parts are cut in four, three times over, and those whose
-    /// box is no nearer than the best place are left out; in the others Newton's method starts from the middle and the
-    /// corners. Places equally far may be taken for one another. Cost: some hundred evaluations for each part that is near; for
-    /// many points near the surface take [`Patches::foot_from`].
+    /// The surface lies within the box of its control points, also part by part. Parts are cut in four, three times over, and
+    /// those whose box is no nearer than the best place are left out. In the others Newton's method starts from the middle and
+    /// the corners. Places equally far may be taken for one another. Cost: some hundred evaluations for each part that is near;
+    /// for many points near the surface take [`Patches::foot_from`].
     pub fn closest(&self, point: Point) -> SurfaceFoot {
         let patches = Patches::new(self);
         let [(u0, u1), (v0, v1)] = self.domain();
@@ -176,14 +176,14 @@ impl Surface<Point> {
             }
             let [(a, b), (c, d)] = cell.surface.domain();
             let starts = [[0.5 * (a + b), 0.5 * (c + d)], [a, c], [a, d], [b, c], [b, d]];
-            let starts = if cell.depth == DEPTH { &starts[..] } else { &starts[..1] };
+            let starts = if cell.depth == MAX_CELL_DEPTH { &starts[..] } else { &starts[..1] };
             for start in starts {
                 let found = patches.foot_from(point, *start);
                 if found.distance < best.distance {
                     best = found;
                 }
             }
-            if cell.depth < DEPTH {
+            if cell.depth < MAX_CELL_DEPTH {
                 let mut parts: Vec<Cell> = cell
                     .surface
                     .quarters()

@@ -4,7 +4,7 @@ use super::{Direction, Nurbs};
 use crate::space::{Aabb, Point, cross, minus, norm, unit};
 use std::fmt;
 
-/// What a surface lacks.
+/// The defect of a surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Degenerate {
     /// All control points lie at one place.
@@ -18,12 +18,14 @@ pub enum Degenerate {
 }
 
 /// Share of the coordinates below which a size is that of their rounding: twelve digits are written.
-const NO_SIZE: f64 = 1e-12;
-/// Share of the size below which control points are at one place or on one line: what is left of coordinates written with ten digits.
-const NEAR: f64 = 1e-9;
+const NO_SIZE_DIGITS: f64 = 1e-12;
+/// Share of the size below which control points lie at one place or on one line: coordinates written with ten digits are
+/// rounded so far.
+const SAME_POINT_SHARE: f64 = 1e-9;
 
 impl Nurbs {
-    /// What the surface lacks: nothing of a sound one, one entry where it has no area, else one for each edge that is a single place.
+    /// The defects of the surface: none of a sound one, one entry where it has no area. Else there is one for each edge that is
+    /// a single place.
     ///
     /// ```
     /// use trueness_geom::spline::{basis::Knots, surface::{Degenerate, Direction, Nurbs}};
@@ -37,10 +39,10 @@ impl Nurbs {
         let (bounds, [m, n]) = (Aabb::of(&points), self.counts());
         let greatest = bounds.min.iter().chain(&bounds.max).fold(0.0, |g: f64, x| g.max(x.abs()));
         let size = bounds.diagonal();
-        if size <= NO_SIZE * greatest {
+        if size <= NO_SIZE_DIGITS * greatest {
             return vec![Degenerate::Place];
         }
-        let near = NEAR * size;
+        let near = SAME_POINT_SHARE * size;
         let far = points.iter().map(|p| minus(*p, points[0]));
         let far = far.reduce(|a, b| if norm(b) > norm(a) { b } else { a });
         if let Some((along, _)) = far.and_then(unit)

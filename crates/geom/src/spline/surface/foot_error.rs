@@ -50,12 +50,12 @@ pub enum FootError {
     Cancelled(#[from] Cancelled),
 }
 
-/// Coordinates beyond this, millimeters, round to more than a ten-thousandth: what is measured against such a surface is its rounding.
-const LARGEST: f64 = 1e12;
+/// Larger coordinates, millimeters, round to more than a ten-thousandth: distances from such a surface are its rounding.
+const MAX_SURFACE_COORDINATE: f64 = 1e12;
 
-/// Factor between weights beyond which steps through the parameters are lost in rounding: a surface of 10⁶ had places 0.6 mm off. Arcs of half a
-/// circle have weights of 2 at most.
-const WEIGHTS: f64 = 1e4;
+/// Factor between weights beyond which steps through the parameters are lost in rounding. A surface with 10⁶ had places 0.6 mm
+/// off. Arcs of half a circle have weights of 2 at most.
+const MAX_WEIGHT_RATIO: f64 = 1e4;
 
 /// The box of the control points of surfaces that can be searched.
 pub(super) fn check(surfaces: &[Nurbs]) -> Result<Aabb, FootError> {
@@ -65,13 +65,15 @@ pub(super) fn check(surfaces: &[Nurbs]) -> Result<Aabb, FootError> {
     let mut bounds = Aabb::EMPTY;
     for (surface, s) in surfaces.iter().enumerate() {
         let points = s.control_points();
-        let bad = |(p, w): &(Point, f64)| !p.iter().all(|x| x.abs() <= LARGEST) || w.is_nan() || *w <= 0.0;
+        let bad = |(p, w): &(Point, f64)| {
+            !p.iter().all(|x| x.abs() <= MAX_SURFACE_COORDINATE) || w.is_nan() || *w <= 0.0
+        };
         if let Some(point) = points.iter().position(bad) {
             return Err(FootError::BadPoint { surface, point });
         }
         let (least, most) =
             points.iter().fold((f64::INFINITY, 0.0f64), |(low, high), (_, w)| (low.min(*w), high.max(*w)));
-        if most > WEIGHTS * least {
+        if most > MAX_WEIGHT_RATIO * least {
             return Err(FootError::Weights { surface, ratio: most / least });
         }
         for knots in s.knots() {

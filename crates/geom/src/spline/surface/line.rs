@@ -1,8 +1,8 @@
 //! The curve on a surface over a straight line between two parameters.
 //!
-//! Within a cell of knots the surface is a polynomial of degree `p` by `u` and `q` by `v`, so over a line it is one of degree `p + q`.
-//! Its Bézier points are sums of the surface's blossoms at the ends (Ramshaw 1989), with positive weights that sum to 1: nothing
-//! is approximated.
+//! Within a cell of knots the surface is a polynomial of degree `p` by `u` and `q` by `v`. So over a line it is one of degree
+//! `p + q`. Its Bézier points are sums of the surface's blossoms at the ends (Ramshaw 1989), with positive weights that sum to
+//! 1: nothing is approximated.
 
 use super::super::basis::Knots;
 use super::super::curve::Curve;
@@ -11,11 +11,11 @@ use super::super::value::Value;
 use super::tensor::Surface;
 
 /// Places nearer to each other on the line than this share of it are one.
-const SAME: f64 = 1e-12;
+const SAME_LINE_PLACE: f64 = 1e-12;
 
 impl<V: Value> Surface<V> {
-    /// The curve `S(from + t (to − from))` for `t` from 0 to 1, exactly: a B-spline of degree `p + q`, with a knot `p + q` times where
-    /// the line crosses one of the surface.
+    /// The curve `S(from + t (to − from))` for `t` from 0 to 1, exactly. It is a B-spline of degree `p + q`, with a knot `p +
+    /// q` times where the line crosses one of the surface.
     ///
     /// Both ends must lie in the domain. Cost: `(p + q)²` blossoms for each cell that the line passes.
     ///
@@ -53,7 +53,7 @@ impl<V: Value> Surface<V> {
             (0..degree).map(|a| if a < ends { to[k] } else { from[k] }).collect()
         };
         let [u, v] = self.knots().each_ref().map(Knots::values);
-        // Of each row the blossoms with none of the arguments at the end, one, and so on.
+        // The blossoms of each row with none of the arguments at the end, one, and so on.
         let rows: Vec<Vec<V>> = (0..=q)
             .map(|ends| {
                 let arguments = arguments(1, q, ends);
@@ -77,9 +77,10 @@ impl<V: Value> Surface<V> {
 /// Where a line crosses inner knots, as shares of its length, ascending; not at its ends.
 fn crossings(knots: &[Knots; 2], from: [f64; 2], to: [f64; 2]) -> Vec<f64> {
     let of = |k: usize| knots[k].distinct().into_iter().map(move |knot| (knot - from[k]) / (to[k] - from[k]));
-    let mut all: Vec<f64> = of(0).chain(of(1)).filter(|t| (SAME..=1.0 - SAME).contains(t)).collect();
+    let mut all: Vec<f64> =
+        of(0).chain(of(1)).filter(|t| (SAME_LINE_PLACE..=1.0 - SAME_LINE_PLACE).contains(t)).collect();
     all.sort_by(f64::total_cmp);
-    all.dedup_by(|b, a| *b - *a < SAME);
+    all.dedup_by(|b, a| *b - *a < SAME_LINE_PLACE);
     all
 }
 

@@ -26,6 +26,6 @@ pub use nurbs::Nurbs;
 pub use patches::Jet;
 pub use patches::Patches;
 pub use rational::RationalSurface;
-pub use search::{FootSearch, NearestFoot, SHARE};
+pub use search::{FOOT_TOLERANCE, FootSearch, NearestFoot};
 pub use tensor::{Direction, Surface};
 pub use tessellate::Tessellation;

@@ -15,7 +15,8 @@ pub enum Nurbs {
 }
 
 impl Nurbs {
-    /// Of control points, row after row as in [`Surface`], with weights above 0; polynomial where all weights are equal.
+    /// The surface of control points, row after row as in [`Surface`], with weights above 0; polynomial where all weights are
+    /// equal.
     ///
     /// ```
     /// use trueness_geom::spline::{basis::Knots, surface::Nurbs};

@@ -67,7 +67,7 @@ impl Patches {
 }
 
 impl<const D: usize> Patches<D> {
-    /// Of control points over spans, `n` to a row.
+    /// The patches of control points over spans, `n` to a row.
     pub fn of(spans: [Spans; 2], points: &[[f64; D]], n: usize) -> Patches<D> {
         let [p, q] = [spans[0].degree() + 1, spans[1].degree() + 1];
         let mut coefficients = Vec::with_capacity(spans[0].count() * spans[1].count() * p * q);

@@ -21,7 +21,7 @@ use crate::space::{Point, norm};
 pub struct RationalSurface(Surface<Mass<3>>);
 
 impl RationalSurface {
-    /// Of control points with their weights, row after row as in [`Surface`].
+    /// The surface of control points with their weights, row after row as in [`Surface`].
     ///
     /// # Errors
     /// [`KnotError::Points`] where their number does not fit the knots.

@@ -1,25 +1,26 @@
 //! How near a point must be to a surface for a foot of it to be the nearest place beyond doubt.
 //!
-//! Let the derivatives `J` of a surface, as seen on a plane, differ from fixed ones `J₀` by no more than `e`, and let `m` be the least
-//! stretch of `J₀` seen there less `e`. Then places lie at least `m` times as far apart as their parameters: the domain is convex, and `J`
-//! is integrated along the straight line between them. Let a point have the distance `d` from a foot, and let another place be no
-//! farther. Their parameters are at most `2d / m` apart, so on the line between them the surface is nowhere farther from the point than
-//! `d + L d / m`, with the greatest stretch `L`. Half the second derivative of the squared distance along it is at least
-//! `m² − M d (1 + L / m)`, with a bound `M` of the second derivatives. Where that is above 0 the squared distance is convex along the
-//! line and stands still at the foot: the other place is not nearer. (What is the same for all points within: a bound of the reach of
-//! Federer, Curvature measures, Transactions of the American Mathematical Society 93, 1959.)
+//! Let the derivatives `J` of a surface, as seen on a plane, differ from fixed ones `J₀` by no more than `e`. Let `m` be the
+//! least stretch of `J₀` seen there less `e`. Then places lie at least `m` times as far apart as their parameters. For the
+//! domain is convex, and `J` is integrated along the straight line between them. Let a point have the distance `d` from a foot,
+//! and let another place be no farther. Their parameters are at most `2d / m` apart. So on the line between them the surface is
+//! nowhere farther from the point than `d + L d / m`, with the greatest stretch `L`. Half the second derivative of the squared
+//! distance along it is at least `m² − M d (1 + L / m)`, with a bound `M` of the second derivatives. Where that is above 0 the
+//! squared distance is convex along the line and stands still at the foot: the other place is not nearer. (What is the same for
+//! all points within: a bound of the reach of Federer, Curvature measures, Transactions of the American Mathematical Society
+//! 93, 1959.)
 
 use super::Patches;
 use crate::space::{Vector, cross, dot, minus, norm, times, unit};
 
-/// Steps to the direction of the greatest spread. It need not be met: any plane is good, the best one says most.
-const STEPS: usize = 32;
+/// Steps to the direction of the greatest spread. It need not be met: any plane is valid, the best one says most.
+const SPREAD_STEPS: usize = 32;
 
 impl Patches {
     /// A distance: of points nearer than that to a foot, a place where the squared distance stands still, no other place is nearer.
     ///
-    /// It is 0 where the surface may turn back over itself, or bends without a bound: where a derivative jumps, as at a knot that
-    /// stands as often as the degree. Infinite for a plane. Cost: one pass over the patches.
+    /// It is 0 where the surface may turn back over itself, or bends without a bound. The bound fails where a derivative jumps,
+    /// as at a knot that stands as often as the degree. Infinite for a plane. Cost: one pass over the patches.
     ///
     /// ```
     /// use trueness_geom::spline::{basis::Knots, surface::{Patches, Surface}};
@@ -40,9 +41,9 @@ impl Patches {
         for cell in 0..self.spans[0].count() * self.spans[1].count() {
             let all = self.derivatives_of(cell);
             let own = all.stretch(|c| norm(*c), [[0.0; 3]; 2]);
-            let beside = all.stretch(|c| plane.seen(c), middle);
+            let shifted = all.stretch(|c| plane.seen(c), middle);
             most = most.max(libm::hypot(own[0], own[1]));
-            off = off.max(libm::hypot(beside[0], beside[1]));
+            off = off.max(libm::hypot(shifted[0], shifted[1]));
             bend = bend.max(all.bend());
         }
         let least = plane.least - off;
@@ -81,7 +82,7 @@ impl Patches {
             }
         }
         let mut found = unit(cross(u, v)).map_or([0.0, 0.0, 1.0], |(n, _)| n);
-        for _ in 0..STEPS {
+        for _ in 0..SPREAD_STEPS {
             let next = spread.map(|row| dot(row, found));
             found = unit(next).map_or(found, |(n, _)| n);
         }

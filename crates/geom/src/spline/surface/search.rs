@@ -1,10 +1,11 @@
 //! The place of one or several surfaces nearest to a point, beyond doubt.
 //!
-//! Each surface is laid over a grid of cells whose distance from two facets is bounded ([`super::cells`]), and the cells into a tree
-//! of boxes. From a cell that may hold a nearer place than the best one known, Newton's method starts; then the cell is
-//! done away with in one of four ways. Its bound says that it is too far. Or its Bernstein coefficients do ([`super::bernstein`]), which
-//! need no normal. Or it lies within a neighborhood of the best place over which the squared distance is convex, by a bound of its
-//! second derivatives, so that the minimum found is the only one. Or it is halved along what bends more, until its bounds are [`SHARE`] of the surfaces' size.
+//! Each surface is laid over a grid of cells whose distance from two facets is bounded ([`super::cells`]), and the cells into a
+//! tree of boxes. Newton's method starts from a cell that may hold a nearer place than the best one known. Then the cell is
+//! done away with in one of four ways. Its bound says that it is too far. Or its Bernstein coefficients do
+//! ([`super::bernstein`]), which need no normal. Or it lies within a neighborhood of the best place over which the squared
+//! distance is convex, by a bound of its second derivatives. Then the minimum found is the only one. Or it is halved along what
+//! bends more, until its bounds are [`FOOT_TOLERANCE`] of the surfaces' size.
 
 use super::Nurbs;
 use super::bernstein::Bernstein;
@@ -19,8 +20,8 @@ use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress};
 use crate::space::{Aabb, Point, Vector, cross, dot, minus, norm, unit};
 
-/// Places nearer by less than this share of the surfaces' size are not looked for once a minimum is found.
-pub const SHARE: f64 = 1e-9;
+/// Share of the surfaces' size: nearer places by less than this are not looked for once a minimum is found.
+pub const FOOT_TOLERANCE: f64 = 1e-9;
 
 /// The place of surfaces nearest to a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,7 +36,7 @@ pub struct NearestFoot {
     pub weights: [f64; 3],
     /// Whether it lies on the border of the surface, where no other one goes on.
     pub border: bool,
-    /// Whether no other place is nearer by more than [`SHARE`] of the size, or by more than rounding; `false` where that took too many
+    /// Whether no other place is nearer by more than [`FOOT_TOLERANCE`] of the size, or by more than rounding; `false` where that took too many
     /// steps.
     pub certain: bool,
     /// Cuts of cells that it took: what it has cost beyond a look at the cells near by.
@@ -68,14 +69,14 @@ pub struct FootSearch {
     farthest: f64,
 }
 
-/// Cells of all grids together, about.
-const CELLS: f64 = 200_000.0;
-/// Pairs of spans at most: their polynomials take some hundred bytes each.
-const MOST_PAIRS: usize = 4_000_000;
-/// Cuts of cells for one point at most.
-const CUTS: usize = 20_000;
+/// Most cells of all grids together, about.
+const MAX_GRID_CELLS: f64 = 200_000.0;
+/// Most pairs of spans: their polynomials take some hundred bytes each.
+const MAX_SPAN_PAIRS: usize = 4_000_000;
+/// Most cuts of cells for one point.
+const MAX_CUTS_PER_POINT: usize = 20_000;
 /// Rounding of a place or distance, as a share of the greatest coordinate: a place is the sum of some dozens of products.
-const ROUNDED: f64 = 32.0 * f64::EPSILON;
+const PLACE_ROUNDING: f64 = 32.0 * f64::EPSILON;
 /// The best place so far.
 struct Best {
     foot: SurfaceFoot,
@@ -84,8 +85,8 @@ struct Best {
     alone: Option<Alone>,
 }
 
-/// A neighborhood of a place in which the squared distance is convex: all within the parameters `from` to `to` whose scaled
-/// distance from `at` is no more than `radius`.
+/// A neighborhood of a place in which the squared distance is convex. It holds all within the parameters `from` to `to` whose
+/// scaled distance from `at` is no more than `radius`.
 struct Alone {
     at: [f64; 2],
     scale: [f64; 2],
@@ -121,15 +122,15 @@ impl FootSearch {
         let bounds = check(surfaces)?;
         let spans = |s: &Nurbs| s.knots().iter().map(|k| k.distinct().len() - 1).product::<usize>();
         let pairs: usize = surfaces.iter().map(spans).sum();
-        if pairs > MOST_PAIRS {
+        if pairs > MAX_SPAN_PAIRS {
             return Err(FootError::TooMany(pairs));
         }
         let farthest = bounds.min.iter().chain(&bounds.max).fold(0.0, |m: f64, x| m.max(x.abs()));
-        // What is smaller than the rounding of its places is one cell.
-        let mut slack = (1e-5 * bounds.diagonal()).max(ROUNDED * farthest).max(f64::MIN_POSITIVE);
+        // A surface smaller than the rounding of its places is one cell.
+        let mut slack = (1e-5 * bounds.diagonal()).max(PLACE_ROUNDING * farthest).max(f64::MIN_POSITIVE);
         let bent: Vec<Bent> = surfaces.par_iter().map(Bent::new).collect();
         let cells = |slack: f64| bent.iter().map(|b| b.cells(slack)).sum::<f64>();
-        while cells(slack) > CELLS.max(1.5 * cells(f64::INFINITY)) {
+        while cells(slack) > MAX_GRID_CELLS.max(1.5 * cells(f64::INFINITY)) {
             if progress.cancelled() {
                 return Err(Cancelled.into());
             }
@@ -142,7 +143,7 @@ impl FootSearch {
             first.push(first[first.len() - 1] + m * n);
         }
         let size = grids.iter().fold(Aabb::EMPTY, |b, g| b.union(&Aabb::of(&g.places))).diagonal();
-        Ok(FootSearch { boxes: Boxes::new(&grids, ROUNDED * farthest), grids, first, size, farthest })
+        Ok(FootSearch { boxes: Boxes::new(&grids, PLACE_ROUNDING * farthest), grids, first, size, farthest })
     }
 
     /// Number of surfaces.
@@ -166,8 +167,8 @@ impl FootSearch {
         self.grids.iter().map(of).fold(0.0, f64::max)
     }
 
-    /// The place nearest to a point. Two that are equally far are told apart by the normals: the one whose normal the point
-    /// lies along more is taken, as both sides of a crease must have one sign.
+    /// The place nearest to a point. The normals decide between two that are equally far. The one whose normal the point lies
+    /// along more is taken, as both sides of a crease must have one sign.
     ///
     /// Cost: a few microseconds; a hundred times that where very many places are nearly as near. A point that is not finite
     /// has a distance that is not.
@@ -190,26 +191,30 @@ impl FootSearch {
         f: impl Fn(usize, NearestFoot) -> T + Sync,
     ) -> Result<Vec<T>, QueryError> {
         /// Points answered between two questions whether to go on.
-        const CHUNK: usize = 256;
+        const POINTS_PER_QUESTION: usize = 256;
         check_points(points)?;
         let chunk = |(n, part): (usize, &[Point])| -> Result<Vec<T>, QueryError> {
             if progress.cancelled() {
                 return Err(Cancelled.into());
             }
-            let found = part.iter().enumerate().map(|(i, p)| f(n * CHUNK + i, self.nearest(p))).collect();
+            let found = part
+                .iter()
+                .enumerate()
+                .map(|(i, p)| f(n * POINTS_PER_QUESTION + i, self.nearest(p)))
+                .collect();
             progress.advance(part.len() as u64);
             Ok(found)
         };
         let parts: Result<Vec<Vec<T>>, QueryError> =
-            points.par_chunks(CHUNK).enumerate().map(chunk).collect();
+            points.par_chunks(POINTS_PER_QUESTION).enumerate().map(chunk).collect();
         Ok(parts?.into_iter().flatten().collect())
     }
 
     /// The best place on all surfaces but one.
     fn searched(&self, p: &Point, but: Option<usize>) -> Search<'_> {
         // Below the rounding of a distance nothing is nearer.
-        let rounding = ROUNDED * p.iter().fold(self.farthest, |m, x| m.max(x.abs()));
-        let epsilon = (SHARE * self.size).max(rounding);
+        let rounding = PLACE_ROUNDING * p.iter().fold(self.farthest, |m, x| m.max(x.abs()));
+        let epsilon = (FOOT_TOLERANCE * self.size).max(rounding);
         let mut search = Search { all: self, p: *p, best: None, cuts: 0, epsilon };
         self.boxes.visit(p, f64::INFINITY, |cell| {
             if but != Some(cell.grid as usize) {
@@ -245,7 +250,7 @@ impl FootSearch {
         let cell = self.first[surface] + i * self.grids[surface].counts()[1] + j;
         let (half, weights) = if x >= y { (0, [1.0 - x, x - y, y]) } else { (1, [1.0 - y, x, y - x]) };
         let border = self.on_border(surface, &foot);
-        let (face, certain) = ((2 * cell + half) as u32, cuts <= CUTS);
+        let (face, certain) = ((2 * cell + half) as u32, cuts <= MAX_CUTS_PER_POINT);
         NearestFoot { surface, foot, face, weights, border, certain, cuts }
     }
 
@@ -262,12 +267,12 @@ impl FootSearch {
                 || self
                     .searched(&foot.place, Some(surface))
                     .best
-                    .is_none_or(|b| b.foot.distance > JOINED * self.size))
+                    .is_none_or(|b| b.foot.distance > JOINED_SURFACE_SHARE * self.size))
     }
 }
 
 /// Surfaces nearer to one another than this share of their size are joined there.
-const JOINED: f64 = 1e-5;
+const JOINED_SURFACE_SHARE: f64 = 1e-5;
 
 /// A search under way.
 struct Search<'a> {
@@ -348,7 +353,7 @@ impl Search<'_> {
             if way.is_none_or(|(way, _)| own.is_beyond(least, way)) {
                 continue;
             }
-            if self.cuts > CUTS {
+            if self.cuts > MAX_CUTS_PER_POINT {
                 return;
             }
             self.cuts += 1;
@@ -428,10 +433,10 @@ impl Alone {
 
 /// The neighborhood in which a place is the only minimum, if one can be named.
 ///
-/// Parameters are scaled so that the derivatives have length 1 at the place; with the cosine `c` of their angle, the derivative in
-/// any direction is there at least `√(1 − c)` long, and within `r` of it no shorter than `√(1 − c) − M r`, with a bound `M` of the second
-/// derivatives. Half the second derivative of the squared distance is that squared plus the difference times the second derivative: above
-/// `(√(1 − c) − M r)² − M (d + r (√2 + M r / 2))`.
+/// Parameters are scaled so that the derivatives have length 1 at the place. With the cosine `c` of their angle, the derivative
+/// in any direction is there at least `√(1 − c)` long. Within `r` of it, it is no shorter than `√(1 − c) − M r`, with a bound
+/// `M` of the second derivatives. Half the second derivative of the squared distance is that squared plus the difference times
+/// the second derivative: above `(√(1 − c) − M r)² − M (d + r (√2 + M r / 2))`.
 fn alone(grid: &Grid, part: &Part, foot: &SurfaceFoot, jet: &Jet, p: Point, size: f64) -> Option<Alone> {
     let scale = jet.first.map(norm);
     let away: Vector = minus(jet.place, p);

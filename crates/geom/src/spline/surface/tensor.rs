@@ -149,8 +149,8 @@ impl<V: Value> Surface<V> {
         Ok([part(0, &knots[0])?, part(1, &knots[1])?])
     }
 
-    /// The same surface over another domain of a direction, which starts before its second knot and ends after its last but one: beyond
-    /// its own ends it goes on as the polynomials there do.
+    /// The same surface over another domain of a direction, which starts before its second knot and ends after its last but
+    /// one. Beyond its own ends it goes on as the polynomials there do.
     ///
     /// ```
     /// use trueness_geom::spline::{basis::Knots, surface::{Direction, Surface}};

@@ -19,9 +19,9 @@ pub struct Tessellation {
 impl Surface<Point> {
     /// Facets within `tolerance` of the surface, in rows and columns; `None` if that takes more than `most` facets.
     ///
-    /// A facet over steps `h` and `k` of the parameters keeps within `(h² M₁ + 2hk M₂ + k² M₃) / 8` of the surface, with the greatest
-    /// second derivatives `M` (Filip, Magedson and Markot, Surface algorithms using bounds on derivatives, Computer Aided
-    /// Geometric Design 3, 1986). They are bounded by the control points of the derivatives, span by span.
+    /// A facet over steps `h` and `k` of the parameters keeps within `(h² M₁ + 2hk M₂ + k² M₃) / 8` of the surface, with the
+    /// greatest second derivatives `M`. (Filip, Magedson and Markot, Surface algorithms using bounds on derivatives, Computer
+    /// Aided Geometric Design 3, 1986.) They are bounded by the control points of the derivatives, span by span.
     ///
     /// # Errors
     /// [`Cancelled`].
@@ -134,8 +134,8 @@ impl Surface<Point> {
         Some(lines)
     }
 
-    /// How the mixed derivative is shared out: by the ratio of steps that the others ask for; of a surface with straight lines
-    /// in a direction, by the ratio of the domain's sides.
+    /// How the mixed derivative is shared out: by the ratio of steps that the others ask for. A surface with straight lines in
+    /// a direction has it by the ratio of the domain's sides.
     fn mixed_share(&self, bounds: &[Vec<[f64; 3]>; 2]) -> f64 {
         let most = |which: usize| bounds[0].iter().map(|b| b[which]).fold(0.0, f64::max);
         let [(u0, u1), (v0, v1)] = self.domain();

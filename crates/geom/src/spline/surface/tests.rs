@@ -70,7 +70,7 @@ fn pyramid_basis_and_polynomials_agree() {
             assert!(near(*a, b, 1e-10), "{u} {v}: {a:?} {b:?}");
         }
     }
-    // What is outside of the domain is taken to its edge.
+    // A parameter outside of the domain is taken to its edge.
     assert_eq!(surface.at(-9.0, 99.0), surface.at(-1.0, 8.0));
 }
 

@@ -26,8 +26,8 @@ pub(super) struct Boxes {
     nodes: Vec<Node>,
 }
 
-/// Cells in a leaf at most.
-const LEAF: usize = 4;
+/// Most cells of a leaf.
+const MAX_CELLS_PER_LEAF: usize = 4;
 
 impl Boxes {
     /// Around all cells of the grids, each with room for its slack or for rounding.
@@ -72,7 +72,7 @@ impl Boxes {
 fn halve(cells: &mut [(CellId, Aabb)], first: usize, nodes: &mut Vec<Node>) {
     let bounds = cells.iter().fold(Aabb::EMPTY, |b, c| b.union(&c.1));
     let own = nodes.len();
-    if cells.len() <= LEAF {
+    if cells.len() <= MAX_CELLS_PER_LEAF {
         nodes.push(Node { bounds, next: first as u32, count: cells.len() as u32 });
         return;
     }

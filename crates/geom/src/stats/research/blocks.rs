@@ -21,15 +21,15 @@ pub struct BlockMean {
 }
 
 /// Fewest blocks from which a spread can be told.
-const FEWEST: u64 = 10;
+const MIN_BLOCKS: u64 = 10;
 
 /// The mean of the finite `values` at `points`, its uncertainty taken from the scatter of whole cubes of side `size`
 /// (millimeters) instead of single points.
 ///
-/// Values in different cubes are taken as independent, those in one cube as correlated in any way whatever: the
-/// cluster-robust variance (Liang and Zeger 1986) with Student's t for the number of cubes. So `size` should exceed the
-/// distance over which deviations go together; too small a size gives too small an interval. The paired differences of
-/// two references may be put in as well as deviations.
+/// Values in different cubes are taken as independent, those in one cube as correlated in any way whatever. The variance is the
+/// cluster-robust one (Liang and Zeger 1986), with Student's t for the number of cubes. So `size` should exceed the distance
+/// over which deviations go together; too small a size gives too small an interval. The paired differences of two references
+/// may be put in as well as deviations.
 ///
 /// # Errors
 /// Fewer than ten occupied cubes, or values that are all equal.
@@ -40,8 +40,8 @@ pub fn mean_of_blocks(points: &[Point], values: &[f64], size: f64) -> Result<Blo
     // Stable: within a block the file's order decides the last bits.
     items.sort_by_key(|i| i.0);
     let blocks = items.chunk_by(|a, b| a.0 == b.0).count() as u64;
-    if blocks < FEWEST {
-        return Err(Missing::TooFew(FEWEST));
+    if blocks < MIN_BLOCKS {
+        return Err(Missing::TooFew(MIN_BLOCKS));
     }
     let all = Summary::of(&items.iter().map(|i| i.1).collect::<Vec<f64>>()).all;
     let (mean, variance, n) = (all.mean?, all.variance?, items.len() as f64);

@@ -3,10 +3,10 @@
 //! Bias-corrected and accelerated percentiles (BCa) of resampled statistics: Efron, Better bootstrap confidence
 //! intervals, JASA 82, 1987; the acceleration from the values' influence (the infinitesimal jackknife).
 //!
-//! Up to [`DIRECT`] values, resamples are drawn value by value. More are gathered first into groups narrower than a
-//! 64th of σ, and each group's share of a resample is a Poisson number (Hanley and MacGibbon, Creating non-parametric
-//! bootstrap samples using Poisson frequencies, 2006). The groups hide 2·10^-5 of the variance at most; an outlier stays
-//! a group of its own.
+//! Up to [`MAX_DIRECT_VALUES`] values, resamples are drawn value by value. More are gathered first into groups narrower than a
+//! 64th of σ, and each group's share of a resample is a Poisson number. (Hanley and MacGibbon, Creating non-parametric
+//! bootstrap samples using Poisson frequencies, 2006.) The groups hide 2·10^-5 of the variance at most; an outlier stays a
+//! group of its own.
 
 use super::super::quantiles::{interpolate, position};
 use super::super::sketch::Sketch;
@@ -17,9 +17,9 @@ use crate::num::sum::Sum;
 use crate::parallel::prelude::*;
 
 /// Most values that are drawn one by one.
-pub const DIRECT: usize = 20_000;
+pub const MAX_DIRECT_VALUES: usize = 20_000;
 /// Groups to a standard deviation.
-const GROUPS_TO_SIGMA: f64 = 64.0;
+const GROUPS_PER_SIGMA: f64 = 64.0;
 
 /// How to resample.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,9 +41,9 @@ impl Default for Options {
 /// Intervals, as if the values were independent.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Intervals {
-    /// Of the mean, millimeters.
+    /// Interval of the mean, millimeters.
     pub mean: [f64; 2],
-    /// Of the sample standard deviation, millimeters.
+    /// Interval of the sample standard deviation, millimeters.
     pub std_dev: [f64; 2],
     /// Values behind them.
     pub count: u64,
@@ -57,7 +57,7 @@ pub struct Intervals {
 /// Fewer than two values, or all equal.
 pub fn bootstrap(values: &[f64], options: &Options) -> Result<Intervals, Missing> {
     let finite: Vec<f64> = values.iter().copied().filter(|x| x.is_finite()).collect();
-    if finite.len() <= DIRECT {
+    if finite.len() <= MAX_DIRECT_VALUES {
         return resample(&finite.iter().map(|x| (*x, 1)).collect::<Vec<_>>(), true, options);
     }
     let mut sketch = Sketch::default();
@@ -71,7 +71,7 @@ pub fn bootstrap(values: &[f64], options: &Options) -> Result<Intervals, Missing
 /// Fewer than two values, or all equal.
 pub fn bootstrap_sketch(sketch: &Sketch, options: &Options) -> Result<Intervals, Missing> {
     let bins: Vec<(f64, u64)> = sketch.bins().collect();
-    let width = Moments::of(&bins).std_dev / GROUPS_TO_SIGMA;
+    let width = Moments::of(&bins).std_dev / GROUPS_PER_SIGMA;
     let mut groups: Vec<(f64, u64)> = Vec::new();
     let mut first = f64::NEG_INFINITY;
     for (x, count) in bins {
@@ -89,7 +89,7 @@ pub fn bootstrap_sketch(sketch: &Sketch, options: &Options) -> Result<Intervals,
     resample(&groups, false, options)
 }
 
-/// Of values with counts.
+/// Moments of values with counts.
 struct Moments {
     count: u64,
     mean: f64,
@@ -199,7 +199,7 @@ mod tests {
     #[test]
     fn many_values_give_the_intervals_of_theory() {
         let mut random = Random::new(8);
-        for count in [DIRECT, 200_000] {
+        for count in [MAX_DIRECT_VALUES, 200_000] {
             let values: Vec<f64> = (0..count).map(|_| 5.0 + random.unit() + random.unit()).collect();
             let all = Summary::of(&values).all;
             let (mean, s, n) = (all.mean.unwrap(), all.std_dev.unwrap(), count as f64);

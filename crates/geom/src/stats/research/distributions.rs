@@ -1,7 +1,7 @@
 //! The distribution that describes deviations best, of a few.
 //!
-//! Each is fitted by maximum likelihood and judged by Akaike's and Schwarz's criteria (AIC, BIC: less is better) and
-//! by the greatest difference of shares (Kolmogorov and Smirnov).
+//! Each is fitted by maximum likelihood. It is judged by Akaike's and Schwarz's criteria (AIC, BIC: less is better) and by the
+//! greatest difference of shares (Kolmogorov and Smirnov).
 
 use super::super::statistics::{Missing, Summary};
 use crate::num::special::{normal_below, student_p};
@@ -266,8 +266,8 @@ mod tests {
         *fits.iter().find(|f| f.family == family).unwrap()
     }
 
-    /// Expected: `fit`, `logpdf`, `kstest` of SciPy 1.17's `norm`, `laplace`, `logistic`, `t`, `halfnorm`, `expon`,
-    /// `lognorm` on the same numbers (its optimizer stops some 1e-5 from the maximum).
+    /// Expected: `fit`, `logpdf`, `kstest` of SciPy 1.17's `norm`, `laplace`, `logistic`, `t`, `halfnorm`, `expon`, `lognorm`
+    /// on the same numbers. (Its optimizer stops some 1e-5 from the maximum.)
     #[test]
     fn equals_scipy() {
         let fits_found = fits(&logistic_values(), 5000, 1).unwrap();

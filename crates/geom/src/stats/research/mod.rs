@@ -1,4 +1,4 @@
-//! What a research report says beyond the standard statistics: intervals, normality, distributions, correlation.
+//! The additions of a research report to the standard statistics: intervals, normality, distributions, correlation.
 //!
 //! | question | where |
 //! |---|---|

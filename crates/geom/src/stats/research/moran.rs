@@ -1,7 +1,7 @@
 //! Do neighboring deviations go together?
 //!
-//! Moran's I (Biometrika 37, 1950) with the weights of a nearest-neighbor graph; its expectation and variance under
-//! random rearrangement of the values after Cliff and Ord, Spatial processes (1981).
+//! Moran's I (Biometrika 37, 1950) with the weights of a nearest-neighbor graph. Its expectation and variance under random
+//! rearrangement of the values follow Cliff and Ord, Spatial processes (1981).
 
 use super::super::statistics::{Missing, Summary};
 use crate::num::special::normal_p;
@@ -31,7 +31,7 @@ impl Default for Options {
 pub struct Moran {
     /// 1: neighbors have the same deviation; about 0: they have nothing to do with each other; below: they alternate.
     pub i: f64,
-    /// What chance gives on average: `-1 / (count - 1)`.
+    /// The average that chance gives: `-1 / (count - 1)`.
     pub expected: f64,
     /// Standard deviation by chance.
     pub std_dev: f64,

@@ -1,7 +1,7 @@
 //! Are the deviations normally distributed?
 //!
-//! With the many points of a scan every real distribution is found not to be normal; the size of skewness and kurtosis
-//! tells more than the p value.
+//! With the many points of a scan every real distribution is found not to be normal. The size of skewness and kurtosis tells
+//! more than the p value.
 
 use super::super::statistics::{Missing, Statistics, Summary};
 use crate::num::special::normal_below;
@@ -18,7 +18,7 @@ pub struct Test {
 }
 
 /// Fewest values for which the approximations hold.
-const FEWEST: u64 = 20;
+const MIN_TESTED_VALUES: u64 = 20;
 
 /// D'Agostino and Pearson's K²: skewness and kurtosis together, from the statistics of any number of values.
 ///
@@ -27,8 +27,8 @@ const FEWEST: u64 = 20;
 /// # Errors
 /// Fewer than 20 values, or all equal.
 pub fn d_agostino(statistics: &Statistics) -> Result<Test, Missing> {
-    if statistics.count < FEWEST {
-        return Err(Missing::TooFew(FEWEST));
+    if statistics.count < MIN_TESTED_VALUES {
+        return Err(Missing::TooFew(MIN_TESTED_VALUES));
     }
     let n = statistics.count as f64;
     let (a, b) = (skewness_score(statistics.skewness?, n), kurtosis_score(statistics.kurtosis?, n));
@@ -64,8 +64,8 @@ fn kurtosis_score(excess: f64, n: f64) -> f64 {
 /// Fewer than 20 values, or all equal.
 pub fn anderson_darling(values: &[f64], size: usize, seed: u64) -> Result<Test, Missing> {
     let (_, mut sample) = super::subsample(values, size, seed);
-    if sample.len() < FEWEST as usize {
-        return Err(Missing::TooFew(FEWEST));
+    if sample.len() < MIN_TESTED_VALUES as usize {
+        return Err(Missing::TooFew(MIN_TESTED_VALUES));
     }
     let statistics = Summary::of(&sample).all;
     let (mean, std_dev) = (statistics.mean?, statistics.std_dev?);

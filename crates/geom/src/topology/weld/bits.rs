@@ -2,10 +2,11 @@
 
 use crate::space::Point;
 
-const MIX: [u64; 3] = [0x9E37_79B9_7F4A_7C15, 0xD1B5_4A32_D192_ED03, 0xBF58_476D_1CE4_E5B9];
+/// Odd numbers with their bits spread evenly: products by them mix the bits of a key.
+const HASH_MULTIPLIERS: [u64; 3] = [0x9E37_79B9_7F4A_7C15, 0xD1B5_4A32_D192_ED03, 0xBF58_476D_1CE4_E5B9];
 
 fn finish(h: u64) -> u64 {
-    (h ^ (h >> 32)).wrapping_mul(MIX[2])
+    (h ^ (h >> 32)).wrapping_mul(HASH_MULTIPLIERS[2])
 }
 
 pub trait Bits: Sized {
@@ -30,7 +31,7 @@ impl Bits for [f32; 3] {
     #[inline(always)]
     fn hash(&self) -> u64 {
         let [x, y, z] = self.map(|x| u64::from(x.to_bits()));
-        finish((x | y << 32).wrapping_mul(MIX[0]) ^ z.wrapping_mul(MIX[1]))
+        finish((x | y << 32).wrapping_mul(HASH_MULTIPLIERS[0]) ^ z.wrapping_mul(HASH_MULTIPLIERS[1]))
     }
     fn point(self) -> Point {
         self.map(f64::from)
@@ -51,9 +52,9 @@ impl Bits for [f64; 3] {
         // Coordinates read from single precision end in zeros, so each is folded before it is multiplied.
         let [x, y, z] = self.map(|x| x.to_bits() ^ (x.to_bits() >> 29));
         finish(
-            x.wrapping_mul(MIX[0])
-                ^ y.wrapping_mul(MIX[1]).rotate_left(21)
-                ^ z.wrapping_mul(MIX[2]).rotate_left(42),
+            x.wrapping_mul(HASH_MULTIPLIERS[0])
+                ^ y.wrapping_mul(HASH_MULTIPLIERS[1]).rotate_left(21)
+                ^ z.wrapping_mul(HASH_MULTIPLIERS[2]).rotate_left(42),
         )
     }
     fn point(self) -> Point {

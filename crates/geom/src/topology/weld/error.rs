@@ -4,7 +4,7 @@
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum WeldError {
     /// Corners are numbered in 32 bits.
-    #[error("{facets} facets are more than the {MOST_FACETS} that one mesh can hold: split the model")]
+    #[error("{facets} facets are more than the {MAX_FACETS} that one mesh can hold: split the model")]
     TooManyFacets {
         /// Number of facets asked for.
         facets: usize,
@@ -21,5 +21,5 @@ pub enum WeldError {
     },
 }
 
-/// Facets whose corners can be numbered by a `u32`, one number and one more being kept free.
-pub const MOST_FACETS: usize = (u32::MAX as usize - 1) / 3;
+/// Most facets whose corners can be numbered by a `u32`; one number and one more are kept free.
+pub const MAX_FACETS: usize = (u32::MAX as usize - 1) / 3;

@@ -3,14 +3,14 @@
 //! Positions are the same when all three coordinates have the same bits, −0 counting as 0 (and a NaN as itself).
 //!
 //! One open-addressing table serves all threads. A slot holds one more than the number of the item that stands for its
-//! position; coordinates are compared where they lie (in the caller's file, for example), so a slot is four bytes.
-//! A thread that meets a position represented by a later item than its own takes the slot over and leaves a forwarding
-//! entry; following those at the end leads to the first item, whatever the threads did. Slots are prefetched a batch
-//! ahead: the table is larger than any cache, and most of the time of a weld is spent waiting for memory.
+//! position. Coordinates are compared where they lie (in the caller's file, for example), so a slot is four bytes. A thread may
+//! meet a position represented by a later item than its own. It takes the slot over and leaves a forwarding entry; following
+//! those at the end leads to the first item, whatever the threads did. Slots are prefetched a batch ahead. The table is larger
+//! than any cache, and most of the time of a weld is spent waiting for memory.
 
 use super::bits::Bits;
-use super::error::{MOST_FACETS, WeldError};
-use crate::memory::{atomics, large_pages, prefetch, triples};
+use super::error::{MAX_FACETS, WeldError};
+use crate::memory::{PAGE_BYTES, atomics, large_pages, prefetch, triples};
 use crate::mesh::Mesh;
 use crate::parallel::prelude::*;
 use crate::space::Point;
@@ -20,11 +20,11 @@ use std::sync::atomic::{
 };
 
 /// Slots in a page of memory.
-const PAGE: usize = 4096 / size_of::<AtomicU32>();
+const SLOTS_PER_PAGE: usize = PAGE_BYTES / size_of::<AtomicU32>();
 /// Items hashed and prefetched together.
-const BATCH: usize = 96;
+const ITEMS_PER_BATCH: usize = 96;
 /// Items of one task.
-const CHUNK: usize = 128 * BATCH;
+const WELDED_ITEMS_PER_TASK: usize = 128 * ITEMS_PER_BATCH;
 
 /// A position as it lies in memory or in a file: three numbers of either precision.
 pub trait Position: Copy + Send + Sync + Bits {}
@@ -44,7 +44,7 @@ pub fn corners<P: Position>(
     facets: usize,
     corner: impl Fn(usize, usize) -> P + Sync,
 ) -> Result<Mesh, WeldError> {
-    if facets > MOST_FACETS {
+    if facets > MAX_FACETS {
         return Err(WeldError::TooManyFacets { facets });
     }
     let item = |c: usize| corner(c / 3, c % 3).normal();
@@ -102,12 +102,12 @@ pub(super) fn renumbered(mesh: &Mesh, first_of: impl Fn(u32) -> u32) -> Welded {
 /// That every corner of `mesh` can be numbered and names a vertex that is there.
 pub fn check_corners(mesh: &Mesh) -> Result<(), WeldError> {
     let (facets, vertices) = (mesh.faces.len(), mesh.positions.len());
-    if facets > MOST_FACETS {
+    if facets > MAX_FACETS {
         return Err(WeldError::TooManyFacets { facets });
     }
     // Nearly always all numbers are in range, and the largest of them shows it fastest.
     let largest = |part: &[[u32; 3]]| part.as_flattened().iter().fold(0, |most: u32, v| most.max(*v));
-    let largest = mesh.faces.par_chunks(CHUNK).map(largest).max();
+    let largest = mesh.faces.par_chunks(WELDED_ITEMS_PER_TASK).map(largest).max();
     if largest.is_none_or(|v| (v as usize) < vertices) {
         return Ok(());
     }
@@ -119,7 +119,7 @@ pub fn check_corners(mesh: &Mesh) -> Result<(), WeldError> {
     }
 }
 
-/// The numbers of those points that are the first at their place, ascending. At most [`MOST_FACETS`] points.
+/// The numbers of those points that are the first at their place, ascending. At most [`MAX_FACETS`] points.
 ///
 /// Cost: linear; one pass over a table of places.
 /// ```
@@ -143,15 +143,15 @@ fn first_of_its_kind<P: Position>(
     item: &(impl Fn(usize) -> P + Sync),
 ) -> Vec<AtomicU32> {
     let first = atomics(n);
-    // A table that is found too full still takes in the chunks under way, one for each thread: it must have room for
-    // them above its limit, or be large enough for everything.
-    let under_way = rayon::current_num_threads() * CHUNK;
+    // A table that is found too full still takes in the chunks under way, one for each thread. It must have room for them above
+    // its limit, or be large enough for everything.
+    let under_way = rayon::current_num_threads() * WELDED_ITEMS_PER_TASK;
     let mut size = (2 * expected).max(3 * under_way).min(2 * n).max(2).next_power_of_two();
     while !enter(size, item, &first) {
         size *= 4;
     }
-    (0..n.div_ceil(CHUNK)).into_par_iter().for_each(|i| {
-        for c in i * CHUNK..n.min((i + 1) * CHUNK) {
+    (0..n.div_ceil(WELDED_ITEMS_PER_TASK)).into_par_iter().for_each(|i| {
+        for c in i * WELDED_ITEMS_PER_TASK..n.min((i + 1) * WELDED_ITEMS_PER_TASK) {
             let mut at = c as u32;
             loop {
                 // Entries only ever become smaller and end at one that names itself, so racing with the other tasks
@@ -172,18 +172,18 @@ fn first_of_its_kind<P: Position>(
 fn enter<P: Position>(size: usize, item: &(impl Fn(usize) -> P + Sync), first: &[AtomicU32]) -> bool {
     let table = atomics(size);
     // A page that is read before it is written is mapped twice, and the second time all threads are interrupted.
-    table.par_chunks(PAGE).for_each(|page| page[0].store(0, Relaxed));
+    table.par_chunks(SLOTS_PER_PAGE).for_each(|page| page[0].store(0, Relaxed));
     let shift = 64 - size.trailing_zeros();
     let used = AtomicUsize::new(0);
     let limit = size / 8 * 5;
-    first.par_chunks(CHUNK).enumerate().for_each(|(i, part)| {
+    first.par_chunks(WELDED_ITEMS_PER_TASK).enumerate().for_each(|(i, part)| {
         if used.load(Relaxed) > limit {
             return;
         }
         let mut new = 0;
-        let mut batch = [(item(i * CHUNK), 0usize); BATCH];
-        for (j, part) in part.chunks(BATCH).enumerate() {
-            let start = i * CHUNK + j * BATCH;
+        let mut batch = [(item(i * WELDED_ITEMS_PER_TASK), 0usize); ITEMS_PER_BATCH];
+        for (j, part) in part.chunks(ITEMS_PER_BATCH).enumerate() {
+            let start = i * WELDED_ITEMS_PER_TASK + j * ITEMS_PER_BATCH;
             for (k, b) in batch[..part.len()].iter_mut().enumerate() {
                 let p = item(start + k);
                 *b = (p, (p.hash() >> shift) as usize);
@@ -234,9 +234,9 @@ fn insert<P: Position>(
 /// Numbers the vertices by first appearance: `first` becomes the faces.
 fn number<P: Position>(item: &(impl Fn(usize) -> P + Sync), first: Vec<AtomicU32>) -> Mesh {
     let n = first.len();
-    let range = |i: usize| i * CHUNK..n.min((i + 1) * CHUNK);
+    let range = |i: usize| i * WELDED_ITEMS_PER_TASK..n.min((i + 1) * WELDED_ITEMS_PER_TASK);
     let is_first = |c: &usize| first[*c].load(Relaxed) as usize == *c;
-    let chunks = n.div_ceil(CHUNK);
+    let chunks = n.div_ceil(WELDED_ITEMS_PER_TASK);
     let lists: Vec<Vec<u32>> =
         (0..chunks).into_par_iter().map(|i| range(i).filter(is_first).map(|c| c as u32).collect()).collect();
     let mut positions = large_pages(vec![[0.0; 3]; lists.iter().map(Vec::len).sum()]);

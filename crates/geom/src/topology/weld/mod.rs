@@ -5,7 +5,7 @@ mod error;
 mod exact;
 mod within;
 
-pub use error::{MOST_FACETS, WeldError};
+pub use error::{MAX_FACETS, WeldError};
 pub use exact::{Position, Welded, corners, first_at_their_places, mesh};
 pub use exact::{as_it_is, check_corners, compact, rejoined};
 pub use within::within;

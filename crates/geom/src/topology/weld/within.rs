@@ -19,7 +19,7 @@ type Placed = ([f64; 3], u32);
 /// farther apart than `distance`.
 ///
 /// # Errors
-/// Those of [`mesh`](super::mesh).
+/// The errors of [`mesh`](super::mesh).
 pub fn within(mesh: &Mesh, distance: f64) -> Result<Welded, WeldError> {
     check_corners(mesh)?;
     if !(distance > 0.0 && distance.is_finite()) {

@@ -1,7 +1,7 @@
 //! Ideal elements associated with datum features.
 
 use super::attitude::{AS_DRAWN, Held, nearest};
-use super::frame::beside;
+use super::frame::misfit;
 use super::{Datum, DatumError, Rule, Source};
 use crate::fit::{self, Method, Options};
 use crate::progress::Progress;
@@ -51,7 +51,7 @@ pub(super) fn associate(
             Err(angle) if is_plane && (angle - FRAC_PI_2).abs() <= AS_DRAWN => {
                 return across(datum, source, rule, z, direction);
             }
-            Err(angle) => return Err(beside(datum, angle)),
+            Err(angle) => return Err(misfit(datum, angle)),
         },
         Held::All(axes) => {
             let found = nearest(&axes, direction);

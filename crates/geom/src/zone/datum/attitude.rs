@@ -1,4 +1,4 @@
-//! What datums hold and what they leave free.
+//! The motions that datums hold and those they leave free.
 
 use super::source::Datum;
 use crate::rigid::Rigid;
@@ -27,14 +27,14 @@ impl Freedom {
 
 /// The frame of up to three datums.
 ///
-/// A first plane gives z, into the material, and the origin's height; a first axis gives z and the origin's place across it.
-/// A second plane gives x, into the material; of a second axis the origin's place, and of a third axis or center the
-/// direction of x, towards it. y makes the frame right-handed.
+/// A first plane gives z, into the material, and the origin's height; a first axis gives z and the origin's place across it. A
+/// second plane gives x, into the material. A second axis gives the origin's place, and a third axis or center the direction of
+/// x, towards it. y makes the frame right-handed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct System {
     /// Takes measured coordinates to those of the frame.
     pub frame: Rigid,
-    /// What the datums leave free.
+    /// The motions that the datums leave free.
     pub free: Freedom,
     /// The datums.
     pub datums: Vec<Datum>,
@@ -48,7 +48,7 @@ impl System {
     }
 }
 
-/// Angle in radians within which datums count as parallel or perpendicular as drawn: a measured part is off by its own
+/// Angle in radians within which datums count as parallel or perpendicular as drawn. A measured part is off by its own
 /// deviations, which are far smaller, and a drawing's other angles are far larger.
 pub const AS_DRAWN: f64 = 5.0 * std::f64::consts::PI / 180.0;
 

@@ -1,13 +1,13 @@
 //! Common datums: one datum of several features (ISO 5459:2011).
 //!
-//! The ideal elements of all features are associated at once, with the exact constraints between them that the drawing
-//! implies: coaxial, coplanar, or parallel and opposite. Radii of cylinders and the distance of opposite planes are free
+//! The ideal elements of all features are associated at once, with the exact constraints between them that the drawing implies.
+//! They are coaxial, coplanar, or parallel and opposite. Radii of cylinders and the distance of opposite planes are free
 //! (features of size). Coaxial cylinders and lines give their axis, coplanar planes their plane, two opposite planes their
 //! median plane; its normal is that of the first.
 
 use super::associate::{across_normal, associate, outside};
 use super::attitude::{AS_DRAWN, Held, nearest};
-use super::joint::{Form, Joint, MOST, Stand};
+use super::joint::{Form, Joint, MAX_COMMON_FEATURES, Stand};
 use super::{Datum, DatumError, Rule, Source};
 use crate::fit::{self, Options};
 use crate::progress::Progress;
@@ -16,7 +16,7 @@ use crate::space::{Aabb, Point, Vector, cross, dot, least_axis, minus, norm, plu
 use crate::zone::mean::mean;
 use std::f64::consts::FRAC_PI_2;
 
-/// What a common datum is made of, and in which attitude.
+/// The features of a common datum, and their attitude.
 pub(super) struct Common<'a> {
     /// Its number.
     pub datum: usize,
@@ -29,7 +29,7 @@ pub(super) struct Common<'a> {
 impl Common<'_> {
     /// The datum.
     pub(super) fn associated(&self) -> Result<Datum, DatumError> {
-        if !(2..=MOST).contains(&self.sources.len()) {
+        if !(2..=MAX_COMMON_FEATURES).contains(&self.sources.len()) {
             return Err(self.wrong("it is made of two or three features"));
         }
         let all = |kinds: &[Kind]| self.sources.iter().all(|s| kinds.contains(&s.kind));

@@ -55,7 +55,7 @@ pub enum DatumError {
     /// The combination has no rule here.
     #[error("a datum system of {what} is not evaluated")]
     Unsupported {
-        /// What it is made of.
+        /// The elements that it is made of.
         what: &'static str,
     },
 }

@@ -7,29 +7,31 @@ use crate::space::{Point, Vector, cross, dot, least_axis, minus, norm, plus, tim
 use std::f64::consts::FRAC_PI_2;
 
 /// Why an axis at this angle to the attitude of others, which leave a turn free, is none of their system.
-pub(super) fn beside(datum: usize, angle: f64) -> DatumError {
+pub(super) fn misfit(datum: usize, angle: f64) -> DatumError {
     match (angle - FRAC_PI_2).abs() <= AS_DRAWN {
         true => DatumError::Across { datum },
         false => DatumError::Oblique { datum, degrees: angle.to_degrees() },
     }
 }
 
-/// What is fixed so far.
+/// The motions fixed so far.
 #[derive(Default)]
 pub(super) struct State {
     z: Option<Vector>,
     x: Option<Vector>,
-    /// A point of the origin's height along z, of its place along x, and along y.
+    /// A point that holds the origin along z.
     height: Option<Point>,
-    along: Option<Point>,
-    beside: Option<Point>,
+    /// A point that holds it along x.
+    along_x: Option<Point>,
+    /// A point that holds it along y.
+    along_y: Option<Point>,
     /// Whether the first datum is an axis whose sense is still open.
     open: bool,
 }
 
 impl State {
     /// Takes in the next datum.
-    pub(super) fn take(&mut self, datum: usize, d: &Datum) -> Result<(), DatumError> {
+    pub(super) fn add(&mut self, datum: usize, d: &Datum) -> Result<(), DatumError> {
         let Some(z) = self.z else {
             return self.first(datum, d);
         };
@@ -38,7 +40,7 @@ impl State {
             Datum::Axis { point, direction } => match (nearest(&[z], direction), self.x) {
                 (Ok(_), _) => self.place(datum, z, point),
                 (Err(_), Some(x)) => self.crossing(datum, [x, cross(z, x), z], point, direction),
-                (Err(angle), None) => Err(beside(datum, angle)),
+                (Err(angle), None) => Err(misfit(datum, angle)),
             },
             Datum::Point(point) => self.place(datum, z, point),
         }
@@ -52,7 +54,7 @@ impl State {
             }
             Datum::Axis { point, direction } => {
                 self.z = Some(direction);
-                (self.along, self.beside, self.open) = (Some(point), Some(point), true);
+                (self.along_x, self.along_y, self.open) = (Some(point), Some(point), true);
             }
             Datum::Point(_) => {
                 let _ = datum;
@@ -82,18 +84,18 @@ impl State {
         match self.x {
             None => {
                 self.x = Some(times(-1.0, normal));
-                self.along = self.along.or(Some(point));
+                self.along_x = self.along_x.or(Some(point));
                 Ok(())
             }
             Some(x) => {
-                let beside = libm::acos(dot(x, normal).abs().min(1.0));
-                if (beside - FRAC_PI_2).abs() > AS_DRAWN {
-                    return Err(DatumError::Idle { datum, degrees: beside.to_degrees() });
+                let turn = libm::acos(dot(x, normal).abs().min(1.0));
+                if (turn - FRAC_PI_2).abs() > AS_DRAWN {
+                    return Err(DatumError::Idle { datum, degrees: turn.to_degrees() });
                 }
-                if self.beside.is_some() {
+                if self.along_y.is_some() {
                     return Err(DatumError::Idle { datum, degrees });
                 }
-                self.beside = Some(point);
+                self.along_y = Some(point);
                 Ok(())
             }
         }
@@ -109,8 +111,8 @@ impl State {
     ) -> Result<(), DatumError> {
         let oblique = |angle: f64| DatumError::Oblique { datum, degrees: angle.to_degrees() };
         nearest(&axes, direction).map_err(oblique)?;
-        let along_x = nearest(&axes[..1], direction).is_ok();
-        let across = if along_x { &mut self.beside } else { &mut self.along };
+        let is_along_x = nearest(&axes[..1], direction).is_ok();
+        let across = if is_along_x { &mut self.along_y } else { &mut self.along_x };
         if across.is_some() && self.height.is_some() {
             return Err(DatumError::Idle { datum, degrees: 90.0 });
         }
@@ -121,9 +123,9 @@ impl State {
 
     /// A center, or an axis along z: a place in the plane across z.
     fn place(&mut self, datum: usize, z: Vector, point: Point) -> Result<(), DatumError> {
-        match (self.along, self.beside, self.x) {
-            (None, None, _) => (self.along, self.beside) = (Some(point), Some(point)),
-            (Some(_), None, Some(_)) => self.beside = Some(point),
+        match (self.along_x, self.along_y, self.x) {
+            (None, None, _) => (self.along_x, self.along_y) = (Some(point), Some(point)),
+            (Some(_), None, Some(_)) => self.along_y = Some(point),
             (Some(origin), Some(_), None) => {
                 let way = minus(point, origin);
                 let flat = minus(way, times(dot(way, z), z));
@@ -144,16 +146,16 @@ impl State {
     pub(super) fn finished(self, datums: &[Datum]) -> Result<System, DatumError> {
         let Some(z) = self.z else { return Err(DatumError::Unsupported { what: "no datums" }) };
         let free = Freedom {
-            shift: [self.along.is_none(), self.beside.is_none(), self.height.is_none()],
+            shift: [self.along_x.is_none(), self.along_y.is_none(), self.height.is_none()],
             turn: [false, false, self.x.is_none()],
         };
         let lost = DatumError::Unsupported { what: "directions that make no frame" };
         let turned = Rigid::into_frame([0.0; 3], z, self.x.unwrap_or(least_axis(z))).ok_or(lost)?;
         let [x, y, z] = turned.rotation();
         // Where nothing holds the origin, it is at a datum all the same.
-        let anywhere = self.along.or(self.beside).or(self.height).unwrap_or([0.0; 3]);
+        let anywhere = self.along_x.or(self.along_y).or(self.height).unwrap_or([0.0; 3]);
         let at = |p: Option<Point>, axis: Vector| dot(p.unwrap_or(anywhere), axis);
-        let (a, b, c) = (at(self.along, x), at(self.beside, y), at(self.height, z));
+        let (a, b, c) = (at(self.along_x, x), at(self.along_y, y), at(self.height, z));
         let origin = plus(plus(times(a, x), times(b, y)), times(c, z));
         let frame = Rigid::into_frame(origin, z, x).ok_or(lost)?;
         Ok(System { frame, free, datums: datums.to_vec() })

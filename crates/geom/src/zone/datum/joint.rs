@@ -1,12 +1,13 @@
 //! Ideal elements that share an axis or an attitude, associated with several features at once.
 //!
-//! The unknowns are small motions of the frame that all elements share, and one size a feature: the radius of a cylinder,
-//! the height of a plane. Least squares by Levenberg and Marquardt's steps (D. W. Marquardt, 1963); least greatest
-//! distance by a sequence of linear programs, each within a box that grows while the linear model holds (R. Fletcher,
-//! Practical Methods of Optimization, 1987, section 14), over a working set that takes in what sticks out most.
+//! The unknowns are small motions of the frame that all elements share, and one size a feature. The size is the radius of a
+//! cylinder, the height of a plane. Least squares go by Levenberg and Marquardt's steps (D. W. Marquardt, 1963). The least
+//! greatest distance is found by a sequence of linear programs, each within a box that grows while the linear model holds. (R.
+//! Fletcher, Practical Methods of Optimization, 1987, section 14.) They go over a working set that takes in the points that
+//! stick out most.
 
 use super::Source;
-use crate::fit::{Function, lowest};
+use crate::fit::{Function, HIDDEN_FALL, MAX_JOINING_POINTS, MAX_POINTS_ALL_WORKING, lowest};
 use crate::frame::Pose;
 use crate::num::dense::solve;
 use crate::progress::Progress;
@@ -15,11 +16,11 @@ use crate::space::{Aabb, Point, Vector, minus, plus, times};
 use crate::zone::ZoneError;
 
 /// Most features that one datum is made of.
-pub(super) const MOST: usize = 3;
+pub(super) const MAX_COMMON_FEATURES: usize = 3;
 /// Unknowns: shifts along x and y, tilts towards x and y, the sizes.
-const UNKNOWNS: usize = 4 + MOST;
+const JOINT_UNKNOWNS: usize = 4 + MAX_COMMON_FEATURES;
 
-/// What the elements share.
+/// The form that the elements share.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Form {
     /// An axis: z of the frame. Cylinders of any radii, and lines.
@@ -33,7 +34,7 @@ pub(super) enum Form {
 pub(super) struct Stand {
     pub pose: Pose,
     /// Radius or height of each; heights are along z from the frame's origin.
-    pub sizes: [f64; MOST],
+    pub sizes: [f64; MAX_COMMON_FEATURES],
 }
 
 /// The features of one datum, seen from their middle and at unit size, so that neither place nor size costs digits.
@@ -43,17 +44,11 @@ pub(super) struct Joint<'a> {
     points: Vec<(usize, Point)>,
     center: Point,
     scale: f64,
-    free: [bool; UNKNOWNS],
+    free: [bool; JOINT_UNKNOWNS],
 }
 
-/// Points up to which all are in the working set.
-const SMALL: usize = 2000;
-/// Points that join the working set in one round.
-const JOINING: usize = 24;
-/// A step, or a fall, that rounding hides, at unit size.
-const NOTHING: f64 = 2e-16;
 /// Steps below this are in the reach of rounding: the sum of squares no longer shows them.
-const ROUNDING_REACH: f64 = 1e-9;
+const HIDDEN_SQUARES_STEP: f64 = 1e-9;
 
 impl<'a> Joint<'a> {
     /// `shift` and `tilt`: what the frame may do, along and towards its x and y.
@@ -76,7 +71,7 @@ impl<'a> Joint<'a> {
     /// The elements of all features about this axis or normal, through `at`, each of its mean size.
     pub(super) fn about(&self, at: Point, z: Vector, toward: Vector) -> Stand {
         let pose = Pose::toward(times(self.scale, minus(at, self.center)), z, toward);
-        let mut stand = Stand { pose, sizes: [0.0; MOST] };
+        let mut stand = Stand { pose, sizes: [0.0; MAX_COMMON_FEATURES] };
         for (part, size) in stand.sizes.iter_mut().enumerate().take(self.sources.len()) {
             if self.free[4 + part] {
                 let own = self.points.iter().filter(|(p, _)| *p == part);
@@ -88,7 +83,7 @@ impl<'a> Joint<'a> {
         stand
     }
 
-    /// What a size is the mean of: distance from the axis, or height.
+    /// The quantity whose mean a size is: distance from the axis, or height.
     fn reading(&self, pose: &Pose, q: Point) -> f64 {
         let [x, y, z] = pose.local(q);
         if self.form == Form::Axis { libm::hypot(x, y) } else { z }
@@ -102,9 +97,9 @@ impl<'a> Joint<'a> {
     }
 
     /// Distance of a point from its feature's element, and its derivatives by the unknowns.
-    fn distance(&self, stand: &Stand, (part, q): (usize, Point)) -> (f64, [f64; UNKNOWNS]) {
+    fn distance(&self, stand: &Stand, (part, q): (usize, Point)) -> (f64, [f64; JOINT_UNKNOWNS]) {
         let [x, y, z] = stand.pose.local(q);
-        let mut slope = [0.0; UNKNOWNS];
+        let mut slope = [0.0; JOINT_UNKNOWNS];
         let (value, sized) = match self.form {
             Form::Axis => {
                 let r = libm::hypot(x, y);
@@ -122,23 +117,23 @@ impl<'a> Joint<'a> {
     }
 
     /// The residuals of a point for least squares: of a line in space there are two.
-    fn rows(&self, stand: &Stand, at: (usize, Point), mut take: impl FnMut(f64, [f64; UNKNOWNS])) {
+    fn rows(&self, stand: &Stand, at: (usize, Point), mut visit: impl FnMut(f64, [f64; JOINT_UNKNOWNS])) {
         if self.form == Form::Axis && self.sources[at.0].kind == Kind::Line {
             let [x, y, z] = stand.pose.local(at.1);
-            take(x, self.freed([-1.0, 0.0, -z, 0.0, 0.0, 0.0, 0.0]));
-            take(y, self.freed([0.0, -1.0, 0.0, -z, 0.0, 0.0, 0.0]));
+            visit(x, self.freed([-1.0, 0.0, -z, 0.0, 0.0, 0.0, 0.0]));
+            visit(y, self.freed([0.0, -1.0, 0.0, -z, 0.0, 0.0, 0.0]));
             return;
         }
         let (d, slope) = self.distance(stand, at);
-        take(d, slope);
+        visit(d, slope);
     }
 
-    fn freed(&self, mut x: [f64; UNKNOWNS]) -> [f64; UNKNOWNS] {
+    fn freed(&self, mut x: [f64; JOINT_UNKNOWNS]) -> [f64; JOINT_UNKNOWNS] {
         x.iter_mut().zip(self.free).filter(|(_, free)| !free).for_each(|(x, _)| *x = 0.0);
         x
     }
 
-    fn moved(&self, stand: &Stand, x: &[f64; UNKNOWNS]) -> Stand {
+    fn moved(&self, stand: &Stand, x: &[f64; JOINT_UNKNOWNS]) -> Stand {
         let pose = stand.pose.moved([x[0], x[1], 0.0], [x[2], x[3]], 0.0);
         Stand { pose, sizes: std::array::from_fn(|k| stand.sizes[k] + x[4 + k]) }
     }
@@ -165,15 +160,15 @@ impl<'a> Joint<'a> {
             let length = step.iter().fold(0.0f64, |m, x| m.max(x.abs()));
             let next = self.moved(&stand, &step);
             let sum = self.square(&next);
-            let unseen = damping == 0.0 && length < ROUNDING_REACH;
+            let unseen = damping == 0.0 && length < HIDDEN_SQUARES_STEP;
             if sum < square || unseen {
                 (stand, square) = (next, sum);
                 damping = if damping < 1e-6 { 0.0 } else { damping / 8.0 };
-                if length <= NOTHING || (unseen && length > 0.5 * last) {
+                if length <= HIDDEN_FALL || (unseen && length > 0.5 * last) {
                     break;
                 }
                 last = length;
-            } else if length < ROUNDING_REACH || damping > 1e12 {
+            } else if length < HIDDEN_SQUARES_STEP || damping > 1e12 {
                 break;
             } else {
                 damping = (8.0 * damping).max(1e-3);
@@ -183,9 +178,9 @@ impl<'a> Joint<'a> {
     }
 
     /// Marquardt's step; `None` where the points leave an unknown without influence.
-    fn step(&self, stand: &Stand, damping: f64) -> Option<[f64; UNKNOWNS]> {
-        let mut normal = vec![vec![0.0; UNKNOWNS]; UNKNOWNS];
-        let mut right = vec![0.0; UNKNOWNS];
+    fn step(&self, stand: &Stand, damping: f64) -> Option<[f64; JOINT_UNKNOWNS]> {
+        let mut normal = vec![vec![0.0; JOINT_UNKNOWNS]; JOINT_UNKNOWNS];
+        let mut right = vec![0.0; JOINT_UNKNOWNS];
         for at in &self.points {
             self.rows(stand, *at, |d, g| {
                 for ((row, sum), slope) in normal.iter_mut().zip(&mut right).zip(g) {
@@ -201,14 +196,18 @@ impl<'a> Joint<'a> {
             }
         }
         let x = solve(normal, right)?;
-        let step: [f64; UNKNOWNS] = std::array::from_fn(|k| x[k]);
+        let step: [f64; JOINT_UNKNOWNS] = std::array::from_fn(|k| x[k]);
         // Longer than the parts together: the normal matrix has lost its digits.
         step.iter().all(|x| x.abs() < 10.0).then_some(step)
     }
 
     /// The elements near `start` whose greatest distance from a point is the least.
     pub(super) fn least_greatest(&self, start: &Stand, progress: &dyn Progress) -> Result<Stand, ZoneError> {
-        let stride = if self.points.len() <= SMALL { 1 } else { self.points.len().div_ceil(SMALL / 4) };
+        let stride = if self.points.len() <= MAX_POINTS_ALL_WORKING {
+            1
+        } else {
+            self.points.len().div_ceil(MAX_POINTS_ALL_WORKING / 4)
+        };
         let mut working: Vec<usize> = (0..self.points.len()).step_by(stride).collect();
         let mut stand = *start;
         for _ in 0..60 {
@@ -218,10 +217,12 @@ impl<'a> Joint<'a> {
             let half;
             (stand, half) = self.lowered(&working, stand).ok_or(ZoneError::NotSettled)?;
             let far = |i: usize| self.distance(&stand, self.points[i]).0.abs();
-            let mut out: Vec<(f64, usize)> =
-                (0..self.points.len()).map(|i| (far(i), i)).filter(|(d, _)| *d > half + NOTHING).collect();
+            let mut out: Vec<(f64, usize)> = (0..self.points.len())
+                .map(|i| (far(i), i))
+                .filter(|(d, _)| *d > half + HIDDEN_FALL)
+                .collect();
             out.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
-            out.truncate(JOINING);
+            out.truncate(MAX_JOINING_POINTS);
             out.retain(|(_, i)| !working.contains(i));
             if out.is_empty() {
                 return Ok(stand);
@@ -248,7 +249,7 @@ impl<'a> Joint<'a> {
             }
             let program = lowest(&functions, reach)?;
             let fall = half - program.value;
-            if fall <= NOTHING || reach < 1e-15 {
+            if fall <= HIDDEN_FALL || reach < 1e-15 {
                 break;
             }
             // No function tells the program where held unknowns are: it leaves them at a side of the box.

@@ -39,8 +39,8 @@ pub enum Datum {
 pub struct Source<'a> {
     /// Its points, millimeters.
     pub points: &'a [Point],
-    /// What it is: plane, line, cylinder, cone, circle or sphere.
+    /// Its kind: plane, line, cylinder, cone, circle or sphere.
     pub kind: Kind,
-    /// Of a plane, a direction out of the material; its length does not matter.
+    /// For a plane, a direction out of the material; its length does not matter.
     pub outward: Vector,
 }

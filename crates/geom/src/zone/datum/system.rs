@@ -9,15 +9,15 @@ use super::source::{Datum, Rule, Source};
 use crate::progress::Progress;
 
 impl System {
-    /// Associates the datums one after the other, each in the attitude that those before it leave, and makes their frame.
-    /// A datum has one feature, or as a common datum (`A-B`) two or three: coaxial cylinders or lines, coplanar planes, or
-    /// two opposite planes, associated at once. Every point of them counts alike.
+    /// Associates the datums one after the other, each in the attitude that those before it leave, and makes their frame. A
+    /// datum has one feature, or as a common datum (`A-B`) two or three, associated at once. These are coaxial cylinders or
+    /// lines, coplanar planes, or two opposite planes. Every point of them counts alike.
     ///
     /// Cost: some passes over the points of each datum.
     ///
     /// # Errors
-    /// [`DatumError`]: points that make no element, a datum that is parallel to one that it should stand across, features
-    /// that make no common datum, more than three datums.
+    /// [`DatumError`]: points that make no element, or a datum parallel to one that it should stand across. Also features that
+    /// make no common datum, or more than three datums.
     ///
     /// ```
     /// use trueness_geom::progress::Silent;
@@ -58,7 +58,7 @@ impl System {
     pub fn of(datums: &[Datum]) -> Result<System, DatumError> {
         let mut state = State::default();
         for (datum, d) in datums.iter().enumerate() {
-            state.take(datum, d)?;
+            state.add(datum, d)?;
         }
         state.finished(datums)
     }

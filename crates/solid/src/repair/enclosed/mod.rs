@@ -372,10 +372,10 @@ impl<'a> Rays<'a> {
         let is_upon = |g: u32| upon.iter().any(|u| u.0 == g);
         if rays.is_early(at) {
             // All that the line passes winds around it 0 times: the shorter way is to count what lies before.
-            rays.not_behind(*f, at, |g, around| beyond -= if is_upon(g) { 0 } else { around });
+            rays.facets_not_behind(*f, at, |g, around| beyond -= if is_upon(g) { 0 } else { around });
             beyond -= upon.iter().map(|u| rays.around(u.0, at)).sum::<i32>();
         } else {
-            rays.behind(*f, at, |g, around| beyond += if is_upon(g) { 0 } else { around });
+            rays.facets_behind(*f, at, |g, around| beyond += if is_upon(g) { 0 } else { around });
         }
         let layers = 1 + upon.iter().map(|u| u.1).sum::<i32>();
         match vector[axis] > 0.0 {

@@ -64,7 +64,7 @@ fn the_half_circle_of_three_mass_points() {
     let line = |z: f64| {
         [([-1.0, 0.0], 2.0), ([0.0, 1.0], 1.0), ([1.0, 0.0], 2.0)].map(|([x, y], m)| Mass::new([x, y, z], m))
     };
-    // Of a quadratic through a, b, c at the ends and the middle the control points are a, 2 b − (a + c) / 2, c.
+    // The control points of a quadratic through a, b, c at the ends and the middle are a, 2 b − (a + c) / 2, c.
     let control = |[a, b, c]: [Mass<3>; 3]| [a, b.times(2.0).plus(-0.5, a).plus(-0.5, c), c];
     let [low, high] = [control(line(0.0)), control(line(5.0))];
     assert_eq!((low[1].mass, low[1].place()), (0.0, None));

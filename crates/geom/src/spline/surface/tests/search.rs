@@ -108,8 +108,8 @@ fn no_place_of_a_dense_sample_is_nearer() {
     }
 }
 
-/// Over a trough two places are nearly as near, one to each side: farther apart than the search may leave out, nearer than its cells
-/// know their places.
+/// Over a trough two places are nearly as near, one to each side. They are farther apart than the search may leave out, nearer
+/// than its cells know their places.
 #[test]
 fn the_nearer_side_of_a_trough_is_found() {
     // z = x² over uneven cells: those of the right are coarser.

@@ -65,7 +65,7 @@ fn vertices_at_one_position_are_joined_and_idle_ones_dropped() {
 
 #[test]
 fn refuses_what_cannot_be_numbered() {
-    let facets = MOST_FACETS + 1;
+    let facets = MAX_FACETS + 1;
     assert_eq!(corners(facets, |_, _| [0.0f32; 3]), Err(WeldError::TooManyFacets { facets }));
     let short = Mesh { positions: vec![[0.0; 3]; 3], faces: vec![[0, 1, 2], [0, 3, 9]] };
     assert_eq!(mesh(&short), Err(WeldError::NoSuchVertex { facet: 1, vertex: 3, vertices: 3 }));

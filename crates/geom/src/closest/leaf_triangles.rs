@@ -1,11 +1,12 @@
 //! Second stage where few leaves are left: their triangles against all sixteen points of the block at once.
 #![expect(unsafe_code, reason = "loads of vector types need their instructions")]
 
-use crate::closest::block::{BLOCK, PointBlock, ROUNDING, SQUARE_UP, norm};
+use crate::closest::block::{POINTS_PER_BLOCK, PointBlock, SQUARE_UP, norm};
 use crate::closest::decide::Undecided;
 use crate::closest::kernel;
-use crate::closest::prune::{ChildRef, FEW_LEAVES};
+use crate::closest::prune::{ChildRef, MAX_LEAVES_TESTED_SINGLY};
 use crate::closest::tree::Tree;
+use crate::num::rounding::SINGLE_DISTANCE_ROUNDING;
 use crate::simd::lanes::Lanes;
 
 /// A triangle that may be the closest to some point of the block.
@@ -22,11 +23,11 @@ struct Candidate {
 pub struct Buffers {
     candidates: Vec<Candidate>,
     /// Squared distances, candidates x points.
-    table: Vec<[f32; BLOCK]>,
+    table: Vec<[f32; POINTS_PER_BLOCK]>,
 }
 
-/// Tests the triangles of `leaves` (at most [`FEW_LEAVES`]) that are near enough to the block against all its points, and
-/// lists in `undecided` those that may be the closest.
+/// Tests the triangles of `leaves` that are near enough to the block against all its points. There are at most
+/// [`MAX_LEAVES_TESTED_SINGLY`] leaves. Lists in `undecided` the triangles that may be the closest.
 ///
 /// # Safety
 /// The processor has the instructions of both types.
@@ -41,7 +42,8 @@ pub unsafe fn test_all<V: Lanes<8>, W: Lanes<16>>(
     let mut error: f32 = 0.0;
     for found in leaves {
         let leaf = &tree.leaves[!found.child as usize];
-        error = error.max(ROUNDING * (norm(b.relative(tree, leaf.origin)) + b.reach + leaf.radius));
+        error = error
+            .max(SINGLE_DISTANCE_ROUNDING * (norm(b.relative(tree, leaf.origin)) + b.reach + leaf.radius));
     }
     // SAFETY: the caller's promise.
     unsafe {
@@ -82,7 +84,7 @@ unsafe fn select<V: Lanes<8>>(
 ) {
     // SAFETY: the caller's promise.
     unsafe {
-        let mut tested = [([[0f32; 8]; 3], [0f32; 8]); FEW_LEAVES];
+        let mut tested = [([[0f32; 8]; 3], [0f32; 8]); MAX_LEAVES_TESTED_SINGLY];
         let mut least = V::splat(f32::INFINITY);
         for (found, (center, distance2)) in leaves.iter().zip(&mut tested) {
             let leaf = &tree.leaves[!found.child as usize];

@@ -2,22 +2,22 @@
 
 /// Which deviations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Part {
+pub enum Selection {
     /// All of them.
     All,
-    /// Those above zero.
+    /// The deviations above zero.
     Positive,
-    /// Those below zero.
+    /// The deviations below zero.
     Negative,
 }
 
-impl Part {
+impl Selection {
     /// The part lies strictly between these.
     pub(super) fn limits(self) -> (f64, f64) {
         match self {
-            Part::All => (f64::NEG_INFINITY, f64::INFINITY),
-            Part::Positive => (0.0, f64::INFINITY),
-            Part::Negative => (f64::NEG_INFINITY, 0.0),
+            Selection::All => (f64::NEG_INFINITY, f64::INFINITY),
+            Selection::Positive => (0.0, f64::INFINITY),
+            Selection::Negative => (f64::NEG_INFINITY, 0.0),
         }
     }
     /// True if the part has this value; never for a value that is not finite.
