@@ -8,11 +8,11 @@ use trueness_geom::mesh::Mesh;
 use trueness_geom::plane::Plane;
 use trueness_geom::progress::{Cancelled, Progress};
 
-/// Facets after which it is asked whether to stop.
-const ASKED: usize = 65536;
+/// Facets after which the search asks whether to stop.
+const FACETS_PER_STOP_CHECK: usize = 65536;
 
 /// Numbers of facets that are held at a time, but those of one plane: 64 MB of them.
-const ROOM: usize = 1 << 24;
+const MAX_FACET_NUMBERS: usize = 1 << 24;
 
 /// For each plane the numbers of the facets that it may cut, in ascending order: all that it does cut, and few more.
 ///
@@ -63,14 +63,14 @@ pub fn facets_near<E: From<Cancelled>>(
         let mut from = 0;
         while from < own.len() {
             let mut to = from + 1;
-            let mut room = ROOM.saturating_sub(counts[from]);
+            let mut room = MAX_FACET_NUMBERS.saturating_sub(counts[from]);
             while to < own.len() && counts[to] <= room {
                 room -= counts[to];
                 to += 1;
             }
             let mut lists: Vec<Vec<u32>> = counts[from..to].iter().map(|n| Vec::with_capacity(*n)).collect();
             for (n, range) in between.iter().enumerate() {
-                if n % ASKED == 0 && progress.cancelled() {
+                if n % FACETS_PER_STOP_CHECK == 0 && progress.cancelled() {
                     return Err(Cancelled.into());
                 }
                 for k in range[0].max(from as u32)..range[1].min(to as u32) {
@@ -94,7 +94,7 @@ fn between(
     let heights: Vec<[f64; 2]> = mesh.positions.iter().map(|p| height(normal, *p)).collect();
     let mut all = Vec::with_capacity(mesh.faces.len());
     for (n, face) in mesh.faces.iter().enumerate() {
-        if n % ASKED == 0 && progress.cancelled() {
+        if n % FACETS_PER_STOP_CHECK == 0 && progress.cancelled() {
             return Err(Cancelled);
         }
         let [Some(a), Some(b), Some(c)] = face.map(|v| heights.get(v as usize)) else {

@@ -20,14 +20,14 @@ use circles::Inscribed;
 pub use edge::EdgeRadius;
 pub use ends::TrailingEdge;
 pub use error::AirfoilError;
-use error::FEWEST;
-use profile::{Profile, RESOLUTION};
+use error::MIN_POINTS_OF_PROFILE;
+use profile::{Profile, SAME_PLACE_SPACINGS};
 use trueness_geom::progress::Progress;
 
 /// An edge lies on an arc of the contour that turns by more than this, radians.
-const TURN: f64 = 2.4;
+const MIN_EDGE_ARC_TURN: f64 = 2.4;
 /// By so many standard uncertainties of a mean of its points the radius of an edge may differ from that of its arc.
-const HIDDEN: f64 = 8.0 * std::f64::consts::SQRT_2;
+const HIDDEN_RADIUS_SIGMAS: f64 = 8.0 * std::f64::consts::SQRT_2;
 
 /// What is measured of a profile. Lengths as the points have them; shares are of the chord, from the leading edge.
 #[derive(Clone, Debug, PartialEq)]
@@ -99,11 +99,11 @@ fn on_arc(contour: &Contour, place: [f64; 2]) -> Option<EdgeRadius> {
     let segment = &contour.segments[nearest];
     match (&segment.geometry, segment.uncertainty) {
         (Geometry::Arc { radius, sweep, .. }, Some(Uncertainty::Arc { radius: uncertainty, .. }))
-            if sweep.abs() > TURN =>
+            if sweep.abs() > MIN_EDGE_ARC_TURN =>
         {
             // Waves of the edge that scatter hides bend it more than the arc: eight times as much as they are high over its radius, with
             // three to a round.
-            let hidden = HIDDEN * contour.noise / contour.independent_of(nearest).sqrt();
+            let hidden = HIDDEN_RADIUS_SIGMAS * contour.noise / contour.independent_of(nearest).sqrt();
             let uncertainty = libm::hypot(uncertainty, hidden);
             Some(EdgeRadius { radius: *radius, uncertainty, count: segment.count })
         }
@@ -120,14 +120,17 @@ fn in_order(
     left_out.sort_unstable();
     let mut numbers: Vec<usize> = (0..points.len()).filter(|i| left_out.binary_search(i).is_err()).collect();
     // Points as near as this are one: a trailing edge of both is sharp.
-    let nothing = RESOLUTION * contour.spacing;
+    let nothing = SAME_PLACE_SPACINGS * contour.spacing;
     let near = |i: usize, j: usize| distance(points[i], points[j]) < nothing;
     numbers.dedup_by(|i, j| near(*i, *j));
-    while contour.closed && numbers.len() > FEWEST && near(numbers[0], numbers[numbers.len() - 1]) {
+    while contour.closed
+        && numbers.len() > MIN_POINTS_OF_PROFILE
+        && near(numbers[0], numbers[numbers.len() - 1])
+    {
         numbers.pop();
     }
     let row: Vec<[f64; 2]> = numbers.iter().map(|i| points[*i]).collect();
-    if row.len() < FEWEST {
+    if row.len() < MIN_POINTS_OF_PROFILE {
         return Err(AirfoilError::TooFewPoints { found: row.len() });
     }
     let (around, mut course, mut other) = Profile::new(&row, &numbers, contour, progress)?;

@@ -31,9 +31,9 @@ impl Covered {
     }
 }
 
-/// A way along the outline that is so many times as long as that from point to point, to the outline and back is not the one that the
-/// points took: around a half circle it is π / 2 times as long, around a square's corner √2.
-const AROUND: f64 = 1.75;
+/// A way along the outline that is so many times as long as that from point to point, to the outline and back is not the one that
+/// the points took. Around a half circle it is π / 2 times as long, around a square's corner √2.
+const MAX_WAY_ROUND_RATIO: f64 = 1.75;
 
 /// Of each outline how much of it was measured: the stretches between the places nearest to successive points of the rows. Stretches that
 /// several pairs of points pass count once. One point alone passes nothing.
@@ -59,7 +59,7 @@ pub fn covered(rows: &[Passed], outlines: &[Outline]) -> Vec<Covered> {
                 a.along,
                 b.along,
                 closed.then_some(lengths[a.outline]),
-                AROUND * apart,
+                MAX_WAY_ROUND_RATIO * apart,
             ));
         }
     }

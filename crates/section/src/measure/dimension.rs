@@ -56,15 +56,15 @@ pub struct Dimension {
 }
 
 /// Directions that differ by fewer standard uncertainties than this are taken for parallel.
-const PARALLEL: f64 = 3.0;
+const PARALLEL_SIGMAS: f64 = 3.0;
 /// Radians between lines that are never parallel, however uncertain their directions are.
-const STEEPEST: f64 = 0.05;
+const MAX_PARALLEL_ANGLE: f64 = 0.05;
 /// Places of a segment from which its least distance from another is looked for.
-const STARTS: usize = 16;
+const DISTANCE_STARTS: usize = 16;
 /// Lines, and arcs, of one plane whose pairs are looked at.
-const MOST: usize = 1000;
+const MAX_SEGMENTS_IN_PAIRS: usize = 1000;
 /// Steps of the golden section: the place is then known to 1e-10 of the way between two starts.
-const STEPS: usize = 48;
+const GOLDEN_STEPS: usize = 48;
 
 /// The dimensions between the segments of contours in one plane: all angles between a line and the next of its contour, all
 /// widths and distances of centers, and the gap between each contour and the nearest other. Each list in the order of the
@@ -119,11 +119,11 @@ fn known<T>(contours: &[Contour], of: impl Fn(usize, usize) -> Option<(f64, T)>)
     let each = |(c, contour): (usize, &Contour)| (0..contour.segments.len()).map(move |k| (c, k));
     let mut all: Vec<(f64, T)> =
         contours.iter().enumerate().flat_map(each).filter_map(|(c, k)| of(c, k)).collect();
-    if all.len() > MOST {
+    if all.len() > MAX_SEGMENTS_IN_PAIRS {
         let mut lengths: Vec<f64> = all.iter().map(|(length, _)| *length).collect();
         lengths.sort_by(|a, b| b.total_cmp(a));
-        all.retain(|(length, _)| *length >= lengths[MOST - 1]);
-        all.truncate(MOST);
+        all.retain(|(length, _)| *length >= lengths[MAX_SEGMENTS_IN_PAIRS - 1]);
+        all.truncate(MAX_SEGMENTS_IN_PAIRS);
     }
     all.into_iter().map(|(_, one)| one).collect()
 }
@@ -176,7 +176,7 @@ fn enclosed((of, a): &([usize; 2], Line), (with, b): &([usize; 2], Line)) -> Opt
     let uncertainty = libm::hypot(a.angle, b.angle);
     let value = std::f64::consts::PI - turn;
     // Of parallel lines that come back the width is told.
-    (value > PARALLEL * uncertainty).then(|| Dimension {
+    (value > PARALLEL_SIGMAS * uncertainty).then(|| Dimension {
         kind: DimensionKind::Angle,
         of: [*of, *with],
         value,
@@ -189,7 +189,7 @@ fn width((of, a): &([usize; 2], Line), (with, b): &([usize; 2], Line)) -> Option
     let along = a.along();
     let sense = if along[0] * b.along()[0] + along[1] * b.along()[1] < 0.0 { -1.0 } else { 1.0 };
     let turn = angle(along, b.along().map(|x| sense * x));
-    if turn.abs() > (PARALLEL * libm::hypot(a.angle, b.angle)).min(STEEPEST) {
+    if turn.abs() > (PARALLEL_SIGMAS * libm::hypot(a.angle, b.angle)).min(MAX_PARALLEL_ANGLE) {
         return None;
     }
     // The mean direction of the two, each as long as it is.
@@ -353,18 +353,19 @@ fn nearest(a: &Segment, b: &Segment) -> (f64, [[f64; 2]; 2]) {
 /// The least distance of places of one segment from another, and at which share it is.
 fn from_places(from: &Segment, to: &Segment) -> (f64, f64) {
     let distance = |share: f64| to.nearest(from.place(share)).distance.abs();
-    let share = |i: usize| i as f64 / STARTS as f64;
+    let share = |i: usize| i as f64 / DISTANCE_STARTS as f64;
     let mut best = (f64::INFINITY, 0.0);
-    let all: Vec<f64> = (0..=STARTS).map(|i| distance(share(i))).collect();
-    for i in 0..=STARTS {
+    let all: Vec<f64> = (0..=DISTANCE_STARTS).map(|i| distance(share(i))).collect();
+    for i in 0..=DISTANCE_STARTS {
         if all[i] < best.0 {
             best = (all[i], share(i));
         }
     }
-    let lowest = |i: &usize| all[*i] <= all[i.saturating_sub(1)] && all[*i] <= all[(i + 1).min(STARTS)];
-    for i in (0..=STARTS).filter(lowest) {
-        let (low, high) = (share(i.saturating_sub(1)), share((i + 1).min(STARTS)));
-        let (at, value) = golden(&distance, low, high, STEPS);
+    let lowest =
+        |i: &usize| all[*i] <= all[i.saturating_sub(1)] && all[*i] <= all[(i + 1).min(DISTANCE_STARTS)];
+    for i in (0..=DISTANCE_STARTS).filter(lowest) {
+        let (low, high) = (share(i.saturating_sub(1)), share((i + 1).min(DISTANCE_STARTS)));
+        let (at, value) = golden(&distance, low, high, GOLDEN_STEPS);
         if value < best.0 {
             best = (value, at);
         }

@@ -9,9 +9,9 @@ use trueness_geom::spline::curve::{self, Curve, End, Ends};
 use trueness_geom::spline::rational::Rational;
 
 /// Weights that differ by less than this share are the same.
-const EQUAL: f64 = 1e-14;
+const EQUAL_WEIGHT_SHARE: f64 = 1e-14;
 /// Places of a rational curve for each of its spans, by which it is followed.
-const PLACES: usize = 256;
+const PLACES_PER_RATIONAL_SPAN: usize = 256;
 
 impl Segment {
     /// A line from a place to another, which no points belong to.
@@ -36,14 +36,15 @@ impl Segment {
     pub fn curve(rational: &Rational<3>, tolerance: f64) -> Option<Segment> {
         let masses = rational.masses();
         let first = masses.points().first()?.mass;
-        let (curve, deviation) = match masses.points().iter().all(|m| (m.mass - first).abs() <= EQUAL * first)
-        {
-            true => {
-                let points = masses.points().iter().map(|m| [0, 1].map(|k| m.moment[k] / m.mass)).collect();
-                (Curve::new(masses.knots().clone(), points).ok()?, 0.0)
-            }
-            false => followed(rational, tolerance)?,
-        };
+        let (curve, deviation) =
+            match masses.points().iter().all(|m| (m.mass - first).abs() <= EQUAL_WEIGHT_SHARE * first) {
+                true => {
+                    let points =
+                        masses.points().iter().map(|m| [0, 1].map(|k| m.moment[k] / m.mass)).collect();
+                    (Curve::new(masses.knots().clone(), points).ok()?, 0.0)
+                }
+                false => followed(rational, tolerance)?,
+            };
         Some(Segment::of_curve(curve, deviation))
     }
 
@@ -62,7 +63,7 @@ impl Segment {
 
     /// Whether it is a whole circle.
     fn is_whole(&self) -> bool {
-        matches!(self.geometry, Geometry::Arc { sweep, .. } if sweep.abs() >= TAU * (1.0 - EQUAL))
+        matches!(self.geometry, Geometry::Arc { sweep, .. } if sweep.abs() >= TAU * (1.0 - EQUAL_WEIGHT_SHARE))
     }
 }
 
@@ -73,7 +74,10 @@ fn followed(rational: &Rational<3>, tolerance: f64) -> Option<(Curve<[f64; 2]>, 
     let flat = |p: [f64; 3]| [p[0], p[1]];
     let mut parameters: Vec<f64> = vec![];
     for w in spans.windows(2) {
-        parameters.extend((0..PLACES).map(|i| w[0] + (w[1] - w[0]) * i as f64 / PLACES as f64));
+        parameters.extend(
+            (0..PLACES_PER_RATIONAL_SPAN)
+                .map(|i| w[0] + (w[1] - w[0]) * i as f64 / PLACES_PER_RATIONAL_SPAN as f64),
+        );
     }
     parameters.extend(spans.last());
     let points: Vec<[f64; 2]> =

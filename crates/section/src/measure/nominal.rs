@@ -62,7 +62,7 @@ impl Outline {
     /// Places along it; of lines the ends.
     fn places(&self) -> Vec<[f64; 2]> {
         let of = |s: &Segment| {
-            let parts = if s.geometry == Geometry::Line { 1 } else { PLACES };
+            let parts = if s.geometry == Geometry::Line { 1 } else { PLACES_PER_CURVE };
             (0..parts).map(|i| s.place(i as f64 / parts as f64)).collect::<Vec<_>>()
         };
         self.segments.iter().flat_map(of).collect()
@@ -72,7 +72,7 @@ impl Outline {
     pub fn nearly_closed(&self) -> Option<f64> {
         let (first, last) = (self.segments.first()?, self.segments.last()?);
         let gap = libm::hypot(first.start[0] - last.end[0], first.start[1] - last.end[1]);
-        (!self.closed && gap < NEARLY * self.length()).then_some(gap)
+        (!self.closed && gap < NEARLY_CLOSED_SHARE * self.length()).then_some(gap)
     }
 
     /// What lies in each of these stretches, between two lengths along it: open ones. Those without length are left out.
@@ -105,11 +105,11 @@ impl Outline {
 }
 
 /// An open outline whose ends are apart by less than this share of its length is nearly closed.
-const NEARLY: f64 = 0.01;
+const NEARLY_CLOSED_SHARE: f64 = 0.01;
 /// Places of an arc or a spline that tell which side of it is inside.
-const PLACES: usize = 32;
-/// Points after which it is asked whether to stop.
-const ASKED: usize = 1024;
+const PLACES_PER_CURVE: usize = 32;
+/// Points after which the search asks whether to stop.
+const POINTS_PER_STOP_CHECK: usize = 1024;
 
 /// Closed outlines turned so that the material is on their left, where what is inside of an odd number of outlines is material:
 /// the outer one runs counter-clockwise, holes in it clockwise. Within a nearly closed outline is inside of it too.
@@ -211,7 +211,7 @@ pub fn off_nominal(
     // The segment nearest to the point before: a good guess.
     let mut last = 0;
     for (i, p) in points.iter().enumerate() {
-        if i % ASKED == 0 && progress.cancelled() {
+        if i % POINTS_PER_STOP_CHECK == 0 && progress.cancelled() {
             return Err(Cancelled);
         }
         if boxes.is_empty() || p.iter().any(|x| !x.is_finite()) {
@@ -260,7 +260,7 @@ fn signed(point: [f64; 2], outline: &Outline, number: usize) -> Option<(f64, [f6
             let along = unit(foot.along);
             // Beyond a free end: what there is nearest to is not the outline's side.
             let ahead = (along[0] * d[0] + along[1] * d[1]) * if foot.share >= 1.0 { 1.0 } else { -1.0 };
-            if at_end && ahead > AHEAD * foot.distance.abs() {
+            if at_end && ahead > BEYOND_END_SHARE * foot.distance.abs() {
                 return None;
             }
             foot.distance
@@ -272,8 +272,8 @@ fn signed(point: [f64; 2], outline: &Outline, number: usize) -> Option<(f64, [f6
     Some((deviation + 0.0, foot.place))
 }
 
-/// Ahead of a free end by more than this share of its distance a point lies beyond it: at right angles it does not.
-const AHEAD: f64 = 1e-9;
+/// A point lies beyond a free end that is ahead of it by more than this share of its distance: at right angles it does not.
+const BEYOND_END_SHARE: f64 = 1e-9;
 
 fn unit(v: [f64; 2]) -> [f64; 2] {
     let size = libm::hypot(v[0], v[1]).max(f64::MIN_POSITIVE);

@@ -74,17 +74,17 @@ pub enum OntoNominalError {
 }
 
 /// Steps of either stage.
-const STEPS: usize = 60;
+const MAX_STEPS_PER_STAGE: usize = 60;
 /// A step so small against the uncertainty changes nothing.
-const SETTLED: f64 = 1e-3;
+const SETTLED_STEP_SIGMAS: f64 = 1e-3;
 /// A step of this share of the size is rounding.
-const ROUNDING: f64 = 1e-13;
+const ROUNDING_STEP_SHARE: f64 = 1e-13;
 /// Residuals from which on a point counts less, in standard deviations (P. J. Huber 1964: 95 % as efficient as the mean).
-const HUBER: f64 = 1.345;
+const HUBER_SIGMAS: f64 = 1.345;
 /// Median magnitude of a normal variable over its standard deviation.
-const MEDIAN: f64 = 0.674_489_75;
+const MEDIAN_SIGMAS: f64 = 0.674_489_75;
 /// A turn is cut to this, radians: a tangent tells nothing of what lies farther round.
-const LONGEST_TURN: f64 = 0.2;
+const MAX_STEP_TURN: f64 = 0.2;
 
 /// The motion, within `freedom`, that brings the points of `rows` nearest to the outlines. Points that are farther than `reach` in the
 /// end do not count. A turn alone is one about the origin; else the center is the middle of the points that count.
@@ -158,8 +158,8 @@ fn middle(rows: &[&[[f64; 2]]]) -> [f64; 2] {
 fn huber(places: &Places) -> Vec<f64> {
     let mut sizes: Vec<f64> = places.distances().map(f64::abs).collect();
     let Some(middle) = median(&mut sizes) else { return vec![] };
-    let scale = middle / MEDIAN;
-    let limit = HUBER * scale;
+    let scale = middle / MEDIAN_SIGMAS;
+    let limit = HUBER_SIGMAS * scale;
     places.distances().map(|d| if d.abs() <= limit { 1.0 } else { limit / d.abs() }).collect()
 }
 
@@ -256,17 +256,18 @@ impl Search<'_> {
     /// Steps until they are small against the uncertainty, or until none brings the points nearer.
     fn settle(&mut self, weigh: &dyn Fn(&Places) -> Vec<f64>) -> Result<(usize, bool), OntoNominalError> {
         let mut places = self.places()?;
-        for step in 0..STEPS {
+        for step in 0..MAX_STEPS_PER_STAGE {
             let weights = weigh(&places);
             let normal = self.normal(&places, &weights)?;
             let mut by = normal.step();
             let turn = by[2].abs();
-            if turn > LONGEST_TURN {
-                by = by.map(|x| x * LONGEST_TURN / turn);
+            if turn > MAX_STEP_TURN {
+                by = by.map(|x| x * MAX_STEP_TURN / turn);
             }
             let size = |by: [f64; 3]| libm::hypot(libm::hypot(by[0], by[1]), by[2] * normal.arm);
             let uncertain = (normal.square / normal.count).sqrt() / normal.count.sqrt();
-            let least = (SETTLED * uncertain).max(ROUNDING * (normal.arm + self.motion.far()));
+            let least =
+                (SETTLED_STEP_SIGMAS * uncertain).max(ROUNDING_STEP_SHARE * (normal.arm + self.motion.far()));
             let before = self.motion;
             loop {
                 self.motion = before.then(by);
@@ -286,6 +287,6 @@ impl Search<'_> {
                 return Ok((step + 1, true));
             }
         }
-        Ok((STEPS, false))
+        Ok((MAX_STEPS_PER_STAGE, false))
     }
 }

@@ -94,7 +94,7 @@ impl Pose {
 }
 
 /// Chains of more pieces are searched by pieces near each other.
-const MANY: usize = 16;
+const MAX_PIECES_SEARCHED_WHOLE: usize = 16;
 
 /// A chain of pieces.
 #[derive(Clone, Debug, PartialEq)]
@@ -132,7 +132,7 @@ impl Chain {
     }
     /// Whether it is searched by pieces near each other.
     pub fn is_long(&self) -> bool {
-        self.pieces.len() > MANY
+        self.pieces.len() > MAX_PIECES_SEARCHED_WHOLE
     }
     /// Number of joins.
     pub fn joins(&self) -> usize {

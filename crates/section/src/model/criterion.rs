@@ -26,13 +26,13 @@ pub(crate) struct Rest {
     pub unknowns: Unknowns,
 }
 
-/// Fewer points do not tell all that a search goes through on its way.
-const ENOUGH: f64 = 60.0;
+/// In rows of fewer points a search may pass through models whose free pieces are loose.
+const MIN_POINTS_TO_FORBID_LOOSE_PIECES: f64 = 60.0;
 
-/// Cost beyond that of its unknowns of an arc and of a free piece: simple kinds are the likelier ones, by as much however far neighbors
-/// share their noise.
-const ARC: f64 = 1.0;
-const FREE: f64 = 1.5;
+/// Cost of an arc beyond that of its unknowns. Simple kinds are likelier, by as much however far neighbors share their noise.
+const ARC_COST: f64 = 1.0;
+/// Cost of a free piece beyond that of its unknowns, for the same reason.
+const FREE_PIECE_COST: f64 = 1.5;
 
 impl Criterion {
     /// Twice the negative logarithm of the likelihood, the variance of the noise eliminated, plus the penalty of Schwarz
@@ -51,7 +51,9 @@ impl Criterion {
         let meets_itself = |p: &Piece| {
             p.kind == SegmentKind::Arc && (p.length * p.curvature(0.0)).abs() >= std::f64::consts::TAU
         };
-        let loose = |(p, w): (&Piece, &[usize])| self.count >= ENOUGH && p.is_loose(w[1] - w[0]);
+        let loose = |(p, w): (&Piece, &[usize])| {
+            self.count >= MIN_POINTS_TO_FORBID_LOOSE_PIECES && p.is_loose(w[1] - w[0])
+        };
         if pieces.len() > 1
             && (pieces.iter().any(meets_itself) || pieces.iter().zip(state.breaks.windows(2)).any(loose))
         {
@@ -80,16 +82,17 @@ impl Criterion {
     }
     fn penalty(&self, unknowns: Unknowns) -> f64 {
         let total = self.count + self.degrees;
-        let spare = (total - unknowns.number - 2.0).max(SPARE * total);
-        let few = if total < SHORT { 1.0 } else { total / spare };
+        let spare = (total - unknowns.number - 2.0).max(MIN_FREEDOM_SHARE * total);
+        let few = if total < SHORT_ROW_POINTS { 1.0 } else { total / spare };
         (unknowns.weight * libm::log(self.count) + unknowns.kinds * libm::log(self.points)) * few
     }
 }
 
-/// Share of the degrees of freedom that counts as left at least; in rows of fewer points than this all: there any curve along the points
-/// takes most of them, and is better all the same than one that passes them by.
-const SHORT: f64 = 24.0;
-const SPARE: f64 = 0.5;
+/// In rows of fewer points all degrees of freedom count as left: any curve along the points takes most of them there, and is better
+/// all the same than one that passes them by.
+const SHORT_ROW_POINTS: f64 = 24.0;
+/// Share of the degrees of freedom that counts as left at least.
+const MIN_FREEDOM_SHARE: f64 = 0.5;
 
 /// The unknowns of a chain.
 #[derive(Clone, Copy, Debug)]
@@ -113,8 +116,8 @@ impl Unknowns {
         };
         let kind = |p: &Piece| match p.kind {
             SegmentKind::Line => 0.0,
-            SegmentKind::Arc => ARC,
-            SegmentKind::Spline => FREE,
+            SegmentKind::Arc => ARC_COST,
+            SegmentKind::Spline => FREE_PIECE_COST,
         };
         Unknowns {
             number: 2.0 + joins + chain.pieces.iter().map(number).sum::<f64>(),

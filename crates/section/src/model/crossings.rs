@@ -6,15 +6,15 @@ use trueness_geom::progress::{Cancelled, Progress};
 
 /// Chords over a whole circle, and over a span of a free curve. They differ, and are odd, so that ends of chords of one curve seldom
 /// lie on another.
-const CHORDS: (f64, usize) = (143.0, 11);
-/// So many crossings are told.
-const MOST: usize = 100;
-/// Chords looked at after which it is asked whether to stop.
-const ASKED: usize = 1024;
+const CHORDS_PER_CIRCLE_AND_SPAN: (f64, usize) = (143.0, 11);
+/// At most so many crossings are listed.
+const MAX_CROSSINGS: usize = 100;
+/// Chords looked at after which the search asks whether to stop.
+const CHORDS_PER_STOP_CHECK: usize = 1024;
 /// Steps towards the place where two curves cross.
-const STEPS: usize = 4;
-/// Half of what is left of a chord with each, as a share.
-const SHORTER: f64 = 0.1;
+const CROSSING_STEPS: usize = 4;
+/// Each step leaves this share of the chord's half length.
+const CHORD_SHRINK_RATIO: f64 = 0.1;
 
 /// A chord of a segment: from a share of its parameter to another.
 struct Chord {
@@ -53,7 +53,7 @@ pub(crate) fn crossing_chords(
     order.sort_by(|a, b| range(&chords[*a], k).0.total_cmp(&range(&chords[*b], k).0).then(a.cmp(b)));
     let (mut open, mut found): (Vec<usize>, Vec<(usize, usize)>) = (vec![], vec![]);
     for (n, i) in order.into_iter().enumerate() {
-        if n % ASKED == 0 && progress.cancelled() {
+        if n % CHORDS_PER_STOP_CHECK == 0 && progress.cancelled() {
             return Err(Cancelled);
         }
         let own = &chords[i];
@@ -120,18 +120,18 @@ pub(crate) fn crossings_with_loops(
         let way = ways[*j] - ways[*i];
         way > least && (!closed || ways[ends.len()] - way > least)
     };
-    let pairs = crossing_chords(&ends, closed, MOST, progress)?.into_iter().filter(is_long);
+    let pairs = crossing_chords(&ends, closed, MAX_CROSSINGS, progress)?.into_iter().filter(is_long);
     Ok(pairs.map(|(i, j)| place_of(segments, &chords[i], &chords[j])).collect())
 }
 
 /// The place where the curves of two chords cross: of ever shorter chords about where the ones before meet.
 fn place_of(segments: &[Segment], a: &Chord, b: &Chord) -> [f64; 2] {
     let (mut shares, mut ends) = ([a.shares, b.shares], [a.ends, b.ends]);
-    for _ in 0..STEPS {
+    for _ in 0..CROSSING_STEPS {
         let along = [ends, [ends[1], ends[0]]].map(|[own, other]| meeting(own, other));
         for (k, chord) in [a, b].into_iter().enumerate() {
             let [from, to] = shares[k];
-            let (at, half) = (from + along[k] * (to - from), SHORTER * (to - from));
+            let (at, half) = (from + along[k] * (to - from), CHORD_SHRINK_RATIO * (to - from));
             shares[k] = [(at - half).max(0.0), (at + half).min(1.0)];
             ends[k] = shares[k].map(|s| segments[chord.segment].place(s));
         }
@@ -153,9 +153,11 @@ fn chords(number: usize, segment: &Segment) -> Vec<Chord> {
     let count = match &segment.geometry {
         Geometry::Line => 1,
         Geometry::Arc { sweep, .. } => {
-            ((sweep.abs() / std::f64::consts::TAU * CHORDS.0).ceil() as usize).max(3) | 1
+            ((sweep.abs() / std::f64::consts::TAU * CHORDS_PER_CIRCLE_AND_SPAN.0).ceil() as usize).max(3) | 1
         }
-        Geometry::Spline { curve, .. } => CHORDS.1 * (curve.points().len() - curve.knots().degree()),
+        Geometry::Spline { curve, .. } => {
+            CHORDS_PER_CIRCLE_AND_SPAN.1 * (curve.points().len() - curve.knots().degree())
+        }
     };
     let share = |i: usize| i as f64 / count as f64;
     let places: Vec<[f64; 2]> = (0..=count).map(|i| segment.place(share(i))).collect();

@@ -3,9 +3,9 @@
 use super::chain::{SegmentKind, arc_end};
 use super::least::{Row, State, Work};
 
-/// Between the feet of neighboring points a chain is at most this many times as long as they are apart: an arc that turns by a
-/// half circle there is π/2 times as long.
-const LONGEST: f64 = 2.0;
+/// Between the feet of neighboring points a chain is at most this many times as long as they are apart: an arc that turns by a half
+/// circle there is π/2 times as long.
+const MAX_DETOUR_RATIO: f64 = 2.0;
 
 impl Work {
     /// Whether the chain runs from each point to the next without a loop between them.
@@ -31,7 +31,7 @@ impl Work {
                 if let Some((before, at)) = last {
                     let along = stations[i] - before;
                     let apart = libm::hypot(foot[0] - at[0], foot[1] - at[1]);
-                    if along > 0.5 * spacing && along > LONGEST * apart {
+                    if along > 0.5 * spacing && along > MAX_DETOUR_RATIO * apart {
                         return false;
                     }
                 }

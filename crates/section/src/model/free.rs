@@ -10,11 +10,11 @@ use trueness_geom::spline::basis::Knots;
 use trueness_geom::spline::curve::{self, Ends};
 
 /// Most coefficients of a free piece.
-pub(crate) const MOST_COEFFICIENTS: usize = 48;
+pub(crate) const MAX_COEFFICIENTS: usize = 48;
 /// Fewest panels over a piece, and per span of its knots.
-const PANELS: (usize, usize) = (14, 4);
+const MIN_PANELS_PER_PIECE_AND_SPAN: (usize, usize) = (14, 4);
 /// Gauss and Legendre's rule with four places on 0 … 1.
-const RULE: [(f64, f64); 4] = [
+const GAUSS_LEGENDRE: [(f64, f64); 4] = [
     (0.069_431_844_202_973_71, 0.173_927_422_568_726_93),
     (0.330_009_478_207_571_87, 0.326_072_577_431_273_07),
     (0.669_990_521_792_428_1, 0.326_072_577_431_273_07),
@@ -72,10 +72,10 @@ pub(crate) fn near(count: usize, curvatures: &[f64]) -> Vec<f64> {
 }
 
 impl Basis {
-    /// The functions for `count` coefficients, 2 to [`MOST_COEFFICIENTS`].
+    /// The functions for `count` coefficients, 2 to [`MAX_COEFFICIENTS`].
     pub(super) fn of(count: usize) -> &'static Basis {
-        static ALL: [OnceLock<Basis>; MOST_COEFFICIENTS + 1] =
-            [const { OnceLock::new() }; MOST_COEFFICIENTS + 1];
+        static ALL: [OnceLock<Basis>; MAX_COEFFICIENTS + 1] =
+            [const { OnceLock::new() }; MAX_COEFFICIENTS + 1];
         ALL[count].get_or_init(|| Basis::new(count))
     }
 
@@ -83,7 +83,8 @@ impl Basis {
         let degree = degree(count);
         let spans = count - degree;
         let knots = Knots::uniform(degree, spans, 0.0, 1.0);
-        let panels = spans * PANELS.1.max(PANELS.0.div_ceil(spans));
+        let panels =
+            spans * MIN_PANELS_PER_PIECE_AND_SPAN.1.max(MIN_PANELS_PER_PIECE_AND_SPAN.0.div_ceil(spans));
         let dense = |t: f64| {
             let (first, values) = knots.basis(t);
             let mut all = vec![0.0; count];
@@ -93,7 +94,7 @@ impl Basis {
         // Exact for the cubic pieces of the functions.
         let integral = |from: f64, to: f64| {
             let mut sum = vec![0.0; count];
-            for (x, w) in RULE {
+            for (x, w) in GAUSS_LEGENDRE {
                 for (s, b) in sum.iter_mut().zip(dense(from + (to - from) * x)) {
                     *s += w * (to - from) * b;
                 }
@@ -112,7 +113,7 @@ impl Basis {
         let mut now = vec![0.0; count];
         for k in 0..panels {
             let (from, to) = (k as f64 / panels as f64, (k + 1) as f64 / panels as f64);
-            for (x, _) in RULE {
+            for (x, _) in GAUSS_LEGENDRE {
                 basis.inner.extend(plus(&now, integral(from, from + (to - from) * x)));
             }
             now = plus(&now, integral(from, to));
@@ -161,8 +162,9 @@ pub(crate) struct Table {
 impl Table {
     /// What it takes to fill it, in products: a sine takes about as long as so many.
     pub(super) fn products(&self) -> f64 {
-        const SINE: usize = 50;
-        (4 * self.panels * (4 * self.count + SINE)) as f64
+        /// Products in the time of one sine.
+        const PRODUCTS_PER_SINE: usize = 50;
+        (4 * self.panels * (4 * self.count + PRODUCTS_PER_SINE)) as f64
     }
 
     /// Computes all for the piece.
@@ -197,7 +199,7 @@ impl Table {
             let last = self.motions.len() - n - 1;
             self.motions.extend_from_within(last..);
             let now = last + n + 1;
-            for (g, (_, weight)) in RULE.iter().enumerate() {
+            for (g, (_, weight)) in GAUSS_LEGENDRE.iter().enumerate() {
                 let inner = &basis.inner[(4 * k + g) * n..(4 * k + g + 1) * n];
                 let angle = angles[4 * k + g];
                 let (sin, cos) = libm::sincos(length * angle);

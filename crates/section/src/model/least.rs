@@ -14,12 +14,12 @@ use super::chain::{Chain, Ends, Layout, Pose, SegmentKind, arc_end, arc_to};
 use super::result::Uncertainty;
 use constrained::Constrained;
 use normal::end_coefficient;
-use work::{PieceSums, SOFT, Variable};
+use work::{PieceSums, TRIAL_CONDITION_WEIGHT, Variable};
 
 /// Weight of a squared distance that must vanish, against one that is to be least, where it is to vanish at last.
-const STIFF: f64 = 1e8;
-/// Steps back to where the conditions hold, after one along their tangents: each squares what is missing.
-const RESTORED: usize = 4;
+const FINAL_CONDITION_WEIGHT: f64 = 1e8;
+/// Steps back to where the conditions hold, after one along their tangents. Each squares what is missing.
+const RESTORING_STEPS: usize = 4;
 
 /// The points that a chain is fitted to, seen from near their middle, and how much each counts.
 #[derive(Clone, Copy, Debug)]
@@ -55,14 +55,14 @@ pub(crate) struct Spread {
     pub lengths: Vec<f64>,
 }
 
-/// Share of the least gain of a step below which a step is not taken.
-const NEGLIGIBLE: f64 = 0.01;
-/// Gain of a step, in variances of the noise, below which no shorter one is tried where it was refused: rounding is what refuses it, and
-/// the unknowns are within a hundredth of their uncertainty.
-const SETTLED: f64 = 1e-4;
+/// A step is not taken that gains less than this share of the least gain.
+const MIN_GAIN_SHARE: f64 = 0.01;
+/// Gain of a step, in variances of the noise, below which no shorter one is tried where it was refused. Rounding refuses such a
+/// step, and the unknowns are within a hundredth of their uncertainty.
+const SETTLED_GAIN_VARIANCES: f64 = 1e-4;
 
 /// Products in the time of one distance.
-const DISTANCE: usize = 40;
+const PRODUCTS_PER_DISTANCE: usize = 40;
 
 /// When to stop.
 #[derive(Clone, Copy, Debug)]
@@ -157,8 +157,9 @@ impl Work {
             let mut products = [0.0; 64];
             let size = block.size;
             // A distance takes about as long as so many products.
-            self.effort +=
-                (to.saturating_sub(from) * (DISTANCE + if full { size * size / 2 } else { 0 })) as f64;
+            self.effort += (to.saturating_sub(from)
+                * (PRODUCTS_PER_DISTANCE + if full { size * size / 2 } else { 0 }))
+                as f64;
             let mut next = from % count;
             for _ in from..to {
                 let i = next;
@@ -196,7 +197,7 @@ impl Work {
 
     /// Sum of squares and what conditions add to it.
     fn cost(&self, state: &State, held: Option<&Held>) -> f64 {
-        let weight = if self.exact { STIFF } else { SOFT };
+        let weight = if self.exact { FINAL_CONDITION_WEIGHT } else { TRIAL_CONDITION_WEIGHT };
         state.sum + weight * self.off(&state.chain, held).iter().map(|x| x * x).sum::<f64>()
     }
 
@@ -234,7 +235,7 @@ impl Work {
             return;
         }
         let (mut missing, mut square) = off(self, chain);
-        for _ in 0..RESTORED {
+        for _ in 0..RESTORING_STEPS {
             let mut next = chain.clone();
             self.step(&mut next, &system.restore(missing), shortest);
             let found = off(self, &next);
@@ -254,7 +255,7 @@ impl Work {
         let (mut lambda, mut stalled, mut taken) = (1e-4, 0, 0);
         let mut fresh = true;
         let mut next = state.clone();
-        let settled = SETTLED / row.points.len() as f64;
+        let settled = SETTLED_GAIN_VARIANCES / row.points.len() as f64;
         for _ in 0..stop.steps {
             if fresh {
                 let chain = std::mem::replace(&mut state.chain, Chain::EMPTY);
@@ -279,8 +280,9 @@ impl Work {
             // What the step would gain if the distances were linear in the unknowns: where that is far below what is asked for,
             // nothing is measured any more.
             let gain: f64 = step.iter().zip(&self.right).map(|(x, r)| x * r).sum::<f64>()
-                + (STIFF - SOFT) * self.missing.iter().map(|x| x * x).sum::<f64>();
-            let least = if fresh { NEGLIGIBLE * stop.gain } else { settled };
+                + (FINAL_CONDITION_WEIGHT - TRIAL_CONDITION_WEIGHT)
+                    * self.missing.iter().map(|x| x * x).sum::<f64>();
+            let least = if fresh { MIN_GAIN_SHARE * stop.gain } else { settled };
             if gain <= least * cost {
                 break;
             }

@@ -9,13 +9,15 @@ pub(crate) struct Known {
     pub degrees: f64,
 }
 
-/// Degrees of freedom of noise that somebody gives.
-const GIVEN: f64 = 1e6;
+/// Noise and offsets below this share of the distance between points say nothing about the form.
+pub(crate) const NEGLIGIBLE_OFFSET_SPACINGS: f64 = 0.005;
+/// Degrees of freedom of noise that the user gives.
+const DEGREES_OF_GIVEN_NOISE: f64 = 1e6;
 
 impl Known {
     /// The noise that is given, if it is.
     pub fn given(options: &Options) -> Option<Known> {
-        options.noise.map(|deviation| Known { deviation, degrees: GIVEN })
+        options.noise.map(|deviation| Known { deviation, degrees: DEGREES_OF_GIVEN_NOISE })
     }
 }
 

@@ -95,23 +95,23 @@ pub struct Segment {
     pub length_uncertainty: Option<f64>,
 }
 
-/// Places of a drawn curve for each of its control points, where its length is looked at.
-const PLACES: usize = 16;
+/// Places of a drawn curve for each of its control points, by which its length is measured.
+const DRAWN_PLACES_PER_CONTROL_POINT: usize = 16;
 /// A curve drawn so many times as long as it is does not follow its piece.
-const LONGER: f64 = 1.5;
+const MAX_DRAWN_LENGTH_RATIO: f64 = 1.5;
 
 impl Segment {
     /// Whether a free curve is drawn much longer than it is: it turns too fast for its points to hold it.
     pub(crate) fn strays(&self) -> bool {
         let Geometry::Spline { curve, .. } = &self.geometry else { return false };
-        let steps = PLACES * curve.points().len();
+        let steps = DRAWN_PLACES_PER_CONTROL_POINT * curve.points().len();
         let (from, to) = curve.domain();
         let place = |i: usize| curve.at(from + (to - from) * i as f64 / steps as f64);
         let step = |i: usize| {
             let (a, b) = (place(i), place(i + 1));
             libm::hypot(b[0] - a[0], b[1] - a[1])
         };
-        (0..steps).map(step).sum::<f64>() > LONGER * self.length
+        (0..steps).map(step).sum::<f64>() > MAX_DRAWN_LENGTH_RATIO * self.length
     }
 
     /// Distance of a point from the line or circle as it is drawn; 0 of a free curve.

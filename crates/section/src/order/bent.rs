@@ -18,9 +18,9 @@ pub struct Bent {
 }
 
 /// Standard deviations from which on distances follow the squares of heights, and are no chance.
-const SURE: f64 = 4.0;
+const MIN_SLOPE_SIGMAS: f64 = 4.0;
 /// Fewest points that tell it.
-const FEWEST: usize = 20;
+const MIN_POINTS_TO_TELL_BEND: usize = 20;
 
 /// The arcs of a contour whose radii a slab moves by more than their standard uncertainty: `heights` are those of the contour's points
 /// above the plane, mm. Points left out as outliers do not count; where heights are all alike there is none.
@@ -55,7 +55,7 @@ pub fn bent_across(contour: &Contour, heights: &[f64]) -> Vec<Bent> {
             .map(|i| [heights[i] * heights[i], outward * contour.residuals[i]])
             .collect();
         let n = points.len() as f64;
-        if points.len() < FEWEST {
+        if points.len() < MIN_POINTS_TO_TELL_BEND {
             return None;
         }
         let [square, off] = [0, 1].map(|k| points.iter().map(|p| p[k]).sum::<f64>() / n);
@@ -67,7 +67,7 @@ pub fn bent_across(contour: &Contour, heights: &[f64]) -> Vec<Bent> {
         let slope = xy / xx;
         let chance = ((yy - slope * xy).max(0.0) / (n - 2.0) / xx).sqrt();
         let bias = slope * square;
-        let significant = slope.abs() > SURE * chance && bias.abs() > uncertainty;
+        let significant = slope.abs() > MIN_SLOPE_SIGMAS * chance && bias.abs() > uncertainty;
         significant.then_some(Bent { segment, bias, uncertainty })
     };
     contour.segments.iter().enumerate().filter_map(of).collect()

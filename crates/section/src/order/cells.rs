@@ -5,7 +5,7 @@ use crate::model::flat::distance;
 use std::collections::HashMap;
 
 /// Fewest cells of a way; a branch of fewer hangs beside.
-pub(super) const FEWEST: usize = 4;
+pub(super) const MIN_CELLS_OF_WAY: usize = 4;
 
 /// Points gathered in square cells.
 pub(super) struct Cells {
@@ -140,7 +140,7 @@ pub(super) fn tree_paths(cells: &Cells, tree: &Tree) -> Vec<Way> {
             for &next in &tree[cell] {
                 if !used[next] {
                     let branch = reachable(tree, &used, next);
-                    if branch.len() < FEWEST {
+                    if branch.len() < MIN_CELLS_OF_WAY {
                         branch.iter().for_each(|c| used[*c] = true);
                         beside.extend(branch);
                     }

@@ -25,13 +25,13 @@ pub(super) struct Limits {
     pub fewest: usize,
 }
 
-/// A gap longer than those that uneven points have by chance: one in a thousand rows has a longer one.
-const CHANCE: f64 = 7.0;
+/// A gap is longer than those that uneven points have by chance: one row in a thousand has a longer one.
+const LONGEST_STEP_CHANCE: f64 = 7.0;
 /// The direction of an end is that over so many cells.
-const BACK: usize = 4;
-/// Two ends head for a common corner where the cosines of their angles with the line between them sum up to more than this; of
-/// two that run side by side the sum is 0.
-const AHEAD: f64 = 0.25;
+const CELLS_OF_END_DIRECTION: usize = 4;
+/// Two ends head for a common corner where the cosines of their angles with the line between them sum up to more than this. The sum
+/// is 0 for two that run side by side.
+const MIN_COSINE_SUM: f64 = 0.25;
 
 /// The gap that neighbors on a contour are not farther apart than, told by the steps between them that are no longer than
 /// `reach`: the upper quarter of the steps falls off exponentially where points are sampled at random, at once where they are
@@ -47,7 +47,7 @@ pub(super) fn longest_by_chance(mut steps: Vec<f64>, reach: f64) -> f64 {
     for _ in 0..20 {
         scale = (mean + most / libm::expm1(most / scale.max(f64::MIN_POSITIVE))).min(most);
     }
-    reach.max(first + scale * (libm::log(steps.len() as f64) + CHANCE))
+    reach.max(first + scale * (libm::log(steps.len() as f64) + LONGEST_STEP_CHANCE))
 }
 
 /// One end of a way.
@@ -59,7 +59,7 @@ struct End {
 
 fn end(way: &Way, last: bool, middles: &[[f64; 2]]) -> End {
     let n = way.len();
-    let back = BACK.min(n - 1);
+    let back = CELLS_OF_END_DIRECTION.min(n - 1);
     let (tip, inner) = if last { (n - 1, n - 1 - back) } else { (0, back) };
     let (at, from) = (middles[way[tip].0], middles[way[inner].0]);
     let size = distance(from, at);
@@ -113,7 +113,7 @@ fn candidates(ends: &[End], limits: &Limits) -> Vec<(f64, usize, usize)> {
             };
             let sum = ahead(&ends[a], &ends[b]) + ahead(&ends[b], &ends[a]);
             let closes = other(a) == b && apart <= limits.closing;
-            if apart <= limits.gap && (sum > AHEAD || closes) {
+            if apart <= limits.gap && (sum > MIN_COSINE_SUM || closes) {
                 all.push((apart * (3.0 - sum), a, b));
             }
         }
@@ -148,12 +148,12 @@ fn chains(ways: Vec<Way>, partner: &[Option<usize>]) -> Vec<Linked> {
     all
 }
 
-/// Most open ends of which the nearest are looked for.
-const MOST: usize = 4000;
+/// Most open ends whose nearest ones are looked for.
+const MAX_OPEN_ENDS: usize = 4000;
 
 /// The gap over which three quarters of these ends would meet another one. `None` where there are fewer than `fewest`.
 pub(super) fn gap_to_close(ends: &[[f64; 2]], fewest: usize) -> Option<f64> {
-    if ends.len() < fewest.max(2) || ends.len() > MOST {
+    if ends.len() < fewest.max(2) || ends.len() > MAX_OPEN_ENDS {
         return None;
     }
     let nearest = |i: usize| {
@@ -179,7 +179,7 @@ mod tests {
         };
         for _ in 0..20 {
             let found = longest_by_chance(steps(random), 4.0);
-            let want = libm::log(4.0) + libm::log(2000.0) + CHANCE;
+            let want = libm::log(4.0) + libm::log(2000.0) + LONGEST_STEP_CHANCE;
             assert!((found / want - 1.0).abs() < 0.25, "{found} {want}");
         }
         // Even steps have no longer one by chance.

@@ -28,7 +28,7 @@ pub fn slab(
 }
 
 /// A contour that is so many times as long as the way along its points goes to and fro between them.
-const LONGEST: f64 = 2.0;
+const MAX_LENGTH_RATIO: f64 = 2.0;
 
 /// The contour of points in order that were found among `points` in the plane.
 ///
@@ -48,7 +48,7 @@ pub fn ordered_contour(
     let closed = options.closed.unwrap_or(row.closed);
     let options = Options { closed: Some(closed), ordered: true, ..*options };
     let mut found = contour(&own, &options, progress)?;
-    if found.length() > LONGEST * row.way || scatters_across(&found) {
+    if found.length() > MAX_LENGTH_RATIO * row.way || scatters_across(&found) {
         found.astray = (0..found.segments.len()).collect();
     }
     found.layered = row.layered;

@@ -2,11 +2,12 @@
 
 use super::clean::Clean;
 use super::convert::Parts;
+use crate::model::prior::NEGLIGIBLE_OFFSET_SPACINGS;
 use crate::model::result::{Contour, Segment};
 use crate::search::span::Found;
 
 /// A free piece whose points leave so many spans of its curvature after another without one may run anywhere there.
-const UNTOLD: f64 = 3.0;
+const MAX_EMPTY_SPANS: f64 = 3.0;
 
 /// A contour while it is put together.
 #[derive(Default)]
@@ -37,7 +38,10 @@ impl Joined {
             }
         }
         let strays = |(k, s): &(usize, &Segment)| {
-            found.astray || s.strays() || found.pieces()[*k].is_loose(s.count) || found.widest(*k) > UNTOLD
+            found.astray
+                || s.strays()
+                || found.pieces()[*k].is_loose(s.count)
+                || found.widest(*k) > MAX_EMPTY_SPANS
         };
         let astray = parts.segments.iter().enumerate().filter(strays);
         contour.astray.extend(astray.map(|(k, _)| first + k));
@@ -50,18 +54,18 @@ impl Joined {
     /// do, are astray too.
     pub(super) fn misdrawn(&mut self, points: &[[f64; 2]], weights: &[f64], step: usize) {
         /// So many standard deviations of the noise beyond the farthest of its points from the line or arc found.
-        const BEYOND: f64 = 3.0;
+        const MAX_DRAWN_OFFSET_SIGMAS: f64 = 3.0;
         /// So many distances between points, and standard deviations, beyond an end of a line or arc.
-        const AHEAD: f64 = 8.0;
+        const MAX_DRAWN_OVERSHOOT_SPACINGS: f64 = 8.0;
         let contour = &mut self.contour;
         let mut off = vec![[0.0f64; 2]; contour.segments.len()];
         for ((p, label), _) in points.iter().zip(&contour.labels).zip(weights).filter(|(_, w)| **w > 0.0) {
             let (off, segment) = (&mut off[*label as usize], &contour.segments[*label as usize]);
             *off = [off[0].max(segment.off_drawn(*p)), off[1].max(segment.ahead_of_drawn(*p))];
         }
-        let most = AHEAD * (contour.spacing * step as f64 + contour.noise);
+        let most = MAX_DRAWN_OVERSHOOT_SPACINGS * (contour.spacing * step as f64 + contour.noise);
         let far = |(k, [off, ahead]): &(usize, [f64; 2])| {
-            *off > contour.segments[*k].max + BEYOND * contour.noise || *ahead > most
+            *off > contour.segments[*k].max + MAX_DRAWN_OFFSET_SIGMAS * contour.noise || *ahead > most
         };
         let astray = off.into_iter().enumerate().filter(far).map(|(k, _)| k).collect();
         self.astray(astray);
@@ -71,12 +75,13 @@ impl Joined {
     /// many independent ones lie farther off to one side, in the mean, than so many standard deviations of the noise, as chance makes one
     /// of 10^15.
     pub(super) fn leaving(&mut self, weights: &[f64]) {
-        const RUN: f64 = 4.0;
-        const BEYOND: f64 = 4.0;
-        /// What is below this share of the distance between points leaves nothing.
-        const NOTHING: f64 = 0.005;
+        /// Weight of a run of points: that of so many independent ones.
+        const LEAVING_RUN_WEIGHT: f64 = 4.0;
+        /// So many standard deviations of the noise, which chance gives one run of 10^15.
+        const LEAVING_RUN_SIGMAS: f64 = 4.0;
         let contour = &self.contour;
-        let most = BEYOND * contour.noise.max(NOTHING * contour.spacing / BEYOND);
+        let most = LEAVING_RUN_SIGMAS
+            * contour.noise.max(NEGLIGIBLE_OFFSET_SPACINGS * contour.spacing / LEAVING_RUN_SIGMAS);
         let mut astray = vec![];
         // The sums over the window that ends before a point; windows lie in one segment.
         let (mut first, mut weight, mut sum) = (0, 0.0, 0.0);
@@ -86,12 +91,12 @@ impl Joined {
             }
             weight += weights[i];
             sum += weights[i] * contour.residuals[i];
-            while weight - weights[first] >= RUN {
+            while weight - weights[first] >= LEAVING_RUN_WEIGHT {
                 weight -= weights[first];
                 sum -= weights[first] * contour.residuals[first];
                 first += 1;
             }
-            if weight >= RUN && sum.abs() > most * weight {
+            if weight >= LEAVING_RUN_WEIGHT && sum.abs() > most * weight {
                 astray.push(contour.labels[i] as usize);
             }
         }

@@ -4,7 +4,7 @@
 //! The chain over such a corner has a short arc or a free piece there, or a join far off. So up to three neighboring pieces of each
 //! chain are replaced by two lines or arcs with a corner between them, and where that costs less, the chain ends there.
 
-use super::doubt::CORNER;
+use super::doubt::CORNER_UNKNOWNS;
 use super::plan::{Chains, Plan};
 use crate::model::chain::{Chain, Ends, Piece, Pose, SegmentKind, arc_end, arc_over};
 use crate::model::criterion::{Model, Unknowns};
@@ -16,14 +16,14 @@ use crate::search::start::{Halves, Part, halves};
 use crate::search::task::Span;
 use trueness_geom::progress::{Cancelled, Progress};
 
-/// Neighboring pieces that two take the place of, at most.
-const PIECES: usize = 3;
+/// Two pieces take the place of so many neighbors at most.
+const MAX_PIECES_AT_CORNER: usize = 3;
 /// Fewest points on either side of a corner: fewer lie on a line by chance.
-const FEWEST: usize = 6;
+const MIN_POINTS_BESIDE_CORNER: usize = 6;
 
 /// A closed chain counts as many unknowns as the open one of its pieces has without its ends, which have to meet: beyond that it has two
 /// fewer.
-const OPENED: Unknowns = Unknowns { number: 0.0, weight: 2.0, kinds: 0.0 };
+const OPENED_CHAIN_UNKNOWNS: Unknowns = Unknowns { number: 0.0, weight: 2.0, kinds: 0.0 };
 
 /// A corner in place of some pieces of a chain.
 struct Blunt {
@@ -64,7 +64,11 @@ impl Plan<'_> {
         let task = self.task(found.state.chain.closed, count == total, count);
         let criterion = found.span.criterion(&task);
         let bar = criterion.cost_of(found.state.sum, Unknowns::of(&found.state.chain));
-        let corner = if found.state.chain.closed { CORNER.and(OPENED) } else { CORNER };
+        let corner = if found.state.chain.closed {
+            CORNER_UNKNOWNS.and(OPENED_CHAIN_UNKNOWNS)
+        } else {
+            CORNER_UNKNOWNS
+        };
         let cost = |states: &[(Span, State)], sum: f64| {
             let unknowns = states.iter().map(|(_, s)| Unknowns::of(&s.chain)).fold(corner, Unknowns::and);
             criterion.cost_of(sum, unknowns)
@@ -110,13 +114,13 @@ fn corners(found: &Found) -> Vec<(Blunt, f64)> {
     let pieces = &state.chain.pieces;
     let mut all = vec![];
     for from in 0..pieces.len() {
-        for to in from + 1..=(from + PIECES).min(pieces.len()) {
+        for to in from + 1..=(from + MAX_PIECES_AT_CORNER).min(pieces.len()) {
             let range = state.breaks[from]..state.breaks[to];
             let points: Vec<[f64; 2]> = range.clone().map(|i| found.span.points[i % n]).collect();
             let weights: Vec<f64> = range.clone().map(|i| found.span.weights[i % n]).collect();
             let own: f64 = range.clone().zip(&weights).map(|(i, w)| w * found.residuals[i % n].powi(2)).sum();
             let outer = [pieces[from].kind, pieces[to - 1].kind];
-            for Halves { parts, sum } in halves(&points, &weights, FEWEST) {
+            for Halves { parts, sum } in halves(&points, &weights, MIN_POINTS_BESIDE_CORNER) {
                 if parts.iter().zip(outer).all(|(p, k)| p.kind == SegmentKind::Arc && k != SegmentKind::Arc) {
                     continue;
                 }

@@ -2,7 +2,7 @@
 
 use super::clean::Clean;
 use super::levels::Start;
-use super::plan::RESOLUTION;
+use super::plan::RESOLUTION_SPACINGS;
 use crate::model::budget::Budget;
 use crate::model::prior::Prior;
 use crate::model::result::{Continuity, Contour, Options, SectionError};
@@ -41,8 +41,8 @@ enum Standing {
 pub(super) type Proposer =
     fn(&Question, Option<&Contour>, &dyn Progress) -> Result<Option<Candidate>, SectionError>;
 
-/// Points scatter about a contour this many times as much as about local fits where it hides form.
-const DOUBTFUL: f64 = 1.3;
+/// Where points scatter this many times as much about a contour as about local fits, it hides form.
+const MAX_SCATTER_RATIO: f64 = 1.3;
 
 impl<'a> Question<'a> {
     pub fn new(
@@ -73,7 +73,7 @@ impl<'a> Question<'a> {
     /// Whether segments of a contour are astray, or its points scatter more than about local fits.
     pub fn doubts(&self, found: &Contour) -> bool {
         let own = self.prior.noise.map_or_else(|| noise(self.points, found.closed).0, |n| n.deviation);
-        !found.astray.is_empty() || own > 0.0 && found.rms() > DOUBTFUL * own
+        !found.astray.is_empty() || own > 0.0 && found.rms() > MAX_SCATTER_RATIO * own
     }
 
     /// What a contour costs, to be compared: its segments that are astray first, then twice the negative logarithm of the likelihood and
@@ -81,7 +81,7 @@ impl<'a> Question<'a> {
     fn cost(&self, found: &Contour) -> (usize, f64) {
         // As many points as are independent.
         let count = self.prior.weights.map_or(self.points.len() as f64, |all| all.iter().sum());
-        let floor = RESOLUTION * found.spacing;
+        let floor = RESOLUTION_SPACINGS * found.spacing;
         let off = found.rms();
         let cost = count * libm::log(off * off + floor * floor)
             + (found.unknowns + found.joins.len() as f64) * libm::log(count);

@@ -5,7 +5,7 @@ use super::candidate::{Candidate, Question};
 use super::convert::segments;
 use super::corner::crossing;
 use super::exact::missed;
-use super::levels::{MARGIN, SAME, Start, hidden};
+use super::levels::{EQUAL_COST, FINER_LEVEL_COST_MARGIN, Start, hidden};
 use super::plan::{Chains, Plan};
 use crate::model::result::{Contour, Join, SectionError};
 use crate::search::smooth::COST_TO_SEARCH;
@@ -14,9 +14,9 @@ use trueness_geom::num::special::student_quantile;
 use trueness_geom::progress::{Cancelled, Progress};
 
 /// A crossing is followed this far from the chains' ends, in distances between points.
-const FARTHEST: f64 = 20.0;
+const MAX_EXTENSION_SPACINGS: f64 = 20.0;
 /// Noise of up to so many times that of rounding is rounding.
-const ROUNDED: f64 = 3.0;
+const MAX_ROUNDING_RATIO: f64 = 3.0;
 
 /// The contour that the search finds, where there is none yet; `None` where its chains do not run along the points.
 pub(super) fn propose(
@@ -43,7 +43,7 @@ impl Question<'_> {
         let (start, chains) = self.at_levels(fine, progress)?;
         let mut found = start.plan(self.options, self.budget).join(chains);
         // Points that are rounded lie on lines and circles by chance, and about them with a period.
-        let is_rounded = found.contour.noise <= ROUNDED * start.clean.rounding;
+        let is_rounded = found.contour.noise <= MAX_ROUNDING_RATIO * start.clean.rounding;
         if self.prior.noise.is_none() && self.options.resolution.is_none() && !is_rounded {
             found.astray(missed(&start.clean.points, &found.contour));
             found.astray(fine.map_or(vec![], |fine| hidden(&found.contour, fine)));
@@ -80,11 +80,11 @@ impl Question<'_> {
                 finer.push_front(tangent);
             }
             let gain = bar - other.cost(&found.founds);
-            if gain.abs() < SAME && !other.tangent {
+            if gain.abs() < EQUAL_COST && !other.tangent {
                 // The search leads back to where it was.
                 break;
             }
-            let margin = if other.tangent { 0.0 } else { MARGIN };
+            let margin = if other.tangent { 0.0 } else { FINER_LEVEL_COST_MARGIN };
             if gain > margin {
                 (start, chains) = (other, found);
             }
@@ -126,7 +126,7 @@ impl Plan<'_> {
                     return None;
                 }
                 let (a, b) = (&founds[k], &founds[(k + 1) % count]);
-                Some(crossing(a, b, quantile(a), FARTHEST * self.spacing * self.step as f64))
+                Some(crossing(a, b, quantile(a), MAX_EXTENSION_SPACINGS * self.spacing * self.step as f64))
             })
             .collect();
         for k in 0..count {

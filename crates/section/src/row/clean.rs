@@ -24,18 +24,18 @@ pub(super) struct Clean {
 }
 
 /// Median step over median distance of nearest points from which on a row is no row.
-const UNORDERED: f64 = 12.0;
+const MAX_STEP_RATIO_OF_ROW: f64 = 12.0;
 /// Steps of so many medians are gaps.
-pub(crate) const GAP: f64 = 5.0;
+pub(crate) const GAP_SPACINGS: f64 = 5.0;
 /// A contour closes over a gap of so many medians.
-const CLOSING: f64 = 3.0;
+const CLOSING_GAP_SPACINGS: f64 = 3.0;
 
 /// Nine points on two lines have a sum of squares of at most so many variances of the noise, but for one case in a thousand
 /// (chi-squared, 5 degrees of freedom).
-const CORNER: f64 = 20.5;
+const MAX_CORNER_CHI_SQUARED: f64 = 20.5;
 
 /// Outliers are looked for so many times.
-const PASSES: usize = 4;
+const OUTLIER_PASSES: usize = 4;
 
 /// Which points of a row count, and which repeat the one before.
 pub(crate) struct Passed {
@@ -71,13 +71,13 @@ impl Passed {
         let far = |w: &[usize]| distance(points[w[0]], points[w[1]]);
         let mut steps: Vec<f64> = self.numbers.windows(2).map(far).collect();
         let spacing = median(&mut steps).unwrap_or(0.0);
-        let wide = self.numbers.windows(2).filter(|w| far(w) > GAP * spacing);
+        let wide = self.numbers.windows(2).filter(|w| far(w) > GAP_SPACINGS * spacing);
         wide.map(|w| w[0]).collect()
     }
 }
 
 /// A row passes places again from which most of its points are this many times nearer to another than to the next.
-const AGAIN: f64 = 1e9;
+const REPEATED_STEP_RATIO: f64 = 1e9;
 
 impl Clean {
     /// Cleans a row whose coordinates are numbers.
@@ -95,14 +95,14 @@ impl Clean {
         let steps: Vec<f64> = all.windows(2).map(|w| distance(w[0], w[1])).collect();
         let spacing = median(&mut steps.clone()).unwrap_or(0.0);
         let ratio = spacing / nearest(&all).max(f64::MIN_POSITIVE);
-        if ratio > AGAIN && all.len() > 8 {
+        if ratio > REPEATED_STEP_RATIO && all.len() > 8 {
             return Err(SectionError::PlacesAgain);
         }
-        if ratio > UNORDERED && all.len() > 8 && !options.ordered {
+        if ratio > MAX_STEP_RATIO_OF_ROW && all.len() > 8 && !options.ordered {
             return Err(SectionError::Unordered { ratio });
         }
-        let found =
-            ends_meet.is_some() || all.len() > 8 && distance(all[0], all[all.len() - 1]) <= CLOSING * spacing;
+        let found = ends_meet.is_some()
+            || all.len() > 8 && distance(all[0], all[all.len() - 1]) <= CLOSING_GAP_SPACINGS * spacing;
         let closed = options.closed.unwrap_or(found);
         let n = all.len() as f64;
         let middle = [0, 1].map(|k| all.iter().map(|p| p[k] / n).sum::<f64>());
@@ -121,7 +121,7 @@ impl Clean {
         }
         let mut out = vec![false; n];
         // Of outliers near each other the outer ones are found first; then they are no neighbors any more.
-        for _ in 0..PASSES {
+        for _ in 0..OUTLIER_PASSES {
             let before = out.clone();
             for i in (0..n).filter(|i| !before[*i]) {
                 let near = self.around(i, step, &before);
@@ -173,7 +173,7 @@ impl Clean {
         }
         all.insert(middle, self.points[i]);
         let two = |k: usize| off_line(&all[..k]) + off_line(&all[k..]);
-        (2..=7).any(|k| two(k) <= CORNER * noise * noise)
+        (2..=7).any(|k| two(k) <= MAX_CORNER_CHI_SQUARED * noise * noise)
     }
 
     /// Up to four points on either side of one, in order, `step` apart, without those that are `out`.
@@ -223,14 +223,14 @@ fn without_two(near: &[[f64; 2]], point: [f64; 2], limit: f64, agreed: f64) -> b
 
 /// Coordinates are rounded to a step between these shares of the distance between points: a coarser one is the row's own, as of pixels, and
 /// a finer one does not count.
-const ROUNDED: std::ops::RangeInclusive<f64> = 1e-4..=0.15;
-/// What is left of a step below this share of the distance between points is nothing.
-const LEFT: f64 = 1e-6;
+const ROUNDING_STEP_SPACINGS: std::ops::RangeInclusive<f64> = 1e-4..=0.15;
+/// A remainder of a step below this share of the distance between points is 0.
+const ZERO_STEP_SPACINGS: f64 = 1e-6;
 
 /// Standard deviation of coordinates that are all multiples of one step from each other, by Euclid's algorithm: values rounded to it lie
 /// anywhere in its width.
 fn rounding(points: &[[f64; 2]], spacing: f64) -> f64 {
-    let least = LEFT * spacing;
+    let least = ZERO_STEP_SPACINGS * spacing;
     let common = |step: f64, other: f64| {
         let (mut a, mut b) = (step, other);
         while b > least {
@@ -243,11 +243,11 @@ fn rounding(points: &[[f64; 2]], spacing: f64) -> f64 {
         for k in 0..2 {
             step = common(step, (w[1][k] - w[0][k]).abs());
         }
-        if step > 0.0 && step < ROUNDED.start() * spacing {
+        if step > 0.0 && step < ROUNDING_STEP_SPACINGS.start() * spacing {
             return 0.0;
         }
     }
-    if ROUNDED.contains(&(step / spacing)) { step / 12.0_f64.sqrt() } else { 0.0 }
+    if ROUNDING_STEP_SPACINGS.contains(&(step / spacing)) { step / 12.0_f64.sqrt() } else { 0.0 }
 }
 
 /// Length of the diagonal of the box around points.

@@ -24,10 +24,10 @@ const PROPOSERS: [Proposer; 8] = [
     corners::propose,
 ];
 
-/// Products that the searches of a row may take: a dozen seconds. Then the cheapest found so far is taken.
-const PRODUCTS: f64 = 1e10;
-/// A loop of a contour is told that is longer than so many distances between points: it goes by points of the row.
-const LOOP: f64 = 3.0;
+/// Products that the searches of a row may take: a dozen seconds. Then the cheapest contour found so far is taken.
+const MAX_PRODUCTS_PER_ROW: f64 = 1e10;
+/// A loop of a contour is listed that is longer than so many distances between points: it goes by points of the row.
+const MAX_LOOP_SPACINGS: f64 = 3.0;
 
 /// The lines, arcs and curves of a row of points in order along a contour, and the joins between them, with their
 /// uncertainties.
@@ -57,7 +57,7 @@ pub fn contour(
     options: &Options,
     progress: &dyn Progress,
 ) -> Result<Contour, SectionError> {
-    contour_within(PRODUCTS, points, &Prior::of(options), options, progress)
+    contour_within(MAX_PRODUCTS_PER_ROW, points, &Prior::of(options), options, progress)
 }
 
 /// The same of points whose noise is known.
@@ -67,7 +67,7 @@ pub(crate) fn contour_with(
     options: &Options,
     progress: &dyn Progress,
 ) -> Result<Contour, SectionError> {
-    contour_within(PRODUCTS, points, prior, options, progress)
+    contour_within(MAX_PRODUCTS_PER_ROW, points, prior, options, progress)
 }
 
 /// The same with so many products for its searches.
@@ -118,7 +118,8 @@ fn in_direction(
     };
     found.cut_short = budget.was_cut_short();
     found.keep_gaps(points);
-    found.crossings = crossings_with_loops(&found.segments, found.closed, LOOP * found.spacing, progress)?;
+    found.crossings =
+        crossings_with_loops(&found.segments, found.closed, MAX_LOOP_SPACINGS * found.spacing, progress)?;
     Ok(found)
 }
 

@@ -9,22 +9,22 @@ use super::assembly::Joined;
 use super::candidate::{Candidate, Question};
 use super::chains;
 use super::clean::{Clean, size};
-use super::facets::{Item, LineOrArc, Polygon, SHARP, round};
-use super::levels::SHORT;
-use super::polygon::CORNER;
+use super::facets::{Item, LineOrArc, Polygon, SHARP_TURN, round};
+use super::levels::MAX_POINTS_WITH_FORM_IN_NOISE;
+use super::polygon::MIN_CORNER_TURN;
 use super::sheet::Sheet;
-use super::told::{GAP, SCALE, is_no_chance};
+use super::told::{COINCIDENCE_SHARE, MAX_NEIGHBOR_CHORD_RATIO, is_no_chance};
 use crate::model::flat::{angle, distance};
 use crate::model::prior::Prior;
 use crate::model::result::{Contour, Geometry, Options, SectionError, Taken};
 use trueness_geom::progress::Progress;
 
 /// Coordinates are exact to this share of the size.
-const ROUNDED: f64 = 1e-6;
+const EXACT_COORDINATE_SHARE: f64 = 1e-6;
 /// Where others turn gently, fewer sharp corners are those of no polygon.
-const TRIANGLE: usize = 3;
+const MIN_SHARP_CORNERS: usize = 3;
 /// Corners of one circle lie off it by no more than this share of its radius.
-const ROUND: f64 = 1e-3;
+const MAX_OFF_CIRCLE_SHARE: f64 = 1e-3;
 
 /// The circle that the points scatter about where they speak for one, and what was found is another contour.
 pub(super) fn propose_circle(
@@ -71,13 +71,15 @@ impl Corners {
 
     /// Of a row of few points; `None` where it has fewer corners than a polygon.
     fn of(clean: &Clean) -> Option<Corners> {
-        let clean = Some(clean).filter(|c| c.points.len() < SHORT)?.clone();
-        let (n, closed, rounding) = (clean.points.len(), clean.closed, ROUNDED * size(&clean.points));
+        let clean = Some(clean).filter(|c| c.points.len() < MAX_POINTS_WITH_FORM_IN_NOISE)?.clone();
+        let (n, closed, rounding) =
+            (clean.points.len(), clean.closed, EXACT_COORDINATE_SHARE * size(&clean.points));
         let polygon = Polygon { at: clean.points.clone(), numbers: (0..n).collect(), closed };
         let is_straight = |i: usize| {
             let (u, v) = (polygon.facet((i + n - 1) % n), polygon.facet(i));
             let turn = angle(u, v).abs();
-            turn < SHARP && libm::sin(turn) * libm::hypot(u[0], u[1]).min(libm::hypot(v[0], v[1])) <= rounding
+            turn < SHARP_TURN
+                && libm::sin(turn) * libm::hypot(u[0], u[1]).min(libm::hypot(v[0], v[1])) <= rounding
         };
         let inner = if closed { 0..n } else { 1..n - 1 };
         let bends: Vec<usize> = inner.filter(|i| !is_straight(*i)).collect();
@@ -90,9 +92,9 @@ impl Corners {
         let mut corners = Corners { clean, polygon, lines, rounding, is_curve: false };
         let turns = (corners.lines.len() + usize::from(closed)).saturating_sub(1);
         // Points that lie on a side but for their scatter are no corners.
-        corners.is_curve = corners.has_a_curve() || (0..turns).any(|k| corners.turn(k) < CORNER);
-        let sharp = (0..turns).filter(|k| corners.turn(*k) > SHARP).count();
-        (corners.lines.len() > 1 && (!corners.is_curve || sharp >= TRIANGLE)).then_some(corners)
+        corners.is_curve = corners.has_a_curve() || (0..turns).any(|k| corners.turn(k) < MIN_CORNER_TURN);
+        let sharp = (0..turns).filter(|k| corners.turn(*k) > SHARP_TURN).count();
+        (corners.lines.len() > 1 && (!corners.is_curve || sharp >= MIN_SHARP_CORNERS)).then_some(corners)
     }
 
     /// Whether three chords turn gently into each other.
@@ -100,7 +102,7 @@ impl Corners {
         let n = self.lines.len();
         let is_chord = |k: usize| self.lines[k % n].to - self.lines[k % n].from == 1;
         let last = if self.polygon.closed { n } else { n.saturating_sub(2) };
-        (0..last).any(|k| (k..k + 3).all(is_chord) && self.turn(k).max(self.turn(k + 1)) <= SHARP)
+        (0..last).any(|k| (k..k + 3).all(is_chord) && self.turn(k).max(self.turn(k + 1)) <= SHARP_TURN)
     }
 
     /// Turn from one line to the next.
@@ -139,14 +141,15 @@ impl Corners {
     fn is_even(&self) -> bool {
         let n = self.polygon.facets();
         let beside = |i: usize| [i, (i + 1) % n].map(|k| self.polygon.facet_length(k));
-        self.polygon.closed && (0..n).map(beside).all(|[a, b]| a.max(b) <= GAP * a.min(b))
+        self.polygon.closed
+            && (0..n).map(beside).all(|[a, b]| a.max(b) <= MAX_NEIGHBOR_CHORD_RATIO * a.min(b))
     }
 
     /// A coincidence is one to within a share of this.
     fn scale(&self) -> f64 {
         let mut chords: Vec<f64> = (0..self.polygon.facets()).map(|i| self.polygon.facet_length(i)).collect();
         chords.sort_by(f64::total_cmp);
-        (SCALE * chords[chords.len() / 2]).max(f64::MIN_POSITIVE)
+        (COINCIDENCE_SHARE * chords[chords.len() / 2]).max(f64::MIN_POSITIVE)
     }
 
     /// Whether chance does not make so many points lie so near to a contour.
@@ -164,8 +167,8 @@ impl Corners {
         let chords = || (0..self.polygon.facets()).map(|i| self.polygon.facet_length(i));
         let (least, most) = chords().fold((f64::INFINITY, 0.0_f64), |(a, b), c| (a.min(c), b.max(c)));
         round(points).is_some_and(|(center, radius)| {
-            let on = |p: &[f64; 2]| (distance(center, *p) - radius).abs() <= ROUND * radius;
-            self.polygon.closed && most - least <= ROUND * radius && points.iter().all(on)
+            let on = |p: &[f64; 2]| (distance(center, *p) - radius).abs() <= MAX_OFF_CIRCLE_SHARE * radius;
+            self.polygon.closed && most - least <= MAX_OFF_CIRCLE_SHARE * radius && points.iter().all(on)
         })
     }
 

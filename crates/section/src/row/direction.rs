@@ -1,11 +1,11 @@
 //! Rows are measured in one direction, whichever they are given in: a search by the likelihood may end elsewhere from the other end.
 
-use super::clean::{GAP, Passed};
+use super::clean::{GAP_SPACINGS, Passed};
 use crate::model::flat::distance;
 use crate::model::result::{Contour, Join, Segment};
 
-/// Steps that differ by less than this share are taken for equal: rounding of a motion does not turn a row round.
-const EQUAL: f64 = 1e-9;
+/// Steps that differ by less than this share count as equal: rounding of a motion does not turn a row round.
+const EQUAL_STEP_SHARE: f64 = 1e-9;
 
 /// Whether a row is measured from its last point: of the steps counted from both ends the first pair that differs tells it, and
 /// where none does, the coordinates.
@@ -14,7 +14,7 @@ pub(crate) fn from_the_end(points: &[[f64; 2]]) -> bool {
     let step = |i: usize| distance(points[i], points[i + 1]);
     let differ = |i: &usize| {
         let (a, b) = (step(*i), step(n - 2 - i));
-        (a - b).abs() > EQUAL * (a + b)
+        (a - b).abs() > EQUAL_STEP_SHARE * (a + b)
     };
     if let Some(i) = (0..n.saturating_sub(1) / 2).find(differ) {
         return step(i) < step(n - 2 - i);
@@ -97,7 +97,7 @@ impl Contour {
     /// Passes over wide steps that do not lead on along the contour, and those to outliers: these and scatter leave no gap.
     pub(crate) fn keep_gaps(&mut self, points: &[[f64; 2]]) {
         /// Share of a step that leads on along the contour where it is a gap.
-        const ALONG: f64 = 0.5;
+        const MIN_ONWARD_SHARE: f64 = 0.5;
         if !self.astray.is_empty() {
             return;
         }
@@ -110,7 +110,7 @@ impl Contour {
             let along = (self.stations[next] - self.stations[before]).abs();
             let along = if self.closed { along.min(whole - along) } else { along };
             let step = distance(points[before], points[next]);
-            (step > GAP * self.spacing && along >= ALONG * step).then_some(before)
+            (step > GAP_SPACINGS * self.spacing && along >= MIN_ONWARD_SHARE * step).then_some(before)
         };
         let mut kept: Vec<usize> = self.gaps.iter().filter_map(beside).collect();
         kept.dedup();

@@ -4,7 +4,7 @@
 //! meet with a common tangent, however tangent the curve is. So each blunt corner is doubted: one chain is looked for over both
 //! sides, and where it costs less than two chains and the corner, there is none.
 
-use super::plan::{Chains, Plan, SHARP};
+use super::plan::{CLEAR_CORNER_TURN, Chains, Plan};
 use crate::model::criterion::Unknowns;
 use crate::model::flat::angle;
 use crate::model::result::SectionError;
@@ -13,13 +13,13 @@ use crate::search::start::Part;
 use crate::search::task::Span;
 use trueness_geom::progress::Progress;
 
-/// Corners that are doubted: of more, those that turn least. Each takes a search.
-const DOUBTED: usize = 12;
+/// Corners that are doubted, those that turn least. Each takes a search.
+const MAX_DOUBTED_CORNERS: usize = 12;
 /// A corner in unknowns, beyond those of the chains on both sides: its place among the points was chosen among many.
-pub(super) const CORNER: Unknowns = Unknowns { number: 1.0, weight: 3.0, kinds: 0.0 };
+pub(super) const CORNER_UNKNOWNS: Unknowns = Unknowns { number: 1.0, weight: 3.0, kinds: 0.0 };
 
 /// Chains of more points are left: they have points enough for the parts of a first partition to tell a corner.
-const MOST: usize = 1500;
+const MAX_POINTS_TO_JOIN: usize = 1500;
 
 impl Plan<'_> {
     /// The chains between corners, without corners that cost more than a chain over them, with those that cost less.
@@ -29,7 +29,7 @@ impl Plan<'_> {
             return Ok(all);
         }
         let mut tried: Vec<[usize; 2]> = vec![];
-        for _ in 0..DOUBTED {
+        for _ in 0..MAX_DOUBTED_CORNERS {
             let Some(first) = self.bluntest(&all, &tried).filter(|_| !self.budget.is_spent(0.0)) else {
                 break;
             };
@@ -54,9 +54,10 @@ impl Plan<'_> {
         let pairs = if self.clean.closed && all.cornered { count } else { count - 1 };
         let turn = |k: usize| {
             let (a, b) = (&founds[k], &founds[(k + 1) % count]);
-            let fits = a.span.points.len() + b.span.points.len() <= MOST;
+            let fits = a.span.points.len() + b.span.points.len() <= MAX_POINTS_TO_JOIN;
             let turn = angle(a.beyond(true, 0.0).along, b.beyond(false, 0.0).along).abs();
-            let doubted = fits && turn < SHARP && !tried.contains(&[a, b].map(|f| f.span.numbers[0]));
+            let doubted =
+                fits && turn < CLEAR_CORNER_TURN && !tried.contains(&[a, b].map(|f| f.span.numbers[0]));
             doubted.then_some((k, turn))
         };
         (0..pairs).filter_map(turn).min_by(|a, b| a.1.total_cmp(&b.1)).map(|(k, _)| k)
@@ -69,7 +70,8 @@ impl Plan<'_> {
         let task = self.task(founds.len() == 1, count == self.clean.points.len(), count);
         let span = Span::new(&self.clean.points, self.weights, numbers);
         let criterion = span.criterion(&task);
-        let unknowns = founds.iter().map(|f| Unknowns::of(&f.state.chain)).fold(CORNER, Unknowns::and);
+        let unknowns =
+            founds.iter().map(|f| Unknowns::of(&f.state.chain)).fold(CORNER_UNKNOWNS, Unknowns::and);
         let bar = criterion.cost_of(founds.iter().map(|f| f.state.sum).sum(), unknowns);
         Ok(span.over(founds, bar, &task, progress)?)
     }

@@ -12,42 +12,45 @@ use super::clean::{Clean, size};
 use super::exact::{quantized, rounded};
 use super::polygon::polygon;
 use crate::model::chain::SegmentKind;
-use crate::model::prior::{Known, Prior};
+use crate::model::prior::{Known, NEGLIGIBLE_OFFSET_SPACINGS, Prior};
 use crate::model::result::{Continuity, Contour, Options};
-use crate::search::partition::{PLACES, Penalty, partition};
+use crate::search::partition::{MAX_PART_STARTS, Penalty, partition};
 use crate::search::span::Found;
 use crate::search::start::{Part, noise, scatter};
 use std::collections::VecDeque;
 
-/// Fewest points of a part, and at finer levels.
-const FEWEST: usize = 4;
-const FEWEST_FINER: usize = 3;
+/// Fewest points of a part.
+const MIN_POINTS_PER_PART: usize = 4;
+/// Fewest points of a part at finer levels.
+const MIN_POINTS_PER_PART_FINER: usize = 3;
 /// The partition and the noise that it shows follow each other so many times.
-const PASSES: usize = 6;
+const PARTITION_PASSES: usize = 6;
 /// Noise of a first partition below this share of that of local fits: these are not fits of noise.
-const LEAST_OF_LOCAL: f64 = 0.3;
-/// In rows of fewer points than this, local fits take form for noise: no more than this share of the distance between points is.
-pub(super) const SHORT: usize = 24;
-const FORM: f64 = 0.05;
+const MIN_LOCAL_NOISE_SHARE: f64 = 0.3;
+/// In rows of fewer points local fits take form for noise.
+pub(super) const MAX_POINTS_WITH_FORM_IN_NOISE: usize = 24;
+/// Noise of such a row is no more than this share of the distance between points.
+const MAX_NOISE_OF_SHORT_ROW_SPACINGS: f64 = 0.05;
 
 /// Longer rows have enough points to a segment for most of their local fits to lie within one.
-const MOST: usize = 400;
-/// In rows of up to so many points finer levels are tried where short fits tell less noise than there is about the chains found; in
-/// longer ones of `n` points where they tell less than e^(−this / √n) of it, as they hardly do by chance.
-const SPARSE: usize = 100;
-const FINER: f64 = 6.0;
+const MAX_POINTS_OF_SHORT_FITS: usize = 400;
+/// In rows of up to so many points finer levels are tried where short fits tell less noise than there is about the chains found.
+const SPARSE_ROW_POINTS: usize = 100;
+/// In longer rows of `n` points finer levels are tried where short fits tell less than e^(−this / √n) of that noise, as they hardly
+/// do by chance.
+const FINER_LEVEL_CHANCE: f64 = 6.0;
 /// In rows of up to so many points parts may have so few that tangent joins look like corners.
-const CORNERED: usize = 3000;
+const MAX_POINTS_WITH_FALSE_CORNERS: usize = 3000;
 /// So many partitions at finer levels are searched.
-const TRIED: usize = 4;
-/// Finer levels are tried, each this share of the one before, down to this share of what short fits tell: the lower quartile of few
-/// fits may lie above the noise as well as below.
-const STEP: f64 = 0.45;
-const DEEPEST: f64 = 0.4;
+const MAX_FINER_PARTITIONS: usize = 4;
+/// Each finer level is this share of the one before.
+const LEVEL_RATIO: f64 = 0.45;
+/// The finest level is this share of what short fits tell: the lower quartile of few fits may lie above the noise as well as below.
+const MIN_LEVEL_SHARE: f64 = 0.4;
 /// Chains of a finer level are taken where they are cheaper by this: their likelihood is e^4 times as high, beyond the penalty.
-pub(super) const MARGIN: f64 = 8.0;
+pub(super) const FINER_LEVEL_COST_MARGIN: f64 = 8.0;
 /// Chains whose costs differ by less are the same.
-pub(super) const SAME: f64 = 1e-3;
+pub(super) const EQUAL_COST: f64 = 1e-3;
 
 /// What a search begins with.
 #[derive(Clone, Debug)]
@@ -77,7 +80,7 @@ pub(super) struct Start {
 
 fn penalty(count: f64, noise: f64, fewest: usize) -> Penalty {
     let log = libm::log(count.max(2.0));
-    Penalty { line: 3.0 * log, arc: 4.0 * log, noise, fewest, places: PLACES }
+    Penalty { line: 3.0 * log, arc: 4.0 * log, noise, fewest, places: MAX_PART_STARTS }
 }
 
 impl Start {
@@ -85,8 +88,8 @@ impl Start {
     pub fn new(clean: Clean, prior: &Prior, options: &Options) -> Start {
         let n = clean.points.len();
         let (mut own, step) = noise(&clean.points, clean.closed);
-        if n < SHORT {
-            own = own.min(FORM * clean.spacing);
+        if n < MAX_POINTS_WITH_FORM_IN_NOISE {
+            own = own.min(MAX_NOISE_OF_SHORT_ROW_SPACINGS * clean.spacing);
         }
         let least = (1e-6 * size(&clean.points)).max(options.resolution.unwrap_or(0.0));
         let rounding = clean.rounding;
@@ -95,7 +98,7 @@ impl Start {
         let free = prior.noise.is_none() && options.continuity.is_none();
         let exact = if free { rounded(&clean, least) } else { None };
         let known = exact.is_some();
-        let none = || polygon(&clean, &penalty(n as f64, least, FEWEST * step));
+        let none = || polygon(&clean, &penalty(n as f64, least, MIN_POINTS_PER_PART * step));
         let exact = if prior.noise.is_none() { exact.or_else(none) } else { None };
         let mut start = Start {
             weights: clean.numbers.iter().map(|i| prior.weight(*i)).collect(),
@@ -125,11 +128,11 @@ impl Start {
             start.weights[*i] = 0.0;
         }
         start.clean.bring_in(&start.outliers);
-        for _ in 0..PASSES {
-            start.divide(FEWEST);
+        for _ in 0..PARTITION_PASSES {
+            start.divide(MIN_POINTS_PER_PART);
             // Where corners lie so near to each other that each local fit holds one, the partition knows the noise better.
             let found = scatter(&start.clean.points, &start.weights, &start.parts).max(start.least);
-            if prior.noise.is_some() || found > LEAST_OF_LOCAL * start.sigma {
+            if prior.noise.is_some() || found > MIN_LOCAL_NOISE_SHARE * start.sigma {
                 break;
             }
             (start.own, start.sigma) = (start.own.min(found), found);
@@ -162,32 +165,33 @@ impl Start {
     /// those few that may be cheapest.
     pub fn finer(&self, options: &Options, fine: Option<f64>, founds: &[Found]) -> VecDeque<Start> {
         let n = self.clean.points.len();
-        let share = if n <= SPARSE { 1.0 } else { libm::exp(-FINER / (n as f64).sqrt()) };
+        let share =
+            if n <= SPARSE_ROW_POINTS { 1.0 } else { libm::exp(-FINER_LEVEL_CHANCE / (n as f64).sqrt()) };
         // Few points to a segment look like corners where there are none.
-        let own = if founds.len() > 1 && n <= CORNERED { self.tangent() } else { None };
+        let own = if founds.len() > 1 && n <= MAX_POINTS_WITH_FALSE_CORNERS { self.tangent() } else { None };
         let free = |_: &f64| options.continuity.is_none();
         let Some(fine) = fine.filter(free) else { return own.into_iter().collect() };
         if fine >= share * self.noise(founds) {
             return own.into_iter().collect();
         }
         let (bar, mut seen, mut all) = (self.cost(founds), vec![self.breaks()], vec![]);
-        for fewest in [FEWEST, FEWEST_FINER] {
+        for fewest in [MIN_POINTS_PER_PART, MIN_POINTS_PER_PART_FINER] {
             let mut level = self.sigma;
-            while level > (DEEPEST * fine).max(self.least) {
-                level *= STEP;
+            while level > (MIN_LEVEL_SHARE * fine).max(self.least) {
+                level *= LEVEL_RATIO;
                 let mut other = Start { sigma: level.max(self.least), ..self.clone() };
                 other.divide(fewest);
                 let found = scatter(&other.clean.points, &other.weights, &other.parts).max(self.least);
                 (other.own, other.sigma) = (found.min(self.own), found.min(self.sigma));
                 let (breaks, least) = (other.breaks(), other.least_cost(found));
-                if !seen.contains(&breaks) && least + MARGIN < bar {
+                if !seen.contains(&breaks) && least + FINER_LEVEL_COST_MARGIN < bar {
                     all.push((least, other));
                 }
                 seen.push(breaks);
             }
         }
         all.sort_by(|a, b| a.0.total_cmp(&b.0));
-        all.truncate(TRIED);
+        all.truncate(MAX_FINER_PARTITIONS);
         own.into_iter().chain(all.into_iter().map(|(_, start)| start)).collect()
     }
 
@@ -250,7 +254,7 @@ const SHORT_FITS: [(usize, usize); 4] = [(3, 1), (4, 1), (4, 2), (5, 2)];
 /// points. `None` in long rows, and in rows of too few points to tell.
 fn fine_noise(clean: &Clean, step: usize) -> Option<f64> {
     let n = clean.points.len();
-    if !(8 * step..=MOST).contains(&n) || quantized(&clean.points) {
+    if !(8 * step..=MAX_POINTS_OF_SHORT_FITS).contains(&n) || quantized(&clean.points) {
         return None;
     }
     SHORT_FITS
@@ -305,21 +309,22 @@ fn remove(from: &mut [f64], unit: &[f64]) {
     from.iter_mut().zip(unit).for_each(|(a, b)| *a -= dot * b);
 }
 
-/// Short fits of rows of `n` points scatter: of a thousand rows without form one has a noise of more than e^(this / √n) times that
-/// told by the short fits (found by trial, for 14 to 400 points). Beyond that, and so many times, form is hidden.
-const CHANCE: f64 = 8.0;
-const HIDES: f64 = 2.5;
-/// What is below this share of the distance between points hides nothing.
-const NOTHING: f64 = 0.005;
-/// Distances of which so much of the squares is of one period are none of noise, where chance makes them so no more often than this.
-const PERIODIC: f64 = 0.6;
-const RARE: f64 = 1e-5;
+/// Short fits of rows of `n` points scatter. One row without form in a thousand has a noise of more than e^(this / √n) times that
+/// told by the short fits (found by trial, for 14 to 400 points).
+const HIDDEN_FORM_CHANCE: f64 = 8.0;
+/// Beyond that, and so many times the noise of short fits, form is hidden.
+const MIN_HIDDEN_FORM_RATIO: f64 = 2.5;
+/// Distances are no noise of which so large a share of the squares is of one period.
+const MIN_PERIODIC_SHARE: f64 = 0.6;
+/// Chance makes such distances so no more often than this.
+const MAX_PERIODIC_CHANCE: f64 = 1e-5;
 
 /// Segments whose scatter is form that is too short for the points to tell: what the contour calls noise is none.
 pub(super) fn hidden(contour: &Contour, fine: f64) -> Vec<usize> {
     let n = contour.labels.len();
-    let nothing = NOTHING * contour.spacing;
-    let limit = HIDES.max(libm::exp(CHANCE / (n as f64).sqrt())) * fine.max(nothing);
+    let nothing = NEGLIGIBLE_OFFSET_SPACINGS * contour.spacing;
+    let limit =
+        MIN_HIDDEN_FORM_RATIO.max(libm::exp(HIDDEN_FORM_CHANCE / (n as f64).sqrt())) * fine.max(nothing);
     if contour.noise <= nothing || contour.noise <= limit && !is_periodic(&contour.residuals) {
         return vec![];
     }
@@ -343,5 +348,6 @@ fn is_periodic(values: &[f64]) -> bool {
         (a * a + b * b) * if 2 * k == n { 1.0 } else { 2.0 } / n as f64 / whole.max(f64::MIN_POSITIVE)
     };
     let most = (1..=waves).map(share).fold(0.0, f64::max);
-    most > PERIODIC && waves as f64 * (1.0 - most).max(0.0).powi(waves as i32 - 1) < RARE
+    most > MIN_PERIODIC_SHARE
+        && waves as f64 * (1.0 - most).max(0.0).powi(waves as i32 - 1) < MAX_PERIODIC_CHANCE
 }

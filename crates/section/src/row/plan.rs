@@ -17,11 +17,11 @@ use std::ops::Range;
 use trueness_geom::progress::Progress;
 
 /// A turn between two parts is a corner from here on, radians, and from so many standard deviations of the headings.
-const CORNER: (f64, f64) = (polygon::CORNER, 8.0);
+const CORNER_TURN_AND_SIGMAS: (f64, f64) = (polygon::MIN_CORNER_TURN, 8.0);
 /// A turn of more than this is a corner without further test, radians.
-pub(super) const SHARP: f64 = 0.6;
-/// Distances below this share of the spacing are not told from 0: free pieces would grow without end on exact data.
-pub(super) const RESOLUTION: f64 = 1e-4;
+pub(super) const CLEAR_CORNER_TURN: f64 = 0.6;
+/// Distances below this share of the spacing count as 0: free pieces would grow without end on exact data.
+pub(super) const RESOLUTION_SPACINGS: f64 = 1e-4;
 
 /// What all spans of a row have in common.
 pub(super) struct Plan<'a> {
@@ -178,7 +178,7 @@ impl Plan<'_> {
     }
 
     pub(super) fn resolution(&self) -> f64 {
-        self.options.resolution.unwrap_or((RESOLUTION * self.spacing).max(self.clean.rounding))
+        self.options.resolution.unwrap_or((RESOLUTION_SPACINGS * self.spacing).max(self.clean.rounding))
     }
 
     pub(super) fn task(&self, closed: bool, whole: bool, count: usize) -> Task<'_> {
@@ -219,8 +219,11 @@ impl Plan<'_> {
             let factor = if part.kind == SegmentKind::Line { 3.5 } else { 14.0 };
             self.sigma * factor / (count.sqrt() * count * self.spacing)
         };
-        let clear = turn > CORNER.0.max(CORNER.1 * libm::hypot(spread(before), spread(after)));
-        clear && (turn > SHARP || self.tangent_is_worse(before, after))
+        let clear = turn
+            > CORNER_TURN_AND_SIGMAS
+                .0
+                .max(CORNER_TURN_AND_SIGMAS.1 * libm::hypot(spread(before), spread(after)));
+        clear && (turn > CLEAR_CORNER_TURN || self.tangent_is_worse(before, after))
     }
 
     /// Whether two parts by themselves fit so much better than with a common tangent that the corner pays. A join that the

@@ -9,25 +9,28 @@ use crate::model::flat::distance;
 use crate::model::prior::Known;
 use crate::search::start::{Part, Sums};
 
-/// Points of a window, of the narrowest one and of the widest one at most, and how many windows of points there are at least.
-const WIDTHS: [usize; 2] = [24, 768];
-const FEWEST_WINDOWS: usize = 4;
-/// Of all windows at least a quarter lies on one line or arc as a rule, and others whose squares are no more than so many times as large as
-/// theirs: the rest holds joins.
-const QUARTER: usize = 4;
-const CLEAN: f64 = 4.0;
-/// Points that tell as much as an independent one: fewer are taken for one; and no window holds fewer such groups.
-const FEWEST_ALIKE: f64 = 1.6;
-const GROUPS: f64 = 8.0;
-/// A form changes sides of a line or arc through a window fewer times: a cubic three times, a curve of the fourth degree four times.
-const CHANGES: f64 = 7.0;
-/// Of two neighbors of filtered points the noise is the same, nearly; of independent ones about a form that lines and arcs do not follow a
-/// part is.
-const SAME: f64 = 0.6;
-/// What is alike by turns is a form.
-const BY_TURNS: f64 = -0.4;
+/// Points of the narrowest window, and of the widest one at most.
+const WINDOW_POINTS: [usize; 2] = [24, 768];
+/// A row has at least so many windows of points.
+const MIN_WINDOWS_PER_ROW: usize = 4;
+/// At least a quarter of all windows lies on one line or arc as a rule.
+const CLEAN_WINDOWS_DIVISOR: usize = 4;
+/// Clean are also windows whose squares are no more than so many times as large: the rest holds joins.
+const CLEAN_SQUARES_RATIO: f64 = 4.0;
+/// Points that tell as much as an independent one: fewer are taken for one.
+const MIN_POINTS_PER_INDEPENDENT: f64 = 1.6;
+/// No window holds fewer groups of such points.
+const MIN_GROUPS_PER_WINDOW: f64 = 8.0;
+/// A form changes sides of a line or arc through a window fewer times: a cubic three times, a curve of the fourth degree four
+/// times.
+const MIN_SIDE_CHANGES: f64 = 7.0;
+/// Two neighbors of filtered points have the same noise, nearly. Independent ones about a form that lines and arcs do not follow
+/// have a part of it in common.
+const MIN_CORRELATION_OF_HALVES: f64 = 0.6;
+/// Noise that is alike by turns is a form.
+const MIN_CORRELATION_AT_ANY_LAG: f64 = -0.4;
 /// Noise of more than this share of the distance between points may be form everywhere alike.
-const GREAT: f64 = 0.1;
+const MAX_SHARED_NOISE_SPACINGS: f64 = 0.1;
 
 /// Noise that neighbors share, and how many points tell as much as an independent one. `None` where neighbors share none, or form is not
 /// told from it. Cost: the number of points times the width of the windows.
@@ -35,15 +38,15 @@ pub(super) fn shared(points: &[[f64; 2]]) -> Option<(Known, f64)> {
     let way: f64 = points.windows(2).map(|w| distance(w[0], w[1])).sum();
     let spacing = way / points.len() as f64;
     let sums = Sums::new(points, &vec![1.0; points.len()]);
-    let [mut width, widest] = WIDTHS;
-    while width <= widest && FEWEST_WINDOWS * width <= points.len() {
+    let [mut width, widest] = WINDOW_POINTS;
+    while width <= widest && MIN_WINDOWS_PER_ROW * width <= points.len() {
         let found = within(points, &sums, width)?;
-        if found.alike * GROUPS <= width as f64 {
-            let is_noise = found.changes >= CHANGES
-                && found.same >= SAME
-                && found.least > BY_TURNS
-                && found.deviation <= GREAT * spacing;
-            return (is_noise && found.alike >= FEWEST_ALIKE).then(|| {
+        if found.alike * MIN_GROUPS_PER_WINDOW <= width as f64 {
+            let is_noise = found.changes >= MIN_SIDE_CHANGES
+                && found.same >= MIN_CORRELATION_OF_HALVES
+                && found.least > MIN_CORRELATION_AT_ANY_LAG
+                && found.deviation <= MAX_SHARED_NOISE_SPACINGS * spacing;
+            return (is_noise && found.alike >= MIN_POINTS_PER_INDEPENDENT).then(|| {
                 let degrees = found.windows * (width as f64 / found.alike - 3.0).max(1.0);
                 (Known { deviation: found.deviation, degrees }, found.alike)
             });
@@ -77,7 +80,7 @@ fn within(points: &[[f64; 2]], sums: &Sums, width: usize) -> Option<Told> {
         })
         .collect();
     all.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let most = CLEAN * all[all.len() / QUARTER].0;
+    let most = CLEAN_SQUARES_RATIO * all[all.len() / CLEAN_WINDOWS_DIVISOR].0;
     all.retain(|(sum, _)| *sum <= most);
     let lags = width / 2;
     let (mut together, mut changes) = (vec![0.0; lags], 0.0);

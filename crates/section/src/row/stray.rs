@@ -11,7 +11,7 @@ mod limits;
 
 use crate::model::flat::{angle, distance};
 use beside::{End, Scatter};
-use limits::{BENT, LEAST, SHORTER_FAR, STRAIGHT};
+use limits::{BENT_TURN_SHARE, FAR_STEP_RATIO, MIN_POINTS_TO_TELL_STRAYS, STRAIGHT_TURN};
 
 /// Points of a row that lie off it, by their numbers, ascending.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -32,16 +32,17 @@ enum Verdict {
     Sound,
 }
 
-/// Without a stray the longest step is so many times shorter. Of 200 rows of even, cosine and random spacing without a stray none came
-/// to 4.
-const SHORTER: f64 = 8.0;
+/// Without a stray the longest step is so many times shorter. Among 200 rows of even, cosine and random spacing without a stray
+/// none came to 4.
+const LONG_STEP_RATIO: f64 = 8.0;
 /// Strays follow each other in runs of so many points; more are a piece of the contour beyond a gap.
-const RUN: usize = 2;
-/// Strays are this share of a row, and so many at least; no more than these follow each other.
-const SHARE: f64 = 0.05;
-const FEW: usize = 3;
+const MIN_POINTS_OF_PIECE: usize = 2;
+/// Strays are this share of a row at most.
+const MAX_STRAY_SHARE: f64 = 0.05;
+/// So many strays are allowed in any row; no more than these follow each other.
+const MIN_STRAYS_ALLOWED: usize = 3;
 /// A line is at most so many times as long as the row that it leads to.
-const LONGEST_LINE: f64 = 100.0;
+const MAX_LINE_LENGTH_RATIO: f64 = 100.0;
 
 impl Strays {
     /// Of a row; points that repeat the one before are as it is.
@@ -54,7 +55,7 @@ impl Strays {
             }
         }
         let mut rest: Vec<usize> = (0..groups.len()).collect();
-        let most = FEW.max((SHARE * rest.len() as f64) as usize);
+        let most = MIN_STRAYS_ALLOWED.max((MAX_STRAY_SHARE * rest.len() as f64) as usize);
         let mut found = Strays::default();
         // Behind a stray of a thousand times the row's size may be one of twice.
         while found.count() < most {
@@ -120,11 +121,11 @@ struct Run {
 /// Runs of so few points that they may be stray, and the pieces of the contour. Short runs one behind another are a piece that is sparser
 /// than the rest, where they are too many for strays.
 fn parted(runs: Vec<Run>) -> (Vec<Run>, Vec<Run>) {
-    let is_short = |r: &Run| r.to - r.from < RUN;
+    let is_short = |r: &Run| r.to - r.from < MIN_POINTS_OF_PIECE;
     let (mut few, mut main) = (vec![], vec![]);
     for group in runs.chunk_by(|a, b| is_short(a) && is_short(b)) {
         let (first, last) = (group[0], group[group.len() - 1]);
-        match is_short(&first) && last.to - first.from < FEW {
+        match is_short(&first) && last.to - first.from < MIN_STRAYS_ALLOWED {
             true => few.extend(group),
             false => main.push(Run { from: first.from, to: last.to }),
         }
@@ -150,7 +151,7 @@ impl Way<'_> {
         let mut order: Vec<usize> = (0..steps.len()).collect();
         order.sort_by(|a, b| steps[*b].total_cmp(&steps[*a]).then(a.cmp(b)));
         for cuts in 1..=(2 * most).min(order.len().saturating_sub(1)) {
-            if steps[order[cuts - 1]] < SHORTER_FAR * steps[order[cuts]] {
+            if steps[order[cuts - 1]] < FAR_STEP_RATIO * steps[order[cuts]] {
                 continue;
             }
             let mut at: Vec<usize> = order[..cuts].to_vec();
@@ -191,7 +192,7 @@ impl Way<'_> {
         let points = || runs.iter().flat_map(|r| &self.0[r.from..=r.to]).copied();
         let way: Vec<[f64; 2]> = points().collect();
         let longest = way.windows(2).map(|w| distance(w[0], w[1])).fold(0.0, f64::max);
-        let closes = way.len() > 2 && distance(way[0], way[way.len() - 1]) <= SHORTER_FAR * longest;
+        let closes = way.len() > 2 && distance(way[0], way[way.len() - 1]) <= FAR_STEP_RATIO * longest;
         Rest { longest, size: super::clean::size(&way), count: way.len(), closes, runs }
     }
 
@@ -205,11 +206,12 @@ impl Way<'_> {
         let points = rest.runs.iter().flat_map(|r| &self.0[r.from..=r.to]);
         let off = points.map(|p| distance(*p, tip)).fold(f64::INFINITY, f64::min);
         let (far, ratio) = (off > rest.size, jump / rest.longest);
-        let is_long = if far { ratio >= SHORTER_FAR } else { ratio >= SHORTER && run.from == run.to };
-        if rest.count < LEAST[1] || !is_long {
+        let is_long =
+            if far { ratio >= FAR_STEP_RATIO } else { ratio >= LONG_STEP_RATIO && run.from == run.to };
+        if rest.count < MIN_POINTS_TO_TELL_STRAYS[1] || !is_long {
             return Verdict::Sound;
         }
-        let certain = ratio >= SHORTER && rest.count >= LEAST[0];
+        let certain = ratio >= LONG_STEP_RATIO && rest.count >= MIN_POINTS_TO_TELL_STRAYS[0];
         let verdict = |certain: bool| if certain { Verdict::Stray } else { Verdict::Doubtful };
         if run.from > first.to && run.to < last.from {
             // Two points in succession may be corners of the part as well.
@@ -217,12 +219,12 @@ impl Way<'_> {
         }
         // The last corner of a closed row is near its first point.
         let (end, other) = if run.to < first.from { (first, last.to) } else { (last, first.from) };
-        if distance(self.0[other], tip) <= SHORTER_FAR * rest.longest {
+        if distance(self.0[other], tip) <= FAR_STEP_RATIO * rest.longest {
             return Verdict::Sound;
         }
         match self.goes_on(run, end, far) {
             true if !far => Verdict::Sound,
-            true if off <= LONGEST_LINE * rest.size => Verdict::StraightOn,
+            true if off <= MAX_LINE_LENGTH_RATIO * rest.size => Verdict::StraightOn,
             _ => verdict(certain && (far || rest.closes)),
         }
     }
@@ -242,9 +244,9 @@ impl Way<'_> {
         let way = |p: [f64; 2], q: [f64; 2]| [q[0] - p[0], q[1] - p[1]];
         let bend = angle(way(c, b), way(b, a));
         let off = angle(way(b, a), way(a, self.0[tip])) - 0.5 * bend;
-        let straight = 0.5 * bend.abs() + STRAIGHT;
+        let straight = 0.5 * bend.abs() + STRAIGHT_TURN;
         let gap = distance(a, self.0[tip]) / distance(a, b).max(f64::MIN_POSITIVE);
-        let bent = if far { 0.0 } else { (bend.abs() * gap).min(BENT) };
+        let bent = if far { 0.0 } else { (bend.abs() * gap).min(BENT_TURN_SHARE) };
         off.abs() <= straight.max(bent)
     }
 }

@@ -1,22 +1,23 @@
 //! Whether a cover of exact points by lines and arcs is told by these, or by chance.
 
-use super::facets::{Item, LineOrArc, Polygon, SHARP, round};
+use super::facets::{Item, LineOrArc, Polygon, SHARP_TURN, round};
 use crate::model::flat::{angle, distance};
 
-/// What a cover saves is no chance where so many coincidences among as many points are less likely than e to the power of minus this.
-const CHANCE: f64 = 5.0;
-/// A coincidence is one to within rounding of this share of a chord, or of what vertices lie off the chord between their neighbors where
-/// these are no corners of a few sides, or off one circle.
-pub(super) const SCALE: f64 = 0.25;
-const CORNERS: usize = 3;
+/// A cover is no chance where so many coincidences among as many points are less likely than e to the power of minus this.
+const MIN_CHANCE_EXPONENT: f64 = 5.0;
+/// A coincidence is one to within rounding of this share of the median chord. The scale is less where vertices lie nearer to the
+/// chord between their neighbors, and these are no corners of a few sides, or where they lie nearer to one circle.
+pub(super) const COINCIDENCE_SHARE: f64 = 0.25;
+/// So many vertices between lines of one chord are no corners of a few sides.
+const MIN_VERTICES_OF_SCALE: usize = 3;
 /// A segment ends where the next vertex lies off it by more than so many roundings.
-const ENDS: f64 = 5.0;
+const END_ROUNDINGS: f64 = 5.0;
 /// Between points that are not at joins chords are as long as those beside, to this factor.
-pub(super) const GAP: f64 = 2.0;
-/// A chord over vertices that are missing is one over a whole number of the others, to this share of one.
-const MULTIPLE: f64 = 0.02;
+pub(super) const MAX_NEIGHBOR_CHORD_RATIO: f64 = 2.0;
+/// A chord over missing vertices is one over a whole number of the others, to this share of one.
+const WHOLE_MULTIPLE_SHARE: f64 = 0.02;
 /// Curves touch each other to within so many roundings.
-const TOUCH: f64 = 4.0;
+const TOUCH_ROUNDINGS: f64 = 4.0;
 
 /// A line or an arc between two vertices, and what is known of it.
 #[derive(Clone, Copy, Debug)]
@@ -59,7 +60,7 @@ pub(super) fn is_told(polygon: &Polygon, pieces: &[Piece], rounding: f64) -> boo
 /// Whether so many coincidences are none of chance where so many are expected, by the upper tail of the binomial distribution. One is no evidence: the
 /// four corners of a rectangle lie on a circle.
 pub(super) fn is_no_chance(saved: f64, expected: f64) -> bool {
-    saved >= 2.0 && saved * (libm::log(saved / expected) - 1.0) >= CHANCE
+    saved >= 2.0 && saved * (libm::log(saved / expected) - 1.0) >= MIN_CHANCE_EXPONENT
 }
 
 struct Seen<'a> {
@@ -90,7 +91,7 @@ impl Seen<'_> {
     fn explains(&self, piece: &Piece) -> f64 {
         let beyond = piece.chords().saturating_sub(if piece.is_arc() { 2 } else { 1 });
         let chord = |k: usize| self.polygon.facet_length(piece.item.from + k);
-        let same = |a: f64, b: f64| (a - b).abs() <= TOUCH * self.rounding;
+        let same = |a: f64, b: f64| (a - b).abs() <= TOUCH_ROUNDINGS * self.rounding;
         let is_trapezoid =
             piece.is_arc() && piece.chords() == 3 && same(chord(0), chord(2)) && !same(chord(0), chord(1));
         if is_trapezoid { 0.0 } else { beyond as f64 }
@@ -119,7 +120,7 @@ impl Seen<'_> {
         let saved = tangent + self.pieces.iter().map(|p| self.explains(p)).sum::<f64>();
         let mut chords: Vec<f64> = (0..self.polygon.facets()).map(|i| self.polygon.facet_length(i)).collect();
         chords.sort_by(f64::total_cmp);
-        let mut scale = SCALE * chords[chords.len() / 2];
+        let mut scale = COINCIDENCE_SHARE * chords[chords.len() / 2];
         // Of a row with noise hardly a vertex is explained: these lie off each other by the noise.
         let plain = |k: usize| self.pieces[k % n].chords() == 1 && self.pieces[(k + 1) % n].chords() == 1;
         let height = |k: usize| {
@@ -129,7 +130,7 @@ impl Seen<'_> {
             ((c[0] - a[0]) * (b[1] - a[1]) - (c[1] - a[1]) * (b[0] - a[0])).abs() / whole
         };
         let mut free: Vec<f64> = (0..joins).filter(|k| plain(*k)).map(height).collect();
-        if free.len() >= CORNERS {
+        if free.len() >= MIN_VERTICES_OF_SCALE {
             free.sort_by(f64::total_cmp);
             scale = scale.min(free[free.len() / 2]);
         }
@@ -147,7 +148,7 @@ impl Seen<'_> {
         let is_chord = |k: usize| !self.pieces[k % n].is_arc() && self.pieces[k % n].chords() == 1;
         let turn = |k: usize| angle(self.pieces[k % n].along[1], self.pieces[(k + 1) % n].along[0]).abs();
         let last = if self.polygon.closed { n } else { n.saturating_sub(2) };
-        !(0..last).any(|k| (k..k + 3).all(is_chord) && turn(k).max(turn(k + 1)) <= SHARP)
+        !(0..last).any(|k| (k..k + 3).all(is_chord) && turn(k).max(turn(k + 1)) <= SHARP_TURN)
     }
 
     /// Whether each segment of more than two points ends for certain: the vertices beyond its ends lie off it. Where a smooth curve is covered by
@@ -162,7 +163,7 @@ impl Seen<'_> {
             // One chord closes an arc: what is beyond is its other end.
             let own = |i: usize| (i + n - piece.item.from % n) % n <= piece.chords();
             piece.chords() < 2
-                || beyond.filter(|i| !own(*i)).all(|i| self.off(piece, i) > ENDS * self.rounding)
+                || beyond.filter(|i| !own(*i)).all(|i| self.off(piece, i) > END_ROUNDINGS * self.rounding)
         };
         self.pieces.iter().enumerate().all(ends)
     }
@@ -194,7 +195,9 @@ impl Seen<'_> {
             let step =
                 |p: &Piece, at: usize| if p.chords() > 1 { self.polygon.facet_length(at) } else { 0.0 };
             let near = step(before, before.item.to - 1).max(step(after, after.item.from));
-            if several == [false; 2] || self.polygon.facet_length(chord.item.from) > GAP * near {
+            if several == [false; 2]
+                || self.polygon.facet_length(chord.item.from) > MAX_NEIGHBOR_CHORD_RATIO * near
+            {
                 return true;
             }
             several != [true; 2] && !self.touch(before, after)
@@ -203,7 +206,7 @@ impl Seen<'_> {
 
     /// Whether the circles or lines of two pieces touch each other.
     fn touch(&self, a: &Piece, b: &Piece) -> bool {
-        let most = TOUCH * self.rounding;
+        let most = TOUCH_ROUNDINGS * self.rounding;
         match (a.item.shape, b.item.shape) {
             (LineOrArc::Line, LineOrArc::Line) => false,
             (LineOrArc::Arc(c, k), LineOrArc::Arc(d, m)) => {
@@ -235,7 +238,8 @@ impl Seen<'_> {
         let own = self.polygon.facet_length(line.item.from);
         let half_turn = |chord: f64| libm::asin((0.5 * chord * curvature.abs()).min(1.0));
         let fits = half_turn(own) / half_turn(longest);
-        let is_uneven = longest - least > TOUCH * self.rounding || (fits - fits.round()).abs() < MULTIPLE;
-        own > GAP * longest || fits > 1.0 && !is_uneven
+        let is_uneven = longest - least > TOUCH_ROUNDINGS * self.rounding
+            || (fits - fits.round()).abs() < WHOLE_MULTIPLE_SHARE;
+        own > MAX_NEIGHBOR_CHORD_RATIO * longest || fits > 1.0 && !is_uneven
     }
 }

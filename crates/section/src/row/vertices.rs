@@ -9,7 +9,7 @@
 use super::assembly::Joined;
 use super::candidate::{Candidate, Question};
 use super::clean::{Clean, size};
-use super::facets::{Item, LineOrArc, Polygon, SHARP, WIDE, round};
+use super::facets::{Item, LineOrArc, MAX_TANGENT_CHORD_TURN, Polygon, SHARP_TURN, round};
 use super::sheet::Sheet;
 use super::told::{Piece, is_told};
 use crate::model::flat::{angle, distance};
@@ -17,23 +17,23 @@ use crate::model::result::{Contour, SectionError, Taken};
 use trueness_geom::progress::Progress;
 
 /// Longer rows tell their segments themselves.
-const MOST: usize = 2000;
+const MAX_VERTICES: usize = 2000;
 /// Decimals of files that are looked for.
 const DECIMALS: std::ops::RangeInclusive<i32> = 1..=9;
 /// Points in other units, or of a plane in space, keep no decimals: their coordinates are exact to these shares of the size.
-const SHARES: [f64; 2] = [1e-7, 1e-6];
+const ROUNDING_SHARES_OF_VERTICES: [f64; 2] = [1e-7, 1e-6];
 /// Digits coarser than this share of the median chord tell no arc.
-const COARSE: f64 = 0.02;
+const MAX_STEP_PER_CHORD: f64 = 0.02;
 /// Chords of an arc that turn by more than in a circle of eleven sides are even to this factor: others are sides of a polygon.
-const EVEN: f64 = 1.5;
-/// What uneven chords cost, by the logarithm of their ratio: of covers that save as much the more even one is taken.
-const UNEVEN: f64 = 0.05;
+const MAX_EVEN_CHORD_RATIO: f64 = 1.5;
+/// The cost of uneven chords, by the logarithm of their ratio: the more even one is taken of covers that save as much.
+const UNEVEN_CHORD_COST: f64 = 0.05;
 /// A direction is uncertain by so many roundings over the length of an arc, and of a line.
-const TURNED: [f64; 2] = [8.0, 2.0];
+const TURN_ROUNDINGS: [f64; 2] = [8.0, 2.0];
 /// Items from one vertex are the longest arc and so many shorter ones: rounding may have let it run too far.
-const SHORTER: usize = 2;
-/// Of so many of the longest pieces of a closed row covers are looked for from both ends.
-const STARTS: usize = 4;
+const SHORTER_ARCS_TRIED: usize = 2;
+/// Covers of a closed row are looked for from both ends of so many of its longest pieces.
+const LONGEST_PIECES_TRIED: usize = 4;
 
 /// The lines and arcs of a row, and what its coordinates are rounded by.
 #[derive(Debug)]
@@ -75,14 +75,14 @@ pub(crate) fn vertices(
     closed: bool,
     open: bool,
 ) -> Option<Vertices> {
-    if !(4..=MOST).contains(&points.len()) {
+    if !(4..=MAX_VERTICES).contains(&points.len()) {
         return None;
     }
     let mut chords: Vec<f64> = points.windows(2).map(|w| distance(w[0], w[1])).collect();
     chords.sort_by(f64::total_cmp);
-    let most = COARSE * chords[chords.len() / 2];
+    let most = MAX_STEP_PER_CHORD * chords[chords.len() / 2];
     // Finer than their digits points tell nothing.
-    let shares = || SHARES.map(|share| share * size(points)).to_vec();
+    let shares = || ROUNDING_SHARES_OF_VERTICES.map(|share| share * size(points)).to_vec();
     let levels = step(given).map_or_else(shares, |step| vec![step]).into_iter().filter(|q| *q <= most);
     let mut levels = levels;
     levels.find_map(|rounding| within(points, rounding, closed, open))
@@ -149,7 +149,8 @@ impl Cover {
         let (saves, first) = self.from(longest)?;
         let mut by_length: Vec<&Piece> = first.iter().collect();
         by_length.sort_by_key(|p| std::cmp::Reverse(p.chords()));
-        let ends = by_length.into_iter().take(STARTS).flat_map(|p| [p.item.from % n, p.item.to % n]);
+        let ends =
+            by_length.into_iter().take(LONGEST_PIECES_TRIED).flat_map(|p| [p.item.from % n, p.item.to % n]);
         let others: Vec<(f64, Vec<Piece>)> = ends.filter_map(|start| self.from(start)).collect();
         let best = others.into_iter().fold((saves, first), |a, b| if b.0 > a.0 { b } else { a });
         Some(best.1)
@@ -221,7 +222,7 @@ impl Cover {
                 None => (fails, step) = (to, 1.max((to - best) / 2)),
             }
         }
-        let shorter = (from + 3).max(best.saturating_sub(SHORTER));
+        let shorter = (from + 3).max(best.saturating_sub(SHORTER_ARCS_TRIED));
         all.extend((shorter..=best).filter_map(|to| self.arc(from, to)));
         all
     }
@@ -244,7 +245,7 @@ impl Cover {
             way = ahead;
         }
         let item = Item { shape: LineOrArc::Line, from, to };
-        let slack = TURNED[1] * self.rounding / whole;
+        let slack = TURN_ROUNDINGS[1] * self.rounding / whole;
         Some(Piece { item, along: [along; 2], slack, saves: (to - from - 1) as f64, uneven: 0.0 })
     }
 
@@ -259,14 +260,14 @@ impl Cover {
         let widest = turns.iter().fold(0.0_f64, |m, t| m.max(t.abs()));
         let least = turns.iter().fold(f64::INFINITY, |m, t| m.min(t.abs()));
         let way = radius * turned.abs();
-        let slack = TURNED[0] * self.rounding / way;
+        let slack = TURN_ROUNDINGS[0] * self.rounding / way;
         let one_way = turns.iter().all(|t| t * turned > 0.0);
-        let is_wide = widest > SHARP;
+        let is_wide = widest > SHARP_TURN;
         if off > self.rounding
             || !one_way
-            || widest > WIDE + slack
+            || widest > MAX_TANGENT_CHORD_TURN + slack
             || turned.abs() >= std::f64::consts::TAU - 0.5 * least
-            || is_wide && widest > EVEN * least
+            || is_wide && widest > MAX_EVEN_CHORD_RATIO * least
         {
             return None;
         }
@@ -279,7 +280,7 @@ impl Cover {
         let item = Item { shape: LineOrArc::Arc(center, turned.signum() / radius), from, to };
         // Even chords that wide are those of a regular polygon as well; two are told by tangents alone.
         let saves = (to - from) as f64 - 2.0 - f64::from(u8::from(is_wide && to - from > 2));
-        let uneven = UNEVEN * libm::log(widest / least);
+        let uneven = UNEVEN_CHORD_COST * libm::log(widest / least);
         (sagitta > 4.0 * self.rounding).then_some(Piece { item, along, slack, saves, uneven })
     }
 }

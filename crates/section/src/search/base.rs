@@ -6,11 +6,11 @@ use crate::model::free;
 use crate::model::least::State;
 
 /// Samples of the curvature to a coefficient of a free piece.
-const SAMPLES: usize = 4;
+const SAMPLES_PER_COEFFICIENT: usize = 4;
 /// Shares of a free piece that go to a line or arc beside it.
-const GIVEN: [f64; 3] = [0.05, 0.12, 0.3];
+const HANDED_OVER_SHARES: [f64; 3] = [0.05, 0.12, 0.3];
 /// Fewest points to a coefficient of a free piece over two.
-const LEAST: usize = 2;
+const MIN_POINTS_PER_COEFFICIENT: usize = 2;
 /// A model with the places of its joins and points along it.
 pub(crate) struct Base {
     pub model: Model,
@@ -83,7 +83,7 @@ impl Base {
     /// between two chains the mean curvature about each of its places, and at the seam the turn there.
     pub fn coefficients(&self, plan: &Plan) -> Vec<f64> {
         if self.seam.is_none() {
-            let cells = SAMPLES * plan.count;
+            let cells = SAMPLES_PER_COEFFICIENT * plan.count;
             let ends = |i: usize| plan.from + (plan.to - plan.from) * i as f64 / cells as f64;
             let all: Vec<f64> = (0..cells).map(|i| self.mean_curvature(ends(i), ends(i + 1))).collect();
             return free::near(plan.count, &all);
@@ -126,7 +126,7 @@ impl Base {
     pub fn joined(&self, first: usize) -> Vec<Vec<Plan>> {
         use SegmentKind::{Arc, Line, Spline};
         let [a, b] = [self.plans[first], self.plans[first + 1]];
-        let most = (a.count + b.count).clamp(2, free::MOST_COEFFICIENTS);
+        let most = (a.count + b.count).clamp(2, free::MAX_COEFFICIENTS);
         let with = |new: &[Plan]| [&self.plans[..first], new, &self.plans[first + 2..]].concat();
         let over = |kind, count| with(&[Plan { kind, count, from: a.from, to: b.to }]);
         let plain = [(Line, 0), (Arc, 1)];
@@ -134,7 +134,8 @@ impl Base {
         let before = plain.map(|(kind, count)| with(&[Plan { kind, count, ..a }, b]));
         let after = plain.map(|(kind, count)| with(&[a, Plan { kind, count, ..b }]));
         let own = self.model.state.breaks[first + 2] - self.model.state.breaks[first];
-        let counts = [3, 4, 6, 8, 12, most].into_iter().filter(|count| LEAST * count <= own);
+        let counts =
+            [3, 4, 6, 8, 12, most].into_iter().filter(|count| MIN_POINTS_PER_COEFFICIENT * count <= own);
         let free = counts.map(|count| over(Spline, count));
         std::iter::once(self.plans.clone()).chain(both).chain(before).chain(after).chain(free).collect()
     }
@@ -169,7 +170,7 @@ impl Base {
             if plans[i].kind == SegmentKind::Spline {
                 let count = plans[i].count;
                 for more in [count.wrapping_sub(1), count + 1, count + 2, count + count / 2 + 1] {
-                    if (2..=free::MOST_COEFFICIENTS).contains(&more) {
+                    if (2..=free::MAX_COEFFICIENTS).contains(&more) {
                         one(i, i, SegmentKind::Spline, more);
                     }
                 }
@@ -185,14 +186,14 @@ impl Base {
                 if most > 1 {
                     [most + 2, both]
                         .into_iter()
-                        .filter(|c| *c <= free::MOST_COEFFICIENTS)
+                        .filter(|c| *c <= free::MAX_COEFFICIENTS)
                         .for_each(|c| one(i, i + 1, SegmentKind::Spline, c));
                 }
             }
         }
         for (i, j) in runs(plans) {
             if j > i + 1 {
-                let longest = (j - i + 3).min(free::MOST_COEFFICIENTS);
+                let longest = (j - i + 3).min(free::MAX_COEFFICIENTS);
                 [3, 4, 5, 6, 8, 10].into_iter().for_each(|count| one(i, j, SegmentKind::Spline, count));
                 if longest > 10 {
                     one(i, j, SegmentKind::Spline, longest);
@@ -218,7 +219,7 @@ fn shorter(i: usize, plans: &[Plan], spacing: f64, all: &mut Vec<Vec<Plan>>) {
     let beside = [i.checked_sub(1).filter(is_simple), Some(i + 1).filter(is_simple)];
     for (k, other) in beside.into_iter().enumerate() {
         let Some(other) = other else { continue };
-        for share in GIVEN {
+        for share in HANDED_OVER_SHARES {
             let at = if k == 0 { plan.from + share * width } else { plan.to - share * width };
             for count in [2, plan.count / 2 + 1, part_of(plan.count, 1.0 - share), plan.count - 1]
                 .into_iter()

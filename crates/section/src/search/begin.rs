@@ -9,11 +9,11 @@ use crate::model::flat::angle;
 use crate::model::least::{State, Stop};
 
 /// Fewest parts whose headings may add up to one far off.
-const SEVERAL: usize = 3;
+const MIN_PARTS_TO_CORRECT: usize = 3;
 /// Times that long chains are mended, of which pieces have lost their points.
-const EMPTIED: usize = 6;
+const MAX_MENDINGS: usize = 6;
 /// Two parts touch each other no farther from the middle between their points than so many times the distance of these.
-const NEAR: f64 = 4.0;
+const MAX_TOUCHING_GAPS: f64 = 4.0;
 
 impl Search<'_> {
     /// The cheapest model of the parts that dynamic programming found: with the curvatures and lengths that they have by themselves; for
@@ -36,7 +36,7 @@ impl Search<'_> {
     /// That one, or a cheaper one of the same parts.
     pub fn cheapest(&mut self, plain: Model, parts: &[Part], closed: bool) -> Model {
         let mut best = plain;
-        if parts.len() < SEVERAL {
+        if parts.len() < MIN_PARTS_TO_CORRECT {
             return best;
         }
         let bent = without_bends(parts);
@@ -63,8 +63,8 @@ impl Search<'_> {
             let ends = [points[(a.to - 1) % n], points[b.from % n]];
             let near = [0, 1].map(|k| 0.5 * (ends[0][k] + ends[1][k]));
             let at = touching(a, b, near)?;
-            let reach =
-                NEAR * libm::hypot(ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]).max(self.spacing);
+            let reach = MAX_TOUCHING_GAPS
+                * libm::hypot(ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]).max(self.spacing);
             (libm::hypot(at[0] - near[0], at[1] - near[1]) <= reach).then_some(at)
         };
         let (first, last) = (points[parts[0].from % n], points[(parts[m - 1].to - 1) % n]);
@@ -178,7 +178,7 @@ impl Search<'_> {
     /// Improves a state; a long one is mended where pieces have lost their points.
     fn improved(&mut self, state: &mut State, stop: &Stop) {
         self.work.improve(&self.row, state, None, stop);
-        for _ in 0..EMPTIED {
+        for _ in 0..MAX_MENDINGS {
             let sound = mended(state);
             if !sound.chain.is_long() || sound.chain == state.chain {
                 break;

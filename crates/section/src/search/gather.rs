@@ -12,11 +12,12 @@ use crate::model::free;
 use trueness_geom::spline::curve::chord_parameters;
 
 /// Coefficients of free pieces that are tried.
-const COUNTS: [usize; 16] = [3, 4, 5, 6, 7, 8, 9, 10, 12, 14, 17, 20, 24, 29, 38, free::MOST_COEFFICIENTS];
-/// Of more lines and arcs none are gathered: time grows with the square of their number.
-const PARTS: usize = 150;
+const GATHERED_COUNTS: [usize; 16] =
+    [3, 4, 5, 6, 7, 8, 9, 10, 12, 14, 17, 20, 24, 29, 38, free::MAX_COEFFICIENTS];
+/// More lines and arcs are not gathered: time grows with the square of their number.
+const MAX_PARTS_TO_GATHER: usize = 150;
 /// A curve does not follow points that it lies off by so many times their variance in the mean.
-const FOLLOWS: f64 = 9.0;
+const MAX_MEAN_SQUARE_VARIANCES: f64 = 9.0;
 
 /// A free piece over a run of parts.
 #[derive(Clone, Copy)]
@@ -31,7 +32,7 @@ impl Search<'_> {
     /// The pieces of the base with runs gathered to free ones, where each of these is between lines and arcs that stay; else `None`.
     pub fn gathered(&self, base: &Base) -> Option<Vec<Plan>> {
         let (plans, m) = (&base.plans, base.plans.len());
-        if m > PARTS {
+        if m > MAX_PARTS_TO_GATHER {
             return None;
         }
         let (n, first) = (self.row.points.len(), base.model.state.breaks[0]);
@@ -72,7 +73,7 @@ impl Search<'_> {
                     break;
                 };
                 let cost = |level: usize| {
-                    let count = *COUNTS.get(level)?;
+                    let count = *GATHERED_COUNTS.get(level)?;
                     let sum = self.off_curve(&own, &parameters, count + 2)?.1;
                     Some((sum * weight / variance, (count as f64 + 3.5) * each))
                 };
@@ -80,10 +81,10 @@ impl Search<'_> {
                 while let Some(next) = cost(level + 1).filter(|next| next.0 + next.1 < now.0 + now.1) {
                     (now, level) = (next, level + 1);
                 }
-                if now.0 > FOLLOWS * own.len() as f64 * weight {
+                if now.0 > MAX_MEAN_SQUARE_VARIANCES * own.len() as f64 * weight {
                     break;
                 }
-                offer(to, now.0 + now.1, COUNTS[level]);
+                offer(to, now.0 + now.1, GATHERED_COUNTS[level]);
             }
         }
         let mut all = vec![];

@@ -12,12 +12,13 @@ use crate::model::least::{Row, State, Work};
 use std::f64::consts::TAU;
 use std::ops::Range;
 
-/// Pieces on either side that are fitted anew with what is looked at: while models are compared, and while a join is profiled. Of chains of
-/// arcs, ends of intervals are then those of a fit of all pieces to a hundredth.
-const BESIDE: usize = 3;
-const BESIDE_JOIN: usize = 5;
+/// Pieces on either side that are fitted anew while models are compared.
+const PIECES_BESIDE: usize = 3;
+/// Pieces on either side that are fitted anew while a join is profiled. Ends of intervals in chains of arcs are then those of a fit
+/// of all pieces to a hundredth.
+const PIECES_BESIDE_JOIN: usize = 5;
 /// Pieces that are looked at together.
-const CORE: usize = 4;
+const CORE_PIECES: usize = 4;
 
 /// Pieces that follow each other, with their points.
 #[derive(Clone, Debug)]
@@ -36,7 +37,7 @@ impl Near {
     /// then also over its seam, with so many pieces on either side.
     fn about(row: &Row, state: &State, layout: &Layout, core: Range<usize>, around: Option<usize>) -> Near {
         let count = state.chain.pieces.len();
-        let beside = around.unwrap_or(BESIDE);
+        let beside = around.unwrap_or(PIECES_BESIDE);
         let (before, after) = match around.is_some() && state.chain.closed {
             true => (beside, beside),
             false => (beside.min(core.start), beside.min(count - core.end)),
@@ -55,7 +56,7 @@ impl Near {
     /// The pieces about a join: of a closed chain also about that over its seam.
     pub fn at_join(row: &Row, state: &State, layout: &Layout, join: usize) -> Near {
         let first = if join == 0 { state.chain.pieces.len() } else { join };
-        Near::about(row, state, layout, first - 1..first + 1, Some(BESIDE_JOIN))
+        Near::about(row, state, layout, first - 1..first + 1, Some(PIECES_BESIDE_JOIN))
     }
 
     fn of(row: &Row, state: &State, layout: &Layout, pieces: Range<usize>) -> Near {
@@ -150,8 +151,8 @@ impl Search<'_> {
         let mut layout = Layout::default();
         layout.fill(&model.state.chain);
         let mut found: Vec<(f64, Range<usize>, State)> = vec![];
-        for first in (0..count).step_by(CORE) {
-            let core = first..(first + CORE).min(count);
+        for first in (0..count).step_by(CORE_PIECES) {
+            let core = first..(first + CORE_PIECES).min(count);
             if idle[core.clone()].iter().all(|i| *i) {
                 continue;
             }
@@ -223,7 +224,7 @@ impl Search<'_> {
         let stop = self.stop(30, 1e-4);
         for next in 0..count {
             // By itself first, with its join: that brings it to its points.
-            for before in [1, BESIDE_JOIN] {
+            for before in [1, PIECES_BESIDE_JOIN] {
                 layout.fill(&grown.chain);
                 let near = Near::of(&row, &grown, &layout, next.saturating_sub(before)..next + 1);
                 if near.is_empty() {

@@ -4,7 +4,7 @@ use super::start::{Part, Sums};
 use crate::model::chain::SegmentKind;
 
 /// Places at which a part may start: time grows with the square of their number.
-pub(crate) const PLACES: usize = 1200;
+pub(crate) const MAX_PART_STARTS: usize = 1200;
 
 /// Costs of the parts, in units of the noise's variance.
 #[derive(Clone, Copy, Debug)]

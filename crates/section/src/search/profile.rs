@@ -29,18 +29,18 @@ impl Interval {
 }
 
 /// Farthest that an interval is followed to either side, in distances between points.
-const FARTHEST: f64 = 25.0;
+const MAX_INTERVAL_SPACINGS: f64 = 25.0;
 
-/// Ends of intervals are found to about this share of their distance: the root of what the sum of squares grew by is straight but
-/// for a third of it at most, so that a secant over this share of it misses 2 %.
-const NEAR: f64 = 0.06;
+/// Ends of intervals are found to about this share of their distance. The root of the growth of the sum of squares is straight but
+/// for a third of it at most: a secant over this share of it misses 2 %.
+const INTERVAL_END_ACCURACY: f64 = 0.06;
 
 /// Share of what the sum of squares grows by to the end of an interval that a fit with the join held may miss.
-const SLACK: f64 = 0.01;
+const GROWTH_SLACK_SHARE: f64 = 0.01;
 
-/// Of longer rows the likelihood is normal, and its second derivative tells the intervals: nothing is fitted anew. So too where the search
-/// has taken all it may.
-const PROFILED: usize = 6000;
+/// The likelihood of longer rows is normal, and its second derivative tells the intervals: nothing is fitted anew. So too where the
+/// search has taken all it may.
+pub(super) const MAX_PROFILED_POINTS: usize = 6000;
 
 impl Search<'_> {
     /// Standard deviation of the noise, its square, and its degrees of freedom.
@@ -61,7 +61,7 @@ impl Search<'_> {
         for seek in seeks {
             let Pose { at, along, .. } = seek.pose;
             let mut interval = Interval { ends: [at; 2], uncertainty: 0.0, open: [false; 2] };
-            if self.row.points.len() > PROFILED || self.is_spent() {
+            if self.row.points.len() > MAX_PROFILED_POINTS || self.is_spent() {
                 interval.ends =
                     [-seek.first, seek.first].map(|x| [at[0] + x * along[0], at[1] + x * along[1]]);
                 interval.uncertainty = seek.first / quantile;
@@ -141,7 +141,7 @@ impl Search<'_> {
 
     /// A better model where a join is held at an end of the interval that the second derivative of the likelihood tells.
     pub fn better(&mut self, model: &Model, level: f64) -> Option<State> {
-        if self.row.points.len() > PROFILED || self.is_spent() {
+        if self.row.points.len() > MAX_PROFILED_POINTS || self.is_spent() {
             return None;
         }
         let mut better = None;
@@ -160,7 +160,7 @@ impl Search<'_> {
         let mut better = None;
         for sign in [-1.0, 1.0] {
             let seek = Seek { sign, ..*seek };
-            let held = self.hold(best, &seek, seek.first.min(FARTHEST * self.spacing));
+            let held = self.hold(best, &seek, seek.first.min(MAX_INTERVAL_SPACINGS * self.spacing));
             better = least(better, held.filter(|h| h.sum < lower_than(best)), best);
         }
         better
@@ -190,7 +190,7 @@ impl Search<'_> {
     /// join is in the way.
     fn hold(&mut self, start: &State, seek: &Seek, x: f64) -> Option<State> {
         // What the sum of squares may miss of the least one.
-        let gain = SLACK * seek.growth / (start.sum + seek.growth).max(f64::MIN_POSITIVE);
+        let gain = GROWTH_SLACK_SHARE * seek.growth / (start.sum + seek.growth).max(f64::MIN_POSITIVE);
         let (shortest, target) = (0.5 * self.spacing, f64::INFINITY);
         let stop = Stop { steps: 14, gain: gain.max(1e-12), shortest, exact: true, target };
         let (at, along) = (seek.pose.at, seek.pose.along);
@@ -207,7 +207,7 @@ impl Search<'_> {
     /// Moves a join until the sum of squares reaches the limit: secants on the root of what it grew by, which is straight
     /// where the likelihood is normal. Gives the end, whether it is open, and a lower state found on the way.
     fn follow(&mut self, best: &State, seek: &Seek) -> ([f64; 2], bool, Option<State>) {
-        let farthest = FARTHEST * self.spacing;
+        let farthest = MAX_INTERVAL_SPACINGS * self.spacing;
         let wanted = seek.growth.max(f64::MIN_POSITIVE).sqrt();
         let mut low = Tried { x: 0.0, root: 0.0, state: best.clone() };
         let mut high: Option<Tried> = None;
@@ -229,7 +229,7 @@ impl Search<'_> {
                         lower = Some(state.clone());
                     }
                     let root = (state.sum - best.sum).max(0.0).sqrt();
-                    if (root - wanted).abs() < NEAR * wanted {
+                    if (root - wanted).abs() < INTERVAL_END_ACCURACY * wanted {
                         // So near the root is as good as straight: the end lies on the line from where the join is best.
                         let place = self.place_of(&state, seek);
                         let from = seek.pose.at;
@@ -248,7 +248,7 @@ impl Search<'_> {
             if low.x >= farthest {
                 return (self.place_of(&low.state, seek), true, lower);
             }
-            if right.is_finite() && right - low.x < NEAR * right {
+            if right.is_finite() && right - low.x < INTERVAL_END_ACCURACY * right {
                 let (at, open) =
                     high.as_ref().filter(|h| h.x < wall).map_or((&low.state, true), |h| (&h.state, false));
                 let at = at.clone();

@@ -12,13 +12,13 @@ use trueness_geom::progress::{Cancelled, Progress};
 /// A model that is dearer than the best by this much after four steps is not refined.
 const COST_TO_DROP: f64 = 30.0;
 
-/// A model of the same kinds and fewer unknowns that is dearer by no more than so much for each point is refined all the same: where a curvature grows from 0,
-/// a join moves slowly.
-const SLOW: f64 = 0.2;
+/// A model of the same kinds and fewer unknowns that is dearer by no more than so much for each point is refined all the same:
+/// where a curvature grows from 0, a join moves slowly.
+const SLOW_COST_PER_POINT: f64 = 0.2;
 
-/// Products after which a search ends with the cheapest model so far: some seconds. Rows of some dozen segments take a hundredth; smooth
-/// curves of many turns, which are many arcs at first and few free pieces in the end, would take minutes.
-const MOST_PRODUCTS: f64 = 5e9;
+/// Products after which a search ends with the cheapest model so far: some seconds. Rows of some dozen segments take a hundredth.
+/// Smooth curves of many turns, which are many arcs at first and few free pieces in the end, would take minutes.
+const MAX_PRODUCTS_PER_SEARCH: f64 = 5e9;
 
 /// The search over the models of one row.
 pub(crate) struct Search<'a> {
@@ -159,7 +159,7 @@ impl Search<'_> {
         let mut best = first;
         let mut idle = 0;
         let mut unchanged = vec![];
-        self.until = self.work.effort + MOST_PRODUCTS.min(self.budget.left());
+        self.until = self.work.effort + MAX_PRODUCTS_PER_SEARCH.min(self.budget.left());
         for _ in 0..60 {
             if progress.cancelled() {
                 return Err(Cancelled);
@@ -268,7 +268,7 @@ impl Search<'_> {
         plans
             .iter_mut()
             .filter(|p| p.kind == SegmentKind::Spline)
-            .for_each(|p| p.count = (p.count + more.max(p.count / 2)).min(free::MOST_COEFFICIENTS));
+            .for_each(|p| p.count = (p.count + more.max(p.count / 2)).min(free::MAX_COEFFICIENTS));
         let built = self.build(&base, &plans, f64::INFINITY);
         self.converge(&built)
     }
@@ -294,7 +294,7 @@ impl Search<'_> {
             let mut model = self.build(base, &change, bar);
             let kinds = |plans: &[Plan]| plans.iter().map(|p| p.kind).collect::<Vec<_>>();
             let fewer = Unknowns::of(&model.state.chain).number < own && kinds(&change) == kinds(&base.plans);
-            if fewer && (bar..bar + SLOW * self.criterion.count).contains(&model.cost) {
+            if fewer && (bar..bar + SLOW_COST_PER_POINT * self.criterion.count).contains(&model.cost) {
                 model = self.converge(&model);
             }
             if best.as_ref().is_none_or(|b| model.cost < b.cost) && self.follows(&mut model.state) {

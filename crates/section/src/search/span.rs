@@ -11,28 +11,31 @@ use crate::model::criterion::Model;
 use crate::model::flat::angle;
 use crate::model::free;
 use crate::model::least::{Spread, State, Work};
+use crate::model::prior::NEGLIGIBLE_OFFSET_SPACINGS;
 use trueness_geom::progress::{Cancelled, Progress};
 
-/// Coefficients that a free piece has more while intervals are found than the criterion chose: the chosen piece alone takes
-/// its own shape for certain, and intervals come out too short.
-const LOOSER: usize = 2;
+/// Coefficients that a free piece has more while intervals are found than the criterion chose. The chosen piece alone takes its own
+/// shape for certain, and intervals come out too short.
+const EXTRA_COEFFICIENTS: usize = 2;
 
-/// A chain went astray whose points lie farther off than this many times their noise, or than this many times this share of the
-/// distance between them where that is more (the larger one where the row is too short to tell its noise) ...
-const OUTLIER: f64 = 10.0;
-const SHARES: [f64; 2] = [0.005, 0.02];
-/// ... or that is not about as long as the way from point to point. Noise of more than this share of the distance between points
-/// makes that way longer, and is not known well where a row is short: then the chain may be shorter.
-const LENGTHS: [std::ops::Range<f64>; 2] = [0.6..1.6, 0.3..1.6];
-const QUIET: f64 = 0.25;
-/// It is then looked for from so many equal parts, where each has so many points.
-const STARTS: usize = 4;
-const EACH: usize = 4;
+/// A chain is unreliable whose points lie farther off than this many times their noise.
+const MAX_RMS_RATIO: f64 = 10.0;
+/// The noise counts as this share of the distance between points at least, the larger one where the row is too short to tell its
+/// noise.
+const MIN_NOISE_SPACINGS: [f64; 2] = [NEGLIGIBLE_OFFSET_SPACINGS, 0.02];
+/// Length of a reliable chain over the way from point to point; the second range holds where noise makes that way longer.
+const LENGTH_RATIOS: [std::ops::Range<f64>; 2] = [0.6..1.6, 0.3..1.6];
+/// Noise of more than this share of the distance between points makes the way longer, and is not known well where a row is short.
+const MAX_QUIET_NOISE_SPACINGS: f64 = 0.25;
+/// A chain is then looked for from so many equal parts.
+const EQUAL_PARTS: usize = 4;
+/// Each of these has so many points at least.
+const MIN_POINTS_PER_EQUAL_PART: usize = 4;
 
 /// Steps by all points from where blocks of them have led to.
-const POLISHED: usize = 6;
+const POLISHING_STEPS: usize = 6;
 /// More points than this are thinned while pieces are looked for.
-const SEARCHED: usize = 1500;
+const MAX_SEARCHED_POINTS: usize = 1500;
 
 /// A chain found.
 pub(crate) struct Found {
@@ -70,10 +73,11 @@ impl Span {
         }
         let mut best = self.search_from(parts, task, progress)?;
         if self.is_astray(&best.state, task)
-            && STARTS * EACH <= self.points.len()
+            && EQUAL_PARTS * MIN_POINTS_PER_EQUAL_PART <= self.points.len()
             && !task.budget.is_spent(0.0)
         {
-            let other = self.search_from(&shares(&self.points, &self.weights, STARTS), task, progress)?;
+            let other =
+                self.search_from(&shares(&self.points, &self.weights, EQUAL_PARTS), task, progress)?;
             if other.cost < best.cost || !self.is_astray(&other.state, task) {
                 best = other;
             }
@@ -142,7 +146,7 @@ impl Span {
         let n = self.points.len();
         let count = self.weights.iter().sum::<f64>().max(1.0);
         let noise = task.scatter;
-        let least = SHARES[usize::from(noise <= 0.0)] * task.spacing;
+        let least = MIN_NOISE_SPACINGS[usize::from(noise <= 0.0)] * task.spacing;
         let off = (state.sum / count).sqrt();
         // Only a whole circle's ends may overlap, by their noise.
         let turns = |p: &Piece| p.length * p.curvature(0.0) / std::f64::consts::TAU;
@@ -152,7 +156,7 @@ impl Span {
             return true;
         }
         if !state.sum.is_finite()
-            || off > OUTLIER * noise.max(least)
+            || off > MAX_RMS_RATIO * noise.max(least)
             || state.breaks.windows(2).any(|w| w[0] >= w[1])
         {
             return true;
@@ -173,13 +177,13 @@ impl Span {
             stations[n - 1] - stations[0]
         };
         way > 0.0
-            && !LENGTHS[usize::from(noise > QUIET * task.spacing * task.step as f64)]
+            && !LENGTH_RATIOS[usize::from(noise > MAX_QUIET_NOISE_SPACINGS * task.spacing * task.step as f64)]
                 .contains(&(length / way))
     }
 
     /// The pieces found from a start of these parts.
     fn search_from(&self, parts: &[Part], task: &Task, progress: &dyn Progress) -> Result<Model, Cancelled> {
-        let thin = self.points.len().div_ceil(SEARCHED).max(task.step);
+        let thin = self.points.len().div_ceil(MAX_SEARCHED_POINTS).max(task.step);
         if thin > 1 {
             return self.find_thinned(parts, task, thin, progress);
         }
@@ -227,7 +231,7 @@ impl Span {
         };
         let by_blocks = blocks.span.search(&blocks.task(task)).converge(&blocks.model());
         let model = blocks.whole(by_blocks.state);
-        Ok(search.converge_within(&model, POLISHED))
+        Ok(search.converge_within(&model, POLISHING_STEPS))
     }
 
     fn found(self, (state, intervals, noise, mut work): (State, Vec<Interval>, f64, Work)) -> Found {
@@ -267,7 +271,7 @@ fn with_intervals(
         if best.state.chain.joins() == 0 || single(&best.state) {
             break;
         }
-        let looser = search.looser(&best, LOOSER);
+        let looser = search.looser(&best, EXTRA_COEFFICIENTS);
         let own = looser.state.chain == best.state.chain;
         // Intervals of a model that is not the last are of no use.
         let mut better = if own || last { None } else { search.better(&best, task.level) };

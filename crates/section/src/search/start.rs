@@ -4,7 +4,7 @@ use crate::model::chain::SegmentKind;
 use trueness_geom::num::median::median;
 
 /// Half the number of points of a local fit of the noise.
-const HALF: usize = 4;
+const HALF_WINDOW: usize = 4;
 
 /// Standard deviation of the noise across the row, and the step at which its points are followed: the least power of 2 at
 /// which neighbors are four times as far apart as they scatter.
@@ -25,8 +25,9 @@ pub(crate) fn noise(points: &[[f64; 2]], closed: bool) -> (f64, usize) {
             return (found, step);
         }
         // Noise makes neighbors farther apart than they are; ends of a local fit far less.
-        let mut chords: Vec<f64> = few.windows(2 * HALF + 1).map(|w| far(&[w[0], w[2 * HALF]])).collect();
-        if found <= median(&mut chords).unwrap_or(0.0) / (2 * HALF) as f64 {
+        let mut chords: Vec<f64> =
+            few.windows(2 * HALF_WINDOW + 1).map(|w| far(&[w[0], w[2 * HALF_WINDOW]])).collect();
+        if found <= median(&mut chords).unwrap_or(0.0) / (2 * HALF_WINDOW) as f64 {
             least = found;
         }
         step *= 2;
@@ -46,7 +47,7 @@ pub(crate) fn noise_beyond_form(points: &[[f64; 2]], closed: bool) -> f64 {
 /// Standard deviation of points about local polynomials of so many coefficients, by the median.
 fn off_polynomials<const COEFFICIENTS: usize>(points: &[[f64; 2]], closed: bool) -> f64 {
     let n = points.len();
-    let width = 2 * HALF + 1;
+    let width = 2 * HALF_WINDOW + 1;
     if n < width + usize::from(closed) {
         return 0.0;
     }
@@ -60,16 +61,16 @@ fn off_polynomials<const COEFFICIENTS: usize>(points: &[[f64; 2]], closed: bool)
 }
 
 /// Mean square of the residuals of a polynomial through nine points, across the line through the first and last.
-fn mean_square_off<const COEFFICIENTS: usize>(points: &[[f64; 2]; 2 * HALF + 1]) -> Option<f64> {
-    let (first, last, middle) = (points[0], points[2 * HALF], points[HALF]);
+fn mean_square_off<const COEFFICIENTS: usize>(points: &[[f64; 2]; 2 * HALF_WINDOW + 1]) -> Option<f64> {
+    let (first, last, middle) = (points[0], points[2 * HALF_WINDOW], points[HALF_WINDOW]);
     let (dx, dy) = (last[0] - first[0], last[1] - first[1]);
     let length = libm::hypot(dx, dy);
     if length == 0.0 || !length.is_finite() {
         return None;
     }
     let (c, s) = (dx / length, dy / length);
-    let mut columns = [[0.0; 2 * HALF + 1]; COEFFICIENTS];
-    let mut rest = [0.0; 2 * HALF + 1];
+    let mut columns = [[0.0; 2 * HALF_WINDOW + 1]; COEFFICIENTS];
+    let mut rest = [0.0; 2 * HALF_WINDOW + 1];
     for (i, p) in points.iter().enumerate() {
         let (x, y) = (p[0] - middle[0], p[1] - middle[1]);
         let t = 2.0 * (c * x + s * y) / length;

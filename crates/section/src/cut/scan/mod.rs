@@ -17,7 +17,7 @@ mod weights;
 use super::plane::Chain;
 use crate::model::flat::distance;
 use crate::model::prior::Known;
-use crate::search::partition::{PLACES, Penalty, partition_with_gaps};
+use crate::search::partition::{MAX_PART_STARTS, Penalty, partition_with_gaps};
 use crate::search::start::noise;
 pub use cut_mesh::CutMesh;
 use trueness_geom::plane::PlaneFrame;
@@ -34,23 +34,24 @@ pub(super) struct ScanRow {
 }
 
 /// Fewest crossings of one.
-const FEWEST_CROSSINGS: usize = 4;
+const MIN_CROSSINGS_PER_PART: usize = 4;
 /// Crossings in succession that a corner may take from the mesh: edges of facets that pass it by.
-const BEVEL: usize = 4;
+const MAX_CROSSINGS_AT_CORNER: usize = 4;
 
-/// Of the ways by which crossings are moved this share may be lost; it is taken of one longer than so many percent.
-const LOST: f64 = 0.08;
-const DEEP: usize = 95;
-/// What lies beside the end of a part, no farther off than so many standard deviations, belongs to it.
-const WITHIN: f64 = 2.5;
+/// This share of the ways by which crossings are moved may be lost.
+const MAX_LOST_LIFT_SHARE: f64 = 0.08;
+/// The share is taken of a way that is longer than so many percent.
+const LONG_LIFT_PERCENTILE: usize = 95;
+/// A crossing beside the end of a part, no farther off than so many standard deviations, belongs to it.
+const PART_END_SIGMAS: f64 = 2.5;
 
-/// Crossings that scatter more where they are moved to than where they are, by more than this factor, stay: facets so large do not tell
-/// the surface.
-const ROUGHER: f64 = 1.2;
+/// Crossings stay that would scatter more by this factor on the surface than where they are: facets so large do not tell the
+/// surface.
+const MAX_ROUGHNESS_RATIO: f64 = 1.2;
 
 fn smoother(moved: Vec<[f64; 2]>, crossings: &[[f64; 2]], closed: bool) -> Vec<[f64; 2]> {
     let [there, here] = [&moved[..], crossings].map(|points| noise(points, closed).0);
-    if there > ROUGHER * here { crossings.to_vec() } else { moved }
+    if there > MAX_ROUGHNESS_RATIO * here { crossings.to_vec() } else { moved }
 }
 
 /// A plane within rounding of a vertex cuts several of its edges at one place: crossings no farther apart than rounding are one, with the weight of all.
@@ -89,7 +90,7 @@ impl ScanRow {
             let own: Vec<[f64; 2]> = numbers.iter().map(|i| all[*i]).collect();
             noise(&own, closed).0
         });
-        here > ROUGHER * there
+        here > MAX_ROUGHNESS_RATIO * there
     }
 
     /// The crossings of a chain, with these places in the plane.
@@ -98,7 +99,7 @@ impl ScanRow {
         let count = cut.mesh.positions.len();
         let is_of_mesh = chain.edges.len() == crossings.len()
             && chain.edges.iter().flatten().all(|v| (*v as usize) < count);
-        if !is_of_mesh || crossings.len() < FEWEST_CROSSINGS {
+        if !is_of_mesh || crossings.len() < MIN_CROSSINGS_PER_PART {
             let weights = vec![1.0; crossings.len()];
             return ScanRow { kept: (0..crossings.len()).collect(), points: crossings, weights, noise: None };
         }
@@ -113,7 +114,7 @@ impl ScanRow {
         let mut lifts: Vec<f64> =
             points.iter().zip(&crossings).map(|(p, q)| libm::hypot(p[0] - q[0], p[1] - q[1])).collect();
         lifts.sort_by(f64::total_cmp);
-        let lost = LOST * lifts[DEEP * (lifts.len() - 1) / 100];
+        let lost = MAX_LOST_LIFT_SHARE * lifts[LONG_LIFT_PERCENTILE * (lifts.len() - 1) / 100];
         let count: f64 = scatter.weights.iter().sum();
         let deviation = cut.noise.map(|n| libm::hypot(n.deviation * scatter.share, lost));
         let level = deviation.unwrap_or_else(|| noise(&points, closed).0.max(lost)).max(cut.rounding());
@@ -122,11 +123,11 @@ impl ScanRow {
             line: 3.0 * log,
             arc: 4.0 * log,
             noise: level,
-            fewest: FEWEST_CROSSINGS,
-            places: PLACES,
+            fewest: MIN_CROSSINGS_PER_PART,
+            places: MAX_PART_STARTS,
         };
-        let mut parts = partition_with_gaps(&points, &scatter.weights, &penalty, BEVEL);
-        lift::lengthen(&mut parts, &points, WITHIN * level);
+        let mut parts = partition_with_gaps(&points, &scatter.weights, &penalty, MAX_CROSSINGS_AT_CORNER);
+        lift::lengthen(&mut parts, &points, PART_END_SIGMAS * level);
         let kept: Vec<usize> = parts.iter().flat_map(|p| p.from..p.to).collect();
         let moved = kept.iter().map(|i| points[*i]).collect();
         let weights = kept.iter().map(|i| scatter.weights[*i]).collect();

@@ -7,18 +7,19 @@ use crate::model::crossings::crossing_chords;
 use crate::model::flat::distance;
 use trueness_geom::progress::{Cancelled, Progress};
 
-/// A loop of a profile that crosses itself is told from one that scatter makes at the trailing edge by so many uncertainties of a place
-/// in its mean width, and by this share of the chord.
-const WIDE: f64 = 6.0;
-const LOOP: f64 = 5e-4;
+/// Scatter makes loops at the trailing edge. A loop of a profile that crosses itself is wider by so many uncertainties of a place
+/// in its mean width.
+const MIN_LOOP_WIDTH_SIGMAS: f64 = 6.0;
+/// Such a loop is also wider than this share of the chord.
+const MIN_LOOP_WIDTH_OF_CHORD: f64 = 5e-4;
 /// So many crossings are looked at.
-const CROSSINGS: usize = 1000;
+const MAX_CROSSINGS_OF_PROFILE: usize = 1000;
 /// Share of the camber line over which a thickness is taken for constant.
-const FLAT: f64 = 0.25;
+const FLAT_CAMBER_SHARE: f64 = 0.25;
 /// Steps of a search that leaves two thirds each: to 1e-7 of the way.
-const HALVES: usize = 40;
-/// Places of the camber line that are told.
-const TOLD: usize = 50;
+const CIRCLE_SEARCH_STEPS: usize = 40;
+/// Places of the camber line that are listed.
+const LISTED_CAMBER_STEPS: usize = 50;
 
 /// The curve as places, with the circles.
 pub(super) struct Inscribed {
@@ -46,7 +47,7 @@ impl Inscribed {
         let far = |i: &usize| distance(places[*i], tail);
         let head = (first..=last).max_by(|a, b| far(a).total_cmp(&far(b))).unwrap_or(first);
         let own = &places[first..=last];
-        if let Some(at) = crossing(own, WIDE * course.uncertainty, progress)? {
+        if let Some(at) = crossing(own, MIN_LOOP_WIDTH_SIGMAS * course.uncertainty, progress)? {
             return Err(AirfoilError::Crosses { x: at[0], y: at[1] });
         }
         let inward = area(own).signum();
@@ -119,7 +120,7 @@ impl Inscribed {
         let way = |w: &[([f64; 2], f64)]| distance(w[0].0, w[1].0);
         let near = |w: &&[([f64; 2], f64)]| w[0].1 > most - reach;
         let whole: f64 = self.circles.windows(2).map(way).sum();
-        self.circles.windows(2).filter(near).map(way).sum::<f64>() > FLAT * whole
+        self.circles.windows(2).filter(near).map(way).sum::<f64>() > FLAT_CAMBER_SHARE * whole
     }
 
     /// The center at which a distance is greatest in magnitude.
@@ -143,7 +144,7 @@ impl Inscribed {
         }
         let (last, whole) = (all.len() - 1, ways[all.len() - 1]);
         let at = |k: usize| {
-            let way = whole * k as f64 / TOLD as f64;
+            let way = whole * k as f64 / LISTED_CAMBER_STEPS as f64;
             let i = ways.partition_point(|w| *w < way).clamp(1, last);
             let share =
                 ((way - ways[i - 1]) / (ways[i] - ways[i - 1]).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
@@ -151,7 +152,7 @@ impl Inscribed {
             let mix = |x: f64, y: f64| x + share * (y - x);
             ([mix(a.0[0], b.0[0]), mix(a.0[1], b.0[1])], mix(a.1, b.1))
         };
-        (0..=TOLD).map(at).collect()
+        (0..=LISTED_CAMBER_STEPS).map(at).collect()
     }
 }
 
@@ -167,9 +168,9 @@ fn crossing(places: &[[f64; 2]], least: f64, progress: &dyn Progress) -> Result<
     let width = |p: &[[f64; 2]]| 2.0 * area(p).abs() / way(p).max(f64::MIN_POSITIVE);
     let wide = |(i, j): &(usize, usize)| {
         let rest: Vec<[f64; 2]> = places[..=*i].iter().chain(&places[j + 1..]).copied().collect();
-        width(&places[i + 1..=*j]).min(width(&rest)) > least.max(LOOP * chord)
+        width(&places[i + 1..=*j]).min(width(&rest)) > least.max(MIN_LOOP_WIDTH_OF_CHORD * chord)
     };
-    let all = crossing_chords(&chords, true, CROSSINGS, progress)?;
+    let all = crossing_chords(&chords, true, MAX_CROSSINGS_OF_PROFILE, progress)?;
     Ok(all.into_iter().find(wide).map(|(i, _)| places[i]))
 }
 
@@ -202,7 +203,7 @@ fn touching(places: &[[f64; 2]], i: usize, normal: [f64; 2]) -> Option<(f64, usi
     let three = [j - 1, j, j + 1].map(|k| places[k]);
     let at = |t: f64| radius(on_parabola(three, t));
     let (mut low, mut high) = (-1.0, 1.0);
-    for _ in 0..HALVES {
+    for _ in 0..CIRCLE_SEARCH_STEPS {
         let (a, b) = (low + (high - low) / 3.0, high - (high - low) / 3.0);
         if at(a) < at(b) { high = b } else { low = a }
     }

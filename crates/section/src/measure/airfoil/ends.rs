@@ -6,7 +6,7 @@ use crate::model::flat::distance;
 use crate::search::start::noise_beyond_form;
 
 /// The ends of an open row are no farther apart than this share of the chord.
-const APART: f64 = 0.2;
+const MAX_END_GAP_OF_CHORD: f64 = 0.2;
 
 /// What the trailing edge is.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,7 +51,7 @@ impl Around {
             let (a, b) = (row[0], row[row.len() - 1]);
             let (middle, gap) = ([0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])], distance(a, b));
             let chord = row.iter().map(|p| distance(*p, middle)).fold(0.0, f64::max);
-            if gap > APART * chord {
+            if gap > MAX_END_GAP_OF_CHORD * chord {
                 return Err(AirfoilError::Open { gap, chord });
             }
             return Ok(Around {

@@ -13,23 +13,24 @@ use trueness_geom::progress::{Cancelled, Progress};
 use trueness_geom::spline::curve::{self, Curve, Ends, Fitted};
 
 /// Points as near to each other as this share of the spacing are one.
-pub(super) const RESOLUTION: f64 = 1e-4;
+pub(super) const SAME_PLACE_SPACINGS: f64 = 1e-4;
 
-/// Of more points than this the means of neighbors are taken.
-const MOST: usize = 2000;
-/// Places for each control point by which a curve's length is told.
-const EACH: usize = 8;
+/// Where there are more points the means of neighbors are taken.
+const MAX_POINTS_OF_PROFILE: usize = 2000;
+/// Places for each control point by which a curve's length is measured.
+const PLACES_PER_CONTROL_POINT: usize = 8;
 /// Control points to begin with, and by what they grow.
-const BEGIN: (usize, f64) = (8, 1.3);
+const FIRST_POINTS_AND_GROWTH: (usize, f64) = (8, 1.3);
 /// A curve longer than the way through the points by this factor runs wild between them.
-const LONGER: f64 = 1.03;
+const MAX_CURVE_LENGTH_RATIO: f64 = 1.03;
 /// Tries without gain after which no more control points are tried.
-const IDLE: usize = 4;
-/// Places of the course that circles are looked for at, about, and fewest of a segment.
-const PLACES: usize = 2000;
-const FEWEST: usize = 24;
+const MAX_IDLE_TRIES: usize = 4;
+/// About so many places of the course are tried for circles.
+const COURSE_PLACES: usize = 2000;
+/// Fewest such places of a segment.
+const MIN_PLACES_PER_SEGMENT: usize = 24;
 /// A corner of the contour is that of the trailing edge within so many distances between points.
-const NEAR: f64 = 3.0;
+const TRAILING_CORNER_SPACINGS: f64 = 3.0;
 
 /// The course of a profile from its trailing edge around to it again.
 pub(super) struct Profile {
@@ -98,7 +99,7 @@ impl Smooth {
 
 /// Twice the negative logarithm of the likelihood of points with this sum of squared distances, and the penalty for the unknowns.
 fn cost(sum: f64, unknowns: f64, penalty: f64, count: f64, spacing: f64) -> f64 {
-    let floor = (RESOLUTION * spacing).powi(2);
+    let floor = (SAME_PLACE_SPACINGS * spacing).powi(2);
     count * libm::log(sum / (count - unknowns).max(1.0) + floor) + penalty * libm::log(count)
 }
 
@@ -110,7 +111,7 @@ fn unit(v: [f64; 2]) -> [f64; 2] {
 /// Places of a curve, more where its knots are.
 fn along(curve: &Curve<[f64; 2]>) -> Vec<([f64; 2], [f64; 2])> {
     let distinct = curve.knots().distinct();
-    let each = PLACES.div_ceil(distinct.len().max(2) - 1).max(4);
+    let each = COURSE_PLACES.div_ceil(distinct.len().max(2) - 1).max(4);
     let mut parameters: Vec<f64> = vec![];
     for w in distinct.windows(2) {
         parameters.extend((0..each).map(|k| w[0] + (w[1] - w[0]) * k as f64 / each as f64));
@@ -143,7 +144,7 @@ fn of_contour(around: &Around, ends: [usize; 2], contour: &Contour, as_many: f64
     let to_corner = |station: f64| {
         let way = |c: &f64| (c - station + 0.5 * whole).rem_euclid(whole) - 0.5 * whole;
         let near = corners.iter().map(way).min_by(|a, b| a.abs().total_cmp(&b.abs()));
-        near.filter(|way| way.abs() < NEAR * contour.spacing)
+        near.filter(|way| way.abs() < TRAILING_CORNER_SPACINGS * contour.spacing)
     };
     let over = whole / 16.0;
     let (from, to) = match around.trailing {
@@ -195,7 +196,8 @@ fn between(contour: &Contour, from: f64, to: f64, whole: f64) -> Vec<([f64; 2], 
             if low > high {
                 continue;
             }
-            let count = ((PLACES as f64 * (high - low) / whole).ceil() as usize).max(FEWEST);
+            let count =
+                ((COURSE_PLACES as f64 * (high - low) / whole).ceil() as usize).max(MIN_PLACES_PER_SEGMENT);
             let steps = if high > low { count } else { 0 };
             let place = |i: usize| {
                 let share = (low - own + (high - low) * i as f64 / count as f64) / length;
@@ -213,7 +215,7 @@ fn between(contour: &Contour, from: f64, to: f64, whole: f64) -> Vec<([f64; 2], 
 
 /// The means of so many neighbors that few enough points are left; the ends stay.
 fn thinned(row: &[[f64; 2]]) -> Vec<[f64; 2]> {
-    let by = row.len().div_ceil(MOST);
+    let by = row.len().div_ceil(MAX_POINTS_OF_PROFILE);
     if by < 2 {
         return row.to_vec();
     }
@@ -242,8 +244,8 @@ impl Smooth {
         let chords = curve::chord_parameters(row).ok_or(AirfoilError::Inside)?;
         let length: f64 = row.windows(2).map(|w| distance(w[0], w[1])).sum();
         let mut best: Option<Smooth> = None;
-        let most = (3 * n / 4).max(BEGIN.0).min(n);
-        let (mut count, mut idle) = (BEGIN.0.min(most), 0);
+        let most = (3 * n / 4).max(FIRST_POINTS_AND_GROWTH.0).min(n);
+        let (mut count, mut idle) = (FIRST_POINTS_AND_GROWTH.0.min(most), 0);
         loop {
             if progress.cancelled() {
                 return Err(Cancelled.into());
@@ -252,8 +254,8 @@ impl Smooth {
             let knots = curve::spread_knots(3, count, &parameters);
             let fitted = curve::corrected(row, &mut parameters, &knots, Ends::FREE).ok();
             let held = |f: &Fitted<2>| {
-                let places = f.curve.sample(EACH * knots.count());
-                places.windows(2).map(|w| distance(w[0], w[1])).sum::<f64>() < LONGER * length
+                let places = f.curve.sample(PLACES_PER_CONTROL_POINT * knots.count());
+                places.windows(2).map(|w| distance(w[0], w[1])).sum::<f64>() < MAX_CURVE_LENGTH_RATIO * length
             };
             if let Some(fitted) = fitted.filter(held) {
                 let p = knots.count() as f64;
@@ -273,10 +275,10 @@ impl Smooth {
                     idle += 1;
                 }
             }
-            if count >= most || idle >= IDLE {
+            if count >= most || idle >= MAX_IDLE_TRIES {
                 return best.ok_or(AirfoilError::Inside);
             }
-            count = ((count as f64 * BEGIN.1) as usize).min(most);
+            count = ((count as f64 * FIRST_POINTS_AND_GROWTH.1) as usize).min(most);
         }
     }
 }

@@ -82,7 +82,7 @@ impl Places {
 }
 
 /// Lags of a row over which its distances may go together.
-const LAGS: usize = 1000;
+const MAX_LAGS: usize = 1000;
 
 impl Row {
     pub fn new(points: &[[f64; 2]], found: &[Option<OffNominal>], outlines: &[Outline]) -> Row {
@@ -119,7 +119,7 @@ impl Row {
             return 1.0;
         }
         let mut sum = -1.0;
-        for lag in (0..(n / 4).min(LAGS)).step_by(2) {
+        for lag in (0..(n / 4).min(MAX_LAGS)).step_by(2) {
             let pair = (together(lag) + together(lag + 1)) / variance;
             if pair <= 0.0 {
                 break;
@@ -148,7 +148,7 @@ fn number(outline: &Outline, ends: &[f64], off: &OffNominal, point: [f64; 2]) ->
 }
 
 /// Chords that turn by less than this follow a curve, radians: as where facets are taken for an arc.
-const GENTLE: f64 = 0.6;
+const MAX_FACET_TURN: f64 = 0.6;
 
 /// The normal of the curve that a chord follows, at a share of it: between those of its ends, where chords of about a circle's meet
 /// (each with the other's length, which is exact on a circle). Of other segments their own.
@@ -165,8 +165,8 @@ fn smooth(outline: &Outline, number: usize, share: f64) -> Option<[f64; 2]> {
         let other = all.get(k % n).filter(|o| (outline.closed || !is_end) && o.geometry == Geometry::Line);
         let met = other.and_then(|other| {
             let a = along(other)?;
-            let gentle =
-                libm::atan2(own[0] * a[1] - own[1] * a[0], own[0] * a[0] + own[1] * a[1]).abs() < GENTLE;
+            let gentle = libm::atan2(own[0] * a[1] - own[1] * a[0], own[0] * a[0] + own[1] * a[1]).abs()
+                < MAX_FACET_TURN;
             gentle.then(|| unit([0, 1].map(|k| own[k] * other.length + a[k] * segment.length)))?
         });
         met.unwrap_or(own)
@@ -185,7 +185,7 @@ fn is_sharp(outline: &Outline, number: usize, at_its_end: bool) -> bool {
     let (a, b) = (&all[before], &all[after]);
     let [a, b] = [a.nearest(a.end).along, b.nearest(b.start).along];
     let turn = libm::atan2(a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1]);
-    is_joined && turn.abs() >= GENTLE
+    is_joined && turn.abs() >= MAX_FACET_TURN
 }
 
 fn along(segment: &Segment) -> Option<[f64; 2]> {

@@ -125,11 +125,11 @@ impl Untidied {
 }
 
 /// Conditions are offered that hold with this probability at least: two standard uncertainties, 95 %.
-pub(super) const LEAST_P: f64 = 0.0455;
+pub(super) const MIN_PROBABILITY: f64 = 0.0455;
 /// Conditions that chance meets more often than this are not offered: they would say nothing.
-pub(super) const MOST_CHANCE: f64 = 0.05;
+pub(super) const MAX_CHANCE: f64 = 0.05;
 /// Standard uncertainties to either side within which a value is offered.
-pub(super) const REACH: f64 = 2.0;
+pub(super) const OFFER_REACH_SIGMAS: f64 = 2.0;
 
 /// A value and what is offered for it.
 #[derive(Clone, Copy, Debug)]
@@ -150,7 +150,7 @@ impl Value {
         let p = self.p(offered);
         let Value { found, uncertainty, .. } = self;
         let z = (found - offered) / uncertainty;
-        (p >= LEAST_P && chance <= MOST_CHANCE && z.is_finite()).then(|| Offer {
+        (p >= MIN_PROBABILITY && chance <= MAX_CHANCE && z.is_finite()).then(|| Offer {
             kind,
             of: of.to_vec(),
             found,

@@ -9,12 +9,12 @@ use super::offer::Untidied;
 use crate::model::result::{Continuity, Contour, Geometry, Taken, Uncertainty};
 use trueness_geom::num::cholesky::Cholesky;
 
-/// Segments of a tangent chain of which the covariance is still found.
-const MOST_SEGMENTS: usize = 200;
+/// Segments of a tangent chain whose covariance is still found.
+const MAX_SEGMENTS_OF_CHAIN: usize = 200;
 /// Share of the normal equations' scale that holds what the points alone do not: tangent joins must.
-const HELD: f64 = 1e-10;
+const HOLDING_WEIGHT: f64 = 1e-10;
 /// A condition holds already where its variance is this share of that of its unknowns by themselves.
-const HOLDS: f64 = 1e-14;
+const HOLDS_ALREADY_VARIANCE: f64 = 1e-14;
 
 /// A line, by a place of it and its angle, or a circle.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -111,7 +111,7 @@ impl Spread {
             size: contour.segments.iter().map(|s| s.length).sum::<f64>(),
         };
         for chain in chains(contour, &all) {
-            if chain.len() > MOST_SEGMENTS {
+            if chain.len() > MAX_SEGMENTS_OF_CHAIN {
                 return Err(Untidied::TooMany);
             }
             spread.add(contour, &chain, &points);
@@ -171,7 +171,7 @@ impl Spread {
         let variance: f64 = slopes.iter().map(|(_, i, slope)| slope * along[*i]).sum();
         // What holds already, as around a closed chain, is rounding.
         let apart: f64 = slopes.iter().map(|(_, i, slope)| slope * slope * covariance[i * n + i]).sum();
-        if variance.is_nan() || variance <= HOLDS * apart {
+        if variance.is_nan() || variance <= HOLDS_ALREADY_VARIANCE * apart {
             return;
         }
         for r in 0..n {
@@ -188,7 +188,7 @@ impl Spread {
         for (i, k) in of.iter().enumerate() {
             for unknown in 0..shapes[i].unknowns() {
                 let angle = matches!(shapes[i], Shape::Line { .. }) && unknown == 0;
-                let step = STEP * if angle { 1.0 } else { self.size };
+                let step = SLOPE_STEP * if angle { 1.0 } else { self.size };
                 let at = |by: f64| {
                     let mut moved = shapes.clone();
                     moved[i] = moved[i].moved(unknown, by);
@@ -245,7 +245,7 @@ impl Spread {
 }
 
 /// Steps by which slopes are found, as a share of the size.
-const STEP: f64 = 1e-6;
+const SLOPE_STEP: f64 = 1e-6;
 
 /// Points of each segment that its fit has used.
 fn own_points(contour: &Contour, row: &[[f64; 2]]) -> Vec<Vec<[f64; 2]>> {
@@ -309,7 +309,7 @@ fn alone(shape: &Shape, points: &[[f64; 2]], size: f64) -> [[f64; 3]; 3] {
             }
         }
     }
-    let weight = HELD * points.len().max(1) as f64;
+    let weight = HOLDING_WEIGHT * points.len().max(1) as f64;
     for i in 0..m {
         let angle = matches!(shape, Shape::Line { .. }) && i == 0;
         normal[i * m + i] += weight * if angle { size * size } else { 1.0 };

@@ -1,6 +1,6 @@
 //! What was drawn is offered; what was not seldom is; the covariance is that of fresh noise.
 
-use super::offer::{LEAST_P, MOST_CHANCE, Value};
+use super::offer::{MAX_CHANCE, MIN_PROBABILITY, Value};
 use super::spread::Shape;
 use super::*;
 use crate::{Options, contour};
@@ -77,7 +77,7 @@ fn what_was_drawn_is_offered() {
         is("25", whole(OfferKind::Distance, 25.0));
         is("centers", whole(OfferKind::Centers, 15.0));
         for o in &offers {
-            assert!(o.p >= LEAST_P && o.chance <= MOST_CHANCE && o.uncertainty > 0.0, "{o:?}");
+            assert!(o.p >= MIN_PROBABILITY && o.chance <= MAX_CHANCE && o.uncertainty > 0.0, "{o:?}");
             assert!((o.z - (o.found - o.offered) / o.uncertainty).abs() < 1e-9, "{o:?}");
         }
     }

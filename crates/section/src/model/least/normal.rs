@@ -2,7 +2,7 @@
 
 use super::super::chain::{Chain, SegmentKind};
 use super::super::result::Uncertainty;
-use super::work::{Held, SOFT, Variable, Work};
+use super::work::{Held, TRIAL_CONDITION_WEIGHT, Variable, Work};
 
 impl Work {
     /// What each unknown of each piece does to all that follows: shift of the origin and turn about it.
@@ -142,9 +142,9 @@ impl Work {
         self.missing = self.off(chain, held);
         for (row, off) in self.conditions.iter().zip(&self.missing) {
             for v in 0..k {
-                self.right[v] += SOFT * row[v] * off;
+                self.right[v] += TRIAL_CONDITION_WEIGHT * row[v] * off;
                 for u in 0..=v {
-                    self.matrix[v * k + u] += SOFT * row[v] * row[u];
+                    self.matrix[v * k + u] += TRIAL_CONDITION_WEIGHT * row[v] * row[u];
                 }
             }
         }

@@ -3,9 +3,9 @@
 
 use super::super::chain::Layout;
 
-/// Weight of a squared distance that must vanish while models are compared: a chain that does not close yet is bent to where it does, step by
-/// step.
-pub(super) const SOFT: f64 = 1e3;
+/// Weight of a squared distance that must vanish while models are compared. A chain that does not close yet is bent to where it
+/// does, step by step.
+pub(super) const TRIAL_CONDITION_WEIGHT: f64 = 1e3;
 
 /// A join held where its place along a direction has a given value.
 #[derive(Clone, Copy, Debug)]
