@@ -114,20 +114,20 @@ impl Base {
 type Seen = ([f64; 2], f64);
 
 /// Share of the points that may stand on edge: walls of a part do, and points at its edges.
-pub const STANDING: f64 = 0.1;
+pub const MAX_STANDING_SHARE: f64 = 0.1;
 
 /// Share of the points that may lie in layers: a few outliers do.
-const FEW: f64 = 0.01;
+const MAX_LAYERED_SHARE: f64 = 0.01;
 
 /// Share of the points in layers below which they are outliers, and no other plane is looked for.
-const HARDLY_ANY: f64 = 0.002;
+const OUTLIER_SHARE: f64 = 0.002;
 
-/// Share of the points that may stand on edge over a plane over which there are hardly any layers: steep ground has one height everywhere,
-/// and a surface that follows it. A strip that stands on edge as a whole has no layers either, as its heights have no gap.
-const STEEP: f64 = 0.4;
+/// Share of the points that may stand on edge over a plane with hardly any layers. Steep ground has one height everywhere, and a
+/// surface that follows it. A strip that stands on edge as a whole has no layers either, as its heights have no gap.
+const MAX_STANDING_SHARE_OF_STEEP: f64 = 0.4;
 
 /// Points in a rectangle whose sides have a lesser ratio lie on a line: across it there is the rounding of written coordinates.
-const LINE: f64 = 1e-6;
+const MIN_SIDE_RATIO: f64 = 1e-6;
 
 /// The parameters of all points; over a plane it is the one that the surface has heights over, as far as there is one.
 pub(super) fn parameters(
@@ -193,7 +193,9 @@ fn no_line(places: &[[f64; 2]]) -> Result<(), SurfaceError> {
     let [u, v] = ranges(places.iter().copied());
     let (long, short) = ((u.1 - u.0).max(v.1 - v.0), (u.1 - u.0).min(v.1 - v.0));
     // Also what lies aslant on one line.
-    if short <= LINE * long || minimum_rectangle(places).is_none_or(|r| r.sides[1] <= LINE * r.sides[0]) {
+    if short <= MIN_SIDE_RATIO * long
+        || minimum_rectangle(places).is_none_or(|r| r.sides[1] <= MIN_SIDE_RATIO * r.sides[0])
+    {
         return Err(SurfaceError::Line);
     }
     Ok(())
@@ -202,7 +204,7 @@ fn no_line(places: &[[f64; 2]]) -> Result<(), SurfaceError> {
 /// The parameters of all vertices of a mesh laid flat, in its minimum bounding rectangle.
 pub(super) fn laid_flat(mesh: &Mesh, progress: &dyn Progress) -> Result<(Base, Vec<[f64; 2]>), SurfaceError> {
     let Scatter { mean, axes: [_, middle, most], variance } = Scatter::of(&mesh.positions);
-    if variance[1] <= LINE * LINE * variance[2] {
+    if variance[1] <= MIN_SIDE_RATIO * MIN_SIDE_RATIO * variance[2] {
         return Err(SurfaceError::Line);
     }
     let Flat { places, stretch, folded_share, round } = flatten(mesh, progress)?;
@@ -235,7 +237,7 @@ fn upright(
     let flat = plane(points, point, normal)?;
     let standing = |base: &Base| upright::standing(points, |_| base.axes[2], progress);
     let (folded, on_edge) = (folded_share(&flat.1), standing(&flat.0)?);
-    if folded <= HARDLY_ANY && on_edge <= STANDING {
+    if folded <= OUTLIER_SHARE && on_edge <= MAX_STANDING_SHARE {
         return Ok(flat);
     }
     for (n, direction) in upright::directions(points, normal, progress)?.into_iter().enumerate() {
@@ -244,12 +246,16 @@ fn upright(
         let direction = times(largest.signum(), direction);
         let (base, seen) = plane(points, point, direction)?;
         let (layers, edges) = (folded_share(&seen), standing(&base)?);
-        let steep = if layers <= FEW { STEEP } else { STANDING };
+        let steep =
+            if layers <= MAX_LAYERED_SHARE { MAX_STANDING_SHARE_OF_STEEP } else { MAX_STANDING_SHARE };
         // Some outliers look like layers from all sides, and from some a little less.
-        let gone = layers == 0.0 || folded > FEW && 2.0 * layers <= folded;
-        let fewer_layers = folded > HARDLY_ANY && gone && edges <= on_edge.max(steep);
+        let gone = layers == 0.0 || folded > MAX_LAYERED_SHARE && 2.0 * layers <= folded;
+        let fewer_layers = folded > OUTLIER_SHARE && gone && edges <= on_edge.max(steep);
         // Normals of noise are upright in some direction of several.
-        let upright = n == 0 && on_edge > STANDING && edges <= STANDING && layers <= FEW;
+        let upright = n == 0
+            && on_edge > MAX_STANDING_SHARE
+            && edges <= MAX_STANDING_SHARE
+            && layers <= MAX_LAYERED_SHARE;
         if fewer_layers || upright {
             let tilted = libm::atan2(norm(cross(normal, direction)), dot(normal, direction).abs());
             return Ok((Base { tilted, ..base }, seen));

@@ -13,19 +13,19 @@ use trueness_geom::spline::spans::Spans;
 use trueness_geom::spline::surface::Patches;
 
 /// Fits at most.
-const TRIES: usize = 40;
-/// Knots whose removal is told to change the surface by no more than this times what the tolerance has left there are tried: the cheap
-/// ones first. What is left is fitted anew, and takes up most of the change.
-const DEAR: [f64; 7] = [3.0, 5.0, 8.0, 12.0, 18.0, 27.0, 40.0];
+const MAX_TRIES: usize = 40;
+/// Knots are tried whose removal is told to change the surface by no more than this times what the tolerance has left there, the
+/// cheap ones first. The rest is fitted anew, and takes up most of the change.
+const MAX_REMOVAL_COSTS: [f64; 7] = [3.0, 5.0, 8.0, 12.0, 18.0, 27.0, 40.0];
 
 /// The surface, if within its tolerance, without the knots that it can do without.
 ///
 /// Knots that a try has shown to be needed, as points lie beyond the tolerance where they stood, are not tried again.
 pub(super) fn coarser(task: Task, mut found: SurfaceFit) -> Result<SurfaceFit, SurfaceError> {
     let mut tries = 0;
-    for dear in DEAR {
+    for dear in MAX_REMOVAL_COSTS {
         let mut needed: [Vec<f64>; 2] = [vec![], vec![]];
-        while found.reached == Some(Reached::Tolerance) && tries < TRIES {
+        while found.reached == Some(Reached::Tolerance) && tries < MAX_TRIES {
             let spare = spare(&found, task.tolerance, dear, &needed);
             let Some((knots, gone)) = without(found.surface.knots(), &spare) else { break };
             // The parameters are those of nearest places on much the same surface.

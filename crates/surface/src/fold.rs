@@ -3,7 +3,7 @@
 use trueness_geom::parallel::prelude::*;
 
 /// Points to a cell in the mean.
-const PER_CELL: f64 = 16.0;
+const POINTS_PER_CELL: f64 = 16.0;
 
 /// Share of the points in cells where two layers lie over one another.
 ///
@@ -12,7 +12,7 @@ const PER_CELL: f64 = 16.0;
 /// smaller one counts alone: outliers are no layer.
 pub(super) fn share(seen: &[([f64; 2], f64)], domain: [(f64, f64); 2]) -> f64 {
     let sides = domain.map(|d| d.1 - d.0);
-    let cell = (sides[0] * sides[1] * PER_CELL / seen.len() as f64).sqrt();
+    let cell = (sides[0] * sides[1] * POINTS_PER_CELL / seen.len() as f64).sqrt();
     let counts = sides.map(|s| (s / cell).ceil().clamp(1.0, 4096.0) as usize);
     let rates = [0, 1].map(|k| counts[k] as f64 / sides[k]);
     let cell_of = |p: [f64; 2]| {

@@ -12,22 +12,23 @@ use trueness_geom::progress::{Cancelled, Progress};
 use trueness_geom::space::Point;
 use trueness_geom::spline::surface::Patches;
 
-/// Squares to a side of a knot cell, and along a side of the domain at most.
-const FINE: usize = 8;
-const MOST: usize = 2048;
+/// Squares to a side of a knot cell at most.
+const MAX_SQUARES_PER_CELL_SIDE: usize = 8;
+/// Squares along a side of the domain at most.
+const MAX_SQUARES_PER_SIDE: usize = 2048;
 /// Gaps of this share of a knot cell and less leave no function free.
-const WIDE: f64 = 0.5;
+const WIDE_GAP_CELLS: f64 = 0.5;
 /// Areas of a point that the square of a gap comes to in rows, and more: it is 3.5 of scattered points and 2.5 of a grid.
-const ROWS: f64 = 5.0;
+const MIN_GAP_AREA_OF_ROWS: f64 = 5.0;
 /// Side of a block, in gaps.
-const BLOCK: f64 = 1.5;
+const BLOCK_SIDE_GAPS: f64 = 1.5;
 
 /// Distance of the rows in knot cells, where the points lie in rows and these lie far apart.
 ///
 /// Places between rows are a quarter of their distance from the next row in the median, and holes move it but little.
 fn row_distance(data: &Binned) -> Option<f64> {
     let counts = [0, 1].map(|k| data.spans[k].count());
-    let fine = (MOST / counts[0].max(counts[1])).clamp(1, FINE);
+    let fine = (MAX_SQUARES_PER_SIDE / counts[0].max(counts[1])).clamp(1, MAX_SQUARES_PER_CELL_SIDE);
     let [rows, columns] = counts.map(|n| n * fine);
     let mut square = vec![f64::INFINITY; rows * columns];
     for (cell, from, to) in data.items() {
@@ -42,7 +43,7 @@ fn row_distance(data: &Binned) -> Option<f64> {
     let median = median(&mut square).unwrap_or(0.0).sqrt() / fine as f64;
     let wide = 4.0 * median;
     let of_a_point = data.cells().0 as f64 / data.len() as f64;
-    (wide > WIDE && wide * wide > ROWS * of_a_point).then_some(wide)
+    (wide > WIDE_GAP_CELLS && wide * wide > MIN_GAP_AREA_OF_ROWS * of_a_point).then_some(wide)
 }
 
 /// Blocks of the domain in the two colors of a chessboard.
@@ -56,7 +57,7 @@ struct Blocks {
 
 impl Blocks {
     fn new(data: &Binned, gap: f64) -> Blocks {
-        let side = ((BLOCK * gap).round() as usize).max(2);
+        let side = ((BLOCK_SIDE_GAPS * gap).round() as usize).max(2);
         let [rows, columns] = [0, 1].map(|k| data.spans[k].count().div_ceil(side));
         let cells = data.spans[1].count();
         let mut own = Blocks { side, cells, columns, filled: vec![false; rows * columns] };

@@ -15,16 +15,16 @@ use trueness_geom::space::{Point, minus};
 use trueness_geom::spline::basis::Knots;
 use trueness_geom::spline::spans::Spans;
 
-/// Share of the points it would meet if they lay all over it as densely as elsewhere, below which a basis function is held. The
-/// noise of its control point is then twice that of others; without bound, as the share goes to none.
-const SPARSE: f64 = 0.3;
-/// Most that a plate holds, as a share of what points hold a control point with in the mean.
-pub(super) const STIFFEST: f64 = 1e-2;
-/// A plate is as stiff as that a bend of this slope from one cell to the next counts as much as one standard deviation of a point: what
-/// has no noise is held by next to nothing.
-const SLOPE: f64 = 0.1;
+/// A basis function is held that meets fewer points than this share of those it would meet if they lay all over it as densely as
+/// elsewhere. The noise of its control point is then twice that of others; without bound, as the share goes to none.
+const SPARSE_SHARE: f64 = 0.3;
+/// Most that a plate holds, as a share of the mean hold of the points on a control point.
+pub(super) const MAX_PLATE_STIFFNESS: f64 = 1e-2;
+/// A plate is as stiff as that a bend of this slope from one cell to the next counts as much as one standard deviation of a point.
+/// Points without noise are held by next to nothing.
+const PLATE_SLOPE: f64 = 0.1;
 /// Length, as a share of the shorter side, over which the surface lies down along the base.
-const REACH: f64 = 0.1;
+const LEVELLING_REACH: f64 = 0.1;
 
 /// What the control points are held by.
 pub(super) struct Ground<'a> {
@@ -55,7 +55,7 @@ impl Penalty {
         // Over a mesh laid flat there is no base in space to lie down along: the plate alone holds.
         let reach = match ground.base.kind {
             BaseKind::Mesh => f64::INFINITY,
-            _ => REACH * sides[0].min(sides[1]),
+            _ => LEVELLING_REACH * sides[0].min(sides[1]),
         };
         let integrals = data.spans.each_ref().map(Integrals::new);
         let mut stencil = Stencil::new(data.counts, data.spans.each_ref().map(Spans::degree));
@@ -77,7 +77,7 @@ pub(super) fn stiffness(data: &Binned, normal: &Stencil, variance: f64) -> f64 {
     let sides = data.spans.each_ref().map(|s| s.limits(s.count() - 1).1 - s.limits(0).0);
     let cell = sides[0] * sides[1] / data.cells().0 as f64;
     let mean = normal.trace() / (data.counts[0] * data.counts[1]) as f64;
-    (variance / (SLOPE * SLOPE * cell * mean)).min(STIFFEST)
+    (variance / (PLATE_SLOPE * PLATE_SLOPE * cell * mean)).min(MAX_PLATE_STIFFNESS)
 }
 
 /// Adds the terms of one quarter of a cell.
@@ -116,7 +116,7 @@ fn needs(data: &Binned, normal: &Stencil) -> Vec<f64> {
     let need = |k: usize| {
         let [i, j] = [k / data.counts[1], k % data.counts[1]];
         let full = density * squares[0][i] * squares[1][j];
-        (1.0 - normal.diagonal(k) / (SPARSE * full)).max(0.0)
+        (1.0 - normal.diagonal(k) / (SPARSE_SHARE * full)).max(0.0)
     };
     (0..data.counts[0] * data.counts[1]).map(need).collect()
 }

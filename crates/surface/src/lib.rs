@@ -61,7 +61,7 @@ mod tolerance;
 mod trimmed;
 mod upright;
 
-pub use base::{Base, STANDING};
+pub use base::{Base, MAX_STANDING_SHARE};
 pub use error::SurfaceError;
 pub use found::{Reached, Support, SurfaceFit};
 pub use not_a_disc::NotADisc;
@@ -231,7 +231,7 @@ fn over(
     };
     let mut found = nearest::with_true_distances(points, found?, 0.0, progress)?;
     // A surface that is not held goes along anything.
-    if found.base.standing_share > STANDING && found.far_control_points == 0 {
+    if found.base.standing_share > MAX_STANDING_SHARE && found.far_control_points == 0 {
         let base = found.base;
         found.base.standing_share = upright::passed_by(points, |p| base.up(p), &found.surface, progress)?;
     }
@@ -239,22 +239,22 @@ fn over(
 }
 
 /// Spans where none are asked for.
-const SPANS: usize = 8;
+const DEFAULT_SPANS: usize = 8;
 /// Angle of a round base that one span takes at most: a cubic has the curvature of such an arc to half a percent.
-const TURN: f64 = std::f64::consts::PI / 12.0;
-/// Points to a control point that more spans than [`SPANS`] need.
-const POINTS_EACH: usize = 4;
+const MAX_TURN_PER_SPAN: f64 = std::f64::consts::PI / 12.0;
+/// Points to a control point that more spans than [`DEFAULT_SPANS`] need.
+const POINTS_PER_CONTROL_POINT: usize = 4;
 
 /// Spans that follow a round base, as far as there are points for them.
 fn automatic_spans(base: &Base, domain: [(f64, f64); 2], points: usize, options: &Options) -> [usize; 2] {
-    let Some(radius) = base.radius else { return [SPANS; 2] };
+    let Some(radius) = base.radius else { return [DEFAULT_SPANS; 2] };
     let along = base.round_directions();
     let wanted = [0, 1].map(|k| {
-        let turns = if along[k] { (domain[k].1 - domain[k].0) / (radius * TURN) } else { 0.0 };
-        (turns.ceil() as usize).max(SPANS)
+        let turns = if along[k] { (domain[k].1 - domain[k].0) / (radius * MAX_TURN_PER_SPAN) } else { 0.0 };
+        (turns.ceil() as usize).max(DEFAULT_SPANS)
     });
     let count = |spans: [usize; 2]| (spans[0] + options.degree[0]) * (spans[1] + options.degree[1]);
-    if POINTS_EACH * count(wanted) <= points { wanted } else { [SPANS; 2] }
+    if POINTS_PER_CONTROL_POINT * count(wanted) <= points { wanted } else { [DEFAULT_SPANS; 2] }
 }
 
 fn check(points: &[Point], options: &Options) -> Result<(), SurfaceError> {

@@ -11,7 +11,7 @@ use trueness_geom::spline::basis::Knots;
 use trueness_geom::spline::surface::{FootSearch, Nurbs, Surface};
 
 /// Points between two questions whether to stop.
-const CHUNK: usize = 256;
+const POINTS_PER_SEARCH: usize = 256;
 
 /// The fit with true distances of the points that are `beyond`, by the distance that is known: the true one is no greater; and which points
 /// lie beyond the border.
@@ -36,7 +36,7 @@ pub(super) fn with_true_distances(
         }
         Ok(part.iter().map(|i| search.nearest(&points[*i as usize])).collect::<Vec<_>>())
     };
-    let found: Result<Vec<_>, Cancelled> = ask.par_chunks(CHUNK).map(chunk).collect();
+    let found: Result<Vec<_>, Cancelled> = ask.par_chunks(POINTS_PER_SEARCH).map(chunk).collect();
     let asked_from = keep.len();
     fit.doubtful = keep;
     for (index, found) in ask.into_iter().zip(found?.concat()) {

@@ -11,11 +11,11 @@ use trueness_geom::spline::basis::Knots;
 use trueness_geom::spline::surface::{Patches, Surface};
 
 /// Corrections go on while they take away this share of the root mean square.
-const GAIN: f64 = 0.01;
-/// Share of the weight of the thin plate of the first fit, as far as the residuals did not fall, that later ones have at least. Rows of a
-/// scanner lie between control points so that parameters corrected along them have no noise left: cross-validation then lets
-/// the surface go where there are no points.
-const KEPT: f64 = 0.01;
+const MIN_CORRECTION_GAIN: f64 = 0.01;
+/// Later weights of the thin plate are at least this share of the first fit's, as far as the residuals did not fall. Rows of a
+/// scanner lie between control points so that parameters corrected along them have no noise left: cross-validation then lets the
+/// surface go where there are no points.
+const MIN_FAIRNESS_SHARE: f64 = 0.01;
 
 /// The fit over these knots, with parameters corrected as the options say.
 pub(super) fn corrected(
@@ -37,7 +37,7 @@ pub(super) fn corrected(
         let mut next = once(points, best.feet.clone(), base, &knots, known, options, progress)?;
         if let (None, Some(degrees_of_freedom)) = (known, best.degrees_of_freedom) {
             let fell = (rms(&next.deviations) / rms(&best.deviations)).min(1.0);
-            let fairness = KEPT * best.fairness * fell * fell;
+            let fairness = MIN_FAIRNESS_SHARE * best.fairness * fell * fell;
             if next.fairness < fairness {
                 let held = Some(Known { fairness, degrees_of_freedom, stiffness: best.stiffness });
                 next = once(points, best.feet.clone(), base, &knots, held, options, progress)?;
@@ -55,7 +55,7 @@ pub(super) fn corrected(
             break;
         }
         best = SurfaceFit { corrections: n, ..next };
-        if after > (1.0 - GAIN) * before {
+        if after > (1.0 - MIN_CORRECTION_GAIN) * before {
             break;
         }
     }

@@ -9,14 +9,14 @@ use trueness_geom::spline::spans::Spans;
 use trueness_geom::spline::surface::Patches;
 
 /// Times that knots are set.
-const ROUNDS: usize = 24;
+const MAX_KNOT_ROUNDS: usize = 24;
 /// A round that takes away less than this share of the standard deviation follows the noise.
-const GAIN: f64 = 0.03;
+const MIN_ROUND_GAIN: f64 = 0.03;
 /// So many such rounds, one after the other, end it.
-const PATIENCE: usize = 2;
+const IDLE_ROUNDS_TO_END: usize = 2;
 
 /// Corrections of the parameters for each set of knots.
-const CORRECTIONS: usize = 2;
+const CORRECTIONS_PER_ROUND: usize = 2;
 
 /// Spans of the first surface: four along the shorter side, about square ones.
 pub(super) fn first_spans(domain: [(f64, f64); 2]) -> [usize; 2] {
@@ -107,7 +107,7 @@ impl<'a> Rounds<'a> {
     pub(super) fn next(&mut self) -> Result<Round, SurfaceError> {
         let Task { points, tolerance, options, .. } = self.task;
         let (found, feet) =
-            self.task.over(self.base, self.parameters.clone(), self.knots.clone(), CORRECTIONS)?;
+            self.task.over(self.base, self.parameters.clone(), self.knots.clone(), CORRECTIONS_PER_ROUND)?;
         self.knots = found.surface.knots().clone();
         if self.task.within(&found) {
             return Ok(Round::Over(SurfaceFit { reached: Some(Reached::Tolerance), ..found }));
@@ -118,7 +118,7 @@ impl<'a> Rounds<'a> {
         let spread = self.task.spread(&found);
         let next = finer(&self.knots, &found, self.halved, tolerance, points.len());
         let least = self.best.as_ref().map_or(f64::INFINITY, |(least, _)| *least);
-        if self.best.is_some() && spread > (1.0 - GAIN) * least {
+        if self.best.is_some() && spread > (1.0 - MIN_ROUND_GAIN) * least {
             self.idle += 1;
         } else {
             self.idle = 0;
@@ -136,21 +136,21 @@ impl<'a> Rounds<'a> {
     /// Why it ends short of the tolerance, if it does.
     fn end(&self, next: &[Knots; 2]) -> Option<Reached> {
         let (counts, degrees) = (next.each_ref().map(Knots::count), next.each_ref().map(Knots::degree));
-        if self.idle >= PATIENCE {
+        if self.idle >= IDLE_ROUNDS_TO_END {
             Some(Reached::Noise)
         } else if *next == self.knots {
             Some(Reached::Points)
         } else if solve::allowed(counts, degrees, self.task.options.memory).is_err() {
             Some(Reached::Memory)
         } else {
-            (self.done == ROUNDS).then_some(Reached::Noise)
+            (self.done == MAX_KNOT_ROUNDS).then_some(Reached::Noise)
         }
     }
 }
 
-/// Cells whose farthest point is nearer than this share of the farthest one of all wait for the next round: beside what bends most
-/// a surface of too few knots swings, and that passes by itself.
-const URGENT: f64 = 0.1;
+/// Cells whose farthest point is nearer than this share of the farthest one of all wait for the next round. A surface of too few
+/// knots swings beside its strongest bends, and that passes by itself.
+const URGENT_SHARE: f64 = 0.1;
 /// Which sides of a cell are halved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Halved {
@@ -207,7 +207,7 @@ fn finer(
         }
     }
     let most = farthest.iter().fold(0.0, |m: f64, d| m.max(*d));
-    let mut limit = tolerance.max(URGENT * most);
+    let mut limit = tolerance.max(URGENT_SHARE * most);
     loop {
         let next =
             with_halves(knots, &spans, &held, (&sizes, halved.share()), farthest.iter().map(|d| *d > limit));

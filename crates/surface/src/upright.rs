@@ -15,29 +15,31 @@ use trueness_geom::spatial::neighbors::PointTree;
 use trueness_geom::spline::surface::{FootSearch, Surface};
 
 /// Points among which neighbors are looked for, at most.
-const POINTS: usize = 1 << 16;
-/// Of those, points whose normal is asked for, at most.
-const ASKED: usize = 1 << 12;
+const MAX_POINTS_FOR_DIRECTION: usize = 1 << 16;
+/// Points whose normal is asked for among them, at most.
+const MAX_NORMALS_FOR_DIRECTION: usize = 1 << 12;
 /// Points that a normal is found from.
-const AROUND: usize = 16;
-/// Of fewer points none has a normal that can be relied upon.
-const FEWEST: usize = 64;
-/// Of the places around a point, variance across the line through them as a share of that along it: less makes it a line of places.
-const LINE: f64 = 0.04;
-/// Points that are asked whether they stand on edge, and those among which their neighbors are looked for, at most.
-const LOOKED: usize = 1 << 10;
-const AMONG: usize = 1 << 14;
+const NEIGHBORS_PER_NORMAL: usize = 16;
+/// No normal of fewer points can be relied upon.
+const MIN_POINTS_WITH_NORMALS: usize = 64;
+/// Variance of the places around a point across the line through them, as a share of that along it: less makes it a line of places.
+const MIN_VARIANCE_RATIO: f64 = 0.04;
+/// Points that are asked whether they stand on edge, at most.
+const MAX_NORMALS_FOR_EDGES: usize = 1 << 10;
+/// Points among which their neighbors are looked for, at most.
+const MAX_POINTS_FOR_EDGES: usize = 1 << 14;
 /// Cosine of the angle between normal and base, 80°, below which a point stands on edge.
-const EDGE: f64 = 0.17;
+const MAX_COSINE_ON_EDGE: f64 = 0.17;
 /// Share of the normals that may stand at a worse angle: at edges and outliers they are those of no surface.
-const APART: f64 = 0.02;
+const WORSE_NORMALS_SHARE: f64 = 0.02;
 /// First angle between directions that are tried, radians.
-const COARSE: f64 = 0.1;
-/// Directions that are told, at most, and the cosine of the angle between two of them, 20°.
-const PEAKS: usize = 6;
-const NEAR: f64 = 0.94;
+const FIRST_DIRECTION_ANGLE: f64 = 0.1;
+/// Directions that are listed, at most.
+const MAX_DIRECTIONS_LISTED: usize = 6;
+/// Cosine of the angle between two of them, 20°.
+const MAX_COSINE_OF_DIRECTIONS: f64 = 0.94;
 /// Times that the angle is halved.
-const HALVED: u32 = 8;
+const ANGLE_HALVINGS: u32 = 8;
 
 /// Share of the points whose surface stands on edge on the base, at 80° and more, as the normals of some of them tell; `up` is
 /// the normal of the base at a place. 0 of fewer than 64 points.
@@ -48,11 +50,12 @@ pub(super) fn standing(
     up: impl Fn(Point) -> Vector,
     progress: &dyn Progress,
 ) -> Result<f64, Cancelled> {
-    if points.len() < FEWEST {
+    if points.len() < MIN_POINTS_WITH_NORMALS {
         return Ok(0.0);
     }
-    let (found, asked) = normals(points, [AMONG, LOOKED], progress)?;
-    let on_edge = found.iter().filter(|(place, normal)| dot(up(*place), *normal).abs() < EDGE).count();
+    let (found, asked) = normals(points, [MAX_POINTS_FOR_EDGES, MAX_NORMALS_FOR_EDGES], progress)?;
+    let on_edge =
+        found.iter().filter(|(place, normal)| dot(up(*place), *normal).abs() < MAX_COSINE_ON_EDGE).count();
     // Among noise wider than the distance of neighbors hardly any have a normal.
     Ok(on_edge as f64 / asked as f64)
 }
@@ -68,16 +71,16 @@ pub(super) fn passed_by(
     progress: &dyn Progress,
 ) -> Result<f64, Cancelled> {
     /// Cosine of the angle between the two from which on it follows them.
-    const FOLLOWS: f64 = 0.7;
-    let (mut found, asked) = normals(points, [AMONG, LOOKED], progress)?;
-    found.retain(|(place, normal)| dot(up(*place), *normal).abs() < EDGE);
+    const MIN_FOLLOWING_COSINE: f64 = 0.7;
+    let (mut found, asked) = normals(points, [MAX_POINTS_FOR_EDGES, MAX_NORMALS_FOR_EDGES], progress)?;
+    found.retain(|(place, normal)| dot(up(*place), *normal).abs() < MAX_COSINE_ON_EDGE);
     let search = match FootSearch::new(&[surface.clone().into()], progress) {
         Err(_) if progress.cancelled() => return Err(Cancelled),
         Err(_) => return Ok(found.len() as f64 / asked as f64),
         Ok(search) => search,
     };
     let beside = |(place, normal): &&(Point, Vector)| {
-        search.nearest(place).foot.normal.is_none_or(|n| dot(n, *normal).abs() < FOLLOWS)
+        search.nearest(place).foot.normal.is_none_or(|n| dot(n, *normal).abs() < MIN_FOLLOWING_COSINE)
     };
     Ok(found.par_iter().filter(beside).count() as f64 / asked as f64)
 }
@@ -92,11 +95,14 @@ fn normals(
     let some: Vec<Point> = points.iter().step_by(points.len().div_ceil(among)).copied().collect();
     let tree = PointTree::new(&some);
     let of = |p: &Point| {
-        let around: Vec<Vector> =
-            tree.k_nearest(p, AROUND, None).iter().map(|n| minus(some[n.1 as usize], *p)).collect();
+        let around: Vec<Vector> = tree
+            .k_nearest(p, NEIGHBORS_PER_NORMAL, None)
+            .iter()
+            .map(|n| minus(some[n.1 as usize], *p))
+            .collect();
         let Scatter { variance, axes, .. } = Scatter::of(&around);
         // Of points on a line every direction across is a normal.
-        let plane = variance[1] > 4.0 * variance[0] && variance[1] > LINE * variance[2];
+        let plane = variance[1] > 4.0 * variance[0] && variance[1] > MIN_VARIANCE_RATIO * variance[2];
         plane.then_some((*p, axes[0]))
     };
     if progress.cancelled() {
@@ -118,7 +124,11 @@ pub(super) fn directions(
     progress: &dyn Progress,
 ) -> Result<Vec<Vector>, Cancelled> {
     let normals: Vec<Vector> =
-        normals(points, [POINTS, ASKED], progress)?.0.into_iter().map(|(_, normal)| normal).collect();
+        normals(points, [MAX_POINTS_FOR_DIRECTION, MAX_NORMALS_FOR_DIRECTION], progress)?
+            .0
+            .into_iter()
+            .map(|(_, normal)| normal)
+            .collect();
     let Some((u, _)) = unit(cross(normal, least_axis(normal))).filter(|_| !normals.is_empty()) else {
         return Ok(vec![]);
     };
@@ -127,10 +137,10 @@ pub(super) fn directions(
         let across = plus(times(libm::cos(turn), u), times(libm::sin(turn), v));
         plus(times(libm::cos(tilt), normal), times(libm::sin(tilt), across))
     };
-    let rings = (FRAC_PI_2 / COARSE) as usize;
+    let rings = (FRAC_PI_2 / FIRST_DIRECTION_ANGLE) as usize;
     let ring = |n: usize| {
-        let tilt = n as f64 * COARSE;
-        let count = ((TAU * libm::sin(tilt) / COARSE).ceil() as usize).max(1);
+        let tilt = n as f64 * FIRST_DIRECTION_ANGLE;
+        let count = ((TAU * libm::sin(tilt) / FIRST_DIRECTION_ANGLE).ceil() as usize).max(1);
         (0..count).map(move |k| (tilt, TAU * k as f64 / count as f64))
     };
     let tried: Vec<Vector> = (0..=rings).flat_map(ring).map(|(tilt, turn)| at(tilt, turn)).collect();
@@ -140,7 +150,9 @@ pub(super) fn directions(
     by_score.sort_by(|a, b| scores[*b].total_cmp(&scores[*a]));
     let mut coarse: Vec<usize> = vec![];
     for k in by_score {
-        if coarse.len() < PEAKS && coarse.iter().all(|c| dot(tried[*c], tried[k]).abs() < NEAR) {
+        if coarse.len() < MAX_DIRECTIONS_LISTED
+            && coarse.iter().all(|c| dot(tried[*c], tried[k]).abs() < MAX_COSINE_OF_DIRECTIONS)
+        {
             coarse.push(k);
         }
     }
@@ -152,8 +164,8 @@ pub(super) fn directions(
 
 /// The direction near this one of the greatest score.
 fn climbed(normals: &[Vector], mut best: Vector, mut most: f64) -> Vector {
-    for k in 1..=HALVED {
-        let angle = COARSE / f64::from(1u32 << k);
+    for k in 1..=ANGLE_HALVINGS {
+        let angle = FIRST_DIRECTION_ANGLE / f64::from(1u32 << k);
         let Some((x, _)) = unit(cross(best, least_axis(best))) else { break };
         let y = cross(best, x);
         let around = (0..8).filter_map(|n| {
@@ -174,6 +186,6 @@ fn climbed(normals: &[Vector], mut best: Vector, mut most: f64) -> Vector {
 /// The cosine of the angle to a normal that all but few have at least.
 fn score(normals: &[Vector], direction: Vector) -> f64 {
     let mut cosines: Vec<f64> = normals.iter().map(|n| dot(*n, direction).abs()).collect();
-    let at = (APART * cosines.len() as f64) as usize;
+    let at = (WORSE_NORMALS_SHARE * cosines.len() as f64) as usize;
     *cosines.select_nth_unstable_by(at, f64::total_cmp).1
 }

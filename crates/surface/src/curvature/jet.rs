@@ -5,13 +5,13 @@ use trueness_geom::noise::Noise;
 use trueness_geom::space::{Point, Vector, cross, dot, least_axis, minus, plus, times, unit};
 use trueness_geom::spline::surface::{Bend, Principal};
 
-/// Cosine of the angle (15 degrees) between the frame's third axis and the fitted normal, below which the frame is turned to
-/// that normal and the jet fitted again: a height over a plane that stands obliquely needs a higher degree.
-const UPRIGHT: f64 = 0.965_925_826_289_068_3;
+/// Cosine of the angle (15 degrees) between the frame's third axis and the fitted normal, below which the frame is turned to that
+/// normal and the jet fitted again. A height over a plane that stands obliquely needs a higher degree.
+const MIN_UPRIGHT_COSINE: f64 = 0.965_925_826_289_068_3;
 /// So often at most.
-const TURNS: usize = 4;
-/// Greatest condition of a system whose answer is told: a million times the rounding, and of the noise, would still be in it.
-const WORST_CONDITION: f64 = 1e6;
+const MAX_FRAME_TURNS: usize = 4;
+/// Greatest condition of a system whose answer is reported: a million times the rounding, and of the noise, would still be in it.
+const MAX_CONDITION: f64 = 1e6;
 
 /// What was found at a place.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -87,8 +87,8 @@ impl Fitter {
             return Err(NoCurvature::FewNeighbors);
         }
         let mut found = self.once(normal)?;
-        for _ in 0..TURNS {
-            if found.1 >= UPRIGHT {
+        for _ in 0..MAX_FRAME_TURNS {
+            if found.1 >= MIN_UPRIGHT_COSINE {
                 break;
             }
             found = self.once(found.0.bend.normal)?;
@@ -113,7 +113,7 @@ impl Fitter {
         let m = self.local.len();
         let squares = self.eliminate(m);
         let condition = self.invert(m).ok_or(undetermined)?;
-        if condition.is_nan() || condition > WORST_CONDITION {
+        if condition.is_nan() || condition > MAX_CONDITION {
             return Err(undetermined);
         }
         let deviation = (squares / (m - self.unknowns) as f64).sqrt();

@@ -29,7 +29,7 @@ mod terms;
 mod tests;
 
 pub use jet::Jet;
-pub use terms::{CurvatureError, DEGREES, MOST_NEIGHBORS, NoCurvature, Options, Reach, unknowns};
+pub use terms::{CurvatureError, DEGREES, MAX_NEIGHBORS, NoCurvature, Options, Reach, unknowns};
 
 use jet::Fitter;
 use terms::Terms;
@@ -39,9 +39,9 @@ use trueness_geom::progress::{Cancelled, Progress};
 use trueness_geom::space::Point;
 
 /// Places answered between two questions whether to go on.
-const TASK: usize = 64;
+const PLACES_PER_STOP_CHECK: usize = 64;
 /// Pieces that the places are divided into, whatever the number of threads.
-const RUNS: usize = 64;
+const MAX_RUNS: usize = 64;
 
 /// Curvatures of all places, in their order.
 #[derive(Clone, Debug)]
@@ -128,18 +128,18 @@ fn all<T: Send, W: FnMut(&mut Fitter, u32) -> T>(
     worker: impl Fn() -> W + Sync,
 ) -> Result<Vec<T>, Cancelled> {
     // Few workers, for each has room for a mark a place.
-    let run = count.div_ceil(RUNS).max(4 * TASK);
+    let run = count.div_ceil(MAX_RUNS).max(4 * PLACES_PER_STOP_CHECK);
     let parts: Vec<Vec<T>> = (0..count.div_ceil(run))
         .into_par_iter()
         .map(|part| {
             let (mut fitter, mut answer) = (Fitter::new(terms.degree, terms.noise), worker());
             let (from, to) = (part * run, count.min((part + 1) * run));
             let mut answers = Vec::with_capacity(to - from);
-            for first in (from..to).step_by(TASK) {
+            for first in (from..to).step_by(PLACES_PER_STOP_CHECK) {
                 if progress.cancelled() {
                     break;
                 }
-                let last = to.min(first + TASK);
+                let last = to.min(first + PLACES_PER_STOP_CHECK);
                 answers.extend((first..last).map(|i| answer(&mut fitter, i as u32)));
                 progress.advance((last - first) as u64);
             }

@@ -9,10 +9,10 @@ use trueness_geom::space::{Aabb, Point, Vector, dot, minus};
 use trueness_geom::spatial::neighbors::{Neighbor, PointTree};
 
 /// Neighbors of a point that normals are handed on to.
-const LINKS: usize = 8;
-/// Angle without a neighbor from which on a point lies on a boundary: 150 degrees. Of 30 neighbors at random directions one in
-/// 200,000 inner points has such a gap; a straight boundary has one of 180 degrees.
-const GAP: f64 = 5.0 / 6.0 * PI;
+const LINKS_PER_POINT: usize = 8;
+/// Angle without a neighbor from which on a point lies on a boundary: 150 degrees. One inner point in 200,000 has such a gap among
+/// 30 neighbors at random directions; a straight boundary has one of 180 degrees.
+const MIN_BOUNDARY_GAP: f64 = 5.0 / 6.0 * PI;
 
 /// The places of a cloud: its finite points, equal ones as one. Copies of a point are no neighbors that tell anything more.
 pub(super) struct Near<'a> {
@@ -65,7 +65,7 @@ impl Near<'_> {
         // A copy follows the first of its place.
         let lowest = self.numbers[own as usize];
         let links = (lowest != i).then_some(lowest).into_iter();
-        let links = links.chain(near.iter().map(number)).take(LINKS).collect();
+        let links = links.chain(near.iter().map(number)).take(LINKS_PER_POINT).collect();
         fitter.take(place, near.iter().map(|n| self.points[number(n) as usize]));
         (fit(fitter, terms), links)
     }
@@ -95,7 +95,7 @@ fn fit(fitter: &mut Fitter, terms: &Terms) -> Result<Jet, NoCurvature> {
         return Err(NoCurvature::FewNeighbors);
     }
     let jet = fitter.jet(flattest(&fitter.around).ok_or(NoCurvature::Undetermined)?)?;
-    if !terms.boundary && widest_gap(&fitter.around, &jet) >= GAP {
+    if !terms.boundary && widest_gap(&fitter.around, &jet) >= MIN_BOUNDARY_GAP {
         return Err(NoCurvature::Boundary);
     }
     Ok(jet)

@@ -11,17 +11,17 @@ use trueness_geom::space::{Vector, cross, dot, minus, norm, plus, unit};
 use trueness_geom::spatial::lists::lists;
 use trueness_geom::topology::{Topology, TopologyError};
 
-/// Rings do not grow through vertices with more neighbors: those around the middle of a disc of many facets would each take
-/// in all others.
-pub const HUB: usize = 256;
+/// Rings do not grow through vertices with more neighbors: those around the middle of a disc of many facets would each take in all
+/// others.
+pub const MAX_RING_NEIGHBORS: usize = 256;
 
-/// Rings around a vertex are a neighborhood if no vertex left out is nearer than this share of the farthest one in them: of a net of like
-/// cells it is 0.6. Rings of long facets reach far one way and hardly the other.
-const ROUND: f64 = 1.0 / 3.0;
+/// Rings around a vertex are a neighborhood if no vertex left out is nearer than this share of the farthest one in them: in a net
+/// of like cells it is 0.6. Rings of long facets reach far one way and hardly the other.
+const MIN_ROUND_RATIO: f64 = 1.0 / 3.0;
 /// Condition up to which the nearest vertices determine a jet in all directions: three rows of them do not, five do.
-const EVEN: f64 = 300.0;
+const MAX_EVEN_CONDITION: f64 = 300.0;
 /// Times the neighbors asked for that are taken for it at most.
-const MOST_TIMES: usize = 12;
+const MAX_NEIGHBOR_GROWTH: usize = 12;
 
 /// A mesh as vertices that know their neighbors.
 pub(super) struct Rings<'a> {
@@ -134,9 +134,10 @@ impl Walk<'_> {
         };
         let farthest = self.found.iter().map(square).fold(0.0, f64::max);
         let left_out = |n: &&u32| self.seen[**n as usize] != self.round;
-        let around = self.found.iter().map(|n| rings.beside(*n)).filter(|beside| beside.len() <= HUB);
+        let around =
+            self.found.iter().map(|n| rings.beside(*n)).filter(|beside| beside.len() <= MAX_RING_NEIGHBORS);
         let beside = around.flatten().filter(left_out);
-        beside.map(square).fold(f64::INFINITY, f64::min) >= ROUND * ROUND * farthest
+        beside.map(square).fold(f64::INFINITY, f64::min) >= MIN_ROUND_RATIO * MIN_ROUND_RATIO * farthest
     }
 
     /// The jet of the nearest vertices, more and more of them, until it is determined in all directions.
@@ -146,7 +147,10 @@ impl Walk<'_> {
             self.gather_nearest(v, wanted);
             let jet = self.fit(v, fitter);
             let is_all = self.found.len() <= wanted;
-            if is_all || wanted >= MOST_TIMES * count || jet.is_ok_and(|jet| jet.condition <= EVEN) {
+            if is_all
+                || wanted >= MAX_NEIGHBOR_GROWTH * count
+                || jet.is_ok_and(|jet| jet.condition <= MAX_EVEN_CONDITION)
+            {
                 return jet;
             }
             wanted += wanted / 2;
@@ -168,7 +172,7 @@ impl Walk<'_> {
                 break;
             }
             let beside = rings.beside(n);
-            if n != v && beside.len() > HUB {
+            if n != v && beside.len() > MAX_RING_NEIGHBORS {
                 continue;
             }
             for &other in beside {
@@ -214,7 +218,7 @@ impl Walk<'_> {
             let end = ring.end;
             for k in ring {
                 let beside = rings.beside(self.found[k]);
-                if k > 0 && beside.len() > HUB {
+                if k > 0 && beside.len() > MAX_RING_NEIGHBORS {
                     continue;
                 }
                 for &n in beside {

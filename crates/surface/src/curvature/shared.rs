@@ -4,9 +4,9 @@ use super::jet::Fitter;
 use trueness_geom::noise::Noise;
 use trueness_geom::space::{minus, norm};
 
-/// Up to so many data all pairs are looked at. Of more, what is asked varies so little from neighbor to neighbor that each stands for
-/// as many as share its noise.
-const ALL_PAIRS: usize = 300;
+/// Up to so many data all pairs are looked at. The value asked for varies little from neighbor to neighbor in more data: each
+/// stands for as many as share its noise.
+const MAX_DATA_IN_ALL_PAIRS: usize = 300;
 
 impl Fitter {
     /// Standard deviation of a sum of coefficients from `first` on, for data of standard deviation 1 with this noise: `√(wᵀCw)` of the weights `w` of
@@ -19,7 +19,7 @@ impl Fitter {
         turned.iter_mut().skip(first).zip(weights).for_each(|(of, weight)| *of = weight);
         self.turn(&mut turned);
         let squares: f64 = turned.iter().map(|x| x * x).sum();
-        if m > ALL_PAIRS {
+        if m > MAX_DATA_IN_ALL_PAIRS {
             return (noise.points_per_independent * squares).sqrt();
         }
         let pair = |i: usize, j: usize| {

@@ -8,9 +8,9 @@ use trueness_geom::topology::weld::WeldError;
 /// Degrees of the jets that can be fitted.
 pub const DEGREES: std::ops::RangeInclusive<usize> = 2..=6;
 /// Neighbors for each unknown, where their number is not given.
-const PER_UNKNOWN: usize = 3;
+const NEIGHBORS_PER_UNKNOWN: usize = 3;
 /// Most neighbors that can be asked for.
-pub const MOST_NEIGHBORS: usize = 10_000;
+pub const MAX_NEIGHBORS: usize = 10_000;
 
 /// How curvatures are found.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,7 +46,7 @@ impl Reach {
     /// Fewest neighbors that are looked for with jets of this degree; `None` where a radius tells.
     pub fn neighbors(self, degree: usize) -> Option<usize> {
         match self {
-            Reach::Auto => Some(PER_UNKNOWN * unknowns(degree)),
+            Reach::Auto => Some(NEIGHBORS_PER_UNKNOWN * unknowns(degree)),
             Reach::Count(count) => Some(count),
             Reach::Radius(_) => None,
         }
@@ -106,7 +106,7 @@ pub enum CurvatureError {
     #[error("degree {0}: it must be from {first} to {last}", first = DEGREES.start(), last = DEGREES.end())]
     Degree(usize),
     /// Too few neighbors for the degree, or too many.
-    #[error("{asked} neighbors: a jet of degree {degree} needs from {needed} to {MOST_NEIGHBORS}")]
+    #[error("{asked} neighbors: a jet of degree {degree} needs from {needed} to {MAX_NEIGHBORS}")]
     Neighbors {
         /// Asked for.
         asked: usize,
@@ -167,7 +167,7 @@ impl Terms {
         }
         let unknowns = unknowns(degree);
         let reach = match (options.reach, options.reach.neighbors(degree)) {
-            (_, Some(count)) if (unknowns..=MOST_NEIGHBORS).contains(&count) => Taken::Count(count),
+            (_, Some(count)) if (unknowns..=MAX_NEIGHBORS).contains(&count) => Taken::Count(count),
             (_, Some(asked)) => return Err(CurvatureError::Neighbors { asked, degree, needed: unknowns }),
             (Reach::Radius(r), _) if r > 0.0 && r.is_finite() => Taken::Radius(r),
             (Reach::Radius(r), _) => return Err(CurvatureError::Radius(r)),

@@ -12,11 +12,11 @@ use trueness_geom::num::sparse::Sparse;
 use trueness_geom::progress::{Cancelled, Progress};
 use trueness_geom::space::{Point, minus, norm, plus, times};
 
-/// What may be left of the equations.
-const ACCURACY: f64 = 1e-13;
+/// Residual that the solver may leave in the equations.
+const MEAN_VALUE_ACCURACY: f64 = 1e-13;
 
 /// Length of an edge of the rim at least, as a share of their mean.
-const LEAST: f64 = 1e-6;
+const MIN_RIM_EDGE_SHARE: f64 = 1e-6;
 
 /// Places of the vertices within the circle around the origin that has the area of the mesh, the rim on it by its length.
 pub(super) fn within_circle(
@@ -41,7 +41,7 @@ pub(super) fn within_circle(
         .map(|(a, b)| norm(minus(positions[*a as usize], positions[*b as usize])))
         .collect();
     // Vertices at one place have a place each.
-    let least = LEAST * lengths.iter().sum::<f64>() / lengths.len() as f64 + f64::MIN_POSITIVE;
+    let least = MIN_RIM_EDGE_SHARE * lengths.iter().sum::<f64>() / lengths.len() as f64 + f64::MIN_POSITIVE;
     let lengths: Vec<f64> = lengths.into_iter().map(|length| length.max(least)).collect();
     let around: f64 = lengths.iter().sum();
     let (mut is_rim, mut run) = (vec![false; corners.len()], 0.0);
@@ -76,7 +76,7 @@ pub(super) fn within_circle(
         let solver = Multigrid::new(Sparse::new(inner.len(), inner.len(), &entries));
         for (d, right) in right.iter().enumerate() {
             let mut x = vec![0.0; inner.len()];
-            solver.solve(right, &mut x, ACCURACY, progress)?;
+            solver.solve(right, &mut x, MEAN_VALUE_ACCURACY, progress)?;
             inner.iter().zip(x).for_each(|(v, x)| places[*v][d] = x);
         }
     }

@@ -34,7 +34,7 @@ pub(super) struct Flat {
 }
 
 /// Share of the area that may be stretched by less, and by more, than is told.
-const FEW: f64 = 0.01;
+const MAX_UNTOLD_AREA_SHARE: f64 = 0.01;
 
 /// Lays a mesh into the plane.
 ///
@@ -86,7 +86,7 @@ fn stretch(disc: &Disc, triangles: &[Triangle], places: &[[f64; 2]]) -> [f64; 2]
         let mut passed = 0.0;
         let end = all.iter().find(|(_, own)| {
             passed += own;
-            passed > FEW * area
+            passed > MAX_UNTOLD_AREA_SHARE * area
         });
         end.map_or(0.0, |(value, _)| *value)
     };
