@@ -7,7 +7,7 @@ use trueness_geom::parallel::prelude::*;
 use trueness_geom::space::{Aabb, Point};
 
 /// From this share of the facets on, looking at all of them is no slower.
-const FEW: usize = 16;
+const SLOWER_SHARE_DIVISOR: usize = 16;
 
 /// Facets of a mesh, over the same vertices.
 pub struct Around {
@@ -27,7 +27,7 @@ impl Around {
     pub fn new(mesh: &Mesh, asked: &[bool]) -> Option<Around> {
         let bounds = |f: &[u32; 3]| Aabb::of(&mesh.places(f));
         let count = asked.iter().filter(|asked| **asked).count();
-        if count == 0 || FEW * count > mesh.faces.len() {
+        if count == 0 || SLOWER_SHARE_DIVISOR * count > mesh.faces.len() {
             return None;
         }
         let chosen: Vec<Aabb> =

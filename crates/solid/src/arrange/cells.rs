@@ -20,7 +20,7 @@ type Anchored = (usize, i32, Around);
 type Step = ([u32; 2], i32, u32);
 
 /// Pieces of one task.
-const PART: usize = 1 << 13;
+const PIECES_PER_TASK: usize = 1 << 13;
 
 /// Winding numbers on the two sides of each piece.
 pub(super) struct Windings {
@@ -46,11 +46,13 @@ pub(super) fn windings(
     // Steps between cells, each with the first piece that makes it. Neighbors in the list mostly make the same.
     let step = |p: usize| (cell(p), pieces[p].jump, p as u32);
     let some = |part: usize| {
-        let mut some: Vec<Step> = (part * PART..pieces.len().min((part + 1) * PART)).map(step).collect();
+        let mut some: Vec<Step> =
+            (part * PIECES_PER_TASK..pieces.len().min((part + 1) * PIECES_PER_TASK)).map(step).collect();
         some.dedup_by_key(|s| (s.0, s.1));
         some
     };
-    let mut steps: Vec<Step> = (0..pieces.len().div_ceil(PART)).into_par_iter().flat_map_iter(some).collect();
+    let mut steps: Vec<Step> =
+        (0..pieces.len().div_ceil(PIECES_PER_TASK)).into_par_iter().flat_map_iter(some).collect();
     steps.par_sort_unstable();
     steps.dedup_by_key(|s| (s.0, s.1));
     let relative = relative(cells, &steps)?;

@@ -17,7 +17,7 @@
 
 use super::error::ArrangeError;
 use super::meetings::{Edge, edges};
-use super::passing::{MOST, Passing, passing};
+use super::passing::{MAX_PASSING_PLACES, Passing, passing};
 use super::snap::{snap, used};
 use std::collections::{BTreeMap, BTreeSet};
 use trueness_geom::check::intersect::{reaching, reaching_any};
@@ -49,7 +49,7 @@ impl Imprints {
 
 /// The mesh in which vertices no farther apart than `reach` are one, around the facets of these pairs; for each face the facet
 /// that it was; and what lies upon its edges and facets. New vertices come last, their coordinates made with `round`; those given stay
-/// where they are. `None` if more than [`MOST`] pairs of edges pass each other there, or of vertices and the boxes of facets meet. Cost: n log n,
+/// where they are. `None` if more than [`MAX_PASSING_PLACES`] pairs of edges pass each other there, or of vertices and the boxes of facets meet. Cost: n log n,
 /// and about a microsecond for each such pair.
 pub(super) fn imprints(
     mesh: &Mesh,
@@ -96,7 +96,9 @@ fn upon(
     let mut vertices: BTreeSet<u32> = facets.iter().flat_map(|f| mesh.faces[*f as usize]).collect();
     vertices.extend(on_edge.iter().map(|(_, v)| *v));
     let places: Vec<Aabb> = vertices.iter().map(|v| grown([&positions[*v as usize]], reach)).collect();
-    let Some(below) = reaching(mesh, topology, &places, MOST, progress)? else { return Ok(None) };
+    let Some(below) = reaching(mesh, topology, &places, MAX_PASSING_PLACES, progress)? else {
+        return Ok(None);
+    };
     let mut inside: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
     for (v, below) in vertices.into_iter().zip(below) {
         for f in below {

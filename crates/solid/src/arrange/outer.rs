@@ -47,15 +47,16 @@ pub struct Boundary {
 }
 
 /// How often a mesh is cut at most.
-const CUTS: usize = 16;
-/// Points that lie too close become one from the second cut on: those closer than this power of two of the spacing of numbers,
-/// with one more for each cut up to the highest.
-const HIGHEST: usize = 11;
+const MAX_CUTS: usize = 16;
+/// Points that lie too close become one from the second cut on: those closer than this power of two of the spacing of numbers, with
+/// one more for each cut up to the highest.
+const MAX_MERGING_POWER: usize = 11;
 /// So many pairs of facets may meet once more; beyond, their number must halve from cut to cut.
-const FEW: usize = 16;
-/// Surfaces no farther apart than so many times the spacing of numbers are made one where they lie upon each other, or where cutting comes
-/// to no end otherwise: corners that were turned and rounded; planes that such corners span; sums of several roundings.
-const REACHES: [f64; 3] = [4.0, 64.0, 1024.0];
+const MIN_PAIRS_TO_HALVE: usize = 16;
+/// Surfaces no farther apart than so many times the spacing of numbers are made one where they lie upon each other, or where
+/// cutting comes to no end otherwise: corners that were turned and rounded; planes that such corners span; sums of several
+/// roundings.
+const REACHES_IN_STEPS: [f64; 3] = [4.0, 64.0, 1024.0];
 
 /// The boundary of the places around which the facets wind once or more: the union of all shells.
 ///
@@ -157,7 +158,8 @@ pub(crate) fn boundary_of(
 /// lie upon each other but for rounding, so far apart at most, the reach that bridges it comes first: cut as they are, they may leave
 /// walls with nothing between.
 fn reaches(widest: f64, step: f64) -> Vec<Option<f64>> {
-    let mut all: Vec<Option<f64>> = std::iter::once(None).chain(REACHES.map(|r| Some(r * step))).collect();
+    let mut all: Vec<Option<f64>> =
+        std::iter::once(None).chain(REACHES_IN_STEPS.map(|r| Some(r * step))).collect();
     if widest > 0.0
         && let Some(fits) = all.iter().position(|r| r.is_some_and(|r| widest <= r))
     {
@@ -188,7 +190,7 @@ fn settled(
     let vertices = given.positions.len();
     let step = step(given, options.single);
     let mut most = usize::MAX;
-    for cut in 0..CUTS {
+    for cut in 0..MAX_CUTS {
         let is_new = |(f, source): (&[u32; 3], &u32)| {
             cut == 0 || f.iter().any(|v| !given.faces[*source as usize].contains(v))
         };
@@ -211,7 +213,7 @@ fn settled(
         if pairs.len() > most {
             break;
         }
-        most = (pairs.len() / 2).max(FEW);
+        most = (pairs.len() / 2).max(MIN_PAIRS_TO_HALVE);
         let turn = options.turn && cut == 0;
         let kept = kept(&current, topology, &pairs, turn, progress)?;
         // Corners of what crosses that are no vertices of the mesh given.
@@ -219,7 +221,7 @@ fn settled(
             let found = pairs.iter().flatten().chain(&topology.collinear);
             let corners = found.flat_map(|f| current.faces[*f as usize]);
             let movable: BTreeSet<u32> = corners.filter(|v| *v as usize >= vertices).collect();
-            (movable, step * f64::from(1u32 << cut.min(HIGHEST)))
+            (movable, step * f64::from(1u32 << cut.min(MAX_MERGING_POWER)))
         });
         let (next, faces_of) = rounded(&current, kept, options.single, close)?;
         source = faces_of.into_iter().map(|f| source[f as usize]).collect();

@@ -17,21 +17,22 @@ use trueness_geom::parallel::prelude::*;
 use trueness_geom::progress::{Cancelled, Progress};
 use trueness_geom::space::{Aabb, Point, cross, dot, minus, norm, plus, times};
 
-/// Beyond so many places where edges pass each other, or so many facets around vertices, surfaces are not taken to lie upon each other.
-pub(super) const MOST: usize = 1 << 24;
+/// Beyond so many places where edges pass each other, or so many facets around vertices, surfaces are not taken to lie upon each
+/// other.
+pub(super) const MAX_PASSING_PLACES: usize = 1 << 24;
 
 /// Two edges that pass each other, and the place on the first where they do.
 pub(super) type Passing = ([Edge; 2], Point);
 
 /// From so many edges on, a vertex is a hub.
-const HUB: usize = 32;
+const MIN_EDGES_OF_HUB: usize = 32;
 /// Boxes and directions are widened by so many reaches: one, and much more than places are rounded.
-const WIDER: f64 = 2.0;
+const WIDENING_REACHES: f64 = 2.0;
 /// No hub.
-const NONE: u32 = u32::MAX;
+const NO_HUB: u32 = u32::MAX;
 
 /// The edges of `facets` (ascending) that pass edges of `near` (ascending: the facets no farther from them than `reach`), sorted;
-/// looked at for each pair of facets of which the lower one is among `facets`. `None` if more than [`MOST`] pairs of edges
+/// looked at for each pair of facets of which the lower one is among `facets`. `None` if more than [`MAX_PASSING_PLACES`] pairs of edges
 /// pass. Cost: n log n, and a microsecond for each pair that is near.
 pub(super) fn passing(
     mesh: &Mesh,
@@ -45,7 +46,7 @@ pub(super) fn passing(
     let found = AtomicUsize::new(0);
     let of_edge = |number: usize| {
         let mut all = vec![];
-        if progress.cancelled() || found.load(Relaxed) > MOST {
+        if progress.cancelled() || found.load(Relaxed) > MAX_PASSING_PLACES {
             return all;
         }
         let mut take = |other: usize| {
@@ -62,7 +63,7 @@ pub(super) fn passing(
     if progress.cancelled() {
         return Err(Cancelled);
     }
-    if found.into_inner() > MOST {
+    if found.into_inner() > MAX_PASSING_PLACES {
         return Ok(None);
     }
     all.par_sort_unstable_by_key(|p| p.0);
@@ -96,8 +97,8 @@ fn sides(mesh: &Mesh, facets: &[u32], near: &[u32]) -> Vec<Sides> {
     }
     let hub = |[a, b]: Edge| {
         let [of_a, of_b] = [a, b].map(|v| count.get(&v).copied().unwrap_or(0));
-        if of_a.max(of_b) < HUB {
-            NONE
+        if of_a.max(of_b) < MIN_EDGES_OF_HUB {
+            NO_HUB
         } else if of_b > of_a {
             b
         } else {
@@ -105,7 +106,7 @@ fn sides(mesh: &Mesh, facets: &[u32], near: &[u32]) -> Vec<Sides> {
         }
     };
     let side = |(edge, (own, near)): (Edge, (Vec<u32>, Vec<u32>))| {
-        let hub = if own.is_empty() { NONE } else { hub(edge) };
+        let hub = if own.is_empty() { NO_HUB } else { hub(edge) };
         Sides { edge, own, near, hub }
     };
     all.into_iter().map(side).collect()
@@ -140,8 +141,8 @@ fn bundles(mesh: &Mesh, sides: &[Sides], reach: f64) -> Vec<Bundle> {
 /// Box of the directions from a hub to an edge (without one, the box of the edge), and of the edge; both widened by the reach.
 fn views(mesh: &Mesh, hub: u32, edge: Edge, reach: f64) -> (Aabb, Aabb) {
     let [a, b] = mesh.places(&edge);
-    let bounds = widened(Aabb::of([&a, &b]), WIDER * reach);
-    if hub == NONE {
+    let bounds = widened(Aabb::of([&a, &b]), WIDENING_REACHES * reach);
+    if hub == NO_HUB {
         return (bounds, bounds);
     }
     let center = mesh.positions[hub as usize];
@@ -154,7 +155,7 @@ fn views(mesh: &Mesh, hub: u32, edge: Edge, reach: f64) -> (Aabb, Aabb) {
     let way = minus(q, p);
     let t = (dot(minus(center, p), way) / dot(way, way)).clamp(0.0, 1.0);
     let far = norm(minus(center, plus(p, times(t, way))));
-    let angle = 2.0 * WIDER * reach / far;
+    let angle = 2.0 * WIDENING_REACHES * reach / far;
     let angle = if angle < 1.0 { angle } else { f64::INFINITY };
     (widened(seen::segment(center, p, q), angle), bounds)
 }

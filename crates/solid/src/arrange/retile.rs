@@ -6,7 +6,7 @@
 use super::cluster::axis_of;
 use super::imprint::Imprints;
 use super::meetings::{Edge, edge};
-use super::passing::MOST;
+use super::passing::MAX_PASSING_PLACES;
 use super::triangulate::{self, Triangles, next, triangulate};
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet, HashSet};
@@ -18,7 +18,7 @@ use trueness_geom::space::{Point, cross, minus, norm};
 use trueness_geom::topology::union::Sets;
 
 /// Cuts the facets of `mesh`, which `source` names, along what lies upon them. Facets upon which nothing lies come first, in
-/// their order. `None` where what lies upon a facet contradicts itself, or if pairs of facets share more than [`MOST`] vertices.
+/// their order. `None` where what lies upon a facet contradicts itself, or if pairs of facets share more than [`MAX_PASSING_PLACES`] vertices.
 pub(super) fn retiled(
     mesh: Mesh,
     source: &[u32],
@@ -69,7 +69,7 @@ fn groups(mesh: &Mesh, marked: &BTreeMap<u32, Vec<u32>>, reach: f64) -> Option<V
     for (i, vertices) in (0..).zip(&rare) {
         vertices.iter().for_each(|v| at.entry(*v).or_default().push(i));
     }
-    if at.values().map(|facets| facets.len() * facets.len()).sum::<usize>() > MOST {
+    if at.values().map(|facets| facets.len() * facets.len()).sum::<usize>() > MAX_PASSING_PLACES {
         return None;
     }
     let number: Vec<(u32, &Vec<u32>)> = marked.iter().map(|(f, vertices)| (*f, vertices)).collect();

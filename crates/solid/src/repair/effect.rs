@@ -123,14 +123,14 @@ struct Gone {
     gaps: Vec<u32>,
 }
 
-/// Walls nearer to each other than this share of the diagonal, with material behind both, are no surface that a part shows: gaps that
-/// rounding leaves between bodies that touch.
-const GAP: f64 = 1e-5;
-/// Of that, distances that are not worth asking.
-const NOTHING: f64 = 1e-3;
+/// Walls nearer to each other than this share of the diagonal, with material behind both, are no surface that a part shows: gaps
+/// that rounding leaves between bodies that touch.
+const HIDDEN_GAP_OF_DIAGONAL: f64 = 1e-5;
+/// Share of such a gap below which a distance is not worth asking.
+const ZERO_DISTANCE_OF_GAP: f64 = 1e-3;
 
 /// Parts of facets that are asked about at a time.
-const PIECES: usize = 1 << 15;
+const FACET_PARTS_PER_CHUNK: usize = 1 << 15;
 
 /// A place of the old surface, and a middle of what it was taken from.
 struct Asked {
@@ -142,10 +142,10 @@ struct Asked {
 /// Corners, places beside them, and others, the middle last. A corner may lie on another body, and be near what is left of that, where
 /// the surface beside it is not.
 fn asked_about(facet: u32, corners: &[Point], others: &[Point]) -> Vec<Asked> {
-    /// Of the way to the middle.
-    const BESIDE: f64 = 0.02;
+    /// Share of the way to the middle.
+    const SHARE_TOWARDS_MIDDLE: f64 = 0.02;
     let middle = others[others.len() - 1];
-    let beside = |p: &Point| plus(times(1.0 - BESIDE, *p), times(BESIDE, middle));
+    let beside = |p: &Point| plus(times(1.0 - SHARE_TOWARDS_MIDDLE, *p), times(SHARE_TOWARDS_MIDDLE, middle));
     let all = corners.iter().copied().chain(corners.iter().map(beside)).chain(others.iter().copied());
     all.map(|place| Asked { facet, place, middle }).collect()
 }
@@ -171,10 +171,11 @@ fn gone(
         return Ok(found);
     }
     let Ok(tree) = Tree::build(after) else { return Ok(Gone::default()) };
-    let reach = GAP * before.finite_bounds().diagonal();
+    let reach = HIDDEN_GAP_OF_DIAGONAL * before.finite_bounds().diagonal();
     let gaps = Gaps::new(before, reach);
     // Some at a time: of bodies that cross very often there are far more pieces than facets.
-    let pieces = enclosed.pieces.chunks(PIECES).map(|some| some.iter().flat_map(of_piece).collect());
+    let pieces =
+        enclosed.pieces.chunks(FACET_PARTS_PER_CHUNK).map(|some| some.iter().flat_map(of_piece).collect());
     for asked in std::iter::once(whole).chain(pieces) {
         let all: Vec<Point> = asked.iter().map(|a| a.place).collect();
         let distances = once(&all, |places| tree.distances(places, &Query::default(), progress));
@@ -188,7 +189,7 @@ fn gone(
                 let way = minus(*middle, *place);
                 plus(*place, times((0.5 * distance / norm(way)).min(0.001), way))
             };
-            *distance > NOTHING * reach && !progress.cancelled() && gaps.hold(*facet, inside())
+            *distance > ZERO_DISTANCE_OF_GAP * reach && !progress.cancelled() && gaps.hold(*facet, inside())
         };
         let in_gap: Vec<bool> = asked.par_iter().zip(&distances).map(in_gap).collect();
         if progress.cancelled() {
@@ -221,7 +222,7 @@ fn beyond(lost: &[[Point; 3]], after: &Mesh, progress: &dyn Progress) -> Result<
     let Ok(distances) = distances else { return Ok(None) };
     let facets: Vec<u32> = (0..after.faces.len() as u32).collect();
     let rays = Container::new(after, &facets, 0);
-    let least = NOTHING * GAP * after.finite_bounds().diagonal();
+    let least = ZERO_DISTANCE_OF_GAP * HIDDEN_GAP_OF_DIAGONAL * after.finite_bounds().diagonal();
     let counts = |p: &Point, distance: f64| distance > least && rays.winding(p).is_some_and(|w| w < 1);
     let farthest = all.par_iter().zip(distances).map(|(p, d)| if counts(p, d) { d } else { 0.0 });
     Ok(Some(farthest.reduce(|| 0.0, f64::max)))

@@ -21,9 +21,9 @@ pub(super) const STEP: Step = Step {
     removes: Removes::Fins,
 };
 
-/// Sheets with boundary edges are fins as long as all of them together have at most this share of the area of their shell, and of all in
-/// all rounds.
-const FIN: f64 = 0.1;
+/// Sheets with boundary edges are fins as long as all of them together have at most this share of the area of their shell, and of
+/// all in all rounds.
+const MAX_FIN_SHARE: f64 = 0.1;
 
 #[derive(Clone, Debug, Default)]
 struct Sheet {
@@ -75,10 +75,10 @@ pub(super) fn run(work: &mut Work) -> Result<(), RepairError> {
     }
     let shell = |s: &Sheet| known.topology.shell_of[s.facets[0] as usize] as usize;
     let mut open = vec![false; known.topology.shells];
-    let mut may_go: Vec<f64> = known.properties.shell_areas.iter().map(|area| FIN * area).collect();
+    let mut may_go: Vec<f64> = known.properties.shell_areas.iter().map(|area| MAX_FIN_SHARE * area).collect();
     // In all rounds together, of what there was at first.
     let mut gone = work.state.handover.fins_gone;
-    let most = FIN * (known.properties.area + gone);
+    let most = MAX_FIN_SHARE * (known.properties.area + gone);
     let encloses_nothing = |s: &Sheet| norm(s.vector) > 2.0 * SHEET * s.area;
     let small = |s: &Sheet, may_go: &[f64]| !s.has_rim || 0.5 * s.area <= may_go[shell(s)];
     let is_fin = |s: &Sheet| !s.edges.is_empty() && encloses_nothing(s) && 0.5 * s.area <= may_go[shell(s)];

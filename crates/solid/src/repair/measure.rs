@@ -129,7 +129,7 @@ pub(super) fn once<E>(
 }
 
 /// Exact for cubic functions on a facet: corners, middles of edges, middle.
-const WEIGHTS: [f64; 7] =
+const CUBATURE_WEIGHTS: [f64; 7] =
     [1.0 / 20.0, 1.0 / 20.0, 1.0 / 20.0, 2.0 / 15.0, 2.0 / 15.0, 2.0 / 15.0, 9.0 / 20.0];
 
 /// Distances from one surface to another. Facets of `without` do not count.
@@ -153,10 +153,10 @@ pub(super) fn way(
     let tree = Tree::build(to)?;
     let distances = once(&points, |places| tree.distances(places, &Query::default(), progress))?;
     let mut way = Way::default();
-    for (t, d) in changed.iter().zip(distances.chunks_exact(WEIGHTS.len())) {
+    for (t, d) in changed.iter().zip(distances.chunks_exact(CUBATURE_WEIGHTS.len())) {
         way.max = d.iter().copied().fold(way.max, f64::max);
         let share = if total > 0.0 { area(*t) / total } else { 0.0 };
-        way.mean += share * d.iter().zip(WEIGHTS).map(|(d, w)| d * w).sum::<f64>();
+        way.mean += share * d.iter().zip(CUBATURE_WEIGHTS).map(|(d, w)| d * w).sum::<f64>();
     }
     Ok(way)
 }

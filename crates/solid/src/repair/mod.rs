@@ -168,7 +168,7 @@ pub struct Rounded {
 }
 
 /// Holes that a step has cut are widened by no more than this share of the whole area, all together.
-const WIDEN: f64 = 0.25;
+const MAX_WIDENED_SHARE: f64 = 0.25;
 
 /// Mends `mesh`. Vertices at the same place become one first.
 ///
@@ -198,11 +198,11 @@ pub fn repair(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result
 
 /// Whether single precision takes no vertex farther than a trifle of the size.
 fn is_fine_in_single(mesh: &Mesh) -> bool {
-    /// Of the diagonal.
-    const NEGLIGIBLE: f64 = 1e-6;
+    /// Share of the diagonal.
+    const NEGLIGIBLE_SHIFT_OF_DIAGONAL: f64 = 1e-6;
     let bounds = mesh.finite_bounds();
     let most = bounds.min.iter().chain(&bounds.max).fold(0.0, |most: f64, x| most.max(x.abs()));
-    3f64.sqrt() * 0.5 * f64::from(f32::EPSILON) * most <= NEGLIGIBLE * bounds.diagonal()
+    3f64.sqrt() * 0.5 * f64::from(f32::EPSILON) * most <= NEGLIGIBLE_SHIFT_OF_DIAGONAL * bounds.diagonal()
 }
 
 /// As [`repair`], in the precision of `options` alone.
@@ -369,7 +369,7 @@ fn attempt(
         Some(from) => go_through(start.resumed(&from.state, options), &steps, from.position, None)?,
         None => {
             let mut work = start.again(options);
-            work.state.handover.widening_left = WIDEN * before.properties.area;
+            work.state.handover.widening_left = MAX_WIDENED_SHARE * before.properties.area;
             go_through(work, &steps, StepPosition::START, Some(&mut kept))?
         }
     };

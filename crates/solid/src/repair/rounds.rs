@@ -9,10 +9,10 @@ use super::step::{Removes, Step};
 use super::work::Work;
 use crate::arrange::ArrangeError;
 
-/// How often the steps are gone through at most. Two or three rounds are usual; what is not mended by then is beyond it.
-pub(super) const ROUNDS: usize = 8;
-/// Of larger meshes no states are kept: what they take of memory, some 100 bytes a facet each, is worth more than the time.
-const MOST_FACETS: usize = 1_000_000;
+/// How often the steps are gone through at most. Two or three rounds are usual; a defect that is left then is beyond it.
+pub(super) const MAX_ROUNDS: usize = 8;
+/// States of larger meshes are not kept: their memory, some 100 bytes a facet each, is worth more than the time.
+const MAX_FACETS_OF_KEPT_STATES: usize = 1_000_000;
 
 /// A step and what does it.
 #[derive(Clone, Copy)]
@@ -59,9 +59,9 @@ pub(super) fn go_through<'a>(
     mut kept: Option<&mut Vec<Kept>>,
 ) -> Result<(Work<'a>, usize), RepairError> {
     let may_cut = steps.iter().any(|(_, entry)| entry.step.removes == Removes::Crossings);
-    while position.round <= ROUNDS {
+    while position.round <= MAX_ROUNDS {
         for &(number, Entry { step, run }) in steps.iter().filter(|(number, _)| *number >= position.step) {
-            let is_kept = work.mesh().faces.len() <= MOST_FACETS
+            let is_kept = work.mesh().faces.len() <= MAX_FACETS_OF_KEPT_STATES
                 && kept.as_ref().is_some_and(|kept| kept.iter().all(|k| k.step != step));
             let before = is_kept.then(|| work.state.clone());
             run(&mut work)?;
@@ -89,5 +89,5 @@ pub(super) fn go_through<'a>(
             return Ok((work, round));
         }
     }
-    Ok((work, ROUNDS))
+    Ok((work, MAX_ROUNDS))
 }

@@ -7,7 +7,7 @@ use trueness_geom::parallel::prelude::*;
 type Key = [[u64; 3]; 3];
 
 /// No facet.
-const NONE: u32 = u32::MAX;
+const NO_FACET: u32 = u32::MAX;
 
 /// Facets of one mesh, to be found again in another.
 ///
@@ -23,11 +23,11 @@ impl Same {
     pub fn of(mesh: &Mesh, counts: impl Fn(usize) -> bool + Sync) -> Same {
         let counting = mesh.faces.par_iter().enumerate().filter(|(f, _)| counts(*f));
         let keys: Vec<Key> = counting.map(|(_, face)| key(mesh, face)).collect();
-        let mut slots = vec![NONE; (2 * keys.len()).next_power_of_two()];
+        let mut slots = vec![NO_FACET; (2 * keys.len()).next_power_of_two()];
         let starts: Vec<usize> = keys.par_iter().map(|key| start(key, slots.len())).collect();
         for (i, mut at) in (0..).zip(starts) {
             // A facet that is there several times takes one slot: copies would stand in the way of each other.
-            while slots[at] != NONE && keys[slots[at] as usize] != keys[i as usize] {
+            while slots[at] != NO_FACET && keys[slots[at] as usize] != keys[i as usize] {
                 at = (at + 1) & (slots.len() - 1);
             }
             slots[at] = i;
@@ -39,7 +39,7 @@ impl Same {
     pub fn holds(&self, mesh: &Mesh, face: &[u32; 3]) -> bool {
         let key = key(mesh, face);
         let mut at = if self.keys.is_empty() { return false } else { start(&key, self.slots.len()) };
-        while self.slots[at] != NONE {
+        while self.slots[at] != NO_FACET {
             if self.keys[self.slots[at] as usize] == key {
                 return true;
             }

@@ -41,7 +41,7 @@ pub(super) fn vertices(work: &mut Work) -> Result<(), RepairError> {
 
 /// How far a new vertex is moved into the material, in gaps, tried one after the other until no facets cross. Every second one is
 /// negative, out of the material: where the tips of two pits touch, the way into the material of one leads into the other.
-const OFFSETS: [f64; 8] = [4.0, -4.0, 32.0, -32.0, 256.0, -256.0, 2048.0, -2048.0];
+const OFFSETS_IN_GAPS: [f64; 8] = [4.0, -4.0, 32.0, -32.0, 256.0, -256.0, 2048.0, -2048.0];
 
 /// For an edge and a facet at it the other facet of its pair.
 type Pairs = BTreeMap<([u32; 2], u32), u32>;
@@ -97,7 +97,7 @@ fn rim(work: &Work, edges: &Edges, facets: &[u32], v: u32) -> Vec<u32> {
     corners.filter(|w| *w != v && edges.at(v, *w).len() == 1).collect()
 }
 
-/// Moves the fans and pairs apart, each by the first distance of [`OFFSETS`] at which it crosses nothing, and returns the fans
+/// Moves the fans and pairs apart, each by the first distance of [`OFFSETS_IN_GAPS`] at which it crosses nothing, and returns the fans
 /// that were moved.
 ///
 /// A fan at a vertex that crosses something at every distance stays where it is; at an edge it is moved all the same.
@@ -127,7 +127,7 @@ fn apart(
     // Vertices whose facets are not as they were when they were last looked at; at first all new ones.
     let mut changed: Option<BTreeSet<u32>> = None;
     loop {
-        let distances: Vec<f64> = nth.iter().map(|&n| OFFSETS[n] * work.gap).collect();
+        let distances: Vec<f64> = nth.iter().map(|&n| OFFSETS_IN_GAPS[n] * work.gap).collect();
         set_off(work, (&lost, &ways), again, &distances);
         let has_changed = |v: &u32| changed.as_ref().map_or(*v >= first, |changed| changed.contains(v));
         let pairs = work.crossings(|_, face| face.iter().any(has_changed))?;
@@ -148,7 +148,7 @@ fn apart(
         bad.dedup();
         let step_of = |i: usize| ways.get(i).map_or(1, |way| way.step);
         let may_go = |i: usize| {
-            let next = OFFSETS.get(nth[i] + step_of(i));
+            let next = OFFSETS_IN_GAPS.get(nth[i] + step_of(i));
             next.is_some_and(|o| o.abs() * work.gap <= ways.get(i).map_or(f64::INFINITY, |way| way.most))
         };
         let (more, last): (Vec<usize>, Vec<usize>) = bad.into_iter().partition(|&i| may_go(i));
@@ -237,7 +237,7 @@ fn set_off(
 struct Way {
     /// Unit vector, away from which it is moved.
     out: Vector,
-    /// How many of [`OFFSETS`] are one step: all, or those on this side.
+    /// How many of [`OFFSETS_IN_GAPS`] are one step: all, or those on this side.
     step: usize,
     /// How far it may be moved at most: no farther than changes little of it.
     most: f64,
@@ -263,14 +263,16 @@ fn ways(work: &Work, lost: &[Fan], together: &[u32]) -> Vec<Way> {
 /// is narrow, for what is moved within the cone meets nothing outside; else out of the material between them, and back.
 fn outwards(work: &Work, facets: &[u32], at: Point) -> Way {
     /// Cosine of half the angle of a cone that is narrow: 60 degrees, far from a half space.
-    const NARROW: f64 = 0.5;
+    const MIN_NARROW_CONE_COSINE: f64 = 0.5;
     /// Share of the way to the nearest other corner.
-    const LITTLE: f64 = 0.05;
+    const MAX_MOVE_SHARE: f64 = 0.05;
     let corners = facets.iter().flat_map(|f| work.corners(*f)).filter(|p| norm(minus(*p, at)) > work.gap);
     let (seen, far): (Vec<Vector>, Vec<f64>) = corners.filter_map(|p| unit(minus(p, at))).unzip();
-    let most = LITTLE * far.iter().copied().fold(f64::INFINITY, f64::min);
+    let most = MAX_MOVE_SHARE * far.iter().copied().fold(f64::INFINITY, f64::min);
     let axis = unit(seen.iter().copied().fold([0.0; 3], plus));
-    if let Some((axis, _)) = axis.filter(|(axis, _)| seen.iter().all(|way| dot(*way, *axis) > NARROW)) {
+    if let Some((axis, _)) =
+        axis.filter(|(axis, _)| seen.iter().all(|way| dot(*way, *axis) > MIN_NARROW_CONE_COSINE))
+    {
         return Way { out: times(-1.0, axis), step: 2, most };
     }
     let unit_normal = |f: &u32| normal(work.corners(*f)).unwrap_or([0.0; 3]);

@@ -192,10 +192,10 @@ impl<'a> Work<'a> {
     /// makes a surface of that. A small soup is repaired all the same, for the sake of what lies beside it.
     pub(super) fn soup(&mut self) -> Result<Option<ArrangeError>, RepairError> {
         /// With so many boundary edges the steps take about a second.
-        const SMALL: usize = 5_000;
+        const MIN_LOOSE_EDGES: usize = 5_000;
         let topology = &self.known()?.topology;
         let free = topology.boundary_edges.len();
-        let is_loose = free > topology.counting_facets.max(SMALL);
+        let is_loose = free > topology.counting_facets.max(MIN_LOOSE_EDGES);
         let is_soup = is_loose && self.all_crossings()?.is_none();
         Ok(is_soup.then(|| ArrangeError::Tangle { most: self.most_crossings() }))
     }
@@ -221,8 +221,9 @@ impl<'a> Work<'a> {
 
     /// Pairs beyond which the mesh is a tangle.
     fn most_crossings(&self) -> usize {
-        const FEW: usize = 10_000;
-        FEW + 8 * self.state.mesh.faces.len()
+        /// So many pairs are no tangle in any mesh.
+        const MIN_CROSSINGS_OF_TANGLE: usize = 10_000;
+        MIN_CROSSINGS_OF_TANGLE + 8 * self.state.mesh.faces.len()
     }
 
     /// All that the check finds of a kind which needs no crossings.

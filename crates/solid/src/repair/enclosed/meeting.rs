@@ -75,14 +75,14 @@ fn cut(t: &Facet, sides: [i32; 3], plane: &Facet) -> Option<[Point; 2]> {
 /// What share of the way from `u` to `v` leads to the plane of a facet; they lie on either side of it.
 fn share(facet: &Facet, u: Point, v: Point) -> f64 {
     /// Beyond this error, exact numbers are used.
-    const FINE: f64 = 1e-12;
+    const MAX_ERROR_OF_DOUBLES: f64 = 1e-12;
     let [a, b, c] = facet.places;
     let minus = |p: Point, q: Point| [0, 1, 2].map(|k| Interval::of(p[k]) - Interval::of(q[k]));
     let normal = interval::cross(minus(b, a), minus(c, a));
     let [from, to] = [u, v].map(|p| interval::dot(normal, minus(p, a)));
     let middle = |i: Interval| i.low + 0.5 * (i.high - i.low);
     let (whole, wide) = (middle(from) - middle(to), (from.high - from.low) + (to.high - to.low));
-    if wide <= FINE * whole.abs() {
+    if wide <= MAX_ERROR_OF_DOUBLES * whole.abs() {
         return (middle(from) / whole).clamp(0.0, 1.0);
     }
     let normal = big::cross(&big::minus(b, a), &big::minus(c, a));

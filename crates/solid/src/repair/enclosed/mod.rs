@@ -53,7 +53,7 @@ pub(super) struct Piece {
 impl Enclosed {
     /// Of a sound mesh: its signed volume.
     pub(super) fn sound(mesh: &Mesh, properties: &Properties) -> Enclosed {
-        let error = ROUNDING * properties.area * properties.bounds.diagonal();
+        let error = VOLUME_ROUNDING_SHARE * properties.area * properties.bounds.diagonal();
         let bounds = vec![true; mesh.faces.len()];
         Enclosed { volume: properties.signed_volume, error, bounds, ..Enclosed::default() }
     }
@@ -76,10 +76,10 @@ pub enum NotEnclosed {
     Cancelled(#[from] Cancelled),
 }
 
-/// What rounding adds at most, as a share of the sum of all terms.
-const ROUNDING: f64 = 1e-14;
+/// Error that rounding adds at most, as a share of the sum of all terms.
+const VOLUME_ROUNDING_SHARE: f64 = 1e-14;
 /// Facets at one place, at most.
-const MOST_AT_ONE_PLACE: usize = 64;
+const MAX_FACETS_AT_ONE_PLACE: usize = 64;
 
 /// Whether every facet that counts has a neighbor at each edge.
 pub(super) fn is_closed(topology: &Topology) -> bool {
@@ -142,7 +142,7 @@ pub(super) fn enclosed(
     let missed = norm([x, y, z]).max(norm([ix, iy, iz]));
     // Rounding alone may leave less than nothing.
     (result.volume, result.inverted) = (v.max(0.0), i.max(0.0));
-    result.error = 0.5 * missed * bounds.diagonal() + ROUNDING * size;
+    result.error = 0.5 * missed * bounds.diagonal() + VOLUME_ROUNDING_SHARE * size;
     Ok(result)
 }
 
@@ -172,7 +172,7 @@ fn meets(topology: &Topology, pairs: &[[u32; 2]]) -> Result<BTreeMap<u32, Vec<u3
     let mut same = topology.duplicate_facets.clone();
     same.sort_unstable();
     for group in same.chunk_by(|a, b| a[0] == b[0]) {
-        if group.len() > MOST_AT_ONE_PLACE {
+        if group.len() > MAX_FACETS_AT_ONE_PLACE {
             return Err(NotEnclosed::Tangle);
         }
         for (i, [first, again]) in group.iter().enumerate() {
@@ -253,9 +253,9 @@ impl Solid<'_> {
     /// shortest, so that rays pass little of it.
     fn axis(&self, vector: Vector) -> usize {
         /// Share of the greatest coordinate of the normal.
-        const STEEP: f64 = 0.25;
+        const MIN_STEEP_SHARE: f64 = 0.25;
         let most = vector[steepest(vector)].abs();
-        self.shortest.into_iter().find(|&k| vector[k].abs() >= STEEP * most).unwrap_or(0)
+        self.shortest.into_iter().find(|&k| vector[k].abs() >= MIN_STEEP_SHARE * most).unwrap_or(0)
     }
 
     /// The facets that meet no other, as far as they hang together.
@@ -335,7 +335,7 @@ impl Solid<'_> {
             let whole = vector[steepest(vector)].abs();
             let weight = 1.0 / (1 + part.upon.len()) as f64;
             sums.add(facet.terms(winding, part.area / whole, weight));
-            if part.area > LEAST_SHARE * whole {
+            if part.area > MIN_PART_SHARE * whole {
                 pieces.push(Piece { facet: part.facet, middle: part.at, corners: part.corners });
             }
         }
@@ -407,7 +407,7 @@ impl Sheets {
 
 /// Parts of less than this share of their facet may reach across a segment that ends a hair too early: their middle says nothing of
 /// where they lie.
-const LEAST_SHARE: f64 = 1e-9;
+const MIN_PART_SHARE: f64 = 1e-9;
 
 /// The axis along which a facet with this normal is seen largest.
 fn steepest(vector: Vector) -> usize {

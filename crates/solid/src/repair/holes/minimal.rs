@@ -13,7 +13,7 @@ use trueness_geom::num::predicates;
 use trueness_geom::space::{Point, Vector, cross, dot, minus, norm, normal, plus, unit};
 
 /// Vertices of a ring up to which all ways are weighed: 200,000 triangles.
-const MOST: usize = 100;
+const MAX_VERTICES_WEIGHED: usize = 100;
 
 /// What shall be least.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,7 +32,7 @@ struct Cost {
 }
 
 impl Cost {
-    const NONE: Cost = Cost { bend: 0.0, area: 0.0 };
+    const ZERO: Cost = Cost { bend: 0.0, area: 0.0 };
     const IMPOSSIBLE: Cost = Cost { bend: f64::INFINITY, area: f64::INFINITY };
 
     fn plus(self, other: Cost) -> Cost {
@@ -66,7 +66,7 @@ impl<'a> Table<'a> {
     fn new(site: &'a Site<'a, 'a>, ring: Vec<u32>, outside: Vec<Vector>, aim: Aim) -> Table<'a> {
         let at = ring.iter().map(|v| site.work.at(*v)).collect();
         let n = ring.len();
-        Table { site, aim, ring, at, outside, best: vec![(Cost::NONE, u32::MAX); n * n] }
+        Table { site, aim, ring, at, outside, best: vec![(Cost::ZERO, u32::MAX); n * n] }
     }
 
     fn fill(mut self, facets: &mut Vec<[u32; 3]>) -> Option<()> {
@@ -127,9 +127,10 @@ impl<'a> Table<'a> {
             }
         }
         // Equal areas are common (flat holes); a small weight on the length of the chord then prefers compact triangles.
-        const COMPACT: f64 = 0.01;
+        /// Equal areas are common (flat holes); a small weight on the length of the chord then prefers compact triangles.
+        const CHORD_WEIGHT: f64 = 0.01;
         let chord = minus(corners[2], corners[0]);
-        Cost { bend, area: 0.5 * norm(normal) + COMPACT * dot(chord, chord) }
+        Cost { bend, area: 0.5 * norm(normal) + CHORD_WEIGHT * dot(chord, chord) }
     }
 
     /// Unit normal of what lies beyond the chord from `i` to `j`, as chosen before.
@@ -148,7 +149,7 @@ fn ears(site: &Site, ring: &Ring, facets: &mut Vec<[u32; 3]>) -> Option<(Vec<u32
     let (work, n) = (site.work, ring.vertices.len());
     let normal = |f: &u32| normal(work.corners(*f)).unwrap_or([0.0; 3]);
     let mut outside: Vec<Vector> = ring.facets.iter().map(normal).collect();
-    if n <= MOST {
+    if n <= MAX_VERTICES_WEIGHED {
         return Some((ring.vertices.clone(), outside));
     }
     let at = |i: usize| work.at(ring.vertices[i]);
@@ -166,7 +167,7 @@ fn ears(site: &Site, ring: &Ring, facets: &mut Vec<[u32; 3]>) -> Option<(Vec<u32
     };
     let mut heap: BinaryHeap<Ear> = (0..n).filter_map(|i| ear(&before, &next, i)).collect();
     let mut left = n;
-    while left > MOST {
+    while left > MAX_VERTICES_WEIGHED {
         let Ear { vertex: i, version: v, .. } = heap.pop()?;
         if version[i] != v {
             continue;

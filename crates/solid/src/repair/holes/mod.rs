@@ -19,7 +19,7 @@ use super::step::{Removes, Step};
 use super::work::Work;
 use crate::around::Around;
 use minimal::Aim;
-use patch::{NEW, Patch};
+use patch::{FIRST_NEW_VERTEX, Patch};
 use ring::Ring;
 use site::Site;
 use std::collections::BTreeSet;
@@ -99,9 +99,9 @@ pub(super) fn run(work: &mut Work) -> Result<(), RepairError> {
     Ok(())
 }
 
-/// The holes of shells that stay open are filled up to this share of the area of the shell: what a scan misses is smaller, and what
-/// is larger may have been cut on purpose (a half tunnel of the collected meshes has a round one of 0.65 %).
-const OF_SHEET: f64 = 0.005;
+/// The holes of shells that stay open are filled up to this share of the area of the shell. Gaps of a scan are smaller, and larger
+/// ones may have been cut on purpose (a half tunnel of the collected meshes has a round one of 0.65 %).
+const MAX_HOLE_OF_SHEET: f64 = 0.005;
 
 /// All holes, with the first patch for each that may be filled.
 ///
@@ -124,7 +124,7 @@ fn trials(work: &Work, known: &Known) -> Result<Vec<Trial>, RepairError> {
         trials.iter().filter(|trial| trial.is_too_large(work)).map(|trial| trial.ring.shell).collect();
     for trial in &mut trials {
         if !trial.is_own_hole && open.contains(&trial.ring.shell) {
-            trial.limit = trial.limit.min(OF_SHEET * trial.ring.shell_area);
+            trial.limit = trial.limit.min(MAX_HOLE_OF_SHEET * trial.ring.shell_area);
         }
         if trial.is_too_large(work) || flat::is_border(work, &trial.ring, &sheets) {
             trial.patch = None;
@@ -190,7 +190,7 @@ fn propose(site: &Site, trial: &mut Trial) {
 fn insert(work: &mut Work, patch: &Patch) -> Range<u32> {
     let first = work.mesh().faces.len() as u32;
     let numbers: Vec<u32> = patch.places.iter().map(|&p| work.add(p)).collect();
-    let number = |v: u32| v.checked_sub(NEW).map_or(v, |new| numbers[new as usize]);
+    let number = |v: u32| v.checked_sub(FIRST_NEW_VERTEX).map_or(v, |new| numbers[new as usize]);
     let facets: Vec<[u32; 3]> = patch.facets.iter().map(|f| f.map(number)).collect();
     work.replace(&[], &facets);
     first..first + facets.len() as u32
@@ -246,6 +246,6 @@ fn fan(&Site { work, .. }: &Site, ring: &Ring) -> Option<Patch> {
         (plus(sum, times(0.5 * l, plus(a, b))), length + l)
     });
     let middle = times(1.0 / length, sum);
-    let facets = (0..n).map(side).map(|[a, b]| [a, b, NEW]).collect();
+    let facets = (0..n).map(side).map(|[a, b]| [a, b, FIRST_NEW_VERTEX]).collect();
     middle.iter().all(|x| x.is_finite()).then(|| Patch { places: vec![work.rounded(middle)], facets })
 }

@@ -5,7 +5,7 @@ mod joints;
 mod nearly;
 mod steps;
 
-use super::rounds::ROUNDS;
+use super::rounds::MAX_ROUNDS;
 use super::*;
 use std::collections::BTreeSet;
 use trueness_geom::num::random::Random;
@@ -75,7 +75,7 @@ fn planted_defects_of_every_kind_are_mended() {
                 assert!(facets >= k, "{} {k}: {:?}", kind.name, repaired.changes);
             }
             assert!(repaired.after.sound, "{} {k}: {:?}", kind.name, counts(&repaired.after));
-            assert!(repaired.rounds < ROUNDS, "{} {k}: {} rounds", kind.name, repaired.rounds);
+            assert!(repaired.rounds < MAX_ROUNDS, "{} {k}: {} rounds", kind.name, repaired.rounds);
             assert_eq!(mend(&repaired.mesh).changes, [], "{} {k}: nothing is left to do", kind.name);
         }
     }
@@ -120,7 +120,7 @@ fn any_mess_comes_to_an_end() {
             let mesh = Mesh { positions, faces: (0..facets).map(face).collect() };
             for holes in [Holes::UpTo(0.25), Holes::All] {
                 let repaired = mend_with(&mesh, &Options { holes, islands: Some(0.1), ..Options::default() });
-                assert!(repaired.rounds <= ROUNDS);
+                assert!(repaired.rounds <= MAX_ROUNDS);
                 assert!(repaired.mesh.positions.iter().flatten().all(|x| x.is_finite()));
             }
         }
