@@ -40,7 +40,7 @@ pub use model::chain::SegmentKind;
 pub use model::crossings::crossings;
 pub use model::foot::SegmentFoot;
 pub use model::result::{
-    Continuity, Contour, Geometry, Join, Options, SectionError, Segment, Taken, Uncertainty,
+    Continuity, Contour, Geometry, Join, Options, RowKind, SectionError, Segment, Uncertainty,
 };
 pub use order::bent::{Bent, bent_across};
 pub use order::slab::{ordered_contour, slab};

@@ -424,7 +424,7 @@ pub fn method_contour(
     all.segments.iter_mut().for_each(|s| s.rms = (s.rms / s.count.max(1) as f64).sqrt());
     // A rule to stop may end far from where the line does: the points then tell the noise, not what is left of them.
     let most = MAX_SEGMENT_RMS_SIGMAS * found.noise.max(NEGLIGIBLE_OFFSET_SPACINGS * found.spacing);
-    all.astray = (0..all.segments.len()).filter(|k| all.segments[*k].rms > most).collect();
+    all.unreliable = (0..all.segments.len()).filter(|k| all.segments[*k].rms > most).collect();
     all.noise = options.noise.unwrap_or((sum / kept.max(1) as f64).sqrt());
     all
 }

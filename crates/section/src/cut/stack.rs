@@ -166,8 +166,8 @@ mod tests {
         }
         planes.push(Plane { normal: [f64::NAN; 3], offset: 0.0 });
         let mut near = vec![None; planes.len()];
-        facets_near::<Cancelled>(&mesh, &planes, &Silent, |some| {
-            some.into_iter().for_each(|(plane, facets)| assert!(near[plane].replace(facets).is_none()));
+        facets_near::<Cancelled>(&mesh, &planes, &Silent, |batch| {
+            batch.into_iter().for_each(|(plane, facets)| assert!(near[plane].replace(facets).is_none()));
             Ok(())
         })
         .unwrap();

@@ -6,7 +6,7 @@ use super::scan::{CutMesh, ScanRow};
 use crate::model::chain::SegmentKind;
 use crate::model::flat::{distance, off_line};
 use crate::model::prior::{Known, Prior};
-use crate::model::result::{Contour, Join, Options, SectionError, Segment, Taken};
+use crate::model::result::{Contour, Join, Options, RowKind, SectionError, Segment};
 use crate::row::clean::check;
 use crate::row::contour::{contour, contour_with};
 use crate::row::direction::from_the_end;
@@ -31,7 +31,7 @@ const MIN_FACETS_AND_ARCS_OF_CURVE: (usize, usize) = (8, 3);
 /// curve as what cannot be told from 0. A chain of many facets of which hardly two follow each other straight or around a
 /// circle is that of a scan, and so is one of flat faces of many facets beside curves that no edges run along. Then all crossings,
 /// moved onto the surface between the vertices, are a row as [`contour`] takes it, each with the weight that the noise its
-/// neighbors share leaves it; so too where `options` give the noise or a continuity. [`Contour::taken`] tells which it was.
+/// neighbors share leaves it; so too where `options` give the noise or a continuity. [`Contour::row_kind`] tells which it was.
 ///
 /// Labels, residuals and stations are those of the chain's points. Intervals of joins of exact lines and arcs are where
 /// the two are no farther apart than rounding.
@@ -109,14 +109,14 @@ fn in_direction(
         let found = Contour { moved: places.clone(), ..found };
         Ok(within_facets(spread(found, &kept, noise, &places), &points))
     };
-    let known = Known::given(options).or(noise);
+    let known = Known::stated(options).or(noise);
     let first = find(known);
     // Where the noise of the whole mesh is not that of the section, this tells its own.
-    let astray = first.as_ref().map_or(0, |c| c.astray.len());
+    let unreliable = first.as_ref().map_or(0, |c| c.unreliable.len());
     let most = MAX_KNOWN_NOISES * known.map_or(0.0, |n| n.deviation);
-    let found = match options.noise.is_none() && mesh.scatters && known.is_some() && astray > 0 {
+    let found = match options.noise.is_none() && mesh.scatters && known.is_some() && unreliable > 0 {
         true => match find(None) {
-            Ok(other) if other.astray.len() <= astray && other.noise <= most => Ok(other),
+            Ok(other) if other.unreliable.len() <= unreliable && other.noise <= most => Ok(other),
             Err(SectionError::Cancelled(e)) => Err(e.into()),
             _ => first,
         },
@@ -231,8 +231,8 @@ fn within_facets(contour: Contour, points: &[[f64; 2]]) -> Contour {
             && s.rms <= share * rms
             && s.max <= MAX_SAGITTA_SHARES[1] * most
     };
-    let astray = all.astray.iter().copied().filter(|k| !runs_along(k)).collect();
-    all.astray = astray;
+    let unreliable = all.unreliable.iter().copied().filter(|k| !runs_along(k)).collect();
+    all.unreliable = unreliable;
     all
 }
 
@@ -240,7 +240,7 @@ fn within_facets(contour: Contour, points: &[[f64; 2]]) -> Contour {
 fn spread(found: Contour, kept: &[usize], known: Option<Known>, points: &[[f64; 2]]) -> Contour {
     let starts: Vec<f64> = starts(&found.segments);
     let n = kept.len();
-    let mut all = Contour { taken: Taken::Scan, ..found };
+    let mut all = Contour { row_kind: RowKind::Scan, ..found };
     for list in [&mut all.outliers, &mut all.repeated, &mut all.gaps, &mut all.doubtful, &mut all.straight_on]
     {
         list.iter_mut().for_each(|i| *i = kept[*i]);
@@ -277,9 +277,9 @@ fn spread(found: Contour, kept: &[usize], known: Option<Known>, points: &[[f64; 
         s.count >= MIN_POINTS_AND_NOISES_OF_SCATTER.0 && s.rms > MIN_POINTS_AND_NOISES_OF_SCATTER.1 * noise
     };
     let far = all.segments.iter().enumerate().filter(|(_, s)| s.max > most || scattered(s));
-    all.astray.extend(far.map(|(k, _)| k).collect::<Vec<_>>());
-    all.astray.sort_unstable();
-    all.astray.dedup();
+    all.unreliable.extend(far.map(|(k, _)| k).collect::<Vec<_>>());
+    all.unreliable.sort_unstable();
+    all.unreliable.dedup();
     all
 }
 

@@ -54,7 +54,7 @@ const PLACES_PER_OUTLINE_ROW: usize = 1200;
 /// # Errors
 /// [`AirfoilError::Inside`] where the profile encloses nothing. Cost: 4,000 places, sorted.
 pub fn chords(points: &[[f64; 2]], contour: &Contour, found: &Airfoil) -> Result<Chords, AirfoilError> {
-    let places = match contour.segments.is_empty() || !contour.astray.is_empty() {
+    let places = match contour.segments.is_empty() || !contour.unreliable.is_empty() {
         true => points.to_vec(),
         false => evenly(&Outline::of(contour), PLACES_AROUND_PROFILE),
     };

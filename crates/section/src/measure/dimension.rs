@@ -85,7 +85,7 @@ const GOLDEN_STEPS: usize = 48;
 /// assert!((all[0].value - std::f64::consts::FRAC_PI_2).abs() < 1e-9 && (all[2].value - 10.0).abs() < 1e-9);
 /// ```
 pub fn dimensions(contours: &[Contour]) -> Vec<Dimension> {
-    let sound = |c: usize, k: usize| !contours[c].astray.contains(&k);
+    let sound = |c: usize, k: usize| !contours[c].unreliable.contains(&k);
     let lines = known(contours, |c, k| {
         Line::of(&contours[c], k).filter(|_| sound(c, k)).map(|l| (l.length, ([c, k], l)))
     });
@@ -275,7 +275,7 @@ fn gaps(contours: &[Contour]) -> Vec<Dimension> {
             let found = gap([c, d], [&contours[c], &contours[d]], best.map_or(f64::INFINITY, |b| b.value));
             best = found.or(best);
         }
-        let sound = |b: &Dimension| b.of.iter().all(|[c, k]| !contours[*c].astray.contains(k));
+        let sound = |b: &Dimension| b.of.iter().all(|[c, k]| !contours[*c].unreliable.contains(k));
         let new = best.filter(sound).filter(|b| all.iter().all(|a| a.of.map(|o| o[0]) != b.of.map(|o| o[0])));
         all.extend(new);
     }

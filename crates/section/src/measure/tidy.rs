@@ -18,7 +18,7 @@ use spread::Spread;
 
 /// The offers for contours in one plane, whose points are `rows`, and why some have none. In the order of the first segment.
 ///
-/// Segments `astray`, splines, and those without uncertainty take no part. Pairs of lines that are parallel, and of arcs of one radius
+/// Segments `unreliable`, splines, and those without uncertainty take no part. Pairs of lines that are parallel, and of arcs of one radius
 /// or center, are told with the first that there is, not with all. Cost: the cube of the segments of a tangent chain, and the square
 /// of lines and of arcs; of more than 200 lines, or arcs, the first 200.
 ///

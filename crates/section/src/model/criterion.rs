@@ -83,8 +83,9 @@ impl Criterion {
     fn penalty(&self, unknowns: Unknowns) -> f64 {
         let total = self.count + self.degrees;
         let spare = (total - unknowns.number - 2.0).max(MIN_FREEDOM_SHARE * total);
-        let few = if total < SHORT_ROW_POINTS { 1.0 } else { total / spare };
-        (unknowns.weight * libm::log(self.count) + unknowns.kinds * libm::log(self.points)) * few
+        let small_sample_factor = if total < SHORT_ROW_POINTS { 1.0 } else { total / spare };
+        (unknowns.weight * libm::log(self.count) + unknowns.kinds * libm::log(self.points))
+            * small_sample_factor
     }
 }
 
@@ -153,7 +154,7 @@ pub(crate) struct Model {
 /// A piece to be made: its kind, the number of its coefficients if it is free, and where it begins and ends on the model it
 /// comes from.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Plan {
+pub(crate) struct PieceSpec {
     pub kind: SegmentKind,
     pub count: usize,
     pub from: f64,

@@ -62,8 +62,8 @@ pub(crate) fn crossing_chords(
         for &j in &open {
             let (from, to) = range(&chords[j], 1 - k);
             let apart = i.abs_diff(j);
-            let beside = apart < 2 || closed && apart + 1 == chords.len();
-            if from <= across.1 && across.0 <= to && !beside && cross(own, &chords[j]) {
+            let are_neighbors = apart < 2 || closed && apart + 1 == chords.len();
+            if from <= across.1 && across.0 <= to && !are_neighbors && cross(own, &chords[j]) {
                 found.push((i.min(j), i.max(j)));
             }
         }
@@ -182,8 +182,9 @@ mod tests {
         let side = |c: &[[f64; 2]; 2], p: [f64; 2]| {
             (c[1][0] - c[0][0]) * (p[1] - c[0][1]) - (c[1][1] - c[0][1]) * (p[0] - c[0][0]) >= 0.0
         };
-        let beside = |i: usize, j: usize| j - i < 2 || closed && j - i + 1 == n;
-        let pairs = (0..n).flat_map(|i| (i + 1..n).map(move |j| (i, j))).filter(|(i, j)| !beside(*i, *j));
+        let are_neighbors = |i: usize, j: usize| j - i < 2 || closed && j - i + 1 == n;
+        let pairs =
+            (0..n).flat_map(|i| (i + 1..n).map(move |j| (i, j))).filter(|(i, j)| !are_neighbors(*i, *j));
         let crosses = |(i, j): &(usize, usize)| {
             let (a, b) = (&chords[*i], &chords[*j]);
             side(a, b[0]) != side(a, b[1]) && side(b, a[0]) != side(b, a[1])

@@ -252,7 +252,7 @@ impl Work {
         self.exact = stop.exact;
         self.measure(row, state, true);
         let mut cost = self.cost(state, held);
-        let (mut lambda, mut stalled, mut taken) = (1e-4, 0, 0);
+        let (mut lambda, mut stalled, mut steps_taken) = (1e-4, 0, 0);
         let mut fresh = true;
         let mut next = state.clone();
         let settled = SETTLED_GAIN_VARIANCES / row.points.len() as f64;
@@ -292,8 +292,8 @@ impl Work {
             self.measure(row, &mut next, true);
             let after = self.cost(&next, held);
             if after <= cost {
-                taken += 1;
-                let missed = taken > 1 && cost - after < 0.1 * (after - stop.target);
+                steps_taken += 1;
+                let missed = steps_taken > 1 && cost - after < 0.1 * (after - stop.target);
                 stalled = if cost - after <= stop.gain * cost || missed { stalled + 1 } else { 0 };
                 (cost, lambda, fresh) = (after, (lambda * 0.1).max(1e-12), true);
                 std::mem::swap(state, &mut next);

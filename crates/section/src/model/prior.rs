@@ -16,7 +16,7 @@ const DEGREES_OF_GIVEN_NOISE: f64 = 1e6;
 
 impl Known {
     /// The noise that is given, if it is.
-    pub fn given(options: &Options) -> Option<Known> {
+    pub fn stated(options: &Options) -> Option<Known> {
         options.noise.map(|deviation| Known { deviation, degrees: DEGREES_OF_GIVEN_NOISE })
     }
 }
@@ -34,7 +34,7 @@ pub(crate) struct Prior<'a> {
 impl Prior<'_> {
     /// That of points as they are given.
     pub fn of(options: &Options) -> Prior<'static> {
-        Prior { noise: Known::given(options), ..Prior::default() }
+        Prior { noise: Known::stated(options), ..Prior::default() }
     }
 
     /// The weight of a point.

@@ -102,7 +102,7 @@ const MAX_DRAWN_LENGTH_RATIO: f64 = 1.5;
 
 impl Segment {
     /// Whether a free curve is drawn much longer than it is: it turns too fast for its points to hold it.
-    pub(crate) fn strays(&self) -> bool {
+    pub(crate) fn is_overlong(&self) -> bool {
         let Geometry::Spline { curve, .. } = &self.geometry else { return false };
         let steps = DRAWN_PLACES_PER_CONTROL_POINT * curve.points().len();
         let (from, to) = curve.domain();
@@ -194,7 +194,7 @@ pub struct Join {
 
 /// What the points of a contour were taken for.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Taken {
+pub enum RowKind {
     /// Measured points in order.
     #[default]
     Row,
@@ -204,16 +204,16 @@ pub enum Taken {
     Scan,
 }
 
-impl Taken {
+impl RowKind {
     /// All of them.
-    pub const ALL: [Taken; 3] = [Taken::Row, Taken::Facets, Taken::Scan];
+    pub const ALL: [RowKind; 3] = [RowKind::Row, RowKind::Facets, RowKind::Scan];
 
     /// The word for it: `row`, `facets`, `scan`.
     pub fn name(self) -> &'static str {
         match self {
-            Taken::Row => "row",
-            Taken::Facets => "facets",
-            Taken::Scan => "scan",
+            RowKind::Row => "row",
+            RowKind::Facets => "facets",
+            RowKind::Scan => "scan",
         }
     }
 }
@@ -222,7 +222,7 @@ impl Taken {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Contour {
     /// What its points were taken for.
-    pub taken: Taken,
+    pub row_kind: RowKind,
     /// Whether the end is the start.
     pub closed: bool,
     /// Segments in the order of the points. Of a closed contour the first is the one that the first point belongs to.
@@ -268,7 +268,7 @@ pub struct Contour {
     pub crossings: Vec<[f64; 2]>,
     /// Segments that do not run along their points, by their numbers: they lie too far off, or are much longer or shorter than
     /// the way through the points. They tell nothing of the part.
-    pub astray: Vec<usize>,
+    pub unreliable: Vec<usize>,
     /// The search for number and kinds of the segments took too long and ended before all was tried.
     pub cut_short: bool,
 }
@@ -346,7 +346,7 @@ pub enum SectionError {
     #[error(
         "no curve whose joins are all tangent runs along the points: they have corners; leave --continuity out"
     )]
-    Astray,
+    Unreliable,
     /// Neither end of the row is a line that a curve follows.
     #[error(
         "no line segment found: neither end of the row is straight and goes on as a curve; leave --search and --interval out"

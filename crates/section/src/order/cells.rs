@@ -1,6 +1,6 @@
 //! Points in a plane gathered in square cells, the shortest tree over these, and the longest ways through it.
 
-use super::link::Way;
+use super::gaps::Way;
 use crate::model::flat::distance;
 use std::collections::HashMap;
 
@@ -136,17 +136,17 @@ pub(super) fn tree_paths(cells: &Cells, tree: &Tree) -> Vec<Way> {
         way.iter().for_each(|c| used[*c] = true);
         let mut rows: Way = vec![];
         for cell in way {
-            let mut beside = vec![];
+            let mut branches = vec![];
             for &next in &tree[cell] {
                 if !used[next] {
                     let branch = reachable(tree, &used, next);
                     if branch.len() < MIN_CELLS_OF_WAY {
                         branch.iter().for_each(|c| used[*c] = true);
-                        beside.extend(branch);
+                        branches.extend(branch);
                     }
                 }
             }
-            rows.push((cell, beside));
+            rows.push((cell, branches));
         }
         ways.push(rows);
     }

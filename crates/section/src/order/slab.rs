@@ -34,7 +34,7 @@ const MAX_LENGTH_RATIO: f64 = 2.0;
 ///
 /// Points that cover an area, as of a slab that is thick for how obliquely it cuts, follow no curve: where the segments are
 /// more than twice as long as the way along which the points were put in order, or where points scatter from one side of the
-/// contour to the other, all of them are [`Contour::astray`].
+/// contour to the other, all of them are [`Contour::unreliable`].
 ///
 /// # Errors
 /// As [`contour`].
@@ -49,7 +49,7 @@ pub fn ordered_contour(
     let options = Options { closed: Some(closed), ordered: true, ..*options };
     let mut found = contour(&own, &options, progress)?;
     if found.length() > MAX_LENGTH_RATIO * row.way || scatters_across(&found) {
-        found.astray = (0..found.segments.len()).collect();
+        found.unreliable = (0..found.segments.len()).collect();
     }
     found.layered = row.layered;
     Ok(found)
@@ -157,7 +157,7 @@ mod tests {
                 Ordered { numbers: (0..points.len()).collect(), closed, way: f64::INFINITY, layered: None };
             let options = Options { noise: Some(sigma), ..Options::default() };
             let found = ordered_contour(&points, &row, &options, &Silent).unwrap();
-            (found.astray.len() == found.segments.len(), found.rms(), found.length())
+            (found.unreliable.len() == found.segments.len(), found.rms(), found.length())
         };
         for (sigma, closed, want) in
             [(1.0, true, false), (3.5, true, true), (1.0, false, false), (8.0, false, true)]

@@ -218,8 +218,9 @@ pub(super) fn faces(row: &[[f64; 2]], closed: bool) -> Faces {
     let mut lefts: Vec<f64> = all.iter().map(|w| w.left).collect();
     lefts.sort_by(f64::total_cmp);
     let every: Vec<&Window> = all.iter().collect();
-    let (some, rest) = if share >= UNCLEAR_SHARE_AND_VARIANCE.0 { (true, &good) } else { (false, &every) };
-    if (some || lefts[lefts.len() / 2] < UNCLEAR_SHARE_AND_VARIANCE.1) && mixed(rest) {
+    let (is_share_high, rest) =
+        if share >= UNCLEAR_SHARE_AND_VARIANCE.0 { (true, &good) } else { (false, &every) };
+    if (is_share_high || lefts[lefts.len() / 2] < UNCLEAR_SHARE_AND_VARIANCE.1) && mixed(rest) {
         return Faces::Unclear { apart: apart(rest) };
     }
     Faces::One

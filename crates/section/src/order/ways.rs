@@ -7,7 +7,7 @@
 //! Geometric Design 17, 2000; cells in place of moving least squares.)
 
 use super::cells::{Cells, MIN_CELLS_OF_WAY, Tree, tree_paths};
-use super::link::{Limits, Linked, gap_to_close, link, longest_by_chance};
+use super::gaps::{Limits, Linked, gap_to_close, link_over_gaps, longest_by_chance};
 use super::untangle::untangle;
 use super::walls::{Faces, Wall, faces};
 use crate::model::flat::distance;
@@ -143,7 +143,7 @@ pub fn order(points: &[[f64; 2]], gap: Option<f64>, progress: &dyn Progress) -> 
     rows.retain(|r| r.numbers.len() >= MIN_POINTS_PER_CONTOUR);
     rows.sort_by_key(|r| std::cmp::Reverse(r.numbers.len()));
     for k in 1..rows.len() {
-        rows[k].layered = rows[k].layered.or(beside(points, &rows, k, gap));
+        rows[k].layered = rows[k].layered.or(distance_beside_longer(points, &rows, k, gap));
     }
     let wider = wider(points, &rows, gap);
     Ok(Order { rows, gap, wider, fills_area: false })
@@ -178,7 +178,7 @@ fn rows(points: &[[f64; 2]], grown: Grown, gap: Option<f64>, size: f64) -> (Vec<
         (None, false) => reach,
     };
     let limits = Limits { gap, closing: reach, fewest: 2 * MIN_CELLS_OF_WAY };
-    let linked = link(ways, &cells.middles, &limits);
+    let linked = link_over_gaps(ways, &cells.middles, &limits);
     (linked.iter().map(|way| row(&cells, points, way)).collect(), gap)
 }
 
@@ -222,7 +222,7 @@ struct Walled {
     row: Ordered,
     wall: Wall,
     own: [Vec<usize>; 2],
-    beside: [Vec<usize>; 2],
+    seen_beside: [Vec<usize>; 2],
 }
 
 /// Parts rows along both faces of a wall in one for each face; whether there was one.
@@ -245,7 +245,7 @@ fn parted(
                 row.layered = unclear;
                 let mut own = [vec![], vec![]];
                 row.numbers.iter().zip(upper).for_each(|(i, u)| own[usize::from(u)].push(*i));
-                walls.push(Walled { row, wall, own, beside: [vec![], vec![]] });
+                walls.push(Walled { row, wall, own, seen_beside: [vec![], vec![]] });
             }
         }
     }
@@ -257,7 +257,7 @@ fn parted(
             walls.iter_mut().filter(is_short).find_map(|w| Some((w.wall.faces_of(&places(&row))?, w)));
         match found {
             Some((upper, wall)) => {
-                row.numbers.iter().zip(upper).for_each(|(i, u)| wall.beside[usize::from(u)].push(*i));
+                row.numbers.iter().zip(upper).for_each(|(i, u)| wall.seen_beside[usize::from(u)].push(*i));
             }
             None => rows.push(row),
         }
@@ -281,7 +281,7 @@ fn face(
     gap: Option<f64>,
     progress: &dyn Progress,
 ) -> Result<Ordered, Cancelled> {
-    let numbers = [&wall.own[side][..], &wall.beside[side]].concat();
+    let numbers = [&wall.own[side][..], &wall.seen_beside[side]].concat();
     let own: Vec<[f64; 2]> = numbers.iter().map(|i| points[*i]).collect();
     let size = crate::row::clean::size(&own);
     let alone = match size > 0.0 {
@@ -303,7 +303,7 @@ fn face(
 
 /// How far a short open row lies beside longer ones, where it does all along, no farther off than contours go on over: it is a piece of
 /// these, or of a face that was not told from them.
-fn beside(points: &[[f64; 2]], rows: &[Ordered], k: usize, gap: f64) -> Option<f64> {
+fn distance_beside_longer(points: &[[f64; 2]], rows: &[Ordered], k: usize, gap: f64) -> Option<f64> {
     let own = &rows[k];
     let short = MAX_BRANCH_SHARE * rows[0].numbers.len() as f64;
     if own.closed || own.numbers.len() as f64 > short || gap.is_nan() || gap <= 0.0 {

@@ -37,14 +37,14 @@ impl Joined {
                 contour.stations[number] = self.length + parts.stations[i % n];
             }
         }
-        let strays = |(k, s): &(usize, &Segment)| {
-            found.astray
-                || s.strays()
+        let is_unreliable_segment = |(k, s): &(usize, &Segment)| {
+            found.unreliable
+                || s.is_overlong()
                 || found.pieces()[*k].is_loose(s.count)
                 || found.widest(*k) > MAX_EMPTY_SPANS
         };
-        let astray = parts.segments.iter().enumerate().filter(strays);
-        contour.astray.extend(astray.map(|(k, _)| first + k));
+        let unreliable = parts.segments.iter().enumerate().filter(is_unreliable_segment);
+        contour.unreliable.extend(unreliable.map(|(k, _)| first + k));
         self.length += parts.length;
         contour.segments.extend(parts.segments);
         contour.joins.extend(parts.joins);
@@ -67,8 +67,8 @@ impl Joined {
         let far = |(k, [off, ahead]): &(usize, [f64; 2])| {
             *off > contour.segments[*k].max + MAX_DRAWN_OFFSET_SIGMAS * contour.noise || *ahead > most
         };
-        let astray = off.into_iter().enumerate().filter(far).map(|(k, _)| k).collect();
-        self.astray(astray);
+        let unreliable = off.into_iter().enumerate().filter(far).map(|(k, _)| k).collect();
+        self.mark_unreliable(unreliable);
     }
 
     /// Segments that leave their points for a while are astray too, at an end for the most part: points after another that tell as much as so
@@ -82,7 +82,7 @@ impl Joined {
         let contour = &self.contour;
         let most = LEAVING_RUN_SIGMAS
             * contour.noise.max(NEGLIGIBLE_OFFSET_SPACINGS * contour.spacing / LEAVING_RUN_SIGMAS);
-        let mut astray = vec![];
+        let mut unreliable = vec![];
         // The sums over the window that ends before a point; windows lie in one segment.
         let (mut first, mut weight, mut sum) = (0, 0.0, 0.0);
         for i in 0..weights.len() {
@@ -97,15 +97,15 @@ impl Joined {
                 first += 1;
             }
             if weight >= LEAVING_RUN_WEIGHT && sum.abs() > most * weight {
-                astray.push(contour.labels[i] as usize);
+                unreliable.push(contour.labels[i] as usize);
             }
         }
-        self.astray(astray);
+        self.mark_unreliable(unreliable);
     }
 
     /// These segments are astray too.
-    pub(super) fn astray(&mut self, segments: Vec<usize>) {
-        let all = &mut self.contour.astray;
+    pub(super) fn mark_unreliable(&mut self, segments: Vec<usize>) {
+        let all = &mut self.contour.unreliable;
         all.extend(segments);
         all.sort_unstable();
         all.dedup();
@@ -151,7 +151,7 @@ mod tests {
 
     /// A run of points to one side of a segment is no chance; a single one farther off may be, and points on either side are.
     #[test]
-    fn segments_that_leave_their_points_are_astray() {
+    fn segments_that_leave_their_points_are_unreliable() {
         let row = |off: &[f64]| {
             let mut all = Joined::default();
             let residuals: Vec<f64> = (0..40).map(|i| if i % 2 == 0 { 0.01 } else { -0.01 }).collect();
@@ -159,7 +159,7 @@ mod tests {
             (all.contour.noise, all.contour.spacing, all.contour.residuals) = (0.01, 0.5, residuals);
             all.contour.residuals[16..16 + off.len()].copy_from_slice(off);
             all.leaving(&[1.0; 40]);
-            all.contour.astray
+            all.contour.unreliable
         };
         assert_eq!(row(&[0.05, 0.045, 0.05, 0.055]), [0]);
         assert_eq!(row(&[-0.05, -0.045, -0.05, -0.055]), [0]);
@@ -173,8 +173,8 @@ mod tests {
         let (labels, noise) = (vec![0; 40], 0.01);
         let mut all = Joined::of(Contour { labels, residuals, noise, spacing: 0.5, ..Contour::default() });
         all.leaving(&[0.25; 40]);
-        assert!(all.contour.astray.is_empty());
+        assert!(all.contour.unreliable.is_empty());
         all.leaving(&[1.0; 40]);
-        assert_eq!(all.contour.astray, [0]);
+        assert_eq!(all.contour.unreliable, [0]);
     }
 }

@@ -147,10 +147,10 @@ impl Clean {
         for &i in outliers {
             let (most_back, most_on) = if self.closed { (n - 1, n - 1) } else { (i, n - 1 - i) };
             let before = (1..=most_back).find(|k| !is_out(&((i + n - k) % n)));
-            let behind = (1..=most_on).find(|k| !is_out(&((i + k) % n)));
+            let after = (1..=most_on).find(|k| !is_out(&((i + k) % n)));
             let back = |k: usize| self.points[(i + n - k) % n];
             let on = |k: usize| self.points[(i + k) % n];
-            self.points[i] = match (before, behind) {
+            self.points[i] = match (before, after) {
                 (Some(b), Some(c)) => {
                     let (from, to, share) = (back(b), on(c), b as f64 / (b + c) as f64);
                     [0, 1].map(|k| from[k] + share * (to[k] - from[k]))

@@ -3,8 +3,8 @@
 use super::candidate::{Candidate, Proposer, Question};
 use super::clean::check_row;
 use super::direction::from_the_end;
-use super::shared::shared;
-use super::without::Searched;
+use super::shared_noise::shared_noise;
+use super::without_strays::Searched;
 use super::{chains, corners, free_row, resolved, vertices};
 use crate::model::budget::Budget;
 use crate::model::crossings::crossings_with_loops;
@@ -95,11 +95,11 @@ fn in_direction(
     progress: &dyn Progress,
 ) -> Result<Contour, SectionError> {
     let from_the_end = from_the_end(points);
-    let told = [prior.noise.is_some(), prior.weights.is_some(), options.resolution.is_some()];
-    let alike = match (told.contains(&true), from_the_end) {
+    let stated = [prior.noise.is_some(), prior.weights.is_some(), options.resolution.is_some()];
+    let alike = match (stated.contains(&true), from_the_end) {
         (true, _) => None,
-        (false, false) => shared(points),
-        (false, true) => shared(&points.iter().rev().copied().collect::<Vec<_>>()),
+        (false, false) => shared_noise(points),
+        (false, true) => shared_noise(&points.iter().rev().copied().collect::<Vec<_>>()),
     };
     let weights = alike.map(|(_, alike)| vec![1.0 / alike; points.len()]);
     let prior = &Prior {
@@ -109,8 +109,8 @@ fn in_direction(
     };
     let budget = &Budget::new(products);
     let ask = |points: &[[f64; 2]], prior: Prior| {
-        let asked = Question::new(points, prior, options, budget)?;
-        asked.cheapest(&PROPOSERS, progress)?.ok_or(SectionError::Astray)
+        let question = Question::new(points, prior, options, budget)?;
+        question.cheapest(&PROPOSERS, progress)?.ok_or(SectionError::Unreliable)
     };
     let mut found = match from_the_end {
         false => ask(points, *prior)?,
@@ -132,16 +132,16 @@ fn turned<R>(points: &[[f64; 2]], prior: &Prior, ask: impl FnOnce(&[[f64; 2]], P
 
 /// A search that ended badly may end well from the other end.
 fn from_the_other_end(
-    asked: &Question,
+    question: &Question,
     best: Option<&Contour>,
     progress: &dyn Progress,
 ) -> Result<Option<Candidate>, SectionError> {
-    if asked.budget.is_spent(0.0) || best.is_some_and(|b| !asked.doubts(b)) {
+    if question.budget.is_spent(0.0) || best.is_some_and(|b| !question.doubts(b)) {
         return Ok(None);
     }
-    let found = turned(asked.points, &asked.prior, |points, prior| {
-        let other = Question::new(points, prior, asked.options, asked.budget)?;
+    let found = turned(question.points, &question.prior, |points, prior| {
+        let other = Question::new(points, prior, question.options, question.budget)?;
         other.cheapest(&[chains::propose, resolved::propose_instead], progress)
     });
-    Ok(found?.and_then(|found| Candidate::of(found.turned_round(asked.points))))
+    Ok(found?.and_then(|found| Candidate::of(found.turned_round(question.points))))
 }

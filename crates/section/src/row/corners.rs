@@ -9,14 +9,14 @@ use super::assembly::Joined;
 use super::candidate::{Candidate, Question};
 use super::chains;
 use super::clean::{Clean, size};
+use super::evidence::{COINCIDENCE_SHARE, MAX_NEIGHBOR_CHORD_RATIO, is_no_chance};
 use super::facets::{Item, LineOrArc, Polygon, SHARP_TURN, round};
-use super::levels::MAX_POINTS_WITH_FORM_IN_NOISE;
+use super::noise_levels::MAX_POINTS_WITH_FORM_IN_NOISE;
 use super::polygon::MIN_CORNER_TURN;
 use super::sheet::Sheet;
-use super::told::{COINCIDENCE_SHARE, MAX_NEIGHBOR_CHORD_RATIO, is_no_chance};
 use crate::model::flat::{angle, distance};
 use crate::model::prior::Prior;
-use crate::model::result::{Contour, Geometry, Options, SectionError, Taken};
+use crate::model::result::{Contour, Geometry, Options, RowKind, SectionError};
 use trueness_geom::progress::Progress;
 
 /// Coordinates are exact to this share of the size.
@@ -28,28 +28,28 @@ const MAX_OFF_CIRCLE_SHARE: f64 = 1e-3;
 
 /// The circle that the points scatter about where they speak for one, and what was found is another contour.
 pub(super) fn propose_circle(
-    asked: &Question,
+    question: &Question,
     best: Option<&Contour>,
     progress: &dyn Progress,
 ) -> Result<Option<Candidate>, SectionError> {
-    let Some(noise) = Corners::asked(asked).and_then(|corners| corners.off_a_circle(best)) else {
+    let Some(noise) = Corners::question(question).and_then(|corners| corners.off_a_circle(best)) else {
         return Ok(None);
     };
-    let options = Options { noise: Some(noise), ..*asked.options };
-    let told = Question::new(asked.points, Prior::of(&options), &options, asked.budget)?;
-    let found = told.cheapest(&[chains::propose], progress)?;
+    let options = Options { noise: Some(noise), ..*question.options };
+    let scattered = Question::new(question.points, Prior::of(&options), &options, question.budget)?;
+    let found = scattered.cheapest(&[chains::propose], progress)?;
     Ok(found.filter(is_round).and_then(Candidate::instead))
 }
 
 /// The polygon whose corners the points are, where these speak for no other contour; where they speak for neither, the contour tells that it may be
 /// both.
 pub(super) fn propose(
-    asked: &Question,
+    question: &Question,
     best: Option<&Contour>,
     _: &dyn Progress,
 ) -> Result<Option<Candidate>, SectionError> {
-    let corners = Corners::asked(asked);
-    Ok(corners.and_then(|corners| Candidate::instead(corners.or(best.cloned(), asked.options))))
+    let corners = Corners::question(question);
+    Ok(corners.and_then(|corners| Candidate::instead(corners.or(best.cloned(), question.options))))
 }
 
 /// A polygon that a row may be.
@@ -64,9 +64,9 @@ struct Corners {
 
 impl Corners {
     /// Of the row that is asked for. Points put in order, of a cloud or a scan, are no corners that somebody chose.
-    fn asked(asked: &Question) -> Option<Corners> {
-        let is_given = !asked.options.ordered && asked.may_be_exact();
-        if is_given { Corners::of(&asked.clean) } else { None }
+    fn question(question: &Question) -> Option<Corners> {
+        let is_given = !question.options.ordered && question.may_be_exact();
+        if is_given { Corners::of(&question.clean) } else { None }
     }
 
     /// Of a row of few points; `None` where it has fewer corners than a polygon.
@@ -140,9 +140,9 @@ impl Corners {
     /// Whether chords all around are about as long as those beside, as those of points taken along a curve.
     fn is_even(&self) -> bool {
         let n = self.polygon.facets();
-        let beside = |i: usize| [i, (i + 1) % n].map(|k| self.polygon.facet_length(k));
+        let chords_at = |i: usize| [i, (i + 1) % n].map(|k| self.polygon.facet_length(k));
         self.polygon.closed
-            && (0..n).map(beside).all(|[a, b]| a.max(b) <= MAX_NEIGHBOR_CHORD_RATIO * a.min(b))
+            && (0..n).map(chords_at).all(|[a, b]| a.max(b) <= MAX_NEIGHBOR_CHORD_RATIO * a.min(b))
     }
 
     /// A coincidence is one to within a share of this.
@@ -158,7 +158,7 @@ impl Corners {
         let count = self.clean.points.len() as f64;
         let expected = count * found.rms().max(self.rounding) / self.scale();
         let saved = count - found.outliers.len() as f64 - found.unknowns;
-        found.astray.is_empty() && !is_curve && is_no_chance(saved, expected)
+        found.unreliable.is_empty() && !is_curve && is_no_chance(saved, expected)
     }
 
     /// Whether the corners are those of a square, or of another regular polygon.
@@ -177,7 +177,7 @@ impl Corners {
         let Corners { clean, polygon, lines, rounding, .. } = self;
         let total = clean.numbers.iter().chain(&clean.repeated).max().map_or(0, |i| i + 1);
         let contour = Sheet { points: &clean.points, polygon, rounding, options }.exact(&lines);
-        let mut all = Joined::of(Contour { taken: Taken::Row, ..contour });
+        let mut all = Joined::of(Contour { row_kind: RowKind::Row, ..contour });
         all.finish(&clean, 0, total, vec![]);
         all.contour
     }

@@ -36,7 +36,7 @@ impl Contour {
         }
         let other = |l: u32| (count - 1) as u32 - l;
         self.labels = self.labels.into_iter().rev().map(other).collect();
-        self.astray = self.astray.into_iter().rev().map(|s| count - 1 - s).collect();
+        self.unreliable = self.unreliable.into_iter().rev().map(|s| count - 1 - s).collect();
         self.residuals = self.residuals.into_iter().rev().map(|r| 0.0 - r).collect();
         self.stations = self.stations.into_iter().rev().map(|s| whole - s).collect();
         self.moved.reverse();
@@ -98,13 +98,13 @@ impl Contour {
     pub(crate) fn keep_gaps(&mut self, points: &[[f64; 2]]) {
         /// Share of a step that leads on along the contour where it is a gap.
         const MIN_ONWARD_SHARE: f64 = 0.5;
-        if !self.astray.is_empty() {
+        if !self.unreliable.is_empty() {
             return;
         }
         let whole = self.length();
         let passed_over = |list: &[usize], i: &usize| list.binary_search(i).is_ok();
         let counts = |i: &usize| !passed_over(&self.repeated, i) && !passed_over(&self.outliers, i);
-        let beside = |gap: &usize| {
+        let point_before = |gap: &usize| {
             let before = (0..=*gap).rev().find(counts)?;
             let next = (gap + 1..points.len()).find(counts)?;
             let along = (self.stations[next] - self.stations[before]).abs();
@@ -112,7 +112,7 @@ impl Contour {
             let step = distance(points[before], points[next]);
             (step > GAP_SPACINGS * self.spacing && along >= MIN_ONWARD_SHARE * step).then_some(before)
         };
-        let mut kept: Vec<usize> = self.gaps.iter().filter_map(beside).collect();
+        let mut kept: Vec<usize> = self.gaps.iter().filter_map(point_before).collect();
         kept.dedup();
         self.gaps = kept;
     }
@@ -129,8 +129,8 @@ impl Contour {
         let joins = self.joins.len();
         self.joins.rotate_left(first.min(joins));
         self.labels.iter_mut().for_each(|l| *l = ((*l as usize + count - first) % count) as u32);
-        self.astray.iter_mut().for_each(|s| *s = (*s + count - first) % count);
-        self.astray.sort_unstable();
+        self.unreliable.iter_mut().for_each(|s| *s = (*s + count - first) % count);
+        self.unreliable.sort_unstable();
         self.stations.iter_mut().for_each(|s| *s = (*s - before).rem_euclid(whole));
     }
 }

@@ -10,7 +10,7 @@ use crate::model::chain::SegmentKind;
 use crate::model::flat::{angle, distance, dot, left, minus, off_circle, off_line};
 use crate::model::prior::NEGLIGIBLE_OFFSET_SPACINGS;
 use crate::model::result::Contour;
-use crate::search::start::Part;
+use crate::search::parts::Part;
 
 /// Longer rows tell their segments themselves.
 const MAX_POINTS_OF_EXACT_ROW: usize = 200;
@@ -144,8 +144,9 @@ fn arc(points: &[[f64; 2]], a: &Run, b: &Run, end: usize, tolerance: f64) -> Opt
     let slack = ARC_TOLERANCE_FACTOR * tolerance;
     let near = |p: &[f64; 2]| (distance(*p, center) - radius).abs() <= slack;
     // The points where it leaves the lines lie between the points of these and its own.
-    let behind = dot(minus(center, last), a.along) >= -slack && dot(minus(first, center), b.along) >= -slack;
-    (radius > slack && behind && between.iter().all(near)).then_some(Some((center, sense / radius)))
+    let is_between =
+        dot(minus(center, last), a.along) >= -slack && dot(minus(first, center), b.along) >= -slack;
+    (radius > slack && is_between && between.iter().all(near)).then_some(Some((center, sense / radius)))
 }
 
 fn parts(points: &[[f64; 2]], runs: &[Run], arcs: &[(usize, usize, Between)]) -> Vec<Part> {

@@ -7,7 +7,7 @@
 //! both ends are the facets before and after.
 
 use crate::model::flat::{angle, distance, minus};
-use crate::search::start::circle;
+use crate::search::parts::circle;
 
 /// A chord turns by no more than this, 34.4 degrees: midway between regular polygons of ten sides, which are polygons, and of
 /// eleven, which are circles.
@@ -239,7 +239,7 @@ impl Polygon {
         let mut k = 0;
         while k < items.len() {
             let n = items.len();
-            let (item, beside) = (items[k], [items[(k + n - 1) % n], items[(k + 1) % n]]);
+            let (item, neighbors) = (items[k], [items[(k + n - 1) % n], items[(k + 1) % n]]);
             let LineOrArc::Arc(center, curvature) = item.shape else {
                 k += 1;
                 continue;
@@ -253,7 +253,7 @@ impl Polygon {
                 other.shape == LineOrArc::Line && on && turn(other.from) <= NEAR_SHARP_RATIO * SHARP_TURN
             };
             let whole = item.to - item.from == self.facets();
-            if widest * NEAR_SHARP_RATIO < SHARP_TURN || whole || !beside.iter().any(doubtful) {
+            if widest * NEAR_SHARP_RATIO < SHARP_TURN || whole || !neighbors.iter().any(doubtful) {
                 k += 1;
                 continue;
             }
@@ -277,9 +277,9 @@ impl Polygon {
             return None;
         }
         let sizes = || chords.iter().map(|i| self.facet_length(i.from));
-        let beside = self.facet_length(before.from).min(self.facet_length(after.from));
+        let shorter_neighbor = self.facet_length(before.from).min(self.facet_length(after.from));
         let bent = chords[1..].iter().map(|i| self.turn(i.from % self.at.len()).abs()).fold(0.0, f64::max);
-        if sizes().fold(0.0, f64::max) >= beside || bent > MAX_TANGENT_CHORD_TURN {
+        if sizes().fold(0.0, f64::max) >= shorter_neighbor || bent > MAX_TANGENT_CHORD_TURN {
             return None;
         }
         let arc = self.arc(chords[0].from, chords[count - 1].to, MAX_TANGENT_CHORD_TURN, tolerance)?;

@@ -9,11 +9,11 @@
 use super::assembly::Joined;
 use super::candidate::{Candidate, Question};
 use super::clean::Clean;
-use super::plan::RESOLUTION_SPACINGS;
+use super::corner_search::RESOLUTION_SPACINGS;
 use crate::model::chain::SegmentKind;
 use crate::model::result::{Contour, Geometry, SectionError, Segment};
 use crate::search::partition::{FreeCost, MAX_PART_STARTS, Penalty, kinds_with_free};
-use crate::search::start::noise;
+use crate::search::parts::noise;
 use trueness_geom::num::banded::Banded;
 use trueness_geom::progress::{Cancelled, Progress};
 use trueness_geom::spline::basis::Knots;
@@ -235,13 +235,15 @@ impl Row<'_> {
 
 /// The contour of a row of a free form, as the surface that it was cut from tells.
 pub(super) fn propose(
-    asked: &Question,
+    question: &Question,
     best: Option<&Contour>,
     progress: &dyn Progress,
 ) -> Result<Option<Candidate>, SectionError> {
-    let told = asked.options.noise.is_some() || asked.options.continuity.is_some();
-    let Some(form) = asked.prior.free_form.filter(|_| !told && best.is_none()) else { return Ok(None) };
-    Ok(free_form(asked, form, progress)?.and_then(Candidate::told))
+    let is_stated = question.options.noise.is_some() || question.options.continuity.is_some();
+    let Some(form) = question.prior.free_form.filter(|_| !is_stated && best.is_none()) else {
+        return Ok(None);
+    };
+    Ok(free_form(question, form, progress)?.and_then(Candidate::beyond_chance))
 }
 
 /// The contour of a row of a free form, whose surface departs from smooth ones by `form`. `None` where lines and arcs are a part of it, or
@@ -249,8 +251,12 @@ pub(super) fn propose(
 ///
 /// # Errors
 /// Cancelled.
-fn free_form(asked: &Question, form: f64, progress: &dyn Progress) -> Result<Option<Contour>, SectionError> {
-    let mut clean = asked.clean.clone();
+fn free_form(
+    question: &Question,
+    form: f64,
+    progress: &dyn Progress,
+) -> Result<Option<Contour>, SectionError> {
+    let mut clean = question.clean.clone();
     let (noise, step) = noise(&clean.points, clean.closed);
     if step > 1 || clean.points.len() < MIN_POINTS_PER_SPAN * MIN_SPANS {
         return Ok(None);
@@ -264,7 +270,7 @@ fn free_form(asked: &Question, form: f64, progress: &dyn Progress) -> Result<Opt
     }
     let Some(found) = found else { return Ok(None) };
     let mut found = found.joined(&row, &clean);
-    found.finish(&clean, 0, asked.points.len(), outliers);
+    found.finish(&clean, 0, question.points.len(), outliers);
     Ok(Some(found.contour))
 }
 

@@ -4,7 +4,7 @@ use super::clean::Clean;
 use crate::model::chain::SegmentKind;
 use crate::model::flat::angle;
 use crate::search::partition::{Penalty, partition};
-use crate::search::start::{Part, scatter};
+use crate::search::parts::{Part, scatter};
 
 /// Points on a line, at least: two are on one by themselves.
 pub(super) const MIN_POINTS_PER_LINE: usize = 3;

@@ -8,13 +8,13 @@
 use super::assembly::Joined;
 use super::candidate::{Candidate, Question, is_cornered};
 use super::clean::{Clean, size};
-use super::kept::{FOLLOWED_TOLERANCES, chord, followed};
-use super::levels::Start;
+use super::noise_levels::Partition;
 use super::polygon::MIN_CORNER_TURN;
+use super::spline_through_points::{FOLLOWED_TOLERANCES, chord, followed};
 use crate::model::chain::SegmentKind;
 use crate::model::flat::{angle, distance, off_circle, off_line};
 use crate::model::result::{Continuity, Contour, Geometry, Join, Options, SectionError, Segment};
-use crate::search::start::{Part, noise_beyond_form};
+use crate::search::parts::{Part, noise_beyond_form};
 use trueness_geom::num::special::student_quantile;
 use trueness_geom::progress::Progress;
 use trueness_geom::spline::curve::{End, Ends};
@@ -55,45 +55,45 @@ const MAX_MISS_RATIO: f64 = 5.0;
 
 /// The contour of a row of curves without noise, of which no lines and arcs are to be found: there is nothing to search.
 pub(super) fn propose(
-    asked: &Question,
+    question: &Question,
     best: Option<&Contour>,
     _: &dyn Progress,
 ) -> Result<Option<Candidate>, SectionError> {
-    if best.is_some() || !asked.is_free() {
+    if best.is_some() || !question.is_free() {
         return Ok(None);
     }
-    let found = resolved(asked.start(), asked.options, Among::Rows);
-    Ok(found.and_then(|found| Candidate::told(found.whole(asked.points.len()))))
+    let found = resolved(question.partition(), question.options, Among::Rows);
+    Ok(found.and_then(|found| Candidate::beyond_chance(found.whole(question.points.len()))))
 }
 
 /// Such a contour in place of one with corners, or that misses its points, where these speak for it.
 pub(super) fn propose_instead(
-    asked: &Question,
+    question: &Question,
     best: Option<&Contour>,
     _: &dyn Progress,
 ) -> Result<Option<Candidate>, SectionError> {
-    let is_asked = |found: &&Contour| asked.is_free() && (is_cornered(found) || misses(found, 0.0));
+    let is_asked = |found: &&Contour| question.is_free() && (is_cornered(found) || misses(found, 0.0));
     let Some(other) = best.filter(is_asked) else { return Ok(None) };
-    let found = resolved(asked.start(), asked.options, Among::Contours);
+    let found = resolved(question.partition(), question.options, Among::Contours);
     let better = found.filter(|found| found.is_better_than(other));
-    Ok(better.and_then(|found| Candidate::instead(found.whole(asked.points.len()))))
+    Ok(better.and_then(|found| Candidate::instead(found.whole(question.points.len()))))
 }
 
 /// The contour of a row of points that lie on smooth curves without noise; `None` where they do not, where lines and arcs do, or
 /// where the points are too few for the curve.
-fn resolved(start: &Start, options: &Options, among: Among) -> Option<Resolved> {
-    let clean = &start.clean;
+fn resolved(partition: &Partition, options: &Options, among: Among) -> Option<Resolved> {
+    let clean = &partition.clean;
     let n = clean.points.len();
     if !(MIN_POINTS_OF_ROW_AND_STRETCH.0..=MAX_POINTS_OF_RESOLVED_ROW).contains(&n)
-        || start.exact
-        || !start.outliers.is_empty()
-        || start.parts.len() < 2
-        || start.step > 1
+        || partition.exact
+        || !partition.outliers.is_empty()
+        || partition.parts.len() < 2
+        || partition.step > 1
     {
         return None;
     }
     let noise = noise_beyond_form(&clean.points, clean.closed).max(clean.rounding);
-    let is_form = noise <= MAX_FORM_NOISE_SHARE * start.own;
+    let is_form = noise <= MAX_FORM_NOISE_SHARE * partition.own;
     let quiet = noise <= MAX_ROUNDING_NOISE_SPACINGS * clean.spacing
         || noise <= 2.0 * MAX_ROUNDING_NOISE_SPACINGS * clean.spacing && is_form;
     if !quiet && noise > MAX_CORNER_NOISE_SPACINGS * clean.spacing {
@@ -108,20 +108,20 @@ fn resolved(start: &Start, options: &Options, among: Among) -> Option<Resolved> 
     let off = (EXACT_OFFSET_SIGMAS_OF_FORM * noise)
         .clamp(ROUNDING_SHARE * size(&clean.points), most * clean.spacing);
     let on = |p: &&Part| lies_on(&clean.points[p.from..p.to], p.kind, off);
-    let exact = || start.parts.iter().filter(on).map(|p| p.to - p.from);
+    let exact = || partition.parts.iter().filter(on).map(|p| p.to - p.from);
     let curved = exact().sum::<usize>() as f64 <= MAX_EXACT_SHARE * n as f64
         && exact().all(|count| count < POINTS_OF_LONG_EXACT_PART);
-    let taken = match among {
+    let is_candidate = match among {
         Among::Rows => quiet && curved,
         Among::Contours => quiet || curved,
     };
-    if !taken {
+    if !is_candidate {
         return None;
     }
     let own = if is_form { 0.0 } else { MAX_SCATTER_SIGMAS * noise };
     let mut clean = clean.clone();
     // The row as it came.
-    clean.points.rotate_right(start.turned % n);
+    clean.points.rotate_right(partition.turned % n);
     let mut corners = corners(&clean);
     if MIN_POINTS_PER_CORNER * corners.len() > n {
         return None;
@@ -166,7 +166,9 @@ impl Resolved {
     /// where the points tell none.
     pub fn is_better_than(&self, other: &Contour) -> bool {
         let corners = other.joins.iter().filter(|j| j.continuity == Continuity::G0).count();
-        !other.astray.is_empty() || corners > self.contour.joins.len() || misses(other, self.contour.noise)
+        !other.unreliable.is_empty()
+            || corners > self.contour.joins.len()
+            || misses(other, self.contour.noise)
     }
 
     /// The contour of the row given, of so many points.
@@ -255,8 +257,8 @@ impl Turns<'_> {
         let Some((turn, way)) = own.try_fold((0.0, 0.0), add) else {
             return false;
         };
-        let beside = self.led_up_to(i, -1, turn.signum()).max(self.led_up_to(i, width, turn.signum()));
-        f64::abs(turn) > MIN_CORNER_TURN_RATIO * beside * way + MIN_CORNER_TURN
+        let led_up = self.led_up_to(i, -1, turn.signum()).max(self.led_up_to(i, width, turn.signum()));
+        f64::abs(turn) > MIN_CORNER_TURN_RATIO * led_up * way + MIN_CORNER_TURN
     }
 }
 

@@ -6,11 +6,11 @@
 //! closed row is near the first point. Where a step is long and neither holds, the point is left out if the rest of the row is far
 //! smaller than the way to it, and told as doubtful else: nothing is lost in silence.
 
-mod beside;
+mod ends;
 mod limits;
 
 use crate::model::flat::{angle, distance};
-use beside::{End, Scatter};
+use ends::{End, Scatter};
 use limits::{BENT_TURN_SHARE, FAR_STEP_RATIO, MIN_POINTS_TO_TELL_STRAYS, STRAIGHT_TURN};
 
 /// Points of a row that lie off it, by their numbers, ascending.
@@ -89,7 +89,7 @@ impl Strays {
         for _ in 0..2 {
             kept.reverse();
             let Some(end) = kept.first() else { return };
-            match beside::first(&row(&kept), scatter) {
+            match ends::judge_first(&row(&kept), scatter) {
                 End::Stray if self.doubtful.contains(&end[0]) || self.count() < most => {
                     self.doubtful.retain(|i| !end.contains(i));
                     self.out.extend(*end);
@@ -122,15 +122,15 @@ struct Run {
 /// than the rest, where they are too many for strays.
 fn parted(runs: Vec<Run>) -> (Vec<Run>, Vec<Run>) {
     let is_short = |r: &Run| r.to - r.from < MIN_POINTS_OF_PIECE;
-    let (mut few, mut main) = (vec![], vec![]);
+    let (mut short, mut main) = (vec![], vec![]);
     for group in runs.chunk_by(|a, b| is_short(a) && is_short(b)) {
         let (first, last) = (group[0], group[group.len() - 1]);
         match is_short(&first) && last.to - first.from < MIN_STRAYS_ALLOWED {
-            true => few.extend(group),
+            true => short.extend(group),
             false => main.push(Run { from: first.from, to: last.to }),
         }
     }
-    (few, main)
+    (short, main)
 }
 
 /// What the row is without its strays.
@@ -169,14 +169,14 @@ impl Way<'_> {
         let starts = std::iter::once(0).chain(at.iter().map(|i| i + 1));
         let ends = at.iter().copied().chain(std::iter::once(self.0.len() - 1));
         let runs: Vec<Run> = starts.zip(ends).map(|(from, to)| Run { from, to }).collect();
-        let (few, main) = parted(runs);
-        let strays: usize = few.iter().map(|r| r.to + 1 - r.from).sum();
-        if few.is_empty() || main.is_empty() || strays > most {
+        let (short, main) = parted(runs);
+        let strays: usize = short.iter().map(|r| r.to + 1 - r.from).sum();
+        if short.is_empty() || main.is_empty() || strays > most {
             return Strays::default();
         }
         let rest = self.rest(main);
         let mut found = Strays::default();
-        for run in &few {
+        for run in &short {
             let list = match self.judge(run, &rest) {
                 Verdict::Stray => &mut found.out,
                 Verdict::Doubtful => &mut found.doubtful,

@@ -9,11 +9,11 @@
 use super::assembly::Joined;
 use super::candidate::{Candidate, Question};
 use super::clean::{Clean, size};
+use super::evidence::{Piece, is_evident};
 use super::facets::{Item, LineOrArc, MAX_TANGENT_CHORD_TURN, Polygon, SHARP_TURN, round};
 use super::sheet::Sheet;
-use super::told::{Piece, is_told};
 use crate::model::flat::{angle, distance};
-use crate::model::result::{Contour, SectionError, Taken};
+use crate::model::result::{Contour, RowKind, SectionError};
 use trueness_geom::progress::Progress;
 
 /// Longer rows tell their segments themselves.
@@ -45,33 +45,34 @@ pub(crate) struct Vertices {
 
 /// The contour of a row of the ends of lines and the vertices of arcs, where it is one.
 pub(super) fn propose(
-    asked: &Question,
+    question: &Question,
     best: Option<&Contour>,
     _: &dyn Progress,
 ) -> Result<Option<Candidate>, SectionError> {
-    if best.is_some() || !asked.may_be_exact() || asked.start().exact {
+    if best.is_some() || !question.may_be_exact() || question.partition().exact {
         return Ok(None);
     }
-    let clean = &asked.clean;
-    let given: Vec<[f64; 2]> = clean.numbers.iter().map(|i| asked.points[*i]).collect();
-    let Some(found) = vertices(&clean.points, &given, clean.closed, asked.options.closed == Some(false))
+    let clean = &question.clean;
+    let original: Vec<[f64; 2]> = clean.numbers.iter().map(|i| question.points[*i]).collect();
+    let Some(found) =
+        vertices(&clean.points, &original, clean.closed, question.options.closed == Some(false))
     else {
         return Ok(None);
     };
     let (rounding, polygon) = (found.rounding, found.polygon);
     let closed = polygon.closed;
     let contour =
-        Sheet { points: &clean.points, polygon, rounding, options: asked.options }.exact(&found.items);
-    let mut all = Joined::of(Contour { taken: Taken::Row, ..contour });
-    all.finish(&Clean { closed, ..clean.clone() }, 0, asked.points.len(), vec![]);
-    Ok(Candidate::told(all.contour))
+        Sheet { points: &clean.points, polygon, rounding, options: question.options }.exact(&found.items);
+    let mut all = Joined::of(Contour { row_kind: RowKind::Row, ..contour });
+    all.finish(&Clean { closed, ..clean.clone() }, 0, question.points.len(), vec![]);
+    Ok(Candidate::beyond_chance(all.contour))
 }
 
-/// The lines and arcs whose ends and vertices the points are; `given` are the same in the coordinates of the file. An open row closes where its
+/// The lines and arcs whose ends and vertices the points are; `original` are the same in the coordinates of the file. An open row closes where its
 /// end goes on to its start with the direction of both, unless it is known to be `open`.
 pub(crate) fn vertices(
     points: &[[f64; 2]],
-    given: &[[f64; 2]],
+    original: &[[f64; 2]],
     closed: bool,
     open: bool,
 ) -> Option<Vertices> {
@@ -83,7 +84,7 @@ pub(crate) fn vertices(
     let most = MAX_STEP_PER_CHORD * chords[chords.len() / 2];
     // Finer than their digits points tell nothing.
     let shares = || ROUNDING_SHARES_OF_VERTICES.map(|share| share * size(points)).to_vec();
-    let levels = step(given).map_or_else(shares, |step| vec![step]).into_iter().filter(|q| *q <= most);
+    let levels = step(original).map_or_else(shares, |step| vec![step]).into_iter().filter(|q| *q <= most);
     let mut levels = levels;
     levels.find_map(|rounding| within(points, rounding, closed, open))
 }
@@ -103,7 +104,7 @@ fn within(points: &[[f64; 2]], rounding: f64, closed: bool, open: bool) -> Optio
     let found = |closed: bool| {
         let cover = Cover { polygon: polygon(closed), rounding };
         let pieces = cover.best()?;
-        is_told(&cover.polygon, &pieces, rounding).then_some((cover.polygon, pieces))
+        is_evident(&cover.polygon, &pieces, rounding).then_some((cover.polygon, pieces))
     };
     let closing = || {
         let (polygon, pieces) = found(true)?;

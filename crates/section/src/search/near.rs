@@ -4,7 +4,7 @@
 //! a piece hardly moves one that is several pieces away: each piece between holds place and heading by its own points. So long
 //! chains are searched, and their joins profiled, by pieces near each other; then all pieces are fitted together.
 
-use super::base::Base;
+use super::model_edits::PlacedModel;
 use super::rounds::Search;
 use crate::model::chain::{Chain, Ends, Layout, Pose, SegmentKind};
 use crate::model::criterion::{Model, Rest, Unknowns};
@@ -37,10 +37,10 @@ impl Near {
     /// then also over its seam, with so many pieces on either side.
     fn about(row: &Row, state: &State, layout: &Layout, core: Range<usize>, around: Option<usize>) -> Near {
         let count = state.chain.pieces.len();
-        let beside = around.unwrap_or(PIECES_BESIDE);
+        let margin = around.unwrap_or(PIECES_BESIDE);
         let (before, after) = match around.is_some() && state.chain.closed {
-            true => (beside, beside),
-            false => (beside.min(core.start), beside.min(count - core.end)),
+            true => (margin, margin),
+            false => (margin.min(core.start), margin.min(count - core.end)),
         };
         // Numbers do not fall below 0.
         let turns = if before > core.start { count } else { 0 };
@@ -144,8 +144,8 @@ pub(super) fn spliced(state: &State, changed: &[(Range<usize>, State)], count: u
 impl Search<'_> {
     /// A cheaper model than a long one: the best of all steps near each few pieces, as many of them as do not touch each other, taken
     /// together; of those together no cheaper, the best alone. `idle` tells the pieces near which no step has paid since they changed.
-    pub fn round_nearby(&mut self, base: &Base, idle: &mut Vec<bool>) -> Option<Model> {
-        let model = &base.model;
+    pub fn round_nearby(&mut self, placed: &PlacedModel, idle: &mut Vec<bool>) -> Option<Model> {
+        let model = &placed.model;
         let count = model.state.chain.pieces.len();
         idle.resize(count, false);
         let mut layout = Layout::default();
@@ -172,16 +172,16 @@ impl Search<'_> {
             }
         }
         // Together, then the better half of them, …, then the best alone.
-        let mut taken = apart.len();
-        while taken > 0 {
-            let mut changed = apart[..taken].to_vec();
+        let mut tried_together = apart.len();
+        while tried_together > 0 {
+            let mut changed = apart[..tried_together].to_vec();
             changed.sort_by_key(|(pieces, _)| pieces.start);
             let tried = self.together(model, &changed);
             if let Some(tried) = tried.filter(|t| t.cost < model.cost - 1e-6) {
                 spread_idle(idle, &changed);
                 return Some(tried);
             }
-            taken /= 2;
+            tried_together /= 2;
         }
         None
     }
@@ -196,12 +196,12 @@ impl Search<'_> {
         let own = state.sum;
         let mut search = near.search(self, &model.state, own);
         let start = search.model(state);
-        let base = search.base(start);
-        let inside = |plans: &[crate::model::criterion::Plan]| {
-            let same = plans.iter().zip(&base.plans).take_while(|(a, b)| a == b).count();
+        let placed = search.placed(start);
+        let inside = |specs: &[crate::model::criterion::PieceSpec]| {
+            let same = specs.iter().zip(&placed.specs).take_while(|(a, b)| a == b).count();
             near.core.contains(&same)
         };
-        let best = search.round_of(&base, inside);
+        let best = search.round_of(&placed, inside);
         best.map(|best| (best.cost, best.state))
     }
 
@@ -212,7 +212,7 @@ impl Search<'_> {
         let row = self.row;
         self.work.improve(&row, &mut state, None, &stop);
         let mut tried = self.model(state);
-        self.follows(&mut tried.state).then_some(tried)
+        self.is_followed(&mut tried.state).then_some(tried)
     }
 
     /// A long chain of the pieces of `state`, whose joins are tangent but whose pieces may lie far off their points: fitted from its

@@ -1,6 +1,6 @@
 //! The cheapest row of lines and arcs, each fitted by itself, by dynamic programming.
 
-use super::start::{Part, Sums};
+use super::parts::{Part, Sums};
 use crate::model::chain::SegmentKind;
 
 /// Places at which a part may start: time grows with the square of their number.

@@ -69,9 +69,9 @@ impl Search<'_> {
                 continue;
             }
             let lower = match model.state.chain.is_long() {
-                true => {
-                    self.nearby(model, &seek, |search, best, seek| search.both(best, seek, &mut interval))
-                }
+                true => self.with_pieces_near(model, &seek, |search, best, seek| {
+                    search.both(best, seek, &mut interval)
+                }),
                 false => self.both(&model.state, &seek, &mut interval),
             };
             better = least(better, lower, &model.state);
@@ -94,7 +94,7 @@ impl Search<'_> {
     }
 
     /// What `look` finds about a join of a long chain with the pieces near it alone: a lower state of these is one of all.
-    fn nearby(
+    fn with_pieces_near(
         &mut self,
         model: &Model,
         seek: &Seek,
@@ -130,12 +130,12 @@ impl Search<'_> {
         let first = usize::from(!model.state.chain.closed);
         let mut layout = Layout::default();
         layout.fill(&model.state.chain);
-        let astray: Vec<usize> = (0..intervals.len())
+        let unreliable: Vec<usize> = (0..intervals.len())
             .filter(|k| layout.poses.get(first + k).is_some_and(|pose| !intervals[*k].holds(pose.at)))
             .collect();
-        if !astray.is_empty() {
+        if !unreliable.is_empty() {
             let own = self.intervals(model, level).0;
-            astray.into_iter().filter(|k| *k < own.len()).for_each(|k| intervals[k] = own[k]);
+            unreliable.into_iter().filter(|k| *k < own.len()).for_each(|k| intervals[k] = own[k]);
         }
     }
 
@@ -147,7 +147,7 @@ impl Search<'_> {
         let mut better = None;
         for seek in self.seeks(model, level).1 {
             let lower = match model.state.chain.is_long() {
-                true => self.nearby(model, &seek, |search, best, seek| search.lower(best, seek)),
+                true => self.with_pieces_near(model, &seek, |search, best, seek| search.lower(best, seek)),
                 false => self.lower(&model.state, &seek),
             };
             better = least(better, lower, &model.state);
@@ -379,7 +379,7 @@ mod tests {
         for seek in seeks {
             let (mut near, mut whole) = (none, none);
             search.both(&model.state, &seek, &mut whole);
-            search.nearby(&model, &seek, |search, best, seek| search.both(best, seek, &mut near));
+            search.with_pieces_near(&model, &seek, |search, best, seek| search.both(best, seek, &mut near));
             let size = libm::hypot(whole.ends[1][0] - whole.ends[0][0], whole.ends[1][1] - whole.ends[0][1]);
             for (a, b) in near.ends.iter().zip(whole.ends) {
                 let off = libm::hypot(a[0] - b[0], a[1] - b[1]);

@@ -1,10 +1,10 @@
 //! Smooth rows, of which the first partition makes many lines and arcs.
 
-use super::base::Base;
+use super::model_edits::PlacedModel;
+use super::parts::Part;
 use super::rounds::Search;
-use super::start::Part;
 use crate::model::chain::SegmentKind;
-use crate::model::criterion::{Model, Plan};
+use crate::model::criterion::{Model, PieceSpec};
 use crate::model::free;
 use crate::model::least::State;
 use trueness_geom::progress::{Cancelled, Progress};
@@ -73,28 +73,29 @@ impl Search<'_> {
 
     /// Free pieces in place of runs of many lines and arcs, where that costs less than `bar`.
     fn smooth(&mut self, first: &Model, bar: f64) -> Option<Model> {
-        let mut base = self.base(first.clone());
-        if base.plans.len() < MIN_PIECES_TO_SMOOTH || !self.kinds[1] {
+        let mut placed = self.placed(first.clone());
+        if placed.specs.len() < MIN_PIECES_TO_SMOOTH || !self.kinds[1] {
             return None;
         }
-        let mut plans = self.gathered(&base);
-        let own = plans.as_ref().unwrap_or(&base.plans);
+        let mut specs = self.gathered(&placed);
+        let own = specs.as_ref().unwrap_or(&placed.specs);
         if !self.is_near(&first.state)
-            && let Some(along) = self.along(&first.state, own)
+            && let Some(along) = self.arcs_along_smooth_curve(&first.state, own)
         {
-            (plans, base) = (plans.map(|_| along.plans.clone()), along);
+            (specs, placed) = (specs.map(|_| along.specs.clone()), along);
         }
         let mut best: Option<Model> = None;
         // A B-spline by itself takes other coefficients than pieces that go on into each other.
-        for count in COEFFICIENT_COUNTS.into_iter().take_while(|_| plans.is_some()) {
-            let of = |p: &Plan| if p.kind == SegmentKind::Spline { Plan { count, ..*p } } else { *p };
-            let own: Vec<Plan> = plans.iter().flatten().map(of).collect();
-            best = self.cheaper(&base, &own, bar, best);
+        for count in COEFFICIENT_COUNTS.into_iter().take_while(|_| specs.is_some()) {
+            let of =
+                |p: &PieceSpec| if p.kind == SegmentKind::Spline { PieceSpec { count, ..*p } } else { *p };
+            let own: Vec<PieceSpec> = specs.iter().flatten().map(of).collect();
+            best = self.cheaper(&placed, &own, bar, best);
         }
         if best.is_some() {
             return best;
         }
-        let (from, to) = (base.plans.first()?.from, base.plans.last()?.to);
+        let (from, to) = (placed.specs.first()?.from, placed.specs.last()?.to);
         for pieces in PIECE_COUNTS {
             if self.is_spent() {
                 break;
@@ -107,8 +108,9 @@ impl Search<'_> {
                 .filter(|c| pieces == 1 || (MIN_COEFFICIENTS_OF_SEVERAL..=held).contains(c))
             {
                 let at = |k: usize| from + (to - from) * k as f64 / pieces as f64;
-                let plan = |k: usize| Plan { kind: SegmentKind::Spline, count, from: at(k), to: at(k + 1) };
-                best = self.cheaper(&base, &(0..pieces).map(plan).collect::<Vec<_>>(), bar, best);
+                let spec =
+                    |k: usize| PieceSpec { kind: SegmentKind::Spline, count, from: at(k), to: at(k + 1) };
+                best = self.cheaper(&placed, &(0..pieces).map(spec).collect::<Vec<_>>(), bar, best);
             }
             let better = best.as_ref().map(|b| b.cost) != before;
             if best.as_ref().is_some_and(|b| !better || self.is_near(&b.state)) {
@@ -119,13 +121,19 @@ impl Search<'_> {
     }
 
     /// The model of these plans where it costs less than `bar` and the best one so far; else that.
-    fn cheaper(&mut self, base: &Base, plans: &[Plan], bar: f64, best: Option<Model>) -> Option<Model> {
+    fn cheaper(
+        &mut self,
+        placed: &PlacedModel,
+        specs: &[PieceSpec],
+        bar: f64,
+        best: Option<Model>,
+    ) -> Option<Model> {
         let least = best.as_ref().map_or(bar, |b| b.cost);
-        let built = self.build(base, plans, f64::INFINITY);
+        let built = self.build(placed, specs, f64::INFINITY);
         if built.cost > least + POINT_COST_TO_DROP * self.criterion.count {
             return best;
         }
         let mut model = self.converge(&built);
-        if model.cost < least && self.follows(&mut model.state) { Some(model) } else { best }
+        if model.cost < least && self.is_followed(&mut model.state) { Some(model) } else { best }
     }
 }

@@ -1,10 +1,10 @@
 //! A part of a row between two corners, or a whole closed row without any: one chain.
 
-use super::base::Base;
 use super::blocks::Blocks;
+use super::model_edits::PlacedModel;
+use super::parts::{Part, shares};
 use super::profile::Interval;
 use super::rounds::Search;
-use super::start::{Part, shares};
 use super::task::{Span, Task};
 use crate::model::chain::{Layout, Piece, Pose, SegmentKind, arc_end};
 use crate::model::criterion::Model;
@@ -41,7 +41,7 @@ const MAX_SEARCHED_POINTS: usize = 1500;
 pub(crate) struct Found {
     pub span: Span,
     /// The chain does not run along its points.
-    pub astray: bool,
+    pub unreliable: bool,
     /// One arc that is a whole circle.
     pub circle: bool,
     pub state: State,
@@ -67,18 +67,18 @@ impl Span {
         if task.draft {
             let mut search = self.search(task);
             let state = search.first(parts, task.closed).state;
-            let (astray, work) = (self.is_astray(&state, task), search.take_work());
+            let (unreliable, work) = (self.is_unreliable(&state, task), search.take_work());
             drop(search);
-            return Ok(Found { astray, ..self.found((state, vec![], task.scatter, work)) });
+            return Ok(Found { unreliable, ..self.found((state, vec![], task.scatter, work)) });
         }
         let mut best = self.search_from(parts, task, progress)?;
-        if self.is_astray(&best.state, task)
+        if self.is_unreliable(&best.state, task)
             && EQUAL_PARTS * MIN_POINTS_PER_EQUAL_PART <= self.points.len()
             && !task.budget.is_spent(0.0)
         {
             let other =
                 self.search_from(&shares(&self.points, &self.weights, EQUAL_PARTS), task, progress)?;
-            if other.cost < best.cost || !self.is_astray(&other.state, task) {
+            if other.cost < best.cost || !self.is_unreliable(&other.state, task) {
                 best = other;
             }
         }
@@ -94,13 +94,13 @@ impl Span {
             }
         };
         drop(search);
-        let astray = self.is_astray(&found.0, task);
-        Ok(Found { astray, ..self.found(found) })
+        let unreliable = self.is_unreliable(&found.0, task);
+        Ok(Found { unreliable, ..self.found(found) })
     }
 
     /// One chain over two that follow each other, or a closed one over one whose ends meet, where that costs less than `bar`: this span
     /// has the points of all.
-    pub fn over(
+    pub fn chain_over(
         self,
         founds: &[&Found],
         bar: f64,
@@ -112,9 +112,9 @@ impl Span {
             [a, b] => {
                 let turn = angle(a.beyond(true, 0.0).along, b.beyond(false, 0.0).along);
                 let both = [a, b].map(|f| (&f.state, f.stations.clone()));
-                let base = Base::of_both(both, turn, task.spacing);
-                let along = search.along(&base.model.state, &base.plans);
-                search.over(&[Some(base), along], a.pieces().len() - 1, bar, progress)?
+                let placed = PlacedModel::of_both(both, turn, task.spacing);
+                let along = search.arcs_along_smooth_curve(&placed.model.state, &placed.specs);
+                search.chain_over(&[Some(placed), along], a.pieces().len() - 1, bar, progress)?
             }
             [one] => {
                 // From the chain's end to its start, whose pieces end where these do.
@@ -128,8 +128,8 @@ impl Span {
         drop(search);
         let own = found.0.breaks.windows(2).map(|w| w[1].saturating_sub(w[0]));
         let is_loose = own.zip(&found.0.chain.pieces).any(|(count, piece)| piece.is_loose(count));
-        let astray = is_loose || self.is_astray(&found.0, task);
-        Ok((!astray).then(|| self.found(found)))
+        let unreliable = is_loose || self.is_unreliable(&found.0, task);
+        Ok((!unreliable).then(|| self.found(found)))
     }
 
     /// The chain of a state, with the intervals of its joins.
@@ -137,12 +137,12 @@ impl Span {
         let mut search = self.search(task);
         let found = with_intervals(&mut search, Model { state, cost: 0.0 }, task, progress)?;
         drop(search);
-        let astray = self.is_astray(&found.0, task);
-        Ok(Found { astray, ..self.found(found) })
+        let unreliable = self.is_unreliable(&found.0, task);
+        Ok(Found { unreliable, ..self.found(found) })
     }
 
     /// Whether a chain does not run along its points.
-    fn is_astray(&self, state: &State, task: &Task) -> bool {
+    fn is_unreliable(&self, state: &State, task: &Task) -> bool {
         let n = self.points.len();
         let count = self.weights.iter().sum::<f64>().max(1.0);
         let noise = task.scatter;
@@ -217,13 +217,14 @@ impl Span {
         let mut search = own.search(&thinned);
         let found = search.best(&kept, task.closed, progress)?.state;
         let n = self.points.len();
-        let few = own.points.len();
+        let thinned_count = own.points.len();
         // Round and round a closed row, the place of a point among all.
-        let place = |i: usize| (i / few * n + i % few * step).min(i / few * n + n);
+        let place =
+            |i: usize| (i / thinned_count * n + i % thinned_count * step).min(i / thinned_count * n + n);
         let mut breaks: Vec<usize> = found.breaks.iter().map(|i| place(*i)).collect();
         let last = breaks.len() - 1;
         breaks[last] = breaks[0] + n;
-        let feet = (0..n).map(|i| found.feet[(i / step).min(few - 1)]).collect();
+        let feet = (0..n).map(|i| found.feet[(i / step).min(thinned_count - 1)]).collect();
         let mut search = self.search(task);
         let state = State { chain: found.chain, breaks, feet, sum: 0.0 };
         let Some(blocks) = Blocks::of(self, &state) else {
@@ -241,7 +242,7 @@ impl Span {
         let residuals = work.residuals(&row, &mut state).to_vec();
         let stations = work.stations(&row, &mut state);
         Found {
-            astray: false,
+            unreliable: false,
             circle: false,
             state,
             layout: std::mem::take(&mut work.layout),
@@ -352,13 +353,13 @@ impl Found {
     pub fn last_step(&self, at_end: bool) -> f64 {
         let breaks = &self.state.breaks;
         let range = breaks[0]..breaks[breaks.len() - 1];
-        let few = if at_end {
+        let near_end = if at_end {
             range.end.saturating_sub(4).max(range.start)..range.end
         } else {
             range.start..range.end.min(range.start + 4)
         };
         let at = |i: usize| self.stations[i % self.stations.len()];
-        few.clone().skip(1).map(|i| (at(i) - at(i - 1)).abs()).fold(0.0, f64::max)
+        near_end.clone().skip(1).map(|i| (at(i) - at(i - 1)).abs()).fold(0.0, f64::max)
     }
     /// The pose at the chain's first or last end, moved along by `length` as the piece there goes on.
     pub fn beyond(&self, at_end: bool, length: f64) -> Pose {

@@ -1,19 +1,19 @@
 //! Sections with known joins: closed forms, exact data, rigid motions, coverage over fresh noise, wrong and ugly rows.
 
-mod astray;
-mod beside;
 mod clothoids;
 mod corners;
 mod direction;
 mod gentle;
-mod levels;
 mod long;
+mod noise_levels;
 mod outlines;
 mod resolved;
 mod rounded;
 mod scattered;
 mod smooth;
 mod sparse;
+mod stray_ends;
+mod unreliable;
 mod vertices;
 
 use super::*;

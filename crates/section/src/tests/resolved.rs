@@ -49,7 +49,7 @@ fn a_profile_has_no_corner_at_its_leading_edge() {
             let contour = found(&points);
             assert_eq!(kinds(&contour), [SegmentKind::Spline], "{camber} {half}");
             assert!(
-                contour.closed && contour.joins.len() == 1 && contour.astray.is_empty(),
+                contour.closed && contour.joins.len() == 1 && contour.unreliable.is_empty(),
                 "{camber} {half}"
             );
             let join = &contour.joins[0];
@@ -155,6 +155,6 @@ fn a_curve_through_noise_does_not_hide_it() {
             })
             .collect();
         let contour = found(&points);
-        assert!(contour.noise > 0.005 || !contour.astray.is_empty(), "{seed}: {}", contour.noise);
+        assert!(contour.noise > 0.005 || !contour.unreliable.is_empty(), "{seed}: {}", contour.noise);
     }
 }

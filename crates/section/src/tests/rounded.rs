@@ -67,7 +67,7 @@ fn rounded_lines_run_along_their_points() {
                 .collect();
             let found = found(&points);
             assert_eq!(kinds(&found), [SegmentKind::Line; 2], "{step} {k}");
-            assert!(found.astray.is_empty(), "{step} {k}: {}", found.noise);
+            assert!(found.unreliable.is_empty(), "{step} {k}: {}", found.noise);
         }
     }
 }

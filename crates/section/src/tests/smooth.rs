@@ -79,7 +79,7 @@ fn a_search_cut_short_says_so() {
     };
     let (whole, part) = (within(3e10), within(1e6));
     assert!(!whole.cut_short && part.cut_short);
-    assert!(part.astray.is_empty() && part.noise < 0.1, "{}", part.noise);
+    assert!(part.unreliable.is_empty() && part.noise < 0.1, "{}", part.noise);
     // What a few steps find is no better than what the whole search does.
     assert!(part.noise > 0.999 * whole.noise && part.segments.len() >= whole.segments.len());
 }

@@ -19,7 +19,7 @@ pub struct CutMesh<'a> {
     facing: Vec<Vector>,
     /// For each vertex where the list of its neighbors begins, and the lists.
     first: Vec<u32>,
-    beside: Vec<u32>,
+    neighbors_of: Vec<u32>,
 }
 
 /// Patches of some dozen vertices depart from smooth surfaces by more than the first share of the distance between vertices where
@@ -43,7 +43,7 @@ impl<'a> CutMesh<'a> {
         let count = mesh.positions.len();
         let sides = |f: &[u32; 3]| [[0, 1], [1, 2], [2, 0], [1, 0], [2, 1], [0, 2]].map(|e| e.map(|k| f[k]));
         let sound = |[a, b]: &[u32; 2]| a != b && (*a as usize) < count && (*b as usize) < count;
-        let (first, beside) = lists(count, mesh.faces.iter().flat_map(sides).filter(sound).collect());
+        let (first, neighbors_of) = lists(count, mesh.faces.iter().flat_map(sides).filter(sound).collect());
         let greatest =
             mesh.positions.iter().flatten().filter(|x| x.is_finite()).fold(0.0_f64, |m, x| m.max(x.abs()));
         // Four roundings of the greatest coordinate in single precision, as STL holds it.
@@ -52,7 +52,7 @@ impl<'a> CutMesh<'a> {
             |n: &Noise| n.deviation > MAX_NOISE_OF_MESH_SPACINGS[usize::from(n.even().is_ok())] * n.spacing;
         let facing = facing(mesh);
         let mut cut =
-            CutMesh { mesh, rounding, noise, free_form: None, scatters: false, facing, first, beside };
+            CutMesh { mesh, rounding, noise, free_form: None, scatters: false, facing, first, neighbors_of };
         let is_exact = cut.has_flats();
         cut.scatters = !is_exact && noise.is_some_and(|n| n.deviation > MIN_NOISE_ROUNDINGS * rounding);
         cut.free_form = noise.filter(|n| cut.scatters && is_form(n)).map(|n| n.deviation);
@@ -78,7 +78,7 @@ impl<'a> CutMesh<'a> {
     fn has_flats(&self) -> bool {
         let count = self.mesh.positions.len();
         let looked_at = (0..count).step_by(count.div_ceil(VERTICES_LOOKED_AT).max(1)).map(|v| v as u32);
-        let edges = looked_at.flat_map(|v| self.beside(v).iter().map(move |w| [v, *w]));
+        let edges = looked_at.flat_map(|v| self.neighbors_of(v).iter().map(move |w| [v, *w]));
         let off: Vec<f64> = edges.filter_map(|edge| self.off_plane(edge)).collect();
         let within = |reach: f64| off.iter().filter(|off| **off <= reach * self.rounding).count() as f64;
         let [flat, near] = [within(MIN_NOISE_ROUNDINGS), within(3.0 * MIN_NOISE_ROUNDINGS)];
@@ -87,7 +87,7 @@ impl<'a> CutMesh<'a> {
 
     /// How far the two facets at an edge are from one plane: the far corner of the smaller one from the plane of the larger one.
     fn off_plane(&self, [v, w]: [u32; 2]) -> Option<f64> {
-        let mut both = self.beside(v).iter().filter(|n| self.beside(w).binary_search(n).is_ok());
+        let mut both = self.neighbors_of(v).iter().filter(|n| self.neighbors_of(w).binary_search(n).is_ok());
         let (a, b) = (*both.next()?, *both.next()?);
         if both.next().is_some() {
             return None;
@@ -106,8 +106,8 @@ impl<'a> CutMesh<'a> {
         self.facing[vertex as usize]
     }
 
-    pub(super) fn beside(&self, vertex: u32) -> &[u32] {
-        &self.beside[self.first[vertex as usize] as usize..self.first[vertex as usize + 1] as usize]
+    pub(super) fn neighbors_of(&self, vertex: u32) -> &[u32] {
+        &self.neighbors_of[self.first[vertex as usize] as usize..self.first[vertex as usize + 1] as usize]
     }
 }
 

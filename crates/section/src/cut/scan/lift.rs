@@ -7,7 +7,7 @@
 use super::cut_mesh::CutMesh;
 use crate::Chain;
 use crate::model::chain::SegmentKind;
-use crate::search::start::{Part, Sums};
+use crate::search::parts::{Part, Sums};
 use trueness_geom::num::dense::solve;
 use trueness_geom::plane::PlaneFrame;
 use trueness_geom::space::{Vector, cross, dot, minus, norm};
@@ -211,7 +211,7 @@ fn around(cut: &CutMesh, edge: [u32; 2]) -> Vec<u32> {
     let mut found = edge.to_vec();
     let mut next = 0;
     while next < found.len() && found.len() < MAX_VERTICES_ABOUT_EDGE {
-        for &v in cut.beside(found[next]) {
+        for &v in cut.neighbors_of(found[next]) {
             if found.len() == MAX_VERTICES_ABOUT_EDGE {
                 break;
             }

@@ -18,7 +18,7 @@ use super::plane::Chain;
 use crate::model::flat::distance;
 use crate::model::prior::Known;
 use crate::search::partition::{MAX_PART_STARTS, Penalty, partition_with_gaps};
-use crate::search::start::noise;
+use crate::search::parts::noise;
 pub use cut_mesh::CutMesh;
 use trueness_geom::plane::PlaneFrame;
 

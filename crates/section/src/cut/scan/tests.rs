@@ -51,7 +51,7 @@ fn noisy(
     for _ in 0..rings {
         off = (0..off.len() as u32)
             .map(|v| {
-                let all = plain.beside(v).iter().chain([&v]);
+                let all = plain.neighbors_of(v).iter().chain([&v]);
                 let (sum, n) = all.fold((0.0, 0.0), |(sum, n), w| (sum + off[*w as usize], n + 1.0));
                 sum / n
             })
@@ -165,14 +165,14 @@ fn flats_tell_that_there_is_no_noise() {
     // A sheet of waves half, and flat half.
     let wave = |a: f64| if a < 100.0 { 3.0 * libm::sin(a / 2.0) } else { 0.0 };
     let sheet = band(200, 40, false, 0.5, random, |a, z| [a, wave(a), z - 20.0]);
-    let told = |mesh: &Mesh| {
+    let noise_and_form = |mesh: &Mesh| {
         let noise = trueness_geom::noise::mesh(mesh, 0, &Silent).ok();
         let cut = CutMesh::new(mesh, noise);
         (cut.scatters, cut.free_form)
     };
-    assert_eq!(told(&sheet), (false, None));
+    assert_eq!(noise_and_form(&sheet), (false, None));
     let rounding = CutMesh::new(&sheet, None).rounding();
-    let (scatters, _) = told(&noisy(&sheet, 0, 10.0 * rounding, random, |_| [0.0, 1.0, 0.0]));
+    let (scatters, _) = noise_and_form(&noisy(&sheet, 0, 10.0 * rounding, random, |_| [0.0, 1.0, 0.0]));
     assert!(scatters);
     // Waves of some facets each, all over, are a free form.
     let body = band(200, 40, false, 0.5, random, |a, z| {
@@ -180,7 +180,7 @@ fn flats_tell_that_there_is_no_noise() {
         [a, 2.0 * swell * libm::sin(a / 2.0 + 0.3 * z) * libm::sin(z / 2.0), z - 20.0]
     });
     println!("{:?}", trueness_geom::noise::mesh(&body, 0, &Silent));
-    let (_, form) = told(&body);
+    let (_, form) = noise_and_form(&body);
     assert!(form.is_some_and(|form| form > 0.1), "{form:?}");
 }
 
@@ -218,7 +218,7 @@ fn bores_of_scans_are_circles_from_either_side() {
         let mesh = noisy(&even, rings, 0.008, random, out);
         let plane = Plane { normal: [0.0, 0.0, 1.0], offset: 0.13 };
         let (radius, stated, found) = radius_of(&mesh, &plane);
-        assert!(found.astray.is_empty() && found.closed, "{k}");
+        assert!(found.unreliable.is_empty() && found.closed, "{k}");
         inside += usize::from((radius - r).abs() <= 1.96 * stated);
         let back = Plane { normal: [0.0, 0.0, -1.0], offset: -0.13 };
         let mut shuffled = mesh.clone();
@@ -388,7 +388,7 @@ fn bevels_of_the_mesh_are_no_segments() {
                     .unwrap();
             assert!(found.segments.iter().all(|s| s.geometry.kind() == SegmentKind::Line), "{sigma} {rings}");
             let lengths: Vec<f64> = found.segments.iter().map(|s| s.length).collect();
-            assert_eq!((found.segments.len(), found.astray.len()), (4, 0), "{sigma} {rings} {lengths:?}");
+            assert_eq!((found.segments.len(), found.unreliable.len()), (4, 0), "{sigma} {rings} {lengths:?}");
             for join in &found.joins {
                 let off = |c: &[f64; 2]| libm::hypot(c[0] - join.point[0], c[1] - join.point[1]);
                 let nearest = corners.iter().map(off).fold(f64::INFINITY, f64::min);

@@ -65,12 +65,12 @@ fn circles_through_facets_are_no_doubt() {
         let frame = PlaneFrame { origin: [0.0, 0.0, z], x: [1.0, 0.0, 0.0], y: [0.0, 1.0, 0.0] };
         let options = Options::default();
         let found = chain_contour(&chains[0], &frame, &CutMesh::new(&mesh, None), &options, &Silent).unwrap();
-        doubts += usize::from(!found.astray.is_empty());
+        doubts += usize::from(!found.unreliable.is_empty());
         match found.segments[..] {
             [Segment { geometry: Geometry::Arc { radius: r, .. }, .. }] => {
                 let good = (r - radius(z)).abs() <= off;
                 right += usize::from(good);
-                assert!(good || !found.astray.is_empty(), "{k}: {r} for {} ± {off}", radius(z));
+                assert!(good || !found.unreliable.is_empty(), "{k}: {r} for {} ± {off}", radius(z));
             }
             _ => other += 1,
         }
@@ -107,10 +107,10 @@ fn what_facets_do_not_tell_stays_in_doubt() {
             segments: vec![segment],
             labels: vec![0; 80],
             residuals: off,
-            astray: vec![0],
+            unreliable: vec![0],
             ..Contour::default()
         };
-        !within_facets(found, points).astray.is_empty()
+        !within_facets(found, points).unreliable.is_empty()
     };
     assert!(!doubtful(&ring(&mut |i| if i % 2 == 0 { 0.003 } else { -0.003 })));
     assert!(doubtful(&ring(&mut |_| 0.05 * (random.unit() - 0.5))));

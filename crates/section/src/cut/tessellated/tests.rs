@@ -175,7 +175,7 @@ fn a_pyramid_of_ten_sides_has_ten_lines() {
         let found =
             chain_contour(&chains[0], &plane.frame().unwrap(), &CutMesh::new(&mesh, None), &options, &Silent)
                 .unwrap();
-        assert_eq!((kinds(&found), found.taken), (vec![SegmentKind::Line; sides], Taken::Facets));
+        assert_eq!((kinds(&found), found.row_kind), (vec![SegmentKind::Line; sides], RowKind::Facets));
     }
 }
 
@@ -220,7 +220,7 @@ fn loops_that_touch_have_their_corner() {
             let found =
                 chain_contour(chain, &frame, &CutMesh::new(&mesh, None), &Options::default(), &Silent)
                     .unwrap();
-            assert!(found.closed && found.astray.is_empty());
+            assert!(found.closed && found.unreliable.is_empty());
             assert!((found.length() / length_of_loop - 1.0).abs() < 0.004, "{around}: {}", found.length());
             let corner = found.joins.iter().find(|j| distance(j.point, [0.0, 0.0]) < 1e-4).unwrap();
             assert_eq!(corner.continuity, Continuity::G0, "{around}");
@@ -306,7 +306,7 @@ fn a_scan_is_a_row_of_independent_points() {
     let chains = cut(&mesh, &plane, &Silent).unwrap();
     let found =
         chain_contour(&chains[0], &frame, &CutMesh::new(&mesh, None), &Options::default(), &Silent).unwrap();
-    assert_eq!(found.taken, Taken::Scan);
+    assert_eq!(found.row_kind, RowKind::Scan);
     use SegmentKind::{Arc, Line};
     assert_eq!(kinds(&found), [Line, Arc, Line, Arc]);
     for truth in [[0.0, 0.0], [50.0, 0.0], [50.0, 20.0], [0.0, 20.0]] {
@@ -371,7 +371,7 @@ fn few_points_and_wrong_options() {
 /// A contour tells nothing where its points scatter much more about it than they do by the noise that is known.
 #[test]
 fn segments_that_hide_form_are_astray() {
-    for (off, astray) in [(0.01, vec![]), (0.025, vec![]), (0.04, vec![0])] {
+    for (off, unreliable) in [(0.01, vec![]), (0.025, vec![]), (0.04, vec![0])] {
         // Points to both sides of a line by turns.
         let y = |i: usize| if i % 4 < 2 { off } else { -off };
         let points: Vec<[f64; 2]> = (0..60).map(|i| [i as f64, y(i)]).collect();
@@ -386,6 +386,6 @@ fn segments_that_hide_form_are_astray() {
             ..Contour::default()
         };
         let known = Some(Known { deviation: 0.01, degrees: 50.0 });
-        assert_eq!(spread(found, &kept, known, &points).astray, astray, "{off}");
+        assert_eq!(spread(found, &kept, known, &points).unreliable, unreliable, "{off}");
     }
 }

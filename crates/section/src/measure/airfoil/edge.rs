@@ -85,10 +85,10 @@ pub(super) fn radius(
     let [.., best] = all[..] else { return Err(AirfoilError::Flat) };
     // What changes with the square of the reach is as large as this makes it from one reach to the next; the one that disagrees
     // was put first. Within its uncertainty a smaller reach agrees with a bend that changes, too.
-    let beside = if all.len() > 2 { all[all.len() - 2] } else { all[0] };
-    let changed = (best.curvature - beside.curvature) / (REACH_GROWTH * REACH_GROWTH - 1.0);
-    let few = |b: &&Bend| (b.count as f64) < SMALLER_REACH_SHARE * best.count as f64;
-    let scatter = all[..all.len() - 1].iter().rfind(few).unwrap_or(&best).uncertainty;
+    let previous = if all.len() > 2 { all[all.len() - 2] } else { all[0] };
+    let changed = (best.curvature - previous.curvature) / (REACH_GROWTH * REACH_GROWTH - 1.0);
+    let is_smaller_reach = |b: &&Bend| (b.count as f64) < SMALLER_REACH_SHARE * best.count as f64;
+    let scatter = all[..all.len() - 1].iter().rfind(is_smaller_reach).unwrap_or(&best).uncertainty;
     let uncertainty = libm::hypot(scatter, changed);
     match best.curvature {
         k if k > MIN_CURVATURE_SIGMAS * uncertainty => {

@@ -3,7 +3,7 @@
 use super::error::AirfoilError;
 use super::tail::{Tail, tail};
 use crate::model::flat::distance;
-use crate::search::start::noise_beyond_form;
+use crate::search::parts::noise_beyond_form;
 
 /// The ends of an open row are no farther apart than this share of the chord.
 const MAX_END_GAP_OF_CHORD: f64 = 0.2;

@@ -61,7 +61,7 @@ impl Profile {
             return Err(e.into());
         }
         let mut other = None;
-        if !contour.segments.is_empty() && contour.astray.is_empty() {
+        if !contour.segments.is_empty() && contour.unreliable.is_empty() {
             let count = smooth.as_ref().map_or(row.len(), |s| s.count) as f64;
             if let Some((cost, course)) = of_contour(&around, around.ends.map(|i| numbers[i]), contour, count)
             {
@@ -219,7 +219,8 @@ fn thinned(row: &[[f64; 2]]) -> Vec<[f64; 2]> {
     if by < 2 {
         return row.to_vec();
     }
-    let mean = |some: &[[f64; 2]]| [0, 1].map(|k| some.iter().map(|p| p[k]).sum::<f64>() / some.len() as f64);
+    let mean =
+        |group: &[[f64; 2]]| [0, 1].map(|k| group.iter().map(|p| p[k]).sum::<f64>() / group.len() as f64);
     let last = row.len() - 1;
     let inner = row[1..last].chunks(by).map(mean);
     std::iter::once(row[0]).chain(inner).chain(std::iter::once(row[last])).collect()

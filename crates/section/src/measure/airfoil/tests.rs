@@ -112,8 +112,8 @@ fn four_digits_are_found_again() {
     for (m, p) in [(0.0, 0.4), (0.02, 0.4), (0.04, 0.4)] {
         for t in [0.06, 0.12, 0.18] {
             let found = measured(&naca(m, p, t, 0.1036, 150));
-            let few = Airfoil { camber_line: vec![], ..found.clone() };
-            let name = format!("{m} {p} {t}: {few:?}");
+            let brief = Airfoil { camber_line: vec![], ..found.clone() };
+            let name = format!("{m} {p} {t}: {brief:?}");
             // The thickness is greatest where its slope is 0; there the circle touches at right angles to the camber line.
             let x = (280..320)
                 .map(|k| f64::from(k) * 1e-3)
@@ -278,8 +278,8 @@ fn profiles_that_cross_themselves_are_refused() {
         let sharp = naca(0.02, 0.4, 0.12, 0.1036, 60);
         let sharp: Vec<[f64; 2]> = sharp.iter().map(|p| noisy([40.0 * p[0], 40.0 * p[1]])).collect();
         let row = contour(&sharp, &Options::default(), &Silent).unwrap();
-        let taken = airfoil(&sharp, &row, &Silent);
-        assert!(taken.is_ok(), "{noise} {taken:?}");
+        let outcome = airfoil(&sharp, &row, &Silent);
+        assert!(outcome.is_ok(), "{noise} {outcome:?}");
     }
 }
 

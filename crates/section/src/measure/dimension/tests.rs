@@ -54,7 +54,7 @@ fn a_slot_has_a_width_and_two_centers() {
 fn segments_astray_have_no_dimensions() {
     let sound = found(&noisy(slot(), 0.001, 3), true);
     for k in 0..sound.segments.len() {
-        let contour = Contour { astray: vec![k], ..sound.clone() };
+        let contour = Contour { unreliable: vec![k], ..sound.clone() };
         let kinds: Vec<&str> = dimensions(&[contour]).iter().map(|d| d.kind.name()).collect();
         let line = sound.segments[k].geometry.kind() == SegmentKind::Line;
         assert_eq!(kinds, if line { ["centers"] } else { ["width"] }, "{k}");
@@ -69,7 +69,7 @@ fn segments_astray_have_no_dimensions() {
     let all = dimensions(&of_two);
     assert_eq!((count(&all, DimensionKind::Angle), count(&all, DimensionKind::Gap)), (8, 1));
     let mut of_two = of_two;
-    of_two[0].astray = (0..4).collect();
+    of_two[0].unreliable = (0..4).collect();
     let all = dimensions(&of_two);
     assert_eq!((count(&all, DimensionKind::Angle), count(&all, DimensionKind::Gap)), (4, 0));
     assert!(all.iter().all(|d| d.of.iter().all(|[c, _]| *c == 1)), "{all:?}");

@@ -142,9 +142,9 @@ fn ends(outline: &Outline) -> Vec<f64> {
 /// The segment that the nearest place is on.
 fn number(outline: &Outline, ends: &[f64], off: &OffNominal, point: [f64; 2]) -> Option<usize> {
     let at = ends.partition_point(|end| *end < off.along);
-    let beside = at.saturating_sub(1)..(at + 2).min(ends.len());
+    let candidates = at.saturating_sub(1)..(at + 2).min(ends.len());
     let far = |k: &usize| outline.segments[*k].nearest(point).distance.abs();
-    beside.min_by(|a, b| far(a).total_cmp(&far(b)))
+    candidates.min_by(|a, b| far(a).total_cmp(&far(b)))
 }
 
 /// Chords that turn by less than this follow a curve, radians: as where facets are taken for an arc.
@@ -159,7 +159,7 @@ fn smooth(outline: &Outline, number: usize, share: f64) -> Option<[f64; 2]> {
         return None;
     }
     let own = along(segment)?;
-    let beside = |next: bool| -> [f64; 2] {
+    let direction_towards = |next: bool| -> [f64; 2] {
         let k = if next { number + 1 } else { number + n - 1 };
         let is_end = if next { number + 1 == n } else { number == 0 };
         let other = all.get(k % n).filter(|o| (outline.closed || !is_end) && o.geometry == Geometry::Line);
@@ -171,7 +171,7 @@ fn smooth(outline: &Outline, number: usize, share: f64) -> Option<[f64; 2]> {
         });
         met.unwrap_or(own)
     };
-    let [a, b] = [beside(false), beside(true)];
+    let [a, b] = [direction_towards(false), direction_towards(true)];
     let [x, y] = [0, 1].map(|k| a[k] * (1.0 - share) + b[k] * share);
     unit([-y, x])
 }

@@ -190,8 +190,8 @@ fn too_few_points_and_no_outline() {
     let none = onto_nominal(&[&[[0.0; 2]; 9]], &[], Freedom::FREE, 1.0, &Silent).unwrap_err();
     assert_eq!(none, OntoNominalError::NoOutline);
     let points = [[1.0, 0.1], [30.0, 0.1], [60.0, 10.0]];
-    let few = onto(&points, &plate(), Freedom::FREE).unwrap_err();
-    assert_eq!(few, OntoNominalError::TooFewPoints { found: 3, unknowns: 3 });
+    let error = onto(&points, &plate(), Freedom::FREE).unwrap_err();
+    assert_eq!(error, OntoNominalError::TooFewPoints { found: 3, unknowns: 3 });
     let far: Vec<[f64; 2]> = (0..20).map(|i| [f64::from(i), -9.0]).collect();
     let found = onto_nominal(&[&far], &[plate()], Freedom::X, 1.0, &Silent);
     assert!(found.is_err(), "{found:?}");

@@ -98,12 +98,12 @@ pub(super) fn all(contours: &[Contour], spreads: &[Result<Spread, Untidied>]) ->
         if last(a.of[1]) {
             continue;
         }
-        let beside = find(next(a.of[1]));
-        offers.extend(beside.and_then(|b| tangent(&contours[a.of[0]], a, b)));
+        let neighbor = find(next(a.of[1]));
+        offers.extend(neighbor.and_then(|b| tangent(&contours[a.of[0]], a, b)));
         // Over one arc, as a rounded corner, too.
         let over =
-            beside.filter(|b| b.circle().is_some() && !last(b.of[1])).and_then(|b| find(next(b.of[1])));
-        offers.extend([beside, over].into_iter().flatten().filter_map(|b| right_angle(a, b)).next());
+            neighbor.filter(|b| b.circle().is_some() && !last(b.of[1])).and_then(|b| find(next(b.of[1])));
+        offers.extend([neighbor, over].into_iter().flatten().filter_map(|b| right_angle(a, b)).next());
     }
     offers
 }

@@ -6,7 +6,7 @@
 //! covariance is scaled to agree with that.
 
 use super::offer::Untidied;
-use crate::model::result::{Continuity, Contour, Geometry, Taken, Uncertainty};
+use crate::model::result::{Continuity, Contour, Geometry, RowKind, Uncertainty};
 use trueness_geom::num::cholesky::Cholesky;
 
 /// Segments of a tangent chain whose covariance is still found.
@@ -92,13 +92,13 @@ pub(super) struct Spread {
 
 impl Spread {
     pub fn new(contour: &Contour, row: &[[f64; 2]]) -> Result<Spread, Untidied> {
-        if contour.taken == Taken::Facets {
+        if contour.row_kind == RowKind::Facets {
             return Err(Untidied::Exact);
         }
         let points = own_points(contour, row);
         let all: Vec<Option<Shape>> =
             (0..contour.segments.len()).map(|k| shape(contour, k, &points[k])).collect();
-        let known = |k: usize| contour.segments[k].uncertainty.is_some() && !contour.astray.contains(&k);
+        let known = |k: usize| contour.segments[k].uncertainty.is_some() && !contour.unreliable.contains(&k);
         if !(0..all.len()).any(|k| known(k) && all[k].is_some()) {
             return Err(Untidied::Unknown);
         }
@@ -222,18 +222,18 @@ impl Spread {
     /// Scales the unknowns of each segment so that its uncertainty is the one told.
     fn agree_with_told(&mut self, contour: &Contour) {
         for (k, segment) in contour.segments.iter().enumerate() {
-            let (Some(shape), Some(told)) = (self.shapes[k], segment.uncertainty) else { continue };
+            let (Some(shape), Some(stated)) = (self.shapes[k], segment.uncertainty) else { continue };
             let (chain, first) = self.places[k];
             let Some((n, covariance)) = self.chains.get_mut(chain) else { continue };
-            let (own, told) = match told {
+            let (own, stated) = match stated {
                 Uncertainty::Line { angle } => (first, angle),
                 Uncertainty::Arc { radius, .. } => (first + 2, radius),
             };
             let variance = covariance[own * *n + own];
-            if variance <= 0.0 || told <= 0.0 {
+            if variance <= 0.0 || stated <= 0.0 {
                 continue;
             }
-            let scale = told / variance.sqrt();
+            let scale = stated / variance.sqrt();
             for i in first..first + shape.unknowns() {
                 for r in 0..*n {
                     covariance[i * *n + r] *= scale;

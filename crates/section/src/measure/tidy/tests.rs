@@ -179,10 +179,10 @@ fn uncertainties_are_those_of_fresh_noise() {
         }
         let Some(u) = contour.segments[(first + 1) % 7].uncertainty else { continue };
         let own = all[1].value(&radius).unwrap().uncertainty;
-        if let crate::Uncertainty::Arc { radius, center: told } = u {
+        if let crate::Uncertainty::Arc { radius, center: stated } = u {
             assert!((own - radius).abs() < 1e-3 * radius);
             let x = all[1].value(&|s| center(s)[0]).unwrap().uncertainty;
-            sweep.push(x / told[0]);
+            sweep.push(x / stated[0]);
         }
     }
     assert!(count >= 70.0, "{count}");
@@ -220,7 +220,7 @@ fn holes_have_diameters_centers_and_distances() {
 /// Nothing is offered of what has no uncertainty.
 #[test]
 fn exact_and_free_contours_have_no_offers() {
-    let exact = Contour { taken: crate::Taken::Facets, ..Contour::default() };
+    let exact = Contour { row_kind: crate::RowKind::Facets, ..Contour::default() };
     assert_eq!(
         tidy(&[exact, Contour::default()], &[&[], &[]]),
         (vec![], vec![Some(Untidied::Exact), Some(Untidied::Unknown)])

@@ -219,9 +219,9 @@ fn rates(rows: u64) -> [usize; 4] {
 
 #[test]
 fn strays_are_left_out_or_told_and_no_other_point_is() {
-    let [left_out, told, missed, false_doubt] = rates(100);
-    assert!(missed == 0 && false_doubt == 0, "{left_out} {told} {missed} {false_doubt}");
-    assert!(left_out > 90, "{left_out} {told}");
+    let [left_out, doubted, missed, false_doubt] = rates(100);
+    assert!(missed == 0 && false_doubt == 0, "{left_out} {doubted} {missed} {false_doubt}");
+    assert!(left_out > 90, "{left_out} {doubted}");
 }
 
 #[test]

@@ -156,8 +156,8 @@ fn wrong(profiles: u64) -> [usize; 3] {
         };
         let want = if made.kind == "open" { "blunt" } else { made.kind };
         // The point farthest from the leading edge is, of a cambered profile, beside the middle of a round edge.
-        let beside = if made.kind == "round" { 0.5 * made.edge / made.chord } else { 0.0 };
-        let off = (chord / made.chord - 1.0).abs() > 0.005 + beside;
+        let allowance = if made.kind == "round" { 0.5 * made.edge / made.chord } else { 0.0 };
+        let off = (chord / made.chord - 1.0).abs() > 0.005 + allowance;
         let thick = name == "blunt"
             && want == "blunt"
             && (distance(a, b) - made.edge).abs() > 0.2 * made.edge + 5.0 * made.noise;

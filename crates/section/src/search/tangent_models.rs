@@ -1,8 +1,8 @@
 //! Models that a search begins with: the lines and arcs of a first partition, joined with a common tangent.
 
 use super::near::mended;
+use super::parts::Part;
 use super::rounds::Search;
-use super::start::Part;
 use crate::model::chain::{Chain, Ends, Piece, SegmentKind, arc_over};
 use crate::model::criterion::Model;
 use crate::model::flat::angle;

@@ -57,7 +57,7 @@ fn a_curve_that_swings_goes_astray() {
             Curve::new(knots.clone(), vec![[0.0, 0.0], [1.0, height], [2.0, -height], [3.0, 0.0]]).unwrap();
         Segment::bare(Geometry::Spline { curve, deviation: 0.0 }, [[0.0; 2], [3.0, 0.0]], 3.0, [0.0; 2])
     };
-    assert!(!of(0.5).strays() && of(20.0).strays());
+    assert!(!of(0.5).is_overlong() && of(20.0).is_overlong());
 }
 
 /// Along every segment the drawn curve is about as long as the way from point to point.
@@ -137,7 +137,7 @@ fn exact_polygons_have_their_corners() {
         };
         assert_eq!(kinds(&contour), vec![SegmentKind::Line; sides], "{seed}");
         assert!((contour.length() / around - 1.0).abs() < 1e-5, "{seed}: {} of {around}", contour.length());
-        assert!(contour.astray.is_empty(), "{seed}");
+        assert!(contour.unreliable.is_empty(), "{seed}");
     }
 }
 
@@ -211,7 +211,7 @@ fn a_square_has_no_tangent_joins() {
         let forced =
             contour(&points, &Options { continuity: Some(continuity), ..Options::default() }, &Silent);
         match forced {
-            Err(SectionError::Astray) => {}
+            Err(SectionError::Unreliable) => {}
             Err(e) => panic!("{e}"),
             Ok(c) => runs_along_its_points(&points, &c),
         }

@@ -7,7 +7,7 @@
 use crate::model::chain::SegmentKind;
 use crate::model::flat::distance;
 use crate::model::prior::Known;
-use crate::search::start::{Part, Sums};
+use crate::search::parts::{Part, Sums};
 
 /// Points of the narrowest window, and of the widest one at most.
 const WINDOW_POINTS: [usize; 2] = [24, 768];
@@ -34,7 +34,7 @@ const MAX_SHARED_NOISE_SPACINGS: f64 = 0.1;
 
 /// Noise that neighbors share, and how many points tell as much as an independent one. `None` where neighbors share none, or form is not
 /// told from it. Cost: the number of points times the width of the windows.
-pub(super) fn shared(points: &[[f64; 2]]) -> Option<(Known, f64)> {
+pub(super) fn shared_noise(points: &[[f64; 2]]) -> Option<(Known, f64)> {
     let way: f64 = points.windows(2).map(|w| distance(w[0], w[1])).sum();
     let spacing = way / points.len() as f64;
     let sums = Sums::new(points, &vec![1.0; points.len()]);
@@ -57,7 +57,7 @@ pub(super) fn shared(points: &[[f64; 2]]) -> Option<(Known, f64)> {
 }
 
 /// What the clean windows of one width tell.
-struct Told {
+struct WindowStatistics {
     deviation: f64,
     alike: f64,
     /// How often residuals change sides in a window.
@@ -70,7 +70,7 @@ struct Told {
     windows: f64,
 }
 
-fn within(points: &[[f64; 2]], sums: &Sums, width: usize) -> Option<Told> {
+fn within(points: &[[f64; 2]], sums: &Sums, width: usize) -> Option<WindowStatistics> {
     let stride = width / 4;
     let mut all: Vec<(f64, usize)> = (0..=points.len() - width)
         .step_by(stride)
@@ -101,7 +101,7 @@ fn within(points: &[[f64; 2]], sums: &Sums, width: usize) -> Option<Told> {
     let alike = together.chunks_exact(2).map(|pair| share(&pair[0]) + share(&pair[1]));
     let alike = 2.0 * alike.take_while(|pair| *pair > 0.0).sum::<f64>() - 1.0;
     let kept = 1.0 - 3.0 * alike / width as f64;
-    Some(Told {
+    Some(WindowStatistics {
         deviation: (variance / kept.max(0.5)).sqrt(),
         alike: (alike / kept.max(0.5)).max(1.0),
         changes: changes / count,
@@ -131,7 +131,7 @@ fn residuals(points: &[[f64; 2]], sums: &Sums, from: usize, to: usize) -> Vec<f6
 
 #[cfg(test)]
 mod tests {
-    use super::shared;
+    use super::shared_noise;
     use crate::{Options, SegmentKind, contour};
     use trueness_geom::num::random::Random;
 
@@ -180,9 +180,9 @@ mod tests {
         let (mut found, mut right) = (0, 0);
         for _ in 0..40 {
             let count = 300 + random.below(500) as usize;
-            assert_eq!(shared(&rounded(count, 1, 0.005, random)), None);
+            assert_eq!(shared_noise(&rounded(count, 1, 0.005, random)), None);
             let points = rounded(count, 3, 0.005, random);
-            if let Some((noise, alike)) = shared(&points) {
+            if let Some((noise, alike)) = shared_noise(&points) {
                 found += 1;
                 assert!((noise.deviation / 0.005 - 1.0).abs() < 0.35, "{noise:?}");
                 assert!((1.6..6.0).contains(&alike), "{alike}");
@@ -211,7 +211,7 @@ mod tests {
                 })
                 .collect();
             assert_eq!(
-                shared(&points),
+                shared_noise(&points),
                 None,
                 "round {round}, {count}, {bends} bends of {high}, noise {noise}"
             );

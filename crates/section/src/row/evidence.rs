@@ -51,8 +51,8 @@ impl Piece {
 }
 
 /// Whether the points tell these pieces.
-pub(super) fn is_told(polygon: &Polygon, pieces: &[Piece], rounding: f64) -> bool {
-    let seen = Seen { polygon, pieces, rounding };
+pub(super) fn is_evident(polygon: &Polygon, pieces: &[Piece], rounding: f64) -> bool {
+    let seen = PieceCover { polygon, pieces, rounding };
     let is_a_cover = || seen.is_no_chance() && seen.is_no_curve() && seen.all_end();
     seen.has_an_arc() && is_a_cover() && seen.joins_at_points() && seen.is_no_circle()
 }
@@ -63,15 +63,15 @@ pub(super) fn is_no_chance(saved: f64, expected: f64) -> bool {
     saved >= 2.0 && saved * (libm::log(saved / expected) - 1.0) >= MIN_CHANCE_EXPONENT
 }
 
-struct Seen<'a> {
+struct PieceCover<'a> {
     polygon: &'a Polygon,
     pieces: &'a [Piece],
     rounding: f64,
 }
 
-impl Seen<'_> {
+impl PieceCover<'_> {
     /// The pieces before and after one.
-    fn beside(&self, k: usize) -> [Option<&Piece>; 2] {
+    fn neighbors(&self, k: usize) -> [Option<&Piece>; 2] {
         let n = self.pieces.len();
         if self.polygon.closed && n > 1 {
             return [Some(&self.pieces[(k + n - 1) % n]), Some(&self.pieces[(k + 1) % n])];
@@ -81,7 +81,7 @@ impl Seen<'_> {
 
     /// Whether a piece goes on into those before and after it with the same direction.
     fn tangent(&self, k: usize) -> [bool; 2] {
-        let [before, after] = self.beside(k);
+        let [before, after] = self.neighbors(k);
         let own = &self.pieces[k];
         [before.is_some_and(|b| b.is_tangent(own)), after.is_some_and(|a| own.is_tangent(a))]
     }
@@ -156,7 +156,7 @@ impl Seen<'_> {
     fn all_end(&self) -> bool {
         let n = self.polygon.at.len();
         let ends = |(k, piece): (usize, &Piece)| {
-            let [before, after] = self.beside(k);
+            let [before, after] = self.neighbors(k);
             let beyond = [before.map(|_| piece.item.from + n - 1), after.map(|_| piece.item.to + 1)]
                 .into_iter()
                 .flatten();
@@ -185,7 +185,7 @@ impl Seen<'_> {
     fn joins_at_points(&self) -> bool {
         (0..self.pieces.len()).all(|k| {
             let chord = &self.pieces[k];
-            let [Some(before), Some(after)] = self.beside(k) else { return true };
+            let [Some(before), Some(after)] = self.neighbors(k) else { return true };
             // Of an arc and its chord alone it is asked whether they are a circle.
             let is_only_chord = self.polygon.closed && self.pieces.len() == 2;
             if is_only_chord || chord.chords() > 1 || self.tangent(k) == [true; 2] {

@@ -15,18 +15,18 @@ const HALF_WINDOW: usize = 4;
 pub(crate) fn noise(points: &[[f64; 2]], closed: bool) -> (f64, usize) {
     let (mut step, mut least) = (1, f64::INFINITY);
     loop {
-        let few: Vec<[f64; 2]> = points.iter().step_by(step).copied().collect();
-        let found = noise_of(&few, closed);
+        let thinned: Vec<[f64; 2]> = points.iter().step_by(step).copied().collect();
+        let found = noise_of(&thinned, closed);
         let far = |w: &[[f64; 2]]| libm::hypot(w[1][0] - w[0][0], w[1][1] - w[0][1]);
-        let mut steps: Vec<f64> = few.windows(2).map(far).collect();
+        let mut steps: Vec<f64> = thinned.windows(2).map(far).collect();
         let apart = median(&mut steps).unwrap_or(0.0);
         let found = found.min(least);
-        if 4.0 * found <= apart || few.len() < 60 {
+        if 4.0 * found <= apart || thinned.len() < 60 {
             return (found, step);
         }
         // Noise makes neighbors farther apart than they are; ends of a local fit far less.
         let mut chords: Vec<f64> =
-            few.windows(2 * HALF_WINDOW + 1).map(|w| far(&[w[0], w[2 * HALF_WINDOW]])).collect();
+            thinned.windows(2 * HALF_WINDOW + 1).map(|w| far(&[w[0], w[2 * HALF_WINDOW]])).collect();
         if found <= median(&mut chords).unwrap_or(0.0) / (2 * HALF_WINDOW) as f64 {
             least = found;
         }

@@ -12,7 +12,7 @@ impl Work {
     ///
     /// Distances of points see nothing of a loop between two of them. Both ends are places of the chain, so noise does not
     /// make them farther apart than the chain is long. Feet nearer than half the `spacing` along the chain are not looked at.
-    pub(crate) fn follows(&mut self, row: &Row, state: &mut State, spacing: f64) -> bool {
+    pub(crate) fn is_followed(&mut self, row: &Row, state: &mut State, spacing: f64) -> bool {
         let stations = self.stations(row, state);
         let count = row.points.len();
         let starts = state.chain.stations();

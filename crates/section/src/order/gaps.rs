@@ -72,7 +72,7 @@ fn other(end: usize) -> usize {
 }
 
 /// Links the ends of ways, the nearest and straightest first.
-pub(super) fn link(ways: Vec<Way>, middles: &[[f64; 2]], limits: &Limits) -> Vec<Linked> {
+pub(super) fn link_over_gaps(ways: Vec<Way>, middles: &[[f64; 2]], limits: &Limits) -> Vec<Linked> {
     let ends: Vec<End> = ways.iter().flat_map(|w| [false, true].map(|last| end(w, last, middles))).collect();
     // Ways that hang together: the far end of each end, and the number of cells.
     let mut far: Vec<usize> = (0..ends.len()).map(other).collect();
@@ -202,7 +202,7 @@ mod tests {
         let mut ways = vec![wall(0.0, 0, 20), wall(0.0, 26, 40), wall(3.0, 0, 21), wall(3.0, 27, 40)];
         ways[3].reverse();
         let limits = Limits { gap: 8.0, closing: 4.0, fewest: 8 };
-        let found = link(ways, &middles, &limits);
+        let found = link_over_gaps(ways, &middles, &limits);
         assert_eq!(found.len(), 2);
         for linked in found {
             let along: Vec<f64> = linked.way.iter().map(|(c, _)| middles[*c][0]).collect();

@@ -4,15 +4,15 @@
 //! The chain over such a corner has a short arc or a free piece there, or a join far off. So up to three neighboring pieces of each
 //! chain are replaced by two lines or arcs with a corner between them, and where that costs less, the chain ends there.
 
-use super::doubt::CORNER_UNKNOWNS;
-use super::plan::{Chains, Plan};
+use super::corner_search::{Chains, CornerSearch};
+use super::remove_corners::CORNER_UNKNOWNS;
 use crate::model::chain::{Chain, Ends, Piece, Pose, SegmentKind, arc_end, arc_over};
 use crate::model::criterion::{Model, Unknowns};
 use crate::model::flat::distance;
 use crate::model::least::State;
 use crate::model::result::SectionError;
+use crate::search::parts::{Halves, Part, halves};
 use crate::search::span::{Found, single};
-use crate::search::start::{Halves, Part, halves};
 use crate::search::task::Span;
 use trueness_geom::progress::{Cancelled, Progress};
 
@@ -26,7 +26,7 @@ const MIN_POINTS_BESIDE_CORNER: usize = 6;
 const OPENED_CHAIN_UNKNOWNS: Unknowns = Unknowns { number: 0.0, weight: 2.0, kinds: 0.0 };
 
 /// A corner in place of some pieces of a chain.
-struct Blunt {
+struct InsertedCorner {
     /// The first of these pieces, and the one behind them.
     from: usize,
     to: usize,
@@ -36,9 +36,13 @@ struct Blunt {
     parts: [Part; 2],
 }
 
-impl Plan<'_> {
+impl CornerSearch<'_> {
     /// The chains, divided at corners that they pass over.
-    pub(super) fn divided(&self, all: Chains, progress: &dyn Progress) -> Result<Chains, SectionError> {
+    pub(super) fn with_corners_inserted(
+        &self,
+        all: Chains,
+        progress: &dyn Progress,
+    ) -> Result<Chains, SectionError> {
         let mut cornered = all.cornered;
         let mut founds = vec![];
         let mut rest: Vec<Found> = all.founds.into_iter().rev().collect();
@@ -57,7 +61,7 @@ impl Plan<'_> {
     /// The chains on both sides of the corner that this one passes over, of a closed one the open one from there on; `None` where
     /// none costs less.
     fn divide(&self, found: &Found, progress: &dyn Progress) -> Result<Option<Vec<Found>>, SectionError> {
-        if found.astray || found.circle || single(&found.state) {
+        if found.unreliable || found.circle || single(&found.state) {
             return Ok(None);
         }
         let (count, total) = (found.span.points.len(), self.clean.points.len());
@@ -103,13 +107,13 @@ impl Plan<'_> {
             span.refined(state, &self.task(false, n == total, n), progress)
         };
         let founds = states.into_iter().map(refined).collect::<Result<Vec<Found>, _>>()?;
-        Ok(founds.iter().all(|f| !f.astray).then_some(founds))
+        Ok(founds.iter().all(|f| !f.unreliable).then_some(founds))
     }
 }
 
 /// The corners that may be in place of up to so many neighboring pieces, each with the sum of squares that the chains have at least
 /// then.
-fn corners(found: &Found) -> Vec<(Blunt, f64)> {
+fn corners(found: &Found) -> Vec<(InsertedCorner, f64)> {
     let (state, n) = (&found.state, found.span.points.len());
     let pieces = &state.chain.pieces;
     let mut all = vec![];
@@ -125,24 +129,24 @@ fn corners(found: &Found) -> Vec<(Blunt, f64)> {
                     continue;
                 }
                 let at = range.start + parts[1].from;
-                all.push((Blunt { from, to, at, parts }, state.sum - own + sum));
+                all.push((InsertedCorner { from, to, at, parts }, state.sum - own + sum));
             }
         }
     }
     all
 }
 
-impl Blunt {
+impl InsertedCorner {
     /// The chains before and behind the corner, of a closed chain the open one from behind it on, each with its points.
-    fn states(&self, plan: &Plan, found: &Found) -> Vec<(Span, State)> {
+    fn states(&self, search: &CornerSearch, found: &Found) -> Vec<(Span, State)> {
         let (state, n) = (&found.state, found.span.points.len());
         let pieces = &state.chain.pieces;
         let count = pieces.len();
         let before = self.before(found);
-        let behind = self.behind(found);
+        let after = self.after(found);
         let span = |from: usize, to: usize| {
             let numbers = (from..to).map(|i| found.span.numbers[i % n]).collect();
-            Span::new(&plan.clean.points, plan.weights, numbers)
+            Span::new(&search.clean.points, search.weights, numbers)
         };
         let feet = |from: usize, to: usize| (from..to).map(|i| state.feet[i % n]).collect::<Vec<f64>>();
         let of = |start: Pose, pieces: Vec<Piece>, breaks: Vec<usize>| {
@@ -158,7 +162,7 @@ impl Blunt {
             let breaks = breaks.iter().map(|b| b - from).collect();
             (span(from, to), State { chain, breaks, feet: feet(from, to), sum: 0.0 })
         };
-        let (start, first) = behind;
+        let (start, first) = after;
         if state.chain.closed {
             let mut all = vec![first];
             all.extend_from_slice(&pieces[self.to..]);
@@ -194,7 +198,7 @@ impl Blunt {
     }
 
     /// Where the chain behind the corner starts, and its first piece.
-    fn behind(&self, found: &Found) -> (Pose, Piece) {
+    fn after(&self, found: &Found) -> (Pose, Piece) {
         let (part, points) = (&self.parts[1], &found.span.points);
         let first = points[self.at % points.len()];
         let count = found.pieces().len();

@@ -6,7 +6,7 @@
 
 use super::limits::{BENT_TURN_SHARE, FAR_STEP_RATIO, MIN_POINTS_TO_TELL_STRAYS, STRAIGHT_TURN};
 use crate::model::flat::distance;
-use crate::search::start::{noise, noise_beyond_form};
+use crate::search::parts::{noise, noise_beyond_form};
 
 /// So many points next to an end tell how the row goes on.
 const POINTS_BESIDE_END: usize = 6;
@@ -46,13 +46,13 @@ impl Scatter {
             return Scatter { sigma: 0.0, step: 1, beyond_form: 0.0 };
         }
         let (sigma, step) = noise(row, false);
-        let few: Vec<[f64; 2]> = row.iter().step_by(step).copied().collect();
-        Scatter { sigma, step, beyond_form: noise_beyond_form(&few, false) }
+        let thinned: Vec<[f64; 2]> = row.iter().step_by(step).copied().collect();
+        Scatter { sigma, step, beyond_form: noise_beyond_form(&thinned, false) }
     }
 }
 
 /// What the first point of a row is.
-pub(super) fn first(row: &[[f64; 2]], scatter: Scatter) -> End {
+pub(super) fn judge_first(row: &[[f64; 2]], scatter: Scatter) -> End {
     let next: Vec<[f64; 2]> =
         row.iter().skip(1).step_by(scatter.step).take(POINTS_BESIDE_END).copied().collect();
     if row.len() < MIN_POINTS_TO_TELL_STRAYS[0] + POINTS_BESIDE_END || next.len() < POINTS_BESIDE_END {

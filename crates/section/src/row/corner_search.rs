@@ -1,7 +1,7 @@
 //! The chains of a row between its corners, as a first partition tells them.
 
 use super::clean::{Clean, spacing};
-use super::levels::Start;
+use super::noise_levels::Partition;
 use super::polygon;
 use crate::model::budget::Budget;
 use crate::model::chain::SegmentKind;
@@ -9,8 +9,8 @@ use crate::model::criterion::Criterion;
 use crate::model::flat::angle;
 use crate::model::prior::Known;
 use crate::model::result::{Continuity, Options, SectionError};
+use crate::search::parts::{Part, shares};
 use crate::search::span::{Found, single};
-use crate::search::start::{Part, shares};
 use crate::search::task::{Span, Task};
 use std::collections::VecDeque;
 use std::ops::Range;
@@ -24,7 +24,7 @@ pub(super) const CLEAR_CORNER_TURN: f64 = 0.6;
 pub(super) const RESOLUTION_SPACINGS: f64 = 1e-4;
 
 /// What all spans of a row have in common.
-pub(super) struct Plan<'a> {
+pub(super) struct CornerSearch<'a> {
     pub clean: &'a Clean,
     pub weights: &'a [f64],
     pub options: &'a Options,
@@ -53,10 +53,10 @@ pub(super) struct Chains {
     pub cornered: bool,
 }
 
-impl Start {
+impl Partition {
     /// How chains of its parts are looked for.
-    pub(super) fn plan<'a>(&'a self, options: &'a Options, budget: &'a Budget) -> Plan<'a> {
-        Plan {
+    pub(super) fn corner_search<'a>(&'a self, options: &'a Options, budget: &'a Budget) -> CornerSearch<'a> {
+        CornerSearch {
             clean: &self.clean,
             weights: &self.weights,
             options,
@@ -74,7 +74,7 @@ impl Start {
     }
 }
 
-impl Plan<'_> {
+impl CornerSearch<'_> {
     /// The chains between corners.
     pub(super) fn all(&self, parts: &[Part], progress: &dyn Progress) -> Result<Chains, SectionError> {
         let closed = self.clean.closed;
@@ -96,27 +96,28 @@ impl Plan<'_> {
             let mut found = span().find(parts, &self.task(parts.len() > 1, true, n), progress)?;
             if parts.len() == 1 {
                 // A whole circle joins itself anywhere: it is an arc whose ends happen to meet. Any other curve closes.
-                found.circle =
-                    found.pieces().len() == 1 && found.pieces()[0].kind == SegmentKind::Arc && !found.astray;
+                found.circle = found.pieces().len() == 1
+                    && found.pieces()[0].kind == SegmentKind::Arc
+                    && !found.unreliable;
                 if !found.circle {
                     let halves = shares(&self.clean.points, self.weights, 2);
                     found = span().find(&halves, &self.task(true, true, n), progress)?;
                 }
             }
-            if !found.astray {
+            if !found.unreliable {
                 // Of a closed chain of one arc nobody knows where it begins; an open one has its center and radius alone.
                 if single(&found.state) && found.pieces()[0].kind == SegmentKind::Arc {
                     let whole = shares(&self.clean.points, self.weights, 1);
                     let task = Task { draft: true, ..self.task(false, true, n) };
                     let mut open = span().find(&whole, &task, progress)?;
-                    open.circle = !open.astray;
+                    open.circle = !open.unreliable;
                     open.noise = if self.known_noise.is_some() { open.noise } else { open.scatter() };
                     found = if open.circle { open } else { found };
                 }
                 return Ok(Chains { founds: vec![found], cornered: false });
             }
             if forced.is_some() {
-                return Err(SectionError::Astray);
+                return Err(SectionError::Unreliable);
             }
             // No closed curve runs along the points: it has corners that the partition does not tell.
             let quarters = shares(&self.clean.points, self.weights, 4.min(n / 2));
@@ -164,9 +165,9 @@ impl Plan<'_> {
             let task = self.task(false, count == n, count);
             let span = Span::new(&self.clean.points, self.weights, numbers);
             let found = span.find(&local, &task, progress)?;
-            if found.astray && own.len() > 1 {
+            if found.unreliable && own.len() > 1 {
                 if matches!(self.forced, Some(Continuity::G1 | Continuity::G2)) {
-                    return Err(SectionError::Astray);
+                    return Err(SectionError::Unreliable);
                 }
                 // No curve without corners runs along these points.
                 group.rev().for_each(|k| groups.push_front(k..k + 1));

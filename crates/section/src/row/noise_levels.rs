@@ -15,8 +15,8 @@ use crate::model::chain::SegmentKind;
 use crate::model::prior::{Known, NEGLIGIBLE_OFFSET_SPACINGS, Prior};
 use crate::model::result::{Continuity, Contour, Options};
 use crate::search::partition::{MAX_PART_STARTS, Penalty, partition};
+use crate::search::parts::{Part, noise, scatter};
 use crate::search::span::Found;
-use crate::search::start::{Part, noise, scatter};
 use std::collections::VecDeque;
 
 /// Fewest points of a part.
@@ -54,7 +54,7 @@ pub(super) const EQUAL_COST: f64 = 1e-3;
 
 /// What a search begins with.
 #[derive(Clone, Debug)]
-pub(super) struct Start {
+pub(super) struct Partition {
     /// The row, turned so that it begins where a part does, by so many points.
     pub clean: Clean,
     pub turned: usize,
@@ -83,9 +83,9 @@ fn penalty(count: f64, noise: f64, fewest: usize) -> Penalty {
     Penalty { line: 3.0 * log, arc: 4.0 * log, noise, fewest, places: MAX_PART_STARTS }
 }
 
-impl Start {
+impl Partition {
     /// At the level that local fits tell, or that is given; of rows that are lines and arcs exactly, these.
-    pub fn new(clean: Clean, prior: &Prior, options: &Options) -> Start {
+    pub fn new(clean: Clean, prior: &Prior, options: &Options) -> Partition {
         let n = clean.points.len();
         let (mut own, step) = noise(&clean.points, clean.closed);
         if n < MAX_POINTS_WITH_FORM_IN_NOISE {
@@ -100,7 +100,7 @@ impl Start {
         let known = exact.is_some();
         let none = || polygon(&clean, &penalty(n as f64, least, MIN_POINTS_PER_PART * step));
         let exact = if prior.noise.is_none() { exact.or_else(none) } else { None };
-        let mut start = Start {
+        let mut partition = Partition {
             weights: clean.numbers.iter().map(|i| prior.weight(*i)).collect(),
             clean,
             turned: 0,
@@ -118,26 +118,27 @@ impl Start {
         };
         // Of a polygon nothing more is to be known.
         if let Some((by, parts)) = exact {
-            start.turn(by);
-            start.sigma = scatter(&start.clean.points, &start.weights, &parts).max(least);
-            (start.own, start.parts) = (start.sigma, parts);
-            return start;
+            partition.turn(by);
+            partition.sigma = scatter(&partition.clean.points, &partition.weights, &parts).max(least);
+            (partition.own, partition.parts) = (partition.sigma, parts);
+            return partition;
         }
-        start.outliers = start.clean.outliers(sigma, step);
-        for i in &start.outliers {
-            start.weights[*i] = 0.0;
+        partition.outliers = partition.clean.outliers(sigma, step);
+        for i in &partition.outliers {
+            partition.weights[*i] = 0.0;
         }
-        start.clean.bring_in(&start.outliers);
+        partition.clean.bring_in(&partition.outliers);
         for _ in 0..PARTITION_PASSES {
-            start.divide(MIN_POINTS_PER_PART);
+            partition.divide(MIN_POINTS_PER_PART);
             // Where corners lie so near to each other that each local fit holds one, the partition knows the noise better.
-            let found = scatter(&start.clean.points, &start.weights, &start.parts).max(start.least);
-            if prior.noise.is_some() || found > MIN_LOCAL_NOISE_SHARE * start.sigma {
+            let found =
+                scatter(&partition.clean.points, &partition.weights, &partition.parts).max(partition.least);
+            if prior.noise.is_some() || found > MIN_LOCAL_NOISE_SHARE * partition.sigma {
                 break;
             }
-            (start.own, start.sigma) = (start.own.min(found), found);
+            (partition.own, partition.sigma) = (partition.own.min(found), found);
         }
-        start
+        partition
     }
 
     /// The noise that short fits tell, where it is asked for.
@@ -163,7 +164,7 @@ impl Start {
 
     /// The same row at finer levels, where short fits tell a noise below that about the chains found: of the different partitions
     /// those few that may be cheapest.
-    pub fn finer(&self, options: &Options, fine: Option<f64>, founds: &[Found]) -> VecDeque<Start> {
+    pub fn finer(&self, options: &Options, fine: Option<f64>, founds: &[Found]) -> VecDeque<Partition> {
         let n = self.clean.points.len();
         let share =
             if n <= SPARSE_ROW_POINTS { 1.0 } else { libm::exp(-FINER_LEVEL_CHANCE / (n as f64).sqrt()) };
@@ -179,7 +180,7 @@ impl Start {
             let mut level = self.sigma;
             while level > (MIN_LEVEL_SHARE * fine).max(self.least) {
                 level *= LEVEL_RATIO;
-                let mut other = Start { sigma: level.max(self.least), ..self.clone() };
+                let mut other = Partition { sigma: level.max(self.least), ..self.clone() };
                 other.divide(fewest);
                 let found = scatter(&other.clean.points, &other.weights, &other.parts).max(self.least);
                 (other.own, other.sigma) = (found.min(self.own), found.min(self.sigma));
@@ -192,14 +193,15 @@ impl Start {
         }
         all.sort_by(|a, b| a.0.total_cmp(&b.0));
         all.truncate(MAX_FINER_PARTITIONS);
-        own.into_iter().chain(all.into_iter().map(|(_, start)| start)).collect()
+        own.into_iter().chain(all.into_iter().map(|(_, partition)| partition)).collect()
     }
 
     /// The same parts as chains with corners between lines alone, where there are arcs that may be tangent to what is beside them: a join
     /// that the partition put a few points off looks like a corner.
-    pub fn tangent(&self) -> Option<Start> {
+    pub fn tangent(&self) -> Option<Partition> {
         let arcs = self.parts.iter().filter(|p| p.kind == SegmentKind::Arc).count();
-        (arcs > 0 && !self.tangent && self.forced.is_none()).then(|| Start { tangent: true, ..self.clone() })
+        (arcs > 0 && !self.tangent && self.forced.is_none())
+            .then(|| Partition { tangent: true, ..self.clone() })
     }
 
     /// What chains of the parts may cost at best: as if each followed the part before with a common tangent, and scattered no more
@@ -227,7 +229,7 @@ impl Start {
 
     /// What chains cost, to compare chains of the same row: infinite where they are as many unknowns as points.
     pub fn cost(&self, founds: &[Found]) -> f64 {
-        if founds.iter().any(|f| f.astray) {
+        if founds.iter().any(|f| f.unreliable) {
             return f64::INFINITY;
         }
         let unknowns = founds.iter().map(Found::unknowns).sum::<f64>() + founds.len() as f64;
@@ -242,8 +244,8 @@ impl Start {
         }
         let mean = sum / count + self.least * self.least;
         // Schwarz's penalty, or the one of Hurvich and Tsai where the points are few for so many unknowns.
-        let few = 2.0 * count * (unknowns + 1.0) / spare;
-        count * libm::log(mean) + few.max(unknowns * libm::log(count))
+        let correction = 2.0 * count * (unknowns + 1.0) / spare;
+        count * libm::log(mean) + correction.max(unknowns * libm::log(count))
     }
 }
 

@@ -4,12 +4,12 @@
 //! meet with a common tangent, however tangent the curve is. So each blunt corner is doubted: one chain is looked for over both
 //! sides, and where it costs less than two chains and the corner, there is none.
 
-use super::plan::{CLEAR_CORNER_TURN, Chains, Plan};
+use super::corner_search::{CLEAR_CORNER_TURN, Chains, CornerSearch};
 use crate::model::criterion::Unknowns;
 use crate::model::flat::angle;
 use crate::model::result::SectionError;
+use crate::search::parts::Part;
 use crate::search::span::Found;
-use crate::search::start::Part;
 use crate::search::task::Span;
 use trueness_geom::progress::Progress;
 
@@ -21,7 +21,7 @@ pub(super) const CORNER_UNKNOWNS: Unknowns = Unknowns { number: 1.0, weight: 3.0
 /// Chains of more points are left: they have points enough for the parts of a first partition to tell a corner.
 const MAX_POINTS_TO_JOIN: usize = 1500;
 
-impl Plan<'_> {
+impl CornerSearch<'_> {
     /// The chains between corners, without corners that cost more than a chain over them, with those that cost less.
     pub(super) fn chains(&self, parts: &[Part], progress: &dyn Progress) -> Result<Chains, SectionError> {
         let mut all = self.all(parts, progress)?;
@@ -30,26 +30,27 @@ impl Plan<'_> {
         }
         let mut tried: Vec<[usize; 2]> = vec![];
         for _ in 0..MAX_DOUBTED_CORNERS {
-            let Some(first) = self.bluntest(&all, &tried).filter(|_| !self.budget.is_spent(0.0)) else {
+            let Some(first) = self.gentlest_corner(&all, &tried).filter(|_| !self.budget.is_spent(0.0))
+            else {
                 break;
             };
             let next = (first + 1) % all.founds.len();
             let pair = [first, next].map(|k| &all.founds[k]);
             tried.push(pair.map(|f| f.span.numbers[0]));
             let founds = if next == first { &pair[..1] } else { &pair };
-            let Some(found) = self.over(founds, progress)? else { continue };
+            let Some(found) = self.chain_over(founds, progress)? else { continue };
             all.cornered &= next != first;
             all.founds[first] = found;
             if next != first {
                 all.founds.remove(next);
             }
         }
-        self.divided(all, progress)
+        self.with_corners_inserted(all, progress)
     }
 
     /// The first of the two neighboring chains, not yet tried, that turn least from one to the next; of a closed row a single chain is its
     /// own neighbor.
-    fn bluntest(&self, all: &Chains, tried: &[[usize; 2]]) -> Option<usize> {
+    fn gentlest_corner(&self, all: &Chains, tried: &[[usize; 2]]) -> Option<usize> {
         let (founds, count) = (&all.founds, all.founds.len());
         let pairs = if self.clean.closed && all.cornered { count } else { count - 1 };
         let turn = |k: usize| {
@@ -64,7 +65,7 @@ impl Plan<'_> {
     }
 
     /// One chain over two, or a closed one over one, where that costs less than with the corner.
-    fn over(&self, founds: &[&Found], progress: &dyn Progress) -> Result<Option<Found>, SectionError> {
+    fn chain_over(&self, founds: &[&Found], progress: &dyn Progress) -> Result<Option<Found>, SectionError> {
         let numbers: Vec<usize> = founds.iter().flat_map(|f| f.span.numbers.iter().copied()).collect();
         let count = numbers.len();
         let task = self.task(founds.len() == 1, count == self.clean.points.len(), count);
@@ -73,6 +74,6 @@ impl Plan<'_> {
         let unknowns =
             founds.iter().map(|f| Unknowns::of(&f.state.chain)).fold(CORNER_UNKNOWNS, Unknowns::and);
         let bar = criterion.cost_of(founds.iter().map(|f| f.state.sum).sum(), unknowns);
-        Ok(span.over(founds, bar, &task, progress)?)
+        Ok(span.chain_over(founds, bar, &task, progress)?)
     }
 }

@@ -1,10 +1,10 @@
 //! A smooth curve along the points of a row, that models are built on where lines and arcs of a first partition do not follow the
 //! points.
 
-use super::base::Base;
+use super::model_edits::PlacedModel;
 use super::rounds::Search;
 use crate::model::chain::{Chain, Piece};
-use crate::model::criterion::{Model, Plan};
+use crate::model::criterion::{Model, PieceSpec};
 use crate::model::flat::{angle, distance};
 use crate::model::least::State;
 use trueness_geom::spline::curve::{self, Curve, Ends, chord_parameters, spread_knots};
@@ -21,9 +21,9 @@ const MAX_NOISE_FOR_CHORDS_SPACINGS: f64 = 0.2;
 const ARCS_PER_SPAN: usize = 4;
 
 impl Search<'_> {
-    /// Arcs along the curve of fewest control points that the points scatter about by no more than their noise, with `plans`
+    /// Arcs along the curve of fewest control points that the points scatter about by no more than their noise, with `specs`
     /// of the first to the last of them on it; `None` where no curve does.
-    pub fn along(&self, first: &State, plans: &[Plan]) -> Option<Base> {
+    pub fn arcs_along_smooth_curve(&self, first: &State, specs: &[PieceSpec]) -> Option<PlacedModel> {
         let (n, from) = (self.row.points.len(), first.breaks[0]);
         let closed = first.chain.closed;
         let numbers: Vec<usize> = (from..from + n + usize::from(closed)).map(|i| i % n).collect();
@@ -62,11 +62,12 @@ impl Search<'_> {
             next += usize::from(kept.get(next).is_some_and(|i| *i < k));
             *place = station(parameters[next.min(parameters.len() - 1)]);
         }
-        let (whole, old) = (stations[stations.len() - 1], [plans.first()?.from, plans.last()?.to]);
+        let (whole, old) = (stations[stations.len() - 1], [specs.first()?.from, specs.last()?.to]);
         let scaled = |s: f64| (s - old[0]) / (old[1] - old[0]) * whole;
-        let plans = plans.iter().map(|p| Plan { from: scaled(p.from), to: scaled(p.to), ..*p }).collect();
+        let specs =
+            specs.iter().map(|p| PieceSpec { from: scaled(p.from), to: scaled(p.to), ..*p }).collect();
         let state = State { chain, breaks: first.breaks.clone(), feet: vec![0.5; n], sum: 0.0 };
-        Some(Base::along(Model { state, cost: f64::INFINITY }, stations, order, plans))
+        Some(PlacedModel::of_arcs(Model { state, cost: f64::INFINITY }, stations, order, specs))
     }
 
     /// The curve along points, and their parameters.
