@@ -6,6 +6,6 @@
 //! | meshes cut where facets meet, unions of shells | [`arrange`] |
 #![cfg_attr(test, allow(clippy::disallowed_methods, reason = "a test does not hang on the last digit"))]
 
-mod around;
 pub mod arrange;
+mod neighborhood;
 pub mod repair;

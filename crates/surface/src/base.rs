@@ -249,8 +249,8 @@ fn upright(
         let steep =
             if layers <= MAX_LAYERED_SHARE { MAX_STANDING_SHARE_OF_STEEP } else { MAX_STANDING_SHARE };
         // Some outliers look like layers from all sides, and from some a little less.
-        let gone = layers == 0.0 || folded > MAX_LAYERED_SHARE && 2.0 * layers <= folded;
-        let fewer_layers = folded > OUTLIER_SHARE && gone && edges <= on_edge.max(steep);
+        let layers_vanish = layers == 0.0 || folded > MAX_LAYERED_SHARE && 2.0 * layers <= folded;
+        let fewer_layers = folded > OUTLIER_SHARE && layers_vanish && edges <= on_edge.max(steep);
         // Normals of noise are upright in some direction of several.
         let upright = n == 0
             && on_edge > MAX_STANDING_SHARE

@@ -125,11 +125,11 @@ fn without_outliers(
     fit: impl Fn(&[u32]) -> Result<SurfaceFit, SurfaceError>,
 ) -> Result<SurfaceFit, SurfaceError> {
     let out = outliers::outliers(points, base, parameters, progress)?;
-    told_of_all(points, fit(&out)?, out, progress)
+    fit_without(points, fit(&out)?, out, progress)
 }
 
 /// The fit of all points but those `out`, with the deviations and nearest places of all.
-fn told_of_all(
+fn fit_without(
     points: &[Point],
     found: SurfaceFit,
     out: Vec<u32>,

@@ -23,8 +23,8 @@ pub(super) fn with_true_distances(
     beyond: f64,
     progress: &dyn Progress,
 ) -> Result<SurfaceFit, SurfaceError> {
-    let asked = |i: &u32| fit.deviations[*i as usize].abs() > beyond;
-    let (ask, keep): (Vec<u32>, Vec<u32>) = fit.doubtful.iter().copied().partition(asked);
+    let is_beyond = |i: &u32| fit.deviations[*i as usize].abs() > beyond;
+    let (ask, keep): (Vec<u32>, Vec<u32>) = fit.doubtful.iter().copied().partition(is_beyond);
     if ask.is_empty() {
         fit.beyond_border = border::beyond(points, &fit);
         return Ok(fit);

@@ -298,10 +298,10 @@ fn kept(regions: Vec<(usize, OutlineRegion)>, reach: f64) -> Outline {
     let enough = |(count, region): &(usize, OutlineRegion)| {
         *count as f64 >= MIN_REGION_SHARE * most && region.outer.len() > 2
     };
-    let (kept, few): (Vec<_>, Vec<_>) = regions.into_iter().partition(enough);
+    let (kept, dropped): (Vec<_>, Vec<_>) = regions.into_iter().partition(enough);
     let mut regions: Vec<OutlineRegion> = kept.into_iter().map(|(_, region)| region).collect();
     regions.sort_by(|a, b| area(&b.outer).total_cmp(&area(&a.outer)));
-    Outline { reach, wanted: reach, regions, left_out: few.into_iter().map(|(count, _)| count).sum() }
+    Outline { reach, wanted: reach, regions, left_out: dropped.into_iter().map(|(count, _)| count).sum() }
 }
 
 /// The lines of as few sides as they can be without crossing each other or themselves, each within [`STRAIGHT_SIDE_CELLS`] cells. Where they touch

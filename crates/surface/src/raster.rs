@@ -41,13 +41,13 @@ impl Raster {
             open.push(start);
             while let Some(cell) = open.pop() {
                 let (i, j) = (cell / columns, cell % columns);
-                let beside = [
+                let neighbors = [
                     (i > 0).then(|| cell - columns),
                     (i + 1 < rows).then(|| cell + columns),
                     (j > 0).then(|| cell - 1),
                     (j + 1 < columns).then(|| cell + 1),
                 ];
-                for next in beside.into_iter().flatten() {
+                for next in neighbors.into_iter().flatten() {
                     if height[next] >= level && part[next] == u32::MAX {
                         part[next] = count;
                         open.push(next);

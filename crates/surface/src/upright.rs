@@ -53,11 +53,11 @@ pub(super) fn standing(
     if points.len() < MIN_POINTS_WITH_NORMALS {
         return Ok(0.0);
     }
-    let (found, asked) = normals(points, [MAX_POINTS_FOR_EDGES, MAX_NORMALS_FOR_EDGES], progress)?;
+    let (found, asked_count) = normals(points, [MAX_POINTS_FOR_EDGES, MAX_NORMALS_FOR_EDGES], progress)?;
     let on_edge =
         found.iter().filter(|(place, normal)| dot(up(*place), *normal).abs() < MAX_COSINE_ON_EDGE).count();
     // Among noise wider than the distance of neighbors hardly any have a normal.
-    Ok(on_edge as f64 / asked as f64)
+    Ok(on_edge as f64 / asked_count as f64)
 }
 
 /// Share of the points that stand on edge and that the surface passes by: it has another direction there than they have, by 45° and more.
@@ -72,33 +72,33 @@ pub(super) fn passed_by(
 ) -> Result<f64, Cancelled> {
     /// Cosine of the angle between the two from which on it follows them.
     const MIN_FOLLOWING_COSINE: f64 = 0.7;
-    let (mut found, asked) = normals(points, [MAX_POINTS_FOR_EDGES, MAX_NORMALS_FOR_EDGES], progress)?;
+    let (mut found, asked_count) = normals(points, [MAX_POINTS_FOR_EDGES, MAX_NORMALS_FOR_EDGES], progress)?;
     found.retain(|(place, normal)| dot(up(*place), *normal).abs() < MAX_COSINE_ON_EDGE);
     let search = match FootSearch::new(&[surface.clone().into()], progress) {
         Err(_) if progress.cancelled() => return Err(Cancelled),
-        Err(_) => return Ok(found.len() as f64 / asked as f64),
+        Err(_) => return Ok(found.len() as f64 / asked_count as f64),
         Ok(search) => search,
     };
-    let beside = |(place, normal): &&(Point, Vector)| {
+    let is_missed = |(place, normal): &&(Point, Vector)| {
         search.nearest(place).foot.normal.is_none_or(|n| dot(n, *normal).abs() < MIN_FOLLOWING_COSINE)
     };
-    Ok(found.par_iter().filter(beside).count() as f64 / asked as f64)
+    Ok(found.par_iter().filter(is_missed).count() as f64 / asked_count as f64)
 }
 
 /// Some of the points and their normals, those of planes through 16 neighbors, and how many were asked: so many are searched, and so
 /// many asked at most.
 fn normals(
     points: &[Point],
-    [among, asked]: [usize; 2],
+    [among, most_asked]: [usize; 2],
     progress: &dyn Progress,
 ) -> Result<(Vec<(Point, Vector)>, usize), Cancelled> {
-    let some: Vec<Point> = points.iter().step_by(points.len().div_ceil(among)).copied().collect();
-    let tree = PointTree::new(&some);
+    let sample: Vec<Point> = points.iter().step_by(points.len().div_ceil(among)).copied().collect();
+    let tree = PointTree::new(&sample);
     let of = |p: &Point| {
         let around: Vec<Vector> = tree
             .k_nearest(p, NEIGHBORS_PER_NORMAL, None)
             .iter()
-            .map(|n| minus(some[n.1 as usize], *p))
+            .map(|n| minus(sample[n.1 as usize], *p))
             .collect();
         let Scatter { variance, axes, .. } = Scatter::of(&around);
         // Of points on a line every direction across is a normal.
@@ -108,7 +108,7 @@ fn normals(
     if progress.cancelled() {
         return Err(Cancelled);
     }
-    let asked: Vec<Point> = some.iter().step_by(some.len().div_ceil(asked)).copied().collect();
+    let asked: Vec<Point> = sample.iter().step_by(sample.len().div_ceil(most_asked)).copied().collect();
     Ok((asked.par_iter().filter_map(of).collect(), asked.len()))
 }
 

@@ -70,7 +70,8 @@ pub(super) fn imprints(
     loop {
         let known = facets.len();
         let looked_at = facets.iter().copied().collect();
-        let Some((positions, imprints)) = upon(&mesh, &topology, looked_at, reach, round, progress)? else {
+        let Some((positions, imprints)) = imprints_near(&mesh, &topology, looked_at, reach, round, progress)?
+        else {
             return Ok(None);
         };
         // What lies upon further facets may lie across their edges too.
@@ -82,7 +83,7 @@ pub(super) fn imprints(
 }
 
 /// What lies upon these facets and others no farther off than `reach`; and all vertices, new ones last.
-fn upon(
+fn imprints_near(
     mesh: &Mesh,
     topology: &Topology,
     facets: Vec<u32>,

@@ -18,14 +18,15 @@
 //! After Zhou, Grinspun, Zorin, Jacobson, Mesh Arrangements for Solid Geometry, 2016; filters before exact numbers as in
 //! Cherchi, Livesu, Scateni, Attene, Fast and Robust Mesh Arrangements using Floating-point Arithmetic, 2020.
 
-mod around;
 mod cells;
 mod cluster;
 mod cut;
 mod cutting;
+mod edge_order;
 mod error;
 mod imprint;
 mod meetings;
+mod near_coincident;
 mod outer;
 mod pairs;
 mod passing;
@@ -36,12 +37,11 @@ mod snap;
 #[cfg(test)]
 pub(crate) mod tests;
 mod triangulate;
-mod upon;
 
 pub use error::ArrangeError;
+pub(crate) use near_coincident::any_at_edges;
 pub use outer::{Boundary, Options, outer_boundary};
-pub(crate) use outer::{Given, boundary_of};
-pub(crate) use upon::any_at_edges;
+pub(crate) use outer::{Input, boundary_of};
 
 use cutting::cutting;
 use pairs::{in_range, pairs};

@@ -4,12 +4,12 @@ use super::cells::{Open, windings};
 use super::cutting::{Cutting, cutting};
 use super::error::ArrangeError;
 use super::imprint::imprints;
+use super::near_coincident::{Closeness, near_coincident, step};
 use super::pairs::{in_range, not_too_many, pairs};
 use super::points::Points;
 use super::retile::retiled;
 use super::snap::{snap, used};
-use super::upon::{Closeness, step, upon};
-use crate::around::Around;
+use crate::neighborhood::Neighborhood;
 use std::collections::BTreeSet;
 use trueness_geom::check::intersect;
 use trueness_geom::mesh::Mesh;
@@ -96,11 +96,11 @@ pub fn outer_boundary(
     options: &Options,
     progress: &dyn Progress,
 ) -> Result<Boundary, ArrangeError> {
-    boundary_of(Given { mesh: as_it_is(mesh)?, topology: None, pairs: None }, options, progress)
+    boundary_of(Input { mesh: as_it_is(mesh)?, topology: None, pairs: None }, options, progress)
 }
 
 /// A welded mesh whose vertices facets use, and what is known about it.
-pub(crate) struct Given<'a> {
+pub(crate) struct Input<'a> {
     pub mesh: Mesh,
     /// What it says of facets is asked for alone: vertices may have other numbers in it.
     pub topology: Option<&'a Topology>,
@@ -110,42 +110,42 @@ pub(crate) struct Given<'a> {
 
 /// As [`outer_boundary`].
 pub(crate) fn boundary_of(
-    Given { mesh: given, topology, pairs: known }: Given,
+    Input { mesh: input, topology, pairs: known }: Input,
     options: &Options,
     progress: &dyn Progress,
 ) -> Result<Boundary, ArrangeError> {
-    let close = Closeness::of(&given, options.single);
+    let close = Closeness::of(&input, options.single);
     let round = |x: f64| rounded_to(x, options.single);
     let own: Topology;
     let topology = match topology {
         Some(topology) => topology,
         None => {
-            own = Topology::of(&given)?;
+            own = Topology::of(&input)?;
             &own
         }
     };
-    in_range(&given, topology)?;
+    in_range(&input, topology)?;
     let crossing = match known {
-        Some(known) => not_too_many(known, &given)?,
-        None => pairs(&given, topology, &vec![true; given.faces.len()], progress)?,
+        Some(known) => not_too_many(known, &input)?,
+        None => pairs(&input, topology, &vec![true; input.faces.len()], progress)?,
     };
-    let (near, widest) = upon(&given, topology, &crossing, close)?;
+    let (near, widest) = near_coincident(&input, topology, &crossing, close)?;
     let mut result = Err(ArrangeError::Unresolved { position: [0.0; 3] });
     for reach in reaches(widest, close.step) {
         if let Some(reach) = reach {
-            let imprints = imprints(&given, &near, reach, &round, progress)?;
+            let imprints = imprints(&input, &near, reach, &round, progress)?;
             let retiled =
                 imprints.and_then(|(mesh, source, imprints)| retiled(mesh, &source, &imprints, reach));
             if let Some((mesh, source)) = retiled {
                 let topology = Topology::of(&mesh)?;
                 let crossing = pairs(&mesh, &topology, &vec![true; mesh.faces.len()], progress)?;
                 result =
-                    settled(&given, Start { mesh, source, topology: &topology, crossing }, options, progress);
+                    settled(&input, Uncut { mesh, source, topology: &topology, crossing }, options, progress);
             }
         } else {
-            let (mesh, source) = (given.clone(), (0..given.faces.len() as u32).collect());
-            let start = Start { mesh, source, topology, crossing: crossing.clone() };
-            result = settled(&given, start, options, progress);
+            let (mesh, source) = (input.clone(), (0..input.faces.len() as u32).collect());
+            let uncut = Uncut { mesh, source, topology, crossing: crossing.clone() };
+            result = settled(&input, uncut, options, progress);
         }
         if !matches!(result, Err(ArrangeError::Unresolved { .. })) {
             break;
@@ -169,7 +169,7 @@ fn reaches(widest: f64, step: f64) -> Vec<Option<f64>> {
 }
 
 /// A mesh to be cut, and what is known about it.
-struct Start<'a> {
+struct Uncut<'a> {
     mesh: Mesh,
     /// For each face the facet of the mesh given that it is a piece of.
     source: Vec<u32>,
@@ -181,21 +181,21 @@ struct Start<'a> {
 
 /// Cuts a mesh until what is left does not cross.
 fn settled(
-    given: &Mesh,
-    Start { mesh: mut current, mut source, topology, crossing }: Start,
+    input: &Mesh,
+    Uncut { mesh: mut current, mut source, topology, crossing }: Uncut,
     options: &Options,
     progress: &dyn Progress,
 ) -> Result<Boundary, ArrangeError> {
     let mut known = Some((topology, crossing));
-    let vertices = given.positions.len();
-    let step = step(given, options.single);
+    let vertices = input.positions.len();
+    let step = step(input, options.single);
     let mut most = usize::MAX;
     for cut in 0..MAX_CUTS {
         let is_new = |(f, source): (&[u32; 3], &u32)| {
-            cut == 0 || f.iter().any(|v| !given.faces[*source as usize].contains(v))
+            cut == 0 || f.iter().any(|v| !input.faces[*source as usize].contains(v))
         };
-        let some: Vec<bool> = current.faces.iter().zip(&source).map(is_new).collect();
-        if cut > 0 && is_clean(&current, &some, progress)? {
+        let is_new_facet: Vec<bool> = current.faces.iter().zip(&source).map(is_new).collect();
+        if cut > 0 && is_clean(&current, &is_new_facet, progress)? {
             return Ok(Boundary { mesh: compact(current, vertices), source, cuts: cut });
         }
         let own: Topology;
@@ -203,7 +203,7 @@ fn settled(
             Some(known) => known,
             None => {
                 own = Topology::of(&current)?;
-                (&own, pairs(&current, &own, &some, progress)?)
+                (&own, pairs(&current, &own, &is_new_facet, progress)?)
             }
         };
         let fine = topology.collinear.is_empty() && topology.duplicate_facets.is_empty();
@@ -236,10 +236,10 @@ fn settled(
 
 /// Whether it is plain at first sight that nothing new crosses, coincides or is flat: only what lies near the new facets is looked at.
 fn is_clean(mesh: &Mesh, new: &[bool], progress: &dyn Progress) -> Result<bool, ArrangeError> {
-    let Some(Around { mesh, asked, .. }) = Around::new(mesh, new) else { return Ok(false) };
+    let Some(Neighborhood { mesh, is_chosen, .. }) = Neighborhood::new(mesh, new) else { return Ok(false) };
     let topology = Topology::of(&mesh)?;
     let fine = topology.collinear.is_empty() && topology.duplicate_facets.is_empty();
-    Ok(fine && intersect::few_self_intersections(&mesh, &topology, &asked, 0, progress)?.is_some())
+    Ok(fine && intersect::few_self_intersections(&mesh, &topology, &is_chosen, 0, progress)?.is_some())
 }
 
 /// The pieces of a mesh that lie between material and none.

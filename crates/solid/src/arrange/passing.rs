@@ -271,7 +271,7 @@ mod tests {
 
     #[test]
     fn edges_pass_where_all_pairs_of_facets_say_so() {
-        let (random, mut some) = (&mut Random::new(8), 0);
+        let (random, mut found_count) = (&mut Random::new(8), 0);
         for case in 0..60 {
             let reach = [1e-9, 1e-4, 0.02][case % 3];
             let mut mesh =
@@ -293,9 +293,9 @@ mod tests {
             let facets: Vec<u32> = near.iter().copied().filter(|f| case % 2 == 0 || f % 3 > 0).collect();
             let found = passing(&mesh, &facets, &near, reach, &Silent).unwrap().unwrap();
             assert_eq!(found, by_pairs(&mesh, &facets, &near, reach), "{case}");
-            some += found.len();
+            found_count += found.len();
         }
-        assert!(some > 10_000, "{some}");
+        assert!(found_count > 10_000, "{found_count}");
     }
 
     /// Fans upon each other around one hub, a fan beside them, and small facets upon a fan: as many pairs looked at as edges pass, and

@@ -19,7 +19,7 @@ pub(super) struct Rays<'a> {
 }
 
 /// Shells with their winding numbers beside a place, those of 0 left out.
-pub type Around = Vec<(u32, i32)>;
+pub type ShellWindings = Vec<(u32, i32)>;
 
 /// A place beside a piece: the piece, whether it is where the piece looks to (0) or where it comes from (1), and y and z.
 struct Target {
@@ -36,7 +36,11 @@ impl<'a> Rays<'a> {
     /// For each of these parts the winding numbers of all shells, as far as they are not 0, beside one of its pieces: which one,
     /// whether where it looks to (0) or where it comes from (1), shells and numbers. The number of a part where no piece holds
     /// a point that numbers can name.
-    pub fn count(&self, pieces: &[Piece], parts: &[Vec<u32>]) -> Result<Vec<(usize, usize, Around)>, usize> {
+    pub fn count(
+        &self,
+        pieces: &[Piece],
+        parts: &[Vec<u32>],
+    ) -> Result<Vec<(usize, usize, ShellWindings)>, usize> {
         let targets = parts.par_iter().enumerate().map(|(n, part)| self.target_of(pieces, part).ok_or(n));
         let found: Vec<Result<Target, usize>> = targets.collect();
         let targets: Vec<Target> = found.into_iter().collect::<Result<_, usize>>()?;
@@ -86,7 +90,7 @@ impl<'a> Rays<'a> {
     }
 
     /// The facets that a ray from facet `from` at `target` passes, by shell.
-    fn behind(&self, all: &Container, from: u32, target: &Point) -> Around {
+    fn behind(&self, all: &Container, from: u32, target: &Point) -> ShellWindings {
         let mut sums: BTreeMap<u32, i32> = BTreeMap::new();
         all.behind(from, target, |f, around| *sums.entry(self.shell_of[f as usize]).or_default() += around);
         sums.into_iter().filter(|s| s.1 != 0).collect()

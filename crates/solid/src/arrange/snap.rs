@@ -16,11 +16,12 @@ pub(super) fn snap(positions: &[Point], used: &[bool], may_move: &[u32], reach: 
         let by = |i: i64| [i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1];
         (0..27).map(move |i| std::array::from_fn(|k| c[k].saturating_add(by(i)[k])))
     };
-    let asked: HashSet<Cell> = may_move.iter().flat_map(|p| around(cell(&positions[*p as usize]))).collect();
+    let cells_near: HashSet<Cell> =
+        may_move.iter().flat_map(|p| around(cell(&positions[*p as usize]))).collect();
     let mut stay: HashMap<Cell, Vec<u32>> = HashMap::new();
     let mut movable = may_move.iter().peekable();
     for (v, p) in (0..).zip(positions) {
-        if movable.next_if(|m| **m == v).is_none() && used[v as usize] && asked.contains(&cell(p)) {
+        if movable.next_if(|m| **m == v).is_none() && used[v as usize] && cells_near.contains(&cell(p)) {
             stay.entry(cell(p)).or_default().push(v);
         }
     }

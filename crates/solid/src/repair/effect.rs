@@ -2,9 +2,9 @@
 
 use super::enclosed::{self, Enclosed, NotEnclosed, Piece};
 use super::error::RepairError;
+use super::facet_set::FacetSet;
 use super::measure::{once, places};
 use super::options::Options;
-use super::same::Same;
 use super::work::Work;
 use super::{islands, orient};
 use std::sync::OnceLock;
@@ -32,7 +32,7 @@ pub struct Effect {
     /// Closed shells that look outwards, before and after.
     pub bodies: [usize; 2],
     /// Facets that did not bound what was enclosed, or in part only.
-    pub(super) inside: Same,
+    pub(super) inside: FacetSet,
 }
 
 impl Effect {
@@ -53,33 +53,34 @@ impl Effect {
             false => enclosed_by(&mut base)?,
         };
         let enclosed_faces = base.mesh().faces.len();
-        let gone = match (&enclosed, rounded) {
-            (Err(_), _) => Gone::default(),
-            (Ok(enclosed), None) => gone(base.mesh(), enclosed, after, progress)?,
+        let lost_surface = match (&enclosed, rounded) {
+            (Err(_), _) => LostSurface::default(),
+            (Ok(enclosed), None) => lost_surface(base.mesh(), enclosed, after, progress)?,
             (Ok(_), Some((mesh, farthest))) => {
                 let mut base = turned(mesh, turn, options)?;
                 match enclosed_by(&mut base)? {
-                    Err(_) => Gone::default(),
+                    Err(_) => LostSurface::default(),
                     Ok(enclosed) => {
-                        let gone = gone(base.mesh(), &enclosed, after, progress)?;
+                        let lost_surface = lost_surface(base.mesh(), &enclosed, after, progress)?;
                         // Of one coordinate.
                         let off = 3f64.sqrt() * farthest;
                         // Rounding may join shells, and others are removed on request: then facets have other numbers.
                         let same = base.mesh().faces.len() == enclosed_faces;
-                        let gaps = if same { gone.gaps } else { vec![] };
-                        Gone { farthest: gone.farthest.map(|x| x + off), gaps }
+                        let gaps = if same { lost_surface.gaps } else { vec![] };
+                        LostSurface { farthest: lost_surface.farthest.map(|x| x + off), gaps }
                     }
                 }
             }
         };
         let bodies = [&*known, known_after].map(|known| bodies(&known.topology, &known.properties));
         let is_inner = |enclosed: &Enclosed, f: usize| {
-            !enclosed.bounds[f] || gone.gaps.binary_search(&(f as u32)).is_ok()
+            !enclosed.bounds[f] || lost_surface.gaps.binary_search(&(f as u32)).is_ok()
         };
         let inside = enclosed
             .as_ref()
-            .map_or(Same::default(), |enclosed| Same::of(base.mesh(), |f| is_inner(enclosed, f)));
-        let surface = [gone.farthest, beyond(lost, after, progress)?].into_iter().flatten().reduce(f64::max);
+            .map_or(FacetSet::default(), |enclosed| FacetSet::of(base.mesh(), |f| is_inner(enclosed, f)));
+        let surface =
+            [lost_surface.farthest, beyond(lost, after, progress)?].into_iter().flatten().reduce(f64::max);
         Ok(Effect { enclosed, surface, bodies, inside })
     }
 }
@@ -116,7 +117,7 @@ fn bodies(topology: &Topology, properties: &Properties) -> usize {
 
 /// What of the surface that bounded the enclosed places is gone.
 #[derive(Default)]
-struct Gone {
+struct LostSurface {
     /// Largest distance from it to the new surface; see [`Effect::surface`].
     farthest: Option<f64>,
     /// Facets along gaps that are closed now, ascending.
@@ -133,7 +134,7 @@ const ZERO_DISTANCE_OF_GAP: f64 = 1e-3;
 const FACET_PARTS_PER_CHUNK: usize = 1 << 15;
 
 /// A place of the old surface, and a middle of what it was taken from.
-struct Asked {
+struct Sample {
     facet: u32,
     place: Point,
     middle: Point,
@@ -141,49 +142,49 @@ struct Asked {
 
 /// Corners, places beside them, and others, the middle last. A corner may lie on another body, and be near what is left of that, where
 /// the surface beside it is not.
-fn asked_about(facet: u32, corners: &[Point], others: &[Point]) -> Vec<Asked> {
+fn samples_of(facet: u32, corners: &[Point], others: &[Point]) -> Vec<Sample> {
     /// Share of the way to the middle.
     const SHARE_TOWARDS_MIDDLE: f64 = 0.02;
     let middle = others[others.len() - 1];
     let beside = |p: &Point| plus(times(1.0 - SHARE_TOWARDS_MIDDLE, *p), times(SHARE_TOWARDS_MIDDLE, middle));
     let all = corners.iter().copied().chain(corners.iter().map(beside)).chain(others.iter().copied());
-    all.map(|place| Asked { facet, place, middle }).collect()
+    all.map(|place| Sample { facet, place, middle }).collect()
 }
 
-fn gone(
+fn lost_surface(
     before: &Mesh,
     enclosed: &Enclosed,
     after: &Mesh,
     progress: &dyn Progress,
-) -> Result<Gone, Cancelled> {
-    let kept = Same::of(after, |_| true);
+) -> Result<LostSurface, Cancelled> {
+    let kept = FacetSet::of(after, |_| true);
     let bounding = before.faces.par_iter().enumerate().zip(&enclosed.bounds);
     let is_gone = bounding.filter(|((_, face), bounds)| **bounds && !kept.holds(before, face));
     let asked_of = |((f, face), _): ((usize, &[u32; 3]), &bool)| {
         let places = places(before.places(face));
-        asked_about(f as u32, &places[..3], &places[3..])
+        samples_of(f as u32, &places[..3], &places[3..])
     };
     let of_piece =
-        |Piece { facet, middle, corners }: &Piece| asked_about(*facet, corners, std::slice::from_ref(middle));
-    let whole: Vec<Asked> = is_gone.flat_map_iter(asked_of).collect();
-    let mut found = Gone { farthest: Some(0.0), gaps: vec![] };
+        |Piece { facet, middle, corners }: &Piece| samples_of(*facet, corners, std::slice::from_ref(middle));
+    let whole: Vec<Sample> = is_gone.flat_map_iter(asked_of).collect();
+    let mut found = LostSurface { farthest: Some(0.0), gaps: vec![] };
     if whole.is_empty() && enclosed.pieces.is_empty() {
         return Ok(found);
     }
-    let Ok(tree) = Tree::build(after) else { return Ok(Gone::default()) };
+    let Ok(tree) = Tree::build(after) else { return Ok(LostSurface::default()) };
     let reach = HIDDEN_GAP_OF_DIAGONAL * before.finite_bounds().diagonal();
     let gaps = Gaps::new(before, reach);
     // Some at a time: of bodies that cross very often there are far more pieces than facets.
     let pieces =
-        enclosed.pieces.chunks(FACET_PARTS_PER_CHUNK).map(|some| some.iter().flat_map(of_piece).collect());
-    for asked in std::iter::once(whole).chain(pieces) {
-        let all: Vec<Point> = asked.iter().map(|a| a.place).collect();
+        enclosed.pieces.chunks(FACET_PARTS_PER_CHUNK).map(|chunk| chunk.iter().flat_map(of_piece).collect());
+    for samples in std::iter::once(whole).chain(pieces) {
+        let all: Vec<Point> = samples.iter().map(|a| a.place).collect();
         let distances = once(&all, |places| tree.distances(places, &Query::default(), progress));
         if progress.cancelled() {
             return Err(Cancelled);
         }
-        let Ok(distances) = distances else { return Ok(Gone::default()) };
-        let in_gap = |(Asked { facet, place, middle }, distance): (&Asked, &f64)| {
+        let Ok(distances) = distances else { return Ok(LostSurface::default()) };
+        let in_gap = |(Sample { facet, place, middle }, distance): (&Sample, &f64)| {
             // Off the edges, where a side belongs to a neighbor, but not out of the gap: its rim is part of the new surface.
             let inside = || {
                 let way = minus(*middle, *place);
@@ -191,11 +192,11 @@ fn gone(
             };
             *distance > ZERO_DISTANCE_OF_GAP * reach && !progress.cancelled() && gaps.hold(*facet, inside())
         };
-        let in_gap: Vec<bool> = asked.par_iter().zip(&distances).map(in_gap).collect();
+        let in_gap: Vec<bool> = samples.par_iter().zip(&distances).map(in_gap).collect();
         if progress.cancelled() {
             return Err(Cancelled);
         }
-        for ((Asked { facet, .. }, distance), in_gap) in asked.into_iter().zip(distances).zip(in_gap) {
+        for ((Sample { facet, .. }, distance), in_gap) in samples.into_iter().zip(distances).zip(in_gap) {
             if in_gap {
                 found.gaps.push(facet);
             } else {

@@ -1,6 +1,6 @@
 //! What a repair changed: how many vertices and facets, and how far the surface went.
 
-use super::same::Same;
+use super::facet_set::FacetSet;
 use std::collections::HashMap;
 use trueness_geom::check::finding::area;
 use trueness_geom::closest::{MeshError, Query, QueryError, Tree};
@@ -134,16 +134,17 @@ const CUBATURE_WEIGHTS: [f64; 7] =
 
 /// Distances from one surface to another. Facets of `without` do not count.
 pub(super) fn way(
-    (from, without): (&Mesh, &Same),
+    (from, without): (&Mesh, &FacetSet),
     to: &Mesh,
     progress: &dyn Progress,
 ) -> Result<Way, DeviationError> {
-    let there = Same::of(to, |_| true);
+    let there = FacetSet::of(to, |_| true);
     let corners = |f: &[u32; 3]| from.places(f);
     let counts =
         |f: &&[u32; 3]| corners(f).iter().flatten().all(|x| x.is_finite()) && !without.holds(from, f);
-    let asked = |f: &[u32; 3]| (area(corners(f)), (!there.holds(from, f)).then(|| corners(f)));
-    let counting: Vec<(f64, Option<[Point; 3]>)> = from.faces.par_iter().filter(counts).map(asked).collect();
+    let sampled = |f: &[u32; 3]| (area(corners(f)), (!there.holds(from, f)).then(|| corners(f)));
+    let counting: Vec<(f64, Option<[Point; 3]>)> =
+        from.faces.par_iter().filter(counts).map(sampled).collect();
     let total: f64 = counting.iter().map(|(area, _)| area).sum();
     let changed: Vec<[Point; 3]> = counting.into_iter().filter_map(|(_, changed)| changed).collect();
     if changed.is_empty() {

@@ -17,6 +17,7 @@ mod effect;
 mod enclosed;
 mod error;
 mod faced;
+mod facet_set;
 mod fins;
 mod holes;
 mod islands;
@@ -27,7 +28,6 @@ mod orient;
 mod outward;
 mod pairs;
 mod rounds;
-mod same;
 mod scraps;
 mod self_intersections;
 mod split;
@@ -50,9 +50,9 @@ pub use options::{Holes, Options};
 pub use step::{Removes, Step};
 
 use crate::arrange::ArrangeError;
+use facet_set::FacetSet;
 use measure::way;
 use rounds::{Entry, Kept, StepPosition, go_through};
-use same::Same;
 use std::sync::Arc;
 use trueness_geom::check::{self, Known, Report};
 use trueness_geom::closest::sane_vertex;
@@ -154,7 +154,7 @@ impl Repaired {
     pub fn deviation(&self, before: &Mesh, progress: &dyn Progress) -> Result<Deviation, DeviationError> {
         let mut there = way((before, &self.effect.inside), &self.mesh, progress)?;
         there.max = there.max.max(self.effect.surface.unwrap_or(0.0));
-        Ok(Deviation { there, back: way((&self.mesh, &Same::default()), before, progress)? })
+        Ok(Deviation { there, back: way((&self.mesh, &FacetSet::default()), before, progress)? })
     }
 }
 

@@ -118,12 +118,12 @@ fn apart(
     let crossing = work.crossings(|f, _| changing.contains(&f))?;
     let crossing: Option<BTreeSet<u32>> = crossing.map(|pairs| pairs.into_iter().flatten().collect());
     let clean = |facets: &[u32]| crossing.as_ref().is_some_and(|c| !facets.iter().any(|f| c.contains(f)));
-    let mut asked: Vec<bool> =
+    let mut unsettled: Vec<bool> =
         lost.iter().map(|fan| clean(&fan.facets)).chain(again.iter().map(|(_, pair)| clean(pair))).collect();
     let first = before.positions.len() as u32;
     let mut together = together(work, &lost);
     let mut ways = ways(work, &lost, &together);
-    let mut nth = vec![0; asked.len()];
+    let mut nth = vec![0; unsettled.len()];
     // Vertices whose facets are not as they were when they were last looked at; at first all new ones.
     let mut changed: Option<BTreeSet<u32>> = None;
     loop {
@@ -133,14 +133,14 @@ fn apart(
         let pairs = work.crossings(|_, face| face.iter().any(has_changed))?;
         let faces = &work.mesh().faces;
         let mut bad: Vec<usize> = match pairs {
-            None => (0..asked.len()).collect(),
+            None => (0..unsettled.len()).collect(),
             Some(pairs) => {
                 let corners = pairs.iter().flatten().flat_map(|f| faces[*f as usize]);
                 corners.filter_map(|v| v.checked_sub(first)).map(|i| i as usize).collect()
             }
         };
         bad.extend(meant_as_one(work, &lost, &rims, first as usize));
-        bad.retain(|&i| asked[i]);
+        bad.retain(|&i| unsettled[i]);
         bad.extend((0..lost.len()).filter(|&i| distances[i].abs() > ways[i].most));
         let with: BTreeSet<u32> = bad.iter().filter_map(|i| together.get(*i)).copied().collect();
         bad.extend((0..lost.len()).filter(|i| with.contains(&together[*i])));
@@ -169,10 +169,10 @@ fn apart(
             retain(&mut lost, stays);
             retain(&mut together, stays);
             retain(&mut nth, stays);
-            retain(&mut asked, stays);
+            retain(&mut unsettled, stays);
             ways = self::ways(work, &lost, &together);
         }
-        if asked.is_empty() {
+        if unsettled.is_empty() {
             return Ok(lost);
         }
     }

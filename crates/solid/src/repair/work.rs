@@ -9,8 +9,8 @@ use super::options::Options;
 use super::pairs::Pairs;
 use super::state::State;
 use super::step::Step;
-use crate::around::Around;
 use crate::arrange::ArrangeError;
+use crate::neighborhood::Neighborhood;
 use std::sync::Arc;
 use trueness_geom::check::intersect::{self, Crossings};
 use trueness_geom::check::{self, DefectKind, Finding, Known, Report};
@@ -150,21 +150,22 @@ impl<'a> Work<'a> {
         &mut self,
         chosen: impl Fn(u32, &[u32; 3]) -> bool,
     ) -> Result<Option<Vec<[u32; 2]>>, RepairError> {
-        let some: Vec<bool> = (0..).zip(&self.state.mesh.faces).map(|(f, face)| chosen(f, face)).collect();
-        if !some.contains(&true) {
+        let is_chosen: Vec<bool> =
+            (0..).zip(&self.state.mesh.faces).map(|(f, face)| chosen(f, face)).collect();
+        if !is_chosen.contains(&true) {
             return Ok(Some(vec![]));
         }
         if matches!(self.state.pairs, Pairs::Unknown)
-            && let Some(around) = Around::new(&self.state.mesh, &some)
+            && let Some(around) = Neighborhood::new(&self.state.mesh, &is_chosen)
         {
             let topology = Topology::watched(&around.mesh, self.progress)?;
             return self.crossings_around(&around, &topology);
         }
         if let Some(all) = self.all_crossings()? {
-            let asked = |pair: &&[u32; 2]| pair.iter().any(|f| some[*f as usize]);
-            return Ok(Some(all.iter().filter(asked).copied().collect()));
+            let is_chosen = |pair: &&[u32; 2]| pair.iter().any(|f| is_chosen[*f as usize]);
+            return Ok(Some(all.iter().filter(is_chosen).copied().collect()));
         }
-        if !some.contains(&false) { Ok(None) } else { self.search(&some) }
+        if !is_chosen.contains(&false) { Ok(None) } else { self.search(&is_chosen) }
     }
 
     /// All pairs of facets that meet where they should not; `None` for a tangle. Only what has changed since they were known is
@@ -173,13 +174,13 @@ impl<'a> Work<'a> {
         let facets = self.state.mesh.faces.len();
         let mut pairs = std::mem::take(&mut self.state.pairs);
         if let Some(new) = pairs.new_facets(facets) {
-            let some: Vec<bool> = (0..facets).map(|f| new.contains(&f)).collect();
-            let found = match Around::new(&self.state.mesh, &some) {
+            let is_chosen: Vec<bool> = (0..facets).map(|f| new.contains(&f)).collect();
+            let found = match Neighborhood::new(&self.state.mesh, &is_chosen) {
                 Some(around) => {
                     let topology = Topology::watched(&around.mesh, self.progress)?;
                     self.crossings_around(&around, &topology)?
                 }
-                None => self.search(&some)?,
+                None => self.search(&is_chosen)?,
             };
             pairs.take_in(found, facets);
         }
@@ -201,19 +202,25 @@ impl<'a> Work<'a> {
     }
 
     /// As [`Work::crossings`], of facets with a flag each, in the whole mesh.
-    fn search(&mut self, some: &[bool]) -> Result<Option<Vec<[u32; 2]>>, RepairError> {
+    fn search(&mut self, is_chosen: &[bool]) -> Result<Option<Vec<[u32; 2]>>, RepairError> {
         let (known, most) = (self.known()?, self.most_crossings());
-        Ok(intersect::few_self_intersections(&self.state.mesh, &known.topology, some, most, self.progress)?)
+        Ok(intersect::few_self_intersections(
+            &self.state.mesh,
+            &known.topology,
+            is_chosen,
+            most,
+            self.progress,
+        )?)
     }
 
     /// As [`Work::crossings`], of facets whose surroundings and their topology are at hand.
     pub(super) fn crossings_around(
         &self,
-        around: &Around,
+        around: &Neighborhood,
         topology: &Topology,
     ) -> Result<Option<Vec<[u32; 2]>>, RepairError> {
-        let (most, Around { mesh, numbers, asked }) = (self.most_crossings(), around);
-        let found = intersect::few_self_intersections(mesh, topology, asked, most, self.progress)?;
+        let (most, Neighborhood { mesh, numbers, is_chosen }) = (self.most_crossings(), around);
+        let found = intersect::few_self_intersections(mesh, topology, is_chosen, most, self.progress)?;
         let whole =
             |pairs: Vec<[u32; 2]>| pairs.into_iter().map(|p| p.map(|f| numbers[f as usize])).collect();
         Ok(found.map(whole))

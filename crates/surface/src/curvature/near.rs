@@ -1,7 +1,7 @@
 //! Neighbors in a cloud, by distance.
 
 use super::jet::{Fitter, Jet};
-use super::terms::{NoCurvature, Taken, Terms};
+use super::terms::{NoCurvature, ResolvedReach, Terms};
 use std::f64::consts::PI;
 use trueness_geom::fit::Scatter;
 use trueness_geom::parallel::prelude::*;
@@ -72,8 +72,8 @@ impl Near<'_> {
 
     fn neighbors(&self, place: &Point, own: u32, terms: &Terms) -> Vec<Neighbor> {
         let radius = match terms.reach {
-            Taken::Count(count) => return self.tree.k_nearest(place, count, Some(own)),
-            Taken::Radius(radius) => radius,
+            ResolvedReach::Count(count) => return self.tree.k_nearest(place, count, Some(own)),
+            ResolvedReach::Radius(radius) => radius,
         };
         let window = Aabb { min: place.map(|x| x - radius), max: place.map(|x| x + radius) };
         let mut near = vec![];

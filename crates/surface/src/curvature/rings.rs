@@ -1,7 +1,7 @@
 //! Neighbors on a mesh: rings around a vertex, through edges.
 
 use super::jet::{Fitter, Jet};
-use super::terms::{NoCurvature, Taken, Terms};
+use super::terms::{NoCurvature, ResolvedReach, Terms};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 use trueness_geom::mesh::Mesh;
@@ -81,7 +81,7 @@ impl Rings<'_> {
         Walk { rings: self, seen: vec![0; self.normals.len()], round: 0, found: vec![] }
     }
 
-    fn beside(&self, v: u32) -> &[u32] {
+    fn neighbors_of(&self, v: u32) -> &[u32] {
         &self.others[self.first[v as usize] as usize..self.first[v as usize + 1] as usize]
     }
 }
@@ -110,7 +110,7 @@ impl Walk<'_> {
         }
         self.gather(v, terms);
         match terms.reach {
-            Taken::Count(count) if !self.is_round() => {
+            ResolvedReach::Count(count) if !self.is_round() => {
                 let (of_rings, even) = (self.fit(v, fitter), self.even_jet(v, count, fitter));
                 match (of_rings, even) {
                     // Along a straight line rings may reach far.
@@ -134,10 +134,13 @@ impl Walk<'_> {
         };
         let farthest = self.found.iter().map(square).fold(0.0, f64::max);
         let left_out = |n: &&u32| self.seen[**n as usize] != self.round;
-        let around =
-            self.found.iter().map(|n| rings.beside(*n)).filter(|beside| beside.len() <= MAX_RING_NEIGHBORS);
-        let beside = around.flatten().filter(left_out);
-        beside.map(square).fold(f64::INFINITY, f64::min) >= MIN_ROUND_RATIO * MIN_ROUND_RATIO * farthest
+        let around = self
+            .found
+            .iter()
+            .map(|n| rings.neighbors_of(*n))
+            .filter(|adjacent| adjacent.len() <= MAX_RING_NEIGHBORS);
+        let adjacent = around.flatten().filter(left_out);
+        adjacent.map(square).fold(f64::INFINITY, f64::min) >= MIN_ROUND_RATIO * MIN_ROUND_RATIO * farthest
     }
 
     /// The jet of the nearest vertices, more and more of them, until it is determined in all directions.
@@ -171,11 +174,11 @@ impl Walk<'_> {
             if self.found.len() > wanted {
                 break;
             }
-            let beside = rings.beside(n);
-            if n != v && beside.len() > MAX_RING_NEIGHBORS {
+            let adjacent = rings.neighbors_of(n);
+            if n != v && adjacent.len() > MAX_RING_NEIGHBORS {
                 continue;
             }
-            for &other in beside {
+            for &other in adjacent {
                 if self.seen[other as usize] != self.round {
                     self.seen[other as usize] = self.round;
                     open.push(Reverse((
@@ -210,18 +213,18 @@ impl Walk<'_> {
         self.seen[v as usize] = self.round;
         let middle = rings.mesh.positions[v as usize];
         let (enough, radius) = match terms.reach {
-            Taken::Count(count) => (count, f64::INFINITY),
-            Taken::Radius(r) => (usize::MAX, r),
+            ResolvedReach::Count(count) => (count, f64::INFINITY),
+            ResolvedReach::Radius(r) => (usize::MAX, r),
         };
         let mut ring = 0..1;
         while !ring.is_empty() && self.found.len() <= enough {
             let end = ring.end;
             for k in ring {
-                let beside = rings.beside(self.found[k]);
-                if k > 0 && beside.len() > MAX_RING_NEIGHBORS {
+                let adjacent = rings.neighbors_of(self.found[k]);
+                if k > 0 && adjacent.len() > MAX_RING_NEIGHBORS {
                     continue;
                 }
-                for &n in beside {
+                for &n in adjacent {
                     let new = self.seen[n as usize] != self.round;
                     if new && norm(minus(rings.mesh.positions[n as usize], middle)) <= radius {
                         self.seen[n as usize] = self.round;

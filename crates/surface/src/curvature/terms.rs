@@ -147,14 +147,14 @@ pub fn unknowns(degree: usize) -> usize {
 pub(super) struct Terms {
     pub degree: usize,
     pub unknowns: usize,
-    pub reach: Taken,
+    pub reach: ResolvedReach,
     pub boundary: bool,
     pub noise: Option<Noise>,
 }
 
 /// [`Reach`] without what must be worked out.
 #[derive(Clone, Copy)]
-pub(super) enum Taken {
+pub(super) enum ResolvedReach {
     Count(usize),
     Radius(f64),
 }
@@ -167,9 +167,9 @@ impl Terms {
         }
         let unknowns = unknowns(degree);
         let reach = match (options.reach, options.reach.neighbors(degree)) {
-            (_, Some(count)) if (unknowns..=MAX_NEIGHBORS).contains(&count) => Taken::Count(count),
+            (_, Some(count)) if (unknowns..=MAX_NEIGHBORS).contains(&count) => ResolvedReach::Count(count),
             (_, Some(asked)) => return Err(CurvatureError::Neighbors { asked, degree, needed: unknowns }),
-            (Reach::Radius(r), _) if r > 0.0 && r.is_finite() => Taken::Radius(r),
+            (Reach::Radius(r), _) if r > 0.0 && r.is_finite() => ResolvedReach::Radius(r),
             (Reach::Radius(r), _) => return Err(CurvatureError::Radius(r)),
             (Reach::Auto | Reach::Count(_), None) => return Err(CurvatureError::Degree(degree)),
         };

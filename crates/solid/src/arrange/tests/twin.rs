@@ -88,11 +88,11 @@ fn common(bodies: &[[Point; 4]]) -> BigInt {
 /// Volume of the union of tetrahedra with corners in whole numbers, to some 70 digits, rounded.
 pub(super) fn union_volume(bodies: &[[Point; 4]]) -> f64 {
     let mut sum = BigInt::from(0);
-    for some in 1u32..1 << bodies.len() {
+    for subset in 1u32..1 << bodies.len() {
         let chosen: Vec<[Point; 4]> =
-            (0..bodies.len()).filter(|i| some >> i & 1 == 1).map(|i| bodies[i]).collect();
+            (0..bodies.len()).filter(|i| subset >> i & 1 == 1).map(|i| bodies[i]).collect();
         let part = common(&chosen);
-        sum += if some.count_ones() % 2 == 1 { part } else { -part };
+        sum += if subset.count_ones() % 2 == 1 { part } else { -part };
     }
     let scaled: BigInt = sum >> (DIGITS - 80);
     scaled.to_string().parse::<f64>().unwrap() / 2f64.powi(80) / 6.0

@@ -116,7 +116,7 @@ pub(super) fn enclosed(
     let sheets = solid.sheets(topology);
     let cut: Vec<u32> = meets.keys().copied().collect();
     let parts: Vec<Vec<Part>> = cut.par_iter().map(|&f| solid.cut(f)).collect::<Result<_, _>>()?;
-    let rays = Rays::new(&solid, sheets.asked.iter().flatten().chain(parts.iter().flatten()));
+    let rays = Rays::new(&solid, sheets.representative.iter().flatten().chain(parts.iter().flatten()));
     let whole = sheets.windings(&rays)?;
     let windings = |of: &Vec<Part>| of.iter().map(|part| rays.winding(part)).collect();
     let sum_of_whole = || {
@@ -228,7 +228,7 @@ struct Part {
     /// As seen along the axis along which the facet is seen largest.
     area: f64,
     /// Other facets that lie upon it, and +1 if they look the same way, −1 if not.
-    upon: Vec<(u32, i32)>,
+    coincident: Vec<(u32, i32)>,
 }
 
 struct Solid<'a> {
@@ -281,12 +281,12 @@ impl Solid<'_> {
                 *largest = Some(f);
             }
         }
-        let asked = |facet: u32| {
+        let representative = |facet: u32| {
             let [a, b, c] = self.facet(facet).local;
             let at = plus(self.center, times(1.0 / 3.0, plus(a, plus(b, c))));
-            Part { facet, at, corners: [at; 4], area: 0.0, upon: vec![] }
+            Part { facet, at, corners: [at; 4], area: 0.0, coincident: vec![] }
         };
-        Sheets { sheet_of, asked: largest.into_iter().map(|f| f.map(asked)).collect() }
+        Sheets { sheet_of, representative: largest.into_iter().map(|f| f.map(representative)).collect() }
     }
 
     /// The parts of a facet that meets others.
@@ -301,7 +301,7 @@ impl Solid<'_> {
             return Ok(vec![]);
         }
         let flat = |p: &Point| [p[(axis + 1) % 3], p[(axis + 2) % 3]];
-        let (mut segments, mut upon) = (vec![], vec![]);
+        let (mut segments, mut coincident) = (vec![], vec![]);
         for &g in self.meets.get(&f).into_iter().flatten() {
             let other = self.facet(g);
             match if f < g { meeting(&facet, &other) } else { meeting(&other, &facet) } {
@@ -310,7 +310,7 @@ impl Solid<'_> {
                 Meeting::Coplanar => {
                     let [a, b, c] = other.local.map(|p| flat(&p));
                     segments.extend([[a, b], [b, c], [c, a]]);
-                    upon.push((g, if dot(other.vector(), vector) > 0.0 { 1 } else { -1 }, [a, b, c]));
+                    coincident.push((g, if dot(other.vector(), vector) > 0.0 { 1 } else { -1 }, [a, b, c]));
                 }
             }
         }
@@ -321,7 +321,7 @@ impl Solid<'_> {
             at: place(center),
             corners: corners.map(place),
             area,
-            upon: upon.iter().filter(|u| holds(&u.2, &center)).map(|u| (u.0, u.1)).collect(),
+            coincident: coincident.iter().filter(|u| holds(&u.2, &center)).map(|u| (u.0, u.1)).collect(),
         };
         Ok(found.into_iter().map(part).collect())
     }
@@ -333,7 +333,7 @@ impl Solid<'_> {
             let facet = self.facet(part.facet);
             let vector = facet.vector();
             let whole = vector[steepest(vector)].abs();
-            let weight = 1.0 / (1 + part.upon.len()) as f64;
+            let weight = 1.0 / (1 + part.coincident.len()) as f64;
             sums.add(facet.terms(winding, part.area / whole, weight));
             if part.area > MIN_PART_SHARE * whole {
                 pieces.push(Piece { facet: part.facet, middle: part.at, corners: part.corners });
@@ -362,22 +362,22 @@ impl<'a> Rays<'a> {
     }
 
     /// Winding numbers before and behind a part.
-    fn winding(&self, Part { facet: f, at, upon, .. }: &Part) -> Winding {
+    fn winding(&self, Part { facet: f, at, coincident, .. }: &Part) -> Winding {
         if self.solid.progress.cancelled() {
             return Winding::default();
         }
         let vector = self.solid.facet(*f).vector();
         let axis = self.solid.axis(vector);
         let (rays, mut beyond) = (&self.along[axis], 0);
-        let is_upon = |g: u32| upon.iter().any(|u| u.0 == g);
+        let is_coincident = |g: u32| coincident.iter().any(|u| u.0 == g);
         if rays.is_early(at) {
             // All that the line passes winds around it 0 times: the shorter way is to count what lies before.
-            rays.not_behind(*f, at, |g, around| beyond -= if is_upon(g) { 0 } else { around });
-            beyond -= upon.iter().map(|u| rays.around(u.0, at)).sum::<i32>();
+            rays.not_behind(*f, at, |g, around| beyond -= if is_coincident(g) { 0 } else { around });
+            beyond -= coincident.iter().map(|u| rays.around(u.0, at)).sum::<i32>();
         } else {
-            rays.behind(*f, at, |g, around| beyond += if is_upon(g) { 0 } else { around });
+            rays.behind(*f, at, |g, around| beyond += if is_coincident(g) { 0 } else { around });
         }
-        let layers = 1 + upon.iter().map(|u| u.1).sum::<i32>();
+        let layers = 1 + coincident.iter().map(|u| u.1).sum::<i32>();
         match vector[axis] > 0.0 {
             true => Winding { outside: beyond, inside: beyond + layers },
             false => Winding { outside: beyond - layers, inside: beyond },
@@ -390,14 +390,14 @@ struct Sheets {
     /// For each facet the number of those that it hangs together with; facets that meet others have one of their own.
     sheet_of: Vec<u32>,
     /// For each sheet its largest facet; none for facets that meet others.
-    asked: Vec<Option<Part>>,
+    representative: Vec<Option<Part>>,
 }
 
 impl Sheets {
     /// Winding numbers at each facet: the same for all that hang together, 0 where facets meet others.
     fn windings(&self, rays: &Rays) -> Result<Vec<Winding>, Cancelled> {
         let winding = |part: &Option<Part>| part.as_ref().map_or(Winding::default(), |p| rays.winding(p));
-        let of_sheet: Vec<Winding> = self.asked.par_iter().map(winding).collect();
+        let of_sheet: Vec<Winding> = self.representative.par_iter().map(winding).collect();
         if rays.solid.progress.cancelled() {
             return Err(Cancelled);
         }

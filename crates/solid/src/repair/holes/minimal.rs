@@ -101,8 +101,8 @@ impl<'a> Table<'a> {
             return best;
         }
         for m in i + 1..j {
-            let behind = self.best[i * n + m].0.plus(self.best[m * n + j].0);
-            let cost = behind.plus(self.triangle(i, m, j, whole));
+            let parts = self.best[i * n + m].0.plus(self.best[m * n + j].0);
+            let cost = parts.plus(self.triangle(i, m, j, whole));
             if cost.less(best.0) {
                 best = (cost, m as u32);
             }

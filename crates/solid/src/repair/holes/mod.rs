@@ -17,7 +17,7 @@ use super::error::RepairError;
 use super::options::Holes;
 use super::step::{Removes, Step};
 use super::work::Work;
-use crate::around::Around;
+use crate::neighborhood::Neighborhood;
 use minimal::Aim;
 use patch::{FIRST_NEW_VERTEX, Patch};
 use ring::Ring;
@@ -200,8 +200,8 @@ fn insert(work: &mut Work, patch: &Patch) -> Range<u32> {
 /// of another shell fits, if shells will be united; `shell_of` has no shell for patches of holes that a step has cut.
 fn misfits(work: &mut Work, first: u32, shell_of: &[u32]) -> Result<Vec<u32>, RepairError> {
     let all = work.mesh().faces.len() as u32;
-    let asked: Vec<bool> = (0..all).map(|f| f >= first).collect();
-    let (crossings, mut bad) = match Around::new(work.mesh(), &asked) {
+    let is_chosen: Vec<bool> = (0..all).map(|f| f >= first).collect();
+    let (crossings, mut bad) = match Neighborhood::new(work.mesh(), &is_chosen) {
         Some(around) => {
             let topology = Topology::watched(&around.mesh, work.progress)?;
             let crossings = work.crossings_around(&around, &topology)?;

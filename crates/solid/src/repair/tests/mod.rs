@@ -237,8 +237,8 @@ fn a_repair_makes_nothing_worse() {
     for round in 0..40 {
         let mut mesh = heap_of_bodies(random);
         if round % 4 == 3 {
-            let few = mesh.faces.len() / 2 + random.below(mesh.faces.len() as u64 / 2) as usize;
-            mesh.faces.truncate(few);
+            let kept_facets = mesh.faces.len() / 2 + random.below(mesh.faces.len() as u64 / 2) as usize;
+            mesh.faces.truncate(kept_facets);
         }
         // Without the union more goes wrong, and is taken back.
         for (holes, skipped) in [(Holes::UpTo(0.25), ""), (Holes::All, ""), (Holes::UpTo(0.25), "union")] {
@@ -270,8 +270,8 @@ fn going_on_from_a_kept_state_comes_to_the_same() {
     for round in 0..12 {
         let mut mesh = heap_of_bodies(random);
         if round % 2 == 1 {
-            let few = mesh.faces.len() / 2 + random.below(mesh.faces.len() as u64 / 2) as usize;
-            mesh.faces.truncate(few);
+            let kept_facets = mesh.faces.len() / 2 + random.below(mesh.faces.len() as u64 / 2) as usize;
+            mesh.faces.truncate(kept_facets);
         }
         meshes.push(mesh);
     }

@@ -83,12 +83,12 @@ fn an_edge_between_connected_ends_is_parted_in_its_middle() {
 
 #[test]
 fn the_smaller_part_is_turned() {
-    for some in [vec![20], vec![3, 40, 60]] {
+    for turned in [vec![20], vec![3, 40, 60]] {
         let mut mesh = block(4, 4.0);
-        some.iter().for_each(|f: &usize| mesh.faces[*f].swap(0, 1));
+        turned.iter().for_each(|f: &usize| mesh.faces[*f].swap(0, 1));
         let repaired = mend_with(&mesh, &only(&["orient"]));
         assert_eq!(repaired.after.properties.signed_volume, 64.0);
-        assert_eq!(repaired.changes.iter().map(|c| c.facets).sum::<usize>(), some.len());
+        assert_eq!(repaired.changes.iter().map(|c| c.facets).sum::<usize>(), turned.len());
     }
 }
 
@@ -114,8 +114,11 @@ fn what_is_lost_is_told_where_no_material_is() {
         add(&mut mesh, &sheet, at);
         let repaired = mend(&mesh);
         assert!(repaired.after.sound && did(&repaired, "scraps") == 1);
-        let told = repaired.effect.surface.unwrap();
-        assert!(if off > 0.0 { told >= off && told < off + 2.0 } else { told == 0.0 }, "{told} {off}");
+        let stated = repaired.effect.surface.unwrap();
+        assert!(
+            if off > 0.0 { stated >= off && stated < off + 2.0 } else { stated == 0.0 },
+            "{stated} {off}"
+        );
     }
 }
 

@@ -82,7 +82,7 @@ fn at_edges(mesh: &Mesh, topology: &Topology, close: Closeness) -> Vec<[u32; 2]>
 }
 
 /// The facets that cross or lie upon each other at an edge they share, and how far those that lie upon each other are apart at most.
-pub(super) fn upon(
+pub(super) fn near_coincident(
     mesh: &Mesh,
     topology: &Topology,
     crossing: &[[u32; 2]],
