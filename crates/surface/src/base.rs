@@ -14,38 +14,41 @@ use trueness_geom::space::{Point, Vector, cross, dot, minus, norm, plus, times, 
 /// The base of a surface, and how the points lie over it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Base {
-    /// What it is.
+    /// The kind of base.
     pub kind: BaseKind,
-    /// Of a plane the corner of the rectangle, of a cylinder a place of its axis, of a sphere its center, of a mesh the mean of its
+    /// The corner of a plane's rectangle, a place of a cylinder's axis, the center of a sphere, or the mean of a mesh's
     /// vertices.
     pub origin: Point,
-    /// Right-handed unit axes. Of a plane the sides of the rectangle and the normal; of a cylinder the third is its axis and the
-    /// first where its angle is 0; of a sphere the third points to the pole, which with its opposite lies as far from the points as
-    /// can be, and the first about amid them; of a mesh those in which its
-    /// vertices spread, most in the first.
+    /// Right-handed unit axes. The axes of a plane are the sides of the rectangle and the normal. The third axis of a
+    /// cylinder is its own, and the first points to where its angle is 0. The third axis of a sphere points to the
+    /// pole, which lies with its opposite as far from the points as can be; the first points about amid them. The axes
+    /// of a mesh are those in which its vertices spread, most in the first.
     pub axes: [Vector; 3],
-    /// Angle from the longer side of the minimum bounding rectangle to the first axis, in radians from −π/2 to π/2: 0 but of a plane whose
-    /// rectangle was turned along what bends.
+    /// Angle from the longer side of the minimum bounding rectangle to the first axis, in radians from −π/2 to π/2.
+    /// Only a plane whose rectangle was turned along what bends has another angle than 0.
     pub turned: f64,
-    /// Angle from the normal of the least-squares plane to the third axis, radians: 0 but of a plane over whose least-squares plane
-    /// the points lie in layers, and over another one in fewer.
+    /// Angle from the normal of the least-squares plane to the third axis, radians. It is 0 but where the points lie in
+    /// layers over the least-squares plane, and in fewer over another one.
     pub tilted: f64,
-    /// Of a cylinder or a sphere.
+    /// Radius of a cylinder or a sphere.
     pub radius: Option<f64>,
-    /// Whether the points go around a cylinder, or around a sphere's axis, with no gap of more than a tenth of a radian: the
-    /// surface then has a seam there.
+    /// Whether the points go around a cylinder, or around a sphere's axis, with no gap of more than a tenth of a
+    /// radian. The surface then has a seam there.
     pub around: bool,
-    /// Whether points lie within ten degrees of a pole of the sphere, whichever its axis: the parameters crowd there, and the surface is torn or creased.
+    /// Whether points lie within ten degrees of a pole of the sphere, whichever its axis. The parameters crowd there,
+    /// and the surface is torn or creased.
     pub pole: bool,
     /// How the parameters run.
     course: Unrolling,
     /// Share of the points where several layers lie over one another: they have no common height there, and the surface lies
     /// between them.
     pub folded_share: f64,
-    /// Share of the points that stand on edge on the base, at 80° and more, and, where these are more than a tenth and no control point lies far off, that the fitted
-    /// surface passes by, at 45° and more: it follows the line that they stand on, and not what they are part of.
+    /// Share of the points that stand on edge on the base, at 80° and more. Where these are more than a tenth and no
+    /// control point lies far off, the fitted surface passes them by, too, at 45° and more. It then follows the line
+    /// that they stand on, and not the part that they belong to.
     pub standing_share: f64,
-    /// Of a mesh laid flat, factors by which lengths on its facets grew: 1 % of its area has less than the first, 1 % more than the second.
+    /// Factors by which lengths grew on the facets of a mesh laid flat. 1 % of its area has less than the first, 1 %
+    /// more than the second.
     pub stretch: Option<[f64; 2]>,
     /// Whether a mesh was laid within a circle: laid out freely, its rim would cross itself.
     pub round: bool,
@@ -96,7 +99,7 @@ impl Base {
         let angle = a / radius + self.course.angle;
         let round = || plus(times(libm::cos(angle), self.axes[0]), times(libm::sin(angle), self.axes[1]));
         let off = match self.kind {
-            // Of a mesh nothing but the directions is told.
+            // A mesh states nothing but the directions.
             BaseKind::Plane | BaseKind::Xy | BaseKind::Mesh => {
                 plus(times(u, self.axes[0]), times(v, self.axes[1]))
             }
@@ -226,8 +229,9 @@ fn folded_share(seen: &[Seen]) -> f64 {
     fold::share(seen, ranges(seen.iter().map(|s| s.0)))
 }
 
-/// The least-squares plane; where the points lie in layers or stand on edge over it, the plane over which the surface is least steep, if
-/// at most half as many lie in layers over that, or hardly any do either.
+/// The least-squares plane, or another one where the points lie in layers or stand on edge over it. The other one is
+/// the plane over which the surface is least steep. At most half as many points lie in layers over that, or hardly any
+/// do either.
 fn upright(
     points: &[Point],
     point: Point,

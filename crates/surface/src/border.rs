@@ -1,16 +1,17 @@
 //! Points beyond the border of their surface, and the surface that reaches over them.
 //!
-//! The parameters of the outermost points are the ends of the domain, but noise across a surface that leans on its base moves their
-//! nearest places beyond: these then lie on the border, and the distance holds a part along the surface that is no deviation. So the
-//! polynomials at the border go on as far as those places lie, the surface within remaining what it is. Where the ends of the domain
-//! are not to move, and where the polynomials would have to go on too far, such points are beyond the border, and do not count.
+//! The parameters of the outermost points are the ends of the domain. Noise across a surface that leans on its base
+//! moves their nearest places beyond. Such places then lie on the border, and the distance holds a part along the
+//! surface that is no deviation. So the polynomials at the border go on as far as those places lie, the surface within
+//! remaining what it is. The ends of the domain may have to stay, or the polynomials would have to go on too far. Such
+//! points are then beyond the border, and do not count.
 
 use super::SurfaceFit;
 use trueness_geom::space::{Point, dot, minus, norm};
 use trueness_geom::spline::surface::{Direction, Jet, Patches};
 
-/// Share of the outermost span by which its polynomials go on at most. A cubic of size 1 on a span is at most 9 beyond a quarter of
-/// it: the points do not hold what is farther off.
+/// Share of the outermost span by which its polynomials go on at most. A cubic of size 1 on a span is at most 9 beyond
+/// a quarter of it: farther off the points do not hold it.
 const MAX_OVERHANG_SPANS: f64 = 0.25;
 /// Part of the way along the surface that is added to it: the surface bends, and the next estimate would be short again.
 const ADDED_WAY_SHARE: f64 = 0.2;
@@ -99,7 +100,7 @@ pub(super) fn reaching_over(points: &[Point], mut fit: SurfaceFit) -> SurfaceFit
         }
     }
     if moved {
-        // Of the larger surface less is known to be the nearest place without a search.
+        // The larger surface tells fewer nearest places without a search.
         let reach = Patches::new(&fit.surface).reach();
         let near = |i: usize| fit.deviations[i].abs() < reach;
         let mut doubtful: Vec<u32> =

@@ -1,9 +1,10 @@
 //! Knots that a tolerance can do without.
 //!
-//! Halves of spans come in powers of two, and a line that was urgent in an early round may not be needed among the later ones. So a surface
-//! within its tolerance gives knots back: those whose removal changes it least, as told by the jump of the highest derivative across them
-//! (Lyche and Mørken, Knot removal for parametric B-spline curves and surfaces, Computer Aided Geometric Design 4, 1987), several at a
-//! time; what is left is fitted again, and taken if all points are still within.
+//! Halves of spans come in powers of two. A line that was urgent in an early round may not be needed among the later
+//! ones. So a surface within its tolerance gives knots back, several at a time: those whose removal changes it least.
+//! The jump of the highest derivative across a knot tells that change. (Lyche and Mørken, Knot removal for parametric
+//! B-spline curves and surfaces, Computer Aided Geometric Design 4, 1987.) The rest is fitted again, and kept if all
+//! points are still within.
 
 use super::refine::Task;
 use super::{Reached, SurfaceError, SurfaceFit};
@@ -14,7 +15,7 @@ use trueness_geom::spline::surface::Patches;
 
 /// Fits at most.
 const MAX_TRIES: usize = 40;
-/// Knots are tried whose removal is told to change the surface by no more than this times what the tolerance has left there, the
+/// Knots are tried whose removal changes the surface by no more than this times what the tolerance has left there, the
 /// cheap ones first. The rest is fitted anew, and takes up most of the change.
 const MAX_REMOVAL_COSTS: [f64; 7] = [3.0, 5.0, 8.0, 12.0, 18.0, 27.0, 40.0];
 
@@ -67,8 +68,8 @@ fn missed(found: &SurfaceFit, tolerance: f64, removed: [Vec<f64>; 2], needed: &m
     }
 }
 
-/// An inner knot: direction, number of the span before it, and what its removal may add to the deviations, as a share of what the
-/// tolerance has left there.
+/// An inner knot, by its direction and the number of the span before it. Its cost is what its removal may add to the
+/// deviations, as a share of what the tolerance has left there.
 #[derive(Clone, Copy, Debug)]
 struct SpareKnot {
     direction: usize,

@@ -1,8 +1,9 @@
 //! The nearest places of all points, from their parameters on: eight points of a cell side by side.
 //!
-//! Newton's method from a start near the place takes three or four steps, and most points stay in their cell on the way. Those go
-//! together through loops over arrays; a point that leaves its cell, comes to the edge of the domain, has no convex distance or no end
-//! after some steps begins anew by itself ([`Patches::foot_from`]). So the answer for a point depends on no other.
+//! Newton's method from a start near the place takes three or four steps, and most points stay in their cell on the
+//! way. Those go together through loops over arrays. A point begins anew by itself ([`Patches::foot_from`]) that leaves
+//! its cell or comes to the edge of the domain. So does one that has no convex distance, or no end after some steps. So
+//! the answer for a point depends on no other.
 
 use super::gram::{Binned, within};
 use trueness_geom::parallel::prelude::*;
@@ -183,7 +184,7 @@ fn value<'a>(rows: impl DoubleEndedIterator<Item = &'a [[f64; 3]]>, s: f64, t: f
     sum
 }
 
-/// What Newton's method asks of the places: sums over the three coordinates.
+/// Sums over the three coordinates that Newton's method needs at the places.
 struct Sums {
     /// `away · away`, `away` from the point to the place.
     square: Lanes,

@@ -63,7 +63,7 @@ pub struct SurfaceFit {
     pub unsettled: usize,
     /// Points whose foot is that of a descent from their parameters, not shown to be the nearest place.
     pub(super) doubtful: Vec<u32>,
-    /// Of what holds control points where points are few.
+    /// Stiffness of the plates that hold control points where points are few.
     pub(super) stiffness: f64,
     /// Sum of the squared differences between the points and the surface at the parameters of the last fit, unweighted.
     pub sum_of_squares: f64,

@@ -1,9 +1,9 @@
 //! Normal equations, summed cell by cell.
 //!
-//! Within a knot cell all basis functions are polynomials of its two coordinates `s` and `t`. So what a cell adds to the
-//! matrix follows from its moments `Σ sⁱ tʲ`, `(2p + 1)(2q + 1)` of them, and what it adds to the right side from `Σ sⁱ tʲ x`: fewer
-//! products a point than the `(p + 1)²(q + 1)²` of its basis functions. Points are sorted by cell; sums run over blocks
-//! of fixed size, and blocks are added in their order.
+//! Within a knot cell all basis functions are polynomials of its two coordinates `s` and `t`. So the moments `Σ sⁱ tʲ`
+//! of a cell, `(2p + 1)(2q + 1)` of them, give what it adds to the matrix, and `Σ sⁱ tʲ x` what it adds to the right
+//! side. These are fewer products a point than the `(p + 1)²(q + 1)²` of its basis functions. Points are sorted by
+//! cell; sums run over blocks of fixed size, and blocks are added in their order.
 
 use super::stencil::Stencil;
 use trueness_geom::num::banded::dot;
@@ -78,8 +78,8 @@ impl Binned {
         let mut order = vec![0u32; count];
         let mut local = vec![[0.0; 2]; count];
         let mut sorted = vec![[0.0; 3]; count];
-        // A thread has places side by side and looks for the points that belong there. Those of a cell are written one after the
-        // other, so that the lines of memory being written are few.
+        // A thread has places side by side and looks for the points that belong there. Points of a cell are written one
+        // after the other, so that the lines of memory being written are few.
         let part = count.div_ceil(rayon::current_num_threads()).max(1);
         let parts =
             order.par_chunks_mut(part).zip(local.par_chunks_mut(part)).zip(sorted.par_chunks_mut(part));
@@ -304,8 +304,8 @@ impl Binned {
 }
 
 widest! {
-    /// Adds to `out` the moments of the first `count` lanes, if `normal` asks for them, those of the values, and their square. Of both
-    /// coordinates the lowest powers are given and the others filled in.
+    /// Adds to `out` the moments of the first `count` lanes, if `normal` asks for them, those of the values, and their
+    /// square. The lowest powers of both coordinates are given and the others filled in.
     fn add_moments [] [] (
         coordinates: [(&mut [[f64; POINTS_PER_LANE]], &[f64; POINTS_PER_LANE]); 2],
         values: &[[f64; POINTS_PER_LANE]; 3],

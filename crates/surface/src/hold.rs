@@ -1,9 +1,10 @@
-//! What holds the control points where points are few.
+//! Plates that hold the control points where points are few.
 //!
-//! The weight of the thin plate is that which suits all points. Beyond their outline a few of them, at the rim of a basis function,
-//! would be all that the function's control point follows, and their noise is enlarged as often as the function is small: the
-//! surface leaves the part. So functions that meet few points get a plate of their own, as stiff as the noise asks for; and as a
-//! plate goes on for ever with the slope at its edge, a second term lets it lie down along the base.
+//! The weight of the thin plate is that which suits all points. A few points at the rim of a basis function would be
+//! all that a control point beyond their outline follows. Their noise is then enlarged as often as the function is
+//! small: the surface leaves the part. So functions that meet few points get a plate of their own, as stiff as the
+//! noise asks for. A plate goes on for ever with the slope at its edge, so a second term lets it lie down along the
+//! base.
 
 use super::BaseKind;
 use super::base::Base;
@@ -15,24 +16,25 @@ use trueness_geom::space::{Point, minus};
 use trueness_geom::spline::basis::Knots;
 use trueness_geom::spline::spans::Spans;
 
-/// A basis function is held that meets fewer points than this share of those it would meet if they lay all over it as densely as
-/// elsewhere. The noise of its control point is then twice that of others; without bound, as the share goes to none.
+/// A basis function is held that meets fewer than this share of the points that it would meet if they lay all over it
+/// as densely as elsewhere. The noise of its control point is then twice that of others; without bound, as the share
+/// goes to none.
 const SPARSE_SHARE: f64 = 0.3;
 /// Most that a plate holds, as a share of the mean hold of the points on a control point.
 pub(super) const MAX_PLATE_STIFFNESS: f64 = 1e-2;
-/// A plate is as stiff as that a bend of this slope from one cell to the next counts as much as one standard deviation of a point.
-/// Points without noise are held by next to nothing.
+/// A plate is so stiff that a bend of this slope from one cell to the next counts as much as one standard deviation of
+/// a point. Points without noise are held by next to nothing.
 const PLATE_SLOPE: f64 = 0.1;
 /// Length, as a share of the shorter side, over which the surface lies down along the base.
 const LEVELLING_REACH: f64 = 0.1;
 
-/// What the control points are held by.
+/// The base and the points by which the control points are held.
 pub(super) struct Ground<'a> {
     pub knots: &'a [Knots; 2],
     pub base: &'a Base,
     pub points: &'a [Point],
     pub parameters: &'a [[f64; 2]],
-    /// What is subtracted from all places.
+    /// The place that is subtracted from all places.
     pub center: Point,
 }
 
@@ -152,7 +154,7 @@ fn target(Ground { knots, base, points, parameters, center }: &Ground) -> Vec<Po
     us.iter().flat_map(|u| vs.iter().map(|v| at(*u, *v))).collect()
 }
 
-/// What the points' distances from the base gain along `u` and `v`, by least squares.
+/// Growth of the points' distances from the base along `u` and `v`, by least squares.
 fn slopes(base: &Base, points: &[Point], parameters: &[[f64; 2]]) -> [Point; 2] {
     let count = points.len() as f64;
     let mean = [0, 1].map(|k| parameters.iter().map(|p| p[k]).sum::<f64>() / count);

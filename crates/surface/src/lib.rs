@@ -1,8 +1,9 @@
 //! B-spline surfaces through scattered points: the points in, the surface and what it keeps to out.
 //!
-//! [`fit`] goes the way of reverse engineering: least-squares plane of the points, projection on it, minimum bounding rectangle
-//! with the longer side as `u`, parameters, uniform clamped knots from degree and spans, control points by least squares, deviation of the
-//! points. To that it adds other bases, a thin-plate term, parameter correction and knots where a tolerance asks for them.
+//! [`fit`] goes the way of reverse engineering. It projects the points on their least-squares plane, and takes the minimum bounding rectangle with the longer side as `u`
+//! for the parameters. Uniform clamped knots follow from degree and spans, the control points by least squares, and
+//! then the deviations of the points. To that it adds other bases, a thin-plate term, parameter correction and knots
+//! where a tolerance asks for them.
 //!
 //! | file | what |
 //! |---|---|
@@ -23,9 +24,10 @@
 //! | `crossing` | whether lines in the plane cross |
 //! | `feet`, `nearest` | nearest places of the points: near their parameters, and beyond doubt |
 //!
-//! Sources: Hoschek, Intrinsic parametrization for approximation, Computer Aided Geometric Design 5, 1988 (parameter correction); Kim and Gu, Smoothing
-//! spline Gaussian regression: more scalable computation via efficient approximation, Journal of the Royal Statistical
-//! Society B 66, 2004 (cross-validation with degrees of freedom counted 1.4 times).
+//! Sources: Hoschek, Intrinsic parametrization for approximation, Computer Aided Geometric Design 5, 1988 (parameter
+//! correction). Kim and Gu, Smoothing spline Gaussian regression: more scalable computation via efficient
+//! approximation, Journal of the Royal Statistical Society B 66, 2004 (cross-validation with degrees of freedom counted
+//! 1.4 times).
 #![cfg_attr(test, allow(clippy::disallowed_methods, reason = "a test does not hang on the last digit"))]
 
 mod base;
@@ -77,9 +79,9 @@ use trueness_geom::spline::basis::Knots;
 
 /// The B-spline surface of least squares through `points` (millimeters).
 ///
-/// The answer is the same on any number of threads. Cost: some passes over the points, and `n b²` multiplications for each
-/// weight tried, with `n` control points and `b` of them in a band (degree times the smaller number in a direction). Memory: about
-/// 90 bytes a point and `8 n b`.
+/// The answer is the same on any number of threads. Cost: some passes over the points, and `n b²` multiplications for
+/// each weight tried. `n` is the number of control points, and `b` that in a band (degree times the smaller number in a
+/// direction). Memory: about 90 bytes a point and `8 n b`.
 ///
 /// # Errors
 /// [`SurfaceError`]: points or options that allow no surface.

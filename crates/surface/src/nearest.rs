@@ -13,8 +13,8 @@ use trueness_geom::spline::surface::{FootSearch, Nurbs, Surface};
 /// Points between two questions whether to stop.
 const POINTS_PER_SEARCH: usize = 256;
 
-/// The fit with true distances of the points that are `beyond`, by the distance that is known: the true one is no greater; and which points
-/// lie beyond the border.
+/// The fit with true distances of the points that are `beyond`, and the numbers of the points beyond the border. The
+/// known distance is an upper bound of the true one.
 ///
 /// Cost: some microseconds for each of them whose foot is in doubt.
 pub(super) fn with_true_distances(

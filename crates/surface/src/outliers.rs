@@ -1,8 +1,8 @@
 //! Points that contradict their neighbors.
 //!
-//! What a surface of few knots passes by is the part's own shape as often as it is an outlier, so a point is asked what its neighbors
-//! say of it. The heights of the 24 nearest places tell a plane by least median of squares
-//! (Rousseeuw 1984), and the noise around it. A point far off that plane contradicts them, unless a quarter of them lie as it does: a step or
+//! A point that a surface of few knots passes by is the part's own shape as often as an outlier. So the neighbors of a
+//! point judge it. The heights of the 24 nearest places tell a plane by least median of squares (Rousseeuw 1984), and
+//! the noise around it. A point far off that plane contradicts them, unless a quarter of them lie as it does. A step or
 //! an edge has points on both sides.
 
 use super::{Base, BaseKind};
@@ -17,7 +17,8 @@ use trueness_geom::spatial::neighbors::PointTree;
 const NEIGHBORS_ASKED: usize = 24;
 /// Fewer neighbors are not believed.
 const MIN_NEIGHBORS: usize = 12;
-/// Planes through three of them that are tried. Of 24 with a third of outliers all fail in one of 300 cases.
+/// Planes through three of them that are tried. All planes through 24 neighbors with a third of outliers fail in one of
+/// 300 cases.
 const TRIAL_PLANES: usize = 16;
 /// From the median of the sizes to a standard deviation, with the factor for so few of them (Rousseeuw and Leroy 1987).
 const SIGMA_PER_MEDIAN: f64 = 1.4826 * (1.0 + 5.0 / (NEIGHBORS_ASKED - 3) as f64);
@@ -30,8 +31,8 @@ const MIN_NEIGHBORS_ALIKE: usize = 6;
 /// The point lies apart from its neighbors where the square of the nearest one's distance is more than this share of the farthest
 /// one's.
 const APART_SQUARE_RATIO: f64 = 0.8;
-/// Neighbors narrower than this share of their length are those of one row of a scanner, and only the heights along it tell: where
-/// the row leans, noise moves points across it.
+/// Neighbors narrower than this share of their length are those of one row of a scanner. Only the heights along it
+/// count: where the row leans, noise moves points across it.
 const ROW_WIDTH_RATIO: f64 = 0.2;
 /// Slope of the steepest plane: a row of a scanner lies in a plane on edge, with all its outliers.
 const MAX_SLOPE: f64 = 2.0;
@@ -40,7 +41,7 @@ const ROUNDING_SHARE: f64 = 1e-12;
 /// Points between two questions whether to stop.
 const POINTS_PER_JUDGING: usize = 1024;
 
-/// What the neighbors of a point say of it.
+/// The judgment of a point by its neighbors.
 struct Judged {
     /// Its distance from their plane.
     off: f64,
@@ -52,8 +53,8 @@ struct Judged {
 
 /// The points that contradict their neighbors by their heights over the base, in ascending order; `places` are theirs over it.
 ///
-/// A dense group of outliers, from a quarter of the neighbors on, is not told from a shape of the part. Of fewer than 13 places none is an
-/// outlier. Cost: a search for neighbors and sixteen planes for each point.
+/// A dense group of outliers, from a quarter of the neighbors on, is not told from a shape of the part. Fewer than 13
+/// places have no outlier. Cost: a search for neighbors and sixteen planes for each point.
 pub(super) fn outliers(
     points: &[Point],
     base: &Base,
@@ -66,7 +67,7 @@ pub(super) fn outliers(
         let mut near = tree.k_nearest(&flat(places[i]), NEIGHBORS_ASKED + 1, None);
         near.retain(|(square, _)| *square > 0.0);
         near.truncate(NEIGHBORS_ASKED);
-        // Of neighbors that lie apart none knows how the surface goes on to here.
+        // Neighbors that lie apart do not know how the surface goes on to here.
         if near.first()?.0 > APART_SQUARE_RATIO * near.last()?.0 {
             return None;
         }
@@ -125,7 +126,7 @@ fn distinct(parameters: &[[f64; 2]]) -> Vec<u32> {
     order
 }
 
-/// What neighbors say of the point at the origin, which they are given from; `None` of too few.
+/// The judgment of the point at the origin by its neighbors, which are seen from it; `None` where they are too few.
 fn judged(around: &[[f64; 3]]) -> Option<Judged> {
     let count = around.len();
     if count < MIN_NEIGHBORS {

@@ -1,10 +1,11 @@
 //! The outline of the points in the plane of the parameters: where a surface is cut off.
 //!
-//! A place is inside where no disk of the *reach* as its radius holds it without holding a point (the α-shape of Edelsbrunner,
-//! Kirkpatrick & Seidel 1983, with round notches): gaps narrower than twice the reach are bridged, wider ones are holes or lie
-//! outside. It is found on a grid of cells a sixth of the reach wide, by two exact distance transforms (Felzenszwalb & Huttenlocher
-//! 2012): the points widened by the reach, and that narrowed by it. The line between inside and outside is set off by 3.5 cells
-//! and then made of as few sides as lie within one cell of it, so that all points are within.
+//! A place is inside where no disk of the *reach* as its radius holds it without holding a point. That is the α-shape
+//! of Edelsbrunner, Kirkpatrick & Seidel 1983, with round notches. Gaps narrower than twice the reach are bridged;
+//! wider ones are holes or lie outside. It is found on a grid of cells a sixth of the reach wide, by two exact distance
+//! transforms (Felzenszwalb & Huttenlocher 2012). They widen the points by the reach, and narrow the result by it. The
+//! line between inside and outside is set off by 3.5 cells, so that all points are within. Then it is made of as few
+//! sides as lie within one cell of it.
 
 use super::crossing::cross;
 use super::raster::{Raster, distances};
@@ -34,8 +35,8 @@ pub struct OutlineRegion {
 
 /// Cells for each reach.
 const CELLS_PER_REACH: f64 = 6.0;
-/// How far the outline is set off, in cells. A point is off the middle of its cell by 0.71 at most, a distance by as much, and a
-/// cut at the rim of the domain by one.
+/// How far the outline is set off, in cells. A point is off the middle of its cell by 0.71 at most, and a distance by
+/// as much. A cut at the rim of the domain is off by one.
 const OFFSET_CELLS: f64 = 3.5;
 /// How far the outline's sides may be from it, in cells.
 const STRAIGHT_SIDE_CELLS: f64 = 1.0;
@@ -53,9 +54,9 @@ const REACH_GROWTH: f64 = 1.4;
 const MAX_REACH_OF_SIDE: f64 = 0.05;
 
 impl Outline {
-    /// Of points in a rectangle of parameters, with this reach. Without one it is three times the mean distance of neighbors, or, where
-    /// that gives more than eight regions which are lines of points, the least that gives fewer, up to a twentieth of the longer side, and
-    /// as long as no islands grow together.
+    /// The outline of points in a rectangle of parameters, with this reach. Without one it is three times the mean
+    /// distance of neighbors. Where that gives more than eight regions which are lines of points, it is the least that
+    /// gives fewer. It is at most a twentieth of the longer side, and grows only as long as no islands grow together.
     ///
     /// Regions with less than 1 % of the points of the one with most are left out. No region comes of no points. Cost: linear in points
     /// and cells, 4 million cells at most; of finer ones the reach is greater than asked for, and told.
@@ -219,8 +220,8 @@ fn room(sides: [f64; 2], reach: f64) -> f64 {
         .product()
 }
 
-/// Mean distance of neighbors where there are any: of squares of which one holds eight points in the mean, the side over the root of
-/// their number in it.
+/// Mean distance of neighbors where there are any. Squares hold eight points in the mean; the distance is their side
+/// over the root of their number of points.
 fn spacing(points: &[[f64; 2]], domain: [(f64, f64); 2]) -> f64 {
     const POINTS_PER_SQUARE: f64 = 8.0;
     /// Where a square holds fewer points in the mean, their number tells more of chance than of their distance.

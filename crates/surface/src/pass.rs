@@ -12,9 +12,9 @@ use trueness_geom::spline::surface::{Patches, Surface};
 
 /// Corrections go on while they take away this share of the root mean square.
 const MIN_CORRECTION_GAIN: f64 = 0.01;
-/// Later weights of the thin plate are at least this share of the first fit's, as far as the residuals did not fall. Rows of a
-/// scanner lie between control points so that parameters corrected along them have no noise left: cross-validation then lets the
-/// surface go where there are no points.
+/// Later weights of the thin plate are at least this share of the first fit's, as far as the residuals did not fall.
+/// Rows of a scanner lie between control points so that parameters corrected along them have no noise left.
+/// Cross-validation then lets the surface go where there are no points.
 const MIN_FAIRNESS_SHARE: f64 = 0.01;
 
 /// The fit over these knots, with parameters corrected as the options say.
@@ -118,7 +118,8 @@ fn once(
     })
 }
 
-/// Whether a place lies outside of twice the box of the points along the axes of the base; where that is flat, no nearer than `least`.
+/// Whether a place lies outside of twice the box of the points along the axes of the base. Where that is flat it is no
+/// nearer than `least`.
 fn far(base: &Base, points: &[Point], least: f64) -> impl Fn(&Point) -> bool {
     let axes = base.axes;
     let limits = axes.map(|axis| {

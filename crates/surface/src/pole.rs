@@ -1,10 +1,11 @@
 //! The axis of a sphere whose poles lie far from the points.
 //!
-//! At a pole the parameters of a sphere crowd, and a surface over them is torn or creased. The axis sought is that whose two poles are
-//! farthest from all points: of all unit vectors `z` the one with the least greatest `|z · d|` over the directions `d` of the points. That
-//! greatest value is the half width of the convex hull of all `±d` along `z`, and the least of all widths is across a facet: so it is the
-//! hull's facet nearest to the center. Seen from one of the directions (a stereographic projection, which takes circles to circles) those
-//! facets are the triangles of Delaunay between the others, and the sides of their hull.
+//! At a pole the parameters of a sphere crowd, and a surface over them is torn or creased. The two poles of the axis
+//! sought are farthest from all points. Among all unit vectors `z` it has the least greatest `|z ·
+//! d|` over the directions `d` of the points. That greatest value is the half width of the convex hull of all
+//! `±d` along `z`. The least of all widths is across a facet, so it is the hull's facet nearest to the center. A
+//! stereographic projection from one of the directions takes circles to circles. In it those facets are the triangles
+//! of Delaunay between the others, and the sides of their hull.
 
 use spade::{DelaunayTriangulation, Point2, Triangulation};
 use trueness_geom::space::{Point, Vector, cross, dot, least_axis, minus, norm, plus, times, unit};

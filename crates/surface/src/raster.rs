@@ -1,6 +1,6 @@
 //! A grid of cells over a rectangle: distances on it, and lines of equal height.
 
-/// Square cells over a rectangle with a margin around it. Those of the second coordinate follow each other.
+/// Square cells over a rectangle with a margin around it. Cells along the second coordinate follow each other.
 pub(super) struct Raster {
     from: [f64; 2],
     cell: f64,
@@ -59,9 +59,9 @@ impl Raster {
         (part, count as usize)
     }
 
-    /// Closed lines through the middles of cells and between them where the height is `level`, with what is higher on their left
-    /// (marching squares), and a higher cell beside each. Cells at the rim must be lower. Where two higher cells stand corner to
-    /// corner, they do not hang together.
+    /// Closed lines through the middles of cells and between them where the height is `level`, and a higher cell beside
+    /// each. Higher ground is on their left (marching squares). Cells at the rim must be lower. Where two higher cells
+    /// stand corner to corner, they do not hang together.
     pub fn contours(&self, height: &[f64], level: f64) -> Vec<(usize, Vec<[f64; 2]>)> {
         let [rows, columns] = self.counts;
         let is_high = |i: usize, j: usize| height[i * columns + j] >= level;
@@ -72,7 +72,7 @@ impl Raster {
                 let corners = [[i, j], [i + 1, j], [i + 1, j + 1], [i, j + 1]];
                 let high = corners.map(|[i, j]| is_high(i, j));
                 let cell = |[i, j]: [usize; 2]| i * columns + j;
-                // Of the sides of the square against the clock.
+                // Sides of the square against the clock.
                 let sides =
                     [2 * cell([i, j]), 2 * cell([i + 1, j]) + 1, 2 * cell([i, j + 1]), 2 * cell([i, j]) + 1];
                 // The line leaves where what is high lies at the start of a side, and comes in where it lies at its end.

@@ -69,8 +69,8 @@ impl Task<'_> {
 
 /// Fits, sets knots where points are beyond the tolerance, and fits again.
 ///
-/// It ends where all points are within, where more knots lower the standard deviation of the points no more (the answer
-/// is then the surface before they were set), or where there are no points left to set knots by.
+/// It ends where all points are within, or where no points are left to set knots by. It ends as well where more knots
+/// no longer lower the standard deviation of the points; the answer is then the surface before they were set.
 pub(super) struct Rounds<'a> {
     task: Task<'a>,
     halved: Halved,
@@ -83,7 +83,7 @@ pub(super) struct Rounds<'a> {
     done: usize,
 }
 
-/// What a round has come to.
+/// The outcome of a round.
 pub(super) enum Round {
     /// Knots were set after this surface.
     Going(SurfaceFit),
@@ -156,14 +156,14 @@ const URGENT_SHARE: f64 = 0.1;
 pub(super) enum Halved {
     /// The longer ones: cells stay about square.
     Longer,
-    /// Those along which the surface bends: few lines, where it bends one way. What is thin as seen along the lines can be missed for a
-    /// while.
+    /// The sides along which the surface bends: few lines, where it bends one way. A shape that is thin as seen along
+    /// the lines can be missed for a while.
     Bent,
 }
 
 impl Halved {
-    /// Of a cell those sides are halved of which this is more than such a share of what it is of the other side: the length, or how far the
-    /// surface bends over the side.
+    /// Sides of a cell are halved that have more than such a share of the other side's measure: the length, or how far
+    /// the surface bends over the side.
     fn share(self) -> f64 {
         match self {
             Halved::Longer => 0.7,
@@ -173,10 +173,11 @@ impl Halved {
 }
 
 /// Halves the sides of the cells that hold points beyond the tolerance, if their spans hold more points than the halves
-/// have functions: of the most urgent of them only, where all would make more control points than there are points.
+/// have functions. Only the most urgent sides are halved where all would make more control points than there are
+/// points.
 ///
-/// A knot goes all through the surface, so it is set only where it is urgent: a dimple in a plane takes a quarter of the control points
-/// that it would if all spans with a point beyond the tolerance were halved.
+/// A knot goes all through the surface, so it is set only where it is urgent. A dimple in a plane then takes a quarter
+/// of the control points that it would if all spans with a point beyond the tolerance were halved.
 fn finer(
     knots: &[Knots; 2],
     found: &SurfaceFit,

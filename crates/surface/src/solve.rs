@@ -19,14 +19,14 @@ pub(super) struct Solved {
     pub fairness: f64,
     pub degrees_of_freedom: Option<f64>,
     pub support: Support,
-    /// Of what holds control points where points are few.
+    /// Stiffness of the plates that hold control points where points are few.
     pub stiffness: f64,
 }
 
 /// Least sum of the squares of a basis function over all points that holds a control point.
 const MIN_SUPPORT: f64 = 1e-4;
 
-/// What an earlier solution of much the same points has told.
+/// Results of an earlier solution of much the same points.
 #[derive(Clone, Copy)]
 pub(super) struct Known {
     pub fairness: f64,
@@ -87,7 +87,7 @@ pub(super) fn allowed(counts: [usize; 2], reach: [usize; 2], memory: usize) -> R
     }
 }
 
-/// What the matrix of so many control points takes; `None` where no number holds it.
+/// Memory that the matrix of so many control points takes; `None` where no number holds it.
 fn bytes(counts: [usize; 2], reach: [usize; 2]) -> Option<usize> {
     // The product bounds every other one here.
     let total = counts[0].checked_mul(counts[1])?.checked_mul(reach[0].max(reach[1]) + 1)?;
@@ -99,7 +99,7 @@ struct System<'a> {
     normal: Stencil,
     energy: Stencil,
     hold: Option<Penalty>,
-    /// Of what holds, as a share of what the points hold a control point with in the mean.
+    /// Stiffness of the plates, as a share of the points' mean hold on a control point.
     stiffness: f64,
     right: Vec<Point>,
     support: Support,
@@ -109,8 +109,8 @@ struct System<'a> {
 const MAX_POINTS_COUNTED_EXACTLY: usize = 300;
 /// Random vectors that they are estimated by beyond, three at a time: each time is a pass over the points.
 const RANDOM_PROBES: usize = 12;
-/// Points to a control point from which on the first three do: the degrees of freedom, then known to about 3 %, are a small part of
-/// the number that they are subtracted from.
+/// Points to a control point from which on the first three do. The degrees of freedom are then known to about 3 %, and
+/// are a small part of the number that they are subtracted from.
 const MIN_DENSITY_FOR_FEW_PROBES: usize = 20;
 /// How many times a degree of freedom counts: plain cross-validation takes noise for shape now and then.
 const FREEDOM_WEIGHT: f64 = 1.4;
@@ -172,9 +172,10 @@ impl System<'_> {
         (0..right.len()).map(|k| own[order.of(k)]).collect()
     }
 
-    /// The control points, corrected by what they leave of the points until that changes nothing: the equations square the
-    /// condition of the problem, the corrections take most of it back (Björck, Stability analysis of the method of
-    /// semi-normal equations for linear least squares problems, Linear Algebra and its Applications 88/89, 1987).
+    /// The control points, corrected by what they leave of the points until that changes nothing. The equations square
+    /// the condition of the problem, and the corrections take most of it back. (Björck, Stability analysis of the
+    /// method of semi-normal equations for linear least squares problems, Linear Algebra and its Applications 88/89,
+    /// 1987.)
     fn refined(
         &self,
         factor: &Factor,
@@ -293,8 +294,8 @@ impl System<'_> {
         Ok((unit * power(best.1), best.2))
     }
 
-    /// The least exponent of the weight with which the surface can be relied upon between rows of points: from it on, what it is off
-    /// where blocks are left out is no more than twice the least of all weights.
+    /// The least exponent of the weight with which the surface can be relied upon between rows of points. From it on,
+    /// the residual where blocks are left out is no more than twice the least of all weights.
     fn trusted(
         &self,
         base: &[Point],
@@ -332,7 +333,7 @@ impl System<'_> {
         Ok(exponents[at])
     }
 
-    /// What the trace is told by: unit vectors of all control points, or the sums of random signs of the points.
+    /// The probes of the trace: unit vectors of all control points, or the sums of random signs of the points.
     fn probes(&self, progress: &dyn Progress) -> Result<Vec<Vec<Point>>, SurfaceError> {
         let total = self.right.len();
         if total <= MAX_POINTS_COUNTED_EXACTLY {
@@ -351,9 +352,9 @@ impl System<'_> {
         (0..times).map(|time| Ok(signs(time)?)).collect()
     }
 
-    /// The trace of the matrix from points to fitted points; beyond [`MAX_POINTS_COUNTED_EXACTLY`] control points the mean over random signs
-    /// (Girard, A fast Monte-Carlo cross-validation procedure for large least squares problems with noisy data, Numerische
-    /// Mathematik 56, 1989).
+    /// The trace of the matrix from points to fitted points. Beyond [`MAX_POINTS_COUNTED_EXACTLY`] control points it is
+    /// the mean over random signs. (Girard, A fast Monte-Carlo cross-validation procedure for large least squares
+    /// problems with noisy data, Numerische Mathematik 56, 1989.)
     fn degrees_of_freedom(&self, factor: &Factor, probes: &[Vec<Point>]) -> f64 {
         let exact = self.right.len() <= MAX_POINTS_COUNTED_EXACTLY;
         let mut sum = 0.0;

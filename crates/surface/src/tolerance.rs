@@ -13,10 +13,11 @@ const ALIGNED_ANGLE: f64 = 0.003;
 /// Times that the rectangle is turned at most: its angle is seen better where lines run along it.
 const MAX_RECTANGLE_TURNS: usize = 4;
 
-/// Of two surfaces the one of fewer control points, less the knots that it can do without.
+/// The one of two surfaces with fewer control points, less the knots that it can do without.
 ///
-/// The cells of the one are halved along what bends, over a plane after its rectangle was turned to where it bends most. Those of
-/// the other stay about square; as it is the surer way to small deviations, it is the answer where none of them keeps to the tolerance.
+/// The cells of the one are halved along what bends, over a plane after its rectangle was turned to where it bends
+/// most. Cells of the other stay about square. It is the surer way to small deviations, and so the answer where none of
+/// them keeps to the tolerance.
 pub(super) fn to_tolerance(
     task: Task,
     base: Base,

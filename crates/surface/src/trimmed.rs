@@ -9,8 +9,8 @@ use trueness_geom::space::Point;
 use trueness_geom::spline::surface::{Patches, Surface};
 use trueness_geom::topology::union::Sets;
 
-/// Share of the tolerance for the rows and columns that facets are made of. At the outline a facet may reach over a little more
-/// than two of them in each direction, and its distance from the surface grows with the square.
+/// Share of the tolerance for the rows and columns that facets are made of. At the outline a facet may reach over a
+/// little more than two of them in each direction. Its distance from the surface grows with the square.
 const GRID_TOLERANCE_SHARE: f64 = 0.2;
 /// Nothing is added nearer to a place or side of the outline than this share of a cell: between them facets would be needles.
 const MIN_DISTANCE_CELLS: f64 = 0.2;
@@ -20,9 +20,9 @@ type Parameters = Point2<f64>;
 
 /// Facets of the surface within the outline, within `tolerance` of it; `None` if that takes more than `most`.
 ///
-/// Vertices are those of [`Surface::tessellate`] that lie inside and not close to the outline, and places of the outline where its rows and
-/// columns cross it; facets are those of their constrained Delaunay triangulation in the parameters, and look the way of the surface's
-/// normal. Parts that do not hang together share no vertex. Cost: `n log n`.
+/// Vertices are those of
+/// [`Surface::tessellate`] that lie inside and not close to the outline, and places of the outline where its rows and columns cross it. Facets are those of their constrained Delaunay triangulation in the parameters, and look the way of the surface's normal. Parts that do not hang together share no vertex. Cost: `n
+/// log n`.
 ///
 /// # Errors
 /// [`Cancelled`].
@@ -100,7 +100,7 @@ fn inside(made: &ConstrainedDelaunayTriangulation<Parameters>, outline: &Outline
             *of_all = (area, [middle.x, middle.y]);
         }
     }
-    // What hangs together with the outer face, of number 0, is outside.
+    // Faces that hang together with the outer one, of number 0, are outside.
     let outer = sets.root(0);
     let holds: Vec<bool> =
         (0..).zip(&largest).map(|(i, (area, at))| i != outer && *area > 0.0 && outline.holds(*at)).collect();

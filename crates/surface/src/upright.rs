@@ -1,10 +1,11 @@
-//! Whether points stand on edge on their base, and the direction in which a surface has heights where it has none over the
-//! least-squares plane of its points.
+//! Whether points stand on edge on their base. Also the direction in which a surface has heights where it has none over
+//! the least-squares plane of its points.
 //!
-//! A strip whose ripples are larger than its width has the plane of the ripples as its own, and stands on edge on it; so does
-//! a ring like a low fence. Over a place of the plane there is then no height, but all those of the strip's width.
-//! Steep ground that rises to one corner leans over its own plane: seen along the normal of that plane it folds, seen along
-//! another direction it does not. It has heights along a direction that no normal of the surface is at right angles to.
+//! A strip whose ripples are larger than its width has the plane of the ripples as its own, and stands on edge on it.
+//! So does a ring like a low fence. Over a place of the plane there is then no height, but all those of the strip's
+//! width. Steep ground that rises to one corner leans over its own plane. It folds as seen along the normal of that
+//! plane, and does not as seen along another direction. It has heights along a direction that no normal of the surface
+//! is at right angles to.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 use trueness_geom::fit::Scatter;
@@ -22,7 +23,8 @@ const MAX_NORMALS_FOR_DIRECTION: usize = 1 << 12;
 const NEIGHBORS_PER_NORMAL: usize = 16;
 /// No normal of fewer points can be relied upon.
 const MIN_POINTS_WITH_NORMALS: usize = 64;
-/// Variance of the places around a point across the line through them, as a share of that along it: less makes it a line of places.
+/// Variance of the places around a point across the line through them, as a share of that along it. Less makes it a
+/// line of places.
 const MIN_VARIANCE_RATIO: f64 = 0.04;
 /// Points that are asked whether they stand on edge, at most.
 const MAX_NORMALS_FOR_EDGES: usize = 1 << 10;
@@ -41,8 +43,8 @@ const MAX_COSINE_OF_DIRECTIONS: f64 = 0.94;
 /// Times that the angle is halved.
 const ANGLE_HALVINGS: u32 = 8;
 
-/// Share of the points whose surface stands on edge on the base, at 80° and more, as the normals of some of them tell; `up` is
-/// the normal of the base at a place. 0 of fewer than 64 points.
+/// Share of the points whose surface stands on edge on the base, at 80° and more, by the normals of some of them. `up`
+/// is the normal of the base at a place. 0 of fewer than 64 points.
 ///
 /// Cost: a search among at most 16,384 points.
 pub(super) fn standing(
@@ -60,8 +62,8 @@ pub(super) fn standing(
     Ok(on_edge as f64 / asked_count as f64)
 }
 
-/// Share of the points that stand on edge and that the surface passes by: it has another direction there than they have, by 45° and more.
-/// Where it follows a steep wall they stand on edge, and it with them.
+/// Share of the points that stand on edge and that the surface passes by. It has another direction there than they
+/// have, by 45° and more. Where it follows a steep wall they stand on edge, and it with them.
 ///
 /// Cost: as of [`standing`], and at most 1,024 nearest places.
 pub(super) fn passed_by(
@@ -85,8 +87,8 @@ pub(super) fn passed_by(
     Ok(found.par_iter().filter(is_missed).count() as f64 / asked_count as f64)
 }
 
-/// Some of the points and their normals, those of planes through 16 neighbors, and how many were asked: so many are searched, and so
-/// many asked at most.
+/// Some of the points and their normals, those of planes through 16 neighbors, and how many were asked. The first
+/// number of points is searched at most, and the second one asked.
 fn normals(
     points: &[Point],
     [among, most_asked]: [usize; 2],
@@ -101,7 +103,7 @@ fn normals(
             .map(|n| minus(sample[n.1 as usize], *p))
             .collect();
         let Scatter { variance, axes, .. } = Scatter::of(&around);
-        // Of points on a line every direction across is a normal.
+        // Every direction across is a normal of points on a line.
         let plane = variance[1] > 4.0 * variance[0] && variance[1] > MIN_VARIANCE_RATIO * variance[2];
         plane.then_some((*p, axes[0]))
     };
@@ -112,10 +114,11 @@ fn normals(
     Ok((asked.par_iter().filter_map(of).collect(), asked.len()))
 }
 
-/// Directions, to the side of `normal`, along which the surface may have heights, the best first: the least cosine of the angle to a
-/// normal of the surface is great for them; 2 % of the normals do not count. The first has the greatest, each other one the greatest of those 20°
-/// and more from all before. Normals are those of planes through 16 neighbors, and to which side they look is not known: a direction
-/// over which the surface folds with steep sides alone may come before one over which it does not. None where no points have a plane.
+/// Directions, to the side of `normal`, along which the surface may have heights, the best first. The least cosine of
+/// the angle to a normal of the surface is great for them; 2 % of the normals do not count. The first has the greatest,
+/// each other one the greatest of those 20° and more from all before. Normals are those of planes through 16 neighbors,
+/// and to which side they look is not known. So a direction over which the surface folds with steep sides alone may
+/// come before one over which it does not. None where no points have a plane.
 ///
 /// Cost: a search among at most 65,536 points, which are every `k`-th.
 pub(super) fn directions(
@@ -145,7 +148,7 @@ pub(super) fn directions(
     };
     let tried: Vec<Vector> = (0..=rings).flat_map(ring).map(|(tilt, turn)| at(tilt, turn)).collect();
     let scores: Vec<f64> = tried.par_iter().map(|d| score(&normals, *d)).collect();
-    // Of equal ones the first, which is nearest to the normal.
+    // The first of equal ones is nearest to the normal.
     let mut by_score: Vec<usize> = (0..scores.len()).collect();
     by_score.sort_by(|a, b| scores[*b].total_cmp(&scores[*a]));
     let mut coarse: Vec<usize> = vec![];

@@ -1,14 +1,15 @@
 //! Curvatures of meshes and clouds, place by place, from jets fitted to the neighborhood.
 //!
 //! F. Cazals, M. Pouget, Estimating differential quantities using polynomial fitting of osculating jets, Computer Aided
-//! Geometric Design 22 (2005) 121–146. In a frame whose third axis is about the normal, the surface near a place is a height
-//! `z(x, y)`; a polynomial of degree `d` (a jet) is fitted to the neighbors by least squares, and its first and second
-//! derivatives are normal and curvatures. Curvatures of a smooth surface come out to the order `d − 1` in the size of the
-//! neighborhood. What differs from the paper: the frame is turned to the fitted normal where that leans, the standard
-//! uncertainty is told, and places where the neighborhood is no surface on all sides have no value but a reason.
+//! Geometric Design 22 (2005) 121–146. In a frame whose third axis is about the normal, the surface near a place is a
+//! height `z(x, y)`. A polynomial of degree
+//! `d` (a jet) is fitted to the neighbors by least squares. Its first and second derivatives give the normal and curvatures. Curvatures of a smooth surface come out to the order `d
+//! − 1` in the size of the neighborhood. Three things differ from the paper. The frame is turned to the fitted normal
+//! where that leans, and the standard uncertainty is reported. Places whose neighborhood is no surface on all sides
+//! have no value but a reason.
 //!
-//! A curvature is positive where the surface bends towards its normal, as in [`trueness_geom::spline::surface::Bend`]: on a convex body
-//! with outward normals both principal curvatures are negative.
+//! A curvature is positive where the surface bends towards its normal, as in [`trueness_geom::spline::surface::Bend`].
+//! On a convex body with outward normals both principal curvatures are negative.
 //!
 //! | file | what |
 //! |---|---|
@@ -48,16 +49,17 @@ const MAX_RUNS: usize = 64;
 pub struct Curvatures {
     /// For each vertex or point its jet, or why there is none.
     pub places: Vec<Result<Jet, NoCurvature>>,
-    /// Of a cloud: parts that hang together, each with its normals to one side; 0 of a mesh, whose facets tell the side.
+    /// Parts of a cloud that hang together, each with its normals to one side. A mesh has 0: its facets tell the side.
     pub parts: usize,
 }
 
 /// Curvatures at the `V` vertices of a mesh, millimeters.
 ///
-/// Neighbors are found through edges, ring after ring, so that the other side of a thin wall is none. Vertices at one place are
-/// two vertices: weld first what is not welded. Normals are those of the facets. Rings do not grow through vertices with more than
-/// 256 neighbors. `progress` counts vertices. Deterministic for any number of threads; about 450 bytes a vertex
-/// with its facets; the time of a vertex is that of a least-squares fit, `2 m n²` products for `m` neighbors and `n` unknowns.
+/// Neighbors are found through edges, ring after ring, so that the other side of a thin wall is none. Vertices at one
+/// place are two vertices: weld first what is not welded. Normals are those of the facets. Rings do not grow through
+/// vertices with more than 256 neighbors.
+/// `progress` counts vertices. Deterministic for any number of threads; about 450 bytes a vertex with its facets. The time of a vertex is that of a least-squares fit, `2
+/// m n²` products for `m` neighbors and `n` unknowns.
 /// ```
 /// use trueness_surface::curvature::{self, Options};
 /// use trueness_geom::{mesh::Mesh, progress::Silent};
@@ -92,12 +94,12 @@ pub fn mesh(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<C
 
 /// Curvatures at `N` points, millimeters, in their order.
 ///
-/// The first frame of a place is the least-squares plane of its neighbors. A place is on a boundary where, along the surface, no
-/// neighbor lies within an angle of 150 degrees. Normals are turned to one side from neighbor to neighbor, the flattest way
-/// first (H. Hoppe et al., SIGGRAPH 1992); then each part that hangs together looks outward, if it is a body rather than a sheet
-/// (the mean of n · (p − c) tells, which is three times volume over area of a closed one), else to the side of its mean normal's
-/// largest coordinate. Equal points are one place: copies are no neighbors, and have the same answer. As [`mesh()`] otherwise;
-/// about 600 bytes a point.
+/// The first frame of a place is the least-squares plane of its neighbors. A place is on a boundary where, along the
+/// surface, no neighbor lies within an angle of 150 degrees. Normals are turned to one side from neighbor to neighbor,
+/// the flattest way first (H. Hoppe et al., SIGGRAPH 1992). Then each part that hangs together looks outward, if it is
+/// a body rather than a sheet. The mean of n · (p − c) tells that: in a closed body it is three times volume over area.
+/// Other parts look to the side of their mean normal's largest coordinate. Equal points are one place: copies are no
+/// neighbors, and have the same answer. As [`mesh()`] otherwise; about 600 bytes a point.
 ///
 /// # Errors
 /// As [`mesh()`].

@@ -104,7 +104,7 @@ fn fit(fitter: &mut Fitter, terms: &Terms) -> Result<Jet, NoCurvature> {
 /// Normal of the least-squares plane; `None` where all lie on a line.
 fn flattest(around: &[Vector]) -> Option<Vector> {
     let Scatter { variance, axes, .. } = Scatter::of(around);
-    // What rounding leaves of a line's width.
+    // Width of a line that rounding leaves.
     (variance[1] > 1e-14 * variance[2]).then_some(axes[0])
 }
 

@@ -15,8 +15,8 @@ use trueness_geom::topology::{Topology, TopologyError};
 /// others.
 pub const MAX_RING_NEIGHBORS: usize = 256;
 
-/// Rings around a vertex are a neighborhood if no vertex left out is nearer than this share of the farthest one in them: in a net
-/// of like cells it is 0.6. Rings of long facets reach far one way and hardly the other.
+/// Rings around a vertex are a neighborhood if no vertex left out is nearer than this share of the farthest one in
+/// them. In a net of like cells the share is 0.6. Rings of long facets reach far one way and hardly the other.
 const MIN_ROUND_RATIO: f64 = 1.0 / 3.0;
 /// Condition up to which the nearest vertices determine a jet in all directions: three rows of them do not, five do.
 const MAX_EVEN_CONDITION: f64 = 300.0;
@@ -57,7 +57,7 @@ impl Rings<'_> {
             .collect();
         let (first, others) = lists(count, pairs);
         let mut barred = vec![None; count];
-        // What is said last is what counts.
+        // The last statement counts.
         for edge in &topology.boundary_edges {
             edge.vertices.iter().for_each(|v| barred[*v as usize] = Some(NoCurvature::Boundary));
         }
@@ -167,7 +167,7 @@ impl Walk<'_> {
         self.found.clear();
         self.seen[v as usize] = self.round;
         let middle = rings.mesh.positions[v as usize];
-        // Of numbers that are not negative the bits rise as they do.
+        // The bits of numbers that are not negative rise as the numbers do.
         let mut open = BinaryHeap::from([Reverse((0u64, v))]);
         while let Some(Reverse((_, n))) = open.pop() {
             self.found.push(n);

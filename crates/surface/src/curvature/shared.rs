@@ -1,4 +1,4 @@
-//! What noise that neighbors share does to a least-squares fit.
+//! Effect of noise that neighbors share on a least-squares fit.
 
 use super::jet::Fitter;
 use trueness_geom::noise::Noise;
@@ -9,8 +9,9 @@ use trueness_geom::space::{minus, norm};
 const MAX_DATA_IN_ALL_PAIRS: usize = 300;
 
 impl Fitter {
-    /// Standard deviation of a sum of coefficients from `first` on, for data of standard deviation 1 with this noise: `√(wᵀCw)` of the weights `w` of
-    /// the data and the correlations `C`. Residuals tell little of noise that most of a neighborhood shares.
+    /// Standard deviation of a sum of coefficients from
+    /// `first` on, for data of standard deviation 1 with this noise. It is `√(wᵀCw)` for the weights
+    /// `w` of the data and the correlations `C`. Residuals tell little of noise that most of a neighborhood shares.
     pub(super) fn shared(&self, first: usize, weights: [f64; 3], noise: &Noise) -> f64 {
         let m = self.local.len();
         // The weights of the data: Q R⁻ᵀ g.

@@ -1,4 +1,4 @@
-//! What is asked, and why there may be no answer.
+//! Options, and reasons why there may be no answer.
 
 use trueness_geom::noise::Noise;
 use trueness_geom::progress::Cancelled;
@@ -17,7 +17,7 @@ pub const MAX_NEIGHBORS: usize = 10_000;
 pub struct Options {
     /// Degree of the jets, from [`DEGREES`].
     pub degree: usize,
-    /// What is taken into a neighborhood.
+    /// The points that are taken into a neighborhood.
     pub reach: Reach,
     /// Whether places on a boundary have values, from the one side that there is.
     pub boundary: bool,
@@ -31,7 +31,7 @@ impl Default for Options {
     }
 }
 
-/// What is taken into a neighborhood.
+/// The points that are taken into a neighborhood.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Reach {
     /// At least three neighbors for each unknown of the jet: 18 of degree 2, 30 of degree 3.
@@ -60,8 +60,8 @@ pub enum NoCurvature {
     NotFinite,
     /// No facet uses the vertex.
     Unused,
-    /// Facets meet there, or around it, in a way that is no surface: more than two at an edge, fans that touch, or facets whose
-    /// orientations disagree.
+    /// Facets meet there, or around it, in a way that is no surface. More than two meet at an edge, fans touch, or the
+    /// orientations of facets disagree.
     NotASurface,
     /// The surface ends there: it has neighbors on one side only.
     Boundary,

@@ -1,8 +1,9 @@
 //! A mesh laid into the plane: two parameters for each vertex.
 //!
-//! First within a circle, where no facet can turn over (`mean_value`); from there it is relaxed with a free rim until lengths are kept as far
-//! as they can be (`relax`): what can be unrolled is unrolled. Where the rim crosses itself then, as that of a spiral may, the mesh is left
-//! within the circle.
+//! First it is laid within a circle, where no facet can turn over
+//! (`mean_value`). From there it is relaxed with a free rim until lengths are kept as far as they can be (`relax`).
+//! Surfaces that can be unrolled are unrolled. Where the rim crosses itself then, as that of a spiral may, the mesh is
+//! left within the circle.
 
 mod disc;
 mod mean_value;

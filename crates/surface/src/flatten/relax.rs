@@ -1,9 +1,10 @@
 //! A mesh in the plane, relaxed until its facets keep their lengths as far as they can.
 //!
-//! By turns each facet is laid by itself, turned as it lies, and all places are found that suit these best (Liu, Zhang, Xu, Gotsman,
-//! Gortler, A local/global approach to mesh parameterization, Computer Graphics Forum 27, 2008). A step never takes a facet to
-//! no area: it ends at four fifths of the way there (Smith, Schaefer, Bijective parameterization with free boundaries, ACM Transactions on
-//! Graphics 34, 2015). What the steps lower is quadratic for given turns, so a part of a step lowers it too.
+//! By turns each facet is laid by itself, turned as it lies, and all places are found that suit these best. (Liu,
+//! Zhang, Xu, Gotsman, Gortler, A local/global approach to mesh parameterization, Computer Graphics Forum 27, 2008.) A
+//! step never takes a facet to no area: it ends at four fifths of the way there. (Smith, Schaefer, Bijective
+//! parameterization with free boundaries, ACM Transactions on Graphics 34, 2015.) The energy that the steps lower is
+//! quadratic for given turns, so a part of a step lowers it too.
 
 use super::disc::Disc;
 use super::triangle::{Triangle, cross, dot, length};
@@ -94,9 +95,9 @@ pub(super) fn relax(
     Ok(())
 }
 
-/// The last steps, from which is told where many more of them would lead (Anderson, Iterative procedures for nonlinear integral
-/// equations, Journal of the ACM 12, 1965; Peng, Deng, Zhang, Geng, Qin, Liu, Anderson acceleration for geometry optimization and
-/// physics simulation, ACM Transactions on Graphics 37, 2018).
+/// The last steps, which tell where many more of them would lead. (Anderson, Iterative procedures for nonlinear
+/// integral equations, Journal of the ACM 12, 1965. Peng, Deng, Zhang, Geng, Qin, Liu, Anderson acceleration for
+/// geometry optimization and physics simulation, ACM Transactions on Graphics 37, 2018.)
 #[derive(Default)]
 struct Ahead {
     /// The last step, and where it led to.
@@ -170,7 +171,8 @@ fn pulls(disc: &Disc, triangles: &[Triangle], places: &[[f64; 2]]) -> (f64, [Vec
     (energy, right)
 }
 
-/// The share of the way to the target that turns no facet over: all of it, or less than that to the first facet without an area.
+/// The share of the way to the target that turns no facet over. It is all of it, or less than that to the first facet
+/// without an area.
 fn share(disc: &Disc, places: &[[f64; 2]], target: &[[f64; 2]]) -> f64 {
     let mut first = f64::INFINITY;
     for face in &disc.faces {

@@ -52,8 +52,8 @@ impl Triangle {
         self.doubled_area() / (length(a) * length(b) + dot(a, b))
     }
 
-    /// Least and greatest factor by which lengths grow as the triangle is laid on these corners; the least one is negative where it is
-    /// turned over.
+    /// Least and greatest factor by which lengths grow as the triangle is laid on these corners. The least one is
+    /// negative where it is turned over.
     pub(super) fn stretch(&self, onto: [[f64; 2]; 3]) -> [f64; 2] {
         let image = Triangle(onto);
         let (a, b) = (self.edge(0, 1), self.edge(0, 2));

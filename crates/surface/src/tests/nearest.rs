@@ -55,7 +55,7 @@ fn distances_told_are_those_of_the_nearest_places() {
         let told = difference(&steep(), &Options { layout, base: BaseKind::Xy, ..Options::default() });
         assert!(told < 1e-9, "{told}");
     }
-    // Of the dimensions of a part, with noise.
+    // Dimensions of a part, with noise.
     let told = difference(&scan(300, 0.3, 5), &Options::default());
     assert!(told < 1e-9, "{told}");
 }

@@ -10,8 +10,8 @@ fn over_plane(points: &[Point]) -> SurfaceFit {
     fit(points, &Options { base: BaseKind::Plane, ..spans(8) }, &Silent).unwrap()
 }
 
-/// A strip of 100 × 0.5 mm whose ripples are larger than its width stands on edge on its least-squares plane, and is fitted over the
-/// plane that it lies in.
+/// A strip of 100 × 0.5 mm whose ripples are larger than its width stands on edge on its least-squares plane. It is
+/// fitted over the plane that it lies in.
 #[test]
 fn a_strip_is_fitted_flat() {
     let random = &mut Random::new(5);
