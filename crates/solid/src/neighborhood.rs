@@ -11,7 +11,7 @@ const SLOWER_SHARE_DIVISOR: usize = 16;
 
 /// Facets of a mesh, over the same vertices.
 pub struct Neighborhood {
-    /// Those asked about, and all whose boxes overlap theirs, as a mesh; others too.
+    /// The chosen facets and all whose boxes overlap theirs, as a mesh; others too.
     pub mesh: Mesh,
     /// Their numbers in the whole mesh, ascending.
     pub numbers: Vec<u32>,
@@ -22,8 +22,8 @@ pub struct Neighborhood {
 impl Neighborhood {
     /// Around the facets that `is_chosen` names by a flag each; `None` where they are too many for it to pay, or none.
     ///
-    /// n log k for k of n facets, where the k are about equally large; a single large one brings in whatever is as near as it is
-    /// large.
+    /// n log k for k of n facets, where the k are about equally large. A single large one brings in facets as near as
+    /// it is large.
     pub fn new(mesh: &Mesh, is_chosen: &[bool]) -> Option<Neighborhood> {
         let bounds = |f: &[u32; 3]| Aabb::of(&mesh.places(f));
         let count = is_chosen.iter().filter(|is_chosen| **is_chosen).count();

@@ -3,7 +3,7 @@
 //! Halves of spans come in powers of two. A line that was urgent in an early round may not be needed among the later
 //! ones. So a surface within its tolerance gives knots back, several at a time: those whose removal changes it least.
 //! The jump of the highest derivative across a knot tells that change. (Lyche and Mørken, Knot removal for parametric
-//! B-spline curves and surfaces, Computer Aided Geometric Design 4, 1987.) The rest is fitted again, and kept if all
+//! B-spline curves and surfaces, Computer Aided Geometric Design 4, 1987). The rest is fitted again, and kept if all
 //! points are still within.
 
 use super::refine::Task;

@@ -14,7 +14,7 @@ pub struct Rectangle {
 /// The rectangle of least area around `points`; `None` of fewer than three points or of points on one straight line.
 ///
 /// One of its sides lies along a side of the convex hull. (Freeman and Shapira, Determining the minimum-area encasing
-/// rectangle for an arbitrary closed curve, Communications of the ACM 18, 1975.) The first of several is returned, with
+/// rectangle for an arbitrary closed curve, Communications of the ACM 18, 1975). The first of several is returned, with
 /// a first side that points to positive coordinates. Cost: a sort of the points.
 ///
 /// ```
@@ -87,7 +87,7 @@ fn oriented(x: [f64; 2], low: [f64; 2], high: [f64; 2], sides: [f64; 2]) -> Rect
 }
 
 /// The points without those inside of the octagon of the farthest ones in eight directions: none of them is a corner of
-/// the hull. (Akl and Toussaint, A fast convex hull algorithm, Information Processing Letters 7, 1978.)
+/// the hull. (Akl and Toussaint, A fast convex hull algorithm, Information Processing Letters 7, 1978).
 fn outer(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let directions: [[f64; 2]; 8] = [
         [1.0, 0.0],

@@ -175,7 +175,7 @@ impl System<'_> {
     /// The control points, corrected by what they leave of the points until that changes nothing. The equations square
     /// the condition of the problem, and the corrections take most of it back. (Björck, Stability analysis of the
     /// method of semi-normal equations for linear least squares problems, Linear Algebra and its Applications 88/89,
-    /// 1987.)
+    /// 1987).
     fn refined(
         &self,
         factor: &Factor,
@@ -354,7 +354,7 @@ impl System<'_> {
 
     /// The trace of the matrix from points to fitted points. Beyond [`MAX_POINTS_COUNTED_EXACTLY`] control points it is
     /// the mean over random signs. (Girard, A fast Monte-Carlo cross-validation procedure for large least squares
-    /// problems with noisy data, Numerische Mathematik 56, 1989.)
+    /// problems with noisy data, Numerische Mathematik 56, 1989).
     fn degrees_of_freedom(&self, factor: &Factor, probes: &[Vec<Point>]) -> f64 {
         let exact = self.right.len() <= MAX_POINTS_COUNTED_EXACTLY;
         let mut sum = 0.0;

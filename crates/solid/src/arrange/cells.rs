@@ -1,8 +1,8 @@
 //! The cells that the pieces divide space into, and how often the surface winds around each.
 //!
-//! Each piece has two sides. Around an edge, the side of a piece and the facing side of the next one belong to one cell.
-//! Passing through a piece changes the winding number by its jump, so all cells of what hangs together follow from one
-//! (Zhou et al., Mesh Arrangements for Solid Geometry, 2016); for that one a ray is counted (see `ray`).
+//! Each piece has two sides. Around an edge, the side of a piece and the facing side of the next one belong to one
+//! cell. Passing through a piece changes the winding number by its jump, so all cells that hang together follow from
+//! one (Zhou et al., Mesh Arrangements for Solid Geometry, 2016). A ray is counted for that one (see `ray`).
 
 use super::cut::Piece;
 use super::edge_order::{self, Side};
@@ -31,8 +31,9 @@ pub(super) struct Windings {
 /// Why there are none: a piece near which the surface is not closed, or contradicts itself.
 pub(super) struct Open(pub usize);
 
-/// Of the pieces with a jump; `shell_of` gives the shell of each facet of the mesh. With `turn`, parts of the surface that wind
-/// around nothing in the positive sense are taken the other way round.
+/// The winding numbers beside the pieces with a jump;
+/// `shell_of` gives the shell of each facet of the mesh. With `turn`, parts of the surface that wind around nothing in
+/// the positive sense are taken the other way round.
 pub(super) fn windings(
     mesh: &Mesh,
     points: &Points,

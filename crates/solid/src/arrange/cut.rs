@@ -19,7 +19,7 @@ pub(super) struct Piece {
     pub jump: i32,
 }
 
-/// What a cluster was cut into.
+/// Pieces of a cluster.
 #[derive(Default)]
 pub(super) struct Pieces {
     pub pieces: Vec<Piece>,

@@ -12,8 +12,8 @@
 //! The result: where the two faces overlap, both consist of the same triangles, and an arrangement cancels or merges these. No
 //! place of the surface moves farther than three times the reach.
 //!
-//! Snap rounding (Hobby, Practical segment intersection with finite precision output, 1999) in space, with the vertices that are
-//! there in place of the pixels of a grid.
+//! Snap rounding (Hobby, Practical segment intersection with finite precision output, 1999) in space. The vertices that
+//! are there stand in place of the pixels of a grid.
 
 use super::error::ArrangeError;
 use super::meetings::{Edge, edges};
@@ -27,7 +27,7 @@ use trueness_geom::progress::{Cancelled, Progress};
 use trueness_geom::space::{Aabb, Point, dot, minus, norm, times};
 use trueness_geom::topology::Topology;
 
-/// What lies upon the edges and facets of a mesh.
+/// Vertices that lie upon the edges and facets of a mesh.
 pub(super) struct Imprints {
     /// Vertices on an edge, from its lower end to the higher one.
     pub on_edge: BTreeMap<Edge, Vec<u32>>,
@@ -47,10 +47,10 @@ impl Imprints {
     }
 }
 
-/// The mesh in which vertices no farther apart than `reach` are one, around the facets of these pairs; for each face the facet
-/// that it was; and what lies upon its edges and facets. New vertices come last, their coordinates made with `round`; those given stay
-/// where they are. `None` if more than [`MAX_PASSING_PLACES`] pairs of edges pass each other there, or of vertices and the boxes of facets meet. Cost: n log n,
-/// and about a microsecond for each such pair.
+/// The mesh in which vertices no farther apart than
+/// `reach` are one, around the facets of these pairs. Also, for each face, the facet that it was, and the vertices upon its edges and facets. New vertices come last, their coordinates made with `round`;
+/// those given stay where they are. `None` if more than [`MAX_PASSING_PLACES`] pairs of edges pass each other there, or
+/// of vertices and the boxes of facets meet. Cost: n log n, and about a microsecond for each such pair.
 pub(super) fn imprints(
     mesh: &Mesh,
     pairs: &[[u32; 2]],
@@ -74,7 +74,7 @@ pub(super) fn imprints(
         else {
             return Ok(None);
         };
-        // What lies upon further facets may lie across their edges too.
+        // Vertices upon further facets may lie across their edges too.
         facets.extend(imprints.marked(&mesh));
         if facets.len() == known {
             return Ok(Some((Mesh { positions, ..mesh }, source, imprints)));
@@ -82,7 +82,7 @@ pub(super) fn imprints(
     }
 }
 
-/// What lies upon these facets and others no farther off than `reach`; and all vertices, new ones last.
+/// The vertices upon these facets and others no farther off than `reach`; and all vertices, new ones last.
 fn imprints_near(
     mesh: &Mesh,
     topology: &Topology,
@@ -136,8 +136,8 @@ fn joined(mesh: &Mesh, near: &BTreeSet<u32>, reach: f64) -> (Mesh, Vec<u32>) {
     (Mesh { positions: mesh.positions.clone(), faces }, source)
 }
 
-/// Adds a vertex where edges pass each other, or takes one that is there already no farther off than `reach`: pairs of an
-/// edge and a vertex on it; before them all vertices.
+/// Adds a vertex where edges pass each other, or takes one that is there already no farther off than `reach`. Returns
+/// all vertices, and pairs of an edge and a vertex on it.
 fn met(
     mesh: &Mesh,
     passing: Vec<Passing>,

@@ -7,7 +7,7 @@ use trueness_geom::space::{Aabb, dot, minus, times};
 use trueness_geom::topology::Topology;
 use trueness_geom::topology::weld::WeldError;
 
-/// What lies upon each other: facets with so little between them, mm, in numbers of this spacing.
+/// Limit of the distance between facets that lie upon each other, mm, in numbers of this spacing.
 #[derive(Clone, Copy)]
 pub(super) struct Closeness {
     pub step: f64,
@@ -81,7 +81,8 @@ fn at_edges(mesh: &Mesh, topology: &Topology, close: Closeness) -> Vec<[u32; 2]>
     topology.non_manifold_edges.par_iter().flat_map_iter(|e| of_edge(e.vertices)).collect()
 }
 
-/// The facets that cross or lie upon each other at an edge they share, and how far those that lie upon each other are apart at most.
+/// The facets that cross or lie upon each other at an edge they share. Also how far those that lie upon each other are
+/// apart at most.
 pub(super) fn near_coincident(
     mesh: &Mesh,
     topology: &Topology,

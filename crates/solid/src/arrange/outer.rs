@@ -48,31 +48,33 @@ pub struct Boundary {
 
 /// How often a mesh is cut at most.
 const MAX_CUTS: usize = 16;
-/// Points that lie too close become one from the second cut on: those closer than this power of two of the spacing of numbers, with
-/// one more for each cut up to the highest.
+/// Points that lie too close become one from the second cut on. They are closer than this power of two of the spacing
+/// of numbers, with one more for each cut up to the highest.
 const MAX_MERGING_POWER: usize = 11;
 /// So many pairs of facets may meet once more; beyond, their number must halve from cut to cut.
 const MIN_PAIRS_TO_HALVE: usize = 16;
-/// Surfaces no farther apart than so many times the spacing of numbers are made one where they lie upon each other, or where
-/// cutting comes to no end otherwise: corners that were turned and rounded; planes that such corners span; sums of several
-/// roundings.
+/// Surfaces no farther apart than so many times the spacing of numbers are made one where they lie upon each other, or
+/// where cutting comes to no end otherwise. The first is for corners that were turned and rounded, the second for
+/// planes that such corners span, the third for sums of several roundings.
 const REACHES_IN_STEPS: [f64; 3] = [4.0, 64.0, 1024.0];
 
 /// The boundary of the places around which the facets wind once or more: the union of all shells.
 ///
 /// Facets look outwards, away from the material. A shell inside another that runs the same way round is material inside
-/// material and vanishes; one that runs the other way round bounds a cavity and stays. Where shells cross, or one crosses
-/// itself, what lies inside the material vanishes; enclosed pockets become cavities; places with a negative winding number
-/// are empty. With [`Options::turn`], shells that belong together and wind around nothing in the positive sense are turned first.
-/// Facets that coincide cancel or become one. Bodies that touch in a face become one; touching in an edge or a vertex
-/// they share it, as a non-manifold edge or vertex.
+/// material and vanishes. One that runs the other way round bounds a cavity and stays. Where shells cross, or one
+/// crosses itself, what lies inside the material vanishes; enclosed pockets become cavities; places with a negative
+/// winding number are empty. With [`Options::turn`], shells that belong together and wind around nothing in the
+/// positive sense are turned first. Facets that coincide cancel or become one. Bodies that touch in a face become one;
+/// touching in an edge or a vertex they share it, as a non-manifold edge or vertex.
 ///
 /// The surface must be closed: at every edge as many facets run the one way as the other, at least once T-junctions are
-/// cut; coordinates are 0 or from 1e-50 to 1e45 mm. No vertex moves, and facets that nothing cuts stay as they are. Surfaces that lie upon each other but for rounding are
-/// taken to coincide: faces with at most 64 times the spacing of numbers at the largest coordinate between them, or 4 times that of
-/// single precision where the vertices have it and the result need not, and where cutting comes to no end up to 1024 times. The result is free of crossings, flat and doubled
-/// facets in `f64`, or in single precision with [`Options::single`], where the vertices of the mesh must have it too: that is
-/// checked exactly. Cost: as [`arrange`](super::arrange), and about a microsecond a facet for the cells.
+/// cut. Coordinates are 0 or from 1e-50 to 1e45 mm. No vertex moves, and facets that nothing cuts stay as they are.
+/// Surfaces that lie upon each other but for rounding are taken to coincide. At most 64 times the spacing of numbers at
+/// the largest coordinate is between them. It is 4 times that of single precision where the vertices have it and the
+/// result need not. Where cutting comes to no end it is up to 1024 times. The result is free of crossings, flat and
+/// doubled facets in `f64`. With [`Options::single`] it is so in single precision, where the vertices of the mesh must
+/// have it too. That is checked exactly. Cost: as [`arrange`](super::arrange), and about a microsecond a facet for the
+/// cells.
 ///
 /// ```
 /// use trueness_solid::arrange::{Options, outer_boundary};
@@ -102,7 +104,7 @@ pub fn outer_boundary(
 /// A welded mesh whose vertices facets use, and what is known about it.
 pub(crate) struct Input<'a> {
     pub mesh: Mesh,
-    /// What it says of facets is asked for alone: vertices may have other numbers in it.
+    /// Only its facts about facets are asked for: vertices may have other numbers in it.
     pub topology: Option<&'a Topology>,
     /// All pairs of facets that meet where they should not, sorted.
     pub pairs: Option<Vec<[u32; 2]>>,
@@ -154,9 +156,9 @@ pub(crate) fn boundary_of(
     result
 }
 
-/// What is tried, one after another: the mesh as it is, or with what is no farther apart than a reach made one. Where facets
-/// lie upon each other but for rounding, so far apart at most, the reach that bridges it comes first: cut as they are, they may leave
-/// walls with nothing between.
+/// The reaches tried, one after another: the mesh as it is, or with places no farther apart than a reach made one.
+/// Facets may lie upon each other but for rounding, so far apart at most. The reach that bridges this comes first: cut
+/// as they are, they may leave walls with nothing between.
 fn reaches(widest: f64, step: f64) -> Vec<Option<f64>> {
     let mut all: Vec<Option<f64>> =
         std::iter::once(None).chain(REACHES_IN_STEPS.map(|r| Some(r * step))).collect();
@@ -173,7 +175,7 @@ struct Uncut<'a> {
     mesh: Mesh,
     /// For each face the facet of the mesh given that it is a piece of.
     source: Vec<u32>,
-    /// Of its facets; vertices may have other numbers in it.
+    /// The topology of its facets; vertices may have other numbers in it.
     topology: &'a Topology,
     /// Its facets that meet where they should not.
     crossing: Vec<[u32; 2]>,

@@ -1,9 +1,9 @@
 //! Edges that pass each other no farther off than a reach.
 //!
-//! The edges at a vertex with very many (a hub) have boxes that all overlap, and long thin facets have such boxes too. But seen
-//! from the hub each of its edges is a single direction, and any other edge is an arc: what passes an edge no farther off than the
-//! reach is seen in its direction, but for the angle of the reach. So directions are compared beside boxes. Two fans take
-//! n log n and what they find, whether they have the hub in common or not.
+//! The edges at a vertex with very many (a hub) have boxes that all overlap, and long thin facets have such boxes too.
+//! But seen from the hub each of its edges is a single direction, and any other edge is an arc. An edge that passes one
+//! no farther off than the reach is seen in its direction, but for the angle of the reach. So directions are compared
+//! beside boxes. Two fans take n log n and what they find, whether they have the hub in common or not.
 
 use super::meetings::{Edge, edges};
 use std::collections::BTreeMap;
@@ -31,9 +31,10 @@ const WIDENING_REACHES: f64 = 2.0;
 /// No hub.
 const NO_HUB: u32 = u32::MAX;
 
-/// The edges of `facets` (ascending) that pass edges of `near` (ascending: the facets no farther from them than `reach`), sorted;
-/// looked at for each pair of facets of which the lower one is among `facets`. `None` if more than [`MAX_PASSING_PLACES`] pairs of edges
-/// pass. Cost: n log n, and a microsecond for each pair that is near.
+/// The edges of `facets` (ascending) that pass edges of `near` (ascending: the facets no farther from them than
+/// `reach`), sorted. Each pair of facets is looked at whose lower one is among `facets`.
+/// `None` if more than [`MAX_PASSING_PLACES`] pairs of edges pass. Cost: n log n, and a microsecond for each pair that
+/// is near.
 pub(super) fn passing(
     mesh: &Mesh,
     facets: &[u32],
@@ -74,9 +75,9 @@ pub(super) fn passing(
 /// An edge and its facets.
 struct Sides {
     edge: Edge,
-    /// Of those asked about.
+    /// Edges that are asked about.
     own: Vec<u32>,
-    /// Of those near them.
+    /// Edges near them.
     near: Vec<u32>,
     /// Its hub, if it is an edge asked about; else none.
     hub: u32,
@@ -120,7 +121,7 @@ struct Bundle {
     root: Node,
 }
 
-/// Those with hubs first, ascending.
+/// Bundles with hubs come first, ascending.
 fn bundles(mesh: &Mesh, sides: &[Sides], reach: f64) -> Vec<Bundle> {
     let mut members: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
     for (i, side) in sides.iter().enumerate().filter(|(_, side)| !side.own.is_empty()) {
@@ -138,7 +139,8 @@ fn bundles(mesh: &Mesh, sides: &[Sides], reach: f64) -> Vec<Bundle> {
     members.into_iter().map(bundle).collect()
 }
 
-/// Box of the directions from a hub to an edge (without one, the box of the edge), and of the edge; both widened by the reach.
+/// Box of the directions from a hub to an edge (without one, the box of the edge), and box of the edge. Both are
+/// widened by the reach.
 fn views(mesh: &Mesh, hub: u32, edge: Edge, reach: f64) -> (Aabb, Aabb) {
     let [a, b] = mesh.places(&edge);
     let bounds = widened(Aabb::of([&a, &b]), WIDENING_REACHES * reach);
@@ -165,8 +167,8 @@ fn widened(b: Aabb, by: f64) -> Aabb {
 }
 
 impl Bundle {
-    /// Hands to `take` the edges of the bundle that an edge may pass. Of two edges asked about one looks for the other: one without
-    /// a hub for one with a hub, else the one with the higher hub, or the lower number.
+    /// Hands to `take` the edges of the bundle that an edge may pass. One of two edges asked about looks for the other.
+    /// That is one without a hub for one with a hub, else the one with the higher hub, or the lower number.
     fn near(&self, mesh: &Mesh, sides: &[Sides], number: usize, reach: f64, take: &mut impl FnMut(usize)) {
         let side = &sides[number];
         let is_asked = !side.own.is_empty();
@@ -298,8 +300,8 @@ mod tests {
         assert!(found_count > 10_000, "{found_count}");
     }
 
-    /// Fans upon each other around one hub, a fan beside them, and small facets upon a fan: as many pairs looked at as edges pass, and
-    /// some for each edge.
+    /// Fans upon each other around one hub, a fan beside them, and small facets upon a fan. As many pairs are looked at
+    /// as edges pass, and some for each edge.
     #[test]
     fn fans_take_what_they_find() {
         for n in [500, 4000] {

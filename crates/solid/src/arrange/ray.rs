@@ -21,7 +21,8 @@ pub(super) struct Rays<'a> {
 /// Shells with their winding numbers beside a place, those of 0 left out.
 pub type ShellWindings = Vec<(u32, i32)>;
 
-/// A place beside a piece: the piece, whether it is where the piece looks to (0) or where it comes from (1), and y and z.
+/// A place beside a piece: the piece, its side, and y and z. The side is where the piece looks to (0) or where it comes
+/// from (1).
 struct Target {
     piece: u32,
     side: usize,
@@ -33,9 +34,9 @@ impl<'a> Rays<'a> {
         Rays { mesh, shell_of, points }
     }
 
-    /// For each of these parts the winding numbers of all shells, as far as they are not 0, beside one of its pieces: which one,
-    /// whether where it looks to (0) or where it comes from (1), shells and numbers. The number of a part where no piece holds
-    /// a point that numbers can name.
+    /// For each of these parts the winding numbers of all shells, as far as they are not 0, beside one of its pieces.
+    /// An entry has the piece, its side, shells and numbers; the side is where it looks to (0) or where it comes from
+    /// (1). The number of a part where no piece holds a point that numbers can name.
     pub fn count(
         &self,
         pieces: &[Piece],

@@ -92,7 +92,7 @@ fn groups(mesh: &Mesh, marked: &BTreeMap<u32, Vec<u32>>, reach: f64) -> Option<V
     Some(members.into_values().collect())
 }
 
-/// What two ascending lists have in common.
+/// The common entries of two ascending lists.
 fn common(a: &[u32], b: &[u32]) -> Vec<u32> {
     let (shorter, longer) = if a.len() <= b.len() { (a, b) } else { (b, a) };
     shorter.iter().filter(|v| longer.binary_search(v).is_ok()).copied().collect()

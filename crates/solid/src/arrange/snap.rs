@@ -8,8 +8,9 @@ use trueness_geom::space::Point;
 
 type Cell = [i64; 3];
 
-/// For each point of `may_move` (ascending) the nearest of the points `used` that is no farther than `reach` along any axis, of those that
-/// may not move or are not moved; the lowest of equally near ones. Points without one, or not used, are not listed. Cost: linear.
+/// For each point of `may_move` (ascending) the nearest of the points `used` that is no farther than `reach` along any
+/// axis. Only points count that may not move or are not moved, and the lowest of equally near ones. Points without one,
+/// or not used, are not listed. Cost: linear.
 pub(super) fn snap(positions: &[Point], used: &[bool], may_move: &[u32], reach: f64) -> HashMap<u32, u32> {
     let cell = |p: &Point| -> Cell { p.map(|x| (x / reach).floor() as i64) };
     let around = |c: Cell| {

@@ -1,18 +1,18 @@
 //! Triangulation of points in a plane, some of them joined by edges that must be there.
 //!
-//! 1. The points are added in the order of one coordinate. Each lies outside of the hull of those before and is joined with the
-//!    edges of the hull that it sees (the sweep of de Berg et al., Computational Geometry, 2008).
+//! 1. The points are added in the order of one coordinate. Each lies outside of the hull of those before and is joined
+//!    with the edges of the hull that it sees. That is the sweep of de Berg et al., Computational Geometry, 2008.
 //! 2. An edge is flipped where the circle of a triangle contains the point beyond the edge (Lawson, 1977). This only makes
 //!    triangles rounder, so it is decided in floating point and a limited number of times.
-//! 3. An edge that must be there and is missing is made by flipping the edges that cross it (Sloan, A fast algorithm for
-//!    generating constrained Delaunay triangulations, 1993).
+//! 3. An edge that must be there and is missing is made by flipping the edges that cross it. (Sloan, A fast algorithm
+//!    for generating constrained Delaunay triangulations, 1993).
 //!
 //! That triangles do not overlap and run counter-clockwise is decided exactly in every step.
 
 use std::cmp::Ordering;
 use std::collections::VecDeque;
 
-/// What is known of points `0..n` in the plane, no two at one place.
+/// Known facts about points `0..n` in the plane, no two at one place.
 pub(super) trait Plane {
     /// +1 where they run counter-clockwise, 0 where they lie on a line. Exact.
     fn orient(&self, points: [u32; 3]) -> i32;
@@ -128,8 +128,9 @@ impl Triangles {
         Some(())
     }
 
-    /// Joins a point with the edges of the hull that it sees, `last` being one that it sees. `None` where it sees all of the hull, or
-    /// where that is no ring: points that are taken to lie on a line but do not may be told so.
+    /// Joins a point with the edges of the hull that it sees, `last` being one that it sees. `None` where it sees all
+    /// of the hull, or where that is no ring. A plane may contradict itself: it may take points to lie on a line that
+    /// do not.
     fn join(&mut self, p: u32, last: u32, plane: &impl Plane) -> Option<()> {
         let sees = |a: u32, b: u32| plane.orient([a, b, p]) < 0;
         let mut left = self.out.len();

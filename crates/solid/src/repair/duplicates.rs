@@ -1,6 +1,6 @@
 //! Facets that are there more than once.
 //!
-//! Of the facets with the same three vertices one stays, or none: that which its neighbors need. At each of its three
+//! One of the facets with the same three vertices stays, or none: the one that its neighbors need. At each of its three
 //! edges the other facets are counted by direction; where they lack one, they vote for it.
 
 use super::edges::Edges;

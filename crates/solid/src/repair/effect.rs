@@ -1,4 +1,4 @@
-//! What a repair did to the places that the mesh encloses.
+//! Effect of a repair on the places that the mesh encloses.
 
 use super::enclosed::{self, Enclosed, NotEnclosed, Piece};
 use super::error::RepairError;
@@ -20,14 +20,14 @@ use trueness_geom::topology::{Properties, Topology};
 /// Bodies, and what they enclose.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Effect {
-    /// What the mesh enclosed before; if neighbors looked in different directions, after they were turned; without the
-    /// shells that are removed on request.
+    /// Volumes that the mesh enclosed before: after turning facets whose neighbors looked in different directions, and
+    /// without the shells that are removed on request.
     pub enclosed: Result<Enclosed, NotEnclosed>,
-    /// Largest distance, mm, from the surface that bounded it to the new surface. Places asked about: of facets that met
-    /// others the middle and the corners of each part that bounded it, of others that are gone those of [`Repaired::deviation`](super::Repaired::deviation), and places beside the corners;
-    /// gaps in the material narrower than 1e-5 of the size do not count.
-    /// With what rounding the vertices has added at most. Loose sheets and crossing facets that were removed so that the rest could be
-    /// closed count too, where no material is now. `None` where nothing was enclosed, or nothing is left, and no such facet was removed.
+    /// Largest distance, mm, from the surface that bounded it to the new surface. Places asked about are these. A facet
+    /// that met others has the middle and the corners of each part that bounded it. A facet that is gone otherwise has
+    /// those of
+    /// [`Repaired::deviation`](super::Repaired::deviation), and places beside the corners. Gaps in the material narrower than 1e-5 of the size do not count. With what rounding the vertices has added at most. Loose sheets and crossing facets that were removed so that the rest could be closed count too, where no material is now. `None`
+    /// where nothing was enclosed, or nothing is left, and no such facet was removed.
     pub surface: Option<f64>,
     /// Closed shells that look outwards, before and after.
     pub bodies: [usize; 2],
@@ -36,8 +36,9 @@ pub struct Effect {
 }
 
 impl Effect {
-    /// From `before`, as its report tells, to `after`, for which facets with these corners were removed. Where vertices of `before` were rounded first, `rounded` is what this made, and
-    /// how far they went at most: the surface is compared with that, because gaps thinner than the rounding vanish by it.
+    /// From `before`, as its report tells, to `after`, for which facets with these corners were removed. Where vertices
+    /// of `before` were rounded first, `rounded` is the rounded mesh, and how far they went at most. The surface is
+    /// compared with that, because gaps thinner than the rounding vanish by it.
     pub(super) fn of(
         (before, report): (&Work, &Report),
         rounded: Option<(&Work, f64)>,
@@ -62,7 +63,7 @@ impl Effect {
                     Err(_) => LostSurface::default(),
                     Ok(enclosed) => {
                         let lost_surface = lost_surface(base.mesh(), &enclosed, after, progress)?;
-                        // Of one coordinate.
+                        // The distance along one coordinate.
                         let off = 3f64.sqrt() * farthest;
                         // Rounding may join shells, and others are removed on request: then facets have other numbers.
                         let same = base.mesh().faces.len() == enclosed_faces;
@@ -95,7 +96,7 @@ fn turned<'a>(before: &Work<'a>, turn: bool, options: &'a Options) -> Result<Wor
     Ok(work)
 }
 
-/// What the mesh encloses; an error only where the work was stopped.
+/// Volumes that the mesh encloses; an error only where the work was stopped.
 fn enclosed_by(work: &mut Work) -> Result<Result<Enclosed, NotEnclosed>, RepairError> {
     let known = work.known()?;
     let may_enclose = enclosed::is_closed(&known.topology);
@@ -115,7 +116,7 @@ fn bodies(topology: &Topology, properties: &Properties) -> usize {
     closed.iter().zip(&properties.shell_volumes).filter(|(closed, volume)| **closed && **volume > 0.0).count()
 }
 
-/// What of the surface that bounded the enclosed places is gone.
+/// Surface that bounded the enclosed places and is gone.
 #[derive(Default)]
 struct LostSurface {
     /// Largest distance from it to the new surface; see [`Effect::surface`].
@@ -124,8 +125,8 @@ struct LostSurface {
     gaps: Vec<u32>,
 }
 
-/// Walls nearer to each other than this share of the diagonal, with material behind both, are no surface that a part shows: gaps
-/// that rounding leaves between bodies that touch.
+/// Walls nearer to each other than this share of the diagonal, with material behind both, are no surface that a part
+/// shows. They are gaps that rounding leaves between bodies that touch.
 const HIDDEN_GAP_OF_DIAGONAL: f64 = 1e-5;
 /// Share of such a gap below which a distance is not worth asking.
 const ZERO_DISTANCE_OF_GAP: f64 = 1e-3;

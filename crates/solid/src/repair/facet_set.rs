@@ -11,7 +11,8 @@ const NO_FACET: u32 = u32::MAX;
 
 /// Facets of one mesh, to be found again in another.
 ///
-/// An open-addressing table: a slot holds the number of a key, so that a question costs one look into the table and one at the key.
+/// An open-addressing table. A slot holds the number of a key, so that a question costs one look into the table and one
+/// at the key.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct FacetSet {
     keys: Vec<Key>,

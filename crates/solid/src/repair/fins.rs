@@ -1,9 +1,10 @@
 //! Facets that hang on a surface without being part of it.
 //!
-//! The edges where more than two facets meet cut the mesh into sheets. A sheet is superfluous if the others do without it (two
-//! more facets at each of those edges), if it encloses nothing, and if it is small or hangs on all sides (a wall inside). What
-//! has a boundary edge is superfluous only where nothing else of its shell has one but at holes: parts of an open surface stay. Of a shell
-//! with as many facets one way as the other at every edge each sheet bounds material: bodies that touch in edges.
+//! The edges where more than two facets meet cut the mesh into sheets. A sheet is superfluous under three conditions.
+//! The others do without it (two more facets at each of those edges), it encloses nothing, and it is small or hangs on
+//! all sides (a wall inside). A sheet with a boundary edge is superfluous only where nothing else of its shell has one
+//! but at holes: parts of an open surface stay. Where a shell has as many facets one way as the other at every edge,
+//! each sheet bounds material: bodies that touch in edges.
 
 use super::edges::Edges;
 use super::error::RepairError;
@@ -21,8 +22,8 @@ pub(super) const STEP: Step = Step {
     removes: Removes::Fins,
 };
 
-/// Sheets with boundary edges are fins as long as all of them together have at most this share of the area of their shell, and of
-/// all in all rounds.
+/// Sheets with boundary edges are fins as long as all of them together have at most this share of the area of their
+/// shell. All fins of all rounds have at most this share of all area.
 const MAX_FIN_SHARE: f64 = 0.1;
 
 #[derive(Clone, Debug, Default)]

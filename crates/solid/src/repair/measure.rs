@@ -1,4 +1,4 @@
-//! What a repair changed: how many vertices and facets, and how far the surface went.
+//! Changes of a repair: numbers of vertices and facets, and how far the surface went.
 
 use super::facet_set::FacetSet;
 use std::collections::HashMap;
@@ -109,8 +109,8 @@ pub(super) fn places([a, b, c]: [Point; 3]) -> [Point; 7] {
     [a, b, c, half(a, b), half(b, c), half(c, a), times(1.0 / 3.0, plus(a, plus(b, c)))]
 }
 
-/// What `ask` answers for each of these places, those that are there several times asked about once: at a corner of very many facets
-/// each answer takes as long as there are facets.
+/// The answers of `ask` for each of these places. Places that are there several times are asked about once: at a corner
+/// of very many facets each answer takes as long as there are facets.
 pub(super) fn once<E>(
     places: &[Point],
     ask: impl FnOnce(&[Point]) -> Result<Vec<f64>, E>,

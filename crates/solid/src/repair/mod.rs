@@ -5,8 +5,8 @@
 //! a coordinate. So every vertex that stays keeps its bits. Every change is listed. A step decides exactly what [`check`]
 //! decides exactly.
 //!
-//! Where the steps together make the mesh worse, they are gone through again without one of them, from the state before that
-//! step first changed something (`rounds`).
+//! Where the steps together make the mesh worse, they are gone through again without one of them. That begins at the
+//! state before that step first changed something (`rounds`).
 
 mod change;
 mod crowded;
@@ -121,16 +121,16 @@ pub struct Repaired {
     pub changes: Vec<Change>,
     /// How often the steps were gone through.
     pub rounds: usize,
-    /// What the check said before.
+    /// Findings of the check before.
     pub before: Report,
-    /// What it says now.
+    /// Findings of the check now.
     pub after: Report,
     /// Vertices and facets that stayed, came and went.
     pub counts: Counts,
-    /// What became of the places that the mesh encloses.
+    /// Effect on the places that the mesh encloses.
     pub effect: Effect,
-    /// Steps that were not done, because with them some defect would have become more frequent, or surface would have been removed
-    /// and the mesh still not been sound.
+    /// Steps that were not done. With them some defect would have become more frequent, or surface would have been
+    /// removed and the mesh still not been sound.
     pub taken_back: Vec<&'static Step>,
     /// Vertices that were rounded to single precision before anything was decided: on request, or because shells could not be
     /// united otherwise.
@@ -142,11 +142,11 @@ pub struct Repaired {
 impl Repaired {
     /// Distances between `before`, the mesh that was repaired, and the result, both ways.
     ///
-    /// Each facet is asked about at its corners, the middles of its edges and its middle, exactly to the nearest place of
-    /// the other mesh; facets that both have are at distance 0 and not asked about. So the mean is that of the whole
-    /// surface, and the maximum falls short by less than a third of the longest edge of a facet that changed. Of a mesh
-    /// that encloses places only what bounds them counts as old surface; of facets that met others [`Effect::surface`]
-    /// tells the distance.
+    /// Each facet is measured at its corners, the middles of its edges and its middle, exactly to the nearest place of
+    /// the other mesh. Facets that both have are at distance 0 and not measured. So the mean is that of the whole
+    /// surface. The maximum falls short by less than a third of the longest edge of a facet that changed. Only the
+    /// surface that bounds enclosed places counts as old, where a mesh encloses any. For facets that met others
+    /// [`Effect::surface`] states the distance.
     ///
     /// # Errors
     /// [`MeshError`](trueness_geom::closest::MeshError) where one of them has no facet or a coordinate that is not finite,
@@ -158,7 +158,7 @@ impl Repaired {
     }
 }
 
-/// What rounding the input has changed.
+/// Effect of rounding the input.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Rounded {
     /// Vertices.
@@ -172,16 +172,12 @@ const MAX_WIDENED_SHARE: f64 = 0.25;
 
 /// Mends `mesh`. Vertices at the same place become one first.
 ///
-/// A mesh that is sound comes back as it is. Any mesh will do, however broken, whose finite coordinates are 0 or from 1e-50
-/// to 1e45 mm; what cannot be mended stays, and [`Repaired::after`] lists it. No defect that makes a mesh unsound is there
-/// more often than before, and what was closed stays closed: where the steps together would end worse, it is done without
-/// one of them, without the last of them, or not at all. Crossing facets and loose sheets are removed only where the rest
-/// then is sound; facets that are not finite always are, and what is compared is the mesh without them. The result is the
-/// same for any number of threads. Shells whose union cannot be written as they are, are united with all vertices rounded to single
-/// precision, where the mesh then is sound and no vertex goes farther than a millionth of the diagonal ([`Repaired::rounded`]).
-/// Cost: for each step that changes something about as much as a check; filling holes up to
-/// the cube of 100 for each ring; what ends worse twice more for each step that changed something, from where it first did;
-/// all of it twice where vertices are rounded.
+/// A mesh that is sound comes back as it is. Any mesh will do, however broken, whose finite coordinates are 0 or from
+/// 1e-50 to 1e45 mm. Defects that cannot be mended stay, and
+/// [`Repaired::after`] lists them. No defect that makes a mesh unsound is there more often than before, and closed surfaces stay closed. Where the steps together would end worse, the repair is done without one of them, without the last of them, or not at all. Crossing facets and loose sheets are removed only where the rest then is sound. Facets that are not finite always are, and the comparison is with the mesh without them. The result is the same for any number of threads. Some shells have a union that cannot be written as they are. They are united with all vertices rounded to single precision, where the mesh then is sound and no vertex goes farther than a millionth of the diagonal ([`Repaired::rounded`]).
+/// Cost: for each step that changes something about as much as a check. Filling holes takes up to the cube of 100 for
+/// each ring. A repair that ends worse is done twice more for each step that changed something, from where it first
+/// did. All of it takes twice as long where vertices are rounded.
 ///
 /// # Errors
 /// [`RepairError`].
@@ -282,8 +278,9 @@ fn all_but(step: &Step) -> Vec<&'static Step> {
     STEPS.into_iter().filter(|s| *s != step).collect()
 }
 
-/// The first attempt after which no defect is more frequent than in `least`, and the steps that it leaves out: each step that changed
-/// something in `done` is left out by itself; then the last two of them, the last three, and so on. Always without `left_out` too.
+/// The first attempt after which no defect is more frequent than in
+/// `least`, and the steps that it leaves out. First each step that changed something in `done` is left out by itself;
+/// then the last two of them, the last three, and so on. Always without `left_out` too.
 fn without_some(
     attempt: &impl Fn(&[&'static Step], Option<&Kept>) -> Result<Attempt, RepairError>,
     done: &Attempt,
@@ -314,13 +311,13 @@ fn worse(before: &Report, after: &Report) -> bool {
         return true;
     }
     let mut errors = check::KINDS.iter().filter(|kind| kind.severity == check::Severity::Error);
-    // What is too many to count is worse than any number that was counted.
+    // Too many to count is worse than any number that was counted.
     let count =
         |report: &Report, kind| report.found(kind).map_or((false, 0), |found| (found.at_least, found.count));
     errors.any(|kind| count(after, kind) > count(before, kind))
 }
 
-/// What one attempt came to.
+/// Result of one attempt.
 struct Attempt {
     mesh: Mesh,
     known: Arc<Known>,

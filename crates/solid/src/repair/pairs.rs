@@ -1,4 +1,4 @@
-//! What is known of the pairs of facets that meet where they should not, while facets come and go.
+//! Known pairs of facets that meet where they should not, while facets come and go.
 //!
 //! Whether two facets meet follows from their corners alone. So where facets are removed and others added, the pairs of those
 //! that stay are known, and only what was added must be looked for.
@@ -18,7 +18,7 @@ pub(super) enum Pairs {
 }
 
 impl Pairs {
-    /// Of `facets` facets those whose pairs are not known.
+    /// The facets, below `facets`, whose pairs are not known.
     pub fn new_facets(&self, facets: usize) -> Option<Range<usize>> {
         match self {
             Pairs::Unknown => Some(0..facets),

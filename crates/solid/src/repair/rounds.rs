@@ -1,7 +1,7 @@
 //! Going through the steps until nothing is left to do, from the start or from a state on the way.
 //!
-//! Where the steps end worse than they began, they are gone through again without one of them. Until that one first changed
-//! something, everything is as it was: so the state before it is kept, and what follows is done again from there.
+//! Where the steps end worse than they began, they are gone through again without one of them. Everything is as it was
+//! until that one first changed something. So the state before it is kept, and the rest is done again from there.
 
 use super::error::RepairError;
 use super::state::State;
@@ -43,15 +43,17 @@ impl StepPosition {
 }
 
 impl Kept {
-    /// Of states in the order of the way the last one that none of these steps has changed; `None` where that cannot be told.
+    /// The last state on the way, of those kept in its order, that none of these steps has changed; `None` where that
+    /// cannot be told.
     pub(super) fn before<'k>(kept: &'k [Kept], steps: &[&'static Step]) -> Option<&'k Kept> {
         let all = steps.iter().all(|step| kept.iter().any(|k| k.step == *step));
         kept.iter().find(|k| all && steps.contains(&k.step))
     }
 }
 
-/// Goes through `steps`, with their numbers in the list of all, from `position` on until nothing is left to do; the end, and in how
-/// many rounds. In `kept`, if given, the state before each step that changed something comes to stand, once for each step.
+/// Goes through `steps`, with their numbers in the list of all, from `position` on until nothing is left to do. Returns
+/// the end and the number of rounds. In `kept`, if given, the state before each step that changed something comes to
+/// stand, once for each step.
 pub(super) fn go_through<'a>(
     mut work: Work<'a>,
     steps: &[(usize, Entry)],

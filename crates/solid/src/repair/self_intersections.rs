@@ -26,7 +26,7 @@ pub(super) fn run(work: &mut Work) -> Result<(), RepairError> {
     if !work.state.handover.may_cut_out {
         return Ok(());
     }
-    // Of a tangle nothing would be left.
+    // Nothing would be left of a tangle.
     let Some(mut crossings) = work.crossings(|_, _| true)? else { return Ok(()) };
     let known = work.known()?;
     // A sheet is no body: where it crosses something, nothing is wrong with its surface.

@@ -1,9 +1,9 @@
 //! Edges of more than two facets, and vertices where several fans of facets touch, are split.
 //!
-//! Around such an edge the facets are sorted by angle and paired so that material lies between the two of a pair. Around
-//! such a vertex, facets that are connected through edges or pairs are one fan. The fan with the largest area keeps the
-//! vertex. Each other fan gets a vertex of its own, moved a little into its own material: a copy at the very same place
-//! would be joined again by the next program that reads the file.
+//! Around such an edge the facets are sorted by angle and paired so that material lies between the two of a pair.
+//! Around such a vertex, facets that are connected through edges or pairs are one fan. The fan with the largest area
+//! keeps the vertex. Each other fan gets a vertex of its own, moved a little into its own material. The next program
+//! that reads the file would join a copy at the very same place again.
 
 use super::crowded::{Fan, Rims, meant_as_one};
 use super::degenerate::cut;
@@ -39,8 +39,9 @@ pub(super) fn vertices(work: &mut Work) -> Result<(), RepairError> {
     split(work, vertices, &VERTICES, false)
 }
 
-/// How far a new vertex is moved into the material, in gaps, tried one after the other until no facets cross. Every second one is
-/// negative, out of the material: where the tips of two pits touch, the way into the material of one leads into the other.
+/// How far a new vertex is moved into the material, in gaps, tried one after the other until no facets cross. Every
+/// second one is negative, out of the material. Where the tips of two pits touch, the way into the material of one
+/// leads into the other.
 const OFFSETS_IN_GAPS: [f64; 8] = [4.0, -4.0, 32.0, -32.0, 256.0, -256.0, 2048.0, -2048.0];
 
 /// For an edge and a facet at it the other facet of its pair.
@@ -259,8 +260,9 @@ fn ways(work: &Work, lost: &[Fan], together: &[u32]) -> Vec<Way> {
     lost.iter().zip(together).map(way).collect()
 }
 
-/// Away from which the common place of these facets can be moved: out of the cone that they are seen in from there, where that
-/// is narrow, for what is moved within the cone meets nothing outside; else out of the material between them, and back.
+/// The cone or material out of which the common place of these facets can be moved. Where the cone that they are seen
+/// in from there is narrow, it is moved out of that: a place moved within the cone meets nothing outside. Else it is
+/// moved out of the material between them, and back.
 fn outwards(work: &Work, facets: &[u32], at: Point) -> Way {
     /// Cosine of half the angle of a cone that is narrow: 60 degrees, far from a half space.
     const MIN_NARROW_CONE_COSINE: f64 = 0.5;
@@ -354,7 +356,7 @@ fn pairs(work: &Work, edges: &Edges) -> Pairs {
     for edge in edges.iter().filter(|e| e.len() > 2) {
         let mut around = by_angle(work, edge);
         // Facets that run down the edge have material on the side of growing angle, those that run up have it before
-        // them: like brackets, twice round so that none is missed where the circle was cut open.
+        // them. They pair like brackets, twice round so that none is missed where the circle was cut open.
         let mut opened: Vec<u32> = vec![];
         for _ in 0..2 {
             for side in &around {

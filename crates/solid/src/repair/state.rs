@@ -19,13 +19,13 @@ pub(super) struct State {
     pub(super) mesh: Arc<Mesh>,
     pub changes: Vec<Change>,
     pub handover: Handover,
-    /// What follows from the mesh, once it was asked for.
+    /// Facts that follow from the mesh, once they were asked for.
     pub(super) known: Option<Arc<Known>>,
     /// Pairs of its facets that meet where they should not, as far as they are known.
     pub(super) pairs: Pairs,
 }
 
-/// What a step tells later ones, besides the mesh.
+/// Facts that a step hands to later ones, besides the mesh.
 #[derive(Clone, Default)]
 pub(super) struct Handover {
     /// Vertices at the rims of holes that a step has cut: those holes must be filled whatever their size.
@@ -58,7 +58,7 @@ impl State {
         }
     }
 
-    /// The same mesh, nothing done to it yet. What is known about it is kept.
+    /// The same mesh, nothing done to it yet. Known facts about it are kept.
     pub(super) fn untouched(&self) -> State {
         State { changes: vec![], handover: Handover::default(), ..self.clone() }
     }

@@ -1,4 +1,4 @@
-//! What the entries of the list of steps are.
+//! The entries of the list of steps.
 
 /// Surface that a step takes away so that the rest is closed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -18,7 +18,7 @@ pub enum Removes {
 pub struct Step {
     /// Its name on the command line and in result documents.
     pub name: &'static str,
-    /// What it does, for the manual.
+    /// Its effect, for the manual.
     pub about: &'static str,
     /// Surface that it takes away.
     pub removes: Removes,

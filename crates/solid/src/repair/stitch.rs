@@ -25,8 +25,8 @@ pub(super) const STEP: Step = Step {
 const DEFAULT_REACH_OF_DIAGONAL: f64 = 1e-4;
 /// By how much the distance grows from pass to pass.
 const REACH_GROWTH: f64 = 4.0;
-/// Only so many of the edges near one are looked at in a pass, those with the nearest middles: in a heap of edges each lies near
-/// all others.
+/// Only so many of the edges near one are looked at in a pass, those with the nearest middles. In a heap of edges each
+/// lies near all others.
 const MAX_EDGES_NEAR: usize = 64;
 /// The best so many of them are considered.
 const MAX_PARTNERS: usize = 8;
@@ -49,8 +49,8 @@ pub(super) fn run(work: &mut Work) -> Result<(), RepairError> {
     if reach >= limit || reach <= 0.0 {
         return Ok(());
     }
-    // Nothing is joined at less than the distance of the first that would be joined at the limit: in a smaller reach each
-    // edge has the nearest of its partners there, in the same order.
+    // Nothing is joined at less than the distance of the first pair that would be joined at the limit. In a smaller
+    // reach each edge has the nearest of its partners there, in the same order.
     let known = work.known()?;
     let least = partners(work, &known, limit).into_iter().find(|(_, [a, b])| a != b).map(|found| found.0);
     let Some(least) = least else { return Ok(()) };
@@ -95,8 +95,8 @@ fn merge(work: &mut Work, known: &Known, sets: &Sets, members: Vec<u32>) {
     work.rename(|_, v| renamed.binary_search_by_key(&v, |r| r.0).map_or(v, |i| renamed[i].1));
 }
 
-/// Pairs of vertices to be joined so that boundary edges within `reach` of each other become one, the nearest edges first, with
-/// the distance of the edges, mm.
+/// Pairs of vertices to be joined so that boundary edges within `reach` of each other become one. The nearest edges
+/// come first, with the distance of the edges, mm.
 fn partners(work: &Work, known: &Known, reach: f64) -> Vec<(f64, [u32; 2])> {
     let edges = &known.topology.boundary_edges;
     let ends = |e: u32| edges[e as usize].vertices;

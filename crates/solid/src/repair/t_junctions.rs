@@ -66,7 +66,7 @@ fn parts(face: [u32; 3], on: &[On]) -> Vec<[u32; 3]> {
                 continue;
             }
             let halves = cut(parts[last], [from, to], vertex);
-            // What is left of the edge is at the half with its end.
+            // The rest of the edge is at the half with its end.
             let [done, rest] = if halves[0].contains(&to) { [halves[1], halves[0]] } else { halves };
             parts[last] = done;
             last = parts.len();

@@ -56,8 +56,8 @@ pub(super) fn run(work: &mut Work) -> Result<(), RepairError> {
     Ok(())
 }
 
-/// The pairs among `facets` that meet where they should not, by their places in that list; `None` where they must be looked for,
-/// because the weld that gave vertices the numbers `vertex_of`, below `numbers`, has joined some of them.
+/// The pairs among `facets` that meet where they should not, by their places in that list. `None` where they must be
+/// looked for, because the weld that numbered vertices by `vertex_of`, below `numbers`, has joined some of them.
 fn pairs(
     work: &mut Work,
     facets: &[u32],
@@ -108,7 +108,7 @@ fn has_work(
     if wrong.iter().any(|finding| finding.measures.iter().any(|(name, x)| *name == "depth" && *x != 0.0)) {
         return Ok(true);
     }
-    // Of a tangle nothing is known; the union says so.
+    // Nothing is known of a tangle; the union says so.
     Ok(work
         .crossings(|f, _| is_solid(f))?
         .is_none_or(|pairs| pairs.iter().any(|[a, b]| is_solid(*a) && is_solid(*b))))

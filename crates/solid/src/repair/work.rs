@@ -19,7 +19,7 @@ use trueness_geom::progress::{Cancelled, Progress};
 use trueness_geom::space::{Point, plus, times};
 use trueness_geom::topology::Topology;
 
-/// What a step works on: a state, and what it is to be done with.
+/// Material of a step: a state, and the options of the repair.
 pub(super) struct Work<'a> {
     pub state: State,
     pub options: &'a Options,
@@ -28,13 +28,13 @@ pub(super) struct Work<'a> {
     pub gap: f64,
     /// All coordinates have single precision: new ones shall have too.
     single: bool,
-    /// The most facets that cutting may come to. A facet has three edges, and a vertex lies on one as a rule; but where
+    /// The most facets that cutting may come to. A facet has three edges, and a vertex lies on one as a rule. But where
     /// sheets lie closer together than the gap, each lies on very many, and cutting makes ever more of both.
     most_facets: usize,
 }
 
 impl<'a> Work<'a> {
-    /// Of a welded mesh.
+    /// Work on a welded mesh.
     pub(super) fn new(
         mesh: Mesh,
         options: &'a Options,
@@ -47,7 +47,7 @@ impl<'a> Work<'a> {
         Ok(work)
     }
 
-    /// The same mesh under other options, nothing done yet. What is known about it is kept.
+    /// The same mesh under other options, nothing done yet. Known facts about it are kept.
     pub(super) fn again<'b>(&self, options: &'b Options) -> Work<'b>
     where
         'a: 'b,
@@ -115,7 +115,7 @@ impl<'a> Work<'a> {
         if self.progress.cancelled() { Err(Cancelled) } else { Ok(()) }
     }
 
-    /// What follows from the mesh as it is; computed again after a change only.
+    /// Facts that follow from the mesh as it is; computed again after a change only.
     pub(super) fn known(&mut self) -> Result<Arc<Known>, RepairError> {
         self.go_on()?;
         if let Some(known) = &self.state.known {
@@ -126,7 +126,7 @@ impl<'a> Work<'a> {
         Ok(known)
     }
 
-    /// What the check says of the mesh as it is.
+    /// Report of the check on the mesh as it is.
     pub(super) fn report(&mut self, options: &check::Options) -> Result<Report, RepairError> {
         let known = self.known()?;
         let all = self.all_crossings()?.and_then(|pairs| Crossings::of_all(pairs, options.limit));
@@ -144,8 +144,8 @@ impl<'a> Work<'a> {
         Ok(check::report(&inspected)?)
     }
 
-    /// Pairs of facets that meet where they should not, at least one of them chosen (by number and corners): of facets that
-    /// change, all others stay as they are. `None` for a tangle, where pairs outnumber facets many times.
+    /// Pairs of facets that meet where they should not, at least one of them chosen (by number and corners). Chosen
+    /// facets change, and all others stay as they are. `None` for a tangle, where pairs outnumber facets many times.
     pub(super) fn crossings(
         &mut self,
         chosen: impl Fn(u32, &[u32; 3]) -> bool,

@@ -1,9 +1,9 @@
 //! A mesh in the plane, relaxed until its facets keep their lengths as far as they can.
 //!
 //! By turns each facet is laid by itself, turned as it lies, and all places are found that suit these best. (Liu,
-//! Zhang, Xu, Gotsman, Gortler, A local/global approach to mesh parameterization, Computer Graphics Forum 27, 2008.) A
+//! Zhang, Xu, Gotsman, Gortler, A local/global approach to mesh parameterization, Computer Graphics Forum 27, 2008). A
 //! step never takes a facet to no area: it ends at four fifths of the way there. (Smith, Schaefer, Bijective
-//! parameterization with free boundaries, ACM Transactions on Graphics 34, 2015.) The energy that the steps lower is
+//! parameterization with free boundaries, ACM Transactions on Graphics 34, 2015). The energy that the steps lower is
 //! quadratic for given turns, so a part of a step lowers it too.
 
 use super::disc::Disc;
@@ -97,7 +97,7 @@ pub(super) fn relax(
 
 /// The last steps, which tell where many more of them would lead. (Anderson, Iterative procedures for nonlinear
 /// integral equations, Journal of the ACM 12, 1965. Peng, Deng, Zhang, Geng, Qin, Liu, Anderson acceleration for
-/// geometry optimization and physics simulation, ACM Transactions on Graphics 37, 2018.)
+/// geometry optimization and physics simulation, ACM Transactions on Graphics 37, 2018).
 #[derive(Default)]
 struct Ahead {
     /// The last step, and where it led to.

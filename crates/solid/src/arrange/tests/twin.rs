@@ -39,7 +39,7 @@ fn six_volumes(parts: &[Tetrahedron]) -> BigInt {
     })
 }
 
-/// What of the tetrahedra lies where `inside` is not negative.
+/// The parts of the tetrahedra where `inside` is not negative.
 fn clipped(parts: Vec<Tetrahedron>, inside: impl Fn(&Corner) -> BigInt) -> Vec<Tetrahedron> {
     let mut out = vec![];
     for t in parts {
@@ -70,7 +70,7 @@ fn prism([a, b, c]: [Corner; 3], [d, e, f]: [Corner; 3]) -> [Tetrahedron; 3] {
     [[a, b.clone(), c.clone(), d.clone()], [b, c.clone(), d.clone(), e.clone()], [c, d, e, f]]
 }
 
-/// What is common to tetrahedra.
+/// The common part of tetrahedra.
 fn common(bodies: &[[Point; 4]]) -> BigInt {
     let mut parts = vec![bodies[0].each_ref().map(corner)];
     for body in &bodies[1..] {

@@ -101,8 +101,8 @@ fn a_chain_of_twenty_rings() {
     assert_eq!(volume(&b.mesh), filled.len() as f64);
 }
 
-/// A flat ribbon, one wide and one thick, along a path on a grid: it crosses itself, runs upon itself for some squares, and beside
-/// itself for others. One closed shell, all of whose overlaps are coplanar.
+/// A flat ribbon, one wide and one thick, along a path on a grid. It crosses itself, runs upon itself for some squares,
+/// and beside itself for others. One closed shell, all of whose overlaps are coplanar.
 #[test]
 fn a_ribbon_that_overlaps_itself() {
     let path: [[i32; 2]; 10] =
@@ -133,7 +133,7 @@ fn a_ribbon_that_overlaps_itself() {
     }
     let mut quad = |a: u32, b: u32, c: u32, d: u32| mesh.faces.extend([[a, b, c], [a, c, d]]);
     let count = path.len() as u32;
-    // Of node i: 4 i left below, + 1 left above, + 2 right below, + 3 right above.
+    // Node i has 4 i left below, + 1 left above, + 2 right below, + 3 right above.
     for i in 0..count - 1 {
         let (n, m) = (4 * i, 4 * (i + 1));
         quad(n + 1, n + 3, m + 3, m + 1);
@@ -293,7 +293,7 @@ fn a_tangle_is_given_up() {
     assert_eq!(outer_boundary(&empty, &Options::default(), &Silent).unwrap().mesh, empty);
 }
 
-/// What is decided and computed does not depend on the scale, to the ends of the range.
+/// Decisions and results do not depend on the scale, to the ends of the range.
 #[test]
 fn unions_at_the_ends_of_the_range_are_the_same_and_beyond_are_refused() {
     let random = &mut Random::new(5);

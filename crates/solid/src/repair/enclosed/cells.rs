@@ -1,8 +1,8 @@
 //! A triangle of the plane cut up by segments.
 //!
-//! Horizontal lines through all ends and crossings of the segments part the triangle into slabs; in a slab no two segments
-//! cross, so that they part it into trapezoids, whose areas are products. No decision is made that rounding could turn
-//! over: a segment that ends a hair too early leaves one slab of a hair's height uncut.
+//! Horizontal lines through all ends and crossings of the segments part the triangle into slabs. No two segments cross
+//! in a slab, so that they part it into trapezoids, whose areas are products. No decision is made that rounding could
+//! turn over: a segment that ends a hair too early leaves one slab of a hair's height uncut.
 
 /// A place of the plane.
 pub(super) type Point2 = [f64; 2];

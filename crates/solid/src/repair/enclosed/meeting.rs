@@ -20,7 +20,7 @@ impl Facet {
     }
 }
 
-/// What two facets have in common.
+/// The common places of two facets.
 pub(super) enum Meeting {
     /// Both lie in one plane, decided exactly.
     Coplanar,
@@ -30,8 +30,8 @@ pub(super) enum Meeting {
     Nothing,
 }
 
-/// Which side of each facet the other's vertices lie on is decided exactly. The same for both orders of the two; where an
-/// edge meets a facet there is one place, whichever facet at the edge is asked about.
+/// Which side of each facet the other's vertices lie on is decided exactly. It is the same for both orders of the two.
+/// Where an edge meets a facet there is one place, whichever facet at the edge is asked about.
 pub(super) fn meeting(f: &Facet, g: &Facet) -> Meeting {
     let sides = |t: &Facet, plane: &Facet| {
         let [a, b, c] = &plane.places;
@@ -72,7 +72,7 @@ fn cut(t: &Facet, sides: [i32; 3], plane: &Facet) -> Option<[Point; 2]> {
     }
 }
 
-/// What share of the way from `u` to `v` leads to the plane of a facet; they lie on either side of it.
+/// The share of the way from `u` to `v` that leads to the plane of a facet; they lie on either side of it.
 fn share(facet: &Facet, u: Point, v: Point) -> f64 {
     /// Beyond this error, exact numbers are used.
     const MAX_ERROR_OF_DOUBLES: f64 = 1e-12;

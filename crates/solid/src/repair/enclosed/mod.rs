@@ -1,11 +1,11 @@
 //! The volume of the places that a closed mesh winds around, whether its bodies cross, touch or contain each other or not.
 //!
-//! The volume of a set of places is an integral over its boundary (the divergence theorem), and the boundary of the places
-//! with winding number 1 or more is made of those parts of facets where the number passes from below 1 to 1. Facets
-//! that meet no other are such parts as a whole or not at all, and their neighbors likewise; facets that meet others are
-//! cut up where they do (`meeting`, `cells`). The winding number beside a part is found by a ray from its middle, decided
-//! exactly. What is rounded are places of cuts alone. The vector area of a closed boundary is zero: what it is off by
-//! tells how much of the boundary was missed.
+//! The volume of a set of places is an integral over its boundary (the divergence theorem). The boundary of the places
+//! with winding number 1 or more is made of the parts of facets where the number passes from below 1 to 1. A facet that
+//! meets no other is such a part as a whole or not at all, and its neighbors likewise. Facets that meet others are cut
+//! up where they do (`meeting`, `cells`). The winding number beside a part is found by a ray from its middle, decided
+//! exactly. Only places of cuts are rounded. The vector area of a closed boundary is zero: what it is off by tells how
+//! much of the boundary was missed.
 
 mod cells;
 mod meeting;
@@ -29,12 +29,12 @@ use trueness_geom::topology::{EdgeAt, Properties, Topology};
 /// Volumes, mm³.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Enclosed {
-    /// Of the places with winding number 1 or more.
+    /// Volume of the places with winding number 1 or more.
     pub volume: f64,
-    /// Of the places with winding number −1 or less: bodies that look inwards.
+    /// Volume of the places with winding number −1 or less: bodies that look inwards.
     pub inverted: f64,
-    /// What either may be off by: the vector area of the boundary, which should be zero, times half the diagonal, and
-    /// rounding. Estimated, not proved.
+    /// Bound of the error of either. It is the vector area of the boundary, which should be zero, times half the
+    /// diagonal, and rounding. Estimated, not proved.
     pub error: f64,
     /// Facets that meet no other and bound either, by number.
     pub(super) bounds: Vec<bool>,
@@ -51,7 +51,7 @@ pub(super) struct Piece {
 }
 
 impl Enclosed {
-    /// Of a sound mesh: its signed volume.
+    /// A sound mesh encloses its signed volume.
     pub(super) fn sound(mesh: &Mesh, properties: &Properties) -> Enclosed {
         let error = VOLUME_ROUNDING_SHARE * properties.area * properties.bounds.diagonal();
         let bounds = vec![true; mesh.faces.len()];
@@ -208,7 +208,7 @@ impl Winding {
 }
 
 impl Facet {
-    /// What a part of the facet adds: two volumes, two vector areas, the size of the term. The part is `share` of the
+    /// Terms of a part of the facet: two volumes, two vector areas, the size of the term. The part is `share` of the
     /// facet's vector, and counts by its weight.
     fn terms(&self, winding: &Winding, share: f64, weight: f64) -> [f64; 9] {
         let vector = times(share * weight, self.vector());
@@ -219,7 +219,7 @@ impl Facet {
     }
 }
 
-/// What is asked about: a part of a facet, or the whole of one.
+/// The part of a facet that is asked about, or the whole of one.
 struct Part {
     facet: u32,
     /// Its middle.
@@ -249,8 +249,8 @@ impl Solid<'_> {
         Facet { vertices, places, local: places.map(|p| minus(p, self.center)) }
     }
 
-    /// The axis for rays from a facet with this normal: of those that it is not too steep to, the one along which the mesh is
-    /// shortest, so that rays pass little of it.
+    /// The axis for rays from a facet with this normal. It is the one along which the mesh is shortest, among those
+    /// that the facet is not too steep to, so that rays pass little of it.
     fn axis(&self, vector: Vector) -> usize {
         /// Share of the greatest coordinate of the normal.
         const MIN_STEEP_SHARE: f64 = 0.25;
@@ -326,7 +326,7 @@ impl Solid<'_> {
         Ok(found.into_iter().map(part).collect())
     }
 
-    /// What the parts of a facet add; those that bound something go to `pieces`.
+    /// Sum of the terms of a facet's parts; those that bound something go to `pieces`.
     fn sum(&self, parts: &[Part], windings: &[Winding], pieces: &mut Vec<Piece>) -> [f64; 9] {
         let mut sums = Sums::<9>::ZERO;
         for (part, winding) in parts.iter().zip(windings).filter(|(_, winding)| winding.bounds()) {
@@ -405,8 +405,8 @@ impl Sheets {
     }
 }
 
-/// Parts of less than this share of their facet may reach across a segment that ends a hair too early: their middle says nothing of
-/// where they lie.
+/// Parts of less than this share of their facet may reach across a segment that ends a hair too early. Their middle
+/// says nothing of where they lie.
 const MIN_PART_SHARE: f64 = 1e-9;
 
 /// The axis along which a facet with this normal is seen largest.

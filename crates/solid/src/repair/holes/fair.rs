@@ -1,7 +1,7 @@
 //! Making a patch as smooth as what it joins.
 //!
-//! The umbrella vector of a vertex points from it to the mean of its neighbors. The new vertices are moved to where the squares
-//! of the umbrella vectors of all vertices of the patch, the rim included, have the least sum: at the rim the
+//! The umbrella vector of a vertex points from it to the mean of its neighbors. The new vertices are moved to where the
+//! squares of the umbrella vectors of all vertices of the patch, the rim included, have the least sum. At the rim the
 //! neighbors outside take part, so the patch starts in their direction (Kobbelt, Campagna, Vorsatz and Seidel,
 //! Interactive multi-resolution modeling on arbitrary meshes, 1998). A sparse linear least-squares problem, solved by
 //! conjugate gradients in a fixed order.

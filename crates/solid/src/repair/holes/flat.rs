@@ -6,14 +6,14 @@ use std::collections::BTreeMap;
 use trueness_geom::check::Known;
 use trueness_geom::space::{Vector, cross, dot, minus, norm, plus, times};
 
-/// The normals of facets of a flat sheet agree: the length of their sum, each as long as the facet's area, is at least this share
-/// of the area. Slivers may look anywhere.
+/// The normals of facets of a flat sheet agree. The length of their sum, each as long as the facet's area, is at least
+/// this share of the area. Slivers may look anywhere.
 const MIN_AGREEMENT: f64 = 0.999;
 
 /// And no vertex is farther from the plane than this share of the root of the area: vertices that were parted lie off it.
 const MAX_OFF_PLANE_SHARE: f64 = 1e-3;
 
-/// For each shell with a ring the sum of its facets' normals, each as long as twice the facet's area; only of shells that lie in one
+/// The sum of the facets' normals, each as long as twice the facet's area, for each shell with a ring that lies in one
 /// plane. Linear time.
 pub(super) fn sheets(work: &Work, known: &Known, rings: &[Ring]) -> BTreeMap<u32, Vector> {
     let mut sums: BTreeMap<u32, (Vector, &Ring)> = rings.iter().map(|r| (r.shell, ([0.0; 3], r))).collect();

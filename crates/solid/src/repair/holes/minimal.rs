@@ -15,7 +15,7 @@ use trueness_geom::space::{Point, Vector, cross, dot, minus, norm, normal, plus,
 /// Vertices of a ring up to which all ways are weighed: 200,000 triangles.
 const MAX_VERTICES_WEIGHED: usize = 100;
 
-/// What shall be least.
+/// The quantity to minimize.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Aim {
     /// The area.
@@ -24,7 +24,7 @@ pub(super) enum Aim {
     Bend,
 }
 
-/// What a triangulation costs.
+/// Cost of a triangulation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Cost {
     bend: f64,

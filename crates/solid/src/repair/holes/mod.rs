@@ -1,9 +1,10 @@
 //! Closed rings of boundary edges get a patch.
 //!
-//! Patches are proposed in turn until one fits: the triangulation of least area (Barequet and Sharir, Filling gaps in the
-//! boundary of a polyhedron, 1995), refined and faired where the surroundings are smooth (Liepa, Filling holes in meshes,
-//! 2003); the flat one itself; the one that bends least; a fan around the middle. A patch fits if it crosses nothing,
-//! decided exactly, and makes no edge of three facets. Where none fits, the hole stays open.
+//! Patches are proposed in turn until one fits. First comes the triangulation of least area (Barequet and Sharir,
+//! Filling gaps in the boundary of a polyhedron, 1995), refined and faired where the surroundings are smooth (Liepa,
+//! Filling holes in meshes, 2003). Then follow the flat one itself, the one that bends least, and a fan around the
+//! middle. A patch fits if it crosses nothing, decided exactly, and makes no edge of three facets. Where none fits, the
+//! hole stays open.
 
 mod fair;
 mod flat;
@@ -99,14 +100,14 @@ pub(super) fn run(work: &mut Work) -> Result<(), RepairError> {
     Ok(())
 }
 
-/// The holes of shells that stay open are filled up to this share of the area of the shell. Gaps of a scan are smaller, and larger
-/// ones may have been cut on purpose (a half tunnel of the collected meshes has a round one of 0.65 %).
+/// The holes of shells that stay open are filled up to this share of the area of the shell. Gaps of a scan are smaller.
+/// Larger ones may have been cut on purpose (a half tunnel of the collected meshes has a round one of 0.65 %).
 const MAX_HOLE_OF_SHEET: f64 = 0.005;
 
 /// All holes, with the first patch for each that may be filled.
 ///
-/// A rim beyond the limit is the border of a sheet, which was meant to be open: then others like it, though smaller, may be
-/// borders too, and only what is small is a hole. The border of a flat sheet is none, whatever the limit.
+/// A rim beyond the limit is the border of a sheet, which was meant to be open. Others like it, though smaller, may
+/// then be borders too, and only a small one is a hole. The border of a flat sheet is none, whatever the limit.
 fn trials(work: &Work, known: &Known) -> Result<Vec<Trial>, RepairError> {
     let rings = Ring::all(known);
     let sheets = flat::sheets(work, known, &rings);
@@ -155,8 +156,8 @@ pub(super) fn fillable(work: &Work, known: &Known) -> BTreeSet<[u32; 2]> {
     small.flat_map(|ring| sides(&ring)).map(|[a, b]| [a.min(b), a.max(b)]).collect()
 }
 
-/// Cuts out the facets around holes that a step has cut and no patch fits, so that the next round may find a patch: where two
-/// bodies cross, the rims that cutting leaves lie so near to each other that patches would cross again.
+/// Cuts out the facets around holes that a step has cut and no patch fits, so that the next round may find a patch.
+/// Where two bodies cross, the rims that cutting leaves lie so near to each other that patches would cross again.
 fn widen<'a>(work: &mut Work, known: &Known, rings: impl Iterator<Item = &'a Ring>) {
     let rings = rings.filter(|ring| work.is_own_hole(&ring.vertices));
     let mut removed: Vec<u32> =
@@ -196,8 +197,9 @@ fn insert(work: &mut Work, patch: &Patch) -> Range<u32> {
     first..first + facets.len() as u32
 }
 
-/// Facets from `first` on that cross others, lie at an edge of more than two, or have no area; ascending. What crosses facets
-/// of another shell fits, if shells will be united; `shell_of` has no shell for patches of holes that a step has cut.
+/// Facets from
+/// `first` on that cross others, lie at an edge of more than two, or have no area; ascending. A patch that crosses facets of another shell fits, if shells will be united. `shell_of`
+/// has no shell for patches of holes that a step has cut.
 fn misfits(work: &mut Work, first: u32, shell_of: &[u32]) -> Result<Vec<u32>, RepairError> {
     let all = work.mesh().faces.len() as u32;
     let is_chosen: Vec<bool> = (0..all).map(|f| f >= first).collect();

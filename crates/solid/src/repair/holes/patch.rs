@@ -1,4 +1,4 @@
-//! What fills a hole.
+//! Patches of holes.
 
 use super::super::work::Work;
 use trueness_geom::check::finding;

@@ -1,8 +1,8 @@
 //! Patches as fine and as smooth as their surroundings (Liepa, Filling holes in meshes, 2003).
 //!
-//! Facets of the patch of least area are divided at their middle as long as they are coarse beside the edges around, and
-//! edges are flipped where that makes the triangles more compact. Then the patch is faired. A hole in a plane, or with a
-//! sharp rim (the open end of a pipe), is better filled as it is.
+//! Facets of the patch of least area are divided at their middle as long as they are coarse beside the edges around.
+//! Edges are flipped where that makes the triangles more compact. Then the patch is faired. A hole in a plane, or with
+//! a sharp rim (the open end of a pipe), is better filled as it is.
 
 use super::fair;
 use super::minimal::{self, Aim};

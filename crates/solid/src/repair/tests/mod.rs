@@ -28,7 +28,7 @@ pub(super) fn mend_with(mesh: &Mesh, options: &Options) -> Repaired {
     repaired
 }
 
-/// What the steps come to, even if it is worse.
+/// Result of the steps, even if it is worse.
 pub(super) fn unguarded(mesh: &Mesh, options: &Options) -> Attempt {
     let check_options = check::Options { gap: options.gap, ..check::Options::default() };
     let before = check::check(mesh, None, &check_options, &Silent).unwrap();
@@ -173,8 +173,8 @@ fn a_heap_of_thin_facets_does_not_grow() {
     assert!(repaired.mesh.faces.len() < 600, "{} facets", repaired.mesh.faces.len());
 }
 
-/// Facets that lie upon each other in a plane, nearly all against all, beside a box with a pin in its mouth and a box that
-/// touches its corner: patches and parted vertices are searched by themselves, not with the whole heap each time.
+/// Facets lie upon each other in a plane, nearly all against all, beside a box with a pin in its mouth and a box that
+/// touches its corner. Patches and parted vertices are searched by themselves, not with the whole heap each time.
 #[test]
 fn a_flat_heap_does_not_hold_up_what_lies_beside_it() {
     let random = &mut Random::new(22);
@@ -311,7 +311,7 @@ fn the_effect_tells_what_was_enclosed_and_how_far_its_surface_went() {
     let enclosed = repaired.effect.enclosed.clone().unwrap();
     assert!((enclosed.volume - 1875.0).abs() < 1e-9 && enclosed.error < 1e-9, "{enclosed:?}");
     assert_eq!((enclosed.inverted, repaired.effect.bodies[0]), (0.0, 2));
-    // What is gone and bounded the bodies is told by its distance from what is left.
+    // The report states how far the surface that is gone and bounded the bodies is from the rest.
     let apart = repaired.after.properties.signed_volume - 1875.0;
     let surface = repaired.effect.surface.unwrap();
     assert!(apart.abs() < 1e-9 && surface < 1e-9, "{apart} {surface}");

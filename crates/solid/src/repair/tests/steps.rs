@@ -122,7 +122,7 @@ fn what_is_lost_is_told_where_no_material_is() {
     }
 }
 
-/// What is removed so that the rest can be closed stays where the rest stays open all the same.
+/// Sheets that would be removed to close the rest stay where the rest stays open all the same.
 #[test]
 fn no_sheet_is_removed_in_vain() {
     let mut mesh = block(4, 4.0);
@@ -272,7 +272,7 @@ fn without_union() -> Options {
 
 #[test]
 fn crossing_blocks_become_sound() {
-    // What is torn out is filled, whatever the limit for holes.
+    // A hole torn out is filled, whatever the limit for holes.
     let no_holes = Options { holes: Holes::UpTo(0.0), ..without_union() };
     let repaired = mend_with(&two([2.5, 2.5, 2.5]), &no_holes);
     assert!(!repaired.before.sound && repaired.after.sound, "{:?}", counts(&repaired.after));
@@ -345,7 +345,7 @@ fn holes_of_cut_out_facets_are_widened_until_something_fits() {
     assert_eq!(widened, 2);
 }
 
-/// With half of each body in the other all of them would go. What was torn out in vain stays.
+/// With half of each body in the other all of them would go. Facets torn out in vain stay.
 #[test]
 fn holes_are_not_widened_for_nothing() {
     let (repaired, widened) = crossing([24, 22], [2.0, 0.7, 1.3]);
