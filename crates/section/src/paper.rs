@@ -1,12 +1,13 @@
 //! One line and one free curve, and the join between them, by the steps of a paper.
 //!
 //! Feng, Zhang, Jin and Liu, Determination of the interval of segmentation points and their reconstruction with high
-//! precision (in Chinese): the ordinates of the row, turned so that the straight part is level, are smoothed by their mean; the
-//! interval of the join ends on the right where they leave three standard deviations of the straight part, and on the left
-//! where a window of them correlates with the straight part; within it a golden-section search finds the join of least
-//! squares, the curve fitted anew at each place as a cubic B-spline that starts on the line and along it. The two
-//! methods that the paper compares with: `stepwise` takes the measured point at which the curvature leaves that of the line,
-//! `improved` searches an interval about that point, where the paper has one picked by hand.
+//! precision (in Chinese). The row is turned so that its straight part is level, and its ordinates are smoothed by
+//! their mean. The interval of the join ends on the right where they leave three standard deviations of the straight
+//! part. It ends on the left where a window of them correlates with the straight part. Within it a golden-section
+//! search finds the join of least squares. The curve is fitted anew at each place, as a cubic B-spline that starts on
+//! the line and along it. The paper compares with two methods.
+//! `stepwise` takes the measured point at which the curvature leaves that of the line. `improved` searches an interval
+//! about that point, where the paper has one picked by hand.
 //!
 //! The straight part, which the paper has marked by hand, is the longest that the noise of [`contour`](crate::contour()) allows,
 //! less a tenth of it. See docs/section.md for what is weak in the rules of the interval.
@@ -43,7 +44,7 @@ impl Search {
     }
 }
 
-/// What one method found.
+/// Result of one method.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Method {
     /// Which it is.
@@ -86,7 +87,8 @@ const INTERVAL_HALF_WIDTH_SPACINGS: f64 = 2.0;
 /// there.
 ///
 /// # Errors
-/// Those of [`contour`](crate::contour()); [`SectionError::NoLine`] where neither end of the row is a line; a closed row.
+/// The errors of [`contour`](crate::contour()). [`SectionError::NoLine`] where neither end of the row is a line; a
+/// closed row.
 ///
 /// Cost: some sixty fits of the curve. See [`contour`](crate::contour()) for the default, which finds any number of segments.
 pub fn line_and_curve(
@@ -154,7 +156,7 @@ struct Work {
     heights: Vec<f64>,
 }
 
-/// How many points from the first on are straight: their root mean square distance from a line is no greater than the
+/// How many points from the first on are straight. Their root mean square distance from a line is no greater than the
 /// noise of the row, by more than chance.
 fn straight(row: &[[f64; 2]], noise: f64) -> usize {
     let mut sums = [0.0; 5];
@@ -284,8 +286,8 @@ impl Work {
         }
     }
 
-    /// Control points that keep the curve within three standard deviations of the straight part; where points so few do not
-    /// determine as many, half as many as points.
+    /// Control points that keep the curve within three standard deviations of the straight part. Where points so few do
+    /// not determine as many, it is half as many as points.
     fn control_points(&self, s: f64) -> usize {
         let (own, join, before) = self.split(s);
         let heights: Vec<f64> = self.row[..self.sure].iter().map(|p| self.height(*p)).collect();

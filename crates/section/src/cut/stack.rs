@@ -1,8 +1,8 @@
 //! Which facets of a mesh each of many planes may cut.
 //!
-//! Most planes of a stack meet few facets. The heights of all vertices over planes of one normal are computed once; each facet
-//! goes to the planes between its lowest and its highest vertex. Heights are rounded, so they only exclude, beyond an error
-//! bound; what is above and below is decided exactly where the plane cuts.
+//! Most planes of a stack meet few facets. The heights of all vertices over planes of one normal are computed once.
+//! Each facet goes to the planes between its lowest and its highest vertex. Heights are rounded, so they only exclude,
+//! beyond an error bound; what is above and below is decided exactly where the plane cuts.
 
 use trueness_geom::mesh::Mesh;
 use trueness_geom::plane::Plane;
@@ -16,10 +16,10 @@ const MAX_FACET_NUMBERS: usize = 1 << 24;
 
 /// For each plane the numbers of the facets that it may cut, in ascending order: all that it does cut, and few more.
 ///
-/// They come plane by plane, each once, as many at a time as memory may hold: the number of the plane in `planes`, and its facets.
-/// Facets that name no vertex are in no list; of coordinates that are no numbers nothing is promised but that they are none of a
-/// cut. Cost: for each normal one pass over the vertices and, for every 16 million numbers, one over the facets, then as many steps
-/// as the lists are long.
+/// They come plane by plane, each once, as many at a time as memory may hold. An entry is the number of the plane in
+/// `planes`, and its facets. Facets that name no vertex are in no list. Nothing is promised of coordinates that are no
+/// numbers but that they are none of a cut. Cost: for each normal one pass over the vertices and, for every 16 million
+/// numbers, one over the facets. Then it takes as many steps as the lists are long.
 ///
 /// # Errors
 /// [`Cancelled`], when asked to stop, and what `each` gives.

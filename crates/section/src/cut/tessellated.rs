@@ -1,5 +1,5 @@
-//! Contours of sections of meshes: exact lines and arcs where the facets are those of a drawing, a row of points where they
-//! are those of a scan.
+//! Contours of sections of meshes. They are exact lines and arcs where the facets are those of a drawing, and a row of
+//! points where they are those of a scan.
 
 use super::plane::Chain;
 use super::scan::{CutMesh, ScanRow};
@@ -25,20 +25,21 @@ const MIN_FACETS_AND_ARCS_OF_CURVE: (usize, usize) = (8, 3);
 
 /// The lines, arcs and curves of a chain in which a plane cuts a mesh.
 ///
-/// `frame` is that of the plane; `mesh` the one that the chain was cut from. The chain's points carry no
-/// random noise where the facets are those of a drawing: then the edges of flat faces are lines, exactly, chords whose ends
-/// lie on a circle are an arc, and only what is neither is looked at as a row of points, with the distance between chords and
-/// curve as what cannot be told from 0. A chain of many facets of which hardly two follow each other straight or around a
-/// circle is that of a scan, and so is one of flat faces of many facets beside curves that no edges run along. Then all crossings,
-/// moved onto the surface between the vertices, are a row as [`contour`] takes it, each with the weight that the noise its
-/// neighbors share leaves it; so too where `options` give the noise or a continuity. [`Contour::row_kind`] tells which it was.
+/// `frame` is that of the plane; `mesh` the one that the chain was cut from. The chain's points carry no random noise
+/// where the facets are those of a drawing. Then the edges of flat faces are lines, exactly, and chords whose ends lie
+/// on a circle are an arc. Only the rest is looked at as a row of points; distances up to that between chords and curve
+/// are then not told from 0. A chain of many facets of which hardly two follow each other straight or around a circle
+/// is that of a scan. So is one of flat faces of many facets beside curves that no edges run along. Then all crossings,
+/// moved onto the surface between the vertices, are a row as
+/// [`contour`] takes it. Each has the weight that the noise its neighbors share leaves it; so too where `options` give
+/// the noise or a continuity. [`Contour::row_kind`] tells which it was.
 ///
 /// Labels, residuals and stations are those of the chain's points. Intervals of joins of exact lines and arcs are where
 /// the two are no farther apart than rounding.
 /// Chains that are not of the mesh are rows of their points as they are.
 ///
 /// # Errors
-/// Those of [`contour`]; a chain of at least two points has at least a line.
+/// The errors of [`contour`]; a chain of at least two points has at least a line.
 pub fn chain_contour(
     chain: &Chain,
     frame: &PlaneFrame,
@@ -123,7 +124,7 @@ fn in_direction(
         false => first,
     };
     match found {
-        // What is too short for a row, as a loop around one vertex, is its lines, whatever the options.
+        // A chain too short for a row, as a loop around one vertex, is its lines, whatever the options.
         Err(SectionError::TooFewPoints { .. }) if polygon.at.len() >= 2 => {
             let items = polygon.items(rounding);
             Sheet { points: &points, polygon, rounding, options }.contour(&items, progress)
@@ -146,8 +147,9 @@ const MIN_STEPS_ON_FLAT_FACE: usize = 8;
 const MAX_EVEN_RATIO: f64 = 4.0;
 /// So many percent of the distances are even.
 const EVEN_PERCENT: usize = 98;
-/// Lines of no more than so many steps are between others: chords of curves that the edges do not run along, or the bevels of
-/// corners that no edge runs along. Where more chords are those of circles the vertices are a drawing's.
+/// Lines of no more than so many steps are between others. They are chords of curves that the edges do not run along,
+/// or the bevels of corners that no edge runs along. Where more chords are those of circles the vertices are a
+/// drawing's.
 const MAX_SHORT_LINE_STEPS: f64 = 2.5;
 /// Where vertices scatter, smooth noise leaves a few crossings on a line or circle by chance, to rounding; those of a drawing are
 /// more.
@@ -197,14 +199,15 @@ const MAX_KNOWN_NOISES: f64 = 1.5;
 /// Points within facets are off by no more than the first share of that in the root mean square. They are off by the second at
 /// most, and where they lie in and out by turns.
 const MAX_SAGITTA_SHARES: [f64; 2] = [0.25, 0.5];
-/// Points on edges around and across a curve lie in and out by turns: the products of neighboring distances sum to less than this
-/// share of the squares. Those of noise do so once in 300 rows of 80 points.
+/// Points on edges around and across a curve lie in and out by turns. The products of neighboring distances sum to less
+/// than this share of the squares. Products of noise do so once in 300 rows of 80 points.
 const MAX_PRODUCT_BY_TURNS: f64 = -0.3;
 /// A line or arc that runs along its points is as long as the way through them, to this factor.
 const MAX_WAY_RATIO_OF_SEGMENT: f64 = 1.25;
 
-/// Lines and arcs whose points lie off them by no more than facets lie off the curve they stand for run along these: what looks like hidden form
-/// there, with the period of the facets, is the facets'. Points of a scan, whose heights are its noise, lie farther off.
+/// Lines and arcs whose points lie off them by no more than facets lie off the curve they stand for run along these. An
+/// apparent form there, with the period of the facets, is the facets'. Points of a scan, whose heights are its noise,
+/// lie farther off.
 fn within_facets(contour: Contour, points: &[[f64; 2]]) -> Contour {
     let (n, mut all) = (points.len(), contour);
     let inner = if all.closed { 0..n } else { 1..n.saturating_sub(1) };
@@ -368,7 +371,7 @@ impl Sheet<'_> {
         self.polygon.turn(at).abs() <= SHARP_TURN
     }
 
-    /// Items between corners. Those of a closed polygon start at one, if there is any.
+    /// Items between corners. Runs of a closed polygon start at one, if there is any.
     fn smooth_runs(&self, items: &[Item]) -> Vec<Run> {
         let n = items.len();
         let mut items = items.to_vec();

@@ -1,10 +1,11 @@
 //! Measures of an airfoil or blade section: chord, camber line, thickness, radii of its edges.
 //!
-//! The points run around the profile from its trailing edge over the leading edge and back. The course through them is that of the
-//! contour's lines, arcs and curves, or a cubic B-spline, whichever is the likelier. The camber line is that of blade inspection: the centers of the circles inscribed into the
-//! profile, each the greatest that touches the curve at a place without crossing it (Ma, Bae and Choi, 3D medial axis point
-//! approximation using nearest neighbors and the normal field, 2012: there a ball is shrunk point by point, here its radius is the
-//! least over all places at once).
+//! The points run around the profile from its trailing edge over the leading edge and back. The course through them is
+//! that of the contour's lines, arcs and curves, or a cubic B-spline, whichever is the likelier. The camber line is
+//! that of blade inspection: the centers of the circles inscribed into the profile. Each is the greatest that touches
+//! the curve at a place without crossing it. Ma, Bae and Choi (3D medial axis point approximation using nearest
+//! neighbors and the normal field, 2012) shrink a ball point by point; here its radius is the least over all places at
+//! once.
 
 mod circles;
 mod edge;
@@ -29,7 +30,7 @@ const MIN_EDGE_ARC_TURN: f64 = 2.4;
 /// By so many standard uncertainties of a mean of its points the radius of an edge may differ from that of its arc.
 const HIDDEN_RADIUS_SIGMAS: f64 = 8.0 * std::f64::consts::SQRT_2;
 
-/// What is measured of a profile. Lengths as the points have them; shares are of the chord, from the leading edge.
+/// Measures of a profile. Lengths as the points have them; shares are of the chord, from the leading edge.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Airfoil {
     /// The place of the profile farthest from the trailing edge.
@@ -54,7 +55,7 @@ pub struct Airfoil {
     pub camber_line: Vec<([f64; 2], f64)>,
     /// Radius of curvature at the leading edge.
     pub leading_radius: Result<EdgeRadius, AirfoilError>,
-    /// What the trailing edge is.
+    /// The kind of the trailing edge.
     pub trailing_edge: TrailingEdge,
     /// Radius of curvature of a round trailing edge.
     pub trailing_radius: Result<EdgeRadius, AirfoilError>,
@@ -62,9 +63,10 @@ pub struct Airfoil {
 
 /// Measures the profile whose points are `points`, of which `contour` was found.
 ///
-/// Of the contour are used whether it is closed, and which points were left out. The trailing edge of an open row is at its ends;
-/// of a closed one at the thinner end. It is the shortest stretch that takes two thirds of half a turn:
-/// sharp at one point, blunt between two corners, with points on the face or none, else round. Sides are led no farther than their points. Cost: fits of up to 2,000 points, and inscribed circles as the square of 2,000 places.
+/// Only whether the contour is closed, and which points were left out of it, are used. The trailing edge of an open row
+/// is at its ends; of a closed one at the thinner end. It is the shortest stretch that takes two thirds of half a turn.
+/// It is sharp at one point, blunt between two corners, with points on the face or none, else round. Sides are led no
+/// farther than their points. Cost: fits of up to 2,000 points, and inscribed circles as the square of 2,000 places.
 ///
 /// # Errors
 /// [`AirfoilError`]: too few points, an open row whose ends lie apart, points that enclose nothing, cancelled.
@@ -101,8 +103,8 @@ fn on_arc(contour: &Contour, place: [f64; 2]) -> Option<EdgeRadius> {
         (Geometry::Arc { radius, sweep, .. }, Some(Uncertainty::Arc { radius: uncertainty, .. }))
             if sweep.abs() > MIN_EDGE_ARC_TURN =>
         {
-            // Waves of the edge that scatter hides bend it more than the arc: eight times as much as they are high over its radius, with
-            // three to a round.
+            // Waves of the edge that scatter hides bend it more than the arc. They do by eight times as much as they
+            // are high over its radius, with three to a round.
             let hidden = HIDDEN_RADIUS_SIGMAS * contour.noise / contour.independent_of(nearest).sqrt();
             let uncertainty = libm::hypot(uncertainty, hidden);
             Some(EdgeRadius { radius: *radius, uncertainty, count: segment.count })
@@ -148,13 +150,15 @@ fn in_order(
     let (leading, trailing) = inscribed.chord(round);
     let chord = distance(leading, trailing);
     let (center, radius) = inscribed.greatest().ok_or(AirfoilError::Inside)?;
-    // What another course through the points tells differs by what a free curve takes from scatter, or does not follow.
+    // The result of another course through the points differs by the scatter that a free curve follows, or by the form
+    // that it does not.
     let other = match other.map(|other| Inscribed::new(&other, progress)) {
         Some(Err(AirfoilError::Cancelled(e))) => return Err(e.into()),
         other => other.and_then(|o| o.ok()?.greatest()),
     };
     let differs = other.map_or(0.0, |(_, other)| 2.0 * (radius - other).abs());
-    // Of many circles of one size scatter makes one the greatest, which is too large by about as much as it is uncertain.
+    // Scatter makes one of many circles of one size the greatest, which is too large by about as much as it is
+    // uncertain.
     let across = course.uncertainty * std::f64::consts::SQRT_2;
     let chosen = if inscribed.is_flat(across) { across } else { 0.0 };
     let along = [(trailing[0] - leading[0]) / chord, (trailing[1] - leading[1]) / chord];

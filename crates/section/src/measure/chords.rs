@@ -48,8 +48,9 @@ const MIN_TANGENT_SHARE: f64 = 0.25;
 /// Places of a nominal's arcs and curves that a row has.
 const PLACES_PER_OUTLINE_ROW: usize = 1200;
 
-/// The chords of the profile whose points are `points`, of which `contour` and `found` were found. An open row is closed by the straight
-/// line between its ends. Of a contour with segments astray the points themselves are measured.
+/// The chords of the profile whose points are `points`, of which `contour` and `found` were found. An open row is
+/// closed by the straight line between its ends. Where segments of a contour are unreliable the points themselves are
+/// measured.
 ///
 /// # Errors
 /// [`AirfoilError::Inside`] where the profile encloses nothing. Cost: 4,000 places, sorted.
@@ -136,8 +137,8 @@ fn bitangent(hull: &[[f64; 2]], farthest: &Chord) -> Result<Chord, AirfoilError>
     Ok(Chord { leading: at(low), trailing: at(high) })
 }
 
-/// From where the camber line, led on by its direction over a radius of its last circle, meets the profile at the leading edge, to where it
-/// does at a round trailing edge; of others to the edge itself.
+/// From where the camber line meets the profile at the leading edge to where it does at a round trailing edge. It is
+/// led on by its direction over a radius of its last circle. Other edges are its end themselves.
 fn camber_ends(found: &Airfoil, places: &[[f64; 2]]) -> Chord {
     let line = &found.camber_line;
     let back: Vec<([f64; 2], f64)> = line.iter().rev().copied().collect();
@@ -183,7 +184,8 @@ fn evenly(outline: &Outline, count: usize) -> Vec<[f64; 2]> {
     all
 }
 
-/// An outline of a nominal as a row of points: the ends of chords, or even places where it has arcs or curves, or only a few lines.
+/// An outline of a nominal as a row of points. They are the ends of chords, or even places where it has arcs or curves,
+/// or only a few lines.
 pub fn outline_row(outline: &Outline) -> Vec<[f64; 2]> {
     let chords = outline.segments.len() > MAX_SIDES_OF_POLYGON
         && outline.segments.iter().all(|s| s.geometry == Geometry::Line);

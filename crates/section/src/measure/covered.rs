@@ -7,7 +7,7 @@ use super::nominal::{OffNominal, Outline};
 pub struct Passed<'a> {
     /// The points.
     pub points: &'a [[f64; 2]],
-    /// Of each, the place of the outlines nearest to it.
+    /// The place of the outlines nearest to each.
     pub found: &'a [Option<OffNominal>],
     /// Whether the first follows the last.
     pub closed: bool,
@@ -15,7 +15,7 @@ pub struct Passed<'a> {
     pub gaps: &'a [usize],
 }
 
-/// What was measured of an outline.
+/// The part of an outline that was measured.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Covered {
     /// Points that are nearest to it.
@@ -31,12 +31,12 @@ impl Covered {
     }
 }
 
-/// A way along the outline that is so many times as long as that from point to point, to the outline and back is not the one that
-/// the points took. Around a half circle it is π / 2 times as long, around a square's corner √2.
+/// A way along the outline is not the one that the points took if it is so many times as long as that from point to
+/// point, to the outline and back. Around a half circle it is π / 2 times as long, around a square's corner √2.
 const MAX_WAY_ROUND_RATIO: f64 = 1.75;
 
-/// Of each outline how much of it was measured: the stretches between the places nearest to successive points of the rows. Stretches that
-/// several pairs of points pass count once. One point alone passes nothing.
+/// How much of each outline was measured: the stretches between the places nearest to successive points of the rows.
+/// Stretches that several pairs of points pass count once. One point alone passes nothing.
 ///
 /// Cost: that of sorting the points.
 pub fn covered(rows: &[Passed], outlines: &[Outline]) -> Vec<Covered> {
@@ -69,8 +69,8 @@ pub fn covered(rows: &[Passed], outlines: &[Outline]) -> Vec<Covered> {
     all
 }
 
-/// The shorter way along an outline from one place to another, if it is no longer than `most`: around its start, where that is shorter on one
-/// that is closed and has the length `around`, in two parts.
+/// The shorter way along an outline from one place to another, if it is no longer than
+/// `most`. Where the way around the start of a closed one of the length `around` is shorter, it is that, in two parts.
 fn between(a: f64, b: f64, around: Option<f64>, most: f64) -> Vec<[f64; 2]> {
     let [low, high] = [a.min(b), a.max(b)];
     match around {
@@ -83,7 +83,7 @@ fn between(a: f64, b: f64, around: Option<f64>, most: f64) -> Vec<[f64; 2]> {
     }
 }
 
-/// What lies in any of these stretches.
+/// The union of these stretches.
 fn union(mut stretches: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     stretches.sort_by(|a, b| a[0].total_cmp(&b[0]));
     let mut all: Vec<[f64; 2]> = vec![];

@@ -31,8 +31,8 @@ impl Segment {
         Segment::bare(geometry, ends, radius * sweep.abs(), [curvature; 2])
     }
 
-    /// A B-spline in the plane of the first two coordinates; a rational one is followed by a cubic within about `tolerance`, and its
-    /// deviation says how far. `None` where it has no place, or the cubic cannot follow.
+    /// A B-spline in the plane of the first two coordinates. A rational one is followed by a cubic within about
+    /// `tolerance`, and its deviation says how far. `None` where it has no place, or the cubic cannot follow.
     pub fn curve(rational: &Rational<3>, tolerance: f64) -> Option<Segment> {
         let masses = rational.masses();
         let first = masses.points().first()?.mass;
@@ -131,8 +131,8 @@ impl EndsAt {
     }
 }
 
-/// The outlines that segments in any order and direction make up: those whose ends lie within `gap` of each other follow each other,
-/// in the direction of the first. Of segments that are drawn twice the second is passed over. Cost: about linear.
+/// The outlines that segments in any order and direction make up. Segments whose ends lie within `gap` of each other
+/// follow each other, in the direction of the first. A segment that is drawn twice counts once. Cost: about linear.
 ///
 /// ```
 /// use trueness_section::{joined, Segment};

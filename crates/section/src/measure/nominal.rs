@@ -45,7 +45,8 @@ impl Outline {
         self.segments.iter().map(|s| s.length).sum()
     }
 
-    /// What a closed one encloses, above 0 where it runs counter-clockwise, as outer ones do; of arcs and splines by chords.
+    /// The area that a closed one encloses, above 0 where it runs counter-clockwise, as outer ones do; arcs and splines
+    /// by chords.
     pub fn area(&self) -> f64 {
         area(&self.places())
     }
@@ -68,14 +69,16 @@ impl Outline {
         self.segments.iter().flat_map(of).collect()
     }
 
-    /// How far the end of an open one is from its start, if that is a small share of its length: it was meant to be closed.
+    /// How far the end of an open one is from its start, if that is a small share of its length. It was meant to be
+    /// closed then.
     pub fn nearly_closed(&self) -> Option<f64> {
         let (first, last) = (self.segments.first()?, self.segments.last()?);
         let gap = libm::hypot(first.start[0] - last.end[0], first.start[1] - last.end[1]);
         (!self.closed && gap < NEARLY_CLOSED_SHARE * self.length()).then_some(gap)
     }
 
-    /// What lies in each of these stretches, between two lengths along it: open ones. Those without length are left out.
+    /// The parts in each of these stretches, between two lengths along it, as open outlines. Stretches without length
+    /// are left out.
     pub fn parts(&self, stretches: &[[f64; 2]]) -> Vec<Outline> {
         let lengths = self.segments.iter().scan(0.0, |sum, s| {
             *sum += s.length;
@@ -111,7 +114,7 @@ const PLACES_PER_CURVE: usize = 32;
 /// Points after which the search asks whether to stop.
 const POINTS_PER_STOP_CHECK: usize = 1024;
 
-/// Closed outlines turned so that the material is on their left, where what is inside of an odd number of outlines is material:
+/// Closed outlines turned so that the material is on their left. The inside of an odd number of outlines is material:
 /// the outer one runs counter-clockwise, holes in it clockwise. Within a nearly closed outline is inside of it too.
 pub fn with_material_inside(outlines: Vec<Outline>) -> Vec<Outline> {
     let encloses = |o: &Outline| o.closed || o.nearly_closed().is_some();
@@ -179,9 +182,9 @@ impl Boxed {
 /// The deviation of each point from the nearest of all outlines: the true least distance, ties to the first segment. `None` of
 /// points beyond a free end of an open outline, of those that are no numbers, and where there is no outline.
 ///
-/// At a corner the sign is that of the mean direction of the segments beside, which is the side that the point is on (Bærentzen
-/// and Aanæs, Signed distance computation using the angle weighted pseudonormal, 2005). Cost: a look at the box of each segment
-/// for each point.
+/// At a corner the sign is that of the mean direction of the segments beside, which is the side that the point is on.
+/// (Bærentzen and Aanæs, Signed distance computation using the angle weighted pseudonormal, 2005). Cost: a look at the
+/// box of each segment for each point.
 ///
 /// # Errors
 /// [`Cancelled`], when asked to stop.
@@ -272,7 +275,8 @@ fn signed(point: [f64; 2], outline: &Outline, number: usize) -> Option<(f64, [f6
     Some((deviation + 0.0, foot.place))
 }
 
-/// A point lies beyond a free end that is ahead of it by more than this share of its distance: at right angles it does not.
+/// A point lies beyond a free end if that is ahead of it by more than this share of its distance. At right angles it is
+/// not.
 const BEYOND_END_SHARE: f64 = 1e-9;
 
 fn unit(v: [f64; 2]) -> [f64; 2] {

@@ -1,9 +1,11 @@
 //! The best fit of a section onto the section of its nominal, in their plane.
 //!
-//! Least squares of the distances to the nearest place, by Gauss and Newton: the outline is taken for its tangent at each foot, or for
-//! the corner where a foot is one, and the feet are found anew after each step (Chen and Medioni, Object modelling by registration of
-//! multiple range images, 1992). A step that does not bring the points nearer is halved. It begins with weights that fall with the
-//! distance (Huber), so that points without a counterpart hardly lead it, and ends with all that count at full weight. What the outlines do not hold is named and not guessed: as a circle turns, and a line slides along itself.
+//! Least squares of the distances to the nearest place, by Gauss and Newton. The outline is taken for its tangent at
+//! each foot, or for the corner where a foot is one, and the feet are found anew after each step. (Chen and Medioni,
+//! Object modelling by registration of multiple range images, 1992). A step that does not bring the points nearer is
+//! halved. It begins with weights that fall with the distance (Huber), so that points without a counterpart hardly lead
+//! it. It ends with all that count at full weight. Motions that the outlines do not hold are named and not guessed: as
+//! a circle turns, and a line slides along itself.
 
 mod freedom;
 mod motion;
@@ -57,15 +59,15 @@ pub enum OntoNominalError {
     TooFewPoints {
         /// Points that count.
         found: usize,
-        /// What is looked for.
+        /// Number of unknowns.
         unknowns: usize,
     },
     /// The outlines hold the section only in part.
     #[error("the nominal does not hold the section: {free}; {remedy}")]
     Undetermined {
-        /// What leaves all distances as they are.
+        /// The motion that leaves all distances as they are.
         free: Free,
-        /// What can be asked instead.
+        /// The request that can be made instead.
         remedy: String,
     },
     /// Stopped through the progress argument.
@@ -89,8 +91,8 @@ const MAX_STEP_TURN: f64 = 0.2;
 /// The motion, within `freedom`, that brings the points of `rows` nearest to the outlines. Points that are farther than `reach` in the
 /// end do not count. A turn alone is one about the origin; else the center is the middle of the points that count.
 ///
-/// Uncertainties are those of the scatter of the points about the nominal after the fit, taken as correlated along each row as it is
-/// found to be. Cost: up to 120 times that of [`off_nominal`].
+/// Uncertainties are those of the scatter of the points about the nominal after the fit. The scatter is taken as
+/// correlated along each row as it is found to be. Cost: up to 120 times that of [`off_nominal`].
 ///
 /// # Errors
 /// [`OntoNominalError`]: no outline, too few points, what the outlines do not hold, cancelled.

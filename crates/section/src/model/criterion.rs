@@ -1,9 +1,9 @@
-//! What a model of a smooth row costs, and what it is made of.
+//! The cost of a model of a smooth row, and the parts of such a model.
 
 use super::chain::{Chain, Piece, SegmentKind};
 use super::least::State;
 
-/// What a model costs.
+/// Cost of a model.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Criterion {
     /// Standard deviation of the noise known beforehand, and of how many degrees of freedom that knowledge is.
@@ -15,11 +15,11 @@ pub(crate) struct Criterion {
     pub count: f64,
     /// All that count.
     pub points: f64,
-    /// What else there is of a chain of which models are a part.
+    /// The other pieces of a chain of which models are a part.
     pub rest: Option<Rest>,
 }
 
-/// What the other pieces of a chain have: their sum of squares, and their unknowns.
+/// Sum of squares and unknowns of the other pieces of a chain.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Rest {
     pub sum: f64,
@@ -35,11 +35,11 @@ const ARC_COST: f64 = 1.0;
 const FREE_PIECE_COST: f64 = 1.5;
 
 impl Criterion {
-    /// Twice the negative logarithm of the likelihood, the variance of the noise eliminated, plus the penalty of Schwarz
-    /// for each unknown; a join counts twice, as its place was chosen among many. Where the points are few for the unknowns, these take
-    /// up noise, and the variance left is less than that of the noise: the penalty grows, up to twice, as the unknowns become as many as
-    /// the points (McQuarrie, A small-sample correction for the Schwarz SIC model selection criterion, Statistics and Probability Letters
-    /// 44, 1999).
+    /// Twice the negative logarithm of the likelihood, the variance of the noise eliminated, plus the penalty of
+    /// Schwarz for each unknown. A join counts twice, as its place was chosen among many. Where the points are few for
+    /// the unknowns, these take up noise, and the variance left is less than that of the noise. So the penalty grows,
+    /// up to twice, as the unknowns become as many as the points (McQuarrie, A small-sample correction for the Schwarz
+    /// SIC model selection criterion, Statistics and Probability Letters 44, 1999).
     pub fn cost(&self, state: &State) -> f64 {
         // A piece without points is made up.
         if state.breaks.windows(2).any(|w| w[0] >= w[1]) {
@@ -65,7 +65,7 @@ impl Criterion {
             Some(rest) => self.cost_of(state.sum + rest.sum, own.and(rest.unknowns)),
         }
     }
-    /// What a sum of squares and so many unknowns cost.
+    /// Cost of a sum of squares and so many unknowns.
     pub fn cost_of(&self, sum: f64, unknowns: Unknowns) -> f64 {
         let total = self.count + self.degrees;
         let floor = self.resolution * self.resolution;
@@ -89,8 +89,8 @@ impl Criterion {
     }
 }
 
-/// In rows of fewer points all degrees of freedom count as left: any curve along the points takes most of them there, and is better
-/// all the same than one that passes them by.
+/// In rows of fewer points all degrees of freedom count as left. Any curve along the points takes most of them there,
+/// and is better all the same than one that passes them by.
 const SHORT_ROW_POINTS: f64 = 24.0;
 /// Share of the degrees of freedom that counts as left at least.
 const MIN_FREEDOM_SHARE: f64 = 0.5;
@@ -102,7 +102,7 @@ pub(crate) struct Unknowns {
     pub number: f64,
     /// How many the criterion counts.
     pub weight: f64,
-    /// What the kinds cost beyond.
+    /// Cost of the kinds beyond.
     pub kinds: f64,
 }
 
@@ -126,7 +126,7 @@ impl Unknowns {
             kinds: chain.pieces.iter().map(kind).sum(),
         }
     }
-    /// Those of a chain without those of a part of it.
+    /// The unknowns of a chain without those of a part of it.
     pub fn less(self, other: Unknowns) -> Unknowns {
         Unknowns {
             number: self.number - other.number,
@@ -134,7 +134,7 @@ impl Unknowns {
             kinds: self.kinds - other.kinds,
         }
     }
-    /// Those of two chains.
+    /// The unknowns of two chains.
     pub fn and(self, other: Unknowns) -> Unknowns {
         Unknowns {
             number: self.number + other.number,
@@ -151,8 +151,8 @@ pub(crate) struct Model {
     pub cost: f64,
 }
 
-/// A piece to be made: its kind, the number of its coefficients if it is free, and where it begins and ends on the model it
-/// comes from.
+/// A piece to be made. It has its kind, the number of its coefficients if it is free, and where it begins and ends on
+/// the model it comes from.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct PieceSpec {
     pub kind: SegmentKind,

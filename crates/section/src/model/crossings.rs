@@ -23,7 +23,7 @@ struct Chord {
     shares: [f64; 2],
 }
 
-/// Whether two chords cross. What is on a chord counts as left of it: a way through the end of a chord crosses once.
+/// Whether two chords cross. A point on a chord counts as left of it: a way through the end of a chord crosses once.
 fn cross(a: &[[f64; 2]; 2], b: &[[f64; 2]; 2]) -> bool {
     let left = |c: &[[f64; 2]; 2], p: [f64; 2]| {
         let space = |p: [f64; 2]| [p[0], p[1], 0.0];
@@ -80,9 +80,9 @@ pub(crate) fn crossing_chords(
 /// Where segments that follow each other cross, in their order; at most a hundred places. `closed` tells that the last is followed by
 /// the first.
 ///
-/// Curves are looked at by chords, so that two of them that run beside each other nearer than chords to their arcs (3e-4 of a
-/// radius) may be taken for crossing. Where segments touch there is no crossing. Cost: a sort of the chords, and a look at those that
-/// overlap in one coordinate.
+/// Curves are looked at by chords. Two of them that run beside each other nearer than chords to their arcs (3e-4 of a
+/// radius) may be taken for crossing. Where segments touch there is no crossing. Cost: a sort of the chords, and a look
+/// at those that overlap in one coordinate.
 ///
 /// # Errors
 /// [`Cancelled`], when asked to stop.

@@ -1,9 +1,9 @@
 //! The free piece: curvature as a B-spline along the length.
 //!
-//! A piece of length `ℓ` with coefficients `c` has the curvature `κ(t) = Σ cⱼ Bⱼ(t)` for `t = s / ℓ` from 0 to 1, so its
-//! heading is `θ(t) = ℓ Σ cⱼ Kⱼ(t)` with `Kⱼ = ∫ Bⱼ`, exactly. Places are integrals of the heading's direction, by Gauss and
-//! Legendre's rule over panels, and quintic between the ends of panels; how they move with the unknowns is cubic there. All is in the frame of the piece: it starts at 0
-//! along the first axis.
+//! A piece of length `ℓ` with coefficients `c` has the curvature `κ(t) = Σ cⱼ Bⱼ(t)` for `t = s / ℓ` from 0 to 1. So
+//! its heading is `θ(t) = ℓ Σ cⱼ Kⱼ(t)` with `Kⱼ = ∫ Bⱼ`, exactly. Places are integrals of the heading's direction, by
+//! Gauss and Legendre's rule over panels, and quintic between the ends of panels. Their motions with the unknowns are
+//! cubic there. All is in the frame of the piece: it starts at 0 along the first axis.
 
 use std::sync::OnceLock;
 use trueness_geom::spline::basis::Knots;
@@ -160,7 +160,7 @@ pub(crate) struct Table {
 }
 
 impl Table {
-    /// What it takes to fill it, in products: a sine takes about as long as so many.
+    /// Products that filling it takes: a sine takes about as long as so many.
     pub(super) fn products(&self) -> f64 {
         /// Products in the time of one sine.
         const PRODUCTS_PER_SINE: usize = 50;
@@ -295,8 +295,8 @@ impl Table {
         (at, slope, (1.0 - f) * self.places[k].curvature + f * self.places[k + 1].curvature)
     }
 
-    /// Motions at `t` with the length and with each coefficient, along `normal`: cubic between the ends of panels, where they and their
-    /// rates are known; beyond the ends of the piece straight.
+    /// Motions at `t` with the length and with each coefficient, along `normal`. They are cubic between the ends of
+    /// panels, where they and their rates are known, and straight beyond the ends of the piece.
     #[inline]
     pub(super) fn motions_along(&self, t: f64, normal: [f64; 2], out: &mut [f64]) {
         let (k, f) = self.panel(t);
@@ -308,8 +308,8 @@ impl Table {
         let [u, v, m, n] = hermite(f);
         let left = |p: &CurvePlace| p.along[0] * normal[1] - p.along[1] * normal[0];
         let ahead = |p: &CurvePlace| p.along[0] * normal[0] + p.along[1] * normal[1];
-        // Rates over a panel: with the length the direction, and the heading to the left; with a coefficient the length's square and
-        // the integral of its function to the left.
+        // Rates over a panel. The length moves along the direction, and turns the heading to the left. A coefficient
+        // moves by the length's square and the integral of its function, to the left.
         let step = 1.0 / self.panels as f64;
         let (m, n) = (m * step, n * step);
         out[0] = u * (a[0][0] * normal[0] + a[0][1] * normal[1])
@@ -326,7 +326,8 @@ impl Table {
     }
 }
 
-/// Weights of the values at the ends of a panel, and of the rates there, in a cubic over it; beyond, in the straight line that it goes on as.
+/// Weights of the values at the ends of a panel, and of the rates there, in a cubic over it. Beyond, they are those of
+/// the straight line that goes on from it.
 fn hermite(f: f64) -> [f64; 4] {
     let (g, beyond) = (f.clamp(0.0, 1.0), f - f.clamp(0.0, 1.0));
     let h = 1.0 - g;

@@ -3,8 +3,8 @@
 use super::chain::{SegmentKind, arc_end};
 use super::least::{Row, State, Work};
 
-/// Between the feet of neighboring points a chain is at most this many times as long as they are apart: an arc that turns by a half
-/// circle there is π/2 times as long.
+/// Between the feet of neighboring points a chain is at most this many times as long as they are apart. An arc that
+/// turns by a half circle there is π/2 times as long.
 const MAX_DETOUR_RATIO: f64 = 2.0;
 
 impl Work {

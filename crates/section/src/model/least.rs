@@ -1,8 +1,8 @@
 //! The chain of least squared orthogonal distances, by the method of Levenberg and Marquardt.
 //!
-//! A change of an unknown moves all that follows on the chain as a rigid body. So the distances of the points of a piece
-//! depend on what lies before it through three numbers alone, and one pass over the points that sums products of those
-//! and of the piece's own unknowns serves for any number of unknowns.
+//! A change of an unknown moves all that follows on the chain as a rigid body. So the distances of the points of a
+//! piece depend on the pieces before it through three numbers alone. One pass over the points sums products of these
+//! and of the piece's own unknowns, and serves for any number of unknowns.
 
 mod constrained;
 mod normal;
@@ -43,15 +43,15 @@ pub(crate) struct State {
 /// How well the data determine a chain.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Spread {
-    /// Of the place of each join along the chain.
+    /// Deviations of the place of each join along the chain.
     pub places: Vec<f64>,
-    /// Of the jump of curvature at each join.
+    /// Deviations of the jump of curvature at each join.
     pub jumps: Vec<f64>,
-    /// Of the first and last point of the chain, across it.
+    /// Deviations of the first and last point of the chain, across it.
     pub ends: [f64; 2],
-    /// Of each line and arc; of a free piece `None`.
+    /// Uncertainties of each line and arc; `None` for a free piece.
     pub pieces: Vec<Option<Uncertainty>>,
-    /// Of the length of each piece between its joins; beyond the first and last, none.
+    /// Deviations of the length of each piece between its joins; none beyond the first and last.
     pub lengths: Vec<f64>,
 }
 
@@ -277,8 +277,8 @@ impl Work {
                 continue;
             };
             let step = system.solve(&self.right, &self.missing);
-            // What the step would gain if the distances were linear in the unknowns: where that is far below what is asked for,
-            // nothing is measured any more.
+            // The gain of the step if the distances were linear in the unknowns. Where that is far below the gain asked
+            // for, nothing is measured any more.
             let gain: f64 = step.iter().zip(&self.right).map(|(x, r)| x * r).sum::<f64>()
                 + (FINAL_CONDITION_WEIGHT - TRIAL_CONDITION_WEIGHT)
                     * self.missing.iter().map(|x| x * x).sum::<f64>();
@@ -353,8 +353,8 @@ impl Work {
         &self.distances
     }
 
-    /// Lengths from the start to the feet of all points: of a closed chain those of the points before its start are
-    /// counted on beyond its end.
+    /// Lengths from the start to the feet of all points. Points before the start of a closed chain are counted on
+    /// beyond its end.
     pub(crate) fn stations(&mut self, row: &Row, state: &mut State) -> Vec<f64> {
         self.measure(row, state, false);
         let count = row.points.len();

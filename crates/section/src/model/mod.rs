@@ -1,4 +1,4 @@
-//! What contours and chains are, and how chains are fitted.
+//! Contours and chains, and how chains are fitted.
 //!
 //! | file | what |
 //! |---|---|

@@ -1,4 +1,4 @@
-//! What is known about the noise of a row before it is searched.
+//! Knowledge about the noise of a row before it is searched.
 
 use super::result::Options;
 
@@ -21,7 +21,7 @@ impl Known {
     }
 }
 
-/// What is known about the noise of the points of a row.
+/// Knowledge about the noise of the points of a row.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Prior<'a> {
     pub noise: Option<Known>,
@@ -42,7 +42,7 @@ impl Prior<'_> {
         self.weights.map_or(1.0, |all| all[i])
     }
 
-    /// What is known of the points with these numbers.
+    /// Knowledge about the points with these numbers.
     pub fn among<R>(&self, numbers: impl Iterator<Item = usize>, then: impl FnOnce(Prior) -> R) -> R {
         let own: Option<Vec<f64>> = self.weights.map(|all| numbers.map(|i| all[i]).collect());
         then(Prior { weights: own.as_deref(), ..*self })

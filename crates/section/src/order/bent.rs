@@ -1,8 +1,9 @@
 //! Slabs of a cloud across which a surface bends: what that does to radii.
 //!
-//! The section of a ball of radius `R` by a slab of thickness `t` about its middle holds points of all circles in the slab. They lie
-//! `h² / 2R` inside of the great circle at a height `h`, and the circle through all is too small by the mean of that, `t² / 24R`.
-//! The points tell it: their distances from the arc follow the squares of their heights.
+//! The section of a ball of radius `R` by a slab of thickness `t` about its middle holds points of all circles in the
+//! slab. They lie `h² / 2R` inside of the great circle at a height
+//! `h`. The circle through all is too small by the mean of that, `t² / 24R`. The points tell it: their distances from
+//! the arc follow the squares of their heights.
 
 use crate::model::result::{Contour, Geometry};
 
@@ -11,9 +12,9 @@ use crate::model::result::{Contour, Geometry};
 pub struct Bent {
     /// Number of the segment.
     pub segment: usize,
-    /// What the slab adds to its radius, below 0 where it takes off.
+    /// Change of its radius by the slab, below 0 where it takes off.
     pub bias: f64,
-    /// What the uncertainty of the radius is.
+    /// Uncertainty of the radius.
     pub uncertainty: f64,
 }
 
@@ -22,8 +23,9 @@ const MIN_SLOPE_SIGMAS: f64 = 4.0;
 /// Fewest points that tell it.
 const MIN_POINTS_TO_TELL_BEND: usize = 20;
 
-/// The arcs of a contour whose radii a slab moves by more than their standard uncertainty: `heights` are those of the contour's points
-/// above the plane, mm. Points left out as outliers do not count; where heights are all alike there is none.
+/// The arcs of a contour whose radii a slab moves by more than their standard uncertainty. `heights` are those of the
+/// contour's points above the plane, mm. Points left out as outliers do not count; where heights are all alike there is
+/// none.
 ///
 /// ```
 /// use trueness_section::{Options, bent_across, contour};

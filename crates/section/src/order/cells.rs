@@ -72,8 +72,8 @@ impl Cells {
         tree
     }
 
-    /// The points of the cells along a way, each cell with what hangs beside it, in order, each with its place along; the length
-    /// of the way.
+    /// The points of the cells along a way, each cell with the branches beside it, in order, each with its place along.
+    /// Also the length of the way.
     pub fn along(&self, points: &[[f64; 2]], way: &Way, closed: bool) -> (Vec<(f64, usize)>, f64) {
         let m = way.len();
         let middle = |k: usize| self.middles[way[k].0];

@@ -1,8 +1,9 @@
 //! Ways through cells linked at their ends, where the points between are missing by chance.
 //!
-//! Points sampled at random are uneven: of n gaps along a contour the longest is about ln n times as long as the mean. A tree that
-//! reaches so far would reach across walls, too. So the tree reaches a few cells only, and the ways that it falls into are linked
-//! end to end: over gaps that points so uneven have by chance, rather straight on than aside, and each end once.
+//! Points sampled at random are uneven: of n gaps along a contour the longest is about ln n times as long as the mean.
+//! A tree that reaches so far would reach across walls, too. So the tree reaches a few cells only, and the ways that it
+//! falls into are linked end to end. Links go over gaps that points so uneven have by chance, rather straight on than
+//! aside, and each end is linked once.
 
 use crate::model::flat::distance;
 
@@ -15,7 +16,7 @@ pub(super) struct Linked {
     pub closed: bool,
 }
 
-/// What ends may be linked.
+/// Limits of the ends that may be linked.
 pub(super) struct Limits {
     /// Farthest that two ends may be apart.
     pub gap: f64,
@@ -33,9 +34,9 @@ const CELLS_OF_END_DIRECTION: usize = 4;
 /// is 0 for two that run side by side.
 const MIN_COSINE_SUM: f64 = 0.25;
 
-/// The gap that neighbors on a contour are not farther apart than, told by the steps between them that are no longer than
-/// `reach`: the upper quarter of the steps falls off exponentially where points are sampled at random, at once where they are
-/// even.
+/// The gap that neighbors on a contour are not farther apart than, by the steps between them that are no longer than
+/// `reach`. The upper quarter of the steps falls off exponentially where points are sampled at random, at once where
+/// they are even.
 pub(super) fn longest_by_chance(mut steps: Vec<f64>, reach: f64) -> f64 {
     steps.sort_by(f64::total_cmp);
     let upper = &steps[steps.len() - steps.len().div_ceil(4)..];
@@ -170,7 +171,7 @@ mod tests {
     use super::*;
     use trueness_geom::num::random::Random;
 
-    /// Of exponential steps with the mean 1 that are cut off at 4 the longest of all is told: its logarithm and seven more.
+    /// The longest of exponential steps with the mean 1 that are cut off at 4 is told: the logarithm of their number and seven more.
     #[test]
     fn the_longest_step_is_told_by_the_short_ones() {
         let random = &mut Random::new(4);

@@ -1,10 +1,11 @@
 //! Thin walls: points of two faces near each other that were put in order as one.
 //!
-//! Across one face points scatter by its noise about one course; across a wall seen from both sides they lie on two courses side by side.
-//! In windows along the row one parabola is fitted, and two of the same shape, one above the other, with each point on the nearer of
-//! them. Of one face, however its points scatter, the second fit leaves a third of the variance (normal scatter) or a quarter (even
-//! scatter); of two faces it leaves that of the noise alone. Windows at corners tell nothing and count little: there are few. Teeth, too,
-//! lie on two levels, but one after the other, where points of two faces come as by chance.
+//! Across one face points scatter by its noise about one course. Across a wall seen from both sides they lie on two
+//! courses side by side. In windows along the row one parabola is fitted, and two of the same shape, one above the
+//! other. Each point is on the nearer of the two. On one face, however its points scatter, the second fit leaves a
+//! third of the variance (normal scatter) or a quarter (even scatter). On two faces it leaves that of the noise alone.
+//! Windows at corners tell nothing and count little: there are few. Teeth, too, lie on two levels, but one after the
+//! other, where points of two faces come as by chance.
 
 use crate::model::flat::distance;
 use trueness_geom::num::dense::solve;
@@ -64,14 +65,14 @@ impl Wall {
     }
 }
 
-/// What a row is of.
+/// The faces that a row runs along.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Faces {
-    /// Of one face, as far as its points tell.
+    /// One face, as far as its points tell.
     One,
-    /// Of two, with the face of each place of the row, and how far they are apart where that is unclear for some.
+    /// Two, with the face of each place of the row, and how far they are apart where that is unclear for some.
     Two { upper: Vec<bool>, unclear: Option<f64>, wall: Wall },
-    /// Of one that scatters, or two this far apart.
+    /// One that scatters, or two this far apart.
     Unclear { apart: f64 },
 }
 
@@ -95,7 +96,7 @@ struct Window {
 }
 
 impl Window {
-    /// Of points in the order of a row.
+    /// A window of points in the order of a row.
     fn of(from: usize, points: &[[f64; 2]]) -> Option<Window> {
         let n = points.len();
         let mean =

@@ -62,10 +62,10 @@ const MIN_SUSPICIOUS_CONTOURS: usize = 6;
 
 /// Contours of points in the plane, in any order.
 ///
-/// A contour goes on over gaps up to `gap`; where it is not given, over gaps that points so uneven have by chance, and four cells
-/// at least. Points of no contour, fewer than eight together, are left out. Points all
-/// over an area have none. Contours that touch each other are one with branches:
-/// the longest way is a contour, each of the rest that is long enough another. Cost: the points' number times its logarithm.
+/// A contour goes on over gaps up to `gap`. Where it is not given, it goes on over gaps that points so uneven have by
+/// chance, and four cells at least. Points of no contour, fewer than eight together, are left out. Points all over an
+/// area have none. Contours that touch each other are one with branches: the longest way is a contour, each of the rest
+/// that is long enough another. Cost: the points' number times its logarithm.
 ///
 /// # Errors
 /// [`Cancelled`], when asked to stop.
@@ -101,8 +101,8 @@ pub fn order(points: &[[f64; 2]], gap: Option<f64>, progress: &dyn Progress) -> 
     };
     let mut found = rows(points, grown, gap, size);
     let mut tried = parted(points, &mut found.0, gap, progress)?;
-    // A tree whose cells are smaller than a wall is thick may run now along one face, now along the other; one of larger cells runs along
-    // both, and its way is parted. Where no tree follows anything, that of any cells may.
+    // A tree whose cells are smaller than a wall is thick may run now along one face, now along the other. One of
+    // larger cells runs along both, and its way is parted. Where no tree follows anything, that of any cells may.
     let mut wider_cells = width;
     let (mut layered, most) =
         (None, |r: &Ordered| r.numbers.len() as f64 >= FACE_SHARE_AND_GROWTHS.0 * n as f64);
@@ -135,7 +135,7 @@ pub fn order(points: &[[f64; 2]], gap: Option<f64>, progress: &dyn Progress) -> 
             layered = layered.or(other.0.iter().filter(|r| most(r)).find_map(|r| r.layered));
         }
     }
-    // What runs along both faces of a wall in places, the smaller cells cannot have told apart everywhere.
+    // Where a row runs along both faces of a wall in places, the smaller cells cannot have told them apart everywhere.
     if !tried {
         found.0.iter_mut().for_each(|row| row.layered = row.layered.or(layered));
     }
@@ -217,7 +217,8 @@ fn is_mixed(rows: &[Ordered], faces: &[Ordered], count: usize) -> bool {
     rows.iter().any(mixed)
 }
 
-/// A row along both faces of a wall, the wall, and the points of each face: those of the row, and of shorter rows beside it.
+/// A row along both faces of a wall, the wall, and the points of each face. These are the row's own, and those of
+/// shorter rows beside it.
 struct Walled {
     row: Ordered,
     wall: Wall,
@@ -249,7 +250,7 @@ fn parted(
             }
         }
     }
-    // What the tree branched into across the wall is of its faces.
+    // Branches of the tree across the wall belong to its faces.
     for row in rest {
         let is_short =
             |w: &&mut Walled| row.numbers.len() as f64 <= MAX_BRANCH_SHARE * w.row.numbers.len() as f64;
@@ -301,8 +302,8 @@ fn face(
     Ok(Ordered { numbers, ..wall.row.clone() })
 }
 
-/// How far a short open row lies beside longer ones, where it does all along, no farther off than contours go on over: it is a piece of
-/// these, or of a face that was not told from them.
+/// How far a short open row lies beside longer ones, where it does all along, no farther off than contours go on over.
+/// It is then a piece of these, or of a face that was not told from them.
 fn distance_beside_longer(points: &[[f64; 2]], rows: &[Ordered], k: usize, gap: f64) -> Option<f64> {
     let own = &rows[k];
     let short = MAX_BRANCH_SHARE * rows[0].numbers.len() as f64;

@@ -50,8 +50,8 @@ impl Joined {
         contour.joins.extend(parts.joins);
     }
 
-    /// Lines and arcs that pass their points by, because a corner at an end does not lie on them, or that end long before their points
-    /// do, are astray too.
+    /// Lines and arcs are unreliable, too, that pass their points by, because a corner at an end does not lie on them.
+    /// So are those that end long before their points do.
     pub(super) fn misdrawn(&mut self, points: &[[f64; 2]], weights: &[f64], step: usize) {
         /// So many standard deviations of the noise beyond the farthest of its points from the line or arc found.
         const MAX_DRAWN_OFFSET_SIGMAS: f64 = 3.0;
@@ -71,9 +71,9 @@ impl Joined {
         self.mark_unreliable(unreliable);
     }
 
-    /// Segments that leave their points for a while are astray too, at an end for the most part: points after another that tell as much as so
-    /// many independent ones lie farther off to one side, in the mean, than so many standard deviations of the noise, as chance makes one
-    /// of 10^15.
+    /// Segments that leave their points for a while, mostly at an end, are unreliable too. Points after another that
+    /// tell as much as so many independent ones lie farther off to one side in the mean. They do so by more than so
+    /// many standard deviations of the noise, as chance makes one run of 10^15.
     pub(super) fn leaving(&mut self, weights: &[f64]) {
         /// Weight of a run of points: that of so many independent ones.
         const LEAVING_RUN_WEIGHT: f64 = 4.0;
@@ -149,7 +149,8 @@ impl Joined {
 mod tests {
     use super::*;
 
-    /// A run of points to one side of a segment is no chance; a single one farther off may be, and points on either side are.
+    /// A run of points to one side of a segment is no chance. A single one farther off may be, and points on either
+    /// side are.
     #[test]
     fn segments_that_leave_their_points_are_unreliable() {
         let row = |off: &[f64]| {
@@ -165,7 +166,7 @@ mod tests {
         assert_eq!(row(&[-0.05, -0.045, -0.05, -0.055]), [0]);
         assert_eq!(row(&[0.05, -0.05, 0.05, -0.05]), [0; 0]);
         assert_eq!(row(&[0.01, 0.11, 0.02, 0.01]), [0; 0]);
-        // Of two segments neither leaves its points for so long.
+        // Neither of two segments leaves its points for so long.
         assert_eq!(row(&[0.01, -0.01, 0.05, 0.05, 0.05, 0.05]), [0; 0]);
         assert_eq!(row(&[0.03; 8]), [0; 0]);
         // Points that share noise leave it together by chance: four that count as one are no more than one.

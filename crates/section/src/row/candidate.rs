@@ -1,4 +1,4 @@
-//! What is asked of the ways to a contour of a row, and what they propose.
+//! A question about the contour of a row, and the answers that are proposed.
 
 use super::clean::Clean;
 use super::corner_search::RESOLUTION_SPACINGS;
@@ -10,7 +10,7 @@ use crate::search::parts::noise;
 use std::cell::OnceCell;
 use trueness_geom::progress::Progress;
 
-/// What is asked: the contour of a row in one direction, without strays.
+/// The question: the contour of a row in one direction, without strays.
 pub(super) struct Question<'a> {
     pub points: &'a [[f64; 2]],
     pub prior: Prior<'a>,
@@ -27,9 +27,9 @@ pub(super) struct Candidate {
     standing: Standing,
 }
 
-/// What a contour is taken by.
+/// The rule by which a contour is chosen.
 enum Standing {
-    /// What it costs.
+    /// By its cost.
     Cost,
     /// The points speak against the one found before.
     Instead,
@@ -76,8 +76,8 @@ impl<'a> Question<'a> {
         !found.unreliable.is_empty() || own > 0.0 && found.rms() > MAX_SCATTER_RATIO * own
     }
 
-    /// What a contour costs, to be compared: its segments that are astray first, then twice the negative logarithm of the likelihood and
-    /// the penalty for the unknowns.
+    /// Cost of a contour, to be compared. Its unreliable segments count first, then twice the negative logarithm of the
+    /// likelihood and the penalty for the unknowns.
     fn cost(&self, found: &Contour) -> (usize, f64) {
         // As many points as are independent.
         let count = self.prior.weights.map_or(self.points.len() as f64, |all| all.iter().sum());

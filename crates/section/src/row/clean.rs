@@ -30,8 +30,8 @@ pub(crate) const GAP_SPACINGS: f64 = 5.0;
 /// A contour closes over a gap of so many medians.
 const CLOSING_GAP_SPACINGS: f64 = 3.0;
 
-/// Nine points on two lines have a sum of squares of at most so many variances of the noise, but for one case in a thousand
-/// (chi-squared, 5 degrees of freedom).
+/// Nine points on two lines have a sum of squares of at most so many variances of the noise. One case in a thousand is
+/// above (chi-squared, 5 degrees of freedom).
 const MAX_CORNER_CHI_SQUARED: f64 = 20.5;
 
 /// Outliers are looked for so many times.
@@ -120,7 +120,7 @@ impl Clean {
             return vec![];
         }
         let mut out = vec![false; n];
-        // Of outliers near each other the outer ones are found first; then they are no neighbors any more.
+        // The outer ones of outliers near each other are found first; then they are no neighbors any more.
         for _ in 0..OUTLIER_PASSES {
             let before = out.clone();
             for i in (0..n).filter(|i| !before[*i]) {
@@ -139,8 +139,8 @@ impl Clean {
         (0..n).filter(|i| out[*i]).collect()
     }
 
-    /// Puts outliers, ascending, on the straight way between the points beside them: they count nothing, and nothing that begins or ends
-    /// with one is to be led there.
+    /// Puts outliers, ascending, on the straight way between the points beside them. They count nothing, and nothing
+    /// that begins or ends with one is to be led there.
     pub fn bring_in(&mut self, outliers: &[usize]) {
         let n = self.points.len();
         let is_out = |i: &usize| outliers.binary_search(i).is_ok();
@@ -162,9 +162,9 @@ impl Clean {
         }
     }
 
-    /// Whether a point and its neighbors lie on two lines, as they do around a corner: there a parabola through the neighbors
-    /// passes the corner by. An outlier lies in one of the two groups with four others at least, and leaves 0.4 of its square
-    /// there.
+    /// Whether a point and its neighbors lie on two lines, as they do around a corner. A parabola through the neighbors
+    /// passes the corner by. An outlier lies in one of the two groups with four others at least, and leaves 0.4 of its
+    /// square there.
     fn at_corner(&self, i: usize, step: usize, out: &[bool], noise: f64) -> bool {
         let mut all = self.around(i, step, out);
         let middle = all.len() / 2;
@@ -193,8 +193,9 @@ impl Clean {
     }
 }
 
-/// How far a curve may be from the chord between a point's two neighbors, where it turns there by as much as the neighbors on either side
-/// differ in heading: a quarter of the chord's length times that angle. Beside gaps in a bend no parabola tells where it runs.
+/// How far a curve may be from the chord between a point's two neighbors. It turns there by as much as the neighbors on
+/// either side differ in heading: the distance is a quarter of the chord's length times that angle. Beside gaps in a
+/// bend no parabola tells where it runs.
 fn bend(near: &[[f64; 2]]) -> f64 {
     let (left, right) = near.split_at(near.len() / 2);
     let heading = |part: &[[f64; 2]]| {
@@ -207,8 +208,8 @@ fn bend(near: &[[f64; 2]]) -> f64 {
     0.25 * turn.abs() * gap
 }
 
-/// Whether a point lies farther than `limit` off its neighbors where one or two of these, outliers themselves, are left out:
-/// those without which the others agree best. They must agree to within `agreed`.
+/// Whether a point lies farther than
+/// `limit` off its neighbors where one or two of these, outliers themselves, are left out. Left out are those without which the others agree best. They must agree to within `agreed`.
 fn without_two(near: &[[f64; 2]], point: [f64; 2], limit: f64, agreed: f64) -> bool {
     let n = near.len();
     let without = |(a, b): (usize, usize)| {
@@ -221,14 +222,14 @@ fn without_two(near: &[[f64; 2]], point: [f64; 2], limit: f64, agreed: f64) -> b
     best.is_some_and(|(own, rest)| own > limit && rest < agreed)
 }
 
-/// Coordinates are rounded to a step between these shares of the distance between points: a coarser one is the row's own, as of pixels, and
-/// a finer one does not count.
+/// Coordinates are rounded to a step between these shares of the distance between points. A coarser one is the row's
+/// own, as of pixels, and a finer one does not count.
 const ROUNDING_STEP_SPACINGS: std::ops::RangeInclusive<f64> = 1e-4..=0.15;
 /// A remainder of a step below this share of the distance between points is 0.
 const ZERO_STEP_SPACINGS: f64 = 1e-6;
 
-/// Standard deviation of coordinates that are all multiples of one step from each other, by Euclid's algorithm: values rounded to it lie
-/// anywhere in its width.
+/// Standard deviation of coordinates that are all multiples of one step from each other, by Euclid's algorithm. Values
+/// rounded to it lie anywhere in its width.
 fn rounding(points: &[[f64; 2]], spacing: f64) -> f64 {
     let least = ZERO_STEP_SPACINGS * spacing;
     let common = |step: f64, other: f64| {
@@ -275,7 +276,7 @@ pub(super) fn spacing(clean: &Clean, step: usize) -> f64 {
     (length / (n - 1) as f64 / step as f64).max(1e-3 * clean.spacing)
 }
 
-/// What there is to check before anything else.
+/// Checks the row before anything else.
 pub(super) fn check_row(points: &[[f64; 2]], options: &Options) -> Result<(), SectionError> {
     match points.iter().position(|p| p.iter().any(|x| !x.is_finite())) {
         Some(index) => Err(SectionError::NotFinite { index }),

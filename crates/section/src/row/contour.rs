@@ -32,12 +32,13 @@ const MAX_LOOP_SPACINGS: f64 = 3.0;
 /// The lines, arcs and curves of a row of points in order along a contour, and the joins between them, with their
 /// uncertainties.
 ///
-/// Corners are where neighboring parts of a first partition differ in heading; between corners, all joins are tangent. The
-/// number and kinds of segments come from a penalized likelihood, the intervals from the likelihood with a join held. The
-/// points are taken to scatter normally across the contour, all alike. A row given the other way round has the same contour, the
-/// other way round. Points that repeat the one before, single points far off what their neighbors tell, and stray ones far off the
-/// row are left out and listed; points that may be stray are [`Contour::doubtful`]. A search of more than a dozen seconds ends with the cheapest contour so far, as of
-/// spirals of many turns; the contour tells that it was cut short.
+/// Corners are where neighboring parts of a first partition differ in heading; between corners, all joins are tangent.
+/// The number and kinds of segments come from a penalized likelihood, the intervals from the likelihood with a join
+/// held. The points are taken to scatter normally across the contour, all alike. A row given the other way round has
+/// the same contour, the other way round. Points that repeat the one before, single points far off their neighbors'
+/// course, and stray ones far off the row are left out and listed. Points that may be stray are [`Contour::doubtful`].
+/// A search of more than a dozen seconds, as of spirals of many turns, ends with the cheapest contour so far. The
+/// contour tells that it was cut short.
 ///
 /// # Errors
 /// [`SectionError`]: too few points, numbers that are none, points out of order, options without meaning.
@@ -123,7 +124,7 @@ fn in_direction(
     Ok(found)
 }
 
-/// What is found of a row the other way round.
+/// The answer for a row the other way round.
 fn turned<R>(points: &[[f64; 2]], prior: &Prior, ask: impl FnOnce(&[[f64; 2]], Prior) -> R) -> R {
     let turned: Vec<[f64; 2]> = points.iter().rev().copied().collect();
     let back: Option<Vec<f64>> = prior.weights.map(|all| all.iter().rev().copied().collect());

@@ -13,7 +13,7 @@ pub(super) struct Parts {
     pub joins: Vec<Join>,
     /// Length of all.
     pub length: f64,
-    /// Of each point of the chain the length to its foot, from the start of the first segment.
+    /// The length from the start of the first segment to the foot of each point of the chain.
     pub stations: Vec<f64>,
 }
 
@@ -122,9 +122,10 @@ fn of_length(found: &Found, g: usize) -> Option<f64> {
     Some(between(&own, linear)).filter(|u| u.is_finite())
 }
 
-/// Standard uncertainty of the length between joins, each with its uncertainty by the covariance and by its interval, and of that length by the
-/// covariance, which tells how the joins go together. Where a curvature grows from that of the neighbor the covariance alone holds
-/// nothing: the join moves by the square root of what the points allow, and intervals are far shorter than it says.
+/// Standard uncertainty of the length between joins. Each join has an uncertainty by the covariance and one by its
+/// interval. The covariance of that length tells how the joins go together. Where a curvature grows from that of the
+/// neighbor the covariance alone holds nothing. The join moves by the square root of what the points allow, and
+/// intervals are far shorter than it says.
 fn between(joins: &[[f64; 2]], linear: f64) -> f64 {
     let ratio = |[by_covariance, own]: [f64; 2]| own / by_covariance.max(f64::MIN_POSITIVE);
     match joins {

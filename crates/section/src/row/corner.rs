@@ -99,8 +99,8 @@ pub(super) fn crossing(a: &Found, b: &Found, quantile: f64, farthest: f64) -> Jo
     }
 }
 
-/// The corner of two chains that do not cross where their points end: anywhere between the last point of the one and the
-/// first of the other.
+/// The corner of two chains that do not cross where their points end. It lies anywhere between the last point of the
+/// one and the first of the other.
 fn between(feet: [[f64; 2]; 2], turn: f64, uncertainty: f64) -> Join {
     let width = libm::hypot(feet[1][0] - feet[0][0], feet[1][1] - feet[0][1]);
     Join {

@@ -23,7 +23,7 @@ pub(super) const CLEAR_CORNER_TURN: f64 = 0.6;
 /// Distances below this share of the spacing count as 0: free pieces would grow without end on exact data.
 pub(super) const RESOLUTION_SPACINGS: f64 = 1e-4;
 
-/// What all spans of a row have in common.
+/// Data that all spans of a row have in common.
 pub(super) struct CornerSearch<'a> {
     pub clean: &'a Clean,
     pub weights: &'a [f64],
@@ -105,7 +105,7 @@ impl CornerSearch<'_> {
                 }
             }
             if !found.unreliable {
-                // Of a closed chain of one arc nobody knows where it begins; an open one has its center and radius alone.
+                // Nobody knows where a closed chain of one arc begins; an open one has its center and radius alone.
                 if single(&found.state) && found.pieces()[0].kind == SegmentKind::Arc {
                     let whole = shares(&self.clean.points, self.weights, 1);
                     let task = Task { draft: true, ..self.task(false, true, n) };
@@ -184,7 +184,7 @@ impl CornerSearch<'_> {
 
     pub(super) fn task(&self, closed: bool, whole: bool, count: usize) -> Task<'_> {
         let n = self.clean.points.len();
-        // What is known about the noise beforehand, or what the rest of the row tells.
+        // Noise that is known beforehand, or that the rest of the row tells.
         let degrees = match self.known_noise {
             Some(known) => known.degrees,
             None if whole || count == n => 0.0,

@@ -1,9 +1,10 @@
 //! Rows of few points that are the corners of a polygon.
 //!
-//! The polygon through its points is always an exact explanation of a row, with as many lines as points. Lines and arcs of fewer unknowns must earn their
-//! place: three points always have a circle, and of points that hardly repeat what others tell smoothness says nothing about noise. What counts is how many
-//! points lie on the contour beyond those that determine it, and how near: coincidences that chance does not make. Where there are none, the points are corners,
-//! unless they turn gently into each other as those of a curve do.
+//! The polygon through its points is always an exact explanation of a row, with as many lines as points. Lines and arcs
+//! of fewer unknowns must earn their place. Three points always have a circle, and smoothness of points that hardly
+//! repeat what others tell says nothing about noise. The evidence is how many points lie on the contour beyond those
+//! that determine it, and how near: coincidences that chance does not make. Where there are none, the points are
+//! corners, unless they turn gently into each other as those of a curve do.
 
 use super::assembly::Joined;
 use super::candidate::{Candidate, Question};
@@ -41,8 +42,8 @@ pub(super) fn propose_circle(
     Ok(found.filter(is_round).and_then(Candidate::instead))
 }
 
-/// The polygon whose corners the points are, where these speak for no other contour; where they speak for neither, the contour tells that it may be
-/// both.
+/// The polygon whose corners the points are, where these speak for no other contour. Where they speak for neither, the
+/// contour tells that it may be both.
 pub(super) fn propose(
     question: &Question,
     best: Option<&Contour>,
@@ -63,13 +64,14 @@ struct Corners {
 }
 
 impl Corners {
-    /// Of the row that is asked for. Points put in order, of a cloud or a scan, are no corners that somebody chose.
+    /// The polygon of the row that is asked for. Points put in order, of a cloud or a scan, are no corners that
+    /// somebody chose.
     fn question(question: &Question) -> Option<Corners> {
         let is_given = !question.options.ordered && question.may_be_exact();
         if is_given { Corners::of(&question.clean) } else { None }
     }
 
-    /// Of a row of few points; `None` where it has fewer corners than a polygon.
+    /// The polygon of a row of few points; `None` where it has fewer corners than a polygon.
     fn of(clean: &Clean) -> Option<Corners> {
         let clean = Some(clean).filter(|c| c.points.len() < MAX_POINTS_WITH_FORM_IN_NOISE)?.clone();
         let (n, closed, rounding) =
@@ -127,7 +129,7 @@ impl Corners {
         }
     }
 
-    /// What the points scatter by about one circle, where they speak for it and the contour found is another one.
+    /// The scatter of the points about one circle, where they speak for it and the contour found is another one.
     fn off_a_circle(&self, found: Option<&Contour>) -> Option<f64> {
         let points = &self.polygon.at;
         let (count, (center, radius)) = (points.len() as f64, round(points)?);

@@ -7,8 +7,8 @@ use crate::model::result::{Contour, Join, Segment};
 /// Steps that differ by less than this share count as equal: rounding of a motion does not turn a row round.
 const EQUAL_STEP_SHARE: f64 = 1e-9;
 
-/// Whether a row is measured from its last point: of the steps counted from both ends the first pair that differs tells it, and
-/// where none does, the coordinates.
+/// Whether a row is measured from its last point. The first pair of steps, counted from both ends, that differs tells
+/// it; where none does, the coordinates do.
 pub(crate) fn from_the_end(points: &[[f64; 2]]) -> bool {
     let n = points.len();
     let step = |i: usize| distance(points[i], points[i + 1]);
@@ -61,7 +61,7 @@ impl Contour {
     pub(crate) fn turned_round(self, points: &[[f64; 2]]) -> Contour {
         let passed = Passed::of(points, !self.closed);
         let mut all = self.reversed(points.len());
-        // Of points at the same place the first stands for all.
+        // The first of points at the same place stands for all.
         let first = |i: usize| {
             let of_the_end = passed.ends_meet.is_some_and(|from| i >= from);
             let before = (0..=i).rev().find(|k| *k == 0 || points[*k - 1] != points[i]);

@@ -5,8 +5,9 @@ use crate::model::flat::{angle, distance};
 
 /// A cover is no chance where so many coincidences among as many points are less likely than e to the power of minus this.
 const MIN_CHANCE_EXPONENT: f64 = 5.0;
-/// A coincidence is one to within rounding of this share of the median chord. The scale is less where vertices lie nearer to the
-/// chord between their neighbors, and these are no corners of a few sides, or where they lie nearer to one circle.
+/// A coincidence is one to within rounding of this share of the median chord. The scale is less where vertices lie
+/// nearer to the chord between their neighbors, and these are no corners of a few sides. It is also less where they lie
+/// nearer to one circle.
 pub(super) const COINCIDENCE_SHARE: f64 = 0.25;
 /// So many vertices between lines of one chord are no corners of a few sides.
 const MIN_VERTICES_OF_SCALE: usize = 3;
@@ -25,7 +26,7 @@ pub(super) struct Piece {
     pub item: Item,
     /// Directions at its ends.
     pub along: [[f64; 2]; 2],
-    /// What these are uncertain by, radians.
+    /// Uncertainty of these, radians.
     pub slack: f64,
     /// Coordinates of its own that it explains, its curvature taken off.
     pub saves: f64,
@@ -97,7 +98,7 @@ impl PieceCover<'_> {
         if is_trapezoid { 0.0 } else { beyond as f64 }
     }
 
-    /// What the points lie off one circle by, as of a round part that scatters.
+    /// Distance of the points from one circle, as of a round part that scatters.
     fn off_one_circle(&self) -> f64 {
         let points = &self.polygon.at;
         let Some((center, radius)) = round(points) else { return f64::INFINITY };
@@ -121,7 +122,7 @@ impl PieceCover<'_> {
         let mut chords: Vec<f64> = (0..self.polygon.facets()).map(|i| self.polygon.facet_length(i)).collect();
         chords.sort_by(f64::total_cmp);
         let mut scale = COINCIDENCE_SHARE * chords[chords.len() / 2];
-        // Of a row with noise hardly a vertex is explained: these lie off each other by the noise.
+        // Hardly a vertex of a row with noise is explained: these lie off each other by the noise.
         let plain = |k: usize| self.pieces[k % n].chords() == 1 && self.pieces[(k + 1) % n].chords() == 1;
         let height = |k: usize| {
             let at = self.pieces[k].item.to;
@@ -180,13 +181,13 @@ impl PieceCover<'_> {
         }
     }
 
-    /// Whether joins lie at points. Where they lie between points, the chord over a join is none of the segments: the ones on both sides of it
-    /// touch each other, or may cross in it, and it is no longer than the chords beside.
+    /// Whether joins lie at points. Where they lie between points, the chord over a join is none of the segments. The
+    /// ones on both sides of it touch each other, or may cross in it, and it is no longer than the chords beside.
     fn joins_at_points(&self) -> bool {
         (0..self.pieces.len()).all(|k| {
             let chord = &self.pieces[k];
             let [Some(before), Some(after)] = self.neighbors(k) else { return true };
-            // Of an arc and its chord alone it is asked whether they are a circle.
+            // Only of an arc and its chord alone it is asked whether they are a circle.
             let is_only_chord = self.polygon.closed && self.pieces.len() == 2;
             if is_only_chord || chord.chords() > 1 || self.tangent(k) == [true; 2] {
                 return true;
@@ -224,8 +225,8 @@ impl PieceCover<'_> {
         (off - 1.0 / curvature.abs()).abs() <= most
     }
 
-    /// Whether one arc and one chord of its circle are no whole circle, or regular polygon: the chord is far longer than those of the arc, or
-    /// these are even to rounding, and no whole number of them goes into the chord.
+    /// Whether one arc and one chord of its circle are no whole circle, or regular polygon. The chord is far longer
+    /// than those of the arc; or these are even to rounding, and no whole number of them goes into the chord.
     fn is_no_circle(&self) -> bool {
         let [a, b] = self.pieces else { return self.pieces.len() > 1 };
         if !self.polygon.closed || a.is_arc() == b.is_arc() {

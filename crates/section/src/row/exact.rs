@@ -1,8 +1,8 @@
 //! Sparse rows without noise whose points lie on lines and on arcs tangent to them; and fits that miss points that are exact.
 //!
-//! Corners of a few points tell a search by likelihood nothing: there are as many unknowns as points. But lines of three points
-//! and more are known exactly, and an arc that is tangent to two of them has one unknown, its radius: a second point of it, or
-//! another arc of the same radius, proves it.
+//! Corners of a few points tell a search by likelihood nothing: there are as many unknowns as points. But lines of
+//! three points and more are known exactly, and an arc that is tangent to two of them has one unknown, its radius. A
+//! second point of it, or another arc of the same radius, proves it.
 
 use super::clean::{Clean, size};
 use super::polygon::{MIN_CORNER_TURN, MIN_POINTS_PER_LINE};
@@ -32,8 +32,8 @@ type Between = Option<([f64; 2], f64)>;
 /// Coordinates in files are rounded: to within the first of these shares of the size, or the second.
 const ROUNDING_SHARES: [f64; 2] = [1e-6, 1e-5];
 
-/// The lines and arcs of a row whose points lie on them exactly, to within `least` or what coordinates are rounded by, every arc
-/// tangent to the lines beside it; and where the row is turned to, so that it begins with a line.
+/// The lines and arcs of a row whose points lie on them exactly, to within `least` or the rounding of coordinates.
+/// Every arc is tangent to the lines beside it. Also where the row is turned to, so that it begins with a line.
 pub(super) fn rounded(clean: &Clean, least: f64) -> Option<(usize, Vec<Part>)> {
     ROUNDING_SHARES.iter().find_map(|share| within(clean, least.max(share * size(&clean.points))))
 }
@@ -115,10 +115,11 @@ fn arc(points: &[[f64; 2]], a: &Run, b: &Run, end: usize, tolerance: f64) -> Opt
     let turn = angle(a.along, b.along);
     let (last, first) = (points[a.to - 1], points[b.from]);
     if between.is_empty() {
-        // Of a run that rounding broke there is no corner.
+        // A run that rounding broke has no corner.
         return (turn.abs() > MIN_CORNER_TURN).then_some(None);
     }
-    // The center lies as far to the left of both lines, by the radius with the sense of the turn; one point more tells how far.
+    // The center lies as far to the left of both lines, by the radius with the sense of the turn. One point more tells
+    // how far.
     let half = 0.5 * (std::f64::consts::PI - turn.abs());
     let sense = if half < 1e-6 { left(first, last, a.along).signum() } else { turn.signum() };
     let normals = [a, b].map(|r| [-sense * r.along[1], sense * r.along[0]]);
@@ -174,8 +175,8 @@ fn parts(points: &[[f64; 2]], runs: &[Run], arcs: &[(usize, usize, Between)]) ->
     all
 }
 
-/// Points are exact that lie nearer than this share of the noise found to the line through their neighbors, or to a circle through
-/// three of them. One noisy point in a hundred does.
+/// Points are exact that lie nearer than this share of the noise found to the line through their neighbors. So are
+/// those that lie as near to a circle through three of them. One noisy point in a hundred does.
 const EXACT_OFFSET_SIGMAS: f64 = 0.01;
 /// So many exact points, and this share of all, are no chance.
 const MIN_EXACT_POINTS_AND_SHARE: (usize, f64) = (3, 0.15);

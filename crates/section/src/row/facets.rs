@@ -9,8 +9,8 @@
 use crate::model::flat::{angle, distance, minus};
 use crate::search::parts::circle;
 
-/// A chord turns by no more than this, 34.4 degrees: midway between regular polygons of ten sides, which are polygons, and of
-/// eleven, which are circles.
+/// A chord turns by no more than this, 34.4 degrees. It is midway between regular polygons of ten sides, which are
+/// polygons, and of eleven, which are circles.
 pub(crate) const SHARP_TURN: f64 = 0.6;
 /// Turns that differ from the sharp one by less than this factor are near it. Where some chords of a circle turn by less and others
 /// by more, all are lines.
@@ -33,7 +33,7 @@ pub(crate) struct Polygon {
     pub closed: bool,
 }
 
-/// What facets are.
+/// The shape of facets.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum LineOrArc {
     Line,
@@ -233,8 +233,8 @@ impl Polygon {
         }
     }
 
-    /// Arcs of chords that turn by nearly as much as a corner become lines where chords of the same circle beside them turn by
-    /// little more: which are arcs there, and which lines, would be left to rounding.
+    /// Arcs of chords that turn by nearly as much as a corner become lines where chords of the same circle beside them
+    /// turn by little more. Else rounding would decide which are arcs there, and which lines.
     fn dissolve(&self, items: &mut Vec<Item>, tolerance: f64) {
         let mut k = 0;
         while k < items.len() {

@@ -1,10 +1,11 @@
 //! Rows of a free form, as one curve.
 //!
-//! A form that nobody drew of lines and arcs, as a body or a rock, has none to be told: a search takes its bends for arcs by the dozen.
-//! Such a row is a cubic B-spline through its points by weighted least squares, whose spans are as fine as the points tell: wide ones are
-//! halved where a finer curve follows the points by more than the noise alone would let it. Of all tried the one counts that foretells
-//! other points best (Hurvich and Tsai, Biometrika 76, 1989). Flat and round places of such a form are parts of a partition in which that
-//! curve is one kind more: what it costs from one point to another is a difference of two sums.
+//! A form that nobody drew of lines and arcs, as a body or a rock, has none. A search takes its bends for arcs by the
+//! dozen. Such a row is a cubic B-spline through its points by weighted least squares, whose spans are as fine as the
+//! points tell. Wide spans are halved where a finer curve follows the points by more than the noise alone would let it.
+//! The one counts that foretells other points best (Hurvich and Tsai, Biometrika 76, 1989). Flat and round places of
+//! such a form are parts of a partition in which that curve is one kind more. Its cost from one point to another is a
+//! difference of two sums.
 
 use super::assembly::Joined;
 use super::candidate::{Candidate, Question};

@@ -1,8 +1,9 @@
 //! Corners that a chain passes over.
 //!
-//! The first partition tells no corner where lines and arcs turn from one to the next by a few degrees: curves do so all the way.
-//! The chain over such a corner has a short arc or a free piece there, or a join far off. So up to three neighboring pieces of each
-//! chain are replaced by two lines or arcs with a corner between them, and where that costs less, the chain ends there.
+//! The first partition has no corner where lines and arcs turn from one to the next by a few degrees: curves do so all
+//! the way. The chain over such a corner has a short arc or a free piece there, or a join far off. So up to three
+//! neighboring pieces of each chain are replaced by two lines or arcs with a corner between them. Where that costs
+//! less, the chain ends there.
 
 use super::corner_search::{Chains, CornerSearch};
 use super::remove_corners::CORNER_UNKNOWNS;
@@ -21,8 +22,8 @@ const MAX_PIECES_AT_CORNER: usize = 3;
 /// Fewest points on either side of a corner: fewer lie on a line by chance.
 const MIN_POINTS_BESIDE_CORNER: usize = 6;
 
-/// A closed chain counts as many unknowns as the open one of its pieces has without its ends, which have to meet: beyond that it has two
-/// fewer.
+/// A closed chain counts as many unknowns as the open one of its pieces has without its ends, which have to meet.
+/// Beyond that it has two fewer.
 const OPENED_CHAIN_UNKNOWNS: Unknowns = Unknowns { number: 0.0, weight: 2.0, kinds: 0.0 };
 
 /// A corner in place of some pieces of a chain.
@@ -58,8 +59,8 @@ impl CornerSearch<'_> {
         Ok(Chains { founds, cornered })
     }
 
-    /// The chains on both sides of the corner that this one passes over, of a closed one the open one from there on; `None` where
-    /// none costs less.
+    /// The chains on both sides of the corner that this one passes over. A closed one becomes the open one from there
+    /// on. `None` where none costs less.
     fn divide(&self, found: &Found, progress: &dyn Progress) -> Result<Option<Vec<Found>>, SectionError> {
         if found.unreliable || found.circle || single(&found.state) {
             return Ok(None);
@@ -111,8 +112,8 @@ impl CornerSearch<'_> {
     }
 }
 
-/// The corners that may be in place of up to so many neighboring pieces, each with the sum of squares that the chains have at least
-/// then.
+/// The corners that may be in place of up to so many neighboring pieces. Each has the sum of squares that the chains
+/// have at least then.
 fn corners(found: &Found) -> Vec<(InsertedCorner, f64)> {
     let (state, n) = (&found.state, found.span.points.len());
     let pieces = &state.chain.pieces;
@@ -205,7 +206,7 @@ impl InsertedCorner {
         if self.to == count && !found.state.chain.closed {
             return (pose(part, first), piece(part, distance(first, points[points.len() - 1])));
         }
-        // What follows stays where it is.
+        // The rest of the chain stays where it is.
         let end = found.layout.poses[self.to];
         let piece = piece(part, distance(first, end.at));
         let turn = piece.length * piece.curvature(0.0);

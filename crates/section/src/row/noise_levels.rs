@@ -1,12 +1,12 @@
-//! The partition that the search begins with, at the level of noise that local fits tell; in rows of few points to a segment
-//! at finer levels too.
+//! The partition that the search begins with, at the level of noise that local fits tell. Rows of few points to a
+//! segment have it at finer levels too.
 //!
-//! Where most local fits hold a corner or a small arc, they take it for noise, and the partition at that level is one smooth
-//! curve over all corners. Fits of three to five points show whether there may be a finer noise. Then partitions at finer levels are
-//! tried, each is searched as a whole, and the cheapest is taken: twice the negative logarithm of the likelihood plus a penalty
-//! that grows without bound as the unknowns become as many as the points (Hurvich and Tsai, Regression and time series model
-//! selection in small samples, Biometrika 76, 1989). Where even the cheapest scatters far more than the short fits, it hides
-//! form, and is named so.
+//! Where most local fits hold a corner or a small arc, they take it for noise. The partition at that level is one
+//! smooth curve over all corners. Fits of three to five points show whether there may be a finer noise. Then partitions
+//! at finer levels are tried, each is searched as a whole, and the cheapest is chosen. The cost is twice the negative
+//! logarithm of the likelihood plus a penalty that grows without bound as the unknowns become as many as the points.
+//! (Hurvich and Tsai, Regression and time series model selection in small samples, Biometrika 76, 1989). Where even the
+//! cheapest scatters far more than the short fits, it hides form, and is named so.
 
 use super::clean::{Clean, size};
 use super::exact::{quantized, rounded};
@@ -36,8 +36,8 @@ const MAX_NOISE_OF_SHORT_ROW_SPACINGS: f64 = 0.05;
 const MAX_POINTS_OF_SHORT_FITS: usize = 400;
 /// In rows of up to so many points finer levels are tried where short fits tell less noise than there is about the chains found.
 const SPARSE_ROW_POINTS: usize = 100;
-/// In longer rows of `n` points finer levels are tried where short fits tell less than e^(−this / √n) of that noise, as they hardly
-/// do by chance.
+/// In longer rows of `n` points finer levels are tried where short fits tell less than e^(−this / √n) of that noise.
+/// Chance hardly makes them do so.
 const FINER_LEVEL_CHANCE: f64 = 6.0;
 /// In rows of up to so many points parts may have so few that tangent joins look like corners.
 const MAX_POINTS_WITH_FALSE_CORNERS: usize = 3000;
@@ -45,14 +45,15 @@ const MAX_POINTS_WITH_FALSE_CORNERS: usize = 3000;
 const MAX_FINER_PARTITIONS: usize = 4;
 /// Each finer level is this share of the one before.
 const LEVEL_RATIO: f64 = 0.45;
-/// The finest level is this share of what short fits tell: the lower quartile of few fits may lie above the noise as well as below.
+/// The finest level is this share of the noise of short fits: the lower quartile of few fits may lie above the noise as
+/// well as below.
 const MIN_LEVEL_SHARE: f64 = 0.4;
 /// Chains of a finer level are taken where they are cheaper by this: their likelihood is e^4 times as high, beyond the penalty.
 pub(super) const FINER_LEVEL_COST_MARGIN: f64 = 8.0;
 /// Chains whose costs differ by less are the same.
 pub(super) const EQUAL_COST: f64 = 1e-3;
 
-/// What a search begins with.
+/// The partition that a search begins with.
 #[derive(Clone, Debug)]
 pub(super) struct Partition {
     /// The row, turned so that it begins where a part does, by so many points.
@@ -116,7 +117,7 @@ impl Partition {
             own,
             least: least.max(rounding),
         };
-        // Of a polygon nothing more is to be known.
+        // Nothing more is to be known of a polygon.
         if let Some((by, parts)) = exact {
             partition.turn(by);
             partition.sigma = scatter(&partition.clean.points, &partition.weights, &parts).max(least);
@@ -162,8 +163,8 @@ impl Partition {
         }
     }
 
-    /// The same row at finer levels, where short fits tell a noise below that about the chains found: of the different partitions
-    /// those few that may be cheapest.
+    /// The same row at finer levels, where short fits tell a noise below that about the chains found. Only the few
+    /// different partitions are returned that may be cheapest.
     pub fn finer(&self, options: &Options, fine: Option<f64>, founds: &[Found]) -> VecDeque<Partition> {
         let n = self.clean.points.len();
         let share =
@@ -196,16 +197,16 @@ impl Partition {
         own.into_iter().chain(all.into_iter().map(|(_, partition)| partition)).collect()
     }
 
-    /// The same parts as chains with corners between lines alone, where there are arcs that may be tangent to what is beside them: a join
-    /// that the partition put a few points off looks like a corner.
+    /// The same parts as chains with corners between lines alone, where there are arcs that may be tangent to their
+    /// neighbors. A join that the partition put a few points off looks like a corner.
     pub fn tangent(&self) -> Option<Partition> {
         let arcs = self.parts.iter().filter(|p| p.kind == SegmentKind::Arc).count();
         (arcs > 0 && !self.tangent && self.forced.is_none())
             .then(|| Partition { tangent: true, ..self.clone() })
     }
 
-    /// What chains of the parts may cost at best: as if each followed the part before with a common tangent, and scattered no more
-    /// than it does by itself.
+    /// The least cost of chains of the parts: as if each followed the part before with a common tangent, and scattered
+    /// no more than it does by itself.
     fn least_cost(&self, scatter: f64) -> f64 {
         let each = |p: &Part| if p.kind == SegmentKind::Line { 1.0 } else { 2.0 };
         let unknowns = 2.0 + self.parts.iter().map(each).sum::<f64>();
@@ -227,7 +228,7 @@ impl Partition {
         (founds.iter().map(|f| f.state.sum).sum::<f64>() / spare.max(1.0)).sqrt()
     }
 
-    /// What chains cost, to compare chains of the same row: infinite where they are as many unknowns as points.
+    /// The cost of chains, to compare chains of the same row: infinite where they are as many unknowns as points.
     pub fn cost(&self, founds: &[Found]) -> f64 {
         if founds.iter().any(|f| f.unreliable) {
             return f64::INFINITY;
@@ -252,8 +253,9 @@ impl Partition {
 /// Points of the short fits, and the degree of their polynomials.
 const SHORT_FITS: [(usize, usize); 4] = [(3, 1), (4, 1), (4, 2), (5, 2)];
 
-/// The least noise that short fits of points `step` apart tell, by the lower quartile of each: a quarter of them holds no corner where segments have four
-/// points. `None` in long rows, and in rows of too few points to tell.
+/// The least noise that short fits of points
+/// `step` apart tell, by the lower quartile of each. A quarter of them holds no corner where segments have four points. `None`
+/// in long rows, and in rows of too few points to tell.
 fn fine_noise(clean: &Clean, step: usize) -> Option<f64> {
     let n = clean.points.len();
     if !(8 * step..=MAX_POINTS_OF_SHORT_FITS).contains(&n) || quantized(&clean.points) {
@@ -311,8 +313,8 @@ fn remove(from: &mut [f64], unit: &[f64]) {
     from.iter_mut().zip(unit).for_each(|(a, b)| *a -= dot * b);
 }
 
-/// Short fits of rows of `n` points scatter. One row without form in a thousand has a noise of more than e^(this / √n) times that
-/// told by the short fits (found by trial, for 14 to 400 points).
+/// Short fits of rows of `n` points scatter. One row without form in a thousand has a noise of more than e^(this / √n)
+/// times that of the short fits. That was found by trial, for 14 to 400 points.
 const HIDDEN_FORM_CHANCE: f64 = 8.0;
 /// Beyond that, and so many times the noise of short fits, form is hidden.
 const MIN_HIDDEN_FORM_RATIO: f64 = 2.5;
@@ -333,8 +335,8 @@ pub(super) fn hidden(contour: &Contour, fine: f64) -> Vec<usize> {
     (0..contour.segments.len()).filter(|k| contour.segments[*k].rms > 0.5 * contour.noise).collect()
 }
 
-/// Whether most of the values is of one period, as where sides of a polygon are taken for a circle (Fisher, Tests of significance in
-/// harmonic analysis, Proceedings of the Royal Society A 125, 1929).
+/// Whether most of the values is of one period, as where sides of a polygon are taken for a circle. (Fisher, Tests of
+/// significance in harmonic analysis, Proceedings of the Royal Society A 125, 1929).
 fn is_periodic(values: &[f64]) -> bool {
     let n = values.len();
     let whole: f64 = values.iter().map(|v| v * v).sum();

@@ -11,9 +11,9 @@ pub(super) const MIN_POINTS_PER_LINE: usize = 3;
 /// Parts that turn by less from one to the next are parts of a curve, radians.
 pub(super) const MIN_CORNER_TURN: f64 = 0.12;
 
-/// The sides of a polygon whose points lie on them exactly, to the noise of the penalty, three on each at least; and where the
-/// row is turned to, so that it begins with a side. Where sides are short, each local fit of the noise holds a corner and takes
-/// it for noise.
+/// The sides of a polygon whose points lie on them exactly, to the noise of the penalty, three on each at least. Also
+/// where the row is turned to, so that it begins with a side. Where sides are short, each local fit of the noise holds
+/// a corner and takes it for noise.
 pub(super) fn polygon(clean: &Clean, penalty: &Penalty) -> Option<(usize, Vec<Part>)> {
     let (n, mut points) = (clean.points.len(), clean.points.clone());
     let weights = vec![1.0; n];

@@ -1,8 +1,8 @@
 //! Corners that are none.
 //!
-//! The first partition is of lines and arcs, each by itself. A curve whose curvature changes fast is a few short arcs there that do not
-//! meet with a common tangent, however tangent the curve is. So each blunt corner is doubted: one chain is looked for over both
-//! sides, and where it costs less than two chains and the corner, there is none.
+//! The first partition is of lines and arcs, each by itself. A curve whose curvature changes fast is a few short arcs
+//! there that do not meet with a common tangent, however tangent the curve is. So each blunt corner is doubted. One
+//! chain is looked for over both sides; where it costs less than two chains and the corner, there is no corner.
 
 use super::corner_search::{CLEAR_CORNER_TURN, Chains, CornerSearch};
 use crate::model::criterion::Unknowns;
@@ -48,8 +48,8 @@ impl CornerSearch<'_> {
         self.with_corners_inserted(all, progress)
     }
 
-    /// The first of the two neighboring chains, not yet tried, that turn least from one to the next; of a closed row a single chain is its
-    /// own neighbor.
+    /// The first of the two neighboring chains, not yet tried, that turn least from one to the next. A single chain of
+    /// a closed row is its own neighbor.
     fn gentlest_corner(&self, all: &Chains, tried: &[[usize; 2]]) -> Option<usize> {
         let (founds, count) = (&all.founds, all.founds.len());
         let pairs = if self.clean.closed && all.cornered { count } else { count - 1 };

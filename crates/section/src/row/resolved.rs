@@ -1,9 +1,10 @@
 //! Rows of a curve without noise: smooth between corners, and no lines and arcs.
 //!
-//! What local fits call noise is the curve's own form there. A search by likelihood takes it for exact, follows it by lines and arcs
-//! by the dozen, and makes corners of what the arcs do not follow. Such a row tells more: its points lie on the curve. So a corner
-//! is a turn from one chord to the next that the turns beside do not lead up to, as far as the points tell them from a bend; between
-//! corners B-splines keep within a ten-thousandth of the distance between points, over as few spans as that takes.
+//! The noise of local fits is the curve's own form there. A search by likelihood takes it for exact, follows it by
+//! lines and arcs by the dozen, and makes corners where the arcs do not follow. Such a row tells more: its points lie
+//! on the curve. So a corner is a turn from one chord to the next that the turns beside do not lead up to, as far as
+//! the points tell them from a bend. Between corners B-splines keep within a ten-thousandth of the distance between
+//! points, over as few spans as that takes.
 
 use super::assembly::Joined;
 use super::candidate::{Candidate, Question, is_cornered};
@@ -79,8 +80,8 @@ pub(super) fn propose_instead(
     Ok(better.and_then(|found| Candidate::instead(found.whole(question.points.len()))))
 }
 
-/// The contour of a row of points that lie on smooth curves without noise; `None` where they do not, where lines and arcs do, or
-/// where the points are too few for the curve.
+/// The contour of a row of points that lie on smooth curves without noise. `None` where they do not, where lines and
+/// arcs do, or where the points are too few for the curve.
 fn resolved(partition: &Partition, options: &Options, among: Among) -> Option<Resolved> {
     let clean = &partition.clean;
     let n = clean.points.len();
@@ -140,12 +141,12 @@ fn resolved(partition: &Partition, options: &Options, among: Among) -> Option<Re
     Some(Resolved { contour, clean, turned, noise })
 }
 
-/// What such a contour is looked for among.
+/// The cases in which such a contour is looked for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Among {
     /// Rows of which no lines and arcs are to be found: there is nothing to search.
     Rows,
-    /// What a search found is there to compare it with.
+    /// A contour of the search is there to compare it with.
     Contours,
 }
 
@@ -162,8 +163,8 @@ struct Resolved {
 const MIN_POINTS_TO_TELL_NOISE: usize = 2;
 
 impl Resolved {
-    /// Whether it is to be taken in place of a contour of segments that do not run along their points, or miss them, or with corners
-    /// where the points tell none.
+    /// Whether it is better than a contour of segments that do not run along their points, or miss them. It is so too
+    /// where that has corners and the points tell none.
     pub fn is_better_than(&self, other: &Contour) -> bool {
         let corners = other.joins.iter().filter(|j| j.continuity == Continuity::G0).count();
         !other.unreliable.is_empty()
@@ -193,7 +194,8 @@ fn misses(contour: &Contour, noise: f64) -> bool {
     contour.noise > MAX_MISS_RATIO * (noise + MAX_ROUNDING_NOISE_SPACINGS * contour.spacing)
 }
 
-/// Whether the points of a part lie on a line, or an arc, no farther off than so much: a quarter at either end may lie beside it.
+/// Whether the points of a part lie on a line, or an arc, no farther off than so much. A quarter at either end may lie
+/// beside it.
 fn lies_on(points: &[[f64; 2]], kind: SegmentKind, off: f64) -> bool {
     let n = points.len();
     let own = &points[n / 4..n - n / 4];

@@ -21,8 +21,8 @@ const CLEAN_SQUARES_RATIO: f64 = 4.0;
 const MIN_POINTS_PER_INDEPENDENT: f64 = 1.6;
 /// No window holds fewer groups of such points.
 const MIN_GROUPS_PER_WINDOW: f64 = 8.0;
-/// A form changes sides of a line or arc through a window fewer times: a cubic three times, a curve of the fourth degree four
-/// times.
+/// A form changes sides of a line or arc through a window fewer times. A cubic does so three times, a curve of the
+/// fourth degree four times.
 const MIN_SIDE_CHANGES: f64 = 7.0;
 /// Two neighbors of filtered points have the same noise, nearly. Independent ones about a form that lines and arcs do not follow
 /// have a part of it in common.
@@ -56,13 +56,13 @@ pub(super) fn shared_noise(points: &[[f64; 2]]) -> Option<(Known, f64)> {
     None
 }
 
-/// What the clean windows of one width tell.
+/// Statistics of the clean windows of one width.
 struct WindowStatistics {
     deviation: f64,
     alike: f64,
     /// How often residuals change sides in a window.
     changes: f64,
-    /// What the correlation of neighbors comes to where they move together.
+    /// The correlation of neighbors where they move together.
     same: f64,
     /// The least correlation.
     least: f64,

@@ -16,7 +16,7 @@ pub(crate) fn starts(segments: &[Segment]) -> Vec<f64> {
         .collect()
 }
 
-/// Of these segments the nearest to a point: its number, the station and the distance.
+/// The nearest of these segments to a point: its number, the station and the distance.
 pub(crate) fn nearest(
     segments: &[Segment],
     starts: &[f64],

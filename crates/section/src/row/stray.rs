@@ -1,10 +1,11 @@
 //! Points of a row that belong to no contour, told by the row alone: header rows, fillers, points far off.
 //!
-//! A contour's points follow each other by steps of like length. A stray point is as far off as nothing else: few points without which
-//! the longest step of the way is many times shorter. What decides is therefore a ratio of two steps of one row, whatever its size.
-//! A long step may be right, too: the far end of a line that is given by its ends alone goes straight on, and the last corner of a
-//! closed row is near the first point. Where a step is long and neither holds, the point is left out if the rest of the row is far
-//! smaller than the way to it, and told as doubtful else: nothing is lost in silence.
+//! A contour's points follow each other by steps of like length. A stray point is as far off as nothing else: few
+//! points without which the longest step of the way is many times shorter. The criterion is therefore a ratio of two
+//! steps of one row, whatever its size. A long step may be right, too. The far end of a line that is given by its ends
+//! alone goes straight on, and the last corner of a closed row is near the first point. Where a step is long and
+//! neither holds, the point is left out if the rest of the row is far smaller than the way to it. Else it is listed as
+//! doubtful: nothing is lost in silence.
 
 mod ends;
 mod limits;
@@ -24,7 +25,7 @@ pub(super) struct Strays {
     pub straight_on: Vec<usize>,
 }
 
-/// What a run of few points is.
+/// The verdict on a run of few points.
 enum Verdict {
     Stray,
     Doubtful,
@@ -45,7 +46,7 @@ const MIN_STRAYS_ALLOWED: usize = 3;
 const MAX_LINE_LENGTH_RATIO: f64 = 100.0;
 
 impl Strays {
-    /// Of a row; points that repeat the one before are as it is.
+    /// The strays of a row; points that repeat the one before are as it is.
     pub fn of(points: &[[f64; 2]]) -> Strays {
         let mut groups: Vec<Vec<usize>> = vec![];
         for (i, p) in points.iter().enumerate() {
@@ -133,7 +134,7 @@ fn parted(runs: Vec<Run>) -> (Vec<Run>, Vec<Run>) {
     (short, main)
 }
 
-/// What the row is without its strays.
+/// The row without its strays.
 struct Rest {
     runs: Vec<Run>,
     /// The longest step.
@@ -196,7 +197,7 @@ impl Way<'_> {
         Rest { longest, size: super::clean::size(&way), count: way.len(), closes, runs }
     }
 
-    /// What a run is, where the rest of the row is known.
+    /// The verdict on a run, where the rest of the row is known.
     fn judge(&self, run: &Run, rest: &Rest) -> Verdict {
         let [Some(first), Some(last)] = [rest.runs.first(), rest.runs.last()] else { return Verdict::Sound };
         let tip = self.0[run.from];

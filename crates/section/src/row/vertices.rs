@@ -1,10 +1,11 @@
-//! Rows of the ends of lines and the vertices of arcs, exact to the digits of their file: outlines as drawings and programs for machine tools give
-//! them.
+//! Rows of the ends of lines and the vertices of arcs, exact to the digits of their file. Drawings and programs for
+//! machine tools give outlines so.
 //!
-//! A line has no points there but its ends, which its neighbors share, and joins lie at points. No search by likelihood tells a line of two
-//! points from a gap. But exact points tell a model by what it explains: every interior point of a line or an arc saves a coordinate, every join
-//! that turns out tangent a direction, and a circle costs its curvature. The cheapest cover of the row by lines and arcs that share
-//! their ends is found by dynamic programming. It is taken where what it saves is no chance, and where each of its segments ends for certain.
+//! A line has no points there but its ends, which its neighbors share, and joins lie at points. No search by likelihood
+//! tells a line of two points from a gap. But exact points show a model by the points that it explains. Every interior
+//! point of a line or an arc saves a coordinate, every join that turns out tangent a direction, and a circle costs its
+//! curvature. The cheapest cover of the row by lines and arcs that share their ends is found by dynamic programming. It
+//! is taken where what it saves is no chance, and where each of its segments ends for certain.
 
 use super::assembly::Joined;
 use super::candidate::{Candidate, Question};
@@ -24,7 +25,8 @@ const DECIMALS: std::ops::RangeInclusive<i32> = 1..=9;
 const ROUNDING_SHARES_OF_VERTICES: [f64; 2] = [1e-7, 1e-6];
 /// Digits coarser than this share of the median chord tell no arc.
 const MAX_STEP_PER_CHORD: f64 = 0.02;
-/// Chords of an arc that turn by more than in a circle of eleven sides are even to this factor: others are sides of a polygon.
+/// Chords of an arc that turn by more than in a circle of eleven sides are even to this factor. Others are sides of a
+/// polygon.
 const MAX_EVEN_CHORD_RATIO: f64 = 1.5;
 /// The cost of uneven chords, by the logarithm of their ratio: the more even one is taken of covers that save as much.
 const UNEVEN_CHORD_COST: f64 = 0.05;
@@ -138,8 +140,8 @@ struct Way {
 }
 
 impl Cover {
-    /// The cover that saves most. A closed one is looked for from its longest chord, then from both ends of the longest pieces found: what a
-    /// piece over the start saves, no cover from there knows.
+    /// The cover that saves most. A closed one is looked for from its longest chord, then from both ends of the longest
+    /// pieces found. A cover from there does not know how much a piece over the start saves.
     fn best(&self) -> Option<Vec<Piece>> {
         let n = self.polygon.at.len();
         if !self.polygon.closed {

@@ -1,7 +1,8 @@
 //! Free curves in place of runs of the lines and arcs of a first partition.
 //!
-//! The partition knows no free curves: each is many lines and arcs there. A run of these is gathered to one free piece where a B-spline by itself costs less
-//! than they do; dynamic programming finds the cheapest row of those left alone and those gathered.
+//! The partition knows no free curves: each is many lines and arcs there. A run of these is gathered to one free piece
+//! where a B-spline by itself costs less than they do. Dynamic programming finds the cheapest row of those left alone
+//! and those gathered.
 
 use super::model_edits::PlacedModel;
 use super::parts::Sums;

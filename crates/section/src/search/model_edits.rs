@@ -1,4 +1,5 @@
-//! What models are built on: a model with its points along it, or two that follow each other; and the models one step from it.
+//! The model that others are built on, with its points along it, or two that follow each other. Also the models one
+//! step from it.
 
 use crate::model::chain::{Chain, SegmentKind};
 use crate::model::criterion::{Model, PieceSpec};
@@ -20,12 +21,12 @@ pub(crate) struct PlacedModel {
     pub specs: Vec<PieceSpec>,
     /// Where two chains follow each other, and how far the row turns there.
     seam: Option<(f64, f64)>,
-    /// Of short arcs along the points, how far they turn from the start to each end; else empty.
+    /// How far short arcs along the points turn from the start to each end; else empty.
     turns: Vec<f64>,
 }
 
 impl PlacedModel {
-    /// Of a model and the lengths from its start to the feet of all points.
+    /// A model with the lengths from its start to the feet of all points.
     pub fn new(model: Model, all: &[f64]) -> PlacedModel {
         let n = all.len();
         let first = model.state.breaks[0];
@@ -79,8 +80,9 @@ impl PlacedModel {
         PlacedModel { model, stations, order, specs, seam: None, turns }
     }
 
-    /// Coefficients of a free piece: nearly those with the curvature of the pieces there (least squares), so that it turns as much as they do;
-    /// between two chains the mean curvature about each of its places, and at the seam the turn there.
+    /// Coefficients of a free piece: nearly those with the curvature of the pieces there (least squares), so that it
+    /// turns as much as they do. Between two chains they are the mean curvature about each of its places, and at the
+    /// seam the turn there.
     pub fn coefficients(&self, spec: &PieceSpec) -> Vec<f64> {
         if self.seam.is_none() {
             let cells = SAMPLES_PER_COEFFICIENT * spec.count;
@@ -121,8 +123,8 @@ impl PlacedModel {
         (turn(to) - turn(from)) / (to - from)
     }
 
-    /// The chains as they are, tangent to each other; one line or arc where they meet; with a line or an arc beside the corner, which a free piece around it may hide; and
-    /// with one free piece there.
+    /// The chains as they are, tangent to each other; then one line or arc where they meet. Then come a line or an arc
+    /// beside the corner, which a free piece around it may hide, and one free piece there.
     pub fn joined(&self, first: usize) -> Vec<Vec<PieceSpec>> {
         use SegmentKind::{Arc, Line, Spline};
         let [a, b] = [self.specs[first], self.specs[first + 1]];
@@ -208,7 +210,8 @@ impl PlacedModel {
     }
 }
 
-/// A free piece beside a line or arc with a part of it given to this, and fewer coefficients: it may have them only to follow that.
+/// A free piece beside a line or arc with a part of it given to this, and fewer coefficients. It may have them only to
+/// follow that.
 fn shorter(i: usize, specs: &[PieceSpec], spacing: f64, all: &mut Vec<Vec<PieceSpec>>) {
     let spec = specs[i];
     let width = spec.to - spec.from;

@@ -1,8 +1,9 @@
 //! A few pieces of a long chain as a chain of their own.
 //!
-//! A fit of all pieces costs more than the square of their number, and a search asks for some dozens of fits a piece. What happens at
-//! a piece hardly moves one that is several pieces away: each piece between holds place and heading by its own points. So long
-//! chains are searched, and their joins profiled, by pieces near each other; then all pieces are fitted together.
+//! A fit of all pieces costs more than the square of their number, and a search asks for some dozens of fits a piece. A
+//! change at a piece hardly moves one that is several pieces away: each piece between holds place and heading by its
+//! own points. So long chains are searched, and their joins profiled, by pieces near each other; then all pieces are
+//! fitted together.
 
 use super::model_edits::PlacedModel;
 use super::rounds::Search;
@@ -118,8 +119,8 @@ impl Near {
     }
 }
 
-/// A state with other pieces in place of some: each is a range of its pieces, in rising order and apart from each other, none around the
-/// seam, and the state of their points alone.
+/// A state with other pieces in place of some. Each entry is a range of its pieces and the state of their points alone.
+/// The ranges are in rising order, apart from each other, and none is around the seam.
 pub(super) fn spliced(state: &State, changed: &[(Range<usize>, State)], count: usize) -> State {
     let mut chain = Chain { pieces: vec![], ..state.chain.clone() };
     let (mut breaks, mut feet) = (vec![], state.feet.clone());
@@ -142,8 +143,9 @@ pub(super) fn spliced(state: &State, changed: &[(Range<usize>, State)], count: u
 }
 
 impl Search<'_> {
-    /// A cheaper model than a long one: the best of all steps near each few pieces, as many of them as do not touch each other, taken
-    /// together; of those together no cheaper, the best alone. `idle` tells the pieces near which no step has paid since they changed.
+    /// A cheaper model than a long one. It is the best of all steps near each few pieces, as many as do not touch each
+    /// other, combined. If those together are no cheaper, it is the best alone. `idle` tells the pieces near which no
+    /// step has paid since they changed.
     pub fn round_nearby(&mut self, placed: &PlacedModel, idle: &mut Vec<bool>) -> Option<Model> {
         let model = &placed.model;
         let count = model.state.chain.pieces.len();
@@ -215,8 +217,8 @@ impl Search<'_> {
         self.is_followed(&mut tried.state).then_some(tried)
     }
 
-    /// A long chain of the pieces of `state`, whose joins are tangent but whose pieces may lie far off their points: fitted from its
-    /// start on, each piece with those before it.
+    /// A long chain of the pieces of `state`, whose joins are tangent but whose pieces may lie far off their points. It
+    /// is fitted from its start on, each piece with those before it.
     pub fn grown(&mut self, state: &State) -> State {
         let (row, count) = (self.row, state.chain.pieces.len());
         let mut grown = state.clone();

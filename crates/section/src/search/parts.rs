@@ -6,12 +6,12 @@ use trueness_geom::num::median::median;
 /// Half the number of points of a local fit of the noise.
 const HALF_WINDOW: usize = 4;
 
-/// Standard deviation of the noise across the row, and the step at which its points are followed: the least power of 2 at
-/// which neighbors are four times as far apart as they scatter.
+/// Standard deviation of the noise across the row, and the step at which its points are followed. The step is the least
+/// power of 2 at which neighbors are four times as far apart as they scatter.
 ///
-/// From local cubics through nine points each, by their median, so that corners and outliers do not count. At greater steps most of
-/// them may hold a corner: of all steps at which neighbors are as far apart as they scatter the least noise counts. 0 for rows of fewer
-/// than nine points.
+/// From local cubics through nine points each, by their median, so that corners and outliers do not count. At greater
+/// steps most of them may hold a corner. The least noise counts of all steps at which neighbors are as far apart as
+/// they scatter. 0 for rows of fewer than nine points.
 pub(crate) fn noise(points: &[[f64; 2]], closed: bool) -> (f64, usize) {
     let (mut step, mut least) = (1, f64::INFINITY);
     loop {
@@ -124,9 +124,9 @@ impl Part {
     }
 }
 
-/// Sums over the points before each: x, y, xx, xy, yy, z, xz, yz, zz with z = xx + yy, from the middle of the row,
-/// and the sum of the weights. Each with what rounding lost of it: a short part of a long row is a small difference of large
-/// sums.
+/// Sums over the points before each, from the middle of the row, and the sum of the weights. They are x, y, xx, xy, yy,
+/// z, xz, yz, zz with z = xx + yy. Each with what rounding lost of it: a short part of a long row is a small difference
+/// of large sums.
 pub(crate) struct Sums {
     before: Vec<[[f64; 2]; 10]>,
     middle: [f64; 2],
@@ -145,7 +145,7 @@ impl Sums {
         Sums::within(points, weights, &vec![0.0; points.len()])
     }
 
-    /// Of points that lie within arcs by this power each, as those of chords do.
+    /// Sums of points that lie within arcs by this power each, as those of chords do.
     pub fn within(points: &[[f64; 2]], weights: &[f64], powers: &[f64]) -> Sums {
         let n = points.len() as f64;
         let middle = [0, 1].map(|k| points.iter().map(|p| p[k]).sum::<f64>() / n);
@@ -232,8 +232,8 @@ impl Sums {
     }
 }
 
-/// Mean squared distance, center and radius of the circle by Taubin's method, from sums about the middle: xx, xy, yy, xz, yz,
-/// zz (of deviations from the mean) and the mean of z. `None` where it is straight or has no area.
+/// Mean squared distance, center and radius of the circle by Taubin's method, from sums about the middle. These are xx,
+/// xy, yy, xz, yz, zz (of deviations from the mean) and the mean of z. `None` where it is straight or has no area.
 ///
 /// Chernov, Circular and Linear Regression, 2010, section 5.8: the least root of the characteristic polynomial by Newton's
 /// method from 0. Unlike that of Kåsa, the circle of a short arc is not drawn in, and never fits worse than the line.
@@ -268,12 +268,12 @@ pub(crate) struct Halves {
     pub sum: f64,
 }
 
-/// Of each two kinds the lines or arcs, with `fewest` points on each at least, of least squares: each fitted by itself. Time grows with
-/// the number of points.
+/// The lines or arcs of least squares for each two kinds, with `fewest` points on each at least, each fitted by itself.
+/// Time grows with the number of points.
 pub(crate) fn halves(points: &[[f64; 2]], weights: &[f64], fewest: usize) -> Vec<Halves> {
     use SegmentKind::{Arc, Line};
     let (sums, n) = (Sums::new(points, weights), points.len());
-    // Of lines and arcs before and after.
+    // The best lines and arcs before and after.
     let mut best = [[(f64::INFINITY, 0); 2]; 2];
     for at in fewest..(n + 1).saturating_sub(fewest) {
         let [before, after] = [sums.fit(0, at), sums.fit(at, n)]

@@ -31,8 +31,8 @@ impl Interval {
 /// Farthest that an interval is followed to either side, in distances between points.
 const MAX_INTERVAL_SPACINGS: f64 = 25.0;
 
-/// Ends of intervals are found to about this share of their distance. The root of the growth of the sum of squares is straight but
-/// for a third of it at most: a secant over this share of it misses 2 %.
+/// Ends of intervals are found to about this share of their distance. The root of the growth of the sum of squares is
+/// straight but for a third of it at most. A secant over this share of it misses 2 %.
 const INTERVAL_END_ACCURACY: f64 = 0.06;
 
 /// Share of what the sum of squares grows by to the end of an interval that a fit with the join held may miss.
@@ -93,7 +93,8 @@ impl Search<'_> {
         better
     }
 
-    /// What `look` finds about a join of a long chain with the pieces near it alone: a lower state of these is one of all.
+    /// The answer of `look` for a join of a long chain with the pieces near it alone. A lower state of these is one of
+    /// all.
     fn with_pieces_near(
         &mut self,
         model: &Model,
@@ -124,8 +125,8 @@ impl Search<'_> {
         Some(state).filter(|s| s.sum < lower_than(&model.state))
     }
 
-    /// Takes the model's own interval of each join that is not between the ends of that of a looser one: joins of free pieces may be
-    /// elsewhere there.
+    /// Takes the model's own interval of each join that is not between the ends of that of a looser one. Joins of free
+    /// pieces may be elsewhere there.
     pub fn around(&mut self, intervals: &mut [Interval], model: &Model, level: f64) {
         let first = usize::from(!model.state.chain.closed);
         let mut layout = Layout::default();
@@ -186,10 +187,10 @@ impl Search<'_> {
         (quantile, all)
     }
 
-    /// The state with a join held so far from where it is best, all else fitted anew from `start`; `None` where a neighboring
-    /// join is in the way.
+    /// The state with a join held so far from where it is best, all else fitted anew from `start`. `None` where a
+    /// neighboring join is in the way.
     fn hold(&mut self, start: &State, seek: &Seek, x: f64) -> Option<State> {
-        // What the sum of squares may miss of the least one.
+        // The sum of squares may miss the least one by so much.
         let gain = GROWTH_SLACK_SHARE * seek.growth / (start.sum + seek.growth).max(f64::MIN_POSITIVE);
         let (shortest, target) = (0.5 * self.spacing, f64::INFINITY);
         let stop = Stop { steps: 14, gain: gain.max(1e-12), shortest, exact: true, target };
@@ -204,7 +205,7 @@ impl Search<'_> {
         (sound && off < 1e-3 * x).then_some(state)
     }
 
-    /// Moves a join until the sum of squares reaches the limit: secants on the root of what it grew by, which is straight
+    /// Moves a join until the sum of squares reaches the limit. Secants go on the root of its growth, which is straight
     /// where the likelihood is normal. Gives the end, whether it is open, and a lower state found on the way.
     fn follow(&mut self, best: &State, seek: &Seek) -> ([f64; 2], bool, Option<State>) {
         let farthest = MAX_INTERVAL_SPACINGS * self.spacing;
@@ -286,7 +287,7 @@ struct Seek {
     join: usize,
     sign: f64,
     first: f64,
-    /// What the sum of squares may grow by.
+    /// Limit of the growth of the sum of squares.
     growth: f64,
     /// Where the join is best.
     pose: Pose,

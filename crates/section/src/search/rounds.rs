@@ -1,5 +1,5 @@
-//! Number and kinds of the pieces of a smooth row: a search over merging, splitting and changing pieces by a penalized
-//! likelihood, each model refined as a whole.
+//! Number and kinds of the pieces of a smooth row. A search goes over merging, splitting and changing pieces by a
+//! penalized likelihood, and refines each model as a whole.
 
 use super::model_edits::PlacedModel;
 use crate::model::budget::Budget;
@@ -12,8 +12,8 @@ use trueness_geom::progress::{Cancelled, Progress};
 /// A model that is dearer than the best by this much after four steps is not refined.
 const COST_TO_DROP: f64 = 30.0;
 
-/// A model of the same kinds and fewer unknowns that is dearer by no more than so much for each point is refined all the same:
-/// where a curvature grows from 0, a join moves slowly.
+/// A model of the same kinds and fewer unknowns that is dearer by no more than so much for each point is refined all
+/// the same. Where a curvature grows from 0, a join moves slowly.
 const SLOW_COST_PER_POINT: f64 = 0.2;
 
 /// Products after which a search ends with the cheapest model so far: some seconds. Rows of some dozen segments take a hundredth.
@@ -51,7 +51,7 @@ impl Search<'_> {
         self.budget.is_spent(self.work.effort)
     }
 
-    /// What is at hand of the last state that was measured.
+    /// The working memory of the last state that was measured.
     pub fn take_work(&mut self) -> Work {
         let effort = std::mem::take(&mut self.work.effort);
         self.budget.take(effort);
@@ -67,7 +67,7 @@ impl Search<'_> {
         Model { cost: if cost.is_nan() { f64::INFINITY } else { cost }, state }
     }
 
-    /// What models one step from this one are built on.
+    /// The model that models one step from this one are built on.
     pub fn placed(&mut self, mut model: Model) -> PlacedModel {
         let all = self.work.stations(&self.row, &mut model.state);
         PlacedModel::new(model, &all)
@@ -139,8 +139,8 @@ impl Search<'_> {
         self.model(state)
     }
 
-    /// The cheapest model reachable from the first, as far as the search may go. Of a long one steps are looked for by pieces near each other;
-    /// where that does not lead to the points, by all pieces.
+    /// The cheapest model reachable from the first, as far as the search may go. Steps of a long one are looked for by
+    /// pieces near each other; where that does not lead to the points, by all pieces.
     pub fn run(&mut self, first: Model, progress: &dyn Progress) -> Result<Model, Cancelled> {
         let long = first.state.chain.is_long();
         let start = long.then(|| first.clone());
@@ -227,8 +227,8 @@ impl Search<'_> {
         best.map(|model| self.run(model, progress)).transpose()
     }
 
-    /// The cheapest model whose end is tangent to its start, of one whose ends, this `gap` apart, meet in a corner, where that costs
-    /// less than `bar`.
+    /// The cheapest model whose end is tangent to its start, where that costs less than
+    /// `bar`. The ends of the given one, this `gap` apart, meet in a corner.
     pub fn closing(
         &mut self,
         state: &State,

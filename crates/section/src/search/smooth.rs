@@ -19,8 +19,8 @@ const MIN_COEFFICIENTS_OF_SEVERAL: usize = 16;
 const POINTS_PER_COEFFICIENT: usize = 5;
 /// Numbers of their coefficients.
 const COEFFICIENT_COUNTS: [usize; 8] = [4, 6, 8, 12, 16, 24, 34, free::MAX_COEFFICIENTS];
-/// A dozen steps leave free pieces no dearer than this for each point above the cheapest, where they can follow the row: their points are
-/// then 1.65 times as far off.
+/// Where free pieces can follow the row, a dozen steps leave them no dearer than this for each point above the
+/// cheapest. Their points are then 1.65 times as far off.
 const POINT_COST_TO_DROP: f64 = 1.0;
 /// A chain is good enough where its points are no farther off than this many times the noise that local fits tell.
 const NEAR_NOISE_RATIO: f64 = 1.1;

@@ -1,5 +1,5 @@
-//! A smooth curve along the points of a row, that models are built on where lines and arcs of a first partition do not follow the
-//! points.
+//! A smooth curve along the points of a row. Models are built on it where lines and arcs of a first partition do not
+//! follow the points.
 
 use super::model_edits::PlacedModel;
 use super::rounds::Search;
@@ -21,8 +21,7 @@ const MAX_NOISE_FOR_CHORDS_SPACINGS: f64 = 0.2;
 const ARCS_PER_SPAN: usize = 4;
 
 impl Search<'_> {
-    /// Arcs along the curve of fewest control points that the points scatter about by no more than their noise, with `specs`
-    /// of the first to the last of them on it; `None` where no curve does.
+    /// Arcs along the curve of fewest control points that the points scatter about by no more than their noise. The `specs` are scaled onto it. `None` where no curve does.
     pub fn arcs_along_smooth_curve(&self, first: &State, specs: &[PieceSpec]) -> Option<PlacedModel> {
         let (n, from) = (self.row.points.len(), first.breaks[0]);
         let closed = first.chain.closed;

@@ -20,8 +20,8 @@ const EXTRA_COEFFICIENTS: usize = 2;
 
 /// A chain is unreliable whose points lie farther off than this many times their noise.
 const MAX_RMS_RATIO: f64 = 10.0;
-/// The noise counts as this share of the distance between points at least, the larger one where the row is too short to tell its
-/// noise.
+/// The noise counts as this share of the distance between points at least. The larger one holds where the row is too
+/// short to tell its noise.
 const MIN_NOISE_SPACINGS: [f64; 2] = [NEGLIGIBLE_OFFSET_SPACINGS, 0.02];
 /// Length of a reliable chain over the way from point to point; the second range holds where noise makes that way longer.
 const LENGTH_RATIOS: [std::ops::Range<f64>; 2] = [0.6..1.6, 0.3..1.6];
@@ -98,8 +98,8 @@ impl Span {
         Ok(Found { unreliable, ..self.found(found) })
     }
 
-    /// One chain over two that follow each other, or a closed one over one whose ends meet, where that costs less than `bar`: this span
-    /// has the points of all.
+    /// One chain over two that follow each other, or a closed one over one whose ends meet, where that costs less than
+    /// `bar`. This span has the points of all.
     pub fn chain_over(
         self,
         founds: &[&Found],
@@ -210,7 +210,7 @@ impl Span {
                 kept.push(Part { from, to, ..*part });
             }
         }
-        // What neighbors share, those that are left tell instead of the others.
+        // The points left tell what neighbors share instead of the others.
         let weights: Vec<f64> = self.weights.iter().map(|w| (w * step as f64).min(1.0)).collect();
         let own = Span::new(&self.points, &weights, numbers);
         let thinned = Task { spacing: task.spacing * step as f64, step: 1, ..*task };
@@ -338,7 +338,7 @@ impl Found {
         let at = |i: usize| self.stations[i % self.stations.len()];
         (at(breaks[g + 1] - 1) - at(breaks[g])).abs()
     }
-    /// What its last or first piece is.
+    /// The kind of its last or first piece.
     pub fn end_kind(&self, at_end: bool) -> SegmentKind {
         let pieces = self.pieces();
         pieces[if at_end { pieces.len() - 1 } else { 0 }].kind

@@ -16,9 +16,10 @@ const MAX_MENDINGS: usize = 6;
 const MAX_TOUCHING_GAPS: f64 = 4.0;
 
 impl Search<'_> {
-    /// The cheapest model of the parts that dynamic programming found: with the curvatures and lengths that they have by themselves; for
-    /// where the headings of many add up to one far off, and parts are lost on the way back, turning from one to the next as they do
-    /// by themselves; and from join to join as lines and arcs by themselves tell these.
+    /// The cheapest model of the parts that dynamic programming found. One has the curvatures and lengths that they
+    /// have by themselves. Where the headings of many add up to one far off, parts are lost on the way back. So another
+    /// turns from one part to the next as they do by themselves, and a third goes from join to join as lines and arcs
+    /// by themselves tell these.
     pub fn first(&mut self, parts: &[Part], closed: bool) -> Model {
         let plain = self.plain(parts, closed);
         self.cheapest(plain, parts, closed)
@@ -106,8 +107,8 @@ impl Search<'_> {
         parts.iter().enumerate().map(length).collect()
     }
 
-    /// The heading at the start, and curvatures with which parts of these lengths turn from one to the next as the parts by themselves
-    /// do, whatever their own ones: lines tell where the arcs beside them begin and end.
+    /// The heading at the start, and curvatures with which parts of these lengths turn from one to the next as the
+    /// parts by themselves do. Their own curvatures do not count: lines tell where the arcs beside them begin and end.
     fn turning(&self, parts: &[Part], lengths: &[f64]) -> (f64, Vec<f64>) {
         let points = self.row.points;
         let (n, last) = (points.len(), parts.len() - 1);
@@ -189,8 +190,8 @@ impl Search<'_> {
     }
 }
 
-/// Where two parts touch: the foot of an arc's center on a line, or where the line through two centers meets the arcs; where two
-/// lines cross. `near` tells which of two.
+/// Where two parts touch. That is the foot of an arc's center on a line, or where the line through two centers meets
+/// the arcs, or where two lines cross. `near` tells which of two.
 fn touching(a: &Part, b: &Part, near: [f64; 2]) -> Option<[f64; 2]> {
     let center = |p: &Part| [p.center[0] - p.along[1] / p.curvature, p.center[1] + p.along[0] / p.curvature];
     let foot = |line: &Part, c: [f64; 2]| {

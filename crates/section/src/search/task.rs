@@ -45,7 +45,7 @@ impl Span {
         Span { numbers, points, weights }
     }
 
-    /// What models of its points cost.
+    /// Cost of models of its points.
     pub fn criterion(&self, task: &Task) -> Criterion {
         let points = (self.points.len() as f64).max(2.0);
         Criterion { count: self.weights.iter().sum::<f64>().max(2.0), points, ..task.criterion }

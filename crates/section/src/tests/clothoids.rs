@@ -31,8 +31,9 @@ fn along(pieces: &[(f64, [f64; 2])], spacing: f64, noise: f64, random: &mut Rand
     all
 }
 
-/// The stated length of a clothoid holds the true one as often as it says, and is never more uncertain than the contour is long: where the
-/// curvature grows from that of the neighbor, the points locate the join by the square root of their noise alone.
+/// The stated length of a clothoid holds the true one as often as it says, and is never more uncertain than the contour
+/// is long. Where the curvature grows from that of the neighbor, the points locate the join by the square root of their
+/// noise alone.
 #[test]
 fn lengths_of_clothoids_are_as_uncertain_as_stated() {
     let random = &mut Random::new(12);

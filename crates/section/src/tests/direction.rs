@@ -45,7 +45,7 @@ fn a_row_the_other_way_round_is_measured_as_the_same_row() {
         let n = points.len();
         assert_eq!((one.closed, one.noise, one.spacing), (two.closed, two.noise, two.spacing), "{number}");
         let (m, whole) = (one.segments.len(), one.segments.iter().map(|s| s.length).sum::<f64>());
-        // Of a closed contour each begins with the segment of its own first point.
+        // Each closed contour begins with the segment of its own first point.
         let last = one.labels[n - 1] as usize;
         let of = |k: usize| if one.closed { (last + m - k) % m } else { m - 1 - k };
         for k in 0..m {

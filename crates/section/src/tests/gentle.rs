@@ -25,8 +25,8 @@ fn clothoid(count: usize) -> impl Iterator<Item = [f64; 2]> {
     })
 }
 
-/// A line goes on into a clothoid without a jump: the join is where the curvature begins to grow, and no few coefficients more let the
-/// curve begin on the line.
+/// A line goes on into a clothoid without a jump. The join is where the curvature begins to grow, and no few
+/// coefficients more let the curve begin on the line.
 #[test]
 fn clothoids_begin_where_the_line_ends() {
     let mut held = 0;
@@ -77,8 +77,8 @@ fn sparse_lines_meet_beyond_their_points() {
     }
 }
 
-/// Two lines, or a line and an arc, that meet at a small angle have a corner there: no free curve or arc stands between them, and no tangent
-/// join beside. Tangent ones have none.
+/// Two lines, or a line and an arc, that meet at a small angle have a corner there. No free curve or arc stands between
+/// them, and no tangent join beside. Tangent ones have none.
 #[test]
 fn blunt_corners_are_found() {
     for (seed, degrees) in [0.5_f64, 1.0, 2.0, 4.0, 6.0].into_iter().enumerate() {

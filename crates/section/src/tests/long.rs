@@ -57,7 +57,7 @@ fn a_thread_is_its_flanks_crests_and_roots() {
         });
         assert!(radii.into_iter().all(|r| (r - 0.5).abs() < 0.02));
     }
-    // Of 237 joins 12 are expected outside of 95 % intervals, less than 4 or more than 23 in one draw of a hundred.
+    // 12 of 237 joins are expected outside of 95 % intervals, less than 4 or more than 23 in one draw of a hundred.
     assert!((3..=24).contains(&missed), "{missed}");
 }
 
@@ -128,7 +128,7 @@ fn long_rows_are_fitted_by_all_points() {
     assert_eq!(contour.segments.len(), 8);
     for segment in &contour.segments {
         if let Geometry::Arc { radius, .. } = segment.geometry {
-            // Of 4,400 points over a quarter of a circle: 0.02 / √4400 times 6, and four of these.
+            // 4,400 points over a quarter of a circle: 0.02 / √4400 times 6, and four of these.
             assert!((radius - 10.0).abs() < 0.008, "{radius}");
         }
     }

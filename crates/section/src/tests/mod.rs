@@ -101,8 +101,8 @@ fn intervals_cover_over_fresh_noise() {
     assert!((z / f64::from(all) - 1.0).abs() < 0.35, "{}", z / f64::from(all));
 }
 
-/// Errors of directions, radii and centers over fresh noise are as large as stated: each over its uncertainty has the mean
-/// square 1. Of 240 draws that is uncertain by 0.09; three times that is allowed.
+/// Errors of directions, radii and centers over fresh noise are as large as stated: each over its uncertainty has the
+/// mean square 1. With 240 draws that is uncertain by 0.09; three times that is allowed.
 #[test]
 fn uncertainties_of_segments_are_those_of_fresh_noise() {
     let mut sums = [0.0; 5];

@@ -13,8 +13,8 @@ fn scattered(count: usize, noise: f64, seed: u64) -> Vec<[f64; 2]> {
         .collect()
 }
 
-/// Of random points the longest gap is many times the mean; they are one closed contour all the same, whatever their number and
-/// scatter, and the gap told is longer than the longest and no longer than a quarter of the part.
+/// The longest gap of random points is many times the mean, and they are one closed contour all the same, whatever
+/// their number and scatter. The gap reported is longer than the longest and no longer than a quarter of the part.
 #[test]
 fn a_scattered_contour_is_one() {
     for (count, noise) in [

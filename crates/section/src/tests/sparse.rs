@@ -155,8 +155,8 @@ fn no_corner_lies_beyond_a_blunt_tip() {
     }
 }
 
-/// Points of the one side that end at the corner tell it, where those of the other begin only after a wide gap; where both end
-/// before it, the gap is the uncertainty.
+/// Points of the one side that end at the corner tell it, where those of the other begin only after a wide gap. Where
+/// both end before it, the gap is the uncertainty.
 #[test]
 fn a_corner_beside_a_gap_is_told_by_the_side_that_reaches_it() {
     for seed in 0..6 {

@@ -76,7 +76,7 @@ fn strays_beside_an_end_are_left_out_or_told() {
     for range in RANGES {
         let [right, warned, wrong] = rates(10, 0.01, range);
         assert!(wrong == 0 && (right == 10 || range[0] < 2.0), "{range:?}: {right} {warned} {wrong}");
-        // Of more noise they are told, where they do not hide in it.
+        // With more noise they are reported, where they do not hide in it.
         assert!(rates(10, 0.05, range)[2] == 0 || range[0] < 2.0, "{range:?}");
         // Without noise it may be the end of a line that is given by its ends.
         assert_eq!(rates(4, 0.0, range), [0, 4, 0], "{range:?}");

@@ -39,8 +39,8 @@ fn segments_of_wild_rows_follow_each_other() {
     }
 }
 
-/// What is drawn of a free curve is as long as is told, also between the places that it was made from. Its ends may lead to
-/// corners that lie beside its chain.
+/// The drawing of a free curve is as long as stated, also between the places that it was made from. Its ends may lead
+/// to corners that lie beside its chain.
 fn drawn_as_told(segment: &Segment) {
     let Geometry::Spline { curve, .. } = &segment.geometry else { return };
     let places: Vec<[f64; 2]> = (0..=20_000).map(|i| curve.at(f64::from(i) / 20_000.0)).collect();
@@ -143,8 +143,8 @@ fn exact_polygons_have_their_corners() {
 
 #[test]
 fn wavy_closed_rows_are_followed() {
-    // Few points a wave and much noise. A loop between two points costs a sum of squares nothing, and a chain that was laid out
-    // wrong may shrink to nothing where it is closed by force.
+    // Few points a wave and much noise. A loop between two points costs a sum of squares nothing. A chain that was laid
+    // out wrong may shrink to nothing where it is closed by force.
     for (count, noise) in [(110, 0.25), (60, 0.3), (40, 0.3)] {
         for seed in 0..8 {
             let mut random = Random::new(900 + seed);

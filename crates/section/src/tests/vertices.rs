@@ -85,7 +85,7 @@ fn sharp(at: [f64; 2]) -> Corner {
     Corner { at, radius: 0.0, sweep: 0.0 }
 }
 
-/// Random outlines. Of an arc that is not tangent at both ends four wide chords at least tell it from sides of a polygon.
+/// Random outlines. At least four wide chords tell an arc that is not tangent at both ends from sides of a polygon.
 pub(super) fn made(random: &mut Random) -> Made {
     let mut between = |a: f64, b: f64| a + (b - a) * random.unit();
     let (w, h) = (between(12.0, 60.0), between(8.0, 30.0));

@@ -37,8 +37,9 @@ const MIN_FLAT_SHARE: f64 = 0.05;
 const MAX_FLAT_RATIO: f64 = 1.5;
 
 impl<'a> CutMesh<'a> {
-    /// A mesh whose vertices scatter by this noise, if it is known; of noise that is not the same everywhere ([`Noise::even`]) form is a
-    /// part, which no section is told from. Vertices that facets name and that do not exist are passed over.
+    /// A mesh whose vertices scatter by this noise, if it is known. Noise that is not the same everywhere
+    /// ([`Noise::even`]) has a part of form, which no section is told from. Vertices that facets name and that do not
+    /// exist are passed over.
     pub fn new(mesh: &'a Mesh, noise: Option<Noise>) -> CutMesh<'a> {
         let count = mesh.positions.len();
         let sides = |f: &[u32; 3]| [[0, 1], [1, 2], [2, 0], [1, 0], [2, 1], [0, 2]].map(|e| e.map(|k| f[k]));
@@ -85,7 +86,8 @@ impl<'a> CutMesh<'a> {
         flat > MIN_FLAT_SHARE * off.len() as f64 && near <= MAX_FLAT_RATIO * flat
     }
 
-    /// How far the two facets at an edge are from one plane: the far corner of the smaller one from the plane of the larger one.
+    /// How far the two facets at an edge are from one plane: the distance of the smaller one's far corner from the
+    /// plane of the larger one.
     fn off_plane(&self, [v, w]: [u32; 2]) -> Option<f64> {
         let mut both = self.neighbors_of(v).iter().filter(|n| self.neighbors_of(w).binary_search(n).is_ok());
         let (a, b) = (*both.next()?, *both.next()?);

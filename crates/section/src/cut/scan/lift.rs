@@ -1,8 +1,8 @@
 //! Crossings moved from the chords on which they lie onto the surface between the vertices.
 //!
-//! The chord between two vertices of a bent surface lies within it. How far, the line or arc tells that the crossing belongs to: the
-//! distances of the vertices around from it, as a quadratic function of the way along it and of the height over the plane, are the
-//! surface; the chord between two places of this is where the mesh would be cut without noise.
+//! The chord between two vertices of a bent surface lies within it. The line or arc that the crossing belongs to tells
+//! how far. The surface is the distances of the vertices around from it, as a quadratic function of the way along it
+//! and of the height over the plane. The mesh would be cut without noise on the chord between two places of this.
 
 use super::cut_mesh::CutMesh;
 use crate::Chain;
@@ -18,16 +18,16 @@ const MAX_VERTICES_ABOUT_EDGE: usize = 48;
 const QUADRATIC_TERMS: usize = 6;
 /// Vertices that it takes at least.
 const MIN_VERTICES_OF_QUADRATIC: usize = 2 * QUADRATIC_TERMS;
-/// Vertices count whose feet are no nearer to an end of the part than this share of the edge's length: others are those of the
-/// faces beside.
+/// Vertices count whose feet are no nearer to an end of the part than this share of the edge's length. Others are those
+/// of the faces beside.
 const MIN_INSET_EDGE_LENGTHS: f64 = 0.3;
 /// Vertices farther off than so many edge lengths are of other faces.
 const MAX_OFFSET_EDGE_LENGTHS: f64 = 3.0;
 /// So are those about which facets look another way than about the crossings, by more than an angle of this cosine (30°).
 const MIN_FACING_COSINE: f64 = 0.866;
 
-/// An edge lies within a surface that its mesh tells by no more than this share of its length: by an eighth of it for each radian
-/// that facets turn along it. Vertices that tell more do not determine the surface.
+/// An edge lies within a surface that its mesh tells by no more than this share of its length. That is an eighth of it
+/// for each radian that facets turn along it. Vertices that tell more do not determine the surface.
 const MAX_LIFT_EDGE_LENGTHS: f64 = 0.25;
 
 /// Lengths along a line or arc, and distances to the left of it.
@@ -103,9 +103,10 @@ const CROSSINGS_PER_WINDOW: usize = 11;
 
 /// The crossings of a chain with these places in the plane, on the surface.
 ///
-/// The power of a point on a chord of a circle is known without the circle: it lies within by the product of the two parts of the chord.
-/// So lines and arcs through a few crossings are found as if these were on the surface. Of the windows about a crossing, before and
-/// behind it the one counts whose crossings lie nearest to one line or arc: no window reaches over a corner where another does not.
+/// The power of a point on a chord of a circle is known without the circle. The point lies within by the product of the
+/// two parts of the chord. So lines and arcs through a few crossings are found as if these were on the surface. Among
+/// the windows about a crossing, before and behind it, the one counts whose crossings lie nearest to one line or arc.
+/// No window reaches over a corner where another does not.
 pub(super) fn on_surface(
     cut: &CutMesh,
     chain: &Chain,

@@ -1,8 +1,8 @@
 //! The crossings of a scan's edges with a plane, as points of its surface.
 //!
-//! A crossing is no vertex: it lies on the chord between two, and its noise is theirs. So each is moved onto the surface that the
-//! chord stands for, weighs as many independent points as the noise that its neighbors share leaves it, and where an edge of the mesh
-//! passes by a corner of the part it tells nothing.
+//! A crossing is no vertex: it lies on the chord between two, and its noise is theirs. So each is moved onto the
+//! surface that the chord stands for, and weighs as many independent points as the noise that its neighbors share
+//! leaves it. Where an edge of the mesh passes by a corner of the part it tells nothing.
 //!
 //! | file | what |
 //! |---|---|
@@ -54,7 +54,8 @@ fn smoother(moved: Vec<[f64; 2]>, crossings: &[[f64; 2]], closed: bool) -> Vec<[
     if there > MAX_ROUGHNESS_RATIO * here { crossings.to_vec() } else { moved }
 }
 
-/// A plane within rounding of a vertex cuts several of its edges at one place: crossings no farther apart than rounding are one, with the weight of all.
+/// A plane within rounding of a vertex cuts several of its edges at one place. Crossings no farther apart than rounding
+/// are one, with the weight of all.
 fn gather_at_vertices(
     crossings: &[[f64; 2]],
     rounding: f64,
@@ -81,8 +82,8 @@ fn gather_at_vertices(
 }
 
 impl ScanRow {
-    /// Whether the crossings with these numbers, moved onto the surface, scatter less than where they are, `at`: that the surface lies
-    /// beyond the chords, those of a drawing would not tell.
+    /// Whether the crossings with these numbers, moved onto the surface, scatter less than where they are, `at`. Chords
+    /// of a drawing would not tell that the surface lies beyond them.
     pub fn is_smoother_than(&self, at: &[[f64; 2]], numbers: &[usize], closed: bool) -> bool {
         let mut moved = at.to_vec();
         self.kept.iter().zip(&self.points).for_each(|(i, p)| moved[*i] = *p);

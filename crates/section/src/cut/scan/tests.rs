@@ -6,8 +6,8 @@ use trueness_geom::plane::Plane;
 use trueness_geom::progress::Silent;
 use trueness_geom::space::{Point, norm};
 
-/// A band of so many columns and rows of vertices, jittered, with diagonals, closed around where it is asked for; `place` tells where a
-/// column and row lie.
+/// A band of so many columns and rows of vertices, jittered, with diagonals, closed around where it is asked for.
+/// `place` tells where a column and row lie.
 fn band(
     columns: usize,
     rows: usize,
@@ -198,8 +198,8 @@ fn radius_of(mesh: &Mesh, plane: &Plane) -> (f64, f64, Contour) {
     (radius, stated, found)
 }
 
-/// A bore whose noise neighbors share is one circle, with its radius within what is told, and the same from the other side and for facets in
-/// any order.
+/// A bore whose noise neighbors share is one circle, with its radius within the stated uncertainty. It is the same from
+/// the other side and for facets in any order.
 #[test]
 fn bores_of_scans_are_circles_from_either_side() {
     let random = &mut Random::new(2);
@@ -328,7 +328,7 @@ fn same_from_everywhere(mesh: &Mesh, random: &mut Random) -> usize {
     own.0.len()
 }
 
-/// What is told of points is told of as many, of points that there are, along the contour.
+/// Lists of points have as many entries, name points that there are, and go along the contour.
 fn holds_the_numbers(found: &Contour, count: usize) {
     assert!(found.labels.len() == count && found.residuals.len() == count && found.stations.len() == count);
     for list in [&found.outliers, &found.bevels, &found.repeated, &found.gaps] {

@@ -42,7 +42,7 @@ fn body(random: &mut Random) -> (Mesh, impl Fn(f64) -> f64 + use<>, [f64; 2], f6
     let outline: Vec<[f64; 2]> =
         (0..=rings).map(|k| low + (high - low) * k as f64 / rings as f64).map(|z| [radius(z), z]).collect();
     let turn = std::f64::consts::TAU / around as f64;
-    // What facets lie within the surface by, in the plane.
+    // How far facets lie within the surface, in the plane.
     let apart = (high - low) / rings as f64;
     let worst = outline.windows(2).map(|w| {
         let middle = 0.5 * (w[0][1] + w[1][1]);

@@ -224,7 +224,7 @@ fn loops_that_touch_have_their_corner() {
             assert!((found.length() / length_of_loop - 1.0).abs() < 0.004, "{around}: {}", found.length());
             let corner = found.joins.iter().find(|j| distance(j.point, [0.0, 0.0]) < 1e-4).unwrap();
             assert_eq!(corner.continuity, Continuity::G0, "{around}");
-            // What is drawn ends there.
+            // The drawing ends there.
             let near =
                 found.segments.iter().map(|s| s.foot([0.0, 0.0]).1.abs()).fold(f64::INFINITY, f64::min);
             assert!(near < 1e-4, "{around}: {near}");
@@ -311,7 +311,8 @@ fn a_scan_is_a_row_of_independent_points() {
     assert_eq!(kinds(&found), [Line, Arc, Line, Arc]);
     for truth in [[0.0, 0.0], [50.0, 0.0], [50.0, 20.0], [0.0, 20.0]] {
         let join = found.joins.iter().find(|j| distance(j.point, truth) < 0.5).unwrap();
-        // Chords of up to 0.7 mm lie up to 0.006 mm inside of the circle; that moves a join by no more than twice as much.
+        // Chords of up to 0.7 mm lie up to 0.006 mm inside of the circle. That moves a join by no more than twice as
+        // much.
         assert!(distance(join.point, truth) < 5.0 * join.uncertainty + 0.012, "{join:?}");
     }
     assert_eq!(found.labels.len(), chains[0].points.len());

@@ -32,7 +32,7 @@ pub(super) struct Inscribed {
 }
 
 impl Inscribed {
-    /// Of a course that goes on beyond its seam at both ends, if it has one.
+    /// The circles of a course that goes on beyond its seam at both ends, if it has one.
     pub fn new(course: &Profile, progress: &dyn Progress) -> Result<Inscribed, AirfoilError> {
         let (all, seam) = (&course.places, course.seam);
         let places: Vec<[f64; 2]> = all.iter().map(|a| a.0).collect();
@@ -113,8 +113,8 @@ impl Inscribed {
         Some((between(values, three.map(|c| c.0)), radius))
     }
 
-    /// Whether the greatest circle is the one of many of nearly its size: a quarter of the camber line or more has radii within `reach`
-    /// of it.
+    /// Whether the greatest circle is the one of many of nearly its size. A quarter of the camber line or more has
+    /// radii within `reach` of it.
     pub fn is_flat(&self, reach: f64) -> bool {
         let most = self.circles.iter().map(|c| c.1).fold(0.0, f64::max);
         let way = |w: &[([f64; 2], f64)]| distance(w[0].0, w[1].0);
@@ -180,8 +180,8 @@ fn area(polygon: &[[f64; 2]]) -> f64 {
     0.5 * polygon.windows(2).map(cross).sum::<f64>()
 }
 
-/// The radius of the greatest circle that touches place `i` from the side of `normal` and holds no other place, and the place that
-/// it touches, too. Between places the least radius is that of a parabola.
+/// The radius of the greatest circle that touches place `i` from the side of `normal` and holds no other place. Also
+/// the place that it touches, too. Between places the least radius is that of a parabola.
 fn touching(places: &[[f64; 2]], i: usize, normal: [f64; 2]) -> Option<(f64, usize)> {
     let p = places[i];
     let radius = |q: [f64; 2]| {
@@ -215,7 +215,7 @@ fn on_parabola([x, y, z]: [[f64; 2]; 3], t: f64) -> [f64; 2] {
     [0, 1].map(|k| y[k] + 0.5 * t * (z[k] - x[k]) + 0.5 * t * t * (x[k] - 2.0 * y[k] + z[k]))
 }
 
-/// What is at the top of the parabola through three values, of what changes with them quadratically.
+/// The value at the top of the parabola through three values, of a place that changes with them quadratically.
 fn between([a, b, c]: [f64; 3], what: [[f64; 2]; 3]) -> [f64; 2] {
     let bend = a - 2.0 * b + c;
     let t = if bend < 0.0 { (0.5 * (a - c) / bend).clamp(-1.0, 1.0) } else { 0.0 };

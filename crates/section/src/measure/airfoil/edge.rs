@@ -3,7 +3,7 @@
 use super::error::AirfoilError;
 use crate::model::flat::distance;
 
-/// What a radius of an edge is.
+/// The source of the radius of an edge.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EdgeRadius {
     /// Radius of curvature there.
@@ -31,11 +31,12 @@ const SMALLER_REACH_SHARE: f64 = 0.7;
 
 /// The radius of the points of `row` at `place`, an end of the chord whose other end is `from`.
 ///
-/// With `x` along the chord into the profile and `y` across, from the place, `x = a + b y + q (k + l y + m y²)` for `q = x² + y²`
-/// is fitted to the points near it: exact for circles, where `k` is half the curvature, and nearly so for the ends of ellipses,
-/// parabolas and profiles. The more points, the less their scatter `noise` counts, and the more how the bend changes: taken is the
-/// widest reach whose curvature agrees with that of all smaller ones (Lepskii, On a problem of adaptive estimation in Gaussian white
-/// noise, 1990). How far that of the reach beside it differs is part of the uncertainty.
+/// The curve `x = a + b y + q (k + l y + m y²)` for `q = x² + y²` is fitted to the points near the place.
+/// `x` goes along the chord into the profile and `y` across, from the place. It is exact for circles, where
+/// `k` is half the curvature, and nearly so for the ends of ellipses, parabolas and profiles. The more points, the less their scatter `noise`
+/// counts, and the more how the bend changes. The widest reach is chosen whose curvature agrees with that of all
+/// smaller ones (Lepskii, On a problem of adaptive estimation in Gaussian white noise, 1990). How far that of the reach
+/// beside it differs is part of the uncertainty.
 pub(super) fn radius(
     row: &[[f64; 2]],
     place: [f64; 2],
@@ -83,8 +84,8 @@ pub(super) fn radius(
     }
     all.splice(0..0, other);
     let [.., best] = all[..] else { return Err(AirfoilError::Flat) };
-    // What changes with the square of the reach is as large as this makes it from one reach to the next; the one that disagrees
-    // was put first. Within its uncertainty a smaller reach agrees with a bend that changes, too.
+    // A change with the square of the reach is as large as this makes it from one reach to the next. The one that
+    // disagrees was put first. Within its uncertainty a smaller reach agrees with a bend that changes, too.
     let previous = if all.len() > 2 { all[all.len() - 2] } else { all[0] };
     let changed = (best.curvature - previous.curvature) / (REACH_GROWTH * REACH_GROWTH - 1.0);
     let is_smaller_reach = |b: &&Bend| (b.count as f64) < SMALLER_REACH_SHARE * best.count as f64;
@@ -107,8 +108,8 @@ struct Bend {
     count: usize,
 }
 
-/// The curvature by least squares of the deviations from the local curve, which are distances if it is a circle; `None` where the
-/// points do not determine it.
+/// The curvature by least squares of the deviations from the local curve, which are distances if it is a circle. `None`
+/// where the points do not determine it.
 fn fit(points: &[[f64; 2]], noise: f64) -> Option<Bend> {
     let n = points.len();
     let size = points.iter().map(|p| libm::hypot(p[0], p[1])).fold(0.0, f64::max);
@@ -140,7 +141,7 @@ fn fit(points: &[[f64; 2]], noise: f64) -> Option<Bend> {
         (curvature, unit) = (2.0 * w / norm, 2.0 / norm);
         columns.push(column);
     }
-    // Of few points the scatter is known better from all.
+    // The scatter of few points is known better from all.
     let variance = (dot(&rest, &rest) / (n - LOCAL_CURVE_UNKNOWNS) as f64).max((noise / size).powi(2));
     let uncertainty = unit * variance.sqrt() / size;
     let curvature = curvature / size;

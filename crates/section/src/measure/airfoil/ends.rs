@@ -8,7 +8,7 @@ use crate::search::parts::noise_beyond_form;
 /// The ends of an open row are no farther apart than this share of the chord.
 const MAX_END_GAP_OF_CHORD: f64 = 0.2;
 
-/// What the trailing edge is.
+/// The kind of the trailing edge.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum TrailingEdge {
     /// A corner.
@@ -35,7 +35,8 @@ impl TrailingEdge {
 
 /// A profile from its trailing edge over the leading one and back.
 pub(super) struct Around {
-    /// The points; at a sharp trailing edge first and last are the same, at a round one the row goes on beyond it at both ends.
+    /// The points. At a sharp trailing edge first and last are the same; at a round one the row goes on beyond it at
+    /// both ends.
     pub row: Vec<[f64; 2]>,
     /// The points that it begins and ends at, by their numbers in the row given; of a round trailing edge that of the seam.
     pub ends: [usize; 2],
@@ -45,7 +46,7 @@ pub(super) struct Around {
 }
 
 impl Around {
-    /// Of a row.
+    /// The profile of a row.
     pub fn new(row: &[[f64; 2]], closed: bool) -> Result<Around, AirfoilError> {
         if !closed {
             let (a, b) = (row[0], row[row.len() - 1]);

@@ -1,4 +1,4 @@
-//! What keeps a contour from being measured as an airfoil.
+//! Reasons why a contour cannot be measured as an airfoil.
 
 use trueness_geom::progress::Cancelled;
 

@@ -1,8 +1,9 @@
 //! The course of a profile: the contour's own lines, arcs and curves, or a B-spline through the points.
 //!
-//! The B-spline has as many control points as the likelihood with Schwarz's penalty pays for; edges of the trailing end (corners, or
-//! the ends of an open row) are its ends. It is smooth: where a round edge runs into a side its curvature cannot jump, and it swings
-//! beside. A contour that ends at the same edges, and costs less by the same measure, is taken in its place.
+//! The B-spline has as many control points as the likelihood with Schwarz's penalty pays for. Edges of the trailing end
+//! (corners, or the ends of an open row) are its ends. It is smooth: where a round edge runs into a side its curvature
+//! cannot jump, and it swings beside. A contour that ends at the same edges, and costs less by the same measure, is
+//! taken in its place.
 
 use super::ends::{Around, TrailingEdge};
 use super::error::AirfoilError;
@@ -47,8 +48,9 @@ pub(super) struct Profile {
 }
 
 impl Profile {
-    /// The likelier course of a row, where the row ends for it, and another course where that is no lines and arcs: the other one, or
-    /// the B-spline of every second point. `numbers` are those of the row's points among the contour's.
+    /// The likelier course of a row, where the row ends for it, and another course where that is no lines and arcs.
+    /// That is the other one, or the B-spline of every second point. `numbers` are those of the row's points among the
+    /// contour's.
     pub fn new(
         row: &[[f64; 2]],
         numbers: &[usize],
@@ -66,7 +68,7 @@ impl Profile {
             if let Some((cost, course)) = of_contour(&around, around.ends.map(|i| numbers[i]), contour, count)
             {
                 if smooth.as_ref().map_or(true, |s| cost < s.cost) {
-                    // What a free curve of a contour takes from scatter, a B-spline does not, or elsewhere.
+                    // A B-spline does not follow the scatter that a free curve of a contour follows, or does elsewhere.
                     let free = contour.segments.iter().any(|s| s.geometry.kind() == SegmentKind::Spline);
                     let smooth = smooth.ok().filter(|_| free).map(|s| s.course(&around));
                     return Ok((around, course, smooth));
@@ -238,8 +240,8 @@ struct Smooth {
 }
 
 impl Smooth {
-    /// Of the number of control points that costs least: a chi-squared part and Schwarz's penalty, two for each. No more than
-    /// three for four points: with more, hardly any point would tell that the curve is wrong.
+    /// The curve with the number of control points that costs least: a chi-squared part and Schwarz's penalty, two for
+    /// each. No more than three for four points: with more, hardly any point would tell that the curve is wrong.
     fn new(row: &[[f64; 2]], progress: &dyn Progress) -> Result<Smooth, AirfoilError> {
         let n = row.len();
         let chords = curve::chord_parameters(row).ok_or(AirfoilError::Inside)?;

@@ -1,20 +1,20 @@
 //! Which end of a closed profile is the trailing one, and what edge it has.
 //!
-//! An outline turns by half a turn, less its wedge, at either end. The edge is the shortest stretch that takes most of that turn: one
-//! point of a sharp edge, the face between two corners of a blunt one, with points on it or none, an arc of a round one. So the sides
-//! end where their own points end, and are led no farther. The trailing end is the thinner one: how the sides behind it turn tells
-//! nothing of a strongly cambered profile.
+//! An outline turns by half a turn, less its wedge, at either end. The edge is the shortest stretch that takes most of
+//! that turn. It is one point of a sharp edge, the face between two corners of a blunt one, with points on it or none,
+//! or an arc of a round one. So the sides end where their own points end, and are led no farther. The trailing end is
+//! the thinner one: how the sides behind it turn tells nothing of a strongly cambered profile.
 
 use crate::model::flat::{angle, distance, off_line};
 
-/// What an edge takes of the turn at its end, radians: two thirds of half a turn. Wedges turn by less than the rest, and one corner
-/// of a face by less than this.
+/// The part of the turn at its end that an edge takes, radians: two thirds of half a turn. Wedges turn by less than the
+/// rest, and one corner of a face by less than this.
 const MIN_EDGE_TURN: f64 = 2.1;
 /// The outline between the corners of a face is off the line between them by less than this share of its length. An arc that takes
 /// most of the turn is off by 0.29, its middle one of three corners by 0.18.
 const MAX_BULGE_SHARE: f64 = 0.12;
-/// Points are passed over that lie no farther off the line between others than so many standard deviations of their noise: a point
-/// lies off that line by four.
+/// Points are passed over that lie no farther off the line between others than so many standard deviations of their
+/// noise. A point lies off that line by four.
 const PASSED_OVER_SIGMAS: f64 = 5.0;
 /// The widths of the ends are compared at this share of the chord.
 const WIDTH_STATION_OF_CHORD: f64 = 0.05;
@@ -24,7 +24,8 @@ const END_CHORD_SHARE: f64 = 0.15;
 /// The stretch of a trailing edge.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Tail {
-    /// The last point of the side before it, in the order of the row, and the first of the side behind it; of a sharp edge the same.
+    /// The last point of the side before it, in the order of the row, and the first of the side behind it. Both are the
+    /// same at a sharp edge.
     pub ends: [usize; 2],
     /// Its turn is not at its ends.
     pub round: bool,

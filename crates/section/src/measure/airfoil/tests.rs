@@ -7,7 +7,7 @@ use std::f64::consts::{PI, TAU};
 use trueness_geom::num::random::Random;
 use trueness_geom::progress::Silent;
 
-/// What the measures need of a contour.
+/// The parts of a contour that the measures need.
 fn found(points: &[[f64; 2]], closed: bool) -> Contour {
     let length: f64 = points.windows(2).map(|w| distance(w[0], w[1])).sum();
     Contour { closed, spacing: length / points.len() as f64, ..Contour::default() }
@@ -17,8 +17,8 @@ fn measured(points: &[[f64; 2]]) -> Airfoil {
     airfoil(points, &found(points, true), &Silent).unwrap()
 }
 
-/// The envelope of circles with centers on an arc of radius 60 that turns by 0.8, of radius from 1.2 to 0.5 with 2.4 more in the
-/// middle; counter-clockwise from the trailing edge.
+/// The envelope of circles with centers on an arc of radius 60 that turns by 0.8, counter-clockwise from the trailing
+/// edge. Their radius goes from 1.2 to 0.5 with 2.4 more in the middle.
 fn blade(count: usize) -> Vec<[f64; 2]> {
     envelope(count, [1.2, -0.7, 9.6])
 }
@@ -223,8 +223,9 @@ fn noise_changes_measures_by_what_is_stated() {
     assert!((0.3..2.0).contains(&thick) && (0.3..2.0).contains(&lead), "{thick} {lead}");
 }
 
-/// Over fresh noise the measures lie within twice their uncertainties as often as they should; of a blade of one thickness too, whose
-/// greatest circle is the one that scatter makes greatest, and of edges of fifty times the scatter.
+/// Over fresh noise the measures lie within twice their uncertainties as often as they should. So do those of a blade
+/// of one thickness, whose greatest circle is the one that scatter makes greatest, and of edges of fifty times the
+/// scatter.
 #[test]
 fn uncertainties_hold_over_fresh_noise() {
     let u = 8.9 / 19.2;

@@ -75,8 +75,8 @@ fn segments_astray_have_no_dimensions() {
     assert!(all.iter().all(|d| d.of.iter().all(|[c, _]| *c == 1)), "{all:?}");
 }
 
-/// Errors over their uncertainties have the mean square 1 over fresh noise, where kinds and joins are found as they are: of 120
-/// draws that is uncertain by 0.13. Uncertainties do not say how likely another model is.
+/// Errors over their uncertainties have the mean square 1 over fresh noise, where kinds and joins are found as they
+/// are. With 120 draws that is uncertain by 0.13. Uncertainties do not say how likely another model is.
 #[test]
 fn uncertainties_are_those_of_fresh_noise() {
     let (mut sums, mut count) = ([0.0; 3], 0.0);

@@ -1,9 +1,9 @@
-//! What may move, and what the outlines hold of it.
+//! The motions that are free, and those that the outlines hold.
 
 use super::place::Place;
 use std::fmt;
 
-/// What may move.
+/// The motions that are free.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Freedom {
     /// Along the first axis, along the second, and turning.
@@ -33,7 +33,7 @@ impl Freedom {
         (0..3).filter(move |k| axes[*k])
     }
 
-    /// What can be asked instead where this is free.
+    /// The request that can be made instead where this is free.
     pub(super) fn remedy(&self, free: &Free) -> String {
         match free {
             Free::Turns { .. } if self.axes[0] && self.axes[1] => "ask for --fit xy".into(),
@@ -120,7 +120,7 @@ pub(super) fn held<'a>(
             }
         }
     }
-    // What is held by the question is held well.
+    // A motion that the question holds is held well.
     for k in (0..3).filter(|k| !freedom.axes[*k]) {
         matrix[k][k] = 2.0 * total;
     }

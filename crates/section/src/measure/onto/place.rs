@@ -33,7 +33,7 @@ pub(super) struct Row {
     pub places: Vec<Place>,
 }
 
-/// Those of all rows.
+/// The places of all rows.
 #[derive(Debug)]
 pub(super) struct Places {
     pub rows: Vec<Row>,
@@ -107,8 +107,8 @@ impl Row {
         Row { places: points.iter().zip(found).enumerate().filter_map(each).collect() }
     }
 
-    /// So many successive points tell as much as one that scatters alone: 1 and twice the sum of the correlations, as far as pairs of them
-    /// are above 0 (C. J. Geyer 1992).
+    /// So many successive points tell as much as one that scatters alone. It is 1 and twice the sum of the
+    /// correlations, as far as pairs of them are above 0 (C. J. Geyer 1992).
     pub fn correlated(&self, reach: f64) -> f64 {
         let d: Vec<f64> = self.places.iter().map(|p| p.distance).filter(|d| d.abs() <= reach).collect();
         let n = d.len();
@@ -150,8 +150,9 @@ fn number(outline: &Outline, ends: &[f64], off: &OffNominal, point: [f64; 2]) ->
 /// Chords that turn by less than this follow a curve, radians: as where facets are taken for an arc.
 const MAX_FACET_TURN: f64 = 0.6;
 
-/// The normal of the curve that a chord follows, at a share of it: between those of its ends, where chords of about a circle's meet
-/// (each with the other's length, which is exact on a circle). Of other segments their own.
+/// The normal of the curve that a chord follows, at a share of it. It lies between those of its ends, where chords of
+/// about a circle's meet. Each counts with the other's length, which is exact on a circle. Other segments have their
+/// own.
 fn smooth(outline: &Outline, number: usize, share: f64) -> Option<[f64; 2]> {
     let (all, n) = (&outline.segments, outline.segments.len());
     let segment = &all[number];

@@ -1,8 +1,8 @@
-//! What is offered, and by what rule.
+//! The offers, and the rule by which they are made.
 
 use trueness_geom::num::special::{normal_p, student_p};
 
-/// What is offered.
+/// The kind of an offer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum OfferKind {
     /// A line runs along the first axis.
@@ -82,7 +82,7 @@ impl OfferKind {
 /// A condition that the points allow.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Offer {
-    /// What is offered.
+    /// Its kind.
     pub kind: OfferKind,
     /// The segments that it is about, each by the number of its contour and its own.
     pub of: Vec<[usize; 2]>,
@@ -92,7 +92,7 @@ pub struct Offer {
     pub uncertainty: f64,
     /// The value offered.
     pub offered: f64,
-    /// Of a whole number the step that it is a multiple of.
+    /// The step that a whole number is a multiple of.
     pub step: Option<f64>,
     /// The difference in standard uncertainties. The sum of squares grows by its square times the variance of the points.
     pub z: f64,

@@ -221,7 +221,7 @@ fn concentric(a: &Member, b: &Member, others: f64) -> Option<Offer> {
     let way = [d[0] - c[0], d[1] - c[1]];
     let growth = (yy * way[0] * way[0] - 2.0 * xy * way[0] * way[1] + xx * way[1] * way[1]) / area;
     let degrees = a.spread.degrees.min(b.spread.degrees);
-    // Of Fisher's distribution with two degrees of freedom above.
+    // The upper tail of Fisher's distribution with two degrees of freedom above.
     let p = libm::pow(1.0 + growth / degrees, -0.5 * degrees);
     let chance = others * ELLIPSE_AREA_FACTOR * area.sqrt() / (r.max(s) * r.max(s));
     let found = libm::hypot(way[0], way[1]);
@@ -238,6 +238,6 @@ fn concentric(a: &Member, b: &Member, others: f64) -> Option<Offer> {
     })
 }
 
-/// Area of the ellipse that holds 95 % over that of the standard one's square, `−2 ln 0.0455`, and of a circle over its square of
-/// radius.
+/// Area of the ellipse that holds 95 % over that of the standard one's square, `−2 ln 0.0455`. For a circle it is over
+/// its square of radius.
 const ELLIPSE_AREA_FACTOR: f64 = 6.18;

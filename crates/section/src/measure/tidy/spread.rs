@@ -1,9 +1,9 @@
 //! The covariance of all lines and arcs of a contour, from their points and tangent joins.
 //!
-//! Each line or arc is known by the normal equations of its own points. A tangent join is a condition on the two beside it, to first
-//! order linear, and is put in as such: `C − C Aᵀ (A C Aᵀ)⁻¹ A C`, where `C` is the covariance without it. Chains between corners
-//! are independent. What the contour tells of a segment (its `Uncertainty`) also holds what else its fit takes into account; the
-//! covariance is scaled to agree with that.
+//! Each line or arc is known by the normal equations of its own points. A tangent join is a condition on the two beside
+//! it, to first order linear, and is put in as such. The covariance becomes `C − C Aᵀ (A C Aᵀ)⁻¹ A C`, where
+//! `C` is the one without it. Chains between corners are independent. The `Uncertainty` of a segment in the contour
+//! also holds the rest that its fit takes into account. The covariance is scaled to agree with that.
 
 use super::offer::Untidied;
 use crate::model::result::{Continuity, Contour, Geometry, RowKind, Uncertainty};
@@ -78,11 +78,11 @@ impl Shape {
 /// The lines and arcs of a contour with their covariance.
 #[derive(Debug)]
 pub(super) struct Spread {
-    /// Of each segment its line or circle; of splines, segments astray, and those without uncertainty none.
+    /// The line or circle of each segment; none for splines, unreliable segments, and those without uncertainty.
     pub shapes: Vec<Option<Shape>>,
     /// Degrees of freedom of the noise.
     pub degrees: f64,
-    /// Of each segment the chain that it is of, and where its unknowns begin.
+    /// The chain of each segment, and where its unknowns begin.
     places: Vec<(usize, usize)>,
     /// Covariance of the unknowns of each chain.
     chains: Vec<(usize, Vec<f64>)>,
@@ -169,7 +169,7 @@ impl Spread {
             }
         }
         let variance: f64 = slopes.iter().map(|(_, i, slope)| slope * along[*i]).sum();
-        // What holds already, as around a closed chain, is rounding.
+        // A condition that holds already, as around a closed chain, is rounding.
         let apart: f64 = slopes.iter().map(|(_, i, slope)| slope * slope * covariance[i * n + i]).sum();
         if variance.is_nan() || variance <= HOLDS_ALREADY_VARIANCE * apart {
             return;
@@ -315,7 +315,7 @@ fn alone(shape: &Shape, points: &[[f64; 2]], size: f64) -> [[f64; 3]; 3] {
         normal[i * m + i] += weight * if angle { size * size } else { 1.0 };
     }
     let mut all = [[0.0; 3]; 3];
-    // What is held is positive definite.
+    // The matrix of a held shape is positive definite.
     if let Some(factor) = Cholesky::new(normal, m) {
         for i in 0..m {
             let mut b = vec![0.0; m];

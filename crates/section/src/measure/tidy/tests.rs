@@ -1,4 +1,4 @@
-//! What was drawn is offered; what was not seldom is; the covariance is that of fresh noise.
+//! Drawn relations are offered, others seldom are, and the covariance is that of fresh noise.
 
 use super::offer::{MAX_CHANCE, MIN_PROBABILITY, Value};
 use super::spread::Shape;
@@ -49,7 +49,8 @@ fn kinds(offers: &[Offer], kind: OfferKind) -> Vec<&Offer> {
     offers.iter().filter(|o| o.kind == kind).collect()
 }
 
-/// A drawn plate: 40 × 25, radii 5, 5 and 3, along the axes. Of 40 draws each of what was drawn is offered in nine of ten at least.
+/// A drawn plate: 40 × 25, radii 5, 5 and 3, along the axes. Each relation that was drawn is offered in nine of ten of
+/// 40 draws at least.
 #[test]
 fn what_was_drawn_is_offered() {
     let random = &mut Random::new(7);
@@ -100,7 +101,7 @@ fn what_was_drawn_is_offered() {
     }
 }
 
-/// Of a plate whose numbers are random few are offered: no more than chance would have it of all that was looked at.
+/// Few relations of a plate whose numbers are random are offered: no more than chance makes of all that were looked at.
 #[test]
 fn what_was_not_drawn_is_seldom_offered() {
     let random = &mut Random::new(8);
@@ -129,8 +130,8 @@ fn what_was_not_drawn_is_seldom_offered() {
     assert!(plates >= 34 && each < 0.8, "{each} of {plates}");
 }
 
-/// The covariance of lines and arcs with tangents is that of draws: errors of values of two segments over their uncertainties have the
-/// mean square 1.
+/// The covariance of lines and arcs with tangents is that of draws. Errors of values of two segments over their
+/// uncertainties have the mean square 1.
 #[test]
 fn uncertainties_are_those_of_fresh_noise() {
     let random = &mut Random::new(9);
@@ -283,7 +284,7 @@ fn tangents_in_closed_form() {
     assert!((spread::off_tangent([arc(-2.0, 2.0), line], true) - 1.0).abs() < 1e-12);
 }
 
-/// What joins by a tangent is tangent in the covariance: that value has no uncertainty, though either side has.
+/// Segments joined by a tangent are tangent in the covariance: that value has no uncertainty, though either side has.
 #[test]
 fn tangent_joins_hold_in_the_covariance() {
     let random = &mut Random::new(13);

@@ -5,7 +5,7 @@ use super::super::result::Uncertainty;
 use super::work::{Held, TRIAL_CONDITION_WEIGHT, Variable, Work};
 
 impl Work {
-    /// What each unknown of each piece does to all that follows: shift of the origin and turn about it.
+    /// Motion of all that follows by each unknown of each piece: shift of the origin and turn about it.
     fn move_ends(&mut self, chain: &Chain) {
         self.motions.resize_with(chain.pieces.len(), Vec::new);
         for (g, piece) in chain.pieces.iter().enumerate() {
@@ -59,7 +59,7 @@ impl Work {
         }
     }
 
-    /// What a variable does to the row of products of piece `g`: (index, factor) pairs of its own, and a motion of all.
+    /// Effect of a variable on the row of products of piece `g`: (index, factor) pairs of its own, and a motion of all.
     fn effect(&self, chain: &Chain, variable: Variable, g: usize) -> ([f64; 3], Option<(usize, f64)>) {
         let start = &self.layout.poses[0];
         let mut motion = [0.0; 3];
@@ -179,7 +179,7 @@ impl Work {
                     own + motion[0] * entry(i, 0) + motion[1] * entry(i, 1) + motion[2] * entry(i, 2)
                 }));
                 self.right[*v] += value(&block.right, &(*motion, *own));
-                // Of two that both act here, the pair is seen from the later one.
+                // A pair that both act here is seen from the later one.
                 for (u, effect) in effects.iter().filter(|(u, _)| u <= v || !acts(*u)) {
                     self.matrix[(*v).max(*u) * k + (*v).min(*u)] += value(&product, effect);
                 }
@@ -187,11 +187,13 @@ impl Work {
         }
     }
 
-    /// Adds what the points say beyond the pieces in which unknowns act: there each moves all as a rigid body, always the same, so that sums
-    /// over all points that follow serve for every pair. So the time grows with the square of the number of unknowns, not with the cube.
+    /// Adds the products of the points beyond the pieces in which unknowns act. There each moves all as a rigid body,
+    /// always the same, so that sums over all points that follow serve for every pair. So the time grows with the
+    /// square of the number of unknowns, not with the cube.
     fn add_beyond(&mut self, chain: &Chain) {
         let (k, n) = (self.variables.len(), chain.pieces.len());
-        // Of the points from each piece on: the products of the three motions, lower triangle, and with the distances.
+        // Sums over the points from each piece on: the products of the three motions, lower triangle, and with the
+        // distances.
         let mut sums = vec![[0.0; 9]; n + 1];
         for g in (0..n).rev() {
             let (block, size) = (&self.blocks[g], self.blocks[g].size);
@@ -218,7 +220,7 @@ impl Work {
         }
     }
 
-    /// What must vanish: minus its value.
+    /// Quantities that must vanish, with a minus sign.
     pub(super) fn off(&self, chain: &Chain, held: Option<&Held>) -> Vec<f64> {
         let mut all = vec![];
         if chain.closed {

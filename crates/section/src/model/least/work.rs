@@ -1,5 +1,5 @@
-//! What a fit computes with: the unknowns of a chain, sums over the points of its pieces, and the memory kept from one fit to the
-//! next.
+//! Working memory of a fit: the unknowns of a chain, sums over the points of its pieces, and the memory kept from one
+//! fit to the next.
 
 use super::super::chain::Layout;
 
@@ -106,8 +106,8 @@ pub(crate) struct Work {
     pub(super) variables: Vec<Variable>,
     pub(super) matrix: Vec<f64>,
     pub(super) right: Vec<f64>,
-    /// The diagonal of what the points say: steps are damped by it. What must vanish weighs far more, and would hold back all
-    /// that moves it.
+    /// The diagonal of what the points say: steps are damped by it. Quantities that must vanish weigh far more, and
+    /// would hold back all that moves them.
     pub(super) scale: Vec<f64>,
     /// Signed distances of the points last measured.
     pub(super) distances: Vec<f64>,

@@ -100,8 +100,7 @@ pub(super) fn wall(seed: u64, dense: bool) -> Made {
     Made { points, walls, noise, spacing, closed, kind }
 }
 
-/// How the rows of a wall are: right (two rows, each of one face but for points that noise hides), told, each of one face but in pieces,
-/// or none of these.
+/// How the rows of a wall are. Right are two rows, each of one face but for points that noise hides. Else they are reported, or each of one face but in pieces, or none of these.
 pub(super) fn judged(made: &Made) -> (usize, String) {
     let flat: Vec<[f64; 2]> = made.points.iter().map(|p| p.0).collect();
     let found = order(&flat, None, &Silent).unwrap();
@@ -155,7 +154,7 @@ fn faces_of_thin_walls_are_parted_or_told() {
     assert!(wrong == 0 && right > 32, "{right} {reported} {pieces} {wrong}");
 }
 
-/// Of walls that are thick for how near points lie windows grow with what the faces scatter by.
+/// Windows of walls that are thick for how near points lie grow with the scatter of the faces.
 #[test]
 fn faces_of_dense_walls_are_parted_or_told() {
     let [right, reported, pieces, wrong] = rates(40, true);

@@ -1,8 +1,9 @@
 //! A stray point beside an end of a row, a few distances between points off where the row ends.
 //!
-//! One point alone is no evidence of a segment of the part where the rest of the row is dense: the points next to the end lie on a curve, which tells where
-//! the next one may lie, and their steps tell how far off. A point beyond both is stray in a row that was measured, as steps of a scan are alike. In a row
-//! without noise it may be the far end of a line that is given by its ends: there it is doubted.
+//! One point alone is no evidence of a segment of the part where the rest of the row is dense. The points next to the
+//! end lie on a curve, which tells where the next one may lie, and their steps tell how far off. A point beyond both is
+//! stray in a row that was measured, as steps of a scan are alike. In a row without noise it may be the far end of a
+//! line that is given by its ends: there it is doubted.
 
 use super::limits::{BENT_TURN_SHARE, FAR_STEP_RATIO, MIN_POINTS_TO_TELL_STRAYS, STRAIGHT_TURN};
 use crate::model::flat::distance;
@@ -16,14 +17,15 @@ const MIN_STRAY_STEP_RATIO: f64 = 1.5;
 const STRAY_SIGMAS: f64 = 8.0;
 /// A point is doubted from so many standard deviations on.
 const DOUBTFUL_END_SIGMAS: f64 = 3.0;
-/// The points next to an end agree to so many standard deviations, or to this share of their steps: what a parabola leaves of an arc.
+/// The points next to an end agree to so many standard deviations, or to this share of their steps, which is how far a
+/// parabola lies off an arc.
 const AGREEING_SIGMAS_AND_SHARE: (f64, f64) = (3.0, 0.05);
 /// They are dense where their curve turns by less than this, radians: a parabola tells it.
 const MAX_WINDOW_TURN: f64 = 1.0;
 /// Rows with less noise than this share of the distance between points were not measured.
 const MIN_NOISE_OF_MEASURED_ROW: f64 = 1e-3;
 
-/// What the last point of a row is.
+/// The verdict on the last point of a row.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum End {
     Sound,
@@ -31,7 +33,7 @@ pub(super) enum End {
     Stray,
 }
 
-/// What a row's points scatter by.
+/// The scatter of a row's points.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Scatter {
     sigma: f64,
@@ -51,7 +53,7 @@ impl Scatter {
     }
 }
 
-/// What the first point of a row is.
+/// The verdict on the first point of a row.
 pub(super) fn judge_first(row: &[[f64; 2]], scatter: Scatter) -> End {
     let next: Vec<[f64; 2]> =
         row.iter().skip(1).step_by(scatter.step).take(POINTS_BESIDE_END).copied().collect();
@@ -74,8 +76,9 @@ pub(super) fn judge_first(row: &[[f64; 2]], scatter: Scatter) -> End {
     if measured && step >= FAR_STEP_RATIO * longest && by(STRAY_SIGMAS) { End::Stray } else { End::Doubtful }
 }
 
-/// Whether a point lies off where the curve of those `next` to it leads, by so many standard deviations: straight on, or on with up to twice its
-/// curvature; by an angle of more than `least`, too.
+/// Whether a point lies off where the curve of those
+/// `next` to it leads, by so many standard deviations. The curve goes straight on, or on with up to twice its curvature. The point lies off by an angle of more than `least`,
+/// too.
 fn leaves(tip: [f64; 2], next: &[[f64; 2]], longest: f64, [sigma, deviations]: [f64; 2], least: f64) -> bool {
     let (near, far) = (next[0], next[next.len() - 1]);
     let length = distance(far, near);

@@ -96,8 +96,8 @@ fn free(random: &mut Random) -> Vec<[f64; 2]> {
         .collect()
 }
 
-/// A rectangle with rounded corners by the ends of its lines and the vertices of its arcs, from any point, closed or open; as a wide one
-/// an obround.
+/// A rectangle with rounded corners by the ends of its lines and the vertices of its arcs, from any point, closed or
+/// open. Without height it is an obround.
 fn ends_of_lines(random: &mut Random) -> Vec<[f64; 2]> {
     let (r, each) = (between(random, 1.0, 5.0), count(random, 6, 30));
     let [w, h] =
@@ -188,7 +188,7 @@ fn with_strays(random: &mut Random) -> (Vec<[f64; 2]>, Vec<usize>) {
     (all, numbers)
 }
 
-/// Of rows with strays so many have them left out, told, and neither; of rows without so many lose or doubt a point.
+/// How many rows with strays have them left out, doubted, and neither; how many rows without lose or doubt a point.
 fn rates(rows: u64) -> [usize; 4] {
     let mut counts = [0; 4];
     for seed in 0..rows {

@@ -137,7 +137,8 @@ fn placed(all: Vec<[f64; 2]>, random: &mut Random) -> (Vec<[f64; 2]>, f64, f64) 
     (points, size, noise)
 }
 
-/// Of so many profiles those whose chord is off by more than a share, whose edge is, and whose edge is of another kind.
+/// How many of so many profiles have a chord that is off by more than a share, such an edge, and an edge of another
+/// kind.
 fn wrong(profiles: u64) -> [usize; 3] {
     let mut counts = [0; 3];
     for seed in 0..profiles {
