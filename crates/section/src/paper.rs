@@ -9,8 +9,9 @@
 //! `stepwise` takes the measured point at which the curvature leaves that of the line. `improved` searches an interval
 //! about that point, where the paper has one picked by hand.
 //!
-//! The straight part, which the paper has marked by hand, is the longest that the noise of [`contour`](crate::contour()) allows,
-//! less a tenth of it. See docs/section.md for what is weak in the rules of the interval.
+//! The straight part, which the paper has marked by hand, is the longest that the noise of
+//! [`contour`](crate::contour()) allows, less a tenth of it. See docs/section.md for the weak points in the rules of
+//! the interval.
 
 use crate::model::prior::NEGLIGIBLE_OFFSET_SPACINGS;
 use crate::model::result::{Contour, Geometry, Options, SectionError, Segment};
@@ -365,7 +366,7 @@ impl Work {
 
 /// The contour of one method: a line, and the curve as one segment.
 ///
-/// Segments whose points are off by several times the noise that the default's contour leaves are astray. `found` is the contour of the default, and `reversed` as [`line_and_curve`] told it. The join's interval is the method's;
+/// Segments whose points are off by several times the noise that the default's contour leaves are unreliable. `found` is the contour of the default, and `reversed` as [`line_and_curve`] told it. The join's interval is the method's;
 /// its standard uncertainty that of a value anywhere in the interval.
 pub fn method_contour(
     points: &[[f64; 2]],
@@ -424,7 +425,7 @@ pub fn method_contour(
     }
     let sum: f64 = all.segments.iter().map(|s| s.rms).sum();
     all.segments.iter_mut().for_each(|s| s.rms = (s.rms / s.count.max(1) as f64).sqrt());
-    // A rule to stop may end far from where the line does: the points then tell the noise, not what is left of them.
+    // A rule to stop may end far from where the line does: the points then tell the noise, not their residuals.
     let most = MAX_SEGMENT_RMS_SIGMAS * found.noise.max(NEGLIGIBLE_OFFSET_SPACINGS * found.spacing);
     all.unreliable = (0..all.segments.len()).filter(|k| all.segments[*k].rms > most).collect();
     all.noise = options.noise.unwrap_or((sum / kept.max(1) as f64).sqrt());

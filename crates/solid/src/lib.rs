@@ -1,4 +1,5 @@
-//! Meshes as boundaries of solids: what [`check`](trueness_geom::check) finds is mended, and crossing shells become one.
+//! Meshes as boundaries of solids: findings of [`check`](trueness_geom::check) are mended, and crossing shells become
+//! one.
 //!
 //! | task | where |
 //! |---|---|

@@ -1,4 +1,5 @@
-//! The facets near some that changed: what these may cross lies there, and the rest of the mesh need not be looked at again.
+//! The facets near some that changed. All facets that these may cross lie there, and the rest of the mesh need not be
+//! looked at again.
 
 use std::cell::Cell;
 use trueness_geom::check::near::{Look, Near};
@@ -43,7 +44,7 @@ impl Neighborhood {
         });
         let middle = |b: &Aabb| std::array::from_fn(|k| 0.5 * b.min[k] + 0.5 * b.max[k]);
         let near = Near::new((0..).zip(&chosen).map(|(i, b)| (middle(b), i)).collect());
-        // A box that overlaps a chosen one is no farther from its middle than half the largest, and what rounding takes.
+        // A box that overlaps a chosen one is no farther from its middle than half the largest, and the rounding error.
         let reaches = |f: &[u32; 3]| {
             let own = bounds(f);
             let wide = |k: usize| half[k] * (1.0 + 1e-12) + 1e-15 * own.min[k].abs().max(own.max[k].abs());

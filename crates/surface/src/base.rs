@@ -21,11 +21,11 @@ pub struct Base {
     pub origin: Point,
     /// Right-handed unit axes. The axes of a plane are the sides of the rectangle and the normal. The third axis of a
     /// cylinder is its own, and the first points to where its angle is 0. The third axis of a sphere points to the
-    /// pole, which lies with its opposite as far from the points as can be; the first points about amid them. The axes
-    /// of a mesh are those in which its vertices spread, most in the first.
+    /// pole, which lies with its opposite as far from the points as can be. The first axis points about amid them. The
+    /// axes of a mesh are those in which its vertices spread, most in the first.
     pub axes: [Vector; 3],
     /// Angle from the longer side of the minimum bounding rectangle to the first axis, in radians from −π/2 to π/2.
-    /// Only a plane whose rectangle was turned along what bends has another angle than 0.
+    /// Only a plane whose rectangle was turned along its main bends has another angle than 0.
     pub turned: f64,
     /// Angle from the normal of the least-squares plane to the third axis, radians. It is 0 but where the points lie in
     /// layers over the least-squares plane, and in fewer over another one.
@@ -195,7 +195,7 @@ fn seen(
 fn no_line(places: &[[f64; 2]]) -> Result<(), SurfaceError> {
     let [u, v] = ranges(places.iter().copied());
     let (long, short) = ((u.1 - u.0).max(v.1 - v.0), (u.1 - u.0).min(v.1 - v.0));
-    // Also what lies aslant on one line.
+    // Also points aslant on one line.
     if short <= MIN_SIDE_RATIO * long
         || minimum_rectangle(places).is_none_or(|r| r.sides[1] <= MIN_SIDE_RATIO * r.sides[0])
     {

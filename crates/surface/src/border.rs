@@ -2,8 +2,8 @@
 //!
 //! The parameters of the outermost points are the ends of the domain. Noise across a surface that leans on its base
 //! moves their nearest places beyond. Such places then lie on the border, and the distance holds a part along the
-//! surface that is no deviation. So the polynomials at the border go on as far as those places lie, the surface within
-//! remaining what it is. The ends of the domain may have to stay, or the polynomials would have to go on too far. Such
+//! surface that is no deviation. So the polynomials at the border go on as far as those places lie, and the surface
+//! within stays the same. The ends of the domain may have to stay, or the polynomials would have to go on too far. Such
 //! points are then beyond the border, and do not count.
 
 use super::SurfaceFit;

@@ -1,7 +1,7 @@
 //! The nearest places of all points, from their parameters on: eight points of a cell side by side.
 //!
 //! Newton's method from a start near the place takes three or four steps, and most points stay in their cell on the
-//! way. Those go together through loops over arrays. A point begins anew by itself ([`Patches::foot_from`]) that leaves
+//! way. These go together through loops over arrays. A point begins anew by itself ([`Patches::foot_from`]) that leaves
 //! its cell or comes to the edge of the domain. So does one that has no convex distance, or no end after some steps. So
 //! the answer for a point depends on no other.
 
@@ -23,7 +23,7 @@ const STEPS_SIDE_BY_SIDE: usize = 5;
 /// Length of a step, relative to the place, after which the next one is rounding: as of the search for one point.
 const LAST_STEP_SHARE: f64 = 1e-9;
 
-/// The nearest places of points, and what is left of the points at their own parameters.
+/// The nearest places of points, and the residuals of the points at their own parameters.
 #[derive(Default)]
 pub(super) struct Feet {
     /// Signed distances.
@@ -124,7 +124,7 @@ pub(super) fn feet(
     let items = data.items();
     let (deviations, feet) = (Vec::with_capacity(points.len()), Vec::with_capacity(points.len()));
     let mut all = Feet { deviations, feet, ..Feet::default() };
-    // A batch at a time: what its pieces hold is held twice.
+    // A batch at a time: the contents of its pieces are held twice.
     for batch in items.chunks(ITEMS_PER_BATCH) {
         let parts: Result<Vec<Feet>, Cancelled> = batch.par_iter().map(one).collect();
         for part in parts? {
@@ -136,7 +136,7 @@ pub(super) fn feet(
             all.max_residual = all.max_residual.max(part.max_residual);
         }
     }
-    // With no more in memory than before: what the points were sorted into goes first.
+    // With no more in memory than before: the sorted points go first.
     let Binned { rank, order, local, points: sorted, .. } = data;
     drop((order, local, sorted));
     all.deviations = in_order(&rank, &all.deviations);

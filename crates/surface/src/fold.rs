@@ -8,8 +8,8 @@ const POINTS_PER_CELL: f64 = 16.0;
 /// Share of the points in cells where two layers lie over one another.
 ///
 /// The points of a cell fall into two groups at the widest gap of their heights. Where the gap is wider than the cell,
-/// there are two layers, unless the groups can be told apart by where they lie in the cell, as those of a step can.
-/// Where groups have very different sizes the smaller one counts alone: outliers are no layer.
+/// there are two layers. The exception is groups that can be told apart by where they lie in the cell, as those of a
+/// step. Where groups have very different sizes the smaller one counts alone: outliers are no layer.
 pub(super) fn share(seen: &[([f64; 2], f64)], domain: [(f64, f64); 2]) -> f64 {
     let sides = domain.map(|d| d.1 - d.0);
     let cell = (sides[0] * sides[1] * POINTS_PER_CELL / seen.len() as f64).sqrt();

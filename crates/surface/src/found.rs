@@ -1,4 +1,4 @@
-//! The surface found, and what it keeps to.
+//! The surface found, and the limits that it keeps to.
 
 use super::base::Base;
 use super::outline::Outline;
@@ -9,8 +9,8 @@ use trueness_geom::spline::surface::Surface;
 /// How well the data hold the control points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Support {
-    /// Control points whose basis functions, squared and summed over all points, come to less than 10⁻⁴: what they are is the
-    /// thin-plate term's doing.
+    /// Control points whose basis functions, squared and summed over all points, come to less than 10⁻⁴. Their places
+    /// are the thin-plate term's doing.
     pub unsupported: usize,
     /// Control points in all.
     pub control_points: usize,
@@ -48,7 +48,7 @@ impl Reached {
     }
 }
 
-/// A surface through points, and what it keeps to.
+/// A surface through points, and the limits that it keeps to.
 #[derive(Clone, Debug)]
 pub struct SurfaceFit {
     /// The surface.

@@ -1,4 +1,4 @@
-//! Gaps between points that lie in rows, and what cross-validation of single points cannot see there.
+//! Gaps between points that lie in rows, which cross-validation of single points cannot see.
 //!
 //! A point of a scanner's row is told by its neighbors in the row, whatever the surface does between the rows. So where
 //! rows lie far apart for the knots, blocks of the domain wider than a gap are left out. The residuals there of a
@@ -85,7 +85,7 @@ impl Blocks {
     }
 }
 
-/// Points of one color: their equations, for what a surface leaves of them.
+/// Points of one color: their equations, for the residuals of a surface.
 struct Color {
     /// The normal equations of all of them.
     normal: Stencil,
@@ -100,8 +100,8 @@ pub(super) struct Folds {
 }
 
 impl Folds {
-    /// The folds for what `surface` (of points less the center) leaves of the points. `None` where these do not lie in
-    /// rows far apart, or have no blocks between others.
+    /// The folds for the residuals of `surface` (of points less the center). `None` where these do not lie in rows far
+    /// apart, or have no blocks between others.
     pub(super) fn of(
         data: &Binned,
         surface: &Patches,

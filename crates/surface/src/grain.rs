@@ -17,9 +17,9 @@ const MEAN_DIRECTION_STEPS: usize = 20;
 
 /// The direction of the parameters in which most of the surface bends, if that is much of it.
 ///
-/// Each point counts as much as the surface there bends more along one direction than across it: what bends alike both ways has none.
-/// Directions at right angles are one, as they take the same knot lines. The main one is where they lie closest, so that others do not
-/// draw it aside, as they would a mean of all.
+/// Each point counts as much as the surface there bends more along one direction than across it. A place that bends
+/// alike both ways does not count. Directions at right angles are one, as they take the same knot lines. The main one
+/// is where they lie closest, so that others do not draw it aside, as they would a mean of all.
 pub(super) fn grain(found: &SurfaceFit) -> Option<[f64; 2]> {
     let patches = Patches::new(&found.surface);
     let seen: Vec<(f64, f64)> = found.feet.par_iter().map(|f| bent(&patches, *f)).collect();

@@ -1,9 +1,9 @@
 //! Normal equations, summed cell by cell.
 //!
-//! Within a knot cell all basis functions are polynomials of its two coordinates `s` and `t`. So the moments `Σ sⁱ tʲ`
-//! of a cell, `(2p + 1)(2q + 1)` of them, give what it adds to the matrix, and `Σ sⁱ tʲ x` what it adds to the right
-//! side. These are fewer products a point than the `(p + 1)²(q + 1)²` of its basis functions. Points are sorted by
-//! cell; sums run over blocks of fixed size, and blocks are added in their order.
+//! Within a knot cell all basis functions are polynomials of its two coordinates `s` and `t`. So a cell has moments
+//! `Σ sⁱ tʲ`, `(2p + 1)(2q + 1)` of them, which give its part of the matrix. Its part of the right side follows from
+//! `Σ sⁱ tʲ x`. These are fewer products a point than the `(p + 1)²(q + 1)²` of its basis functions. Points are sorted
+//! by cell; sums run over blocks of fixed size, and blocks are added in their order.
 
 use super::stencil::Stencil;
 use trueness_geom::num::banded::dot;
@@ -144,7 +144,7 @@ impl Binned {
         Ok((normal, sums))
     }
 
-    /// The sums of what the `surface` (of points less the center) leaves of the points.
+    /// The sums of the residuals of the `surface` (of points less the center).
     pub(super) fn left_by(&self, surface: &Patches, progress: &dyn Progress) -> Result<Sums, Cancelled> {
         self.sums_of(None, progress, |k, cell, [s, t]| {
             let place = surface.value(cell, s, t);
@@ -161,7 +161,8 @@ impl Binned {
         Ok(self.sums_of(None, progress, |k, _, _| value(self.order[k]))?.right)
     }
 
-    /// The equations of the points in some of the cells, for what the `surface` (of points less the center) leaves of them.
+    /// The equations of the points in some of the cells, for the residuals of the `surface` (of points less the
+    /// center).
     pub(super) fn part(
         &self,
         surface: &Patches,
@@ -255,7 +256,7 @@ impl Binned {
         out
     }
 
-    /// Adds what the moments of a cell come to, and clears them.
+    /// Adds the sums that the moments of a cell come to, and clears them.
     fn flush(
         &self,
         cell: usize,

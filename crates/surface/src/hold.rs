@@ -16,14 +16,14 @@ use trueness_geom::space::{Point, minus};
 use trueness_geom::spline::basis::Knots;
 use trueness_geom::spline::spans::Spans;
 
-/// A basis function is held that meets fewer than this share of the points that it would meet if they lay all over it
-/// as densely as elsewhere. The noise of its control point is then twice that of others; without bound, as the share
+/// Points as dense as elsewhere, all over a basis function, would be a certain number. It is held where it meets fewer
+/// than this share of that. The noise of its control point is then twice that of others; without bound, as the share
 /// goes to none.
 const SPARSE_SHARE: f64 = 0.3;
 /// Most that a plate holds, as a share of the mean hold of the points on a control point.
 pub(super) const MAX_PLATE_STIFFNESS: f64 = 1e-2;
-/// A plate is so stiff that a bend of this slope from one cell to the next counts as much as one standard deviation of
-/// a point. Points without noise are held by next to nothing.
+/// A bend of this slope from one cell to the next counts as much as one standard deviation of a point. Points without
+/// noise are held by next to nothing.
 const PLATE_SLOPE: f64 = 0.1;
 /// Length, as a share of the shorter side, over which the surface lies down along the base.
 const LEVELLING_REACH: f64 = 0.1;
@@ -47,7 +47,7 @@ pub(super) struct Penalty {
 }
 
 impl Penalty {
-    /// For what the matrix of the points leaves loose; `None` where that is nothing.
+    /// The penalty for the control points that the matrix of the points leaves loose; `None` where there are none.
     pub(super) fn of(data: &Binned, normal: &Stencil, ground: &Ground) -> Option<Penalty> {
         let needs = needs(data, normal);
         if needs.iter().all(|n| *n == 0.0) {
@@ -74,7 +74,7 @@ impl Penalty {
     }
 }
 
-/// The stiffness for points of this variance, as a share of what they hold a control point with in the mean.
+/// The stiffness for points of this variance, as a share of the points' mean hold on a control point.
 pub(super) fn stiffness(data: &Binned, normal: &Stencil, variance: f64) -> f64 {
     let sides = data.spans.each_ref().map(|s| s.limits(s.count() - 1).1 - s.limits(0).0);
     let cell = sides[0] * sides[1] / data.cells().0 as f64;

@@ -1,4 +1,4 @@
-//! B-spline surfaces through scattered points: the points in, the surface and what it keeps to out.
+//! B-spline surfaces through scattered points: the points in, the surface and its limits out.
 //!
 //! [`fit`] goes the way of reverse engineering. It projects the points on their least-squares plane, and takes the minimum bounding rectangle with the longer side as `u`
 //! for the parameters. Uniform clamped knots follow from degree and spans, the control points by least squares, and
@@ -26,8 +26,8 @@
 //!
 //! Sources: Hoschek, Intrinsic parametrization for approximation, Computer Aided Geometric Design 5, 1988 (parameter
 //! correction). Kim and Gu, Smoothing spline Gaussian regression: more scalable computation via efficient
-//! approximation, Journal of the Royal Statistical Society B 66, 2004 (cross-validation with degrees of freedom counted
-//! 1.4 times).
+//! approximation, Journal of the Royal Statistical Society B 66, 2004. Theirs is the cross-validation with degrees of
+//! freedom counted 1.4 times.
 #![cfg_attr(test, allow(clippy::disallowed_methods, reason = "a test does not hang on the last digit"))]
 
 mod base;
@@ -155,9 +155,10 @@ fn fit_without(
 /// The B-spline surface of least squares through the vertices of a mesh. With [`BaseKind::Mesh`] the parameters come from its facets,
 /// which are laid flat; with the other bases it is [`fit`] of the vertices.
 ///
-/// Facets count that name three different vertices. The mesh has one part with a rim and without handles; holes are allowed. Lengths
-/// of the facets are kept as far as they can be; what was unrolled keeps them all. Parameters run along the minimum bounding rectangle; the
-/// normal looks as that of the facets does. Cost: besides that of the fit some dozens of rounds over the facets, and 1 kB a vertex.
+/// Facets count that name three different vertices. The mesh has one part with a rim and without handles; holes are
+/// allowed. Lengths of the facets are kept as far as they can be; an unrolled surface keeps them all. Parameters run
+/// along the minimum bounding rectangle; the normal looks as that of the facets does. Cost: besides that of the fit
+/// some dozens of rounds over the facets, and 1 kB a vertex.
 ///
 /// # Errors
 /// [`SurfaceError`]: as of [`fit`], and [`NotADisc`].

@@ -55,7 +55,7 @@ pub(super) fn with_true_distances(
     Ok(fit)
 }
 
-/// The surface, cut where a knot stands more often than the degree: it is torn there. Parameters stay what they are.
+/// The surface, cut where a knot stands more often than the degree: it is torn there. Parameters stay the same.
 fn untorn(surface: &Surface<Point>) -> Vec<Nurbs> {
     let whole = Nurbs::from(surface.clone());
     let parts = surface.knots().each_ref().map(limits);

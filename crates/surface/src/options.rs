@@ -82,7 +82,7 @@ pub struct Options {
 }
 
 impl Options {
-    /// Corrections of the parameters at most, with what the base allows.
+    /// Corrections of the parameters at most, as far as the base allows.
     pub(super) fn corrections_made(&self) -> usize {
         if self.base == BaseKind::Xy { 0 } else { self.corrections }
     }

@@ -24,7 +24,8 @@ const TRIAL_PLANES: usize = 16;
 const SIGMA_PER_MEDIAN: f64 = 1.4826 * (1.0 + 5.0 / (NEIGHBORS_ASKED - 3) as f64);
 /// Standard deviations from the first plane within which a neighbor tells the second.
 const NEAR_PLANE_SIGMAS: f64 = 2.5;
-/// Standard deviations from which on a point contradicts: at the rim of what is curved the plane itself is two to three off.
+/// Standard deviations from which on a point contradicts. At the rim of a curved neighborhood the plane itself is two
+/// to three off.
 const CONTRADICTING_SIGMAS: f64 = 6.0;
 /// Neighbors that lie off the plane as the point does, within a quarter of its distance, from which on it is no outlier.
 const MIN_NEIGHBORS_ALIKE: usize = 6;

@@ -226,7 +226,7 @@ fn spacing(points: &[[f64; 2]], domain: [(f64, f64); 2]) -> f64 {
     const POINTS_PER_SQUARE: f64 = 8.0;
     /// Where a square holds fewer points in the mean, their number tells more of chance than of their distance.
     const MIN_POINTS_PER_SQUARE: f64 = 4.0;
-    /// Squares of half the side tell less by this factor where they are no longer wider than what they hold.
+    /// Squares of half the side tell less by this factor where they are no longer wider than the island that they hold.
     const NO_WIDER_RATIO: f64 = 0.75;
     // A place that is there several times is no neighbor of itself.
     let mut points: Vec<[u64; 2]> = points.iter().map(|p| p.map(|x| (x + 0.0).to_bits())).collect();

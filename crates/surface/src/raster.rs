@@ -75,7 +75,8 @@ impl Raster {
                 // Sides of the square against the clock.
                 let sides =
                     [2 * cell([i, j]), 2 * cell([i + 1, j]) + 1, 2 * cell([i, j + 1]), 2 * cell([i, j]) + 1];
-                // The line leaves where what is high lies at the start of a side, and comes in where it lies at its end.
+                // The line leaves where the high corner lies at the start of a side, and comes in where it lies at its
+                // end.
                 for k in 0..4 {
                     if !high[k] && high[(k + 1) % 4] {
                         // Around the high corners behind it, up to where they end.

@@ -70,7 +70,7 @@ impl Task<'_> {
 /// Fits, sets knots where points are beyond the tolerance, and fits again.
 ///
 /// It ends where all points are within, or where no points are left to set knots by. It ends as well where more knots
-/// no longer lower the standard deviation of the points; the answer is then the surface before they were set.
+/// no longer lower the standard deviation of the points. The answer is then the surface before they were set.
 pub(super) struct Rounds<'a> {
     task: Task<'a>,
     halved: Halved,
@@ -162,8 +162,8 @@ pub(super) enum Halved {
 }
 
 impl Halved {
-    /// Sides of a cell are halved that have more than such a share of the other side's measure: the length, or how far
-    /// the surface bends over the side.
+    /// Sides of a cell are halved that have more than such a share of the other side's measure. The measure is the
+    /// length, or how far the surface bends over the side.
     fn share(self) -> f64 {
         match self {
             Halved::Longer => 0.7,
@@ -176,8 +176,8 @@ impl Halved {
 /// have functions. Only the most urgent sides are halved where all would make more control points than there are
 /// points.
 ///
-/// A knot goes all through the surface, so it is set only where it is urgent. A dimple in a plane then takes a quarter
-/// of the control points that it would if all spans with a point beyond the tolerance were halved.
+/// A knot goes all through the surface, so it is set only where it is urgent. Else all spans with a point beyond the
+/// tolerance would be halved. A dimple in a plane takes a quarter of the control points that it would then.
 fn finer(
     knots: &[Knots; 2],
     found: &SurfaceFit,

@@ -121,12 +121,12 @@ const MAX_WEIGHT_EXPONENT: i32 = 4;
 const MAX_SQUARES_RATIO: f64 = 2.0;
 
 impl System<'_> {
-    /// The weight of what holds control points where points are few.
+    /// The weight of the plates that hold control points where points are few.
     fn held_by(&self) -> f64 {
         self.stiffness * self.normal.trace() / self.energy.trace()
     }
 
-    /// The stiffness that suits what these control points leave of the points, where it is much less than the one there is.
+    /// The stiffness that suits the residuals of these control points, where it is much less than the one there is.
     fn softer(
         &self,
         points: &[Point],
@@ -172,10 +172,9 @@ impl System<'_> {
         (0..right.len()).map(|k| own[order.of(k)]).collect()
     }
 
-    /// The control points, corrected by what they leave of the points until that changes nothing. The equations square
-    /// the condition of the problem, and the corrections take most of it back. (Björck, Stability analysis of the
-    /// method of semi-normal equations for linear least squares problems, Linear Algebra and its Applications 88/89,
-    /// 1987).
+    /// The control points, corrected by their residuals until that changes nothing. The equations square the condition
+    /// of the problem, and the corrections take most of it back. (Björck, Stability analysis of the method of
+    /// semi-normal equations for linear least squares problems, Linear Algebra and its Applications 88/89, 1987).
     fn refined(
         &self,
         factor: &Factor,
@@ -204,13 +203,14 @@ impl System<'_> {
         Ok(points)
     }
 
-    /// The sums of what the surface of these control points leaves of the points.
+    /// The sums of the residuals of the surface of these control points.
     fn left_by(&self, points: &[Point], progress: &dyn Progress) -> Result<Sums, SurfaceError> {
         let patches = Patches::of(self.data.spans.clone(), points, self.data.counts[1]);
         Ok(self.data.left_by(&patches, progress)?)
     }
 
-    /// Adds what the other terms pull at these control points: `− weight · E p`, and `H (t − p)` where points are few.
+    /// Adds the pull of the other terms at these control points: `− weight · E p`, and `H (t − p)` where points are
+    /// few.
     fn pull(&self, to: &mut [Point], points: &[Point], weight: f64) {
         let mut add = |weight: f64, pull: Vec<Point>| {
             to.iter_mut().zip(pull).for_each(|(to, pull)| (0..3).for_each(|d| to[d] += weight * pull[d]));
@@ -227,7 +227,7 @@ impl System<'_> {
     /// The weight of least cross-validation, and the degrees of freedom with it.
     ///
     /// Weights are tried in steps of ten, then finer about the best. Sums of squares are those of one first surface
-    /// plus what the weight changes, so that points without noise lose no digits.
+    /// plus the change by the weight, so that points without noise lose no digits.
     fn automatic(&self, progress: &dyn Progress) -> Result<(f64, f64), SurfaceError> {
         let unit = self.normal.trace() / self.energy.trace();
         let mut start = -10;

@@ -1,4 +1,4 @@
-//! Fits against reference coefficients, closed forms, and what must not happen.
+//! Fits against reference coefficients, closed forms, and things that must not happen.
 
 mod grain;
 mod holes;
@@ -178,7 +178,7 @@ fn automatic_fairness_leaves_the_noise_out() {
     assert!(error(&found) < 0.6 * error(&wild), "{} {}", error(&found), error(&wild));
     let dof = found.degrees_of_freedom.unwrap();
     assert!(dof > 30.0 && dof < 600.0, "{dof}");
-    // The noise itself is what is left.
+    // The residual is the noise itself.
     let rms = (found.sum_of_squares / (4000.0 - dof)).sqrt();
     assert!((rms - noise).abs() < 0.05 * noise, "{rms}");
     assert!(wild.degrees_of_freedom.is_none());
@@ -435,7 +435,7 @@ fn points_that_contradict_their_neighbors_are_left_out() {
     assert!(robust.left_out.iter().all(|i| apart(i).abs() < 1e-12));
 }
 
-/// The shape of a part is no outlier, whatever surface has too few knots for it; and what is left keeps to the tolerance.
+/// The shape of a part is no outlier, whatever surface has too few knots for it; and the rest keeps to the tolerance.
 #[test]
 fn features_are_no_outliers() {
     // A feature line 24 mm wide and 8 mm high.

@@ -15,7 +15,7 @@ const MAX_RECTANGLE_TURNS: usize = 4;
 
 /// The one of two surfaces with fewer control points, less the knots that it can do without.
 ///
-/// The cells of the one are halved along what bends, over a plane after its rectangle was turned to where it bends
+/// The cells of the one are halved along the main bends, over a plane after its rectangle was turned to where it bends
 /// most. Cells of the other stay about square. It is the surer way to small deviations, and so the answer where none of
 /// them keeps to the tolerance.
 pub(super) fn to_tolerance(
@@ -43,7 +43,8 @@ fn reached(found: &SurfaceFit) -> bool {
     found.reached == Some(Reached::Tolerance)
 }
 
-/// The surface whose cells are halved along what bends, over a rectangle turned along it; `None` where all ends at the noise.
+/// The surface whose cells are halved along its main bends, over a rectangle turned along them; `None` where all ends
+/// at the noise.
 fn along_what_bends(
     task: Task,
     mut base: Base,

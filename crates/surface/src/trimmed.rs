@@ -21,7 +21,7 @@ type Parameters = Point2<f64>;
 /// Facets of the surface within the outline, within `tolerance` of it; `None` if that takes more than `most`.
 ///
 /// Vertices are those of
-/// [`Surface::tessellate`] that lie inside and not close to the outline, and places of the outline where its rows and columns cross it. Facets are those of their constrained Delaunay triangulation in the parameters, and look the way of the surface's normal. Parts that do not hang together share no vertex. Cost: `n
+/// [`Surface::tessellate`] that lie inside and not close to the outline. Others are places of the outline where its rows and columns cross it. Facets are those of their constrained Delaunay triangulation in the parameters, and look the way of the surface's normal. Parts that do not hang together share no vertex. Cost: `n
 /// log n`.
 ///
 /// # Errors

@@ -1,4 +1,4 @@
-//! Surfaces through points: what lies beyond their border, and where a sphere's poles come to lie.
+//! Surfaces through points: points beyond their border, and where a sphere's poles come to lie.
 #![allow(clippy::unwrap_used)]
 
 use std::f64::consts::{FRAC_PI_2, PI};

@@ -2,7 +2,7 @@
 //!
 //! Most planes of a stack meet few facets. The heights of all vertices over planes of one normal are computed once.
 //! Each facet goes to the planes between its lowest and its highest vertex. Heights are rounded, so they only exclude,
-//! beyond an error bound; what is above and below is decided exactly where the plane cuts.
+//! beyond an error bound. Above and below are decided exactly where the plane cuts.
 
 use trueness_geom::mesh::Mesh;
 use trueness_geom::plane::Plane;
@@ -22,7 +22,7 @@ const MAX_FACET_NUMBERS: usize = 1 << 24;
 /// numbers, one over the facets. Then it takes as many steps as the lists are long.
 ///
 /// # Errors
-/// [`Cancelled`], when asked to stop, and what `each` gives.
+/// [`Cancelled`], when asked to stop, and the errors of `each`.
 ///
 /// ```
 /// use trueness_geom::{mesh::Mesh, plane::Plane, progress::{Cancelled, Silent}};
@@ -126,7 +126,7 @@ fn counts(between: &[[u32; 2]], planes: usize) -> Vec<usize> {
         .collect()
 }
 
-/// Between what the height of a place along a normal lies: three products and two sums are rounded.
+/// The bounds of the height of a place along a normal: three products and two sums are rounded.
 fn height(normal: [f64; 3], p: [f64; 3]) -> [f64; 2] {
     let terms = [normal[0] * p[0], normal[1] * p[1], normal[2] * p[2]];
     let sum: f64 = terms.iter().sum();

@@ -1,5 +1,5 @@
-//! Contours of sections of meshes. They are exact lines and arcs where the facets are those of a drawing, and a row of
-//! points where they are those of a scan.
+//! Contours of sections of meshes. They are exact lines and arcs where the facets are those of a drawing. They are a
+//! row of points where the facets are those of a scan.
 
 use super::plane::Chain;
 use super::scan::{CutMesh, ScanRow};
@@ -195,9 +195,9 @@ const MIN_POINTS_AND_NOISES_OF_SCATTER: (usize, f64) = (8, 2.0);
 /// Scatter of more than so many known noises hides form.
 const MAX_KNOWN_NOISES: f64 = 1.5;
 
-/// Between vertices on a curve a chord lies off it by a quarter of what the vertices lie off the chord between their neighbors.
-/// Points within facets are off by no more than the first share of that in the root mean square. They are off by the second at
-/// most, and where they lie in and out by turns.
+/// Vertices on a curve lie off the chord between their neighbors. A chord between them lies off the curve by a quarter
+/// of that. Points within facets are off by no more than the first share of that in the root mean square. They are off
+/// by the second at most, and where they lie in and out by turns.
 const MAX_SAGITTA_SHARES: [f64; 2] = [0.25, 0.5];
 /// Points on edges around and across a curve lie in and out by turns. The products of neighboring distances sum to less
 /// than this share of the squares. Products of noise do so once in 300 rows of 80 points.
@@ -239,7 +239,7 @@ fn within_facets(contour: Contour, points: &[[f64; 2]]) -> Contour {
     all
 }
 
-/// A contour found from some of the points, of this noise where it is known, for all of them. Segments that others lie far off are astray.
+/// A contour found from some of the points, of this noise where it is known, for all of them. Segments that others lie far off are unreliable.
 fn spread(found: Contour, kept: &[usize], known: Option<Known>, points: &[[f64; 2]]) -> Contour {
     let starts: Vec<f64> = starts(&found.segments);
     let n = kept.len();

@@ -4,7 +4,7 @@
 //! that of the contour's lines, arcs and curves, or a cubic B-spline, whichever is the likelier. The camber line is
 //! that of blade inspection: the centers of the circles inscribed into the profile. Each is the greatest that touches
 //! the curve at a place without crossing it. Ma, Bae and Choi (3D medial axis point approximation using nearest
-//! neighbors and the normal field, 2012) shrink a ball point by point; here its radius is the least over all places at
+//! neighbors and the normal field, 2012) shrink a ball point by point. Here its radius is the least over all places at
 //! once.
 
 mod circles;

@@ -2,7 +2,7 @@
 
 use super::nominal::{OffNominal, Outline};
 
-/// A row of measured points, with what is nearest to each.
+/// A row of measured points, with the places nearest to each.
 #[derive(Clone, Copy, Debug)]
 pub struct Passed<'a> {
     /// The points.
@@ -11,7 +11,7 @@ pub struct Passed<'a> {
     pub found: &'a [Option<OffNominal>],
     /// Whether the first follows the last.
     pub closed: bool,
-    /// Numbers of the points that a gap follows, in ascending order: what lies across it was not measured.
+    /// Numbers of the points that a gap follows, in ascending order: the stretch across it was not measured.
     pub gaps: &'a [usize],
 }
 
@@ -31,8 +31,8 @@ impl Covered {
     }
 }
 
-/// A way along the outline is not the one that the points took if it is so many times as long as that from point to
-/// point, to the outline and back. Around a half circle it is π / 2 times as long, around a square's corner √2.
+/// The points may not have taken a way along the outline. It is then so many times as long as that from point to point,
+/// to the outline and back. Around a half circle it is π / 2 times as long, around a square's corner √2.
 const MAX_WAY_ROUND_RATIO: f64 = 1.75;
 
 /// How much of each outline was measured: the stretches between the places nearest to successive points of the rows.

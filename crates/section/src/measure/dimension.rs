@@ -1,7 +1,7 @@
 //! Dimensions between the segments of one plane, as a drawing has them: angles, widths, distances of centers, gaps.
 //!
 //! Uncertainties are those of the segments put together by the rule for independent ones. The evidence of a row about
-//! two segments of one chain is only nearly independent: each is known by its own points for the most part.
+//! two segments of one chain is only nearly independent. Each is known by its own points for the most part.
 
 use crate::model::chain::SegmentKind;
 use crate::model::flat::{angle, distance};
@@ -67,7 +67,7 @@ const MAX_SEGMENTS_IN_PAIRS: usize = 1000;
 const GOLDEN_STEPS: usize = 48;
 
 /// The dimensions between the segments of contours in one plane. They are all angles between a line and the next of its
-/// contour, all widths and distances of centers, and the gap between each contour and the nearest other. Each list in
+/// contour, and all widths and distances of centers. Each contour has the gap to the nearest other, too. Each list in
 /// the order of the segments. Segments that do not run along their points have none.
 ///
 /// Lines of exact facets are parallel as far as the joins at their ends tell. Widths and centers are of pairs: where there are

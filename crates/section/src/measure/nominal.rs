@@ -261,7 +261,7 @@ fn signed(point: [f64; 2], outline: &Outline, number: usize) -> Option<(f64, [f6
         }
         None => {
             let along = unit(foot.along);
-            // Beyond a free end: what there is nearest to is not the outline's side.
+            // Beyond a free end the nearest side is not the outline's.
             let ahead = (along[0] * d[0] + along[1] * d[1]) * if foot.share >= 1.0 { 1.0 } else { -1.0 };
             if at_end && ahead > BEYOND_END_SHARE * foot.distance.abs() {
                 return None;

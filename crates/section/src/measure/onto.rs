@@ -1,11 +1,11 @@
 //! The best fit of a section onto the section of its nominal, in their plane.
 //!
 //! Least squares of the distances to the nearest place, by Gauss and Newton. The outline is taken for its tangent at
-//! each foot, or for the corner where a foot is one, and the feet are found anew after each step. (Chen and Medioni,
-//! Object modelling by registration of multiple range images, 1992). A step that does not bring the points nearer is
-//! halved. It begins with weights that fall with the distance (Huber), so that points without a counterpart hardly lead
-//! it. It ends with all that count at full weight. Motions that the outlines do not hold are named and not guessed: as
-//! a circle turns, and a line slides along itself.
+//! each foot, or for the corner where a foot is one. The feet are found anew after each step. (Chen and Medioni, Object
+//! modelling by registration of multiple range images, 1992). A step that does not bring the points nearer is halved.
+//! It begins with weights that fall with the distance (Huber), so that points without a counterpart hardly lead it. It
+//! ends with all that count at full weight. Motions that the outlines do not hold are named and not guessed: as a
+//! circle turns, and a line slides along itself.
 
 mod freedom;
 mod motion;
@@ -26,7 +26,7 @@ use trueness_geom::progress::{Cancelled, Progress};
 pub struct OntoNominal {
     /// The motion from the section as it lies onto the nominal.
     pub motion: PlaneMotion,
-    /// Standard uncertainty of its shift, coordinate by coordinate; 0 of what was held.
+    /// Standard uncertainty of its shift, coordinate by coordinate; 0 where that was held.
     pub shift_uncertainty: [f64; 2],
     /// Standard uncertainty of its turn, radians; 0 where that was held.
     pub turn_uncertainty: f64,
@@ -85,7 +85,7 @@ const ROUNDING_STEP_SHARE: f64 = 1e-13;
 const HUBER_SIGMAS: f64 = 1.345;
 /// Median magnitude of a normal variable over its standard deviation.
 const MEDIAN_SIGMAS: f64 = 0.674_489_75;
-/// A turn is cut to this, radians: a tangent tells nothing of what lies farther round.
+/// A turn is cut to this, radians: a tangent tells nothing of places farther round.
 const MAX_STEP_TURN: f64 = 0.2;
 
 /// The motion, within `freedom`, that brings the points of `rows` nearest to the outlines. Points that are farther than `reach` in the
@@ -95,7 +95,7 @@ const MAX_STEP_TURN: f64 = 0.2;
 /// correlated along each row as it is found to be. Cost: up to 120 times that of [`off_nominal`].
 ///
 /// # Errors
-/// [`OntoNominalError`]: no outline, too few points, what the outlines do not hold, cancelled.
+/// [`OntoNominalError`]: no outline, too few points, motions that the outlines do not hold, cancelled.
 ///
 /// ```
 /// use trueness_section::{onto_nominal, Freedom, Outline};
@@ -278,7 +278,7 @@ impl Search<'_> {
                     places = tried;
                     break;
                 }
-                // Nor is there an end to halving what is no number.
+                // Nor is there an end to halving a value that is no number.
                 if !size(by).is_finite() || least.is_nan() || size(by) <= least {
                     self.motion = before;
                     break;

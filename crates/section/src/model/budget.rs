@@ -15,7 +15,7 @@ impl Budget {
         Budget { left: Cell::new(products), cut_short: Cell::new(false) }
     }
 
-    /// Takes off what a search took.
+    /// Takes off the products of a search.
     pub fn take(&self, products: f64) {
         self.left.set(self.left.get() - products);
     }

@@ -38,7 +38,7 @@ impl Criterion {
     /// Twice the negative logarithm of the likelihood, the variance of the noise eliminated, plus the penalty of
     /// Schwarz for each unknown. A join counts twice, as its place was chosen among many. Where the points are few for
     /// the unknowns, these take up noise, and the variance left is less than that of the noise. So the penalty grows,
-    /// up to twice, as the unknowns become as many as the points (McQuarrie, A small-sample correction for the Schwarz
+    /// up to twice, as the unknowns become as many as the points. (McQuarrie, A small-sample correction for the Schwarz
     /// SIC model selection criterion, Statistics and Probability Letters 44, 1999).
     pub fn cost(&self, state: &State) -> f64 {
         // A piece without points is made up.
@@ -144,7 +144,7 @@ impl Unknowns {
     }
 }
 
-/// A model with what it costs.
+/// A model with its cost.
 #[derive(Clone, Debug)]
 pub(crate) struct Model {
     pub state: State,

@@ -267,7 +267,7 @@ impl Table {
             let normal = (d[1] * slope[0] - d[0] * slope[1]) * inverse;
             let step = tangential / (1.0 - curvature * normal).max(0.3);
             t = (t + step.clamp(-2.0 * width, 2.0 * width) / self.length).clamp(-0.5, 1.5);
-            // Newton's method squares a small error: the next step would be below what counts.
+            // Newton's method squares a small error: the next step would be below the resolution.
             if tangential.abs() < 1e-3 * width {
                 break;
             }

@@ -18,7 +18,8 @@ use work::{PieceSums, TRIAL_CONDITION_WEIGHT, Variable};
 
 /// Weight of a squared distance that must vanish, against one that is to be least, where it is to vanish at last.
 const FINAL_CONDITION_WEIGHT: f64 = 1e8;
-/// Steps back to where the conditions hold, after one along their tangents. Each squares what is missing.
+/// Steps back to where the conditions hold, after one along their tangents. Each squares the residual of the
+/// conditions.
 const RESTORING_STEPS: usize = 4;
 
 /// The points that a chain is fitted to, seen from near their middle, and how much each counts.
@@ -72,10 +73,10 @@ pub(crate) struct Stop {
     pub gain: f64,
     /// Least length of a piece.
     pub shortest: f64,
-    /// Whether what must vanish does, in every step; otherwise it is weighed against the distances.
+    /// Whether the conditions hold in every step; otherwise they are weighed against the distances.
     pub exact: bool,
-    /// Sum of squares that is asked for: where a step gains less than a tenth of what is missing, it will not be reached.
-    /// Infinite where none is.
+    /// Sum of squares that is asked for: where a step gains less than a tenth of the missing part, it will not be
+    /// reached. Infinite where none is.
     pub target: f64,
 }
 
@@ -195,7 +196,7 @@ impl Work {
         }
     }
 
-    /// Sum of squares and what conditions add to it.
+    /// Sum of squares and the terms that conditions add to it.
     fn cost(&self, state: &State, held: Option<&Held>) -> f64 {
         let weight = if self.exact { FINAL_CONDITION_WEIGHT } else { TRIAL_CONDITION_WEIGHT };
         state.sum + weight * self.off(&state.chain, held).iter().map(|x| x * x).sum::<f64>()

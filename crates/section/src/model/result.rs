@@ -39,7 +39,7 @@ impl Geometry {
     }
 }
 
-/// Standard uncertainties of what a segment is known by, from the scatter of the points.
+/// Standard uncertainties of a segment's parameters, from the scatter of the points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Uncertainty {
     /// Uncertainties of a line.

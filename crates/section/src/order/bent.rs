@@ -1,4 +1,4 @@
-//! Slabs of a cloud across which a surface bends: what that does to radii.
+//! Slabs of a cloud across which a surface bends: the effect on radii.
 //!
 //! The section of a ball of radius `R` by a slab of thickness `t` about its middle holds points of all circles in the
 //! slab. They lie `h² / 2R` inside of the great circle at a height

@@ -97,7 +97,7 @@ pub(super) fn link_over_gaps(ways: Vec<Way>, middles: &[[f64; 2]], limits: &Limi
     chains(ways, &partner)
 }
 
-/// Pairs of ends that may be linked, the likeliest first, with what each costs.
+/// Pairs of ends that may be linked, the likeliest first, with the cost of each.
 fn candidates(ends: &[End], limits: &Limits) -> Vec<(f64, usize, usize)> {
     let mut by_x: Vec<usize> = (0..ends.len()).collect();
     by_x.sort_by(|a, b| ends[*a].at[0].total_cmp(&ends[*b].at[0]).then(a.cmp(b)));
@@ -123,7 +123,7 @@ fn candidates(ends: &[End], limits: &Limits) -> Vec<(f64, usize, usize)> {
     all
 }
 
-/// The ways run through from an end that is linked to none; what is left is closed.
+/// The ways run through from an end that is linked to none; the others are closed.
 fn chains(ways: Vec<Way>, partner: &[Option<usize>]) -> Vec<Linked> {
     let mut rest: Vec<Option<Way>> = ways.into_iter().map(Some).collect();
     let mut all = vec![];

@@ -32,9 +32,9 @@ const MAX_LENGTH_RATIO: f64 = 2.0;
 
 /// The contour of points in order that were found among `points` in the plane.
 ///
-/// Points that cover an area follow no curve, as those of a slab that is thick for how obliquely it cuts. Either the
-/// segments are more than twice as long as the way along which the points were put in order, or points scatter from one
-/// side of the contour to the other. Then all segments are [`Contour::unreliable`].
+/// Points that cover an area follow no curve, as those of a slab that is thick for how obliquely it cuts. The segments
+/// may be more than twice as long as the way along which the points were put in order. Or points scatter from one side
+/// of the contour to the other. Then all segments are [`Contour::unreliable`].
 ///
 /// # Errors
 /// As [`contour`].
@@ -55,8 +55,8 @@ pub fn ordered_contour(
     Ok(found)
 }
 
-/// Whether the band of two standard deviations on either side of a contour is wider than the mean width within a closed
-/// one, or than half the length of an open one. Then nothing tells which points are of which side.
+/// Whether the band of two standard deviations on either side of a contour is too wide. It is wider than the mean width
+/// within a closed one, or than half the length of an open one. Then nothing tells which points are of which side.
 fn scatters_across(found: &Contour) -> bool {
     let (band, length) = (4.0 * found.rms(), found.length());
     if found.closed { band * length > 2.0 * Outline::of(found).area().abs() } else { 2.0 * band > length }
@@ -95,7 +95,7 @@ mod tests {
             let along: Vec<f64> = row.numbers.iter().map(|i| points[*i].1).collect();
             let period = if row.closed { std::f64::consts::TAU } else { f64::INFINITY };
             let forward = along.windows(2).filter(|w| w[1] > w[0]).count() * 2 > along.len();
-            // Back by no more than what the scatter hides: half a millimeter.
+            // Back by no more than the scatter hides: half a millimeter.
             let most = if row.closed { 0.5 / 20.0 } else { 0.5 };
             for w in along.windows(2) {
                 let step = if forward { w[1] - w[0] } else { w[0] - w[1] };

@@ -1,10 +1,11 @@
 //! Points in a plane put in the order in which they follow each other along contours.
 //!
-//! Points scatter across a contour by more than they lie apart along it, so the nearest neighbor is not the next. The points
-//! are gathered in square cells, made larger until the shortest tree over their middles hardly branches: then it follows the
-//! contour. The longest way through the tree is the contour's course; what hangs beside it is put in where it hangs. Ways are
-//! linked over gaps that uneven points have by chance. A way along both faces of a thin wall is parted in two. (After Lee, Curve reconstruction from unorganized points, Computer Aided
-//! Geometric Design 17, 2000; cells in place of moving least squares.)
+//! Points scatter across a contour by more than they lie apart along it, so the nearest neighbor is not the next. The
+//! points are gathered in square cells, made larger until the shortest tree over their middles hardly branches: then it
+//! follows the contour. The longest way through the tree is the contour's course; branches beside it are put in where
+//! they hang. Ways are linked over gaps that uneven points have by chance. A way along both faces of a thin wall is
+//! parted in two. (After Lee, Curve reconstruction from unorganized points, Computer Aided Geometric Design 17, 2000;
+//! cells in place of moving least squares.)
 
 use super::cells::{Cells, MIN_CELLS_OF_WAY, Tree, tree_paths};
 use super::gaps::{Limits, Linked, gap_to_close, link_over_gaps, longest_by_chance};
@@ -27,7 +28,7 @@ pub struct Ordered {
     pub layered: Option<f64>,
 }
 
-/// The contours of points in a plane, and over what gaps they go on.
+/// The contours of points in a plane, and the gaps that they go on over.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Order {
     /// The contours: that of the most points first.
@@ -163,7 +164,7 @@ fn fills_area(points: &[[f64; 2]], size: f64) -> bool {
 /// Cells grow so many times more where walls may be thin. The faces of a wall parted in two keep so large a share of its points.
 const FACE_SHARE_AND_GROWTHS: (f64, usize) = (0.9, 6);
 
-/// The rows along a tree, and over what gap they go on.
+/// The rows along a tree, and the gap that they go on over.
 fn rows(points: &[[f64; 2]], grown: Grown, gap: Option<f64>, size: f64) -> (Vec<Ordered>, f64) {
     let Grown { cells, tree, reach, follows } = grown;
     let ways = tree_paths(&cells, &tree);

@@ -103,7 +103,7 @@ impl Joined {
         self.mark_unreliable(unreliable);
     }
 
-    /// These segments are astray too.
+    /// These segments are unreliable too.
     pub(super) fn mark_unreliable(&mut self, segments: Vec<usize>) {
         let all = &mut self.contour.unreliable;
         all.extend(segments);

@@ -70,7 +70,7 @@ impl<'a> Question<'a> {
         self.is_free() && self.options.resolution.is_none()
     }
 
-    /// Whether segments of a contour are astray, or its points scatter more than about local fits.
+    /// Whether segments of a contour are unreliable, or its points scatter more than about local fits.
     pub fn doubts(&self, found: &Contour) -> bool {
         let own = self.prior.noise.map_or_else(|| noise(self.points, found.closed).0, |n| n.deviation);
         !found.unreliable.is_empty() || own > 0.0 && found.rms() > MAX_SCATTER_RATIO * own
@@ -88,7 +88,7 @@ impl<'a> Question<'a> {
         (found.unreliable.len(), cost)
     }
 
-    /// The contour that all ways lead to: of each proposal and what was found before the cheaper one,
+    /// The contour that all ways lead to. The cheaper one of each proposal and the contour found before is taken,
     /// unless the points tell.
     pub fn cheapest(
         &self,
@@ -113,12 +113,12 @@ impl<'a> Question<'a> {
 }
 
 impl Candidate {
-    /// One that is compared by what it costs.
+    /// One that is compared by its cost.
     pub fn of(contour: Contour) -> Option<Candidate> {
         Some(Candidate { contour, standing: Standing::Cost })
     }
 
-    /// One that the points speak for against what was found before.
+    /// One that the points speak for against the contour found before.
     pub fn instead(contour: Contour) -> Option<Candidate> {
         Some(Candidate { contour, standing: Standing::Instead })
     }
@@ -180,7 +180,8 @@ mod tests {
         Ok(off::<8>(question, best, progress)?.and_then(|c| Candidate::instead(c.contour)))
     }
 
-    /// One proposer more never raises the cost, wherever it stands in the list and whatever it proposes; what points tell ends the list.
+    /// One proposer more never raises the cost, wherever it stands in the list and whatever it proposes. A contour that
+    /// the points tell ends the list.
     #[test]
     fn a_proposer_more_never_raises_the_cost() {
         let points: Vec<[f64; 2]> = (0..20).map(|i| [f64::from(i), 0.0]).collect();

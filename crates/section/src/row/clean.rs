@@ -1,4 +1,4 @@
-//! Rows of points as they come: what is wrong with them, and what is passed over.
+//! Rows of points as they come: their faults, and the points that are passed over.
 
 use crate::model::flat::distance;
 use crate::model::result::{Options, SectionError};
@@ -111,8 +111,8 @@ impl Clean {
         Ok(Clean { points: all, numbers, middle, repeated, ends_meet, gaps, closed, spacing, rounding })
     }
 
-    /// Points that lie far off what their neighbors on both sides tell, where these agree: eight times the noise. Neighbors are
-    /// taken `step` points apart.
+    /// Points that lie far off the curve of their neighbors on both sides, where these agree: eight times the noise.
+    /// Neighbors are taken `step` points apart.
     pub fn outliers(&self, noise: f64, step: usize) -> Vec<usize> {
         let n = self.points.len();
         let limit = 8.0 * noise;
@@ -194,7 +194,7 @@ impl Clean {
 }
 
 /// How far a curve may be from the chord between a point's two neighbors. It turns there by as much as the neighbors on
-/// either side differ in heading: the distance is a quarter of the chord's length times that angle. Beside gaps in a
+/// either side differ in heading. The distance is a quarter of the chord's length times that angle. Beside gaps in a
 /// bend no parabola tells where it runs.
 fn bend(near: &[[f64; 2]]) -> f64 {
     let (left, right) = near.split_at(near.len() / 2);

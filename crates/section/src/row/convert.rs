@@ -124,8 +124,8 @@ fn of_length(found: &Found, g: usize) -> Option<f64> {
 
 /// Standard uncertainty of the length between joins. Each join has an uncertainty by the covariance and one by its
 /// interval. The covariance of that length tells how the joins go together. Where a curvature grows from that of the
-/// neighbor the covariance alone holds nothing. The join moves by the square root of what the points allow, and
-/// intervals are far shorter than it says.
+/// neighbor the covariance alone holds nothing. The join moves by the square root of the points' slack, and intervals
+/// are far shorter than it says.
 fn between(joins: &[[f64; 2]], linear: f64) -> f64 {
     let ratio = |[by_covariance, own]: [f64; 2]| own / by_covariance.max(f64::MIN_POSITIVE);
     match joins {
@@ -219,7 +219,7 @@ fn segment(
         SegmentKind::Spline => spline(layout, g, piece, [from, to], [start, end], 0.05 * tolerance),
     };
     let ends = [from, to].map(|s| piece.curvature((s / piece.length).clamp(0.0, 1.0)));
-    // Below 0 where a chain that went astray runs against its points.
+    // Below 0 where an unreliable chain runs against its points.
     Segment::bare(geometry, [start, end], length.abs(), ends)
 }
 

@@ -56,8 +56,8 @@ pub(super) fn crossing(a: &Found, b: &Found, quantile: f64, farthest: f64) -> Jo
     let most =
         [a.pieces().last(), b.pieces().first()].iter().flatten().fold(farthest, |m, p| m.min(p.length));
     let reach = quantile * uncertainty;
-    // Where the points end, the corner is; and no segment may lose more than what leaves it a length at its other end too.
-    // Where few points lie on a line it goes on as far; an arc or a free curve does not tell as much.
+    // Where the points end, the corner is. No segment may lose so much that no length is left at its other end. Where
+    // few points lie on a line it goes on as far; an arc or a free curve does not tell as much.
     let near = |f: &Found, at_end: bool| {
         let local = if f.end_kind(at_end) == SegmentKind::Line {
             MAX_GAP_LOCAL_SPACINGS * f.local_spacing(at_end)

@@ -38,7 +38,7 @@ pub(super) struct CornerSearch<'a> {
     pub forced: Option<Continuity>,
     /// The parts are known exactly: arcs are tangent to the lines beside them.
     pub known: bool,
-    /// Arcs are taken for tangent to what is beside them.
+    /// Arcs are taken for tangent to their neighbors.
     pub tangent: bool,
     /// The chains of the parts as they are, without any search.
     pub draft: bool,

@@ -2,9 +2,9 @@
 //!
 //! The polygon through its points is always an exact explanation of a row, with as many lines as points. Lines and arcs
 //! of fewer unknowns must earn their place. Three points always have a circle, and smoothness of points that hardly
-//! repeat what others tell says nothing about noise. The evidence is how many points lie on the contour beyond those
-//! that determine it, and how near: coincidences that chance does not make. Where there are none, the points are
-//! corners, unless they turn gently into each other as those of a curve do.
+//! repeat each other says nothing about noise. The evidence is how many points lie on the contour beyond those that
+//! determine it, and how near: coincidences that chance does not make. Where there are none, the points are corners,
+//! unless they turn gently into each other as those of a curve do.
 
 use super::assembly::Joined;
 use super::candidate::{Candidate, Question};
@@ -27,7 +27,7 @@ const MIN_SHARP_CORNERS: usize = 3;
 /// Corners of one circle lie off it by no more than this share of its radius.
 const MAX_OFF_CIRCLE_SHARE: f64 = 1e-3;
 
-/// The circle that the points scatter about where they speak for one, and what was found is another contour.
+/// The circle that the points scatter about where they speak for one, and the contour found is another one.
 pub(super) fn propose_circle(
     question: &Question,
     best: Option<&Contour>,

@@ -20,7 +20,7 @@ const WHOLE_MULTIPLE_SHARE: f64 = 0.02;
 /// Curves touch each other to within so many roundings.
 const TOUCH_ROUNDINGS: f64 = 4.0;
 
-/// A line or an arc between two vertices, and what is known of it.
+/// A line or an arc between two vertices, and the facts known of it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Piece {
     pub item: Item,
@@ -106,7 +106,7 @@ impl PieceCover<'_> {
         (sum / points.len() as f64).sqrt()
     }
 
-    /// Four points of a circle, or three of one that is tangent to what is beside.
+    /// Four points of a circle, or three of one that is tangent to its neighbor.
     fn has_an_arc(&self) -> bool {
         let arc = |(k, p): (usize, &Piece)| p.is_arc() && (p.chords() > 2 || self.tangent(k) == [true; 2]);
         self.pieces.iter().enumerate().any(arc)
@@ -161,7 +161,7 @@ impl PieceCover<'_> {
             let beyond = [before.map(|_| piece.item.from + n - 1), after.map(|_| piece.item.to + 1)]
                 .into_iter()
                 .flatten();
-            // One chord closes an arc: what is beyond is its other end.
+            // One chord closes an arc: the piece beyond is its other end.
             let own = |i: usize| (i + n - piece.item.from % n) % n <= piece.chords();
             piece.chords() < 2
                 || beyond.filter(|i| !own(*i)).all(|i| self.off(piece, i) > END_ROUNDINGS * self.rounding)
@@ -226,7 +226,7 @@ impl PieceCover<'_> {
     }
 
     /// Whether one arc and one chord of its circle are no whole circle, or regular polygon. The chord is far longer
-    /// than those of the arc; or these are even to rounding, and no whole number of them goes into the chord.
+    /// than those of the arc. Or these are even to rounding, and no whole number of them goes into the chord.
     fn is_no_circle(&self) -> bool {
         let [a, b] = self.pieces else { return self.pieces.len() > 1 };
         if !self.polygon.closed || a.is_arc() == b.is_arc() {

@@ -190,7 +190,7 @@ const MAX_POINTS_OF_SHORT_ROW: usize = 60;
 /// A segment that scatters by this share of the noise takes part in it.
 const MIN_SCATTER_SHARE: f64 = 0.2;
 
-/// Segments that miss points which are exact themselves: what the contour calls noise is none.
+/// Segments that miss points which are exact themselves: the contour's noise is none.
 pub(super) fn missed(points: &[[f64; 2]], contour: &Contour) -> Vec<usize> {
     let n = points.len();
     let noise = contour.noise;

@@ -233,8 +233,8 @@ impl Polygon {
         }
     }
 
-    /// Arcs of chords that turn by nearly as much as a corner become lines where chords of the same circle beside them
-    /// turn by little more. Else rounding would decide which are arcs there, and which lines.
+    /// Some arcs have chords that turn by nearly as much as a corner. They become lines where chords of the same circle
+    /// beside them turn by little more. Else rounding would decide which are arcs there, and which lines.
     fn dissolve(&self, items: &mut Vec<Item>, tolerance: f64) {
         let mut k = 0;
         while k < items.len() {

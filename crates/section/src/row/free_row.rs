@@ -45,7 +45,7 @@ const UNKNOWNS_PER_KIND: [f64; 3] = [2.0, 3.0, 3.0];
 /// Knots on either side of the seam of a closed curve, so that feet may lie beyond it.
 const KNOTS_BEYOND_SEAM: usize = 4;
 
-/// A row as what curves are fitted to.
+/// A row as the data of a curve fit.
 struct Row<'a> {
     points: &'a [[f64; 2]],
     /// 1 of points that count, 0 of outliers.

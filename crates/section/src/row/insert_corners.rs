@@ -1,6 +1,6 @@
 //! Corners that a chain passes over.
 //!
-//! The first partition has no corner where lines and arcs turn from one to the next by a few degrees: curves do so all
+//! The first partition has no corner where lines and arcs turn from one to the next by a few degrees. Curves do so all
 //! the way. The chain over such a corner has a short arc or a free piece there, or a join far off. So up to three
 //! neighboring pieces of each chain are replaced by two lines or arcs with a corner between them. Where that costs
 //! less, the chain ends there.

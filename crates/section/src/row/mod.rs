@@ -1,4 +1,4 @@
-//! The contour of a row of points: what is wrong with the row, its corners, and the ways to a contour.
+//! The contour of a row of points: faults of the row, its corners, and the ways to a contour.
 //!
 //! | file | what |
 //! |---|---|

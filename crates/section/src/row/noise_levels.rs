@@ -4,9 +4,9 @@
 //! Where most local fits hold a corner or a small arc, they take it for noise. The partition at that level is one
 //! smooth curve over all corners. Fits of three to five points show whether there may be a finer noise. Then partitions
 //! at finer levels are tried, each is searched as a whole, and the cheapest is chosen. The cost is twice the negative
-//! logarithm of the likelihood plus a penalty that grows without bound as the unknowns become as many as the points.
-//! (Hurvich and Tsai, Regression and time series model selection in small samples, Biometrika 76, 1989). Where even the
-//! cheapest scatters far more than the short fits, it hides form, and is named so.
+//! logarithm of the likelihood plus a penalty. The penalty grows without bound as the unknowns become as many as the
+//! points. (Hurvich and Tsai, Regression and time series model selection in small samples, Biometrika 76, 1989). Where
+//! even the cheapest scatters far more than the short fits, it hides form, and is named so.
 
 use super::clean::{Clean, size};
 use super::exact::{quantized, rounded};
@@ -45,7 +45,7 @@ const MAX_POINTS_WITH_FALSE_CORNERS: usize = 3000;
 const MAX_FINER_PARTITIONS: usize = 4;
 /// Each finer level is this share of the one before.
 const LEVEL_RATIO: f64 = 0.45;
-/// The finest level is this share of the noise of short fits: the lower quartile of few fits may lie above the noise as
+/// The finest level is this share of the noise of short fits. The lower quartile of few fits may lie above the noise as
 /// well as below.
 const MIN_LEVEL_SHARE: f64 = 0.4;
 /// Chains of a finer level are taken where they are cheaper by this: their likelihood is e^4 times as high, beyond the penalty.
@@ -205,8 +205,8 @@ impl Partition {
             .then(|| Partition { tangent: true, ..self.clone() })
     }
 
-    /// The least cost of chains of the parts: as if each followed the part before with a common tangent, and scattered
-    /// no more than it does by itself.
+    /// The least cost of chains of the parts. Each would follow the part before with a common tangent, and scatter no
+    /// more than it does by itself.
     fn least_cost(&self, scatter: f64) -> f64 {
         let each = |p: &Part| if p.kind == SegmentKind::Line { 1.0 } else { 2.0 };
         let unknowns = 2.0 + self.parts.iter().map(each).sum::<f64>();
@@ -307,7 +307,7 @@ fn off_polynomial(points: &[[f64; 2]], degree: usize) -> Option<f64> {
     Some(rest.iter().map(|r| r * r).sum())
 }
 
-/// Takes from a vector what lies along a unit vector.
+/// Takes from a vector its part along a unit vector.
 fn remove(from: &mut [f64], unit: &[f64]) {
     let dot: f64 = from.iter().zip(unit).map(|(a, b)| a * b).sum();
     from.iter_mut().zip(unit).for_each(|(a, b)| *a -= dot * b);
@@ -323,7 +323,7 @@ const MIN_PERIODIC_SHARE: f64 = 0.6;
 /// Chance makes such distances so no more often than this.
 const MAX_PERIODIC_CHANCE: f64 = 1e-5;
 
-/// Segments whose scatter is form that is too short for the points to tell: what the contour calls noise is none.
+/// Segments whose scatter is form that is too short for the points to tell: the contour's noise is none.
 pub(super) fn hidden(contour: &Contour, fine: f64) -> Vec<usize> {
     let n = contour.labels.len();
     let nothing = NEGLIGIBLE_OFFSET_SPACINGS * contour.spacing;

@@ -1,10 +1,10 @@
 //! Rows of a curve without noise: smooth between corners, and no lines and arcs.
 //!
-//! The noise of local fits is the curve's own form there. A search by likelihood takes it for exact, follows it by
-//! lines and arcs by the dozen, and makes corners where the arcs do not follow. Such a row tells more: its points lie
-//! on the curve. So a corner is a turn from one chord to the next that the turns beside do not lead up to, as far as
-//! the points tell them from a bend. Between corners B-splines keep within a ten-thousandth of the distance between
-//! points, over as few spans as that takes.
+//! The noise of local fits is the curve's own form there. A search by likelihood takes it for exact, and follows it by
+//! lines and arcs by the dozen. It makes corners where the arcs do not follow. Such a row tells more: its points lie on
+//! the curve. So a corner is a turn from one chord to the next that the turns beside do not lead up to. The points must
+//! tell it from a bend. Between corners B-splines keep within a ten-thousandth of the distance between points, over as
+//! few spans as that takes.
 
 use super::assembly::Joined;
 use super::candidate::{Candidate, Question, is_cornered};
@@ -43,7 +43,7 @@ const POINTS_OF_LONG_EXACT_PART: usize = 32;
 const MAX_SCATTER_SIGMAS: f64 = 4.0;
 /// Points lie on lines and arcs exactly that are no farther off than so many times the noise of polynomials.
 const EXACT_OFFSET_SIGMAS_OF_FORM: f64 = 6.0;
-/// A corner turns more than so many times what the turns beside lead up to.
+/// A corner turns more than so many times the turn that the turns beside lead up to.
 const MIN_CORNER_TURN_RATIO: f64 = 2.0;
 /// Curvature grows from point to point by no more than this, as far as points tell a bend.
 const MAX_CURVATURE_GROWTH: f64 = 4.0;

@@ -97,7 +97,7 @@ fn within(points: &[[f64; 2]], sums: &Sums, width: usize) -> Option<WindowStatis
         return None;
     }
     let share = |c: &f64| c / together[0];
-    // A fit takes a part of what neighbors share with it.
+    // A fit takes a part of the errors that neighbors share with it.
     let alike = together.chunks_exact(2).map(|pair| share(&pair[0]) + share(&pair[1]));
     let alike = 2.0 * alike.take_while(|pair| *pair > 0.0).sum::<f64>() - 1.0;
     let kept = 1.0 - 3.0 * alike / width as f64;

@@ -86,7 +86,7 @@ impl Sheet<'_> {
         let turn = angle(before.directions()[1], after.directions()[0]);
         let shorter_facet_at = self.shorter_facet_at(vertex);
         let smooth = self.is_tangent(before, after, vertex, slack);
-        // Where the two are no farther apart than what rounding loses.
+        // Where the two are no farther apart than rounding loses.
         let uncertainty = match smooth {
             true => {
                 let jump = (before.curvature[1] - after.curvature[0]).abs();
@@ -112,7 +112,7 @@ impl Sheet<'_> {
         }
     }
 
-    /// Puts the contour together: what the points say of each segment.
+    /// Puts the contour together: each segment with the statistics of its points.
     pub fn finish(
         &self,
         segments: Vec<Segment>,

@@ -42,7 +42,8 @@ const MIN_POINTS_PER_CONTROL_POINT: usize = 4;
 const FIRST_SPANS: usize = 16;
 
 /// The curve along points without noise. It has knots where the error asks for them, at the parameters of the nearest
-/// places; where points are few for its bends, up to a knot at each point. `None` where that swings between the points.
+/// places. Where points are few for its bends, it has up to a knot at each point. `None` where that swings between the
+/// points.
 pub(super) fn followed(points: &[[f64; 2]], ends: Ends<2>, spacing: f64, least: f64) -> Option<Followed> {
     let tolerances = FOLLOWED_TOLERANCES.map(|share| least.max(share * spacing));
     let divided = |parameters: &[f64]| {

@@ -3,8 +3,8 @@
 //! A contour's points follow each other by steps of like length. A stray point is as far off as nothing else: few
 //! points without which the longest step of the way is many times shorter. The criterion is therefore a ratio of two
 //! steps of one row, whatever its size. A long step may be right, too. The far end of a line that is given by its ends
-//! alone goes straight on, and the last corner of a closed row is near the first point. Where a step is long and
-//! neither holds, the point is left out if the rest of the row is far smaller than the way to it. Else it is listed as
+//! alone goes straight on. The last corner of a closed row is near the first point. Where a step is long and neither
+//! holds, the point may be left out. The rest of the row must be far smaller than the way to it. Else it is listed as
 //! doubtful: nothing is lost in silence.
 
 mod ends;

@@ -3,9 +3,9 @@
 //!
 //! A line has no points there but its ends, which its neighbors share, and joins lie at points. No search by likelihood
 //! tells a line of two points from a gap. But exact points show a model by the points that it explains. Every interior
-//! point of a line or an arc saves a coordinate, every join that turns out tangent a direction, and a circle costs its
+//! point of a line or an arc saves a coordinate, and every join that turns out tangent a direction. A circle costs its
 //! curvature. The cheapest cover of the row by lines and arcs that share their ends is found by dynamic programming. It
-//! is taken where what it saves is no chance, and where each of its segments ends for certain.
+//! is taken where its savings are no chance, and where each of its segments ends for certain.
 
 use super::assembly::Joined;
 use super::candidate::{Candidate, Question};
@@ -37,7 +37,7 @@ const SHORTER_ARCS_TRIED: usize = 2;
 /// Covers of a closed row are looked for from both ends of so many of its longest pieces.
 const LONGEST_PIECES_TRIED: usize = 4;
 
-/// The lines and arcs of a row, and what its coordinates are rounded by.
+/// The lines and arcs of a row, and the rounding of its coordinates.
 #[derive(Debug)]
 pub(crate) struct Vertices {
     pub polygon: Polygon,
@@ -132,7 +132,7 @@ struct Cover {
     rounding: f64,
 }
 
-/// The cheapest way to a piece: what it saves, and the piece before.
+/// The cheapest way to a piece: its savings, and the piece before.
 #[derive(Clone, Copy)]
 struct Way {
     saves: f64,

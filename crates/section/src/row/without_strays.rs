@@ -4,7 +4,7 @@ use super::sheet::{nearest, starts};
 use super::stray::Strays;
 use crate::model::result::{Contour, Options};
 
-/// A row, and what of it is searched.
+/// A row, and the part of it that is searched.
 pub(super) struct Searched {
     /// The points that are no strays, by their numbers.
     kept: Vec<usize>,

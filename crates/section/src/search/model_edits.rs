@@ -110,7 +110,8 @@ impl PlacedModel {
         all
     }
 
-    /// Mean curvature over a part; of short arcs exactly, so that what free pieces turn does not add up to something else.
+    /// Mean curvature over a part. It is exact for short arcs, so that the turns of free pieces do not add up to
+    /// something else.
     fn mean_curvature(&self, from: f64, to: f64) -> f64 {
         if self.turns.is_empty() {
             return self.model.state.chain.mean_curvature(&self.stations, from, to);

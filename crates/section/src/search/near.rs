@@ -103,7 +103,7 @@ impl Near {
         Row { points: &self.points, weights: &self.weights }
     }
 
-    /// The search over these pieces: what models of them cost counts the rest of the chain too.
+    /// The search over these pieces: the cost of their models counts the rest of the chain too.
     pub fn search<'b>(&'b self, whole: &Search<'b>, all: &State, own: f64) -> Search<'b> {
         let (all_unknowns, unknowns) = (Unknowns::of(&all.chain), Unknowns::of(&self.state.chain));
         let rest = Rest { sum: (all.sum - own).max(0.0), unknowns: all_unknowns.less(unknowns) };
@@ -188,7 +188,7 @@ impl Search<'_> {
         None
     }
 
-    /// The best step that begins in the core, with what it costs.
+    /// The best step that begins in the core, with its cost.
     fn step_near(&mut self, near: &Near, model: &Model) -> Option<(f64, State)> {
         if near.is_empty() {
             return None;

@@ -90,15 +90,14 @@ fn cheapest(sums: &Sums, n: usize, penalty: &Penalty, gap: usize, free: Option<&
     let index = |k: usize| if k == last { n } else { k * stride };
     let variance = penalty.noise * penalty.noise;
     let fewest = penalty.fewest.max(2);
-    // The least cost of the parts before a place, where the last of them ends there, and where it may end up to a gap
-    // before.
+    // The least cost of the parts before a place. The last of them ends there, or up to a gap before.
     let mut best = vec![f64::INFINITY; last + 1];
     let mut entered = vec![(f64::INFINITY, 0); last + 1];
     let mut from = vec![(0, SegmentKind::Line); last + 1];
     (best[0], entered[0]) = (0.0, (0.0, 0));
     let mut starts: Vec<usize> = vec![];
     let mut costs: Vec<f64> = vec![];
-    // Where a part of the free curve starts best, and what comes before it without what the curve has there.
+    // Where a part of the free curve starts best, and the cost of the parts before it without the curve's share there.
     let mut free_start = (f64::INFINITY, 0);
     for j in 1..=last {
         if entered[j - 1].0.is_finite() {
@@ -167,7 +166,7 @@ fn sharpen(sums: &Sums, breaks: &mut Vec<(usize, SegmentKind)>, stride: usize, p
         (SegmentKind::Line, (line, _)) | (_, (line, None)) => line,
         (_, (_, Some((arc, _, _)))) => arc,
     };
-    // The best place between two for the start of the second of two parts, and what both cost.
+    // The best place between two for the start of the second of two parts, and the cost of both.
     let best =
         |(a, before): (usize, SegmentKind), (c, after): (usize, SegmentKind), low: usize, high: usize| {
             let sum = |at: usize| cost(a, at, before) + cost(at, c, after);

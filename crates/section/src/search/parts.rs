@@ -125,14 +125,14 @@ impl Part {
 }
 
 /// Sums over the points before each, from the middle of the row, and the sum of the weights. They are x, y, xx, xy, yy,
-/// z, xz, yz, zz with z = xx + yy. Each with what rounding lost of it: a short part of a long row is a small difference
-/// of large sums.
+/// z, xz, yz, zz with z = xx + yy. Each with its rounding loss: a short part of a long row is a small difference of
+/// large sums.
 pub(crate) struct Sums {
     before: Vec<[[f64; 2]; 10]>,
     middle: [f64; 2],
 }
 
-/// Adds to a sum in two parts: the rounded one, and what rounding lost (Knuth).
+/// Adds to a sum in two parts: the rounded one, and the rounding loss (Knuth).
 fn add(sum: &mut [f64; 2], term: f64) {
     let next = sum[0] + term;
     let part = next - sum[0];

@@ -35,7 +35,7 @@ const MAX_INTERVAL_SPACINGS: f64 = 25.0;
 /// straight but for a third of it at most. A secant over this share of it misses 2 %.
 const INTERVAL_END_ACCURACY: f64 = 0.06;
 
-/// Share of what the sum of squares grows by to the end of an interval that a fit with the join held may miss.
+/// Share of the growth of the sum of squares to the end of an interval that a fit with the join held may miss.
 const GROWTH_SLACK_SHARE: f64 = 0.01;
 
 /// The likelihood of longer rows is normal, and its second derivative tells the intervals: nothing is fitted anew. So too where the
@@ -293,7 +293,7 @@ struct Seek {
     pose: Pose,
 }
 
-/// A state with the join held so far from where it is best, and the root of what the sum of squares grew by.
+/// A state with the join held so far from where it is best, and the root of the growth of the sum of squares.
 struct Tried {
     x: f64,
     root: f64,

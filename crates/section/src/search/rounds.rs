@@ -12,8 +12,8 @@ use trueness_geom::progress::{Cancelled, Progress};
 /// A model that is dearer than the best by this much after four steps is not refined.
 const COST_TO_DROP: f64 = 30.0;
 
-/// A model of the same kinds and fewer unknowns that is dearer by no more than so much for each point is refined all
-/// the same. Where a curvature grows from 0, a join moves slowly.
+/// A model may have the same kinds, fewer unknowns, and be dearer by no more than so much for each point. It is refined
+/// all the same. Where a curvature grows from 0, a join moves slowly.
 const SLOW_COST_PER_POINT: f64 = 0.2;
 
 /// Products after which a search ends with the cheapest model so far: some seconds. Rows of some dozen segments take a hundredth.
@@ -46,7 +46,7 @@ impl Drop for Search<'_> {
 }
 
 impl Search<'_> {
-    /// Whether the searches of the contour have taken what they may.
+    /// Whether the searches of the contour have used up their budget.
     pub fn is_spent(&self) -> bool {
         self.budget.is_spent(self.work.effort)
     }

@@ -65,7 +65,7 @@ impl Search<'_> {
         self.is_within(state, NEAR_NOISE_RATIO)
     }
 
-    /// Whether the points are no farther off than so many times what local fits tell.
+    /// Whether the points are no farther off than so many times the noise of local fits.
     fn is_within(&self, state: &State, times: f64) -> bool {
         let off = (state.sum / self.criterion.count).sqrt();
         off <= (times * self.criterion.noise).max(NEAR_RESOLUTION_RATIO * self.criterion.resolution)

@@ -210,7 +210,7 @@ impl Span {
                 kept.push(Part { from, to, ..*part });
             }
         }
-        // The points left tell what neighbors share instead of the others.
+        // The points left tell the shared errors instead of the others.
         let weights: Vec<f64> = self.weights.iter().map(|w| (w * step as f64).min(1.0)).collect();
         let own = Span::new(&self.points, &weights, numbers);
         let thinned = Task { spacing: task.spacing * step as f64, step: 1, ..*task };

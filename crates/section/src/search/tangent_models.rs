@@ -18,8 +18,8 @@ const MAX_TOUCHING_GAPS: f64 = 4.0;
 impl Search<'_> {
     /// The cheapest model of the parts that dynamic programming found. One has the curvatures and lengths that they
     /// have by themselves. Where the headings of many add up to one far off, parts are lost on the way back. So another
-    /// turns from one part to the next as they do by themselves, and a third goes from join to join as lines and arcs
-    /// by themselves tell these.
+    /// turns from one part to the next as they do by themselves. A third goes from join to join as lines and arcs by
+    /// themselves tell these.
     pub fn first(&mut self, parts: &[Part], closed: bool) -> Model {
         let plain = self.plain(parts, closed);
         self.cheapest(plain, parts, closed)
@@ -191,7 +191,7 @@ impl Search<'_> {
 }
 
 /// Where two parts touch. That is the foot of an arc's center on a line, or where the line through two centers meets
-/// the arcs, or where two lines cross. `near` tells which of two.
+/// the arcs. Two lines touch where they cross. `near` tells which of two.
 fn touching(a: &Part, b: &Part, near: [f64; 2]) -> Option<[f64; 2]> {
     let center = |p: &Part| [p.center[0] - p.along[1] / p.curvature, p.center[1] + p.along[0] / p.curvature];
     let foot = |line: &Part, c: [f64; 2]| {

@@ -83,7 +83,7 @@ fn an_outlier_where_two_segments_join_turns_neither_round() {
     }
 }
 
-/// A spiral of many turns is smooth: its turns do not become lines and arcs by the hundred, and none is astray.
+/// A spiral of many turns is smooth: its turns do not become lines and arcs by the hundred, and none is unreliable.
 #[test]
 fn a_spiral_is_followed_through_all_its_turns() {
     let random = &mut Random::new(2);

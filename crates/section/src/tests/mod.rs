@@ -296,7 +296,7 @@ fn has_the_joins_of_the_stadium(contour: &Contour) {
     }
 }
 
-/// Sums over 100,000 points leave no digits for a part of a hundred, unless what rounding loses is kept.
+/// Sums over 100,000 points leave no digits for a part of a hundred, unless the rounding loss is kept.
 #[test]
 fn a_long_row_has_no_more_segments_than_a_short_one() {
     has_the_joins_of_the_stadium(&found(&stadium(100_000, 0.005, 5)));

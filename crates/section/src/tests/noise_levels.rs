@@ -60,7 +60,7 @@ fn noisy_polygons_are_no_circles() {
     }
 }
 
-/// Too few points to tell noise from corners: named astray, not a sure circle.
+/// Too few points to tell noise from corners: named unreliable, not a sure circle.
 #[test]
 fn corners_that_points_cannot_tell_are_named() {
     for sides in [5, 6, 8, 10, 12] {
@@ -84,7 +84,7 @@ fn corners_that_points_cannot_tell_are_named() {
     assert!(silent <= 2, "{silent} of 8");
 }
 
-/// Rows of noise about one line, circle or bend are not called astray, and not cut into more.
+/// Rows of noise about one line, circle or bend are not called unreliable, and not cut into more.
 #[test]
 fn noise_alone_is_not_astray() {
     let (mut unreliable, mut all) = (0, 0);

@@ -72,7 +72,7 @@ fn scattered_walls_are_not_joined() {
     }
 }
 
-/// Contours suspiciously many tell over what gap they would meet; with that gap they do.
+/// Suspiciously many contours state the gap over which they would meet; with that gap they do.
 #[test]
 fn torn_contours_tell_a_wider_gap() {
     let points = scattered(2000, 0.0, 3);

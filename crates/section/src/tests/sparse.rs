@@ -55,7 +55,7 @@ pub(super) fn is_right(contour: &Contour, [w, h, r]: [f64; 3], off: f64) -> bool
         && (contour.length() - length).abs() < off
 }
 
-/// Rounded rectangles of 16 to 60 exact points are right, or named astray: never tilted lines without a word.
+/// Rounded rectangles of 16 to 60 exact points are right, or named unreliable: never tilted lines without a word.
 #[test]
 fn sparse_rounded_rectangles_are_right_or_astray() {
     let (mut right, mut all, mut silent) = (0, 0, vec![]);
@@ -120,7 +120,7 @@ fn sparse_slots_and_brackets_are_right() {
     }
 }
 
-/// Outlines of pixels lie on lines exactly where they run along the grid, and scatter by a pixel elsewhere: they are not astray.
+/// Outlines of pixels lie on lines exactly where they run along the grid, and scatter by a pixel elsewhere: they are not unreliable.
 #[test]
 fn outlines_of_pixels_are_not_astray() {
     let mut points: Vec<[f64; 2]> = vec![];

@@ -1,4 +1,4 @@
-//! Rows whose chain easily goes astray: wild, wavy and short ones, and polygons of few points.
+//! Rows whose chain is easily unreliable: wild, wavy and short ones, and polygons of few points.
 
 use super::*;
 use trueness_geom::spline::basis::Knots;
@@ -48,7 +48,7 @@ fn drawn_as_told(segment: &Segment) {
     assert!((drawn / segment.length - 1.0).abs() < 0.2, "{drawn} drawn, {} told", segment.length);
 }
 
-/// A curve that is drawn much longer than it is goes astray.
+/// A curve is unreliable that is drawn much longer than it is.
 #[test]
 fn a_curve_that_swings_goes_astray() {
     let knots = Knots::clamped(3, 0.0, &[], 1.0).unwrap();

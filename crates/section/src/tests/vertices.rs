@@ -257,7 +257,10 @@ fn outlines_by_vertices_are_right() {
         let truth: Vec<_> = made.truth.iter().map(|t| (far(t.0, t.1), t.2)).collect();
         let found_segments: Vec<_> =
             contour.segments.iter().map(|s| (s.geometry.kind(), s.length, s.count)).collect();
-        println!("{} {n} {step} astray {:?}: {truth:?}\n  {found_segments:?}", made.what, contour.unreliable);
+        println!(
+            "{} {n} {step} unreliable {:?}: {truth:?}\n  {found_segments:?}",
+            made.what, contour.unreliable
+        );
     });
     println!("{found:?} {all:?}");
     assert_eq!(found[2], 0);

@@ -2,7 +2,7 @@
 //!
 //! Each piece has two sides. Around an edge, the side of a piece and the facing side of the next one belong to one
 //! cell. Passing through a piece changes the winding number by its jump, so all cells that hang together follow from
-//! one (Zhou et al., Mesh Arrangements for Solid Geometry, 2016). A ray is counted for that one (see `ray`).
+//! one. (Zhou et al., Mesh Arrangements for Solid Geometry, 2016). A ray is counted for that one (see `ray`).
 
 use super::cut::Piece;
 use super::edge_order::{self, Side};
@@ -13,10 +13,10 @@ use trueness_geom::parallel::prelude::*;
 use trueness_geom::topology::sides::{self, each_edge};
 use trueness_geom::topology::union::Sets;
 
-/// The number of a part, what is added to the winding numbers relative to its first cell, and the shells around it.
+/// The number of a part, the number to add to the winding numbers relative to its first cell, and the shells around it.
 type Anchored = (usize, i32, ShellWindings);
 
-/// A step from one cell to another: both cells, what it adds to the winding number, and a piece that makes it.
+/// A step from one cell to another: both cells, the change of the winding number, and a piece that makes it.
 type Step = ([u32; 2], i32, u32);
 
 /// Pieces of one task.

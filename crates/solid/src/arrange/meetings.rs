@@ -1,8 +1,8 @@
 //! The common places of two facets that meet: the ends of a segment, or that they lie in one plane.
 //!
 //! The planes of two facets meet in a line, and each facet has an interval of it. The common part ends where one of the
-//! intervals does: at a corner in the plane of the other facet, or where an edge passes through it. All of it is
-//! decided by the corners alone. No point is computed here: an edge that passes through a facet is a name for one.
+//! intervals does. That is at a corner in the plane of the other facet, or where an edge passes through it. All of it
+//! is decided by the corners alone. No point is computed here: an edge that passes through a facet is a name for one.
 
 use trueness_geom::mesh::Mesh;
 use trueness_geom::num::predicates::{axis, side_of_line, side_of_plane};
@@ -33,7 +33,7 @@ pub(super) enum Name {
 pub(super) struct Meeting {
     /// They lie in one plane.
     pub coplanar: bool,
-    /// The ends of what they have in common, perhaps under several names each.
+    /// The ends of the common part, perhaps under several names each.
     pub ends: Vec<Name>,
     /// Points that lie on an edge of one of the two, inside it.
     pub on_edges: Vec<(Edge, Name)>,

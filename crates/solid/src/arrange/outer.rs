@@ -53,19 +53,19 @@ const MAX_CUTS: usize = 16;
 const MAX_MERGING_POWER: usize = 11;
 /// So many pairs of facets may meet once more; beyond, their number must halve from cut to cut.
 const MIN_PAIRS_TO_HALVE: usize = 16;
-/// Surfaces no farther apart than so many times the spacing of numbers are made one where they lie upon each other, or
-/// where cutting comes to no end otherwise. The first is for corners that were turned and rounded, the second for
-/// planes that such corners span, the third for sums of several roundings.
+/// Surfaces no farther apart than so many times the spacing of numbers are made one where they lie upon each other.
+/// They are, too, where cutting comes to no end otherwise. The first is for corners that were turned and rounded, the
+/// second for planes that such corners span, the third for sums of several roundings.
 const REACHES_IN_STEPS: [f64; 3] = [4.0, 64.0, 1024.0];
 
 /// The boundary of the places around which the facets wind once or more: the union of all shells.
 ///
 /// Facets look outwards, away from the material. A shell inside another that runs the same way round is material inside
 /// material and vanishes. One that runs the other way round bounds a cavity and stays. Where shells cross, or one
-/// crosses itself, what lies inside the material vanishes; enclosed pockets become cavities; places with a negative
-/// winding number are empty. With [`Options::turn`], shells that belong together and wind around nothing in the
-/// positive sense are turned first. Facets that coincide cancel or become one. Bodies that touch in a face become one;
-/// touching in an edge or a vertex they share it, as a non-manifold edge or vertex.
+/// crosses itself, facets inside the material vanish. Enclosed pockets become cavities; places with a negative winding
+/// number are empty. With [`Options::turn`], shells that belong together and wind around nothing in the positive sense
+/// are turned first. Facets that coincide cancel or become one. Bodies that touch in a face become one; touching in an
+/// edge or a vertex they share it, as a non-manifold edge or vertex.
 ///
 /// The surface must be closed: at every edge as many facets run the one way as the other, at least once T-junctions are
 /// cut. Coordinates are 0 or from 1e-50 to 1e45 mm. No vertex moves, and facets that nothing cuts stay as they are.
@@ -101,7 +101,7 @@ pub fn outer_boundary(
     boundary_of(Input { mesh: as_it_is(mesh)?, topology: None, pairs: None }, options, progress)
 }
 
-/// A welded mesh whose vertices facets use, and what is known about it.
+/// A welded mesh whose vertices facets use, and the facts known about it.
 pub(crate) struct Input<'a> {
     pub mesh: Mesh,
     /// Only its facts about facets are asked for: vertices may have other numbers in it.
@@ -170,7 +170,7 @@ fn reaches(widest: f64, step: f64) -> Vec<Option<f64>> {
     all
 }
 
-/// A mesh to be cut, and what is known about it.
+/// A mesh to be cut, and the facts known about it.
 struct Uncut<'a> {
     mesh: Mesh,
     /// For each face the facet of the mesh given that it is a piece of.
@@ -181,7 +181,7 @@ struct Uncut<'a> {
     crossing: Vec<[u32; 2]>,
 }
 
-/// Cuts a mesh until what is left does not cross.
+/// Cuts a mesh until the rest does not cross.
 fn settled(
     input: &Mesh,
     Uncut { mesh: mut current, mut source, topology, crossing }: Uncut,
@@ -218,7 +218,7 @@ fn settled(
         most = (pairs.len() / 2).max(MIN_PAIRS_TO_HALVE);
         let turn = options.turn && cut == 0;
         let kept = kept(&current, topology, &pairs, turn, progress)?;
-        // Corners of what crosses that are no vertices of the mesh given.
+        // Corners of crossing facets that are no vertices of the mesh given.
         let close = (cut > 0).then(|| {
             let found = pairs.iter().flatten().chain(&topology.collinear);
             let corners = found.flat_map(|f| current.faces[*f as usize]);
@@ -236,7 +236,8 @@ fn settled(
     Err(ArrangeError::Unresolved { position: first.map_or([0.0; 3], place) })
 }
 
-/// Whether it is plain at first sight that nothing new crosses, coincides or is flat: only what lies near the new facets is looked at.
+/// Whether it is plain at first sight that nothing new crosses, coincides or is flat. Only the neighborhood of the new
+/// facets is looked at.
 fn is_clean(mesh: &Mesh, new: &[bool], progress: &dyn Progress) -> Result<bool, ArrangeError> {
     let Some(Neighborhood { mesh, is_chosen, .. }) = Neighborhood::new(mesh, new) else { return Ok(false) };
     let topology = Topology::of(&mesh)?;

@@ -3,7 +3,7 @@
 //! The edges at a vertex with very many (a hub) have boxes that all overlap, and long thin facets have such boxes too.
 //! But seen from the hub each of its edges is a single direction, and any other edge is an arc. An edge that passes one
 //! no farther off than the reach is seen in its direction, but for the angle of the reach. So directions are compared
-//! beside boxes. Two fans take n log n and what they find, whether they have the hub in common or not.
+//! beside boxes. Two fans take n log n and the pairs that they find, whether they have the hub in common or not.
 
 use super::meetings::{Edge, edges};
 use std::collections::BTreeMap;

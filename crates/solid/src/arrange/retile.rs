@@ -17,8 +17,10 @@ use trueness_geom::parallel::prelude::*;
 use trueness_geom::space::{Point, cross, minus, norm};
 use trueness_geom::topology::union::Sets;
 
-/// Cuts the facets of `mesh`, which `source` names, along what lies upon them. Facets upon which nothing lies come first, in
-/// their order. `None` where what lies upon a facet contradicts itself, or if pairs of facets share more than [`MAX_PASSING_PLACES`] vertices.
+/// Cuts the facets of `mesh`, which `source` names, along the vertices upon them. Facets upon which nothing lies come
+/// first, in their order.
+/// `None` where the vertices upon a facet contradict each other, or if pairs of facets share more than [`MAX_PASSING_PLACES`]
+/// vertices.
 pub(super) fn retiled(
     mesh: Mesh,
     source: &[u32],

@@ -48,8 +48,9 @@ fn previous(e: u32) -> u32 {
     if e.is_multiple_of(3) { e + 2 } else { e - 1 }
 }
 
-/// Triangulates the hull of points `0..n`, with these edges. No two edges cross, and no point lies inside an edge. Empty
-/// where all points lie on a line; `None` if the edges do cross, or what the plane says contradicts itself.
+/// Triangulates the hull of points
+/// `0..n`, with these edges. No two edges cross, and no point lies inside an edge. Empty where all points lie on a line; `None`
+/// if the edges do cross, or the plane contradicts itself.
 pub(super) fn triangulate(n: u32, edges: &[[u32; 2]], plane: &impl Plane) -> Option<Triangles> {
     let none = vec![NO_HALF_EDGE; n as usize];
     let (out, hull, before) = (none.clone(), none.clone(), none);

@@ -17,7 +17,7 @@ use trueness_geom::progress::{Cancelled, Progress};
 use trueness_geom::space::{Point, cross, minus, norm, plus, times, unit};
 use trueness_geom::topology::{Properties, Topology};
 
-/// Bodies, and what they enclose.
+/// Bodies, and the volumes that they enclose.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Effect {
     /// Volumes that the mesh enclosed before: after turning facets whose neighbors looked in different directions, and
@@ -26,12 +26,12 @@ pub struct Effect {
     /// Largest distance, mm, from the surface that bounded it to the new surface. Places asked about are these. A facet
     /// that met others has the middle and the corners of each part that bounded it. A facet that is gone otherwise has
     /// those of
-    /// [`Repaired::deviation`](super::Repaired::deviation), and places beside the corners. Gaps in the material narrower than 1e-5 of the size do not count. With what rounding the vertices has added at most. Loose sheets and crossing facets that were removed so that the rest could be closed count too, where no material is now. `None`
+    /// [`Repaired::deviation`](super::Repaired::deviation), and places beside the corners. Gaps in the material narrower than 1e-5 of the size do not count. The error that rounding the vertices has added is included. Loose sheets and crossing facets that were removed so that the rest could be closed count too, where no material is now. `None`
     /// where nothing was enclosed, or nothing is left, and no such facet was removed.
     pub surface: Option<f64>,
     /// Closed shells that look outwards, before and after.
     pub bodies: [usize; 2],
-    /// Facets that did not bound what was enclosed, or in part only.
+    /// Facets that did not bound an enclosed place, or in part only.
     pub(super) inside: FacetSet,
 }
 
@@ -134,15 +134,15 @@ const ZERO_DISTANCE_OF_GAP: f64 = 1e-3;
 /// Parts of facets that are asked about at a time.
 const FACET_PARTS_PER_CHUNK: usize = 1 << 15;
 
-/// A place of the old surface, and a middle of what it was taken from.
+/// A place of the old surface, and a middle of the facet or part that it was taken from.
 struct Sample {
     facet: u32,
     place: Point,
     middle: Point,
 }
 
-/// Corners, places beside them, and others, the middle last. A corner may lie on another body, and be near what is left of that, where
-/// the surface beside it is not.
+/// Corners, places beside them, and others, the middle last. A corner may lie on another body, and be near the rest of
+/// that, where the surface beside it is not.
 fn samples_of(facet: u32, corners: &[Point], others: &[Point]) -> Vec<Sample> {
     /// Share of the way to the middle.
     const SHARE_TOWARDS_MIDDLE: f64 = 0.02;

@@ -1,4 +1,4 @@
-//! Facets that agree about the outside, for what only asks on which side the material is.
+//! Facets that agree about the outside, for questions about the side of the material alone.
 
 use super::error::RepairError;
 use super::options::Options;

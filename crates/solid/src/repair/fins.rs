@@ -1,9 +1,9 @@
 //! Facets that hang on a surface without being part of it.
 //!
 //! The edges where more than two facets meet cut the mesh into sheets. A sheet is superfluous under three conditions.
-//! The others do without it (two more facets at each of those edges), it encloses nothing, and it is small or hangs on
-//! all sides (a wall inside). A sheet with a boundary edge is superfluous only where nothing else of its shell has one
-//! but at holes: parts of an open surface stay. Where a shell has as many facets one way as the other at every edge,
+//! The others do without it (two more facets at each of those edges). It encloses nothing. It is small, or hangs on all
+//! sides (a wall inside). A sheet with a boundary edge is superfluous only where nothing else of its shell has one but
+//! at holes. So parts of an open surface stay. Where a shell has as many facets one way as the other at every edge,
 //! each sheet bounds material: bodies that touch in edges.
 
 use super::edges::Edges;
@@ -77,7 +77,7 @@ pub(super) fn run(work: &mut Work) -> Result<(), RepairError> {
     let shell = |s: &Sheet| known.topology.shell_of[s.facets[0] as usize] as usize;
     let mut open = vec![false; known.topology.shells];
     let mut may_go: Vec<f64> = known.properties.shell_areas.iter().map(|area| MAX_FIN_SHARE * area).collect();
-    // In all rounds together, of what there was at first.
+    // In all rounds together, as a share of the area at first.
     let mut removed_area = work.state.handover.fins_gone;
     let most = MAX_FIN_SHARE * (known.properties.area + removed_area);
     let encloses_nothing = |s: &Sheet| norm(s.vector) > 2.0 * SHEET * s.area;

@@ -86,9 +86,9 @@ pub struct Way {
 /// How far a repair took the surface, mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Deviation {
-    /// From the old surface to the new one: what is missing.
+    /// From the old surface to the new one: missing surface.
     pub there: Way,
-    /// From the new surface to the old one: what was added.
+    /// From the new surface to the old one: added surface.
     pub back: Way,
 }
 
@@ -109,7 +109,7 @@ pub(super) fn places([a, b, c]: [Point; 3]) -> [Point; 7] {
     [a, b, c, half(a, b), half(b, c), half(c, a), times(1.0 / 3.0, plus(a, plus(b, c)))]
 }
 
-/// The answers of `ask` for each of these places. Places that are there several times are asked about once: at a corner
+/// The answers of `ask` for each of these places. Places that are there several times are asked about once. At a corner
 /// of very many facets each answer takes as long as there are facets.
 pub(super) fn once<E>(
     places: &[Point],

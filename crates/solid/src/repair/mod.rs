@@ -1,9 +1,9 @@
-//! Repair of what [`check`] finds, without moving a vertex.
+//! Repair of the findings of [`check`], without moving a vertex.
 //!
-//! [`repair`] goes through the steps of [`STEPS`] (one file and one line each) in rounds, until a round changes nothing. A step
-//! makes a new `State` of the one before (`state`): it adds vertices, and removes, adds or renumbers facets, but never writes
-//! a coordinate. So every vertex that stays keeps its bits. Every change is listed. A step decides exactly what [`check`]
-//! decides exactly.
+//! [`repair`] goes through the steps of [`STEPS`] (one file and one line each) in rounds, until a round changes
+//! nothing. A step makes a new `State` of the one before (`state`): it adds vertices, and removes, adds or renumbers
+//! facets, but never writes a coordinate. So every vertex that stays keeps its bits. Every change is listed. A step
+//! decides exactly wherever [`check`] does.
 //!
 //! Where the steps together make the mesh worse, they are gone through again without one of them. That begins at the
 //! state before that step first changed something (`rounds`).
@@ -63,7 +63,7 @@ use trueness_geom::space::Point;
 use trueness_geom::topology::weld::{WeldError, as_it_is, compact, rejoined};
 use work::Work;
 
-/// All steps with what does them, in their order.
+/// All steps with their functions, in their order.
 const ENTRIES: [Entry; 15] = [
     Entry { step: &not_finite::STEP, run: not_finite::run },
     Entry { step: &stitch::STEP, run: stitch::run },
@@ -174,7 +174,7 @@ const MAX_WIDENED_SHARE: f64 = 0.25;
 ///
 /// A mesh that is sound comes back as it is. Any mesh will do, however broken, whose finite coordinates are 0 or from
 /// 1e-50 to 1e45 mm. Defects that cannot be mended stay, and
-/// [`Repaired::after`] lists them. No defect that makes a mesh unsound is there more often than before, and closed surfaces stay closed. Where the steps together would end worse, the repair is done without one of them, without the last of them, or not at all. Crossing facets and loose sheets are removed only where the rest then is sound. Facets that are not finite always are, and the comparison is with the mesh without them. The result is the same for any number of threads. Some shells have a union that cannot be written as they are. They are united with all vertices rounded to single precision, where the mesh then is sound and no vertex goes farther than a millionth of the diagonal ([`Repaired::rounded`]).
+/// [`Repaired::after`] lists them. No defect that makes a mesh unsound is there more often than before, and closed surfaces stay closed. Where the steps together would end worse, the repair is done without one of them, without the last of them, or not at all. Crossing facets and loose sheets are removed only where the rest then is sound. Facets that are not finite always are, and the comparison is with the mesh without them. The result is the same for any number of threads. Some shells have a union that cannot be written as they are. They are united with all vertices rounded to single precision. The mesh then must be sound, and no vertex may go farther than a millionth of the diagonal ([`Repaired::rounded`]).
 /// Cost: for each step that changes something about as much as a check. Filling holes takes up to the cube of 100 for
 /// each ring. A repair that ends worse is done twice more for each step that changed something, from where it first
 /// did. All of it takes twice as long where vertices are rounded.
@@ -217,13 +217,14 @@ fn repaired(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<R
     };
     let soup = start.soup()?;
     let attempt = |without: &[&'static Step], from: Option<&Kept>| {
-        // Bodies that are not united stay whole: what crosses is not cut out in place of uniting them.
+        // Bodies that are not united stay whole: crossing facets are not cut out in place of uniting them.
         let also = without.contains(&&union::STEP).then_some(&self_intersections::STEP);
         let is_wanted = |s: &&'static Step| !without.contains(s) && also != Some(*s);
         let steps = options.steps.iter().copied().filter(is_wanted).collect();
         attempt((&start, from), &Options { steps, ..options.clone() }, (&before, &check_options))
     };
-    // Facets with a coordinate that is not finite are no surface: what the others are without them is what shall not get worse.
+    // Facets with a coordinate that is not finite are no surface. The findings on the others without them shall not get
+    // worse.
     let mut finite = match before.count(check::NOT_FINITE_FACETS) {
         0 => None,
         _ => Some(attempt(&all_but(&not_finite::STEP), None)?),
@@ -287,14 +288,14 @@ fn without_some(
     left_out: &[&'static Step],
     least: &Report,
 ) -> Result<Option<(Attempt, Vec<&'static Step>)>, RepairError> {
-    // Cutting out opens what is closed: it is the first step to be left out.
+    // Cutting out opens closed surfaces: it is the first step to be left out.
     let cutting_out = &self_intersections::STEP;
     let singly = done.did([cutting_out].into_iter().chain(all_but(cutting_out)));
     let in_turn = done.did(STEPS);
     let last = (2..in_turn.len()).map(|n| in_turn[in_turn.len() - n..].to_vec());
     for tried in singly.into_iter().map(|step| vec![step]).chain(last) {
         let without = [left_out, &tried].concat();
-        // The presence of these two changes what other steps do.
+        // The presence of these two changes the effect of other steps.
         let alone = !tried.iter().any(|step| [&union::STEP, cutting_out].contains(step));
         let from = if alone { Kept::before(&done.kept, &tried) } else { None };
         let next = attempt(&without, from)?;
@@ -371,7 +372,7 @@ fn attempt(
         }
     };
     if work.state.handover.has_widened && work.has_open_cut()? {
-        // Widened in vain: once more without, so that what was cut out beyond the crossings stays.
+        // Widened in vain: once more without, so that facets cut out beyond the crossings stay.
         (work, rounds) = go_through(start.again(options), &steps, StepPosition::START, None)?;
     }
     let mut counts = Counts::of(start.mesh(), work.mesh());

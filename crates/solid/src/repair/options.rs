@@ -11,7 +11,7 @@ pub enum Holes {
     All,
 }
 
-/// What is to be done.
+/// Options of a repair.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
     /// The steps to do, in any order.

@@ -14,7 +14,7 @@ pub(super) const MAX_ROUNDS: usize = 8;
 /// States of larger meshes are not kept: their memory, some 100 bytes a facet each, is worth more than the time.
 const MAX_FACETS_OF_KEPT_STATES: usize = 1_000_000;
 
-/// A step and what does it.
+/// A step and its function.
 #[derive(Clone, Copy)]
 pub(super) struct Entry {
     pub step: &'static Step,

@@ -179,7 +179,7 @@ fn apart(
     }
 }
 
-/// Drops what does not stay, by its number.
+/// Drops the entries that do not stay, by their numbers.
 fn retain<T>(all: &mut Vec<T>, stays: impl Fn(usize) -> bool) {
     let mut i = 0;
     all.retain(|_| {
@@ -261,7 +261,7 @@ fn ways(work: &Work, lost: &[Fan], together: &[u32]) -> Vec<Way> {
 }
 
 /// The cone or material out of which the common place of these facets can be moved. Where the cone that they are seen
-/// in from there is narrow, it is moved out of that: a place moved within the cone meets nothing outside. Else it is
+/// in from there is narrow, it is moved out of that. A place moved within the cone meets nothing outside. Else it is
 /// moved out of the material between them, and back.
 fn outwards(work: &Work, facets: &[u32], at: Point) -> Way {
     /// Cosine of half the angle of a cone that is narrow: 60 degrees, far from a half space.

@@ -1,7 +1,7 @@
 //! The state of a repair, as a value: a step makes the next one of it.
 //!
-//! To go back to an earlier state, or to go on from it under other options, it is cloned. The mesh and what is known about it are
-//! shared between clones until one of them changes.
+//! To go back to an earlier state, or to go on from it under other options, it is cloned. The mesh and the facts known
+//! about it are shared between clones until one of them changes.
 
 use super::change::Change;
 use super::pairs::Pairs;

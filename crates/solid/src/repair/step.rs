@@ -3,9 +3,9 @@
 /// Surface that a step takes away so that the rest is closed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Removes {
-    /// None: at most what lies twice, lies inside, is not finite, or was asked to go.
+    /// None: at most facets that lie twice, lie inside, are not finite, or were asked to go.
     Nothing,
-    /// Facets that cross others, and what they cut off.
+    /// Facets that cross others, and the pieces that they cut off.
     Crossings,
     /// Open sheets that hang on nothing.
     Sheets,

@@ -1,8 +1,9 @@
-//! Closed shells that cross, touch in faces or contain each other: replaced by the boundary of what they enclose together.
+//! Closed shells that cross, touch in faces or contain each other: replaced by the boundary of the material that they
+//! enclose together.
 //!
-//! Shells at whose edges as many facets run the one way as the other enclose material. Where they meet, or where one lies in
-//! the material of another, [`outer_boundary`](crate::arrange::outer_boundary) tells exactly what of them bounds it. Sheets and shells with holes take no
-//! part; once their holes are filled they do.
+//! Shells at whose edges as many facets run the one way as the other enclose material. They meet, or one lies in the
+//! material of another. Then [`outer_boundary`](crate::arrange::outer_boundary) tells exactly which parts of them bound
+//! the material. Sheets and shells with holes take no part; once their holes are filled they do.
 
 use super::error::RepairError;
 use super::step::{Removes, Step};

@@ -1,4 +1,4 @@
-//! The mesh under repair: what steps ask of it, and how they change it.
+//! The mesh under repair: the questions of the steps, and their changes.
 //!
 //! Places are never written: vertices are only added behind the others, and facets only name other vertices. So no
 //! vertex can move, whatever a step does.
@@ -168,7 +168,7 @@ impl<'a> Work<'a> {
         if !is_chosen.contains(&false) { Ok(None) } else { self.search(&is_chosen) }
     }
 
-    /// All pairs of facets that meet where they should not; `None` for a tangle. Only what has changed since they were known is
+    /// All pairs of facets that meet where they should not; `None` for a tangle. Only changes since they were known are
     /// looked at.
     pub(super) fn all_crossings(&mut self) -> Result<Option<&[[u32; 2]]>, RepairError> {
         let facets = self.state.mesh.faces.len();
@@ -189,8 +189,8 @@ impl<'a> Work<'a> {
         Ok(self.state.pairs.all().filter(|all| all.len() <= most))
     }
 
-    /// An error for a soup of facets: most edges have one facet only, and too many pairs of facets cross to list them. No step
-    /// makes a surface of that. A small soup is repaired all the same, for the sake of what lies beside it.
+    /// An error for a soup of facets: most edges have one facet only, and too many pairs of facets cross to list them.
+    /// No step makes a surface of that. A small soup is repaired all the same, for the sake of the surface beside it.
     pub(super) fn soup(&mut self) -> Result<Option<ArrangeError>, RepairError> {
         /// With so many boundary edges the steps take about a second.
         const MIN_LOOSE_EDGES: usize = 5_000;

@@ -56,7 +56,7 @@ pub struct Curvatures {
 /// Curvatures at the `V` vertices of a mesh, millimeters.
 ///
 /// Neighbors are found through edges, ring after ring, so that the other side of a thin wall is none. Vertices at one
-/// place are two vertices: weld first what is not welded. Normals are those of the facets. Rings do not grow through
+/// place are two vertices: weld an unwelded mesh first. Normals are those of the facets. Rings do not grow through
 /// vertices with more than 256 neighbors.
 /// `progress` counts vertices. Deterministic for any number of threads; about 450 bytes a vertex with its facets. The time of a vertex is that of a least-squares fit, `2
 /// m n²` products for `m` neighbors and `n` unknowns.
@@ -122,7 +122,7 @@ pub fn cloud(
     Ok(Curvatures { places, parts })
 }
 
-/// The answer of each place. `worker` makes what answers: it is called at most some dozens of times.
+/// The answer of each place. `worker` makes the function that answers: it is called at most some dozens of times.
 fn all<T: Send, W: FnMut(&mut Fitter, u32) -> T>(
     terms: &Terms,
     count: usize,

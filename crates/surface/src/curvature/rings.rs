@@ -190,7 +190,7 @@ impl Walk<'_> {
         }
     }
 
-    /// The jet of what was found.
+    /// The jet of the vertices found.
     fn fit(&self, v: u32, fitter: &mut Fitter) -> Result<Jet, NoCurvature> {
         let Rings { mesh, normals, .. } = self.rings;
         let normal = normals[v as usize];

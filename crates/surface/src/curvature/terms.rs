@@ -143,7 +143,7 @@ pub fn unknowns(degree: usize) -> usize {
     (degree + 1) * (degree + 2) / 2
 }
 
-/// Options with what follows from them.
+/// Options with the numbers that follow from them.
 pub(super) struct Terms {
     pub degree: usize,
     pub unknowns: usize,
@@ -152,7 +152,7 @@ pub(super) struct Terms {
     pub noise: Option<Noise>,
 }
 
-/// [`Reach`] without what must be worked out.
+/// [`Reach`] worked out.
 #[derive(Clone, Copy)]
 pub(super) enum ResolvedReach {
     Count(usize),

@@ -1,6 +1,6 @@
 //! A mesh laid within a circle: each vertex is a mean of its neighbors.
 //!
-//! With weights above 0 and the rim on a convex line no facet turns over, whatever the mesh (Tutte, How to draw a
+//! With weights above 0 and the rim on a convex line no facet turns over, whatever the mesh. (Tutte, How to draw a
 //! graph, Proceedings of the London Mathematical Society 13, 1963). A flat mesh keeps its shape with the weights of
 //! Floater, Mean value coordinates, Computer Aided Geometric Design 20, 2003. Holes are closed by a fan of facets
 //! around their middle.

@@ -1,4 +1,5 @@
-//! Meshes in the plane: no facet turned over, what can be unrolled is unrolled, and surfaces over them against closed forms.
+//! Meshes in the plane: no facet turned over, unrollable surfaces are unrolled, and surfaces over them against closed
+//! forms.
 
 use super::super::{BaseKind, Layout, Options, SurfaceError, SurfaceFit, fit_mesh};
 use super::triangle::Triangle;

@@ -26,7 +26,7 @@ fn brute(surface: &Surface<Point>, points: &[Point]) -> Vec<f64> {
     points.iter().map(least).collect()
 }
 
-/// The greatest difference of what is told from brute force.
+/// The greatest difference of the answers from brute force.
 fn difference(points: &[Point], options: &Options) -> f64 {
     let found = fit(points, options, &Silent).unwrap();
     let patches = Patches::new(&found.surface);

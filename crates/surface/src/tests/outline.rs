@@ -1,4 +1,4 @@
-//! Outlines and facets within them, against the points, known areas, and what a closed line of facets must be.
+//! Outlines and facets within them, against the points, known areas, and the rules of a closed line of facets.
 
 use super::super::{Outline, trimmed};
 use std::collections::HashMap;

@@ -88,7 +88,7 @@ fn walls_that_the_surface_follows_are_no_doubt() {
     assert!(found.deviations.iter().all(|d| d.abs() < 0.05));
 }
 
-/// Ten rows of a scanner, whose points scatter: what is corrected stays between them where the first fit was.
+/// Ten rows of a scanner, whose points scatter: the corrected surface stays between them where the first fit was.
 #[test]
 fn rows_of_a_scanner_are_joined_smoothly() {
     let height = |x: f64, y: f64| 5.0 * (x / 15.0).sin() + y * y / 400.0;

@@ -5,7 +5,7 @@ use trueness_geom::noise::Noise;
 use trueness_geom::space::{Vector, cross, dot, minus, norm, plus, unit};
 use trueness_geom::spatial::lists::lists;
 
-/// A mesh that planes cut, and what is known about its vertices.
+/// A mesh that planes cut, and the facts known about its vertices.
 pub struct CutMesh<'a> {
     /// The mesh.
     pub mesh: &'a Mesh,
@@ -86,8 +86,8 @@ impl<'a> CutMesh<'a> {
         flat > MIN_FLAT_SHARE * off.len() as f64 && near <= MAX_FLAT_RATIO * flat
     }
 
-    /// How far the two facets at an edge are from one plane: the distance of the smaller one's far corner from the
-    /// plane of the larger one.
+    /// How far the two facets at an edge are from one plane. It is the distance of the smaller one's far corner from
+    /// the plane of the larger one.
     fn off_plane(&self, [v, w]: [u32; 2]) -> Option<f64> {
         let mut both = self.neighbors_of(v).iter().filter(|n| self.neighbors_of(w).binary_search(n).is_ok());
         let (a, b) = (*both.next()?, *both.next()?);

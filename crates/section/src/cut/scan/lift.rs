@@ -1,8 +1,9 @@
 //! Crossings moved from the chords on which they lie onto the surface between the vertices.
 //!
 //! The chord between two vertices of a bent surface lies within it. The line or arc that the crossing belongs to tells
-//! how far. The surface is the distances of the vertices around from it, as a quadratic function of the way along it
-//! and of the height over the plane. The mesh would be cut without noise on the chord between two places of this.
+//! how far. The distances of the vertices around from it are the surface. They are a quadratic function of the way
+//! along it and of the height over the plane. The mesh would be cut without noise on the chord between two places of
+//! this.
 
 use super::cut_mesh::CutMesh;
 use crate::Chain;

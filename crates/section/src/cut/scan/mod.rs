@@ -1,8 +1,8 @@
 //! The crossings of a scan's edges with a plane, as points of its surface.
 //!
 //! A crossing is no vertex: it lies on the chord between two, and its noise is theirs. So each is moved onto the
-//! surface that the chord stands for, and weighs as many independent points as the noise that its neighbors share
-//! leaves it. Where an edge of the mesh passes by a corner of the part it tells nothing.
+//! surface that the chord stands for. It weighs as many independent points as the noise that its neighbors share leaves
+//! it. Where an edge of the mesh passes by a corner of the part it tells nothing.
 //!
 //! | file | what |
 //! |---|---|

@@ -273,7 +273,7 @@ fn contours_are_the_same_from_either_side_and_in_any_order() {
             let ([x, y], _) = at(a);
             [x, y, 0.5 * (z - 10.0)]
         });
-        // The part is what lies no farther than the radius from the triangle.
+        // The part holds the places no farther than the radius from the triangle.
         let out = |p: &Point| {
             let from = |k: usize| {
                 let (a, u, long) = side(k);
@@ -340,7 +340,7 @@ fn holds_the_numbers(found: &Contour, count: usize) {
     // The places lie as far off the segments they belong to as they are told to.
     let n = count;
     for (i, p) in found.moved.iter().enumerate().filter(|(i, _)| found.bevels.binary_search(i).is_err()) {
-        // The order of the row stands: what lies behind the point before has its foot beside that.
+        // The order of the row stands: a place behind the point before has its foot beside that.
         if [(i + n - 1) % n, (i + 1) % n].iter().any(|j| found.stations[*j] == found.stations[i]) {
             continue;
         }

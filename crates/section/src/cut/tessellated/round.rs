@@ -1,4 +1,4 @@
-//! Sections of round bodies by their facets: what lies within these is no doubt.
+//! Sections of round bodies by their facets: form within these is no doubt.
 
 use super::*;
 use crate::{Geometry, cut};
@@ -52,7 +52,7 @@ fn body(random: &mut Random) -> (Mesh, impl Fn(f64) -> f64 + use<>, [f64; 2], f6
     (turned(&outline, around), radius, [low, high], 2.0 * off)
 }
 
-/// Circles of round bodies are circles, to what the facets tell, and no doubt is told of them at any height.
+/// Circles of round bodies are circles, to the resolution of the facets, and no doubt is told of them at any height.
 #[test]
 fn circles_through_facets_are_no_doubt() {
     let random = &mut Random::new(3);

@@ -1,4 +1,4 @@
-//! Sections of prisms whose outlines are known, of scans of them, and of what has few facets.
+//! Sections of prisms whose outlines are known, of scans of them, and of meshes with few facets.
 
 use super::*;
 use crate::cut;
@@ -349,7 +349,7 @@ fn few_points_and_wrong_options() {
     let two = chain(vec![[0.0; 3], [2.0, 0.0, 0.0]]);
     let line = chain_contour(&two, &frame, mesh, &options, &Silent).unwrap();
     assert!(line.segments.len() == 1 && line.joins.is_empty() && !line.closed);
-    // A noise or continuity asked for is that of rows: what is too short for one is its lines all the same.
+    // A noise or continuity asked for is that of rows: a chain too short for one is its lines all the same.
     for asked in
         [Options { noise: Some(0.1), ..options }, Options { continuity: Some(Continuity::G1), ..options }]
     {

@@ -160,7 +160,8 @@ fn middle(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
     [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])]
 }
 
-/// Where a profile crosses itself such that both loops are wider than `least`, and than what bends at the trailing edge make.
+/// Where a profile crosses itself such that both loops are wider than `least`, and than bends at the trailing edge
+/// make.
 fn crossing(places: &[[f64; 2]], least: f64, progress: &dyn Progress) -> Result<Option<[f64; 2]>, Cancelled> {
     let chords: Vec<[[f64; 2]; 2]> = places.windows(2).map(|w| [w[0], w[1]]).collect();
     let chord = places.iter().map(|p| distance(*p, places[0])).fold(0.0, f64::max);

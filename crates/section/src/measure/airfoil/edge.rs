@@ -35,8 +35,8 @@ const SMALLER_REACH_SHARE: f64 = 0.7;
 /// `x` goes along the chord into the profile and `y` across, from the place. It is exact for circles, where
 /// `k` is half the curvature, and nearly so for the ends of ellipses, parabolas and profiles. The more points, the less their scatter `noise`
 /// counts, and the more how the bend changes. The widest reach is chosen whose curvature agrees with that of all
-/// smaller ones (Lepskii, On a problem of adaptive estimation in Gaussian white noise, 1990). How far that of the reach
-/// beside it differs is part of the uncertainty.
+/// smaller ones. (Lepskii, On a problem of adaptive estimation in Gaussian white noise, 1990). How far that of the
+/// reach beside it differs is part of the uncertainty.
 pub(super) fn radius(
     row: &[[f64; 2]],
     place: [f64; 2],

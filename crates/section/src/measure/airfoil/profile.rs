@@ -20,7 +20,7 @@ pub(super) const SAME_PLACE_SPACINGS: f64 = 1e-4;
 const MAX_POINTS_OF_PROFILE: usize = 2000;
 /// Places for each control point by which a curve's length is measured.
 const PLACES_PER_CONTROL_POINT: usize = 8;
-/// Control points to begin with, and by what they grow.
+/// Control points to begin with, and the factor by which they grow.
 const FIRST_POINTS_AND_GROWTH: (usize, f64) = (8, 1.3);
 /// A curve longer than the way through the points by this factor runs wild between them.
 const MAX_CURVE_LENGTH_RATIO: f64 = 1.03;
@@ -126,7 +126,7 @@ fn along(curve: &Curve<[f64; 2]>) -> Vec<([f64; 2], [f64; 2])> {
     parameters.iter().map(place).collect()
 }
 
-/// The contour's own course with what it costs for as many points; `None` where it does not end where the profile does.
+/// The contour's own course with its cost for as many points; `None` where it does not end where the profile does.
 fn of_contour(around: &Around, ends: [usize; 2], contour: &Contour, as_many: f64) -> Option<(f64, Profile)> {
     let whole: f64 = contour.segments.iter().map(|s| s.length).sum();
     if whole <= 0.0 {

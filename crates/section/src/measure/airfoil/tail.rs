@@ -1,9 +1,9 @@
-//! Which end of a closed profile is the trailing one, and what edge it has.
+//! Which end of a closed profile is the trailing one, and the kind of its edge.
 //!
 //! An outline turns by half a turn, less its wedge, at either end. The edge is the shortest stretch that takes most of
-//! that turn. It is one point of a sharp edge, the face between two corners of a blunt one, with points on it or none,
-//! or an arc of a round one. So the sides end where their own points end, and are led no farther. The trailing end is
-//! the thinner one: how the sides behind it turn tells nothing of a strongly cambered profile.
+//! that turn. It is one point of a sharp edge, the face between two corners of a blunt one, or an arc of a round one. A
+//! face has points on it or none. So the sides end where their own points end, and are led no farther. The trailing end
+//! is the thinner one: how the sides behind it turn tells nothing of a strongly cambered profile.
 
 use crate::model::flat::{angle, distance, off_line};
 

@@ -190,8 +190,8 @@ fn where_a_row_begins_and_how_it_lies_does_not_matter() {
             // Points of the trailing edge are 0.06 apart: an arc of radius 0.5 bulges 9e-4 between them.
             assert!((found.chord - first.chord).abs() < 9e-4, "{} {}", found.chord, first.chord);
             assert!((found.thickness - first.thickness).abs() < 1e-4);
-            // A place z across the chord on the leading edge (radius 1.2) is nearer by z²/2.4: by as much as the bulge at z = 0.047.
-            // Half of that is what the distance from the chord in the middle may differ by.
+            // A place z across the chord on the leading edge (radius 1.2) is nearer by z²/2.4: by as much as the bulge
+            // at z = 0.047. The distance from the chord in the middle may differ by half of that.
             assert!((found.camber - first.camber).abs() < 0.023, "{} {}", found.camber, first.camber);
             let (a, b) = (found.leading_radius.unwrap(), first.leading_radius.unwrap());
             assert!((a.radius - b.radius).abs() < 0.01);
@@ -223,9 +223,9 @@ fn noise_changes_measures_by_what_is_stated() {
     assert!((0.3..2.0).contains(&thick) && (0.3..2.0).contains(&lead), "{thick} {lead}");
 }
 
-/// Over fresh noise the measures lie within twice their uncertainties as often as they should. So do those of a blade
-/// of one thickness, whose greatest circle is the one that scatter makes greatest, and of edges of fifty times the
-/// scatter.
+/// Over fresh noise the measures lie within twice their uncertainties as often as they should. So do those of edges of
+/// fifty times the scatter, and of a blade of one thickness. The greatest circle of such a blade is the one that
+/// scatter makes greatest.
 #[test]
 fn uncertainties_hold_over_fresh_noise() {
     let u = 8.9 / 19.2;

@@ -100,7 +100,8 @@ pub(super) fn slopes(point: [f64; 2], normal: [f64; 2], pivot: [f64; 2], arm: f6
     [normal[0], normal[1], (d[0] * normal[1] - d[1] * normal[0]) / arm]
 }
 
-/// Whether the outlines hold all that may move, chords that follow a curve taken for that: else what they do not.
+/// Whether the outlines hold all that may move, chords that follow a curve taken for that. Else the motion that they do
+/// not hold.
 pub(super) fn held<'a>(
     places: impl Iterator<Item = (&'a Place, f64)>,
     pivot: [f64; 2],
@@ -166,5 +167,5 @@ fn least(mut a: [[f64; 3]; 3]) -> (f64, [f64; 3]) {
     (a[k][k], [v[0][k], v[1][k], v[2][k]])
 }
 
-/// Sweeps of rotations; each squares what is off the diagonal.
+/// Sweeps of rotations; each squares the entries off the diagonal.
 const JACOBI_SWEEPS: usize = 12;

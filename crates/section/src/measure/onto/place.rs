@@ -16,7 +16,7 @@ pub(super) struct Place {
     pub normal: [f64; 2],
     /// Unit normal of the curve that the outline's chords follow.
     pub smooth: [f64; 2],
-    /// The place is a corner: the distance stays what it is to that place, whichever way the point goes.
+    /// The place is a corner: the distance is always that to this place, whichever way the point goes.
     pub is_corner: bool,
 }
 
@@ -177,7 +177,7 @@ fn smooth(outline: &Outline, number: usize, share: f64) -> Option<[f64; 2]> {
     unit([-y, x])
 }
 
-/// Whether the outline turns at an end of a segment by more than what follows a curve.
+/// Whether the outline turns at an end of a segment by more than chords of a curve do.
 fn is_sharp(outline: &Outline, number: usize, at_its_end: bool) -> bool {
     let (all, n) = (&outline.segments, outline.segments.len());
     let [before, after] =

@@ -1,4 +1,4 @@
-//! Planted motions come back within their uncertainties; what is held stays; what is free is named.
+//! Planted motions come back within their uncertainties, held motions stay, and free ones are named.
 
 use super::*;
 use crate::Segment;

@@ -96,7 +96,7 @@ pub struct Offer {
     pub step: Option<f64>,
     /// The difference in standard uncertainties. The sum of squares grows by its square times the variance of the points.
     pub z: f64,
-    /// The probability of a difference as large, if what is offered holds.
+    /// The probability of a difference as large, if the offered value holds.
     pub p: f64,
     /// The probability that a value which has nothing to do with it lies as near as would still be offered.
     pub chance: f64,
@@ -131,7 +131,7 @@ pub(super) const MAX_CHANCE: f64 = 0.05;
 /// Standard uncertainties to either side within which a value is offered.
 pub(super) const OFFER_REACH_SIGMAS: f64 = 2.0;
 
-/// A value and what is offered for it.
+/// A value and the offer for it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Value {
     pub found: f64,

@@ -11,7 +11,7 @@ use trueness_geom::num::cholesky::Cholesky;
 
 /// Segments of a tangent chain whose covariance is still found.
 const MAX_SEGMENTS_OF_CHAIN: usize = 200;
-/// Share of the normal equations' scale that holds what the points alone do not: tangent joins must.
+/// Share of the normal equations' scale that holds what the points alone do not hold: tangent joins must.
 const HOLDING_WEIGHT: f64 = 1e-10;
 /// A condition holds already where its variance is this share of that of its unknowns by themselves.
 const HOLDS_ALREADY_VARIANCE: f64 = 1e-14;

@@ -218,7 +218,7 @@ fn holes_have_diameters_centers_and_distances() {
     assert!(right >= 11, "{right}");
 }
 
-/// Nothing is offered of what has no uncertainty.
+/// Nothing is offered of values without uncertainty.
 #[test]
 fn exact_and_free_contours_have_no_offers() {
     let exact = Contour { row_kind: crate::RowKind::Facets, ..Contour::default() };

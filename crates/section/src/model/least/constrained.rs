@@ -1,8 +1,9 @@
 //! Normal equations under conditions that hold exactly.
 //!
-//! A condition as a squared distance of great weight loses the digits of all that the points hardly determine (the
-//! radius of a short fillet between long lines). It also holds steps back where it curves. Here the weight is moderate,
-//! so that the matrix is definite. The multipliers of Lagrange make up for the rest (Nocedal and Wright 2006, 16.2).
+//! A condition as a squared distance of great weight loses the digits of all that the points hardly determine. An
+//! example is the radius of a short fillet between long lines. It also holds steps back where it curves. Here the
+//! weight is moderate, so that the matrix is definite. The multipliers of Lagrange make up for the rest (Nocedal and
+//! Wright 2006, 16.2).
 
 use trueness_geom::num::cholesky::Cholesky;
 

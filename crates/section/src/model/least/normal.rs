@@ -1,4 +1,4 @@
-//! The normal equations of a chain: what each unknown does to all that follows, and what must vanish.
+//! The normal equations of a chain: the effect of each unknown on all that follows, and the conditions that must hold.
 
 use super::super::chain::{Chain, SegmentKind};
 use super::super::result::Uncertainty;
@@ -154,14 +154,15 @@ impl Work {
         }
     }
 
-    /// Adds to the normal equations what the points of each piece say of the unknowns that act within it, and of those with all others.
+    /// Adds to the normal equations the products of each piece's points, for the unknowns that act within it and for
+    /// those with all others.
     fn add_where_they_act(&mut self, chain: &Chain) {
         let k = self.variables.len();
         let mut product = vec![];
         let mut effects = Vec::with_capacity(k);
         for g in 0..chain.pieces.len() {
             effects.clear();
-            // Unknowns of what follows do nothing here.
+            // Unknowns of later pieces do nothing here.
             effects.extend((0..k).map(|v| self.effect(chain, self.variables[v], g)).enumerate());
             effects.retain(|(_, (m, own))| own.is_some() || *m != [0.0; 3]);
             let block = &self.blocks[g];
@@ -289,7 +290,7 @@ impl Work {
     }
 }
 
-/// A length that makes a turn as long as what it moves.
+/// A length that makes a turn as long as the shift that it causes.
 fn size(chain: &Chain) -> f64 {
     chain.pieces.iter().map(|p| p.length).sum::<f64>() / 8.0
 }
@@ -303,8 +304,8 @@ pub(super) fn end_coefficient(chain: &Chain, piece: usize, at_end: bool) -> Opti
 /// Coefficients before and after a join, and a scale.
 type Bend = (Option<(usize, usize)>, Option<(usize, usize)>, f64);
 
-/// The joins of free pieces at which the curvature must not jump: coefficients on either side, and what makes their
-/// difference a length.
+/// The joins of free pieces at which the curvature must not jump: coefficients on either side, and the factor that
+/// makes their difference a length.
 fn bends(chain: &Chain) -> impl Iterator<Item = Bend> + '_ {
     let n = chain.pieces.len();
     let first = usize::from(!chain.closed);

@@ -1,5 +1,5 @@
-//! Working memory of a fit: the unknowns of a chain, sums over the points of its pieces, and the memory kept from one
-//! fit to the next.
+//! Working memory of a fit, kept from one fit to the next: the unknowns of a chain, and sums over the points of its
+//! pieces.
 
 use super::super::chain::Layout;
 
@@ -106,14 +106,14 @@ pub(crate) struct Work {
     pub(super) variables: Vec<Variable>,
     pub(super) matrix: Vec<f64>,
     pub(super) right: Vec<f64>,
-    /// The diagonal of what the points say: steps are damped by it. Quantities that must vanish weigh far more, and
-    /// would hold back all that moves them.
+    /// The diagonal of the points' part: steps are damped by it. Quantities that must vanish weigh far more, and would
+    /// hold back all that moves them.
     pub(super) scale: Vec<f64>,
     /// Signed distances of the points last measured.
     pub(super) distances: Vec<f64>,
-    /// Whether what must vanish does, in every step.
+    /// Whether the conditions hold in every step.
     pub(super) exact: bool,
-    /// How each unknown changes what must vanish, and what it is off by. Empty where that is weighed.
+    /// How each unknown changes the conditions, and by how much they are off. Empty where that is weighed.
     pub(super) conditions: Vec<Vec<f64>>,
     pub(super) missing: Vec<f64>,
     /// Products summed so far.

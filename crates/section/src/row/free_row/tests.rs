@@ -81,7 +81,7 @@ fn flats_are_no_free_form() {
     }
 }
 
-/// Rows turned round, and begun elsewhere, have the same curve to what a change of knots makes of it.
+/// Rows turned round, and begun elsewhere, have the same curve up to the effect of other knots.
 #[test]
 fn where_a_row_begins_hardly_matters() {
     let random = &mut Random::new(7);

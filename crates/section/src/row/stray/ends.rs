@@ -17,8 +17,8 @@ const MIN_STRAY_STEP_RATIO: f64 = 1.5;
 const STRAY_SIGMAS: f64 = 8.0;
 /// A point is doubted from so many standard deviations on.
 const DOUBTFUL_END_SIGMAS: f64 = 3.0;
-/// The points next to an end agree to so many standard deviations, or to this share of their steps, which is how far a
-/// parabola lies off an arc.
+/// The points next to an end agree to so many standard deviations, or to this share of their steps: so far a parabola
+/// lies off an arc.
 const AGREEING_SIGMAS_AND_SHARE: (f64, f64) = (3.0, 0.05);
 /// They are dense where their curve turns by less than this, radians: a parabola tells it.
 const MAX_WINDOW_TURN: f64 = 1.0;
@@ -113,7 +113,7 @@ fn leaves(tip: [f64; 2], next: &[[f64; 2]], longest: f64, [sigma, deviations]: [
     let off = libm::hypot(to[0], to[1]);
     let turned = (libm::atan2(to[1], to[0]) - heading).rem_euclid(std::f64::consts::TAU);
     let turned = if turned > std::f64::consts::PI { turned - std::f64::consts::TAU } else { turned };
-    // A chord turns by half of what its arc does.
+    // A chord turns by half as much as its arc.
     let bend = x[2] / length / libm::pow(1.0 + x[1] * x[1], 1.5) * off;
     // As far from the points the parabola, bent half as much, is as uncertain as its coefficients are together.
     let t = off / length;

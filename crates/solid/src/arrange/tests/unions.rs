@@ -1,4 +1,4 @@
-//! Unions whose volume is known, and what they leave alone.
+//! Unions whose volume is known, and the bodies that they leave alone.
 
 use super::*;
 use std::f64::consts::PI;
@@ -225,7 +225,7 @@ fn what_nothing_touches_stays_as_it_is() {
     }
 }
 
-/// Material in material vanishes, a cavity stays, and what is inside out as a whole is turned.
+/// Material in material vanishes, a cavity stays, and a body that is inside out as a whole is turned.
 #[test]
 fn nested_shells() {
     let nested = |outer: bool, inner: bool| {
@@ -245,7 +245,7 @@ fn nested_shells() {
         let b = union(&nested(outer, inner), &Options::default());
         assert_eq!(volume(&b.mesh), expected, "{outer} {inner}");
     }
-    // Not turned, nothing of it is material, but for what a shell winds around in the positive sense.
+    // Not turned, nothing of it is material, but where a shell winds around in the positive sense.
     let empty =
         outer_boundary(&nested(true, true), &Options { turn: false, single: false }, &Silent).unwrap();
     assert_eq!(empty.mesh.faces.len(), 0);

@@ -18,7 +18,7 @@ pub(super) struct Cell {
 /// Slabs times segments, at most.
 const MAX_SLAB_SEGMENTS: usize = 30_000_000;
 
-/// The triangle without the segments; what they do beyond it does not count. `None` where that would be too much work.
+/// The triangle without the segments; their parts beyond it do not count. `None` where that would be too much work.
 /// Cost: slabs times segments; there are two slabs for each segment and one for each crossing.
 pub(super) fn cells(triangle: &[Point2; 3], segments: &[[Point2; 2]]) -> Option<Vec<Cell>> {
     let heights = heights(triangle, segments)?;

@@ -1,11 +1,11 @@
 //! The volume of the places that a closed mesh winds around, whether its bodies cross, touch or contain each other or not.
 //!
 //! The volume of a set of places is an integral over its boundary (the divergence theorem). The boundary of the places
-//! with winding number 1 or more is made of the parts of facets where the number passes from below 1 to 1. A facet that
+//! with winding number 1 or more is made of parts of facets. The number passes from below 1 to 1 there. A facet that
 //! meets no other is such a part as a whole or not at all, and its neighbors likewise. Facets that meet others are cut
 //! up where they do (`meeting`, `cells`). The winding number beside a part is found by a ray from its middle, decided
-//! exactly. Only places of cuts are rounded. The vector area of a closed boundary is zero: what it is off by tells how
-//! much of the boundary was missed.
+//! exactly. Only places of cuts are rounded. The vector area of a closed boundary is zero: its difference from that
+//! tells how much of the boundary was missed.
 
 mod cells;
 mod meeting;
@@ -249,8 +249,8 @@ impl Solid<'_> {
         Facet { vertices, places, local: places.map(|p| minus(p, self.center)) }
     }
 
-    /// The axis for rays from a facet with this normal. It is the one along which the mesh is shortest, among those
-    /// that the facet is not too steep to, so that rays pass little of it.
+    /// The axis for rays from a facet with this normal. It is the one along which the mesh is shortest, so that rays
+    /// pass little of it. The facet must not be too steep to it.
     fn axis(&self, vector: Vector) -> usize {
         /// Share of the greatest coordinate of the normal.
         const MIN_STEEP_SHARE: f64 = 0.25;
@@ -371,7 +371,7 @@ impl<'a> Rays<'a> {
         let (rays, mut beyond) = (&self.along[axis], 0);
         let is_coincident = |g: u32| coincident.iter().any(|u| u.0 == g);
         if rays.is_early(at) {
-            // All that the line passes winds around it 0 times: the shorter way is to count what lies before.
+            // All that the line passes winds around it 0 times: the shorter way is to count the facets before.
             rays.not_behind(*f, at, |g, around| beyond -= if is_coincident(g) { 0 } else { around });
             beyond -= coincident.iter().map(|u| rays.around(u.0, at)).sum::<i32>();
         } else {

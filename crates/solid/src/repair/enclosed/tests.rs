@@ -43,7 +43,7 @@ fn boxes(random: &mut Random, count: usize, turned: bool) -> (Mesh, f64, f64) {
     (mesh, count(&|w| w >= 1), count(&|w| w <= -1))
 }
 
-/// A turn and a shift, so that what lay in one plane does so only to rounding.
+/// A turn and a shift, so that facets that lay in one plane do so only to rounding.
 fn moved(mut mesh: Mesh, angle: f64) -> Mesh {
     let (sin, cos) = angle.sin_cos();
     mesh.positions.iter_mut().for_each(|p| {
@@ -67,8 +67,8 @@ fn boxes_on_a_grid_have_the_volume_of_their_cells() {
     }
 }
 
-/// The same, turned: sides that lay in one plane are a rounding apart, which decides whether facets cross; the error
-/// stated covers what that does. Most heaps have some sides that lie so.
+/// The same, turned: sides that lay in one plane are a rounding apart, which decides whether facets cross. The stated
+/// error covers the effect. Most heaps have some sides that lie so.
 #[test]
 fn turned_boxes_have_it_within_the_error_stated() {
     let random = &mut Random::new(12);

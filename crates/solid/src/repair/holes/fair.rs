@@ -1,8 +1,8 @@
-//! Making a patch as smooth as what it joins.
+//! Making a patch as smooth as the surface that it joins.
 //!
 //! The umbrella vector of a vertex points from it to the mean of its neighbors. The new vertices are moved to where the
-//! squares of the umbrella vectors of all vertices of the patch, the rim included, have the least sum. At the rim the
-//! neighbors outside take part, so the patch starts in their direction (Kobbelt, Campagna, Vorsatz and Seidel,
+//! squares of the umbrella vectors have the least sum. All vertices of the patch count, the rim included. At the rim
+//! the neighbors outside take part, so the patch starts in their direction. (Kobbelt, Campagna, Vorsatz and Seidel,
 //! Interactive multi-resolution modeling on arbitrary meshes, 1998). A sparse linear least-squares problem, solved by
 //! conjugate gradients in a fixed order.
 

@@ -1,4 +1,4 @@
-//! Sheets that lie in one plane: what closes their border lies upon them, and encloses nothing.
+//! Sheets that lie in one plane: a patch of their border lies upon them, and encloses nothing.
 
 use super::super::work::Work;
 use super::ring::Ring;

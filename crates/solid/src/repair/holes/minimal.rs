@@ -1,6 +1,6 @@
 //! The triangulation of a ring that has the least area, or bends least.
 //!
-//! All ways to cut the ring are weighed by dynamic programming: what lies behind a chord is best filled by itself. That
+//! All ways to cut the ring are weighed by dynamic programming: the part behind a chord is best filled by itself. That
 //! takes the cube of the number of vertices; longer rings first lose ears, the shortest chord first, until few enough
 //! are left.
 
@@ -58,7 +58,7 @@ struct Table<'a> {
     at: Vec<Point>,
     /// Unit normal of the facet beyond the edge from vertex `i` to the next.
     outside: Vec<Vector>,
-    /// For each `i < j` at `i * n + j` the cost of what lies between, and the vertex between that gives it.
+    /// For each `i < j` at `i * n + j` the cost of the part between, and the vertex between that gives it.
     best: Vec<(Cost, u32)>,
 }
 
@@ -133,7 +133,7 @@ impl<'a> Table<'a> {
         Cost { bend, area: 0.5 * norm(normal) + CHORD_WEIGHT * dot(chord, chord) }
     }
 
-    /// Unit normal of what lies beyond the chord from `i` to `j`, as chosen before.
+    /// Unit normal of the facet beyond the chord from `i` to `j`, as chosen before.
     fn beyond(&self, i: usize, j: usize) -> Vector {
         if j == i + 1 {
             return self.outside[i];
@@ -144,7 +144,7 @@ impl<'a> Table<'a> {
     }
 }
 
-/// Cuts ears off a ring that is too long, adding their facets, and returns what is left with the normals beyond its edges.
+/// Cuts ears off a ring that is too long, adding their facets. Returns the rest with the normals beyond its edges.
 fn ears(site: &Site, ring: &Ring, facets: &mut Vec<[u32; 3]>) -> Option<(Vec<u32>, Vec<Vector>)> {
     let (work, n) = (site.work, ring.vertices.len());
     let normal = |f: &u32| normal(work.corners(*f)).unwrap_or([0.0; 3]);

@@ -1,10 +1,10 @@
 //! Closed rings of boundary edges get a patch.
 //!
 //! Patches are proposed in turn until one fits. First comes the triangulation of least area (Barequet and Sharir,
-//! Filling gaps in the boundary of a polyhedron, 1995), refined and faired where the surroundings are smooth (Liepa,
-//! Filling holes in meshes, 2003). Then follow the flat one itself, the one that bends least, and a fan around the
-//! middle. A patch fits if it crosses nothing, decided exactly, and makes no edge of three facets. Where none fits, the
-//! hole stays open.
+//! Filling gaps in the boundary of a polyhedron, 1995). It is refined and faired where the surroundings are smooth
+//! (Liepa, Filling holes in meshes, 2003). Then follow the flat one itself, the one that bends least, and a fan around
+//! the middle. A patch fits if it crosses nothing, decided exactly, and makes no edge of three facets. Where none fits,
+//! the hole stays open.
 
 mod fair;
 mod flat;

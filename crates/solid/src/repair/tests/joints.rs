@@ -313,8 +313,8 @@ fn facets_that_crossed_before_do_not_drive_parts_away() {
     assert!(new.iter().all(|p| p[..2].iter().all(|x| (x - 4.0).abs() < 1e-4)), "{new:?}");
 }
 
-/// Bodies that touch in faces, turned at random, become one: what rounding left between them is no surface that was lost. In edges and
-/// points they are parted.
+/// Bodies that touch in faces, turned at random, become one: slits that rounding left between them are no surface that
+/// was lost. In edges and points they are parted.
 #[test]
 fn bodies_that_touch_are_united_however_they_are_turned() {
     use crate::arrange::tests::touching::{rotation, touching};

@@ -1,4 +1,4 @@
-//! Planted defects are mended, sound meshes left alone; what each step does in its special cases.
+//! Planted defects are mended, sound meshes left alone; then the special cases of each step.
 
 mod holes;
 mod joints;
@@ -173,8 +173,9 @@ fn a_heap_of_thin_facets_does_not_grow() {
     assert!(repaired.mesh.faces.len() < 600, "{} facets", repaired.mesh.faces.len());
 }
 
-/// Facets lie upon each other in a plane, nearly all against all, beside a box with a pin in its mouth and a box that
-/// touches its corner. Patches and parted vertices are searched by themselves, not with the whole heap each time.
+/// Facets lie upon each other in a plane, nearly all against all. Beside them are a box with a pin in its mouth and a
+/// box that touches its corner. Patches and parted vertices are searched by themselves, not with the whole heap each
+/// time.
 #[test]
 fn a_flat_heap_does_not_hold_up_what_lies_beside_it() {
     let random = &mut Random::new(22);
@@ -229,7 +230,7 @@ fn heap_of_bodies(random: &mut Random) -> Mesh {
     mesh
 }
 
-/// Nothing that makes a mesh unsound is there more often afterwards, and what was closed stays closed.
+/// Nothing that makes a mesh unsound is there more often afterwards, and closed surfaces stay closed.
 #[test]
 fn a_repair_makes_nothing_worse() {
     let random = &mut Random::new(31);

@@ -5,7 +5,7 @@ use crate::model::flat::distance;
 use std::f64::consts::{PI, TAU};
 use trueness_geom::num::random::Random;
 
-/// A profile with what is right of it.
+/// A profile with the right answers for it.
 pub(crate) struct Made {
     pub points: Vec<[f64; 2]>,
     pub chord: f64,
@@ -137,8 +137,8 @@ fn placed(all: Vec<[f64; 2]>, random: &mut Random) -> (Vec<[f64; 2]>, f64, f64) 
     (points, size, noise)
 }
 
-/// How many of so many profiles have a chord that is off by more than a share, such an edge, and an edge of another
-/// kind.
+/// How many of so many profiles have a chord that is off by more than a share. Then how many have such an edge, and an
+/// edge of another kind.
 fn wrong(profiles: u64) -> [usize; 3] {
     let mut counts = [0; 3];
     for seed in 0..profiles {
