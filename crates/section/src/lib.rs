@@ -30,7 +30,7 @@ pub use cut::stack::facets_near;
 pub use cut::tessellated::chain_contour;
 pub use measure::airfoil::{Airfoil, AirfoilError, EdgeRadius, TrailingEdge, airfoil};
 pub use measure::chords::{Chord, Chords, chords, outline_row};
-pub use measure::covered::{Covered, Passed, covered};
+pub use measure::covered::{Covered, MatchedRow, covered};
 pub use measure::dimension::{Dimension, DimensionKind, dimensions};
 pub use measure::joined::joined;
 pub use measure::nominal::{OffNominal, Outline, off_nominal, with_material_inside};

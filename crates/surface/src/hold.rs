@@ -29,7 +29,7 @@ const PLATE_SLOPE: f64 = 0.1;
 const LEVELLING_REACH: f64 = 0.1;
 
 /// The base and the points by which the control points are held.
-pub(super) struct Ground<'a> {
+pub(super) struct HoldGround<'a> {
     pub knots: &'a [Knots; 2],
     pub base: &'a Base,
     pub points: &'a [Point],
@@ -48,7 +48,7 @@ pub(super) struct Penalty {
 
 impl Penalty {
     /// The penalty for the control points that the matrix of the points leaves loose; `None` where there are none.
-    pub(super) fn of(data: &Binned, normal: &Stencil, ground: &Ground) -> Option<Penalty> {
+    pub(super) fn of(data: &Binned, normal: &Stencil, ground: &HoldGround) -> Option<Penalty> {
         let needs = needs(data, normal);
         if needs.iter().all(|n| *n == 0.0) {
             return None;
@@ -141,7 +141,7 @@ fn need_at(data: &Binned, needs: &[f64], cell: usize, quarter: usize) -> f64 {
 }
 
 /// Control points of the base, tilted as the points over it are.
-fn target(Ground { knots, base, points, parameters, center }: &Ground) -> Vec<Point> {
+fn target(HoldGround { knots, base, points, parameters, center }: &HoldGround) -> Vec<Point> {
     if base.kind == BaseKind::Mesh {
         return vec![*center; knots[0].count() * knots[1].count()];
     }

@@ -43,7 +43,7 @@ const ROUNDING_SHARE: f64 = 1e-12;
 const POINTS_PER_JUDGING: usize = 1024;
 
 /// The judgment of a point by its neighbors.
-struct Judged {
+struct Judgment {
     /// Its distance from their plane.
     off: f64,
     /// Their standard deviation.
@@ -91,13 +91,13 @@ pub(super) fn outliers(
             Ok(part.iter().map(|i| judge(*i)).collect::<Vec<_>>())
         }
     };
-    let found: Result<Vec<Vec<Option<Judged>>>, Cancelled> =
+    let found: Result<Vec<Vec<Option<Judgment>>>, Cancelled> =
         indices.par_chunks(POINTS_PER_JUDGING).map(chunk).collect();
-    let found: Vec<Option<Judged>> = found?.into_iter().flatten().collect();
+    let found: Vec<Option<Judgment>> = found?.into_iter().flatten().collect();
     let mut spreads: Vec<f64> = found.iter().flatten().map(|judged| judged.spread).collect();
     let Some(usual) = median(&mut spreads) else { return Ok(vec![]) };
     let largest = points.iter().flatten().fold(0.0f64, |m, x| m.max(x.abs()));
-    let contradicts = |judged: &Judged| {
+    let contradicts = |judged: &Judgment| {
         let least = (CONTRADICTING_SIGMAS * judged.spread.max(usual)).max(ROUNDING_SHARE * largest);
         judged.alike < MIN_NEIGHBORS_ALIKE && judged.off.abs() > least
     };
@@ -128,7 +128,7 @@ fn distinct(parameters: &[[f64; 2]]) -> Vec<u32> {
 }
 
 /// The judgment of the point at the origin by its neighbors, which are seen from it; `None` where they are too few.
-fn judged(around: &[[f64; 3]]) -> Option<Judged> {
+fn judged(around: &[[f64; 3]]) -> Option<Judgment> {
     let count = around.len();
     if count < MIN_NEIGHBORS {
         return None;
@@ -160,7 +160,7 @@ fn judged(around: &[[f64; 3]]) -> Option<Judged> {
     let spread = (square / (held.len() as f64 - 3.0).max(1.0)).sqrt();
     let own = -plane[2];
     let alike = around.iter().filter(|n| (off(&plane, n) - own).abs() <= own.abs() / 4.0).count();
-    Some(Judged { off: own, spread, alike })
+    Some(Judgment { off: own, spread, alike })
 }
 
 /// How far a neighbor is above the plane `a u + b v + c`.

@@ -2,8 +2,8 @@
 
 use super::feet::{Feet, Found, feet};
 use super::gram::Binned;
-use super::hold::Ground;
-use super::solve::Known;
+use super::hold::HoldGround;
+use super::solve::EarlierSolution;
 use super::{Base, Fairness, Options, SurfaceError, SurfaceFit, border, solve};
 use trueness_geom::progress::Progress;
 use trueness_geom::space::{Aabb, Point, dot, plus, times};
@@ -39,13 +39,13 @@ pub(super) fn corrected(
             let fell = (rms(&next.deviations) / rms(&best.deviations)).min(1.0);
             let fairness = MIN_FAIRNESS_SHARE * best.fairness * fell * fell;
             if next.fairness < fairness {
-                let held = Some(Known { fairness, degrees_of_freedom, stiffness: best.stiffness });
+                let held = Some(EarlierSolution { fairness, degrees_of_freedom, stiffness: best.stiffness });
                 next = once(points, best.feet.clone(), base, &knots, held, options, progress)?;
             }
         }
         next = reaching(next);
         // The weight of the thin plate settles with the first correction.
-        known = next.degrees_of_freedom.map(|degrees_of_freedom| Known {
+        known = next.degrees_of_freedom.map(|degrees_of_freedom| EarlierSolution {
             fairness: next.fairness,
             degrees_of_freedom,
             stiffness: next.stiffness,
@@ -73,14 +73,14 @@ fn once(
     parameters: Vec<[f64; 2]>,
     base: Base,
     knots: &[Knots; 2],
-    known: Option<Known>,
+    known: Option<EarlierSolution>,
     options: &Options,
     progress: &dyn Progress,
 ) -> Result<SurfaceFit, SurfaceError> {
     let hull = Aabb::of(points);
     let center = times(0.5, plus(hull.min, hull.max));
     let data = Binned::new(knots, points, &parameters, center);
-    let ground = Ground { knots, base: &base, points, parameters: &parameters, center };
+    let ground = HoldGround { knots, base: &base, points, parameters: &parameters, center };
     let solved = solve::solve(&data, &ground, known, options, progress)?;
     // The sorted points know them too, and this is where most memory is in use.
     drop(parameters);

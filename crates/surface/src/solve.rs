@@ -3,7 +3,7 @@
 use super::energy::thin_plate;
 use super::gaps::Folds;
 use super::gram::{Binned, Sums};
-use super::hold::{self, Ground, Penalty};
+use super::hold::{self, HoldGround, Penalty};
 use super::stencil::{Order, Stencil};
 use super::{Fairness, Options, Support, SurfaceError};
 use trueness_geom::num::banded::{Banded, BandedError, Factor};
@@ -28,7 +28,7 @@ const MIN_SUPPORT: f64 = 1e-4;
 
 /// Results of an earlier solution of much the same points.
 #[derive(Clone, Copy)]
-pub(super) struct Known {
+pub(super) struct EarlierSolution {
     pub fairness: f64,
     pub degrees_of_freedom: f64,
     /// Stiffness where points are few.
@@ -41,8 +41,8 @@ const SOFTENING_PASSES: usize = 2;
 /// Solves for the control points.
 pub(super) fn solve(
     data: &Binned,
-    ground: &Ground,
-    known: Option<Known>,
+    ground: &HoldGround,
+    known: Option<EarlierSolution>,
     options: &Options,
     progress: &dyn Progress,
 ) -> Result<Solved, SurfaceError> {

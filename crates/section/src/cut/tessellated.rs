@@ -5,7 +5,7 @@ use super::plane::Chain;
 use super::scan::{CutMesh, ScanRow};
 use crate::model::chain::SegmentKind;
 use crate::model::flat::{distance, off_line};
-use crate::model::prior::{Known, Prior};
+use crate::model::prior::{KnownNoise, Prior};
 use crate::model::result::{Contour, Join, Options, RowKind, SectionError, Segment};
 use crate::row::clean::check;
 use crate::row::contour::{contour, contour_with};
@@ -105,12 +105,12 @@ fn in_direction(
     let mut places = points.clone();
     kept.iter().zip(&row).for_each(|(i, p)| places[*i] = *p);
     let free_form = mesh.free_form;
-    let find = |noise: Option<Known>| {
+    let find = |noise: Option<KnownNoise>| {
         let found = contour_with(&row, &Prior { noise, weights: Some(&weights), free_form }, &own, progress)?;
         let found = Contour { moved: places.clone(), ..found };
         Ok(within_facets(spread(found, &kept, noise, &places), &points))
     };
-    let known = Known::stated(options).or(noise);
+    let known = KnownNoise::stated(options).or(noise);
     let first = find(known);
     // Where the noise of the whole mesh is not that of the section, this tells its own.
     let unreliable = first.as_ref().map_or(0, |c| c.unreliable.len());
@@ -240,7 +240,7 @@ fn within_facets(contour: Contour, points: &[[f64; 2]]) -> Contour {
 }
 
 /// A contour found from some of the points, of this noise where it is known, for all of them. Segments that others lie far off are unreliable.
-fn spread(found: Contour, kept: &[usize], known: Option<Known>, points: &[[f64; 2]]) -> Contour {
+fn spread(found: Contour, kept: &[usize], known: Option<KnownNoise>, points: &[[f64; 2]]) -> Contour {
     let starts: Vec<f64> = starts(&found.segments);
     let n = kept.len();
     let mut all = Contour { row_kind: RowKind::Scan, ..found };

@@ -17,7 +17,7 @@ mod tail;
 use crate::model::flat::distance;
 use crate::model::result::{Contour, Geometry, Uncertainty};
 use crate::row::direction::from_the_end;
-use circles::Inscribed;
+use circles::InscribedCircles;
 pub use edge::EdgeRadius;
 pub use ends::TrailingEdge;
 pub use error::AirfoilError;
@@ -137,14 +137,14 @@ fn in_order(
     }
     let (around, mut course, mut other) = Profile::new(&row, &numbers, contour, progress)?;
     let round = around.trailing == TrailingEdge::Round;
-    let mut inscribed = Inscribed::new(&course, progress);
+    let mut inscribed = InscribedCircles::new(&course, progress);
     // Segments overshoot where they join in a place that the points do not determine; the free curve through all points has no such place.
     if matches!(inscribed, Err(AirfoilError::Crosses { .. }))
         && course.of_contour
         && let Some(smooth) = other.take()
     {
         course = smooth;
-        inscribed = Inscribed::new(&course, progress);
+        inscribed = InscribedCircles::new(&course, progress);
     }
     let inscribed = inscribed?;
     let (leading, trailing) = inscribed.chord(round);
@@ -152,7 +152,7 @@ fn in_order(
     let (center, radius) = inscribed.greatest().ok_or(AirfoilError::Inside)?;
     // The result of another course through the points differs by the scatter that a free curve follows, or by the form
     // that it does not.
-    let other = match other.map(|other| Inscribed::new(&other, progress)) {
+    let other = match other.map(|other| InscribedCircles::new(&other, progress)) {
         Some(Err(AirfoilError::Cancelled(e))) => return Err(e.into()),
         other => other.and_then(|o| o.ok()?.greatest()),
     };

@@ -4,7 +4,7 @@ use super::nominal::{OffNominal, Outline};
 
 /// A row of measured points, with the places nearest to each.
 #[derive(Clone, Copy, Debug)]
-pub struct Passed<'a> {
+pub struct MatchedRow<'a> {
     /// The points.
     pub points: &'a [[f64; 2]],
     /// The place of the outlines nearest to each.
@@ -39,7 +39,7 @@ const MAX_WAY_ROUND_RATIO: f64 = 1.75;
 /// Stretches that several pairs of points pass count once. One point alone passes nothing.
 ///
 /// Cost: that of sorting the points.
-pub fn covered(rows: &[Passed], outlines: &[Outline]) -> Vec<Covered> {
+pub fn covered(rows: &[MatchedRow], outlines: &[Outline]) -> Vec<Covered> {
     let lengths: Vec<f64> = outlines.iter().map(Outline::length).collect();
     let mut all = vec![Covered::default(); outlines.len()];
     for row in rows {
@@ -113,7 +113,7 @@ mod tests {
     fn shares(points: &[[f64; 2]], closed: bool, gaps: &[usize]) -> Vec<(usize, f64)> {
         let outlines = nominal();
         let found = off_nominal(points, &outlines, &Silent).unwrap();
-        let rows = [Passed { points, found: &found, closed, gaps }];
+        let rows = [MatchedRow { points, found: &found, closed, gaps }];
         covered(&rows, &outlines)
             .iter()
             .zip(&outlines)
@@ -144,7 +144,7 @@ mod tests {
         near(&shares(&around, false, &[3, 20]), &[(40, 37.0 / 40.0), (0, 0.0)]);
         let outlines = nominal();
         let found = off_nominal(&around, &outlines, &Silent).unwrap();
-        let rows = [Passed { points: &around, found: &found, closed: false, gaps: &[3] }];
+        let rows = [MatchedRow { points: &around, found: &found, closed: false, gaps: &[3] }];
         // Along the square from its lower left corner, begun at 5.5.
         let [ref square, ref triangle] = covered(&rows, &outlines)[..] else { panic!() };
         let is = |k: usize, [from, to]: [f64; 2]| {
@@ -169,7 +169,7 @@ mod tests {
         let circle = [Outline { segments: vec![crate::Segment::arc([0.0; 2], 3.0, 0.0, TAU)], closed: true }];
         let points = [-0.2_f64, 0.1].map(|a| [3.1 * a.cos(), 3.1 * a.sin()]);
         let found = off_nominal(&points, &circle, &Silent).unwrap();
-        let rows = [Passed { points: &points, found: &found, closed: false, gaps: &[] }];
+        let rows = [MatchedRow { points: &points, found: &found, closed: false, gaps: &[] }];
         assert!((covered(&rows, &circle)[0].length() - 0.9).abs() < 1e-12);
     }
 }

@@ -96,14 +96,14 @@ fn followed(rational: &Rational<3>, tolerance: f64) -> Option<(Curve<[f64; 2]>, 
 }
 
 /// Ends of segments by the cells that they lie in.
-struct EndsAt {
+struct EndIndex {
     cell: f64,
     at: HashMap<[i64; 2], Vec<(usize, bool)>>,
 }
 
-impl EndsAt {
-    fn new(segments: &[Segment], gap: f64) -> EndsAt {
-        let mut all = EndsAt { cell: 2.0 * gap.max(f64::MIN_POSITIVE), at: HashMap::new() };
+impl EndIndex {
+    fn new(segments: &[Segment], gap: f64) -> EndIndex {
+        let mut all = EndIndex { cell: 2.0 * gap.max(f64::MIN_POSITIVE), at: HashMap::new() };
         for (i, s) in segments.iter().enumerate().filter(|(_, s)| !s.is_whole()) {
             for (at_end, p) in [(false, s.start), (true, s.end)] {
                 all.at.entry(all.key(p)).or_default().push((i, at_end));
@@ -142,7 +142,7 @@ impl EndsAt {
 /// ```
 pub fn joined(segments: Vec<Segment>, gap: f64) -> Vec<Outline> {
     let segments = once(segments, gap);
-    let ends = EndsAt::new(&segments, gap);
+    let ends = EndIndex::new(&segments, gap);
     let mut used = vec![false; segments.len()];
     let mut all = vec![];
     for first in 0..segments.len() {

@@ -150,7 +150,7 @@ pub(super) fn inside(polygon: &[[f64; 2]], p: [f64; 2]) -> bool {
 }
 
 /// A segment within its box.
-struct Boxed {
+struct BoxedSegment {
     low: [f64; 2],
     high: [f64; 2],
     outline: usize,
@@ -159,10 +159,10 @@ struct Boxed {
     before: f64,
 }
 
-impl Boxed {
-    fn new(segment: &Segment, outline: usize, number: usize, before: f64) -> Boxed {
+impl BoxedSegment {
+    fn new(segment: &Segment, outline: usize, number: usize, before: f64) -> BoxedSegment {
         let mut all =
-            Boxed { low: [f64::INFINITY; 2], high: [f64::NEG_INFINITY; 2], outline, number, before };
+            BoxedSegment { low: [f64::INFINITY; 2], high: [f64::NEG_INFINITY; 2], outline, number, before };
         for p in segment.hull() {
             for k in 0..2 {
                 all.low[k] = all.low[k].min(p[k]);
@@ -200,16 +200,16 @@ pub fn off_nominal(
     outlines: &[Outline],
     progress: &dyn Progress,
 ) -> Result<Vec<Option<OffNominal>>, Cancelled> {
-    let each = |(n, o): (usize, &Outline)| -> Vec<Boxed> {
+    let each = |(n, o): (usize, &Outline)| -> Vec<BoxedSegment> {
         let lengths = o.segments.iter().scan(0.0, |sum, s| Some(std::mem::replace(sum, *sum + s.length)));
         o.segments
             .iter()
             .zip(lengths)
             .enumerate()
-            .map(|(k, (s, before))| Boxed::new(s, n, k, before))
+            .map(|(k, (s, before))| BoxedSegment::new(s, n, k, before))
             .collect()
     };
-    let boxes: Vec<Boxed> = outlines.iter().enumerate().flat_map(each).collect();
+    let boxes: Vec<BoxedSegment> = outlines.iter().enumerate().flat_map(each).collect();
     let mut all = Vec::with_capacity(points.len());
     // The segment nearest to the point before: a good guess.
     let mut last = 0;
@@ -221,7 +221,7 @@ pub fn off_nominal(
             all.push(None);
             continue;
         }
-        let segment = |b: &Boxed| &outlines[b.outline].segments[b.number];
+        let segment = |b: &BoxedSegment| &outlines[b.outline].segments[b.number];
         let guess = segment(&boxes[last]).nearest(*p).distance.abs();
         // A box at the same distance may hold an earlier segment as near.
         let limit = guess * guess * (1.0 + 1e-12);

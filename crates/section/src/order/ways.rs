@@ -126,7 +126,7 @@ pub fn order(points: &[[f64; 2]], gap: Option<f64>, progress: &dyn Progress) -> 
         }
         let reach = gap.map_or(TREE_REACH_CELLS * wider_cells, |g| g.min(TREE_REACH_CELLS * wider_cells));
         let tree = cells.tree(reach);
-        let mut other = rows(points, Grown { cells, tree, reach, follows: true }, gap, size);
+        let mut other = rows(points, GrownTree { cells, tree, reach, follows: true }, gap, size);
         let is_parted = parted(points, &mut other.0, gap, progress)?;
         let better = ends(&other.0) < ends(&found.0) || is_mixed(&found.0, &other.0, n);
         if is_parted && better && count(&other.0) as f64 >= FACE_SHARE_AND_GROWTHS.0 * count(&found.0) as f64
@@ -165,8 +165,8 @@ fn fills_area(points: &[[f64; 2]], size: f64) -> bool {
 const FACE_SHARE_AND_GROWTHS: (f64, usize) = (0.9, 6);
 
 /// The rows along a tree, and the gap that they go on over.
-fn rows(points: &[[f64; 2]], grown: Grown, gap: Option<f64>, size: f64) -> (Vec<Ordered>, f64) {
-    let Grown { cells, tree, reach, follows } = grown;
+fn rows(points: &[[f64; 2]], grown: GrownTree, gap: Option<f64>, size: f64) -> (Vec<Ordered>, f64) {
+    let GrownTree { cells, tree, reach, follows } = grown;
     let ways = tree_paths(&cells, &tree);
     let gap = match (gap, follows) {
         (Some(gap), _) => gap.max(NEXT_CELL_REACH * cells.width),
@@ -220,7 +220,7 @@ fn is_mixed(rows: &[Ordered], faces: &[Ordered], count: usize) -> bool {
 
 /// A row along both faces of a wall, the wall, and the points of each face. These are the row's own, and those of
 /// shorter rows beside it.
-struct Walled {
+struct WallRow {
     row: Ordered,
     wall: Wall,
     own: [Vec<usize>; 2],
@@ -234,7 +234,7 @@ fn parted(
     gap: Option<f64>,
     progress: &dyn Progress,
 ) -> Result<bool, Cancelled> {
-    let (mut walls, mut rest): (Vec<Walled>, Vec<Ordered>) = (vec![], vec![]);
+    let (mut walls, mut rest): (Vec<WallRow>, Vec<Ordered>) = (vec![], vec![]);
     let places = |row: &Ordered| row.numbers.iter().map(|i| points[*i]).collect::<Vec<_>>();
     for mut row in std::mem::take(rows) {
         match faces(&places(&row), row.closed) {
@@ -247,14 +247,14 @@ fn parted(
                 row.layered = unclear;
                 let mut own = [vec![], vec![]];
                 row.numbers.iter().zip(upper).for_each(|(i, u)| own[usize::from(u)].push(*i));
-                walls.push(Walled { row, wall, own, seen_beside: [vec![], vec![]] });
+                walls.push(WallRow { row, wall, own, seen_beside: [vec![], vec![]] });
             }
         }
     }
     // Branches of the tree across the wall belong to its faces.
     for row in rest {
         let is_short =
-            |w: &&mut Walled| row.numbers.len() as f64 <= MAX_BRANCH_SHARE * w.row.numbers.len() as f64;
+            |w: &&mut WallRow| row.numbers.len() as f64 <= MAX_BRANCH_SHARE * w.row.numbers.len() as f64;
         let found =
             walls.iter_mut().filter(is_short).find_map(|w| Some((w.wall.faces_of(&places(&row))?, w)));
         match found {
@@ -278,7 +278,7 @@ const MAX_BRANCH_SHARE: f64 = 0.1;
 /// The row of the points of one face of a wall: as they follow each other by themselves, or as they lay along the wall.
 fn face(
     points: &[[f64; 2]],
-    wall: &Walled,
+    wall: &WallRow,
     side: usize,
     gap: Option<f64>,
     progress: &dyn Progress,
@@ -333,7 +333,7 @@ fn wider(points: &[[f64; 2]], rows: &[Ordered], gap: f64) -> Option<f64> {
 }
 
 /// Cells of the width that was found, and the tree over them.
-struct Grown {
+struct GrownTree {
     cells: Cells,
     tree: Tree,
     reach: f64,
@@ -347,8 +347,8 @@ fn grow(
     mut width: f64,
     gap: Option<f64>,
     progress: &dyn Progress,
-) -> Result<Option<Grown>, Cancelled> {
-    let mut best: Option<(Grown, usize)> = None;
+) -> Result<Option<GrownTree>, Cancelled> {
+    let mut best: Option<(GrownTree, usize)> = None;
     for _ in 0..CELL_GROWTH_AND_TIMES.1 {
         if progress.cancelled() {
             return Err(Cancelled);
@@ -374,7 +374,7 @@ fn grow(
         }
         let fragmented = gap.is_none()
             && pieces as f64 > FRAGMENTED_SHARE_AND_COUNT.0 * n as f64 + FRAGMENTED_SHARE_AND_COUNT.1 as f64;
-        best = Some((Grown { cells, tree, reach, follows }, pieces));
+        best = Some((GrownTree { cells, tree, reach, follows }, pieces));
         if follows && !fragmented {
             break;
         }

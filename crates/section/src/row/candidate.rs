@@ -24,17 +24,17 @@ pub(super) struct Question<'a> {
 /// A contour that is proposed.
 pub(super) struct Candidate {
     contour: Contour,
-    standing: Standing,
+    chosen_by: ChosenBy,
 }
 
 /// The rule by which a contour is chosen.
-enum Standing {
+enum ChosenBy {
     /// By its cost.
     Cost,
     /// The points speak against the one found before.
     Instead,
     /// The points tell it, beyond chance: nothing more is asked.
-    Told,
+    BeyondChance,
 }
 
 /// A way to a contour, in view of the one found so far; `None` where it has none to propose.
@@ -97,15 +97,15 @@ impl<'a> Question<'a> {
     ) -> Result<Option<Contour>, SectionError> {
         let mut best: Option<Contour> = None;
         for propose in proposers {
-            let Some(Candidate { contour, standing }) = propose(self, best.as_ref(), progress)? else {
+            let Some(Candidate { contour, chosen_by }) = propose(self, best.as_ref(), progress)? else {
                 continue;
             };
             let costs_less = || best.as_ref().is_none_or(|b| self.cost(&contour) < self.cost(b));
-            match standing {
-                Standing::Told => return Ok(Some(contour)),
-                Standing::Instead => best = Some(contour),
-                Standing::Cost if costs_less() => best = Some(contour),
-                Standing::Cost => {}
+            match chosen_by {
+                ChosenBy::BeyondChance => return Ok(Some(contour)),
+                ChosenBy::Instead => best = Some(contour),
+                ChosenBy::Cost if costs_less() => best = Some(contour),
+                ChosenBy::Cost => {}
             }
         }
         Ok(best)
@@ -115,17 +115,17 @@ impl<'a> Question<'a> {
 impl Candidate {
     /// One that is compared by its cost.
     pub fn of(contour: Contour) -> Option<Candidate> {
-        Some(Candidate { contour, standing: Standing::Cost })
+        Some(Candidate { contour, chosen_by: ChosenBy::Cost })
     }
 
     /// One that the points speak for against the contour found before.
     pub fn instead(contour: Contour) -> Option<Candidate> {
-        Some(Candidate { contour, standing: Standing::Instead })
+        Some(Candidate { contour, chosen_by: ChosenBy::Instead })
     }
 
     /// One that the points tell, beyond chance.
     pub fn beyond_chance(contour: Contour) -> Option<Candidate> {
-        Some(Candidate { contour, standing: Standing::Told })
+        Some(Candidate { contour, chosen_by: ChosenBy::BeyondChance })
     }
 }
 

@@ -38,16 +38,16 @@ const MAX_CORNER_CHI_SQUARED: f64 = 20.5;
 const OUTLIER_PASSES: usize = 4;
 
 /// Which points of a row count, and which repeat the one before.
-pub(crate) struct Passed {
+pub(crate) struct DistinctPoints {
     pub numbers: Vec<usize>,
     pub repeated: Vec<usize>,
     /// From this point on all are where the first is; they are among the repeated ones.
     pub ends_meet: Option<usize>,
 }
 
-impl Passed {
-    pub fn of(points: &[[f64; 2]], open: bool) -> Passed {
-        let mut all = Passed { numbers: vec![], repeated: vec![], ends_meet: None };
+impl DistinctPoints {
+    pub fn of(points: &[[f64; 2]], open: bool) -> DistinctPoints {
+        let mut all = DistinctPoints { numbers: vec![], repeated: vec![], ends_meet: None };
         for (i, p) in points.iter().enumerate() {
             match all.numbers.last() {
                 Some(last) if points[*last] == *p => all.repeated.push(i),
@@ -82,9 +82,9 @@ const REPEATED_STEP_RATIO: f64 = 1e9;
 impl Clean {
     /// Cleans a row whose coordinates are numbers.
     pub fn new(points: &[[f64; 2]], options: &Options) -> Result<Clean, SectionError> {
-        let passed = Passed::of(points, options.closed == Some(false));
+        let passed = DistinctPoints::of(points, options.closed == Some(false));
         let gaps = passed.gaps(points);
-        let Passed { numbers, repeated, ends_meet } = passed;
+        let DistinctPoints { numbers, repeated, ends_meet } = passed;
         let mut all: Vec<[f64; 2]> = numbers.iter().map(|i| points[*i]).collect();
         let mut different = all.clone();
         different.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));

@@ -4,7 +4,7 @@ use super::candidate::{Candidate, Proposer, Question};
 use super::clean::check_row;
 use super::direction::from_the_end;
 use super::shared_noise::shared_noise;
-use super::without_strays::Searched;
+use super::without_strays::WithoutStrays;
 use super::{chains, corners, free_row, resolved, vertices};
 use crate::model::budget::Budget;
 use crate::model::crossings::crossings_with_loops;
@@ -80,7 +80,7 @@ pub(crate) fn contour_within(
     progress: &dyn Progress,
 ) -> Result<Contour, SectionError> {
     check_row(points, options)?;
-    let searched = Searched::of(points, options);
+    let searched = WithoutStrays::of(points, options);
     let row = searched.row(points);
     let found =
         prior.among(searched.numbers(), |prior| in_direction(products, &row, &prior, options, progress))?;

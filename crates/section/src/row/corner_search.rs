@@ -7,7 +7,7 @@ use crate::model::budget::Budget;
 use crate::model::chain::SegmentKind;
 use crate::model::criterion::Criterion;
 use crate::model::flat::angle;
-use crate::model::prior::Known;
+use crate::model::prior::KnownNoise;
 use crate::model::result::{Continuity, Options, SectionError};
 use crate::search::parts::{Part, shares};
 use crate::search::span::{Found, single};
@@ -32,7 +32,7 @@ pub(super) struct CornerSearch<'a> {
     /// Points are followed at this step: nearer ones scatter more than they are apart.
     pub step: usize,
     pub sigma: f64,
-    pub known_noise: Option<Known>,
+    pub known_noise: Option<KnownNoise>,
     pub own: f64,
     /// The continuity that all joins have, where it is not left to the data.
     pub forced: Option<Continuity>,

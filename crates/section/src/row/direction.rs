@@ -1,6 +1,6 @@
 //! Rows are measured in one direction, whichever they are given in: a search by the likelihood may end elsewhere from the other end.
 
-use super::clean::{GAP_SPACINGS, Passed};
+use super::clean::{DistinctPoints, GAP_SPACINGS};
 use crate::model::flat::distance;
 use crate::model::result::{Contour, Join, Segment};
 
@@ -59,7 +59,7 @@ impl Contour {
 
     /// The contour of the row `points`, found from its last point, as from its first.
     pub(crate) fn turned_round(self, points: &[[f64; 2]]) -> Contour {
-        let passed = Passed::of(points, !self.closed);
+        let passed = DistinctPoints::of(points, !self.closed);
         let mut all = self.reversed(points.len());
         // The first of points at the same place stands for all.
         let first = |i: usize| {

@@ -12,7 +12,7 @@ use super::clean::{Clean, size};
 use super::exact::{quantized, rounded};
 use super::polygon::polygon;
 use crate::model::chain::SegmentKind;
-use crate::model::prior::{Known, NEGLIGIBLE_OFFSET_SPACINGS, Prior};
+use crate::model::prior::{KnownNoise, NEGLIGIBLE_OFFSET_SPACINGS, Prior};
 use crate::model::result::{Continuity, Contour, Options};
 use crate::search::partition::{MAX_PART_STARTS, Penalty, partition};
 use crate::search::parts::{Part, noise, scatter};
@@ -60,7 +60,7 @@ pub(super) struct Partition {
     pub clean: Clean,
     pub turned: usize,
     pub weights: Vec<f64>,
-    pub known_noise: Option<Known>,
+    pub known_noise: Option<KnownNoise>,
     pub parts: Vec<Part>,
     pub outliers: Vec<usize>,
     /// The parts are exact lines and arcs.

@@ -63,7 +63,7 @@ pub(super) fn propose(
     if best.is_some() || !question.is_free() {
         return Ok(None);
     }
-    let found = resolved(question.partition(), question.options, Among::Rows);
+    let found = resolved(question.partition(), question.options, Case::Rows);
     Ok(found.and_then(|found| Candidate::beyond_chance(found.whole(question.points.len()))))
 }
 
@@ -75,14 +75,14 @@ pub(super) fn propose_instead(
 ) -> Result<Option<Candidate>, SectionError> {
     let is_asked = |found: &&Contour| question.is_free() && (is_cornered(found) || misses(found, 0.0));
     let Some(other) = best.filter(is_asked) else { return Ok(None) };
-    let found = resolved(question.partition(), question.options, Among::Contours);
+    let found = resolved(question.partition(), question.options, Case::Contours);
     let better = found.filter(|found| found.is_better_than(other));
     Ok(better.and_then(|found| Candidate::instead(found.whole(question.points.len()))))
 }
 
 /// The contour of a row of points that lie on smooth curves without noise. `None` where they do not, where lines and
 /// arcs do, or where the points are too few for the curve.
-fn resolved(partition: &Partition, options: &Options, among: Among) -> Option<Resolved> {
+fn resolved(partition: &Partition, options: &Options, case: Case) -> Option<Resolved> {
     let clean = &partition.clean;
     let n = clean.points.len();
     if !(MIN_POINTS_OF_ROW_AND_STRETCH.0..=MAX_POINTS_OF_RESOLVED_ROW).contains(&n)
@@ -112,9 +112,9 @@ fn resolved(partition: &Partition, options: &Options, among: Among) -> Option<Re
     let exact = || partition.parts.iter().filter(on).map(|p| p.to - p.from);
     let curved = exact().sum::<usize>() as f64 <= MAX_EXACT_SHARE * n as f64
         && exact().all(|count| count < POINTS_OF_LONG_EXACT_PART);
-    let is_candidate = match among {
-        Among::Rows => quiet && curved,
-        Among::Contours => quiet || curved,
+    let is_candidate = match case {
+        Case::Rows => quiet && curved,
+        Case::Contours => quiet || curved,
     };
     if !is_candidate {
         return None;
@@ -143,7 +143,7 @@ fn resolved(partition: &Partition, options: &Options, among: Among) -> Option<Re
 
 /// The cases in which such a contour is looked for.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Among {
+enum Case {
     /// Rows of which no lines and arcs are to be found: there is nothing to search.
     Rows,
     /// A contour of the search is there to compare it with.

@@ -6,7 +6,7 @@
 
 use crate::model::chain::SegmentKind;
 use crate::model::flat::distance;
-use crate::model::prior::Known;
+use crate::model::prior::KnownNoise;
 use crate::search::parts::{Part, Sums};
 
 /// Points of the narrowest window, and of the widest one at most.
@@ -34,7 +34,7 @@ const MAX_SHARED_NOISE_SPACINGS: f64 = 0.1;
 
 /// Noise that neighbors share, and how many points tell as much as an independent one. `None` where neighbors share none, or form is not
 /// told from it. Cost: the number of points times the width of the windows.
-pub(super) fn shared_noise(points: &[[f64; 2]]) -> Option<(Known, f64)> {
+pub(super) fn shared_noise(points: &[[f64; 2]]) -> Option<(KnownNoise, f64)> {
     let way: f64 = points.windows(2).map(|w| distance(w[0], w[1])).sum();
     let spacing = way / points.len() as f64;
     let sums = Sums::new(points, &vec![1.0; points.len()]);
@@ -48,7 +48,7 @@ pub(super) fn shared_noise(points: &[[f64; 2]]) -> Option<(Known, f64)> {
                 && found.deviation <= MAX_SHARED_NOISE_SPACINGS * spacing;
             return (is_noise && found.alike >= MIN_POINTS_PER_INDEPENDENT).then(|| {
                 let degrees = found.windows * (width as f64 / found.alike - 3.0).max(1.0);
-                (Known { deviation: found.deviation, degrees }, found.alike)
+                (KnownNoise { deviation: found.deviation, degrees }, found.alike)
             });
         }
         width *= 2;

@@ -134,7 +134,7 @@ struct Cover {
 
 /// The cheapest way to a piece: its savings, and the piece before.
 #[derive(Clone, Copy)]
-struct Way {
+struct CoverStep {
     saves: f64,
     before: Option<usize>,
 }
@@ -163,16 +163,16 @@ impl Cover {
     fn from(&self, start: usize) -> Option<(f64, Vec<Piece>)> {
         let last = start + self.polygon.facets();
         let pieces: Vec<Piece> = (start..last).flat_map(|from| self.pieces(from, last)).collect();
-        let mut ways: Vec<Way> = vec![];
+        let mut ways: Vec<CoverStep> = vec![];
         let mut ending: Vec<Vec<usize>> = vec![vec![]; last - start + 1];
         for (k, piece) in pieces.iter().enumerate() {
             let own = piece.saves - piece.uneven;
             let via = |before: usize| {
                 let tangent = f64::from(u8::from(pieces[before].is_tangent(piece)));
-                Way { saves: ways[before].saves + own + tangent, before: Some(before) }
+                CoverStep { saves: ways[before].saves + own + tangent, before: Some(before) }
             };
             let before = ending[piece.item.from - start].iter().map(|k| via(*k));
-            let first = (piece.item.from == start).then_some(Way { saves: own, before: None });
+            let first = (piece.item.from == start).then_some(CoverStep { saves: own, before: None });
             let best = before.chain(first).max_by(|a, b| a.saves.total_cmp(&b.saves))?;
             ways.push(best);
             ending[piece.item.to - start].push(k);

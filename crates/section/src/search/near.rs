@@ -23,7 +23,7 @@ const CORE_PIECES: usize = 4;
 
 /// Pieces that follow each other, with their points.
 #[derive(Clone, Debug)]
-pub(super) struct Near {
+pub(super) struct PieceNeighborhood {
     /// Their numbers in the whole chain; of a closed one they may go on beyond its last piece.
     pub pieces: Range<usize>,
     /// Pieces looked at, counted from the first of these.
@@ -33,10 +33,16 @@ pub(super) struct Near {
     pub state: State,
 }
 
-impl Near {
+impl PieceNeighborhood {
     /// The pieces about some of a chain, held where they meet the others. `around` is for a join: of a closed chain
     /// then also over its seam, with so many pieces on either side.
-    fn about(row: &Row, state: &State, layout: &Layout, core: Range<usize>, around: Option<usize>) -> Near {
+    fn about(
+        row: &Row,
+        state: &State,
+        layout: &Layout,
+        core: Range<usize>,
+        around: Option<usize>,
+    ) -> PieceNeighborhood {
         let count = state.chain.pieces.len();
         let margin = around.unwrap_or(PIECES_BESIDE);
         let (before, after) = match around.is_some() && state.chain.closed {
@@ -47,7 +53,7 @@ impl Near {
         let turns = if before > core.start { count } else { 0 };
         let pieces = core.start + turns - before..core.end + turns + after;
         let core = before..before + core.len();
-        let mut near = Near { core, ..Near::of(row, state, layout, pieces) };
+        let mut near = PieceNeighborhood { core, ..PieceNeighborhood::of(row, state, layout, pieces) };
         let open = !state.chain.closed && near.pieces.end == count;
         let end = (!open).then(|| near.end());
         near.state.chain.ends = Ends { end, ..near.state.chain.ends };
@@ -55,12 +61,12 @@ impl Near {
     }
 
     /// The pieces about a join: of a closed chain also about that over its seam.
-    pub fn at_join(row: &Row, state: &State, layout: &Layout, join: usize) -> Near {
+    pub fn at_join(row: &Row, state: &State, layout: &Layout, join: usize) -> PieceNeighborhood {
         let first = if join == 0 { state.chain.pieces.len() } else { join };
-        Near::about(row, state, layout, first - 1..first + 1, Some(PIECES_BESIDE_JOIN))
+        PieceNeighborhood::about(row, state, layout, first - 1..first + 1, Some(PIECES_BESIDE_JOIN))
     }
 
-    fn of(row: &Row, state: &State, layout: &Layout, pieces: Range<usize>) -> Near {
+    fn of(row: &Row, state: &State, layout: &Layout, pieces: Range<usize>) -> PieceNeighborhood {
         let (count, n) = (state.chain.pieces.len(), row.points.len());
         let at = |k: usize| state.breaks[k % count] + k / count * n;
         // The end of an open chain is no start of a piece.
@@ -78,7 +84,7 @@ impl Near {
         };
         let mut breaks: Vec<usize> = pieces.clone().map(|k| at(k) - from).collect();
         breaks.push(end - from);
-        Near {
+        PieceNeighborhood {
             core: 0..pieces.len(),
             points: numbers().map(|i| row.points[i]).collect(),
             weights: numbers().map(|i| row.weights[i]).collect(),
@@ -158,7 +164,7 @@ impl Search<'_> {
             if idle[core.clone()].iter().all(|i| *i) {
                 continue;
             }
-            let near = Near::about(&self.row, &model.state, &layout, core.clone(), None);
+            let near = PieceNeighborhood::about(&self.row, &model.state, &layout, core.clone(), None);
             match self.step_near(&near, model) {
                 Some((cost, state)) if cost < model.cost - 1e-6 => {
                     found.push((cost, near.pieces.clone(), state));
@@ -189,7 +195,7 @@ impl Search<'_> {
     }
 
     /// The best step that begins in the core, with its cost.
-    fn step_near(&mut self, near: &Near, model: &Model) -> Option<(f64, State)> {
+    fn step_near(&mut self, near: &PieceNeighborhood, model: &Model) -> Option<(f64, State)> {
         if near.is_empty() {
             return None;
         }
@@ -228,7 +234,8 @@ impl Search<'_> {
             // By itself first, with its join: that brings it to its points.
             for before in [1, PIECES_BESIDE_JOIN] {
                 layout.fill(&grown.chain);
-                let near = Near::of(&row, &grown, &layout, next.saturating_sub(before)..next + 1);
+                let near =
+                    PieceNeighborhood::of(&row, &grown, &layout, next.saturating_sub(before)..next + 1);
                 if near.is_empty() {
                     continue;
                 }

@@ -1,6 +1,6 @@
 //! Where a join may lie: the likelihood as a function of its place, everything else fitted anew.
 
-use super::near::{Near, spliced};
+use super::near::{PieceNeighborhood, spliced};
 use super::rounds::Search;
 use crate::model::chain::{Layout, Pose};
 use crate::model::criterion::Model;
@@ -83,10 +83,10 @@ impl Search<'_> {
     }
 
     /// Follows a join to both ends of its interval; a lower state found on the way.
-    fn both(&mut self, best: &State, seek: &Seek, interval: &mut Interval) -> Option<State> {
+    fn both(&mut self, best: &State, seek: &EndSearch, interval: &mut Interval) -> Option<State> {
         let mut better = None;
         for (side, sign) in [-1.0, 1.0].into_iter().enumerate() {
-            let (end, open, lower) = self.follow(best, &Seek { sign, ..*seek });
+            let (end, open, lower) = self.follow(best, &EndSearch { sign, ..*seek });
             (interval.ends[side], interval.open[side]) = (end, open);
             better = least(better, lower, best);
         }
@@ -98,12 +98,12 @@ impl Search<'_> {
     fn with_pieces_near(
         &mut self,
         model: &Model,
-        seek: &Seek,
-        look: impl FnOnce(&mut Search, &State, &Seek) -> Option<State>,
+        seek: &EndSearch,
+        look: impl FnOnce(&mut Search, &State, &EndSearch) -> Option<State>,
     ) -> Option<State> {
         let mut layout = Layout::default();
         layout.fill(&model.state.chain);
-        let near = Near::at_join(&self.row, &model.state, &layout, seek.join);
+        let near = PieceNeighborhood::at_join(&self.row, &model.state, &layout, seek.join);
         if near.is_empty() {
             return None;
         }
@@ -111,14 +111,14 @@ impl Search<'_> {
         let best = search.converge(&Model { state: near.state.clone(), cost: 0.0 }).state;
         let join = near.core.start + 1;
         let pose = search.pose_of(&best, join);
-        let lower = look(&mut search, &best, &Seek { join, pose, ..*seek })?;
+        let lower = look(&mut search, &best, &EndSearch { join, pose, ..*seek })?;
         // Pieces around the seam of a closed chain stay as they are.
         let whole = near.pieces.end <= model.state.chain.pieces.len();
         whole.then(|| self.with(model, &near, lower)).flatten()
     }
 
     /// The state of a long chain with these pieces changed, where its sum of squares is lower for it.
-    fn with(&mut self, model: &Model, near: &Near, lower: State) -> Option<State> {
+    fn with(&mut self, model: &Model, near: &PieceNeighborhood, lower: State) -> Option<State> {
         let row = self.row;
         let mut state = spliced(&model.state, &[(near.pieces.clone(), lower)], row.points.len());
         self.work.improve(&row, &mut state, None, &self.stop(30, 1e-6));
@@ -157,10 +157,10 @@ impl Search<'_> {
     }
 
     /// A lower state where the join is held at either end.
-    fn lower(&mut self, best: &State, seek: &Seek) -> Option<State> {
+    fn lower(&mut self, best: &State, seek: &EndSearch) -> Option<State> {
         let mut better = None;
         for sign in [-1.0, 1.0] {
-            let seek = Seek { sign, ..*seek };
+            let seek = EndSearch { sign, ..*seek };
             let held = self.hold(best, &seek, seek.first.min(MAX_INTERVAL_SPACINGS * self.spacing));
             better = least(better, held.filter(|h| h.sum < lower_than(best)), best);
         }
@@ -168,7 +168,7 @@ impl Search<'_> {
     }
 
     /// Student's quantile, and where the ends of the intervals are first looked for: to the right.
-    fn seeks(&mut self, model: &Model, level: f64) -> (f64, Vec<Seek>) {
+    fn seeks(&mut self, model: &Model, level: f64) -> (f64, Vec<EndSearch>) {
         let (variance, degrees) = self.variance(&model.state);
         let quantile = student_quantile(1.0 - level, degrees);
         let growth = variance * quantile * quantile;
@@ -181,7 +181,13 @@ impl Search<'_> {
                 let spread =
                     spreads.as_ref().map_or(self.spacing, |s| s.places[join - first] * variance.sqrt());
                 let spread = spread.clamp(1e-7 * self.spacing, 5.0 * self.spacing);
-                Seek { join, sign: 1.0, first: quantile * spread, growth, pose: self.work.layout.poses[join] }
+                EndSearch {
+                    join,
+                    sign: 1.0,
+                    first: quantile * spread,
+                    growth,
+                    pose: self.work.layout.poses[join],
+                }
             })
             .collect();
         (quantile, all)
@@ -189,7 +195,7 @@ impl Search<'_> {
 
     /// The state with a join held so far from where it is best, all else fitted anew from `start`. `None` where a
     /// neighboring join is in the way.
-    fn hold(&mut self, start: &State, seek: &Seek, x: f64) -> Option<State> {
+    fn hold(&mut self, start: &State, seek: &EndSearch, x: f64) -> Option<State> {
         // The sum of squares may miss the least one by so much.
         let gain = GROWTH_SLACK_SHARE * seek.growth / (start.sum + seek.growth).max(f64::MIN_POSITIVE);
         let (shortest, target) = (0.5 * self.spacing, f64::INFINITY);
@@ -207,11 +213,11 @@ impl Search<'_> {
 
     /// Moves a join until the sum of squares reaches the limit. Secants go on the root of its growth, which is straight
     /// where the likelihood is normal. Gives the end, whether it is open, and a lower state found on the way.
-    fn follow(&mut self, best: &State, seek: &Seek) -> ([f64; 2], bool, Option<State>) {
+    fn follow(&mut self, best: &State, seek: &EndSearch) -> ([f64; 2], bool, Option<State>) {
         let farthest = MAX_INTERVAL_SPACINGS * self.spacing;
         let wanted = seek.growth.max(f64::MIN_POSITIVE).sqrt();
-        let mut low = Tried { x: 0.0, root: 0.0, state: best.clone() };
-        let mut high: Option<Tried> = None;
+        let mut low = HeldState { x: 0.0, root: 0.0, state: best.clone() };
+        let mut high: Option<HeldState> = None;
         // Beyond this a neighboring join is in the way.
         let mut wall = f64::INFINITY;
         let mut lower: Option<State> = None;
@@ -237,7 +243,7 @@ impl Search<'_> {
                         let end = [0, 1].map(|k| from[k] + (place[k] - from[k]) * wanted / root);
                         return (end, false, lower);
                     }
-                    let tried = Tried { x, root, state };
+                    let tried = HeldState { x, root, state };
                     if root >= wanted {
                         high = Some(tried);
                     } else {
@@ -271,7 +277,7 @@ impl Search<'_> {
     }
 
     /// Where the join is.
-    fn place_of(&mut self, state: &State, seek: &Seek) -> [f64; 2] {
+    fn place_of(&mut self, state: &State, seek: &EndSearch) -> [f64; 2] {
         self.pose_of(state, seek.join).at
     }
 
@@ -283,7 +289,7 @@ impl Search<'_> {
 
 /// A join on its way to an end of its interval.
 #[derive(Clone, Copy)]
-struct Seek {
+struct EndSearch {
     join: usize,
     sign: f64,
     first: f64,
@@ -294,7 +300,7 @@ struct Seek {
 }
 
 /// A state with the join held so far from where it is best, and the root of the growth of the sum of squares.
-struct Tried {
+struct HeldState {
     x: f64,
     root: f64,
     state: State,

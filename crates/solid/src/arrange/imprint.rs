@@ -104,9 +104,9 @@ fn imprints_near(
     for (v, below) in vertices.into_iter().zip(below) {
         for f in below {
             match lies(mesh, (v, &positions[v as usize]), f, reach) {
-                Lies::Apart => {}
-                Lies::On(edges) => on_edge.extend(edges.into_iter().map(|e| (e, v))),
-                Lies::Inside => inside.entry(f).or_default().push(v),
+                VertexPosition::Apart => {}
+                VertexPosition::On(edges) => on_edge.extend(edges.into_iter().map(|e| (e, v))),
+                VertexPosition::Inside => inside.entry(f).or_default().push(v),
             }
         }
     }
@@ -157,28 +157,32 @@ fn met(
 }
 
 /// How a vertex lies to a facet.
-enum Lies {
+enum VertexPosition {
     Apart,
     /// Upon some of its edges.
     On(Vec<Edge>),
     Inside,
 }
 
-fn lies(mesh: &Mesh, (v, p): (u32, &Point), facet: u32, reach: f64) -> Lies {
+fn lies(mesh: &Mesh, (v, p): (u32, &Point), facet: u32, reach: f64) -> VertexPosition {
     let face = mesh.faces[facet as usize];
     if face.contains(&v) {
-        return Lies::Apart;
+        return VertexPosition::Apart;
     }
     let on: Vec<Edge> = edges(face).into_iter().filter(|e| is_on(mesh, p, *e, reach)).collect();
     if !on.is_empty() {
-        return Lies::On(on);
+        return VertexPosition::On(on);
     }
     let [a, b, c] = mesh.corners(facet);
     // Flat facets have edges only.
-    let Some(axis) = axis(&[a, b, c]) else { return Lies::Apart };
+    let Some(axis) = axis(&[a, b, c]) else { return VertexPosition::Apart };
     let turn = side_of_line(axis, &a, &b, &c);
     let is_within = [[&a, &b], [&b, &c], [&c, &a]].iter().all(|[a, b]| side_of_line(axis, a, b, p) == turn);
-    if is_within && height([&a, &b, &c], p).abs() <= reach { Lies::Inside } else { Lies::Apart }
+    if is_within && height([&a, &b, &c], p).abs() <= reach {
+        VertexPosition::Inside
+    } else {
+        VertexPosition::Apart
+    }
 }
 
 /// Whether a place is no farther than `reach` from an edge.

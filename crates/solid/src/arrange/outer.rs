@@ -246,7 +246,7 @@ fn is_clean(mesh: &Mesh, new: &[bool], progress: &dyn Progress) -> Result<bool, 
 }
 
 /// The pieces of a mesh that lie between material and none.
-struct Kept<'a> {
+struct KeptPieces<'a> {
     points: Points<'a>,
     faces: Vec<[u32; 3]>,
     source: Vec<u32>,
@@ -258,7 +258,7 @@ fn kept<'a>(
     pairs: &[[u32; 2]],
     turn: bool,
     progress: &dyn Progress,
-) -> Result<Kept<'a>, ArrangeError> {
+) -> Result<KeptPieces<'a>, ArrangeError> {
     let Cutting { points, mut pieces, .. } = cutting(mesh, topology, pairs, progress)?;
     pieces.retain(|p| p.jump != 0);
     let shell_of = shell_of(topology);
@@ -274,7 +274,7 @@ fn kept<'a>(
         }
         source.push(piece.facet);
     }
-    Ok(Kept { points, faces, source })
+    Ok(KeptPieces { points, faces, source })
 }
 
 /// The shell of each facet, none for those without area: they bound nothing.
@@ -293,7 +293,7 @@ fn rounded_to(x: f64, single: bool) -> f64 {
 /// are put upon others that are no farther than the distance given. Faces that lose a corner by it are left out.
 fn rounded(
     mesh: &Mesh,
-    mut kept: Kept,
+    mut kept: KeptPieces,
     single: bool,
     close: Option<(BTreeSet<u32>, f64)>,
 ) -> Result<(Mesh, Vec<u32>), ArrangeError> {

@@ -52,7 +52,7 @@ pub use step::{Removes, Step};
 use crate::arrange::ArrangeError;
 use facet_set::FacetSet;
 use measure::way;
-use rounds::{Entry, Kept, StepPosition, go_through};
+use rounds::{Entry, KeptState, StepPosition, go_through};
 use std::sync::Arc;
 use trueness_geom::check::{self, Known, Report};
 use trueness_geom::closest::sane_vertex;
@@ -216,7 +216,7 @@ fn repaired(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<R
         None => base.again(options),
     };
     let soup = start.soup()?;
-    let attempt = |without: &[&'static Step], from: Option<&Kept>| {
+    let attempt = |without: &[&'static Step], from: Option<&KeptState>| {
         // Bodies that are not united stay whole: crossing facets are not cut out in place of uniting them.
         let also = without.contains(&&union::STEP).then_some(&self_intersections::STEP);
         let is_wanted = |s: &&'static Step| !without.contains(s) && also != Some(*s);
@@ -283,7 +283,7 @@ fn all_but(step: &Step) -> Vec<&'static Step> {
 /// `least`, and the steps that it leaves out. First each step that changed something in `done` is left out by itself;
 /// then the last two of them, the last three, and so on. Always without `left_out` too.
 fn without_some(
-    attempt: &impl Fn(&[&'static Step], Option<&Kept>) -> Result<Attempt, RepairError>,
+    attempt: &impl Fn(&[&'static Step], Option<&KeptState>) -> Result<Attempt, RepairError>,
     done: &Attempt,
     left_out: &[&'static Step],
     least: &Report,
@@ -297,7 +297,7 @@ fn without_some(
         let without = [left_out, &tried].concat();
         // The presence of these two changes the effect of other steps.
         let alone = !tried.iter().any(|step| [&union::STEP, cutting_out].contains(step));
-        let from = if alone { Kept::before(&done.kept, &tried) } else { None };
+        let from = if alone { KeptState::before(&done.kept, &tried) } else { None };
         let next = attempt(&without, from)?;
         if !worse(least, &next.after) {
             return Ok(Some((next, without)));
@@ -329,7 +329,7 @@ struct Attempt {
     not_united: Option<ArrangeError>,
     lost: Vec<[Point; 3]>,
     /// States on the way.
-    kept: Vec<Kept>,
+    kept: Vec<KeptState>,
 }
 
 impl Attempt {
@@ -356,7 +356,7 @@ impl Attempt {
 
 /// Goes through the steps of `options`, from the start, or from a state up to which they did the same as in an earlier attempt.
 fn attempt(
-    (start, from): (&Work, Option<&Kept>),
+    (start, from): (&Work, Option<&KeptState>),
     options: &Options,
     (before, check_options): (&Report, &check::Options),
 ) -> Result<Attempt, RepairError> {

@@ -22,7 +22,7 @@ pub(super) struct Entry {
 }
 
 /// A state on the way: before a step that then changed something for the first time.
-pub(super) struct Kept {
+pub(super) struct KeptState {
     pub state: State,
     step: &'static Step,
     pub position: StepPosition,
@@ -42,10 +42,10 @@ impl StepPosition {
     pub(super) const START: StepPosition = StepPosition { round: 1, step: 0, done: 0 };
 }
 
-impl Kept {
+impl KeptState {
     /// The last state on the way, of those kept in its order, that none of these steps has changed; `None` where that
     /// cannot be told.
-    pub(super) fn before<'k>(kept: &'k [Kept], steps: &[&'static Step]) -> Option<&'k Kept> {
+    pub(super) fn before<'k>(kept: &'k [KeptState], steps: &[&'static Step]) -> Option<&'k KeptState> {
         let all = steps.iter().all(|step| kept.iter().any(|k| k.step == *step));
         kept.iter().find(|k| all && steps.contains(&k.step))
     }
@@ -58,7 +58,7 @@ pub(super) fn go_through<'a>(
     mut work: Work<'a>,
     steps: &[(usize, Entry)],
     mut position: StepPosition,
-    mut kept: Option<&mut Vec<Kept>>,
+    mut kept: Option<&mut Vec<KeptState>>,
 ) -> Result<(Work<'a>, usize), RepairError> {
     let may_cut = steps.iter().any(|(_, entry)| entry.step.removes == Removes::Crossings);
     while position.round <= MAX_ROUNDS {
@@ -71,7 +71,7 @@ pub(super) fn go_through<'a>(
                 && work.state.is_beyond(&state)
             {
                 let position = StepPosition { step: number, ..position };
-                kept.push(Kept { state, step, position });
+                kept.push(KeptState { state, step, position });
             }
         }
         // A tangle that two rounds have not undone gets no better.

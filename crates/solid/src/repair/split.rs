@@ -209,7 +209,7 @@ fn together(work: &Work, lost: &[Fan]) -> Vec<u32> {
 /// Gives the fans their vertices and the pairs of `again` a vertex in the middle of their edge, each at its distance.
 fn set_off(
     work: &mut Work,
-    (lost, ways): (&[Fan], &[Way]),
+    (lost, ways): (&[Fan], &[FanMove]),
     again: &[([u32; 2], [u32; 2])],
     distances: &[f64],
 ) {
@@ -235,7 +235,7 @@ fn set_off(
 
 /// Where a fan goes.
 #[derive(Clone, Copy)]
-struct Way {
+struct FanMove {
     /// Unit vector, away from which it is moved.
     out: Vector,
     /// How many of [`OFFSETS_IN_GAPS`] are one step: all, or those on this side.
@@ -245,12 +245,12 @@ struct Way {
 }
 
 /// The ways of the fans; those with the same number go the same way.
-fn ways(work: &Work, lost: &[Fan], together: &[u32]) -> Vec<Way> {
+fn ways(work: &Work, lost: &[Fan], together: &[u32]) -> Vec<FanMove> {
     let mut facets: BTreeMap<u32, BTreeSet<u32>> = BTreeMap::new();
     for (fan, number) in lost.iter().zip(together) {
         facets.entry(*number).or_default().extend(&fan.facets);
     }
-    let mut ways: BTreeMap<u32, Way> = BTreeMap::new();
+    let mut ways: BTreeMap<u32, FanMove> = BTreeMap::new();
     let way = |(fan, number): (&Fan, &u32)| {
         *ways.entry(*number).or_insert_with(|| {
             let facets: Vec<u32> = facets.get(number).into_iter().flatten().copied().collect();
@@ -263,7 +263,7 @@ fn ways(work: &Work, lost: &[Fan], together: &[u32]) -> Vec<Way> {
 /// The cone or material out of which the common place of these facets can be moved. Where the cone that they are seen
 /// in from there is narrow, it is moved out of that. A place moved within the cone meets nothing outside. Else it is
 /// moved out of the material between them, and back.
-fn outwards(work: &Work, facets: &[u32], at: Point) -> Way {
+fn outwards(work: &Work, facets: &[u32], at: Point) -> FanMove {
     /// Cosine of half the angle of a cone that is narrow: 60 degrees, far from a half space.
     const MIN_NARROW_CONE_COSINE: f64 = 0.5;
     /// Share of the way to the nearest other corner.
@@ -275,7 +275,7 @@ fn outwards(work: &Work, facets: &[u32], at: Point) -> Way {
     if let Some((axis, _)) =
         axis.filter(|(axis, _)| seen.iter().all(|way| dot(*way, *axis) > MIN_NARROW_CONE_COSINE))
     {
-        return Way { out: times(-1.0, axis), step: 2, most };
+        return FanMove { out: times(-1.0, axis), step: 2, most };
     }
     let unit_normal = |f: &u32| normal(work.corners(*f)).unwrap_or([0.0; 3]);
     let sum = facets.iter().map(unit_normal).fold([0.0; 3], plus);
@@ -284,7 +284,7 @@ fn outwards(work: &Work, facets: &[u32], at: Point) -> Way {
         minus(at, times(1.0 / facets.len() as f64, middle))
     };
     let out = unit(sum).or_else(|| unit(away())).map_or([1.0, 0.0, 0.0], |(n, _)| n);
-    Way { out, step: 1, most }
+    FanMove { out, step: 1, most }
 }
 
 /// Pairs of facets at an edge that would still share it with another pair: both its ends keep their fans together.

@@ -112,7 +112,7 @@ pub fn cloud(
     if points.len() >= u32::MAX as usize {
         return Err(CurvatureError::TooMany(points.len()));
     }
-    let near = near::Near::new(points);
+    let near = near::CloudNeighbors::new(points);
     let found = all(&terms, points.len(), progress, || {
         let (near, terms) = (&near, &terms);
         move |fitter: &mut Fitter, i: u32| near.jet(i, terms, fitter)

@@ -15,7 +15,7 @@ const LINKS_PER_POINT: usize = 8;
 const MIN_BOUNDARY_GAP: f64 = 5.0 / 6.0 * PI;
 
 /// The places of a cloud: its finite points, equal ones as one. Copies of a point are no neighbors that tell anything more.
-pub(super) struct Near<'a> {
+pub(super) struct CloudNeighbors<'a> {
     points: &'a [Point],
     tree: PointTree,
     /// For each place the lowest number of its points.
@@ -27,8 +27,8 @@ pub(super) struct Near<'a> {
 /// The answer of a point, and its nearest neighbors, nearest first.
 pub(super) type Answer = (Result<Jet, NoCurvature>, Vec<u32>);
 
-impl Near<'_> {
-    pub(super) fn new(points: &[Point]) -> Near<'_> {
+impl CloudNeighbors<'_> {
+    pub(super) fn new(points: &[Point]) -> CloudNeighbors<'_> {
         // Adding zero makes −0 the 0 that it equals.
         let key = |i: &u32| points[*i as usize].map(|x| (x + 0.0).to_bits());
         let finite = |i: &u32| points[*i as usize].iter().all(|x| x.is_finite());
@@ -50,7 +50,7 @@ impl Near<'_> {
             }
         }
         let kept: Vec<Point> = numbers.iter().map(|i| points[*i as usize]).collect();
-        Near { points, tree: PointTree::new(&kept), numbers, own }
+        CloudNeighbors { points, tree: PointTree::new(&kept), numbers, own }
     }
 
     /// The jet at a point; its normal may be on either side.

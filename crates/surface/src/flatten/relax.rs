@@ -53,14 +53,14 @@ pub(super) fn relax(
     let solver = Multigrid::new(matrix);
     let area: f64 = triangles.iter().map(|t| 0.5 * t.doubled_area()).sum();
     let (mut before, mut idle) = (f64::INFINITY, 0);
-    let mut ahead = Ahead::default();
+    let mut ahead = AndersonAcceleration::default();
     // Where a plain step led to, while the places are those of a step ahead of it.
     let mut plain: Option<Vec<[f64; 2]>> = None;
     for _ in 0..MAX_RELAXING_STEPS {
         let (energy, mut right) = pulls(disc, triangles, places);
         if let Some(plain) = plain.take_if(|_| energy > before) {
             places.copy_from_slice(&plain);
-            ahead = Ahead::default();
+            ahead = AndersonAcceleration::default();
             continue;
         }
         idle = if energy > (1.0 - MIN_ENERGY_GAIN) * before { idle + 1 } else { 0 };
@@ -99,14 +99,14 @@ pub(super) fn relax(
 /// integral equations, Journal of the ACM 12, 1965. Peng, Deng, Zhang, Geng, Qin, Liu, Anderson acceleration for
 /// geometry optimization and physics simulation, ACM Transactions on Graphics 37, 2018).
 #[derive(Default)]
-struct Ahead {
+struct AndersonAcceleration {
     /// The last step, and where it led to.
     last: Option<[Vec<[f64; 2]>; 2]>,
     /// How both changed from one step to the next.
     changes: VecDeque<[Vec<[f64; 2]>; 2]>,
 }
 
-impl Ahead {
+impl AndersonAcceleration {
     /// Changes that are remembered.
     const MAX_CHANGES_KEPT: usize = 6;
 
@@ -118,7 +118,7 @@ impl Ahead {
         let step = less(target, places);
         if let Some([before, led]) = &self.last {
             self.changes.push_back([less(&step, before), less(target, led)]);
-            if self.changes.len() > Ahead::MAX_CHANGES_KEPT {
+            if self.changes.len() > AndersonAcceleration::MAX_CHANGES_KEPT {
                 self.changes.pop_front();
             }
         }

@@ -16,7 +16,7 @@ mod weights;
 
 use super::plane::Chain;
 use crate::model::flat::distance;
-use crate::model::prior::Known;
+use crate::model::prior::KnownNoise;
 use crate::search::partition::{MAX_PART_STARTS, Penalty, partition_with_gaps};
 use crate::search::parts::noise;
 pub use cut_mesh::CutMesh;
@@ -30,7 +30,7 @@ pub(super) struct ScanRow {
     pub points: Vec<[f64; 2]>,
     /// How many independent points each tells as much as.
     pub weights: Vec<f64>,
-    pub noise: Option<Known>,
+    pub noise: Option<KnownNoise>,
 }
 
 /// Fewest crossings of one.
@@ -133,7 +133,7 @@ impl ScanRow {
         let moved = kept.iter().map(|i| points[*i]).collect();
         let weights = kept.iter().map(|i| scatter.weights[*i]).collect();
         let noise = cut.noise.zip(deviation);
-        let noise = noise.map(|(n, deviation)| Known { deviation, degrees: n.patches as f64 });
+        let noise = noise.map(|(n, deviation)| KnownNoise { deviation, degrees: n.patches as f64 });
         ScanRow { kept, points: moved, weights, noise }
     }
 }

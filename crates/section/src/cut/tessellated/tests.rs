@@ -386,7 +386,7 @@ fn segments_that_hide_form_are_astray() {
             spacing: 1.0,
             ..Contour::default()
         };
-        let known = Some(Known { deviation: 0.01, degrees: 50.0 });
+        let known = Some(KnownNoise { deviation: 0.01, degrees: 50.0 });
         assert_eq!(spread(found, &kept, known, &points).unreliable, unreliable, "{off}");
     }
 }

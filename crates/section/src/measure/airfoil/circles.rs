@@ -22,7 +22,7 @@ const CIRCLE_SEARCH_STEPS: usize = 40;
 const LISTED_CAMBER_STEPS: usize = 50;
 
 /// The curve as places, with the circles.
-pub(super) struct Inscribed {
+pub(super) struct InscribedCircles {
     /// Places, at a round trailing edge beyond it at both ends.
     places: Vec<[f64; 2]>,
     /// The place farthest from the middle of both ends.
@@ -31,9 +31,9 @@ pub(super) struct Inscribed {
     circles: Vec<([f64; 2], f64)>,
 }
 
-impl Inscribed {
+impl InscribedCircles {
     /// The circles of a course that goes on beyond its seam at both ends, if it has one.
-    pub fn new(course: &Profile, progress: &dyn Progress) -> Result<Inscribed, AirfoilError> {
+    pub fn new(course: &Profile, progress: &dyn Progress) -> Result<InscribedCircles, AirfoilError> {
         let (all, seam) = (&course.places, course.seam);
         let places: Vec<[f64; 2]> = all.iter().map(|a| a.0).collect();
         let (quarter, last) = (places.len() / 4, places.len() - 1);
@@ -71,7 +71,7 @@ impl Inscribed {
         if circles.len() < 3 {
             return Err(AirfoilError::Inside);
         }
-        Ok(Inscribed { places, head, circles })
+        Ok(InscribedCircles { places, head, circles })
     }
 
     /// Leading and trailing edge: of a round trailing edge the ends of the longest chord.

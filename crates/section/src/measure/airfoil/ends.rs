@@ -34,7 +34,7 @@ impl TrailingEdge {
 }
 
 /// A profile from its trailing edge over the leading one and back.
-pub(super) struct Around {
+pub(super) struct TurnedProfile {
     /// The points. At a sharp trailing edge first and last are the same; at a round one the row goes on beyond it at
     /// both ends.
     pub row: Vec<[f64; 2]>,
@@ -45,9 +45,9 @@ pub(super) struct Around {
     pub trailing: TrailingEdge,
 }
 
-impl Around {
+impl TurnedProfile {
     /// The profile of a row.
-    pub fn new(row: &[[f64; 2]], closed: bool) -> Result<Around, AirfoilError> {
+    pub fn new(row: &[[f64; 2]], closed: bool) -> Result<TurnedProfile, AirfoilError> {
         if !closed {
             let (a, b) = (row[0], row[row.len() - 1]);
             let (middle, gap) = ([0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])], distance(a, b));
@@ -55,7 +55,7 @@ impl Around {
             if gap > MAX_END_GAP_OF_CHORD * chord {
                 return Err(AirfoilError::Open { gap, chord });
             }
-            return Ok(Around {
+            return Ok(TurnedProfile {
                 row: row.to_vec(),
                 ends: [0, row.len() - 1],
                 over: 0,
@@ -71,10 +71,10 @@ impl Around {
         if round {
             let over = n / 16 + 1;
             let row = run(tip + n - over, n + 2 * over);
-            return Ok(Around { row, ends: [tip; 2], over, trailing: TrailingEdge::Round });
+            return Ok(TurnedProfile { row, ends: [tip; 2], over, trailing: TrailingEdge::Round });
         }
         if before == after {
-            return Ok(Around {
+            return Ok(TurnedProfile {
                 row: run(before, n),
                 ends: [before; 2],
                 over: 0,
@@ -82,6 +82,11 @@ impl Around {
             });
         }
         let trailing = TrailingEdge::Blunt(distance(row[before], row[after]));
-        Ok(Around { row: run(after, (before + n - after) % n), ends: [after, before], over: 0, trailing })
+        Ok(TurnedProfile {
+            row: run(after, (before + n - after) % n),
+            ends: [after, before],
+            over: 0,
+            trailing,
+        })
     }
 }

@@ -5,7 +5,7 @@
 //! cannot jump, and it swings beside. A contour that ends at the same edges, and costs less by the same measure, is
 //! taken in its place.
 
-use super::ends::{Around, TrailingEdge};
+use super::ends::{TrailingEdge, TurnedProfile};
 use super::error::AirfoilError;
 use crate::model::chain::SegmentKind;
 use crate::model::flat::distance;
@@ -56,9 +56,9 @@ impl Profile {
         numbers: &[usize],
         contour: &Contour,
         progress: &dyn Progress,
-    ) -> Result<(Around, Profile, Option<Profile>), AirfoilError> {
-        let around = Around::new(row, contour.closed)?;
-        let smooth = Smooth::new(&thinned(&around.row), progress);
+    ) -> Result<(TurnedProfile, Profile, Option<Profile>), AirfoilError> {
+        let around = TurnedProfile::new(row, contour.closed)?;
+        let smooth = SmoothCourse::new(&thinned(&around.row), progress);
         if let Err(AirfoilError::Cancelled(e)) = smooth {
             return Err(e.into());
         }
@@ -81,7 +81,7 @@ impl Profile {
             let last = around.row.len() - 1;
             let every = |(i, p): (usize, &[f64; 2])| (i % 2 == 0 || i == last).then_some(*p);
             let half: Vec<[f64; 2]> = thinned(&around.row).iter().enumerate().filter_map(every).collect();
-            match Smooth::new(&half, progress) {
+            match SmoothCourse::new(&half, progress) {
                 Err(AirfoilError::Cancelled(e)) => return Err(e.into()),
                 half => other = half.ok().map(|half| half.course(&around)),
             }
@@ -91,8 +91,8 @@ impl Profile {
     }
 }
 
-impl Smooth {
-    fn course(&self, around: &Around) -> Profile {
+impl SmoothCourse {
+    fn course(&self, around: &TurnedProfile) -> Profile {
         let seam = (around.trailing == TrailingEdge::Round).then(|| around.row[around.over]);
         let (places, uncertainty, noise) = (along(&self.curve), self.uncertainty, self.noise);
         Profile { places, seam, uncertainty, noise, of_contour: false }
@@ -127,7 +127,12 @@ fn along(curve: &Curve<[f64; 2]>) -> Vec<([f64; 2], [f64; 2])> {
 }
 
 /// The contour's own course with its cost for as many points; `None` where it does not end where the profile does.
-fn of_contour(around: &Around, ends: [usize; 2], contour: &Contour, as_many: f64) -> Option<(f64, Profile)> {
+fn of_contour(
+    around: &TurnedProfile,
+    ends: [usize; 2],
+    contour: &Contour,
+    as_many: f64,
+) -> Option<(f64, Profile)> {
     let whole: f64 = contour.segments.iter().map(|s| s.length).sum();
     if whole <= 0.0 {
         return None;
@@ -229,7 +234,7 @@ fn thinned(row: &[[f64; 2]]) -> Vec<[f64; 2]> {
 }
 
 /// The curve through the points.
-struct Smooth {
+struct SmoothCourse {
     curve: Curve<[f64; 2]>,
     /// Standard uncertainty of a place of it, across.
     uncertainty: f64,
@@ -239,14 +244,14 @@ struct Smooth {
     count: usize,
 }
 
-impl Smooth {
+impl SmoothCourse {
     /// The curve with the number of control points that costs least: a chi-squared part and Schwarz's penalty, two for
     /// each. No more than three for four points: with more, hardly any point would tell that the curve is wrong.
-    fn new(row: &[[f64; 2]], progress: &dyn Progress) -> Result<Smooth, AirfoilError> {
+    fn new(row: &[[f64; 2]], progress: &dyn Progress) -> Result<SmoothCourse, AirfoilError> {
         let n = row.len();
         let chords = curve::chord_parameters(row).ok_or(AirfoilError::Inside)?;
         let length: f64 = row.windows(2).map(|w| distance(w[0], w[1])).sum();
-        let mut best: Option<Smooth> = None;
+        let mut best: Option<SmoothCourse> = None;
         let most = (3 * n / 4).max(FIRST_POINTS_AND_GROWTH.0).min(n);
         let (mut count, mut idle) = (FIRST_POINTS_AND_GROWTH.0.min(most), 0);
         loop {
@@ -267,7 +272,7 @@ impl Smooth {
                     idle = 0;
                     let variance = fitted.sum_of_squares / (n as f64 - p).max(1.0);
                     let uncertainty = (variance * p / n as f64).sqrt();
-                    best = Some(Smooth {
+                    best = Some(SmoothCourse {
                         curve: fitted.curve,
                         uncertainty,
                         noise: variance.sqrt(),

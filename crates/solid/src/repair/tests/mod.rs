@@ -281,13 +281,13 @@ fn going_on_from_a_kept_state_comes_to_the_same() {
         let mesh = as_it_is(&mesh).unwrap();
         let before = check::check(&mesh, None, &check_options, &Silent).unwrap();
         let start = Work::new(mesh, &options, &Silent).unwrap();
-        let go = |options: &Options, from: Option<&Kept>| {
+        let go = |options: &Options, from: Option<&KeptState>| {
             attempt((&start, from), options, (&before, &check_options)).unwrap()
         };
         let all = go(&options, None);
         for step in all.did(STEPS) {
             let name = step.name;
-            let from = Kept::before(&all.kept, &[step]);
+            let from = KeptState::before(&all.kept, &[step]);
             if ["union", "self_intersections"].contains(&name) || from.is_none() {
                 continue;
             }
