@@ -33,7 +33,7 @@ pub(super) fn propose_circle(
     best: Option<&Contour>,
     progress: &dyn Progress,
 ) -> Result<Option<Candidate>, SectionError> {
-    let Some(noise) = Corners::question(question).and_then(|corners| corners.off_a_circle(best)) else {
+    let Some(noise) = Corners::of_question(question).and_then(|corners| corners.off_a_circle(best)) else {
         return Ok(None);
     };
     let options = Options { noise: Some(noise), ..*question.options };
@@ -49,7 +49,7 @@ pub(super) fn propose(
     best: Option<&Contour>,
     _: &dyn Progress,
 ) -> Result<Option<Candidate>, SectionError> {
-    let corners = Corners::question(question);
+    let corners = Corners::of_question(question);
     Ok(corners.and_then(|corners| Candidate::instead(corners.or(best.cloned(), question.options))))
 }
 
@@ -66,7 +66,7 @@ struct Corners {
 impl Corners {
     /// The polygon of the row that is asked for. Points put in order, of a cloud or a scan, are no corners that
     /// somebody chose.
-    fn question(question: &Question) -> Option<Corners> {
+    fn of_question(question: &Question) -> Option<Corners> {
         let is_given = !question.options.ordered && question.may_be_exact();
         if is_given { Corners::of(&question.clean) } else { None }
     }
