@@ -15,7 +15,7 @@ use trueness_geom::space::{Aabb, Point};
 use trueness_geom::spline::surface::{Bend, Patches};
 use trueness_geom::stats::statistics::{Statistics, Summary};
 use trueness_surface::{
-    Base, BaseKind, Fairness, Layout, Options, Outline, OutlineRegion, STANDING, SurfaceFit,
+    Base, BaseKind, Fairness, Layout, MAX_STANDING_SHARE, Options, Outline, OutlineRegion, SurfaceFit,
     minimum_rectangle,
 };
 
@@ -207,7 +207,7 @@ fn warnings(fit: &SurfaceFit, outline: Option<&Outline>) -> Vec<String> {
             fit.base.kind.name()
         ));
     }
-    if fit.base.standing_share > STANDING {
+    if fit.base.standing_share > MAX_STANDING_SHARE {
         all.push(format!(
             "{} of the points stand on edge on the base ({}): the surface follows the line that they stand on, not what they are part of; take another base ({}), or a part of the points that lies flatter",
             percent(fit.base.standing_share),
@@ -279,6 +279,6 @@ mod tests {
     /// Documents know no geometry, and hold the limit of the fit.
     #[test]
     fn what_stands_on_edge_is_the_same_for_fit_and_document() {
-        assert_eq!(trueness_document::surface::STANDING, trueness_surface::STANDING);
+        assert_eq!(trueness_document::surface::STANDING, trueness_surface::MAX_STANDING_SHARE);
     }
 }

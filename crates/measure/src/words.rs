@@ -78,7 +78,7 @@ mapped! {
     trueness_surface::BaseKind => trueness_document::surface::BaseKind { Plane Xy Cylinder Sphere Mesh }
     trueness_surface::Reached => trueness_document::surface::Reached { Tolerance Noise Points Memory }
     trueness_section::Continuity => trueness_document::section::Continuity { G0 G1 G2 }
-    trueness_section::Taken => trueness_document::section::Taken { Row Facets Scan }
+    trueness_section::RowKind => trueness_document::section::Taken { Row Facets Scan }
     trueness_section::DimensionKind => trueness_document::section::DimensionKind { Angle Width Centers Gap }
     trueness_section::OfferKind => trueness_document::section::OfferKind { Horizontal Vertical Parallel InLine RightAngle Tangent EqualRadii Concentric Radius Diameter Length Distance Centers }
 }

@@ -30,7 +30,7 @@ pub use cut::stack::facets_near;
 pub use cut::tessellated::chain_contour;
 pub use measure::airfoil::{Airfoil, AirfoilError, EdgeRadius, TrailingEdge, airfoil};
 pub use measure::chords::{Chord, Chords, chords, outline_row};
-pub use measure::covered::{Covered, Passed, covered};
+pub use measure::covered::{Covered, MatchedRow, covered};
 pub use measure::dimension::{Dimension, DimensionKind, dimensions};
 pub use measure::joined::joined;
 pub use measure::nominal::{OffNominal, Outline, off_nominal, with_material_inside};
@@ -40,7 +40,7 @@ pub use model::chain::SegmentKind;
 pub use model::crossings::crossings;
 pub use model::foot::SegmentFoot;
 pub use model::result::{
-    Continuity, Contour, Geometry, Join, Options, SectionError, Segment, Taken, Uncertainty,
+    Continuity, Contour, Geometry, Join, Options, RowKind, SectionError, Segment, Uncertainty,
 };
 pub use order::bent::{Bent, bent_across};
 pub use order::slab::{ordered_contour, slab};

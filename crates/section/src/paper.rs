@@ -1,16 +1,19 @@
 //! One line and one free curve, and the join between them, by the steps of a paper.
 //!
 //! Feng, Zhang, Jin and Liu, Determination of the interval of segmentation points and their reconstruction with high
-//! precision (in Chinese): the ordinates of the row, turned so that the straight part is level, are smoothed by their mean; the
-//! interval of the join ends on the right where they leave three standard deviations of the straight part, and on the left
-//! where a window of them correlates with the straight part; within it a golden-section search finds the join of least
-//! squares, the curve fitted anew at each place as a cubic B-spline that starts on the line and along it. The two
-//! methods that the paper compares with: `stepwise` takes the measured point at which the curvature leaves that of the line,
-//! `improved` searches an interval about that point, where the paper has one picked by hand.
+//! precision (in Chinese). The row is turned so that its straight part is level, and its ordinates are smoothed by
+//! their mean. The interval of the join ends on the right where they leave three standard deviations of the straight
+//! part. It ends on the left where a window of them correlates with the straight part. Within it a golden-section
+//! search finds the join of least squares. The curve is fitted anew at each place, as a cubic B-spline that starts on
+//! the line and along it. The paper compares with two methods.
+//! `stepwise` takes the measured point at which the curvature leaves that of the line. `improved` searches an interval
+//! about that point, where the paper has one picked by hand.
 //!
-//! The straight part, which the paper has marked by hand, is the longest that the noise of [`contour`](crate::contour()) allows,
-//! less a tenth of it. See docs/section.md for what is weak in the rules of the interval.
+//! The straight part, which the paper has marked by hand, is the longest that the noise of
+//! [`contour`](crate::contour()) allows, less a tenth of it. See docs/section.md for the weak points in the rules of
+//! the interval.
 
+use crate::model::prior::NEGLIGIBLE_OFFSET_SPACINGS;
 use crate::model::result::{Contour, Geometry, Options, SectionError, Segment};
 use trueness_geom::progress::{Cancelled, Progress};
 use trueness_geom::spline::curve::{self, Curve, End, Ends};
@@ -26,10 +29,8 @@ pub enum Search {
     Golden,
 }
 
-/// Noises of the default's contour beyond which what is left of a segment's points is none.
-const ASTRAY: f64 = 4.0;
-/// Share of the distance between points below which what is left is nothing.
-const NOTHING: f64 = 0.005;
+/// A segment whose points scatter by more than so many noises of the default's contour is unreliable.
+const MAX_SEGMENT_RMS_SIGMAS: f64 = 4.0;
 
 impl Search {
     /// All, in the order of the paper's table.
@@ -44,7 +45,7 @@ impl Search {
     }
 }
 
-/// What one method found.
+/// Result of one method.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Method {
     /// Which it is.
@@ -66,18 +67,19 @@ pub struct Method {
 }
 
 /// Points on either side of the mean that smoothes.
-const SMOOTHING: usize = 2;
-/// Standard deviations that the straight part keeps within, and the correlation that a window of it has: the paper's.
-const BAND: f64 = 3.0;
-const CORRELATION: f64 = 0.5;
+const SMOOTHING_POINTS_PER_SIDE: usize = 2;
+/// Standard deviations that the straight part keeps within: the paper's.
+const BAND_SIGMAS: f64 = 3.0;
+/// A window belongs to the straight part whose correlation with it is above this: the paper's.
+const MIN_STRAIGHT_CORRELATION: f64 = 0.5;
 /// Fewest points of the straight part.
-const FEWEST: usize = 8;
-/// Share of the straight part that is left out before the join supposed.
-const MARGIN: f64 = 0.1;
-/// The search ends at this share of the spacing.
-const SHORTEST: f64 = 1e-4;
+const MIN_STRAIGHT_POINTS: usize = 8;
+/// Share of the straight part that is left out before the supposed join.
+const JOIN_MARGIN_SHARE: f64 = 0.1;
+/// The search ends at this share of the distance between points.
+const SEARCH_END_SPACINGS: f64 = 1e-4;
 /// Points of the interval about a measured point, to either side.
-const ABOUT: f64 = 2.0;
+const INTERVAL_HALF_WIDTH_SPACINGS: f64 = 2.0;
 
 /// The join of one line and one free curve by each of the paper's three methods. `interval` replaces the paper's rule for
 /// the interval of `golden`, from the line to the curve.
@@ -86,7 +88,8 @@ const ABOUT: f64 = 2.0;
 /// there.
 ///
 /// # Errors
-/// Those of [`contour`](crate::contour()); [`SectionError::NoLine`] where neither end of the row is a line; a closed row.
+/// The errors of [`contour`](crate::contour()). [`SectionError::NoLine`] where neither end of the row is a line; a
+/// closed row.
 ///
 /// Cost: some sixty fits of the curve. See [`contour`](crate::contour()) for the default, which finds any number of segments.
 pub fn line_and_curve(
@@ -110,10 +113,10 @@ pub fn line_and_curve(
         row.reverse();
     }
     let on_line = lines[0].max(lines[1]);
-    if found.closed || on_line < FEWEST || row.len() < on_line + 4 {
+    if found.closed || on_line < MIN_STRAIGHT_POINTS || row.len() < on_line + 4 {
         return Err(SectionError::NoLine);
     }
-    let sure = on_line - ((on_line as f64 * MARGIN).ceil() as usize).max(1);
+    let sure = on_line - ((on_line as f64 * JOIN_MARGIN_SHARE).ceil() as usize).max(1);
     let work = Work::new(row, sure, found.spacing);
     let point = work.leaves_by_curvature();
     let paper = match interval {
@@ -125,7 +128,7 @@ pub fn line_and_curve(
         None => work.interval_of_paper(),
     };
     let s = work.along(work.row[point]);
-    let about = ABOUT * work.spacing;
+    let about = INTERVAL_HALF_WIDTH_SPACINGS * work.spacing;
     let count = work.control_points(s);
     let mut all = vec![];
     for search in Search::ALL {
@@ -154,7 +157,7 @@ struct Work {
     heights: Vec<f64>,
 }
 
-/// How many points from the first on are straight: their root mean square distance from a line is no greater than the
+/// How many points from the first on are straight. Their root mean square distance from a line is no greater than the
 /// noise of the row, by more than chance.
 fn straight(row: &[[f64; 2]], noise: f64) -> usize {
     let mut sums = [0.0; 5];
@@ -172,7 +175,7 @@ fn straight(row: &[[f64; 2]], noise: f64) -> usize {
         let degrees = (n - 2.0).max(1.0);
         if least <= degrees * noise * noise * (1.0 + 2.0 * (2.0 / degrees).sqrt()) {
             longest = i + 1;
-        } else if i >= 2 * FEWEST.max(longest) {
+        } else if i >= 2 * MIN_STRAIGHT_POINTS.max(longest) {
             break;
         }
     }
@@ -208,7 +211,7 @@ impl Work {
         let raw: Vec<f64> = work.row.iter().map(|p| work.height(*p)).collect();
         let n = raw.len();
         let mean = |i: usize| {
-            let half = SMOOTHING.min(i).min(n - 1 - i);
+            let half = SMOOTHING_POINTS_PER_SIDE.min(i).min(n - 1 - i);
             raw[i - half..=i + half].iter().sum::<f64>() / (2 * half + 1) as f64
         };
         work.heights = (0..n).map(mean).collect();
@@ -233,7 +236,7 @@ impl Work {
         };
         let straight: Vec<f64> = (1..self.sure - 1).map(bend).filter(|b| b.is_finite()).collect();
         let (_, deviation) = mean_and_deviation(&straight);
-        let off = |i: usize| bend(i).abs() > BAND * deviation;
+        let off = |i: usize| bend(i).abs() > BAND_SIGMAS * deviation;
         (self.sure..n - 3).find(|i| (0..3).all(|k| off(i + k))).unwrap_or(self.sure)
     }
 
@@ -243,7 +246,7 @@ impl Work {
         let n = self.row.len();
         let straight = &self.heights[..self.sure];
         let (mean, deviation) = mean_and_deviation(straight);
-        let outside = |i: &usize| (self.heights[*i] - mean).abs() > BAND * deviation;
+        let outside = |i: &usize| (self.heights[*i] - mean).abs() > BAND_SIGMAS * deviation;
         let right = (self.sure..n).find(outside).unwrap_or(n - 1);
         let correlation = |end: usize| {
             let window = &self.heights[end + 1 - self.sure..=end];
@@ -251,7 +254,7 @@ impl Work {
             let product: f64 = window.iter().zip(straight).map(|(a, b)| (a - m) * (b - mean)).sum();
             product / ((self.sure as f64 - 1.0).max(1.0) * d * deviation).max(f64::MIN_POSITIVE)
         };
-        let left = (self.sure - 1..right).rev().find(|end| correlation(*end) > CORRELATION);
+        let left = (self.sure - 1..right).rev().find(|end| correlation(*end) > MIN_STRAIGHT_CORRELATION);
         let left = left.unwrap_or(self.sure - 1);
         [self.along(self.row[left]), self.along(self.row[right])]
     }
@@ -284,12 +287,12 @@ impl Work {
         }
     }
 
-    /// Control points that keep the curve within three standard deviations of the straight part; where points so few do not
-    /// determine as many, half as many as points.
+    /// Control points that keep the curve within three standard deviations of the straight part. Where points so few do
+    /// not determine as many, it is half as many as points.
     fn control_points(&self, s: f64) -> usize {
         let (own, join, before) = self.split(s);
         let heights: Vec<f64> = self.row[..self.sure].iter().map(|p| self.height(*p)).collect();
-        let tolerance = (BAND * mean_and_deviation(&heights).1).max(1e-4 * self.spacing);
+        let tolerance = (BAND_SIGMAS * mean_and_deviation(&heights).1).max(1e-4 * self.spacing);
         let mut points = vec![join];
         points.extend_from_slice(&self.row[before..]);
         let ends = Ends { start: End::Tangent(join, own.1), end: End::Free };
@@ -326,11 +329,11 @@ impl Work {
         let share = 0.5 * (5.0_f64.sqrt() - 1.0);
         let at = |from: f64, to: f64| [to - share * (to - from), from + share * (to - from)];
         let [mut a, mut b] = at(from, to);
-        if to - from <= SHORTEST * self.spacing {
+        if to - from <= SEARCH_END_SPACINGS * self.spacing {
             return Ok(0.5 * (from + to));
         }
         let (mut at_a, mut at_b) = (self.cost(a, count), self.cost(b, count));
-        while to - from > SHORTEST * self.spacing {
+        while to - from > SEARCH_END_SPACINGS * self.spacing {
             if progress.cancelled() {
                 return Err(Cancelled.into());
             }
@@ -363,7 +366,7 @@ impl Work {
 
 /// The contour of one method: a line, and the curve as one segment.
 ///
-/// Segments whose points are off by several times the noise that the default's contour leaves are astray. `found` is the contour of the default, and `reversed` as [`line_and_curve`] told it. The join's interval is the method's;
+/// Segments whose points are off by several times the noise that the default's contour leaves are unreliable. `found` is the contour of the default, and `reversed` as [`line_and_curve`] told it. The join's interval is the method's;
 /// its standard uncertainty that of a value anywhere in the interval.
 pub fn method_contour(
     points: &[[f64; 2]],
@@ -422,9 +425,9 @@ pub fn method_contour(
     }
     let sum: f64 = all.segments.iter().map(|s| s.rms).sum();
     all.segments.iter_mut().for_each(|s| s.rms = (s.rms / s.count.max(1) as f64).sqrt());
-    // A rule to stop may end far from where the line does: the points then tell the noise, not what is left of them.
-    let most = ASTRAY * found.noise.max(NOTHING * found.spacing);
-    all.astray = (0..all.segments.len()).filter(|k| all.segments[*k].rms > most).collect();
+    // A rule to stop may end far from where the line does: the points then tell the noise, not their residuals.
+    let most = MAX_SEGMENT_RMS_SIGMAS * found.noise.max(NEGLIGIBLE_OFFSET_SPACINGS * found.spacing);
+    all.unreliable = (0..all.segments.len()).filter(|k| all.segments[*k].rms > most).collect();
     all.noise = options.noise.unwrap_or((sum / kept.max(1) as f64).sqrt());
     all
 }

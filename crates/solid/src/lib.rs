@@ -1,4 +1,5 @@
-//! Meshes as boundaries of solids: what [`check`](trueness_geom::check) finds is mended, and crossing shells become one.
+//! Meshes as boundaries of solids: findings of [`check`](trueness_geom::check) are mended, and crossing shells become
+//! one.
 //!
 //! | task | where |
 //! |---|---|
@@ -6,6 +7,6 @@
 //! | meshes cut where facets meet, unions of shells | [`arrange`] |
 #![cfg_attr(test, allow(clippy::disallowed_methods, reason = "a test does not hang on the last digit"))]
 
-mod around;
 pub mod arrange;
+mod neighborhood;
 pub mod repair;

@@ -14,38 +14,41 @@ use trueness_geom::space::{Point, Vector, cross, dot, minus, norm, plus, times, 
 /// The base of a surface, and how the points lie over it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Base {
-    /// What it is.
+    /// The kind of base.
     pub kind: BaseKind,
-    /// Of a plane the corner of the rectangle, of a cylinder a place of its axis, of a sphere its center, of a mesh the mean of its
+    /// The corner of a plane's rectangle, a place of a cylinder's axis, the center of a sphere, or the mean of a mesh's
     /// vertices.
     pub origin: Point,
-    /// Right-handed unit axes. Of a plane the sides of the rectangle and the normal; of a cylinder the third is its axis and the
-    /// first where its angle is 0; of a sphere the third points to the pole, which with its opposite lies as far from the points as
-    /// can be, and the first about amid them; of a mesh those in which its
-    /// vertices spread, most in the first.
+    /// Right-handed unit axes. The axes of a plane are the sides of the rectangle and the normal. The third axis of a
+    /// cylinder is its own, and the first points to where its angle is 0. The third axis of a sphere points to the
+    /// pole, which lies with its opposite as far from the points as can be. The first axis points about amid them. The
+    /// axes of a mesh are those in which its vertices spread, most in the first.
     pub axes: [Vector; 3],
-    /// Angle from the longer side of the minimum bounding rectangle to the first axis, in radians from −π/2 to π/2: 0 but of a plane whose
-    /// rectangle was turned along what bends.
+    /// Angle from the longer side of the minimum bounding rectangle to the first axis, in radians from −π/2 to π/2.
+    /// Only a plane whose rectangle was turned along its main bends has another angle than 0.
     pub turned: f64,
-    /// Angle from the normal of the least-squares plane to the third axis, radians: 0 but of a plane over whose least-squares plane
-    /// the points lie in layers, and over another one in fewer.
+    /// Angle from the normal of the least-squares plane to the third axis, radians. It is 0 but where the points lie in
+    /// layers over the least-squares plane, and in fewer over another one.
     pub tilted: f64,
-    /// Of a cylinder or a sphere.
+    /// Radius of a cylinder or a sphere.
     pub radius: Option<f64>,
-    /// Whether the points go around a cylinder, or around a sphere's axis, with no gap of more than a tenth of a radian: the
-    /// surface then has a seam there.
+    /// Whether the points go around a cylinder, or around a sphere's axis, with no gap of more than a tenth of a
+    /// radian. The surface then has a seam there.
     pub around: bool,
-    /// Whether points lie within ten degrees of a pole of the sphere, whichever its axis: the parameters crowd there, and the surface is torn or creased.
+    /// Whether points lie within ten degrees of a pole of the sphere, whichever its axis. The parameters crowd there,
+    /// and the surface is torn or creased.
     pub pole: bool,
     /// How the parameters run.
     course: Unrolling,
     /// Share of the points where several layers lie over one another: they have no common height there, and the surface lies
     /// between them.
     pub folded_share: f64,
-    /// Share of the points that stand on edge on the base, at 80° and more, and, where these are more than a tenth and no control point lies far off, that the fitted
-    /// surface passes by, at 45° and more: it follows the line that they stand on, and not what they are part of.
+    /// Share of the points that stand on edge on the base, at 80° and more. Where these are more than a tenth and no
+    /// control point lies far off, the fitted surface passes them by, too, at 45° and more. It then follows the line
+    /// that they stand on, and not the part that they belong to.
     pub standing_share: f64,
-    /// Of a mesh laid flat, factors by which lengths on its facets grew: 1 % of its area has less than the first, 1 % more than the second.
+    /// Factors by which lengths grew on the facets of a mesh laid flat. 1 % of its area has less than the first, 1 %
+    /// more than the second.
     pub stretch: Option<[f64; 2]>,
     /// Whether a mesh was laid within a circle: laid out freely, its rim would cross itself.
     pub round: bool,
@@ -96,7 +99,7 @@ impl Base {
         let angle = a / radius + self.course.angle;
         let round = || plus(times(libm::cos(angle), self.axes[0]), times(libm::sin(angle), self.axes[1]));
         let off = match self.kind {
-            // Of a mesh nothing but the directions is told.
+            // A mesh states nothing but the directions.
             BaseKind::Plane | BaseKind::Xy | BaseKind::Mesh => {
                 plus(times(u, self.axes[0]), times(v, self.axes[1]))
             }
@@ -114,20 +117,20 @@ impl Base {
 type Seen = ([f64; 2], f64);
 
 /// Share of the points that may stand on edge: walls of a part do, and points at its edges.
-pub const STANDING: f64 = 0.1;
+pub const MAX_STANDING_SHARE: f64 = 0.1;
 
 /// Share of the points that may lie in layers: a few outliers do.
-const FEW: f64 = 0.01;
+const MAX_LAYERED_SHARE: f64 = 0.01;
 
 /// Share of the points in layers below which they are outliers, and no other plane is looked for.
-const HARDLY_ANY: f64 = 0.002;
+const OUTLIER_SHARE: f64 = 0.002;
 
-/// Share of the points that may stand on edge over a plane over which there are hardly any layers: steep ground has one height everywhere,
-/// and a surface that follows it. A strip that stands on edge as a whole has no layers either, as its heights have no gap.
-const STEEP: f64 = 0.4;
+/// Share of the points that may stand on edge over a plane with hardly any layers. Steep ground has one height everywhere, and a
+/// surface that follows it. A strip that stands on edge as a whole has no layers either, as its heights have no gap.
+const MAX_STANDING_SHARE_OF_STEEP: f64 = 0.4;
 
 /// Points in a rectangle whose sides have a lesser ratio lie on a line: across it there is the rounding of written coordinates.
-const LINE: f64 = 1e-6;
+const MIN_SIDE_RATIO: f64 = 1e-6;
 
 /// The parameters of all points; over a plane it is the one that the surface has heights over, as far as there is one.
 pub(super) fn parameters(
@@ -192,8 +195,10 @@ fn seen(
 fn no_line(places: &[[f64; 2]]) -> Result<(), SurfaceError> {
     let [u, v] = ranges(places.iter().copied());
     let (long, short) = ((u.1 - u.0).max(v.1 - v.0), (u.1 - u.0).min(v.1 - v.0));
-    // Also what lies aslant on one line.
-    if short <= LINE * long || minimum_rectangle(places).is_none_or(|r| r.sides[1] <= LINE * r.sides[0]) {
+    // Also points aslant on one line.
+    if short <= MIN_SIDE_RATIO * long
+        || minimum_rectangle(places).is_none_or(|r| r.sides[1] <= MIN_SIDE_RATIO * r.sides[0])
+    {
         return Err(SurfaceError::Line);
     }
     Ok(())
@@ -202,7 +207,7 @@ fn no_line(places: &[[f64; 2]]) -> Result<(), SurfaceError> {
 /// The parameters of all vertices of a mesh laid flat, in its minimum bounding rectangle.
 pub(super) fn laid_flat(mesh: &Mesh, progress: &dyn Progress) -> Result<(Base, Vec<[f64; 2]>), SurfaceError> {
     let Scatter { mean, axes: [_, middle, most], variance } = Scatter::of(&mesh.positions);
-    if variance[1] <= LINE * LINE * variance[2] {
+    if variance[1] <= MIN_SIDE_RATIO * MIN_SIDE_RATIO * variance[2] {
         return Err(SurfaceError::Line);
     }
     let Flat { places, stretch, folded_share, round } = flatten(mesh, progress)?;
@@ -224,8 +229,9 @@ fn folded_share(seen: &[Seen]) -> f64 {
     fold::share(seen, ranges(seen.iter().map(|s| s.0)))
 }
 
-/// The least-squares plane; where the points lie in layers or stand on edge over it, the plane over which the surface is least steep, if
-/// at most half as many lie in layers over that, or hardly any do either.
+/// The least-squares plane, or another one where the points lie in layers or stand on edge over it. The other one is
+/// the plane over which the surface is least steep. At most half as many points lie in layers over that, or hardly any
+/// do either.
 fn upright(
     points: &[Point],
     point: Point,
@@ -235,7 +241,7 @@ fn upright(
     let flat = plane(points, point, normal)?;
     let standing = |base: &Base| upright::standing(points, |_| base.axes[2], progress);
     let (folded, on_edge) = (folded_share(&flat.1), standing(&flat.0)?);
-    if folded <= HARDLY_ANY && on_edge <= STANDING {
+    if folded <= OUTLIER_SHARE && on_edge <= MAX_STANDING_SHARE {
         return Ok(flat);
     }
     for (n, direction) in upright::directions(points, normal, progress)?.into_iter().enumerate() {
@@ -244,12 +250,16 @@ fn upright(
         let direction = times(largest.signum(), direction);
         let (base, seen) = plane(points, point, direction)?;
         let (layers, edges) = (folded_share(&seen), standing(&base)?);
-        let steep = if layers <= FEW { STEEP } else { STANDING };
+        let steep =
+            if layers <= MAX_LAYERED_SHARE { MAX_STANDING_SHARE_OF_STEEP } else { MAX_STANDING_SHARE };
         // Some outliers look like layers from all sides, and from some a little less.
-        let gone = layers == 0.0 || folded > FEW && 2.0 * layers <= folded;
-        let fewer_layers = folded > HARDLY_ANY && gone && edges <= on_edge.max(steep);
+        let layers_vanish = layers == 0.0 || folded > MAX_LAYERED_SHARE && 2.0 * layers <= folded;
+        let fewer_layers = folded > OUTLIER_SHARE && layers_vanish && edges <= on_edge.max(steep);
         // Normals of noise are upright in some direction of several.
-        let upright = n == 0 && on_edge > STANDING && edges <= STANDING && layers <= FEW;
+        let upright = n == 0
+            && on_edge > MAX_STANDING_SHARE
+            && edges <= MAX_STANDING_SHARE
+            && layers <= MAX_LAYERED_SHARE;
         if fewer_layers || upright {
             let tilted = libm::atan2(norm(cross(normal, direction)), dot(normal, direction).abs());
             return Ok((Base { tilted, ..base }, seen));

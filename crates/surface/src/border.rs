@@ -1,23 +1,24 @@
 //! Points beyond the border of their surface, and the surface that reaches over them.
 //!
-//! The parameters of the outermost points are the ends of the domain, but noise across a surface that leans on its base moves their
-//! nearest places beyond: these then lie on the border, and the distance holds a part along the surface that is no deviation. So the
-//! polynomials at the border go on as far as those places lie, the surface within remaining what it is. Where the ends of the domain
-//! are not to move, and where the polynomials would have to go on too far, such points are beyond the border, and do not count.
+//! The parameters of the outermost points are the ends of the domain. Noise across a surface that leans on its base
+//! moves their nearest places beyond. Such places then lie on the border, and the distance holds a part along the
+//! surface that is no deviation. So the polynomials at the border go on as far as those places lie, and the surface
+//! within stays the same. The ends of the domain may have to stay, or the polynomials would have to go on too far. Such
+//! points are then beyond the border, and do not count.
 
 use super::SurfaceFit;
 use trueness_geom::space::{Point, dot, minus, norm};
 use trueness_geom::spline::surface::{Direction, Jet, Patches};
 
-/// Share of the outermost span by which its polynomials go on at most. A cubic of size 1 on a span is at most 9 beyond a quarter of it: what
-/// is farther off the points do not hold.
-const FARTHEST: f64 = 0.25;
+/// Share of the outermost span by which its polynomials go on at most. A cubic of size 1 on a span is at most 9 beyond
+/// a quarter of it: farther off the points do not hold it.
+const MAX_OVERHANG_SPANS: f64 = 0.25;
 /// Part of the way along the surface that is added to it: the surface bends, and the next estimate would be short again.
-const ADDED: f64 = 0.2;
+const ADDED_WAY_SHARE: f64 = 0.2;
 /// Times that the way is estimated.
-const TIMES: usize = 4;
+const WAY_ESTIMATES: usize = 4;
 /// Length along the surface, as a share of the place and the distance, that the search for a nearest place leaves.
-const SETTLED: f64 = 1e-9;
+const SETTLED_FOOT_SHARE: f64 = 1e-9;
 
 /// The end of a direction: which one, and whether it is the last.
 type End = (usize, bool);
@@ -29,7 +30,7 @@ fn ways(jet: &Jet, point: Point, foot: [f64; 2], domain: [(f64, f64); 2]) -> Vec
     if ends == [(false, false); 2] {
         return vec![];
     }
-    let least = SETTLED * (norm(jet.place) + norm(away));
+    let least = SETTLED_FOOT_SHARE * (norm(jet.place) + norm(away));
     let slope = jet.first.map(|d| dot(away, d));
     let mut all = vec![];
     for k in 0..2 {
@@ -64,10 +65,13 @@ pub(super) fn reaching_over(points: &[Point], mut fit: SurfaceFit) -> SurfaceFit
     let room = [0, 1].map(|k| {
         let all = fit.surface.knots()[k].distinct();
         let last = all.len() - 1;
-        [own[k].0 - FARTHEST * (all[1] - all[0]), own[k].1 + FARTHEST * (all[last] - all[last - 1])]
+        [
+            own[k].0 - MAX_OVERHANG_SPANS * (all[1] - all[0]),
+            own[k].1 + MAX_OVERHANG_SPANS * (all[last] - all[last - 1]),
+        ]
     });
     let mut moved = false;
-    for _ in 0..TIMES {
+    for _ in 0..WAY_ESTIMATES {
         let out = beyond(points, &fit);
         let (patches, domain) = (Patches::new(&fit.surface), fit.surface.domain());
         let mut to = domain;
@@ -76,7 +80,7 @@ pub(super) fn reaching_over(points: &[Point], mut fit: SurfaceFit) -> SurfaceFit
             for ((k, last), way) in ways(&patches.jet(foot[0], foot[1]), point, foot, domain) {
                 let end = |way: f64| if last { domain[k].1 + way } else { domain[k].0 - way };
                 if end(way) >= room[k][0] && end(way) <= room[k][1] {
-                    let end = end((1.0 + ADDED) * way).clamp(room[k][0], room[k][1]);
+                    let end = end((1.0 + ADDED_WAY_SHARE) * way).clamp(room[k][0], room[k][1]);
                     if last { to[k].1 = to[k].1.max(end) } else { to[k].0 = to[k].0.min(end) }
                 }
             }
@@ -96,7 +100,7 @@ pub(super) fn reaching_over(points: &[Point], mut fit: SurfaceFit) -> SurfaceFit
         }
     }
     if moved {
-        // Of the larger surface less is known to be the nearest place without a search.
+        // The larger surface tells fewer nearest places without a search.
         let reach = Patches::new(&fit.surface).reach();
         let near = |i: usize| fit.deviations[i].abs() < reach;
         let mut doubtful: Vec<u32> =

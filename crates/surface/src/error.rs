@@ -30,13 +30,13 @@ pub enum SurfaceError {
     /// A degree outside of 1 to [`HIGHEST_DEGREE`].
     #[error("degree {degree}: it must be from 1 to {HIGHEST_DEGREE}")]
     Degree {
-        /// What was asked for.
+        /// The degree asked for.
         degree: usize,
     },
     /// No spans.
     #[error("spans {}x{}: there must be at least 1 in each direction", spans[0], spans[1])]
     Spans {
-        /// What was asked for.
+        /// The spans asked for.
         spans: [usize; 2],
     },
     /// A tolerance that is not a length above 0.
@@ -50,9 +50,9 @@ pub enum SurfaceError {
     TooLarge {
         /// Control points in both directions.
         counts: [usize; 2],
-        /// What the matrix takes; `None` where no number holds it.
+        /// Memory that the matrix takes; `None` where no number holds it.
         bytes: Option<usize>,
-        /// What was allowed.
+        /// Memory that was allowed.
         memory: usize,
     },
     /// A point beyond the knots given.

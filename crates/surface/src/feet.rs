@@ -1,8 +1,9 @@
 //! The nearest places of all points, from their parameters on: eight points of a cell side by side.
 //!
-//! Newton's method from a start near the place takes three or four steps, and most points stay in their cell on the way. Those go
-//! together through loops over arrays; a point that leaves its cell, comes to the edge of the domain, has no convex distance or no end
-//! after some steps begins anew by itself ([`Patches::foot_from`]). So the answer for a point depends on no other.
+//! Newton's method from a start near the place takes three or four steps, and most points stay in their cell on the
+//! way. These go together through loops over arrays. A point begins anew by itself ([`Patches::foot_from`]) that leaves
+//! its cell or comes to the edge of the domain. So does one that has no convex distance, or no end after some steps. So
+//! the answer for a point depends on no other.
 
 use super::gram::{Binned, within};
 use trueness_geom::parallel::prelude::*;
@@ -12,17 +13,17 @@ use trueness_geom::space::Point;
 use trueness_geom::spline::surface::Patches;
 
 /// Points side by side.
-const GROUP: usize = 8;
+const POINTS_PER_GROUP: usize = 8;
 /// One number of each.
-type Lanes = [f64; GROUP];
+type Lanes = [f64; POINTS_PER_GROUP];
 /// Pieces of work whose answers wait to be put in their places.
-const BATCH: usize = 256;
+const ITEMS_PER_BATCH: usize = 256;
 /// Steps that are taken side by side.
-const STEPS: usize = 5;
+const STEPS_SIDE_BY_SIDE: usize = 5;
 /// Length of a step, relative to the place, after which the next one is rounding: as of the search for one point.
-const NEARLY: f64 = 1e-9;
+const LAST_STEP_SHARE: f64 = 1e-9;
 
-/// The nearest places of points, and what is left of the points at their own parameters.
+/// The nearest places of points, and the residuals of the points at their own parameters.
 #[derive(Default)]
 pub(super) struct Feet {
     /// Signed distances.
@@ -81,17 +82,17 @@ pub(super) fn feet(
         let (own, q) = found.centered.patch(*cell as usize);
         let mut out = Feet::default();
         let (from, to) = (*from as usize, *to as usize);
-        for first in (from..to).step_by(GROUP) {
-            let count = GROUP.min(to - first);
+        for first in (from..to).step_by(POINTS_PER_GROUP) {
+            let count = POINTS_PER_GROUP.min(to - first);
             // Lanes beyond the last point repeat it.
             let index = |l: usize| first + l.min(count - 1);
             let mut group = Group {
                 at: [0, 1].map(|k| std::array::from_fn(|l| data.local[index(l)][k])),
                 point: [0, 1, 2].map(|d| std::array::from_fn(|l| data.points[index(l)][d])),
-                start: [0.0; GROUP],
-                square: [0.0; GROUP],
-                side: [0.0; GROUP],
-                state: [0.0; GROUP],
+                start: [0.0; POINTS_PER_GROUP],
+                square: [0.0; POINTS_PER_GROUP],
+                side: [0.0; POINTS_PER_GROUP],
+                state: [0.0; POINTS_PER_GROUP],
             };
             descend(own, q, &mut group);
             for l in 0..count {
@@ -123,8 +124,8 @@ pub(super) fn feet(
     let items = data.items();
     let (deviations, feet) = (Vec::with_capacity(points.len()), Vec::with_capacity(points.len()));
     let mut all = Feet { deviations, feet, ..Feet::default() };
-    // A batch at a time: what its pieces hold is held twice.
-    for batch in items.chunks(BATCH) {
+    // A batch at a time: the contents of its pieces are held twice.
+    for batch in items.chunks(ITEMS_PER_BATCH) {
         let parts: Result<Vec<Feet>, Cancelled> = batch.par_iter().map(one).collect();
         for part in parts? {
             all.deviations.extend(part.deviations);
@@ -135,7 +136,7 @@ pub(super) fn feet(
             all.max_residual = all.max_residual.max(part.max_residual);
         }
     }
-    // With no more in memory than before: what the points were sorted into goes first.
+    // With no more in memory than before: the sorted points go first.
     let Binned { rank, order, local, points: sorted, .. } = data;
     drop((order, local, sorted));
     all.deviations = in_order(&rank, &all.deviations);
@@ -158,9 +159,9 @@ widest! {
             3 => newton(own.as_chunks::<3>().0, group),
             _ => {
                 // Rows of other lengths go one by one.
-                group.state = [-1.0; GROUP];
+                group.state = [-1.0; POINTS_PER_GROUP];
                 let rows = own.chunks_exact(q);
-                for l in 0..GROUP {
+                for l in 0..POINTS_PER_GROUP {
                     let place = value(rows.clone(), group.at[0][l], group.at[1][l]);
                     let away = |d: usize| place[d] - group.point[d][l];
                     group.start[l] = away(0) * away(0) + away(1) * away(1) + away(2) * away(2);
@@ -183,7 +184,7 @@ fn value<'a>(rows: impl DoubleEndedIterator<Item = &'a [[f64; 3]]>, s: f64, t: f
     sum
 }
 
-/// What Newton's method asks of the places: sums over the three coordinates.
+/// Sums over the three coordinates that Newton's method needs at the places.
 struct Sums {
     /// `away · away`, `away` from the point to the place.
     square: Lanes,
@@ -206,11 +207,11 @@ fn newton<const Q: usize>(rows: &[[[f64; 3]; Q]], group: &mut Group) {
     group.start = sums.square;
     group.square = sums.square;
     group.side = sums.side;
-    for _ in 0..STEPS {
+    for _ in 0..STEPS_SIDE_BY_SIDE {
         let mut tried = group.at;
-        let mut moved = [0.0; GROUP];
-        let mut fine = [0.0; GROUP];
-        for l in 0..GROUP {
+        let mut moved = [0.0; POINTS_PER_GROUP];
+        let mut fine = [0.0; POINTS_PER_GROUP];
+        for l in 0..POINTS_PER_GROUP {
             let [a, b, c] = [0, 1, 2].map(|k| sums.gauss[k][l] + sums.bend[k][l]);
             let determinant = a * c - b * b;
             let convex = a > 0.0 && determinant > 1e-6 * a * c.abs();
@@ -227,10 +228,10 @@ fn newton<const Q: usize>(rows: &[[[f64; 3]; Q]], group: &mut Group) {
             fine[l] = if convex && inside { 1.0 } else { 0.0 };
         }
         let next = evaluated(rows, &tried, &group.point);
-        for l in 0..GROUP {
+        for l in 0..POINTS_PER_GROUP {
             let scale = sums.place[l] + group.square[l];
-            let last =
-                moved[l] <= NEARLY * NEARLY * scale && next.square[l] <= group.square[l] * (1.0 + 1e-9);
+            let last = moved[l] <= LAST_STEP_SHARE * LAST_STEP_SHARE * scale
+                && next.square[l] <= group.square[l] * (1.0 + 1e-9);
             let nearer = next.square[l] < group.square[l];
             let open = group.state[l] == 0.0;
             let goes = open && fine[l] > 0.0 && (last || nearer);
@@ -251,29 +252,29 @@ fn newton<const Q: usize>(rows: &[[[f64; 3]; Q]], group: &mut Group) {
 /// The sums at these coordinates.
 #[inline(always)]
 fn evaluated<const Q: usize>(rows: &[[[f64; 3]; Q]], [s, t]: &[Lanes; 2], point: &[Lanes; 3]) -> Sums {
-    const NONE: Lanes = [0.0; GROUP];
+    const ZERO: Lanes = [0.0; POINTS_PER_GROUP];
     let mut sums = Sums {
-        square: NONE,
-        gradient: [NONE; 2],
-        gauss: [NONE; 3],
-        bend: [NONE; 3],
-        place: NONE,
-        side: NONE,
+        square: ZERO,
+        gradient: [ZERO; 2],
+        gauss: [ZERO; 3],
+        bend: [ZERO; 3],
+        place: ZERO,
+        side: ZERO,
     };
-    let mut jets = [[NONE; 3]; 3];
+    let mut jets = [[ZERO; 3]; 3];
     for d in 0..3 {
         // The polynomial and its derivatives by s, t, ss, st, tt; the second ones by s or t alone halved.
-        let mut six = [NONE; 6];
+        let mut six = [ZERO; 6];
         for row in rows.iter().rev() {
-            let mut inner = [NONE; 3];
+            let mut inner = [ZERO; 3];
             for c in row.iter().rev() {
-                for l in 0..GROUP {
+                for l in 0..POINTS_PER_GROUP {
                     inner[2][l] = inner[2][l] * t[l] + inner[1][l];
                     inner[1][l] = inner[1][l] * t[l] + inner[0][l];
                     inner[0][l] = inner[0][l] * t[l] + c[d];
                 }
             }
-            for l in 0..GROUP {
+            for l in 0..POINTS_PER_GROUP {
                 six[3][l] = six[3][l] * s[l] + six[1][l];
                 six[1][l] = six[1][l] * s[l] + six[0][l];
                 six[4][l] = six[4][l] * s[l] + six[2][l];
@@ -283,8 +284,8 @@ fn evaluated<const Q: usize>(rows: &[[[f64; 3]; Q]], [s, t]: &[Lanes; 2], point:
             }
         }
         let [place, by_s, by_t, ss, st, tt] = six;
-        let mut away = NONE;
-        for l in 0..GROUP {
+        let mut away = ZERO;
+        for l in 0..POINTS_PER_GROUP {
             away[l] = place[l] - point[d][l];
             sums.place[l] += place[l] * place[l];
             sums.square[l] += away[l] * away[l];
@@ -300,7 +301,7 @@ fn evaluated<const Q: usize>(rows: &[[[f64; 3]; Q]], [s, t]: &[Lanes; 2], point:
         jets[d] = [away, by_s, by_t];
     }
     let [[ax, ux, vx], [ay, uy, vy], [az, uz, vz]] = jets;
-    for l in 0..GROUP {
+    for l in 0..POINTS_PER_GROUP {
         let x = uy[l] * vz[l] - uz[l] * vy[l];
         let y = uz[l] * vx[l] - ux[l] * vz[l];
         let z = ux[l] * vy[l] - uy[l] * vx[l];

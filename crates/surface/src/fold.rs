@@ -3,16 +3,16 @@
 use trueness_geom::parallel::prelude::*;
 
 /// Points to a cell in the mean.
-const PER_CELL: f64 = 16.0;
+const POINTS_PER_CELL: f64 = 16.0;
 
 /// Share of the points in cells where two layers lie over one another.
 ///
-/// The points of a cell fall into two groups at the widest gap of their heights. Where it is wider than the cell, and the groups
-/// cannot be told apart by where they lie in the cell, as those of a step can, there are two layers. Of groups of very different size the
-/// smaller one counts alone: outliers are no layer.
+/// The points of a cell fall into two groups at the widest gap of their heights. Where the gap is wider than the cell,
+/// there are two layers. The exception is groups that can be told apart by where they lie in the cell, as those of a
+/// step. Where groups have very different sizes the smaller one counts alone: outliers are no layer.
 pub(super) fn share(seen: &[([f64; 2], f64)], domain: [(f64, f64); 2]) -> f64 {
     let sides = domain.map(|d| d.1 - d.0);
-    let cell = (sides[0] * sides[1] * PER_CELL / seen.len() as f64).sqrt();
+    let cell = (sides[0] * sides[1] * POINTS_PER_CELL / seen.len() as f64).sqrt();
     let counts = sides.map(|s| (s / cell).ceil().clamp(1.0, 4096.0) as usize);
     let rates = [0, 1].map(|k| counts[k] as f64 / sides[k]);
     let cell_of = |p: [f64; 2]| {
@@ -46,7 +46,8 @@ pub(super) fn share(seen: &[([f64; 2], f64)], domain: [(f64, f64); 2]) -> f64 {
     (0..tall.len()).into_par_iter().map(folded).sum::<usize>() as f64 / seen.len() as f64
 }
 
-/// How many of the points of a cell lie in layers: all, or where one of two layers has less than a quarter of them, those of that one.
+/// How many of the points of a cell lie in layers. That is all; but where one of two layers has less than a quarter of
+/// them, it is that layer's points.
 fn layered(mut own: Vec<([f64; 2], f64)>, cell: f64) -> usize {
     if own.len() < 4 {
         return 0;

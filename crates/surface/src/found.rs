@@ -1,4 +1,4 @@
-//! The surface found, and what it keeps to.
+//! The surface found, and the limits that it keeps to.
 
 use super::base::Base;
 use super::outline::Outline;
@@ -9,8 +9,8 @@ use trueness_geom::spline::surface::Surface;
 /// How well the data hold the control points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Support {
-    /// Control points whose basis functions, squared and summed over all points, come to less than 10⁻⁴: what they are is the
-    /// thin-plate term's doing.
+    /// Control points whose basis functions, squared and summed over all points, come to less than 10⁻⁴. Their places
+    /// are the thin-plate term's doing.
     pub unsupported: usize,
     /// Control points in all.
     pub control_points: usize,
@@ -48,7 +48,7 @@ impl Reached {
     }
 }
 
-/// A surface through points, and what it keeps to.
+/// A surface through points, and the limits that it keeps to.
 #[derive(Clone, Debug)]
 pub struct SurfaceFit {
     /// The surface.
@@ -63,7 +63,7 @@ pub struct SurfaceFit {
     pub unsettled: usize,
     /// Points whose foot is that of a descent from their parameters, not shown to be the nearest place.
     pub(super) doubtful: Vec<u32>,
-    /// Of what holds control points where points are few.
+    /// Stiffness of the plates that hold control points where points are few.
     pub(super) stiffness: f64,
     /// Sum of the squared differences between the points and the surface at the parameters of the last fit, unweighted.
     pub sum_of_squares: f64,

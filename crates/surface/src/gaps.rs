@@ -1,8 +1,8 @@
-//! Gaps between points that lie in rows, and what cross-validation of single points cannot see there.
+//! Gaps between points that lie in rows, which cross-validation of single points cannot see.
 //!
-//! A point of a scanner's row is told by its neighbors in the row, whatever the surface does between the rows. So where rows lie far
-//! apart for the knots, blocks of the domain wider than a gap are left out, and what the surface through the other points is off there
-//! tells how little weight the thin-plate term may have.
+//! A point of a scanner's row is told by its neighbors in the row, whatever the surface does between the rows. So where
+//! rows lie far apart for the knots, blocks of the domain wider than a gap are left out. The residuals there of a
+//! surface through the other points tell how little weight the thin-plate term may have.
 
 use super::gram::{Binned, Sums};
 use super::raster::distances;
@@ -12,22 +12,23 @@ use trueness_geom::progress::{Cancelled, Progress};
 use trueness_geom::space::Point;
 use trueness_geom::spline::surface::Patches;
 
-/// Squares to a side of a knot cell, and along a side of the domain at most.
-const FINE: usize = 8;
-const MOST: usize = 2048;
+/// Squares to a side of a knot cell at most.
+const MAX_SQUARES_PER_CELL_SIDE: usize = 8;
+/// Squares along a side of the domain at most.
+const MAX_SQUARES_PER_SIDE: usize = 2048;
 /// Gaps of this share of a knot cell and less leave no function free.
-const WIDE: f64 = 0.5;
-/// Areas of a point that the square of a gap comes to in rows, and more: it is 3.5 of scattered points and 2.5 of a grid.
-const ROWS: f64 = 5.0;
+const WIDE_GAP_CELLS: f64 = 0.5;
+/// In rows the square of a gap comes to so many areas of a point, and more. Scattered points have 3.5 and a grid 2.5.
+const MIN_GAP_AREA_OF_ROWS: f64 = 5.0;
 /// Side of a block, in gaps.
-const BLOCK: f64 = 1.5;
+const BLOCK_SIDE_GAPS: f64 = 1.5;
 
 /// Distance of the rows in knot cells, where the points lie in rows and these lie far apart.
 ///
 /// Places between rows are a quarter of their distance from the next row in the median, and holes move it but little.
 fn row_distance(data: &Binned) -> Option<f64> {
     let counts = [0, 1].map(|k| data.spans[k].count());
-    let fine = (MOST / counts[0].max(counts[1])).clamp(1, FINE);
+    let fine = (MAX_SQUARES_PER_SIDE / counts[0].max(counts[1])).clamp(1, MAX_SQUARES_PER_CELL_SIDE);
     let [rows, columns] = counts.map(|n| n * fine);
     let mut square = vec![f64::INFINITY; rows * columns];
     for (cell, from, to) in data.items() {
@@ -42,7 +43,7 @@ fn row_distance(data: &Binned) -> Option<f64> {
     let median = median(&mut square).unwrap_or(0.0).sqrt() / fine as f64;
     let wide = 4.0 * median;
     let of_a_point = data.cells().0 as f64 / data.len() as f64;
-    (wide > WIDE && wide * wide > ROWS * of_a_point).then_some(wide)
+    (wide > WIDE_GAP_CELLS && wide * wide > MIN_GAP_AREA_OF_ROWS * of_a_point).then_some(wide)
 }
 
 /// Blocks of the domain in the two colors of a chessboard.
@@ -56,7 +57,7 @@ struct Blocks {
 
 impl Blocks {
     fn new(data: &Binned, gap: f64) -> Blocks {
-        let side = ((BLOCK * gap).round() as usize).max(2);
+        let side = ((BLOCK_SIDE_GAPS * gap).round() as usize).max(2);
         let [rows, columns] = [0, 1].map(|k| data.spans[k].count().div_ceil(side));
         let cells = data.spans[1].count();
         let mut own = Blocks { side, cells, columns, filled: vec![false; rows * columns] };
@@ -71,8 +72,8 @@ impl Blocks {
         [cell as usize / self.cells / self.side, cell as usize % self.cells / self.side]
     }
 
-    /// The color of a cell, and whether its block lies between others that have points: beyond the outermost ones the surface is free to
-    /// be anywhere.
+    /// The color of a cell, and whether its block lies between others that have points. Beyond the outermost ones the
+    /// surface is free to be anywhere.
     fn part(&self, cell: u32) -> (usize, bool) {
         let [i, j] = self.of(cell);
         let filled = |i: usize, j: usize| {
@@ -84,12 +85,12 @@ impl Blocks {
     }
 }
 
-/// Points of one color: their equations, for what a surface leaves of them.
+/// Points of one color: their equations, for the residuals of a surface.
 struct Color {
-    /// Of all of them.
+    /// The normal equations of all of them.
     normal: Stencil,
     gradient: Vec<Point>,
-    /// Of those between others.
+    /// The equations and sums of those between others.
     inner: (Stencil, Sums),
 }
 
@@ -99,8 +100,8 @@ pub(super) struct Folds {
 }
 
 impl Folds {
-    /// For what `surface` (of points less the center) leaves of the points; `None` where these do not lie in rows far apart, or
-    /// have no blocks between others.
+    /// The folds for the residuals of `surface` (of points less the center). `None` where these do not lie in rows far
+    /// apart, or have no blocks between others.
     pub(super) fn of(
         data: &Binned,
         surface: &Patches,
@@ -170,7 +171,8 @@ mod tests {
         all.filter(|p| inside(p) && libm::hypot(p[0] - 40.0, p[1] - 40.0) >= hole).collect()
     }
 
-    /// The distance of rows is found at any angle, and beside holes; cells are 5 mm wide. What does not lie in rows has none.
+    /// The distance of rows is found at any angle, and beside holes; cells are 5 mm wide. Points that do not lie in
+    /// rows have no such distance.
     #[test]
     fn rows_are_told_by_their_distance() {
         for degrees in [0.0, 17.0, 45.0, 90.0] {
@@ -197,7 +199,8 @@ mod tests {
         }
     }
 
-    /// What is left of the points left out is what a sum over them has, and all that is kept in both folds is all there is.
+    /// The residual squares of the points left out are those of a sum over them. The points kept in both folds are all
+    /// there are.
     #[test]
     fn folds_are_sums_over_their_points() {
         let places = rows(9.0, 17.0, 15.0);

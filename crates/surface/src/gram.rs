@@ -1,9 +1,9 @@
 //! Normal equations, summed cell by cell.
 //!
-//! Within a knot cell all basis functions are polynomials of its two coordinates `s` and `t`. So what a cell adds to the
-//! matrix follows from its moments `Σ sⁱ tʲ`, `(2p + 1)(2q + 1)` of them, and what it adds to the right side from `Σ sⁱ tʲ x`: fewer
-//! products a point than the `(p + 1)²(q + 1)²` of its basis functions. Points are sorted by cell; sums run over blocks
-//! of fixed size, and blocks are added in their order.
+//! Within a knot cell all basis functions are polynomials of its two coordinates `s` and `t`. So a cell has moments
+//! `Σ sⁱ tʲ`, `(2p + 1)(2q + 1)` of them, which give its part of the matrix. Its part of the right side follows from
+//! `Σ sⁱ tʲ x`. These are fewer products a point than the `(p + 1)²(q + 1)²` of its basis functions. Points are sorted
+//! by cell; sums run over blocks of fixed size, and blocks are added in their order.
 
 use super::stencil::Stencil;
 use trueness_geom::num::banded::dot;
@@ -16,11 +16,11 @@ use trueness_geom::spline::spans::Spans;
 use trueness_geom::spline::surface::Patches;
 
 /// Points that are summed in one go by a thread.
-const ITEM: usize = 2048;
+const POINTS_PER_ITEM: usize = 2048;
 /// Points whose powers are at hand at a time.
-const LANE: usize = 64;
+const POINTS_PER_LANE: usize = 64;
 /// Goes whose sums wait to be added up.
-const WAITING: usize = 256;
+const ITEMS_WAITING: usize = 256;
 
 /// Points sorted by knot cell.
 pub(super) struct Binned {
@@ -78,8 +78,8 @@ impl Binned {
         let mut order = vec![0u32; count];
         let mut local = vec![[0.0; 2]; count];
         let mut sorted = vec![[0.0; 3]; count];
-        // A thread has places side by side and looks for the points that belong there. Those of a cell are written one after the
-        // other, so that the lines of memory being written are few.
+        // A thread has places side by side and looks for the points that belong there. Points of a cell are written one
+        // after the other, so that the lines of memory being written are few.
         let part = count.div_ceil(rayon::current_num_threads()).max(1);
         let parts =
             order.par_chunks_mut(part).zip(local.par_chunks_mut(part)).zip(sorted.par_chunks_mut(part));
@@ -130,8 +130,8 @@ impl Binned {
     pub(super) fn items(&self) -> Vec<(u32, u32, u32)> {
         let mut items = vec![];
         for (cell, w) in self.starts.windows(2).enumerate() {
-            for from in (w[0]..w[1]).step_by(ITEM) {
-                items.push((cell as u32, from, w[1].min(from + ITEM as u32)));
+            for from in (w[0]..w[1]).step_by(POINTS_PER_ITEM) {
+                items.push((cell as u32, from, w[1].min(from + POINTS_PER_ITEM as u32)));
             }
         }
         items
@@ -144,7 +144,7 @@ impl Binned {
         Ok((normal, sums))
     }
 
-    /// The sums of what the `surface` (of points less the center) leaves of the points.
+    /// The sums of the residuals of the `surface` (of points less the center).
     pub(super) fn left_by(&self, surface: &Patches, progress: &dyn Progress) -> Result<Sums, Cancelled> {
         self.sums_of(None, progress, |k, cell, [s, t]| {
             let place = surface.value(cell, s, t);
@@ -161,7 +161,8 @@ impl Binned {
         Ok(self.sums_of(None, progress, |k, _, _| value(self.order[k]))?.right)
     }
 
-    /// The equations of the points in some of the cells, for what the `surface` (of points less the center) leaves of them.
+    /// The equations of the points in some of the cells, for the residuals of the `surface` (of points less the
+    /// center).
     pub(super) fn part(
         &self,
         surface: &Patches,
@@ -203,7 +204,7 @@ impl Binned {
         let size = moments + 3 * (p + 1) * (q + 1) + 1;
         let mut cell = vec![0.0; size];
         let mut current = items.first().map_or(0, |i| i.0);
-        for batch in items.chunks(WAITING) {
+        for batch in items.chunks(ITEMS_WAITING) {
             if progress.cancelled() {
                 return Err(Cancelled);
             }
@@ -231,13 +232,14 @@ impl Binned {
     ) -> Vec<f64> {
         let [p, q] = [self.spans[0].degree(), self.spans[1].degree()];
         let mut out = vec![0.0; size];
-        let mut powers = [vec![[0.0f64; LANE]; 2 * p + 1], vec![[0.0f64; LANE]; 2 * q + 1]];
-        let mut values = [[0.0f64; LANE]; 3];
-        for start in (from as usize..to as usize).step_by(LANE) {
-            let count = LANE.min(to as usize - start);
+        let mut powers =
+            [vec![[0.0f64; POINTS_PER_LANE]; 2 * p + 1], vec![[0.0f64; POINTS_PER_LANE]; 2 * q + 1]];
+        let mut values = [[0.0f64; POINTS_PER_LANE]; 3];
+        for start in (from as usize..to as usize).step_by(POINTS_PER_LANE) {
+            let count = POINTS_PER_LANE.min(to as usize - start);
             // Lanes beyond the last point have no weight.
             let padded = count.next_multiple_of(8);
-            let (mut s, mut t) = ([0.0; LANE], [0.0; LANE]);
+            let (mut s, mut t) = ([0.0; POINTS_PER_LANE], [0.0; POINTS_PER_LANE]);
             for n in 0..count {
                 let k = start + n;
                 [s[n], t[n]] = self.local[k];
@@ -254,7 +256,7 @@ impl Binned {
         out
     }
 
-    /// Adds what the moments of a cell come to, and clears them.
+    /// Adds the sums that the moments of a cell come to, and clears them.
     fn flush(
         &self,
         cell: usize,
@@ -303,11 +305,11 @@ impl Binned {
 }
 
 widest! {
-    /// Adds to `out` the moments of the first `count` lanes, if `normal` asks for them, those of the values, and their square. Of both
-    /// coordinates the lowest powers are given and the others filled in.
+    /// Adds to `out` the moments of the first `count` lanes, if `normal` asks for them, those of the values, and their
+    /// square. The lowest powers of both coordinates are given and the others filled in.
     fn add_moments [] [] (
-        coordinates: [(&mut [[f64; LANE]], &[f64; LANE]); 2],
-        values: &[[f64; LANE]; 3],
+        coordinates: [(&mut [[f64; POINTS_PER_LANE]], &[f64; POINTS_PER_LANE]); 2],
+        values: &[[f64; POINTS_PER_LANE]; 3],
         count: usize,
         normal: bool,
         out: &mut [f64],
@@ -326,9 +328,9 @@ widest! {
         }
         let last = out.len() - 1;
         for v in values {
-            let mut weighted = [0.0; LANE];
+            let mut weighted = [0.0; POINTS_PER_LANE];
             for a in &a[..a.len().div_ceil(2)] {
-                for n in 0..LANE {
+                for n in 0..POINTS_PER_LANE {
                     weighted[n] = a[n] * v[n];
                 }
                 for b in &b[..b.len().div_ceil(2)] {
@@ -336,7 +338,7 @@ widest! {
                     at += 1;
                 }
             }
-            for n in 0..LANE {
+            for n in 0..POINTS_PER_LANE {
                 weighted[n] = a[0][n] * v[n];
             }
             out[last] += dot(&weighted[..count], &v[..count]);
@@ -346,10 +348,10 @@ widest! {
 
 /// Fills in the powers above the lowest one.
 #[inline(always)]
-fn raise(powers: &mut [[f64; LANE]], x: &[f64; LANE]) {
+fn raise(powers: &mut [[f64; POINTS_PER_LANE]], x: &[f64; POINTS_PER_LANE]) {
     for k in 1..powers.len() {
         let (low, high) = powers.split_at_mut(k);
-        for n in 0..LANE {
+        for n in 0..POINTS_PER_LANE {
             high[0][n] = low[k - 1][n] * x[n];
         }
     }

@@ -1,9 +1,10 @@
-//! What holds the control points where points are few.
+//! Plates that hold the control points where points are few.
 //!
-//! The weight of the thin plate is that which suits all points. Beyond their outline a few of them, at the rim of a basis function,
-//! would be all that the function's control point follows, and their noise is enlarged as often as the function is small: the
-//! surface leaves the part. So functions that meet few points get a plate of their own, as stiff as the noise asks for; and as a
-//! plate goes on for ever with the slope at its edge, a second term lets it lie down along the base.
+//! The weight of the thin plate is that which suits all points. A few points at the rim of a basis function would be
+//! all that a control point beyond their outline follows. Their noise is then enlarged as often as the function is
+//! small: the surface leaves the part. So functions that meet few points get a plate of their own, as stiff as the
+//! noise asks for. A plate goes on for ever with the slope at its edge, so a second term lets it lie down along the
+//! base.
 
 use super::BaseKind;
 use super::base::Base;
@@ -15,24 +16,25 @@ use trueness_geom::space::{Point, minus};
 use trueness_geom::spline::basis::Knots;
 use trueness_geom::spline::spans::Spans;
 
-/// Share of the points it would meet if they lay all over it as densely as elsewhere, below which a basis function is held. The
-/// noise of its control point is then twice that of others; without bound, as the share goes to none.
-const SPARSE: f64 = 0.3;
-/// Most that a plate holds, as a share of what points hold a control point with in the mean.
-pub(super) const STIFFEST: f64 = 1e-2;
-/// A plate is as stiff as that a bend of this slope from one cell to the next counts as much as one standard deviation of a point: what
-/// has no noise is held by next to nothing.
-const SLOPE: f64 = 0.1;
+/// Points as dense as elsewhere, all over a basis function, would be a certain number. It is held where it meets fewer
+/// than this share of that. The noise of its control point is then twice that of others; without bound, as the share
+/// goes to none.
+const SPARSE_SHARE: f64 = 0.3;
+/// Most that a plate holds, as a share of the mean hold of the points on a control point.
+pub(super) const MAX_PLATE_STIFFNESS: f64 = 1e-2;
+/// A bend of this slope from one cell to the next counts as much as one standard deviation of a point. Points without
+/// noise are held by next to nothing.
+const PLATE_SLOPE: f64 = 0.1;
 /// Length, as a share of the shorter side, over which the surface lies down along the base.
-const REACH: f64 = 0.1;
+const LEVELLING_REACH: f64 = 0.1;
 
-/// What the control points are held by.
-pub(super) struct Ground<'a> {
+/// The base and the points by which the control points are held.
+pub(super) struct HoldGround<'a> {
     pub knots: &'a [Knots; 2],
     pub base: &'a Base,
     pub points: &'a [Point],
     pub parameters: &'a [[f64; 2]],
-    /// What is subtracted from all places.
+    /// The place that is subtracted from all places.
     pub center: Point,
 }
 
@@ -45,8 +47,8 @@ pub(super) struct Penalty {
 }
 
 impl Penalty {
-    /// For what the matrix of the points leaves loose; `None` where that is nothing.
-    pub(super) fn of(data: &Binned, normal: &Stencil, ground: &Ground) -> Option<Penalty> {
+    /// The penalty for the control points that the matrix of the points leaves loose; `None` where there are none.
+    pub(super) fn of(data: &Binned, normal: &Stencil, ground: &HoldGround) -> Option<Penalty> {
         let needs = needs(data, normal);
         if needs.iter().all(|n| *n == 0.0) {
             return None;
@@ -55,7 +57,7 @@ impl Penalty {
         // Over a mesh laid flat there is no base in space to lie down along: the plate alone holds.
         let reach = match ground.base.kind {
             BaseKind::Mesh => f64::INFINITY,
-            _ => REACH * sides[0].min(sides[1]),
+            _ => LEVELLING_REACH * sides[0].min(sides[1]),
         };
         let integrals = data.spans.each_ref().map(Integrals::new);
         let mut stencil = Stencil::new(data.counts, data.spans.each_ref().map(Spans::degree));
@@ -72,12 +74,12 @@ impl Penalty {
     }
 }
 
-/// The stiffness for points of this variance, as a share of what they hold a control point with in the mean.
+/// The stiffness for points of this variance, as a share of the points' mean hold on a control point.
 pub(super) fn stiffness(data: &Binned, normal: &Stencil, variance: f64) -> f64 {
     let sides = data.spans.each_ref().map(|s| s.limits(s.count() - 1).1 - s.limits(0).0);
     let cell = sides[0] * sides[1] / data.cells().0 as f64;
     let mean = normal.trace() / (data.counts[0] * data.counts[1]) as f64;
-    (variance / (SLOPE * SLOPE * cell * mean)).min(STIFFEST)
+    (variance / (PLATE_SLOPE * PLATE_SLOPE * cell * mean)).min(MAX_PLATE_STIFFNESS)
 }
 
 /// Adds the terms of one quarter of a cell.
@@ -116,7 +118,7 @@ fn needs(data: &Binned, normal: &Stencil) -> Vec<f64> {
     let need = |k: usize| {
         let [i, j] = [k / data.counts[1], k % data.counts[1]];
         let full = density * squares[0][i] * squares[1][j];
-        (1.0 - normal.diagonal(k) / (SPARSE * full)).max(0.0)
+        (1.0 - normal.diagonal(k) / (SPARSE_SHARE * full)).max(0.0)
     };
     (0..data.counts[0] * data.counts[1]).map(need).collect()
 }
@@ -139,7 +141,7 @@ fn need_at(data: &Binned, needs: &[f64], cell: usize, quarter: usize) -> f64 {
 }
 
 /// Control points of the base, tilted as the points over it are.
-fn target(Ground { knots, base, points, parameters, center }: &Ground) -> Vec<Point> {
+fn target(HoldGround { knots, base, points, parameters, center }: &HoldGround) -> Vec<Point> {
     if base.kind == BaseKind::Mesh {
         return vec![*center; knots[0].count() * knots[1].count()];
     }
@@ -152,7 +154,7 @@ fn target(Ground { knots, base, points, parameters, center }: &Ground) -> Vec<Po
     us.iter().flat_map(|u| vs.iter().map(|v| at(*u, *v))).collect()
 }
 
-/// What the points' distances from the base gain along `u` and `v`, by least squares.
+/// Growth of the points' distances from the base along `u` and `v`, by least squares.
 fn slopes(base: &Base, points: &[Point], parameters: &[[f64; 2]]) -> [Point; 2] {
     let count = points.len() as f64;
     let mean = [0, 1].map(|k| parameters.iter().map(|p| p[k]).sum::<f64>() / count);

@@ -1,8 +1,9 @@
-//! B-spline surfaces through scattered points: the points in, the surface and what it keeps to out.
+//! B-spline surfaces through scattered points: the points in, the surface and its limits out.
 //!
-//! [`fit`] goes the way of reverse engineering: least-squares plane of the points, projection on it, minimum bounding rectangle
-//! with the longer side as `u`, parameters, uniform clamped knots from degree and spans, control points by least squares, deviation of the
-//! points. To that it adds other bases, a thin-plate term, parameter correction and knots where a tolerance asks for them.
+//! [`fit`] goes the way of reverse engineering. It projects the points on their least-squares plane, and takes the minimum bounding rectangle with the longer side as `u`
+//! for the parameters. Uniform clamped knots follow from degree and spans, the control points by least squares, and
+//! then the deviations of the points. To that it adds other bases, a thin-plate term, parameter correction and knots
+//! where a tolerance asks for them.
 //!
 //! | file | what |
 //! |---|---|
@@ -23,9 +24,10 @@
 //! | `crossing` | whether lines in the plane cross |
 //! | `feet`, `nearest` | nearest places of the points: near their parameters, and beyond doubt |
 //!
-//! Sources: Hoschek, Intrinsic parametrization for approximation, Computer Aided Geometric Design 5, 1988 (parameter correction); Kim and Gu, Smoothing
-//! spline Gaussian regression: more scalable computation via efficient approximation, Journal of the Royal Statistical
-//! Society B 66, 2004 (cross-validation with degrees of freedom counted 1.4 times).
+//! Sources: Hoschek, Intrinsic parametrization for approximation, Computer Aided Geometric Design 5, 1988 (parameter
+//! correction). Kim and Gu, Smoothing spline Gaussian regression: more scalable computation via efficient
+//! approximation, Journal of the Royal Statistical Society B 66, 2004. Theirs is the cross-validation with degrees of
+//! freedom counted 1.4 times.
 #![cfg_attr(test, allow(clippy::disallowed_methods, reason = "a test does not hang on the last digit"))]
 
 mod base;
@@ -61,7 +63,7 @@ mod tolerance;
 mod trimmed;
 mod upright;
 
-pub use base::{Base, STANDING};
+pub use base::{Base, MAX_STANDING_SHARE};
 pub use error::SurfaceError;
 pub use found::{Reached, Support, SurfaceFit};
 pub use not_a_disc::NotADisc;
@@ -77,9 +79,9 @@ use trueness_geom::spline::basis::Knots;
 
 /// The B-spline surface of least squares through `points` (millimeters).
 ///
-/// The answer is the same on any number of threads. Cost: some passes over the points, and `n b²` multiplications for each
-/// weight tried, with `n` control points and `b` of them in a band (degree times the smaller number in a direction). Memory: about
-/// 90 bytes a point and `8 n b`.
+/// The answer is the same on any number of threads. Cost: some passes over the points, and `n b²` multiplications for
+/// each weight tried. `n` is the number of control points, and `b` that in a band (degree times the smaller number in a
+/// direction). Memory: about 90 bytes a point and `8 n b`.
 ///
 /// # Errors
 /// [`SurfaceError`]: points or options that allow no surface.
@@ -125,11 +127,11 @@ fn without_outliers(
     fit: impl Fn(&[u32]) -> Result<SurfaceFit, SurfaceError>,
 ) -> Result<SurfaceFit, SurfaceError> {
     let out = outliers::outliers(points, base, parameters, progress)?;
-    told_of_all(points, fit(&out)?, out, progress)
+    fit_without(points, fit(&out)?, out, progress)
 }
 
 /// The fit of all points but those `out`, with the deviations and nearest places of all.
-fn told_of_all(
+fn fit_without(
     points: &[Point],
     found: SurfaceFit,
     out: Vec<u32>,
@@ -153,9 +155,10 @@ fn told_of_all(
 /// The B-spline surface of least squares through the vertices of a mesh. With [`BaseKind::Mesh`] the parameters come from its facets,
 /// which are laid flat; with the other bases it is [`fit`] of the vertices.
 ///
-/// Facets count that name three different vertices. The mesh has one part with a rim and without handles; holes are allowed. Lengths
-/// of the facets are kept as far as they can be; what was unrolled keeps them all. Parameters run along the minimum bounding rectangle; the
-/// normal looks as that of the facets does. Cost: besides that of the fit some dozens of rounds over the facets, and 1 kB a vertex.
+/// Facets count that name three different vertices. The mesh has one part with a rim and without handles; holes are
+/// allowed. Lengths of the facets are kept as far as they can be; an unrolled surface keeps them all. Parameters run
+/// along the minimum bounding rectangle; the normal looks as that of the facets does. Cost: besides that of the fit
+/// some dozens of rounds over the facets, and 1 kB a vertex.
 ///
 /// # Errors
 /// [`SurfaceError`]: as of [`fit`], and [`NotADisc`].
@@ -231,7 +234,7 @@ fn over(
     };
     let mut found = nearest::with_true_distances(points, found?, 0.0, progress)?;
     // A surface that is not held goes along anything.
-    if found.base.standing_share > STANDING && found.far_control_points == 0 {
+    if found.base.standing_share > MAX_STANDING_SHARE && found.far_control_points == 0 {
         let base = found.base;
         found.base.standing_share = upright::passed_by(points, |p| base.up(p), &found.surface, progress)?;
     }
@@ -239,22 +242,22 @@ fn over(
 }
 
 /// Spans where none are asked for.
-const SPANS: usize = 8;
+const DEFAULT_SPANS: usize = 8;
 /// Angle of a round base that one span takes at most: a cubic has the curvature of such an arc to half a percent.
-const TURN: f64 = std::f64::consts::PI / 12.0;
-/// Points to a control point that more spans than [`SPANS`] need.
-const POINTS_EACH: usize = 4;
+const MAX_TURN_PER_SPAN: f64 = std::f64::consts::PI / 12.0;
+/// Points to a control point that more spans than [`DEFAULT_SPANS`] need.
+const POINTS_PER_CONTROL_POINT: usize = 4;
 
 /// Spans that follow a round base, as far as there are points for them.
 fn automatic_spans(base: &Base, domain: [(f64, f64); 2], points: usize, options: &Options) -> [usize; 2] {
-    let Some(radius) = base.radius else { return [SPANS; 2] };
+    let Some(radius) = base.radius else { return [DEFAULT_SPANS; 2] };
     let along = base.round_directions();
     let wanted = [0, 1].map(|k| {
-        let turns = if along[k] { (domain[k].1 - domain[k].0) / (radius * TURN) } else { 0.0 };
-        (turns.ceil() as usize).max(SPANS)
+        let turns = if along[k] { (domain[k].1 - domain[k].0) / (radius * MAX_TURN_PER_SPAN) } else { 0.0 };
+        (turns.ceil() as usize).max(DEFAULT_SPANS)
     });
     let count = |spans: [usize; 2]| (spans[0] + options.degree[0]) * (spans[1] + options.degree[1]);
-    if POINTS_EACH * count(wanted) <= points { wanted } else { [SPANS; 2] }
+    if POINTS_PER_CONTROL_POINT * count(wanted) <= points { wanted } else { [DEFAULT_SPANS; 2] }
 }
 
 fn check(points: &[Point], options: &Options) -> Result<(), SurfaceError> {

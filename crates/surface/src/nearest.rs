@@ -11,10 +11,10 @@ use trueness_geom::spline::basis::Knots;
 use trueness_geom::spline::surface::{FootSearch, Nurbs, Surface};
 
 /// Points between two questions whether to stop.
-const CHUNK: usize = 256;
+const POINTS_PER_SEARCH: usize = 256;
 
-/// The fit with true distances of the points that are `beyond`, by the distance that is known: the true one is no greater; and which points
-/// lie beyond the border.
+/// The fit with true distances of the points that are `beyond`, and the numbers of the points beyond the border. The
+/// known distance is an upper bound of the true one.
 ///
 /// Cost: some microseconds for each of them whose foot is in doubt.
 pub(super) fn with_true_distances(
@@ -23,8 +23,8 @@ pub(super) fn with_true_distances(
     beyond: f64,
     progress: &dyn Progress,
 ) -> Result<SurfaceFit, SurfaceError> {
-    let asked = |i: &u32| fit.deviations[*i as usize].abs() > beyond;
-    let (ask, keep): (Vec<u32>, Vec<u32>) = fit.doubtful.iter().copied().partition(asked);
+    let is_beyond = |i: &u32| fit.deviations[*i as usize].abs() > beyond;
+    let (ask, keep): (Vec<u32>, Vec<u32>) = fit.doubtful.iter().copied().partition(is_beyond);
     if ask.is_empty() {
         fit.beyond_border = border::beyond(points, &fit);
         return Ok(fit);
@@ -36,7 +36,7 @@ pub(super) fn with_true_distances(
         }
         Ok(part.iter().map(|i| search.nearest(&points[*i as usize])).collect::<Vec<_>>())
     };
-    let found: Result<Vec<_>, Cancelled> = ask.par_chunks(CHUNK).map(chunk).collect();
+    let found: Result<Vec<_>, Cancelled> = ask.par_chunks(POINTS_PER_SEARCH).map(chunk).collect();
     let asked_from = keep.len();
     fit.doubtful = keep;
     for (index, found) in ask.into_iter().zip(found?.concat()) {
@@ -55,7 +55,7 @@ pub(super) fn with_true_distances(
     Ok(fit)
 }
 
-/// The surface, cut where a knot stands more often than the degree: it is torn there. Parameters stay what they are.
+/// The surface, cut where a knot stands more often than the degree: it is torn there. Parameters stay the same.
 fn untorn(surface: &Surface<Point>) -> Vec<Nurbs> {
     let whole = Nurbs::from(surface.clone());
     let parts = surface.knots().each_ref().map(limits);

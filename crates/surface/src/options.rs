@@ -1,8 +1,8 @@
-//! What is asked of a fit.
+//! Options of a fit.
 
 use trueness_geom::spline::basis::Knots;
 
-/// What the parameters are taken from.
+/// The base that the parameters are taken from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BaseKind {
     /// The least-squares plane: lengths along the sides of the minimum bounding rectangle.
@@ -40,7 +40,8 @@ pub const HIGHEST_DEGREE: usize = 9;
 /// Where the knots come from.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Layout {
-    /// Eight equal spans along `u` and `v`; over a cylinder or a sphere one for each 15° of it, where that is more and the points allow it.
+    /// Eight equal spans along `u` and `v`. A cylinder or a sphere has one for each 15° of it, where that is more and
+    /// the points allow it.
     Auto,
     /// So many equal spans along `u` and `v`.
     Spans([usize; 2]),
@@ -55,7 +56,7 @@ pub enum Layout {
 pub enum Fairness {
     /// That of least generalized cross-validation.
     Auto,
-    /// This one, mm²; 0 for none. What is made least is the sum of the squared distances plus the weight times the integral
+    /// This one, mm²; 0 for none. The fit minimizes the sum of the squared distances plus the weight times the integral
     /// of `|S_uu|² + 2 |S_uv|² + |S_vv|²` over the parameters.
     Weight(f64),
 }
@@ -81,13 +82,13 @@ pub struct Options {
 }
 
 impl Options {
-    /// Corrections of the parameters at most, with what the base allows.
+    /// Corrections of the parameters at most, as far as the base allows.
     pub(super) fn corrections_made(&self) -> usize {
         if self.base == BaseKind::Xy { 0 } else { self.corrections }
     }
 
-    /// Whether the ends of the domain move outward to where the outermost points have their nearest places: as the parameters are
-    /// corrected, and over knots that are not given.
+    /// Whether the ends of the domain move outward to where the outermost points have their nearest places. They do as
+    /// the parameters are corrected, and over knots that are not given.
     pub(super) fn ends_move(&self) -> bool {
         self.corrections_made() > 0 && !matches!(self.layout, Layout::Knots(_))
     }

@@ -1,10 +1,11 @@
 //! The outline of the points in the plane of the parameters: where a surface is cut off.
 //!
-//! A place is inside where no disk of the *reach* as its radius holds it without holding a point (the α-shape of Edelsbrunner,
-//! Kirkpatrick & Seidel 1983, with round notches): gaps narrower than twice the reach are bridged, wider ones are holes or lie
-//! outside. It is found on a grid of cells a sixth of the reach wide, by two exact distance transforms (Felzenszwalb & Huttenlocher
-//! 2012): the points widened by the reach, and that narrowed by it. The line between inside and outside is set off by 3.5 cells
-//! and then made of as few sides as lie within one cell of it, so that all points are within.
+//! A place is inside where no disk of the *reach* as its radius holds it without holding a point. That is the α-shape
+//! of Edelsbrunner, Kirkpatrick & Seidel 1983, with round notches. Gaps narrower than twice the reach are bridged;
+//! wider ones are holes or lie outside. It is found on a grid of cells a sixth of the reach wide, by two exact distance
+//! transforms (Felzenszwalb & Huttenlocher 2012). They widen the points by the reach, and narrow the result by it. The
+//! line between inside and outside is set off by 3.5 cells, so that all points are within. Then it is made of as few
+//! sides as lie within one cell of it.
 
 use super::crossing::cross;
 use super::raster::{Raster, distances};
@@ -33,26 +34,29 @@ pub struct OutlineRegion {
 }
 
 /// Cells for each reach.
-const CELLS: f64 = 6.0;
-/// How far the outline is set off, and how far its sides may be from it, in cells. A point is off the middle of its cell by 0.71 at most,
-/// a distance by as much, and a cut at the rim of the domain by one.
-const OFF: f64 = 3.5;
-const STRAIGHT: f64 = 1.0;
+const CELLS_PER_REACH: f64 = 6.0;
+/// How far the outline is set off, in cells. A point is off the middle of its cell by 0.71 at most, and a distance by
+/// as much. A cut at the rim of the domain is off by one.
+const OFFSET_CELLS: f64 = 3.5;
+/// How far the outline's sides may be from it, in cells.
+const STRAIGHT_SIDE_CELLS: f64 = 1.0;
 /// Cells of the grid at most: 32 MB for each of its values.
-const MOST: f64 = (1 << 22) as f64;
-/// Regions with a smaller share of the points of the one that has most are left out.
-const SHARE: f64 = 0.01;
+const MAX_CELLS: f64 = (1 << 22) as f64;
+/// Regions are left out with a smaller share of the points of the one that has most.
+const MIN_REGION_SHARE: f64 = 0.01;
 /// A region wider than this share of its reach is an island, not a line of points: no greater reach joins islands.
-const WIDE: f64 = 2.0 / 3.0;
-/// Of more regions than this a greater reach is tried, so many times as great each time, up to this share of the longer side.
-const PARTS: usize = 8;
-const STEP: f64 = 1.4;
-const WIDEST: f64 = 0.05;
+const ISLAND_WIDTH_REACHES: f64 = 2.0 / 3.0;
+/// Where there are more regions than this a greater reach is tried.
+const MAX_REGIONS: usize = 8;
+/// It is so many times as great each time.
+const REACH_GROWTH: f64 = 1.4;
+/// It grows up to this share of the longer side.
+const MAX_REACH_OF_SIDE: f64 = 0.05;
 
 impl Outline {
-    /// Of points in a rectangle of parameters, with this reach. Without one it is three times the mean distance of neighbors, or, where
-    /// that gives more than eight regions which are lines of points, the least that gives fewer, up to a twentieth of the longer side, and
-    /// as long as no islands grow together.
+    /// The outline of points in a rectangle of parameters, with this reach. Without one it is three times the mean
+    /// distance of neighbors. Where that gives more than eight regions which are lines of points, it is the least that
+    /// gives fewer. It is at most a twentieth of the longer side, and grows only as long as no islands grow together.
     ///
     /// Regions with less than 1 % of the points of the one with most are left out. No region comes of no points. Cost: linear in points
     /// and cells, 4 million cells at most; of finer ones the reach is greater than asked for, and told.
@@ -69,7 +73,7 @@ impl Outline {
         let longest = sides[0].max(sides[1]);
         let fine = |reach: f64| -> Option<f64> {
             let reach = reach.max(1e-3 * longest);
-            (1..40).map(|k| reach * f64::from(k)).find(|r| room(sides, *r) <= MOST)
+            (1..40).map(|k| reach * f64::from(k)).find(|r| room(sides, *r) <= MAX_CELLS)
         };
         if points.is_empty() {
             return Ok(Outline::default());
@@ -82,13 +86,16 @@ impl Outline {
         let (first, islands) = Outline::counted(points, domain, least, progress)?;
         // Points in lines lie nearer to each other along these than across: then the lines are parts, and a greater reach joins them.
         let mut reach = least;
-        while first.regions.len() > PARTS && islands <= PARTS && reach < WIDEST * longest {
-            reach = (STEP * reach).min(WIDEST * longest);
+        while first.regions.len() > MAX_REGIONS
+            && islands <= MAX_REGIONS
+            && reach < MAX_REACH_OF_SIDE * longest
+        {
+            reach = (REACH_GROWTH * reach).min(MAX_REACH_OF_SIDE * longest);
             let wider = Outline::over(points, domain, reach, progress)?;
             if wider.regions.len() < islands {
                 break;
             }
-            if wider.regions.len() <= PARTS {
+            if wider.regions.len() <= MAX_REGIONS {
                 return Ok(wider);
             }
         }
@@ -112,8 +119,8 @@ impl Outline {
         reach: f64,
         progress: &dyn Progress,
     ) -> Result<(Outline, usize), Cancelled> {
-        let cell_size = reach / CELLS;
-        let margin = (CELLS + OFF).ceil() + 2.0;
+        let cell_size = reach / CELLS_PER_REACH;
+        let margin = (CELLS_PER_REACH + OFFSET_CELLS).ceil() + 2.0;
         let raster = Raster::new(domain, cell_size, margin as usize);
         let mut near = raster.empty(f64::INFINITY);
         points.iter().for_each(|p| near[raster.cell(*p)] = 0.0);
@@ -122,8 +129,10 @@ impl Outline {
             return Err(Cancelled);
         }
         // Squares, in cells.
-        let mut inside: Vec<f64> =
-            near.iter().map(|d| if *d > CELLS * CELLS { 0.0 } else { f64::INFINITY }).collect();
+        let mut inside: Vec<f64> = near
+            .iter()
+            .map(|d| if *d > CELLS_PER_REACH * CELLS_PER_REACH { 0.0 } else { f64::INFINITY })
+            .collect();
         distances(&mut inside, raster.counts);
         if progress.cancelled() {
             return Err(Cancelled);
@@ -131,7 +140,7 @@ impl Outline {
         let depth: Vec<f64> = inside.into_iter().map(f64::sqrt).collect();
         let clamp =
             |p: [f64; 2]| -> [f64; 2] { std::array::from_fn(|k| p[k].clamp(domain[k].0, domain[k].1)) };
-        let (part, count) = raster.parts(&depth, CELLS - OFF);
+        let (part, count) = raster.parts(&depth, CELLS_PER_REACH - OFFSET_CELLS);
         let mut regions = vec![(0, OutlineRegion::default()); count];
         points.iter().for_each(|p| regions[part[raster.cell(*p)] as usize].0 += 1);
         // The points of a line are as deep as the reach.
@@ -140,7 +149,7 @@ impl Outline {
             deepest[*part as usize] = deepest[*part as usize].max(*depth);
         }
         let (cells, mut lines): (Vec<usize>, Vec<Vec<[f64; 2]>>) =
-            raster.contours(&depth, CELLS - OFF).into_iter().unzip();
+            raster.contours(&depth, CELLS_PER_REACH - OFFSET_CELLS).into_iter().unzip();
         for line in &mut lines {
             line.iter_mut().for_each(|p| *p = clamp(*p));
             line.dedup();
@@ -156,12 +165,12 @@ impl Outline {
                 _ => {}
             }
         }
-        let is_wide = |deepest: f64| 2.0 * (deepest - CELLS) >= WIDE * CELLS;
+        let is_wide =
+            |deepest: f64| 2.0 * (deepest - CELLS_PER_REACH) >= ISLAND_WIDTH_REACHES * CELLS_PER_REACH;
         let most = regions.iter().map(|(count, _)| *count).max().unwrap_or(0);
-        let islands = regions
-            .iter()
-            .zip(deepest)
-            .filter(|((count, _), deepest)| *count as f64 >= SHARE * most as f64 && is_wide(*deepest));
+        let islands = regions.iter().zip(deepest).filter(|((count, _), deepest)| {
+            *count as f64 >= MIN_REGION_SHARE * most as f64 && is_wide(*deepest)
+        });
         let islands = islands.count();
         Ok((kept(regions, reach), islands))
     }
@@ -205,17 +214,20 @@ impl OutlineRegion {
 
 /// Cells that a grid for this reach takes.
 fn room(sides: [f64; 2], reach: f64) -> f64 {
-    sides.iter().map(|side| side * CELLS / reach + 2.0 * (CELLS + OFF + 3.0)).product()
+    sides
+        .iter()
+        .map(|side| side * CELLS_PER_REACH / reach + 2.0 * (CELLS_PER_REACH + OFFSET_CELLS + 3.0))
+        .product()
 }
 
-/// Mean distance of neighbors where there are any: of squares of which one holds eight points in the mean, the side over the root of
-/// their number in it.
+/// Mean distance of neighbors where there are any. Squares hold eight points in the mean; the distance is their side
+/// over the root of their number of points.
 fn spacing(points: &[[f64; 2]], domain: [(f64, f64); 2]) -> f64 {
-    const POINTS: f64 = 8.0;
-    /// Of fewer points to a square in the mean, their number tells more of chance than of their distance.
-    const FEWEST: f64 = 4.0;
-    /// Squares of half the side tell less by this factor where they are no longer wider than what they hold.
-    const LESS: f64 = 0.75;
+    const POINTS_PER_SQUARE: f64 = 8.0;
+    /// Where a square holds fewer points in the mean, their number tells more of chance than of their distance.
+    const MIN_POINTS_PER_SQUARE: f64 = 4.0;
+    /// Squares of half the side tell less by this factor where they are no longer wider than the island that they hold.
+    const NO_WIDER_RATIO: f64 = 0.75;
     // A place that is there several times is no neighbor of itself.
     let mut points: Vec<[u64; 2]> = points.iter().map(|p| p.map(|x| (x + 0.0).to_bits())).collect();
     points.sort_unstable();
@@ -223,8 +235,8 @@ fn spacing(points: &[[f64; 2]], domain: [(f64, f64); 2]) -> f64 {
     let points: Vec<[f64; 2]> = points.into_iter().map(|p| p.map(f64::from_bits)).collect();
     let [long, short] = domain.map(|(from, to)| to - from);
     let n = points.len().max(1) as f64;
-    let least = (long * short / MOST).sqrt().max(long.max(short) / MOST);
-    let mut side = (long * short * POINTS / n).sqrt().max(least);
+    let least = (long * short / MAX_CELLS).sqrt().max(long.max(short) / MAX_CELLS);
+    let mut side = (long * short * POINTS_PER_SQUARE / n).sqrt().max(least);
     let held = |side: f64| {
         let raster = Raster::new(domain, side, 0);
         let mut filled = vec![false; raster.counts[0] * raster.counts[1]];
@@ -234,16 +246,16 @@ fn spacing(points: &[[f64; 2]], domain: [(f64, f64); 2]) -> f64 {
     // Where much of the domain is empty, the rest holds more: its squares are made smaller.
     let mut own = held(side);
     for _ in 0..4 {
-        if own < 1.5 * POINTS {
+        if own < 1.5 * POINTS_PER_SQUARE {
             break;
         }
-        side = (side * (POINTS / own).sqrt()).max(least);
+        side = (side * (POINTS_PER_SQUARE / own).sqrt()).max(least);
         own = held(side);
     }
     // Squares wider than an island hold all of it, however near to each other its points lie: then smaller ones tell less.
-    while own > FEWEST && side > 2.0 * least {
+    while own > MIN_POINTS_PER_SQUARE && side > 2.0 * least {
         let half = held(0.5 * side);
-        if 0.5 * side / half.sqrt() > LESS * side / own.sqrt() {
+        if 0.5 * side / half.sqrt() > NO_WIDER_RATIO * side / own.sqrt() {
             break;
         }
         (side, own) = (0.5 * side, half);
@@ -284,19 +296,20 @@ fn winding(line: &[[f64; 2]], p: [f64; 2]) -> i32 {
 /// The regions with enough of the points, the largest first.
 fn kept(regions: Vec<(usize, OutlineRegion)>, reach: f64) -> Outline {
     let most = regions.iter().map(|(count, _)| *count).max().unwrap_or(0) as f64;
-    let enough =
-        |(count, region): &(usize, OutlineRegion)| *count as f64 >= SHARE * most && region.outer.len() > 2;
-    let (kept, few): (Vec<_>, Vec<_>) = regions.into_iter().partition(enough);
+    let enough = |(count, region): &(usize, OutlineRegion)| {
+        *count as f64 >= MIN_REGION_SHARE * most && region.outer.len() > 2
+    };
+    let (kept, dropped): (Vec<_>, Vec<_>) = regions.into_iter().partition(enough);
     let mut regions: Vec<OutlineRegion> = kept.into_iter().map(|(_, region)| region).collect();
     regions.sort_by(|a, b| area(&b.outer).total_cmp(&area(&a.outer)));
-    Outline { reach, wanted: reach, regions, left_out: few.into_iter().map(|(count, _)| count).sum() }
+    Outline { reach, wanted: reach, regions, left_out: dropped.into_iter().map(|(count, _)| count).sum() }
 }
 
-/// The lines of as few sides as they can be without crossing each other or themselves, each within [`STRAIGHT`] cells. Where they touch
+/// The lines of as few sides as they can be without crossing each other or themselves, each within [`STRAIGHT_SIDE_CELLS`] cells. Where they touch
 /// as they are, at the rim of the domain, so do these.
 fn made_straight(lines: &[Vec<[f64; 2]>], domain: [(f64, f64); 2], cell_size: f64) -> Vec<Vec<[f64; 2]>> {
     let within = |share: f64| -> Vec<Vec<[f64; 2]>> {
-        lines.iter().map(|line| straightened(line, domain, share * STRAIGHT * cell_size)).collect()
+        lines.iter().map(|line| straightened(line, domain, share * STRAIGHT_SIDE_CELLS * cell_size)).collect()
     };
     let is_simple = |lines: &Vec<Vec<[f64; 2]>>| {
         let places: Vec<[f64; 2]> = lines.iter().flatten().copied().collect();

@@ -2,8 +2,8 @@
 
 use super::feet::{Feet, Found, feet};
 use super::gram::Binned;
-use super::hold::Ground;
-use super::solve::Known;
+use super::hold::HoldGround;
+use super::solve::EarlierSolution;
 use super::{Base, Fairness, Options, SurfaceError, SurfaceFit, border, solve};
 use trueness_geom::progress::Progress;
 use trueness_geom::space::{Aabb, Point, dot, plus, times};
@@ -11,11 +11,11 @@ use trueness_geom::spline::basis::Knots;
 use trueness_geom::spline::surface::{Patches, Surface};
 
 /// Corrections go on while they take away this share of the root mean square.
-const GAIN: f64 = 0.01;
-/// Share of the weight of the thin plate of the first fit, as far as the residuals did not fall, that later ones have at least. Rows of a
-/// scanner lie between control points so that parameters corrected along them have no noise left: cross-validation then lets
-/// the surface go where there are no points.
-const KEPT: f64 = 0.01;
+const MIN_CORRECTION_GAIN: f64 = 0.01;
+/// Later weights of the thin plate are at least this share of the first fit's, as far as the residuals did not fall.
+/// Rows of a scanner lie between control points so that parameters corrected along them have no noise left.
+/// Cross-validation then lets the surface go where there are no points.
+const MIN_FAIRNESS_SHARE: f64 = 0.01;
 
 /// The fit over these knots, with parameters corrected as the options say.
 pub(super) fn corrected(
@@ -37,15 +37,15 @@ pub(super) fn corrected(
         let mut next = once(points, best.feet.clone(), base, &knots, known, options, progress)?;
         if let (None, Some(degrees_of_freedom)) = (known, best.degrees_of_freedom) {
             let fell = (rms(&next.deviations) / rms(&best.deviations)).min(1.0);
-            let fairness = KEPT * best.fairness * fell * fell;
+            let fairness = MIN_FAIRNESS_SHARE * best.fairness * fell * fell;
             if next.fairness < fairness {
-                let held = Some(Known { fairness, degrees_of_freedom, stiffness: best.stiffness });
+                let held = Some(EarlierSolution { fairness, degrees_of_freedom, stiffness: best.stiffness });
                 next = once(points, best.feet.clone(), base, &knots, held, options, progress)?;
             }
         }
         next = reaching(next);
         // The weight of the thin plate settles with the first correction.
-        known = next.degrees_of_freedom.map(|degrees_of_freedom| Known {
+        known = next.degrees_of_freedom.map(|degrees_of_freedom| EarlierSolution {
             fairness: next.fairness,
             degrees_of_freedom,
             stiffness: next.stiffness,
@@ -55,7 +55,7 @@ pub(super) fn corrected(
             break;
         }
         best = SurfaceFit { corrections: n, ..next };
-        if after > (1.0 - GAIN) * before {
+        if after > (1.0 - MIN_CORRECTION_GAIN) * before {
             break;
         }
     }
@@ -73,14 +73,14 @@ fn once(
     parameters: Vec<[f64; 2]>,
     base: Base,
     knots: &[Knots; 2],
-    known: Option<Known>,
+    known: Option<EarlierSolution>,
     options: &Options,
     progress: &dyn Progress,
 ) -> Result<SurfaceFit, SurfaceError> {
     let hull = Aabb::of(points);
     let center = times(0.5, plus(hull.min, hull.max));
     let data = Binned::new(knots, points, &parameters, center);
-    let ground = Ground { knots, base: &base, points, parameters: &parameters, center };
+    let ground = HoldGround { knots, base: &base, points, parameters: &parameters, center };
     let solved = solve::solve(&data, &ground, known, options, progress)?;
     // The sorted points know them too, and this is where most memory is in use.
     drop(parameters);
@@ -118,7 +118,8 @@ fn once(
     })
 }
 
-/// Whether a place lies outside of twice the box of the points along the axes of the base; where that is flat, no nearer than `least`.
+/// Whether a place lies outside of twice the box of the points along the axes of the base. Where that is flat it is no
+/// nearer than `least`.
 fn far(base: &Base, points: &[Point], least: f64) -> impl Fn(&Point) -> bool {
     let axes = base.axes;
     let limits = axes.map(|axis| {

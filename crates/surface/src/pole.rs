@@ -1,22 +1,24 @@
 //! The axis of a sphere whose poles lie far from the points.
 //!
-//! At a pole the parameters of a sphere crowd, and a surface over them is torn or creased. The axis sought is that whose two poles are
-//! farthest from all points: of all unit vectors `z` the one with the least greatest `|z · d|` over the directions `d` of the points. That
-//! greatest value is the half width of the convex hull of all `±d` along `z`, and the least of all widths is across a facet: so it is the
-//! hull's facet nearest to the center. Seen from one of the directions (a stereographic projection, which takes circles to circles) those
-//! facets are the triangles of Delaunay between the others, and the sides of their hull.
+//! At a pole the parameters of a sphere crowd, and a surface over them is torn or creased. The two poles of the axis
+//! sought are farthest from all points. Among all unit vectors `z` it has the least greatest `|z ·
+//! d|` over the directions `d` of the points. That greatest value is the half width of the convex hull of all
+//! `±d` along `z`. The least of all widths is across a facet, so it is the hull's facet nearest to the center. A
+//! stereographic projection from one of the directions takes circles to circles. In it those facets are the triangles
+//! of Delaunay between the others, and the sides of their hull.
 
 use spade::{DelaunayTriangulation, Point2, Triangulation};
 use trueness_geom::space::{Point, Vector, cross, dot, least_axis, minus, norm, plus, times, unit};
 
-/// Directions up to which all are looked at; of more, one for each cell of this width (0.2°) is.
-const MOST: usize = 50_000;
+/// Up to so many directions all are looked at; else one for each cell is (0.2°).
+const MAX_DIRECTIONS: usize = 50_000;
 /// Width of those cells.
-const CELL: f64 = 1.0 / 256.0;
+const DIRECTION_CELL: f64 = 1.0 / 256.0;
 /// Facets along whose normals the width is taken at most.
-const MOST_WIDTHS: usize = 1000;
-/// Directions nearer than this to another one or its opposite are that one: so near, the rounding of the projection tells their circles.
-const SAME: f64 = 1e-9;
+const MAX_WIDTHS: usize = 1000;
+/// Directions nearer than this to another one or its opposite are that one: so near, the rounding of the projection tells their
+/// circles.
+const SAME_DIRECTION: f64 = 1e-9;
 
 /// The unit vector along the axis whose poles are farthest from all points, seen from the center; `None` if the directions do not
 /// determine one.
@@ -32,7 +34,7 @@ pub(super) fn axis(points: &[Point], center: Point) -> Option<Vector> {
         // 1 − d · first without a difference of near numbers.
         let away = minus(d, first);
         let depth = 0.5 * dot(away, away);
-        if depth > SAME * SAME {
+        if depth > SAME_DIRECTION * SAME_DIRECTION {
             places.push(Point2::new(dot(d, x) / depth, dot(d, y) / depth));
         }
     }
@@ -70,7 +72,7 @@ pub(super) fn axis(points: &[Point], center: Point) -> Option<Vector> {
 fn nearest(mut facets: Vec<(f64, Vector)>, directions: &[Vector]) -> Option<Vector> {
     facets.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(order(&a.1, &b.1)));
     let mut best: Option<(f64, Vector)> = None;
-    for (offset, normal) in facets.into_iter().take(MOST_WIDTHS) {
+    for (offset, normal) in facets.into_iter().take(MAX_WIDTHS) {
         if best.is_some_and(|(least, _)| offset >= least) {
             break;
         }
@@ -90,11 +92,11 @@ fn order(a: &Vector, b: &Vector) -> std::cmp::Ordering {
 fn directions(points: &[Point], center: Point) -> Vec<Vector> {
     let mut all: Vec<Vector> = points.iter().filter_map(|p| unit(minus(*p, center)).map(|d| d.0)).collect();
     all.sort_unstable_by(order);
-    if all.len() > MOST {
-        let cell = |d: &Vector| d.map(|x| (x / CELL).round() as i32);
+    if all.len() > MAX_DIRECTIONS {
+        let cell = |d: &Vector| d.map(|x| (x / DIRECTION_CELL).round() as i32);
         all.sort_by_key(cell);
         all.dedup_by_key(|d| cell(d));
     }
-    all.dedup_by(|a, b| norm(minus(*a, *b)) <= SAME);
+    all.dedup_by(|a, b| norm(minus(*a, *b)) <= SAME_DIRECTION);
     all
 }

@@ -1,6 +1,6 @@
 //! A grid of cells over a rectangle: distances on it, and lines of equal height.
 
-/// Square cells over a rectangle with a margin around it. Those of the second coordinate follow each other.
+/// Square cells over a rectangle with a margin around it. Cells along the second coordinate follow each other.
 pub(super) struct Raster {
     from: [f64; 2],
     cell: f64,
@@ -41,13 +41,13 @@ impl Raster {
             open.push(start);
             while let Some(cell) = open.pop() {
                 let (i, j) = (cell / columns, cell % columns);
-                let beside = [
+                let neighbors = [
                     (i > 0).then(|| cell - columns),
                     (i + 1 < rows).then(|| cell + columns),
                     (j > 0).then(|| cell - 1),
                     (j + 1 < columns).then(|| cell + 1),
                 ];
-                for next in beside.into_iter().flatten() {
+                for next in neighbors.into_iter().flatten() {
                     if height[next] >= level && part[next] == u32::MAX {
                         part[next] = count;
                         open.push(next);
@@ -59,9 +59,9 @@ impl Raster {
         (part, count as usize)
     }
 
-    /// Closed lines through the middles of cells and between them where the height is `level`, with what is higher on their left
-    /// (marching squares), and a higher cell beside each. Cells at the rim must be lower. Where two higher cells stand corner to
-    /// corner, they do not hang together.
+    /// Closed lines through the middles of cells and between them where the height is `level`, and a higher cell beside
+    /// each. Higher ground is on their left (marching squares). Cells at the rim must be lower. Where two higher cells
+    /// stand corner to corner, they do not hang together.
     pub fn contours(&self, height: &[f64], level: f64) -> Vec<(usize, Vec<[f64; 2]>)> {
         let [rows, columns] = self.counts;
         let is_high = |i: usize, j: usize| height[i * columns + j] >= level;
@@ -72,10 +72,11 @@ impl Raster {
                 let corners = [[i, j], [i + 1, j], [i + 1, j + 1], [i, j + 1]];
                 let high = corners.map(|[i, j]| is_high(i, j));
                 let cell = |[i, j]: [usize; 2]| i * columns + j;
-                // Of the sides of the square against the clock.
+                // Sides of the square against the clock.
                 let sides =
                     [2 * cell([i, j]), 2 * cell([i + 1, j]) + 1, 2 * cell([i, j + 1]), 2 * cell([i, j]) + 1];
-                // The line leaves where what is high lies at the start of a side, and comes in where it lies at its end.
+                // The line leaves where the high corner lies at the start of a side, and comes in where it lies at its
+                // end.
                 for k in 0..4 {
                     if !high[k] && high[(k + 1) % 4] {
                         // Around the high corners behind it, up to where they end.

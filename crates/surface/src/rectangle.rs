@@ -13,9 +13,9 @@ pub struct Rectangle {
 
 /// The rectangle of least area around `points`; `None` of fewer than three points or of points on one straight line.
 ///
-/// One of its sides lies along a side of the convex hull (Freeman and Shapira, Determining the minimum-area encasing rectangle for an
-/// arbitrary closed curve, Communications of the ACM 18, 1975). Of several the first is taken, with a first side that points to
-/// positive coordinates. Cost: a sort of the points.
+/// One of its sides lies along a side of the convex hull. (Freeman and Shapira, Determining the minimum-area encasing
+/// rectangle for an arbitrary closed curve, Communications of the ACM 18, 1975). The first of several is returned, with
+/// a first side that points to positive coordinates. Cost: a sort of the points.
 ///
 /// ```
 /// use trueness_surface::minimum_rectangle;
@@ -71,7 +71,7 @@ fn oriented(x: [f64; 2], low: [f64; 2], high: [f64; 2], sides: [f64; 2]) -> Rect
         (place(low[0], high[1]), [-y[0], -y[1]], [sides[1], sides[0]]),
     ];
     let longer = sides[0].max(sides[1]) * (1.0 - 1e-12);
-    // Of a square, that which is nearest to the first coordinate.
+    // A square has that side first which is nearest to the first coordinate.
     let score = |way: &([f64; 2], [f64; 2], [f64; 2])| {
         let [a, b] = way.1;
         let positive = if a.abs() >= b.abs() { a } else { b };
@@ -86,8 +86,8 @@ fn oriented(x: [f64; 2], low: [f64; 2], high: [f64; 2], sides: [f64; 2]) -> Rect
     Rectangle { corner: best.0, along: best.1, sides: best.2 }
 }
 
-/// The points without those inside of the octagon of the farthest ones in eight directions: none of them is a corner of the hull (Akl
-/// and Toussaint, A fast convex hull algorithm, Information Processing Letters 7, 1978).
+/// The points without those inside of the octagon of the farthest ones in eight directions: none of them is a corner of
+/// the hull. (Akl and Toussaint, A fast convex hull algorithm, Information Processing Letters 7, 1978).
 fn outer(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let directions: [[f64; 2]; 8] = [
         [1.0, 0.0],

@@ -9,14 +9,14 @@ use trueness_geom::spline::spans::Spans;
 use trueness_geom::spline::surface::Patches;
 
 /// Times that knots are set.
-const ROUNDS: usize = 24;
+const MAX_KNOT_ROUNDS: usize = 24;
 /// A round that takes away less than this share of the standard deviation follows the noise.
-const GAIN: f64 = 0.03;
+const MIN_ROUND_GAIN: f64 = 0.03;
 /// So many such rounds, one after the other, end it.
-const PATIENCE: usize = 2;
+const IDLE_ROUNDS_TO_END: usize = 2;
 
 /// Corrections of the parameters for each set of knots.
-const CORRECTIONS: usize = 2;
+const CORRECTIONS_PER_ROUND: usize = 2;
 
 /// Spans of the first surface: four along the shorter side, about square ones.
 pub(super) fn first_spans(domain: [(f64, f64); 2]) -> [usize; 2] {
@@ -69,8 +69,8 @@ impl Task<'_> {
 
 /// Fits, sets knots where points are beyond the tolerance, and fits again.
 ///
-/// It ends where all points are within, where more knots lower the standard deviation of the points no more (the answer
-/// is then the surface before they were set), or where there are no points left to set knots by.
+/// It ends where all points are within, or where no points are left to set knots by. It ends as well where more knots
+/// no longer lower the standard deviation of the points. The answer is then the surface before they were set.
 pub(super) struct Rounds<'a> {
     task: Task<'a>,
     halved: Halved,
@@ -83,7 +83,7 @@ pub(super) struct Rounds<'a> {
     done: usize,
 }
 
-/// What a round has come to.
+/// The outcome of a round.
 pub(super) enum Round {
     /// Knots were set after this surface.
     Going(SurfaceFit),
@@ -107,7 +107,7 @@ impl<'a> Rounds<'a> {
     pub(super) fn next(&mut self) -> Result<Round, SurfaceError> {
         let Task { points, tolerance, options, .. } = self.task;
         let (found, feet) =
-            self.task.over(self.base, self.parameters.clone(), self.knots.clone(), CORRECTIONS)?;
+            self.task.over(self.base, self.parameters.clone(), self.knots.clone(), CORRECTIONS_PER_ROUND)?;
         self.knots = found.surface.knots().clone();
         if self.task.within(&found) {
             return Ok(Round::Over(SurfaceFit { reached: Some(Reached::Tolerance), ..found }));
@@ -118,7 +118,7 @@ impl<'a> Rounds<'a> {
         let spread = self.task.spread(&found);
         let next = finer(&self.knots, &found, self.halved, tolerance, points.len());
         let least = self.best.as_ref().map_or(f64::INFINITY, |(least, _)| *least);
-        if self.best.is_some() && spread > (1.0 - GAIN) * least {
+        if self.best.is_some() && spread > (1.0 - MIN_ROUND_GAIN) * least {
             self.idle += 1;
         } else {
             self.idle = 0;
@@ -136,34 +136,34 @@ impl<'a> Rounds<'a> {
     /// Why it ends short of the tolerance, if it does.
     fn end(&self, next: &[Knots; 2]) -> Option<Reached> {
         let (counts, degrees) = (next.each_ref().map(Knots::count), next.each_ref().map(Knots::degree));
-        if self.idle >= PATIENCE {
+        if self.idle >= IDLE_ROUNDS_TO_END {
             Some(Reached::Noise)
         } else if *next == self.knots {
             Some(Reached::Points)
         } else if solve::allowed(counts, degrees, self.task.options.memory).is_err() {
             Some(Reached::Memory)
         } else {
-            (self.done == ROUNDS).then_some(Reached::Noise)
+            (self.done == MAX_KNOT_ROUNDS).then_some(Reached::Noise)
         }
     }
 }
 
-/// Cells whose farthest point is nearer than this share of the farthest one of all wait for the next round: beside what bends most
-/// a surface of too few knots swings, and that passes by itself.
-const URGENT: f64 = 0.1;
+/// Cells whose farthest point is nearer than this share of the farthest one of all wait for the next round. A surface of too few
+/// knots swings beside its strongest bends, and that passes by itself.
+const URGENT_SHARE: f64 = 0.1;
 /// Which sides of a cell are halved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Halved {
     /// The longer ones: cells stay about square.
     Longer,
-    /// Those along which the surface bends: few lines, where it bends one way. What is thin as seen along the lines can be missed for a
-    /// while.
+    /// The sides along which the surface bends: few lines, where it bends one way. A shape that is thin as seen along
+    /// the lines can be missed for a while.
     Bent,
 }
 
 impl Halved {
-    /// Of a cell those sides are halved of which this is more than such a share of what it is of the other side: the length, or how far the
-    /// surface bends over the side.
+    /// Sides of a cell are halved that have more than such a share of the other side's measure. The measure is the
+    /// length, or how far the surface bends over the side.
     fn share(self) -> f64 {
         match self {
             Halved::Longer => 0.7,
@@ -173,10 +173,11 @@ impl Halved {
 }
 
 /// Halves the sides of the cells that hold points beyond the tolerance, if their spans hold more points than the halves
-/// have functions: of the most urgent of them only, where all would make more control points than there are points.
+/// have functions. Only the most urgent sides are halved where all would make more control points than there are
+/// points.
 ///
-/// A knot goes all through the surface, so it is set only where it is urgent: a dimple in a plane takes a quarter of the control points
-/// that it would if all spans with a point beyond the tolerance were halved.
+/// A knot goes all through the surface, so it is set only where it is urgent. Else all spans with a point beyond the
+/// tolerance would be halved. A dimple in a plane takes a quarter of the control points that it would then.
 fn finer(
     knots: &[Knots; 2],
     found: &SurfaceFit,
@@ -207,7 +208,7 @@ fn finer(
         }
     }
     let most = farthest.iter().fold(0.0, |m: f64, d| m.max(*d));
-    let mut limit = tolerance.max(URGENT * most);
+    let mut limit = tolerance.max(URGENT_SHARE * most);
     loop {
         let next =
             with_halves(knots, &spans, &held, (&sizes, halved.share()), farthest.iter().map(|d| *d > limit));

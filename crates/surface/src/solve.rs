@@ -3,7 +3,7 @@
 use super::energy::thin_plate;
 use super::gaps::Folds;
 use super::gram::{Binned, Sums};
-use super::hold::{self, Ground, Penalty};
+use super::hold::{self, HoldGround, Penalty};
 use super::stencil::{Order, Stencil};
 use super::{Fairness, Options, Support, SurfaceError};
 use trueness_geom::num::banded::{Banded, BandedError, Factor};
@@ -19,16 +19,16 @@ pub(super) struct Solved {
     pub fairness: f64,
     pub degrees_of_freedom: Option<f64>,
     pub support: Support,
-    /// Of what holds control points where points are few.
+    /// Stiffness of the plates that hold control points where points are few.
     pub stiffness: f64,
 }
 
 /// Least sum of the squares of a basis function over all points that holds a control point.
-const SUPPORT: f64 = 1e-4;
+const MIN_SUPPORT: f64 = 1e-4;
 
-/// What an earlier solution of much the same points has told.
+/// Results of an earlier solution of much the same points.
 #[derive(Clone, Copy)]
-pub(super) struct Known {
+pub(super) struct EarlierSolution {
     pub fairness: f64,
     pub degrees_of_freedom: f64,
     /// Stiffness where points are few.
@@ -36,20 +36,20 @@ pub(super) struct Known {
 }
 
 /// Times that the stiffness where points are few is found anew.
-const SOFTENED: usize = 2;
+const SOFTENING_PASSES: usize = 2;
 
 /// Solves for the control points.
 pub(super) fn solve(
     data: &Binned,
-    ground: &Ground,
-    known: Option<Known>,
+    ground: &HoldGround,
+    known: Option<EarlierSolution>,
     options: &Options,
     progress: &dyn Progress,
 ) -> Result<Solved, SurfaceError> {
     let (normal, Sums { right, .. }) = data.equations(progress)?;
     let total = data.counts[0] * data.counts[1];
     let (cells, empty_cells) = data.cells();
-    let unsupported = (0..total).filter(|k| normal.diagonal(*k) < SUPPORT).count();
+    let unsupported = (0..total).filter(|k| normal.diagonal(*k) < MIN_SUPPORT).count();
     let support = Support { unsupported, control_points: total, empty_cells, cells };
     let energy = match options.fairness {
         Fairness::Weight(0.0) => Stencil::new([0, 0], [0, 0]),
@@ -60,7 +60,7 @@ pub(super) fn solve(
         Fairness::Auto => Penalty::of(data, &normal, ground),
         Fairness::Weight(_) => None,
     };
-    let stiffness = known.map_or(hold::STIFFEST, |k| k.stiffness);
+    let stiffness = known.map_or(hold::MAX_PLATE_STIFFNESS, |k| k.stiffness);
     let mut system = System { data, normal, energy, hold, stiffness, right, support };
     let (fairness, degrees_of_freedom) = match (options.fairness, known) {
         (Fairness::Weight(w), _) => (w, None),
@@ -71,7 +71,7 @@ pub(super) fn solve(
         }
     };
     let mut points = system.refined(&system.factor(fairness, progress)?, fairness, progress)?;
-    for _ in 0..SOFTENED {
+    for _ in 0..SOFTENING_PASSES {
         let Some(softer) = system.softer(&points, degrees_of_freedom, progress)? else { break };
         system.stiffness = softer;
         points = system.refined(&system.factor(fairness, progress)?, fairness, progress)?;
@@ -87,7 +87,7 @@ pub(super) fn allowed(counts: [usize; 2], reach: [usize; 2], memory: usize) -> R
     }
 }
 
-/// What the matrix of so many control points takes; `None` where no number holds it.
+/// Memory that the matrix of so many control points takes; `None` where no number holds it.
 fn bytes(counts: [usize; 2], reach: [usize; 2]) -> Option<usize> {
     // The product bounds every other one here.
     let total = counts[0].checked_mul(counts[1])?.checked_mul(reach[0].max(reach[1]) + 1)?;
@@ -99,34 +99,34 @@ struct System<'a> {
     normal: Stencil,
     energy: Stencil,
     hold: Option<Penalty>,
-    /// Of what holds, as a share of what the points hold a control point with in the mean.
+    /// Stiffness of the plates, as a share of the points' mean hold on a control point.
     stiffness: f64,
     right: Vec<Point>,
     support: Support,
 }
 
 /// Control points up to which the degrees of freedom are counted one by one.
-const EXACT: usize = 300;
+const MAX_POINTS_COUNTED_EXACTLY: usize = 300;
 /// Random vectors that they are estimated by beyond, three at a time: each time is a pass over the points.
-const PROBES: usize = 12;
-/// Points to a control point from which on the first three do: the degrees of freedom, then known to about 3 %, are a small part of the
-/// number that they are subtracted from.
-const MANY: usize = 20;
+const RANDOM_PROBES: usize = 12;
+/// Points to a control point from which on the first three do. The degrees of freedom are then known to about 3 %, and
+/// are a small part of the number that they are subtracted from.
+const MIN_DENSITY_FOR_FEW_PROBES: usize = 20;
 /// How many times a degree of freedom counts: plain cross-validation takes noise for shape now and then.
-const COUNTED: f64 = 1.4;
+const FREEDOM_WEIGHT: f64 = 1.4;
 
 /// Exponent of the greatest weight that is tried.
-const STIFFEST: i32 = 4;
+const MAX_WEIGHT_EXPONENT: i32 = 4;
 /// Times its least that the sum of squares at blocks left out may be.
-const TRUSTED: f64 = 2.0;
+const MAX_SQUARES_RATIO: f64 = 2.0;
 
 impl System<'_> {
-    /// The weight of what holds control points where points are few.
+    /// The weight of the plates that hold control points where points are few.
     fn held_by(&self) -> f64 {
         self.stiffness * self.normal.trace() / self.energy.trace()
     }
 
-    /// The stiffness that suits what these control points leave of the points, where it is much less than the one there is.
+    /// The stiffness that suits the residuals of these control points, where it is much less than the one there is.
     fn softer(
         &self,
         points: &[Point],
@@ -172,8 +172,8 @@ impl System<'_> {
         (0..right.len()).map(|k| own[order.of(k)]).collect()
     }
 
-    /// The control points, corrected by what they leave of the points until that changes nothing: the equations square the
-    /// condition of the problem, the corrections take most of it back (Björck, Stability analysis of the method of
+    /// The control points, corrected by their residuals until that changes nothing. The equations square the condition
+    /// of the problem, and the corrections take most of it back. (Björck, Stability analysis of the method of
     /// semi-normal equations for linear least squares problems, Linear Algebra and its Applications 88/89, 1987).
     fn refined(
         &self,
@@ -203,13 +203,14 @@ impl System<'_> {
         Ok(points)
     }
 
-    /// The sums of what the surface of these control points leaves of the points.
+    /// The sums of the residuals of the surface of these control points.
     fn left_by(&self, points: &[Point], progress: &dyn Progress) -> Result<Sums, SurfaceError> {
         let patches = Patches::of(self.data.spans.clone(), points, self.data.counts[1]);
         Ok(self.data.left_by(&patches, progress)?)
     }
 
-    /// Adds what the other terms pull at these control points: `− weight · E p`, and `H (t − p)` where points are few.
+    /// Adds the pull of the other terms at these control points: `− weight · E p`, and `H (t − p)` where points are
+    /// few.
     fn pull(&self, to: &mut [Point], points: &[Point], weight: f64) {
         let mut add = |weight: f64, pull: Vec<Point>| {
             to.iter_mut().zip(pull).for_each(|(to, pull)| (0..3).for_each(|d| to[d] += weight * pull[d]));
@@ -226,7 +227,7 @@ impl System<'_> {
     /// The weight of least cross-validation, and the degrees of freedom with it.
     ///
     /// Weights are tried in steps of ten, then finer about the best. Sums of squares are those of one first surface
-    /// plus what the weight changes, so that points without noise lose no digits.
+    /// plus the change by the weight, so that points without noise lose no digits.
     fn automatic(&self, progress: &dyn Progress) -> Result<(f64, f64), SurfaceError> {
         let unit = self.normal.trace() / self.energy.trace();
         let mut start = -10;
@@ -260,11 +261,11 @@ impl System<'_> {
             // Rounding of the points themselves.
             let left = left.max(size * f64::EPSILON * f64::EPSILON);
             let dof = self.degrees_of_freedom(&factor, &probes);
-            let free = count - COUNTED * dof;
+            let free = count - FREEDOM_WEIGHT * dof;
             Ok((if free > 0.0 { left / (free * free) } else { f64::INFINITY }, dof))
         };
         let from = self.trusted(&base, &bent, (unit, start), progress)?;
-        let mut best = (f64::INFINITY, f64::from(STIFFEST), 0.0);
+        let mut best = (f64::INFINITY, f64::from(MAX_WEIGHT_EXPONENT), 0.0);
         let try_at = |exponent: f64, best: &mut (f64, f64, f64)| -> Result<(), SurfaceError> {
             let (value, dof) = score(unit * power(exponent))?;
             if value < best.0 {
@@ -272,14 +273,14 @@ impl System<'_> {
             }
             Ok(())
         };
-        for k in start..=STIFFEST {
+        for k in start..=MAX_WEIGHT_EXPONENT {
             if f64::from(k) >= from {
                 try_at(f64::from(k), &mut best)?;
             }
         }
         if best.0.is_infinite() {
             // No weight leaves freedom enough: the stiffest one.
-            let stiffest = unit * power(f64::from(STIFFEST));
+            let stiffest = unit * power(f64::from(MAX_WEIGHT_EXPONENT));
             return Ok((stiffest, score(stiffest)?.1));
         }
         for step in [0.5, 0.25] {
@@ -293,8 +294,8 @@ impl System<'_> {
         Ok((unit * power(best.1), best.2))
     }
 
-    /// The least exponent of the weight with which the surface can be relied upon between rows of points: from it on, what it is off
-    /// where blocks are left out is no more than twice the least of all weights.
+    /// The least exponent of the weight with which the surface can be relied upon between rows of points. From it on,
+    /// the residual where blocks are left out is no more than twice the least of all weights.
     fn trusted(
         &self,
         base: &[Point],
@@ -322,20 +323,20 @@ impl System<'_> {
             }
             Ok(sum)
         };
-        let exponents: Vec<f64> = (start..=STIFFEST).map(f64::from).collect();
+        let exponents: Vec<f64> = (start..=MAX_WEIGHT_EXPONENT).map(f64::from).collect();
         let off = exponents.iter().map(|e| off(*e)).collect::<Result<Vec<f64>, SurfaceError>>()?;
         let mut at = (0..off.len()).min_by(|a, b| off[*a].total_cmp(&off[*b])).unwrap_or(0);
-        let most = TRUSTED * off[at];
+        let most = MAX_SQUARES_RATIO * off[at];
         while at > 0 && off[at - 1] <= most {
             at -= 1;
         }
         Ok(exponents[at])
     }
 
-    /// What the trace is told by: unit vectors of all control points, or the sums of random signs of the points.
+    /// The probes of the trace: unit vectors of all control points, or the sums of random signs of the points.
     fn probes(&self, progress: &dyn Progress) -> Result<Vec<Vec<Point>>, SurfaceError> {
         let total = self.right.len();
-        if total <= EXACT {
+        if total <= MAX_POINTS_COUNTED_EXACTLY {
             let unit = |first: usize| {
                 (0..total).map(|k| std::array::from_fn(|d| f64::from(k == first + d))).collect()
             };
@@ -347,15 +348,15 @@ impl System<'_> {
                 std::array::from_fn(|d| if bits >> (20 * d + 3) & 1 == 0 { 1.0 } else { -1.0 })
             })
         };
-        let times = if self.data.len() < MANY * total { PROBES / 3 } else { 1 };
+        let times = if self.data.len() < MIN_DENSITY_FOR_FEW_PROBES * total { RANDOM_PROBES / 3 } else { 1 };
         (0..times).map(|time| Ok(signs(time)?)).collect()
     }
 
-    /// The trace of the matrix from points to fitted points; beyond [`EXACT`] control points the mean over random signs
-    /// (Girard, A fast Monte-Carlo cross-validation procedure for large least squares problems with noisy data, Numerische
-    /// Mathematik 56, 1989).
+    /// The trace of the matrix from points to fitted points. Beyond [`MAX_POINTS_COUNTED_EXACTLY`] control points it is
+    /// the mean over random signs. (Girard, A fast Monte-Carlo cross-validation procedure for large least squares
+    /// problems with noisy data, Numerische Mathematik 56, 1989).
     fn degrees_of_freedom(&self, factor: &Factor, probes: &[Vec<Point>]) -> f64 {
-        let exact = self.right.len() <= EXACT;
+        let exact = self.right.len() <= MAX_POINTS_COUNTED_EXACTLY;
         let mut sum = 0.0;
         for (n, probe) in probes.iter().enumerate() {
             let answer = self.solved(factor, probe);

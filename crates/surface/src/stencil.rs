@@ -3,8 +3,9 @@
 use trueness_geom::num::banded::Banded;
 use trueness_geom::space::Point;
 
-/// A symmetric matrix over a net: each control point `(i, j)` has an entry with `(i + a, j + b)` for `a` from 0 to the first reach and
-/// `b` within the second one. The other half follows from symmetry; of `a = 0` only `b ≥ 0` is used.
+/// A symmetric matrix over a net. Each control point `(i, j)` has an entry with `(i + a, j + b)`.
+/// `a` goes from 0 to the first reach, and `b` is within the second one. The other half follows from symmetry; of
+/// `a = 0` only `b ≥ 0` is used.
 ///
 /// Memory: `8 (p + 1) (2 q + 1)` bytes for each control point.
 #[derive(Clone, Debug)]

@@ -1,4 +1,4 @@
-//! Fits against reference coefficients, closed forms, and what must not happen.
+//! Fits against reference coefficients, closed forms, and things that must not happen.
 
 mod grain;
 mod holes;
@@ -178,7 +178,7 @@ fn automatic_fairness_leaves_the_noise_out() {
     assert!(error(&found) < 0.6 * error(&wild), "{} {}", error(&found), error(&wild));
     let dof = found.degrees_of_freedom.unwrap();
     assert!(dof > 30.0 && dof < 600.0, "{dof}");
-    // The noise itself is what is left.
+    // The residual is the noise itself.
     let rms = (found.sum_of_squares / (4000.0 - dof)).sqrt();
     assert!((rms - noise).abs() < 0.05 * noise, "{rms}");
     assert!(wild.degrees_of_freedom.is_none());
@@ -328,7 +328,7 @@ fn steep_ground_has_a_plane_without_layers() {
     // The noise is 0.0029 in height.
     let rms = pass::rms(&found.deviations);
     assert!(rms < 0.004, "{rms}");
-    // What has no such direction keeps its plane: a pipe with a slit.
+    // A pipe with a slit has no such direction, and keeps its plane.
     let pipe: Vec<Point> = (0..5000)
         .map(|_| (5.5 * random.unit(), 60.0 * random.unit()))
         .map(|(a, z)| [15.0 * a.cos(), z, 15.0 * a.sin()])
@@ -429,13 +429,13 @@ fn points_that_contradict_their_neighbors_are_left_out() {
     assert!(error(&plain) > 0.3 && error(&robust) < 0.1, "{} {}", error(&plain), error(&robust));
     let wrong = robust.left_out.iter().filter(|i| !i.is_multiple_of(20)).count();
     assert!(robust.left_out.len() - wrong == 250 && wrong < 3, "{wrong} of {}", robust.left_out.len());
-    // Of those left out, too, the distance is known.
+    // The distance of those left out is known, too.
     let foot = |i: &u32| robust.surface.at(robust.feet[*i as usize][0], robust.feet[*i as usize][1]);
     let apart = |i: &u32| norm(minus(points[*i as usize], foot(i))) - robust.deviations[*i as usize].abs();
     assert!(robust.left_out.iter().all(|i| apart(i).abs() < 1e-12));
 }
 
-/// The shape of a part is no outlier, whatever surface has too few knots for it; and what is left keeps to the tolerance.
+/// The shape of a part is no outlier, whatever surface has too few knots for it; and the rest keeps to the tolerance.
 #[test]
 fn features_are_no_outliers() {
     // A feature line 24 mm wide and 8 mm high.
@@ -458,7 +458,7 @@ fn features_are_no_outliers() {
     assert_eq!((found.reached, found.base.tilted), (Some(Reached::Tolerance), 0.0));
 }
 
-/// Of a cap the poles lie beyond its rim up to a half angle of 80°.
+/// The poles of a cap lie beyond its rim up to a half angle of 80°.
 #[test]
 fn points_near_a_pole_are_told() {
     let cap = |most: f64| -> Vec<Point> {

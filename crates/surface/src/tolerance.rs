@@ -7,16 +7,17 @@ use super::refine::{Halved, Round, Rounds, Task};
 use super::{BaseKind, Reached, SurfaceError, SurfaceFit};
 
 /// Control points from which on the surface is known well enough to tell its grain.
-const TOLD: usize = 300;
+const MIN_CONTROL_POINTS_OF_GRAIN: usize = 300;
 /// Directions nearer to the sides of the rectangle than this, in radians, are theirs.
-const ALIGNED: f64 = 0.003;
-/// Times that the rectangle is turned at most: what it is turned by is seen better where lines run along it.
-const TURNS: usize = 4;
+const ALIGNED_ANGLE: f64 = 0.003;
+/// Times that the rectangle is turned at most: its angle is seen better where lines run along it.
+const MAX_RECTANGLE_TURNS: usize = 4;
 
-/// Of two surfaces the one of fewer control points, less the knots that it can do without.
+/// The one of two surfaces with fewer control points, less the knots that it can do without.
 ///
-/// The cells of the one are halved along what bends, over a plane after its rectangle was turned to where it bends most. Those of
-/// the other stay about square; as it is the surer way to small deviations, it is the answer where none of them keeps to the tolerance.
+/// The cells of the one are halved along the main bends, over a plane after its rectangle was turned to where it bends
+/// most. Cells of the other stay about square. It is the surer way to small deviations, and so the answer where none of
+/// them keeps to the tolerance.
 pub(super) fn to_tolerance(
     task: Task,
     base: Base,
@@ -42,14 +43,15 @@ fn reached(found: &SurfaceFit) -> bool {
     found.reached == Some(Reached::Tolerance)
 }
 
-/// The surface whose cells are halved along what bends, over a rectangle turned along it; `None` where all ends at the noise.
+/// The surface whose cells are halved along its main bends, over a rectangle turned along them; `None` where all ends
+/// at the noise.
 fn along_what_bends(
     task: Task,
     mut base: Base,
     parameters: Vec<[f64; 2]>,
 ) -> Result<Option<SurfaceFit>, SurfaceError> {
     let mut rounds = Rounds::new(task, Halved::Bent, base, parameters);
-    let mut turns = if base.kind == BaseKind::Plane { TURNS } else { 0 };
+    let mut turns = if base.kind == BaseKind::Plane { MAX_RECTANGLE_TURNS } else { 0 };
     let mut best: Option<SurfaceFit> = None;
     loop {
         let round = rounds.next()?;
@@ -61,9 +63,9 @@ fn along_what_bends(
             best = Some(found.clone());
         }
         let noisy = found.reached == Some(Reached::Noise);
-        if turns > 0 && !noisy && (over || found.support.control_points >= TOLD) {
+        if turns > 0 && !noisy && (over || found.support.control_points >= MIN_CONTROL_POINTS_OF_GRAIN) {
             turns -= 1;
-            let aslant = |[a, b]: &[f64; 2]| a.abs().min(b.abs()) > libm::sin(ALIGNED);
+            let aslant = |[a, b]: &[f64; 2]| a.abs().min(b.abs()) > libm::sin(ALIGNED_ANGLE);
             if let Some(direction) = grain(found).filter(aslant) {
                 let (turned, parameters) = base::turned(task.points, &base, direction);
                 base = turned;

@@ -9,20 +9,20 @@ use trueness_geom::space::Point;
 use trueness_geom::spline::surface::{Patches, Surface};
 use trueness_geom::topology::union::Sets;
 
-/// Of the tolerance, for the rows and columns that facets are made of: at the outline a facet may reach over a little more than two of
-/// them in each direction, and its distance from the surface grows with the square.
-const FINER: f64 = 0.2;
+/// Share of the tolerance for the rows and columns that facets are made of. At the outline a facet may reach over a
+/// little more than two of them in each direction. Its distance from the surface grows with the square.
+const GRID_TOLERANCE_SHARE: f64 = 0.2;
 /// Nothing is added nearer to a place or side of the outline than this share of a cell: between them facets would be needles.
-const APART: f64 = 0.2;
+const MIN_DISTANCE_CELLS: f64 = 0.2;
 
 /// A place in the parameters.
 type Parameters = Point2<f64>;
 
 /// Facets of the surface within the outline, within `tolerance` of it; `None` if that takes more than `most`.
 ///
-/// Vertices are those of [`Surface::tessellate`] that lie inside and not close to the outline, and places of the outline where its rows and
-/// columns cross it; facets are those of their constrained Delaunay triangulation in the parameters, and look the way of the surface's
-/// normal. Parts that do not hang together share no vertex. Cost: `n log n`.
+/// Vertices are those of
+/// [`Surface::tessellate`] that lie inside and not close to the outline. Others are places of the outline where its rows and columns cross it. Facets are those of their constrained Delaunay triangulation in the parameters, and look the way of the surface's normal. Parts that do not hang together share no vertex. Cost: `n
+/// log n`.
 ///
 /// # Errors
 /// [`Cancelled`].
@@ -33,7 +33,7 @@ pub fn trimmed(
     most: usize,
     progress: &dyn Progress,
 ) -> Result<Option<Mesh>, Cancelled> {
-    let Some([us, vs]) = surface.grid(FINER * tolerance, most) else { return Ok(None) };
+    let Some([us, vs]) = surface.grid(GRID_TOLERANCE_SHARE * tolerance, most) else { return Ok(None) };
     let grid = Grid { lines: [&us, &vs] };
     let (mut places, mut edges) = (vec![], vec![]);
     let mut is_close = vec![false; us.len() * vs.len()];
@@ -100,7 +100,7 @@ fn inside(made: &ConstrainedDelaunayTriangulation<Parameters>, outline: &Outline
             *of_all = (area, [middle.x, middle.y]);
         }
     }
-    // What hangs together with the outer face, of number 0, is outside.
+    // Faces that hang together with the outer one, of number 0, are outside.
     let outer = sets.root(0);
     let holds: Vec<bool> =
         (0..).zip(&largest).map(|(i, (area, at))| i != outer && *area > 0.0 && outline.holds(*at)).collect();
@@ -138,7 +138,8 @@ impl Grid<'_> {
         }
         crossings.sort_by(|x, y| x.0.total_cmp(&y.0));
         places.push(a);
-        let is_apart = |p: [f64; 2], q: [f64; 2]| self.cells(p, q).iter().any(|x| x.abs() > APART);
+        let is_apart =
+            |p: [f64; 2], q: [f64; 2]| self.cells(p, q).iter().any(|x| x.abs() > MIN_DISTANCE_CELLS);
         let mut last = a;
         for (_, place) in crossings {
             if is_apart(place, last) && is_apart(place, b) {
@@ -159,7 +160,7 @@ impl Grid<'_> {
             for j in around(1) {
                 let node = [self.lines[0][i], self.lines[1][j]];
                 let [to_a, to_b] = [a, b].map(|p| self.cells(node, p));
-                if from_segment([0.0; 2], to_a, to_b) < APART {
+                if from_segment([0.0; 2], to_a, to_b) < MIN_DISTANCE_CELLS {
                     take([i, j]);
                 }
             }

@@ -1,4 +1,4 @@
-//! Surfaces through points: what lies beyond their border, and where a sphere's poles come to lie.
+//! Surfaces through points: points beyond their border, and where a sphere's poles come to lie.
 #![allow(clippy::unwrap_used)]
 
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -70,7 +70,8 @@ fn patch(kind: usize, random: &mut Random) -> (Vec<Point>, BaseKind, f64) {
     (points, base, noise)
 }
 
-/// Deviations are the distances from the surface as a search on its own has them, none of them along it; and hardly a point is excluded.
+/// Deviations are the distances from the surface as a search on its own has them, none of them along it. Hardly a point
+/// is excluded.
 #[test]
 fn deviations_hold_nothing_along_the_surface() {
     let (mut beyond, mut all, mut along) = (0, 0, 0);

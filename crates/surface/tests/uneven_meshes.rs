@@ -1,4 +1,5 @@
-//! Meshes of long facets, and of facets that occur twice: curvatures and signs are those of what they stand for.
+//! Meshes of long facets, and of facets that occur twice: curvatures and signs are those of the surfaces that they
+//! stand for.
 #![allow(clippy::unwrap_used)]
 
 use std::collections::BTreeMap;

@@ -57,7 +57,7 @@ fn segment(record: &SegmentRecord) -> Option<Segment> {
 mod tests {
     use super::super::segment::segment_record;
     use super::*;
-    use trueness_section::Taken;
+    use trueness_section::RowKind;
 
     /// Lines, arcs and splines come back as they were, to the last bit.
     #[test]
@@ -73,7 +73,7 @@ mod tests {
         let geometry = Geometry::Spline { curve, deviation: 0.01 };
         let spline = Segment { geometry, curvature: [0.5, -0.5], ..line.clone() };
         for made in [line, arc, spline] {
-            assert_eq!(segment(&segment_record(&made, Taken::Facets)), Some(made));
+            assert_eq!(segment(&segment_record(&made, RowKind::Facets)), Some(made));
         }
     }
 }

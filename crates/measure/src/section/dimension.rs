@@ -3,7 +3,7 @@
 use super::found::Section;
 use crate::words::ToWord;
 use trueness_document::section::{DimensionRecord, DimensionsRecord, MemberRecord};
-use trueness_section::{Dimension, DimensionKind, Taken, dimensions};
+use trueness_section::{Dimension, DimensionKind, RowKind, dimensions};
 
 /// Dimensions that are listed.
 const LISTED: usize = 1000;
@@ -24,7 +24,7 @@ pub fn dimensions_record(sections: &[Section]) -> DimensionsRecord {
 }
 
 fn record(found: &Dimension, section: &Section, before: usize) -> DimensionRecord {
-    let exact = found.of.iter().any(|o| section.contours[o[0]].taken == Taken::Facets);
+    let exact = found.of.iter().any(|o| section.contours[o[0]].row_kind == RowKind::Facets);
     let reason = match (found.uncertainty, found.kind) {
         (Some(_), _) => None,
         (None, _) if exact => Some("facets of a drawing carry no random noise"),

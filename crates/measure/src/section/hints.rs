@@ -1,7 +1,7 @@
 //! What to heed about a contour, each with what may help.
 
 use super::found::Section;
-use trueness_section::{Bent, Contour, Geometry, Options, Taken};
+use trueness_section::{Bent, Contour, Geometry, Options, RowKind};
 
 /// A row lies in no plane whose points are farther off it than so many standard deviations of their scatter in it, and than this share of
 /// its length.
@@ -33,7 +33,7 @@ pub(super) fn hints(section: &Section, found: &Contour, bent: &[Bent], options: 
 fn shared(found: &Contour) -> Option<String> {
     let count = found.segments.iter().map(|s| s.count).sum::<usize>() as f64;
     let alike = count / found.independent.max(1.0);
-    (found.taken == Taken::Row && found.independent > 0.0 && alike > ALIKE).then(|| {
+    (found.row_kind == RowKind::Row && found.independent > 0.0 && alike > ALIKE).then(|| {
         format!(
             "neighbors share noise, as of filtered profiles: {alike:.1} points tell as much as an independent one, and ± says so; \
              give --noise if they are independent"

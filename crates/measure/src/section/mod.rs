@@ -34,7 +34,7 @@ use trueness_document::section::{
 };
 use trueness_document::{InputRecord, UNITS, VERSION};
 use trueness_geom::progress::{Cancelled, Progress};
-use trueness_section::{Contour, Method, Options, Search, SegmentKind, Taken};
+use trueness_section::{Contour, Method, Options, RowKind, Search, SegmentKind};
 
 /// The document of what was found in the file of `inputs`.
 pub fn document(sections: &[Section], inputs: Vec<InputRecord>, options: &Options) -> SectionDocument {
@@ -73,7 +73,7 @@ pub fn document(sections: &[Section], inputs: Vec<InputRecord>, options: &Option
 
 /// Adds the noise of the mesh's vertices, or why none is told; of contours that no scan's facets tell, nothing.
 pub fn tell_noise(document: &mut SectionDocument, noise: Option<&NoiseOrReason>) {
-    let of_scan = document.contours.iter().any(|c| c.taken.0 == Taken::Scan.word().0);
+    let of_scan = document.contours.iter().any(|c| c.taken.0 == RowKind::Scan.word().0);
     if let Some(noise) = noise.filter(|_| of_scan) {
         (document.shared_noise, document.shared_noise_reason) = noise_record(noise);
     }
@@ -195,13 +195,13 @@ fn contour(found: &Contour, frame: &FrameRecord, plane: Option<u64>) -> ContourR
     };
     ContourRecord {
         plane,
-        taken: found.taken.word(),
+        taken: found.row_kind.word(),
         closed: found.closed,
         length: found.length(),
         noise: found.noise,
         spacing: found.spacing,
         points: found.labels.len() as u64,
-        segments: found.segments.iter().map(|s| segment_record(s, found.taken)).collect(),
+        segments: found.segments.iter().map(|s| segment_record(s, found.row_kind)).collect(),
         joins,
         joins_reason: reason.map(Into::into),
         outliers: numbers(&found.outliers),
@@ -209,7 +209,7 @@ fn contour(found: &Contour, frame: &FrameRecord, plane: Option<u64>) -> ContourR
         repeated: numbers(&found.repeated),
         gaps: numbers(&found.gaps),
         crossings: found.crossings.clone(),
-        astray: numbers(&found.astray),
+        astray: numbers(&found.unreliable),
         doubts: vec![],
         hints: vec![],
         tidy: None,

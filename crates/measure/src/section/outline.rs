@@ -3,7 +3,7 @@
 use super::convert::outline;
 use super::segment::segment_record;
 use trueness_document::section::OutlineRecord;
-use trueness_section::{Contour, OffNominal, Outline, Passed, Taken, covered};
+use trueness_section::{Contour, MatchedRow, OffNominal, Outline, RowKind, covered};
 
 /// What the points of a contour were measured against.
 #[derive(Clone, Debug)]
@@ -30,15 +30,15 @@ pub struct AgainstPlane<'a> {
 }
 
 /// The row of a contour.
-fn passed<'a>(c: &'a Against) -> Passed<'a> {
+fn passed<'a>(c: &'a Against) -> MatchedRow<'a> {
     // Facets lie across the gaps between points of a mesh.
-    let gaps = if c.contour.taken == Taken::Row { &c.contour.gaps[..] } else { &[] };
-    Passed { points: c.points, found: &c.found, closed: c.contour.closed, gaps }
+    let gaps = if c.contour.row_kind == RowKind::Row { &c.contour.gaps[..] } else { &[] };
+    MatchedRow { points: c.points, found: &c.found, closed: c.contour.closed, gaps }
 }
 
 /// The outlines of a plane.
 pub(super) fn records(against: AgainstPlane) -> Vec<OutlineRecord> {
-    let rows: Vec<Passed> = against.contours.iter().map(passed).collect();
+    let rows: Vec<MatchedRow> = against.contours.iter().map(passed).collect();
     let found = covered(&rows, &against.outlines);
     let plane = against.plane;
     (against.outlines.into_iter().zip(found))
@@ -55,7 +55,7 @@ pub(super) fn records(against: AgainstPlane) -> Vec<OutlineRecord> {
                 points: covered.points as u64,
                 covered: if length > 0.0 { (covered.length() / length).min(1.0) } else { 0.0 },
                 measured: covered.stretches,
-                drawn: drawn.segments.iter().map(|s| segment_record(s, Taken::Facets)).collect(),
+                drawn: drawn.segments.iter().map(|s| segment_record(s, RowKind::Facets)).collect(),
             }
         })
         .collect()

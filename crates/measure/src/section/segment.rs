@@ -2,11 +2,11 @@
 
 use super::near_arc::near_arc;
 use trueness_document::section::{GeometryRecord, SegmentRecord, UncertaintyRecord};
-use trueness_section::{Geometry, Segment, SegmentKind, Taken, Uncertainty};
+use trueness_section::{Geometry, RowKind, Segment, SegmentKind, Uncertainty};
 
 /// The record of a segment.
-/// A segment of a contour whose points were `taken` for this.
-pub(super) fn segment_record(found: &Segment, taken: Taken) -> SegmentRecord {
+/// A segment of a contour whose row is of this kind.
+pub(super) fn segment_record(found: &Segment, row_kind: RowKind) -> SegmentRecord {
     let (start, end) = (found.start, found.end);
     let geometry = match &found.geometry {
         Geometry::Line => GeometryRecord::Line { angle: found.angle() },
@@ -20,23 +20,23 @@ pub(super) fn segment_record(found: &Segment, taken: Taken) -> SegmentRecord {
             deviation: *deviation,
         },
     };
-    let near_arc = match (&found.geometry, taken) {
-        (Geometry::Spline { curve, .. }, Taken::Row | Taken::Scan) => near_arc(curve, found.length),
+    let near_arc = match (&found.geometry, row_kind) {
+        (Geometry::Spline { curve, .. }, RowKind::Row | RowKind::Scan) => near_arc(curve, found.length),
         _ => None,
     };
     let uncertainty = found.uncertainty.map(|u| match u {
         Uncertainty::Line { angle } => UncertaintyRecord::Line { angle },
         Uncertainty::Arc { center, radius } => UncertaintyRecord::Arc { center, radius },
     });
-    let reason = match (found.geometry.kind(), taken) {
+    let reason = match (found.geometry.kind(), row_kind) {
         _ if uncertainty.is_some() => None,
         (SegmentKind::Spline, _) => Some("a spline is not known by single numbers"),
-        (_, Taken::Facets) => Some("facets of a drawing carry no random noise"),
+        (_, RowKind::Facets) => Some("facets of a drawing carry no random noise"),
         _ => Some("the points alone do not tell it"),
     };
-    let unknown_length = match (found.length_uncertainty, taken) {
+    let unknown_length = match (found.length_uncertainty, row_kind) {
         (Some(_), _) => None,
-        (None, Taken::Facets) => Some("facets of a drawing carry no random noise"),
+        (None, RowKind::Facets) => Some("facets of a drawing carry no random noise"),
         (None, _) => Some("it ends where the points end, or they do not tell its ends"),
     };
     SegmentRecord {

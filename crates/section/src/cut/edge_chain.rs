@@ -12,7 +12,7 @@ pub(super) struct EdgeChain {
 }
 
 /// No step begins at the edge.
-const NONE: u32 = u32::MAX;
+const NO_STEP: u32 = u32::MAX;
 
 /// The chains that steps from one edge to another make, each step in one of them. Where several begin at the same edge, they are
 /// taken in the order of the list. Open chains come first, each from an edge where no step ends.
@@ -37,7 +37,7 @@ pub(super) fn edge_chains(steps: &[[Edge; 2]]) -> Vec<EdgeChain> {
     // For each step the run where it ends; for each run whether a step ends there.
     let mut by_end: Vec<(Edge, u32)> = steps.iter().zip(0..).map(|(step, n)| (step[1], n)).collect();
     by_end.sort_unstable();
-    let mut end_run = vec![NONE; steps.len()];
+    let mut end_run = vec![NO_STEP; steps.len()];
     let mut arrived = vec![false; runs.len()];
     let mut run = 0;
     for (edge, n) in by_end {
@@ -74,7 +74,7 @@ fn follow(
 ) -> EdgeChain {
     let mut edges = vec![by_start[runs[first as usize][0] as usize].0];
     let mut now = first;
-    while now != NONE && runs[now as usize][0] < runs[now as usize][1] {
+    while now != NO_STEP && runs[now as usize][0] < runs[now as usize][1] {
         let step = by_start[runs[now as usize][0] as usize].1 as usize;
         runs[now as usize][0] += 1;
         now = end_run[step];

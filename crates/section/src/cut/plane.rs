@@ -1,9 +1,9 @@
 //! Where a plane cuts a mesh: closed loops out of closed meshes, by the identity of edges.
 //!
-//! Vertices are above, below or on the plane, decided exactly. One rule settles what is on it: it counts as above, as if the
-//! plane were lower by less than any number. So a facet is cut in no or in two edges, never in a vertex, and a facet in the
-//! plane is not cut at all; the loops of a closed mesh close, whatever the plane passes through. The place of a cut edge is
-//! computed once, from its lower-numbered end, and shared by the facets on both sides.
+//! Vertices are above, below or on the plane, decided exactly. One rule settles places on it: they count as above, as
+//! if the plane were lower by less than any number. So a facet is cut in no or in two edges, never in a vertex. A facet
+//! in the plane is not cut at all. The loops of a closed mesh close, whatever the plane passes through. The place of a
+//! cut edge is computed once, from its lower-numbered end, and shared by the facets on both sides.
 
 use super::edge_chain::{Edge, EdgeChain, edge_chains};
 use trueness_geom::mesh::Mesh;
@@ -132,8 +132,8 @@ fn place(mesh: &Mesh, plane: &Plane, edge: Edge) -> Point {
 
 /// Area inside closed chains, holes taken off, seen against the normal of the frame.
 ///
-/// Each chain counts by the way it runs round: what several enclose, as where shells overlap or are doubled, counts as often, and chains of
-/// shells turned inside out count below 0. Open chains do not count.
+/// Each chain counts by the way it runs round. An area that several enclose, as where shells overlap or are doubled,
+/// counts as often, and chains of shells turned inside out count below 0. Open chains do not count.
 pub fn area(chains: &[Chain], frame: &PlaneFrame) -> f64 {
     let twice = |chain: &Chain| -> f64 {
         let flat: Vec<[f64; 2]> = chain.points.iter().map(|p| frame.flat(*p)).collect();

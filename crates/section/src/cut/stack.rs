@@ -1,28 +1,28 @@
 //! Which facets of a mesh each of many planes may cut.
 //!
-//! Most planes of a stack meet few facets. The heights of all vertices over planes of one normal are computed once; each facet
-//! goes to the planes between its lowest and its highest vertex. Heights are rounded, so they only exclude, beyond an error
-//! bound; what is above and below is decided exactly where the plane cuts.
+//! Most planes of a stack meet few facets. The heights of all vertices over planes of one normal are computed once.
+//! Each facet goes to the planes between its lowest and its highest vertex. Heights are rounded, so they only exclude,
+//! beyond an error bound. Above and below are decided exactly where the plane cuts.
 
 use trueness_geom::mesh::Mesh;
 use trueness_geom::plane::Plane;
 use trueness_geom::progress::{Cancelled, Progress};
 
-/// Facets after which it is asked whether to stop.
-const ASKED: usize = 65536;
+/// Facets after which the search asks whether to stop.
+const FACETS_PER_STOP_CHECK: usize = 65536;
 
 /// Numbers of facets that are held at a time, but those of one plane: 64 MB of them.
-const ROOM: usize = 1 << 24;
+const MAX_FACET_NUMBERS: usize = 1 << 24;
 
 /// For each plane the numbers of the facets that it may cut, in ascending order: all that it does cut, and few more.
 ///
-/// They come plane by plane, each once, as many at a time as memory may hold: the number of the plane in `planes`, and its facets.
-/// Facets that name no vertex are in no list; of coordinates that are no numbers nothing is promised but that they are none of a
-/// cut. Cost: for each normal one pass over the vertices and, for every 16 million numbers, one over the facets, then as many steps
-/// as the lists are long.
+/// They come plane by plane, each once, as many at a time as memory may hold. An entry is the number of the plane in
+/// `planes`, and its facets. Facets that name no vertex are in no list. Nothing is promised of coordinates that are no
+/// numbers but that they are none of a cut. Cost: for each normal one pass over the vertices and, for every 16 million
+/// numbers, one over the facets. Then it takes as many steps as the lists are long.
 ///
 /// # Errors
-/// [`Cancelled`], when asked to stop, and what `each` gives.
+/// [`Cancelled`], when asked to stop, and the errors of `each`.
 ///
 /// ```
 /// use trueness_geom::{mesh::Mesh, plane::Plane, progress::{Cancelled, Silent}};
@@ -63,14 +63,14 @@ pub fn facets_near<E: From<Cancelled>>(
         let mut from = 0;
         while from < own.len() {
             let mut to = from + 1;
-            let mut room = ROOM.saturating_sub(counts[from]);
+            let mut room = MAX_FACET_NUMBERS.saturating_sub(counts[from]);
             while to < own.len() && counts[to] <= room {
                 room -= counts[to];
                 to += 1;
             }
             let mut lists: Vec<Vec<u32>> = counts[from..to].iter().map(|n| Vec::with_capacity(*n)).collect();
             for (n, range) in between.iter().enumerate() {
-                if n % ASKED == 0 && progress.cancelled() {
+                if n % FACETS_PER_STOP_CHECK == 0 && progress.cancelled() {
                     return Err(Cancelled.into());
                 }
                 for k in range[0].max(from as u32)..range[1].min(to as u32) {
@@ -94,7 +94,7 @@ fn between(
     let heights: Vec<[f64; 2]> = mesh.positions.iter().map(|p| height(normal, *p)).collect();
     let mut all = Vec::with_capacity(mesh.faces.len());
     for (n, face) in mesh.faces.iter().enumerate() {
-        if n % ASKED == 0 && progress.cancelled() {
+        if n % FACETS_PER_STOP_CHECK == 0 && progress.cancelled() {
             return Err(Cancelled);
         }
         let [Some(a), Some(b), Some(c)] = face.map(|v| heights.get(v as usize)) else {
@@ -126,7 +126,7 @@ fn counts(between: &[[u32; 2]], planes: usize) -> Vec<usize> {
         .collect()
 }
 
-/// Between what the height of a place along a normal lies: three products and two sums are rounded.
+/// The bounds of the height of a place along a normal: three products and two sums are rounded.
 fn height(normal: [f64; 3], p: [f64; 3]) -> [f64; 2] {
     let terms = [normal[0] * p[0], normal[1] * p[1], normal[2] * p[2]];
     let sum: f64 = terms.iter().sum();
@@ -166,8 +166,8 @@ mod tests {
         }
         planes.push(Plane { normal: [f64::NAN; 3], offset: 0.0 });
         let mut near = vec![None; planes.len()];
-        facets_near::<Cancelled>(&mesh, &planes, &Silent, |some| {
-            some.into_iter().for_each(|(plane, facets)| assert!(near[plane].replace(facets).is_none()));
+        facets_near::<Cancelled>(&mesh, &planes, &Silent, |batch| {
+            batch.into_iter().for_each(|(plane, facets)| assert!(near[plane].replace(facets).is_none()));
             Ok(())
         })
         .unwrap();

@@ -1,44 +1,45 @@
-//! Contours of sections of meshes: exact lines and arcs where the facets are those of a drawing, a row of points where they
-//! are those of a scan.
+//! Contours of sections of meshes. They are exact lines and arcs where the facets are those of a drawing. They are a
+//! row of points where the facets are those of a scan.
 
 use super::plane::Chain;
 use super::scan::{CutMesh, ScanRow};
 use crate::model::chain::SegmentKind;
 use crate::model::flat::{distance, off_line};
-use crate::model::prior::{Known, Prior};
-use crate::model::result::{Contour, Join, Options, SectionError, Segment, Taken};
+use crate::model::prior::{KnownNoise, Prior};
+use crate::model::result::{Contour, Join, Options, RowKind, SectionError, Segment};
 use crate::row::clean::check;
 use crate::row::contour::{contour, contour_with};
 use crate::row::direction::from_the_end;
-use crate::row::facets::{Item, LineOrArc, Polygon, SHARP};
+use crate::row::facets::{Item, LineOrArc, Polygon, SHARP_TURN};
 use crate::row::sheet::{Sheet, nearest, starts};
 use std::cell::OnceCell;
 use trueness_geom::plane::PlaneFrame;
 use trueness_geom::progress::Progress;
 
 /// A polyline of fewer vertices is taken as it is where no noise is known: points so few tell none.
-const FEW: usize = 9;
+const MIN_VERTICES_TO_TELL_NOISE: usize = 9;
 /// Facets are those of a drawing where this share of the points lies on straight runs or between the chords of arcs.
-const EXACT: f64 = 0.3;
+const MIN_EXACT_SHARE: f64 = 0.3;
 /// So many facets and arcs that meet in a turn, but no sharp one, or so many arcs in succession, are chords of a curve.
-const CURVE: (usize, usize) = (8, 3);
+const MIN_FACETS_AND_ARCS_OF_CURVE: (usize, usize) = (8, 3);
 
 /// The lines, arcs and curves of a chain in which a plane cuts a mesh.
 ///
-/// `frame` is that of the plane; `mesh` the one that the chain was cut from. The chain's points carry no
-/// random noise where the facets are those of a drawing: then the edges of flat faces are lines, exactly, chords whose ends
-/// lie on a circle are an arc, and only what is neither is looked at as a row of points, with the distance between chords and
-/// curve as what cannot be told from 0. A chain of many facets of which hardly two follow each other straight or around a
-/// circle is that of a scan, and so is one of flat faces of many facets beside curves that no edges run along. Then all crossings,
-/// moved onto the surface between the vertices, are a row as [`contour`] takes it, each with the weight that the noise its
-/// neighbors share leaves it; so too where `options` give the noise or a continuity. [`Contour::taken`] tells which it was.
+/// `frame` is that of the plane; `mesh` the one that the chain was cut from. The chain's points carry no random noise
+/// where the facets are those of a drawing. Then the edges of flat faces are lines, exactly, and chords whose ends lie
+/// on a circle are an arc. Only the rest is looked at as a row of points; distances up to that between chords and curve
+/// are then not told from 0. A chain of many facets of which hardly two follow each other straight or around a circle
+/// is that of a scan. So is one of flat faces of many facets beside curves that no edges run along. Then all crossings,
+/// moved onto the surface between the vertices, are a row as
+/// [`contour`] takes it. Each has the weight that the noise its neighbors share leaves it; so too where `options` give
+/// the noise or a continuity. [`Contour::row_kind`] tells which it was.
 ///
 /// Labels, residuals and stations are those of the chain's points. Intervals of joins of exact lines and arcs are where
 /// the two are no farther apart than rounding.
 /// Chains that are not of the mesh are rows of their points as they are.
 ///
 /// # Errors
-/// Those of [`contour`]; a chain of at least two points has at least a line.
+/// The errors of [`contour`]; a chain of at least two points has at least a line.
 pub fn chain_contour(
     chain: &Chain,
     frame: &PlaneFrame,
@@ -104,26 +105,26 @@ fn in_direction(
     let mut places = points.clone();
     kept.iter().zip(&row).for_each(|(i, p)| places[*i] = *p);
     let free_form = mesh.free_form;
-    let find = |noise: Option<Known>| {
+    let find = |noise: Option<KnownNoise>| {
         let found = contour_with(&row, &Prior { noise, weights: Some(&weights), free_form }, &own, progress)?;
         let found = Contour { moved: places.clone(), ..found };
         Ok(within_facets(spread(found, &kept, noise, &places), &points))
     };
-    let known = Known::given(options).or(noise);
+    let known = KnownNoise::stated(options).or(noise);
     let first = find(known);
     // Where the noise of the whole mesh is not that of the section, this tells its own.
-    let astray = first.as_ref().map_or(0, |c| c.astray.len());
-    let most = HIDDEN * known.map_or(0.0, |n| n.deviation);
-    let found = match options.noise.is_none() && mesh.scatters && known.is_some() && astray > 0 {
+    let unreliable = first.as_ref().map_or(0, |c| c.unreliable.len());
+    let most = MAX_KNOWN_NOISES * known.map_or(0.0, |n| n.deviation);
+    let found = match options.noise.is_none() && mesh.scatters && known.is_some() && unreliable > 0 {
         true => match find(None) {
-            Ok(other) if other.astray.len() <= astray && other.noise <= most => Ok(other),
+            Ok(other) if other.unreliable.len() <= unreliable && other.noise <= most => Ok(other),
             Err(SectionError::Cancelled(e)) => Err(e.into()),
             _ => first,
         },
         false => first,
     };
     match found {
-        // What is too short for a row, as a loop around one vertex, is its lines, whatever the options.
+        // A chain too short for a row, as a loop around one vertex, is its lines, whatever the options.
         Err(SectionError::TooFewPoints { .. }) if polygon.at.len() >= 2 => {
             let items = polygon.items(rounding);
             Sheet { points: &points, polygon, rounding, options }.contour(&items, progress)
@@ -135,20 +136,24 @@ fn in_direction(
 fn is_exact(points: &[[f64; 2]], polygon: &Polygon, items: &[Item], mesh: &CutMesh) -> bool {
     let straight = points.len() - polygon.at.len();
     let chords: usize = items.iter().filter(|i| i.shape != LineOrArc::Line).map(|i| i.to - i.from - 1).sum();
-    let enough = |count: usize| count as f64 >= EXACT * points.len() as f64;
-    let is_short = polygon.at.len() < FEW && !mesh.scatters;
+    let enough = |count: usize| count as f64 >= MIN_EXACT_SHARE * points.len() as f64;
+    let is_short = polygon.at.len() < MIN_VERTICES_TO_TELL_NOISE && !mesh.scatters;
     is_short || enough(straight + chords) || enough(straight + polygon.round(mesh.rounding()))
 }
 
-/// Flat faces of so many facets each, cut at even distances to this factor for so many percent, are those of a mesh of a surface, not
-/// of a drawing, where lines of no more than so many steps are between others: chords of curves that the edges do not run along, or the bevels of corners
-/// that no edge runs along. Where more chords are those of circles the vertices are a drawing's.
-const FLAT: usize = 8;
-const EVEN: f64 = 4.0;
-const NEARLY: usize = 98;
-const STEPS: f64 = 2.5;
-/// Where vertices scatter, smooth noise leaves a few crossings on a line or circle by chance, to rounding; those of a drawing are more.
-const EACH: usize = 6;
+/// Flat faces of so many facets each, cut at even distances, are those of a mesh of a surface, not of a drawing.
+const MIN_STEPS_ON_FLAT_FACE: usize = 8;
+/// Distances are even to this factor.
+const MAX_EVEN_RATIO: f64 = 4.0;
+/// So many percent of the distances are even.
+const EVEN_PERCENT: usize = 98;
+/// Lines of no more than so many steps are between others. They are chords of curves that the edges do not run along,
+/// or the bevels of corners that no edge runs along. Where more chords are those of circles the vertices are a
+/// drawing's.
+const MAX_SHORT_LINE_STEPS: f64 = 2.5;
+/// Where vertices scatter, smooth noise leaves a few crossings on a line or circle by chance, to rounding; those of a drawing are
+/// more.
+const MIN_POINTS_PER_ITEM: usize = 6;
 
 fn is_remeshed(points: &[[f64; 2]], polygon: &Polygon, items: &[Item], scatters: bool) -> bool {
     let n = points.len();
@@ -161,43 +166,48 @@ fn is_remeshed(points: &[[f64; 2]], polygon: &Polygon, items: &[Item], scatters:
         let steps = (number(item.to) + n - number(item.from)) % n;
         if item.shape != LineOrArc::Line {
             chords += item.to - item.from;
-        } else if steps >= FLAT {
+        } else if steps >= MIN_STEPS_ON_FLAT_FACE {
             flat += steps;
-        } else if distance(polygon.vertex(item.from), polygon.vertex(item.to)) <= STEPS * middle {
+        } else if distance(polygon.vertex(item.from), polygon.vertex(item.to))
+            <= MAX_SHORT_LINE_STEPS * middle
+        {
             short += 1;
         }
     }
-    let is_flat = flat as f64 >= EXACT * n as f64 && short > chords;
-    scatters && n < EACH * items.len() || n >= 3 * FEW && is_flat && is_even(points)
+    let is_flat = flat as f64 >= MIN_EXACT_SHARE * n as f64 && short > chords;
+    scatters && n < MIN_POINTS_PER_ITEM * items.len()
+        || n >= 3 * MIN_VERTICES_TO_TELL_NOISE && is_flat && is_even(points)
 }
 
 /// Whether a plane cuts the facets at even distances, as those of a mesh of a surface.
 fn is_even(points: &[[f64; 2]]) -> bool {
     let mut sizes: Vec<f64> = points.windows(2).map(|w| distance(w[0], w[1])).collect();
     sizes.sort_by(f64::total_cmp);
-    sizes[NEARLY * (sizes.len() - 1) / 100] <= EVEN * sizes[sizes.len() / 2]
+    sizes[EVEN_PERCENT * (sizes.len() - 1) / 100] <= MAX_EVEN_RATIO * sizes[sizes.len() / 2]
 }
 
 /// Noises of the points that a contour was found from, beyond which others lie off it: the contour does not run there.
-const MISSED: f64 = 20.0;
+const OFF_CONTOUR_NOISES: f64 = 20.0;
 
 /// Points of a segment, so many at least, that scatter by more noises than this about it do not follow it.
-const SCATTERED: (usize, f64) = (8, 2.0);
+const MIN_POINTS_AND_NOISES_OF_SCATTER: (usize, f64) = (8, 2.0);
 
-/// What scatters by more than so many known noises hides form.
-const HIDDEN: f64 = 1.5;
+/// Scatter of more than so many known noises hides form.
+const MAX_KNOWN_NOISES: f64 = 1.5;
 
-/// Between vertices on a curve a chord lies off it by a quarter of what the vertices lie off the chord between their neighbors. Points within facets
-/// are off by no more than this share of that in the root mean square; at most, and where they lie in and out by turns, by twice as much.
-const WITHIN: [f64; 2] = [0.25, 0.5];
-/// Points on edges around and across a curve lie in and out by turns: the products of neighboring distances sum to less than this share of the
-/// squares. Those of noise do so once in 300 rows of 80 points.
-const BY_TURNS: f64 = -0.3;
+/// Vertices on a curve lie off the chord between their neighbors. A chord between them lies off the curve by a quarter
+/// of that. Points within facets are off by no more than the first share of that in the root mean square. They are off
+/// by the second at most, and where they lie in and out by turns.
+const MAX_SAGITTA_SHARES: [f64; 2] = [0.25, 0.5];
+/// Points on edges around and across a curve lie in and out by turns. The products of neighboring distances sum to less
+/// than this share of the squares. Products of noise do so once in 300 rows of 80 points.
+const MAX_PRODUCT_BY_TURNS: f64 = -0.3;
 /// A line or arc that runs along its points is as long as the way through them, to this factor.
-const AS_LONG: f64 = 1.25;
+const MAX_WAY_RATIO_OF_SEGMENT: f64 = 1.25;
 
-/// Lines and arcs whose points lie off them by no more than facets lie off the curve they stand for run along these: what looks like hidden form
-/// there, with the period of the facets, is the facets'. Points of a scan, whose heights are its noise, lie farther off.
+/// Lines and arcs whose points lie off them by no more than facets lie off the curve they stand for run along these. An
+/// apparent form there, with the period of the facets, is the facets'. Points of a scan, whose heights are its noise,
+/// lie farther off.
 fn within_facets(contour: Contour, points: &[[f64; 2]]) -> Contour {
     let (n, mut all) = (points.len(), contour);
     let inner = if all.closed { 0..n } else { 1..n.saturating_sub(1) };
@@ -215,24 +225,25 @@ fn within_facets(contour: Contour, points: &[[f64; 2]]) -> Contour {
     let (segments, ends) = (&all.segments, if all.closed { 0.0 } else { 2.0 * all.spacing });
     let runs_along = |k: &usize| {
         let (s, [sum, most], way) = (&segments[*k], heights[*k], ways[*k]);
-        let as_long = s.length <= AS_LONG * way + ends && way <= AS_LONG * s.length + ends;
+        let as_long = s.length <= MAX_WAY_RATIO_OF_SEGMENT * way + ends
+            && way <= MAX_WAY_RATIO_OF_SEGMENT * s.length + ends;
         let rms = (sum / s.count.max(1) as f64).sqrt();
-        let share = WITHIN[usize::from(products[*k][0] < BY_TURNS * products[*k][1])];
+        let share = MAX_SAGITTA_SHARES[usize::from(products[*k][0] < MAX_PRODUCT_BY_TURNS * products[*k][1])];
         s.geometry.kind() != SegmentKind::Spline
             && as_long
             && s.rms <= share * rms
-            && s.max <= WITHIN[1] * most
+            && s.max <= MAX_SAGITTA_SHARES[1] * most
     };
-    let astray = all.astray.iter().copied().filter(|k| !runs_along(k)).collect();
-    all.astray = astray;
+    let unreliable = all.unreliable.iter().copied().filter(|k| !runs_along(k)).collect();
+    all.unreliable = unreliable;
     all
 }
 
-/// A contour found from some of the points, of this noise where it is known, for all of them. Segments that others lie far off are astray.
-fn spread(found: Contour, kept: &[usize], known: Option<Known>, points: &[[f64; 2]]) -> Contour {
+/// A contour found from some of the points, of this noise where it is known, for all of them. Segments that others lie far off are unreliable.
+fn spread(found: Contour, kept: &[usize], known: Option<KnownNoise>, points: &[[f64; 2]]) -> Contour {
     let starts: Vec<f64> = starts(&found.segments);
     let n = kept.len();
-    let mut all = Contour { taken: Taken::Scan, ..found };
+    let mut all = Contour { row_kind: RowKind::Scan, ..found };
     for list in [&mut all.outliers, &mut all.repeated, &mut all.gaps, &mut all.doubtful, &mut all.straight_on]
     {
         list.iter_mut().for_each(|i| *i = kept[*i]);
@@ -263,18 +274,20 @@ fn spread(found: Contour, kept: &[usize], known: Option<Known>, points: &[[f64; 
         segment.max = segment.max.max(off.abs());
     }
     all.segments.iter_mut().for_each(|s| s.rms = (s.rms / s.count.max(1) as f64).sqrt());
-    let noise = known.map_or(all.noise, |n| all.noise.clamp(n.deviation, HIDDEN * n.deviation));
-    let most = MISSED * noise;
-    let scattered = |s: &Segment| s.count >= SCATTERED.0 && s.rms > SCATTERED.1 * noise;
+    let noise = known.map_or(all.noise, |n| all.noise.clamp(n.deviation, MAX_KNOWN_NOISES * n.deviation));
+    let most = OFF_CONTOUR_NOISES * noise;
+    let scattered = |s: &Segment| {
+        s.count >= MIN_POINTS_AND_NOISES_OF_SCATTER.0 && s.rms > MIN_POINTS_AND_NOISES_OF_SCATTER.1 * noise
+    };
     let far = all.segments.iter().enumerate().filter(|(_, s)| s.max > most || scattered(s));
-    all.astray.extend(far.map(|(k, _)| k).collect::<Vec<_>>());
-    all.astray.sort_unstable();
-    all.astray.dedup();
+    all.unreliable.extend(far.map(|(k, _)| k).collect::<Vec<_>>());
+    all.unreliable.sort_unstable();
+    all.unreliable.dedup();
     all
 }
 
-/// An edge so many times as long as the facets beside it are in the middle is that of a flat face.
-const LONG: f64 = 8.0;
+/// An edge so many times as long as the median of the facets beside it is that of a flat face.
+const LONG_EDGE_RATIO: f64 = 8.0;
 
 /// Consecutive items of one treatment: exact, or a curve of segments found from its points.
 struct Run {
@@ -355,10 +368,10 @@ impl Sheet<'_> {
     fn is_smooth(&self, before: &Item, after: &Item) -> bool {
         debug_assert_eq!(before.to % self.polygon.at.len(), after.from % self.polygon.at.len());
         let at = after.from % self.polygon.at.len();
-        self.polygon.turn(at).abs() <= SHARP
+        self.polygon.turn(at).abs() <= SHARP_TURN
     }
 
-    /// Items between corners. Those of a closed polygon start at one, if there is any.
+    /// Items between corners. Runs of a closed polygon start at one, if there is any.
     fn smooth_runs(&self, items: &[Item]) -> Vec<Run> {
         let n = items.len();
         let mut items = items.to_vec();
@@ -390,7 +403,7 @@ impl Sheet<'_> {
         let facets = |item: &Item| (item.from..item.to).map(|i| self.polygon.facet_length(i));
         let mut lengths: Vec<f64> = run.items.iter().flat_map(facets).collect();
         lengths.sort_by(f64::total_cmp);
-        let long = LONG * lengths[lengths.len() / 2];
+        let long = LONG_EDGE_RATIO * lengths[lengths.len() / 2];
         let is_long = |item: &Item| item.shape == LineOrArc::Line && facets(item).sum::<f64>() > long;
         let parts = run.items.chunk_by(|a, b| !is_long(a) && !is_long(b));
         parts.map(|items| Run { items: items.to_vec(), curve: None }).collect()
@@ -403,7 +416,7 @@ impl Sheet<'_> {
         let numbers: Vec<usize> = (0..items.len()).collect();
         let turns = numbers.windows(2).filter(|w| bent(w)).count();
         let arcs = items.split(|i| i.shape == LineOrArc::Line).map(<[Item]>::len).max();
-        turns >= CURVE.0 || arcs.unwrap_or(0) >= CURVE.1
+        turns >= MIN_FACETS_AND_ARCS_OF_CURVE.0 || arcs.unwrap_or(0) >= MIN_FACETS_AND_ARCS_OF_CURVE.1
     }
 
     /// Median turn between the facets of a curve.

@@ -1,10 +1,11 @@
 //! Measures of an airfoil or blade section: chord, camber line, thickness, radii of its edges.
 //!
-//! The points run around the profile from its trailing edge over the leading edge and back. The course through them is that of the
-//! contour's lines, arcs and curves, or a cubic B-spline, whichever is the likelier. The camber line is that of blade inspection: the centers of the circles inscribed into the
-//! profile, each the greatest that touches the curve at a place without crossing it (Ma, Bae and Choi, 3D medial axis point
-//! approximation using nearest neighbors and the normal field, 2012: there a ball is shrunk point by point, here its radius is the
-//! least over all places at once).
+//! The points run around the profile from its trailing edge over the leading edge and back. The course through them is
+//! that of the contour's lines, arcs and curves, or a cubic B-spline, whichever is the likelier. The camber line is
+//! that of blade inspection: the centers of the circles inscribed into the profile. Each is the greatest that touches
+//! the curve at a place without crossing it. Ma, Bae and Choi (3D medial axis point approximation using nearest
+//! neighbors and the normal field, 2012) shrink a ball point by point. Here its radius is the least over all places at
+//! once.
 
 mod circles;
 mod edge;
@@ -16,20 +17,20 @@ mod tail;
 use crate::model::flat::distance;
 use crate::model::result::{Contour, Geometry, Uncertainty};
 use crate::row::direction::from_the_end;
-use circles::Inscribed;
+use circles::InscribedCircles;
 pub use edge::EdgeRadius;
 pub use ends::TrailingEdge;
 pub use error::AirfoilError;
-use error::FEWEST;
-use profile::{Profile, RESOLUTION};
+use error::MIN_POINTS_OF_PROFILE;
+use profile::{Profile, SAME_PLACE_SPACINGS};
 use trueness_geom::progress::Progress;
 
 /// An edge lies on an arc of the contour that turns by more than this, radians.
-const TURN: f64 = 2.4;
+const MIN_EDGE_ARC_TURN: f64 = 2.4;
 /// By so many standard uncertainties of a mean of its points the radius of an edge may differ from that of its arc.
-const HIDDEN: f64 = 8.0 * std::f64::consts::SQRT_2;
+const HIDDEN_RADIUS_SIGMAS: f64 = 8.0 * std::f64::consts::SQRT_2;
 
-/// What is measured of a profile. Lengths as the points have them; shares are of the chord, from the leading edge.
+/// Measures of a profile. Lengths as the points have them; shares are of the chord, from the leading edge.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Airfoil {
     /// The place of the profile farthest from the trailing edge.
@@ -54,7 +55,7 @@ pub struct Airfoil {
     pub camber_line: Vec<([f64; 2], f64)>,
     /// Radius of curvature at the leading edge.
     pub leading_radius: Result<EdgeRadius, AirfoilError>,
-    /// What the trailing edge is.
+    /// The kind of the trailing edge.
     pub trailing_edge: TrailingEdge,
     /// Radius of curvature of a round trailing edge.
     pub trailing_radius: Result<EdgeRadius, AirfoilError>,
@@ -62,9 +63,10 @@ pub struct Airfoil {
 
 /// Measures the profile whose points are `points`, of which `contour` was found.
 ///
-/// Of the contour are used whether it is closed, and which points were left out. The trailing edge of an open row is at its ends;
-/// of a closed one at the thinner end. It is the shortest stretch that takes two thirds of half a turn:
-/// sharp at one point, blunt between two corners, with points on the face or none, else round. Sides are led no farther than their points. Cost: fits of up to 2,000 points, and inscribed circles as the square of 2,000 places.
+/// Only whether the contour is closed, and which points were left out of it, are used. The trailing edge of an open row
+/// is at its ends; of a closed one at the thinner end. It is the shortest stretch that takes two thirds of half a turn.
+/// It is sharp at one point, blunt between two corners, with points on the face or none, else round. Sides are led no
+/// farther than their points. Cost: fits of up to 2,000 points, and inscribed circles as the square of 2,000 places.
 ///
 /// # Errors
 /// [`AirfoilError`]: too few points, an open row whose ends lie apart, points that enclose nothing, cancelled.
@@ -99,11 +101,11 @@ fn on_arc(contour: &Contour, place: [f64; 2]) -> Option<EdgeRadius> {
     let segment = &contour.segments[nearest];
     match (&segment.geometry, segment.uncertainty) {
         (Geometry::Arc { radius, sweep, .. }, Some(Uncertainty::Arc { radius: uncertainty, .. }))
-            if sweep.abs() > TURN =>
+            if sweep.abs() > MIN_EDGE_ARC_TURN =>
         {
-            // Waves of the edge that scatter hides bend it more than the arc: eight times as much as they are high over its radius, with
-            // three to a round.
-            let hidden = HIDDEN * contour.noise / contour.independent_of(nearest).sqrt();
+            // Waves of the edge that scatter hides bend it more than the arc. They do by eight times as much as they
+            // are high over its radius, with three to a round.
+            let hidden = HIDDEN_RADIUS_SIGMAS * contour.noise / contour.independent_of(nearest).sqrt();
             let uncertainty = libm::hypot(uncertainty, hidden);
             Some(EdgeRadius { radius: *radius, uncertainty, count: segment.count })
         }
@@ -120,38 +122,43 @@ fn in_order(
     left_out.sort_unstable();
     let mut numbers: Vec<usize> = (0..points.len()).filter(|i| left_out.binary_search(i).is_err()).collect();
     // Points as near as this are one: a trailing edge of both is sharp.
-    let nothing = RESOLUTION * contour.spacing;
+    let nothing = SAME_PLACE_SPACINGS * contour.spacing;
     let near = |i: usize, j: usize| distance(points[i], points[j]) < nothing;
     numbers.dedup_by(|i, j| near(*i, *j));
-    while contour.closed && numbers.len() > FEWEST && near(numbers[0], numbers[numbers.len() - 1]) {
+    while contour.closed
+        && numbers.len() > MIN_POINTS_OF_PROFILE
+        && near(numbers[0], numbers[numbers.len() - 1])
+    {
         numbers.pop();
     }
     let row: Vec<[f64; 2]> = numbers.iter().map(|i| points[*i]).collect();
-    if row.len() < FEWEST {
+    if row.len() < MIN_POINTS_OF_PROFILE {
         return Err(AirfoilError::TooFewPoints { found: row.len() });
     }
     let (around, mut course, mut other) = Profile::new(&row, &numbers, contour, progress)?;
     let round = around.trailing == TrailingEdge::Round;
-    let mut inscribed = Inscribed::new(&course, progress);
+    let mut inscribed = InscribedCircles::new(&course, progress);
     // Segments overshoot where they join in a place that the points do not determine; the free curve through all points has no such place.
     if matches!(inscribed, Err(AirfoilError::Crosses { .. }))
         && course.of_contour
         && let Some(smooth) = other.take()
     {
         course = smooth;
-        inscribed = Inscribed::new(&course, progress);
+        inscribed = InscribedCircles::new(&course, progress);
     }
     let inscribed = inscribed?;
     let (leading, trailing) = inscribed.chord(round);
     let chord = distance(leading, trailing);
     let (center, radius) = inscribed.greatest().ok_or(AirfoilError::Inside)?;
-    // What another course through the points tells differs by what a free curve takes from scatter, or does not follow.
-    let other = match other.map(|other| Inscribed::new(&other, progress)) {
+    // The result of another course through the points differs by the scatter that a free curve follows, or by the form
+    // that it does not.
+    let other = match other.map(|other| InscribedCircles::new(&other, progress)) {
         Some(Err(AirfoilError::Cancelled(e))) => return Err(e.into()),
         other => other.and_then(|o| o.ok()?.greatest()),
     };
     let differs = other.map_or(0.0, |(_, other)| 2.0 * (radius - other).abs());
-    // Of many circles of one size scatter makes one the greatest, which is too large by about as much as it is uncertain.
+    // Scatter makes one of many circles of one size the greatest, which is too large by about as much as it is
+    // uncertain.
     let across = course.uncertainty * std::f64::consts::SQRT_2;
     let chosen = if inscribed.is_flat(across) { across } else { 0.0 };
     let along = [(trailing[0] - leading[0]) / chord, (trailing[1] - leading[1]) / chord];

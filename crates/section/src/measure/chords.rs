@@ -42,21 +42,22 @@ pub struct Chords {
 }
 
 /// Places around a profile that are looked at.
-const PLACES: usize = 4000;
+const PLACES_AROUND_PROFILE: usize = 4000;
 /// A tangent touches two places if these are apart by so much of the profile: the sides of a round one's hull are far shorter.
-const APART: f64 = 0.25;
+const MIN_TANGENT_SHARE: f64 = 0.25;
 /// Places of a nominal's arcs and curves that a row has.
-const ROW: usize = 1200;
+const PLACES_PER_OUTLINE_ROW: usize = 1200;
 
-/// The chords of the profile whose points are `points`, of which `contour` and `found` were found. An open row is closed by the straight
-/// line between its ends. Of a contour with segments astray the points themselves are measured.
+/// The chords of the profile whose points are `points`, of which `contour` and `found` were found. An open row is
+/// closed by the straight line between its ends. Where segments of a contour are unreliable the points themselves are
+/// measured.
 ///
 /// # Errors
 /// [`AirfoilError::Inside`] where the profile encloses nothing. Cost: 4,000 places, sorted.
 pub fn chords(points: &[[f64; 2]], contour: &Contour, found: &Airfoil) -> Result<Chords, AirfoilError> {
-    let places = match contour.segments.is_empty() || !contour.astray.is_empty() {
+    let places = match contour.segments.is_empty() || !contour.unreliable.is_empty() {
         true => points.to_vec(),
-        false => evenly(&Outline::of(contour), PLACES),
+        false => evenly(&Outline::of(contour), PLACES_AROUND_PROFILE),
     };
     let (area, centroid) = of_area(&places).ok_or(AirfoilError::Inside)?;
     let hull = hull(&places);
@@ -82,7 +83,7 @@ fn farthest_pair(hull: &[[f64; 2]]) -> [[f64; 2]; 2] {
         }
     }
     let mut far = pair.map(|i| hull[i]);
-    for _ in 0..REFINED {
+    for _ in 0..REFINING_TURNS {
         for side in 0..2 {
             far[side] = top(hull, pair[side], far[1 - side]);
         }
@@ -98,7 +99,7 @@ fn top(hull: &[[f64; 2]], i: usize, from: [f64; 2]) -> [f64; 2] {
     let turn = libm::atan2(u[0] * v[1] - u[1] * v[0], u[0] * v[0] + u[1] * v[1]).abs();
     let [x, y, z] = [a, b, c].map(|p| distance(p, from));
     let bend = x - 2.0 * y + z;
-    if turn > SHARP || bend >= 0.0 {
+    if turn > SHARP_HULL_TURN || bend >= 0.0 {
         return b;
     }
     let t = (0.5 * (x - z) / bend).clamp(-1.0, 1.0);
@@ -106,9 +107,9 @@ fn top(hull: &[[f64; 2]], i: usize, from: [f64; 2]) -> [f64; 2] {
 }
 
 /// Turns between the two ends of the farthest way.
-const REFINED: usize = 8;
+const REFINING_TURNS: usize = 8;
 /// A hull that turns by more at a corner is sharp there, radians.
-const SHARP: f64 = 0.2;
+const SHARP_HULL_TURN: f64 = 0.2;
 
 /// Extent along the longest side of the hull, if that is a long one beside the profile.
 fn bitangent(hull: &[[f64; 2]], farthest: &Chord) -> Result<Chord, AirfoilError> {
@@ -123,7 +124,7 @@ fn bitangent(hull: &[[f64; 2]], farthest: &Chord) -> Result<Chord, AirfoilError>
         ((b[0] - a[0]) * way[0] + (b[1] - a[1]) * way[1]).abs() > 0.5 * size(*i) * length
     };
     let longest = (0..n).filter(lies_along).max_by(|i, j| size(*i).total_cmp(&size(*j)));
-    let Some(i) = longest.filter(|i| size(*i) >= APART * length) else {
+    let Some(i) = longest.filter(|i| size(*i) >= MIN_TANGENT_SHARE * length) else {
         return Err(AirfoilError::NotHollow);
     };
     let (a, b) = side(i);
@@ -136,8 +137,8 @@ fn bitangent(hull: &[[f64; 2]], farthest: &Chord) -> Result<Chord, AirfoilError>
     Ok(Chord { leading: at(low), trailing: at(high) })
 }
 
-/// From where the camber line, led on by its direction over a radius of its last circle, meets the profile at the leading edge, to where it
-/// does at a round trailing edge; of others to the edge itself.
+/// From where the camber line meets the profile at the leading edge to where it does at a round trailing edge. It is
+/// led on by its direction over a radius of its last circle. Other edges are its end themselves.
 fn camber_ends(found: &Airfoil, places: &[[f64; 2]]) -> Chord {
     let line = &found.camber_line;
     let back: Vec<([f64; 2], f64)> = line.iter().rev().copied().collect();
@@ -183,15 +184,16 @@ fn evenly(outline: &Outline, count: usize) -> Vec<[f64; 2]> {
     all
 }
 
-/// An outline of a nominal as a row of points: the ends of chords, or even places where it has arcs or curves, or only a few lines.
+/// An outline of a nominal as a row of points. They are the ends of chords, or even places where it has arcs or curves,
+/// or only a few lines.
 pub fn outline_row(outline: &Outline) -> Vec<[f64; 2]> {
-    let chords = outline.segments.len() > FEWEST_SIDES
+    let chords = outline.segments.len() > MAX_SIDES_OF_POLYGON
         && outline.segments.iter().all(|s| s.geometry == Geometry::Line);
-    evenly(outline, if chords { 1 } else { ROW })
+    evenly(outline, if chords { 1 } else { PLACES_PER_OUTLINE_ROW })
 }
 
 /// So few lines are no chords of a curve.
-const FEWEST_SIDES: usize = 16;
+const MAX_SIDES_OF_POLYGON: usize = 16;
 
 /// Area and centroid of a polygon, whichever way round it runs.
 fn of_area(polygon: &[[f64; 2]]) -> Option<(f64, [f64; 2])> {

@@ -2,20 +2,20 @@
 
 use super::nominal::{OffNominal, Outline};
 
-/// A row of measured points, with what is nearest to each.
+/// A row of measured points, with the places nearest to each.
 #[derive(Clone, Copy, Debug)]
-pub struct Passed<'a> {
+pub struct MatchedRow<'a> {
     /// The points.
     pub points: &'a [[f64; 2]],
-    /// Of each, the place of the outlines nearest to it.
+    /// The place of the outlines nearest to each.
     pub found: &'a [Option<OffNominal>],
     /// Whether the first follows the last.
     pub closed: bool,
-    /// Numbers of the points that a gap follows, in ascending order: what lies across it was not measured.
+    /// Numbers of the points that a gap follows, in ascending order: the stretch across it was not measured.
     pub gaps: &'a [usize],
 }
 
-/// What was measured of an outline.
+/// The part of an outline that was measured.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Covered {
     /// Points that are nearest to it.
@@ -31,15 +31,15 @@ impl Covered {
     }
 }
 
-/// A way along the outline that is so many times as long as that from point to point, to the outline and back is not the one that the
-/// points took: around a half circle it is π / 2 times as long, around a square's corner √2.
-const AROUND: f64 = 1.75;
+/// The points may not have taken a way along the outline. It is then so many times as long as that from point to point,
+/// to the outline and back. Around a half circle it is π / 2 times as long, around a square's corner √2.
+const MAX_WAY_ROUND_RATIO: f64 = 1.75;
 
-/// Of each outline how much of it was measured: the stretches between the places nearest to successive points of the rows. Stretches that
-/// several pairs of points pass count once. One point alone passes nothing.
+/// How much of each outline was measured: the stretches between the places nearest to successive points of the rows.
+/// Stretches that several pairs of points pass count once. One point alone passes nothing.
 ///
 /// Cost: that of sorting the points.
-pub fn covered(rows: &[Passed], outlines: &[Outline]) -> Vec<Covered> {
+pub fn covered(rows: &[MatchedRow], outlines: &[Outline]) -> Vec<Covered> {
     let lengths: Vec<f64> = outlines.iter().map(Outline::length).collect();
     let mut all = vec![Covered::default(); outlines.len()];
     for row in rows {
@@ -59,7 +59,7 @@ pub fn covered(rows: &[Passed], outlines: &[Outline]) -> Vec<Covered> {
                 a.along,
                 b.along,
                 closed.then_some(lengths[a.outline]),
-                AROUND * apart,
+                MAX_WAY_ROUND_RATIO * apart,
             ));
         }
     }
@@ -69,8 +69,8 @@ pub fn covered(rows: &[Passed], outlines: &[Outline]) -> Vec<Covered> {
     all
 }
 
-/// The shorter way along an outline from one place to another, if it is no longer than `most`: around its start, where that is shorter on one
-/// that is closed and has the length `around`, in two parts.
+/// The shorter way along an outline from one place to another, if it is no longer than
+/// `most`. Where the way around the start of a closed one of the length `around` is shorter, it is that, in two parts.
 fn between(a: f64, b: f64, around: Option<f64>, most: f64) -> Vec<[f64; 2]> {
     let [low, high] = [a.min(b), a.max(b)];
     match around {
@@ -83,7 +83,7 @@ fn between(a: f64, b: f64, around: Option<f64>, most: f64) -> Vec<[f64; 2]> {
     }
 }
 
-/// What lies in any of these stretches.
+/// The union of these stretches.
 fn union(mut stretches: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     stretches.sort_by(|a, b| a[0].total_cmp(&b[0]));
     let mut all: Vec<[f64; 2]> = vec![];
@@ -113,7 +113,7 @@ mod tests {
     fn shares(points: &[[f64; 2]], closed: bool, gaps: &[usize]) -> Vec<(usize, f64)> {
         let outlines = nominal();
         let found = off_nominal(points, &outlines, &Silent).unwrap();
-        let rows = [Passed { points, found: &found, closed, gaps }];
+        let rows = [MatchedRow { points, found: &found, closed, gaps }];
         covered(&rows, &outlines)
             .iter()
             .zip(&outlines)
@@ -144,7 +144,7 @@ mod tests {
         near(&shares(&around, false, &[3, 20]), &[(40, 37.0 / 40.0), (0, 0.0)]);
         let outlines = nominal();
         let found = off_nominal(&around, &outlines, &Silent).unwrap();
-        let rows = [Passed { points: &around, found: &found, closed: false, gaps: &[3] }];
+        let rows = [MatchedRow { points: &around, found: &found, closed: false, gaps: &[3] }];
         // Along the square from its lower left corner, begun at 5.5.
         let [ref square, ref triangle] = covered(&rows, &outlines)[..] else { panic!() };
         let is = |k: usize, [from, to]: [f64; 2]| {
@@ -169,7 +169,7 @@ mod tests {
         let circle = [Outline { segments: vec![crate::Segment::arc([0.0; 2], 3.0, 0.0, TAU)], closed: true }];
         let points = [-0.2_f64, 0.1].map(|a| [3.1 * a.cos(), 3.1 * a.sin()]);
         let found = off_nominal(&points, &circle, &Silent).unwrap();
-        let rows = [Passed { points: &points, found: &found, closed: false, gaps: &[] }];
+        let rows = [MatchedRow { points: &points, found: &found, closed: false, gaps: &[] }];
         assert!((covered(&rows, &circle)[0].length() - 0.9).abs() < 1e-12);
     }
 }

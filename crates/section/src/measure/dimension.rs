@@ -1,21 +1,21 @@
 //! Dimensions between the segments of one plane, as a drawing has them: angles, widths, distances of centers, gaps.
 //!
-//! Uncertainties are those of the segments put together by the rule for independent ones. What the row tells about two segments
-//! of one chain is only nearly independent: each is known by its own points for the most part.
+//! Uncertainties are those of the segments put together by the rule for independent ones. The evidence of a row about
+//! two segments of one chain is only nearly independent. Each is known by its own points for the most part.
 
 use crate::model::chain::SegmentKind;
 use crate::model::flat::{angle, distance};
 use crate::model::result::{Contour, Geometry, Join, Segment, Uncertainty};
 use trueness_geom::num::golden::golden;
 
-/// What a dimension is of.
+/// The kind of a dimension.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum DimensionKind {
-    /// The angle that a line and the next line of a contour enclose, radians: of half a turn where the second goes on as the
-    /// first, of 0 where it comes back.
+    /// The angle that a line and the next line of a contour enclose, radians. It is half a turn where the second goes
+    /// on as the first, and 0 where it comes back.
     Angle,
-    /// The distance of two lines that are parallel as far as their points tell, and that face each other, across them, at the
-    /// middle of where they do.
+    /// The distance of two lines that are parallel as far as their points tell, and that face each other. It goes
+    /// across them, at the middle of where they do.
     Width,
     /// The distance of the centers of two arcs.
     Centers,
@@ -42,7 +42,7 @@ impl DimensionKind {
 /// A dimension between two segments.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dimension {
-    /// What it is of.
+    /// Its kind.
     pub kind: DimensionKind,
     /// Number of the contour, and of the segment in it, of either side.
     pub of: [[usize; 2]; 2],
@@ -56,19 +56,19 @@ pub struct Dimension {
 }
 
 /// Directions that differ by fewer standard uncertainties than this are taken for parallel.
-const PARALLEL: f64 = 3.0;
+const PARALLEL_SIGMAS: f64 = 3.0;
 /// Radians between lines that are never parallel, however uncertain their directions are.
-const STEEPEST: f64 = 0.05;
+const MAX_PARALLEL_ANGLE: f64 = 0.05;
 /// Places of a segment from which its least distance from another is looked for.
-const STARTS: usize = 16;
+const DISTANCE_STARTS: usize = 16;
 /// Lines, and arcs, of one plane whose pairs are looked at.
-const MOST: usize = 1000;
+const MAX_SEGMENTS_IN_PAIRS: usize = 1000;
 /// Steps of the golden section: the place is then known to 1e-10 of the way between two starts.
-const STEPS: usize = 48;
+const GOLDEN_STEPS: usize = 48;
 
-/// The dimensions between the segments of contours in one plane: all angles between a line and the next of its contour, all
-/// widths and distances of centers, and the gap between each contour and the nearest other. Each list in the order of the
-/// segments. Of segments that do not run along their points there is none.
+/// The dimensions between the segments of contours in one plane. They are all angles between a line and the next of its
+/// contour, and all widths and distances of centers. Each contour has the gap to the nearest other, too. Each list in
+/// the order of the segments. Segments that do not run along their points have none.
 ///
 /// Lines of exact facets are parallel as far as the joins at their ends tell. Widths and centers are of pairs: where there are
 /// more than a thousand lines, or arcs, they are those of the thousand longest.
@@ -85,7 +85,7 @@ const STEPS: usize = 48;
 /// assert!((all[0].value - std::f64::consts::FRAC_PI_2).abs() < 1e-9 && (all[2].value - 10.0).abs() < 1e-9);
 /// ```
 pub fn dimensions(contours: &[Contour]) -> Vec<Dimension> {
-    let sound = |c: usize, k: usize| !contours[c].astray.contains(&k);
+    let sound = |c: usize, k: usize| !contours[c].unreliable.contains(&k);
     let lines = known(contours, |c, k| {
         Line::of(&contours[c], k).filter(|_| sound(c, k)).map(|l| (l.length, ([c, k], l)))
     });
@@ -114,16 +114,16 @@ pub fn dimensions(contours: &[Contour]) -> Vec<Dimension> {
     all
 }
 
-/// What there is of the segments, each with its length; of very many the longest.
+/// The known values of the segments, each with its length; only the longest where there are very many.
 fn known<T>(contours: &[Contour], of: impl Fn(usize, usize) -> Option<(f64, T)>) -> Vec<T> {
     let each = |(c, contour): (usize, &Contour)| (0..contour.segments.len()).map(move |k| (c, k));
     let mut all: Vec<(f64, T)> =
         contours.iter().enumerate().flat_map(each).filter_map(|(c, k)| of(c, k)).collect();
-    if all.len() > MOST {
+    if all.len() > MAX_SEGMENTS_IN_PAIRS {
         let mut lengths: Vec<f64> = all.iter().map(|(length, _)| *length).collect();
         lengths.sort_by(|a, b| b.total_cmp(a));
-        all.retain(|(length, _)| *length >= lengths[MOST - 1]);
-        all.truncate(MOST);
+        all.retain(|(length, _)| *length >= lengths[MAX_SEGMENTS_IN_PAIRS - 1]);
+        all.truncate(MAX_SEGMENTS_IN_PAIRS);
     }
     all.into_iter().map(|(_, one)| one).collect()
 }
@@ -175,8 +175,8 @@ fn enclosed((of, a): &([usize; 2], Line), (with, b): &([usize; 2], Line)) -> Opt
     let turn = angle(a.along(), b.along()).abs();
     let uncertainty = libm::hypot(a.angle, b.angle);
     let value = std::f64::consts::PI - turn;
-    // Of parallel lines that come back the width is told.
-    (value > PARALLEL * uncertainty).then(|| Dimension {
+    // Parallel lines that come back have a width instead.
+    (value > PARALLEL_SIGMAS * uncertainty).then(|| Dimension {
         kind: DimensionKind::Angle,
         of: [*of, *with],
         value,
@@ -189,7 +189,7 @@ fn width((of, a): &([usize; 2], Line), (with, b): &([usize; 2], Line)) -> Option
     let along = a.along();
     let sense = if along[0] * b.along()[0] + along[1] * b.along()[1] < 0.0 { -1.0 } else { 1.0 };
     let turn = angle(along, b.along().map(|x| sense * x));
-    if turn.abs() > (PARALLEL * libm::hypot(a.angle, b.angle)).min(STEEPEST) {
+    if turn.abs() > (PARALLEL_SIGMAS * libm::hypot(a.angle, b.angle)).min(MAX_PARALLEL_ANGLE) {
         return None;
     }
     // The mean direction of the two, each as long as it is.
@@ -243,7 +243,7 @@ fn centers((of, a): &([usize; 2], Arc), (with, b): &([usize; 2], Arc)) -> Dimens
     let d = [0, 1].map(|k| b.center[k] - a.center[k]);
     let uncertainty = a.uncertainty.zip(b.uncertainty).map(|(u, v)| {
         let each = [0, 1].map(|k| libm::hypot(u[k], v[k]));
-        // Of one center the distance is as uncertain as the farther coordinate.
+        // The distance of one center is as uncertain as the farther coordinate.
         match value > 0.0 {
             true => libm::hypot(d[0] * each[0], d[1] * each[1]) / value,
             false => each[0].max(each[1]),
@@ -258,7 +258,7 @@ fn centers((of, a): &([usize; 2], Arc), (with, b): &([usize; 2], Arc)) -> Dimens
     }
 }
 
-/// Of each contour the gap to the nearest other, each pair once.
+/// The gap of each contour to the nearest other, each pair once.
 fn gaps(contours: &[Contour]) -> Vec<Dimension> {
     let boxes: Vec<[[f64; 2]; 2]> = contours.iter().map(around).collect();
     let mut all: Vec<Dimension> = vec![];
@@ -275,7 +275,7 @@ fn gaps(contours: &[Contour]) -> Vec<Dimension> {
             let found = gap([c, d], [&contours[c], &contours[d]], best.map_or(f64::INFINITY, |b| b.value));
             best = found.or(best);
         }
-        let sound = |b: &Dimension| b.of.iter().all(|[c, k]| !contours[*c].astray.contains(k));
+        let sound = |b: &Dimension| b.of.iter().all(|[c, k]| !contours[*c].unreliable.contains(k));
         let new = best.filter(sound).filter(|b| all.iter().all(|a| a.of.map(|o| o[0]) != b.of.map(|o| o[0])));
         all.extend(new);
     }
@@ -321,8 +321,8 @@ fn gap(numbers: [usize; 2], contours: [&Contour; 2], limit: f64) -> Option<Dimen
     })
 }
 
-/// Standard uncertainty across a contour at a place of one of its segments: of a line, or of a whole circle, whose center and
-/// radius are independent.
+/// Standard uncertainty across a contour at a place of one of its segments. It is that of a line, or of a whole circle,
+/// whose center and radius are independent.
 fn across(contour: &Contour, k: usize, place: [f64; 2]) -> Option<f64> {
     if let Some(line) = Line::of(contour, k) {
         return line.at(distance(line.start, place));
@@ -338,8 +338,8 @@ fn across(contour: &Contour, k: usize, place: [f64; 2]) -> Option<f64> {
     }
 }
 
-/// The least distance of two segments, and where it is: from places of either to the nearest of the other, by golden section
-/// around the best.
+/// The least distance of two segments, and where it is. It is found from places of either to the nearest of the other,
+/// by golden section around the best.
 fn nearest(a: &Segment, b: &Segment) -> (f64, [[f64; 2]; 2]) {
     let (x, p) = from_places(a, b);
     let (y, q) = from_places(b, a);
@@ -353,18 +353,19 @@ fn nearest(a: &Segment, b: &Segment) -> (f64, [[f64; 2]; 2]) {
 /// The least distance of places of one segment from another, and at which share it is.
 fn from_places(from: &Segment, to: &Segment) -> (f64, f64) {
     let distance = |share: f64| to.nearest(from.place(share)).distance.abs();
-    let share = |i: usize| i as f64 / STARTS as f64;
+    let share = |i: usize| i as f64 / DISTANCE_STARTS as f64;
     let mut best = (f64::INFINITY, 0.0);
-    let all: Vec<f64> = (0..=STARTS).map(|i| distance(share(i))).collect();
-    for i in 0..=STARTS {
+    let all: Vec<f64> = (0..=DISTANCE_STARTS).map(|i| distance(share(i))).collect();
+    for i in 0..=DISTANCE_STARTS {
         if all[i] < best.0 {
             best = (all[i], share(i));
         }
     }
-    let lowest = |i: &usize| all[*i] <= all[i.saturating_sub(1)] && all[*i] <= all[(i + 1).min(STARTS)];
-    for i in (0..=STARTS).filter(lowest) {
-        let (low, high) = (share(i.saturating_sub(1)), share((i + 1).min(STARTS)));
-        let (at, value) = golden(&distance, low, high, STEPS);
+    let lowest =
+        |i: &usize| all[*i] <= all[i.saturating_sub(1)] && all[*i] <= all[(i + 1).min(DISTANCE_STARTS)];
+    for i in (0..=DISTANCE_STARTS).filter(lowest) {
+        let (low, high) = (share(i.saturating_sub(1)), share((i + 1).min(DISTANCE_STARTS)));
+        let (at, value) = golden(&distance, low, high, GOLDEN_STEPS);
         if value < best.0 {
             best = (value, at);
         }

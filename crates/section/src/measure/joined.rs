@@ -9,9 +9,9 @@ use trueness_geom::spline::curve::{self, Curve, End, Ends};
 use trueness_geom::spline::rational::Rational;
 
 /// Weights that differ by less than this share are the same.
-const EQUAL: f64 = 1e-14;
+const EQUAL_WEIGHT_SHARE: f64 = 1e-14;
 /// Places of a rational curve for each of its spans, by which it is followed.
-const PLACES: usize = 256;
+const PLACES_PER_RATIONAL_SPAN: usize = 256;
 
 impl Segment {
     /// A line from a place to another, which no points belong to.
@@ -31,19 +31,20 @@ impl Segment {
         Segment::bare(geometry, ends, radius * sweep.abs(), [curvature; 2])
     }
 
-    /// A B-spline in the plane of the first two coordinates; a rational one is followed by a cubic within about `tolerance`, and its
-    /// deviation says how far. `None` where it has no place, or the cubic cannot follow.
+    /// A B-spline in the plane of the first two coordinates. A rational one is followed by a cubic within about
+    /// `tolerance`, and its deviation says how far. `None` where it has no place, or the cubic cannot follow.
     pub fn curve(rational: &Rational<3>, tolerance: f64) -> Option<Segment> {
         let masses = rational.masses();
         let first = masses.points().first()?.mass;
-        let (curve, deviation) = match masses.points().iter().all(|m| (m.mass - first).abs() <= EQUAL * first)
-        {
-            true => {
-                let points = masses.points().iter().map(|m| [0, 1].map(|k| m.moment[k] / m.mass)).collect();
-                (Curve::new(masses.knots().clone(), points).ok()?, 0.0)
-            }
-            false => followed(rational, tolerance)?,
-        };
+        let (curve, deviation) =
+            match masses.points().iter().all(|m| (m.mass - first).abs() <= EQUAL_WEIGHT_SHARE * first) {
+                true => {
+                    let points =
+                        masses.points().iter().map(|m| [0, 1].map(|k| m.moment[k] / m.mass)).collect();
+                    (Curve::new(masses.knots().clone(), points).ok()?, 0.0)
+                }
+                false => followed(rational, tolerance)?,
+            };
         Some(Segment::of_curve(curve, deviation))
     }
 
@@ -62,7 +63,7 @@ impl Segment {
 
     /// Whether it is a whole circle.
     fn is_whole(&self) -> bool {
-        matches!(self.geometry, Geometry::Arc { sweep, .. } if sweep.abs() >= TAU * (1.0 - EQUAL))
+        matches!(self.geometry, Geometry::Arc { sweep, .. } if sweep.abs() >= TAU * (1.0 - EQUAL_WEIGHT_SHARE))
     }
 }
 
@@ -73,7 +74,10 @@ fn followed(rational: &Rational<3>, tolerance: f64) -> Option<(Curve<[f64; 2]>, 
     let flat = |p: [f64; 3]| [p[0], p[1]];
     let mut parameters: Vec<f64> = vec![];
     for w in spans.windows(2) {
-        parameters.extend((0..PLACES).map(|i| w[0] + (w[1] - w[0]) * i as f64 / PLACES as f64));
+        parameters.extend(
+            (0..PLACES_PER_RATIONAL_SPAN)
+                .map(|i| w[0] + (w[1] - w[0]) * i as f64 / PLACES_PER_RATIONAL_SPAN as f64),
+        );
     }
     parameters.extend(spans.last());
     let points: Vec<[f64; 2]> =
@@ -92,14 +96,14 @@ fn followed(rational: &Rational<3>, tolerance: f64) -> Option<(Curve<[f64; 2]>, 
 }
 
 /// Ends of segments by the cells that they lie in.
-struct EndsAt {
+struct EndIndex {
     cell: f64,
     at: HashMap<[i64; 2], Vec<(usize, bool)>>,
 }
 
-impl EndsAt {
-    fn new(segments: &[Segment], gap: f64) -> EndsAt {
-        let mut all = EndsAt { cell: 2.0 * gap.max(f64::MIN_POSITIVE), at: HashMap::new() };
+impl EndIndex {
+    fn new(segments: &[Segment], gap: f64) -> EndIndex {
+        let mut all = EndIndex { cell: 2.0 * gap.max(f64::MIN_POSITIVE), at: HashMap::new() };
         for (i, s) in segments.iter().enumerate().filter(|(_, s)| !s.is_whole()) {
             for (at_end, p) in [(false, s.start), (true, s.end)] {
                 all.at.entry(all.key(p)).or_default().push((i, at_end));
@@ -127,8 +131,8 @@ impl EndsAt {
     }
 }
 
-/// The outlines that segments in any order and direction make up: those whose ends lie within `gap` of each other follow each other,
-/// in the direction of the first. Of segments that are drawn twice the second is passed over. Cost: about linear.
+/// The outlines that segments in any order and direction make up. Segments whose ends lie within `gap` of each other
+/// follow each other, in the direction of the first. A segment that is drawn twice counts once. Cost: about linear.
 ///
 /// ```
 /// use trueness_section::{joined, Segment};
@@ -138,7 +142,7 @@ impl EndsAt {
 /// ```
 pub fn joined(segments: Vec<Segment>, gap: f64) -> Vec<Outline> {
     let segments = once(segments, gap);
-    let ends = EndsAt::new(&segments, gap);
+    let ends = EndIndex::new(&segments, gap);
     let mut used = vec![false; segments.len()];
     let mut all = vec![];
     for first in 0..segments.len() {

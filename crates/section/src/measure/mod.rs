@@ -1,4 +1,4 @@
-//! What is measured on contours.
+//! Measures of contours.
 //!
 //! | file | what |
 //! |---|---|

@@ -45,7 +45,8 @@ impl Outline {
         self.segments.iter().map(|s| s.length).sum()
     }
 
-    /// What a closed one encloses, above 0 where it runs counter-clockwise, as outer ones do; of arcs and splines by chords.
+    /// The area that a closed one encloses, above 0 where it runs counter-clockwise, as outer ones do; arcs and splines
+    /// by chords.
     pub fn area(&self) -> f64 {
         area(&self.places())
     }
@@ -62,20 +63,22 @@ impl Outline {
     /// Places along it; of lines the ends.
     fn places(&self) -> Vec<[f64; 2]> {
         let of = |s: &Segment| {
-            let parts = if s.geometry == Geometry::Line { 1 } else { PLACES };
+            let parts = if s.geometry == Geometry::Line { 1 } else { PLACES_PER_CURVE };
             (0..parts).map(|i| s.place(i as f64 / parts as f64)).collect::<Vec<_>>()
         };
         self.segments.iter().flat_map(of).collect()
     }
 
-    /// How far the end of an open one is from its start, if that is a small share of its length: it was meant to be closed.
+    /// How far the end of an open one is from its start, if that is a small share of its length. It was meant to be
+    /// closed then.
     pub fn nearly_closed(&self) -> Option<f64> {
         let (first, last) = (self.segments.first()?, self.segments.last()?);
         let gap = libm::hypot(first.start[0] - last.end[0], first.start[1] - last.end[1]);
-        (!self.closed && gap < NEARLY * self.length()).then_some(gap)
+        (!self.closed && gap < NEARLY_CLOSED_SHARE * self.length()).then_some(gap)
     }
 
-    /// What lies in each of these stretches, between two lengths along it: open ones. Those without length are left out.
+    /// The parts in each of these stretches, between two lengths along it, as open outlines. Stretches without length
+    /// are left out.
     pub fn parts(&self, stretches: &[[f64; 2]]) -> Vec<Outline> {
         let lengths = self.segments.iter().scan(0.0, |sum, s| {
             *sum += s.length;
@@ -105,13 +108,13 @@ impl Outline {
 }
 
 /// An open outline whose ends are apart by less than this share of its length is nearly closed.
-const NEARLY: f64 = 0.01;
+const NEARLY_CLOSED_SHARE: f64 = 0.01;
 /// Places of an arc or a spline that tell which side of it is inside.
-const PLACES: usize = 32;
-/// Points after which it is asked whether to stop.
-const ASKED: usize = 1024;
+const PLACES_PER_CURVE: usize = 32;
+/// Points after which the search asks whether to stop.
+const POINTS_PER_STOP_CHECK: usize = 1024;
 
-/// Closed outlines turned so that the material is on their left, where what is inside of an odd number of outlines is material:
+/// Closed outlines turned so that the material is on their left. The inside of an odd number of outlines is material:
 /// the outer one runs counter-clockwise, holes in it clockwise. Within a nearly closed outline is inside of it too.
 pub fn with_material_inside(outlines: Vec<Outline>) -> Vec<Outline> {
     let encloses = |o: &Outline| o.closed || o.nearly_closed().is_some();
@@ -147,7 +150,7 @@ pub(super) fn inside(polygon: &[[f64; 2]], p: [f64; 2]) -> bool {
 }
 
 /// A segment within its box.
-struct Boxed {
+struct BoxedSegment {
     low: [f64; 2],
     high: [f64; 2],
     outline: usize,
@@ -156,10 +159,10 @@ struct Boxed {
     before: f64,
 }
 
-impl Boxed {
-    fn new(segment: &Segment, outline: usize, number: usize, before: f64) -> Boxed {
+impl BoxedSegment {
+    fn new(segment: &Segment, outline: usize, number: usize, before: f64) -> BoxedSegment {
         let mut all =
-            Boxed { low: [f64::INFINITY; 2], high: [f64::NEG_INFINITY; 2], outline, number, before };
+            BoxedSegment { low: [f64::INFINITY; 2], high: [f64::NEG_INFINITY; 2], outline, number, before };
         for p in segment.hull() {
             for k in 0..2 {
                 all.low[k] = all.low[k].min(p[k]);
@@ -179,9 +182,9 @@ impl Boxed {
 /// The deviation of each point from the nearest of all outlines: the true least distance, ties to the first segment. `None` of
 /// points beyond a free end of an open outline, of those that are no numbers, and where there is no outline.
 ///
-/// At a corner the sign is that of the mean direction of the segments beside, which is the side that the point is on (Bærentzen
-/// and Aanæs, Signed distance computation using the angle weighted pseudonormal, 2005). Cost: a look at the box of each segment
-/// for each point.
+/// At a corner the sign is that of the mean direction of the segments beside, which is the side that the point is on.
+/// (Bærentzen and Aanæs, Signed distance computation using the angle weighted pseudonormal, 2005). Cost: a look at the
+/// box of each segment for each point.
 ///
 /// # Errors
 /// [`Cancelled`], when asked to stop.
@@ -197,28 +200,28 @@ pub fn off_nominal(
     outlines: &[Outline],
     progress: &dyn Progress,
 ) -> Result<Vec<Option<OffNominal>>, Cancelled> {
-    let each = |(n, o): (usize, &Outline)| -> Vec<Boxed> {
+    let each = |(n, o): (usize, &Outline)| -> Vec<BoxedSegment> {
         let lengths = o.segments.iter().scan(0.0, |sum, s| Some(std::mem::replace(sum, *sum + s.length)));
         o.segments
             .iter()
             .zip(lengths)
             .enumerate()
-            .map(|(k, (s, before))| Boxed::new(s, n, k, before))
+            .map(|(k, (s, before))| BoxedSegment::new(s, n, k, before))
             .collect()
     };
-    let boxes: Vec<Boxed> = outlines.iter().enumerate().flat_map(each).collect();
+    let boxes: Vec<BoxedSegment> = outlines.iter().enumerate().flat_map(each).collect();
     let mut all = Vec::with_capacity(points.len());
     // The segment nearest to the point before: a good guess.
     let mut last = 0;
     for (i, p) in points.iter().enumerate() {
-        if i % ASKED == 0 && progress.cancelled() {
+        if i % POINTS_PER_STOP_CHECK == 0 && progress.cancelled() {
             return Err(Cancelled);
         }
         if boxes.is_empty() || p.iter().any(|x| !x.is_finite()) {
             all.push(None);
             continue;
         }
-        let segment = |b: &Boxed| &outlines[b.outline].segments[b.number];
+        let segment = |b: &BoxedSegment| &outlines[b.outline].segments[b.number];
         let guess = segment(&boxes[last]).nearest(*p).distance.abs();
         // A box at the same distance may hold an earlier segment as near.
         let limit = guess * guess * (1.0 + 1e-12);
@@ -258,9 +261,9 @@ fn signed(point: [f64; 2], outline: &Outline, number: usize) -> Option<(f64, [f6
         }
         None => {
             let along = unit(foot.along);
-            // Beyond a free end: what there is nearest to is not the outline's side.
+            // Beyond a free end the nearest side is not the outline's.
             let ahead = (along[0] * d[0] + along[1] * d[1]) * if foot.share >= 1.0 { 1.0 } else { -1.0 };
-            if at_end && ahead > AHEAD * foot.distance.abs() {
+            if at_end && ahead > BEYOND_END_SHARE * foot.distance.abs() {
                 return None;
             }
             foot.distance
@@ -272,8 +275,9 @@ fn signed(point: [f64; 2], outline: &Outline, number: usize) -> Option<(f64, [f6
     Some((deviation + 0.0, foot.place))
 }
 
-/// Ahead of a free end by more than this share of its distance a point lies beyond it: at right angles it does not.
-const AHEAD: f64 = 1e-9;
+/// A point lies beyond a free end if that is ahead of it by more than this share of its distance. At right angles it is
+/// not.
+const BEYOND_END_SHARE: f64 = 1e-9;
 
 fn unit(v: [f64; 2]) -> [f64; 2] {
     let size = libm::hypot(v[0], v[1]).max(f64::MIN_POSITIVE);

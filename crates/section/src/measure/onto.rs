@@ -1,9 +1,11 @@
 //! The best fit of a section onto the section of its nominal, in their plane.
 //!
-//! Least squares of the distances to the nearest place, by Gauss and Newton: the outline is taken for its tangent at each foot, or for
-//! the corner where a foot is one, and the feet are found anew after each step (Chen and Medioni, Object modelling by registration of
-//! multiple range images, 1992). A step that does not bring the points nearer is halved. It begins with weights that fall with the
-//! distance (Huber), so that points without a counterpart hardly lead it, and ends with all that count at full weight. What the outlines do not hold is named and not guessed: as a circle turns, and a line slides along itself.
+//! Least squares of the distances to the nearest place, by Gauss and Newton. The outline is taken for its tangent at
+//! each foot, or for the corner where a foot is one. The feet are found anew after each step. (Chen and Medioni, Object
+//! modelling by registration of multiple range images, 1992). A step that does not bring the points nearer is halved.
+//! It begins with weights that fall with the distance (Huber), so that points without a counterpart hardly lead it. It
+//! ends with all that count at full weight. Motions that the outlines do not hold are named and not guessed: as a
+//! circle turns, and a line slides along itself.
 
 mod freedom;
 mod motion;
@@ -24,7 +26,7 @@ use trueness_geom::progress::{Cancelled, Progress};
 pub struct OntoNominal {
     /// The motion from the section as it lies onto the nominal.
     pub motion: PlaneMotion,
-    /// Standard uncertainty of its shift, coordinate by coordinate; 0 of what was held.
+    /// Standard uncertainty of its shift, coordinate by coordinate; 0 where that was held.
     pub shift_uncertainty: [f64; 2],
     /// Standard uncertainty of its turn, radians; 0 where that was held.
     pub turn_uncertainty: f64,
@@ -57,15 +59,15 @@ pub enum OntoNominalError {
     TooFewPoints {
         /// Points that count.
         found: usize,
-        /// What is looked for.
+        /// Number of unknowns.
         unknowns: usize,
     },
     /// The outlines hold the section only in part.
     #[error("the nominal does not hold the section: {free}; {remedy}")]
     Undetermined {
-        /// What leaves all distances as they are.
+        /// The motion that leaves all distances as they are.
         free: Free,
-        /// What can be asked instead.
+        /// The request that can be made instead.
         remedy: String,
     },
     /// Stopped through the progress argument.
@@ -74,26 +76,26 @@ pub enum OntoNominalError {
 }
 
 /// Steps of either stage.
-const STEPS: usize = 60;
+const MAX_STEPS_PER_STAGE: usize = 60;
 /// A step so small against the uncertainty changes nothing.
-const SETTLED: f64 = 1e-3;
+const SETTLED_STEP_SIGMAS: f64 = 1e-3;
 /// A step of this share of the size is rounding.
-const ROUNDING: f64 = 1e-13;
+const ROUNDING_STEP_SHARE: f64 = 1e-13;
 /// Residuals from which on a point counts less, in standard deviations (P. J. Huber 1964: 95 % as efficient as the mean).
-const HUBER: f64 = 1.345;
+const HUBER_SIGMAS: f64 = 1.345;
 /// Median magnitude of a normal variable over its standard deviation.
-const MEDIAN: f64 = 0.674_489_75;
-/// A turn is cut to this, radians: a tangent tells nothing of what lies farther round.
-const LONGEST_TURN: f64 = 0.2;
+const MEDIAN_SIGMAS: f64 = 0.674_489_75;
+/// A turn is cut to this, radians: a tangent tells nothing of places farther round.
+const MAX_STEP_TURN: f64 = 0.2;
 
 /// The motion, within `freedom`, that brings the points of `rows` nearest to the outlines. Points that are farther than `reach` in the
 /// end do not count. A turn alone is one about the origin; else the center is the middle of the points that count.
 ///
-/// Uncertainties are those of the scatter of the points about the nominal after the fit, taken as correlated along each row as it is
-/// found to be. Cost: up to 120 times that of [`off_nominal`].
+/// Uncertainties are those of the scatter of the points about the nominal after the fit. The scatter is taken as
+/// correlated along each row as it is found to be. Cost: up to 120 times that of [`off_nominal`].
 ///
 /// # Errors
-/// [`OntoNominalError`]: no outline, too few points, what the outlines do not hold, cancelled.
+/// [`OntoNominalError`]: no outline, too few points, motions that the outlines do not hold, cancelled.
 ///
 /// ```
 /// use trueness_section::{onto_nominal, Freedom, Outline};
@@ -158,8 +160,8 @@ fn middle(rows: &[&[[f64; 2]]]) -> [f64; 2] {
 fn huber(places: &Places) -> Vec<f64> {
     let mut sizes: Vec<f64> = places.distances().map(f64::abs).collect();
     let Some(middle) = median(&mut sizes) else { return vec![] };
-    let scale = middle / MEDIAN;
-    let limit = HUBER * scale;
+    let scale = middle / MEDIAN_SIGMAS;
+    let limit = HUBER_SIGMAS * scale;
     places.distances().map(|d| if d.abs() <= limit { 1.0 } else { limit / d.abs() }).collect()
 }
 
@@ -256,17 +258,18 @@ impl Search<'_> {
     /// Steps until they are small against the uncertainty, or until none brings the points nearer.
     fn settle(&mut self, weigh: &dyn Fn(&Places) -> Vec<f64>) -> Result<(usize, bool), OntoNominalError> {
         let mut places = self.places()?;
-        for step in 0..STEPS {
+        for step in 0..MAX_STEPS_PER_STAGE {
             let weights = weigh(&places);
             let normal = self.normal(&places, &weights)?;
             let mut by = normal.step();
             let turn = by[2].abs();
-            if turn > LONGEST_TURN {
-                by = by.map(|x| x * LONGEST_TURN / turn);
+            if turn > MAX_STEP_TURN {
+                by = by.map(|x| x * MAX_STEP_TURN / turn);
             }
             let size = |by: [f64; 3]| libm::hypot(libm::hypot(by[0], by[1]), by[2] * normal.arm);
             let uncertain = (normal.square / normal.count).sqrt() / normal.count.sqrt();
-            let least = (SETTLED * uncertain).max(ROUNDING * (normal.arm + self.motion.far()));
+            let least =
+                (SETTLED_STEP_SIGMAS * uncertain).max(ROUNDING_STEP_SHARE * (normal.arm + self.motion.far()));
             let before = self.motion;
             loop {
                 self.motion = before.then(by);
@@ -275,7 +278,7 @@ impl Search<'_> {
                     places = tried;
                     break;
                 }
-                // Nor is there an end to halving what is no number.
+                // Nor is there an end to halving a value that is no number.
                 if !size(by).is_finite() || least.is_nan() || size(by) <= least {
                     self.motion = before;
                     break;
@@ -286,6 +289,6 @@ impl Search<'_> {
                 return Ok((step + 1, true));
             }
         }
-        Ok((STEPS, false))
+        Ok((MAX_STEPS_PER_STAGE, false))
     }
 }

@@ -1,9 +1,10 @@
-//! What a drawing of a contour would have: relations between its lines and arcs, and whole numbers, as offers.
+//! Features that a drawing of a contour would have: relations between its lines and arcs, and whole numbers, as offers.
 //!
-//! The contour stays as it was found. Each offer is a condition on the segments found that the points allow, and that chance alone
-//! would seldom meet. Near the best fit the sum of squares grows by the square of the condition's distance in standard
-//! uncertainties, times the variance of the points (the likelihood ratio of nested models, S. S. Wilks 1938), so that nothing is
-//! fitted anew. The covariance is that of [`spread`]: of the points of each segment, under the tangent joins.
+//! The contour stays as it was found. Each offer is a condition on the segments found that the points allow, and that
+//! chance alone would seldom meet. Near the best fit the sum of squares grows by the square of the condition's distance
+//! in standard uncertainties, times the variance of the points. That is the likelihood ratio of nested models (S. S.
+//! Wilks 1938), so nothing is fitted anew. The covariance is that of [`spread`]: of the points of each segment, under
+//! the tangent joins.
 
 mod offer;
 mod relation;
@@ -18,9 +19,10 @@ use spread::Spread;
 
 /// The offers for contours in one plane, whose points are `rows`, and why some have none. In the order of the first segment.
 ///
-/// Segments `astray`, splines, and those without uncertainty take no part. Pairs of lines that are parallel, and of arcs of one radius
-/// or center, are told with the first that there is, not with all. Cost: the cube of the segments of a tangent chain, and the square
-/// of lines and of arcs; of more than 200 lines, or arcs, the first 200.
+/// Segments `unreliable`, splines, and those without uncertainty take no part. Pairs of lines that are parallel, and of
+/// arcs of one radius or center, are told with the first that there is, not with all. Cost: the cube of the segments of
+/// a tangent chain, and the square of lines and of arcs. Where there are more than 200 lines, or arcs, the first 200
+/// count.
 ///
 /// ```
 /// use trueness_geom::{num::random::Random, progress::Silent};

@@ -1,4 +1,4 @@
-//! What the searches of a row may take together.
+//! Work that the searches of a row may take together.
 
 use std::cell::Cell;
 
@@ -10,12 +10,12 @@ pub(crate) struct Budget {
 }
 
 impl Budget {
-    /// Of so many products.
+    /// A budget of so many products.
     pub fn new(products: f64) -> Budget {
         Budget { left: Cell::new(products), cut_short: Cell::new(false) }
     }
 
-    /// Takes off what a search took.
+    /// Takes off the products of a search.
     pub fn take(&self, products: f64) {
         self.left.set(self.left.get() - products);
     }

@@ -5,7 +5,7 @@
 
 use super::free::{self, Table};
 
-/// What a segment is.
+/// The kind of a segment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum SegmentKind {
     /// Straight.
@@ -32,7 +32,7 @@ impl SegmentKind {
 pub(crate) struct Piece {
     pub kind: SegmentKind,
     pub length: f64,
-    /// Of a line none, of an arc its curvature, of a free piece the coefficients of its curvature.
+    /// None for a line, the curvature of an arc, the coefficients of the curvature of a free piece.
     pub coefficients: Vec<f64>,
 }
 
@@ -94,7 +94,7 @@ impl Pose {
 }
 
 /// Chains of more pieces are searched by pieces near each other.
-const MANY: usize = 16;
+const MAX_PIECES_SEARCHED_WHOLE: usize = 16;
 
 /// A chain of pieces.
 #[derive(Clone, Debug, PartialEq)]
@@ -106,11 +106,11 @@ pub(crate) struct Chain {
     pub closed: bool,
     /// At joins of free pieces the curvature does not jump.
     pub even: bool,
-    /// Of a part of a longer chain, what stays as it is at its ends.
+    /// Where the chain is part of a longer one, the quantities that stay as they are at its ends.
     pub ends: Ends,
 }
 
-/// What stays as it is at the ends of a chain: by itself nothing does.
+/// Quantities that stay as they are at the ends of a chain: by itself nothing does.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Ends {
     /// The pose of the start does not move.
@@ -132,7 +132,7 @@ impl Chain {
     }
     /// Whether it is searched by pieces near each other.
     pub fn is_long(&self) -> bool {
-        self.pieces.len() > MANY
+        self.pieces.len() > MAX_PIECES_SEARCHED_WHOLE
     }
     /// Number of joins.
     pub fn joins(&self) -> usize {
@@ -156,7 +156,7 @@ impl Chain {
 pub(crate) struct Layout {
     /// Start of each piece, then the end.
     pub poses: Vec<Pose>,
-    /// Of free pieces; of others empty.
+    /// Tables of free pieces; those of others are empty.
     pub tables: Vec<Table>,
 }
 

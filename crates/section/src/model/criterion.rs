@@ -1,9 +1,9 @@
-//! What a model of a smooth row costs, and what it is made of.
+//! The cost of a model of a smooth row, and the parts of such a model.
 
 use super::chain::{Chain, Piece, SegmentKind};
 use super::least::State;
 
-/// What a model costs.
+/// Cost of a model.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Criterion {
     /// Standard deviation of the noise known beforehand, and of how many degrees of freedom that knowledge is.
@@ -15,31 +15,31 @@ pub(crate) struct Criterion {
     pub count: f64,
     /// All that count.
     pub points: f64,
-    /// What else there is of a chain of which models are a part.
+    /// The other pieces of a chain of which models are a part.
     pub rest: Option<Rest>,
 }
 
-/// What the other pieces of a chain have: their sum of squares, and their unknowns.
+/// Sum of squares and unknowns of the other pieces of a chain.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Rest {
     pub sum: f64,
     pub unknowns: Unknowns,
 }
 
-/// Fewer points do not tell all that a search goes through on its way.
-const ENOUGH: f64 = 60.0;
+/// In rows of fewer points a search may pass through models whose free pieces are loose.
+const MIN_POINTS_TO_FORBID_LOOSE_PIECES: f64 = 60.0;
 
-/// Cost beyond that of its unknowns of an arc and of a free piece: simple kinds are the likelier ones, by as much however far neighbors
-/// share their noise.
-const ARC: f64 = 1.0;
-const FREE: f64 = 1.5;
+/// Cost of an arc beyond that of its unknowns. Simple kinds are likelier, by as much however far neighbors share their noise.
+const ARC_COST: f64 = 1.0;
+/// Cost of a free piece beyond that of its unknowns, for the same reason.
+const FREE_PIECE_COST: f64 = 1.5;
 
 impl Criterion {
-    /// Twice the negative logarithm of the likelihood, the variance of the noise eliminated, plus the penalty of Schwarz
-    /// for each unknown; a join counts twice, as its place was chosen among many. Where the points are few for the unknowns, these take
-    /// up noise, and the variance left is less than that of the noise: the penalty grows, up to twice, as the unknowns become as many as
-    /// the points (McQuarrie, A small-sample correction for the Schwarz SIC model selection criterion, Statistics and Probability Letters
-    /// 44, 1999).
+    /// Twice the negative logarithm of the likelihood, the variance of the noise eliminated, plus the penalty of
+    /// Schwarz for each unknown. A join counts twice, as its place was chosen among many. Where the points are few for
+    /// the unknowns, these take up noise, and the variance left is less than that of the noise. So the penalty grows,
+    /// up to twice, as the unknowns become as many as the points. (McQuarrie, A small-sample correction for the Schwarz
+    /// SIC model selection criterion, Statistics and Probability Letters 44, 1999).
     pub fn cost(&self, state: &State) -> f64 {
         // A piece without points is made up.
         if state.breaks.windows(2).any(|w| w[0] >= w[1]) {
@@ -51,7 +51,9 @@ impl Criterion {
         let meets_itself = |p: &Piece| {
             p.kind == SegmentKind::Arc && (p.length * p.curvature(0.0)).abs() >= std::f64::consts::TAU
         };
-        let loose = |(p, w): (&Piece, &[usize])| self.count >= ENOUGH && p.is_loose(w[1] - w[0]);
+        let loose = |(p, w): (&Piece, &[usize])| {
+            self.count >= MIN_POINTS_TO_FORBID_LOOSE_PIECES && p.is_loose(w[1] - w[0])
+        };
         if pieces.len() > 1
             && (pieces.iter().any(meets_itself) || pieces.iter().zip(state.breaks.windows(2)).any(loose))
         {
@@ -63,7 +65,7 @@ impl Criterion {
             Some(rest) => self.cost_of(state.sum + rest.sum, own.and(rest.unknowns)),
         }
     }
-    /// What a sum of squares and so many unknowns cost.
+    /// Cost of a sum of squares and so many unknowns.
     pub fn cost_of(&self, sum: f64, unknowns: Unknowns) -> f64 {
         let total = self.count + self.degrees;
         let floor = self.resolution * self.resolution;
@@ -80,16 +82,18 @@ impl Criterion {
     }
     fn penalty(&self, unknowns: Unknowns) -> f64 {
         let total = self.count + self.degrees;
-        let spare = (total - unknowns.number - 2.0).max(SPARE * total);
-        let few = if total < SHORT { 1.0 } else { total / spare };
-        (unknowns.weight * libm::log(self.count) + unknowns.kinds * libm::log(self.points)) * few
+        let spare = (total - unknowns.number - 2.0).max(MIN_FREEDOM_SHARE * total);
+        let small_sample_factor = if total < SHORT_ROW_POINTS { 1.0 } else { total / spare };
+        (unknowns.weight * libm::log(self.count) + unknowns.kinds * libm::log(self.points))
+            * small_sample_factor
     }
 }
 
-/// Share of the degrees of freedom that counts as left at least; in rows of fewer points than this all: there any curve along the points
-/// takes most of them, and is better all the same than one that passes them by.
-const SHORT: f64 = 24.0;
-const SPARE: f64 = 0.5;
+/// In rows of fewer points all degrees of freedom count as left. Any curve along the points takes most of them there,
+/// and is better all the same than one that passes them by.
+const SHORT_ROW_POINTS: f64 = 24.0;
+/// Share of the degrees of freedom that counts as left at least.
+const MIN_FREEDOM_SHARE: f64 = 0.5;
 
 /// The unknowns of a chain.
 #[derive(Clone, Copy, Debug)]
@@ -98,7 +102,7 @@ pub(crate) struct Unknowns {
     pub number: f64,
     /// How many the criterion counts.
     pub weight: f64,
-    /// What the kinds cost beyond.
+    /// Cost of the kinds beyond.
     pub kinds: f64,
 }
 
@@ -113,8 +117,8 @@ impl Unknowns {
         };
         let kind = |p: &Piece| match p.kind {
             SegmentKind::Line => 0.0,
-            SegmentKind::Arc => ARC,
-            SegmentKind::Spline => FREE,
+            SegmentKind::Arc => ARC_COST,
+            SegmentKind::Spline => FREE_PIECE_COST,
         };
         Unknowns {
             number: 2.0 + joins + chain.pieces.iter().map(number).sum::<f64>(),
@@ -122,7 +126,7 @@ impl Unknowns {
             kinds: chain.pieces.iter().map(kind).sum(),
         }
     }
-    /// Those of a chain without those of a part of it.
+    /// The unknowns of a chain without those of a part of it.
     pub fn less(self, other: Unknowns) -> Unknowns {
         Unknowns {
             number: self.number - other.number,
@@ -130,7 +134,7 @@ impl Unknowns {
             kinds: self.kinds - other.kinds,
         }
     }
-    /// Those of two chains.
+    /// The unknowns of two chains.
     pub fn and(self, other: Unknowns) -> Unknowns {
         Unknowns {
             number: self.number + other.number,
@@ -140,17 +144,17 @@ impl Unknowns {
     }
 }
 
-/// A model with what it costs.
+/// A model with its cost.
 #[derive(Clone, Debug)]
 pub(crate) struct Model {
     pub state: State,
     pub cost: f64,
 }
 
-/// A piece to be made: its kind, the number of its coefficients if it is free, and where it begins and ends on the model it
-/// comes from.
+/// A piece to be made. It has its kind, the number of its coefficients if it is free, and where it begins and ends on
+/// the model it comes from.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Plan {
+pub(crate) struct PieceSpec {
     pub kind: SegmentKind,
     pub count: usize,
     pub from: f64,

@@ -6,15 +6,15 @@ use trueness_geom::progress::{Cancelled, Progress};
 
 /// Chords over a whole circle, and over a span of a free curve. They differ, and are odd, so that ends of chords of one curve seldom
 /// lie on another.
-const CHORDS: (f64, usize) = (143.0, 11);
-/// So many crossings are told.
-const MOST: usize = 100;
-/// Chords looked at after which it is asked whether to stop.
-const ASKED: usize = 1024;
+const CHORDS_PER_CIRCLE_AND_SPAN: (f64, usize) = (143.0, 11);
+/// At most so many crossings are listed.
+const MAX_CROSSINGS: usize = 100;
+/// Chords looked at after which the search asks whether to stop.
+const CHORDS_PER_STOP_CHECK: usize = 1024;
 /// Steps towards the place where two curves cross.
-const STEPS: usize = 4;
-/// Half of what is left of a chord with each, as a share.
-const SHORTER: f64 = 0.1;
+const CROSSING_STEPS: usize = 4;
+/// Each step leaves this share of the chord's half length.
+const CHORD_SHRINK_RATIO: f64 = 0.1;
 
 /// A chord of a segment: from a share of its parameter to another.
 struct Chord {
@@ -23,7 +23,7 @@ struct Chord {
     shares: [f64; 2],
 }
 
-/// Whether two chords cross. What is on a chord counts as left of it: a way through the end of a chord crosses once.
+/// Whether two chords cross. A point on a chord counts as left of it: a way through the end of a chord crosses once.
 fn cross(a: &[[f64; 2]; 2], b: &[[f64; 2]; 2]) -> bool {
     let left = |c: &[[f64; 2]; 2], p: [f64; 2]| {
         let space = |p: [f64; 2]| [p[0], p[1], 0.0];
@@ -53,7 +53,7 @@ pub(crate) fn crossing_chords(
     order.sort_by(|a, b| range(&chords[*a], k).0.total_cmp(&range(&chords[*b], k).0).then(a.cmp(b)));
     let (mut open, mut found): (Vec<usize>, Vec<(usize, usize)>) = (vec![], vec![]);
     for (n, i) in order.into_iter().enumerate() {
-        if n % ASKED == 0 && progress.cancelled() {
+        if n % CHORDS_PER_STOP_CHECK == 0 && progress.cancelled() {
             return Err(Cancelled);
         }
         let own = &chords[i];
@@ -62,8 +62,8 @@ pub(crate) fn crossing_chords(
         for &j in &open {
             let (from, to) = range(&chords[j], 1 - k);
             let apart = i.abs_diff(j);
-            let beside = apart < 2 || closed && apart + 1 == chords.len();
-            if from <= across.1 && across.0 <= to && !beside && cross(own, &chords[j]) {
+            let are_neighbors = apart < 2 || closed && apart + 1 == chords.len();
+            if from <= across.1 && across.0 <= to && !are_neighbors && cross(own, &chords[j]) {
                 found.push((i.min(j), i.max(j)));
             }
         }
@@ -80,9 +80,9 @@ pub(crate) fn crossing_chords(
 /// Where segments that follow each other cross, in their order; at most a hundred places. `closed` tells that the last is followed by
 /// the first.
 ///
-/// Curves are looked at by chords, so that two of them that run beside each other nearer than chords to their arcs (3e-4 of a
-/// radius) may be taken for crossing. Where segments touch there is no crossing. Cost: a sort of the chords, and a look at those that
-/// overlap in one coordinate.
+/// Curves are looked at by chords. Two of them that run beside each other nearer than chords to their arcs (3e-4 of a
+/// radius) may be taken for crossing. Where segments touch there is no crossing. Cost: a sort of the chords, and a look
+/// at those that overlap in one coordinate.
 ///
 /// # Errors
 /// [`Cancelled`], when asked to stop.
@@ -120,18 +120,18 @@ pub(crate) fn crossings_with_loops(
         let way = ways[*j] - ways[*i];
         way > least && (!closed || ways[ends.len()] - way > least)
     };
-    let pairs = crossing_chords(&ends, closed, MOST, progress)?.into_iter().filter(is_long);
+    let pairs = crossing_chords(&ends, closed, MAX_CROSSINGS, progress)?.into_iter().filter(is_long);
     Ok(pairs.map(|(i, j)| place_of(segments, &chords[i], &chords[j])).collect())
 }
 
 /// The place where the curves of two chords cross: of ever shorter chords about where the ones before meet.
 fn place_of(segments: &[Segment], a: &Chord, b: &Chord) -> [f64; 2] {
     let (mut shares, mut ends) = ([a.shares, b.shares], [a.ends, b.ends]);
-    for _ in 0..STEPS {
+    for _ in 0..CROSSING_STEPS {
         let along = [ends, [ends[1], ends[0]]].map(|[own, other]| meeting(own, other));
         for (k, chord) in [a, b].into_iter().enumerate() {
             let [from, to] = shares[k];
-            let (at, half) = (from + along[k] * (to - from), SHORTER * (to - from));
+            let (at, half) = (from + along[k] * (to - from), CHORD_SHRINK_RATIO * (to - from));
             shares[k] = [(at - half).max(0.0), (at + half).min(1.0)];
             ends[k] = shares[k].map(|s| segments[chord.segment].place(s));
         }
@@ -153,9 +153,11 @@ fn chords(number: usize, segment: &Segment) -> Vec<Chord> {
     let count = match &segment.geometry {
         Geometry::Line => 1,
         Geometry::Arc { sweep, .. } => {
-            ((sweep.abs() / std::f64::consts::TAU * CHORDS.0).ceil() as usize).max(3) | 1
+            ((sweep.abs() / std::f64::consts::TAU * CHORDS_PER_CIRCLE_AND_SPAN.0).ceil() as usize).max(3) | 1
         }
-        Geometry::Spline { curve, .. } => CHORDS.1 * (curve.points().len() - curve.knots().degree()),
+        Geometry::Spline { curve, .. } => {
+            CHORDS_PER_CIRCLE_AND_SPAN.1 * (curve.points().len() - curve.knots().degree())
+        }
     };
     let share = |i: usize| i as f64 / count as f64;
     let places: Vec<[f64; 2]> = (0..=count).map(|i| segment.place(share(i))).collect();
@@ -180,8 +182,9 @@ mod tests {
         let side = |c: &[[f64; 2]; 2], p: [f64; 2]| {
             (c[1][0] - c[0][0]) * (p[1] - c[0][1]) - (c[1][1] - c[0][1]) * (p[0] - c[0][0]) >= 0.0
         };
-        let beside = |i: usize, j: usize| j - i < 2 || closed && j - i + 1 == n;
-        let pairs = (0..n).flat_map(|i| (i + 1..n).map(move |j| (i, j))).filter(|(i, j)| !beside(*i, *j));
+        let are_neighbors = |i: usize, j: usize| j - i < 2 || closed && j - i + 1 == n;
+        let pairs =
+            (0..n).flat_map(|i| (i + 1..n).map(move |j| (i, j))).filter(|(i, j)| !are_neighbors(*i, *j));
         let crosses = |(i, j): &(usize, usize)| {
             let (a, b) = (&chords[*i], &chords[*j]);
             side(a, b[0]) != side(a, b[1]) && side(b, a[0]) != side(b, a[1])

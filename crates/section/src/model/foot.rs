@@ -56,7 +56,8 @@ impl Segment {
         all
     }
 
-    /// The place at a share of its parameter, from 0 at its start to 1 at its end: of lines and arcs the share of the length.
+    /// The place at a share of its parameter, from 0 at its start to 1 at its end. For lines and arcs it is the share
+    /// of the length.
     pub fn place(&self, share: f64) -> [f64; 2] {
         match &self.geometry {
             _ if share <= 0.0 => self.start,
@@ -127,7 +128,7 @@ impl Segment {
                 let half = 0.5 * sweep.abs();
                 if turned.abs() <= half {
                     let far = distance(*center, point);
-                    // Of the center every place is the nearest; the middle stands for all.
+                    // Every place is the nearest to the center; the middle stands for all.
                     let unit = if far > 0.0 { out.map(|x| x / far) } else { [cos, sin] };
                     let place = [center[0] + radius * unit[0], center[1] + radius * unit[1]];
                     let along = [-unit[1] * sweep.signum(), unit[0] * sweep.signum()];
@@ -149,7 +150,7 @@ impl Segment {
         }
     }
 
-    /// What lies between two lengths along it, `from` below `to`.
+    /// The part between two lengths along it, `from` below `to`.
     pub(crate) fn part(&self, from: f64, to: f64) -> Segment {
         let [from, to] = [from, to].map(|x| x.clamp(0.0, self.length));
         match &self.geometry {

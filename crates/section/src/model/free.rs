@@ -1,20 +1,20 @@
 //! The free piece: curvature as a B-spline along the length.
 //!
-//! A piece of length `ℓ` with coefficients `c` has the curvature `κ(t) = Σ cⱼ Bⱼ(t)` for `t = s / ℓ` from 0 to 1, so its
-//! heading is `θ(t) = ℓ Σ cⱼ Kⱼ(t)` with `Kⱼ = ∫ Bⱼ`, exactly. Places are integrals of the heading's direction, by Gauss and
-//! Legendre's rule over panels, and quintic between the ends of panels; how they move with the unknowns is cubic there. All is in the frame of the piece: it starts at 0
-//! along the first axis.
+//! A piece of length `ℓ` with coefficients `c` has the curvature `κ(t) = Σ cⱼ Bⱼ(t)` for `t = s / ℓ` from 0 to 1. So
+//! its heading is `θ(t) = ℓ Σ cⱼ Kⱼ(t)` with `Kⱼ = ∫ Bⱼ`, exactly. Places are integrals of the heading's direction, by
+//! Gauss and Legendre's rule over panels, and quintic between the ends of panels. Their motions with the unknowns are
+//! cubic there. All is in the frame of the piece: it starts at 0 along the first axis.
 
 use std::sync::OnceLock;
 use trueness_geom::spline::basis::Knots;
 use trueness_geom::spline::curve::{self, Ends};
 
 /// Most coefficients of a free piece.
-pub(crate) const MOST_COEFFICIENTS: usize = 48;
+pub(crate) const MAX_COEFFICIENTS: usize = 48;
 /// Fewest panels over a piece, and per span of its knots.
-const PANELS: (usize, usize) = (14, 4);
+const MIN_PANELS_PER_PIECE_AND_SPAN: (usize, usize) = (14, 4);
 /// Gauss and Legendre's rule with four places on 0 … 1.
-const RULE: [(f64, f64); 4] = [
+const GAUSS_LEGENDRE: [(f64, f64); 4] = [
     (0.069_431_844_202_973_71, 0.173_927_422_568_726_93),
     (0.330_009_478_207_571_87, 0.326_072_577_431_273_07),
     (0.669_990_521_792_428_1, 0.326_072_577_431_273_07),
@@ -72,10 +72,10 @@ pub(crate) fn near(count: usize, curvatures: &[f64]) -> Vec<f64> {
 }
 
 impl Basis {
-    /// The functions for `count` coefficients, 2 to [`MOST_COEFFICIENTS`].
+    /// The functions for `count` coefficients, 2 to [`MAX_COEFFICIENTS`].
     pub(super) fn of(count: usize) -> &'static Basis {
-        static ALL: [OnceLock<Basis>; MOST_COEFFICIENTS + 1] =
-            [const { OnceLock::new() }; MOST_COEFFICIENTS + 1];
+        static ALL: [OnceLock<Basis>; MAX_COEFFICIENTS + 1] =
+            [const { OnceLock::new() }; MAX_COEFFICIENTS + 1];
         ALL[count].get_or_init(|| Basis::new(count))
     }
 
@@ -83,7 +83,8 @@ impl Basis {
         let degree = degree(count);
         let spans = count - degree;
         let knots = Knots::uniform(degree, spans, 0.0, 1.0);
-        let panels = spans * PANELS.1.max(PANELS.0.div_ceil(spans));
+        let panels =
+            spans * MIN_PANELS_PER_PIECE_AND_SPAN.1.max(MIN_PANELS_PER_PIECE_AND_SPAN.0.div_ceil(spans));
         let dense = |t: f64| {
             let (first, values) = knots.basis(t);
             let mut all = vec![0.0; count];
@@ -93,7 +94,7 @@ impl Basis {
         // Exact for the cubic pieces of the functions.
         let integral = |from: f64, to: f64| {
             let mut sum = vec![0.0; count];
-            for (x, w) in RULE {
+            for (x, w) in GAUSS_LEGENDRE {
                 for (s, b) in sum.iter_mut().zip(dense(from + (to - from) * x)) {
                     *s += w * (to - from) * b;
                 }
@@ -112,7 +113,7 @@ impl Basis {
         let mut now = vec![0.0; count];
         for k in 0..panels {
             let (from, to) = (k as f64 / panels as f64, (k + 1) as f64 / panels as f64);
-            for (x, _) in RULE {
+            for (x, _) in GAUSS_LEGENDRE {
                 basis.inner.extend(plus(&now, integral(from, from + (to - from) * x)));
             }
             now = plus(&now, integral(from, to));
@@ -159,10 +160,11 @@ pub(crate) struct Table {
 }
 
 impl Table {
-    /// What it takes to fill it, in products: a sine takes about as long as so many.
+    /// Products that filling it takes: a sine takes about as long as so many.
     pub(super) fn products(&self) -> f64 {
-        const SINE: usize = 50;
-        (4 * self.panels * (4 * self.count + SINE)) as f64
+        /// Products in the time of one sine.
+        const PRODUCTS_PER_SINE: usize = 50;
+        (4 * self.panels * (4 * self.count + PRODUCTS_PER_SINE)) as f64
     }
 
     /// Computes all for the piece.
@@ -197,7 +199,7 @@ impl Table {
             let last = self.motions.len() - n - 1;
             self.motions.extend_from_within(last..);
             let now = last + n + 1;
-            for (g, (_, weight)) in RULE.iter().enumerate() {
+            for (g, (_, weight)) in GAUSS_LEGENDRE.iter().enumerate() {
                 let inner = &basis.inner[(4 * k + g) * n..(4 * k + g + 1) * n];
                 let angle = angles[4 * k + g];
                 let (sin, cos) = libm::sincos(length * angle);
@@ -265,7 +267,7 @@ impl Table {
             let normal = (d[1] * slope[0] - d[0] * slope[1]) * inverse;
             let step = tangential / (1.0 - curvature * normal).max(0.3);
             t = (t + step.clamp(-2.0 * width, 2.0 * width) / self.length).clamp(-0.5, 1.5);
-            // Newton's method squares a small error: the next step would be below what counts.
+            // Newton's method squares a small error: the next step would be below the resolution.
             if tangential.abs() < 1e-3 * width {
                 break;
             }
@@ -293,8 +295,8 @@ impl Table {
         (at, slope, (1.0 - f) * self.places[k].curvature + f * self.places[k + 1].curvature)
     }
 
-    /// Motions at `t` with the length and with each coefficient, along `normal`: cubic between the ends of panels, where they and their
-    /// rates are known; beyond the ends of the piece straight.
+    /// Motions at `t` with the length and with each coefficient, along `normal`. They are cubic between the ends of
+    /// panels, where they and their rates are known, and straight beyond the ends of the piece.
     #[inline]
     pub(super) fn motions_along(&self, t: f64, normal: [f64; 2], out: &mut [f64]) {
         let (k, f) = self.panel(t);
@@ -306,8 +308,8 @@ impl Table {
         let [u, v, m, n] = hermite(f);
         let left = |p: &CurvePlace| p.along[0] * normal[1] - p.along[1] * normal[0];
         let ahead = |p: &CurvePlace| p.along[0] * normal[0] + p.along[1] * normal[1];
-        // Rates over a panel: with the length the direction, and the heading to the left; with a coefficient the length's square and
-        // the integral of its function to the left.
+        // Rates over a panel. The length moves along the direction, and turns the heading to the left. A coefficient
+        // moves by the length's square and the integral of its function, to the left.
         let step = 1.0 / self.panels as f64;
         let (m, n) = (m * step, n * step);
         out[0] = u * (a[0][0] * normal[0] + a[0][1] * normal[1])
@@ -324,7 +326,8 @@ impl Table {
     }
 }
 
-/// Weights of the values at the ends of a panel, and of the rates there, in a cubic over it; beyond, in the straight line that it goes on as.
+/// Weights of the values at the ends of a panel, and of the rates there, in a cubic over it. Beyond, they are those of
+/// the straight line that goes on from it.
 fn hermite(f: f64) -> [f64; 4] {
     let (g, beyond) = (f.clamp(0.0, 1.0), f - f.clamp(0.0, 1.0));
     let h = 1.0 - g;

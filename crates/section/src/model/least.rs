@@ -1,8 +1,8 @@
 //! The chain of least squared orthogonal distances, by the method of Levenberg and Marquardt.
 //!
-//! A change of an unknown moves all that follows on the chain as a rigid body. So the distances of the points of a piece
-//! depend on what lies before it through three numbers alone, and one pass over the points that sums products of those
-//! and of the piece's own unknowns serves for any number of unknowns.
+//! A change of an unknown moves all that follows on the chain as a rigid body. So the distances of the points of a
+//! piece depend on the pieces before it through three numbers alone. One pass over the points sums products of these
+//! and of the piece's own unknowns, and serves for any number of unknowns.
 
 mod constrained;
 mod normal;
@@ -14,12 +14,13 @@ use super::chain::{Chain, Ends, Layout, Pose, SegmentKind, arc_end, arc_to};
 use super::result::Uncertainty;
 use constrained::Constrained;
 use normal::end_coefficient;
-use work::{PieceSums, SOFT, Variable};
+use work::{PieceSums, TRIAL_CONDITION_WEIGHT, Variable};
 
 /// Weight of a squared distance that must vanish, against one that is to be least, where it is to vanish at last.
-const STIFF: f64 = 1e8;
-/// Steps back to where the conditions hold, after one along their tangents: each squares what is missing.
-const RESTORED: usize = 4;
+const FINAL_CONDITION_WEIGHT: f64 = 1e8;
+/// Steps back to where the conditions hold, after one along their tangents. Each squares the residual of the
+/// conditions.
+const RESTORING_STEPS: usize = 4;
 
 /// The points that a chain is fitted to, seen from near their middle, and how much each counts.
 #[derive(Clone, Copy, Debug)]
@@ -43,26 +44,26 @@ pub(crate) struct State {
 /// How well the data determine a chain.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Spread {
-    /// Of the place of each join along the chain.
+    /// Deviations of the place of each join along the chain.
     pub places: Vec<f64>,
-    /// Of the jump of curvature at each join.
+    /// Deviations of the jump of curvature at each join.
     pub jumps: Vec<f64>,
-    /// Of the first and last point of the chain, across it.
+    /// Deviations of the first and last point of the chain, across it.
     pub ends: [f64; 2],
-    /// Of each line and arc; of a free piece `None`.
+    /// Uncertainties of each line and arc; `None` for a free piece.
     pub pieces: Vec<Option<Uncertainty>>,
-    /// Of the length of each piece between its joins; beyond the first and last, none.
+    /// Deviations of the length of each piece between its joins; none beyond the first and last.
     pub lengths: Vec<f64>,
 }
 
-/// Share of the least gain of a step below which a step is not taken.
-const NEGLIGIBLE: f64 = 0.01;
-/// Gain of a step, in variances of the noise, below which no shorter one is tried where it was refused: rounding is what refuses it, and
-/// the unknowns are within a hundredth of their uncertainty.
-const SETTLED: f64 = 1e-4;
+/// A step is not taken that gains less than this share of the least gain.
+const MIN_GAIN_SHARE: f64 = 0.01;
+/// Gain of a step, in variances of the noise, below which no shorter one is tried where it was refused. Rounding refuses such a
+/// step, and the unknowns are within a hundredth of their uncertainty.
+const SETTLED_GAIN_VARIANCES: f64 = 1e-4;
 
 /// Products in the time of one distance.
-const DISTANCE: usize = 40;
+const PRODUCTS_PER_DISTANCE: usize = 40;
 
 /// When to stop.
 #[derive(Clone, Copy, Debug)]
@@ -72,10 +73,10 @@ pub(crate) struct Stop {
     pub gain: f64,
     /// Least length of a piece.
     pub shortest: f64,
-    /// Whether what must vanish does, in every step; otherwise it is weighed against the distances.
+    /// Whether the conditions hold in every step; otherwise they are weighed against the distances.
     pub exact: bool,
-    /// Sum of squares that is asked for: where a step gains less than a tenth of what is missing, it will not be reached.
-    /// Infinite where none is.
+    /// Sum of squares that is asked for: where a step gains less than a tenth of the missing part, it will not be
+    /// reached. Infinite where none is.
     pub target: f64,
 }
 
@@ -157,8 +158,9 @@ impl Work {
             let mut products = [0.0; 64];
             let size = block.size;
             // A distance takes about as long as so many products.
-            self.effort +=
-                (to.saturating_sub(from) * (DISTANCE + if full { size * size / 2 } else { 0 })) as f64;
+            self.effort += (to.saturating_sub(from)
+                * (PRODUCTS_PER_DISTANCE + if full { size * size / 2 } else { 0 }))
+                as f64;
             let mut next = from % count;
             for _ in from..to {
                 let i = next;
@@ -194,9 +196,9 @@ impl Work {
         }
     }
 
-    /// Sum of squares and what conditions add to it.
+    /// Sum of squares and the terms that conditions add to it.
     fn cost(&self, state: &State, held: Option<&Held>) -> f64 {
-        let weight = if self.exact { STIFF } else { SOFT };
+        let weight = if self.exact { FINAL_CONDITION_WEIGHT } else { TRIAL_CONDITION_WEIGHT };
         state.sum + weight * self.off(&state.chain, held).iter().map(|x| x * x).sum::<f64>()
     }
 
@@ -234,7 +236,7 @@ impl Work {
             return;
         }
         let (mut missing, mut square) = off(self, chain);
-        for _ in 0..RESTORED {
+        for _ in 0..RESTORING_STEPS {
             let mut next = chain.clone();
             self.step(&mut next, &system.restore(missing), shortest);
             let found = off(self, &next);
@@ -251,10 +253,10 @@ impl Work {
         self.exact = stop.exact;
         self.measure(row, state, true);
         let mut cost = self.cost(state, held);
-        let (mut lambda, mut stalled, mut taken) = (1e-4, 0, 0);
+        let (mut lambda, mut stalled, mut steps_taken) = (1e-4, 0, 0);
         let mut fresh = true;
         let mut next = state.clone();
-        let settled = SETTLED / row.points.len() as f64;
+        let settled = SETTLED_GAIN_VARIANCES / row.points.len() as f64;
         for _ in 0..stop.steps {
             if fresh {
                 let chain = std::mem::replace(&mut state.chain, Chain::EMPTY);
@@ -276,11 +278,12 @@ impl Work {
                 continue;
             };
             let step = system.solve(&self.right, &self.missing);
-            // What the step would gain if the distances were linear in the unknowns: where that is far below what is asked for,
-            // nothing is measured any more.
+            // The gain of the step if the distances were linear in the unknowns. Where that is far below the gain asked
+            // for, nothing is measured any more.
             let gain: f64 = step.iter().zip(&self.right).map(|(x, r)| x * r).sum::<f64>()
-                + (STIFF - SOFT) * self.missing.iter().map(|x| x * x).sum::<f64>();
-            let least = if fresh { NEGLIGIBLE * stop.gain } else { settled };
+                + (FINAL_CONDITION_WEIGHT - TRIAL_CONDITION_WEIGHT)
+                    * self.missing.iter().map(|x| x * x).sum::<f64>();
+            let least = if fresh { MIN_GAIN_SHARE * stop.gain } else { settled };
             if gain <= least * cost {
                 break;
             }
@@ -290,8 +293,8 @@ impl Work {
             self.measure(row, &mut next, true);
             let after = self.cost(&next, held);
             if after <= cost {
-                taken += 1;
-                let missed = taken > 1 && cost - after < 0.1 * (after - stop.target);
+                steps_taken += 1;
+                let missed = steps_taken > 1 && cost - after < 0.1 * (after - stop.target);
                 stalled = if cost - after <= stop.gain * cost || missed { stalled + 1 } else { 0 };
                 (cost, lambda, fresh) = (after, (lambda * 0.1).max(1e-12), true);
                 std::mem::swap(state, &mut next);
@@ -351,8 +354,8 @@ impl Work {
         &self.distances
     }
 
-    /// Lengths from the start to the feet of all points: of a closed chain those of the points before its start are
-    /// counted on beyond its end.
+    /// Lengths from the start to the feet of all points. Points before the start of a closed chain are counted on
+    /// beyond its end.
     pub(crate) fn stations(&mut self, row: &Row, state: &mut State) -> Vec<f64> {
         self.measure(row, state, false);
         let count = row.points.len();

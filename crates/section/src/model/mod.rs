@@ -1,4 +1,4 @@
-//! What contours and chains are, and how chains are fitted.
+//! Contours and chains, and how chains are fitted.
 //!
 //! | file | what |
 //! |---|---|
@@ -7,7 +7,7 @@
 //! | `foot` | where on a segment the foot of a point is |
 //! | `crossings` | places where a contour crosses itself |
 //! | `chain`, `free` | pieces that join with a common tangent, as curvature along the length |
-//! | `least`, `follow` | their least-squares fit; whether they run along their points |
+//! | `least`, `is_followed` | their least-squares fit; whether they run along their points |
 //! | `criterion` | what a chain costs |
 //! | `prior` | what is known of the noise |
 //! | `budget` | how long the searches of a row may take |
@@ -17,9 +17,9 @@ pub(super) mod chain;
 pub(super) mod criterion;
 pub(super) mod crossings;
 pub(super) mod flat;
-mod follow;
 pub(super) mod foot;
 pub(super) mod free;
+mod is_followed;
 pub(super) mod least;
 pub(super) mod prior;
 pub(super) mod result;

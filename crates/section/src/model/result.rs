@@ -1,4 +1,4 @@
-//! What is known about a contour.
+//! A contour and its parts.
 
 use super::chain::SegmentKind;
 use trueness_geom::spline::curve::Curve;
@@ -39,19 +39,19 @@ impl Geometry {
     }
 }
 
-/// Standard uncertainties of what a segment is known by, from the scatter of the points.
+/// Standard uncertainties of a segment's parameters, from the scatter of the points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Uncertainty {
-    /// Of a line.
+    /// Uncertainties of a line.
     Line {
-        /// Of the angle of its direction, radians.
+        /// Deviation of the angle of its direction, radians.
         angle: f64,
     },
-    /// Of an arc.
+    /// Uncertainties of an arc.
     Arc {
-        /// Of the coordinates of its center.
+        /// Deviation of the coordinates of its center.
         center: [f64; 2],
-        /// Of its radius.
+        /// Deviation of its radius.
         radius: f64,
     },
 }
@@ -95,23 +95,23 @@ pub struct Segment {
     pub length_uncertainty: Option<f64>,
 }
 
-/// Places of a drawn curve for each of its control points, where its length is looked at.
-const PLACES: usize = 16;
+/// Places of a drawn curve for each of its control points, by which its length is measured.
+const DRAWN_PLACES_PER_CONTROL_POINT: usize = 16;
 /// A curve drawn so many times as long as it is does not follow its piece.
-const LONGER: f64 = 1.5;
+const MAX_DRAWN_LENGTH_RATIO: f64 = 1.5;
 
 impl Segment {
     /// Whether a free curve is drawn much longer than it is: it turns too fast for its points to hold it.
-    pub(crate) fn strays(&self) -> bool {
+    pub(crate) fn is_overlong(&self) -> bool {
         let Geometry::Spline { curve, .. } = &self.geometry else { return false };
-        let steps = PLACES * curve.points().len();
+        let steps = DRAWN_PLACES_PER_CONTROL_POINT * curve.points().len();
         let (from, to) = curve.domain();
         let place = |i: usize| curve.at(from + (to - from) * i as f64 / steps as f64);
         let step = |i: usize| {
             let (a, b) = (place(i), place(i + 1));
             libm::hypot(b[0] - a[0], b[1] - a[1])
         };
-        (0..steps).map(step).sum::<f64>() > LONGER * self.length
+        (0..steps).map(step).sum::<f64>() > MAX_DRAWN_LENGTH_RATIO * self.length
     }
 
     /// Distance of a point from the line or circle as it is drawn; 0 of a free curve.
@@ -130,7 +130,7 @@ impl Segment {
         }
     }
 
-    /// How far beyond an end of the line or arc as it is drawn the foot of a point lies, along it; 0 of a free curve.
+    /// How far beyond an end of the line or arc as it is drawn the foot of a point lies, along it. 0 for a free curve.
     pub(crate) fn ahead_of_drawn(&self, p: [f64; 2]) -> f64 {
         if self.geometry.kind() == SegmentKind::Spline {
             return 0.0;
@@ -192,9 +192,9 @@ pub struct Join {
     pub turn: f64,
 }
 
-/// What the points of a contour were taken for.
+/// The kind of row that the points of a contour are.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Taken {
+pub enum RowKind {
     /// Measured points in order.
     #[default]
     Row,
@@ -204,16 +204,16 @@ pub enum Taken {
     Scan,
 }
 
-impl Taken {
+impl RowKind {
     /// All of them.
-    pub const ALL: [Taken; 3] = [Taken::Row, Taken::Facets, Taken::Scan];
+    pub const ALL: [RowKind; 3] = [RowKind::Row, RowKind::Facets, RowKind::Scan];
 
     /// The word for it: `row`, `facets`, `scan`.
     pub fn name(self) -> &'static str {
         match self {
-            Taken::Row => "row",
-            Taken::Facets => "facets",
-            Taken::Scan => "scan",
+            RowKind::Row => "row",
+            RowKind::Facets => "facets",
+            RowKind::Scan => "scan",
         }
     }
 }
@@ -221,11 +221,12 @@ impl Taken {
 /// A contour as lines, arcs and curves.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Contour {
-    /// What its points were taken for.
-    pub taken: Taken,
+    /// The kind of row that its points are.
+    pub row_kind: RowKind,
     /// Whether the end is the start.
     pub closed: bool,
-    /// Segments in the order of the points. Of a closed contour the first is the one that the first point belongs to.
+    /// Segments in the order of the points. The first segment of a closed contour is the one that the first point
+    /// belongs to.
     pub segments: Vec<Segment>,
     /// The joins: number `i` between segments `i` and `i + 1`; of a closed contour the last between the last and the first.
     pub joins: Vec<Join>,
@@ -250,12 +251,13 @@ pub struct Contour {
     pub moved: Vec<[f64; 2]>,
     /// Independent points that the points tell as much as; 0 of exact facets.
     pub independent: f64,
-    /// Points that may be strays, by their numbers: the step to them is many times as long as any other, and does not go straight on.
-    /// They were kept.
+    /// Points that may be strays, by their numbers. The step to them is many times as long as any other, and does not
+    /// go straight on. They were kept.
     pub doubtful: Vec<usize>,
     /// Points as far from the rest of the row, by their numbers, that lie where the row leads straight on. They were kept.
     pub straight_on: Vec<usize>,
-    /// Its few points may be the corners of a polygon, or of a curve, as well: which of the two is meant they do not tell.
+    /// Its few points may be the corners of a polygon, or of a curve, as well. They do not tell which of the two is
+    /// meant.
     pub may_be_polygon: bool,
     /// Points of a cloud may be of both faces of a wall about so thick, which they do not tell apart.
     pub layered: Option<f64>,
@@ -266,9 +268,9 @@ pub struct Contour {
     pub gaps: Vec<usize>,
     /// Where the contour crosses itself: at most a hundred places. A closed one that does has no inside.
     pub crossings: Vec<[f64; 2]>,
-    /// Segments that do not run along their points, by their numbers: they lie too far off, or are much longer or shorter than
-    /// the way through the points. They tell nothing of the part.
-    pub astray: Vec<usize>,
+    /// Segments that do not run along their points, by their numbers. They lie too far off, or are much longer or
+    /// shorter than the way through the points. They tell nothing of the part.
+    pub unreliable: Vec<usize>,
     /// The search for number and kinds of the segments took too long and ended before all was tried.
     pub cut_short: bool,
 }
@@ -289,7 +291,7 @@ impl Contour {
     }
 }
 
-/// What is asked about a row.
+/// Options for a row.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
     /// Standard deviation of the points across the contour; found from the data where it is not given.
@@ -346,7 +348,7 @@ pub enum SectionError {
     #[error(
         "no curve whose joins are all tangent runs along the points: they have corners; leave --continuity out"
     )]
-    Astray,
+    Unreliable,
     /// Neither end of the row is a line that a curve follows.
     #[error(
         "no line segment found: neither end of the row is straight and goes on as a curve; leave --search and --interval out"
@@ -362,7 +364,7 @@ pub enum SectionError {
         name: &'static str,
         /// Its value.
         value: f64,
-        /// What it may be.
+        /// The values that are allowed.
         allowed: &'static str,
     },
     /// Stopped through the progress argument.

@@ -1,8 +1,9 @@
-//! Slabs of a cloud across which a surface bends: what that does to radii.
+//! Slabs of a cloud across which a surface bends: the effect on radii.
 //!
-//! The section of a ball of radius `R` by a slab of thickness `t` about its middle holds points of all circles in the slab. They lie
-//! `h² / 2R` inside of the great circle at a height `h`, and the circle through all is too small by the mean of that, `t² / 24R`.
-//! The points tell it: their distances from the arc follow the squares of their heights.
+//! The section of a ball of radius `R` by a slab of thickness `t` about its middle holds points of all circles in the
+//! slab. They lie `h² / 2R` inside of the great circle at a height
+//! `h`. The circle through all is too small by the mean of that, `t² / 24R`. The points tell it: their distances from
+//! the arc follow the squares of their heights.
 
 use crate::model::result::{Contour, Geometry};
 
@@ -11,19 +12,20 @@ use crate::model::result::{Contour, Geometry};
 pub struct Bent {
     /// Number of the segment.
     pub segment: usize,
-    /// What the slab adds to its radius, below 0 where it takes off.
+    /// Change of its radius by the slab, below 0 where it takes off.
     pub bias: f64,
-    /// What the uncertainty of the radius is.
+    /// Uncertainty of the radius.
     pub uncertainty: f64,
 }
 
 /// Standard deviations from which on distances follow the squares of heights, and are no chance.
-const SURE: f64 = 4.0;
+const MIN_SLOPE_SIGMAS: f64 = 4.0;
 /// Fewest points that tell it.
-const FEWEST: usize = 20;
+const MIN_POINTS_TO_TELL_BEND: usize = 20;
 
-/// The arcs of a contour whose radii a slab moves by more than their standard uncertainty: `heights` are those of the contour's points
-/// above the plane, mm. Points left out as outliers do not count; where heights are all alike there is none.
+/// The arcs of a contour whose radii a slab moves by more than their standard uncertainty. `heights` are those of the
+/// contour's points above the plane, mm. Points left out as outliers do not count; where heights are all alike there is
+/// none.
 ///
 /// ```
 /// use trueness_section::{Options, bent_across, contour};
@@ -55,7 +57,7 @@ pub fn bent_across(contour: &Contour, heights: &[f64]) -> Vec<Bent> {
             .map(|i| [heights[i] * heights[i], outward * contour.residuals[i]])
             .collect();
         let n = points.len() as f64;
-        if points.len() < FEWEST {
+        if points.len() < MIN_POINTS_TO_TELL_BEND {
             return None;
         }
         let [square, off] = [0, 1].map(|k| points.iter().map(|p| p[k]).sum::<f64>() / n);
@@ -67,7 +69,7 @@ pub fn bent_across(contour: &Contour, heights: &[f64]) -> Vec<Bent> {
         let slope = xy / xx;
         let chance = ((yy - slope * xy).max(0.0) / (n - 2.0) / xx).sqrt();
         let bias = slope * square;
-        let significant = slope.abs() > SURE * chance && bias.abs() > uncertainty;
+        let significant = slope.abs() > MIN_SLOPE_SIGMAS * chance && bias.abs() > uncertainty;
         significant.then_some(Bent { segment, bias, uncertainty })
     };
     contour.segments.iter().enumerate().filter_map(of).collect()

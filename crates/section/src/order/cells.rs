@@ -1,11 +1,11 @@
 //! Points in a plane gathered in square cells, the shortest tree over these, and the longest ways through it.
 
-use super::link::Way;
+use super::gaps::Way;
 use crate::model::flat::distance;
 use std::collections::HashMap;
 
 /// Fewest cells of a way; a branch of fewer hangs beside.
-pub(super) const FEWEST: usize = 4;
+pub(super) const MIN_CELLS_OF_WAY: usize = 4;
 
 /// Points gathered in square cells.
 pub(super) struct Cells {
@@ -72,8 +72,8 @@ impl Cells {
         tree
     }
 
-    /// The points of the cells along a way, each cell with what hangs beside it, in order, each with its place along; the length
-    /// of the way.
+    /// The points of the cells along a way, each cell with the branches beside it, in order, each with its place along.
+    /// Also the length of the way.
     pub fn along(&self, points: &[[f64; 2]], way: &Way, closed: bool) -> (Vec<(f64, usize)>, f64) {
         let m = way.len();
         let middle = |k: usize| self.middles[way[k].0];
@@ -136,17 +136,17 @@ pub(super) fn tree_paths(cells: &Cells, tree: &Tree) -> Vec<Way> {
         way.iter().for_each(|c| used[*c] = true);
         let mut rows: Way = vec![];
         for cell in way {
-            let mut beside = vec![];
+            let mut branches = vec![];
             for &next in &tree[cell] {
                 if !used[next] {
                     let branch = reachable(tree, &used, next);
-                    if branch.len() < FEWEST {
+                    if branch.len() < MIN_CELLS_OF_WAY {
                         branch.iter().for_each(|c| used[*c] = true);
-                        beside.extend(branch);
+                        branches.extend(branch);
                     }
                 }
             }
-            rows.push((cell, beside));
+            rows.push((cell, branches));
         }
         ways.push(rows);
     }

@@ -9,8 +9,8 @@ use trueness_geom::plane::{Plane, PlaneFrame};
 use trueness_geom::progress::Progress;
 use trueness_geom::space::{Point, dot, norm};
 
-/// Numbers of the points in a slab around a plane, and their places in it. Points that hold no number are left out, and so are
-/// those that fall upon an earlier one: copies would let the points look nearer to each other than they are.
+/// Numbers of the points in a slab around a plane, and their places in it. Points that hold no number are left out, and
+/// so are those that fall upon an earlier one. Copies would let the points look nearer to each other than they are.
 ///
 /// `thickness` is that of the slab, half on either side.
 pub fn slab(
@@ -28,13 +28,13 @@ pub fn slab(
 }
 
 /// A contour that is so many times as long as the way along its points goes to and fro between them.
-const LONGEST: f64 = 2.0;
+const MAX_LENGTH_RATIO: f64 = 2.0;
 
 /// The contour of points in order that were found among `points` in the plane.
 ///
-/// Points that cover an area, as of a slab that is thick for how obliquely it cuts, follow no curve: where the segments are
-/// more than twice as long as the way along which the points were put in order, or where points scatter from one side of the
-/// contour to the other, all of them are [`Contour::astray`].
+/// Points that cover an area follow no curve, as those of a slab that is thick for how obliquely it cuts. The segments
+/// may be more than twice as long as the way along which the points were put in order. Or points scatter from one side
+/// of the contour to the other. Then all segments are [`Contour::unreliable`].
 ///
 /// # Errors
 /// As [`contour`].
@@ -48,15 +48,15 @@ pub fn ordered_contour(
     let closed = options.closed.unwrap_or(row.closed);
     let options = Options { closed: Some(closed), ordered: true, ..*options };
     let mut found = contour(&own, &options, progress)?;
-    if found.length() > LONGEST * row.way || scatters_across(&found) {
-        found.astray = (0..found.segments.len()).collect();
+    if found.length() > MAX_LENGTH_RATIO * row.way || scatters_across(&found) {
+        found.unreliable = (0..found.segments.len()).collect();
     }
     found.layered = row.layered;
     Ok(found)
 }
 
-/// Whether the band of two standard deviations on either side of a contour is wider than what a closed one encloses is in the mean, or
-/// than half of an open one is long: then nothing tells which points are of which side.
+/// Whether the band of two standard deviations on either side of a contour is too wide. It is wider than the mean width
+/// within a closed one, or than half the length of an open one. Then nothing tells which points are of which side.
 fn scatters_across(found: &Contour) -> bool {
     let (band, length) = (4.0 * found.rms(), found.length());
     if found.closed { band * length > 2.0 * Outline::of(found).area().abs() } else { 2.0 * band > length }
@@ -95,7 +95,7 @@ mod tests {
             let along: Vec<f64> = row.numbers.iter().map(|i| points[*i].1).collect();
             let period = if row.closed { std::f64::consts::TAU } else { f64::INFINITY };
             let forward = along.windows(2).filter(|w| w[1] > w[0]).count() * 2 > along.len();
-            // Back by no more than what the scatter hides: half a millimeter.
+            // Back by no more than the scatter hides: half a millimeter.
             let most = if row.closed { 0.5 / 20.0 } else { 0.5 };
             for w in along.windows(2) {
                 let step = if forward { w[1] - w[0] } else { w[0] - w[1] };
@@ -105,8 +105,8 @@ mod tests {
         }
     }
 
-    /// Points all over an area have no contours, at random or in a grid, with holes or not, few or many; those of a thin band, of many rings
-    /// and of a thick line have.
+    /// Points all over an area have no contours, at random or in a grid, with holes or not, few or many. Points of a
+    /// thin band, of many rings and of a thick line have.
     #[test]
     fn an_area_has_no_contours() {
         let random = &mut Random::new(3);
@@ -140,8 +140,8 @@ mod tests {
         assert!(fills(&grid(30, 0.1, random)) && !fills(&grid(3, 0.02, random)));
     }
 
-    /// A ring whose points scatter by more than a quarter of its radius is a disk, and a row that does so by more than an eighth of its
-    /// length is one of no direction.
+    /// A ring whose points scatter by more than a quarter of its radius is a disk. A row that does so by more than an
+    /// eighth of its length has no direction.
     #[test]
     fn scatter_from_side_to_side_is_no_contour() {
         let contour = |sigma: f64, closed: bool| {
@@ -157,7 +157,7 @@ mod tests {
                 Ordered { numbers: (0..points.len()).collect(), closed, way: f64::INFINITY, layered: None };
             let options = Options { noise: Some(sigma), ..Options::default() };
             let found = ordered_contour(&points, &row, &options, &Silent).unwrap();
-            (found.astray.len() == found.segments.len(), found.rms(), found.length())
+            (found.unreliable.len() == found.segments.len(), found.rms(), found.length())
         };
         for (sigma, closed, want) in
             [(1.0, true, false), (3.5, true, true), (1.0, false, false), (8.0, false, true)]

@@ -6,25 +6,25 @@
 use crate::model::flat::distance;
 
 /// Stretches of up to so many points are turned round.
-const LONGEST: usize = 8;
-/// So many times over; of a closed contour every second time with the ends in the middle.
-const PASSES: usize = 4;
-/// Where the way from point to point is so many times as long as the contour, points scatter farther across it than they lie
-/// apart, and the shortest way is not along it.
-const THIN: f64 = 1.3;
+const MAX_TURNED_POINTS: usize = 8;
+/// So many times over; on a closed contour every second time with the ends in the middle.
+const UNTANGLING_PASSES: usize = 4;
+/// Where the way from point to point is so many times as long as the contour, points scatter farther across it than they lie apart.
+/// The shortest way is not along it there.
+const MAX_WAY_RATIO: f64 = 1.3;
 
 /// Puts the numbers of points that follow each other along a contour of about the length `way` into the order of the shorter way.
 pub(super) fn untangle(points: &[[f64; 2]], numbers: &mut [usize], closed: bool, way: f64) {
     let n = numbers.len();
     let at = |i: usize| points[i];
     let whole: f64 = numbers.windows(2).map(|w| distance(at(w[0]), at(w[1]))).sum();
-    if n < LONGEST || whole > THIN * way {
+    if n < MAX_TURNED_POINTS || whole > MAX_WAY_RATIO * way {
         return;
     }
-    for pass in 0..PASSES {
+    for pass in 0..UNTANGLING_PASSES {
         let mut changed = false;
         for i in 1..n - 1 {
-            for j in i + 1..(i + LONGEST).min(n - 1) {
+            for j in i + 1..(i + MAX_TURNED_POINTS).min(n - 1) {
                 let [a, b, c, d] = [i - 1, i, j, j + 1].map(|k| at(numbers[k]));
                 let (now, turned) = (distance(a, b) + distance(c, d), distance(a, c) + distance(b, d));
                 if turned < now * (1.0 - 1e-9) {

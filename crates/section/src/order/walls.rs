@@ -1,41 +1,46 @@
 //! Thin walls: points of two faces near each other that were put in order as one.
 //!
-//! Across one face points scatter by its noise about one course; across a wall seen from both sides they lie on two courses side by side.
-//! In windows along the row one parabola is fitted, and two of the same shape, one above the other, with each point on the nearer of
-//! them. Of one face, however its points scatter, the second fit leaves a third of the variance (normal scatter) or a quarter (even
-//! scatter); of two faces it leaves that of the noise alone. Windows at corners tell nothing and count little: there are few. Teeth, too,
-//! lie on two levels, but one after the other, where points of two faces come as by chance.
+//! Across one face points scatter by its noise about one course. Across a wall seen from both sides they lie on two
+//! courses side by side. In windows along the row one parabola is fitted, and two of the same shape, one above the
+//! other. Each point is on the nearer of the two. On one face, however its points scatter, the second fit leaves a
+//! third of the variance (normal scatter) or a quarter (even scatter). On two faces it leaves that of the noise alone.
+//! Windows at corners tell nothing and count little: there are few. Teeth, too, lie on two levels, but one after the
+//! other, where points of two faces come as by chance.
 
 use crate::model::flat::distance;
 use trueness_geom::num::dense::solve;
 
-/// Fewest points of a window, and by what powers of 2 it grows at most.
-const WINDOW: usize = 24;
-const GROWN: u32 = 4;
+/// Fewest points of a window.
+const MIN_WINDOW_POINTS: usize = 24;
+/// A window grows by so many powers of 2 at most.
+const MAX_WINDOW_DOUBLINGS: u32 = 4;
 /// Windows begin within this share of one.
-const STRIDE: usize = 4;
-/// Windows are so many times as long as their points scatter, most of them: shorter ones do not tell along from across.
-const ASPECT: f64 = 4.0;
-/// Two faces leave less than the first of these shares of the variance of one, in more than so large a share of the windows. Of 500 rows
-/// of one face with normal or even scatter the most was 0.03 of them.
-const LEFT: f64 = 1.0 / 14.0;
-const SHARE: f64 = 0.6;
-/// From this share of windows on it is unclear; and where half of them leave less than this.
-const UNCLEAR: (f64, f64) = (0.2, 1.0 / 6.5);
+const WINDOWS_PER_WIDTH: usize = 4;
+/// Most windows are so many times as long as their points scatter: shorter ones do not tell along from across.
+const MIN_WINDOW_ASPECT: f64 = 4.0;
+/// Two faces leave less than this share of the variance of one.
+const MAX_VARIANCE_LEFT: f64 = 1.0 / 14.0;
+/// They do so in more than so large a share of the windows. Among 500 rows of one face with normal or even scatter the most was
+/// 0.03 of them.
+const MIN_TWO_FACED_SHARE: f64 = 0.6;
+/// It is unclear from this share of windows on, and where half of them leave less than this.
+const UNCLEAR_SHARE_AND_VARIANCE: (f64, f64) = (0.2, 1.0 / 6.5);
 /// Points of two faces change from one to the other this share as often as by chance, at least.
-const CHANGES: f64 = 0.55;
+const MIN_FACE_CHANGES: f64 = 0.55;
 /// Rounds in which points choose the nearer face.
-const ROUNDS: usize = 12;
-/// Points farther off than so many standard deviations are of neither face, or of both; no more of them than this share are left in silence.
-const WITHIN: f64 = 5.0;
-const HIDDEN: f64 = 0.01;
-/// A point beside a wall is of the nearer face where it lies off it by no more than this share of half the thickness; of a row all but this share.
-const NEARER: f64 = 0.5;
-const STRANGE: f64 = 0.1;
+const FACE_ROUNDS: usize = 12;
+/// Points farther off than so many standard deviations are of neither face, or of both.
+const FAR_FROM_FACE_SIGMAS: f64 = 5.0;
+/// No more of them than this share are left in silence.
+const MAX_UNCLEAR_SHARE: f64 = 0.01;
+/// A point beside a wall is of the nearer face where it lies off it by no more than this share of half the thickness.
+const NEAR_FACE_SHARE: f64 = 0.5;
+/// All points of a row but this share lie so near.
+const MAX_FAR_SHARE: f64 = 0.1;
 /// So many windows tell whether there are two faces.
-const MOST: usize = 2000;
+const MAX_WINDOWS: usize = 2000;
 /// Fewer windows tell nothing.
-const FEWEST: usize = 6;
+const MIN_WINDOWS: usize = 6;
 
 /// Both courses of a wall, window by window.
 #[derive(Clone, Debug, PartialEq)]
@@ -52,22 +57,22 @@ impl Wall {
             let near = self.windows.iter().filter(|w| w.local(*p)[0].abs() <= 1.0);
             let window = near.min_by(|a, b| a.off(*p).0.total_cmp(&b.off(*p).0))?;
             let (off, upper) = window.off(*p);
-            far += usize::from(off > (WITHIN * self.noise).max(NEARER * window.half));
+            far += usize::from(off > (FAR_FROM_FACE_SIGMAS * self.noise).max(NEAR_FACE_SHARE * window.half));
             Some(upper)
         };
         let upper: Option<Vec<bool>> = points.iter().map(&mut face).collect();
-        upper.filter(|_| far as f64 <= STRANGE * points.len() as f64)
+        upper.filter(|_| far as f64 <= MAX_FAR_SHARE * points.len() as f64)
     }
 }
 
-/// What a row is of.
+/// The faces that a row runs along.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Faces {
-    /// Of one face, as far as its points tell.
+    /// One face, as far as its points tell.
     One,
-    /// Of two, with the face of each place of the row, and how far they are apart where that is unclear for some.
+    /// Two, with the face of each place of the row, and how far they are apart where that is unclear for some.
     Two { upper: Vec<bool>, unclear: Option<f64>, wall: Wall },
-    /// Of one that scatters, or two this far apart.
+    /// One that scatters, or two this far apart.
     Unclear { apart: f64 },
 }
 
@@ -91,7 +96,7 @@ struct Window {
 }
 
 impl Window {
-    /// Of points in the order of a row.
+    /// A window of points in the order of a row.
     fn of(from: usize, points: &[[f64; 2]]) -> Option<Window> {
         let n = points.len();
         let mean =
@@ -121,7 +126,7 @@ impl Window {
         let single: f64 = local.iter().map(|p| square(off(p, &one))).sum();
         let mut upper: Vec<bool> = local.iter().map(|p| off(p, &one) > 0.0).collect();
         let mut two = vec![];
-        for _ in 0..ROUNDS {
+        for _ in 0..FACE_ROUNDS {
             two = fitted(&local, Some(&upper))?;
             let next: Vec<bool> = local.iter().map(|p| off(p, &two) > 0.0).collect();
             if next == upper {
@@ -185,37 +190,38 @@ fn fitted(points: &[[f64; 2]], upper: Option<&[bool]>) -> Option<Vec<f64>> {
 pub(super) fn faces(row: &[[f64; 2]], closed: bool) -> Faces {
     let n = row.len();
     let mut all = vec![];
-    for count in (0..=GROWN).map(|k| WINDOW << k) {
-        if n < count + count / STRIDE {
+    for count in (0..=MAX_WINDOW_DOUBLINGS).map(|k| MIN_WINDOW_POINTS << k) {
+        if n < count + count / WINDOWS_PER_WIDTH {
             break;
         }
-        let windows = windows(row, closed, count, MOST);
-        if windows.len() < FEWEST {
+        let windows = windows(row, closed, count, MAX_WINDOWS);
+        if windows.len() < MIN_WINDOWS {
             break;
         }
         all = windows;
-        if 2 * all.iter().filter(|w| w.aspect() >= ASPECT).count() >= all.len() {
+        if 2 * all.iter().filter(|w| w.aspect() >= MIN_WINDOW_ASPECT).count() >= all.len() {
             break;
         }
     }
     let Some(count) = all.first().map(|w| w.count) else { return Faces::One };
-    let good: Vec<&Window> = all.iter().filter(|w| w.left < LEFT).collect();
+    let good: Vec<&Window> = all.iter().filter(|w| w.left < MAX_VARIANCE_LEFT).collect();
     let share = good.len() as f64 / all.len() as f64;
-    if share >= SHARE && mixed(&good) {
+    if share >= MIN_TWO_FACED_SHARE && mixed(&good) {
         let mut windows = windows(row, closed, count, usize::MAX);
-        windows.retain(|w| w.left < LEFT);
+        windows.retain(|w| w.left < MAX_VARIANCE_LEFT);
         let apart = apart(&windows.iter().collect::<Vec<_>>());
         let noise = (windows.iter().map(|w| w.variance).sum::<f64>() / windows.len() as f64).sqrt();
         let (upper, off) = sides(row, closed, &windows);
-        let far = off.iter().filter(|off| **off > WITHIN * noise).count() as f64;
-        let unclear = (far > HIDDEN * n as f64).then_some(apart);
+        let far = off.iter().filter(|off| **off > FAR_FROM_FACE_SIGMAS * noise).count() as f64;
+        let unclear = (far > MAX_UNCLEAR_SHARE * n as f64).then_some(apart);
         return Faces::Two { upper, unclear, wall: Wall { windows, noise } };
     }
     let mut lefts: Vec<f64> = all.iter().map(|w| w.left).collect();
     lefts.sort_by(f64::total_cmp);
     let every: Vec<&Window> = all.iter().collect();
-    let (some, rest) = if share >= UNCLEAR.0 { (true, &good) } else { (false, &every) };
-    if (some || lefts[lefts.len() / 2] < UNCLEAR.1) && mixed(rest) {
+    let (is_share_high, rest) =
+        if share >= UNCLEAR_SHARE_AND_VARIANCE.0 { (true, &good) } else { (false, &every) };
+    if (is_share_high || lefts[lefts.len() / 2] < UNCLEAR_SHARE_AND_VARIANCE.1) && mixed(rest) {
         return Faces::Unclear { apart: apart(rest) };
     }
     Faces::One
@@ -228,7 +234,7 @@ fn apart(windows: &[&Window]) -> f64 {
 
 /// Whether points change from face to face as by chance.
 fn mixed(windows: &[&Window]) -> bool {
-    windows.iter().map(|w| w.changes.min(2.0)).sum::<f64>() >= CHANGES * windows.len() as f64
+    windows.iter().map(|w| w.changes.min(2.0)).sum::<f64>() >= MIN_FACE_CHANGES * windows.len() as f64
 }
 
 /// Windows of `count` points along a row, about `most` of them.
@@ -236,7 +242,7 @@ fn windows(row: &[[f64; 2]], closed: bool, count: usize, most: usize) -> Vec<Win
     let n = row.len();
     let starts = if closed { n } else { n - count + 1 };
     let points = |from: usize| (from..from + count).map(|i| row[i % n]).collect::<Vec<_>>();
-    let stride = (count / STRIDE).max(starts / most);
+    let stride = (count / WINDOWS_PER_WIDTH).max(starts / most);
     (0..starts).step_by(stride).filter_map(|i| Window::of(i, &points(i))).collect()
 }
 

@@ -95,8 +95,8 @@ fn without_a_line_there_is_no_join() {
     assert_eq!(line_and_curve(&ring, &found, None, &Silent).unwrap_err(), SectionError::NoLine);
 }
 
-/// A curve of few points whose curvature changes fast is a few arcs to a first partition, which do not meet with a common tangent: it has
-/// no corners all the same.
+/// A curve of few points whose curvature changes fast is a few arcs to a first partition. These do not meet with a
+/// common tangent, but it has no corners all the same.
 #[test]
 fn the_example_is_a_line_and_a_curve() {
     for (noise, fewest) in [(0.0005, 18), (0.002, 18), (0.01, 18)] {

@@ -2,11 +2,12 @@
 
 use super::clean::Clean;
 use super::convert::Parts;
+use crate::model::prior::NEGLIGIBLE_OFFSET_SPACINGS;
 use crate::model::result::{Contour, Segment};
 use crate::search::span::Found;
 
 /// A free piece whose points leave so many spans of its curvature after another without one may run anywhere there.
-const UNTOLD: f64 = 3.0;
+const MAX_EMPTY_SPANS: f64 = 3.0;
 
 /// A contour while it is put together.
 #[derive(Default)]
@@ -36,48 +37,52 @@ impl Joined {
                 contour.stations[number] = self.length + parts.stations[i % n];
             }
         }
-        let strays = |(k, s): &(usize, &Segment)| {
-            found.astray || s.strays() || found.pieces()[*k].is_loose(s.count) || found.widest(*k) > UNTOLD
+        let is_unreliable_segment = |(k, s): &(usize, &Segment)| {
+            found.unreliable
+                || s.is_overlong()
+                || found.pieces()[*k].is_loose(s.count)
+                || found.widest(*k) > MAX_EMPTY_SPANS
         };
-        let astray = parts.segments.iter().enumerate().filter(strays);
-        contour.astray.extend(astray.map(|(k, _)| first + k));
+        let unreliable = parts.segments.iter().enumerate().filter(is_unreliable_segment);
+        contour.unreliable.extend(unreliable.map(|(k, _)| first + k));
         self.length += parts.length;
         contour.segments.extend(parts.segments);
         contour.joins.extend(parts.joins);
     }
 
-    /// Lines and arcs that pass their points by, because a corner at an end does not lie on them, or that end long before their points
-    /// do, are astray too.
+    /// Lines and arcs are unreliable, too, that pass their points by, because a corner at an end does not lie on them.
+    /// So are those that end long before their points do.
     pub(super) fn misdrawn(&mut self, points: &[[f64; 2]], weights: &[f64], step: usize) {
         /// So many standard deviations of the noise beyond the farthest of its points from the line or arc found.
-        const BEYOND: f64 = 3.0;
+        const MAX_DRAWN_OFFSET_SIGMAS: f64 = 3.0;
         /// So many distances between points, and standard deviations, beyond an end of a line or arc.
-        const AHEAD: f64 = 8.0;
+        const MAX_DRAWN_OVERSHOOT_SPACINGS: f64 = 8.0;
         let contour = &mut self.contour;
         let mut off = vec![[0.0f64; 2]; contour.segments.len()];
         for ((p, label), _) in points.iter().zip(&contour.labels).zip(weights).filter(|(_, w)| **w > 0.0) {
             let (off, segment) = (&mut off[*label as usize], &contour.segments[*label as usize]);
             *off = [off[0].max(segment.off_drawn(*p)), off[1].max(segment.ahead_of_drawn(*p))];
         }
-        let most = AHEAD * (contour.spacing * step as f64 + contour.noise);
+        let most = MAX_DRAWN_OVERSHOOT_SPACINGS * (contour.spacing * step as f64 + contour.noise);
         let far = |(k, [off, ahead]): &(usize, [f64; 2])| {
-            *off > contour.segments[*k].max + BEYOND * contour.noise || *ahead > most
+            *off > contour.segments[*k].max + MAX_DRAWN_OFFSET_SIGMAS * contour.noise || *ahead > most
         };
-        let astray = off.into_iter().enumerate().filter(far).map(|(k, _)| k).collect();
-        self.astray(astray);
+        let unreliable = off.into_iter().enumerate().filter(far).map(|(k, _)| k).collect();
+        self.mark_unreliable(unreliable);
     }
 
-    /// Segments that leave their points for a while are astray too, at an end for the most part: points after another that tell as much as so
-    /// many independent ones lie farther off to one side, in the mean, than so many standard deviations of the noise, as chance makes one
-    /// of 10^15.
+    /// Segments that leave their points for a while, mostly at an end, are unreliable too. Points after another that
+    /// tell as much as so many independent ones lie farther off to one side in the mean. They do so by more than so
+    /// many standard deviations of the noise, as chance makes one run of 10^15.
     pub(super) fn leaving(&mut self, weights: &[f64]) {
-        const RUN: f64 = 4.0;
-        const BEYOND: f64 = 4.0;
-        /// What is below this share of the distance between points leaves nothing.
-        const NOTHING: f64 = 0.005;
+        /// Weight of a run of points: that of so many independent ones.
+        const LEAVING_RUN_WEIGHT: f64 = 4.0;
+        /// So many standard deviations of the noise, which chance gives one run of 10^15.
+        const LEAVING_RUN_SIGMAS: f64 = 4.0;
         let contour = &self.contour;
-        let most = BEYOND * contour.noise.max(NOTHING * contour.spacing / BEYOND);
-        let mut astray = vec![];
+        let most = LEAVING_RUN_SIGMAS
+            * contour.noise.max(NEGLIGIBLE_OFFSET_SPACINGS * contour.spacing / LEAVING_RUN_SIGMAS);
+        let mut unreliable = vec![];
         // The sums over the window that ends before a point; windows lie in one segment.
         let (mut first, mut weight, mut sum) = (0, 0.0, 0.0);
         for i in 0..weights.len() {
@@ -86,21 +91,21 @@ impl Joined {
             }
             weight += weights[i];
             sum += weights[i] * contour.residuals[i];
-            while weight - weights[first] >= RUN {
+            while weight - weights[first] >= LEAVING_RUN_WEIGHT {
                 weight -= weights[first];
                 sum -= weights[first] * contour.residuals[first];
                 first += 1;
             }
-            if weight >= RUN && sum.abs() > most * weight {
-                astray.push(contour.labels[i] as usize);
+            if weight >= LEAVING_RUN_WEIGHT && sum.abs() > most * weight {
+                unreliable.push(contour.labels[i] as usize);
             }
         }
-        self.astray(astray);
+        self.mark_unreliable(unreliable);
     }
 
-    /// These segments are astray too.
-    pub(super) fn astray(&mut self, segments: Vec<usize>) {
-        let all = &mut self.contour.astray;
+    /// These segments are unreliable too.
+    pub(super) fn mark_unreliable(&mut self, segments: Vec<usize>) {
+        let all = &mut self.contour.unreliable;
         all.extend(segments);
         all.sort_unstable();
         all.dedup();
@@ -144,9 +149,10 @@ impl Joined {
 mod tests {
     use super::*;
 
-    /// A run of points to one side of a segment is no chance; a single one farther off may be, and points on either side are.
+    /// A run of points to one side of a segment is no chance. A single one farther off may be, and points on either
+    /// side are.
     #[test]
-    fn segments_that_leave_their_points_are_astray() {
+    fn segments_that_leave_their_points_are_unreliable() {
         let row = |off: &[f64]| {
             let mut all = Joined::default();
             let residuals: Vec<f64> = (0..40).map(|i| if i % 2 == 0 { 0.01 } else { -0.01 }).collect();
@@ -154,13 +160,13 @@ mod tests {
             (all.contour.noise, all.contour.spacing, all.contour.residuals) = (0.01, 0.5, residuals);
             all.contour.residuals[16..16 + off.len()].copy_from_slice(off);
             all.leaving(&[1.0; 40]);
-            all.contour.astray
+            all.contour.unreliable
         };
         assert_eq!(row(&[0.05, 0.045, 0.05, 0.055]), [0]);
         assert_eq!(row(&[-0.05, -0.045, -0.05, -0.055]), [0]);
         assert_eq!(row(&[0.05, -0.05, 0.05, -0.05]), [0; 0]);
         assert_eq!(row(&[0.01, 0.11, 0.02, 0.01]), [0; 0]);
-        // Of two segments neither leaves its points for so long.
+        // Neither of two segments leaves its points for so long.
         assert_eq!(row(&[0.01, -0.01, 0.05, 0.05, 0.05, 0.05]), [0; 0]);
         assert_eq!(row(&[0.03; 8]), [0; 0]);
         // Points that share noise leave it together by chance: four that count as one are no more than one.
@@ -168,8 +174,8 @@ mod tests {
         let (labels, noise) = (vec![0; 40], 0.01);
         let mut all = Joined::of(Contour { labels, residuals, noise, spacing: 0.5, ..Contour::default() });
         all.leaving(&[0.25; 40]);
-        assert!(all.contour.astray.is_empty());
+        assert!(all.contour.unreliable.is_empty());
         all.leaving(&[1.0; 40]);
-        assert_eq!(all.contour.astray, [0]);
+        assert_eq!(all.contour.unreliable, [0]);
     }
 }

@@ -1,16 +1,16 @@
-//! What is asked of the ways to a contour of a row, and what they propose.
+//! A question about the contour of a row, and the answers that are proposed.
 
 use super::clean::Clean;
-use super::levels::Start;
-use super::plan::RESOLUTION;
+use super::corner_search::RESOLUTION_SPACINGS;
+use super::noise_levels::Partition;
 use crate::model::budget::Budget;
 use crate::model::prior::Prior;
 use crate::model::result::{Continuity, Contour, Options, SectionError};
-use crate::search::start::noise;
+use crate::search::parts::noise;
 use std::cell::OnceCell;
 use trueness_geom::progress::Progress;
 
-/// What is asked: the contour of a row in one direction, without strays.
+/// The question: the contour of a row in one direction, without strays.
 pub(super) struct Question<'a> {
     pub points: &'a [[f64; 2]],
     pub prior: Prior<'a>,
@@ -18,31 +18,31 @@ pub(super) struct Question<'a> {
     pub budget: &'a Budget,
     /// The row made fit for a search.
     pub clean: Clean,
-    start: OnceCell<Start>,
+    partition: OnceCell<Partition>,
 }
 
 /// A contour that is proposed.
 pub(super) struct Candidate {
     contour: Contour,
-    standing: Standing,
+    chosen_by: ChosenBy,
 }
 
-/// What a contour is taken by.
-enum Standing {
-    /// What it costs.
+/// The rule by which a contour is chosen.
+enum ChosenBy {
+    /// By its cost.
     Cost,
     /// The points speak against the one found before.
     Instead,
     /// The points tell it, beyond chance: nothing more is asked.
-    Told,
+    BeyondChance,
 }
 
 /// A way to a contour, in view of the one found so far; `None` where it has none to propose.
 pub(super) type Proposer =
     fn(&Question, Option<&Contour>, &dyn Progress) -> Result<Option<Candidate>, SectionError>;
 
-/// Points scatter about a contour this many times as much as about local fits where it hides form.
-const DOUBTFUL: f64 = 1.3;
+/// Where points scatter this many times as much about a contour as about local fits, it hides form.
+const MAX_SCATTER_RATIO: f64 = 1.3;
 
 impl<'a> Question<'a> {
     pub fn new(
@@ -52,12 +52,12 @@ impl<'a> Question<'a> {
         budget: &'a Budget,
     ) -> Result<Question<'a>, SectionError> {
         let clean = Clean::new(points, options)?;
-        Ok(Question { points, prior, options, budget, clean, start: OnceCell::new() })
+        Ok(Question { points, prior, options, budget, clean, partition: OnceCell::new() })
     }
 
     /// Where a search by likelihood begins.
-    pub fn start(&self) -> &Start {
-        self.start.get_or_init(|| Start::new(self.clean.clone(), &self.prior, self.options))
+    pub fn partition(&self) -> &Partition {
+        self.partition.get_or_init(|| Partition::new(self.clean.clone(), &self.prior, self.options))
     }
 
     /// Whether noise and joins are left to the points.
@@ -70,25 +70,25 @@ impl<'a> Question<'a> {
         self.is_free() && self.options.resolution.is_none()
     }
 
-    /// Whether segments of a contour are astray, or its points scatter more than about local fits.
+    /// Whether segments of a contour are unreliable, or its points scatter more than about local fits.
     pub fn doubts(&self, found: &Contour) -> bool {
         let own = self.prior.noise.map_or_else(|| noise(self.points, found.closed).0, |n| n.deviation);
-        !found.astray.is_empty() || own > 0.0 && found.rms() > DOUBTFUL * own
+        !found.unreliable.is_empty() || own > 0.0 && found.rms() > MAX_SCATTER_RATIO * own
     }
 
-    /// What a contour costs, to be compared: its segments that are astray first, then twice the negative logarithm of the likelihood and
-    /// the penalty for the unknowns.
+    /// Cost of a contour, to be compared. Its unreliable segments count first, then twice the negative logarithm of the
+    /// likelihood and the penalty for the unknowns.
     fn cost(&self, found: &Contour) -> (usize, f64) {
         // As many points as are independent.
         let count = self.prior.weights.map_or(self.points.len() as f64, |all| all.iter().sum());
-        let floor = RESOLUTION * found.spacing;
+        let floor = RESOLUTION_SPACINGS * found.spacing;
         let off = found.rms();
         let cost = count * libm::log(off * off + floor * floor)
             + (found.unknowns + found.joins.len() as f64) * libm::log(count);
-        (found.astray.len(), cost)
+        (found.unreliable.len(), cost)
     }
 
-    /// The contour that all ways lead to: of each proposal and what was found before the cheaper one,
+    /// The contour that all ways lead to. The cheaper one of each proposal and the contour found before is taken,
     /// unless the points tell.
     pub fn cheapest(
         &self,
@@ -97,15 +97,15 @@ impl<'a> Question<'a> {
     ) -> Result<Option<Contour>, SectionError> {
         let mut best: Option<Contour> = None;
         for propose in proposers {
-            let Some(Candidate { contour, standing }) = propose(self, best.as_ref(), progress)? else {
+            let Some(Candidate { contour, chosen_by }) = propose(self, best.as_ref(), progress)? else {
                 continue;
             };
             let costs_less = || best.as_ref().is_none_or(|b| self.cost(&contour) < self.cost(b));
-            match standing {
-                Standing::Told => return Ok(Some(contour)),
-                Standing::Instead => best = Some(contour),
-                Standing::Cost if costs_less() => best = Some(contour),
-                Standing::Cost => {}
+            match chosen_by {
+                ChosenBy::BeyondChance => return Ok(Some(contour)),
+                ChosenBy::Instead => best = Some(contour),
+                ChosenBy::Cost if costs_less() => best = Some(contour),
+                ChosenBy::Cost => {}
             }
         }
         Ok(best)
@@ -113,25 +113,25 @@ impl<'a> Question<'a> {
 }
 
 impl Candidate {
-    /// One that is compared by what it costs.
+    /// One that is compared by its cost.
     pub fn of(contour: Contour) -> Option<Candidate> {
-        Some(Candidate { contour, standing: Standing::Cost })
+        Some(Candidate { contour, chosen_by: ChosenBy::Cost })
     }
 
-    /// One that the points speak for against what was found before.
+    /// One that the points speak for against the contour found before.
     pub fn instead(contour: Contour) -> Option<Candidate> {
-        Some(Candidate { contour, standing: Standing::Instead })
+        Some(Candidate { contour, chosen_by: ChosenBy::Instead })
     }
 
     /// One that the points tell, beyond chance.
-    pub fn told(contour: Contour) -> Option<Candidate> {
-        Some(Candidate { contour, standing: Standing::Told })
+    pub fn beyond_chance(contour: Contour) -> Option<Candidate> {
+        Some(Candidate { contour, chosen_by: ChosenBy::BeyondChance })
     }
 }
 
 /// Whether segments do not run along their points, or join in corners.
 pub(super) fn is_cornered(contour: &Contour) -> bool {
-    !contour.astray.is_empty() || contour.joins.iter().any(|j| j.continuity == Continuity::G0)
+    !contour.unreliable.is_empty() || contour.joins.iter().any(|j| j.continuity == Continuity::G0)
 }
 
 #[cfg(test)]
@@ -141,56 +141,57 @@ mod tests {
 
     /// Proposes a contour whose points lie so many micrometres off.
     fn off<const MICRONS: u32>(
-        asked: &Question,
+        question: &Question,
         _: Option<&Contour>,
         _: &dyn Progress,
     ) -> Result<Option<Candidate>, SectionError> {
         let off = f64::from(MICRONS) / 1e3;
-        let residuals = vec![off; asked.points.len()];
+        let residuals = vec![off; question.points.len()];
         Ok(Candidate::of(Contour { residuals, spacing: 1.0, ..Contour::default() }))
     }
 
     /// The same, none of whose segments runs along its points.
-    fn astray<const MICRONS: u32>(
-        asked: &Question,
+    fn unreliable<const MICRONS: u32>(
+        question: &Question,
         best: Option<&Contour>,
         progress: &dyn Progress,
     ) -> Result<Option<Candidate>, SectionError> {
-        let found = off::<MICRONS>(asked, best, progress)?;
-        Ok(found.and_then(|c| Candidate::of(Contour { astray: vec![0], ..c.contour })))
+        let found = off::<MICRONS>(question, best, progress)?;
+        Ok(found.and_then(|c| Candidate::of(Contour { unreliable: vec![0], ..c.contour })))
     }
 
     fn none(_: &Question, _: Option<&Contour>, _: &dyn Progress) -> Result<Option<Candidate>, SectionError> {
         Ok(None)
     }
 
-    fn told(
-        asked: &Question,
+    fn beyond_chance(
+        question: &Question,
         best: Option<&Contour>,
         progress: &dyn Progress,
     ) -> Result<Option<Candidate>, SectionError> {
-        Ok(off::<9>(asked, best, progress)?.and_then(|c| Candidate::told(c.contour)))
+        Ok(off::<9>(question, best, progress)?.and_then(|c| Candidate::beyond_chance(c.contour)))
     }
 
     fn instead(
-        asked: &Question,
+        question: &Question,
         best: Option<&Contour>,
         progress: &dyn Progress,
     ) -> Result<Option<Candidate>, SectionError> {
-        Ok(off::<8>(asked, best, progress)?.and_then(|c| Candidate::instead(c.contour)))
+        Ok(off::<8>(question, best, progress)?.and_then(|c| Candidate::instead(c.contour)))
     }
 
-    /// One proposer more never raises the cost, wherever it stands in the list and whatever it proposes; what points tell ends the list.
+    /// One proposer more never raises the cost, wherever it stands in the list and whatever it proposes. A contour that
+    /// the points tell ends the list.
     #[test]
     fn a_proposer_more_never_raises_the_cost() {
         let points: Vec<[f64; 2]> = (0..20).map(|i| [f64::from(i), 0.0]).collect();
         let (options, budget) = (Options::default(), Budget::new(1e9));
-        let asked = Question::new(&points, Prior::default(), &options, &budget).unwrap();
+        let question = Question::new(&points, Prior::default(), &options, &budget).unwrap();
         let cost = |list: &[Proposer]| {
-            let found = asked.cheapest(list, &Silent).unwrap();
-            found.map_or((usize::MAX, f64::INFINITY), |found| asked.cost(&found))
+            let found = question.cheapest(list, &Silent).unwrap();
+            found.map_or((usize::MAX, f64::INFINITY), |found| question.cost(&found))
         };
-        let all: [Proposer; 6] = [off::<3>, none, astray::<1>, off::<2>, astray::<4>, off::<5>];
+        let all: [Proposer; 6] = [off::<3>, none, unreliable::<1>, off::<2>, unreliable::<4>, off::<5>];
         for subset in 0..1u32 << all.len() {
             let has = |k: &usize| subset >> k & 1 == 1;
             let list: Vec<Proposer> = (0..all.len()).filter(has).map(|k| all[k]).collect();
@@ -202,8 +203,8 @@ mod tests {
                 }
             }
         }
-        let rms = |list: &[Proposer]| asked.cheapest(list, &Silent).unwrap().unwrap().residuals[0];
-        assert_eq!(rms(&[off::<3>, told, off::<1>]), 0.009);
+        let rms = |list: &[Proposer]| question.cheapest(list, &Silent).unwrap().unwrap().residuals[0];
+        assert_eq!(rms(&[off::<3>, beyond_chance, off::<1>]), 0.009);
         assert_eq!(rms(&[off::<3>, instead]), 0.008);
         assert_eq!(rms(&[instead, off::<3>]), 0.003);
     }

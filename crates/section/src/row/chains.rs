@@ -4,9 +4,9 @@ use super::assembly::Joined;
 use super::candidate::{Candidate, Question};
 use super::convert::segments;
 use super::corner::crossing;
+use super::corner_search::{Chains, CornerSearch};
 use super::exact::missed;
-use super::levels::{MARGIN, SAME, Start, hidden};
-use super::plan::{Chains, Plan};
+use super::noise_levels::{EQUAL_COST, FINER_LEVEL_COST_MARGIN, Partition, hidden};
 use crate::model::result::{Contour, Join, SectionError};
 use crate::search::smooth::COST_TO_SEARCH;
 use crate::search::span::{Found, single};
@@ -14,13 +14,13 @@ use trueness_geom::num::special::student_quantile;
 use trueness_geom::progress::{Cancelled, Progress};
 
 /// A crossing is followed this far from the chains' ends, in distances between points.
-const FARTHEST: f64 = 20.0;
+const MAX_EXTENSION_SPACINGS: f64 = 20.0;
 /// Noise of up to so many times that of rounding is rounding.
-const ROUNDED: f64 = 3.0;
+const MAX_ROUNDING_RATIO: f64 = 3.0;
 
 /// The contour that the search finds, where there is none yet; `None` where its chains do not run along the points.
 pub(super) fn propose(
-    asked: &Question,
+    question: &Question,
     best: Option<&Contour>,
     progress: &dyn Progress,
 ) -> Result<Option<Candidate>, SectionError> {
@@ -30,8 +30,8 @@ pub(super) fn propose(
     if progress.cancelled() {
         return Err(Cancelled.into());
     }
-    match asked.searched(progress) {
-        Err(SectionError::Astray) => Ok(None),
+    match question.searched(progress) {
+        Err(SectionError::Unreliable) => Ok(None),
         found => Ok(Candidate::of(found?)),
     }
 }
@@ -39,16 +39,16 @@ pub(super) fn propose(
 impl Question<'_> {
     /// The contour of the cheapest chains found.
     fn searched(&self, progress: &dyn Progress) -> Result<Contour, SectionError> {
-        let fine = self.start().fine();
-        let (start, chains) = self.at_levels(fine, progress)?;
-        let mut found = start.plan(self.options, self.budget).join(chains);
+        let fine = self.partition().fine();
+        let (partition, chains) = self.at_levels(fine, progress)?;
+        let mut found = partition.corner_search(self.options, self.budget).join(chains);
         // Points that are rounded lie on lines and circles by chance, and about them with a period.
-        let is_rounded = found.contour.noise <= ROUNDED * start.clean.rounding;
+        let is_rounded = found.contour.noise <= MAX_ROUNDING_RATIO * partition.clean.rounding;
         if self.prior.noise.is_none() && self.options.resolution.is_none() && !is_rounded {
-            found.astray(missed(&start.clean.points, &found.contour));
-            found.astray(fine.map_or(vec![], |fine| hidden(&found.contour, fine)));
+            found.mark_unreliable(missed(&partition.clean.points, &found.contour));
+            found.mark_unreliable(fine.map_or(vec![], |fine| hidden(&found.contour, fine)));
         }
-        found.finish(&start.clean, start.turned, self.points.len(), start.outliers);
+        found.finish(&partition.clean, partition.turned, self.points.len(), partition.outliers);
         let mut contour = found.contour;
         // Outliers were brought in for the search: they are as far off as they lie.
         for k in contour.outliers.clone() {
@@ -59,17 +59,21 @@ impl Question<'_> {
     }
 
     /// The cheapest chains of all levels of noise, and the level that they are of; short fits tell the `fine` noise.
-    fn at_levels(&self, fine: Option<f64>, progress: &dyn Progress) -> Result<(Start, Chains), SectionError> {
+    fn at_levels(
+        &self,
+        fine: Option<f64>,
+        progress: &dyn Progress,
+    ) -> Result<(Partition, Chains), SectionError> {
         let (options, budget) = (self.options, self.budget);
-        let mut start = self.start().clone();
-        let mut chains = start.plan(options, budget).chains(&start.parts, progress)?;
-        let mut finer = start.finer(options, fine, &chains.founds);
+        let mut partition = self.partition().clone();
+        let mut chains = partition.corner_search(options, budget).chains(&partition.parts, progress)?;
+        let mut finer = partition.finer(options, fine, &chains.founds);
         while let Some(other) = finer.pop_front().filter(|_| !budget.is_spent(0.0)) {
-            let bar = start.cost(&chains.founds);
+            let bar = partition.cost(&chains.founds);
             if !self.promises(&other, bar, progress)? {
                 continue;
             }
-            let found = match other.plan(options, budget).chains(&other.parts, progress) {
+            let found = match other.corner_search(options, budget).chains(&other.parts, progress) {
                 Err(SectionError::Cancelled(e)) => return Err(e.into()),
                 Err(_) => continue,
                 Ok(found) => found,
@@ -80,34 +84,39 @@ impl Question<'_> {
                 finer.push_front(tangent);
             }
             let gain = bar - other.cost(&found.founds);
-            if gain.abs() < SAME && !other.tangent {
+            if gain.abs() < EQUAL_COST && !other.tangent {
                 // The search leads back to where it was.
                 break;
             }
-            let margin = if other.tangent { 0.0 } else { MARGIN };
+            let margin = if other.tangent { 0.0 } else { FINER_LEVEL_COST_MARGIN };
             if gain > margin {
-                (start, chains) = (other, found);
+                (partition, chains) = (other, found);
             }
         }
-        Ok((start, chains))
+        Ok((partition, chains))
     }
 
     /// Whether a search from these parts may lead to chains that cost less than `bar`: those of the parts as they are cost little more.
     /// That takes a hundredth of the search.
-    fn promises(&self, start: &Start, bar: f64, progress: &dyn Progress) -> Result<bool, SectionError> {
+    fn promises(
+        &self,
+        partition: &Partition,
+        bar: f64,
+        progress: &dyn Progress,
+    ) -> Result<bool, SectionError> {
         if bar.is_infinite() {
             return Ok(true);
         }
-        let plan = Plan { draft: true, ..start.plan(self.options, self.budget) };
-        match plan.all(&start.parts, progress) {
+        let search = CornerSearch { draft: true, ..partition.corner_search(self.options, self.budget) };
+        match search.all(&partition.parts, progress) {
             Err(SectionError::Cancelled(e)) => Err(e.into()),
             Err(_) => Ok(false),
-            Ok(found) => Ok(start.cost(&found.founds) < bar + COST_TO_SEARCH),
+            Ok(found) => Ok(partition.cost(&found.founds) < bar + COST_TO_SEARCH),
         }
     }
 }
 
-impl Plan<'_> {
+impl CornerSearch<'_> {
     /// Puts the chains together.
     fn join(&self, chains: Chains) -> Joined {
         let Chains { mut founds, cornered, .. } = chains;
@@ -126,7 +135,7 @@ impl Plan<'_> {
                     return None;
                 }
                 let (a, b) = (&founds[k], &founds[(k + 1) % count]);
-                Some(crossing(a, b, quantile(a), FARTHEST * self.spacing * self.step as f64))
+                Some(crossing(a, b, quantile(a), MAX_EXTENSION_SPACINGS * self.spacing * self.step as f64))
             })
             .collect();
         for k in 0..count {

@@ -1,4 +1,4 @@
-//! Rows of points as they come: what is wrong with them, and what is passed over.
+//! Rows of points as they come: their faults, and the points that are passed over.
 
 use crate::model::flat::distance;
 use crate::model::result::{Options, SectionError};
@@ -24,30 +24,30 @@ pub(super) struct Clean {
 }
 
 /// Median step over median distance of nearest points from which on a row is no row.
-const UNORDERED: f64 = 12.0;
+const MAX_STEP_RATIO_OF_ROW: f64 = 12.0;
 /// Steps of so many medians are gaps.
-pub(crate) const GAP: f64 = 5.0;
+pub(crate) const GAP_SPACINGS: f64 = 5.0;
 /// A contour closes over a gap of so many medians.
-const CLOSING: f64 = 3.0;
+const CLOSING_GAP_SPACINGS: f64 = 3.0;
 
-/// Nine points on two lines have a sum of squares of at most so many variances of the noise, but for one case in a thousand
-/// (chi-squared, 5 degrees of freedom).
-const CORNER: f64 = 20.5;
+/// Nine points on two lines have a sum of squares of at most so many variances of the noise. One case in a thousand is
+/// above (chi-squared, 5 degrees of freedom).
+const MAX_CORNER_CHI_SQUARED: f64 = 20.5;
 
 /// Outliers are looked for so many times.
-const PASSES: usize = 4;
+const OUTLIER_PASSES: usize = 4;
 
 /// Which points of a row count, and which repeat the one before.
-pub(crate) struct Passed {
+pub(crate) struct DistinctPoints {
     pub numbers: Vec<usize>,
     pub repeated: Vec<usize>,
     /// From this point on all are where the first is; they are among the repeated ones.
     pub ends_meet: Option<usize>,
 }
 
-impl Passed {
-    pub fn of(points: &[[f64; 2]], open: bool) -> Passed {
-        let mut all = Passed { numbers: vec![], repeated: vec![], ends_meet: None };
+impl DistinctPoints {
+    pub fn of(points: &[[f64; 2]], open: bool) -> DistinctPoints {
+        let mut all = DistinctPoints { numbers: vec![], repeated: vec![], ends_meet: None };
         for (i, p) in points.iter().enumerate() {
             match all.numbers.last() {
                 Some(last) if points[*last] == *p => all.repeated.push(i),
@@ -71,20 +71,20 @@ impl Passed {
         let far = |w: &[usize]| distance(points[w[0]], points[w[1]]);
         let mut steps: Vec<f64> = self.numbers.windows(2).map(far).collect();
         let spacing = median(&mut steps).unwrap_or(0.0);
-        let wide = self.numbers.windows(2).filter(|w| far(w) > GAP * spacing);
+        let wide = self.numbers.windows(2).filter(|w| far(w) > GAP_SPACINGS * spacing);
         wide.map(|w| w[0]).collect()
     }
 }
 
 /// A row passes places again from which most of its points are this many times nearer to another than to the next.
-const AGAIN: f64 = 1e9;
+const REPEATED_STEP_RATIO: f64 = 1e9;
 
 impl Clean {
     /// Cleans a row whose coordinates are numbers.
     pub fn new(points: &[[f64; 2]], options: &Options) -> Result<Clean, SectionError> {
-        let passed = Passed::of(points, options.closed == Some(false));
+        let passed = DistinctPoints::of(points, options.closed == Some(false));
         let gaps = passed.gaps(points);
-        let Passed { numbers, repeated, ends_meet } = passed;
+        let DistinctPoints { numbers, repeated, ends_meet } = passed;
         let mut all: Vec<[f64; 2]> = numbers.iter().map(|i| points[*i]).collect();
         let mut different = all.clone();
         different.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
@@ -95,14 +95,14 @@ impl Clean {
         let steps: Vec<f64> = all.windows(2).map(|w| distance(w[0], w[1])).collect();
         let spacing = median(&mut steps.clone()).unwrap_or(0.0);
         let ratio = spacing / nearest(&all).max(f64::MIN_POSITIVE);
-        if ratio > AGAIN && all.len() > 8 {
+        if ratio > REPEATED_STEP_RATIO && all.len() > 8 {
             return Err(SectionError::PlacesAgain);
         }
-        if ratio > UNORDERED && all.len() > 8 && !options.ordered {
+        if ratio > MAX_STEP_RATIO_OF_ROW && all.len() > 8 && !options.ordered {
             return Err(SectionError::Unordered { ratio });
         }
-        let found =
-            ends_meet.is_some() || all.len() > 8 && distance(all[0], all[all.len() - 1]) <= CLOSING * spacing;
+        let found = ends_meet.is_some()
+            || all.len() > 8 && distance(all[0], all[all.len() - 1]) <= CLOSING_GAP_SPACINGS * spacing;
         let closed = options.closed.unwrap_or(found);
         let n = all.len() as f64;
         let middle = [0, 1].map(|k| all.iter().map(|p| p[k] / n).sum::<f64>());
@@ -111,8 +111,8 @@ impl Clean {
         Ok(Clean { points: all, numbers, middle, repeated, ends_meet, gaps, closed, spacing, rounding })
     }
 
-    /// Points that lie far off what their neighbors on both sides tell, where these agree: eight times the noise. Neighbors are
-    /// taken `step` points apart.
+    /// Points that lie far off the curve of their neighbors on both sides, where these agree: eight times the noise.
+    /// Neighbors are taken `step` points apart.
     pub fn outliers(&self, noise: f64, step: usize) -> Vec<usize> {
         let n = self.points.len();
         let limit = 8.0 * noise;
@@ -120,8 +120,8 @@ impl Clean {
             return vec![];
         }
         let mut out = vec![false; n];
-        // Of outliers near each other the outer ones are found first; then they are no neighbors any more.
-        for _ in 0..PASSES {
+        // The outer ones of outliers near each other are found first; then they are no neighbors any more.
+        for _ in 0..OUTLIER_PASSES {
             let before = out.clone();
             for i in (0..n).filter(|i| !before[*i]) {
                 let near = self.around(i, step, &before);
@@ -139,18 +139,18 @@ impl Clean {
         (0..n).filter(|i| out[*i]).collect()
     }
 
-    /// Puts outliers, ascending, on the straight way between the points beside them: they count nothing, and nothing that begins or ends
-    /// with one is to be led there.
+    /// Puts outliers, ascending, on the straight way between the points beside them. They count nothing, and nothing
+    /// that begins or ends with one is to be led there.
     pub fn bring_in(&mut self, outliers: &[usize]) {
         let n = self.points.len();
         let is_out = |i: &usize| outliers.binary_search(i).is_ok();
         for &i in outliers {
             let (most_back, most_on) = if self.closed { (n - 1, n - 1) } else { (i, n - 1 - i) };
             let before = (1..=most_back).find(|k| !is_out(&((i + n - k) % n)));
-            let behind = (1..=most_on).find(|k| !is_out(&((i + k) % n)));
+            let after = (1..=most_on).find(|k| !is_out(&((i + k) % n)));
             let back = |k: usize| self.points[(i + n - k) % n];
             let on = |k: usize| self.points[(i + k) % n];
-            self.points[i] = match (before, behind) {
+            self.points[i] = match (before, after) {
                 (Some(b), Some(c)) => {
                     let (from, to, share) = (back(b), on(c), b as f64 / (b + c) as f64);
                     [0, 1].map(|k| from[k] + share * (to[k] - from[k]))
@@ -162,9 +162,9 @@ impl Clean {
         }
     }
 
-    /// Whether a point and its neighbors lie on two lines, as they do around a corner: there a parabola through the neighbors
-    /// passes the corner by. An outlier lies in one of the two groups with four others at least, and leaves 0.4 of its square
-    /// there.
+    /// Whether a point and its neighbors lie on two lines, as they do around a corner. A parabola through the neighbors
+    /// passes the corner by. An outlier lies in one of the two groups with four others at least, and leaves 0.4 of its
+    /// square there.
     fn at_corner(&self, i: usize, step: usize, out: &[bool], noise: f64) -> bool {
         let mut all = self.around(i, step, out);
         let middle = all.len() / 2;
@@ -173,7 +173,7 @@ impl Clean {
         }
         all.insert(middle, self.points[i]);
         let two = |k: usize| off_line(&all[..k]) + off_line(&all[k..]);
-        (2..=7).any(|k| two(k) <= CORNER * noise * noise)
+        (2..=7).any(|k| two(k) <= MAX_CORNER_CHI_SQUARED * noise * noise)
     }
 
     /// Up to four points on either side of one, in order, `step` apart, without those that are `out`.
@@ -193,8 +193,9 @@ impl Clean {
     }
 }
 
-/// How far a curve may be from the chord between a point's two neighbors, where it turns there by as much as the neighbors on either side
-/// differ in heading: a quarter of the chord's length times that angle. Beside gaps in a bend no parabola tells where it runs.
+/// How far a curve may be from the chord between a point's two neighbors. It turns there by as much as the neighbors on
+/// either side differ in heading. The distance is a quarter of the chord's length times that angle. Beside gaps in a
+/// bend no parabola tells where it runs.
 fn bend(near: &[[f64; 2]]) -> f64 {
     let (left, right) = near.split_at(near.len() / 2);
     let heading = |part: &[[f64; 2]]| {
@@ -207,8 +208,8 @@ fn bend(near: &[[f64; 2]]) -> f64 {
     0.25 * turn.abs() * gap
 }
 
-/// Whether a point lies farther than `limit` off its neighbors where one or two of these, outliers themselves, are left out:
-/// those without which the others agree best. They must agree to within `agreed`.
+/// Whether a point lies farther than
+/// `limit` off its neighbors where one or two of these, outliers themselves, are left out. Left out are those without which the others agree best. They must agree to within `agreed`.
 fn without_two(near: &[[f64; 2]], point: [f64; 2], limit: f64, agreed: f64) -> bool {
     let n = near.len();
     let without = |(a, b): (usize, usize)| {
@@ -221,16 +222,16 @@ fn without_two(near: &[[f64; 2]], point: [f64; 2], limit: f64, agreed: f64) -> b
     best.is_some_and(|(own, rest)| own > limit && rest < agreed)
 }
 
-/// Coordinates are rounded to a step between these shares of the distance between points: a coarser one is the row's own, as of pixels, and
-/// a finer one does not count.
-const ROUNDED: std::ops::RangeInclusive<f64> = 1e-4..=0.15;
-/// What is left of a step below this share of the distance between points is nothing.
-const LEFT: f64 = 1e-6;
+/// Coordinates are rounded to a step between these shares of the distance between points. A coarser one is the row's
+/// own, as of pixels, and a finer one does not count.
+const ROUNDING_STEP_SPACINGS: std::ops::RangeInclusive<f64> = 1e-4..=0.15;
+/// A remainder of a step below this share of the distance between points is 0.
+const ZERO_STEP_SPACINGS: f64 = 1e-6;
 
-/// Standard deviation of coordinates that are all multiples of one step from each other, by Euclid's algorithm: values rounded to it lie
-/// anywhere in its width.
+/// Standard deviation of coordinates that are all multiples of one step from each other, by Euclid's algorithm. Values
+/// rounded to it lie anywhere in its width.
 fn rounding(points: &[[f64; 2]], spacing: f64) -> f64 {
-    let least = LEFT * spacing;
+    let least = ZERO_STEP_SPACINGS * spacing;
     let common = |step: f64, other: f64| {
         let (mut a, mut b) = (step, other);
         while b > least {
@@ -243,11 +244,11 @@ fn rounding(points: &[[f64; 2]], spacing: f64) -> f64 {
         for k in 0..2 {
             step = common(step, (w[1][k] - w[0][k]).abs());
         }
-        if step > 0.0 && step < ROUNDED.start() * spacing {
+        if step > 0.0 && step < ROUNDING_STEP_SPACINGS.start() * spacing {
             return 0.0;
         }
     }
-    if ROUNDED.contains(&(step / spacing)) { step / 12.0_f64.sqrt() } else { 0.0 }
+    if ROUNDING_STEP_SPACINGS.contains(&(step / spacing)) { step / 12.0_f64.sqrt() } else { 0.0 }
 }
 
 /// Length of the diagonal of the box around points.
@@ -275,7 +276,7 @@ pub(super) fn spacing(clean: &Clean, step: usize) -> f64 {
     (length / (n - 1) as f64 / step as f64).max(1e-3 * clean.spacing)
 }
 
-/// What there is to check before anything else.
+/// Checks the row before anything else.
 pub(super) fn check_row(points: &[[f64; 2]], options: &Options) -> Result<(), SectionError> {
     match points.iter().position(|p| p.iter().any(|x| !x.is_finite())) {
         Some(index) => Err(SectionError::NotFinite { index }),

@@ -3,8 +3,8 @@
 use super::candidate::{Candidate, Proposer, Question};
 use super::clean::check_row;
 use super::direction::from_the_end;
-use super::shared::shared;
-use super::without::Searched;
+use super::shared_noise::shared_noise;
+use super::without_strays::WithoutStrays;
 use super::{chains, corners, free_row, resolved, vertices};
 use crate::model::budget::Budget;
 use crate::model::crossings::crossings_with_loops;
@@ -24,20 +24,21 @@ const PROPOSERS: [Proposer; 8] = [
     corners::propose,
 ];
 
-/// Products that the searches of a row may take: a dozen seconds. Then the cheapest found so far is taken.
-const PRODUCTS: f64 = 1e10;
-/// A loop of a contour is told that is longer than so many distances between points: it goes by points of the row.
-const LOOP: f64 = 3.0;
+/// Products that the searches of a row may take: a dozen seconds. Then the cheapest contour found so far is taken.
+const MAX_PRODUCTS_PER_ROW: f64 = 1e10;
+/// A loop of a contour is listed that is longer than so many distances between points: it goes by points of the row.
+const MAX_LOOP_SPACINGS: f64 = 3.0;
 
 /// The lines, arcs and curves of a row of points in order along a contour, and the joins between them, with their
 /// uncertainties.
 ///
-/// Corners are where neighboring parts of a first partition differ in heading; between corners, all joins are tangent. The
-/// number and kinds of segments come from a penalized likelihood, the intervals from the likelihood with a join held. The
-/// points are taken to scatter normally across the contour, all alike. A row given the other way round has the same contour, the
-/// other way round. Points that repeat the one before, single points far off what their neighbors tell, and stray ones far off the
-/// row are left out and listed; points that may be stray are [`Contour::doubtful`]. A search of more than a dozen seconds ends with the cheapest contour so far, as of
-/// spirals of many turns; the contour tells that it was cut short.
+/// Corners are where neighboring parts of a first partition differ in heading; between corners, all joins are tangent.
+/// The number and kinds of segments come from a penalized likelihood, the intervals from the likelihood with a join
+/// held. The points are taken to scatter normally across the contour, all alike. A row given the other way round has
+/// the same contour, the other way round. Points that repeat the one before, single points far off their neighbors'
+/// course, and stray ones far off the row are left out and listed. Points that may be stray are [`Contour::doubtful`].
+/// A search of more than a dozen seconds, as of spirals of many turns, ends with the cheapest contour so far. The
+/// contour tells that it was cut short.
 ///
 /// # Errors
 /// [`SectionError`]: too few points, numbers that are none, points out of order, options without meaning.
@@ -57,7 +58,7 @@ pub fn contour(
     options: &Options,
     progress: &dyn Progress,
 ) -> Result<Contour, SectionError> {
-    contour_within(PRODUCTS, points, &Prior::of(options), options, progress)
+    contour_within(MAX_PRODUCTS_PER_ROW, points, &Prior::of(options), options, progress)
 }
 
 /// The same of points whose noise is known.
@@ -67,7 +68,7 @@ pub(crate) fn contour_with(
     options: &Options,
     progress: &dyn Progress,
 ) -> Result<Contour, SectionError> {
-    contour_within(PRODUCTS, points, prior, options, progress)
+    contour_within(MAX_PRODUCTS_PER_ROW, points, prior, options, progress)
 }
 
 /// The same with so many products for its searches.
@@ -79,7 +80,7 @@ pub(crate) fn contour_within(
     progress: &dyn Progress,
 ) -> Result<Contour, SectionError> {
     check_row(points, options)?;
-    let searched = Searched::of(points, options);
+    let searched = WithoutStrays::of(points, options);
     let row = searched.row(points);
     let found =
         prior.among(searched.numbers(), |prior| in_direction(products, &row, &prior, options, progress))?;
@@ -95,11 +96,11 @@ fn in_direction(
     progress: &dyn Progress,
 ) -> Result<Contour, SectionError> {
     let from_the_end = from_the_end(points);
-    let told = [prior.noise.is_some(), prior.weights.is_some(), options.resolution.is_some()];
-    let alike = match (told.contains(&true), from_the_end) {
+    let stated = [prior.noise.is_some(), prior.weights.is_some(), options.resolution.is_some()];
+    let alike = match (stated.contains(&true), from_the_end) {
         (true, _) => None,
-        (false, false) => shared(points),
-        (false, true) => shared(&points.iter().rev().copied().collect::<Vec<_>>()),
+        (false, false) => shared_noise(points),
+        (false, true) => shared_noise(&points.iter().rev().copied().collect::<Vec<_>>()),
     };
     let weights = alike.map(|(_, alike)| vec![1.0 / alike; points.len()]);
     let prior = &Prior {
@@ -109,8 +110,8 @@ fn in_direction(
     };
     let budget = &Budget::new(products);
     let ask = |points: &[[f64; 2]], prior: Prior| {
-        let asked = Question::new(points, prior, options, budget)?;
-        asked.cheapest(&PROPOSERS, progress)?.ok_or(SectionError::Astray)
+        let question = Question::new(points, prior, options, budget)?;
+        question.cheapest(&PROPOSERS, progress)?.ok_or(SectionError::Unreliable)
     };
     let mut found = match from_the_end {
         false => ask(points, *prior)?,
@@ -118,11 +119,12 @@ fn in_direction(
     };
     found.cut_short = budget.was_cut_short();
     found.keep_gaps(points);
-    found.crossings = crossings_with_loops(&found.segments, found.closed, LOOP * found.spacing, progress)?;
+    found.crossings =
+        crossings_with_loops(&found.segments, found.closed, MAX_LOOP_SPACINGS * found.spacing, progress)?;
     Ok(found)
 }
 
-/// What is found of a row the other way round.
+/// The answer for a row the other way round.
 fn turned<R>(points: &[[f64; 2]], prior: &Prior, ask: impl FnOnce(&[[f64; 2]], Prior) -> R) -> R {
     let turned: Vec<[f64; 2]> = points.iter().rev().copied().collect();
     let back: Option<Vec<f64>> = prior.weights.map(|all| all.iter().rev().copied().collect());
@@ -131,16 +133,16 @@ fn turned<R>(points: &[[f64; 2]], prior: &Prior, ask: impl FnOnce(&[[f64; 2]], P
 
 /// A search that ended badly may end well from the other end.
 fn from_the_other_end(
-    asked: &Question,
+    question: &Question,
     best: Option<&Contour>,
     progress: &dyn Progress,
 ) -> Result<Option<Candidate>, SectionError> {
-    if asked.budget.is_spent(0.0) || best.is_some_and(|b| !asked.doubts(b)) {
+    if question.budget.is_spent(0.0) || best.is_some_and(|b| !question.doubts(b)) {
         return Ok(None);
     }
-    let found = turned(asked.points, &asked.prior, |points, prior| {
-        let other = Question::new(points, prior, asked.options, asked.budget)?;
+    let found = turned(question.points, &question.prior, |points, prior| {
+        let other = Question::new(points, prior, question.options, question.budget)?;
         other.cheapest(&[chains::propose, resolved::propose_instead], progress)
     });
-    Ok(found?.and_then(|found| Candidate::of(found.turned_round(asked.points))))
+    Ok(found?.and_then(|found| Candidate::of(found.turned_round(question.points))))
 }

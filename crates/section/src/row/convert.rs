@@ -13,12 +13,12 @@ pub(super) struct Parts {
     pub joins: Vec<Join>,
     /// Length of all.
     pub length: f64,
-    /// Of each point of the chain the length to its foot, from the start of the first segment.
+    /// The length from the start of the first segment to the foot of each point of the chain.
     pub stations: Vec<f64>,
 }
 
 /// A jump of curvature below so many standard deviations is none.
-const JUMP: f64 = 2.0;
+const MIN_JUMP_SIGMAS: f64 = 2.0;
 
 /// The segments of a chain whose ends are the corners given, or else the feet of its first and last point.
 pub(super) fn segments(found: &Found, corners: [Option<[f64; 2]>; 2], spacing: f64) -> Parts {
@@ -52,8 +52,11 @@ pub(super) fn segments(found: &Found, corners: [Option<[f64; 2]>; 2], spacing: f
         let mut longer = vec![];
         if let (Geometry::Spline { curve, .. }, true) = (&segment.geometry, at.iter().any(Option::is_some)) {
             longer = lengths(curve);
-            segment.length = longer[SHARES];
-            longer.iter_mut().enumerate().for_each(|(k, s)| *s -= (to - from) * k as f64 / SHARES as f64);
+            segment.length = longer[PARAMETER_SHARES];
+            longer
+                .iter_mut()
+                .enumerate()
+                .for_each(|(k, s)| *s -= (to - from) * k as f64 / PARAMETER_SHARES as f64);
         }
         for i in (found.state.breaks[g]..found.state.breaks[g + 1]).map(|i| i % count) {
             let s = found.stations[i] - own_way - from;
@@ -75,15 +78,15 @@ pub(super) fn segments(found: &Found, corners: [Option<[f64; 2]>; 2], spacing: f
     Parts { segments, joins, length: way, stations }
 }
 
-/// Equal shares of a free curve's parameter whose lengths are taken.
-const SHARES: usize = 64;
+/// Equal shares of a free curve's parameter whose lengths are measured.
+const PARAMETER_SHARES: usize = 64;
 
 /// Length of a curve from its start to each of the shares of its parameter.
 fn lengths(curve: &Curve<[f64; 2]>) -> Vec<f64> {
     let (start, end) = curve.domain();
-    let at = |k: usize| start + (end - start) * k as f64 / SHARES as f64;
+    let at = |k: usize| start + (end - start) * k as f64 / PARAMETER_SHARES as f64;
     let mut all = vec![0.0];
-    for k in 0..SHARES {
+    for k in 0..PARAMETER_SHARES {
         all.push(all[k] + curve.length(at(k), at(k + 1)));
     }
     all
@@ -119,9 +122,10 @@ fn of_length(found: &Found, g: usize) -> Option<f64> {
     Some(between(&own, linear)).filter(|u| u.is_finite())
 }
 
-/// Standard uncertainty of the length between joins, each with its uncertainty by the covariance and by its interval, and of that length by the
-/// covariance, which tells how the joins go together. Where a curvature grows from that of the neighbor the covariance alone holds
-/// nothing: the join moves by the square root of what the points allow, and intervals are far shorter than it says.
+/// Standard uncertainty of the length between joins. Each join has an uncertainty by the covariance and one by its
+/// interval. The covariance of that length tells how the joins go together. Where a curvature grows from that of the
+/// neighbor the covariance alone holds nothing. The join moves by the square root of the points' slack, and intervals
+/// are far shorter than it says.
 fn between(joins: &[[f64; 2]], linear: f64) -> f64 {
     let ratio = |[by_covariance, own]: [f64; 2]| own / by_covariance.max(f64::MIN_POSITIVE);
     match joins {
@@ -166,7 +170,7 @@ fn joins(found: &Found) -> Vec<Join> {
             let jump = after.curvature(0.0) - before.curvature(1.0);
             let free = [before, after].iter().any(|p| p.kind == SegmentKind::Spline);
             let spread = found.spread.as_ref().map_or(0.0, |s| s.jumps[g - first] * found.noise);
-            let smooth = free && jump.abs() < JUMP * spread;
+            let smooth = free && jump.abs() < MIN_JUMP_SIGMAS * spread;
             let interval = found.intervals[g - first];
             Join {
                 point: found.layout.poses[g].at,
@@ -215,15 +219,15 @@ fn segment(
         SegmentKind::Spline => spline(layout, g, piece, [from, to], [start, end], 0.05 * tolerance),
     };
     let ends = [from, to].map(|s| piece.curvature((s / piece.length).clamp(0.0, 1.0)));
-    // Below 0 where a chain that went astray runs against its points.
+    // Below 0 where an unreliable chain runs against its points.
     Segment::bare(geometry, [start, end], length.abs(), ends)
 }
 
-/// How many times finer the places are taken where the curve does not keep its tolerance.
-const FINER: [usize; 3] = [1, 4, 16];
+/// How many times finer the places are sampled where the curve does not keep its tolerance.
+const SAMPLING_FACTORS: [usize; 3] = [1, 4, 16];
 
 /// Power with which the ends of a free piece lead to its corners.
-const LEAD: i32 = 8;
+const END_BLEND_POWER: i32 = 8;
 
 /// A cubic B-spline along a free piece, with these ends and the directions there.
 fn spline(
@@ -241,11 +245,11 @@ fn spline(
     let off = |to: [f64; 2], at: [f64; 2]| [to[0] - at[0], to[1] - at[1]];
     let (first, last) = (off(start, pose.place(place(0.0).at)), off(end, pose.place(place(1.0).at)));
     let led = |t: f64| {
-        let (p, u, v) = (pose.place(place(t).at), (1.0 - t).powi(LEAD), t.powi(LEAD));
+        let (p, u, v) = (pose.place(place(t).at), (1.0 - t).powi(END_BLEND_POWER), t.powi(END_BLEND_POWER));
         [p[0] + u * first[0] + v * last[0], p[1] + u * first[1] + v * last[1]]
     };
     let along = |t: f64, shift: [f64; 2], sign: f64| {
-        let (way, rate) = (pose.out(place(t).along), sign * f64::from(LEAD) / (to - from));
+        let (way, rate) = (pose.out(place(t).along), sign * f64::from(END_BLEND_POWER) / (to - from));
         [way[0] + rate * shift[0], way[1] + rate * shift[1]]
     };
     let ends = Ends {
@@ -253,7 +257,7 @@ fn spline(
         end: End::Tangent(end, along(1.0, last, 1.0)),
     };
     let mut best: Option<(Curve<[f64; 2]>, f64)> = None;
-    for finer in FINER {
+    for finer in SAMPLING_FACTORS {
         let steps = finer * (16 * piece.coefficients.len() + 32);
         // The places follow each other at steps of the length; where the curvature has knots the curve may change the most.
         let parameters: Vec<f64> = (0..=steps).map(|i| i as f64 / steps as f64).collect();
@@ -288,7 +292,7 @@ impl Segment {
         let ends = [off(start, curve.points()[0]), off(end, curve.points()[last])];
         let led = |(i, p): (usize, &[f64; 2])| {
             let t = i as f64 / last as f64;
-            p.plus((1.0 - t).powi(LEAD), ends[0]).plus(t.powi(LEAD), ends[1])
+            p.plus((1.0 - t).powi(END_BLEND_POWER), ends[0]).plus(t.powi(END_BLEND_POWER), ends[1])
         };
         let points = curve.points().iter().enumerate().map(led).collect();
         if let Ok(moved) = Curve::new(curve.knots().clone(), points) {

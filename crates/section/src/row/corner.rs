@@ -4,29 +4,29 @@ use crate::model::chain::{Pose, SegmentKind};
 use crate::model::result::{Continuity, Join};
 use crate::search::span::Found;
 
-/// From where the points end a corner that they tell lies no farther than this share of the farthest, beyond what is uncertain.
-const NEAR: f64 = 0.25;
+/// A corner lies no farther from where its points end than this share of the farthest, beyond its uncertainty.
+const MAX_GAP_SHARE: f64 = 0.25;
 
 /// Or so many times the mean distance between the points of the line that runs there: a cut of large facets has few.
-const LOCAL: f64 = 5.0;
+const MAX_GAP_LOCAL_SPACINGS: f64 = 5.0;
 
 /// A corner takes less than this share of the way along a segment's points: the other end may take as much.
-const SHORTEST: f64 = 0.45;
+const MAX_SHORTENING_SHARE: f64 = 0.45;
 
-/// From where the points of a side end so small a share of the gap between both sides is no way at all.
-const AT_END: f64 = 0.05;
+/// A way from the end of a side's points is none that is so small a share of the gap between both sides.
+const ZERO_WAY_SHARE: f64 = 0.05;
 
-/// The way to a corner and back is so many times as long as that from point to point, and so many times as long as the steps between the points
-/// before it, where points would lie on it.
-const DETOUR: f64 = 2.0;
-const UNSEEN: f64 = 1.5;
+/// The way to a corner and back is passed over that is so many times as long as that from point to point.
+const MIN_DETOUR_RATIO: f64 = 2.0;
+/// Such a way is also so many times as long as the steps between the points before it: points would lie on it.
+const MIN_DETOUR_STEPS: f64 = 1.5;
 
 /// The corner between two chains: where they cross, each going on as its end does. Where they cross in a wide gap of the points its interval
 /// is the gap. Where they cross nowhere near, it is the middle between where the points end.
 pub(super) fn crossing(a: &Found, b: &Found, quantile: f64, farthest: f64) -> Join {
     let feet = [a.beyond(true, a.last_foot()), b.beyond(false, b.first_foot())].map(|pose| pose.at);
     let width = libm::hypot(feet[1][0] - feet[0][0], feet[1][1] - feet[0][1]);
-    let is_wide = width > NEAR * farthest;
+    let is_wide = width > MAX_GAP_SHARE * farthest;
     let farthest = farthest.max(width);
     let (mut u, mut v) = (0.0, 0.0);
     let (mut p, mut q) = (a.beyond(true, 0.0), b.beyond(false, 0.0));
@@ -56,30 +56,34 @@ pub(super) fn crossing(a: &Found, b: &Found, quantile: f64, farthest: f64) -> Jo
     let most =
         [a.pieces().last(), b.pieces().first()].iter().flatten().fold(farthest, |m, p| m.min(p.length));
     let reach = quantile * uncertainty;
-    // Where the points end, the corner is; and no segment may lose more than what leaves it a length at its other end too.
-    // Where few points lie on a line it goes on as far; an arc or a free curve does not tell as much.
+    // Where the points end, the corner is. No segment may lose so much that no length is left at its other end. Where
+    // few points lie on a line it goes on as far; an arc or a free curve does not tell as much.
     let near = |f: &Found, at_end: bool| {
-        let local =
-            if f.end_kind(at_end) == SegmentKind::Line { LOCAL * f.local_spacing(at_end) } else { 0.0 };
-        (NEAR * farthest).max(local) + 3.0 * uncertainty.min(farthest)
+        let local = if f.end_kind(at_end) == SegmentKind::Line {
+            MAX_GAP_LOCAL_SPACINGS * f.local_spacing(at_end)
+        } else {
+            0.0
+        };
+        (MAX_GAP_SHARE * farthest).max(local) + 3.0 * uncertainty.min(farthest)
     };
     let (near_a, near_b) = (near(a, true), near(b, false));
     let (beyond, within) = (u - a.last_foot(), v - b.first_foot());
     // A corner where the points of the one side end is told by these, however wide the gap to the points of the other is.
     let ends_there = |way: f64, f: &Found| {
-        is_wide && way.abs() <= (3.0 * libm::hypot(uncertainty, f.noise)).min(AT_END * width)
+        is_wide && way.abs() <= (3.0 * libm::hypot(uncertainty, f.noise)).min(ZERO_WAY_SHARE * width)
     };
     let far = |way: f64, near: f64, other: bool| way.abs() > near && !other;
     let is_far = far(beyond, near_a, ends_there(within, b)) || far(within, near_b, ends_there(beyond, a));
-    let eaten = -beyond > SHORTEST * a.extent(true) || within > SHORTEST * b.extent(false);
+    let eaten =
+        -beyond > MAX_SHORTENING_SHARE * a.extent(true) || within > MAX_SHORTENING_SHARE * b.extent(false);
     // Both go on to meet within a gap of the points: that is where they were drawn to, but nothing tells.
     let free = [a.end_kind(true), b.end_kind(false)].contains(&SegmentKind::Spline);
-    let slack = NEAR * farthest;
+    let slack = MAX_GAP_SHARE * farthest;
     let gap = !free && beyond.min(-within) >= -slack && beyond.max(-within) <= width + slack;
     // Points as close as these are would lie on the way to a corner far beyond both ends.
     let way = if beyond.min(-within) > 0.0 { beyond - within } else { 0.0 };
-    let passed = way > DETOUR * width
-        && way > UNSEEN * a.last_step(true).max(b.last_step(false)).max(3.0 * uncertainty);
+    let passed = way > MIN_DETOUR_RATIO * width
+        && way > MIN_DETOUR_STEPS * a.last_step(true).max(b.last_step(false)).max(3.0 * uncertainty);
     if reach > most || eaten || passed || is_far {
         let hidden = between(feet, turn, uncertainty.min(most));
         return if gap && !passed && reach <= most { Join { point, ..hidden } } else { hidden };
@@ -95,8 +99,8 @@ pub(super) fn crossing(a: &Found, b: &Found, quantile: f64, farthest: f64) -> Jo
     }
 }
 
-/// The corner of two chains that do not cross where their points end: anywhere between the last point of the one and the
-/// first of the other.
+/// The corner of two chains that do not cross where their points end. It lies anywhere between the last point of the
+/// one and the first of the other.
 fn between(feet: [[f64; 2]; 2], turn: f64, uncertainty: f64) -> Join {
     let width = libm::hypot(feet[1][0] - feet[0][0], feet[1][1] - feet[0][1]);
     Join {

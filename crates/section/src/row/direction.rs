@@ -1,20 +1,20 @@
 //! Rows are measured in one direction, whichever they are given in: a search by the likelihood may end elsewhere from the other end.
 
-use super::clean::{GAP, Passed};
+use super::clean::{DistinctPoints, GAP_SPACINGS};
 use crate::model::flat::distance;
 use crate::model::result::{Contour, Join, Segment};
 
-/// Steps that differ by less than this share are taken for equal: rounding of a motion does not turn a row round.
-const EQUAL: f64 = 1e-9;
+/// Steps that differ by less than this share count as equal: rounding of a motion does not turn a row round.
+const EQUAL_STEP_SHARE: f64 = 1e-9;
 
-/// Whether a row is measured from its last point: of the steps counted from both ends the first pair that differs tells it, and
-/// where none does, the coordinates.
+/// Whether a row is measured from its last point. The first pair of steps, counted from both ends, that differs tells
+/// it; where none does, the coordinates do.
 pub(crate) fn from_the_end(points: &[[f64; 2]]) -> bool {
     let n = points.len();
     let step = |i: usize| distance(points[i], points[i + 1]);
     let differ = |i: &usize| {
         let (a, b) = (step(*i), step(n - 2 - i));
-        (a - b).abs() > EQUAL * (a + b)
+        (a - b).abs() > EQUAL_STEP_SHARE * (a + b)
     };
     if let Some(i) = (0..n.saturating_sub(1) / 2).find(differ) {
         return step(i) < step(n - 2 - i);
@@ -36,7 +36,7 @@ impl Contour {
         }
         let other = |l: u32| (count - 1) as u32 - l;
         self.labels = self.labels.into_iter().rev().map(other).collect();
-        self.astray = self.astray.into_iter().rev().map(|s| count - 1 - s).collect();
+        self.unreliable = self.unreliable.into_iter().rev().map(|s| count - 1 - s).collect();
         self.residuals = self.residuals.into_iter().rev().map(|r| 0.0 - r).collect();
         self.stations = self.stations.into_iter().rev().map(|s| whole - s).collect();
         self.moved.reverse();
@@ -59,9 +59,9 @@ impl Contour {
 
     /// The contour of the row `points`, found from its last point, as from its first.
     pub(crate) fn turned_round(self, points: &[[f64; 2]]) -> Contour {
-        let passed = Passed::of(points, !self.closed);
+        let passed = DistinctPoints::of(points, !self.closed);
         let mut all = self.reversed(points.len());
-        // Of points at the same place the first stands for all.
+        // The first of points at the same place stands for all.
         let first = |i: usize| {
             let of_the_end = passed.ends_meet.is_some_and(|from| i >= from);
             let before = (0..=i).rev().find(|k| *k == 0 || points[*k - 1] != points[i]);
@@ -97,22 +97,22 @@ impl Contour {
     /// Passes over wide steps that do not lead on along the contour, and those to outliers: these and scatter leave no gap.
     pub(crate) fn keep_gaps(&mut self, points: &[[f64; 2]]) {
         /// Share of a step that leads on along the contour where it is a gap.
-        const ALONG: f64 = 0.5;
-        if !self.astray.is_empty() {
+        const MIN_ONWARD_SHARE: f64 = 0.5;
+        if !self.unreliable.is_empty() {
             return;
         }
         let whole = self.length();
         let passed_over = |list: &[usize], i: &usize| list.binary_search(i).is_ok();
         let counts = |i: &usize| !passed_over(&self.repeated, i) && !passed_over(&self.outliers, i);
-        let beside = |gap: &usize| {
+        let point_before = |gap: &usize| {
             let before = (0..=*gap).rev().find(counts)?;
             let next = (gap + 1..points.len()).find(counts)?;
             let along = (self.stations[next] - self.stations[before]).abs();
             let along = if self.closed { along.min(whole - along) } else { along };
             let step = distance(points[before], points[next]);
-            (step > GAP * self.spacing && along >= ALONG * step).then_some(before)
+            (step > GAP_SPACINGS * self.spacing && along >= MIN_ONWARD_SHARE * step).then_some(before)
         };
-        let mut kept: Vec<usize> = self.gaps.iter().filter_map(beside).collect();
+        let mut kept: Vec<usize> = self.gaps.iter().filter_map(point_before).collect();
         kept.dedup();
         self.gaps = kept;
     }
@@ -129,8 +129,8 @@ impl Contour {
         let joins = self.joins.len();
         self.joins.rotate_left(first.min(joins));
         self.labels.iter_mut().for_each(|l| *l = ((*l as usize + count - first) % count) as u32);
-        self.astray.iter_mut().for_each(|s| *s = (*s + count - first) % count);
-        self.astray.sort_unstable();
+        self.unreliable.iter_mut().for_each(|s| *s = (*s + count - first) % count);
+        self.unreliable.sort_unstable();
         self.stations.iter_mut().for_each(|s| *s = (*s - before).rem_euclid(whole));
     }
 }

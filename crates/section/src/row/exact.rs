@@ -1,24 +1,23 @@
 //! Sparse rows without noise whose points lie on lines and on arcs tangent to them; and fits that miss points that are exact.
 //!
-//! Corners of a few points tell a search by likelihood nothing: there are as many unknowns as points. But lines of three points
-//! and more are known exactly, and an arc that is tangent to two of them has one unknown, its radius: a second point of it, or
-//! another arc of the same radius, proves it.
+//! Corners of a few points tell a search by likelihood nothing: there are as many unknowns as points. But lines of
+//! three points and more are known exactly, and an arc that is tangent to two of them has one unknown, its radius. A
+//! second point of it, or another arc of the same radius, proves it.
 
 use super::clean::{Clean, size};
-use super::polygon::CORNER;
+use super::polygon::{MIN_CORNER_TURN, MIN_POINTS_PER_LINE};
 use crate::model::chain::SegmentKind;
 use crate::model::flat::{angle, distance, dot, left, minus, off_circle, off_line};
+use crate::model::prior::NEGLIGIBLE_OFFSET_SPACINGS;
 use crate::model::result::Contour;
-use crate::search::start::Part;
+use crate::search::parts::Part;
 
 /// Longer rows tell their segments themselves.
-const MOST: usize = 200;
-/// Fewest points of a line.
-const FEWEST: usize = 3;
+const MAX_POINTS_OF_EXACT_ROW: usize = 200;
 /// Points lie on an arc as well as on lines, but for this factor: its radius comes from one of them.
-const LOOSE: f64 = 20.0;
+const ARC_TOLERANCE_FACTOR: f64 = 20.0;
 /// Radii that agree to this share prove each other.
-const EQUAL: f64 = 1e-4;
+const EQUAL_RADIUS_SHARE: f64 = 1e-4;
 
 /// A line of a run of points, and the points after it up to the next run.
 struct Run {
@@ -31,18 +30,18 @@ struct Run {
 type Between = Option<([f64; 2], f64)>;
 
 /// Coordinates in files are rounded: to within the first of these shares of the size, or the second.
-const ROUNDED: [f64; 2] = [1e-6, 1e-5];
+const ROUNDING_SHARES: [f64; 2] = [1e-6, 1e-5];
 
-/// The lines and arcs of a row whose points lie on them exactly, to within `least` or what coordinates are rounded by, every arc
-/// tangent to the lines beside it; and where the row is turned to, so that it begins with a line.
+/// The lines and arcs of a row whose points lie on them exactly, to within `least` or the rounding of coordinates.
+/// Every arc is tangent to the lines beside it. Also where the row is turned to, so that it begins with a line.
 pub(super) fn rounded(clean: &Clean, least: f64) -> Option<(usize, Vec<Part>)> {
-    ROUNDED.iter().find_map(|share| within(clean, least.max(share * size(&clean.points))))
+    ROUNDING_SHARES.iter().find_map(|share| within(clean, least.max(share * size(&clean.points))))
 }
 
 /// The same to within `tolerance`.
 fn within(clean: &Clean, tolerance: f64) -> Option<(usize, Vec<Part>)> {
     let n = clean.points.len();
-    if !(2 * FEWEST..=MOST).contains(&n) {
+    if !(2 * MIN_POINTS_PER_LINE..=MAX_POINTS_OF_EXACT_ROW).contains(&n) {
         return None;
     }
     let straight = |i: usize| {
@@ -68,7 +67,7 @@ fn within(clean: &Clean, tolerance: f64) -> Option<(usize, Vec<Part>)> {
     let proven = |k: usize| {
         let (from, to, radius) = (arcs[k].0, arcs[k].1, arcs[k].2.map(|(_, c)| 1.0 / c.abs()));
         let same = |r: f64, (i, j, other): &(usize, usize, Between)| {
-            j > i && other.is_some_and(|(_, c)| (r * c.abs() - 1.0).abs() <= EQUAL)
+            j > i && other.is_some_and(|(_, c)| (r * c.abs() - 1.0).abs() <= EQUAL_RADIUS_SHARE)
         };
         to - from != 1 || radius.is_some_and(|r| arcs.iter().filter(|a| same(r, a)).count() > 1)
     };
@@ -92,12 +91,12 @@ fn runs(points: &[[f64; 2]], tolerance: f64) -> Vec<Run> {
     };
     let mut all = vec![];
     let mut i = 0;
-    while i + FEWEST <= n {
-        let Some(mut along) = fits(i, i + FEWEST - 1) else {
+    while i + MIN_POINTS_PER_LINE <= n {
+        let Some(mut along) = fits(i, i + MIN_POINTS_PER_LINE - 1) else {
             i += 1;
             continue;
         };
-        let mut to = i + FEWEST;
+        let mut to = i + MIN_POINTS_PER_LINE;
         while to < n
             && let Some(longer) = fits(i, to)
         {
@@ -116,10 +115,11 @@ fn arc(points: &[[f64; 2]], a: &Run, b: &Run, end: usize, tolerance: f64) -> Opt
     let turn = angle(a.along, b.along);
     let (last, first) = (points[a.to - 1], points[b.from]);
     if between.is_empty() {
-        // Of a run that rounding broke there is no corner.
-        return (turn.abs() > CORNER).then_some(None);
+        // A run that rounding broke has no corner.
+        return (turn.abs() > MIN_CORNER_TURN).then_some(None);
     }
-    // The center lies as far to the left of both lines, by the radius with the sense of the turn; one point more tells how far.
+    // The center lies as far to the left of both lines, by the radius with the sense of the turn. One point more tells
+    // how far.
     let half = 0.5 * (std::f64::consts::PI - turn.abs());
     let sense = if half < 1e-6 { left(first, last, a.along).signum() } else { turn.signum() };
     let normals = [a, b].map(|r| [-sense * r.along[1], sense * r.along[0]]);
@@ -142,11 +142,12 @@ fn arc(points: &[[f64; 2]], a: &Run, b: &Run, end: usize, tolerance: f64) -> Opt
         let far = (dot(p, inward) + root.max(0.0).sqrt()) / (cos * cos);
         ([0, 1].map(|k| apex[k] + far * inward[k]), far * sin)
     };
-    let slack = LOOSE * tolerance;
+    let slack = ARC_TOLERANCE_FACTOR * tolerance;
     let near = |p: &[f64; 2]| (distance(*p, center) - radius).abs() <= slack;
     // The points where it leaves the lines lie between the points of these and its own.
-    let behind = dot(minus(center, last), a.along) >= -slack && dot(minus(first, center), b.along) >= -slack;
-    (radius > slack && behind && between.iter().all(near)).then_some(Some((center, sense / radius)))
+    let is_between =
+        dot(minus(center, last), a.along) >= -slack && dot(minus(first, center), b.along) >= -slack;
+    (radius > slack && is_between && between.iter().all(near)).then_some(Some((center, sense / radius)))
 }
 
 fn parts(points: &[[f64; 2]], runs: &[Run], arcs: &[(usize, usize, Between)]) -> Vec<Part> {
@@ -174,36 +175,39 @@ fn parts(points: &[[f64; 2]], runs: &[Run], arcs: &[(usize, usize, Between)]) ->
     all
 }
 
-/// Points are exact that lie nearer to the line through their neighbors, or to a circle through three of them, than this share of
-/// the noise found: of noisy points one in a hundred does.
-const NEARER: f64 = 0.01;
+/// Points are exact that lie nearer than this share of the noise found to the line through their neighbors. So are
+/// those that lie as near to a circle through three of them. One noisy point in a hundred does.
+const EXACT_OFFSET_SIGMAS: f64 = 0.01;
 /// So many exact points, and this share of all, are no chance.
-const EXACT: (usize, f64) = (3, 0.15);
-/// Shares of the distance between points: distances below the first, in rows of few points the second, are none of a fit that
-/// misses its points; points that scatter by more than the third follow each other across the contour.
-const MISSED: [f64; 3] = [0.005, 0.0005, 0.25];
-const FEW: usize = 60;
+const MIN_EXACT_POINTS_AND_SHARE: (usize, f64) = (3, 0.15);
+/// Distances below this share of the distance between points are none of a fit that misses its points; the second holds in
+/// short rows.
+const MISSED_OFFSET_SPACINGS: [f64; 2] = [NEGLIGIBLE_OFFSET_SPACINGS, 0.0005];
+/// Points that scatter by more than this share of the distance between them follow each other across the contour.
+const MAX_SCATTER_SPACINGS: f64 = 0.25;
+/// Rows of up to so many points are short.
+const MAX_POINTS_OF_SHORT_ROW: usize = 60;
 /// A segment that scatters by this share of the noise takes part in it.
-const SHARE: f64 = 0.2;
+const MIN_SCATTER_SHARE: f64 = 0.2;
 
-/// Segments that miss points which are exact themselves: what the contour calls noise is none.
+/// Segments that miss points which are exact themselves: the contour's noise is none.
 pub(super) fn missed(points: &[[f64; 2]], contour: &Contour) -> Vec<usize> {
     let n = points.len();
     let noise = contour.noise;
-    let least = MISSED[usize::from(n <= FEW)];
-    if n < 8 || !(least..MISSED[2]).contains(&(noise / contour.spacing)) || quantized(points) {
+    let least = MISSED_OFFSET_SPACINGS[usize::from(n <= MAX_POINTS_OF_SHORT_ROW)];
+    if n < 8 || !(least..MAX_SCATTER_SPACINGS).contains(&(noise / contour.spacing)) || quantized(points) {
         return vec![];
     }
     let count = if contour.closed { n } else { n - 3 };
     let on = |i: usize| {
         let [a, b, c, d] = [0, 1, 2, 3].map(|k| points[(i + k) % n]);
-        off_line([a, c], b).min(off_circle([a, b, d], c)) <= NEARER * noise
+        off_line([a, c], b).min(off_circle([a, b, d], c)) <= EXACT_OFFSET_SIGMAS * noise
     };
     let exact = (0..count).filter(|i| on(*i)).count();
-    if exact < EXACT.0 || (exact as f64) < EXACT.1 * n as f64 {
+    if exact < MIN_EXACT_POINTS_AND_SHARE.0 || (exact as f64) < MIN_EXACT_POINTS_AND_SHARE.1 * n as f64 {
         return vec![];
     }
-    let scatters = |k: &usize| contour.segments[*k].rms > SHARE * noise;
+    let scatters = |k: &usize| contour.segments[*k].rms > MIN_SCATTER_SHARE * noise;
     (0..contour.segments.len()).filter(scatters).collect()
 }
 

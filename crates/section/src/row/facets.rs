@@ -7,22 +7,22 @@
 //! both ends are the facets before and after.
 
 use crate::model::flat::{angle, distance, minus};
-use crate::search::start::circle;
+use crate::search::parts::circle;
 
-/// A chord turns by no more than this, 34.4 degrees: midway between those of regular polygons of ten sides, which are polygons,
-/// and of eleven, which are circles.
-pub(crate) const SHARP: f64 = 0.6;
-/// Turns that differ from that by less than this factor are near it: where some chords of a circle turn by less and others by
-/// more, all are lines.
-const NEAR: f64 = 1.15;
+/// A chord turns by no more than this, 34.4 degrees. It is midway between regular polygons of ten sides, which are
+/// polygons, and of eleven, which are circles.
+pub(crate) const SHARP_TURN: f64 = 0.6;
+/// Turns that differ from the sharp one by less than this factor are near it. Where some chords of a circle turn by less and others
+/// by more, all are lines.
+const NEAR_SHARP_RATIO: f64 = 1.15;
 /// A chord of an arc that is tangent to the facets beside may turn by a right angle.
-pub(super) const WIDE: f64 = std::f64::consts::FRAC_PI_2;
+pub(super) const MAX_TANGENT_CHORD_TURN: f64 = std::f64::consts::FRAC_PI_2;
 /// Three chords of an arc are not more uneven than this.
-const UNEVEN: f64 = 3.0;
+const MAX_CHORD_RATIO: f64 = 3.0;
 /// Most chords of an arc that is known by its tangents.
-const CHORDS: usize = 8;
+const MAX_FILLET_CHORDS: usize = 8;
 /// The middle of an arc lies off its chord by at least so many distances that are lost in rounding.
-const BENT: f64 = 4.0;
+const MIN_SAGITTA_ROUNDINGS: f64 = 4.0;
 
 /// The vertices of a polyline.
 #[derive(Clone, Debug, Default)]
@@ -33,7 +33,7 @@ pub(crate) struct Polygon {
     pub closed: bool,
 }
 
-/// What facets are.
+/// The shape of facets.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum LineOrArc {
     Line,
@@ -153,7 +153,7 @@ impl Polygon {
             let next = i + 1;
             reach[i] = if next >= m {
                 m
-            } else if turns[next] == 0.0 || turns[next].abs() > SHARP {
+            } else if turns[next] == 0.0 || turns[next].abs() > SHARP_TURN {
                 next
             } else if next + 1 < m && turns[next] * turns[next + 1] > 0.0 {
                 reach[next]
@@ -182,21 +182,21 @@ impl Polygon {
         if reach < from + 3 {
             return None;
         }
-        let mut best = self.arc(from, from + 3, SHARP, tolerance)?;
+        let mut best = self.arc(from, from + 3, SHARP_TURN, tolerance)?;
         let (mut step, mut fails) = (1, reach + 1);
         while best.to < reach {
             let to = (best.to + step).min(fails - 1);
             if to == best.to {
                 break;
             }
-            match self.arc(from, to, SHARP, tolerance) {
+            match self.arc(from, to, SHARP_TURN, tolerance) {
                 Some(longer) => (best, step) = (longer, 2 * step),
                 None => (fails, step) = (to, 1.max((to - best.to) / 2)),
             }
         }
         // The corners of any symmetric trapezoid lie on a circle.
         let sizes = || (best.from..best.to).map(|i| self.facet_length(i));
-        let uneven = sizes().fold(0.0, f64::max) > UNEVEN * sizes().fold(f64::INFINITY, f64::min);
+        let uneven = sizes().fold(0.0, f64::max) > MAX_CHORD_RATIO * sizes().fold(f64::INFINITY, f64::min);
         (best.to > best.from + 3 || !uneven).then_some(best)
     }
 
@@ -209,7 +209,9 @@ impl Polygon {
         let turned: f64 = points.windows(2).map(|w| angle(minus(w[0], center), minus(w[1], center))).sum();
         let sagitta = radius * (1.0 - libm::cos(0.5 * turned.abs().min(std::f64::consts::PI)));
         let widest = 2.0 * radius * libm::sin(0.5 * widest);
-        let fits = off <= tolerance && chord <= widest * (1.0 + 1e-9) && sagitta >= BENT * tolerance;
+        let fits = off <= tolerance
+            && chord <= widest * (1.0 + 1e-9)
+            && sagitta >= MIN_SAGITTA_ROUNDINGS * tolerance;
         // Once round is enough.
         let fits = fits && turned.abs() <= std::f64::consts::TAU * (1.0 + 1e-6);
         fits.then(|| Item { shape: LineOrArc::Arc(center, turned.signum() / radius), from, to })
@@ -222,7 +224,8 @@ impl Polygon {
         }
         let (first, last) = (items[0], items[items.len() - 1]);
         let arcs = [first, last].iter().all(|i| i.shape != LineOrArc::Line);
-        if let Some(whole) = self.arc(last.from, first.to + self.facets(), SHARP, tolerance).filter(|_| arcs)
+        if let Some(whole) =
+            self.arc(last.from, first.to + self.facets(), SHARP_TURN, tolerance).filter(|_| arcs)
         {
             items.pop();
             items[0] = whole;
@@ -230,13 +233,13 @@ impl Polygon {
         }
     }
 
-    /// Arcs of chords that turn by nearly as much as a corner become lines where chords of the same circle beside them turn by
-    /// little more: which are arcs there, and which lines, would be left to rounding.
+    /// Some arcs have chords that turn by nearly as much as a corner. They become lines where chords of the same circle
+    /// beside them turn by little more. Else rounding would decide which are arcs there, and which lines.
     fn dissolve(&self, items: &mut Vec<Item>, tolerance: f64) {
         let mut k = 0;
         while k < items.len() {
             let n = items.len();
-            let (item, beside) = (items[k], [items[(k + n - 1) % n], items[(k + 1) % n]]);
+            let (item, neighbors) = (items[k], [items[(k + n - 1) % n], items[(k + 1) % n]]);
             let LineOrArc::Arc(center, curvature) = item.shape else {
                 k += 1;
                 continue;
@@ -247,10 +250,10 @@ impl Polygon {
                 |i: usize| (distance(center, self.vertex(i)) * curvature.abs() - 1.0).abs() / curvature.abs();
             let doubtful = |other: &Item| {
                 let on = off(other.from).max(off(other.to)) <= 2.0 * tolerance;
-                other.shape == LineOrArc::Line && on && turn(other.from) <= NEAR * SHARP
+                other.shape == LineOrArc::Line && on && turn(other.from) <= NEAR_SHARP_RATIO * SHARP_TURN
             };
             let whole = item.to - item.from == self.facets();
-            if widest * NEAR < SHARP || whole || !beside.iter().any(doubtful) {
+            if widest * NEAR_SHARP_RATIO < SHARP_TURN || whole || !neighbors.iter().any(doubtful) {
                 k += 1;
                 continue;
             }
@@ -274,12 +277,12 @@ impl Polygon {
             return None;
         }
         let sizes = || chords.iter().map(|i| self.facet_length(i.from));
-        let beside = self.facet_length(before.from).min(self.facet_length(after.from));
+        let shorter_neighbor = self.facet_length(before.from).min(self.facet_length(after.from));
         let bent = chords[1..].iter().map(|i| self.turn(i.from % self.at.len()).abs()).fold(0.0, f64::max);
-        if sizes().fold(0.0, f64::max) >= beside || bent > WIDE {
+        if sizes().fold(0.0, f64::max) >= shorter_neighbor || bent > MAX_TANGENT_CHORD_TURN {
             return None;
         }
-        let arc = self.arc(chords[0].from, chords[count - 1].to, WIDE, tolerance)?;
+        let arc = self.arc(chords[0].from, chords[count - 1].to, MAX_TANGENT_CHORD_TURN, tolerance)?;
         let LineOrArc::Arc(center, curvature) = arc.shape else { return None };
         let slack = self.slack(sizes().fold(f64::INFINITY, f64::min), tolerance);
         let along = |i: usize| {
@@ -296,7 +299,8 @@ impl Polygon {
     fn fillets(&self, items: &mut Vec<Item>, tolerance: f64) {
         let mut k = 0;
         while k + 1 < items.len() {
-            let found = (2..=CHORDS).rev().find_map(|c| Some((c, self.fillet(items, k, c, tolerance)?)));
+            let found =
+                (2..=MAX_FILLET_CHORDS).rev().find_map(|c| Some((c, self.fillet(items, k, c, tolerance)?)));
             if let Some((count, arc)) = found {
                 items.splice(k..k + count, [arc]);
             }

@@ -1,49 +1,51 @@
 //! Rows of a free form, as one curve.
 //!
-//! A form that nobody drew of lines and arcs, as a body or a rock, has none to be told: a search takes its bends for arcs by the dozen.
-//! Such a row is a cubic B-spline through its points by weighted least squares, whose spans are as fine as the points tell: wide ones are
-//! halved where a finer curve follows the points by more than the noise alone would let it. Of all tried the one counts that foretells
-//! other points best (Hurvich and Tsai, Biometrika 76, 1989). Flat and round places of such a form are parts of a partition in which that
-//! curve is one kind more: what it costs from one point to another is a difference of two sums.
+//! A form that nobody drew of lines and arcs, as a body or a rock, has none. A search takes its bends for arcs by the
+//! dozen. Such a row is a cubic B-spline through its points by weighted least squares, whose spans are as fine as the
+//! points tell. Wide spans are halved where a finer curve follows the points by more than the noise alone would let it.
+//! The one counts that foretells other points best (Hurvich and Tsai, Biometrika 76, 1989). Flat and round places of
+//! such a form are parts of a partition in which that curve is one kind more. Its cost from one point to another is a
+//! difference of two sums.
 
 use super::assembly::Joined;
 use super::candidate::{Candidate, Question};
 use super::clean::Clean;
-use super::plan::RESOLUTION;
+use super::corner_search::RESOLUTION_SPACINGS;
 use crate::model::chain::SegmentKind;
 use crate::model::result::{Contour, Geometry, SectionError, Segment};
-use crate::search::partition::{FreeCost, PLACES, Penalty, kinds_with_free};
-use crate::search::start::noise;
+use crate::search::partition::{FreeCost, MAX_PART_STARTS, Penalty, kinds_with_free};
+use crate::search::parts::noise;
 use trueness_geom::num::banded::Banded;
 use trueness_geom::progress::{Cancelled, Progress};
 use trueness_geom::spline::basis::Knots;
 use trueness_geom::spline::curve::Curve;
 
-/// Fewest points of a span, and spans of a curve.
-const FEWEST_POINTS: usize = 4;
-const FEWEST_SPANS: usize = 6;
+/// Fewest points of a span.
+const MIN_POINTS_PER_SPAN: usize = 4;
+/// Fewest spans of a curve.
+const MIN_SPANS: usize = 6;
 /// Each curve of equal spans has so many times as many as the one before.
-const FINER: f64 = 1.5;
+const SPAN_GROWTH: f64 = 1.5;
 /// Feet are found anew so many times for a curve that is compared, and for the one that is taken.
-const PASSES: [usize; 2] = [2, 6];
+const FIT_PASSES: [usize; 2] = [2, 6];
 /// On the curve that is taken feet are found so many times more, without another fit.
-const SETTLED: usize = 5;
+const FINAL_FOOT_STEPS: usize = 5;
 /// Spans are halved so many times at most.
-const HALVED: usize = 8;
+const MAX_SPAN_HALVINGS: usize = 8;
 /// Points of a span lie off more than the noise makes them where they do by so many times its variance.
-const MORE: f64 = 2.0;
-/// Fewer points to a line or arc, and less than half of a row, do not tell it from a bend of the form.
-const FEWEST_TOLD: usize = 32;
-/// A bend of a form is no line and no arc to less than this share of what its surface departs from smooth ones by.
-const LEAST: f64 = 0.1;
-/// Of the parts of a free form one in so many is a line or an arc.
-const RARE: f64 = 1e4;
+const MAX_SPAN_VARIANCE_RATIO: f64 = 2.0;
+/// A line or arc of fewer points, and of less than half of a row, may be a bend of the form.
+const MIN_POINTS_OF_SEGMENT: usize = 32;
+/// A bend of a form is no line and no arc to less than this share of its surface's departure from smooth ones.
+const MIN_FORM_SHARE: f64 = 0.1;
+/// One part of a free form in so many is a line or an arc.
+const SEGMENT_RARITY: f64 = 1e4;
 /// Unknowns of a line, an arc and one more free curve, their joins counted.
-const UNKNOWNS: [f64; 3] = [2.0, 3.0, 3.0];
+const UNKNOWNS_PER_KIND: [f64; 3] = [2.0, 3.0, 3.0];
 /// Knots on either side of the seam of a closed curve, so that feet may lie beyond it.
-const BEYOND: usize = 4;
+const KNOTS_BEYOND_SEAM: usize = 4;
 
-/// A row as what curves are fitted to.
+/// A row as the data of a curve fit.
 struct Row<'a> {
     points: &'a [[f64; 2]],
     /// 1 of points that count, 0 of outliers.
@@ -84,7 +86,8 @@ impl Row<'_> {
         shares.iter_mut().for_each(|s| *s /= whole);
         let counts = |i| f64::from(outliers.binary_search(&i).is_err());
         let weights: Vec<f64> = (0..points.len()).map(counts).collect();
-        let (count, least) = (weights.iter().sum(), (RESOLUTION * clean.spacing).max(clean.rounding));
+        let (count, least) =
+            (weights.iter().sum(), (RESOLUTION_SPACINGS * clean.spacing).max(clean.rounding));
         Row { points, weights, closed, shares, count, least }
     }
 
@@ -94,8 +97,8 @@ impl Row<'_> {
         if !self.closed {
             return Knots::clamped(3, 0.0, &at[1..], 1.0).ok();
         }
-        let before = at[at.len() - BEYOND..].iter().map(|t| t - 1.0);
-        let after = at[..=BEYOND].iter().map(|t| t + 1.0);
+        let before = at[at.len() - KNOTS_BEYOND_SEAM..].iter().map(|t| t - 1.0);
+        let after = at[..=KNOTS_BEYOND_SEAM].iter().map(|t| t + 1.0);
         Knots::new(3, before.chain(at.iter().copied()).chain(after).collect()).ok()
     }
 
@@ -104,7 +107,7 @@ impl Row<'_> {
         if !self.closed {
             return k;
         }
-        let k = (k + count - BEYOND % count) % count;
+        let k = (k + count - KNOTS_BEYOND_SEAM % count) % count;
         if 2 * k < count { 2 * k } else { 2 * (count - 1 - k) + 1 }
     }
 
@@ -193,20 +196,22 @@ impl Row<'_> {
     fn cheapest(&self, progress: &dyn Progress) -> Option<FreeCurve> {
         let n = self.points.len();
         let mut levels = vec![];
-        let mut spans = FEWEST_SPANS as f64;
-        while FEWEST_POINTS * spans as usize <= n {
-            levels.push(self.fit(&self.even(spans as usize), PASSES[0], progress)?);
-            spans *= FINER;
+        let mut spans = MIN_SPANS as f64;
+        while MIN_POINTS_PER_SPAN * spans as usize <= n {
+            levels.push(self.fit(&self.even(spans as usize), FIT_PASSES[0], progress)?);
+            spans *= SPAN_GROWTH;
         }
         let cheapest = (0..levels.len()).min_by(|a, b| levels[*a].cost.total_cmp(&levels[*b].cost))?;
         let variance = self.typical(&levels[levels.len() - 1]);
-        let mut own = self.fit(&self.even(FEWEST_SPANS), PASSES[0], progress)?;
+        let mut own = self.fit(&self.even(MIN_SPANS), FIT_PASSES[0], progress)?;
         let mut best: Option<FreeCurve> = None;
-        for _ in 0..HALVED {
+        for _ in 0..MAX_SPAN_HALVINGS {
             let mut next = vec![0];
             for (w, square) in own.limits.windows(2).zip(self.squares(&own)) {
                 let count = w[1] - w[0];
-                if count >= 2 * FEWEST_POINTS && square > MORE * variance * count as f64 {
+                if count >= 2 * MIN_POINTS_PER_SPAN
+                    && square > MAX_SPAN_VARIANCE_RATIO * variance * count as f64
+                {
                     next.push((w[0] + w[1]) / 2);
                 }
                 next.push(w[1]);
@@ -214,15 +219,15 @@ impl Row<'_> {
             if next.len() == own.limits.len() {
                 break;
             }
-            own = self.fit(&next, PASSES[0], progress)?;
+            own = self.fit(&next, FIT_PASSES[0], progress)?;
             if best.as_ref().is_none_or(|b| own.cost < b.cost) {
                 best = Some(own.clone());
             }
         }
         let even = levels.swap_remove(cheapest);
         let best = best.filter(|b| b.cost < even.cost).unwrap_or(even);
-        let mut found = self.fit(&best.limits, PASSES[1], progress)?;
-        for _ in 0..SETTLED {
+        let mut found = self.fit(&best.limits, FIT_PASSES[1], progress)?;
+        for _ in 0..FINAL_FOOT_STEPS {
             found = self.seen_from(found.curve, found.feet, &found.limits);
         }
         Some(found)
@@ -231,13 +236,15 @@ impl Row<'_> {
 
 /// The contour of a row of a free form, as the surface that it was cut from tells.
 pub(super) fn propose(
-    asked: &Question,
+    question: &Question,
     best: Option<&Contour>,
     progress: &dyn Progress,
 ) -> Result<Option<Candidate>, SectionError> {
-    let told = asked.options.noise.is_some() || asked.options.continuity.is_some();
-    let Some(form) = asked.prior.free_form.filter(|_| !told && best.is_none()) else { return Ok(None) };
-    Ok(free_form(asked, form, progress)?.and_then(Candidate::told))
+    let is_stated = question.options.noise.is_some() || question.options.continuity.is_some();
+    let Some(form) = question.prior.free_form.filter(|_| !is_stated && best.is_none()) else {
+        return Ok(None);
+    };
+    Ok(free_form(question, form, progress)?.and_then(Candidate::beyond_chance))
 }
 
 /// The contour of a row of a free form, whose surface departs from smooth ones by `form`. `None` where lines and arcs are a part of it, or
@@ -245,10 +252,14 @@ pub(super) fn propose(
 ///
 /// # Errors
 /// Cancelled.
-fn free_form(asked: &Question, form: f64, progress: &dyn Progress) -> Result<Option<Contour>, SectionError> {
-    let mut clean = asked.clean.clone();
+fn free_form(
+    question: &Question,
+    form: f64,
+    progress: &dyn Progress,
+) -> Result<Option<Contour>, SectionError> {
+    let mut clean = question.clean.clone();
     let (noise, step) = noise(&clean.points, clean.closed);
-    if step > 1 || clean.points.len() < FEWEST_POINTS * FEWEST_SPANS {
+    if step > 1 || clean.points.len() < MIN_POINTS_PER_SPAN * MIN_SPANS {
         return Ok(None);
     }
     let outliers = clean.outliers(noise.max(clean.rounding), step);
@@ -260,7 +271,7 @@ fn free_form(asked: &Question, form: f64, progress: &dyn Progress) -> Result<Opt
     }
     let Some(found) = found else { return Ok(None) };
     let mut found = found.joined(&row, &clean);
-    found.finish(&clean, 0, asked.points.len(), outliers);
+    found.finish(&clean, 0, question.points.len(), outliers);
     Ok(Some(found.contour))
 }
 
@@ -278,7 +289,7 @@ impl FreeCurve {
 
     /// Whether no line and no arc is a part of the row.
     fn is_all(&self, row: &Row, form: f64) -> bool {
-        let noise = self.noise(row).max(LEAST * form);
+        let noise = self.noise(row).max(MIN_FORM_SHARE * form);
         let mut before = vec![0.0];
         for w in self.limits.windows(2) {
             for i in w[0]..w[1] {
@@ -286,10 +297,10 @@ impl FreeCurve {
                 before.push(before[i] + row.weights[i] * off * off + 2.0 / (w[1] - w[0]) as f64);
             }
         }
-        let [line, arc, each] = UNKNOWNS.map(|unknowns| 2.0 * unknowns);
-        let rare = 2.0 * libm::log(RARE);
-        let fewest = FEWEST_TOLD.min(row.points.len() / 2);
-        let penalty = Penalty { line: line + rare, arc: arc + rare, noise, fewest, places: PLACES };
+        let [line, arc, each] = UNKNOWNS_PER_KIND.map(|unknowns| 2.0 * unknowns);
+        let rare = 2.0 * libm::log(SEGMENT_RARITY);
+        let fewest = MIN_POINTS_OF_SEGMENT.min(row.points.len() / 2);
+        let penalty = Penalty { line: line + rare, arc: arc + rare, noise, fewest, places: MAX_PART_STARTS };
         kinds_with_free(row.points, &row.weights, &penalty, &FreeCost { each, before })
             == [SegmentKind::Spline]
     }

@@ -4,16 +4,16 @@ use super::clean::Clean;
 use crate::model::chain::SegmentKind;
 use crate::model::flat::angle;
 use crate::search::partition::{Penalty, partition};
-use crate::search::start::{Part, scatter};
+use crate::search::parts::{Part, scatter};
 
-/// Points on a side, at least: two are on a line by themselves.
-const FEWEST: usize = 3;
+/// Points on a line, at least: two are on one by themselves.
+pub(super) const MIN_POINTS_PER_LINE: usize = 3;
 /// Parts that turn by less from one to the next are parts of a curve, radians.
-pub(super) const CORNER: f64 = 0.12;
+pub(super) const MIN_CORNER_TURN: f64 = 0.12;
 
-/// The sides of a polygon whose points lie on them exactly, to the noise of the penalty, three on each at least; and where the
-/// row is turned to, so that it begins with a side. Where sides are short, each local fit of the noise holds a corner and takes
-/// it for noise.
+/// The sides of a polygon whose points lie on them exactly, to the noise of the penalty, three on each at least. Also
+/// where the row is turned to, so that it begins with a side. Where sides are short, each local fit of the noise holds
+/// a corner and takes it for noise.
 pub(super) fn polygon(clean: &Clean, penalty: &Penalty) -> Option<(usize, Vec<Part>)> {
     let (n, mut points) = (clean.points.len(), clean.points.clone());
     let weights = vec![1.0; n];
@@ -23,10 +23,11 @@ pub(super) fn polygon(clean: &Clean, penalty: &Penalty) -> Option<(usize, Vec<Pa
     };
     let by = if clean.closed { (0..n).max_by(|i, j| sharp(*i).total_cmp(&sharp(*j)))? } else { 0 };
     points.rotate_left(by);
-    let parts = partition(&points, &weights, &Penalty { fewest: FEWEST, ..*penalty });
-    let sides = parts.iter().all(|p| p.kind == SegmentKind::Line && p.to - p.from >= FEWEST);
+    let parts = partition(&points, &weights, &Penalty { fewest: MIN_POINTS_PER_LINE, ..*penalty });
+    let sides = parts.iter().all(|p| p.kind == SegmentKind::Line && p.to - p.from >= MIN_POINTS_PER_LINE);
     let last = if clean.closed { parts.len() } else { parts.len() - 1 };
-    let corners = (0..last).all(|k| angle(parts[k].along, parts[(k + 1) % parts.len()].along).abs() > CORNER);
+    let corners =
+        (0..last).all(|k| angle(parts[k].along, parts[(k + 1) % parts.len()].along).abs() > MIN_CORNER_TURN);
     let exact = scatter(&points, &weights, &parts) <= penalty.noise;
     (parts.len() > 1 && sides && corners && exact).then_some((by, parts))
 }

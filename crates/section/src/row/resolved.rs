@@ -1,117 +1,130 @@
 //! Rows of a curve without noise: smooth between corners, and no lines and arcs.
 //!
-//! What local fits call noise is the curve's own form there. A search by likelihood takes it for exact, follows it by lines and arcs
-//! by the dozen, and makes corners of what the arcs do not follow. Such a row tells more: its points lie on the curve. So a corner
-//! is a turn from one chord to the next that the turns beside do not lead up to, as far as the points tell them from a bend; between
-//! corners B-splines keep within a ten-thousandth of the distance between points, over as few spans as that takes.
+//! The noise of local fits is the curve's own form there. A search by likelihood takes it for exact, and follows it by
+//! lines and arcs by the dozen. It makes corners where the arcs do not follow. Such a row tells more: its points lie on
+//! the curve. So a corner is a turn from one chord to the next that the turns beside do not lead up to. The points must
+//! tell it from a bend. Between corners B-splines keep within a ten-thousandth of the distance between points, over as
+//! few spans as that takes.
 
 use super::assembly::Joined;
 use super::candidate::{Candidate, Question, is_cornered};
 use super::clean::{Clean, size};
-use super::kept::{TOLERANCES, chord, followed};
-use super::levels::Start;
-use super::polygon::CORNER;
+use super::noise_levels::Partition;
+use super::polygon::MIN_CORNER_TURN;
+use super::spline_through_points::{FOLLOWED_TOLERANCES, chord, followed};
 use crate::model::chain::SegmentKind;
 use crate::model::flat::{angle, distance, off_circle, off_line};
 use crate::model::result::{Continuity, Contour, Geometry, Join, Options, SectionError, Segment};
-use crate::search::start::{Part, noise_beyond_form};
+use crate::search::parts::{Part, noise_beyond_form};
 use trueness_geom::num::special::student_quantile;
 use trueness_geom::progress::Progress;
 use trueness_geom::spline::curve::{End, Ends};
 
 /// Fewest points of such a row, and of a stretch between corners.
-const FEWEST: (usize, usize) = (24, 4);
+const MIN_POINTS_OF_ROW_AND_STRETCH: (usize, usize) = (24, 4);
 /// Longer rows are left to the search, which thins them.
-const MOST: usize = 1_000_000;
-/// Noise below the first of these shares of the distance between points is that of rounded coordinates. What local fits call noise is
-/// form where polynomials of higher degree tell no more than the second of it; up to twice the first share it hides nothing then.
-/// Of noise up to the third share of the distance corners are told from bends as well.
-const NONE: [f64; 3] = [1e-3, 0.2, 1e-2];
+const MAX_POINTS_OF_RESOLVED_ROW: usize = 1_000_000;
+/// Noise below this share of the distance between points is that of rounded coordinates.
+const MAX_ROUNDING_NOISE_SPACINGS: f64 = 1e-3;
+/// Noise that local fits tell is form where polynomials of higher degree tell no more than this share of it. Up to twice the
+/// noise of rounded coordinates it hides nothing then.
+const MAX_FORM_NOISE_SHARE: f64 = 0.2;
+/// Up to this share of the distance between points corners are told from bends in spite of noise.
+const MAX_CORNER_NOISE_SPACINGS: f64 = 1e-2;
 /// Coordinates tell distances to this share of the size.
-const ROUNDING: f64 = 1e-12;
-/// A row of which this share lies on lines and arcs exactly, of so many points each, is one of these; or that has one of so many.
-const SHARE: f64 = 0.15;
-const PART: usize = 16;
-const LONG: usize = 32;
-/// Of points that scatter, hardly one is farther off than so many standard deviations.
-const WITHIN: f64 = 4.0;
-/// Points lie on lines and arcs exactly that are no farther off than so many times what polynomials tell.
-const ON: f64 = 6.0;
-/// A corner turns more than so many times what the turns beside lead up to.
-const MORE: f64 = 2.0;
+const ROUNDING_SHARE: f64 = 1e-12;
+/// A row is one of lines and arcs of which this share lies on these exactly.
+const MAX_EXACT_SHARE: f64 = 0.15;
+/// Such lines and arcs have so many points each.
+const POINTS_PER_EXACT_PART: usize = 16;
+/// A row with one line or arc of so many exact points is one of these, too.
+const POINTS_OF_LONG_EXACT_PART: usize = 32;
+/// Hardly one point that scatters is farther off than so many standard deviations.
+const MAX_SCATTER_SIGMAS: f64 = 4.0;
+/// Points lie on lines and arcs exactly that are no farther off than so many times the noise of polynomials.
+const EXACT_OFFSET_SIGMAS_OF_FORM: f64 = 6.0;
+/// A corner turns more than so many times the turn that the turns beside lead up to.
+const MIN_CORNER_TURN_RATIO: f64 = 2.0;
 /// Curvature grows from point to point by no more than this, as far as points tell a bend.
-const GROWTH: f64 = 4.0;
+const MAX_CURVATURE_GROWTH: f64 = 4.0;
 /// More corners than one for so many points are none: the points do not tell the curve.
-const EACH: usize = 12;
+const MIN_POINTS_PER_CORNER: usize = 12;
 /// Distances below this share of the size of all are none.
-const LEAST: f64 = 1e-6;
+const ZERO_DISTANCE_SHARE: f64 = 1e-6;
 /// A contour misses the points that scatter about it so many times as much as about one that keeps to them.
-const MISSED: f64 = 5.0;
+const MAX_MISS_RATIO: f64 = 5.0;
 
 /// The contour of a row of curves without noise, of which no lines and arcs are to be found: there is nothing to search.
 pub(super) fn propose(
-    asked: &Question,
+    question: &Question,
     best: Option<&Contour>,
     _: &dyn Progress,
 ) -> Result<Option<Candidate>, SectionError> {
-    if best.is_some() || !asked.is_free() {
+    if best.is_some() || !question.is_free() {
         return Ok(None);
     }
-    let found = resolved(asked.start(), asked.options, Among::Rows);
-    Ok(found.and_then(|found| Candidate::told(found.whole(asked.points.len()))))
+    let found = resolved(question.partition(), question.options, Case::Rows);
+    Ok(found.and_then(|found| Candidate::beyond_chance(found.whole(question.points.len()))))
 }
 
 /// Such a contour in place of one with corners, or that misses its points, where these speak for it.
 pub(super) fn propose_instead(
-    asked: &Question,
+    question: &Question,
     best: Option<&Contour>,
     _: &dyn Progress,
 ) -> Result<Option<Candidate>, SectionError> {
-    let is_asked = |found: &&Contour| asked.is_free() && (is_cornered(found) || misses(found, 0.0));
+    let is_asked = |found: &&Contour| question.is_free() && (is_cornered(found) || misses(found, 0.0));
     let Some(other) = best.filter(is_asked) else { return Ok(None) };
-    let found = resolved(asked.start(), asked.options, Among::Contours);
+    let found = resolved(question.partition(), question.options, Case::Contours);
     let better = found.filter(|found| found.is_better_than(other));
-    Ok(better.and_then(|found| Candidate::instead(found.whole(asked.points.len()))))
+    Ok(better.and_then(|found| Candidate::instead(found.whole(question.points.len()))))
 }
 
-/// The contour of a row of points that lie on smooth curves without noise; `None` where they do not, where lines and arcs do, or
-/// where the points are too few for the curve.
-fn resolved(start: &Start, options: &Options, among: Among) -> Option<Resolved> {
-    let clean = &start.clean;
+/// The contour of a row of points that lie on smooth curves without noise. `None` where they do not, where lines and
+/// arcs do, or where the points are too few for the curve.
+fn resolved(partition: &Partition, options: &Options, case: Case) -> Option<Resolved> {
+    let clean = &partition.clean;
     let n = clean.points.len();
-    if !(FEWEST.0..=MOST).contains(&n)
-        || start.exact
-        || !start.outliers.is_empty()
-        || start.parts.len() < 2
-        || start.step > 1
+    if !(MIN_POINTS_OF_ROW_AND_STRETCH.0..=MAX_POINTS_OF_RESOLVED_ROW).contains(&n)
+        || partition.exact
+        || !partition.outliers.is_empty()
+        || partition.parts.len() < 2
+        || partition.step > 1
     {
         return None;
     }
     let noise = noise_beyond_form(&clean.points, clean.closed).max(clean.rounding);
-    let is_form = noise <= NONE[1] * start.own;
-    let quiet = noise <= NONE[0] * clean.spacing || noise <= 2.0 * NONE[0] * clean.spacing && is_form;
-    if !quiet && noise > NONE[2] * clean.spacing {
+    let is_form = noise <= MAX_FORM_NOISE_SHARE * partition.own;
+    let quiet = noise <= MAX_ROUNDING_NOISE_SPACINGS * clean.spacing
+        || noise <= 2.0 * MAX_ROUNDING_NOISE_SPACINGS * clean.spacing && is_form;
+    if !quiet && noise > MAX_CORNER_NOISE_SPACINGS * clean.spacing {
         return None;
     }
     // Noise that is form is none of lines and arcs.
-    let most = if is_form { TOLERANCES[0] } else { ON * NONE[2] };
-    let off = (ON * noise).clamp(ROUNDING * size(&clean.points), most * clean.spacing);
-    let on = |p: &&Part| lies_on(&clean.points[p.from..p.to], p.kind, off);
-    let exact = || start.parts.iter().filter(on).map(|p| p.to - p.from);
-    let curved = exact().sum::<usize>() as f64 <= SHARE * n as f64 && exact().all(|count| count < LONG);
-    let taken = match among {
-        Among::Rows => quiet && curved,
-        Among::Contours => quiet || curved,
+    let most = if is_form {
+        FOLLOWED_TOLERANCES[0]
+    } else {
+        EXACT_OFFSET_SIGMAS_OF_FORM * MAX_CORNER_NOISE_SPACINGS
     };
-    if !taken {
+    let off = (EXACT_OFFSET_SIGMAS_OF_FORM * noise)
+        .clamp(ROUNDING_SHARE * size(&clean.points), most * clean.spacing);
+    let on = |p: &&Part| lies_on(&clean.points[p.from..p.to], p.kind, off);
+    let exact = || partition.parts.iter().filter(on).map(|p| p.to - p.from);
+    let curved = exact().sum::<usize>() as f64 <= MAX_EXACT_SHARE * n as f64
+        && exact().all(|count| count < POINTS_OF_LONG_EXACT_PART);
+    let is_candidate = match case {
+        Case::Rows => quiet && curved,
+        Case::Contours => quiet || curved,
+    };
+    if !is_candidate {
         return None;
     }
-    let own = if is_form { 0.0 } else { WITHIN * noise };
+    let own = if is_form { 0.0 } else { MAX_SCATTER_SIGMAS * noise };
     let mut clean = clean.clone();
     // The row as it came.
-    clean.points.rotate_right(start.turned % n);
+    clean.points.rotate_right(partition.turned % n);
     let mut corners = corners(&clean);
-    if EACH * corners.len() > n {
+    if MIN_POINTS_PER_CORNER * corners.len() > n {
         return None;
     }
     // A closed row begins at a corner.
@@ -123,17 +136,17 @@ fn resolved(start: &Start, options: &Options, among: Among) -> Option<Resolved> 
         clean.points.rotate_left(first);
         corners.iter_mut().for_each(|c| c.after -= first);
     }
-    let least = (LEAST * size(&clean.points)).max(options.resolution.unwrap_or(0.0)).max(own);
+    let least = (ZERO_DISTANCE_SHARE * size(&clean.points)).max(options.resolution.unwrap_or(0.0)).max(own);
     let contour = drawn(&clean, &corners, least, options.level)?;
     Some(Resolved { contour, clean, turned, noise })
 }
 
-/// What such a contour is looked for among.
+/// The cases in which such a contour is looked for.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Among {
+enum Case {
     /// Rows of which no lines and arcs are to be found: there is nothing to search.
     Rows,
-    /// What a search found is there to compare it with.
+    /// A contour of the search is there to compare it with.
     Contours,
 }
 
@@ -146,22 +159,24 @@ struct Resolved {
     noise: f64,
 }
 
-/// Points to a control point of a curve, at least, where what is left between them tells their noise.
-const TELLING: usize = 2;
+/// Points to a control point of a curve, at least, where their residuals tell their noise.
+const MIN_POINTS_TO_TELL_NOISE: usize = 2;
 
 impl Resolved {
-    /// Whether it is to be taken in place of a contour of segments that do not run along their points, or miss them, or with corners
-    /// where the points tell none.
+    /// Whether it is better than a contour of segments that do not run along their points, or miss them. It is so too
+    /// where that has corners and the points tell none.
     pub fn is_better_than(&self, other: &Contour) -> bool {
         let corners = other.joins.iter().filter(|j| j.continuity == Continuity::G0).count();
-        !other.astray.is_empty() || corners > self.contour.joins.len() || misses(other, self.contour.noise)
+        !other.unreliable.is_empty()
+            || corners > self.contour.joins.len()
+            || misses(other, self.contour.noise)
     }
 
     /// The contour of the row given, of so many points.
     pub fn whole(self, count: usize) -> Contour {
         let mut contour = self.contour;
         let runs_through = |s: &Segment| match &s.geometry {
-            Geometry::Spline { curve, .. } => TELLING * curve.points().len() > s.count,
+            Geometry::Spline { curve, .. } => MIN_POINTS_TO_TELL_NOISE * curve.points().len() > s.count,
             _ => false,
         };
         // A curve with nearly as many control points runs through its points, whatever their noise: local polynomials tell more of it.
@@ -176,10 +191,11 @@ impl Resolved {
 
 /// Whether the points of a row of this noise scatter about its contour for other reasons.
 fn misses(contour: &Contour, noise: f64) -> bool {
-    contour.noise > MISSED * (noise + NONE[0] * contour.spacing)
+    contour.noise > MAX_MISS_RATIO * (noise + MAX_ROUNDING_NOISE_SPACINGS * contour.spacing)
 }
 
-/// Whether the points of a part lie on a line, or an arc, no farther off than so much: a quarter at either end may lie beside it.
+/// Whether the points of a part lie on a line, or an arc, no farther off than so much. A quarter at either end may lie
+/// beside it.
 fn lies_on(points: &[[f64; 2]], kind: SegmentKind, off: f64) -> bool {
     let n = points.len();
     let own = &points[n / 4..n - n / 4];
@@ -188,7 +204,7 @@ fn lies_on(points: &[[f64; 2]], kind: SegmentKind, off: f64) -> bool {
         SegmentKind::Line => off_line([a, c], *p) <= off,
         _ => off_circle([a, b, c], *p) <= off,
     };
-    n >= PART && own.iter().all(near)
+    n >= POINTS_PER_EXACT_PART && own.iter().all(near)
 }
 
 /// A corner: the first point after it. It is this point, or between it and the one before.
@@ -229,7 +245,8 @@ impl Turns<'_> {
     fn led_up_to(&self, i: usize, from: isize, sign: f64) -> f64 {
         let bend = |k: isize| self.curvature(i, from + k * from.signum()).map(|c| (sign * c).max(0.0));
         let Some(near) = bend(0) else { return 0.0 };
-        let growth = bend(1).map_or(1.0, |far| (near / far.max(f64::MIN_POSITIVE)).clamp(1.0, GROWTH));
+        let growth =
+            bend(1).map_or(1.0, |far| (near / far.max(f64::MIN_POSITIVE)).clamp(1.0, MAX_CURVATURE_GROWTH));
         near * growth
     }
 
@@ -242,8 +259,8 @@ impl Turns<'_> {
         let Some((turn, way)) = own.try_fold((0.0, 0.0), add) else {
             return false;
         };
-        let beside = self.led_up_to(i, -1, turn.signum()).max(self.led_up_to(i, width, turn.signum()));
-        f64::abs(turn) > MORE * beside * way + CORNER
+        let led_up = self.led_up_to(i, -1, turn.signum()).max(self.led_up_to(i, width, turn.signum()));
+        f64::abs(turn) > MIN_CORNER_TURN_RATIO * led_up * way + MIN_CORNER_TURN
     }
 }
 
@@ -354,7 +371,7 @@ fn stretches(clean: &Clean, corners: &[Corner]) -> Option<Vec<Stretch>> {
         let kept = |at: Option<[f64; 2]>| at.map_or(End::Free, End::Through);
         let ends = Ends { start: kept(start), end: kept(end) };
         let count = to - first;
-        (count >= FEWEST.1 || all.len() == 2).then_some(Stretch {
+        (count >= MIN_POINTS_OF_ROW_AND_STRETCH.1 || all.len() == 2).then_some(Stretch {
             points: all,
             ends,
             first,
@@ -378,7 +395,7 @@ fn drawn(clean: &Clean, corners: &[Corner], least: f64, level: f64) -> Option<Co
     };
     let mut way = 0.0;
     for (k, stretch) in stretches(clean, corners)?.iter().enumerate() {
-        if let Some(side) = stretch.straight(ROUNDING * size(&clean.points)) {
+        if let Some(side) = stretch.straight(ROUNDING_SHARE * size(&clean.points)) {
             for (i, p) in stretch.points[stretch.before..].iter().take(stretch.count).enumerate() {
                 contour.labels[stretch.first + i] = k as u32;
                 contour.stations[stretch.first + i] = way + distance(side.start, *p);
@@ -415,8 +432,10 @@ fn drawn(clean: &Clean, corners: &[Corner], least: f64, level: f64) -> Option<Co
         contour.segments.push(segment);
     }
     contour.noise = contour.noise.sqrt();
-    contour.joins =
-        corners.iter().map(|c| join(clean, c, least.max(TOLERANCES[0] * clean.spacing), level)).collect();
+    contour.joins = corners
+        .iter()
+        .map(|c| join(clean, c, least.max(FOLLOWED_TOLERANCES[0] * clean.spacing), level))
+        .collect();
     if clean.closed && !corners.is_empty() {
         // The first corner is where the last segment ends.
         contour.joins.rotate_left(1);

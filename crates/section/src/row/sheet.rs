@@ -2,7 +2,7 @@
 
 use super::facets::{Item, LineOrArc, Polygon};
 use crate::model::flat::angle;
-use crate::model::result::{Continuity, Contour, Geometry, Join, Options, Segment, Taken};
+use crate::model::result::{Continuity, Contour, Geometry, Join, Options, RowKind, Segment};
 use trueness_geom::num::special::student_quantile;
 
 /// Lengths before each segment.
@@ -16,7 +16,7 @@ pub(crate) fn starts(segments: &[Segment]) -> Vec<f64> {
         .collect()
 }
 
-/// Of these segments the nearest to a point: its number, the station and the distance.
+/// The nearest of these segments to a point: its number, the station and the distance.
 pub(crate) fn nearest(
     segments: &[Segment],
     starts: &[f64],
@@ -55,11 +55,11 @@ impl Sheet<'_> {
     /// Whether two segments have a common tangent at a vertex, where their directions are uncertain by `slack` at least.
     pub fn is_tangent(&self, before: &Segment, after: &Segment, vertex: usize, slack: f64) -> bool {
         let turn = angle(before.directions()[1], after.directions()[0]);
-        turn.abs() <= slack.max(self.polygon.slack(self.beside(vertex), self.rounding))
+        turn.abs() <= slack.max(self.polygon.slack(self.shorter_facet_at(vertex), self.rounding))
     }
 
     /// Length of the shorter facet beside a vertex.
-    pub fn beside(&self, vertex: usize) -> f64 {
+    pub fn shorter_facet_at(&self, vertex: usize) -> f64 {
         let n = self.polygon.at.len();
         self.polygon.facet_length((vertex + n - 1) % n).min(self.polygon.facet_length(vertex % n))
     }
@@ -84,13 +84,13 @@ impl Sheet<'_> {
     /// The join of two exact segments at a vertex, or of one with a curve whose direction there is uncertain by `slack`.
     pub fn join(&self, before: &Segment, after: &Segment, vertex: usize, slack: f64) -> Join {
         let turn = angle(before.directions()[1], after.directions()[0]);
-        let beside = self.beside(vertex);
+        let shorter_facet_at = self.shorter_facet_at(vertex);
         let smooth = self.is_tangent(before, after, vertex, slack);
-        // Where the two are no farther apart than what rounding loses.
+        // Where the two are no farther apart than rounding loses.
         let uncertainty = match smooth {
             true => {
                 let jump = (before.curvature[1] - after.curvature[0]).abs();
-                (2.0 * self.rounding / jump.max(f64::MIN_POSITIVE)).sqrt().min(beside)
+                (2.0 * self.rounding / jump.max(f64::MIN_POSITIVE)).sqrt().min(shorter_facet_at)
             }
             false => self.rounding / libm::sin(0.5 * turn.abs()).max(1e-3),
         };
@@ -112,7 +112,7 @@ impl Sheet<'_> {
         }
     }
 
-    /// Puts the contour together: what the points say of each segment.
+    /// Puts the contour together: each segment with the statistics of its points.
     pub fn finish(
         &self,
         segments: Vec<Segment>,
@@ -121,7 +121,7 @@ impl Sheet<'_> {
     ) -> Contour {
         let count = self.points.len();
         let mut all = Contour { closed: self.polygon.closed, segments, joins, ..Contour::default() };
-        all.taken = Taken::Facets;
+        all.row_kind = RowKind::Facets;
         (all.labels, all.residuals, all.stations) = (vec![0; count], vec![0.0; count], vec![0.0; count]);
         let starts = starts(&all.segments);
         for (item, range) in owners {

@@ -1,17 +1,18 @@
 //! Points of a row that belong to no contour, told by the row alone: header rows, fillers, points far off.
 //!
-//! A contour's points follow each other by steps of like length. A stray point is as far off as nothing else: few points without which
-//! the longest step of the way is many times shorter. What decides is therefore a ratio of two steps of one row, whatever its size.
-//! A long step may be right, too: the far end of a line that is given by its ends alone goes straight on, and the last corner of a
-//! closed row is near the first point. Where a step is long and neither holds, the point is left out if the rest of the row is far
-//! smaller than the way to it, and told as doubtful else: nothing is lost in silence.
+//! A contour's points follow each other by steps of like length. A stray point is as far off as nothing else: few
+//! points without which the longest step of the way is many times shorter. The criterion is therefore a ratio of two
+//! steps of one row, whatever its size. A long step may be right, too. The far end of a line that is given by its ends
+//! alone goes straight on. The last corner of a closed row is near the first point. Where a step is long and neither
+//! holds, the point may be left out. The rest of the row must be far smaller than the way to it. Else it is listed as
+//! doubtful: nothing is lost in silence.
 
-mod beside;
+mod ends;
 mod limits;
 
 use crate::model::flat::{angle, distance};
-use beside::{End, Scatter};
-use limits::{BENT, LEAST, SHORTER_FAR, STRAIGHT};
+use ends::{End, Scatter};
+use limits::{BENT_TURN_SHARE, FAR_STEP_RATIO, MIN_POINTS_TO_TELL_STRAYS, STRAIGHT_TURN};
 
 /// Points of a row that lie off it, by their numbers, ascending.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -24,7 +25,7 @@ pub(super) struct Strays {
     pub straight_on: Vec<usize>,
 }
 
-/// What a run of few points is.
+/// The verdict on a run of few points.
 enum Verdict {
     Stray,
     Doubtful,
@@ -32,19 +33,20 @@ enum Verdict {
     Sound,
 }
 
-/// Without a stray the longest step is so many times shorter. Of 200 rows of even, cosine and random spacing without a stray none came
-/// to 4.
-const SHORTER: f64 = 8.0;
+/// Without a stray the longest step is so many times shorter. Among 200 rows of even, cosine and random spacing without a stray
+/// none came to 4.
+const LONG_STEP_RATIO: f64 = 8.0;
 /// Strays follow each other in runs of so many points; more are a piece of the contour beyond a gap.
-const RUN: usize = 2;
-/// Strays are this share of a row, and so many at least; no more than these follow each other.
-const SHARE: f64 = 0.05;
-const FEW: usize = 3;
+const MIN_POINTS_OF_PIECE: usize = 2;
+/// Strays are this share of a row at most.
+const MAX_STRAY_SHARE: f64 = 0.05;
+/// So many strays are allowed in any row; no more than these follow each other.
+const MIN_STRAYS_ALLOWED: usize = 3;
 /// A line is at most so many times as long as the row that it leads to.
-const LONGEST_LINE: f64 = 100.0;
+const MAX_LINE_LENGTH_RATIO: f64 = 100.0;
 
 impl Strays {
-    /// Of a row; points that repeat the one before are as it is.
+    /// The strays of a row; points that repeat the one before are as it is.
     pub fn of(points: &[[f64; 2]]) -> Strays {
         let mut groups: Vec<Vec<usize>> = vec![];
         for (i, p) in points.iter().enumerate() {
@@ -54,7 +56,7 @@ impl Strays {
             }
         }
         let mut rest: Vec<usize> = (0..groups.len()).collect();
-        let most = FEW.max((SHARE * rest.len() as f64) as usize);
+        let most = MIN_STRAYS_ALLOWED.max((MAX_STRAY_SHARE * rest.len() as f64) as usize);
         let mut found = Strays::default();
         // Behind a stray of a thousand times the row's size may be one of twice.
         while found.count() < most {
@@ -88,7 +90,7 @@ impl Strays {
         for _ in 0..2 {
             kept.reverse();
             let Some(end) = kept.first() else { return };
-            match beside::first(&row(&kept), scatter) {
+            match ends::judge_first(&row(&kept), scatter) {
                 End::Stray if self.doubtful.contains(&end[0]) || self.count() < most => {
                     self.doubtful.retain(|i| !end.contains(i));
                     self.out.extend(*end);
@@ -120,19 +122,19 @@ struct Run {
 /// Runs of so few points that they may be stray, and the pieces of the contour. Short runs one behind another are a piece that is sparser
 /// than the rest, where they are too many for strays.
 fn parted(runs: Vec<Run>) -> (Vec<Run>, Vec<Run>) {
-    let is_short = |r: &Run| r.to - r.from < RUN;
-    let (mut few, mut main) = (vec![], vec![]);
+    let is_short = |r: &Run| r.to - r.from < MIN_POINTS_OF_PIECE;
+    let (mut short, mut main) = (vec![], vec![]);
     for group in runs.chunk_by(|a, b| is_short(a) && is_short(b)) {
         let (first, last) = (group[0], group[group.len() - 1]);
-        match is_short(&first) && last.to - first.from < FEW {
-            true => few.extend(group),
+        match is_short(&first) && last.to - first.from < MIN_STRAYS_ALLOWED {
+            true => short.extend(group),
             false => main.push(Run { from: first.from, to: last.to }),
         }
     }
-    (few, main)
+    (short, main)
 }
 
-/// What the row is without its strays.
+/// The row without its strays.
 struct Rest {
     runs: Vec<Run>,
     /// The longest step.
@@ -150,7 +152,7 @@ impl Way<'_> {
         let mut order: Vec<usize> = (0..steps.len()).collect();
         order.sort_by(|a, b| steps[*b].total_cmp(&steps[*a]).then(a.cmp(b)));
         for cuts in 1..=(2 * most).min(order.len().saturating_sub(1)) {
-            if steps[order[cuts - 1]] < SHORTER_FAR * steps[order[cuts]] {
+            if steps[order[cuts - 1]] < FAR_STEP_RATIO * steps[order[cuts]] {
                 continue;
             }
             let mut at: Vec<usize> = order[..cuts].to_vec();
@@ -168,14 +170,14 @@ impl Way<'_> {
         let starts = std::iter::once(0).chain(at.iter().map(|i| i + 1));
         let ends = at.iter().copied().chain(std::iter::once(self.0.len() - 1));
         let runs: Vec<Run> = starts.zip(ends).map(|(from, to)| Run { from, to }).collect();
-        let (few, main) = parted(runs);
-        let strays: usize = few.iter().map(|r| r.to + 1 - r.from).sum();
-        if few.is_empty() || main.is_empty() || strays > most {
+        let (short, main) = parted(runs);
+        let strays: usize = short.iter().map(|r| r.to + 1 - r.from).sum();
+        if short.is_empty() || main.is_empty() || strays > most {
             return Strays::default();
         }
         let rest = self.rest(main);
         let mut found = Strays::default();
-        for run in &few {
+        for run in &short {
             let list = match self.judge(run, &rest) {
                 Verdict::Stray => &mut found.out,
                 Verdict::Doubtful => &mut found.doubtful,
@@ -191,11 +193,11 @@ impl Way<'_> {
         let points = || runs.iter().flat_map(|r| &self.0[r.from..=r.to]).copied();
         let way: Vec<[f64; 2]> = points().collect();
         let longest = way.windows(2).map(|w| distance(w[0], w[1])).fold(0.0, f64::max);
-        let closes = way.len() > 2 && distance(way[0], way[way.len() - 1]) <= SHORTER_FAR * longest;
+        let closes = way.len() > 2 && distance(way[0], way[way.len() - 1]) <= FAR_STEP_RATIO * longest;
         Rest { longest, size: super::clean::size(&way), count: way.len(), closes, runs }
     }
 
-    /// What a run is, where the rest of the row is known.
+    /// The verdict on a run, where the rest of the row is known.
     fn judge(&self, run: &Run, rest: &Rest) -> Verdict {
         let [Some(first), Some(last)] = [rest.runs.first(), rest.runs.last()] else { return Verdict::Sound };
         let tip = self.0[run.from];
@@ -205,11 +207,12 @@ impl Way<'_> {
         let points = rest.runs.iter().flat_map(|r| &self.0[r.from..=r.to]);
         let off = points.map(|p| distance(*p, tip)).fold(f64::INFINITY, f64::min);
         let (far, ratio) = (off > rest.size, jump / rest.longest);
-        let is_long = if far { ratio >= SHORTER_FAR } else { ratio >= SHORTER && run.from == run.to };
-        if rest.count < LEAST[1] || !is_long {
+        let is_long =
+            if far { ratio >= FAR_STEP_RATIO } else { ratio >= LONG_STEP_RATIO && run.from == run.to };
+        if rest.count < MIN_POINTS_TO_TELL_STRAYS[1] || !is_long {
             return Verdict::Sound;
         }
-        let certain = ratio >= SHORTER && rest.count >= LEAST[0];
+        let certain = ratio >= LONG_STEP_RATIO && rest.count >= MIN_POINTS_TO_TELL_STRAYS[0];
         let verdict = |certain: bool| if certain { Verdict::Stray } else { Verdict::Doubtful };
         if run.from > first.to && run.to < last.from {
             // Two points in succession may be corners of the part as well.
@@ -217,12 +220,12 @@ impl Way<'_> {
         }
         // The last corner of a closed row is near its first point.
         let (end, other) = if run.to < first.from { (first, last.to) } else { (last, first.from) };
-        if distance(self.0[other], tip) <= SHORTER_FAR * rest.longest {
+        if distance(self.0[other], tip) <= FAR_STEP_RATIO * rest.longest {
             return Verdict::Sound;
         }
         match self.goes_on(run, end, far) {
             true if !far => Verdict::Sound,
-            true if off <= LONGEST_LINE * rest.size => Verdict::StraightOn,
+            true if off <= MAX_LINE_LENGTH_RATIO * rest.size => Verdict::StraightOn,
             _ => verdict(certain && (far || rest.closes)),
         }
     }
@@ -242,9 +245,9 @@ impl Way<'_> {
         let way = |p: [f64; 2], q: [f64; 2]| [q[0] - p[0], q[1] - p[1]];
         let bend = angle(way(c, b), way(b, a));
         let off = angle(way(b, a), way(a, self.0[tip])) - 0.5 * bend;
-        let straight = 0.5 * bend.abs() + STRAIGHT;
+        let straight = 0.5 * bend.abs() + STRAIGHT_TURN;
         let gap = distance(a, self.0[tip]) / distance(a, b).max(f64::MIN_POSITIVE);
-        let bent = if far { 0.0 } else { (bend.abs() * gap).min(BENT) };
+        let bent = if far { 0.0 } else { (bend.abs() * gap).min(BENT_TURN_SHARE) };
         off.abs() <= straight.max(bent)
     }
 }

@@ -1,41 +1,43 @@
-//! Rows of the ends of lines and the vertices of arcs, exact to the digits of their file: outlines as drawings and programs for machine tools give
-//! them.
+//! Rows of the ends of lines and the vertices of arcs, exact to the digits of their file. Drawings and programs for
+//! machine tools give outlines so.
 //!
-//! A line has no points there but its ends, which its neighbors share, and joins lie at points. No search by likelihood tells a line of two
-//! points from a gap. But exact points tell a model by what it explains: every interior point of a line or an arc saves a coordinate, every join
-//! that turns out tangent a direction, and a circle costs its curvature. The cheapest cover of the row by lines and arcs that share
-//! their ends is found by dynamic programming. It is taken where what it saves is no chance, and where each of its segments ends for certain.
+//! A line has no points there but its ends, which its neighbors share, and joins lie at points. No search by likelihood
+//! tells a line of two points from a gap. But exact points show a model by the points that it explains. Every interior
+//! point of a line or an arc saves a coordinate, and every join that turns out tangent a direction. A circle costs its
+//! curvature. The cheapest cover of the row by lines and arcs that share their ends is found by dynamic programming. It
+//! is taken where its savings are no chance, and where each of its segments ends for certain.
 
 use super::assembly::Joined;
 use super::candidate::{Candidate, Question};
 use super::clean::{Clean, size};
-use super::facets::{Item, LineOrArc, Polygon, SHARP, WIDE, round};
+use super::evidence::{Piece, is_evident};
+use super::facets::{Item, LineOrArc, MAX_TANGENT_CHORD_TURN, Polygon, SHARP_TURN, round};
 use super::sheet::Sheet;
-use super::told::{Piece, is_told};
 use crate::model::flat::{angle, distance};
-use crate::model::result::{Contour, SectionError, Taken};
+use crate::model::result::{Contour, RowKind, SectionError};
 use trueness_geom::progress::Progress;
 
 /// Longer rows tell their segments themselves.
-const MOST: usize = 2000;
+const MAX_VERTICES: usize = 2000;
 /// Decimals of files that are looked for.
 const DECIMALS: std::ops::RangeInclusive<i32> = 1..=9;
 /// Points in other units, or of a plane in space, keep no decimals: their coordinates are exact to these shares of the size.
-const SHARES: [f64; 2] = [1e-7, 1e-6];
+const ROUNDING_SHARES_OF_VERTICES: [f64; 2] = [1e-7, 1e-6];
 /// Digits coarser than this share of the median chord tell no arc.
-const COARSE: f64 = 0.02;
-/// Chords of an arc that turn by more than in a circle of eleven sides are even to this factor: others are sides of a polygon.
-const EVEN: f64 = 1.5;
-/// What uneven chords cost, by the logarithm of their ratio: of covers that save as much the more even one is taken.
-const UNEVEN: f64 = 0.05;
+const MAX_STEP_PER_CHORD: f64 = 0.02;
+/// Chords of an arc that turn by more than in a circle of eleven sides are even to this factor. Others are sides of a
+/// polygon.
+const MAX_EVEN_CHORD_RATIO: f64 = 1.5;
+/// The cost of uneven chords, by the logarithm of their ratio: the more even one is taken of covers that save as much.
+const UNEVEN_CHORD_COST: f64 = 0.05;
 /// A direction is uncertain by so many roundings over the length of an arc, and of a line.
-const TURNED: [f64; 2] = [8.0, 2.0];
+const TURN_ROUNDINGS: [f64; 2] = [8.0, 2.0];
 /// Items from one vertex are the longest arc and so many shorter ones: rounding may have let it run too far.
-const SHORTER: usize = 2;
-/// Of so many of the longest pieces of a closed row covers are looked for from both ends.
-const STARTS: usize = 4;
+const SHORTER_ARCS_TRIED: usize = 2;
+/// Covers of a closed row are looked for from both ends of so many of its longest pieces.
+const LONGEST_PIECES_TRIED: usize = 4;
 
-/// The lines and arcs of a row, and what its coordinates are rounded by.
+/// The lines and arcs of a row, and the rounding of its coordinates.
 #[derive(Debug)]
 pub(crate) struct Vertices {
     pub polygon: Polygon,
@@ -45,45 +47,46 @@ pub(crate) struct Vertices {
 
 /// The contour of a row of the ends of lines and the vertices of arcs, where it is one.
 pub(super) fn propose(
-    asked: &Question,
+    question: &Question,
     best: Option<&Contour>,
     _: &dyn Progress,
 ) -> Result<Option<Candidate>, SectionError> {
-    if best.is_some() || !asked.may_be_exact() || asked.start().exact {
+    if best.is_some() || !question.may_be_exact() || question.partition().exact {
         return Ok(None);
     }
-    let clean = &asked.clean;
-    let given: Vec<[f64; 2]> = clean.numbers.iter().map(|i| asked.points[*i]).collect();
-    let Some(found) = vertices(&clean.points, &given, clean.closed, asked.options.closed == Some(false))
+    let clean = &question.clean;
+    let original: Vec<[f64; 2]> = clean.numbers.iter().map(|i| question.points[*i]).collect();
+    let Some(found) =
+        vertices(&clean.points, &original, clean.closed, question.options.closed == Some(false))
     else {
         return Ok(None);
     };
     let (rounding, polygon) = (found.rounding, found.polygon);
     let closed = polygon.closed;
     let contour =
-        Sheet { points: &clean.points, polygon, rounding, options: asked.options }.exact(&found.items);
-    let mut all = Joined::of(Contour { taken: Taken::Row, ..contour });
-    all.finish(&Clean { closed, ..clean.clone() }, 0, asked.points.len(), vec![]);
-    Ok(Candidate::told(all.contour))
+        Sheet { points: &clean.points, polygon, rounding, options: question.options }.exact(&found.items);
+    let mut all = Joined::of(Contour { row_kind: RowKind::Row, ..contour });
+    all.finish(&Clean { closed, ..clean.clone() }, 0, question.points.len(), vec![]);
+    Ok(Candidate::beyond_chance(all.contour))
 }
 
-/// The lines and arcs whose ends and vertices the points are; `given` are the same in the coordinates of the file. An open row closes where its
+/// The lines and arcs whose ends and vertices the points are; `original` are the same in the coordinates of the file. An open row closes where its
 /// end goes on to its start with the direction of both, unless it is known to be `open`.
 pub(crate) fn vertices(
     points: &[[f64; 2]],
-    given: &[[f64; 2]],
+    original: &[[f64; 2]],
     closed: bool,
     open: bool,
 ) -> Option<Vertices> {
-    if !(4..=MOST).contains(&points.len()) {
+    if !(4..=MAX_VERTICES).contains(&points.len()) {
         return None;
     }
     let mut chords: Vec<f64> = points.windows(2).map(|w| distance(w[0], w[1])).collect();
     chords.sort_by(f64::total_cmp);
-    let most = COARSE * chords[chords.len() / 2];
+    let most = MAX_STEP_PER_CHORD * chords[chords.len() / 2];
     // Finer than their digits points tell nothing.
-    let shares = || SHARES.map(|share| share * size(points)).to_vec();
-    let levels = step(given).map_or_else(shares, |step| vec![step]).into_iter().filter(|q| *q <= most);
+    let shares = || ROUNDING_SHARES_OF_VERTICES.map(|share| share * size(points)).to_vec();
+    let levels = step(original).map_or_else(shares, |step| vec![step]).into_iter().filter(|q| *q <= most);
     let mut levels = levels;
     levels.find_map(|rounding| within(points, rounding, closed, open))
 }
@@ -103,7 +106,7 @@ fn within(points: &[[f64; 2]], rounding: f64, closed: bool, open: bool) -> Optio
     let found = |closed: bool| {
         let cover = Cover { polygon: polygon(closed), rounding };
         let pieces = cover.best()?;
-        is_told(&cover.polygon, &pieces, rounding).then_some((cover.polygon, pieces))
+        is_evident(&cover.polygon, &pieces, rounding).then_some((cover.polygon, pieces))
     };
     let closing = || {
         let (polygon, pieces) = found(true)?;
@@ -129,16 +132,16 @@ struct Cover {
     rounding: f64,
 }
 
-/// The cheapest way to a piece: what it saves, and the piece before.
+/// The cheapest way to a piece: its savings, and the piece before.
 #[derive(Clone, Copy)]
-struct Way {
+struct CoverStep {
     saves: f64,
     before: Option<usize>,
 }
 
 impl Cover {
-    /// The cover that saves most. A closed one is looked for from its longest chord, then from both ends of the longest pieces found: what a
-    /// piece over the start saves, no cover from there knows.
+    /// The cover that saves most. A closed one is looked for from its longest chord, then from both ends of the longest
+    /// pieces found. A cover from there does not know how much a piece over the start saves.
     fn best(&self) -> Option<Vec<Piece>> {
         let n = self.polygon.at.len();
         if !self.polygon.closed {
@@ -149,7 +152,8 @@ impl Cover {
         let (saves, first) = self.from(longest)?;
         let mut by_length: Vec<&Piece> = first.iter().collect();
         by_length.sort_by_key(|p| std::cmp::Reverse(p.chords()));
-        let ends = by_length.into_iter().take(STARTS).flat_map(|p| [p.item.from % n, p.item.to % n]);
+        let ends =
+            by_length.into_iter().take(LONGEST_PIECES_TRIED).flat_map(|p| [p.item.from % n, p.item.to % n]);
         let others: Vec<(f64, Vec<Piece>)> = ends.filter_map(|start| self.from(start)).collect();
         let best = others.into_iter().fold((saves, first), |a, b| if b.0 > a.0 { b } else { a });
         Some(best.1)
@@ -159,16 +163,16 @@ impl Cover {
     fn from(&self, start: usize) -> Option<(f64, Vec<Piece>)> {
         let last = start + self.polygon.facets();
         let pieces: Vec<Piece> = (start..last).flat_map(|from| self.pieces(from, last)).collect();
-        let mut ways: Vec<Way> = vec![];
+        let mut ways: Vec<CoverStep> = vec![];
         let mut ending: Vec<Vec<usize>> = vec![vec![]; last - start + 1];
         for (k, piece) in pieces.iter().enumerate() {
             let own = piece.saves - piece.uneven;
             let via = |before: usize| {
                 let tangent = f64::from(u8::from(pieces[before].is_tangent(piece)));
-                Way { saves: ways[before].saves + own + tangent, before: Some(before) }
+                CoverStep { saves: ways[before].saves + own + tangent, before: Some(before) }
             };
             let before = ending[piece.item.from - start].iter().map(|k| via(*k));
-            let first = (piece.item.from == start).then_some(Way { saves: own, before: None });
+            let first = (piece.item.from == start).then_some(CoverStep { saves: own, before: None });
             let best = before.chain(first).max_by(|a, b| a.saves.total_cmp(&b.saves))?;
             ways.push(best);
             ending[piece.item.to - start].push(k);
@@ -221,7 +225,7 @@ impl Cover {
                 None => (fails, step) = (to, 1.max((to - best) / 2)),
             }
         }
-        let shorter = (from + 3).max(best.saturating_sub(SHORTER));
+        let shorter = (from + 3).max(best.saturating_sub(SHORTER_ARCS_TRIED));
         all.extend((shorter..=best).filter_map(|to| self.arc(from, to)));
         all
     }
@@ -244,7 +248,7 @@ impl Cover {
             way = ahead;
         }
         let item = Item { shape: LineOrArc::Line, from, to };
-        let slack = TURNED[1] * self.rounding / whole;
+        let slack = TURN_ROUNDINGS[1] * self.rounding / whole;
         Some(Piece { item, along: [along; 2], slack, saves: (to - from - 1) as f64, uneven: 0.0 })
     }
 
@@ -259,14 +263,14 @@ impl Cover {
         let widest = turns.iter().fold(0.0_f64, |m, t| m.max(t.abs()));
         let least = turns.iter().fold(f64::INFINITY, |m, t| m.min(t.abs()));
         let way = radius * turned.abs();
-        let slack = TURNED[0] * self.rounding / way;
+        let slack = TURN_ROUNDINGS[0] * self.rounding / way;
         let one_way = turns.iter().all(|t| t * turned > 0.0);
-        let is_wide = widest > SHARP;
+        let is_wide = widest > SHARP_TURN;
         if off > self.rounding
             || !one_way
-            || widest > WIDE + slack
+            || widest > MAX_TANGENT_CHORD_TURN + slack
             || turned.abs() >= std::f64::consts::TAU - 0.5 * least
-            || is_wide && widest > EVEN * least
+            || is_wide && widest > MAX_EVEN_CHORD_RATIO * least
         {
             return None;
         }
@@ -279,7 +283,7 @@ impl Cover {
         let item = Item { shape: LineOrArc::Arc(center, turned.signum() / radius), from, to };
         // Even chords that wide are those of a regular polygon as well; two are told by tangents alone.
         let saves = (to - from) as f64 - 2.0 - f64::from(u8::from(is_wide && to - from > 2));
-        let uneven = UNEVEN * libm::log(widest / least);
+        let uneven = UNEVEN_CHORD_COST * libm::log(widest / least);
         (sagitta > 4.0 * self.rounding).then_some(Piece { item, along, slack, saves, uneven })
     }
 }

@@ -1,16 +1,18 @@
 //! Long rows by one point for each block of neighbors.
 //!
-//! A fit of all points of a long row differs from that of the means of its blocks by less than any uncertainty, as long as the
-//! mean is that of the distances from a chain which follows the row: the mean of the points themselves lies off a bend. So a long row is
-//! fitted by blocks until nothing changes any more, and by all its points in a few steps from there.
+//! A fit of all points of a long row differs from that of the means of its blocks by less than any uncertainty. The
+//! mean must be that of the distances from a chain which follows the row: the mean of the points themselves lies off a
+//! bend. So a long row is fitted by blocks until nothing changes any more, and by all its points in a few steps from
+//! there.
 
+use super::profile::MAX_PROFILED_POINTS;
 use super::task::{Span, Task};
 use crate::model::criterion::{Criterion, Model};
 use crate::model::least::{State, Work};
 
-/// Rows of twice as many points are fitted by blocks, of which there are at least so many: as many points as have their intervals from
-/// the second derivative of the likelihood.
-const LEAST: usize = 6001;
+/// Rows of twice as many points are fitted by blocks, of which there are at least so many. Rows of so many points have
+/// their intervals from the second derivative of the likelihood.
+const MIN_BLOCKS: usize = MAX_PROFILED_POINTS + 1;
 
 /// A row by blocks.
 pub(super) struct Blocks {
@@ -26,7 +28,7 @@ impl Blocks {
     /// The blocks of a row along a chain; `None` of rows that are not long.
     pub fn of(span: &Span, state: &State) -> Option<Blocks> {
         let count = span.points.len();
-        let size = count / LEAST;
+        let size = count / MIN_BLOCKS;
         if size < 2 {
             return None;
         }

@@ -1,22 +1,24 @@
 //! Free curves in place of runs of the lines and arcs of a first partition.
 //!
-//! The partition knows no free curves: each is many lines and arcs there. A run of these is gathered to one free piece where a B-spline by itself costs less
-//! than they do; dynamic programming finds the cheapest row of those left alone and those gathered.
+//! The partition knows no free curves: each is many lines and arcs there. A run of these is gathered to one free piece
+//! where a B-spline by itself costs less than they do. Dynamic programming finds the cheapest row of those left alone
+//! and those gathered.
 
-use super::base::Base;
+use super::model_edits::PlacedModel;
+use super::parts::Sums;
 use super::rounds::Search;
-use super::start::Sums;
 use crate::model::chain::SegmentKind;
-use crate::model::criterion::Plan;
+use crate::model::criterion::PieceSpec;
 use crate::model::free;
 use trueness_geom::spline::curve::chord_parameters;
 
 /// Coefficients of free pieces that are tried.
-const COUNTS: [usize; 16] = [3, 4, 5, 6, 7, 8, 9, 10, 12, 14, 17, 20, 24, 29, 38, free::MOST_COEFFICIENTS];
-/// Of more lines and arcs none are gathered: time grows with the square of their number.
-const PARTS: usize = 150;
+const GATHERED_COUNTS: [usize; 16] =
+    [3, 4, 5, 6, 7, 8, 9, 10, 12, 14, 17, 20, 24, 29, 38, free::MAX_COEFFICIENTS];
+/// More lines and arcs are not gathered: time grows with the square of their number.
+const MAX_PARTS_TO_GATHER: usize = 150;
 /// A curve does not follow points that it lies off by so many times their variance in the mean.
-const FOLLOWS: f64 = 9.0;
+const MAX_MEAN_SQUARE_VARIANCES: f64 = 9.0;
 
 /// A free piece over a run of parts.
 #[derive(Clone, Copy)]
@@ -29,25 +31,25 @@ struct Run {
 
 impl Search<'_> {
     /// The pieces of the base with runs gathered to free ones, where each of these is between lines and arcs that stay; else `None`.
-    pub fn gathered(&self, base: &Base) -> Option<Vec<Plan>> {
-        let (plans, m) = (&base.plans, base.plans.len());
-        if m > PARTS {
+    pub fn gathered(&self, placed: &PlacedModel) -> Option<Vec<PieceSpec>> {
+        let (specs, m) = (&placed.specs, placed.specs.len());
+        if m > MAX_PARTS_TO_GATHER {
             return None;
         }
-        let (n, first) = (self.row.points.len(), base.model.state.breaks[0]);
+        let (n, first) = (self.row.points.len(), placed.model.state.breaks[0]);
         let order: Vec<usize> = (0..n).map(|i| (first + i) % n).collect();
         let points: Vec<[f64; 2]> = order.iter().map(|i| self.row.points[*i]).collect();
         let weights: Vec<f64> = order.iter().map(|i| self.row.weights[*i]).collect();
         let sums = Sums::new(&points, &weights);
         let mut limits: Vec<usize> =
-            plans.iter().map(|p| base.order.partition_point(|s| *s < p.from)).chain([n]).collect();
+            specs.iter().map(|p| placed.order.partition_point(|s| *s < p.from)).chain([n]).collect();
         limits[0] = 0;
         let variance = self.criterion.noise.max(self.criterion.resolution).powi(2);
         let each = libm::log(self.criterion.count);
         // A join is two unknowns, as the criterion counts them.
         let alone = |k: usize| {
             let (line, arc) = sums.fit(limits[k], limits[k + 1]);
-            match (plans[k].kind, arc) {
+            match (specs[k].kind, arc) {
                 (SegmentKind::Arc, Some((arc, ..))) => arc / variance + 4.0 * each,
                 _ => line / variance + 2.0 * each,
             }
@@ -72,7 +74,7 @@ impl Search<'_> {
                     break;
                 };
                 let cost = |level: usize| {
-                    let count = *COUNTS.get(level)?;
+                    let count = *GATHERED_COUNTS.get(level)?;
                     let sum = self.off_curve(&own, &parameters, count + 2)?.1;
                     Some((sum * weight / variance, (count as f64 + 3.5) * each))
                 };
@@ -80,26 +82,26 @@ impl Search<'_> {
                 while let Some(next) = cost(level + 1).filter(|next| next.0 + next.1 < now.0 + now.1) {
                     (now, level) = (next, level + 1);
                 }
-                if now.0 > FOLLOWS * own.len() as f64 * weight {
+                if now.0 > MAX_MEAN_SQUARE_VARIANCES * own.len() as f64 * weight {
                     break;
                 }
-                offer(to, now.0 + now.1, COUNTS[level]);
+                offer(to, now.0 + now.1, GATHERED_COUNTS[level]);
             }
         }
         let mut all = vec![];
         let mut to = m;
         while to > 0 {
             let Run { from, count, .. } = best[to];
-            let (start, end) = (plans[from].from, plans[to - 1].to);
+            let (start, end) = (specs[from].from, specs[to - 1].to);
             all.push(match count {
-                0 => plans[from],
-                _ => Plan { kind: SegmentKind::Spline, count, from: start, to: end },
+                0 => specs[from],
+                _ => PieceSpec { kind: SegmentKind::Spline, count, from: start, to: end },
             });
             to = from;
         }
         all.reverse();
         // Where free pieces join, joins are where those of lines and arcs happened to be.
-        let is_free = |p: &Plan| p.kind == SegmentKind::Spline;
+        let is_free = |p: &PieceSpec| p.kind == SegmentKind::Spline;
         let joined = all.windows(2).any(|w| w.iter().all(is_free));
         (all.iter().any(is_free) && !all.iter().all(is_free) && !joined).then_some(all)
     }

@@ -1,7 +1,7 @@
 //! Chains of lines, and of arcs tangent to them, that are known.
 
+use super::parts::Part;
 use super::rounds::Search;
-use super::start::Part;
 use crate::model::chain::{Chain, Ends, Piece, SegmentKind};
 use crate::model::criterion::Model;
 use crate::model::flat::{angle, distance, dot, minus};

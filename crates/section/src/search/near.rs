@@ -1,10 +1,11 @@
 //! A few pieces of a long chain as a chain of their own.
 //!
-//! A fit of all pieces costs more than the square of their number, and a search asks for some dozens of fits a piece. What happens at
-//! a piece hardly moves one that is several pieces away: each piece between holds place and heading by its own points. So long
-//! chains are searched, and their joins profiled, by pieces near each other; then all pieces are fitted together.
+//! A fit of all pieces costs more than the square of their number, and a search asks for some dozens of fits a piece. A
+//! change at a piece hardly moves one that is several pieces away: each piece between holds place and heading by its
+//! own points. So long chains are searched, and their joins profiled, by pieces near each other; then all pieces are
+//! fitted together.
 
-use super::base::Base;
+use super::model_edits::PlacedModel;
 use super::rounds::Search;
 use crate::model::chain::{Chain, Ends, Layout, Pose, SegmentKind};
 use crate::model::criterion::{Model, Rest, Unknowns};
@@ -12,16 +13,17 @@ use crate::model::least::{Row, State, Work};
 use std::f64::consts::TAU;
 use std::ops::Range;
 
-/// Pieces on either side that are fitted anew with what is looked at: while models are compared, and while a join is profiled. Of chains of
-/// arcs, ends of intervals are then those of a fit of all pieces to a hundredth.
-const BESIDE: usize = 3;
-const BESIDE_JOIN: usize = 5;
+/// Pieces on either side that are fitted anew while models are compared.
+const PIECES_BESIDE: usize = 3;
+/// Pieces on either side that are fitted anew while a join is profiled. Ends of intervals in chains of arcs are then those of a fit
+/// of all pieces to a hundredth.
+const PIECES_BESIDE_JOIN: usize = 5;
 /// Pieces that are looked at together.
-const CORE: usize = 4;
+const CORE_PIECES: usize = 4;
 
 /// Pieces that follow each other, with their points.
 #[derive(Clone, Debug)]
-pub(super) struct Near {
+pub(super) struct PieceNeighborhood {
     /// Their numbers in the whole chain; of a closed one they may go on beyond its last piece.
     pub pieces: Range<usize>,
     /// Pieces looked at, counted from the first of these.
@@ -31,21 +33,27 @@ pub(super) struct Near {
     pub state: State,
 }
 
-impl Near {
+impl PieceNeighborhood {
     /// The pieces about some of a chain, held where they meet the others. `around` is for a join: of a closed chain
     /// then also over its seam, with so many pieces on either side.
-    fn about(row: &Row, state: &State, layout: &Layout, core: Range<usize>, around: Option<usize>) -> Near {
+    fn about(
+        row: &Row,
+        state: &State,
+        layout: &Layout,
+        core: Range<usize>,
+        around: Option<usize>,
+    ) -> PieceNeighborhood {
         let count = state.chain.pieces.len();
-        let beside = around.unwrap_or(BESIDE);
+        let margin = around.unwrap_or(PIECES_BESIDE);
         let (before, after) = match around.is_some() && state.chain.closed {
-            true => (beside, beside),
-            false => (beside.min(core.start), beside.min(count - core.end)),
+            true => (margin, margin),
+            false => (margin.min(core.start), margin.min(count - core.end)),
         };
         // Numbers do not fall below 0.
         let turns = if before > core.start { count } else { 0 };
         let pieces = core.start + turns - before..core.end + turns + after;
         let core = before..before + core.len();
-        let mut near = Near { core, ..Near::of(row, state, layout, pieces) };
+        let mut near = PieceNeighborhood { core, ..PieceNeighborhood::of(row, state, layout, pieces) };
         let open = !state.chain.closed && near.pieces.end == count;
         let end = (!open).then(|| near.end());
         near.state.chain.ends = Ends { end, ..near.state.chain.ends };
@@ -53,12 +61,12 @@ impl Near {
     }
 
     /// The pieces about a join: of a closed chain also about that over its seam.
-    pub fn at_join(row: &Row, state: &State, layout: &Layout, join: usize) -> Near {
+    pub fn at_join(row: &Row, state: &State, layout: &Layout, join: usize) -> PieceNeighborhood {
         let first = if join == 0 { state.chain.pieces.len() } else { join };
-        Near::about(row, state, layout, first - 1..first + 1, Some(BESIDE_JOIN))
+        PieceNeighborhood::about(row, state, layout, first - 1..first + 1, Some(PIECES_BESIDE_JOIN))
     }
 
-    fn of(row: &Row, state: &State, layout: &Layout, pieces: Range<usize>) -> Near {
+    fn of(row: &Row, state: &State, layout: &Layout, pieces: Range<usize>) -> PieceNeighborhood {
         let (count, n) = (state.chain.pieces.len(), row.points.len());
         let at = |k: usize| state.breaks[k % count] + k / count * n;
         // The end of an open chain is no start of a piece.
@@ -76,7 +84,7 @@ impl Near {
         };
         let mut breaks: Vec<usize> = pieces.clone().map(|k| at(k) - from).collect();
         breaks.push(end - from);
-        Near {
+        PieceNeighborhood {
             core: 0..pieces.len(),
             points: numbers().map(|i| row.points[i]).collect(),
             weights: numbers().map(|i| row.weights[i]).collect(),
@@ -101,7 +109,7 @@ impl Near {
         Row { points: &self.points, weights: &self.weights }
     }
 
-    /// The search over these pieces: what models of them cost counts the rest of the chain too.
+    /// The search over these pieces: the cost of their models counts the rest of the chain too.
     pub fn search<'b>(&'b self, whole: &Search<'b>, all: &State, own: f64) -> Search<'b> {
         let (all_unknowns, unknowns) = (Unknowns::of(&all.chain), Unknowns::of(&self.state.chain));
         let rest = Rest { sum: (all.sum - own).max(0.0), unknowns: all_unknowns.less(unknowns) };
@@ -117,8 +125,8 @@ impl Near {
     }
 }
 
-/// A state with other pieces in place of some: each is a range of its pieces, in rising order and apart from each other, none around the
-/// seam, and the state of their points alone.
+/// A state with other pieces in place of some. Each entry is a range of its pieces and the state of their points alone.
+/// The ranges are in rising order, apart from each other, and none is around the seam.
 pub(super) fn spliced(state: &State, changed: &[(Range<usize>, State)], count: usize) -> State {
     let mut chain = Chain { pieces: vec![], ..state.chain.clone() };
     let (mut breaks, mut feet) = (vec![], state.feet.clone());
@@ -141,21 +149,22 @@ pub(super) fn spliced(state: &State, changed: &[(Range<usize>, State)], count: u
 }
 
 impl Search<'_> {
-    /// A cheaper model than a long one: the best of all steps near each few pieces, as many of them as do not touch each other, taken
-    /// together; of those together no cheaper, the best alone. `idle` tells the pieces near which no step has paid since they changed.
-    pub fn round_nearby(&mut self, base: &Base, idle: &mut Vec<bool>) -> Option<Model> {
-        let model = &base.model;
+    /// A cheaper model than a long one. It is the best of all steps near each few pieces, as many as do not touch each
+    /// other, combined. If those together are no cheaper, it is the best alone. `idle` tells the pieces near which no
+    /// step has paid since they changed.
+    pub fn round_nearby(&mut self, placed: &PlacedModel, idle: &mut Vec<bool>) -> Option<Model> {
+        let model = &placed.model;
         let count = model.state.chain.pieces.len();
         idle.resize(count, false);
         let mut layout = Layout::default();
         layout.fill(&model.state.chain);
         let mut found: Vec<(f64, Range<usize>, State)> = vec![];
-        for first in (0..count).step_by(CORE) {
-            let core = first..(first + CORE).min(count);
+        for first in (0..count).step_by(CORE_PIECES) {
+            let core = first..(first + CORE_PIECES).min(count);
             if idle[core.clone()].iter().all(|i| *i) {
                 continue;
             }
-            let near = Near::about(&self.row, &model.state, &layout, core.clone(), None);
+            let near = PieceNeighborhood::about(&self.row, &model.state, &layout, core.clone(), None);
             match self.step_near(&near, model) {
                 Some((cost, state)) if cost < model.cost - 1e-6 => {
                     found.push((cost, near.pieces.clone(), state));
@@ -171,22 +180,22 @@ impl Search<'_> {
             }
         }
         // Together, then the better half of them, …, then the best alone.
-        let mut taken = apart.len();
-        while taken > 0 {
-            let mut changed = apart[..taken].to_vec();
+        let mut tried_together = apart.len();
+        while tried_together > 0 {
+            let mut changed = apart[..tried_together].to_vec();
             changed.sort_by_key(|(pieces, _)| pieces.start);
             let tried = self.together(model, &changed);
             if let Some(tried) = tried.filter(|t| t.cost < model.cost - 1e-6) {
                 spread_idle(idle, &changed);
                 return Some(tried);
             }
-            taken /= 2;
+            tried_together /= 2;
         }
         None
     }
 
-    /// The best step that begins in the core, with what it costs.
-    fn step_near(&mut self, near: &Near, model: &Model) -> Option<(f64, State)> {
+    /// The best step that begins in the core, with its cost.
+    fn step_near(&mut self, near: &PieceNeighborhood, model: &Model) -> Option<(f64, State)> {
         if near.is_empty() {
             return None;
         }
@@ -195,12 +204,12 @@ impl Search<'_> {
         let own = state.sum;
         let mut search = near.search(self, &model.state, own);
         let start = search.model(state);
-        let base = search.base(start);
-        let inside = |plans: &[crate::model::criterion::Plan]| {
-            let same = plans.iter().zip(&base.plans).take_while(|(a, b)| a == b).count();
+        let placed = search.placed(start);
+        let inside = |specs: &[crate::model::criterion::PieceSpec]| {
+            let same = specs.iter().zip(&placed.specs).take_while(|(a, b)| a == b).count();
             near.core.contains(&same)
         };
-        let best = search.round_of(&base, inside);
+        let best = search.round_of(&placed, inside);
         best.map(|best| (best.cost, best.state))
     }
 
@@ -211,11 +220,11 @@ impl Search<'_> {
         let row = self.row;
         self.work.improve(&row, &mut state, None, &stop);
         let mut tried = self.model(state);
-        self.follows(&mut tried.state).then_some(tried)
+        self.is_followed(&mut tried.state).then_some(tried)
     }
 
-    /// A long chain of the pieces of `state`, whose joins are tangent but whose pieces may lie far off their points: fitted from its
-    /// start on, each piece with those before it.
+    /// A long chain of the pieces of `state`, whose joins are tangent but whose pieces may lie far off their points. It
+    /// is fitted from its start on, each piece with those before it.
     pub fn grown(&mut self, state: &State) -> State {
         let (row, count) = (self.row, state.chain.pieces.len());
         let mut grown = state.clone();
@@ -223,9 +232,10 @@ impl Search<'_> {
         let stop = self.stop(30, 1e-4);
         for next in 0..count {
             // By itself first, with its join: that brings it to its points.
-            for before in [1, BESIDE_JOIN] {
+            for before in [1, PIECES_BESIDE_JOIN] {
                 layout.fill(&grown.chain);
-                let near = Near::of(&row, &grown, &layout, next.saturating_sub(before)..next + 1);
+                let near =
+                    PieceNeighborhood::of(&row, &grown, &layout, next.saturating_sub(before)..next + 1);
                 if near.is_empty() {
                     continue;
                 }

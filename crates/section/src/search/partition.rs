@@ -1,10 +1,10 @@
 //! The cheapest row of lines and arcs, each fitted by itself, by dynamic programming.
 
-use super::start::{Part, Sums};
+use super::parts::{Part, Sums};
 use crate::model::chain::SegmentKind;
 
 /// Places at which a part may start: time grows with the square of their number.
-pub(crate) const PLACES: usize = 1200;
+pub(crate) const MAX_PART_STARTS: usize = 1200;
 
 /// Costs of the parts, in units of the noise's variance.
 #[derive(Clone, Copy, Debug)]
@@ -18,9 +18,9 @@ pub(crate) struct Penalty {
     pub places: usize,
 }
 
-/// The cheapest row of lines and arcs, each fitted by itself: sum of squares over the noise's variance, and a penalty for
-/// each. Jackson et al., An Algorithm for Optimal Partitioning of Data on an Interval, 2005; starts that can never win any more
-/// are dropped (Killick, Fearnhead and Eckley, 2012). Time grows with the square of `places` at worst.
+/// The cheapest row of lines and arcs, each fitted by itself: sum of squares over the noise's variance, and a penalty
+/// for each. Jackson et al., An Algorithm for Optimal Partitioning of Data on an Interval, 2005. Starts that can never
+/// win any more are dropped (Killick, Fearnhead and Eckley, 2012). Time grows with the square of `places` at worst.
 pub(crate) fn partition(points: &[[f64; 2]], weights: &[f64], penalty: &Penalty) -> Vec<Part> {
     let sums = Sums::new(points, weights);
     let mut breaks = vec![];
@@ -50,11 +50,11 @@ pub(crate) fn partition_with_gaps(
     stretches.into_iter().map(|s| sums.part(points, s.kind, s.from, s.to)).collect()
 }
 
-/// What a free curve along the row costs, in units of the noise's variance.
+/// Cost of a free curve along the row, in units of the noise's variance.
 pub(crate) struct FreeCost {
     /// Each part that is one.
     pub each: f64,
-    /// What lies before each point: the squares of its distances, and its unknowns.
+    /// Sums over the points before each: the squares of their distances, and the unknowns.
     pub before: Vec<f64>,
 }
 
@@ -90,14 +90,14 @@ fn cheapest(sums: &Sums, n: usize, penalty: &Penalty, gap: usize, free: Option<&
     let index = |k: usize| if k == last { n } else { k * stride };
     let variance = penalty.noise * penalty.noise;
     let fewest = penalty.fewest.max(2);
-    // What the parts before a place cost at least: where the last of them ends there, and where it may end up to a gap before.
+    // The least cost of the parts before a place. The last of them ends there, or up to a gap before.
     let mut best = vec![f64::INFINITY; last + 1];
     let mut entered = vec![(f64::INFINITY, 0); last + 1];
     let mut from = vec![(0, SegmentKind::Line); last + 1];
     (best[0], entered[0]) = (0.0, (0.0, 0));
     let mut starts: Vec<usize> = vec![];
     let mut costs: Vec<f64> = vec![];
-    // Where a part of the free curve starts best, and what comes before it without what the curve has there.
+    // Where a part of the free curve starts best, and the cost of the parts before it without the curve's share there.
     let mut free_start = (f64::INFINITY, 0);
     for j in 1..=last {
         if entered[j - 1].0.is_finite() {
@@ -158,15 +158,15 @@ fn cheapest(sums: &Sums, n: usize, penalty: &Penalty, gap: usize, free: Option<&
     all
 }
 
-/// Moves the starts of parts, each with its kind, that were looked for at every `stride`-th point alone to the best point between;
-/// short parts that are dear beside their neighbors go to these.
+/// Moves the starts of parts, each with its kind, that were looked for at every `stride`-th point alone to the best
+/// point between. Short parts that are dear beside their neighbors go to these.
 fn sharpen(sums: &Sums, breaks: &mut Vec<(usize, SegmentKind)>, stride: usize, penalty: &Penalty) {
     let fewest = penalty.fewest.max(2);
     let cost = |from: usize, to: usize, kind: SegmentKind| match (kind, sums.fit(from, to)) {
         (SegmentKind::Line, (line, _)) | (_, (line, None)) => line,
         (_, (_, Some((arc, _, _)))) => arc,
     };
-    // The best place between two for the start of the second of two parts, and what both cost.
+    // The best place between two for the start of the second of two parts, and the cost of both.
     let best =
         |(a, before): (usize, SegmentKind), (c, after): (usize, SegmentKind), low: usize, high: usize| {
             let sum = |at: usize| cost(a, at, before) + cost(at, c, after);

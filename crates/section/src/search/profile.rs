@@ -1,6 +1,6 @@
 //! Where a join may lie: the likelihood as a function of its place, everything else fitted anew.
 
-use super::near::{Near, spliced};
+use super::near::{PieceNeighborhood, spliced};
 use super::rounds::Search;
 use crate::model::chain::{Layout, Pose};
 use crate::model::criterion::Model;
@@ -29,18 +29,18 @@ impl Interval {
 }
 
 /// Farthest that an interval is followed to either side, in distances between points.
-const FARTHEST: f64 = 25.0;
+const MAX_INTERVAL_SPACINGS: f64 = 25.0;
 
-/// Ends of intervals are found to about this share of their distance: the root of what the sum of squares grew by is straight but
-/// for a third of it at most, so that a secant over this share of it misses 2 %.
-const NEAR: f64 = 0.06;
+/// Ends of intervals are found to about this share of their distance. The root of the growth of the sum of squares is
+/// straight but for a third of it at most. A secant over this share of it misses 2 %.
+const INTERVAL_END_ACCURACY: f64 = 0.06;
 
-/// Share of what the sum of squares grows by to the end of an interval that a fit with the join held may miss.
-const SLACK: f64 = 0.01;
+/// Share of the growth of the sum of squares to the end of an interval that a fit with the join held may miss.
+const GROWTH_SLACK_SHARE: f64 = 0.01;
 
-/// Of longer rows the likelihood is normal, and its second derivative tells the intervals: nothing is fitted anew. So too where the search
-/// has taken all it may.
-const PROFILED: usize = 6000;
+/// The likelihood of longer rows is normal, and its second derivative tells the intervals: nothing is fitted anew. So too where the
+/// search has taken all it may.
+pub(super) const MAX_PROFILED_POINTS: usize = 6000;
 
 impl Search<'_> {
     /// Standard deviation of the noise, its square, and its degrees of freedom.
@@ -61,7 +61,7 @@ impl Search<'_> {
         for seek in seeks {
             let Pose { at, along, .. } = seek.pose;
             let mut interval = Interval { ends: [at; 2], uncertainty: 0.0, open: [false; 2] };
-            if self.row.points.len() > PROFILED || self.is_spent() {
+            if self.row.points.len() > MAX_PROFILED_POINTS || self.is_spent() {
                 interval.ends =
                     [-seek.first, seek.first].map(|x| [at[0] + x * along[0], at[1] + x * along[1]]);
                 interval.uncertainty = seek.first / quantile;
@@ -69,9 +69,9 @@ impl Search<'_> {
                 continue;
             }
             let lower = match model.state.chain.is_long() {
-                true => {
-                    self.nearby(model, &seek, |search, best, seek| search.both(best, seek, &mut interval))
-                }
+                true => self.with_pieces_near(model, &seek, |search, best, seek| {
+                    search.both(best, seek, &mut interval)
+                }),
                 false => self.both(&model.state, &seek, &mut interval),
             };
             better = least(better, lower, &model.state);
@@ -83,26 +83,27 @@ impl Search<'_> {
     }
 
     /// Follows a join to both ends of its interval; a lower state found on the way.
-    fn both(&mut self, best: &State, seek: &Seek, interval: &mut Interval) -> Option<State> {
+    fn both(&mut self, best: &State, seek: &EndSearch, interval: &mut Interval) -> Option<State> {
         let mut better = None;
         for (side, sign) in [-1.0, 1.0].into_iter().enumerate() {
-            let (end, open, lower) = self.follow(best, &Seek { sign, ..*seek });
+            let (end, open, lower) = self.follow(best, &EndSearch { sign, ..*seek });
             (interval.ends[side], interval.open[side]) = (end, open);
             better = least(better, lower, best);
         }
         better
     }
 
-    /// What `look` finds about a join of a long chain with the pieces near it alone: a lower state of these is one of all.
-    fn nearby(
+    /// The answer of `look` for a join of a long chain with the pieces near it alone. A lower state of these is one of
+    /// all.
+    fn with_pieces_near(
         &mut self,
         model: &Model,
-        seek: &Seek,
-        look: impl FnOnce(&mut Search, &State, &Seek) -> Option<State>,
+        seek: &EndSearch,
+        look: impl FnOnce(&mut Search, &State, &EndSearch) -> Option<State>,
     ) -> Option<State> {
         let mut layout = Layout::default();
         layout.fill(&model.state.chain);
-        let near = Near::at_join(&self.row, &model.state, &layout, seek.join);
+        let near = PieceNeighborhood::at_join(&self.row, &model.state, &layout, seek.join);
         if near.is_empty() {
             return None;
         }
@@ -110,44 +111,44 @@ impl Search<'_> {
         let best = search.converge(&Model { state: near.state.clone(), cost: 0.0 }).state;
         let join = near.core.start + 1;
         let pose = search.pose_of(&best, join);
-        let lower = look(&mut search, &best, &Seek { join, pose, ..*seek })?;
+        let lower = look(&mut search, &best, &EndSearch { join, pose, ..*seek })?;
         // Pieces around the seam of a closed chain stay as they are.
         let whole = near.pieces.end <= model.state.chain.pieces.len();
         whole.then(|| self.with(model, &near, lower)).flatten()
     }
 
     /// The state of a long chain with these pieces changed, where its sum of squares is lower for it.
-    fn with(&mut self, model: &Model, near: &Near, lower: State) -> Option<State> {
+    fn with(&mut self, model: &Model, near: &PieceNeighborhood, lower: State) -> Option<State> {
         let row = self.row;
         let mut state = spliced(&model.state, &[(near.pieces.clone(), lower)], row.points.len());
         self.work.improve(&row, &mut state, None, &self.stop(30, 1e-6));
         Some(state).filter(|s| s.sum < lower_than(&model.state))
     }
 
-    /// Takes the model's own interval of each join that is not between the ends of that of a looser one: joins of free pieces may be
-    /// elsewhere there.
+    /// Takes the model's own interval of each join that is not between the ends of that of a looser one. Joins of free
+    /// pieces may be elsewhere there.
     pub fn around(&mut self, intervals: &mut [Interval], model: &Model, level: f64) {
         let first = usize::from(!model.state.chain.closed);
         let mut layout = Layout::default();
         layout.fill(&model.state.chain);
-        let astray: Vec<usize> = (0..intervals.len())
+        let unreliable: Vec<usize> = (0..intervals.len())
             .filter(|k| layout.poses.get(first + k).is_some_and(|pose| !intervals[*k].holds(pose.at)))
             .collect();
-        if !astray.is_empty() {
+        if !unreliable.is_empty() {
             let own = self.intervals(model, level).0;
-            astray.into_iter().filter(|k| *k < own.len()).for_each(|k| intervals[k] = own[k]);
+            unreliable.into_iter().filter(|k| *k < own.len()).for_each(|k| intervals[k] = own[k]);
         }
     }
 
     /// A better model where a join is held at an end of the interval that the second derivative of the likelihood tells.
     pub fn better(&mut self, model: &Model, level: f64) -> Option<State> {
-        if self.row.points.len() > PROFILED || self.is_spent() {
+        if self.row.points.len() > MAX_PROFILED_POINTS || self.is_spent() {
             return None;
         }
         let mut better = None;
         for seek in self.seeks(model, level).1 {
             let lower = match model.state.chain.is_long() {
-                true => self.nearby(model, &seek, |search, best, seek| search.lower(best, seek)),
+                true => self.with_pieces_near(model, &seek, |search, best, seek| search.lower(best, seek)),
                 false => self.lower(&model.state, &seek),
             };
             better = least(better, lower, &model.state);
@@ -156,18 +157,18 @@ impl Search<'_> {
     }
 
     /// A lower state where the join is held at either end.
-    fn lower(&mut self, best: &State, seek: &Seek) -> Option<State> {
+    fn lower(&mut self, best: &State, seek: &EndSearch) -> Option<State> {
         let mut better = None;
         for sign in [-1.0, 1.0] {
-            let seek = Seek { sign, ..*seek };
-            let held = self.hold(best, &seek, seek.first.min(FARTHEST * self.spacing));
+            let seek = EndSearch { sign, ..*seek };
+            let held = self.hold(best, &seek, seek.first.min(MAX_INTERVAL_SPACINGS * self.spacing));
             better = least(better, held.filter(|h| h.sum < lower_than(best)), best);
         }
         better
     }
 
     /// Student's quantile, and where the ends of the intervals are first looked for: to the right.
-    fn seeks(&mut self, model: &Model, level: f64) -> (f64, Vec<Seek>) {
+    fn seeks(&mut self, model: &Model, level: f64) -> (f64, Vec<EndSearch>) {
         let (variance, degrees) = self.variance(&model.state);
         let quantile = student_quantile(1.0 - level, degrees);
         let growth = variance * quantile * quantile;
@@ -180,17 +181,23 @@ impl Search<'_> {
                 let spread =
                     spreads.as_ref().map_or(self.spacing, |s| s.places[join - first] * variance.sqrt());
                 let spread = spread.clamp(1e-7 * self.spacing, 5.0 * self.spacing);
-                Seek { join, sign: 1.0, first: quantile * spread, growth, pose: self.work.layout.poses[join] }
+                EndSearch {
+                    join,
+                    sign: 1.0,
+                    first: quantile * spread,
+                    growth,
+                    pose: self.work.layout.poses[join],
+                }
             })
             .collect();
         (quantile, all)
     }
 
-    /// The state with a join held so far from where it is best, all else fitted anew from `start`; `None` where a neighboring
-    /// join is in the way.
-    fn hold(&mut self, start: &State, seek: &Seek, x: f64) -> Option<State> {
-        // What the sum of squares may miss of the least one.
-        let gain = SLACK * seek.growth / (start.sum + seek.growth).max(f64::MIN_POSITIVE);
+    /// The state with a join held so far from where it is best, all else fitted anew from `start`. `None` where a
+    /// neighboring join is in the way.
+    fn hold(&mut self, start: &State, seek: &EndSearch, x: f64) -> Option<State> {
+        // The sum of squares may miss the least one by so much.
+        let gain = GROWTH_SLACK_SHARE * seek.growth / (start.sum + seek.growth).max(f64::MIN_POSITIVE);
         let (shortest, target) = (0.5 * self.spacing, f64::INFINITY);
         let stop = Stop { steps: 14, gain: gain.max(1e-12), shortest, exact: true, target };
         let (at, along) = (seek.pose.at, seek.pose.along);
@@ -204,13 +211,13 @@ impl Search<'_> {
         (sound && off < 1e-3 * x).then_some(state)
     }
 
-    /// Moves a join until the sum of squares reaches the limit: secants on the root of what it grew by, which is straight
+    /// Moves a join until the sum of squares reaches the limit. Secants go on the root of its growth, which is straight
     /// where the likelihood is normal. Gives the end, whether it is open, and a lower state found on the way.
-    fn follow(&mut self, best: &State, seek: &Seek) -> ([f64; 2], bool, Option<State>) {
-        let farthest = FARTHEST * self.spacing;
+    fn follow(&mut self, best: &State, seek: &EndSearch) -> ([f64; 2], bool, Option<State>) {
+        let farthest = MAX_INTERVAL_SPACINGS * self.spacing;
         let wanted = seek.growth.max(f64::MIN_POSITIVE).sqrt();
-        let mut low = Tried { x: 0.0, root: 0.0, state: best.clone() };
-        let mut high: Option<Tried> = None;
+        let mut low = HeldState { x: 0.0, root: 0.0, state: best.clone() };
+        let mut high: Option<HeldState> = None;
         // Beyond this a neighboring join is in the way.
         let mut wall = f64::INFINITY;
         let mut lower: Option<State> = None;
@@ -229,14 +236,14 @@ impl Search<'_> {
                         lower = Some(state.clone());
                     }
                     let root = (state.sum - best.sum).max(0.0).sqrt();
-                    if (root - wanted).abs() < NEAR * wanted {
+                    if (root - wanted).abs() < INTERVAL_END_ACCURACY * wanted {
                         // So near the root is as good as straight: the end lies on the line from where the join is best.
                         let place = self.place_of(&state, seek);
                         let from = seek.pose.at;
                         let end = [0, 1].map(|k| from[k] + (place[k] - from[k]) * wanted / root);
                         return (end, false, lower);
                     }
-                    let tried = Tried { x, root, state };
+                    let tried = HeldState { x, root, state };
                     if root >= wanted {
                         high = Some(tried);
                     } else {
@@ -248,7 +255,7 @@ impl Search<'_> {
             if low.x >= farthest {
                 return (self.place_of(&low.state, seek), true, lower);
             }
-            if right.is_finite() && right - low.x < NEAR * right {
+            if right.is_finite() && right - low.x < INTERVAL_END_ACCURACY * right {
                 let (at, open) =
                     high.as_ref().filter(|h| h.x < wall).map_or((&low.state, true), |h| (&h.state, false));
                 let at = at.clone();
@@ -270,7 +277,7 @@ impl Search<'_> {
     }
 
     /// Where the join is.
-    fn place_of(&mut self, state: &State, seek: &Seek) -> [f64; 2] {
+    fn place_of(&mut self, state: &State, seek: &EndSearch) -> [f64; 2] {
         self.pose_of(state, seek.join).at
     }
 
@@ -282,18 +289,18 @@ impl Search<'_> {
 
 /// A join on its way to an end of its interval.
 #[derive(Clone, Copy)]
-struct Seek {
+struct EndSearch {
     join: usize,
     sign: f64,
     first: f64,
-    /// What the sum of squares may grow by.
+    /// Limit of the growth of the sum of squares.
     growth: f64,
     /// Where the join is best.
     pose: Pose,
 }
 
-/// A state with the join held so far from where it is best, and the root of what the sum of squares grew by.
-struct Tried {
+/// A state with the join held so far from where it is best, and the root of the growth of the sum of squares.
+struct HeldState {
     x: f64,
     root: f64,
     state: State,
@@ -379,7 +386,7 @@ mod tests {
         for seek in seeks {
             let (mut near, mut whole) = (none, none);
             search.both(&model.state, &seek, &mut whole);
-            search.nearby(&model, &seek, |search, best, seek| search.both(best, seek, &mut near));
+            search.with_pieces_near(&model, &seek, |search, best, seek| search.both(best, seek, &mut near));
             let size = libm::hypot(whole.ends[1][0] - whole.ends[0][0], whole.ends[1][1] - whole.ends[0][1]);
             for (a, b) in near.ends.iter().zip(whole.ends) {
                 let off = libm::hypot(a[0] - b[0], a[1] - b[1]);

@@ -1,10 +1,10 @@
-//! Number and kinds of the pieces of a smooth row: a search over merging, splitting and changing pieces by a penalized
-//! likelihood, each model refined as a whole.
+//! Number and kinds of the pieces of a smooth row. A search goes over merging, splitting and changing pieces by a
+//! penalized likelihood, and refines each model as a whole.
 
-use super::base::Base;
+use super::model_edits::PlacedModel;
 use crate::model::budget::Budget;
 use crate::model::chain::{Chain, Piece, Pose, SegmentKind, arc_end};
-use crate::model::criterion::{Criterion, Model, Plan, Unknowns};
+use crate::model::criterion::{Criterion, Model, PieceSpec, Unknowns};
 use crate::model::free;
 use crate::model::least::{Row, State, Stop, Work};
 use trueness_geom::progress::{Cancelled, Progress};
@@ -12,13 +12,13 @@ use trueness_geom::progress::{Cancelled, Progress};
 /// A model that is dearer than the best by this much after four steps is not refined.
 const COST_TO_DROP: f64 = 30.0;
 
-/// A model of the same kinds and fewer unknowns that is dearer by no more than so much for each point is refined all the same: where a curvature grows from 0,
-/// a join moves slowly.
-const SLOW: f64 = 0.2;
+/// A model may have the same kinds, fewer unknowns, and be dearer by no more than so much for each point. It is refined
+/// all the same. Where a curvature grows from 0, a join moves slowly.
+const SLOW_COST_PER_POINT: f64 = 0.2;
 
-/// Products after which a search ends with the cheapest model so far: some seconds. Rows of some dozen segments take a hundredth; smooth
-/// curves of many turns, which are many arcs at first and few free pieces in the end, would take minutes.
-const MOST_PRODUCTS: f64 = 5e9;
+/// Products after which a search ends with the cheapest model so far: some seconds. Rows of some dozen segments take a hundredth.
+/// Smooth curves of many turns, which are many arcs at first and few free pieces in the end, would take minutes.
+const MAX_PRODUCTS_PER_SEARCH: f64 = 5e9;
 
 /// The search over the models of one row.
 pub(crate) struct Search<'a> {
@@ -46,12 +46,12 @@ impl Drop for Search<'_> {
 }
 
 impl Search<'_> {
-    /// Whether the searches of the contour have taken what they may.
+    /// Whether the searches of the contour have used up their budget.
     pub fn is_spent(&self) -> bool {
         self.budget.is_spent(self.work.effort)
     }
 
-    /// What is at hand of the last state that was measured.
+    /// The working memory of the last state that was measured.
     pub fn take_work(&mut self) -> Work {
         let effort = std::mem::take(&mut self.work.effort);
         self.budget.take(effort);
@@ -67,14 +67,14 @@ impl Search<'_> {
         Model { cost: if cost.is_nan() { f64::INFINITY } else { cost }, state }
     }
 
-    /// What models one step from this one are built on.
-    pub fn base(&mut self, mut model: Model) -> Base {
+    /// The model that models one step from this one are built on.
+    pub fn placed(&mut self, mut model: Model) -> PlacedModel {
         let all = self.work.stations(&self.row, &mut model.state);
-        Base::new(model, &all)
+        PlacedModel::new(model, &all)
     }
 
-    pub fn follows(&mut self, state: &mut State) -> bool {
-        self.work.follows(&self.row, state, self.spacing)
+    pub fn is_followed(&mut self, state: &mut State) -> bool {
+        self.work.is_followed(&self.row, state, self.spacing)
     }
 
     /// Converged; as it was where that runs into a loop.
@@ -91,37 +91,37 @@ impl Search<'_> {
             self.work.improve(&self.row, &mut state, None, &Stop { exact: true, ..stop });
         }
         let mut before = model.state.clone();
-        match self.follows(&mut state) || !self.follows(&mut before) {
+        match self.is_followed(&mut state) || !self.is_followed(&mut before) {
             true => self.model(state),
             false => self.model(before),
         }
     }
 
-    /// The model made of `plans` on `base`; given up early where a few steps leave it far above the cost `bar`.
-    pub fn build(&mut self, base: &Base, plans: &[Plan], bar: f64) -> Model {
-        let chain = &base.model.state.chain;
-        let pieces: Vec<Piece> = plans
+    /// The model made of `specs` on `placed`; given up early where a few steps leave it far above the cost `bar`.
+    pub fn build(&mut self, placed: &PlacedModel, specs: &[PieceSpec], bar: f64) -> Model {
+        let chain = &placed.model.state.chain;
+        let pieces: Vec<Piece> = specs
             .iter()
-            .map(|plan| {
-                let length = (plan.to - plan.from).max(2.0 * self.spacing);
-                let coefficients = match plan.kind {
+            .map(|spec| {
+                let length = (spec.to - spec.from).max(2.0 * self.spacing);
+                let coefficients = match spec.kind {
                     SegmentKind::Line => vec![],
-                    SegmentKind::Arc => vec![chain.mean_curvature(&base.stations, plan.from, plan.to)],
-                    SegmentKind::Spline => base.coefficients(plan),
+                    SegmentKind::Arc => vec![chain.mean_curvature(&placed.stations, spec.from, spec.to)],
+                    SegmentKind::Spline => placed.coefficients(spec),
                 };
-                Piece { kind: plan.kind, length, coefficients }
+                Piece { kind: spec.kind, length, coefficients }
             })
             .collect();
         let n = self.row.points.len();
-        let first = base.model.state.breaks[0];
+        let first = placed.model.state.breaks[0];
         let mut breaks: Vec<usize> =
-            plans.iter().map(|p| first + base.order.partition_point(|s| *s < p.from)).collect();
+            specs.iter().map(|p| first + placed.order.partition_point(|s| *s < p.from)).collect();
         breaks[0] = first;
         breaks.push(first + n);
         let mut feet = vec![0.5; n];
-        for (g, plan) in plans.iter().enumerate().filter(|(_, p)| p.kind == SegmentKind::Spline) {
+        for (g, spec) in specs.iter().enumerate().filter(|(_, p)| p.kind == SegmentKind::Spline) {
             for i in breaks[g]..breaks[g + 1] {
-                feet[i % n] = (base.order[i - first] - plan.from) / (plan.to - plan.from);
+                feet[i % n] = (placed.order[i - first] - spec.from) / (spec.to - spec.from);
             }
         }
         let chain = Chain { start: chain.start, heading: chain.heading, pieces, ..*chain };
@@ -139,8 +139,8 @@ impl Search<'_> {
         self.model(state)
     }
 
-    /// The cheapest model reachable from the first, as far as the search may go. Of a long one steps are looked for by pieces near each other;
-    /// where that does not lead to the points, by all pieces.
+    /// The cheapest model reachable from the first, as far as the search may go. Steps of a long one are looked for by
+    /// pieces near each other; where that does not lead to the points, by all pieces.
     pub fn run(&mut self, first: Model, progress: &dyn Progress) -> Result<Model, Cancelled> {
         let long = first.state.chain.is_long();
         let start = long.then(|| first.clone());
@@ -155,11 +155,16 @@ impl Search<'_> {
     }
 
     /// Rounds of the search.
-    fn rounds(&mut self, first: Model, nearby: bool, progress: &dyn Progress) -> Result<Model, Cancelled> {
+    fn rounds(
+        &mut self,
+        first: Model,
+        by_neighborhood: bool,
+        progress: &dyn Progress,
+    ) -> Result<Model, Cancelled> {
         let mut best = first;
         let mut idle = 0;
         let mut unchanged = vec![];
-        self.until = self.work.effort + MOST_PRODUCTS.min(self.budget.left());
+        self.until = self.work.effort + MAX_PRODUCTS_PER_SEARCH.min(self.budget.left());
         for _ in 0..60 {
             if progress.cancelled() {
                 return Err(Cancelled);
@@ -168,12 +173,12 @@ impl Search<'_> {
                 self.budget.cut_short();
                 break;
             }
-            let base = self.base(best.clone());
-            let found = if nearby && best.state.chain.is_long() {
-                self.round_nearby(&base, &mut unchanged)
+            let placed = self.placed(best.clone());
+            let found = if by_neighborhood && best.state.chain.is_long() {
+                self.round_nearby(&placed, &mut unchanged)
             } else {
                 unchanged.clear();
-                self.round(&base)
+                self.round(&placed)
             };
             match found.filter(|f| f.cost < best.cost - 1e-6) {
                 Some(found) => {
@@ -199,22 +204,22 @@ impl Search<'_> {
     }
 
     /// The cheapest model over two chains, built on one of these, where one costs less than `bar`.
-    pub fn over(
+    pub fn chain_over(
         &mut self,
-        bases: &[Option<Base>],
+        bases: &[Option<PlacedModel>],
         first: usize,
         bar: f64,
         progress: &dyn Progress,
     ) -> Result<Option<Model>, Cancelled> {
         let mut best: Option<Model> = None;
-        for base in bases.iter().flatten() {
-            for plans in base.joined(first) {
+        for placed in bases.iter().flatten() {
+            for specs in placed.joined(first) {
                 let least = best.as_ref().map_or(bar, |b| b.cost);
-                let mut model = self.build(base, &plans, least);
+                let mut model = self.build(placed, &specs, least);
                 if (least..least + COST_TO_DROP).contains(&model.cost) {
                     model = self.converge(&model);
                 }
-                if model.cost < least && self.follows(&mut model.state) {
+                if model.cost < least && self.is_followed(&mut model.state) {
                     best = Some(model);
                 }
             }
@@ -222,8 +227,8 @@ impl Search<'_> {
         best.map(|model| self.run(model, progress)).transpose()
     }
 
-    /// The cheapest model whose end is tangent to its start, of one whose ends, this `gap` apart, meet in a corner, where that costs
-    /// less than `bar`.
+    /// The cheapest model whose end is tangent to its start, where that costs less than
+    /// `bar`. The ends of the given one, this `gap` apart, meet in a corner.
     pub fn closing(
         &mut self,
         state: &State,
@@ -251,7 +256,7 @@ impl Search<'_> {
             let stop = self.stop(60, 1e-6);
             self.work.improve(&self.row, &mut state, None, &stop);
             let mut model = self.model(state);
-            if model.cost < best.as_ref().map_or(bar, |b| b.cost) && self.follows(&mut model.state) {
+            if model.cost < best.as_ref().map_or(bar, |b| b.cost) && self.is_followed(&mut model.state) {
                 best = Some(model);
             }
         }
@@ -260,29 +265,33 @@ impl Search<'_> {
 
     /// The same model with `more` coefficients to each free piece, or half as many again where that is more.
     pub fn looser(&mut self, model: &Model, more: usize) -> Model {
-        let base = self.base(model.clone());
-        if base.plans.iter().all(|p| p.kind != SegmentKind::Spline) {
+        let placed = self.placed(model.clone());
+        if placed.specs.iter().all(|p| p.kind != SegmentKind::Spline) {
             return model.clone();
         }
-        let mut plans = base.plans.clone();
-        plans
+        let mut specs = placed.specs.clone();
+        specs
             .iter_mut()
             .filter(|p| p.kind == SegmentKind::Spline)
-            .for_each(|p| p.count = (p.count + more.max(p.count / 2)).min(free::MOST_COEFFICIENTS));
-        let built = self.build(&base, &plans, f64::INFINITY);
+            .for_each(|p| p.count = (p.count + more.max(p.count / 2)).min(free::MAX_COEFFICIENTS));
+        let built = self.build(&placed, &specs, f64::INFINITY);
         self.converge(&built)
     }
 
     /// The best of all models one step away.
-    fn round(&mut self, base: &Base) -> Option<Model> {
-        self.round_of(base, |_| true)
+    fn round(&mut self, placed: &PlacedModel) -> Option<Model> {
+        self.round_of(placed, |_| true)
     }
 
     /// The best of those models one step away that are asked for.
-    pub fn round_of(&mut self, base: &Base, is_asked: impl Fn(&[Plan]) -> bool) -> Option<Model> {
+    pub fn round_of(
+        &mut self,
+        placed: &PlacedModel,
+        is_asked: impl Fn(&[PieceSpec]) -> bool,
+    ) -> Option<Model> {
         let mut best: Option<Model> = None;
-        let own = Unknowns::of(&base.model.state.chain).number;
-        for change in base.changes(self.kinds, self.spacing) {
+        let own = Unknowns::of(&placed.model.state.chain).number;
+        for change in placed.changes(self.kinds, self.spacing) {
             if self.work.effort > self.until {
                 self.budget.cut_short();
                 break;
@@ -290,14 +299,15 @@ impl Search<'_> {
             if !is_asked(&change) {
                 continue;
             }
-            let bar = best.as_ref().map_or(base.model.cost, |b| b.cost.min(base.model.cost));
-            let mut model = self.build(base, &change, bar);
-            let kinds = |plans: &[Plan]| plans.iter().map(|p| p.kind).collect::<Vec<_>>();
-            let fewer = Unknowns::of(&model.state.chain).number < own && kinds(&change) == kinds(&base.plans);
-            if fewer && (bar..bar + SLOW * self.criterion.count).contains(&model.cost) {
+            let bar = best.as_ref().map_or(placed.model.cost, |b| b.cost.min(placed.model.cost));
+            let mut model = self.build(placed, &change, bar);
+            let kinds = |specs: &[PieceSpec]| specs.iter().map(|p| p.kind).collect::<Vec<_>>();
+            let fewer =
+                Unknowns::of(&model.state.chain).number < own && kinds(&change) == kinds(&placed.specs);
+            if fewer && (bar..bar + SLOW_COST_PER_POINT * self.criterion.count).contains(&model.cost) {
                 model = self.converge(&model);
             }
-            if best.as_ref().is_none_or(|b| model.cost < b.cost) && self.follows(&mut model.state) {
+            if best.as_ref().is_none_or(|b| model.cost < b.cost) && self.is_followed(&mut model.state) {
                 best = Some(model);
             }
         }

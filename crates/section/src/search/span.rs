@@ -1,44 +1,47 @@
 //! A part of a row between two corners, or a whole closed row without any: one chain.
 
-use super::base::Base;
 use super::blocks::Blocks;
+use super::model_edits::PlacedModel;
+use super::parts::{Part, shares};
 use super::profile::Interval;
 use super::rounds::Search;
-use super::start::{Part, shares};
 use super::task::{Span, Task};
 use crate::model::chain::{Layout, Piece, Pose, SegmentKind, arc_end};
 use crate::model::criterion::Model;
 use crate::model::flat::angle;
 use crate::model::free;
 use crate::model::least::{Spread, State, Work};
+use crate::model::prior::NEGLIGIBLE_OFFSET_SPACINGS;
 use trueness_geom::progress::{Cancelled, Progress};
 
-/// Coefficients that a free piece has more while intervals are found than the criterion chose: the chosen piece alone takes
-/// its own shape for certain, and intervals come out too short.
-const LOOSER: usize = 2;
+/// Coefficients that a free piece has more while intervals are found than the criterion chose. The chosen piece alone takes its own
+/// shape for certain, and intervals come out too short.
+const EXTRA_COEFFICIENTS: usize = 2;
 
-/// A chain went astray whose points lie farther off than this many times their noise, or than this many times this share of the
-/// distance between them where that is more (the larger one where the row is too short to tell its noise) ...
-const OUTLIER: f64 = 10.0;
-const SHARES: [f64; 2] = [0.005, 0.02];
-/// ... or that is not about as long as the way from point to point. Noise of more than this share of the distance between points
-/// makes that way longer, and is not known well where a row is short: then the chain may be shorter.
-const LENGTHS: [std::ops::Range<f64>; 2] = [0.6..1.6, 0.3..1.6];
-const QUIET: f64 = 0.25;
-/// It is then looked for from so many equal parts, where each has so many points.
-const STARTS: usize = 4;
-const EACH: usize = 4;
+/// A chain is unreliable whose points lie farther off than this many times their noise.
+const MAX_RMS_RATIO: f64 = 10.0;
+/// The noise counts as this share of the distance between points at least. The larger one holds where the row is too
+/// short to tell its noise.
+const MIN_NOISE_SPACINGS: [f64; 2] = [NEGLIGIBLE_OFFSET_SPACINGS, 0.02];
+/// Length of a reliable chain over the way from point to point; the second range holds where noise makes that way longer.
+const LENGTH_RATIOS: [std::ops::Range<f64>; 2] = [0.6..1.6, 0.3..1.6];
+/// Noise of more than this share of the distance between points makes the way longer, and is not known well where a row is short.
+const MAX_QUIET_NOISE_SPACINGS: f64 = 0.25;
+/// A chain is then looked for from so many equal parts.
+const EQUAL_PARTS: usize = 4;
+/// Each of these has so many points at least.
+const MIN_POINTS_PER_EQUAL_PART: usize = 4;
 
 /// Steps by all points from where blocks of them have led to.
-const POLISHED: usize = 6;
+const POLISHING_STEPS: usize = 6;
 /// More points than this are thinned while pieces are looked for.
-const SEARCHED: usize = 1500;
+const MAX_SEARCHED_POINTS: usize = 1500;
 
 /// A chain found.
 pub(crate) struct Found {
     pub span: Span,
     /// The chain does not run along its points.
-    pub astray: bool,
+    pub unreliable: bool,
     /// One arc that is a whole circle.
     pub circle: bool,
     pub state: State,
@@ -64,17 +67,18 @@ impl Span {
         if task.draft {
             let mut search = self.search(task);
             let state = search.first(parts, task.closed).state;
-            let (astray, work) = (self.is_astray(&state, task), search.take_work());
+            let (unreliable, work) = (self.is_unreliable(&state, task), search.take_work());
             drop(search);
-            return Ok(Found { astray, ..self.found((state, vec![], task.scatter, work)) });
+            return Ok(Found { unreliable, ..self.found((state, vec![], task.scatter, work)) });
         }
         let mut best = self.search_from(parts, task, progress)?;
-        if self.is_astray(&best.state, task)
-            && STARTS * EACH <= self.points.len()
+        if self.is_unreliable(&best.state, task)
+            && EQUAL_PARTS * MIN_POINTS_PER_EQUAL_PART <= self.points.len()
             && !task.budget.is_spent(0.0)
         {
-            let other = self.search_from(&shares(&self.points, &self.weights, STARTS), task, progress)?;
-            if other.cost < best.cost || !self.is_astray(&other.state, task) {
+            let other =
+                self.search_from(&shares(&self.points, &self.weights, EQUAL_PARTS), task, progress)?;
+            if other.cost < best.cost || !self.is_unreliable(&other.state, task) {
                 best = other;
             }
         }
@@ -90,13 +94,13 @@ impl Span {
             }
         };
         drop(search);
-        let astray = self.is_astray(&found.0, task);
-        Ok(Found { astray, ..self.found(found) })
+        let unreliable = self.is_unreliable(&found.0, task);
+        Ok(Found { unreliable, ..self.found(found) })
     }
 
-    /// One chain over two that follow each other, or a closed one over one whose ends meet, where that costs less than `bar`: this span
-    /// has the points of all.
-    pub fn over(
+    /// One chain over two that follow each other, or a closed one over one whose ends meet, where that costs less than
+    /// `bar`. This span has the points of all.
+    pub fn chain_over(
         self,
         founds: &[&Found],
         bar: f64,
@@ -108,9 +112,9 @@ impl Span {
             [a, b] => {
                 let turn = angle(a.beyond(true, 0.0).along, b.beyond(false, 0.0).along);
                 let both = [a, b].map(|f| (&f.state, f.stations.clone()));
-                let base = Base::of_both(both, turn, task.spacing);
-                let along = search.along(&base.model.state, &base.plans);
-                search.over(&[Some(base), along], a.pieces().len() - 1, bar, progress)?
+                let placed = PlacedModel::of_both(both, turn, task.spacing);
+                let along = search.arcs_along_smooth_curve(&placed.model.state, &placed.specs);
+                search.chain_over(&[Some(placed), along], a.pieces().len() - 1, bar, progress)?
             }
             [one] => {
                 // From the chain's end to its start, whose pieces end where these do.
@@ -124,8 +128,8 @@ impl Span {
         drop(search);
         let own = found.0.breaks.windows(2).map(|w| w[1].saturating_sub(w[0]));
         let is_loose = own.zip(&found.0.chain.pieces).any(|(count, piece)| piece.is_loose(count));
-        let astray = is_loose || self.is_astray(&found.0, task);
-        Ok((!astray).then(|| self.found(found)))
+        let unreliable = is_loose || self.is_unreliable(&found.0, task);
+        Ok((!unreliable).then(|| self.found(found)))
     }
 
     /// The chain of a state, with the intervals of its joins.
@@ -133,16 +137,16 @@ impl Span {
         let mut search = self.search(task);
         let found = with_intervals(&mut search, Model { state, cost: 0.0 }, task, progress)?;
         drop(search);
-        let astray = self.is_astray(&found.0, task);
-        Ok(Found { astray, ..self.found(found) })
+        let unreliable = self.is_unreliable(&found.0, task);
+        Ok(Found { unreliable, ..self.found(found) })
     }
 
     /// Whether a chain does not run along its points.
-    fn is_astray(&self, state: &State, task: &Task) -> bool {
+    fn is_unreliable(&self, state: &State, task: &Task) -> bool {
         let n = self.points.len();
         let count = self.weights.iter().sum::<f64>().max(1.0);
         let noise = task.scatter;
-        let least = SHARES[usize::from(noise <= 0.0)] * task.spacing;
+        let least = MIN_NOISE_SPACINGS[usize::from(noise <= 0.0)] * task.spacing;
         let off = (state.sum / count).sqrt();
         // Only a whole circle's ends may overlap, by their noise.
         let turns = |p: &Piece| p.length * p.curvature(0.0) / std::f64::consts::TAU;
@@ -152,7 +156,7 @@ impl Span {
             return true;
         }
         if !state.sum.is_finite()
-            || off > OUTLIER * noise.max(least)
+            || off > MAX_RMS_RATIO * noise.max(least)
             || state.breaks.windows(2).any(|w| w[0] >= w[1])
         {
             return true;
@@ -173,13 +177,13 @@ impl Span {
             stations[n - 1] - stations[0]
         };
         way > 0.0
-            && !LENGTHS[usize::from(noise > QUIET * task.spacing * task.step as f64)]
+            && !LENGTH_RATIOS[usize::from(noise > MAX_QUIET_NOISE_SPACINGS * task.spacing * task.step as f64)]
                 .contains(&(length / way))
     }
 
     /// The pieces found from a start of these parts.
     fn search_from(&self, parts: &[Part], task: &Task, progress: &dyn Progress) -> Result<Model, Cancelled> {
-        let thin = self.points.len().div_ceil(SEARCHED).max(task.step);
+        let thin = self.points.len().div_ceil(MAX_SEARCHED_POINTS).max(task.step);
         if thin > 1 {
             return self.find_thinned(parts, task, thin, progress);
         }
@@ -206,20 +210,21 @@ impl Span {
                 kept.push(Part { from, to, ..*part });
             }
         }
-        // What neighbors share, those that are left tell instead of the others.
+        // The points left tell the shared errors instead of the others.
         let weights: Vec<f64> = self.weights.iter().map(|w| (w * step as f64).min(1.0)).collect();
         let own = Span::new(&self.points, &weights, numbers);
         let thinned = Task { spacing: task.spacing * step as f64, step: 1, ..*task };
         let mut search = own.search(&thinned);
         let found = search.best(&kept, task.closed, progress)?.state;
         let n = self.points.len();
-        let few = own.points.len();
+        let thinned_count = own.points.len();
         // Round and round a closed row, the place of a point among all.
-        let place = |i: usize| (i / few * n + i % few * step).min(i / few * n + n);
+        let place =
+            |i: usize| (i / thinned_count * n + i % thinned_count * step).min(i / thinned_count * n + n);
         let mut breaks: Vec<usize> = found.breaks.iter().map(|i| place(*i)).collect();
         let last = breaks.len() - 1;
         breaks[last] = breaks[0] + n;
-        let feet = (0..n).map(|i| found.feet[(i / step).min(few - 1)]).collect();
+        let feet = (0..n).map(|i| found.feet[(i / step).min(thinned_count - 1)]).collect();
         let mut search = self.search(task);
         let state = State { chain: found.chain, breaks, feet, sum: 0.0 };
         let Some(blocks) = Blocks::of(self, &state) else {
@@ -227,7 +232,7 @@ impl Span {
         };
         let by_blocks = blocks.span.search(&blocks.task(task)).converge(&blocks.model());
         let model = blocks.whole(by_blocks.state);
-        Ok(search.converge_within(&model, POLISHED))
+        Ok(search.converge_within(&model, POLISHING_STEPS))
     }
 
     fn found(self, (state, intervals, noise, mut work): (State, Vec<Interval>, f64, Work)) -> Found {
@@ -237,7 +242,7 @@ impl Span {
         let residuals = work.residuals(&row, &mut state).to_vec();
         let stations = work.stations(&row, &mut state);
         Found {
-            astray: false,
+            unreliable: false,
             circle: false,
             state,
             layout: std::mem::take(&mut work.layout),
@@ -267,7 +272,7 @@ fn with_intervals(
         if best.state.chain.joins() == 0 || single(&best.state) {
             break;
         }
-        let looser = search.looser(&best, LOOSER);
+        let looser = search.looser(&best, EXTRA_COEFFICIENTS);
         let own = looser.state.chain == best.state.chain;
         // Intervals of a model that is not the last are of no use.
         let mut better = if own || last { None } else { search.better(&best, task.level) };
@@ -333,7 +338,7 @@ impl Found {
         let at = |i: usize| self.stations[i % self.stations.len()];
         (at(breaks[g + 1] - 1) - at(breaks[g])).abs()
     }
-    /// What its last or first piece is.
+    /// The kind of its last or first piece.
     pub fn end_kind(&self, at_end: bool) -> SegmentKind {
         let pieces = self.pieces();
         pieces[if at_end { pieces.len() - 1 } else { 0 }].kind
@@ -348,13 +353,13 @@ impl Found {
     pub fn last_step(&self, at_end: bool) -> f64 {
         let breaks = &self.state.breaks;
         let range = breaks[0]..breaks[breaks.len() - 1];
-        let few = if at_end {
+        let near_end = if at_end {
             range.end.saturating_sub(4).max(range.start)..range.end
         } else {
             range.start..range.end.min(range.start + 4)
         };
         let at = |i: usize| self.stations[i % self.stations.len()];
-        few.clone().skip(1).map(|i| (at(i) - at(i - 1)).abs()).fold(0.0, f64::max)
+        near_end.clone().skip(1).map(|i| (at(i) - at(i - 1)).abs()).fold(0.0, f64::max)
     }
     /// The pose at the chain's first or last end, moved along by `length` as the piece there goes on.
     pub fn beyond(&self, at_end: bool, length: f64) -> Pose {

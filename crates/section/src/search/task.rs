@@ -6,7 +6,7 @@ use crate::model::criterion::Criterion;
 use crate::model::least::{Row, Work};
 
 /// Least length of a piece that is known, in distances between points.
-const KNOWN: f64 = 0.1;
+const MIN_KNOWN_LENGTH_SPACINGS: f64 = 0.1;
 
 /// Points of one chain, in a row of their own.
 #[derive(Clone, Debug)]
@@ -45,7 +45,7 @@ impl Span {
         Span { numbers, points, weights }
     }
 
-    /// What models of its points cost.
+    /// Cost of models of its points.
     pub fn criterion(&self, task: &Task) -> Criterion {
         let points = (self.points.len() as f64).max(2.0);
         Criterion { count: self.weights.iter().sum::<f64>().max(2.0), points, ..task.criterion }
@@ -63,7 +63,7 @@ impl Span {
             kinds,
             even: task.even,
             budget: task.budget,
-            shortest: if task.known { KNOWN } else { 2.0 * task.step as f64 },
+            shortest: if task.known { MIN_KNOWN_LENGTH_SPACINGS } else { 2.0 * task.step as f64 },
             until: f64::INFINITY,
         }
     }

@@ -31,12 +31,13 @@ fn along(pieces: &[(f64, [f64; 2])], spacing: f64, noise: f64, random: &mut Rand
     all
 }
 
-/// The stated length of a clothoid holds the true one as often as it says, and is never more uncertain than the contour is long: where the
-/// curvature grows from that of the neighbor, the points locate the join by the square root of their noise alone.
+/// The stated length of a clothoid holds the true one as often as it says, and is never more uncertain than the contour
+/// is long. Where the curvature grows from that of the neighbor, the points locate the join by the square root of their
+/// noise alone.
 #[test]
 fn lengths_of_clothoids_are_as_uncertain_as_stated() {
     let random = &mut Random::new(12);
-    let (mut held, mut stated, mut told) = (0, 0, 0);
+    let (mut held, mut stated, mut other_kinds) = (0, 0, 0);
     let count = 16;
     for k in 0..count {
         let mut between = |a: f64, b: f64| a + (b - a) * random.unit();
@@ -53,12 +54,12 @@ fn lengths_of_clothoids_are_as_uncertain_as_stated() {
             assert!(least < 0.5 * whole, "{k}: {} ± {least}", s.length);
         }
         let [_, middle, _] = &found.segments[..] else {
-            told += 1;
+            other_kinds += 1;
             continue;
         };
         let Some(own) = middle.length_uncertainty.filter(|_| middle.geometry.kind() == SegmentKind::Spline)
         else {
-            told += 1;
+            other_kinds += 1;
             continue;
         };
         stated += 1;
@@ -69,6 +70,6 @@ fn lengths_of_clothoids_are_as_uncertain_as_stated() {
             found.joins.iter().map(|j| j.uncertainty).collect::<Vec<_>>()
         );
     }
-    println!("{held} of {stated}, {told} of other kinds");
+    println!("{held} of {stated}, {other_kinds} of other kinds");
     assert!(10 * held >= 8 * stated && stated > 0, "{held} of {stated}");
 }

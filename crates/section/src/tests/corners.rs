@@ -4,7 +4,7 @@ use super::*;
 use std::f64::consts::{PI, TAU};
 
 /// Outlines by their corners and the vertices of their arcs.
-struct Given {
+struct Case {
     what: &'static str,
     points: Vec<[f64; 2]>,
     lines: usize,
@@ -24,7 +24,7 @@ fn arc([x, y]: [f64; 2], r: f64, [from, to]: [f64; 2], chords: usize) -> Vec<[f6
 const KINDS: [&str; 11] =
     ["L", "T", "U", "octagon", "one chamfer", "trapezoid", "house", "steps", "star", "rectangle", "keyhole"];
 
-fn corners(what: &'static str, random: &mut Random) -> Given {
+fn corners(what: &'static str, random: &mut Random) -> Case {
     let (w, h) = (between(random, 20.0, 60.0), between(random, 15.0, 50.0));
     let (t, c, m) = (between(random, 3.0, 7.0), between(random, 2.0, 5.0), 0.5 * w);
     let points: Vec<[f64; 2]> = match what {
@@ -65,22 +65,22 @@ fn corners(what: &'static str, random: &mut Random) -> Given {
             let chords = 12 + random.below(22) as usize;
             let round = arc([0.0; 2], r, [180.0 - a, 360.0 + a], chords);
             let points = [vec![[b, y + h], [-b, y + h]], round].concat();
-            return as_in_a_file(Given { what, points, lines: 3, arcs: 1 }, random);
+            return as_in_a_file(Case { what, points, lines: 3, arcs: 1 }, random);
         }
     };
     let lines = points.len();
-    as_in_a_file(Given { what, points, lines, arcs: 0 }, random)
+    as_in_a_file(Case { what, points, lines, arcs: 0 }, random)
 }
 
 /// Turned, from any start, either way round, the first repeated or not, of any size, in decimals.
-fn as_in_a_file(mut given: Given, random: &mut Random) -> Given {
-    let start = random.below(given.points.len() as u64) as usize;
-    given.points.rotate_left(start);
+fn as_in_a_file(mut case: Case, random: &mut Random) -> Case {
+    let start = random.below(case.points.len() as u64) as usize;
+    case.points.rotate_left(start);
     if random.below(2) == 0 {
-        given.points.reverse();
+        case.points.reverse();
     }
     if random.below(2) == 0 {
-        given.points.push(given.points[0]);
+        case.points.push(case.points[0]);
     }
     let turn = if random.below(3) == 0 { 0.0 } else { between(random, 0.0, TAU) };
     let (size, (s, c)) = (libm::pow(10.0, between(random, -2.0, 2.5)), libm::sincos(turn));
@@ -88,40 +88,39 @@ fn as_in_a_file(mut given: Given, random: &mut Random) -> Given {
     let unit = libm::pow(10.0, (6.0 - libm::log10(size)).floor().max(0.0));
     let place = |p: [f64; 2]| [c * p[0] - s * p[1] + shift[0], s * p[0] + c * p[1] + shift[1]];
     let file = |p: [f64; 2]| place(p).map(|x| (size * x * unit).round() / unit);
-    given.points = given.points.into_iter().map(file).collect();
-    given
+    case.points = case.points.into_iter().map(file).collect();
+    case
 }
 
 /// Whether a contour is as it was given, told by its hints or doubts, or wrong without a word: 0, 1, 2.
-fn judged(given: &Given, found: &Contour) -> usize {
+fn judged(case: &Case, found: &Contour) -> usize {
     let counted = |kind: SegmentKind| found.segments.iter().filter(|s| s.geometry.kind() == kind).count();
     let n = found.segments.len();
-    let length: f64 = (0..given.points.len())
-        .map(|i| far(given.points[i], given.points[(i + 1) % given.points.len()]))
-        .sum();
-    let right = [counted(SegmentKind::Line), counted(SegmentKind::Arc)] == [given.lines, given.arcs]
-        && n == given.lines + given.arcs
+    let length: f64 =
+        (0..case.points.len()).map(|i| far(case.points[i], case.points[(i + 1) % case.points.len()])).sum();
+    let right = [counted(SegmentKind::Line), counted(SegmentKind::Arc)] == [case.lines, case.arcs]
+        && n == case.lines + case.arcs
         && (found.length() - length).abs() < 0.02 * length;
-    let told = found.may_be_polygon
+    let warned = found.may_be_polygon
         || !found.outliers.is_empty()
         || !found.doubtful.is_empty()
-        || !found.astray.is_empty();
-    if right { 0 } else { 2 - usize::from(told) }
+        || !found.unreliable.is_empty();
+    if right { 0 } else { 2 - usize::from(warned) }
 }
 
 fn rates(what: &'static str, count: u64) -> [usize; 3] {
     let mut rates = [0; 3];
     for seed in 0..count {
-        let given = corners(what, &mut Random::stream(31, seed));
+        let case = corners(what, &mut Random::stream(31, seed));
         let options = Options { closed: Some(true), ..Options::default() };
-        let Ok(found) = contour(&given.points, &options, &Silent) else {
+        let Ok(found) = contour(&case.points, &options, &Silent) else {
             rates[1] += 1;
             continue;
         };
-        let k = judged(&given, &found);
+        let k = judged(&case, &found);
         rates[k] += 1;
         if k > 0 && count > 10 {
-            println!("{} {seed} {k}: {:?} of {}", given.what, kinds(&found), given.points.len());
+            println!("{} {seed} {k}: {:?} of {}", case.what, kinds(&found), case.points.len());
         }
     }
     rates
@@ -131,9 +130,9 @@ fn rates(what: &'static str, count: u64) -> [usize; 3] {
 #[test]
 fn polygons_by_corners_are_right() {
     for what in KINDS {
-        let [right, told, wrong] = rates(what, 8);
+        let [right, warned, wrong] = rates(what, 8);
         // Corners of stars turn gently into each other by chance, as those of round parts that scatter.
-        assert!(wrong == 0 && (right == 8 || what == "star"), "{what}: {right} {told} {wrong}");
+        assert!(wrong == 0 && (right == 8 || what == "star"), "{what}: {right} {warned} {wrong}");
     }
 }
 

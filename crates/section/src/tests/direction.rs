@@ -45,7 +45,7 @@ fn a_row_the_other_way_round_is_measured_as_the_same_row() {
         let n = points.len();
         assert_eq!((one.closed, one.noise, one.spacing), (two.closed, two.noise, two.spacing), "{number}");
         let (m, whole) = (one.segments.len(), one.segments.iter().map(|s| s.length).sum::<f64>());
-        // Of a closed contour each begins with the segment of its own first point.
+        // Each closed contour begins with the segment of its own first point.
         let last = one.labels[n - 1] as usize;
         let of = |k: usize| if one.closed { (last + m - k) % m } else { m - 1 - k };
         for k in 0..m {
@@ -63,9 +63,9 @@ fn a_row_the_other_way_round_is_measured_as_the_same_row() {
                 assert_eq!((join.turn, join.continuity), (0.0 - before.turn, before.continuity));
             }
         }
-        let mut astray: Vec<usize> = (0..m).filter(|k| one.astray.contains(&of(*k))).collect();
-        astray.sort_unstable();
-        assert_eq!(astray, two.astray, "{number}");
+        let mut unreliable: Vec<usize> = (0..m).filter(|k| one.unreliable.contains(&of(*k))).collect();
+        unreliable.sort_unstable();
+        assert_eq!(unreliable, two.unreliable, "{number}");
         for i in 0..n {
             assert_eq!(one.labels[i] as usize, of(two.labels[n - 1 - i] as usize), "{number} {i}");
             assert_eq!(one.residuals[i], 0.0 - two.residuals[n - 1 - i], "{number} {i}");
@@ -106,7 +106,7 @@ fn lists_are_those_of_the_row(contour: &Contour, points: &[[f64; 2]], number: us
 /// The distance and the length along the contour of each point are those of its foot.
 fn feet_are_where_stations_tell(contour: &Contour, points: &[[f64; 2]], whole: f64, number: usize) {
     for (i, p) in points.iter().enumerate() {
-        if contour.outliers.contains(&i) || contour.astray.contains(&(contour.labels[i] as usize)) {
+        if contour.outliers.contains(&i) || contour.unreliable.contains(&(contour.labels[i] as usize)) {
             continue;
         }
         let label = contour.labels[i] as usize;

@@ -1,8 +1,9 @@
-//! Curves that lines lead into without a jump of curvature, and waves: what lines and arcs of a first partition do not tell.
+//! Curves that lines lead into without a jump of curvature, and waves: lines and arcs of a first partition do not tell
+//! them.
 
 use super::*;
 
-/// Lines of 40 mm along the x axis to the origin, and what comes after.
+/// Lines of 40 mm along the x axis to the origin, and a curve after it.
 fn after_a_line(curve: impl Iterator<Item = [f64; 2]>, noise: f64, seed: u64) -> Vec<[f64; 2]> {
     let random = &mut Random::new(seed);
     let line = (0..400).map(|i| [0.1 * f64::from(i) - 40.0, 0.0]);
@@ -25,8 +26,8 @@ fn clothoid(count: usize) -> impl Iterator<Item = [f64; 2]> {
     })
 }
 
-/// A line goes on into a clothoid without a jump: the join is where the curvature begins to grow, and no few coefficients more let the
-/// curve begin on the line.
+/// A line goes on into a clothoid without a jump. The join is where the curvature begins to grow, and no few
+/// coefficients more let the curve begin on the line.
 #[test]
 fn clothoids_begin_where_the_line_ends() {
     let mut held = 0;
@@ -42,7 +43,7 @@ fn clothoids_begin_where_the_line_ends() {
     assert!(held >= 8, "{held} of 10 intervals");
 }
 
-/// A wave of a dozen turns has no corner anywhere, and what is left of its points is their noise.
+/// A wave of a dozen turns has no corner anywhere, and the residuals of its points are their noise.
 #[test]
 fn waves_have_no_corners() {
     for seed in 0..6 {
@@ -77,8 +78,8 @@ fn sparse_lines_meet_beyond_their_points() {
     }
 }
 
-/// Two lines, or a line and an arc, that meet at a small angle have a corner there: no free curve or arc stands between them, and no tangent
-/// join beside. Tangent ones have none.
+/// Two lines, or a line and an arc, that meet at a small angle have a corner there. No free curve or arc stands between
+/// them, and no tangent join beside. Tangent ones have none.
 #[test]
 fn blunt_corners_are_found() {
     for (seed, degrees) in [0.5_f64, 1.0, 2.0, 4.0, 6.0].into_iter().enumerate() {

@@ -44,7 +44,7 @@ fn a_thread_is_its_flanks_crests_and_roots() {
         let contour = found(&thread_row(20.0, 3000, 0.002, seed));
         assert!((contour.noise / 0.002 - 1.0).abs() < 0.06, "{}", contour.noise);
         assert_eq!(kinds(&contour), expected);
-        assert!(contour.astray.is_empty(), "{:?}", contour.astray);
+        assert!(contour.unreliable.is_empty(), "{:?}", contour.unreliable);
         let mut s = 0.0;
         for (k, join) in contour.joins.iter().enumerate() {
             s += if k % 2 == 0 { 1.5 } else { FRAC_PI_3 };
@@ -57,7 +57,7 @@ fn a_thread_is_its_flanks_crests_and_roots() {
         });
         assert!(radii.into_iter().all(|r| (r - 0.5).abs() < 0.02));
     }
-    // Of 237 joins 12 are expected outside of 95 % intervals, less than 4 or more than 23 in one draw of a hundred.
+    // 12 of 237 joins are expected outside of 95 % intervals, less than 4 or more than 23 in one draw of a hundred.
     assert!((3..=24).contains(&missed), "{missed}");
 }
 
@@ -68,22 +68,22 @@ fn an_outlier_where_two_segments_join_turns_neither_round() {
     let step = pitches * 2.0 * (1.5 + FRAC_PI_3) / f64::from(count);
     for join in [5, 7] {
         let length = (0..join).map(|k| if k % 2 == 0 { 1.5 } else { FRAC_PI_3 }).sum::<f64>();
-        for beside in [-1, 0] {
+        for extra in [-1, 0] {
             let mut row = thread_row(pitches, count as usize, 0.002, 7);
-            let wild = ((length / step).ceil() as i32 + beside) as usize;
+            let wild = ((length / step).ceil() as i32 + extra) as usize;
             row[wild] = row[wild + 50];
             row[wild][0] += 0.1;
             let contour = found(&row);
-            assert!(contour.astray.is_empty(), "{join} {beside}: {:?}", contour.astray);
-            assert_eq!(contour.segments.len(), 24, "{join} {beside}");
-            assert!(contour.outliers.contains(&wild), "{join} {beside}: {:?}", contour.outliers);
-            assert!(contour.joins.iter().all(|j| j.uncertainty < 0.01), "{join} {beside}");
-            assert!(contour.residuals[wild].abs() > 0.1, "{join} {beside}: {}", contour.residuals[wild]);
+            assert!(contour.unreliable.is_empty(), "{join} {extra}: {:?}", contour.unreliable);
+            assert_eq!(contour.segments.len(), 24, "{join} {extra}");
+            assert!(contour.outliers.contains(&wild), "{join} {extra}: {:?}", contour.outliers);
+            assert!(contour.joins.iter().all(|j| j.uncertainty < 0.01), "{join} {extra}");
+            assert!(contour.residuals[wild].abs() > 0.1, "{join} {extra}: {}", contour.residuals[wild]);
         }
     }
 }
 
-/// A spiral of many turns is smooth: its turns do not become lines and arcs by the hundred, and none is astray.
+/// A spiral of many turns is smooth: its turns do not become lines and arcs by the hundred, and none is unreliable.
 #[test]
 fn a_spiral_is_followed_through_all_its_turns() {
     let random = &mut Random::new(2);
@@ -128,7 +128,7 @@ fn long_rows_are_fitted_by_all_points() {
     assert_eq!(contour.segments.len(), 8);
     for segment in &contour.segments {
         if let Geometry::Arc { radius, .. } = segment.geometry {
-            // Of 4,400 points over a quarter of a circle: 0.02 / √4400 times 6, and four of these.
+            // 4,400 points over a quarter of a circle: 0.02 / √4400 times 6, and four of these.
             assert!((radius - 10.0).abs() < 0.008, "{radius}");
         }
     }

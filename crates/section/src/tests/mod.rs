@@ -1,19 +1,19 @@
 //! Sections with known joins: closed forms, exact data, rigid motions, coverage over fresh noise, wrong and ugly rows.
 
-mod astray;
-mod beside;
 mod clothoids;
 mod corners;
 mod direction;
 mod gentle;
-mod levels;
 mod long;
+mod noise_levels;
 mod outlines;
 mod resolved;
 mod rounded;
 mod scattered;
 mod smooth;
 mod sparse;
+mod stray_ends;
+mod unreliable;
 mod vertices;
 
 use super::*;
@@ -101,8 +101,8 @@ fn intervals_cover_over_fresh_noise() {
     assert!((z / f64::from(all) - 1.0).abs() < 0.35, "{}", z / f64::from(all));
 }
 
-/// Errors of directions, radii and centers over fresh noise are as large as stated: each over its uncertainty has the mean
-/// square 1. Of 240 draws that is uncertain by 0.09; three times that is allowed.
+/// Errors of directions, radii and centers over fresh noise are as large as stated: each over its uncertainty has the
+/// mean square 1. With 240 draws that is uncertain by 0.09; three times that is allowed.
 #[test]
 fn uncertainties_of_segments_are_those_of_fresh_noise() {
     let mut sums = [0.0; 5];
@@ -296,7 +296,7 @@ fn has_the_joins_of_the_stadium(contour: &Contour) {
     }
 }
 
-/// Sums over 100,000 points leave no digits for a part of a hundred, unless what rounding loses is kept.
+/// Sums over 100,000 points leave no digits for a part of a hundred, unless the rounding loss is kept.
 #[test]
 fn a_long_row_has_no_more_segments_than_a_short_one() {
     has_the_joins_of_the_stadium(&found(&stadium(100_000, 0.005, 5)));

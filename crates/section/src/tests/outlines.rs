@@ -55,8 +55,8 @@ fn even(count: usize, random: &mut Random) -> Vec<f64> {
     (0..count).map(|i| (i as f64 + 0.2 + 0.6 * random.unit()) / count as f64).collect()
 }
 
-/// Teeth whose sides are some ten distances of points whose scatter is as large as these: local fits of points farther apart hold a
-/// corner each, and are none of noise.
+/// Teeth whose sides are some ten distances of points whose scatter is as large as these. Local fits of points farther
+/// apart hold a corner each, and are none of noise.
 #[test]
 fn teeth_are_no_noise() {
     let mut corners = vec![];
@@ -76,9 +76,9 @@ fn teeth_are_no_noise() {
     }
 }
 
-/// Eight teeth with rounded corners, of some six points to a line or arc: their lines and arcs, and the noise is that of the points. Where the
-/// headings of so many add up to one far off, the search ends elsewhere; curves of two coefficients follow so few points as well as arcs, but for
-/// the penalty. One row of the four may fail.
+/// Eight teeth with rounded corners, of some six points to a line or arc. They are their lines and arcs, and the noise
+/// is that of the points. Where the headings of so many add up to one far off, the search ends elsewhere. Curves of two
+/// coefficients follow so few points as well as arcs, but for the penalty. One row of the four may fail.
 #[test]
 fn a_gear_of_few_points_is_lines_and_arcs() {
     let corners: Vec<[f64; 2]> = (0..32)
@@ -101,8 +101,8 @@ fn a_gear_of_few_points_is_lines_and_arcs() {
     assert!(wrong.len() <= 1, "{wrong:?}");
 }
 
-/// The outline of a bracket is its lines and arcs, but for a line of few points that noise may hide: the search begins near them, however
-/// the headings of many add up. One row of the 24 may fail.
+/// The outline of a bracket is its lines and arcs, but for a line of few points that noise may hide. The search begins
+/// near them, however the headings of many add up. One row of the 24 may fail.
 #[test]
 fn a_bracket_is_lines_and_arcs() {
     let corners = [[0.0, 0.0], [60.0, 0.0], [60.0, 10.0], [12.0, 10.0], [12.0, 45.0], [0.0, 45.0]];

@@ -36,8 +36,8 @@ fn control_points(contour: &Contour) -> usize {
     contour.segments.iter().map(of).sum()
 }
 
-/// A profile has one corner, its trailing edge, and none where its curvature is high; one curve of few control points runs along
-/// all of it, between the points too, and reversed rows have the same.
+/// A profile has one corner, its trailing edge, and none where its curvature is high. One curve of few control points
+/// runs along all of it, between the points too, and reversed rows have the same.
 #[test]
 fn a_profile_has_no_corner_at_its_leading_edge() {
     let tau = std::f64::consts::TAU;
@@ -49,7 +49,7 @@ fn a_profile_has_no_corner_at_its_leading_edge() {
             let contour = found(&points);
             assert_eq!(kinds(&contour), [SegmentKind::Spline], "{camber} {half}");
             assert!(
-                contour.closed && contour.joins.len() == 1 && contour.astray.is_empty(),
+                contour.closed && contour.joins.len() == 1 && contour.unreliable.is_empty(),
                 "{camber} {half}"
             );
             let join = &contour.joins[0];
@@ -141,8 +141,8 @@ fn a_step_has_two_corners() {
     assert!(far(contour.joins[1].point, points[200]) < 1e-9);
 }
 
-/// A curve with nearly as many control points as there are points runs through these, whatever their noise: what is told is not what is
-/// left between them.
+/// A curve with nearly as many control points as there are points runs through these, whatever their noise. The
+/// contour's noise is not the residual between them.
 #[test]
 fn a_curve_through_noise_does_not_hide_it() {
     for seed in 0..4 {
@@ -155,6 +155,6 @@ fn a_curve_through_noise_does_not_hide_it() {
             })
             .collect();
         let contour = found(&points);
-        assert!(contour.noise > 0.005 || !contour.astray.is_empty(), "{seed}: {}", contour.noise);
+        assert!(contour.noise > 0.005 || !contour.unreliable.is_empty(), "{seed}: {}", contour.noise);
     }
 }

@@ -29,8 +29,8 @@ fn rectangle(spacing: f64, turn: f64) -> Vec<[f64; 2]> {
     all.iter().map(|[x, y]| [cos * x - sin * y + 3.3, sin * x + cos * y - 7.1]).collect()
 }
 
-/// Exact lines and arcs whose coordinates are rounded are lines and arcs with tangent joins, whatever the digits, along the axes (where
-/// lines are rounded by nothing) and across them.
+/// Exact lines and arcs whose coordinates are rounded are lines and arcs with tangent joins, whatever the digits. That
+/// holds along the axes (where lines are rounded by nothing) and across them.
 #[test]
 fn rounded_lines_and_arcs_are_these() {
     for spacing in [0.5, 0.1] {
@@ -49,8 +49,8 @@ fn rounded_lines_and_arcs_are_these() {
     }
 }
 
-/// Lines are lines whatever the step that their coordinates are rounded to: some points of theirs lie on a line exactly, and all about them
-/// with a period.
+/// Lines are lines whatever the step that their coordinates are rounded to. Some points of theirs lie on a line
+/// exactly, and all about them with a period.
 #[test]
 fn rounded_lines_run_along_their_points() {
     for step in [0.01, 0.025] {
@@ -67,7 +67,7 @@ fn rounded_lines_run_along_their_points() {
                 .collect();
             let found = found(&points);
             assert_eq!(kinds(&found), [SegmentKind::Line; 2], "{step} {k}");
-            assert!(found.astray.is_empty(), "{step} {k}: {}", found.noise);
+            assert!(found.unreliable.is_empty(), "{step} {k}: {}", found.noise);
         }
     }
 }

@@ -13,8 +13,8 @@ fn scattered(count: usize, noise: f64, seed: u64) -> Vec<[f64; 2]> {
         .collect()
 }
 
-/// Of random points the longest gap is many times the mean; they are one closed contour all the same, whatever their number and
-/// scatter, and the gap told is longer than the longest and no longer than a quarter of the part.
+/// The longest gap of random points is many times the mean, and they are one closed contour all the same, whatever
+/// their number and scatter. The gap reported is longer than the longest and no longer than a quarter of the part.
 #[test]
 fn a_scattered_contour_is_one() {
     for (count, noise) in [
@@ -72,7 +72,7 @@ fn scattered_walls_are_not_joined() {
     }
 }
 
-/// Contours suspiciously many tell over what gap they would meet; with that gap they do.
+/// Suspiciously many contours state the gap over which they would meet; with that gap they do.
 #[test]
 fn torn_contours_tell_a_wider_gap() {
     let points = scattered(2000, 0.0, 3);

@@ -79,13 +79,13 @@ fn a_search_cut_short_says_so() {
     };
     let (whole, part) = (within(3e10), within(1e6));
     assert!(!whole.cut_short && part.cut_short);
-    assert!(part.astray.is_empty() && part.noise < 0.1, "{}", part.noise);
-    // What a few steps find is no better than what the whole search does.
+    assert!(part.unreliable.is_empty() && part.noise < 0.1, "{}", part.noise);
+    // The result of a few steps is no better than that of the whole search.
     assert!(part.noise > 0.999 * whole.noise && part.segments.len() >= whole.segments.len());
 }
 
-/// The edge of a blade between two free curves is an arc, at any noise: a search that begins with free pieces alone puts their join
-/// into it and keeps it there.
+/// The edge of a blade between two free curves is an arc, at any noise. A search that begins with free pieces alone
+/// puts their join into it and keeps it there.
 #[test]
 fn an_arc_between_free_curves_is_found() {
     // Curvature along the length: a wave, an arc of radius 2.2 that turns by 170 degrees, another wave.

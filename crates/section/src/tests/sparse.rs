@@ -55,7 +55,7 @@ pub(super) fn is_right(contour: &Contour, [w, h, r]: [f64; 3], off: f64) -> bool
         && (contour.length() - length).abs() < off
 }
 
-/// Rounded rectangles of 16 to 60 exact points are right, or named astray: never tilted lines without a word.
+/// Rounded rectangles of 16 to 60 exact points are right, or named unreliable: never tilted lines without a word.
 #[test]
 fn sparse_rounded_rectangles_are_right_or_astray() {
     let (mut right, mut all, mut silent) = (0, 0, vec![]);
@@ -73,10 +73,11 @@ fn sparse_rounded_rectangles_are_right_or_astray() {
                 let points = rounded_rectangle(count, shift, sizes, turn, decimals);
                 let contour = found(&points);
                 let good = is_right(&contour, sizes, 1e-7_f64.max(200.0 * 10.0_f64.powi(-decimals)));
-                silent
-                    .extend((!good && contour.astray.is_empty()).then_some((sizes, count, shift, decimals)));
+                silent.extend(
+                    (!good && contour.unreliable.is_empty()).then_some((sizes, count, shift, decimals)),
+                );
                 all += 1;
-                right += usize::from(good && contour.astray.is_empty());
+                right += usize::from(good && contour.unreliable.is_empty());
             }
         }
     }
@@ -100,7 +101,7 @@ fn sparse_slots_and_brackets_are_right() {
     ]
     .concat();
     let contour = contour(&slot, &Options { closed: Some(true), ..Options::default() }, &Silent).unwrap();
-    assert!(contour.astray.is_empty() && contour.closed, "{:?} {}", kinds(&contour), contour.noise);
+    assert!(contour.unreliable.is_empty() && contour.closed, "{:?} {}", kinds(&contour), contour.noise);
     assert_eq!(kinds(&contour), [SegmentKind::Line, SegmentKind::Arc, SegmentKind::Line, SegmentKind::Arc]);
     assert!((contour.length() - 40.0 - 10.0 * std::f64::consts::PI).abs() < 1e-7, "{}", contour.length());
     let bracket = [
@@ -110,7 +111,7 @@ fn sparse_slots_and_brackets_are_right() {
     ]
     .concat();
     let contour = found(&bracket);
-    assert!(contour.astray.is_empty() && !contour.closed);
+    assert!(contour.unreliable.is_empty() && !contour.closed);
     assert_eq!(kinds(&contour), [SegmentKind::Line, SegmentKind::Arc, SegmentKind::Line, SegmentKind::Line]);
     let truth =
         [([17.0, 0.0], Continuity::G1), ([20.0, 3.0], Continuity::G1), ([20.0, 15.0], Continuity::G0)];
@@ -119,7 +120,7 @@ fn sparse_slots_and_brackets_are_right() {
     }
 }
 
-/// Outlines of pixels lie on lines exactly where they run along the grid, and scatter by a pixel elsewhere: they are not astray.
+/// Outlines of pixels lie on lines exactly where they run along the grid, and scatter by a pixel elsewhere: they are not unreliable.
 #[test]
 fn outlines_of_pixels_are_not_astray() {
     let mut points: Vec<[f64; 2]> = vec![];
@@ -130,7 +131,7 @@ fn outlines_of_pixels_are_not_astray() {
             points.push(p);
         }
     }
-    assert!(found(&points).astray.is_empty());
+    assert!(found(&points).unreliable.is_empty());
 }
 
 /// Two sides that end close to each other do not meet far beyond: points as close as theirs would lie there.
@@ -154,12 +155,12 @@ fn no_corner_lies_beyond_a_blunt_tip() {
     }
 }
 
-/// Points of the one side that end at the corner tell it, where those of the other begin only after a wide gap; where both end
-/// before it, the gap is the uncertainty.
+/// Points of the one side that end at the corner tell it, where those of the other begin only after a wide gap. Where
+/// both end before it, the gap is the uncertainty.
 #[test]
 fn a_corner_beside_a_gap_is_told_by_the_side_that_reaches_it() {
     for seed in 0..6 {
-        for (end, told) in [(0, true), (6, false)] {
+        for (end, warned) in [(0, true), (6, false)] {
             let random = &mut Random::new(seed);
             let down = (end..40).rev().map(|i| [0.0, f64::from(i)]);
             let along = (15..60).map(|i| [f64::from(i), 0.0]);
@@ -169,7 +170,7 @@ fn a_corner_beside_a_gap_is_told_by_the_side_that_reaches_it() {
             assert_eq!(found.segments.len(), 2, "{end} {seed}");
             let join = &found.joins[0];
             let off = libm::hypot(join.point[0], join.point[1]);
-            match told {
+            match warned {
                 true => assert!(off < 5.0 * join.uncertainty && join.uncertainty < 0.01, "{seed}: {join:?}"),
                 false => assert!(join.uncertainty > 1.0 && join.open == [true; 2], "{seed}: {join:?}"),
             }

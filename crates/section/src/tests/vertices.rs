@@ -85,7 +85,7 @@ fn sharp(at: [f64; 2]) -> Corner {
     Corner { at, radius: 0.0, sweep: 0.0 }
 }
 
-/// Random outlines. Of an arc that is not tangent at both ends four wide chords at least tell it from sides of a polygon.
+/// Random outlines. At least four wide chords tell an arc that is not tangent at both ends from sides of a polygon.
 pub(super) fn made(random: &mut Random) -> Made {
     let mut between = |a: f64, b: f64| a + (b - a) * random.unit();
     let (w, h) = (between(12.0, 60.0), between(8.0, 30.0));
@@ -234,7 +234,7 @@ fn rates(count: usize, seed: u64, mut each: impl FnMut(&Made, &Contour)) -> [usi
         };
         let kind = if right(&made, &contour) {
             0
-        } else if !contour.astray.is_empty() {
+        } else if !contour.unreliable.is_empty() {
             1
         } else {
             2
@@ -255,8 +255,12 @@ fn outlines_by_vertices_are_right() {
         *all.entry(made.what).or_default() += 1;
         let (n, step) = (made.points.len(), made.step);
         let truth: Vec<_> = made.truth.iter().map(|t| (far(t.0, t.1), t.2)).collect();
-        let said: Vec<_> = contour.segments.iter().map(|s| (s.geometry.kind(), s.length, s.count)).collect();
-        println!("{} {n} {step} astray {:?}: {truth:?}\n  {said:?}", made.what, contour.astray);
+        let found_segments: Vec<_> =
+            contour.segments.iter().map(|s| (s.geometry.kind(), s.length, s.count)).collect();
+        println!(
+            "{} {n} {step} unreliable {:?}: {truth:?}\n  {found_segments:?}",
+            made.what, contour.unreliable
+        );
     });
     println!("{found:?} {all:?}");
     assert_eq!(found[2], 0);
@@ -279,8 +283,8 @@ fn other_rows_are_no_outlines() {
             2 => (0..).map(|i| step * f64::from(i)).take_while(|a| *a < TAU - 1e-3).map(at).collect(),
             3 => (0..n).filter(|i| *i != missing).map(even).collect(),
             4 => {
-                let few = 4 + n % 6;
-                let round = (0..few).map(|i| at(TAU * i as f64 / few as f64));
+                let sides = 4 + n % 6;
+                let round = (0..sides).map(|i| at(TAU * i as f64 / sides as f64));
                 round.map(|p| p.map(|x| x + 0.003 * normal(random))).collect()
             }
             _ => (0..n)

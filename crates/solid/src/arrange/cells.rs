@@ -1,26 +1,26 @@
 //! The cells that the pieces divide space into, and how often the surface winds around each.
 //!
-//! Each piece has two sides. Around an edge, the side of a piece and the facing side of the next one belong to one cell.
-//! Passing through a piece changes the winding number by its jump, so all cells of what hangs together follow from one
-//! (Zhou et al., Mesh Arrangements for Solid Geometry, 2016); for that one a ray is counted (see `ray`).
+//! Each piece has two sides. Around an edge, the side of a piece and the facing side of the next one belong to one
+//! cell. Passing through a piece changes the winding number by its jump, so all cells that hang together follow from
+//! one. (Zhou et al., Mesh Arrangements for Solid Geometry, 2016). A ray is counted for that one (see `ray`).
 
-use super::around::{self, Side};
 use super::cut::Piece;
+use super::edge_order::{self, Side};
 use super::points::Points;
-use super::ray::{Around, Rays};
+use super::ray::{Rays, ShellWindings};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::parallel::prelude::*;
 use trueness_geom::topology::sides::{self, each_edge};
 use trueness_geom::topology::union::Sets;
 
-/// The number of a part, what is added to the winding numbers relative to its first cell, and the shells around it.
-type Anchored = (usize, i32, Around);
+/// The number of a part, the number to add to the winding numbers relative to its first cell, and the shells around it.
+type Anchored = (usize, i32, ShellWindings);
 
-/// A step from one cell to another: both cells, what it adds to the winding number, and a piece that makes it.
+/// A step from one cell to another: both cells, the change of the winding number, and a piece that makes it.
 type Step = ([u32; 2], i32, u32);
 
 /// Pieces of one task.
-const PART: usize = 1 << 13;
+const PIECES_PER_TASK: usize = 1 << 13;
 
 /// Winding numbers on the two sides of each piece.
 pub(super) struct Windings {
@@ -31,8 +31,9 @@ pub(super) struct Windings {
 /// Why there are none: a piece near which the surface is not closed, or contradicts itself.
 pub(super) struct Open(pub usize);
 
-/// Of the pieces with a jump; `shell_of` gives the shell of each facet of the mesh. With `turn`, parts of the surface that wind
-/// around nothing in the positive sense are taken the other way round.
+/// The winding numbers beside the pieces with a jump;
+/// `shell_of` gives the shell of each facet of the mesh. With `turn`, parts of the surface that wind around nothing in
+/// the positive sense are taken the other way round.
 pub(super) fn windings(
     mesh: &Mesh,
     points: &Points,
@@ -45,12 +46,14 @@ pub(super) fn windings(
     let cell = |piece: usize| [cell_of[2 * piece], cell_of[2 * piece + 1]];
     // Steps between cells, each with the first piece that makes it. Neighbors in the list mostly make the same.
     let step = |p: usize| (cell(p), pieces[p].jump, p as u32);
-    let some = |part: usize| {
-        let mut some: Vec<Step> = (part * PART..pieces.len().min((part + 1) * PART)).map(step).collect();
-        some.dedup_by_key(|s| (s.0, s.1));
-        some
+    let steps_of = |part: usize| {
+        let mut steps: Vec<Step> =
+            (part * PIECES_PER_TASK..pieces.len().min((part + 1) * PIECES_PER_TASK)).map(step).collect();
+        steps.dedup_by_key(|s| (s.0, s.1));
+        steps
     };
-    let mut steps: Vec<Step> = (0..pieces.len().div_ceil(PART)).into_par_iter().flat_map_iter(some).collect();
+    let mut steps: Vec<Step> =
+        (0..pieces.len().div_ceil(PIECES_PER_TASK)).into_par_iter().flat_map_iter(steps_of).collect();
     steps.par_sort_unstable();
     steps.dedup_by_key(|s| (s.0, s.1));
     let relative = relative(cells, &steps)?;
@@ -62,7 +65,7 @@ pub(super) fn windings(
     let mut of_part: Vec<Vec<u32>> = vec![vec![]; count];
     (0..pieces.len()).for_each(|p| of_part[part(p)].push(p as u32));
     let counted = rays.count(pieces, &of_part).map_err(|part| Open(of_part[part][0] as usize))?;
-    let anchored = |(number, (piece, side, around)): (usize, (usize, usize, Around))| {
+    let anchored = |(number, (piece, side, around)): (usize, (usize, usize, ShellWindings))| {
         let winding: i32 = around.iter().map(|a| a.1).sum();
         (number, winding - relative[cell(piece)[side] as usize], around)
     };
@@ -94,7 +97,7 @@ fn joined(mesh: &Mesh, points: &Points, pieces: &[Piece]) -> Result<Sets, Open> 
             [s, t] => &[side(s), side(t)][..],
             _ => {
                 around = edge.iter().map(side).collect();
-                around::sort(mesh, points, &mut around).ok_or(Open(edge[0].facet as usize))?;
+                edge_order::sort(mesh, points, &mut around).ok_or(Open(edge[0].facet as usize))?;
                 &around[..]
             }
         };

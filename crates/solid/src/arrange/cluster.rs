@@ -1,7 +1,7 @@
 //! The facets of one plane that lie upon each other, with all that cuts them: segments, and the points on these.
 //!
-//! Mostly that is a single facet. Facets that overlap in their plane are cut together (Zhou et al., Mesh Arrangements for
-//! Solid Geometry, 2016), so that what they have in common falls into the same pieces.
+//! Mostly that is a single facet. Facets that overlap in their plane are cut together (Zhou et al., Mesh Arrangements
+//! for Solid Geometry, 2016). Their common area then falls into the same pieces.
 
 use super::meetings::{Edge, edge};
 use super::points::{ExactPoint, Plane, Points};
@@ -20,7 +20,7 @@ pub(super) struct Segment {
     known: usize,
 }
 
-/// What a segment is part of. Two segments of one line cross nowhere.
+/// The line that a segment is part of. Two segments of one line cross nowhere.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Line {
     Edge(Edge),
@@ -48,7 +48,8 @@ pub(super) struct Crossing {
 pub(super) type Cut = (u32, [u32; 2]);
 
 impl Cluster {
-    /// Of these facets of `mesh`, with their cuts, further points in them, and the points on each of their edges.
+    /// The cluster of these facets of `mesh`, with their cuts, further points in them, and the points on each of their
+    /// edges.
     pub fn new(
         mesh: &Mesh,
         facets: Vec<u32>,

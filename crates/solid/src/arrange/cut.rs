@@ -19,7 +19,7 @@ pub(super) struct Piece {
     pub jump: i32,
 }
 
-/// What a cluster was cut into.
+/// Pieces of a cluster.
 #[derive(Default)]
 pub(super) struct Pieces {
     pub pieces: Vec<Piece>,
@@ -67,7 +67,8 @@ pub(super) fn along(points: &Points, [a, b]: [u32; 2], on: &mut Vec<u32>) {
     on.dedup();
 }
 
-/// Cuts a cluster; `of_edge` gives the points on an edge in their order. `None` where what was found contradicts itself.
+/// Cuts a cluster; `of_edge` gives the points on an edge in their order. `None` where the findings contradict
+/// themselves.
 pub(super) fn cut(
     mesh: &Mesh,
     points: &Points,

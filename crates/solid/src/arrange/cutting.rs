@@ -187,7 +187,7 @@ fn clusters(
     groups.into_par_iter().map(cluster).collect()
 }
 
-/// What is listed for these facets in a sorted list.
+/// The entries for these facets in a sorted list.
 fn of_facets<T: Copy>(list: &[(u32, T)], facets: &[u32]) -> Vec<T> {
     let of = |f: &u32| {
         let from = list.partition_point(|entry| entry.0 < *f);

@@ -12,12 +12,12 @@
 //! The result: where the two faces overlap, both consist of the same triangles, and an arrangement cancels or merges these. No
 //! place of the surface moves farther than three times the reach.
 //!
-//! Snap rounding (Hobby, Practical segment intersection with finite precision output, 1999) in space, with the vertices that are
-//! there in place of the pixels of a grid.
+//! Snap rounding (Hobby, Practical segment intersection with finite precision output, 1999) in space. The vertices that
+//! are there stand in place of the pixels of a grid.
 
 use super::error::ArrangeError;
 use super::meetings::{Edge, edges};
-use super::passing::{MOST, Passing, passing};
+use super::passing::{MAX_PASSING_PLACES, Passing, passing};
 use super::snap::{snap, used};
 use std::collections::{BTreeMap, BTreeSet};
 use trueness_geom::check::intersect::{reaching, reaching_any};
@@ -27,7 +27,7 @@ use trueness_geom::progress::{Cancelled, Progress};
 use trueness_geom::space::{Aabb, Point, dot, minus, norm, times};
 use trueness_geom::topology::Topology;
 
-/// What lies upon the edges and facets of a mesh.
+/// Vertices that lie upon the edges and facets of a mesh.
 pub(super) struct Imprints {
     /// Vertices on an edge, from its lower end to the higher one.
     pub on_edge: BTreeMap<Edge, Vec<u32>>,
@@ -47,10 +47,10 @@ impl Imprints {
     }
 }
 
-/// The mesh in which vertices no farther apart than `reach` are one, around the facets of these pairs; for each face the facet
-/// that it was; and what lies upon its edges and facets. New vertices come last, their coordinates made with `round`; those given stay
-/// where they are. `None` if more than [`MOST`] pairs of edges pass each other there, or of vertices and the boxes of facets meet. Cost: n log n,
-/// and about a microsecond for each such pair.
+/// The mesh in which vertices no farther apart than
+/// `reach` are one, around the facets of these pairs. Also, for each face, the facet that it was, and the vertices upon its edges and facets. New vertices come last, their coordinates made with `round`;
+/// those given stay where they are. `None` if more than [`MAX_PASSING_PLACES`] pairs of edges pass each other there, or
+/// of vertices and the boxes of facets meet. Cost: n log n, and about a microsecond for each such pair.
 pub(super) fn imprints(
     mesh: &Mesh,
     pairs: &[[u32; 2]],
@@ -70,10 +70,11 @@ pub(super) fn imprints(
     loop {
         let known = facets.len();
         let looked_at = facets.iter().copied().collect();
-        let Some((positions, imprints)) = upon(&mesh, &topology, looked_at, reach, round, progress)? else {
+        let Some((positions, imprints)) = imprints_near(&mesh, &topology, looked_at, reach, round, progress)?
+        else {
             return Ok(None);
         };
-        // What lies upon further facets may lie across their edges too.
+        // Vertices upon further facets may lie across their edges too.
         facets.extend(imprints.marked(&mesh));
         if facets.len() == known {
             return Ok(Some((Mesh { positions, ..mesh }, source, imprints)));
@@ -81,8 +82,8 @@ pub(super) fn imprints(
     }
 }
 
-/// What lies upon these facets and others no farther off than `reach`; and all vertices, new ones last.
-fn upon(
+/// The vertices upon these facets and others no farther off than `reach`; and all vertices, new ones last.
+fn imprints_near(
     mesh: &Mesh,
     topology: &Topology,
     facets: Vec<u32>,
@@ -96,14 +97,16 @@ fn upon(
     let mut vertices: BTreeSet<u32> = facets.iter().flat_map(|f| mesh.faces[*f as usize]).collect();
     vertices.extend(on_edge.iter().map(|(_, v)| *v));
     let places: Vec<Aabb> = vertices.iter().map(|v| grown([&positions[*v as usize]], reach)).collect();
-    let Some(below) = reaching(mesh, topology, &places, MOST, progress)? else { return Ok(None) };
+    let Some(below) = reaching(mesh, topology, &places, MAX_PASSING_PLACES, progress)? else {
+        return Ok(None);
+    };
     let mut inside: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
     for (v, below) in vertices.into_iter().zip(below) {
         for f in below {
             match lies(mesh, (v, &positions[v as usize]), f, reach) {
-                Lies::Apart => {}
-                Lies::On(edges) => on_edge.extend(edges.into_iter().map(|e| (e, v))),
-                Lies::Inside => inside.entry(f).or_default().push(v),
+                VertexPosition::Apart => {}
+                VertexPosition::On(edges) => on_edge.extend(edges.into_iter().map(|e| (e, v))),
+                VertexPosition::Inside => inside.entry(f).or_default().push(v),
             }
         }
     }
@@ -133,8 +136,8 @@ fn joined(mesh: &Mesh, near: &BTreeSet<u32>, reach: f64) -> (Mesh, Vec<u32>) {
     (Mesh { positions: mesh.positions.clone(), faces }, source)
 }
 
-/// Adds a vertex where edges pass each other, or takes one that is there already no farther off than `reach`: pairs of an
-/// edge and a vertex on it; before them all vertices.
+/// Adds a vertex where edges pass each other, or takes one that is there already no farther off than `reach`. Returns
+/// all vertices, and pairs of an edge and a vertex on it.
 fn met(
     mesh: &Mesh,
     passing: Vec<Passing>,
@@ -154,28 +157,32 @@ fn met(
 }
 
 /// How a vertex lies to a facet.
-enum Lies {
+enum VertexPosition {
     Apart,
     /// Upon some of its edges.
     On(Vec<Edge>),
     Inside,
 }
 
-fn lies(mesh: &Mesh, (v, p): (u32, &Point), facet: u32, reach: f64) -> Lies {
+fn lies(mesh: &Mesh, (v, p): (u32, &Point), facet: u32, reach: f64) -> VertexPosition {
     let face = mesh.faces[facet as usize];
     if face.contains(&v) {
-        return Lies::Apart;
+        return VertexPosition::Apart;
     }
     let on: Vec<Edge> = edges(face).into_iter().filter(|e| is_on(mesh, p, *e, reach)).collect();
     if !on.is_empty() {
-        return Lies::On(on);
+        return VertexPosition::On(on);
     }
     let [a, b, c] = mesh.corners(facet);
     // Flat facets have edges only.
-    let Some(axis) = axis(&[a, b, c]) else { return Lies::Apart };
+    let Some(axis) = axis(&[a, b, c]) else { return VertexPosition::Apart };
     let turn = side_of_line(axis, &a, &b, &c);
     let is_within = [[&a, &b], [&b, &c], [&c, &a]].iter().all(|[a, b]| side_of_line(axis, a, b, p) == turn);
-    if is_within && height([&a, &b, &c], p).abs() <= reach { Lies::Inside } else { Lies::Apart }
+    if is_within && height([&a, &b, &c], p).abs() <= reach {
+        VertexPosition::Inside
+    } else {
+        VertexPosition::Apart
+    }
 }
 
 /// Whether a place is no farther than `reach` from an edge.

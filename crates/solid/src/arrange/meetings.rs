@@ -1,8 +1,8 @@
-//! What two facets that meet have in common: the ends of a segment, or that they lie in one plane.
+//! The common places of two facets that meet: the ends of a segment, or that they lie in one plane.
 //!
-//! The planes of two facets meet in a line; each facet has an interval of it, and what is common ends where one of the
-//! intervals does: at a corner in the plane of the other facet, or where an edge passes through it. All of it is decided by
-//! the corners alone. No point is computed here: an edge that passes through a facet is a name for one.
+//! The planes of two facets meet in a line, and each facet has an interval of it. The common part ends where one of the
+//! intervals does. That is at a corner in the plane of the other facet, or where an edge passes through it. All of it
+//! is decided by the corners alone. No point is computed here: an edge that passes through a facet is a name for one.
 
 use trueness_geom::mesh::Mesh;
 use trueness_geom::num::predicates::{axis, side_of_line, side_of_plane};
@@ -28,12 +28,12 @@ pub(super) enum Name {
     Pierced(Edge, u32),
 }
 
-/// What two facets have in common.
+/// The common places of two facets.
 #[derive(Debug, Default)]
 pub(super) struct Meeting {
     /// They lie in one plane.
     pub coplanar: bool,
-    /// The ends of what they have in common, perhaps under several names each.
+    /// The ends of the common part, perhaps under several names each.
     pub ends: Vec<Name>,
     /// Points that lie on an edge of one of the two, inside it.
     pub on_edges: Vec<(Edge, Name)>,
@@ -57,7 +57,7 @@ impl Facet<'_> {
     }
 }
 
-/// What facets `a` and `b` have in common. Neither is flat.
+/// The common places of facets `a` and `b`. Neither is flat.
 pub(super) fn meeting(mesh: &Mesh, [a, b]: [u32; 2]) -> Meeting {
     let (a, b) = (Facet::of(mesh, a), Facet::of(mesh, b));
     let (of_a, of_b) = (sides(&a, &b), sides(&b, &a));

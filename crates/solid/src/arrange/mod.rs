@@ -1,31 +1,32 @@
 //! Meshes cut where their facets meet, and the boundary of the material that closed shells enclose.
 //!
-//! [`arrange`] cuts the facets of a mesh along all that they have in common with others; [`outer_boundary`] keeps those
-//! pieces on one side of which there is material and on the other side none. Both decide exactly:
+//! [`arrange`] cuts the facets of a mesh along all that they have in common with others. [`outer_boundary`] keeps the
+//! pieces with material on one side and none on the other. Both decide exactly:
 //!
 //! 1. Facets that meet are found by the exact search of the check.
-//! 2. What two facets have in common ends at corners, and where edges pass through facets (see `meetings`). Facets of one
-//!    plane that overlap are cut together (`cluster`); where cuts cross there are further points. A point is no triple of
-//!    rounded numbers but a fraction of whole ones (`points`).
+//! 2. The common part of two facets ends at corners, and where edges pass through facets (see
+//!    `meetings`). Facets of one plane that overlap are cut together (`cluster`); where cuts cross there are further
+//!    points. A point is no triple of rounded numbers but a fraction of whole ones (`points`).
 //! 3. Each facet is triangulated along its cuts (`triangulate`, `cut`).
 //! 4. The pieces around each edge are sorted (`around`), which gives the cells of space, and each cell has a winding
 //!    number (`cells`, `ray`).
-//! 5. Only then are points rounded to numbers a file can hold. Where that makes facets cross or flat, the rounded mesh is cut
-//!    again (`outer`), new points first put upon others a few steps of the numbers away (`snap`).
+//! 5. Only then are points rounded to numbers a file can hold. Where that makes facets cross or flat, the rounded mesh
+//!    is cut again (`outer`). New points are first put upon others a few steps of the numbers away (`snap`).
 //! 6. If facets still cross after the last cut, surfaces coincide but for rounding. They are given the same vertices and edges,
 //!    and the whole is done again from step 1 (`imprint`, `retile`).
 //!
-//! After Zhou, Grinspun, Zorin, Jacobson, Mesh Arrangements for Solid Geometry, 2016; filters before exact numbers as in
-//! Cherchi, Livesu, Scateni, Attene, Fast and Robust Mesh Arrangements using Floating-point Arithmetic, 2020.
+//! After Zhou, Grinspun, Zorin, Jacobson, Mesh Arrangements for Solid Geometry, 2016. Filters before exact numbers as
+//! in Cherchi, Livesu, Scateni, Attene, Fast and Robust Mesh Arrangements using Floating-point Arithmetic, 2020.
 
-mod around;
 mod cells;
 mod cluster;
 mod cut;
 mod cutting;
+mod edge_order;
 mod error;
 mod imprint;
 mod meetings;
+mod near_coincident;
 mod outer;
 mod pairs;
 mod passing;
@@ -36,12 +37,11 @@ mod snap;
 #[cfg(test)]
 pub(crate) mod tests;
 mod triangulate;
-mod upon;
 
 pub use error::ArrangeError;
+pub(crate) use near_coincident::any_at_edges;
 pub use outer::{Boundary, Options, outer_boundary};
-pub(crate) use outer::{Given, boundary_of};
-pub(crate) use upon::any_at_edges;
+pub(crate) use outer::{Input, boundary_of};
 
 use cutting::cutting;
 use pairs::{in_range, pairs};
@@ -62,12 +62,13 @@ pub struct Arranged {
 
 /// Cuts the facets of a mesh along all that they have in common with other facets.
 ///
-/// Any mesh whose coordinates are 0 or from 1e-50 to 1e45 mm will do: open, in any orientation, coincident. Facets without area and those with a coordinate that is not finite
-/// have no pieces. Facets that nothing cuts keep their vertices and come first, in their order. Which pieces there
-/// are, and which vertices they share, is decided exactly; their places are rounded afterwards, each once, so pieces of
-/// different facets share the vertices of a cut bit for bit, but thin pieces may cross or become flat by rounding.
-/// Where vertices are at the same place or unused, the mesh is welded first. Cost: that of the search for crossings, and for each facet with `k` cuts
-/// about `k` log `k`, some microseconds for each place where cuts meet. The same result for any number of threads.
+/// Any mesh whose coordinates are 0 or from 1e-50 to 1e45 mm will do: open, in any orientation, coincident. Facets
+/// without area and those with a coordinate that is not finite have no pieces. Facets that nothing cuts keep their
+/// vertices and come first, in their order. The pieces, and the vertices that they share, are decided exactly. Their
+/// places are rounded afterwards, each once. So pieces of different facets share the vertices of a cut bit for bit, but
+/// thin pieces may cross or become flat by rounding. Where vertices are at the same place or unused, the mesh is welded
+/// first. Cost: that of the search for crossings, and about `k` log `k` for each facet with `k` cuts. Each place where
+/// cuts meet takes some microseconds. The same result for any number of threads.
 ///
 /// ```
 /// use trueness_geom::{mesh::Mesh, progress::Silent};

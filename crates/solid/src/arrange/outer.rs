@@ -4,12 +4,12 @@ use super::cells::{Open, windings};
 use super::cutting::{Cutting, cutting};
 use super::error::ArrangeError;
 use super::imprint::imprints;
+use super::near_coincident::{Closeness, near_coincident, step};
 use super::pairs::{in_range, not_too_many, pairs};
 use super::points::Points;
 use super::retile::retiled;
 use super::snap::{snap, used};
-use super::upon::{Closeness, step, upon};
-use crate::around::Around;
+use crate::neighborhood::Neighborhood;
 use std::collections::BTreeSet;
 use trueness_geom::check::intersect;
 use trueness_geom::mesh::Mesh;
@@ -47,31 +47,34 @@ pub struct Boundary {
 }
 
 /// How often a mesh is cut at most.
-const CUTS: usize = 16;
-/// Points that lie too close become one from the second cut on: those closer than this power of two of the spacing of numbers,
-/// with one more for each cut up to the highest.
-const HIGHEST: usize = 11;
+const MAX_CUTS: usize = 16;
+/// Points that lie too close become one from the second cut on. They are closer than this power of two of the spacing
+/// of numbers, with one more for each cut up to the highest.
+const MAX_MERGING_POWER: usize = 11;
 /// So many pairs of facets may meet once more; beyond, their number must halve from cut to cut.
-const FEW: usize = 16;
-/// Surfaces no farther apart than so many times the spacing of numbers are made one where they lie upon each other, or where cutting comes
-/// to no end otherwise: corners that were turned and rounded; planes that such corners span; sums of several roundings.
-const REACHES: [f64; 3] = [4.0, 64.0, 1024.0];
+const MIN_PAIRS_TO_HALVE: usize = 16;
+/// Surfaces no farther apart than so many times the spacing of numbers are made one where they lie upon each other.
+/// They are, too, where cutting comes to no end otherwise. The first is for corners that were turned and rounded, the
+/// second for planes that such corners span, the third for sums of several roundings.
+const REACHES_IN_STEPS: [f64; 3] = [4.0, 64.0, 1024.0];
 
 /// The boundary of the places around which the facets wind once or more: the union of all shells.
 ///
 /// Facets look outwards, away from the material. A shell inside another that runs the same way round is material inside
-/// material and vanishes; one that runs the other way round bounds a cavity and stays. Where shells cross, or one crosses
-/// itself, what lies inside the material vanishes; enclosed pockets become cavities; places with a negative winding number
-/// are empty. With [`Options::turn`], shells that belong together and wind around nothing in the positive sense are turned first.
-/// Facets that coincide cancel or become one. Bodies that touch in a face become one; touching in an edge or a vertex
-/// they share it, as a non-manifold edge or vertex.
+/// material and vanishes. One that runs the other way round bounds a cavity and stays. Where shells cross, or one
+/// crosses itself, facets inside the material vanish. Enclosed pockets become cavities; places with a negative winding
+/// number are empty. With [`Options::turn`], shells that belong together and wind around nothing in the positive sense
+/// are turned first. Facets that coincide cancel or become one. Bodies that touch in a face become one; touching in an
+/// edge or a vertex they share it, as a non-manifold edge or vertex.
 ///
 /// The surface must be closed: at every edge as many facets run the one way as the other, at least once T-junctions are
-/// cut; coordinates are 0 or from 1e-50 to 1e45 mm. No vertex moves, and facets that nothing cuts stay as they are. Surfaces that lie upon each other but for rounding are
-/// taken to coincide: faces with at most 64 times the spacing of numbers at the largest coordinate between them, or 4 times that of
-/// single precision where the vertices have it and the result need not, and where cutting comes to no end up to 1024 times. The result is free of crossings, flat and doubled
-/// facets in `f64`, or in single precision with [`Options::single`], where the vertices of the mesh must have it too: that is
-/// checked exactly. Cost: as [`arrange`](super::arrange), and about a microsecond a facet for the cells.
+/// cut. Coordinates are 0 or from 1e-50 to 1e45 mm. No vertex moves, and facets that nothing cuts stay as they are.
+/// Surfaces that lie upon each other but for rounding are taken to coincide. At most 64 times the spacing of numbers at
+/// the largest coordinate is between them. It is 4 times that of single precision where the vertices have it and the
+/// result need not. Where cutting comes to no end it is up to 1024 times. The result is free of crossings, flat and
+/// doubled facets in `f64`. With [`Options::single`] it is so in single precision, where the vertices of the mesh must
+/// have it too. That is checked exactly. Cost: as [`arrange`](super::arrange), and about a microsecond a facet for the
+/// cells.
 ///
 /// ```
 /// use trueness_solid::arrange::{Options, outer_boundary};
@@ -95,13 +98,13 @@ pub fn outer_boundary(
     options: &Options,
     progress: &dyn Progress,
 ) -> Result<Boundary, ArrangeError> {
-    boundary_of(Given { mesh: as_it_is(mesh)?, topology: None, pairs: None }, options, progress)
+    boundary_of(Input { mesh: as_it_is(mesh)?, topology: None, pairs: None }, options, progress)
 }
 
-/// A welded mesh whose vertices facets use, and what is known about it.
-pub(crate) struct Given<'a> {
+/// A welded mesh whose vertices facets use, and the facts known about it.
+pub(crate) struct Input<'a> {
     pub mesh: Mesh,
-    /// What it says of facets is asked for alone: vertices may have other numbers in it.
+    /// Only its facts about facets are asked for: vertices may have other numbers in it.
     pub topology: Option<&'a Topology>,
     /// All pairs of facets that meet where they should not, sorted.
     pub pairs: Option<Vec<[u32; 2]>>,
@@ -109,42 +112,42 @@ pub(crate) struct Given<'a> {
 
 /// As [`outer_boundary`].
 pub(crate) fn boundary_of(
-    Given { mesh: given, topology, pairs: known }: Given,
+    Input { mesh: input, topology, pairs: known }: Input,
     options: &Options,
     progress: &dyn Progress,
 ) -> Result<Boundary, ArrangeError> {
-    let close = Closeness::of(&given, options.single);
+    let close = Closeness::of(&input, options.single);
     let round = |x: f64| rounded_to(x, options.single);
     let own: Topology;
     let topology = match topology {
         Some(topology) => topology,
         None => {
-            own = Topology::of(&given)?;
+            own = Topology::of(&input)?;
             &own
         }
     };
-    in_range(&given, topology)?;
+    in_range(&input, topology)?;
     let crossing = match known {
-        Some(known) => not_too_many(known, &given)?,
-        None => pairs(&given, topology, &vec![true; given.faces.len()], progress)?,
+        Some(known) => not_too_many(known, &input)?,
+        None => pairs(&input, topology, &vec![true; input.faces.len()], progress)?,
     };
-    let (near, widest) = upon(&given, topology, &crossing, close)?;
+    let (near, widest) = near_coincident(&input, topology, &crossing, close)?;
     let mut result = Err(ArrangeError::Unresolved { position: [0.0; 3] });
     for reach in reaches(widest, close.step) {
         if let Some(reach) = reach {
-            let imprints = imprints(&given, &near, reach, &round, progress)?;
+            let imprints = imprints(&input, &near, reach, &round, progress)?;
             let retiled =
                 imprints.and_then(|(mesh, source, imprints)| retiled(mesh, &source, &imprints, reach));
             if let Some((mesh, source)) = retiled {
                 let topology = Topology::of(&mesh)?;
                 let crossing = pairs(&mesh, &topology, &vec![true; mesh.faces.len()], progress)?;
                 result =
-                    settled(&given, Start { mesh, source, topology: &topology, crossing }, options, progress);
+                    settled(&input, Uncut { mesh, source, topology: &topology, crossing }, options, progress);
             }
         } else {
-            let (mesh, source) = (given.clone(), (0..given.faces.len() as u32).collect());
-            let start = Start { mesh, source, topology, crossing: crossing.clone() };
-            result = settled(&given, start, options, progress);
+            let (mesh, source) = (input.clone(), (0..input.faces.len() as u32).collect());
+            let uncut = Uncut { mesh, source, topology, crossing: crossing.clone() };
+            result = settled(&input, uncut, options, progress);
         }
         if !matches!(result, Err(ArrangeError::Unresolved { .. })) {
             break;
@@ -153,11 +156,12 @@ pub(crate) fn boundary_of(
     result
 }
 
-/// What is tried, one after another: the mesh as it is, or with what is no farther apart than a reach made one. Where facets
-/// lie upon each other but for rounding, so far apart at most, the reach that bridges it comes first: cut as they are, they may leave
-/// walls with nothing between.
+/// The reaches tried, one after another: the mesh as it is, or with places no farther apart than a reach made one.
+/// Facets may lie upon each other but for rounding, so far apart at most. The reach that bridges this comes first: cut
+/// as they are, they may leave walls with nothing between.
 fn reaches(widest: f64, step: f64) -> Vec<Option<f64>> {
-    let mut all: Vec<Option<f64>> = std::iter::once(None).chain(REACHES.map(|r| Some(r * step))).collect();
+    let mut all: Vec<Option<f64>> =
+        std::iter::once(None).chain(REACHES_IN_STEPS.map(|r| Some(r * step))).collect();
     if widest > 0.0
         && let Some(fits) = all.iter().position(|r| r.is_some_and(|r| widest <= r))
     {
@@ -166,34 +170,34 @@ fn reaches(widest: f64, step: f64) -> Vec<Option<f64>> {
     all
 }
 
-/// A mesh to be cut, and what is known about it.
-struct Start<'a> {
+/// A mesh to be cut, and the facts known about it.
+struct Uncut<'a> {
     mesh: Mesh,
     /// For each face the facet of the mesh given that it is a piece of.
     source: Vec<u32>,
-    /// Of its facets; vertices may have other numbers in it.
+    /// The topology of its facets; vertices may have other numbers in it.
     topology: &'a Topology,
     /// Its facets that meet where they should not.
     crossing: Vec<[u32; 2]>,
 }
 
-/// Cuts a mesh until what is left does not cross.
+/// Cuts a mesh until the rest does not cross.
 fn settled(
-    given: &Mesh,
-    Start { mesh: mut current, mut source, topology, crossing }: Start,
+    input: &Mesh,
+    Uncut { mesh: mut current, mut source, topology, crossing }: Uncut,
     options: &Options,
     progress: &dyn Progress,
 ) -> Result<Boundary, ArrangeError> {
     let mut known = Some((topology, crossing));
-    let vertices = given.positions.len();
-    let step = step(given, options.single);
+    let vertices = input.positions.len();
+    let step = step(input, options.single);
     let mut most = usize::MAX;
-    for cut in 0..CUTS {
+    for cut in 0..MAX_CUTS {
         let is_new = |(f, source): (&[u32; 3], &u32)| {
-            cut == 0 || f.iter().any(|v| !given.faces[*source as usize].contains(v))
+            cut == 0 || f.iter().any(|v| !input.faces[*source as usize].contains(v))
         };
-        let some: Vec<bool> = current.faces.iter().zip(&source).map(is_new).collect();
-        if cut > 0 && is_clean(&current, &some, progress)? {
+        let is_new_facet: Vec<bool> = current.faces.iter().zip(&source).map(is_new).collect();
+        if cut > 0 && is_clean(&current, &is_new_facet, progress)? {
             return Ok(Boundary { mesh: compact(current, vertices), source, cuts: cut });
         }
         let own: Topology;
@@ -201,7 +205,7 @@ fn settled(
             Some(known) => known,
             None => {
                 own = Topology::of(&current)?;
-                (&own, pairs(&current, &own, &some, progress)?)
+                (&own, pairs(&current, &own, &is_new_facet, progress)?)
             }
         };
         let fine = topology.collinear.is_empty() && topology.duplicate_facets.is_empty();
@@ -211,15 +215,15 @@ fn settled(
         if pairs.len() > most {
             break;
         }
-        most = (pairs.len() / 2).max(FEW);
+        most = (pairs.len() / 2).max(MIN_PAIRS_TO_HALVE);
         let turn = options.turn && cut == 0;
         let kept = kept(&current, topology, &pairs, turn, progress)?;
-        // Corners of what crosses that are no vertices of the mesh given.
+        // Corners of crossing facets that are no vertices of the mesh given.
         let close = (cut > 0).then(|| {
             let found = pairs.iter().flatten().chain(&topology.collinear);
             let corners = found.flat_map(|f| current.faces[*f as usize]);
             let movable: BTreeSet<u32> = corners.filter(|v| *v as usize >= vertices).collect();
-            (movable, step * f64::from(1u32 << cut.min(HIGHEST)))
+            (movable, step * f64::from(1u32 << cut.min(MAX_MERGING_POWER)))
         });
         let (next, faces_of) = rounded(&current, kept, options.single, close)?;
         source = faces_of.into_iter().map(|f| source[f as usize]).collect();
@@ -232,16 +236,17 @@ fn settled(
     Err(ArrangeError::Unresolved { position: first.map_or([0.0; 3], place) })
 }
 
-/// Whether it is plain at first sight that nothing new crosses, coincides or is flat: only what lies near the new facets is looked at.
+/// Whether it is plain at first sight that nothing new crosses, coincides or is flat. Only the neighborhood of the new
+/// facets is looked at.
 fn is_clean(mesh: &Mesh, new: &[bool], progress: &dyn Progress) -> Result<bool, ArrangeError> {
-    let Some(Around { mesh, asked, .. }) = Around::new(mesh, new) else { return Ok(false) };
+    let Some(Neighborhood { mesh, is_chosen, .. }) = Neighborhood::new(mesh, new) else { return Ok(false) };
     let topology = Topology::of(&mesh)?;
     let fine = topology.collinear.is_empty() && topology.duplicate_facets.is_empty();
-    Ok(fine && intersect::selected_self_intersections(&mesh, &topology, &asked, 0, progress)?.is_some())
+    Ok(fine && intersect::selected_self_intersections(&mesh, &topology, &is_chosen, 0, progress)?.is_some())
 }
 
 /// The pieces of a mesh that lie between material and none.
-struct Kept<'a> {
+struct KeptPieces<'a> {
     points: Points<'a>,
     faces: Vec<[u32; 3]>,
     source: Vec<u32>,
@@ -253,7 +258,7 @@ fn kept<'a>(
     pairs: &[[u32; 2]],
     turn: bool,
     progress: &dyn Progress,
-) -> Result<Kept<'a>, ArrangeError> {
+) -> Result<KeptPieces<'a>, ArrangeError> {
     let Cutting { points, mut pieces, .. } = cutting(mesh, topology, pairs, progress)?;
     pieces.retain(|p| p.jump != 0);
     let shell_of = shell_of(topology);
@@ -269,7 +274,7 @@ fn kept<'a>(
         }
         source.push(piece.facet);
     }
-    Ok(Kept { points, faces, source })
+    Ok(KeptPieces { points, faces, source })
 }
 
 /// The shell of each facet, none for those without area: they bound nothing.
@@ -288,7 +293,7 @@ fn rounded_to(x: f64, single: bool) -> f64 {
 /// are put upon others that are no farther than the distance given. Faces that lose a corner by it are left out.
 fn rounded(
     mesh: &Mesh,
-    mut kept: Kept,
+    mut kept: KeptPieces,
     single: bool,
     close: Option<(BTreeSet<u32>, f64)>,
 ) -> Result<(Mesh, Vec<u32>), ArrangeError> {

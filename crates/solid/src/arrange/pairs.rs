@@ -16,11 +16,11 @@ fn most_pairs(facets: usize) -> usize {
 pub(super) fn pairs(
     mesh: &Mesh,
     topology: &Topology,
-    some: &[bool],
+    is_chosen: &[bool],
     progress: &dyn Progress,
 ) -> Result<Vec<[u32; 2]>, ArrangeError> {
     let most = most_pairs(mesh.faces.len());
-    let found = intersect::selected_self_intersections(mesh, topology, some, most, progress)?;
+    let found = intersect::selected_self_intersections(mesh, topology, is_chosen, most, progress)?;
     found.ok_or(ArrangeError::Tangle { most })
 }
 

@@ -1,9 +1,9 @@
 //! Edges that pass each other no farther off than a reach.
 //!
-//! The edges at a vertex with very many (a hub) have boxes that all overlap, and long thin facets have such boxes too. But seen
-//! from the hub each of its edges is a single direction, and any other edge is an arc: what passes an edge no farther off than the
-//! reach is seen in its direction, but for the angle of the reach. So directions are compared beside boxes. Two fans take
-//! n log n and what they find, whether they have the hub in common or not.
+//! The edges at a vertex with very many (a hub) have boxes that all overlap, and long thin facets have such boxes too.
+//! But seen from the hub each of its edges is a single direction, and any other edge is an arc. An edge that passes one
+//! no farther off than the reach is seen in its direction, but for the angle of the reach. So directions are compared
+//! beside boxes. Two fans take n log n and the pairs that they find, whether they have the hub in common or not.
 
 use super::meetings::{Edge, edges};
 use std::collections::BTreeMap;
@@ -17,22 +17,24 @@ use trueness_geom::parallel::prelude::*;
 use trueness_geom::progress::{Cancelled, Progress};
 use trueness_geom::space::{Aabb, Point, cross, dot, minus, norm, plus, times};
 
-/// Beyond so many places where edges pass each other, or so many facets around vertices, surfaces are not taken to lie upon each other.
-pub(super) const MOST: usize = 1 << 24;
+/// Beyond so many places where edges pass each other, or so many facets around vertices, surfaces are not taken to lie upon each
+/// other.
+pub(super) const MAX_PASSING_PLACES: usize = 1 << 24;
 
 /// Two edges that pass each other, and the place on the first where they do.
 pub(super) type Passing = ([Edge; 2], Point);
 
 /// From so many edges on, a vertex is a hub.
-const HUB: usize = 32;
+const MIN_EDGES_OF_HUB: usize = 32;
 /// Boxes and directions are widened by so many reaches: one, and much more than places are rounded.
-const WIDER: f64 = 2.0;
+const WIDENING_REACHES: f64 = 2.0;
 /// No hub.
-const NONE: u32 = u32::MAX;
+const NO_HUB: u32 = u32::MAX;
 
-/// The edges of `facets` (ascending) that pass edges of `near` (ascending: the facets no farther from them than `reach`), sorted;
-/// looked at for each pair of facets of which the lower one is among `facets`. `None` if more than [`MOST`] pairs of edges
-/// pass. Cost: n log n, and a microsecond for each pair that is near.
+/// The edges of `facets` (ascending) that pass edges of `near` (ascending: the facets no farther from them than
+/// `reach`), sorted. Each pair of facets is looked at whose lower one is among `facets`.
+/// `None` if more than [`MAX_PASSING_PLACES`] pairs of edges pass. Cost: n log n, and a microsecond for each pair that
+/// is near.
 pub(super) fn passing(
     mesh: &Mesh,
     facets: &[u32],
@@ -45,7 +47,7 @@ pub(super) fn passing(
     let found = AtomicUsize::new(0);
     let of_edge = |number: usize| {
         let mut all = vec![];
-        if progress.cancelled() || found.load(Relaxed) > MOST {
+        if progress.cancelled() || found.load(Relaxed) > MAX_PASSING_PLACES {
             return all;
         }
         let mut take = |other: usize| {
@@ -62,7 +64,7 @@ pub(super) fn passing(
     if progress.cancelled() {
         return Err(Cancelled);
     }
-    if found.into_inner() > MOST {
+    if found.into_inner() > MAX_PASSING_PLACES {
         return Ok(None);
     }
     all.par_sort_unstable_by_key(|p| p.0);
@@ -73,9 +75,9 @@ pub(super) fn passing(
 /// An edge and its facets.
 struct Sides {
     edge: Edge,
-    /// Of those asked about.
+    /// Edges that are asked about.
     own: Vec<u32>,
-    /// Of those near them.
+    /// Edges near them.
     near: Vec<u32>,
     /// Its hub, if it is an edge asked about; else none.
     hub: u32,
@@ -96,8 +98,8 @@ fn sides(mesh: &Mesh, facets: &[u32], near: &[u32]) -> Vec<Sides> {
     }
     let hub = |[a, b]: Edge| {
         let [of_a, of_b] = [a, b].map(|v| count.get(&v).copied().unwrap_or(0));
-        if of_a.max(of_b) < HUB {
-            NONE
+        if of_a.max(of_b) < MIN_EDGES_OF_HUB {
+            NO_HUB
         } else if of_b > of_a {
             b
         } else {
@@ -105,7 +107,7 @@ fn sides(mesh: &Mesh, facets: &[u32], near: &[u32]) -> Vec<Sides> {
         }
     };
     let side = |(edge, (own, near)): (Edge, (Vec<u32>, Vec<u32>))| {
-        let hub = if own.is_empty() { NONE } else { hub(edge) };
+        let hub = if own.is_empty() { NO_HUB } else { hub(edge) };
         Sides { edge, own, near, hub }
     };
     all.into_iter().map(side).collect()
@@ -119,7 +121,7 @@ struct Bundle {
     root: Node,
 }
 
-/// Those with hubs first, ascending.
+/// Bundles with hubs come first, ascending.
 fn bundles(mesh: &Mesh, sides: &[Sides], reach: f64) -> Vec<Bundle> {
     let mut members: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
     for (i, side) in sides.iter().enumerate().filter(|(_, side)| !side.own.is_empty()) {
@@ -137,11 +139,12 @@ fn bundles(mesh: &Mesh, sides: &[Sides], reach: f64) -> Vec<Bundle> {
     members.into_iter().map(bundle).collect()
 }
 
-/// Box of the directions from a hub to an edge (without one, the box of the edge), and of the edge; both widened by the reach.
+/// Box of the directions from a hub to an edge (without one, the box of the edge), and box of the edge. Both are
+/// widened by the reach.
 fn views(mesh: &Mesh, hub: u32, edge: Edge, reach: f64) -> (Aabb, Aabb) {
     let [a, b] = mesh.places(&edge);
-    let bounds = widened(Aabb::of([&a, &b]), WIDER * reach);
-    if hub == NONE {
+    let bounds = widened(Aabb::of([&a, &b]), WIDENING_REACHES * reach);
+    if hub == NO_HUB {
         return (bounds, bounds);
     }
     let center = mesh.positions[hub as usize];
@@ -154,7 +157,7 @@ fn views(mesh: &Mesh, hub: u32, edge: Edge, reach: f64) -> (Aabb, Aabb) {
     let way = minus(q, p);
     let t = (dot(minus(center, p), way) / dot(way, way)).clamp(0.0, 1.0);
     let far = norm(minus(center, plus(p, times(t, way))));
-    let angle = 2.0 * WIDER * reach / far;
+    let angle = 2.0 * WIDENING_REACHES * reach / far;
     let angle = if angle < 1.0 { angle } else { f64::INFINITY };
     (widened(seen::segment(center, p, q), angle), bounds)
 }
@@ -164,8 +167,8 @@ fn widened(b: Aabb, by: f64) -> Aabb {
 }
 
 impl Bundle {
-    /// Hands to `take` the edges of the bundle that an edge may pass. Of two edges asked about one looks for the other: one without
-    /// a hub for one with a hub, else the one with the higher hub, or the lower number.
+    /// Hands to `take` the edges of the bundle that an edge may pass. One of two edges asked about looks for the other.
+    /// That is one without a hub for one with a hub, else the one with the higher hub, or the lower number.
     fn near(&self, mesh: &Mesh, sides: &[Sides], number: usize, reach: f64, take: &mut impl FnMut(usize)) {
         let side = &sides[number];
         let is_asked = !side.own.is_empty();
@@ -270,7 +273,7 @@ mod tests {
 
     #[test]
     fn edges_pass_where_all_pairs_of_facets_say_so() {
-        let (random, mut some) = (&mut Random::new(8), 0);
+        let (random, mut found_count) = (&mut Random::new(8), 0);
         for case in 0..60 {
             let reach = [1e-9, 1e-4, 0.02][case % 3];
             let mut mesh =
@@ -292,13 +295,13 @@ mod tests {
             let facets: Vec<u32> = near.iter().copied().filter(|f| case % 2 == 0 || f % 3 > 0).collect();
             let found = passing(&mesh, &facets, &near, reach, &Silent).unwrap().unwrap();
             assert_eq!(found, by_pairs(&mesh, &facets, &near, reach), "{case}");
-            some += found.len();
+            found_count += found.len();
         }
-        assert!(some > 10_000, "{some}");
+        assert!(found_count > 10_000, "{found_count}");
     }
 
-    /// Fans upon each other around one hub, a fan beside them, and small facets upon a fan: as many pairs looked at as edges pass, and
-    /// some for each edge.
+    /// Fans upon each other around one hub, a fan beside them, and small facets upon a fan. As many pairs are looked at
+    /// as edges pass, and some for each edge.
     #[test]
     fn fans_take_what_they_find() {
         for n in [500, 4000] {

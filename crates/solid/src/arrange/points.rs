@@ -1,10 +1,10 @@
 //! The points of an arrangement: vertices of the mesh, and places where cuts meet, exactly.
 //!
-//! A place that is no triple of `f64` is kept as four exact numbers, its homogeneous coordinates, beside the neighboring
-//! `f64` below and above each coordinate. Signs are first looked for in those intervals (Attene, Indirect predicates for
-//! geometric constructions, 2020, does the same with the terms that define a point), and where they cannot tell,
-//! computed exactly. Two points at one place are one: places are looked up by their bounds, which follow from the place
-//! alone, and compared exactly.
+//! A place that is no triple of `f64` is kept as four exact numbers, its homogeneous coordinates. The neighboring `f64`
+//! below and above each coordinate stand beside them. Signs are first looked for in those intervals, and where they
+//! cannot tell, computed exactly. (Attene, Indirect predicates for geometric constructions, 2020, does the same with
+//! the terms that define a point). Two points at one place are one: places are looked up by their bounds, which follow
+//! from the place alone, and compared exactly.
 
 use std::cmp::Ordering;
 use std::collections::HashMap;
@@ -184,7 +184,7 @@ fn key(p: &Point) -> [u64; 3] {
 }
 
 impl<'a> Points<'a> {
-    /// With the vertices of a mesh, no two at one place. Those of `known` can be found again.
+    /// With the vertices of a mesh, no two at one place. The vertices of `known` can be found again.
     pub fn new(vertices: &'a [Point], known: &[u32]) -> Points<'a> {
         let mut at = HashMap::with_capacity(2 * known.len());
         for v in known {

@@ -19,9 +19,10 @@ pub(super) struct Rays<'a> {
 }
 
 /// Shells with their winding numbers beside a place, those of 0 left out.
-pub type Around = Vec<(u32, i32)>;
+pub type ShellWindings = Vec<(u32, i32)>;
 
-/// A place beside a piece: the piece, whether it is where the piece looks to (0) or where it comes from (1), and y and z.
+/// A place beside a piece: the piece, its side, and y and z. The side is where the piece looks to (0) or where it comes
+/// from (1).
 struct Target {
     piece: u32,
     side: usize,
@@ -33,10 +34,14 @@ impl<'a> Rays<'a> {
         Rays { mesh, shell_of, points }
     }
 
-    /// For each of these parts the winding numbers of all shells, as far as they are not 0, beside one of its pieces: which one,
-    /// whether where it looks to (0) or where it comes from (1), shells and numbers. The number of a part where no piece holds
-    /// a point that numbers can name.
-    pub fn count(&self, pieces: &[Piece], parts: &[Vec<u32>]) -> Result<Vec<(usize, usize, Around)>, usize> {
+    /// For each of these parts the winding numbers of all shells, as far as they are not 0, beside one of its pieces.
+    /// An entry has the piece, its side, shells and numbers; the side is where it looks to (0) or where it comes from
+    /// (1). The number of a part where no piece holds a point that numbers can name.
+    pub fn count(
+        &self,
+        pieces: &[Piece],
+        parts: &[Vec<u32>],
+    ) -> Result<Vec<(usize, usize, ShellWindings)>, usize> {
         let targets = parts.par_iter().enumerate().map(|(n, part)| self.target_of(pieces, part).ok_or(n));
         let found: Vec<Result<Target, usize>> = targets.collect();
         let targets: Vec<Target> = found.into_iter().collect::<Result<_, usize>>()?;
@@ -86,7 +91,7 @@ impl<'a> Rays<'a> {
     }
 
     /// The facets that a ray from facet `from` at `target` passes, by shell.
-    fn behind(&self, all: &Container, from: u32, target: &Point) -> Around {
+    fn behind(&self, all: &Container, from: u32, target: &Point) -> ShellWindings {
         let mut sums: BTreeMap<u32, i32> = BTreeMap::new();
         all.facets_behind(from, target, |f, around| {
             *sums.entry(self.shell_of[f as usize]).or_default() += around

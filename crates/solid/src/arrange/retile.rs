@@ -6,7 +6,7 @@
 use super::cluster::axis_of;
 use super::imprint::Imprints;
 use super::meetings::{Edge, edge};
-use super::passing::MOST;
+use super::passing::MAX_PASSING_PLACES;
 use super::triangulate::{self, Triangles, next, triangulate};
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet, HashSet};
@@ -17,8 +17,10 @@ use trueness_geom::parallel::prelude::*;
 use trueness_geom::space::{Point, cross, minus, norm};
 use trueness_geom::topology::union::Sets;
 
-/// Cuts the facets of `mesh`, which `source` names, along what lies upon them. Facets upon which nothing lies come first, in
-/// their order. `None` where what lies upon a facet contradicts itself, or if pairs of facets share more than [`MOST`] vertices.
+/// Cuts the facets of `mesh`, which `source` names, along the vertices upon them. Facets upon which nothing lies come
+/// first, in their order.
+/// `None` where the vertices upon a facet contradict each other, or if pairs of facets share more than [`MAX_PASSING_PLACES`]
+/// vertices.
 pub(super) fn retiled(
     mesh: Mesh,
     source: &[u32],
@@ -28,8 +30,8 @@ pub(super) fn retiled(
     let of_facet = |f: u32| (f, vertices(imprints, f, mesh.faces[f as usize]));
     let marked: BTreeMap<u32, Vec<u32>> = imprints.marked(&mesh).into_iter().map(of_facet).collect();
     let groups = groups(&mesh, &marked, reach)?;
-    let beside = beside(&mesh, imprints);
-    let tile = |facets: &Vec<u32>| tiled(&mesh, imprints, &marked, &beside, facets);
+    let adjacent_vertices = adjacent_vertices(&mesh, imprints);
+    let tile = |facets: &Vec<u32>| tiled(&mesh, imprints, &marked, &adjacent_vertices, facets);
     let tiles: Vec<Vec<([u32; 3], u32)>> = groups.par_iter().map(tile).collect::<Option<_>>()?;
     let whole = (0..).zip(&mesh.faces).filter(|(f, _)| !marked.contains_key(f));
     let all = whole.map(|(f, face)| (*face, f)).chain(tiles.into_iter().flatten());
@@ -69,7 +71,7 @@ fn groups(mesh: &Mesh, marked: &BTreeMap<u32, Vec<u32>>, reach: f64) -> Option<V
     for (i, vertices) in (0..).zip(&rare) {
         vertices.iter().for_each(|v| at.entry(*v).or_default().push(i));
     }
-    if at.values().map(|facets| facets.len() * facets.len()).sum::<usize>() > MOST {
+    if at.values().map(|facets| facets.len() * facets.len()).sum::<usize>() > MAX_PASSING_PLACES {
         return None;
     }
     let number: Vec<(u32, &Vec<u32>)> = marked.iter().map(|(f, vertices)| (*f, vertices)).collect();
@@ -92,10 +94,10 @@ fn groups(mesh: &Mesh, marked: &BTreeMap<u32, Vec<u32>>, reach: f64) -> Option<V
     Some(members.into_values().collect())
 }
 
-/// What two ascending lists have in common.
+/// The common entries of two ascending lists.
 fn common(a: &[u32], b: &[u32]) -> Vec<u32> {
-    let (few, many) = if a.len() <= b.len() { (a, b) } else { (b, a) };
-    few.iter().filter(|v| many.binary_search(v).is_ok()).copied().collect()
+    let (shorter, longer) = if a.len() <= b.len() { (a, b) } else { (b, a) };
+    shorter.iter().filter(|v| longer.binary_search(v).is_ok()).copied().collect()
 }
 
 /// Whether some vertex lies farther than twice the reach from the line through the first and the one farthest from it.
@@ -110,15 +112,15 @@ fn is_wide(mesh: &Mesh, vertices: &[u32], reach: f64) -> bool {
 }
 
 /// The next vertices along the edges of all facets that were looked at.
-fn beside(mesh: &Mesh, imprints: &Imprints) -> BTreeMap<u32, BTreeSet<u32>> {
-    let mut beside: BTreeMap<u32, BTreeSet<u32>> = BTreeMap::new();
+fn adjacent_vertices(mesh: &Mesh, imprints: &Imprints) -> BTreeMap<u32, BTreeSet<u32>> {
+    let mut adjacent_vertices: BTreeMap<u32, BTreeSet<u32>> = BTreeMap::new();
     for side in imprints.facets.iter().flat_map(|f| sides(mesh.faces[*f as usize])) {
         for w in chain(imprints, side).windows(2) {
-            beside.entry(w[0]).or_default().insert(w[1]);
-            beside.entry(w[1]).or_default().insert(w[0]);
+            adjacent_vertices.entry(w[0]).or_default().insert(w[1]);
+            adjacent_vertices.entry(w[1]).or_default().insert(w[0]);
         }
     }
-    beside
+    adjacent_vertices
 }
 
 /// The vertices from `a` to `b`, both among them.
@@ -165,7 +167,7 @@ fn tiled(
     mesh: &Mesh,
     imprints: &Imprints,
     marked: &BTreeMap<u32, Vec<u32>>,
-    beside: &BTreeMap<u32, BTreeSet<u32>>,
+    adjacent_vertices: &BTreeMap<u32, BTreeSet<u32>>,
     facets: &[u32],
 ) -> Option<Vec<([u32; 3], u32)>> {
     let numbers: BTreeSet<u32> = facets.iter().flat_map(|f| &marked[f]).copied().collect();
@@ -176,7 +178,7 @@ fn tiled(
     let seen = Seen { mesh, axis: axis_of(mesh, *largest), numbers: &numbers };
     let mut fixed: Vec<[u32; 2]> = vec![];
     for (i, v) in (0..).zip(&numbers) {
-        fixed.extend(beside[v].iter().filter_map(local).filter(|j| i < *j).map(|j| [i, j]));
+        fixed.extend(adjacent_vertices[v].iter().filter_map(local).filter(|j| i < *j).map(|j| [i, j]));
     }
     let triangles = triangulate(numbers.len() as u32, &fixed, &seen)?;
     let mut pieces = vec![];

@@ -8,19 +8,21 @@ use trueness_geom::space::Point;
 
 type Cell = [i64; 3];
 
-/// For each point of `may_move` (ascending) the nearest of the points `used` that is no farther than `reach` along any axis, of those that
-/// may not move or are not moved; the lowest of equally near ones. Points without one, or not used, are not listed. Cost: linear.
+/// For each point of `may_move` (ascending) the nearest of the points `used` that is no farther than `reach` along any
+/// axis. Only points count that may not move or are not moved, and the lowest of equally near ones. Points without one,
+/// or not used, are not listed. Cost: linear.
 pub(super) fn snap(positions: &[Point], used: &[bool], may_move: &[u32], reach: f64) -> HashMap<u32, u32> {
     let cell = |p: &Point| -> Cell { p.map(|x| (x / reach).floor() as i64) };
     let around = |c: Cell| {
         let by = |i: i64| [i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1];
         (0..27).map(move |i| std::array::from_fn(|k| c[k].saturating_add(by(i)[k])))
     };
-    let asked: HashSet<Cell> = may_move.iter().flat_map(|p| around(cell(&positions[*p as usize]))).collect();
+    let cells_near: HashSet<Cell> =
+        may_move.iter().flat_map(|p| around(cell(&positions[*p as usize]))).collect();
     let mut stay: HashMap<Cell, Vec<u32>> = HashMap::new();
     let mut movable = may_move.iter().peekable();
     for (v, p) in (0..).zip(positions) {
-        if movable.next_if(|m| **m == v).is_none() && used[v as usize] && asked.contains(&cell(p)) {
+        if movable.next_if(|m| **m == v).is_none() && used[v as usize] && cells_near.contains(&cell(p)) {
             stay.entry(cell(p)).or_default().push(v);
         }
     }

@@ -1,18 +1,18 @@
 //! Triangulation of points in a plane, some of them joined by edges that must be there.
 //!
-//! 1. The points are added in the order of one coordinate. Each lies outside of the hull of those before and is joined with the
-//!    edges of the hull that it sees (the sweep of de Berg et al., Computational Geometry, 2008).
+//! 1. The points are added in the order of one coordinate. Each lies outside of the hull of those before and is joined
+//!    with the edges of the hull that it sees. That is the sweep of de Berg et al., Computational Geometry, 2008.
 //! 2. An edge is flipped where the circle of a triangle contains the point beyond the edge (Lawson, 1977). This only makes
 //!    triangles rounder, so it is decided in floating point and a limited number of times.
-//! 3. An edge that must be there and is missing is made by flipping the edges that cross it (Sloan, A fast algorithm for
-//!    generating constrained Delaunay triangulations, 1993).
+//! 3. An edge that must be there and is missing is made by flipping the edges that cross it. (Sloan, A fast algorithm
+//!    for generating constrained Delaunay triangulations, 1993).
 //!
 //! That triangles do not overlap and run counter-clockwise is decided exactly in every step.
 
 use std::cmp::Ordering;
 use std::collections::VecDeque;
 
-/// What is known of points `0..n` in the plane, no two at one place.
+/// Known facts about points `0..n` in the plane, no two at one place.
 pub(super) trait Plane {
     /// +1 where they run counter-clockwise, 0 where they lie on a line. Exact.
     fn orient(&self, points: [u32; 3]) -> i32;
@@ -23,7 +23,7 @@ pub(super) trait Plane {
 }
 
 /// No half-edge.
-const NONE: u32 = u32::MAX;
+const NO_HALF_EDGE: u32 = u32::MAX;
 
 /// Triangles by their half-edges: half-edge `3 t + k` leads from corner `k` of triangle `t` to the next corner.
 pub(super) struct Triangles {
@@ -48,10 +48,11 @@ fn previous(e: u32) -> u32 {
     if e.is_multiple_of(3) { e + 2 } else { e - 1 }
 }
 
-/// Triangulates the hull of points `0..n`, with these edges. No two edges cross, and no point lies inside an edge. Empty
-/// where all points lie on a line; `None` if the edges do cross, or what the plane says contradicts itself.
+/// Triangulates the hull of points
+/// `0..n`, with these edges. No two edges cross, and no point lies inside an edge. Empty where all points lie on a line; `None`
+/// if the edges do cross, or the plane contradicts itself.
 pub(super) fn triangulate(n: u32, edges: &[[u32; 2]], plane: &impl Plane) -> Option<Triangles> {
-    let none = vec![NONE; n as usize];
+    let none = vec![NO_HALF_EDGE; n as usize];
     let (out, hull, before) = (none.clone(), none.clone(), none);
     let mut t = Triangles { from: vec![], twin: vec![], fixed: vec![], out, hull, before };
     t.sweep(n, plane)?;
@@ -70,7 +71,7 @@ impl Triangles {
     fn add(&mut self, corners: [u32; 3]) -> u32 {
         let first = self.from.len() as u32;
         self.from.extend(corners);
-        self.twin.extend([NONE; 3]);
+        self.twin.extend([NO_HALF_EDGE; 3]);
         self.fixed.extend([false; 3]);
         for (k, v) in (0..).zip(corners) {
             self.out[v as usize] = first + k;
@@ -80,7 +81,7 @@ impl Triangles {
 
     fn link(&mut self, e: u32, f: u32) {
         self.twin[e as usize] = f;
-        if f != NONE {
+        if f != NO_HALF_EDGE {
             self.twin[f as usize] = e;
         }
     }
@@ -103,21 +104,21 @@ impl Triangles {
         };
         let (apex, side) = (order[first], plane.orient([order[0], order[1], order[first]]));
         // A fan over the points on the first line.
-        let mut before = NONE;
+        let mut before = NO_HALF_EDGE;
         for pair in order[..first].windows(2) {
             let [a, b] = if side > 0 { [pair[0], pair[1]] } else { [pair[1], pair[0]] };
             let e = self.add([a, b, apex]);
             self.at_hull(e);
             // The edges from and to the apex.
             let (joint, free) = if side > 0 { (e + 2, e + 1) } else { (e + 1, e + 2) };
-            if before != NONE {
+            if before != NO_HALF_EDGE {
                 self.link(before, joint);
             } else {
                 self.at_hull(joint);
             }
             before = free;
         }
-        if before != NONE {
+        if before != NO_HALF_EDGE {
             self.at_hull(before);
         }
         let mut last = apex;
@@ -128,15 +129,16 @@ impl Triangles {
         Some(())
     }
 
-    /// Joins a point with the edges of the hull that it sees, `last` being one that it sees. `None` where it sees all of the hull, or
-    /// where that is no ring: points that are taken to lie on a line but do not may be told so.
+    /// Joins a point with the edges of the hull that it sees, `last` being one that it sees. `None` where it sees all
+    /// of the hull, or where that is no ring. A plane may contradict itself: it may take points to lie on a line that
+    /// do not.
     fn join(&mut self, p: u32, last: u32, plane: &impl Plane) -> Option<()> {
         let sees = |a: u32, b: u32| plane.orient([a, b, p]) < 0;
         let mut left = self.out.len();
         let mut start = last;
         loop {
             let before = self.before[start as usize];
-            if before == NONE || left == 0 {
+            if before == NO_HALF_EDGE || left == 0 {
                 return None;
             }
             if !sees(before, start) {
@@ -144,10 +146,10 @@ impl Triangles {
             }
             (start, left) = (before, left - 1);
         }
-        let (mut at, mut before, mut new) = (start, NONE, vec![]);
+        let (mut at, mut before, mut new) = (start, NO_HALF_EDGE, vec![]);
         loop {
             let seen = self.hull[at as usize];
-            if seen == NONE || new.len() > self.out.len() {
+            if seen == NO_HALF_EDGE || new.len() > self.out.len() {
                 return None;
             }
             let b = self.to(seen);
@@ -156,7 +158,7 @@ impl Triangles {
             }
             let e = self.add([b, at, p]);
             self.link(e, seen);
-            if before == NONE {
+            if before == NO_HALF_EDGE {
                 self.at_hull(e + 1);
             } else {
                 self.link(before, e + 1);
@@ -165,7 +167,7 @@ impl Triangles {
             new.push(e);
             at = b;
         }
-        if before != NONE {
+        if before != NO_HALF_EDGE {
             self.at_hull(before);
             self.legalise(new, plane);
         }
@@ -185,7 +187,7 @@ impl Triangles {
         let mut left = 64 + 32 * edges.len();
         while let Some(e) = edges.pop() {
             let f = self.twin[e as usize];
-            if f == NONE || self.fixed[e as usize] {
+            if f == NO_HALF_EDGE || self.fixed[e as usize] {
                 continue;
             }
             let corners = [self.from[e as usize], self.to(e), self.apex(e), self.apex(f)];
@@ -225,7 +227,7 @@ impl Triangles {
         for ((e, twin), fixed) in around.into_iter().zip(twins).zip(fixed) {
             self.link(e, twin);
             self.fixed[e as usize] = fixed;
-            if twin == NONE {
+            if twin == NO_HALF_EDGE {
                 self.hull[self.from[e as usize] as usize] = e;
             }
         }
@@ -242,20 +244,20 @@ impl Triangles {
     fn around(&self, point: u32) -> impl Iterator<Item = u32> {
         let first = self.out[point as usize];
         let back = |e: u32| match self.twin[e as usize] {
-            NONE => NONE,
+            NO_HALF_EDGE => NO_HALF_EDGE,
             twin => next(twin),
         };
         let (mut at, mut is_back) = (first, false);
         std::iter::from_fn(move || {
             let e = at;
-            if e == NONE {
+            if e == NO_HALF_EDGE {
                 return None;
             }
             at = if is_back { back(e) } else { self.twin[previous(e) as usize] };
-            if at == NONE && !is_back {
+            if at == NO_HALF_EDGE && !is_back {
                 (at, is_back) = (back(first), true);
             } else if at == first {
-                at = NONE;
+                at = NO_HALF_EDGE;
             }
             Some(e)
         })
@@ -284,7 +286,7 @@ impl Triangles {
     fn fix(&mut self, e: u32) {
         self.fixed[e as usize] = true;
         let twin = self.twin[e as usize];
-        if twin != NONE {
+        if twin != NO_HALF_EDGE {
             self.fixed[twin as usize] = true;
         }
     }
@@ -301,7 +303,7 @@ impl Triangles {
         while let Some([p, q]) = crossing.pop_front() {
             tries = tries.checked_sub(1)?;
             let e = self.between(p, q)?;
-            if self.fixed[e as usize] || self.twin[e as usize] == NONE {
+            if self.fixed[e as usize] || self.twin[e as usize] == NO_HALF_EDGE {
                 return None;
             }
             if !self.flips(e, plane) {
@@ -335,7 +337,7 @@ impl Triangles {
         loop {
             all.push([self.from[e as usize], self.to(e)]);
             let f = self.twin[e as usize];
-            if f == NONE {
+            if f == NO_HALF_EDGE {
                 return None;
             }
             let apex = self.apex(f);
@@ -357,8 +359,8 @@ impl Triangles {
 
 /// Whether the circle through the first three, which run counter-clockwise, clearly holds the last.
 fn in_circle([a, b, c, d]: [[f64; 2]; 4]) -> bool {
-    /// Of the sum of magnitudes: rounding takes less.
-    const CLEAR: f64 = 1e-12;
+    /// Share of the sum of magnitudes: rounding takes less.
+    const ROUNDING_SHARE: f64 = 1e-12;
     let row = |p: [f64; 2]| {
         let (x, y) = (p[0] - d[0], p[1] - d[1]);
         (x, y, x * x + y * y)
@@ -367,7 +369,7 @@ fn in_circle([a, b, c, d]: [[f64; 2]; 4]) -> bool {
     let terms = [(aa, bx * cy - by * cx), (bb, cx * ay - cy * ax), (cc, ax * by - ay * bx)];
     let sum: f64 = terms.iter().map(|(l, m)| l * m).sum();
     let size: f64 = terms.iter().map(|(l, m)| (l * m).abs()).sum();
-    sum > CLEAR * size
+    sum > ROUNDING_SHARE * size
 }
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! What a step says of something that it changed.
+//! A record of something that a step changed.
 
 use super::step::Step;
 use trueness_geom::space::Point;
@@ -8,7 +8,7 @@ use trueness_geom::space::Point;
 pub struct Change {
     /// The step that did it.
     pub step: &'static Step,
-    /// What was done.
+    /// Name of the change.
     pub what: &'static str,
     /// Where.
     pub position: Point,

@@ -1,4 +1,4 @@
-//! Fans of facets that were given a vertex of their own, and are so near to one another still that a search for places meant as one
+//! Fans of facets with a vertex of their own that are still very near to one another. A search for places meant as one
 //! would join them again.
 
 use super::work::Work;
@@ -18,8 +18,8 @@ pub(super) struct Fan {
 /// For each vertex that is lost the other ends of the boundary edges that stay at it.
 pub(super) type Rims = BTreeMap<u32, Vec<u32>>;
 
-/// Fans, by their number, whose new vertex (that of number `first` and those after it) lies within the gap of the vertex of an earlier
-/// fan from the same place, of that place, or of a boundary edge that begins there. Fans of a place are neighbors in `fans`.
+/// Fans, by their number, whose new vertex (that of number
+/// `first` and those after it) lies within the gap of another place. That is the vertex of an earlier fan from the same place, this place itself, or a boundary edge that begins there. Fans of a place are neighbors in `fans`.
 ///
 /// n log n for n fans at a place, and more where most of them lie within the gap of one edge.
 pub(super) fn meant_as_one(work: &Work, fans: &[Fan], rims: &Rims, first: usize) -> Vec<usize> {

@@ -1,6 +1,6 @@
 //! Facets that are there more than once.
 //!
-//! Of the facets with the same three vertices one stays, or none: that which its neighbors need. At each of its three
+//! One of the facets with the same three vertices stays, or none: the one that its neighbors need. At each of its three
 //! edges the other facets are counted by direction; where they lack one, they vote for it.
 
 use super::edges::Edges;
@@ -29,9 +29,9 @@ pub(super) fn run(work: &mut Work) -> Result<(), RepairError> {
         work.go_on()?;
         let facets: Vec<u32> = [group[0][0]].into_iter().chain(group.iter().map(|d| d[1])).collect();
         let kept = wanted(work, &edges, &mut directions, &facets);
-        let gone = facets.iter().copied().filter(|f| Some(*f) != kept);
+        let others = facets.iter().copied().filter(|f| Some(*f) != kept);
         let before = removed.len();
-        removed.extend(gone);
+        removed.extend(others);
         let (place, area) = (work.middle(facets[0]), finding::area(work.corners(facets[0])));
         work.log(&STEP, "facets at the same place removed", place, removed.len() - before, area);
     }

@@ -19,7 +19,7 @@ pub(super) struct Side {
 pub(super) struct Edges(Vec<Side>);
 
 impl Edges {
-    /// Of the facets that count. n log n, 16 bytes a side.
+    /// The sides of the facets that count. n log n, 16 bytes a side.
     pub(super) fn of(mesh: &Mesh, topology: &Topology) -> Edges {
         let side = |f: u32, a: u32, b: u32| Side { ends: [a.min(b), a.max(b)], facet: f, up: a < b };
         let counting = mesh.faces.par_iter().enumerate().filter(|(f, _)| topology.shell_of[*f] != u32::MAX);

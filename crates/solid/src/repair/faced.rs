@@ -1,4 +1,4 @@
-//! Facets that agree about the outside, for what only asks on which side the material is.
+//! Facets that agree about the outside, for questions about the side of the material alone.
 
 use super::error::RepairError;
 use super::options::Options;
@@ -24,11 +24,11 @@ pub struct Faced {
 
 /// `mesh` with facets that run the same way round as their neighbors and look out of the material.
 ///
-/// Of facets at the same place one stays; the smaller part of each sheet is turned; closed shells
-/// that enclose no material are turned (exactly; cavities stay). `open_too`: so are open shells that nearly enclose a volume
-/// (the length of their vector area is at most a quarter of their area) and look into it, as the nominal of a comparison;
-/// the scan of a cavity looks like that too. Nothing else is mended. Cost: linear, as finding the edges; winding numbers
-/// where closed shells lie in each other.
+/// One facet of several at the same place stays, and the smaller part of each sheet is turned. Closed shells that
+/// enclose no material are turned (exactly; cavities stay). With `open_too`, open shells are turned as well that nearly
+/// enclose a volume and look into it, as the nominal of a comparison. The length of their vector area is at most a
+/// quarter of their area. The scan of a cavity looks like that too. Nothing else is mended. Cost: linear, as finding
+/// the edges; winding numbers where closed shells lie in each other.
 ///
 /// # Errors
 /// [`RepairError`]: vertices that are not there, or cancelled.
@@ -54,7 +54,7 @@ pub fn faced(mesh: &Mesh, open_too: bool, progress: &dyn Progress) -> Result<Fac
     Ok(Faced { mesh: work.into_mesh(), doubled, turned, inverted: closed + open })
 }
 
-/// Of facets with the same three vertices keeps the first, whichever way it looks: that is seen to later.
+/// Keeps the first of the facets with the same three vertices, whichever way it looks: that is seen to later.
 fn once(work: &mut Work) -> Result<usize, RepairError> {
     let known = work.known()?;
     let again: Vec<u32> = known.topology.duplicate_facets.iter().map(|[_, again]| *again).collect();
@@ -62,7 +62,7 @@ fn once(work: &mut Work) -> Result<usize, RepairError> {
     Ok(again.len())
 }
 
-/// What facets of a shell come to: corners' mean weighted by area, vector area, volume towards the origin.
+/// Sums over the facets of a shell: corners' mean weighted by area, vector area, volume towards the origin.
 #[derive(Clone, Copy, Default)]
 struct Sum {
     area: f64,

@@ -1,9 +1,10 @@
 //! Facets that hang on a surface without being part of it.
 //!
-//! The edges where more than two facets meet cut the mesh into sheets. A sheet is superfluous if the others do without it (two
-//! more facets at each of those edges), if it encloses nothing, and if it is small or hangs on all sides (a wall inside). What
-//! has a boundary edge is superfluous only where nothing else of its shell has one but at holes: parts of an open surface stay. Of a shell
-//! with as many facets one way as the other at every edge each sheet bounds material: bodies that touch in edges.
+//! The edges where more than two facets meet cut the mesh into sheets. A sheet is superfluous under three conditions.
+//! The others do without it (two more facets at each of those edges). It encloses nothing. It is small, or hangs on all
+//! sides (a wall inside). A sheet with a boundary edge is superfluous only where nothing else of its shell has one but
+//! at holes. So parts of an open surface stay. Where a shell has as many facets one way as the other at every edge,
+//! each sheet bounds material: bodies that touch in edges.
 
 use super::edges::Edges;
 use super::error::RepairError;
@@ -21,9 +22,9 @@ pub(super) const STEP: Step = Step {
     removes: Removes::Fins,
 };
 
-/// Sheets with boundary edges are fins as long as all of them together have at most this share of the area of their shell, and of all in
-/// all rounds.
-const FIN: f64 = 0.1;
+/// Sheets with boundary edges are fins as long as all of them together have at most this share of the area of their
+/// shell. All fins of all rounds have at most this share of all area.
+const MAX_FIN_SHARE: f64 = 0.1;
 
 #[derive(Clone, Debug, Default)]
 struct Sheet {
@@ -58,27 +59,27 @@ pub(super) fn run(work: &mut Work) -> Result<(), RepairError> {
     // How many facets there are at each edge of more than two.
     let mut meetings: Vec<usize> = vec![];
     for edge in edges.iter() {
-        let here: Vec<u32> = edge.iter().map(|s| of[s.facet as usize]).collect();
-        match here.len() {
+        let of_edge: Vec<u32> = edge.iter().map(|s| of[s.facet as usize]).collect();
+        match of_edge.len() {
             1 => {
-                let sheet = &mut sheets[here[0] as usize];
+                let sheet = &mut sheets[of_edge[0] as usize];
                 sheet.has_rim = true;
                 sheet.has_border |= !fillable.contains(&edge[0].ends);
             }
             2 => {}
             _ => {
                 let edge = meetings.len();
-                here.iter().for_each(|s| *sheets[*s as usize].edges.entry(edge).or_default() += 1);
-                meetings.push(here.len());
+                of_edge.iter().for_each(|s| *sheets[*s as usize].edges.entry(edge).or_default() += 1);
+                meetings.push(of_edge.len());
             }
         }
     }
     let shell = |s: &Sheet| known.topology.shell_of[s.facets[0] as usize] as usize;
     let mut open = vec![false; known.topology.shells];
-    let mut may_go: Vec<f64> = known.properties.shell_areas.iter().map(|area| FIN * area).collect();
-    // In all rounds together, of what there was at first.
-    let mut gone = work.state.handover.fins_gone;
-    let most = FIN * (known.properties.area + gone);
+    let mut may_go: Vec<f64> = known.properties.shell_areas.iter().map(|area| MAX_FIN_SHARE * area).collect();
+    // In all rounds together, as a share of the area at first.
+    let mut removed_area = work.state.handover.fins_gone;
+    let most = MAX_FIN_SHARE * (known.properties.area + removed_area);
     let encloses_nothing = |s: &Sheet| norm(s.vector) > 2.0 * MIN_SHEET_OPENNESS * s.area;
     let small = |s: &Sheet, may_go: &[f64]| !s.has_rim || 0.5 * s.area <= may_go[shell(s)];
     let is_fin = |s: &Sheet| !s.edges.is_empty() && encloses_nothing(s) && 0.5 * s.area <= may_go[shell(s)];
@@ -97,16 +98,16 @@ pub(super) fn run(work: &mut Work) -> Result<(), RepairError> {
         let sheet = &sheets[s as usize];
         let not_needed = |(edge, own): (&usize, &usize)| meetings[*edge] >= own + 2;
         let fin = if sheet.has_rim { 0.5 * sheet.area } else { 0.0 };
-        if small(sheet, &may_go) && gone + fin <= most && sheet.edges.iter().all(not_needed) {
+        if small(sheet, &may_go) && removed_area + fin <= most && sheet.edges.iter().all(not_needed) {
             may_go[shell(sheet)] -= fin;
-            gone += fin;
+            removed_area += fin;
             sheet.edges.iter().for_each(|(edge, own)| meetings[*edge] -= own);
             let place = work.middle(sheet.facets[0]);
             work.log(&STEP, "superfluous sheet removed", place, sheet.facets.len(), 0.5 * sheet.area);
             removed.extend(&sheet.facets);
         }
     }
-    work.state.handover.fins_gone = gone;
+    work.state.handover.fins_gone = removed_area;
     if !removed.is_empty() {
         work.replace(&removed, &[]);
     }

@@ -1,6 +1,6 @@
-//! What a repair changed: how many vertices and facets, and how far the surface went.
+//! Changes of a repair: numbers of vertices and facets, and how far the surface went.
 
-use super::same::Same;
+use super::facet_set::FacetSet;
 use std::collections::HashMap;
 use trueness_geom::check::finding::area;
 use trueness_geom::closest::{MeshError, Query, QueryError, Tree};
@@ -86,9 +86,9 @@ pub struct Way {
 /// How far a repair took the surface, mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Deviation {
-    /// From the old surface to the new one: what is missing.
+    /// From the old surface to the new one: missing surface.
     pub there: Way,
-    /// From the new surface to the old one: what was added.
+    /// From the new surface to the old one: added surface.
     pub back: Way,
 }
 
@@ -109,8 +109,8 @@ pub(super) fn places([a, b, c]: [Point; 3]) -> [Point; 7] {
     [a, b, c, half(a, b), half(b, c), half(c, a), times(1.0 / 3.0, plus(a, plus(b, c)))]
 }
 
-/// What `ask` answers for each of these places, those that are there several times asked about once: at a corner of very many facets
-/// each answer takes as long as there are facets.
+/// The answers of `ask` for each of these places. Places that are there several times are asked about once. At a corner
+/// of very many facets each answer takes as long as there are facets.
 pub(super) fn once<E>(
     places: &[Point],
     ask: impl FnOnce(&[Point]) -> Result<Vec<f64>, E>,
@@ -129,21 +129,22 @@ pub(super) fn once<E>(
 }
 
 /// Exact for cubic functions on a facet: corners, middles of edges, middle.
-const WEIGHTS: [f64; 7] =
+const CUBATURE_WEIGHTS: [f64; 7] =
     [1.0 / 20.0, 1.0 / 20.0, 1.0 / 20.0, 2.0 / 15.0, 2.0 / 15.0, 2.0 / 15.0, 9.0 / 20.0];
 
 /// Distances from one surface to another. Facets of `without` do not count.
 pub(super) fn way(
-    (from, without): (&Mesh, &Same),
+    (from, without): (&Mesh, &FacetSet),
     to: &Mesh,
     progress: &dyn Progress,
 ) -> Result<Way, DeviationError> {
-    let there = Same::of(to, |_| true);
+    let there = FacetSet::of(to, |_| true);
     let corners = |f: &[u32; 3]| from.places(f);
     let counts =
         |f: &&[u32; 3]| corners(f).iter().flatten().all(|x| x.is_finite()) && !without.holds(from, f);
-    let asked = |f: &[u32; 3]| (area(corners(f)), (!there.holds(from, f)).then(|| corners(f)));
-    let counting: Vec<(f64, Option<[Point; 3]>)> = from.faces.par_iter().filter(counts).map(asked).collect();
+    let sampled = |f: &[u32; 3]| (area(corners(f)), (!there.holds(from, f)).then(|| corners(f)));
+    let counting: Vec<(f64, Option<[Point; 3]>)> =
+        from.faces.par_iter().filter(counts).map(sampled).collect();
     let total: f64 = counting.iter().map(|(area, _)| area).sum();
     let changed: Vec<[Point; 3]> = counting.into_iter().filter_map(|(_, changed)| changed).collect();
     if changed.is_empty() {
@@ -153,10 +154,10 @@ pub(super) fn way(
     let tree = Tree::build(to)?;
     let distances = once(&points, |places| tree.distances(places, &Query::default(), progress))?;
     let mut way = Way::default();
-    for (t, d) in changed.iter().zip(distances.chunks_exact(WEIGHTS.len())) {
+    for (t, d) in changed.iter().zip(distances.chunks_exact(CUBATURE_WEIGHTS.len())) {
         way.max = d.iter().copied().fold(way.max, f64::max);
         let share = if total > 0.0 { area(*t) / total } else { 0.0 };
-        way.mean += share * d.iter().zip(WEIGHTS).map(|(d, w)| d * w).sum::<f64>();
+        way.mean += share * d.iter().zip(CUBATURE_WEIGHTS).map(|(d, w)| d * w).sum::<f64>();
     }
     Ok(way)
 }

@@ -1,12 +1,12 @@
-//! Repair of what [`check`] finds, without moving a vertex.
+//! Repair of the findings of [`check`], without moving a vertex.
 //!
-//! [`repair`] goes through the steps of [`STEPS`] (one file and one line each) in rounds, until a round changes nothing. A step
-//! makes a new `State` of the one before (`state`): it adds vertices, and removes, adds or renumbers facets, but never writes
-//! a coordinate. So every vertex that stays keeps its bits. Every change is listed. A step decides exactly what [`check`]
-//! decides exactly.
+//! [`repair`] goes through the steps of [`STEPS`] (one file and one line each) in rounds, until a round changes
+//! nothing. A step makes a new `State` of the one before (`state`): it adds vertices, and removes, adds or renumbers
+//! facets, but never writes a coordinate. So every vertex that stays keeps its bits. Every change is listed. A step
+//! decides exactly wherever [`check`] does.
 //!
-//! Where the steps together make the mesh worse, they are gone through again without one of them, from the state before that
-//! step first changed something (`rounds`).
+//! Where the steps together make the mesh worse, they are gone through again without one of them. That begins at the
+//! state before that step first changed something (`rounds`).
 
 mod change;
 mod crowded;
@@ -17,6 +17,7 @@ mod effect;
 mod enclosed;
 mod error;
 mod faced;
+mod facet_set;
 mod fins;
 mod holes;
 mod islands;
@@ -27,7 +28,6 @@ mod orient;
 mod outward;
 mod pairs;
 mod rounds;
-mod same;
 mod scraps;
 mod self_intersections;
 mod split;
@@ -50,9 +50,9 @@ pub use options::{Holes, Options};
 pub use step::{Removes, Step};
 
 use crate::arrange::ArrangeError;
+use facet_set::FacetSet;
 use measure::way;
-use rounds::{Entry, Kept, StepPosition, go_through};
-use same::Same;
+use rounds::{Entry, KeptState, StepPosition, go_through};
 use std::sync::Arc;
 use trueness_geom::check::{self, Known, Report};
 use trueness_geom::closest::sane_vertex;
@@ -63,7 +63,7 @@ use trueness_geom::space::Point;
 use trueness_geom::topology::weld::{WeldError, as_it_is, compact, rejoined};
 use work::Work;
 
-/// All steps with what does them, in their order.
+/// All steps with their functions, in their order.
 const ENTRIES: [Entry; 15] = [
     Entry { step: &not_finite::STEP, run: not_finite::run },
     Entry { step: &stitch::STEP, run: stitch::run },
@@ -121,16 +121,16 @@ pub struct Repaired {
     pub changes: Vec<Change>,
     /// How often the steps were gone through.
     pub rounds: usize,
-    /// What the check said before.
+    /// Findings of the check before.
     pub before: Report,
-    /// What it says now.
+    /// Findings of the check now.
     pub after: Report,
     /// Vertices and facets that stayed, came and went.
     pub counts: Counts,
-    /// What became of the places that the mesh encloses.
+    /// Effect on the places that the mesh encloses.
     pub effect: Effect,
-    /// Steps that were not done, because with them some defect would have become more frequent, or surface would have been removed
-    /// and the mesh still not been sound.
+    /// Steps that were not done. With them some defect would have become more frequent, or surface would have been
+    /// removed and the mesh still not been sound.
     pub taken_back: Vec<&'static Step>,
     /// Vertices that were rounded to single precision before anything was decided: on request, or because shells could not be
     /// united otherwise.
@@ -142,11 +142,11 @@ pub struct Repaired {
 impl Repaired {
     /// Distances between `before`, the mesh that was repaired, and the result, both ways.
     ///
-    /// Each facet is asked about at its corners, the middles of its edges and its middle, exactly to the nearest place of
-    /// the other mesh; facets that both have are at distance 0 and not asked about. So the mean is that of the whole
-    /// surface, and the maximum falls short by less than a third of the longest edge of a facet that changed. Of a mesh
-    /// that encloses places only what bounds them counts as old surface; of facets that met others [`Effect::surface`]
-    /// tells the distance.
+    /// Each facet is measured at its corners, the middles of its edges and its middle, exactly to the nearest place of
+    /// the other mesh. Facets that both have are at distance 0 and not measured. So the mean is that of the whole
+    /// surface. The maximum falls short by less than a third of the longest edge of a facet that changed. Only the
+    /// surface that bounds enclosed places counts as old, where a mesh encloses any. For facets that met others
+    /// [`Effect::surface`] states the distance.
     ///
     /// # Errors
     /// [`MeshError`](trueness_geom::closest::MeshError) where one of them has no facet or a coordinate that is not finite,
@@ -154,11 +154,11 @@ impl Repaired {
     pub fn deviation(&self, before: &Mesh, progress: &dyn Progress) -> Result<Deviation, DeviationError> {
         let mut there = way((before, &self.effect.inside), &self.mesh, progress)?;
         there.max = there.max.max(self.effect.surface.unwrap_or(0.0));
-        Ok(Deviation { there, back: way((&self.mesh, &Same::default()), before, progress)? })
+        Ok(Deviation { there, back: way((&self.mesh, &FacetSet::default()), before, progress)? })
     }
 }
 
-/// What rounding the input has changed.
+/// Effect of rounding the input.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Rounded {
     /// Vertices.
@@ -168,20 +168,16 @@ pub struct Rounded {
 }
 
 /// Holes that a step has cut are widened by no more than this share of the whole area, all together.
-const WIDEN: f64 = 0.25;
+const MAX_WIDENED_SHARE: f64 = 0.25;
 
 /// Mends `mesh`. Vertices at the same place become one first.
 ///
-/// A mesh that is sound comes back as it is. Any mesh will do, however broken, whose finite coordinates are 0 or from 1e-50
-/// to 1e45 mm; what cannot be mended stays, and [`Repaired::after`] lists it. No defect that makes a mesh unsound is there
-/// more often than before, and what was closed stays closed: where the steps together would end worse, it is done without
-/// one of them, without the last of them, or not at all. Crossing facets and loose sheets are removed only where the rest
-/// then is sound; facets that are not finite always are, and what is compared is the mesh without them. The result is the
-/// same for any number of threads. Shells whose union cannot be written as they are, are united with all vertices rounded to single
-/// precision, where the mesh then is sound and no vertex goes farther than a millionth of the diagonal ([`Repaired::rounded`]).
-/// Cost: for each step that changes something about as much as a check; filling holes up to
-/// the cube of 100 for each ring; what ends worse twice more for each step that changed something, from where it first did;
-/// all of it twice where vertices are rounded.
+/// A mesh that is sound comes back as it is. Any mesh will do, however broken, whose finite coordinates are 0 or from
+/// 1e-50 to 1e45 mm. Defects that cannot be mended stay, and
+/// [`Repaired::after`] lists them. No defect that makes a mesh unsound is there more often than before, and closed surfaces stay closed. Where the steps together would end worse, the repair is done without one of them, without the last of them, or not at all. Crossing facets and loose sheets are removed only where the rest then is sound. Facets that are not finite always are, and the comparison is with the mesh without them. The result is the same for any number of threads. Some shells have a union that cannot be written as they are. They are united with all vertices rounded to single precision. The mesh then must be sound, and no vertex may go farther than a millionth of the diagonal ([`Repaired::rounded`]).
+/// Cost: for each step that changes something about as much as a check. Filling holes takes up to the cube of 100 for
+/// each ring. A repair that ends worse is done twice more for each step that changed something, from where it first
+/// did. All of it takes twice as long where vertices are rounded.
 ///
 /// # Errors
 /// [`RepairError`].
@@ -198,11 +194,11 @@ pub fn repair(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result
 
 /// Whether single precision takes no vertex farther than a trifle of the size.
 fn is_fine_in_single(mesh: &Mesh) -> bool {
-    /// Of the diagonal.
-    const NEGLIGIBLE: f64 = 1e-6;
+    /// Share of the diagonal.
+    const NEGLIGIBLE_SHIFT_OF_DIAGONAL: f64 = 1e-6;
     let bounds = mesh.finite_bounds();
     let most = bounds.min.iter().chain(&bounds.max).fold(0.0, |most: f64, x| most.max(x.abs()));
-    3f64.sqrt() * 0.5 * f64::from(f32::EPSILON) * most <= NEGLIGIBLE * bounds.diagonal()
+    3f64.sqrt() * 0.5 * f64::from(f32::EPSILON) * most <= NEGLIGIBLE_SHIFT_OF_DIAGONAL * bounds.diagonal()
 }
 
 /// As [`repair`], in the precision of `options` alone.
@@ -220,14 +216,15 @@ fn repaired(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<R
         None => base.again(options),
     };
     let soup = start.soup()?;
-    let attempt = |without: &[&'static Step], from: Option<&Kept>| {
-        // Bodies that are not united stay whole: what crosses is not cut out in place of uniting them.
+    let attempt = |without: &[&'static Step], from: Option<&KeptState>| {
+        // Bodies that are not united stay whole: crossing facets are not cut out in place of uniting them.
         let also = without.contains(&&union::STEP).then_some(&self_intersections::STEP);
         let is_wanted = |s: &&'static Step| !without.contains(s) && also != Some(*s);
         let steps = options.steps.iter().copied().filter(is_wanted).collect();
         attempt((&start, from), &Options { steps, ..options.clone() }, (&before, &check_options))
     };
-    // Facets with a coordinate that is not finite are no surface: what the others are without them is what shall not get worse.
+    // Facets with a coordinate that is not finite are no surface. The findings on the others without them shall not get
+    // worse.
     let mut finite = match before.count(check::NOT_FINITE_FACETS) {
         0 => None,
         _ => Some(attempt(&all_but(&not_finite::STEP), None)?),
@@ -282,24 +279,25 @@ fn all_but(step: &Step) -> Vec<&'static Step> {
     STEPS.into_iter().filter(|s| *s != step).collect()
 }
 
-/// The first attempt after which no defect is more frequent than in `least`, and the steps that it leaves out: each step that changed
-/// something in `done` is left out by itself; then the last two of them, the last three, and so on. Always without `left_out` too.
+/// The first attempt after which no defect is more frequent than in
+/// `least`, and the steps that it leaves out. First each step that changed something in `done` is left out by itself;
+/// then the last two of them, the last three, and so on. Always without `left_out` too.
 fn without_some(
-    attempt: &impl Fn(&[&'static Step], Option<&Kept>) -> Result<Attempt, RepairError>,
+    attempt: &impl Fn(&[&'static Step], Option<&KeptState>) -> Result<Attempt, RepairError>,
     done: &Attempt,
     left_out: &[&'static Step],
     least: &Report,
 ) -> Result<Option<(Attempt, Vec<&'static Step>)>, RepairError> {
-    // Cutting out opens what is closed: it is the first step to be left out.
+    // Cutting out opens closed surfaces: it is the first step to be left out.
     let cutting_out = &self_intersections::STEP;
     let singly = done.did([cutting_out].into_iter().chain(all_but(cutting_out)));
     let in_turn = done.did(STEPS);
     let last = (2..in_turn.len()).map(|n| in_turn[in_turn.len() - n..].to_vec());
     for tried in singly.into_iter().map(|step| vec![step]).chain(last) {
         let without = [left_out, &tried].concat();
-        // The presence of these two changes what other steps do.
+        // The presence of these two changes the effect of other steps.
         let alone = !tried.iter().any(|step| [&union::STEP, cutting_out].contains(step));
-        let from = if alone { Kept::before(&done.kept, &tried) } else { None };
+        let from = if alone { KeptState::before(&done.kept, &tried) } else { None };
         let next = attempt(&without, from)?;
         if !worse(least, &next.after) {
             return Ok(Some((next, without)));
@@ -314,13 +312,13 @@ fn worse(before: &Report, after: &Report) -> bool {
         return true;
     }
     let mut errors = check::KINDS.iter().filter(|kind| kind.severity == check::Severity::Error);
-    // What is too many to count is worse than any number that was counted.
+    // Too many to count is worse than any number that was counted.
     let count =
         |report: &Report, kind| report.found(kind).map_or((false, 0), |found| (found.at_least, found.count));
     errors.any(|kind| count(after, kind) > count(before, kind))
 }
 
-/// What one attempt came to.
+/// Result of one attempt.
 struct Attempt {
     mesh: Mesh,
     known: Arc<Known>,
@@ -331,7 +329,7 @@ struct Attempt {
     not_united: Option<ArrangeError>,
     lost: Vec<[Point; 3]>,
     /// States on the way.
-    kept: Vec<Kept>,
+    kept: Vec<KeptState>,
 }
 
 impl Attempt {
@@ -358,7 +356,7 @@ impl Attempt {
 
 /// Goes through the steps of `options`, from the start, or from a state up to which they did the same as in an earlier attempt.
 fn attempt(
-    (start, from): (&Work, Option<&Kept>),
+    (start, from): (&Work, Option<&KeptState>),
     options: &Options,
     (before, check_options): (&Report, &check::Options),
 ) -> Result<Attempt, RepairError> {
@@ -369,12 +367,12 @@ fn attempt(
         Some(from) => go_through(start.resumed(&from.state, options), &steps, from.position, None)?,
         None => {
             let mut work = start.again(options);
-            work.state.handover.widening_left = WIDEN * before.properties.area;
+            work.state.handover.widening_left = MAX_WIDENED_SHARE * before.properties.area;
             go_through(work, &steps, StepPosition::START, Some(&mut kept))?
         }
     };
     if work.state.handover.has_widened && work.has_open_cut()? {
-        // Widened in vain: once more without, so that what was cut out beyond the crossings stays.
+        // Widened in vain: once more without, so that facets cut out beyond the crossings stay.
         (work, rounds) = go_through(start.again(options), &steps, StepPosition::START, None)?;
     }
     let mut counts = Counts::of(start.mesh(), work.mesh());

@@ -1,17 +1,17 @@
-//! What a repair shall do. The default, with all steps, stands beside their list.
+//! Options of a repair. The default, with all steps, stands beside their list.
 
 use super::step::Step;
 
 /// Which holes are filled.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Holes {
-    /// Those whose patch has at most this share of the area of their shell.
+    /// Holes whose patch has at most this share of the area of their shell.
     UpTo(f64),
     /// All, even the rim of a sheet; of a flat one, which would enclose nothing, none.
     All,
 }
 
-/// What shall be done.
+/// Options of a repair.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
     /// The steps to do, in any order.

@@ -1,7 +1,7 @@
 //! Neighbors that face different ways.
 //!
-//! Within a sheet (facets connected through edges of two facets) all facets are made to run the way round that the larger
-//! part of its area runs already. A surface with one side only, such as Möbius's, keeps its seam.
+//! A sheet is a set of facets connected through edges of two facets. All facets of one are made to run the way round
+//! that the larger part of its area runs already. A surface with one side only, such as Möbius's, keeps its seam.
 
 use super::edges::{Edges, Side};
 use super::error::RepairError;
@@ -64,7 +64,7 @@ fn flood(first: u32, across: &[(u32, u32, bool)], turned: &mut [Option<bool>]) -
     sheet
 }
 
-/// Those facets of the sheet that must be turned, or all others, whichever has less area.
+/// The facets of the sheet that must be turned, or all others, whichever have less area.
 fn smaller(work: &Work, sheet: &[u32], turned: &[Option<bool>]) -> Vec<u32> {
     let part = |which: bool| -> Vec<u32> {
         sheet.iter().copied().filter(|f| turned[*f as usize] == Some(which)).collect()

@@ -1,7 +1,7 @@
-//! What is known of the pairs of facets that meet where they should not, while facets come and go.
+//! Known pairs of facets that meet where they should not, while facets come and go.
 //!
-//! Whether two facets meet follows from their corners alone. So where facets are removed and others added, the pairs of those
-//! that stay are known, and only what was added must be looked for.
+//! Whether two facets meet follows from their corners alone. So where facets are removed and others added, the pairs of
+//! those that stay are known, and only the added facets must be looked at.
 
 use std::ops::Range;
 
@@ -18,7 +18,7 @@ pub(super) enum Pairs {
 }
 
 impl Pairs {
-    /// Of `facets` facets those whose pairs are not known.
+    /// The facets, below `facets`, whose pairs are not known.
     pub fn new_facets(&self, facets: usize) -> Option<Range<usize>> {
         match self {
             Pairs::Unknown => Some(0..facets),
@@ -27,7 +27,7 @@ impl Pairs {
         }
     }
 
-    /// Takes in what was found of the new facets, which makes `facets` in all; `None`: too many.
+    /// Takes in the pairs found of the new facets, which makes `facets` in all; `None`: too many.
     pub fn take_in(&mut self, found: Option<Vec<[u32; 2]>>, facets: usize) {
         let known = match std::mem::take(self) {
             Pairs::All(pairs, _) => pairs,

@@ -1,7 +1,7 @@
 //! Going through the steps until nothing is left to do, from the start or from a state on the way.
 //!
-//! Where the steps end worse than they began, they are gone through again without one of them. Until that one first changed
-//! something, everything is as it was: so the state before it is kept, and what follows is done again from there.
+//! Where the steps end worse than they began, they are gone through again without one of them. Everything is as it was
+//! until that one first changed something. So the state before it is kept, and the rest is done again from there.
 
 use super::error::RepairError;
 use super::state::State;
@@ -9,12 +9,12 @@ use super::step::{Removes, Step};
 use super::work::Work;
 use crate::arrange::ArrangeError;
 
-/// How often the steps are gone through at most. Two or three rounds are usual; what is not mended by then is beyond it.
-pub(super) const ROUNDS: usize = 8;
-/// Of larger meshes no states are kept: what they take of memory, some 100 bytes a facet each, is worth more than the time.
-const MOST_FACETS: usize = 1_000_000;
+/// How often the steps are gone through at most. Two or three rounds are usual; a defect that is left then is beyond it.
+pub(super) const MAX_ROUNDS: usize = 8;
+/// States of larger meshes are not kept: their memory, some 100 bytes a facet each, is worth more than the time.
+const MAX_FACETS_OF_KEPT_STATES: usize = 1_000_000;
 
-/// A step and what does it.
+/// A step and its function.
 #[derive(Clone, Copy)]
 pub(super) struct Entry {
     pub step: &'static Step,
@@ -22,7 +22,7 @@ pub(super) struct Entry {
 }
 
 /// A state on the way: before a step that then changed something for the first time.
-pub(super) struct Kept {
+pub(super) struct KeptState {
     pub state: State,
     step: &'static Step,
     pub position: StepPosition,
@@ -42,26 +42,28 @@ impl StepPosition {
     pub(super) const START: StepPosition = StepPosition { round: 1, step: 0, done: 0 };
 }
 
-impl Kept {
-    /// Of states in the order of the way the last one that none of these steps has changed; `None` where that cannot be told.
-    pub(super) fn before<'k>(kept: &'k [Kept], steps: &[&'static Step]) -> Option<&'k Kept> {
+impl KeptState {
+    /// The last state on the way, of those kept in its order, that none of these steps has changed; `None` where that
+    /// cannot be told.
+    pub(super) fn before<'k>(kept: &'k [KeptState], steps: &[&'static Step]) -> Option<&'k KeptState> {
         let all = steps.iter().all(|step| kept.iter().any(|k| k.step == *step));
         kept.iter().find(|k| all && steps.contains(&k.step))
     }
 }
 
-/// Goes through `steps`, with their numbers in the list of all, from `position` on until nothing is left to do; the end, and in how
-/// many rounds. In `kept`, if given, the state before each step that changed something comes to stand, once for each step.
+/// Goes through `steps`, with their numbers in the list of all, from `position` on until nothing is left to do. Returns
+/// the end and the number of rounds. In `kept`, if given, the state before each step that changed something comes to
+/// stand, once for each step.
 pub(super) fn go_through<'a>(
     mut work: Work<'a>,
     steps: &[(usize, Entry)],
     mut position: StepPosition,
-    mut kept: Option<&mut Vec<Kept>>,
+    mut kept: Option<&mut Vec<KeptState>>,
 ) -> Result<(Work<'a>, usize), RepairError> {
     let may_cut = steps.iter().any(|(_, entry)| entry.step.removes == Removes::Crossings);
-    while position.round <= ROUNDS {
+    while position.round <= MAX_ROUNDS {
         for &(number, Entry { step, run }) in steps.iter().filter(|(number, _)| *number >= position.step) {
-            let is_kept = work.mesh().faces.len() <= MOST_FACETS
+            let is_kept = work.mesh().faces.len() <= MAX_FACETS_OF_KEPT_STATES
                 && kept.as_ref().is_some_and(|kept| kept.iter().all(|k| k.step != step));
             let before = is_kept.then(|| work.state.clone());
             run(&mut work)?;
@@ -69,7 +71,7 @@ pub(super) fn go_through<'a>(
                 && work.state.is_beyond(&state)
             {
                 let position = StepPosition { step: number, ..position };
-                kept.push(Kept { state, step, position });
+                kept.push(KeptState { state, step, position });
             }
         }
         // A tangle that two rounds have not undone gets no better.
@@ -89,5 +91,5 @@ pub(super) fn go_through<'a>(
             return Ok((work, round));
         }
     }
-    Ok((work, ROUNDS))
+    Ok((work, MAX_ROUNDS))
 }

@@ -14,14 +14,14 @@ pub(super) const STEP: Step = Step {
 };
 
 /// Share of the area of the largest closed shell up to which a sheet is a scrap.
-const SCRAP: f64 = 0.1;
+const MAX_SCRAP_SHARE: f64 = 0.1;
 
 pub(super) fn run(work: &mut Work) -> Result<(), RepairError> {
     let known = work.known()?;
     let (topology, areas) = (&known.topology, &known.properties.shell_areas);
     let open = open_shells(topology);
     let closed = areas.iter().zip(&open).filter(|(_, open)| !**open).map(|(a, _)| *a);
-    let limit = SCRAP * closed.fold(0.0, f64::max);
+    let limit = MAX_SCRAP_SHARE * closed.fold(0.0, f64::max);
     if !(0..topology.shells).any(|s| open[s] && areas[s] < limit) {
         return Ok(());
     }

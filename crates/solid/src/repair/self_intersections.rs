@@ -17,16 +17,16 @@ pub(super) const STEP: Step = Step {
     removes: Removes::Crossings,
 };
 
-/// No more than this share of the area is cut out: what is left beyond that would be another model.
-const MOST: f64 = 0.75;
+/// No more than this share of the area is cut out: the rest beyond that would be another model.
+const MAX_CUT_OUT_SHARE: f64 = 0.75;
 /// A piece cut off is removed if it has at most this share of the area of the largest piece of its shell.
-const SMALL_PIECE: f64 = 0.25;
+const MAX_SMALL_PIECE_SHARE: f64 = 0.25;
 
 pub(super) fn run(work: &mut Work) -> Result<(), RepairError> {
     if !work.state.handover.may_cut_out {
         return Ok(());
     }
-    // Of a tangle nothing would be left.
+    // Nothing would be left of a tangle.
     let Some(mut crossings) = work.crossings(|_, _| true)? else { return Ok(()) };
     let known = work.known()?;
     // A sheet is no body: where it crosses something, nothing is wrong with its surface.
@@ -43,7 +43,7 @@ pub(super) fn run(work: &mut Work) -> Result<(), RepairError> {
         let facets = (0..).zip(&is_removed).filter(|(_, t)| **t || !wanted);
         facets.map(|(f, _)| area(work.corners(f))).sum()
     };
-    if area_of(true) > MOST * area_of(false) {
+    if area_of(true) > MAX_CUT_OUT_SHARE * area_of(false) {
         return Ok(());
     }
     let removed: Vec<u32> = (0..).zip(&is_removed).filter(|(_, t)| **t).map(|(f, _)| f).collect();
@@ -72,7 +72,7 @@ fn remove_small_pieces(work: &mut Work, shell_of: &[u32]) -> Result<(), RepairEr
     }
     let mut removed = vec![];
     for (piece, (shell, facets)) in of_piece.into_iter().enumerate() {
-        if areas[piece] <= SMALL_PIECE * largest.get(&shell).copied().unwrap_or(0.0) {
+        if areas[piece] <= MAX_SMALL_PIECE_SHARE * largest.get(&shell).copied().unwrap_or(0.0) {
             work.log(&STEP, "piece cut off removed", work.middle(facets[0]), facets.len(), areas[piece]);
             removed.extend(facets);
         }

@@ -1,9 +1,9 @@
 //! Edges of more than two facets, and vertices where several fans of facets touch, are split.
 //!
-//! Around such an edge the facets are sorted by angle and paired so that material lies between the two of a pair. Around
-//! such a vertex, facets that are connected through edges or pairs are one fan. The fan with the largest area keeps the
-//! vertex. Each other fan gets a vertex of its own, moved a little into its own material: a copy at the very same place
-//! would be joined again by the next program that reads the file.
+//! Around such an edge the facets are sorted by angle and paired so that material lies between the two of a pair.
+//! Around such a vertex, facets that are connected through edges or pairs are one fan. The fan with the largest area
+//! keeps the vertex. Each other fan gets a vertex of its own, moved a little into its own material. The next program
+//! that reads the file would join a copy at the very same place again.
 
 use super::crowded::{Fan, Rims, meant_as_one};
 use super::degenerate::cut;
@@ -39,9 +39,10 @@ pub(super) fn vertices(work: &mut Work) -> Result<(), RepairError> {
     split(work, vertices, &VERTICES, false)
 }
 
-/// How far a new vertex is moved into the material, in gaps, tried one after the other until no facets cross. Every second one is
-/// negative, out of the material: where the tips of two pits touch, the way into the material of one leads into the other.
-const OFFSETS: [f64; 8] = [4.0, -4.0, 32.0, -32.0, 256.0, -256.0, 2048.0, -2048.0];
+/// How far a new vertex is moved into the material, in gaps, tried one after the other until no facets cross. Every
+/// second one is negative, out of the material. Where the tips of two pits touch, the way into the material of one
+/// leads into the other.
+const OFFSETS_IN_GAPS: [f64; 8] = [4.0, -4.0, 32.0, -32.0, 256.0, -256.0, 2048.0, -2048.0];
 
 /// For an edge and a facet at it the other facet of its pair.
 type Pairs = BTreeMap<([u32; 2], u32), u32>;
@@ -97,7 +98,7 @@ fn rim(work: &Work, edges: &Edges, facets: &[u32], v: u32) -> Vec<u32> {
     corners.filter(|w| *w != v && edges.at(v, *w).len() == 1).collect()
 }
 
-/// Moves the fans and pairs apart, each by the first distance of [`OFFSETS`] at which it crosses nothing, and returns the fans
+/// Moves the fans and pairs apart, each by the first distance of [`OFFSETS_IN_GAPS`] at which it crosses nothing, and returns the fans
 /// that were moved.
 ///
 /// A fan at a vertex that crosses something at every distance stays where it is; at an edge it is moved all the same.
@@ -118,29 +119,29 @@ fn apart(
     let crossing = work.crossings(|f, _| changing.contains(&f))?;
     let crossing: Option<BTreeSet<u32>> = crossing.map(|pairs| pairs.into_iter().flatten().collect());
     let clean = |facets: &[u32]| crossing.as_ref().is_some_and(|c| !facets.iter().any(|f| c.contains(f)));
-    let mut asked: Vec<bool> =
+    let mut unsettled: Vec<bool> =
         lost.iter().map(|fan| clean(&fan.facets)).chain(again.iter().map(|(_, pair)| clean(pair))).collect();
     let first = before.positions.len() as u32;
     let mut together = together(work, &lost);
     let mut ways = ways(work, &lost, &together);
-    let mut nth = vec![0; asked.len()];
+    let mut nth = vec![0; unsettled.len()];
     // Vertices whose facets are not as they were when they were last looked at; at first all new ones.
     let mut changed: Option<BTreeSet<u32>> = None;
     loop {
-        let distances: Vec<f64> = nth.iter().map(|&n| OFFSETS[n] * work.gap).collect();
+        let distances: Vec<f64> = nth.iter().map(|&n| OFFSETS_IN_GAPS[n] * work.gap).collect();
         set_off(work, (&lost, &ways), again, &distances);
         let has_changed = |v: &u32| changed.as_ref().map_or(*v >= first, |changed| changed.contains(v));
         let pairs = work.crossings(|_, face| face.iter().any(has_changed))?;
         let faces = &work.mesh().faces;
         let mut bad: Vec<usize> = match pairs {
-            None => (0..asked.len()).collect(),
+            None => (0..unsettled.len()).collect(),
             Some(pairs) => {
                 let corners = pairs.iter().flatten().flat_map(|f| faces[*f as usize]);
                 corners.filter_map(|v| v.checked_sub(first)).map(|i| i as usize).collect()
             }
         };
         bad.extend(meant_as_one(work, &lost, &rims, first as usize));
-        bad.retain(|&i| asked[i]);
+        bad.retain(|&i| unsettled[i]);
         bad.extend((0..lost.len()).filter(|&i| distances[i].abs() > ways[i].most));
         let with: BTreeSet<u32> = bad.iter().filter_map(|i| together.get(*i)).copied().collect();
         bad.extend((0..lost.len()).filter(|i| with.contains(&together[*i])));
@@ -148,7 +149,7 @@ fn apart(
         bad.dedup();
         let step_of = |i: usize| ways.get(i).map_or(1, |way| way.step);
         let may_go = |i: usize| {
-            let next = OFFSETS.get(nth[i] + step_of(i));
+            let next = OFFSETS_IN_GAPS.get(nth[i] + step_of(i));
             next.is_some_and(|o| o.abs() * work.gap <= ways.get(i).map_or(f64::INFINITY, |way| way.most))
         };
         let (more, last): (Vec<usize>, Vec<usize>) = bad.into_iter().partition(|&i| may_go(i));
@@ -169,16 +170,16 @@ fn apart(
             retain(&mut lost, stays);
             retain(&mut together, stays);
             retain(&mut nth, stays);
-            retain(&mut asked, stays);
+            retain(&mut unsettled, stays);
             ways = self::ways(work, &lost, &together);
         }
-        if asked.is_empty() {
+        if unsettled.is_empty() {
             return Ok(lost);
         }
     }
 }
 
-/// Drops what does not stay, by its number.
+/// Drops the entries that do not stay, by their numbers.
 fn retain<T>(all: &mut Vec<T>, stays: impl Fn(usize) -> bool) {
     let mut i = 0;
     all.retain(|_| {
@@ -208,7 +209,7 @@ fn together(work: &Work, lost: &[Fan]) -> Vec<u32> {
 /// Gives the fans their vertices and the pairs of `again` a vertex in the middle of their edge, each at its distance.
 fn set_off(
     work: &mut Work,
-    (lost, ways): (&[Fan], &[Way]),
+    (lost, ways): (&[Fan], &[FanMove]),
     again: &[([u32; 2], [u32; 2])],
     distances: &[f64],
 ) {
@@ -234,22 +235,22 @@ fn set_off(
 
 /// Where a fan goes.
 #[derive(Clone, Copy)]
-struct Way {
+struct FanMove {
     /// Unit vector, away from which it is moved.
     out: Vector,
-    /// How many of [`OFFSETS`] are one step: all, or those on this side.
+    /// How many of [`OFFSETS_IN_GAPS`] are one step: all, or those on this side.
     step: usize,
     /// How far it may be moved at most: no farther than changes little of it.
     most: f64,
 }
 
 /// The ways of the fans; those with the same number go the same way.
-fn ways(work: &Work, lost: &[Fan], together: &[u32]) -> Vec<Way> {
+fn ways(work: &Work, lost: &[Fan], together: &[u32]) -> Vec<FanMove> {
     let mut facets: BTreeMap<u32, BTreeSet<u32>> = BTreeMap::new();
     for (fan, number) in lost.iter().zip(together) {
         facets.entry(*number).or_default().extend(&fan.facets);
     }
-    let mut ways: BTreeMap<u32, Way> = BTreeMap::new();
+    let mut ways: BTreeMap<u32, FanMove> = BTreeMap::new();
     let way = |(fan, number): (&Fan, &u32)| {
         *ways.entry(*number).or_insert_with(|| {
             let facets: Vec<u32> = facets.get(number).into_iter().flatten().copied().collect();
@@ -259,19 +260,22 @@ fn ways(work: &Work, lost: &[Fan], together: &[u32]) -> Vec<Way> {
     lost.iter().zip(together).map(way).collect()
 }
 
-/// Away from which the common place of these facets can be moved: out of the cone that they are seen in from there, where that
-/// is narrow, for what is moved within the cone meets nothing outside; else out of the material between them, and back.
-fn outwards(work: &Work, facets: &[u32], at: Point) -> Way {
+/// The cone or material out of which the common place of these facets can be moved. Where the cone that they are seen
+/// in from there is narrow, it is moved out of that. A place moved within the cone meets nothing outside. Else it is
+/// moved out of the material between them, and back.
+fn outwards(work: &Work, facets: &[u32], at: Point) -> FanMove {
     /// Cosine of half the angle of a cone that is narrow: 60 degrees, far from a half space.
-    const NARROW: f64 = 0.5;
+    const MIN_NARROW_CONE_COSINE: f64 = 0.5;
     /// Share of the way to the nearest other corner.
-    const LITTLE: f64 = 0.05;
+    const MAX_MOVE_SHARE: f64 = 0.05;
     let corners = facets.iter().flat_map(|f| work.corners(*f)).filter(|p| norm(minus(*p, at)) > work.gap);
     let (seen, far): (Vec<Vector>, Vec<f64>) = corners.filter_map(|p| unit(minus(p, at))).unzip();
-    let most = LITTLE * far.iter().copied().fold(f64::INFINITY, f64::min);
+    let most = MAX_MOVE_SHARE * far.iter().copied().fold(f64::INFINITY, f64::min);
     let axis = unit(seen.iter().copied().fold([0.0; 3], plus));
-    if let Some((axis, _)) = axis.filter(|(axis, _)| seen.iter().all(|way| dot(*way, *axis) > NARROW)) {
-        return Way { out: times(-1.0, axis), step: 2, most };
+    if let Some((axis, _)) =
+        axis.filter(|(axis, _)| seen.iter().all(|way| dot(*way, *axis) > MIN_NARROW_CONE_COSINE))
+    {
+        return FanMove { out: times(-1.0, axis), step: 2, most };
     }
     let unit_normal = |f: &u32| normal(work.corners(*f)).unwrap_or([0.0; 3]);
     let sum = facets.iter().map(unit_normal).fold([0.0; 3], plus);
@@ -280,7 +284,7 @@ fn outwards(work: &Work, facets: &[u32], at: Point) -> Way {
         minus(at, times(1.0 / facets.len() as f64, middle))
     };
     let out = unit(sum).or_else(|| unit(away())).map_or([1.0, 0.0, 0.0], |(n, _)| n);
-    Way { out, step: 1, most }
+    FanMove { out, step: 1, most }
 }
 
 /// Pairs of facets at an edge that would still share it with another pair: both its ends keep their fans together.
@@ -352,7 +356,7 @@ fn pairs(work: &Work, edges: &Edges) -> Pairs {
     for edge in edges.iter().filter(|e| e.len() > 2) {
         let mut around = by_angle(work, edge);
         // Facets that run down the edge have material on the side of growing angle, those that run up have it before
-        // them: like brackets, twice round so that none is missed where the circle was cut open.
+        // them. They pair like brackets, twice round so that none is missed where the circle was cut open.
         let mut opened: Vec<u32> = vec![];
         for _ in 0..2 {
             for side in &around {

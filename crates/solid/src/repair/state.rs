@@ -1,7 +1,7 @@
 //! The state of a repair, as a value: a step makes the next one of it.
 //!
-//! To go back to an earlier state, or to go on from it under other options, it is cloned. The mesh and what is known about it are
-//! shared between clones until one of them changes.
+//! To go back to an earlier state, or to go on from it under other options, it is cloned. The mesh and the facts known
+//! about it are shared between clones until one of them changes.
 
 use super::change::Change;
 use super::pairs::Pairs;
@@ -19,13 +19,13 @@ pub(super) struct State {
     pub(super) mesh: Arc<Mesh>,
     pub changes: Vec<Change>,
     pub handover: Handover,
-    /// What follows from the mesh, once it was asked for.
+    /// Facts that follow from the mesh, once they were asked for.
     pub(super) known: Option<Arc<Known>>,
     /// Pairs of its facets that meet where they should not, as far as they are known.
     pub(super) pairs: Pairs,
 }
 
-/// What a step tells later ones, besides the mesh.
+/// Facts that a step hands to later ones, besides the mesh.
 #[derive(Clone, Default)]
 pub(super) struct Handover {
     /// Vertices at the rims of holes that a step has cut: those holes must be filled whatever their size.
@@ -58,7 +58,7 @@ impl State {
         }
     }
 
-    /// The same mesh, nothing done to it yet. What is known about it is kept.
+    /// The same mesh, nothing done to it yet. Known facts about it are kept.
     pub(super) fn untouched(&self) -> State {
         State { changes: vec![], handover: Handover::default(), ..self.clone() }
     }

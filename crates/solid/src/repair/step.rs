@@ -1,11 +1,11 @@
-//! What the entries of the list of steps are.
+//! The entries of the list of steps.
 
 /// Surface that a step takes away so that the rest is closed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Removes {
-    /// None: at most what lies twice, lies inside, is not finite, or was asked to go.
+    /// None: at most facets that lie twice, lie inside, are not finite, or were asked to go.
     Nothing,
-    /// Facets that cross others, and what they cut off.
+    /// Facets that cross others, and the pieces that they cut off.
     Crossings,
     /// Open sheets that hang on nothing.
     Sheets,
@@ -18,7 +18,7 @@ pub enum Removes {
 pub struct Step {
     /// Its name on the command line and in result documents.
     pub name: &'static str,
-    /// What it does, for the manual.
+    /// Its effect, for the manual.
     pub about: &'static str,
     /// Surface that it takes away.
     pub removes: Removes,

@@ -22,13 +22,14 @@ pub(super) const STEP: Step = Step {
 };
 
 /// Stitching distance by default, as a share of the diagonal of the mesh.
-const REACH: f64 = 1e-4;
+const DEFAULT_REACH_OF_DIAGONAL: f64 = 1e-4;
 /// By how much the distance grows from pass to pass.
-const GROWTH: f64 = 4.0;
-/// Of the edges near one only so many are looked at in a pass, those with the nearest middles, and the best of them are
-/// considered: in a heap of edges each lies near all others.
-const NEAR: usize = 64;
-const PARTNERS: usize = 8;
+const REACH_GROWTH: f64 = 4.0;
+/// Only so many of the edges near one are looked at in a pass, those with the nearest middles. In a heap of edges each
+/// lies near all others.
+const MAX_EDGES_NEAR: usize = 64;
+/// The best so many of them are considered.
+const MAX_PARTNERS: usize = 8;
 
 pub(super) fn run(work: &mut Work) -> Result<(), RepairError> {
     if work.known()?.topology.boundary_edges.is_empty() {
@@ -43,18 +44,18 @@ pub(super) fn run(work: &mut Work) -> Result<(), RepairError> {
     let members = groups.into_iter().flat_map(|g| g.vertices).collect();
     merge(work, &known, &sets, members);
     let diagonal = work.known()?.properties.bounds.diagonal();
-    let limit = work.options.stitch.unwrap_or(REACH * diagonal);
+    let limit = work.options.stitch.unwrap_or(DEFAULT_REACH_OF_DIAGONAL * diagonal);
     let mut reach = work.gap;
     if reach >= limit || reach <= 0.0 {
         return Ok(());
     }
-    // Nothing is joined at less than the distance of the first that would be joined at the limit: in a smaller reach each
-    // edge has the nearest of its partners there, in the same order.
+    // Nothing is joined at less than the distance of the first pair that would be joined at the limit. In a smaller
+    // reach each edge has the nearest of its partners there, in the same order.
     let known = work.known()?;
     let least = partners(work, &known, limit).into_iter().find(|(_, [a, b])| a != b).map(|found| found.0);
     let Some(least) = least else { return Ok(()) };
     while reach < limit {
-        reach = (GROWTH * reach).min(limit);
+        reach = (REACH_GROWTH * reach).min(limit);
         if reach < least {
             continue;
         }
@@ -94,8 +95,8 @@ fn merge(work: &mut Work, known: &Known, sets: &Sets, members: Vec<u32>) {
     work.rename(|_, v| renamed.binary_search_by_key(&v, |r| r.0).map_or(v, |i| renamed[i].1));
 }
 
-/// Pairs of vertices to be joined so that boundary edges within `reach` of each other become one, the nearest edges first, with
-/// the distance of the edges, mm.
+/// Pairs of vertices to be joined so that boundary edges within `reach` of each other become one. The nearest edges
+/// come first, with the distance of the edges, mm.
 fn partners(work: &Work, known: &Known, reach: f64) -> Vec<(f64, [u32; 2])> {
     let edges = &known.topology.boundary_edges;
     let ends = |e: u32| edges[e as usize].vertices;
@@ -109,7 +110,7 @@ fn partners(work: &Work, known: &Known, reach: f64) -> Vec<(f64, [u32; 2])> {
         let (at, [a, b]) = (middle(e), ends(e));
         let counts = |f: u32| edges[f as usize].facet != edges[e as usize].facet;
         let mut own: Vec<Found> = vec![];
-        for f in near.nearest(at, reach, NEAR, counts) {
+        for f in near.nearest(at, reach, MAX_EDGES_NEAR, counts) {
             let [c, d] = ends(f);
             let limit = reach.min(0.25 * length(e).min(length(f)));
             for pairs in [[[a, d], [b, c]], [[a, c], [b, d]]] {
@@ -120,7 +121,7 @@ fn partners(work: &Work, known: &Known, reach: f64) -> Vec<(f64, [u32; 2])> {
             }
         }
         own.sort_unstable_by(nearer);
-        own.truncate(PARTNERS);
+        own.truncate(MAX_PARTNERS);
         own
     };
     let mut found: Vec<Found> = (0..edges.len() as u32)

@@ -14,9 +14,9 @@ pub(super) const STEP: Step = Step {
     removes: Removes::Nothing,
 };
 
-/// A vertex lies on one edge as a rule, on two where three sheets meet. Where they lie on more than so many on average,
-/// sheets lie upon each other, and cutting would only make more that cross.
-const EDGES: usize = 2;
+/// A vertex lies on one edge as a rule, on two where three sheets meet. Where they lie on more than so many on average, sheets lie
+/// upon each other, and cutting would only make more that cross.
+const MAX_EDGES_PER_VERTEX: usize = 2;
 
 /// A vertex on an edge of a facet: facet, ends of the edge, place along it, vertex.
 type On = (u32, [u32; 2], f64, u32);
@@ -30,7 +30,7 @@ pub(super) fn run(work: &mut Work) -> Result<(), RepairError> {
         all.push((finding.facets[0], [a, b], place, vertex));
     }
     let vertices: BTreeSet<u32> = all.iter().map(|on| on.3).collect();
-    if all.is_empty() || all.len() > work.room().min(EDGES * vertices.len()) {
+    if all.is_empty() || all.len() > work.room().min(MAX_EDGES_PER_VERTEX * vertices.len()) {
         return Ok(());
     }
     all.sort_unstable_by(|x, y| (x.0, x.1).cmp(&(y.0, y.1)).then(x.2.total_cmp(&y.2)).then(x.3.cmp(&y.3)));
@@ -66,7 +66,7 @@ fn parts(face: [u32; 3], on: &[On]) -> Vec<[u32; 3]> {
                 continue;
             }
             let halves = cut(parts[last], [from, to], vertex);
-            // What is left of the edge is at the half with its end.
+            // The rest of the edge is at the half with its end.
             let [done, rest] = if halves[0].contains(&to) { [halves[1], halves[0]] } else { halves };
             parts[last] = done;
             last = parts.len();

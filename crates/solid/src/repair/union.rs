@@ -1,13 +1,14 @@
-//! Closed shells that cross, touch in faces or contain each other: replaced by the boundary of what they enclose together.
+//! Closed shells that cross, touch in faces or contain each other: replaced by the boundary of the material that they
+//! enclose together.
 //!
-//! Shells at whose edges as many facets run the one way as the other enclose material. Where they meet, or where one lies in
-//! the material of another, [`outer_boundary`](crate::arrange::outer_boundary) tells exactly what of them bounds it. Sheets and shells with holes take no
-//! part; once their holes are filled they do.
+//! Shells at whose edges as many facets run the one way as the other enclose material. They meet, or one lies in the
+//! material of another. Then [`outer_boundary`](crate::arrange::outer_boundary) tells exactly which parts of them bound
+//! the material. Sheets and shells with holes take no part; once their holes are filled they do.
 
 use super::error::RepairError;
 use super::step::{Removes, Step};
 use super::work::Work;
-use crate::arrange::{ArrangeError, Boundary, Given, Options, any_at_edges, boundary_of};
+use crate::arrange::{ArrangeError, Boundary, Input, Options, any_at_edges, boundary_of};
 use trueness_geom::check;
 use trueness_geom::check::finding::area;
 use trueness_geom::mesh::Mesh;
@@ -43,8 +44,8 @@ pub(super) fn run(work: &mut Work) -> Result<(), RepairError> {
     let options = Options { single: work.options.single, turn: true };
     let pairs = pairs(work, &facets, &vertex_of, mesh.positions.len())?;
     let all = pairs.is_some() && facets.len() == work.mesh().faces.len();
-    let given = Given { mesh: mesh.clone(), topology: all.then_some(&known.topology), pairs };
-    match boundary_of(given, &options, work.progress) {
+    let input = Input { mesh: mesh.clone(), topology: all.then_some(&known.topology), pairs };
+    match boundary_of(input, &options, work.progress) {
         Ok(boundary) => {
             work.state.handover.not_united = None;
             replace(work, (&facets, &first), &mesh, boundary);
@@ -56,8 +57,8 @@ pub(super) fn run(work: &mut Work) -> Result<(), RepairError> {
     Ok(())
 }
 
-/// The pairs among `facets` that meet where they should not, by their places in that list; `None` where they must be looked for,
-/// because the weld that gave vertices the numbers `vertex_of`, below `numbers`, has joined some of them.
+/// The pairs among `facets` that meet where they should not, by their places in that list. `None` where they must be
+/// looked for, because the weld that numbered vertices by `vertex_of`, below `numbers`, has joined some of them.
 fn pairs(
     work: &mut Work,
     facets: &[u32],
@@ -108,7 +109,7 @@ fn has_work(
     if wrong.iter().any(|finding| finding.measures.iter().any(|(name, x)| *name == "depth" && *x != 0.0)) {
         return Ok(true);
     }
-    // Of a tangle nothing is known; the union says so.
+    // Nothing is known of a tangle; the union says so.
     Ok(work
         .crossings(|f, _| is_solid(f))?
         .is_none_or(|pairs| pairs.iter().any(|[a, b]| is_solid(*a) && is_solid(*b))))
@@ -135,35 +136,35 @@ fn replace(work: &mut Work, (facets, first): (&[u32], &[u32]), mesh: &Mesh, boun
     }
     // In the order of the facets that they are pieces of, and of one in their own.
     pieces.sort_by_key(|piece| piece.0);
-    let gone: Vec<u32> = (0..).zip(&is_kept).filter(|(_, kept)| !**kept).map(|(f, _)| f).collect();
-    log(work, mesh, &gone, &is_cut);
+    let dropped: Vec<u32> = (0..).zip(&is_kept).filter(|(_, kept)| !**kept).map(|(f, _)| f).collect();
+    log(work, mesh, &dropped, &is_cut);
     if !turned.is_empty() {
         let place = work.middle(turned[0]);
         let size = turned.iter().map(|f| area(work.corners(*f))).sum();
         work.log(&STEP, "facets of shells that were inside out turned over", place, turned.len(), size);
         work.turn(turned);
     }
-    if gone.is_empty() {
+    if dropped.is_empty() {
         return;
     }
     work.append(&boundary.mesh.positions[first.len()..]);
-    let removed: Vec<u32> = gone.iter().map(|f| facets[*f as usize]).collect();
+    let removed: Vec<u32> = dropped.iter().map(|f| facets[*f as usize]).collect();
     work.replace(&removed, &pieces.into_iter().map(|piece| piece.1).collect::<Vec<_>>());
 }
 
 /// Tells each place where facets were cut, and each where whole facets lay inside. Facets that share a vertex are one place.
-fn log(work: &mut Work, mesh: &Mesh, gone: &[u32], is_cut: &[bool]) {
-    let places = Sets::new(gone.len());
+fn log(work: &mut Work, mesh: &Mesh, dropped: &[u32], is_cut: &[bool]) {
+    let places = Sets::new(dropped.len());
     // For each vertex the first of the facets there that are gone, of those that were cut and of the others.
     let mut first = vec![[u32::MAX; 2]; mesh.positions.len()];
-    for (i, f) in (0..).zip(gone) {
+    for (i, f) in (0..).zip(dropped) {
         for v in mesh.faces[*f as usize] {
             let first = &mut first[v as usize][usize::from(is_cut[*f as usize])];
             *first = i.min(*first);
             places.join(i, *first);
         }
     }
-    let mut members: Vec<(u32, u32)> = (0..).zip(gone).map(|(i, f)| (places.root(i), *f)).collect();
+    let mut members: Vec<(u32, u32)> = (0..).zip(dropped).map(|(i, f)| (places.root(i), *f)).collect();
     members.par_sort_unstable();
     let corners = |f: u32| mesh.corners(f);
     let mut changes: Vec<(&'static str, Point, usize, f64)> = vec![];

@@ -1,4 +1,4 @@
-//! The mesh under repair: what steps ask of it, and how they change it.
+//! The mesh under repair: the questions of the steps, and their changes.
 //!
 //! Places are never written: vertices are only added behind the others, and facets only name other vertices. So no
 //! vertex can move, whatever a step does.
@@ -9,8 +9,8 @@ use super::options::Options;
 use super::pairs::Pairs;
 use super::state::State;
 use super::step::Step;
-use crate::around::Around;
 use crate::arrange::ArrangeError;
+use crate::neighborhood::Neighborhood;
 use std::sync::Arc;
 use trueness_geom::check::intersect::{self, Crossings};
 use trueness_geom::check::{self, DefectKind, Finding, Known, Report};
@@ -19,7 +19,7 @@ use trueness_geom::progress::{Cancelled, Progress};
 use trueness_geom::space::{Point, plus, times};
 use trueness_geom::topology::Topology;
 
-/// What a step works on: a state, and what it is to be done with.
+/// Material of a step: a state, and the options of the repair.
 pub(super) struct Work<'a> {
     pub state: State,
     pub options: &'a Options,
@@ -28,13 +28,13 @@ pub(super) struct Work<'a> {
     pub gap: f64,
     /// All coordinates have single precision: new ones shall have too.
     single: bool,
-    /// The most facets that cutting may come to. A facet has three edges, and a vertex lies on one as a rule; but where
+    /// The most facets that cutting may come to. A facet has three edges, and a vertex lies on one as a rule. But where
     /// sheets lie closer together than the gap, each lies on very many, and cutting makes ever more of both.
     most_facets: usize,
 }
 
 impl<'a> Work<'a> {
-    /// Of a welded mesh.
+    /// Work on a welded mesh.
     pub(super) fn new(
         mesh: Mesh,
         options: &'a Options,
@@ -47,7 +47,7 @@ impl<'a> Work<'a> {
         Ok(work)
     }
 
-    /// The same mesh under other options, nothing done yet. What is known about it is kept.
+    /// The same mesh under other options, nothing done yet. Known facts about it are kept.
     pub(super) fn again<'b>(&self, options: &'b Options) -> Work<'b>
     where
         'a: 'b,
@@ -115,7 +115,7 @@ impl<'a> Work<'a> {
         if self.progress.cancelled() { Err(Cancelled) } else { Ok(()) }
     }
 
-    /// What follows from the mesh as it is; computed again after a change only.
+    /// Facts that follow from the mesh as it is; computed again after a change only.
     pub(super) fn known(&mut self) -> Result<Arc<Known>, RepairError> {
         self.go_on()?;
         if let Some(known) = &self.state.known {
@@ -126,7 +126,7 @@ impl<'a> Work<'a> {
         Ok(known)
     }
 
-    /// What the check says of the mesh as it is.
+    /// Report of the check on the mesh as it is.
     pub(super) fn report(&mut self, options: &check::Options) -> Result<Report, RepairError> {
         let known = self.known()?;
         let all = self.all_crossings()?.and_then(|pairs| Crossings::of_all(pairs, options.limit));
@@ -144,42 +144,43 @@ impl<'a> Work<'a> {
         Ok(check::report(&inspected)?)
     }
 
-    /// Pairs of facets that meet where they should not, at least one of them chosen (by number and corners): of facets that
-    /// change, all others stay as they are. `None` for a tangle, where pairs outnumber facets many times.
+    /// Pairs of facets that meet where they should not, at least one of them chosen (by number and corners). Chosen
+    /// facets change, and all others stay as they are. `None` for a tangle, where pairs outnumber facets many times.
     pub(super) fn crossings(
         &mut self,
         chosen: impl Fn(u32, &[u32; 3]) -> bool,
     ) -> Result<Option<Vec<[u32; 2]>>, RepairError> {
-        let some: Vec<bool> = (0..).zip(&self.state.mesh.faces).map(|(f, face)| chosen(f, face)).collect();
-        if !some.contains(&true) {
+        let is_chosen: Vec<bool> =
+            (0..).zip(&self.state.mesh.faces).map(|(f, face)| chosen(f, face)).collect();
+        if !is_chosen.contains(&true) {
             return Ok(Some(vec![]));
         }
         if matches!(self.state.pairs, Pairs::Unknown)
-            && let Some(around) = Around::new(&self.state.mesh, &some)
+            && let Some(around) = Neighborhood::new(&self.state.mesh, &is_chosen)
         {
             let topology = Topology::watched(&around.mesh, self.progress)?;
             return self.crossings_around(&around, &topology);
         }
         if let Some(all) = self.all_crossings()? {
-            let asked = |pair: &&[u32; 2]| pair.iter().any(|f| some[*f as usize]);
-            return Ok(Some(all.iter().filter(asked).copied().collect()));
+            let is_chosen = |pair: &&[u32; 2]| pair.iter().any(|f| is_chosen[*f as usize]);
+            return Ok(Some(all.iter().filter(is_chosen).copied().collect()));
         }
-        if !some.contains(&false) { Ok(None) } else { self.search(&some) }
+        if !is_chosen.contains(&false) { Ok(None) } else { self.search(&is_chosen) }
     }
 
-    /// All pairs of facets that meet where they should not; `None` for a tangle. Only what has changed since they were known is
+    /// All pairs of facets that meet where they should not; `None` for a tangle. Only changes since they were known are
     /// looked at.
     pub(super) fn all_crossings(&mut self) -> Result<Option<&[[u32; 2]]>, RepairError> {
         let facets = self.state.mesh.faces.len();
         let mut pairs = std::mem::take(&mut self.state.pairs);
         if let Some(new) = pairs.new_facets(facets) {
-            let some: Vec<bool> = (0..facets).map(|f| new.contains(&f)).collect();
-            let found = match Around::new(&self.state.mesh, &some) {
+            let is_chosen: Vec<bool> = (0..facets).map(|f| new.contains(&f)).collect();
+            let found = match Neighborhood::new(&self.state.mesh, &is_chosen) {
                 Some(around) => {
                     let topology = Topology::watched(&around.mesh, self.progress)?;
                     self.crossings_around(&around, &topology)?
                 }
-                None => self.search(&some)?,
+                None => self.search(&is_chosen)?,
             };
             pairs.take_in(found, facets);
         }
@@ -188,25 +189,25 @@ impl<'a> Work<'a> {
         Ok(self.state.pairs.all().filter(|all| all.len() <= most))
     }
 
-    /// An error for a soup of facets: most edges have one facet only, and too many pairs of facets cross to list them. No step
-    /// makes a surface of that. A small soup is repaired all the same, for the sake of what lies beside it.
+    /// An error for a soup of facets: most edges have one facet only, and too many pairs of facets cross to list them.
+    /// No step makes a surface of that. A small soup is repaired all the same, for the sake of the surface beside it.
     pub(super) fn soup(&mut self) -> Result<Option<ArrangeError>, RepairError> {
         /// With so many boundary edges the steps take about a second.
-        const SMALL: usize = 5_000;
+        const MIN_LOOSE_EDGES: usize = 5_000;
         let topology = &self.known()?.topology;
         let free = topology.boundary_edges.len();
-        let is_loose = free > topology.counting_facets.max(SMALL);
+        let is_loose = free > topology.counting_facets.max(MIN_LOOSE_EDGES);
         let is_soup = is_loose && self.all_crossings()?.is_none();
         Ok(is_soup.then(|| ArrangeError::Tangle { most: self.most_crossings() }))
     }
 
     /// As [`Work::crossings`], of facets with a flag each, in the whole mesh.
-    fn search(&mut self, some: &[bool]) -> Result<Option<Vec<[u32; 2]>>, RepairError> {
+    fn search(&mut self, is_chosen: &[bool]) -> Result<Option<Vec<[u32; 2]>>, RepairError> {
         let (known, most) = (self.known()?, self.most_crossings());
         Ok(intersect::selected_self_intersections(
             &self.state.mesh,
             &known.topology,
-            some,
+            is_chosen,
             most,
             self.progress,
         )?)
@@ -215,11 +216,11 @@ impl<'a> Work<'a> {
     /// As [`Work::crossings`], of facets whose surroundings and their topology are at hand.
     pub(super) fn crossings_around(
         &self,
-        around: &Around,
+        around: &Neighborhood,
         topology: &Topology,
     ) -> Result<Option<Vec<[u32; 2]>>, RepairError> {
-        let (most, Around { mesh, numbers, asked }) = (self.most_crossings(), around);
-        let found = intersect::selected_self_intersections(mesh, topology, asked, most, self.progress)?;
+        let (most, Neighborhood { mesh, numbers, is_chosen }) = (self.most_crossings(), around);
+        let found = intersect::selected_self_intersections(mesh, topology, is_chosen, most, self.progress)?;
         let whole =
             |pairs: Vec<[u32; 2]>| pairs.into_iter().map(|p| p.map(|f| numbers[f as usize])).collect();
         Ok(found.map(whole))
@@ -227,8 +228,9 @@ impl<'a> Work<'a> {
 
     /// Pairs beyond which the mesh is a tangle.
     fn most_crossings(&self) -> usize {
-        const FEW: usize = 10_000;
-        FEW + 8 * self.state.mesh.faces.len()
+        /// So many pairs are no tangle in any mesh.
+        const MIN_CROSSINGS_OF_TANGLE: usize = 10_000;
+        MIN_CROSSINGS_OF_TANGLE + 8 * self.state.mesh.faces.len()
     }
 
     /// All that the check finds of a kind which needs no crossings.

@@ -5,26 +5,27 @@ use trueness_geom::noise::Noise;
 use trueness_geom::space::{Point, Vector, cross, dot, least_axis, minus, plus, times, unit};
 use trueness_geom::spline::surface::{Bend, Principal};
 
-/// Cosine of the angle (15 degrees) between the frame's third axis and the fitted normal, below which the frame is turned to
-/// that normal and the jet fitted again: a height over a plane that stands obliquely needs a higher degree.
-const UPRIGHT: f64 = 0.965_925_826_289_068_3;
+/// Cosine of the angle (15 degrees) between the frame's third axis and the fitted normal. Below it the frame is turned
+/// to that normal and the jet fitted again. A height over a plane that stands obliquely needs a higher degree.
+const MIN_UPRIGHT_COSINE: f64 = 0.965_925_826_289_068_3;
 /// So often at most.
-const TURNS: usize = 4;
-/// Greatest condition of a system whose answer is told: a million times the rounding, and of the noise, would still be in it.
-const WORST_CONDITION: f64 = 1e6;
+const MAX_FRAME_TURNS: usize = 4;
+/// Greatest condition of a system whose answer is reported: a million times the rounding, and of the noise, would still be in it.
+const MAX_CONDITION: f64 = 1e6;
 
-/// What was found at a place.
+/// The surface at a place, as found.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Jet {
     /// Normal and curvatures.
     pub bend: Bend,
-    /// Standard uncertainty of the mean curvature as the residuals tell it, 1/mm: for noise that is independent from point to
-    /// point, or the greater of that and what noise that neighbors share as the options say makes it.
+    /// Standard uncertainty of the mean curvature as the residuals tell it, 1/mm, for noise that is independent from
+    /// point to point. Where the options state noise that neighbors share, it is the greater of that and the
+    /// uncertainty that this noise makes.
     pub uncertainty: f64,
     /// Standard deviation of the neighbors from the jet, millimeters.
     pub residual: f64,
-    /// Condition of the least-squares system in the Frobenius norm, coordinates being divided by the reach: at least the number
-    /// of unknowns, and never less than the condition in the Euclidean norm.
+    /// Condition of the least-squares system in the Frobenius norm, coordinates being divided by the reach. It is at
+    /// least the number of unknowns, and never less than the condition in the Euclidean norm.
     pub condition: f64,
     /// Distance of the farthest neighbor along the plane, millimeters.
     pub reach: f64,
@@ -87,8 +88,8 @@ impl Fitter {
             return Err(NoCurvature::FewNeighbors);
         }
         let mut found = self.once(normal)?;
-        for _ in 0..TURNS {
-            if found.1 >= UPRIGHT {
+        for _ in 0..MAX_FRAME_TURNS {
+            if found.1 >= MIN_UPRIGHT_COSINE {
                 break;
             }
             found = self.once(found.0.bend.normal)?;
@@ -113,7 +114,7 @@ impl Fitter {
         let m = self.local.len();
         let squares = self.eliminate(m);
         let condition = self.invert(m).ok_or(undetermined)?;
-        if condition.is_nan() || condition > WORST_CONDITION {
+        if condition.is_nan() || condition > MAX_CONDITION {
             return Err(undetermined);
         }
         let deviation = (squares / (m - self.unknowns) as f64).sqrt();

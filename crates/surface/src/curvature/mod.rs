@@ -1,14 +1,15 @@
 //! Curvatures of meshes and clouds, place by place, from jets fitted to the neighborhood.
 //!
 //! F. Cazals, M. Pouget, Estimating differential quantities using polynomial fitting of osculating jets, Computer Aided
-//! Geometric Design 22 (2005) 121–146. In a frame whose third axis is about the normal, the surface near a place is a height
-//! `z(x, y)`; a polynomial of degree `d` (a jet) is fitted to the neighbors by least squares, and its first and second
-//! derivatives are normal and curvatures. Curvatures of a smooth surface come out to the order `d − 1` in the size of the
-//! neighborhood. What differs from the paper: the frame is turned to the fitted normal where that leans, the standard
-//! uncertainty is told, and places where the neighborhood is no surface on all sides have no value but a reason.
+//! Geometric Design 22 (2005) 121–146. In a frame whose third axis is about the normal, the surface near a place is a
+//! height `z(x, y)`. A polynomial of degree
+//! `d` (a jet) is fitted to the neighbors by least squares. Its first and second derivatives give the normal and curvatures. Curvatures of a smooth surface come out to the order `d
+//! − 1` in the size of the neighborhood. Three things differ from the paper. The frame is turned to the fitted normal
+//! where that leans, and the standard uncertainty is reported. Places whose neighborhood is no surface on all sides
+//! have no value but a reason.
 //!
-//! A curvature is positive where the surface bends towards its normal, as in [`trueness_geom::spline::surface::Bend`]: on a convex body
-//! with outward normals both principal curvatures are negative.
+//! A curvature is positive where the surface bends towards its normal, as in [`trueness_geom::spline::surface::Bend`].
+//! On a convex body with outward normals both principal curvatures are negative.
 //!
 //! | file | what |
 //! |---|---|
@@ -29,7 +30,7 @@ mod terms;
 mod tests;
 
 pub use jet::Jet;
-pub use terms::{CurvatureError, DEGREES, MOST_NEIGHBORS, NoCurvature, Options, Reach, unknowns};
+pub use terms::{CurvatureError, DEGREES, MAX_NEIGHBORS, NoCurvature, Options, Reach, unknowns};
 
 use jet::Fitter;
 use terms::Terms;
@@ -39,25 +40,26 @@ use trueness_geom::progress::{Cancelled, Progress};
 use trueness_geom::space::Point;
 
 /// Places answered between two questions whether to go on.
-const TASK: usize = 64;
+const PLACES_PER_STOP_CHECK: usize = 64;
 /// Pieces that the places are divided into, whatever the number of threads.
-const RUNS: usize = 64;
+const MAX_RUNS: usize = 64;
 
 /// Curvatures of all places, in their order.
 #[derive(Clone, Debug)]
 pub struct Curvatures {
     /// For each vertex or point its jet, or why there is none.
     pub places: Vec<Result<Jet, NoCurvature>>,
-    /// Of a cloud: parts that hang together, each with its normals to one side; 0 of a mesh, whose facets tell the side.
+    /// Parts of a cloud that hang together, each with its normals to one side. A mesh has 0: its facets tell the side.
     pub parts: usize,
 }
 
 /// Curvatures at the `V` vertices of a mesh, millimeters.
 ///
-/// Neighbors are found through edges, ring after ring, so that the other side of a thin wall is none. Vertices at one place are
-/// two vertices: weld first what is not welded. Normals are those of the facets. Rings do not grow through vertices with more than
-/// 256 neighbors. `progress` counts vertices. Deterministic for any number of threads; about 450 bytes a vertex
-/// with its facets; the time of a vertex is that of a least-squares fit, `2 m n²` products for `m` neighbors and `n` unknowns.
+/// Neighbors are found through edges, ring after ring, so that the other side of a thin wall is none. Vertices at one
+/// place are two vertices: weld an unwelded mesh first. Normals are those of the facets. Rings do not grow through
+/// vertices with more than 256 neighbors.
+/// `progress` counts vertices. Deterministic for any number of threads; about 450 bytes a vertex with its facets. The time of a vertex is that of a least-squares fit, `2
+/// m n²` products for `m` neighbors and `n` unknowns.
 /// ```
 /// use trueness_surface::curvature::{self, Options};
 /// use trueness_geom::{mesh::Mesh, progress::Silent};
@@ -92,12 +94,12 @@ pub fn mesh(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<C
 
 /// Curvatures at `N` points, millimeters, in their order.
 ///
-/// The first frame of a place is the least-squares plane of its neighbors. A place is on a boundary where, along the surface, no
-/// neighbor lies within an angle of 150 degrees. Normals are turned to one side from neighbor to neighbor, the flattest way
-/// first (H. Hoppe et al., SIGGRAPH 1992); then each part that hangs together looks outward, if it is a body rather than a sheet
-/// (the mean of n · (p − c) tells, which is three times volume over area of a closed one), else to the side of its mean normal's
-/// largest coordinate. Equal points are one place: copies are no neighbors, and have the same answer. As [`mesh()`] otherwise;
-/// about 600 bytes a point.
+/// The first frame of a place is the least-squares plane of its neighbors. A place is on a boundary where, along the
+/// surface, no neighbor lies within an angle of 150 degrees. Normals are turned to one side from neighbor to neighbor,
+/// the flattest way first (H. Hoppe et al., SIGGRAPH 1992). Then each part that hangs together looks outward, if it is
+/// a body rather than a sheet. The mean of n · (p − c) tells that: in a closed body it is three times volume over area.
+/// Other parts look to the side of their mean normal's largest coordinate. Equal points are one place: copies are no
+/// neighbors, and have the same answer. As [`mesh()`] otherwise; about 600 bytes a point.
 ///
 /// # Errors
 /// As [`mesh()`].
@@ -110,7 +112,7 @@ pub fn cloud(
     if points.len() >= u32::MAX as usize {
         return Err(CurvatureError::TooMany(points.len()));
     }
-    let near = near::Near::new(points);
+    let near = near::CloudNeighbors::new(points);
     let found = all(&terms, points.len(), progress, || {
         let (near, terms) = (&near, &terms);
         move |fitter: &mut Fitter, i: u32| near.jet(i, terms, fitter)
@@ -120,7 +122,7 @@ pub fn cloud(
     Ok(Curvatures { places, parts })
 }
 
-/// The answer of each place. `worker` makes what answers: it is called at most some dozens of times.
+/// The answer of each place. `worker` makes the function that answers: it is called at most some dozens of times.
 fn all<T: Send, W: FnMut(&mut Fitter, u32) -> T>(
     terms: &Terms,
     count: usize,
@@ -128,18 +130,18 @@ fn all<T: Send, W: FnMut(&mut Fitter, u32) -> T>(
     worker: impl Fn() -> W + Sync,
 ) -> Result<Vec<T>, Cancelled> {
     // Few workers, for each has room for a mark a place.
-    let run = count.div_ceil(RUNS).max(4 * TASK);
+    let run = count.div_ceil(MAX_RUNS).max(4 * PLACES_PER_STOP_CHECK);
     let parts: Vec<Vec<T>> = (0..count.div_ceil(run))
         .into_par_iter()
         .map(|part| {
             let (mut fitter, mut answer) = (Fitter::new(terms.degree, terms.noise), worker());
             let (from, to) = (part * run, count.min((part + 1) * run));
             let mut answers = Vec::with_capacity(to - from);
-            for first in (from..to).step_by(TASK) {
+            for first in (from..to).step_by(PLACES_PER_STOP_CHECK) {
                 if progress.cancelled() {
                     break;
                 }
-                let last = to.min(first + TASK);
+                let last = to.min(first + PLACES_PER_STOP_CHECK);
                 answers.extend((first..last).map(|i| answer(&mut fitter, i as u32)));
                 progress.advance((last - first) as u64);
             }

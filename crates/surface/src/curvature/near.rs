@@ -1,7 +1,7 @@
 //! Neighbors in a cloud, by distance.
 
 use super::jet::{Fitter, Jet};
-use super::terms::{NoCurvature, Taken, Terms};
+use super::terms::{NoCurvature, ResolvedReach, Terms};
 use std::f64::consts::PI;
 use trueness_geom::fit::Scatter;
 use trueness_geom::parallel::prelude::*;
@@ -9,13 +9,13 @@ use trueness_geom::space::{Aabb, Point, Vector, dot, minus};
 use trueness_geom::spatial::neighbors::{Neighbor, PointTree};
 
 /// Neighbors of a point that normals are handed on to.
-const LINKS: usize = 8;
-/// Angle without a neighbor from which on a point lies on a boundary: 150 degrees. Of 30 neighbors at random directions one in
-/// 200,000 inner points has such a gap; a straight boundary has one of 180 degrees.
-const GAP: f64 = 5.0 / 6.0 * PI;
+const LINKS_PER_POINT: usize = 8;
+/// Angle without a neighbor from which on a point lies on a boundary: 150 degrees. One inner point in 200,000 has such a gap among
+/// 30 neighbors at random directions; a straight boundary has one of 180 degrees.
+const MIN_BOUNDARY_GAP: f64 = 5.0 / 6.0 * PI;
 
 /// The places of a cloud: its finite points, equal ones as one. Copies of a point are no neighbors that tell anything more.
-pub(super) struct Near<'a> {
+pub(super) struct CloudNeighbors<'a> {
     points: &'a [Point],
     tree: PointTree,
     /// For each place the lowest number of its points.
@@ -27,8 +27,8 @@ pub(super) struct Near<'a> {
 /// The answer of a point, and its nearest neighbors, nearest first.
 pub(super) type Answer = (Result<Jet, NoCurvature>, Vec<u32>);
 
-impl Near<'_> {
-    pub(super) fn new(points: &[Point]) -> Near<'_> {
+impl CloudNeighbors<'_> {
+    pub(super) fn new(points: &[Point]) -> CloudNeighbors<'_> {
         // Adding zero makes −0 the 0 that it equals.
         let key = |i: &u32| points[*i as usize].map(|x| (x + 0.0).to_bits());
         let finite = |i: &u32| points[*i as usize].iter().all(|x| x.is_finite());
@@ -50,7 +50,7 @@ impl Near<'_> {
             }
         }
         let kept: Vec<Point> = numbers.iter().map(|i| points[*i as usize]).collect();
-        Near { points, tree: PointTree::new(&kept), numbers, own }
+        CloudNeighbors { points, tree: PointTree::new(&kept), numbers, own }
     }
 
     /// The jet at a point; its normal may be on either side.
@@ -65,15 +65,15 @@ impl Near<'_> {
         // A copy follows the first of its place.
         let lowest = self.numbers[own as usize];
         let links = (lowest != i).then_some(lowest).into_iter();
-        let links = links.chain(near.iter().map(number)).take(LINKS).collect();
+        let links = links.chain(near.iter().map(number)).take(LINKS_PER_POINT).collect();
         fitter.take(place, near.iter().map(|n| self.points[number(n) as usize]));
         (fit(fitter, terms), links)
     }
 
     fn neighbors(&self, place: &Point, own: u32, terms: &Terms) -> Vec<Neighbor> {
         let radius = match terms.reach {
-            Taken::Count(count) => return self.tree.k_nearest(place, count, Some(own)),
-            Taken::Radius(radius) => radius,
+            ResolvedReach::Count(count) => return self.tree.k_nearest(place, count, Some(own)),
+            ResolvedReach::Radius(radius) => radius,
         };
         let window = Aabb { min: place.map(|x| x - radius), max: place.map(|x| x + radius) };
         let mut near = vec![];
@@ -95,7 +95,7 @@ fn fit(fitter: &mut Fitter, terms: &Terms) -> Result<Jet, NoCurvature> {
         return Err(NoCurvature::FewNeighbors);
     }
     let jet = fitter.jet(flattest(&fitter.around).ok_or(NoCurvature::Undetermined)?)?;
-    if !terms.boundary && widest_gap(&fitter.around, &jet) >= GAP {
+    if !terms.boundary && widest_gap(&fitter.around, &jet) >= MIN_BOUNDARY_GAP {
         return Err(NoCurvature::Boundary);
     }
     Ok(jet)
@@ -104,7 +104,7 @@ fn fit(fitter: &mut Fitter, terms: &Terms) -> Result<Jet, NoCurvature> {
 /// Normal of the least-squares plane; `None` where all lie on a line.
 fn flattest(around: &[Vector]) -> Option<Vector> {
     let Scatter { variance, axes, .. } = Scatter::of(around);
-    // What rounding leaves of a line's width.
+    // Width of a line that rounding leaves.
     (variance[1] > 1e-14 * variance[2]).then_some(axes[0])
 }
 

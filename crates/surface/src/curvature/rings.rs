@@ -1,7 +1,7 @@
 //! Neighbors on a mesh: rings around a vertex, through edges.
 
 use super::jet::{Fitter, Jet};
-use super::terms::{NoCurvature, Taken, Terms};
+use super::terms::{NoCurvature, ResolvedReach, Terms};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 use trueness_geom::mesh::Mesh;
@@ -11,17 +11,17 @@ use trueness_geom::space::{Vector, cross, dot, minus, norm, plus, unit};
 use trueness_geom::spatial::lists::lists;
 use trueness_geom::topology::{Topology, TopologyError};
 
-/// Rings do not grow through vertices with more neighbors: those around the middle of a disc of many facets would each take
-/// in all others.
-pub const HUB: usize = 256;
+/// Rings do not grow through vertices with more neighbors: those around the middle of a disc of many facets would each take in all
+/// others.
+pub const MAX_RING_NEIGHBORS: usize = 256;
 
-/// Rings around a vertex are a neighborhood if no vertex left out is nearer than this share of the farthest one in them: of a net of like
-/// cells it is 0.6. Rings of long facets reach far one way and hardly the other.
-const ROUND: f64 = 1.0 / 3.0;
+/// Rings around a vertex are a neighborhood if no vertex left out is nearer than this share of the farthest one in
+/// them. In a net of like cells the share is 0.6. Rings of long facets reach far one way and hardly the other.
+const MIN_ROUND_RATIO: f64 = 1.0 / 3.0;
 /// Condition up to which the nearest vertices determine a jet in all directions: three rows of them do not, five do.
-const EVEN: f64 = 300.0;
+const MAX_EVEN_CONDITION: f64 = 300.0;
 /// Times the neighbors asked for that are taken for it at most.
-const MOST_TIMES: usize = 12;
+const MAX_NEIGHBOR_GROWTH: usize = 12;
 
 /// A mesh as vertices that know their neighbors.
 pub(super) struct Rings<'a> {
@@ -57,7 +57,7 @@ impl Rings<'_> {
             .collect();
         let (first, others) = lists(count, pairs);
         let mut barred = vec![None; count];
-        // What is said last is what counts.
+        // The last statement counts.
         for edge in &topology.boundary_edges {
             edge.vertices.iter().for_each(|v| barred[*v as usize] = Some(NoCurvature::Boundary));
         }
@@ -81,7 +81,7 @@ impl Rings<'_> {
         Walk { rings: self, seen: vec![0; self.normals.len()], round: 0, found: vec![] }
     }
 
-    fn beside(&self, v: u32) -> &[u32] {
+    fn neighbors_of(&self, v: u32) -> &[u32] {
         &self.others[self.first[v as usize] as usize..self.first[v as usize + 1] as usize]
     }
 }
@@ -110,7 +110,7 @@ impl Walk<'_> {
         }
         self.gather(v, terms);
         match terms.reach {
-            Taken::Count(count) if !self.is_round() => {
+            ResolvedReach::Count(count) if !self.is_round() => {
                 let (of_rings, even) = (self.fit(v, fitter), self.even_jet(v, count, fitter));
                 match (of_rings, even) {
                     // Along a straight line rings may reach far.
@@ -134,9 +134,13 @@ impl Walk<'_> {
         };
         let farthest = self.found.iter().map(square).fold(0.0, f64::max);
         let left_out = |n: &&u32| self.seen[**n as usize] != self.round;
-        let around = self.found.iter().map(|n| rings.beside(*n)).filter(|beside| beside.len() <= HUB);
-        let beside = around.flatten().filter(left_out);
-        beside.map(square).fold(f64::INFINITY, f64::min) >= ROUND * ROUND * farthest
+        let around = self
+            .found
+            .iter()
+            .map(|n| rings.neighbors_of(*n))
+            .filter(|adjacent| adjacent.len() <= MAX_RING_NEIGHBORS);
+        let adjacent = around.flatten().filter(left_out);
+        adjacent.map(square).fold(f64::INFINITY, f64::min) >= MIN_ROUND_RATIO * MIN_ROUND_RATIO * farthest
     }
 
     /// The jet of the nearest vertices, more and more of them, until it is determined in all directions.
@@ -146,7 +150,10 @@ impl Walk<'_> {
             self.gather_nearest(v, wanted);
             let jet = self.fit(v, fitter);
             let is_all = self.found.len() <= wanted;
-            if is_all || wanted >= MOST_TIMES * count || jet.is_ok_and(|jet| jet.condition <= EVEN) {
+            if is_all
+                || wanted >= MAX_NEIGHBOR_GROWTH * count
+                || jet.is_ok_and(|jet| jet.condition <= MAX_EVEN_CONDITION)
+            {
                 return jet;
             }
             wanted += wanted / 2;
@@ -160,18 +167,18 @@ impl Walk<'_> {
         self.found.clear();
         self.seen[v as usize] = self.round;
         let middle = rings.mesh.positions[v as usize];
-        // Of numbers that are not negative the bits rise as they do.
+        // The bits of numbers that are not negative rise as the numbers do.
         let mut open = BinaryHeap::from([Reverse((0u64, v))]);
         while let Some(Reverse((_, n))) = open.pop() {
             self.found.push(n);
             if self.found.len() > wanted {
                 break;
             }
-            let beside = rings.beside(n);
-            if n != v && beside.len() > HUB {
+            let adjacent = rings.neighbors_of(n);
+            if n != v && adjacent.len() > MAX_RING_NEIGHBORS {
                 continue;
             }
-            for &other in beside {
+            for &other in adjacent {
                 if self.seen[other as usize] != self.round {
                     self.seen[other as usize] = self.round;
                     open.push(Reverse((
@@ -183,7 +190,7 @@ impl Walk<'_> {
         }
     }
 
-    /// The jet of what was found.
+    /// The jet of the vertices found.
     fn fit(&self, v: u32, fitter: &mut Fitter) -> Result<Jet, NoCurvature> {
         let Rings { mesh, normals, .. } = self.rings;
         let normal = normals[v as usize];
@@ -206,18 +213,18 @@ impl Walk<'_> {
         self.seen[v as usize] = self.round;
         let middle = rings.mesh.positions[v as usize];
         let (enough, radius) = match terms.reach {
-            Taken::Count(count) => (count, f64::INFINITY),
-            Taken::Radius(r) => (usize::MAX, r),
+            ResolvedReach::Count(count) => (count, f64::INFINITY),
+            ResolvedReach::Radius(r) => (usize::MAX, r),
         };
         let mut ring = 0..1;
         while !ring.is_empty() && self.found.len() <= enough {
             let end = ring.end;
             for k in ring {
-                let beside = rings.beside(self.found[k]);
-                if k > 0 && beside.len() > HUB {
+                let adjacent = rings.neighbors_of(self.found[k]);
+                if k > 0 && adjacent.len() > MAX_RING_NEIGHBORS {
                     continue;
                 }
-                for &n in beside {
+                for &n in adjacent {
                     let new = self.seen[n as usize] != self.round;
                     if new && norm(minus(rings.mesh.positions[n as usize], middle)) <= radius {
                         self.seen[n as usize] = self.round;

@@ -1,16 +1,17 @@
-//! What noise that neighbors share does to a least-squares fit.
+//! Effect of noise that neighbors share on a least-squares fit.
 
 use super::jet::Fitter;
 use trueness_geom::noise::Noise;
 use trueness_geom::space::{minus, norm};
 
-/// Up to so many data all pairs are looked at. Of more, what is asked varies so little from neighbor to neighbor that each stands for
-/// as many as share its noise.
-const ALL_PAIRS: usize = 300;
+/// Up to so many data all pairs are looked at. The value asked for varies little from neighbor to neighbor in more data: each
+/// stands for as many as share its noise.
+const MAX_DATA_IN_ALL_PAIRS: usize = 300;
 
 impl Fitter {
-    /// Standard deviation of a sum of coefficients from `first` on, for data of standard deviation 1 with this noise: `√(wᵀCw)` of the weights `w` of
-    /// the data and the correlations `C`. Residuals tell little of noise that most of a neighborhood shares.
+    /// Standard deviation of a sum of coefficients from
+    /// `first` on, for data of standard deviation 1 with this noise. It is `√(wᵀCw)` for the weights
+    /// `w` of the data and the correlations `C`. Residuals tell little of noise that most of a neighborhood shares.
     pub(super) fn shared(&self, first: usize, weights: [f64; 3], noise: &Noise) -> f64 {
         let m = self.local.len();
         // The weights of the data: Q R⁻ᵀ g.
@@ -19,7 +20,7 @@ impl Fitter {
         turned.iter_mut().skip(first).zip(weights).for_each(|(of, weight)| *of = weight);
         self.turn(&mut turned);
         let squares: f64 = turned.iter().map(|x| x * x).sum();
-        if m > ALL_PAIRS {
+        if m > MAX_DATA_IN_ALL_PAIRS {
             return (noise.points_per_independent * squares).sqrt();
         }
         let pair = |i: usize, j: usize| {

@@ -9,10 +9,10 @@ use trueness_geom::space::{Point, Vector, dot, minus, norm};
 use trueness_geom::spatial::lists::lists;
 use trueness_geom::topology::union::Sets;
 
-/// A part is a body where the mean of n · (p − c), over the mean distance |p − c| from its middle c, is at least this share of the
-/// length of its mean normal: of a closed body the former is above 0 (three times volume over area) and the latter 0, however
-/// it is shaped; of a flat sheet the former is 0 and the latter 1.
-const BODY: f64 = 0.25;
+/// A part is a body by the mean of n · (p − c) over the mean distance |p − c| from its middle c. That ratio is at least
+/// this share of the length of its mean normal. In a closed body the former is above 0 (three times volume over area)
+/// and the latter 0, however it is shaped. In a flat sheet the former is 0 and the latter 1.
+const MIN_BODY_RATIO: f64 = 0.25;
 
 type JetResult = Result<Jet, NoCurvature>;
 
@@ -33,7 +33,7 @@ pub(super) fn turn(
             let own = normal(i);
             links[i as usize].iter().filter_map(move |&n| {
                 let bend = 1.0 - dot(own?, normal(n)?).abs();
-                // Of numbers that are not negative the bits rise as they do.
+                // The bits of numbers that are not negative rise as the numbers do.
                 Some((bend.max(0.0).to_bits(), [i.min(n), i.max(n)]))
             })
         })
@@ -117,7 +117,7 @@ fn inward(points: &[Point], places: &[JetResult], parts: usize, part_of: &[u32])
         .map(|part| {
             let [along, far] = outward[part].map(Sum::value);
             let mean = normals[part].map(|s| s.value() / counts[part]);
-            if along.abs() >= BODY * norm(mean) * far {
+            if along.abs() >= MIN_BODY_RATIO * norm(mean) * far {
                 return along < 0.0;
             }
             let largest = (0..3).fold(0, |best, k| if mean[k].abs() > mean[best].abs() { k } else { best });

@@ -1,4 +1,4 @@
-//! What is asked, and why there may be no answer.
+//! Options, and reasons why there may be no answer.
 
 use trueness_geom::noise::Noise;
 use trueness_geom::progress::Cancelled;
@@ -8,16 +8,16 @@ use trueness_geom::topology::weld::WeldError;
 /// Degrees of the jets that can be fitted.
 pub const DEGREES: std::ops::RangeInclusive<usize> = 2..=6;
 /// Neighbors for each unknown, where their number is not given.
-const PER_UNKNOWN: usize = 3;
+const NEIGHBORS_PER_UNKNOWN: usize = 3;
 /// Most neighbors that can be asked for.
-pub const MOST_NEIGHBORS: usize = 10_000;
+pub const MAX_NEIGHBORS: usize = 10_000;
 
 /// How curvatures are found.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
     /// Degree of the jets, from [`DEGREES`].
     pub degree: usize,
-    /// What is taken into a neighborhood.
+    /// The points that are taken into a neighborhood.
     pub reach: Reach,
     /// Whether places on a boundary have values, from the one side that there is.
     pub boundary: bool,
@@ -31,7 +31,7 @@ impl Default for Options {
     }
 }
 
-/// What is taken into a neighborhood.
+/// The points that are taken into a neighborhood.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Reach {
     /// At least three neighbors for each unknown of the jet: 18 of degree 2, 30 of degree 3.
@@ -46,7 +46,7 @@ impl Reach {
     /// Fewest neighbors that are looked for with jets of this degree; `None` where a radius tells.
     pub fn neighbors(self, degree: usize) -> Option<usize> {
         match self {
-            Reach::Auto => Some(PER_UNKNOWN * unknowns(degree)),
+            Reach::Auto => Some(NEIGHBORS_PER_UNKNOWN * unknowns(degree)),
             Reach::Count(count) => Some(count),
             Reach::Radius(_) => None,
         }
@@ -60,8 +60,8 @@ pub enum NoCurvature {
     NotFinite,
     /// No facet uses the vertex.
     Unused,
-    /// Facets meet there, or around it, in a way that is no surface: more than two at an edge, fans that touch, or facets whose
-    /// orientations disagree.
+    /// Facets meet there, or around it, in a way that is no surface. More than two meet at an edge, fans touch, or the
+    /// orientations of facets disagree.
     NotASurface,
     /// The surface ends there: it has neighbors on one side only.
     Boundary,
@@ -106,7 +106,7 @@ pub enum CurvatureError {
     #[error("degree {0}: it must be from {first} to {last}", first = DEGREES.start(), last = DEGREES.end())]
     Degree(usize),
     /// Too few neighbors for the degree, or too many.
-    #[error("{asked} neighbors: a jet of degree {degree} needs from {needed} to {MOST_NEIGHBORS}")]
+    #[error("{asked} neighbors: a jet of degree {degree} needs from {needed} to {MAX_NEIGHBORS}")]
     Neighbors {
         /// Asked for.
         asked: usize,
@@ -143,18 +143,18 @@ pub fn unknowns(degree: usize) -> usize {
     (degree + 1) * (degree + 2) / 2
 }
 
-/// Options with what follows from them.
+/// Options with the numbers that follow from them.
 pub(super) struct Terms {
     pub degree: usize,
     pub unknowns: usize,
-    pub reach: Taken,
+    pub reach: ResolvedReach,
     pub boundary: bool,
     pub noise: Option<Noise>,
 }
 
-/// [`Reach`] without what must be worked out.
+/// [`Reach`] worked out.
 #[derive(Clone, Copy)]
-pub(super) enum Taken {
+pub(super) enum ResolvedReach {
     Count(usize),
     Radius(f64),
 }
@@ -167,9 +167,9 @@ impl Terms {
         }
         let unknowns = unknowns(degree);
         let reach = match (options.reach, options.reach.neighbors(degree)) {
-            (_, Some(count)) if (unknowns..=MOST_NEIGHBORS).contains(&count) => Taken::Count(count),
+            (_, Some(count)) if (unknowns..=MAX_NEIGHBORS).contains(&count) => ResolvedReach::Count(count),
             (_, Some(asked)) => return Err(CurvatureError::Neighbors { asked, degree, needed: unknowns }),
-            (Reach::Radius(r), _) if r > 0.0 && r.is_finite() => Taken::Radius(r),
+            (Reach::Radius(r), _) if r > 0.0 && r.is_finite() => ResolvedReach::Radius(r),
             (Reach::Radius(r), _) => return Err(CurvatureError::Radius(r)),
             (Reach::Auto | Reach::Count(_), None) => return Err(CurvatureError::Degree(degree)),
         };

@@ -138,8 +138,8 @@ fn a_whole_torus_has_its_curvatures_normals_and_directions() {
         for (place, (_, normal, k, direction)) in found.places.iter().zip(&known) {
             let bend = place.unwrap().bend;
             assert!(dot(bend.normal, *normal) > 1.0 - 1e-5);
-            // What a polynomial of degree 4 lacks of a circle as wide as the neighborhood; were it a parabola, its curvature would
-            // be half of this bound.
+            // Difference of a polynomial of degree 4 from a circle as wide as the neighborhood. For a parabola, its
+            // curvature would be half of this bound.
             let (h, r) = (place.unwrap().reach, 4f64);
             let rest = r - (r * r - h * h).sqrt() - h * h / (2.0 * r) - h.powi(4) / (8.0 * r.powi(3));
             let bound = 4.0 * rest / (h * h);
@@ -158,7 +158,7 @@ fn a_whole_torus_has_its_curvatures_normals_and_directions() {
         face.iter().for_each(|v| area[*v as usize] += norm(cross(minus(b, a), minus(c, a))) / 6.0);
     }
     let integral: f64 = of_mesh.places.iter().zip(&area).map(|(p, a)| p.unwrap().bend.gaussian * a).sum();
-    // Of 4π on the outer side and as much less on the inner one.
+    // It is 4π on the outer side and as much less on the inner one.
     assert!(integral.abs() < 0.005 * 4.0 * TAU, "{integral}");
 }
 
@@ -227,7 +227,7 @@ fn another_solver_says_the_same() {
     }
 }
 
-/// Of standard deviation 1 (Box and Muller).
+/// Normal with standard deviation 1 (Box and Muller).
 fn normal(random: &mut Random) -> f64 {
     (-2.0 * (1.0 - random.unit()).ln()).sqrt() * (TAU * random.unit()).cos()
 }

@@ -46,7 +46,7 @@ impl Disc {
             return Err(fault.into());
         }
         let rims = rims(mesh, &topology);
-        // Of a sphere with so many holes the characteristic is 2 less their number; each handle takes 2.
+        // The characteristic of a sphere with so many holes is 2 less their number; each handle takes 2.
         let handles = (2 - rims.len() as i64 - topology.euler_characteristic()) / 2;
         if handles != 0 {
             return Err(NotADisc::Handles { handles }.into());

@@ -1,8 +1,9 @@
 //! A mesh laid within a circle: each vertex is a mean of its neighbors.
 //!
-//! With weights above 0 and the rim on a convex line no facet turns over, whatever the mesh (Tutte, How to draw a graph,
-//! Proceedings of the London Mathematical Society 13, 1963; Floater, Mean value coordinates, Computer Aided Geometric Design
-//! 20, 2003, whose weights are those that a flat mesh keeps its shape with). Holes are closed by a fan of facets around their middle.
+//! With weights above 0 and the rim on a convex line no facet turns over, whatever the mesh. (Tutte, How to draw a
+//! graph, Proceedings of the London Mathematical Society 13, 1963). A flat mesh keeps its shape with the weights of
+//! Floater, Mean value coordinates, Computer Aided Geometric Design 20, 2003. Holes are closed by a fan of facets
+//! around their middle.
 
 use super::disc::Disc;
 use super::triangle::{Triangle, length};
@@ -12,11 +13,11 @@ use trueness_geom::num::sparse::Sparse;
 use trueness_geom::progress::{Cancelled, Progress};
 use trueness_geom::space::{Point, minus, norm, plus, times};
 
-/// What may be left of the equations.
-const ACCURACY: f64 = 1e-13;
+/// Residual that the solver may leave in the equations.
+const MEAN_VALUE_ACCURACY: f64 = 1e-13;
 
 /// Length of an edge of the rim at least, as a share of their mean.
-const LEAST: f64 = 1e-6;
+const MIN_RIM_EDGE_SHARE: f64 = 1e-6;
 
 /// Places of the vertices within the circle around the origin that has the area of the mesh, the rim on it by its length.
 pub(super) fn within_circle(
@@ -41,7 +42,7 @@ pub(super) fn within_circle(
         .map(|(a, b)| norm(minus(positions[*a as usize], positions[*b as usize])))
         .collect();
     // Vertices at one place have a place each.
-    let least = LEAST * lengths.iter().sum::<f64>() / lengths.len() as f64 + f64::MIN_POSITIVE;
+    let least = MIN_RIM_EDGE_SHARE * lengths.iter().sum::<f64>() / lengths.len() as f64 + f64::MIN_POSITIVE;
     let lengths: Vec<f64> = lengths.into_iter().map(|length| length.max(least)).collect();
     let around: f64 = lengths.iter().sum();
     let (mut is_rim, mut run) = (vec![false; corners.len()], 0.0);
@@ -76,7 +77,7 @@ pub(super) fn within_circle(
         let solver = Multigrid::new(Sparse::new(inner.len(), inner.len(), &entries));
         for (d, right) in right.iter().enumerate() {
             let mut x = vec![0.0; inner.len()];
-            solver.solve(right, &mut x, ACCURACY, progress)?;
+            solver.solve(right, &mut x, MEAN_VALUE_ACCURACY, progress)?;
             inner.iter().zip(x).for_each(|(v, x)| places[*v][d] = x);
         }
     }

@@ -1,8 +1,9 @@
 //! A mesh laid into the plane: two parameters for each vertex.
 //!
-//! First within a circle, where no facet can turn over (`mean_value`); from there it is relaxed with a free rim until lengths are kept as far
-//! as they can be (`relax`): what can be unrolled is unrolled. Where the rim crosses itself then, as that of a spiral may, the mesh is left
-//! within the circle.
+//! First it is laid within a circle, where no facet can turn over
+//! (`mean_value`). From there it is relaxed with a free rim until lengths are kept as far as they can be (`relax`).
+//! Surfaces that can be unrolled are unrolled. Where the rim crosses itself then, as that of a spiral may, the mesh is
+//! left within the circle.
 
 mod disc;
 mod mean_value;
@@ -34,7 +35,7 @@ pub(super) struct Flat {
 }
 
 /// Share of the area that may be stretched by less, and by more, than is told.
-const FEW: f64 = 0.01;
+const MAX_UNTOLD_AREA_SHARE: f64 = 0.01;
 
 /// Lays a mesh into the plane.
 ///
@@ -86,7 +87,7 @@ fn stretch(disc: &Disc, triangles: &[Triangle], places: &[[f64; 2]]) -> [f64; 2]
         let mut passed = 0.0;
         let end = all.iter().find(|(_, own)| {
             passed += own;
-            passed > FEW * area
+            passed > MAX_UNTOLD_AREA_SHARE * area
         });
         end.map_or(0.0, |(value, _)| *value)
     };

@@ -1,9 +1,10 @@
 //! A mesh in the plane, relaxed until its facets keep their lengths as far as they can.
 //!
-//! By turns each facet is laid by itself, turned as it lies, and all places are found that suit these best (Liu, Zhang, Xu, Gotsman,
-//! Gortler, A local/global approach to mesh parameterization, Computer Graphics Forum 27, 2008). A step never takes a facet to
-//! no area: it ends at four fifths of the way there (Smith, Schaefer, Bijective parameterization with free boundaries, ACM Transactions on
-//! Graphics 34, 2015). What the steps lower is quadratic for given turns, so a part of a step lowers it too.
+//! By turns each facet is laid by itself, turned as it lies, and all places are found that suit these best. (Liu,
+//! Zhang, Xu, Gotsman, Gortler, A local/global approach to mesh parameterization, Computer Graphics Forum 27, 2008). A
+//! step never takes a facet to no area: it ends at four fifths of the way there. (Smith, Schaefer, Bijective
+//! parameterization with free boundaries, ACM Transactions on Graphics 34, 2015). The energy that the steps lower is
+//! quadratic for given turns, so a part of a step lowers it too.
 
 use super::disc::Disc;
 use super::triangle::{Triangle, cross, dot, length};
@@ -14,18 +15,19 @@ use trueness_geom::num::sparse::Sparse;
 use trueness_geom::progress::{Cancelled, Progress};
 
 /// Steps at most.
-const STEPS: usize = 200;
+const MAX_RELAXING_STEPS: usize = 200;
 /// A step that takes away less than this share of the energy is the last but for a few.
-const GAIN: f64 = 1e-3;
-const PATIENCE: usize = 3;
+const MIN_ENERGY_GAIN: f64 = 1e-3;
+/// So many such steps in a row end it.
+const IDLE_STEPS_TO_END: usize = 3;
 /// Energy for a unit of area, the square of the change of lengths, that is next to nothing.
-const NOTHING: f64 = 1e-10;
-/// What may be left of the equations.
-const ACCURACY: f64 = 1e-5;
+const ZERO_ENERGY_PER_AREA: f64 = 1e-10;
+/// Residual that the solver may leave in the equations.
+const RELAXING_ACCURACY: f64 = 1e-5;
 /// Weight, relative to the neighbors', with which vertices are held where they are: the equations do not tell where the whole lies.
-const HELD: f64 = 1e-9;
+const HOLDING_WEIGHT: f64 = 1e-9;
 /// Share of the way to where a facet has no area.
-const SAFE: f64 = 0.8;
+const SAFE_STEP_SHARE: f64 = 0.8;
 
 /// Relaxes places in which all facets run against the clock.
 pub(super) fn relax(
@@ -44,25 +46,25 @@ pub(super) fn relax(
         }
     }
     let mut held = Sparse::new(count, count, &entries).diagonal();
-    held.iter_mut().for_each(|d| *d *= HELD);
+    held.iter_mut().for_each(|d| *d *= HOLDING_WEIGHT);
     entries.extend((0..).zip(&held).map(|(v, held)| (v, v, *held)));
     let matrix = Sparse::new(count, count, &entries);
     drop(entries);
     let solver = Multigrid::new(matrix);
     let area: f64 = triangles.iter().map(|t| 0.5 * t.doubled_area()).sum();
     let (mut before, mut idle) = (f64::INFINITY, 0);
-    let mut ahead = Ahead::default();
+    let mut ahead = AndersonAcceleration::default();
     // Where a plain step led to, while the places are those of a step ahead of it.
     let mut plain: Option<Vec<[f64; 2]>> = None;
-    for _ in 0..STEPS {
+    for _ in 0..MAX_RELAXING_STEPS {
         let (energy, mut right) = pulls(disc, triangles, places);
         if let Some(plain) = plain.take_if(|_| energy > before) {
             places.copy_from_slice(&plain);
-            ahead = Ahead::default();
+            ahead = AndersonAcceleration::default();
             continue;
         }
-        idle = if energy > (1.0 - GAIN) * before { idle + 1 } else { 0 };
-        if energy <= NOTHING * area || idle >= PATIENCE {
+        idle = if energy > (1.0 - MIN_ENERGY_GAIN) * before { idle + 1 } else { 0 };
+        if energy <= ZERO_ENERGY_PER_AREA * area || idle >= IDLE_STEPS_TO_END {
             break;
         }
         before = energy;
@@ -70,7 +72,7 @@ pub(super) fn relax(
         for (d, right) in right.iter_mut().enumerate() {
             right.iter_mut().zip(&held).zip(&*places).for_each(|((r, held), p)| *r += held * p[d]);
             let mut x: Vec<f64> = places.iter().map(|p| p[d]).collect();
-            solver.solve(right, &mut x, ACCURACY, progress)?;
+            solver.solve(right, &mut x, RELAXING_ACCURACY, progress)?;
             target.iter_mut().zip(x).for_each(|(t, x)| t[d] = x);
         }
         let part = share(disc, places, &target);
@@ -93,20 +95,20 @@ pub(super) fn relax(
     Ok(())
 }
 
-/// The last steps, from which is told where many more of them would lead (Anderson, Iterative procedures for nonlinear integral
-/// equations, Journal of the ACM 12, 1965; Peng, Deng, Zhang, Geng, Qin, Liu, Anderson acceleration for geometry optimization and
-/// physics simulation, ACM Transactions on Graphics 37, 2018).
+/// The last steps, which tell where many more of them would lead. (Anderson, Iterative procedures for nonlinear
+/// integral equations, Journal of the ACM 12, 1965. Peng, Deng, Zhang, Geng, Qin, Liu, Anderson acceleration for
+/// geometry optimization and physics simulation, ACM Transactions on Graphics 37, 2018).
 #[derive(Default)]
-struct Ahead {
+struct AndersonAcceleration {
     /// The last step, and where it led to.
     last: Option<[Vec<[f64; 2]>; 2]>,
     /// How both changed from one step to the next.
     changes: VecDeque<[Vec<[f64; 2]>; 2]>,
 }
 
-impl Ahead {
+impl AndersonAcceleration {
     /// Changes that are remembered.
-    const MOST: usize = 6;
+    const MAX_CHANGES_KEPT: usize = 6;
 
     /// Where the step from places to a target would go on to; `None` before there are two.
     fn of(&mut self, places: &[[f64; 2]], target: &[[f64; 2]]) -> Option<Vec<[f64; 2]>> {
@@ -116,7 +118,7 @@ impl Ahead {
         let step = less(target, places);
         if let Some([before, led]) = &self.last {
             self.changes.push_back([less(&step, before), less(target, led)]);
-            if self.changes.len() > Ahead::MOST {
+            if self.changes.len() > AndersonAcceleration::MAX_CHANGES_KEPT {
                 self.changes.pop_front();
             }
         }
@@ -169,7 +171,8 @@ fn pulls(disc: &Disc, triangles: &[Triangle], places: &[[f64; 2]]) -> (f64, [Vec
     (energy, right)
 }
 
-/// The share of the way to the target that turns no facet over: all of it, or less than that to the first facet without an area.
+/// The share of the way to the target that turns no facet over. It is all of it, or less than that to the first facet
+/// without an area.
 fn share(disc: &Disc, places: &[[f64; 2]], target: &[[f64; 2]]) -> f64 {
     let mut first = f64::INFINITY;
     for face in &disc.faces {
@@ -182,7 +185,7 @@ fn share(disc: &Disc, places: &[[f64; 2]], target: &[[f64; 2]]) -> f64 {
         let [c0, c1, c2] = [cross(a, b), cross(a, q) + cross(p, b), cross(p, q)];
         first = first.min(first_zero(c0, c1, c2));
     }
-    if first > 1.0 / SAFE { 1.0 } else { SAFE * first }
+    if first > 1.0 / SAFE_STEP_SHARE { 1.0 } else { SAFE_STEP_SHARE * first }
 }
 
 /// The least positive zero of `c0 + c1 t + c2 t²` with `c0 > 0`.

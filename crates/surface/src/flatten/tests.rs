@@ -1,4 +1,5 @@
-//! Meshes in the plane: no facet turned over, what can be unrolled is unrolled, and surfaces over them against closed forms.
+//! Meshes in the plane: no facet turned over, unrollable surfaces are unrolled, and surfaces over them against closed
+//! forms.
 
 use super::super::{BaseKind, Layout, Options, SurfaceError, SurfaceFit, fit_mesh};
 use super::triangle::Triangle;
@@ -191,8 +192,8 @@ fn over_mesh(mesh: &Mesh, spans: [usize; 2]) -> SurfaceFit {
     fit_mesh(mesh, &options, &Silent).unwrap()
 }
 
-/// Pipes beyond half a turn, cones, and caps beyond a half sphere: what is left is the noise, and distances from the true surface are
-/// less than it.
+/// Pipes beyond half a turn, cones, and caps beyond a half sphere. The residuals are the noise, and distances from the
+/// true surface are less than it.
 #[test]
 fn surfaces_over_meshes_keep_to_the_noise() {
     let random = &mut Random::new(21);

@@ -3,10 +3,10 @@
 use trueness_geom::space::{Point, minus, norm};
 
 /// Least height of a triangle over its longest side, as a share of that: a flatter one is taken as if it were that high.
-const FLATTEST: f64 = 1e-3;
+const MIN_HEIGHT_RATIO: f64 = 1e-3;
 
 /// Length of a longest side at least: the square of it is still a number.
-const LEAST: f64 = 1e-100;
+const MIN_LONGEST_SIDE: f64 = 1e-100;
 
 /// A triangle in a plane of its own, against the clock.
 #[derive(Clone, Copy, Debug)]
@@ -19,10 +19,11 @@ impl Triangle {
         let side = |k: usize| norm(minus(corners[(k + 1) % 3], corners[(k + 2) % 3]));
         let sides = [side(0), side(1), side(2)];
         let top = (0..3).fold(0, |m, k| if sides[k] > sides[m] { k } else { m });
-        let (base, left, right) = (sides[top].max(LEAST), sides[(top + 2) % 3], sides[(top + 1) % 3]);
+        let (base, left, right) =
+            (sides[top].max(MIN_LONGEST_SIDE), sides[(top + 2) % 3], sides[(top + 1) % 3]);
         // The foot of the height, from the corner after the top.
         let along = (0.5 * (base + (left - right) * (left + right) / base)).clamp(0.0, base);
-        let height = (left * left - along * along).max(0.0).sqrt().max(FLATTEST * base);
+        let height = (left * left - along * along).max(0.0).sqrt().max(MIN_HEIGHT_RATIO * base);
         let mut own = [[0.0; 2]; 3];
         own[(top + 1) % 3] = [0.0, 0.0];
         own[(top + 2) % 3] = [base, 0.0];
@@ -51,8 +52,8 @@ impl Triangle {
         self.doubled_area() / (length(a) * length(b) + dot(a, b))
     }
 
-    /// Least and greatest factor by which lengths grow as the triangle is laid on these corners; the least one is negative where it is
-    /// turned over.
+    /// Least and greatest factor by which lengths grow as the triangle is laid on these corners. The least one is
+    /// negative where it is turned over.
     pub(super) fn stretch(&self, onto: [[f64; 2]; 3]) -> [f64; 2] {
         let image = Triangle(onto);
         let (a, b) = (self.edge(0, 1), self.edge(0, 2));

@@ -55,8 +55,8 @@ fn knot_lines_run_along_a_step() {
         });
         let angle = across[0].abs().min(across[1].abs()).asin().to_degrees();
         assert!(angle < 0.3, "{degrees} {angle}");
-        // The first side is the longer one, and the parameters are lengths along the sides, from the first point on; at the border the
-        // surface goes on by a part of a span.
+        // The first side is the longer one, and the parameters are lengths along the sides, from the first point on. At
+        // the border the surface goes on by a part of a span.
         let [u, v] = found.surface.domain().map(|(from, to)| (from, to - from));
         assert!([u.0, v.0].iter().all(|from| (-5.0..=0.0).contains(from)) && u.1 >= v.1 - 5.0, "{u:?} {v:?}");
         for (point, foot) in points.iter().zip(&found.feet) {

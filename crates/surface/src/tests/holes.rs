@@ -53,7 +53,7 @@ fn scans_with_holes_keep_all_control_points_near() {
             if let Layout::Tolerance(_) = layout {
                 assert_eq!(found.reached, Some(Reached::Tolerance));
             }
-            // What no point holds is told: the corners of round patches at least.
+            // Control points that no point holds are counted: the corners of round patches at least.
             if layout == Layout::Spans([16, 16]) {
                 let share = found.support.unsupported as f64 / found.support.control_points as f64;
                 assert!(share > 0.05 && share < 0.4, "{n} {share}");

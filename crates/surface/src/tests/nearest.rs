@@ -26,7 +26,7 @@ fn brute(surface: &Surface<Point>, points: &[Point]) -> Vec<f64> {
     points.iter().map(least).collect()
 }
 
-/// The greatest difference of what is told from brute force.
+/// The greatest difference of the answers from brute force.
 fn difference(points: &[Point], options: &Options) -> f64 {
     let found = fit(points, options, &Silent).unwrap();
     let patches = Patches::new(&found.surface);
@@ -55,7 +55,7 @@ fn distances_told_are_those_of_the_nearest_places() {
         let told = difference(&steep(), &Options { layout, base: BaseKind::Xy, ..Options::default() });
         assert!(told < 1e-9, "{told}");
     }
-    // Of the dimensions of a part, with noise.
+    // Dimensions of a part, with noise.
     let told = difference(&scan(300, 0.3, 5), &Options::default());
     assert!(told < 1e-9, "{told}");
 }

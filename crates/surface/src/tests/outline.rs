@@ -1,4 +1,4 @@
-//! Outlines and facets within them, against the points, known areas, and what a closed line of facets must be.
+//! Outlines and facets within them, against the points, known areas, and the rules of a closed line of facets.
 
 use super::super::{Outline, trimmed};
 use std::collections::HashMap;
@@ -57,8 +57,8 @@ fn outlines_hold_their_points() {
     }
 }
 
-/// An L with a hole has its area, within the width by which the outline is set off, and one hole; a gap is bridged by a reach of more
-/// than half its width alone.
+/// An L with a hole has its area, within the width by which the outline is set off, and one hole. Only a reach of more
+/// than half its width bridges a gap.
 #[test]
 fn outlines_go_into_corners_holes_and_gaps() {
     let random = &mut Random::new(7);
@@ -84,8 +84,8 @@ fn outlines_go_into_corners_holes_and_gaps() {
     assert_eq!((outline.regions.len(), outline.left_out), (1, 2));
 }
 
-/// Lines of a scanner are one part, however near points lie along them; places that are there several times are no neighbors; of many parts
-/// alike none is left out.
+/// Lines of a scanner are one part, however near points lie along them. Places that are there several times are no
+/// neighbors, and none of many parts alike is left out.
 #[test]
 fn outlines_of_lines_copies_and_islands_leave_nothing_out() {
     let random = &mut Random::new(4);
@@ -127,7 +127,7 @@ fn outlines_keep_islands_apart() {
             ((rows * rows) as usize, 0),
             "{rows} {each} {gap}"
         );
-        // What lies between them is outside.
+        // The gap between them is outside.
         let between = 3.0 + 0.5 * gap;
         assert!(!outline.holds([between, 1.5]) && !outline.holds([between; 2]) && outline.holds([1.5; 2]));
     }

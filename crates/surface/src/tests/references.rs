@@ -56,7 +56,7 @@ fn coefficients_are_those_of_fifty_digits() {
 
 #[test]
 fn the_example_of_fitpack_has_its_values() {
-    // What `surfit` prints for its example data at these knots: weighted sum of squares and values of the surface.
+    // Output of `surfit` for its example data at these knots: weighted sum of squares and values of the surface.
     let inner = [-0.009520451471534103, -0.17704931080085376];
     let knots = inner.map(|t| Knots::clamped(3, -2.0, &[t], 2.0).unwrap());
     let found = fit(&points("dierckx_dasurf_80.txt"), &strict(knots), &Silent).unwrap();

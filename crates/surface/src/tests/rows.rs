@@ -12,8 +12,8 @@ fn height(x: f64, y: f64) -> f64 {
     5.0 * libm::sin(x / 15.0) + y * y / 400.0
 }
 
-/// Points a tenth of a millimeter apart on rows `apart` from each other, within 100 by 100 mm; without a disk of this radius. Of a share
-/// of them the height is wrong.
+/// Points a tenth of a millimeter apart on rows `apart` from each other, within 100 by 100 mm; without a disk of this
+/// radius. A share of them has a wrong height.
 fn rows(apart: f64, degrees: f64, hole: f64, wrong: f64, seed: u64) -> Vec<Point> {
     let random = &mut Random::new(seed);
     let (s, c) = (libm::sin(degrees.to_radians()), libm::cos(degrees.to_radians()));

@@ -1,6 +1,6 @@
 //! Points that stand on edge on their base.
 
-use super::super::{BaseKind, Layout, Options, STANDING, SurfaceFit, fit};
+use super::super::{BaseKind, Layout, MAX_STANDING_SHARE, Options, SurfaceFit, fit};
 use super::{pass, scan, spans};
 use trueness_geom::num::random::Random;
 use trueness_geom::progress::Silent;
@@ -10,8 +10,8 @@ fn over_plane(points: &[Point]) -> SurfaceFit {
     fit(points, &Options { base: BaseKind::Plane, ..spans(8) }, &Silent).unwrap()
 }
 
-/// A strip of 100 × 0.5 mm whose ripples are larger than its width stands on edge on its least-squares plane, and is fitted over the
-/// plane that it lies in.
+/// A strip of 100 × 0.5 mm whose ripples are larger than its width stands on edge on its least-squares plane. It is
+/// fitted over the plane that it lies in.
 #[test]
 fn a_strip_is_fitted_flat() {
     let random = &mut Random::new(5);
@@ -88,7 +88,7 @@ fn walls_that_the_surface_follows_are_no_doubt() {
     assert!(found.deviations.iter().all(|d| d.abs() < 0.05));
 }
 
-/// Ten rows of a scanner, whose points scatter: what is corrected stays between them where the first fit was.
+/// Ten rows of a scanner, whose points scatter: the corrected surface stays between them where the first fit was.
 #[test]
 fn rows_of_a_scanner_are_joined_smoothly() {
     let height = |x: f64, y: f64| 5.0 * (x / 15.0).sin() + y * y / 400.0;
@@ -116,7 +116,7 @@ fn the_steepest_ground_is_seen_from_above() {
     let points: Vec<Point> = scan(20_000, 0.0, 3).iter().map(|p| [p[0], p[1], 30.0 * p[2]]).collect();
     let found = fit(&points, &Options { base: BaseKind::Plane, ..spans(30) }, &Silent).unwrap();
     assert!(found.base.folded_share == 0.0 && found.base.axes[2][2] > 0.99, "{:?}", found.base);
-    assert!(found.far_control_points == 0 && found.base.standing_share <= STANDING);
+    assert!(found.far_control_points == 0 && found.base.standing_share <= MAX_STANDING_SHARE);
     let rms = pass::rms(&found.deviations);
     assert!(rms < 0.1, "{rms}");
 }

@@ -5,7 +5,7 @@ use trueness_geom::noise::Noise;
 use trueness_geom::space::{Vector, cross, dot, minus, norm, plus, unit};
 use trueness_geom::spatial::lists::lists;
 
-/// A mesh that planes cut, and what is known about its vertices.
+/// A mesh that planes cut, and the facts known about its vertices.
 pub struct CutMesh<'a> {
     /// The mesh.
     pub mesh: &'a Mesh,
@@ -19,40 +19,43 @@ pub struct CutMesh<'a> {
     facing: Vec<Vector>,
     /// For each vertex where the list of its neighbors begins, and the lists.
     first: Vec<u32>,
-    beside: Vec<u32>,
+    neighbors_of: Vec<u32>,
 }
 
-/// Patches of some dozen vertices depart from smooth surfaces by more than this share of the distance between vertices where the form is free: a
-/// fifth of it and more on scans of bodies, a thousandth on meshes of parts. What is the same everywhere is noise up to the second share.
-const FORM: [f64; 2] = [0.1, 0.5];
+/// Patches of some dozen vertices depart from smooth surfaces by more than the first share of the distance between vertices where
+/// the form is free. On scans of bodies they do by a fifth of it and more, on meshes of parts by a thousandth. Departures that are
+/// the same everywhere are noise up to the second share.
+const MAX_NOISE_OF_MESH_SPACINGS: [f64; 2] = [0.1, 0.5];
 
-/// Roundings that noise is more than, and that facets of a flat face depart from one plane by.
-const ROUNDINGS: f64 = 3.0;
+/// Noise is more than so many roundings; facets of a flat face depart from one plane by no more.
+const MIN_NOISE_ROUNDINGS: f64 = 3.0;
 /// Vertices whose edges are looked at for flat faces.
-const LOOKED_AT: usize = 1000;
-/// The facets of so large a share of all edges lie in one plane where faces are flat, and no more than this many times as many lie three times
-/// as near: by chance three times as many do.
-const FLATS: f64 = 0.05;
-const BY_CHANCE: f64 = 1.5;
+const VERTICES_LOOKED_AT: usize = 1000;
+/// The facets of so large a share of all edges lie in one plane where faces are flat.
+const MIN_FLAT_SHARE: f64 = 0.05;
+/// No more than this many times as many edges lie three times as near: by chance three times as many do.
+const MAX_FLAT_RATIO: f64 = 1.5;
 
 impl<'a> CutMesh<'a> {
-    /// A mesh whose vertices scatter by this noise, if it is known; of noise that is not the same everywhere ([`Noise::even`]) form is a
-    /// part, which no section is told from. Vertices that facets name and that do not exist are passed over.
+    /// A mesh whose vertices scatter by this noise, if it is known. Noise that is not the same everywhere
+    /// ([`Noise::even`]) has a part of form, which no section is told from. Vertices that facets name and that do not
+    /// exist are passed over.
     pub fn new(mesh: &'a Mesh, noise: Option<Noise>) -> CutMesh<'a> {
         let count = mesh.positions.len();
         let sides = |f: &[u32; 3]| [[0, 1], [1, 2], [2, 0], [1, 0], [2, 1], [0, 2]].map(|e| e.map(|k| f[k]));
         let sound = |[a, b]: &[u32; 2]| a != b && (*a as usize) < count && (*b as usize) < count;
-        let (first, beside) = lists(count, mesh.faces.iter().flat_map(sides).filter(sound).collect());
+        let (first, neighbors_of) = lists(count, mesh.faces.iter().flat_map(sides).filter(sound).collect());
         let greatest =
             mesh.positions.iter().flatten().filter(|x| x.is_finite()).fold(0.0_f64, |m, x| m.max(x.abs()));
         // Four roundings of the greatest coordinate in single precision, as STL holds it.
         let rounding = 4.0 * f64::from(f32::EPSILON) * 0.5 * greatest;
-        let is_form = |n: &Noise| n.deviation > FORM[usize::from(n.even().is_ok())] * n.spacing;
+        let is_form =
+            |n: &Noise| n.deviation > MAX_NOISE_OF_MESH_SPACINGS[usize::from(n.even().is_ok())] * n.spacing;
         let facing = facing(mesh);
         let mut cut =
-            CutMesh { mesh, rounding, noise, free_form: None, scatters: false, facing, first, beside };
+            CutMesh { mesh, rounding, noise, free_form: None, scatters: false, facing, first, neighbors_of };
         let is_exact = cut.has_flats();
-        cut.scatters = !is_exact && noise.is_some_and(|n| n.deviation > ROUNDINGS * rounding);
+        cut.scatters = !is_exact && noise.is_some_and(|n| n.deviation > MIN_NOISE_ROUNDINGS * rounding);
         cut.free_form = noise.filter(|n| cut.scatters && is_form(n)).map(|n| n.deviation);
         cut.noise = match noise {
             // However rounding differs from place to place, it is none of form.
@@ -75,17 +78,18 @@ impl<'a> CutMesh<'a> {
     /// Whether facets lie in planes, to rounding, that chance would not leave there: noise leaves as many a little farther off.
     fn has_flats(&self) -> bool {
         let count = self.mesh.positions.len();
-        let looked_at = (0..count).step_by(count.div_ceil(LOOKED_AT).max(1)).map(|v| v as u32);
-        let edges = looked_at.flat_map(|v| self.beside(v).iter().map(move |w| [v, *w]));
+        let looked_at = (0..count).step_by(count.div_ceil(VERTICES_LOOKED_AT).max(1)).map(|v| v as u32);
+        let edges = looked_at.flat_map(|v| self.neighbors_of(v).iter().map(move |w| [v, *w]));
         let off: Vec<f64> = edges.filter_map(|edge| self.off_plane(edge)).collect();
         let within = |reach: f64| off.iter().filter(|off| **off <= reach * self.rounding).count() as f64;
-        let [flat, near] = [within(ROUNDINGS), within(3.0 * ROUNDINGS)];
-        flat > FLATS * off.len() as f64 && near <= BY_CHANCE * flat
+        let [flat, near] = [within(MIN_NOISE_ROUNDINGS), within(3.0 * MIN_NOISE_ROUNDINGS)];
+        flat > MIN_FLAT_SHARE * off.len() as f64 && near <= MAX_FLAT_RATIO * flat
     }
 
-    /// How far the two facets at an edge are from one plane: the far corner of the smaller one from the plane of the larger one.
+    /// How far the two facets at an edge are from one plane. It is the distance of the smaller one's far corner from
+    /// the plane of the larger one.
     fn off_plane(&self, [v, w]: [u32; 2]) -> Option<f64> {
-        let mut both = self.beside(v).iter().filter(|n| self.beside(w).binary_search(n).is_ok());
+        let mut both = self.neighbors_of(v).iter().filter(|n| self.neighbors_of(w).binary_search(n).is_ok());
         let (a, b) = (*both.next()?, *both.next()?);
         if both.next().is_some() {
             return None;
@@ -104,8 +108,8 @@ impl<'a> CutMesh<'a> {
         self.facing[vertex as usize]
     }
 
-    pub(super) fn beside(&self, vertex: u32) -> &[u32] {
-        &self.beside[self.first[vertex as usize] as usize..self.first[vertex as usize + 1] as usize]
+    pub(super) fn neighbors_of(&self, vertex: u32) -> &[u32] {
+        &self.neighbors_of[self.first[vertex as usize] as usize..self.first[vertex as usize + 1] as usize]
     }
 }
 

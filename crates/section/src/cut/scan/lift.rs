@@ -1,32 +1,35 @@
 //! Crossings moved from the chords on which they lie onto the surface between the vertices.
 //!
-//! The chord between two vertices of a bent surface lies within it. How far, the line or arc tells that the crossing belongs to: the
-//! distances of the vertices around from it, as a quadratic function of the way along it and of the height over the plane, are the
-//! surface; the chord between two places of this is where the mesh would be cut without noise.
+//! The chord between two vertices of a bent surface lies within it. The line or arc that the crossing belongs to tells
+//! how far. The distances of the vertices around from it are the surface. They are a quadratic function of the way
+//! along it and of the height over the plane. The mesh would be cut without noise on the chord between two places of
+//! this.
 
 use super::cut_mesh::CutMesh;
 use crate::Chain;
 use crate::model::chain::SegmentKind;
-use crate::search::start::{Part, Sums};
+use crate::search::parts::{Part, Sums};
 use trueness_geom::num::dense::solve;
 use trueness_geom::plane::PlaneFrame;
 use trueness_geom::space::{Vector, cross, dot, minus, norm};
 
 /// Vertices about an edge: those of some three rings.
-const AROUND: usize = 48;
-/// Coefficients of the quadratic function, and vertices that it takes at least.
-const TERMS: usize = 6;
-const FEWEST_VERTICES: usize = 2 * TERMS;
-/// Vertices count whose feet are no nearer to an end of the part than this share of the edge's length: others are those of the faces beside.
-const INSIDE: f64 = 0.3;
-/// Vertices farther off than so many edge lengths are of other faces, and so are those about which facets look another way than about the
-/// crossings, by more than an angle of this cosine (30°).
-const FARTHEST_OFF: f64 = 3.0;
-const FACES_ALIKE: f64 = 0.866;
+const MAX_VERTICES_ABOUT_EDGE: usize = 48;
+/// Coefficients of the quadratic function.
+const QUADRATIC_TERMS: usize = 6;
+/// Vertices that it takes at least.
+const MIN_VERTICES_OF_QUADRATIC: usize = 2 * QUADRATIC_TERMS;
+/// Vertices count whose feet are no nearer to an end of the part than this share of the edge's length. Others are those
+/// of the faces beside.
+const MIN_INSET_EDGE_LENGTHS: f64 = 0.3;
+/// Vertices farther off than so many edge lengths are of other faces.
+const MAX_OFFSET_EDGE_LENGTHS: f64 = 3.0;
+/// So are those about which facets look another way than about the crossings, by more than an angle of this cosine (30°).
+const MIN_FACING_COSINE: f64 = 0.866;
 
-/// An edge lies within a surface that its mesh tells by no more than this share of its length: by an eighth of it for each radian that facets turn
-/// along it. More is told by vertices that do not determine the surface.
-const DEEPEST: f64 = 0.25;
+/// An edge lies within a surface that its mesh tells by no more than this share of its length. That is an eighth of it
+/// for each radian that facets turn along it. Vertices that tell more do not determine the surface.
+const MAX_LIFT_EDGE_LENGTHS: f64 = 0.25;
 
 /// Lengths along a line or arc, and distances to the left of it.
 struct Course<'a> {
@@ -97,13 +100,14 @@ pub(super) fn lengthen(parts: &mut [Part], points: &[[f64; 2]], within: f64) {
 }
 
 /// Crossings of the lines and arcs by which they are moved: half before each, half behind, or all on one side.
-const WINDOW: usize = 11;
+const CROSSINGS_PER_WINDOW: usize = 11;
 
 /// The crossings of a chain with these places in the plane, on the surface.
 ///
-/// The power of a point on a chord of a circle is known without the circle: it lies within by the product of the two parts of the chord.
-/// So lines and arcs through a few crossings are found as if these were on the surface. Of the windows about a crossing, before and
-/// behind it the one counts whose crossings lie nearest to one line or arc: no window reaches over a corner where another does not.
+/// The power of a point on a chord of a circle is known without the circle. The point lies within by the product of the
+/// two parts of the chord. So lines and arcs through a few crossings are found as if these were on the surface. Among
+/// the windows about a crossing, before and behind it, the one counts whose crossings lie nearest to one line or arc.
+/// No window reaches over a corner where another does not.
 pub(super) fn on_surface(
     cut: &CutMesh,
     chain: &Chain,
@@ -112,7 +116,7 @@ pub(super) fn on_surface(
     closed: bool,
 ) -> Vec<[f64; 2]> {
     let n = points.len();
-    let width = WINDOW.min(n);
+    let width = CROSSINGS_PER_WINDOW.min(n);
     // Round a closed chain windows go on.
     let total = if closed { n + width } else { n };
     let row: Vec<[f64; 2]> = (0..total).map(|i| points[i % n]).collect();
@@ -168,13 +172,14 @@ fn lifted(
     let [a, b] = edge.map(local);
     let here = course.local(point);
     let length = libm::hypot(b[0] - a[0], b[2] - a[2]).max(f64::MIN_POSITIVE);
-    let inside = INSIDE * length;
+    let inside = MIN_INSET_EDGE_LENGTHS * length;
     let looks = |v: u32, s: f64| course.seen_from(s, cut.facing(v), (frame, normal));
     let face = middle(edges.flatten().map(|v| looks(v, local(v)[0])).collect());
     let own = around(cut, edge).into_iter().filter_map(|v| {
         let [s, off, z] = local(v);
-        let is_inside = s >= ends[0] + inside && s <= ends[1] - inside && off.abs() <= FARTHEST_OFF * length;
-        (is_inside && dot(looks(v, s), face) >= FACES_ALIKE * norm(face)).then_some([s, off, z])
+        let is_inside =
+            s >= ends[0] + inside && s <= ends[1] - inside && off.abs() <= MAX_OFFSET_EDGE_LENGTHS * length;
+        (is_inside && dot(looks(v, s), face) >= MIN_FACING_COSINE * norm(face)).then_some([s, off, z])
     });
     let surface = quadratic(own.collect(), here[0], length);
     let height = |s: f64, z: f64| {
@@ -186,7 +191,7 @@ fn lifted(
     let t = if b[2] == a[2] { 0.5 } else { (-a[2] / (b[2] - a[2])).clamp(0.0, 1.0) };
     let chord = course.local([0, 1].map(|k| from[k] + t * (to[k] - from[k])));
     let lift = height(chord[0], 0.0) - chord[1];
-    if lift.abs() > DEEPEST * length {
+    if lift.abs() > MAX_LIFT_EDGE_LENGTHS * length {
         return point;
     }
     course.place([here[0], here[1] + lift])
@@ -207,9 +212,9 @@ fn middle(all: Vec<Vector>) -> Vector {
 fn around(cut: &CutMesh, edge: [u32; 2]) -> Vec<u32> {
     let mut found = edge.to_vec();
     let mut next = 0;
-    while next < found.len() && found.len() < AROUND {
-        for &v in cut.beside(found[next]) {
-            if found.len() == AROUND {
+    while next < found.len() && found.len() < MAX_VERTICES_ABOUT_EDGE {
+        for &v in cut.neighbors_of(found[next]) {
+            if found.len() == MAX_VERTICES_ABOUT_EDGE {
                 break;
             }
             if !found.contains(&v) {
@@ -222,20 +227,20 @@ fn around(cut: &CutMesh, edge: [u32; 2]) -> Vec<u32> {
 }
 
 /// The quadratic function of length along and height, in edge lengths, nearest to these distances; nothing where they are too few.
-fn quadratic(places: Vec<[f64; 3]>, middle: f64, length: f64) -> [f64; TERMS] {
-    if places.len() < FEWEST_VERTICES {
-        return [0.0; TERMS];
+fn quadratic(places: Vec<[f64; 3]>, middle: f64, length: f64) -> [f64; QUADRATIC_TERMS] {
+    if places.len() < MIN_VERTICES_OF_QUADRATIC {
+        return [0.0; QUADRATIC_TERMS];
     }
-    let mut a = vec![vec![0.0; TERMS]; TERMS];
-    let mut b = vec![0.0; TERMS];
+    let mut a = vec![vec![0.0; QUADRATIC_TERMS]; QUADRATIC_TERMS];
+    let mut b = vec![0.0; QUADRATIC_TERMS];
     for [s, off, z] in places {
         let [x, z] = [(s - middle) / length, z / length];
         let terms = [1.0, z, x, z * z, x * z, x * x];
-        for i in 0..TERMS {
-            (0..TERMS).for_each(|j| a[i][j] += terms[i] * terms[j]);
+        for i in 0..QUADRATIC_TERMS {
+            (0..QUADRATIC_TERMS).for_each(|j| a[i][j] += terms[i] * terms[j]);
             b[i] += terms[i] * off;
         }
     }
     let found = solve(a, b).filter(|x| x.iter().all(|c| c.is_finite()));
-    found.map_or([0.0; TERMS], |x| std::array::from_fn(|k| x[k]))
+    found.map_or([0.0; QUADRATIC_TERMS], |x| std::array::from_fn(|k| x[k]))
 }

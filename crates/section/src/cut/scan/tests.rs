@@ -6,8 +6,8 @@ use trueness_geom::plane::Plane;
 use trueness_geom::progress::Silent;
 use trueness_geom::space::{Point, norm};
 
-/// A band of so many columns and rows of vertices, jittered, with diagonals, closed around where it is asked for; `place` tells where a
-/// column and row lie.
+/// A band of so many columns and rows of vertices, jittered, with diagonals, closed around where it is asked for.
+/// `place` tells where a column and row lie.
 fn band(
     columns: usize,
     rows: usize,
@@ -51,7 +51,7 @@ fn noisy(
     for _ in 0..rings {
         off = (0..off.len() as u32)
             .map(|v| {
-                let all = plain.beside(v).iter().chain([&v]);
+                let all = plain.neighbors_of(v).iter().chain([&v]);
                 let (sum, n) = all.fold((0.0, 0.0), |(sum, n), w| (sum + off[*w as usize], n + 1.0));
                 sum / n
             })
@@ -165,14 +165,14 @@ fn flats_tell_that_there_is_no_noise() {
     // A sheet of waves half, and flat half.
     let wave = |a: f64| if a < 100.0 { 3.0 * libm::sin(a / 2.0) } else { 0.0 };
     let sheet = band(200, 40, false, 0.5, random, |a, z| [a, wave(a), z - 20.0]);
-    let told = |mesh: &Mesh| {
+    let noise_and_form = |mesh: &Mesh| {
         let noise = trueness_geom::noise::mesh(mesh, 0, &Silent).ok();
         let cut = CutMesh::new(mesh, noise);
         (cut.scatters, cut.free_form)
     };
-    assert_eq!(told(&sheet), (false, None));
+    assert_eq!(noise_and_form(&sheet), (false, None));
     let rounding = CutMesh::new(&sheet, None).rounding();
-    let (scatters, _) = told(&noisy(&sheet, 0, 10.0 * rounding, random, |_| [0.0, 1.0, 0.0]));
+    let (scatters, _) = noise_and_form(&noisy(&sheet, 0, 10.0 * rounding, random, |_| [0.0, 1.0, 0.0]));
     assert!(scatters);
     // Waves of some facets each, all over, are a free form.
     let body = band(200, 40, false, 0.5, random, |a, z| {
@@ -180,7 +180,7 @@ fn flats_tell_that_there_is_no_noise() {
         [a, 2.0 * swell * libm::sin(a / 2.0 + 0.3 * z) * libm::sin(z / 2.0), z - 20.0]
     });
     println!("{:?}", trueness_geom::noise::mesh(&body, 0, &Silent));
-    let (_, form) = told(&body);
+    let (_, form) = noise_and_form(&body);
     assert!(form.is_some_and(|form| form > 0.1), "{form:?}");
 }
 
@@ -198,8 +198,8 @@ fn radius_of(mesh: &Mesh, plane: &Plane) -> (f64, f64, Contour) {
     (radius, stated, found)
 }
 
-/// A bore whose noise neighbors share is one circle, with its radius within what is told, and the same from the other side and for facets in
-/// any order.
+/// A bore whose noise neighbors share is one circle, with its radius within the stated uncertainty. It is the same from
+/// the other side and for facets in any order.
 #[test]
 fn bores_of_scans_are_circles_from_either_side() {
     let random = &mut Random::new(2);
@@ -218,7 +218,7 @@ fn bores_of_scans_are_circles_from_either_side() {
         let mesh = noisy(&even, rings, 0.008, random, out);
         let plane = Plane { normal: [0.0, 0.0, 1.0], offset: 0.13 };
         let (radius, stated, found) = radius_of(&mesh, &plane);
-        assert!(found.astray.is_empty() && found.closed, "{k}");
+        assert!(found.unreliable.is_empty() && found.closed, "{k}");
         inside += usize::from((radius - r).abs() <= 1.96 * stated);
         let back = Plane { normal: [0.0, 0.0, -1.0], offset: -0.13 };
         let mut shuffled = mesh.clone();
@@ -273,7 +273,7 @@ fn contours_are_the_same_from_either_side_and_in_any_order() {
             let ([x, y], _) = at(a);
             [x, y, 0.5 * (z - 10.0)]
         });
-        // The part is what lies no farther than the radius from the triangle.
+        // The part holds the places no farther than the radius from the triangle.
         let out = |p: &Point| {
             let from = |k: usize| {
                 let (a, u, long) = side(k);
@@ -328,7 +328,7 @@ fn same_from_everywhere(mesh: &Mesh, random: &mut Random) -> usize {
     own.0.len()
 }
 
-/// What is told of points is told of as many, of points that there are, along the contour.
+/// Lists of points have as many entries, name points that there are, and go along the contour.
 fn holds_the_numbers(found: &Contour, count: usize) {
     assert!(found.labels.len() == count && found.residuals.len() == count && found.stations.len() == count);
     for list in [&found.outliers, &found.bevels, &found.repeated, &found.gaps] {
@@ -340,7 +340,7 @@ fn holds_the_numbers(found: &Contour, count: usize) {
     // The places lie as far off the segments they belong to as they are told to.
     let n = count;
     for (i, p) in found.moved.iter().enumerate().filter(|(i, _)| found.bevels.binary_search(i).is_err()) {
-        // The order of the row stands: what lies behind the point before has its foot beside that.
+        // The order of the row stands: a place behind the point before has its foot beside that.
         if [(i + n - 1) % n, (i + 1) % n].iter().any(|j| found.stations[*j] == found.stations[i]) {
             continue;
         }
@@ -388,7 +388,7 @@ fn bevels_of_the_mesh_are_no_segments() {
                     .unwrap();
             assert!(found.segments.iter().all(|s| s.geometry.kind() == SegmentKind::Line), "{sigma} {rings}");
             let lengths: Vec<f64> = found.segments.iter().map(|s| s.length).collect();
-            assert_eq!((found.segments.len(), found.astray.len()), (4, 0), "{sigma} {rings} {lengths:?}");
+            assert_eq!((found.segments.len(), found.unreliable.len()), (4, 0), "{sigma} {rings} {lengths:?}");
             for join in &found.joins {
                 let off = |c: &[f64; 2]| libm::hypot(c[0] - join.point[0], c[1] - join.point[1]);
                 let nearest = corners.iter().map(off).fold(f64::INFINITY, f64::min);

@@ -1,10 +1,10 @@
-//! What crossings tell, by the covariances of the vertices between which they lie.
+//! Scatter and weights of crossings, by the covariances of the vertices between which they lie.
 
 use super::cut_mesh::CutMesh;
 use crate::Chain;
 use trueness_geom::space::{minus, norm};
 
-/// What is known about the scatter of crossings.
+/// Scatter of crossings, as far as it is known.
 pub(super) struct Scatter {
     /// How many independent points each tells as much as.
     pub weights: Vec<f64>,

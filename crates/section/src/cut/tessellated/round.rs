@@ -1,4 +1,4 @@
-//! Sections of round bodies by their facets: what lies within these is no doubt.
+//! Sections of round bodies by their facets: form within these is no doubt.
 
 use super::*;
 use crate::{Geometry, cut};
@@ -42,7 +42,7 @@ fn body(random: &mut Random) -> (Mesh, impl Fn(f64) -> f64 + use<>, [f64; 2], f6
     let outline: Vec<[f64; 2]> =
         (0..=rings).map(|k| low + (high - low) * k as f64 / rings as f64).map(|z| [radius(z), z]).collect();
     let turn = std::f64::consts::TAU / around as f64;
-    // What facets lie within the surface by, in the plane.
+    // How far facets lie within the surface, in the plane.
     let apart = (high - low) / rings as f64;
     let worst = outline.windows(2).map(|w| {
         let middle = 0.5 * (w[0][1] + w[1][1]);
@@ -52,7 +52,7 @@ fn body(random: &mut Random) -> (Mesh, impl Fn(f64) -> f64 + use<>, [f64; 2], f6
     (turned(&outline, around), radius, [low, high], 2.0 * off)
 }
 
-/// Circles of round bodies are circles, to what the facets tell, and no doubt is told of them at any height.
+/// Circles of round bodies are circles, to the resolution of the facets, and no doubt is told of them at any height.
 #[test]
 fn circles_through_facets_are_no_doubt() {
     let random = &mut Random::new(3);
@@ -65,12 +65,12 @@ fn circles_through_facets_are_no_doubt() {
         let frame = PlaneFrame { origin: [0.0, 0.0, z], x: [1.0, 0.0, 0.0], y: [0.0, 1.0, 0.0] };
         let options = Options::default();
         let found = chain_contour(&chains[0], &frame, &CutMesh::new(&mesh, None), &options, &Silent).unwrap();
-        doubts += usize::from(!found.astray.is_empty());
+        doubts += usize::from(!found.unreliable.is_empty());
         match found.segments[..] {
             [Segment { geometry: Geometry::Arc { radius: r, .. }, .. }] => {
                 let good = (r - radius(z)).abs() <= off;
                 right += usize::from(good);
-                assert!(good || !found.astray.is_empty(), "{k}: {r} for {} ± {off}", radius(z));
+                assert!(good || !found.unreliable.is_empty(), "{k}: {r} for {} ± {off}", radius(z));
             }
             _ => other += 1,
         }
@@ -107,10 +107,10 @@ fn what_facets_do_not_tell_stays_in_doubt() {
             segments: vec![segment],
             labels: vec![0; 80],
             residuals: off,
-            astray: vec![0],
+            unreliable: vec![0],
             ..Contour::default()
         };
-        !within_facets(found, points).astray.is_empty()
+        !within_facets(found, points).unreliable.is_empty()
     };
     assert!(!doubtful(&ring(&mut |i| if i % 2 == 0 { 0.003 } else { -0.003 })));
     assert!(doubtful(&ring(&mut |_| 0.05 * (random.unit() - 0.5))));

@@ -1,4 +1,4 @@
-//! Sections of prisms whose outlines are known, of scans of them, and of what has few facets.
+//! Sections of prisms whose outlines are known, of scans of them, and of meshes with few facets.
 
 use super::*;
 use crate::cut;
@@ -175,7 +175,7 @@ fn a_pyramid_of_ten_sides_has_ten_lines() {
         let found =
             chain_contour(&chains[0], &plane.frame().unwrap(), &CutMesh::new(&mesh, None), &options, &Silent)
                 .unwrap();
-        assert_eq!((kinds(&found), found.taken), (vec![SegmentKind::Line; sides], Taken::Facets));
+        assert_eq!((kinds(&found), found.row_kind), (vec![SegmentKind::Line; sides], RowKind::Facets));
     }
 }
 
@@ -220,11 +220,11 @@ fn loops_that_touch_have_their_corner() {
             let found =
                 chain_contour(chain, &frame, &CutMesh::new(&mesh, None), &Options::default(), &Silent)
                     .unwrap();
-            assert!(found.closed && found.astray.is_empty());
+            assert!(found.closed && found.unreliable.is_empty());
             assert!((found.length() / length_of_loop - 1.0).abs() < 0.004, "{around}: {}", found.length());
             let corner = found.joins.iter().find(|j| distance(j.point, [0.0, 0.0]) < 1e-4).unwrap();
             assert_eq!(corner.continuity, Continuity::G0, "{around}");
-            // What is drawn ends there.
+            // The drawing ends there.
             let near =
                 found.segments.iter().map(|s| s.foot([0.0, 0.0]).1.abs()).fold(f64::INFINITY, f64::min);
             assert!(near < 1e-4, "{around}: {near}");
@@ -306,12 +306,13 @@ fn a_scan_is_a_row_of_independent_points() {
     let chains = cut(&mesh, &plane, &Silent).unwrap();
     let found =
         chain_contour(&chains[0], &frame, &CutMesh::new(&mesh, None), &Options::default(), &Silent).unwrap();
-    assert_eq!(found.taken, Taken::Scan);
+    assert_eq!(found.row_kind, RowKind::Scan);
     use SegmentKind::{Arc, Line};
     assert_eq!(kinds(&found), [Line, Arc, Line, Arc]);
     for truth in [[0.0, 0.0], [50.0, 0.0], [50.0, 20.0], [0.0, 20.0]] {
         let join = found.joins.iter().find(|j| distance(j.point, truth) < 0.5).unwrap();
-        // Chords of up to 0.7 mm lie up to 0.006 mm inside of the circle; that moves a join by no more than twice as much.
+        // Chords of up to 0.7 mm lie up to 0.006 mm inside of the circle. That moves a join by no more than twice as
+        // much.
         assert!(distance(join.point, truth) < 5.0 * join.uncertainty + 0.012, "{join:?}");
     }
     assert_eq!(found.labels.len(), chains[0].points.len());
@@ -348,7 +349,7 @@ fn few_points_and_wrong_options() {
     let two = chain(vec![[0.0; 3], [2.0, 0.0, 0.0]]);
     let line = chain_contour(&two, &frame, mesh, &options, &Silent).unwrap();
     assert!(line.segments.len() == 1 && line.joins.is_empty() && !line.closed);
-    // A noise or continuity asked for is that of rows: what is too short for one is its lines all the same.
+    // A noise or continuity asked for is that of rows: a chain too short for one is its lines all the same.
     for asked in
         [Options { noise: Some(0.1), ..options }, Options { continuity: Some(Continuity::G1), ..options }]
     {
@@ -371,7 +372,7 @@ fn few_points_and_wrong_options() {
 /// A contour tells nothing where its points scatter much more about it than they do by the noise that is known.
 #[test]
 fn segments_that_hide_form_are_astray() {
-    for (off, astray) in [(0.01, vec![]), (0.025, vec![]), (0.04, vec![0])] {
+    for (off, unreliable) in [(0.01, vec![]), (0.025, vec![]), (0.04, vec![0])] {
         // Points to both sides of a line by turns.
         let y = |i: usize| if i % 4 < 2 { off } else { -off };
         let points: Vec<[f64; 2]> = (0..60).map(|i| [i as f64, y(i)]).collect();
@@ -385,7 +386,7 @@ fn segments_that_hide_form_are_astray() {
             spacing: 1.0,
             ..Contour::default()
         };
-        let known = Some(Known { deviation: 0.01, degrees: 50.0 });
-        assert_eq!(spread(found, &kept, known, &points).astray, astray, "{off}");
+        let known = Some(KnownNoise { deviation: 0.01, degrees: 50.0 });
+        assert_eq!(spread(found, &kept, known, &points).unreliable, unreliable, "{off}");
     }
 }

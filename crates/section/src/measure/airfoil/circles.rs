@@ -7,21 +7,22 @@ use crate::model::crossings::crossing_chords;
 use crate::model::flat::distance;
 use trueness_geom::progress::{Cancelled, Progress};
 
-/// A loop of a profile that crosses itself is told from one that scatter makes at the trailing edge by so many uncertainties of a place
-/// in its mean width, and by this share of the chord.
-const WIDE: f64 = 6.0;
-const LOOP: f64 = 5e-4;
+/// Scatter makes loops at the trailing edge. A loop of a profile that crosses itself is wider by so many uncertainties of a place
+/// in its mean width.
+const MIN_LOOP_WIDTH_SIGMAS: f64 = 6.0;
+/// Such a loop is also wider than this share of the chord.
+const MIN_LOOP_WIDTH_OF_CHORD: f64 = 5e-4;
 /// So many crossings are looked at.
-const CROSSINGS: usize = 1000;
+const MAX_CROSSINGS_OF_PROFILE: usize = 1000;
 /// Share of the camber line over which a thickness is taken for constant.
-const FLAT: f64 = 0.25;
+const FLAT_CAMBER_SHARE: f64 = 0.25;
 /// Steps of a search that leaves two thirds each: to 1e-7 of the way.
-const HALVES: usize = 40;
-/// Places of the camber line that are told.
-const TOLD: usize = 50;
+const CIRCLE_SEARCH_STEPS: usize = 40;
+/// Places of the camber line that are listed.
+const LISTED_CAMBER_STEPS: usize = 50;
 
 /// The curve as places, with the circles.
-pub(super) struct Inscribed {
+pub(super) struct InscribedCircles {
     /// Places, at a round trailing edge beyond it at both ends.
     places: Vec<[f64; 2]>,
     /// The place farthest from the middle of both ends.
@@ -30,9 +31,9 @@ pub(super) struct Inscribed {
     circles: Vec<([f64; 2], f64)>,
 }
 
-impl Inscribed {
-    /// Of a course that goes on beyond its seam at both ends, if it has one.
-    pub fn new(course: &Profile, progress: &dyn Progress) -> Result<Inscribed, AirfoilError> {
+impl InscribedCircles {
+    /// The circles of a course that goes on beyond its seam at both ends, if it has one.
+    pub fn new(course: &Profile, progress: &dyn Progress) -> Result<InscribedCircles, AirfoilError> {
         let (all, seam) = (&course.places, course.seam);
         let places: Vec<[f64; 2]> = all.iter().map(|a| a.0).collect();
         let (quarter, last) = (places.len() / 4, places.len() - 1);
@@ -46,7 +47,7 @@ impl Inscribed {
         let far = |i: &usize| distance(places[*i], tail);
         let head = (first..=last).max_by(|a, b| far(a).total_cmp(&far(b))).unwrap_or(first);
         let own = &places[first..=last];
-        if let Some(at) = crossing(own, WIDE * course.uncertainty, progress)? {
+        if let Some(at) = crossing(own, MIN_LOOP_WIDTH_SIGMAS * course.uncertainty, progress)? {
             return Err(AirfoilError::Crosses { x: at[0], y: at[1] });
         }
         let inward = area(own).signum();
@@ -70,7 +71,7 @@ impl Inscribed {
         if circles.len() < 3 {
             return Err(AirfoilError::Inside);
         }
-        Ok(Inscribed { places, head, circles })
+        Ok(InscribedCircles { places, head, circles })
     }
 
     /// Leading and trailing edge: of a round trailing edge the ends of the longest chord.
@@ -112,14 +113,14 @@ impl Inscribed {
         Some((between(values, three.map(|c| c.0)), radius))
     }
 
-    /// Whether the greatest circle is the one of many of nearly its size: a quarter of the camber line or more has radii within `reach`
-    /// of it.
+    /// Whether the greatest circle is the one of many of nearly its size. A quarter of the camber line or more has
+    /// radii within `reach` of it.
     pub fn is_flat(&self, reach: f64) -> bool {
         let most = self.circles.iter().map(|c| c.1).fold(0.0, f64::max);
         let way = |w: &[([f64; 2], f64)]| distance(w[0].0, w[1].0);
         let near = |w: &&[([f64; 2], f64)]| w[0].1 > most - reach;
         let whole: f64 = self.circles.windows(2).map(way).sum();
-        self.circles.windows(2).filter(near).map(way).sum::<f64>() > FLAT * whole
+        self.circles.windows(2).filter(near).map(way).sum::<f64>() > FLAT_CAMBER_SHARE * whole
     }
 
     /// The center at which a distance is greatest in magnitude.
@@ -143,7 +144,7 @@ impl Inscribed {
         }
         let (last, whole) = (all.len() - 1, ways[all.len() - 1]);
         let at = |k: usize| {
-            let way = whole * k as f64 / TOLD as f64;
+            let way = whole * k as f64 / LISTED_CAMBER_STEPS as f64;
             let i = ways.partition_point(|w| *w < way).clamp(1, last);
             let share =
                 ((way - ways[i - 1]) / (ways[i] - ways[i - 1]).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
@@ -151,7 +152,7 @@ impl Inscribed {
             let mix = |x: f64, y: f64| x + share * (y - x);
             ([mix(a.0[0], b.0[0]), mix(a.0[1], b.0[1])], mix(a.1, b.1))
         };
-        (0..=TOLD).map(at).collect()
+        (0..=LISTED_CAMBER_STEPS).map(at).collect()
     }
 }
 
@@ -159,7 +160,8 @@ fn middle(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
     [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])]
 }
 
-/// Where a profile crosses itself such that both loops are wider than `least`, and than what bends at the trailing edge make.
+/// Where a profile crosses itself such that both loops are wider than `least`, and than bends at the trailing edge
+/// make.
 fn crossing(places: &[[f64; 2]], least: f64, progress: &dyn Progress) -> Result<Option<[f64; 2]>, Cancelled> {
     let chords: Vec<[[f64; 2]; 2]> = places.windows(2).map(|w| [w[0], w[1]]).collect();
     let chord = places.iter().map(|p| distance(*p, places[0])).fold(0.0, f64::max);
@@ -167,9 +169,9 @@ fn crossing(places: &[[f64; 2]], least: f64, progress: &dyn Progress) -> Result<
     let width = |p: &[[f64; 2]]| 2.0 * area(p).abs() / way(p).max(f64::MIN_POSITIVE);
     let wide = |(i, j): &(usize, usize)| {
         let rest: Vec<[f64; 2]> = places[..=*i].iter().chain(&places[j + 1..]).copied().collect();
-        width(&places[i + 1..=*j]).min(width(&rest)) > least.max(LOOP * chord)
+        width(&places[i + 1..=*j]).min(width(&rest)) > least.max(MIN_LOOP_WIDTH_OF_CHORD * chord)
     };
-    let all = crossing_chords(&chords, true, CROSSINGS, progress)?;
+    let all = crossing_chords(&chords, true, MAX_CROSSINGS_OF_PROFILE, progress)?;
     Ok(all.into_iter().find(wide).map(|(i, _)| places[i]))
 }
 
@@ -179,8 +181,8 @@ fn area(polygon: &[[f64; 2]]) -> f64 {
     0.5 * polygon.windows(2).map(cross).sum::<f64>()
 }
 
-/// The radius of the greatest circle that touches place `i` from the side of `normal` and holds no other place, and the place that
-/// it touches, too. Between places the least radius is that of a parabola.
+/// The radius of the greatest circle that touches place `i` from the side of `normal` and holds no other place. Also
+/// the place that it touches, too. Between places the least radius is that of a parabola.
 fn touching(places: &[[f64; 2]], i: usize, normal: [f64; 2]) -> Option<(f64, usize)> {
     let p = places[i];
     let radius = |q: [f64; 2]| {
@@ -202,7 +204,7 @@ fn touching(places: &[[f64; 2]], i: usize, normal: [f64; 2]) -> Option<(f64, usi
     let three = [j - 1, j, j + 1].map(|k| places[k]);
     let at = |t: f64| radius(on_parabola(three, t));
     let (mut low, mut high) = (-1.0, 1.0);
-    for _ in 0..HALVES {
+    for _ in 0..CIRCLE_SEARCH_STEPS {
         let (a, b) = (low + (high - low) / 3.0, high - (high - low) / 3.0);
         if at(a) < at(b) { high = b } else { low = a }
     }
@@ -214,7 +216,7 @@ fn on_parabola([x, y, z]: [[f64; 2]; 3], t: f64) -> [f64; 2] {
     [0, 1].map(|k| y[k] + 0.5 * t * (z[k] - x[k]) + 0.5 * t * t * (x[k] - 2.0 * y[k] + z[k]))
 }
 
-/// What is at the top of the parabola through three values, of what changes with them quadratically.
+/// The value at the top of the parabola through three values, of a place that changes with them quadratically.
 fn between([a, b, c]: [f64; 3], what: [[f64; 2]; 3]) -> [f64; 2] {
     let bend = a - 2.0 * b + c;
     let t = if bend < 0.0 { (0.5 * (a - c) / bend).clamp(-1.0, 1.0) } else { 0.0 };

@@ -3,12 +3,12 @@
 use super::error::AirfoilError;
 use super::tail::{Tail, tail};
 use crate::model::flat::distance;
-use crate::search::start::noise_beyond_form;
+use crate::search::parts::noise_beyond_form;
 
 /// The ends of an open row are no farther apart than this share of the chord.
-const APART: f64 = 0.2;
+const MAX_END_GAP_OF_CHORD: f64 = 0.2;
 
-/// What the trailing edge is.
+/// The kind of the trailing edge.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum TrailingEdge {
     /// A corner.
@@ -34,8 +34,9 @@ impl TrailingEdge {
 }
 
 /// A profile from its trailing edge over the leading one and back.
-pub(super) struct Around {
-    /// The points; at a sharp trailing edge first and last are the same, at a round one the row goes on beyond it at both ends.
+pub(super) struct TurnedProfile {
+    /// The points. At a sharp trailing edge first and last are the same; at a round one the row goes on beyond it at
+    /// both ends.
     pub row: Vec<[f64; 2]>,
     /// The points that it begins and ends at, by their numbers in the row given; of a round trailing edge that of the seam.
     pub ends: [usize; 2],
@@ -44,17 +45,17 @@ pub(super) struct Around {
     pub trailing: TrailingEdge,
 }
 
-impl Around {
-    /// Of a row.
-    pub fn new(row: &[[f64; 2]], closed: bool) -> Result<Around, AirfoilError> {
+impl TurnedProfile {
+    /// The profile of a row.
+    pub fn new(row: &[[f64; 2]], closed: bool) -> Result<TurnedProfile, AirfoilError> {
         if !closed {
             let (a, b) = (row[0], row[row.len() - 1]);
             let (middle, gap) = ([0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])], distance(a, b));
             let chord = row.iter().map(|p| distance(*p, middle)).fold(0.0, f64::max);
-            if gap > APART * chord {
+            if gap > MAX_END_GAP_OF_CHORD * chord {
                 return Err(AirfoilError::Open { gap, chord });
             }
-            return Ok(Around {
+            return Ok(TurnedProfile {
                 row: row.to_vec(),
                 ends: [0, row.len() - 1],
                 over: 0,
@@ -70,10 +71,10 @@ impl Around {
         if round {
             let over = n / 16 + 1;
             let row = run(tip + n - over, n + 2 * over);
-            return Ok(Around { row, ends: [tip; 2], over, trailing: TrailingEdge::Round });
+            return Ok(TurnedProfile { row, ends: [tip; 2], over, trailing: TrailingEdge::Round });
         }
         if before == after {
-            return Ok(Around {
+            return Ok(TurnedProfile {
                 row: run(before, n),
                 ends: [before; 2],
                 over: 0,
@@ -81,6 +82,11 @@ impl Around {
             });
         }
         let trailing = TrailingEdge::Blunt(distance(row[before], row[after]));
-        Ok(Around { row: run(after, (before + n - after) % n), ends: [after, before], over: 0, trailing })
+        Ok(TurnedProfile {
+            row: run(after, (before + n - after) % n),
+            ends: [after, before],
+            over: 0,
+            trailing,
+        })
     }
 }

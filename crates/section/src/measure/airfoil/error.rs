@@ -1,15 +1,15 @@
-//! What keeps a contour from being measured as an airfoil.
+//! Reasons why a contour cannot be measured as an airfoil.
 
 use trueness_geom::progress::Cancelled;
 
 /// Least number of points around a profile.
-pub(super) const FEWEST: usize = 12;
+pub(super) const MIN_POINTS_OF_PROFILE: usize = 12;
 
 /// Why a contour has no measures of an airfoil, or an edge no radius.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum AirfoilError {
     /// Fewer points than a profile needs.
-    #[error("a profile needs at least {FEWEST} points, there are {found}")]
+    #[error("a profile needs at least {MIN_POINTS_OF_PROFILE} points, there are {found}")]
     TooFewPoints {
         /// Points there are.
         found: usize,

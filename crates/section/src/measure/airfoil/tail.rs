@@ -1,30 +1,31 @@
-//! Which end of a closed profile is the trailing one, and what edge it has.
+//! Which end of a closed profile is the trailing one, and the kind of its edge.
 //!
-//! An outline turns by half a turn, less its wedge, at either end. The edge is the shortest stretch that takes most of that turn: one
-//! point of a sharp edge, the face between two corners of a blunt one, with points on it or none, an arc of a round one. So the sides
-//! end where their own points end, and are led no farther. The trailing end is the thinner one: how the sides behind it turn tells
-//! nothing of a strongly cambered profile.
+//! An outline turns by half a turn, less its wedge, at either end. The edge is the shortest stretch that takes most of
+//! that turn. It is one point of a sharp edge, the face between two corners of a blunt one, or an arc of a round one. A
+//! face has points on it or none. So the sides end where their own points end, and are led no farther. The trailing end
+//! is the thinner one: how the sides behind it turn tells nothing of a strongly cambered profile.
 
 use crate::model::flat::{angle, distance, off_line};
 
-/// What an edge takes of the turn at its end, radians: two thirds of half a turn. Wedges turn by less than the rest, and one corner of a
-/// face by less than this.
-const MOST_OF_TURN: f64 = 2.1;
-/// What lies between the corners of a face is off the line between them by less than this share of its length. An arc that takes most of the turn
-/// is off by 0.29, its middle one of three corners by 0.18.
-const BULGE: f64 = 0.12;
-/// Points are passed over that lie no farther off the line between others than so many standard deviations of their noise: four of what a point
-/// lies off that line.
-const WITHIN: f64 = 5.0;
+/// The part of the turn at its end that an edge takes, radians: two thirds of half a turn. Wedges turn by less than the
+/// rest, and one corner of a face by less than this.
+const MIN_EDGE_TURN: f64 = 2.1;
+/// The outline between the corners of a face is off the line between them by less than this share of its length. An arc that takes
+/// most of the turn is off by 0.29, its middle one of three corners by 0.18.
+const MAX_BULGE_SHARE: f64 = 0.12;
+/// Points are passed over that lie no farther off the line between others than so many standard deviations of their
+/// noise. A point lies off that line by four.
+const PASSED_OVER_SIGMAS: f64 = 5.0;
 /// The widths of the ends are compared at this share of the chord.
-const STATION: f64 = 0.05;
+const WIDTH_STATION_OF_CHORD: f64 = 0.05;
 /// An edge lies within this share of the chord from the end.
-const END: f64 = 0.15;
+const END_CHORD_SHARE: f64 = 0.15;
 
 /// The stretch of a trailing edge.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Tail {
-    /// The last point of the side before it, in the order of the row, and the first of the side behind it; of a sharp edge the same.
+    /// The last point of the side before it, in the order of the row, and the first of the side behind it. Both are the
+    /// same at a sharp edge.
     pub ends: [usize; 2],
     /// Its turn is not at its ends.
     pub round: bool,
@@ -36,7 +37,7 @@ pub(super) struct Tail {
 pub(super) fn tail(row: &[[f64; 2]], noise: f64) -> Tail {
     let (a, b) = diameter(row);
     let chord = distance(row[a], row[b]);
-    let outline = Outline { row, at: simplified(row, [a, b], WITHIN * noise), chord };
+    let outline = Outline { row, at: simplified(row, [a, b], PASSED_OVER_SIGMAS * noise), chord };
     let tip = if width(row, b, a) <= width(row, a, b) { b } else { a };
     outline.edge(tip).unwrap_or(Tail { ends: [tip; 2], round: true, tip })
 }
@@ -48,7 +49,10 @@ fn width(row: &[[f64; 2]], own: usize, other: usize) -> f64 {
     let along = [(e[0] - o[0]) / chord, (e[1] - o[1]) / chord];
     let local = |p: [f64; 2]| {
         let d = [p[0] - o[0], p[1] - o[1]];
-        (d[0] * along[0] + d[1] * along[1] - STATION * chord, along[0] * d[1] - along[1] * d[0])
+        (
+            d[0] * along[0] + d[1] * along[1] - WIDTH_STATION_OF_CHORD * chord,
+            along[0] * d[1] - along[1] * d[0],
+        )
     };
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
     for i in 0..row.len() {
@@ -85,7 +89,7 @@ impl Outline<'_> {
         let n = self.at.len();
         let middle = self.at.iter().position(|i| *i == tip)?;
         let all: f64 = (0..n).map(|k| self.turn(k)).sum();
-        let near = |k: &usize| distance(self.place(*k), self.row[tip]) < END * self.chord;
+        let near = |k: &usize| distance(self.place(*k), self.row[tip]) < END_CHORD_SHARE * self.chord;
         let back = (0..n / 2).take_while(|k| near(&(middle + n - k))).last()?;
         let on = (0..n / 2).take_while(|k| near(&(middle + k))).last()?;
         let range = (middle + n - back)..=(middle + n + on);
@@ -95,7 +99,7 @@ impl Outline<'_> {
             for to in from..=*range.end() {
                 length += if to > from { distance(self.place(to - 1), self.place(to)) } else { 0.0 };
                 turned += self.turn(to) * all.signum();
-                if turned >= MOST_OF_TURN {
+                if turned >= MIN_EDGE_TURN {
                     if best.is_none_or(|b| length < b.0 || length == b.0 && turned > b.1) {
                         best = Some((length, turned, from, to));
                     }
@@ -106,7 +110,7 @@ impl Outline<'_> {
         let (_, _, from, to) = best?;
         let (a, b) = (self.place(from), self.place(to));
         let off = (from + 1..to).map(|k| off_line([a, b], self.place(k))).fold(0.0, f64::max);
-        let round = off > BULGE * distance(a, b);
+        let round = off > MAX_BULGE_SHARE * distance(a, b);
         Some(Tail { ends: [self.at[from % n], self.at[to % n]], round, tip })
     }
 }

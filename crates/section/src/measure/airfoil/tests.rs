@@ -7,7 +7,7 @@ use std::f64::consts::{PI, TAU};
 use trueness_geom::num::random::Random;
 use trueness_geom::progress::Silent;
 
-/// What the measures need of a contour.
+/// The parts of a contour that the measures need.
 fn found(points: &[[f64; 2]], closed: bool) -> Contour {
     let length: f64 = points.windows(2).map(|w| distance(w[0], w[1])).sum();
     Contour { closed, spacing: length / points.len() as f64, ..Contour::default() }
@@ -17,8 +17,8 @@ fn measured(points: &[[f64; 2]]) -> Airfoil {
     airfoil(points, &found(points, true), &Silent).unwrap()
 }
 
-/// The envelope of circles with centers on an arc of radius 60 that turns by 0.8, of radius from 1.2 to 0.5 with 2.4 more in the
-/// middle; counter-clockwise from the trailing edge.
+/// The envelope of circles with centers on an arc of radius 60 that turns by 0.8, counter-clockwise from the trailing
+/// edge. Their radius goes from 1.2 to 0.5 with 2.4 more in the middle.
 fn blade(count: usize) -> Vec<[f64; 2]> {
     envelope(count, [1.2, -0.7, 9.6])
 }
@@ -112,8 +112,8 @@ fn four_digits_are_found_again() {
     for (m, p) in [(0.0, 0.4), (0.02, 0.4), (0.04, 0.4)] {
         for t in [0.06, 0.12, 0.18] {
             let found = measured(&naca(m, p, t, 0.1036, 150));
-            let few = Airfoil { camber_line: vec![], ..found.clone() };
-            let name = format!("{m} {p} {t}: {few:?}");
+            let brief = Airfoil { camber_line: vec![], ..found.clone() };
+            let name = format!("{m} {p} {t}: {brief:?}");
             // The thickness is greatest where its slope is 0; there the circle touches at right angles to the camber line.
             let x = (280..320)
                 .map(|k| f64::from(k) * 1e-3)
@@ -190,8 +190,8 @@ fn where_a_row_begins_and_how_it_lies_does_not_matter() {
             // Points of the trailing edge are 0.06 apart: an arc of radius 0.5 bulges 9e-4 between them.
             assert!((found.chord - first.chord).abs() < 9e-4, "{} {}", found.chord, first.chord);
             assert!((found.thickness - first.thickness).abs() < 1e-4);
-            // A place z across the chord on the leading edge (radius 1.2) is nearer by z²/2.4: by as much as the bulge at z = 0.047.
-            // Half of that is what the distance from the chord in the middle may differ by.
+            // A place z across the chord on the leading edge (radius 1.2) is nearer by z²/2.4: by as much as the bulge
+            // at z = 0.047. The distance from the chord in the middle may differ by half of that.
             assert!((found.camber - first.camber).abs() < 0.023, "{} {}", found.camber, first.camber);
             let (a, b) = (found.leading_radius.unwrap(), first.leading_radius.unwrap());
             assert!((a.radius - b.radius).abs() < 0.01);
@@ -223,8 +223,9 @@ fn noise_changes_measures_by_what_is_stated() {
     assert!((0.3..2.0).contains(&thick) && (0.3..2.0).contains(&lead), "{thick} {lead}");
 }
 
-/// Over fresh noise the measures lie within twice their uncertainties as often as they should; of a blade of one thickness too, whose
-/// greatest circle is the one that scatter makes greatest, and of edges of fifty times the scatter.
+/// Over fresh noise the measures lie within twice their uncertainties as often as they should. So do those of edges of
+/// fifty times the scatter, and of a blade of one thickness. The greatest circle of such a blade is the one that
+/// scatter makes greatest.
 #[test]
 fn uncertainties_hold_over_fresh_noise() {
     let u = 8.9 / 19.2;
@@ -278,8 +279,8 @@ fn profiles_that_cross_themselves_are_refused() {
         let sharp = naca(0.02, 0.4, 0.12, 0.1036, 60);
         let sharp: Vec<[f64; 2]> = sharp.iter().map(|p| noisy([40.0 * p[0], 40.0 * p[1]])).collect();
         let row = contour(&sharp, &Options::default(), &Silent).unwrap();
-        let taken = airfoil(&sharp, &row, &Silent);
-        assert!(taken.is_ok(), "{noise} {taken:?}");
+        let outcome = airfoil(&sharp, &row, &Silent);
+        assert!(outcome.is_ok(), "{noise} {outcome:?}");
     }
 }
 

@@ -57,8 +57,8 @@ fn bow(count: usize) -> Vec<[f64; 2]> {
     all
 }
 
-/// Closed forms of the bow: ends of the middle arc led on by 2 along it; the flat tangent touches both round ends below; the farthest
-/// places lie on the line through the centers of the ends.
+/// Closed forms of the bow. Ends of the middle arc are led on by 2 along it, and the flat tangent touches both round
+/// ends below. The farthest places lie on the line through the centers of the ends.
 #[test]
 fn a_bow_has_three_chords() {
     let (_, _, all) = measured(&bow(800));

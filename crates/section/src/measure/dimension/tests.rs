@@ -54,7 +54,7 @@ fn a_slot_has_a_width_and_two_centers() {
 fn segments_astray_have_no_dimensions() {
     let sound = found(&noisy(slot(), 0.001, 3), true);
     for k in 0..sound.segments.len() {
-        let contour = Contour { astray: vec![k], ..sound.clone() };
+        let contour = Contour { unreliable: vec![k], ..sound.clone() };
         let kinds: Vec<&str> = dimensions(&[contour]).iter().map(|d| d.kind.name()).collect();
         let line = sound.segments[k].geometry.kind() == SegmentKind::Line;
         assert_eq!(kinds, if line { ["centers"] } else { ["width"] }, "{k}");
@@ -69,14 +69,14 @@ fn segments_astray_have_no_dimensions() {
     let all = dimensions(&of_two);
     assert_eq!((count(&all, DimensionKind::Angle), count(&all, DimensionKind::Gap)), (8, 1));
     let mut of_two = of_two;
-    of_two[0].astray = (0..4).collect();
+    of_two[0].unreliable = (0..4).collect();
     let all = dimensions(&of_two);
     assert_eq!((count(&all, DimensionKind::Angle), count(&all, DimensionKind::Gap)), (4, 0));
     assert!(all.iter().all(|d| d.of.iter().all(|[c, _]| *c == 1)), "{all:?}");
 }
 
-/// Errors over their uncertainties have the mean square 1 over fresh noise, where kinds and joins are found as they are: of 120
-/// draws that is uncertain by 0.13. Uncertainties do not say how likely another model is.
+/// Errors over their uncertainties have the mean square 1 over fresh noise, where kinds and joins are found as they
+/// are. With 120 draws that is uncertain by 0.13. Uncertainties do not say how likely another model is.
 #[test]
 fn uncertainties_are_those_of_fresh_noise() {
     let (mut sums, mut count) = ([0.0; 3], 0.0);

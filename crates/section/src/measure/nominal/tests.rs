@@ -101,7 +101,7 @@ fn points_beyond_a_free_end_have_no_deviation() {
     assert_eq!(off_nominal(&points, &open, &Stopped), Err(Cancelled));
 }
 
-/// A plate with a hole in it: the hole keeps its side when the plate is open by a hair, and by a wide gap no more.
+/// A plate with a hole in it. The hole keeps its side when the plate is open by a hair, and by a wide gap no more.
 #[test]
 fn holes_stay_holes_within_what_is_nearly_closed() {
     let plate =

@@ -1,9 +1,9 @@
-//! What may move, and what the outlines hold of it.
+//! The motions that are free, and those that the outlines hold.
 
 use super::place::Place;
 use std::fmt;
 
-/// What may move.
+/// The motions that are free.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Freedom {
     /// Along the first axis, along the second, and turning.
@@ -33,14 +33,18 @@ impl Freedom {
         (0..3).filter(move |k| axes[*k])
     }
 
-    /// What can be asked instead where this is free.
+    /// The request that can be made instead where this is free.
     pub(super) fn remedy(&self, free: &Free) -> String {
         match free {
             Free::Turns { .. } if self.axes[0] && self.axes[1] => "ask for --fit xy".into(),
-            Free::Slides { direction: [x, _] } if self.axes[0] && self.axes[1] && x.abs() > ALONG => {
+            Free::Slides { direction: [x, _] }
+                if self.axes[0] && self.axes[1] && x.abs() > ALONG_AXIS_COSINE =>
+            {
                 "ask for --fit y".into()
             }
-            Free::Slides { direction: [_, y] } if self.axes[0] && self.axes[1] && y.abs() > ALONG => {
+            Free::Slides { direction: [_, y] }
+                if self.axes[0] && self.axes[1] && y.abs() > ALONG_AXIS_COSINE =>
+            {
                 "ask for --fit x".into()
             }
             _ => "leave --fit out, or give a nominal that holds it".into(),
@@ -49,7 +53,7 @@ impl Freedom {
 }
 
 /// A direction is along an axis if its component is greater than this.
-const ALONG: f64 = 0.999;
+const ALONG_AXIS_COSINE: f64 = 0.999;
 
 /// A motion that leaves all distances as they are.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -84,11 +88,11 @@ impl fmt::Display for Free {
     }
 }
 
-/// Mean square displacement along the outline's normals per mean square displacement, above which a motion is held: about that by which a
-/// turned ellipse is whose axes differ by 3 %.
-const HELD: f64 = 1e-4;
+/// Mean square displacement along the outline's normals per mean square displacement, above which a motion is held. A turned
+/// ellipse whose axes differ by 3 % has about that.
+const MIN_HELD_SHARE: f64 = 1e-4;
 /// Share of the turn, counted as displacement, in a motion that counts as a slide.
-const SLIDES: f64 = 0.01;
+const MAX_TURN_SHARE_OF_SLIDE: f64 = 0.01;
 
 /// How the distance of a point grows with two shifts, and with a turn times an arm.
 pub(super) fn slopes(point: [f64; 2], normal: [f64; 2], pivot: [f64; 2], arm: f64) -> [f64; 3] {
@@ -96,7 +100,8 @@ pub(super) fn slopes(point: [f64; 2], normal: [f64; 2], pivot: [f64; 2], arm: f6
     [normal[0], normal[1], (d[0] * normal[1] - d[1] * normal[0]) / arm]
 }
 
-/// Whether the outlines hold all that may move, chords that follow a curve taken for that: else what they do not.
+/// Whether the outlines hold all that may move, chords that follow a curve taken for that. Else the motion that they do
+/// not hold.
 pub(super) fn held<'a>(
     places: impl Iterator<Item = (&'a Place, f64)>,
     pivot: [f64; 2],
@@ -116,16 +121,16 @@ pub(super) fn held<'a>(
             }
         }
     }
-    // What is held by the question is held well.
+    // A motion that the question holds is held well.
     for k in (0..3).filter(|k| !freedom.axes[*k]) {
         matrix[k][k] = 2.0 * total;
     }
     let (value, [x, y, turn]) = least(matrix);
-    if value > HELD * total {
+    if value > MIN_HELD_SHARE * total {
         return Ok(());
     }
     let turn = turn / arm;
-    Err(if (turn * arm).powi(2) <= SLIDES {
+    Err(if (turn * arm).powi(2) <= MAX_TURN_SHARE_OF_SLIDE {
         let size = libm::hypot(x, y).max(f64::MIN_POSITIVE);
         let sign = if x + y < 0.0 { -1.0 } else { 1.0 };
         Free::Slides { direction: [sign * x / size, sign * y / size] }
@@ -137,7 +142,7 @@ pub(super) fn held<'a>(
 /// Least eigenvalue of a symmetric matrix and its unit vector, by Jacobi's rotations.
 fn least(mut a: [[f64; 3]; 3]) -> (f64, [f64; 3]) {
     let mut v = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-    for _ in 0..SWEEPS {
+    for _ in 0..JACOBI_SWEEPS {
         for (p, q) in [(0, 1), (0, 2), (1, 2)] {
             if a[p][q] == 0.0 {
                 continue;
@@ -162,5 +167,5 @@ fn least(mut a: [[f64; 3]; 3]) -> (f64, [f64; 3]) {
     (a[k][k], [v[0][k], v[1][k], v[2][k]])
 }
 
-/// Sweeps of rotations; each squares what is off the diagonal.
-const SWEEPS: usize = 12;
+/// Sweeps of rotations; each squares the entries off the diagonal.
+const JACOBI_SWEEPS: usize = 12;

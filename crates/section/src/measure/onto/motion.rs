@@ -7,7 +7,7 @@ use trueness_geom::spline::curve::Curve;
 /// A turn about a center, then a shift.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlaneMotion {
-    /// What it turns about.
+    /// The place that it turns about.
     pub center: [f64; 2],
     /// Angle that it turns by, radians, counter-clockwise.
     pub turn: f64,

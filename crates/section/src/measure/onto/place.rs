@@ -16,7 +16,7 @@ pub(super) struct Place {
     pub normal: [f64; 2],
     /// Unit normal of the curve that the outline's chords follow.
     pub smooth: [f64; 2],
-    /// The place is a corner: the distance stays what it is to that place, whichever way the point goes.
+    /// The place is a corner: the distance is always that to this place, whichever way the point goes.
     pub is_corner: bool,
 }
 
@@ -33,7 +33,7 @@ pub(super) struct Row {
     pub places: Vec<Place>,
 }
 
-/// Those of all rows.
+/// The places of all rows.
 #[derive(Debug)]
 pub(super) struct Places {
     pub rows: Vec<Row>,
@@ -82,7 +82,7 @@ impl Places {
 }
 
 /// Lags of a row over which its distances may go together.
-const LAGS: usize = 1000;
+const MAX_LAGS: usize = 1000;
 
 impl Row {
     pub fn new(points: &[[f64; 2]], found: &[Option<OffNominal>], outlines: &[Outline]) -> Row {
@@ -107,8 +107,8 @@ impl Row {
         Row { places: points.iter().zip(found).enumerate().filter_map(each).collect() }
     }
 
-    /// So many successive points tell as much as one that scatters alone: 1 and twice the sum of the correlations, as far as pairs of them
-    /// are above 0 (C. J. Geyer 1992).
+    /// So many successive points tell as much as one that scatters alone. It is 1 and twice the sum of the
+    /// correlations, as far as pairs of them are above 0 (C. J. Geyer 1992).
     pub fn correlated(&self, reach: f64) -> f64 {
         let d: Vec<f64> = self.places.iter().map(|p| p.distance).filter(|d| d.abs() <= reach).collect();
         let n = d.len();
@@ -119,7 +119,7 @@ impl Row {
             return 1.0;
         }
         let mut sum = -1.0;
-        for lag in (0..(n / 4).min(LAGS)).step_by(2) {
+        for lag in (0..(n / 4).min(MAX_LAGS)).step_by(2) {
             let pair = (together(lag) + together(lag + 1)) / variance;
             if pair <= 0.0 {
                 break;
@@ -142,16 +142,17 @@ fn ends(outline: &Outline) -> Vec<f64> {
 /// The segment that the nearest place is on.
 fn number(outline: &Outline, ends: &[f64], off: &OffNominal, point: [f64; 2]) -> Option<usize> {
     let at = ends.partition_point(|end| *end < off.along);
-    let beside = at.saturating_sub(1)..(at + 2).min(ends.len());
+    let candidates = at.saturating_sub(1)..(at + 2).min(ends.len());
     let far = |k: &usize| outline.segments[*k].nearest(point).distance.abs();
-    beside.min_by(|a, b| far(a).total_cmp(&far(b)))
+    candidates.min_by(|a, b| far(a).total_cmp(&far(b)))
 }
 
 /// Chords that turn by less than this follow a curve, radians: as where facets are taken for an arc.
-const GENTLE: f64 = 0.6;
+const MAX_FACET_TURN: f64 = 0.6;
 
-/// The normal of the curve that a chord follows, at a share of it: between those of its ends, where chords of about a circle's meet
-/// (each with the other's length, which is exact on a circle). Of other segments their own.
+/// The normal of the curve that a chord follows, at a share of it. It lies between those of its ends, where chords of
+/// about a circle's meet. Each counts with the other's length, which is exact on a circle. Other segments have their
+/// own.
 fn smooth(outline: &Outline, number: usize, share: f64) -> Option<[f64; 2]> {
     let (all, n) = (&outline.segments, outline.segments.len());
     let segment = &all[number];
@@ -159,24 +160,24 @@ fn smooth(outline: &Outline, number: usize, share: f64) -> Option<[f64; 2]> {
         return None;
     }
     let own = along(segment)?;
-    let beside = |next: bool| -> [f64; 2] {
+    let direction_towards = |next: bool| -> [f64; 2] {
         let k = if next { number + 1 } else { number + n - 1 };
         let is_end = if next { number + 1 == n } else { number == 0 };
         let other = all.get(k % n).filter(|o| (outline.closed || !is_end) && o.geometry == Geometry::Line);
         let met = other.and_then(|other| {
             let a = along(other)?;
-            let gentle =
-                libm::atan2(own[0] * a[1] - own[1] * a[0], own[0] * a[0] + own[1] * a[1]).abs() < GENTLE;
+            let gentle = libm::atan2(own[0] * a[1] - own[1] * a[0], own[0] * a[0] + own[1] * a[1]).abs()
+                < MAX_FACET_TURN;
             gentle.then(|| unit([0, 1].map(|k| own[k] * other.length + a[k] * segment.length)))?
         });
         met.unwrap_or(own)
     };
-    let [a, b] = [beside(false), beside(true)];
+    let [a, b] = [direction_towards(false), direction_towards(true)];
     let [x, y] = [0, 1].map(|k| a[k] * (1.0 - share) + b[k] * share);
     unit([-y, x])
 }
 
-/// Whether the outline turns at an end of a segment by more than what follows a curve.
+/// Whether the outline turns at an end of a segment by more than chords of a curve do.
 fn is_sharp(outline: &Outline, number: usize, at_its_end: bool) -> bool {
     let (all, n) = (&outline.segments, outline.segments.len());
     let [before, after] =
@@ -185,7 +186,7 @@ fn is_sharp(outline: &Outline, number: usize, at_its_end: bool) -> bool {
     let (a, b) = (&all[before], &all[after]);
     let [a, b] = [a.nearest(a.end).along, b.nearest(b.start).along];
     let turn = libm::atan2(a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1]);
-    is_joined && turn.abs() >= GENTLE
+    is_joined && turn.abs() >= MAX_FACET_TURN
 }
 
 fn along(segment: &Segment) -> Option<[f64; 2]> {

@@ -1,4 +1,4 @@
-//! Planted motions come back within their uncertainties; what is held stays; what is free is named.
+//! Planted motions come back within their uncertainties, held motions stay, and free ones are named.
 
 use super::*;
 use crate::Segment;
@@ -52,7 +52,8 @@ fn onto(points: &[[f64; 2]], outline: &Outline, freedom: Freedom) -> Result<Onto
     onto_nominal(&[points], std::slice::from_ref(outline), freedom, f64::INFINITY, &Silent)
 }
 
-/// Of 240 draws with a motion planted, of the 720 errors at least 93 % are within two standard uncertainties, and not all.
+/// At least 93 % of the 720 errors of 240 draws with a motion planted are within two standard uncertainties, and not
+/// all.
 #[test]
 fn planted_motions_come_back_within_their_uncertainties() {
     let random = &mut Random::new(11);
@@ -89,7 +90,7 @@ fn planted_motions_come_back_within_their_uncertainties() {
     }
 }
 
-/// What may not move stays where it is, to the last digit.
+/// A motion that is not free stays as it is, to the last digit.
 #[test]
 fn what_is_held_stays() {
     let random = &mut Random::new(2);
@@ -112,7 +113,7 @@ fn what_is_held_stays() {
     assert!((turn.motion.turn + 0.02).abs() < 4.0 * turn.turn_uncertainty, "{turn:?}");
 }
 
-/// What the outline does not hold is named; a polygon that follows a circle turns as that does.
+/// A motion that the outline does not hold is named; a polygon that follows a circle turns as that does.
 #[test]
 fn what_is_free_is_named() {
     let random = &mut Random::new(3);
@@ -190,8 +191,8 @@ fn too_few_points_and_no_outline() {
     let none = onto_nominal(&[&[[0.0; 2]; 9]], &[], Freedom::FREE, 1.0, &Silent).unwrap_err();
     assert_eq!(none, OntoNominalError::NoOutline);
     let points = [[1.0, 0.1], [30.0, 0.1], [60.0, 10.0]];
-    let few = onto(&points, &plate(), Freedom::FREE).unwrap_err();
-    assert_eq!(few, OntoNominalError::TooFewPoints { found: 3, unknowns: 3 });
+    let error = onto(&points, &plate(), Freedom::FREE).unwrap_err();
+    assert_eq!(error, OntoNominalError::TooFewPoints { found: 3, unknowns: 3 });
     let far: Vec<[f64; 2]> = (0..20).map(|i| [f64::from(i), -9.0]).collect();
     let found = onto_nominal(&[&far], &[plate()], Freedom::X, 1.0, &Silent);
     assert!(found.is_err(), "{found:?}");
@@ -218,8 +219,8 @@ fn outlines_move_rigidly() {
     }
 }
 
-/// A plate that is evenly larger than its nominal, with or without a bore, drawn by few points or many: the fit comes to rest, no
-/// farther than where it began, and finds the motion by which the plate was moved.
+/// A plate that is evenly larger than its nominal, with or without a bore, drawn by few points or many. The fit comes
+/// to rest, no farther than where it began, and finds the motion by which the plate was moved.
 #[test]
 fn even_growth_comes_to_rest() {
     let random = &mut Random::new(21);
@@ -254,7 +255,8 @@ fn even_growth_comes_to_rest() {
         let found = onto_nominal(&rows, &outlines, Freedom::FREE, f64::INFINITY, &Silent);
         let found = found.unwrap_or_else(|e| panic!("round {round}: {e}"));
         assert!(found.converged && found.rms <= found.rms_before, "round {round}: {found:?}");
-        // Few points within a plate come nearer to it by a turn; chords of the bore lie off its circle by more than the plate has grown.
+        // Few points within a plate come nearer to it by a turn. Chords of the bore lie off its circle by more than the
+        // plate has grown.
         if grown < 0.0 {
             continue;
         }

@@ -1,8 +1,8 @@
-//! What is offered, and by what rule.
+//! The offers, and the rule by which they are made.
 
 use trueness_geom::num::special::{normal_p, student_p};
 
-/// What is offered.
+/// The kind of an offer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum OfferKind {
     /// A line runs along the first axis.
@@ -82,7 +82,7 @@ impl OfferKind {
 /// A condition that the points allow.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Offer {
-    /// What is offered.
+    /// Its kind.
     pub kind: OfferKind,
     /// The segments that it is about, each by the number of its contour and its own.
     pub of: Vec<[usize; 2]>,
@@ -92,11 +92,11 @@ pub struct Offer {
     pub uncertainty: f64,
     /// The value offered.
     pub offered: f64,
-    /// Of a whole number the step that it is a multiple of.
+    /// The step that a whole number is a multiple of.
     pub step: Option<f64>,
     /// The difference in standard uncertainties. The sum of squares grows by its square times the variance of the points.
     pub z: f64,
-    /// The probability of a difference as large, if what is offered holds.
+    /// The probability of a difference as large, if the offered value holds.
     pub p: f64,
     /// The probability that a value which has nothing to do with it lies as near as would still be offered.
     pub chance: f64,
@@ -125,13 +125,13 @@ impl Untidied {
 }
 
 /// Conditions are offered that hold with this probability at least: two standard uncertainties, 95 %.
-pub(super) const LEAST_P: f64 = 0.0455;
+pub(super) const MIN_PROBABILITY: f64 = 0.0455;
 /// Conditions that chance meets more often than this are not offered: they would say nothing.
-pub(super) const MOST_CHANCE: f64 = 0.05;
+pub(super) const MAX_CHANCE: f64 = 0.05;
 /// Standard uncertainties to either side within which a value is offered.
-pub(super) const REACH: f64 = 2.0;
+pub(super) const OFFER_REACH_SIGMAS: f64 = 2.0;
 
-/// A value and what is offered for it.
+/// A value and the offer for it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Value {
     pub found: f64,
@@ -150,7 +150,7 @@ impl Value {
         let p = self.p(offered);
         let Value { found, uncertainty, .. } = self;
         let z = (found - offered) / uncertainty;
-        (p >= LEAST_P && chance <= MOST_CHANCE && z.is_finite()).then(|| Offer {
+        (p >= MIN_PROBABILITY && chance <= MAX_CHANCE && z.is_finite()).then(|| Offer {
             kind,
             of: of.to_vec(),
             found,

@@ -1,12 +1,12 @@
 //! Relations: directions of lines, right angles, tangents, radii and centers that agree.
 
-use super::offer::{LEAST_P, MOST_CHANCE, Offer, OfferKind, REACH, Untidied, Value};
+use super::offer::{MAX_CHANCE, MIN_PROBABILITY, OFFER_REACH_SIGMAS, Offer, OfferKind, Untidied, Value};
 use super::spread::{Shape, Spread, off_tangent, turned, turns_alike};
 use crate::model::result::{Continuity, Contour};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Lines, and arcs, of a plane whose pairs are looked at.
-pub(super) const MOST_MEMBERS: usize = 200;
+pub(super) const MAX_PAIR_MEMBERS: usize = 200;
 
 /// A segment with its contour's covariance.
 #[derive(Clone, Copy)]
@@ -73,7 +73,7 @@ pub(super) fn members(spreads: &[Result<Spread, Untidied>]) -> Vec<Member<'_>> {
 pub(super) fn limited<'a>(all: &[Member<'a>], lines: bool) -> Vec<Member<'a>> {
     all.iter()
         .filter(|m| matches!(m.shape, Shape::Line { .. }) == lines)
-        .take(MOST_MEMBERS)
+        .take(MAX_PAIR_MEMBERS)
         .copied()
         .collect()
 }
@@ -98,12 +98,12 @@ pub(super) fn all(contours: &[Contour], spreads: &[Result<Spread, Untidied>]) ->
         if last(a.of[1]) {
             continue;
         }
-        let beside = find(next(a.of[1]));
-        offers.extend(beside.and_then(|b| tangent(&contours[a.of[0]], a, b)));
+        let neighbor = find(next(a.of[1]));
+        offers.extend(neighbor.and_then(|b| tangent(&contours[a.of[0]], a, b)));
         // Over one arc, as a rounded corner, too.
         let over =
-            beside.filter(|b| b.circle().is_some() && !last(b.of[1])).and_then(|b| find(next(b.of[1])));
-        offers.extend([beside, over].into_iter().flatten().filter_map(|b| right_angle(a, b)).next());
+            neighbor.filter(|b| b.circle().is_some() && !last(b.of[1])).and_then(|b| find(next(b.of[1])));
+        offers.extend([neighbor, over].into_iter().flatten().filter_map(|b| right_angle(a, b)).next());
     }
     offers
 }
@@ -122,7 +122,7 @@ fn along_axis(line: &Member) -> Option<Offer> {
         Shape::Line { angle, .. } => offered + turned(angle - offered, PI),
         Shape::Arc { .. } => 0.0,
     })?;
-    value.offer(kind, &[line.of], offered, 2.0 * REACH * value.uncertainty / FRAC_PI_2)
+    value.offer(kind, &[line.of], offered, 2.0 * OFFER_REACH_SIGMAS * value.uncertainty / FRAC_PI_2)
 }
 
 /// The angle of two lines, which have no direction, about `near`.
@@ -135,14 +135,19 @@ fn between(of: [Shape; 2], near: f64) -> f64 {
 
 pub(super) fn parallel(a: &Member, b: &Member, others: f64) -> Option<Offer> {
     let value = a.with(b, &|s| between(s, 0.0))?;
-    let chance = others * 2.0 * REACH * value.uncertainty / PI;
+    let chance = others * 2.0 * OFFER_REACH_SIGMAS * value.uncertainty / PI;
     value.offer(OfferKind::Parallel, &[a.of, b.of], 0.0, chance)
 }
 
 fn right_angle(a: &Member, b: &Member) -> Option<Offer> {
     a.angle().zip(b.angle())?;
     let value = a.with(b, &|s| between(s, FRAC_PI_2))?;
-    value.offer(OfferKind::RightAngle, &[a.of, b.of], FRAC_PI_2, 2.0 * REACH * value.uncertainty / PI)
+    value.offer(
+        OfferKind::RightAngle,
+        &[a.of, b.of],
+        FRAC_PI_2,
+        2.0 * OFFER_REACH_SIGMAS * value.uncertainty / PI,
+    )
 }
 
 fn in_line(contours: &[Contour], a: &Member, b: &Member, others: f64) -> Option<Offer> {
@@ -150,7 +155,7 @@ fn in_line(contours: &[Contour], a: &Member, b: &Member, others: f64) -> Option<
     let at = between_them(contours, a, b);
     let value = a.with(b, &|s| across(s, at))?;
     let length = |m: &Member| contours[m.of[0]].segments[m.of[1]].length;
-    let chance = others * 2.0 * REACH * value.uncertainty / length(a).max(length(b));
+    let chance = others * 2.0 * OFFER_REACH_SIGMAS * value.uncertainty / length(a).max(length(b));
     value.offer(OfferKind::InLine, &[a.of, b.of], 0.0, chance)
 }
 
@@ -188,7 +193,7 @@ fn tangent(contour: &Contour, a: &Member, b: &Member) -> Option<Offer> {
     let scale = radii[0].min(radii[1]);
     // Two lines that join straight on are one line in two pieces.
     (scale.is_finite()).then_some(())?;
-    value.offer(OfferKind::Tangent, &[a.of, b.of], 0.0, 2.0 * REACH * value.uncertainty / scale)
+    value.offer(OfferKind::Tangent, &[a.of, b.of], 0.0, 2.0 * OFFER_REACH_SIGMAS * value.uncertainty / scale)
 }
 
 fn radius(shape: Shape) -> f64 {
@@ -197,7 +202,7 @@ fn radius(shape: Shape) -> f64 {
 
 fn equal_radii(a: &Member, b: &Member, others: f64) -> Option<Offer> {
     let value = a.with(b, &|[s, t]| radius(t) - radius(s))?;
-    let chance = others * 2.0 * REACH * value.uncertainty / radius(a.shape).max(radius(b.shape));
+    let chance = others * 2.0 * OFFER_REACH_SIGMAS * value.uncertainty / radius(a.shape).max(radius(b.shape));
     value.offer(OfferKind::EqualRadii, &[a.of, b.of], 0.0, chance)
 }
 
@@ -216,11 +221,11 @@ fn concentric(a: &Member, b: &Member, others: f64) -> Option<Offer> {
     let way = [d[0] - c[0], d[1] - c[1]];
     let growth = (yy * way[0] * way[0] - 2.0 * xy * way[0] * way[1] + xx * way[1] * way[1]) / area;
     let degrees = a.spread.degrees.min(b.spread.degrees);
-    // Of Fisher's distribution with two degrees of freedom above.
+    // The upper tail of Fisher's distribution with two degrees of freedom above.
     let p = libm::pow(1.0 + growth / degrees, -0.5 * degrees);
-    let chance = others * AREA * area.sqrt() / (r.max(s) * r.max(s));
+    let chance = others * ELLIPSE_AREA_FACTOR * area.sqrt() / (r.max(s) * r.max(s));
     let found = libm::hypot(way[0], way[1]);
-    (area > 0.0 && p >= LEAST_P && chance <= MOST_CHANCE).then(|| Offer {
+    (area > 0.0 && p >= MIN_PROBABILITY && chance <= MAX_CHANCE).then(|| Offer {
         kind: OfferKind::Concentric,
         of: vec![a.of, b.of],
         found,
@@ -233,5 +238,6 @@ fn concentric(a: &Member, b: &Member, others: f64) -> Option<Offer> {
     })
 }
 
-/// Area of the ellipse that holds 95 % over that of the standard one's square, `−2 ln 0.0455`, and of a circle over its square of radius.
-const AREA: f64 = 6.18;
+/// Area of the ellipse that holds 95 % over that of the standard one's square, `−2 ln 0.0455`. For a circle it is over
+/// its square of radius.
+const ELLIPSE_AREA_FACTOR: f64 = 6.18;

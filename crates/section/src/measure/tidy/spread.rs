@@ -1,20 +1,20 @@
 //! The covariance of all lines and arcs of a contour, from their points and tangent joins.
 //!
-//! Each line or arc is known by the normal equations of its own points. A tangent join is a condition on the two beside it, to first
-//! order linear, and is put in as such: `C − C Aᵀ (A C Aᵀ)⁻¹ A C`, where `C` is the covariance without it. Chains between corners
-//! are independent. What the contour tells of a segment (its `Uncertainty`) also holds what else its fit takes into account; the
-//! covariance is scaled to agree with that.
+//! Each line or arc is known by the normal equations of its own points. A tangent join is a condition on the two beside
+//! it, to first order linear, and is put in as such. The covariance becomes `C − C Aᵀ (A C Aᵀ)⁻¹ A C`, where
+//! `C` is the one without it. Chains between corners are independent. The `Uncertainty` of a segment in the contour
+//! also holds the rest that its fit takes into account. The covariance is scaled to agree with that.
 
 use super::offer::Untidied;
-use crate::model::result::{Continuity, Contour, Geometry, Taken, Uncertainty};
+use crate::model::result::{Continuity, Contour, Geometry, RowKind, Uncertainty};
 use trueness_geom::num::cholesky::Cholesky;
 
-/// Segments of a tangent chain of which the covariance is still found.
-const MOST_SEGMENTS: usize = 200;
-/// Share of the normal equations' scale that holds what the points alone do not: tangent joins must.
-const HELD: f64 = 1e-10;
+/// Segments of a tangent chain whose covariance is still found.
+const MAX_SEGMENTS_OF_CHAIN: usize = 200;
+/// Share of the normal equations' scale that holds what the points alone do not hold: tangent joins must.
+const HOLDING_WEIGHT: f64 = 1e-10;
 /// A condition holds already where its variance is this share of that of its unknowns by themselves.
-const HOLDS: f64 = 1e-14;
+const HOLDS_ALREADY_VARIANCE: f64 = 1e-14;
 
 /// A line, by a place of it and its angle, or a circle.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -78,11 +78,11 @@ impl Shape {
 /// The lines and arcs of a contour with their covariance.
 #[derive(Debug)]
 pub(super) struct Spread {
-    /// Of each segment its line or circle; of splines, segments astray, and those without uncertainty none.
+    /// The line or circle of each segment; none for splines, unreliable segments, and those without uncertainty.
     pub shapes: Vec<Option<Shape>>,
     /// Degrees of freedom of the noise.
     pub degrees: f64,
-    /// Of each segment the chain that it is of, and where its unknowns begin.
+    /// The chain of each segment, and where its unknowns begin.
     places: Vec<(usize, usize)>,
     /// Covariance of the unknowns of each chain.
     chains: Vec<(usize, Vec<f64>)>,
@@ -92,13 +92,13 @@ pub(super) struct Spread {
 
 impl Spread {
     pub fn new(contour: &Contour, row: &[[f64; 2]]) -> Result<Spread, Untidied> {
-        if contour.taken == Taken::Facets {
+        if contour.row_kind == RowKind::Facets {
             return Err(Untidied::Exact);
         }
         let points = own_points(contour, row);
         let all: Vec<Option<Shape>> =
             (0..contour.segments.len()).map(|k| shape(contour, k, &points[k])).collect();
-        let known = |k: usize| contour.segments[k].uncertainty.is_some() && !contour.astray.contains(&k);
+        let known = |k: usize| contour.segments[k].uncertainty.is_some() && !contour.unreliable.contains(&k);
         if !(0..all.len()).any(|k| known(k) && all[k].is_some()) {
             return Err(Untidied::Unknown);
         }
@@ -111,7 +111,7 @@ impl Spread {
             size: contour.segments.iter().map(|s| s.length).sum::<f64>(),
         };
         for chain in chains(contour, &all) {
-            if chain.len() > MOST_SEGMENTS {
+            if chain.len() > MAX_SEGMENTS_OF_CHAIN {
                 return Err(Untidied::TooMany);
             }
             spread.add(contour, &chain, &points);
@@ -169,9 +169,9 @@ impl Spread {
             }
         }
         let variance: f64 = slopes.iter().map(|(_, i, slope)| slope * along[*i]).sum();
-        // What holds already, as around a closed chain, is rounding.
+        // A condition that holds already, as around a closed chain, is rounding.
         let apart: f64 = slopes.iter().map(|(_, i, slope)| slope * slope * covariance[i * n + i]).sum();
-        if variance.is_nan() || variance <= HOLDS * apart {
+        if variance.is_nan() || variance <= HOLDS_ALREADY_VARIANCE * apart {
             return;
         }
         for r in 0..n {
@@ -188,7 +188,7 @@ impl Spread {
         for (i, k) in of.iter().enumerate() {
             for unknown in 0..shapes[i].unknowns() {
                 let angle = matches!(shapes[i], Shape::Line { .. }) && unknown == 0;
-                let step = STEP * if angle { 1.0 } else { self.size };
+                let step = SLOPE_STEP * if angle { 1.0 } else { self.size };
                 let at = |by: f64| {
                     let mut moved = shapes.clone();
                     moved[i] = moved[i].moved(unknown, by);
@@ -222,18 +222,18 @@ impl Spread {
     /// Scales the unknowns of each segment so that its uncertainty is the one told.
     fn agree_with_told(&mut self, contour: &Contour) {
         for (k, segment) in contour.segments.iter().enumerate() {
-            let (Some(shape), Some(told)) = (self.shapes[k], segment.uncertainty) else { continue };
+            let (Some(shape), Some(stated)) = (self.shapes[k], segment.uncertainty) else { continue };
             let (chain, first) = self.places[k];
             let Some((n, covariance)) = self.chains.get_mut(chain) else { continue };
-            let (own, told) = match told {
+            let (own, stated) = match stated {
                 Uncertainty::Line { angle } => (first, angle),
                 Uncertainty::Arc { radius, .. } => (first + 2, radius),
             };
             let variance = covariance[own * *n + own];
-            if variance <= 0.0 || told <= 0.0 {
+            if variance <= 0.0 || stated <= 0.0 {
                 continue;
             }
-            let scale = told / variance.sqrt();
+            let scale = stated / variance.sqrt();
             for i in first..first + shape.unknowns() {
                 for r in 0..*n {
                     covariance[i * *n + r] *= scale;
@@ -245,7 +245,7 @@ impl Spread {
 }
 
 /// Steps by which slopes are found, as a share of the size.
-const STEP: f64 = 1e-6;
+const SLOPE_STEP: f64 = 1e-6;
 
 /// Points of each segment that its fit has used.
 fn own_points(contour: &Contour, row: &[[f64; 2]]) -> Vec<Vec<[f64; 2]>> {
@@ -309,13 +309,13 @@ fn alone(shape: &Shape, points: &[[f64; 2]], size: f64) -> [[f64; 3]; 3] {
             }
         }
     }
-    let weight = HELD * points.len().max(1) as f64;
+    let weight = HOLDING_WEIGHT * points.len().max(1) as f64;
     for i in 0..m {
         let angle = matches!(shape, Shape::Line { .. }) && i == 0;
         normal[i * m + i] += weight * if angle { size * size } else { 1.0 };
     }
     let mut all = [[0.0; 3]; 3];
-    // What is held is positive definite.
+    // The matrix of a held shape is positive definite.
     if let Some(factor) = Cholesky::new(normal, m) {
         for i in 0..m {
             let mut b = vec![0.0; m];

@@ -1,6 +1,6 @@
-//! What was drawn is offered; what was not seldom is; the covariance is that of fresh noise.
+//! Drawn relations are offered, others seldom are, and the covariance is that of fresh noise.
 
-use super::offer::{LEAST_P, MOST_CHANCE, Value};
+use super::offer::{MAX_CHANCE, MIN_PROBABILITY, Value};
 use super::spread::Shape;
 use super::*;
 use crate::{Options, contour};
@@ -49,7 +49,8 @@ fn kinds(offers: &[Offer], kind: OfferKind) -> Vec<&Offer> {
     offers.iter().filter(|o| o.kind == kind).collect()
 }
 
-/// A drawn plate: 40 × 25, radii 5, 5 and 3, along the axes. Of 40 draws each of what was drawn is offered in nine of ten at least.
+/// A drawn plate: 40 × 25, radii 5, 5 and 3, along the axes. Each relation that was drawn is offered in nine of ten of
+/// 40 draws at least.
 #[test]
 fn what_was_drawn_is_offered() {
     let random = &mut Random::new(7);
@@ -77,7 +78,7 @@ fn what_was_drawn_is_offered() {
         is("25", whole(OfferKind::Distance, 25.0));
         is("centers", whole(OfferKind::Centers, 15.0));
         for o in &offers {
-            assert!(o.p >= LEAST_P && o.chance <= MOST_CHANCE && o.uncertainty > 0.0, "{o:?}");
+            assert!(o.p >= MIN_PROBABILITY && o.chance <= MAX_CHANCE && o.uncertainty > 0.0, "{o:?}");
             assert!((o.z - (o.found - o.offered) / o.uncertainty).abs() < 1e-9, "{o:?}");
         }
     }
@@ -100,7 +101,7 @@ fn what_was_drawn_is_offered() {
     }
 }
 
-/// Of a plate whose numbers are random few are offered: no more than chance would have it of all that was looked at.
+/// Few relations of a plate whose numbers are random are offered: no more than chance makes of all that were looked at.
 #[test]
 fn what_was_not_drawn_is_seldom_offered() {
     let random = &mut Random::new(8);
@@ -129,8 +130,8 @@ fn what_was_not_drawn_is_seldom_offered() {
     assert!(plates >= 34 && each < 0.8, "{each} of {plates}");
 }
 
-/// The covariance of lines and arcs with tangents is that of draws: errors of values of two segments over their uncertainties have the
-/// mean square 1.
+/// The covariance of lines and arcs with tangents is that of draws. Errors of values of two segments over their
+/// uncertainties have the mean square 1.
 #[test]
 fn uncertainties_are_those_of_fresh_noise() {
     let random = &mut Random::new(9);
@@ -179,10 +180,10 @@ fn uncertainties_are_those_of_fresh_noise() {
         }
         let Some(u) = contour.segments[(first + 1) % 7].uncertainty else { continue };
         let own = all[1].value(&radius).unwrap().uncertainty;
-        if let crate::Uncertainty::Arc { radius, center: told } = u {
+        if let crate::Uncertainty::Arc { radius, center: stated } = u {
             assert!((own - radius).abs() < 1e-3 * radius);
             let x = all[1].value(&|s| center(s)[0]).unwrap().uncertainty;
-            sweep.push(x / told[0]);
+            sweep.push(x / stated[0]);
         }
     }
     assert!(count >= 70.0, "{count}");
@@ -217,10 +218,10 @@ fn holes_have_diameters_centers_and_distances() {
     assert!(right >= 11, "{right}");
 }
 
-/// Nothing is offered of what has no uncertainty.
+/// Nothing is offered of values without uncertainty.
 #[test]
 fn exact_and_free_contours_have_no_offers() {
-    let exact = Contour { taken: crate::Taken::Facets, ..Contour::default() };
+    let exact = Contour { row_kind: crate::RowKind::Facets, ..Contour::default() };
     assert_eq!(
         tidy(&[exact, Contour::default()], &[&[], &[]]),
         (vec![], vec![Some(Untidied::Exact), Some(Untidied::Unknown)])
@@ -283,7 +284,7 @@ fn tangents_in_closed_form() {
     assert!((spread::off_tangent([arc(-2.0, 2.0), line], true) - 1.0).abs() < 1e-12);
 }
 
-/// What joins by a tangent is tangent in the covariance: that value has no uncertainty, though either side has.
+/// Segments joined by a tangent are tangent in the covariance: that value has no uncertainty, though either side has.
 #[test]
 fn tangent_joins_hold_in_the_covariance() {
     let random = &mut Random::new(13);

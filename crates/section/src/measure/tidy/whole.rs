@@ -1,27 +1,27 @@
 //! Whole numbers: radii, diameters, lengths, distances of parallel lines and of centers.
 
-use super::offer::{MOST_CHANCE, Offer, OfferKind, REACH, Untidied, Value};
+use super::offer::{MAX_CHANCE, OFFER_REACH_SIGMAS, Offer, OfferKind, Untidied, Value};
 use super::relation::{Member, across, between_them, limited, members, parallel};
 use super::spread::{Shape, Spread};
 use crate::model::result::{Contour, Geometry};
 use std::f64::consts::TAU;
 
 /// The coarsest step, millimeters; the next ones are its half, fifth of that, and so on.
-const COARSEST: f64 = 1.0;
+const COARSEST_STEP: f64 = 1.0;
 /// From this share of a turn on an arc is drawn with its diameter.
-const CIRCLE: f64 = 0.75;
+const MIN_TURN_WITH_DIAMETER: f64 = 0.75;
 
 impl Value {
     /// The coarsest multiple of a step of 1, 0.5, 0.1, 0.05 … that the points allow, as long as chance seldom does.
     fn whole(self, kind: OfferKind, of: &[[usize; 2]]) -> Option<Offer> {
         let mut divisor = 1.0;
         for finer in [2.0, 5.0].into_iter().cycle() {
-            let step = COARSEST / divisor;
-            let chance = 2.0 * REACH * self.uncertainty / step;
-            if chance.is_nan() || chance > MOST_CHANCE || step < SMALLEST {
+            let step = COARSEST_STEP / divisor;
+            let chance = 2.0 * OFFER_REACH_SIGMAS * self.uncertainty / step;
+            if chance.is_nan() || chance > MAX_CHANCE || step < FINEST_STEP {
                 return None;
             }
-            let offered = (self.found * divisor / COARSEST).round() / divisor * COARSEST;
+            let offered = (self.found * divisor / COARSEST_STEP).round() / divisor * COARSEST_STEP;
             if let Some(offer) = self.offer(kind, of, offered, chance).filter(|_| offered > 0.0) {
                 return Some(Offer { step: Some(step), ..offer });
             }
@@ -39,7 +39,7 @@ impl Value {
 }
 
 /// The finest step.
-const SMALLEST: f64 = 1e-4;
+const FINEST_STEP: f64 = 1e-4;
 
 /// All whole numbers.
 pub(super) fn all(contours: &[Contour], spreads: &[Result<Spread, Untidied>]) -> Vec<Offer> {
@@ -62,7 +62,7 @@ fn own(contours: &[Contour], m: &Member) -> Option<Offer> {
         let (found, uncertainty) = (segment.length, segment.length_uncertainty?);
         return Value { found, uncertainty, degrees: m.spread.degrees }.whole(OfferKind::Length, &[m.of]);
     };
-    let (kind, times) = match sweep.abs() >= CIRCLE * TAU {
+    let (kind, times) = match sweep.abs() >= MIN_TURN_WITH_DIAMETER * TAU {
         true => (OfferKind::Diameter, 2.0),
         false => (OfferKind::Radius, 1.0),
     };
@@ -76,7 +76,7 @@ fn distance(contours: &[Contour], a: &Member, b: &Member) -> Option<Offer> {
     let at = between_them(contours, a, b);
     let value = a.with(b, &|s| across(s, at))?;
     let found = value.found.abs();
-    (found > REACH * value.uncertainty).then_some(())?;
+    (found > OFFER_REACH_SIGMAS * value.uncertainty).then_some(())?;
     Value { found, ..value }.whole(OfferKind::Distance, &[a.of, b.of])
 }
 
@@ -88,5 +88,7 @@ fn centers(a: &Member, b: &Member) -> Option<Offer> {
         (Shape::Arc { center: c, .. }, Shape::Arc { center: d, .. }) => apart(c, d),
         _ => 0.0,
     })?;
-    (way > REACH * value.uncertainty).then(|| value.whole(OfferKind::Centers, &[a.of, b.of])).flatten()
+    (way > OFFER_REACH_SIGMAS * value.uncertainty)
+        .then(|| value.whole(OfferKind::Centers, &[a.of, b.of]))
+        .flatten()
 }

@@ -1,8 +1,9 @@
 //! Normal equations under conditions that hold exactly.
 //!
-//! A condition as a squared distance of great weight loses the digits of all that the points hardly determine (the radius of a short
-//! fillet between long lines), and holds steps back where it curves. Here the weight is moderate, so that the matrix is definite,
-//! and the multipliers of Lagrange make up for the rest (Nocedal and Wright 2006, 16.2).
+//! A condition as a squared distance of great weight loses the digits of all that the points hardly determine. An
+//! example is the radius of a short fillet between long lines. It also holds steps back where it curves. Here the
+//! weight is moderate, so that the matrix is definite. The multipliers of Lagrange make up for the rest (Nocedal and
+//! Wright 2006, 16.2).
 
 use trueness_geom::num::cholesky::Cholesky;
 
@@ -13,7 +14,7 @@ pub(super) struct Constrained {
     rows: Vec<Vec<f64>>,
     /// `M⁻¹ Aᵀ`, a row for each condition.
     solved: Vec<Vec<f64>>,
-    /// Of `A M⁻¹ Aᵀ`; `None` without conditions.
+    /// Factor of `A M⁻¹ Aᵀ`; `None` without conditions.
     multipliers: Option<Cholesky>,
 }
 
@@ -82,7 +83,7 @@ mod tests {
         assert!((x[0] - 1.4).abs() < 1e-15 && (x[1] - 0.8).abs() < 1e-15, "{x:?}");
         let x = system.restore(vec![5.0]);
         assert!((x[0] - 1.0).abs() < 1e-15 && (x[1] - 2.0).abs() < 1e-15, "{x:?}");
-        // What varies lies along (2, −1) / √5.
+        // The variance lies along (2, −1) / √5.
         assert!((system.deviation(&[1.0, 0.0]) - 2.0 / 5f64.sqrt()).abs() < 1e-15);
         assert!(system.deviation(&[1.0, 2.0]) < 1e-7);
         assert!(Constrained::new(vec![1.0, 0.0, 0.0, 1.0], &[rows[0].clone(), rows[0].clone()]).is_none());

@@ -1,11 +1,11 @@
-//! The normal equations of a chain: what each unknown does to all that follows, and what must vanish.
+//! The normal equations of a chain: the effect of each unknown on all that follows, and the conditions that must hold.
 
 use super::super::chain::{Chain, SegmentKind};
 use super::super::result::Uncertainty;
-use super::work::{Held, SOFT, Variable, Work};
+use super::work::{Held, TRIAL_CONDITION_WEIGHT, Variable, Work};
 
 impl Work {
-    /// What each unknown of each piece does to all that follows: shift of the origin and turn about it.
+    /// Motion of all that follows by each unknown of each piece: shift of the origin and turn about it.
     fn move_ends(&mut self, chain: &Chain) {
         self.motions.resize_with(chain.pieces.len(), Vec::new);
         for (g, piece) in chain.pieces.iter().enumerate() {
@@ -59,7 +59,7 @@ impl Work {
         }
     }
 
-    /// What a variable does to the row of products of piece `g`: (index, factor) pairs of its own, and a motion of all.
+    /// Effect of a variable on the row of products of piece `g`: (index, factor) pairs of its own, and a motion of all.
     fn effect(&self, chain: &Chain, variable: Variable, g: usize) -> ([f64; 3], Option<(usize, f64)>) {
         let start = &self.layout.poses[0];
         let mut motion = [0.0; 3];
@@ -142,9 +142,9 @@ impl Work {
         self.missing = self.off(chain, held);
         for (row, off) in self.conditions.iter().zip(&self.missing) {
             for v in 0..k {
-                self.right[v] += SOFT * row[v] * off;
+                self.right[v] += TRIAL_CONDITION_WEIGHT * row[v] * off;
                 for u in 0..=v {
-                    self.matrix[v * k + u] += SOFT * row[v] * row[u];
+                    self.matrix[v * k + u] += TRIAL_CONDITION_WEIGHT * row[v] * row[u];
                 }
             }
         }
@@ -154,14 +154,15 @@ impl Work {
         }
     }
 
-    /// Adds to the normal equations what the points of each piece say of the unknowns that act within it, and of those with all others.
+    /// Adds to the normal equations the products of each piece's points, for the unknowns that act within it and for
+    /// those with all others.
     fn add_where_they_act(&mut self, chain: &Chain) {
         let k = self.variables.len();
         let mut product = vec![];
         let mut effects = Vec::with_capacity(k);
         for g in 0..chain.pieces.len() {
             effects.clear();
-            // Unknowns of what follows do nothing here.
+            // Unknowns of later pieces do nothing here.
             effects.extend((0..k).map(|v| self.effect(chain, self.variables[v], g)).enumerate());
             effects.retain(|(_, (m, own))| own.is_some() || *m != [0.0; 3]);
             let block = &self.blocks[g];
@@ -179,7 +180,7 @@ impl Work {
                     own + motion[0] * entry(i, 0) + motion[1] * entry(i, 1) + motion[2] * entry(i, 2)
                 }));
                 self.right[*v] += value(&block.right, &(*motion, *own));
-                // Of two that both act here, the pair is seen from the later one.
+                // A pair that both act here is seen from the later one.
                 for (u, effect) in effects.iter().filter(|(u, _)| u <= v || !acts(*u)) {
                     self.matrix[(*v).max(*u) * k + (*v).min(*u)] += value(&product, effect);
                 }
@@ -187,11 +188,13 @@ impl Work {
         }
     }
 
-    /// Adds what the points say beyond the pieces in which unknowns act: there each moves all as a rigid body, always the same, so that sums
-    /// over all points that follow serve for every pair. So the time grows with the square of the number of unknowns, not with the cube.
+    /// Adds the products of the points beyond the pieces in which unknowns act. There each moves all as a rigid body,
+    /// always the same, so that sums over all points that follow serve for every pair. So the time grows with the
+    /// square of the number of unknowns, not with the cube.
     fn add_beyond(&mut self, chain: &Chain) {
         let (k, n) = (self.variables.len(), chain.pieces.len());
-        // Of the points from each piece on: the products of the three motions, lower triangle, and with the distances.
+        // Sums over the points from each piece on: the products of the three motions, lower triangle, and with the
+        // distances.
         let mut sums = vec![[0.0; 9]; n + 1];
         for g in (0..n).rev() {
             let (block, size) = (&self.blocks[g], self.blocks[g].size);
@@ -218,7 +221,7 @@ impl Work {
         }
     }
 
-    /// What must vanish: minus its value.
+    /// Quantities that must vanish, with a minus sign.
     pub(super) fn off(&self, chain: &Chain, held: Option<&Held>) -> Vec<f64> {
         let mut all = vec![];
         if chain.closed {
@@ -287,7 +290,7 @@ impl Work {
     }
 }
 
-/// A length that makes a turn as long as what it moves.
+/// A length that makes a turn as long as the shift that it causes.
 fn size(chain: &Chain) -> f64 {
     chain.pieces.iter().map(|p| p.length).sum::<f64>() / 8.0
 }
@@ -301,8 +304,8 @@ pub(super) fn end_coefficient(chain: &Chain, piece: usize, at_end: bool) -> Opti
 /// Coefficients before and after a join, and a scale.
 type Bend = (Option<(usize, usize)>, Option<(usize, usize)>, f64);
 
-/// The joins of free pieces at which the curvature must not jump: coefficients on either side, and what makes their
-/// difference a length.
+/// The joins of free pieces at which the curvature must not jump: coefficients on either side, and the factor that
+/// makes their difference a length.
 fn bends(chain: &Chain) -> impl Iterator<Item = Bend> + '_ {
     let n = chain.pieces.len();
     let first = usize::from(!chain.closed);

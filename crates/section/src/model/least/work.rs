@@ -1,11 +1,11 @@
-//! What a fit computes with: the unknowns of a chain, sums over the points of its pieces, and the memory kept from one fit to the
-//! next.
+//! Working memory of a fit, kept from one fit to the next: the unknowns of a chain, and sums over the points of its
+//! pieces.
 
 use super::super::chain::Layout;
 
-/// Weight of a squared distance that must vanish while models are compared: a chain that does not close yet is bent to where it does, step by
-/// step.
-pub(super) const SOFT: f64 = 1e3;
+/// Weight of a squared distance that must vanish while models are compared. A chain that does not close yet is bent to where it
+/// does, step by step.
+pub(super) const TRIAL_CONDITION_WEIGHT: f64 = 1e3;
 
 /// A join held where its place along a direction has a given value.
 #[derive(Clone, Copy, Debug)]
@@ -106,14 +106,14 @@ pub(crate) struct Work {
     pub(super) variables: Vec<Variable>,
     pub(super) matrix: Vec<f64>,
     pub(super) right: Vec<f64>,
-    /// The diagonal of what the points say: steps are damped by it. What must vanish weighs far more, and would hold back all
-    /// that moves it.
+    /// The diagonal of the points' part: steps are damped by it. Quantities that must vanish weigh far more, and would
+    /// hold back all that moves them.
     pub(super) scale: Vec<f64>,
     /// Signed distances of the points last measured.
     pub(super) distances: Vec<f64>,
-    /// Whether what must vanish does, in every step.
+    /// Whether the conditions hold in every step.
     pub(super) exact: bool,
-    /// How each unknown changes what must vanish, and what it is off by. Empty where that is weighed.
+    /// How each unknown changes the conditions, and by how much they are off. Empty where that is weighed.
     pub(super) conditions: Vec<Vec<f64>>,
     pub(super) missing: Vec<f64>,
     /// Products summed so far.

@@ -100,12 +100,11 @@ pub(super) fn wall(seed: u64, dense: bool) -> Made {
     Made { points, walls, noise, spacing, closed, kind }
 }
 
-/// How the rows of a wall are: right (two rows, each of one face but for points that noise hides), told, each of one face but in pieces,
-/// or none of these.
+/// How the rows of a wall are. Right are two rows, each of one face but for points that noise hides. Else they are reported, or each of one face but in pieces, or none of these.
 pub(super) fn judged(made: &Made) -> (usize, String) {
     let flat: Vec<[f64; 2]> = made.points.iter().map(|p| p.0).collect();
     let found = order(&flat, None, &Silent).unwrap();
-    let told = found.rows.iter().any(|r| r.layered.is_some());
+    let reported = found.rows.iter().any(|r| r.layered.is_some());
     let pure = |r: &super::super::ways::Ordered| {
         let of = r.numbers.iter().filter(|i| made.points[**i].1 == 1).count();
         of.min(r.numbers.len() - of) as f64 / r.numbers.len() as f64
@@ -131,7 +130,7 @@ pub(super) fn judged(made: &Made) -> (usize, String) {
     (
         if right {
             0
-        } else if told {
+        } else if reported {
             1
         } else if pieces {
             2
@@ -143,7 +142,7 @@ pub(super) fn judged(made: &Made) -> (usize, String) {
             made.kind,
             made.walls[1] / made.spacing,
             made.noise / made.walls[1],
-            told,
+            reported,
             show.join(", ")
         ),
     )
@@ -151,15 +150,15 @@ pub(super) fn judged(made: &Made) -> (usize, String) {
 
 #[test]
 fn faces_of_thin_walls_are_parted_or_told() {
-    let [right, told, pieces, wrong] = rates(40, false);
-    assert!(wrong == 0 && right > 32, "{right} {told} {pieces} {wrong}");
+    let [right, reported, pieces, wrong] = rates(40, false);
+    assert!(wrong == 0 && right > 32, "{right} {reported} {pieces} {wrong}");
 }
 
-/// Of walls that are thick for how near points lie windows grow with what the faces scatter by.
+/// Windows of walls that are thick for how near points lie grow with the scatter of the faces.
 #[test]
 fn faces_of_dense_walls_are_parted_or_told() {
-    let [right, told, pieces, wrong] = rates(40, true);
-    assert!(wrong == 0 && right > 32, "{right} {told} {pieces} {wrong}");
+    let [right, reported, pieces, wrong] = rates(40, true);
+    assert!(wrong == 0 && right > 32, "{right} {reported} {pieces} {wrong}");
 }
 
 fn rates(walls: u64, dense: bool) -> [usize; 4] {

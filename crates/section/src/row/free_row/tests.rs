@@ -26,7 +26,7 @@ fn body(count: usize, noise: f64, random: &mut Random) -> Vec<[f64; 2]> {
     (0..count).map(each).collect()
 }
 
-/// What is planted comes back: one closed curve, the noise within what chance makes of it, and the area of the form to its uncertainty.
+/// The planted form comes back: one closed curve, the noise within chance, and the area of the form to its uncertainty.
 #[test]
 fn bodies_are_one_curve_of_the_noise_planted() {
     let random = &mut Random::new(5);
@@ -81,7 +81,7 @@ fn flats_are_no_free_form() {
     }
 }
 
-/// Rows turned round, and begun elsewhere, have the same curve to what a change of knots makes of it.
+/// Rows turned round, and begun elsewhere, have the same curve up to the effect of other knots.
 #[test]
 fn where_a_row_begins_hardly_matters() {
     let random = &mut Random::new(7);

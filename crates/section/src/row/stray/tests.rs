@@ -96,8 +96,8 @@ fn free(random: &mut Random) -> Vec<[f64; 2]> {
         .collect()
 }
 
-/// A rectangle with rounded corners by the ends of its lines and the vertices of its arcs, from any point, closed or open; as a wide one
-/// an obround.
+/// A rectangle with rounded corners by the ends of its lines and the vertices of its arcs, from any point, closed or
+/// open. Without height it is an obround.
 fn ends_of_lines(random: &mut Random) -> Vec<[f64; 2]> {
     let (r, each) = (between(random, 1.0, 5.0), count(random, 6, 30));
     let [w, h] =
@@ -188,7 +188,7 @@ fn with_strays(random: &mut Random) -> (Vec<[f64; 2]>, Vec<usize>) {
     (all, numbers)
 }
 
-/// Of rows with strays so many have them left out, told, and neither; of rows without so many lose or doubt a point.
+/// How many rows with strays have them left out, doubted, and neither; how many rows without lose or doubt a point.
 fn rates(rows: u64) -> [usize; 4] {
     let mut counts = [0; 4];
     for seed in 0..rows {
@@ -219,9 +219,9 @@ fn rates(rows: u64) -> [usize; 4] {
 
 #[test]
 fn strays_are_left_out_or_told_and_no_other_point_is() {
-    let [left_out, told, missed, false_doubt] = rates(100);
-    assert!(missed == 0 && false_doubt == 0, "{left_out} {told} {missed} {false_doubt}");
-    assert!(left_out > 90, "{left_out} {told}");
+    let [left_out, doubted, missed, false_doubt] = rates(100);
+    assert!(missed == 0 && false_doubt == 0, "{left_out} {doubted} {missed} {false_doubt}");
+    assert!(left_out > 90, "{left_out} {doubted}");
 }
 
 #[test]

@@ -17,8 +17,8 @@ fn soup(random: &mut Random, facets: usize, size: u64) -> Mesh {
     as_it_is(&mesh).unwrap()
 }
 
-/// Coordinates of a place as fractions of whole numbers: numerators and the common denominator. Found by walking down the
-/// continued fraction of its bounds would need care; a place of the arrangement of whole numbers below 2^5 has a small
+/// Coordinates of a place as fractions of whole numbers: numerators and the common denominator. Walking down the
+/// continued fraction of its bounds would need care. A place of the arrangement of whole numbers below 2^5 has a small
 /// denominator, and is found by trying them all.
 fn fraction(place: &ExactPoint) -> [BigInt; 4] {
     let p = place.nearest();
@@ -42,8 +42,8 @@ fn area(axis: usize, corners: [[BigInt; 4]; 3]) -> (BigInt, BigInt) {
     (d, &a[3] * &b[3] * &c[3])
 }
 
-/// Areas add up, all pieces run the way of their facet, and no two pieces meet but in common corners and edges: checked pair
-/// by pair on the places themselves, which small whole numbers make fractions that brute force can find.
+/// Areas add up, all pieces run the way of their facet, and no two pieces meet but in common corners and edges. That is
+/// checked pair by pair on the places themselves, which small whole numbers make fractions that brute force can find.
 #[test]
 fn pieces_tile_their_facets() {
     let random = &mut Random::new(7);

@@ -147,7 +147,7 @@ pub(crate) fn rotation(random: &mut Random) -> Rigid {
     Rigid::rotation_about([any(), any(), any()], [any(), any(), any()])
 }
 
-/// What touches becomes one body or stays in touch, wherever it is turned to: to double and to single precision.
+/// Bodies that touch become one or stay in touch, wherever they are turned to: in double and in single precision.
 #[test]
 fn bodies_that_touch_become_their_union_however_they_are_turned() {
     let random = &mut Random::new(41);

@@ -39,7 +39,7 @@ fn six_volumes(parts: &[Tetrahedron]) -> BigInt {
     })
 }
 
-/// What of the tetrahedra lies where `inside` is not negative.
+/// The parts of the tetrahedra where `inside` is not negative.
 fn clipped(parts: Vec<Tetrahedron>, inside: impl Fn(&Corner) -> BigInt) -> Vec<Tetrahedron> {
     let mut out = vec![];
     for t in parts {
@@ -70,7 +70,7 @@ fn prism([a, b, c]: [Corner; 3], [d, e, f]: [Corner; 3]) -> [Tetrahedron; 3] {
     [[a, b.clone(), c.clone(), d.clone()], [b, c.clone(), d.clone(), e.clone()], [c, d, e, f]]
 }
 
-/// What is common to tetrahedra.
+/// The common part of tetrahedra.
 fn common(bodies: &[[Point; 4]]) -> BigInt {
     let mut parts = vec![bodies[0].each_ref().map(corner)];
     for body in &bodies[1..] {
@@ -88,11 +88,11 @@ fn common(bodies: &[[Point; 4]]) -> BigInt {
 /// Volume of the union of tetrahedra with corners in whole numbers, to some 70 digits, rounded.
 pub(super) fn union_volume(bodies: &[[Point; 4]]) -> f64 {
     let mut sum = BigInt::from(0);
-    for some in 1u32..1 << bodies.len() {
+    for subset in 1u32..1 << bodies.len() {
         let chosen: Vec<[Point; 4]> =
-            (0..bodies.len()).filter(|i| some >> i & 1 == 1).map(|i| bodies[i]).collect();
+            (0..bodies.len()).filter(|i| subset >> i & 1 == 1).map(|i| bodies[i]).collect();
         let part = common(&chosen);
-        sum += if some.count_ones() % 2 == 1 { part } else { -part };
+        sum += if subset.count_ones() % 2 == 1 { part } else { -part };
     }
     let scaled: BigInt = sum >> (DIGITS - 80);
     scaled.to_string().parse::<f64>().unwrap() / 2f64.powi(80) / 6.0

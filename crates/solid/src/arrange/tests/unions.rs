@@ -1,4 +1,4 @@
-//! Unions whose volume is known, and what they leave alone.
+//! Unions whose volume is known, and the bodies that they leave alone.
 
 use super::*;
 use std::f64::consts::PI;
@@ -101,8 +101,8 @@ fn a_chain_of_twenty_rings() {
     assert_eq!(volume(&b.mesh), filled.len() as f64);
 }
 
-/// A flat ribbon, one wide and one thick, along a path on a grid: it crosses itself, runs upon itself for some squares, and beside
-/// itself for others. One closed shell, all of whose overlaps are coplanar.
+/// A flat ribbon, one wide and one thick, along a path on a grid. It crosses itself, runs upon itself for some squares,
+/// and beside itself for others. One closed shell, all of whose overlaps are coplanar.
 #[test]
 fn a_ribbon_that_overlaps_itself() {
     let path: [[i32; 2]; 10] =
@@ -133,7 +133,7 @@ fn a_ribbon_that_overlaps_itself() {
     }
     let mut quad = |a: u32, b: u32, c: u32, d: u32| mesh.faces.extend([[a, b, c], [a, c, d]]);
     let count = path.len() as u32;
-    // Of node i: 4 i left below, + 1 left above, + 2 right below, + 3 right above.
+    // Node i has 4 i left below, + 1 left above, + 2 right below, + 3 right above.
     for i in 0..count - 1 {
         let (n, m) = (4 * i, 4 * (i + 1));
         quad(n + 1, n + 3, m + 3, m + 1);
@@ -225,7 +225,7 @@ fn what_nothing_touches_stays_as_it_is() {
     }
 }
 
-/// Material in material vanishes, a cavity stays, and what is inside out as a whole is turned.
+/// Material in material vanishes, a cavity stays, and a body that is inside out as a whole is turned.
 #[test]
 fn nested_shells() {
     let nested = |outer: bool, inner: bool| {
@@ -245,7 +245,7 @@ fn nested_shells() {
         let b = union(&nested(outer, inner), &Options::default());
         assert_eq!(volume(&b.mesh), expected, "{outer} {inner}");
     }
-    // Not turned, nothing of it is material, but for what a shell winds around in the positive sense.
+    // Not turned, nothing of it is material, but where a shell winds around in the positive sense.
     let empty =
         outer_boundary(&nested(true, true), &Options { turn: false, single: false }, &Silent).unwrap();
     assert_eq!(empty.mesh.faces.len(), 0);
@@ -293,7 +293,7 @@ fn a_tangle_is_given_up() {
     assert_eq!(outer_boundary(&empty, &Options::default(), &Silent).unwrap().mesh, empty);
 }
 
-/// What is decided and computed does not depend on the scale, to the ends of the range.
+/// Decisions and results do not depend on the scale, to the ends of the range.
 #[test]
 fn unions_at_the_ends_of_the_range_are_the_same_and_beyond_are_refused() {
     let random = &mut Random::new(5);

@@ -1,8 +1,8 @@
 //! A triangle of the plane cut up by segments.
 //!
-//! Horizontal lines through all ends and crossings of the segments part the triangle into slabs; in a slab no two segments
-//! cross, so that they part it into trapezoids, whose areas are products. No decision is made that rounding could turn
-//! over: a segment that ends a hair too early leaves one slab of a hair's height uncut.
+//! Horizontal lines through all ends and crossings of the segments part the triangle into slabs. No two segments cross
+//! in a slab, so that they part it into trapezoids, whose areas are products. No decision is made that rounding could
+//! turn over: a segment that ends a hair too early leaves one slab of a hair's height uncut.
 
 /// A place of the plane.
 pub(super) type Point2 = [f64; 2];
@@ -16,9 +16,9 @@ pub(super) struct Cell {
 }
 
 /// Slabs times segments, at most.
-const MOST: usize = 30_000_000;
+const MAX_SLAB_SEGMENTS: usize = 30_000_000;
 
-/// The triangle without the segments; what they do beyond it does not count. `None` where that would be too much work.
+/// The triangle without the segments; their parts beyond it do not count. `None` where that would be too much work.
 /// Cost: slabs times segments; there are two slabs for each segment and one for each crossing.
 pub(super) fn cells(triangle: &[Point2; 3], segments: &[[Point2; 2]]) -> Option<Vec<Cell>> {
     let heights = heights(triangle, segments)?;
@@ -57,13 +57,13 @@ fn heights(triangle: &[Point2; 3], segments: &[[Point2; 2]]) -> Option<Vec<f64>>
     let mut heights: Vec<f64> = triangle.iter().map(|p| p[1]).collect();
     let (low, high) =
         heights.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), y| (l.min(*y), h.max(*y)));
-    if segments.len() > MOST / segments.len().max(1) {
+    if segments.len() > MAX_SLAB_SEGMENTS / segments.len().max(1) {
         return None;
     }
     heights.extend(segments.iter().flatten().map(|p| p[1]));
     for (i, a) in segments.iter().enumerate() {
         heights.extend(segments[..i].iter().filter_map(|b| crossing(a, b)));
-        if heights.len() > MOST / segments.len() {
+        if heights.len() > MAX_SLAB_SEGMENTS / segments.len() {
             return None;
         }
     }

@@ -20,7 +20,7 @@ impl Facet {
     }
 }
 
-/// What two facets have in common.
+/// The common places of two facets.
 pub(super) enum Meeting {
     /// Both lie in one plane, decided exactly.
     Coplanar,
@@ -30,8 +30,8 @@ pub(super) enum Meeting {
     Nothing,
 }
 
-/// Which side of each facet the other's vertices lie on is decided exactly. The same for both orders of the two; where an
-/// edge meets a facet there is one place, whichever facet at the edge is asked about.
+/// Which side of each facet the other's vertices lie on is decided exactly. It is the same for both orders of the two.
+/// Where an edge meets a facet there is one place, whichever facet at the edge is asked about.
 pub(super) fn meeting(f: &Facet, g: &Facet) -> Meeting {
     let sides = |t: &Facet, plane: &Facet| {
         let [a, b, c] = &plane.places;
@@ -72,17 +72,17 @@ fn cut(t: &Facet, sides: [i32; 3], plane: &Facet) -> Option<[Point; 2]> {
     }
 }
 
-/// What share of the way from `u` to `v` leads to the plane of a facet; they lie on either side of it.
+/// The share of the way from `u` to `v` that leads to the plane of a facet; they lie on either side of it.
 fn share(facet: &Facet, u: Point, v: Point) -> f64 {
     /// Beyond this error, exact numbers are used.
-    const FINE: f64 = 1e-12;
+    const MAX_ERROR_OF_DOUBLES: f64 = 1e-12;
     let [a, b, c] = facet.places;
     let minus = |p: Point, q: Point| [0, 1, 2].map(|k| Interval::of(p[k]) - Interval::of(q[k]));
     let normal = interval::cross(minus(b, a), minus(c, a));
     let [from, to] = [u, v].map(|p| interval::dot(normal, minus(p, a)));
     let middle = |i: Interval| i.low + 0.5 * (i.high - i.low);
     let (whole, wide) = (middle(from) - middle(to), (from.high - from.low) + (to.high - to.low));
-    if wide <= FINE * whole.abs() {
+    if wide <= MAX_ERROR_OF_DOUBLES * whole.abs() {
         return (middle(from) / whole).clamp(0.0, 1.0);
     }
     let normal = big::cross(&big::minus(b, a), &big::minus(c, a));

@@ -1,10 +1,10 @@
 //! The volume of the places that a closed mesh winds around, whether its bodies cross, touch or contain each other or not.
 //!
-//! The volume of a set of places is an integral over its boundary (the divergence theorem), and the boundary of the places
-//! with winding number 1 or more is made of those parts of facets where the number passes from below 1 to 1. Facets
-//! that meet no other are such parts as a whole or not at all, and their neighbors likewise; facets that meet others are
-//! cut up where they do (`meeting`, `cells`). The winding number beside a part is found by a ray from its middle, decided
-//! exactly. What is rounded are places of cuts alone. The vector area of a closed boundary is zero: what it is off by
+//! The volume of a set of places is an integral over its boundary (the divergence theorem). The boundary of the places
+//! with winding number 1 or more is made of parts of facets. The number passes from below 1 to 1 there. A facet that
+//! meets no other is such a part as a whole or not at all, and its neighbors likewise. Facets that meet others are cut
+//! up where they do (`meeting`, `cells`). The winding number beside a part is found by a ray from its middle, decided
+//! exactly. Only places of cuts are rounded. The vector area of a closed boundary is zero: its difference from that
 //! tells how much of the boundary was missed.
 
 mod cells;
@@ -29,12 +29,12 @@ use trueness_geom::topology::{EdgeAt, Properties, Topology};
 /// Volumes, mm³.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Enclosed {
-    /// Of the places with winding number 1 or more.
+    /// Volume of the places with winding number 1 or more.
     pub volume: f64,
-    /// Of the places with winding number −1 or less: bodies that look inwards.
+    /// Volume of the places with winding number −1 or less: bodies that look inwards.
     pub inverted: f64,
-    /// What either may be off by: the vector area of the boundary, which should be zero, times half the diagonal, and
-    /// rounding. Estimated, not proved.
+    /// Bound of the error of either. It is the vector area of the boundary, which should be zero, times half the
+    /// diagonal, and rounding. Estimated, not proved.
     pub error: f64,
     /// Facets that meet no other and bound either, by number.
     pub(super) bounds: Vec<bool>,
@@ -51,9 +51,9 @@ pub(super) struct Piece {
 }
 
 impl Enclosed {
-    /// Of a sound mesh: its signed volume.
+    /// A sound mesh encloses its signed volume.
     pub(super) fn sound(mesh: &Mesh, properties: &Properties) -> Enclosed {
-        let error = ROUNDING * properties.area * properties.bounds.diagonal();
+        let error = VOLUME_ROUNDING_SHARE * properties.area * properties.bounds.diagonal();
         let bounds = vec![true; mesh.faces.len()];
         Enclosed { volume: properties.signed_volume, error, bounds, ..Enclosed::default() }
     }
@@ -76,10 +76,10 @@ pub enum NotEnclosed {
     Cancelled(#[from] Cancelled),
 }
 
-/// What rounding adds at most, as a share of the sum of all terms.
-const ROUNDING: f64 = 1e-14;
+/// Error that rounding adds at most, as a share of the sum of all terms.
+const VOLUME_ROUNDING_SHARE: f64 = 1e-14;
 /// Facets at one place, at most.
-const MOST_AT_ONE_PLACE: usize = 64;
+const MAX_FACETS_AT_ONE_PLACE: usize = 64;
 
 /// Whether every facet that counts has a neighbor at each edge.
 pub(super) fn is_closed(topology: &Topology) -> bool {
@@ -116,7 +116,7 @@ pub(super) fn enclosed(
     let sheets = solid.sheets(topology);
     let cut: Vec<u32> = meets.keys().copied().collect();
     let parts: Vec<Vec<Part>> = cut.par_iter().map(|&f| solid.cut(f)).collect::<Result<_, _>>()?;
-    let rays = Rays::new(&solid, sheets.asked.iter().flatten().chain(parts.iter().flatten()));
+    let rays = Rays::new(&solid, sheets.representative.iter().flatten().chain(parts.iter().flatten()));
     let whole = sheets.windings(&rays)?;
     let windings = |of: &Vec<Part>| of.iter().map(|part| rays.winding(part)).collect();
     let sum_of_whole = || {
@@ -142,7 +142,7 @@ pub(super) fn enclosed(
     let missed = norm([x, y, z]).max(norm([ix, iy, iz]));
     // Rounding alone may leave less than nothing.
     (result.volume, result.inverted) = (v.max(0.0), i.max(0.0));
-    result.error = 0.5 * missed * bounds.diagonal() + ROUNDING * size;
+    result.error = 0.5 * missed * bounds.diagonal() + VOLUME_ROUNDING_SHARE * size;
     Ok(result)
 }
 
@@ -172,7 +172,7 @@ fn meets(topology: &Topology, pairs: &[[u32; 2]]) -> Result<BTreeMap<u32, Vec<u3
     let mut same = topology.duplicate_facets.clone();
     same.sort_unstable();
     for group in same.chunk_by(|a, b| a[0] == b[0]) {
-        if group.len() > MOST_AT_ONE_PLACE {
+        if group.len() > MAX_FACETS_AT_ONE_PLACE {
             return Err(NotEnclosed::Tangle);
         }
         for (i, [first, again]) in group.iter().enumerate() {
@@ -208,7 +208,7 @@ impl Winding {
 }
 
 impl Facet {
-    /// What a part of the facet adds: two volumes, two vector areas, the size of the term. The part is `share` of the
+    /// Terms of a part of the facet: two volumes, two vector areas, the size of the term. The part is `share` of the
     /// facet's vector, and counts by its weight.
     fn terms(&self, winding: &Winding, share: f64, weight: f64) -> [f64; 9] {
         let vector = times(share * weight, self.vector());
@@ -219,7 +219,7 @@ impl Facet {
     }
 }
 
-/// What is asked about: a part of a facet, or the whole of one.
+/// The part of a facet that is asked about, or the whole of one.
 struct Part {
     facet: u32,
     /// Its middle.
@@ -228,7 +228,7 @@ struct Part {
     /// As seen along the axis along which the facet is seen largest.
     area: f64,
     /// Other facets that lie upon it, and +1 if they look the same way, −1 if not.
-    upon: Vec<(u32, i32)>,
+    coincident: Vec<(u32, i32)>,
 }
 
 struct Solid<'a> {
@@ -249,13 +249,13 @@ impl Solid<'_> {
         Facet { vertices, places, local: places.map(|p| minus(p, self.center)) }
     }
 
-    /// The axis for rays from a facet with this normal: of those that it is not too steep to, the one along which the mesh is
-    /// shortest, so that rays pass little of it.
+    /// The axis for rays from a facet with this normal. It is the one along which the mesh is shortest, so that rays
+    /// pass little of it. The facet must not be too steep to it.
     fn axis(&self, vector: Vector) -> usize {
         /// Share of the greatest coordinate of the normal.
-        const STEEP: f64 = 0.25;
+        const MIN_STEEP_SHARE: f64 = 0.25;
         let most = vector[steepest(vector)].abs();
-        self.shortest.into_iter().find(|&k| vector[k].abs() >= STEEP * most).unwrap_or(0)
+        self.shortest.into_iter().find(|&k| vector[k].abs() >= MIN_STEEP_SHARE * most).unwrap_or(0)
     }
 
     /// The facets that meet no other, as far as they hang together.
@@ -281,12 +281,12 @@ impl Solid<'_> {
                 *largest = Some(f);
             }
         }
-        let asked = |facet: u32| {
+        let representative = |facet: u32| {
             let [a, b, c] = self.facet(facet).local;
             let at = plus(self.center, times(1.0 / 3.0, plus(a, plus(b, c))));
-            Part { facet, at, corners: [at; 4], area: 0.0, upon: vec![] }
+            Part { facet, at, corners: [at; 4], area: 0.0, coincident: vec![] }
         };
-        Sheets { sheet_of, asked: largest.into_iter().map(|f| f.map(asked)).collect() }
+        Sheets { sheet_of, representative: largest.into_iter().map(|f| f.map(representative)).collect() }
     }
 
     /// The parts of a facet that meets others.
@@ -301,7 +301,7 @@ impl Solid<'_> {
             return Ok(vec![]);
         }
         let flat = |p: &Point| [p[(axis + 1) % 3], p[(axis + 2) % 3]];
-        let (mut segments, mut upon) = (vec![], vec![]);
+        let (mut segments, mut coincident) = (vec![], vec![]);
         for &g in self.meets.get(&f).into_iter().flatten() {
             let other = self.facet(g);
             match if f < g { meeting(&facet, &other) } else { meeting(&other, &facet) } {
@@ -310,7 +310,7 @@ impl Solid<'_> {
                 Meeting::Coplanar => {
                     let [a, b, c] = other.local.map(|p| flat(&p));
                     segments.extend([[a, b], [b, c], [c, a]]);
-                    upon.push((g, if dot(other.vector(), vector) > 0.0 { 1 } else { -1 }, [a, b, c]));
+                    coincident.push((g, if dot(other.vector(), vector) > 0.0 { 1 } else { -1 }, [a, b, c]));
                 }
             }
         }
@@ -321,21 +321,21 @@ impl Solid<'_> {
             at: place(center),
             corners: corners.map(place),
             area,
-            upon: upon.iter().filter(|u| holds(&u.2, &center)).map(|u| (u.0, u.1)).collect(),
+            coincident: coincident.iter().filter(|u| holds(&u.2, &center)).map(|u| (u.0, u.1)).collect(),
         };
         Ok(found.into_iter().map(part).collect())
     }
 
-    /// What the parts of a facet add; those that bound something go to `pieces`.
+    /// Sum of the terms of a facet's parts; those that bound something go to `pieces`.
     fn sum(&self, parts: &[Part], windings: &[Winding], pieces: &mut Vec<Piece>) -> [f64; 9] {
         let mut sums = Sums::<9>::ZERO;
         for (part, winding) in parts.iter().zip(windings).filter(|(_, winding)| winding.bounds()) {
             let facet = self.facet(part.facet);
             let vector = facet.vector();
             let whole = vector[steepest(vector)].abs();
-            let weight = 1.0 / (1 + part.upon.len()) as f64;
+            let weight = 1.0 / (1 + part.coincident.len()) as f64;
             sums.add(facet.terms(winding, part.area / whole, weight));
-            if part.area > LEAST_SHARE * whole {
+            if part.area > MIN_PART_SHARE * whole {
                 pieces.push(Piece { facet: part.facet, middle: part.at, corners: part.corners });
             }
         }
@@ -362,22 +362,22 @@ impl<'a> Rays<'a> {
     }
 
     /// Winding numbers before and behind a part.
-    fn winding(&self, Part { facet: f, at, upon, .. }: &Part) -> Winding {
+    fn winding(&self, Part { facet: f, at, coincident, .. }: &Part) -> Winding {
         if self.solid.progress.cancelled() {
             return Winding::default();
         }
         let vector = self.solid.facet(*f).vector();
         let axis = self.solid.axis(vector);
         let (rays, mut beyond) = (&self.along[axis], 0);
-        let is_upon = |g: u32| upon.iter().any(|u| u.0 == g);
+        let is_coincident = |g: u32| coincident.iter().any(|u| u.0 == g);
         if rays.is_early(at) {
-            // All that the line passes winds around it 0 times: the shorter way is to count what lies before.
-            rays.facets_not_behind(*f, at, |g, around| beyond -= if is_upon(g) { 0 } else { around });
-            beyond -= upon.iter().map(|u| rays.around(u.0, at)).sum::<i32>();
+            // All that the line passes winds around it 0 times: the shorter way is to count the facets before.
+            rays.facets_not_behind(*f, at, |g, around| beyond -= if is_coincident(g) { 0 } else { around });
+            beyond -= coincident.iter().map(|u| rays.around(u.0, at)).sum::<i32>();
         } else {
-            rays.facets_behind(*f, at, |g, around| beyond += if is_upon(g) { 0 } else { around });
+            rays.facets_behind(*f, at, |g, around| beyond += if is_coincident(g) { 0 } else { around });
         }
-        let layers = 1 + upon.iter().map(|u| u.1).sum::<i32>();
+        let layers = 1 + coincident.iter().map(|u| u.1).sum::<i32>();
         match vector[axis] > 0.0 {
             true => Winding { outside: beyond, inside: beyond + layers },
             false => Winding { outside: beyond - layers, inside: beyond },
@@ -390,14 +390,14 @@ struct Sheets {
     /// For each facet the number of those that it hangs together with; facets that meet others have one of their own.
     sheet_of: Vec<u32>,
     /// For each sheet its largest facet; none for facets that meet others.
-    asked: Vec<Option<Part>>,
+    representative: Vec<Option<Part>>,
 }
 
 impl Sheets {
     /// Winding numbers at each facet: the same for all that hang together, 0 where facets meet others.
     fn windings(&self, rays: &Rays) -> Result<Vec<Winding>, Cancelled> {
         let winding = |part: &Option<Part>| part.as_ref().map_or(Winding::default(), |p| rays.winding(p));
-        let of_sheet: Vec<Winding> = self.asked.par_iter().map(winding).collect();
+        let of_sheet: Vec<Winding> = self.representative.par_iter().map(winding).collect();
         if rays.solid.progress.cancelled() {
             return Err(Cancelled);
         }
@@ -405,9 +405,9 @@ impl Sheets {
     }
 }
 
-/// Parts of less than this share of their facet may reach across a segment that ends a hair too early: their middle says nothing of
-/// where they lie.
-const LEAST_SHARE: f64 = 1e-9;
+/// Parts of less than this share of their facet may reach across a segment that ends a hair too early. Their middle
+/// says nothing of where they lie.
+const MIN_PART_SHARE: f64 = 1e-9;
 
 /// The axis along which a facet with this normal is seen largest.
 fn steepest(vector: Vector) -> usize {

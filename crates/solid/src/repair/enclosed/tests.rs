@@ -19,8 +19,8 @@ fn cuboid(low: [f64; 3], high: [f64; 3]) -> Mesh {
     mesh
 }
 
-/// Boxes with corners at whole numbers below `GRID`, some of them turned inside out, and how many unit cells have winding
-/// number 1 or more, and −1 or less.
+/// Boxes with corners at whole numbers below `GRID`, some of them turned inside out. Also how many unit cells have
+/// winding number 1 or more, and −1 or less.
 const GRID: i32 = 5;
 
 fn boxes(random: &mut Random, count: usize, turned: bool) -> (Mesh, f64, f64) {
@@ -43,7 +43,7 @@ fn boxes(random: &mut Random, count: usize, turned: bool) -> (Mesh, f64, f64) {
     (mesh, count(&|w| w >= 1), count(&|w| w <= -1))
 }
 
-/// A turn and a shift, so that what lay in one plane does so only to rounding.
+/// A turn and a shift, so that facets that lay in one plane do so only to rounding.
 fn moved(mut mesh: Mesh, angle: f64) -> Mesh {
     let (sin, cos) = angle.sin_cos();
     mesh.positions.iter_mut().for_each(|p| {
@@ -67,8 +67,8 @@ fn boxes_on_a_grid_have_the_volume_of_their_cells() {
     }
 }
 
-/// The same, turned: sides that lay in one plane are a rounding apart, which decides whether facets cross; the error stated
-/// covers what that does. Of most heaps some sides lie so.
+/// The same, turned: sides that lay in one plane are a rounding apart, which decides whether facets cross. The stated
+/// error covers the effect. Most heaps have some sides that lie so.
 #[test]
 fn turned_boxes_have_it_within_the_error_stated() {
     let random = &mut Random::new(12);
@@ -83,7 +83,7 @@ fn turned_boxes_have_it_within_the_error_stated() {
     assert!(good > 20, "{good} of 60");
 }
 
-/// With a box around all that looks inwards, the places wound around are those in both bodies, and those around the other
+/// A box around all looks inwards. Then the places wound around are those in both bodies, and those around the other
 /// way are in neither.
 #[test]
 fn union_and_intersection_add_up() {
@@ -135,8 +135,8 @@ fn octahedron(low: Point, high: Point) -> Mesh {
     Mesh { positions: (0..6).map(tip).collect(), faces }
 }
 
-/// A tip that touches a side of a box, from inside or from outside, at places of a grid: in the middle of what is asked about too,
-/// where a ray meets both at once.
+/// A tip touches a side of a box, from inside or from outside, at places of a grid. It does so in the middle of the
+/// part that is asked about too, where a ray meets both at once.
 #[test]
 fn what_touches_a_side_counts_where_it_lies() {
     let block = cuboid([-2.0; 3], [2.0; 3]);

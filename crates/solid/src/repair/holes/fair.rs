@@ -1,21 +1,21 @@
-//! Making a patch as smooth as what it joins.
+//! Making a patch as smooth as the surface that it joins.
 //!
-//! The umbrella vector of a vertex points from it to the mean of its neighbors. The new vertices are moved to where the squares
-//! of the umbrella vectors of all vertices of the patch, the rim included, have the least sum: at the rim the
-//! neighbors outside take part, so the patch starts in their direction (Kobbelt, Campagna, Vorsatz and Seidel,
+//! The umbrella vector of a vertex points from it to the mean of its neighbors. The new vertices are moved to where the
+//! squares of the umbrella vectors have the least sum. All vertices of the patch count, the rim included. At the rim
+//! the neighbors outside take part, so the patch starts in their direction. (Kobbelt, Campagna, Vorsatz and Seidel,
 //! Interactive multi-resolution modeling on arbitrary meshes, 1998). A sparse linear least-squares problem, solved by
 //! conjugate gradients in a fixed order.
 
-use super::patch::{NEW, Patch};
+use super::patch::{FIRST_NEW_VERTEX, Patch};
 use super::ring::Ring;
 use super::site::Site;
 use std::collections::{BTreeMap, BTreeSet};
 use trueness_geom::space::{Point, minus, plus, times};
 
 /// Steps of the solver at most: stopping early leaves a patch that is less smooth.
-const STEPS: usize = 500;
+const MAX_SOLVER_STEPS: usize = 500;
 /// Where the squared residual has sunk to this share of the first one, the solver stops.
-const ENOUGH: f64 = 1e-20;
+const FINAL_RESIDUAL_SHARE: f64 = 1e-20;
 
 /// An umbrella vector: its part that is known, and the new vertices with their weights.
 struct Umbrella {
@@ -43,7 +43,7 @@ fn umbrella(site: &Site, v: u32, near: &BTreeSet<u32>) -> Umbrella {
     let weight = 1.0 / near.len() as f64;
     let mut umbrella = Umbrella { known: [0.0; 3], of: vec![] };
     for (w, weight) in near.iter().map(|w| (*w, weight)).chain([(v, -1.0)]) {
-        match w.checked_sub(NEW) {
+        match w.checked_sub(FIRST_NEW_VERTEX) {
             Some(new) => umbrella.of.push((new as usize, weight)),
             None => umbrella.known = plus(umbrella.known, times(weight, site.work.at(w))),
         }
@@ -76,8 +76,8 @@ fn solve(umbrellas: &[Umbrella], x: &mut [Point]) {
     let mut residual: Vec<Point> = gather(umbrellas, &all, n).into_iter().map(|r| times(-1.0, r)).collect();
     let mut direction = residual.clone();
     let mut size = product(&residual, &residual);
-    let enough = size.map(|s| s * ENOUGH);
-    for _ in 0..STEPS {
+    let enough = size.map(|s| s * FINAL_RESIDUAL_SHARE);
+    for _ in 0..MAX_SOLVER_STEPS {
         if (0..3).all(|k| size[k] <= enough[k]) {
             break;
         }

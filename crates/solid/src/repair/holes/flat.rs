@@ -1,4 +1,4 @@
-//! Sheets that lie in one plane: what closes their border lies upon them, and encloses nothing.
+//! Sheets that lie in one plane: a patch of their border lies upon them, and encloses nothing.
 
 use super::super::work::Work;
 use super::ring::Ring;
@@ -6,14 +6,14 @@ use std::collections::BTreeMap;
 use trueness_geom::check::Known;
 use trueness_geom::space::{Vector, cross, dot, minus, norm, plus, times};
 
-/// The normals of facets of a flat sheet agree: the length of their sum, each as long as the facet's area, is at least this share of
-/// the area. Slivers may look anywhere.
-const AGREE: f64 = 0.999;
+/// The normals of facets of a flat sheet agree. The length of their sum, each as long as the facet's area, is at least
+/// this share of the area. Slivers may look anywhere.
+const MIN_AGREEMENT: f64 = 0.999;
 
 /// And no vertex is farther from the plane than this share of the root of the area: vertices that were parted lie off it.
-const FLAT: f64 = 1e-3;
+const MAX_OFF_PLANE_SHARE: f64 = 1e-3;
 
-/// For each shell with a ring the sum of its facets' normals, each as long as twice the facet's area; only of shells that lie in one
+/// The sum of the facets' normals, each as long as twice the facet's area, for each shell with a ring that lies in one
 /// plane. Linear time.
 pub(super) fn sheets(work: &Work, known: &Known, rings: &[Ring]) -> BTreeMap<u32, Vector> {
     let mut sums: BTreeMap<u32, (Vector, &Ring)> = rings.iter().map(|r| (r.shell, ([0.0; 3], r))).collect();
@@ -24,11 +24,11 @@ pub(super) fn sheets(work: &Work, known: &Known, rings: &[Ring]) -> BTreeMap<u32
             *sum = plus(*sum, cross(minus(b, a), minus(c, a)));
         }
     }
-    sums.retain(|_, (sum, ring)| norm(*sum) > 2.0 * AGREE * ring.shell_area);
+    sums.retain(|_, (sum, ring)| norm(*sum) > 2.0 * MIN_AGREEMENT * ring.shell_area);
     for (face, shell) in faces.iter().zip(shell_of) {
         if let Some((sum, ring)) = sums.get(shell) {
             let (normal, on) = (times(1.0 / norm(*sum), *sum), work.at(ring.vertices[0]));
-            let reach = work.gap.max(FLAT * ring.shell_area.sqrt());
+            let reach = work.gap.max(MAX_OFF_PLANE_SHARE * ring.shell_area.sqrt());
             let off = |v: &u32| dot(normal, minus(work.at(*v), on)).abs() > reach;
             if face.iter().any(off) {
                 sums.remove(shell);

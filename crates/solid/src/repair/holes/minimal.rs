@@ -1,6 +1,6 @@
 //! The triangulation of a ring that has the least area, or bends least.
 //!
-//! All ways to cut the ring are weighed by dynamic programming: what lies behind a chord is best filled by itself. That
+//! All ways to cut the ring are weighed by dynamic programming: the part behind a chord is best filled by itself. That
 //! takes the cube of the number of vertices; longer rings first lose ears, the shortest chord first, until few enough
 //! are left.
 
@@ -13,9 +13,9 @@ use trueness_geom::num::predicates;
 use trueness_geom::space::{Point, Vector, cross, dot, minus, norm, normal, plus, unit};
 
 /// Vertices of a ring up to which all ways are weighed: 200,000 triangles.
-const MOST: usize = 100;
+const MAX_VERTICES_WEIGHED: usize = 100;
 
-/// What shall be least.
+/// The quantity to minimize.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Aim {
     /// The area.
@@ -24,7 +24,7 @@ pub(super) enum Aim {
     Bend,
 }
 
-/// What a triangulation costs.
+/// Cost of a triangulation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Cost {
     bend: f64,
@@ -32,7 +32,7 @@ struct Cost {
 }
 
 impl Cost {
-    const NONE: Cost = Cost { bend: 0.0, area: 0.0 };
+    const ZERO: Cost = Cost { bend: 0.0, area: 0.0 };
     const IMPOSSIBLE: Cost = Cost { bend: f64::INFINITY, area: f64::INFINITY };
 
     fn plus(self, other: Cost) -> Cost {
@@ -58,7 +58,7 @@ struct Table<'a> {
     at: Vec<Point>,
     /// Unit normal of the facet beyond the edge from vertex `i` to the next.
     outside: Vec<Vector>,
-    /// For each `i < j` at `i * n + j` the cost of what lies between, and the vertex between that gives it.
+    /// For each `i < j` at `i * n + j` the cost of the part between, and the vertex between that gives it.
     best: Vec<(Cost, u32)>,
 }
 
@@ -66,7 +66,7 @@ impl<'a> Table<'a> {
     fn new(site: &'a Site<'a, 'a>, ring: Vec<u32>, outside: Vec<Vector>, aim: Aim) -> Table<'a> {
         let at = ring.iter().map(|v| site.work.at(*v)).collect();
         let n = ring.len();
-        Table { site, aim, ring, at, outside, best: vec![(Cost::NONE, u32::MAX); n * n] }
+        Table { site, aim, ring, at, outside, best: vec![(Cost::ZERO, u32::MAX); n * n] }
     }
 
     fn fill(mut self, facets: &mut Vec<[u32; 3]>) -> Option<()> {
@@ -101,8 +101,8 @@ impl<'a> Table<'a> {
             return best;
         }
         for m in i + 1..j {
-            let behind = self.best[i * n + m].0.plus(self.best[m * n + j].0);
-            let cost = behind.plus(self.triangle(i, m, j, whole));
+            let parts = self.best[i * n + m].0.plus(self.best[m * n + j].0);
+            let cost = parts.plus(self.triangle(i, m, j, whole));
             if cost.less(best.0) {
                 best = (cost, m as u32);
             }
@@ -127,12 +127,13 @@ impl<'a> Table<'a> {
             }
         }
         // Equal areas are common (flat holes); a small weight on the length of the chord then prefers compact triangles.
-        const COMPACT: f64 = 0.01;
+        /// Equal areas are common (flat holes); a small weight on the length of the chord then prefers compact triangles.
+        const CHORD_WEIGHT: f64 = 0.01;
         let chord = minus(corners[2], corners[0]);
-        Cost { bend, area: 0.5 * norm(normal) + COMPACT * dot(chord, chord) }
+        Cost { bend, area: 0.5 * norm(normal) + CHORD_WEIGHT * dot(chord, chord) }
     }
 
-    /// Unit normal of what lies beyond the chord from `i` to `j`, as chosen before.
+    /// Unit normal of the facet beyond the chord from `i` to `j`, as chosen before.
     fn beyond(&self, i: usize, j: usize) -> Vector {
         if j == i + 1 {
             return self.outside[i];
@@ -143,12 +144,12 @@ impl<'a> Table<'a> {
     }
 }
 
-/// Cuts ears off a ring that is too long, adding their facets, and returns what is left with the normals beyond its edges.
+/// Cuts ears off a ring that is too long, adding their facets. Returns the rest with the normals beyond its edges.
 fn ears(site: &Site, ring: &Ring, facets: &mut Vec<[u32; 3]>) -> Option<(Vec<u32>, Vec<Vector>)> {
     let (work, n) = (site.work, ring.vertices.len());
     let normal = |f: &u32| normal(work.corners(*f)).unwrap_or([0.0; 3]);
     let mut outside: Vec<Vector> = ring.facets.iter().map(normal).collect();
-    if n <= MOST {
+    if n <= MAX_VERTICES_WEIGHED {
         return Some((ring.vertices.clone(), outside));
     }
     let at = |i: usize| work.at(ring.vertices[i]);
@@ -166,7 +167,7 @@ fn ears(site: &Site, ring: &Ring, facets: &mut Vec<[u32; 3]>) -> Option<(Vec<u32
     };
     let mut heap: BinaryHeap<Ear> = (0..n).filter_map(|i| ear(&before, &next, i)).collect();
     let mut left = n;
-    while left > MOST {
+    while left > MAX_VERTICES_WEIGHED {
         let Ear { vertex: i, version: v, .. } = heap.pop()?;
         if version[i] != v {
             continue;

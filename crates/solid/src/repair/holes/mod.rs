@@ -1,9 +1,10 @@
 //! Closed rings of boundary edges get a patch.
 //!
-//! Patches are proposed in turn until one fits: the triangulation of least area (Barequet and Sharir, Filling gaps in the
-//! boundary of a polyhedron, 1995), refined and faired where the surroundings are smooth (Liepa, Filling holes in meshes,
-//! 2003); the flat one itself; the one that bends least; a fan around the middle. A patch fits if it crosses nothing,
-//! decided exactly, and makes no edge of three facets. Where none fits, the hole stays open.
+//! Patches are proposed in turn until one fits. First comes the triangulation of least area (Barequet and Sharir,
+//! Filling gaps in the boundary of a polyhedron, 1995). It is refined and faired where the surroundings are smooth
+//! (Liepa, Filling holes in meshes, 2003). Then follow the flat one itself, the one that bends least, and a fan around
+//! the middle. A patch fits if it crosses nothing, decided exactly, and makes no edge of three facets. Where none fits,
+//! the hole stays open.
 
 mod fair;
 mod flat;
@@ -17,9 +18,9 @@ use super::error::RepairError;
 use super::options::Holes;
 use super::step::{Removes, Step};
 use super::work::Work;
-use crate::around::Around;
+use crate::neighborhood::Neighborhood;
 use minimal::Aim;
-use patch::{NEW, Patch};
+use patch::{FIRST_NEW_VERTEX, Patch};
 use ring::Ring;
 use site::Site;
 use std::collections::BTreeSet;
@@ -99,14 +100,14 @@ pub(super) fn run(work: &mut Work) -> Result<(), RepairError> {
     Ok(())
 }
 
-/// The holes of shells that stay open are filled up to this share of the area of the shell: what a scan misses is smaller, and what
-/// is larger may have been cut on purpose (a half tunnel of the collected meshes has a round one of 0.65 %).
-const OF_SHEET: f64 = 0.005;
+/// The holes of shells that stay open are filled up to this share of the area of the shell. Gaps of a scan are smaller.
+/// Larger ones may have been cut on purpose (a half tunnel of the collected meshes has a round one of 0.65 %).
+const MAX_HOLE_OF_SHEET: f64 = 0.005;
 
 /// All holes, with the first patch for each that may be filled.
 ///
-/// A rim beyond the limit is the border of a sheet, which was meant to be open: then others like it, though smaller, may be
-/// borders too, and only what is small is a hole. The border of a flat sheet is none, whatever the limit.
+/// A rim beyond the limit is the border of a sheet, which was meant to be open. Others like it, though smaller, may
+/// then be borders too, and only a small one is a hole. The border of a flat sheet is none, whatever the limit.
 fn trials(work: &Work, known: &Known) -> Result<Vec<Trial>, RepairError> {
     let rings = Ring::all(known);
     let sheets = flat::sheets(work, known, &rings);
@@ -124,7 +125,7 @@ fn trials(work: &Work, known: &Known) -> Result<Vec<Trial>, RepairError> {
         trials.iter().filter(|trial| trial.is_too_large(work)).map(|trial| trial.ring.shell).collect();
     for trial in &mut trials {
         if !trial.is_own_hole && open.contains(&trial.ring.shell) {
-            trial.limit = trial.limit.min(OF_SHEET * trial.ring.shell_area);
+            trial.limit = trial.limit.min(MAX_HOLE_OF_SHEET * trial.ring.shell_area);
         }
         if trial.is_too_large(work) || flat::is_border(work, &trial.ring, &sheets) {
             trial.patch = None;
@@ -155,8 +156,8 @@ pub(super) fn fillable(work: &Work, known: &Known) -> BTreeSet<[u32; 2]> {
     small.flat_map(|ring| sides(&ring)).map(|[a, b]| [a.min(b), a.max(b)]).collect()
 }
 
-/// Cuts out the facets around holes that a step has cut and no patch fits, so that the next round may find a patch: where two
-/// bodies cross, the rims that cutting leaves lie so near to each other that patches would cross again.
+/// Cuts out the facets around holes that a step has cut and no patch fits, so that the next round may find a patch.
+/// Where two bodies cross, the rims that cutting leaves lie so near to each other that patches would cross again.
 fn widen<'a>(work: &mut Work, known: &Known, rings: impl Iterator<Item = &'a Ring>) {
     let rings = rings.filter(|ring| work.is_own_hole(&ring.vertices));
     let mut removed: Vec<u32> =
@@ -190,18 +191,19 @@ fn propose(site: &Site, trial: &mut Trial) {
 fn insert(work: &mut Work, patch: &Patch) -> Range<u32> {
     let first = work.mesh().faces.len() as u32;
     let numbers: Vec<u32> = patch.places.iter().map(|&p| work.add(p)).collect();
-    let number = |v: u32| v.checked_sub(NEW).map_or(v, |new| numbers[new as usize]);
+    let number = |v: u32| v.checked_sub(FIRST_NEW_VERTEX).map_or(v, |new| numbers[new as usize]);
     let facets: Vec<[u32; 3]> = patch.facets.iter().map(|f| f.map(number)).collect();
     work.replace(&[], &facets);
     first..first + facets.len() as u32
 }
 
-/// Facets from `first` on that cross others, lie at an edge of more than two, or have no area; ascending. What crosses facets
-/// of another shell fits, if shells will be united; `shell_of` has no shell for patches of holes that a step has cut.
+/// Facets from
+/// `first` on that cross others, lie at an edge of more than two, or have no area; ascending. A patch that crosses facets of another shell fits, if shells will be united. `shell_of`
+/// has no shell for patches of holes that a step has cut.
 fn misfits(work: &mut Work, first: u32, shell_of: &[u32]) -> Result<Vec<u32>, RepairError> {
     let all = work.mesh().faces.len() as u32;
-    let asked: Vec<bool> = (0..all).map(|f| f >= first).collect();
-    let (crossings, mut bad) = match Around::new(work.mesh(), &asked) {
+    let is_chosen: Vec<bool> = (0..all).map(|f| f >= first).collect();
+    let (crossings, mut bad) = match Neighborhood::new(work.mesh(), &is_chosen) {
         Some(around) => {
             let topology = Topology::watched(&around.mesh, work.progress)?;
             let crossings = work.crossings_around(&around, &topology)?;
@@ -246,6 +248,6 @@ fn fan(&Site { work, .. }: &Site, ring: &Ring) -> Option<Patch> {
         (plus(sum, times(0.5 * l, plus(a, b))), length + l)
     });
     let middle = times(1.0 / length, sum);
-    let facets = (0..n).map(side).map(|[a, b]| [a, b, NEW]).collect();
+    let facets = (0..n).map(side).map(|[a, b]| [a, b, FIRST_NEW_VERTEX]).collect();
     middle.iter().all(|x| x.is_finite()).then(|| Patch { places: vec![work.rounded(middle)], facets })
 }

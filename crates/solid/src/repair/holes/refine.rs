@@ -1,24 +1,24 @@
 //! Patches as fine and as smooth as their surroundings (Liepa, Filling holes in meshes, 2003).
 //!
-//! Facets of the patch of least area are divided at their middle as long as they are coarse beside the edges around, and
-//! edges are flipped where that makes the triangles more compact. Then the patch is faired. A hole in a plane, or with a
-//! sharp rim (the open end of a pipe), is better filled as it is.
+//! Facets of the patch of least area are divided at their middle as long as they are coarse beside the edges around.
+//! Edges are flipped where that makes the triangles more compact. Then the patch is faired. A hole in a plane, or with
+//! a sharp rim (the open end of a pipe), is better filled as it is.
 
 use super::fair;
 use super::minimal::{self, Aim};
-use super::patch::{NEW, Patch};
+use super::patch::{FIRST_NEW_VERTEX, Patch};
 use super::ring::Ring;
 use super::site::Site;
 use std::collections::{BTreeMap, BTreeSet};
 use trueness_geom::num::predicates;
 use trueness_geom::space::{self, Point, Vector, cross, dot, minus, norm, plus, times};
 
-/// New vertices of a patch at most; what would need more is filled plainly.
-const MOST: usize = 1000;
+/// New vertices of a patch at most; a patch that would need more is filled plainly.
+const MAX_NEW_VERTICES: usize = 1000;
 /// How often facets are divided.
-const DIVISIONS: usize = 8;
+const MAX_DIVISIONS: usize = 8;
 /// How often edges are flipped after each division.
-const FLIPS: usize = 4;
+const FLIPS_PER_DIVISION: usize = 4;
 
 /// The patch; `None` where a plain one will do.
 pub(super) fn patch(site: &Site, ring: &Ring) -> Option<Patch> {
@@ -27,14 +27,14 @@ pub(super) fn patch(site: &Site, ring: &Ring) -> Option<Patch> {
         return None;
     }
     let mut scale: BTreeMap<u32, f64> = ring.vertices.iter().map(|&v| (v, mean_edge(site, v))).collect();
-    for _ in 0..DIVISIONS {
+    for _ in 0..MAX_DIVISIONS {
         if !divide(site, &mut patch, &mut scale) {
             break;
         }
-        if patch.places.len() > MOST {
+        if patch.places.len() > MAX_NEW_VERTICES {
             return None;
         }
-        for _ in 0..FLIPS {
+        for _ in 0..FLIPS_PER_DIVISION {
             if !flip(site, &mut patch) {
                 break;
             }
@@ -54,9 +54,9 @@ fn normal(corners: [Point; 3]) -> Vector {
 /// Whether the surroundings run on smoothly into the patch, and are not simply flat.
 fn is_smooth(site: &Site, ring: &Ring, patch: &Patch) -> bool {
     /// Cosine of the largest bend at the rim that is smooth: 60°.
-    const BEND: f64 = 0.5;
+    const MIN_SMOOTH_COSINE: f64 = 0.5;
     /// Cosine of the largest bend that is still flat: 0.5°.
-    const FLAT: f64 = 0.99996;
+    const MIN_FLAT_COSINE: f64 = 0.99996;
     let n = ring.vertices.len();
     let mut inside = BTreeMap::new();
     for f in &patch.facets {
@@ -69,7 +69,7 @@ fn is_smooth(site: &Site, ring: &Ring, patch: &Patch) -> bool {
         dot(own, outside(i))
     };
     let bends: Vec<f64> = (0..n).map(bend).collect();
-    bends.iter().all(|b| *b > BEND) && bends.iter().any(|b| *b < FLAT)
+    bends.iter().all(|b| *b > MIN_SMOOTH_COSINE) && bends.iter().any(|b| *b < MIN_FLAT_COSINE)
 }
 
 /// Mean length of the edges at a vertex of the mesh.
@@ -94,8 +94,8 @@ fn divide(site: &Site, patch: &mut Patch, scale: &mut BTreeMap<u32, f64>) -> boo
             let reach = std::f64::consts::SQRT_2 * norm(minus(middle, *p));
             reach > own && reach > s
         });
-        if coarse && patch.places.len() <= MOST {
-            let new = NEW + patch.places.len() as u32;
+        if coarse && patch.places.len() <= MAX_NEW_VERTICES {
+            let new = FIRST_NEW_VERTEX + patch.places.len() as u32;
             patch.places.push(middle);
             scale.insert(new, own);
             let [a, b, c] = f;
@@ -130,8 +130,9 @@ fn flip(site: &Site, patch: &mut Patch) -> bool {
         let other = |f: [u32; 3]| f.into_iter().find(|v| *v != a && *v != b);
         let (Some(c), Some(d)) = (other(patch.facets[i]), other(patch.facets[j])) else { continue };
         let edge = [c.min(d), c.max(d)];
-        let exists =
-            sides.contains_key(&edge) || made.contains(&edge) || (edge[1] < NEW && site.has_edge(c, d));
+        let exists = sides.contains_key(&edge)
+            || made.contains(&edge)
+            || (edge[1] < FIRST_NEW_VERTEX && site.has_edge(c, d));
         let [pa, pb, pc, pd] = [a, b, c, d].map(|v| patch.at(site.work, v));
         let new = [[a, d, c], [d, b, c]];
         let fine = |f: &[u32; 3]| !predicates::is_flat(f.map(|v| patch.at(site.work, v)).each_ref());

@@ -1,4 +1,4 @@
-//! What patches are made for: the mesh around the holes.
+//! The site of a patch: the mesh around the holes.
 
 use super::super::work::Work;
 use std::collections::BTreeSet;

@@ -1,4 +1,4 @@
-//! What is joined, what is parted, and that neither undoes the other.
+//! Parts that are joined and parts that are parted, and that neither undoes the other.
 
 use super::*;
 use trueness_geom::num::random::Random;
@@ -53,7 +53,8 @@ fn needles_at_one_vertex_are_parted_within_themselves() {
     assert_eq!(tips.count(), 150);
 }
 
-/// Far from the origin the gap is large. What is parted goes no farther than a twentieth of the way to its next corner, and else it stays.
+/// Far from the origin the gap is large. A parted vertex goes no farther than a twentieth of the way to its next
+/// corner, and else it stays.
 #[test]
 fn parts_are_moved_by_little_of_their_size() {
     for far in [0.0, 1e3, 1e4, 1e5] {
@@ -94,8 +95,8 @@ fn vertices_that_cannot_be_set_off_become_one_again() {
     assert_eq!(places, repaired.mesh.positions.len());
 }
 
-/// Two facets that touch at a corner are parted; the new vertex comes to lie within the gap of a vertex of a third facet, or
-/// its edge within the stitching distance of one. Joined again, they would be parted again, and so on.
+/// Two facets that touch at a corner are parted. The new vertex comes to lie within the gap of a vertex of a third
+/// facet, or its edge within the stitching distance of one. Joined again, they would be parted again, and so on.
 #[test]
 fn what_was_parted_is_not_stitched() {
     let near = [[[0.0, 0.005, -0.045], [-10.0, 9.0, -9.0]], [[0.0, 0.004, -0.055], [-10.0, 0.015, -10.0]]];
@@ -199,7 +200,8 @@ fn pages_of_an_open_surface_stay() {
     }
 }
 
-/// A hood with a window and a slot: the border is larger than the limit, so that these are no holes either; a missing facet is one.
+/// A hood with a window and a slot. The border is larger than the limit, so that these are no holes either; a missing
+/// facet is one.
 #[test]
 fn an_open_sheet_keeps_its_borders() {
     let mut mesh = block(8, 8.0);
@@ -239,8 +241,8 @@ fn a_narrow_strip_is_not_folded_up() {
     assert_eq!(mend_with(&mesh, &Options { stitch: Some(0.1), ..only(&["stitch"]) }).changes, []);
 }
 
-/// A rim with a step above a straight one: the lower part of the step is joined first, and then the upper one must not be,
-/// or the riser between them would fold up.
+/// A rim with a step above a straight one. The lower part of the step is joined first. The upper one must not be joined
+/// then, or the riser between them would fold up.
 #[test]
 fn a_step_in_a_rim_is_not_folded_up() {
     let positions = vec![
@@ -279,8 +281,8 @@ fn a_vertex_cuts_a_facet_once() {
     assert_eq!(repaired.after.found(check::DEGENERATE_FACETS).map(|found| found.count), Some(0));
 }
 
-/// Two holes that touch at a corner, where a fin stands as well: the fin is parted, but what lies between the holes stays one
-/// by their filling.
+/// Two holes that touch at a corner, where a fin stands as well. The fin is parted, but the surface between the holes
+/// stays one by their filling.
 #[test]
 fn fans_between_holes_wait_until_these_are_filled() {
     let mut mesh = block(4, 4.0);
@@ -298,7 +300,7 @@ fn fans_between_holes_wait_until_these_are_filled() {
     assert_eq!(repaired.after.soundness.boundary_edges, 3);
 }
 
-/// What crosses before the parting is no reason to set vertices farther and farther off.
+/// Facets that crossed before the parting are no reason to set vertices farther and farther off.
 #[test]
 fn facets_that_crossed_before_do_not_drive_parts_away() {
     let mut mesh = two([4.0, 4.0, 0.0]);
@@ -311,8 +313,8 @@ fn facets_that_crossed_before_do_not_drive_parts_away() {
     assert!(new.iter().all(|p| p[..2].iter().all(|x| (x - 4.0).abs() < 1e-4)), "{new:?}");
 }
 
-/// Bodies that touch in faces, turned at random, become one: what rounding left between them is no surface that was lost. In edges and
-/// points they are parted.
+/// Bodies that touch in faces, turned at random, become one: slits that rounding left between them are no surface that
+/// was lost. In edges and points they are parted.
 #[test]
 fn bodies_that_touch_are_united_however_they_are_turned() {
     use crate::arrange::tests::touching::{rotation, touching};

@@ -1,11 +1,11 @@
-//! Planted defects are mended, sound meshes left alone; what each step does in its special cases.
+//! Planted defects are mended, sound meshes left alone; then the special cases of each step.
 
 mod holes;
 mod joints;
 mod nearly;
 mod steps;
 
-use super::rounds::ROUNDS;
+use super::rounds::MAX_ROUNDS;
 use super::*;
 use std::collections::BTreeSet;
 use trueness_geom::num::random::Random;
@@ -28,7 +28,7 @@ pub(super) fn mend_with(mesh: &Mesh, options: &Options) -> Repaired {
     repaired
 }
 
-/// What the steps come to, even if it is worse.
+/// Result of the steps, even if it is worse.
 pub(super) fn unguarded(mesh: &Mesh, options: &Options) -> Attempt {
     let check_options = check::Options { gap: options.gap, ..check::Options::default() };
     let before = check::check(mesh, None, &check_options, &Silent).unwrap();
@@ -75,7 +75,7 @@ fn planted_defects_of_every_kind_are_mended() {
                 assert!(facets >= k, "{} {k}: {:?}", kind.name, repaired.changes);
             }
             assert!(repaired.after.sound, "{} {k}: {:?}", kind.name, counts(&repaired.after));
-            assert!(repaired.rounds < ROUNDS, "{} {k}: {} rounds", kind.name, repaired.rounds);
+            assert!(repaired.rounds < MAX_ROUNDS, "{} {k}: {} rounds", kind.name, repaired.rounds);
             assert_eq!(mend(&repaired.mesh).changes, [], "{} {k}: nothing is left to do", kind.name);
         }
     }
@@ -120,7 +120,7 @@ fn any_mess_comes_to_an_end() {
             let mesh = Mesh { positions, faces: (0..facets).map(face).collect() };
             for holes in [Holes::UpTo(0.25), Holes::All] {
                 let repaired = mend_with(&mesh, &Options { holes, islands: Some(0.1), ..Options::default() });
-                assert!(repaired.rounds <= ROUNDS);
+                assert!(repaired.rounds <= MAX_ROUNDS);
                 assert!(repaired.mesh.positions.iter().flatten().all(|x| x.is_finite()));
             }
         }
@@ -173,8 +173,9 @@ fn a_heap_of_thin_facets_does_not_grow() {
     assert!(repaired.mesh.faces.len() < 600, "{} facets", repaired.mesh.faces.len());
 }
 
-/// Facets that lie upon each other in a plane, nearly all against all, beside a box with a pin in its mouth and a box that
-/// touches its corner: patches and parted vertices are searched by themselves, not with the whole heap each time.
+/// Facets lie upon each other in a plane, nearly all against all. Beside them are a box with a pin in its mouth and a
+/// box that touches its corner. Patches and parted vertices are searched by themselves, not with the whole heap each
+/// time.
 #[test]
 fn a_flat_heap_does_not_hold_up_what_lies_beside_it() {
     let random = &mut Random::new(22);
@@ -229,7 +230,7 @@ fn heap_of_bodies(random: &mut Random) -> Mesh {
     mesh
 }
 
-/// Nothing that makes a mesh unsound is there more often afterwards, and what was closed stays closed.
+/// Nothing that makes a mesh unsound is there more often afterwards, and closed surfaces stay closed.
 #[test]
 fn a_repair_makes_nothing_worse() {
     let random = &mut Random::new(31);
@@ -237,8 +238,8 @@ fn a_repair_makes_nothing_worse() {
     for round in 0..40 {
         let mut mesh = heap_of_bodies(random);
         if round % 4 == 3 {
-            let few = mesh.faces.len() / 2 + random.below(mesh.faces.len() as u64 / 2) as usize;
-            mesh.faces.truncate(few);
+            let kept_facets = mesh.faces.len() / 2 + random.below(mesh.faces.len() as u64 / 2) as usize;
+            mesh.faces.truncate(kept_facets);
         }
         // Without the union more goes wrong, and is taken back.
         for (holes, skipped) in [(Holes::UpTo(0.25), ""), (Holes::All, ""), (Holes::UpTo(0.25), "union")] {
@@ -270,8 +271,8 @@ fn going_on_from_a_kept_state_comes_to_the_same() {
     for round in 0..12 {
         let mut mesh = heap_of_bodies(random);
         if round % 2 == 1 {
-            let few = mesh.faces.len() / 2 + random.below(mesh.faces.len() as u64 / 2) as usize;
-            mesh.faces.truncate(few);
+            let kept_facets = mesh.faces.len() / 2 + random.below(mesh.faces.len() as u64 / 2) as usize;
+            mesh.faces.truncate(kept_facets);
         }
         meshes.push(mesh);
     }
@@ -280,13 +281,13 @@ fn going_on_from_a_kept_state_comes_to_the_same() {
         let mesh = as_it_is(&mesh).unwrap();
         let before = check::check(&mesh, None, &check_options, &Silent).unwrap();
         let start = Work::new(mesh, &options, &Silent).unwrap();
-        let go = |options: &Options, from: Option<&Kept>| {
+        let go = |options: &Options, from: Option<&KeptState>| {
             attempt((&start, from), options, (&before, &check_options)).unwrap()
         };
         let all = go(&options, None);
         for step in all.did(STEPS) {
             let name = step.name;
-            let from = Kept::before(&all.kept, &[step]);
+            let from = KeptState::before(&all.kept, &[step]);
             if ["union", "self_intersections"].contains(&name) || from.is_none() {
                 continue;
             }
@@ -311,7 +312,7 @@ fn the_effect_tells_what_was_enclosed_and_how_far_its_surface_went() {
     let enclosed = repaired.effect.enclosed.clone().unwrap();
     assert!((enclosed.volume - 1875.0).abs() < 1e-9 && enclosed.error < 1e-9, "{enclosed:?}");
     assert_eq!((enclosed.inverted, repaired.effect.bodies[0]), (0.0, 2));
-    // What is gone and bounded the bodies is told by its distance from what is left.
+    // The report states how far the surface that is gone and bounded the bodies is from the rest.
     let apart = repaired.after.properties.signed_volume - 1875.0;
     let surface = repaired.effect.surface.unwrap();
     assert!(apart.abs() < 1e-9 && surface < 1e-9, "{apart} {surface}");

@@ -82,7 +82,7 @@ fn fault(round: u64, single: bool) -> Option<String> {
 
 #[test]
 fn bodies_that_nearly_touch_become_their_union() {
-    // Of the first 8,000 those where it takes more than one rounding, or where planes nearly coincide.
+    // Cases of the first 8,000 that take more than one rounding, or where planes nearly coincide.
     const HARD: [u64; 14] = [254, 704, 792, 1441, 2549, 3367, 4259, 5381, 5699, 5943, 6881, 7107, 7401, 7441];
     let rounds = (0..60).chain(HARD).flat_map(|round| [(round, false), (round, true)]);
     let faults: Vec<String> = rounds.filter_map(|(round, single)| fault(round, single)).collect();

@@ -83,12 +83,12 @@ fn an_edge_between_connected_ends_is_parted_in_its_middle() {
 
 #[test]
 fn the_smaller_part_is_turned() {
-    for some in [vec![20], vec![3, 40, 60]] {
+    for turned in [vec![20], vec![3, 40, 60]] {
         let mut mesh = block(4, 4.0);
-        some.iter().for_each(|f: &usize| mesh.faces[*f].swap(0, 1));
+        turned.iter().for_each(|f: &usize| mesh.faces[*f].swap(0, 1));
         let repaired = mend_with(&mesh, &only(&["orient"]));
         assert_eq!(repaired.after.properties.signed_volume, 64.0);
-        assert_eq!(repaired.changes.iter().map(|c| c.facets).sum::<usize>(), some.len());
+        assert_eq!(repaired.changes.iter().map(|c| c.facets).sum::<usize>(), turned.len());
     }
 }
 
@@ -114,12 +114,15 @@ fn what_is_lost_is_told_where_no_material_is() {
         add(&mut mesh, &sheet, at);
         let repaired = mend(&mesh);
         assert!(repaired.after.sound && did(&repaired, "scraps") == 1);
-        let told = repaired.effect.surface.unwrap();
-        assert!(if off > 0.0 { told >= off && told < off + 2.0 } else { told == 0.0 }, "{told} {off}");
+        let stated = repaired.effect.surface.unwrap();
+        assert!(
+            if off > 0.0 { stated >= off && stated < off + 2.0 } else { stated == 0.0 },
+            "{stated} {off}"
+        );
     }
 }
 
-/// What is removed so that the rest can be closed stays where the rest stays open all the same.
+/// Sheets that would be removed to close the rest stay where the rest stays open all the same.
 #[test]
 fn no_sheet_is_removed_in_vain() {
     let mut mesh = block(4, 4.0);
@@ -269,7 +272,7 @@ fn without_union() -> Options {
 
 #[test]
 fn crossing_blocks_become_sound() {
-    // What is torn out is filled, whatever the limit for holes.
+    // A hole torn out is filled, whatever the limit for holes.
     let no_holes = Options { holes: Holes::UpTo(0.0), ..without_union() };
     let repaired = mend_with(&two([2.5, 2.5, 2.5]), &no_holes);
     assert!(!repaired.before.sound && repaired.after.sound, "{:?}", counts(&repaired.after));
@@ -342,7 +345,7 @@ fn holes_of_cut_out_facets_are_widened_until_something_fits() {
     assert_eq!(widened, 2);
 }
 
-/// With half of each body in the other all of them would go. What was torn out in vain stays.
+/// With half of each body in the other all of them would go. Facets torn out in vain stay.
 #[test]
 fn holes_are_not_widened_for_nothing() {
     let (repaired, widened) = crossing([24, 22], [2.0, 0.7, 1.3]);

@@ -5,7 +5,7 @@ use crate::model::flat::distance;
 use std::f64::consts::{PI, TAU};
 use trueness_geom::num::random::Random;
 
-/// A profile with what is right of it.
+/// A profile with the right answers for it.
 pub(crate) struct Made {
     pub points: Vec<[f64; 2]>,
     pub chord: f64,
@@ -137,7 +137,8 @@ fn placed(all: Vec<[f64; 2]>, random: &mut Random) -> (Vec<[f64; 2]>, f64, f64) 
     (points, size, noise)
 }
 
-/// Of so many profiles those whose chord is off by more than a share, whose edge is, and whose edge is of another kind.
+/// How many of so many profiles have a chord that is off by more than a share. Then how many have such an edge, and an
+/// edge of another kind.
 fn wrong(profiles: u64) -> [usize; 3] {
     let mut counts = [0; 3];
     for seed in 0..profiles {
@@ -156,8 +157,8 @@ fn wrong(profiles: u64) -> [usize; 3] {
         };
         let want = if made.kind == "open" { "blunt" } else { made.kind };
         // The point farthest from the leading edge is, of a cambered profile, beside the middle of a round edge.
-        let beside = if made.kind == "round" { 0.5 * made.edge / made.chord } else { 0.0 };
-        let off = (chord / made.chord - 1.0).abs() > 0.005 + beside;
+        let allowance = if made.kind == "round" { 0.5 * made.edge / made.chord } else { 0.0 };
+        let off = (chord / made.chord - 1.0).abs() > 0.005 + allowance;
         let thick = name == "blunt"
             && want == "blunt"
             && (distance(a, b) - made.edge).abs() > 0.2 * made.edge + 5.0 * made.noise;

@@ -7,39 +7,40 @@ use trueness_geom::parallel::prelude::*;
 type Key = [[u64; 3]; 3];
 
 /// No facet.
-const NONE: u32 = u32::MAX;
+const NO_FACET: u32 = u32::MAX;
 
 /// Facets of one mesh, to be found again in another.
 ///
-/// An open-addressing table: a slot holds the number of a key, so that a question costs one look into the table and one at the key.
+/// An open-addressing table. A slot holds the number of a key, so that a question costs one look into the table and one
+/// at the key.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Same {
+pub(super) struct FacetSet {
     keys: Vec<Key>,
     slots: Vec<u32>,
 }
 
-impl Same {
+impl FacetSet {
     /// The facets of `mesh` for which `counts` says yes, by number.
-    pub fn of(mesh: &Mesh, counts: impl Fn(usize) -> bool + Sync) -> Same {
+    pub fn of(mesh: &Mesh, counts: impl Fn(usize) -> bool + Sync) -> FacetSet {
         let counting = mesh.faces.par_iter().enumerate().filter(|(f, _)| counts(*f));
         let keys: Vec<Key> = counting.map(|(_, face)| key(mesh, face)).collect();
-        let mut slots = vec![NONE; (2 * keys.len()).next_power_of_two()];
+        let mut slots = vec![NO_FACET; (2 * keys.len()).next_power_of_two()];
         let starts: Vec<usize> = keys.par_iter().map(|key| start(key, slots.len())).collect();
         for (i, mut at) in (0..).zip(starts) {
             // A facet that is there several times takes one slot: copies would stand in the way of each other.
-            while slots[at] != NONE && keys[slots[at] as usize] != keys[i as usize] {
+            while slots[at] != NO_FACET && keys[slots[at] as usize] != keys[i as usize] {
                 at = (at + 1) & (slots.len() - 1);
             }
             slots[at] = i;
         }
-        Same { keys, slots }
+        FacetSet { keys, slots }
     }
 
     /// Whether a facet of `mesh` is among them.
     pub fn holds(&self, mesh: &Mesh, face: &[u32; 3]) -> bool {
         let key = key(mesh, face);
         let mut at = if self.keys.is_empty() { return false } else { start(&key, self.slots.len()) };
-        while self.slots[at] != NONE {
+        while self.slots[at] != NO_FACET {
             if self.keys[self.slots[at] as usize] == key {
                 return true;
             }
@@ -73,7 +74,7 @@ mod tests {
     fn facets_are_found_by_their_places_alone() {
         let mesh = block(6, 3.0);
         let facets = mesh.faces.len();
-        let same = Same::of(&mesh, |f| f % 3 != 0);
+        let same = FacetSet::of(&mesh, |f| f % 3 != 0);
         // The same facets with other numbers for their corners, the other way round.
         let last = mesh.positions.len() as u32 - 1;
         let mut other = mesh.clone();
@@ -85,6 +86,6 @@ mod tests {
         other.positions[0][1] += 1e-9;
         let moved = |f: &&[u32; 3]| f.contains(&0);
         assert!(other.faces.iter().filter(moved).all(|f| !same.holds(&other, f)));
-        assert!(!Same::of(&mesh, |_| false).holds(&mesh, &mesh.faces[0]));
+        assert!(!FacetSet::of(&mesh, |_| false).holds(&mesh, &mesh.faces[0]));
     }
 }

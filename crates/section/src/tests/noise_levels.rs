@@ -23,14 +23,14 @@ fn polygon(sides: usize, each: usize) -> Vec<[f64; 2]> {
 
 /// A contour that calls form noise, without a word.
 fn hides_form(contour: &Contour, noise: f64) -> bool {
-    contour.astray.is_empty() && contour.noise > 1.6 * noise
+    contour.unreliable.is_empty() && contour.noise > 1.6 * noise
 }
 
 /// 64 points of a rounded rectangle, three or so to a corner, are its lines and arcs, not one free curve of great noise.
 #[test]
 fn noisy_rounded_rectangles_are_lines_and_arcs() {
     let (sizes, noise) = ([30.0, 20.0, 3.0], 0.03);
-    let (mut right, mut told) = (0, 0);
+    let (mut right, mut resolved) = (0, 0);
     for seed in 0..12 {
         let exact = rounded_rectangle(64, 0.08 * seed as f64, sizes, 0.2, 15);
         let contour = found(&with_noise(&exact, noise, 40 + seed));
@@ -38,11 +38,11 @@ fn noisy_rounded_rectangles_are_lines_and_arcs() {
         let by_turns = kinds(&contour).chunks(2).all(|k| {
             k == [SegmentKind::Line, SegmentKind::Arc] || k == [SegmentKind::Arc, SegmentKind::Line]
         });
-        told += usize::from(by_turns && contour.segments.len() == 8);
-        right += usize::from(contour.astray.is_empty() && is_right(&contour, sizes, 1.0));
+        resolved += usize::from(by_turns && contour.segments.len() == 8);
+        right += usize::from(contour.unreliable.is_empty() && is_right(&contour, sizes, 1.0));
     }
     // Where a join is taken for a corner, radii of three points each are known badly.
-    assert!(told >= 11 && right >= 6, "{told} and {right} of 12");
+    assert!(resolved >= 11 && right >= 6, "{resolved} and {right} of 12");
 }
 
 /// Polygons of few noisy points to a side are polygons, and none is a circle whose noise is its corners.
@@ -60,7 +60,7 @@ fn noisy_polygons_are_no_circles() {
     }
 }
 
-/// Too few points to tell noise from corners: named astray, not a sure circle.
+/// Too few points to tell noise from corners: named unreliable, not a sure circle.
 #[test]
 fn corners_that_points_cannot_tell_are_named() {
     for sides in [5, 6, 8, 10, 12] {
@@ -68,7 +68,7 @@ fn corners_that_points_cannot_tell_are_named() {
             let contour = found(&with_noise(&polygon(sides, 2), noise, sides as u64));
             let polygon =
                 contour.segments.len() == sides && kinds(&contour).iter().all(|k| *k == SegmentKind::Line);
-            assert!(polygon || !contour.astray.is_empty(), "{sides} {noise}: {:?}", kinds(&contour));
+            assert!(polygon || !contour.unreliable.is_empty(), "{sides} {noise}: {:?}", kinds(&contour));
         }
     }
     // Four arcs that meet in corners, of five points each.
@@ -84,10 +84,10 @@ fn corners_that_points_cannot_tell_are_named() {
     assert!(silent <= 2, "{silent} of 8");
 }
 
-/// Rows of noise about one line, circle or bend are not called astray, and not cut into more.
+/// Rows of noise about one line, circle or bend are not called unreliable, and not cut into more.
 #[test]
 fn noise_alone_is_not_astray() {
-    let (mut astray, mut all) = (0, 0);
+    let (mut unreliable, mut all) = (0, 0);
     for seed in 0..40 {
         for count in [16, 24, 40, 64, 100] {
             let circle: Vec<[f64; 2]> = (0..count)
@@ -98,9 +98,9 @@ fn noise_alone_is_not_astray() {
             for (row, kind) in [(circle, SegmentKind::Arc), (line, SegmentKind::Line)] {
                 let contour = found(&with_noise(&row, 0.03, seed));
                 all += 1;
-                astray += usize::from(!contour.astray.is_empty() || kinds(&contour) != [kind]);
+                unreliable += usize::from(!contour.unreliable.is_empty() || kinds(&contour) != [kind]);
             }
         }
     }
-    assert!(50 * astray <= all, "{astray} of {all}");
+    assert!(50 * unreliable <= all, "{unreliable} of {all}");
 }

@@ -1,8 +1,9 @@
 //! Ways through cells linked at their ends, where the points between are missing by chance.
 //!
-//! Points sampled at random are uneven: of n gaps along a contour the longest is about ln n times as long as the mean. A tree that
-//! reaches so far would reach across walls, too. So the tree reaches a few cells only, and the ways that it falls into are linked
-//! end to end: over gaps that points so uneven have by chance, rather straight on than aside, and each end once.
+//! Points sampled at random are uneven: of n gaps along a contour the longest is about ln n times as long as the mean.
+//! A tree that reaches so far would reach across walls, too. So the tree reaches a few cells only, and the ways that it
+//! falls into are linked end to end. Links go over gaps that points so uneven have by chance, rather straight on than
+//! aside, and each end is linked once.
 
 use crate::model::flat::distance;
 
@@ -15,7 +16,7 @@ pub(super) struct Linked {
     pub closed: bool,
 }
 
-/// What ends may be linked.
+/// Limits of the ends that may be linked.
 pub(super) struct Limits {
     /// Farthest that two ends may be apart.
     pub gap: f64,
@@ -25,17 +26,17 @@ pub(super) struct Limits {
     pub fewest: usize,
 }
 
-/// A gap longer than those that uneven points have by chance: one in a thousand rows has a longer one.
-const CHANCE: f64 = 7.0;
+/// A gap is longer than those that uneven points have by chance: one row in a thousand has a longer one.
+const LONGEST_STEP_CHANCE: f64 = 7.0;
 /// The direction of an end is that over so many cells.
-const BACK: usize = 4;
-/// Two ends head for a common corner where the cosines of their angles with the line between them sum up to more than this; of
-/// two that run side by side the sum is 0.
-const AHEAD: f64 = 0.25;
+const CELLS_OF_END_DIRECTION: usize = 4;
+/// Two ends head for a common corner where the cosines of their angles with the line between them sum up to more than this. The sum
+/// is 0 for two that run side by side.
+const MIN_COSINE_SUM: f64 = 0.25;
 
-/// The gap that neighbors on a contour are not farther apart than, told by the steps between them that are no longer than
-/// `reach`: the upper quarter of the steps falls off exponentially where points are sampled at random, at once where they are
-/// even.
+/// The gap that neighbors on a contour are not farther apart than, by the steps between them that are no longer than
+/// `reach`. The upper quarter of the steps falls off exponentially where points are sampled at random, at once where
+/// they are even.
 pub(super) fn longest_by_chance(mut steps: Vec<f64>, reach: f64) -> f64 {
     steps.sort_by(f64::total_cmp);
     let upper = &steps[steps.len() - steps.len().div_ceil(4)..];
@@ -47,7 +48,7 @@ pub(super) fn longest_by_chance(mut steps: Vec<f64>, reach: f64) -> f64 {
     for _ in 0..20 {
         scale = (mean + most / libm::expm1(most / scale.max(f64::MIN_POSITIVE))).min(most);
     }
-    reach.max(first + scale * (libm::log(steps.len() as f64) + CHANCE))
+    reach.max(first + scale * (libm::log(steps.len() as f64) + LONGEST_STEP_CHANCE))
 }
 
 /// One end of a way.
@@ -59,7 +60,7 @@ struct End {
 
 fn end(way: &Way, last: bool, middles: &[[f64; 2]]) -> End {
     let n = way.len();
-    let back = BACK.min(n - 1);
+    let back = CELLS_OF_END_DIRECTION.min(n - 1);
     let (tip, inner) = if last { (n - 1, n - 1 - back) } else { (0, back) };
     let (at, from) = (middles[way[tip].0], middles[way[inner].0]);
     let size = distance(from, at);
@@ -72,7 +73,7 @@ fn other(end: usize) -> usize {
 }
 
 /// Links the ends of ways, the nearest and straightest first.
-pub(super) fn link(ways: Vec<Way>, middles: &[[f64; 2]], limits: &Limits) -> Vec<Linked> {
+pub(super) fn link_over_gaps(ways: Vec<Way>, middles: &[[f64; 2]], limits: &Limits) -> Vec<Linked> {
     let ends: Vec<End> = ways.iter().flat_map(|w| [false, true].map(|last| end(w, last, middles))).collect();
     // Ways that hang together: the far end of each end, and the number of cells.
     let mut far: Vec<usize> = (0..ends.len()).map(other).collect();
@@ -96,7 +97,7 @@ pub(super) fn link(ways: Vec<Way>, middles: &[[f64; 2]], limits: &Limits) -> Vec
     chains(ways, &partner)
 }
 
-/// Pairs of ends that may be linked, the likeliest first, with what each costs.
+/// Pairs of ends that may be linked, the likeliest first, with the cost of each.
 fn candidates(ends: &[End], limits: &Limits) -> Vec<(f64, usize, usize)> {
     let mut by_x: Vec<usize> = (0..ends.len()).collect();
     by_x.sort_by(|a, b| ends[*a].at[0].total_cmp(&ends[*b].at[0]).then(a.cmp(b)));
@@ -113,7 +114,7 @@ fn candidates(ends: &[End], limits: &Limits) -> Vec<(f64, usize, usize)> {
             };
             let sum = ahead(&ends[a], &ends[b]) + ahead(&ends[b], &ends[a]);
             let closes = other(a) == b && apart <= limits.closing;
-            if apart <= limits.gap && (sum > AHEAD || closes) {
+            if apart <= limits.gap && (sum > MIN_COSINE_SUM || closes) {
                 all.push((apart * (3.0 - sum), a, b));
             }
         }
@@ -122,7 +123,7 @@ fn candidates(ends: &[End], limits: &Limits) -> Vec<(f64, usize, usize)> {
     all
 }
 
-/// The ways run through from an end that is linked to none; what is left is closed.
+/// The ways run through from an end that is linked to none; the others are closed.
 fn chains(ways: Vec<Way>, partner: &[Option<usize>]) -> Vec<Linked> {
     let mut rest: Vec<Option<Way>> = ways.into_iter().map(Some).collect();
     let mut all = vec![];
@@ -148,12 +149,12 @@ fn chains(ways: Vec<Way>, partner: &[Option<usize>]) -> Vec<Linked> {
     all
 }
 
-/// Most open ends of which the nearest are looked for.
-const MOST: usize = 4000;
+/// Most open ends whose nearest ones are looked for.
+const MAX_OPEN_ENDS: usize = 4000;
 
 /// The gap over which three quarters of these ends would meet another one. `None` where there are fewer than `fewest`.
 pub(super) fn gap_to_close(ends: &[[f64; 2]], fewest: usize) -> Option<f64> {
-    if ends.len() < fewest.max(2) || ends.len() > MOST {
+    if ends.len() < fewest.max(2) || ends.len() > MAX_OPEN_ENDS {
         return None;
     }
     let nearest = |i: usize| {
@@ -170,7 +171,7 @@ mod tests {
     use super::*;
     use trueness_geom::num::random::Random;
 
-    /// Of exponential steps with the mean 1 that are cut off at 4 the longest of all is told: its logarithm and seven more.
+    /// The longest of exponential steps with the mean 1 that are cut off at 4 is told: the logarithm of their number and seven more.
     #[test]
     fn the_longest_step_is_told_by_the_short_ones() {
         let random = &mut Random::new(4);
@@ -179,7 +180,7 @@ mod tests {
         };
         for _ in 0..20 {
             let found = longest_by_chance(steps(random), 4.0);
-            let want = libm::log(4.0) + libm::log(2000.0) + CHANCE;
+            let want = libm::log(4.0) + libm::log(2000.0) + LONGEST_STEP_CHANCE;
             assert!((found / want - 1.0).abs() < 0.25, "{found} {want}");
         }
         // Even steps have no longer one by chance.
@@ -202,7 +203,7 @@ mod tests {
         let mut ways = vec![wall(0.0, 0, 20), wall(0.0, 26, 40), wall(3.0, 0, 21), wall(3.0, 27, 40)];
         ways[3].reverse();
         let limits = Limits { gap: 8.0, closing: 4.0, fewest: 8 };
-        let found = link(ways, &middles, &limits);
+        let found = link_over_gaps(ways, &middles, &limits);
         assert_eq!(found.len(), 2);
         for linked in found {
             let along: Vec<f64> = linked.way.iter().map(|(c, _)| middles[*c][0]).collect();

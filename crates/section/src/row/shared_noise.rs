@@ -6,46 +6,49 @@
 
 use crate::model::chain::SegmentKind;
 use crate::model::flat::distance;
-use crate::model::prior::Known;
-use crate::search::start::{Part, Sums};
+use crate::model::prior::KnownNoise;
+use crate::search::parts::{Part, Sums};
 
-/// Points of a window, of the narrowest one and of the widest one at most, and how many windows of points there are at least.
-const WIDTHS: [usize; 2] = [24, 768];
-const FEWEST_WINDOWS: usize = 4;
-/// Of all windows at least a quarter lies on one line or arc as a rule, and others whose squares are no more than so many times as large as
-/// theirs: the rest holds joins.
-const QUARTER: usize = 4;
-const CLEAN: f64 = 4.0;
-/// Points that tell as much as an independent one: fewer are taken for one; and no window holds fewer such groups.
-const FEWEST_ALIKE: f64 = 1.6;
-const GROUPS: f64 = 8.0;
-/// A form changes sides of a line or arc through a window fewer times: a cubic three times, a curve of the fourth degree four times.
-const CHANGES: f64 = 7.0;
-/// Of two neighbors of filtered points the noise is the same, nearly; of independent ones about a form that lines and arcs do not follow a
-/// part is.
-const SAME: f64 = 0.6;
-/// What is alike by turns is a form.
-const BY_TURNS: f64 = -0.4;
+/// Points of the narrowest window, and of the widest one at most.
+const WINDOW_POINTS: [usize; 2] = [24, 768];
+/// A row has at least so many windows of points.
+const MIN_WINDOWS_PER_ROW: usize = 4;
+/// At least a quarter of all windows lies on one line or arc as a rule.
+const CLEAN_WINDOWS_DIVISOR: usize = 4;
+/// Clean are also windows whose squares are no more than so many times as large: the rest holds joins.
+const CLEAN_SQUARES_RATIO: f64 = 4.0;
+/// Points that tell as much as an independent one: fewer are taken for one.
+const MIN_POINTS_PER_INDEPENDENT: f64 = 1.6;
+/// No window holds fewer groups of such points.
+const MIN_GROUPS_PER_WINDOW: f64 = 8.0;
+/// A form changes sides of a line or arc through a window fewer times. A cubic does so three times, a curve of the
+/// fourth degree four times.
+const MIN_SIDE_CHANGES: f64 = 7.0;
+/// Two neighbors of filtered points have the same noise, nearly. Independent ones about a form that lines and arcs do not follow
+/// have a part of it in common.
+const MIN_CORRELATION_OF_HALVES: f64 = 0.6;
+/// Noise that is alike by turns is a form.
+const MIN_CORRELATION_AT_ANY_LAG: f64 = -0.4;
 /// Noise of more than this share of the distance between points may be form everywhere alike.
-const GREAT: f64 = 0.1;
+const MAX_SHARED_NOISE_SPACINGS: f64 = 0.1;
 
 /// Noise that neighbors share, and how many points tell as much as an independent one. `None` where neighbors share none, or form is not
 /// told from it. Cost: the number of points times the width of the windows.
-pub(super) fn shared(points: &[[f64; 2]]) -> Option<(Known, f64)> {
+pub(super) fn shared_noise(points: &[[f64; 2]]) -> Option<(KnownNoise, f64)> {
     let way: f64 = points.windows(2).map(|w| distance(w[0], w[1])).sum();
     let spacing = way / points.len() as f64;
     let sums = Sums::new(points, &vec![1.0; points.len()]);
-    let [mut width, widest] = WIDTHS;
-    while width <= widest && FEWEST_WINDOWS * width <= points.len() {
+    let [mut width, widest] = WINDOW_POINTS;
+    while width <= widest && MIN_WINDOWS_PER_ROW * width <= points.len() {
         let found = within(points, &sums, width)?;
-        if found.alike * GROUPS <= width as f64 {
-            let is_noise = found.changes >= CHANGES
-                && found.same >= SAME
-                && found.least > BY_TURNS
-                && found.deviation <= GREAT * spacing;
-            return (is_noise && found.alike >= FEWEST_ALIKE).then(|| {
+        if found.alike * MIN_GROUPS_PER_WINDOW <= width as f64 {
+            let is_noise = found.changes >= MIN_SIDE_CHANGES
+                && found.same >= MIN_CORRELATION_OF_HALVES
+                && found.least > MIN_CORRELATION_AT_ANY_LAG
+                && found.deviation <= MAX_SHARED_NOISE_SPACINGS * spacing;
+            return (is_noise && found.alike >= MIN_POINTS_PER_INDEPENDENT).then(|| {
                 let degrees = found.windows * (width as f64 / found.alike - 3.0).max(1.0);
-                (Known { deviation: found.deviation, degrees }, found.alike)
+                (KnownNoise { deviation: found.deviation, degrees }, found.alike)
             });
         }
         width *= 2;
@@ -53,13 +56,13 @@ pub(super) fn shared(points: &[[f64; 2]]) -> Option<(Known, f64)> {
     None
 }
 
-/// What the clean windows of one width tell.
-struct Told {
+/// Statistics of the clean windows of one width.
+struct WindowStatistics {
     deviation: f64,
     alike: f64,
     /// How often residuals change sides in a window.
     changes: f64,
-    /// What the correlation of neighbors comes to where they move together.
+    /// The correlation of neighbors where they move together.
     same: f64,
     /// The least correlation.
     least: f64,
@@ -67,7 +70,7 @@ struct Told {
     windows: f64,
 }
 
-fn within(points: &[[f64; 2]], sums: &Sums, width: usize) -> Option<Told> {
+fn within(points: &[[f64; 2]], sums: &Sums, width: usize) -> Option<WindowStatistics> {
     let stride = width / 4;
     let mut all: Vec<(f64, usize)> = (0..=points.len() - width)
         .step_by(stride)
@@ -77,7 +80,7 @@ fn within(points: &[[f64; 2]], sums: &Sums, width: usize) -> Option<Told> {
         })
         .collect();
     all.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let most = CLEAN * all[all.len() / QUARTER].0;
+    let most = CLEAN_SQUARES_RATIO * all[all.len() / CLEAN_WINDOWS_DIVISOR].0;
     all.retain(|(sum, _)| *sum <= most);
     let lags = width / 2;
     let (mut together, mut changes) = (vec![0.0; lags], 0.0);
@@ -94,11 +97,11 @@ fn within(points: &[[f64; 2]], sums: &Sums, width: usize) -> Option<Told> {
         return None;
     }
     let share = |c: &f64| c / together[0];
-    // A fit takes a part of what neighbors share with it.
+    // A fit takes a part of the errors that neighbors share with it.
     let alike = together.chunks_exact(2).map(|pair| share(&pair[0]) + share(&pair[1]));
     let alike = 2.0 * alike.take_while(|pair| *pair > 0.0).sum::<f64>() - 1.0;
     let kept = 1.0 - 3.0 * alike / width as f64;
-    Some(Told {
+    Some(WindowStatistics {
         deviation: (variance / kept.max(0.5)).sqrt(),
         alike: (alike / kept.max(0.5)).max(1.0),
         changes: changes / count,
@@ -128,7 +131,7 @@ fn residuals(points: &[[f64; 2]], sums: &Sums, from: usize, to: usize) -> Vec<f6
 
 #[cfg(test)]
 mod tests {
-    use super::shared;
+    use super::shared_noise;
     use crate::{Options, SegmentKind, contour};
     use trueness_geom::num::random::Random;
 
@@ -177,9 +180,9 @@ mod tests {
         let (mut found, mut right) = (0, 0);
         for _ in 0..40 {
             let count = 300 + random.below(500) as usize;
-            assert_eq!(shared(&rounded(count, 1, 0.005, random)), None);
+            assert_eq!(shared_noise(&rounded(count, 1, 0.005, random)), None);
             let points = rounded(count, 3, 0.005, random);
-            if let Some((noise, alike)) = shared(&points) {
+            if let Some((noise, alike)) = shared_noise(&points) {
                 found += 1;
                 assert!((noise.deviation / 0.005 - 1.0).abs() < 0.35, "{noise:?}");
                 assert!((1.6..6.0).contains(&alike), "{alike}");
@@ -208,7 +211,7 @@ mod tests {
                 })
                 .collect();
             assert_eq!(
-                shared(&points),
+                shared_noise(&points),
                 None,
                 "round {round}, {count}, {bends} bends of {high}, noise {noise}"
             );

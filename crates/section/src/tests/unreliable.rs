@@ -1,4 +1,4 @@
-//! Rows whose chain easily goes astray: wild, wavy and short ones, and polygons of few points.
+//! Rows whose chain is easily unreliable: wild, wavy and short ones, and polygons of few points.
 
 use super::*;
 use trueness_geom::spline::basis::Knots;
@@ -39,8 +39,8 @@ fn segments_of_wild_rows_follow_each_other() {
     }
 }
 
-/// What is drawn of a free curve is as long as is told, also between the places that it was made from. Its ends may lead to
-/// corners that lie beside its chain.
+/// The drawing of a free curve is as long as stated, also between the places that it was made from. Its ends may lead
+/// to corners that lie beside its chain.
 fn drawn_as_told(segment: &Segment) {
     let Geometry::Spline { curve, .. } = &segment.geometry else { return };
     let places: Vec<[f64; 2]> = (0..=20_000).map(|i| curve.at(f64::from(i) / 20_000.0)).collect();
@@ -48,7 +48,7 @@ fn drawn_as_told(segment: &Segment) {
     assert!((drawn / segment.length - 1.0).abs() < 0.2, "{drawn} drawn, {} told", segment.length);
 }
 
-/// A curve that is drawn much longer than it is goes astray.
+/// A curve is unreliable that is drawn much longer than it is.
 #[test]
 fn a_curve_that_swings_goes_astray() {
     let knots = Knots::clamped(3, 0.0, &[], 1.0).unwrap();
@@ -57,7 +57,7 @@ fn a_curve_that_swings_goes_astray() {
             Curve::new(knots.clone(), vec![[0.0, 0.0], [1.0, height], [2.0, -height], [3.0, 0.0]]).unwrap();
         Segment::bare(Geometry::Spline { curve, deviation: 0.0 }, [[0.0; 2], [3.0, 0.0]], 3.0, [0.0; 2])
     };
-    assert!(!of(0.5).strays() && of(20.0).strays());
+    assert!(!of(0.5).is_overlong() && of(20.0).is_overlong());
 }
 
 /// Along every segment the drawn curve is about as long as the way from point to point.
@@ -137,14 +137,14 @@ fn exact_polygons_have_their_corners() {
         };
         assert_eq!(kinds(&contour), vec![SegmentKind::Line; sides], "{seed}");
         assert!((contour.length() / around - 1.0).abs() < 1e-5, "{seed}: {} of {around}", contour.length());
-        assert!(contour.astray.is_empty(), "{seed}");
+        assert!(contour.unreliable.is_empty(), "{seed}");
     }
 }
 
 #[test]
 fn wavy_closed_rows_are_followed() {
-    // Few points a wave and much noise. A loop between two points costs a sum of squares nothing, and a chain that was laid out
-    // wrong may shrink to nothing where it is closed by force.
+    // Few points a wave and much noise. A loop between two points costs a sum of squares nothing. A chain that was laid
+    // out wrong may shrink to nothing where it is closed by force.
     for (count, noise) in [(110, 0.25), (60, 0.3), (40, 0.3)] {
         for seed in 0..8 {
             let mut random = Random::new(900 + seed);
@@ -211,7 +211,7 @@ fn a_square_has_no_tangent_joins() {
         let forced =
             contour(&points, &Options { continuity: Some(continuity), ..Options::default() }, &Silent);
         match forced {
-            Err(SectionError::Astray) => {}
+            Err(SectionError::Unreliable) => {}
             Err(e) => panic!("{e}"),
             Ok(c) => runs_along_its_points(&points, &c),
         }

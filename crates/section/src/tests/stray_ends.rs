@@ -3,7 +3,7 @@
 use super::*;
 
 /// A row with a stray beside an end, and the length of the way without it.
-struct Beside {
+struct StrayEnd {
     points: Vec<[f64; 2]>,
     stray: usize,
     way: f64,
@@ -34,7 +34,7 @@ fn way(points: &[[f64; 2]]) -> f64 {
 }
 
 /// A row whose end has a point so many distances between points aside of it; to the digits of a file.
-fn beside(random: &mut Random, noise: f64, [low, high]: [f64; 2]) -> Beside {
+fn stray_end(random: &mut Random, noise: f64, [low, high]: [f64; 2]) -> StrayEnd {
     let mut points = row(random, noise);
     let n = points.len();
     let (way, spacing) = (way(&points), way(&points) / n as f64);
@@ -49,19 +49,19 @@ fn beside(random: &mut Random, noise: f64, [low, high]: [f64; 2]) -> Beside {
         points.reverse();
     }
     let points = points.into_iter().map(|p| p.map(|x| (x * 1e5).round() * 1e-5)).collect();
-    Beside { points, stray: if reversed { n } else { 0 }, way, spacing }
+    StrayEnd { points, stray: if reversed { n } else { 0 }, way, spacing }
 }
 
 /// So many are right, told, and wrong without a word.
 fn rates(rows: u64, noise: f64, range: [f64; 2]) -> [usize; 3] {
     let mut rates = [0; 3];
     for seed in 0..rows {
-        let row = beside(&mut Random::stream(21, seed), noise, range);
+        let row = stray_end(&mut Random::stream(21, seed), noise, range);
         let found = found(&row.points);
         let left_out = found.outliers == [row.stray] && (found.length() - row.way).abs() < 1.5 * row.spacing;
-        let told = !found.outliers.is_empty() || !found.doubtful.is_empty() || !found.astray.is_empty();
-        rates[if left_out { 0 } else { 2 - usize::from(told) }] += 1;
-        if !left_out && !told && rows > 20 {
+        let warned = !found.outliers.is_empty() || !found.doubtful.is_empty() || !found.unreliable.is_empty();
+        rates[if left_out { 0 } else { 2 - usize::from(warned) }] += 1;
+        if !left_out && !warned && rows > 20 {
             println!("{seed}: {:?} {} of {}", kinds(&found), found.length(), row.way);
         }
     }
@@ -74,9 +74,9 @@ const RANGES: [[f64; 2]; 4] = [[1.6, 3.0], [3.0, 5.0], [5.0, 8.0], [8.0, 30.0]];
 #[test]
 fn strays_beside_an_end_are_left_out_or_told() {
     for range in RANGES {
-        let [right, told, wrong] = rates(10, 0.01, range);
-        assert!(wrong == 0 && (right == 10 || range[0] < 2.0), "{range:?}: {right} {told} {wrong}");
-        // Of more noise they are told, where they do not hide in it.
+        let [right, warned, wrong] = rates(10, 0.01, range);
+        assert!(wrong == 0 && (right == 10 || range[0] < 2.0), "{range:?}: {right} {warned} {wrong}");
+        // With more noise they are reported, where they do not hide in it.
         assert!(rates(10, 0.05, range)[2] == 0 || range[0] < 2.0, "{range:?}");
         // Without noise it may be the end of a line that is given by its ends.
         assert_eq!(rates(4, 0.0, range), [0, 4, 0], "{range:?}");

@@ -1,30 +1,30 @@
 //! The chains of a row between its corners, as a first partition tells them.
 
 use super::clean::{Clean, spacing};
-use super::levels::Start;
+use super::noise_levels::Partition;
 use super::polygon;
 use crate::model::budget::Budget;
 use crate::model::chain::SegmentKind;
 use crate::model::criterion::Criterion;
 use crate::model::flat::angle;
-use crate::model::prior::Known;
+use crate::model::prior::KnownNoise;
 use crate::model::result::{Continuity, Options, SectionError};
+use crate::search::parts::{Part, shares};
 use crate::search::span::{Found, single};
-use crate::search::start::{Part, shares};
 use crate::search::task::{Span, Task};
 use std::collections::VecDeque;
 use std::ops::Range;
 use trueness_geom::progress::Progress;
 
 /// A turn between two parts is a corner from here on, radians, and from so many standard deviations of the headings.
-const CORNER: (f64, f64) = (polygon::CORNER, 8.0);
+const CORNER_TURN_AND_SIGMAS: (f64, f64) = (polygon::MIN_CORNER_TURN, 8.0);
 /// A turn of more than this is a corner without further test, radians.
-pub(super) const SHARP: f64 = 0.6;
-/// Distances below this share of the spacing are not told from 0: free pieces would grow without end on exact data.
-pub(super) const RESOLUTION: f64 = 1e-4;
+pub(super) const CLEAR_CORNER_TURN: f64 = 0.6;
+/// Distances below this share of the spacing count as 0: free pieces would grow without end on exact data.
+pub(super) const RESOLUTION_SPACINGS: f64 = 1e-4;
 
-/// What all spans of a row have in common.
-pub(super) struct Plan<'a> {
+/// Data that all spans of a row have in common.
+pub(super) struct CornerSearch<'a> {
     pub clean: &'a Clean,
     pub weights: &'a [f64],
     pub options: &'a Options,
@@ -32,13 +32,13 @@ pub(super) struct Plan<'a> {
     /// Points are followed at this step: nearer ones scatter more than they are apart.
     pub step: usize,
     pub sigma: f64,
-    pub known_noise: Option<Known>,
+    pub known_noise: Option<KnownNoise>,
     pub own: f64,
     /// The continuity that all joins have, where it is not left to the data.
     pub forced: Option<Continuity>,
     /// The parts are known exactly: arcs are tangent to the lines beside them.
     pub known: bool,
-    /// Arcs are taken for tangent to what is beside them.
+    /// Arcs are taken for tangent to their neighbors.
     pub tangent: bool,
     /// The chains of the parts as they are, without any search.
     pub draft: bool,
@@ -53,10 +53,10 @@ pub(super) struct Chains {
     pub cornered: bool,
 }
 
-impl Start {
+impl Partition {
     /// How chains of its parts are looked for.
-    pub(super) fn plan<'a>(&'a self, options: &'a Options, budget: &'a Budget) -> Plan<'a> {
-        Plan {
+    pub(super) fn corner_search<'a>(&'a self, options: &'a Options, budget: &'a Budget) -> CornerSearch<'a> {
+        CornerSearch {
             clean: &self.clean,
             weights: &self.weights,
             options,
@@ -74,7 +74,7 @@ impl Start {
     }
 }
 
-impl Plan<'_> {
+impl CornerSearch<'_> {
     /// The chains between corners.
     pub(super) fn all(&self, parts: &[Part], progress: &dyn Progress) -> Result<Chains, SectionError> {
         let closed = self.clean.closed;
@@ -96,27 +96,28 @@ impl Plan<'_> {
             let mut found = span().find(parts, &self.task(parts.len() > 1, true, n), progress)?;
             if parts.len() == 1 {
                 // A whole circle joins itself anywhere: it is an arc whose ends happen to meet. Any other curve closes.
-                found.circle =
-                    found.pieces().len() == 1 && found.pieces()[0].kind == SegmentKind::Arc && !found.astray;
+                found.circle = found.pieces().len() == 1
+                    && found.pieces()[0].kind == SegmentKind::Arc
+                    && !found.unreliable;
                 if !found.circle {
                     let halves = shares(&self.clean.points, self.weights, 2);
                     found = span().find(&halves, &self.task(true, true, n), progress)?;
                 }
             }
-            if !found.astray {
-                // Of a closed chain of one arc nobody knows where it begins; an open one has its center and radius alone.
+            if !found.unreliable {
+                // Nobody knows where a closed chain of one arc begins; an open one has its center and radius alone.
                 if single(&found.state) && found.pieces()[0].kind == SegmentKind::Arc {
                     let whole = shares(&self.clean.points, self.weights, 1);
                     let task = Task { draft: true, ..self.task(false, true, n) };
                     let mut open = span().find(&whole, &task, progress)?;
-                    open.circle = !open.astray;
+                    open.circle = !open.unreliable;
                     open.noise = if self.known_noise.is_some() { open.noise } else { open.scatter() };
                     found = if open.circle { open } else { found };
                 }
                 return Ok(Chains { founds: vec![found], cornered: false });
             }
             if forced.is_some() {
-                return Err(SectionError::Astray);
+                return Err(SectionError::Unreliable);
             }
             // No closed curve runs along the points: it has corners that the partition does not tell.
             let quarters = shares(&self.clean.points, self.weights, 4.min(n / 2));
@@ -164,9 +165,9 @@ impl Plan<'_> {
             let task = self.task(false, count == n, count);
             let span = Span::new(&self.clean.points, self.weights, numbers);
             let found = span.find(&local, &task, progress)?;
-            if found.astray && own.len() > 1 {
+            if found.unreliable && own.len() > 1 {
                 if matches!(self.forced, Some(Continuity::G1 | Continuity::G2)) {
-                    return Err(SectionError::Astray);
+                    return Err(SectionError::Unreliable);
                 }
                 // No curve without corners runs along these points.
                 group.rev().for_each(|k| groups.push_front(k..k + 1));
@@ -178,12 +179,12 @@ impl Plan<'_> {
     }
 
     pub(super) fn resolution(&self) -> f64 {
-        self.options.resolution.unwrap_or((RESOLUTION * self.spacing).max(self.clean.rounding))
+        self.options.resolution.unwrap_or((RESOLUTION_SPACINGS * self.spacing).max(self.clean.rounding))
     }
 
     pub(super) fn task(&self, closed: bool, whole: bool, count: usize) -> Task<'_> {
         let n = self.clean.points.len();
-        // What is known about the noise beforehand, or what the rest of the row tells.
+        // Noise that is known beforehand, or that the rest of the row tells.
         let degrees = match self.known_noise {
             Some(known) => known.degrees,
             None if whole || count == n => 0.0,
@@ -219,8 +220,11 @@ impl Plan<'_> {
             let factor = if part.kind == SegmentKind::Line { 3.5 } else { 14.0 };
             self.sigma * factor / (count.sqrt() * count * self.spacing)
         };
-        let clear = turn > CORNER.0.max(CORNER.1 * libm::hypot(spread(before), spread(after)));
-        clear && (turn > SHARP || self.tangent_is_worse(before, after))
+        let clear = turn
+            > CORNER_TURN_AND_SIGMAS
+                .0
+                .max(CORNER_TURN_AND_SIGMAS.1 * libm::hypot(spread(before), spread(after)));
+        clear && (turn > CLEAR_CORNER_TURN || self.tangent_is_worse(before, after))
     }
 
     /// Whether two parts by themselves fit so much better than with a common tangent that the corner pays. A join that the

@@ -7,7 +7,7 @@ use trueness_geom::space::{Aabb, dot, minus, times};
 use trueness_geom::topology::Topology;
 use trueness_geom::topology::weld::WeldError;
 
-/// What lies upon each other: facets with so little between them, mm, in numbers of this spacing.
+/// Limit of the distance between facets that lie upon each other, mm, in numbers of this spacing.
 #[derive(Clone, Copy)]
 pub(super) struct Closeness {
     pub step: f64,
@@ -15,16 +15,16 @@ pub(super) struct Closeness {
 }
 
 /// Facets lie upon each other where so many times the spacing of numbers, or less, is between them.
-const UPON: f64 = 64.0;
-/// Where a mesh in single precision is cut in double, only so many: what is farther apart can be cut as it is.
-const ROUNDED: f64 = 4.0;
+const MAX_STEPS_BETWEEN: f64 = 64.0;
+/// Where a mesh in single precision is cut in double, only so many: facets that are farther apart can be cut as they are.
+const MAX_STEPS_BETWEEN_ROUNDED: f64 = 4.0;
 
 impl Closeness {
     /// In numbers of single precision if the result is rounded to it or the mesh has it, else of double.
     pub fn of(mesh: &Mesh, single: bool) -> Closeness {
         let rounded = !single && mesh.is_single();
         let step = step(mesh, single || rounded);
-        Closeness { step, most: step * if rounded { ROUNDED } else { UPON } }
+        Closeness { step, most: step * if rounded { MAX_STEPS_BETWEEN_ROUNDED } else { MAX_STEPS_BETWEEN } }
     }
 
     fn holds(&self, apart: f64) -> bool {
@@ -56,8 +56,8 @@ fn widest(mesh: &Mesh, pairs: &[[u32; 2]], close: Closeness) -> f64 {
 
 /// The pairs of facets at an edge of more than two that lie upon each other, but not exactly. Edges of very many facets are left out.
 fn at_edges(mesh: &Mesh, topology: &Topology, close: Closeness) -> Vec<[u32; 2]> {
-    /// Of one edge.
-    const MANY: usize = 64;
+    /// Facets of one edge whose pairs are compared.
+    const MAX_FACETS_PER_EDGE: usize = 64;
     let of_edge = |[a, b]: [u32; 2]| {
         let facets = topology.facets_at_edge(mesh, [a, b]);
         let [p, q] = mesh.places(&[a, b]);
@@ -73,7 +73,7 @@ fn at_edges(mesh: &Mesh, topology: &Topology, close: Closeness) -> Vec<[u32; 2]>
             same_side && close.holds(apart(mesh, [f, g]))
         };
         let mut found = vec![];
-        for (i, f) in facets.iter().enumerate().take_while(|_| facets.len() <= MANY) {
+        for (i, f) in facets.iter().enumerate().take_while(|_| facets.len() <= MAX_FACETS_PER_EDGE) {
             found.extend(facets[..i].iter().filter(|g| is_upon(**g, *f)).map(|g| [*g, *f]));
         }
         found
@@ -81,8 +81,9 @@ fn at_edges(mesh: &Mesh, topology: &Topology, close: Closeness) -> Vec<[u32; 2]>
     topology.non_manifold_edges.par_iter().flat_map_iter(|e| of_edge(e.vertices)).collect()
 }
 
-/// The facets that cross or lie upon each other at an edge they share, and how far those that lie upon each other are apart at most.
-pub(super) fn upon(
+/// The facets that cross or lie upon each other at an edge they share. Also how far those that lie upon each other are
+/// apart at most.
+pub(super) fn near_coincident(
     mesh: &Mesh,
     topology: &Topology,
     crossing: &[[u32; 2]],

@@ -4,29 +4,30 @@ use crate::model::chain::SegmentKind;
 use trueness_geom::num::median::median;
 
 /// Half the number of points of a local fit of the noise.
-const HALF: usize = 4;
+const HALF_WINDOW: usize = 4;
 
-/// Standard deviation of the noise across the row, and the step at which its points are followed: the least power of 2 at
-/// which neighbors are four times as far apart as they scatter.
+/// Standard deviation of the noise across the row, and the step at which its points are followed. The step is the least
+/// power of 2 at which neighbors are four times as far apart as they scatter.
 ///
-/// From local cubics through nine points each, by their median, so that corners and outliers do not count. At greater steps most of
-/// them may hold a corner: of all steps at which neighbors are as far apart as they scatter the least noise counts. 0 for rows of fewer
-/// than nine points.
+/// From local cubics through nine points each, by their median, so that corners and outliers do not count. At greater
+/// steps most of them may hold a corner. The least noise counts of all steps at which neighbors are as far apart as
+/// they scatter. 0 for rows of fewer than nine points.
 pub(crate) fn noise(points: &[[f64; 2]], closed: bool) -> (f64, usize) {
     let (mut step, mut least) = (1, f64::INFINITY);
     loop {
-        let few: Vec<[f64; 2]> = points.iter().step_by(step).copied().collect();
-        let found = noise_of(&few, closed);
+        let thinned: Vec<[f64; 2]> = points.iter().step_by(step).copied().collect();
+        let found = noise_of(&thinned, closed);
         let far = |w: &[[f64; 2]]| libm::hypot(w[1][0] - w[0][0], w[1][1] - w[0][1]);
-        let mut steps: Vec<f64> = few.windows(2).map(far).collect();
+        let mut steps: Vec<f64> = thinned.windows(2).map(far).collect();
         let apart = median(&mut steps).unwrap_or(0.0);
         let found = found.min(least);
-        if 4.0 * found <= apart || few.len() < 60 {
+        if 4.0 * found <= apart || thinned.len() < 60 {
             return (found, step);
         }
         // Noise makes neighbors farther apart than they are; ends of a local fit far less.
-        let mut chords: Vec<f64> = few.windows(2 * HALF + 1).map(|w| far(&[w[0], w[2 * HALF]])).collect();
-        if found <= median(&mut chords).unwrap_or(0.0) / (2 * HALF) as f64 {
+        let mut chords: Vec<f64> =
+            thinned.windows(2 * HALF_WINDOW + 1).map(|w| far(&[w[0], w[2 * HALF_WINDOW]])).collect();
+        if found <= median(&mut chords).unwrap_or(0.0) / (2 * HALF_WINDOW) as f64 {
             least = found;
         }
         step *= 2;
@@ -46,7 +47,7 @@ pub(crate) fn noise_beyond_form(points: &[[f64; 2]], closed: bool) -> f64 {
 /// Standard deviation of points about local polynomials of so many coefficients, by the median.
 fn off_polynomials<const COEFFICIENTS: usize>(points: &[[f64; 2]], closed: bool) -> f64 {
     let n = points.len();
-    let width = 2 * HALF + 1;
+    let width = 2 * HALF_WINDOW + 1;
     if n < width + usize::from(closed) {
         return 0.0;
     }
@@ -60,16 +61,16 @@ fn off_polynomials<const COEFFICIENTS: usize>(points: &[[f64; 2]], closed: bool)
 }
 
 /// Mean square of the residuals of a polynomial through nine points, across the line through the first and last.
-fn mean_square_off<const COEFFICIENTS: usize>(points: &[[f64; 2]; 2 * HALF + 1]) -> Option<f64> {
-    let (first, last, middle) = (points[0], points[2 * HALF], points[HALF]);
+fn mean_square_off<const COEFFICIENTS: usize>(points: &[[f64; 2]; 2 * HALF_WINDOW + 1]) -> Option<f64> {
+    let (first, last, middle) = (points[0], points[2 * HALF_WINDOW], points[HALF_WINDOW]);
     let (dx, dy) = (last[0] - first[0], last[1] - first[1]);
     let length = libm::hypot(dx, dy);
     if length == 0.0 || !length.is_finite() {
         return None;
     }
     let (c, s) = (dx / length, dy / length);
-    let mut columns = [[0.0; 2 * HALF + 1]; COEFFICIENTS];
-    let mut rest = [0.0; 2 * HALF + 1];
+    let mut columns = [[0.0; 2 * HALF_WINDOW + 1]; COEFFICIENTS];
+    let mut rest = [0.0; 2 * HALF_WINDOW + 1];
     for (i, p) in points.iter().enumerate() {
         let (x, y) = (p[0] - middle[0], p[1] - middle[1]);
         let t = 2.0 * (c * x + s * y) / length;
@@ -123,15 +124,15 @@ impl Part {
     }
 }
 
-/// Sums over the points before each: x, y, xx, xy, yy, z, xz, yz, zz with z = xx + yy, from the middle of the row,
-/// and the sum of the weights. Each with what rounding lost of it: a short part of a long row is a small difference of large
-/// sums.
+/// Sums over the points before each, from the middle of the row, and the sum of the weights. They are x, y, xx, xy, yy,
+/// z, xz, yz, zz with z = xx + yy. Each with its rounding loss: a short part of a long row is a small difference of
+/// large sums.
 pub(crate) struct Sums {
     before: Vec<[[f64; 2]; 10]>,
     middle: [f64; 2],
 }
 
-/// Adds to a sum in two parts: the rounded one, and what rounding lost (Knuth).
+/// Adds to a sum in two parts: the rounded one, and the rounding loss (Knuth).
 fn add(sum: &mut [f64; 2], term: f64) {
     let next = sum[0] + term;
     let part = next - sum[0];
@@ -144,7 +145,7 @@ impl Sums {
         Sums::within(points, weights, &vec![0.0; points.len()])
     }
 
-    /// Of points that lie within arcs by this power each, as those of chords do.
+    /// Sums of points that lie within arcs by this power each, as those of chords do.
     pub fn within(points: &[[f64; 2]], weights: &[f64], powers: &[f64]) -> Sums {
         let n = points.len() as f64;
         let middle = [0, 1].map(|k| points.iter().map(|p| p[k]).sum::<f64>() / n);
@@ -231,8 +232,8 @@ impl Sums {
     }
 }
 
-/// Mean squared distance, center and radius of the circle by Taubin's method, from sums about the middle: xx, xy, yy, xz, yz,
-/// zz (of deviations from the mean) and the mean of z. `None` where it is straight or has no area.
+/// Mean squared distance, center and radius of the circle by Taubin's method, from sums about the middle. These are xx,
+/// xy, yy, xz, yz, zz (of deviations from the mean) and the mean of z. `None` where it is straight or has no area.
 ///
 /// Chernov, Circular and Linear Regression, 2010, section 5.8: the least root of the characteristic polynomial by Newton's
 /// method from 0. Unlike that of Kåsa, the circle of a short arc is not drawn in, and never fits worse than the line.
@@ -267,12 +268,12 @@ pub(crate) struct Halves {
     pub sum: f64,
 }
 
-/// Of each two kinds the lines or arcs, with `fewest` points on each at least, of least squares: each fitted by itself. Time grows with
-/// the number of points.
+/// The lines or arcs of least squares for each two kinds, with `fewest` points on each at least, each fitted by itself.
+/// Time grows with the number of points.
 pub(crate) fn halves(points: &[[f64; 2]], weights: &[f64], fewest: usize) -> Vec<Halves> {
     use SegmentKind::{Arc, Line};
     let (sums, n) = (Sums::new(points, weights), points.len());
-    // Of lines and arcs before and after.
+    // The best lines and arcs before and after.
     let mut best = [[(f64::INFINITY, 0); 2]; 2];
     for at in fewest..(n + 1).saturating_sub(fewest) {
         let [before, after] = [sums.fit(0, at), sums.fit(at, n)]

@@ -4,19 +4,19 @@ use super::sheet::{nearest, starts};
 use super::stray::Strays;
 use crate::model::result::{Contour, Options};
 
-/// A row, and what of it is searched.
-pub(super) struct Searched {
+/// A row, and the part of it that is searched.
+pub(super) struct WithoutStrays {
     /// The points that are no strays, by their numbers.
     kept: Vec<usize>,
     strays: Strays,
 }
 
-impl Searched {
+impl WithoutStrays {
     /// Points known to be in order have no strays.
-    pub fn of(points: &[[f64; 2]], options: &Options) -> Searched {
+    pub fn of(points: &[[f64; 2]], options: &Options) -> WithoutStrays {
         let strays = if options.ordered { Strays::default() } else { Strays::of(points) };
         let kept = (0..points.len()).filter(|i| strays.out.binary_search(i).is_err()).collect();
-        Searched { kept, strays }
+        WithoutStrays { kept, strays }
     }
 
     /// The points that are searched.
@@ -31,7 +31,7 @@ impl Searched {
 
     /// The contour found of them as that of the whole row.
     pub fn whole(self, found: Contour, points: &[[f64; 2]]) -> Contour {
-        let Searched { kept, strays } = self;
+        let WithoutStrays { kept, strays } = self;
         let mut all = Contour { doubtful: strays.doubtful, straight_on: strays.straight_on, ..found };
         if strays.out.is_empty() {
             return all;

@@ -4,9 +4,9 @@ use crate::model::flat::{angle, distance};
 use trueness_geom::spline::basis::Knots;
 use trueness_geom::spline::curve::{self, Curve, Ends};
 
-/// Points are kept within the first of these shares of the distance between them by curves of three points to a span; where these
-/// do not follow, within the second.
-pub(super) const TOLERANCES: [f64; 2] = [1e-4, 1e-3];
+/// Shares of the distance between points within which a curve keeps its points. Curves of three points to a span keep the first;
+/// where these do not follow, the second holds.
+pub(super) const FOLLOWED_TOLERANCES: [f64; 2] = [1e-4, 1e-3];
 
 /// From one place to another.
 pub(super) fn chord(from: [f64; 2], to: [f64; 2]) -> [f64; 2] {
@@ -34,17 +34,18 @@ fn shares(points: &[[f64; 2]]) -> Vec<f64> {
 /// A curve, and the parameters of the places nearest to its points.
 pub(super) type Followed = (Curve<[f64; 2]>, Vec<f64>);
 
-/// Places are found anew so many times.
-const PASSES: usize = 3;
+/// Feet are found anew so many times.
+const FOOT_PASSES: usize = 3;
 /// Points to a control point, at least, where spans are halved to keep the narrower tolerance.
-const FULL: usize = 4;
+const MIN_POINTS_PER_CONTROL_POINT: usize = 4;
 /// Spans that are halved are so many at first, of as many points at least.
-const SPANS: usize = 16;
+const FIRST_SPANS: usize = 16;
 
-/// The curve along points without noise: knots where the error asks for them, at the parameters of the nearest places; where points are few for
-/// its bends, up to a knot at each point. `None` where that swings between the points.
+/// The curve along points without noise. It has knots where the error asks for them, at the parameters of the nearest
+/// places. Where points are few for its bends, it has up to a knot at each point. `None` where that swings between the
+/// points.
 pub(super) fn followed(points: &[[f64; 2]], ends: Ends<2>, spacing: f64, least: f64) -> Option<Followed> {
-    let tolerances = TOLERANCES.map(|share| least.max(share * spacing));
+    let tolerances = FOLLOWED_TOLERANCES.map(|share| least.max(share * spacing));
     let divided = |parameters: &[f64]| {
         Some(curve::divided(points, parameters, 3, &[0.0, 1.0], ends, tolerances[0]).ok()?.curve)
     };
@@ -52,7 +53,7 @@ pub(super) fn followed(points: &[[f64; 2]], ends: Ends<2>, spacing: f64, least: 
     let (even, own) = (near(points, tolerances[0], divided), halves(tolerances[0]));
     let count = |f: &Followed| f.0.points().len();
     // A knot at every second point is a curve through noise.
-    let own = own.filter(|f| FULL * count(f) <= points.len());
+    let own = own.filter(|f| MIN_POINTS_PER_CONTROL_POINT * count(f) <= points.len());
     even.into_iter().chain(own).min_by_key(count).or_else(|| halves(tolerances[1]))
 }
 
@@ -64,7 +65,7 @@ fn near(
 ) -> Option<Followed> {
     let mut parameters = shares(points);
     let last = parameters.len() - 1;
-    for _ in 0..PASSES {
+    for _ in 0..FOOT_PASSES {
         let curve = fit(&parameters)?;
         let domain = curve.domain();
         let feet: Vec<_> =
@@ -87,7 +88,7 @@ fn near(
 fn halved(points: &[[f64; 2]], parameters: &[f64], ends: Ends<2>, tolerance: f64) -> Option<Curve<[f64; 2]>> {
     let last = points.len() - 1;
     // Beside the ends there are no knots: a curve through all points has as many control points.
-    let count = (last / SPANS).clamp(1, SPANS);
+    let count = (last / FIRST_SPANS).clamp(1, FIRST_SPANS);
     let mut limits: Vec<usize> = (0..=count).map(|k| k * last / count).collect();
     loop {
         let inner: Vec<f64> = limits[1..limits.len() - 1].iter().map(|i| parameters[*i]).collect();

@@ -1,24 +1,25 @@
 //! Models that a search begins with: the lines and arcs of a first partition, joined with a common tangent.
 
 use super::near::mended;
+use super::parts::Part;
 use super::rounds::Search;
-use super::start::Part;
 use crate::model::chain::{Chain, Ends, Piece, SegmentKind, arc_over};
 use crate::model::criterion::Model;
 use crate::model::flat::angle;
 use crate::model::least::{State, Stop};
 
 /// Fewest parts whose headings may add up to one far off.
-const SEVERAL: usize = 3;
+const MIN_PARTS_TO_CORRECT: usize = 3;
 /// Times that long chains are mended, of which pieces have lost their points.
-const EMPTIED: usize = 6;
+const MAX_MENDINGS: usize = 6;
 /// Two parts touch each other no farther from the middle between their points than so many times the distance of these.
-const NEAR: f64 = 4.0;
+const MAX_TOUCHING_GAPS: f64 = 4.0;
 
 impl Search<'_> {
-    /// The cheapest model of the parts that dynamic programming found: with the curvatures and lengths that they have by themselves; for
-    /// where the headings of many add up to one far off, and parts are lost on the way back, turning from one to the next as they do
-    /// by themselves; and from join to join as lines and arcs by themselves tell these.
+    /// The cheapest model of the parts that dynamic programming found. One has the curvatures and lengths that they
+    /// have by themselves. Where the headings of many add up to one far off, parts are lost on the way back. So another
+    /// turns from one part to the next as they do by themselves. A third goes from join to join as lines and arcs by
+    /// themselves tell these.
     pub fn first(&mut self, parts: &[Part], closed: bool) -> Model {
         let plain = self.plain(parts, closed);
         self.cheapest(plain, parts, closed)
@@ -36,7 +37,7 @@ impl Search<'_> {
     /// That one, or a cheaper one of the same parts.
     pub fn cheapest(&mut self, plain: Model, parts: &[Part], closed: bool) -> Model {
         let mut best = plain;
-        if parts.len() < SEVERAL {
+        if parts.len() < MIN_PARTS_TO_CORRECT {
             return best;
         }
         let bent = without_bends(parts);
@@ -63,8 +64,8 @@ impl Search<'_> {
             let ends = [points[(a.to - 1) % n], points[b.from % n]];
             let near = [0, 1].map(|k| 0.5 * (ends[0][k] + ends[1][k]));
             let at = touching(a, b, near)?;
-            let reach =
-                NEAR * libm::hypot(ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]).max(self.spacing);
+            let reach = MAX_TOUCHING_GAPS
+                * libm::hypot(ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]).max(self.spacing);
             (libm::hypot(at[0] - near[0], at[1] - near[1]) <= reach).then_some(at)
         };
         let (first, last) = (points[parts[0].from % n], points[(parts[m - 1].to - 1) % n]);
@@ -106,8 +107,8 @@ impl Search<'_> {
         parts.iter().enumerate().map(length).collect()
     }
 
-    /// The heading at the start, and curvatures with which parts of these lengths turn from one to the next as the parts by themselves
-    /// do, whatever their own ones: lines tell where the arcs beside them begin and end.
+    /// The heading at the start, and curvatures with which parts of these lengths turn from one to the next as the
+    /// parts by themselves do. Their own curvatures do not count: lines tell where the arcs beside them begin and end.
     fn turning(&self, parts: &[Part], lengths: &[f64]) -> (f64, Vec<f64>) {
         let points = self.row.points;
         let (n, last) = (points.len(), parts.len() - 1);
@@ -178,7 +179,7 @@ impl Search<'_> {
     /// Improves a state; a long one is mended where pieces have lost their points.
     fn improved(&mut self, state: &mut State, stop: &Stop) {
         self.work.improve(&self.row, state, None, stop);
-        for _ in 0..EMPTIED {
+        for _ in 0..MAX_MENDINGS {
             let sound = mended(state);
             if !sound.chain.is_long() || sound.chain == state.chain {
                 break;
@@ -189,8 +190,8 @@ impl Search<'_> {
     }
 }
 
-/// Where two parts touch: the foot of an arc's center on a line, or where the line through two centers meets the arcs; where two
-/// lines cross. `near` tells which of two.
+/// Where two parts touch. That is the foot of an arc's center on a line, or where the line through two centers meets
+/// the arcs. Two lines touch where they cross. `near` tells which of two.
 fn touching(a: &Part, b: &Part, near: [f64; 2]) -> Option<[f64; 2]> {
     let center = |p: &Part| [p.center[0] - p.along[1] / p.curvature, p.center[1] + p.along[0] / p.curvature];
     let foot = |line: &Part, c: [f64; 2]| {

@@ -1,44 +1,45 @@
-//! What models are built on: a model with its points along it, or two that follow each other; and the models one step from it.
+//! The model that others are built on, with its points along it, or two that follow each other. Also the models one
+//! step from it.
 
 use crate::model::chain::{Chain, SegmentKind};
-use crate::model::criterion::{Model, Plan};
+use crate::model::criterion::{Model, PieceSpec};
 use crate::model::free;
 use crate::model::least::State;
 
 /// Samples of the curvature to a coefficient of a free piece.
-const SAMPLES: usize = 4;
+const SAMPLES_PER_COEFFICIENT: usize = 4;
 /// Shares of a free piece that go to a line or arc beside it.
-const GIVEN: [f64; 3] = [0.05, 0.12, 0.3];
+const HANDED_OVER_SHARES: [f64; 3] = [0.05, 0.12, 0.3];
 /// Fewest points to a coefficient of a free piece over two.
-const LEAST: usize = 2;
+const MIN_POINTS_PER_COEFFICIENT: usize = 2;
 /// A model with the places of its joins and points along it.
-pub(crate) struct Base {
+pub(crate) struct PlacedModel {
     pub model: Model,
     pub stations: Vec<f64>,
     /// Lengths to the points, in the order of the chain.
     pub order: Vec<f64>,
-    pub plans: Vec<Plan>,
+    pub specs: Vec<PieceSpec>,
     /// Where two chains follow each other, and how far the row turns there.
     seam: Option<(f64, f64)>,
-    /// Of short arcs along the points, how far they turn from the start to each end; else empty.
+    /// How far short arcs along the points turn from the start to each end; else empty.
     turns: Vec<f64>,
 }
 
-impl Base {
-    /// Of a model and the lengths from its start to the feet of all points.
-    pub fn new(model: Model, all: &[f64]) -> Base {
+impl PlacedModel {
+    /// A model with the lengths from its start to the feet of all points.
+    pub fn new(model: Model, all: &[f64]) -> PlacedModel {
         let n = all.len();
         let first = model.state.breaks[0];
         let mut order: Vec<f64> = (0..n).map(|i| all[(first + i) % n]).collect();
         rising(&mut order);
         let stations = model.state.chain.stations();
-        let plans = plans(&model.state.chain, &stations);
-        Base { model, stations, order, plans, seam: None, turns: vec![] }
+        let specs = specs(&model.state.chain, &stations);
+        PlacedModel { model, stations, order, specs, seam: None, turns: vec![] }
     }
 
     /// Two chains of a row as one, whose order along each is given, with a `turn` and a `gap` from one to the next. It is none that runs along the
     /// points: models are to be built on it.
-    pub fn of_both([a, b]: [(&State, Vec<f64>); 2], turn: f64, gap: f64) -> Base {
+    pub fn of_both([a, b]: [(&State, Vec<f64>); 2], turn: f64, gap: f64) -> PlacedModel {
         let ((first, mut order), (second, after)) = (a, b);
         let mut pieces = first.chain.pieces.clone();
         let (n, last) = (first.feet.len(), pieces.len() - 1);
@@ -56,49 +57,50 @@ impl Base {
         let feet = first.feet.iter().chain(&second.feet).copied().collect();
         let breaks = first.breaks.iter().copied().chain(second.breaks[1..].iter().map(|b| b + n)).collect();
         let stations = chain.stations();
-        let plans = plans(&chain, &stations);
+        let specs = specs(&chain, &stations);
         let state = State { chain, breaks, feet, sum: 0.0 };
-        Base {
+        PlacedModel {
             model: Model { state, cost: f64::INFINITY },
             stations,
             order,
-            plans,
+            specs,
             seam: Some((whole, turn)),
             turns: vec![],
         }
     }
 
     /// Short arcs along the points, which lie in this order, with plans of other pieces.
-    pub fn along(model: Model, stations: Vec<f64>, order: Vec<f64>, plans: Vec<Plan>) -> Base {
+    pub fn of_arcs(model: Model, stations: Vec<f64>, order: Vec<f64>, specs: Vec<PieceSpec>) -> PlacedModel {
         let mut order = order;
         rising(&mut order);
         let mut turns = vec![0.0];
         for (k, arc) in model.state.chain.pieces.iter().enumerate() {
             turns.push(turns[k] + arc.length * arc.curvature(0.0));
         }
-        Base { model, stations, order, plans, seam: None, turns }
+        PlacedModel { model, stations, order, specs, seam: None, turns }
     }
 
-    /// Coefficients of a free piece: nearly those with the curvature of the pieces there (least squares), so that it turns as much as they do;
-    /// between two chains the mean curvature about each of its places, and at the seam the turn there.
-    pub fn coefficients(&self, plan: &Plan) -> Vec<f64> {
+    /// Coefficients of a free piece: nearly those with the curvature of the pieces there (least squares), so that it
+    /// turns as much as they do. Between two chains they are the mean curvature about each of its places, and at the
+    /// seam the turn there.
+    pub fn coefficients(&self, spec: &PieceSpec) -> Vec<f64> {
         if self.seam.is_none() {
-            let cells = SAMPLES * plan.count;
-            let ends = |i: usize| plan.from + (plan.to - plan.from) * i as f64 / cells as f64;
+            let cells = SAMPLES_PER_COEFFICIENT * spec.count;
+            let ends = |i: usize| spec.from + (spec.to - spec.from) * i as f64 / cells as f64;
             let all: Vec<f64> = (0..cells).map(|i| self.mean_curvature(ends(i), ends(i + 1))).collect();
-            return free::near(plan.count, &all);
+            return free::near(spec.count, &all);
         }
         let chain = &self.model.state.chain;
-        let width = (plan.to - plan.from) / (2.0 * plan.count as f64);
+        let width = (spec.to - spec.from) / (2.0 * spec.count as f64);
         let at: Vec<f64> =
-            free::places(plan.count).iter().map(|t| plan.from + t * (plan.to - plan.from)).collect();
-        let around = |s: &f64| ((s - width).max(plan.from), (s + width).min(plan.to));
+            free::places(spec.count).iter().map(|t| spec.from + t * (spec.to - spec.from)).collect();
+        let around = |s: &f64| ((s - width).max(spec.from), (s + width).min(spec.to));
         let mean = |s: &f64| {
             let (a, b) = around(s);
             chain.mean_curvature(&self.stations, a, b)
         };
         let mut all: Vec<f64> = at.iter().map(mean).collect();
-        let inside = |seam: &(f64, f64)| plan.from < seam.0 && seam.0 < plan.to;
+        let inside = |seam: &(f64, f64)| spec.from < seam.0 && seam.0 < spec.to;
         if let Some((seam, turn)) = self.seam.filter(inside) {
             let off = |k: &usize| (at[*k] - seam).abs();
             let nearest = (0..at.len()).min_by(|j, k| off(j).total_cmp(&off(k))).unwrap_or(0);
@@ -108,7 +110,8 @@ impl Base {
         all
     }
 
-    /// Mean curvature over a part; of short arcs exactly, so that what free pieces turn does not add up to something else.
+    /// Mean curvature over a part. It is exact for short arcs, so that the turns of free pieces do not add up to
+    /// something else.
     fn mean_curvature(&self, from: f64, to: f64) -> f64 {
         if self.turns.is_empty() {
             return self.model.state.chain.mean_curvature(&self.stations, from, to);
@@ -121,30 +124,31 @@ impl Base {
         (turn(to) - turn(from)) / (to - from)
     }
 
-    /// The chains as they are, tangent to each other; one line or arc where they meet; with a line or an arc beside the corner, which a free piece around it may hide; and
-    /// with one free piece there.
-    pub fn joined(&self, first: usize) -> Vec<Vec<Plan>> {
+    /// The chains as they are, tangent to each other; then one line or arc where they meet. Then come a line or an arc
+    /// beside the corner, which a free piece around it may hide, and one free piece there.
+    pub fn joined(&self, first: usize) -> Vec<Vec<PieceSpec>> {
         use SegmentKind::{Arc, Line, Spline};
-        let [a, b] = [self.plans[first], self.plans[first + 1]];
-        let most = (a.count + b.count).clamp(2, free::MOST_COEFFICIENTS);
-        let with = |new: &[Plan]| [&self.plans[..first], new, &self.plans[first + 2..]].concat();
-        let over = |kind, count| with(&[Plan { kind, count, from: a.from, to: b.to }]);
+        let [a, b] = [self.specs[first], self.specs[first + 1]];
+        let most = (a.count + b.count).clamp(2, free::MAX_COEFFICIENTS);
+        let with = |new: &[PieceSpec]| [&self.specs[..first], new, &self.specs[first + 2..]].concat();
+        let over = |kind, count| with(&[PieceSpec { kind, count, from: a.from, to: b.to }]);
         let plain = [(Line, 0), (Arc, 1)];
         let both = plain.map(|(kind, count)| over(kind, count));
-        let before = plain.map(|(kind, count)| with(&[Plan { kind, count, ..a }, b]));
-        let after = plain.map(|(kind, count)| with(&[a, Plan { kind, count, ..b }]));
+        let before = plain.map(|(kind, count)| with(&[PieceSpec { kind, count, ..a }, b]));
+        let after = plain.map(|(kind, count)| with(&[a, PieceSpec { kind, count, ..b }]));
         let own = self.model.state.breaks[first + 2] - self.model.state.breaks[first];
-        let counts = [3, 4, 6, 8, 12, most].into_iter().filter(|count| LEAST * count <= own);
+        let counts =
+            [3, 4, 6, 8, 12, most].into_iter().filter(|count| MIN_POINTS_PER_COEFFICIENT * count <= own);
         let free = counts.map(|count| over(Spline, count));
-        std::iter::once(self.plans.clone()).chain(both).chain(before).chain(after).chain(free).collect()
+        std::iter::once(self.specs.clone()).chain(both).chain(before).chain(after).chain(free).collect()
     }
 
     /// Every model one step away: as lists of plans.
-    pub fn changes(&self, kinds: [bool; 2], spacing: f64) -> Vec<Vec<Plan>> {
-        let plans = &self.plans[..];
+    pub fn changes(&self, kinds: [bool; 2], spacing: f64) -> Vec<Vec<PieceSpec>> {
+        let specs = &self.specs[..];
         let mut all = vec![];
-        let n = plans.len();
-        let replace = |i: usize, j: usize, new: &[Plan]| [&plans[..i], new, &plans[j + 1..]].concat();
+        let n = specs.len();
+        let replace = |i: usize, j: usize, new: &[PieceSpec]| [&specs[..i], new, &specs[j + 1..]].concat();
         let [arcs, splines] = kinds;
         let allowed = |kind: SegmentKind| match kind {
             SegmentKind::Line => true,
@@ -152,13 +156,13 @@ impl Base {
             SegmentKind::Spline => splines,
         };
         let mut one = |i: usize, j: usize, kind: SegmentKind, count: usize| {
-            let plan = Plan { kind, count, from: plans[i].from, to: plans[j].to };
+            let spec = PieceSpec { kind, count, from: specs[i].from, to: specs[j].to };
             if allowed(kind) {
-                all.push(replace(i, j, &[plan]));
+                all.push(replace(i, j, &[spec]));
             }
         };
         for i in 0..n {
-            match plans[i].kind {
+            match specs[i].kind {
                 SegmentKind::Line => one(i, i, SegmentKind::Arc, 1),
                 SegmentKind::Arc => one(i, i, SegmentKind::Line, 0),
                 SegmentKind::Spline => {
@@ -166,10 +170,10 @@ impl Base {
                     one(i, i, SegmentKind::Arc, 1);
                 }
             }
-            if plans[i].kind == SegmentKind::Spline {
-                let count = plans[i].count;
+            if specs[i].kind == SegmentKind::Spline {
+                let count = specs[i].count;
                 for more in [count.wrapping_sub(1), count + 1, count + 2, count + count / 2 + 1] {
-                    if (2..=free::MOST_COEFFICIENTS).contains(&more) {
+                    if (2..=free::MAX_COEFFICIENTS).contains(&more) {
                         one(i, i, SegmentKind::Spline, more);
                     }
                 }
@@ -180,19 +184,19 @@ impl Base {
                 one(i, i + 1, SegmentKind::Line, 0);
                 one(i, i + 1, SegmentKind::Arc, 1);
                 [3, 4, 6, 8].into_iter().for_each(|count| one(i, i + 1, SegmentKind::Spline, count));
-                let most = plans[i].count.max(plans[i + 1].count);
-                let both = plans[i].count + plans[i + 1].count;
+                let most = specs[i].count.max(specs[i + 1].count);
+                let both = specs[i].count + specs[i + 1].count;
                 if most > 1 {
                     [most + 2, both]
                         .into_iter()
-                        .filter(|c| *c <= free::MOST_COEFFICIENTS)
+                        .filter(|c| *c <= free::MAX_COEFFICIENTS)
                         .for_each(|c| one(i, i + 1, SegmentKind::Spline, c));
                 }
             }
         }
-        for (i, j) in runs(plans) {
+        for (i, j) in runs(specs) {
             if j > i + 1 {
-                let longest = (j - i + 3).min(free::MOST_COEFFICIENTS);
+                let longest = (j - i + 3).min(free::MAX_COEFFICIENTS);
                 [3, 4, 5, 6, 8, 10].into_iter().for_each(|count| one(i, j, SegmentKind::Spline, count));
                 if longest > 10 {
                     one(i, j, SegmentKind::Spline, longest);
@@ -200,31 +204,32 @@ impl Base {
             }
         }
         for i in 0..n {
-            splits(i, plans, kinds[0], spacing, &mut all);
-            shorter(i, plans, spacing, &mut all);
+            splits(i, specs, kinds[0], spacing, &mut all);
+            shorter(i, specs, spacing, &mut all);
         }
         all
     }
 }
 
-/// A free piece beside a line or arc with a part of it given to this, and fewer coefficients: it may have them only to follow that.
-fn shorter(i: usize, plans: &[Plan], spacing: f64, all: &mut Vec<Vec<Plan>>) {
-    let plan = plans[i];
-    let width = plan.to - plan.from;
-    if plan.kind != SegmentKind::Spline || plan.count < 3 || width < 8.0 * spacing {
+/// A free piece beside a line or arc with a part of it given to this, and fewer coefficients. It may have them only to
+/// follow that.
+fn shorter(i: usize, specs: &[PieceSpec], spacing: f64, all: &mut Vec<Vec<PieceSpec>>) {
+    let spec = specs[i];
+    let width = spec.to - spec.from;
+    if spec.kind != SegmentKind::Spline || spec.count < 3 || width < 8.0 * spacing {
         return;
     }
-    let is_simple = |k: &usize| plans.get(*k).is_some_and(|p| p.kind != SegmentKind::Spline);
-    let beside = [i.checked_sub(1).filter(is_simple), Some(i + 1).filter(is_simple)];
-    for (k, other) in beside.into_iter().enumerate() {
+    let is_simple = |k: &usize| specs.get(*k).is_some_and(|p| p.kind != SegmentKind::Spline);
+    let neighbors = [i.checked_sub(1).filter(is_simple), Some(i + 1).filter(is_simple)];
+    for (k, other) in neighbors.into_iter().enumerate() {
         let Some(other) = other else { continue };
-        for share in GIVEN {
-            let at = if k == 0 { plan.from + share * width } else { plan.to - share * width };
-            for count in [2, plan.count / 2 + 1, part_of(plan.count, 1.0 - share), plan.count - 1]
+        for share in HANDED_OVER_SHARES {
+            let at = if k == 0 { spec.from + share * width } else { spec.to - share * width };
+            for count in [2, spec.count / 2 + 1, part_of(spec.count, 1.0 - share), spec.count - 1]
                 .into_iter()
-                .filter(|c| *c < plan.count)
+                .filter(|c| *c < spec.count)
             {
-                let mut new = plans.to_vec();
+                let mut new = specs.to_vec();
                 new[i].count = count;
                 if k == 0 {
                     (new[other].to, new[i].from) = (at, at);
@@ -243,14 +248,14 @@ fn part_of(count: usize, share: f64) -> usize {
 }
 
 /// A piece cut in two.
-fn splits(i: usize, plans: &[Plan], arcs: bool, spacing: f64, all: &mut Vec<Vec<Plan>>) {
+fn splits(i: usize, specs: &[PieceSpec], arcs: bool, spacing: f64, all: &mut Vec<Vec<PieceSpec>>) {
     use SegmentKind::{Arc, Line, Spline};
-    let plan = plans[i];
-    let width = plan.to - plan.from;
+    let spec = specs[i];
+    let width = spec.to - spec.from;
     if width < 8.0 * spacing {
         return;
     }
-    let ways: &[(SegmentKind, SegmentKind, f64)] = match plan.kind {
+    let ways: &[(SegmentKind, SegmentKind, f64)] = match spec.kind {
         Spline => &[
             (Line, Spline, 0.12),
             (Line, Spline, 0.25),
@@ -269,31 +274,31 @@ fn splits(i: usize, plans: &[Plan], arcs: bool, spacing: f64, all: &mut Vec<Vec<
         Line => &[(Line, Arc, 0.5), (Line, Arc, 0.75), (Arc, Line, 0.25), (Arc, Line, 0.5)],
     };
     for (a, b, share) in ways {
-        let at = plan.from + share * width;
+        let at = spec.from + share * width;
         if [*a, *b].contains(&Arc) && !arcs {
             continue;
         }
         // A free piece that lost a part needs fewer coefficients.
         let left = if *a == Spline { *share } else { 1.0 - share };
-        let fewer = [plan.count / 2 + 1, part_of(plan.count, left)];
-        let fewer = fewer.into_iter().filter(|_| plan.count > 4 && [*a, *b].contains(&Spline));
-        for free in std::iter::once(plan.count.max(2)).chain(fewer) {
+        let fewer = [spec.count / 2 + 1, part_of(spec.count, left)];
+        let fewer = fewer.into_iter().filter(|_| spec.count > 4 && [*a, *b].contains(&Spline));
+        for free in std::iter::once(spec.count.max(2)).chain(fewer) {
             let count = |kind: SegmentKind| match kind {
                 Line => 0,
                 Arc => 1,
                 Spline => free,
             };
-            let first = Plan { kind: *a, count: count(*a), from: plan.from, to: at };
-            let second = Plan { kind: *b, count: count(*b), from: at, to: plan.to };
-            all.push([&plans[..i], &[first, second], &plans[i + 1..]].concat());
+            let first = PieceSpec { kind: *a, count: count(*a), from: spec.from, to: at };
+            let second = PieceSpec { kind: *b, count: count(*b), from: at, to: spec.to };
+            all.push([&specs[..i], &[first, second], &specs[i + 1..]].concat());
         }
     }
 }
 
 /// The plans of a chain's own pieces.
-fn plans(chain: &Chain, stations: &[f64]) -> Vec<Plan> {
+fn specs(chain: &Chain, stations: &[f64]) -> Vec<PieceSpec> {
     let each = chain.pieces.iter().zip(stations.windows(2));
-    each.map(|(p, w)| Plan { kind: p.kind, count: p.coefficients.len(), from: w[0], to: w[1] }).collect()
+    each.map(|(p, w)| PieceSpec { kind: p.kind, count: p.coefficients.len(), from: w[0], to: w[1] }).collect()
 }
 
 /// Noise may swap neighbors; the order of the row stands.
@@ -306,11 +311,11 @@ fn rising(order: &mut [f64]) {
 }
 
 /// First and last of each run of pieces that are no lines.
-fn runs(plans: &[Plan]) -> Vec<(usize, usize)> {
+fn runs(specs: &[PieceSpec]) -> Vec<(usize, usize)> {
     let mut all = vec![];
     let mut start = None;
-    for (i, plan) in plans.iter().enumerate() {
-        match (plan.kind, start) {
+    for (i, spec) in specs.iter().enumerate() {
+        match (spec.kind, start) {
             (SegmentKind::Line, Some(from)) => {
                 all.push((from, i - 1));
                 start = None;
@@ -320,6 +325,6 @@ fn runs(plans: &[Plan]) -> Vec<(usize, usize)> {
             _ => {}
         }
     }
-    all.extend(start.map(|from| (from, plans.len() - 1)));
+    all.extend(start.map(|from| (from, specs.len() - 1)));
     all
 }

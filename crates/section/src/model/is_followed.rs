@@ -3,16 +3,16 @@
 use super::chain::{SegmentKind, arc_end};
 use super::least::{Row, State, Work};
 
-/// Between the feet of neighboring points a chain is at most this many times as long as they are apart: an arc that turns by a
-/// half circle there is π/2 times as long.
-const LONGEST: f64 = 2.0;
+/// Between the feet of neighboring points a chain is at most this many times as long as they are apart. An arc that
+/// turns by a half circle there is π/2 times as long.
+const MAX_DETOUR_RATIO: f64 = 2.0;
 
 impl Work {
     /// Whether the chain runs from each point to the next without a loop between them.
     ///
     /// Distances of points see nothing of a loop between two of them. Both ends are places of the chain, so noise does not
     /// make them farther apart than the chain is long. Feet nearer than half the `spacing` along the chain are not looked at.
-    pub(crate) fn follows(&mut self, row: &Row, state: &mut State, spacing: f64) -> bool {
+    pub(crate) fn is_followed(&mut self, row: &Row, state: &mut State, spacing: f64) -> bool {
         let stations = self.stations(row, state);
         let count = row.points.len();
         let starts = state.chain.stations();
@@ -31,7 +31,7 @@ impl Work {
                 if let Some((before, at)) = last {
                     let along = stations[i] - before;
                     let apart = libm::hypot(foot[0] - at[0], foot[1] - at[1]);
-                    if along > 0.5 * spacing && along > LONGEST * apart {
+                    if along > 0.5 * spacing && along > MAX_DETOUR_RATIO * apart {
                         return false;
                     }
                 }

@@ -1,30 +1,32 @@
 //! Whether a cover of exact points by lines and arcs is told by these, or by chance.
 
-use super::facets::{Item, LineOrArc, Polygon, SHARP, round};
+use super::facets::{Item, LineOrArc, Polygon, SHARP_TURN, round};
 use crate::model::flat::{angle, distance};
 
-/// What a cover saves is no chance where so many coincidences among as many points are less likely than e to the power of minus this.
-const CHANCE: f64 = 5.0;
-/// A coincidence is one to within rounding of this share of a chord, or of what vertices lie off the chord between their neighbors where
-/// these are no corners of a few sides, or off one circle.
-pub(super) const SCALE: f64 = 0.25;
-const CORNERS: usize = 3;
+/// A cover is no chance where so many coincidences among as many points are less likely than e to the power of minus this.
+const MIN_CHANCE_EXPONENT: f64 = 5.0;
+/// A coincidence is one to within rounding of this share of the median chord. The scale is less where vertices lie
+/// nearer to the chord between their neighbors, and these are no corners of a few sides. It is also less where they lie
+/// nearer to one circle.
+pub(super) const COINCIDENCE_SHARE: f64 = 0.25;
+/// So many vertices between lines of one chord are no corners of a few sides.
+const MIN_VERTICES_OF_SCALE: usize = 3;
 /// A segment ends where the next vertex lies off it by more than so many roundings.
-const ENDS: f64 = 5.0;
+const END_ROUNDINGS: f64 = 5.0;
 /// Between points that are not at joins chords are as long as those beside, to this factor.
-pub(super) const GAP: f64 = 2.0;
-/// A chord over vertices that are missing is one over a whole number of the others, to this share of one.
-const MULTIPLE: f64 = 0.02;
+pub(super) const MAX_NEIGHBOR_CHORD_RATIO: f64 = 2.0;
+/// A chord over missing vertices is one over a whole number of the others, to this share of one.
+const WHOLE_MULTIPLE_SHARE: f64 = 0.02;
 /// Curves touch each other to within so many roundings.
-const TOUCH: f64 = 4.0;
+const TOUCH_ROUNDINGS: f64 = 4.0;
 
-/// A line or an arc between two vertices, and what is known of it.
+/// A line or an arc between two vertices, and the facts known of it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Piece {
     pub item: Item,
     /// Directions at its ends.
     pub along: [[f64; 2]; 2],
-    /// What these are uncertain by, radians.
+    /// Uncertainty of these, radians.
     pub slack: f64,
     /// Coordinates of its own that it explains, its curvature taken off.
     pub saves: f64,
@@ -50,8 +52,8 @@ impl Piece {
 }
 
 /// Whether the points tell these pieces.
-pub(super) fn is_told(polygon: &Polygon, pieces: &[Piece], rounding: f64) -> bool {
-    let seen = Seen { polygon, pieces, rounding };
+pub(super) fn is_evident(polygon: &Polygon, pieces: &[Piece], rounding: f64) -> bool {
+    let seen = PieceCover { polygon, pieces, rounding };
     let is_a_cover = || seen.is_no_chance() && seen.is_no_curve() && seen.all_end();
     seen.has_an_arc() && is_a_cover() && seen.joins_at_points() && seen.is_no_circle()
 }
@@ -59,18 +61,18 @@ pub(super) fn is_told(polygon: &Polygon, pieces: &[Piece], rounding: f64) -> boo
 /// Whether so many coincidences are none of chance where so many are expected, by the upper tail of the binomial distribution. One is no evidence: the
 /// four corners of a rectangle lie on a circle.
 pub(super) fn is_no_chance(saved: f64, expected: f64) -> bool {
-    saved >= 2.0 && saved * (libm::log(saved / expected) - 1.0) >= CHANCE
+    saved >= 2.0 && saved * (libm::log(saved / expected) - 1.0) >= MIN_CHANCE_EXPONENT
 }
 
-struct Seen<'a> {
+struct PieceCover<'a> {
     polygon: &'a Polygon,
     pieces: &'a [Piece],
     rounding: f64,
 }
 
-impl Seen<'_> {
+impl PieceCover<'_> {
     /// The pieces before and after one.
-    fn beside(&self, k: usize) -> [Option<&Piece>; 2] {
+    fn neighbors(&self, k: usize) -> [Option<&Piece>; 2] {
         let n = self.pieces.len();
         if self.polygon.closed && n > 1 {
             return [Some(&self.pieces[(k + n - 1) % n]), Some(&self.pieces[(k + 1) % n])];
@@ -80,7 +82,7 @@ impl Seen<'_> {
 
     /// Whether a piece goes on into those before and after it with the same direction.
     fn tangent(&self, k: usize) -> [bool; 2] {
-        let [before, after] = self.beside(k);
+        let [before, after] = self.neighbors(k);
         let own = &self.pieces[k];
         [before.is_some_and(|b| b.is_tangent(own)), after.is_some_and(|a| own.is_tangent(a))]
     }
@@ -90,13 +92,13 @@ impl Seen<'_> {
     fn explains(&self, piece: &Piece) -> f64 {
         let beyond = piece.chords().saturating_sub(if piece.is_arc() { 2 } else { 1 });
         let chord = |k: usize| self.polygon.facet_length(piece.item.from + k);
-        let same = |a: f64, b: f64| (a - b).abs() <= TOUCH * self.rounding;
+        let same = |a: f64, b: f64| (a - b).abs() <= TOUCH_ROUNDINGS * self.rounding;
         let is_trapezoid =
             piece.is_arc() && piece.chords() == 3 && same(chord(0), chord(2)) && !same(chord(0), chord(1));
         if is_trapezoid { 0.0 } else { beyond as f64 }
     }
 
-    /// What the points lie off one circle by, as of a round part that scatters.
+    /// Distance of the points from one circle, as of a round part that scatters.
     fn off_one_circle(&self) -> f64 {
         let points = &self.polygon.at;
         let Some((center, radius)) = round(points) else { return f64::INFINITY };
@@ -104,7 +106,7 @@ impl Seen<'_> {
         (sum / points.len() as f64).sqrt()
     }
 
-    /// Four points of a circle, or three of one that is tangent to what is beside.
+    /// Four points of a circle, or three of one that is tangent to its neighbor.
     fn has_an_arc(&self) -> bool {
         let arc = |(k, p): (usize, &Piece)| p.is_arc() && (p.chords() > 2 || self.tangent(k) == [true; 2]);
         self.pieces.iter().enumerate().any(arc)
@@ -119,8 +121,8 @@ impl Seen<'_> {
         let saved = tangent + self.pieces.iter().map(|p| self.explains(p)).sum::<f64>();
         let mut chords: Vec<f64> = (0..self.polygon.facets()).map(|i| self.polygon.facet_length(i)).collect();
         chords.sort_by(f64::total_cmp);
-        let mut scale = SCALE * chords[chords.len() / 2];
-        // Of a row with noise hardly a vertex is explained: these lie off each other by the noise.
+        let mut scale = COINCIDENCE_SHARE * chords[chords.len() / 2];
+        // Hardly a vertex of a row with noise is explained: these lie off each other by the noise.
         let plain = |k: usize| self.pieces[k % n].chords() == 1 && self.pieces[(k + 1) % n].chords() == 1;
         let height = |k: usize| {
             let at = self.pieces[k].item.to;
@@ -129,7 +131,7 @@ impl Seen<'_> {
             ((c[0] - a[0]) * (b[1] - a[1]) - (c[1] - a[1]) * (b[0] - a[0])).abs() / whole
         };
         let mut free: Vec<f64> = (0..joins).filter(|k| plain(*k)).map(height).collect();
-        if free.len() >= CORNERS {
+        if free.len() >= MIN_VERTICES_OF_SCALE {
             free.sort_by(f64::total_cmp);
             scale = scale.min(free[free.len() / 2]);
         }
@@ -147,7 +149,7 @@ impl Seen<'_> {
         let is_chord = |k: usize| !self.pieces[k % n].is_arc() && self.pieces[k % n].chords() == 1;
         let turn = |k: usize| angle(self.pieces[k % n].along[1], self.pieces[(k + 1) % n].along[0]).abs();
         let last = if self.polygon.closed { n } else { n.saturating_sub(2) };
-        !(0..last).any(|k| (k..k + 3).all(is_chord) && turn(k).max(turn(k + 1)) <= SHARP)
+        !(0..last).any(|k| (k..k + 3).all(is_chord) && turn(k).max(turn(k + 1)) <= SHARP_TURN)
     }
 
     /// Whether each segment of more than two points ends for certain: the vertices beyond its ends lie off it. Where a smooth curve is covered by
@@ -155,14 +157,14 @@ impl Seen<'_> {
     fn all_end(&self) -> bool {
         let n = self.polygon.at.len();
         let ends = |(k, piece): (usize, &Piece)| {
-            let [before, after] = self.beside(k);
+            let [before, after] = self.neighbors(k);
             let beyond = [before.map(|_| piece.item.from + n - 1), after.map(|_| piece.item.to + 1)]
                 .into_iter()
                 .flatten();
-            // One chord closes an arc: what is beyond is its other end.
+            // One chord closes an arc: the piece beyond is its other end.
             let own = |i: usize| (i + n - piece.item.from % n) % n <= piece.chords();
             piece.chords() < 2
-                || beyond.filter(|i| !own(*i)).all(|i| self.off(piece, i) > ENDS * self.rounding)
+                || beyond.filter(|i| !own(*i)).all(|i| self.off(piece, i) > END_ROUNDINGS * self.rounding)
         };
         self.pieces.iter().enumerate().all(ends)
     }
@@ -179,13 +181,13 @@ impl Seen<'_> {
         }
     }
 
-    /// Whether joins lie at points. Where they lie between points, the chord over a join is none of the segments: the ones on both sides of it
-    /// touch each other, or may cross in it, and it is no longer than the chords beside.
+    /// Whether joins lie at points. Where they lie between points, the chord over a join is none of the segments. The
+    /// ones on both sides of it touch each other, or may cross in it, and it is no longer than the chords beside.
     fn joins_at_points(&self) -> bool {
         (0..self.pieces.len()).all(|k| {
             let chord = &self.pieces[k];
-            let [Some(before), Some(after)] = self.beside(k) else { return true };
-            // Of an arc and its chord alone it is asked whether they are a circle.
+            let [Some(before), Some(after)] = self.neighbors(k) else { return true };
+            // Only of an arc and its chord alone it is asked whether they are a circle.
             let is_only_chord = self.polygon.closed && self.pieces.len() == 2;
             if is_only_chord || chord.chords() > 1 || self.tangent(k) == [true; 2] {
                 return true;
@@ -194,7 +196,9 @@ impl Seen<'_> {
             let step =
                 |p: &Piece, at: usize| if p.chords() > 1 { self.polygon.facet_length(at) } else { 0.0 };
             let near = step(before, before.item.to - 1).max(step(after, after.item.from));
-            if several == [false; 2] || self.polygon.facet_length(chord.item.from) > GAP * near {
+            if several == [false; 2]
+                || self.polygon.facet_length(chord.item.from) > MAX_NEIGHBOR_CHORD_RATIO * near
+            {
                 return true;
             }
             several != [true; 2] && !self.touch(before, after)
@@ -203,7 +207,7 @@ impl Seen<'_> {
 
     /// Whether the circles or lines of two pieces touch each other.
     fn touch(&self, a: &Piece, b: &Piece) -> bool {
-        let most = TOUCH * self.rounding;
+        let most = TOUCH_ROUNDINGS * self.rounding;
         match (a.item.shape, b.item.shape) {
             (LineOrArc::Line, LineOrArc::Line) => false,
             (LineOrArc::Arc(c, k), LineOrArc::Arc(d, m)) => {
@@ -221,8 +225,8 @@ impl Seen<'_> {
         (off - 1.0 / curvature.abs()).abs() <= most
     }
 
-    /// Whether one arc and one chord of its circle are no whole circle, or regular polygon: the chord is far longer than those of the arc, or
-    /// these are even to rounding, and no whole number of them goes into the chord.
+    /// Whether one arc and one chord of its circle are no whole circle, or regular polygon. The chord is far longer
+    /// than those of the arc. Or these are even to rounding, and no whole number of them goes into the chord.
     fn is_no_circle(&self) -> bool {
         let [a, b] = self.pieces else { return self.pieces.len() > 1 };
         if !self.polygon.closed || a.is_arc() == b.is_arc() {
@@ -235,7 +239,8 @@ impl Seen<'_> {
         let own = self.polygon.facet_length(line.item.from);
         let half_turn = |chord: f64| libm::asin((0.5 * chord * curvature.abs()).min(1.0));
         let fits = half_turn(own) / half_turn(longest);
-        let is_uneven = longest - least > TOUCH * self.rounding || (fits - fits.round()).abs() < MULTIPLE;
-        own > GAP * longest || fits > 1.0 && !is_uneven
+        let is_uneven = longest - least > TOUCH_ROUNDINGS * self.rounding
+            || (fits - fits.round()).abs() < WHOLE_MULTIPLE_SHARE;
+        own > MAX_NEIGHBOR_CHORD_RATIO * longest || fits > 1.0 && !is_uneven
     }
 }

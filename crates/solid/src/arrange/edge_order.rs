@@ -1,9 +1,9 @@
 //! The pieces around an edge, sorted exactly.
 //!
-//! A piece leaves its edge in the direction normal × edge, where the normal is turned over if the piece runs down the edge.
-//! So these directions are the normals, turned by a quarter about the edge, and sorting the pieces is sorting the normals:
-//! those of the facets, which are known by their corners. The vector product of two of them lies along the edge, so one of
-//! its coordinates has the sign that is looked for.
+//! A piece leaves its edge in the direction normal × edge, where the normal is turned over if the piece runs down the
+//! edge. So these directions are the normals, turned by a quarter about the edge, and sorting the pieces is sorting the
+//! normals. These are the facets' normals, which are known by their corners. The vector product of two of them lies
+//! along the edge, so one of its coordinates has the sign that is looked for.
 
 use super::cluster::plane_of;
 use super::meetings::Edge;
