@@ -197,7 +197,7 @@ impl Warning {
                 let title = title.as_ref().map_or(String::new(), |t| format!(" with the title \"{t}\""));
                 write!(
                     f,
-                    "an airfoil in {form}'s form{title}; what is no row of it was left out, and both sides are one row around it"
+                    "an airfoil in {form}'s form{title}; its title and counts were left out, and both sides are one row around it"
                 )
             }
             Warning::NamesUnknown { names } => {
@@ -208,7 +208,7 @@ impl Warning {
                 )
             }
             Warning::NoUnit { name } => {
-                write!(f, "the name \"{name}\" gives no unit that is known")
+                write!(f, "the name \"{name}\" gives no known unit")
             }
             Warning::UnitOverruled { header, asked } => {
                 write!(f, "the header gives the unit {header}, but {asked} was asked for and taken")
@@ -233,7 +233,7 @@ impl Warning {
                 )
             }
             Warning::PassedOver { what } => {
-                write!(f, "the drawing holds what is not read, and was passed over: {what}")
+                write!(f, "entities of the drawing that are not read were passed over: {what}")
             }
             Warning::Unseen { marked, on_layers, layers } => {
                 let on = match layers.is_empty() {
@@ -254,8 +254,8 @@ impl Warning {
             ),
             Warning::ThroughPoints { count } => write!(
                 f,
-                "{count} spline(s) by the points alone that they pass through, drawn as cubics; between the points the program that made them may \
-                 draw them otherwise: export them with their control points"
+                "{count} spline(s) given only by the points on them, drawn as cubics; other programs may draw them otherwise between \
+                 the points: export them with their control points"
             ),
             Warning::NothingDrawn => write!(f, "the drawing holds neither lines nor arcs nor splines"),
             _ => Ok(()),
@@ -278,8 +278,8 @@ impl fmt::Display for Warning {
             }
             Warning::UnevenRow { line } => write!(
                 f,
-                "line {line}: what follows the coordinates or corners is unlike other rows or no color and was passed over; \
-                 check that no number is missing"
+                "line {line}: the numbers behind the coordinates or corners are unlike those of other rows, or no color, and were \
+                 passed over; check that no number is missing"
             ),
             Warning::TextBehind { line, text } => {
                 write!(
@@ -315,7 +315,7 @@ impl fmt::Display for Warning {
             Warning::UnitKept { said, asked } => {
                 write!(
                     f,
-                    "the file says its unit, {said}, which was taken; {asked} is for files that do not say theirs"
+                    "the file states its unit, {said}, which was used; {asked} is for files that do not state theirs"
                 )
             }
             Warning::NoSplines
@@ -328,7 +328,7 @@ impl fmt::Display for Warning {
             | Warning::NothingDrawn => self.of_cad(f),
             Warning::HeaderLines { count, line, text } => {
                 let more = if *count > 1 { format!(" and {} more", count - 1) } else { String::new() };
-                write!(f, "line {line} of the header says nothing known and was passed over: {text}{more}")
+                write!(f, "line {line} of the header has no known word and was passed over: {text}{more}")
             }
         }
     }

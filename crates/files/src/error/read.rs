@@ -63,7 +63,7 @@ pub enum Fault {
         found: String,
     },
     /// The file ends early.
-    #[error("cut short: {declared} {what} declared, {present} there")]
+    #[error("cut short: {declared} {what} declared, {present} present")]
     Short {
         /// Name of the things counted.
         what: &'static str,
@@ -116,10 +116,10 @@ pub enum Fault {
         remedy: &'static str,
     },
     /// Columns were asked for in a file that has none.
-    #[error("columns were named, but this is {0}, which is no table")]
+    #[error("columns were named, but the format is {0}, which is no table")]
     NoTable(&'static str),
     /// Normals were asked for in a file of a kind that has none, or whose normals are not read.
-    #[error("no normals are read from this kind of file, which is {0}")]
+    #[error("no normals are read from files of the format {0}")]
     NoNormals(&'static str),
     /// Vertices are to be joined over a distance that no two of them exceed.
     #[error("all its vertices lie within {distance} mm of one another: it is only {size} mm long")]
@@ -152,7 +152,7 @@ pub enum Fault {
         remedy: &'static str,
     },
     /// More content than announced.
-    #[error("{declared} {what} announced, {present} there")]
+    #[error("{declared} {what} announced, {present} present")]
     Surplus {
         /// Name of the things counted.
         what: &'static str,
@@ -219,10 +219,10 @@ impl Fault {
     pub fn remedy(&self) -> &'static str {
         match self {
             Fault::Io(e) if e.kind() == io::ErrorKind::NotFound => "check the spelling of the path",
-            Fault::Io(e) if e.kind() == io::ErrorKind::PermissionDenied => "ask for the right to read it",
+            Fault::Io(e) if e.kind() == io::ErrorKind::PermissionDenied => "get the permission to read it",
             Fault::Io(_) => "check that the file can be read",
             Fault::Unnamed { .. } => "check the spelling of the name",
-            Fault::TooLong { .. } => "check that it is the file that was meant",
+            Fault::TooLong { .. } => "check that it is the right file",
             Fault::Empty => "export it again",
             Fault::Foreign(_) => {
                 "export it as STL, PLY, OBJ or OFF (mesh) or as PLY, XYZ, CSV or NPY (points)"
@@ -231,10 +231,10 @@ impl Fault {
             Fault::Unknown => {
                 "give a mesh as STL, PLY, OBJ, OFF or points as XYZ, CSV, PTS, PLY, NPY, or name the format by --format"
             }
-            Fault::Unexpected { .. } => "mend this place or export the file again",
+            Fault::Unexpected { .. } => "correct this place or export the file again",
             Fault::Short { .. } => "copy or export the file again",
             Fault::NoSuchVertex { .. } => {
-                "export the file again; its faces and vertices do not belong together"
+                "export the file again: its faces and vertices do not belong together"
             }
             Fault::NotFinite { .. } => "remove it, or export without invalid points",
             Fault::TooMany { .. } => "divide the file into parts",

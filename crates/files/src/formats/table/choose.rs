@@ -195,7 +195,7 @@ fn asked(columns: &Columns, tried: &Tried) -> Result<Vec<usize>> {
             // By the name as it stands, else without its unit.
             let at = one(&|n| n.text.to_lowercase() == name).or_else(|| one(&|n| n.base == name));
             let there: Vec<&str> = names.iter().map(|n| n.text.as_str()).collect();
-            let there = if there.is_empty() { "no names".into() } else { there.join(", ") };
+            let there = if there.is_empty() { "only columns without names".into() } else { there.join(", ") };
             at.ok_or((format!("\"{name}\""), there))
         }
     };

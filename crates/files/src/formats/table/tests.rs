@@ -345,9 +345,9 @@ const REFUSED: &[(&str, &[&str])] = &[
     ("X [in],Y [mm],Z [mm]\n1,2,3\n", &["line 1", "different units", "--units"]),
     ("x_m,y_m,z_m\n1,2,3\n", &["line 1", "--units"]),
     // Announced numbers.
-    ("3\n1 2 3\n4 5 6\n", &["3 points declared, 2 there"]),
-    ("1\n1 2 3\n4 5 6\n", &["1 points announced, 2 there"]),
-    ("2\n1 2 3\n4 5 6\n1\n7 8 9\n1 1 1\n", &["3 points announced, 4 there"]),
+    ("3\n1 2 3\n4 5 6\n", &["3 points declared, 2 present"]),
+    ("1\n1 2 3\n4 5 6\n", &["1 points announced, 2 present"]),
+    ("2\n1 2 3\n4 5 6\n1\n7 8 9\n1 1 1\n", &["3 points announced, 4 present"]),
     // Zeros.
     ("1 2 3\n4 5 6\n\0\0\0\0", &["zero bytes"]),
     ("a,b\nc,d\n", &["line 1", "rows of two or three numbers"]),
