@@ -8,8 +8,8 @@ use trueness_document::SharedNoise;
 /// How far neighbors share errors.
 #[derive(Args, Debug)]
 pub struct NoiseArgs {
-    /// Take the errors of the points as independent, as of points probed one by one. Without it what neighbors share is found in the data,
-    /// and uncertainties take it into account
+    /// Take the errors of the points as independent, as of points probed one by one. Without this option, the noise shared by neighbors
+    /// is estimated from the data, and uncertainties allow for it
     #[arg(long)]
     independent: bool,
 }

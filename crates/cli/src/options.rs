@@ -10,16 +10,16 @@ use trueness_files::{Columns, Unit};
 #[derive(Args, Debug)]
 #[command(next_help_heading = "Common options")]
 pub struct Common {
-    /// Threads to use [default: all]; results do not depend on it
-    #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    /// Number of threads; results do not depend on it [default: all]
+    #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..), allow_negative_numbers = true)]
     pub threads: Option<u16>,
-    /// Seed of everything random
-    #[arg(long, global = true, value_name = "N", default_value_t = 0)]
+    /// Seed of all random numbers
+    #[arg(long, global = true, value_name = "N", default_value_t = 0, allow_negative_numbers = true)]
     pub seed: u64,
-    /// Print no table; the exit status and the files written tell the result
+    /// Print no table; the result is in the exit status and in the written files
     #[arg(long, short, global = true)]
     pub quiet: bool,
-    /// Print all that the document tells, in the table too
+    /// Print the whole content of the result document in the table
     #[arg(long, short, global = true, conflicts_with = "quiet")]
     pub verbose: bool,
     /// Progress on stderr: a bar on a terminal, plain lines, JSON lines, or nothing
@@ -34,7 +34,7 @@ pub enum ProgressStyle {
     Auto,
     /// A line every two seconds.
     Plain,
-    /// The same as JSON objects, one a line.
+    /// The same as JSON objects, one on each line.
     Json,
     /// Nothing.
     None,
@@ -50,13 +50,26 @@ pub fn choice<T: Choice>() -> impl TypedValueParser<Value = T> {
         .try_map(|word| T::named(&word.to_lowercase()).ok_or("there is no such word"))
 }
 
+/// A number of an option. The task decides which numbers it allows.
+pub fn number(text: &str) -> Result<f64, String> {
+    text.parse().map_err(|_| match text.contains(',') {
+        true => "write it with a decimal point, like 0.05".into(),
+        false => "give a number, like 0.05".into(),
+    })
+}
+
+/// A count of an option.
+pub fn count(text: &str) -> Result<usize, String> {
+    text.parse().map_err(|_| "give a whole number, 0 or more".into())
+}
+
 /// How a file is taken that does not say all of itself.
 #[derive(Args, Debug)]
 pub struct InputArgs {
-    /// Unit of a file that does not say its own: mm cm m in um [default: mm]
+    /// Unit of a file that does not state its own: mm, cm, m, in, um [default: mm]
     #[arg(long, value_name = "UNIT")]
     units: Option<Text<Unit>>,
-    /// Format of the file [default: told by its content, then by its ending]
+    /// Format of the file, see `trueness formats` [default: recognized by its content, then by its ending]
     #[arg(long, value_name = "NAME")]
     format: Option<Text<FormatName>>,
 }
@@ -73,7 +86,7 @@ impl InputArgs {
 pub struct PointInputArgs {
     #[command(flatten)]
     file: InputArgs,
-    /// Columns of a table: where x, y, z are (2,3,4 or X,Y,Z), or what each column is (-,x,y,z)
+    /// Columns of a table: the numbers or names of those of x, y, z (2,3,4 or X,Y,Z), or the kind of each (-,x,y,z)
     #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
     columns: Option<Text<Columns>>,
 }
@@ -89,10 +102,10 @@ impl PointInputArgs {
 /// How the reference is read.
 #[derive(Args, Debug)]
 pub struct ReferenceArgs {
-    /// Unit of the reference [default: that of the measured file, --units]
+    /// Unit of a reference that does not state its own [default: the unit of --units]
     #[arg(long, value_name = "UNIT")]
     reference_units: Option<Text<Unit>>,
-    /// Format of the reference [default: told by its content; --format is that of the measured file]
+    /// Format of the reference; --format is the one of the measured file [default: recognized by its content]
     #[arg(long, value_name = "NAME")]
     reference_format: Option<Text<FormatName>>,
 }
@@ -110,7 +123,7 @@ impl ReferenceArgs {
 /// Where the result document goes.
 #[derive(Args, Debug)]
 pub struct DocumentArgs {
-    /// Write the result document; `-` for stdout, then without a table
+    /// Write the result document; `-` writes it to stdout instead of the table
     #[arg(long, value_name = "FILE")]
     pub json: Option<PathBuf>,
 }

@@ -13,19 +13,19 @@ pub struct ReportArgs {
     /// Write a self-contained report with a 3D view
     #[arg(long, value_name = "FILE")]
     pub html: Option<PathBuf>,
-    /// Largest size of the report in MB
+    /// Largest size of the report, MB
     #[arg(long, value_name = "MB", default_value = "10", value_parser = megabytes)]
     html_budget: f64,
-    /// Language of the report: en, de, ru, zh
+    /// Language of the report: en, de, ru or zh
     #[arg(long, value_name = "LANG", default_value = "en", value_parser = language)]
     lang: Language,
-    /// Decimal sign of the report: . or ,
+    /// Decimal sign of the report: `.` or `,` [default: that of its language]
     #[arg(long, value_name = "SIGN", value_parser = decimal_sign)]
     decimal: Option<char>,
-    /// The model's axis that points up in the report
+    /// Axis of the model that points up in the report
     #[arg(long, value_enum, default_value = "z")]
     up: UpArg,
-    /// Head of the report
+    /// Title, for the head of the report
     #[arg(long, value_name = "TEXT", allow_hyphen_values = true)]
     title: Option<String>,
     /// Part, for the head of the report
@@ -64,14 +64,14 @@ fn megabytes(text: &str) -> Result<f64, String> {
 }
 
 fn language(code: &str) -> Result<Language, String> {
-    Language::from_code(code).ok_or_else(|| "there are en, de, ru and zh".into())
+    Language::from_code(code).ok_or_else(|| "the languages are en, de, ru and zh".into())
 }
 
 fn decimal_sign(sign: &str) -> Result<char, String> {
     match sign {
         "." => Ok('.'),
         "," => Ok(','),
-        _ => Err("it is . or ,".into()),
+        _ => Err("give `.` or `,`".into()),
     }
 }
 

@@ -1,4 +1,4 @@
-//! From what a file lists to a mesh.
+//! From the vertices and faces of a file to a mesh.
 
 use crate::{
     Warning,
@@ -53,7 +53,7 @@ impl Faces {
         self.triangles.is_empty() && self.slight == 0
     }
 
-    /// The mesh, welded if asked for, and what there is to say about it.
+    /// The mesh, welded if asked for; adds the warnings about it.
     pub fn mesh(self, positions: Vec<Point>, weld: bool, warnings: &mut Vec<Warning>) -> Result<Mesh> {
         if self.polygons > 0 {
             warnings.push(Warning::Polygons { count: self.polygons });

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::fmt::Display;
 use std::io::Write;
 
-/// What ends a line.
+/// The end of a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LineEnd {
     /// A line feed.
@@ -15,8 +15,8 @@ pub enum LineEnd {
 
 /// Rows of cells, one cell after the other, at the end of a text.
 ///
-/// Text stands in quotes where it holds what parts cells. What a spreadsheet would run as a formula, and is no number, begins with
-/// an apostrophe: names come from plans and files of others.
+/// Text stands in quotes where it holds a separator. Text that a spreadsheet would run as a formula, and is no number, begins with
+/// an apostrophe, because names come from plans and files of others.
 pub struct Csv<'a> {
     out: &'a mut Vec<u8>,
     line_end: LineEnd,
@@ -82,7 +82,7 @@ impl<'a> Csv<'a> {
     }
 }
 
-/// The text, with an apostrophe before what would be run.
+/// The text, with an apostrophe before a formula.
 fn guarded(text: &str) -> Cow<'_, str> {
     let runs = text.starts_with(['=', '+', '-', '@']) && text.parse::<f64>().is_err();
     if runs { format!("'{text}").into() } else { text.into() }

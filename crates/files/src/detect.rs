@@ -6,15 +6,15 @@ use crate::{
     formats::{FORMATS, table},
     lines::{Lines, without_mark, words},
     number::{count, whole_number},
-    source::{HEAD, Source},
+    source::{SNIFFED_BYTES, Source},
 };
 use std::path::Path;
 
 /// The format of opened bytes.
 pub(crate) fn format(source: &mut Source, path: &Path) -> Result<&'static Format> {
     let length = source.feed.left();
-    let bytes = source.feed.ahead(HEAD)?;
-    let bytes = &bytes[..bytes.len().min(HEAD)];
+    let bytes = source.feed.ahead(SNIFFED_BYTES)?;
+    let bytes = &bytes[..bytes.len().min(SNIFFED_BYTES)];
     let head = Head { bytes, length };
     if let Some(format) = FORMATS.iter().copied().find(|f| f.reads() && (f.sniff)(&head)) {
         return Ok(format);
@@ -46,9 +46,9 @@ fn extension(path: &Path) -> Option<&str> {
     inner.extension()?.to_str()
 }
 
-/// Endings of well-known kinds of files that are not read. Some are text and would pass for a table.
+/// A well-known kind of file that is not read, by its ending. Some of them are text and would pass for a table.
 fn foreign_extension(path: &Path) -> Option<(&'static str, &'static str)> {
-    const KNOWN: &[(&str, &str)] = &[
+    const FOREIGN_EXTENSIONS: &[(&str, &str)] = &[
         ("ptx", "a PTX point cloud"),
         ("e57", "an E57 point cloud"),
         ("las", "a LAS point cloud"),
@@ -85,14 +85,14 @@ fn foreign_extension(path: &Path) -> Option<(&'static str, &'static str)> {
         ("prt", "a CAD part"),
     ];
     let given = extension(path)?;
-    KNOWN.iter().copied().find(|(e, _)| e.eq_ignore_ascii_case(given))
+    FOREIGN_EXTENSIONS.iter().copied().find(|(e, _)| e.eq_ignore_ascii_case(given))
 }
 
 /// Whether text begins as a PTX scan does: two counts, the scanner's place and axes, a matrix of four rows.
 fn is_ptx(bytes: &[u8]) -> bool {
-    const ROWS: [usize; 10] = [1, 1, 3, 3, 3, 3, 4, 4, 4, 4];
+    const PTX_NUMBERS_PER_LINE: [usize; 10] = [1, 1, 3, 3, 3, 3, 4, 4, 4, 4];
     let mut lines = Lines::new(bytes);
-    ROWS.iter().enumerate().all(|(i, width)| {
+    PTX_NUMBERS_PER_LINE.iter().enumerate().all(|(i, width)| {
         let Some(line) = lines.next() else { return false };
         let fits =
             |word: &[u8]| if i < 2 { count(word).is_some() } else { whole_number(word, b'.').is_some() };
@@ -100,9 +100,9 @@ fn is_ptx(bytes: &[u8]) -> bool {
     })
 }
 
-/// The word that a document of XML or JSON names its kind with.
+/// The kind of a document of XML or JSON that is not read, by a word in it.
 fn foreign_document(bytes: &[u8]) -> Option<&'static str> {
-    const KNOWN: &[(&[u8], &str)] = &[
+    const FOREIGN_DOCUMENTS: &[(&[u8], &str)] = &[
         (b"<X3D", "an X3D model"),
         (b"<COLLADA", "a COLLADA model"),
         (b"<amf", "an AMF model"),
@@ -116,12 +116,15 @@ fn foreign_document(bytes: &[u8]) -> Option<&'static str> {
     if !text.starts_with(b"<") {
         return None;
     }
-    KNOWN.iter().find(|(word, _)| memchr::memmem::find(bytes, word).is_some()).map(|(_, name)| *name)
+    FOREIGN_DOCUMENTS
+        .iter()
+        .find(|(word, _)| memchr::memmem::find(bytes, word).is_some())
+        .map(|(_, name)| *name)
 }
 
-/// Well-known kinds of files that are not read, by their first bytes, so that the message can name them.
+/// A well-known kind of file that is not read, by its first bytes, so that the message can name it.
 fn foreign(bytes: &[u8]) -> Option<&'static str> {
-    const KNOWN: &[(&[u8], &str)] = &[
+    const FOREIGN_MAGICS: &[(&[u8], &str)] = &[
         (b"PK\x03\x04", "a ZIP archive (3MF, a spreadsheet or another packed folder)"),
         (b"ASTM-E57", "an E57 point cloud"),
         (b"LASF", "a LAS or LAZ point cloud"),
@@ -156,6 +159,6 @@ fn foreign(bytes: &[u8]) -> Option<&'static str> {
     if is_ptx(bytes) {
         return Some("a PTX point cloud");
     }
-    let magic = || KNOWN.iter().find(|(magic, _)| bytes.starts_with(magic)).map(|(_, name)| *name);
+    let magic = || FOREIGN_MAGICS.iter().find(|(magic, _)| bytes.starts_with(magic)).map(|(_, name)| *name);
     foreign_document(bytes).or_else(magic)
 }

@@ -1,5 +1,5 @@
-//! Drawings in a plane: lines, arcs and splines for the writers of drawings (DXF, SVG), and of curves in space (STEP, IGES), and as
-//! they are read.
+//! Drawings in a plane: lines, arcs and splines. Writers make drawings (DXF, SVG) and curves in space (STEP, IGES) of them, and readers
+//! give them.
 
 pub use crate::content::drawing::{Clamped, Drawing, Drawn, DrawnEntity, Entity, Layer};
 pub use crate::formats::dxf::write as dxf;

@@ -1,9 +1,9 @@
 //! Bytes of a file as a window that moves over it: the same for a file, a pipe and bytes in memory.
 //!
 //! Readers of points ask for so many bytes ahead, use them and step over them: memory stays bounded by the window.
-//! Files are read, not mapped: should another process shorten a mapped file while it is read, the system would end the
-//! program without a word. A read that meets the end too early is an error like any other. What mapping saves, a copy
-//! within memory, is a small part of the time that parsing takes.
+//! Files are read, not mapped. If another process shortened a mapped file while it is read, the system would end the
+//! program without a word. A read that meets the end too early is an error like any other. Mapping saves a copy
+//! within memory, which is a small part of the time for parsing.
 
 use crate::error::{Fault, Result};
 use std::{
@@ -47,10 +47,10 @@ enum FeedSource {
     Stream { reader: Box<dyn Read + Send>, ended: bool },
 }
 
-/// Least number of bytes read at a time.
-const READ: usize = 1 << 18;
-/// Bytes read at a time of a file that is wanted whole: memory grows with what is there.
-const SLICE: u64 = 64 << 20;
+/// At least this many bytes are read at a time.
+const MIN_READ_BYTES: usize = 1 << 18;
+/// A file that is needed whole is read by this many bytes at a time, so that memory grows with the bytes that are there.
+const WHOLE_FILE_READ_BYTES: u64 = 64 << 20;
 
 impl Feed {
     /// A regular file, from its start.
@@ -71,7 +71,7 @@ impl Feed {
     }
 
     /// The next bytes, as far as they are in memory.
-    fn there(&self) -> &[u8] {
+    fn buffered(&self) -> &[u8] {
         match &self.kind {
             FeedSource::Memory(bytes) => {
                 let at = usize::try_from(self.position).unwrap_or(usize::MAX);
@@ -91,13 +91,13 @@ impl Feed {
         match &self.kind {
             FeedSource::File { length, .. } => Some(length - self.position),
             FeedSource::Stream { ended: false, .. } => None,
-            _ => Some(self.there().len() as u64),
+            _ => Some(self.buffered().len() as u64),
         }
     }
 
     /// The next bytes: at least `want` of them, fewer only if the file ends before; possibly many more.
     pub fn ahead(&mut self, want: usize) -> Result<&[u8]> {
-        let there = self.there().len();
+        let there = self.buffered().len();
         if there < want {
             let more = match &self.kind {
                 FeedSource::File { length, .. } => *length > self.position + there as u64,
@@ -110,7 +110,7 @@ impl Feed {
                 self.fill(want)?;
             }
         }
-        Ok(self.there())
+        Ok(self.buffered())
     }
 
     /// All bytes that are left.
@@ -120,7 +120,7 @@ impl Feed {
 
     /// Steps over `count` bytes, which must have been seen by [`Feed::ahead`].
     pub fn step(&mut self, count: usize) {
-        let count = count.min(self.there().len());
+        let count = count.min(self.buffered().len());
         if !matches!(self.kind, FeedSource::Memory(_)) {
             self.at += count;
         }
@@ -149,11 +149,11 @@ impl Feed {
         match &mut self.kind {
             FeedSource::Memory(_) => Ok(()),
             FeedSource::File { file, length } => {
-                let want = (want.max(READ) as u64).min(*length - position);
+                let want = (want.max(MIN_READ_BYTES) as u64).min(*length - position);
                 file.seek(SeekFrom::Start(position + buffer.len() as u64))?;
                 reserve(buffer, want)?;
                 while (buffer.len() as u64) < want {
-                    let most = (want - buffer.len() as u64).min(SLICE);
+                    let most = (want - buffer.len() as u64).min(WHOLE_FILE_READ_BYTES);
                     let got = file.by_ref().take(most).read_to_end(buffer)?;
                     if (got as u64) < most {
                         return Err(shrunk(file, *length).into());
@@ -163,8 +163,10 @@ impl Feed {
             }
             FeedSource::Stream { reader, ended } => {
                 while buffer.len() < want {
-                    // The buffer grows with what was really read, never to what some header promises.
-                    let more = READ.max(buffer.len() / 2).min(want - buffer.len()).max(READ) as u64;
+                    // The buffer grows with the bytes that were really read, never to the size that some header promises.
+                    let more =
+                        MIN_READ_BYTES.max(buffer.len() / 2).min(want - buffer.len()).max(MIN_READ_BYTES)
+                            as u64;
                     let got = reader.by_ref().take(more).read_to_end(buffer).map_err(crate::gzip::fault)?;
                     if (got as u64) < more {
                         *ended = true;
@@ -189,7 +191,7 @@ fn shrunk(file: &File, length: u64) -> Fault {
     Fault::Shrunk { length, now: file.metadata().map_or(0, |about| about.len()) }
 }
 
-/// What is left of a feed, for readers that need a file as a whole.
+/// Refuses a file without bytes.
 pub(crate) fn not_empty(bytes: &[u8]) -> Result<()> {
     if bytes.is_empty() { Err(Fault::Empty.into()) } else { Ok(()) }
 }

@@ -17,7 +17,7 @@ impl<'a> Flow<'a> {
         Flow { text, at: 0, comments }
     }
 
-    /// What has not been delivered yet.
+    /// The text not delivered yet.
     pub fn rest(&self) -> &'a [u8] {
         self.text.get(self.at..).unwrap_or_default()
     }

@@ -2,22 +2,22 @@
 //!
 //! | task | where |
 //! |---|---|
-//! | read a file of any kind | [`open`], told more by [`ReadOptions`] |
+//! | read a file of any kind | [`open`], with [`ReadOptions`] |
 //! | read the normals of its points | [`open_normals`] |
 //! | read files, memory or uploads by one function | [`open_from`], [`open_normals_from`] of [`Sources`] |
 //! | read a small text | [`Sources::text`] |
-//! | what a file held | [`Input`], [`Body`], [`SourceMesh`], [`Provenance`], [`TableReading`], [`Warning`] |
+//! | the content of a file | [`Input`], [`Body`], [`SourceMesh`], [`Provenance`], [`TableReading`], [`Warning`] |
 //! | which formats there are, and their manual pages | [`FORMATS`], [`Format`] |
 //! | write points, with or without deviations | [`write::points`] |
 //! | write a mesh | [`write::mesh`] |
 //! | write a table of text, an XML document | [`write::Csv`], [`write::Xml`] |
 //! | B-spline surfaces and curves for CAD programs, and from them | [`cad`] |
 //! | a file that appears whole or not at all | [`AtomicFile`] |
-//! | what is unfinished when the program ends early | [`remove_unfinished`], [`remove_leftovers`] |
+//! | unfinished files when the program ends early | [`remove_unfinished`], [`remove_leftovers`] |
 //! | the hash of a file | [`sha256`], [`Sources::sha256`] |
 //!
-//! Readers take their input for hostile: a count in a header is compared with the bytes that are there before
-//! memory is asked for, and no input makes them panic.
+//! Readers take their input for hostile. A count in a header is compared with the bytes that are there before
+//! memory is asked for. No input makes readers panic.
 #![cfg_attr(test, allow(clippy::disallowed_methods, reason = "a test does not hang on the last digit"))]
 
 mod assemble;

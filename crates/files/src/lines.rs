@@ -17,8 +17,8 @@ pub(crate) fn without_end_mark(bytes: &[u8]) -> &[u8] {
     if bytes[text.len()..].contains(&0x1a) { text } else { bytes }
 }
 
-/// The bytes before the zeros, Ctrl-Z and blanks with which a text is filled up to the size of a block, and whether
-/// there are zeros among them.
+/// The bytes before the zeros, Ctrl-Z and blanks that fill a text up to the size of a block. Also whether there are zeros
+/// among these.
 pub(crate) fn without_filling(bytes: &[u8]) -> (&[u8], bool) {
     let end = bytes.iter().rposition(|b| !matches!(b, 0 | 0x1a) && !b.is_ascii_whitespace());
     let (text, filling) = bytes.split_at(end.map_or(0, |i| i + 1));
@@ -49,7 +49,7 @@ pub(crate) fn count_lines(text: &[u8], end: u8) -> u64 {
     memchr::memchr_iter(end, text).count() as u64
 }
 
-/// The lines of a text with their numbers from 1, without what ends them.
+/// The lines of a text with their numbers from 1, without their ends.
 #[derive(Clone)]
 pub(crate) struct Lines<'a> {
     rest: &'a [u8],
@@ -63,7 +63,7 @@ impl<'a> Lines<'a> {
     pub fn new(text: &'a [u8]) -> Lines<'a> {
         Lines { rest: without_mark(text), end: line_end(text), number: 0 }
     }
-    /// What has not been delivered yet.
+    /// The text not delivered yet.
     pub fn rest(&self) -> &'a [u8] {
         self.rest
     }

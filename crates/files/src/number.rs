@@ -1,11 +1,11 @@
 //! Decimal numbers in text.
 //!
-//! The common case, at most 15 digits or so and a small exponent, is one exact integer divided or multiplied by one
-//! exact power of ten: correctly rounded by a single operation (W. D. Clinger, How to read floating point numbers
-//! accurately, PLDI 1990). Everything else goes to a general parser, also correctly rounded.
+//! In the common case, at most 15 digits or so and a small exponent, one exact integer is divided by one exact power of
+//! ten. A single operation rounds correctly (W. D. Clinger, How to read floating point numbers accurately, PLDI 1990).
+//! Everything else goes to a general parser, also correctly rounded.
 
 /// Powers of ten that a `f64` holds exactly.
-const TEN: [f64; 23] = [
+const POWERS_OF_TEN: [f64; 23] = [
     1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18,
     1e19, 1e20, 1e21, 1e22,
 ];
@@ -39,7 +39,7 @@ pub(crate) fn number(text: &[u8], point: u8) -> Option<(f64, usize)> {
     if !simple || matches!(text.get(at), Some(b'e' | b'E' | b'd' | b'D')) {
         return general(text, point);
     }
-    let value = mantissa as f64 / TEN[fraction];
+    let value = mantissa as f64 / POWERS_OF_TEN[fraction];
     Some((if negative { -value } else { value }, at))
 }
 

@@ -4,7 +4,7 @@ use crate::{
     Body, Column, Columns, Fault, Input, Provenance, ReadError, SourceMesh, Unit, UnitFrom, Warning,
     assemble, detect,
     error::Located,
-    format::{Parts, ReadOptions, Weld},
+    format::{Content, ReadOptions, Weld},
     source::{FileSources, Source, Sources},
 };
 use std::path::Path;
@@ -18,25 +18,25 @@ use trueness_geom::{
 /// The format is told by the content and, where that says nothing, by the extension; `.gz` is unpacked on the way.
 /// A file with faces is a mesh, one with vertices alone is points.
 ///
-/// Errors name file, line or byte, what was expected and a remedy. Those behind the first block of points come
+/// Errors name file, line or byte, the expected content and a remedy. Errors behind the first block of points come
 /// from the stream. Cost: meshes linear in the size of the file, several times that in memory; points next to
 /// nothing until the stream is read.
 pub fn open(path: &Path, options: &ReadOptions) -> Result<Input, ReadError> {
     open_from(&FileSources, path, options)
 }
 
-/// As [`open`], what goes by a name in `sources`: the same bytes give the same result wherever they come from.
+/// As [`open`], for the bytes of a name in `sources`. The same bytes give the same result wherever they come from.
 pub fn open_from(sources: &dyn Sources, name: &Path, options: &ReadOptions) -> Result<Input, ReadError> {
     let file = sources.shown(name);
     let source = sources.bytes(name).map_err(Into::into).and_then(Source::of);
     source.and_then(|source| read(source, name, &file, options)).map_err(|fault| fault.in_file(&file))
 }
 
-/// The normals of the points of a file, in the order of the points and neither scaled nor normalized: of a PLY file its properties
-/// `nx`, `ny`, `nz`, of a table the columns of these names or those that `columns` says. In a file with the extension `.xyzn` and no
-/// names they are the columns four to six.
+/// The normals of the points of a file, in the order of the points and neither scaled nor normalized. A PLY file has them as properties
+/// `nx`, `ny`, `nz`; a table as columns of these names, or in the columns that `columns` names. In a file with the extension `.xyzn` and
+/// no names they are the columns four to six.
 ///
-/// `options` are those that the points were read with; what they say of units and columns does not count.
+/// `options` are those with which the points were read; their units and columns do not count.
 ///
 /// Errors: those of [`open`]; a file without normals, or of another format.
 pub fn open_normals(
@@ -47,7 +47,7 @@ pub fn open_normals(
     open_normals_from(&FileSources, path, columns, options)
 }
 
-/// As [`open_normals`], of what goes by a name in `sources`.
+/// As [`open_normals`], for the bytes of a name in `sources`.
 pub fn open_normals_from(
     sources: &dyn Sources,
     name: &Path,
@@ -89,7 +89,7 @@ fn read(mut source: Source, path: &Path, file: &str, options: &ReadOptions) -> R
     }
     let (bytes, gzip) = (source.bytes, source.gzip);
     let mut parsed = reader(source, options)?;
-    let is_cad = matches!(parsed.content, Parts::Splines(_) | Parts::Drawing(_));
+    let is_cad = matches!(parsed.content, Content::Splines(_) | Content::Drawing(_));
     let (unit, unit_from) = match (options.units, parsed.unit) {
         (asked, Some(said)) if is_cad => {
             if let Some(asked) = asked.filter(|asked| *asked != said) {
@@ -105,7 +105,7 @@ fn read(mut source: Source, path: &Path, file: &str, options: &ReadOptions) -> R
         },
     };
     let body = match parsed.content {
-        Parts::Mesh(mut mesh) => {
+        Content::Mesh(mut mesh) => {
             unit.apply(&mut mesh.mesh.positions);
             if let Weld::Within(distance) = options.weld {
                 let size = Aabb::of(&mesh.mesh.positions).diagonal();
@@ -117,9 +117,9 @@ fn read(mut source: Source, path: &Path, file: &str, options: &ReadOptions) -> R
             }
             Body::Mesh(mesh)
         }
-        Parts::Splines(model) => Body::Splines(model),
-        Parts::Drawing(drawing) => Body::Drawing(drawing),
-        Parts::Points(inner) => Body::Points(Box::new(Named { inner, file: file.into(), unit })),
+        Content::Splines(model) => Body::Splines(model),
+        Content::Drawing(drawing) => Body::Drawing(drawing),
+        Content::Points(inner) => Body::Points(Box::new(Named { inner, file: file.into(), unit })),
     };
     let provenance = Provenance {
         path: path.display().to_string(),

@@ -1,15 +1,15 @@
 //! Polygons become triangles.
 //!
-//! A fan where the polygon is convex, ears cut off where it is not (G. H. Meisters, Polygons have ears, Amer. Math.
-//! Monthly 82, 1975). The polygon is seen along its area vector (M. E. Newell); what that hides, being far from
-//! plane or crossing itself, is cut somehow, but always into two triangles fewer than it has corners.
+//! A convex polygon becomes a fan. From any other one, ears are cut off (G. H. Meisters, Polygons have ears, Amer. Math.
+//! Monthly 82, 1975). The polygon is seen along its area vector (M. E. Newell). A polygon that is far from plane or crosses itself is cut
+//! somehow, but always into two triangles fewer than it has corners.
 
 use std::collections::BTreeSet;
 use trueness_geom::space::{Point, cross, minus, norm, plus};
 
 /// Cuts the polygon `corners` (indices into `positions`, all of them valid), hands each triangle to `out`, and says how.
 ///
-/// Fewer than three corners give nothing. Cost: linear where convex, else `n log n` as a rule in the number of corners; the
+/// Fewer than three corners give nothing. Cost: linear for a convex polygon, else `n log n` as a rule in the number of corners. The
 /// effort is bounded, so that no file can make it last.
 pub(crate) fn triangulate(positions: &[Point], corners: &[u32], mut out: impl FnMut([u32; 3])) -> Cut {
     let [a, b, rest @ ..] = corners else { return Cut::Whole };
@@ -26,7 +26,7 @@ pub(crate) fn triangulate(positions: &[Point], corners: &[u32], mut out: impl Fn
         fan(corners, out);
         return Cut::Whole;
     }
-    Ears::new(places).cut(EFFORT, |triangle| out(triangle.map(|i| corners[i as usize])))
+    Ears::new(places).cut(MAX_NODE_VISITS, |triangle| out(triangle.map(|i| corners[i as usize])))
 }
 
 /// How a polygon was cut.
@@ -38,8 +38,8 @@ pub(crate) enum Cut {
     Somehow,
 }
 
-/// Nodes that are visited in looking for corners within ears, at most: about a second. Only polygons made to do harm ask for more.
-const EFFORT: u64 = 100_000_000;
+/// The search for corners within ears visits this many nodes at most, which takes about a second. Only polygons made to do harm ask for more.
+const MAX_NODE_VISITS: u64 = 100_000_000;
 
 fn fan(corners: &[u32], mut out: impl FnMut([u32; 3])) {
     let [first, rest @ ..] = corners else { return };
@@ -128,7 +128,7 @@ impl Ears {
         set(&mut self.flat, b, turn == 0.0);
     }
 
-    /// Cuts ear after ear, going round; where no corner is an ear, one that is flat does least harm, else any.
+    /// Cuts ear after ear, going round. Where no corner is an ear, it cuts a flat one, which does least harm, else any.
     fn cut(mut self, effort: u64, mut out: impl FnMut([u32; 3])) -> Cut {
         let mut how = Cut::Whole;
         let mut at = 0;
@@ -151,7 +151,7 @@ impl Ears {
             at = c;
             if let Some(place) = self.tree.leave(b) {
                 for w in std::mem::take(&mut self.waiting[place as usize]) {
-                    // Whoever waited has been cut off since, or turned and looked at, or may be an ear now.
+                    // A corner that waited has been cut off since, has turned and been looked at, or may be an ear now.
                     if self.around[self.around[w as usize][0] as usize][1] == w && self.turn(w) > 0.0 {
                         self.open.insert(w);
                     }
@@ -214,8 +214,8 @@ struct Node {
     left: u32,
 }
 
-/// Places that are not halved further.
-const FEW: usize = 6;
+/// A leaf of the tree holds this many places at most.
+const MAX_PLACES_PER_LEAF: usize = 6;
 
 impl Tree {
     fn of(corners: &[Point2]) -> Tree {
@@ -233,7 +233,7 @@ impl Tree {
             }
         }
         let empty = Node { low: [0.0; 2], high: [0.0; 2], left: 0 };
-        let mut nodes = vec![empty; 4 * groups.len().div_ceil(FEW).next_power_of_two()];
+        let mut nodes = vec![empty; 4 * groups.len().div_ceil(MAX_PLACES_PER_LEAF).next_power_of_two()];
         halve(&mut groups, 1, &mut nodes);
         let mut place_of = vec![0; corners.len()];
         for (place, (_, members)) in (0..).zip(&groups) {
@@ -255,7 +255,7 @@ impl Tree {
         let (mut node, mut from, mut to) = (1, 0, self.places.len());
         loop {
             self.nodes[node].left -= 1;
-            if to - from <= FEW {
+            if to - from <= MAX_PLACES_PER_LEAF {
                 return Some(place);
             }
             let middle = (from + to) / 2;
@@ -275,7 +275,7 @@ impl Tree {
             if self.nodes[node].left == 0 || apart(&triangle, &self.nodes[node]) {
                 continue;
             }
-            if to - from > FEW {
+            if to - from > MAX_PLACES_PER_LEAF {
                 let middle = (from + to) / 2;
                 open.extend([(2 * node, from, middle), (2 * node + 1, middle, to)]);
                 continue;
@@ -303,7 +303,7 @@ fn halve(groups: &mut [(Point2, Vec<u32>)], node: usize, nodes: &mut [Node]) {
     let low = [0, 1].map(|k| bound(k, f64::min, f64::INFINITY));
     let high = [0, 1].map(|k| bound(k, f64::max, f64::NEG_INFINITY));
     nodes[node] = Node { low, high, left: groups.len() as u32 };
-    if groups.len() > FEW {
+    if groups.len() > MAX_PLACES_PER_LEAF {
         let k = usize::from(high[1] - low[1] > high[0] - low[0]);
         let middle = groups.len() / 2;
         groups.select_nth_unstable_by(middle, |a, b| a.0[k].total_cmp(&b.0[k]));
@@ -321,7 +321,7 @@ fn apart(triangle: &[Point2; 3], node: &Node) -> bool {
     let corners = [node.low, [node.low[0], node.high[1]], node.high, [node.high[0], node.low[1]]];
     let beyond = |i: usize| {
         let (a, b) = (triangle[i], triangle[(i + 1) % 3]);
-        // What the same formula says of the places in the box is not below its least at a corner but for rounding.
+        // But for rounding, the formula is nowhere in the box less than at its least corner.
         let slack = 1e-14 * ((b[0] - a[0]).abs() * span(node, a, 1) + (b[1] - a[1]).abs() * span(node, a, 0));
         corners.iter().all(|p| turn([a, b, *p]) < -slack)
     };
@@ -341,159 +341,4 @@ fn area(positions: &[Point], t: [u32; 3]) -> [f64; 3] {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Every triangle must point where the polygon does, and their areas must add up to its own.
-    fn check(outline: &[[f64; 2]], expected: f64) {
-        // Lifted into a slanted plane far from the origin.
-        let lift = |p: &[f64; 2]| [p[0] + 1e4, p[1] - 1e4, 0.5 * p[0] - 0.25 * p[1]];
-        let positions: Vec<Point> = outline.iter().map(lift).collect();
-        let corners: Vec<u32> = (0..outline.len() as u32).collect();
-        let mut triangles = vec![];
-        triangulate(&positions, &corners, |t| triangles.push(t));
-        assert_eq!(triangles.len(), outline.len() - 2);
-        let z: Vec<f64> = triangles.iter().map(|t| area(&positions, *t)[2]).collect();
-        assert!(z.iter().all(|a| *a >= -1e-12), "{z:?}");
-        let sum: f64 = z.iter().sum();
-        assert!((sum - expected).abs() < 1e-9, "{sum} {expected}");
-    }
-
-    #[test]
-    fn concave_outlines() {
-        check(&[[0., 0.], [4., 0.], [4., 4.], [0., 4.]], 16.0);
-        check(&[[0., 0.], [4., 0.], [4., 4.], [2., 1.], [0., 4.]], 10.0);
-        // A comb: reflex corners, corners in line.
-        check(
-            &[
-                [0., 0.],
-                [6., 0.],
-                [6., 5.],
-                [5., 5.],
-                [5., 1.],
-                [4., 1.],
-                [4., 5.],
-                [3., 5.],
-                [3., 1.],
-                [0., 1.],
-            ],
-            14.0,
-        );
-        // A star of ten corners, radii 1 and 3.
-        let star: Vec<[f64; 2]> = (0..10)
-            .map(|i| {
-                let (r, a) = (if i % 2 == 0 { 3.0 } else { 1.0 }, f64::from(i) * std::f64::consts::PI / 5.0);
-                [r * a.cos(), r * a.sin()]
-            })
-            .collect();
-        check(&star, 15.0 * (std::f64::consts::PI / 5.0).sin());
-    }
-
-    /// The triangles of [`Ears::cut`], found with nothing remembered.
-    fn plain(places: &[Point2]) -> Vec<[u32; 3]> {
-        let (mut left, mut all, mut i) = ((0..places.len()).collect::<Vec<_>>(), vec![], 0);
-        while left.len() > 3 {
-            let n = left.len();
-            let triangle = |k: usize| [left[(k + n - 1) % n], left[k], left[(k + 1) % n]];
-            let turns = |k: usize| turn(triangle(k).map(|i| places[i]));
-            let ear = |k: usize| {
-                let [a, b, c] = triangle(k).map(|i| places[i]);
-                let inside = |p: Point2| {
-                    ![a, b, c].contains(&p)
-                        && [[a, b, p], [b, c, p], [c, a, p]].iter().all(|t| turn(*t) >= 0.0)
-                };
-                turns(k) > 0.0 && !left.iter().any(|i| inside(places[*i]))
-            };
-            let next = (i..i + n).map(|k| k % n).find(|k| ear(*k));
-            i = next.or_else(|| (0..n).find(|k| turns(*k) == 0.0)).unwrap_or(0);
-            all.push(triangle(i).map(|i| i as u32));
-            left.remove(i);
-        }
-        all.push([0, 1, 2].map(|k| left[k] as u32));
-        all
-    }
-
-    #[test]
-    fn what_is_remembered_changes_nothing() {
-        let random = &mut trueness_geom::num::random::Random::new(5);
-        for case in 0..300 {
-            let n = 4 + random.below(60) as usize;
-            let place = |k: usize| {
-                let (r, angle) = (1.0 + random.unit(), k as f64 * std::f64::consts::TAU / n as f64);
-                match case % 3 {
-                    0 => [r * libm::cos(angle), r * libm::sin(angle)],
-                    1 => [random.unit(), random.unit()],
-                    _ => [random.below(5) as f64, random.below(5) as f64],
-                }
-            };
-            let places: Vec<Point2> = (0..n).map(place).collect();
-            let mut got = vec![];
-            let how = Ears::new(places.clone()).cut(EFFORT, |t| got.push(t));
-            assert_eq!(got, plain(&places), "{case}");
-            assert!(how == Cut::Whole || case % 3 > 0, "{case}");
-        }
-    }
-
-    /// Long outlines are cut as exactly as short ones: combs, slit rings, stars and spirals of many corners.
-    #[test]
-    fn long_outlines_are_cut_inside() {
-        const N: usize = 20_000;
-        let around = |i: usize, turns: f64, r: f64| {
-            let angle = turns * std::f64::consts::TAU * i as f64 / N as f64;
-            [r * libm::cos(angle), r * libm::sin(angle)]
-        };
-        let comb = (0..N).map(|i| [i as f64, if i % 2 == 0 { 0.0 } else { 1e4 }]);
-        let comb = comb.rev().chain([[0.0, -1.0], [N as f64, -1.0]]).collect::<Vec<_>>();
-        let ring =
-            (0..=N).map(|i| around(i, 0.999, 50.0)).chain((0..=N).rev().map(|i| around(i, 0.999, 40.0)));
-        let gear = (0..N).map(|i| around(i, 1.0, if i / 2 % 2 == 0 { 50.0 } else { 45.0 }));
-        let spiral = (0..=N).map(|i| around(i, 30.0, 10.0 + 90.0 * i as f64 / N as f64));
-        let spiral = spiral.chain((0..=N).rev().map(|i| around(i, 30.0, 9.0 + 90.0 * i as f64 / N as f64)));
-        for (name, outline) in
-            [("comb", comb), ("ring", ring.collect()), ("gear", gear.collect()), ("spiral", spiral.collect())]
-        {
-            let n = outline.len();
-            let positions: Vec<Point> = outline.iter().map(|p| [p[0], p[1], 0.0]).collect();
-            let corners: Vec<u32> = (0..n as u32).collect();
-            let mut triangles = vec![];
-            assert_eq!(triangulate(&positions, &corners, |t| triangles.push(t)), Cut::Whole, "{name}");
-            let shoelace: f64 = (0..n).map(|i| turn([[0.0; 2], outline[i], outline[(i + 1) % n]])).sum();
-            let areas = triangles.iter().map(|t| 2.0 * area(&positions, *t)[2]);
-            assert!(areas.clone().all(|a| a >= 0.0), "{name}");
-            assert!((areas.sum::<f64>() / shoelace - 1.0).abs() < 1e-9, "{name}");
-        }
-    }
-
-    /// Outlines that cross themselves everywhere take no longer than the bound, and are named.
-    #[test]
-    fn crossing_outlines_are_cut_somehow() {
-        let star = |i: u32| {
-            let angle = std::f64::consts::TAU * f64::from(i) * 10_000.0 / 20_001.0;
-            [libm::cos(angle), libm::sin(angle), 0.0]
-        };
-        let random = &mut trueness_geom::num::random::Random::new(5);
-        let stars: Vec<Point> = (0..20_001).map(star).collect();
-        let soup: Vec<Point> = (0..20_000).map(|_| [random.unit(), random.unit(), 0.0]).collect();
-        let flower: Vec<Point> = (0..20_000).map(|i| if i % 2 == 0 { [0.0; 3] } else { star(i) }).collect();
-        for positions in [stars, soup, flower] {
-            let corners: Vec<u32> = (0..positions.len() as u32).collect();
-            let mut n = 0;
-            assert_eq!(triangulate(&positions, &corners, |_| n += 1), Cut::Somehow);
-            assert_eq!(n, positions.len() - 2);
-        }
-    }
-
-    #[test]
-    fn degenerate_outlines_still_give_all_triangles() {
-        let positions = vec![[0.0; 3]; 5];
-        let mut n = 0;
-        triangulate(&positions, &[0, 1, 2, 3, 4], |_| n += 1);
-        assert_eq!(n, 3);
-        triangulate(&positions, &[0, 1], |_| n += 1);
-        assert_eq!(n, 3);
-        // A bow tie has as much area one way as the other: none to look along.
-        let tie = [[0.0, 0.0, 0.0], [1.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
-        triangulate(&tie, &[0, 1, 2, 3], |_| n += 1);
-        assert_eq!(n, 5);
-    }
-}
+mod tests;

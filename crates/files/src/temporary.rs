@@ -1,8 +1,8 @@
-//! Files that exist only while something is being written: their names, and what killed runs left of them.
+//! Files that exist only while something is being written: their names, and the remains of killed runs.
 //!
-//! Each is locked by the run that writes it. The system gives the lock free when that run ends, however it ends: who
-//! gets the lock of such a file knows that nobody writes it any longer, and may remove it. A process number in the name
-//! would not tell that, as numbers are used again and differ between machines that share a folder.
+//! The run that writes such a file locks it. The system frees the lock when that run ends, however it ends. A run that
+//! gets the lock knows that nobody writes the file any longer, and may remove it. A process number in the name
+//! would not tell that: numbers are used again, and differ between machines that share a folder.
 
 use std::{
     ffi::OsString,
@@ -13,14 +13,14 @@ use std::{
     sync::{Mutex, MutexGuard, PoisonError},
 };
 
-/// How the name of every such file ends.
-const ENDING: &str = ".trueness.part";
+/// The name of every such file ends in this.
+const UNFINISHED_ENDING: &str = ".trueness.part";
 
-/// Those of this run.
-static HELD: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+/// The unfinished files of this run.
+static UNFINISHED_FILES: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
 fn held() -> MutexGuard<'static, Vec<PathBuf>> {
-    HELD.lock().unwrap_or_else(PoisonError::into_inner)
+    UNFINISHED_FILES.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// A file of this run that is removed when this goes out of scope.
@@ -77,7 +77,7 @@ impl Drop for Temporary {
 fn new_name(name: &str) -> OsString {
     static NEXT: AtomicU64 = AtomicU64::new(0);
     let short: String = name.chars().take(40).collect();
-    format!(".{short}.{}-{}{ENDING}", std::process::id(), NEXT.fetch_add(1, Relaxed)).into()
+    format!(".{short}.{}-{}{UNFINISHED_ENDING}", std::process::id(), NEXT.fetch_add(1, Relaxed)).into()
 }
 
 /// Whose lock a file has.
@@ -116,12 +116,12 @@ fn is_at(_: &File, _: &Path) -> bool {
     true
 }
 
-/// Removes the unfinished files of this run, and lets no further one begin: the last act before the program is ended from
-/// outside its course, by a signal or for want of memory.
+/// Removes the unfinished files of this run, and lets no further one begin. It is the last act before a signal or a lack of
+/// memory ends the program.
 ///
 /// With `wait` false it gives up where another thread is just about to begin, move or remove one.
 pub fn remove_unfinished(wait: bool) {
-    let held = match HELD.try_lock() {
+    let held = match UNFINISHED_FILES.try_lock() {
         Ok(held) => held,
         Err(_) if !wait => return,
         Err(_) => held(),
@@ -132,16 +132,16 @@ pub fn remove_unfinished(wait: bool) {
     std::mem::forget(held);
 }
 
-/// What runs that were killed left in a folder.
+/// Unfinished files that killed runs left in a folder.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Leftovers {
     /// Files that nobody wrote any longer; they are gone now.
     pub removed: Vec<PathBuf>,
-    /// Files of which that cannot be known, as the file system has no locks; they are still there.
+    /// Files that may still be written, as the file system has no locks; they are still there.
     pub kept: Vec<PathBuf>,
 }
 
-/// Removes what runs that were killed left unfinished in `folder`. Files that another run is writing stay.
+/// Removes the unfinished files that killed runs left in `folder`. Files that another run is writing stay.
 ///
 /// Errors: none; what cannot be read or removed is passed over. Cost: one pass over the names in the folder.
 pub fn remove_leftovers(folder: &Path) -> Leftovers {
@@ -167,7 +167,7 @@ fn leftovers(folder: &Path, own: &[PathBuf]) -> Leftovers {
                 let young = file.metadata().is_ok_and(|m| m.len() == 0);
                 match if young { writer(&path) } else { Writer::Gone } {
                     Writer::Gone if fs::remove_file(&path).is_ok() => found.removed.push(path),
-                    // It holds nothing, and whoever made it makes itself another: nothing to tell.
+                    // It holds nothing, and a run that still needs it makes another: there is nothing to report.
                     Writer::Unknown => drop(fs::remove_file(&path)),
                     Writer::Gone | Writer::There => {}
                 }
@@ -192,7 +192,7 @@ enum Writer {
     Unknown,
 }
 
-/// Whether there is a process of the number in the name of a file. Of another machine's nothing is known here, but the moment
+/// Whether there is a process of the number in the name of a file. Processes of another machine are not known here, but the moment
 /// between the making of a file and its lock is short.
 fn writer(path: &Path) -> Writer {
     let processes = Path::new("/proc");
@@ -206,7 +206,7 @@ fn writer(path: &Path) -> Writer {
 
 /// The number of the process in a name that [`new_name`] makes.
 fn process(name: &str) -> Option<&str> {
-    let (_, marks) = name.strip_suffix(ENDING)?.rsplit_once('.')?;
+    let (_, marks) = name.strip_suffix(UNFINISHED_ENDING)?.rsplit_once('.')?;
     let (process, n) = marks.split_once('-')?;
     let number = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
     (name.starts_with('.') && number(process) && number(n)).then_some(process)
@@ -267,7 +267,7 @@ mod tests {
             done.store(true, Relaxed);
         });
         assert_eq!(*said.lock().unwrap(), Vec::<PathBuf>::new());
-        // What was made and not yet locked is empty: it stays while its run is there. No process has the other number.
+        // A file that was made and not yet locked is empty: it stays while its run is there. No process has the other number.
         let name = |process: u32| folder.path().join(format!(".out.csv.{process}-77.trueness.part"));
         let (born, left) = (name(std::process::id()), name(999_999_999));
         fs::write(&born, "").unwrap();

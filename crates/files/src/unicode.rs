@@ -10,14 +10,14 @@ pub(crate) struct Utf16 {
     marked: bool,
 }
 
-/// Pairs of bytes looked at.
-const PAIRS: usize = 512;
+/// At most this many pairs of bytes decide whether text is in UTF-16.
+const MAX_PAIRS_SNIFFED: usize = 512;
 
-/// Whether bytes are text in UTF-16: by a byte order mark; or without one, where every second of the first bytes is zero
-/// and the others are printable, which neither text in 8 bits nor numbers are.
+/// Whether bytes are text in UTF-16. A byte order mark tells. Without one, every second of the first bytes must be zero
+/// and the others printable, which neither text in 8 bits nor numbers are.
 pub(crate) fn utf16(head: &[u8]) -> Option<Utf16> {
     let pairs = head.as_chunks::<2>().0;
-    let pairs = &pairs[..pairs.len().min(PAIRS)];
+    let pairs = &pairs[..pairs.len().min(MAX_PAIRS_SNIFFED)];
     let (big, marked) = match pairs {
         [[0xff, 0xfe], ..] => (false, true),
         [[0xfe, 0xff], ..] => (true, true),
@@ -42,7 +42,7 @@ impl Utf16 {
     }
 }
 
-/// The text without its mark. What is not a character becomes `U+FFFD`; half a unit at the end is refused.
+/// The text without its mark. A unit that is no character becomes `U+FFFD`; half a unit at the end is refused.
 pub(crate) fn to_utf8(bytes: &[u8], code: Utf16) -> Result<Vec<u8>> {
     let (pairs, half) = bytes.as_chunks::<2>();
     if !half.is_empty() {
@@ -56,7 +56,7 @@ pub(crate) fn to_utf8(bytes: &[u8], code: Utf16) -> Result<Vec<u8>> {
     Ok(text.into_bytes())
 }
 
-/// Refuses text that holds zero bytes, which no text has: the file was not written to its end, or it is no text.
+/// Refuses text with zero bytes: the file was not written to its end, or it is no text.
 pub(crate) fn no_zeros(text: &[u8]) -> Result<()> {
     match memchr::memchr(0, text) {
         Some(at) => Err(Fault::Zeros.at_line(line_of(text, at))),

@@ -1,9 +1,9 @@
-//! What was odd about a file that could still be read.
+//! Oddities of a file that could still be read.
 
 use crate::Unit;
 use std::fmt;
 
-/// An oddity that did not keep a file from being read. Its text says what was done about it.
+/// An oddity that did not keep a file from being read. Its text says how it was handled.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Warning {
@@ -21,8 +21,8 @@ pub enum Warning {
         /// How many.
         count: u64,
     },
-    /// Behind the coordinates of a vertex or the corners of a face stand more or fewer numbers than in other rows, or no
-    /// color; they were passed over.
+    /// A row has more or fewer numbers behind its coordinates or corners than other rows, or numbers that are no color. They were
+    /// passed over.
     UnevenRow {
         /// The first such line, from 1.
         line: u64,
@@ -31,7 +31,7 @@ pub enum Warning {
     TextBehind {
         /// The first of them, from 1.
         line: u64,
-        /// What it says, shortened.
+        /// Its text, shortened.
         text: String,
     },
     /// The last solid of an STL file is not closed by `endsolid`.
@@ -65,7 +65,7 @@ pub enum Warning {
     },
     /// Vertices nearer than the distance asked for became one.
     Welded {
-        /// That distance, mm.
+        /// The distance, mm.
         distance: f64,
         /// Vertices before.
         before: u64,
@@ -74,7 +74,7 @@ pub enum Warning {
     },
     /// The first column counts the rows and was not taken for a coordinate.
     RunningNumber,
-    /// The rows are an airfoil in the form of a collection: its title and its counts were taken out, and two sides put in one row.
+    /// The rows are an airfoil in the form of a collection. Its title and its counts were taken out, and its two sides put in one row.
     Airfoil {
         /// Whose form.
         form: &'static str,
@@ -86,7 +86,7 @@ pub enum Warning {
         /// Their names.
         names: Vec<String>,
     },
-    /// What stands in brackets behind a name is no unit.
+    /// The text in brackets behind a name is no unit.
     NoUnit {
         /// The name.
         name: String,
@@ -98,7 +98,7 @@ pub enum Warning {
         /// That which was taken.
         asked: Unit,
     },
-    /// A CAD file says its unit, and the user another one, which was not taken.
+    /// A CAD file states its unit, and the user another one, which was not used.
     UnitKept {
         /// That of the file, which was taken.
         said: Unit,
@@ -133,7 +133,7 @@ pub enum Warning {
         /// The names of these layers.
         layers: String,
     },
-    /// What was read of a drawing lies on several layers.
+    /// The entities of a drawing lie on several layers.
     SeveralLayers {
         /// Their names, with how many entities each holds.
         layers: String,
@@ -151,15 +151,15 @@ pub enum Warning {
         count: u64,
         /// The number of the first, counted from 1.
         line: u64,
-        /// What it says, shortened.
+        /// Its text, shortened.
         text: String,
     },
 }
 
-/// Bytes of the smallest facet that readers know to be behind a count: that of binary STL. Fewer hold none.
+/// Bytes of a facet of binary STL, the smallest facet of all formats. Fewer trailing bytes hold no facet.
 const FACET_BYTES: u64 = 50;
 
-/// What of a file was not read.
+/// The part of a file that was not read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unread {
     /// Faces, and how many the file has, where that is known.
@@ -174,7 +174,7 @@ pub enum Unread {
 }
 
 impl Warning {
-    /// What of the file was not read, if this says so. What was joined, cut or taken in another unit was read.
+    /// The part of the file that was not read, if this warning says so. Facets that were joined, cut or taken in another unit were read.
     pub fn unread(&self) -> Option<Unread> {
         match self {
             Warning::FacesLeftOut { count, of } => Some(Unread::Faces { count: *count, of: Some(*of) }),
@@ -187,7 +187,7 @@ impl Warning {
 }
 
 impl Warning {
-    /// The text of those that tables have; nothing of others.
+    /// Writes the text of a warning about a table; nothing for other warnings.
     fn of_tables(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Warning::RunningNumber => {
@@ -197,7 +197,7 @@ impl Warning {
                 let title = title.as_ref().map_or(String::new(), |t| format!(" with the title \"{t}\""));
                 write!(
                     f,
-                    "an airfoil in {form}'s form{title}; what is no row of it was left out, and both sides are one row around it"
+                    "an airfoil in {form}'s form{title}; its title and counts were left out, and both sides are one row around it"
                 )
             }
             Warning::NamesUnknown { names } => {
@@ -208,7 +208,7 @@ impl Warning {
                 )
             }
             Warning::NoUnit { name } => {
-                write!(f, "the name \"{name}\" gives no unit that is known")
+                write!(f, "the name \"{name}\" gives no known unit")
             }
             Warning::UnitOverruled { header, asked } => {
                 write!(f, "the header gives the unit {header}, but {asked} was asked for and taken")
@@ -217,7 +217,7 @@ impl Warning {
         }
     }
 
-    /// The text of those that CAD files and drawings have; nothing of others.
+    /// Writes the text of a warning about a CAD file or a drawing; nothing for other warnings.
     fn of_cad(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Warning::NoSplines => write!(f, "the file holds neither B-spline surfaces nor B-spline curves"),
@@ -233,7 +233,7 @@ impl Warning {
                 )
             }
             Warning::PassedOver { what } => {
-                write!(f, "the drawing holds what is not read, and was passed over: {what}")
+                write!(f, "entities of the drawing that are not read were passed over: {what}")
             }
             Warning::Unseen { marked, on_layers, layers } => {
                 let on = match layers.is_empty() {
@@ -254,8 +254,8 @@ impl Warning {
             ),
             Warning::ThroughPoints { count } => write!(
                 f,
-                "{count} spline(s) by the points alone that they pass through, drawn as cubics; between the points the program that made them may \
-                 draw them otherwise: export them with their control points"
+                "{count} spline(s) given only by the points on them, drawn as cubics; other programs may draw them otherwise between \
+                 the points: export them with their control points"
             ),
             Warning::NothingDrawn => write!(f, "the drawing holds neither lines nor arcs nor splines"),
             _ => Ok(()),
@@ -278,8 +278,8 @@ impl fmt::Display for Warning {
             }
             Warning::UnevenRow { line } => write!(
                 f,
-                "line {line}: what follows the coordinates or corners is unlike other rows or no color and was passed over; \
-                 check that no number is missing"
+                "line {line}: the numbers behind the coordinates or corners are unlike those of other rows, or no color, and were \
+                 passed over; check that no number is missing"
             ),
             Warning::TextBehind { line, text } => {
                 write!(
@@ -315,7 +315,7 @@ impl fmt::Display for Warning {
             Warning::UnitKept { said, asked } => {
                 write!(
                     f,
-                    "the file says its unit, {said}, which was taken; {asked} is for files that do not say theirs"
+                    "the file states its unit, {said}, which was used; {asked} is for files that do not state theirs"
                 )
             }
             Warning::NoSplines
@@ -328,7 +328,7 @@ impl fmt::Display for Warning {
             | Warning::NothingDrawn => self.of_cad(f),
             Warning::HeaderLines { count, line, text } => {
                 let more = if *count > 1 { format!(" and {} more", count - 1) } else { String::new() };
-                write!(f, "line {line} of the header says nothing known and was passed over: {text}{more}")
+                write!(f, "line {line} of the header has no known word and was passed over: {text}{more}")
             }
         }
     }

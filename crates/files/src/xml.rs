@@ -82,7 +82,7 @@ impl Xml {
         self.end_line();
     }
 
-    /// What a part of the document says, see [`Xml::part`].
+    /// Adds a part of the document, see [`Xml::part`].
     pub fn push(&mut self, part: &str) {
         self.text.push_str(part);
     }

@@ -132,7 +132,10 @@ fn bytes_behind_an_array_or_points_are_refused() {
     // Rows of numbers are vertices that the header does not count.
     let said =
         read(&folder.file("q.ply", format!("{text}4 5 6\n\n7 8 9").as_bytes())).unwrap_err().to_string();
-    assert!(said.contains("1 vertices announced, 3 there") && said.contains("correct the number"), "{said}");
+    assert!(
+        said.contains("1 vertices announced, 3 present") && said.contains("correct the number"),
+        "{said}"
+    );
     let said = read(&folder.file("q.ply", format!("{text}4 5 six\n").as_bytes())).unwrap_err().to_string();
     assert!(said.contains("8 bytes follow the 1 vertices"), "{said}");
 }

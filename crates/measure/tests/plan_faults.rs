@@ -114,6 +114,12 @@ const FAULTS: &[Fault] = &[
     ),
     fault("id = \"1\"", "id = 1", "line 25, column 6: `id` is 1, not text in quotes; write \"1\""),
     fault("id = \"1\"", "id = x", "line 25, column 6: text stands in quotes; write \"x\""),
+    fault("id = \"1\"", "id = \"1", "line 25, column 8: the text has no closing quote; end it with \""),
+    fault(
+        "schema = \"trueness/plan/1\"",
+        "{\"schema\": 1}",
+        "line 1, column 1: this is no plan; give a TOML file",
+    ),
     fault("kind = \"flatness\"\n", "", "`kind` is missing; add it, as in kind = \"flatness\""),
     fault(
         "feature = \"A\"",

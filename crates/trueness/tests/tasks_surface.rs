@@ -54,7 +54,7 @@ fn knots_come_from_memory_too() {
     assert_eq!((done.document.degree, done.document.knots.u.len()), ([2, 2], 6));
     let missing = SurfaceRequest { knots: Some("knot.json".into()), ..request };
     let said = missing.run(&sources, &Silent).err().unwrap().to_string();
-    assert_eq!(said, "knot.json: the knots cannot be read");
+    assert_eq!(said, "knot.json: the knots cannot be read; check the path");
 }
 
 #[test]

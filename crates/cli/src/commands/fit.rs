@@ -16,10 +16,10 @@ use trueness::task::{Request, RunFiles};
 use trueness::tasks::fit::{Element, FitRequest, Method};
 use trueness_document::fit::{FitDocument, Number};
 
-/// The best line, plane, circle, ellipse, sphere, cylinder, cone or torus through points
+/// Fit a line, plane, circle, ellipse, sphere, cylinder, cone or torus to points
 ///
-/// By least squares, as the narrowest zone, as the smallest around or the largest within, or by a robust rule that
-/// leaves outliers out. Points of two columns have lines and circles in the plane.
+/// The element fits by least squares, as the narrowest zone, as the smallest around or the largest within the points, or by a robust rule
+/// that leaves outliers out. Points of two columns give lines, circles and ellipses in the plane.
 #[derive(Args, Debug)]
 #[command(after_help = "\
 Examples:
@@ -27,12 +27,12 @@ Examples:
   trueness fit face.xyz --shape plane --method minimum-zone --html report.html
   trueness fit scan_of_ball.ply --shape sphere --method robust --json result.json")]
 pub struct FitArgs {
-    /// The points, or a mesh (its vertices are taken); `-` reads stdin
+    /// The points, or a mesh (its vertices count); `-` reads stdin
     points: PathBuf,
-    /// What is fitted
+    /// Shape of the element
     #[arg(long, value_parser = choice::<Element>())]
     shape: Element,
-    /// What makes an element the best
+    /// Criterion of the best element
     #[arg(long, value_parser = choice::<Method>(), default_value = "gaussian")]
     method: Method,
     #[command(flatten)]

@@ -10,14 +10,14 @@ use trueness::task::RunFiles;
 use trueness_files::write::Writable;
 use trueness_files::{FORMATS, Format};
 
-/// File formats: what is read and written; of one format its manual page
+/// List the file formats that are read and written, or print the manual page of one
 #[derive(Args, Debug)]
 #[command(after_help = "\
 Examples:
   trueness formats
   trueness formats stl")]
 pub struct FormatsArgs {
-    /// A format by its name or an ending: its manual page, as Markdown
+    /// Name or ending of a format: its manual page is printed, as Markdown
     format: Option<String>,
 }
 
@@ -66,7 +66,7 @@ fn list() -> String {
         row([format.name, read, &written.join(", "), &shown.join(" ")]);
     }
     out.push_str(
-        "\nFiles are told by their content, not by their ending; each may be packed with gzip (.gz).\n\
+        "\nA file is recognized by its content, not by its ending. Each may be packed with gzip (.gz).\n\
          Curves and surfaces: `section` writes DXF, SVG, STEP, IGES, `surface` STEP, IGES and OBJ.\n\
          `trueness formats NAME` prints the page of a format.\n",
     );

@@ -31,7 +31,7 @@ use segment::SegmentArgs;
 use surface::SurfaceArgs;
 use trend::TrendArgs;
 
-/// How far is every measured point from the model?
+/// 3D inspection and reverse engineering: how far is every measured point from the model?
 ///
 /// Exit status: 0 done and conforming; 1 done, but out of tolerance or not sound; 2 wrong usage;
 /// 3 the input could not be read or does not allow an answer; 4 internal error; 128 and the signal's number (130: Ctrl-C)

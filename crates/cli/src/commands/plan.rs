@@ -23,7 +23,7 @@ enum What {
     Init(InitArgs),
 }
 
-/// Propose a plan: every plane, cylinder, cone and sphere of the nominal a feature, with placeholder tolerances
+/// Propose a plan: a feature for every plane, cylinder, cone and sphere of the nominal, with placeholder tolerances
 #[derive(Args, Debug)]
 #[command(after_help = "\
 Examples:
@@ -33,7 +33,7 @@ struct InitArgs {
     nominal: PathBuf,
     #[command(flatten)]
     reading: InputArgs,
-    /// Where the plan goes, a new file [default: standard output]
+    /// Write the plan to this file, which must not exist yet [default: stdout]
     #[arg(long, short, value_name = "FILE")]
     out: Option<PathBuf>,
 }

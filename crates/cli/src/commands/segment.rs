@@ -4,7 +4,7 @@ use crate::command::Run;
 use crate::console;
 use crate::noise::{self, NoiseArgs};
 use crate::number::{FACETS, POINTS, counted, fixed, grouped, scientific};
-use crate::options::{Common, DocumentArgs, PointInputArgs, choice};
+use crate::options::{Common, DocumentArgs, PointInputArgs, choice, count, number};
 use crate::report::ReportArgs;
 use crate::task;
 use clap::Args;
@@ -20,10 +20,10 @@ use trueness_files::write::Writable;
 use trueness_geom::shape::Quantity;
 use trueness_measure::words::ToGeometry;
 
-/// Planes, cylinders, cones, spheres and tori in a mesh or cloud, without a nominal
+/// Find planes, cylinders, cones, spheres and tori in a mesh or cloud, without a nominal
 ///
-/// Finds the regions, fits an element to each by least squares and tells its parameters with their uncertainties. How
-/// far a point may lie off is found from the noise of the data, unless --tolerance says it.
+/// Finds the regions, fits an element to each by least squares, and reports its parameters with their uncertainties. Points may lie as far
+/// from an element as the noise of the data explains, or as --tolerance says.
 #[derive(Args, Debug)]
 #[command(after_help = "\
 Examples:
@@ -33,7 +33,7 @@ Examples:
 pub struct SegmentArgs {
     /// A mesh, or points; `-` reads stdin
     input: PathBuf,
-    /// What is looked for
+    /// Shapes to look for
     #[arg(
         long,
         value_parser = choice::<Element>(),
@@ -42,17 +42,17 @@ pub struct SegmentArgs {
         default_value = "plane,cylinder,cone,sphere,torus"
     )]
     shapes: Vec<Element>,
-    /// Distance up to which a point belongs to an element, mm [default: eight standard deviations of the noise found]
-    #[arg(long, value_name = "MM")]
+    /// Points within this distance belong to an element, mm [default: eight standard deviations of the estimated noise]
+    #[arg(long, value_name = "MM", value_parser = number, allow_negative_numbers = true)]
     tolerance: Option<f64>,
-    /// Angle between neighboring facets, or normals of points, from which on there is an edge between them, degrees
-    #[arg(long, value_name = "DEGREES", default_value = "32")]
+    /// Neighboring facets, or normals of points, that differ by this angle have an edge between them, degrees
+    #[arg(long, value_name = "DEGREES", default_value = "32", value_parser = number, allow_negative_numbers = true)]
     crease: f64,
-    /// Least share of the area, or of the points of a cloud, that a region must have, percent [default: 0.2, of a drawn mesh 0.01]
-    #[arg(long, value_name = "PERCENT")]
+    /// A region has at least this share of the area, or of the points of a cloud, percent [default: 0.2, for a mesh of a drawing 0.01]
+    #[arg(long, value_name = "PERCENT", value_parser = number, allow_negative_numbers = true)]
     min_share: Option<f64>,
-    /// Fewest measured points of a region
-    #[arg(long, value_name = "N", default_value = "0")]
+    /// A region has at least this many measured points
+    #[arg(long, value_name = "N", default_value = "0", value_parser = count, allow_negative_numbers = true)]
     min_points: usize,
     #[command(flatten)]
     reading: PointInputArgs,

@@ -93,7 +93,7 @@ fn what_looks_away_is_told_everywhere() {
         assert_eq!(cells[3].is_empty(), k >= 100);
     }
     let page = std::fs::read_to_string(&html).unwrap();
-    assert!(page.contains("looks another way") && page.contains("Only normals within"));
+    assert!(page.contains("normal turned away") && page.contains("Only normals within"));
     // Nothing left is no number, and no pass.
     let turned = folder.write("turned.csv", rows(&two_walls()[120..150], "x,y,z,nx,ny,nz\n", ","));
     let words = ["compare", word(&turned), word(&plate), "--facing", "30", "--tolerance", "1"];

@@ -80,7 +80,7 @@ const FAULTS: &[Fault] = &[
     fault(
         "schema = \"trueness/plan/1\"",
         "schema = \"trueness/plan/2\"",
-        "line 1, column 10: the schema is \"trueness/plan/2\"; this program reads \"trueness/plan/1\"",
+        "line 1, column 10: the schema is \"trueness/plan/2\", but this program reads \"trueness/plan/1\"",
     ),
     fault(
         "schema = \"trueness/plan/1\"\n",

@@ -214,7 +214,7 @@ fn wrong_input_is_refused_with_a_remedy() {
             3,
             "torn.json: the knot 50 of u stands 4 times and tears the surface apart",
         ),
-        (vec![good, "--knots", other], 3, "other.json: no knots; it must be"),
+        (vec![good, "--knots", other], 3, "other.json: it holds no knots; give"),
         (vec![good, "--knots", short, "--base", "xy"], 3, "the knots along u run from 0 to"),
         (vec![good, "--knots", short, "--degree", "3"], 3, "are of degree 1, --degree asks for 3"),
         (vec![good, "--knots", short, "--json", short], 2, "would overwrite the input"),

@@ -135,6 +135,12 @@ fn slip(message: &str, line: &str, after: &str) -> Option<String> {
         "string values must be quoted" | "invalid boolean" => {
             format!("text stands in quotes; write \"{next}\"")
         }
+        "invalid key-value pair" if line.is_empty() && after.starts_with(['{', '<']) => {
+            "this is no plan; give a TOML file".into()
+        }
+        "invalid basic string" if !next.trim_start_matches('"').contains('"') => {
+            "the text has no closing quote; end it with \"".into()
+        }
         "duplicate key" if line.ends_with("[[") => {
             let name = next.trim_end_matches(']');
             format!("[{name}] is one table; write [[{name}]], as there may be several")

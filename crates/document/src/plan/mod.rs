@@ -43,7 +43,8 @@ impl PlanText {
     pub fn read(text: &str) -> Result<PlanText, PlanError> {
         let written: PlanText = toml::from_str(text).map_err(|e| PlanError::of_reader(text, &e))?;
         if written.schema.value != SCHEMA {
-            let what = format!("the schema is \"{}\"; this program reads \"{SCHEMA}\"", written.schema.value);
+            let what =
+                format!("the schema is \"{}\", but this program reads \"{SCHEMA}\"", written.schema.value);
             return Err(PlanError::at(text, &written.schema.span, what));
         }
         numbers::checked(text)?;

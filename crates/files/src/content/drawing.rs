@@ -1,4 +1,4 @@
-//! What drawings are made of.
+//! Entities and layers of drawings.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 use trueness_geom::plane::PlaneFrame;
@@ -57,7 +57,7 @@ impl<S> Entity<S> {
     }
 }
 
-/// Of an arc of the unit circle its ends, and where within it the circle crosses the axes.
+/// Ends of an arc of the unit circle, and the places on it where the circle crosses the axes.
 fn reach_of_arc(start: f64, sweep: f64) -> Vec<[f64; 2]> {
     let end = start + sweep.clamp(-TAU, TAU);
     let on_circle = |angle: f64| [libm::cos(angle), libm::sin(angle)];
@@ -73,13 +73,13 @@ fn reach_of_arc(start: f64, sweep: f64) -> Vec<[f64; 2]> {
     [start, end].map(on_circle).into_iter().chain(quarters.map(crossing)).collect()
 }
 
-/// Diagonal of the box around places; 0 of none.
+/// Diagonal of the box around places; 0 for no place.
 fn diagonal(places: impl IntoIterator<Item = [f64; 2]>) -> f64 {
     let [low, high] = box_of(places).unwrap_or_default();
     libm::hypot(high[0] - low[0], high[1] - low[1])
 }
 
-/// The box around places; `None` of none.
+/// The box around places; `None` for no place.
 fn box_of(places: impl IntoIterator<Item = [f64; 2]>) -> Option<[[f64; 2]; 2]> {
     places.into_iter().map(|p| [p, p]).reduce(|[low, high], [p, _]| {
         [std::array::from_fn(|k| low[k].min(p[k])), std::array::from_fn(|k| high[k].max(p[k]))]
@@ -95,7 +95,7 @@ pub struct DrawnEntity {
     pub drawn: Drawn,
 }
 
-/// What was read of a drawing.
+/// The entities read from a drawing.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Drawing {
     /// The entities in the order of the file; those of zero length are left out.
@@ -103,7 +103,7 @@ pub struct Drawing {
 }
 
 impl Drawn {
-    /// What it reaches to, with the control points of a spline.
+    /// Places that the box around it must hold, with the control points of a spline.
     fn corners(&self) -> Vec<[f64; 2]> {
         self.reach(|curve| {
             let places = curve.masses().points().iter().filter_map(|m| m.place());
@@ -111,14 +111,14 @@ impl Drawn {
         })
     }
 
-    /// Diagonal of the box around it; of a spline around its control points.
+    /// Diagonal of the box around it; for a spline, around its control points.
     pub fn size(&self) -> f64 {
         diagonal(self.corners())
     }
 }
 
 impl Drawing {
-    /// Diagonal of the box around all lines, arcs and control points; 0 of nothing.
+    /// Diagonal of the box around all lines, arcs and control points; 0 for an empty drawing.
     pub fn size(&self) -> f64 {
         diagonal(self.entities.iter().flat_map(|e| e.drawn.corners()))
     }
@@ -131,11 +131,11 @@ pub struct Layer {
     pub name: String,
     /// Where its plane lies in space; drawings in the plane leave it out.
     pub frame: PlaneFrame,
-    /// What is on it.
+    /// Its entities.
     pub entities: Vec<Entity>,
 }
 
-/// Box around all lines, arcs and control points; `None` of nothing.
+/// Box around all lines, arcs and control points; `None` for no entity.
 pub(crate) fn bounds(layers: &[Layer]) -> Option<[[f64; 2]; 2]> {
     box_of(layers.iter().flat_map(|l| &l.entities).flat_map(|e| e.reach(|spline| spline.points.clone())))
 }

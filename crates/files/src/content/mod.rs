@@ -1,4 +1,4 @@
-//! What a file held.
+//! The content of a file.
 
 pub(crate) mod drawing;
 pub(crate) mod spline_model;
@@ -15,7 +15,7 @@ pub struct Input {
     pub provenance: Provenance,
     /// The mesh, the points as a stream, the splines, or the drawing.
     pub body: Body,
-    /// What was odd, in the order it was found.
+    /// The warnings, in the order of the file.
     pub warnings: Vec<Warning>,
 }
 
@@ -24,7 +24,7 @@ pub struct Input {
 pub struct Provenance {
     /// The path as it was given, or `-` for standard input.
     pub path: String,
-    /// What the content proved to be, for instance `stl-binary`, `ply-ascii` or `xyz`.
+    /// The format by the content, for instance `stl-binary`, `ply-ascii` or `xyz`.
     pub format: &'static str,
     /// Size on disk; 0 where it is not known (standard input).
     pub bytes: u64,
@@ -36,7 +36,7 @@ pub struct Provenance {
     pub unit_from: UnitFrom,
     /// True if the points have two coordinates only; their z is 0.
     pub planar: bool,
-    /// What was taken for what in a table of text; `None` for other files.
+    /// How the columns of a table of text were taken; `None` for other files.
     pub table: Option<TableReading>,
 }
 
@@ -62,10 +62,10 @@ impl UnitFrom {
     }
 }
 
-/// What was taken for what in a table of text.
+/// How the columns of a table of text were taken.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TableReading {
-    /// What parts the columns: `semicolons`, `tabs`, `commas` or `blanks`.
+    /// The separator of the columns: `semicolons`, `tabs`, `commas` or `blanks`.
     pub separator: &'static str,
     /// `.` or `,`.
     pub decimal_sign: char,
@@ -126,7 +126,7 @@ pub struct SourceMesh {
     pub nonfinite_facets: Vec<u32>,
     /// Which solid of an STL file in words each facet is of, where there are several. `None` for other formats.
     pub regions: Option<FacetRegions>,
-    /// Names of what a PLY file tells of its vertices and facets beside places and corners, such as colors, in the order of
-    /// the header. It was not read. Empty for other formats.
+    /// Names of the properties that a PLY file has beside places and corners, such as colors, in the order of
+    /// the header. They were not read. Empty for other formats.
     pub unread: Vec<String>,
 }

@@ -10,7 +10,7 @@ pub struct ReadError {
     pub file: String,
     /// Where in the file.
     pub place: Place,
-    /// What is wrong there.
+    /// The fault.
     #[source]
     pub fault: Fault,
 }
@@ -36,7 +36,7 @@ impl fmt::Display for Place {
     }
 }
 
-/// What is wrong with a file.
+/// A fault of a file.
 #[derive(Debug, thiserror::Error)]
 pub enum Fault {
     /// The system refused.
@@ -57,15 +57,15 @@ pub enum Fault {
     /// Something else stands where the format demands something.
     #[error("expected {expected}, found {found}")]
     Unexpected {
-        /// What the format demands.
+        /// The content that the format demands.
         expected: Cow<'static, str>,
-        /// What is there, shortened.
+        /// The content that is there, shortened.
         found: String,
     },
     /// The file ends early.
-    #[error("cut short: {declared} {what} declared, {present} there")]
+    #[error("cut short: {declared} {what} declared, {present} present")]
     Short {
-        /// What is counted.
+        /// Name of the things counted.
         what: &'static str,
         /// As many as the header says.
         declared: u64,
@@ -91,7 +91,7 @@ pub enum Fault {
     /// More than can be numbered.
     #[error("{count} {what} are more than the {limit} that can be numbered")]
     TooMany {
-        /// What is counted.
+        /// Name of the things counted.
         what: &'static str,
         /// How many there are.
         count: u64,
@@ -110,16 +110,16 @@ pub enum Fault {
     /// A feature of the format that is not read.
     #[error("{what}")]
     Unsupported {
-        /// What it is.
+        /// The feature.
         what: String,
-        /// What to do instead.
+        /// The remedy.
         remedy: &'static str,
     },
     /// Columns were asked for in a file that has none.
-    #[error("columns were named, but this is {0}, which is no table")]
+    #[error("columns were named, but the format is {0}, which is no table")]
     NoTable(&'static str),
     /// Normals were asked for in a file of a kind that has none, or whose normals are not read.
-    #[error("no normals are read from this kind of file, which is {0}")]
+    #[error("no normals are read from files of the format {0}")]
     NoNormals(&'static str),
     /// Vertices are to be joined over a distance that no two of them exceed.
     #[error("all its vertices lie within {distance} mm of one another: it is only {size} mm long")]
@@ -134,27 +134,27 @@ pub enum Fault {
     Cell {
         /// Number of the column, counted from 1.
         column: usize,
-        /// What it is: its name in the header, else the coordinate; empty where neither is known.
+        /// Its name in the header, else the coordinate; empty where neither is known.
         name: String,
-        /// What the table needs.
+        /// The content that the table needs.
         expected: Cow<'static, str>,
-        /// What is there, shortened.
+        /// The content that is there, shortened.
         found: String,
-        /// What to do.
+        /// The remedy.
         remedy: &'static str,
     },
     /// The file can be taken in more than one way, and nothing says which is meant.
     #[error("{what}")]
     Unclear {
-        /// What is unclear.
+        /// The unclear point.
         what: String,
         /// How to say it.
         remedy: &'static str,
     },
     /// More content than announced.
-    #[error("{declared} {what} announced, {present} there")]
+    #[error("{declared} {what} announced, {present} present")]
     Surplus {
-        /// What is counted.
+        /// Name of the things counted.
         what: &'static str,
         /// As many as the file says.
         declared: u64,
@@ -166,7 +166,7 @@ pub enum Fault {
     Trailing {
         /// How many.
         count: u64,
-        /// What is counted.
+        /// Name of the things counted.
         what: &'static str,
         /// As many as the header says.
         declared: u64,
@@ -205,7 +205,7 @@ pub enum Fault {
     NoColumn {
         /// As asked for.
         wanted: String,
-        /// What there is.
+        /// The columns of the file.
         there: String,
     },
 }
@@ -215,14 +215,14 @@ impl Fault {
     pub fn is_wrong_usage(&self) -> bool {
         matches!(self, Fault::NoTable(_) | Fault::WeldTooFar { .. } | Fault::NotRead(_))
     }
-    /// What the user can do about it.
+    /// The remedy.
     pub fn remedy(&self) -> &'static str {
         match self {
             Fault::Io(e) if e.kind() == io::ErrorKind::NotFound => "check the spelling of the path",
-            Fault::Io(e) if e.kind() == io::ErrorKind::PermissionDenied => "ask for the right to read it",
+            Fault::Io(e) if e.kind() == io::ErrorKind::PermissionDenied => "get the permission to read it",
             Fault::Io(_) => "check that the file can be read",
             Fault::Unnamed { .. } => "check the spelling of the name",
-            Fault::TooLong { .. } => "check that it is the file that was meant",
+            Fault::TooLong { .. } => "check that it is the right file",
             Fault::Empty => "export it again",
             Fault::Foreign(_) => {
                 "export it as STL, PLY, OBJ or OFF (mesh) or as PLY, XYZ, CSV or NPY (points)"
@@ -231,10 +231,10 @@ impl Fault {
             Fault::Unknown => {
                 "give a mesh as STL, PLY, OBJ, OFF or points as XYZ, CSV, PTS, PLY, NPY, or name the format by --format"
             }
-            Fault::Unexpected { .. } => "mend this place or export the file again",
+            Fault::Unexpected { .. } => "correct this place or export the file again",
             Fault::Short { .. } => "copy or export the file again",
             Fault::NoSuchVertex { .. } => {
-                "export the file again; its faces and vertices do not belong together"
+                "export the file again: its faces and vertices do not belong together"
             }
             Fault::NotFinite { .. } => "remove it, or export without invalid points",
             Fault::TooMany { .. } => "divide the file into parts",
@@ -276,21 +276,22 @@ fn named(name: &str) -> String {
     if name.is_empty() { String::new() } else { format!(" ({name})") }
 }
 
-/// What is told of the nearest name.
+/// The hint at the nearest name.
 fn nearest_name(nearest: &Option<String>) -> String {
     nearest.as_ref().map_or_else(String::new, |nearest| format!(", the nearest is {nearest}"))
 }
 
-/// The first bytes of something, as it can be shown in a message.
+/// The beginning of some bytes, made printable for a message.
 pub(crate) fn quoted(found: &[u8]) -> String {
-    const SHOWN: usize = 40;
+    const MAX_QUOTED_CHARS: usize = 40;
     let found = found.trim_ascii();
     if found.is_empty() {
         return "nothing".into();
     }
-    let text = String::from_utf8_lossy(&found[..found.len().min(4 * SHOWN)]);
-    let mut shown: String = text.chars().take(SHOWN).map(|c| if c.is_control() { '·' } else { c }).collect();
-    if text.chars().count() > SHOWN {
+    let text = String::from_utf8_lossy(&found[..found.len().min(4 * MAX_QUOTED_CHARS)]);
+    let mut shown: String =
+        text.chars().take(MAX_QUOTED_CHARS).map(|c| if c.is_control() { '·' } else { c }).collect();
+    if text.chars().count() > MAX_QUOTED_CHARS {
         shown.push('…');
     }
     format!("\"{shown}\"")

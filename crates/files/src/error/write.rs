@@ -9,7 +9,7 @@ use std::{io, path::Path};
 pub struct WriteError {
     /// The file's name as it was given.
     pub file: String,
-    /// What went wrong.
+    /// The fault.
     #[source]
     pub fault: WriteFault,
 }
@@ -36,12 +36,12 @@ pub enum WriteFault {
     TooMany {
         /// Name of the format.
         format: &'static str,
-        /// What is counted.
+        /// Name of the things counted.
         what: &'static str,
         /// How many there are.
         count: u64,
     },
-    /// What was written cannot be read again.
+    /// The written file cannot be read again.
     #[error("it was written, but cannot be read again: {0}")]
     ReadBack(Box<ReadError>),
     /// A face names a vertex that the mesh does not have.
@@ -63,7 +63,7 @@ pub enum WriteFault {
 }
 
 impl WriteError {
-    /// What the system said about writing to `path`.
+    /// The error of the system about writing to `path`.
     pub fn new(path: &Path, error: io::Error) -> WriteError {
         WriteFault::from(error).in_file(path)
     }
@@ -79,7 +79,7 @@ impl WriteFault {
     }
 }
 
-/// What the system said, with a remedy where there is one.
+/// The message of the system, with a remedy where there is one.
 fn advice(e: &io::Error) -> String {
     match e.kind() {
         io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => {

@@ -6,7 +6,7 @@ use super::{
 };
 use crate::{AtomicFile, error::WriteFault};
 
-/// What follows the positions; it is held beside the file until all positions are in it.
+/// Values that follow the positions; they are held beside the file until all positions are in it.
 pub(crate) struct Columns {
     /// Which of them the file has.
     pub layout: Layout,

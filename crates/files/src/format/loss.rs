@@ -1,9 +1,9 @@
-//! What a format could not hold.
+//! The loss in writing a format.
 
 use trueness_geom::parallel::prelude::*;
 use trueness_geom::space::Point;
 
-/// What was lost in writing.
+/// The loss in writing.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Loss {
     /// Positions that changed.
@@ -13,7 +13,7 @@ pub struct Loss {
 }
 
 impl Loss {
-    /// What rounding to single precision changes.
+    /// The loss by rounding to single precision.
     pub(crate) fn of_single_precision(positions: &[Point]) -> Loss {
         let change = |p: &Point| p.iter().map(|x| (x - f64::from(*x as f32)).abs()).fold(0.0, f64::max);
         let add = |a: Loss, b: Loss| Loss { moved: a.moved + b.moved, farthest: a.farthest.max(b.farthest) };

@@ -1,4 +1,4 @@
-//! What a format is: what its reader is told and gives, and how it is written.
+//! The definition of a format: options and result of its reader, and its writers.
 
 pub(crate) mod columns;
 pub(crate) mod corners;
@@ -25,7 +25,7 @@ pub struct Format {
     pub name: &'static str,
     /// Extensions of files that are read, lower case, without dot; the first is the usual one.
     pub extensions: &'static [&'static str],
-    /// Those under which it is written.
+    /// Extensions under which it is written.
     pub written_as: &'static [&'static str],
     /// Its page, as `trueness formats` prints it: what is read, what is written, what is lost. Markdown.
     pub manual: &'static str,
@@ -69,7 +69,7 @@ impl PartialEq for Format {
     }
 }
 
-/// What a file does not say itself.
+/// Facts that a file does not state itself.
 #[derive(Clone, Debug)]
 pub struct ReadOptions {
     /// The unit of its numbers; else that in the names of a table's columns is used, else millimeters are assumed.
@@ -89,7 +89,7 @@ pub struct ReadOptions {
 }
 
 impl ReadOptions {
-    /// The unit of a file that says `said`: what a CAD file says counts more than what is asked.
+    /// The unit of a file that states `said`. The unit stated by a CAD file overrules the one asked for.
     pub(crate) fn unit_of(&self, said: Option<Unit>) -> Unit {
         said.or(self.units).or(self.unit_else).unwrap_or_default()
     }
@@ -101,10 +101,10 @@ pub enum Weld {
     /// None. An STL file is then a heap of loose triangles, and other formats are torn open where textures or materials
     /// meet.
     None,
-    /// Those at the same place.
+    /// Vertices at the same place.
     #[default]
     Same,
-    /// Those within this distance of one another, millimeters.
+    /// Vertices within this distance of one another, millimeters.
     Within(f64),
 }
 
@@ -129,14 +129,14 @@ pub(crate) struct Head<'a> {
     pub length: Option<u64>,
 }
 
-/// What a reader makes of a file, lengths still in the file's unit.
+/// The result of a reader, lengths still in the unit of the file.
 pub(crate) struct Parsed {
     /// The variant found.
     pub variant: &'static str,
-    pub content: Parts,
+    pub content: Content,
     /// Points in the plane.
     pub planar: bool,
-    /// What was taken for what, in a table of text.
+    /// How the columns of a table of text were taken.
     pub table: Option<TableReading>,
     /// The unit that the file gives itself.
     pub unit: Option<Unit>,
@@ -144,7 +144,7 @@ pub(crate) struct Parsed {
 }
 
 /// A mesh, a stream of points whose errors do not yet name the file, splines or a drawing, which are in millimeters already.
-pub(crate) enum Parts {
+pub(crate) enum Content {
     Mesh(SourceMesh),
     Splines(SplineModel),
     Drawing(Drawing),
@@ -152,14 +152,14 @@ pub(crate) enum Parts {
 }
 
 impl Parsed {
-    fn of(variant: &'static str, content: Parts, warnings: Vec<Warning>) -> Parsed {
+    fn of(variant: &'static str, content: Content, warnings: Vec<Warning>) -> Parsed {
         Parsed { variant, content, planar: false, table: None, unit: None, warnings }
     }
     pub fn mesh(variant: &'static str, mesh: SourceMesh, mut warnings: Vec<Warning>) -> Parsed {
         if mesh.mesh.faces.is_empty() && mesh.nonfinite_facets.is_empty() {
             warnings.push(Warning::Nothing);
         }
-        Parsed::of(variant, Parts::Mesh(mesh), warnings)
+        Parsed::of(variant, Content::Mesh(mesh), warnings)
     }
     /// Splines whose unit the file says, if it does.
     pub fn splines(
@@ -171,7 +171,7 @@ impl Parsed {
         if model.surfaces.is_empty() && model.curves.is_empty() {
             warnings.push(Warning::NoSplines);
         }
-        Parsed { unit, ..Parsed::of(variant, Parts::Splines(model), warnings) }
+        Parsed { unit, ..Parsed::of(variant, Content::Splines(model), warnings) }
     }
     /// A drawing whose unit the file says, if it does.
     pub fn drawing(
@@ -180,13 +180,13 @@ impl Parsed {
         unit: Option<Unit>,
         warnings: Vec<Warning>,
     ) -> Parsed {
-        Parsed { unit, ..Parsed::of(variant, Parts::Drawing(drawing), warnings) }
+        Parsed { unit, ..Parsed::of(variant, Content::Drawing(drawing), warnings) }
     }
     pub fn points(
         variant: &'static str,
         points: impl PointStream<Error = Located> + Send + 'static,
     ) -> Parsed {
-        Parsed::of(variant, Parts::Points(Box::new(points)), vec![])
+        Parsed::of(variant, Content::Points(Box::new(points)), vec![])
     }
     /// Points that have been read already.
     pub fn cloud(variant: &'static str, points: Vec<Point>) -> Parsed {

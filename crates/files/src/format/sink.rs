@@ -1,4 +1,4 @@
-//! What a writer of a format is given.
+//! The input of the writer of a format.
 
 use super::loss::Loss;
 use crate::{AtomicFile, error::WriteFault};
@@ -29,7 +29,7 @@ pub struct Block<'a> {
 }
 
 impl Block<'_> {
-    /// What goes under the name `excluded`: the reasons, or without them 1 for each point that has no deviation.
+    /// The values of the column `excluded`: the reasons, or without reasons 1 for each point that has no deviation.
     pub(crate) fn excluded(&self) -> impl Iterator<Item = u8> + '_ {
         let alone = if self.reason.is_empty() { self.deviation } else { &[] };
         self.reason.iter().copied().chain(alone.iter().map(|d| u8::from(d.is_nan())))

@@ -1,4 +1,4 @@
-//! Values that must stand behind others in a file, kept until their turn comes.
+//! Values that must stand behind others in a file, held until their turn comes.
 
 use crate::{AtomicFile, temporary::Temporary};
 use std::{
@@ -7,8 +7,8 @@ use std::{
     path::PathBuf,
 };
 
-/// Bytes held in memory before a temporary file is begun.
-const MEMORY: usize = 32 << 20;
+/// Beyond this many bytes a temporary file is begun.
+const MAX_SPOOL_MEMORY: usize = 32 << 20;
 
 /// Bytes to be read again from the start, in memory or, when they grow, in a file beside the one being written.
 pub(crate) struct Spool {
@@ -36,7 +36,7 @@ impl Spool {
         let before = self.memory.len();
         self.memory.extend(bytes);
         self.length += (self.memory.len() - before) as u64;
-        if self.memory.len() >= MEMORY {
+        if self.memory.len() >= MAX_SPOOL_MEMORY {
             let (_, file) = match &mut self.disk {
                 Some(disk) => disk,
                 none => {

@@ -1,6 +1,6 @@
-//! What is known of points, by name.
+//! Named numbers of points.
 
-/// What is known of each point.
+/// The named numbers, reason and color of each point.
 pub struct Values<'a, const N: usize> {
     /// Names of the numbers.
     pub names: [&'a str; N],

@@ -20,7 +20,7 @@ pub(crate) mod vtp;
 
 use crate::format::Format;
 
-/// All formats. Those that show themselves plainly come first.
+/// All formats. Formats whose content shows them plainly come first.
 pub static FORMATS: &[&Format] = &[
     &ply::PLY,
     &npy::NPY,
@@ -84,7 +84,7 @@ mod tests {
         }
     }
 
-    /// What was written reads back under a name that does not tell the format; cut short anywhere it does no harm.
+    /// A written file reads back under a name that does not tell the format; cut short anywhere, it does no harm.
     fn reads_back(folder: &Folder, written: &Path, wanted: &[Point]) {
         assert_eq!(places(written), wanted, "{}", written.display());
         let (bytes, nameless) = (std::fs::read(written).unwrap(), folder.path().join("nameless"));

@@ -22,18 +22,18 @@ pub(crate) const NPY: Format = Format {
     written_as: &[],
     manual: include_str!("npy.md"),
     columns: true,
-    sniff: |head: &Head| head.bytes.starts_with(MAGIC),
+    sniff: |head: &Head| head.bytes.starts_with(NPY_MAGIC),
     read: Some(read),
     points: None,
     mesh: None,
 };
 
-const MAGIC: &[u8] = b"\x93NUMPY";
-/// The longest header that is read.
-const HEADER: usize = 1 << 16;
+const NPY_MAGIC: &[u8] = b"\x93NUMPY";
+/// A header is read up to this length.
+const MAX_NPY_HEADER_BYTES: usize = 1 << 16;
 
 fn read(mut source: Source, options: &ReadOptions) -> Result<Parsed> {
-    let bytes = source.feed.ahead(HEADER + 12)?;
+    let bytes = source.feed.ahead(MAX_NPY_HEADER_BYTES + 12)?;
     let (start, text) = header(bytes)?;
     let array = Array::parse(text)?;
     source.feed.step(start);
@@ -65,7 +65,7 @@ fn read(mut source: Source, options: &ReadOptions) -> Result<Parsed> {
 /// Where the data begin, and the text of the header.
 fn header(bytes: &[u8]) -> Result<(usize, &str)> {
     let wrong = |what: &'static str| Fault::unexpected(what, &bytes[..bytes.len().min(16)]).at_byte(0);
-    if !bytes.starts_with(MAGIC) {
+    if !bytes.starts_with(NPY_MAGIC) {
         return Err(wrong("an array written by numpy.save"));
     }
     let (length, start) = match bytes {
@@ -73,12 +73,12 @@ fn header(bytes: &[u8]) -> Result<(usize, &str)> {
         [_, _, _, _, _, _, 2 | 3, _, a, b, c, d, ..] => (u32::from_le_bytes([*a, *b, *c, *d]) as usize, 12),
         _ => return Err(wrong("version 1, 2 or 3 of the format")),
     };
-    let text = bytes.get(start..).and_then(|b| b.get(..length)).filter(|_| length <= HEADER);
+    let text = bytes.get(start..).and_then(|b| b.get(..length)).filter(|_| length <= MAX_NPY_HEADER_BYTES);
     let text = text.and_then(|t| std::str::from_utf8(t).ok());
     text.map(|t| (start + length, t)).ok_or_else(|| wrong("a header as long as it says"))
 }
 
-/// What the header says.
+/// The content of the header.
 struct Array {
     scalar: Scalar,
     order: Order,
@@ -87,8 +87,8 @@ struct Array {
     width: usize,
 }
 
-/// More columns than this are not points.
-const WIDEST: u64 = 4096;
+/// An array with more columns holds no points.
+const MAX_POINT_COLUMNS: u64 = 4096;
 
 impl Array {
     fn parse(text: &str) -> Result<Array> {
@@ -111,7 +111,7 @@ impl Array {
         let sides: Option<Vec<u64>> =
             shape.split(',').map(str::trim).filter(|w| !w.is_empty()).map(|w| count(w.as_bytes())).collect();
         match sides.ok_or_else(wrong)?[..] {
-            [rows, width] if (2..=WIDEST).contains(&width) => {
+            [rows, width] if (2..=MAX_POINT_COLUMNS).contains(&width) => {
                 Ok(Array { scalar, order, fortran, rows, width: width as usize })
             }
             _ => {
@@ -170,8 +170,8 @@ fn dtype(descr: &str) -> Result<(Order, Scalar)> {
     }
 }
 
-/// Points whose coordinates lie column after column, as Fortran has them. Of a file only the part of each column is
-/// read that a block needs; of a stream all of it stays in memory.
+/// Points whose coordinates lie column after column, as Fortran has them. From a file, only the part of each column is
+/// read that a block needs. A stream stays in memory as a whole.
 struct Columnwise {
     feed: Feed,
     array: Array,
@@ -180,7 +180,7 @@ struct Columnwise {
     rows: usize,
     block: usize,
     /// Bytes of a column's part.
-    part: Vec<u8>,
+    column_part: Vec<u8>,
 }
 
 impl Columnwise {
@@ -198,7 +198,7 @@ impl Columnwise {
             return Err(short.at_byte(at + there));
         };
         no_more(there - need, array.rows, at + need)?;
-        Ok(Columnwise { feed, array, columns, found: 0, rows, block: block.max(1), part: vec![] })
+        Ok(Columnwise { feed, array, columns, found: 0, rows, block: block.max(1), column_part: vec![] })
     }
 }
 
@@ -214,11 +214,11 @@ impl PointStream for Columnwise {
         let at = self.feed.position();
         block.clear();
         block.resize(end - start, [0.0; 3]);
-        self.part.resize((end - start) * size, 0);
+        self.column_part.resize((end - start) * size, 0);
         let array = &self.array;
         for (axis, column) in self.columns.iter().enumerate() {
-            self.feed.copy(((column * rows + start) * size) as u64, &mut self.part)?;
-            let cells = self.part.par_chunks_exact(size).with_min_len(1 << 12);
+            self.feed.copy(((column * rows + start) * size) as u64, &mut self.column_part)?;
+            let cells = self.column_part.par_chunks_exact(size).with_min_len(1 << 12);
             block.par_iter_mut().with_min_len(1 << 12).zip(cells).for_each(|(point, bytes)| {
                 point[axis] = array.scalar.get(bytes, array.order);
             });
@@ -230,7 +230,7 @@ impl PointStream for Columnwise {
     }
 }
 
-/// Points whose rows must end with the file: what follows is another array, or the header is wrong.
+/// Points whose rows must end with the file. Further bytes are another array, or the header is wrong.
 struct Rowwise(StridedPoints);
 
 impl PointStream for Rowwise {

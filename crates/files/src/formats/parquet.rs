@@ -35,8 +35,8 @@ pub(crate) const PARQUET: Format = Format {
     mesh: None,
 };
 
-/// Most rows of one group.
-const GROUP: usize = 1 << 20;
+/// A group holds this many rows at most.
+const MAX_ROWS_PER_GROUP: usize = 1 << 20;
 
 fn fault(e: ParquetError) -> WriteFault {
     // The library wraps what the system said.
@@ -98,8 +98,8 @@ struct Table {
 
 impl PointsSink for Table {
     fn write(&mut self, block: &Block) -> Result<(), WriteFault> {
-        for start in (0..block.points.len()).step_by(GROUP) {
-            let end = block.points.len().min(start + GROUP);
+        for start in (0..block.points.len()).step_by(MAX_ROWS_PER_GROUP) {
+            let end = block.points.len().min(start + MAX_ROWS_PER_GROUP);
             let of = |there: bool| if there { start..end } else { 0..0 };
             let part = Block {
                 points: &block.points[start..end],
@@ -182,8 +182,8 @@ pub(crate) fn values<const N: usize>(
         columns.push(column("reason", Physical::INT32, Repetition::REQUIRED)?);
         let schema = Type::group_type_builder("points").with_fields(columns).build()?;
         let mut writer = SerializedFileWriter::new(file, Arc::new(schema), properties())?;
-        for start in (0..points.len()).step_by(GROUP) {
-            let rows = start..points.len().min(start + GROUP);
+        for start in (0..points.len()).step_by(MAX_ROWS_PER_GROUP) {
+            let rows = start..points.len().min(start + MAX_ROWS_PER_GROUP);
             let mut group = writer.next_row_group()?;
             for axis in 0..3 {
                 let own: Vec<f64> = points[rows.clone()].iter().map(|p| p[axis]).collect();

@@ -5,7 +5,7 @@ use trueness_geom::spline::basis::{KnotError, Knots};
 use trueness_geom::spline::rational::Rational;
 use trueness_geom::spline::surface::Nurbs;
 
-/// What a file says of a B-spline, millimeters: one entry of `degree`, `knots` and `counts` for each parameter. Control points lie
+/// The numbers of a B-spline in a file, millimeters. `degree`, `knots` and `counts` have one entry for each parameter. Control points lie
 /// row after row, those of the first knot of the first parameter first.
 #[derive(Default)]
 pub(crate) struct Raw {
@@ -16,8 +16,8 @@ pub(crate) struct Raw {
     pub weights: Vec<f64>,
 }
 
-/// Highest degree that is read: beyond, sums of the basis functions lose their digits.
-const HIGHEST: usize = 25;
+/// Splines are read up to this degree. Beyond it, sums of the basis functions lose their digits.
+const MAX_READ_DEGREE: usize = 25;
 
 /// The surface of two parameters.
 pub(crate) fn surface(raw: Raw) -> Result<Nurbs, Fault> {
@@ -42,9 +42,9 @@ pub(crate) fn curve(raw: Raw) -> Result<Rational<3>, Fault> {
 }
 
 /// Checked knots, and points with their weights.
-type Parts = (Vec<Knots>, Vec<([f64; 3], f64)>);
+type KnotsAndPoints = (Vec<Knots>, Vec<([f64; 3], f64)>);
 
-fn parts(raw: Raw, parameters: usize) -> Result<Parts, Fault> {
+fn parts(raw: Raw, parameters: usize) -> Result<KnotsAndPoints, Fault> {
     if raw.points.is_empty() || raw.counts.len() != parameters {
         return Err(Fault::unexpected("control points in space", b""));
     }
@@ -57,8 +57,8 @@ fn parts(raw: Raw, parameters: usize) -> Result<Parts, Fault> {
     }
     let mut knots = vec![];
     for (degree, values) in raw.degree.into_iter().zip(raw.knots) {
-        if !(1..=HIGHEST).contains(&degree) {
-            let what = format!("a B-spline of degree {degree} is not read, only of 1 to {HIGHEST}");
+        if !(1..=MAX_READ_DEGREE).contains(&degree) {
+            let what = format!("a B-spline of degree {degree} is not read, only of 1 to {MAX_READ_DEGREE}");
             return Err(Fault::Unsupported { what, remedy: "export it in another way" });
         }
         knots.push(Knots::new(degree, values).map_err(fault)?);

@@ -8,8 +8,8 @@ use crate::{
 use trueness_geom::parallel::prelude::*;
 use trueness_geom::{cloud::PointStream, space::Point};
 
-/// Points of one task.
-const CHUNK: usize = 1 << 13;
+/// One task reads this many points.
+const STRIDED_POINTS_PER_TASK: usize = 1 << 13;
 
 /// Where a coordinate is in a row: offset and type.
 pub(crate) type RowField = (usize, Scalar);
@@ -26,7 +26,7 @@ pub(crate) struct Rows {
     pub z: Option<RowField>,
     /// How many there are.
     pub count: u64,
-    /// What they are called in messages: one, many.
+    /// Their name in messages: one, many.
     pub what: (&'static str, &'static str),
 }
 
@@ -97,10 +97,13 @@ impl PointStream for StridedPoints {
         }
         block.resize(there, [0.0; 3]);
         let bytes = &bytes[..there * rows.stride];
-        block.par_chunks_mut(CHUNK).zip(bytes.par_chunks(CHUNK * rows.stride)).for_each(|(out, bytes)| {
-            let bytes = bytes.chunks_exact(rows.stride);
-            out.iter_mut().zip(bytes).for_each(|(point, row)| *point = rows.point(row));
-        });
+        block
+            .par_chunks_mut(STRIDED_POINTS_PER_TASK)
+            .zip(bytes.par_chunks(STRIDED_POINTS_PER_TASK * rows.stride))
+            .for_each(|(out, bytes)| {
+                let bytes = bytes.chunks_exact(rows.stride);
+                out.iter_mut().zip(bytes).for_each(|(point, row)| *point = rows.point(row));
+            });
         finite(block, rows.what.0, self.found)
             .map_err(|(i, fault)| fault.at_byte(at + (i * rows.stride) as u64))?;
         self.feed.step(there * rows.stride);
@@ -117,11 +120,13 @@ pub(crate) fn finite(
 ) -> std::result::Result<(), (usize, Fault)> {
     // Zero times a number is zero unless the number is not finite.
     let suspect = |part: &[Point]| part.as_flattened().iter().map(|x| x * 0.0).sum::<f64>() != 0.0;
-    let Some(chunk) = block.par_chunks(CHUNK).position_first(suspect) else { return Ok(()) };
+    let Some(chunk) = block.par_chunks(STRIDED_POINTS_PER_TASK).position_first(suspect) else {
+        return Ok(());
+    };
     let bad = |p: &Point| !p.iter().all(|x| x.is_finite());
-    match block[chunk * CHUNK..].iter().position(bad) {
+    match block[chunk * STRIDED_POINTS_PER_TASK..].iter().position(bad) {
         Some(i) => {
-            let i = chunk * CHUNK + i;
+            let i = chunk * STRIDED_POINTS_PER_TASK + i;
             Err((i, Fault::NotFinite { what, number: before + i as u64 + 1 }))
         }
         None => Ok(()),

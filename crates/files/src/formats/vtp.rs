@@ -29,15 +29,15 @@ pub(crate) const VTP: Format = Format {
     mesh: Some(mesh),
 };
 
-/// Bytes kept free for the XML part, which names counts that are known only at the end.
-const HEADER: usize = 2048;
+/// Bytes reserved for the XML part of a file of points; its counts are known only at the end.
+const POINTS_XML_BYTES: usize = 2048;
 
 /// Arrays in the order of their bytes: name, type, components, bytes.
 type Array<'a> = (&'a str, &'static str, u32, u64);
 
 /// The XML part: `cells` are `Verts` or `Polys`, of which there are `cell_count`.
 fn header(points: u64, cells: &str, cell_count: u64, data: &[Array], lists: &[Array]) -> Vec<u8> {
-    sized_header(HEADER, points, cells, cell_count, data, lists)
+    sized_header(POINTS_XML_BYTES, points, cells, cell_count, data, lists)
 }
 
 /// The same in `size` bytes.
@@ -96,7 +96,7 @@ fn start_of_data(xml: &mut Xml) {
     xml.start("AppendedData", &[("encoding", "raw".into())]);
 }
 
-/// What follows the data.
+/// The text after the data.
 fn end(file: &mut AtomicFile) -> io::Result<()> {
     let mut xml = begun();
     start_of_data(&mut xml);
@@ -109,7 +109,7 @@ fn end(file: &mut AtomicFile) -> io::Result<()> {
 fn begin(mut file: AtomicFile, layout: Layout, _: &str) -> Result<Box<dyn PointsSink>, WriteFault> {
     let columns = Columns::beside(&file, layout);
     // Header and length of the positions are written again when the points are counted.
-    file.write_all(&[b' '; HEADER + 8])?;
+    file.write_all(&[b' '; POINTS_XML_BYTES + 8])?;
     Ok(Box::new(Points { file, columns }))
 }
 
@@ -176,8 +176,8 @@ fn mesh(file: &mut AtomicFile, mesh: &Mesh) -> Result<Loss, WriteFault> {
     Ok(Loss::default())
 }
 
-/// Bytes of the XML part of a file with named numbers, some twenty of them.
-const NAMED: usize = 4096;
+/// Bytes reserved for the XML part of a file with named numbers, of which it holds some twenty.
+const VALUES_XML_BYTES: usize = 4096;
 
 /// Writes points, an array of each of their numbers, and their facets; without facets one cell of all points.
 pub(crate) fn values<const N: usize>(
@@ -194,7 +194,7 @@ pub(crate) fn values<const N: usize>(
         false => ("Polys", face_count, 3 * face_count),
     };
     let lists = [("connectivity", "Int64", 1, 8 * corners), ("offsets", "Int64", 1, 8 * cell_count)];
-    file.write_all(&sized_header(NAMED, count, cells, cell_count, &data, &lists))?;
+    file.write_all(&sized_header(VALUES_XML_BYTES, count, cells, cell_count, &data, &lists))?;
     let mut add = |width: u64, row: &dyn Fn(usize, &mut Vec<u8>)| -> io::Result<()> {
         file.write_all(&(width * count).to_le_bytes())?;
         for start in (0..points.len()).step_by(1 << 14) {

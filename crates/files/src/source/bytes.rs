@@ -19,10 +19,10 @@ pub(super) enum Kind {
 }
 
 impl SourceBytes {
-    /// Those of an open file. A pipe or a device becomes a stream.
+    /// The bytes of an open file. A pipe or a device becomes a stream.
     ///
     /// # Errors
-    /// Those of the system; a folder.
+    /// Errors of the system; a folder.
     pub fn of_file(file: File) -> io::Result<SourceBytes> {
         let about = file.metadata()?;
         if about.is_dir() {
@@ -35,12 +35,12 @@ impl SourceBytes {
         }))
     }
 
-    /// Those that a reader gives, once.
+    /// The bytes that a reader gives, once.
     pub fn stream(reader: impl Read + Send + 'static) -> SourceBytes {
         SourceBytes(Kind::Stream(Box::new(reader)))
     }
 
-    /// Those that lie in memory; they are not copied.
+    /// Bytes in memory; they are not copied.
     pub fn memory(bytes: impl AsRef<[u8]> + Send + Sync + 'static) -> SourceBytes {
         SourceBytes::shared(Shared::new(bytes))
     }
@@ -61,7 +61,7 @@ impl SourceBytes {
     /// The first `count` of them, or all where there are fewer.
     ///
     /// # Errors
-    /// Those of reading.
+    /// Errors of reading.
     pub fn head(self, count: usize) -> Result<Vec<u8>, Fault> {
         let mut head = vec![];
         let read = match self.0 {
@@ -75,12 +75,12 @@ impl SourceBytes {
     /// Their SHA-256.
     ///
     /// # Errors
-    /// Those of reading. Cost: one pass, about 2 GB/s where the processor has instructions for it.
+    /// Errors of reading. Cost: one pass, about 2 GB/s where the processor has instructions for it.
     pub fn sha256(self) -> io::Result<[u8; 32]> {
         match self.0 {
-            Kind::File { file, .. } => hash::of(file),
-            Kind::Stream(reader) => hash::of(reader),
-            Kind::Memory(bytes) => hash::of(Cursor::new(bytes)),
+            Kind::File { file, .. } => hash::sha256(file),
+            Kind::Stream(reader) => hash::sha256(reader),
+            Kind::Memory(bytes) => hash::sha256(Cursor::new(bytes)),
         }
     }
 }

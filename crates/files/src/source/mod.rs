@@ -10,5 +10,5 @@ mod sources;
 pub use bytes::SourceBytes;
 pub use file_sources::{FileSources, sha256};
 pub use memory_sources::MemorySources;
-pub(crate) use opened::{HEAD, Source};
+pub(crate) use opened::{SNIFFED_BYTES, Source};
 pub use sources::Sources;

@@ -19,11 +19,11 @@ pub(crate) struct Source {
     pub gzip: bool,
 }
 
-/// How much of a file is looked at before its format is decided.
-pub(crate) const HEAD: usize = 1 << 16;
+/// The first bytes of a file, up to this number, decide its format.
+pub(crate) const SNIFFED_BYTES: usize = 1 << 16;
 
 impl Source {
-    /// Of bytes from their start.
+    /// The source of bytes from their start.
     pub fn of(bytes: SourceBytes) -> Result<Source> {
         match bytes.0 {
             Kind::Stream(reader) => Source { feed: Feed::stream(reader), bytes: 0, gzip: false }.unpacked(),
@@ -60,7 +60,7 @@ impl Source {
     fn unpacked(mut self) -> Result<Source> {
         let head = self.feed.ahead(3)?;
         if gzip::is_gzip(head) {
-            self.feed = Feed::stream(Box::new(gzip::unpack(Rest(self.feed))));
+            self.feed = Feed::stream(Box::new(gzip::unpack(FeedReader(self.feed))));
             self.gzip = true;
         }
         self.recoded()
@@ -68,7 +68,7 @@ impl Source {
 
     /// Turns text in UTF-16 into UTF-8. Such files are small: they come from spreadsheets.
     fn recoded(mut self) -> Result<Source> {
-        let head = self.feed.ahead(HEAD)?;
+        let head = self.feed.ahead(SNIFFED_BYTES)?;
         crate::feed::not_empty(head)?;
         if let Some(code) = unicode::utf16(head) {
             let text = unicode::to_utf8(self.feed.all()?, code)?;
@@ -79,9 +79,9 @@ impl Source {
 }
 
 /// A feed read as a stream, below the unpacking.
-struct Rest(Feed);
+struct FeedReader(Feed);
 
-impl Read for Rest {
+impl Read for FeedReader {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
         let there = self.0.ahead(1).map_err(|e| io::Error::other(e.fault))?;
         let n = there.len().min(buffer.len());

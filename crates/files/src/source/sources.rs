@@ -1,4 +1,4 @@
-//! What gives the bytes that go by a name.
+//! The trait that gives the bytes of a name.
 
 use super::{Source, SourceBytes};
 use crate::error::{Fault, Located, ReadError, Result};
@@ -31,7 +31,7 @@ pub trait Sources: Sync {
     /// SHA-256 of the bytes that go by a name, as they lie there (packed, where they are packed).
     ///
     /// # Errors
-    /// What can be read once only, as it would be used up; those of [`Sources::bytes`] and of reading.
+    /// A source that can be read once only, as it would be used up; errors of [`Sources::bytes`] and of reading.
     fn sha256(&self, name: &Path) -> std::result::Result<[u8; 32], Fault> {
         if self.is_stream(name) {
             let what = "what can be read once only has no fingerprint".into();

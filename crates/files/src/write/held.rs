@@ -7,10 +7,10 @@ use crate::format::spool::Spool;
 use std::path::Path;
 use trueness_geom::space::Point;
 
-/// Points between two blocks of the file.
-const BLOCK: usize = 1 << 16;
-/// Bytes of a point: three coordinates, a deviation and the number of a reason.
-const RECORD: usize = 40;
+/// A block of the file holds this many points at most.
+const MAX_POINTS_PER_HELD_BLOCK: usize = 1 << 16;
+/// Bytes of a waiting point: three coordinates, a deviation and the number of a reason.
+const BYTES_PER_HELD_POINT: usize = 40;
 
 /// A file of points with deviations whose colors are not known yet. Unless it is finished, nothing of it remains.
 ///
@@ -30,8 +30,8 @@ impl HeldPoints {
         Ok(HeldPoints { file, waiting, reason })
     }
 
-    /// Adds points and as many deviations, millimeters; NaN for a point that has none. If there are reasons, as many of those,
-    /// else none.
+    /// Adds points and as many deviations, millimeters; NaN for a point that has none. A file with reasons takes as many of
+    /// these, any other file none.
     pub fn write(&mut self, points: &[Point], deviation: &[f64], reason: &[u8]) -> Result<(), WriteError> {
         let reasons = if self.reason { points.len() } else { 0 };
         for (what, values, expected) in
@@ -49,14 +49,15 @@ impl HeldPoints {
         self.waiting.write(bytes).map_err(|e| WriteFault::from(e).in_file(&self.file.path))
     }
 
-    /// Writes all of them, each block with the colors that `color` has for its deviations, NaN for points that do not count,
-    /// and puts the file in its place.
+    /// Writes all points, and puts the file in its place. `color` gives the colors of a block from its deviations, which are
+    /// NaN for points that do not count.
     pub fn finish(self, color: impl Fn(&[f64]) -> Vec<[u8; 3]>) -> Result<u64, WriteError> {
         let HeldPoints { mut file, mut waiting, reason: reasons } = self;
         let (mut bytes, mut failed) = (Vec::new(), None);
         let mut pass = |bytes: &mut Vec<u8>, least: usize| {
-            while bytes.len() >= least.max(RECORD) {
-                let whole = (bytes.len() / RECORD).min(BLOCK) * RECORD;
+            while bytes.len() >= least.max(BYTES_PER_HELD_POINT) {
+                let whole = (bytes.len() / BYTES_PER_HELD_POINT).min(MAX_POINTS_PER_HELD_BLOCK)
+                    * BYTES_PER_HELD_POINT;
                 let numbers: Vec<[f64; 5]> = (bytes[..whole].as_chunks::<8>().0.as_chunks::<5>().0.iter())
                     .map(|record| record.map(f64::from_le_bytes))
                     .collect();
@@ -79,12 +80,12 @@ impl HeldPoints {
         };
         let played = waiting.play(|part| {
             bytes.extend_from_slice(part);
-            pass(&mut bytes, BLOCK * RECORD).map_err(|e| {
+            pass(&mut bytes, MAX_POINTS_PER_HELD_BLOCK * BYTES_PER_HELD_POINT).map_err(|e| {
                 failed = Some(e);
                 std::io::Error::other("the points could not be written")
             })
         });
-        let rest = pass(&mut bytes, RECORD);
+        let rest = pass(&mut bytes, BYTES_PER_HELD_POINT);
         if let Some(e) = failed {
             return Err(e);
         }

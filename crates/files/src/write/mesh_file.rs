@@ -23,7 +23,7 @@ pub fn mesh(path: &Path, mesh: &Mesh) -> Result<Loss, WriteError> {
 pub struct MeshFile {
     file: AtomicFile,
     path: PathBuf,
-    /// What the format could not hold.
+    /// The loss in the format.
     pub loss: Loss,
 }
 

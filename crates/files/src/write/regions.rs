@@ -11,7 +11,7 @@ use std::io::{BufWriter, Write};
 use std::path::Path;
 use trueness_geom::space::{Point, plus, times};
 
-/// What has a region.
+/// The pieces that have a region.
 #[derive(Clone, Copy, Debug)]
 pub enum Pieces<'a> {
     /// The points themselves.
@@ -21,7 +21,7 @@ pub enum Pieces<'a> {
 }
 
 /// Writes `points` (millimeters) and `pieces`, each with its label, −1 for none, and in a PLY file with a color. In a
-/// PLY file labels are a property `region` of vertices or faces; a CSV file has a row for each point or for the middle
+/// PLY file, labels are a property `region` of vertices or faces. A CSV file has a row for each point or for the middle
 /// of each facet. The file lies unfinished beside its place until it is committed.
 ///
 /// # Errors

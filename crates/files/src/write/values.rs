@@ -17,10 +17,10 @@ use std::path::Path;
 use trueness_geom::parallel::prelude::*;
 use trueness_geom::space::Point;
 
-/// Rows made into bytes by one task.
-const CHUNK: usize = 1 << 12;
+/// One task makes this many rows into bytes.
+const VALUE_ROWS_PER_TASK: usize = 1 << 12;
 
-/// The file after `write` through a buffer.
+/// The file, after `write` has written to it through a buffer.
 fn buffered(
     file: AtomicFile,
     write: impl FnOnce(&mut BufWriter<AtomicFile>) -> Result<(), WriteFault>,
@@ -32,10 +32,14 @@ fn buffered(
 
 /// Writes `points` (millimeters), the facets between them if there are any, and what is known of each point.
 ///
-/// A `.ply` or `.vtp` file has each number by its name, `reason` as a number (that the header of a PLY file explains), a color, and
-/// the facets. A `.csv` file has a column of each name, empty where there is no number, and `reason` as a word; a `.parquet` file the
-/// same without the word's spelling out: null, and the reason's number. A `.npz` file has an array of each name, `reason`, and the
-/// facets. The file lies unfinished beside its place until it is committed.
+/// | file | holds |
+/// |---|---|
+/// | `.ply`, `.vtp` | each number by its name, `reason` as a number (explained in the header of a PLY file), a color, the facets |
+/// | `.csv` | a column for each name, empty where there is no number; `reason` as a word |
+/// | `.parquet` | a column for each name, null where there is no number; `reason` as a number |
+/// | `.npz` | an array for each name, `reason`, the facets |
+///
+/// The file lies unfinished beside its place until it is committed.
 ///
 /// # Errors
 /// Another extension; a facet that names no point; those of the system.
@@ -70,11 +74,11 @@ fn rows(
     count: usize,
     row: impl Fn(usize, &mut Vec<u8>) + Sync,
 ) -> Result<(), WriteFault> {
-    let starts: Vec<usize> = (0..count).step_by(CHUNK).collect();
+    let starts: Vec<usize> = (0..count).step_by(VALUE_ROWS_PER_TASK).collect();
     for group in starts.chunks(4 * rayon::current_num_threads().max(1)) {
         let bytes = |start: &usize| {
             let mut bytes = vec![];
-            (*start..count.min(start + CHUNK)).for_each(|i| row(i, &mut bytes));
+            (*start..count.min(start + VALUE_ROWS_PER_TASK)).for_each(|i| row(i, &mut bytes));
             bytes
         };
         let parts: Vec<Vec<u8>> = group.par_iter().map(bytes).collect();

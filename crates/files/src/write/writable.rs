@@ -1,4 +1,4 @@
-//! What can be written, and under which endings.
+//! Kinds of content that can be written, and their endings.
 
 use super::forms::{REGION_FORMS, VALUE_FORMS};
 use crate::{
@@ -7,7 +7,7 @@ use crate::{
 };
 use std::path::Path;
 
-/// What a file is to hold.
+/// The content of a file to be written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Writable {
     /// Points, with or without deviations.
@@ -47,7 +47,7 @@ impl Writable {
         self.ending_of(path).map(drop).map_err(|e| e.in_file(path))
     }
 
-    /// What the list `forms` has for the ending of a path.
+    /// The entry of the list `forms` for the ending of a path.
     pub(super) fn form<T: Copy>(self, path: &Path, forms: &[(&str, T)]) -> Result<T, WriteFault> {
         let ending = self.ending_of(path)?;
         let found = forms.iter().find(|(of, _)| *of == ending);

@@ -93,7 +93,7 @@ pub enum FitError {
         kind: Kind,
     },
     /// The method has no meaning for the element.
-    #[error("{} is not defined for a {}", method.name(), kind.name())]
+    #[error("{} is not defined for a {}: choose another method", method.name(), kind.name())]
     NoSuchMethod {
         /// The kind that was asked for.
         kind: Kind,

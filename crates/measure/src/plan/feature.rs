@@ -24,7 +24,10 @@ pub(super) fn features(checker: &Checker, written: &PlanText) -> Result<Vec<Feat
     for At { value, span } in &written.feature {
         checker.id(&value.id)?;
         if let Some(other) = all.iter().find(|f| f.id == value.id.value) {
-            return checker.wrong(&value.id.span, format!("there are two features \"{}\"", other.id));
+            return checker.wrong(
+                &value.id.span,
+                format!("there are two features \"{}\"; give each its own id", other.id),
+            );
         }
         all.push(feature(checker, value, span, &all, written)?);
     }

@@ -34,7 +34,8 @@ pub(super) fn limits(
                 return Ok(Limits::Greatest(t));
             }
             let Some(t) = &w.tolerance else {
-                return checker.wrong(whole, format!("{word} needs `tolerance`"));
+                return checker
+                    .wrong(whole, format!("{word} needs `tolerance`; add it, as in tolerance = 0.05"));
             };
             let width = number(checker, t, unit, "the tolerance")?;
             // A ratio may be 0, and with a material requirement the size gives the room.

@@ -28,8 +28,10 @@ pub(super) fn specs(
     for At { value, span } in &written.characteristic {
         checker.id(&value.id)?;
         if all.iter().any(|s| s.id == value.id.value) {
-            return checker
-                .wrong(&value.id.span, format!("there are two characteristics \"{}\"", value.id.value));
+            return checker.wrong(
+                &value.id.span,
+                format!("there are two characteristics \"{}\"; give each its own id", value.id.value),
+            );
         }
         all.push(spec(checker, value, span, features, decision)?);
     }

@@ -61,7 +61,10 @@ pub(super) fn regions(
         }
         checker.id(&value.id)?;
         if all.iter().any(|r| r.rule.id == value.id.value) {
-            return checker.wrong(&value.id.span, format!("there are two regions \"{}\"", value.id.value));
+            return checker.wrong(
+                &value.id.span,
+                format!("there are two regions \"{}\"; give each its own id", value.id.value),
+            );
         }
         all.push(region(checker, value, features)?);
     }

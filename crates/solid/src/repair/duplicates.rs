@@ -12,7 +12,7 @@ use trueness_geom::check::finding;
 
 pub(super) const STEP: Step = Step {
     name: "duplicates",
-    about: "Of facets with the same three vertices keeps the one that the neighbors need; none where they need none.",
+    about: "Keeps one of several facets with the same three vertices, where the neighbors need one; else removes all.",
     removes: Removes::Nothing,
 };
 

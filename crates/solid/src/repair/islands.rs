@@ -7,7 +7,7 @@ use trueness_geom::check;
 
 pub(super) const STEP: Step = Step {
     name: "islands",
-    about: "Removes shells with a diagonal below the share of the whole that is given; without it, none.",
+    about: "Removes shells with a diagonal below the given share of the whole (--remove-islands); without it, none.",
     removes: Removes::Nothing,
 };
 

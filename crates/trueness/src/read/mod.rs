@@ -166,7 +166,7 @@ fn opened_mesh(path: &Path, role: Role, opened: Opened) -> Result<(SourceMesh, I
         Body::Points(_) if role == Role::Reference => Err(TaskError::unanswerable(format!(
             "{}: it holds points without facets, but a reference must be a mesh (STL, PLY, OBJ, OFF) or \
              B-spline surfaces (STEP, IGES); \
-             give the points first and the mesh after them",
+             of two files, give the points first",
             path.display()
         ))),
         // Without vertices, too, it is as empty as an STL file of no facets.
@@ -188,7 +188,7 @@ const LONGEST_REGIONS: usize = 16 << 20;
 pub fn regions(sources: &dyn Sources, path: &Path) -> Result<Vec<RegionRule>> {
     let shown = path.display();
     let text = sources.text(path, LONGEST_REGIONS)?;
-    regions_of_file(&text).meaning(|| shown.to_string())
+    regions_of_file(&text).map_err(|e| TaskError::unanswerable(format!("{shown}: {e}")))
 }
 
 /// Whether a coordinate has a size that no command measures with: not 0, and below what distances keep their digits of, or

@@ -1,4 +1,4 @@
-//! What is read as a whole.
+//! Files that are read as a whole.
 
 use crate::task::{Meaning, TaskError};
 use std::path::Path;
@@ -12,7 +12,7 @@ pub fn bytes(
     longest: usize,
 ) -> Result<Option<Vec<u8>>, TaskError> {
     let read = sources.bytes(path).and_then(|bytes| bytes.head(longest.saturating_add(1)));
-    let bytes = read.meaning(|| format!("{}: the {what} cannot be read", path.display()))?;
+    let bytes = read.meaning(|| format!("{}: the {what} cannot be read; check the path", path.display()))?;
     Ok(Some(bytes).filter(|bytes| bytes.len() <= longest))
 }
 

@@ -99,7 +99,7 @@ impl AlignRequest {
         let zones = self.method == Method::Zones;
         if zones != (self.tolerance.is_some() || self.regions.is_some()) {
             return Err(TaskError::usage(match zones {
-                true => "--method zones needs what is allowed: give --tolerance, --regions or both",
+                true => "--method zones needs the allowed deviations: give --tolerance, --regions or both",
                 false => "--tolerance and --regions are for --method zones",
             }));
         }
@@ -107,7 +107,7 @@ impl AlignRequest {
         if by_rows != self.points.is_some() {
             return Err(TaskError::usage(match by_rows {
                 true => "--method pairs, 3-2-1 and rps need a table of places: give --points",
-                false => "--points is for the methods pairs, 3-2-1 and rps; name one by --method",
+                false => "--points is for the methods pairs, 3-2-1 and rps; choose one with --method",
             }));
         }
         if self.method != Method::BestFit && (self.scale || !self.lock.is_empty()) {

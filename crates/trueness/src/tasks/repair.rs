@@ -100,7 +100,7 @@ impl RepairRequest {
 
     fn check(&self) -> Result<(), TaskError> {
         if self.out.is_none() && !self.in_place {
-            return Err(TaskError::usage("the mended mesh needs a place: give --out or --in-place"));
+            return Err(TaskError::usage("the repaired mesh needs a file: give --out or --in-place"));
         }
         if !self.only.is_empty() && !self.skip.is_empty() {
             return Err(TaskError::usage("--only and --skip both choose steps; leave one of the two out"));

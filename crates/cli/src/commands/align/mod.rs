@@ -13,14 +13,14 @@ use trueness::task::{Request, RunFiles, Text, ToleranceText};
 use trueness::tasks::align::{AlignRequest, Axis, Method};
 use trueness_files::write::Writable;
 
-/// Brings a scan onto its reference, from any starting pose
+/// Bring a scan onto its reference, from any starting pose
 ///
-/// The best fit has the least mean square distance to the surface of the reference, weighted by area where the scan is a
-/// mesh; outliers do not count. Whole and partial scans, meshes and points.
+/// The best fit has the least mean square distance to the surface of the reference. Where the scan is a mesh, its points count by area;
+/// outliers do not count. The scan may be a mesh or points, of the whole part or of a piece of it.
 #[derive(Args, Debug)]
-#[command(after_help = exit::help("the result cannot be relied on: poor, ambiguous, mirrored, not held by what was measured, of a wrong unit, of few points or not settled, or out of tolerance; files are written all the same", "\
-Tables of --points, one row a line, mm: of pairs, x y z measured and x y z of the reference; of 3-2-1 and rps, these six and
-the direction in which the point is held. A last column, if there, is the weight.
+#[command(after_help = exit::help("the result cannot be relied on: poor, ambiguous, mirrored, undetermined by the measured surface, in a wrong unit, of few points or not settled; or it is out of tolerance; files are written all the same", "\
+Tables of --points, one row on each line, mm. For pairs: x y z measured, then x y z of the reference. For 3-2-1 and rps: these six,
+then the direction in which the point is held. A further column is the weight.
 
 Examples:
   trueness align scan.stl nominal.stl -o aligned.stl
@@ -38,29 +38,29 @@ pub struct AlignArgs {
     /// The scan in the frame of the reference, mm
     #[arg(short, long, value_name = "FILE", help = out_help())]
     out: Option<PathBuf>,
-    /// What makes a pose the best
+    /// Criterion of the best pose
     #[arg(long, value_parser = choice::<Method>(), default_value = "best-fit")]
     method: Method,
-    /// Table of places that belong together, for the methods other than best-fit
+    /// Table of places that belong together, for pairs, 3-2-1 and rps
     #[arg(long, value_name = "FILE", required_if_eq_any = [("method", "pairs"), ("method", "3-2-1"), ("method", "rps")])]
     points: Option<PathBuf>,
-    /// For zones: what deviations may be, ±T or -L,+U in mm, where no region says otherwise
+    /// For zones: allowed deviation outside of the regions, T for ±T, or -L,+U with both signs, mm
     #[arg(long, value_name = "T | -L,+U", allow_hyphen_values = true)]
     tolerance: Option<Text<ToleranceText>>,
     /// For zones: regions of the reference with tolerances of their own, as for `trueness compare`
     #[arg(long, value_name = "FILE")]
     regions: Option<PathBuf>,
-    /// Start from the pose in the files instead of looking for one
+    /// Start from the pose in the files instead of searching all poses
     #[arg(long)]
     from_here: bool,
-    /// Components of the motion from here that stay zero: tx, ty, tz of the translation of the middle of the scan, rx, ry, rz of the rotation
-    /// about it, in the frame of the reference; for best-fit
+    /// For best-fit with --from-here: components of the motion that stay zero, in the frame of the reference. tx, ty, tz move the
+    /// middle of the scan; rx, ry, rz turn the scan about its middle
     #[arg(long, value_parser = choice::<Axis>(), value_delimiter = ',', value_name = "AXES", requires = "from_here", ignore_case = true)]
     lock: Vec<Axis>,
-    /// Find a scale, too: how many times as large the scan has to be made; for best-fit
+    /// For best-fit: also find the factor by which the scan must be enlarged
     #[arg(long, conflicts_with = "lock")]
     scale: bool,
-    /// Let all points count, however far off they are
+    /// Count all points, however far off they are
     #[arg(long)]
     keep_outliers: bool,
     #[command(flatten)]
@@ -73,7 +73,7 @@ pub struct AlignArgs {
 
 fn out_help() -> String {
     format!(
-        "The scan in the frame of the reference, mm: a mesh {}; points {}",
+        "Write the scan in the frame of the reference, mm: a mesh {}; points {}",
         Writable::Mesh.shown(),
         Writable::Points.shown()
     )

@@ -4,7 +4,7 @@ mod table;
 
 use crate::command::Run;
 use crate::exit;
-use crate::options::{Common, DocumentArgs, InputArgs};
+use crate::options::{Common, DocumentArgs, InputArgs, count, number};
 use crate::report::ReportArgs;
 use crate::task;
 use clap::Args;
@@ -14,9 +14,9 @@ use trueness::task::{Request, RunFiles};
 use trueness::tasks::check::CheckRequest;
 use trueness_geom::check;
 
-/// Size and defects of a mesh
+/// Report size and defects of a mesh
 ///
-/// Tells what the mesh is (facets, shells, area, volume, genus) and finds every defect with its place.
+/// Reports facets, shells, area, volume and genus of the mesh, and every defect with its place.
 #[derive(Args, Debug)]
 #[command(after_help = exit::help("the mesh is not sound", "\
 Examples:
@@ -27,23 +27,23 @@ Examples:
 pub struct CheckArgs {
     /// The mesh: STL, PLY, OBJ, OFF; `-` reads stdin
     mesh: PathBuf,
-    /// Distance up to which two places may have been meant as one, mm [default: eight steps of single precision]
-    #[arg(long, value_name = "MM")]
+    /// Places within this distance may have been meant as one, mm [default: eight steps of single precision]
+    #[arg(long, value_name = "MM", value_parser = number, allow_negative_numbers = true)]
     gap: Option<f64>,
-    /// Join vertices within this distance before looking, mm [default: those at the same place]
-    #[arg(long, value_name = "MM", allow_hyphen_values = true)]
+    /// Join vertices within this distance before the check, mm [default: only those at the same place]
+    #[arg(long, value_name = "MM", allow_hyphen_values = true, value_parser = number)]
     weld: Option<f64>,
-    /// Facets with a smaller angle than this are slivers, degrees
-    #[arg(long, value_name = "DEGREES", default_value = "0.1")]
+    /// A facet with an angle below this is a sliver, degrees
+    #[arg(long, value_name = "DEGREES", default_value = "0.1", value_parser = number, allow_negative_numbers = true)]
     sliver_angle: f64,
-    /// Shells with a smaller diagonal than this share of the whole are islands, percent
-    #[arg(long, value_name = "PERCENT", default_value = "1")]
+    /// A shell with a diagonal below this share of the whole is an island, percent
+    #[arg(long, value_name = "PERCENT", default_value = "1", value_parser = number, allow_negative_numbers = true)]
     island: f64,
     /// Do not look for self-intersections
     #[arg(long)]
     no_self_intersections: bool,
-    /// Defects of each kind to list in the document; all are counted
-    #[arg(long, value_name = "N", default_value = "1000")]
+    /// List at most this many defects of each kind in the document; all are counted
+    #[arg(long, value_name = "N", default_value = "1000", value_parser = count, allow_negative_numbers = true)]
     items: usize,
     #[command(flatten)]
     input: InputArgs,

@@ -5,7 +5,7 @@ mod table;
 
 use crate::command::Run;
 use crate::exit;
-use crate::options::{Common, PointInputArgs, ReferenceArgs, choice};
+use crate::options::{Common, PointInputArgs, ReferenceArgs, choice, number};
 use crate::task;
 use clap::Args;
 use std::path::PathBuf;
@@ -16,10 +16,10 @@ use trueness::tasks::compare::{CompareRequest, FacingAngle, Method, Sign};
 use trueness_files::Columns;
 use trueness_measure::compare::{AlongRule, Coverage, MIN_COVERAGE, OutlierRule};
 
-/// Deviations of measured points (or a mesh) from one or several reference meshes or B-spline surfaces
+/// Compare measured points or a mesh with one or several references: meshes or B-spline surfaces
 ///
-/// Every point's exact distance to the nearest facet, or to the nearest place of the surfaces themselves (STEP, IGES, or the
-/// document of `trueness surface`), + outside the reference, − inside, with its statistics. Several references are ranked by
+/// Reports the deviation of every point: its exact distance to the nearest facet, or to the nearest place of the surfaces themselves (STEP,
+/// IGES, or the document of `trueness surface`). Deviations are + outside the reference and − inside. Several references are ranked by
 /// their root mean square.
 #[derive(Args, Debug)]
 #[command(after_help = exit::help("out of tolerance, undecided or not measured, or an alignment that cannot be relied on", "\
@@ -39,74 +39,75 @@ pub struct CompareArgs {
     /// The nominal, or the mesh under test: a mesh, or B-spline surfaces; several are ranked side by side
     #[arg(required = true)]
     references: Vec<PathBuf>,
-    /// Bring the measured to the first reference first, by the best fit from any pose (see `trueness align`)
+    /// First bring the scan onto the first reference, by the best fit from any pose (see `trueness align`)
     #[arg(long)]
     align: bool,
-    /// How distances are computed
+    /// Method of computing distances
     #[arg(long, value_parser = choice::<Method>(), default_value = "exact")]
     method: Method,
-    /// How inside and outside are told apart
+    /// Method of telling inside from outside
     #[arg(long, value_parser = choice::<Sign>(), default_value = "auto")]
     sign: Sign,
-    /// Allowed deviation: T for ±T, or -L,+U with both signs; the exit status is then the verdict
+    /// Allowed deviation, mm: T for ±T, or -L,+U with both signs; the exit status is then the verdict
     #[arg(long, value_name = "T | -L,+U", allow_hyphen_values = true)]
     tolerance: Option<Text<ToleranceText>>,
-    /// Regions of the reference with tolerances of their own: a TOML file of [[region]] with id, seed or between, tolerance
+    /// Regions of the reference with tolerances of their own: a TOML file of [[region]] with `id`, `seed` or `between`, and `tolerance`
     #[arg(long, value_name = "FILE")]
     regions: Option<PathBuf>,
-    /// Share of the points that must lie within the tolerance, in percent
+    /// At least this share of the points must lie within the tolerance, percent
     #[arg(
         long,
         value_name = "PERCENT",
         default_value = "100",
         requires = "tolerance",
-        allow_hyphen_values = true
+        allow_hyphen_values = true,
+        value_parser = number,
     )]
     inside: f64,
     /// Exclude (and count) points farther than this, mm
-    #[arg(long, value_name = "MM", allow_hyphen_values = true)]
+    #[arg(long, value_name = "MM", allow_hyphen_values = true, value_parser = number)]
     max_distance: Option<f64>,
     /// Exclude (and count) points whose nearest place is a boundary edge of the reference
     #[arg(long)]
     skip_boundary: bool,
-    /// Measure along lines instead of to the nearest place: a direction, or the normals of the reference or of the measured
+    /// Measure along lines instead of to the nearest place: along a direction, or along the normals of the reference or of the scan
     #[arg(long, value_name = "X,Y,Z | reference | measured", allow_hyphen_values = true)]
     along: Option<Text<AlongRule>>,
-    /// Exclude (and count) points whose normals turn away from the reference's by more than this, degrees
+    /// Exclude (and count) points whose normals turn away from those of the reference by more than this, degrees
     #[arg(long, value_name = "ANGLE", allow_hyphen_values = true)]
     facing: Option<FacingAngle>,
-    /// Columns of the normals in a table of points, for --facing and --along measured [default: nx,ny,nz]
+    /// Columns of the normals in a table of points, for --facing and `--along measured` [default: nx,ny,nz]
     #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
     normals: Option<Text<Columns>>,
-    /// Exclude (and count) outliers: mad:5 for 5 × 1.4826 MAD from the median, 3sigma for 3 σ from the mean
+    /// Exclude (and count) outliers: `mad:5` beyond 5 × 1.4826 MAD from the median, `3sigma` beyond 3 σ from the mean
     #[arg(long, value_name = "RULE", allow_hyphen_values = true)]
     outliers: Option<Text<OutlierRule>>,
-    /// Tell what part of the reference no point covers within a reach: auto (three spacings of the points) or mm; --tolerance
-    /// tells it in any case
+    /// Report the part of the reference that no point covers within this reach: `auto` (three spacings of the points) or mm;
+    /// --tolerance reports it in any case
     #[arg(long, value_name = "auto | MM", allow_hyphen_values = true)]
     coverage: Option<Text<Coverage>>,
-    /// Share of the reference that the points must cover for a pass, in percent as --inside; 0: a part of it is measured on
-    /// purpose. Where less is covered, what does not fail is undecided
-    #[arg(long, value_name = "PERCENT", default_value_t = 100.0 * MIN_COVERAGE, allow_hyphen_values = true)]
+    /// The points must cover at least this share of the reference for a pass, percent; 0 where only a part is measured on purpose.
+    /// With less coverage the verdict is undecided, unless it is a fail
+    #[arg(long, value_name = "PERCENT", default_value_t = 100.0 * MIN_COVERAGE, allow_hyphen_values = true, value_parser = number)]
     min_coverage: f64,
-    /// Name at most N worst places above the reference, and as many below [default: 3; the table names them with this option]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1000))]
+    /// Name at most N worst places above the reference, and as many below; with this option the table names them too [default: 3]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1000), allow_negative_numbers = true)]
     worst: Option<u16>,
-    /// Compare N points spread evenly over the measured mesh's area instead of its vertices
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    /// Compare N points spread evenly over the area of the measured mesh instead of its vertices
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..), allow_negative_numbers = true)]
     sample: Option<u64>,
-    /// Also from the reference to the measured mesh: Hausdorff and mean distance
+    /// Compare also from the reference to the measured mesh: Hausdorff and mean distance
     #[arg(long)]
     both: bool,
-    /// Of several references: take the errors of the points as independent, as of points probed one by one. Without it paired differences take into
-    /// account how far those of neighbors go together
+    /// For several references: take the errors of the points as independent, as of points probed one by one. Without this option, paired
+    /// differences allow for errors that neighbors share
     #[arg(long)]
     independent: bool,
-    /// Add bootstrap intervals, a normality test, the best distribution, Moran's I
+    /// Add bootstrap intervals, a test of normality, the best distribution and Moran's I
     #[arg(long)]
     research: bool,
-    /// Join vertices of the references within this distance, mm [default: those at the same place]
-    #[arg(long, value_name = "MM", allow_hyphen_values = true)]
+    /// Join vertices of the references within this distance, mm [default: only those at the same place]
+    #[arg(long, value_name = "MM", allow_hyphen_values = true, value_parser = number)]
     weld: Option<f64>,
     #[command(flatten)]
     input: PointInputArgs,

@@ -24,7 +24,7 @@ pub struct OutputArgs {
 
 fn out_help() -> String {
     format!(
-        "Write x, y, z, deviation of every point in input order ({}); with several references one file each: \
+        "Write x, y, z and deviation of every point, in the order of the input ({}); with several references one file each: \
          name.1.csv, name.2.csv …",
         Writable::Points.shown()
     )

@@ -4,7 +4,7 @@ mod table;
 
 use crate::command::Run;
 use crate::noise::NoiseArgs;
-use crate::options::{Common, DocumentArgs, PointInputArgs, choice};
+use crate::options::{Common, DocumentArgs, PointInputArgs, choice, count, number};
 use crate::report::ReportArgs;
 use crate::task;
 use clap::Args;
@@ -14,11 +14,11 @@ use trueness::task::{Request, RunFiles};
 use trueness::tasks::curvature::{Color, CurvatureRequest};
 use trueness_files::write::Writable;
 
-/// Principal, mean and Gaussian curvature at every vertex of a mesh or point of a cloud
+/// Compute principal, mean and Gaussian curvature at every vertex of a mesh or point of a cloud
 ///
-/// By polynomials fitted to the neighborhoods (jets). A curvature is positive where the surface bends towards its normal: on a convex
-/// body with outward normals both principal curvatures are negative. Places where the surface ends, or that their neighbors do not
-/// determine, have no value and are counted.
+/// Polynomials (jets) are fitted to the neighborhoods. A curvature is positive where the surface bends towards its normal: on a convex body
+/// with outward normals, both principal curvatures are negative. A place at the boundary, or whose neighbors do not determine it, has no
+/// value and is counted.
 #[derive(Args, Debug)]
 #[command(after_help = "\
 Examples:
@@ -28,16 +28,16 @@ Examples:
 pub struct CurvatureArgs {
     /// A mesh, or points; `-` reads stdin
     input: PathBuf,
-    /// Degree of the polynomials, from 2 to 6
-    #[arg(long, value_name = "D", default_value = "3")]
+    /// Degree of the polynomials, 2 to 6
+    #[arg(long, value_name = "D", default_value = "3", value_parser = count, allow_negative_numbers = true)]
     degree: usize,
-    /// Fewest neighbors: whole rings of a mesh, the nearest ones of a cloud [default: 3 for each unknown, 30 of degree 3]
-    #[arg(long, value_name = "N", conflicts_with = "radius")]
+    /// At least this many neighbors: whole rings in a mesh, the nearest ones in a cloud [default: 3 for each unknown, 30 at degree 3]
+    #[arg(long, value_name = "N", conflicts_with = "radius", value_parser = count, allow_negative_numbers = true)]
     neighbors: Option<usize>,
-    /// All neighbors within this distance, mm: curvature at a scale of your own
-    #[arg(long, value_name = "MM", allow_hyphen_values = true)]
+    /// Use all neighbors within this distance, mm, which sets the scale of the curvature
+    #[arg(long, value_name = "MM", allow_hyphen_values = true, value_parser = number)]
     radius: Option<f64>,
-    /// Places on a boundary have values too, from the one side that there is
+    /// Give places on a boundary values too, from the side where the surface is
     #[arg(long)]
     boundary: bool,
     #[command(flatten)]
@@ -49,7 +49,7 @@ pub struct CurvatureArgs {
     /// Write the vertices or points with their curvatures
     #[arg(long, value_name = "FILE", help = out_help())]
     out: Option<PathBuf>,
-    /// The curvature that a .ply file of --out is colored by
+    /// Curvature that colors a .ply file of --out
     #[arg(long, value_parser = choice::<Color>(), value_name = "WHICH", default_value = "mean")]
     color: Color,
     #[command(flatten)]

@@ -16,10 +16,10 @@ use trueness::task::{Request, RunFiles};
 use trueness::tasks::inspect::{InspectRequest, Part};
 use trueness_files::FileSources;
 
-/// Run an inspection plan: features, tolerances, verdicts
+/// Evaluate an inspection plan: features, characteristics, verdicts
 ///
-/// The plan is a TOML file that names the measured data, the features and the characteristics with their tolerances. A fault
-/// in it is told with line and column.
+/// The plan is a TOML file that names the measured data, the features and the characteristics with their tolerances. The message about a
+/// fault in it names line and column.
 #[derive(Args, Debug)]
 #[command(after_help = exit::help("a characteristic fails, is undecided or was not measured", "\
 Examples:
@@ -29,14 +29,14 @@ Examples:
   trueness inspect bracket.toml --measured scans/*.stl --csv parts.csv --junit parts.xml
   trueness inspect bracket.toml --qif results.qif"))]
 pub struct InspectArgs {
-    /// The plan; paths in it are relative to it
+    /// The plan; paths in it are relative to its folder
     plan: PathBuf,
-    /// Measured meshes or clouds, in place of the plan's own: one part each
+    /// Measured meshes or clouds, one for each part, instead of the one that the plan names
     #[arg(long, value_name = "FILE", num_args = 1..)]
     measured: Vec<PathBuf>,
     #[command(flatten)]
     document: DocumentArgs,
-    /// Keep in the document of --json the deviations at places that are the same for every part: for the maps of `trend`
+    /// Keep the deviations at fixed places of the reference in the document of --json, for the maps of `trueness trend`
     #[arg(long, requires = "json")]
     places: bool,
     /// Write the characteristics as a table, one line each

@@ -4,7 +4,7 @@ mod table;
 
 use crate::command::Run;
 use crate::exit;
-use crate::options::{Common, DocumentArgs, InputArgs};
+use crate::options::{Common, DocumentArgs, InputArgs, count, number};
 use crate::report::ReportArgs;
 use crate::task;
 use clap::Args;
@@ -15,48 +15,49 @@ use trueness::tasks::repair::RepairRequest;
 use trueness_files::write::Writable;
 use trueness_solid::repair::STEPS;
 
-/// A mesh without its defects
+/// Repair the defects of a mesh
 ///
-/// Mends what `trueness check` finds and tells every change, the deviation introduced, and what is left. No vertex moves:
-/// what stays keeps its place bit for bit. The file written is read again and checked before it takes its place.
+/// Repairs the defects that `trueness check` finds. Reports every change, the deviation that the changes introduce, and the defects that
+/// are left. No vertex moves: a vertex that stays keeps its place bit for bit. The written file is read again and checked before it
+/// takes its place.
 #[derive(Args, Debug)]
 #[command(after_help = help())]
 pub struct RepairArgs {
     /// The mesh: STL, PLY, OBJ, OFF; `-` reads stdin
     mesh: PathBuf,
-    /// The mended mesh, in mm; STL holds single precision only
+    /// The repaired mesh, in mm; STL holds single precision only
     #[arg(short, long, value_name = "FILE", help = out_help(), required_unless_present = "in_place")]
     out: Option<PathBuf>,
-    /// Replace the mesh by the mended one, once that is written and read again
+    /// Replace the mesh by the repaired one, once that is written and read again
     #[arg(long)]
     in_place: bool,
-    /// Only these steps, separated by commas
+    /// Run only these steps, separated by commas
     #[arg(long, value_name = "STEPS", value_delimiter = ',', conflicts_with = "skip")]
     only: Vec<String>,
-    /// All steps but these, separated by commas
+    /// Run all steps but these, separated by commas
     #[arg(long, value_name = "STEPS", value_delimiter = ',')]
     skip: Vec<String>,
-    /// Distance up to which two places may have been meant as one, mm [default: eight steps of single precision]
-    #[arg(long, value_name = "MM")]
+    /// Places within this distance may have been meant as one, mm [default: eight steps of single precision]
+    #[arg(long, value_name = "MM", value_parser = number, allow_negative_numbers = true)]
     gap: Option<f64>,
-    /// Fill holes up to this share of the area of their shell, percent; of a shell with a larger one, up to 0.5 % only
-    #[arg(long, value_name = "PERCENT", default_value = "25", conflicts_with = "all_holes")]
+    /// Fill holes up to this share of the area of their shell, percent; in a shell with a larger hole, only up to 0.5 %
+    #[arg(long, value_name = "PERCENT", default_value = "25", conflicts_with = "all_holes", value_parser = number, allow_negative_numbers = true)]
     holes: f64,
     /// Fill all holes, however large, even the rim of a sheet that is not flat
     #[arg(long)]
     all_holes: bool,
-    /// Stitch edges up to this distance, mm [default: a ten-thousandth of the diagonal]
-    #[arg(long, value_name = "MM")]
+    /// Stitch edges up to this distance, mm [default: 1/10000 of the diagonal]
+    #[arg(long, value_name = "MM", value_parser = number, allow_negative_numbers = true)]
     stitch: Option<f64>,
-    /// Remove shells with a smaller diagonal than this share of the whole, percent [without a number: 1]
-    #[arg(long, value_name = "PERCENT", num_args = 0..=1, default_missing_value = "1")]
+    /// Remove shells with a diagonal below this share of the whole, percent [without a number: 1]
+    #[arg(long, value_name = "PERCENT", num_args = 0..=1, default_missing_value = "1", value_parser = number, allow_negative_numbers = true)]
     remove_islands: Option<f64>,
-    /// Share of the diagonal, and of the volume, by which the part may change, percent: beyond it the result is closed, but
-    /// changed, and the exit status 1
-    #[arg(long, value_name = "PERCENT", default_value = "0.01")]
+    /// The part may change by this share of its diagonal and of its volume, percent. Beyond it the result is "closed, but
+    /// changed", and the exit status is 1
+    #[arg(long, value_name = "PERCENT", default_value = "0.01", value_parser = number, allow_negative_numbers = true)]
     max_change: f64,
-    /// Changes to list in the document; all are counted
-    #[arg(long, value_name = "N", default_value = "1000")]
+    /// List at most this many changes in the document; all are counted
+    #[arg(long, value_name = "N", default_value = "1000", value_parser = count, allow_negative_numbers = true)]
     items: usize,
     #[command(flatten)]
     input: InputArgs,
@@ -74,7 +75,7 @@ fn help() -> String {
          trueness repair part.stl -o turned.stl --only orient,outward",
         steps.join("\n")
     );
-    exit::help("the result is not sound, or another part; it is written all the same", &rest)
+    exit::help("the result is not sound, or changed beyond --max-change; it is written all the same", &rest)
 }
 
 impl RepairArgs {
@@ -99,7 +100,7 @@ impl RepairArgs {
 }
 
 fn out_help() -> String {
-    format!("The mended mesh, in mm: {}; STL holds single precision only", Writable::Mesh.shown())
+    format!("Write the repaired mesh, in mm: {}; STL holds single precision only", Writable::Mesh.shown())
 }
 
 impl Run for RepairArgs {

@@ -8,11 +8,11 @@ use trueness::tasks::section::{Interval, Search, SectionRequest};
 #[derive(Args, Debug)]
 #[command(next_help_heading = "One line and one curve")]
 pub struct MethodArgs {
-    /// Find one join, that of a line at an end of the row and one curve: golden-section search between points, the measured
-    /// point where the curvature leaves the line's, or golden section about that; all three stand in the table
+    /// Find the one join of a line at an end of the row and one curve. golden: by golden-section search between points; stepwise:
+    /// the measured point where the curvature leaves that of the line; improved: golden section about that point. The table has all three
     #[arg(long, value_parser = choice::<Search>(), value_name = "NAME")]
     search: Option<Search>,
-    /// Interval of the golden-section search: from the likelihood, or from the paper's 3 σ and correlation
+    /// Interval of the join of the search: from the likelihood, or from 3 σ and correlation as in the paper
     /// [default: profile]
     #[arg(long, value_parser = choice::<Interval>(), value_name = "NAME")]
     interval: Option<Interval>,

@@ -9,7 +9,7 @@ mod write;
 use crate::command::Run;
 use crate::exit;
 use crate::noise::NoiseArgs;
-use crate::options::{Common, DocumentArgs, PointInputArgs, choice};
+use crate::options::{Common, DocumentArgs, PointInputArgs, choice, number};
 use crate::report::ReportArgs;
 use crate::task;
 use clap::Args;
@@ -18,12 +18,12 @@ use trueness::task::Outcome;
 use trueness::task::{Request, RunFiles};
 use trueness::tasks::section::{Continuity, SectionRequest, level};
 
-/// The lines, arcs and curves of a section, and the exact places where they join
+/// Find the lines, arcs and curves of a section, and the exact places where they join
 ///
-/// Of points in the order in which they follow each other along a contour, or where planes cut a mesh or a cloud. Finds
-/// number and kinds of the segments, refines all together and tells every join with its uncertainty.
+/// The section is a row of points in their order along a contour, or the cut of planes with a mesh or cloud. The command finds number and
+/// kinds of the segments, refines all of them together, and reports every join with its uncertainty.
 #[derive(Args, Debug)]
-#[command(after_help = exit::help("out of tolerance or undecided, segments do not run along their points and tell nothing of the part, a contour is doubtful, or a slab holds an area and no contours; files are written all the same", "\
+#[command(after_help = exit::help("out of tolerance or undecided, a segment is unreliable, a contour is doubtful, or a slab holds an area instead of contours; files are written all the same", "\
 Examples:
   trueness section profile.txt
   trueness section profile.csv --noise 0.003 --dxf profile.dxf --json profile.json
@@ -36,34 +36,34 @@ Examples:
   trueness section scan.stl --plane 0,0,1,12.5 --nominal part.stl
   trueness section cloud.ply --plane 1,0,0,30 --thickness 0.4"))]
 pub struct SectionArgs {
-    /// Points in order, of two or three columns, or with planes a mesh or a cloud; `-` reads stdin
+    /// Points in their order along the contour, of two or three columns; or, with planes, a mesh or a cloud; `-` reads stdin
     input: PathBuf,
     #[command(flatten)]
     planes: planes::PlaneArgs,
-    /// Standard deviation of the points across the contour, mm [default: found from the data]
-    #[arg(long, value_name = "MM")]
+    /// Standard deviation of the points across the contour, mm [default: estimated from the data]
+    #[arg(long, value_name = "MM", value_parser = number, allow_negative_numbers = true)]
     noise: Option<f64>,
-    /// Continuity of all joins [default: told from the data]
+    /// Continuity of all joins [default: decided by the data]
     #[arg(long, value_parser = choice::<Continuity>(), value_name = "G")]
     continuity: Option<Continuity>,
-    /// The contour is closed [default: told from the gap between its ends]
+    /// The contour is closed [default: decided by the gap between its ends]
     #[arg(long, conflicts_with = "open")]
     closed: bool,
     /// The contour is open
     #[arg(long)]
     open: bool,
-    /// Confidence of the intervals, percent
-    #[arg(long, value_name = "PERCENT", default_value = "95", value_parser = percent)]
+    /// Confidence level of the intervals, percent
+    #[arg(long, value_name = "PERCENT", default_value = "95", value_parser = percent, allow_negative_numbers = true)]
     level: f64,
-    /// Measure each contour as an airfoil or blade: chords, camber line, greatest thickness, radii of its edges; with --nominal
-    /// also twist and offset
+    /// Measure each contour as an airfoil or blade: chords, camber line, greatest thickness, radii of its edges; with
+    /// --nominal, also twist and offset
     #[arg(long)]
     airfoil: bool,
-    /// Stacking point of the airfoils in the nominal's coordinates of the plane, mm [default: the centroid of the nominal's profile]
+    /// Stacking point of the airfoils, in the plane's coordinates of the nominal, mm [default: the centroid of the nominal profile]
     #[arg(long, value_name = "X,Y", requires = "airfoil", allow_hyphen_values = true, value_parser = place)]
     stacking: Option<[f64; 2]>,
-    /// Offer what a drawing would have, where the points allow it: parallel lines, right angles, tangents, equal radii, common
-    /// centers, whole numbers; the contour stays as it is found
+    /// Offer relations of a drawing that the points allow: parallel lines, right angles, tangents, equal radii, common
+    /// centers, whole numbers; the contour itself does not change
     #[arg(long)]
     tidy: bool,
     #[command(flatten)]
@@ -114,7 +114,7 @@ fn place(text: &str) -> Result<[f64; 2], String> {
     let numbers =
         text.split_once(',').and_then(|(x, y)| Some([x.trim().parse().ok()?, y.trim().parse().ok()?]));
     let finite = numbers.filter(|p: &[f64; 2]| p.iter().all(|x| x.is_finite()));
-    finite.ok_or_else(|| format!("‘{text}’ is no place; write two numbers of mm, such as 12.5,-3"))
+    finite.ok_or_else(|| format!("‘{text}’ is no place: write two numbers in mm, such as 12.5,-3"))
 }
 
 impl Run for SectionArgs {

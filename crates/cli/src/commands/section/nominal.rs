@@ -1,6 +1,6 @@
 //! The nominal that a section is compared with.
 
-use crate::options::{ReferenceArgs, choice};
+use crate::options::{ReferenceArgs, choice, number};
 use clap::Args;
 use std::path::PathBuf;
 use trueness::task::{Text, ToleranceText};
@@ -11,38 +11,40 @@ use trueness_measure::compare::MIN_COVERAGE;
 #[derive(Args, Debug)]
 #[command(next_help_heading = "Nominal")]
 pub struct NominalArgs {
-    /// Compare the points with the section of this nominal: a mesh, cut by the same planes (or by the plane of the points), a DXF
-    /// drawing in the plane's coordinates, or points in order, of which the contour is found
+    /// Compare the points with the section of this nominal: a mesh, cut by the same planes or by the plane of the points; a DXF
+    /// drawing in the coordinates of the plane; or points in their order along the contour
     #[arg(long, value_name = "FILE")]
     nominal: Option<PathBuf>,
-    /// Bring the section nearest to the nominal first, within its plane, by least squares [default: none, it stays where it is]
+    /// First bring the section nearest to the nominal, within its plane, by least squares [default: none]
     #[arg(long, value_parser = choice::<Fit>(), value_name = "WAY", requires = "nominal")]
     fit: Option<Fit>,
-    /// Allowed deviation of the profile: T for ±T (a zone of the width 2 T, even about the nominal: write half of the profile
-    /// tolerance of a drawing), or -L,+U with both signs; the exit status is then the verdict
+    /// Allowed deviation of the profile, mm: T for ±T, or -L,+U with both signs; the exit status is then the verdict. T is half of the
+    /// profile tolerance in a drawing, which is the whole width of the zone
     #[arg(long, value_name = "T | -L,+U", allow_hyphen_values = true, requires = "nominal")]
     tolerance: Option<Text<ToleranceText>>,
-    /// Share of the points that must lie within the tolerance, in percent
+    /// At least this share of the points must lie within the tolerance, percent
     #[arg(
         long,
         value_name = "PERCENT",
         default_value = "100",
         requires = "tolerance",
-        allow_hyphen_values = true
+        allow_hyphen_values = true,
+        value_parser = number,
     )]
     inside: f64,
-    /// Share of the nominal's length that must be measured for a pass, and of the points that must have a counterpart on it, in
-    /// percent as --inside; 0: a part of it is measured on purpose. Where it is less, what does not fail is undecided
+    /// For a pass, at least this share of the length of the nominal must be measured, and this share of the points must have a
+    /// counterpart on it, percent; 0 where only a part is measured on purpose. With less, the verdict is undecided, unless it is a fail
     #[arg(
         long,
         value_name = "PERCENT",
         default_value_t = 100.0 * MIN_COVERAGE,
         requires = "tolerance",
-        allow_hyphen_values = true
+        allow_hyphen_values = true,
+        value_parser = number,
     )]
     min_coverage: f64,
-    /// Exclude (and count) points farther from the nominal than this, mm; the best fit does not look at them either
-    #[arg(long, value_name = "MM", requires = "nominal", allow_hyphen_values = true)]
+    /// Exclude (and count) points farther from the nominal than this, mm, also from the fit
+    #[arg(long, value_name = "MM", requires = "nominal", allow_hyphen_values = true, value_parser = number)]
     max_distance: Option<f64>,
     #[command(flatten)]
     reading: ReferenceArgs,

@@ -1,5 +1,6 @@
 //! Planes that cut a mesh or a cloud.
 
+use crate::options::number;
 use clap::Args;
 use trueness::tasks::section::SectionRequest;
 
@@ -7,17 +8,17 @@ use trueness::tasks::section::SectionRequest;
 #[derive(Args, Debug)]
 #[command(next_help_heading = "Planes")]
 pub struct PlaneArgs {
-    /// Cut a mesh or cloud by the plane at right angles to nx,ny,nz at the distance d from the origin; may be repeated
+    /// Cut a mesh or cloud by the plane with normal nx,ny,nz at the distance d from the origin; may be repeated
     #[arg(long, value_name = "NX,NY,NZ,D", allow_hyphen_values = true, value_parser = numbers::<4>)]
     plane: Vec<[f64; 4]>,
-    /// Cut by parallel planes: normal, first and last distance from the origin, step
+    /// Cut by parallel planes: their normal, first and last distance from the origin, and step
     #[arg(long, value_name = "NX,NY,NZ,FROM,TO,STEP", allow_hyphen_values = true, value_parser = numbers::<6>)]
     stack: Vec<[f64; 6]>,
-    /// Thickness of the slab of a cloud whose points count as on the plane, mm
-    #[arg(long, value_name = "MM")]
+    /// Thickness of the slab of a cloud whose points count as points of the plane, mm
+    #[arg(long, value_name = "MM", value_parser = number, allow_negative_numbers = true)]
     thickness: Option<f64>,
-    /// Contours of a cloud go on over gaps up to this, mm [default: told from how uneven the points lie; the table names it]
-    #[arg(long, value_name = "MM")]
+    /// Contours of a cloud continue over gaps up to this, mm [default: from the spacing of the points; the table names it]
+    #[arg(long, value_name = "MM", value_parser = number, allow_negative_numbers = true)]
     gap: Option<f64>,
 }
 

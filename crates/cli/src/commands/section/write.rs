@@ -20,7 +20,7 @@ pub struct Drawings {
     /// Write the curves in space as IGES (entities 100, 110, 126)
     #[arg(long, value_name = "FILE")]
     iges: Option<PathBuf>,
-    /// Write the points with contour, segment, length along the contour and distance (.csv)
+    /// Write the points with their contour, segment, length along the contour and distance (.csv)
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
 }

@@ -4,7 +4,7 @@ mod table;
 
 use crate::command::Run;
 use crate::exit;
-use crate::options::{Common, DocumentArgs, PointInputArgs, choice};
+use crate::options::{Common, DocumentArgs, PointInputArgs, choice, number};
 use crate::report::ReportArgs;
 use crate::task;
 use clap::Args;
@@ -13,10 +13,10 @@ use trueness::task::Outcome;
 use trueness::task::{Request, RunFiles, Text};
 use trueness::tasks::surface::{Base, Gap, MAX_CORRECTIONS, Pair, SurfaceRequest, Weight};
 
-/// A B-spline surface through scattered points, with its deviation and its curvature
+/// Fit a B-spline surface to scattered points, with its deviation and its curvature
 ///
-/// By least squares: parameters from a base, uniform knots (or given ones, or as many as a tolerance asks for), a thin-plate term
-/// that bridges what was not measured, and parameters corrected to the nearest places.
+/// The surface fits by least squares. Parameters come from a base and are corrected to the nearest places. Knots are uniform, given, or as
+/// many as a tolerance needs. A thin-plate term bridges areas that were not measured.
 #[derive(Args, Debug)]
 #[command(after_help = exit::help("the tolerance was not reached, or the surface is doubtful", "\
 Examples:
@@ -25,33 +25,33 @@ Examples:
   trueness surface shoulder.stl --base mesh --spans 20x12 --step surface.stp --trim
   trueness surface heights.xyz --base xy --knots knots.json --fairness 0"))]
 pub struct SurfaceArgs {
-    /// The points, or a mesh (its vertices are taken); `-` reads stdin
+    /// The points, or a mesh (its vertices count); `-` reads stdin
     points: PathBuf,
-    /// Degrees along u and v [default: 3x3, or those that the knots tell]
+    /// Degrees along u and v [default: 3x3, or the degrees of the knots]
     #[arg(long, value_name = "PxQ")]
     degree: Option<Text<Pair>>,
-    /// Equal spans along u and v [default: 8x8; on a cylinder or sphere one for each 15°, where that is more]
+    /// Number of equal spans along u and v [default: 8x8; on a cylinder or sphere one for each 15°, where that is more]
     #[arg(long, value_name = "MxN", conflicts_with_all = ["knots", "tolerance"])]
     spans: Option<Text<Pair>>,
     /// Whole clamped knots, a JSON file {"u": […], "v": […]}
     #[arg(long, value_name = "FILE", conflicts_with = "tolerance")]
     knots: Option<PathBuf>,
-    /// Set knots until all points are within this distance, mm, or until noise is all that is left
-    #[arg(long, value_name = "MM", value_parser = length, allow_hyphen_values = true)]
+    /// Insert knots until all points are within this distance, mm, or until only noise is left
+    #[arg(long, value_name = "MM", value_parser = number, allow_hyphen_values = true)]
     tolerance: Option<f64>,
-    /// What the parameters are taken from
+    /// Base that gives the parameters
     #[arg(long, value_parser = choice::<Base>(), default_value = "plane")]
     base: Base,
     /// Weight of the thin-plate term, mm²: auto, or a number (0 for none)
     #[arg(long, value_name = "W", default_value = "auto", allow_hyphen_values = true)]
     fairness: Text<Weight>,
-    /// Corrections of the parameters to the nearest places at most; with --base xy there are none
-    #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u8).range(0..=i64::from(MAX_CORRECTIONS)))]
+    /// Correct the parameters to the nearest places at most this often; with --base xy never
+    #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u8).range(0..=i64::from(MAX_CORRECTIONS)), allow_negative_numbers = true)]
     corrections: u8,
-    /// Leave out points that contradict their neighbors; they are counted
+    /// Leave out, and count, points that contradict their neighbors
     #[arg(long)]
     robust: bool,
-    /// Cut the surface along the outline of the points; gaps up to twice this length (mm) do not count [auto: three times the
+    /// Cut the surface along the outline of the points; gaps up to twice this length, mm, do not count [auto: three times the
     /// distance of neighbors]
     #[arg(long, value_name = "MM|auto", num_args = 0..=1, require_equals = true, default_missing_value = "auto")]
     trim: Option<Text<Gap>>,
@@ -75,19 +75,12 @@ pub struct Models {
     /// Write the surface as IGES (entity 128; with --trim 144)
     #[arg(long, value_name = "FILE")]
     iges: Option<PathBuf>,
-    /// Write facets of the surface (.obj)
+    /// Write the surface as facets (.obj)
     #[arg(long, value_name = "FILE")]
     obj: Option<PathBuf>,
-    /// Distance that the facets keep from the surface, mm [default: a ten thousandth of its size]
-    #[arg(long, value_name = "MM", requires = "obj")]
+    /// Largest distance of the facets from the surface, mm [default: 1/10000 of its size]
+    #[arg(long, value_name = "MM", requires = "obj", value_parser = number, allow_negative_numbers = true)]
     chord: Option<f64>,
-}
-
-fn length(text: &str) -> Result<f64, String> {
-    text.parse().map_err(|_| match text.contains(',') {
-        true => "write it with a decimal point, like 0.05".into(),
-        false => "it is a length above 0, in millimeters".into(),
-    })
 }
 
 impl SurfaceArgs {

@@ -16,7 +16,7 @@ use trueness::task::{Request, RunFiles};
 use trueness::tasks::trend::{TrendRequest, maps};
 use trueness_files::FileSources;
 
-/// The course of an inspection plan over many parts: capability, control limits
+/// Follow the characteristics of a plan over many parts: course, capability, control limits
 ///
 /// Reads the results that `trueness inspect --json` wrote, in the order in which the parts were made.
 #[derive(Args, Debug)]
@@ -26,7 +26,7 @@ Examples:
   trueness trend results/*.json --json trend.json --csv trend.csv --html trend.html
   trueness trend results/*.json --map map.html"))]
 pub struct TrendArgs {
-    /// Results of `trueness inspect --json`, one part each, in their order
+    /// Results of `trueness inspect --json`, one for each part, in the order of production
     #[arg(required = true)]
     results: Vec<PathBuf>,
     #[command(flatten)]
@@ -34,7 +34,7 @@ pub struct TrendArgs {
     /// Write the characteristics as a table, one line each
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
-    /// Write a report with the maps of mean and spread over the part; needs results of `trueness inspect --places`
+    /// Write a report with maps of the mean and the spread over the part; the results need the places of `trueness inspect --places`
     #[arg(long, value_name = "FILE")]
     map: Option<PathBuf>,
     #[command(flatten)]

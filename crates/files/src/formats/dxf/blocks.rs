@@ -1,6 +1,6 @@
 //! Blocks, and where they are inserted.
 
-use super::entities::Said;
+use super::entities::EntityGroups;
 use super::groups::Group;
 use super::hidden::{Hidden, State, Unseen};
 use super::place::Placing;
@@ -8,12 +8,12 @@ use crate::content::drawing::{Drawing, DrawnEntity};
 use crate::error::{Fault, Located, Result};
 use std::collections::BTreeMap;
 
-/// Blocks within blocks, at most: more hold themselves.
-const DEEPEST: usize = 32;
-/// Placed entities and blocks, at most: nested rows of rows need a few hundred bytes to ask for more memory than there is.
-const MOST: u64 = 1_000_000;
+/// Blocks may lie within blocks to this depth. Deeper ones contain themselves.
+const MAX_BLOCK_DEPTH: usize = 32;
+/// So many entities and blocks may be placed. Without a limit, a few hundred bytes of nested rows ask for more memory than there is.
+const MAX_PLACED_ITEMS: u64 = 1_000_000;
 
-/// What has a course in a drawing or a block, in the order of the file.
+/// An entity or an inserted block, in the order of the file.
 #[derive(Debug)]
 pub(super) enum Item {
     Drawn(DrawnEntity),
@@ -31,7 +31,7 @@ pub(super) struct Block {
     pub unseen: Unseen,
 }
 
-/// Whether what lies on a layer of a block takes the layer that the block is inserted on.
+/// Whether entities of a block on this layer take the layer on which the block is inserted.
 pub(super) fn is_layer_0(layer: &str) -> bool {
     layer == "0" || layer.is_empty()
 }
@@ -48,33 +48,33 @@ pub(super) struct Insert {
     steps: [[f64; 2]; 2],
 }
 
-/// Names of blocks are the same in capitals.
+/// The name of a block in capitals, as names do not differ by case.
 pub(super) fn block_name(groups: &[Group]) -> String {
     let name = groups.iter().find(|g| g.code == 2).map_or(&b""[..], |g| g.value);
     String::from_utf8_lossy(name).to_uppercase()
 }
 
 impl Insert {
-    /// What an `INSERT` says.
-    pub fn of(said: &Said, layer: String) -> Result<Insert> {
-        let mirror = if said.mirrored()? { -1.0 } else { 1.0 };
-        let at = said.place(10)?;
-        let [x, y] = [said.or(41, 1.0)?, said.or(42, 1.0)?];
+    /// The place that an `INSERT` gives.
+    pub fn of(entity: &EntityGroups, layer: String) -> Result<Insert> {
+        let mirror = if entity.mirrored()? { -1.0 } else { 1.0 };
+        let at = entity.place(10)?;
+        let [x, y] = [entity.or(41, 1.0)?, entity.or(42, 1.0)?];
         if x == 0.0 || y == 0.0 {
-            return Err(said.wrong("a block is inserted with a scale of 0", "insert it with its scale"));
+            return Err(entity.wrong("a block is inserted with a scale of 0", "insert it with its scale"));
         }
-        let (sin, cos) = libm::sincos(said.or(50, 0.0)?.to_radians());
+        let (sin, cos) = libm::sincos(entity.or(50, 0.0)?.to_radians());
         let turned = |v: [f64; 2]| [mirror * (cos * v[0] - sin * v[1]), sin * v[0] + cos * v[1]];
         let count = |code: i64| -> Result<u64> {
-            Ok(if said.has(code) { u64::try_from(said.integer(code)?).unwrap_or(0).max(1) } else { 1 })
+            Ok(if entity.has(code) { u64::try_from(entity.integer(code)?).unwrap_or(0).max(1) } else { 1 })
         };
         Ok(Insert {
-            name: block_name(said.groups),
+            name: block_name(entity.groups),
             layer,
-            line: said.line,
+            line: entity.line,
             placing: Placing { axes: [turned([x, 0.0]), turned([0.0, y])], origin: [mirror * at[0], at[1]] },
             counts: [count(70)?, count(71)?],
-            steps: [turned([said.length_or_0(44)?, 0.0]), turned([0.0, said.length_or_0(45)?])],
+            steps: [turned([entity.length_or_0(44)?, 0.0]), turned([0.0, entity.length_or_0(45)?])],
         })
     }
 }
@@ -97,7 +97,7 @@ impl<'h> Placed<'h> {
         unseen: Unseen,
         hidden: &'h Hidden,
     ) -> Placed<'h> {
-        Placed { blocks, drawing: Drawing::default(), passed_over, unseen, hidden, left: MOST }
+        Placed { blocks, drawing: Drawing::default(), passed_over, unseen, hidden, left: MAX_PLACED_ITEMS }
     }
 
     /// The entities of the drawing itself, with those of the blocks inserted.
@@ -108,7 +108,7 @@ impl<'h> Placed<'h> {
                 Item::Insert(insert) => {
                     // A fault of a block is one of the file.
                     let mut blocks = std::mem::take(&mut self.blocks);
-                    self.insert(&mut blocks, &insert, &Placing::SAME, "0", 0)?;
+                    self.insert(&mut blocks, &insert, &Placing::UNMOVED, "0", 0)?;
                     self.blocks = blocks;
                 }
             }
@@ -119,7 +119,7 @@ impl<'h> Placed<'h> {
     /// Takes up an entity unless its layer is hidden.
     fn show(&mut self, entity: DrawnEntity) {
         match self.hidden.state(&entity.layer) {
-            Some(_) => self.unseen.on(&entity.layer),
+            Some(_) => self.unseen.count_on_layer(&entity.layer),
             None => self.drawing.entities.push(entity),
         }
     }
@@ -132,19 +132,19 @@ impl<'h> Placed<'h> {
         layer: &str,
         depth: usize,
     ) -> Result<()> {
-        // What is on layer 0 of a block is on that of its place.
+        // Entities on layer 0 of a block take the layer of its place.
         let layer = if is_layer_0(&insert.layer) { layer } else { &insert.layer };
         if self.hidden.state(layer) == Some(State::Frozen) {
-            self.unseen.on(layer);
+            self.unseen.count_on_layer(layer);
             return Ok(());
         }
         let wrong = |what: &str, remedy: &'static str| -> Located {
             Fault::Unsupported { what: what.into(), remedy }.at_line(insert.line)
         };
-        if depth >= DEEPEST {
+        if depth >= MAX_BLOCK_DEPTH {
             return Err(wrong("blocks within blocks without end", "explode the blocks"));
         }
-        // Taken out while it is placed: a block that holds itself is missing then.
+        // The block is taken out while it is placed, so that a block within itself is missing.
         let block = match blocks.remove(&insert.name) {
             Some(block) => block?,
             None => {
@@ -158,7 +158,7 @@ impl<'h> Placed<'h> {
             let shift = [0, 1].map(|k| column as f64 * insert.steps[0][k] + row as f64 * insert.steps[1][k]);
             let own = &insert.placing;
             let at = Placing { origin: [own.origin[0] + shift[0], own.origin[1] + shift[1]], ..*own };
-            let based = Placing { origin: block.base.map(|x| -x), ..Placing::SAME };
+            let based = Placing { origin: block.base.map(|x| -x), ..Placing::UNMOVED };
             let placing = outer.after(&at.after(&based));
             for item in &block.items {
                 match item {
@@ -174,10 +174,10 @@ impl<'h> Placed<'h> {
             for (name, count) in &block.passed_over {
                 *self.passed_over.entry(name.clone()).or_default() += count;
             }
-            self.unseen.join(&block.unseen);
+            self.unseen.add(&block.unseen);
             self.left = self.left.saturating_sub(1 + block.items.len() as u64);
             if self.left == 0 {
-                let what = format!("inserted blocks make more than {MOST} entities");
+                let what = format!("inserted blocks make more than {MAX_PLACED_ITEMS} entities");
                 return Err(wrong(&what, "explode the blocks, or leave out what is not needed"));
             }
         }

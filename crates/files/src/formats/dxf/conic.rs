@@ -1,21 +1,19 @@
 //! Parts of ellipses as rational curves.
 
+use super::groups::FILE_ROUNDING;
 use crate::content::drawing::Drawn;
 use crate::error::Fault;
 use crate::formats::spline::{Raw, curve};
 use std::f64::consts::FRAC_PI_2;
 
-/// A part of a quarter below this share of it is rounding.
-const NOTHING: f64 = 1e-6;
-
-/// The places `center + cos a · u + sin a · v` over a sweep of the angle `a`: quarters as curves of degree 2, exactly.
+/// The places `center + cos a · u + sin a · v` over a sweep of the angle `a`. Each quarter is a curve of degree 2, exactly.
 pub(super) fn conic(
     center: [f64; 2],
     [u, v]: [[f64; 2]; 2],
     from: f64,
     sweep: f64,
 ) -> Result<Vec<Drawn>, Fault> {
-    let pieces = (sweep.abs() / FRAC_PI_2 - NOTHING).ceil().max(1.0);
+    let pieces = (sweep.abs() / FRAC_PI_2 - FILE_ROUNDING).ceil().max(1.0);
     let half = 0.5 * sweep / pieces;
     let place = |angle: f64, out: f64| {
         let (sin, cos) = libm::sincos(angle);

@@ -1,26 +1,23 @@
-//! The entities of a drawing that have a course in its plane.
+//! Entities of a drawing that have a course in its plane.
 
 use super::conic::conic;
-use super::groups::Group;
-use super::through::{Given, through};
+use super::groups::{FILE_ROUNDING, Group};
+use super::through::{PointsOnCurve, through};
 use crate::Unit;
 use crate::content::drawing::Drawn;
 use crate::error::{Fault, Located, Result};
 use crate::formats::spline::{Raw, curve};
 use std::f64::consts::{PI, TAU};
 
-/// Heights of an entity differ by no more than this share of its size.
-const FLAT: f64 = 1e-6;
-
-/// What an entity says, in the file's order: its groups but the name.
-pub(super) struct Said<'a> {
+/// The groups of an entity but its name, in the order of the file.
+pub(super) struct EntityGroups<'a> {
     pub groups: &'a [Group<'a>],
     /// Line of its name.
     pub line: u64,
     pub unit: Unit,
 }
 
-impl Said<'_> {
+impl EntityGroups<'_> {
     fn group(&self, code: i64) -> Option<&Group<'_>> {
         self.groups.iter().find(|g| g.code == code)
     }
@@ -57,26 +54,26 @@ impl Said<'_> {
         Ok(self.all(code)?.into_iter().map(|x| self.unit.to_millimeters(x)).collect())
     }
 
-    /// Whether the entity is drawn as seen from below; refused where its plane is another one than that of the drawing.
+    /// Whether the entity is drawn as seen from below. An entity in another plane than the drawing is refused.
     pub fn mirrored(&self) -> Result<bool> {
         match [self.or(210, 0.0)?, self.or(220, 0.0)?, self.or(230, 1.0)?] {
-            [x, y, z] if x.abs() < FLAT && y.abs() < FLAT && z != 0.0 => Ok(z < 0.0),
+            [x, y, z] if x.abs() < FILE_ROUNDING && y.abs() < FILE_ROUNDING && z != 0.0 => Ok(z < 0.0),
             _ => Err(self.wrong("an entity is turned out of the plane of the drawing", "draw it flat")),
         }
     }
 
-    /// Refuses what is not parallel to the plane of the drawing.
+    /// Refuses an entity that is not parallel to the plane of the drawing.
     fn flat(&self, heights: &[f64], size: f64) -> Result<()> {
         let low = heights.iter().copied().fold(f64::INFINITY, f64::min);
         let high = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        match high - low > FLAT * size {
+        match high - low > FILE_ROUNDING * size {
             true => Err(self.wrong("an entity leaves the plane of the drawing", "draw it flat")),
             false => Ok(()),
         }
     }
 }
 
-/// Box of places, as the length of its diagonal.
+/// Diagonal of the box around places.
 fn size(points: &[[f64; 2]]) -> f64 {
     let range = |k: usize| {
         let all = points.iter().map(|p| p[k]);
@@ -86,9 +83,9 @@ fn size(points: &[[f64; 2]]) -> f64 {
 }
 
 /// A `LINE`.
-pub(super) fn line(said: &Said, out: &mut Vec<Drawn>) -> Result<()> {
-    let (start, end) = (said.place(10)?, said.place(11)?);
-    said.flat(&[said.or(30, 0.0)?, said.or(31, 0.0)?], size(&[start, end]))?;
+pub(super) fn line(entity: &EntityGroups, out: &mut Vec<Drawn>) -> Result<()> {
+    let (start, end) = (entity.place(10)?, entity.place(11)?);
+    entity.flat(&[entity.or(30, 0.0)?, entity.or(31, 0.0)?], size(&[start, end]))?;
     if start != end {
         out.push(Drawn::Line { start, end });
     }
@@ -96,18 +93,18 @@ pub(super) fn line(said: &Said, out: &mut Vec<Drawn>) -> Result<()> {
 }
 
 /// An `ARC` or `CIRCLE`: counter-clockwise as seen from the side of its normal.
-pub(super) fn arc(said: &Said, whole: bool, out: &mut Vec<Drawn>) -> Result<()> {
-    let (mut center, radius) = (said.place(10)?, said.length(40)?);
+pub(super) fn arc(entity: &EntityGroups, whole: bool, out: &mut Vec<Drawn>) -> Result<()> {
+    let (mut center, radius) = (entity.place(10)?, entity.length(40)?);
     if radius <= 0.0 {
-        return Err(Fault::unexpected("a radius above 0", radius.to_string().as_bytes()).at_line(said.line));
+        return Err(Fault::unexpected("a radius above 0", radius.to_string().as_bytes()).at_line(entity.line));
     }
     let (mut start, mut sweep) = (0.0, TAU);
     if !whole {
-        let (from, to) = (said.number(50)?.to_radians(), said.number(51)?.to_radians());
+        let (from, to) = (entity.number(50)?.to_radians(), entity.number(51)?.to_radians());
         let turn = (to - from).rem_euclid(TAU);
         (start, sweep) = (from, if turn == 0.0 { TAU } else { turn });
     }
-    if said.mirrored()? {
+    if entity.mirrored()? {
         (center[0], start, sweep) = (-center[0], PI - start, -sweep);
     }
     out.push(Drawn::Arc { center, radius, start, sweep });
@@ -118,13 +115,13 @@ pub(super) fn arc(said: &Said, whole: bool, out: &mut Vec<Drawn>) -> Result<()> 
 pub(super) type Vertex = ([f64; 2], f64);
 
 /// The vertices of an `LWPOLYLINE`.
-pub(super) fn vertices(said: &Said) -> Result<Vec<Vertex>> {
+pub(super) fn vertices(entity: &EntityGroups) -> Result<Vec<Vertex>> {
     let (mut all, mut x): (Vec<Vertex>, Option<f64>) = (vec![], None);
-    for group in said.groups {
+    for group in entity.groups {
         match group.code {
-            10 => x = Some(said.unit.to_millimeters(group.number()?)),
+            10 => x = Some(entity.unit.to_millimeters(group.number()?)),
             20 => {
-                let y = said.unit.to_millimeters(group.number()?);
+                let y = entity.unit.to_millimeters(group.number()?);
                 let x = x.take().ok_or_else(|| group.wrong("the first coordinate before the second"))?;
                 all.push(([x, y], 0.0));
             }
@@ -141,13 +138,18 @@ pub(super) fn vertices(said: &Said) -> Result<Vec<Vertex>> {
 }
 
 /// A `VERTEX` of a `POLYLINE`.
-pub(super) fn vertex(said: &Said) -> Result<Vertex> {
-    Ok((said.place(10)?, said.or(42, 0.0)?))
+pub(super) fn vertex(entity: &EntityGroups) -> Result<Vertex> {
+    Ok((entity.place(10)?, entity.or(42, 0.0)?))
 }
 
 /// Lines and arcs between the vertices of a polyline.
-pub(super) fn polyline(said: &Said, vertices: &[Vertex], closed: bool, out: &mut Vec<Drawn>) -> Result<()> {
-    let mirror = if said.mirrored()? { -1.0 } else { 1.0 };
+pub(super) fn polyline(
+    entity: &EntityGroups,
+    vertices: &[Vertex],
+    closed: bool,
+    out: &mut Vec<Drawn>,
+) -> Result<()> {
+    let mirror = if entity.mirrored()? { -1.0 } else { 1.0 };
     let n = vertices.len();
     for i in 0..if closed { n } else { n.saturating_sub(1) } {
         let ((a, bulge), (b, _)) = (vertices[i], vertices[(i + 1) % n]);
@@ -176,61 +178,66 @@ pub(super) fn polyline(said: &Said, vertices: &[Vertex], closed: bool, out: &mut
 }
 
 /// A `SPLINE`, polynomial or rational, by its control points.
-pub(super) fn spline(said: &Said, out: &mut Vec<Drawn>) -> Result<()> {
-    let (x, y, z) = (said.lengths(10)?, said.lengths(20)?, said.lengths(30)?);
+pub(super) fn spline(entity: &EntityGroups, out: &mut Vec<Drawn>) -> Result<()> {
+    let (x, y, z) = (entity.lengths(10)?, entity.lengths(20)?, entity.lengths(30)?);
     if x.is_empty() {
-        return fitted(said, out);
+        return fitted(entity, out);
     }
     if x.len() != y.len() {
-        return Err(Fault::unexpected("two coordinates of each control point", b"").at_line(said.line));
+        return Err(Fault::unexpected("two coordinates of each control point", b"").at_line(entity.line));
     }
     let points: Vec<[f64; 3]> = x.iter().zip(&y).map(|(x, y)| [*x, *y, 0.0]).collect();
-    said.flat(&z, size(&points.iter().map(|p| [p[0], p[1]]).collect::<Vec<_>>()))?;
-    let mut weights = said.all(41)?;
+    entity.flat(&z, size(&points.iter().map(|p| [p[0], p[1]]).collect::<Vec<_>>()))?;
+    let mut weights = entity.all(41)?;
     if weights.is_empty() {
         weights = vec![1.0; points.len()];
     }
-    let degree = usize::try_from(said.integer(71)?).unwrap_or(0);
-    let raw =
-        Raw { degree: vec![degree], knots: vec![said.all(40)?], counts: vec![points.len()], points, weights };
-    out.push(Drawn::Spline(curve(raw).map_err(|f| f.at_line(said.line))?));
+    let degree = usize::try_from(entity.integer(71)?).unwrap_or(0);
+    let raw = Raw {
+        degree: vec![degree],
+        knots: vec![entity.all(40)?],
+        counts: vec![points.len()],
+        points,
+        weights,
+    };
+    out.push(Drawn::Spline(curve(raw).map_err(|f| f.at_line(entity.line))?));
     Ok(())
 }
 
 /// A `SPLINE` by the points alone that it passes through.
-fn fitted(said: &Said, out: &mut Vec<Drawn>) -> Result<()> {
-    let (x, y, z) = (said.lengths(11)?, said.lengths(21)?, said.lengths(31)?);
+fn fitted(entity: &EntityGroups, out: &mut Vec<Drawn>) -> Result<()> {
+    let (x, y, z) = (entity.lengths(11)?, entity.lengths(21)?, entity.lengths(31)?);
     if x.len() != y.len() {
-        return Err(Fault::unexpected("two coordinates of each point of a spline", b"").at_line(said.line));
+        return Err(Fault::unexpected("two coordinates of each point of a spline", b"").at_line(entity.line));
     }
     let points: Vec<[f64; 2]> = x.iter().zip(&y).map(|(x, y)| [*x, *y]).collect();
-    said.flat(&z, size(&points))?;
+    entity.flat(&z, size(&points))?;
     let tangent = |code: i64| -> Result<Option<[f64; 2]>> {
-        let given = [said.or(code, 0.0)?, said.or(code + 10, 0.0)?];
-        Ok((given != [0.0; 2]).then_some(given))
+        let direction = [entity.or(code, 0.0)?, entity.or(code + 10, 0.0)?];
+        Ok((direction != [0.0; 2]).then_some(direction))
     };
     // 1: closed, 2: periodic.
-    let closed = said.integer(70)? & 3 != 0;
-    let given = Given { points, tangents: [tangent(12)?, tangent(13)?], closed };
+    let closed = entity.integer(70)? & 3 != 0;
+    let given = PointsOnCurve { points, tangents: [tangent(12)?, tangent(13)?], closed };
     let found = through(given).ok_or_else(|| {
         let what = "a spline by the points that it passes through has fewer than two different ones";
-        said.wrong(what, "export it with its control points")
+        entity.wrong(what, "export it with its control points")
     })?;
     out.push(found);
     Ok(())
 }
 
 /// An `ELLIPSE`: quarters of it as rational curves of degree 2, exactly.
-pub(super) fn ellipse(said: &Said, out: &mut Vec<Drawn>) -> Result<()> {
-    let (center, major, ratio) = (said.place(10)?, said.place(11)?, said.number(40)?);
-    said.flat(&[0.0, said.or(31, 0.0)?], size(&[[0.0; 2], major]))?;
-    let turn = if said.mirrored()? { -1.0 } else { 1.0 };
+pub(super) fn ellipse(entity: &EntityGroups, out: &mut Vec<Drawn>) -> Result<()> {
+    let (center, major, ratio) = (entity.place(10)?, entity.place(11)?, entity.number(40)?);
+    entity.flat(&[0.0, entity.or(31, 0.0)?], size(&[[0.0; 2], major]))?;
+    let turn = if entity.mirrored()? { -1.0 } else { 1.0 };
     let minor = [-turn * ratio * major[1], turn * ratio * major[0]];
-    let (from, to) = (said.or(41, 0.0)?, said.or(42, TAU)?);
+    let (from, to) = (entity.or(41, 0.0)?, entity.or(42, TAU)?);
     let sweep = if to > from { to - from } else { to - from + TAU };
-    if major == [0.0; 2] || ratio <= 0.0 || sweep <= 0.0 || sweep > TAU + FLAT {
-        return Err(Fault::unexpected("axes and a range of an ellipse", b"").at_line(said.line));
+    if major == [0.0; 2] || ratio <= 0.0 || sweep <= 0.0 || sweep > TAU + FILE_ROUNDING {
+        return Err(Fault::unexpected("axes and a range of an ellipse", b"").at_line(entity.line));
     }
-    out.extend(conic(center, [major, minor], from, sweep).map_err(|f| f.at_line(said.line))?);
+    out.extend(conic(center, [major, minor], from, sweep).map_err(|f| f.at_line(entity.line))?);
     Ok(())
 }

@@ -4,12 +4,15 @@ use crate::error::{Fault, Located, Result};
 use crate::lines::Lines;
 use crate::number;
 
-/// What binary files begin with.
-pub(super) const BINARY: &[u8] = b"AutoCAD Binary DXF";
+/// The first bytes of a binary file.
+pub(super) const BINARY_MARK: &[u8] = b"AutoCAD Binary DXF";
+
+/// Differences below this share of a size or of a quarter turn come from the rounding of the numbers in a file.
+pub(super) const FILE_ROUNDING: f64 = 1e-6;
 
 /// Whether text begins as a drawing does.
 pub(super) fn begins(bytes: &[u8]) -> bool {
-    if bytes.starts_with(BINARY) {
+    if bytes.starts_with(BINARY_MARK) {
         return true;
     }
     let mut lines = Lines::new(bytes).map(<[u8]>::trim_ascii);

@@ -1,34 +1,34 @@
-//! What of a drawing is not seen: entities marked so, and those on layers that are frozen or switched off.
+//! Entities of a drawing that are not seen: marked as invisible, or on a layer that is frozen or switched off.
 
 use super::groups::Group;
 use crate::Warning;
 use crate::error::Result;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Bit of a layer's flags: frozen.
-const FROZEN: i64 = 1;
-/// Layers that are named of those there are.
-const NAMED: usize = 8;
+/// The bit of a layer's flags that freezes it.
+const FROZEN_FLAG: i64 = 1;
+/// A message names this many layers.
+const MAX_LAYERS_NAMED: usize = 8;
 
 /// How a layer is hidden.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum State {
-    /// What lies on it is not seen.
+    /// Entities on it are not seen.
     Off,
-    /// Nor is what a block that is inserted on it holds on others.
+    /// Entities on it are not seen, nor are those of a block inserted on it.
     Frozen,
 }
 
-/// The layers of a drawing that are hidden. Names are the same in capitals.
+/// The hidden layers of a drawing, by their names in capitals, as names do not differ by case.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Hidden(BTreeMap<String, State>);
 
 impl Hidden {
-    /// Takes up what a record of the table of layers says.
+    /// Adds the layer of a record of the table of layers, if it is hidden.
     pub fn add(&mut self, record: &[Group]) -> Result<()> {
         let find = |code| record.iter().find(|g| g.code == code);
         let integer = |code| find(code).map_or(Ok(0), |g| g.integer());
-        let state = match (integer(70)? & FROZEN != 0, integer(62)? < 0) {
+        let state = match (integer(70)? & FROZEN_FLAG != 0, integer(62)? < 0) {
             (true, _) => State::Frozen,
             (false, true) => State::Off,
             (false, false) => return Ok(()),
@@ -55,21 +55,21 @@ pub(super) struct Unseen {
 
 impl Unseen {
     /// One that is marked as invisible.
-    pub fn mark(&mut self) {
+    pub fn count_marked(&mut self) {
         self.marked += 1;
     }
     /// One on a layer that is hidden.
-    pub fn on(&mut self, layer: &str) {
+    pub fn count_on_layer(&mut self, layer: &str) {
         self.on_layers += 1;
         self.layers.insert(layer.to_owned());
     }
-    /// Those of another place.
-    pub fn join(&mut self, other: &Unseen) {
+    /// Adds the entities counted elsewhere.
+    pub fn add(&mut self, other: &Unseen) {
         self.marked += other.marked;
         self.on_layers += other.on_layers;
         self.layers.extend(other.layers.iter().cloned());
     }
-    /// What is told of them.
+    /// The warning about them, if there are any.
     pub fn warning(&self) -> Option<Warning> {
         let layers: Vec<&str> = self.layers.iter().map(String::as_str).collect();
         let (marked, on_layers, layers) = (self.marked, self.on_layers, short(&layers));
@@ -77,14 +77,14 @@ impl Unseen {
     }
 }
 
-/// A few of many names.
+/// The first names of many.
 fn short(names: &[&str]) -> String {
-    let more = if names.len() > NAMED { ", …" } else { "" };
-    names.iter().take(NAMED).copied().collect::<Vec<_>>().join(", ") + more
+    let more = if names.len() > MAX_LAYERS_NAMED { ", …" } else { "" };
+    names.iter().take(MAX_LAYERS_NAMED).copied().collect::<Vec<_>>().join(", ") + more
 }
 
-/// What is told of entities on several layers: lines that are no outline look like any other. Layers that are named as sections are
-/// of several planes.
+/// The warning about entities on several layers, because lines that are no outline look like any other. Layers named as sections belong
+/// to several planes.
 pub(super) fn several<'a>(layers: impl Iterator<Item = &'a str>) -> Option<Warning> {
     let mut counts: BTreeMap<&str, u64> = BTreeMap::new();
     layers.for_each(|layer| *counts.entry(layer).or_default() += 1);

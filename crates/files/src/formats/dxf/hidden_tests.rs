@@ -1,4 +1,4 @@
-//! What is not seen is no outline, and told; what lies on several layers is told.
+//! Entities that are not seen are no outline, and a warning names them, as it does entities on several layers.
 
 use super::tests::{place, read};
 
@@ -24,7 +24,7 @@ const LAYERS: &str = "0 LAYER 2 0 70 0 62 7 0 LAYER 2 on 70 0 62 7 0 LAYER 2 off
 
 #[test]
 fn entities_that_are_not_seen_are_left_out_and_counted() {
-    // What stands in the drawing, how many lines are read of it, and what is told.
+    // The content of the drawing, how many lines are read from it, and the warning.
     let cases: &[(&str, usize, &str)] = &[
         ("0 LINE 8 on 10 0 20 0 11 1 21 0", 1, ""),
         ("0 LINE 8 on 60 0 10 0 20 0 11 1 21 0", 1, ""),
@@ -42,7 +42,7 @@ fn entities_that_are_not_seen_are_left_out_and_counted() {
         ("0 POLYLINE 8 frozen 70 0 0 VERTEX 10 0 20 0 0 VERTEX 10 1 20 0 0 SEQEND", 0, "1 on layers"),
         ("0 LWPOLYLINE 8 on 60 1 90 2 70 0 10 0 20 0 10 1 20 0", 0, "1 marked"),
         ("0 TEXT 8 frozen 1 t 0 LINE 8 on 10 0 20 0 11 1 21 0", 1, "1 on layers"),
-        // What is not seen may be anything.
+        // Entities that are not seen may be anything.
         ("0 LINE 8 frozen 10 0 20 0 30 0 11 1 21 0 31 9 0 LINE 8 on 10 0 20 0 11 1 21 0", 1, "1 on layers"),
         // The block holds a line on layer 0 and one on its own: a frozen place hides both, one that is off only the first.
         ("0 INSERT 8 on 2 B 10 0 20 0", 2, "on (1), own (1)"),

@@ -1,4 +1,4 @@
-//! Where blocks are placed in a drawing.
+//! Places of blocks in a drawing.
 
 use super::conic::conic;
 use crate::content::drawing::Drawn;
@@ -6,10 +6,10 @@ use crate::error::Fault;
 use trueness_geom::spline::rational::Rational;
 use trueness_geom::spline::value::Mass;
 
-/// Columns at right angles and of the same length to this share make circles of circles.
-const ROUND: f64 = 1e-9;
+/// A circle stays a circle where lengths and right angle of the placed axes differ by no more than this share.
+const MAX_AXES_MISMATCH: f64 = 1e-9;
 
-/// A way from the coordinates of a block to those of the drawing: the images of the axes, and that of the origin.
+/// How the coordinates of a block become those of the drawing: the images of its axes and of its origin.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Placing {
     pub axes: [[f64; 2]; 2],
@@ -17,7 +17,7 @@ pub(super) struct Placing {
 }
 
 impl Placing {
-    pub const SAME: Placing = Placing { axes: [[1.0, 0.0], [0.0, 1.0]], origin: [0.0; 2] };
+    pub const UNMOVED: Placing = Placing { axes: [[1.0, 0.0], [0.0, 1.0]], origin: [0.0; 2] };
 
     fn out(&self, v: [f64; 2]) -> [f64; 2] {
         [0, 1].map(|k| v[0] * self.axes[0][k] + v[1] * self.axes[1][k])
@@ -28,7 +28,7 @@ impl Placing {
         [v[0] + self.origin[0], v[1] + self.origin[1]]
     }
 
-    /// This one after another.
+    /// This placing after another one.
     pub fn after(&self, inner: &Placing) -> Placing {
         Placing { axes: inner.axes.map(|v| self.out(v)), origin: self.place(inner.origin) }
     }
@@ -42,7 +42,8 @@ impl Placing {
             }
             Drawn::Arc { center, radius, start, sweep } => {
                 let (a, b) = (libm::hypot(u[0], u[1]), libm::hypot(v[0], v[1]));
-                let round = (a - b).abs() <= ROUND * a && (u[0] * v[0] + u[1] * v[1]).abs() <= ROUND * a * b;
+                let round = (a - b).abs() <= MAX_AXES_MISMATCH * a
+                    && (u[0] * v[0] + u[1] * v[1]).abs() <= MAX_AXES_MISMATCH * a * b;
                 if !round {
                     let axes = [u, v].map(|w| w.map(|x| radius * x));
                     return conic(self.place(*center), axes, *start, *sweep);

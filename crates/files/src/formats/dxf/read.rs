@@ -1,28 +1,28 @@
 //! The entities of a DXF file.
 
 use super::blocks::{Block, Insert, Item, Placed, block_name, is_layer_0};
-use super::entities::{Said, Vertex, arc, ellipse, line, polyline, spline, vertex, vertices};
-use super::groups::{BINARY, Group, Groups};
+use super::entities::{EntityGroups, Vertex, arc, ellipse, line, polyline, spline, vertex, vertices};
+use super::groups::{BINARY_MARK, Group, Groups};
 use super::hidden::{Hidden, Unseen, several};
 use crate::content::drawing::DrawnEntity;
 use crate::error::{Fault, Result};
 use crate::format::{Parsed, ReadOptions};
-use crate::source::{HEAD, Source};
+use crate::source::{SNIFFED_BYTES, Source};
 use crate::unicode::no_zeros;
 use crate::{Unit, Warning};
 use std::collections::BTreeMap;
 
 /// Reads a file.
 pub(super) fn read(mut source: Source, options: &ReadOptions) -> Result<Parsed> {
-    if source.feed.ahead(HEAD)?.starts_with(BINARY) {
+    if source.feed.ahead(SNIFFED_BYTES)?.starts_with(BINARY_MARK) {
         let what = "this drawing is binary DXF, which is not read".into();
         return Err(Fault::Unsupported { what, remedy: "save it as ASCII DXF" }.into());
     }
-    no_zeros(source.feed.ahead(HEAD)?)?;
+    no_zeros(source.feed.ahead(SNIFFED_BYTES)?)?;
     let text = source.feed.all()?;
     no_zeros(text)?;
-    let (said, hidden) = settings(&mut Groups::new(text))?;
-    let unit = options.unit_of(said);
+    let (entity, hidden) = settings(&mut Groups::new(text))?;
+    let unit = options.unit_of(entity);
     let (mut own, mut blocks) = (Reader::new(unit, &hidden), BTreeMap::new());
     let mut groups = Groups::new(text);
     while let Some(name) = section(&mut groups)? {
@@ -47,7 +47,7 @@ pub(super) fn read(mut source: Source, options: &ReadOptions) -> Result<Parsed> 
     if placed.drawing.entities.is_empty() {
         warnings.push(Warning::NothingDrawn);
     }
-    Ok(Parsed::drawing("dxf", placed.drawing, said, warnings))
+    Ok(Parsed::drawing("dxf", placed.drawing, entity, warnings))
 }
 
 /// The name of the next section; `None` at the end of the file.
@@ -155,8 +155,8 @@ fn read_blocks<'a>(
         let Some(first) = own.iter().position(|r| r.name.value == b"BLOCK") else { continue };
         let mut own_through = 0;
         let mut read = || {
-            let said = Said { groups: &own[first].groups, line: own[first].name.line, unit };
-            let base = [said.length_or_0(10)?, said.length_or_0(20)?];
+            let entity = EntityGroups { groups: &own[first].groups, line: own[first].name.line, unit };
+            let base = [entity.length_or_0(10)?, entity.length_or_0(20)?];
             let mut reader = Reader::new(unit, hidden);
             reader.entities(&own[first + 1..])?;
             own_through += reader.through;
@@ -174,7 +174,7 @@ struct Reader<'h> {
     items: Vec<Item>,
     passed_over: BTreeMap<String, u64>,
     unseen: Unseen,
-    /// Splines by the points that they pass through.
+    /// How many splines are given only by the points on them.
     through: u64,
 }
 
@@ -184,16 +184,16 @@ impl<'h> Reader<'h> {
         Reader { unit, hidden, items, passed_over, unseen: Unseen::default(), through: 0 }
     }
 
-    /// Whether an entity is not seen, which is counted. What blocks hold on layer 0 shows only where they are inserted.
-    fn is_unseen(&mut self, said: &Said) -> Result<bool> {
-        if said.integer(60)? == 1 {
-            self.unseen.mark();
+    /// Whether an entity is not seen; if so, counts it. Layer 0 of a block is decided where the block is inserted.
+    fn is_unseen(&mut self, entity: &EntityGroups) -> Result<bool> {
+        if entity.integer(60)? == 1 {
+            self.unseen.count_marked();
             return Ok(true);
         }
-        let layer = layer(said);
+        let layer = layer(entity);
         let hidden = !is_layer_0(&layer) && self.hidden.state(&layer).is_some();
         if hidden {
-            self.unseen.on(&layer);
+            self.unseen.count_on_layer(&layer);
         }
         Ok(hidden)
     }
@@ -203,19 +203,19 @@ impl<'h> Reader<'h> {
         let mut open: Option<(&Record, Vec<Vertex>)> = None;
         let mut last = 0;
         for record in records {
-            let said = Said { groups: &record.groups, line: record.name.line, unit: self.unit };
+            let entity = EntityGroups { groups: &record.groups, line: record.name.line, unit: self.unit };
             last = record.groups.last().map_or(record.name.line, |g| g.line);
             match (record.name.value, &mut open) {
                 (b"POLYLINE", _) => open = Some((record, vec![])),
-                (b"VERTEX", Some((_, vertices))) => vertices.push(vertex(&said)?),
+                (b"VERTEX", Some((_, vertices))) => vertices.push(vertex(&entity)?),
                 (b"SEQEND", Some((own, vertices))) => {
-                    let said = Said { groups: &own.groups, line: own.name.line, unit: self.unit };
-                    self.polyline(&said, vertices)?;
+                    let entity = EntityGroups { groups: &own.groups, line: own.name.line, unit: self.unit };
+                    self.polyline(&entity, vertices)?;
                     open = None;
                 }
                 // It ends the attributes of a block, too.
                 (b"SEQEND", None) => {}
-                _ => self.entity(record.name.value, &said)?,
+                _ => self.entity(record.name.value, &entity)?,
             }
         }
         match open {
@@ -225,40 +225,40 @@ impl<'h> Reader<'h> {
     }
 
     /// A `POLYLINE` with its vertices: one in the plane, neither a mesh nor the control points of a curve.
-    fn polyline(&mut self, said: &Said, vertices: &[Vertex]) -> Result<()> {
-        if said.integer(67)? == 1 || self.is_unseen(said)? {
+    fn polyline(&mut self, entity: &EntityGroups, vertices: &[Vertex]) -> Result<()> {
+        if entity.integer(67)? == 1 || self.is_unseen(entity)? {
             return Ok(());
         }
-        let flags = said.integer(70)?;
+        let flags = entity.integer(70)?;
         // 8: in space, 16, 64: meshes; 2, 4: the vertices of a curve fitted to them stand among its control points.
         if flags & (2 | 4 | 8 | 16 | 64) != 0 {
             *self.passed_over.entry("POLYLINE".into()).or_default() += 1;
             return Ok(());
         }
-        self.add(said, |out| polyline(said, vertices, flags & 1 != 0, out))
+        self.add(entity, |out| polyline(entity, vertices, flags & 1 != 0, out))
     }
 
-    fn entity(&mut self, name: &[u8], said: &Said) -> Result<()> {
+    fn entity(&mut self, name: &[u8], entity: &EntityGroups) -> Result<()> {
         match name {
-            // What stands on paper is none of the part.
-            _ if said.integer(67)? == 1 => Ok(()),
-            // Whether a block shows depends on the layers of what it holds as well.
-            _ if (name != b"INSERT" || said.integer(60)? == 1) && self.is_unseen(said)? => Ok(()),
-            b"LINE" => self.add(said, |out| line(said, out)),
-            b"ARC" => self.add(said, |out| arc(said, false, out)),
-            b"CIRCLE" => self.add(said, |out| arc(said, true, out)),
+            // Entities in paper space are no part of the model.
+            _ if entity.integer(67)? == 1 => Ok(()),
+            // Whether a block is seen depends on the layers of its entities as well.
+            _ if (name != b"INSERT" || entity.integer(60)? == 1) && self.is_unseen(entity)? => Ok(()),
+            b"LINE" => self.add(entity, |out| line(entity, out)),
+            b"ARC" => self.add(entity, |out| arc(entity, false, out)),
+            b"CIRCLE" => self.add(entity, |out| arc(entity, true, out)),
             b"SPLINE" => {
-                self.through += u64::from(!said.has(10));
-                self.add(said, |out| spline(said, out))
+                self.through += u64::from(!entity.has(10));
+                self.add(entity, |out| spline(entity, out))
             }
             b"INSERT" => {
-                self.items.push(Item::Insert(Insert::of(said, layer(said))?));
+                self.items.push(Item::Insert(Insert::of(entity, layer(entity))?));
                 Ok(())
             }
-            b"ELLIPSE" => self.add(said, |out| ellipse(said, out)),
+            b"ELLIPSE" => self.add(entity, |out| ellipse(entity, out)),
             b"LWPOLYLINE" => {
-                let closed = said.integer(70)? & 1 != 0;
-                self.add(said, |out| polyline(said, &vertices(said)?, closed, out))
+                let closed = entity.integer(70)? & 1 != 0;
+                self.add(entity, |out| polyline(entity, &vertices(entity)?, closed, out))
             }
             _ => {
                 *self.passed_over.entry(String::from_utf8_lossy(name).into_owned()).or_default() += 1;
@@ -269,12 +269,12 @@ impl<'h> Reader<'h> {
 
     fn add(
         &mut self,
-        said: &Said,
+        entity: &EntityGroups,
         make: impl FnOnce(&mut Vec<crate::content::drawing::Drawn>) -> Result<()>,
     ) -> Result<()> {
         let mut found = vec![];
         make(&mut found)?;
-        let layer = layer(said);
+        let layer = layer(entity);
         let item = |drawn| Item::Drawn(DrawnEntity { layer: layer.clone(), drawn });
         self.items.extend(found.into_iter().map(item));
         Ok(())
@@ -282,7 +282,7 @@ impl<'h> Reader<'h> {
 }
 
 /// The layer that an entity is on.
-fn layer(said: &Said) -> String {
-    let layer = said.groups.iter().find(|g| g.code == 8).map(|g| String::from_utf8_lossy(g.value));
+fn layer(entity: &EntityGroups) -> String {
+    let layer = entity.groups.iter().find(|g| g.code == 8).map(|g| String::from_utf8_lossy(g.value));
     layer.unwrap_or_default().into_owned()
 }

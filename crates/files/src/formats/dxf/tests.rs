@@ -1,4 +1,4 @@
-//! What is written reads back; entities by their definition; what is refused.
+//! Written files read back; entities by their definition; refused ones.
 
 use crate::content::drawing::{Clamped, Drawing, Drawn, Entity, Layer};
 use crate::write::scratch::Folder;
@@ -169,7 +169,7 @@ fn blocks_are_placed() {
         is_at(place(&found.entities[1].drawn, 0.5), [5.0 + half * middle[0], half * middle[1]]);
         assert!(matches!(found.entities[1].drawn, Drawn::Arc { .. }));
     }
-    // Of two scales it is a part of an ellipse.
+    // With two scales it is a part of an ellipse.
     let (found, ..) = read(&with_blocks(HOOK, "0 INSERT 2 HOOK 10 5 20 0 41 3 42 0.5 50 30")).unwrap();
     let (s, c) = 30f64.to_radians().sin_cos();
     for t in [0.0, 0.3, 1.0] {

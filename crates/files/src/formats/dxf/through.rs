@@ -1,7 +1,7 @@
-//! Splines that are given by the points alone that they pass through.
+//! Splines that are given only by the points on them.
 //!
-//! The format does not say which curve passes through the points: programs draw a cubic with continuous curvature, its parameter by the lengths
-//! of the chords. Ends without a tangent have no curvature: other programs may draw the first and the last span otherwise.
+//! The format does not say which curve passes through the points. Programs draw a cubic with continuous curvature, whose parameter grows by the
+//! lengths of the chords. An end without a tangent has no curvature. Other programs may draw the first and the last span otherwise.
 
 use crate::content::drawing::Drawn;
 use trueness_geom::spline::basis::Knots;
@@ -9,20 +9,20 @@ use trueness_geom::spline::curve::{self, Curve};
 use trueness_geom::spline::rational::Rational;
 use trueness_geom::spline::value::Value;
 
-/// What the drawing says of the curve.
-pub(super) struct Given {
+/// The points and tangents that the drawing gives.
+pub(super) struct PointsOnCurve {
     pub points: Vec<[f64; 2]>,
     /// Directions at its ends.
     pub tangents: [Option<[f64; 2]>; 2],
     pub closed: bool,
 }
 
-/// Points of a closed curve that are repeated beyond its ends: the spans there are as those of the endless curve, to rounding.
-const OVERLAP: usize = 24;
+/// So many points of a closed curve are repeated beyond its ends. With them its spans agree with those of the endless curve, up to rounding.
+const OVERLAP_POINTS: usize = 24;
 
-/// The curve; `None` of fewer than two different points.
-pub(super) fn through(given: Given) -> Option<Drawn> {
-    let Given { mut points, tangents, mut closed } = given;
+/// The curve; `None` for fewer than two different points.
+pub(super) fn through(given: PointsOnCurve) -> Option<Drawn> {
+    let PointsOnCurve { mut points, tangents, mut closed } = given;
     points.dedup();
     while closed && points.len() > 1 && points.first() == points.last() {
         points.pop();
@@ -39,18 +39,19 @@ pub(super) fn through(given: Given) -> Option<Drawn> {
     Some(Drawn::Spline(Rational::new(found.knots().clone(), &masses).ok()?))
 }
 
-/// The closed curve: an open one that goes on over both ends, cut there.
+/// The closed curve: an open one that goes on beyond both ends and is cut there.
 fn around(points: &[[f64; 2]]) -> Option<Curve<[f64; 2]>> {
     let n = points.len();
-    let all: Vec<[f64; 2]> =
-        (0..n + 1 + 2 * OVERLAP).map(|i| points[(i + n * OVERLAP - OVERLAP) % n]).collect();
+    let all: Vec<[f64; 2]> = (0..n + 1 + 2 * OVERLAP_POINTS)
+        .map(|i| points[(i + n * OVERLAP_POINTS - OVERLAP_POINTS) % n])
+        .collect();
     let parameters = curve::chord_parameters(&all)?;
-    let [from, to] = [OVERLAP, OVERLAP + n].map(|i| parameters[i]);
+    let [from, to] = [OVERLAP_POINTS, OVERLAP_POINTS + n].map(|i| parameters[i]);
     cubic(&all, [None; 2])?.part(from, to).ok()
 }
 
-/// The cubic through points, with these directions at its ends: its derivatives at the points by the tridiagonal equations of a continuous
-/// second derivative (de Boor, A Practical Guide to Splines, chapter IV), then its control points.
+/// The cubic through points, with these directions at its ends. A continuous second derivative gives tridiagonal equations for the derivatives
+/// at the points (de Boor, A Practical Guide to Splines, chapter IV). The derivatives give the control points.
 fn cubic(points: &[[f64; 2]], tangents: [Option<[f64; 2]>; 2]) -> Option<Curve<[f64; 2]>> {
     let parameters = curve::chord_parameters(points)?;
     let last = points.len() - 1;

@@ -34,10 +34,10 @@ impl Groups<'_> {
     }
 }
 
-/// Handles of what is named elsewhere.
-const MODEL: &str = "1F";
-const PAPER: &str = "1B";
-const ROOT: &str = "C";
+/// Handles of the objects that others refer to.
+const MODEL_SPACE_HANDLE: &str = "1F";
+const PAPER_SPACE_HANDLE: &str = "1B";
+const ROOT_DICTIONARY_HANDLE: &str = "C";
 
 /// Writes a drawing.
 pub fn write(out: &mut dyn Write, layers: &[Layer]) -> io::Result<()> {
@@ -45,7 +45,7 @@ pub fn write(out: &mut dyn Write, layers: &[Layer]) -> io::Result<()> {
     header(&mut g, layers)?;
     tables(&mut g, layers)?;
     g.all(&[(0, "SECTION"), (2, "BLOCKS")])?;
-    for (name, owner) in [("*Model_Space", MODEL), ("*Paper_Space", PAPER)] {
+    for (name, owner) in [("*Model_Space", MODEL_SPACE_HANDLE), ("*Paper_Space", PAPER_SPACE_HANDLE)] {
         let (begin, end) = (g.next(), g.next());
         g.all(&[(0, "BLOCK"), (5, &begin), (330, owner), (100, "AcDbEntity"), (8, "0")])?;
         g.all(&[(100, "AcDbBlockBegin"), (2, name), (70, "0"), (10, "0.0"), (20, "0.0"), (30, "0.0")])?;
@@ -64,9 +64,21 @@ pub fn write(out: &mut dyn Write, layers: &[Layer]) -> io::Result<()> {
         layer.entities.iter().try_for_each(|e| entity(&mut g, &layer.name, e))?;
     }
     g.all(&[(0, "ENDSEC"), (0, "SECTION"), (2, "OBJECTS")])?;
-    g.all(&[(0, "DICTIONARY"), (5, ROOT), (330, "0"), (100, "AcDbDictionary"), (281, "1")])?;
+    g.all(&[
+        (0, "DICTIONARY"),
+        (5, ROOT_DICTIONARY_HANDLE),
+        (330, "0"),
+        (100, "AcDbDictionary"),
+        (281, "1"),
+    ])?;
     g.all(&[(3, "ACAD_GROUP"), (350, "D")])?;
-    g.all(&[(0, "DICTIONARY"), (5, "D"), (330, ROOT), (100, "AcDbDictionary"), (281, "1")])?;
+    g.all(&[
+        (0, "DICTIONARY"),
+        (5, "D"),
+        (330, ROOT_DICTIONARY_HANDLE),
+        (100, "AcDbDictionary"),
+        (281, "1"),
+    ])?;
     g.all(&[(0, "ENDSEC"), (0, "EOF")])
 }
 
@@ -114,7 +126,7 @@ fn tables(g: &mut Groups, layers: &[Layer]) -> io::Result<()> {
     table(g, "DIMSTYLE", "A", 0)?;
     g.all(&[(100, "AcDbDimStyleTable"), (71, "0"), (0, "ENDTAB")])?;
     table(g, "BLOCK_RECORD", "1", 2)?;
-    for (name, handle) in [("*Model_Space", MODEL), ("*Paper_Space", PAPER)] {
+    for (name, handle) in [("*Model_Space", MODEL_SPACE_HANDLE), ("*Paper_Space", PAPER_SPACE_HANDLE)] {
         record(g, "BLOCK_RECORD", handle, "1", "AcDbBlockTableRecord", name)?;
         g.all(&[(340, "0")])?;
     }
@@ -140,7 +152,7 @@ fn entity(g: &mut Groups, layer: &str, entity: &Entity) -> io::Result<()> {
         Entity::Spline(_) => "SPLINE",
     };
     let handle = g.next();
-    g.all(&[(0, name), (5, &handle), (330, MODEL), (100, "AcDbEntity"), (8, layer)])?;
+    g.all(&[(0, name), (5, &handle), (330, MODEL_SPACE_HANDLE), (100, "AcDbEntity"), (8, layer)])?;
     match entity {
         Entity::Line { start, end } => {
             g.put(100, "AcDbLine")?;
@@ -166,7 +178,7 @@ fn entity(g: &mut Groups, layer: &str, entity: &Entity) -> io::Result<()> {
             for (code, count) in [(71, *degree), (72, knots.len()), (73, points.len()), (74, 0)] {
                 g.put(code, count)?;
             }
-            // Below which knots, and control points, are the same: readers round to it. Knots run from 0 to 1.
+            // Knots and control points closer than this are the same: readers round to it. Knots run from 0 to 1.
             g.all(&[(42, "1e-15"), (43, "1e-15")])?;
             knots.iter().try_for_each(|k| g.number(40, *k))?;
             points.iter().try_for_each(|p| g.point(10, *p))

@@ -1,7 +1,7 @@
 //! Lines (entity 110), arcs and circles (100) and B-splines (126) of a drawing, a level for each layer.
 //!
-//! Numbers are those of the drawing; a matrix (124) for each layer places its plane in space, unless that is the plane of the
-//! coordinates' first two axes. Arcs run counter-clockwise in IGES, so one of negative sweep is written from its end.
+//! Numbers are those of the drawing. A matrix (124) for each layer places its plane in space, unless that is the plane of the
+//! first two axes. Arcs run counter-clockwise in IGES, so one of negative sweep is written from its end.
 
 use super::super::step::real;
 use super::entry::{Entry, file};

@@ -1,12 +1,11 @@
 //! Entities, and how a file lays them out.
 
 use super::super::step::real;
+use super::text::SECTION_COLUMN;
 use std::io::{self, Write};
 
-/// Columns of a line of parameters.
-const PARAMETERS: usize = 64;
-/// Columns of a line of the global section.
-const GLOBAL: usize = 72;
+/// Columns for parameters on a line of the parameter section.
+const PARAMETER_COLUMNS: usize = 64;
 
 /// An entity.
 #[derive(Default)]
@@ -15,7 +14,7 @@ pub(super) struct Entry {
     pub(super) kind: u32,
     /// Its level.
     pub(super) level: usize,
-    /// The entry, counted from 0, that is the matrix which places it.
+    /// Number of the entry, from 0, that holds its matrix.
     pub(super) matrix: Option<usize>,
     /// Its status: blank, part of others, use, hierarchy; two digits each.
     pub(super) status: &'static str,
@@ -23,7 +22,7 @@ pub(super) struct Entry {
     pub(super) parameters: Vec<String>,
 }
 
-/// Writes the file of a model that is described by a line and known by a name; `most` is the greatest of its coordinates.
+/// Writes the file of a model with its description and name. `most` is its greatest coordinate.
 pub(super) fn file(
     out: &mut dyn Write,
     description: &str,
@@ -31,7 +30,7 @@ pub(super) fn file(
     most: f64,
     entries: &[Entry],
 ) -> io::Result<()> {
-    let global = lines(&header(name, most), GLOBAL);
+    let global = lines(&header(name, most), SECTION_COLUMN);
     writeln!(out, "{description:<72}S{:>7}", 1)?;
     for (n, line) in global.iter().enumerate() {
         writeln!(out, "{line:<72}G{:>7}", n + 1)?;
@@ -40,7 +39,7 @@ pub(super) fn file(
         .iter()
         .map(|e| {
             let number = std::iter::once(e.kind.to_string());
-            lines(&number.chain(e.parameters.iter().cloned()).collect::<Vec<_>>(), PARAMETERS)
+            lines(&number.chain(e.parameters.iter().cloned()).collect::<Vec<_>>(), PARAMETER_COLUMNS)
         })
         .collect();
     let mut first = 1;
@@ -81,7 +80,7 @@ pub(super) fn file(
     writeln!(out, "{totals:<72}T{:>7}", 1)
 }
 
-/// Items with a comma after each, the last with a semicolon, in lines of no more than `width` columns. No item is cut.
+/// Items with a comma after each, the last with a semicolon, in lines of `width` columns at most. No item is cut.
 fn lines(items: &[String], width: usize) -> Vec<String> {
     let mut lines = vec![String::new()];
     for (n, item) in items.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! IGES 5.3 files: what all of them say that are written, in millimeters; and what is read of others'.
+//! IGES 5.3 files: the common part of written ones, in millimeters; and their reading.
 //!
 //! Lines have 80 columns: 64 to 72 of content, a letter for the section, a number. The dates are fixed, so that the same model
 //! gives the same bytes.

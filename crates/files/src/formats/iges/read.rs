@@ -6,14 +6,14 @@ use crate::error::{Fault, Result};
 use crate::format::{Parsed, ReadOptions};
 use crate::formats::spline::{Raw, curve, surface};
 use crate::number::{integer, whole_number};
-use crate::source::{HEAD, Source};
+use crate::source::{SNIFFED_BYTES, Source};
 use crate::unicode::no_zeros;
 use crate::{Unit, Warning};
 use std::collections::BTreeMap;
 
 /// Reads a file.
 pub(super) fn read(mut source: Source, options: &ReadOptions) -> Result<Parsed> {
-    let (head, _) = up_to_the_end(source.feed.ahead(HEAD)?);
+    let (head, _) = up_to_the_end(source.feed.ahead(SNIFFED_BYTES)?);
     no_zeros(head)?;
     let (text, trailing) = up_to_the_end(source.feed.all()?);
     no_zeros(text)?;
@@ -211,7 +211,7 @@ fn on_border(file: &Model, surface: u64, bound: u64) -> Result<bool> {
 /// Places of each curve in the parameters: control points, ends of lines, of a composite curve those of its parts.
 fn collect(file: &Model, number: u64, depth: usize, places: &mut Vec<Vec<[f64; 3]>>) -> Result<()> {
     let Some(entity) = file.entities.get(&number).filter(|_| depth < 4) else {
-        // What is not known may lie anywhere.
+        // An unknown curve may lie anywhere.
         places.push(vec![[f64::NAN; 3]]);
         return Ok(());
     };

@@ -1,7 +1,7 @@
 //! One B-spline surface (entity 128), whole or cut into faces (144). Control points run along `u` first.
 //!
-//! A face names its surface and a curve on it (142) for each bound: lines (110) in the parameters and B-splines (126) in space, both side
-//! by side in the same order in composite curves (102).
+//! A face names its surface and, for each bound, a curve on it (142). The curve has lines (110) in the parameters and B-splines (126) in
+//! space, each in a composite curve (102), in the same order.
 
 use super::super::step::real;
 use super::entry::{Entry, file};
@@ -13,7 +13,7 @@ use trueness_geom::spline::curve::Curve;
 pub fn write(out: &mut dyn Write, surface: &SplineSurface) -> io::Result<()> {
     let most = surface.points.iter().flatten().fold(0.0f64, |m, x| m.max(x.abs()));
     let whole = surface.faces.is_empty();
-    let status = if whole { "" } else { PART };
+    let status = if whole { "" } else { STATUS_DEPENDENT };
     let mut entries = vec![Entry { kind: 128, status, parameters: numbers(surface), ..Entry::default() }];
     for face in surface.faces {
         let outer = bound(&mut entries, &face.outer);
@@ -26,9 +26,9 @@ pub fn write(out: &mut dyn Write, surface: &SplineSurface) -> io::Result<()> {
     file(out, "B-spline surface", "surface", most, &entries)
 }
 
-/// Status of what only others use, and of what they use in the parameters of a surface.
-const PART: &str = "00010000";
-const IN_PARAMETERS: &str = "00010500";
+/// Status of an entity that only other entities use, and of one that they use in the parameters of a surface.
+const STATUS_DEPENDENT: &str = "00010000";
+const STATUS_IN_PARAMETERS: &str = "00010500";
 
 /// How other entities name the one with this number, counted from 0: by its first line.
 fn pointer(entry: usize) -> usize {
@@ -44,19 +44,24 @@ fn bound(entries: &mut Vec<Entry>, bound: &Bound) -> usize {
         .zip(next)
         .map(|(a, b)| {
             let parameters = [a[0], a[1], 0.0, b[0], b[1], 0.0].map(real).to_vec();
-            Entry { kind: 110, status: IN_PARAMETERS, parameters, ..Entry::default() }
+            Entry { kind: 110, status: STATUS_IN_PARAMETERS, parameters, ..Entry::default() }
         })
         .collect();
     let curves: Vec<Entry> = bound
         .sides
         .iter()
-        .map(|side| Entry { kind: 126, status: PART, parameters: curve(side), ..Entry::default() })
+        .map(|side| Entry {
+            kind: 126,
+            status: STATUS_DEPENDENT,
+            parameters: curve(side),
+            ..Entry::default()
+        })
         .collect();
-    let in_parameters = composite(entries, lines, IN_PARAMETERS);
-    let in_space = composite(entries, curves, PART);
+    let in_parameters = composite(entries, lines, STATUS_IN_PARAMETERS);
+    let in_space = composite(entries, curves, STATUS_DEPENDENT);
     // How it was made is not told; the surface; both curves, of which none is preferred.
     let parameters = [0, 1, pointer(in_parameters), pointer(in_space), 3].map(|n| n.to_string()).to_vec();
-    entries.push(Entry { kind: 142, status: PART, parameters, ..Entry::default() });
+    entries.push(Entry { kind: 142, status: STATUS_DEPENDENT, parameters, ..Entry::default() });
     entries.len() - 1
 }
 

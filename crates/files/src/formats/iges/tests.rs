@@ -1,4 +1,4 @@
-//! What is read of IGES files: what was written, what others may write, what is broken.
+//! Reading IGES files: own ones, those of other programs, broken ones.
 
 use super::surface;
 use crate::cad::{SplineModel, SplineSurface};
@@ -22,7 +22,7 @@ fn model(text: &[u8]) -> (SplineModel, Unit, Vec<Warning>) {
     }
 }
 
-/// What transfers append after the line of section T is none of the model: blank bytes without a word, others with one.
+/// Bytes after the line of section T, appended by transfers, are no part of the model. Blank ones need no warning, others do.
 #[test]
 fn what_follows_the_end_is_not_read() {
     let whole =

@@ -1,4 +1,4 @@
-//! Entities of an IGES file: what its fixed lines say.
+//! Entities of an IGES file, from its lines of fixed columns.
 
 use crate::error::{Fault, Located, Result};
 use crate::lines::Lines;
@@ -49,17 +49,18 @@ impl Entity {
     }
 }
 
-/// Columns of a line, and the one that names its section.
-const COLUMNS: usize = 80;
-const NAMED: usize = 72;
+/// Columns of a line.
+const LINE_COLUMNS: usize = 80;
+/// The column, from 0, whose letter names the section of a line; the content stands before it.
+pub(super) const SECTION_COLUMN: usize = 72;
 
-/// The text up to the line of section T, which ends the file, and how many bytes follow it that are not blank: what transfers, mail and other systems
-/// append.
+/// The text up to the line of section T, which ends the file, and the number of bytes after it that are not blank. Mail and other systems append
+/// such bytes.
 pub(super) fn up_to_the_end(text: &[u8]) -> (&[u8], u64) {
     let mut lines = Lines::new(text);
     while let Some(line) = lines.next() {
-        if line.get(NAMED) == Some(&b'T') {
-            let after = lines.rest().len() + line.len().saturating_sub(COLUMNS);
+        if line.get(SECTION_COLUMN) == Some(&b'T') {
+            let after = lines.rest().len() + line.len().saturating_sub(LINE_COLUMNS);
             let end = text.len() - after;
             // A line end of its own may lie between the columns and what follows.
             let blank = |b: &&u8| !matches!(b, 0 | 0x1a) && !b.is_ascii_whitespace();
@@ -78,7 +79,8 @@ pub(super) fn model(text: &[u8]) -> Result<Model> {
         if line.trim_ascii().is_empty() {
             continue;
         }
-        let Some(letter) = line.get(NAMED).filter(|l| matches!(l, b'S' | b'G' | b'D' | b'P' | b'T')) else {
+        let Some(letter) = line.get(SECTION_COLUMN).filter(|l| matches!(l, b'S' | b'G' | b'D' | b'P' | b'T'))
+        else {
             let what = "a line of 80 columns with S, G, D, P or T in the 73rd";
             return Err(Fault::unexpected(what, line).at_line(lines.number));
         };
@@ -108,7 +110,7 @@ pub(super) fn model(text: &[u8]) -> Result<Model> {
         };
         let kind = field(first, 0)?;
         // Only these are looked into; others may be laid out in any way.
-        if !KNOWN.contains(&kind) {
+        if !READ_ENTITY_KINDS.contains(&kind) {
             let entity = Entity { kind, matrix: 0, line: first.0, parameters: vec![] };
             entities.insert(2 * k as u64 + 1, entity);
             continue;
@@ -136,8 +138,8 @@ pub(super) fn model(text: &[u8]) -> Result<Model> {
     Ok(Model { global, entities })
 }
 
-/// Kinds whose parameters are read: matrix, B-spline curve and surface, what trims, what that is made of, and faces.
-const KNOWN: [u64; 9] = [102, 110, 124, 126, 128, 142, 143, 144, 510];
+/// Kinds of entities whose parameters are read: matrix, B-spline curve and surface, trimmed surface with its bounds and their curves, face.
+const READ_ENTITY_KINDS: [u64; 9] = [102, 110, 124, 126, 128, 142, 143, 144, 510];
 
 /// The signs that end a parameter and an entity: the first two global parameters say them.
 fn signs(global: &[(u64, &[u8])]) -> [u8; 2] {

@@ -29,17 +29,17 @@ pub(crate) const NPZ: Format = Format {
     mesh: None,
 };
 
-/// Bytes of the header of an array: a multiple of 64, as NumPy wants it, with room for any shape.
-const HEADER: usize = 128;
+/// The header of an array takes this many bytes: a multiple of 64, as NumPy wants it, with room for any shape.
+const ARRAY_HEADER_BYTES: usize = 128;
 
 /// The header of an array of `rows` rows.
 fn header(descr: &str, rows: u64, width: Option<u32>) -> Vec<u8> {
     let shape = width.map_or(format!("({rows},)"), |w| format!("({rows}, {w})"));
     let dictionary = format!("{{'descr': '{descr}', 'fortran_order': False, 'shape': {shape}, }}");
     let mut bytes = b"\x93NUMPY\x01\x00".to_vec();
-    bytes.extend((HEADER as u16 - 10).to_le_bytes());
+    bytes.extend((ARRAY_HEADER_BYTES as u16 - 10).to_le_bytes());
     bytes.extend(dictionary.as_bytes());
-    bytes.resize(HEADER - 1, b' ');
+    bytes.resize(ARRAY_HEADER_BYTES - 1, b' ');
     bytes.push(b'\n');
     bytes
 }
@@ -48,7 +48,7 @@ fn begin(file: AtomicFile, layout: Layout, _: &str) -> Result<Box<dyn PointsSink
     let columns = Columns::beside(&file, layout);
     let mut archive = Archive::new(file);
     // The shape is written again when the points are counted.
-    archive.begin("points.npy", HEADER)?;
+    archive.begin("points.npy", ARRAY_HEADER_BYTES)?;
     Ok(Box::new(Arrays { archive, columns }))
 }
 
@@ -67,7 +67,7 @@ impl PointsSink for Arrays {
         let rows = *rows;
         self.archive.end(&header("<f8", rows, Some(3)))?;
         let mut add = |name: &str, descr: &str, width: Option<u32>, values: &mut Spool| {
-            self.archive.begin(name, HEADER)?;
+            self.archive.begin(name, ARRAY_HEADER_BYTES)?;
             values.play(|bytes| self.archive.write(bytes))?;
             self.archive.end(&header(descr, rows, width))
         };
@@ -93,7 +93,7 @@ pub(crate) fn values<const N: usize>(
     let mut archive = Archive::new(file);
     let count = points.len();
     let mut add = |name: &str, head: Vec<u8>, rows: usize, row: &dyn Fn(usize, &mut Vec<u8>)| {
-        archive.begin(&format!("{name}.npy"), HEADER)?;
+        archive.begin(&format!("{name}.npy"), ARRAY_HEADER_BYTES)?;
         for start in (0..rows).step_by(1 << 14) {
             let mut bytes = vec![];
             (start..rows.min(start + (1 << 14))).for_each(|i| row(i, &mut bytes));

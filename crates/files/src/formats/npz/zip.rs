@@ -19,12 +19,12 @@ struct Entry {
     checksum: crc32fast::Hasher,
 }
 
-/// A size or place that stands in the ZIP64 part instead.
-const ELSEWHERE: u32 = u32::MAX;
-/// Version that knows ZIP64.
-const VERSION: u16 = 45;
-/// The first of January 1980, the earliest date there is: the same content gives the same bytes.
-const DATE: u16 = 0x21;
+/// Stands for a size or place whose value is in the ZIP64 field.
+const IN_ZIP64_FIELD: u32 = u32::MAX;
+/// The version of the format that has ZIP64.
+const ZIP64_VERSION: u16 = 45;
+/// The first of January 1980, the earliest date of the format. A fixed date gives the same bytes for the same content.
+const EARLIEST_DATE: u16 = 0x21;
 
 impl Archive {
     pub fn new(file: AtomicFile) -> Archive {
@@ -81,11 +81,11 @@ impl Archive {
         }
         let (end, mut bytes) = (self.at, Bytes::default());
         // ZIP64 end of directory, its locator, and the old end of directory that points to it.
-        bytes.u32(0x0606_4b50).u64(44).u16(VERSION).u16(VERSION).u32(0).u32(0);
+        bytes.u32(0x0606_4b50).u64(44).u16(ZIP64_VERSION).u16(ZIP64_VERSION).u32(0).u32(0);
         bytes.u64(count).u64(count).u64(end - start).u64(start);
         bytes.u32(0x0706_4b50).u32(0).u64(end).u32(1);
         bytes.u32(0x0605_4b50).u16(0).u16(0).u16(count as u16).u16(count as u16);
-        bytes.u32(ELSEWHERE).u32(ELSEWHERE).u16(0);
+        bytes.u32(IN_ZIP64_FIELD).u32(IN_ZIP64_FIELD).u16(0);
         self.put(&bytes.0)?;
         Ok(self.file)
     }
@@ -98,8 +98,8 @@ impl Entry {
 
     fn local_header(&self, crc: u32, length: u64) -> Vec<u8> {
         let mut b = Bytes::default();
-        b.u32(0x0403_4b50).u16(VERSION).u16(0).u16(0).u16(0).u16(DATE);
-        b.u32(crc).u32(ELSEWHERE).u32(ELSEWHERE).u16(self.name.len() as u16).u16(20);
+        b.u32(0x0403_4b50).u16(ZIP64_VERSION).u16(0).u16(0).u16(0).u16(EARLIEST_DATE);
+        b.u32(crc).u32(IN_ZIP64_FIELD).u32(IN_ZIP64_FIELD).u16(self.name.len() as u16).u16(20);
         b.0.extend(self.name.as_bytes());
         b.u16(1).u16(16).u64(length).u64(length);
         b.0
@@ -107,9 +107,9 @@ impl Entry {
 
     fn directory_entry(&self) -> Vec<u8> {
         let mut b = Bytes::default();
-        b.u32(0x0201_4b50).u16(VERSION).u16(VERSION).u16(0).u16(0).u16(0).u16(DATE);
-        b.u32(self.crc()).u32(ELSEWHERE).u32(ELSEWHERE).u16(self.name.len() as u16).u16(28);
-        b.u16(0).u16(0).u16(0).u32(0).u32(ELSEWHERE);
+        b.u32(0x0201_4b50).u16(ZIP64_VERSION).u16(ZIP64_VERSION).u16(0).u16(0).u16(0).u16(EARLIEST_DATE);
+        b.u32(self.crc()).u32(IN_ZIP64_FIELD).u32(IN_ZIP64_FIELD).u16(self.name.len() as u16).u16(28);
+        b.u16(0).u16(0).u16(0).u32(0).u32(IN_ZIP64_FIELD);
         b.0.extend(self.name.as_bytes());
         b.u16(1).u16(24).u64(self.length).u64(self.length).u64(self.start);
         b.0

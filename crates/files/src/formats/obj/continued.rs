@@ -1,7 +1,7 @@
 //! Lines that a backslash continues.
 //!
-//! It does so in statements made of numbers. Comments and names may end in a backslash of their own (`mtllib C:\parts\`):
-//! there it continues nothing, or the statement on the next line would be lost.
+//! It does so in statements made of numbers. Comments and names may end in a backslash of their own (`mtllib C:\parts\`).
+//! That one continues nothing, or the statement on the next line would be lost.
 
 use std::borrow::Cow;
 
@@ -54,7 +54,7 @@ fn is_of_numbers(line: &[u8]) -> bool {
     OF_NUMBERS.contains(&word)
 }
 
-/// What stands before the backslash that continues a line of numbers; `None` where there is none, or it ends a comment.
+/// The text before the backslash that continues a line of numbers; `None` where there is none, or it ends a comment.
 fn without_backslash(line: &[u8]) -> Option<&[u8]> {
     let start = line.trim_ascii_end().strip_suffix(b"\\")?;
     (!start.contains(&b'#')).then_some(start)

@@ -1,6 +1,6 @@
 //! OBJ: vertices and polygons as text.
 //!
-//! Parts of the text are read at the same time, each giving its vertices and where its faces are; the corners are
+//! Parts of the text are read at the same time. Each gives its vertices and the places of its faces. The corners are
 //! looked up when all vertices are there.
 
 mod continued;
@@ -12,7 +12,7 @@ use crate::{
     format::{Format, Head, Parsed, ReadOptions, Weld, corners::corner_positions, loss::Loss},
     lines::{count_lines, is_text, line_end, parts, without_end_mark, without_mark},
     number::{integer, number, push_number},
-    source::{HEAD, Source},
+    source::{SNIFFED_BYTES, Source},
     unicode::no_zeros,
 };
 use std::io::Write;
@@ -32,8 +32,8 @@ pub(crate) const OBJ: Format = Format {
     mesh: Some(write),
 };
 
-/// Bytes of one part.
-const PART: usize = 1 << 20;
+/// One task reads about this many bytes.
+const OBJ_BYTES_PER_TASK: usize = 1 << 20;
 
 fn sniff(head: &Head) -> bool {
     let bytes = without_end_mark(head.bytes);
@@ -61,13 +61,13 @@ fn vertex(line: &[u8]) -> Option<&[u8]> {
 }
 
 fn read(mut source: Source, options: &ReadOptions) -> Result<Parsed> {
-    no_zeros(source.feed.ahead(HEAD)?)?;
+    no_zeros(source.feed.ahead(SNIFFED_BYTES)?)?;
     let text = without_mark(source.feed.all()?);
     no_zeros(text)?;
     let end = line_end(text);
     let text = continued::joined(without_end_mark(text), end);
-    let parts = parts(&text, PART, end);
-    let read: Vec<_> = parts.par_iter().map(|p| Part::read(p, end)).collect();
+    let parts = parts(&text, OBJ_BYTES_PER_TASK, end);
+    let read: Vec<_> = parts.par_iter().map(|p| TextPart::read(p, end)).collect();
     let starts = lines_before(&parts, end);
     let mut positions = Vec::new();
     let mut lists = Vec::new();
@@ -104,9 +104,9 @@ fn lines_before(parts: &[&[u8]], end: u8) -> Vec<u64> {
     parts.iter().map(&mut before).collect()
 }
 
-/// What a part of the text gives.
+/// The content of a part of the text.
 #[derive(Default)]
-struct Part<'a> {
+struct TextPart<'a> {
     positions: Vec<Point>,
     faces: Vec<Face<'a>>,
 }
@@ -120,9 +120,9 @@ struct Face<'a> {
     vertices: usize,
 }
 
-impl<'a> Part<'a> {
-    fn read(text: &'a [u8], end: u8) -> std::result::Result<Part<'a>, (u64, Fault)> {
-        let mut part = Part::default();
+impl<'a> TextPart<'a> {
+    fn read(text: &'a [u8], end: u8) -> std::result::Result<TextPart<'a>, (u64, Fault)> {
+        let mut part = TextPart::default();
         for (i, line) in text.split(|b| *b == end).enumerate() {
             let line = line.trim_ascii_start();
             let number = i as u64 + 1;
@@ -179,13 +179,13 @@ impl Face<'_> {
     }
 }
 
-/// Lines made into text at a time.
-const CHUNK: usize = 1 << 13;
+/// This many lines become text at a time.
+const OBJ_LINES_PER_WRITE: usize = 1 << 13;
 
 fn write(file: &mut AtomicFile, mesh: &Mesh) -> std::result::Result<Loss, WriteFault> {
     file.write_all(b"# millimetres\n")?;
     let mut text = Vec::new();
-    for positions in mesh.positions.chunks(CHUNK) {
+    for positions in mesh.positions.chunks(OBJ_LINES_PER_WRITE) {
         text.clear();
         for p in positions {
             text.push(b'v');
@@ -197,10 +197,10 @@ fn write(file: &mut AtomicFile, mesh: &Mesh) -> std::result::Result<Loss, WriteF
         }
         file.write_all(&text)?;
     }
-    for (i, faces) in mesh.faces.chunks(CHUNK).enumerate() {
+    for (i, faces) in mesh.faces.chunks(OBJ_LINES_PER_WRITE).enumerate() {
         text.clear();
         for (j, face) in faces.iter().enumerate() {
-            corner_positions(mesh, i * CHUNK + j, face)?;
+            corner_positions(mesh, i * OBJ_LINES_PER_WRITE + j, face)?;
             let [a, b, c] = face.map(|v| u64::from(v) + 1);
             writeln!(text, "f {a} {b} {c}")?;
         }

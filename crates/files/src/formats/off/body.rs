@@ -1,10 +1,10 @@
 //! The vertices and faces behind the counts.
 //!
-//! The format is free: numbers may be parted by any blanks. Only the colors of a face end with its line, and programs put
+//! The format is free: any blanks may part numbers. Only the colors of a face end with its line, and programs put
 //! further numbers behind a vertex that the keyword does not announce. So there are two readings. By lines, each row is
-//! a line and what follows on it is passed over; by words, a vertex has as many numbers as the keyword says, wherever
-//! the lines end. A reading that uses the file up to its last word without passing anything over unevenly is the right one.
-//! Where there is none, lines that give all rows are taken, and the first uneven one is told.
+//! a line, and further numbers on it are passed over. By words, a vertex has as many numbers as the keyword says, wherever
+//! the lines end. The right reading uses the file up to its last word and passes over equally many numbers in all rows.
+//! Where neither does, lines that give all rows are taken, and a warning names the first uneven one.
 
 use crate::{
     assemble::Faces,
@@ -14,16 +14,16 @@ use crate::{
 };
 use trueness_geom::space::Point;
 
-/// What was read, and how many bytes of further content follow.
+/// Vertices and faces, and how many bytes of further content follow.
 pub(super) struct Body {
     pub positions: Vec<Point>,
     pub faces: Faces,
     pub rest: u64,
-    /// The first line on which what was passed over is unlike other rows.
+    /// The first line on which more or fewer numbers were passed over than on others.
     pub uneven: Option<u64>,
 }
 
-/// What the header says.
+/// The counts of the header.
 pub(super) struct Counts {
     /// Vertices.
     pub vertices: u64,
@@ -35,7 +35,7 @@ pub(super) struct Counts {
     pub widths: Vec<usize>,
 }
 
-/// Reads what stands behind the counts, which `words` has passed.
+/// Reads the text behind the counts, which `words` has passed.
 pub(super) fn read(text: &[u8], words: Flow, counts: &Counts) -> Result<Body> {
     let mut by_lines = Reading::new(text, words.clone(), Rows::Lines);
     let lines = by_lines.run(counts);
@@ -59,7 +59,7 @@ pub(super) fn read(text: &[u8], words: Flow, counts: &Counts) -> Result<Body> {
     }
     match (lines, nearest) {
         (Ok(()), _) => Ok(by_lines.body()),
-        // Where the first rows are no lines, the place that the other reading names is the right one.
+        // Where the first rows are no lines, the reading by words names the right place.
         (Err(_), Some(fault)) if by_lines.uneven.is_some() || by_lines.positions.len() < 2 => Err(fault),
         (Err(fault), _) => Err(fault),
     }
@@ -81,7 +81,7 @@ struct Reading<'a> {
     rows: Rows,
     positions: Vec<Point>,
     faces: Faces,
-    /// Numbers passed over behind vertices and faces, so far as they are equally many.
+    /// How many numbers were passed over behind each vertex and each face, as long as they are equally many.
     extra: [Option<usize>; 2],
     /// The first line where they are not.
     uneven: Option<u64>,
@@ -127,7 +127,7 @@ impl<'a> Reading<'a> {
         if self.rows == Rows::Lines { self.words.next_on_line() } else { self.words.next() }
     }
 
-    /// What stands on the line of the last word, for messages.
+    /// The line of the last word, for messages.
     fn shown(&self) -> &'a [u8] {
         let is_end = |b: &u8| matches!(b, b'\n' | b'\r');
         let at = self.words.at;

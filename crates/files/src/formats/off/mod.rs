@@ -9,7 +9,7 @@ use crate::{
     format::{Format, Head, Parsed, ReadOptions, Weld, corners::corner_positions, loss::Loss},
     lines::{without_filling, without_mark},
     number::{count, push_number},
-    source::{HEAD, Source},
+    source::{SNIFFED_BYTES, Source},
     unicode::no_zeros,
 };
 use body::Counts;
@@ -41,8 +41,8 @@ fn keyword(text: &[u8]) -> Option<(&[u8], usize)> {
 }
 
 fn read(mut source: Source, options: &ReadOptions) -> Result<Parsed> {
-    no_zeros(without_filling(source.feed.ahead(HEAD)?).0)?;
-    // What fills the file up behind the last face is no part of it.
+    no_zeros(without_filling(source.feed.ahead(SNIFFED_BYTES)?).0)?;
+    // Zeros and blanks that fill the file up are no part of it.
     let text = without_filling(source.feed.all()?).0;
     no_zeros(text)?;
     let text = without_mark(text);
@@ -108,13 +108,13 @@ fn counts(words: &mut Flow) -> std::result::Result<Counts, Fault> {
     Ok(Counts { vertices, faces, edges, widths })
 }
 
-/// Lines made into text at a time.
-const CHUNK: usize = 1 << 13;
+/// This many lines become text at a time.
+const OFF_LINES_PER_WRITE: usize = 1 << 13;
 
 fn write(file: &mut AtomicFile, mesh: &Mesh) -> std::result::Result<Loss, WriteFault> {
     writeln!(file, "OFF\n# millimetres\n{} {} 0", mesh.positions.len(), mesh.faces.len())?;
     let mut text = Vec::new();
-    for positions in mesh.positions.chunks(CHUNK) {
+    for positions in mesh.positions.chunks(OFF_LINES_PER_WRITE) {
         text.clear();
         for [x, y, z] in positions {
             for (x, after) in [(x, b' '), (y, b' '), (z, b'\n')] {
@@ -124,10 +124,10 @@ fn write(file: &mut AtomicFile, mesh: &Mesh) -> std::result::Result<Loss, WriteF
         }
         file.write_all(&text)?;
     }
-    for (i, faces) in mesh.faces.chunks(CHUNK).enumerate() {
+    for (i, faces) in mesh.faces.chunks(OFF_LINES_PER_WRITE).enumerate() {
         text.clear();
         for (j, face) in faces.iter().enumerate() {
-            corner_positions(mesh, i * CHUNK + j, face)?;
+            corner_positions(mesh, i * OFF_LINES_PER_WRITE + j, face)?;
             let [a, b, c] = face;
             writeln!(text, "3 {a} {b} {c}")?;
         }

@@ -13,8 +13,8 @@ use crate::{
 use rayon::prelude::*;
 use trueness_geom::space::Point;
 
-/// Names of the list of vertices.
-pub(super) const INDICES: [&str; 2] = ["vertex_indices", "vertex_index"];
+/// Names of the property that lists the vertices of a face.
+pub(super) const INDEX_LIST_NAMES: [&str; 2] = ["vertex_indices", "vertex_index"];
 
 /// Whether an element connects vertices.
 pub(super) fn is_faces(element: &Element) -> bool {
@@ -23,14 +23,14 @@ pub(super) fn is_faces(element: &Element) -> bool {
 
 /// Which property is the list of vertices.
 fn indices(element: &Element) -> Option<usize> {
-    INDICES.iter().find_map(|name| {
+    INDEX_LIST_NAMES.iter().find_map(|name| {
         let (i, property) = element.property(name)?;
         matches!(property.kind, PropertyType::List { .. }).then_some(i)
     })
 }
 
-/// Length of the row ahead; `None` if the file ends within it. `starts`, if there are as many as properties, become the
-/// places in it where they begin.
+/// Length of the row ahead; `None` if the file ends within it. Where `starts` has a place for each property, it receives
+/// the offsets of the properties in the row.
 pub(super) fn row_length(
     feed: &mut Feed,
     element: &Element,
@@ -95,7 +95,7 @@ pub(super) fn read<'a>(
                 return Err(Fault::Short { what: "faces", declared: element.count, present: row }.at_byte(at));
             }
             if list.is_some() {
-                take(element, &corners, positions, faces).map_err(|f| f.at_byte(at))?;
+                add_faces(element, &corners, positions, faces).map_err(|f| f.at_byte(at))?;
             }
         }
     }
@@ -103,7 +103,7 @@ pub(super) fn read<'a>(
 }
 
 /// Takes the corners of a face, or those of many strips.
-fn take(
+fn add_faces(
     element: &Element,
     corners: &[f64],
     positions: &[Point],
@@ -140,7 +140,7 @@ struct Bytes<'a> {
 }
 
 impl<'a> Bytes<'a> {
-    fn take(&mut self, length: usize) -> Option<&'a [u8]> {
+    fn take_bytes(&mut self, length: usize) -> Option<&'a [u8]> {
         let (taken, rest) = self.rest.split_at_checked(length)?;
         self.rest = rest;
         self.at += length as u64;
@@ -154,7 +154,7 @@ impl<'a> Bytes<'a> {
                 PropertyType::One(scalar) => (1.0, scalar),
                 PropertyType::List { count, item } => {
                     let at = self.at;
-                    let Some(bytes) = self.take(count.size()) else { return Ok(false) };
+                    let Some(bytes) = self.take_bytes(count.size()) else { return Ok(false) };
                     let n = count.get(bytes, self.order);
                     if n < 0.0 {
                         return Err(
@@ -164,7 +164,7 @@ impl<'a> Bytes<'a> {
                     (n, item)
                 }
             };
-            let Some(bytes) = self.take((count as usize).saturating_mul(item.size())) else {
+            let Some(bytes) = self.take_bytes((count as usize).saturating_mul(item.size())) else {
                 return Ok(false);
             };
             if wanted == Some(i) {
@@ -176,28 +176,29 @@ impl<'a> Bytes<'a> {
     }
 }
 
-/// The common case: nothing but triangles of 32-bit numbers. False, and nothing done, if it is not that.
+/// Reads the common case: nothing but triangles of 32-bit numbers. False, with nothing read, in any other case.
 fn plain(bytes: &mut Bytes, element: &Element, positions: &[Point], faces: &mut Faces) -> bool {
-    const ROW: usize = 13;
+    const TRIANGLE_ROW_BYTES: usize = 13;
     let list = |k: &PropertyType| matches!(k, PropertyType::List { count: c, item: Scalar::I32 | Scalar::U32 } if c.size() == 1);
     let one = element.name == "face"
         && matches!(&element.properties[..], [p] if list(&p.kind) && is_faces(element));
-    let Some(length) = usize::try_from(element.count).ok().and_then(|n| n.checked_mul(ROW)) else {
+    let Some(length) = usize::try_from(element.count).ok().and_then(|n| n.checked_mul(TRIANGLE_ROW_BYTES))
+    else {
         return false;
     };
     let Some((rows, rest)) = bytes.rest.split_at_checked(length).filter(|_| one) else { return false };
-    let rows = rows.as_chunks::<ROW>().0;
+    let rows = rows.as_chunks::<TRIANGLE_ROW_BYTES>().0;
     let big = bytes.order == Order::Big;
-    let corner = |r: &[u8; ROW], k: usize| {
+    let corner = |r: &[u8; TRIANGLE_ROW_BYTES], k: usize| {
         let b = [r[4 * k + 1], r[4 * k + 2], r[4 * k + 3], r[4 * k + 4]];
         if big { u32::from_be_bytes(b) } else { u32::from_le_bytes(b) }
     };
     let count = positions.len();
-    let good = |r: &[u8; ROW]| r[0] == 3 && (0..3).all(|k| (corner(r, k) as usize) < count);
+    let good = |r: &[u8; TRIANGLE_ROW_BYTES]| r[0] == 3 && (0..3).all(|k| (corner(r, k) as usize) < count);
     if !rows.par_iter().with_min_len(1 << 13).all(good) {
         return false;
     }
-    let triangle = |r: &[u8; ROW]| [corner(r, 0), corner(r, 1), corner(r, 2)];
+    let triangle = |r: &[u8; TRIANGLE_ROW_BYTES]| [corner(r, 0), corner(r, 1), corner(r, 2)];
     faces.triangles.par_extend(rows.par_iter().with_min_len(1 << 13).map(triangle));
     bytes.rest = rest;
     bytes.at += length as u64;
@@ -213,18 +214,18 @@ fn in_text<'a>(
     positions: &[Point],
     faces: &mut Faces,
 ) -> Result<&'a [u8]> {
-    let wanted: text::Wanted = |element| indices(element).filter(|_| is_faces(element));
+    let wanted: text::WantedList = |element| indices(element).filter(|_| is_faces(element));
     let (mut of_lines, mut of_words) = (Faces::default(), Faces::default());
-    let mut to_lines = |e: &Element, list: &[f64]| take(e, list, positions, &mut of_lines);
+    let mut to_lines = |e: &Element, list: &[f64]| add_faces(e, list, positions, &mut of_lines);
     let lines = text::by_lines(rest, before, elements, wanted, &mut to_lines);
     if !lines.as_ref().is_ok_and(|passed| passed.is_exact(to_end)) {
-        let mut to_words = |e: &Element, list: &[f64]| take(e, list, positions, &mut of_words);
+        let mut to_words = |e: &Element, list: &[f64]| add_faces(e, list, positions, &mut of_words);
         match text::by_words(rest, before, elements, wanted, &mut to_words) {
             Ok(passed) if passed.is_exact(to_end) => {
                 faces.append(of_words);
                 return Ok(passed.rest);
             }
-            // Where the first rows are no lines, the place that the other reading names is the right one.
+            // Where the first rows are no lines, the reading by words names the right place.
             Err(fault) if lines.is_err() && of_lines.triangles.len() < 2 => return Err(fault),
             _ => {}
         }

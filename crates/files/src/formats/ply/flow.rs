@@ -10,8 +10,8 @@ use crate::{
 };
 use trueness_geom::{cloud::PointStream, space::Point};
 
-/// Bytes looked at for one block at first.
-const WINDOW: usize = 1 << 20;
+/// A block begins with a window of this many bytes.
+const FIRST_WINDOW_BYTES: usize = 1 << 20;
 
 /// Points of such rows.
 pub(super) struct FlowPoints {
@@ -26,8 +26,8 @@ pub(super) struct FlowPoints {
     block: usize,
 }
 
-/// Whether the rows of `vertex` are lines: `head` is what comes first of them, and `whole` if nothing comes after it. A line may
-/// hold more words than a row has properties if all of them do.
+/// Whether the rows of `vertex` are lines. `head` holds the first rows, and all of them if `whole`. Lines may hold more words than a
+/// row has properties if all lines do.
 pub(super) fn rows_are_lines(vertex: &Element, xyz: [usize; 3], head: &[u8], whole: bool) -> bool {
     let list = vertex.properties.iter().position(|p| matches!(p.kind, PropertyType::List { .. }));
     if let Some(list) = list {
@@ -39,7 +39,7 @@ pub(super) fn rows_are_lines(vertex: &Element, xyz: [usize; 3], head: &[u8], who
     let mut lines = Lines::new(head);
     let (mut count, mut width) = (0, None);
     while count < vertex.count {
-        let Some(line) = lines.find(said) else { break };
+        let Some(line) = lines.find(has_words) else { break };
         // The head may end within a line.
         if !whole && lines.rest().is_empty() {
             return true;
@@ -53,8 +53,8 @@ pub(super) fn rows_are_lines(vertex: &Element, xyz: [usize; 3], head: &[u8], who
     count == vertex.count || !whole || width == Some(vertex.properties.len())
 }
 
-/// Whether a line is a row.
-fn said(line: &&[u8]) -> bool {
+/// Whether a line has words.
+fn has_words(line: &&[u8]) -> bool {
     !line.trim_ascii().is_empty() && !line.trim_ascii().starts_with(b"#")
 }
 
@@ -63,7 +63,7 @@ fn lists_are_missing(vertex: &Element, head: &[u8], whole: bool) -> bool {
     let single = vertex.properties.iter().filter(|p| matches!(p.kind, PropertyType::One(_))).count();
     let mut lines = Lines::new(head);
     for _ in 0..vertex.count {
-        let Some(line) = lines.find(said) else { break };
+        let Some(line) = lines.find(has_words) else { break };
         // The head may end within a line.
         if !whole && lines.rest().is_empty() {
             break;
@@ -144,7 +144,7 @@ impl PointStream for FlowPoints {
     }
     fn next_block(&mut self, block: &mut Vec<Point>) -> Result<()> {
         block.clear();
-        let mut want = WINDOW;
+        let mut want = FIRST_WINDOW_BYTES;
         while block.is_empty() && self.found < self.vertex.count {
             let used = self.rows(want, block)?;
             self.feed.step(used);

@@ -1,4 +1,4 @@
-//! The header of a PLY file: what elements there are, of what properties, and how they are written.
+//! The header of a PLY file: its elements, their properties, and how these are written.
 
 use crate::{
     Warning,
@@ -15,7 +15,7 @@ pub(super) enum Encoding {
     Binary(Order),
 }
 
-/// What a property holds.
+/// The type of a property.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum PropertyType {
     One(Scalar),
@@ -42,7 +42,7 @@ pub(super) struct Element {
 }
 
 impl Element {
-    /// Rows that have to be gone through. Without properties they hold nothing, however many are declared.
+    /// Number of rows to read. Rows without properties hold nothing, however many are declared.
     pub fn rows(&self) -> u64 {
         if self.properties.is_empty() { 0 } else { self.count }
     }
@@ -78,7 +78,7 @@ pub(super) struct Header {
     pub lines: u64,
     /// The byte that ends lines.
     pub end: u8,
-    /// Lines before the first element that begin with no known word: old exporters sign there without `comment`.
+    /// The warning about lines before the first element that begin with no known word. Old exporters sign there without `comment`.
     pub unknown: Option<Warning>,
 }
 
@@ -91,8 +91,8 @@ impl Header {
     }
 }
 
-/// Elements and properties beyond this are not a header but an attack.
-const MOST: usize = 4096;
+/// A file has this many elements, and each of them this many properties, at most. More are an attack.
+const MAX_ELEMENTS_OR_PROPERTIES: usize = 4096;
 
 /// Whether a file begins with the word `ply` on a line of its own, in small letters or capitals.
 pub(super) fn is_magic(bytes: &[u8]) -> bool {
@@ -133,7 +133,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Header> {
             Some(b"property") => {
                 let property = property(line, header.lines)?;
                 match header.elements.last_mut() {
-                    Some(e) if e.properties.len() < MOST => e.properties.push(property),
+                    Some(e) if e.properties.len() < MAX_ELEMENTS_OR_PROPERTIES => e.properties.push(property),
                     _ => return Err(wrong("an element before its properties", line)),
                 }
             }
@@ -141,7 +141,7 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Header> {
             Some(_) if header.elements.is_empty() && header.lines > 1 => header.passed_over(line),
             _ => return Err(wrong("\"element\", \"property\", \"comment\" or \"end_header\"", line)),
         }
-        if header.elements.len() > MOST {
+        if header.elements.len() > MAX_ELEMENTS_OR_PROPERTIES {
             return Err(wrong("a reasonable number of elements", line));
         }
     }

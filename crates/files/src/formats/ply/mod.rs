@@ -40,18 +40,18 @@ pub(crate) const PLY: Format = Format {
     mesh: Some(write::mesh),
 };
 
-/// The longest header that is read.
-const HEADER: usize = 1 << 20;
+/// A header is read up to this length.
+const MAX_PLY_HEADER_BYTES: usize = 1 << 20;
 
 fn read(mut source: Source, options: &ReadOptions) -> Result<Parsed> {
-    let marked = source.feed.ahead(HEADER)?;
+    let marked = source.feed.ahead(MAX_PLY_HEADER_BYTES)?;
     let mark = marked.len() - without_mark(marked).len();
     source.feed.step(mark);
-    let bytes = source.feed.ahead(HEADER)?;
+    let bytes = source.feed.ahead(MAX_PLY_HEADER_BYTES)?;
     if !bytes.get(..3).is_some_and(|word| word.eq_ignore_ascii_case(b"ply")) {
         return Err(Fault::unexpected("\"ply\"", &bytes[..bytes.len().min(16)]).at_line(1));
     }
-    let header = header::parse(&bytes[..bytes.len().min(HEADER)])?;
+    let header = header::parse(&bytes[..bytes.len().min(MAX_PLY_HEADER_BYTES)])?;
     source.feed.step(header.length);
     let variant = match header.encoding {
         Encoding::Ascii => "ply-ascii",
@@ -60,7 +60,7 @@ fn read(mut source: Source, options: &ReadOptions) -> Result<Parsed> {
     };
     let (before, vertex, after) = split(&header)?;
     let mut lines = header.lines;
-    let early = Early {
+    let skipped = BeforeVertices {
         at: header.length as u64,
         lines,
         bytes: skip(&mut source.feed, &header, before, &mut lines)?,
@@ -72,7 +72,9 @@ fn read(mut source: Source, options: &ReadOptions) -> Result<Parsed> {
         warnings.extend((count == 0).then_some(Warning::Nothing));
         let whole = after.iter().all(|e| e.count == 0);
         return Ok(match points {
-            points if whole => Parsed { warnings, ..Parsed::points(variant, Whole { points, count }) },
+            points if whole => {
+                Parsed { warnings, ..Parsed::points(variant, VerticesToEnd { points, count }) }
+            }
             points => Parsed { warnings, ..Parsed::points(variant, points) },
         });
     }
@@ -83,7 +85,7 @@ fn read(mut source: Source, options: &ReadOptions) -> Result<Parsed> {
     let mut faces = Faces::default();
     let encoding = header.encoding;
     if has_faces(before) {
-        let stretch = Stretch { bytes: &early.bytes, at: early.at, lines: early.lines };
+        let stretch = Stretch { bytes: &skipped.bytes, at: skipped.at, lines: skipped.lines };
         faces::read(stretch, encoding, before, false, &positions, &mut faces)?;
     }
     let stretch = Stretch { bytes: in_encoding(feed.all()?, encoding), at, lines };
@@ -95,13 +97,13 @@ fn read(mut source: Source, options: &ReadOptions) -> Result<Parsed> {
     Ok(Parsed::mesh(variant, SourceMesh { mesh, unread: unread(&header), ..SourceMesh::default() }, warnings))
 }
 
-/// What the vertices and faces have beside places and corners, each name once.
+/// Names of the properties of vertices and faces beside places and corners, each once.
 fn unread(header: &Header) -> Vec<String> {
     let mut names: Vec<String> = vec![];
     for element in header.elements.iter().filter(|e| e.count > 0) {
         let known: &[&str] = match element.name.as_str() {
             "vertex" => &["x", "y", "z"],
-            _ if faces::is_faces(element) => &faces::INDICES,
+            _ if faces::is_faces(element) => &faces::INDEX_LIST_NAMES,
             _ => continue,
         };
         for property in &element.properties {
@@ -113,8 +115,8 @@ fn unread(header: &Header) -> Vec<String> {
     names
 }
 
-/// What stands before the vertices: its bytes, and where they begin.
-struct Early {
+/// The content before the vertices: its bytes, and where they begin.
+struct BeforeVertices {
     at: u64,
     lines: u64,
     bytes: Vec<u8>,
@@ -125,7 +127,7 @@ fn has_faces(elements: &[Element]) -> bool {
     elements.iter().any(|e| e.count > 0 && faces::is_faces(e))
 }
 
-/// Text without what fills the file up behind it; bytes as they are.
+/// Text without the zeros and blanks that fill the file up; bytes as they are.
 fn in_encoding(rest: &[u8], encoding: Encoding) -> &[u8] {
     match encoding {
         Encoding::Ascii => without_filling(rest).0,
@@ -152,7 +154,7 @@ fn skip(feed: &mut Feed, header: &Header, elements: &[Element], lines: &mut u64)
     }
     let Encoding::Binary(order) = header.encoding else {
         let all = feed.all()?;
-        let length = all.len() - text::behind(all, *lines, elements)?.len();
+        let length = all.len() - text::skip_elements(all, *lines, elements)?.len();
         if keeps {
             kept.extend_from_slice(&all[..length]);
         }
@@ -175,7 +177,7 @@ fn skip(feed: &mut Feed, header: &Header, elements: &[Element], lines: &mut u64)
     Ok(kept)
 }
 
-/// The positions of x, y and z, or what else they are called, among the properties of the vertices.
+/// Where x, y and z, under any of their names, stand among the properties of the vertices.
 fn coordinates(vertex: &Element, header: &Header, names: [&str; 3]) -> Result<[usize; 3]> {
     let mut found = [0; 3];
     for (name, found) in names.into_iter().zip(&mut found) {
@@ -192,13 +194,13 @@ fn coordinates(vertex: &Element, header: &Header, names: [&str; 3]) -> Result<[u
     Ok(found)
 }
 
-/// The vertices as a stream, behind which nothing but blanks may come: rows beyond those declared would be lost.
-struct Whole {
+/// The vertices as a stream. Only blanks may follow it: rows beyond the declared ones would be lost.
+struct VerticesToEnd {
     points: Points,
     count: u64,
 }
 
-impl PointStream for Whole {
+impl PointStream for VerticesToEnd {
     type Error = Located;
     fn expected(&self) -> Option<u64> {
         self.points.expected()
@@ -219,7 +221,7 @@ impl PointStream for Whole {
     }
 }
 
-/// What is wrong with what follows the vertices: in a text mostly a header that counts too few of them.
+/// The fault of bytes after the vertices. In a text mostly the header counts too few vertices.
 fn beyond(rest: &[u8], text: bool, declared: u64) -> Fault {
     let what = "vertices";
     let lines = text.then(|| std::str::from_utf8(rest).ok()).flatten().unwrap_or_default().lines();
@@ -254,9 +256,9 @@ impl Points {
         let names = if options.normals { ["nx", "ny", "nz"] } else { ["x", "y", "z"] };
         let xyz = coordinates(vertex, header, names)?;
         let Encoding::Binary(order) = header.encoding else {
-            let head = feed.ahead(HEADER)?;
-            let whole = head.len() < HEADER;
-            if !flow::rows_are_lines(vertex, xyz, &head[..head.len().min(HEADER)], whole) {
+            let head = feed.ahead(MAX_PLY_HEADER_BYTES)?;
+            let whole = head.len() < MAX_PLY_HEADER_BYTES;
+            if !flow::rows_are_lines(vertex, xyz, &head[..head.len().min(MAX_PLY_HEADER_BYTES)], whole) {
                 let (vertex, block) = (vertex.clone(), options.block);
                 return Ok(Points::Flow(FlowPoints::new(feed, vertex, xyz, header.end, lines, block)));
             }
@@ -285,7 +287,7 @@ impl Points {
         Ok(Points::Loose(LoosePoints::new(feed, vertex.clone(), rows, xyz, options.block)))
     }
 
-    /// All points that are left. Grows with what is there, not with what is declared.
+    /// All points that are left. Memory grows with the bytes that are there, not with the declared count.
     fn drain(&mut self) -> Result<Vec<Point>> {
         let (mut all, mut block) = (vec![], vec![]);
         loop {

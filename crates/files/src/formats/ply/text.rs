@@ -1,8 +1,8 @@
 //! Rows of elements in text.
 //!
-//! As the format is mostly written, a row is a line. Its readers take words wherever the lines end, so files with lines
-//! broken at will are about. A reading by lines in which each holds exactly the words of a row is the right one. Else one by
-//! words is, if it uses the file up to its last word. Where neither is, the fault of the one that fits better is told.
+//! Most programs write a row as a line. Most readers take words wherever the lines end, so there are files with lines
+//! broken at will. A reading by lines is right if each line holds exactly the words of a row. Else a reading by words is
+//! right if it uses the file up to its last word. Where neither is right, the fault of the better one is reported.
 
 use super::header::{Element, PropertyType};
 use crate::{
@@ -12,13 +12,13 @@ use crate::{
     number::{count, whole_number},
 };
 
-/// What is done with the list of a row: number of the property, and its numbers.
-pub(super) type Take<'t> = dyn FnMut(&Element, &[f64]) -> std::result::Result<(), Fault> + 't;
+/// Takes the wanted list of a row: the element and the numbers of the list.
+pub(super) type TakeList<'t> = dyn FnMut(&Element, &[f64]) -> std::result::Result<(), Fault> + 't;
 
 /// The property wanted of the rows of an element, if any.
-pub(super) type Wanted = fn(&Element) -> Option<usize>;
+pub(super) type WantedList = fn(&Element) -> Option<usize>;
 
-/// What follows the rows, and whether each of them was as long as it should.
+/// The text after the rows, and whether each row had its proper length.
 pub(super) struct Passed<'a> {
     pub rest: &'a [u8],
     even: bool,
@@ -29,8 +29,8 @@ pub(super) fn by_lines<'a>(
     text: &'a [u8],
     before: u64,
     elements: &[Element],
-    wanted: Wanted,
-    take: &mut Take,
+    wanted: WantedList,
+    take: &mut TakeList,
 ) -> Result<Passed<'a>> {
     let mut lines = Lines::new(text);
     let (mut list, mut even) = (vec![], true);
@@ -42,11 +42,11 @@ pub(super) fn by_lines<'a>(
             };
             let number = before + lines.number;
             let mut words = words(line);
-            // What is not wanted may be written in any way.
+            // Rows that are not wanted may be written in any way.
             match row_of(element, wanted, &mut words, &mut list) {
                 Ok(()) => even &= words.next().is_none(),
-                Err(Missing) if wanted.is_none() => even = false,
-                Err(Missing) => return Err(Fault::unexpected(expected(element), line).at_line(number)),
+                Err(BadRow) if wanted.is_none() => even = false,
+                Err(BadRow) => return Err(Fault::unexpected(expected(element), line).at_line(number)),
             }
             if wanted.is_some() {
                 take(element, &list).map_err(|f| f.at_line(number))?;
@@ -61,8 +61,8 @@ pub(super) fn by_words<'a>(
     text: &'a [u8],
     before: u64,
     elements: &[Element],
-    wanted: Wanted,
-    take: &mut Take,
+    wanted: WantedList,
+    take: &mut TakeList,
 ) -> Result<Passed<'a>> {
     let mut flow = Flow::new(text, false);
     let mut list = vec![];
@@ -86,15 +86,15 @@ pub(super) fn by_words<'a>(
 }
 
 impl Passed<'_> {
-    /// Whether every row was as long as it should and, if the text should end there, nothing follows.
+    /// Whether every row had its proper length and, if `to_end`, nothing follows.
     pub fn is_exact(&self, to_end: bool) -> bool {
         self.even && (!to_end || self.rest.trim_ascii().is_empty())
     }
 }
 
-/// What follows the rows of elements of which nothing is wanted.
-pub(super) fn behind<'a>(text: &'a [u8], before: u64, elements: &[Element]) -> Result<&'a [u8]> {
-    let (nothing, mut take): (Wanted, _) = (|_| None, |_: &Element, _: &[f64]| Ok(()));
+/// The text after the rows of elements that are not wanted.
+pub(super) fn skip_elements<'a>(text: &'a [u8], before: u64, elements: &[Element]) -> Result<&'a [u8]> {
+    let (nothing, mut take): (WantedList, _) = (|_| None, |_: &Element, _: &[f64]| Ok(()));
     let lines = by_lines(text, before, elements, nothing, &mut take);
     match lines {
         Ok(passed) if passed.is_exact(false) => Ok(passed.rest),
@@ -119,7 +119,7 @@ fn expected(element: &Element) -> &'static str {
 }
 
 /// A row is not what it should be.
-pub(super) struct Missing;
+pub(super) struct BadRow;
 
 /// Passes over the words of a row and gives the numbers of the list `wanted`.
 pub(super) fn row_of<'w>(
@@ -127,21 +127,21 @@ pub(super) fn row_of<'w>(
     wanted: Option<usize>,
     words: &mut impl Iterator<Item = &'w [u8]>,
     list: &mut Vec<f64>,
-) -> std::result::Result<(), Missing> {
-    let mut next = || words.next().ok_or(Missing);
+) -> std::result::Result<(), BadRow> {
+    let mut next = || words.next().ok_or(BadRow);
     for (i, property) in element.properties.iter().enumerate() {
         let PropertyType::List { .. } = property.kind else {
             next()?;
             continue;
         };
-        let size = count(next()?).ok_or(Missing)?;
+        let size = count(next()?).ok_or(BadRow)?;
         if wanted == Some(i) {
             list.clear();
         }
         for _ in 0..size {
             let word = next()?;
             if wanted == Some(i) {
-                list.push(whole_number(word, b'.').ok_or(Missing)?);
+                list.push(whole_number(word, b'.').ok_or(BadRow)?);
             }
         }
     }

@@ -12,10 +12,10 @@ use crate::{
 use std::io::{Seek, SeekFrom, Write};
 use trueness_geom::mesh::Mesh;
 
-/// Rows turned into bytes at a time.
-const CHUNK: usize = 1 << 14;
-/// Digits kept free for the number of points.
-const DIGITS: usize = 20;
+/// This many rows become bytes at a time.
+const PLY_ROWS_PER_WRITE: usize = 1 << 14;
+/// Digits reserved for the number of points.
+const COUNT_DIGITS: usize = 20;
 
 /// The header of `count` vertices: always of the same length, so that it can be written again when they are counted.
 fn header(layout: Layout, count: u64, faces: Option<usize>) -> String {
@@ -32,7 +32,7 @@ fn header(layout: Layout, count: u64, faces: Option<usize>) -> String {
     if let Some(faces) = faces {
         text.push_str(&format!("element face {faces}\nproperty list uchar uint vertex_indices\n"));
     }
-    text.push_str(&format!("comment {}\nend_header\n", "-".repeat(DIGITS - digits)));
+    text.push_str(&format!("comment {}\nend_header\n", "-".repeat(COUNT_DIGITS - digits)));
     text
 }
 
@@ -55,9 +55,9 @@ struct Rows {
 impl PointsSink for Rows {
     fn write(&mut self, block: &Block) -> Result<(), WriteFault> {
         let mut bytes = Vec::new();
-        for start in (0..block.points.len()).step_by(CHUNK) {
+        for start in (0..block.points.len()).step_by(PLY_ROWS_PER_WRITE) {
             bytes.clear();
-            for i in start..block.points.len().min(start + CHUNK) {
+            for i in start..block.points.len().min(start + PLY_ROWS_PER_WRITE) {
                 push(&mut bytes, &block.points[i]);
                 if let Some(d) = block.deviation.get(i) {
                     bytes.extend(d.to_le_bytes());
@@ -86,15 +86,15 @@ pub(super) fn mesh(file: &mut AtomicFile, mesh: &Mesh) -> Result<Loss, WriteFaul
     let header = header(Layout::default(), mesh.positions.len() as u64, Some(mesh.faces.len()));
     file.write_all(header.as_bytes())?;
     let mut bytes = Vec::new();
-    for positions in mesh.positions.chunks(CHUNK) {
+    for positions in mesh.positions.chunks(PLY_ROWS_PER_WRITE) {
         bytes.clear();
         push(&mut bytes, positions.as_flattened());
         file.write_all(&bytes)?;
     }
-    for (i, faces) in mesh.faces.chunks(CHUNK).enumerate() {
+    for (i, faces) in mesh.faces.chunks(PLY_ROWS_PER_WRITE).enumerate() {
         bytes.clear();
         for (j, face) in faces.iter().enumerate() {
-            corner_positions(mesh, i * CHUNK + j, face)?;
+            corner_positions(mesh, i * PLY_ROWS_PER_WRITE + j, face)?;
             bytes.push(3);
             bytes.extend(face.iter().flat_map(|v| v.to_le_bytes()));
         }

@@ -1,7 +1,7 @@
 //! Lines, arcs, circles and B-splines of a drawing as curves in space: a geometric curve set for each layer.
 //!
-//! An arc is a circle whose first axis points to the arc's start and whose third axis is such that the arc runs
-//! counter-clockwise about it: it is trimmed from 0 to the angle run through, whatever its sense.
+//! An arc is a circle whose first axis points to the start of the arc. The arc runs counter-clockwise about the third axis.
+//! So every arc is trimmed from 0 to the angle run through, whatever its sense.
 
 use super::instances::{Instances, file, list, product, real};
 use crate::content::drawing::{Clamped, Entity, Layer, whole};

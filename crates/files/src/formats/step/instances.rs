@@ -66,7 +66,7 @@ pub(super) fn file(out: &mut dyn Write, description: &str, name: &str, model: &I
     writeln!(out, "ENDSEC;\nEND-ISO-10303-21;")
 }
 
-/// What every file needs to say about a product and its units. Gives the context of the shape, and the product's shape.
+/// The instances about a product and its units that every file needs. Gives the context of the shape, and the product's shape.
 pub(super) fn product(file: &mut Instances, name: &str) -> (String, String) {
     let application = file.add("APPLICATION_CONTEXT('core data for automotive mechanical design processes')");
     file.add(&format!(

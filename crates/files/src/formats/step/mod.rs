@@ -1,5 +1,5 @@
-//! STEP files (ISO 10303-21): what all of them say that are written, of application protocol 214 and in millimeters; and what
-//! is read of others'.
+//! STEP files (ISO 10303-21): the common part of written ones, of application protocol 214 and in millimeters; and their
+//! reading.
 //!
 //! The header's time stamp is fixed, so that the same model gives the same bytes.
 

@@ -5,14 +5,14 @@ use crate::content::spline_model::SplineModel;
 use crate::error::{Fault, Result};
 use crate::format::{Parsed, ReadOptions};
 use crate::formats::spline::{Raw, curve, surface};
-use crate::source::{HEAD, Source};
+use crate::source::{SNIFFED_BYTES, Source};
 use crate::unicode::no_zeros;
 use crate::{Unit, Warning};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Reads a file.
 pub(super) fn read(mut source: Source, options: &ReadOptions) -> Result<Parsed> {
-    no_zeros(source.feed.ahead(HEAD)?)?;
+    no_zeros(source.feed.ahead(SNIFFED_BYTES)?)?;
     let text = source.feed.all()?;
     no_zeros(text)?;
     let file = Instances::of(text)?;
@@ -31,7 +31,7 @@ pub(super) fn read(mut source: Source, options: &ReadOptions) -> Result<Parsed> 
         }
         let records = file.records(number)?;
         if let Some(raw) = points.raw(number, &records, 2)? {
-            // Surfaces that no face names may be what others are offset from.
+            // A surface that no face names may be the basis of an offset surface.
             if !faces.is_empty() && !used.contains_key(&number) {
                 continue;
             }
@@ -59,7 +59,7 @@ pub(super) fn read(mut source: Source, options: &ReadOptions) -> Result<Parsed> 
     Ok(Parsed::splines("step", model, said, warnings))
 }
 
-/// Files that place their parts are refused: surfaces would be taken where they do not lie.
+/// Refuses a file that places its parts, because its surfaces would be taken where they do not lie.
 fn placed(file: &Instances) -> Result<()> {
     for number in file.numbers() {
         for keyword in
@@ -215,17 +215,19 @@ impl Points<'_> {
         Ok(place)
     }
 
-    /// What the entities say of a surface (`dimensions` of 2) or a curve (1); `None` if they are none.
+    /// The numbers of a surface (`dimensions` is 2) or a curve (1) in these entities; `None` if they are none.
     fn raw(&mut self, number: u64, records: &[Record], dimensions: usize) -> Result<Option<Raw>> {
-        let names = if dimensions == 2 { SURFACES } else { CURVES };
+        let names = if dimensions == 2 { SURFACE_ENTITIES } else { CURVE_ENTITIES };
         let find = |name: &[u8]| records.iter().find(|r| r.0 == name).map(|r| &r.1[..]);
         let simple = records.len() == 1;
         let Some((kind, own)) = names[..4].iter().find_map(|n| Some((*n, find(n)?))) else { return Ok(None) };
         // A simple instance has its name first, then all parameters; of a complex one each entity has its own.
         let (base, rest) = match (simple, find(names[4])) {
-            (true, _) => {
-                own.get(1..).unwrap_or(&[]).split_at_checked(BASE[dimensions - 1]).unwrap_or((&[], &[]))
-            }
+            (true, _) => own
+                .get(1..)
+                .unwrap_or(&[])
+                .split_at_checked(PARAMETERS_BEFORE_KNOTS[dimensions - 1])
+                .unwrap_or((&[], &[])),
             (false, Some(base)) => (base, own),
             (false, None) => return Ok(None),
         };
@@ -329,10 +331,11 @@ impl Points<'_> {
     }
 }
 
-/// Parameters of a B-spline before its knots, without its name: of a curve, of a surface.
-const BASE: [usize; 2] = [5, 7];
-/// With knots, Bézier, quasi-uniform, uniform; then what a complex instance has its control points and its weights in.
-const SURFACES: [&[u8]; 6] = [
+/// Number of parameters of a B-spline before its knots, its name not counted: for a curve, for a surface.
+const PARAMETERS_BEFORE_KNOTS: [usize; 2] = [5, 7];
+/// Entities of a B-spline: with knots, Bézier, quasi-uniform, uniform; then those of a complex instance that hold its control points and its
+/// weights.
+const SURFACE_ENTITIES: [&[u8]; 6] = [
     b"B_SPLINE_SURFACE_WITH_KNOTS",
     b"BEZIER_SURFACE",
     b"QUASI_UNIFORM_SURFACE",
@@ -340,7 +343,7 @@ const SURFACES: [&[u8]; 6] = [
     b"B_SPLINE_SURFACE",
     b"RATIONAL_B_SPLINE_SURFACE",
 ];
-const CURVES: [&[u8]; 6] = [
+const CURVE_ENTITIES: [&[u8]; 6] = [
     b"B_SPLINE_CURVE_WITH_KNOTS",
     b"BEZIER_CURVE",
     b"QUASI_UNIFORM_CURVE",

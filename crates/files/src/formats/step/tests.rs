@@ -1,4 +1,4 @@
-//! What is read of STEP files: what was written, what others write, what is broken.
+//! Reading STEP files: own ones, those of other programs, broken ones.
 
 use super::surface;
 use crate::cad::{SplineModel, SplineSurface};

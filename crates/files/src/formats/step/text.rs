@@ -23,18 +23,18 @@ pub(super) enum Value {
     Nothing,
 }
 
-/// An entity: its keyword and parameters. Of a complex instance, one of several.
+/// An entity: its keyword and parameters. A complex instance has several.
 pub(super) type Record = (Vec<u8>, Vec<Value>);
 
 /// The data sections of a file.
 pub(super) struct Instances<'a> {
     text: &'a [u8],
-    /// Of each number, where the text behind its `=` begins and ends.
+    /// For each number, where the text behind its `=` begins and ends.
     places: BTreeMap<u64, (usize, usize)>,
 }
 
-/// Lists within lists at most.
-const DEEPEST: usize = 32;
+/// Lists may lie within lists to this depth.
+const MAX_LIST_DEPTH: usize = 32;
 
 impl<'a> Instances<'a> {
     /// Finds all instances of `text`.
@@ -191,7 +191,7 @@ impl Reader<'_> {
         self.of.wrong(self.at, expected, &self.of.text[self.at.min(self.end)..self.end])
     }
     /// The bytes from here that are of a kind.
-    fn take(&mut self, of: impl Fn(u8) -> bool) -> &[u8] {
+    fn take_while(&mut self, of: impl Fn(u8) -> bool) -> &[u8] {
         let from = self.at;
         while self.peek().is_some_and(&of) {
             self.at += 1;
@@ -200,7 +200,8 @@ impl Reader<'_> {
     }
 
     fn record(&mut self) -> Result<Record> {
-        let name = self.take(|b| b.is_ascii_alphanumeric() || matches!(b, b'_' | b'!')).to_ascii_uppercase();
+        let name =
+            self.take_while(|b| b.is_ascii_alphanumeric() || matches!(b, b'_' | b'!')).to_ascii_uppercase();
         self.blank();
         if name.is_empty() || self.peek() != Some(b'(') {
             return Err(self.wrong("an entity with its parameters in brackets"));
@@ -210,7 +211,7 @@ impl Reader<'_> {
 
     /// The values between the bracket here and the one that closes it.
     fn list(&mut self, depth: usize) -> Result<Vec<Value>> {
-        if depth > DEEPEST {
+        if depth > MAX_LIST_DEPTH {
             return Err(self.wrong("fewer lists within lists"));
         }
         self.at += 1;
@@ -246,7 +247,7 @@ impl Reader<'_> {
             }
             Some(b'#') => {
                 self.at += 1;
-                let number = crate::number::count(self.take(|b| b.is_ascii_digit()));
+                let number = crate::number::count(self.take_while(|b| b.is_ascii_digit()));
                 number.map(Value::Instance).ok_or_else(|| self.wrong("the number of an instance"))
             }
             Some(b'\'') => {
@@ -259,7 +260,7 @@ impl Reader<'_> {
             }
             Some(b'.') => {
                 self.at += 1;
-                let word = self.take(|b| b.is_ascii_alphanumeric() || b == b'_').to_ascii_uppercase();
+                let word = self.take_while(|b| b.is_ascii_alphanumeric() || b == b'_').to_ascii_uppercase();
                 if self.peek() != Some(b'.') {
                     return Err(self.wrong("a word between points, as .T."));
                 }
@@ -268,7 +269,7 @@ impl Reader<'_> {
             }
             Some(b'"') => {
                 self.at += 1;
-                self.take(|b| b != b'"');
+                self.take_while(|b| b != b'"');
                 self.at += 1;
                 Ok(Value::Nothing)
             }
@@ -278,7 +279,7 @@ impl Reader<'_> {
     }
 
     fn record_at(&mut self, depth: usize) -> Result<Vec<Value>> {
-        self.take(|b| b.is_ascii_alphanumeric() || matches!(b, b'_' | b'!'));
+        self.take_while(|b| b.is_ascii_alphanumeric() || matches!(b, b'_' | b'!'));
         self.blank();
         match self.peek() {
             Some(b'(') => self.list(depth + 1),
@@ -288,7 +289,7 @@ impl Reader<'_> {
 
     fn number(&mut self) -> Result<Value> {
         let from = self.at;
-        let word = self.take(|b| b.is_ascii_digit() || matches!(b, b'+' | b'-' | b'.' | b'e' | b'E'));
+        let word = self.take_while(|b| b.is_ascii_digit() || matches!(b, b'+' | b'-' | b'.' | b'e' | b'E'));
         let value = match integer(word) {
             Some(n) => Some(Value::Integer(n)),
             None => whole_number(word, b'.').map(Value::Real),

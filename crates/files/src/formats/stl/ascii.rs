@@ -1,8 +1,7 @@
 //! ASCII STL: words, separated by any white space.
 //!
-//! Large files are cut into parts behind lines that say `endfacet`, each read by itself; a fault found in one is the
-//! same whoever finds it, and the first in the file is reported. Positions keep what the text says beyond single
-//! precision.
+//! Large files are cut into parts behind lines that say `endfacet`, and each part is read by itself. The first fault in the
+//! file is reported, whichever part was read first. Positions keep all digits of the text, beyond single precision.
 
 use super::facet::Facet;
 use crate::{
@@ -13,8 +12,8 @@ use crate::{
 };
 use trueness_geom::parallel::prelude::*;
 
-/// Bytes of one part.
-const PART: usize = 1 << 20;
+/// One task reads about this many bytes.
+const STL_TEXT_BYTES_PER_TASK: usize = 1 << 20;
 
 /// A facet as the text gives it.
 #[derive(Clone, Copy)]
@@ -36,7 +35,7 @@ impl Facet for TextFacet {
     }
 }
 
-/// What ASCII text held.
+/// The content of an ASCII file.
 pub(super) struct Read {
     pub facets: Vec<TextFacet>,
     /// The solid of each facet, where there are several.
@@ -48,14 +47,14 @@ pub(super) struct Read {
 pub(super) fn read(bytes: &[u8]) -> Result<Read> {
     let text = without_mark(bytes);
     let mut starts = vec![0];
-    while let Some(next) = behind_endfacet(text, starts[starts.len() - 1] + PART) {
+    while let Some(next) = behind_endfacet(text, starts[starts.len() - 1] + STL_TEXT_BYTES_PER_TASK) {
         starts.push(next);
     }
     let ends = starts.iter().skip(1).copied().chain([text.len()]);
     let parts: Vec<(usize, usize)> = starts.iter().copied().zip(ends).collect();
-    let parsed: Vec<std::result::Result<Part, (usize, Fault)>> =
-        parts.into_par_iter().map(|(from, to)| Part::read(text, from, to)).collect();
-    let mut all = Part::default();
+    let parsed: Vec<std::result::Result<TextPart, (usize, Fault)>> =
+        parts.into_par_iter().map(|(from, to)| TextPart::read(text, from, to)).collect();
+    let mut all = TextPart::default();
     let (mut open, mut behind) = (false, None);
     let mut facets = Vec::new();
     let mut regions = FacetRegions::default();
@@ -91,7 +90,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Read> {
 
 /// The start of the line after the first `endfacet` line that begins behind `at`; `None` near the end.
 fn behind_endfacet(text: &[u8], at: usize) -> Option<usize> {
-    let end = line_end(&text[..text.len().min(PART)]);
+    let end = line_end(&text[..text.len().min(STL_TEXT_BYTES_PER_TASK)]);
     let mut at = at + memchr::memchr(end, text.get(at..)?)? + 1;
     loop {
         let line = &text[at..];
@@ -106,23 +105,23 @@ fn behind_endfacet(text: &[u8], at: usize) -> Option<usize> {
 
 /// The facets of a part of the text.
 #[derive(Default)]
-struct Part {
+struct TextPart {
     facets: Vec<TextFacet>,
     solids: u64,
-    /// Of each solid that begins here its first facet and its name.
+    /// First facet and name of each solid that begins here.
     names: Vec<(usize, String)>,
-    /// Whether a solid is open at the end; `None` if no solid begins or ends here.
+    /// Whether a solid is open at the end; `None` if no solid begins or ends in this part.
     open: Option<bool>,
     /// Where text begins that stands behind the last solid.
     text: Option<usize>,
 }
 
-impl Part {
+impl TextPart {
     /// Reads `text[from..to]`, which begins between two facets.
-    fn read(text: &[u8], from: usize, to: usize) -> std::result::Result<Part, (usize, Fault)> {
+    fn read(text: &[u8], from: usize, to: usize) -> std::result::Result<TextPart, (usize, Fault)> {
         let mut words = Words::new(&text[..to], from);
         // A facet takes 100 bytes at least; asking for more than is there would trust the file.
-        let mut part = Part { facets: Vec::with_capacity((to - from) / 256), ..Part::default() };
+        let mut part = TextPart { facets: Vec::with_capacity((to - from) / 256), ..TextPart::default() };
         loop {
             if words.end_of("solid") {
                 words.skip_name(false);
@@ -152,10 +151,10 @@ impl Part {
 
 /// Whether no line of a text begins with a word of the format.
 fn is_prose(text: &[u8]) -> bool {
-    const WORDS: [&str; 9] =
+    const FORMAT_WORDS: [&str; 9] =
         ["facet", "solid", "outer", "vertex", "end", "loop", "endloop", "endfacet", "endsolid"];
     let mut first = text.split(|b| matches!(b, b'\n' | b'\r')).filter_map(|line| Words::new(line, 0).next());
-    first.all(|(_, word)| !WORDS.iter().any(|known| is(word, known)))
+    first.all(|(_, word)| !FORMAT_WORDS.iter().any(|known| is(word, known)))
 }
 
 fn is(word: &[u8], name: &str) -> bool {
@@ -221,8 +220,8 @@ impl<'a> Words<'a> {
         }
     }
 
-    /// Passes over the name of a solid: the rest of the line, whatever words are in it. In a file without line ends, which
-    /// shows in a facet on the same line, it is what comes before the next word that has a meaning.
+    /// Passes over the name of a solid: the rest of the line, whatever words are in it. A facet on the same line shows that the
+    /// file has no line ends; there the name ends before the next word of the format.
     fn skip_name(&mut self, begins: bool) {
         let line = &self.text[self.at..];
         let end = self.at + memchr::memchr2(b'\n', b'\r', line).unwrap_or(line.len());
@@ -231,7 +230,7 @@ impl<'a> Words<'a> {
             return;
         }
         let mut words = Words { text: &self.text[..end], ..self.clone() };
-        // The first word with a meaning, which is one if a facet follows.
+        // The first word of the format, if a facet follows.
         let mut first = None;
         loop {
             let start = words.at;
@@ -259,8 +258,8 @@ impl<'a> Words<'a> {
         self.at = self.end_of_empty(end, begins);
     }
 
-    /// Where the name of a solid ends whose line, up to `line_end`, holds no facet: there, unless the solid ends on the same
-    /// line, empty.
+    /// Where the name of a solid ends, on a line up to `line_end` that holds no facet. That is the line end, unless an empty solid
+    /// ends on the same line.
     fn end_of_empty(&self, line_end: usize, begins: bool) -> usize {
         let text = &self.text[self.at..line_end];
         let lower = text.to_ascii_lowercase();

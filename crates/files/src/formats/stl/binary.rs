@@ -7,13 +7,13 @@ use crate::{
 };
 
 /// Bytes of header and count.
-pub(super) const HEADER: usize = 84;
+pub(super) const STL_HEADER_BYTES: usize = 84;
 /// Bytes of a facet: normal, three corners, attribute word.
-pub(super) const RECORD: usize = 50;
+pub(super) const STL_RECORD_BYTES: usize = 50;
 
 /// The number of facets that the header declares.
 pub(super) fn declared(bytes: &[u8]) -> Option<u64> {
-    let b = bytes.get(HEADER - 4..)?.first_chunk()?;
+    let b = bytes.get(STL_HEADER_BYTES - 4..)?.first_chunk()?;
     Some(u64::from(u32::from_le_bytes(*b)))
 }
 
@@ -23,8 +23,8 @@ pub(super) fn facets(head: &[u8], length: u64) -> Result<(usize, Vec<Warning>)> 
         let expected = "the 84 bytes with which a binary STL file begins";
         return Err(Fault::unexpected(expected, head).at_byte(length));
     };
-    let body = length - HEADER as u64;
-    let present = body / RECORD as u64;
+    let body = length - STL_HEADER_BYTES as u64;
+    let present = body / STL_RECORD_BYTES as u64;
     let facets = usize::try_from(declared).ok().filter(|_| declared <= present);
     let Some(facets) = facets else {
         if head.starts_with(b"solid") && memchr::memmem::find(head, b"facet").is_some() {
@@ -35,31 +35,33 @@ pub(super) fn facets(head: &[u8], length: u64) -> Result<(usize, Vec<Warning>)> 
     };
     if declared == 0 && present > 0 {
         let found = format!("0, and then {body} bytes");
-        return Err(Fault::unexpected("the number of facets", found.as_bytes()).at_byte(HEADER as u64 - 4));
+        return Err(
+            Fault::unexpected("the number of facets", found.as_bytes()).at_byte(STL_HEADER_BYTES as u64 - 4)
+        );
     }
-    let trailing = body - declared * RECORD as u64;
+    let trailing = body - declared * STL_RECORD_BYTES as u64;
     let warnings = if trailing > 0 { vec![Warning::TrailingBytes { count: trailing }] } else { vec![] };
     Ok((facets, warnings))
 }
 
 /// Whether a file of `length` bytes that declares so many facets can have bytes behind each, as many as a word can say.
 pub(super) fn may_have_attributes(facets: usize, length: u64) -> bool {
-    let most = (RECORD + usize::from(u16::MAX)) as u64;
-    length <= HEADER as u64 + (facets as u64).saturating_mul(most)
+    let most = (STL_RECORD_BYTES + usize::from(u16::MAX)) as u64;
+    length <= STL_HEADER_BYTES as u64 + (facets as u64).saturating_mul(most)
 }
 
-/// Facets whose attribute words are lengths: so many bytes follow each, which are passed over. That is so where the file
-/// has exactly the length which that makes, and not the one without them. `bytes` are the whole file.
-pub(super) fn with_attributes(bytes: &[u8]) -> Option<Vec<[u8; RECORD]>> {
+/// Facets whose attribute words are lengths of further bytes, which are passed over. That is so where these lengths give exactly the
+/// length of the file, and it is longer than its facets alone. `bytes` are the whole file.
+pub(super) fn with_attributes(bytes: &[u8]) -> Option<Vec<[u8; STL_RECORD_BYTES]>> {
     let count = usize::try_from(declared(bytes)?).ok()?;
-    let mut rest = bytes.get(HEADER..)?;
-    if rest.len() / RECORD < count || rest.len() == count * RECORD {
+    let mut rest = bytes.get(STL_HEADER_BYTES..)?;
+    if rest.len() / STL_RECORD_BYTES < count || rest.len() == count * STL_RECORD_BYTES {
         return None;
     }
     let mut records = Vec::with_capacity(count);
     for _ in 0..count {
-        let (record, more) = rest.split_first_chunk::<RECORD>()?;
-        let attribute = u16::from_le_bytes([record[RECORD - 2], record[RECORD - 1]]);
+        let (record, more) = rest.split_first_chunk::<STL_RECORD_BYTES>()?;
+        let attribute = u16::from_le_bytes([record[STL_RECORD_BYTES - 2], record[STL_RECORD_BYTES - 1]]);
         rest = more.get(usize::from(attribute)..)?;
         records.push(*record);
     }
@@ -68,18 +70,18 @@ pub(super) fn with_attributes(bytes: &[u8]) -> Option<Vec<[u8; RECORD]>> {
 
 /// Whether the first bytes could be a header and a facet: finite numbers, a normal not longer than 1.
 pub(super) fn plausible(head: &[u8]) -> bool {
-    let Some(first) = head.get(HEADER..).and_then(|b| b.first_chunk()) else { return false };
+    let Some(first) = head.get(STL_HEADER_BYTES..).and_then(|b| b.first_chunk()) else { return false };
     let length = first.normal().iter().map(|x| x * x).sum::<f32>();
     length < 1.1 && (0..3).all(|k| first.corner(k).iter().all(|x| x.abs() < 1e12))
 }
 
 #[inline(always)]
-fn triple(record: &[u8; RECORD], at: usize) -> [f32; 3] {
+fn triple(record: &[u8; STL_RECORD_BYTES], at: usize) -> [f32; 3] {
     let word = |i: usize| f32::from_le_bytes([record[i], record[i + 1], record[i + 2], record[i + 3]]);
     [word(at), word(at + 4), word(at + 8)]
 }
 
-impl Facet for [u8; RECORD] {
+impl Facet for [u8; STL_RECORD_BYTES] {
     type Position = [f32; 3];
     #[inline(always)]
     fn corner(&self, k: usize) -> [f32; 3] {
@@ -95,8 +97,8 @@ impl Facet for [u8; RECORD] {
 }
 
 /// A record of a normal and three corners.
-pub(super) fn record(normal: [f32; 3], corners: [[f32; 3]; 3]) -> [u8; RECORD] {
-    let mut record = [0; RECORD];
+pub(super) fn record(normal: [f32; 3], corners: [[f32; 3]; 3]) -> [u8; STL_RECORD_BYTES] {
+    let mut record = [0; STL_RECORD_BYTES];
     let numbers = normal.iter().chain(corners.as_flattened());
     for (bytes, x) in record.chunks_exact_mut(4).zip(numbers) {
         bytes.copy_from_slice(&x.to_le_bytes());

@@ -1,4 +1,4 @@
-//! What both kinds of STL have in common.
+//! The common part of both kinds of STL.
 
 use crate::assemble::Corner;
 

@@ -10,10 +10,10 @@ use crate::{
     error::{Fault, Result},
     format::{Format, Head, Parsed, ReadOptions, Weld},
     lines::{is_text, line_of, without_filling, without_mark},
-    source::{HEAD, Source},
+    source::{SNIFFED_BYTES, Source},
     unicode::no_zeros,
 };
-use binary::{HEADER, RECORD};
+use binary::{STL_HEADER_BYTES, STL_RECORD_BYTES};
 use facet::Facet;
 use trueness_geom::parallel::prelude::*;
 
@@ -33,7 +33,7 @@ pub(crate) const STL: Format = Format {
 fn sniff(head: &Head) -> bool {
     let declared = binary::declared(head.bytes);
     match (declared, head.length) {
-        (Some(n), Some(length)) if length == HEADER as u64 + n * RECORD as u64 => true,
+        (Some(n), Some(length)) if length == STL_HEADER_BYTES as u64 + n * STL_RECORD_BYTES as u64 => true,
         // The length of a stream is not known: is this a count, and a facet after it?
         (Some(n), None) if n > 0 && !is_text(head.bytes) => binary::plausible(head.bytes),
         _ => looks_ascii(head.bytes),
@@ -53,20 +53,21 @@ fn begins_as_text(bytes: &[u8]) -> bool {
 }
 
 fn read(mut source: Source, options: &ReadOptions) -> Result<Parsed> {
-    source.feed.ahead(HEAD)?;
+    source.feed.ahead(SNIFFED_BYTES)?;
     let length = match source.feed.left() {
         Some(length) => length,
         None => source.feed.all()?.len() as u64,
     };
-    let head = source.feed.ahead(HEAD)?;
-    let exact = binary::declared(head).is_some_and(|n| length == HEADER as u64 + n * RECORD as u64);
+    let head = source.feed.ahead(SNIFFED_BYTES)?;
+    let exact = binary::declared(head)
+        .is_some_and(|n| length == STL_HEADER_BYTES as u64 + n * STL_RECORD_BYTES as u64);
     let text = !exact && begins_as_text(head);
     if text && looks_ascii(head) {
         let (bytes, zeros) = without_filling(source.feed.all()?);
         no_zeros(bytes)?;
         let ascii::Read { facets, regions, warnings } = ascii::read(bytes)?;
         if zeros && warnings.contains(&Warning::NoEndsolid) {
-            // Not what fills up a finished file, but what was never written.
+            // Zeros here were never written over; they do not fill up a finished file.
             return Err(Fault::Zeros.at_line(line_of(bytes, bytes.len())));
         }
         return mesh("stl-ascii", &facets, regions, options, warnings);
@@ -82,13 +83,13 @@ fn read(mut source: Source, options: &ReadOptions) -> Result<Parsed> {
     {
         return mesh("stl-binary", &records, None, options, vec![]);
     }
-    let bytes = source.feed.ahead(HEADER + facets * RECORD)?;
-    let records = bytes.get(HEADER..).unwrap_or_default().as_chunks().0;
+    let bytes = source.feed.ahead(STL_HEADER_BYTES + facets * STL_RECORD_BYTES)?;
+    let records = bytes.get(STL_HEADER_BYTES..).unwrap_or_default().as_chunks().0;
     mesh("stl-binary", records.get(..facets).unwrap_or(records), None, options, warnings)
 }
 
-/// Facets of one task.
-const CHUNK: usize = 1 << 13;
+/// One task looks at this many facets.
+const STL_FACETS_PER_TASK: usize = 1 << 13;
 
 /// The mesh of all facets but those that are not finite.
 fn mesh<F: Facet>(
@@ -122,10 +123,10 @@ fn mesh<F: Facet>(
 
 /// Numbers of the facets with a coordinate that is not finite, ascending.
 fn not_finite<F: Facet>(facets: &[F]) -> Vec<usize> {
-    let parts = facets.par_chunks(CHUNK).enumerate();
+    let parts = facets.par_chunks(STL_FACETS_PER_TASK).enumerate();
     let found = parts.flat_map_iter(|(i, part)| {
         let bad = part.iter().enumerate().filter(|(_, f)| !f.finite());
-        bad.map(move |(j, _)| i * CHUNK + j)
+        bad.map(move |(j, _)| i * STL_FACETS_PER_TASK + j)
     });
     found.collect()
 }

@@ -9,8 +9,8 @@ use crate::{
 use std::io::Write;
 use trueness_geom::{mesh::Mesh, space::normal};
 
-/// Facets turned into bytes at a time.
-const CHUNK: usize = 1 << 14;
+/// This many facets become bytes at a time.
+const STL_FACETS_PER_WRITE: usize = 1 << 14;
 
 /// Writes the faces with their normals, zero where a face has none. Vertices that no face uses are lost.
 pub(super) fn mesh(file: &mut AtomicFile, mesh: &Mesh) -> Result<Loss, WriteFault> {
@@ -23,10 +23,10 @@ pub(super) fn mesh(file: &mut AtomicFile, mesh: &Mesh) -> Result<Loss, WriteFaul
     file.write_all(&header)?;
     file.write_all(&count.to_le_bytes())?;
     let mut bytes = Vec::new();
-    for (i, faces) in mesh.faces.chunks(CHUNK).enumerate() {
+    for (i, faces) in mesh.faces.chunks(STL_FACETS_PER_WRITE).enumerate() {
         bytes.clear();
         for (j, face) in faces.iter().enumerate() {
-            let corners = corner_positions(mesh, i * CHUNK + j, face)?;
+            let corners = corner_positions(mesh, i * STL_FACETS_PER_WRITE + j, face)?;
             let normal = normal(corners).unwrap_or([0.0; 3]);
             bytes.extend(record(normal.map(|x| x as f32), corners.map(|p| p.map(|x| x as f32))));
         }

@@ -5,8 +5,8 @@
 //! | Selig's | from the trailing edge over the leading one and back |
 //! | Lednicer's | two counts, then the upper and the lower side, each from the leading edge |
 //!
-//! A title may look like a row (`NACA 0012`, `0.12 0.5`), like the names of columns (`CLARK Y`) or like the number of points (`0012`), and
-//! have several lines. Only the rows behind it tell: all of two numbers, in the order of one of the forms.
+//! A title may have several lines. It may look like a row (`NACA 0012`, `0.12 0.5`), like names of columns (`CLARK Y`) or like the number of
+//! points (`0012`). Only the rows behind it tell: all have two numbers, in the order of one of the forms.
 
 use super::cell::cell_number;
 use super::stream::TextPoints;
@@ -17,44 +17,46 @@ use crate::{
 };
 use trueness_geom::{cloud::PointStream, space::Point};
 
-/// Fewer rows show no form.
-const FEWEST: usize = 8;
-/// x of a trailing edge is this share of its range from the greatest, at most; one side falls and the other rises but for so much.
-const EDGE: f64 = 0.1;
-/// A profile is no thicker than this share of its length.
-const THICK: f64 = 0.6;
+/// A file of fewer rows is not taken for an airfoil.
+const MIN_AIRFOIL_ROWS: usize = 8;
+/// An end of a side lies within this share of the chord from the leading or trailing edge.
+const MAX_EDGE_SHARE: f64 = 0.1;
+/// A step along a side may go back by this share of the chord.
+const MAX_BACKSTEP_SHARE: f64 = MAX_EDGE_SHARE * MAX_EDGE_SHARE;
+/// A profile is no thicker than this share of its chord.
+const MAX_THICKNESS_SHARE: f64 = 0.6;
 
 /// A file in one of the forms.
 #[derive(Debug, PartialEq)]
 pub(super) struct Airfoil {
-    /// Its text with title and counts taken out, and the sides of Lednicer's form as one row around the profile.
+    /// Its text without title and counts. The two sides of Lednicer's form are one row around the profile.
     pub text: Vec<u8>,
-    pub told: Warning,
-    /// Of each line of this text its number in the file, both from 1.
+    pub warning: Warning,
+    /// For each line of this text, its number in the file; both count from 1.
     pub file_lines: Vec<u64>,
 }
 
-/// Longest title told.
-const TITLE: usize = 60;
+/// A warning shows this many characters of the title.
+const MAX_TITLE_LENGTH: usize = 60;
 
-/// A file in one of the forms; `None` of any other text.
+/// A file in one of the forms; `None` for any other text.
 pub(super) fn plain(text: &[u8]) -> Option<Airfoil> {
     let end = line_end(text);
     let lines: Vec<&[u8]> = without_mark(text).split(|b| *b == end).collect();
-    let said: Vec<usize> = (0..lines.len()).filter(|i| !lines[*i].trim_ascii().is_empty()).collect();
-    // The title ends where nothing but rows of two numbers follows.
-    let words = said.iter().rposition(|i| row(lines[*i]).is_none()).map_or(0, |last| last + 1);
-    let values: Vec<[f64; 2]> = said[words..].iter().filter_map(|i| row(lines[*i])).collect();
-    // One more line of it may look like a row.
+    let filled: Vec<usize> = (0..lines.len()).filter(|i| !lines[*i].trim_ascii().is_empty()).collect();
+    // After the title come only rows of two numbers.
+    let words = filled.iter().rposition(|i| row(lines[*i]).is_none()).map_or(0, |last| last + 1);
+    let values: Vec<[f64; 2]> = filled[words..].iter().filter_map(|i| row(lines[*i])).collect();
+    // The last line of the title may look like a row.
     let starts = || (0..=1).filter(|more| *more < values.len());
     let two_sides = starts().find_map(|more| Some((more, lednicer(&values[more..])?)));
     let around = || starts().find(|more| is_selig(&values[*more..])).filter(|more| words + more > 0);
-    let named = said[..words].iter().any(|i| names_columns(lines[*i]));
+    let named = filled[..words].iter().any(|i| names_columns(lines[*i]));
     let (more, upper) = match two_sides {
         Some((more, upper)) => (more, Some(upper)),
         None => (around().filter(|_| !named)?, None),
     };
-    let (title, rows) = said.split_at(words + more);
+    let (title, rows) = filled.split_at(words + more);
     let values = &values[more..];
     let mut order: Vec<usize> = (0..lines.len()).collect();
     let mut kept = lines.clone();
@@ -71,10 +73,10 @@ pub(super) fn plain(text: &[u8]) -> Option<Airfoil> {
     let form = if upper.is_some() { "Lednicer" } else { "Selig" };
     let title: Vec<String> =
         title.iter().map(|i| String::from_utf8_lossy(lines[*i].trim_ascii()).into_owned()).collect();
-    let shown = title.join(" / ").chars().take(TITLE).collect();
-    let told = Warning::Airfoil { form, title: (!title.is_empty()).then_some(shown) };
+    let shown = title.join(" / ").chars().take(MAX_TITLE_LENGTH).collect();
+    let warning = Warning::Airfoil { form, title: (!title.is_empty()).then_some(shown) };
     let file_lines = order.iter().map(|i| *i as u64 + 1).collect();
-    Some(Airfoil { text: kept.join(&end), told, file_lines })
+    Some(Airfoil { text: kept.join(&end), warning, file_lines })
 }
 
 /// A fault of the text in [`Airfoil`], at its line in the file.
@@ -128,12 +130,12 @@ fn range(values: &[[f64; 2]], k: usize) -> (f64, f64) {
 fn is_selig(values: &[[f64; 2]]) -> bool {
     let ((low, high), (bottom, top)) = (range(values, 0), range(values, 1));
     let (chord, n) = (high - low, values.len());
-    if n < FEWEST || chord <= 0.0 || top - bottom > THICK * chord {
+    if n < MIN_AIRFOIL_ROWS || chord <= 0.0 || top - bottom > MAX_THICKNESS_SHARE * chord {
         return false;
     }
     let Some(nose) = (0..n).min_by(|a, b| values[*a][0].total_cmp(&values[*b][0])) else { return false };
-    let near = |p: &[f64; 2]| high - p[0] <= EDGE * chord;
-    let on = |w: &[[f64; 2]], sign: f64| sign * (w[1][0] - w[0][0]) >= -EDGE * EDGE * chord;
+    let near = |p: &[f64; 2]| high - p[0] <= MAX_EDGE_SHARE * chord;
+    let on = |w: &[[f64; 2]], sign: f64| sign * (w[1][0] - w[0][0]) >= -MAX_BACKSTEP_SHARE * chord;
     nose >= 2
         && nose + 2 < n
         && near(&values[0])
@@ -142,11 +144,16 @@ fn is_selig(values: &[[f64; 2]]) -> bool {
         && values[nose..].windows(2).all(|w| on(w, 1.0))
 }
 
-/// The number of rows of the upper side, where the first row counts those of both, and each side runs from the least x to the greatest.
+/// The number of rows of the upper side, in Lednicer's form. There the first row counts the rows of both sides, and each side runs from the
+/// least x to the greatest.
 fn lednicer(values: &[[f64; 2]]) -> Option<usize> {
     let ([upper, lower], rows) = (*values.first()?, &values[1..]);
     let whole = |x: f64| (2.0..1e6).contains(&x) && x.fract() == 0.0;
-    if !whole(upper) || !whole(lower) || rows.len() < FEWEST || (upper + lower) as usize != rows.len() {
+    if !whole(upper)
+        || !whole(lower)
+        || rows.len() < MIN_AIRFOIL_ROWS
+        || (upper + lower) as usize != rows.len()
+    {
         return None;
     }
     let sides = rows.split_at(upper as usize);
@@ -154,9 +161,9 @@ fn lednicer(values: &[[f64; 2]]) -> Option<usize> {
     let chord = high - low;
     let rises = |side: &[[f64; 2]]| {
         let (first, last) = (side[0][0], side[side.len() - 1][0]);
-        first - low <= EDGE * chord
-            && high - last <= EDGE * chord
-            && side.windows(2).all(|w| w[1][0] - w[0][0] >= -EDGE * EDGE * chord)
+        first - low <= MAX_EDGE_SHARE * chord
+            && high - last <= MAX_EDGE_SHARE * chord
+            && side.windows(2).all(|w| w[1][0] - w[0][0] >= -MAX_BACKSTEP_SHARE * chord)
     };
     (chord > 0.0 && rises(sides.0) && rises(sides.1)).then_some(upper as usize)
 }

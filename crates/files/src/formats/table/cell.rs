@@ -2,7 +2,7 @@
 
 use crate::number::whole_number;
 
-/// What stands between the columns.
+/// The separator of columns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Separator {
     /// Any number of blanks and tabs. Every row has equally many cells: an empty one cannot be seen.
@@ -12,7 +12,7 @@ pub(crate) enum Separator {
 }
 
 impl Separator {
-    /// What it is called.
+    /// Its name.
     pub fn name(self) -> &'static str {
         match self {
             Separator::Blanks => "blanks",
@@ -111,7 +111,7 @@ pub(super) fn cell_number(cell: &[u8], point: u8) -> Option<f64> {
     whole_number(cell, point).filter(|x| x.is_finite() && !cut)
 }
 
-/// What kind of content a cell has.
+/// The kind of content of a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Class {
     Number,
@@ -119,12 +119,12 @@ pub(super) enum Class {
     Missing,
     /// A name, a note, a date, a time.
     Word,
-    /// What may have been meant as a number and is none, such as `1mm` or `1,234.5`.
+    /// Text that may have been meant as a number and is none, such as `1mm` or `1,234.5`.
     Unreadable,
 }
 
 /// Marks that stand for no value, lower case.
-const MISSING: [&str; 18] = [
+const MISSING_MARKS: [&str; 18] = [
     "-", "--", "\u{2212}", "\u{2013}", "\u{2014}", "?", "*", ".", "na", "n/a", "n.a.", "k.a.", "nan", "inf",
     "null", "none", "nil", "nv",
 ];
@@ -136,7 +136,7 @@ pub(super) fn class(cell: &[u8], point: u8) -> Class {
     }
     let text = String::from_utf8_lossy(cell).to_lowercase();
     let bare = text.trim_start_matches(['+', '-']);
-    if cell.is_empty() || cell.starts_with(b"#") || MISSING.iter().any(|m| *m == text || *m == bare) {
+    if cell.is_empty() || cell.starts_with(b"#") || MISSING_MARKS.iter().any(|m| *m == text || *m == bare) {
         return Class::Missing;
     }
     let letter = text.chars().next().is_some_and(char::is_alphabetic);
@@ -157,7 +157,7 @@ fn is_date(cell: &[u8]) -> bool {
 pub(super) const END_MARK: u8 = 0x1a;
 
 /// Words that end a text, lower case and letters alone.
-const ENDS: [&str; 12] = [
+const END_WORDS: [&str; 12] = [
     "end",
     "eof",
     "endoffile",
@@ -179,14 +179,14 @@ pub(super) fn is_end(line: &[u8]) -> bool {
         return false;
     }
     let bare: String = text.chars().filter(|c| c.is_alphabetic()).collect();
-    ENDS.contains(&bare.as_str()) || bare.is_empty() && line.contains(&END_MARK)
+    END_WORDS.contains(&bare.as_str()) || bare.is_empty() && line.contains(&END_MARK)
 }
 
 /// Blanks that are no ASCII: they stand within numbers with thousands separators as well as between numbers.
 const WIDE_BLANKS: [char; 4] = ['\u{a0}', '\u{2007}', '\u{2009}', '\u{202f}'];
 
-/// What is wrong with text that holds several numbers and nothing that parts them, or a number and blanks that are no
-/// ASCII, and what to do.
+/// Fault and remedy of text that holds several numbers and nothing that parts them, or a number and blanks that are no
+/// ASCII.
 pub(super) fn run_together(text: &[u8]) -> Option<(&'static str, &'static str)> {
     let shown: String = match std::str::from_utf8(text) {
         Ok(text) => text.into(),
@@ -225,8 +225,8 @@ pub(super) fn run_together(text: &[u8]) -> Option<(&'static str, &'static str)> 
 
 /// Whether a line, blanks before it taken off, is a comment.
 ///
-/// `#REF!,1,2` is none: a cell that a spreadsheet could not compute, as is `#ERR,1,2`: a word right behind the mark and
-/// numbers in all other cells. Nor is `'1,5`: a spreadsheet's number kept as text.
+/// `#REF!,1,2` is none: it begins with a cell that a spreadsheet could not compute. Nor is `#ERR,1,2`: a word stands right
+/// behind the mark, and all other cells hold numbers. Nor is `'1,5`: a spreadsheet's number kept as text.
 pub(super) fn is_comment(line: &[u8], separator: Separator) -> bool {
     match line {
         [b'#', rest @ ..] => !is_error_cell(rest, separator),

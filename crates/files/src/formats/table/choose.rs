@@ -56,7 +56,7 @@ pub(super) fn columns(tried: &Tried, asked: Option<&Columns>) -> Result<Chosen> 
     }
 }
 
-/// All columns but those that hold words in every row (or marks for missing words).
+/// All columns but those that hold a word, or a mark for a missing one, in every row.
 fn guessed(tried: &Tried) -> Vec<usize> {
     let words = |i: &usize| {
         tried.column(*i).all(|c| matches!(c, Class::Word | Class::Missing))
@@ -141,8 +141,8 @@ fn all_plain(tried: &Tried, columns: &[usize]) -> bool {
     columns.iter().all(|&i| tried.texts(i).all(digits))
 }
 
-/// Whether the cells of two columns beside each other could be the halves of numbers with thousands separators: up to three
-/// digits, then three digits and perhaps decimals, in every row.
+/// Whether the cells of two adjacent columns could be the halves of numbers with thousands separators. Then every row has up to
+/// three digits, then three digits and perhaps decimals.
 fn grouped(tried: &Tried, first: usize, second: usize) -> bool {
     let digits = |cell: &[u8]| cell.iter().take_while(|b| b.is_ascii_digit()).count();
     let high = |cell: &[u8]| {
@@ -169,9 +169,9 @@ fn numbered_columns(tried: &Tried, columns: &[usize]) -> bool {
 }
 
 fn unclear(tried: &Tried, header: &Header, what: &str) -> Located {
-    const MOST: usize = 12;
-    let names: Vec<&str> = header.names.iter().map(|n| n.text.as_str()).take(MOST).collect();
-    let more = if header.names.len() > MOST { ", …" } else { "" };
+    const MAX_NAMES_SHOWN: usize = 12;
+    let names: Vec<&str> = header.names.iter().map(|n| n.text.as_str()).take(MAX_NAMES_SHOWN).collect();
+    let more = if header.names.len() > MAX_NAMES_SHOWN { ", …" } else { "" };
     let what = format!("the names of the columns ({}{more}) {what}", names.join(", "));
     let remedy = match tried.dialect.0 {
         Separator::Blanks => "name the columns of x, y, z by --columns, by number from 1",
@@ -195,7 +195,7 @@ fn asked(columns: &Columns, tried: &Tried) -> Result<Vec<usize>> {
             // By the name as it stands, else without its unit.
             let at = one(&|n| n.text.to_lowercase() == name).or_else(|| one(&|n| n.base == name));
             let there: Vec<&str> = names.iter().map(|n| n.text.as_str()).collect();
-            let there = if there.is_empty() { "no names".into() } else { there.join(", ") };
+            let there = if there.is_empty() { "only columns without names".into() } else { there.join(", ") };
             at.ok_or((format!("\"{name}\""), there))
         }
     };

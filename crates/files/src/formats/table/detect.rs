@@ -7,7 +7,7 @@
 use super::{
     cell::{Separator, run_together},
     choose::{self, Chosen},
-    header::{Header, Said, unit_of},
+    header::{Header, UnitWord, unit_of},
     line::is_blank_line,
     row::{Layout, Row},
     tried::Tried,
@@ -17,10 +17,10 @@ use crate::{
     content::{ColumnTaken, TableReading},
     error::{Fault, Located, Result},
     lines::{Lines, line_end},
-    source::HEAD,
+    source::SNIFFED_BYTES,
 };
 
-/// What the first lines say.
+/// The facts that the first lines tell.
 pub(super) struct Found {
     pub layout: Layout,
     pub variant: &'static str,
@@ -32,13 +32,13 @@ pub(super) struct Found {
     /// Bytes of a row, about.
     pub width: usize,
     pub reading: TableReading,
-    /// What the header says of the unit of x, y, z.
+    /// The unit of x, y, z in the header.
     pub unit: Option<Unit>,
     pub warnings: Vec<Warning>,
 }
 
-/// Lines looked at.
-const SAMPLE: usize = 400;
+/// At most this many lines decide how a table is written.
+const MAX_SAMPLE_LINES: usize = 400;
 
 /// The ways of writing: separator and decimal point.
 const DIALECTS: [(Separator, u8); 7] = [
@@ -61,21 +61,21 @@ pub(super) fn plausible(head: &[u8]) -> bool {
 pub(super) fn detect(head: &[u8], columns: Option<&Columns>, unit_asked: bool) -> Result<Found> {
     let lines = sample(head);
     let end = line_end(head);
-    let mut ways: Vec<Way> = vec![];
+    let mut candidates: Vec<Candidate> = vec![];
     let tabs = Tried::new((Separator::Byte(b'\t'), b'.'), &lines).is_some_and(|t| t.clearly_parted());
     for dialect in DIALECTS.iter().filter(|d| d.0 != Separator::Blanks || !tabs) {
         let Some(tried) = Tried::new(*dialect, &lines) else { continue };
         let chosen = choose::columns(&tried, columns);
-        ways.push(Way::of(tried, chosen, end));
+        candidates.push(Candidate::of(tried, chosen, end));
     }
-    match best(ways) {
-        Some(Way { tried, chosen, .. }) => found(head, &lines, &tried, chosen?, unit_asked),
+    match best(candidates) {
+        Some(Candidate { tried, chosen, .. }) => found(head, &lines, &tried, chosen?, unit_asked),
         None => Err(no_rows(&lines)),
     }
 }
 
 /// A way of writing and what it reads.
-struct Way<'a> {
+struct Candidate<'a> {
     tried: Tried<'a>,
     chosen: std::result::Result<Chosen, Located>,
     rank: Rank,
@@ -83,35 +83,35 @@ struct Way<'a> {
     good: Vec<usize>,
 }
 
-/// The best way. What it skips before its first row must not be rows of another way, more than it reads itself: a line
-/// behind a table, written otherwise than this, would be read alone.
-fn best(mut ways: Vec<Way>) -> Option<Way> {
+/// The best way. It must not skip more rows of another way, before its first row, than it reads itself. Else a line behind a
+/// table that is written otherwise would be read alone.
+fn best(mut candidates: Vec<Candidate>) -> Option<Candidate> {
     let mut best = 0;
-    for i in 1..ways.len() {
-        if ways[i].rank > ways[best].rank {
+    for i in 1..candidates.len() {
+        if candidates[i].rank > candidates[best].rank {
             best = i;
         }
     }
-    let chosen = ways.get(best)?;
-    let skipped = |w: &Way| w.good.iter().filter(|line| **line < chosen.tried.start).count();
+    let chosen = candidates.get(best)?;
+    let skipped = |w: &Candidate| w.good.iter().filter(|line| **line < chosen.tried.start).count();
     let mut larger = (chosen.good.len(), best);
-    for (i, way) in ways.iter().enumerate().filter(|_| chosen.chosen.is_ok()) {
-        if skipped(way) > larger.0 {
-            larger = (skipped(way), i);
+    for (i, candidate) in candidates.iter().enumerate().filter(|_| chosen.chosen.is_ok()) {
+        if skipped(candidate) > larger.0 {
+            larger = (skipped(candidate), i);
         }
     }
-    Some(ways.swap_remove(larger.1))
+    Some(candidates.swap_remove(larger.1))
 }
 
 /// Whether every row was read, how many were, how many coordinates they have, and how many cells are numbers.
 type Rank = (bool, usize, usize, usize);
 
-impl<'a> Way<'a> {
-    fn of(tried: Tried<'a>, chosen: std::result::Result<Chosen, Located>, end: u8) -> Way<'a> {
+impl<'a> Candidate<'a> {
+    fn of(tried: Tried<'a>, chosen: std::result::Result<Chosen, Located>, end: u8) -> Candidate<'a> {
         let numbers = tried.numbers();
         let Ok(known) = &chosen else {
             let good = tried.rows_of_numbers().collect();
-            return Way { tried, chosen, rank: (false, 0, 0, numbers), good };
+            return Candidate { tried, chosen, rank: (false, 0, 0, numbers), good };
         };
         let layout = tried.layout(end, &known.columns);
         let (mut good, mut bad) = (vec![], 0);
@@ -125,14 +125,14 @@ impl<'a> Way<'a> {
         let all = bad == 0 && !good.is_empty();
         // Rows read in part say little about the number of coordinates.
         let (some, coordinates) = if all { (0, known.columns.len()) } else { (good.len(), 0) };
-        Way { tried, chosen, rank: (all, some, coordinates, numbers), good }
+        Candidate { tried, chosen, rank: (all, some, coordinates, numbers), good }
     }
 }
 
 /// The first lines, without one that the end of the sample cuts.
 fn sample(head: &[u8]) -> Vec<&[u8]> {
-    let mut lines: Vec<&[u8]> = Lines::new(head).take(SAMPLE).collect();
-    let cut = head.len() >= HEAD && lines.len() < SAMPLE;
+    let mut lines: Vec<&[u8]> = Lines::new(head).take(MAX_SAMPLE_LINES).collect();
+    let cut = head.len() >= SNIFFED_BYTES && lines.len() < MAX_SAMPLE_LINES;
     if cut && lines.len() > 1 {
         lines.pop();
     }
@@ -202,21 +202,21 @@ fn unit(
 ) -> Result<Option<Unit>> {
     let Some(header) = header else { return Ok(None) };
     let names: Vec<_> = columns.iter().filter_map(|&i| header.names.get(i)).collect();
-    let remarks = names.iter().filter(|n| matches!(n.unit, Said::Remark(_)));
+    let remarks = names.iter().filter(|n| matches!(n.unit, UnitWord::Remark(_)));
     warnings.extend(remarks.map(|n| Warning::NoUnit { name: n.text.clone() }));
     let unclear = |what: String| {
         let remedy = "say the unit of x, y, z by --units um, mm, cm, m or in";
         Fault::Unclear { what, remedy }.at_line(header.line as u64 + 1)
     };
     if let Some((name, unit)) = names.iter().find_map(|n| match &n.unit {
-        Said::Foreign(unit) => Some((&n.text, unit)),
+        UnitWord::Foreign(unit) => Some((&n.text, unit)),
         _ => None,
     }) && !asked
     {
         return Err(unclear(format!("the name \"{name}\" gives the unit {unit}, which is not understood")));
     }
     let units: Vec<Option<Unit>> =
-        names.iter().map(|n| if let Said::Unit(u) = n.unit { Some(u) } else { None }).collect();
+        names.iter().map(|n| if let UnitWord::Unit(u) = n.unit { Some(u) } else { None }).collect();
     let first = units.first().copied().flatten();
     if units.iter().all(|u| *u == first) || asked {
         return Ok(first);
@@ -231,9 +231,9 @@ fn stated(lines: &[&[u8]], asked: bool) -> Result<Option<Unit>> {
     for (number, line) in lines.iter().enumerate() {
         let text = String::from_utf8_lossy(line).to_lowercase();
         let text = text.trim_start_matches(|c: char| !c.is_alphabetic());
-        let Some(rest) = STATING.iter().find_map(|word| text.strip_prefix(word)) else { continue };
+        let Some(rest) = UNIT_WORDS.iter().find_map(|word| text.strip_prefix(word)) else { continue };
         let separated = rest.starts_with([':', '=', ',', ';', '\t', ' ', '(']);
-        // What stands in brackets says what it is the unit of.
+        // The text in brackets names the quantity that has the unit.
         let rest = rest.trim_start();
         let rest = rest.strip_prefix('(').and_then(|r| r.split_once(')')).map_or(rest, |(_, rest)| rest);
         let marked = rest.trim_start().starts_with([':', '=']);
@@ -243,13 +243,15 @@ fn stated(lines: &[&[u8]], asked: bool) -> Result<Option<Unit>> {
             Err(Fault::Unclear { what, remedy }.at_line(number as u64 + 1))
         };
         match unit_of(said) {
-            Said::Unit(unit) if separated && found.is_none_or(|before| before == unit) => found = Some(unit),
-            Said::Unit(_) if separated && !asked => return unclear("two units are stated".into()),
-            Said::Foreign(word) if separated && !asked => {
+            UnitWord::Unit(unit) if separated && found.is_none_or(|before| before == unit) => {
+                found = Some(unit)
+            }
+            UnitWord::Unit(_) if separated && !asked => return unclear("two units are stated".into()),
+            UnitWord::Foreign(word) if separated && !asked => {
                 return unclear(format!("the unit {word} is not understood"));
             }
             // A factor before a unit, or a part of one.
-            Said::Remark(word) if marked && !asked && word.bytes().any(|b| b.is_ascii_digit()) => {
+            UnitWord::Remark(word) if marked && !asked && word.bytes().any(|b| b.is_ascii_digit()) => {
                 return unclear(format!("the unit {word} is not understood"));
             }
             _ => {}
@@ -259,7 +261,7 @@ fn stated(lines: &[&[u8]], asked: bool) -> Result<Option<Unit>> {
 }
 
 /// Words that state the unit of a whole file, the longer before those that they begin with.
-const STATING: [&str; 8] =
+const UNIT_WORDS: [&str; 8] =
     ["length units", "length unit", "units", "unit", "einheiten", "einheit", "unités", "единицы"];
 
 /// Where in `head` a line cut from it begins.

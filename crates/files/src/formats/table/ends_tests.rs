@@ -1,4 +1,4 @@
-//! What stands behind the last row, and numbers that nothing parts.
+//! Lines behind the last row, and numbers that nothing parts.
 
 use super::*;
 use crate::{error::Located, feed::Feed};
@@ -8,7 +8,7 @@ pub(super) fn read(text: &[u8]) -> std::result::Result<Vec<Point>, String> {
     let said = |e: Located| e.in_file("f").to_string();
     let source = Source { feed: Feed::memory(text.to_vec()), bytes: 0, gzip: false };
     let parsed = super::read(source, &ReadOptions::default()).map_err(said)?;
-    let crate::format::Parts::Points(mut stream) = parsed.content else { panic!("a mesh") };
+    let crate::format::Content::Points(mut stream) = parsed.content else { panic!("a mesh") };
     let (mut points, mut block) = (vec![], vec![]);
     loop {
         stream.next_block(&mut block).map_err(said)?;

@@ -10,12 +10,12 @@ pub(super) struct Name {
     pub text: String,
     /// The name without a unit, lower case.
     pub base: String,
-    pub unit: Said,
+    pub unit: UnitWord,
 }
 
-/// What a name says of a unit.
+/// The unit in a name.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Said {
+pub(super) enum UnitWord {
     Nothing,
     Unit(Unit),
     /// A unit that is not among those converted here, or may be none.
@@ -84,8 +84,9 @@ impl Header {
 
     /// Whether the line holds nothing but units.
     pub fn is_units(&self) -> bool {
-        let unit = |n: &Name| matches!(n.unit, Said::Unit(_) | Said::Foreign(_)) && n.base.is_empty();
-        let bare = |n: &Name| matches!(unit_of(&n.text.to_lowercase()), Said::Unit(_) | Said::Foreign(_));
+        let unit = |n: &Name| matches!(n.unit, UnitWord::Unit(_) | UnitWord::Foreign(_)) && n.base.is_empty();
+        let bare =
+            |n: &Name| matches!(unit_of(&n.text.to_lowercase()), UnitWord::Unit(_) | UnitWord::Foreign(_));
         let said = self.names.iter().filter(|n| !n.text.is_empty());
         said.clone().count() > 1 && said.clone().all(|n| unit(n) || bare(n))
     }
@@ -94,10 +95,10 @@ impl Header {
     pub fn take_units(&mut self, units: &Header) {
         for (name, unit) in self.names.iter_mut().zip(&units.names) {
             let said = match &unit.unit {
-                Said::Nothing => unit_of(&unit.text.to_lowercase()),
+                UnitWord::Nothing => unit_of(&unit.text.to_lowercase()),
                 said => said.clone(),
             };
-            if name.unit == Said::Nothing && !unit.text.is_empty() {
+            if name.unit == UnitWord::Nothing && !unit.text.is_empty() {
                 name.unit = said;
             }
         }
@@ -106,7 +107,7 @@ impl Header {
 
 impl Name {
     fn of(cell: &[u8]) -> Name {
-        // What is not UTF-8 is most often Latin-1, as the micro sign of older programs.
+        // Text that is not UTF-8 is most often Latin-1, as the micro sign of older programs.
         let latin = || cell.iter().map(|b| char::from(*b)).collect();
         let text: String = std::str::from_utf8(cell).map_or_else(|_| latin(), str::to_owned);
         let (base, unit) = split(text.trim().to_lowercase());
@@ -115,21 +116,21 @@ impl Name {
 }
 
 /// The name and what it says of a unit: `x [mm]`, `x (mm)`, `x/mm`, `x in mm`, `x_mm`, `xmm`. Lower case.
-fn split(name: String) -> (String, Said) {
+fn split(name: String) -> (String, UnitWord) {
     if let Some(open) = name.find(['[', '(', '{']) {
         let inner = name[open + 1..].trim_end_matches([']', ')', '}']);
-        let said = if inner.bytes().all(|b| b.is_ascii_digit()) { Said::Nothing } else { unit_of(inner) };
-        let base = if said == Said::Nothing { name.as_str() } else { &name[..open] };
+        let said = if inner.bytes().all(|b| b.is_ascii_digit()) { UnitWord::Nothing } else { unit_of(inner) };
+        let base = if said == UnitWord::Nothing { name.as_str() } else { &name[..open] };
         return (base.trim().into(), said);
     }
     for sign in ['/', '_', ' '] {
         if let Some((base, last)) = name.rsplit_once(sign)
-            && let said @ (Said::Unit(_) | Said::Foreign(_)) = unit_of(last)
+            && let said @ (UnitWord::Unit(_) | UnitWord::Foreign(_)) = unit_of(last)
         {
             let base = base.strip_suffix(" in").unwrap_or(base);
             // "x_m" may be meters or what was measured.
             let unclear = last == "m" && sign != '/' && !base.is_empty() && !name.ends_with(" in m");
-            return (base.trim().into(), if unclear { Said::Foreign("m".into()) } else { said });
+            return (base.trim().into(), if unclear { UnitWord::Foreign("m".into()) } else { said });
         }
     }
     for unit in ["mm", "cm", "um", "\u{b5}m", "\u{3bc}m", "inch"] {
@@ -137,19 +138,19 @@ fn split(name: String) -> (String, Said) {
             return (base.into(), unit_of(unit));
         }
     }
-    (name, Said::Nothing)
+    (name, UnitWord::Nothing)
 }
 
-/// Units that are not converted here, and signs that are no length.
-const FOREIGN: [&str; 23] = [
+/// Units that are not converted here, and signs of quantities other than lengths.
+const FOREIGN_UNITS: [&str; 23] = [
     "nm", "dm", "km", "ft", "feet", "foot", "yd", "mil", "mils", "thou", "pm", "\u{e5}", "px", "pixel",
     "pixels", "deg", "\u{b0}", "rad", "gon", "grad", "%", "usft", "pt",
 ];
 
-/// What a word says of a unit.
-pub(super) fn unit_of(word: &str) -> Said {
+/// The unit that a word names.
+pub(super) fn unit_of(word: &str) -> UnitWord {
     let known = match word.trim() {
-        "" => return Said::Nothing,
+        "" => return UnitWord::Nothing,
         "mm" | "millimeter" | "millimetre" | "millimeters" | "millimetres" | "\u{43c}\u{43c}"
         | "\u{6beb}\u{7c73}" => Unit::Millimeter,
         "cm" | "centimeter" | "centimetre" | "centimeters" | "centimetres" | "zentimeter" => Unit::Centimeter,
@@ -157,14 +158,14 @@ pub(super) fn unit_of(word: &str) -> Said {
         "in" | "inch" | "inches" | "zoll" | "\"" => Unit::Inch,
         "um" | "\u{b5}m" | "\u{3bc}m" | "micron" | "microns" | "micrometer" | "micrometre"
         | "micrometers" | "micrometres" | "mikrometer" => Unit::Micrometer,
-        word if FOREIGN.contains(&word) => return Said::Foreign(word.into()),
-        word => return Said::Remark(word.into()),
+        word if FOREIGN_UNITS.contains(&word) => return UnitWord::Foreign(word.into()),
+        word => return UnitWord::Remark(word.into()),
     };
-    Said::Unit(known)
+    UnitWord::Unit(known)
 }
 
-/// Words that may stand beside the letter of an axis.
-const AROUND: [&str; 22] = [
+/// Words that may stand beside the letter of an axis in a name.
+const WORDS_BESIDE_AXIS: [&str; 22] = [
     "p",
     "pos",
     "point",
@@ -189,8 +190,8 @@ const AROUND: [&str; 22] = [
     "\u{5ea7}\u{6a19}",
 ];
 
-/// What surveyors call the axes.
-const SURVEY: [&[&str]; 3] = [
+/// Surveyors' names of the axes.
+const SURVEY_AXES: [&[&str]; 3] = [
     &["easting", "east", "ost", "ostwert", "rechtswert"],
     &["northing", "north", "nord", "nordwert", "hochwert"],
     &["elevation", "height", "altitude", "h\u{f6}he", "hoehe"],
@@ -210,9 +211,10 @@ fn axis_of(base: &str) -> Option<usize> {
         // Typed on a Russian keyboard, x and y look the same and are other letters.
         let letter = |w: &str| w == axis || i < 2 && w == ["\u{445}", "\u{443}"][i];
         let beside = words.iter().filter(|w| letter(w)).count() == 1
-            && words.iter().all(|w| letter(w) || AROUND.contains(w));
-        let glued = || AROUND.iter().any(|w| bare == format!("{w}{axis}") || bare == format!("{axis}{w}"));
-        bare == format!("points{i}") || SURVEY[i].contains(&bare.as_str()) || beside || glued()
+            && words.iter().all(|w| letter(w) || WORDS_BESIDE_AXIS.contains(w));
+        let glued =
+            || WORDS_BESIDE_AXIS.iter().any(|w| bare == format!("{w}{axis}") || bare == format!("{axis}{w}"));
+        bare == format!("points{i}") || SURVEY_AXES[i].contains(&bare.as_str()) || beside || glued()
     };
     (0..3).find(|i| is(*i))
 }
@@ -266,16 +268,16 @@ mod tests {
             ("X (Zoll)", Unit::Inch),
             ("X inch", Unit::Inch),
         ] {
-            assert_eq!(said(name), Said::Unit(unit), "{name}");
+            assert_eq!(said(name), UnitWord::Unit(unit), "{name}");
             let same =
                 Header { line: 0, comment: false, names: vec![Name::of(name.as_bytes()), Name::of(b"y")] };
             assert_eq!(same.axes(), Axes::Named(vec![0, 1]), "{name}");
         }
-        assert_eq!(Name::of(b"X [\xb5m]").unit, Said::Unit(Unit::Micrometer));
-        assert_eq!(said("x [ft]"), Said::Foreign("ft".into()));
-        assert_eq!(said("x_m"), Said::Foreign("m".into()));
-        assert_eq!(said("X (Ist)"), Said::Remark("ist".into()));
-        assert_eq!(said("x"), Said::Nothing);
+        assert_eq!(Name::of(b"X [\xb5m]").unit, UnitWord::Unit(Unit::Micrometer));
+        assert_eq!(said("x [ft]"), UnitWord::Foreign("ft".into()));
+        assert_eq!(said("x_m"), UnitWord::Foreign("m".into()));
+        assert_eq!(said("X (Ist)"), UnitWord::Remark("ist".into()));
+        assert_eq!(said("x"), UnitWord::Nothing);
         let units = |line: &str| header(line, Separator::Byte(b';')).is_units();
         assert!(units("[mm];[mm];[mm]") && units("mm;mm;in") && !units("x;y;z") && !units("x [mm];y [mm]"));
     }

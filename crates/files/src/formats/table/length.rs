@@ -1,8 +1,8 @@
 //! Whether a row has all of its cells.
 //!
-//! A cell that is missing together with its separator moves those behind it to the left, and its own row does not show that. The other rows
-//! do: the columns up to the last one that holds numbers are the fixed part, which each row has as a whole. A row without one of these cells
-//! is shorter than the fixed part, or has words of a later column where the fixed part ends. Only text behind the fixed part may be
+//! A cell that is missing together with its separator moves the cells behind it to the left. Its own row does not show that, but the other
+//! rows do. The columns up to the last one that holds numbers are the fixed part, which each row has as a whole. A row without one of these
+//! cells is shorter than the fixed part, or has words of a later column where the fixed part ends. Only text behind the fixed part may be
 //! missing and, between blanks, be several words.
 
 use super::cell::{Class, Separator, class, unquoted};
@@ -94,7 +94,7 @@ impl Length {
         row.cells < least
     }
 
-    /// What is wrong with a row that does not fit.
+    /// The fault of a row that does not fit.
     pub(super) fn fault(&self, row: &Counted, separator: Separator, text: &[u8]) -> Fault {
         let (shown, blanks) = (quoted(text), separator == Separator::Blanks);
         if blanks && self.fixed < self.width {

@@ -1,25 +1,25 @@
 //! Points as rows of numbers: XYZ, ASC, TXT, CSV, PTS.
 //!
-//! Nothing is guessed: a table is read to the numbers that it means, or refused with the place and a remedy, and what was
-//! taken for what is told ([`TableReading`](crate::TableReading)). The rules, which the manual page states for users:
+//! Nothing is guessed. A table is read to the numbers that it means, or refused with the place and a remedy. The result
+//! names the columns taken ([`TableReading`](crate::TableReading)). The rules, which the manual page states for users:
 //!
 //! 1. Separators are semicolon, tab, comma or blanks; decimal signs point or comma, but not both commas. The first 400
-//!    lines decide: a way of writing that reads all their rows goes before one that does not, three coordinates before
-//!    two; it must not skip more rows of another way than it reads. Where equally many tabs stand in all rows, tabs separate.
-//! 2. The table begins at the line after a header that names x and y, else at the first line that has as many cells as
-//!    the rows and a number in one of them, or several numbers and nothing else. From there on, every line that is
+//!    lines decide. A way of writing that reads all their rows goes before one that does not, three coordinates before
+//!    two. It must not skip more rows of another way than it reads. Where equally many tabs stand in all rows, tabs separate.
+//! 2. The table begins at the line after a header that names x and y. Without one, it begins at the first line with as many
+//!    cells as the rows and a number in one of them, or with several numbers and nothing else. From there on, every line that is
 //!    neither blank nor a comment is a row.
-//! 3. The columns are those asked for; else those that the header names, which is binding, so that names and cells must
-//!    be equally many; else the first three (or two) that do not hold words in every looked-at row.
-//! 4. A cell of these columns that is no finite number is an error with line and column: empty cells, marks such as `NA`
-//!    or `-`, thousands separators, units, the other decimal sign, what a spreadsheet could not compute. U+2212 is a minus.
+//! 3. The columns asked for are taken. Else a header is binding: its names and the cells must be equally many. Without a
+//!    header, the first three (or two) columns are taken that do not hold words in every looked-at row.
+//! 4. A cell of these columns that is no finite number is an error with line and column. Such are empty cells, marks such as
+//!    `NA` or `-`, thousands separators, units, the other decimal sign, errors of a spreadsheet. U+2212 is a minus.
 //! 5. A row of more or fewer cells than the others is an error. Only text behind the last column of numbers may be missing, and
 //!    be several words between blanks. A line before the first row that lacks one cell, or is the start of a row, is a row.
-//! 6. What can be meant in two ways is refused: commas that may be decimal signs, a first column that may be x or a
-//!    running number, names that fit x twice or not at all.
-//! 7. Behind the last row may stand what ends texts: Ctrl-Z, `END`, `EOF`.
-//! 8. An airfoil in Selig's or Lednicer's form is known by its rows: its title, whatever it looks like, and its counts are none, and two
-//!    sides become one row around the profile. That is told.
+//! 6. A table that can be meant in two ways is refused: its commas may be decimal signs, its first column may be x or a
+//!    running number, its names fit x twice or not at all.
+//! 7. Behind the last row may stand a mark for the end of a text: Ctrl-Z, `END`, `EOF`.
+//! 8. An airfoil in Selig's or Lednicer's form is known by its rows. Its title, whatever it looks like, and its counts are no points.
+//!    Two sides become one row around the profile. A warning says so.
 //! 9. A unit in the names of x, y, z is used, unless the user says another one; one that is not understood is refused.
 
 mod airfoil;
@@ -47,7 +47,7 @@ use crate::{
     feed::Feed,
     format::{Format, Head, Parsed, ReadOptions},
     lines::is_text,
-    source::{HEAD, Source},
+    source::{SNIFFED_BYTES, Source},
 };
 use cell::END_MARK;
 pub(crate) use cell::Separator;
@@ -86,17 +86,17 @@ fn before_end_mark(head: &[u8]) -> &[u8] {
 
 fn read(mut source: Source, options: &ReadOptions) -> Result<Parsed> {
     let (mut form, mut file_lines) = (None, None);
-    let whole = source.feed.ahead(HEAD)?;
+    let whole = source.feed.ahead(SNIFFED_BYTES)?;
     // Collections of airfoils hold a hundred rows; longer files have none of their forms.
     if options.columns.is_none()
-        && whole.len() < HEAD
+        && whole.len() < SNIFFED_BYTES
         && let Some(airfoil) = airfoil::plain(before_end_mark(whole))
     {
-        (form, file_lines) = (Some(airfoil.told), Some(airfoil.file_lines));
+        (form, file_lines) = (Some(airfoil.warning), Some(airfoil.file_lines));
         source.feed = Feed::memory(airfoil.text);
     }
-    let head = source.feed.ahead(HEAD)?;
-    let head = before_end_mark(&head[..head.len().min(HEAD)]);
+    let head = source.feed.ahead(SNIFFED_BYTES)?;
+    let head = before_end_mark(&head[..head.len().min(SNIFFED_BYTES)]);
     if !is_text(head) {
         crate::unicode::no_zeros(head)?;
         return Err(Fault::unexpected("rows of numbers", head).at_byte(0));

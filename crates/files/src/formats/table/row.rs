@@ -1,7 +1,7 @@
 //! One row of a table.
 //!
-//! Numbers are parsed where they stand. A row that this does not read at once (a comment, a quoted blank, a fault) is
-//! cut into cells and looked at again; whatever the first way reads, the second reads to the same number.
+//! Numbers are parsed where they stand. A row that this way does not read (a comment, a quoted blank, a fault) is
+//! cut into cells and looked at again. Where both ways read a row, they give the same numbers.
 
 use super::cell::{
     Class, END_MARK, Separator, cell_end, cell_number, cells, class, is_comment, is_end, next_cell,
@@ -14,7 +14,7 @@ use crate::{
 };
 use trueness_geom::space::Point;
 
-/// How rows are written, and what of them is wanted.
+/// How rows are written, and which of their columns are wanted.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Layout {
     pub separator: Separator,
@@ -35,7 +35,7 @@ pub(crate) struct Layout {
 /// A column that is passed over.
 pub(crate) const UNWANTED: u8 = 3;
 
-/// What a line is.
+/// The content of a line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Row {
     Point(Point),
@@ -58,7 +58,7 @@ impl Layout {
         Layout { separator, point, columns, planar: wanted.len() == 2, announced: false, length: None, end }
     }
 
-    /// What a line gives, or what is wrong with it.
+    /// The content of a line, or its fault.
     #[inline]
     pub fn row(&self, line: &[u8]) -> Result<Row, Fault> {
         let mut point = [0.0; 3];
@@ -67,13 +67,13 @@ impl Layout {
             if i > 0 {
                 match next_cell(line, at, self.separator) {
                     Some(next) => at = next,
-                    None => return self.odd(line),
+                    None => return self.read_by_cells(line),
                 }
             }
             if axis == UNWANTED {
                 match cell_end(line, at, self.separator) {
                     Some(end) => at = end,
-                    None => return self.odd(line),
+                    None => return self.read_by_cells(line),
                 }
                 continue;
             }
@@ -87,19 +87,19 @@ impl Layout {
                     point[usize::from(axis)] = x;
                     at = start + n;
                 }
-                _ => return self.odd(line),
+                _ => return self.read_by_cells(line),
             }
             if quote == 1 {
                 if line.get(at) != Some(&b'"') {
-                    return self.odd(line);
+                    return self.read_by_cells(line);
                 }
                 at += 1;
             }
             if line.get(at).is_some_and(|b| !self.ends_number(*b)) {
-                return self.odd(line);
+                return self.read_by_cells(line);
             }
         }
-        if self.tail(line, at) { Ok(Row::Point(point)) } else { self.odd(line) }
+        if self.tail(line, at) { Ok(Row::Point(point)) } else { self.read_by_cells(line) }
     }
 
     #[inline(always)]
@@ -131,7 +131,7 @@ impl Layout {
 
     /// A line that is not read at first sight.
     #[cold]
-    fn odd(&self, line: &[u8]) -> Result<Row, Fault> {
+    fn read_by_cells(&self, line: &[u8]) -> Result<Row, Fault> {
         let text = line.trim_ascii();
         if text.is_empty() || is_comment(text, self.separator) {
             return Ok(Row::Nothing);
@@ -168,7 +168,7 @@ impl Layout {
         unfit.as_ref().map_or(Ok(Row::Point(point)), |row| Err(fault(row)))
     }
 
-    /// What is wrong with a cell that should hold a number, and what to do.
+    /// Fault and remedy of a cell that should hold a number.
     fn fault(&self, column: usize, axis: u8, cell: &[u8]) -> Fault {
         if let Some((what, remedy)) = run_together(cell) {
             return Fault::Unclear { what: format!("{what}: {}", quoted(cell)), remedy };

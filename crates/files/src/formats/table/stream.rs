@@ -1,8 +1,8 @@
 //! Rows of text to blocks of points, many rows at a time.
 //!
-//! The window over the file is cut into parts of whole lines. Lines are counted first, so that each part knows where
-//! in the block its points go and is parsed straight into that place, by whichever thread; the gaps that comments
-//! leave are closed afterwards. So the order is that of the file, whatever the threads did.
+//! The window over the file is cut into parts of whole lines. Lines are counted first, so that each part knows the place
+//! of its points in the block. Any thread may parse it straight into that place. The gaps that comments leave are closed
+//! afterwards. So the points keep the order of the file, whatever the threads did.
 
 use super::row::{Layout, Row};
 use crate::{
@@ -13,18 +13,18 @@ use crate::{
 use trueness_geom::parallel::prelude::*;
 use trueness_geom::{cloud::PointStream, space::Point};
 
-/// Bytes parsed at a time by one thread: they stay in its cache.
-const PART: usize = 1 << 18;
-/// The longest line taken for one.
-const LINE: usize = 1 << 20;
+/// A thread parses this many bytes at a time, which stay in its cache.
+const TABLE_BYTES_PER_TASK: usize = 1 << 18;
+/// A line is read up to this length.
+const MAX_LINE_BYTES: usize = 1 << 20;
 
 /// How many points there should be.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Limit {
     /// As many as come.
     None,
-    /// As many as the file announces: at its start so many, and further ones on lines of their own. Other numbers of
-    /// them are a fault.
+    /// As many as the file announces: this many at its start, and further ones on lines of their own. More or fewer are
+    /// a fault.
     Announced(u64),
     /// Exactly so many; what follows is something else.
     Exactly(u64),
@@ -48,7 +48,15 @@ pub(crate) struct TextPoints {
 impl TextPoints {
     /// Points from the rows ahead, the first of which is behind `lines` lines.
     pub fn new(feed: Feed, layout: Layout, lines: u64, limit: Limit, window: usize) -> TextPoints {
-        TextPoints { feed, layout, lines, limit, found: 0, hollow: None, window: window.clamp(PART, 1 << 30) }
+        TextPoints {
+            feed,
+            layout,
+            lines,
+            limit,
+            found: 0,
+            hollow: None,
+            window: window.clamp(TABLE_BYTES_PER_TASK, 1 << 30),
+        }
     }
 
     /// The file, as far as it has been read.
@@ -133,7 +141,7 @@ fn whole_lines(bytes: &[u8], size: usize, end: u8) -> Option<&[u8]> {
     }
     match memchr::memrchr(end, &bytes[..size]) {
         Some(i) => Some(&bytes[..=i]),
-        None if size > LINE || bytes.len() == size => None,
+        None if size > MAX_LINE_BYTES || bytes.len() == size => None,
         None => whole_lines(bytes, size * 2, end),
     }
 }
@@ -148,7 +156,7 @@ fn first_lines(window: &[u8], count: u64, end: u8) -> &[u8] {
     last.map_or(window, |i| &window[..=i])
 }
 
-/// What the lines of a part, or of a window, gave.
+/// The result of the lines of a part, or of a window.
 #[derive(Default)]
 struct Filled {
     lines: u64,
@@ -169,11 +177,11 @@ fn parse(
     hollow: Option<u64>,
     block: &mut Vec<Point>,
 ) -> Result<Filled> {
-    let parts = parts(window, PART, layout.end);
+    let parts = parts(window, TABLE_BYTES_PER_TASK, layout.end);
     let counts: Vec<u64> = parts.par_iter().map(|p| count_lines(p, layout.end)).collect();
     let open = window.last().is_some_and(|b| *b != layout.end);
     let lines = counts.iter().sum::<u64>() + u64::from(open);
-    // What the block held before is overwritten: only growth costs anything.
+    // The old content of the block is overwritten: only growth costs anything.
     block.resize(lines as usize, [0.0; 3]);
     let mut rest = &mut block[..];
     let mut jobs = Vec::with_capacity(parts.len());

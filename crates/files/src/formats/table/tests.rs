@@ -17,7 +17,7 @@ struct Read {
 fn read_with(text: &[u8], options: &ReadOptions) -> std::result::Result<Read, Located> {
     let source = Source { feed: Feed::memory(text.to_vec()), bytes: 0, gzip: false };
     let parsed = super::read(source, options)?;
-    let crate::format::Parts::Points(mut stream) = parsed.content else { panic!("a mesh") };
+    let crate::format::Content::Points(mut stream) = parsed.content else { panic!("a mesh") };
     let (mut points, mut block) = (vec![], vec![]);
     loop {
         stream.next_block(&mut block)?;
@@ -62,7 +62,7 @@ struct Way {
     before: Before,
     after: After,
     grouped: bool,
-    /// What stands instead of a number, in which row and coordinate.
+    /// The content instead of a number, with row and coordinate.
     gap: Option<(usize, usize, &'static str)>,
     crlf_and_mark: bool,
 }
@@ -317,7 +317,7 @@ const REFUSED: &[(&str, &[&str])] = &[
     ("1 2 3\n4 5\n", &["line 2"]),
     ("x,y,z\n1,2,3\n4,5,6\n1,5,2,5,3,5\n", &["line 4", "a row of 3 cells"]),
     ("1;2;3\n;;\n4;5;6\n", &["line 2", "without numbers"]),
-    // What may be meant in two ways.
+    // Tables that may be meant in two ways.
     ("1,5,2,5,3,5\n4,5,5,5,6,5\n", &["line 1", "decimal signs", "--columns"]),
     ("1,1,5,2,5,3,5\n2,4,5,5,5,6,5\n3,4,5,5,5,6,5\n", &["line 1", "--columns"]),
     ("1,5\n2,5\n", &["line 1", "decimal signs"]),
@@ -345,9 +345,9 @@ const REFUSED: &[(&str, &[&str])] = &[
     ("X [in],Y [mm],Z [mm]\n1,2,3\n", &["line 1", "different units", "--units"]),
     ("x_m,y_m,z_m\n1,2,3\n", &["line 1", "--units"]),
     // Announced numbers.
-    ("3\n1 2 3\n4 5 6\n", &["3 points declared, 2 there"]),
-    ("1\n1 2 3\n4 5 6\n", &["1 points announced, 2 there"]),
-    ("2\n1 2 3\n4 5 6\n1\n7 8 9\n1 1 1\n", &["3 points announced, 4 there"]),
+    ("3\n1 2 3\n4 5 6\n", &["3 points declared, 2 present"]),
+    ("1\n1 2 3\n4 5 6\n", &["1 points announced, 2 present"]),
+    ("2\n1 2 3\n4 5 6\n1\n7 8 9\n1 1 1\n", &["3 points announced, 4 present"]),
     // Zeros.
     ("1 2 3\n4 5 6\n\0\0\0\0", &["zero bytes"]),
     ("a,b\nc,d\n", &["line 1", "rows of two or three numbers"]),

@@ -33,17 +33,17 @@ pub(super) struct Tried<'a> {
 impl<'a> Tried<'a> {
     /// `None` if no line has two cells with numbers, or with what may have been meant as such.
     pub fn new(dialect: (Separator, u8), lines: &[&'a [u8]]) -> Option<Tried<'a>> {
-        let said: Vec<Line> = lines
+        let filled: Vec<Line> = lines
             .iter()
             .enumerate()
             .filter(|(_, l)| !is_blank_line(l) && !is_comment(l.trim_ascii(), dialect.0))
             .map(|(i, l)| Line::of(i, l, dialect))
             .collect();
-        let numeric = said.iter().filter(|l| l.numbers() >= 2).count();
+        let numeric = filled.iter().filter(|l| l.numbers() >= 2).count();
         // Where no line has two numbers, cells that may have been meant as such show the rows, to be refused by their place.
         let kinds: &[Class] =
             if numeric > 0 { &[Class::Number] } else { &[Class::Number, Class::Unreadable] };
-        let rows = || said.iter().filter(|l| l.count(kinds) >= 2);
+        let rows = || filled.iter().filter(|l| l.count(kinds) >= 2);
         // Text at the end of a row is as many cells as it has words, so that the last number shows which rows are alike.
         let last_number = |l: &&Line| l.classes.iter().rposition(|c| kinds.contains(c));
         let alike = most_frequent(rows().filter_map(|l| last_number(&l)))?;
@@ -53,32 +53,32 @@ impl<'a> Tried<'a> {
         let varied = by_blanks && rows().any(|l| l.cells.len() != most);
         let text = varied && ended_alike().any(|l| l.classes.get(alike + 1) == Some(&Class::Word));
         let ending = text.then_some(alike);
-        let first = said.iter().position(|l| l.is_row(most, kinds)).unwrap_or(0);
-        let header = named(dialect.0, lines, said[first].index);
+        let first = filled.iter().position(|l| l.is_row(most, kinds)).unwrap_or(0);
+        let header = named(dialect.0, lines, filled[first].index);
         let mut start = match &header {
             Some(header) if !header.comment => {
-                said.iter().position(|l| l.index > header.line).unwrap_or(first)
+                filled.iter().position(|l| l.index > header.line).unwrap_or(first)
             }
             // Rows of nothing but marks for missing values, of what is meant as numbers, or of a cell too few are rows as well.
             _ => {
-                let kinds = Kinds::of(&said[first..], most, dialect.0, ending);
-                let row = |l: &Line| l.is_gap(most) || l.is_broken(most) || kinds.nearly_take(l);
-                said[..first].iter().rposition(|l| !row(l)).map_or(0, |before| before + 1)
+                let kinds = Kinds::of(&filled[first..], most, dialect.0, ending);
+                let row = |l: &Line| l.is_gap(most) || l.is_broken(most) || kinds.nearly_fits(l);
+                filled[..first].iter().rposition(|l| !row(l)).map_or(0, |before| before + 1)
             }
         };
-        let (units, skipped) = between(&said[start..=first], dialect.0);
+        let (units, skipped) = between(&filled[start..=first], dialect.0);
         start += skipped;
         let mut header =
-            header.or_else(|| unnamed(dialect.0, lines, &said[..start], said[start].index, most));
+            header.or_else(|| unnamed(dialect.0, lines, &filled[..start], filled[start].index, most));
         if let (Some(header), Some(units)) = (&mut header, units) {
             header.take_units(&units);
         }
-        let announced = match &said[..start] {
+        let announced = match &filled[..start] {
             [only] if header.is_none() => count(only.text.trim_ascii()),
             _ => None,
         };
-        let start_line = said[start].index;
-        let mut rows: Vec<Line> = said.into_iter().skip(start).collect();
+        let start_line = filled[start].index;
+        let mut rows: Vec<Line> = filled.into_iter().skip(start).collect();
         rows.retain(|l| announced.is_none() || count(l.text.trim_ascii()).is_none());
         let filled = rows.iter().filter(|l| l.cells.len() <= most).map(Line::filled).max().unwrap_or(most);
         let width = header.as_ref().map_or(filled, |h| filled.max(h.names.len().min(most)));
@@ -121,7 +121,7 @@ impl<'a> Tried<'a> {
         self.rows.iter().map(Line::numbers).sum()
     }
 
-    /// What the cells of a column are, row by row.
+    /// The kinds of the cells of a column, row by row.
     pub fn column(&self, i: usize) -> impl Iterator<Item = Class> {
         self.whole().map(move |l| l.classes.get(i).copied().unwrap_or(Class::Missing))
     }
@@ -157,12 +157,12 @@ fn named(separator: Separator, lines: &[&[u8]], first: usize) -> Option<Header> 
     lines[..first].iter().enumerate().rev().find_map(names)
 }
 
-/// Names that are not those of x and y: the last line before the rows, of as many cells as they, or the line before it
-/// where that holds units. A comment of so many words is prose unless it names some coordinate.
+/// Names other than those of x and y: the last line before the rows, with as many cells as these. Where that line holds units, the
+/// one before it has the names. A comment of so many words is prose unless it names some coordinate.
 fn unnamed(
     separator: Separator,
     lines: &[&[u8]],
-    said: &[Line],
+    filled: &[Line],
     start: usize,
     width: usize,
 ) -> Option<Header> {
@@ -171,7 +171,7 @@ fn unnamed(
         width > 1 && h.names.len() == width && h.names.iter().all(word)
     };
     let comment = lines[..start].iter().rposition(|l| is_comment(l.trim_ascii(), separator));
-    let mut plain = said.iter().rev().filter(|l| !l.is_rule());
+    let mut plain = filled.iter().rev().filter(|l| !l.is_rule());
     let last = plain.next();
     if let Some(i) = comment.filter(|i| last.is_none_or(|l| l.index < *i)) {
         return Header::of(i, lines[i], true, separator).filter(|h| words(h) && h.axes() != Axes::Unnamed);
@@ -187,9 +187,9 @@ fn unnamed(
 }
 
 /// The units and how many lines stand between a header and the rows: a line of units, lines drawn with characters.
-fn between(said: &[Line], separator: Separator) -> (Option<Header>, usize) {
+fn between(filled: &[Line], separator: Separator) -> (Option<Header>, usize) {
     let mut units = None;
-    for (i, line) in said.iter().enumerate() {
+    for (i, line) in filled.iter().enumerate() {
         let header = Header::of(line.index, line.text, false, separator);
         match header.filter(Header::is_units) {
             Some(header) => units = Some(header),
@@ -197,5 +197,5 @@ fn between(said: &[Line], separator: Separator) -> (Option<Header>, usize) {
             None => return (units, i),
         }
     }
-    (units, said.len().saturating_sub(1))
+    (units, filled.len().saturating_sub(1))
 }

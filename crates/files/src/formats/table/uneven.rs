@@ -6,11 +6,11 @@ use super::{
 };
 use crate::number::count;
 
-/// What the rows of a table have in their columns.
+/// The kinds of cells in the columns of a table.
 pub(super) struct Kinds<'a> {
-    /// Of each column, whether there are numbers in it, and whether there are words.
+    /// For each column, whether there are numbers in it, and whether there are words.
     columns: Vec<[bool; 2]>,
-    /// Of each column, whether a cell of it is missing.
+    /// For each column, whether a cell of it is missing.
     gaps: Vec<bool>,
     /// The cells of the first row.
     first: &'a [&'a [u8]],
@@ -31,7 +31,7 @@ fn shape(cell: &[u8]) -> Vec<u8> {
 }
 
 impl<'a> Kinds<'a> {
-    /// Those of the rows of `width` cells, and of these, where text follows the numbers, of those whose last number is in the column `ending`.
+    /// The kinds in the rows of `width` cells. Where text follows the numbers, only rows count whose last number is in the column `ending`.
     pub fn of(rows: &'a [Line], width: usize, separator: Separator, ending: Option<usize>) -> Kinds<'a> {
         let (mut columns, mut gaps) = (vec![[false; 2]; width], vec![false; width]);
         let last = |l: &Line| l.classes.iter().rposition(|c| is_number(*c));
@@ -65,14 +65,14 @@ impl<'a> Kinds<'a> {
     }
 
     /// Whether cells fit the columns in their order, with the column `without` left out.
-    fn take(&self, cells: impl ExactSizeIterator<Item = Class>, without: Option<usize>) -> bool {
+    fn fits(&self, cells: impl ExactSizeIterator<Item = Class>, without: Option<usize>) -> bool {
         let shift = |i: usize| i + usize::from(without.is_some_and(|w| i >= w));
         let enough = shift(cells.len()) >= self.fixed;
         enough && cells.enumerate().all(|(i, class)| self.takes(shift(i), class))
     }
 
     /// Whether a line is a row with one cell missing or one too many, or one that is cut short.
-    pub fn nearly_take(&self, line: &Line) -> bool {
+    pub fn nearly_fits(&self, line: &Line) -> bool {
         let n = line.filled();
         let classes = &line.classes[..n];
         if line.is_rule() || self.fixed == 0 {
@@ -81,12 +81,12 @@ impl<'a> Kinds<'a> {
         let numbers = n > 1 && classes.iter().any(|c| is_number(*c));
         let all = || classes.iter().copied();
         let with_all = || {
-            self.take(all(), None)
-                || (0..self.fixed).any(|column| self.take(all(), Some(column)))
+            self.fits(all(), None)
+                || (0..self.fixed).any(|column| self.fits(all(), Some(column)))
                 || (0..n).any(|extra| {
                     let mut kept = classes.to_vec();
                     kept.remove(extra);
-                    self.take(kept.into_iter(), None)
+                    self.fits(kept.into_iter(), None)
                 })
         };
         numbers && with_all() || self.begins_with(line)

@@ -89,7 +89,7 @@ impl Random {
     }
 }
 
-/// What is wrong with a table.
+/// The fault of a table.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Fault {
     Nothing,

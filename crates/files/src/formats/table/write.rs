@@ -9,16 +9,16 @@ use crate::{
 use std::io::Write;
 use trueness_geom::parallel::prelude::*;
 
-/// Rows made into text by one task.
-const CHUNK: usize = 1 << 13;
+/// One task makes this many rows into text.
+const TEXT_ROWS_PER_TASK: usize = 1 << 13;
 
 /// How rows are written.
 #[derive(Clone, Copy)]
 struct Style {
-    /// What begins the header line.
+    /// The beginning of the header line.
     header: &'static str,
     separator: u8,
-    /// What stands where there is no number.
+    /// The text of a missing number.
     nothing: &'static str,
 }
 
@@ -62,7 +62,7 @@ struct Rows {
 
 impl PointsSink for Rows {
     fn write(&mut self, block: &Block) -> Result<(), WriteFault> {
-        let starts: Vec<usize> = (0..block.points.len()).step_by(CHUNK).collect();
+        let starts: Vec<usize> = (0..block.points.len()).step_by(TEXT_ROWS_PER_TASK).collect();
         let style = self.style;
         // A few parts at a time, so that the text does not outgrow the numbers.
         for group in starts.chunks(4 * rayon::current_num_threads().max(1)) {
@@ -80,8 +80,8 @@ impl PointsSink for Rows {
 
 /// Rows from `start` on. The shortest digits that give the same number back.
 fn rows(block: &Block, start: usize, style: Style) -> Vec<u8> {
-    let mut text = Vec::with_capacity(CHUNK * 64);
-    for i in start..block.points.len().min(start + CHUNK) {
+    let mut text = Vec::with_capacity(TEXT_ROWS_PER_TASK * 64);
+    for i in start..block.points.len().min(start + TEXT_ROWS_PER_TASK) {
         let [x, y, z] = block.points[i];
         for (k, v) in [x, y, z].iter().chain(block.deviation.get(i)).enumerate() {
             if k > 0 {

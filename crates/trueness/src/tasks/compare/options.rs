@@ -99,7 +99,7 @@ impl CompareRequest {
                 Err(TaskError::usage("--along measures along lines, --method paper to vertices; choose one"))
             }
             (Some(_), _) if self.both => Err(TaskError::usage(
-                "--both measures to the nearest place in both directions; leave out --along",
+                "--both measures to the nearest place in both directions; leave --along out",
             )),
             _ => Ok(()),
         }
@@ -113,10 +113,10 @@ pub fn read_scale(sources: &dyn Sources, path: &Path) -> Result<Scale, TaskError
         Fault::Io(e) => TaskError::because(e),
         _ => e.into(),
     });
-    let text = text.meaning(|| format!("{shown}: cannot be read"))?;
+    let text = text.meaning(|| format!("{shown}: the color scale cannot be read; check the path"))?;
     let scale: Scale = serde_json::from_str(&text).meaning(|| {
-        format!("{shown}: not a color scale (an object trueness/scale/1 as in a result's key `scale`)")
+        format!("{shown}: it holds no color scale; give a JSON object trueness/scale/1, as under the key `scale` of a result")
     })?;
-    scale.check().meaning(|| format!("{shown}: not a usable color scale"))?;
+    scale.check().meaning(|| format!("{shown}: the color scale cannot be used; correct it"))?;
     Ok(scale)
 }

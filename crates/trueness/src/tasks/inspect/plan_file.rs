@@ -31,7 +31,10 @@ impl PlanFile {
         let shown = path.display();
         let wrong = |what: String| TaskError::unanswerable(format!("{shown}: {what}"));
         if sources.is_stream(path) {
-            return Err(wrong("a plan must be a file; its paths are relative to it".into()));
+            return Err(wrong(
+                "a plan must be a file, as its paths are relative to its folder; save it and name that"
+                    .into(),
+            ));
         }
         let bytes = read::bytes(sources, path, "plan", LONGEST_PLAN)?
             .ok_or_else(|| wrong("it is longer than 16 MB; a plan is a short text".into()))?;

@@ -90,7 +90,7 @@ impl SectionRequest {
         };
         self.fit_a_mesh(&shown)?;
         row::no_method(self)?;
-        let stage = watch.stage("which way facets look", STEPS, None);
+        let stage = watch.stage("orienting the facets", STEPS, None);
         source.mesh = faced::faced(&source.mesh, &mut part.record, &*stage)?;
         drop(stage);
         let mut own = None;

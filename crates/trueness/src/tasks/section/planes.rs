@@ -114,7 +114,11 @@ fn cut(normal: [f64; 3], distance: f64, option: &str) -> Result<Cut, TaskError> 
     let unit = trueness_geom::space::unit(normal);
     let plane = unit.map(|(normal, _)| Plane { normal, offset: distance });
     let found = plane.and_then(|plane| Some(Cut { plane, frame: plane.frame()? }));
-    found.ok_or_else(|| TaskError::usage(format!("--{option}: the normal {normal:?} has no direction")))
+    found.ok_or_else(|| {
+        TaskError::usage(format!(
+            "--{option}: the normal {normal:?} has no direction; give one that is not 0"
+        ))
+    })
 }
 
 /// A section and the rows of points that its contours were found in.
@@ -221,7 +225,8 @@ pub fn nothing_met(planes: &[Cut], sections: &[Section], record: &InputRecord) -
             "{slab} {loose} points, too few in a row for a contour; a larger --thickness may help"
         );
     }
-    let which = if planes.len() == 1 { "the plane meets nothing" } else { "no plane meets it" };
+    let which =
+        if planes.len() == 1 { "the plane does not meet the part" } else { "no plane meets the part" };
     format!("{which}{}", reach(&planes[0].plane, record))
 }
 
@@ -244,9 +249,10 @@ pub fn reach(plane: &Plane, record: &InputRecord) -> String {
     };
     // Across the axes no more is known than the box around all.
     let is_along_an_axis = normal.iter().filter(|x| **x != 0.0).count() == 1;
-    let (what, to) = if is_along_an_axis { ("it reaches from", "to") } else { ("it lies between", "and") };
+    let (what, to) =
+        if is_along_an_axis { ("the part reaches from", "to") } else { ("the part lies between", "and") };
     format!(
-        "; along the first normal {what} {low} {to} {high} mm, the first plane lies at {}{remedy}",
+        "; along the first normal {what} {low:.4} {to} {high:.4} mm, and the first plane lies at {}{remedy}",
         plane.offset
     )
 }

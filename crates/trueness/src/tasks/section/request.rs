@@ -182,7 +182,7 @@ pub fn level(percent: f64) -> Result<f64, String> {
     }
     Err(match percent > 0.0 && percent <= 1.0 {
         true => format!("it is in percent: write {} for a share of {percent}", 100.0 * percent),
-        false => "a number of percent between 1 and 100, such as 95".into(),
+        false => "give a number of percent between 1 and 100, such as 95".into(),
     })
 }
 

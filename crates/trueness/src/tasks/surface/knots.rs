@@ -20,8 +20,9 @@ struct KnotsFile {
 pub fn read(sources: &dyn Sources, path: &Path, degree: Option<[usize; 2]>) -> Result<[Knots; 2], TaskError> {
     let shown = path.display();
     let text = text(sources, path)?;
-    let file: KnotsFile = serde_json::from_str(&text)
-        .meaning(|| format!("{shown}: no knots; it must be {{\"u\": [numbers], \"v\": [numbers]}}"))?;
+    let file: KnotsFile = serde_json::from_str(&text).meaning(|| {
+        format!("{shown}: it holds no knots; give a JSON file {{\"u\": [numbers], \"v\": [numbers]}}")
+    })?;
     let direction = |name: &str, values: Vec<f64>, asked: Option<usize>| {
         let ends = |t: Option<&f64>| values.iter().filter(|x| Some(*x) == t).count();
         let (first, last) = (ends(values.first()), ends(values.last()));
@@ -32,8 +33,9 @@ pub fn read(sources: &dyn Sources, path: &Path, degree: Option<[usize; 2]>) -> R
         }
         if let Some(asked) = asked.filter(|d| d + 1 != first) {
             let there = first - 1;
-            let text =
-                format!("{shown}: the knots of {name} are of degree {there}, --degree asks for {asked}");
+            let text = format!(
+                "{shown}: the knots of {name} are of degree {there}, but --degree asks for {asked}; leave --degree out"
+            );
             return Err(TaskError::unanswerable(text));
         }
         let knots = Knots::new(first - 1, values).meaning(|| format!("{shown}: knots of {name}"))?;
@@ -52,9 +54,12 @@ pub fn read(sources: &dyn Sources, path: &Path, degree: Option<[usize; 2]>) -> R
 fn text(sources: &dyn Sources, path: &Path) -> Result<String, TaskError> {
     let shown = path.display();
     if let Some(length) = sources.length(path).filter(|length| *length > LARGEST as u64) {
-        return Err(TaskError::unanswerable(format!("{shown}: {} MB are too large for knots", length >> 20)));
+        return Err(TaskError::unanswerable(format!(
+            "{shown}: {} MB are too much for a file of knots; check the path",
+            length >> 20
+        )));
     }
-    let cannot = || format!("{shown}: the knots cannot be read");
+    let cannot = || format!("{shown}: the knots cannot be read; check the path");
     match sources.text(path, LARGEST) {
         Err(ReadError { fault: Fault::Io(e), .. }) => Err(e).meaning(cannot),
         read => read.meaning(cannot),

@@ -86,27 +86,32 @@ impl Request for TrendRequest {
     }
 }
 
+/// The remedy for a file that is no result.
+const GIVE_A_RESULT: &str = "give the result as `trueness inspect --json` wrote it";
+
 /// A result of an inspection and what it was read from.
 fn result(sources: &dyn Sources, path: &Path) -> Result<(ResultInput, InspectDocument), TaskError> {
     let shown = path.display();
     let wrong = |what: String| TaskError::unanswerable(format!("{shown}: {what}"));
     if sources.is_stream(path) {
-        return Err(wrong("a result must be a file".into()));
+        return Err(wrong("a result must be a file; save it and name that".into()));
     }
-    let bytes = read::bytes(sources, path, "result", LONGEST_RESULT)?
-        .ok_or_else(|| wrong("it is longer than 256 MB; this is no result of an inspection".into()))?;
-    let value: serde_json::Value = serde_json::from_slice(&bytes)
-        .map_err(|e| wrong(format!("it is no JSON ({e}); give what `trueness inspect --json` wrote")))?;
-    let schema = value.get("schema").and_then(|s| s.as_str()).unwrap_or("no schema").to_string();
+    let bytes = read::bytes(sources, path, "result", LONGEST_RESULT)?.ok_or_else(|| {
+        wrong(format!("it is longer than 256 MB, and so no result of an inspection; {GIVE_A_RESULT}"))
+    })?;
+    let value: serde_json::Value =
+        serde_json::from_slice(&bytes).map_err(|e| wrong(format!("it is no JSON ({e}); {GIVE_A_RESULT}")))?;
+    let schema = value.get("schema").and_then(|s| s.as_str()).unwrap_or_default().to_string();
     if schema != inspect::SCHEMA {
         let wanted = inspect::SCHEMA;
-        let what = format!(
-            "its schema is \"{schema}\", not \"{wanted}\"; give what `trueness inspect --json` wrote"
-        );
-        return Err(wrong(what));
+        let is = match schema.is_empty() {
+            true => "it has no schema".into(),
+            false => format!("its schema is \"{schema}\", not \"{wanted}\""),
+        };
+        return Err(wrong(format!("{is}; {GIVE_A_RESULT}")));
     }
-    let document: InspectDocument =
-        serde_json::from_value(value).map_err(|e| wrong(format!("it is no whole result: {e}")))?;
+    let document: InspectDocument = serde_json::from_value(value)
+        .map_err(|e| wrong(format!("it is no whole result ({e}); {GIVE_A_RESULT}")))?;
     let input = ResultInput {
         path: shown.to_string(),
         format: schema,

@@ -29,10 +29,13 @@ fn titles_that_look_like_rows_names_or_counts_are_titles() {
         for title in ["NACA 0012", "CLARK Y", "0012", "NACA 23012 (smoothed)", "E 387", "S1223", "x of 2 3 4"]
         {
             for end in ["\n", "\r\n", "\r"] {
-                let Airfoil { text: found, told, .. } =
+                let Airfoil { text: found, warning, .. } =
                     plain(text(Some(title), &rows, end).as_bytes()).unwrap();
                 assert_eq!(numbers(&found), numbers(text(None, &rows, end).as_bytes()), "{title}");
-                assert!(told.to_string().contains(title) && told.to_string().contains("Selig"), "{told}");
+                assert!(
+                    warning.to_string().contains(title) && warning.to_string().contains("Selig"),
+                    "{warning}"
+                );
             }
         }
     }
@@ -48,9 +51,9 @@ fn both_sides_of_the_other_form_become_one_row() {
         let counts = [upper.len() as f64, lower.len() as f64];
         let all = [&[counts], &upper[..], lower].concat();
         for title in [Some("CLARK Y AIRFOIL"), None] {
-            let Airfoil { text: found, told, .. } = plain(text(title, &all, "\n").as_bytes()).unwrap();
+            let Airfoil { text: found, warning, .. } = plain(text(title, &all, "\n").as_bytes()).unwrap();
             assert_eq!(numbers(&found), numbers(text(None, &rows, "\n").as_bytes()), "{each} {shared}");
-            assert!(told.to_string().contains("Lednicer"), "{told}");
+            assert!(warning.to_string().contains("Lednicer"), "{warning}");
         }
     }
 }
@@ -89,7 +92,7 @@ fn titles_of_several_lines_and_of_numbers_are_known_by_the_counts_behind_them() 
     ] {
         let found = plain(text(Some(title), &all, "\n").as_bytes()).unwrap_or_else(|| panic!("{title}"));
         assert_eq!(numbers(&found.text), numbers(text(None, &rows, "\n").as_bytes()), "{title}");
-        assert!(found.told.to_string().contains("Lednicer"), "{}", found.told);
+        assert!(found.warning.to_string().contains("Lednicer"), "{}", found.warning);
         let lines: Vec<String> = text(Some(title), &all, "\n").lines().map(str::to_owned).collect();
         for (line, of) in String::from_utf8(found.text).unwrap().lines().zip(&found.file_lines) {
             assert!(line.is_empty() || lines[*of as usize - 1] == line, "{title}: {line} {of}");
