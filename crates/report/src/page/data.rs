@@ -33,7 +33,7 @@ struct Manifest<'a> {
     objects: &'a [Entry],
     simplified: bool,
     display_error: f64,
-    result: Value,
+    result: &'a Value,
 }
 
 /// What the first view shows.
@@ -104,12 +104,13 @@ pub struct Data<'a> {
 }
 
 impl<'a> Data<'a> {
-    /// Of a page with this payload; `first` is what its stage shows of a part.
+    /// Of a page with this payload; `first` is what its stage shows of a part, `result` the document.
     pub fn of(
         input: &ReportInput,
         payload: &'a Payload,
         first: Option<&FirstView>,
         maps: &[MapEntry],
+        result: &Value,
     ) -> Result<Data<'a>, ReportError> {
         let subject = input.result;
         let first_entry = |first: &FirstView| FirstEntry {
@@ -130,7 +131,7 @@ impl<'a> Data<'a> {
             objects: &payload.objects,
             simplified: payload.simplified,
             display_error: payload.display_error,
-            result: subject.json()?,
+            result,
         };
         Ok(Data { manifest: json(&manifest)?, texts: json(&text::table())?, blobs: &payload.blobs })
     }

@@ -1,8 +1,10 @@
 //! The parts with their verdicts, the worst first, and the results that were read.
 
-use crate::headline::Headline;
+use crate::headline::{Headline, Tone};
 use crate::number::Style;
-use crate::page::parts::{badge, file_name, not_printed, row_class};
+use crate::page::parts::{badge, file_name};
+use crate::page::table::{not_printed, row_class};
+use crate::subject::Content;
 use crate::values::{Name, Text};
 use maud::{Markup, html};
 use serde_json::Value;
@@ -90,8 +92,23 @@ pub fn results(s: Style, inputs: &[ResultInput]) -> Markup {
     }
 }
 
+/// What both pages of a trend have in common.
+pub fn common(d: &TrendDocument) -> serde_json::Result<Content<'_>> {
+    let headline = match d.verdict {
+        // Every part passes, but the process does not stand still.
+        Verdict::Pass if !d.in_control => Headline { key: "out_of_control", tone: Tone::Undecided },
+        verdict => verdict.into(),
+    };
+    // Its files are no inputs of a measurement; its page lists them itself.
+    Ok(Content {
+        title: d.title.as_deref().or(d.inputs.first().map(|result| file_name(&result.path))),
+        json: stripped(d)?,
+        ..Content::of(headline, [&d.schema, &d.version, &d.units], &[])
+    })
+}
+
 /// The document without the lists of its places, which a page has no use for and no room.
-pub fn stripped(document: &TrendDocument) -> serde_json::Result<Value> {
+fn stripped(document: &TrendDocument) -> serde_json::Result<Value> {
     let mut value = serde_json::to_value(document)?;
     if let Some(map) = value.get_mut("map").and_then(Value::as_object_mut) {
         map.retain(|_, v| !v.is_array());
