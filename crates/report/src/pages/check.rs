@@ -14,7 +14,7 @@ use trueness_geom::space::{minus, norm};
 use trueness_measure::check::found;
 
 /// Rows of a kind at most, the worst first.
-const LISTED: usize = 100;
+const MAX_LISTED_ITEMS: usize = 100;
 
 impl Subject for CheckDocument {
     fn content(&self, s: Style) -> serde_json::Result<Content<'_>> {
@@ -41,7 +41,7 @@ impl Subject for CheckDocument {
     fn important(&self, picks: &[Pick]) -> Vec<usize> {
         let kinds = found(&self.defects);
         let errors = |(_, d): &(&DefectKind, &Defects)| {
-            std::iter::repeat_n(*d.severity == Severity::Error, d.items.len().min(LISTED))
+            std::iter::repeat_n(*d.severity == Severity::Error, d.items.len().min(MAX_LISTED_ITEMS))
         };
         let errors: Vec<bool> = kinds.iter().flat_map(errors).collect();
         let size = |n: usize| picks[n].reach.unwrap_or(0.0);
@@ -93,7 +93,7 @@ fn rows<'a>(kind: &DefectKind, defects: &'a Defects) -> Vec<(usize, &'a Item)> {
         true => items.sort_by(by_size),
         false => items.sort_by(|a, b| by_size(b, a)),
     }
-    items.truncate(LISTED);
+    items.truncate(MAX_LISTED_ITEMS);
     items
 }
 
@@ -139,7 +139,7 @@ pub fn kinds(s: Style, found: &[(&DefectKind, &Defects)], first_pick: usize) -> 
     let mut first = first_pick;
     let parts = found.iter().enumerate().map(|(n, (of, defects))| {
         let from = first;
-        first += defects.items.len().min(LISTED);
+        first += defects.items.len().min(MAX_LISTED_ITEMS);
         // All kinds are seen at once; a single one needs no click.
         kind(s, (of, defects), category(n), from, found.len() == 1)
     });
@@ -166,16 +166,17 @@ fn kind(s: Style, (kind, defects): (&DefectKind, &Defects), color: Rgb, first: u
     }
 }
 
+/// Digits after the point of the size of a defect or a change, which may be small.
+pub fn size_decimals(size: f64) -> usize {
+    if size > 0.0 && size < 0.1 { 6 } else { 3 }
+}
+
 fn items(s: Style, kind: &DefectKind, all: &[(usize, &Item)], first: usize) -> Markup {
     if all.is_empty() {
         return Markup::default();
     }
     let (word, unit) = measure(kind.measure);
-    let decimals = |size: f64| match unit {
-        "" => 0,
-        _ if size > 0.0 && size < 0.1 => 6,
-        _ => 3,
-    };
+    let decimals = |size: f64| if unit.is_empty() { 0 } else { size_decimals(size) };
     let row = |(n, (_, item)): (usize, &(usize, &Item))| {
         let size = s.number(item.size, decimals(item.size));
         let size = html! { (size) @if !unit.is_empty() { "\u{a0}" (unit) } };

@@ -1,29 +1,32 @@
 //! The page of a comparison: deviations, worst places, statistics.
 
 mod list;
-mod words;
 
 pub use list::{
     OUTSIDE, because, by_side, excluded, listed_worst, passing, reasons, regions, rules, statistics, worst,
 };
 
+use crate::headline::{Headline, Tone};
 use crate::number::Style;
 use crate::page::parts::{extent, holds, inside, key_number, most, paragraphs, range};
 use crate::pages::align::{Facts, chip};
 use crate::pages::check;
 use crate::subject::{Content, Map, Pick, Subject};
+use list::{sign_key, warning_key};
 use maud::{Markup, html};
 use trueness_document::ReasonKind;
 use trueness_document::align::AlignedTo;
 use trueness_document::compare::{CompareDocument, Comparison, MeasuredKind, Method, Worst};
 use trueness_document::scale::Scale;
 use trueness_measure::check::found;
-use words::{headline, sign_key, warning_key};
 
 impl Subject for CompareDocument {
     fn content(&self, s: Style) -> serde_json::Result<Content<'_>> {
         let (digits, aligned) = (self.scale.decimals as usize, self.alignment.as_ref());
         let all = self.comparisons.iter().enumerate();
+        // Without a tolerance there is no verdict.
+        let headline = Headline { key: "not_judged", tone: Tone::Neutral };
+        let headline = self.verdict.map_or(headline, Headline::from);
         let is_paper = *self.method == Method::Paper;
         let text = if is_paper { "method.paper.text" } else { "method.exact.text" };
         // The map is one of points, if they were not a mesh's own vertices.
@@ -41,7 +44,7 @@ impl Subject for CompareDocument {
             points: Some(self.measured.count),
             seed: Some(self.seed),
             json: serde_json::to_value(self)?,
-            ..Content::of(headline(self.verdict), [&self.schema, &self.version, &self.units], &self.inputs)
+            ..Content::of(headline, [&self.schema, &self.version, &self.units], &self.inputs)
         })
     }
 

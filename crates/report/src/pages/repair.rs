@@ -4,6 +4,7 @@ use crate::headline::{Headline, Tone};
 use crate::number::Style;
 use crate::page::parts::{fact, holds, key_number, line, mm, section, swatch};
 use crate::page::table::{Row, listed, not_printed, places, row_class, table};
+use crate::pages::check::size_decimals;
 use crate::subject::{Content, Pick, Subject};
 use crate::text::word;
 use crate::values::{Name, Text};
@@ -103,7 +104,7 @@ fn numbers(s: Style, d: &RepairDocument) -> Markup {
 }
 
 fn length(s: Style, x: f64) -> Markup {
-    mm(s.number(x, if x > 0.0 && x < 0.1 { 6 } else { 3 }))
+    mm(s.number(x, size_decimals(x)))
 }
 
 fn changes(s: Style, d: &RepairDocument) -> Markup {

@@ -1,6 +1,5 @@
 //! The list beside the stage: ranking, worst places, statistics, what was left out, how far the numbers can be trusted, files.
 
-use super::words::{in_words, sign_key, warning_key};
 use crate::NoValue;
 use crate::number::Style;
 use crate::page::parts::{badge, fact, file_name, inside, key_number, mm, range, section, series, warning};
@@ -12,7 +11,7 @@ use maud::{Markup, Render, html};
 use std::iter;
 use trueness_document::compare::{
     AlongKind, AlongRecord, BySide, CompareDocument, Comparison, CoverageRecord, OutliersRecord, SignRecord,
-    Statistics, ToleranceShares, Worst,
+    Statistics, ToleranceShares, WarningKind, Worst,
 };
 use trueness_document::statistics::PAGE_ROWS;
 use trueness_document::{Verdict, VerdictReason};
@@ -142,11 +141,9 @@ pub fn worst(s: Style, c: &Comparison, decimals: usize, first_pick: usize) -> Ma
 
 /// Digits after the decimal sign with which a number fits its column: from a thousand on six in all.
 fn column_digits(value: Option<f64>, wanted: usize) -> usize {
-    match value.map_or(0.0, f64::abs) {
-        size if size < 1e3 => wanted,
-        size if size < 1e4 => wanted.min(2),
-        size if size < 1e5 => wanted.min(1),
-        _ => 0,
+    match value.map_or(0, |x| x.abs() as u64).checked_ilog10() {
+        None | Some(0..=2) => wanted,
+        Some(power) => wanted.min(5_usize.saturating_sub(power as usize)),
     }
 }
 
@@ -190,6 +187,21 @@ pub fn regions(s: Style, c: &Comparison, decimals: usize) -> Markup {
         p.note { (s.word("regions.means")) }
     };
     section(s, "regions", body)
+}
+
+/// The map in one sentence, for those who cannot see it.
+fn in_words(s: Style, c: &Comparison) -> Markup {
+    let tolerance = c.tolerance.as_ref().filter(|_| c.regions.is_empty());
+    let shares = tolerance.and_then(|t| Some([t.inside?, t.above?, t.below?]));
+    html! {
+        @if let Some(shares) = shares {
+            p.words {
+                @for (n, (key, share)) in ["within", "above", "below"].into_iter().zip(shares).enumerate() {
+                    @if n > 0 { " · " } (s.word(key)) " " (s.percent(share, 2))
+                }
+            }
+        }
+    }
 }
 
 /// The deviations in words and numbers.
@@ -250,6 +262,19 @@ fn trust(s: Style, result: &CompareDocument, c: &Comparison) -> Markup {
         }
     };
     section(s, "trust", body)
+}
+
+/// Key of how the sign was found, in a few words.
+pub fn sign_key(sign: &SignRecord) -> String {
+    format!("sign.by.{}", sign.method)
+}
+
+/// Key of a warning in a few words.
+pub fn warning_key(kind: WarningKind) -> &'static str {
+    match kind {
+        WarningKind::SizeRatio => "warning.size_ratio",
+        WarningKind::HardlyOverlapping => "warning.hardly_overlapping",
+    }
 }
 
 /// How many of `all` points are left out, by reason.
@@ -344,6 +369,14 @@ fn soundness(s: Style, c: &Comparison) -> Markup {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn numbers_fit_their_column() {
+        let digits = |x| column_digits(Some(x), 4);
+        assert_eq!([0.0, 0.5, 999.99, f64::NAN].map(digits), [4; 4]);
+        assert_eq!([1e3, -9999.9, 1e4, 99_999.0, 1e5, 1e30].map(digits), [2, 2, 1, 1, 0, 0]);
+        assert_eq!((column_digits(None, 3), column_digits(Some(2e3), 1)), (3, 1));
+    }
 
     #[test]
     fn zero_is_what_reads_zero() {
