@@ -1,6 +1,6 @@
 //! The nominal on the sheets against its exact places; sheets that are turned; segments astray.
 
-use super::nominal::DOT;
+use super::nominal::DOT_BYTES;
 use super::tests::{attributes, document, drawn, far, numbers, places, row};
 use super::*;
 use crate::{Language, flat};
@@ -172,7 +172,7 @@ fn the_nominal_takes_no_more_bytes_than_there_are() {
     }
     assert_eq!(before, wave.len());
     let (shown, all) = Drawn::shown(&document, &[ViewObject::measured(&flat(&points))], Up::Z, 30_000);
-    assert!(shown <= all && shown * DOT < 30_000 && shown > 0);
+    assert!(shown <= all && shown * DOT_BYTES < 30_000 && shown > 0);
 }
 
 /// The axis asked for points upward on the sheet of a plane that it lies in; what is drawn tells the plane's coordinates all the same.
@@ -247,7 +247,8 @@ fn segments_astray_stand_apart() {
         dots.split('M').skip(1).map(|d| d.split([' ', 'h']).nth(1).unwrap().parse().unwrap()).collect();
     assert_eq!(heights.len(), document.contours[0].labels.iter().filter(|l| **l == 1).count());
     assert!(
-        heights.iter().all(|y| y.abs() <= course::HALF) && heights.iter().any(|y| y.abs() == course::HALF)
+        heights.iter().all(|y| y.abs() <= course::COURSE_HALF_HEIGHT)
+            && heights.iter().any(|y| y.abs() == course::COURSE_HALF_HEIGHT)
     );
     // Where all are astray there is nothing else to see.
     let all = &mut document.contours[0];

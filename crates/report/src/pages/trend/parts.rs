@@ -12,15 +12,15 @@ use trueness_document::Verdict;
 use trueness_document::trend::{ResultInput, TrendDocument, TrendRecord};
 
 /// Parts that are listed, and characteristics named of one.
-const LISTED: usize = 1000;
-const NAMED: usize = 40;
+const MAX_LISTED_PARTS: usize = 1000;
+const MAX_NAMED_CHARACTERISTICS: usize = 40;
 /// Results whose files are listed open.
-const OPEN: usize = 12;
+const MAX_OPEN_RESULTS: usize = 12;
 
 /// Every part with its verdict and those characteristics that it does not pass.
 pub fn parts(s: Style, document: &TrendDocument) -> Markup {
     let rows = document.worst_parts();
-    let shown = rows.len().min(LISTED);
+    let shown = rows.len().min(MAX_LISTED_PARTS);
     html! {
         table.pick.parts {
             thead { tr { th.r {} th { (s.word("part")) } th { (s.word("verdict")) } } }
@@ -52,12 +52,12 @@ fn failing(s: Style, document: &TrendDocument, part: usize) -> Markup {
             have.map(move |(n, c)| (verdict, n, c))
         })
         .collect();
-    let room = NAMED.saturating_sub(bad.len());
+    let room = MAX_NAMED_CHARACTERISTICS.saturating_sub(bad.len());
     let astray = all().filter(|(_, c)| c.out_of_control.iter().any(|o| o.part == part as u64)).take(room);
     let deviation = document.parts[part].deviation.filter(|v| *v != Verdict::Pass);
     html! {
         span.of-part {
-            @for (verdict, n, c) in bad.iter().take(NAMED) {
+            @for (verdict, n, c) in bad.iter().take(MAX_NAMED_CHARACTERISTICS) {
                 @let Headline { key, tone } = Headline::from(*verdict);
                 a class={ "v-" (tone.name()) } href={ "#course-" (n) } data-verdict=(key) {
                     (tone.icon()) "\u{a0}" (Name(&c.id))
@@ -68,7 +68,7 @@ fn failing(s: Style, document: &TrendDocument, part: usize) -> Markup {
                 @let Headline { tone, .. } = Headline::from(verdict);
                 span class={ "v-" (tone.name()) } { (tone.icon()) "\u{a0}" (s.word("deviations")) } " "
             }
-            @if bad.len() > NAMED { "+\u{a0}" (s.count((bad.len() - NAMED) as u64)) " " }
+            @if bad.len() > MAX_NAMED_CHARACTERISTICS { "+\u{a0}" (s.count((bad.len() - MAX_NAMED_CHARACTERISTICS) as u64)) " " }
             @for (n, c) in astray { a.warning href={ "#course-" (n) } { "◎\u{a0}" (Name(&c.id)) } " " }
         }
     }
@@ -77,7 +77,7 @@ fn failing(s: Style, document: &TrendDocument, part: usize) -> Markup {
 /// The results read, with what tells that they are these.
 pub fn results(s: Style, inputs: &[ResultInput]) -> Markup {
     html! {
-        details.kind open[inputs.len() <= OPEN] {
+        details.kind open[inputs.len() <= MAX_OPEN_RESULTS] {
             summary { span.kind-name { (s.word("chart.results")) } strong { (s.len(inputs)) } }
             @for (n, input) in inputs.iter().enumerate() {
                 div.file {
