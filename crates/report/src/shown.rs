@@ -4,9 +4,9 @@ use super::object::{ViewObject, ViewRole};
 use trueness_geom::space::Point;
 
 /// So many times more points than vertices make a reference far coarser than the points.
-const FAR_COARSER: usize = 4;
+const MIN_POINTS_PER_VERTEX: usize = 4;
 /// Fewer points than these hardly look like the part.
-const FEW: usize = 2000;
+const MIN_POINTS_SHOWN: usize = 2000;
 
 /// Numbers of the objects that the first view shows: the measured mesh with its map; of a cloud the points, if there are enough
 /// of them and the reference is far coarser, else the reference that carries the map of the first comparison, else the points
@@ -20,7 +20,9 @@ pub fn first_view(objects: &[ViewObject]) -> Vec<usize> {
     let points = points.map(<[Point]>::len).sum::<usize>();
     let reference = mapped(ViewRole::Reference);
     let coarse = reference.is_some_and(|r| {
-        points >= FEW.max(FAR_COARSER * r.gathered.map_or(r.places().len(), |g| g.vertices))
+        points
+            >= MIN_POINTS_SHOWN
+                .max(MIN_POINTS_PER_VERTEX * r.gathered.map_or(r.places().len(), |g| g.vertices))
     });
     let measured = mapped(ViewRole::Measured).is_some() || coarse;
     let shown = |o: &ViewObject| match o.role {

@@ -13,54 +13,68 @@ use trueness_document::scale::Scale;
 use trueness_document::tolerance::badness;
 use trueness_geom::space::{Point, Vector};
 
-/// What all documents begin with.
-pub struct Head<'a> {
-    /// Name of the schema.
-    pub schema: &'a str,
-    /// Version of the program.
-    pub version: &'a str,
-    /// Unit of every length.
-    pub units: &'a str,
+/// What the page of a document says, beside what is drawn.
+pub struct Content<'a> {
+    /// Name of the document's schema, version of the program, unit of every length.
+    pub marks: [&'a str; 3],
     /// Files read.
     pub inputs: &'a [InputRecord],
-}
-
-/// A result document as its page sees it. Every document has it in a `page.rs` of its own; the types of its answers are the
-/// report's own, so it is implemented here alone.
-pub trait Subject: Sync {
-    /// What all documents begin with.
-    fn head(&self) -> Head<'_>;
     /// The first word.
-    fn headline(&self) -> Headline;
+    pub headline: Headline,
     /// What the document itself is called.
-    fn title(&self) -> Option<&str> {
-        None
-    }
+    pub title: Option<&'a str>,
     /// Key of a convention that every number on the page follows.
-    fn convention(&self) -> Option<&'static str> {
-        None
-    }
-    /// Which way the surface looks that the first view should show, where one side matters.
-    fn facing(&self) -> Option<Vector> {
-        None
-    }
+    pub convention: Option<&'static str>,
     /// Key of the stored picture's description.
-    fn picture(&self) -> &'static str;
+    pub picture: &'static str,
     /// The line of key numbers under the verdict.
-    fn numbers(&self, s: Style) -> Markup;
+    pub numbers: Markup,
     /// Sections of the list, without files and method. Rows that lead to a place have `data-pick` with their number in
     /// [`Subject::picks`].
-    fn list(&self, s: Style) -> Markup;
+    pub list: Markup,
     /// How it was computed, in words.
-    fn method(&self, s: Style) -> Markup;
+    pub method: Markup,
     /// The same in a few words, for the foot of the page.
-    fn how(&self, s: Style) -> Markup;
+    pub how: Markup,
     /// Points that were measured, where the page may show fewer.
-    fn points(&self) -> Option<u64> {
-        None
-    }
+    pub points: Option<u64>,
     /// Seed of everything random.
-    fn seed(&self) -> Option<u64> {
+    pub seed: Option<u64>,
+    /// The whole document.
+    pub json: Value,
+}
+
+impl<'a> Content<'a> {
+    /// Of a document with these marks and inputs; the rest is to be filled in.
+    pub fn of(headline: Headline, marks: [&'a str; 3], inputs: &'a [InputRecord]) -> Content<'a> {
+        Content {
+            marks,
+            inputs,
+            headline,
+            title: None,
+            convention: None,
+            picture: "",
+            numbers: Markup::default(),
+            list: Markup::default(),
+            method: Markup::default(),
+            how: Markup::default(),
+            points: None,
+            seed: None,
+            json: Value::Null,
+        }
+    }
+}
+
+/// A result document as its page sees it. Every document has it in a file of `pages/`; the types of its answers are the
+/// report's own, so it is implemented here alone.
+pub trait Subject: Sync {
+    /// What its page says.
+    ///
+    /// # Errors
+    /// A document that is no JSON, which none is.
+    fn content(&self, s: Style) -> serde_json::Result<Content<'_>>;
+    /// Which way the surface looks that the first view should show, where one side matters.
+    fn facing(&self) -> Option<Vector> {
         None
     }
     /// The color scale, if values are mapped; that of the first map, where they have several.
@@ -94,8 +108,6 @@ pub trait Subject: Sync {
     fn drawing(&self) -> Option<&dyn Drawn> {
         None
     }
-    /// The whole document.
-    fn json(&self) -> serde_json::Result<Value>;
 }
 
 /// A document that draws itself, in the plane.

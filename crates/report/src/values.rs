@@ -115,7 +115,12 @@ impl<'a, T> Optional<'a, T> {
 impl Optional<'_, Number> {
     /// With a plus sign before what is above zero.
     pub fn signed(self) -> Self {
-        Optional { value: self.value.map(Number::signed), ..self }
+        self.with_sign(true)
+    }
+
+    /// The same, if it is `signed`.
+    pub fn with_sign(self, signed: bool) -> Self {
+        Optional { value: self.value.map(|value| Number { signed, ..value }), ..self }
     }
 }
 

@@ -52,7 +52,7 @@ fn document<R: Request>(words: &str, request: Value) -> i32 {
     status
 }
 
-/// The same, with the page; its head says pass or nothing where the exit status is 0, and neither where it is 1.
+/// The same, with the page, whose head agrees with the exit status.
 fn page<R: Request<Document: Subject>>(words: &str, request: Value) -> i32 {
     let mut with_view = request.clone();
     // The page of a trend draws nothing in space.
@@ -68,10 +68,15 @@ fn page<R: Request<Document: Subject>>(words: &str, request: Value) -> i32 {
     let written = std::fs::read_to_string(&html).unwrap();
     let made = done.report(&ReportOptions::default(), &Silent).unwrap();
     assert_eq!(written.as_bytes(), made, "{words}");
-    let (_, head) = written.split_once("<header class=\"header h-").unwrap();
+    head_says(status, &written, &words);
+    status
+}
+
+/// The head of a page says pass or nothing where the exit status is 0, and neither where it is 1.
+fn head_says(status: i32, page: &str, words: &str) {
+    let (_, head) = page.split_once("<header class=\"header h-").unwrap();
     let (tone, _) = head.split_once('"').unwrap();
     assert_eq!(["pass", "not_judged"].contains(&tone), status == 0, "{words}: {tone}, exit status {status}");
-    status
 }
 
 fn path(name: &str) -> String {
@@ -153,6 +158,37 @@ fn plans() {
     let (status, _) = program(&format!("plan init {nominal} -o {}", out.display()));
     assert_eq!(status, exit(done.outcome));
     assert!(done.document.text == std::fs::read_to_string(&out).unwrap(), "the plan is another");
+}
+
+/// Both pages of a trend say what its document and the exit status say: of parts that pass, and of one that does not.
+#[test]
+fn both_pages_of_a_trend_have_its_verdict() {
+    let folder = Folder::new();
+    let [nominal, cube] = ["examples/plate/nominal.stl", "shapes/trimesh__unit_cube.STL"].map(path);
+    let plan = format!(
+        "schema = \"trueness/plan/1\"\nmeasured = {nominal:?}\nreference = {nominal:?}\n[deviation]\ntolerance = 0.05\n"
+    );
+    let plan = folder.write("plan.toml", plan).display().to_string();
+    let mut results = vec![];
+    for (measured, verdict, expected) in [(&nominal, "pass", 0), (&cube, "fail", 1)] {
+        let json = folder.file(&format!("{expected}.json")).display().to_string();
+        program(&format!("inspect {plan} --measured {measured} --places --quiet --json {json}"));
+        results.push(json);
+        let done = run::<TrendRequest>(json!({"results": results}));
+        assert_eq!(serde_json::to_value(done.document.verdict).unwrap(), verdict);
+        let [html, map] = ["page.html", "map.html"].map(|name| folder.file(name));
+        let words = format!("trend {} --quiet --html {}", results.join(" "), html.display());
+        let words = format!("{words} --map {}", map.display());
+        assert_eq!((program(&words).0, exit(done.outcome)), (expected, expected), "{words}");
+        let made = trueness::tasks::trend::maps(&done.document).unwrap();
+        assert_eq!(made.outcome, done.outcome);
+        assert_eq!(std::fs::read(&map).unwrap(), made.report(&ReportOptions::default(), &Silent).unwrap());
+        for page in [html, map] {
+            let page = std::fs::read_to_string(page).unwrap();
+            head_says(expected, &page, &words);
+            assert!(page.contains(&format!("<header class=\"header h-{verdict}\"")), "{words}");
+        }
+    }
 }
 
 /// Each command of the program but the list of formats is a task, with a request of its name and a row here.

@@ -15,7 +15,7 @@ use trueness_geom::parallel::prelude::*;
 use trueness_geom::space::{Point, Vector};
 
 /// Values of the distribution that the script tells shares of a range from: exactly where these are all, else about.
-const QUANTILES: usize = 2000;
+const MAX_QUANTILES: usize = 2000;
 
 /// `trueness/view/1`, as docs/decisions tell it.
 #[derive(Serialize)]
@@ -33,7 +33,7 @@ struct Manifest<'a> {
     objects: &'a [Entry],
     simplified: bool,
     display_error: f64,
-    result: Value,
+    result: &'a Value,
 }
 
 /// What the first view shows.
@@ -104,12 +104,13 @@ pub struct Data<'a> {
 }
 
 impl<'a> Data<'a> {
-    /// Of a page with this payload; `first` is what its stage shows of a part.
+    /// Of a page with this payload; `first` is what its stage shows of a part, `result` the document.
     pub fn of(
         input: &ReportInput,
         payload: &'a Payload,
         first: Option<&FirstView>,
         maps: &[MapEntry],
+        result: &Value,
     ) -> Result<Data<'a>, ReportError> {
         let subject = input.result;
         let first_entry = |first: &FirstView| FirstEntry {
@@ -130,7 +131,7 @@ impl<'a> Data<'a> {
             objects: &payload.objects,
             simplified: payload.simplified,
             display_error: payload.display_error,
-            result: subject.json()?,
+            result,
         };
         Ok(Data { manifest: json(&manifest)?, texts: json(&text::table())?, blobs: &payload.blobs })
     }
@@ -235,6 +236,6 @@ fn palettes(scale: &Scale) -> Palettes {
 /// Evenly spaced quantiles of sorted values, all of them where they are few; empty where there are none.
 fn quantiles(sorted: &[f64]) -> Vec<f64> {
     let Some(last) = sorted.len().checked_sub(1) else { return vec![] };
-    let steps = QUANTILES.min(last.max(1));
+    let steps = MAX_QUANTILES.min(last.max(1));
     (0..=steps).map(|i| sorted[(i as u64 * last as u64 / steps as u64) as usize]).collect()
 }

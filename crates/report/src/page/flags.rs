@@ -8,16 +8,16 @@ use maud::{Markup, html};
 use trueness_document::scale::Scale;
 
 /// A flag's box, and the room between two and to the rim, in pixels of the picture.
-const WIDTH: f64 = 130.0;
+const FLAG_WIDTH: f64 = 130.0;
 /// What a note beside the value takes more.
-const NOTE: f64 = 104.0;
-const HEIGHT: f64 = 32.0;
-const GAP: f64 = 8.0;
+const NOTE_WIDTH: f64 = 104.0;
+const FLAG_HEIGHT: f64 = 32.0;
+const FLAG_GAP: f64 = 8.0;
 /// How far a leader runs straight out of the column before it turns to its place.
-const STUB: f64 = 6.0;
+const STUB_LENGTH: f64 = 6.0;
 /// Width of a sign, and of a letter of usual text.
-const SIGN: f64 = 22.0;
-const LETTER: f64 = 9.0;
+const SIGN_WIDTH: f64 = 22.0;
+const LETTER_WIDTH: f64 = 9.0;
 
 /// A flag that has found its place.
 struct Placed {
@@ -45,12 +45,12 @@ pub fn flags(s: Style, picks: &[Pick], view: &FirstView, scale: Option<&Scale>) 
             let [x, y] = view.pixel(&view.ends[pick]);
             let own = match &p.frame {
                 Some(frame) => framed(s, frame).1,
-                None if view.off.get(pick) == Some(&true) => WIDTH + NOTE,
-                None => WIDTH,
+                None if view.off.get(pick) == Some(&true) => FLAG_WIDTH + NOTE_WIDTH,
+                None => FLAG_WIDTH,
             };
             let (left, inner) = match x < 0.5 * width {
-                true => (GAP, GAP + own),
-                false => (width - GAP - own, width - GAP - own),
+                true => (FLAG_GAP, FLAG_GAP + own),
+                false => (width - FLAG_GAP - own, width - FLAG_GAP - own),
             };
             Placed { pick, label: n + 1, x, y, top: 0.0, left, width: own, inner, start: inner }
         })
@@ -59,11 +59,11 @@ pub fn flags(s: Style, picks: &[Pick], view: &FirstView, scale: Option<&Scale>) 
         placed.into_iter().partition(|f| f.x < 0.5 * width);
     for column in [&mut left, &mut right] {
         // The first matter most; the list has them all.
-        column.truncate(((height - GAP) / (HEIGHT + GAP)) as usize);
+        column.truncate(((height - FLAG_GAP) / (FLAG_HEIGHT + FLAG_GAP)) as usize);
         stack(column, height);
-        let reach = GAP + STUB + column.iter().map(|f| f.width).fold(0.0, f64::max);
+        let reach = FLAG_GAP + STUB_LENGTH + column.iter().map(|f| f.width).fold(0.0, f64::max);
         for flag in column {
-            flag.start = if flag.left > GAP { width - reach } else { reach };
+            flag.start = if flag.left > FLAG_GAP { width - reach } else { reach };
         }
     }
     html! {
@@ -102,8 +102,8 @@ fn framed(style: Style, frame: &Frame) -> (String, f64) {
         text += &format!(" | {datum}");
     }
     text += &format!("\u{2002}{}", frame.value.map_or("–".into(), |x| found(x) + frame.unit));
-    let width = SIGN * f64::from(u8::from(frame.sign.is_some()))
-        + LETTER * (frame.id.chars().count() + 1 + text.chars().count()) as f64
+    let width = SIGN_WIDTH * f64::from(u8::from(frame.sign.is_some()))
+        + LETTER_WIDTH * (frame.id.chars().count() + 1 + text.chars().count()) as f64
         + 20.0;
     (text, width)
 }
@@ -111,15 +111,15 @@ fn framed(style: Style, frame: &Frame) -> (String, f64) {
 /// Each as near to its place as the others let it.
 fn stack(column: &mut [Placed], height: f64) {
     column.sort_by(|a, b| a.y.total_cmp(&b.y));
-    let mut free = GAP;
+    let mut free = FLAG_GAP;
     for flag in column.iter_mut() {
-        flag.top = free.max(flag.y - 0.5 * HEIGHT);
-        free = flag.top + HEIGHT + GAP;
+        flag.top = free.max(flag.y - 0.5 * FLAG_HEIGHT);
+        free = flag.top + FLAG_HEIGHT + FLAG_GAP;
     }
-    let mut limit = height - GAP;
+    let mut limit = height - FLAG_GAP;
     for flag in column.iter_mut().rev() {
-        flag.top = flag.top.min(limit - HEIGHT);
-        limit = flag.top - GAP;
+        flag.top = flag.top.min(limit - FLAG_HEIGHT);
+        limit = flag.top - FLAG_GAP;
     }
 }
 
@@ -128,7 +128,7 @@ fn draw(s: Style, flag: &Placed, pick: &Pick, view: &FirstView, scale: Option<&S
     let hidden = view.hidden.get(flag.pick) == Some(&true);
     let off = view.off.get(flag.pick) == Some(&true);
     let class = if hidden { " hidden" } else { "" };
-    let (Placed { x, y, inner, start: begin, .. }, middle) = (flag, flag.top + 0.5 * HEIGHT);
+    let (Placed { x, y, inner, start: begin, .. }, middle) = (flag, flag.top + 0.5 * FLAG_HEIGHT);
     let surface = pick.surface.filter(|_| off);
     html! {
         (line(&format!("stub{class}"), [*inner, middle], [*begin, middle]))
@@ -166,16 +166,16 @@ fn around(flag: &Placed, class: &str) -> Markup {
     let [x, y, width] = [flag.left, flag.top, flag.width].map(places);
     leaf(
         "rect",
-        &[("class", &class), ("x", &x), ("y", &y), ("width", &width), ("height", &HEIGHT), ("rx", &5)],
+        &[("class", &class), ("x", &x), ("y", &y), ("width", &width), ("height", &FLAG_HEIGHT), ("rx", &5)],
     )
 }
 
 /// A characteristic in its box: its name, its sign, what is allowed and what was found.
 fn written(s: Style, flag: &Placed, frame: &Frame, class: &str) -> Markup {
-    let middle = flag.top + 0.5 * HEIGHT;
-    let sign = flag.left + 10.0 + LETTER * (frame.id.chars().count() + 1) as f64;
+    let middle = flag.top + 0.5 * FLAG_HEIGHT;
+    let sign = flag.left + 10.0 + LETTER_WIDTH * (frame.id.chars().count() + 1) as f64;
     let turned = format!("translate({sign:.1} {:.1})", middle - 8.0);
-    let start = sign + if frame.sign.is_some() { SIGN } else { 0.0 };
+    let start = sign + if frame.sign.is_some() { SIGN_WIDTH } else { 0.0 };
     let verdict = format!("{class} frame {}", frame.verdict);
     html! {
         (around(flag, &verdict))

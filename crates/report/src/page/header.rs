@@ -1,40 +1,39 @@
 //! First sight: the verdict, what was looked at, the key numbers; and the line at the foot.
 
-use super::super::ReportInput;
+use super::super::ReportOptions;
 use super::super::number::Style;
 use super::super::payload::Payload;
+use super::super::subject::Content;
 use super::super::values::{Name, Text};
 use super::parts::{badge, file_name, role_key};
 use maud::{Markup, html};
-use trueness_document::Role;
+use trueness_document::{InputRecord, Role};
 
 /// The heading: the title given, else the document's own, else the part's name, else the first file's.
-pub fn title(input: &ReportInput) -> String {
-    let subject = input.result;
-    let first = subject.head().inputs.first().map(|i| file_name(&i.path));
-    let given = input.options.title.as_deref().or(subject.title()).or(input.options.part.as_deref());
+pub fn title(options: &ReportOptions, content: &Content) -> String {
+    let first = content.inputs.first().map(|i| file_name(&i.path));
+    let given = options.title.as_deref().or(content.title).or(options.part.as_deref());
     given.or(first).unwrap_or("trueness").to_string()
 }
 
 /// The header of the page.
-pub fn header(s: Style, input: &ReportInput) -> Markup {
-    let subject = input.result;
-    let headline = subject.headline();
+pub fn header(s: Style, options: &ReportOptions, content: &Content) -> Markup {
+    let [_, _, units] = content.marks;
     html! {
-        header class={ "header h-" (headline.tone.name()) } {
+        header class={ "header h-" (content.headline.tone.name()) } {
             "\n"
             div.row {
-                h1 { (badge(s, headline)) }
-                p.title { (Name(title(input))) }
-                p.who { (who(s, input)) }
+                h1 { (badge(s, content.headline)) }
+                p.title { (Name(title(options, content))) }
+                p.who { (who(s, content.inputs)) }
                 p.unit {
-                    (Text(subject.head().units))
-                    @if let Some(key) = subject.convention() { " · " (s.word(key)) }
+                    (Text(units))
+                    @if let Some(key) = content.convention { " · " (s.word(key)) }
                 }
                 div id="tools" class="tools" {}
             }
-            "\n" (identification(s, input))
-            div id="numbers" class="numbers" { (subject.numbers(s)) }
+            "\n" (identification(s, options, content))
+            div id="numbers" class="numbers" { (content.numbers) }
             "\n"
         }
         "\n"
@@ -42,8 +41,7 @@ pub fn header(s: Style, input: &ReportInput) -> Markup {
 }
 
 /// The files and what they are. Of several references that of the comparison on the stage, and how many there are.
-fn who(s: Style, input: &ReportInput) -> Markup {
-    let files = input.result.head().inputs;
+fn who(s: Style, files: &[InputRecord]) -> Markup {
     let references = files.iter().filter(|f| f.role == Role::Reference).count();
     // Of each file its number among several references, if it is one of them.
     let numbers = files.iter().scan(0, |next, file| {
@@ -63,10 +61,9 @@ fn who(s: Style, input: &ReportInput) -> Markup {
     }
 }
 
-fn identification(s: Style, input: &ReportInput) -> Markup {
-    let o = input.options;
+fn identification(s: Style, o: &ReportOptions, content: &Content) -> Markup {
     // Without a title the part's name is the heading already.
-    let part = o.part.as_ref().filter(|p| **p != title(input));
+    let part = o.part.as_ref().filter(|p| **p != title(o, content));
     let given = [("part", part), ("serial", o.serial.as_ref()), ("operator", o.operator.as_ref())];
     let given: Vec<(&str, &String)> =
         given.into_iter().filter_map(|(key, value)| Some((key, value?))).collect();
@@ -81,8 +78,8 @@ fn identification(s: Style, input: &ReportInput) -> Markup {
 }
 
 /// The line at the foot: what is shown, what was left out, how it was computed.
-pub fn status(s: Style, input: &ReportInput, payload: &Payload) -> Markup {
-    let subject = input.result;
+pub fn status(s: Style, content: &Content, payload: &Payload) -> Markup {
+    let [_, version, _] = content.marks;
     let (shown, given) = payload.points;
     html! {
         footer.status {
@@ -90,12 +87,12 @@ pub fn status(s: Style, input: &ReportInput, payload: &Payload) -> Markup {
             p {
                 @if given > 0 {
                     (s.word("shown")) " " (s.count(shown as u64)) " / "
-                    (s.count(subject.points().unwrap_or(given as u64))) " " (s.word("points.of")) " · "
+                    (s.count(content.points.unwrap_or(given as u64))) " " (s.word("points.of")) " · "
                 }
                 @if payload.simplified {
                     (s.word("simplified")) " ≤ " (s.number(1000.0 * payload.display_error, 1)) " µm · "
                 }
-                (subject.how(s)) " · trueness " (Text(subject.head().version))
+                (content.how) " · trueness " (Text(version))
             }
         }
         "\n"

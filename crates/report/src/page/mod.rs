@@ -7,15 +7,16 @@ mod header;
 pub mod parts;
 mod policy;
 pub mod symbols;
+pub mod table;
 
 pub use data::maps;
 
 use super::number::Style;
 use super::payload::Payload;
 use super::picture::FirstView;
-use super::subject::Drawn;
+use super::subject::{Content, Drawn, Subject};
 use super::values::Text;
-use super::{ReportError, ReportInput};
+use super::{ReportError, ReportInput, ReportOptions};
 use data::{Data, MapEntry};
 use maud::{Markup, PreEscaped, html};
 
@@ -49,17 +50,18 @@ pub fn page(
         Stage::Part(picture) if !picture.view.mapped => (Some(&picture.view), Some("no-scale".into())),
         Stage::Part(picture) => (Some(&picture.view), None),
     };
-    let data = Data::of(input, payload, first, maps)?;
+    let content = subject.content(s)?;
+    let data = Data::of(input, payload, first, maps, &content.json)?;
     let page = html! {
         (PreEscaped("<!doctype html>\n"))
         html lang=(options.language.code()) {
-            "\n" (head(s, input)) "\n"
+            "\n" (head(s, options, &content)) "\n"
             body class=[class] {
-                "\n" (header::header(s, input))
+                "\n" (header::header(s, options, &content))
                 main {
-                    "\n" (list(s, input)) "\n"
+                    "\n" (list(s, &content)) "\n"
                     @match on {
-                        Stage::Part(picture) => { (stage(s, input, picture)) }
+                        Stage::Part(picture) => { (stage(s, subject, content.picture, picture)) }
                         Stage::Drawing(drawing, room) => {
                             section id="stage" class={ "stage " (drawing.classes()[1]) } {
                                 "\n" (drawing.draw(s, input.objects, options.up, *room))
@@ -69,7 +71,7 @@ pub fn page(
                     }
                     @if subject.scale().is_some() { aside id="scale" class="scale" hidden {} "\n" }
                 }
-                "\n" (header::status(s, input, payload))
+                "\n" (header::status(s, &content, payload))
                 (data)
                 @if trueness_viewer::BUILT { script { (PreEscaped(trueness_viewer::SCRIPT)) } "\n" }
             }
@@ -80,9 +82,8 @@ pub fn page(
     Ok(page.into_string())
 }
 
-fn head(s: Style, input: &ReportInput) -> Markup {
-    let (options, headline) = (input.options, input.result.headline());
-    let title = header::title(input);
+fn head(s: Style, options: &ReportOptions, content: &Content) -> Markup {
+    let (title, headline) = (header::title(options, content), content.headline);
     let running =
         policy::running_head(&[Some(title.as_str()), options.part.as_deref(), options.serial.as_deref()]);
     html! {
@@ -103,29 +104,26 @@ fn head(s: Style, input: &ReportInput) -> Markup {
 }
 
 /// The list beside the stage, with the files and the method.
-fn list(s: Style, input: &ReportInput) -> Markup {
-    let subject = input.result;
-    let head = subject.head();
+fn list(s: Style, content: &Content) -> Markup {
+    let [schema, version, _] = content.marks;
     let method = html! {
-        (subject.method(s))
+        (content.method)
         p.note {
-            "trueness " (Text(head.version)) " · " (Text(head.schema))
-            @if let Some(seed) = subject.seed() { " · " (s.word("seed")) "\u{a0}" (seed) }
+            "trueness " (Text(version)) " · " (Text(schema))
+            @if let Some(seed) = content.seed { " · " (s.word("seed")) "\u{a0}" (seed) }
         }
     };
     html! {
         aside id="list" class="list" {
-            "\n" (subject.list(s))
-            (parts::files(s, head.inputs)) (parts::section(s, "method", method))
+            "\n" (content.list)
+            (parts::files(s, content.inputs)) (parts::section(s, "method", method))
         }
     }
 }
 
 /// The stored picture and the distribution under it; the script draws over the one and redraws the other.
-fn stage(s: Style, input: &ReportInput, picture: &Picture) -> Markup {
-    let subject = input.result;
+fn stage(s: Style, subject: &dyn Subject, key: &'static str, picture: &Picture) -> Markup {
     let view = &picture.view;
-    let key = subject.picture();
     let histogram = subject.maps().first().and_then(|m| m.histogram);
     html! {
         section id="stage" class="stage" {

@@ -1,9 +1,10 @@
 //! Parts that the pages of all documents are made of.
 
 use super::super::headline::Headline;
-use super::super::number::Style;
-use super::super::values::{Name, Text, leaf};
+use super::super::number::{Style, decimals};
+use super::super::values::{Name, Number, Optional, Percent, Text, leaf};
 use maud::{Markup, Render, html};
+use trueness_document::compare::{Statistics, ToleranceShares};
 use trueness_document::scale::palette::Rgb;
 use trueness_document::{InputRecord, Role};
 
@@ -37,6 +38,14 @@ pub fn key_number(s: Style, key: &str, class: &str, value: impl Render) -> Marku
     labeled_number(s.word(key), class, value)
 }
 
+/// Whether something is so, which needs care where it is not.
+pub fn holds(s: Style, key: &str, holds: bool, [yes, no]: [&str; 2]) -> Markup {
+    match holds {
+        true => key_number(s, key, "", html! { "✓\u{a0}" (s.word(yes)) }),
+        false => key_number(s, key, "warn", html! { "⚠\u{a0}" (s.word(no)) }),
+    }
+}
+
 /// The same with a label of its own.
 pub fn labeled_number(label: impl Render, class: &str, value: impl Render) -> Markup {
     html! { div class=(class) { dt { (label) } dd { (value) } } }
@@ -52,16 +61,6 @@ pub fn swatch([r, g, b]: Rgb) -> Markup {
     }
 }
 
-/// The heads of the last three columns of a table of places.
-pub fn place_heads() -> Markup {
-    html! { @for axis in ["x", "y", "z"] { th.r { (axis) } } }
-}
-
-/// A place as the last three cells of a row.
-pub fn place_cells(s: Style, place: [f64; 3]) -> Markup {
-    html! { @for x in place { td.r { (s.number(x, 2)) } } }
-}
-
 /// Numbers with the same between two of them.
 pub fn series(s: Style, numbers: [f64; 3], between: &'static str, decimals: usize) -> Markup {
     html! {
@@ -69,30 +68,71 @@ pub fn series(s: Style, numbers: [f64; 3], between: &'static str, decimals: usiz
     }
 }
 
-/// Rows of a list of places that are printed; the screen has all that are listed.
-const PRINTED: usize = 12;
-
-/// Class of row `n` of a list of places.
-pub fn row_class(n: usize) -> Option<&'static str> {
-    (n >= PRINTED).then_some("more")
+/// Two ends of a range.
+pub fn range(from: impl Render, to: impl Render) -> Markup {
+    html! { (from) "\u{2009}…\u{2009}" (to) }
 }
 
-/// Says on paper how many of `rows` are not printed.
-pub fn not_printed(s: Style, rows: usize) -> Markup {
-    html! {
-        @if rows > PRINTED {
-            p.note.paper { "+\u{a0}" (s.count((rows - PRINTED) as u64)) " " (s.word("more.not_printed")) }
-        }
-    }
+/// A length.
+pub fn mm(length: impl Render) -> Markup {
+    html! { (length) "\u{a0}mm" }
 }
 
-/// Says how many of all are listed.
-pub fn listed(s: Style, key: &str, shown: usize, total: u64) -> Markup {
-    html! {
-        @if (shown as u64) < total {
-            p.note { (s.word(key)) " " (s.count(shown as u64)) " / " (s.count(total)) }
-        }
-    }
+/// A number with as many digits as its uncertainty has, and that.
+pub fn with_uncertainty(s: Style, x: f64, u: Option<f64>) -> Markup {
+    html! { (s.number(x, decimals(u, 4))) @if let Some(u) = u { "\u{a0}±\u{a0}" (s.small(u)) } }
+}
+
+/// Least and greatest value, with their signs.
+pub fn extent(s: Style, of: &Statistics, decimals: usize) -> Markup {
+    let value = |x| s.optional(x, decimals).signed();
+    let [least, greatest] = [&of.min_reason, &of.max_reason].map(|reason| reason.as_deref());
+    range(value(of.min).because(least), value(of.max).because(greatest))
+}
+
+/// The share of the points within tolerance.
+pub fn inside<'a>(s: Style, t: &'a ToleranceShares) -> Optional<'a, Percent> {
+    s.optional_percent(t.inside, 2).because(t.inside_reason.as_deref())
+}
+
+/// Between what most values lie.
+pub fn most(s: Style, of: &Statistics, decimals: usize, signed: bool) -> Markup {
+    let value = |x| s.optional(x, decimals).with_sign(signed);
+    range(value(of.percentiles.p2_5), value(of.percentiles.p97_5))
+}
+
+/// The middle value, or why there is none.
+pub fn median(s: Style, of: &Statistics, decimals: usize, signed: bool) -> Optional<'_, Number> {
+    s.optional(of.median, decimals).with_sign(signed).because(of.median_reason.as_deref())
+}
+
+/// How many fail, are undecided, not measured and pass: the worst first, each with key and class of its number. The worst one leads, if
+/// one of them is to.
+pub fn verdicts(counts: [u64; 4], mut lead: bool) -> Vec<(&'static str, &'static str, u64)> {
+    let words = ["verdict.fail", "verdict.undecided", "verdict.not_measured", "verdict.pass"];
+    let all = words.into_iter().zip(["warn", "warn", "warn", ""]).zip(counts);
+    let shown = all.filter(|((key, _), count)| *count > 0 || *key == "verdict.pass");
+    shown
+        .map(|((key, class), count)| {
+            let leads = count > 0 && std::mem::take(&mut lead);
+            (key, if leads { "lead" } else { class }, count)
+        })
+        .collect()
+}
+
+/// Words, a paragraph each.
+pub fn paragraphs<K: AsRef<str>>(s: Style, keys: impl IntoIterator<Item = K>) -> Markup {
+    html! { @for key in keys { p { (s.word(key)) } } }
+}
+
+/// Words in a line.
+pub fn line<const N: usize>(s: Style, keys: [&str; N]) -> Markup {
+    html! { @for (n, key) in keys.into_iter().enumerate() { @if n > 0 { " · " } (s.word(key)) } }
+}
+
+/// What makes a result doubtful.
+pub fn warning(text: impl Render) -> Markup {
+    html! { p.note { strong.warning { "⚠" } " " (text) } }
 }
 
 /// What a file is called on the page.

@@ -5,7 +5,7 @@ use maud::{Markup, html};
 use sha2::{Digest, Sha256};
 
 /// Letters of a running head, at most.
-const LONGEST: usize = 90;
+const MAX_HEAD_LETTERS: usize = 90;
 
 /// The style that prints names at the head of each page but the first, which has them already.
 pub fn running_head(names: &[Option<&str>]) -> String {
@@ -16,8 +16,8 @@ pub fn running_head(names: &[Option<&str>]) -> String {
         }
     }
     let text = given.join(" · ");
-    let cut = text.chars().count() > LONGEST;
-    let mut content: String = text.chars().take(LONGEST).map(in_string).collect();
+    let cut = text.chars().count() > MAX_HEAD_LETTERS;
+    let mut content: String = text.chars().take(MAX_HEAD_LETTERS).map(in_string).collect();
     content.push_str(if cut { "\\2026 " } else { "" });
     format!(
         "@media print{{@page{{@top-left{{content:\"{content}\";font:9pt system-ui,sans-serif;width:100%}}}}\
@@ -67,6 +67,6 @@ mod tests {
         );
         assert!(!head.contains("</") && head.matches('"').count() == 2);
         let long = running_head(&[Some(&"x".repeat(300))]);
-        assert!(long.contains(&format!("\"{}\\2026 \"", "x".repeat(LONGEST))));
+        assert!(long.contains(&format!("\"{}\\2026 \"", "x".repeat(MAX_HEAD_LETTERS))));
     }
 }

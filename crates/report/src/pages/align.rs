@@ -1,7 +1,7 @@
 //! How the measured part was brought to its reference: the same section in every report that aligns.
 
 use crate::number::Style;
-use crate::page::parts::{fact, key_number, section};
+use crate::page::parts::{fact, key_number, mm, section, warning};
 use crate::values::Text;
 use maud::{Markup, Render, html};
 use trueness_document::align::{AlignNote, AlignNoteKind, AlignedTo};
@@ -25,14 +25,14 @@ pub struct Facts<'a> {
 impl<'a> Facts<'a> {
     /// Of the best fit that a comparison began with.
     pub fn of_best_fit(of: &'a AlignedTo) -> Facts<'a> {
-        Facts {
-            method: "best-fit",
-            rms: Some(of.rms),
-            greatest: None,
-            excess: None,
-            left_out: Some(of.left_out),
-            warnings: &of.warnings,
-        }
+        let AlignedTo { rms, left_out, warnings, .. } = of;
+        let (rms, left_out) = (Some(*rms), Some(*left_out));
+        Facts { method: "best-fit", rms, greatest: None, excess: None, left_out, warnings }
+    }
+
+    /// Key of the word for its rms. What lies on datums has none of its own.
+    fn rms_word(&self) -> &'static str {
+        if self.method == "datum" { "align.rms_of_start" } else { "rms" }
     }
 }
 
@@ -44,41 +44,27 @@ pub fn chip(s: Style, of: &Facts, digits: usize) -> Option<Markup> {
     if of.rms.is_none() && left_out.is_none() && !doubtful {
         return None;
     }
-    let rms_word = if of.method == "datum" { "align.rms_of_start" } else { "rms" };
-    Some(key_number(
-        s,
-        "alignment",
-        if doubtful { "warn" } else { "" },
-        html! {
-            @if doubtful { "⚠\u{a0}" }
-            @if let Some(rms) = of.rms { (s.word(rms_word)) "\u{a0}" (s.number(rms, digits)) }
-            @if let Some(points) = left_out { " " small { (s.word("align.left_out.short")) "\u{a0}" (s.count(points)) } }
-        },
-    ))
+    let value = html! {
+        @if doubtful { "⚠\u{a0}" }
+        @if let Some(rms) = of.rms { (s.word(of.rms_word())) "\u{a0}" (s.number(rms, digits)) }
+        @if let Some(points) = left_out { " " small { (s.word("align.left_out.short")) "\u{a0}" (s.count(points)) } }
+    };
+    Some(key_number(s, "alignment", if doubtful { "warn" } else { "" }, value))
 }
 
 /// The section.
 pub fn alignment(s: Style, of: &Facts) -> Markup {
-    // What lies on datums has no rms of its own.
-    let rms_word = if of.method == "datum" { "align.rms_of_start" } else { "rms" };
     // Four decimals tell nothing of less.
-    let length = |x: f64| if x < 1e-3 { s.small(x) } else { s.number(x, 4).render() };
-    section(
-        s,
-        "alignment",
-        html! {
-            dl.facts.pairs {
-                (fact(s, "method", s.word(format!("align.{}", of.method))))
-                @if let Some(rms) = of.rms { (fact(s, rms_word, html! { (length(rms)) "\u{a0}mm" })) }
-                @if let Some(greatest) = of.greatest {
-                    (fact(s, "align.greatest", html! { (length(greatest)) "\u{a0}mm" }))
-                }
-                @if let Some(excess) = of.excess {
-                    (fact(s, "align.excess", html! { (s.number(excess, 4).signed()) "\u{a0}mm" }))
-                }
-                @if let Some(points) = of.left_out { (fact(s, "align.left_out", s.count(points))) }
-            }
-            @for warning in of.warnings { p.note { strong.warning { "⚠" } " " (Text(&warning.text)) } }
-        },
-    )
+    let length = |x: f64| mm(if x < 1e-3 { s.small(x) } else { s.number(x, 4).render() });
+    let body = html! {
+        dl.facts.pairs {
+            (fact(s, "method", s.word(format!("align.{}", of.method))))
+            @if let Some(rms) = of.rms { (fact(s, of.rms_word(), length(rms))) }
+            @if let Some(greatest) = of.greatest { (fact(s, "align.greatest", length(greatest))) }
+            @if let Some(excess) = of.excess { (fact(s, "align.excess", mm(s.number(excess, 4).signed()))) }
+            @if let Some(points) = of.left_out { (fact(s, "align.left_out", s.count(points))) }
+        }
+        @for note in of.warnings { (warning(Text(&note.text))) }
+    };
+    section(s, "alignment", body)
 }

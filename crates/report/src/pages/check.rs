@@ -2,70 +2,35 @@
 
 use crate::headline::{Headline, Tone};
 use crate::number::Style;
-use crate::page::parts::{
-    fact, key_number, listed, not_printed, place_cells, place_heads, row_class, section, series, swatch,
-};
-use crate::subject::{Head, Pick, Subject};
+use crate::page::parts::{fact, holds, key_number, line, mm, paragraphs, section, series, swatch};
+use crate::page::table::{Row, listed, not_printed, places, row_class};
+use crate::subject::{Content, Pick, Subject};
 use crate::values::Text;
 use maud::{Markup, Render, html};
-use serde_json::Value;
 use trueness_document::check::{CheckDocument, Defects, Item, Severity};
 use trueness_document::scale::palette::{Rgb, category};
 use trueness_geom::check::{DefectKind, Measure};
+use trueness_geom::space::{minus, norm};
 use trueness_measure::check::found;
 
 /// Rows of a kind at most, the worst first.
-const LISTED: usize = 100;
+const MAX_LISTED_ITEMS: usize = 100;
 
 impl Subject for CheckDocument {
-    fn head(&self) -> Head<'_> {
-        Head { schema: &self.schema, version: &self.version, units: &self.units, inputs: &self.inputs }
-    }
-
-    fn headline(&self) -> Headline {
-        let warned = found(&self.defects).iter().any(|(_, d)| *d.severity == Severity::Warning);
-        match (self.sound, warned) {
-            (true, false) => Headline { key: "sound", tone: Tone::Pass },
-            (true, true) => Headline { key: "sound_warned", tone: Tone::Pass },
-            (false, _) => Headline { key: "not_sound", tone: Tone::Fail },
-        }
-    }
-
-    fn picture(&self) -> &'static str {
-        "picture.check"
-    }
-
-    fn numbers(&self, s: Style) -> Markup {
-        html! {
-            dl.key-numbers {
-                (severity(s, self, "errors", Severity::Error, "lead"))
-                (severity(s, self, "warnings", Severity::Warning, "warn"))
-                (key_number(s, "facets.title", "", s.count(self.facets)))
-                (key_number(s, "shells", "", s.count(self.shells)))
-                @if let Some(size) = self.dimensions { (key_number(s, "size", "", dimensions(s, size))) }
-                (key_number(s, "volume", if self.volume_note.is_some() { "warn" } else { "" }, volume(s, self)))
-                @if self.precondition {
-                    (key_number(s, "precondition", "", html! { "✓\u{a0}" (s.word("holds")) }))
-                } @else {
-                    (key_number(s, "precondition", "warn", html! { "⚠\u{a0}" (s.word("fails")) }))
-                }
-            }
-        }
-    }
-
-    fn list(&self, s: Style) -> Markup {
-        html! {
-            (section(s, "defects", html! { (kinds(s, &found(&self.defects), 0)) (absent(s, self)) }))
-            (section(s, "model", model(s, self)))
-        }
-    }
-
-    fn method(&self, s: Style) -> Markup {
-        html! { p { (s.word("method.check.text")) } p { (s.word("method.check.precondition")) } }
-    }
-
-    fn how(&self, s: Style) -> Markup {
-        s.word("method.check").render()
+    fn content(&self, s: Style) -> serde_json::Result<Content<'_>> {
+        let found = found(&self.defects);
+        Ok(Content {
+            picture: "picture.check",
+            numbers: numbers(s, self),
+            list: html! {
+                (section(s, "defects", html! { (kinds(s, &found, 0)) (absent(s, self)) }))
+                (section(s, "model", model(s, self)))
+            },
+            method: paragraphs(s, ["method.check.text", "method.check.precondition"]),
+            how: line(s, ["method.check"]),
+            json: serde_json::to_value(self)?,
+            ..Content::of(headline(self), [&self.schema, &self.version, &self.units], &self.inputs)
+        })
     }
 
     fn picks(&self) -> Vec<Pick> {
@@ -76,7 +41,7 @@ impl Subject for CheckDocument {
     fn important(&self, picks: &[Pick]) -> Vec<usize> {
         let kinds = found(&self.defects);
         let errors = |(_, d): &(&DefectKind, &Defects)| {
-            std::iter::repeat_n(*d.severity == Severity::Error, d.items.len().min(LISTED))
+            std::iter::repeat_n(*d.severity == Severity::Error, d.items.len().min(MAX_LISTED_ITEMS))
         };
         let errors: Vec<bool> = kinds.iter().flat_map(errors).collect();
         let size = |n: usize| picks[n].reach.unwrap_or(0.0);
@@ -84,9 +49,28 @@ impl Subject for CheckDocument {
         order.sort_by(|a, b| errors[*b].cmp(&errors[*a]).then(size(*b).total_cmp(&size(*a))));
         order
     }
+}
 
-    fn json(&self) -> serde_json::Result<Value> {
-        serde_json::to_value(self)
+fn headline(d: &CheckDocument) -> Headline {
+    let is_warned = found(&d.defects).iter().any(|(_, d)| *d.severity == Severity::Warning);
+    match (d.sound, is_warned) {
+        (true, false) => Headline { key: "sound", tone: Tone::Pass },
+        (true, true) => Headline { key: "sound_warned", tone: Tone::Pass },
+        (false, _) => Headline { key: "not_sound", tone: Tone::Fail },
+    }
+}
+
+fn numbers(s: Style, d: &CheckDocument) -> Markup {
+    html! {
+        dl.key-numbers {
+            (severity(s, d, "errors", Severity::Error, "lead"))
+            (severity(s, d, "warnings", Severity::Warning, "warn"))
+            (key_number(s, "facets.title", "", s.count(d.facets)))
+            (key_number(s, "shells", "", s.count(d.shells)))
+            @if let Some(size) = d.dimensions { (key_number(s, "size", "", dimensions(s, size))) }
+            (key_number(s, "volume", if d.volume_note.is_some() { "warn" } else { "" }, volume(s, d)))
+            (holds(s, "precondition", d.precondition, ["holds", "fails"]))
+        }
     }
 }
 
@@ -109,20 +93,13 @@ fn rows<'a>(kind: &DefectKind, defects: &'a Defects) -> Vec<(usize, &'a Item)> {
         true => items.sort_by(by_size),
         false => items.sort_by(|a, b| by_size(b, a)),
     }
-    items.truncate(LISTED);
+    items.truncate(MAX_LISTED_ITEMS);
     items
 }
 
 fn pick(item: &Item, mark: usize) -> Pick {
-    let half = |b: &trueness_document::compare::Bounds| {
-        0.5 * (0..3).map(|k| (b.max[k] - b.min[k]).powi(2)).sum::<f64>().sqrt()
-    };
-    Pick {
-        position: item.position,
-        reach: Some(item.bounds.as_ref().map_or(0.0, half)),
-        mark: Some(mark),
-        ..Pick::default()
-    }
+    let half = item.bounds.as_ref().map_or(0.0, |b| 0.5 * norm(minus(b.max, b.min)));
+    Pick { position: item.position, reach: Some(half), mark: Some(mark), ..Pick::default() }
 }
 
 /// What the size of an item is: key of its word, and unit.
@@ -162,7 +139,7 @@ pub fn kinds(s: Style, found: &[(&DefectKind, &Defects)], first_pick: usize) -> 
     let mut first = first_pick;
     let parts = found.iter().enumerate().map(|(n, (of, defects))| {
         let from = first;
-        first += defects.items.len().min(LISTED);
+        first += defects.items.len().min(MAX_LISTED_ITEMS);
         // All kinds are seen at once; a single one needs no click.
         kind(s, (of, defects), category(n), from, found.len() == 1)
     });
@@ -183,37 +160,29 @@ fn kind(s: Style, (kind, defects): (&DefectKind, &Defects), color: Rgb, first: u
                 strong { @if defects.at_least { "≥ " } (s.count(count)) }
             }
             "\n" p.note { (s.word(format!("about.{}", kind.name))) }
-            (table(s, kind, &rows, first)) (listed(s, "listed", rows.len(), count))
+            (items(s, kind, &rows, first)) (listed(s, "listed", rows.len(), count))
         }
         "\n"
     }
 }
 
-fn table(s: Style, kind: &DefectKind, rows: &[(usize, &Item)], first: usize) -> Markup {
-    if rows.is_empty() {
+/// Digits after the point of the size of a defect or a change, which may be small.
+pub fn size_decimals(size: f64) -> usize {
+    if size > 0.0 && size < 0.1 { 6 } else { 3 }
+}
+
+fn items(s: Style, kind: &DefectKind, all: &[(usize, &Item)], first: usize) -> Markup {
+    if all.is_empty() {
         return Markup::default();
     }
     let (word, unit) = measure(kind.measure);
-    let decimals = |size: f64| match unit {
-        "" => 0,
-        _ if size > 0.0 && size < 0.1 => 6,
-        _ => 3,
+    let decimals = |size: f64| if unit.is_empty() { 0 } else { size_decimals(size) };
+    let row = |(n, (_, item)): (usize, &(usize, &Item))| {
+        let size = s.number(item.size, decimals(item.size));
+        let size = html! { (size) @if !unit.is_empty() { "\u{a0}" (unit) } };
+        Row::at(s, &(n + 1), &size, item.position).pick(first + n).class(row_class(n))
     };
-    html! {
-        table.pick {
-            thead { tr { th {} th.r { (s.word(word)) } (place_heads()) } }
-            tbody {
-                @for (n, (_, item)) in rows.iter().enumerate() {
-                    tr data-pick=(first + n) class=[row_class(n)] {
-                        td { (n + 1) }
-                        td.r { (s.number(item.size, decimals(item.size))) @if !unit.is_empty() { "\u{a0}" (unit) } }
-                        (place_cells(s, item.position))
-                    }
-                }
-            }
-        }
-        (not_printed(s, rows.len()))
-    }
+    html! { (places(s, word, all.iter().enumerate().map(row))) (not_printed(s, all.len())) }
 }
 
 /// What was looked for and not found, and what was not looked for.
@@ -260,13 +229,13 @@ fn model(s: Style, d: &CheckDocument) -> Markup {
                 Some(genus) => s.number(genus as f64, 0).render(),
                 None => or_why(&d.genus_reason),
             }))
-            (fact(s, "gap", html! { (s.scientific(d.tolerances.gap, 2)) "\u{a0}mm" }))
+            (fact(s, "gap", mm(s.scientific(d.tolerances.gap, 2))))
         }
     }
 }
 
 fn dimensions(s: Style, size: [f64; 3]) -> Markup {
-    html! { (series(s, size, "\u{2009}×\u{2009}", 2)) "\u{a0}mm" }
+    mm(series(s, size, "\u{2009}×\u{2009}", 2))
 }
 
 fn volume(s: Style, d: &CheckDocument) -> Markup {

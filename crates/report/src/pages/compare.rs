@@ -1,72 +1,51 @@
 //! The page of a comparison: deviations, worst places, statistics.
 
 mod list;
-mod words;
 
 pub use list::{
     OUTSIDE, because, by_side, excluded, listed_worst, passing, reasons, regions, rules, statistics, worst,
 };
 
-use crate::headline::Headline;
+use crate::headline::{Headline, Tone};
 use crate::number::Style;
-use crate::page::parts::key_number;
+use crate::page::parts::{extent, holds, inside, key_number, most, paragraphs, range};
 use crate::pages::align::{Facts, chip};
 use crate::pages::check;
-use crate::subject::{Head, Map, Pick, Subject};
+use crate::subject::{Content, Map, Pick, Subject};
+use list::{sign_key, warning_key};
 use maud::{Markup, html};
-use serde_json::Value;
 use trueness_document::ReasonKind;
 use trueness_document::align::AlignedTo;
 use trueness_document::compare::{CompareDocument, Comparison, MeasuredKind, Method, Worst};
 use trueness_document::scale::Scale;
 use trueness_measure::check::found;
-use words::{headline, sign_key, warning_key};
 
 impl Subject for CompareDocument {
-    fn head(&self) -> Head<'_> {
-        Head { schema: &self.schema, version: &self.version, units: &self.units, inputs: &self.inputs }
-    }
-
-    fn headline(&self) -> Headline {
-        headline(self.verdict)
-    }
-
-    fn convention(&self) -> Option<&'static str> {
-        Some("sign.short")
-    }
-
-    fn picture(&self) -> &'static str {
-        "picture.alt"
-    }
-
-    fn numbers(&self, s: Style) -> Markup {
+    fn content(&self, s: Style) -> serde_json::Result<Content<'_>> {
         let (digits, aligned) = (self.scale.decimals as usize, self.alignment.as_ref());
-        html! { @for (n, c) in self.comparisons.iter().enumerate() { (numbers(s, (c, n), digits, aligned)) } }
-    }
-
-    fn list(&self, s: Style) -> Markup {
-        list::list(s, self)
-    }
-
-    fn method(&self, s: Style) -> Markup {
-        let text = if *self.method == Method::Paper { "method.paper.text" } else { "method.exact.text" };
+        let all = self.comparisons.iter().enumerate();
+        // Without a tolerance there is no verdict.
+        let headline = Headline { key: "not_judged", tone: Tone::Neutral };
+        let headline = self.verdict.map_or(headline, Headline::from);
+        let is_paper = *self.method == Method::Paper;
+        let text = if is_paper { "method.paper.text" } else { "method.exact.text" };
         // The map is one of points, if they were not a mesh's own vertices.
         let points = (*self.measured.kind != MeasuredKind::Vertices).then_some("method.points.text");
-        let keys = [text, "method.sign.text", "method.map.text"].into_iter().chain(points);
-        html! { @for key in keys { p { (s.word(key)) } } }
-    }
-
-    fn how(&self, s: Style) -> Markup {
-        let method = if *self.method == Method::Paper { "method.paper" } else { "method.exact" };
-        html! { (s.word(method)) " · " (s.word("sign.method")) ": " (s.word(sign_key(&self.sign))) }
-    }
-
-    fn points(&self) -> Option<u64> {
-        Some(self.measured.count)
-    }
-
-    fn seed(&self) -> Option<u64> {
-        Some(self.seed)
+        Ok(Content {
+            convention: Some("sign.short"),
+            picture: "picture.alt",
+            numbers: html! { @for (n, c) in all { (numbers(s, (c, n), digits, aligned)) } },
+            list: list::list(s, self),
+            method: paragraphs(s, [text, "method.sign.text", "method.map.text"].into_iter().chain(points)),
+            how: html! {
+                (s.word(if is_paper { "method.paper" } else { "method.exact" })) " · "
+                (s.word("sign.method")) ": " (s.word(sign_key(&self.sign)))
+            },
+            points: Some(self.measured.count),
+            seed: Some(self.seed),
+            json: serde_json::to_value(self)?,
+            ..Content::of(headline, [&self.schema, &self.version, &self.units], &self.inputs)
+        })
     }
 
     fn scale(&self) -> Option<&Scale> {
@@ -90,10 +69,6 @@ impl Subject for CompareDocument {
         }
         picks
     }
-
-    fn json(&self) -> serde_json::Result<Value> {
-        serde_json::to_value(self)
-    }
 }
 
 /// The map of a comparison.
@@ -115,7 +90,6 @@ pub fn pick(w: &Worst, n: usize) -> Pick {
 fn numbers(s: Style, (c, n): (&Comparison, usize), decimals: usize, aligned: Option<&AlignedTo>) -> Markup {
     let all = &c.deviation.all;
     let excluded: u64 = c.excluded.values().sum();
-    let value = |x| s.optional(x, decimals).signed();
     html! {
         dl.key-numbers data-comparison=(n) hidden[n > 0] {
             (lead(s, c, decimals))
@@ -127,20 +101,13 @@ fn numbers(s: Style, (c, n): (&Comparison, usize), decimals: usize, aligned: Opt
                     @if required > 0.0 { " " small { "(≥\u{a0}" (s.percent(required, 0)) ")" } }
                 }))
             }
-            (key_number(s, "range", "", html! {
-                (value(all.min).because(all.min_reason.as_deref())) "\u{2009}…\u{2009}"
-                (value(all.max).because(all.max_reason.as_deref()))
-            }))
+            (key_number(s, "range", "", extent(s, all, decimals)))
             (key_number(s, "mean", "", s.optional(all.mean, decimals + 1).signed().because(all.mean_reason.as_deref())))
             (key_number(s, "std_dev", "", s.optional(all.std_dev, decimals + 1).because(all.std_dev_reason.as_deref())))
             (key_number(s, "points", "", s.count(all.count)))
             (key_number(s, "excluded", if excluded > 0 { "warn" } else { "" }, s.count(excluded)))
             (key_number(s, "sign.method", "", s.word(sign_key(&c.sign))))
-            @if c.soundness.sound {
-                (key_number(s, "soundness", "", html! { "✓\u{a0}" (s.word("sound.short")) }))
-            } @else {
-                (key_number(s, "soundness", "warn", html! { "⚠\u{a0}" (s.word("not_sound")) }))
-            }
+            (holds(s, "soundness", c.soundness.sound, ["sound.short", "not_sound"]))
             @if let Some(chip) = aligned.and_then(|a| chip(s, &Facts::of_best_fit(a), decimals + 1)) { (chip) }
             @for warning in &c.warnings {
                 (key_number(s, warning_key(warning.kind), "warn", html! { "⚠\u{a0}" (s.number(warning.value, 3)) }))
@@ -151,22 +118,18 @@ fn numbers(s: Style, (c, n): (&Comparison, usize), decimals: usize, aligned: Opt
 
 /// How many points keep to the tolerance; without one, between what most of them lie.
 fn lead(s: Style, c: &Comparison, decimals: usize) -> Markup {
-    let p = &c.deviation.all.percentiles;
-    let value = |x| s.optional(x, decimals).signed();
     let limit = |x| s.number(x, decimals).signed();
     html! {
         @match &c.tolerance {
             _ if !c.regions.is_empty() => (key_number(s, "regions.pass", "lead", passing(s, c))),
             Some(t) => {
-                (key_number(s, "within", "lead", s.optional_percent(t.inside, 2).because(t.inside_reason.as_deref())))
-                (key_number(s, "tolerance", "", html! { (limit(t.lower)) "\u{2009}…\u{2009}" (limit(t.upper)) }))
+                (key_number(s, "within", "lead", inside(s, t)))
+                (key_number(s, "tolerance", "", range(limit(t.lower), limit(t.upper))))
                 @if t.required < 1.0 {
                     (key_number(s, "required", "", html! { "≥\u{a0}" (s.percent(t.required, 2)) }))
                 }
             }
-            None => {
-                (key_number(s, "most_within", "lead", html! { (value(p.p2_5)) "\u{2009}…\u{2009}" (value(p.p97_5)) }))
-            }
+            None => (key_number(s, "most_within", "lead", most(s, &c.deviation.all, decimals, true))),
         }
     }
 }

@@ -2,10 +2,11 @@
 
 use crate::headline::{Headline, Tone};
 use crate::number::{Style, enough};
-use crate::page::parts::{fact, key_number, labeled_number, place_cells, place_heads, section};
-use crate::subject::{Head, Map, Pick, Subject};
+use crate::page::parts::{extent, fact, key_number, labeled_number, median, mm, most, paragraphs, section};
+use crate::page::table::{Row, places, table};
+use crate::subject::{Content, Map, Pick, Subject};
 use maud::{Markup, Render, html};
-use serde_json::Value;
+use trueness_document::compare::Statistics;
 use trueness_document::curvature::{
     CurvatureDocument, CurvatureKind, CurvaturePlace, Neighborhood, NormalSource, PlaceKind, Range,
 };
@@ -13,55 +14,25 @@ use trueness_document::noise::shared;
 use trueness_document::scale::Scale;
 
 impl Subject for CurvatureDocument {
-    fn head(&self) -> Head<'_> {
-        Head { schema: &self.schema, version: &self.version, units: &self.units, inputs: &self.inputs }
-    }
-
-    fn headline(&self) -> Headline {
-        Headline { key: "curvature", tone: Tone::Neutral }
-    }
-
-    fn convention(&self) -> Option<&'static str> {
-        Some("sign.curvature")
-    }
-
-    fn picture(&self) -> &'static str {
-        "picture.curvature"
-    }
-
-    fn numbers(&self, s: Style) -> Markup {
-        html! { @for (n, kind) in CurvatureKind::ALL.into_iter().enumerate() { (numbers(s, self, n, kind)) } }
-    }
-
-    fn list(&self, s: Style) -> Markup {
-        html! {
-            (section(s, "quantities", quantities(s, self)))
-            (section(s, "extremes", extremes(s, self)))
-            (section(s, "known", known(s, self)))
-            @if !self.without.is_empty() { (section(s, "without", html! {
-                dl.facts.pairs {
-                    @for (reason, count) in &self.without { (fact(s, &format!("reason.{}", reason.name()), s.count(*count))) }
-                }
-            })) }
-        }
-    }
-
-    fn method(&self, s: Style) -> Markup {
-        let facets = *self.normals == NormalSource::Facets;
-        html! {
-            p { (s.word("method.curvature.text")) }
-            p { (s.word(if facets { "method.curvature.facets" } else { "method.curvature.cloud" })) }
-        }
-    }
-
-    fn how(&self, s: Style) -> Markup {
-        html! {
-            (s.word("method.curvature")) " · " (s.word("degree")) "\u{a0}" (s.count(self.degree))
-        }
-    }
-
-    fn points(&self) -> Option<u64> {
-        (*self.places == PlaceKind::Points).then_some(self.total)
+    fn content(&self, s: Style) -> serde_json::Result<Content<'_>> {
+        let source = match *self.normals {
+            NormalSource::Facets => "method.curvature.facets",
+            NormalSource::Neighbors => "method.curvature.cloud",
+        };
+        let headline = Headline { key: "curvature", tone: Tone::Neutral };
+        Ok(Content {
+            convention: Some("sign.curvature"),
+            picture: "picture.curvature",
+            numbers: html! {
+                @for (n, kind) in CurvatureKind::ALL.into_iter().enumerate() { (numbers(s, self, n, kind)) }
+            },
+            list: list(s, self),
+            method: paragraphs(s, ["method.curvature.text", source]),
+            how: html! { (s.word("method.curvature")) " · " (s.word("degree")) "\u{a0}" (s.count(self.degree)) },
+            points: (*self.places == PlaceKind::Points).then_some(self.total),
+            json: serde_json::to_value(self)?,
+            ..Content::of(headline, [&self.schema, &self.version, &self.units], &self.inputs)
+        })
     }
 
     fn scale(&self) -> Option<&Scale> {
@@ -100,17 +71,18 @@ impl Subject for CurvatureDocument {
         };
         CurvatureKind::ALL.into_iter().enumerate().flat_map(of).collect()
     }
-
-    fn json(&self) -> serde_json::Result<Value> {
-        serde_json::to_value(self)
-    }
 }
 
-/// The word for the places that have curvatures.
-fn places(document: &CurvatureDocument) -> &'static str {
-    match *document.places {
-        PlaceKind::Vertices => "vertices.title",
-        PlaceKind::Points => "points",
+fn list(s: Style, d: &CurvatureDocument) -> Markup {
+    html! {
+        (section(s, "quantities", quantities(s, d)))
+        (section(s, "extremes", extremes(s, d)))
+        (section(s, "known", known(s, d)))
+        @if !d.without.is_empty() { (section(s, "without", html! {
+            dl.facts.pairs {
+                @for (reason, count) in &d.without { (fact(s, &format!("reason.{}", reason.name()), s.count(*count))) }
+            }
+        })) }
     }
 }
 
@@ -141,41 +113,38 @@ fn ends(d: &CurvatureDocument, kind: CurvatureKind) -> [(&CurvaturePlace, f64); 
 /// The key numbers of a curvature, those of map `n`.
 fn numbers(s: Style, d: &CurvatureDocument, n: usize, kind: CurvatureKind) -> Markup {
     let found = CurvatureDocument::quantity(d, kind);
-    let (all, p) = (&found.statistics, &found.statistics.percentiles);
-    let value = |x| s.optional(x, enough(all.median, found.scale.decimals as usize)).signed();
-    let label = html! { (s.word(words(kind)[0])) ", " (s.word("median")) };
+    let all = &found.statistics;
+    let digits = enough(all.median, found.scale.decimals as usize);
     let without = d.total - d.count;
+    let places = match *d.places {
+        PlaceKind::Vertices => "vertices.title",
+        PlaceKind::Points => "points",
+    };
     html! {
         dl.key-numbers data-comparison=(n) hidden[n > 0] {
-            (labeled_number(label, "lead", html! {
-                (value(all.median).because(all.median_reason.as_deref())) "\u{a0}" (kind.unit())
-            }))
-            (key_number(s, "most_within", "", html! { (value(p.p2_5)) "\u{2009}…\u{2009}" (value(p.p97_5)) }))
-            (key_number(s, "range", "", html! {
-                (value(all.min).because(all.min_reason.as_deref())) "\u{2009}…\u{2009}"
-                (value(all.max).because(all.max_reason.as_deref()))
-            }))
-            (key_number(s, places(d), "", s.count(d.count)))
+            (middle(s, kind, median(s, all, digits, true)))
+            (key_number(s, "most_within", "", most(s, all, digits, true)))
+            (key_number(s, "range", "", extent(s, all, digits)))
+            (key_number(s, places, "", s.count(d.count)))
             @if without > 0 { (key_number(s, "without", "warn", s.count(without))) }
         }
     }
+}
+
+/// The middle value of a curvature, which leads.
+pub fn middle(s: Style, kind: CurvatureKind, median: impl Render) -> Markup {
+    let label = html! { (s.word(words(kind)[0])) ", " (s.word("median")) };
+    labeled_number(label, "lead", html! { (median) "\u{a0}" (kind.unit()) })
 }
 
 /// Every curvature in a row, which shows its map.
 fn quantities(s: Style, d: &CurvatureDocument) -> Markup {
     let row = |kind: CurvatureKind| {
         let found = CurvatureDocument::quantity(d, kind);
-        let p = &found.statistics.percentiles;
         let digits = enough(found.statistics.median, found.scale.decimals as usize);
-        Choice {
-            key: words(kind)[0],
-            values: [p.p2_5, p.p50, p.p97_5],
-            digits,
-            unit: kind.unit(),
-            signed: true,
-        }
+        Choice::usual(words(kind)[0], &found.statistics, digits, kind.unit(), true)
     };
-    choices(s, ["p2_5", "median", "p97_5"], CurvatureKind::ALL.into_iter().map(row))
+    choices(s, USUAL_COLUMNS, CurvatureKind::ALL.into_iter().map(row))
 }
 
 /// A quantity of which a map can be shown, with three of its values.
@@ -192,42 +161,43 @@ pub struct Choice {
     pub signed: bool,
 }
 
-/// A table of quantities, of which one is shown, in the order of their maps; the columns by the keys of their words.
-pub fn choices(s: Style, columns: [&str; 3], rows: impl Iterator<Item = Choice>) -> Markup {
-    html! {
-        table.choose.quantities {
-            thead { tr { th {} @for key in columns { th.r { (s.word(key)) } } } }
-            tbody {
-                @for (map, Choice { key, values, digits, unit, signed }) in rows.enumerate() {
-                    tr data-choose=(map) aria-selected=(map == 0) {
-                        td { (s.word(key)) " " span.unit { (unit) } }
-                        @for value in values {
-                            td.r { @if signed { (s.optional(value, digits).signed()) } @else { (s.optional(value, digits)) } }
-                        }
-                    }
-                }
-            }
-        }
+/// Columns of [`Choice::usual`].
+pub const USUAL_COLUMNS: [&str; 3] = ["p2_5", "median", "p97_5"];
+
+impl Choice {
+    /// Between what most values lie, and the middle one.
+    pub fn usual(
+        key: &'static str,
+        of: &Statistics,
+        digits: usize,
+        unit: &'static str,
+        signed: bool,
+    ) -> Choice {
+        let p = &of.percentiles;
+        Choice { key, values: [p.p2_5, p.p50, p.p97_5], digits, unit, signed }
     }
 }
 
+/// A table of quantities, of which one is shown, in the order of their maps; the columns by the keys of their words.
+pub fn choices(s: Style, columns: [&str; 3], rows: impl Iterator<Item = Choice>) -> Markup {
+    let row = |(map, Choice { key, values, digits, unit, signed }): (usize, Choice)| {
+        let [a, b, c] = values.map(|value| s.optional(value, digits).with_sign(signed));
+        Row::of(&[&html! { (s.word(key)) " " span.unit { (unit) } }, &a, &b, &c]).choose(map)
+    };
+    table(s, "choose quantities", [&[""], &columns], rows.enumerate().map(row))
+}
+
 fn extremes(s: Style, d: &CurvatureDocument) -> Markup {
+    let row = |n: usize, k: usize, (place, value): (&CurvaturePlace, f64)| {
+        let digits = CurvatureDocument::quantity(d, CurvatureKind::ALL[n]).scale.decimals as usize;
+        let name = s.word(if k == 0 { "max" } else { "min" });
+        let row = Row::at(s, &name, &s.number(value, digits).signed(), place.position);
+        row.pick(2 * n + k).title(place.index)
+    };
     html! {
         @for (n, kind) in CurvatureKind::ALL.into_iter().enumerate() {
-            @let digits = CurvatureDocument::quantity(d, kind).scale.decimals as usize;
             div data-comparison=(n) hidden[n > 0] {
-                table.pick {
-                    thead { tr { th {} th.r { (s.word("value")) } (place_heads()) } }
-                    tbody {
-                        @for (k, (place, value)) in ends(d, kind).into_iter().enumerate() {
-                            tr data-pick=(2 * n + k) {
-                                td title=(place.index) { (s.word(if k == 0 { "max" } else { "min" })) }
-                                td.r { (s.number(value, digits).signed()) }
-                                (place_cells(s, place.position))
-                            }
-                        }
-                    }
-                }
+                (places(s, "value", (0..).zip(ends(d, kind)).map(|(k, end)| row(n, k, end))))
             }
         }
     }
@@ -249,7 +219,7 @@ fn known(s: Style, d: &CurvatureDocument) -> Markup {
             (fact(s, "neighborhood", html! {
                 @match d.neighborhood {
                     Neighborhood::Count { neighbors } => { "≥\u{a0}" (s.count(neighbors)) " " (s.word("neighbors")) }
-                    Neighborhood::Radius { radius } => { "≤\u{a0}" (s.number(radius, 3)) "\u{a0}mm" }
+                    Neighborhood::Radius { radius } => { "≤\u{a0}" (mm(s.number(radius, 3))) }
                 }
             }))
             (fact(s, "curvature.uncertainty", range(&d.uncertainty, "mm⁻¹")))

@@ -2,14 +2,14 @@
 
 use crate::headline::Headline;
 use crate::number::Style;
-use crate::page::parts::{badge, fact, key_number, section};
+use crate::page::parts::{badge, fact, inside, key_number, paragraphs, range, section, verdicts};
 use crate::page::symbols::{datum_name, path, requirement, symbol};
+use crate::page::table::{Row, table};
 use crate::pages::align::{Facts, alignment, chip};
 use crate::pages::compare;
-use crate::subject::{Frame, Head, Map, Pick, Subject};
-use crate::values::{Name, Optional, Percent, Text};
+use crate::subject::{Content, Frame, Map, Pick, Subject};
+use crate::values::{Name, Text};
 use maud::{Markup, html};
-use serde_json::Value;
 use trueness_document::Verdict;
 use trueness_document::compare::{Comparison, ToleranceShares};
 use trueness_document::inspect::{
@@ -19,87 +19,24 @@ use trueness_document::inspect::{
 use trueness_document::scale::Scale;
 
 impl Subject for InspectDocument {
-    fn head(&self) -> Head<'_> {
-        Head { schema: &self.schema, version: &self.version, units: &self.units, inputs: &self.inputs }
-    }
-
-    fn headline(&self) -> Headline {
-        self.verdict.into()
-    }
-
-    fn title(&self) -> Option<&str> {
-        self.title.as_deref()
-    }
-
-    fn picture(&self) -> &'static str {
-        "picture.inspect"
-    }
-
-    fn numbers(&self, s: Style) -> Markup {
-        let regions = self.deviation.as_ref().filter(|d| !d.regions.is_empty());
-        let within = self.deviation.as_ref().filter(|_| regions.is_none()).and_then(|d| d.tolerance.as_ref());
-        let outside = (within.is_some() || regions.is_some())
-            && self.deviation.as_ref().and_then(|d| d.verdict) != Some(Verdict::Pass);
-        // Where the deviations alone fail, they lead.
-        let alone = outside && self.counts.fail == 0;
-        let share = |t| html! { (share(s, t)) @if t.required < 1.0 { " " small { (required(s, t)) } } };
-        let all = s.len(&self.characteristics);
-        let of = facts(&self.alignment);
-        let told = Some(&of).filter(|of| of.left_out.is_some_and(|n| n > 0) || !of.warnings.is_empty());
-        html! {
-            dl.key-numbers {
-                @if let Some(c) = regions.filter(|_| alone) {
-                    (key_number(s, "regions.pass", "lead", compare::passing(s, c)))
-                }
-                @if let Some(t) = within.filter(|_| alone) { (key_number(s, "deviations.within", "lead", share(t))) }
-                @for (key, class, count) in counts(self, !alone) {
-                    (key_number(s, key, class, html! {
-                        (s.count(count)) @if class == "lead" { " " small { "/\u{a0}" (all) } }
-                    }))
-                }
-                (compare::because(s, &self.verdict_reasons))
-                (key_number(s, "characteristics", "", all))
-                @if let Some(c) = regions.filter(|_| !alone) {
-                    (key_number(s, "regions.pass", if outside { "warn" } else { "" }, compare::passing(s, c)))
-                }
-                @if let Some(t) = within.filter(|_| !alone) {
-                    (key_number(s, "deviations.within", if outside { "warn" } else { "" }, share(t)))
-                }
-                @if let Some(chip) = told.and_then(|of| chip(s, of, 4)) { (chip) }
-            }
-        }
-    }
-
-    fn list(&self, s: Style) -> Markup {
-        let (of, facts) = (&self.alignment, facts(&self.alignment));
-        // Where nothing else can be believed, this comes first.
-        let (first, last) =
-            if of.doubts().next().is_some() { (Some(&facts), None) } else { (None, Some(&facts)) };
-        html! {
-            (compare::reasons(s, &self.verdict_reasons))
-            @if let Some(facts) = first { (alignment(s, facts)) }
-            (section(s, "characteristics", characteristics(s, self)))
-            @if let (Some(c), Some(scale)) = (&self.deviation, &self.scale) {
-                (deviations(s, c, scale.decimals as usize, self.characteristics.len()))
-            }
-            (section(s, "features", features(s, self)))
-            @if let Some(facts) = last { (alignment(s, facts)) }
-        }
-    }
-
-    fn method(&self, s: Style) -> Markup {
-        let mut standards: Vec<&str> = self.characteristics.iter().map(|c| c.standard.as_str()).collect();
-        standards.sort_unstable();
-        standards.dedup();
-        html! {
-            p { (s.word("method.inspect.text")) }
-            p { (s.word(format!("decision.{}.text", self.decision_rule))) }
-            ul { @for standard in standards { li { (Text(standard)) } } }
-        }
-    }
-
-    fn how(&self, s: Style) -> Markup {
-        html! { (s.word("decision")) ": " (s.word(format!("decision.{}", self.decision_rule))) }
+    fn content(&self, s: Style) -> serde_json::Result<Content<'_>> {
+        let mut json = serde_json::to_value(self)?;
+        // The page has a map of its own.
+        json.as_object_mut().and_then(|members| members.shift_remove("deviation_map"));
+        let decision = format!("decision.{}", self.decision_rule);
+        Ok(Content {
+            title: self.title.as_deref(),
+            picture: "picture.inspect",
+            numbers: numbers(s, self),
+            list: list(s, self),
+            method: html! {
+                (paragraphs(s, ["method.inspect.text", &format!("{decision}.text")]))
+                ul { @for standard in standards(self) { li { (Text(standard)) } } }
+            },
+            how: html! { (s.word("decision")) ": " (s.word(&decision)) },
+            json,
+            ..Content::of(self.verdict.into(), [&self.schema, &self.version, &self.units], &self.inputs)
+        })
     }
 
     fn picks(&self) -> Vec<Pick> {
@@ -126,13 +63,70 @@ impl Subject for InspectDocument {
     fn maps(&self) -> Vec<Map<'_>> {
         self.deviation.iter().map(compare::map).collect()
     }
+}
 
-    fn json(&self) -> serde_json::Result<Value> {
-        let mut document = serde_json::to_value(self)?;
-        // The page has a map of its own.
-        document.as_object_mut().and_then(|members| members.shift_remove("deviation_map"));
-        Ok(document)
+fn numbers(s: Style, d: &InspectDocument) -> Markup {
+    let regions = d.deviation.as_ref().filter(|d| !d.regions.is_empty());
+    let within = d.deviation.as_ref().filter(|_| regions.is_none()).and_then(|d| d.tolerance.as_ref());
+    let has_limits = within.is_some() || regions.is_some();
+    let outside = has_limits && d.deviation.as_ref().and_then(|d| d.verdict) != Some(Verdict::Pass);
+    // Where the deviations alone fail, they lead.
+    let alone = outside && d.counts.fail == 0;
+    let class = match (alone, outside) {
+        (true, _) => "lead",
+        (false, true) => "warn",
+        (false, false) => "",
+    };
+    let judged = html! {
+        @if let Some(c) = regions { (key_number(s, "regions.pass", class, compare::passing(s, c))) }
+        @if let Some(t) = within {
+            (key_number(s, "deviations.within", class, html! {
+                (inside(s, t)) @if t.required < 1.0 { " " small { (required(s, t)) } }
+            }))
+        }
+    };
+    let n = &d.counts;
+    let counts = verdicts([n.fail, n.undecided, n.not_measured, n.pass], !alone);
+    let all = s.len(&d.characteristics);
+    let of = facts(&d.alignment);
+    let told = Some(&of).filter(|of| of.left_out.is_some_and(|n| n > 0) || !of.warnings.is_empty());
+    html! {
+        dl.key-numbers {
+            @if alone { (judged) }
+            @for (key, class, count) in counts {
+                (key_number(s, key, class, html! {
+                    (s.count(count)) @if class == "lead" { " " small { "/\u{a0}" (all) } }
+                }))
+            }
+            (compare::because(s, &d.verdict_reasons))
+            (key_number(s, "characteristics", "", all))
+            @if !alone { (judged) }
+            @if let Some(chip) = told.and_then(|of| chip(s, of, 4)) { (chip) }
+        }
     }
+}
+
+fn list(s: Style, d: &InspectDocument) -> Markup {
+    let aligned = alignment(s, &facts(&d.alignment));
+    let is_doubtful = d.alignment.doubts().next().is_some();
+    html! {
+        (compare::reasons(s, &d.verdict_reasons))
+        // Where nothing else can be believed, this comes first.
+        @if is_doubtful { (aligned) }
+        (section(s, "characteristics", characteristics(s, d)))
+        @if let (Some(c), Some(scale)) = (&d.deviation, &d.scale) {
+            (deviations(s, c, scale.decimals as usize, d.characteristics.len()))
+        }
+        (section(s, "features", features(s, d)))
+        @if !is_doubtful { (aligned) }
+    }
+}
+
+fn standards(d: &InspectDocument) -> Vec<&str> {
+    let mut standards: Vec<&str> = d.characteristics.iter().map(|c| c.standard.as_str()).collect();
+    standards.sort_unstable();
+    standards.dedup();
+    standards
 }
 
 /// What there is to be said of the alignment.
@@ -164,29 +158,6 @@ fn frame(c: &CharacteristicRecord) -> Frame {
         decimals: digits(c),
         verdict: Headline::from(c.verdict).key,
     }
-}
-
-/// How many characteristics have each verdict, the worst first, with the class of that number: the worst one leads, if they do.
-fn counts(d: &InspectDocument, mut lead: bool) -> Vec<(&'static str, &'static str, u64)> {
-    let n = &d.counts;
-    let all = [
-        ("verdict.fail", n.fail, "warn"),
-        ("verdict.undecided", n.undecided, "warn"),
-        ("verdict.not_measured", n.not_measured, "warn"),
-        ("verdict.pass", n.pass, ""),
-    ];
-    let shown = all.into_iter().filter(|(key, count, _)| *count > 0 || *key == "verdict.pass");
-    shown
-        .map(|(key, count, class)| {
-            let leads = count > 0 && std::mem::take(&mut lead);
-            (key, if leads { "lead" } else { class }, count)
-        })
-        .collect()
-}
-
-/// The share of the deviations within tolerance.
-fn share<'a>(s: Style, t: &'a ToleranceShares) -> Optional<'a, Percent> {
-    s.optional_percent(t.inside, 2).because(t.inside_reason.as_deref())
 }
 
 /// The share that is asked for.
@@ -252,7 +223,7 @@ fn uncertain(s: Style, c: &CharacteristicRecord) -> Markup {
     let number = |x| s.number(x, digits(c));
     html! {
         @match (c.uncertainty, c.interval, c.noise_bias) {
-            (_, Some([from, to]), Some(_)) => { br; small { "[" (number(from)) "\u{2009}…\u{2009}" (number(to)) "]" (degrees(c)) } }
+            (_, Some([from, to]), Some(_)) => { br; small { "[" (range(number(from), number(to))) "]" (degrees(c)) } }
             (Some(u), ..) => { " ±\u{a0}" (number(u)) (degrees(c)) }
             _ => {}
         }
@@ -268,8 +239,8 @@ fn deviations(s: Style, c: &Comparison, decimals: usize, first_pick: usize) -> M
             dl.facts.pairs {
                 @if let Some(verdict) = c.verdict { (fact(s, "verdict", badge(s, verdict.into()))) }
                 @if let Some(t) = c.tolerance.as_ref().filter(|_| c.regions.is_empty()) {
-                    (fact(s, "tolerance", html! { (limit(t.lower)) "\u{2009}…\u{2009}" (limit(t.upper)) }))
-                    (fact(s, "within", html! { (share(s, t)) @if t.required < 1.0 { " " (required(s, t)) } }))
+                    (fact(s, "tolerance", range(limit(t.lower), limit(t.upper))))
+                    (fact(s, "within", html! { (inside(s, t)) @if t.required < 1.0 { " " (required(s, t)) } }))
                 }
                 (fact(s, "excluded", compare::excluded(s, c, all)))
                 (compare::rules(s, c, decimals))
@@ -309,39 +280,30 @@ fn allowed(s: Style, c: &CharacteristicRecord) -> Markup {
 }
 
 fn features(s: Style, d: &InspectDocument) -> Markup {
-    html! {
-        table {
-            thead {
-                tr {
-                    th {} th.r { (s.word("points")) } th.r { (s.word("form_error")) } th.r { (s.word("coverage")) }
-                }
+    let note = |text: Markup| html! { tr { td colspan="4" class="note" { (text) } } };
+    let rows = d.features.iter().map(|f| {
+        let called = html! { (Name(&f.id)) " " (s.word(format!("shape.{}", f.shape))) };
+        let form = s.optional(f.form_error, 4).because(reason(f));
+        let coverage = s.optional_percent(f.coverage, 1).because(f.coverage_reason.as_deref());
+        let classes = f.classes();
+        let under = html! {
+            @if !classes.is_empty() {
+                (note(html! {
+                    @for (k, (class, count)) in classes.into_iter().enumerate() {
+                        @if k > 0 { " · " } (s.count(count)) " " (s.word(class))
+                    }
+                }))
             }
-            tbody {
-                @for f in &d.features {
-                    tr {
-                        td { (Name(&f.id)) " " (s.word(format!("shape.{}", f.shape))) }
-                        td.r { (s.count(f.points)) }
-                        td.r { (s.optional(f.form_error, 4).because(reason(f))) }
-                        td.r { (s.optional_percent(f.coverage, 1).because(f.coverage_reason.as_deref())) }
-                    }
-                    @let classes = f.classes();
-                    @if !classes.is_empty() {
-                        tr { td colspan="4" class="note" {
-                            @for (k, (class, count)) in classes.into_iter().enumerate() {
-                                @if k > 0 { " · " } (s.count(count)) " " (s.word(class))
-                            }
-                        } }
-                    }
-                    @if let Some(measured) = &f.measured {
-                        tr { td colspan="4" class="note" {
-                            (s.word("place.measured")) " " (place(s, measured))
-                            @if let Some(nominal) = &f.nominal { br; (s.word("place.nominal")) " " (place(s, nominal)) }
-                        } }
-                    }
-                }
+            @if let Some(measured) = &f.measured {
+                (note(html! {
+                    (s.word("place.measured")) " " (place(s, measured))
+                    @if let Some(nominal) = &f.nominal { br; (s.word("place.nominal")) " " (place(s, nominal)) }
+                }))
             }
-        }
-    }
+        };
+        Row::of(&[&called, &s.count(f.points), &form, &coverage]).then(under)
+    });
+    table(s, None, [&[""], &["points", "form_error", "coverage"]], rows)
 }
 
 /// A place, and a diameter or angle.

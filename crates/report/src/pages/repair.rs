@@ -2,101 +2,52 @@
 
 use crate::headline::{Headline, Tone};
 use crate::number::Style;
-use crate::page::parts::{
-    fact, key_number, listed, not_printed, place_cells, place_heads, row_class, section, swatch,
-};
-use crate::subject::{Head, Pick, Subject};
+use crate::page::parts::{fact, holds, key_number, line, mm, section, swatch};
+use crate::page::table::{Row, listed, not_printed, places, row_class, table};
+use crate::pages::check::size_decimals;
+use crate::subject::{Content, Pick, Subject};
 use crate::text::word;
 use crate::values::{Name, Text};
 use crate::views::repair::{GONE, NEW, by_step};
 use maud::{Markup, Render, html};
-use serde_json::Value;
 use std::collections::BTreeSet;
 use trueness_document::repair::{Change, Distances, RepairDocument, State};
 use trueness_document::scale::palette::category;
 
 /// Rows of a step, at most.
-const LISTED: usize = 100;
+const MAX_LISTED_CHANGES: usize = 100;
 /// Half of what is brought into view around a change, as a share of the model's diagonal.
-const AROUND: f64 = 0.02;
+const REACH_PER_SIZE: f64 = 0.02;
 
 impl Subject for RepairDocument {
-    fn head(&self) -> Head<'_> {
-        Head { schema: &self.schema, version: &self.version, units: &self.units, inputs: &self.inputs }
-    }
-
-    fn headline(&self) -> Headline {
-        match (self.sound, self.change_count) {
-            (true, 0) => Headline { key: "nothing_to_repair", tone: Tone::Pass },
-            (true, _) => Headline { key: "repaired", tone: Tone::Pass },
-            (false, _) if self.after.sound && self.effect.changed => {
-                Headline { key: "closed_but_changed", tone: Tone::Fail }
-            }
-            (false, _) => Headline { key: "not_repaired", tone: Tone::Fail },
-        }
-    }
-
-    fn picture(&self) -> &'static str {
-        "picture.repair"
-    }
-
-    fn numbers(&self, s: Style) -> Markup {
-        // Of the surface that bounds: what goes inside of a body changes no part. The list has both.
-        let introduced = self.deviation.as_ref().map(|d| d.added.max.max(d.removed.max));
-        let warn = |warn: bool| if warn { "warn" } else { "" };
-        html! {
-            dl.key-numbers {
-                (key_number(s, "changes", "lead", s.count(self.change_count)))
-                (key_number(s, "facets.added", "", s.count(self.facets.added)))
-                (key_number(s, "facets.removed", "", s.count(self.facets.removed)))
-                (key_number(s, "vertices.moved", "", s.count(self.vertices.moved)))
-                @if let Some(d) = self.effect.surface.or(introduced) {
-                    (key_number(s, "deviation.introduced", "", length(s, d)))
-                }
-                @if let Some(change) = self.effect.volume_change {
-                    (key_number(s, "volume.change", warn(self.effect.changed), html! {
-                        (s.number(change, 3).signed()) "\u{a0}mm³"
-                    }))
-                }
-                (key_number(s, "file.written", warn(self.output.sound == Some(false)), html! {
-                    @match self.output.sound {
-                        Some(true) => { "✓\u{a0}" (s.word("sound.short")) }
-                        Some(false) => { "⚠\u{a0}" (s.word("not_sound")) }
-                        None => "–",
-                    }
-                }))
-            }
-        }
-    }
-
-    fn list(&self, s: Style) -> Markup {
-        html! {
-            (section(s, "changes", changes(s, self)))
-            (section(s, "before_after", states(s, self)))
-            (section(s, "deviation.introduced", deviation(s, self)))
-        }
-    }
-
-    fn method(&self, s: Style) -> Markup {
-        html! {
-            p { (s.word("method.repair.text")) }
-            p { (s.word("method.repair.file")) " " (Name(&self.output.path)) }
-        }
-    }
-
-    fn how(&self, s: Style) -> Markup {
-        s.word("method.repair").render()
+    fn content(&self, s: Style) -> serde_json::Result<Content<'_>> {
+        Ok(Content {
+            picture: "picture.repair",
+            numbers: numbers(s, self),
+            list: html! {
+                (section(s, "changes", changes(s, self)))
+                (section(s, "before_after", states(s, self)))
+                (section(s, "deviation.introduced", deviation(s, self)))
+            },
+            method: html! {
+                p { (s.word("method.repair.text")) }
+                p { (s.word("method.repair.file")) " " (Name(&self.output.path)) }
+            },
+            how: line(s, ["method.repair"]),
+            json: serde_json::to_value(self)?,
+            ..Content::of(headline(self), [&self.schema, &self.version, &self.units], &self.inputs)
+        })
     }
 
     fn picks(&self) -> Vec<Pick> {
         let mut first = 0;
         let mut picks = vec![];
         for (_, changes) in by_step(self) {
-            let rows = changes.iter().take(LISTED).enumerate();
+            let rows = changes.iter().take(MAX_LISTED_CHANGES).enumerate();
             // Sizes are lengths, areas or volumes: none says how much to show.
             picks.extend(rows.map(|(n, c)| Pick {
                 position: c.position,
-                reach: Some(AROUND * self.before.area.max(0.0).sqrt()),
+                reach: Some(REACH_PER_SIZE * self.before.area.max(0.0).sqrt()),
                 mark: Some(first + n),
                 ..Pick::default()
             }));
@@ -108,21 +59,52 @@ impl Subject for RepairDocument {
     /// Those of the most facets.
     fn important(&self, picks: &[Pick]) -> Vec<usize> {
         let listed = |(_, changes): (_, Vec<&Change>)| {
-            changes.into_iter().take(LISTED).map(|c| c.facets).collect::<Vec<_>>()
+            changes.into_iter().take(MAX_LISTED_CHANGES).map(|c| c.facets).collect::<Vec<_>>()
         };
         let facets: Vec<u64> = by_step(self).into_iter().flat_map(listed).collect();
         let mut order: Vec<usize> = (0..picks.len().min(facets.len())).collect();
         order.sort_by_key(|n| std::cmp::Reverse(facets[*n]));
         order
     }
+}
 
-    fn json(&self) -> serde_json::Result<Value> {
-        serde_json::to_value(self)
+fn headline(d: &RepairDocument) -> Headline {
+    let (key, tone) = match (d.sound, d.change_count) {
+        (true, 0) => ("nothing_to_repair", Tone::Pass),
+        (true, _) => ("repaired", Tone::Pass),
+        (false, _) if d.after.sound && d.effect.changed => ("closed_but_changed", Tone::Fail),
+        (false, _) => ("not_repaired", Tone::Fail),
+    };
+    Headline { key, tone }
+}
+
+fn numbers(s: Style, d: &RepairDocument) -> Markup {
+    // Of the surface that bounds: what goes inside of a body changes no part. The list has both.
+    let introduced = d.deviation.as_ref().map(|d| d.added.max.max(d.removed.max));
+    html! {
+        dl.key-numbers {
+            (key_number(s, "changes", "lead", s.count(d.change_count)))
+            (key_number(s, "facets.added", "", s.count(d.facets.added)))
+            (key_number(s, "facets.removed", "", s.count(d.facets.removed)))
+            (key_number(s, "vertices.moved", "", s.count(d.vertices.moved)))
+            @if let Some(d) = d.effect.surface.or(introduced) {
+                (key_number(s, "deviation.introduced", "", length(s, d)))
+            }
+            @if let Some(change) = d.effect.volume_change {
+                (key_number(s, "volume.change", if d.effect.changed { "warn" } else { "" }, html! {
+                    (s.number(change, 3).signed()) "\u{a0}mm³"
+                }))
+            }
+            @match d.output.sound {
+                Some(sound) => (holds(s, "file.written", sound, ["sound.short", "not_sound"])),
+                None => (key_number(s, "file.written", "", "–")),
+            }
+        }
     }
 }
 
 fn length(s: Style, x: f64) -> Markup {
-    html! { (s.number(x, if x > 0.0 && x < 0.1 { 6 } else { 3 })) "\u{a0}mm" }
+    mm(s.number(x, size_decimals(x)))
 }
 
 fn changes(s: Style, d: &RepairDocument) -> Markup {
@@ -131,7 +113,7 @@ fn changes(s: Style, d: &RepairDocument) -> Markup {
     let came_and_went = [(d.facets.added, NEW, "facets.new"), (d.facets.removed, GONE, "facets.gone")];
     let starts = steps.iter().scan(0, |next, (_, changes)| {
         let start = *next;
-        *next += changes.len().min(LISTED);
+        *next += changes.len().min(MAX_LISTED_CHANGES);
         Some(start)
     });
     html! {
@@ -162,23 +144,21 @@ fn changes(s: Style, d: &RepairDocument) -> Markup {
 fn step(s: Style, changes: &[&Change], first: usize) -> Markup {
     let what = changes.first().map_or("", |c| &c.what);
     let same = changes.iter().all(|c| c.what == what);
+    let shown = changes.len().min(MAX_LISTED_CHANGES);
+    let rows = changes.iter().take(shown).enumerate().map(|(k, change)| {
+        let name = if same {
+            html! { (k + 1) }
+        } else {
+            done(s, &change.what)
+        };
+        Row::at(s, &name, &s.count(change.facets), change.position).pick(first + k).class(row_class(k))
+    });
     html! {
         // What is the same in every row is said once.
         @if same { p.note { (done(s, what)) } }
-        table.pick {
-            thead { tr { th {} th.r { (s.word("facets.title")) } (place_heads()) } }
-            tbody {
-                @for (k, change) in changes.iter().take(LISTED).enumerate() {
-                    tr data-pick=(first + k) class=[row_class(k)] {
-                        td { @if same { (k + 1) } @else { (done(s, &change.what)) } }
-                        td.r { (s.count(change.facets)) }
-                        (place_cells(s, change.position))
-                    }
-                }
-            }
-        }
-        (not_printed(s, changes.len().min(LISTED)))
-        (listed(s, "listed.first", changes.len().min(LISTED), changes.len() as u64))
+        (places(s, "facets.title", rows))
+        (not_printed(s, shown))
+        (listed(s, "listed.first", shown, changes.len() as u64))
     }
 }
 
@@ -196,42 +176,33 @@ fn key(what: &str) -> String {
 /// Size and defects in two columns.
 fn states(s: Style, d: &RepairDocument) -> Markup {
     let row = |key: &str, cell: &dyn Fn(&State) -> Markup| {
-        html! {
-            tr {
-                th scope="row" { (s.word(key)) }
-                @for state in [&d.before, &d.after] { td.r { (cell(state)) } }
-            }
-        }
+        let [before, after] = [&d.before, &d.after].map(cell);
+        Row::of(&[&s.word(key), &before, &after]).named()
     };
     let yes = |yes: bool| html! { (if yes { "✓\u{a0}" } else { "✕\u{a0}" }) (s.word(if yes { "yes" } else { "no" })) };
     let bodies = |state| match std::ptr::eq(state, &d.before) {
         true => d.effect.bodies_before,
         false => d.effect.bodies_after,
     };
+    let volume = |state: &State| s.optional(state.volume, 2).because(state.volume_reason.as_deref()).render();
+    let sizes = [
+        row("sound.title", &|state| yes(state.sound)),
+        row("closed", &|state| yes(state.closed)),
+        row("facets.title", &|state| s.count(state.facets).render()),
+        row("vertices.title", &|state| s.count(state.vertices).render()),
+        row("shells", &|state| s.count(state.shells).render()),
+        row("bodies", &|state| s.count(bodies(state)).render()),
+        row("area.mm2", &|state| s.number(state.area, 2).render()),
+        row("volume.mm3", &volume),
+    ];
     let kinds: BTreeSet<&String> = d.before.defects.keys().chain(d.after.defects.keys()).collect();
-    html! {
-        table.states {
-            thead { tr { th {} th.r { (s.word("before")) } th.r { (s.word("after")) } } }
-            tbody {
-                (row("sound.title", &|state| yes(state.sound)))
-                (row("closed", &|state| yes(state.closed)))
-                (row("facets.title", &|state| s.count(state.facets).render()))
-                (row("vertices.title", &|state| s.count(state.vertices).render()))
-                (row("shells", &|state| s.count(state.shells).render()))
-                (row("bodies", &|state| s.count(bodies(state)).render()))
-                (row("area.mm2", &|state| s.number(state.area, 2).render()))
-                (row("volume.mm3", &|state| {
-                    s.optional(state.volume, 2).because(state.volume_reason.as_deref()).render()
-                }))
-                @for kind in kinds {
-                    (row(&format!("defect.{kind}"), &|state| html! {
-                        @if state.at_least.contains(kind) { "≥ " }
-                        (s.count(state.defects.get(kind).copied().unwrap_or(0)))
-                    }))
-                }
-            }
-        }
-    }
+    let defects = kinds.into_iter().map(|kind| {
+        row(&format!("defect.{kind}"), &|state| {
+            let count = s.count(state.defects.get(kind).copied().unwrap_or(0));
+            html! { @if state.at_least.contains(kind) { "≥ " } (count) }
+        })
+    });
+    table(s, "states", [&[""], &["before", "after"]], sizes.into_iter().chain(defects))
 }
 
 /// How far the surface went: what is missing, what was added.
@@ -254,7 +225,7 @@ fn deviation(s: Style, d: &RepairDocument) -> Markup {
                 @if let Some(limit) = d.effect.volume_limit { ", " (s.number(limit, 3)) "\u{a0}mm³" }
             }))
             @if d.output.rounded_vertices > 0 {
-                (fact(s, "file.rounding", html! { "≤\u{a0}" (s.scientific(d.output.rounding, 1)) "\u{a0}mm" }))
+                (fact(s, "file.rounding", html! { "≤\u{a0}" (mm(s.scientific(d.output.rounding, 1))) }))
             }
         }
     }

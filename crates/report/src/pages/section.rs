@@ -3,7 +3,6 @@
 mod airfoil;
 mod course;
 mod fitted;
-mod head;
 mod nominal;
 mod nominal_tables;
 #[cfg(test)]
@@ -19,94 +18,28 @@ mod tests;
 
 use crate::headline::{Headline, Tone};
 use crate::number::Style;
-use crate::page::parts::{fact, key_number, section};
-use crate::subject::{Drawn, Head, Pick, Subject};
+use crate::page::parts::{fact, key_number, line, mm, paragraphs, section};
+use crate::subject::{Content, Drawn, Pick, Subject};
 use crate::{Up, ViewObject};
 use maud::{Markup, html};
-use serde_json::Value;
 use trueness_document::Verdict;
-use trueness_document::section::{ContourRecord, SectionDocument, Taken};
+use trueness_document::section::{ContourRecord, SectionDocument};
 
 impl Subject for SectionDocument {
-    fn head(&self) -> Head<'_> {
-        Head { schema: &self.schema, version: &self.version, units: &self.units, inputs: &self.inputs }
-    }
-
-    fn headline(&self) -> Headline {
-        match self.nominal.as_ref().and_then(|nominal| nominal.verdict) {
-            // A profile within its tolerance, of which something is doubtful.
-            Some(Verdict::Pass) if !self.conforms() => Verdict::Undecided.into(),
-            Some(verdict) => verdict.into(),
-            None if self.conforms() => Headline { key: "sectioned", tone: Tone::Neutral },
-            None => Headline { key: "sectioned", tone: Tone::Undecided },
-        }
-    }
-
-    fn convention(&self) -> Option<&'static str> {
-        Some(self.nominal.as_ref().map_or("sign.section", |nominal| nominal_tables::sign(*nominal.positive)))
-    }
-
-    fn picture(&self) -> &'static str {
-        "picture.section"
-    }
-
-    fn numbers(&self, s: Style) -> Markup {
-        let count = |f: &dyn Fn(&ContourRecord) -> usize| self.contours.iter().map(f).sum::<usize>() as u64;
-        let counts = [
-            ("segments", "lead", count(&|c| c.segments.len())),
-            ("joins", "", count(&|c| c.joins.len())),
-            ("contours", "", self.contours.len() as u64),
-            ("planes", "", self.planes.len() as u64),
-            ("outliers", "warn", count(&|c| c.outliers.len())),
-            ("gaps", "warn", count(&|c| c.gaps.len())),
-            ("segments.astray", "warn", count(&|c| c.astray.len())),
-        ];
-        html! {
-            dl.key-numbers {
-                @for (key, class, n) in counts.into_iter().filter(|(.., n)| *n > 0) {
-                    (key_number(s, key, class, s.count(n)))
-                }
-                @if let [one] = &self.contours[..] {
-                    @let scatter = if *one.taken == Taken::Facets { "rms" } else { "noise" };
-                    (key_number(s, scatter, "", html! { (s.small(one.noise)) "\u{a0}mm" }))
-                }
-            }
-        }
-    }
-
-    fn list(&self, s: Style) -> Markup {
-        html! {
-            (section(s, "contours", tables::contours(s, self)))
-            @if self.dimensions.count > 0 { (section(s, "dimensions", tables::dimensions(s, &self.dimensions))) }
-            @if let Some(airfoils) = &self.airfoils { (section(s, "airfoil", airfoil::airfoils(s, airfoils))) }
-            @if let Some(nominal) = &self.nominal { (section(s, "nominal.section", nominal_tables::nominal(s, self, nominal))) }
-            @if let Some(methods) = &self.methods { (section(s, "methods", tables::methods(s, methods))) }
-            @if !self.planes.is_empty() { (section(s, "planes", tables::planes(s, &self.planes))) }
-            (section(s, "model", html! {
-                dl.facts.pairs {
-                    (fact(s, "level", s.percent(self.level, 1)))
-                    @if let Some(noise) = self.noise_given {
-                        (fact(s, "noise.given", html! { (s.small(noise)) "\u{a0}mm" }))
-                    }
-                    @if let Some(continuity) = &self.continuity_given {
-                        (fact(s, "continuity.given", s.word(format!("join.{continuity}"))))
-                    }
-                }
-            }))
-        }
-    }
-
-    fn method(&self, s: Style) -> Markup {
-        let keys = ["method.section.text", "method.section.join", "method.section.comb"];
-        html! { @for key in keys { p { (s.word(key)) } } }
-    }
-
-    fn how(&self, s: Style) -> Markup {
-        html! { (s.word("fit.gaussian")) " · " (s.word("orthogonal")) }
-    }
-
-    fn points(&self) -> Option<u64> {
-        Some(self.contours.iter().map(|c| c.points).sum())
+    fn content(&self, s: Style) -> serde_json::Result<Content<'_>> {
+        let sign =
+            self.nominal.as_ref().map_or("sign.section", |nominal| nominal_tables::sign(*nominal.positive));
+        Ok(Content {
+            convention: Some(sign),
+            picture: "picture.section",
+            numbers: numbers(s, self),
+            list: list(s, self),
+            method: paragraphs(s, ["method.section.text", "method.section.join", "method.section.comb"]),
+            how: line(s, ["fit.gaussian", "orthogonal"]),
+            points: Some(self.contours.iter().map(|c| c.points).sum()),
+            json: serde_json::to_value(self)?,
+            ..Content::of(headline(self), [&self.schema, &self.version, &self.units], &self.inputs)
+        })
     }
 
     fn picks(&self) -> Vec<Pick> {
@@ -124,12 +57,60 @@ impl Subject for SectionDocument {
         all.into_iter().enumerate().map(|(n, pick)| Pick { mark: Some(n), ..pick }).collect()
     }
 
-    fn json(&self) -> serde_json::Result<Value> {
-        serde_json::to_value(self)
-    }
-
     fn drawing(&self) -> Option<&dyn Drawn> {
         Some(self)
+    }
+}
+
+fn headline(d: &SectionDocument) -> Headline {
+    match d.nominal.as_ref().and_then(|nominal| nominal.verdict) {
+        // A profile within its tolerance, of which something is doubtful.
+        Some(Verdict::Pass) if !d.conforms() => Verdict::Undecided.into(),
+        Some(verdict) => verdict.into(),
+        None if d.conforms() => Headline { key: "sectioned", tone: Tone::Neutral },
+        None => Headline { key: "sectioned", tone: Tone::Undecided },
+    }
+}
+
+fn numbers(s: Style, d: &SectionDocument) -> Markup {
+    let count = |f: &dyn Fn(&ContourRecord) -> usize| d.contours.iter().map(f).sum::<usize>() as u64;
+    let counts = [
+        ("segments", "lead", count(&|c| c.segments.len())),
+        ("joins", "", count(&|c| c.joins.len())),
+        ("contours", "", d.contours.len() as u64),
+        ("planes", "", d.planes.len() as u64),
+        ("outliers", "warn", count(&|c| c.outliers.len())),
+        ("gaps", "warn", count(&|c| c.gaps.len())),
+        ("segments.astray", "warn", count(&|c| c.astray.len())),
+    ];
+    html! {
+        dl.key-numbers {
+            @for (key, class, n) in counts.into_iter().filter(|(.., n)| *n > 0) {
+                (key_number(s, key, class, s.count(n)))
+            }
+            @if let [one] = &d.contours[..] { (key_number(s, tables::scatter(one), "", mm(s.small(one.noise)))) }
+        }
+    }
+}
+
+fn list(s: Style, d: &SectionDocument) -> Markup {
+    let model = html! {
+        dl.facts.pairs {
+            (fact(s, "level", s.percent(d.level, 1)))
+            @if let Some(noise) = d.noise_given { (fact(s, "noise.given", mm(s.small(noise)))) }
+            @if let Some(continuity) = &d.continuity_given {
+                (fact(s, "continuity.given", s.word(format!("join.{continuity}"))))
+            }
+        }
+    };
+    html! {
+        (section(s, "contours", tables::contours(s, d)))
+        @if d.dimensions.count > 0 { (section(s, "dimensions", tables::dimensions(s, &d.dimensions))) }
+        @if let Some(airfoils) = &d.airfoils { (section(s, "airfoil", airfoil::airfoils(s, airfoils))) }
+        @if let Some(nominal) = &d.nominal { (section(s, "nominal.section", nominal_tables::nominal(s, d, nominal))) }
+        @if let Some(methods) = &d.methods { (section(s, "methods", tables::methods(s, methods))) }
+        @if !d.planes.is_empty() { (section(s, "planes", tables::planes(s, &d.planes))) }
+        (section(s, "model", model))
     }
 }
 

@@ -2,82 +2,46 @@
 
 use crate::headline::{Headline, Tone};
 use crate::number::Style;
-use crate::page::parts::{fact, key_number, section, swatch};
-use crate::subject::{Head, Pick, Subject};
+use crate::page::parts::{fact, key_number, line, mm, paragraphs, section, swatch};
+use crate::page::table::{Row, table};
+use crate::subject::{Content, Pick, Subject};
 use crate::views::segment::color;
 use maud::{Markup, Render, html};
-use serde_json::Value;
 use trueness_document::fit::Number;
 use trueness_document::noise::shared;
 use trueness_document::segment::{RegionRecord, SegmentDocument};
+use trueness_geom::space::{minus, norm};
 
 impl Subject for SegmentDocument {
-    fn head(&self) -> Head<'_> {
-        Head { schema: &self.schema, version: &self.version, units: &self.units, inputs: &self.inputs }
-    }
-
-    fn headline(&self) -> Headline {
-        Headline { key: "segmented", tone: Tone::Neutral }
-    }
-
-    fn picture(&self) -> &'static str {
-        "picture.segment"
-    }
-
-    fn numbers(&self, s: Style) -> Markup {
-        // The same shares as in the list: of the area, or of the points of a cloud.
-        let assigned = self.regions.iter().map(|r| r.share).sum();
-        html! {
-            dl.key-numbers {
-                (key_number(s, "elements", "lead", s.len(&self.regions)))
-                (key_number(s, "assigned", "", s.percent(assigned, 1)))
-                (key_number(s, "noise", "", html! { (micro(s, self.noise)) "\u{a0}mm" }))
-                @if let Some(points) = shared(self.shared_noise) {
-                    (key_number(s, "points_per_independent", "", s.number(points, 1)))
-                }
-                (key_number(s, "tolerance.used", "", html! { (micro(s, self.tolerance)) "\u{a0}mm" }))
-            }
-        }
-    }
-
-    fn list(&self, s: Style) -> Markup {
+    fn content(&self, s: Style) -> serde_json::Result<Content<'_>> {
+        let headline = Headline { key: "segmented", tone: Tone::Neutral };
         let mesh = self.inputs.iter().any(|i| i.facets.is_some());
-        html! {
-            (section(s, "elements", elements(s, self)))
-            (section(
-            s,
-            "model",
-            html! {
-                dl.facts.pairs {
-                    (fact(s, if mesh { "facets.title" } else { "points" }, s.count(self.count)))
-                    (fact(s, "pieces.none", s.count(self.unassigned)))
-                    (fact(s, "crease", html! { (s.number(self.crease.to_degrees(), 1)) "°" }))
-                }
-            },
-        ))
-        }
-    }
-
-    fn method(&self, s: Style) -> Markup {
-        html! { p { (s.word("method.segment.text")) } }
-    }
-
-    fn how(&self, s: Style) -> Markup {
-        s.word("fit.gaussian").render()
-    }
-
-    fn seed(&self) -> Option<u64> {
-        Some(self.seed)
+        let model = html! {
+            dl.facts.pairs {
+                (fact(s, if mesh { "facets.title" } else { "points" }, s.count(self.count)))
+                (fact(s, "pieces.none", s.count(self.unassigned)))
+                (fact(s, "crease", html! { (s.number(self.crease.to_degrees(), 1)) "°" }))
+            }
+        };
+        Ok(Content {
+            picture: "picture.segment",
+            numbers: numbers(s, self),
+            list: html! { (section(s, "elements", elements(s, self))) (section(s, "model", model)) },
+            method: paragraphs(s, ["method.segment.text"]),
+            how: line(s, ["fit.gaussian"]),
+            seed: Some(self.seed),
+            json: serde_json::to_value(self)?,
+            ..Content::of(headline, [&self.schema, &self.version, &self.units], &self.inputs)
+        })
     }
 
     fn picks(&self) -> Vec<Pick> {
         let of = |(n, r): (usize, &RegionRecord)| {
             let (low, high) = (r.bounds.min, r.bounds.max);
-            let half = 0.5 * (0..3).map(|k| (high[k] - low[k]).powi(2)).sum::<f64>().sqrt();
             Pick {
                 position: std::array::from_fn(|k| low[k] / 2.0 + high[k] / 2.0),
                 // A region is large: it is framed, not shown from afar.
-                reach: Some(0.3 * half),
+                reach: Some(0.3 * (0.5 * norm(minus(high, low)))),
                 mark: Some(n),
                 object: Some(n),
                 ..Pick::default()
@@ -85,9 +49,21 @@ impl Subject for SegmentDocument {
         };
         self.regions.iter().enumerate().map(of).collect()
     }
+}
 
-    fn json(&self) -> serde_json::Result<Value> {
-        serde_json::to_value(self)
+fn numbers(s: Style, d: &SegmentDocument) -> Markup {
+    // The same shares as in the list: of the area, or of the points of a cloud.
+    let assigned = d.regions.iter().map(|r| r.share).sum();
+    html! {
+        dl.key-numbers {
+            (key_number(s, "elements", "lead", s.len(&d.regions)))
+            (key_number(s, "assigned", "", s.percent(assigned, 1)))
+            (key_number(s, "noise", "", mm(micro(s, d.noise))))
+            @if let Some(points) = shared(d.shared_noise) {
+                (key_number(s, "points_per_independent", "", s.number(points, 1)))
+            }
+            (key_number(s, "tolerance.used", "", mm(micro(s, d.tolerance))))
+        }
     }
 }
 
@@ -101,21 +77,12 @@ fn micro(s: Style, length: f64) -> Markup {
 }
 
 fn elements(s: Style, d: &SegmentDocument) -> Markup {
-    html! {
-        table.pick {
-            thead { tr { th {} th.r { (s.word("size")) } th.r { (s.word("share.title")) } th.r { (s.word("rms")) } } }
-            tbody {
-                @for (n, region) in d.regions.iter().enumerate() {
-                    tr data-pick=(n) {
-                        td { (swatch(color(Some(n)))) " " (s.word(format!("verdict.{}", region.shape))) }
-                        td.r { (sizes(s, region)) }
-                        td.r { (s.percent(region.share, 1)) }
-                        td.r { (micro(s, region.rms)) }
-                    }
-                }
-            }
-        }
-    }
+    let rows = d.regions.iter().enumerate().map(|(n, region)| {
+        let name = html! { (swatch(color(Some(n)))) " " (s.word(format!("verdict.{}", region.shape))) };
+        let share = s.percent(region.share, 1);
+        Row::of(&[&name, &sizes(s, region), &share, &micro(s, region.rms)]).pick(n)
+    });
+    table(s, "pick", [&[""], &["size", "share.title", "rms"]], rows)
 }
 
 /// Radii and angle of an element; of a cone, whose radius is that at some place, the angle alone; of what has neither, its area.

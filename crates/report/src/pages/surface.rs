@@ -2,70 +2,34 @@
 
 use crate::headline::{Headline, Tone};
 use crate::number::{Style, enough};
-use crate::page::parts::{fact, key_number, labeled_number, place_cells, place_heads, section};
-use crate::pages::curvature::{Choice, choices, words};
-use crate::subject::{Head, Map, Pick, Subject};
+use crate::page::parts::{extent, fact, key_number, line, mm, paragraphs, range, section};
+use crate::page::table::{Row, places};
+use crate::pages::curvature::{Choice, choices, middle, words};
+use crate::subject::{Content, Map, Pick, Subject};
 use crate::values::Text;
 use maud::{Markup, Render, html};
-use serde_json::Value;
 use trueness_document::Verdict;
 use trueness_document::compare::ToleranceShares;
-use trueness_document::curvature::{CurvatureKind, Range};
+use trueness_document::curvature::CurvatureKind;
 use trueness_document::scale::Scale;
 use trueness_document::surface::{BaseKind, MapRecord, SurfaceDocument};
 
 impl Subject for SurfaceDocument {
-    fn head(&self) -> Head<'_> {
-        Head { schema: &self.schema, version: &self.version, units: &self.units, inputs: &self.inputs }
-    }
-
-    fn headline(&self) -> Headline {
-        match &self.tolerance {
-            _ if self.base.is_doubtful() => Verdict::Undecided.into(),
-            Some(t) if t.reached => Verdict::Pass.into(),
-            Some(_) => Verdict::Fail.into(),
-            None => Headline { key: "surface", tone: Tone::Neutral },
-        }
-    }
-
-    fn convention(&self) -> Option<&'static str> {
-        Some("sign.plane")
-    }
-
-    fn picture(&self) -> &'static str {
-        "picture.surface"
-    }
-
-    fn numbers(&self, s: Style) -> Markup {
-        html! {
-            (deviations(s, self))
-            @for (n, (kind, map)) in curvatures(self).enumerate() { (bend(s, self, n + 1, kind, map)) }
-        }
-    }
-
-    fn list(&self, s: Style) -> Markup {
-        html! {
-            @if !self.warnings.is_empty() {
-                (section(s, "warnings", html! {
-                    @for warning in &self.warnings { p.warning { "⚠ " (Text(warning)) } }
-                }))
-            }
-            (section(s, "quantities", quantities(s, self)))
-            (section(s, "worst", worst(s, self)))
-            (section(s, "surface.title", facts(s, self)))
-        }
-    }
-
-    fn method(&self, s: Style) -> Markup {
-        html! { p { (s.word("method.surface.text")) } p { (s.word("method.surface.maps")) } }
-    }
-
-    fn how(&self, s: Style) -> Markup {
-        html! { (s.word("method.surface")) " · " (s.word("orthogonal")) }
-    }
-
-    fn points(&self) -> Option<u64> {
-        Some(self.deviation.count + self.outliers + self.beyond_border)
+    fn content(&self, s: Style) -> serde_json::Result<Content<'_>> {
+        Ok(Content {
+            convention: Some("sign.plane"),
+            picture: "picture.surface",
+            numbers: html! {
+                (deviations(s, self))
+                @for (n, (kind, map)) in curvatures(self).enumerate() { (bend(s, self, n + 1, kind, map)) }
+            },
+            list: list(s, self),
+            method: paragraphs(s, ["method.surface.text", "method.surface.maps"]),
+            how: line(s, ["method.surface", "orthogonal"]),
+            points: Some(self.deviation.count + self.outliers + self.beyond_border),
+            json: serde_json::to_value(self)?,
+            ..Content::of(headline(self), [&self.schema, &self.version, &self.units], &self.inputs)
+        })
     }
 
     fn scale(&self) -> Option<&Scale> {
@@ -98,16 +62,36 @@ impl Subject for SurfaceDocument {
     }
 
     fn picks(&self) -> Vec<Pick> {
-        vec![Pick {
-            position: self.worst.position,
-            map: Some(0),
-            value: Some(self.worst.deviation),
-            ..Pick::default()
-        }]
+        let (position, value) = (self.worst.position, Some(self.worst.deviation));
+        vec![Pick { position, map: Some(0), value, ..Pick::default() }]
     }
+}
 
-    fn json(&self) -> serde_json::Result<Value> {
-        serde_json::to_value(self)
+fn headline(d: &SurfaceDocument) -> Headline {
+    match &d.tolerance {
+        _ if d.base.is_doubtful() => Verdict::Undecided.into(),
+        Some(t) if t.reached => Verdict::Pass.into(),
+        Some(_) => Verdict::Fail.into(),
+        None => Headline { key: "surface", tone: Tone::Neutral },
+    }
+}
+
+fn list(s: Style, d: &SurfaceDocument) -> Markup {
+    let row = Row::at(
+        s,
+        &"1",
+        &s.number(d.worst.deviation, d.map.scale.decimals as usize).signed(),
+        d.worst.position,
+    );
+    html! {
+        @if !d.warnings.is_empty() {
+            (section(s, "warnings", html! {
+                @for warning in &d.warnings { p.warning { "⚠ " (Text(warning)) } }
+            }))
+        }
+        (section(s, "quantities", quantities(s, d)))
+        (section(s, "worst", places(s, "deviation", [row.pick(0).title(d.worst.point)])))
+        (section(s, "surface.title", facts(s, d)))
     }
 }
 
@@ -130,27 +114,23 @@ fn curvatures(d: &SurfaceDocument) -> impl Iterator<Item = (CurvatureKind, &MapR
     CurvatureKind::ALL.into_iter().filter_map(|kind| Some((kind, d.curvature.maps.get(kind.name())?)))
 }
 
-fn range(d: &SurfaceDocument, kind: CurvatureKind) -> Option<Range> {
-    match kind {
+/// Least, middle and greatest value of a curvature.
+fn ends(d: &SurfaceDocument, kind: CurvatureKind) -> [Option<f64>; 3] {
+    let found = match kind {
         CurvatureKind::Mean => d.curvature.mean,
         CurvatureKind::Gaussian => d.curvature.gaussian,
         CurvatureKind::K1 => d.curvature.k1,
         CurvatureKind::K2 => d.curvature.k2,
-    }
+    };
+    found.map_or([None; 3], |r| [r.min, r.median, r.max].map(Some))
 }
 
 fn deviations(s: Style, d: &SurfaceDocument) -> Markup {
     let (all, digits) = (&d.deviation, d.map.scale.decimals as usize);
-    let value = |x| s.optional(x, digits).signed();
     html! {
         dl.key-numbers data-comparison="0" {
-            (key_number(s, "rms", "lead", html! {
-                (s.optional(all.rms, digits + 1).because(all.rms_reason.as_deref())) "\u{a0}mm"
-            }))
-            (key_number(s, "range", "", html! {
-                (value(all.min).because(all.min_reason.as_deref())) "\u{2009}…\u{2009}"
-                (value(all.max).because(all.max_reason.as_deref()))
-            }))
+            (key_number(s, "rms", "lead", mm(s.optional(all.rms, digits + 1).because(all.rms_reason.as_deref()))))
+            (key_number(s, "range", "", extent(s, all, digits)))
             @if let Some(tolerance) = &d.tolerance {
                 (key_number(s, "tolerance", "", html! { "±" (s.number(tolerance.value, digits)) }))
                 (key_number(s, "beyond", if tolerance.reached { "" } else { "warn" }, s.count(tolerance.outside)))
@@ -164,16 +144,12 @@ fn deviations(s: Style, d: &SurfaceDocument) -> Markup {
 
 /// The key numbers of a curvature, those of map `n`.
 fn bend(s: Style, d: &SurfaceDocument, n: usize, kind: CurvatureKind, map: &MapRecord) -> Markup {
-    let range = range(d, kind);
-    let median = range.map(|r| r.median);
+    let [least, median, greatest] = ends(d, kind);
     let value = |x| s.optional(x, enough(median, map.scale.decimals as usize)).signed();
-    let label = html! { (s.word(words(kind)[0])) ", " (s.word("median")) };
     html! {
         dl.key-numbers data-comparison=(n) hidden {
-            (labeled_number(label, "lead", html! { (value(median)) "\u{a0}" (kind.unit()) }))
-            (key_number(s, "range", "", html! {
-                (value(range.map(|r| r.min))) "\u{2009}…\u{2009}" (value(range.map(|r| r.max)))
-            }))
+            (middle(s, kind, value(median)))
+            (key_number(s, "range", "", range(value(least), value(greatest))))
         }
     }
 }
@@ -184,34 +160,13 @@ fn quantities(s: Style, d: &SurfaceDocument) -> Markup {
     let first =
         Choice { key: "deviation", values: [all.min, all.median, all.max], digits, unit: "mm", signed: true };
     let rest = curvatures(d).map(|(kind, map)| {
-        let range = range(d, kind);
-        let values = [range.map(|r| r.min), range.map(|r| r.median), range.map(|r| r.max)];
-        Choice {
-            key: words(kind)[0],
-            values,
-            digits: enough(range.map(|r| r.median), map.scale.decimals as usize),
-            unit: kind.unit(),
-            signed: true,
-        }
+        let values = ends(d, kind);
+        let digits = enough(values[1], map.scale.decimals as usize);
+        Choice { key: words(kind)[0], values, digits, unit: kind.unit(), signed: true }
     });
     html! {
         (choices(s, ["min", "median", "max"], std::iter::once(first).chain(rest)))
         @if d.curvature.reason.is_some() { p.note { (s.word("surface.no_normal")) } }
-    }
-}
-
-fn worst(s: Style, d: &SurfaceDocument) -> Markup {
-    html! {
-        table.pick {
-            thead { tr { th {} th.r { (s.word("deviation")) } (place_heads()) } }
-            tbody {
-                tr data-pick="0" {
-                    td title=(d.worst.point) { "1" }
-                    td.r { (s.number(d.worst.deviation, d.map.scale.decimals as usize).signed()) }
-                    (place_cells(s, d.worst.position))
-                }
-            }
-        }
     }
 }
 
@@ -250,7 +205,7 @@ fn facts(s: Style, d: &SurfaceDocument) -> Markup {
             (fact(s, "unsupported", s.percent(d.unsupported_share, 1)))
             @if let Some(trim) = &d.trim {
                 (fact(s, "surface.trim", s.percent(trim.share, 1)))
-                (fact(s, "surface.trim.gaps", html! { "≤\u{a0}" (s.number(2.0 * trim.reach, 2)) "\u{a0}mm" }))
+                (fact(s, "surface.trim.gaps", html! { "≤\u{a0}" (mm(s.number(2.0 * trim.reach, 2))) }))
                 @if trim.left_out > 0 { (fact(s, "surface.trim.left_out", s.count(trim.left_out))) }
             }
         }

@@ -10,92 +10,39 @@ mod parts;
 #[cfg(test)]
 mod tests;
 
-use crate::headline::{Headline, Tone};
+use crate::headline::Headline;
 use crate::number::Style;
-use crate::page::parts::{file_name, key_number, section};
-use crate::subject::{Drawn, Head, Pick, Subject};
+use crate::page::parts::{key_number, paragraphs, section, verdicts};
+use crate::subject::{Content, Drawn, Pick, Subject};
 use crate::values::{Name, Text, leaf};
 use crate::{Up, ViewObject};
 use axes::Axes;
 pub use map::MapPage;
 use maud::{Markup, html};
-use serde_json::Value;
 use trueness_document::Verdict;
 use trueness_document::trend::TrendDocument;
 
 impl Subject for TrendDocument {
-    fn head(&self) -> Head<'_> {
-        Head { schema: &self.schema, version: &self.version, units: &self.units, inputs: &[] }
-    }
-
-    fn headline(&self) -> Headline {
-        match self.verdict {
-            // Every part passes, but the process does not stand still.
-            Verdict::Pass if !self.in_control => Headline { key: "out_of_control", tone: Tone::Undecided },
-            verdict => verdict.into(),
-        }
-    }
-
-    fn title(&self) -> Option<&str> {
-        self.title.as_deref().or(self.inputs.first().map(|result| file_name(&result.path)))
-    }
-
-    fn picture(&self) -> &'static str {
-        "chart.title"
-    }
-
-    fn numbers(&self, s: Style) -> Markup {
-        let (all, number) = (self.parts.len() as u64, self.characteristics.len() as u64);
-        let astray = self.characteristics.iter().filter(|c| !c.out_of_control.is_empty()).count() as u64;
-        let known = self.characteristics.iter().filter_map(|c| Some((c.ppk?.value, &c.id)));
-        let least = known.min_by(|a, b| a.0.total_cmp(&b.0));
-        html! {
-            dl.key-numbers {
-                @for (key, class, count) in counts(self) {
-                    (key_number(s, key, class, html! {
-                        (s.count(count)) " "
-                        small { "/\u{a0}" (s.count(all)) @if all > 1 { " " (s.word("parts.of")) } }
-                    }))
-                }
-                @if astray > 0 {
-                    (key_number(s, "verdict.out_of_control", "warn", html! {
-                        (s.count(astray)) " " small { "/\u{a0}" (s.count(number)) }
-                    }))
-                }
-                (key_number(s, "characteristics", "", s.count(number)))
-                @if let Some((least, id)) = least {
-                    (key_number(s, "chart.least", "", html! { (s.number(least, 2)) " " small { (Name(id)) } }))
-                }
-            }
-        }
-    }
-
-    fn list(&self, s: Style) -> Markup {
-        html! {
-            @for warning in &self.warnings { p.warning { "⚠ " (Text(warning)) } }
-            (section(s, "parts", parts::parts(s, self)))
-            (section(s, "files", parts::results(s, &self.inputs)))
-        }
-    }
-
-    fn method(&self, s: Style) -> Markup {
-        let keys = ["method.trend.text", "method.trend.rules", "method.trend.index"];
-        html! { @for key in keys { p { (s.word(key)) } } }
-    }
-
-    fn how(&self, s: Style) -> Markup {
-        html! {
-            "ISO 7870-2 · ISO 22514-2 · " (s.word("level")) " " (s.percent(self.confidence, 0))
-        }
+    fn content(&self, s: Style) -> serde_json::Result<Content<'_>> {
+        Ok(Content {
+            picture: "chart.title",
+            numbers: numbers(s, self),
+            list: html! {
+                @for warning in &self.warnings { p.warning { "⚠ " (Text(warning)) } }
+                (section(s, "parts", parts::parts(s, self)))
+                (section(s, "files", parts::results(s, &self.inputs)))
+            },
+            method: paragraphs(s, ["method.trend.text", "method.trend.rules", "method.trend.index"]),
+            how: html! {
+                "ISO 7870-2 · ISO 22514-2 · " (s.word("level")) " " (s.percent(self.confidence, 0))
+            },
+            ..parts::common(self)?
+        })
     }
 
     /// One for each part: a row leads to its place in all charts.
     fn picks(&self) -> Vec<Pick> {
         self.parts.iter().map(|_| Pick::default()).collect()
-    }
-
-    fn json(&self) -> serde_json::Result<Value> {
-        parts::stripped(self)
     }
 
     fn drawing(&self) -> Option<&dyn Drawn> {
@@ -128,26 +75,32 @@ impl Drawn for TrendDocument {
     }
 }
 
-/// How many parts have each verdict, the worst first, with the class of that number; the worst of all leads.
-fn counts(document: &TrendDocument) -> Vec<(&'static str, &'static str, u64)> {
-    let mut lead = true;
-    let of = |(key, verdict): (&'static str, Verdict)| {
-        let n = document.parts.iter().filter(|p| p.verdict == verdict).count() as u64;
-        let leads = n > 0 && std::mem::take(&mut lead);
-        let class = match (leads, verdict) {
-            (true, _) => "lead",
-            (false, Verdict::Pass) => "",
-            (false, _) => "warn",
-        };
-        (n > 0 || verdict == Verdict::Pass).then_some((key, class, n))
-    };
-    let all = [
-        ("verdict.fail", Verdict::Fail),
-        ("verdict.undecided", Verdict::Undecided),
-        ("verdict.not_measured", Verdict::NotMeasured),
-        ("verdict.pass", Verdict::Pass),
-    ];
-    all.into_iter().filter_map(of).collect()
+fn numbers(s: Style, d: &TrendDocument) -> Markup {
+    let (all, number) = (d.parts.len() as u64, d.characteristics.len() as u64);
+    let astray = d.characteristics.iter().filter(|c| !c.out_of_control.is_empty()).count() as u64;
+    let known = d.characteristics.iter().filter_map(|c| Some((c.ppk?.value, &c.id)));
+    let least = known.min_by(|a, b| a.0.total_cmp(&b.0));
+    let counts = [Verdict::Fail, Verdict::Undecided, Verdict::NotMeasured, Verdict::Pass]
+        .map(|verdict| d.parts.iter().filter(|p| p.verdict == verdict).count() as u64);
+    html! {
+        dl.key-numbers {
+            @for (key, class, count) in verdicts(counts, true) {
+                (key_number(s, key, class, html! {
+                    (s.count(count)) " "
+                    small { "/\u{a0}" (s.count(all)) @if all > 1 { " " (s.word("parts.of")) } }
+                }))
+            }
+            @if astray > 0 {
+                (key_number(s, "verdict.out_of_control", "warn", html! {
+                    (s.count(astray)) " " small { "/\u{a0}" (s.count(number)) }
+                }))
+            }
+            (key_number(s, "characteristics", "", s.count(number)))
+            @if let Some((least, id)) = least {
+                (key_number(s, "chart.least", "", html! { (s.number(least, 2)) " " small { (Name(id)) } }))
+            }
+        }
+    }
 }
 
 /// What the dots mean, as far as there are such.

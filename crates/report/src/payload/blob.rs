@@ -4,9 +4,9 @@ use zlib_rs::{DeflateConfig, Strategy, compress_bound, compress_slice};
 
 const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 /// What deflate says for the longest window, and that the frame be gzip's (RFC 1952).
-const GZIP: i32 = 15 + 16;
+const GZIP_WINDOW: i32 = 15 + 16;
 /// Bytes that the frame takes.
-const FRAME: usize = 64;
+const FRAME_BYTES: usize = 64;
 
 /// What bytes are like, which decides where deflate looks for repetitions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -21,7 +21,7 @@ pub enum ByteKind {
 /// Gzip of `bytes`. There is room for whatever comes out; if there was not the blob would be empty, which the page reports.
 pub fn gzip(bytes: &[u8], kind: ByteKind) -> Vec<u8> {
     let strategy = if kind == ByteKind::Differences { Strategy::Rle } else { Strategy::Default };
-    packed(bytes, DeflateConfig { window_bits: GZIP, strategy, ..DeflateConfig::new(6) })
+    packed(bytes, DeflateConfig { window_bits: GZIP_WINDOW, strategy, ..DeflateConfig::new(6) })
 }
 
 /// Zlib stream (RFC 1950) of `bytes`.
@@ -30,7 +30,7 @@ pub fn zlib(bytes: &[u8]) -> Vec<u8> {
 }
 
 fn packed(bytes: &[u8], config: DeflateConfig) -> Vec<u8> {
-    let mut room = vec![0; compress_bound(bytes.len()) + FRAME];
+    let mut room = vec![0; compress_bound(bytes.len()) + FRAME_BYTES];
     let (out, code) = compress_slice(&mut room, bytes, config);
     // 0 is what zlib calls OK.
     let length = if code as i32 == 0 { out.len() } else { 0 };

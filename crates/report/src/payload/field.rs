@@ -3,9 +3,9 @@
 use super::super::no_value::NoValue;
 
 /// Codes reserved at the low end for reasons.
-const RESERVED: i32 = NoValue::ALL.len() as i32;
+const RESERVED_CODES: i32 = NoValue::ALL.len() as i32;
 /// The step must be at least this much finer than the range that is looked at.
-const FINENESS: f64 = 500.0;
+const MIN_STEPS_PER_RANGE: f64 = 500.0;
 
 /// How deviations become codes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,11 +21,14 @@ impl Codes {
     pub fn for_values(values: &[f64], range: f64) -> Codes {
         let greatest = values.iter().filter(|v| v.is_finite()).fold(0.0f64, |m, v| m.max(v.abs()));
         let with = |bytes: usize| {
-            let step = greatest / f64::from((1i32 << (8 * bytes - 1)) - RESERVED);
-            Codes { bytes, step: if step > 0.0 { step } else { range.max(1e-9) / (4.0 * FINENESS) } }
+            let step = greatest / f64::from((1i32 << (8 * bytes - 1)) - RESERVED_CODES);
+            Codes {
+                bytes,
+                step: if step > 0.0 { step } else { range.max(1e-9) / (4.0 * MIN_STEPS_PER_RANGE) },
+            }
         };
         let coarse = with(2);
-        if coarse.step <= range / FINENESS { coarse } else { with(3) }
+        if coarse.step <= range / MIN_STEPS_PER_RANGE { coarse } else { with(3) }
     }
 
     /// Code of a deviation, or of the reason why there is none.

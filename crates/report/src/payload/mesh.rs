@@ -14,7 +14,7 @@ use trueness_geom::progress::{Cancelled, Progress};
 use trueness_geom::space::Point;
 
 /// Triangles of the coarser levels, where the mesh has clearly more.
-const LEVELS: [usize; 3] = [600_000, 150_000, 40_000];
+const LEVEL_TRIANGLES: [usize; 3] = [600_000, 150_000, 40_000];
 
 /// A mesh whose vertices stand in the order in which its triangles first use them.
 pub struct Ordered {
@@ -142,7 +142,7 @@ impl MeshBytes {
 
 /// Triangles of the levels that a mesh gets.
 pub fn level_sizes(triangles: usize) -> impl Iterator<Item = usize> {
-    LEVELS.into_iter().filter(move |t| 10 * t < 7 * triangles)
+    LEVEL_TRIANGLES.into_iter().filter(move |t| 10 * t < 7 * triangles)
 }
 
 /// Coarser index lists over the same vertices, each made from the one before: code, triangles, error in millimeters.

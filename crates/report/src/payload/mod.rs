@@ -35,7 +35,7 @@ use trueness_geom::parallel::prelude::*;
 use trueness_geom::space::{Aabb, Point};
 
 /// Of what would just fit, so that it does.
-const SAFELY: f64 = 0.96;
+const PACKED_ROOM_SHARE: f64 = 0.96;
 
 /// Objects and marks in at most `budget` bytes of base64, as far as that can be done.
 ///
@@ -49,7 +49,7 @@ pub fn pack(
     budget: usize,
 ) -> Result<Payload, ReportError> {
     /// There is clearly more room.
-    const ROOM: f64 = 1.3;
+    const MORE_ROOM_FACTOR: f64 = 1.3;
     let marks = pack_all_marks(objects, marks);
     let budget = budget.saturating_sub(marks.len());
     let all = Quality::all(objects);
@@ -60,8 +60,8 @@ pub fn pack(
         let least = quality.points <= 1000 && quality.triangles <= 1000;
         let expected: usize = packed.iter().map(Packed::expected).sum();
         let mut share = budget as f64 / expected.max(1) as f64;
-        if may_grow && share > ROOM {
-            (may_grow, quality) = (false, quality.times(share * SAFELY).at_most(all));
+        if may_grow && share > MORE_ROOM_FACTOR {
+            (may_grow, quality) = (false, quality.times(share * PACKED_ROOM_SHARE).at_most(all));
             continue;
         }
         if share >= 1.0 || least {
@@ -76,7 +76,7 @@ pub fn pack(
         if quality.bits == 16 && share > 0.85 && objects.iter().all(coarse_grid_is_fine) {
             quality.bits = 14;
         } else {
-            quality = quality.times(share * SAFELY);
+            quality = quality.times(share * PACKED_ROOM_SHARE);
         }
     }
 }

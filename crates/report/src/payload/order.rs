@@ -5,9 +5,9 @@ use trueness_geom::progress::{Cancelled, Progress};
 use trueness_geom::space::Aabb;
 
 /// Triangles ordered in one go.
-const PIECE: usize = 60_000;
+const TRIANGLES_PER_SORT: usize = 60_000;
 /// Cells along each side of the curve.
-const CELLS: f32 = 65_536.0;
+const CURVE_CELLS: f32 = 65_536.0;
 
 /// A Morton curve through a box.
 pub struct Curve {
@@ -19,17 +19,17 @@ impl Curve {
     pub fn over(bounds: &Aabb) -> Curve {
         let longest = if bounds.is_empty() { 0.0 } else { bounds.sides().into_iter().fold(0.0, f64::max) };
         // Twice the box, so that a shifted curve covers it, too.
-        Curve { scale: if longest > 0.0 { 0.5 * CELLS / longest as f32 } else { 0.0 } }
+        Curve { scale: if longest > 0.0 { 0.5 * CURVE_CELLS / longest as f32 } else { 0.0 } }
     }
 
     /// The triangles along the curve by their first corner's place; with another `shift` neighboring pieces meet elsewhere.
     pub fn sorted(&self, corners: &[u32], place: impl Fn(u32) -> [f32; 3] + Sync, shift: usize) -> Vec<u32> {
-        let shift = shift as f32 * CELLS * 0.117;
+        let shift = shift as f32 * CURVE_CELLS * 0.117;
         let mut keys: Vec<(u64, u32)> = (0..corners.len() as u32 / 3)
             .into_par_iter()
             .map(|t| {
                 let q = place(corners[3 * t as usize]);
-                let cell = q.map(|x| (x * self.scale + shift).clamp(0.0, CELLS - 1.0) as u16);
+                let cell = q.map(|x| (x * self.scale + shift).clamp(0.0, CURVE_CELLS - 1.0) as u16);
                 (super::points::morton(&cell), t)
             })
             .collect();
@@ -41,7 +41,7 @@ impl Curve {
 /// The triangles in an order that uses few vertices at a time, piece by piece as they come.
 pub fn for_cache(corners: &[u32], progress: &dyn Progress) -> Result<Vec<u32>, Cancelled> {
     let pieces: Vec<Vec<u32>> = corners
-        .par_chunks(3 * PIECE)
+        .par_chunks(3 * TRIANGLES_PER_SORT)
         .map(|piece| match progress.cancelled() {
             true => Err(Cancelled),
             false => Ok(piece_for_cache(piece)),

@@ -14,11 +14,11 @@ use trueness_geom::progress::{Cancelled, Progress};
 use trueness_geom::space::{Aabb, Point};
 
 /// The worst points of each field are kept however much is left out.
-const KEPT: usize = 200;
+const WORST_POINTS_KEPT: usize = 200;
 /// Bytes of base64 that a triangle of a coarser level takes.
 pub const LEVEL_BYTES: usize = 2;
 /// Points drawn at most: more change nothing that can be seen, and the file is for looking.
-pub const MOST_POINTS: usize = 1_000_000;
+pub const MAX_DRAWN_POINTS: usize = 1_000_000;
 
 /// How much may be kept.
 #[derive(Clone, Copy, Debug)]
@@ -62,7 +62,7 @@ impl Quality {
     pub fn all(objects: &[ViewObject]) -> Quality {
         let triangles = objects.iter().filter_map(|o| o.mesh()).map(|m| m.faces.len()).max().unwrap_or(0);
         let points = objects.iter().filter_map(|o| o.points()).map(<[Point]>::len).max().unwrap_or(0);
-        Quality { points: points.min(MOST_POINTS), triangles, bits: 16 }
+        Quality { points: points.min(MAX_DRAWN_POINTS), triangles, bits: 16 }
     }
 
     /// A share of the places.
@@ -228,9 +228,9 @@ fn kept(object: &ViewObject) -> Vec<u32> {
         let mut finite: Vec<u32> =
             (0u32..).zip(field.values).filter(|(_, v)| v.is_finite()).map(|(i, _)| i).collect();
         let by_size = |a: &u32, b: &u32| size(b).total_cmp(&size(a)).then(a.cmp(b));
-        if finite.len() > KEPT {
-            finite.select_nth_unstable_by(KEPT, by_size);
-            finite.truncate(KEPT);
+        if finite.len() > WORST_POINTS_KEPT {
+            finite.select_nth_unstable_by(WORST_POINTS_KEPT, by_size);
+            finite.truncate(WORST_POINTS_KEPT);
         }
         worst.extend(finite);
     }

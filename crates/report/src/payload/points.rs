@@ -5,7 +5,7 @@
 use trueness_geom::parallel::prelude::*;
 
 /// Points of the first level.
-const COARSEST: usize = 2048;
+const FIRST_LEVEL_POINTS: usize = 2048;
 
 /// An order of points and where its levels end.
 pub struct Levels {
@@ -28,7 +28,7 @@ pub fn levels(places: &[[u16; 3]], keep: &[u32], limit: usize) -> Levels {
         .collect();
 
     let mut depth = 0;
-    while (wanted >> depth) > COARSEST {
+    while (wanted >> depth) > FIRST_LEVEL_POINTS {
         depth += 1;
     }
     let mut ends = vec![];

@@ -18,7 +18,7 @@ pub enum Rule {
 }
 
 /// Triangles looked back through for the neighbor across an edge.
-const WINDOW: usize = 16;
+const MAX_TRIANGLES_BACK: usize = 16;
 
 /// One rule a vertex. `triangles` name the vertices in order of first use; every one of `vertices` is used.
 pub fn rules(triangles: &[[u32; 3]], vertices: usize) -> Vec<Rule> {
@@ -30,7 +30,8 @@ pub fn rules(triangles: &[[u32; 3]], vertices: usize) -> Vec<Rule> {
         for vertex in fresh {
             let mut known = corners.iter().copied().filter(|c| *c < vertex);
             rules.push(match (known.next(), known.next()) {
-                (Some(a), Some(b)) => match across(&triangles[t.saturating_sub(WINDOW)..t], a, b) {
+                (Some(a), Some(b)) => match across(&triangles[t.saturating_sub(MAX_TRIANGLES_BACK)..t], a, b)
+                {
                     Some(c) => Rule::Across(a, b, c),
                     None => Rule::Between(a, b),
                 },

@@ -6,23 +6,23 @@
 use super::super::no_value::NoValue;
 use super::super::{Geometry, ReportError, ViewField, ViewObject};
 use super::mesh;
-use super::packed::{LEVEL_BYTES, MOST_POINTS, Purpose, Quality, coarse_grid_is_fine, pack_object};
+use super::packed::{LEVEL_BYTES, MAX_DRAWN_POINTS, Purpose, Quality, coarse_grid_is_fine, pack_object};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::parallel::prelude::*;
 use trueness_geom::space::{Aabb, Point};
 
 /// Places of an object up to which it is packed whole.
-const FEW: usize = 50_000;
+const MAX_PLACES_WHOLE: usize = 50_000;
 /// Cells along each side of the box.
-const CELLS: usize = 4;
+const CELLS_PER_SIDE: usize = 4;
 /// One of so many cells is taken.
-const EVERY: usize = 13;
+const CELLS_PER_SAMPLE: usize = 13;
 /// So many times its share a part takes, as it has rims.
-const RIMS: f64 = 1.065;
+const RIM_FACTOR: f64 = 1.065;
 /// Of what would just fit, so that it does.
-const SAFELY: f64 = 0.97;
+const SAMPLED_ROOM_SHARE: f64 = 0.97;
 /// So many times the room, by what is usual, and it is certain that all fits, or that it does not.
-const CERTAIN: [f64; 2] = [0.6, 1.4];
+const CERTAIN_ROOM_SHARES: [f64; 2] = [0.6, 1.4];
 
 /// The quality in which `objects` fit into `budget` bytes of base64, but for a few percent.
 pub fn quality(
@@ -32,16 +32,16 @@ pub fn quality(
     budget: usize,
 ) -> Result<Quality, ReportError> {
     let usual = |bits| objects.iter().map(|o| usual_bytes(o, bits)).sum::<f64>() / budget.max(1) as f64;
-    if usual(16) <= CERTAIN[0] {
+    if usual(16) <= CERTAIN_ROOM_SHARES[0] {
         return Ok(all);
     }
     let samples: Vec<Sample> = objects.par_iter().map(Sample::of).collect();
-    let room = SAFELY * budget as f64;
+    let room = SAMPLED_ROOM_SHARE * budget as f64;
     let packed = |quality: Quality| -> Result<Vec<f64>, ReportError> {
         let bytes = |(object, sample): (&ViewObject, &Sample)| {
             let packed =
                 pack_object(&sample.object(object), (0, true), purpose, quality.times(sample.share))?;
-            let rims = if sample.share < 1.0 { RIMS } else { 1.0 };
+            let rims = if sample.share < 1.0 { RIM_FACTOR } else { 1.0 };
             Ok(packed.part.len() as f64 / (rims * sample.share))
         };
         objects.par_iter().zip(&samples).map(bytes).collect()
@@ -55,7 +55,7 @@ pub fn quality(
         };
         objects.iter().zip(bytes).map(of).sum()
     };
-    if usual(16) <= CERTAIN[1] && total(&packed(all)?, all, 1.0) <= room {
+    if usual(16) <= CERTAIN_ROOM_SHARES[1] && total(&packed(all)?, all, 1.0) <= room {
         return Ok(all);
     }
     let bits = if objects.iter().all(coarse_grid_is_fine) { 14 } else { 16 };
@@ -83,15 +83,15 @@ fn kept(object: &ViewObject, quality: Quality) -> (usize, usize) {
 
 /// Bytes of base64 that an object usually takes; measured on scans of figures. A wrong guess costs time only.
 fn usual_bytes(object: &ViewObject, bits: u32) -> f64 {
-    const FIELD: f64 = 2.6;
-    const TRIANGLE: f64 = 1.1;
-    let place = if bits == 16 { 6.0 } else { 5.0 } + FIELD * object.fields.len() as f64;
+    const FIELD_BYTES: f64 = 2.6;
+    const TRIANGLE_BYTES: f64 = 1.1;
+    let place = if bits == 16 { 6.0 } else { 5.0 } + FIELD_BYTES * object.fields.len() as f64;
     match object.geometry {
-        Geometry::Points(points) => points.len().min(MOST_POINTS) as f64 * place,
+        Geometry::Points(points) => points.len().min(MAX_DRAWN_POINTS) as f64 * place,
         Geometry::Mesh(mesh) => {
             let triangles = mesh.faces.len();
             let levels = mesh::level_sizes(triangles).sum::<usize>() * LEVEL_BYTES;
-            triangles as f64 * (TRIANGLE + 0.5 * place) + levels as f64
+            triangles as f64 * (TRIANGLE_BYTES + 0.5 * place) + levels as f64
         }
     }
 }
@@ -177,13 +177,17 @@ fn taken(places: &[Point]) -> impl Fn(&Point) -> bool {
     let cell = move |p: &Point| {
         let along = |k: usize| {
             let share = (p[k] - bounds.min[k]) / (bounds.max[k] - bounds.min[k]);
-            ((share * CELLS as f64) as usize).min(CELLS - 1)
+            ((share * CELLS_PER_SIDE as f64) as usize).min(CELLS_PER_SIDE - 1)
         };
-        along(0) + CELLS * (along(1) + CELLS * along(2))
+        along(0) + CELLS_PER_SIDE * (along(1) + CELLS_PER_SIDE * along(2))
     };
-    let mut used = [false; CELLS * CELLS * CELLS];
+    let mut used = [false; CELLS_PER_SIDE * CELLS_PER_SIDE * CELLS_PER_SIDE];
     places.iter().for_each(|p| used[cell(p)] = true);
-    let every = if places.len() <= FEW { 1 } else { EVERY.min(used.iter().filter(|u| **u).count().max(1)) };
+    let every = if places.len() <= MAX_PLACES_WHOLE {
+        1
+    } else {
+        CELLS_PER_SAMPLE.min(used.iter().filter(|u| **u).count().max(1))
+    };
     let ranks: Vec<usize> =
         used.iter().scan(0, |rank, u| Some(std::mem::replace(rank, *rank + usize::from(*u)))).collect();
     move |p| ranks[cell(p)] % every == every / 2

@@ -10,11 +10,11 @@ use trueness_geom::progress::{Cancelled, Progress};
 use trueness_geom::space::{Aabb, Point};
 
 /// Triangles of a piece: a few hundredths of a second of work.
-const PIECE: usize = 40_000;
+const TRIANGLES_PER_PIECE: usize = 40_000;
 /// How often pieces are cut anew.
-const ROUNDS: usize = 4;
+const CUT_ROUNDS: usize = 4;
 /// So near the number asked for is near enough.
-const NEAR: f64 = 1.06;
+const NEAR_ENOUGH_FACTOR: f64 = 1.06;
 
 /// Places that triangles are simplified over, in single precision after a corner of their box was taken off.
 pub struct Places {
@@ -41,16 +41,16 @@ impl Places {
     ) -> Result<(Vec<u32>, f64), Cancelled> {
         let mut left = corners.to_vec();
         let mut error = 0.0;
-        for round in 0..ROUNDS {
+        for round in 0..CUT_ROUNDS {
             let count = left.len() / 3;
-            if count as f64 <= NEAR * target as f64 {
+            if count as f64 <= NEAR_ENOUGH_FACTOR * target as f64 {
                 break;
             }
-            let whole = count <= 2 * PIECE;
+            let whole = count <= 2 * TRIANGLES_PER_PIECE;
             if !whole {
                 left = self.grid.sorted(&left, |v| self.near[v as usize], round);
             }
-            let size = if whole { left.len() } else { 3 * PIECE };
+            let size = if whole { left.len() } else { 3 * TRIANGLES_PER_PIECE };
             let share = target as f64 / count as f64;
             let pieces: Vec<(Vec<u32>, f64)> = left
                 .par_chunks(size.max(3))

@@ -4,7 +4,7 @@ use super::super::up::Up;
 use trueness_geom::space::{Aabb, Point, Vector, cross, dot, minus, unit};
 
 /// Share of the picture's smaller side that the part fills at most.
-const FILL: f64 = 0.86;
+const MAX_FILLED_SHARE: f64 = 0.86;
 
 /// The model's axis that points up on the screen, and the way its front looks.
 pub fn vertical_and_front(up: Up) -> (Vector, Vector) {
@@ -44,7 +44,7 @@ impl Camera {
         let [w, h, _] = if bounds.is_empty() { [1.0; 3] } else { bounds.sides() };
         let size = [f64::from(width), f64::from(height)];
         let free = f64::from(width.saturating_sub(2 * margin).max(width / 3));
-        let scale = FILL * (free / w.max(1e-300)).min(size[1] / h.max(1e-300)).min(1e300);
+        let scale = MAX_FILLED_SHARE * (free / w.max(1e-300)).min(size[1] / h.max(1e-300)).min(1e300);
         let middle = |k: usize| if bounds.is_empty() { 0.0 } else { 0.5 * (bounds.min[k] + bounds.max[k]) };
         Camera { right, up, toward, center: [middle(0), middle(1)], scale, size }
     }

@@ -5,11 +5,11 @@ use trueness_geom::parallel::prelude::*;
 use trueness_geom::parallel::{Loop, Source};
 
 /// Samples a pixel and side.
-pub const FINE: u32 = 2;
+pub const SAMPLES_PER_PIXEL: u32 = 2;
 /// Rows of samples that one task draws.
-const BAND: u32 = 128;
+const ROWS_PER_TASK: u32 = 128;
 /// Columns up to which all samples around a triangle are looked at.
-const FEW: usize = 4;
+const MAX_COLUMNS_SCANNED: usize = 4;
 
 pub struct Canvas {
     pub width: u32,
@@ -65,20 +65,24 @@ impl Canvas {
     /// The rows in pieces that can be drawn on at the same time.
     pub fn bands(&mut self) -> Loop<impl Source<Item = Band<'_>>> {
         let (width, height) = (self.width, self.height);
-        let size = (width * BAND).max(1) as usize;
+        let size = (width * ROWS_PER_TASK).max(1) as usize;
         let depth = self.depth.par_chunks_mut(size).zip(self.color.par_chunks_mut(size));
         let marks = self.marked.par_chunks_mut(size).zip(self.edged.par_chunks_mut(size));
         depth.zip(marks).enumerate().map(move |(n, ((depth, color), (marked, edged)))| {
-            let top = n as u32 * BAND;
-            Band { width, top, bottom: (top + BAND).min(height), depth, color, marked, edged }
+            let top = n as u32 * ROWS_PER_TASK;
+            Band { width, top, bottom: (top + ROWS_PER_TASK).min(height), depth, color, marked, edged }
         })
     }
 
-    /// One pixel from `FINE`² samples; opacity is the share covered.
+    /// One pixel from `SAMPLES_PER_PIXEL`² samples; opacity is the share covered.
     pub fn reduced(&self) -> Vec<[u8; 4]> {
-        let (w, h) = (self.width / FINE, self.height / FINE);
+        let (w, h) = (self.width / SAMPLES_PER_PIXEL, self.height / SAMPLES_PER_PIXEL);
         let samples = |x: u32, y: u32| {
-            let all = (0..FINE * FINE).map(move |s| (FINE * y + s / FINE) * self.width + FINE * x + s % FINE);
+            let all = (0..SAMPLES_PER_PIXEL * SAMPLES_PER_PIXEL).map(move |s| {
+                (SAMPLES_PER_PIXEL * y + s / SAMPLES_PER_PIXEL) * self.width
+                    + SAMPLES_PER_PIXEL * x
+                    + s % SAMPLES_PER_PIXEL
+            });
             all.map(|i| i as usize).filter(|i| self.depth[*i] > f32::NEG_INFINITY)
         };
         let pixel = |x: u32, y: u32| {
@@ -86,7 +90,12 @@ impl Canvas {
             let mean = |k: usize| {
                 (samples(x, y).map(|i| u32::from(self.color[i][k])).sum::<u32>() + n / 2) / n.max(1)
             };
-            [mean(0) as u8, mean(1) as u8, mean(2) as u8, (255 * n / (FINE * FINE)) as u8]
+            [
+                mean(0) as u8,
+                mean(1) as u8,
+                mean(2) as u8,
+                (255 * n / (SAMPLES_PER_PIXEL * SAMPLES_PER_PIXEL)) as u8,
+            ]
         };
         (0..w * h).into_par_iter().map(|i| pixel(i % w, i / w)).collect()
     }
@@ -167,7 +176,7 @@ impl Band<'_> {
 /// Those of `columns` that a triangle of this signed double `area` may cover at height `y`, and one more to either side: of the box around a
 /// sliver hardly any sample is within.
 fn row([a, b, c]: &[[f64; 3]; 3], area: f64, y: f64, columns: Range<u32>) -> Range<u32> {
-    if columns.len() <= FEW {
+    if columns.len() <= MAX_COLUMNS_SCANNED {
         return columns;
     }
     let (mut low, mut high) = (f64::from(columns.start), f64::from(columns.end));

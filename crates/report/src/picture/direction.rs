@@ -15,19 +15,19 @@ use trueness_geom::space::{Aabb, Point, Vector, cross, dot, minus, norm, plus, t
 use trueness_measure::spacing::spacing;
 
 /// Places that the view is chosen for, at most.
-const PLACES: usize = 8;
+const MAX_VIEW_PLACES: usize = 8;
 /// Places beside its own at which a pick is seen, at most.
-const OTHERS: usize = 8;
+const MAX_OTHER_PLACES: usize = 8;
 /// Picks that may have a flag in the stored picture: several times what its columns hold. Whether each is seen costs a search of all that is drawn.
-const FLAGS: usize = 200;
+const MAX_FLAGGED_PICKS: usize = 200;
 /// A place farther than this from where it was measured, as a share of the diagonal, is not on the part.
-const OFF: f64 = 0.02;
+const OFF_PART_SHARE: f64 = 0.02;
 /// What is nearer to a place than this share of the diagonal does not hide it: it is the surface itself.
-const NEAR: f64 = 0.002;
+const OWN_SURFACE_SHARE: f64 = 0.002;
 /// A way through a surface, seen obliquely, is up to this much longer than straight.
-const OBLIQUE: f64 = 3.0;
+const MAX_OBLIQUE_FACTOR: f64 = 3.0;
 /// Cosine of the angle beyond which a surface is too oblique to be seen well.
-const SEEN: f64 = 0.35;
+const MIN_SEEN_COSINE: f64 = 0.35;
 
 /// The first view and what it shows.
 pub struct Direction {
@@ -52,11 +52,11 @@ pub fn direction(input: &ReportInput, picks: &[Pick]) -> Direction {
     let finite = |p: &&Point| p.iter().all(|x| x.is_finite());
     let bounds = Aabb::of(shown.iter().flat_map(|o| o.places()).filter(finite));
     let diagonal = if bounds.is_empty() { 0.0 } else { norm(bounds.sides()) };
-    let off: Vec<bool> = picks.iter().map(|p| distance(p) > OFF * diagonal).collect();
+    let off: Vec<bool> = picks.iter().map(|p| distance(p) > OFF_PART_SHARE * diagonal).collect();
     let mut important = subject.important(picks);
     // What lies off the part is seen from nearly everywhere: the worst on the part decides.
     important.sort_by_key(|n| off[*n]);
-    important.truncate(PLACES);
+    important.truncate(MAX_VIEW_PLACES);
     let measured = shown.iter().any(|o| o.role == ViewRole::Measured);
     let marks = Marks::numbered(input.marks);
     let place = |n: &usize| {
@@ -111,15 +111,15 @@ pub fn others(pick: &Pick, mark: Option<&Mark>) -> Vec<Point> {
         (false, true) => mark.triangles.iter().map(|corners| corners[0]).collect(),
         (false, false) => vec![],
     };
-    let step = all.len().div_ceil(OTHERS).max(1);
-    let reached = pick.frame.iter().flat_map(|_| &mark.points).take(OTHERS);
+    let step = all.len().div_ceil(MAX_OTHER_PLACES).max(1);
+    let reached = pick.frame.iter().flat_map(|_| &mark.points).take(MAX_OTHER_PLACES);
     reached.copied().chain(all.into_iter().step_by(step)).collect()
 }
 
 /// How many of the first of [`others`] show what the pick says.
 pub fn reached(pick: &Pick, mark: Option<&Mark>) -> usize {
     match (&pick.frame, mark) {
-        (Some(_), Some(mark)) => mark.points.len().min(OTHERS),
+        (Some(_), Some(mark)) => mark.points.len().min(MAX_OTHER_PLACES),
         _ => others(pick, mark).len(),
     }
 }
@@ -129,7 +129,7 @@ pub fn flagged(picks: &[Pick], mapped: bool) -> Vec<usize> {
     let has = |p: &Pick| {
         if mapped { p.value.is_some() && p.map.unwrap_or(0) == 0 } else { p.frame.is_some() }
     };
-    (0..picks.len()).filter(|n| has(&picks[*n])).take(FLAGS).collect()
+    (0..picks.len()).filter(|n| has(&picks[*n])).take(MAX_FLAGGED_PICKS).collect()
 }
 
 /// What hides places: of a measured cloud the reference's surface, drawn or not, where there is one; else what is drawn and
@@ -177,12 +177,12 @@ impl PlaceToSee {
         let others = others(pick, mark);
         let any = !others.is_empty();
         let samples = [vec![anchor], others].concat();
-        let under = if off { 0.0 } else { OBLIQUE * distance(pick) };
+        let under = if off { 0.0 } else { MAX_OBLIQUE_FACTOR * distance(pick) };
         let normal = pick.normal.or(mark.and_then(|m| m.normal));
         PlaceToSee {
             samples,
             normal: normal.and_then(|n| unit(n).map(|(n, _)| n)),
-            near: under.max(NEAR * diagonal),
+            near: under.max(OWN_SURFACE_SHARE * diagonal),
             any,
             reached: reached(pick, mark),
         }
@@ -219,7 +219,7 @@ fn candidates(up: Up, facing: Option<Vector>, places: &[PlaceToSee]) -> Vec<Vect
     let across = [vertical[1], vertical[2], vertical[0]];
     let oblique = |n: Vector| along(plus(plus(times(1.6, n), vertical), times(0.4, across)));
     let corner = along(of(SIDES[0])).unwrap_or(vertical);
-    let first = facing.filter(|n| dot(corner, *n) <= SEEN).and_then(oblique);
+    let first = facing.filter(|n| dot(corner, *n) <= MIN_SEEN_COSINE).and_then(oblique);
     let sides = SIDES.iter().filter_map(|s| along(of(*s)));
     first.into_iter().chain(sides).chain(places.iter().filter_map(|p| oblique(p.normal?))).collect()
 }
@@ -249,7 +249,7 @@ impl View {
             let seen = places.iter().map(|p| {
                 let mine = &blocked[first..first + p.samples.len()];
                 first += p.samples.len();
-                let square = p.normal.map_or(1.0, |n| (dot(n, *toward) / SEEN).clamp(0.0, 1.0));
+                let square = p.normal.map_or(1.0, |n| (dot(n, *toward) / MIN_SEEN_COSINE).clamp(0.0, 1.0));
                 p.is_seen(mine, d).then_some(square)
             });
             View { toward: *toward, seen: seen.collect() }
@@ -291,7 +291,7 @@ fn blocked(probes: &[(Point, f64)], directions: &[Vector], opaque: &[&ViewObject
             patch_blocks(&mut bits, probes, directions, &corners(mesh, faces));
             bits
         };
-        mesh.faces.par_chunks(PATCH).fold(none, part).reduce(none, join)
+        mesh.faces.par_chunks(FACETS_PER_PATCH).fold(none, part).reduce(none, join)
     };
     let by_point = |points: &[Point]| {
         // Scattered at random, points of this size leave a thousandth of their surface open.
@@ -299,7 +299,7 @@ fn blocked(probes: &[(Point, f64)], directions: &[Vector], opaque: &[&ViewObject
         let radius = 1.5 * spacing(&finite);
         let part = |mut bits: Vec<u64>, p: &Point| {
             for ((from, near), bits) in probes.iter().zip(&mut bits) {
-                *bits |= passing(*from, directions, (*p, radius), near + OBLIQUE * radius, 0.0);
+                *bits |= passing(*from, directions, (*p, radius), near + MAX_OBLIQUE_FACTOR * radius, 0.0);
             }
             bits
         };
@@ -315,7 +315,7 @@ fn blocked(probes: &[(Point, f64)], directions: &[Vector], opaque: &[&ViewObject
 }
 
 /// Facets looked at together: in most files neighbors follow each other.
-const PATCH: usize = 64;
+const FACETS_PER_PATCH: usize = 64;
 
 /// The corners of the facets that are there and finite.
 fn corners(mesh: &Mesh, faces: &[[u32; 3]]) -> Vec<[Point; 3]> {
@@ -339,7 +339,7 @@ fn patch_blocks(bits: &mut [u64], probes: &[(Point, f64)], directions: &[Vector]
     let balls: Vec<(Point, f64)> = facets.iter().map(ball).collect();
     let radius = balls.iter().map(|(m, r)| norm(minus(*m, middle)) + r).fold(0.0, f64::max);
     for ((from, near), bits) in probes.iter().zip(bits) {
-        let mut open = passing(*from, directions, (middle, radius), near - radius, ROUNDING) & !*bits;
+        let mut open = passing(*from, directions, (middle, radius), near - radius, ROUNDING_SHARE) & !*bits;
         for ([a, b, c], ball) in facets.iter().zip(&balls) {
             if open == 0 {
                 break;
@@ -358,7 +358,7 @@ fn patch_blocks(bits: &mut [u64], probes: &[(Point, f64)], directions: &[Vector]
 }
 
 /// More than what rounding can make of a square, as a share of it.
-const ROUNDING: f64 = 1e-12;
+const ROUNDING_SHARE: f64 = 1e-12;
 
 /// The directions, as bits, in which a line from a place passes a ball, and its middle lies farther than `nearest`; with `slack`,
 /// a share of the squared distance, also those that rounding would lose.

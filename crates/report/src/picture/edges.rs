@@ -1,28 +1,28 @@
 //! The sharp edges of a surface as lines: without them faces of one color run into each other.
 
 use super::camera::Camera;
-use super::canvas::{Band, Canvas, FINE};
+use super::canvas::{Band, Canvas, SAMPLES_PER_PIXEL};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::parallel::prelude::*;
 use trueness_geom::space::{Aabb, Point, Vector, cross, dot, minus, norm, plus, unit};
 
 /// Cosine of the angle (30 degrees) between facets beyond which they have an edge between them.
-const CREASE: f64 = 0.866_025_403_784_438_6;
+const CREASE_COSINE: f64 = 0.866_025_403_784_438_6;
 /// Cosine of the angle (15 degrees) between a facet and the mean around one of its corners from which on the corner lies on
 /// a crease: the facet then keeps its own normal throughout.
-const BENT: f64 = 0.965_925_826_289_068_3;
+const BENT_CORNER_COSINE: f64 = 0.965_925_826_289_068_3;
 /// Width of a line in samples.
-const WIDE: f64 = 1.3 * FINE as f64;
+const EDGE_WIDTH: f64 = 1.3 * SAMPLES_PER_PIXEL as f64;
 /// How much of what lies under an edge it covers.
-const OPACITY: f64 = 0.75;
+const EDGE_OPACITY: f64 = 0.75;
 /// Edges may cover this share of the surface; where they lie denser than that they step back, for the colors' sake.
-const SHARE: f64 = 0.1;
+const MAX_EDGE_SHARE: f64 = 0.1;
 /// Fainter than this they are left out.
-const FAINTEST: f64 = 0.15;
+const MIN_EDGE_OPACITY: f64 = 0.15;
 /// Rows of edges up to this long are short, as a share of the largest extent.
-const SHORT: f64 = 1.0 / 30.0;
+const MAX_SHORT_EXTENT: f64 = 1.0 / 30.0;
 /// What they are darkened to.
-const DARK: f64 = 20.0;
+const EDGE_BRIGHTNESS: f64 = 20.0;
 
 /// One facet at an edge.
 struct Side {
@@ -46,7 +46,8 @@ pub fn smooth_normals(mesh: &Mesh) -> Vec<Option<Vector>> {
     let mut normals: Vec<Option<Vector>> = sums.into_par_iter().map(|n| unit(n).map(|(n, _)| n)).collect();
     let bent = |(face, n): (&[u32; 3], &Option<Vector>)| {
         let n = n.and_then(unit).map(|(n, _)| n);
-        let away = |v: u32, n: Vector| normals[v as usize].is_some_and(|mean| dot(mean, n) < BENT);
+        let away =
+            |v: u32, n: Vector| normals[v as usize].is_some_and(|mean| dot(mean, n) < BENT_CORNER_COSINE);
         face.map(|v| n.filter(|n| away(v, *n)).map(|_| v as usize))
     };
     let creased: Vec<usize> =
@@ -62,19 +63,21 @@ pub fn draw(canvas: &mut Canvas, mesh: &Mesh, normals: &[Option<Vector>], camera
     let areas: Vec<f64> =
         mesh.faces.par_iter().filter_map(|f| facet(mesh, f)).map(|n| 0.5 * norm(n)).collect();
     let area: f64 = areas.iter().sum();
-    let opacity = OPACITY * (SHARE * area * camera.scale / (WIDE * length)).min(1.0);
-    if edges.is_empty() || opacity.is_nan() || opacity < FAINTEST {
+    let opacity = EDGE_OPACITY * (MAX_EDGE_SHARE * area * camera.scale / (EDGE_WIDTH * length)).min(1.0);
+    if edges.is_empty() || opacity.is_nan() || opacity < MIN_EDGE_OPACITY {
         return;
     }
     // What lies in the surface is in front of it.
     let lift = 1e-3 * f64::from(canvas.width);
     for [a, b] in edges {
         let (a, b) = (camera.project(&a), camera.project(&b));
-        let steps = (libm::hypot(b[0] - a[0], b[1] - a[1]) / (0.5 * WIDE)).ceil().clamp(1.0, 1e5);
+        let steps = (libm::hypot(b[0] - a[0], b[1] - a[1]) / (0.5 * EDGE_WIDTH)).ceil().clamp(1.0, 1e5);
         for i in 0..=steps as u32 {
             let t = f64::from(i) / steps;
             let [x, y, z] = [0, 1, 2].map(|k| a[k] + t * (b[k] - a[k]));
-            canvas.whole().disc([x, y], 0.5 * WIDE, |canvas, x, y, _| canvas.darken(x, y, z + lift, opacity));
+            canvas
+                .whole()
+                .disc([x, y], 0.5 * EDGE_WIDTH, |canvas, x, y, _| canvas.darken(x, y, z + lift, opacity));
         }
     }
 }
@@ -88,8 +91,8 @@ impl Band<'_> {
             return;
         }
         self.edged[at] = true;
-        self.color[at] =
-            self.color[at].map(|c| (f64::from(c) * (1.0 - opacity) + DARK * opacity).round() as u8);
+        self.color[at] = self.color[at]
+            .map(|c| (f64::from(c) * (1.0 - opacity) + EDGE_BRIGHTNESS * opacity).round() as u8);
     }
 }
 
@@ -125,7 +128,7 @@ fn rows(mesh: &Mesh, edges: Vec<[u32; 2]>) -> Vec<[Point; 2]> {
     }
     let count = mesh.positions.len();
     let finite = mesh.positions.iter().filter(|p| p.iter().all(|x| x.is_finite()));
-    let short = SHORT * Aabb::of(finite).sides().into_iter().fold(0.0, f64::max);
+    let short = MAX_SHORT_EXTENT * Aabb::of(finite).sides().into_iter().fold(0.0, f64::max);
     let mut up: Vec<u32> = (0..count as u32).collect();
     let mut meeting = vec![0u8; count];
     for [a, b] in &edges {
@@ -180,7 +183,7 @@ fn meet_sharply(mesh: &Mesh, a: &Side, b: &Side) -> bool {
     let (Some((m, _)), Some((n, _))) = (normal(a), normal(b)) else { return false };
     // Facets of one orientation run along their edge in opposite ways.
     let along = if a.turned == b.turned { -1.0 } else { 1.0 };
-    a.opposite != b.opposite && along * dot(m, n) < CREASE
+    a.opposite != b.opposite && along * dot(m, n) < CREASE_COSINE
 }
 
 /// The normal of a facet, as long as twice its area; none where a corner is missing or not finite.

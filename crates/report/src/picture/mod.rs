@@ -16,17 +16,17 @@ use super::shown::{mapped, shown_objects};
 use super::subject::Pick;
 use super::{Geometry, ReportInput, ViewRole};
 use camera::Camera;
-use canvas::{Canvas, FINE};
+use canvas::{Canvas, SAMPLES_PER_PIXEL};
 use paint::{Colors, Paint};
 use trueness_geom::progress::{Cancelled, Progress};
 use trueness_geom::space::{Point, Vector};
 
-const WIDTH: u32 = 1200;
-const HEIGHT: u32 = 900;
+const PICTURE_WIDTH: u32 = 1200;
+const PICTURE_HEIGHT: u32 = 900;
 /// Room for the flags on the left and on the right, where there are any.
-const FLAGS: u32 = 170;
+const FLAG_ROOM: u32 = 170;
 /// The same for the frames of characteristics.
-const FRAMES: u32 = 250;
+const FRAME_ROOM: u32 = 250;
 /// How the report is looked at first: the direction, and where the picks lie in the stored picture.
 pub struct FirstView {
     /// From the part to the eye, of length 1.
@@ -59,21 +59,25 @@ impl FirstView {
         let all = shown.iter().flat_map(|o| o.places()).chain(beside).filter(finite);
         let margin = match flagged.is_empty() {
             true => 0,
-            false if mapped => FLAGS,
-            false => FRAMES,
+            false if mapped => FLAG_ROOM,
+            false => FRAME_ROOM,
         };
-        let camera =
-            Camera::first_view(all, input.options.up, toward, [WIDTH, HEIGHT, margin].map(|n| FINE * n));
+        let camera = Camera::first_view(
+            all,
+            input.options.up,
+            toward,
+            [PICTURE_WIDTH, PICTURE_HEIGHT, margin].map(|n| SAMPLES_PER_PIXEL * n),
+        );
         FirstView { toward, places, off, hidden, ends, reached, mapped, camera }
     }
 
     /// Width and height of the picture in pixels.
-    pub const SIZE: [u32; 2] = [WIDTH, HEIGHT];
+    pub const SIZE: [u32; 2] = [PICTURE_WIDTH, PICTURE_HEIGHT];
 
     /// Where a place lies in the picture, pixels from the top left.
     pub fn pixel(&self, place: &Point) -> [f64; 2] {
         let [x, y, _] = self.camera.project(place);
-        [x, y].map(|x| x / f64::from(FINE))
+        [x, y].map(|x| x / f64::from(SAMPLES_PER_PIXEL))
     }
 }
 
@@ -81,7 +85,7 @@ impl FirstView {
 pub fn png(input: &ReportInput, view: &FirstView, progress: &dyn Progress) -> Result<Vec<u8>, Cancelled> {
     let (objects, camera) = (input.objects, &view.camera);
     let scale = input.result.scale();
-    let mut canvas = Canvas::new(FINE * WIDTH, FINE * HEIGHT);
+    let mut canvas = Canvas::new(SAMPLES_PER_PIXEL * PICTURE_WIDTH, SAMPLES_PER_PIXEL * PICTURE_HEIGHT);
     for object in shown_objects(objects) {
         let paint = Paint {
             base: object.color(),
@@ -102,7 +106,7 @@ pub fn png(input: &ReportInput, view: &FirstView, progress: &dyn Progress) -> Re
             overlay::draw(&mut canvas, mark, color, camera, marks.role.shows_through());
         }
     }
-    Ok(png::encode(WIDTH, HEIGHT, &canvas.reduced()))
+    Ok(png::encode(PICTURE_WIDTH, PICTURE_HEIGHT, &canvas.reduced()))
 }
 
 #[cfg(test)]

@@ -2,14 +2,14 @@
 
 use super::super::marks::Mark;
 use super::camera::Camera;
-use super::canvas::{Band, Canvas, FINE};
+use super::canvas::{Band, Canvas, SAMPLES_PER_PIXEL};
 use trueness_document::scale::palette::Rgb;
 
 /// Half the width of a line and radius of a dot, in samples.
-const LINE: f64 = 1.6 * FINE as f64;
-const DOT: f64 = 4.0 * FINE as f64;
+const LINE_HALF_WIDTH: f64 = 1.6 * SAMPLES_PER_PIXEL as f64;
+const DOT_RADIUS: f64 = 4.0 * SAMPLES_PER_PIXEL as f64;
 /// Opacity of what the part hides.
-const BEHIND: f64 = 0.4;
+const HIDDEN_OPACITY: f64 = 0.4;
 
 /// Draws a mark in its color. `through`: it is seen where the part is in front of it.
 pub fn draw(canvas: &mut Canvas, mark: &Mark, color: Rgb, camera: &Camera, through: bool) {
@@ -22,16 +22,20 @@ pub fn draw(canvas: &mut Canvas, mark: &Mark, color: Rgb, camera: &Camera, throu
     }
     for [a, b] in &mark.segments {
         let (a, b) = (camera.project(a), camera.project(b));
-        let steps = (libm::hypot(b[0] - a[0], b[1] - a[1]) / LINE).ceil().clamp(1.0, 1e5);
+        let steps = (libm::hypot(b[0] - a[0], b[1] - a[1]) / LINE_HALF_WIDTH).ceil().clamp(1.0, 1e5);
         for i in 0..=steps as u32 {
             let t = f64::from(i) / steps;
             let [x, y, z] = [0, 1, 2].map(|k| a[k] + t * (b[k] - a[k]));
-            canvas.whole().disc([x, y], LINE, |canvas, x, y, _| canvas.blend(x, y, z + lift, color, through));
+            canvas.whole().disc([x, y], LINE_HALF_WIDTH, |canvas, x, y, _| {
+                canvas.blend(x, y, z + lift, color, through)
+            });
         }
     }
     for p in &mark.points {
         let [x, y, z] = camera.project(p);
-        canvas.whole().disc([x, y], DOT, |canvas, x, y, _| canvas.blend(x, y, z + lift, color, through));
+        canvas
+            .whole()
+            .disc([x, y], DOT_RADIUS, |canvas, x, y, _| canvas.blend(x, y, z + lift, color, through));
     }
 }
 
@@ -44,8 +48,9 @@ impl Band<'_> {
             self.color[at] = color;
         } else if through && !self.marked[at] {
             self.marked[at] = true;
-            let mixed =
-                |k: usize| f64::from(self.color[at][k]) * (1.0 - BEHIND) + f64::from(color[k]) * BEHIND;
+            let mixed = |k: usize| {
+                f64::from(self.color[at][k]) * (1.0 - HIDDEN_OPACITY) + f64::from(color[k]) * HIDDEN_OPACITY
+            };
             self.color[at] = [0, 1, 2].map(|k| mixed(k).round() as u8);
         }
     }

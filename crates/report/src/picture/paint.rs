@@ -12,13 +12,13 @@ use trueness_geom::space::{Point, Vector, cross, dot, minus, unit};
 use trueness_measure::spacing::spacing;
 
 /// Least brightness of a surface seen edge-on.
-const DARKEST: f64 = 0.72;
+const MIN_BRIGHTNESS: f64 = 0.72;
 /// How much darker than its middle a point is at its rim, which tells points apart.
-const RIM: f64 = 0.2;
+const RIM_DARKENING: f64 = 0.2;
 /// Places prepared at a time, in parallel, before they are drawn in their order.
-const TASK: usize = 1 << 15;
+const PLACES_PER_TASK: usize = 1 << 15;
 /// Places drawn between two questions whether to go on.
-const ASKED: usize = 16;
+const PLACES_PER_QUESTION: usize = 16;
 
 /// What an object is colored by: its values where it has some, else its own color.
 pub struct Paint<'a> {
@@ -37,14 +37,14 @@ impl Canvas {
     ) -> Result<(), Cancelled> {
         let normals = smooth_normals(mesh);
         let values = paint.values.as_ref();
-        for faces in mesh.faces.chunks(TASK) {
+        for faces in mesh.faces.chunks(PLACES_PER_TASK) {
             let seen: Vec<Facet> = faces
                 .par_iter()
                 .filter_map(|face| Facet::of(mesh, &normals, face, values.map(|(v, _)| *v), camera))
                 .collect();
             self.bands().try_for_each(|mut band| {
                 for (n, facet) in seen.iter().enumerate() {
-                    if n % ASKED == 0 && progress.cancelled() {
+                    if n % PLACES_PER_QUESTION == 0 && progress.cancelled() {
                         return Err(Cancelled);
                     }
                     if !band.meets(facet.rows) {
@@ -84,12 +84,12 @@ impl Canvas {
             let color = values.map_or(paint.base, |(v, table)| table.color(v[i]));
             (x.is_finite() && y.is_finite()).then_some(([x, y, z], color))
         };
-        for (n, part) in points.chunks(TASK).enumerate() {
+        for (n, part) in points.chunks(PLACES_PER_TASK).enumerate() {
             let dots: Vec<([f64; 3], Rgb)> =
-                part.par_iter().enumerate().filter_map(|(i, p)| dot((n * TASK + i, p))).collect();
+                part.par_iter().enumerate().filter_map(|(i, p)| dot((n * PLACES_PER_TASK + i, p))).collect();
             self.bands().try_for_each(|mut band| {
                 for (n, ([x, y, z], color)) in dots.iter().enumerate() {
-                    if n % ASKED == 0 && progress.cancelled() {
+                    if n % PLACES_PER_QUESTION == 0 && progress.cancelled() {
                         return Err(Cancelled);
                     }
                     if band.meets([y - radius, y + radius]) {
@@ -113,7 +113,7 @@ impl Band<'_> {
                 return;
             }
             let off = square.sqrt() / radius;
-            let shade = 1.0 - RIM * off * off;
+            let shade = 1.0 - RIM_DARKENING * off * off;
             band.put(px, py, (z + radius * (1.0 - off)) as f32, || {
                 color.map(|c| (f64::from(c) * shade + 0.5) as u8)
             });
@@ -196,6 +196,6 @@ impl Colors<'_> {
 
 /// Diffuse light from the eye.
 fn shade(color: [u8; 3], cosine: f64) -> [u8; 3] {
-    let factor = DARKEST + (1.0 - DARKEST) * cosine.clamp(0.0, 1.0);
+    let factor = MIN_BRIGHTNESS + (1.0 - MIN_BRIGHTNESS) * cosine.clamp(0.0, 1.0);
     color.map(|c| (f64::from(c) * factor + 0.5) as u8)
 }

@@ -9,7 +9,7 @@ use trueness_geom::mesh::Mesh;
 use trueness_geom::space::{Point, Vector, normal};
 
 /// Facets drawn as new or gone, at most.
-const MOST: usize = 100_000;
+const MAX_DRAWN_FACETS: usize = 100_000;
 /// Color of facets that came.
 pub const NEW: Rgb = [0x00, 0x91, 0x3f];
 /// Color of facets that went.
@@ -116,7 +116,7 @@ fn only_in(mesh: &Mesh, other: &Mesh) -> Vec<[Point; 3]> {
     };
     let known: HashSet<_> = other.faces.iter().filter_map(|f| corners(other, f)).map(key).collect();
     let new = mesh.faces.iter().filter_map(|f| corners(mesh, f)).filter(|t| !known.contains(&key(*t)));
-    new.take(MOST).collect()
+    new.take(MAX_DRAWN_FACETS).collect()
 }
 
 #[cfg(test)]

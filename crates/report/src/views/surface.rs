@@ -16,12 +16,12 @@ use trueness_measure::curvature::value;
 use trueness_surface::{Outline, SurfaceFit};
 
 /// Vertices of the drawn surface, about.
-const VERTICES: f64 = 160_000.0;
+const AIMED_VERTICES: f64 = 160_000.0;
 /// Fewest and most steps of a span: curvatures of a cubic change within it as straight lines do at most.
-const STEPS: [f64; 2] = [3.0, 24.0];
+const SPAN_STEPS: [f64; 2] = [3.0, 24.0];
 /// Of iso-lines nearer to each other than this share of the side one is drawn: knots set for a feature lie so close that they would hide
 /// its colors.
-const APART: f64 = 0.025;
+const MIN_LINE_DISTANCE: f64 = 0.025;
 /// The control net.
 const NET: Rgb = [0x5b, 0x3d, 0xc4];
 /// Iso-lines.
@@ -145,7 +145,7 @@ impl<'a> View<'a> {
 fn lines(surface: &Surface<Point>) -> [Vec<f64>; 2] {
     let knots = surface.knots().each_ref().map(|k| k.distinct());
     let spans: f64 = knots.iter().map(|k| (k.len() - 1) as f64).product();
-    let steps = (VERTICES / spans).sqrt().floor().clamp(STEPS[0], STEPS[1]) as usize;
+    let steps = (AIMED_VERTICES / spans).sqrt().floor().clamp(SPAN_STEPS[0], SPAN_STEPS[1]) as usize;
     knots.map(|knots| {
         let inner = knots.windows(2).flat_map(|w| {
             let (from, length) = (w[0], w[1] - w[0]);
@@ -207,7 +207,7 @@ fn iso_lines(
     };
     let held = surface.knots().each_ref().map(|k| {
         let (from, to) = k.domain();
-        let apart = APART * (to - from);
+        let apart = MIN_LINE_DISTANCE * (to - from);
         let mut drawn = vec![from];
         for t in k.distinct() {
             if drawn.last().is_some_and(|last| t - last >= apart) && to - t >= apart {
@@ -249,7 +249,7 @@ fn inside(outline: &Outline, [us, vs]: &[Vec<f64>; 2]) -> Vec<bool> {
 /// The outline on the surface.
 fn trim_lines(outline: &Outline, surface: &Surface<Point>) -> Mark {
     /// Places along a curve between two knots.
-    const PLACES: usize = 4;
+    const PLACES_PER_SPAN: usize = 4;
     let mut mark = Mark::default();
     for corners in outline.regions.iter().flat_map(|region| region.loops()) {
         let next = corners.iter().cycle().skip(1);
@@ -257,7 +257,9 @@ fn trim_lines(outline: &Outline, surface: &Surface<Point>) -> Mark {
             let curve = surface.over_line(*a, *b);
             let knots = curve.knots().distinct();
             let steps = move |w: &[f64]| -> Vec<f64> {
-                (0..PLACES).map(|i| w[0] + (w[1] - w[0]) * i as f64 / PLACES as f64).collect()
+                (0..PLACES_PER_SPAN)
+                    .map(|i| w[0] + (w[1] - w[0]) * i as f64 / PLACES_PER_SPAN as f64)
+                    .collect()
             };
             let places: Vec<f64> = knots.windows(2).flat_map(steps).collect();
             places.into_iter().map(move |t| curve.at(t))

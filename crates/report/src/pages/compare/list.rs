@@ -1,16 +1,17 @@
 //! The list beside the stage: ranking, worst places, statistics, what was left out, how far the numbers can be trusted, files.
 
-use super::words::{headline, in_words, sign_key, warning_key};
 use crate::NoValue;
 use crate::number::Style;
-use crate::page::parts::{badge, fact, file_name, key_number, place_cells, place_heads, section, series};
+use crate::page::parts::{badge, fact, file_name, inside, key_number, mm, range, section, series, warning};
+use crate::page::table::{self, Row, table};
 use crate::pages::align::{Facts, alignment};
 use crate::pages::check;
 use crate::values::{Name, Text};
 use maud::{Markup, Render, html};
+use std::iter;
 use trueness_document::compare::{
     AlongKind, AlongRecord, BySide, CompareDocument, Comparison, CoverageRecord, OutliersRecord, SignRecord,
-    Statistics, ToleranceShares, Worst,
+    Statistics, ToleranceShares, WarningKind, Worst,
 };
 use trueness_document::statistics::PAGE_ROWS;
 use trueness_document::{Verdict, VerdictReason};
@@ -76,16 +77,10 @@ pub fn because(s: Style, reasons: &[VerdictReason]) -> Markup {
 
 /// The same in sentences, for the list.
 pub fn reasons(s: Style, reasons: &[VerdictReason]) -> Markup {
-    if reasons.is_empty() {
-        return Markup::default();
+    match reasons {
+        [] => Markup::default(),
+        all => section(s, "because", html! { @for reason in all { (warning(Text(&reason.text))) } }),
     }
-    section(
-        s,
-        "because",
-        html! {
-            @for reason in reasons { p.note { strong.warning { "⚠" } " " (Text(&reason.text)) } }
-        },
-    )
 }
 
 /// Several references side by side, the nearest first.
@@ -93,39 +88,21 @@ fn ranking(s: Style, result: &CompareDocument) -> Markup {
     let decimals = result.scale.decimals as usize + 1;
     let mut order: Vec<usize> = (0..result.comparisons.len()).collect();
     order.sort_by_key(|i| result.comparisons[*i].rank);
-    section(
-        s,
-        "ranking",
-        html! {
-            table.choose {
-                thead { tr { th {} th { (s.word("reference")) } th.r { (s.word("rms")) } th.r { (s.word("within.short")) } } }
-                tbody {
-                    @for i in order {
-                        @let c = &result.comparisons[i];
-                        @let all = &c.deviation.all;
-                        tr data-choose=(i) aria-selected=(i == 0) {
-                            td { (c.rank) }
-                            td { (Name(file_name(&c.reference))) }
-                            td.r { (s.optional(all.rms, decimals).because(all.rms_reason.as_deref())) }
-                            td.r {
-                                @match (&c.tolerance, c.verdict) {
-                                    (_, Some(v)) if !c.regions.is_empty() => {
-                                        (badge(s, headline(Some(v)))) " " (passing(s, c))
-                                    }
-                                    (Some(t), Some(v)) => {
-                                        (badge(s, headline(Some(v)))) " "
-                                        (s.optional_percent(t.inside, 2).because(t.inside_reason.as_deref()))
-                                    }
-                                    _ => "–",
-                                }
-                            }
-                        }
-                    }
-                }
+    let rows = order.into_iter().map(|i| {
+        let c = &result.comparisons[i];
+        let all = &c.deviation.all;
+        let rms = s.optional(all.rms, decimals).because(all.rms_reason.as_deref());
+        let judged = html! {
+            @match (&c.tolerance, c.verdict) {
+                (_, Some(v)) if !c.regions.is_empty() => { (badge(s, v.into())) " " (passing(s, c)) }
+                (Some(t), Some(v)) => { (badge(s, v.into())) " " (inside(s, t)) }
+                _ => "–",
             }
-            (paired(s, result))
-        },
-    )
+        };
+        Row::of(&[&c.rank, &Name(file_name(&c.reference)), &rms, &judged]).choose(i)
+    });
+    let columns: [&[&str]; 2] = [&["", "reference"], &["rms", "within.short"]];
+    section(s, "ranking", html! { (table(s, "choose", columns, rows)) (paired(s, result)) })
 }
 
 /// Whether the better reference is better by more than chance.
@@ -136,10 +113,8 @@ fn paired(s: Style, result: &CompareDocument) -> Markup {
         @for (p, mean) in result.paired.iter().filter_map(|p| Some((p, p.mean_difference?))) {
             p.note {
                 (name(p.better)) " " (s.word("nearer_than")) " " (name(p.other)) " " (s.word("by")) " "
-                (length(mean.abs())) "\u{a0}mm"
-                @if let Some([l, u]) = p.interval {
-                    " (95\u{a0}%: " (length(-u)) "\u{2009}…\u{2009}" (length(-l)) ")"
-                }
+                (mm(length(mean.abs())))
+                @if let Some([l, u]) = p.interval { " (95\u{a0}%: " (range(length(-u), length(-l))) ")" }
             }
         }
     }
@@ -157,33 +132,18 @@ pub fn worst(s: Style, c: &Comparison, decimals: usize, first_pick: usize) -> Ma
         let zone = region.map(|r| &r.tolerance).or(c.tolerance.as_ref());
         zone.is_some_and(|t| w.deviation > t.upper || w.deviation < t.lower)
     };
-    section(
-        s,
-        "worst",
-        html! {
-            table.pick {
-                thead { tr { th {} th.r { (s.word("deviation")) } (place_heads()) } }
-                tbody {
-                    @for (n, w) in places.iter().enumerate() {
-                        tr data-pick=(first_pick + n) class=[outside(w).then_some("out")] {
-                            td { (n + 1) }
-                            td.r { (s.number(w.deviation, decimals).signed()) }
-                            (place_cells(s, w.point))
-                        }
-                    }
-                }
-            }
-        },
-    )
+    let rows = places.iter().enumerate().map(|(n, w)| {
+        let row = Row::at(s, &(n + 1), &s.number(w.deviation, decimals).signed(), w.point);
+        row.pick(first_pick + n).class(outside(w).then_some("out"))
+    });
+    section(s, "worst", table::places(s, "deviation", rows))
 }
 
 /// Digits after the decimal sign with which a number fits its column: from a thousand on six in all.
 fn column_digits(value: Option<f64>, wanted: usize) -> usize {
-    match value.map_or(0.0, f64::abs) {
-        size if size < 1e3 => wanted,
-        size if size < 1e4 => wanted.min(2),
-        size if size < 1e5 => wanted.min(1),
-        _ => 0,
+    match value.map_or(0, |x| x.abs() as u64).checked_ilog10() {
+        None | Some(0..=2) => wanted,
+        Some(power) => wanted.min(5_usize.saturating_sub(power as usize)),
     }
 }
 
@@ -199,41 +159,49 @@ pub fn regions(s: Style, c: &Comparison, decimals: usize) -> Markup {
         return Markup::default();
     }
     let limit = |x| s.number(x, decimals).signed();
-    let row = |name: Markup, t: &ToleranceShares, points: u64, verdict: Option<Verdict>| {
+    let row = |name: &dyn Render, t: &ToleranceShares, points: u64, verdict: Option<Verdict>| {
         html! {
             tr {
                 th scope="row" { (name) }
                 td.r { (limit(t.lower)) br; (limit(t.upper)) }
                 td.r { (s.count(points)) }
-                td.r { (s.optional_percent(t.inside, 2).because(t.inside_reason.as_deref())) }
+                td.r { (inside(s, t)) }
                 td { @if let Some(verdict) = verdict { (badge(s, verdict.into())) } }
             }
         }
     };
     let rest = c.deviation.all.count - c.regions.iter().map(|r| r.deviation.count).sum::<u64>();
-    section(
-        s,
-        "regions",
-        html! {
-            table.statistics {
-                thead {
-                    tr {
-                        th { (s.word("region")) } th.r { (s.word("tolerance")) } th.r { (s.word("points")) }
-                        th.r { (s.word("within.short")) } th {}
-                    }
-                }
-                tbody {
-                    @for r in &c.regions {
-                        (row(html! { (Name(&r.id)) }, &r.tolerance, r.deviation.count, Some(r.verdict)))
-                    }
-                    @if let Some(t) = &c.tolerance {
-                        (row(html! { (s.word("regions.others")) }, t, rest, c.others_verdict))
-                    }
+    let body = html! {
+        table.statistics {
+            thead {
+                tr {
+                    th { (s.word("region")) } th.r { (s.word("tolerance")) } th.r { (s.word("points")) }
+                    th.r { (s.word("within.short")) } th {}
                 }
             }
-            p.note { (s.word("regions.means")) }
-        },
-    )
+            tbody {
+                @for r in &c.regions { (row(&Name(&r.id), &r.tolerance, r.deviation.count, Some(r.verdict))) }
+                @if let Some(t) = &c.tolerance { (row(&s.word("regions.others"), t, rest, c.others_verdict)) }
+            }
+        }
+        p.note { (s.word("regions.means")) }
+    };
+    section(s, "regions", body)
+}
+
+/// The map in one sentence, for those who cannot see it.
+fn in_words(s: Style, c: &Comparison) -> Markup {
+    let tolerance = c.tolerance.as_ref().filter(|_| c.regions.is_empty());
+    let shares = tolerance.and_then(|t| Some([t.inside?, t.above?, t.below?]));
+    html! {
+        @if let Some(shares) = shares {
+            p.words {
+                @for (n, (key, share)) in ["within", "above", "below"].into_iter().zip(shares).enumerate() {
+                    @if n > 0 { " · " } (s.word(key)) " " (s.percent(share, 2))
+                }
+            }
+        }
+    }
 }
 
 /// The deviations in words and numbers.
@@ -241,8 +209,8 @@ pub fn statistics(s: Style, c: &Comparison, decimals: usize) -> Markup {
     section(s, "statistics", html! { (in_words(s, c)) (by_side(s, &c.deviation, decimals, OUTSIDE)) })
 }
 
-/// With more decimals than this three numbers fill the column: names stand above them.
-const MOST_DECIMALS: usize = 4;
+/// With more decimals than this three numbers fill the column.
+const MAX_DECIMALS_BESIDE_NAMES: usize = 4;
 
 /// Words for the sides of a surface.
 pub const OUTSIDE: [&str; 2] = ["plus", "minus"];
@@ -250,57 +218,63 @@ pub const OUTSIDE: [&str; 2] = ["plus", "minus"];
 /// The statistics of all deviations and of each side, as a table.
 pub fn by_side(s: Style, deviation: &BySide, decimals: usize, [plus, minus]: [&str; 2]) -> Markup {
     let sides = [&deviation.all, &deviation.positive, &deviation.negative];
-    let cell = |of: &dyn Fn(&Statistics) -> Markup| html! { @for side in sides { td.r { (of(side)) } } };
-    html! {
-        table.statistics.quantities[decimals > MOST_DECIMALS] {
-            thead { tr { th {} @for key in ["all", plus, minus] { th.r { (s.word(key)) } } } }
-            tbody {
-                tr { th scope="row" { (s.word("points")) } (cell(&|side| s.count(side.count).render())) }
-                @for (key, more, signed, of) in PAGE_ROWS {
-                    tr {
-                        th scope="row" { (s.word(key)) }
-                        (cell(&|side| {
-                            let (value, reason) = of(side);
-                            let value = s.optional(value, column_digits(value, decimals + more)).because(reason);
-                            if signed { value.signed().render() } else { value.render() }
-                        }))
-                    }
-                }
-            }
-        }
-    }
+    let row = |key: &'static str, cell: &dyn Fn(&Statistics) -> Markup| {
+        let [all, above, below] = sides.map(cell);
+        Row::of(&[&s.word(key), &all, &above, &below]).named()
+    };
+    let points = row("points", &|side| s.count(side.count).render());
+    let others = PAGE_ROWS.map(|(key, more, signed, of)| {
+        row(key, &|side| {
+            let (value, reason) = of(side);
+            let value = s.optional(value, column_digits(value, decimals + more)).with_sign(signed);
+            value.because(reason).render()
+        })
+    });
+    // Names stand above three numbers that fill the column.
+    let class = if decimals > MAX_DECIMALS_BESIDE_NAMES { "statistics quantities" } else { "statistics" };
+    table(s, class, [&[""], &["all", plus, minus]], iter::once(points).chain(others))
 }
 
 /// What the numbers rest on: the points left out, the sign, the reference's soundness.
 fn trust(s: Style, result: &CompareDocument, c: &Comparison) -> Markup {
-    section(
-        s,
-        "trust",
-        html! {
-            dl.facts {
-                (fact(s, "excluded", html! {
-                    (excluded(s, c, result.measured.count))
-                    @if let Some(d) = result.max_distance { " (> " (s.number(d, 1)) "\u{a0}mm)" }
-                }))
-                @if let Some(angle) = result.facing {
-                    (fact(s, "facing", html! { "≤\u{a0}" (s.number(angle.to_degrees(), 1)) "°" }))
-                }
-                (rules(s, c, result.scale.decimals as usize))
-                @for warning in &c.warnings {
-                    (fact(s, warning_key(warning.kind), html! {
-                        strong.warning { "⚠ " (s.number(warning.value, 3)) } br; small { (Text(&warning.text)) }
-                    }))
-                }
-                (fact(s, "sign.method", sign(s, &c.sign)))
-                @if c.surfaces.is_none() { (fact(s, "soundness", soundness(s, c))) }
-                @if let Some(p) = &c.paper_vs_exact {
-                    (fact(s, "paper_differs", html! {
-                        (s.count(p.differing)) " / " (s.count(p.count)) ", ≤ " (s.number(p.max_difference, 4)) "\u{a0}mm"
-                    }))
-                }
+    let body = html! {
+        dl.facts {
+            (fact(s, "excluded", html! {
+                (excluded(s, c, result.measured.count))
+                @if let Some(d) = result.max_distance { " (> " (mm(s.number(d, 1))) ")" }
+            }))
+            @if let Some(angle) = result.facing {
+                (fact(s, "facing", html! { "≤\u{a0}" (s.number(angle.to_degrees(), 1)) "°" }))
             }
-        },
-    )
+            (rules(s, c, result.scale.decimals as usize))
+            @for warning in &c.warnings {
+                (fact(s, warning_key(warning.kind), html! {
+                    strong.warning { "⚠ " (s.number(warning.value, 3)) } br; small { (Text(&warning.text)) }
+                }))
+            }
+            (fact(s, "sign.method", sign(s, &c.sign)))
+            @if c.surfaces.is_none() { (fact(s, "soundness", soundness(s, c))) }
+            @if let Some(p) = &c.paper_vs_exact {
+                (fact(s, "paper_differs", html! {
+                    (s.count(p.differing)) " / " (s.count(p.count)) ", ≤ " (mm(s.number(p.max_difference, 4)))
+                }))
+            }
+        }
+    };
+    section(s, "trust", body)
+}
+
+/// Key of how the sign was found, in a few words.
+pub fn sign_key(sign: &SignRecord) -> String {
+    format!("sign.by.{}", sign.method)
+}
+
+/// Key of a warning in a few words.
+pub fn warning_key(kind: WarningKind) -> &'static str {
+    match kind {
+        WarningKind::SizeRatio => "warning.size_ratio",
+        WarningKind::HardlyOverlapping => "warning.hardly_overlapping",
+    }
 }
 
 /// How many of `all` points are left out, by reason.
@@ -340,7 +314,7 @@ fn outliers(s: Style, o: &OutliersRecord, decimals: usize) -> Markup {
     html! {
         (Text(&o.rule)) ": " (s.count(o.count))
         @match (o.lower, o.upper) {
-            (Some(lower), Some(upper)) => { " (< " (limit(lower)) ", > " (limit(upper)) "\u{a0}mm)" }
+            (Some(lower), Some(upper)) => { " (< " (limit(lower)) ", > " (mm(limit(upper))) ")" }
             _ => { br; small { (Text(o.limits_reason.as_deref().unwrap_or_default())) } }
         }
     }
@@ -351,7 +325,7 @@ fn uncovered(s: Style, c: &CoverageRecord) -> Markup {
     html! {
         (s.optional_percent(c.uncovered_share, 2).because(c.uncovered_share_reason.as_deref()))
         " (" (s.number(c.uncovered, 1)) " / " (s.number(c.area, 1)) "\u{a0}mm²)"
-        br; small { (s.word("reason.not_measured")) " (≤\u{a0}" (s.number(c.reach, 2)) "\u{a0}mm)" }
+        br; small { (s.word("reason.not_measured")) " (≤\u{a0}" (mm(s.number(c.reach, 2))) ")" }
     }
 }
 
@@ -395,6 +369,14 @@ fn soundness(s: Style, c: &Comparison) -> Markup {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn numbers_fit_their_column() {
+        let digits = |x| column_digits(Some(x), 4);
+        assert_eq!([0.0, 0.5, 999.99, f64::NAN].map(digits), [4; 4]);
+        assert_eq!([1e3, -9999.9, 1e4, 99_999.0, 1e5, 1e30].map(digits), [2, 2, 1, 1, 0, 0]);
+        assert_eq!((column_digits(None, 3), column_digits(Some(2e3), 1)), (3, 1));
+    }
 
     #[test]
     fn zero_is_what_reads_zero() {

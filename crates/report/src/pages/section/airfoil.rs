@@ -1,18 +1,18 @@
 //! The block of measures of airfoils.
 
-use crate::number::{Style, decimals};
-use crate::page::parts::fact;
+use crate::number::Style;
+use crate::page::parts::{fact, mm, with_uncertainty};
 use crate::values::Text;
 use maud::{Markup, Render, html};
 use trueness_document::section::{AirfoilMeasures, AirfoilRecord};
 
 /// Profiles that are shown.
-const LISTED: usize = 60;
+const MAX_LISTED_PROFILES: usize = 60;
 
 /// Every contour as a profile, or why it is none.
 pub fn airfoils(s: Style, all: &[AirfoilRecord]) -> Markup {
     html! {
-        @for found in all.iter().take(LISTED) {
+        @for found in all.iter().take(MAX_LISTED_PROFILES) {
             @if all.len() > 1 { h3 { (s.word("contour")) "\u{a0}" (found.contour + 1) } }
             @match &found.measures {
                 Some(measures) => { (facts(s, measures)) }
@@ -24,11 +24,7 @@ pub fn airfoils(s: Style, all: &[AirfoilRecord]) -> Markup {
 }
 
 fn facts(s: Style, m: &AirfoilMeasures) -> Markup {
-    let length = |x: f64, u: Option<f64>| {
-        html! {
-            (s.number(x, decimals(u, 4))) @if let Some(u) = u { "\u{a0}±\u{a0}" (s.small(u)) } "\u{a0}mm"
-        }
-    };
+    let length = |x: f64, u: Option<f64>| mm(with_uncertainty(s, x, u));
     let radius = |x: Option<f64>, u: Option<f64>, reason: &Option<String>| match x {
         Some(x) => length(x, u),
         None => s.optional(None, 0).because(reason.as_deref()).render(),

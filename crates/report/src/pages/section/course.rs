@@ -10,14 +10,14 @@ use std::fmt::Write;
 use trueness_document::section::{ContourRecord, JoinRecord};
 
 /// Width of the figure, and half its height, in units of its own.
-pub const WIDTH: f64 = 1000.0;
-pub const HALF: f64 = 100.0;
+pub const COURSE_WIDTH: f64 = 1000.0;
+pub const COURSE_HALF_HEIGHT: f64 = 100.0;
 /// More points than this are drawn as their range over columns.
-const DOTS: usize = 6000;
+const MAX_COURSE_DOTS: usize = 6000;
 /// Columns.
-const COLUMNS: usize = 1000;
+const COURSE_COLUMNS: usize = 1000;
 /// Standard deviations that the figure shows at least.
-const SHOWN: f64 = 3.0;
+const MIN_SHOWN_SIGMAS: f64 = 3.0;
 
 /// Length and greatest distance that the figure shows.
 struct Axes {
@@ -37,18 +37,18 @@ impl Axes {
         // Scatter about segments astray is not that of the others.
         let range = match followed.filter(|_| !contour.astray.is_empty()) {
             Some(followed) => followed,
-            None => greatest(&|i| !outlier(i)).unwrap_or(0.0).max(SHOWN * contour.noise),
+            None => greatest(&|i| !outlier(i)).unwrap_or(0.0).max(MIN_SHOWN_SIGMAS * contour.noise),
         };
         let range = if range > 0.0 { range } else { 1e-9 };
         Axes { length: contour.length.max(f64::MIN_POSITIVE), range: 1.05 * range }
     }
 
     fn x(&self, station: f64) -> f64 {
-        (WIDTH * station / self.length).clamp(0.0, WIDTH)
+        (COURSE_WIDTH * station / self.length).clamp(0.0, COURSE_WIDTH)
     }
 
     fn y(&self, residual: f64) -> f64 {
-        -HALF * residual / self.range
+        -COURSE_HALF_HEIGHT * residual / self.range
     }
 }
 
@@ -75,14 +75,14 @@ pub fn course(s: Style, number: usize, contour: &ContourRecord, signed: bool) ->
             div.course-y {
                 span { "+" (s.small(axes.range)) } span { "0" } span { "\u{2212}" (s.small(axes.range)) }
             }
-            svg viewBox={ "0 " (-HALF) " " (WIDTH) " " (2.0 * HALF) } preserveAspectRatio="none"
+            svg viewBox={ "0 " (-COURSE_HALF_HEIGHT) " " (COURSE_WIDTH) " " (2.0 * COURSE_HALF_HEIGHT) } preserveAspectRatio="none"
                 data-length=(axes.length) data-range=(axes.range) role="img" {
                 title { (s.bare_word("course.title")) }
                 @for (join, station) in contour.joins.iter().zip(stations) { (interval(&axes, join, station)) }
                 @for sigma in [-2.0, 2.0] {
-                    (path("sigma", &format!("M0 {:.3}H{WIDTH}", axes.y(sigma * contour.noise))))
+                    (path("sigma", &format!("M0 {:.3}H{COURSE_WIDTH}", axes.y(sigma * contour.noise))))
                 }
-                (path("zero", &format!("M0 0H{WIDTH}")))
+                (path("zero", &format!("M0 0H{COURSE_WIDTH}")))
                 (points(&axes, contour))
             }
             div.course-x { span { "0" } (s.word("course.along")) (s.number(axes.length, 2)) }
@@ -100,13 +100,13 @@ fn interval(axes: &Axes, join: &JoinRecord, station: f64) -> Markup {
     let far = |p: [f64; 2]| libm::hypot(p[0] - join.point[0], p[1] - join.point[1]);
     let [from, to] = [station - far(join.interval[0]), station + far(join.interval[1])].map(|s| axes.x(s));
     let [x, width] = [from, to - from].map(|x| format!("{x:.3}"));
-    let (y, height) = (-HALF, 2.0 * HALF);
+    let (y, height) = (-COURSE_HALF_HEIGHT, 2.0 * COURSE_HALF_HEIGHT);
     html! {
         (leaf(
             "rect",
             &[("class", &"interval"), ("x", &x), ("y", &y), ("width", &width), ("height", &height)],
         ))
-        (path("join", &format!("M{:.3} {}V{HALF}", axes.x(station), -HALF)))
+        (path("join", &format!("M{:.3} {}V{COURSE_HALF_HEIGHT}", axes.x(station), -COURSE_HALF_HEIGHT)))
     }
 }
 
@@ -114,8 +114,8 @@ fn interval(axes: &Axes, join: &JoinRecord, station: f64) -> Markup {
 fn points(axes: &Axes, contour: &ContourRecord) -> Markup {
     let names = ["line", "arc", "spline", "astray", "outlier"];
     let mut paths = names.map(|k| (k, String::new()));
-    let mut columns = vec![[None::<[f64; 2]>; 5]; COLUMNS];
-    let many = contour.residuals.len() > DOTS;
+    let mut columns = vec![[None::<[f64; 2]>; 5]; COURSE_COLUMNS];
+    let many = contour.residuals.len() > MAX_COURSE_DOTS;
     let all = contour.residuals.iter().zip(&contour.stations).zip(&contour.labels).enumerate();
     for (i, ((residual, station), label)) in all {
         let Some(segment) = contour.segments.get(*label as usize) else { continue };
@@ -126,9 +126,9 @@ fn points(axes: &Axes, contour: &ContourRecord) -> Markup {
             false => kind(segment),
         };
         let slot = paths.iter().position(|(k, _)| *k == name).unwrap_or(4);
-        let (x, y) = (axes.x(*station), axes.y(*residual).clamp(-HALF, HALF));
+        let (x, y) = (axes.x(*station), axes.y(*residual).clamp(-COURSE_HALF_HEIGHT, COURSE_HALF_HEIGHT));
         if many && !outlier {
-            let column = ((x / WIDTH * COLUMNS as f64) as usize).min(COLUMNS - 1);
+            let column = ((x / COURSE_WIDTH * COURSE_COLUMNS as f64) as usize).min(COURSE_COLUMNS - 1);
             let range = columns[column][slot].get_or_insert([y, y]);
             *range = [range[0].min(y), range[1].max(y)];
         } else {
@@ -136,7 +136,7 @@ fn points(axes: &Axes, contour: &ContourRecord) -> Markup {
         }
     }
     for (n, column) in columns.iter().enumerate() {
-        let x = (n as f64 + 0.5) * WIDTH / COLUMNS as f64;
+        let x = (n as f64 + 0.5) * COURSE_WIDTH / COURSE_COLUMNS as f64;
         for (slot, range) in column.iter().enumerate() {
             if let Some([low, high]) = range {
                 let _ = write!(paths[slot].1, "M{x:.2} {low:.3}V{high:.3}");

@@ -15,17 +15,17 @@ use trueness_measure::section::divided;
 use trueness_section::{Outline, Segment};
 
 /// Bytes that a measured point takes in the drawing, and a whisker.
-pub const DOT: usize = 26;
-const WHISKER: usize = 60;
+pub const DOT_BYTES: usize = 26;
+const WHISKER_BYTES: usize = 60;
 /// Bytes of an outline's element without its places, and of the words and elements of a sheet that a nominal adds.
-const ELEMENT: usize = 80;
-const SHEET: usize = 1200;
+const OUTLINE_BYTES: usize = 80;
+const SHEET_BYTES: usize = 1200;
 /// Whiskers of all sheets: more would be an area.
-const MOST: usize = 20_000;
+const MAX_WHISKERS: usize = 20_000;
 /// Where outlines have no room, straight ones are drawn within this share of the drawing, then within four times as much, …
-const WITHIN: f64 = 1e-6;
+const LEAST_COARSENESS: f64 = 1e-6;
 /// … so many times.
-const COARSER: i32 = 9;
+const MAX_COARSER_STEPS: i32 = 9;
 
 /// What of nominal and points there is room for.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,7 +44,7 @@ impl Rooms {
         let (mut left, mut within, mut whiskers) = (room, None, None);
         if let Some(found) = &document.nominal {
             let sheets = sheets(document);
-            left = left.saturating_sub(SHEET * sheets.len());
+            left = left.saturating_sub(SHEET_BYTES * sheets.len());
             let plan = |sheet: &Sheet| Plan::of(sheet, document, document.frame_in(sheet.plane), up);
             let plans: Vec<Plan> = sheets.iter().map(plan).collect();
             let strokes: Vec<(&Plan, [Vec<Outline>; 2])> = (sheets.iter().zip(&plans))
@@ -52,22 +52,22 @@ impl Rooms {
                 .collect();
             let bytes = |within: f64| {
                 let of = |(plan, parts): &(&Plan, [Vec<Outline>; 2])| {
-                    parts.iter().map(|parts| ELEMENT + path(plan, parts, within).len()).sum::<usize>()
+                    parts.iter().map(|parts| OUTLINE_BYTES + path(plan, parts, within).len()).sum::<usize>()
                 };
                 strokes.iter().map(of).sum::<usize>()
             };
-            let coarser = |k: i32| if k == 0 { 0.0 } else { WITHIN * 4.0_f64.powi(k - 1) };
+            let coarser = |k: i32| if k == 0 { 0.0 } else { LEAST_COARSENESS * 4.0_f64.powi(k - 1) };
             let fit = |w: f64| Some((w, bytes(w))).filter(|(_, bytes)| *bytes <= left / 2);
-            let fitting = (0..=COARSER).map(coarser).find_map(fit);
+            let fitting = (0..=MAX_COARSER_STEPS).map(coarser).find_map(fit);
             within = fitting.map(|(within, _)| within);
             left -= fitting.map_or(0, |(_, bytes)| bytes);
-            let most = (left / 4 / WHISKER).min(MOST);
+            let most = (left / 4 / WHISKER_BYTES).min(MAX_WHISKERS);
             let all = found.deviations.iter().flatten().flatten().count();
             whiskers = (most > objects.len()).then(|| all.div_ceil(most - objects.len()).max(1));
             let taken = whiskers.map_or(0, |stride| all.div_ceil(stride) + objects.len());
-            left -= WHISKER * taken;
+            left -= WHISKER_BYTES * taken;
         }
-        let fit = (left / DOT).checked_sub(objects.len()).filter(|n| *n > 0);
+        let fit = (left / DOT_BYTES).checked_sub(objects.len()).filter(|n| *n > 0);
         let count = objects.iter().map(|o| o.places().len()).sum::<usize>();
         Rooms { within, whiskers, dots: fit.map(|fit| count.div_ceil(fit).max(1)) }
     }

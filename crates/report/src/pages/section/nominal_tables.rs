@@ -1,13 +1,13 @@
 //! How the points differ from the nominal, in tables: where they are farthest off, and what was not measured.
 
 use super::fitted;
-use super::head::head;
 use super::pieces::{drawn_pieces, lacking};
 use crate::number::{Style, decimals};
-use crate::page::parts::{fact, file_name, listed, row_class};
+use crate::page::parts::{fact, file_name, warning};
+use crate::page::table::{Row, listed, row_class, table};
 use crate::pages::compare::{OUTSIDE, by_side};
 use crate::values::Text;
-use maud::{Markup, html};
+use maud::{Markup, Render, html};
 use trueness_document::section::{NominalRecord, Positive, SectionDocument};
 
 /// The word for where deviations are positive.
@@ -28,7 +28,7 @@ pub fn nominal(s: Style, document: &SectionDocument, found: &NominalRecord) -> M
             (Text(file_name(&found.path))) ": " (s.word(format!("nominal.{}", found.outline))) " · "
             (s.word(sign(*found.positive)))
         }
-        @for warning in &found.warnings { p.note { strong.warning { "⚠" } " " (Text(&warning.text)) } }
+        @for doubt in &found.warnings { (warning(Text(&doubt.text))) }
         (fitted::verdict(s, found))
         (fitted::fits(s, document, found))
         (by_side(s, &found.deviation, digits, sides))
@@ -45,27 +45,18 @@ fn worst(s: Style, document: &SectionDocument, found: &NominalRecord, digits: us
     let first = drawn_pieces(document);
     let several = document.planes.len() > 1;
     let plane = |contour: u64| document.contours.get(contour as usize)?.plane.filter(|_| several);
-    html! {
-        div.wide {
-            table.pick.farthest {
-                (head(s, &["deviation", "x", "y", "contour"]))
-                tbody {
-                    @for (n, w) in found.worst.iter().enumerate() {
-                        tr data-pick=(first + n) data-contour=(w.contour) {
-                            td {}
-                            td { @if w.deviation > 0.0 { "▲" } @else { "▼" } }
-                            td.r { (s.number(w.deviation, digits).signed()) }
-                            @for x in w.point { td.r { (s.number(x, 4)) } }
-                            td.r {
-                                (w.contour + 1)
-                                @if let Some(plane) = plane(w.contour) { " · " (s.word("plane")) "\u{a0}" (plane + 1) }
-                            }
-                        }
-                    }
-                }
-            }
-        }
-    }
+    let rows = found.worst.iter().enumerate().map(|(n, w)| {
+        let side = if w.deviation > 0.0 { "▲" } else { "▼" };
+        let [x, y] = w.point.map(|x| s.number(x, 4));
+        let contour = html! {
+            (w.contour + 1)
+            @if let Some(plane) = plane(w.contour) { " · " (s.word("plane")) "\u{a0}" (plane + 1) }
+        };
+        let row = Row::of(&[&"", &side, &s.number(w.deviation, digits).signed(), &x, &y, &contour]);
+        row.pick(first + n).contour(w.contour)
+    });
+    let columns: [&[&str]; 2] = [&["", ""], &["deviation", "x", "y", "contour"]];
+    html! { div.wide { (table(s, "pick farthest", columns, rows)) } }
 }
 
 /// The outlines that were not measured as a whole, or that there are none.
@@ -74,35 +65,27 @@ fn outlines(s: Style, document: &SectionDocument, found: &NominalRecord) -> Mark
     let total = found.outlines.iter().filter(|o| o.lacks()).count() as u64;
     let first = drawn_pieces(document) + found.worst.len();
     let several = document.planes.len() > 1;
+    let rows = all.iter().enumerate().map(|(row, n)| {
+        let o = &found.outlines[*n];
+        let called = html! {
+            (s.word(if o.hole { "nominal.hole" } else { "contour" }))
+            @if let Some(plane) = o.plane.filter(|_| several) { " · " (s.word("plane")) "\u{a0}" (plane + 1) }
+        };
+        let covered = match o.covered > 0.0 {
+            true => s.percent(o.covered, 0).render(),
+            false => s.word("verdict.not_measured").render(),
+        };
+        let [width, height] = o.size.map(|x| s.number(x, 2));
+        let size = html! { (width) "\u{2009}×\u{2009}" (height) };
+        let [x, y] = o.center.map(|x| s.number(x, 2));
+        Row::of(&[&(n + 1), &called, &covered, &size, &x, &y]).pick(first + row).class(row_class(row))
+    });
     html! {
         @if all.is_empty() {
             dl.facts.pairs { (fact(s, "nominal.whole", s.len(&found.outlines))) }
         } @else {
-            p.note { strong.warning { "⚠" } " " (s.word("nominal.lacking")) }
-            div.wide {
-                table.pick.outlines {
-                    (head(s, &["nominal.covered", "size", "x", "y"]))
-                    tbody {
-                        @for (row, n) in all.iter().enumerate() {
-                            @let o = &found.outlines[*n];
-                            tr data-pick=(first + row) class=[row_class(row)] {
-                                td { (n + 1) }
-                                td {
-                                    @if o.hole { (s.word("nominal.hole")) } @else { (s.word("contour")) }
-                                    @if let Some(plane) = o.plane.filter(|_| several) {
-                                        " · " (s.word("plane")) "\u{a0}" (plane + 1)
-                                    }
-                                }
-                                td.r {
-                                    @if o.covered > 0.0 { (s.percent(o.covered, 0)) } @else { (s.word("verdict.not_measured")) }
-                                }
-                                td.r { (s.number(o.size[0], 2)) "\u{2009}×\u{2009}" (s.number(o.size[1], 2)) }
-                                @for x in o.center { td.r { (s.number(x, 2)) } }
-                            }
-                        }
-                    }
-                }
-            }
+            (warning(s.word("nominal.lacking")))
+            div.wide { (table(s, "pick outlines", [&["", ""], &["nominal.covered", "size", "x", "y"]], rows)) }
             (listed(s, "listed.first", all.len(), total))
         }
     }

@@ -1,6 +1,6 @@
 //! The nominal on the sheets against its exact places; sheets that are turned; segments astray.
 
-use super::nominal::DOT;
+use super::nominal::DOT_BYTES;
 use super::tests::{attributes, document, drawn, far, numbers, places, row};
 use super::*;
 use crate::{Language, flat};
@@ -123,7 +123,7 @@ fn tables_of_the_nominal_lead_to_the_drawing() {
     assert!((found.outlines[1].length - 2.0 * TAU).abs() < 1e-12);
     let [o, r] = [found.outlines[1].center, found.outlines[1].size];
     assert!(far(o, [1010.0, -490.0]) < 0.02 && far(r, [4.0; 2]) < 0.02, "{o:?} {r:?}");
-    let (list, page) = (document.list(ENGLISH).into_string(), drawn(&document, &flat(&points), 1 << 20));
+    let (list, page) = (list(ENGLISH, &document).into_string(), drawn(&document, &flat(&points), 1 << 20));
     let picks = document.picks();
     let mut lead = vec![];
     for table in ["farthest", "outlines"] {
@@ -172,7 +172,7 @@ fn the_nominal_takes_no_more_bytes_than_there_are() {
     }
     assert_eq!(before, wave.len());
     let (shown, all) = Drawn::shown(&document, &[ViewObject::measured(&flat(&points))], Up::Z, 30_000);
-    assert!(shown <= all && shown * DOT < 30_000 && shown > 0);
+    assert!(shown <= all && shown * DOT_BYTES < 30_000 && shown > 0);
 }
 
 /// The axis asked for points upward on the sheet of a plane that it lies in; what is drawn tells the plane's coordinates all the same.
@@ -223,7 +223,7 @@ fn sheets_are_turned_so_that_the_axis_points_upward() {
 fn segments_astray_stand_apart() {
     let mut document = document(&row(0.01));
     let page = drawn(&document, &[], 0);
-    assert!(!page.contains("astray") && !document.list(ENGLISH).into_string().contains("astray"));
+    assert!(!page.contains("astray") && !list(ENGLISH, &document).into_string().contains("astray"));
     let one = &mut document.contours[0];
     one.astray = vec![1];
     let greatest = |of: &ContourRecord, own: bool| {
@@ -247,7 +247,8 @@ fn segments_astray_stand_apart() {
         dots.split('M').skip(1).map(|d| d.split([' ', 'h']).nth(1).unwrap().parse().unwrap()).collect();
     assert_eq!(heights.len(), document.contours[0].labels.iter().filter(|l| **l == 1).count());
     assert!(
-        heights.iter().all(|y| y.abs() <= course::HALF) && heights.iter().any(|y| y.abs() == course::HALF)
+        heights.iter().all(|y| y.abs() <= course::COURSE_HALF_HEIGHT)
+            && heights.iter().any(|y| y.abs() == course::COURSE_HALF_HEIGHT)
     );
     // Where all are astray there is nothing else to see.
     let all = &mut document.contours[0];
@@ -315,14 +316,14 @@ fn the_sign_is_that_of_what_was_measured() {
         assert_eq!(*found.positive, positive);
         assert!(found.deviations.iter().flatten().flatten().all(|d| *d > 0.0));
         let document = SectionDocument { nominal: Some(found), ..document(&row(0.0)) };
-        assert_eq!(document.convention(), Some(key));
+        assert_eq!(document.content(ENGLISH).unwrap().convention, Some(key));
         // So do the heads of the columns.
         assert_eq!(
-            document.list(ENGLISH).into_string().contains("data-t=\"plus\""),
+            list(ENGLISH, &document).into_string().contains("data-t=\"plus\""),
             positive == Positive::Outside
         );
     }
-    assert_eq!(document(&row(0.0)).convention(), Some("sign.section"));
+    assert_eq!(document(&row(0.0)).content(ENGLISH).unwrap().convention, Some("sign.section"));
 }
 
 /// A hole too many is named with its distance, of the size of the part or of its own; a hole of another size is not; nor are outlines that
@@ -377,7 +378,7 @@ fn planes_and_sizes_are_told() {
         fills_area: false,
     };
     let farthest = |document: &SectionDocument| {
-        let list = document.list(ENGLISH).into_string();
+        let list = list(ENGLISH, &document).into_string();
         let table = list.split("<table class=\"pick farthest\"").nth(1).unwrap();
         table.split("</table>").next().unwrap().to_string()
     };

@@ -1,53 +1,46 @@
 //! What a drawing of a contour would have, in a table.
 
-use super::head::head;
+use super::pieces::between;
 use crate::number::{Style, decimals};
-use crate::page::parts::not_printed;
+use crate::page::table::{Row, not_printed, table};
 use crate::values::Text;
-use maud::{Markup, html};
+use maud::{Markup, Render, html};
 use trueness_document::section::{ContourRecord, OfferRecord};
 
 /// Offers of a contour that are listed.
-const LISTED: usize = 60;
+const MAX_LISTED_OFFERS: usize = 60;
 
 /// The offers of a contour; nothing where they were not asked for.
 pub fn offers(s: Style, contour: &ContourRecord) -> Markup {
+    let columns: [&[&str]; 2] =
+        [&["", ""], &["offers.of", "offers.found", "uncertainty", "offers.offered", "z", "p"]];
     html! {
         @if let Some(reason) = &contour.tidy_reason { p.note { (s.word("offers.none")) ": " (Text(reason)) } }
-        @if let Some(all) = &contour.tidy {
-            @if all.is_empty() {
-                p.note { (s.word("offers.none")) }
-            } @else {
-                div.wide {
-                    table.offers {
-                        (head(s, &["offers.of", "offers.found", "uncertainty", "offers.offered", "z", "p"]))
-                        tbody { @for (n, offer) in all.iter().take(LISTED).enumerate() { (row(s, n, offer)) } }
-                    }
-                    (not_printed(s, all.len().min(LISTED)))
-                }
+        @match contour.tidy.as_deref() {
+            None => {}
+            Some([]) => p.note { (s.word("offers.none")) },
+            Some(all) => {
+                @let rows = all.iter().take(MAX_LISTED_OFFERS).enumerate().map(|(n, offer)| row(s, n, offer));
+                div.wide { (table(s, "offers", columns, rows)) (not_printed(s, all.len().min(MAX_LISTED_OFFERS))) }
                 p.note { (s.word("offers.text")) }
             }
         }
     }
 }
 
-fn row(s: Style, number: usize, offer: &OfferRecord) -> Markup {
+fn row(s: Style, number: usize, offer: &OfferRecord) -> Row {
     let angle = offer.kind.is_angle();
     let shown = |x: f64| if angle { x.to_degrees() } else { x };
-    let unit = if angle { "°" } else { "" };
+    let with_unit = |x: &dyn Render| html! { (x) @if angle { "°" } };
     let u = shown(offer.std_uncertainty);
-    let of: Vec<String> =
-        offer.segments.iter().map(|m| format!("{}.{}", m.contour + 1, m.segment + 1)).collect();
-    html! {
-        tr {
-            td { (number + 1) }
-            td { (s.word(format!("offer.{}", offer.kind))) }
-            td.r { (of.join(" – ")) }
-            td.r { (s.number(shown(offer.found), decimals(Some(u), 4))) (unit) }
-            td.r { (s.small(u)) (unit) }
-            td.r { (s.number(shown(offer.offered), 4)) (unit) }
-            td.r { (s.number(offer.z, 2).signed()) }
-            td.r { (s.number(offer.p, 2)) }
-        }
-    }
+    Row::of(&[
+        &(number + 1),
+        &s.word(format!("offer.{}", offer.kind)),
+        &between(&offer.segments),
+        &with_unit(&s.number(shown(offer.found), decimals(Some(u), 4))),
+        &with_unit(&s.small(u)),
+        &with_unit(&s.number(shown(offer.offered), 4)),
+        &s.number(offer.z, 2).signed(),
+        &s.number(offer.p, 2),
+    ])
 }

@@ -88,11 +88,11 @@ pub struct Tooth {
 }
 
 /// Most teeth of a segment.
-const MOST: f64 = 400.0;
+const MAX_TEETH: f64 = 400.0;
 
 /// Teeth of a segment, about `step` apart, at both ends too; of a line none.
 pub fn teeth(segment: &SegmentRecord, step: f64) -> Vec<Tooth> {
-    let count = (segment.length / step).ceil().clamp(4.0, MOST);
+    let count = (segment.length / step).ceil().clamp(4.0, MAX_TEETH);
     match &segment.geometry {
         GeometryRecord::Line { .. } => vec![],
         GeometryRecord::Arc { center, radius, start_angle, sweep } => {

@@ -1,6 +1,6 @@
 //! The pieces of contours: their kinds, and the picks that lead to them.
 
-use trueness_document::section::{GeometryRecord, SectionDocument, SegmentRecord};
+use trueness_document::section::{GeometryRecord, MemberRecord, SectionDocument, SegmentRecord};
 
 /// The word for a segment's kind.
 pub(super) fn kind(segment: &SegmentRecord) -> &'static str {
@@ -9,6 +9,12 @@ pub(super) fn kind(segment: &SegmentRecord) -> &'static str {
         GeometryRecord::Arc { .. } => "arc",
         GeometryRecord::Spline { .. } => "spline",
     }
+}
+
+/// The members of a dimension or an offer, counted from 1.
+pub(super) fn between(members: &[MemberRecord]) -> String {
+    let all: Vec<String> = members.iter().map(|m| format!("{}.{}", m.contour + 1, m.segment + 1)).collect();
+    all.join(" – ")
 }
 
 /// The number of the first pick of each contour: its segments, then its joins.
@@ -28,10 +34,10 @@ pub(super) fn drawn_pieces(document: &SectionDocument) -> usize {
 }
 
 /// Outlines of the nominal that are listed.
-const LISTED: usize = 60;
+const MAX_LISTED_OUTLINES: usize = 60;
 
 /// The first outlines of the nominal that were not measured as a whole, by their numbers.
 pub(super) fn lacking(document: &SectionDocument) -> Vec<usize> {
     let all = document.nominal.iter().flat_map(|n| n.outlines.iter().enumerate());
-    all.filter(|(_, o)| o.lacks()).map(|(n, _)| n).take(LISTED).collect()
+    all.filter(|(_, o)| o.lacks()).map(|(n, _)| n).take(MAX_LISTED_OUTLINES).collect()
 }

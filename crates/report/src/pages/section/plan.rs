@@ -6,17 +6,17 @@ use trueness_document::section::{ContourRecord, FrameRecord, OutlineRecord, Sect
 use trueness_geom::space::dot;
 
 /// Length of the longest tooth of the comb, and of the longest whisker, in sizes of the drawing.
-const COMB: f64 = 0.1;
+const MAX_COMB_SHARE: f64 = 0.1;
 /// Distance between teeth, in sizes of the drawing.
-const STEP: f64 = 1.0 / 150.0;
+const TOOTH_STEP: f64 = 1.0 / 150.0;
 /// Width of what is seen, in widths of the drawing: signs and numbers at the rim have room.
-const MARGIN: f64 = 1.12;
+const SHEET_MARGIN: f64 = 1.12;
 /// Pixels that the drawing is taken to be wide until the script measures it.
-const PIXELS: f64 = 800.0;
+const ASSUMED_PIXELS: f64 = 800.0;
 /// A nominal that makes the drawing more than so many times larger is left to be looked for: what was measured would be a speck.
-const LARGER: f64 = 3.0;
+const MAX_NOMINAL_FACTOR: f64 = 3.0;
 /// An axis that leans less out of being normal to the plane points nowhere in it: sine of the angle.
-const LEANS: f64 = 0.1;
+const MIN_LEAN_SINE: f64 = 0.1;
 
 /// What is drawn of one plane.
 pub struct Sheet<'a> {
@@ -87,7 +87,7 @@ fn upward(frame: &FrameRecord, up: Up) -> [f64; 2] {
     };
     let seen = [dot(frame.x, axis), dot(frame.y, axis)];
     let size = libm::hypot(seen[0], seen[1]);
-    if size > LEANS { seen.map(|x| x / size) } else { [0.0, 1.0] }
+    if size > MIN_LEAN_SINE { seen.map(|x| x / size) } else { [0.0, 1.0] }
 }
 
 /// A place of the plane turned so that `up` points upward.
@@ -106,20 +106,21 @@ impl Plan {
             sheet.outlines.iter().flat_map(|(_, o)| corners(o)).map(|p| turned(up, p)).collect();
         let size_of = |half: [f64; 2]| 2.0 * libm::hypot(half[0], half[1]);
         let [own, both] = [frame(drawn()).1, frame(drawn().chain(nominal.iter().copied())).1].map(size_of);
-        let larger = !sheet.contours.is_empty() && both > LARGER * own;
+        let larger = !sheet.contours.is_empty() && both > MAX_NOMINAL_FACTOR * own;
         let all = larger.then(|| frame(drawn().chain(nominal.iter().copied())));
-        let all = all.map(|(middle, half)| (middle, half.map(|x| MARGIN * x)));
+        let all = all.map(|(middle, half)| (middle, half.map(|x| SHEET_MARGIN * x)));
         let nominal = if larger { vec![] } else { nominal };
         let size = if sheet.contours.is_empty() { both } else { own };
-        let of = |c: &ContourRecord| c.segments.iter().map(|s| teeth(s, STEP * size)).collect::<Vec<_>>();
+        let of =
+            |c: &ContourRecord| c.segments.iter().map(|s| teeth(s, TOOTH_STEP * size)).collect::<Vec<_>>();
         let teeth: Vec<Vec<Vec<Tooth>>> = sheet.contours.iter().map(|(_, c)| of(c)).collect();
         let curvature = teeth.iter().flatten().flatten().map(|t| t.curvature.abs()).fold(0.0, f64::max);
-        let comb = if curvature > 0.0 { COMB * size / curvature } else { 0.0 };
+        let comb = if curvature > 0.0 { MAX_COMB_SHARE * size / curvature } else { 0.0 };
         let tips = teeth.iter().flatten().flatten().map(|t| turned(up, tip(t, comb)));
         let (middle, half) = frame(drawn().chain(tips).chain(nominal.iter().copied()));
         let least = 0.02 * half[0].max(half[1]).max(1e-9);
-        let half = half.map(|x| MARGIN * x.max(least));
-        let times = times(sheet, document, COMB * size);
+        let half = half.map(|x| SHEET_MARGIN * x.max(least));
+        let times = times(sheet, document, MAX_COMB_SHARE * size);
         Plan { paths, teeth, middle, half, all, curvature, comb, up, times }
     }
 
@@ -138,7 +139,7 @@ impl Plan {
 
     /// Millimeters of a pixel at first sight.
     pub fn pixel(&self) -> f64 {
-        2.0 * self.half[0].max(self.half[1]) / PIXELS
+        2.0 * self.half[0].max(self.half[1]) / ASSUMED_PIXELS
     }
 
     /// Decimals of a ten-millionth of the drawing: finer than what can be seen of it however near one looks.

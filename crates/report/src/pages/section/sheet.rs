@@ -16,7 +16,7 @@ use std::fmt::Write;
 use trueness_document::section::{Continuity, ContourRecord, SectionDocument};
 
 /// More joins than this have no numbers until the script finds room for them.
-const NUMBERED: usize = 40;
+const MAX_NUMBERED_JOINS: usize = 40;
 
 impl Sheet<'_> {
     /// The drawing, with as much of the nominal and of the measured points as there is room for.
@@ -50,7 +50,7 @@ impl Sheet<'_> {
                     (segments(&plan, contour, paths, numbers[*number]))
                 }
                 @for (number, contour) in &self.contours {
-                    (joins(&plan, contour, numbers[*number] + contour.segments.len(), total <= NUMBERED))
+                    (joins(&plan, contour, numbers[*number] + contour.segments.len(), total <= MAX_NUMBERED_JOINS))
                 }
                 (nominal::worst(s, &plan, self, document))
             }

@@ -1,25 +1,25 @@
 //! The tables of sections.
 
-use super::head::head;
-use super::pieces::{kind, pick_numbers};
+use super::pieces::{between, kind, pick_numbers};
 use crate::number::{Style, decimals};
-use crate::page::parts::{fact, not_printed, row_class};
-use crate::values::{Number, Optional, Text};
+use crate::page::parts::{fact, mm, warning, with_uncertainty};
+use crate::page::table::{Row, not_printed, row_class, table};
+use crate::values::Text;
 use maud::{Markup, html};
 use trueness_document::section::{
-    ContourRecord, DimensionKind, DimensionsRecord, GeometryRecord, MethodsRecord, PlaneRecord,
+    ContourRecord, DimensionKind, DimensionsRecord, GeometryRecord, JoinRecord, MethodsRecord, PlaneRecord,
     SectionDocument, SegmentRecord, Taken, UncertaintyRecord,
 };
 
 /// Contours that are listed open.
-const OPEN: usize = 3;
+const MAX_OPEN_CONTOURS: usize = 3;
 
 /// Every contour with its segments and joins.
 pub fn contours(s: Style, document: &SectionDocument) -> Markup {
     let numbers = pick_numbers(document);
     html! {
         @for (n, contour) in document.contours.iter().enumerate() {
-            details.kind.contour data-contour=(n) open[n < OPEN] {
+            details.kind.contour data-contour=(n) open[n < MAX_OPEN_CONTOURS] {
                 summary {
                     span.kind-name {
                         (s.word("contour")) "\u{a0}" (n + 1)
@@ -31,14 +31,12 @@ pub fn contours(s: Style, document: &SectionDocument) -> Markup {
                     strong { (s.len(&contour.segments)) }
                 }
                 (facts(s, contour))
-                @for hint in contour.doubts.iter().chain(&contour.hints) {
-                    p.note { strong.warning { "⚠" } " " (Text(hint)) }
-                }
+                @for hint in contour.doubts.iter().chain(&contour.hints) { (warning(Text(hint))) }
                 @if !contour.astray.is_empty() {
-                    p.note { strong.warning { "⚠" } " " (s.word("contour.astray")) " " (listed(&contour.astray)) }
+                    (warning(html! { (s.word("contour.astray")) " " (listed(&contour.astray)) }))
                 }
                 @if let ([[x, y], ..], []) = (&contour.crossings[..], &contour.astray[..]) {
-                    p.note { strong.warning { "⚠" } " " (s.word("contour.crossings")) " (" (s.number(*x, 4)) ", " (s.number(*y, 4)) ")" }
+                    (warning(html! { (s.word("contour.crossings")) " (" (s.number(*x, 4)) ", " (s.number(*y, 4)) ")" }))
                 }
                 div.wide { (segments(s, contour, numbers[n])) }
                 @if contour.joins_reason.is_some() {
@@ -59,16 +57,20 @@ fn listed(numbers: &[u64]) -> String {
     numbers.iter().map(|n| (n + 1).to_string()).collect::<Vec<_>>().join(", ")
 }
 
+/// The word for how far points lie from a contour: facets have no noise.
+pub fn scatter(contour: &ContourRecord) -> &'static str {
+    if *contour.taken == Taken::Facets { "rms" } else { "noise" }
+}
+
 fn facts(s: Style, contour: &ContourRecord) -> Markup {
     let lists = [("outliers", &contour.outliers), ("repeated", &contour.repeated), ("gaps", &contour.gaps)];
     html! {
         dl.facts.pairs {
             (fact(s, "taken", s.word(format!("taken.{}", contour.taken.name()))))
             (fact(s, "points", s.count(contour.points)))
-            (fact(s, "length.title", html! { (s.number(contour.length, 3)) "\u{a0}mm" }))
-            @let scatter = if *contour.taken == Taken::Facets { "rms" } else { "noise" };
-            (fact(s, scatter, html! { (s.small(contour.noise)) "\u{a0}mm" }))
-            (fact(s, "spacing", html! { (s.small(contour.spacing)) "\u{a0}mm" }))
+            (fact(s, "length.title", mm(s.number(contour.length, 3))))
+            (fact(s, scatter(contour), mm(s.small(contour.noise))))
+            (fact(s, "spacing", mm(s.small(contour.spacing))))
             @for (key, list) in lists.into_iter().filter(|(_, list)| !list.is_empty()) {
                 (fact(s, key, s.len(list)))
             }
@@ -77,47 +79,44 @@ fn facts(s: Style, contour: &ContourRecord) -> Markup {
 }
 
 fn segments(s: Style, contour: &ContourRecord, first: usize) -> Markup {
+    let row = |(n, segment): (usize, &SegmentRecord)| {
+        let astray = if contour.astray.contains(&(n as u64)) { " astray" } else { "" };
+        let called = html! {
+            i class={ "stroke k-" (kind(segment)) (astray) } {} "\u{a0}"
+            (s.word(format!("segment.{}", kind(segment))))
+        };
+        let [what, known] = known_by(s, segment);
+        let u = segment.length_uncertainty;
+        let length = html! { (s.number(segment.length, decimals(u, 4))) @if let Some(u) = u { " ±\u{a0}" (s.small(u)) } };
+        let [rms, max] = [segment.rms, segment.max].map(|x| s.small(x));
+        let row = Row::of(&[&(n + 1), &called, &what, &known, &length, &rms, &max]);
+        row.pick(first + n).class(row_class(n)).then(of_arc(s, segment))
+    };
+    let columns: [&[&str]; 2] = [&["", ""], &["parameter", "uncertainty", "length.title", "rms", "greatest"]];
+    let rows = contour.segments.iter().enumerate().map(row);
+    html! { (table(s, "pick segments", columns, rows)) (not_printed(s, contour.segments.len())) }
+}
+
+/// The rows under that of an arc, or of a curve that is nearly one.
+fn of_arc(s: Style, segment: &SegmentRecord) -> Markup {
+    let under = |text: Markup| html! { tr.under { td {} td colspan="6" { (text) } } };
     html! {
-        table.pick.segments {
-            (head(s, &["parameter", "uncertainty", "length.title", "rms", "greatest"]))
-            tbody {
-                @for (n, segment) in contour.segments.iter().enumerate() {
-                    @let u = segment.length_uncertainty;
-                    tr data-pick=(first + n) class=[row_class(n)] {
-                        td { (n + 1) }
-                        td {
-                            @let astray = if contour.astray.contains(&(n as u64)) { " astray" } else { "" };
-                            i class={ "stroke k-" (kind(segment)) (astray) } {} "\u{a0}"
-                            (s.word(format!("segment.{}", kind(segment))))
-                        }
-                        (known_by(s, segment))
-                        td.r {
-                            (s.number(segment.length, decimals(u, 4))) @if let Some(u) = u { " ±\u{a0}" (s.small(u)) }
-                        }
-                        td.r { (s.small(segment.rms)) }
-                        td.r { (s.small(segment.max)) }
-                    }
-                    @if let GeometryRecord::Arc { center, .. } = &segment.geometry {
-                        (of_center(s, *center, segment.uncertainty.as_ref()))
-                    }
-                    @if let Some(arc) = &segment.near_arc {
-                        tr.under {
-                            td {}
-                            td colspan="6" {
-                                (s.word("segment.near_arc")) " ≤\u{a0}" (s.small(arc.max)) " · r\u{a0}" (s.number(arc.radius, 4))
-                                " · x\u{a0}" (s.number(arc.center[0], 4)) " · y\u{a0}" (s.number(arc.center[1], 4))
-                            }
-                        }
-                    }
-                }
-            }
+        @if let GeometryRecord::Arc { center, .. } = &segment.geometry {
+            @let u = match segment.uncertainty { Some(UncertaintyRecord::Arc { center, .. }) => center.map(Some), _ => [None; 2] };
+            @let [x, y] = [0, 1].map(|k| with_uncertainty(s, center[k], u[k]));
+            (under(html! { (s.word("parameter.center")) " x\u{a0}" (x) " · y\u{a0}" (y) }))
         }
-        (not_printed(s, contour.segments.len()))
+        @if let Some(arc) = &segment.near_arc {
+            (under(html! {
+                (s.word("segment.near_arc")) " ≤\u{a0}" (s.small(arc.max)) " · r\u{a0}" (s.number(arc.radius, 4))
+                " · x\u{a0}" (s.number(arc.center[0], 4)) " · y\u{a0}" (s.number(arc.center[1], 4))
+            }))
+        }
     }
 }
 
-/// Angle, radius or control points with the uncertainty, as two cells.
-fn known_by(s: Style, segment: &SegmentRecord) -> Markup {
+/// Angle, radius or control points with the uncertainty, in two cells.
+fn known_by(s: Style, segment: &SegmentRecord) -> [Markup; 2] {
     let reason = segment.uncertainty_reason.as_deref();
     let (what, u, unit) = match (&segment.geometry, &segment.uncertainty) {
         (GeometryRecord::Line { angle }, u) => {
@@ -138,144 +137,83 @@ fn known_by(s: Style, segment: &SegmentRecord) -> Markup {
             (html! { (s.len(control_points)) "\u{a0}" (s.word("spline.points")) }, None, "")
         }
     };
-    html! { td.r { (what) } td.r { (uncertain(s, u, reason, unit)) } }
+    [what, uncertain(s, u, reason, unit)]
 }
 
 fn uncertain(s: Style, u: Option<f64>, reason: Option<&str>, unit: &str) -> Markup {
     html! {
         @match u {
             Some(u) => { (s.small(u)) (unit) }
-            None => { (none(s, reason)) }
-        }
-    }
-}
-
-/// That there is no number, and why.
-fn none(s: Style, reason: Option<&str>) -> Optional<'_, Number> {
-    s.optional(None, 0).because(reason)
-}
-
-/// The row of an arc's center under its own.
-fn of_center(s: Style, center: [f64; 2], uncertainty: Option<&UncertaintyRecord>) -> Markup {
-    let u = match uncertainty {
-        Some(UncertaintyRecord::Arc { center, .. }) => Some(*center),
-        _ => None,
-    };
-    let coordinate = |k: usize| {
-        let u = u.map(|u| u[k]);
-        html! { (s.number(center[k], decimals(u, 4))) @if let Some(u) = u { "\u{a0}±\u{a0}" (s.small(u)) } }
-    };
-    html! {
-        tr.under {
-            td {}
-            td colspan="6" { (s.word("parameter.center")) " x\u{a0}" (coordinate(0)) " · y\u{a0}" (coordinate(1)) }
+            None => { (s.optional(None, 0).because(reason)) }
         }
     }
 }
 
 fn joins(s: Style, contour: &ContourRecord, first: usize) -> Markup {
-    html! {
-        table.pick.joins {
-            (head(s, &["x", "y", "uncertainty", "interval"]))
-            tbody {
-                @for (n, join) in contour.joins.iter().enumerate() {
-                    @let [a, b] = join.interval;
-                    tr data-pick=(first + n) class=[row_class(n)] {
-                        td { (n + 1) }
-                        td {
-                            i class={ "sign " (join.continuity) } {} "\u{a0}"
-                            (s.word(format!("join.{}", join.continuity)))
-                        }
-                        @for x in join.point { td.r { (s.number(x, decimals(Some(join.std_uncertainty), 4))) } }
-                        td.r { (s.small(join.std_uncertainty)) }
-                        td.r {
-                            @if join.interval_open.contains(&true) { "≥\u{a0}" }
-                            (s.small(libm::hypot(b[0] - a[0], b[1] - a[1])))
-                        }
-                    }
-                }
-            }
-        }
-        (not_printed(s, contour.joins.len()))
-    }
+    let row = |(n, join): (usize, &JoinRecord)| {
+        let called = html! {
+            i class={ "sign " (join.continuity) } {} "\u{a0}"
+            (s.word(format!("join.{}", join.continuity)))
+        };
+        let [x, y] = join.point.map(|x| s.number(x, decimals(Some(join.std_uncertainty), 4)));
+        let [a, b] = join.interval;
+        let interval = html! {
+            @if join.interval_open.contains(&true) { "≥\u{a0}" }
+            (s.small(libm::hypot(b[0] - a[0], b[1] - a[1])))
+        };
+        let row = Row::of(&[&(n + 1), &called, &x, &y, &s.small(join.std_uncertainty), &interval]);
+        row.pick(first + n).class(row_class(n))
+    };
+    let columns: [&[&str]; 2] = [&["", ""], &["x", "y", "uncertainty", "interval"]];
+    let rows = contour.joins.iter().enumerate().map(row);
+    html! { (table(s, "pick joins", columns, rows)) (not_printed(s, contour.joins.len())) }
 }
 
 /// Dimensions that are listed.
-const LISTED: usize = 60;
+const MAX_LISTED_DIMENSIONS: usize = 60;
 
 /// Angles, widths, distances of centers, gaps.
 pub fn dimensions(s: Style, all: &DimensionsRecord) -> Markup {
+    let rows = all.items.iter().take(MAX_LISTED_DIMENSIONS).enumerate().map(|(n, item)| {
+        let angle = *item.kind == DimensionKind::Angle;
+        let shown = |x: f64| if angle { x.to_degrees() } else { x };
+        let unit = if angle { "°" } else { "" };
+        let u = item.std_uncertainty.map(shown);
+        let value = html! { (s.number(shown(item.value), decimals(u, 4))) (unit) };
+        let called = s.word(format!("dimension.{}", item.kind));
+        let known = uncertain(s, u, item.std_uncertainty_reason.as_deref(), unit);
+        Row::of(&[&(n + 1), &called, &between(&item.of), &value, &known])
+    });
     html! {
-        div.wide {
-            table.dimensions {
-                (head(s, &["between", "value", "uncertainty"]))
-                tbody {
-                    @for (n, item) in all.items.iter().take(LISTED).enumerate() {
-                        @let angle = *item.kind == DimensionKind::Angle;
-                        @let shown = |x: f64| if angle { x.to_degrees() } else { x };
-                        @let unit = if angle { "°" } else { "" };
-                        @let u = item.std_uncertainty.map(shown);
-                        @let [from, to] = item.of.map(|m| format!("{}.{}", m.contour + 1, m.segment + 1));
-                        tr {
-                            td { (n + 1) }
-                            td { (s.word(format!("dimension.{}", item.kind))) }
-                            td.r { (from) " – " (to) }
-                            td.r { (s.number(shown(item.value), decimals(u, 4))) (unit) }
-                            td.r { (uncertain(s, u, item.std_uncertainty_reason.as_deref(), unit)) }
-                        }
-                    }
-                }
-            }
-        }
+        div.wide { (table(s, "dimensions", [&["", ""], &["between", "value", "uncertainty"]], rows)) }
         p.note {
-            (s.word("dimensions.text")) @if all.count > LISTED as u64 { " " (s.word("dimensions.more")) }
+            (s.word("dimensions.text")) @if all.count > MAX_LISTED_DIMENSIONS as u64 { " " (s.word("dimensions.more")) }
         }
     }
 }
 
 /// The paper's methods side by side.
 pub fn methods(s: Style, methods: &MethodsRecord) -> Markup {
+    let rows = methods.table.iter().map(|m| {
+        let chosen = if m.method == methods.chosen { "●" } else { "" };
+        let [x, y] = m.join.map(|x| s.number(x, 4));
+        let [interval, line, curve] = [m.interval_length, m.line.rms, m.curve.rms].map(|x| s.small(x));
+        Row::of(&[&chosen, &Text(&m.method), &interval, &x, &y, &line, &curve])
+    });
     html! {
-        div.wide {
-            table.methods {
-                (head(s, &["interval", "x", "y", "rms", "rms"]))
-                tbody {
-                    @for m in &methods.table {
-                        tr {
-                            td { @if m.method == methods.chosen { "●" } }
-                            td { (Text(&m.method)) }
-                            td.r { (s.small(m.interval_length)) }
-                            @for x in m.join { td.r { (s.number(x, 4)) } }
-                            @for x in [m.line.rms, m.curve.rms] { td.r { (s.small(x)) } }
-                        }
-                    }
-                }
-            }
-        }
+        div.wide { (table(s, "methods", [&["", ""], &["interval", "x", "y", "rms", "rms"]], rows)) }
         p.note { (s.word("methods.text")) }
     }
 }
 
 /// The planes that a mesh or cloud was cut by.
 pub fn planes(s: Style, planes: &[PlaneRecord]) -> Markup {
-    let whole = |x: f64| s.number(x, if x == x.round() { 0 } else { 4 });
-    html! {
-        div.wide {
-            table.planes {
-                (head(s, &["distance.title", "contours", "area.section"]))
-                tbody {
-                    @for (n, plane) in planes.iter().enumerate() {
-                        @let [x, y, z] = plane.normal;
-                        tr {
-                            td { (n + 1) }
-                            td { (whole(x)) " " (whole(y)) " " (whole(z)) }
-                            td.r { (s.number(plane.offset, 3)) }
-                            td.r { (s.count(plane.contours)) }
-                            td.r { (s.optional(plane.area, 3).because(plane.area_reason.as_deref())) }
-                        }
-                    }
-                }
-            }
-        }
-    }
+    let rows = planes.iter().enumerate().map(|(n, plane)| {
+        let [x, y, z] = plane.normal.map(|x| s.number(x, if x == x.round() { 0 } else { 4 }));
+        let area = s.optional(plane.area, 3).because(plane.area_reason.as_deref());
+        let normal = html! { (x) " " (y) " " (z) };
+        Row::of(&[&(n + 1), &normal, &s.number(plane.offset, 3), &s.count(plane.contours), &area])
+    });
+    let columns: [&[&str]; 2] = [&["", ""], &["distance.title", "contours", "area.section"]];
+    html! { div.wide { (table(s, "planes", columns, rows)) } }
 }

@@ -172,7 +172,7 @@ fn residuals_stand_beside_the_length() {
             .map(|dot| {
                 let xy: Vec<f64> =
                     dot.trim_end_matches("h0").split(' ').map(|x| x.parse().unwrap()).collect();
-                [xy[0] / course::WIDTH * length, -xy[1] / course::HALF * range]
+                [xy[0] / course::COURSE_WIDTH * length, -xy[1] / course::COURSE_HALF_HEIGHT * range]
             })
             .collect();
         let own: Vec<usize> = (0..contour.residuals.len())
@@ -231,6 +231,6 @@ fn few_bytes_hold_few_points() {
         let page = drawn(&document, &places, room);
         let dots = attributes(&page, "dots\"", "d").first().map_or(0, |d| d.matches('M').count());
         assert_eq!((dots, all), (shown, points.len()), "{room}");
-        assert!(shown * nominal::DOT <= room);
+        assert!(shown * nominal::DOT_BYTES <= room);
     }
 }

@@ -3,16 +3,16 @@
 use trueness_document::trend::TrendRecord;
 
 /// Width and height of a chart, in units of its own; the height is that in pixels.
-pub const WIDTH: f64 = 1000.0;
-pub const HEIGHT: f64 = 220.0;
+pub const CHART_WIDTH: f64 = 1000.0;
+pub const CHART_HEIGHT: f64 = 220.0;
 /// A limit farther off than this is named beside the chart: it would press the values into a line.
-const FARTHEST: f64 = 12.0;
+const MAX_RANGE_PER_SPREAD: f64 = 12.0;
 /// Free room above and below, in heights.
-const ROOM: f64 = 0.06;
+const CHART_MARGIN: f64 = 0.06;
 /// Values that differ by less, relative to their size, do not differ in a chart.
-const SAME: f64 = 1e-7;
+const MAX_SAME_DIFFERENCE: f64 = 1e-7;
 /// Numbers written along the parts, at most.
-const NUMBERS: usize = 9;
+const MAX_NUMBERED_PARTS: usize = 9;
 
 /// The values and parts that a chart shows.
 #[derive(Clone, Copy, Debug)]
@@ -38,20 +38,20 @@ impl Axes {
         let mut range = extent(&core);
         let size = core.iter().chain(&limits).map(|x| x.abs()).fold(0.0, f64::max);
         let spread = range.map_or(0.0, |[a, b]| b - a);
-        let alone = spread <= SAME * size;
+        let alone = spread <= MAX_SAME_DIFFERENCE * size;
         // The nearest first: what it adds leaves room for the next.
         let beyond = |x: &f64| range.map_or(0.0, |[a, b]| (a - x).max(x - b));
         limits.sort_by(|a, b| beyond(a).total_cmp(&beyond(b)));
         for limit in limits {
             let [a, b] = range.unwrap_or([limit; 2]);
             let wide = [a.min(limit), b.max(limit)];
-            if alone || wide[1] - wide[0] <= FARTHEST * spread {
+            if alone || wide[1] - wide[0] <= MAX_RANGE_PER_SPREAD * spread {
                 range = Some(wide);
             }
         }
         let [a, b] = range.unwrap_or([0.0, 0.0]);
         let least = if size > 0.0 { 1e-3 * size } else { 1.0 };
-        let pad = if b - a > SAME * size { ROOM * (b - a) } else { least };
+        let pad = if b - a > MAX_SAME_DIFFERENCE * size { CHART_MARGIN * (b - a) } else { least };
         let (from, to) = (a - pad, b + pad);
         let usual = if c.unit == "mm" { 4 } else { 3 };
         let decimals = (2.0 - libm::log10(to - from).floor()).clamp(f64::from(usual), 9.0) as usize;
@@ -90,7 +90,10 @@ impl Axes {
     /// Parts, from 0, whose numbers are written below it.
     pub fn numbered(&self) -> Vec<usize> {
         let step = (1..).flat_map(|p| [1, 2, 5].map(|s| s * 10usize.pow(p - 1)));
-        let step = step.take(60).find(|s| self.parts.div_ceil(*s) <= NUMBERS).unwrap_or(self.parts.max(1));
+        let step = step
+            .take(60)
+            .find(|s| self.parts.div_ceil(*s) <= MAX_NUMBERED_PARTS)
+            .unwrap_or(self.parts.max(1));
         // The first, then round numbers.
         let round = (step..=self.parts).step_by(step).map(|n| n - 1);
         (0..self.parts.min(1)).chain(round.filter(|n| *n > 0)).collect()

@@ -8,7 +8,7 @@ use maud::{Markup, Render, html};
 use trueness_document::trend::{IndexRecord, RuleRecord, TrendDocument, TrendRecord};
 
 /// Parts out of control that are listed.
-const LISTED: usize = 12;
+const MAX_LISTED_SIGNALS: usize = 12;
 
 /// The numbers of a characteristic.
 pub fn facts(s: Style, document: &TrendDocument, c: &TrendRecord, axes: &Axes) -> Markup {
@@ -102,7 +102,7 @@ fn signals(s: Style, document: &TrendDocument, c: &TrendRecord) -> Markup {
         table.pick.signals {
             caption.warning { "◎ " (s.word("verdict.out_of_control")) " " (s.len(&parts)) }
             tbody {
-                @for (part, rules) in parts.iter().take(LISTED) {
+                @for (part, rules) in parts.iter().take(MAX_LISTED_SIGNALS) {
                     tr data-pick=(part) {
                         td.r { (s.count(part + 1)) }
                         td { (Name(name(*part as usize))) }
@@ -115,8 +115,8 @@ fn signals(s: Style, document: &TrendDocument, c: &TrendRecord) -> Markup {
             }
         }
         "\n"
-        @if parts.len() > LISTED {
-            p.note { "+\u{a0}" (s.count((parts.len() - LISTED) as u64)) " " (s.word("chart.more")) } "\n"
+        @if parts.len() > MAX_LISTED_SIGNALS {
+            p.note { "+\u{a0}" (s.count((parts.len() - MAX_LISTED_SIGNALS) as u64)) " " (s.word("chart.more")) } "\n"
         }
     }
 }

@@ -1,16 +1,16 @@
 //! What the lines of a chart are: words and values beside it, each with a stroke to its line.
 
-use super::axes::{Axes, HEIGHT, needed};
+use super::axes::{Axes, CHART_HEIGHT, needed};
 use crate::number::Style;
 use crate::values::leaf;
 use maud::{Markup, html};
 use trueness_document::trend::TrendRecord;
 
 /// Width, and height of a label, in pixels.
-const WIDTH: f64 = 132.0;
-const LABEL: f64 = 14.0;
+const GUTTER_WIDTH: f64 = 132.0;
+const LABEL_HEIGHT: f64 = 14.0;
 /// Length of the strokes.
-const STROKE: f64 = 16.0;
+const STROKE_LENGTH: f64 = 16.0;
 
 /// A line of the chart and what it is called.
 pub struct Line {
@@ -50,22 +50,22 @@ pub fn lines(c: &TrendRecord, axes: &Axes) -> Vec<Line> {
 /// The labels, each as near to its line as the others let it.
 pub fn gutter(s: Style, axes: &Axes, lines: &[Line]) -> Markup {
     let mut order: Vec<(&Line, f64)> =
-        lines.iter().map(|l| (l, axes.y(l.value, HEIGHT).clamp(0.0, HEIGHT))).collect();
+        lines.iter().map(|l| (l, axes.y(l.value, CHART_HEIGHT).clamp(0.0, CHART_HEIGHT))).collect();
     order.sort_by(|a, b| b.0.value.total_cmp(&a.0.value));
     let mut middles: Vec<f64> = Vec::new();
     let mut free = 0.0;
     for (_, y) in &order {
-        let top = f64::max(free, y - 0.5 * LABEL);
-        middles.push(top + 0.5 * LABEL);
-        free = top + LABEL;
+        let top = f64::max(free, y - 0.5 * LABEL_HEIGHT);
+        middles.push(top + 0.5 * LABEL_HEIGHT);
+        free = top + LABEL_HEIGHT;
     }
-    let mut limit = HEIGHT;
+    let mut limit = CHART_HEIGHT;
     for middle in middles.iter_mut().rev() {
-        *middle = middle.min(limit - 0.5 * LABEL);
-        limit = *middle - 0.5 * LABEL;
+        *middle = middle.min(limit - 0.5 * LABEL_HEIGHT);
+        limit = *middle - 0.5 * LABEL_HEIGHT;
     }
     html! {
-        svg.gutter width=(WIDTH) height=(HEIGHT) viewBox={ "0 0 " (WIDTH) " " (HEIGHT) } {
+        svg.gutter width=(GUTTER_WIDTH) height=(CHART_HEIGHT) viewBox={ "0 0 " (GUTTER_WIDTH) " " (CHART_HEIGHT) } {
             @for ((line, y), middle) in order.iter().zip(middles) { (label(s, axes, line, *y, middle)) }
         }
     }
@@ -74,10 +74,10 @@ pub fn gutter(s: Style, axes: &Axes, lines: &[Line]) -> Markup {
 /// A label with its stroke, or with an arrow where its line is beyond the chart.
 fn label(s: Style, axes: &Axes, line: &Line, y: f64, middle: f64) -> Markup {
     let held = axes.holds(line.value);
-    let stroke = format!("M0 {y:.2}L{STROKE} {middle:.2}");
+    let stroke = format!("M0 {y:.2}L{STROKE_LENGTH} {middle:.2}");
     html! {
         @if held { (leaf("path", &[("class", &line.name), ("d", &stroke)])) }
-        text class=(line.name) x=(STROKE + 3.0) y=(format!("{middle:.2}")) {
+        text class=(line.name) x=(STROKE_LENGTH + 3.0) y=(format!("{middle:.2}")) {
             @if !held { (if line.value > axes.to { "↑ " } else { "↓ " }) }
             tspan data-t=(line.key) { (s.bare_word(line.key)) }
             " "

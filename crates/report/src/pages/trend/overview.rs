@@ -1,6 +1,6 @@
 //! All characteristics in a few lines, the worst first, each with its course in small.
 
-use super::axes::{Axes, WIDTH};
+use super::axes::{Axes, CHART_WIDTH};
 use super::chart::{ORDER, band, course, dots};
 use super::facts::index;
 use crate::headline::Headline;
@@ -13,7 +13,7 @@ use trueness_document::Verdict;
 use trueness_document::trend::{TrendDocument, TrendRecord};
 
 /// Height of a small course.
-const HEIGHT: f64 = 34.0;
+const SPARK_HEIGHT: f64 = 34.0;
 
 /// The table; `rows` are the numbers of the characteristics.
 pub fn overview(s: Style, document: &TrendDocument, rows: &[usize]) -> Markup {
@@ -64,12 +64,12 @@ fn small(c: &TrendRecord) -> Markup {
     // What passes is the line alone; of one part there is no line.
     let lone = c.values.iter().flatten().count() < 2;
     html! {
-        svg.spark viewBox={ "0 0 " (WIDTH) " " (HEIGHT) } preserveAspectRatio="none" data-from=(axes.from)
+        svg.spark viewBox={ "0 0 " (CHART_WIDTH) " " (SPARK_HEIGHT) } preserveAspectRatio="none" data-from=(axes.from)
             data-to=(axes.to) aria-hidden="true" {
-            (band(c, &axes, HEIGHT))
-            (course(c, &axes, [WIDTH, HEIGHT]))
+            (band(c, &axes, SPARK_HEIGHT))
+            (course(c, &axes, [CHART_WIDTH, SPARK_HEIGHT]))
             @for verdict in ORDER.into_iter().filter(|v| lone || *v != Verdict::Pass) {
-                @let d = dots(c, &axes, [HEIGHT, 3.0], |n| c.verdicts.get(n) == Some(&verdict));
+                @let d = dots(c, &axes, [SPARK_HEIGHT, 3.0], |n| c.verdicts.get(n) == Some(&verdict));
                 @if !d.is_empty() {
                     (leaf("path", &[("class", &format!("dots {}", Headline::from(verdict).key)), ("d", &d)]))
                 }

@@ -1,8 +1,10 @@
 //! The parts with their verdicts, the worst first, and the results that were read.
 
-use crate::headline::Headline;
+use crate::headline::{Headline, Tone};
 use crate::number::Style;
-use crate::page::parts::{badge, file_name, not_printed, row_class};
+use crate::page::parts::{badge, file_name};
+use crate::page::table::{not_printed, row_class};
+use crate::subject::Content;
 use crate::values::{Name, Text};
 use maud::{Markup, html};
 use serde_json::Value;
@@ -10,15 +12,15 @@ use trueness_document::Verdict;
 use trueness_document::trend::{ResultInput, TrendDocument, TrendRecord};
 
 /// Parts that are listed, and characteristics named of one.
-const LISTED: usize = 1000;
-const NAMED: usize = 40;
+const MAX_LISTED_PARTS: usize = 1000;
+const MAX_NAMED_CHARACTERISTICS: usize = 40;
 /// Results whose files are listed open.
-const OPEN: usize = 12;
+const MAX_OPEN_RESULTS: usize = 12;
 
 /// Every part with its verdict and those characteristics that it does not pass.
 pub fn parts(s: Style, document: &TrendDocument) -> Markup {
     let rows = document.worst_parts();
-    let shown = rows.len().min(LISTED);
+    let shown = rows.len().min(MAX_LISTED_PARTS);
     html! {
         table.pick.parts {
             thead { tr { th.r {} th { (s.word("part")) } th { (s.word("verdict")) } } }
@@ -50,12 +52,12 @@ fn failing(s: Style, document: &TrendDocument, part: usize) -> Markup {
             have.map(move |(n, c)| (verdict, n, c))
         })
         .collect();
-    let room = NAMED.saturating_sub(bad.len());
+    let room = MAX_NAMED_CHARACTERISTICS.saturating_sub(bad.len());
     let astray = all().filter(|(_, c)| c.out_of_control.iter().any(|o| o.part == part as u64)).take(room);
     let deviation = document.parts[part].deviation.filter(|v| *v != Verdict::Pass);
     html! {
         span.of-part {
-            @for (verdict, n, c) in bad.iter().take(NAMED) {
+            @for (verdict, n, c) in bad.iter().take(MAX_NAMED_CHARACTERISTICS) {
                 @let Headline { key, tone } = Headline::from(*verdict);
                 a class={ "v-" (tone.name()) } href={ "#course-" (n) } data-verdict=(key) {
                     (tone.icon()) "\u{a0}" (Name(&c.id))
@@ -66,7 +68,7 @@ fn failing(s: Style, document: &TrendDocument, part: usize) -> Markup {
                 @let Headline { tone, .. } = Headline::from(verdict);
                 span class={ "v-" (tone.name()) } { (tone.icon()) "\u{a0}" (s.word("deviations")) } " "
             }
-            @if bad.len() > NAMED { "+\u{a0}" (s.count((bad.len() - NAMED) as u64)) " " }
+            @if bad.len() > MAX_NAMED_CHARACTERISTICS { "+\u{a0}" (s.count((bad.len() - MAX_NAMED_CHARACTERISTICS) as u64)) " " }
             @for (n, c) in astray { a.warning href={ "#course-" (n) } { "◎\u{a0}" (Name(&c.id)) } " " }
         }
     }
@@ -75,7 +77,7 @@ fn failing(s: Style, document: &TrendDocument, part: usize) -> Markup {
 /// The results read, with what tells that they are these.
 pub fn results(s: Style, inputs: &[ResultInput]) -> Markup {
     html! {
-        details.kind open[inputs.len() <= OPEN] {
+        details.kind open[inputs.len() <= MAX_OPEN_RESULTS] {
             summary { span.kind-name { (s.word("chart.results")) } strong { (s.len(inputs)) } }
             @for (n, input) in inputs.iter().enumerate() {
                 div.file {
@@ -90,8 +92,23 @@ pub fn results(s: Style, inputs: &[ResultInput]) -> Markup {
     }
 }
 
+/// What both pages of a trend have in common.
+pub fn common(d: &TrendDocument) -> serde_json::Result<Content<'_>> {
+    let headline = match d.verdict {
+        // Every part passes, but the process does not stand still.
+        Verdict::Pass if !d.in_control => Headline { key: "out_of_control", tone: Tone::Undecided },
+        verdict => verdict.into(),
+    };
+    // Its files are no inputs of a measurement; its page lists them itself.
+    Ok(Content {
+        title: d.title.as_deref().or(d.inputs.first().map(|result| file_name(&result.path))),
+        json: stripped(d)?,
+        ..Content::of(headline, [&d.schema, &d.version, &d.units], &[])
+    })
+}
+
 /// The document without the lists of its places, which a page has no use for and no room.
-pub fn stripped(document: &TrendDocument) -> serde_json::Result<Value> {
+fn stripped(document: &TrendDocument) -> serde_json::Result<Value> {
     let mut value = serde_json::to_value(document)?;
     if let Some(map) = value.get_mut("map").and_then(Value::as_object_mut) {
         map.retain(|_, v| !v.is_array());

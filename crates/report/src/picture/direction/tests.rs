@@ -69,7 +69,7 @@ fn middles(depth: f64) -> Vec<PlaceToSee> {
         reached: 0,
         samples: vec![plus(times(1.0 - depth, n), [0.0123 * n[1], 0.0123 * n[2], 0.0123 * n[0]])],
         normal: Some(n),
-        near: (OBLIQUE * depth).max(0.01),
+        near: (MAX_OBLIQUE_FACTOR * depth).max(0.01),
     })
     .collect()
 }
@@ -109,9 +109,9 @@ fn a_cloud_hides_what_looks_away() {
     let objects = [cloud(), object(ViewRole::Reference, Geometry::Mesh(&mesh), &[0.0; 8])];
     let shown = shown_objects(&objects);
     assert_eq!(shown.len(), 1, "the reference is not drawn");
-    sees_one_side_only(&middles(0.025), &opaque(&objects, &shown), SEEN);
+    sees_one_side_only(&middles(0.025), &opaque(&objects, &shown), MIN_SEEN_COSINE);
     let alone = [cloud()];
-    sees_one_side_only(&middles(0.0), &opaque(&alone, &shown_objects(&alone)), SEEN);
+    sees_one_side_only(&middles(0.0), &opaque(&alone, &shown_objects(&alone)), MIN_SEEN_COSINE);
 }
 
 /// The leader of a frame ends where the value is reached as well, before it ends anywhere on the feature.

@@ -8,16 +8,18 @@ use trueness_geom::shape::{Coordinate, Shape};
 use trueness_geom::space::{Point, plus, times};
 
 /// Steps of a full turn.
-const STEPS: f64 = 144.0;
+const STEPS_PER_TURN: f64 = 144.0;
 /// Share of its length by which an axis reaches beyond the body.
-const BEYOND: f64 = 0.1;
+const AXIS_OVERHANG: f64 = 0.1;
 
 /// Body (empty for a curve) and lines of the part of `shape` that `extent` tells.
 pub fn element(shape: &Shape, extent: &Extent) -> (Mesh, Mark) {
     let place = |u: f64, v: f64| place(shape, extent, u, v);
     let ([u0, u1], [v0, v1]) = (extent.u, extent.v);
     let full = u1 - u0 >= TAU;
-    let steps = |[from, to]: [f64; 2]| (((to - from) / TAU * STEPS).ceil() as usize).clamp(1, STEPS as usize);
+    let steps = |[from, to]: [f64; 2]| {
+        (((to - from) / TAU * STEPS_PER_TURN).ceil() as usize).clamp(1, STEPS_PER_TURN as usize)
+    };
     let across = |v: f64, n: usize| -> Vec<Point> { between(extent.u, n).map(|u| place(u, v)).collect() };
     let up = |u: f64, n: usize| -> Vec<Point> { between(extent.v, n).map(|v| place(u, v)).collect() };
     let mut lines = Mark::default();
@@ -47,7 +49,7 @@ pub fn element(shape: &Shape, extent: &Extent) -> (Mesh, Mark) {
         lines.add_line(&across(0.0, n), false);
     }
     if (round, along) == (Coordinate::Turn, Coordinate::Length) {
-        let more = BEYOND * (v1 - v0);
+        let more = AXIS_OVERHANG * (v1 - v0);
         let at = |v: f64| plus(extent.origin, times(v, extent.axes[2]));
         lines.add_line(&[at(v0 - more), at(v1 + more)], false);
     }
