@@ -61,9 +61,12 @@ pub fn open(sources: &dyn Sources, path: &Path, role: Role, options: &ReadOption
 const MESH_OR_POINTS: &str = "this command needs a mesh or points";
 
 /// A file of any kind.
-enum Any {
+pub enum Any {
+    /// A mesh or points.
     Whole(Opened),
+    /// B-spline surfaces and curves.
     Splines(SplineModel, InputRecord),
+    /// Lines, arcs and splines in a plane.
     Drawing(Drawing, InputRecord),
 }
 
@@ -88,7 +91,8 @@ pub fn nominal(
     }
 }
 
-fn any(sources: &dyn Sources, path: &Path, role: Role, options: &ReadOptions) -> Result<Any> {
+/// Opens a file of whatever content.
+pub fn any(sources: &dyn Sources, path: &Path, role: Role, options: &ReadOptions) -> Result<Any> {
     let Input { provenance, body, warnings } = open_from(sources, path, options)?;
     let mut record = record(role, &provenance, &warnings);
     let body = match body {
