@@ -12,5 +12,7 @@
 pub mod brep;
 pub mod curve;
 pub mod frame;
+pub mod measure;
 pub mod model;
 pub mod surface;
+pub mod trim;

@@ -10,6 +10,7 @@
 //! | polyline | straight from point to point, one unit of `t` for each |
 //! | joined | several curves one after another, one unit of `t` for each |
 
+mod corners;
 mod evaluate;
 mod placed;
 
