@@ -15,13 +15,23 @@
 //! The normal of a surface is `∂u × ∂v`; that of a face may be the opposite.
 
 mod evaluate;
+mod feet;
+mod parameters;
+mod patch;
 mod placed;
+mod profile;
+mod seams;
+mod spline;
+#[cfg(test)]
+mod tests;
 
 use crate::curve::Curve;
 use crate::frame::Frame;
 use trueness_geom::space::{Point, Vector};
 use trueness_geom::spline::surface::Nurbs;
 
+pub use feet::{Foot, SurfaceFeet};
+pub use seams::Pole;
 pub use trueness_geom::spline::surface::Jet;
 
 /// A surface, without bounds where its kind has none.
