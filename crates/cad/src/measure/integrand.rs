@@ -78,7 +78,7 @@ fn along(surface: &Surface, k: usize) -> Along {
 
 impl<'a> Inner<'a> {
     pub fn new(trim: &'a Trim, center: Point) -> Inner<'a> {
-        let surface = &trim.chart.surface;
+        let surface = trim.chart.surface();
         let across = match (along(surface, 0), along(surface, 1)) {
             (Along::Harmonic, Along::Knots(_)) => 0,
             (Along::Knots(u), Along::Knots(v)) if u.len() < v.len() => 0,
@@ -190,7 +190,7 @@ impl<'a> Inner<'a> {
     pub fn breaks(&self, piece: &Piece) -> Vec<f64> {
         let outer = 1 - self.across;
         let mut shares = vec![0.0, 1.0];
-        let surface = &self.trim.chart.surface;
+        let surface = self.trim.chart.surface();
         let knots = match along(surface, outer) {
             Along::Knots(knots) => repeated(&knots, self.trim, outer),
             _ => vec![],

@@ -6,12 +6,15 @@
 //! outer one halves its steps until the error is what is asked for.
 
 
+mod bounds;
 mod integrand;
 mod rule;
 #[cfg(test)]
 mod tests;
 
 
+
+pub use bounds::bounds;
 
 use crate::trim::{Piece, Trim};
 use integrand::{Inner, TERMS};

@@ -1,105 +1,79 @@
-//! A surface as its parameters are used by one face: which side repeats, which side is a single place.
+//! A surface as its parameters are used by one face: which of them repeats, which side is a single place.
 
-use super::stand_in;
-use crate::surface::{Jet, Surface};
-use std::f64::consts::TAU;
+use crate::surface::{Jet, Pole, Surface, SurfaceFeet};
 use trueness_geom::space::{Point, minus, norm};
 
-/// A side of the domain: the parameter that is constant there, and whether it is the last value.
+/// A side of the domain: the parameter that is constant there, and whether it is the last value (1) or the first (0).
 pub type Side = (usize, usize);
 
 /// A surface with its periods and poles. Parameters may lie any number of periods away from the domain.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Chart {
-    /// The surface.
-    pub surface: Surface,
+    feet: SurfaceFeet,
     /// After how much a parameter repeats.
     pub periods: [Option<f64>; 2],
-    /// First and last `u`, first and last `v`; of a cone those of one nappe, of a torus that meets itself those of one part.
+    /// First and last `u`, first and last `v`; between two poles, where there are any.
     pub domain: [[f64; 2]; 2],
     /// The place that a side is, where it is one: `poles[k][0]` at the first value of parameter `k`.
     pub poles: [[Option<Point>; 2]; 2],
 }
 
+/// Values of parameters that differ by less than this share are the same: twelve digits are written.
+pub const SAME_PARAMETER: f64 = 1e-9;
+
 impl Chart {
-    /// The chart for a face that passes through these places; they decide between the nappes of a cone and the like.
+    /// The chart for a face that passes through these places: they decide between the parts that a pole leaves, as the nappes of a cone.
     pub fn new(surface: &Surface, places: &[Point]) -> Chart {
-        let mut chart = Chart {
-            surface: surface.clone(),
-            periods: stand_in::periods(surface),
-            domain: surface.domain(),
-            poles: [[None; 2]; 2],
-        };
-        match surface {
-            Surface::Cone { frame, radius, half_angle } => {
-                let apex = -radius / libm::tan(*half_angle);
-                let above: f64 = places.iter().map(|p| frame.local(*p)[2] - apex).sum();
-                let is_above = if places.is_empty() { *half_angle > 0.0 } else { above > 0.0 };
-                chart.cut(1, if is_above { [apex, f64::INFINITY] } else { [f64::NEG_INFINITY, apex] });
+        let feet = SurfaceFeet::new(surface);
+        let mut chart = Chart { periods: feet.periods(), domain: surface.domain(), poles: [[None; 2]; 2], feet };
+        for k in 0..2 {
+            let poles: Vec<Pole> = chart.feet.poles().iter().filter(|p| p.held == k).copied().collect();
+            if !poles.is_empty() {
+                chart.cut(k, &poles, places);
             }
-            Surface::Torus { frame, major, minor } if minor >= major => {
-                let turn = libm::acos(-major / minor);
-                let off = |sign: f64| {
-                    let to_tube = |p: &Point| {
-                        let [x, y, z] = frame.local(*p);
-                        (libm::hypot(libm::hypot(x, y) - sign * major, z) - minor).abs()
-                    };
-                    places.iter().map(to_tube).sum::<f64>()
-                };
-                let is_outer = places.is_empty() || off(1.0) <= off(-1.0);
-                chart.cut(1, if is_outer { [-turn, turn] } else { [turn, TAU - turn] });
-            }
-            _ => chart.find_poles(),
         }
         chart
     }
 
-    /// Keeps a part of a parameter's range; its ends are poles where they are finite.
-    fn cut(&mut self, k: usize, range: [f64; 2]) {
-        self.periods[k] = None;
-        self.domain[k] = range;
-        self.find_poles();
-    }
-
-    fn find_poles(&mut self) {
-        let open = |x: [f64; 2]| [if x[0].is_finite() { x[0] } else { 0.0 }, if x[1].is_finite() { x[1] } else { 1.0 }];
-        for k in 0..2 {
-            if self.periods[k].is_some() {
-                continue;
-            }
-            let [first, last] = open(self.domain[1 - k]);
-            for end in 0..2 {
-                let fixed = self.domain[k][end];
-                if !fixed.is_finite() {
-                    continue;
-                }
-                let place = |share: f64| {
-                    let mut at = [fixed; 2];
-                    at[1 - k] = first + share * (last - first);
-                    self.surface.at(at[0], at[1])
-                };
-                let places: Vec<Point> = (0..=SAMPLES_OF_SIDE).map(|i| place(i as f64 / SAMPLES_OF_SIDE as f64)).collect();
-                let extent = places.iter().map(|p| norm(minus(*p, places[0]))).fold(0.0, f64::max);
-                if extent <= POLE_SHARE * self.size_hint() {
-                    self.poles[k][end] = Some(places[0]);
-                }
-            }
+    /// Keeps what lies between two poles.
+    fn cut(&mut self, k: usize, poles: &[Pole], places: &[Point]) {
+        let mut values: Vec<(f64, Option<Point>)> = poles.iter().map(|p| (p.at, Some(p.place))).collect();
+        if let Some(period) = self.periods[k].take() {
+            let again = |turns: f64| values.iter().map(move |(at, place)| (at + turns * period, *place)).collect::<Vec<_>>();
+            values = [again(-1.0), again(0.0), again(1.0)].concat();
+        } else {
+            values.extend(self.domain[k].map(|at| (at, None)));
         }
+        values.sort_by(|a, b| a.0.total_cmp(&b.0));
+        // A pole at an end of the domain is that end.
+        values.dedup_by(|b, a| {
+            let is_same = (b.0 - a.0).abs() <= SAME_PARAMETER * (1.0 + a.0.abs().min(b.0.abs()));
+            if is_same {
+                a.1 = a.1.or(b.1);
+            }
+            is_same
+        });
+        let own = self.domain[k];
+        let part = |x: f64| values.partition_point(|v| v.0 <= x).clamp(1, values.len() - 1);
+        let mut votes = vec![0usize; values.len()];
+        for place in places {
+            votes[part(self.feet.parameters(*place, None)[k])] += 1;
+        }
+        let middle = match own.map(f64::is_finite) {
+            [true, true] => 0.5 * (own[0] + own[1]),
+            // Of a cone the nappe on which the radius is above 0.
+            _ => 0.0,
+        };
+        votes[part(middle)] += usize::from(votes.iter().all(|v| *v == 0));
+        let best = (1..votes.len()).max_by_key(|i| (votes[*i], values.len() - i)).unwrap_or(1);
+        let ends = [values[best - 1], values[best]];
+        self.domain[k] = ends.map(|e| e.0);
+        self.poles[k] = ends.map(|e| e.1);
     }
 
-    /// A length of the size of the surface where it has one: poles are told from short sides by it.
-    fn size_hint(&self) -> f64 {
-        let of = |x: [f64; 2]| match (x[0].is_finite(), x[1].is_finite()) {
-            (true, true) => x,
-            (true, false) => [x[0], x[0] + 1.0],
-            (false, true) => [x[1] - 1.0, x[1]],
-            (false, false) => [0.0, 1.0],
-        };
-        let [us, vs] = self.domain.map(of);
-        let middle = [0.5 * (us[0] + us[1]), 0.5 * (vs[0] + vs[1])];
-        let center = self.surface.at(middle[0], middle[1]);
-        let corners = [[us[0], vs[0]], [us[1], vs[0]], [us[0], vs[1]], [us[1], vs[1]], [us[0], middle[1]], [middle[0], vs[0]]];
-        corners.iter().map(|[u, v]| norm(minus(self.surface.at(*u, *v), center))).fold(0.0, f64::max)
+    /// The surface.
+    pub fn surface(&self) -> &Surface {
+        self.feet.surface()
     }
 
     /// The same place within the domain.
@@ -113,13 +87,13 @@ impl Chart {
     /// Place and derivatives.
     pub fn jet(&self, at: [f64; 2]) -> Jet {
         let [u, v] = self.wrapped(at);
-        self.surface.jet(u, v)
+        self.surface().jet(u, v)
     }
 
     /// The place.
     pub fn place(&self, at: [f64; 2]) -> Point {
         let [u, v] = self.wrapped(at);
-        self.surface.at(u, v)
+        self.surface().at(u, v)
     }
 
     /// The same place with its parameters as near to others as periods allow.
@@ -130,11 +104,20 @@ impl Chart {
         })
     }
 
-    /// Parameters of the place on the surface next to a point; beside `near` where that is given.
+    /// Parameters of the place on the surface next to a point; of all that name it the ones next to `near`.
     pub fn parameters(&self, point: Point, near: Option<[f64; 2]>) -> [f64; 2] {
-        let start = near.map(|n| self.wrapped(n));
-        let found = stand_in::parameters(self, point, start);
-        near.map_or(found, |n| self.beside(found, n))
+        self.between_poles(self.feet.parameters(point, near))
+    }
+
+    /// The same place with values between the poles, where these cut open a parameter that would repeat.
+    pub fn between_poles(&self, at: [f64; 2]) -> [f64; 2] {
+        std::array::from_fn(|k| match (self.feet.periods()[k], self.periods[k]) {
+            (Some(period), None) => {
+                let middle = 0.5 * (self.domain[k][0] + self.domain[k][1]);
+                at[k] + period * ((middle - at[k]) / period).round()
+            }
+            _ => at[k],
+        })
     }
 
     /// The pole within `reach` of a point.
@@ -148,8 +131,3 @@ impl Chart {
         self.poles.iter().flatten().any(Option::is_some)
     }
 }
-
-/// Places of a side that are compared.
-const SAMPLES_OF_SIDE: usize = 8;
-/// A side shorter than this share of the surface is a single place: files have twelve digits, rounded a few times.
-const POLE_SHARE: f64 = 1e-9;

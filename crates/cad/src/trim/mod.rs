@@ -13,10 +13,9 @@ mod error;
 mod open;
 mod outline;
 mod ring;
-mod stand_in;
 mod strand;
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 
 pub use chart::{Chart, Side};
 pub use error::TrimError;
@@ -26,6 +25,7 @@ pub use strand::{Sample, Strand, crossing};
 use crate::brep::{Bounds, Brep, Face};
 use crate::curve::Span;
 use outline::Outline;
+use chart::SAME_PARAMETER;
 use trueness_geom::space::{Aabb, Point};
 
 /// The part of a surface that a face is.
@@ -145,6 +145,7 @@ impl Trim {
     ///
     /// Decided by a polygon, and next to it by the edge itself. Cost: some dozen comparisons, and close to an edge some dozen projections.
     pub fn contains(&self, at: [f64; 2]) -> bool {
+        let at = self.chart.between_poles(at);
         let home: [f64; 2] = std::array::from_fn(|k| match (self.chart.periods[k], self.cuts[k]) {
             (Some(period), Some(cut)) => at[k] - period * ((at[k] - cut) / period).floor(),
             _ => at[k],
@@ -156,8 +157,6 @@ impl Trim {
     }
 }
 
-/// Values of parameters that differ by less than this share are the same: twelve digits are written.
-const SAME_PARAMETER: f64 = 1e-9;
 
 /// What a trim is made of.
 struct Parts {
