@@ -40,7 +40,8 @@ impl Bezier {
     /// Hands over parameters within where the distance from `p` may have a minimum of less than `limit`; the ends are not among them unless
     /// one is. The callback says a new limit. Where the distance is the same everywhere, some parameter within.
     pub(super) fn minima(&self, p: Point, mut limit: f64, mut visit: impl FnMut(f64) -> f64) {
-        let about: Vec<Mass<3>> = self.points.iter().map(|m| Mass { moment: m.moment.plus(-m.mass, p), mass: m.mass }).collect();
+        let about: Vec<Mass<3>> =
+            self.points.iter().map(|m| Mass { moment: m.moment.plus(-m.mass, p), mass: m.mass }).collect();
         let square = product(&about, &about, |a, b| dot(a.moment, b.moment));
         let masses: Bernstein = about.iter().map(|m| m.mass).collect();
         let weights = product(&masses, &masses, |a, b| a * b);
@@ -114,7 +115,8 @@ impl Bezier {
             let share = (dot(arm, chord) / dot(chord, chord)).clamp(0.0, 1.0);
             norm(minus(arm, times(if share.is_finite() { share } else { 0.0 }, chord)))
         };
-        let legs: Vec<Vector> = places.windows(2).filter_map(|w| unit(minus(w[1], w[0])).map(|(d, _)| d)).collect();
+        let legs: Vec<Vector> =
+            places.windows(2).filter_map(|w| unit(minus(w[1], w[0])).map(|(d, _)| d)).collect();
         let turn = |w: &[Vector]| libm::atan2(norm(cross(w[0], w[1])), dot(w[0], w[1]));
         [places.iter().map(off).fold(0.0, f64::max), legs.windows(2).map(turn).sum()]
     }
@@ -217,7 +219,11 @@ fn root(coefficients: &[f64]) -> f64 {
     let (mut low, mut high, mut t) = (0.0, 1.0, 0.5);
     for _ in 0..ROOT_STEPS {
         let [value, by] = value(coefficients, t);
-        if value > 0.0 { high = t } else { low = t }
+        if value > 0.0 {
+            high = t
+        } else {
+            low = t
+        }
         let newton = t - value / by;
         let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
         if (next - t).abs() <= f64::EPSILON * t || value == 0.0 {

@@ -48,7 +48,8 @@ const ROOT_STEPS: usize = 100;
 impl Conic {
     /// `center + a·cos t + b·sin t`, whatever `a` and `b` are.
     pub(super) fn ellipse(center: Point, a: Vector, b: Vector) -> Conic {
-        let turned = if is_across(a, b) { 0.0 } else { 0.5 * libm::atan2(2.0 * dot(a, b), dot(a, a) - dot(b, b)) };
+        let turned =
+            if is_across(a, b) { 0.0 } else { 0.5 * libm::atan2(2.0 * dot(a, b), dot(a, a) - dot(b, b)) };
         let (c, s) = (libm::cos(turned), libm::sin(turned));
         let axes = [plus(times(c, a), times(s, b)), plus(times(-s, a), times(c, b))];
         Conic::of(Form::Ellipse, center, axes, turned)
@@ -253,7 +254,11 @@ fn root(slope: impl Fn(f64) -> Slope, mut low: f64, mut high: f64) -> f64 {
     let mut t = 0.5 * (low + high);
     for _ in 0..ROOT_STEPS {
         let own = slope(t);
-        if own.value > 0.0 { high = t } else { low = t }
+        if own.value > 0.0 {
+            high = t
+        } else {
+            low = t
+        }
         let newton = t - own.value / own.by;
         let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
         if (next - t).abs() <= f64::EPSILON * t.abs() || own.value == 0.0 {

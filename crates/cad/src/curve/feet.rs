@@ -104,7 +104,7 @@ impl CurveFeet {
             if part.bounds.distance(&p) >= reach {
                 return;
             }
-            part.candidates(p, reach, self.is_reversed, |foot| {
+            part.candidates(p, reach, self.is_reversed, &mut |foot: Foot| {
                 if foot.distance < reach {
                     reach = foot.distance;
                     best = Some(foot);
@@ -112,17 +112,21 @@ impl CurveFeet {
                 reach
             });
         };
-        if self.is_reversed { self.parts.iter().rev().for_each(&mut look) } else { self.parts.iter().for_each(look) }
+        if self.is_reversed {
+            self.parts.iter().rev().for_each(&mut look)
+        } else {
+            self.parts.iter().for_each(look)
+        }
         best
     }
 
-    /// Hands over all places where the distance from a point has a minimum, and some more, the ends and corners among them.
-    pub fn candidates(&self, p: Point, mut visit: impl FnMut(Foot)) {
+    /// Hands over all places where the distance from a point has a minimum that is below `limit`, which the callback says anew, and
+    /// some more, ends and corners among them.
+    pub fn candidates(&self, p: Point, mut limit: f64, mut visit: impl FnMut(Foot) -> f64) {
         for part in &self.parts {
-            part.candidates(p, f64::INFINITY, false, |foot| {
-                visit(foot);
-                f64::INFINITY
-            });
+            if part.bounds.distance(&p) < limit {
+                limit = part.candidates(p, limit, false, &mut visit);
+            }
         }
     }
 
@@ -178,8 +182,14 @@ impl Part {
     }
 
     /// Hands over both ends, the one on which the way begins first, and the minima between them that are nearer than `limit`, which the
-    /// callback says anew.
-    fn candidates(&self, p: Point, mut limit: f64, is_reversed: bool, mut visit: impl FnMut(Foot) -> f64) {
+    /// callback says anew; says the last one.
+    fn candidates(
+        &self,
+        p: Point,
+        mut limit: f64,
+        is_reversed: bool,
+        visit: &mut impl FnMut(Foot) -> f64,
+    ) -> f64 {
         let ends = if is_reversed { [self.own[1], self.own[0]] } else { self.own };
         for end in ends.into_iter().filter(|t| t.is_finite()) {
             limit = visit(self.foot(end, p));
@@ -189,16 +199,20 @@ impl Part {
             Shape::Line { origin, direction } => {
                 let t = dot(minus(p, *origin), *direction) / dot(*direction, *direction);
                 if t > low && t < high {
-                    visit(self.foot(t, p));
+                    limit = visit(self.foot(t, p));
                 }
             }
             Shape::Conic(conic) => conic.minima(p, |t| {
                 for t in representatives(conic, t, [low, high]) {
-                    visit(self.foot(t, p));
+                    limit = visit(self.foot(t, p));
                 }
             }),
-            Shape::Bezier(bezier) => bezier.minima(p, limit, |t| visit(self.foot(t, p))),
+            Shape::Bezier(bezier) => bezier.minima(p, limit, |t| {
+                limit = visit(self.foot(t, p));
+                limit
+            }),
         }
+        limit
     }
 }
 
@@ -215,10 +229,9 @@ fn add(curve: &Curve, range: [f64; 2], view: View, parts: &mut Vec<Part>) {
     let mut push = |shape: Shape, own: [f64; 2]| parts.push(Part::new(shape, range, own));
     let scaled = |s: f64, v: Vector| view.vector(times(s, v));
     match curve {
-        Curve::Line { origin, direction } => push(
-            Shape::Line { origin: view.vector(*origin), direction: view.vector(*direction) },
-            range,
-        ),
+        Curve::Line { origin, direction } => {
+            push(Shape::Line { origin: view.vector(*origin), direction: view.vector(*direction) }, range)
+        }
         Curve::Circle { frame, radius } => {
             let [a, b] = [0, 1].map(|k| scaled(*radius, frame.axes[k]));
             push(Shape::Conic(Conic::ellipse(view.vector(frame.origin), a, b)), range);

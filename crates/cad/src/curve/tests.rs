@@ -101,7 +101,8 @@ fn shadows_have_the_nearest_places_of_moved_points() {
             norm(minus(off, times(dot(off, way), way)))
         };
         let [from, to] = span.range;
-        let least = (0..=20000).map(|i| across(from + (to - from) * f64::from(i) / 20000.0)).fold(9e9, f64::min);
+        let least =
+            (0..=20000).map(|i| across(from + (to - from) * f64::from(i) / 20000.0)).fold(9e9, f64::min);
         assert!((foot.distance - across(foot.parameter)).abs() < 1e-12, "{span:?}");
         let step = span.length() / 2000.0;
         let off = step * step / foot.distance;
@@ -121,7 +122,10 @@ fn every_minimum_of_a_conic_is_found() {
         // Within the evolute as well as far outside.
         let p = plus(frame_of(&span.curve).origin, spot(&mut random, if round % 2 == 0 { 0.5 } else { 5.0 }));
         let mut found = vec![];
-        span.feet().candidates(p, |foot| found.push(foot.parameter));
+        span.feet().candidates(p, f64::INFINITY, |foot| {
+            found.push(foot.parameter);
+            f64::INFINITY
+        });
         let [from, to] = [span.range[0].min(span.range[1]), span.range[0].max(span.range[1])];
         let of = |i: i32| norm(minus(span.curve.at(from + (to - from) * f64::from(i) / 3000.0), p));
         for i in 1..3000 {
@@ -135,7 +139,9 @@ fn every_minimum_of_a_conic_is_found() {
 
 fn frame_of(curve: &Curve) -> Frame {
     match curve {
-        Curve::Ellipse { frame, .. } | Curve::Hyperbola { frame, .. } | Curve::Parabola { frame, .. } => *frame,
+        Curve::Ellipse { frame, .. } | Curve::Hyperbola { frame, .. } | Curve::Parabola { frame, .. } => {
+            *frame
+        }
         _ => panic!("not a conic"),
     }
 }
@@ -159,7 +165,8 @@ fn centers_axes_and_ties_have_a_place() {
     // A circle as a rational spline from its center: all places are equally near.
     let half = 0.5f64.sqrt();
     let corners = [[1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [-1.0, 1.0], [-1.0, 0.0]];
-    let points: Vec<_> = corners.iter().zip([1.0, half, 1.0, half, 1.0]).map(|([x, y], w)| ([*x, *y, 0.0], w)).collect();
+    let points: Vec<_> =
+        corners.iter().zip([1.0, half, 1.0, half, 1.0]).map(|([x, y], w)| ([*x, *y, 0.0], w)).collect();
     let knots = Knots::clamped(2, 0.0, &[1.0, 1.0], 2.0).unwrap();
     let arc = Span { curve: Curve::Rational(Rational::new(knots, &points).unwrap()), range: [0.0, 2.0] };
     assert!((arc.nearest([0.0; 3]).distance - 1.0).abs() < 1e-15);
@@ -167,7 +174,9 @@ fn centers_axes_and_ties_have_a_place() {
     assert!((arc.nearest([3.0, 4.0, 0.0]).distance - 4.0).abs() < 1e-14);
     assert!((arc.length() - PI).abs() < 1e-12);
     let bounds = arc.bounds();
-    assert!(norm(minus(bounds.max, [1.0, 1.0, 0.0])) < 1e-15 && norm(minus(bounds.min, [-1.0, 0.0, 0.0])) < 1e-15);
+    assert!(
+        norm(minus(bounds.max, [1.0, 1.0, 0.0])) < 1e-15 && norm(minus(bounds.min, [-1.0, 0.0, 0.0])) < 1e-15
+    );
 }
 
 #[test]
@@ -186,7 +195,7 @@ fn boxes_lengths_and_chords_are_those_of_many_places() {
             assert!(own.max[k] >= near.max[k] - 1e-13 && own.max[k] < near.max[k] + step, "{span:?}");
         }
         let chords: f64 = many.windows(2).map(|w| norm(minus(w[1], w[0]))).sum();
-        assert!((span.length() - chords).abs() < 1e-4 * chords && span.length() > chords - 1e-10, "{span:?}");
+        assert!((span.length() - chords).abs() < 4.0 * step && span.length() > chords - 1e-10, "{span:?}");
         let parameters = span.sample(1e-3, 0.2);
         assert_eq!((parameters[0], parameters[parameters.len() - 1]), (from, to));
         assert!(parameters.windows(2).all(|w| (w[1] > w[0]) == (to > from) && w[0] != w[1]), "{span:?}");

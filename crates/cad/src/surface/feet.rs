@@ -54,7 +54,9 @@ impl SurfaceFeet {
                 let way = unit(*direction).map_or([0.0; 3], |(way, _)| way);
                 Kind::Extrusion(CurveFeet::along(curve, curve.domain(), way))
             }
-            Surface::Revolution { curve, origin, axis } => Kind::Revolution(Profile::new(curve, *origin, *axis)),
+            Surface::Revolution { curve, origin, axis } => {
+                Kind::Revolution(Profile::new(curve, *origin, *axis))
+            }
             Surface::Spline(nurbs) => Kind::Spline(Box::new(SplineFeet::new(nurbs))),
             Surface::Offset { basis, .. } => Kind::Offset(Box::new(SurfaceFeet::new(basis))),
             _ => Kind::Closed,
@@ -97,14 +99,11 @@ impl SurfaceFeet {
                 let Surface::Extrusion { curve, direction } = surface else { return };
                 let way = unit(*direction).map_or([0.0; 3], |(way, _)| way);
                 let flat = minus(p, times(dot(p, way), way));
-                let mut limit = limit;
-                shadow.candidates(flat, |foot| {
-                    if foot.distance < limit {
-                        let start = curve.at(foot.parameter);
-                        let v = dot(minus(p, start), *direction) / dot(*direction, *direction);
-                        let place = plus(start, times(v, *direction));
-                        limit = visit(Foot { parameters: [foot.parameter, v], place, distance: norm(minus(place, p)) });
-                    }
+                shadow.candidates(flat, limit, |foot| {
+                    let start = curve.at(foot.parameter);
+                    let v = dot(minus(p, start), *direction) / dot(*direction, *direction);
+                    let place = plus(start, times(v, *direction));
+                    visit(Foot { parameters: [foot.parameter, v], place, distance: norm(minus(place, p)) })
                 });
             }
             Kind::Revolution(profile) => profile.visit(surface, p, limit, visit),
@@ -189,7 +188,7 @@ fn closed(surface: &Surface, p: Point, limit: f64, visit: &mut dyn FnMut(Foot) -
             let own = Meridian::new(frame, p);
             own.circle([*major, *minor], 1.0, &mut offer);
             own.circle([*major, *minor], -1.0, &mut offer);
-            if minor >= major {
+            if major < minor {
                 let at = libm::acos(-major / minor);
                 for v in [at, -at] {
                     let height = minor * libm::sin(v);
@@ -242,6 +241,10 @@ impl<'a> Meridian<'a> {
             let radius = major + sense * minor * c;
             let v = libm::atan2(sense * s, sense * c);
             let place = [side * radius, sense * minor * s];
+            // That is on the other part of a torus that meets itself.
+            if major < minor && major != 0.0 && radius < 0.0 {
+                continue;
+            }
             // On a sphere a place beyond the pole is that at the opposite angle.
             let beyond = major == 0.0 && v.abs() > FRAC_PI_2;
             let parameters = || match beyond {

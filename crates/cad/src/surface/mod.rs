@@ -15,6 +15,7 @@
 //! The normal of a surface is `∂u × ∂v`; that of a face may be the opposite.
 
 mod evaluate;
+mod extent;
 mod feet;
 mod parameters;
 mod patch;

@@ -20,7 +20,8 @@ impl SurfaceFeet {
             [0, 1].map(|k| if free[k] { near.map_or(0.0, |n| n[k]) } else { lifted[k] })
         };
         let mut best: Option<(Foot, [f64; 2], f64)> = None;
-        let off = |own: [f64; 2]| near.map_or(0.0, |n| (0..2).map(|k| (own[k] - n[k]).abs()).fold(0.0, f64::max));
+        let off =
+            |own: [f64; 2]| near.map_or(0.0, |n| (0..2).map(|k| (own[k] - n[k]).abs()).fold(0.0, f64::max));
         let mut offer = |foot: Foot| {
             let own = lift(&foot);
             let away = off(own);

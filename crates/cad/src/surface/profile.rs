@@ -59,18 +59,23 @@ impl Profile {
         for side in [1.0, -1.0] {
             let angle = if rho > 0.0 { libm::atan2(side * y, side * x) } else { 0.0 };
             let turned = plus(self.origin, plus(times(height, self.axis), times(side * rho, self.way)));
-            self.feet.candidates(turned, |foot| {
-                if foot.distance < limit {
-                    let place = surface.at(angle, foot.parameter);
-                    let distance = norm(minus(place, p));
-                    limit = visit(Foot { parameters: [angle, foot.parameter], place, distance });
-                }
+            self.feet.candidates(turned, limit, |foot| {
+                let place = surface.at(angle, foot.parameter);
+                let distance = norm(minus(place, p));
+                limit = visit(Foot { parameters: [angle, foot.parameter], place, distance });
+                limit
             });
         }
     }
 
     /// From the best of many places.
-    fn search(&self, surface: &Surface, p: Point, [rho, height]: [f64; 2], visit: &mut dyn FnMut(Foot) -> f64) {
+    fn search(
+        &self,
+        surface: &Surface,
+        p: Point,
+        [rho, height]: [f64; 2],
+        visit: &mut dyn FnMut(Foot) -> f64,
+    ) {
         let seen = |t: f64| {
             let arm = minus(self.curve.at(t), self.origin);
             let along = dot(arm, self.axis);

@@ -28,11 +28,12 @@ impl Surface {
         match self {
             Surface::Plane(_) => [None, None],
             Surface::Cylinder { .. } | Surface::Cone { .. } | Surface::Sphere { .. } => [Some(TAU), None],
-            Surface::Torus { .. } => [Some(TAU), Some(TAU)],
+            Surface::Torus { major, minor, .. } => [Some(TAU), (major >= minor).then_some(TAU)],
             Surface::Spline(nurbs) => [Direction::U, Direction::V].map(|held| {
                 let (from, to) = nurbs.knots()[held as usize].domain();
                 let [first, last] = [from, to].map(|t| border(nurbs, held, t));
-                let size = Aabb::of(&nurbs.control_points().into_iter().map(|p| p.0).collect::<Vec<_>>()).diagonal();
+                let size =
+                    Aabb::of(&nurbs.control_points().into_iter().map(|p| p.0).collect::<Vec<_>>()).diagonal();
                 let is_same = |(a, b): (&Point, &Point)| norm(minus(*a, *b)) <= SAME_PLACE * size;
                 let is_closed = first.iter().zip(&last).all(is_same) && !is_one(&first, SAME_PLACE * size);
                 is_closed.then_some(to - from)
@@ -54,11 +55,9 @@ impl Surface {
                 if at.is_finite() { vec![along(at)] } else { vec![] }
             }
             Surface::Sphere { .. } => [-FRAC_PI_2, FRAC_PI_2].map(along).to_vec(),
-            Surface::Torus { major, minor, .. } => match libm::acos(-major / minor) {
-                at if at == PI => vec![along(PI)],
-                at if at.is_finite() => vec![along(at), along(TAU - at)],
-                _ => vec![],
-            },
+            Surface::Torus { major, minor, .. } if major == minor => vec![along(PI)],
+            Surface::Torus { major, minor, .. } if major < minor => self.domain()[1].map(along).to_vec(),
+            Surface::Torus { .. } => vec![],
             Surface::Spline(nurbs) => spline_poles(nurbs),
             Surface::Revolution { curve, origin, axis } => profile_poles(curve, *origin, *axis),
             Surface::Offset { basis, distance } => {
@@ -94,10 +93,11 @@ impl Curve {
     pub fn is_closed(&self) -> bool {
         let [from, to] = self.domain();
         let has_ends = from.is_finite() && to.is_finite();
-        has_ends && (self.period().is_some() || {
-            let size = CurveFeet::new(self, [from, to]).bounds().diagonal();
-            norm(minus(self.at(from), self.at(to))) <= SAME_PLACE * size
-        })
+        has_ends
+            && (self.period().is_some() || {
+                let size = CurveFeet::new(self, [from, to]).bounds().diagonal();
+                norm(minus(self.at(from), self.at(to))) <= SAME_PLACE * size
+            })
     }
 }
 
@@ -151,13 +151,14 @@ fn profile_poles(curve: &Curve, origin: Point, axis: Point) -> Vec<Pole> {
     let reach = shadow.bounds().diagonal();
     let size = if reach.is_finite() { reach } else { norm(minus(curve.at(0.0), origin)) };
     let mut found: Vec<Pole> = vec![];
-    shadow.candidates(center, |foot| {
+    shadow.candidates(center, f64::INFINITY, |foot| {
         let is_known = |pole: &Pole| (pole.at - foot.parameter).abs() <= SAME_PLACE * (1.0 + pole.at.abs());
         if foot.distance <= SAME_PLACE * size && !found.iter().any(is_known) {
             let arm = minus(curve.at(foot.parameter), origin);
             let place = plus(origin, times(dot(arm, axis), axis));
             found.push(Pole { held: 1, at: foot.parameter, place });
         }
+        f64::INFINITY
     });
     found.sort_by(|a, b| a.at.total_cmp(&b.at));
     found

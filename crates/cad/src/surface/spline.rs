@@ -35,7 +35,8 @@ impl SplineFeet {
         let [knots_u, knots_v] = nurbs.knots();
         // First along v, then along u.
         let masses: Vec<Mass<3>> = points.iter().map(|(p, w)| Mass::new(*p, *w)).collect();
-        let rows: Vec<Vec<Mass<3>>> = (0..m).map(|i| beziers(knots_v, masses[i * n..(i + 1) * n].to_vec())).collect();
+        let rows: Vec<Vec<Mass<3>>> =
+            (0..m).map(|i| beziers(knots_v, masses[i * n..(i + 1) * n].to_vec())).collect();
         let width = rows.first().map_or(0, Vec::len);
         let columns: Vec<Vec<Mass<3>>> =
             (0..width).map(|j| beziers(knots_u, rows.iter().map(|r| r[j]).collect())).collect();
@@ -73,9 +74,10 @@ impl SplineFeet {
         let mut limit = limit;
         for (held, t, line) in &self.lines {
             if line.bounds().distance(&p) < limit {
-                line.candidates(p, |foot| {
+                line.candidates(p, limit, |foot| {
                     let parameters = if *held == 0 { [*t, foot.parameter] } else { [foot.parameter, *t] };
                     limit = visit(Foot { parameters, place: foot.place, distance: foot.distance });
+                    limit
                 });
             }
         }
