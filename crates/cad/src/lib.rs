@@ -7,6 +7,7 @@
 //! | planes, quadrics, tori, splines, swept surfaces | [`surface`] |
 //! | vertices, edges, faces, shells, solids | [`brep`] |
 //! | the part of a surface that a face is | [`trim`] |
+//! | a boundary with the trims of all its faces | [`trimmed`] |
 //! | areas, volumes, moments, bounds | [`measure`] |
 //! | facets | [`tessellate`] |
 //! | parts, their instances, what could not be read | [`model`] |
@@ -20,3 +21,4 @@ pub mod model;
 pub mod surface;
 pub mod tessellate;
 pub mod trim;
+pub mod trimmed;

@@ -112,7 +112,7 @@ pub struct CadRecord {
     pub coloured_faces: u64,
     /// The uncertainty that the file states for its lengths, mm.
     pub uncertainty: Option<f64>,
-    /// Faces that could not be read. A verdict over the model is then never `pass`.
+    /// Faces that could not be read: what is not read of a nominal leaves its verdict undecided.
     pub refused: Vec<RefusedRecord>,
     /// Other entities that were not read, by keyword and reason.
     #[serde(skip_serializing_if = "Vec::is_empty", default)]
@@ -183,10 +183,5 @@ impl InfoDocument {
             area: None,
             cad: None,
         }
-    }
-
-    /// Whether all of the file was read: what decides the exit status.
-    pub fn conforms(&self) -> bool {
-        self.cad.as_ref().is_none_or(|cad| cad.refused.is_empty())
     }
 }

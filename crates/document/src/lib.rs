@@ -49,7 +49,9 @@ pub mod verdict;
 pub mod word;
 
 pub use bounds::Bounds;
-pub use input::{ColumnRecord, IncompleteRecord, InputRecord, Role, TableRecord, UNITS, VERSION};
+pub use input::{
+    CadInputRecord, ColumnRecord, IncompleteRecord, InputRecord, Role, TableRecord, UNITS, VERSION,
+};
 pub use noise::SharedNoise;
 pub use percent::{of_percent, percent, percents};
 pub use reason::{ReasonKind, VerdictReason, judged};

@@ -1,7 +1,6 @@
 //! `trueness info`: what is in a file.
 
 use crate::command::Run;
-use crate::exit;
 use crate::number::{EDGES, FACETS, POINTS, SHELLS, counted, extent, fixed};
 use crate::options::{Common, DocumentArgs, PointInputArgs};
 use crate::task;
@@ -16,10 +15,10 @@ use trueness_document::info::{CadRecord, InfoDocument};
 /// Reads a file of any format and tells what it holds. Of a CAD model: faces by kind, area, volume, parts and where they stand, and every
 /// face that could not be read.
 #[derive(Args, Debug)]
-#[command(after_help = exit::help("faces of a CAD model could not be read", "\
+#[command(after_help = "\
 Examples:
   trueness info scan.ply
-  trueness info part.stp --json -"))]
+  trueness info part.stp --json -")]
 pub struct InfoArgs {
     /// A file of any format that is read; `-` reads stdin
     file: PathBuf,

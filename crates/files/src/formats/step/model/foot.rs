@@ -66,7 +66,9 @@ fn starts(curve: &Curve, p: Point) -> Vec<f64> {
             let t = frame.local(p)[1] / (2.0 * focal);
             even(t - 1.0, t + 1.0, 2).collect()
         }
-        Curve::Polyline(points) => (0..points.len()).flat_map(|k| even(k as f64, k as f64 + 1.0, LOOKS)).collect(),
+        Curve::Polyline(points) => {
+            (0..points.len()).flat_map(|k| even(k as f64, k as f64 + 1.0, LOOKS)).collect()
+        }
         Curve::Joined(spans) => (0..spans.len()).flat_map(|k| even(k as f64, k as f64 + 1.0, 64)).collect(),
         _ => {
             let [from, to] = curve.domain();

@@ -33,7 +33,10 @@ pub(super) fn instances(
         assembly.unread.push(Unread {
             entity,
             keyword: "NEXT_ASSEMBLY_USAGE_OCCURRENCE".into(),
-            reason: format!("places {} in itself", if name.is_empty() { "an assembly".into() } else { quoted(&name) }),
+            reason: format!(
+                "places {} in itself",
+                if name.is_empty() { "an assembly".into() } else { quoted(&name) }
+            ),
             holds_faces: true,
         });
     }

@@ -24,8 +24,7 @@ pub(super) struct Reading<'f> {
 
 impl<'f> Reading<'f> {
     fn shapes(&self, units: Units) -> Shapes<'f> {
-        let geometry =
-            Geometry { file: self.file, units, tolerance: self.tolerance, budget: self.budget };
+        let geometry = Geometry { file: self.file, units, tolerance: self.tolerance, budget: self.budget };
         Shapes::new(Faces::new(Topology::new(geometry), self.looks, self.progress))
     }
 

@@ -82,7 +82,11 @@ fn unit(shapes: &BTreeMap<u64, Representation>, options: &ReadOptions) -> Length
     }
 }
 
-fn warnings(shapes: &BTreeMap<u64, Representation>, unit: &LengthUnit, options: &ReadOptions) -> Vec<Warning> {
+fn warnings(
+    shapes: &BTreeMap<u64, Representation>,
+    unit: &LengthUnit,
+    options: &ReadOptions,
+) -> Vec<Warning> {
     let lengths = shapes.values().filter(|r| !r.items.is_empty()).map(|r| r.context.as_ref().ok()?.length);
     let without = lengths.filter(Option::is_none).count() as u64;
     let mut all = vec![];
@@ -120,8 +124,16 @@ fn damaged(file: &File) -> Vec<Unread> {
 
 /// Parts of keywords of entities that lead to faces; what faces themselves need is told with them.
 const CONTAINERS: [&str; 10] = [
-    "REPRESENTATION", "SHELL", "BREP", "SOLID", "FACE", "SURFACE_MODEL", "MAPPED_ITEM", "OCCURRENCE",
-    "TRANSFORMATION", "PRODUCT_DEFINITION",
+    "REPRESENTATION",
+    "SHELL",
+    "BREP",
+    "SOLID",
+    "FACE",
+    "SURFACE_MODEL",
+    "MAPPED_ITEM",
+    "OCCURRENCE",
+    "TRANSFORMATION",
+    "PRODUCT_DEFINITION",
 ];
 
 /// A file without a face and without a wire is no model.
@@ -140,5 +152,9 @@ fn holds_anything(model: &Model) -> Result<()> {
             format!("none of its faces can be read: {name} #{}: {}{more}", first.entity, first.reason)
         }
     };
-    Err(Fault::Unsupported { what, remedy: "export it as a model with exact faces (boundary representation)" }.into())
+    Err(Fault::Unsupported {
+        what,
+        remedy: "export it as a model with exact faces (boundary representation)",
+    }
+    .into())
 }

@@ -37,14 +37,22 @@ pub(super) fn item(entity: &Entity) -> Item {
         "MANIFOLD_SOLID_BREP" | "BREP_WITH_VOIDS" | "FACETED_BREP" => Item::Solid,
         "SOLID_REPLICA" => Item::Replica,
         "SHELL_BASED_SURFACE_MODEL" | "FACE_BASED_SURFACE_MODEL" => Item::Model,
-        "OPEN_SHELL" | "CLOSED_SHELL" | "ORIENTED_CLOSED_SHELL" | "ORIENTED_OPEN_SHELL" | "CONNECTED_FACE_SET" => {
-            Item::Shell
-        }
+        "OPEN_SHELL"
+        | "CLOSED_SHELL"
+        | "ORIENTED_CLOSED_SHELL"
+        | "ORIENTED_OPEN_SHELL"
+        | "CONNECTED_FACE_SET" => Item::Shell,
         "ADVANCED_FACE" | "FACE_SURFACE" | "ORIENTED_FACE" => Item::Face,
         "GEOMETRIC_SET" | "GEOMETRIC_CURVE_SET" => Item::Set,
         "MAPPED_ITEM" => Item::Mapped,
-        "EDGE_BASED_WIREFRAME_MODEL" | "SHELL_BASED_WIREFRAME_MODEL" | "CARTESIAN_POINT" | "VERTEX_POINT"
-        | "VERTEX_SHELL" | "WIRE_SHELL" | "CONNECTED_EDGE_SET" | "EDGE_CURVE" => Item::Wire,
+        "EDGE_BASED_WIREFRAME_MODEL"
+        | "SHELL_BASED_WIREFRAME_MODEL"
+        | "CARTESIAN_POINT"
+        | "VERTEX_POINT"
+        | "VERTEX_SHELL"
+        | "WIRE_SHELL"
+        | "CONNECTED_EDGE_SET"
+        | "EDGE_CURVE" => Item::Wire,
         "AXIS2_PLACEMENT_3D" | "AXIS2_PLACEMENT_2D" | "AXIS1_PLACEMENT" => Item::Placement,
         keyword if is_surface(keyword) => Item::Surface,
         keyword if is_curve(keyword) => Item::Wire,
@@ -64,8 +72,21 @@ pub(super) fn item(entity: &Entity) -> Item {
 
 /// Parts of keywords of shapes that may have faces.
 const HOLDERS: [&str; 15] = [
-    "SOLID", "BREP", "SHELL", "FACE", "SURFACE", "TESSELLATED", "TRIANGULATED", "BOOLEAN", "BLOCK", "CYLINDER",
-    "CONE", "SPHERE", "TORUS", "WEDGE", "ELLIPSOID",
+    "SOLID",
+    "BREP",
+    "SHELL",
+    "FACE",
+    "SURFACE",
+    "TESSELLATED",
+    "TRIANGULATED",
+    "BOOLEAN",
+    "BLOCK",
+    "CYLINDER",
+    "CONE",
+    "SPHERE",
+    "TORUS",
+    "WEDGE",
+    "ELLIPSOID",
 ];
 
 /// The boundary of a part, item by item.

@@ -12,7 +12,13 @@ const SAME: f64 = 1e-9;
 
 /// The span of an edge between two places on a curve. `same` says that the edge has the sense of the curve, `closed` that both
 /// vertices are one. The vertices may lie off the curve; so far as they do is the second value.
-pub(super) fn between(curve: Curve, ends: [Point; 2], same: bool, closed: bool, tolerance: f64) -> (Span, f64) {
+pub(super) fn between(
+    curve: Curve,
+    ends: [Point; 2],
+    same: bool,
+    closed: bool,
+    tolerance: f64,
+) -> (Span, f64) {
     if let Curve::Line { .. } = curve {
         return line(curve, ends);
     }
@@ -23,7 +29,8 @@ pub(super) fn between(curve: Curve, ends: [Point; 2], same: bool, closed: bool, 
         return (Span { curve, range }, off);
     }
     let [low, high] = curve.domain();
-    let loops = low.is_finite() && high.is_finite() && norm(minus(curve.at(low), curve.at(high))) <= tolerance;
+    let loops =
+        low.is_finite() && high.is_finite() && norm(minus(curve.at(low), curve.at(high))) <= tolerance;
     if !loops {
         return (Span { curve, range: [from, to] }, off);
     }

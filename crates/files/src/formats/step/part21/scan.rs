@@ -268,7 +268,11 @@ impl<'t> Scanner<'t> {
         loop {
             self.skip();
             let opened = match self.peek() {
-                Some(b')') if self.pending.len() == self.open.last().map_or(0, |o| o.0 + usize::from(o.1)) => false,
+                Some(b')')
+                    if self.pending.len() == self.open.last().map_or(0, |o| o.0 + usize::from(o.1)) =>
+                {
+                    false
+                }
                 Some(b'(') => {
                     self.begin_list(false)?;
                     true
