@@ -55,6 +55,8 @@ const RUNS: &[(&str, &str)] = &[
         "surface_trim",
         "surface franke_400_noise.txt --spans 6x6 --trim --json ….json --step ….step --iges ….igs --obj ….obj",
     ),
+    ("info", "info zipper_res3.ply --json ….json"),
+    ("convert", "convert zipper_res3.ply ….obj --json ….json"),
     ("curvature", "curvature zipper_res3.ply --json ….json --out ….npz"),
     ("inspect", "inspect plate.toml --json ….json --html ….html --csv ….csv --junit ….xml --qif ….qif"),
     ("inspect_nominal", "inspect plate.toml --measured nominal.stl --json ….json"),

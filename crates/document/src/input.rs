@@ -41,6 +41,9 @@ pub struct InputRecord {
     /// What of the file was not read; absent where all of it was.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub incomplete: Option<IncompleteRecord>,
+    /// Faces of a CAD model; absent for other files.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub cad: Option<CadInputRecord>,
     /// Faces of a CAD file that are less than their surface, which was taken whole; absent where there are none.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub trimmed_faces: Option<u64>,
@@ -49,6 +52,15 @@ pub struct InputRecord {
     /// What the reader noticed and mended or passed over.
     #[serde(skip_serializing_if = "Vec::is_empty", default)]
     pub warnings: Vec<String>,
+}
+
+/// The faces of a CAD model that was read.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct CadInputRecord {
+    /// Faces, each as often as its part stands in the assembly.
+    pub faces: u64,
+    /// How far the facets made of them lie from them at most, mm.
+    pub facets_within: f64,
 }
 
 /// What of a file was not read.
@@ -110,6 +122,7 @@ impl InputRecord {
             points: 0,
             facets: None,
             incomplete: None,
+            cad: None,
             trimmed_faces: None,
             bounds: None,
             warnings: vec![],

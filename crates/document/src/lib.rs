@@ -2,7 +2,7 @@
 //!
 //! | task | where |
 //! |---|---|
-//! | what a command found out | a module and a document each: [`align`], [`check`], [`compare`], [`curvature`], [`fit`], [`inspect`], [`repair`], [`section`], [`segment`], [`surface`], [`trend`] |
+//! | what a command found out | a module and a document each: [`align`], [`check`], [`compare`], [`convert`], [`curvature`], [`fit`], [`info`], [`inspect`], [`repair`], [`section`], [`segment`], [`surface`], [`trend`] |
 //! | the files that were read | [`InputRecord`] |
 //! | verdicts and their reasons | [`Verdict`], [`VerdictReason`] |
 //! | statistics and counts of values | [`Statistics`], [`Histogram`] |
@@ -22,8 +22,10 @@ pub mod align;
 mod bounds;
 pub mod check;
 pub mod compare;
+pub mod convert;
 pub mod curvature;
 pub mod fit;
+pub mod info;
 mod input;
 pub mod inspect;
 pub mod json;
@@ -47,7 +49,9 @@ pub mod verdict;
 pub mod word;
 
 pub use bounds::Bounds;
-pub use input::{ColumnRecord, IncompleteRecord, InputRecord, Role, TableRecord, UNITS, VERSION};
+pub use input::{
+    CadInputRecord, ColumnRecord, IncompleteRecord, InputRecord, Role, TableRecord, UNITS, VERSION,
+};
 pub use noise::SharedNoise;
 pub use percent::{of_percent, percent, percents};
 pub use reason::{ReasonKind, VerdictReason, judged};
@@ -66,7 +70,9 @@ pub fn schemas() -> Vec<(&'static str, String)> {
         ("align", text(schemars::schema_for!(align::AlignDocument))),
         ("check", text(schemars::schema_for!(check::CheckDocument))),
         ("compare", text(schemars::schema_for!(compare::CompareDocument))),
+        ("convert", text(schemars::schema_for!(convert::ConvertDocument))),
         ("curvature", text(schemars::schema_for!(curvature::CurvatureDocument))),
+        ("info", text(schemars::schema_for!(info::InfoDocument))),
         ("inspect", text(schemars::schema_for!(inspect::InspectDocument))),
         ("plan", text(plan::schema())),
         ("repair", text(schemars::schema_for!(repair::RepairDocument))),

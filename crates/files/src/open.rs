@@ -1,5 +1,6 @@
 //! Reading a file of whatever format.
 
+use crate::content::cad_file::{CadContent, CadFile};
 use crate::{
     Body, Column, Columns, Fault, Input, Provenance, ReadError, SourceMesh, Unit, UnitFrom, Warning,
     assemble, detect,
@@ -118,6 +119,11 @@ fn read(mut source: Source, path: &Path, file: &str, options: &ReadOptions) -> R
             Body::Mesh(mesh)
         }
         Content::Splines(model) => Body::Splines(model),
+        Content::Cad(content) => {
+            let CadContent { model, unit, warnings } = *content;
+            let format = parsed.variant;
+            Body::Cad(Box::new(CadFile { model, format, bytes, gzip, unit, warnings }))
+        }
         Content::Drawing(drawing) => Body::Drawing(drawing),
         Content::Points(inner) => Body::Points(Box::new(Named { inner, file: file.into(), unit })),
     };
@@ -159,7 +165,7 @@ impl Body {
         match self {
             Body::Points(points) => points,
             Body::Mesh(SourceMesh { mesh, .. }) => Box::new(Whole::new(mesh.positions)),
-            Body::Splines(_) | Body::Drawing(_) => Box::new(Whole::new(vec![])),
+            Body::Splines(_) | Body::Cad(_) | Body::Drawing(_) => Box::new(Whole::new(vec![])),
         }
     }
 }

@@ -15,7 +15,9 @@ const CORPUS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../corpus");
 fn mesh(path: &Path) -> SourceMesh {
     match open(path, &ReadOptions::default()).unwrap_or_else(|e| panic!("{e}")).body {
         Body::Mesh(m) => m,
-        Body::Points(_) | Body::Splines(_) | Body::Drawing(_) => panic!("{}: points", path.display()),
+        Body::Points(_) | Body::Splines(_) | Body::Cad(_) | Body::Drawing(_) => {
+            panic!("{}: points", path.display())
+        }
     }
 }
 

@@ -124,7 +124,7 @@ fn without_welding_the_vertices_are_those_of_the_file() {
     let vertices = |file: &str| match open(format!("{CORPUS}/shapes/{file}").as_ref(), &options).unwrap().body
     {
         Body::Mesh(m) => m.mesh.positions.len(),
-        Body::Points(_) | Body::Splines(_) | Body::Drawing(_) => panic!("no mesh"),
+        Body::Points(_) | Body::Splines(_) | Body::Cad(_) | Body::Drawing(_) => panic!("no mesh"),
     };
     assert_eq!(vertices("assimp__cube_uv.ply"), 24);
     assert_eq!(vertices("trimesh__unit_cube.STL"), 36);

@@ -69,6 +69,7 @@ fn told(sources: &dyn Sources, name: &Path) -> Result<(String, Whole), String> {
         let normals = match &input.body {
             trueness_files::Body::Mesh(mesh) => format!("{:?}", mesh.stored_normals),
             trueness_files::Body::Splines(model) => format!("{model:?}"),
+            trueness_files::Body::Cad(file) => format!("{file:?}"),
             trueness_files::Body::Drawing(drawing) => format!("{drawing:?}"),
             trueness_files::Body::Points(_) => String::new(),
         };

@@ -2,6 +2,7 @@
 //!
 //! | task | where |
 //! |---|---|
+//! | what is in a CAD model | [`cad`] |
 //! | defects of a mesh | [`check`] |
 //! | what a repair did | [`repair`] |
 //! | deviations from references | [`compare`] |
@@ -17,6 +18,7 @@
 
 pub mod align;
 mod bounds;
+pub mod cad;
 pub mod characteristic;
 pub mod check;
 pub mod compare;

@@ -10,8 +10,18 @@
 //! | polyline | straight from point to point, one unit of `t` for each |
 //! | joined | several curves one after another, one unit of `t` for each |
 
+mod bezier;
+mod conic;
+mod corners;
 mod evaluate;
+mod extent;
+mod feet;
 mod placed;
+mod sample;
+#[cfg(test)]
+mod tests;
+
+pub use feet::{CurveFeet, Foot};
 
 use crate::frame::Frame;
 use trueness_geom::space::{Point, Vector};

@@ -75,6 +75,10 @@ impl Surface {
             Surface::Plane(_) => [all, all],
             Surface::Cylinder { .. } | Surface::Cone { .. } => [turn, all],
             Surface::Sphere { .. } => [turn, [-FRAC_PI_2, FRAC_PI_2]],
+            Surface::Torus { major, minor, .. } if major < minor => {
+                let pole = libm::acos((-major / minor).clamp(-1.0, 1.0));
+                [turn, [-pole, pole]]
+            }
             Surface::Torus { .. } => [turn, turn],
             Surface::Spline(nurbs) => nurbs.knots().each_ref().map(|k| k.domain().into()),
             Surface::Extrusion { curve, .. } => [curve.domain(), all],
@@ -223,6 +227,21 @@ mod tests {
                     assert!(norm(minus(own, difference)) < 1e-6 * (1.0 + norm(own)), "{:?}", surface.kind());
                 }
             }
+        }
+    }
+
+    /// The spindle torus of radii 1 and 2 meets its axis at ±√3: there the apple and the lemon have their poles.
+    #[test]
+    fn parts_of_a_spindle_torus_end_on_the_axis() {
+        let frame = Frame::new([0.0; 3], [0.0, 0.0, 1.0], Some([1.0, 0.0, 0.0])).unwrap();
+        for (major, widest) in [(1.0, 3.0), (-1.0, 1.0)] {
+            let surface = Surface::Torus { frame, major, minor: 2.0 };
+            let [_, [from, to]] = surface.domain();
+            for (v, z) in [(from, -3f64.sqrt()), (to, 3f64.sqrt())] {
+                assert!(norm(minus(surface.at(0.7, v), [0.0, 0.0, z])) < 1e-15);
+            }
+            assert!(norm(minus(surface.at(0.0, 0.0), [widest, 0.0, 0.0])) < 1e-15);
+            assert_eq!(surface.normal(0.0, 0.0), Some([1.0, 0.0, 0.0]));
         }
     }
 

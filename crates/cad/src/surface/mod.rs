@@ -15,13 +15,24 @@
 //! The normal of a surface is `∂u × ∂v`; that of a face may be the opposite.
 
 mod evaluate;
+mod extent;
+mod feet;
+mod parameters;
+mod patch;
 mod placed;
+mod profile;
+mod seams;
+mod spline;
+#[cfg(test)]
+mod tests;
 
 use crate::curve::Curve;
 use crate::frame::Frame;
 use trueness_geom::space::{Point, Vector};
 use trueness_geom::spline::surface::Nurbs;
 
+pub use feet::{Foot, SurfaceFeet};
+pub use seams::Pole;
 pub use trueness_geom::spline::surface::Jet;
 
 /// A surface, without bounds where its kind has none.
@@ -52,11 +63,13 @@ pub enum Surface {
         /// Above 0.
         radius: f64,
     },
-    /// A torus about the third axis. Where the minor radius exceeds the major one it meets itself on the axis.
+    /// A torus about the third axis. Where the minor radius exceeds the major one it would meet itself on the axis; it is then the part
+    /// where `R + r·cos v` is not below 0, from one pole on the axis to the other: an apple, or a lemon where the major radius is
+    /// below 0 (the inner part of a spindle torus of radii −R and r).
     Torus {
         /// Its center and axis.
         frame: Frame,
-        /// Radius of the circle of centers.
+        /// Radius of the circle of centers; greater than −r.
         major: f64,
         /// Radius of the tube.
         minor: f64,

@@ -3,9 +3,11 @@
 mod align;
 mod check;
 mod compare;
+mod convert;
 mod curvature;
 mod fit;
 mod formats;
+mod info;
 mod inspect;
 mod plan;
 mod repair;
@@ -20,9 +22,11 @@ use align::AlignArgs;
 use check::CheckArgs;
 use clap::{Parser, Subcommand};
 use compare::CompareArgs;
+use convert::ConvertArgs;
 use curvature::CurvatureArgs;
 use fit::FitArgs;
 use formats::FormatsArgs;
+use info::InfoArgs;
 use inspect::InspectArgs;
 use plan::PlanArgs;
 use repair::RepairArgs;
@@ -51,9 +55,11 @@ pub enum Command {
     Align(AlignArgs),
     Check(CheckArgs),
     Compare(Box<CompareArgs>),
+    Convert(ConvertArgs),
     Curvature(Box<CurvatureArgs>),
     Fit(FitArgs),
     Formats(FormatsArgs),
+    Info(InfoArgs),
     Inspect(Box<InspectArgs>),
     Plan(PlanArgs),
     Repair(RepairArgs),
@@ -70,9 +76,11 @@ impl Command {
             Command::Align(args) => args,
             Command::Check(args) => args,
             Command::Compare(args) => args.as_ref(),
+            Command::Convert(args) => args,
             Command::Curvature(args) => args.as_ref(),
             Command::Fit(args) => args,
             Command::Formats(args) => args,
+            Command::Info(args) => args,
             Command::Inspect(args) => args.as_ref(),
             Command::Plan(args) => args,
             Command::Repair(args) => args,
@@ -103,7 +111,8 @@ mod tests {
             let start = format!("trueness {name}");
             let examples: Vec<&str> = help.lines().map(str::trim).filter(|l| l.starts_with(&start)).collect();
             assert!(!examples.is_empty(), "{name} has no example");
-            let judges = ["align", "check", "compare", "inspect", "repair", "section", "surface", "trend"];
+            let judges =
+                ["align", "check", "compare", "convert", "inspect", "repair", "section", "surface", "trend"];
             let told = help.lines().find(|l| l.starts_with("Exit status: 0 done"));
             assert_eq!(told.is_some_and(|l| l.contains("; 1 done, but ")), judges.contains(&name), "{name}");
             for example in examples {

@@ -14,6 +14,7 @@ mod compare_choice;
 mod compare_regions;
 mod compare_surfaces;
 mod compare_verdict;
+mod convert;
 mod curvature;
 mod examples;
 mod files_of_a_run;

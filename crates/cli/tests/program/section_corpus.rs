@@ -35,7 +35,7 @@ fn closed_meshes() -> Vec<(PathBuf, Mesh)> {
             let sound = Soundness::of(&m.mesh).ok()?;
             (finite && sound.oriented()).then_some((path, m.mesh))
         }
-        Body::Points(_) | Body::Splines(_) | Body::Drawing(_) => None,
+        Body::Points(_) | Body::Splines(_) | Body::Cad(_) | Body::Drawing(_) => None,
     };
     files(Path::new(CORPUS)).into_iter().filter_map(read).collect()
 }

@@ -9,8 +9,10 @@ use trueness::task::{Done, Outcome, Request};
 use trueness::tasks::align::AlignRequest;
 use trueness::tasks::check::CheckRequest;
 use trueness::tasks::compare::CompareRequest;
+use trueness::tasks::convert::ConvertRequest;
 use trueness::tasks::curvature::CurvatureRequest;
 use trueness::tasks::fit::FitRequest;
+use trueness::tasks::info::InfoRequest;
 use trueness::tasks::inspect::InspectRequest;
 use trueness::tasks::plan_init::PlanInitRequest;
 use trueness::tasks::repair::RepairRequest;
@@ -110,9 +112,11 @@ fn meshes() {
     document::<AlignRequest>(&format!("{bunny} {coarse}"), json!({"measured": bunny, "reference": coarse}));
     page::<CurvatureRequest>(&format!("{coarse} --degree 2"), json!({"input": coarse, "degree": 2}));
     page::<SegmentRequest>(&cube, json!({"input": cube}));
+    assert_eq!(document::<InfoRequest>(&bunny, json!({"file": bunny})), 0);
     let folder = Folder::new();
     let out = folder.file("out.ply").display().to_string();
     page::<RepairRequest>(&format!("{hole} -o {out}"), json!({"mesh": hole, "out": out}));
+    document::<ConvertRequest>(&format!("{cube} {out}"), json!({"input": cube, "out": out}));
 }
 
 #[test]

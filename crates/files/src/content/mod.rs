@@ -1,10 +1,12 @@
 //! The content of a file.
 
+pub(crate) mod cad_file;
 pub(crate) mod drawing;
 pub(crate) mod spline_model;
 pub(crate) mod spline_surface;
 
 use crate::{ReadError, Unit, Warning};
+use cad_file::CadFile;
 use drawing::Drawing;
 use spline_model::SplineModel;
 use trueness_geom::{cloud::PointStream, mesh::Mesh};
@@ -93,7 +95,7 @@ pub struct ColumnTaken {
 /// The points of a file, block by block, in the file's order, millimeters.
 pub type PointSource = Box<dyn PointStream<Error = ReadError> + Send>;
 
-/// A mesh, points, splines, or a drawing.
+/// A mesh, points, splines, a CAD model, or a drawing.
 pub enum Body {
     /// Vertices and faces.
     Mesh(SourceMesh),
@@ -101,6 +103,8 @@ pub enum Body {
     Points(PointSource),
     /// B-spline surfaces and curves of a CAD file.
     Splines(SplineModel),
+    /// A CAD model with exact faces.
+    Cad(Box<CadFile>),
     /// Lines, arcs and splines in a plane.
     Drawing(Drawing),
 }

@@ -9,7 +9,7 @@ pub(crate) mod values;
 
 use crate::{
     Columns, Unit, Warning,
-    content::{SourceMesh, TableReading, drawing::Drawing, spline_model::SplineModel},
+    content::{SourceMesh, TableReading, cad_file::CadContent, drawing::Drawing, spline_model::SplineModel},
     error::{Located, Result},
     source::Source,
 };
@@ -147,6 +147,7 @@ pub(crate) struct Parsed {
 pub(crate) enum Content {
     Mesh(SourceMesh),
     Splines(SplineModel),
+    Cad(Box<CadContent>),
     Drawing(Drawing),
     Points(Box<dyn PointStream<Error = Located> + Send>),
 }
@@ -172,6 +173,11 @@ impl Parsed {
             warnings.push(Warning::NoSplines);
         }
         Parsed { unit, ..Parsed::of(variant, Content::Splines(model), warnings) }
+    }
+    /// A model with exact faces.
+    pub fn cad(variant: &'static str, content: CadContent) -> Parsed {
+        let warnings = content.warnings.clone();
+        Parsed::of(variant, Content::Cad(Box::new(content)), warnings)
     }
     /// A drawing whose unit the file says, if it does.
     pub fn drawing(

@@ -73,7 +73,7 @@ mod tests {
             Body::Mesh(source) => {
                 source.mesh.faces.iter().flatten().map(|v| source.mesh.positions[*v as usize]).collect()
             }
-            Body::Splines(_) | Body::Drawing(_) => vec![],
+            Body::Splines(_) | Body::Cad(_) | Body::Drawing(_) => vec![],
             Body::Points(mut points) => {
                 let (mut all, mut block) = (vec![], vec![]);
                 while points.next_block(&mut block).is_ok() && !block.is_empty() {

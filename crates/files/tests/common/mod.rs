@@ -63,6 +63,7 @@ pub fn whole(input: Input) -> Result<Whole, ReadError> {
         Body::Mesh(m) => ("mesh", m.mesh.faces.len()),
         Body::Points(_) => ("points", 0),
         Body::Splines(_) => ("splines", 0),
+        Body::Cad(_) => ("cad", 0),
         Body::Drawing(_) => ("drawing", 0),
     };
     let mut stream = input.body.into_points();

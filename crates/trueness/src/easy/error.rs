@@ -34,6 +34,12 @@ pub enum Error {
         /// The file.
         path: String,
     },
+    /// The file holds a CAD model, where a mesh or points are needed.
+    #[error("{path}: it holds a CAD model; trueness::files::cad reads it")]
+    Cad {
+        /// The file.
+        path: String,
+    },
     /// The file holds lines, arcs and curves of a drawing, where a mesh or points are needed.
     #[error("{path}: it holds a drawing; trueness::files::open reads it")]
     Drawing {

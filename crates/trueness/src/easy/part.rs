@@ -65,6 +65,7 @@ pub fn read(path: impl AsRef<Path>) -> Result<Part, Error> {
             }
             SourceMesh { mesh: Mesh { positions, faces: vec![] }, ..SourceMesh::default() }
         }
+        Body::Cad(_) => return Err(Error::Cad { path: input.provenance.path }),
         Body::Splines(_) => return Err(Error::Splines { path: input.provenance.path }),
         Body::Drawing(_) => return Err(Error::Drawing { path: input.provenance.path }),
     };

@@ -1,5 +1,6 @@
 //! What goes by the names of a request, read and described for the result document.
 
+mod cad;
 mod surface_document;
 mod unread;
 mod whole;
@@ -9,7 +10,7 @@ pub use whole::{bytes, digest};
 use crate::task::{Meaning, TaskError};
 use std::path::Path;
 use trueness_document::{ColumnRecord, InputRecord, Role, TableRecord};
-use trueness_files::cad::SplineModel;
+use trueness_files::cad::{CadFile, SplineModel};
 use trueness_files::drawing::Drawing;
 use trueness_files::{
     ColumnTaken, Columns, Input, PointSource, ReadError, ReadOptions, SourceMesh, Sources, TableReading,
@@ -17,6 +18,7 @@ use trueness_files::{
 };
 use trueness_geom::closest::{MAX_COORDINATE, MAX_VERTEX, MIN_COORDINATE};
 use trueness_geom::parallel::prelude::*;
+use trueness_geom::progress::Silent;
 use trueness_geom::space::{Aabb, Point, Vector};
 use trueness_geom::spline::surface::Nurbs;
 use trueness_measure::compare::RegionRule;
@@ -52,6 +54,7 @@ pub enum Body {
 pub fn open(sources: &dyn Sources, path: &Path, role: Role, options: &ReadOptions) -> Result<Opened> {
     match any(sources, path, role, options)? {
         Any::Whole(opened) => Ok(opened),
+        Any::Cad(file, record) => tessellated(path, &file, record),
         Any::Splines(model, record) => Err(unread::refusal(path, &model, &record, MESH_OR_POINTS)),
         Any::Drawing(..) => Err(no_drawing(path)),
     }
@@ -61,9 +64,14 @@ pub fn open(sources: &dyn Sources, path: &Path, role: Role, options: &ReadOption
 const MESH_OR_POINTS: &str = "this command needs a mesh or points";
 
 /// A file of any kind.
-enum Any {
+pub enum Any {
+    /// A mesh or points.
     Whole(Opened),
+    /// B-spline surfaces and curves.
     Splines(SplineModel, InputRecord),
+    /// A CAD model with exact faces.
+    Cad(Box<CadFile>, InputRecord),
+    /// Lines, arcs and splines in a plane.
     Drawing(Drawing, InputRecord),
 }
 
@@ -84,14 +92,26 @@ pub fn nominal(
     match any(sources, path, Role::Reference, options)? {
         Any::Drawing(drawing, record) => Ok(Ok((drawing, record))),
         Any::Whole(opened) => Ok(Err(opened)),
+        Any::Cad(file, record) => tessellated(path, &file, record).map(Err),
         Any::Splines(model, record) => Err(unread::refusal(path, &model, &record, MESH_OR_POINTS)),
     }
 }
 
-fn any(sources: &dyn Sources, path: &Path, role: Role, options: &ReadOptions) -> Result<Any> {
+/// A model as facets, for what works on meshes.
+fn tessellated(path: &Path, file: &CadFile, mut record: InputRecord) -> Result<Opened> {
+    let mesh = cad::facets(path, file, None, &mut record, &Silent)?;
+    Ok(Opened { record, body: Body::Mesh(mesh), planar: false, format: file.format, empty: false })
+}
+
+/// Opens a file of whatever content.
+pub fn any(sources: &dyn Sources, path: &Path, role: Role, options: &ReadOptions) -> Result<Any> {
     let Input { provenance, body, warnings } = open_from(sources, path, options)?;
     let mut record = record(role, &provenance, &warnings);
     let body = match body {
+        trueness_files::Body::Cad(file) => {
+            let record = cad::record(role, path, &file);
+            return Ok(Any::Cad(file, record));
+        }
         trueness_files::Body::Splines(model) => return Ok(Any::Splines(model, record)),
         trueness_files::Body::Drawing(drawing) => return Ok(Any::Drawing(drawing, record)),
         trueness_files::Body::Points(points) => Body::Points(points),
@@ -132,6 +152,10 @@ pub fn reference(
     }
     match any(sources, path, Role::Reference, options)? {
         Any::Whole(opened) => {
+            opened_mesh(path, Role::Reference, opened).map(|(m, r)| (ReferenceBody::Mesh(m), r))
+        }
+        Any::Cad(file, record) => {
+            let opened = tessellated(path, &file, record)?;
             opened_mesh(path, Role::Reference, opened).map(|(m, r)| (ReferenceBody::Mesh(m), r))
         }
         Any::Splines(model, record) if model.surfaces.is_empty() => {
@@ -286,6 +310,7 @@ fn record(
         points: 0,
         facets: None,
         incomplete: unread::incomplete(role, warnings, None),
+        cad: None,
         trimmed_faces: unread::trimmed(warnings),
         bounds: None,
         warnings: texts,

@@ -94,6 +94,7 @@ pub fn read(sources: &dyn Sources, path: &Path) -> Result<Option<(Nurbs, InputRe
         points: count,
         facets: None,
         incomplete: None,
+        cad: None,
         trimmed_faces: super::unread::trimmed(trimmed.as_slice()),
         bounds: None,
         warnings: trimmed.iter().map(ToString::to_string).collect(),

@@ -5,8 +5,10 @@
 //! | `align` | [`align::AlignRequest`] | `trueness/align/1` |
 //! | `check` | [`check::CheckRequest`] | `trueness/check/1` |
 //! | `compare` | [`compare::CompareRequest`] | `trueness/compare/1` |
+//! | `convert` | [`convert::ConvertRequest`] | `trueness/convert/1` |
 //! | `curvature` | [`curvature::CurvatureRequest`] | `trueness/curvature/1` |
 //! | `fit` | [`fit::FitRequest`] | `trueness/fit/1` |
+//! | `info` | [`info::InfoRequest`] | `trueness/info/1` |
 //! | `inspect` | [`inspect::InspectRequest`] | `trueness/inspect/1` |
 //! | `plan init` | [`plan_init::PlanInitRequest`] | a text in TOML: [`plan_init::ProposedPlan`] |
 //! | `repair` | [`repair::RepairRequest`] | `trueness/repair/1` |
@@ -18,8 +20,10 @@
 pub mod align;
 pub mod check;
 pub mod compare;
+pub mod convert;
 pub mod curvature;
 pub mod fit;
+pub mod info;
 pub mod inspect;
 pub mod plan_init;
 pub mod repair;
@@ -43,8 +47,10 @@ pub fn schemas() -> Vec<(&'static str, String)> {
         ("align", text(schemars::schema_for!(align::AlignRequest))),
         ("check", text(schemars::schema_for!(check::CheckRequest))),
         ("compare", text(schemars::schema_for!(compare::CompareRequest))),
+        ("convert", text(schemars::schema_for!(convert::ConvertRequest))),
         ("curvature", text(schemars::schema_for!(curvature::CurvatureRequest))),
         ("fit", text(schemars::schema_for!(fit::FitRequest))),
+        ("info", text(schemars::schema_for!(info::InfoRequest))),
         ("inspect", text(schemars::schema_for!(inspect::InspectRequest))),
         ("plan-init", text(schemars::schema_for!(plan_init::PlanInitRequest))),
         ("repair", text(schemars::schema_for!(repair::RepairRequest))),

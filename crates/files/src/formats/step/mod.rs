@@ -5,17 +5,23 @@
 
 mod curves;
 mod instances;
+mod model;
+mod part21;
 mod read;
+mod spline;
 mod surface;
 #[cfg(test)]
 mod tests;
-mod text;
 
 pub use curves::write as curves;
 pub(super) use instances::real;
+pub(crate) use model::read as model;
 pub use surface::write as surface;
 
-use crate::format::{Format, Head};
+use crate::error::Result;
+use crate::format::{Format, Head, Parsed, ReadOptions};
+use crate::source::Source;
+use trueness_geom::progress::Silent;
 
 /// STEP.
 pub(crate) const STEP: Format = Format {
@@ -25,7 +31,22 @@ pub(crate) const STEP: Format = Format {
     manual: include_str!("step.md"),
     columns: false,
     sniff: |head: &Head| head.bytes.trim_ascii_start().starts_with(b"ISO-10303-21"),
-    read: Some(read::read),
+    read: Some(parsed),
     points: None,
     mesh: None,
 };
+
+/// B-spline surfaces that are whole faces come as such; any other model comes with its exact faces.
+fn parsed(mut source: Source, options: &ReadOptions) -> Result<Parsed> {
+    let splines = read::read(&mut source, options);
+    if splines.as_ref().is_ok_and(|parsed| parsed.warnings.is_empty()) {
+        return splines;
+    }
+    match model(&mut source, options, &Silent) {
+        Ok(content) if content.model.parts.iter().any(|part| !part.brep.faces.is_empty()) => {
+            Ok(Parsed::cad("step", content))
+        }
+        Ok(_) => splines,
+        Err(error) => splines.or(Err(error)),
+    }
+}

@@ -64,11 +64,10 @@ impl<V: Value> Curve<V> {
                 curve = curve.insert(end)?;
             }
         }
-        // Where `degree` equal knots lie within the domain, the point before them is the curve's place there.
-        let (low, high) = self.domain();
+        // Where `degree` knots are equal, the point before them is the place of the curve there. A clamped start has one more.
         let values = curve.knots.values();
-        let first = if from > low { values.partition_point(|k| *k < from) - 1 } else { 0 };
-        let past = if to < high { values.partition_point(|k| *k < to) } else { curve.points.len() };
+        let first = values.partition_point(|k| *k < from).saturating_sub(1);
+        let past = values.partition_point(|k| *k < to);
         let within = values.iter().filter(|k| **k > from && **k < to);
         let ends = |end: f64| std::iter::repeat_n(end, degree + 1);
         let knots = Knots::new(degree, ends(from).chain(within.copied()).chain(ends(to)).collect())?;

@@ -42,9 +42,9 @@ impl Patches {
     }
 }
 
-/// [`Patches::foot_from`] on any surface that has derivatives, and what it is like there.
+/// [`Patches::foot_from`] on any surface that has derivatives, and what it is like there. The domain may be infinite.
 #[inline]
-pub(super) fn descend(
+pub fn descend(
     jet_at: impl Fn([f64; 2]) -> Jet,
     domain: [(f64, f64); 2],
     point: Point,

@@ -19,7 +19,7 @@ mod tests;
 mod tree;
 
 pub use bend::{Bend, Principal};
-pub use closest::SurfaceFoot;
+pub use closest::{SurfaceFoot, descend};
 pub use degenerate::Degenerate;
 pub use foot_error::FootError;
 pub use nurbs::Nurbs;

@@ -1,0 +1,397 @@
+//! Where the distance from a polynomial or rational piece of a surface has minima.
+//!
+//! As with curves ([`crate::curve`]), the squared distance `Y·Y / w²` and the numerators `D` of its two derivatives are polynomials in
+//! Bernstein form. A part of the piece is done away with in one of four ways. No coefficient of `Y·Y − r²·w²` is below 0: it is nowhere
+//! nearer than `r`. All coefficients of one `D`, or of a combination of both, have one sign: the distance stands still nowhere within. The
+//! derivatives of both `D`, times the inverse of those in the middle, differ from the unit matrix by less than 1: `D` takes every value
+//! once at most, and a descent finds the only place. Else it is halved.
+
+use trueness_geom::space::{Aabb, Point, Vector, dot};
+use trueness_geom::spline::surface::Jet;
+use trueness_geom::spline::value::{Mass, Value};
+
+/// Roundings of a coefficient as a share of the greatest: it is the sum of some dozens of products.
+const NOISE: f64 = 256.0 * f64::EPSILON;
+/// Halvings of a part at most; by then it is as short as a rounding of its parameters.
+const DEPTH: u32 = 90;
+/// Parts looked at for one point at most.
+const MAX_PARTS: usize = 20_000;
+/// How far the derivatives may differ from those in the middle of a part that has one foot at most; below 1.
+const UNIQUE: f64 = 0.9;
+
+/// Coefficients in Bernstein form of both directions, row after row.
+#[derive(Clone, Debug)]
+pub(super) struct Net<V> {
+    pub(super) counts: [usize; 2],
+    pub(super) values: Vec<V>,
+}
+
+/// A piece of a surface over a rectangle of its parameters.
+#[derive(Clone, Debug)]
+pub(super) struct Patch {
+    pub(super) net: Net<Mass<3>>,
+    /// First and last `u`, first and last `v`.
+    pub(super) range: [[f64; 2]; 2],
+    /// Around the control points.
+    pub(super) bounds: Aabb,
+}
+
+/// A part of a patch that is not done with.
+struct Part {
+    /// First and last share of the way along `u` and `v`.
+    range: [[f64; 2]; 2],
+    square: Net<f64>,
+    weights: Net<f64>,
+    slopes: [Net<f64>; 2],
+    depth: u32,
+}
+
+/// What becomes of a part.
+enum Verdict {
+    Nothing,
+    OneFoot,
+    Halved(usize),
+}
+
+impl Patch {
+    pub(super) fn new(net: Net<Mass<3>>, range: [[f64; 2]; 2]) -> Patch {
+        let places: Vec<Point> = net.values.iter().filter_map(Mass::place).collect();
+        Patch { net, range, bounds: Aabb::of(&places) }
+    }
+
+    /// Hands over shares of the way along `u` and `v` that are near to each place within where the distance from `p` may have a minimum of
+    /// less than `limit`, with the rectangle in which a descent from there finds it. The callback says a new limit. Minima on the border
+    /// are handed over where the distance stands still there. What is nearer than `limit` by less than `epsilon` may be left out.
+    pub(super) fn minima(
+        &self,
+        p: Point,
+        mut limit: f64,
+        epsilon: f64,
+        mut visit: impl FnMut([f64; 2], [[f64; 2]; 2]) -> f64,
+    ) {
+        let about = self.net.map(|m| Mass { moment: m.moment.plus(-m.mass, p), mass: m.mass });
+        let square = about.product(&about, |a, b| dot(a.moment, b.moment));
+        let masses = about.map(|m| m.mass);
+        let weights = masses.product(&masses, |a, b| a * b);
+        let slopes = [0, 1].map(|k| slope(&square, &masses, k));
+        let lost = NOISE * square.greatest();
+        let noise = [0, 1].map(|k| lost * (square.counts[k] - 1).max(1) as f64 * masses.greatest());
+        let mut open = vec![Part { range: [[0.0, 1.0]; 2], square, weights, slopes, depth: 0 }];
+        for _ in 0..MAX_PARTS {
+            let Some(part) = open.pop() else { return };
+            let reach = (limit - epsilon).max(0.0);
+            let beyond = reach * reach;
+            let is_beyond = |(s, w): (&f64, &f64)| *s > beyond * w + lost;
+            if reach == 0.0 || part.square.values.iter().zip(&part.weights.values).all(is_beyond) {
+                continue;
+            }
+            let middle = part.range.map(|[a, b]| 0.5 * (a + b));
+            match part.verdict(noise) {
+                Verdict::Nothing => {}
+                Verdict::OneFoot => limit = visit(middle, part.range),
+                Verdict::Halved(_) if part.depth >= DEPTH => limit = visit(middle, part.range),
+                Verdict::Halved(k) => {
+                    // A first foot lets most parts be done away with.
+                    if part.depth < 2 {
+                        limit = visit(middle, [[0.0, 1.0]; 2]);
+                    }
+                    let [first, second] = part.halves(k);
+                    open.extend([second, first]);
+                }
+            }
+        }
+    }
+
+    /// The parameters of shares of the way.
+    pub(super) fn parameters(&self, at: [f64; 2]) -> [f64; 2] {
+        [0, 1].map(|k| self.range[k][0] + at[k] * (self.range[k][1] - self.range[k][0]))
+    }
+
+    /// Place and derivatives by the shares of the way.
+    pub(super) fn jet(&self, at: [f64; 2]) -> Jet {
+        let six = self.net.six(at);
+        let w = six[0].mass;
+        let part = |k: usize, less: &[(f64, Point)]| -> Vector {
+            let top = less.iter().fold(six[k].moment, |sum, (by, p)| sum.plus(-by, *p));
+            top.map(|x| x / w)
+        };
+        let place = part(0, &[]);
+        let [wu, wv, wuu, wuv, wvv] = [1, 2, 3, 4, 5].map(|k| six[k].mass);
+        let (su, sv) = (part(1, &[(wu, place)]), part(2, &[(wv, place)]));
+        let second = [
+            part(3, &[(2.0 * wu, su), (wuu, place)]),
+            part(4, &[(wu, sv), (wv, su), (wuv, place)]),
+            part(5, &[(2.0 * wv, sv), (wvv, place)]),
+        ];
+        Jet { place, first: [su, sv], second }
+    }
+}
+
+impl Part {
+    fn verdict(&self, noise: [f64; 2]) -> Verdict {
+        let [u, v] = &self.slopes;
+        if u.has_one_sign(noise[0]) || v.has_one_sign(noise[1]) {
+            return Verdict::Nothing;
+        }
+        let wider = {
+            let bends = [0, 1].map(|k| self.square.bend(k));
+            usize::from(bends[1] > bends[0])
+        };
+        // Below its rounding a slope says nothing: the distance is the same all along.
+        if u.greatest() <= noise[0] && v.greatest() <= noise[1] {
+            return Verdict::OneFoot;
+        }
+        let Some(inverse) = inverse(&self.slopes) else { return Verdict::Halved(wider) };
+        for row in inverse {
+            let sizes = row[0].abs() * noise[0] + row[1].abs() * noise[1];
+            if u.counts == v.counts {
+                let both = u.values.iter().zip(&v.values).map(|(a, b)| row[0] * a + row[1] * b);
+                if one_sign(both, sizes) {
+                    return Verdict::Nothing;
+                }
+            }
+        }
+        let ranges = self.slopes.each_ref().map(|s| [0, 1].map(|k| s.steps(k)));
+        let mut off = 0.0f64;
+        for (i, row) in inverse.iter().enumerate() {
+            let mut sum = 0.0;
+            for k in 0..2 {
+                let ([a, b], [c, d]) = (ranges[0][k], ranges[1][k]);
+                let [p, q] = [[row[0] * a, row[0] * b], [row[1] * c, row[1] * d]];
+                let target = f64::from(u8::from(i == k));
+                let low = p[0].min(p[1]) + q[0].min(q[1]) - target;
+                let high = p[0].max(p[1]) + q[0].max(q[1]) - target;
+                sum += low.abs().max(high.abs());
+            }
+            off = off.max(sum);
+        }
+        if off.is_nan() || off >= UNIQUE {
+            return Verdict::Halved(wider);
+        }
+        let determinant = inverse[0][0] * inverse[1][1] - inverse[0][1] * inverse[1][0];
+        // A saddle is not a minimum.
+        if determinant < 0.0 { Verdict::Nothing } else { Verdict::OneFoot }
+    }
+
+    fn halves(self, k: usize) -> [Part; 2] {
+        let [s0, s1] = self.square.halves(k);
+        let [w0, w1] = self.weights.halves(k);
+        let [[u0, u1], [v0, v1]] = self.slopes.each_ref().map(|s| s.halves(k));
+        let middle = 0.5 * (self.range[k][0] + self.range[k][1]);
+        let (mut first, mut second) = (self.range, self.range);
+        first[k][1] = middle;
+        second[k][0] = middle;
+        let depth = self.depth + 1;
+        [
+            Part { range: first, square: s0, weights: w0, slopes: [u0, v0], depth },
+            Part { range: second, square: s1, weights: w1, slopes: [u1, v1], depth },
+        ]
+    }
+}
+
+/// The numerator of the derivative of the squared distance along a direction.
+fn slope(square: &Net<f64>, masses: &Net<f64>, k: usize) -> Net<f64> {
+    let by = square.derivative(k);
+    if masses.values.iter().all(|w| *w == masses.values[0]) {
+        return by.map(|d| d * masses.values[0]);
+    }
+    let multiply = |a: &Net<f64>, b: &Net<f64>| a.product(b, |x, y| x * y);
+    let (first, second) = (multiply(&by, masses), multiply(square, &masses.derivative(k)));
+    let values = first.values.iter().zip(&second.values).map(|(a, b)| a - 2.0 * b).collect();
+    Net { counts: first.counts, values }
+}
+
+/// The inverse of the derivatives of both slopes in the middle of the part.
+fn inverse(slopes: &[Net<f64>; 2]) -> Option<[[f64; 2]; 2]> {
+    let [[a, b], [c, d]] = slopes.each_ref().map(|s| [0, 1].map(|k| s.middle_step(k)));
+    let determinant = a * d - b * c;
+    let rows = [[d / determinant, -b / determinant], [-c / determinant, a / determinant]];
+    rows.iter().flatten().all(|x| x.is_finite()).then_some(rows)
+}
+
+fn one_sign(mut values: impl Iterator<Item = f64>, noise: f64) -> bool {
+    let Some(first) = values.next() else { return false };
+    first.abs() > noise && values.all(|x| x.abs() > noise && (x > 0.0) == (first > 0.0))
+}
+
+impl<V: Copy> Net<V> {
+    /// Start and step of row or column `line` along direction `k`, and how many such there are.
+    fn along(&self, k: usize) -> ([usize; 2], usize) {
+        let [p, q] = self.counts;
+        if k == 0 { ([1, q], q) } else { ([q, 1], p) }
+    }
+
+    pub(super) fn map<T>(&self, f: impl Fn(&V) -> T) -> Net<T> {
+        Net { counts: self.counts, values: self.values.iter().map(f).collect() }
+    }
+
+    /// The product of two nets.
+    fn product<T: Copy>(&self, other: &Net<T>, by: impl Fn(V, T) -> f64) -> Net<f64> {
+        let [[m, n], [r, s]] = [self.counts, other.counts].map(|c| c.map(|x| x - 1));
+        let rows = shares(m, r);
+        let columns = shares(n, s);
+        let counts = [m + r + 1, n + s + 1];
+        let mut values = vec![0.0; counts[0] * counts[1]];
+        for i in 0..=m {
+            for j in 0..=n {
+                let own = self.values[i * (n + 1) + j];
+                for k in 0..=r {
+                    let row = rows[i * (r + 1) + k];
+                    for l in 0..=s {
+                        let share = row * columns[j * (s + 1) + l];
+                        values[(i + k) * counts[1] + j + l] += share * by(own, other.values[k * (s + 1) + l]);
+                    }
+                }
+            }
+        }
+        Net { counts, values }
+    }
+}
+
+/// `C(m, i)·C(r, k) / C(m + r, i + k)` for all `i` and `k`.
+fn shares(m: usize, r: usize) -> Vec<f64> {
+    let [a, b, all] = [m, r, m + r].map(binomials);
+    (0..=m).flat_map(|i| (0..=r).map(move |k| (i, k))).map(|(i, k)| a[i] * b[k] / all[i + k]).collect()
+}
+
+/// Row `n` of Pascal's triangle.
+fn binomials(n: usize) -> Vec<f64> {
+    let mut row = vec![1.0; n + 1];
+    for k in 1..=n {
+        row[k] = row[k - 1] * (n + 1 - k) as f64 / k as f64;
+    }
+    row
+}
+
+impl Net<f64> {
+    fn greatest(&self) -> f64 {
+        self.values.iter().fold(0.0, |m: f64, x| m.max(x.abs()))
+    }
+
+    fn has_one_sign(&self, noise: f64) -> bool {
+        one_sign(self.values.iter().copied(), noise)
+    }
+
+    /// The derivative by the share of the way along a direction.
+    fn derivative(&self, k: usize) -> Net<f64> {
+        let n = self.counts[k];
+        let mut counts = self.counts;
+        counts[k] = n.max(2) - 1;
+        if n == 1 {
+            return Net { counts, values: vec![0.0; self.values.len()] };
+        }
+        let step = if k == 0 { self.counts[1] } else { 1 };
+        let at = |i: usize, j: usize| i * self.counts[1] + j;
+        let by = (n - 1) as f64;
+        let values = (0..counts[0])
+            .flat_map(|i| (0..counts[1]).map(move |j| at(i, j)))
+            .map(|a| by * (self.values[a + step] - self.values[a]))
+            .collect();
+        Net { counts, values }
+    }
+
+    /// Least and greatest derivative along a direction, by the coefficients.
+    fn steps(&self, k: usize) -> [f64; 2] {
+        let ([start, step], lines) = self.along(k);
+        let n = self.counts[k];
+        let mut range = if n == 1 { [0.0; 2] } else { [f64::INFINITY, f64::NEG_INFINITY] };
+        for line in 0..lines {
+            for i in 1..n {
+                let at = line * start + i * step;
+                let by = (n - 1) as f64 * (self.values[at] - self.values[at - step]);
+                range = [range[0].min(by), range[1].max(by)];
+            }
+        }
+        range
+    }
+
+    /// The mean of the derivatives along a direction.
+    fn middle_step(&self, k: usize) -> f64 {
+        let [low, high] = self.steps(k);
+        0.5 * (low + high)
+    }
+
+    /// Greatest second difference along a direction.
+    fn bend(&self, k: usize) -> f64 {
+        let ([start, step], lines) = self.along(k);
+        let mut most = 0.0f64;
+        for line in 0..lines {
+            for i in 2..self.counts[k] {
+                let at = |i: usize| self.values[line * start + i * step];
+                most = most.max((at(i) - 2.0 * at(i - 1) + at(i - 2)).abs());
+            }
+        }
+        most
+    }
+
+    /// Both halves along a direction, by the pyramid of de Casteljau.
+    fn halves(&self, k: usize) -> [Net<f64>; 2] {
+        let (mut first, mut second) = (self.clone(), self.clone());
+        let n = self.counts[k];
+        let ([start, step], lines) = self.along(k);
+        for line in 0..lines {
+            let at = |i: usize| line * start + i * step;
+            for level in 1..n {
+                for i in 0..n - level {
+                    second.values[at(i)] = 0.5 * (second.values[at(i)] + second.values[at(i + 1)]);
+                }
+                first.values[at(level)] = second.values[at(0)];
+            }
+        }
+        [first, second]
+    }
+}
+
+/// Degree up to which a place is found without allocating.
+const INLINE: usize = 8;
+
+impl Net<Mass<3>> {
+    /// Value and derivatives by `u`, `v`, `uu`, `uv` and `vv` at shares of the way.
+    fn six(&self, [s, t]: [f64; 2]) -> [Mass<3>; 6] {
+        let [p, q] = self.counts;
+        let mut rows = [[Mass::<3>::ZERO; 3]; INLINE + 1];
+        let mut many;
+        let rows: &mut [[Mass<3>; 3]] = if p <= INLINE + 1 {
+            &mut rows[..p]
+        } else {
+            many = vec![[Mass::<3>::ZERO; 3]; p];
+            &mut many
+        };
+        for (row, own) in rows.iter_mut().zip(self.values.chunks_exact(q)) {
+            *row = three(own.iter().copied(), q, t);
+        }
+        let [value, u, uu] = three(rows.iter().map(|r| r[0]), p, s);
+        let [v, uv, _] = three(rows.iter().map(|r| r[1]), p, s);
+        let [vv, _, _] = three(rows.iter().map(|r| r[2]), p, s);
+        [value, u, v, uu, uv, vv]
+    }
+}
+
+/// Value, first and second derivative of a polynomial by its `n` coefficients.
+fn three(coefficients: impl Iterator<Item = Mass<3>>, n: usize, t: f64) -> [Mass<3>; 3] {
+    let mut own = [Mass::<3>::ZERO; INLINE + 1];
+    let mut many;
+    let own: &mut [Mass<3>] = if n <= INLINE + 1 {
+        &mut own[..n]
+    } else {
+        many = vec![Mass::<3>::ZERO; n];
+        &mut many
+    };
+    own.iter_mut().zip(coefficients).for_each(|(own, c)| *own = c);
+    let degree = n - 1;
+    for level in 1..degree.max(2) - 1 {
+        for i in 0..n - level {
+            own[i] = own[i].between(t, own[i + 1]);
+        }
+    }
+    match (degree, &*own) {
+        (0, [a, ..]) => [*a, Mass::ZERO, Mass::ZERO],
+        (1, [a, b, ..]) => [a.between(t, *b), b.minus(*a), Mass::ZERO],
+        (_, [a, b, c, ..]) => {
+            let (left, right) = (a.between(t, *b), b.between(t, *c));
+            let second = c.minus(*b).minus(b.minus(*a)).times((degree * (degree - 1)) as f64);
+            [left.between(t, right), right.minus(left).times(degree as f64), second]
+        }
+        _ => [Mass::ZERO; 3],
+    }
+}

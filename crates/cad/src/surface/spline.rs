@@ -1,0 +1,172 @@
+//! Feet on B-spline surfaces.
+
+use super::feet::Foot;
+use super::patch::{Net, Patch};
+use super::seams::iso_curve;
+use crate::curve::CurveFeet;
+use trueness_geom::space::{Aabb, Point};
+use trueness_geom::spline::basis::Knots;
+use trueness_geom::spline::curve::Curve;
+use trueness_geom::spline::surface::{Direction, Nurbs, SurfaceFoot, descend};
+use trueness_geom::spline::value::Mass;
+
+/// A B-spline surface in pieces between its knots, and its lines where it may have a crease or an end.
+#[derive(Clone, Debug)]
+pub(super) struct SplineFeet {
+    /// Row after row: those of the first span of `u` come first.
+    patches: Vec<Patch>,
+    /// Ends of the spans in both directions.
+    knots: [Vec<f64>; 2],
+    /// Held parameter, its value, and the line.
+    lines: Vec<(usize, f64, CurveFeet)>,
+    /// Diagonal of the box of the control points.
+    pub(super) size: f64,
+    /// What is nearer by less is not looked for.
+    epsilon: f64,
+}
+
+/// Share of the size below which a nearer place is not looked for, and roundings of the greatest coordinate.
+const EPSILON: [f64; 2] = [1e-14, 32.0 * f64::EPSILON];
+
+impl SplineFeet {
+    pub(super) fn new(nurbs: &Nurbs) -> SplineFeet {
+        let points = nurbs.control_points();
+        let [m, n] = nurbs.counts();
+        let [knots_u, knots_v] = nurbs.knots();
+        // First along v, then along u.
+        let masses: Vec<Mass<3>> = points.iter().map(|(p, w)| Mass::new(*p, *w)).collect();
+        let rows: Vec<Vec<Mass<3>>> =
+            (0..m).map(|i| beziers(knots_v, masses[i * n..(i + 1) * n].to_vec())).collect();
+        let width = rows.first().map_or(0, Vec::len);
+        let columns: Vec<Vec<Mass<3>>> =
+            (0..width).map(|j| beziers(knots_u, rows.iter().map(|r| r[j]).collect())).collect();
+        let knots = [knots_u, knots_v].map(Knots::distinct);
+        let [p, q] = [knots_u, knots_v].map(Knots::degree);
+        let mut patches = vec![];
+        for (i, u) in knots[0].windows(2).enumerate() {
+            for (j, v) in knots[1].windows(2).enumerate() {
+                let at = |k: usize| columns[j * q + k % (q + 1)][i * p + k / (q + 1)];
+                let net = Net { counts: [p + 1, q + 1], values: (0..(p + 1) * (q + 1)).map(at).collect() };
+                patches.push(Patch::new(net, [[u[0], u[1]], [v[0], v[1]]]));
+            }
+        }
+        let mut lines = vec![];
+        for held in [Direction::U, Direction::V] {
+            let own = &nurbs.knots()[held as usize];
+            let (from, to) = own.domain();
+            let across = nurbs.knots()[1 - held as usize].domain();
+            for t in own.distinct() {
+                if t == from || t == to || own.multiplicity(t) >= own.degree() {
+                    let line = CurveFeet::new(&iso_curve(nurbs, held, t), across.into());
+                    lines.push((held as usize, t, line));
+                }
+            }
+        }
+        let bounds = Aabb::of(&points.iter().map(|p| p.0).collect::<Vec<_>>());
+        let size = bounds.diagonal();
+        let farthest = bounds.min.iter().chain(&bounds.max).fold(0.0, |m: f64, x| m.max(x.abs()));
+        let epsilon = EPSILON[0] * size + EPSILON[1] * farthest;
+        SplineFeet { patches, knots, lines, size, epsilon }
+    }
+
+    /// See [`super::SurfaceFeet::visit`].
+    pub(super) fn visit(&self, p: Point, limit: f64, visit: &mut dyn FnMut(Foot) -> f64) {
+        let mut limit = limit;
+        for (held, t, line) in &self.lines {
+            if line.bounds().distance(&p) < limit {
+                line.candidates(p, limit, |foot| {
+                    let parameters = if *held == 0 { [*t, foot.parameter] } else { [foot.parameter, *t] };
+                    limit = visit(Foot { parameters, place: foot.place, distance: foot.distance });
+                    limit
+                });
+            }
+        }
+        let mut order: Vec<(f64, &Patch)> =
+            self.patches.iter().map(|patch| (patch.bounds.distance(&p), patch)).collect();
+        order.sort_by(|a, b| a.0.total_cmp(&b.0));
+        for (distance, patch) in order {
+            if distance >= limit {
+                break;
+            }
+            limit = self.visit_patch(patch, p, limit, visit);
+        }
+    }
+
+    /// The feet on one patch; says the new limit.
+    pub(super) fn visit_patch(
+        &self,
+        patch: &Patch,
+        p: Point,
+        limit: f64,
+        visit: &mut dyn FnMut(Foot) -> f64,
+    ) -> f64 {
+        let mut limit = limit;
+        patch.minima(p, limit, self.epsilon, |start, [[a, b], [c, d]]| {
+            let (foot, _) = descend(|at| patch.jet(at), [(a, b), (c, d)], p, start);
+            let SurfaceFoot { parameters, place, distance, .. } = foot;
+            limit = visit(Foot { parameters: patch.parameters(parameters), place, distance });
+            limit
+        });
+        limit
+    }
+
+    /// The foot that a descent from these parameters comes to; where a parameter has a period, over the seam.
+    pub(super) fn local(&self, p: Point, near: [f64; 2], periods: [Option<f64>; 2]) -> Foot {
+        let domain = self.knots.each_ref().map(|k| (k[0], k[k.len() - 1]));
+        let mut start = [0, 1].map(|k| match periods[k] {
+            Some(period) => domain[k].0 + (near[k] - domain[k].0).rem_euclid(period),
+            None => near[k],
+        });
+        let mut best: Option<Foot> = None;
+        // Over the seam of each direction once, and from there once more.
+        for _ in 0..4 {
+            let (foot, _) = descend(|at| self.jet(at), domain, p, start);
+            let SurfaceFoot { parameters, place, distance, .. } = foot;
+            if best.is_none_or(|b| distance < b.distance) {
+                best = Some(Foot { parameters, place, distance });
+            } else {
+                break;
+            }
+            let mut is_over = false;
+            start = [0, 1].map(|k| {
+                let at = parameters[k];
+                let (from, to) = domain[k];
+                if periods[k].is_none() || at > from && at < to {
+                    return at;
+                }
+                is_over = true;
+                if at == from { to } else { from }
+            });
+            if !is_over {
+                break;
+            }
+        }
+        best.unwrap_or(Foot { parameters: near, place: [f64::NAN; 3], distance: f64::NAN })
+    }
+
+    fn jet(&self, at: [f64; 2]) -> trueness_geom::spline::surface::Jet {
+        let span = |k: usize| {
+            let knots = &self.knots[k];
+            knots.partition_point(|t| *t <= at[k]).clamp(1, knots.len() - 1) - 1
+        };
+        let patch = &self.patches[span(0) * (self.knots[1].len() - 1) + span(1)];
+        let widths = patch.range.map(|[a, b]| b - a);
+        let own = [0, 1].map(|k| ((at[k] - patch.range[k][0]) / widths[k]).clamp(0.0, 1.0));
+        let mut jet = patch.jet(own);
+        for k in 0..3 {
+            (0..2).for_each(|d| jet.first[d][k] /= widths[d]);
+            jet.second[0][k] /= widths[0] * widths[0];
+            jet.second[1][k] /= widths[0] * widths[1];
+            jet.second[2][k] /= widths[1] * widths[1];
+        }
+        jet
+    }
+}
+
+/// Control points of the pieces between the knots, ends shared.
+fn beziers(knots: &Knots, points: Vec<Mass<3>>) -> Vec<Mass<3>> {
+    let (from, to) = knots.domain();
+    let Ok(curve) = Curve::new(knots.clone(), points) else { return vec![] };
+    // Knots that do not stand as often as the degree at the ends are made to.
+    curve.part(from, to).as_ref().unwrap_or(&curve).bezier()
+}

@@ -1,0 +1,84 @@
+//! CAD models: what documents say of their files, and their facets for what works on meshes.
+
+use super::out_of_range;
+use crate::task::TaskError;
+use std::path::Path;
+use trueness_cad::tessellate::{Fineness, TessellateError};
+use trueness_cad::trimmed::Trimmed;
+use trueness_document::{CadInputRecord, IncompleteRecord, InputRecord, Role};
+use trueness_files::cad::CadFile;
+use trueness_files::{FacetRegions, SourceMesh};
+use trueness_geom::closest::MAX_VERTEX;
+use trueness_geom::progress::Progress;
+
+/// Facets keep to the faces within this share of the diagonal: a hundredth of a millimeter for a part of 200 mm.
+const FACET_SHARE: f64 = 5e-5;
+/// Greatest angle between neighboring facets, radians: a circle has 24 or more.
+const FACET_ANGLE: f64 = std::f64::consts::PI / 12.0;
+/// Facets of a model at most.
+const MAX_FACETS: usize = 16_000_000;
+
+/// Facets of a model where its parts stand, within `distance` of its faces, mm; without it within a share of its size. The document is
+/// told of faces that are missing.
+pub fn facets(
+    path: &Path,
+    file: &CadFile,
+    distance: Option<f64>,
+    record: &mut InputRecord,
+    progress: &dyn Progress,
+) -> Result<SourceMesh, TaskError> {
+    let shape = Trimmed::of(&file.model, progress)?;
+    let size = shape.bounds().diagonal();
+    let fineness = Fineness { distance: distance.unwrap_or(FACET_SHARE * size), angle: FACET_ANGLE };
+    let made = shape.tessellate(fineness, MAX_FACETS, progress).map_err(|e| match e {
+        TessellateError::Cancelled(e) => e.into(),
+        e => TaskError::unanswerable(format!("{}: {e}", path.display())),
+    })?;
+    if let Some(v) = made.mesh.positions.iter().position(|p| out_of_range(p, MAX_VERTEX)) {
+        return Err(TaskError::unanswerable(super::refusal(path, "vertex", v, MAX_VERTEX)));
+    }
+    let farthest = made.bounds.iter().flatten().map(|b| b.distance).fold(0.0, f64::max);
+    let read = made.bounds.iter().flatten().count() as u64;
+    let of =
+        shape.brep.faces.len() as u64 + file.model.unread.iter().filter(|u| u.holds_faces).count() as u64;
+    record.cad = Some(CadInputRecord { faces: read, facets_within: farthest });
+    record.facets = Some(made.mesh.faces.len() as u64);
+    record.incomplete = incomplete(record.role, read, of);
+    super::describe(record, &made.mesh.positions);
+    let name = |face: &trueness_cad::brep::Face| match face.name.trim() {
+        "" => format!("face {}", face.entity),
+        name => name.to_string(),
+    };
+    let names = shape.brep.faces.iter().map(name).collect();
+    let regions = Some(FacetRegions { names, of_facet: made.faces });
+    Ok(SourceMesh { mesh: made.mesh, regions, ..SourceMesh::default() })
+}
+
+/// What of the faces is missing; `None` where all are there.
+fn incomplete(role: Role, read: u64, of: u64) -> Option<IncompleteRecord> {
+    let what = if role == Role::Reference { "the reference" } else { "the file" };
+    let were = if read == 1 { "was" } else { "were" };
+    let text = format!("{read} of {of} faces of {what} {were} read");
+    (read < of).then_some(IncompleteRecord { read: Some(read), of: Some(of), text })
+}
+
+/// What a document says of the file before anything is made of its faces.
+pub fn record(role: Role, path: &Path, file: &CadFile) -> InputRecord {
+    InputRecord {
+        path: path.display().to_string(),
+        format: format!("{}{}", file.format, if file.gzip { "+gzip" } else { "" }),
+        bytes: file.bytes,
+        unit_assumed: unit(file.unit.millimeters),
+        unit_from: file.unit.from.name().into(),
+        warnings: file.warnings.iter().map(ToString::to_string).collect(),
+        ..InputRecord::of_no_file(role)
+    }
+}
+
+/// The name of a unit of so many millimeters.
+fn unit(millimeters: f64) -> String {
+    const NAMES: [(f64, &str); 7] =
+        [(1.0, "mm"), (10.0, "cm"), (1000.0, "m"), (25.4, "in"), (0.001, "um"), (304.8, "ft"), (1e6, "km")];
+    let same = |(own, _): &&(f64, &str)| (own / millimeters - 1.0).abs() < 1e-9;
+    NAMES.iter().find(same).map_or_else(|| format!("{millimeters} mm"), |(_, name)| (*name).into())
+}

@@ -1,0 +1,140 @@
+//! A file in another format.
+
+use crate::read::{self, Body, Opened};
+use crate::task::{Done, Output, PointReading, Request, Rounding, RunFiles, TaskError, Watch};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::path::PathBuf;
+use trueness_document::convert::{ConvertDocument, Written};
+use trueness_document::{InputRecord, Role};
+use trueness_files::write::{self, Block, Layout, MeshFile, Writable};
+use trueness_files::{PointSource, SourceMesh, Sources};
+use trueness_geom::progress::Cancelled;
+
+/// What a conversion is asked.
+///
+/// ```
+/// use trueness::task::Request;
+/// use trueness::{files::FileSources, geom::progress::Silent, tasks::convert::ConvertRequest};
+/// let out = std::env::temp_dir().join("cube of a conversion.ply");
+/// let request = ConvertRequest { input: "../../corpus/shapes/mayo__258_cube.off".into(), out: out.clone(), ..ConvertRequest::default() };
+/// let mut done = request.run(&FileSources, &Silent)?;
+/// assert_eq!((done.document.points, done.document.facets), (8, Some(12)));
+/// done.commit()?;
+/// assert!(out.exists());
+/// # std::fs::remove_file(out).unwrap();
+/// # Ok::<(), trueness::task::TaskError>(())
+/// ```
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(default, deny_unknown_fields)]
+pub struct ConvertRequest {
+    /// A file of any format that is read as a mesh or points.
+    pub input: PathBuf,
+    /// Where to write it, in the format of its ending, mm.
+    pub out: PathBuf,
+    /// How the input is taken.
+    #[serde(flatten)]
+    pub reading: PointReading,
+}
+
+impl Request for ConvertRequest {
+    type Document = ConvertDocument;
+    const COMMAND: &'static str = "convert";
+
+    fn files(&self) -> Result<RunFiles, TaskError> {
+        Ok(RunFiles::of([&self.input]).also("OUT", Some(&self.out)))
+    }
+
+    fn run(&self, sources: &dyn Sources, watch: &dyn Watch) -> Result<Done<ConvertDocument>, TaskError> {
+        let opened = read::open(sources, &self.input, Role::Mesh, &self.reading.options())?;
+        let Opened { record, body, .. } = opened;
+        let mut done = match body {
+            Body::Mesh(source) => self.mesh(source, record)?,
+            Body::Points(source) => self.points(source, record, watch)?,
+        };
+        read::hash(sources, &mut done.document.inputs[0], &self.input)?;
+        Ok(done)
+    }
+}
+
+impl ConvertRequest {
+    fn document(&self, record: InputRecord, written: Written) -> ConvertDocument {
+        ConvertDocument::new(record, self.out.display().to_string(), written)
+    }
+
+    fn mesh(&self, source: SourceMesh, record: InputRecord) -> Result<Done<ConvertDocument>, TaskError> {
+        let mut document = self.document(record, Written::Mesh);
+        // A format of points alone takes the vertices.
+        if Writable::Mesh.check(&self.out).is_err() && Writable::Points.check(&self.out).is_ok() {
+            document.written.0 = Written::Points;
+            document.points = source.mesh.positions.len() as u64;
+            document.lost.push(format!("{} facets: the format holds points alone", source.mesh.faces.len()));
+            let mut file = write::points(&self.out, Layout::default())?;
+            file.write(&Block { points: &source.mesh.positions, ..Block::default() })?;
+            return Ok(finished(document, Output::later(move || file.finish().map(drop))));
+        }
+        Writable::Mesh.check(&self.out)?;
+        let file = MeshFile::write(&self.out, &source.mesh)?;
+        let loss = file.loss;
+        document.points = source.mesh.positions.len() as u64;
+        document.facets = Some(source.mesh.faces.len() as u64);
+        document.farthest_moved = Some(loss.farthest);
+        document.lost = lost(&source);
+        let mut done = finished(document, Output::later(move || file.finish()));
+        done.losses
+            .extend((loss.moved > 0).then(|| Rounding { path: self.out.clone(), farthest: loss.farthest }));
+        Ok(done)
+    }
+
+    /// Points go from file to file in blocks: memory does not grow with their number.
+    fn points(
+        &self,
+        mut source: PointSource,
+        record: InputRecord,
+        watch: &dyn Watch,
+    ) -> Result<Done<ConvertDocument>, TaskError> {
+        Writable::Points.check(&self.out)?;
+        let mut document = self.document(record, Written::Points);
+        let mut file = write::points(&self.out, Layout::default())?;
+        let stage = watch.stage("converting", "points", source.expected());
+        let mut block = vec![];
+        loop {
+            source.next_block(&mut block)?;
+            if block.is_empty() {
+                break;
+            }
+            file.write(&Block { points: &block, ..Block::default() })?;
+            document.points += block.len() as u64;
+            stage.advance(block.len() as u64);
+            if stage.cancelled() {
+                return Err(Cancelled.into());
+            }
+        }
+        stage.finish();
+        document.inputs[0].points = document.points;
+        Ok(finished(document, Output::later(move || file.finish().map(drop))))
+    }
+}
+
+fn finished(document: ConvertDocument, output: Output) -> Done<ConvertDocument> {
+    let conforms = document.conforms();
+    Done { outputs: vec![output], ..Done::new(document, conforms) }
+}
+
+/// What no format that is written holds.
+fn lost(source: &SourceMesh) -> Vec<String> {
+    let mut lost = vec![];
+    if source.stored_normals.is_some() {
+        lost.push("the normals stored with the facets: those written follow from the corners".into());
+    }
+    if let Some(regions) = &source.regions {
+        lost.push(format!("the names of {} parts of the mesh", regions.names.len()));
+    }
+    if !source.unread.is_empty() {
+        lost.push(format!("what the file tells beside places and corners: {}", source.unread.join(", ")));
+    }
+    if !source.nonfinite_facets.is_empty() {
+        lost.push(format!("{} facets with coordinates that are not finite", source.nonfinite_facets.len()));
+    }
+    lost
+}
