@@ -6,7 +6,7 @@ use crate::content::spline_model::SplineModel;
 use crate::error::{Fault, Located, Result};
 use crate::format::{Parsed, ReadOptions};
 use crate::formats::spline::{curve, surface};
-use crate::source::{HEAD, Source};
+use crate::source::{SNIFFED_BYTES, Source};
 use crate::unicode::no_zeros;
 use crate::{Unit, Warning};
 use std::collections::{BTreeMap, BTreeSet};
@@ -14,7 +14,7 @@ use trueness_geom::progress::Silent;
 
 /// Reads a file.
 pub(super) fn read(source: &mut Source, options: &ReadOptions) -> Result<Parsed> {
-    no_zeros(source.feed.ahead(HEAD)?)?;
+    no_zeros(source.feed.ahead(SNIFFED_BYTES)?)?;
     let text = source.feed.all()?;
     no_zeros(text)?;
     let file = parse(text, &Silent).map_err(|_| Fault::unexpected("a file", b""))?;
