@@ -120,10 +120,15 @@ impl Chart {
         })
     }
 
-    /// The pole within `reach` of a point.
-    pub fn pole(&self, point: Point, reach: f64) -> Option<Side> {
+    /// The pole within `reach` of a point; of several at one place that whose parameter is nearest to `near`.
+    pub fn pole(&self, point: Point, reach: f64, near: Option<[f64; 2]>) -> Option<Side> {
         let sides = [(0, 0), (0, 1), (1, 0), (1, 1)];
-        sides.into_iter().find(|(k, end)| self.poles[*k][*end].is_some_and(|p| norm(minus(p, point)) <= reach))
+        let is_there = |side: &Side| self.poles[side.0][side.1].is_some_and(|p| norm(minus(p, point)) <= reach);
+        let away = |(k, end): &Side| {
+            let [from, to] = self.domain[*k];
+            near.map_or(0.0, |n| (n[*k] - self.domain[*k][*end]).abs() / (to - from))
+        };
+        sides.into_iter().filter(is_there).min_by(|a, b| away(a).total_cmp(&away(b)))
     }
 
     /// Whether any side is a pole.

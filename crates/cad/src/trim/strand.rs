@@ -67,7 +67,7 @@ impl Sampler<'_> {
 
     fn raw(&self, share: f64, near: Option<[f64; 2]>) -> Raw {
         let place = self.place(share);
-        let pole = self.chart.pole(place, self.reach);
+        let pole = self.chart.pole(place, self.reach, near);
         let mut at = match (pole, near) {
             (Some(_), Some(near)) => near,
             _ => self.chart.parameters(place, near),
@@ -88,6 +88,7 @@ impl Sampler<'_> {
         if first.pole.is_some() {
             // The parameter along the pole is the one that the edge leaves it with.
             let along = self.raw(shares[0] + 0.5 * (shares[1] - shares[0]), near);
+            first.pole = self.chart.pole(first.place, self.reach, Some(along.at));
             let (k, end) = first.pole.unwrap_or_default();
             first.at = along.at;
             first.at[k] = self.chart.domain[k][end];
@@ -291,8 +292,8 @@ pub fn crossing(
     [mut low, mut high]: [f64; 2],
     (k, value): (usize, f64),
 ) -> (f64, [f64; 2]) {
-    let is_above = |at: [f64; 2]| at[k] > value;
-    let at_low = is_above(strand.at(chart, span, low));
+    let [start, end] = [low, high].map(|s| strand.at(chart, span, s)[k]);
+    let is_past = |x: f64| if end > start { x > value } else { x < value };
     let mut middle = 0.5 * (low + high);
     // The bits of a share.
     for _ in 0..60 {
@@ -300,7 +301,7 @@ pub fn crossing(
         if middle == low || middle == high {
             break;
         }
-        if is_above(strand.at(chart, span, middle)) == at_low { low = middle } else { high = middle }
+        if is_past(strand.at(chart, span, middle)[k]) { high = middle } else { low = middle }
     }
     let mut at = strand.at(chart, span, middle);
     at[k] = value;
