@@ -57,7 +57,13 @@ impl Looks {
         looks
     }
 
-    fn style(&mut self, file: &File, entity: &Entity, overrides: bool, styles: &mut HashMap<u64, Option<Color>>) {
+    fn style(
+        &mut self,
+        file: &File,
+        entity: &Entity,
+        overrides: bool,
+        styles: &mut HashMap<u64, Option<Color>>,
+    ) {
         // Of a complex instance the record STYLED_ITEM has styles and item alone.
         let record = entity.main(&["STYLED_ITEM"]);
         let first = usize::from(entity.is_simple());

@@ -7,9 +7,9 @@ mod file;
 mod pages;
 mod record;
 mod scan;
-mod text;
 #[cfg(test)]
 mod tests;
+mod text;
 
 pub(super) use file::{Entity, File, Value};
 pub(super) use record::{Record, Wrong};

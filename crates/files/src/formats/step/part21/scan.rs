@@ -141,7 +141,7 @@ impl<'t> Scanner<'t> {
         match self.peek() {
             None => return false,
             Some(b'#') => self.entity(),
-            Some(_) if self.rest().starts_with(END) => {
+            Some(_) if self.rest().get(..END.len()).is_some_and(|w| w.eq_ignore_ascii_case(END)) => {
                 self.file.is_whole = true;
                 return false;
             }
@@ -268,7 +268,11 @@ impl<'t> Scanner<'t> {
         loop {
             self.skip();
             let opened = match self.peek() {
-                Some(b')') if self.pending.len() == self.open.last().map_or(0, |o| o.0 + usize::from(o.1)) => false,
+                Some(b')')
+                    if self.pending.len() == self.open.last().map_or(0, |o| o.0 + usize::from(o.1)) =>
+                {
+                    false
+                }
                 Some(b'(') => {
                     self.begin_list(false)?;
                     true
