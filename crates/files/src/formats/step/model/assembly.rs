@@ -31,6 +31,8 @@ pub(super) struct Child {
     pub placement: Placement,
     /// The entity that places it.
     pub entity: u64,
+    /// What a file styles where it gives this occurrence a color: the relationship, or the mapped item.
+    pub styled: u64,
     /// Whether it stands in itself, and is left out.
     pub is_cut: bool,
 }
@@ -39,8 +41,6 @@ pub(super) struct Child {
 pub(super) struct Representation {
     pub name: String,
     pub items: Vec<u64>,
-    /// The items in the order of their numbers.
-    sorted: Vec<u64>,
     pub context: Result<Context, Wrong>,
 }
 
@@ -74,10 +74,8 @@ pub(super) fn representations(file: &File) -> BTreeMap<u64, Representation> {
             _ => None,
         });
         let items: Vec<u64> = items.collect();
-        let mut sorted = items.clone();
-        sorted.sort_unstable();
         let context = contexts.entry(number).or_insert_with(|| context(file, number)).clone();
-        all.insert(entity.number(), Representation { name: record.text(0), items, sorted, context });
+        all.insert(entity.number(), Representation { name: record.text(0), items, context });
     }
     all
 }
@@ -249,30 +247,31 @@ impl<'f> Assembly<'f> {
         let turned = nodes[1] == Some(second) && nodes[1] != Some(first);
         let child = if turned { second } else { first };
         let parent = nodes[0].unwrap_or(if turned { first } else { second });
-        let [of_child, of_parent] = if turned { [pair[1], pair[0]] } else { pair };
-        let placement = self.transformation(transformed.entity(0)?, of_child, of_parent, turned)?;
+        let placement = self.transformation(transformed.entity(0)?, pair, turned)?;
         let name = if name.is_empty() { self.nodes[child].name.clone() } else { name };
-        self.nodes[parent].children.push(Child { node: child, name, placement, entity: by, is_cut: false });
+        let styled = entity.number();
+        self.nodes[parent].children.push(Child {
+            node: child,
+            name,
+            placement,
+            entity: by,
+            styled,
+            is_cut: false,
+        });
         Ok(())
     }
 
-    /// What brings one representation into another. The items of a transformation stand in the order of the representations of
-    /// their relationship, but some programs turn only these around: the items that a representation lists decide.
-    fn transformation(&self, number: u64, child: u64, parent: u64, turned: bool) -> Result<Placement, Wrong> {
+    /// What brings one of a pair of representations into the other one. The items of a transformation stand in the order of the
+    /// representations, also where these are turned.
+    fn transformation(&self, number: u64, pair: [u64; 2], turned: bool) -> Result<Placement, Wrong> {
         let entity = self.file.entity(number)?;
+        let [first, second] = pair.map(|r| self.units(r));
         let Some(record) = entity.record("ITEM_DEFINED_TRANSFORMATION") else {
-            return operator(self.file, self.units(parent), number);
+            return operator(self.file, if turned { first } else { second }, number);
         };
-        let (first, second) = (record.entity(2)?, record.entity(3)?);
-        let lists = |r: u64, item: u64| {
-            self.representations.get(&r).is_some_and(|r| r.sorted.binary_search(&item).is_ok())
-        };
-        let straight = lists(child, first) && lists(parent, second);
-        let crossed = lists(child, second) && lists(parent, first);
-        let is_crossed = if straight == crossed { turned } else { crossed };
-        let (from, to) = if is_crossed { (second, first) } else { (first, second) };
-        let from = frame(self.file, self.units(child), from)?;
-        Ok(Placement::between(&from, &frame(self.file, self.units(parent), to)?))
+        let from = frame(self.file, first, record.entity(2)?)?;
+        let to = frame(self.file, second, record.entity(3)?)?;
+        Ok(if turned { Placement::between(&to, &from) } else { Placement::between(&from, &to) })
     }
 
     /// Items that are other representations, placed.
@@ -305,11 +304,13 @@ impl<'f> Assembly<'f> {
         let placement = target(self.file, self.units(owner), record.entity(first + 1)?, &from)?;
         let name = Some(record.text(0)).filter(|n| first == 1 && !n.is_empty());
         let name = name.unwrap_or_else(|| self.nodes[child].name.clone());
+        let (entity, styled) = (entity.number(), entity.number());
         self.nodes[parent].children.push(Child {
             node: child,
             name,
             placement,
-            entity: entity.number(),
+            entity,
+            styled,
             is_cut: false,
         });
         Ok(())

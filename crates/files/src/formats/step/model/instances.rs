@@ -153,7 +153,7 @@ fn expanded(
             let children = nodes[node].children.iter().filter(|c| !c.is_cut && below[c.node].instances > 0);
             pending.extend(children.rev().map(|c| {
                 let placed = placement.after(&c.placement);
-                (depth + 1, c.node, c.name.clone(), placed, color(c.entity).or(own))
+                (depth + 1, c.node, c.name.clone(), placed, color(c.styled).or(own))
             }));
         }
     }

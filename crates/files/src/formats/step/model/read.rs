@@ -51,7 +51,9 @@ pub(crate) fn read(
     for node in order {
         let (part, mut unread) = reading.part(&assembly, node);
         model.unread.append(&mut unread);
-        if let Some(part) = part {
+        // Views of products hold curves and planes beside the faces of the product.
+        let is_view = !assembly.nodes[node].is_product && !model.parts.is_empty();
+        if let Some(part) = part.filter(|p| !is_view || !p.brep.faces.is_empty()) {
             parts[node] = Some((model.parts.len() as u32, part.brep.faces.len() as u64));
             model.parts.push(part);
         }
