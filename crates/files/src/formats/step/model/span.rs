@@ -50,11 +50,16 @@ fn onward([from, to]: [f64; 2], same: bool, curve: &Curve, ends: [Point; 2], tol
     let way = if same { to - from } else { from - to };
     let way = way.rem_euclid(TAU);
     let apart = norm(minus(ends[0], ends[1]));
-    let nearly = way < SAME * TAU || way > TAU * (1.0 - SAME);
+    let nearly = is_whole(way);
     // Vertices within the uncertainty of each other, but out of order, stand at the seam of a whole turn.
     let short = apart <= tolerance && way * speed(curve) > tolerance;
     let way = if nearly && apart <= tolerance || short && way > TAU / 2.0 { TAU } else { way };
     [from, if same { from + way } else { from - way }]
+}
+
+/// Whether an angle from 0 to a turn is none or all of it, but for rounding.
+fn is_whole(way: f64) -> bool {
+    way.min(TAU - way) < SAME * TAU
 }
 
 /// Length of a radian at the greatest curvature.
@@ -94,7 +99,7 @@ pub(super) fn from_parameters(curve: Curve, [from, to]: [f64; 2], same: bool) ->
     if curve.period().is_some() {
         let way = if same { to - from } else { from - to };
         let mut turns = way.rem_euclid(TAU);
-        if turns < SAME * TAU || turns > TAU * (1.0 - SAME) {
+        if is_whole(turns) {
             turns = TAU;
         }
         return Ok(Span { curve, range: [from, if same { from + turns } else { from - turns }] });
