@@ -6,6 +6,7 @@
 //! | lines, conics, splines in space | [`curve`] |
 //! | planes, quadrics, tori, splines, swept surfaces | [`surface`] |
 //! | vertices, edges, faces, shells, solids | [`brep`] |
+//! | exact distances to trimmed faces | [`search`] |
 //! | parts, their instances, what could not be read | [`model`] |
 #![cfg_attr(test, allow(clippy::disallowed_methods, reason = "a test does not hang on the last digit"))]
 
@@ -13,4 +14,5 @@ pub mod brep;
 pub mod curve;
 pub mod frame;
 pub mod model;
+pub mod search;
 pub mod surface;
