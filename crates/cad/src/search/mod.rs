@@ -137,6 +137,8 @@ struct Scratch {
 
 /// Share of the distance within which a place is taken to ask for the side.
 const WITHIN: f64 = 0.9;
+/// Such steps at most: each leaves a tenth of the way along an edge.
+const STEPS_BESIDE: usize = 12;
 /// Points answered between two questions whether to go on.
 const CHUNK: usize = 256;
 
@@ -186,17 +188,27 @@ impl<R: Region> Search<R> {
 
     fn answer(&self, p: &Point, scratch: &mut Scratch) -> Nearest {
         let mut own = self.describe(p, self.best(p, scratch));
-        let (On::Vertex(vertex), Side::Unsure) = (own.on, own.side) else { return own };
-        // Nothing is nearer than the distance: a place within has the same side, and along an edge another nearest place.
-        for way in self.sides.edges_at(vertex) {
-            let beside = plus(*p, times(WITHIN * own.distance, way));
-            let other = self.describe(&beside, self.best(&beside, scratch)).side;
-            if matches!(other, Side::Outside | Side::Inside) {
-                own.side = other;
-                break;
-            }
+        if let (On::Vertex(vertex), Side::Unsure) = (own.on, own.side) {
+            let ways = self.sides.edges_at(vertex);
+            let side = ways.iter().find_map(|way| self.side_beside(p, own.distance, *way, scratch));
+            own.side = side.unwrap_or(Side::Unsure);
         }
         own
+    }
+
+    /// The side at a corner by that beside it: no boundary is nearer than the distance, so all within has the same side. Along an edge
+    /// other places become the nearest ones.
+    fn side_beside(&self, p: &Point, distance: f64, way: Vector, scratch: &mut Scratch) -> Option<Side> {
+        let (mut at, mut distance) = (*p, distance);
+        for _ in 0..STEPS_BESIDE {
+            at = plus(at, times(WITHIN * distance, way));
+            let other = self.describe(&at, self.best(&at, scratch));
+            if matches!(other.side, Side::Outside | Side::Inside) {
+                return Some(other.side);
+            }
+            distance = other.distance;
+        }
+        None
     }
 
     fn best(&self, p: &Point, scratch: &mut Scratch) -> Best {

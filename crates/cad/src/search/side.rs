@@ -208,7 +208,8 @@ impl Sides {
                 }
             }
         }
-        let normal = unit(sum).map(|(n, _)| n);
+        // What is left of normals that cancel is rounding.
+        let normal = unit(sum).filter(|(_, length)| *length > TOUCHING).map(|(n, _)| n);
         let first = if first == u32::MAX { 0 } else { first };
         if is_open { (first, Side::Open, normal) } else { (first, side(normal, away), normal) }
     }

@@ -63,16 +63,22 @@ fn solids(random: &mut Random) -> Vec<(&'static str, Solid)> {
     let hole = vec![arc([0.2, 0.1], 0.6, [1.0 + TAU, 1.0])];
     // Two circles that touch within: a crescent, with material that ends in a cutting edge.
     let crescent = vec![arc([0.0, 0.0], 2.0, [0.0, TAU]), arc([1.0, 0.0], 1.0, [TAU, 0.0])];
-    // A slit between two arcs that touch at its end.
+    // Arcs about (0, ±2.5) touch at the origin and reach (2, ±1): a slit between them, and a horn.
+    let angle = 1.5f64.atan2(2.0);
     let slit = vec![
         Piece::Line { from: [-2.0, -2.0], to: [2.0, -2.0] },
         Piece::Line { from: [2.0, -2.0], to: [2.0, -1.0] },
-        arc([0.0, -5.25f64.sqrt()], 5.25f64.sqrt(), [0.0, 0.0]),
+        arc([0.0, -2.5], 2.5, [angle, FRAC_PI_2]),
+        arc([0.0, 2.5], 2.5, [-FRAC_PI_2, -angle]),
         Piece::Line { from: [2.0, 1.0], to: [2.0, 2.0] },
         Piece::Line { from: [2.0, 2.0], to: [-2.0, 2.0] },
         Piece::Line { from: [-2.0, 2.0], to: [-2.0, -2.0] },
     ];
-    let slit = slit_of(slit);
+    let horn = vec![
+        arc([0.0, -2.5], 2.5, [FRAC_PI_2, angle]),
+        Piece::Line { from: [2.0, -1.0], to: [2.0, 1.0] },
+        arc([0.0, 2.5], 2.5, [-angle, -FRAC_PI_2]),
+    ];
     let h = 0.5 + random.unit();
     let mut all: Vec<(&'static str, Solid)> = vec![
         ("slot", vec![slot]),
@@ -82,6 +88,7 @@ fn solids(random: &mut Random) -> Vec<(&'static str, Solid)> {
         ("disc", vec![disc]),
         ("crescent", vec![crescent]),
         ("slit", vec![slit]),
+        ("horn", vec![horn]),
     ]
     .into_iter()
     .map(|(name, chains)| (name, extruded(frame(random), chains, h)))
@@ -128,21 +135,6 @@ fn solids(random: &mut Random) -> Vec<(&'static str, Solid)> {
     ] {
         all.push((name, turned(frame(random), chain)));
     }
-    all
-}
-
-/// A block with a slit from its right side that ends where two arcs touch.
-fn slit_of(block: Vec<Piece>) -> Vec<Piece> {
-    // Arcs of radius 2.5 about (0, ±2.5): they touch at the origin and reach (2, ±1).
-    let angle = (1.5f64).atan2(2.0);
-    let up = arc([0.0, -2.5], 2.5, [angle, FRAC_PI_2]);
-    let down = arc([0.0, 2.5], 2.5, [-FRAC_PI_2, -angle]);
-    // From the lower lip to the end of the slit and back along the upper one.
-    let lower = arc([0.0, -2.5], 2.5, [angle, FRAC_PI_2]);
-    let _ = up;
-    let mut all = block[..2].to_vec();
-    all.extend([lower, down]);
-    all.extend(&block[3..]);
     all
 }
 
