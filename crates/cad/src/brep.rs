@@ -69,7 +69,7 @@ pub struct Face {
     pub entity: u64,
     /// The name that the file gives it; may be empty.
     pub name: String,
-    /// Its own color.
+    /// Its own color, else that of its shell, its solid or its part.
     pub color: Option<Color>,
     /// The instance of the model that it is of.
     pub instance: u32,

@@ -1,6 +1,6 @@
 //! What a CAD file holds: parts, where their instances stand, and what could not be read.
 
-use crate::brep::Brep;
+use crate::brep::{Brep, Color};
 use crate::frame::Placement;
 
 /// A part: its boundary in its own coordinates.
@@ -23,6 +23,15 @@ pub struct Instance {
     pub path: Vec<String>,
     /// Where it stands.
     pub placement: Placement,
+    /// The color that the file gives to all faces of this instance.
+    pub color: Option<Color>,
+}
+
+impl Instance {
+    /// A part that stands somewhere, without names.
+    pub fn of(part: u32, placement: Placement) -> Instance {
+        Instance { part, path: vec![], placement, color: None }
+    }
 }
 
 /// A face, or another entity, that could not be read.
@@ -49,6 +58,10 @@ pub struct Model {
     pub depth: u32,
     /// The uncertainty that the file states for its lengths, millimeters.
     pub uncertainty: Option<f64>,
+    /// Numbers of the entities that the file says are not shown: faces, shells, solids, instances. They are read all the same.
+    pub hidden: Vec<u64>,
+    /// Names of its layers.
+    pub layers: Vec<String>,
     /// What could not be read.
     pub unread: Vec<Unread>,
 }

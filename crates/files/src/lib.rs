@@ -11,6 +11,7 @@
 //! | write points, with or without deviations | [`write::points`] |
 //! | write a mesh | [`write::mesh`] |
 //! | write a table of text, an XML document | [`write::Csv`], [`write::Xml`] |
+//! | models of CAD files | [`cad::read`] |
 //! | B-spline surfaces and curves for CAD programs, and from them | [`cad`] |
 //! | a file that appears whole or not at all | [`AtomicFile`] |
 //! | what is unfinished when the program ends early | [`remove_unfinished`], [`remove_leftovers`] |

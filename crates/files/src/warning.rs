@@ -105,6 +105,13 @@ pub enum Warning {
         /// That which was asked for.
         asked: Unit,
     },
+    /// Shapes of a CAD file whose representation says no unit of lengths.
+    UnitMissing {
+        /// How many representations.
+        count: u64,
+        /// Millimeters in the unit that was taken.
+        millimeters: f64,
+    },
     /// There are neither B-spline surfaces nor curves in a CAD file.
     NoSplines,
     /// Faces that are less than their surface; it was taken whole.
@@ -220,6 +227,10 @@ impl Warning {
     /// The text of those that CAD files and drawings have; nothing of others.
     fn of_cad(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            Warning::UnitMissing { count, millimeters } => write!(
+                f,
+                "{count} representation(s) of shapes say no unit of lengths; one of {millimeters} mm was taken"
+            ),
             Warning::NoSplines => write!(f, "the file holds neither B-spline surfaces nor B-spline curves"),
             Warning::Trimmed { count } => write!(
                 f,
@@ -318,7 +329,8 @@ impl fmt::Display for Warning {
                     "the file says its unit, {said}, which was taken; {asked} is for files that do not say theirs"
                 )
             }
-            Warning::NoSplines
+            Warning::UnitMissing { .. }
+            | Warning::NoSplines
             | Warning::Trimmed { .. }
             | Warning::FacesLeftOut { .. }
             | Warning::PassedOver { .. }

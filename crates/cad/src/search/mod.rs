@@ -25,6 +25,7 @@ mod tree;
 use crate::brep::Brep;
 use crate::curve::CurveFeet;
 use crate::surface::SurfaceFeet;
+use crate::trim::Trim;
 use side::Sides;
 use tree::Boxes;
 use trueness_geom::closest::{QueryError, check_points};
@@ -40,6 +41,15 @@ pub trait Region: Sync + Send {
     fn contains(&self, at: [f64; 2]) -> bool;
     /// First and last `u`, first and last `v` of the face, on one sheet where parameters repeat.
     fn window(&self) -> [[f64; 2]; 2];
+}
+
+impl Region for Trim {
+    fn contains(&self, at: [f64; 2]) -> bool {
+        Trim::contains(self, at)
+    }
+    fn window(&self) -> [[f64; 2]; 2] {
+        self.window
+    }
 }
 
 /// What the nearest place lies on.

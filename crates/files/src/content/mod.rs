@@ -1,5 +1,6 @@
 //! What a file held.
 
+pub(crate) mod cad_file;
 pub(crate) mod drawing;
 pub(crate) mod spline_model;
 pub(crate) mod spline_surface;

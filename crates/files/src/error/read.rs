@@ -194,6 +194,9 @@ pub enum Fault {
         /// Bytes that it may have.
         longest: u64,
     },
+    /// Reading was stopped on demand.
+    #[error("reading was stopped")]
+    Cancelled,
     /// The file is needed as a whole, and there is no memory for that.
     #[error("{} MB of memory are needed to read it", bytes.div_ceil(1_000_000))]
     Memory {
@@ -245,6 +248,7 @@ impl Fault {
                 "give the points as PLY with nx, ny, nz or as a table with such columns, or a mesh"
             }
             Fault::WeldTooFar { .. } => "give --weld a smaller distance, or the right unit to --units",
+            Fault::Cancelled => "read it again",
             Fault::NoColumn { .. } => "name three of these, by name or by number from 1",
             Fault::Unsupported { remedy, .. }
             | Fault::Cell { remedy, .. }

@@ -5,14 +5,17 @@
 
 mod curves;
 mod instances;
+mod model;
+mod part21;
 mod read;
+mod spline;
 mod surface;
 #[cfg(test)]
 mod tests;
-mod text;
 
 pub use curves::write as curves;
 pub(super) use instances::real;
+pub(crate) use model::read as model;
 pub use surface::write as surface;
 
 use crate::format::{Format, Head};

@@ -1,21 +1,24 @@
 //! B-spline surfaces and curves of a STEP file, of whatever application protocol.
 
-use super::text::{Instances, Record, Value};
+use super::part21::{Entity, File, Value, Wrong, parse};
+use super::spline::{SplineRecord, spline};
 use crate::content::spline_model::SplineModel;
-use crate::error::{Fault, Result};
+use crate::error::{Fault, Located, Result};
 use crate::format::{Parsed, ReadOptions};
-use crate::formats::spline::{Raw, curve, surface};
+use crate::formats::spline::{curve, surface};
 use crate::source::{HEAD, Source};
 use crate::unicode::no_zeros;
 use crate::{Unit, Warning};
 use std::collections::{BTreeMap, BTreeSet};
+use trueness_geom::progress::Silent;
 
 /// Reads a file.
 pub(super) fn read(mut source: Source, options: &ReadOptions) -> Result<Parsed> {
     no_zeros(source.feed.ahead(HEAD)?)?;
     let text = source.feed.all()?;
     no_zeros(text)?;
-    let file = Instances::of(text)?;
+    let file = parse(text, &Silent).map_err(|_| Fault::unexpected("a file", b""))?;
+    undamaged(&file)?;
     placed(&file)?;
     let said = unit(&file)?;
     let unit = options.unit_of(said);
@@ -25,24 +28,23 @@ pub(super) fn read(mut source: Source, options: &ReadOptions) -> Result<Parsed> 
     let mut warnings = vec![];
     let used: BTreeMap<u64, bool> = faces.iter().map(|f| (f.surface, f.same)).collect();
     let (mut read, mut trimmed) = (BTreeSet::new(), 0);
-    for number in file.numbers() {
-        if !file.mentions(number, b"SURFACE") && !file.mentions(number, b"CURVE") {
-            continue;
-        }
-        let records = file.records(number)?;
-        if let Some(raw) = points.raw(number, &records, 2)? {
+    for entity in file.entities() {
+        let number = entity.number();
+        if let Some(record) = spline(&entity, 2)? {
+            let Some(places) = points.places(&record)? else { continue };
+            let raw = record.with(places)?;
             // Surfaces that no face names may be what others are offset from.
             if !faces.is_empty() && !used.contains_key(&number) {
                 continue;
             }
-            let found = surface(raw).map_err(|f| file.fault(number, f))?;
+            let found = surface(raw).map_err(|f| fault(&entity, f))?;
             let flip = used.get(&number).is_some_and(|same| !same);
             model.surfaces.push(if flip { found.flipped() } else { found });
             read.insert(number);
-        } else if let Some(raw) = points.raw(number, &records, 1)? {
+        } else if let Some(record) = spline(&entity, 1)? {
             // Curves in the parameters of a surface have two coordinates, and are not read.
-            if !raw.points.is_empty() {
-                model.curves.push(curve(raw).map_err(|f| file.fault(number, f))?);
+            if let Some(places) = points.places(&record)? {
+                model.curves.push(curve(record.with(places)?).map_err(|f| fault(&entity, f))?);
             }
         }
     }
@@ -59,75 +61,90 @@ pub(super) fn read(mut source: Source, options: &ReadOptions) -> Result<Parsed> 
     Ok(Parsed::splines("step", model, said, warnings))
 }
 
+impl From<Wrong> for Located {
+    fn from(wrong: Wrong) -> Located {
+        let what = format!("#{} {}", wrong.entity, wrong.reason);
+        let fault = Fault::Unsupported { what, remedy: "mend this place or export the file again" };
+        if wrong.line == 0 { fault.into() } else { fault.at_line(wrong.line) }
+    }
+}
+
+/// A fault of an entity.
+fn fault(entity: &Entity, fault: Fault) -> Located {
+    fault.at_line(entity.wrong("").line)
+}
+
+/// Files with damaged geometry are refused, and those that are cut short.
+fn undamaged(file: &File) -> Result<()> {
+    for broken in file.broken() {
+        let keyword = file.keyword_of(broken);
+        let matters = |what: &&str| keyword.contains(*what);
+        if keyword.is_empty() || ["SURFACE", "CURVE", "FACE", "POINT", "UNIT"].iter().any(|w| matters(w)) {
+            file.entity(broken.number)?;
+        }
+    }
+    match file.is_whole() {
+        true => Ok(()),
+        false => Err(Fault::unexpected("the line END-ISO-10303-21 at the end", b"").at_line(file.last_line())),
+    }
+}
+
 /// Files that place their parts are refused: surfaces would be taken where they do not lie.
-fn placed(file: &Instances) -> Result<()> {
-    for number in file.numbers() {
-        for keyword in
-            [&b"MAPPED_ITEM"[..], b"ITEM_DEFINED_TRANSFORMATION", b"CARTESIAN_TRANSFORMATION_OPERATOR"]
-        {
-            if file.mentions(number, keyword) {
-                let what = "the file is an assembly that moves its parts, which is not read".into();
-                let remedy = "export the part alone";
-                return Err(file.fault(number, Fault::Unsupported { what, remedy }));
-            }
+fn placed(file: &File) -> Result<()> {
+    let keywords = ["MAPPED_ITEM", "ITEM_DEFINED_TRANSFORMATION", "CARTESIAN_TRANSFORMATION_OPERATOR"];
+    for entity in file.entities() {
+        if entity.records().any(|r| keywords.iter().any(|k| r.keyword.starts_with(k))) {
+            let what = "the file is an assembly that moves its parts, which is not read".into();
+            return Err(fault(&entity, Fault::Unsupported { what, remedy: "export the part alone" }));
         }
     }
     Ok(())
 }
 
 /// The unit of lengths, where the file says one.
-fn unit(file: &Instances) -> Result<Option<Unit>> {
+fn unit(file: &File) -> Result<Option<Unit>> {
     let mut found: Option<Unit> = None;
-    for number in file.numbers().filter(|n| file.mentions(*n, b"GLOBAL_UNIT_ASSIGNED_CONTEXT")) {
-        for (name, parameters) in file.records(number)? {
-            let [Value::List(units)] = &parameters[..] else { continue };
-            if name != b"GLOBAL_UNIT_ASSIGNED_CONTEXT" {
-                continue;
+    for record in file.entities().filter_map(|e| e.record("GLOBAL_UNIT_ASSIGNED_CONTEXT")) {
+        let [Value::List(_)] = record.values else { continue };
+        for own in record.list(0)? {
+            let Value::Reference(own) = own else { continue };
+            let own = file.entity(*own)?;
+            let Some(unit) = length(&own)? else { continue };
+            if found.is_some_and(|other| other != unit) {
+                let what = "the file has lengths in more than one unit".into();
+                return Err(fault(&own, Fault::Unclear { what, remedy: "export it in one unit" }));
             }
-            for own in units {
-                let Value::Instance(own) = own else { continue };
-                let Some(unit) = length(file, *own)? else { continue };
-                if found.is_some_and(|other| other != unit) {
-                    let what = "the file has lengths in more than one unit".into();
-                    let remedy = "export it in one unit";
-                    return Err(file.fault(*own, Fault::Unclear { what, remedy }));
-                }
-                found = Some(unit);
-            }
+            found = Some(unit);
         }
     }
     Ok(found)
 }
 
-/// The unit that an instance stands for, if it is one of lengths.
-fn length(file: &Instances, number: u64) -> Result<Option<Unit>> {
-    let records = file.records(number)?;
-    let has = |keyword: &[u8]| records.iter().find(|r| r.0 == keyword).map(|r| &r.1[..]);
-    if has(b"LENGTH_UNIT").is_none() {
+/// The unit that an entity stands for, if it is one of lengths.
+fn length(entity: &Entity) -> Result<Option<Unit>> {
+    if entity.record("LENGTH_UNIT").is_none() {
         return Ok(None);
     }
-    let unit = match (has(b"SI_UNIT"), has(b"CONVERSION_BASED_UNIT")) {
-        (Some([Value::Word(prefix), Value::Word(meter)]), _) if meter == b"METRE" => match &prefix[..] {
-            b"MILLI" => Some(Unit::Millimeter),
-            b"CENTI" => Some(Unit::Centimeter),
-            b"MICRO" => Some(Unit::Micrometer),
+    let unit = match (entity.record("SI_UNIT"), entity.record("CONVERSION_BASED_UNIT")) {
+        (Some(si), _) => match (si.word(0).as_deref(), si.word(1).as_deref()) {
+            (Some("MILLI"), Some("METRE")) => Some(Unit::Millimeter),
+            (Some("CENTI"), Some("METRE")) => Some(Unit::Centimeter),
+            (Some("MICRO"), Some("METRE")) => Some(Unit::Micrometer),
+            (None, Some("METRE")) => Some(Unit::Meter),
             _ => None,
         },
-        (Some([Value::Nothing, Value::Word(meter)]), _) if meter == b"METRE" => Some(Unit::Meter),
-        (_, Some([Value::Text(name), _])) if name.to_ascii_uppercase().starts_with(b"INCH") => {
-            Some(Unit::Inch)
-        }
-        (_, Some([Value::Text(name), _])) => match &name.to_ascii_uppercase()[..] {
-            b"MILLIMETRE" | b"MILLIMETER" | b"MM" => Some(Unit::Millimeter),
-            b"CENTIMETRE" | b"CENTIMETER" | b"CM" => Some(Unit::Centimeter),
-            b"METRE" | b"METER" | b"M" => Some(Unit::Meter),
+        (_, Some(conversion)) => match &conversion.text(0).to_ascii_uppercase()[..] {
+            inch if inch.starts_with("INCH") => Some(Unit::Inch),
+            "MILLIMETRE" | "MILLIMETER" | "MM" => Some(Unit::Millimeter),
+            "CENTIMETRE" | "CENTIMETER" | "CM" => Some(Unit::Centimeter),
+            "METRE" | "METER" | "M" => Some(Unit::Meter),
             _ => None,
         },
         _ => None,
     };
     let what = || "the unit of lengths is none of um, mm, cm, m and inch".to_string();
     let remedy = "export it in millimeters";
-    unit.map(Some).ok_or_else(|| file.fault(number, Fault::Unsupported { what: what(), remedy }))
+    unit.map(Some).ok_or_else(|| fault(entity, Fault::Unsupported { what: what(), remedy }))
 }
 
 /// A face: its surface, whether it looks the way of the surface's normal, and its bounds.
@@ -137,19 +154,12 @@ struct Face {
     bounds: Vec<u64>,
 }
 
-fn faces(file: &Instances) -> Result<Vec<Face>> {
+fn faces(file: &File) -> Result<Vec<Face>> {
     let mut all = vec![];
-    for number in file.numbers().filter(|n| file.mentions(*n, b"FACE")) {
-        for (name, p) in file.records(number)? {
-            if !matches!(&name[..], b"ADVANCED_FACE" | b"FACE_SURFACE") {
-                continue;
-            }
-            let [_, Value::List(bounds), Value::Instance(surface), Value::Word(same)] = &p[..] else {
-                let fault = Fault::unexpected("a face with bounds, a surface and its sense", &name);
-                return Err(file.fault(number, fault));
-            };
-            let bounds = bounds.iter().filter_map(reference).collect();
-            all.push(Face { surface: *surface, same: same == b"T", bounds });
+    for entity in file.entities() {
+        for record in entity.records().filter(|r| matches!(r.keyword, "ADVANCED_FACE" | "FACE_SURFACE")) {
+            let bounds = record.list(1)?.iter().filter_map(reference).collect();
+            all.push(Face { surface: record.entity(2)?, same: record.truth(3)?, bounds });
         }
     }
     Ok(all)
@@ -157,37 +167,14 @@ fn faces(file: &Instances) -> Result<Vec<Face>> {
 
 fn reference(value: &Value) -> Option<u64> {
     match value {
-        Value::Instance(n) => Some(*n),
-        _ => None,
-    }
-}
-
-fn whole(value: &Value) -> Option<usize> {
-    match value {
-        Value::Integer(n) => usize::try_from(*n).ok(),
-        _ => None,
-    }
-}
-
-fn real(value: &Value) -> Option<f64> {
-    match value {
-        Value::Integer(n) => Some(*n as f64),
-        Value::Real(x) => Some(*x),
-        Value::Typed(inner) => inner.first().and_then(real),
-        _ => None,
-    }
-}
-
-fn list(value: Option<&Value>) -> Option<&[Value]> {
-    match value {
-        Some(Value::List(all)) => Some(all),
+        Value::Reference(n) => Some(*n),
         _ => None,
     }
 }
 
 /// Points in millimeters, each read once.
-struct Points<'a> {
-    file: &'a Instances<'a>,
+struct Points<'f> {
+    file: &'f File<'f>,
     unit: Unit,
     known: BTreeMap<u64, Option<[f64; 3]>>,
 }
@@ -198,88 +185,34 @@ impl Points<'_> {
         if let Some(known) = self.known.get(&number) {
             return Ok(*known);
         }
-        let parameters = self.file.simple(number, "CARTESIAN_POINT")?;
-        let numbers: Option<Vec<f64>> =
-            list(parameters.get(1)).and_then(|all| all.iter().map(real).collect());
-        let wrong = || self.file.fault(number, Fault::unexpected("a point of two or three numbers", b""));
+        let entity = self.file.entity(number)?;
+        let record = entity.main(&[]);
+        if record.keyword != "CARTESIAN_POINT" || !entity.is_simple() {
+            let what = format!("is no CARTESIAN_POINT but {}", record.keyword);
+            return Err(record.wrong(what).into());
+        }
+        let numbers: Option<Vec<f64>> = record.list(1)?.iter().map(|v| record.number(*v)).collect();
+        let wrong = || record.wrong("is no point of two or three numbers");
         let place = match &numbers.ok_or_else(wrong)?[..] {
             [x, y, z] => Some([*x, *y, *z]),
             [_] | [_, _] => None,
-            _ => return Err(wrong()),
+            _ => return Err(wrong().into()),
         };
         if place.is_some_and(|p| p.iter().any(|x| !x.is_finite())) {
-            return Err(self.file.fault(number, Fault::NotFinite { what: "point", number }));
+            return Err(fault(&entity, Fault::NotFinite { what: "point", number }));
         }
         let place = place.map(|p| p.map(|x| self.unit.to_millimeters(x)));
         self.known.insert(number, place);
         Ok(place)
     }
 
-    /// What the entities say of a surface (`dimensions` of 2) or a curve (1); `None` if they are none.
-    fn raw(&mut self, number: u64, records: &[Record], dimensions: usize) -> Result<Option<Raw>> {
-        let names = if dimensions == 2 { SURFACES } else { CURVES };
-        let find = |name: &[u8]| records.iter().find(|r| r.0 == name).map(|r| &r.1[..]);
-        let simple = records.len() == 1;
-        let Some((kind, own)) = names[..4].iter().find_map(|n| Some((*n, find(n)?))) else { return Ok(None) };
-        // A simple instance has its name first, then all parameters; of a complex one each entity has its own.
-        let (base, rest) = match (simple, find(names[4])) {
-            (true, _) => {
-                own.get(1..).unwrap_or(&[]).split_at_checked(BASE[dimensions - 1]).unwrap_or((&[], &[]))
-            }
-            (false, Some(base)) => (base, own),
-            (false, None) => return Ok(None),
-        };
-        let wrong = |what: &'static str| self.file.fault(number, Fault::unexpected(what, b""));
-        let degree: Option<Vec<usize>> = base.iter().take(dimensions).map(whole).collect();
-        let degree = degree.filter(|d| d.len() == dimensions).ok_or_else(|| wrong("degrees"))?;
-        let net = list(base.get(dimensions)).ok_or_else(|| wrong("a list of control points"))?;
-        let rows: Vec<&[Value]> = match dimensions {
-            2 => net.iter().map(|row| list(Some(row))).collect::<Option<_>>(),
-            _ => Some(vec![net]),
+    /// The control points of a spline; `None` where it lies in the parameters of a surface.
+    fn places(&mut self, spline: &SplineRecord) -> Result<Option<Vec<[f64; 3]>>> {
+        let known = |n: &u64| self.file.entity(*n).is_ok();
+        if let Some(missing) = spline.points().iter().find(|n| !known(n)) {
+            return Err(spline.wrong(format!("has control point #{missing}, which is not among those that are there")).into());
         }
-        .ok_or_else(|| wrong("control points in rows"))?;
-        let counts = match dimensions {
-            2 => vec![rows.len(), rows.first().map_or(0, |r| r.len())],
-            _ => vec![net.len()],
-        };
-        if rows.iter().any(|r| r.len() != rows[0].len()) {
-            return Err(wrong("rows of equally many control points"));
-        }
-        let mut points = vec![];
-        for value in rows.iter().flat_map(|r| r.iter()) {
-            let known = reference(value).filter(|at| self.file.has(*at));
-            let at = known.ok_or_else(|| {
-                self.file.fault(
-                    number,
-                    Fault::unexpected("control points that are there", format!("{value:?}").as_bytes()),
-                )
-            })?;
-            match self.point(at)? {
-                Some(p) => points.push(p),
-                // In the parameters of a surface.
-                None => return Ok(Some(Raw::default())),
-            }
-        }
-        let wrong = |what: &'static str| self.file.fault(number, Fault::unexpected(what, b""));
-        let knots = if kind == names[0] {
-            let lists = |from: usize, k: usize| list(rest.get(from + k));
-            (0..dimensions)
-                .map(|k| repeated(lists(0, k)?, lists(dimensions, k)?, counts[k] + degree[k] + 1))
-                .collect::<Option<_>>()
-                .ok_or_else(|| {
-                    wrong("knots, each as often as its multiplicity, that fit the control points")
-                })?
-        } else {
-            (0..dimensions)
-                .map(|k| implied(kind, degree[k], counts[k]))
-                .collect::<Option<_>>()
-                .ok_or_else(|| wrong("as many control points as the kind of the spline needs"))?
-        };
-        let weights = match find(names[5]) {
-            None => vec![1.0; points.len()],
-            Some(own) => weights(own, dimensions).ok_or_else(|| wrong("weights that are numbers"))?,
-        };
-        Ok(Some(Raw { degree, knots, counts, points, weights }))
+        spline.points().iter().map(|n| self.point(*n)).collect()
     }
 
     /// Whether a face is less than its surface: it has more than one bound, or a vertex of it is no corner.
@@ -287,8 +220,9 @@ impl Points<'_> {
         if face.bounds.len() != 1 {
             return Ok(face.bounds.len() > 1);
         }
-        let records = self.file.records(face.surface)?;
-        let Some(raw) = self.raw(face.surface, &records, 2)? else { return Ok(false) };
+        let Some(record) = spline(&self.file.entity(face.surface)?, 2)? else { return Ok(false) };
+        let Some(points) = self.places(&record)? else { return Ok(false) };
+        let raw = record.with(points)?;
         let [m, n] = [raw.counts[0], raw.counts[1]];
         let corners = [0, n - 1, (m - 1) * n, m * n - 1].map(|k| raw.points[k]);
         let size = trueness_geom::space::Aabb::of(&raw.points).diagonal();
@@ -304,12 +238,11 @@ impl Points<'_> {
 
     /// The vertices of a bound's loop.
     fn vertices(&mut self, bound: u64) -> Result<Vec<Option<[f64; 3]>>> {
-        let follow = |file: &Instances, number: u64, at: usize| -> Result<Vec<u64>> {
-            let records = file.records(number)?;
-            let value = records.first().and_then(|r| r.1.get(at));
-            Ok(match value {
-                Some(Value::List(all)) => all.iter().filter_map(reference).collect(),
-                Some(Value::Instance(n)) => vec![*n],
+        let follow = |file: &File, number: u64, at: usize| -> Result<Vec<u64>> {
+            let record = file.entity(number)?.main(&[]);
+            Ok(match record.values.get(at) {
+                Some(Value::List(_)) => record.list(at)?.iter().filter_map(reference).collect(),
+                Some(Value::Reference(n)) => vec![*n],
                 _ => vec![],
             })
         };
@@ -326,62 +259,5 @@ impl Points<'_> {
             }
         }
         Ok(all)
-    }
-}
-
-/// Parameters of a B-spline before its knots, without its name: of a curve, of a surface.
-const BASE: [usize; 2] = [5, 7];
-/// With knots, Bézier, quasi-uniform, uniform; then what a complex instance has its control points and its weights in.
-const SURFACES: [&[u8]; 6] = [
-    b"B_SPLINE_SURFACE_WITH_KNOTS",
-    b"BEZIER_SURFACE",
-    b"QUASI_UNIFORM_SURFACE",
-    b"UNIFORM_SURFACE",
-    b"B_SPLINE_SURFACE",
-    b"RATIONAL_B_SPLINE_SURFACE",
-];
-const CURVES: [&[u8]; 6] = [
-    b"B_SPLINE_CURVE_WITH_KNOTS",
-    b"BEZIER_CURVE",
-    b"QUASI_UNIFORM_CURVE",
-    b"UNIFORM_CURVE",
-    b"B_SPLINE_CURVE",
-    b"RATIONAL_B_SPLINE_CURVE",
-];
-
-/// Knots by their multiplicities; `None` unless there are `needed`.
-fn repeated(times: &[Value], knots: &[Value], needed: usize) -> Option<Vec<f64>> {
-    let times: Vec<usize> = times.iter().map(whole).collect::<Option<_>>()?;
-    let sum = times.iter().try_fold(0usize, |sum, n| sum.checked_add(*n))?;
-    if times.len() != knots.len() || sum != needed {
-        return None;
-    }
-    let knots: Vec<f64> = knots.iter().map(real).collect::<Option<_>>()?;
-    Some(knots.iter().zip(times).flat_map(|(t, n)| std::iter::repeat_n(*t, n)).collect())
-}
-
-/// The knots that a kind of splines has without saying so.
-fn implied(kind: &[u8], degree: usize, count: usize) -> Option<Vec<f64>> {
-    let needed = count.checked_add(degree)?.checked_add(1)?;
-    let spans = count.checked_sub(degree).filter(|_| degree > 0)?;
-    let at = |i: usize| match kind {
-        k if k.starts_with(b"UNIFORM") => i as f64 - degree as f64,
-        k if k.starts_with(b"BEZIER") => (i.saturating_sub(1) / degree).min((count - 1) / degree) as f64,
-        _ => i.saturating_sub(degree).min(spans) as f64,
-    };
-    let whole = !kind.starts_with(b"BEZIER") || (count - 1).is_multiple_of(degree);
-    (whole && spans > 0).then(|| (0..needed).map(at).collect())
-}
-
-/// Weights in rows, or in one list.
-fn weights(own: &[Value], dimensions: usize) -> Option<Vec<f64>> {
-    let all = list(own.last())?;
-    match dimensions {
-        2 => {
-            let rows: Option<Vec<Vec<f64>>> =
-                all.iter().map(|row| list(Some(row))?.iter().map(real).collect()).collect();
-            rows.map(|r| r.concat())
-        }
-        _ => all.iter().map(real).collect(),
     }
 }

@@ -1,0 +1,144 @@
+//! The whole of a file.
+
+use super::super::part21::{File, parse};
+use super::assembly::{Assembly, Representation, representations};
+use super::budget::Budget;
+use super::instances::instances;
+use super::looks::Looks;
+use super::part::Reading;
+use super::placement::Units;
+use crate::content::cad_file::{CadContent, LengthUnit};
+use crate::error::{Fault, Located, Result};
+use crate::format::ReadOptions;
+use crate::source::Source;
+use crate::{UnitFrom, Warning};
+use std::collections::BTreeMap;
+use trueness_cad::frame::Placement;
+use trueness_cad::model::{Instance, Model, Unread};
+use trueness_geom::progress::Progress;
+
+/// Uncertainties that files state are taken between these, millimeters: what lies nearer together is one place.
+const UNCERTAINTIES: [f64; 2] = [1e-6, 1e-2];
+/// The uncertainty of a file that states none, millimeters: what most programs state.
+const USUAL_UNCERTAINTY: f64 = 1e-3;
+/// Damaged entities that are told one by one; they are others' faults as well.
+const MAX_TOLD: usize = 1000;
+
+/// Reads the model of a file.
+pub(crate) fn read(
+    source: &mut Source,
+    options: &ReadOptions,
+    progress: &dyn Progress,
+) -> Result<CadContent> {
+    let stopped = |_| Located::from(Fault::Cancelled);
+    let file = parse(source.feed.all()?, progress).map_err(stopped)?;
+    let looks = Looks::of(&file);
+    let shapes = representations(&file);
+    let unit = unit(&shapes, options);
+    let angle = shapes.values().find_map(|r| r.context.as_ref().ok()?.angle).unwrap_or(1.0);
+    let uncertainty = shapes.values().filter_map(|r| r.context.as_ref().ok()?.uncertainty).reduce(f64::max);
+    let fallback = Units { length: unit.millimeters, angle };
+    let warnings = warnings(&shapes, &unit, options);
+    let budget = Budget::of(&file);
+    let tolerance = uncertainty.unwrap_or(USUAL_UNCERTAINTY).clamp(UNCERTAINTIES[0], UNCERTAINTIES[1]);
+    let reading = Reading { file: &file, budget: &budget, looks: &looks, progress, tolerance };
+    let mut model = Model { uncertainty, ..Model::default() };
+    let mut assembly = Assembly::of(&file, shapes, fallback);
+    let mut parts = vec![];
+    for node in 0..assembly.nodes.len() {
+        let (part, mut unread) = reading.part(&assembly, node);
+        model.unread.append(&mut unread);
+        parts.push(part.map(|part| {
+            let entry = (model.parts.len() as u32, part.brep.faces.len() as u64);
+            model.parts.push(part);
+            entry
+        }));
+        if progress.cancelled() {
+            return Err(Fault::Cancelled.into());
+        }
+    }
+    (model.instances, model.depth) = instances(&mut assembly, &parts, |entity| looks.color(entity))?;
+    if model.parts.is_empty() && model.unread.is_empty() {
+        let (part, mut unread) = reading.loose(fallback);
+        model.unread.append(&mut unread);
+        model.instances.extend(part.as_ref().map(|_| Instance::of(0, Placement::IDENTITY)));
+        model.parts.extend(part);
+    }
+    model.unread.append(&mut assembly.unread);
+    model.unread.extend(damaged(&file));
+    model.hidden = looks.hidden.iter().copied().collect();
+    model.layers = looks.layers.iter().cloned().collect();
+    holds_anything(&model)?;
+    Ok(CadContent { model, unit, warnings })
+}
+
+/// The unit of the first representation that says one.
+fn unit(shapes: &BTreeMap<u64, Representation>, options: &ReadOptions) -> LengthUnit {
+    let said = shapes.values().find_map(|r| r.context.as_ref().ok()?.length);
+    match (said, options.units.or(options.unit_else)) {
+        (Some(millimeters), _) => LengthUnit { millimeters, from: UnitFrom::Header },
+        (None, Some(unit)) => LengthUnit { millimeters: unit.to_millimeters(1.0), from: UnitFrom::Option },
+        (None, None) => LengthUnit { millimeters: 1.0, from: UnitFrom::Assumed },
+    }
+}
+
+fn warnings(shapes: &BTreeMap<u64, Representation>, unit: &LengthUnit, options: &ReadOptions) -> Vec<Warning> {
+    let lengths = shapes.values().filter(|r| !r.items.is_empty()).map(|r| r.context.as_ref().ok()?.length);
+    let without = lengths.filter(Option::is_none).count() as u64;
+    let mut all = vec![];
+    if without > 0 {
+        all.push(Warning::UnitMissing { count: without, millimeters: unit.millimeters });
+    }
+    let asked = options.units.filter(|asked| asked.to_millimeters(1.0) != unit.millimeters);
+    let said = crate::Unit::ALL.into_iter().find(|u| u.to_millimeters(1.0) == unit.millimeters);
+    if let (Some(asked), Some(said), UnitFrom::Header) = (asked, said, unit.from) {
+        all.push(Warning::UnitKept { said, asked });
+    }
+    all
+}
+
+/// The entities that could not be parsed, and the end of the file if it is missing.
+fn damaged(file: &File) -> Vec<Unread> {
+    let mut all: Vec<Unread> = vec![];
+    for broken in file.broken().iter().take(MAX_TOLD) {
+        let keyword = file.keyword_of(broken);
+        let reason = file.entity(broken.number).err().map_or_else(String::new, |wrong| wrong.to_string());
+        let holds_faces = keyword.is_empty() || CONTAINERS.iter().any(|c| keyword.contains(c));
+        all.push(Unread { entity: broken.number, keyword: keyword.into(), reason, holds_faces });
+    }
+    let more = file.broken().len().saturating_sub(MAX_TOLD);
+    if more > 0 {
+        let reason = format!("{more} more entities are damaged");
+        all.push(Unread { entity: 0, keyword: String::new(), reason, holds_faces: true });
+    }
+    if !file.is_whole() {
+        let reason = format!("the file is cut short: line {} is its last one", file.last_line());
+        all.push(Unread { entity: 0, keyword: "END-ISO-10303-21".into(), reason, holds_faces: true });
+    }
+    all
+}
+
+/// Parts of keywords of entities that lead to faces; what faces themselves need is told with them.
+const CONTAINERS: [&str; 10] = [
+    "REPRESENTATION", "SHELL", "BREP", "SOLID", "FACE", "SURFACE_MODEL", "MAPPED_ITEM", "OCCURRENCE",
+    "TRANSFORMATION", "PRODUCT_DEFINITION",
+];
+
+/// A file without a face and without a wire is no model.
+fn holds_anything(model: &Model) -> Result<()> {
+    let faces: usize = model.parts.iter().map(|p| p.brep.faces.len()).sum();
+    if faces > 0 || model.parts.iter().any(|p| p.wires > 0) && !model.unread.iter().any(|u| u.holds_faces) {
+        return Ok(());
+    }
+    let lost: Vec<&Unread> = model.unread.iter().filter(|u| u.holds_faces).collect();
+    let what = match lost.first() {
+        None => "the file holds no shape: neither faces nor curves".to_string(),
+        Some(first) => {
+            let name = if first.keyword.is_empty() { "" } else { &first.keyword };
+            let others = lost.len() - 1;
+            let more = if others > 0 { format!(" (and {others} more)") } else { String::new() };
+            format!("none of its faces can be read: {name} #{}: {}{more}", first.entity, first.reason)
+        }
+    };
+    Err(Fault::Unsupported { what, remedy: "export it as a model with exact faces (boundary representation)" }.into())
+}

@@ -1,0 +1,207 @@
+//! The entities of a file: where they stand, and what is wrong with some.
+
+use super::record::{Record, Wrong};
+use std::cell::OnceCell;
+
+/// A parameter.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in super::super) enum Value<'t> {
+    /// `#12`; a number beyond 64 bits is the greatest one, which no entity has.
+    Reference(u64),
+    Integer(i64),
+    Real(f64),
+    /// `.T.`, without the points.
+    Word(&'t [u8]),
+    /// Text as it stands between its quotes.
+    Text(&'t [u8]),
+    /// The values between brackets.
+    List(Run),
+    /// `LENGTH_MEASURE(25.4)`: the keyword as a word, then what stands between the brackets.
+    Typed(Run),
+    /// `$`, `*`, or binary data.
+    Nothing,
+}
+
+/// Values or records that stand together.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(in super::super) struct Run {
+    pub from: u32,
+    pub count: u32,
+}
+
+impl Run {
+    /// The items of the run.
+    pub fn of<T>(self, all: &[T]) -> &[T] {
+        let from = self.from as usize;
+        all.get(from..from + self.count as usize).unwrap_or_default()
+    }
+}
+
+/// Where an entity stands.
+#[derive(Clone, Copy)]
+pub(super) struct Place {
+    pub number: u64,
+    pub at: usize,
+    pub records: Run,
+}
+
+/// A keyword, by its index among all, and its parameters.
+#[derive(Clone, Copy)]
+pub(super) struct RawRecord {
+    pub keyword: u32,
+    pub values: Run,
+}
+
+/// An entity that could not be parsed.
+#[derive(Clone, Copy)]
+pub(in super::super) struct Broken {
+    /// Its number.
+    pub number: u64,
+    pub(super) at: usize,
+    /// The index of its keyword, where it has one that is known.
+    pub(super) keyword: Option<u32>,
+    /// What is wrong.
+    pub reason: &'static str,
+}
+
+/// All entities of a file.
+pub(in super::super) struct File<'t> {
+    pub(super) text: &'t [u8],
+    pub(super) values: Vec<Value<'t>>,
+    pub(super) records: Vec<RawRecord>,
+    /// In the order of their numbers.
+    pub(super) places: Vec<Place>,
+    /// Upper case.
+    pub(super) keywords: Vec<String>,
+    /// In the order of their numbers.
+    pub(super) broken: Vec<Broken>,
+    pub(super) is_whole: bool,
+    /// Line breaks before each block of the text.
+    pub(super) lines: OnceCell<Vec<u64>>,
+}
+
+/// An entity: one record, or those of a complex one.
+#[derive(Clone, Copy)]
+pub(in super::super) struct Entity<'f> {
+    file: &'f File<'f>,
+    place: &'f Place,
+}
+
+/// Bytes of a block whose line breaks are counted beforehand.
+const BLOCK: usize = 1 << 12;
+
+impl<'t> File<'t> {
+    /// Whether the text goes on to the line that ends such files.
+    pub fn is_whole(&self) -> bool {
+        self.is_whole
+    }
+
+    /// How many entities there are.
+    pub fn count(&self) -> usize {
+        self.places.len()
+    }
+
+    /// The entities that could not be parsed.
+    pub fn broken(&self) -> &[Broken] {
+        &self.broken
+    }
+
+    /// The keyword of an entity that could not be parsed, as far as it is known.
+    pub fn keyword_of(&self, broken: &Broken) -> &str {
+        broken.keyword.and_then(|k| self.keywords.get(k as usize)).map_or("", String::as_str)
+    }
+
+    /// All entities in the order of their numbers.
+    pub fn entities(&self) -> impl Iterator<Item = Entity<'_>> + '_ {
+        self.places.iter().map(|place| Entity { file: self, place })
+    }
+
+    /// The entity of this number.
+    ///
+    /// # Errors
+    /// There is none, or it could not be parsed.
+    pub fn entity(&self, number: u64) -> Result<Entity<'_>, Wrong> {
+        match self.places.binary_search_by_key(&number, |p| p.number) {
+            Ok(index) => Ok(Entity { file: self, place: &self.places[index] }),
+            Err(_) => Err(self.absent(number)),
+        }
+    }
+
+    fn absent(&self, number: u64) -> Wrong {
+        match self.broken.binary_search_by_key(&number, |b| b.number) {
+            Ok(index) => {
+                let broken = self.broken[index];
+                Wrong { entity: number, line: self.line(broken.at), reason: broken.reason.into() }
+            }
+            Err(_) => Wrong { entity: number, line: 0, reason: "is not in the file".into() },
+        }
+    }
+
+    /// The number of the last line.
+    pub fn last_line(&self) -> u64 {
+        self.line(self.text.len())
+    }
+
+    /// The line in which this byte lies, from 1.
+    pub(super) fn line(&self, at: usize) -> u64 {
+        let blocks = self.lines.get_or_init(|| {
+            let mut sum = 0;
+            let count = |block: &[u8]| {
+                let before = sum;
+                sum += memchr::memchr_iter(b'\n', block).count() as u64;
+                before
+            };
+            self.text.chunks(BLOCK).map(count).collect()
+        });
+        let block = at / BLOCK;
+        let before = blocks.get(block).copied().unwrap_or_default();
+        let rest = self.text.get(block * BLOCK..at).unwrap_or_default();
+        1 + before + memchr::memchr_iter(b'\n', rest).count() as u64
+    }
+}
+
+impl<'f> Entity<'f> {
+    /// Its number.
+    pub fn number(&self) -> u64 {
+        self.place.number
+    }
+
+    /// Its records.
+    pub fn records(&self) -> impl Iterator<Item = Record<'f>> + 'f {
+        let (file, place) = (self.file, self.place);
+        place.records.of(&file.records).iter().map(move |raw| Record {
+            file,
+            entity: place.number,
+            at: place.at,
+            keyword: file.keywords.get(raw.keyword as usize).map_or("", String::as_str),
+            values: raw.values.of(&file.values),
+        })
+    }
+
+    /// Whether it is one record.
+    pub fn is_simple(&self) -> bool {
+        self.place.records.count == 1
+    }
+
+    /// The record with this keyword.
+    pub fn record(&self, keyword: &str) -> Option<Record<'f>> {
+        self.records().find(|r| r.keyword == keyword)
+    }
+
+    /// The only record of a simple entity; of a complex one the first whose keyword is among these, else the first.
+    pub fn main(&self, keywords: &[&str]) -> Record<'f> {
+        let known = self.records().find(|r| keywords.contains(&r.keyword));
+        known.or_else(|| self.records().next()).unwrap_or(Record {
+            file: self.file,
+            entity: self.place.number,
+            at: self.place.at,
+            keyword: "",
+            values: &[],
+        })
+    }
+
+    /// A fault of the entity.
+    pub fn wrong(&self, reason: impl Into<String>) -> Wrong {
+        Wrong { entity: self.place.number, line: self.file.line(self.place.at), reason: reason.into() }
+    }
+}

@@ -1,0 +1,16 @@
+//! Exchange structures of ISO 10303-21: the entities of a file and their parameters, parsed in one pass.
+//!
+//! A damaged entity does no harm to others: it is remembered with its reason, and reading goes on at the next one. Time and
+//! memory are proportional to the length of the text, whatever it holds.
+
+mod file;
+mod pages;
+mod record;
+mod scan;
+mod text;
+#[cfg(test)]
+mod tests;
+
+pub(super) use file::{Entity, File, Value};
+pub(super) use record::{Record, Wrong};
+pub(super) use scan::parse;
