@@ -6,11 +6,19 @@
 //! | lines, conics, splines in space | [`curve`] |
 //! | planes, quadrics, tori, splines, swept surfaces | [`surface`] |
 //! | vertices, edges, faces, shells, solids | [`brep`] |
+//! | exact distances to trimmed faces | [`search`] |
+//! | the part of a surface that a face is | [`trim`] |
+//! | areas, volumes, moments, bounds | [`measure`] |
+//! | facets | [`tessellate`] |
 //! | parts, their instances, what could not be read | [`model`] |
 #![cfg_attr(test, allow(clippy::disallowed_methods, reason = "a test does not hang on the last digit"))]
 
 pub mod brep;
 pub mod curve;
 pub mod frame;
+pub mod measure;
 pub mod model;
+pub mod search;
 pub mod surface;
+pub mod tessellate;
+pub mod trim;

@@ -12,6 +12,7 @@
 
 mod bezier;
 mod conic;
+mod corners;
 mod evaluate;
 mod extent;
 mod feet;
