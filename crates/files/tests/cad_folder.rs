@@ -26,7 +26,8 @@ fn a_line_for_each_file() {
             Ok(file) => format!("\"unit\":{},{}", file.unit.millimeters, summary(&file.model)),
             Err(e) => format!("\"error\":{:?}", e.to_string()),
         };
-        writeln!(out, "{{\"file\":{:?},\"seconds\":{seconds:.3},{about}}}", path.display().to_string()).unwrap();
+        writeln!(out, "{{\"file\":{:?},\"seconds\":{seconds:.3},{about}}}", path.display().to_string())
+            .unwrap();
     }
 }
 
@@ -49,14 +50,18 @@ fn summary(model: &Model) -> String {
         *kinds.entry(format!("{:?}", face.surface.kind()).to_lowercase()).or_default() += 1;
     }
     let kinds: Vec<String> = kinds.iter().map(|(k, n)| format!("{k:?}:{n}")).collect();
-    let unread: Vec<String> =
-        model.unread.iter().map(|u| format!("{:?}", format!("#{} {} {} {}", u.entity, u.keyword, u.reason, u.holds_faces))).collect();
+    let unread: Vec<String> = model
+        .unread
+        .iter()
+        .map(|u| format!("{:?}", format!("#{} {} {} {}", u.entity, u.keyword, u.reason, u.holds_faces)))
+        .collect();
     let placements: Vec<String> = model
         .instances
         .iter()
         .map(|i| format!("{{\"path\":{:?},\"matrix\":{:?}}}", i.path.join("/"), i.placement.matrix()))
         .collect();
-    let wires: u64 = model.instances.iter().filter_map(|i| model.parts.get(i.part as usize)).map(|p| p.wires).sum();
+    let wires: u64 =
+        model.instances.iter().filter_map(|i| model.parts.get(i.part as usize)).map(|p| p.wires).sum();
     let shells = all.shells.len();
     let closed = all.shells.iter().filter(|s| s.closed).count();
     let colored = all.faces.iter().filter(|f| f.color.is_some()).count();

@@ -140,6 +140,12 @@ impl CurveFeet {
         self.parts.iter().map(|part| (part.bounds, part.range))
     }
 
+    /// A box around the part between two parameters of one piece.
+    pub(crate) fn bounds_within(&self, range: [f64; 2]) -> Aabb {
+        let is_around = |part: &&Part| part.range[0] <= range[0] && part.range[1] >= range[1];
+        self.parts.iter().find(is_around).map_or(self.bounds(), |part| part.within(range).bounds)
+    }
+
     /// Places whose hull of all lines, planes or spaces through them holds the range.
     pub(crate) fn support(&self) -> Vec<Point> {
         let of = |part: &Part| match &part.shape {
@@ -156,6 +162,20 @@ impl Part {
         let mut part = Part { shape, range, own, bounds: Aabb::EMPTY };
         part.bounds = part.bounds_of();
         part
+    }
+
+    /// The part between two parameters of the whole curve.
+    fn within(&self, kept: [f64; 2]) -> Part {
+        let shares = kept.map(|t| (t - self.range[0]) / (self.range[1] - self.range[0]));
+        let cut = shares.map(|s| self.own[0] + s * (self.own[1] - self.own[0]));
+        match &self.shape {
+            Shape::Bezier(bezier) => {
+                let part = bezier.part(cut[0].min(cut[1]), cut[0].max(cut[1]));
+                let own = if self.own[0] > self.own[1] { [1.0, 0.0] } else { [0.0, 1.0] };
+                Part::new(Shape::Bezier(part), kept, own)
+            }
+            shape => Part::new(shape.clone(), kept, cut),
+        }
     }
 
     /// The place at a parameter of the shape.
@@ -293,26 +313,18 @@ fn add_chain(
         if from > to {
             own.reverse();
         }
-        for part in own {
-            let Part { mut shape, range, own: mut inner, .. } = part;
-            let mut outer = range.map(lift);
-            if outer[0] > outer[1] {
-                outer.reverse();
-                inner.reverse();
+        for mut part in own {
+            part.range = part.range.map(lift);
+            if part.range[0] > part.range[1] {
+                part.range.reverse();
+                part.own.reverse();
             }
-            let kept = [outer[0].max(low), outer[1].min(high)];
-            if kept[0] >= kept[1] {
-                continue;
+            let kept = [part.range[0].max(low), part.range[1].min(high)];
+            if kept == part.range {
+                parts.push(part);
+            } else if kept[0] < kept[1] {
+                parts.push(part.within(kept));
             }
-            let shares = kept.map(|t| (t - outer[0]) / (outer[1] - outer[0]));
-            let cut = shares.map(|s| inner[0] + s * (inner[1] - inner[0]));
-            if let Shape::Bezier(bezier) = &mut shape {
-                *bezier = bezier.part(cut[0].min(cut[1]), cut[0].max(cut[1]));
-                inner = if inner[0] > inner[1] { [1.0, 0.0] } else { [0.0, 1.0] };
-            } else {
-                inner = cut;
-            }
-            parts.push(Part::new(shape, kept, inner));
         }
     }
 }

@@ -9,7 +9,6 @@ mod budget;
 mod context;
 mod curve;
 mod face;
-mod foot;
 mod instances;
 mod looks;
 mod part;
