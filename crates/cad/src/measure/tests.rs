@@ -124,8 +124,7 @@ fn tori_are_measured_whole_cut_and_where_they_meet_themselves() {
             assert_near(whole.area, TAU * minor * 2.0 * (major * a + minor * f64::sin(a)), "area");
             let [s, c] = [f64::sin(a), f64::cos(a)];
             // ∫ π ρ² dz with ρ = R + r cos v, z = r sin v.
-            let volume = TAU
-                * minor
+            let volume = TAU * minor
                 * (major * major * s + major * minor * (a + s * c) + minor * minor * (s - s * s * s / 3.0));
             assert_near(whole.volume, volume, "volume");
             let bounds = bounds(&Trim::new(&made.brep, &made.brep.faces[0], 0.0).unwrap());
@@ -151,10 +150,7 @@ fn tori_are_measured_whole_cut_and_where_they_meet_themselves() {
             let origin = plus(base.origin, times(major, x));
             Frame::new(origin, cross(x, base.axes[2]), Some(x)).unwrap()
         };
-        let (a, b) = (
-            made.edge(circle(&tube(1.0), 0.0, minor, 0.3)),
-            made.edge(circle(&tube(1.0 + PI), 0.0, minor, 0.9)),
-        );
+        let (a, b) = (made.edge(circle(&tube(1.0), 0.0, minor, 0.3)), made.edge(circle(&tube(1.0 + PI), 0.0, minor, 0.9)));
         made.face(Surface::Torus { frame: base, major, minor }, false, &[&[(a, true)], &[(b, false)]]);
         made.face(Surface::Plane(tube(1.0)), false, &[&[(a, false)]]);
         made.face(Surface::Plane(tube(1.0 + PI)), true, &[&[(b, true)]]);
@@ -175,14 +171,7 @@ fn octants_of_a_sphere_have_an_eighth() {
     };
     let sides = [made.edge(arc(0, 1)), made.edge(arc(1, 2)), made.edge(arc(2, 0))];
     // The pole at a corner, on a side, within.
-    for axis in [
-        [0.0, 0.0, 1.0],
-        [1.0, 0.0, 1.0],
-        [1.0, 1.0, 1.0],
-        [-1.0, -2.0, -3.0],
-        [1.0, -1.0, 0.0],
-        [0.2, 0.3, -0.1],
-    ] {
+    for axis in [[0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [1.0, 1.0, 1.0], [-1.0, -2.0, -3.0], [1.0, -1.0, 0.0], [0.2, 0.3, -0.1]] {
         let frame = Frame::new(base.origin, base.vector(axis), None).unwrap();
         let face = made.face(Surface::Sphere { frame, radius: 2.0 }, false, &[&sides.map(|e| (e, false))]);
         let own = of(&made, &face, base.origin);
@@ -201,10 +190,7 @@ fn swept_surfaces_are_what_they_sweep() {
     let surface = Surface::Extrusion { curve: Box::new(circle_of(2.0)), direction: times(0.7, base.axes[2]) };
     let face = made.face(surface, false, &[&[(low, false)], &[(high, true)]]);
     assert_near(of(&made, &face, base.origin).area, 6.0 * TAU, "extrusion");
-    let upright = Frame {
-        origin: plus(base.origin, times(3.0, base.axes[0])),
-        axes: [base.axes[0], base.axes[2], base.axes[1]],
-    };
+    let upright = Frame { origin: plus(base.origin, times(3.0, base.axes[0])), axes: [base.axes[0], base.axes[2], base.axes[1]] };
     let turned = Surface::Revolution {
         curve: Box::new(Curve::Circle { frame: upright, radius: 1.0 }),
         origin: base.origin,

@@ -51,9 +51,7 @@ pub enum TessellateError {
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
     /// More facets than are allowed.
-    #[error(
-        "{facets} facets or more would be needed, {most} are allowed; with a tolerance of {tolerance} mm they are about that many"
-    )]
+    #[error("{facets} facets or more would be needed, {most} are allowed; with a tolerance of {tolerance} mm they are about that many")]
     TooMany {
         /// About how many.
         facets: usize,
@@ -113,9 +111,7 @@ impl Tessellation {
                 break;
             }
             stale = (0..trims.len())
-                .filter(|f| {
-                    trims[*f].is_some_and(|t| t.edges.iter().any(|e| touched.binary_search(e).is_ok()))
-                })
+                .filter(|f| trims[*f].is_some_and(|t| t.edges.iter().any(|e| touched.binary_search(e).is_ok())))
                 .collect();
             if round + 1 == MAX_ROUNDS {
                 break;
@@ -182,8 +178,7 @@ fn merged(
                 None
             }
             Some(Outcome::Finer(_, None) | Outcome::TooMany(_)) => {
-                all.failed
-                    .push((number, "its edges touch or cross in the parameters of its surface".to_string()));
+                all.failed.push((number, "its edges touch or cross in the parameters of its surface".to_string()));
                 None
             }
         };

@@ -123,9 +123,7 @@ impl Chainer<'_> {
     ) -> Result<[f64; 2], TrimError> {
         let start = next.ends()[0];
         let (to, kind) = match (end_pole, next.poles[0]) {
-            (Some(side), Some(other)) if side == other => {
-                (self.along_pole(end, start, side), Straight::Pole(side))
-            }
+            (Some(side), Some(other)) if side == other => (self.along_pole(end, start, side), Straight::Pole(side)),
             _ => (self.chart.beside(start, end), Straight::Joint),
         };
         if kind == Straight::Joint {

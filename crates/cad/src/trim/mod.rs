@@ -24,8 +24,8 @@ pub use strand::{Sample, Strand, crossing};
 
 use crate::brep::{Bounds, Brep, Face};
 use crate::curve::Span;
-use chart::SAME_PARAMETER;
 use outline::Outline;
+use chart::SAME_PARAMETER;
 use trueness_geom::space::{Aabb, Point};
 
 /// The part of a surface that a face is.
@@ -72,9 +72,7 @@ impl Trim {
                 let mut edges: Vec<u32> = uses.iter().flatten().map(|u| u.edge).collect();
                 edges.sort_unstable();
                 edges.dedup();
-                let span = |e: &u32| {
-                    brep.edges.get(*e as usize).map(|e| e.span.clone()).ok_or(TrimError::NoEdge(*e))
-                };
+                let span = |e: &u32| brep.edges.get(*e as usize).map(|e| e.span.clone()).ok_or(TrimError::NoEdge(*e));
                 let spans: Vec<Span> = edges.iter().map(span).collect::<Result<_, _>>()?;
                 let places: Vec<Point> = spans.iter().flat_map(places_of).collect();
                 if let Some(i) = places.iter().position(|p| !p.iter().all(|x| x.is_finite())) {
@@ -84,18 +82,14 @@ impl Trim {
                 let chart = Chart::new(&face.surface, &places);
                 let most_open = (MOST_UNCERTAINTIES * uncertainty).max(MOST_GAP_SHARE * size);
                 let reach = uncertainty.max(REACH_SHARE * size);
-                let chainer =
-                    chain::Chainer { chart: &chart, edges: &edges, spans: &spans, reach, most_open };
+                let chainer = chain::Chainer { chart: &chart, edges: &edges, spans: &spans, reach, most_open };
                 let mut rings = vec![];
                 for chain in &uses {
                     rings.extend(chainer.ring(chain)?);
                 }
                 let gap = gap_of(&chart, &spans, &rings, most_open)?;
                 let (cuts, rings) = opened(&chart, &spans, rings)?;
-                Trim::of_rings(
-                    Parts { chart, reversed: face.reversed, rings, cuts, gap, edges, spans },
-                    reach,
-                )
+                Trim::of_rings(Parts { chart, reversed: face.reversed, rings, cuts, gap, edges, spans }, reach)
             }
         }
     }
@@ -163,6 +157,7 @@ impl Trim {
     }
 }
 
+
 /// What a trim is made of.
 struct Parts {
     chart: Chart,
@@ -175,11 +170,7 @@ struct Parts {
 }
 
 /// Rings cut open along all parameters that repeat, and where.
-fn opened(
-    chart: &Chart,
-    spans: &[Span],
-    mut rings: Vec<Ring>,
-) -> Result<([Option<f64>; 2], Vec<Ring>), TrimError> {
+fn opened(chart: &Chart, spans: &[Span], mut rings: Vec<Ring>) -> Result<([Option<f64>; 2], Vec<Ring>), TrimError> {
     let mut cuts = [None; 2];
     for k in 0..2 {
         if let Some(period) = chart.periods[k] {
@@ -210,8 +201,7 @@ fn gap_of(chart: &Chart, spans: &[Span], rings: &[Ring], most: f64) -> Result<f6
                 return Err(TrimError::Off { edge: strand.edge, distance });
             }
             let [start, end] = strand.shares().map(|s| span.derivatives(s)[0]);
-            let open =
-                before.map_or(0.0, |b| trueness_geom::space::norm(trueness_geom::space::minus(b, start)));
+            let open = before.map_or(0.0, |b| trueness_geom::space::norm(trueness_geom::space::minus(b, start)));
             gap = gap.max(distance).max(open);
             before = Some(end);
         }
