@@ -6,6 +6,7 @@
 //! | lines, conics, splines in space | [`curve`] |
 //! | planes, quadrics, tori, splines, swept surfaces | [`surface`] |
 //! | vertices, edges, faces, shells, solids | [`brep`] |
+//! | exact distances to trimmed faces | [`search`] |
 //! | the part of a surface that a face is | [`trim`] |
 //! | a boundary with the trims of all its faces | [`trimmed`] |
 //! | areas, volumes, moments, bounds | [`measure`] |
@@ -18,6 +19,7 @@ pub mod curve;
 pub mod frame;
 pub mod measure;
 pub mod model;
+pub mod search;
 pub mod surface;
 pub mod tessellate;
 pub mod trim;

@@ -4,27 +4,17 @@
 //! curve those of the point turned into the plane of the curve, and an offset has those of its basis.
 
 use super::Surface;
+use super::foot::Foot;
 use super::profile::Profile;
 use super::seams::Pole;
 use super::spline::SplineFeet;
 use crate::curve::CurveFeet;
 use crate::frame::Frame;
 use std::f64::consts::{FRAC_PI_2, PI};
-use trueness_geom::space::{Point, Vector, dot, minus, norm, plus, times, unit};
+use trueness_geom::space::{Aabb, Point, Vector, dot, minus, norm, plus, times, unit};
 
 /// Share of a spline's size within which a point is taken to lie on it, at the parameters next to those before.
 const ON_SURFACE: f64 = 1e-4;
-
-/// A place of a surface.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Foot {
-    /// Its parameters.
-    pub parameters: [f64; 2],
-    /// The place.
-    pub place: Point,
-    /// Its distance from the point that was asked for.
-    pub distance: f64,
-}
 
 /// A surface, ready to be asked for feet many times.
 #[derive(Clone, Debug)]
@@ -49,6 +39,7 @@ enum Kind {
 impl SurfaceFeet {
     /// Takes the surface apart. Cheap but for splines.
     pub fn new(surface: &Surface) -> SurfaceFeet {
+        let periods = surface.periods();
         let kind = match surface {
             Surface::Extrusion { curve, direction } => {
                 let way = unit(*direction).map_or([0.0; 3], |(way, _)| way);
@@ -57,11 +48,11 @@ impl SurfaceFeet {
             Surface::Revolution { curve, origin, axis } => {
                 Kind::Revolution(Profile::new(curve, *origin, *axis))
             }
-            Surface::Spline(nurbs) => Kind::Spline(Box::new(SplineFeet::new(nurbs))),
+            Surface::Spline(nurbs) => Kind::Spline(Box::new(SplineFeet::new(nurbs, periods))),
             Surface::Offset { basis, .. } => Kind::Offset(Box::new(SurfaceFeet::new(basis))),
             _ => Kind::Closed,
         };
-        SurfaceFeet { surface: surface.clone(), kind, periods: surface.periods(), poles: surface.poles() }
+        SurfaceFeet { surface: surface.clone(), kind, periods, poles: surface.poles() }
     }
 
     /// The surface.
@@ -114,6 +105,24 @@ impl SurfaceFeet {
                 visit(Foot { parameters: [u, v], place, distance: norm(minus(place, p)) });
                 f64::INFINITY
             }),
+        }
+    }
+
+    /// Number of units that can be asked one by one: the pieces and creases of a spline; 1 of all others.
+    pub(crate) fn units(&self) -> usize {
+        if let Kind::Spline(spline) = &self.kind { spline.units() } else { 1 }
+    }
+
+    /// A box around a unit of a spline, and parameters in its middle.
+    pub(crate) fn unit(&self, unit: usize) -> Option<(Aabb, [f64; 2])> {
+        if let Kind::Spline(spline) = &self.kind { spline.unit(unit) } else { None }
+    }
+
+    /// [`SurfaceFeet::visit`] of one unit; ends of a spline that are not its seam are left out.
+    pub(crate) fn visit_unit(&self, unit: usize, p: Point, limit: f64, visit: &mut dyn FnMut(Foot) -> f64) {
+        match &self.kind {
+            Kind::Spline(spline) => spline.visit_unit(unit, p, limit, visit),
+            _ => self.visit(p, limit, visit),
         }
     }
 

@@ -1,7 +1,8 @@
 //! Feet on B-spline surfaces.
 
-use super::feet::Foot;
-use super::patch::{Net, Patch};
+use super::foot::Foot;
+use super::net::Net;
+use super::patch::Patch;
 use super::seams::iso_curve;
 use crate::curve::CurveFeet;
 use trueness_geom::space::{Aabb, Point};
@@ -17,19 +18,28 @@ pub(super) struct SplineFeet {
     patches: Vec<Patch>,
     /// Ends of the spans in both directions.
     knots: [Vec<f64>; 2],
-    /// Held parameter, its value, and the line.
-    lines: Vec<(usize, f64, CurveFeet)>,
+    lines: Vec<Line>,
     /// Diagonal of the box of the control points.
     pub(super) size: f64,
     /// What is nearer by less is not looked for.
     epsilon: f64,
 }
 
+/// A line along which a parameter is held.
+#[derive(Clone, Debug)]
+struct Line {
+    held: usize,
+    at: f64,
+    feet: CurveFeet,
+    /// Whether it is an end of the domain where the surface does not go on.
+    is_border: bool,
+}
+
 /// Share of the size below which a nearer place is not looked for, and roundings of the greatest coordinate.
 const EPSILON: [f64; 2] = [1e-14, 32.0 * f64::EPSILON];
 
 impl SplineFeet {
-    pub(super) fn new(nurbs: &Nurbs) -> SplineFeet {
+    pub(super) fn new(nurbs: &Nurbs, periods: [Option<f64>; 2]) -> SplineFeet {
         let points = nurbs.control_points();
         let [m, n] = nurbs.counts();
         let [knots_u, knots_v] = nurbs.knots();
@@ -57,8 +67,9 @@ impl SplineFeet {
             let across = nurbs.knots()[1 - held as usize].domain();
             for t in own.distinct() {
                 if t == from || t == to || own.multiplicity(t) >= own.degree() {
-                    let line = CurveFeet::new(&iso_curve(nurbs, held, t), across.into());
-                    lines.push((held as usize, t, line));
+                    let feet = CurveFeet::new(&iso_curve(nurbs, held, t), across.into());
+                    let is_border = (t == from || t == to) && periods[held as usize].is_none();
+                    lines.push(Line { held: held as usize, at: t, feet, is_border });
                 }
             }
         }
@@ -72,14 +83,8 @@ impl SplineFeet {
     /// See [`super::SurfaceFeet::visit`].
     pub(super) fn visit(&self, p: Point, limit: f64, visit: &mut dyn FnMut(Foot) -> f64) {
         let mut limit = limit;
-        for (held, t, line) in &self.lines {
-            if line.bounds().distance(&p) < limit {
-                line.candidates(p, limit, |foot| {
-                    let parameters = if *held == 0 { [*t, foot.parameter] } else { [foot.parameter, *t] };
-                    limit = visit(Foot { parameters, place: foot.place, distance: foot.distance });
-                    limit
-                });
-            }
+        for line in &self.lines {
+            limit = line.visit(p, limit, visit);
         }
         let mut order: Vec<(f64, &Patch)> =
             self.patches.iter().map(|patch| (patch.bounds.distance(&p), patch)).collect();
@@ -92,14 +97,37 @@ impl SplineFeet {
         }
     }
 
+    /// The pieces, then the lines that are no border.
+    pub(super) fn units(&self) -> usize {
+        self.patches.len() + self.creases().count()
+    }
+
+    fn creases(&self) -> impl Iterator<Item = &Line> {
+        self.lines.iter().filter(|line| !line.is_border)
+    }
+
+    /// See [`super::SurfaceFeet::unit`].
+    pub(super) fn unit(&self, unit: usize) -> Option<(Aabb, [f64; 2])> {
+        if let Some(patch) = self.patches.get(unit) {
+            return Some((patch.bounds, patch.range.map(|[a, b]| 0.5 * (a + b))));
+        }
+        let line = self.creases().nth(unit - self.patches.len())?;
+        let other = &self.knots[1 - line.held];
+        let middle = 0.5 * (other[0] + other[other.len() - 1]);
+        Some((line.feet.bounds(), if line.held == 0 { [line.at, middle] } else { [middle, line.at] }))
+    }
+
+    /// The feet on one unit.
+    pub(super) fn visit_unit(&self, unit: usize, p: Point, limit: f64, visit: &mut dyn FnMut(Foot) -> f64) {
+        if let Some(patch) = self.patches.get(unit) {
+            self.visit_patch(patch, p, limit, visit);
+        } else if let Some(line) = self.creases().nth(unit - self.patches.len()) {
+            line.visit(p, limit, visit);
+        }
+    }
+
     /// The feet on one patch; says the new limit.
-    pub(super) fn visit_patch(
-        &self,
-        patch: &Patch,
-        p: Point,
-        limit: f64,
-        visit: &mut dyn FnMut(Foot) -> f64,
-    ) -> f64 {
+    fn visit_patch(&self, patch: &Patch, p: Point, limit: f64, visit: &mut dyn FnMut(Foot) -> f64) -> f64 {
         let mut limit = limit;
         patch.minima(p, limit, self.epsilon, |start, [[a, b], [c, d]]| {
             let (foot, _) = descend(|at| patch.jet(at), [(a, b), (c, d)], p, start);
@@ -160,6 +188,20 @@ impl SplineFeet {
             jet.second[2][k] /= widths[1] * widths[1];
         }
         jet
+    }
+}
+
+impl Line {
+    /// Hands over its nearest places and ends; says the new limit.
+    fn visit(&self, p: Point, limit: f64, visit: &mut dyn FnMut(Foot) -> f64) -> f64 {
+        let mut limit = limit;
+        self.feet.candidates(p, limit, |foot| {
+            let parameters =
+                if self.held == 0 { [self.at, foot.parameter] } else { [foot.parameter, self.at] };
+            limit = visit(Foot { parameters, place: foot.place, distance: foot.distance });
+            limit
+        });
+        limit
     }
 }
 

@@ -123,9 +123,17 @@ impl Chainer<'_> {
     ) -> Result<[f64; 2], TrimError> {
         let start = next.ends()[0];
         let (to, kind) = match (end_pole, next.poles[0]) {
-            (Some(side), Some(other)) if side == other => {
-                (self.along_pole(end, start, side), Straight::Pole(side))
+            (Some(side), Some(other)) if side == other => (self.along_pole(end, start, side), Straight::Pole(side)),
+            (Some(side), Some(other)) if side.0 != other.0 => {
+                // Both sides are one place: over the corner between them.
+                let mut corner = end;
+                corner[other.0] = self.chart.domain[other.0][other.1];
+                ring.pieces.push(Piece::Straight { ends: [end, corner], kind: Straight::Pole(side) });
+                ring.pieces.push(Piece::Straight { ends: [corner, start], kind: Straight::Pole(other) });
+                return Ok(start);
             }
+            // From one pole to the opposite one at the same place: the surface touches itself, and the face goes on nowhere.
+            (Some(_), Some(_)) => return Err(TrimError::Contradiction),
             _ => (self.chart.beside(start, end), Straight::Joint),
         };
         if kind == Straight::Joint {

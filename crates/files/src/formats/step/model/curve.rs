@@ -52,8 +52,8 @@ impl<'f> Geometry<'f> {
             if let Some(trimmed) = entity.record("TRIMMED_CURVE") {
                 same ^= !trimmed.truth(4)?;
                 number = trimmed.entity(1)?;
-            } else if let Some(carrier) = carrier(&entity) {
-                number = carrier.entity(1)?;
+            } else if let Some(carried) = carried(&entity) {
+                number = carried?;
             } else {
                 return Ok((self.curve(number, 0)?, same));
             }
@@ -70,8 +70,8 @@ impl<'f> Geometry<'f> {
         if let Some(curve) = self.spline(&entity)? {
             return Ok(curve);
         }
-        if let Some(carrier) = carrier(&entity) {
-            return self.curve(carrier.entity(1)?, depth + 1);
+        if let Some(carried) = carried(&entity) {
+            return self.curve(carried?, depth + 1);
         }
         let record = entity.main(&[]);
         let frame = || frame(self.file, self.units, record.entity(1)?);
@@ -108,8 +108,8 @@ impl<'f> Geometry<'f> {
         if depth > MAX_BASES {
             return Err(entity.wrong("rests on itself"));
         }
-        if let Some(carrier) = carrier(&entity) {
-            return self.bounded(carrier.entity(1)?, depth + 1);
+        if let Some(carried) = carried(&entity) {
+            return self.bounded(carried?, depth + 1);
         }
         if let Some(record) = entity.record("TRIMMED_CURVE") {
             return self.trimmed(&record, depth);
@@ -148,7 +148,7 @@ impl<'f> Geometry<'f> {
         match (parameter, place) {
             (Some(t), None) => Ok(t * scale),
             (Some(t), Some(_)) if by_parameter => Ok(t * scale),
-            (_, Some(place)) => Ok(super::foot::foot(curve, self.point(place)?).0),
+            (_, Some(place)) => Ok(span::foot(curve, self.point(place)?).parameter),
             (None, None) => Err(record.wrong("has an end that is neither a parameter nor a point")),
         }
     }
@@ -235,9 +235,10 @@ impl<'f> Geometry<'f> {
 /// Sine of an angle within which two unit vectors are along each other: rounding of a few steps.
 const ALONG: f64 = 1e-12;
 
-/// The record of an entity that carries a curve in space, if it is one.
-fn carrier<'f>(entity: &Entity<'f>) -> Option<Record<'f>> {
-    entity.records().find(|r| CARRIERS.contains(&r.keyword))
+/// The curve in space that an entity carries beside others, if it is such an entity.
+fn carried(entity: &Entity) -> Option<Result<u64, Wrong>> {
+    let carrier = entity.records().find(|r| CARRIERS.contains(&r.keyword) && !r.values.is_empty());
+    carrier.map(|c| c.entity(usize::from(entity.is_simple())))
 }
 
 /// Whether a keyword is one of curves.

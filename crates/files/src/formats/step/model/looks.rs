@@ -68,6 +68,14 @@ impl Looks {
         let record = entity.main(&["STYLED_ITEM"]);
         let first = usize::from(entity.is_simple());
         let (Ok(list), Some(item)) = (record.list(first), record.reference(first + 1)) else { return };
+        // In a context it is one occurrence that has the color, not all of the item.
+        let item = match record.keyword.starts_with("CONTEXT_DEPENDENT") {
+            false => item,
+            true => match record.list(record.values.len() - 1) {
+                Ok([Value::Reference(relation)]) => *relation,
+                _ => return,
+            },
+        };
         let found = list.iter().filter_map(reference).find_map(|style| {
             let color = styles.entry(style).or_insert_with(|| color(file, style));
             *color

@@ -41,18 +41,22 @@ pub(crate) fn read(
     let warnings = warnings(&shapes, &unit, options);
     let budget = Budget::of(&file);
     let tolerance = uncertainty.unwrap_or(USUAL_UNCERTAINTY).clamp(UNCERTAINTIES[0], UNCERTAINTIES[1]);
-    let reading = Reading { file: &file, budget: &budget, looks: &looks, progress, tolerance };
+    let shown = Default::default();
+    let reading = Reading { file: &file, budget: &budget, looks: &looks, progress, tolerance, shown };
     let mut model = Model { uncertainty, ..Model::default() };
     let mut assembly = Assembly::of(&file, shapes, fallback);
-    let mut parts = vec![];
-    for node in 0..assembly.nodes.len() {
+    let mut parts = vec![None; assembly.nodes.len()];
+    let mut order: Vec<usize> = (0..parts.len()).collect();
+    order.sort_by_key(|node| !assembly.nodes[*node].is_product);
+    for node in order {
         let (part, mut unread) = reading.part(&assembly, node);
         model.unread.append(&mut unread);
-        parts.push(part.map(|part| {
-            let entry = (model.parts.len() as u32, part.brep.faces.len() as u64);
+        // Views of products hold curves and planes beside the faces of the product.
+        let is_view = !assembly.nodes[node].is_product && !model.parts.is_empty();
+        if let Some(part) = part.filter(|p| !is_view || !p.brep.faces.is_empty()) {
+            parts[node] = Some((model.parts.len() as u32, part.brep.faces.len() as u64));
             model.parts.push(part);
-            entry
-        }));
+        }
         if progress.cancelled() {
             return Err(Fault::Cancelled.into());
         }

@@ -3,6 +3,7 @@
 use super::super::part21::{Entity, Record, Wrong};
 use super::curve::{MAX_BASES, is_curve};
 use super::face::Faces;
+use super::hollow::look_inward;
 use super::placement::operator;
 use super::surface::{Oriented, is_surface};
 use super::topology::Topology;
@@ -89,6 +90,9 @@ const HOLDERS: [&str; 15] = [
     "ELLIPSOID",
 ];
 
+/// Why a surface in no face is not read.
+const WITHOUT_ENDS: &str = "is a surface without ends, in no face";
+
 /// The boundary of a part, item by item.
 pub(super) struct Shapes<'f> {
     pub faces: Faces<'f>,
@@ -113,7 +117,8 @@ impl<'f> Shapes<'f> {
             self.add_item(&entity, color)
         });
         if let Err(wrong) = added {
-            self.faces.tell(number, &wrong, true);
+            // A surface without ends is no face: programs leave such ones beside their solids.
+            self.faces.tell(number, &wrong, wrong.reason != WITHOUT_ENDS);
         }
     }
 
@@ -170,6 +175,10 @@ impl<'f> Shapes<'f> {
         };
         let outer = self.faces.shell(outer, false, color);
         let voids: Vec<u32> = voids.into_iter().filter_map(|v| self.faces.shell(v, false, color)).collect();
+        let (tolerance, progress) = (self.faces.topology.geometry.tolerance, self.faces.progress);
+        for shell in &voids {
+            look_inward(self.brep(), *shell, tolerance, progress);
+        }
         // What is wrong with the outer shell is told already; hollows alone are no solid.
         if let Some(outer) = outer {
             self.brep().solids.push(Solid { outer, voids, name });
@@ -215,7 +224,7 @@ impl<'f> Shapes<'f> {
         };
         let finite = |sides: &[[f64; 2]; 2]| sides.as_flattened().iter().all(|x| x.is_finite());
         if matches!(&bounds, Bounds::Rectangle(sides) if !finite(sides)) {
-            return Err(main.wrong("is a surface without ends, in no face"));
+            return Err(main.wrong(WITHOUT_ENDS));
         }
         geometry.budget.spend(1, entity)?;
         let (name, entity) = (main.text(0), entity.number());

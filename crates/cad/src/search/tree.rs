@@ -1,0 +1,77 @@
+//! Boxes around parts of faces and edges, halved again and again.
+
+use trueness_geom::space::{Aabb, Point};
+
+/// A box around items: all of those of its two halves, or a few.
+struct Node {
+    bounds: Aabb,
+    /// First item of a leaf, or the number of the second half; the first half follows its node.
+    next: u32,
+    /// Items of a leaf; 0 for a box with halves.
+    count: u32,
+}
+
+/// The boxes.
+pub(super) struct Boxes {
+    items: Vec<(u32, Aabb)>,
+    nodes: Vec<Node>,
+}
+
+/// Items in a leaf at most.
+const LEAF: usize = 4;
+
+impl Boxes {
+    /// Around these targets.
+    pub(super) fn new(mut items: Vec<(u32, Aabb)>) -> Boxes {
+        let mut nodes = vec![];
+        if !items.is_empty() {
+            halve(&mut items, 0, &mut nodes);
+        }
+        Boxes { items, nodes }
+    }
+
+    /// Hands over targets, near ones first, as long as their boxes are not beyond a reach, which the callback says anew each time.
+    pub(super) fn visit(&self, p: &Point, stack: &mut Vec<(f64, u32)>, mut look: impl FnMut(u32) -> f64) {
+        let mut reach = f64::INFINITY;
+        stack.clear();
+        stack.extend(self.nodes.first().map(|root| (root.bounds.distance(p), 0)));
+        while let Some((distance, at)) = stack.pop() {
+            if distance > reach {
+                continue;
+            }
+            let node = &self.nodes[at as usize];
+            if node.count > 0 {
+                for (target, bounds) in &self.items[node.next as usize..(node.next + node.count) as usize] {
+                    if bounds.distance(p) <= reach {
+                        reach = look(*target);
+                    }
+                }
+                continue;
+            }
+            let [a, b] = [at + 1, node.next].map(|n| (self.nodes[n as usize].bounds.distance(p), n));
+            // The nearer one lies last.
+            if a.0 <= b.0 { stack.extend([b, a]) } else { stack.extend([a, b]) }
+        }
+    }
+}
+
+fn halve(items: &mut [(u32, Aabb)], first: usize, nodes: &mut Vec<Node>) {
+    let bounds = items.iter().fold(Aabb::EMPTY, |b, item| b.union(&item.1));
+    let own = nodes.len();
+    if items.len() <= LEAF {
+        nodes.push(Node { bounds, next: first as u32, count: items.len() as u32 });
+        return;
+    }
+    nodes.push(Node { bounds, next: 0, count: 0 });
+    let sides = bounds.sides();
+    let axis = (0..3).fold(0, |best, k| if sides[k] > sides[best] { k } else { best });
+    let middle = items.len() / 2;
+    let center = |b: &Aabb| b.min[axis] + b.max[axis];
+    items.select_nth_unstable_by(middle, |a, b| {
+        center(&a.1).total_cmp(&center(&b.1)).then_with(|| a.0.cmp(&b.0))
+    });
+    let (left, right) = items.split_at_mut(middle);
+    halve(left, first, nodes);
+    nodes[own].next = nodes.len() as u32;
+    halve(right, first + middle, nodes);
+}
