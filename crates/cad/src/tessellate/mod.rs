@@ -51,7 +51,9 @@ pub enum TessellateError {
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
     /// More facets than are allowed.
-    #[error("{facets} facets or more would be needed, {most} are allowed; with a tolerance of {tolerance} mm they are about that many")]
+    #[error(
+        "{facets} facets or more would be needed, {most} are allowed; with a tolerance of {tolerance} mm they are about that many"
+    )]
     TooMany {
         /// About how many.
         facets: usize,
@@ -110,7 +112,10 @@ impl Tessellation {
             if round == MAX_ROUNDS {
                 break;
             }
-            let wanted = outcomes.iter().flatten().filter_map(|o| if let Outcome::Finer(w, _) = o { Some(w) } else { None });
+            let wanted = outcomes
+                .iter()
+                .flatten()
+                .filter_map(|o| if let Outcome::Finer(w, _) = o { Some(w) } else { None });
             let touched = edges::insert(brep, wanted.flatten(), &mut polylines, &mut positions);
             if touched.is_empty() {
                 break;
@@ -155,7 +160,8 @@ fn merged(
                 None
             }
             Some(Outcome::Finer(_, None) | Outcome::TooMany(_)) => {
-                all.failed.push((number, "its edges touch or cross in the parameters of its surface".to_string()));
+                all.failed
+                    .push((number, "its edges touch or cross in the parameters of its surface".to_string()));
                 None
             }
         };

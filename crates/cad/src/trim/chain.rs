@@ -123,7 +123,9 @@ impl Chainer<'_> {
     ) -> Result<[f64; 2], TrimError> {
         let start = next.ends()[0];
         let (to, kind) = match (end_pole, next.poles[0]) {
-            (Some(side), Some(other)) if side == other => (self.along_pole(end, start, side), Straight::Pole(side)),
+            (Some(side), Some(other)) if side == other => {
+                (self.along_pole(end, start, side), Straight::Pole(side))
+            }
             (Some(side), Some(other)) if side.0 != other.0 => {
                 // Both sides are one place: over the corner between them.
                 let mut corner = end;

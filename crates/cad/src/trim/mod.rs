@@ -24,8 +24,8 @@ pub use strand::{Sample, Strand, crossing};
 
 use crate::brep::{Bounds, Brep, EdgeUse, Face};
 use crate::curve::Span;
-use outline::Outline;
 use chart::SAME_PARAMETER;
+use outline::Outline;
 use trueness_geom::space::{Aabb, Point};
 
 /// The part of a surface that a face is.
@@ -111,8 +111,16 @@ impl Trim {
         let piece = |i: usize| Piece::Straight { ends: [corners[i], corners[(i + 1) % 4]], kind: kinds[i] };
         let rings = vec![Ring { pieces: (0..4).map(piece).collect(), winding: [0; 2] }];
         let cuts = [0, 1].map(|k| chart.periods[k].map(|_| sides[k][0]));
-        let parts =
-            Parts { chart, reversed: face.reversed, turned: false, rings, cuts, gap: 0.0, edges: vec![], spans: vec![] };
+        let parts = Parts {
+            chart,
+            reversed: face.reversed,
+            turned: false,
+            rings,
+            cuts,
+            gap: 0.0,
+            edges: vec![],
+            spans: vec![],
+        };
         Trim::of_rings(parts, 0.0)
     }
 
@@ -146,7 +154,6 @@ impl Trim {
     }
 }
 
-
 /// What the rings of a face are made with.
 struct Border<'a> {
     face: &'a Face,
@@ -160,7 +167,12 @@ struct Border<'a> {
 }
 
 impl<'a> Border<'a> {
-    fn new(brep: &Brep, face: &'a Face, uses: &[Vec<EdgeUse>], uncertainty: f64) -> Result<Border<'a>, TrimError> {
+    fn new(
+        brep: &Brep,
+        face: &'a Face,
+        uses: &[Vec<EdgeUse>],
+        uncertainty: f64,
+    ) -> Result<Border<'a>, TrimError> {
         let mut edges: Vec<u32> = uses.iter().flatten().map(|u| u.edge).collect();
         edges.sort_unstable();
         edges.dedup();
@@ -179,8 +191,7 @@ impl<'a> Border<'a> {
 
     fn trim(&self, uses: &[Vec<EdgeUse>], turned: bool) -> Result<Trim, TrimError> {
         let Border { face, chart, edges, spans, reach, most_open } = self;
-        let chainer =
-            chain::Chainer { chart, edges, spans, reach: *reach, most_open: *most_open };
+        let chainer = chain::Chainer { chart, edges, spans, reach: *reach, most_open: *most_open };
         let mut rings = vec![];
         for chain in uses {
             rings.extend(chainer.ring(chain)?);
@@ -214,7 +225,11 @@ struct Parts {
 }
 
 /// Rings cut open along all parameters that repeat, and where.
-fn opened(chart: &Chart, spans: &[Span], mut rings: Vec<Ring>) -> Result<([Option<f64>; 2], Vec<Ring>), TrimError> {
+fn opened(
+    chart: &Chart,
+    spans: &[Span],
+    mut rings: Vec<Ring>,
+) -> Result<([Option<f64>; 2], Vec<Ring>), TrimError> {
     let mut cuts = [None; 2];
     for k in 0..2 {
         if let Some(period) = chart.periods[k] {
@@ -245,7 +260,8 @@ fn gap_of(chart: &Chart, spans: &[Span], rings: &[Ring], most: f64) -> Result<f6
                 return Err(TrimError::Off { edge: strand.edge, distance });
             }
             let [start, end] = strand.shares().map(|s| span.derivatives(s)[0]);
-            let open = before.map_or(0.0, |b| trueness_geom::space::norm(trueness_geom::space::minus(b, start)));
+            let open =
+                before.map_or(0.0, |b| trueness_geom::space::norm(trueness_geom::space::minus(b, start)));
             gap = gap.max(distance).max(open);
             before = Some(end);
         }

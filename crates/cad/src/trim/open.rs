@@ -130,16 +130,16 @@ impl Opener<'_> {
         }
         corners.sort_by(f64::total_cmp);
         let after = corners.iter().skip(1).copied().chain([corners[0] + period]);
-        let mut gaps: Vec<[f64; 2]> = corners.iter().zip(after).map(|(a, b)| [b - a, 0.5 * (a + b)]).collect();
+        let mut gaps: Vec<[f64; 2]> =
+            corners.iter().zip(after).map(|(a, b)| [b - a, 0.5 * (a + b)]).collect();
         gaps.sort_by(|a, b| b[0].total_cmp(&a[0]));
         gaps.truncate(MAX_CANDIDATES);
         let least = LEAST_SHARE * gaps[0][0];
         gaps.retain(|g| g[0] >= least);
         let count = |c: f64| -> usize {
             let index = |at: [f64; 2]| ((at[k] - c) / period).floor();
-            let of = |piece: &Piece| {
-                piece.places().windows(2).filter(|w| index(w[0].0) != index(w[1].0)).count()
-            };
+            let of =
+                |piece: &Piece| piece.places().windows(2).filter(|w| index(w[0].0) != index(w[1].0)).count();
             rings.iter().flat_map(|r| &r.pieces).map(of).sum()
         };
         gaps.iter().map(|g| (count(g[1]), g[1])).min_by_key(|(n, _)| *n).map_or(first, |(_, c)| c)
@@ -181,7 +181,9 @@ impl Opener<'_> {
         let (first_arc, first_crossing, n) = (arcs.len(), crossings.len(), found.len());
         let mut start = parts.remove(0);
         if let Some(last) = parts.last_mut() {
-            if let (Some(end), Some(begin)) = (last.last().map(|p| p.ends()[1]), start.first().map(|p| p.ends()[0])) {
+            if let (Some(end), Some(begin)) =
+                (last.last().map(|p| p.ends()[1]), start.first().map(|p| p.ends()[0]))
+            {
                 let turns = |k: usize, p: f64| p * ((end[k] - begin[k]) / p).round();
                 let by = [0, 1].map(|k| self.chart.periods[k].map_or(0.0, |p| turns(k, p)));
                 start.iter_mut().for_each(|p| p.shift(by));
@@ -217,7 +219,8 @@ impl Opener<'_> {
                 Piece::Edge(strand) => {
                     let between = [strand.samples[i - 1].share, strand.samples[i].share];
                     let share;
-                    (share, at) = crossing(&strand, (self.chart, &self.spans[strand.slot]), between, (k, value));
+                    (share, at) =
+                        crossing(&strand, (self.chart, &self.spans[strand.slot]), between, (k, value));
                     let [a, b] = strand.split(share, at);
                     (first, rest) = (Piece::Edge(a), Piece::Edge(b));
                 }
@@ -361,7 +364,10 @@ impl Opener<'_> {
         // Insides that no crossing ends have rings of their own.
         for inside in insides.iter().filter(|i| i.ends == [None, None]) {
             let [low, high] = inside.ys;
-            let cut = |from: [f64; 2], to: [f64; 2]| Piece::Straight { ends: [from, to], kind: Straight::Cut(self.k) };
+            let cut = |from: [f64; 2], to: [f64; 2]| Piece::Straight {
+                ends: [from, to],
+                kind: Straight::Cut(self.k),
+            };
             let up = cut(self.at(right, low), self.at(right, high));
             let down = cut(self.at(c, high), self.at(c, low));
             if self.other.is_some() {

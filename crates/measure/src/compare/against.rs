@@ -2,6 +2,8 @@
 
 use super::region::RegionError;
 use crate::file_numbers::LeftOut;
+use trueness_cad::search::Search;
+use trueness_cad::trim::Trim;
 use trueness_geom::closest::MeshError;
 use trueness_geom::deviation::paper::PaperError;
 use trueness_geom::mesh::Mesh;
@@ -13,12 +15,31 @@ use trueness_geom::topology::TopologyError;
 pub struct Reference<'a> {
     /// For messages and documents: its path.
     pub name: String,
-    /// The mesh; of surfaces that of [`FootSearch::mesh`], which draws them.
+    /// The mesh; of surfaces one that draws them.
     pub mesh: &'a Mesh,
     /// The surfaces that are measured against instead of the mesh.
-    pub splines: Option<&'a FootSearch>,
+    pub exact: Option<Exact<'a>>,
     /// Facets of the file that are not in the mesh.
     pub left_out: LeftOut<'a>,
+}
+
+/// Exact surfaces, which the mesh only draws.
+#[derive(Clone, Copy)]
+pub enum Exact<'a> {
+    /// B-spline surfaces that are whole.
+    Splines(&'a FootSearch),
+    /// Faces of a CAD model.
+    Cad(&'a CadFaces),
+}
+
+/// Faces of a CAD model, ready to be measured against.
+pub struct CadFaces {
+    /// Where nearest places are looked up.
+    pub search: Search<Trim>,
+    /// Number of faces.
+    pub count: usize,
+    /// How far the mesh that draws them is from them at most, mm.
+    pub drawn_within: f64,
 }
 
 impl std::fmt::Debug for Reference<'_> {

@@ -114,7 +114,7 @@ fn comparison(
         reference,
         rank,
         warnings: vec![],
-        surfaces: c.splines.map(|s| SurfacesRecord {
+        surfaces: c.surfaces.map(|s| SurfacesRecord {
             count: s.surfaces as u64,
             uncertain: s.uncertain,
             drawn_within: s.drawn_within,

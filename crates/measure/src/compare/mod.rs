@@ -23,7 +23,7 @@ mod shown;
 mod target;
 mod worst;
 
-pub use against::{Reference, ReferenceError};
+pub use against::{CadFaces, Exact, Reference, ReferenceError};
 pub use along::{AlongRule, Lines};
 pub use coverage::Coverage;
 pub use covered::Covered;
@@ -114,9 +114,11 @@ pub fn run<S: PointStream + ?Sized, K>(
 ) -> Result<Comparisons, CompareError<S::Error, K>> {
     let mut trees = vec![];
     for r in references {
-        let tree = match r.splines {
-            None => Some(Tree::build_watched(r.mesh, progress).map_err(|e| refused(r, e.into()))?),
-            Some(_) => None,
+        let tree = match r.exact {
+            None | Some(Exact::Cad(_)) => {
+                Some(Tree::build_watched(r.mesh, progress).map_err(|e| refused(r, e.into()))?)
+            }
+            Some(Exact::Splines(_)) => None,
         };
         trees.push(tree);
     }

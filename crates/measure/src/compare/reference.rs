@@ -1,6 +1,6 @@
 //! The running comparison with one reference.
 
-use super::against::{Reference, ReferenceError};
+use super::against::{Exact, Reference, ReferenceError};
 use super::along::{AlongRule, Lines};
 use super::between_vertices::BetweenVertices;
 use super::coverage::Coverage;
@@ -62,8 +62,8 @@ pub struct Compared {
     pub worst: Vec<WorstPlace>,
     /// The paper's method beside the exact distance.
     pub paper_vs_exact: Option<Differences>,
-    /// Of B-spline surfaces.
-    pub splines: Option<SplinesFound>,
+    /// What is to be said of exact surfaces.
+    pub surfaces: Option<SurfacesFound>,
     /// The reference colored by the points near each place, for a report.
     pub map: Option<MapSurface>,
     /// What of the reference the points cover, where it is asked.
@@ -98,15 +98,25 @@ pub struct Taken {
     regions: Vec<u16>,
 }
 
-/// What is to be said of a comparison with B-spline surfaces.
+/// What is to be said of a comparison with exact surfaces.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SplinesFound {
+pub struct SurfacesFound {
     /// Number of surfaces.
     pub surfaces: usize,
     /// Points whose nearest place is not beyond doubt.
     pub uncertain: u64,
     /// How far the facets that draw them may be from the surfaces, millimeters.
     pub drawn_within: f64,
+}
+
+impl SurfacesFound {
+    fn of(exact: Exact) -> SurfacesFound {
+        let (surfaces, drawn_within) = match exact {
+            Exact::Splines(search) => (search.surfaces(), search.mesh_distance()),
+            Exact::Cad(faces) => (faces.count, faces.drawn_within),
+        };
+        SurfacesFound { surfaces, uncertain: 0, drawn_within }
+    }
 }
 
 /// One of the worst places, with where it is on the reference.
@@ -137,7 +147,7 @@ pub struct Running<'a> {
     mesh: &'a Mesh,
     left_out: Vec<u32>,
     target: Target<'a>,
-    splines: Option<SplinesFound>,
+    surfaces: Option<SurfacesFound>,
     values: Values,
     keep: usize,
     limits: Option<Limits>,
@@ -183,11 +193,7 @@ impl<'a> Running<'a> {
         Ok(Running {
             tallies: regions.iter().flat_map(Regions::rules).map(tally).collect(),
             target: Target::new(reference, tree, options, progress)?,
-            splines: reference.splines.map(|s| SplinesFound {
-                surfaces: s.surfaces(),
-                uncertain: 0,
-                drawn_within: s.mesh_distance(),
-            }),
+            surfaces: reference.exact.map(SurfacesFound::of),
             values: Values::All(vec![]),
             keep,
             limits: options.tolerance.map(|t| Limits::new(t.lower, t.upper)),
@@ -228,8 +234,8 @@ impl<'a> Running<'a> {
         let asked = Asked { start, map, sample, facing: self.facing.as_ref(), regions };
         let Measures { mut deviations, feet, regions, uncertain } =
             self.target.measure(points, &asked, progress)?;
-        if let Some(splines) = &mut self.splines {
-            splines.uncertain += uncertain;
+        if let Some(surfaces) = &mut self.surfaces {
+            surfaces.uncertain += uncertain;
         }
         if let Some((paper, versus)) = &mut self.paper {
             let theirs = paper.values(points, progress)?;
@@ -422,7 +428,7 @@ impl<'a> Running<'a> {
                 .collect(),
             outliers: self.outliers,
             paper_vs_exact: self.paper.map(|(_, versus)| versus),
-            splines: self.splines,
+            surfaces: self.surfaces,
             between: self.between,
             covered,
             map,

@@ -1,6 +1,6 @@
 //! What points are measured against: facets, or B-spline surfaces themselves.
 
-use super::against::{Reference, ReferenceError};
+use super::against::{CadFaces, Exact, Reference, ReferenceError};
 use super::along::{AlongRule, Lines};
 use super::covered::CoverageSample;
 use super::excluded::Excluded;
@@ -9,6 +9,7 @@ use super::map::{Foot, PointMap};
 use super::options::Options;
 use super::region::Regions;
 use super::worst::WorstPoint;
+use trueness_cad::search::{Nearest as CadNearest, Side};
 use trueness_geom::check::Precondition;
 use trueness_geom::closest::{Closest, QueryError, Tree};
 use trueness_geom::deviation::along::Along;
@@ -16,7 +17,7 @@ use trueness_geom::deviation::sign_choice::{SignChoice, SignMethod};
 use trueness_geom::deviation::surface::{Disagreement, ReferenceSurface, SurfaceOptions};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::{Progress, Silent};
-use trueness_geom::space::{Point, Vector, times};
+use trueness_geom::space::{Point, Vector, dot, minus, times};
 use trueness_geom::spline::surface::{FootSearch, NearestFoot};
 use trueness_geom::topology::{Soundness, TopologyError};
 
@@ -26,6 +27,16 @@ pub enum Target<'a> {
     Facets { surface: Box<ReferenceSurface>, mesh: &'a Mesh, along: Option<Along> },
     /// The nearest place of the surfaces counts; facets only draw them.
     Splines(Splines<'a>),
+    /// The nearest place of the faces of a CAD model counts; `tree` finds the facet that draws it.
+    Cad { faces: CadTarget<'a>, tree: &'a Tree },
+}
+
+/// Faces of a CAD model with what is asked of them.
+pub struct CadTarget<'a> {
+    faces: &'a CadFaces,
+    options: SurfaceOptions,
+    choice: SignChoice,
+    precondition: Precondition,
 }
 
 /// B-spline surfaces with what is asked of them.
@@ -131,20 +142,29 @@ impl<'a> Target<'a> {
         options: &Options,
         progress: &dyn Progress,
     ) -> Result<Target<'a>, ReferenceError> {
-        match (reference.splines, tree) {
+        match (reference.exact, tree) {
             (None, Some(tree)) => {
                 let surface = ReferenceSurface::new(tree, reference.mesh, &options.surface, progress)?;
                 let along =
                     options.along.as_ref().map(|lines| along(lines, &surface, progress)).transpose()?;
                 Ok(Target::Facets { surface: Box::new(surface), mesh: reference.mesh, along })
             }
-            (Some(search), _) => Ok(Target::Splines(Splines {
+            (Some(Exact::Splines(search)), _) => Ok(Target::Splines(Splines {
                 search,
                 options: options.surface,
                 choice: SignChoice::by_normal(options.surface.sign),
                 precondition: without_facets(search.surfaces()),
             })),
-            (None, None) => Err(ReferenceError::Mesh(trueness_geom::closest::MeshError::NoFaces)),
+            (Some(Exact::Cad(faces)), Some(tree)) => {
+                let target = CadTarget {
+                    faces,
+                    options: options.surface,
+                    choice: SignChoice::by_normal(options.surface.sign),
+                    precondition: without_facets(faces.count),
+                };
+                Ok(Target::Cad { faces: target, tree })
+            }
+            (_, None) => Err(ReferenceError::Mesh(trueness_geom::closest::MeshError::NoFaces)),
         }
     }
 
@@ -153,6 +173,7 @@ impl<'a> Target<'a> {
         match self {
             Target::Facets { surface, .. } => surface.sign(),
             Target::Splines(s) => &s.choice,
+            Target::Cad { faces, .. } => &faces.choice,
         }
     }
     /// Whether the facets are sound; surfaces have none that could be wrong.
@@ -160,6 +181,7 @@ impl<'a> Target<'a> {
         match self {
             Target::Facets { surface, .. } => surface.precondition(),
             Target::Splines(s) => &s.precondition,
+            Target::Cad { faces, .. } => &faces.precondition,
         }
     }
     /// How both sign methods agree on a sample; surfaces have one.
@@ -227,6 +249,26 @@ impl<'a> Target<'a> {
                 let (deviations, feet) = found.into_iter().map(|(d, f, _)| (d, f)).unzip();
                 Ok(Measures { deviations, feet, regions: vec![], uncertain })
             }
+            Target::Cad { faces, tree } => {
+                let found = faces.faces.search.map(points, progress, |i, near| {
+                    let deviation = faces.deviation(&points[i], &near);
+                    let certain = near.side != Side::Unsure;
+                    if !deviation.is_finite() {
+                        return (none(deviation), certain);
+                    }
+                    if !asked.agrees(i, || near.normal) {
+                        return (none(facing), certain);
+                    }
+                    let drawn = || tree.closest(&near.place, f64::INFINITY).ok().flatten();
+                    match asked.needs_place(i).then(drawn).flatten() {
+                        Some(at) => (asked.kept(i, deviation, at.face, at.barycentric, &near.place), certain),
+                        None => (none(deviation), certain),
+                    }
+                })?;
+                let uncertain = found.iter().filter(|f| !f.1).count() as u64;
+                let kept = found.into_iter().map(|f| f.0).collect();
+                Ok(Measures { uncertain, ..Measures::of(kept, asked) })
+            }
         }
     }
 
@@ -257,6 +299,19 @@ impl<'a> Target<'a> {
                 let found = Nearest { place: foot.place, normal: foot.normal, face, weights };
                 Ok(foot.distance.is_finite().then_some(found))
             }
+            Target::Cad { faces, tree } => {
+                let near = faces.faces.search.nearest(p);
+                if !near.distance.is_finite() {
+                    return Ok(None);
+                }
+                let drawn = tree.closest(&near.place, f64::INFINITY)?;
+                Ok(drawn.map(|Closest { face, barycentric: weights, .. }| Nearest {
+                    place: near.place,
+                    normal: near.normal,
+                    face,
+                    weights,
+                }))
+            }
         }
     }
 }
@@ -270,6 +325,26 @@ impl Splines<'_> {
             return Excluded::BoundaryEdge.value();
         }
         if self.choice.method == SignMethod::None { found.foot.distance } else { found.foot.signed(*p) }
+    }
+}
+
+impl CadTarget<'_> {
+    fn deviation(&self, p: &Point, near: &CadNearest) -> f64 {
+        if near.distance > self.options.max_distance {
+            return Excluded::MaxDistance.value();
+        }
+        if self.options.skip_boundary && near.side == Side::Open {
+            return Excluded::BoundaryEdge.value();
+        }
+        if self.choice.method == SignMethod::None {
+            return near.distance;
+        }
+        // At the border of an open shell the normal tells the side, as it does beside it.
+        let by_normal = || {
+            let inside = near.normal.is_some_and(|n| dot(n, minus(*p, near.place)) < 0.0);
+            if inside { -near.distance } else { near.distance }
+        };
+        near.signed().unwrap_or_else(by_normal)
     }
 }
 

@@ -37,7 +37,7 @@ fn open_at_the_top(n: usize, side: f64) -> Vec<Point> {
 
 /// Points against a mesh, in blocks of 1000; with the area of the facets that a map has no value on.
 fn compared(points: &[Point], mesh: &Mesh, options: &Options) -> (Comparisons, CompareDocument, f64) {
-    let references = [Reference { name: "x".into(), mesh, splines: None, left_out: LeftOut::default() }];
+    let references = [Reference { name: "x".into(), mesh, exact: None, left_out: LeftOut::default() }];
     let mut stream = Blocks(points.chunks(1000).map(<[Point]>::to_vec).rev().collect());
     let found = run(&mut stream, &references, options, &Silent, |_| Ok::<(), Infallible>(())).unwrap();
     let files = vec![InputRecord::of_no_file(Role::Measured), InputRecord::of_no_file(Role::Reference)];
@@ -130,7 +130,7 @@ fn rim(x: f64) -> f64 {
 }
 
 fn compared_count(points: &[Point], mesh: &Mesh, options: &Options) -> u64 {
-    let references = [Reference { name: "x".into(), mesh, splines: None, left_out: LeftOut::default() }];
+    let references = [Reference { name: "x".into(), mesh, exact: None, left_out: LeftOut::default() }];
     let mut stream = Whole::<Infallible>::new(points.to_vec());
     let found = run(&mut stream, &references, options, &Silent, |_| Ok::<(), Infallible>(())).unwrap();
     found.references[0].summary.all.count
@@ -189,8 +189,7 @@ fn too_few_normals_are_refused() {
     let (mesh, points) = (cube(40.0), open_at_the_top(1500, 40.0));
     let options =
         Options { facing: Some(Facing::new(1.0, vec![[1.0, 0.0, 0.0]; 1499])), ..Options::default() };
-    let references =
-        [Reference { name: "x".into(), mesh: &mesh, splines: None, left_out: LeftOut::default() }];
+    let references = [Reference { name: "x".into(), mesh: &mesh, exact: None, left_out: LeftOut::default() }];
     let mut stream = Whole::<Infallible>::new(points);
     let found = run(&mut stream, &references, &options, &Silent, |_| Ok::<(), Infallible>(()));
     assert!(matches!(found, Err(CompareError::Normals { normals: 1499, points: 1500 })));

@@ -52,7 +52,7 @@ impl Deviations {
 }
 
 fn reference<'a>(name: &str, mesh: &'a Mesh, left_out: &'a [u32]) -> Reference<'a> {
-    Reference { name: name.into(), mesh, splines: None, left_out: LeftOut(left_out) }
+    Reference { name: name.into(), mesh, exact: None, left_out: LeftOut(left_out) }
 }
 
 /// Of the data where the alignment took them. The reference is moved out of the data.

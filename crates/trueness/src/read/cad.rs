@@ -18,15 +18,15 @@ const FACET_ANGLE: f64 = std::f64::consts::PI / 12.0;
 /// Facets of a model at most.
 const MAX_FACETS: usize = 16_000_000;
 
-/// Facets of a model where its parts stand, within `distance` of its faces, mm; without it within a share of its size. The document is
-/// told of faces that are missing.
-pub fn facets(
+/// A model where its parts stand, and its facets within `distance` of its faces, mm; without it within a share of its size. The
+/// document is told of faces that are missing.
+pub fn tessellated(
     path: &Path,
     file: &CadFile,
     distance: Option<f64>,
     record: &mut InputRecord,
     progress: &dyn Progress,
-) -> Result<SourceMesh, TaskError> {
+) -> Result<(Trimmed, SourceMesh), TaskError> {
     let shape = Trimmed::of(&file.model, progress)?;
     let size = shape.bounds().diagonal();
     let fineness = Fineness { distance: distance.unwrap_or(FACET_SHARE * size), angle: FACET_ANGLE };
@@ -51,7 +51,7 @@ pub fn facets(
     };
     let names = shape.brep.faces.iter().map(name).collect();
     let regions = Some(FacetRegions { names, of_facet: made.faces });
-    Ok(SourceMesh { mesh: made.mesh, regions, ..SourceMesh::default() })
+    Ok((shape, SourceMesh { mesh: made.mesh, regions, ..SourceMesh::default() }))
 }
 
 /// What of the faces is missing; `None` where all are there.

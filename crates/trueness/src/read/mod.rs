@@ -1,6 +1,6 @@
 //! What goes by the names of a request, read and described for the result document.
 
-mod cad;
+pub mod cad;
 mod surface_document;
 mod unread;
 mod whole;
@@ -99,7 +99,7 @@ pub fn nominal(
 
 /// A model as facets, for what works on meshes.
 fn tessellated(path: &Path, file: &CadFile, mut record: InputRecord) -> Result<Opened> {
-    let mesh = cad::facets(path, file, None, &mut record, &Silent)?;
+    let (_, mesh) = cad::tessellated(path, file, None, &mut record, &Silent)?;
     Ok(Opened { record, body: Body::Mesh(mesh), planar: false, format: file.format, empty: false })
 }
 
@@ -135,6 +135,8 @@ pub fn any(sources: &dyn Sources, path: &Path, role: Role, options: &ReadOptions
 pub enum ReferenceBody {
     /// Facets.
     Mesh(SourceMesh),
+    /// A CAD model.
+    Cad(Box<CadFile>),
     /// B-spline surfaces, at least one.
     Surfaces(Vec<Nurbs>),
 }
@@ -154,10 +156,7 @@ pub fn reference(
         Any::Whole(opened) => {
             opened_mesh(path, Role::Reference, opened).map(|(m, r)| (ReferenceBody::Mesh(m), r))
         }
-        Any::Cad(file, record) => {
-            let opened = tessellated(path, &file, record)?;
-            opened_mesh(path, Role::Reference, opened).map(|(m, r)| (ReferenceBody::Mesh(m), r))
-        }
+        Any::Cad(file, record) => Ok((ReferenceBody::Cad(file), record)),
         Any::Splines(model, record) if model.surfaces.is_empty() => {
             Err(unread::refusal(path, &model, &record, "a reference needs facets or B-spline surfaces"))
         }

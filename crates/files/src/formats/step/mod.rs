@@ -36,17 +36,13 @@ pub(crate) const STEP: Format = Format {
     mesh: None,
 };
 
-/// B-spline surfaces that are whole faces come as such; any other model comes with its exact faces.
+/// A model with exact faces; surfaces and curves of a file without faces.
 fn parsed(mut source: Source, options: &ReadOptions) -> Result<Parsed> {
-    let splines = read::read(&mut source, options);
-    if splines.as_ref().is_ok_and(|parsed| parsed.warnings.is_empty()) {
-        return splines;
-    }
     match model(&mut source, options, &Silent) {
         Ok(content) if content.model.parts.iter().any(|part| !part.brep.faces.is_empty()) => {
             Ok(Parsed::cad("step", content))
         }
-        Ok(_) => splines,
-        Err(error) => splines.or(Err(error)),
+        Ok(_) => read::read(&mut source, options),
+        Err(error) => read::read(&mut source, options).map_err(|_| error),
     }
 }

@@ -3,14 +3,16 @@
 use crate::read::{self, ReferenceBody};
 use crate::task::{Meaning, STEPS, TaskError, Watch};
 use std::path::{Path, PathBuf};
+use trueness_cad::search::Search;
 use trueness_document::InputRecord;
 use trueness_document::compare::Method;
+use trueness_files::cad::CadFile;
 use trueness_files::{ReadOptions, Sources};
 use trueness_geom::deviation::sign_choice::SignRequest;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::space::Aabb;
 use trueness_geom::spline::surface::{Degenerate, FootError, FootSearch, Nurbs};
-use trueness_measure::compare::{Options, Reference};
+use trueness_measure::compare::{CadFaces, Exact, Options, Reference};
 use trueness_measure::file_numbers::LeftOut;
 
 /// A reference as it was read.
@@ -19,22 +21,25 @@ pub enum Opened {
     Mesh(Mesh, Vec<u32>),
     /// Surfaces, and the mesh that draws them.
     Surfaces(Box<FootSearch>, Mesh),
+    /// Faces of a CAD model, and the mesh that draws them.
+    Cad(Box<CadFaces>, Mesh),
 }
 
 impl Opened {
     /// The mesh, or the one that draws the surfaces.
     pub fn mesh(&self) -> &Mesh {
         match self {
-            Opened::Mesh(mesh, _) | Opened::Surfaces(_, mesh) => mesh,
+            Opened::Mesh(mesh, _) | Opened::Surfaces(_, mesh) | Opened::Cad(_, mesh) => mesh,
         }
     }
     /// The same for the comparison.
     fn reference(&self, name: String) -> Reference<'_> {
-        let (splines, left_out) = match self {
+        let (exact, left_out) = match self {
             Opened::Mesh(_, left_out) => (None, LeftOut(left_out)),
-            Opened::Surfaces(search, _) => (Some(&**search), LeftOut::default()),
+            Opened::Surfaces(search, _) => (Some(Exact::Splines(search)), LeftOut::default()),
+            Opened::Cad(faces, _) => (Some(Exact::Cad(faces)), LeftOut::default()),
         };
-        Reference { name, mesh: self.mesh(), splines, left_out }
+        Reference { name, mesh: self.mesh(), exact, left_out }
     }
 }
 
@@ -55,13 +60,17 @@ pub fn open(
         let (body, mut record) = read::reference(sources, path, reading)?;
         let lacking = match &body {
             ReferenceBody::Surfaces(surfaces) => degenerate(surfaces),
-            ReferenceBody::Mesh(_) => vec![],
+            ReferenceBody::Mesh(_) | ReferenceBody::Cad(_) => vec![],
         };
         let opened = match body {
             ReferenceBody::Mesh(mesh) => Opened::Mesh(mesh.mesh, mesh.nonfinite_facets),
             ReferenceBody::Surfaces(surfaces) => {
-                allowed(path, options)?;
+                allowed(path, options, SPLINES)?;
                 prepared(path, &surfaces, watch)?
+            }
+            ReferenceBody::Cad(file) => {
+                allowed(path, options, "faces of a CAD model")?;
+                cad(path, &file, &mut record, watch)?
             }
         };
         if matches!(opened, Opened::Surfaces(..)) {
@@ -91,31 +100,51 @@ fn degenerate(surfaces: &[Nurbs]) -> Vec<String> {
     told
 }
 
+/// What a file of whole B-spline surfaces holds, in messages.
+const SPLINES: &str = "B-spline surfaces";
+
 /// Refuses what is asked of facets only.
-fn allowed(path: &Path, options: &Options) -> Result<(), TaskError> {
+fn allowed(path: &Path, options: &Options, holds: &str) -> Result<(), TaskError> {
     let shown = path.display();
     if options.method == Method::Paper {
         return Err(TaskError::usage(format!(
-            "--method paper: it measures to the facets of a mesh, and {shown} holds B-spline surfaces; leave it out"
+            "--method paper: it measures to the facets of a mesh, and {shown} holds {holds}; leave it out, or make a mesh of it by `trueness convert`"
         )));
     }
     if options.along.is_some() {
         return Err(TaskError::usage(format!(
-            "--along: its lines meet the facets of a mesh, and {shown} holds B-spline surfaces; leave it out"
+            "--along: its lines meet the facets of a mesh, and {shown} holds {holds}; leave it out, or make a mesh of it by `trueness convert`"
         )));
     }
-    if !options.regions.is_empty() {
+    if !options.regions.is_empty() && holds == SPLINES {
         return Err(TaskError::usage(format!(
-            "--regions: they are made of the facets of a mesh, and {shown} holds B-spline surfaces; leave it out"
+            "--regions: they are made of the facets of a mesh, and {shown} holds {holds}; leave it out, or make a mesh of it by `trueness convert`"
         )));
     }
     match options.surface.sign {
         SignRequest::Auto | SignRequest::None => Ok(()),
         SignRequest::Pseudonormal | SignRequest::Winding => Err(TaskError::usage(format!(
-            "--sign {}: it is for meshes, and {shown} holds B-spline surfaces; take auto, for the side of their normal, or none",
+            "--sign {}: it is for meshes, and {shown} holds {holds}; take auto, for the side of their normal, or none",
             options.surface.sign.name()
         ))),
     }
+}
+
+/// Faces of a CAD model ready to be searched, with the mesh that draws them.
+fn cad(
+    path: &Path,
+    file: &CadFile,
+    record: &mut InputRecord,
+    watch: &dyn Watch,
+) -> Result<Opened, TaskError> {
+    let stage = watch.stage("preparing the faces", STEPS, None);
+    let (shape, drawn) = read::cad::tessellated(path, file, None, record, &*stage)?;
+    let count = shape.brep.faces.len();
+    let trims = shape.trims.into_iter().map(Result::ok).collect();
+    let search = Search::new(&shape.brep, trims);
+    let drawn_within = record.cad.as_ref().map_or(0.0, |cad| cad.facets_within);
+    stage.finish();
+    Ok(Opened::Cad(Box::new(CadFaces { search, count, drawn_within }), drawn.mesh))
 }
 
 /// Surfaces ready to be searched, with the mesh that draws them.

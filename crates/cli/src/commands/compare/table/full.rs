@@ -168,10 +168,7 @@ fn surfaces(s: &SurfacesRecord) -> String {
         0 => String::new(),
         n => format!("; {} with a nearest place that may not be the only one", counted(n, POINTS)),
     };
-    format!(
-        "{}, measured against directly{doubt}",
-        counted(s.count, ["B-spline surface", "B-spline surfaces"])
-    )
+    format!("{}, measured against directly{doubt}", counted(s.count, ["exact surface", "exact surfaces"]))
 }
 
 /// What is wrong with a reference, in words.
