@@ -1,34 +1,23 @@
 //! The page of sections: the contours drawn to scale, their segments and joins with uncertainties, their residuals.
 
 mod airfoil;
-mod course;
 mod fitted;
-mod nominal;
 mod nominal_tables;
-#[cfg(test)]
-mod nominal_tests;
 mod offers;
-mod path;
-mod pieces;
-mod plan;
-mod sheet;
 mod tables;
-#[cfg(test)]
-mod tests;
 
 use crate::headline::{Headline, Tone};
 use crate::number::Style;
 use crate::page::parts::{fact, key_number, line, mm, paragraphs, section};
 use crate::subject::{Content, Drawn, Pick, Subject};
-use crate::{Up, ViewObject};
+use crate::views::section::{nominal, pieces};
 use maud::{Markup, html};
 use trueness_document::Verdict;
 use trueness_document::section::{ContourRecord, SectionDocument};
 
 impl Subject for SectionDocument {
     fn content(&self, s: Style) -> serde_json::Result<Content<'_>> {
-        let sign =
-            self.nominal.as_ref().map_or("sign.section", |nominal| nominal_tables::sign(*nominal.positive));
+        let sign = self.nominal.as_ref().map_or("sign.section", |nominal| pieces::sign(*nominal.positive));
         Ok(Content {
             convention: Some(sign),
             picture: "picture.section",
@@ -111,37 +100,5 @@ fn list(s: Style, d: &SectionDocument) -> Markup {
         @if let Some(methods) = &d.methods { (section(s, "methods", tables::methods(s, methods))) }
         @if !d.planes.is_empty() { (section(s, "planes", tables::planes(s, &d.planes))) }
         (section(s, "model", model))
-    }
-}
-
-impl Drawn for SectionDocument {
-    fn shown(&self, objects: &[ViewObject], up: Up, room: usize) -> (usize, usize) {
-        let places = |o: &ViewObject| o.places().len();
-        let stride = nominal::Rooms::of(self, objects, up, room).dots;
-        let shown = stride.map_or(0, |stride| objects.iter().map(|o| places(o).div_ceil(stride)).sum());
-        (shown, objects.iter().map(places).sum())
-    }
-
-    fn draw(&self, s: Style, objects: &[ViewObject], up: Up, room: usize) -> Markup {
-        let rooms = nominal::Rooms::of(self, objects, up, room);
-        // Teeth and whiskers at once are too much.
-        let comb = if self.nominal.is_some() { " no-comb" } else { "" };
-        html! {
-            div id="drawing" class={ "drawing" (comb) } {
-                "\n"
-                @for (n, sheet) in plan::sheets(self).iter().enumerate() {
-                    div.sheet data-plane=[sheet.plane] hidden[n > 0] {
-                        "\n" (sheet.draw(s, self, objects, up, &rooms))
-                    }
-                    "\n"
-                }
-            }
-            "\n"
-            div id="courses" class="courses" {
-                "\n"
-                @for (n, contour) in self.contours.iter().enumerate() { (course::course(s, n, contour, self.nominal.is_some())) }
-            }
-            "\n"
-        }
     }
 }

@@ -1,22 +1,18 @@
 //! The page of a trend: the course of each characteristic over the parts, its numbers, the parts with their verdicts.
 
-mod axes;
-mod chart;
 mod facts;
-mod gutter;
 mod map;
 mod overview;
 mod parts;
-#[cfg(test)]
-mod tests;
 
 use crate::headline::Headline;
 use crate::number::Style;
 use crate::page::parts::{key_number, paragraphs, section, verdicts};
 use crate::subject::{Content, Drawn, Pick, Subject};
 use crate::values::{Name, Text, leaf};
+use crate::views::trend::axes::Axes;
+use crate::views::trend::chart;
 use crate::{Up, ViewObject};
-use axes::Axes;
 pub use map::MapPage;
 use maud::{Markup, html};
 use trueness_document::Verdict;

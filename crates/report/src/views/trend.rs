@@ -1,4 +1,10 @@
-//! What a report draws of a trend: the reference in the colors of mean and spread over the parts.
+//! What a report draws of a trend: the reference in the colors of mean and spread over the parts; charts of the characteristics.
+
+pub(crate) mod axes;
+pub(crate) mod chart;
+mod gutter;
+#[cfg(test)]
+mod tests;
 
 use crate::{Geometry, NoValue, ViewField, ViewObject, ViewRole};
 use trueness_document::place_map::TrendMap;

@@ -1,23 +1,14 @@
 //! How the points differ from the nominal, in tables: where they are farthest off, and what was not measured.
 
 use super::fitted;
-use super::pieces::{drawn_pieces, lacking};
 use crate::number::{Style, decimals};
 use crate::page::parts::{fact, file_name, warning};
 use crate::page::table::{Row, listed, row_class, table};
 use crate::pages::compare::{OUTSIDE, by_side};
 use crate::values::Text;
+use crate::views::section::pieces::{drawn_pieces, lacking, sign};
 use maud::{Markup, Render, html};
 use trueness_document::section::{NominalRecord, Positive, SectionDocument};
-
-/// The word for where deviations are positive.
-pub fn sign(positive: Positive) -> &'static str {
-    match positive {
-        Positive::Outside => "nominal.outside",
-        Positive::Left => "nominal.left",
-        Positive::Both => "nominal.outside_or_left",
-    }
-}
 
 /// The section of the list.
 pub fn nominal(s: Style, document: &SectionDocument, found: &NominalRecord) -> Markup {

@@ -1,11 +1,10 @@
 //! What a drawing of a contour would have, in a table.
 
-use super::pieces::between;
 use crate::number::{Style, decimals};
 use crate::page::table::{Row, not_printed, table};
 use crate::values::Text;
 use maud::{Markup, Render, html};
-use trueness_document::section::{ContourRecord, OfferRecord};
+use trueness_document::section::{ContourRecord, MemberRecord, OfferRecord};
 
 /// Offers of a contour that are listed.
 const MAX_LISTED_OFFERS: usize = 60;
@@ -43,4 +42,10 @@ fn row(s: Style, number: usize, offer: &OfferRecord) -> Row {
         &s.number(offer.z, 2).signed(),
         &s.number(offer.p, 2),
     ])
+}
+
+/// The members of a dimension or an offer, counted from 1.
+pub fn between(members: &[MemberRecord]) -> String {
+    let all: Vec<String> = members.iter().map(|m| format!("{}.{}", m.contour + 1, m.segment + 1)).collect();
+    all.join(" – ")
 }

@@ -1,10 +1,11 @@
 //! The tables of sections.
 
-use super::pieces::{between, kind, pick_numbers};
+use super::offers::{between, offers};
 use crate::number::{Style, decimals};
 use crate::page::parts::{fact, mm, warning, with_uncertainty};
 use crate::page::table::{Row, not_printed, row_class, table};
 use crate::values::Text;
+use crate::views::section::pieces::{kind, pick_numbers};
 use maud::{Markup, html};
 use trueness_document::section::{
     ContourRecord, DimensionKind, DimensionsRecord, GeometryRecord, JoinRecord, MethodsRecord, PlaneRecord,
@@ -46,7 +47,7 @@ pub fn contours(s: Style, document: &SectionDocument) -> Markup {
                 @if !contour.joins.is_empty() {
                     div.wide { (joins(s, contour, numbers[n] + contour.segments.len())) }
                 }
-                (super::offers::offers(s, contour))
+                (offers(s, contour))
             }
         }
     }

@@ -1,9 +1,9 @@
 //! The numbers under a chart, and the parts that are out of control.
 
-use super::axes::Axes;
 use crate::number::{Style, decimals};
 use crate::page::parts::file_name;
 use crate::values::{Name, Number, Optional};
+use crate::views::trend::axes::Axes;
 use maud::{Markup, Render, html};
 use trueness_document::trend::{IndexRecord, RuleRecord, TrendDocument, TrendRecord};
 

@@ -1,13 +1,13 @@
 //! All characteristics in a few lines, the worst first, each with its course in small.
 
-use super::axes::{Axes, CHART_WIDTH};
-use super::chart::{ORDER, band, course, dots};
 use super::facts::index;
 use crate::headline::Headline;
 use crate::number::Style;
 use crate::page::parts::badge;
 use crate::page::symbols::symbol;
 use crate::values::{Name, leaf};
+use crate::views::trend::axes::{Axes, CHART_WIDTH};
+use crate::views::trend::chart::{ORDER, band, course, dots};
 use maud::{Markup, html};
 use trueness_document::Verdict;
 use trueness_document::trend::{TrendDocument, TrendRecord};

@@ -3,9 +3,12 @@
 use super::nominal::DOT_BYTES;
 use super::tests::{attributes, document, drawn, far, numbers, places, row};
 use super::*;
+use crate::subject::Subject;
 use crate::{Language, flat};
 use std::f64::consts::{FRAC_PI_2, TAU};
-use trueness_document::section::{FrameRecord, NominalRecord, NominalWarningKind, PlaneRecord, Positive};
+use trueness_document::section::{
+    ContourRecord, FrameRecord, NominalRecord, NominalWarningKind, PlaneRecord, Positive,
+};
 use trueness_geom::progress::Silent;
 use trueness_geom::spline::{basis::Knots, curve::Curve};
 use trueness_measure::section::{Against, AgainstPlane};
@@ -123,7 +126,8 @@ fn tables_of_the_nominal_lead_to_the_drawing() {
     assert!((found.outlines[1].length - 2.0 * TAU).abs() < 1e-12);
     let [o, r] = [found.outlines[1].center, found.outlines[1].size];
     assert!(far(o, [1010.0, -490.0]) < 0.02 && far(r, [4.0; 2]) < 0.02, "{o:?} {r:?}");
-    let (list, page) = (list(ENGLISH, &document).into_string(), drawn(&document, &flat(&points), 1 << 20));
+    let (list, page) =
+        (document.content(ENGLISH).unwrap().list.into_string(), drawn(&document, &flat(&points), 1 << 20));
     let picks = document.picks();
     let mut lead = vec![];
     for table in ["farthest", "outlines"] {
@@ -223,7 +227,9 @@ fn sheets_are_turned_so_that_the_axis_points_upward() {
 fn segments_astray_stand_apart() {
     let mut document = document(&row(0.01));
     let page = drawn(&document, &[], 0);
-    assert!(!page.contains("astray") && !list(ENGLISH, &document).into_string().contains("astray"));
+    assert!(
+        !page.contains("astray") && !document.content(ENGLISH).unwrap().list.into_string().contains("astray")
+    );
     let one = &mut document.contours[0];
     one.astray = vec![1];
     let greatest = |of: &ContourRecord, own: bool| {
@@ -319,7 +325,7 @@ fn the_sign_is_that_of_what_was_measured() {
         assert_eq!(document.content(ENGLISH).unwrap().convention, Some(key));
         // So do the heads of the columns.
         assert_eq!(
-            list(ENGLISH, &document).into_string().contains("data-t=\"plus\""),
+            document.content(ENGLISH).unwrap().list.into_string().contains("data-t=\"plus\""),
             positive == Positive::Outside
         );
     }
@@ -378,7 +384,7 @@ fn planes_and_sizes_are_told() {
         fills_area: false,
     };
     let farthest = |document: &SectionDocument| {
-        let list = list(ENGLISH, &document).into_string();
+        let list = document.content(ENGLISH).unwrap().list.into_string();
         let table = list.split("<table class=\"pick farthest\"").nth(1).unwrap();
         table.split("</table>").next().unwrap().to_string()
     };

@@ -1,8 +1,7 @@
 //! The nominal on the sheets: its outlines, the deviations of points from it as whiskers, and the points farthest off.
 
-use super::nominal_tables::sign;
 use super::path::Path;
-use super::pieces::{drawn_pieces, lacking};
+use super::pieces::{drawn_pieces, lacking, sign};
 use super::plan::{Plan, Sheet, sheets};
 use crate::number::{Style, decimals};
 use crate::subject::Pick;
