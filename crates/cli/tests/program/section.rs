@@ -97,7 +97,7 @@ fn wrong_input_is_refused_with_a_remedy() {
         (
             vec![cube, "--plane", "0,0,1,77"],
             3,
-            "the plane does not meet the part; along the first normal the part reaches from",
+            "the plane does not meet the part; along the first normal it reaches from",
         ),
         (
             vec![cube, "--plane", "0,0,1,0"],

@@ -365,7 +365,7 @@ fn refusals_of_a_nominal_say_what_there_is() {
         ),
         (vec!["section", row, "--nominal", blocks], "explode"),
         (vec!["section", row, "--nominal", fit], "control points"),
-        (at("0,0,1,2").to_vec(), "it reaches from 0 to 1 mm, the first plane lies at 2; bring"),
+        (at("0,0,1,2").to_vec(), "it reaches from 0 to 1 mm, and the first plane lies at 2; bring"),
         (at("0,0,1,2").to_vec(), "--reference-units"),
         (at("0,0,1,0").to_vec(), "only touches"),
     ] {

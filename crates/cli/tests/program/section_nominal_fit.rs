@@ -224,5 +224,5 @@ fn offers_stand_in_document_table_and_report() {
     let table = stdout(&trueness([&words[..], &["--tidy"]].concat()));
     assert!(table.contains("right angle") && table.contains("offered"), "{table}");
     assert!(!stdout(&trueness(words)).contains("offered"));
-    assert!(std::fs::read_to_string(&html).unwrap().contains("What a drawing would have"));
+    assert!(std::fs::read_to_string(&html).unwrap().contains("Relations of a drawing"));
 }

@@ -216,7 +216,7 @@ fn wrong_input_is_refused_with_a_remedy() {
         ),
         (vec![good, "--knots", other], 3, "other.json: it holds no knots; give"),
         (vec![good, "--knots", short, "--base", "xy"], 3, "the knots along u run from 0 to"),
-        (vec![good, "--knots", short, "--degree", "3"], 3, "are of degree 1, --degree asks for 3"),
+        (vec![good, "--knots", short, "--degree", "3"], 3, "are of degree 1, but --degree asks for 3"),
         (vec![good, "--knots", short, "--json", short], 2, "would overwrite the input"),
         (vec![good, "--step", "surface.txt"], 2, "the ending must be .stp or .step"),
         (vec![good, "--obj", "a.obj", "--chord", "0"], 2, "give a length above 0"),

@@ -239,8 +239,8 @@ pub fn reach(plane: &Plane, record: &InputRecord) -> String {
         range[0] += ends[0].min(ends[1]);
         range[1] += ends[0].max(ends[1]);
     }
-    let [low, high] = range;
-    let remedy = match ((low..=high).contains(&plane.offset), record.facets) {
+    let [low, high] = range.map(|x| (x * 1e4).round() / 1e4 + 0.0);
+    let remedy = match ((range[0]..=range[1]).contains(&plane.offset), record.facets) {
         (false, _) => "",
         (true, None | Some(0)) => "; no points lie within the slab: a larger --thickness may help",
         (true, Some(_)) => {
@@ -249,10 +249,9 @@ pub fn reach(plane: &Plane, record: &InputRecord) -> String {
     };
     // Across the axes no more is known than the box around all.
     let is_along_an_axis = normal.iter().filter(|x| **x != 0.0).count() == 1;
-    let (what, to) =
-        if is_along_an_axis { ("the part reaches from", "to") } else { ("the part lies between", "and") };
+    let (what, to) = if is_along_an_axis { ("it reaches from", "to") } else { ("it lies between", "and") };
     format!(
-        "; along the first normal {what} {low:.4} {to} {high:.4} mm, and the first plane lies at {}{remedy}",
+        "; along the first normal {what} {low} {to} {high} mm, and the first plane lies at {}{remedy}",
         plane.offset
     )
 }
