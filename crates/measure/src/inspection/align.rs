@@ -16,6 +16,7 @@ use trueness_geom::deviation::surface::{ReferenceSurface, SurfaceOptions};
 use trueness_geom::feature::Nominal;
 use trueness_geom::progress::Progress;
 use trueness_geom::rigid::Rigid;
+use trueness_geom::scan::Scan;
 use trueness_geom::space::{Point, Vector, dot, times};
 use trueness_geom::zone::datum::{Datum, DatumError, Rule, System};
 
@@ -68,11 +69,13 @@ pub(super) fn aligned(
         // The places stand in the plan.
         let fit = fit.map_err(|e| failed(e).nominal())?;
         // What is evaluated lies on the part, also where there is no mesh of it.
-        let there = data.reference.as_ref().or(data.measured.as_ref());
-        let corners = there.map_or(vec![], |mesh| match data.reference.is_some() {
-            true => mesh.bounds().corners().to_vec(),
-            false => mesh.bounds().corners().map(|p| fit.reference_from_measured.point(p)).to_vec(),
-        });
+        let corners = match (&data.reference, &data.measured) {
+            (Some(reference), _) => reference.bounds().corners().to_vec(),
+            (None, Some(measured)) => {
+                measured.bounds().corners().map(|p| fit.reference_from_measured.point(p)).to_vec()
+            }
+            (None, None) => vec![],
+        };
         let motion = fit.reference_from_measured;
         Ok::<_, Stop>(Alignment { motion, found: Found::Rows(fit, corners) })
     };
@@ -91,7 +94,7 @@ pub(super) fn aligned(
         Align::Rps { rows: held, start } => rows(align::constrained(held, *start))?,
     };
     if alignment.found.turned()
-        && let Some(mesh) = &mut data.measured
+        && let Some(Scan::Mesh(mesh)) = &mut data.measured
     {
         // The features must find the sides that the alignment has found.
         mesh.faces.iter_mut().for_each(|f| f.swap(1, 2));
@@ -158,8 +161,8 @@ pub(super) fn in_other_pose(
 
 fn moved(data: &mut Data, motion: &Rigid) {
     let own = data.points.values_mut().flat_map(|own| own.points.iter_mut());
-    let mesh = data.measured.iter_mut().flat_map(|mesh| mesh.positions.iter_mut());
-    for p in own.chain(mesh) {
+    let measured = data.measured.iter_mut().flat_map(Scan::points_mut);
+    for p in own.chain(measured) {
         *p = motion.point(*p);
     }
     data.normals.iter_mut().for_each(|n| *n = motion.vector(*n));
@@ -183,11 +186,7 @@ fn best_fitted(
         return Err(Stop::Align("one of them is not there".into()));
     };
     let tree = Tree::build_watched(reference, progress).map_err(|e| failed(e.into()).nominal())?;
-    let points = &measured.positions;
-    let measured = match measured.faces.is_empty() {
-        true => Measured::Points { points, normals: None },
-        false => Measured::Mesh(measured),
-    };
+    let measured = Measured::from(measured);
     let options = BestFit { seed: data.seed, ..BestFit::default() };
     let target = Target::new(reference, &tree);
     let fit = best_fit(&measured, &target, &options, progress).map_err(failed)?;

@@ -4,13 +4,14 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::Cancelled;
+use trueness_geom::scan::Scan;
 use trueness_geom::space::{Point, Vector};
 
 /// What was measured, in measured coordinates, millimeters.
 #[derive(Clone, Debug, Default)]
 pub struct Data {
-    /// The measured mesh; a cloud has no facets.
-    pub measured: Option<Mesh>,
+    /// The measured mesh or cloud.
+    pub measured: Option<Scan>,
     /// The normals of a measured cloud, where the plan asks which way its points face; empty otherwise.
     pub normals: Vec<Vector>,
     /// The nominal mesh, where the plan names one and has a use for it: alignment, deviations, features sought by nominals or seeds.

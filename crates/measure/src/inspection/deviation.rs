@@ -17,6 +17,7 @@ use trueness_geom::deviation::surface::SurfaceOptions;
 use trueness_geom::feature::facets_near;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::Progress;
+use trueness_geom::scan::Scan;
 
 /// Deviations from the reference, with what they were asked by.
 pub struct Deviations {
@@ -68,14 +69,14 @@ pub(super) fn deviations(
     };
     let mut normals = match asked.needs_normals() {
         None => vec![],
-        Some(_) if measured.faces.is_empty() => std::mem::take(&mut data.normals),
-        Some(_) => vertex_normals(measured),
+        Some(_) => match measured {
+            Scan::Cloud(_) => std::mem::take(&mut data.normals),
+            Scan::Mesh(mesh) => vertex_normals(mesh),
+        },
     };
     let judges = asked.tolerance.is_some() || !asked.regions.is_empty();
-    let between = match data.shown > 0 || asked.coverage.is_some() || data.places || judges {
-        true => Between::of(measured),
-        false => Between::default(),
-    };
+    let mapped = data.shown > 0 || asked.coverage.is_some() || data.places || judges;
+    let between = measured.mesh().filter(|_| mapped).map(Between::of).unwrap_or_default();
     if asked.needs_normals().is_some() {
         normals.extend(&between.normals);
     }
@@ -99,7 +100,7 @@ pub(super) fn deviations(
         seed: data.seed,
         ..Options::default()
     };
-    let mut points = Whole::<Infallible>::new(measured.positions.clone());
+    let mut points = Whole::<Infallible>::new(measured.points().to_vec());
     let left_out = std::mem::take(&mut data.reference_left_out);
     let references = [self::reference("the reference", &reference, &left_out)];
     let found = compare::run(&mut points, &references, &options, progress, |_| Ok::<(), Infallible>(()));
@@ -108,7 +109,10 @@ pub(super) fn deviations(
         e @ CompareError::Reference { .. } => Stop::Nominal(e.to_string()),
         e => Stop::Deviation(e.to_string()),
     })?;
-    let kind = if measured.faces.is_empty() { MeasuredKind::Points } else { MeasuredKind::Vertices };
+    let kind = match measured {
+        Scan::Cloud(_) => MeasuredKind::Points,
+        Scan::Mesh(_) => MeasuredKind::Vertices,
+    };
     Ok(Deviations { found, options, reference, left_out, kind })
 }
 

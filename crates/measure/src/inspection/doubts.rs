@@ -72,7 +72,7 @@ fn unit_of_features(plan: &Plan, data: &Data, motion: &Rigid) -> Option<Warning>
     let (measured, back) = (data.measured.as_ref()?, motion.inverse());
     let sought = places(plan);
     let size = Aabb::of(&sought).diagonal();
-    let as_measured: Vec<Point> = measured.positions.iter().map(|p| back.point(*p)).collect();
+    let as_measured: Vec<Point> = measured.points().iter().map(|p| back.point(*p)).collect();
     let larger = |factor: f64| -> Option<f64> {
         let there: Vec<Point> = as_measured.iter().map(|p| motion.point(times(factor, *p))).collect();
         let bounds = Aabb::of(&there);
@@ -96,8 +96,8 @@ fn unit_of_features(plan: &Plan, data: &Data, motion: &Rigid) -> Option<Warning>
 mod tests {
     use super::*;
     use crate::inspection::run;
-    use trueness_geom::mesh::Mesh;
     use trueness_geom::progress::Silent;
+    use trueness_geom::scan::Scan;
 
     /// Three sides of a block of 60 by 40 by 20 from (10, 10, 10), and its alignment.
     fn plan(align: &str) -> Plan {
@@ -126,7 +126,7 @@ mod tests {
             [[60.0 * u, 40.0 * v, 0.0], [0.0, 40.0 * u, 20.0 * v], [60.0 * u, 0.0, 20.0 * v]]
         });
         let positions = sides.map(|p| [0, 1, 2].map(|k| factor * (10.0 + p[k]) + by[k])).collect();
-        Data { measured: Some(Mesh { positions, faces: vec![] }), ..Data::default() }
+        Data { measured: Some(Scan::Cloud(positions)), ..Data::default() }
     }
 
     #[test]

@@ -28,7 +28,7 @@ pub(super) fn taken(
     let measured = data.measured.as_ref().map(cloud::distinct);
     let measured = measured.as_deref();
     let parted = match measured {
-        Some(mesh) => Parted::new(plan, mesh, nominals, data.seed, progress)?,
+        Some(scan) => Parted::new(plan, scan, nominals, data.seed, progress)?,
         None => None,
     };
     let mut features = take::features(plan, (data, measured), nominals, parted.as_ref(), progress)?;

@@ -7,7 +7,7 @@ use super::uncertainty::Uncertainty;
 use crate::characteristic::{Spec, Taken, Value};
 use crate::noise::NoiseOrReason;
 use trueness_document::compare::Warning;
-use trueness_geom::mesh::Mesh;
+use trueness_geom::scan::Scan;
 
 /// All features and values of a plan.
 pub struct Inspection {
@@ -29,7 +29,7 @@ pub struct Inspection {
     /// The uncertainty of each value, where the plan states one or the noise of the points.
     pub uncertainties: Vec<Option<Uncertainty>>,
     /// The measured data where they were evaluated: aligned.
-    pub measured: Option<Mesh>,
+    pub measured: Option<Scan>,
     /// The partition of the measured data, each face and each class of what is of none by itself; empty where no report is asked for, or
     /// nothing is sought.
     pub drawn: Vec<DrawnFace>,

@@ -129,7 +129,7 @@ mod tests {
                     measured.faces.clear();
                 }
                 let reference = with_reference.then(|| floor(|_, _| 0.0));
-                let data = Data { measured: Some(measured), reference, ..Data::default() };
+                let data = Data { measured: Some(measured.into()), reference, ..Data::default() };
                 let found = run(&plan, data, &Silent).unwrap();
                 assert_eq!(found.features[0].left_out.map(|l| l.points), left_out, "{height} {cloud}");
                 let record = PlanRecord { path: String::new(), sha256: None };
@@ -171,7 +171,7 @@ mod tests {
                         measured.faces.clear();
                     }
                     let reference = Some(floor(|_, _| 0.0));
-                    let data = Data { measured: Some(measured), reference, ..Data::default() };
+                    let data = Data { measured: Some(measured.into()), reference, ..Data::default() };
                     let found = run(plan, data, &Silent).unwrap();
                     assert_eq!(found.features[0].others.outliers, outliers, "{n} {cloud}");
                     let record = PlanRecord { path: String::new(), sha256: None };
@@ -226,8 +226,11 @@ mod tests {
         let verdict = |off: f64| {
             let neck = [[12.0, 6.0], [12.0, 6.0 - off], [14.0, 6.0 - off], [14.0, 6.0]];
             let measured = bore(&[&[[0.0, 6.0]], &neck[..], &[[20.0, 6.0]]].concat());
-            let data =
-                Data { measured: Some(measured), reference: Some(reference.clone()), ..Data::default() };
+            let data = Data {
+                measured: Some(measured.into()),
+                reference: Some(reference.clone()),
+                ..Data::default()
+            };
             let record = PlanRecord { path: String::new(), sha256: None };
             crate::inspection::document(&plan, record, &run(&plan, data, &Silent).unwrap(), vec![]).verdict
         };

@@ -50,10 +50,10 @@ use crate::noise::{NoiseOrReason, noise_or_reason};
 use crate::plan::Plan;
 use features::Features;
 use nominals::Nominals;
-use trueness_geom::mesh::Mesh;
 use trueness_geom::noise::{self, NoNoise};
 use trueness_geom::parallel::prelude::*;
 use trueness_geom::progress::Progress;
+use trueness_geom::scan::Scan;
 use uncounted::Uncounted;
 
 /// How many steps an inspection has, each counted as it is done: the alignment, the features, their values, those in other
@@ -155,7 +155,7 @@ pub fn run(plan: &Plan, data: Data, progress: &dyn Progress) -> Result<Inspectio
 
 /// The noise of what was measured, and how far neighbors share it; or why none is told.
 fn noise(
-    measured: Option<&Mesh>,
+    measured: Option<&Scan>,
     is_scan: bool,
     seed: u64,
     progress: &dyn Progress,
@@ -163,6 +163,6 @@ fn noise(
     let Some(measured) = measured else {
         return Ok(Err("there is no measured surface: all points are from files of features".into()));
     };
-    let found = if is_scan { noise::mesh(measured, seed, progress) } else { Err(NoNoise::Drawn) };
+    let found = if is_scan { noise::scan(measured, seed, progress) } else { Err(NoNoise::Drawn) };
     Ok(noise_or_reason(found)?)
 }

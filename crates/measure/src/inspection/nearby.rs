@@ -7,8 +7,8 @@ use super::{Taken, take};
 use crate::plan::Plan;
 use crate::requirement::Source;
 use trueness_geom::feature::{Nearness, in_cloud};
-use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::Progress;
+use trueness_geom::scan::Scan;
 use trueness_geom::space::Aabb;
 
 /// How far off such points are looked for, as a share of the size of the feature.
@@ -20,13 +20,13 @@ const FAR: f64 = 0.1;
 /// Cost: nothing where all was measured; else a look at each point for each feature that was not.
 pub(super) fn tell(
     plan: &Plan,
-    measured: Option<&Mesh>,
+    measured: Option<&Scan>,
     nominals: &Nominals,
     parted: Option<&Parted>,
     features: &mut Vec<Taken>,
     progress: &dyn Progress,
 ) -> Result<(), Stop> {
-    let Some(mesh) = measured else { return Ok(()) };
+    let Some(scan) = measured else { return Ok(()) };
     let sought = |n: &usize| matches!(plan.features[*n].source, Source::Nominal | Source::Seed(_));
     let missing: Vec<usize> =
         (0..features.len()).filter(sought).filter(|n| features[*n].element.is_err()).collect();
@@ -45,11 +45,11 @@ pub(super) fn tell(
             return Err(Stop::Cancelled);
         }
         // Why it cannot be sought was told when it was.
-        let Ok(found) = in_cloud(&mesh.positions, nominal, &wide) else { continue };
+        let Ok(found) = in_cloud(scan.points(), nominal, &wide) else { continue };
         let own = parted.and_then(|parted| Some((parted, parted.own(n)?)));
         let is_other = |p: &u32| own.is_some_and(|(parted, own)| parted.is_of_others(*p, own, nominal));
         let places = found.points.iter().filter(|p| !is_other(p));
-        let places = places.filter_map(|p| mesh.positions.get(*p as usize));
+        let places = places.filter_map(|p| scan.points().get(*p as usize));
         let off = |p: &_| Some(nominal.surface()?.distance(*p)?.0.abs());
         let beyond: Vec<f64> = places.filter_map(off).filter(|off| *off > near.distance).collect();
         if let (Some(told), Err(reason)) = (said(&beyond, &near), &mut features[n].element) {
@@ -94,7 +94,8 @@ mod tests {
                 if cloud {
                     mesh.faces.clear();
                 }
-                let found = run(&plan, Data { measured: Some(mesh), ..Data::default() }, &Silent).unwrap();
+                let found =
+                    run(&plan, Data { measured: Some(mesh.into()), ..Data::default() }, &Silent).unwrap();
                 let reason = |n: usize| found.features[n].element.as_ref().err().cloned();
                 assert_eq!(found.values[0].as_ref().err().is_some(), reason(0).is_some());
                 [0, 1].map(reason)

@@ -56,16 +56,12 @@ impl PoseNoise {
             return Ok(PoseNoise::None);
         };
         let tree = Tree::build_watched(reference, progress).map_err(|e| Stop::Nominal(e.to_string()))?;
-        let points = &measured.positions;
-        let of = match measured.faces.is_empty() {
-            true => Measured::Points { points, normals: None },
-            false => Measured::Mesh(measured),
-        };
         let options = BestFit { seed: data.seed, ..BestFit::default() };
-        let found = response(&of, &Target::new(reference, &tree), fit, &options, progress);
+        let found =
+            response(&Measured::from(measured), &Target::new(reference, &tree), fit, &options, progress);
         let found = found.map_err(super::align::failed)?;
         let of_features = features.iter().flat_map(|f| &f.points);
-        Ok(PoseNoise::Response(Box::new(Answer::new(&found, points, noise, of_features))))
+        Ok(PoseNoise::Response(Box::new(Answer::new(&found, measured.points(), noise, of_features))))
     }
 
     /// The motion of the pose in a draw of the noise; `moved` are the features with their noise.

@@ -11,9 +11,9 @@ use crate::requirement::{Feature, Source};
 use trueness_document::plan::Class;
 use trueness_geom::feature::{FeatureError, Found, Nominal, covered, farthest_covered};
 use trueness_geom::fit::{FitError, Options, fit};
-use trueness_geom::mesh::Mesh;
 use trueness_geom::parallel::prelude::*;
 use trueness_geom::progress::Progress;
+use trueness_geom::scan::Scan;
 use trueness_geom::shape::Kind;
 use trueness_geom::space::{Point, Vector, cross, dot, minus, norm, unit};
 use trueness_geom::spatial::neighbors::PointTree;
@@ -25,15 +25,19 @@ const TURNED: f64 = std::f64::consts::FRAC_PI_4;
 /// All features of the plan, in its order.
 pub(super) fn features(
     plan: &Plan,
-    (data, measured): (&Data, Option<&Mesh>),
+    (data, measured): (&Data, Option<&Scan>),
     nominals: &Nominals,
     parted: Option<&Parted>,
     progress: &dyn Progress,
 ) -> Result<Vec<Taken>, Stop> {
     let is_sought = |f: &Feature| matches!(f.source, Source::Nominal | Source::Seed(_));
-    let cloud = measured.filter(|mesh| mesh.faces.is_empty() && plan.features.iter().any(is_sought));
-    let farthest = cloud.map(|cloud| farthest_covered(&cloud.positions, &PointTree::new(&cloud.positions)));
-    let search = Search { measured, parted, farthest: farthest.unwrap_or(f64::INFINITY) };
+    let farthest = match measured {
+        Some(Scan::Cloud(points)) if plan.features.iter().any(is_sought) => {
+            farthest_covered(points, &PointTree::new(points))
+        }
+        _ => f64::INFINITY,
+    };
+    let search = Search { measured, parted, farthest };
     let of = |(number, feature): (usize, &Feature)| {
         if progress.cancelled() {
             return Err(Stop::Cancelled);
@@ -112,7 +116,7 @@ pub(super) fn again(
 /// What features are sought with.
 struct Search<'a> {
     /// The measured mesh, or the distinct places of a cloud.
-    measured: Option<&'a Mesh>,
+    measured: Option<&'a Scan>,
     /// That parted among faces.
     parted: Option<&'a Parted<'a>>,
     /// How far at most one point of a cloud covers a feature, mm.
@@ -159,27 +163,27 @@ fn found((number, feature): (usize, &Feature), nominals: &Nominals, search: &Sea
         taken.nominal = Some(seeded.nominal.clone());
         taken.outward = taken.outward.or(normal(&seeded.nominal));
     }
-    let (Some(mesh), Some(nominal)) = (search.measured, taken.nominal.clone()) else { return Ok(taken) };
+    let (Some(scan), Some(nominal)) = (search.measured, taken.nominal.clone()) else { return Ok(taken) };
     let mut near = feature.near(&nominal);
     let own = search.parted.and_then(|parted| Some((parted, parted.own(number)?)));
     near.inward = near.inward.or(own.and_then(|(_, own)| own.inward));
     taken.inward = near.inward;
     let of = match own {
         Some((parted, own)) => parted.of((number, own), (&nominal, &near), feature.extract.outliers),
-        None => edge::of(mesh, &nominal, &near),
+        None => edge::of(scan, &nominal, &near),
     };
     let wrong = |e: FeatureError| format!("feature \"{}\": {e}", feature.id);
     let of = of.map_err(|e| Stop::Plan { span: feature.span.clone(), what: wrong(e) })?;
     let OfFeature { found, covering, others, left_out } = of;
     (taken.others, taken.left_out) = (others, left_out);
     let places = |vertices: &[u32]| -> Vec<Point> {
-        vertices.iter().filter_map(|v| mesh.positions.get(*v as usize).copied()).collect()
+        vertices.iter().filter_map(|v| scan.points().get(*v as usize).copied()).collect()
     };
     (taken.points, taken.rim) = (places(&found.points), places(&found.rim));
-    taken.areas = areas(mesh, &found);
-    let area = match mesh.faces.is_empty() {
-        false => Some(found.area),
-        true => {
+    taken.areas = areas(scan, &found);
+    let area = match scan {
+        Scan::Mesh(_) => Some(found.area),
+        Scan::Cloud(_) => {
             let covering = covering.map_or_else(|| taken.points.clone(), |points| places(&points));
             covered(&nominal, &covering, search.farthest)
                 .zip(nominal.area())
@@ -194,10 +198,10 @@ fn found((number, feature): (usize, &Feature), nominals: &Nominals, search: &Sea
 }
 
 /// The area that each point stands for: a third of the feature's facets about it.
-fn areas(mesh: &Mesh, found: &Found) -> Vec<f64> {
-    if found.facets.is_empty() {
+fn areas(scan: &Scan, found: &Found) -> Vec<f64> {
+    let Some(mesh) = scan.mesh().filter(|_| !found.facets.is_empty()) else {
         return vec![1.0; found.points.len()];
-    }
+    };
     let mut areas = vec![0.0; found.points.len()];
     for face in found.facets.iter().filter_map(|f| mesh.faces.get(*f as usize)) {
         let [a, b, c] = face.map(|v| mesh.positions[v as usize]);
@@ -291,8 +295,8 @@ mod tests {
     use crate::inspection::data::Data;
     use crate::inspection::run;
     use crate::plan::Plan;
-    use trueness_geom::mesh::Mesh;
     use trueness_geom::progress::Silent;
+    use trueness_geom::scan::Scan;
     use trueness_geom::space::Point;
 
     /// Six points of a bore lie on another cylinder too, of diameter 13.2, whose axis is across; eight on none.
@@ -319,8 +323,8 @@ mod tests {
         )
         .unwrap();
         let value = |positions: &[Point]| {
-            let measured = Mesh { positions: positions.to_vec(), faces: vec![] };
-            let data = Data { measured: Some(measured), ..Data::default() };
+            let measured = Scan::Cloud(positions.to_vec());
+            let data = Data { measured: Some(measured.into()), ..Data::default() };
             run(&plan, data, &Silent).unwrap().values.remove(0).map(|v| v.value)
         };
         let six = [

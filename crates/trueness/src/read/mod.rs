@@ -17,6 +17,7 @@ use trueness_files::{
 };
 use trueness_geom::closest::{MAX_COORDINATE, MAX_VERTEX, MIN_COORDINATE};
 use trueness_geom::parallel::prelude::*;
+use trueness_geom::scan::Scan;
 use trueness_geom::space::{Aabb, Point, Vector};
 use trueness_geom::spline::surface::Nurbs;
 use trueness_measure::compare::RegionRule;
@@ -205,6 +206,14 @@ fn refusal(path: &Path, what: &str, number: usize, greatest: f64) -> String {
         "{file}: {what} {number} has a coordinate that is not 0 or from {MIN_COORDINATE:e} to {greatest:e} mm: give the \
          file's unit (--units), or leave the {what} out"
     )
+}
+
+/// All of what the file at `path` holds.
+pub fn scan(path: &Path, body: Body) -> Result<Scan> {
+    Ok(match body {
+        Body::Mesh(source) => source.mesh.into(),
+        Body::Points(source) => Scan::Cloud(all_points(path, source)?),
+    })
 }
 
 /// All points of a source, which is the file at `path`.

@@ -1,6 +1,6 @@
 //! The best line, plane, circle, … through points.
 
-use crate::read::{self, Body, Opened};
+use crate::read::{self, Opened};
 use crate::task::{
     Choice, Done, Independence, PointReading, Request, RunFiles, Scene, TaskError, Watch, choices, ended,
 };
@@ -11,7 +11,6 @@ use trueness_document::Role;
 use trueness_document::fit::FitDocument;
 use trueness_files::Sources;
 use trueness_geom::fit::{self, FitError, Options};
-use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::Cancelled;
 use trueness_geom::shape::{Kind, Shape};
 use trueness_geom::space::Point;
@@ -113,13 +112,8 @@ impl Request for FitRequest {
         })?;
         let Opened { mut record, body, planar, .. } =
             read::open(sources, &self.points, Role::Measured, &self.reading.options())?;
-        let scan = match body {
-            Body::Mesh(mesh) => mesh.mesh,
-            Body::Points(source) => {
-                Mesh { positions: read::all_points(&self.points, source)?, faces: Vec::new() }
-            }
-        };
-        let points = &scan.positions;
+        let scan = read::scan(&self.points, body)?;
+        let points = scan.points();
         read::describe(&mut record, points);
         read::hash(sources, &mut record, &self.points)?;
         let options = Options { method: self.method.into(), start: None, seed: self.seed };
@@ -134,7 +128,7 @@ impl Request for FitRequest {
             .noise
             .shared_noise(watch, |stage| trueness_measure::fit::noise(&fit, &scan, self.seed, stage))?;
         let document = trueness_measure::fit::document(&fit, &noise, points, vec![record], self.seed);
-        let drawn = || Fitted { shape: fit.shape, points: scan.positions };
+        let drawn = || Fitted { shape: fit.shape, points: scan.into_points() };
         let scene = self.view.then(|| Box::new(drawn()) as Box<dyn Scene<FitDocument>>);
         Ok(Done { scene, ..Done::new(document, true) })
     }
