@@ -1,6 +1,7 @@
 //! `trueness/surface/1`: a B-spline surface fitted to points.
 
 use super::curvature::{BendRecord, Range};
+use super::result::ResultDocument;
 use super::word::words;
 use super::{Histogram, InputRecord, Statistics, Word};
 use crate::scale::Scale;
@@ -154,9 +155,9 @@ pub fn is_crushed([least, _]: [f64; 2]) -> bool {
     least < CRUSHED
 }
 
-impl SurfaceDocument {
+impl ResultDocument for SurfaceDocument {
     /// Whether the surface is that of its points, and reaches the tolerance, where there is one.
-    pub fn conforms(&self) -> bool {
+    fn conforms(&self) -> bool {
         self.tolerance.as_ref().is_none_or(|t| t.reached) && !self.base.is_doubtful()
     }
 }

@@ -8,7 +8,7 @@ pub use distances::distances;
 pub use extent::extent;
 pub use parameters::{named, uncertainty};
 
-use crate::noise::{NoiseOrReason, noise_or_reason, points_per_independent, record};
+use crate::noise::{NoSharedNoise, NoiseOrReason, noise_or_reason, points_per_independent, record};
 use crate::statistics::counted;
 use crate::words::{ToGeometry, ToWord};
 use parameters::NONE_LEFT;
@@ -31,7 +31,7 @@ use trueness_geom::stats::statistics::Summary;
 /// Cancelled.
 pub fn noise(fit: &Fit, scan: &Scan, seed: u64, progress: &dyn Progress) -> Result<NoiseOrReason, Cancelled> {
     if fit.shape.kind().is_curve() {
-        return Ok(Err("it is a curve: how far neighbors share noise is found along surfaces".into()));
+        return Ok(Err(NoSharedNoise::Curve));
     }
     // What a robust fit left out lies beyond the rest.
     let [(least, _), (most, _)] = [fit.residuals.min, fit.residuals.max];
@@ -135,7 +135,7 @@ mod tests {
         for method in Method::ALL {
             let options = Options { method, ..Options::default() };
             let fit = fit(&points, Kind::Circle2, &options, &Silent).unwrap();
-            let document = bare(&fit, &Err("few points".into()), vec![], 0);
+            let document = bare(&fit, &Err(NoSharedNoise::Curve), vec![], 0);
             let text = serde_json::to_string(&document).unwrap();
             let back: FitDocument = serde_json::from_str(&text).unwrap();
             assert_eq!((back.parameters.clone(), kind(&back)), (document.parameters.clone(), Kind::Circle2));

@@ -375,7 +375,7 @@ fn without_a_scan_no_noise_is_measured() {
     let plan = plan("noise = \"measured\"");
     let [a, b] = squares();
     let found = found(&plan, [a, b, bore()], 7);
-    assert!(found.noise.unwrap_err().contains("files of features"));
+    assert_eq!(found.noise.unwrap_err(), trueness_measure::NoSharedNoise::NoSurface);
     assert_eq!(found.uncertainties, [None, None]);
     let refused = Plan::parse(
         r#"schema = "trueness/plan/1"

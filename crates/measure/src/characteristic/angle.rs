@@ -2,6 +2,7 @@
 
 use super::kind::{Allowed, Characteristic, Measuring, Question, Refusal};
 use super::located::single;
+use super::reason::Impossible;
 use super::value::{Missing, Value};
 use trueness_document::plan::{Class, TextureWord};
 use trueness_document::tolerance_class::Table;
@@ -44,7 +45,7 @@ impl Characteristic for Angle {
         let (other, plane) = match single(m)? {
             Datum::Plane { normal, .. } => (normal, true),
             Datum::Axis { direction, .. } => (direction, false),
-            Datum::Point(_) => return Err(Missing::Impossible("a center gives no direction".into())),
+            Datum::Point(_) => return Err(Impossible::CenterWithoutDirection.into()),
         };
         let between = angle(own, other).to_degrees();
         let value = if plane == (feature.class == Class::Plane) { between } else { 90.0 - between };

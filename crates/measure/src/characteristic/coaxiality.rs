@@ -2,6 +2,7 @@
 
 use super::kind::{AXES, Characteristic, Measuring, Question, Refusal};
 use super::located::single;
+use super::reason::Impossible;
 use super::value::{Missing, Value};
 use trueness_document::plan::Class;
 use trueness_geom::space::{cross, minus, norm};
@@ -34,7 +35,7 @@ impl Characteristic for Coaxiality {
     }
     fn measure(&self, m: &Measuring) -> Result<Value, Missing> {
         let Datum::Axis { point, direction } = single(m)? else {
-            return Err(Missing::Impossible("the datum is no axis".into()));
+            return Err(Impossible::DatumIsNoAxis.into());
         };
         let points = m.feature().zoned()?;
         let far = points.iter().map(|p| norm(cross(minus(*p, point), direction)));

@@ -2,6 +2,7 @@
 
 use super::kind::{Characteristic, Measuring, Question, Refusal, refuse};
 use super::profile::{check, search, surface, value};
+use super::reason::{Impossible, NotMeasured};
 use super::value::{Missing, Value};
 use trueness_geom::feature::Nominal;
 use trueness_geom::rigid::Rigid;
@@ -57,7 +58,7 @@ impl Characteristic for LineProfile {
     }
     fn measure(&self, m: &Measuring) -> Result<Value, Missing> {
         let Some(across) = m.spec.intersection else {
-            return Err(Missing::Impossible("it has no intersection planes".into()));
+            return Err(Impossible::NoIntersectionPlanes.into());
         };
         let (surface, points) = (surface(m)?, m.feature().taken()?);
         // Within a plane: along its two directions, and a turn about its normal.
@@ -80,7 +81,7 @@ impl Characteristic for LineProfile {
                 found = Some(value);
             }
         }
-        let none = || Missing::NotMeasured(format!("no section has {FEWEST} points or more"));
+        let none = || NotMeasured::NoSection { needed: FEWEST };
         let mut found = found.ok_or_else(none)?;
         found.parts.push(("sections", f64::from(taken)));
         if left_out > 0 {
@@ -105,7 +106,7 @@ impl Lines {
         let first = self.search.start.point(own.first().copied().unwrap_or_default());
         // Coordinates with z across the planes; shifts and turns that the search leaves free are along and about these.
         let Some(seen) = Rigid::into_frame(first, self.across, least_axis(self.across)) else {
-            return Err(Missing::Impossible("the intersection planes have no normal".into()));
+            return Err(Impossible::PlanesWithoutNormal.into());
         };
         let back = seen.inverse();
         let distance = |_: usize, p: Point| {

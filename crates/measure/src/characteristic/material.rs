@@ -23,6 +23,7 @@
 
 use super::kind::Measuring;
 use super::located::{frame, system};
+use super::reason::{Impossible, NotMeasured};
 use super::taken::Taken;
 use super::value::{Missing, Value};
 use crate::requirement::Boundary;
@@ -74,7 +75,7 @@ impl<'a> Surface<'a> {
     ) -> Result<Surface<'a>, Missing> {
         let shape = feature.refitted(Kind::Cylinder, Method::Gaussian, m.progress)?.shape;
         let (Some(point), Some(direction)) = (shape.foot(), shape.direction()) else {
-            return Err(Missing::NotMeasured("the element has no axis".into()));
+            return Err(NotMeasured::NoAxis.into());
         };
         let own = Axis { point, direction };
         let points = feature.taken()?;
@@ -128,7 +129,7 @@ impl Asked<'_> {
 /// The value of a cylinder whose axis belongs at `axis` of the frame `start`, with the requirement of its tolerance.
 pub(super) fn oriented(m: &Measuring, start: Rigid, free: Freedom, axis: Axis) -> Result<Value, Missing> {
     let Some(boundary) = m.spec.boundary else {
-        return Err(Missing::Impossible("it has no material requirement".into()));
+        return Err(Impossible::NoMaterial.into());
     };
     let asked = Asked::Surface(Surface::new(m.feature(), boundary, &start, m)?);
     let distance = |i: usize, p: Point| Some(asked.distance(&axis, i, p));
@@ -159,7 +160,7 @@ pub(super) fn located(m: &Measuring, place: [f64; 2]) -> Result<Value, Missing> 
         None => Asked::Ends(m.feature().zoned()?),
     };
     let Some(feature) = m.datums.last().and_then(|d| d.first()) else {
-        return Err(Missing::Impossible("it has no datum".into()));
+        return Err(Impossible::NoDatum.into());
     };
     let shift = Shift { asked: &asked, axis, datum: Surface::new(feature, datum, &start, m)?, m };
     let free = match m.datums.len() {
@@ -180,7 +181,7 @@ pub(super) fn located(m: &Measuring, place: [f64; 2]) -> Result<Value, Missing> 
 /// The straightness of a cylinder's axis with the requirement of its tolerance.
 pub(super) fn straight(m: &Measuring) -> Result<Value, Missing> {
     let Some(boundary) = m.spec.boundary else {
-        return Err(Missing::Impossible("it has no material requirement".into()));
+        return Err(Impossible::NoMaterial.into());
     };
     let mating = mating(m.feature(), boundary.around, m)?;
     let global = diameter(m.feature(), Method::Gaussian, m)?;
@@ -237,7 +238,7 @@ fn mating(feature: &Taken, around: bool, m: &Measuring) -> Result<f64, Missing> 
 fn diameter(feature: &Taken, method: Method, m: &Measuring) -> Result<f64, Missing> {
     match feature.refitted(Kind::Cylinder, method, m.progress)?.shape {
         Shape::Cylinder { radius, .. } => Ok(2.0 * radius),
-        _ => Err(Missing::NotMeasured("the element has no diameter".into())),
+        _ => Err(NotMeasured::NoDiameter.into()),
     }
 }
 
@@ -264,12 +265,8 @@ impl Shift<'_> {
         let alone = |i: usize, p: Point| Some(datum(i, p));
         let gauged = placed(self.datum.points, &alone, &search(start), self.m.progress)?;
         if gauged.half > ROUNDING {
-            let what = format!(
-                "datum feature \"{}\" is {:.6} mm beyond its virtual condition: it fits no gauge",
-                feature.id,
-                2.0 * gauged.half
-            );
-            return Err(Missing::NotMeasured(what));
+            let (id, by) = (feature.id.clone(), 2.0 * gauged.half);
+            return Err(NotMeasured::BeyondVirtualCondition { id, by }.into());
         }
         let all: Vec<Point> = own.iter().chain(self.datum.points).copied().collect();
         let within = |w: f64, from: Rigid| {

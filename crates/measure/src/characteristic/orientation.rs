@@ -9,6 +9,7 @@
 use super::kind::{Measuring, Question, Refusal, is_axis, refuse};
 use super::located::system;
 use super::material::{Axis, oriented};
+use super::reason::{Impossible, NotMeasured};
 use super::value::{Missing, Value};
 use crate::requirement::Basic;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
@@ -137,7 +138,7 @@ fn first_direction(system: &System) -> Result<(Class, Vector), Missing> {
     match system.datums.first() {
         Some(Datum::Plane { normal, .. }) => Ok((Class::Plane, *normal)),
         Some(Datum::Axis { direction, .. }) => Ok((Class::Line, *direction)),
-        _ => Err(Missing::Impossible("the datum gives no direction".into())),
+        _ => Err(Impossible::DatumWithoutDirection.into()),
     }
 }
 
@@ -147,14 +148,14 @@ fn bounded(m: &Measuring, direction: Vector, fixed: Option<Vector>, polar: f64) 
     let feature = m.feature();
     let (middle, own) = (feature.middle()?, feature.direction()?);
     let none = [0.0; 3];
-    let lost = || Missing::NotMeasured("it has no direction".into());
+    let lost = NotMeasured::NoDirection;
     if let Some(fixed) = fixed {
-        let start = Rigid::into_frame(middle, fixed, least_axis(fixed)).ok_or_else(lost)?;
+        let start = Rigid::into_frame(middle, fixed, least_axis(fixed)).ok_or(lost)?;
         let free = Freedom { shift: [true, true, false], turn: [false; 3] };
         return oriented(m, start, free, Axis { point: none, direction: [0.0, 0.0, 1.0] });
     }
     let own = if dot(own, direction) < 0.0 { times(-1.0, own) } else { own };
-    let start = Rigid::into_frame(middle, direction, own).ok_or_else(lost)?;
+    let start = Rigid::into_frame(middle, direction, own).ok_or(lost)?;
     // Along itself the boundary goes on and on: where it lies across the datum's direction, along x, a shift tells nothing.
     let free = Freedom { shift: [polar != FRAC_PI_2, true, true], turn: [false, false, true] };
     oriented(m, start, free, Axis { point: none, direction: [libm::sin(polar), 0.0, libm::cos(polar)] })
@@ -195,13 +196,9 @@ fn locked(
         difference.min(TAU - difference)
     };
     let nearest = candidates.into_iter().min_by(|a, b| off(*a).total_cmp(&off(*b)));
-    let azimuth = nearest.filter(|a| off(*a) <= AS_DRAWN).ok_or_else(|| {
-        let degrees = seen.to_degrees();
-        Missing::Impossible(format!(
-            "seen along the first datum the feature stands at {degrees:.3}° to the direction of the second, not as \
-             drawn; angularity takes that angle: basic = {{ angle, turn }}"
-        ))
-    })?;
+    let azimuth = nearest
+        .filter(|a| off(*a) <= AS_DRAWN)
+        .ok_or_else(|| Missing::from(Impossible::NotAsDrawn { degrees: seen.to_degrees() }))?;
     let flat = plus(times(libm::cos(azimuth), x), times(libm::sin(azimuth), y));
     Ok(Some(plus(times(libm::cos(polar), z), times(libm::sin(polar), flat))))
 }

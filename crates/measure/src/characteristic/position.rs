@@ -3,6 +3,7 @@
 use super::exact::{NAMES, beside, from_place, largest, place_of};
 use super::kind::{Characteristic, Measuring, Question, Refusal, is_axis, refuse};
 use super::located::frame;
+use super::reason::{Impossible, NotMeasured};
 use super::value::{Missing, Value};
 use crate::characteristic::Spec;
 use crate::requirement::Basic;
@@ -128,7 +129,7 @@ impl Characteristic for Position {
         let found = placed(&points, &distance, &search, m.progress)?;
         if required(m.spec) {
             let [Some(x), Some(y), None] = place else {
-                return Err(Missing::Impossible(PLACED.into()));
+                return Err(Impossible::NotAlongZ.into());
             };
             let value = super::material::located(m, [x, y])?;
             return Ok(Value { place: beside(m, found.motion), ..value });
@@ -154,11 +155,8 @@ fn along(m: &Measuring, start: &Rigid, free: Freedom, place: [Option<f64>; 3]) -
     if place[most].is_none() || is_turned {
         return Ok(());
     }
-    let [a, b] = [["y", "z"], ["x", "z"], ["x", "y"]][most];
-    Err(Missing::NotMeasured(format!(
-        "its axis runs along {} in the datum system, which places nothing: basic = {{ {a} = …, {b} = … }} places it",
-        NAMES[most]
-    )))
+    let across = [["y", "z"], ["x", "z"], ["x", "y"]][most];
+    Err(NotMeasured::AlongCoordinate { along: NAMES[most], across }.into())
 }
 
 /// Where a turn about z is free, the frame turned so that the feature stands in the direction of its true place: the search for the best turn
@@ -192,7 +190,6 @@ fn one_coordinate(class: Class, given: [bool; 3]) -> String {
 fn across(m: &Measuring, start: &Rigid, free: Freedom, place: [Option<f64>; 3]) -> Result<(), Missing> {
     let normal = start.vector(m.feature().direction()?);
     let Some(given) = place.iter().position(Option::is_some) else { return Ok(()) };
-    let name = |k: usize| NAMES[k];
     // Within the plane x, y a turn about z may bring it anywhere.
     let along = match (given, free.turn[2]) {
         (2, _) => normal[2].abs(),
@@ -200,18 +197,11 @@ fn across(m: &Measuring, start: &Rigid, free: Freedom, place: [Option<f64>; 3]) 
         (k, false) => normal[k].abs(),
     };
     if along < LEAST_ALONG {
-        let most = largest(normal);
-        let what = format!(
-            "its plane lies across {0} in the datum system, not across {1}: basic = {{ {0} = … }} places it",
-            name(most),
-            name(given)
-        );
-        return Err(Missing::Impossible(what));
+        let across = NAMES[largest(normal)];
+        return Err(Impossible::PlaneAcross { across, given: NAMES[given] }.into());
     }
     if free.shift[given] {
-        let what =
-            format!("its datums leave shifts along {} free: name a datum that holds them", name(given));
-        return Err(Missing::Impossible(what));
+        return Err(Impossible::FreeShift { along: NAMES[given] }.into());
     }
     Ok(())
 }
@@ -221,9 +211,6 @@ fn required(spec: &Spec) -> bool {
     spec.material.is_some() || spec.datums.iter().any(|d| d.material.is_some())
 }
 
-/// What a material requirement of a position is evaluated for.
-const PLACED: &str = "a material requirement is evaluated for an axis along z, placed by x and y";
-
 /// Refuses material requirements that are not evaluated.
 fn material(q: &Question, class: Class, given: [bool; 3]) -> Result<(), Refusal> {
     let spec = q.spec;
@@ -232,7 +219,7 @@ fn material(q: &Question, class: Class, given: [bool; 3]) -> Result<(), Refusal>
     }
     let key = if spec.material.is_some() { "material" } else { "datums" };
     if !is_axis(class) || given != [true, true, false] {
-        return refuse(key, PLACED);
+        return refuse(key, Impossible::NotAlongZ.to_string());
     }
     let marked = spec.datums.iter().position(|d| d.material.is_some());
     let first = q.datums().first().copied();

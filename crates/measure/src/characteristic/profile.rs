@@ -3,6 +3,7 @@
 use super::exact::beside_nominal;
 use super::kind::{Measuring, Question, Refusal, refuse};
 use super::located::frame;
+use super::reason::Impossible;
 use super::value::{Missing, Value};
 use crate::requirement::ZoneOffset;
 use trueness_document::plan::Class;
@@ -28,7 +29,7 @@ pub(super) fn check(q: &Question) -> Result<(), Refusal> {
 /// The theoretically exact surface.
 pub(super) fn surface(m: &Measuring) -> Result<NominalSurface, Missing> {
     let nominal = m.feature().nominal.as_ref();
-    let none = || Missing::Impossible("the feature has no theoretically exact surface".into());
+    let none = || Impossible::NoExactSurface.into();
     nominal.and_then(Nominal::surface).ok_or_else(none)
 }
 

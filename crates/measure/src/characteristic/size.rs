@@ -1,6 +1,7 @@
 //! Sizes: ISO 14405-1:2016, 3.6 and 3.7 (local and global linear sizes).
 
 use super::kind::{Allowed, Characteristic, Measuring, Question, Refusal, refuse};
+use super::reason::NotMeasured;
 use super::value::{Missing, Value};
 use trueness_document::plan::{Class, SizeWord};
 use trueness_document::tolerance_class::Table;
@@ -69,14 +70,14 @@ impl Characteristic for Size {
             Class::Circle => feature.profile(method, m.progress)?,
             Class::Cylinder => feature.refitted(Kind::Cylinder, method, m.progress)?,
             Class::Point | Class::Line | Class::Plane | Class::Cone | Class::Torus => {
-                return Err(Missing::NotMeasured("the element has no diameter".into()));
+                return Err(NotMeasured::NoDiameter.into());
             }
         };
         let radius = match fit.shape {
             Shape::Cylinder { radius, .. } | Shape::Sphere { radius, .. } | Shape::Circle2 { radius, .. } => {
                 radius
             }
-            _ => return Err(Missing::NotMeasured("the element has no diameter".into())),
+            _ => return Err(NotMeasured::NoDiameter.into()),
         };
         let witness = feature.form(&fit).witness;
         Ok(Value { value: 2.0 * radius, witness, ..Value::default() })
@@ -101,7 +102,7 @@ fn two_point(m: &Measuring) -> Result<Value, Missing> {
                 | Shape::Circle { center: point, normal: direction, .. } => {
                     two_point_diameters(feature.taken()?, point, direction, m.progress)
                 }
-                _ => return Err(Missing::NotMeasured("the element has no diameter".into())),
+                _ => return Err(NotMeasured::NoDiameter.into()),
             }
         }
     };
@@ -110,7 +111,7 @@ fn two_point(m: &Measuring) -> Result<Value, Missing> {
     let middle = lower.map_or(upper, |lower| 0.5 * (lower + upper));
     let away = |t: &&TwoPoint| (t.size - middle).abs();
     let Some(worst) = sizes.iter().max_by(|a, b| away(a).total_cmp(&away(b))) else {
-        return Err(Missing::NotMeasured("no place of it has a measured place opposite".into()));
+        return Err(NotMeasured::NoOppositePlace.into());
     };
     let (least, greatest) =
         sizes.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, g), t| (l.min(t.size), g.max(t.size)));

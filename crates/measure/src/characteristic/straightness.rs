@@ -2,6 +2,7 @@
 
 use super::kind::{Characteristic, Measuring, Question, Refusal, refuse};
 use super::material::straight;
+use super::reason::{Lack, NotMeasured};
 use super::taken::form;
 use super::value::{Missing, Value};
 use trueness_document::plan::Class;
@@ -62,16 +63,11 @@ fn of_axis(m: &Measuring) -> Result<Value, Missing> {
     let Shape::Cylinder { point, direction, .. } =
         feature.refitted(Kind::Cylinder, Method::Gaussian, m.progress)?.shape
     else {
-        return Err(Missing::NotMeasured("the element has no axis".into()));
+        return Err(NotMeasured::NoAxis.into());
     };
     let line = median_line(feature.taken()?, point, direction, m.progress).map_err(|_| Missing::Cancelled)?;
     if line.centers.len() < 3 {
-        let what = format!(
-            "feature \"{}\": {} of its sections go around the axis with enough points; a median line needs 3",
-            feature.id,
-            line.centers.len()
-        );
-        return Err(Missing::NotMeasured(what));
+        return Err(feature.lacks(Lack::Sections { found: line.centers.len() }));
     }
     let options = Options { method: m.spec.form, ..Options::default() };
     let fit = fit(&line.centers, Kind::Line, &options, m.progress)?;

@@ -2,6 +2,7 @@
 
 use super::kind::{AXES, Characteristic, Measuring, Question, Refusal, refuse};
 use super::located::single;
+use super::reason::Impossible;
 use super::value::{Missing, Value};
 use trueness_document::plan::Class;
 use trueness_geom::space::{cross, dot, minus, norm};
@@ -40,7 +41,7 @@ impl Characteristic for TotalRunout {
 /// The range that an indicator reads at all points while the part turns about the datum axis.
 pub(super) fn reading(m: &Measuring, datum: Datum, axial: bool) -> Result<Value, Missing> {
     let Datum::Axis { point, direction } = datum else {
-        return Err(Missing::Impossible("the datum is no axis".into()));
+        return Err(Impossible::DatumIsNoAxis.into());
     };
     let points = m.feature().taken()?;
     let read = |p: &[f64; 3]| {

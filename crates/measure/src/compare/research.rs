@@ -62,17 +62,34 @@ pub fn research(c: &Compared, places: &ShownPoints, i: usize, seed: u64) -> Rese
     }
 }
 
+/// Why two references are not compared by blocks.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum NotTogether {
+    /// Nothing was looked for, as errors were said to be independent.
+    #[error("errors are independent, as was asked for")]
+    Independent,
+    /// The points lie too near each other.
+    #[error(
+        "points lie in fewer than {least} of the cubes within which they may go together, a twentieth of the reference's diagonal wide"
+    )]
+    FewBlocks {
+        /// Cubes that would do.
+        least: u64,
+    },
+    /// The statistics do not exist.
+    #[error(transparent)]
+    Missing(Missing),
+}
+
 /// The mean of the differences of two references, by blocks within which they may go together.
-pub fn together(found: &Comparisons, first: usize, second: usize) -> Result<blocks::BlockMean, String> {
+pub fn together(found: &Comparisons, first: usize, second: usize) -> Result<blocks::BlockMean, NotTogether> {
     let of = |n: usize| found.together.deviations.get(n).map_or(&[][..], Vec::as_slice);
     let differences: Vec<f64> = of(first).iter().zip(of(second)).map(|(a, b)| a.abs() - b.abs()).collect();
     // Single points far off are no measure of the part.
     let size = found.references.get(first).map_or(0.0, |c| c.diagonal);
     blocks::mean_of_blocks(&found.together.points, &differences, BLOCK_SHARE * size).map_err(|e| match e {
-        Missing::TooFew(least) => format!(
-            "points lie in fewer than {least} of the cubes within which they may go together, a twentieth of the reference's diagonal wide"
-        ),
-        e => e.to_string(),
+        Missing::TooFew(least) => NotTogether::FewBlocks { least },
+        e => NotTogether::Missing(e),
     })
 }
 

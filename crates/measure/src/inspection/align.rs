@@ -1,7 +1,8 @@
 //! The alignment of a plan.
 
-use super::data::{Data, Stop};
+use super::data::Data;
 use super::nominals::Nominals;
+use super::stop::{NotAligned, Stop};
 use super::{Taken, deviation, doubts, features};
 use crate::characteristic::{Missing, datum_source};
 use crate::compare::Regions;
@@ -67,7 +68,7 @@ pub(super) fn aligned(
 ) -> Result<(Data, Alignment), Stop> {
     let rows = |fit: Result<RowFit, AlignError>| {
         // The places stand in the plan.
-        let fit = fit.map_err(|e| failed(e).nominal())?;
+        let fit = fit.map_err(|e| failed(e).of_every_part())?;
         // What is evaluated lies on the part, also where there is no mesh of it.
         let corners = match (&data.reference, &data.measured) {
             (Some(reference), _) => reference.bounds().corners().to_vec(),
@@ -103,11 +104,13 @@ pub(super) fn aligned(
         moved(&mut data, &alignment.motion);
     }
     let onto = onto_datums(plan, &mut data, nominals, progress).map_err(|stop| match stop {
-        Stop::Align(what) => {
-            Stop::Align(match doubts::unit(plan, &data, &alignment.motion, alignment.found.best_fit()) {
-                Some(unit) => format!("{what}; {unit}"),
-                None => what,
-            })
+        Stop::Align { reason, of_part } => {
+            let hint = doubts::unit(plan, &data, &alignment.motion, alignment.found.best_fit());
+            let reason = match hint {
+                Some(hint) => NotAligned::InOtherUnit { reason: Box::new(reason), hint },
+                None => reason,
+            };
+            Stop::Align { reason, of_part }
         }
         stop => stop,
     })?;
@@ -154,7 +157,7 @@ pub(super) fn in_other_pose(
     moved(&mut other, motion);
     match onto_datums(plan, &mut other, nominals, progress) {
         Ok(_) => Ok(Some(other)),
-        Err(Stop::Plan { .. } | Stop::Align(_)) => Ok(None),
+        Err(Stop::Plan { .. } | Stop::Align { of_part: true, .. }) => Ok(None),
         Err(stop) => Err(stop),
     }
 }
@@ -171,7 +174,7 @@ fn moved(data: &mut Data, motion: &Rigid) {
 pub(super) fn failed(e: AlignError) -> Stop {
     match e {
         AlignError::Cancelled(e) => e.into(),
-        e => Stop::Align(e.to_string()),
+        e => NotAligned::Search(e).into(),
     }
 }
 
@@ -183,19 +186,19 @@ fn best_fitted(
     progress: &dyn Progress,
 ) -> Result<Alignment, Stop> {
     let (Some(measured), Some(reference)) = (&data.measured, &data.reference) else {
-        return Err(Stop::Align("one of them is not there".into()));
+        return Err(NotAligned::NotThere.into());
     };
-    let tree = Tree::build_watched(reference, progress).map_err(|e| failed(e.into()).nominal())?;
+    let tree = Tree::build_watched(reference, progress).map_err(|e| failed(e.into()).of_every_part())?;
     let measured = Measured::from(measured);
     let options = BestFit { seed: data.seed, ..BestFit::default() };
     let target = Target::new(reference, &tree);
     let fit = best_fit(&measured, &target, &options, progress).map_err(failed)?;
     if let (Align::Zones, Some(asked)) = (&plan.align, &plan.deviation) {
         let surface = ReferenceSurface::new(&tree, reference, &SurfaceOptions::default(), progress)
-            .map_err(|e| Stop::Align(e.to_string()).nominal())?;
+            .map_err(|e| Stop::from(NotAligned::Reference(e)).of_every_part())?;
         let rules = deviation::regions(asked, plan, nominals, reference)?;
         let regions = Regions::new(&rules, reference, &tree, data.seed, progress)
-            .map_err(|e| Stop::Align(e.to_string()).nominal())?;
+            .map_err(|e| Stop::from(NotAligned::Region(e)).of_every_part())?;
         let zones = |face, place: &_| regions.allowed(face, place, asked.tolerance);
         let found =
             into_zones(&measured, &target, &surface, &zones, &fit, &options, progress).map_err(failed)?;
@@ -221,14 +224,13 @@ pub(super) fn by_datums(
     let wrong = |what: String| Stop::Plan { span: span.clone(), what };
     let impossible = |e: DatumError| match Missing::from(e) {
         Missing::Cancelled => Stop::Cancelled,
-        Missing::NotMeasured(what) | Missing::Impossible(what) => {
-            wrong(format!("alignment by datums: {what}"))
-        }
+        missing => wrong(format!("alignment by datums: {missing}")),
     };
     // How a part was made is no fault of the plan, whose nominals make a system.
     let of_part = |missing: Missing| match missing {
         Missing::Cancelled => Stop::Cancelled,
-        Missing::NotMeasured(what) | Missing::Impossible(what) => Stop::Align(what),
+        Missing::NotMeasured(reason) => NotAligned::Datum(reason).into(),
+        Missing::Impossible(reason) => NotAligned::Datums(reason).into(),
     };
     let mut nominals = vec![];
     let mut sources = vec![];

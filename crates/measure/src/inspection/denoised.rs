@@ -3,8 +3,8 @@
 //! Where a distance from the element has a sign, it is the height over the place below; of a line or circle in space the three coordinates
 //! of the way from the element to the point are such heights, one by one.
 
-use super::data::Stop;
 use super::noise_field::Field;
+use super::stop::Stop;
 use super::take::again;
 use crate::characteristic::{Element, Taken};
 use crate::plan::{Noise, Plan};

@@ -1,7 +1,8 @@
 //! Deviations of all that was measured from the reference, as `compare` computes them.
 
-use super::data::{Data, Stop};
+use super::data::Data;
 use super::nominals::Nominals;
+use super::stop::{NominalFault, NotCompared, Stop};
 use crate::compare::{
     self, Between, CompareError, Comparisons, Extent, Facing, Lines, Options, Reference, RegionRule,
     vertex_normals,
@@ -65,7 +66,7 @@ pub(super) fn deviations(
     progress: &dyn Progress,
 ) -> Result<Deviations, Stop> {
     let (Some(measured), Some(reference)) = (&data.measured, data.reference.take()) else {
-        return Err(Stop::Deviation("one of them is not there".into()));
+        return Err(Stop::Deviation(NotCompared::NotThere));
     };
     let mut normals = match asked.needs_normals() {
         None => vec![],
@@ -106,8 +107,8 @@ pub(super) fn deviations(
     let found = compare::run(&mut points, &references, &options, progress, |_| Ok::<(), Infallible>(()));
     let found = found.map_err(|e| match e {
         CompareError::Query(QueryError::Cancelled(e)) => e.into(),
-        e @ CompareError::Reference { .. } => Stop::Nominal(e.to_string()),
-        e => Stop::Deviation(e.to_string()),
+        e @ CompareError::Reference { .. } => Stop::Nominal(NominalFault::Compare(e)),
+        e => Stop::Deviation(NotCompared::Compare(e)),
     })?;
     let kind = match measured {
         Scan::Cloud(_) => MeasuredKind::Points,

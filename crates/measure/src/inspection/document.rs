@@ -4,7 +4,7 @@ use super::decision::{utilization, verdict};
 use super::{Element, Found, Inspection, Taken, Uncertainty, left_out};
 use crate::align::{note, notes_of_rows, notes_of_search};
 use crate::characteristic::{
-    Characteristic, FrameOf, Missing, Place, Question, Spec, Texture, Value, nearest,
+    Characteristic, FrameOf, NoElement, NotMeasured, Place, Question, Spec, Texture, Value, nearest,
 };
 use crate::compare;
 use crate::fit::{named, uncertainty};
@@ -235,7 +235,7 @@ fn feature(plan: &crate::requirement::Feature, taken: &Taken, noise: &NoiseOrRea
         uncertainty_reason: u_reason,
         form_error: fit.map(|f| f.residuals.form_error),
         rms: fit.map(|f| f.residuals.rms),
-        reason: taken.element.as_ref().err().cloned(),
+        reason: taken.element.as_ref().err().map(NoElement::to_string),
         extract,
         dents: (taken.others.dents > 0).then_some(taken.others.dents as u64),
         left_out: left_out_record(taken),
@@ -244,13 +244,13 @@ fn feature(plan: &crate::requirement::Feature, taken: &Taken, noise: &NoiseOrRea
 
 /// Where a feature was measured, and its size.
 fn measured_place(taken: &Taken) -> Option<MeasuredPlace> {
-    let place = taken.middle().or_else(|_| match &taken.element {
-        Ok(Element::Derived(Datum::Axis { point, .. } | Datum::Plane { point, .. })) => Ok(*point),
-        _ => Err(Missing::NotMeasured(String::new())),
+    let place = taken.middle().ok().or(match &taken.element {
+        Ok(Element::Derived(Datum::Axis { point, .. } | Datum::Plane { point, .. })) => Some(*point),
+        _ => None,
     });
     let shape = taken.shape().ok();
     Some(MeasuredPlace {
-        place: place.ok()?,
+        place: place?,
         diameter: shape.and_then(|s| match s {
             Shape::Cylinder { radius, .. }
             | Shape::Sphere { radius, .. }
@@ -346,7 +346,7 @@ fn characteristic(plan: &Plan, found: &Inspection, n: usize) -> CharacteristicRe
     let first = spec.features.first().and_then(|n| found.features[*n].zoned().ok());
     let anchor = measured.and_then(|v| v.witness.first().copied());
     let uncertainty = found.uncertainties[n];
-    let judged = |value: &Result<Value, String>| {
+    let judged = |value: &Result<Value, NotMeasured>| {
         value.as_ref().map_or(Verdict::NotMeasured, |v| {
             verdict(v.value, &spec.limits.widened(v.bonus), rule, uncertainty.map(|u| u.sides))
         })
@@ -382,7 +382,7 @@ fn characteristic(plan: &Plan, found: &Inspection, n: usize) -> CharacteristicRe
         interval: measured.zip(uncertainty).map(|(v, u)| interval(v.value, u, zone)),
         decision_rule: rule.word().into(),
         verdict: own,
-        reason: value.as_ref().err().cloned(),
+        reason: value.as_ref().err().map(NotMeasured::to_string),
         utilization: measured.and_then(|v| utilization(v.value, &limits)),
         witness: measured.map_or(vec![], |v| v.witness.clone()),
         anchor: anchor.or_else(|| first.and_then(|p| p.first().copied())),
@@ -403,7 +403,7 @@ fn characteristic(plan: &Plan, found: &Inspection, n: usize) -> CharacteristicRe
 }
 
 /// What is to be said of a characteristic with another verdict in another pose that fits about as well.
-fn other_pose(value: &Result<Value, String>, verdict: Verdict) -> String {
+fn other_pose(value: &Result<Value, NotMeasured>, verdict: Verdict) -> String {
     let there = match value {
         Ok(v) => format!("the value is {}: {}", left_out::round(v.value), verdict.word()),
         Err(why) => format!("there is no value: {why}"),

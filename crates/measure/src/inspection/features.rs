@@ -1,9 +1,10 @@
 //! The features of a plan in the measured data.
 
-use super::data::{Data, Stop};
+use super::data::Data;
 use super::faces_view::{self, DrawnFace};
 use super::nominals::Nominals;
 use super::parted::Parted;
+use super::stop::Stop;
 use super::{cloud, nearby, take};
 use crate::characteristic::Taken;
 use crate::plan::Plan;

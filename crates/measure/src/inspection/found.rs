@@ -4,7 +4,7 @@ use super::align::Alignment;
 use super::deviation::Deviations;
 use super::faces_view::DrawnFace;
 use super::uncertainty::Uncertainty;
-use crate::characteristic::{Spec, Taken, Value};
+use crate::characteristic::{NotMeasured, Spec, Taken, Value};
 use crate::noise::NoiseOrReason;
 use trueness_document::compare::Warning;
 use trueness_geom::scan::Scan;
@@ -18,12 +18,12 @@ pub struct Inspection {
     /// The features, in the plan's order.
     pub features: Vec<Taken>,
     /// The values of the characteristics, in the plan's order, or why there are none.
-    pub values: Vec<Result<Value, String>>,
+    pub values: Vec<Result<Value, NotMeasured>>,
     /// What each value would be with the points of its features and datums of which it is not certain whose they are; `None`
     /// where there are none.
-    pub with_others: Vec<Option<Result<Value, String>>>,
+    pub with_others: Vec<Option<Result<Value, NotMeasured>>>,
     /// The values in other poses in which the data fit about as well, where the alignment has found such.
-    pub in_other_poses: Vec<Vec<Result<Value, String>>>,
+    pub in_other_poses: Vec<Vec<Result<Value, NotMeasured>>>,
     /// The noise of what was measured, and how far neighbors share it; or why none is told.
     pub noise: NoiseOrReason,
     /// The uncertainty of each value, where the plan states one or the noise of the points.

@@ -1,7 +1,7 @@
 //! What a verdict is worth where a feature leaves points out.
 
 use super::found::Inspection;
-use crate::characteristic::{Others, Spec, Taken, Value};
+use crate::characteristic::{NotMeasured, Others, Spec, Taken, Value};
 use crate::plan::Plan;
 use trueness_document::Verdict;
 
@@ -20,7 +20,7 @@ pub(super) fn judge_left_out(
     found: &Inspection,
     spec: &Spec,
     judged: Verdict,
-    with_others: Option<(&Result<Value, String>, Verdict)>,
+    with_others: Option<(&Result<Value, NotMeasured>, Verdict)>,
 ) -> Judged {
     let mut result = Judged { verdict: judged, notes: vec![] };
     if judged == Verdict::NotMeasured {

@@ -1,6 +1,6 @@
 //! What was measured beside the features of a plan, where no reference tells: elements that a segmentation finds.
 
-use super::data::Stop;
+use super::stop::Stop;
 use crate::plan::Plan;
 use crate::requirement::Feature;
 use std::borrow::Cow;

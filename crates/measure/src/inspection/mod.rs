@@ -26,6 +26,7 @@ mod pose_noise;
 mod readings;
 mod seed;
 mod sides;
+mod stop;
 mod take;
 mod uncertainty;
 mod uncounted;
@@ -38,15 +39,16 @@ mod tests;
 
 pub use crate::characteristic::{Element, LeftOut, Others, Taken};
 pub use align::{Alignment, Found};
-pub use data::{Data, OwnPoints, Stop};
+pub use data::{Data, OwnPoints};
 pub use deviation::Deviations;
 pub use document::document;
 pub use faces_view::DrawnFace;
 pub use found::Inspection;
+pub use stop::{NominalFault, NotAligned, NotCompared, Stop};
 pub use uncertainty::Uncertainty;
 
 use crate::characteristic::Spec;
-use crate::noise::{NoiseOrReason, noise_or_reason};
+use crate::noise::{NoSharedNoise, NoiseOrReason, noise_or_reason};
 use crate::plan::Plan;
 use features::Features;
 use nominals::Nominals;
@@ -78,7 +80,7 @@ pub const STEPS: u64 = 7;
 /// let own = OwnPoints { points, planar: false };
 /// let data = Data { points: [(0, own)].into(), ..Data::default() };
 /// let found = run(&plan, data, &trueness_geom::progress::Silent)?;
-/// let value = found.values[0].as_ref().map_err(String::as_str)?;
+/// let value = found.values[0].as_ref().map_err(Clone::clone)?;
 /// assert!((value.value - 0.02).abs() < 1e-6);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -161,7 +163,7 @@ fn noise(
     progress: &dyn Progress,
 ) -> Result<NoiseOrReason, Stop> {
     let Some(measured) = measured else {
-        return Ok(Err("there is no measured surface: all points are from files of features".into()));
+        return Ok(Err(NoSharedNoise::NoSurface));
     };
     let found = if is_scan { noise::scan(measured, seed, progress) } else { Err(NoNoise::Drawn) };
     Ok(noise_or_reason(found)?)

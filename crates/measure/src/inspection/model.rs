@@ -8,11 +8,11 @@
 //! - numbers that no part could keep, as its feature is sought where the model has it (`extract` of the feature), are refused too;
 //! - what lies between is told with the value.
 
-use super::data::Stop;
 use super::derived::derived;
 use super::nominals::Nominals;
 use super::places::places;
 use super::readings::{Compared, OfModel, compared, fits_otherwise};
+use super::stop::Stop;
 use super::take;
 use crate::characteristic::{Spec, Taken};
 use crate::plan::Plan;

@@ -1,9 +1,10 @@
 //! What lies near a feature that was not measured, but farther off than its extract distance.
 
-use super::data::Stop;
 use super::nominals::Nominals;
 use super::parted::Parted;
+use super::stop::Stop;
 use super::{Taken, take};
+use crate::characteristic::{NoElement, PointsBeyond};
 use crate::plan::Plan;
 use crate::requirement::Source;
 use trueness_geom::feature::{Nearness, in_cloud};
@@ -52,8 +53,9 @@ pub(super) fn tell(
         let places = places.filter_map(|p| scan.points().get(*p as usize));
         let off = |p: &_| Some(nominal.surface()?.distance(*p)?.0.abs());
         let beyond: Vec<f64> = places.filter_map(off).filter(|off| *off > near.distance).collect();
-        if let (Some(told), Err(reason)) = (said(&beyond, &near), &mut features[n].element) {
-            reason.push_str(&told);
+        if let (Some(beyond), Err(reason)) = (points_beyond(&beyond, near.distance), &mut features[n].element)
+        {
+            *reason = NoElement::Beyond { reason: Box::new(reason.clone()), beyond };
             any = true;
         }
     }
@@ -64,17 +66,11 @@ pub(super) fn tell(
     Ok(())
 }
 
-/// How many points lie so far off; `None` where there are none.
-fn said(beyond: &[f64], near: &Nearness) -> Option<String> {
-    let least = beyond.iter().copied().min_by(f64::total_cmp)?;
-    let most = beyond.iter().copied().max_by(f64::total_cmp)?;
-    let points = if beyond.len() == 1 { "point lies" } else { "points lie" };
-    Some(format!(
-        "; {} {points} {least:.3} to {most:.3} mm off its place, farther than the `distance` of {:.3} mm in its `extract`: a larger \
-         one judges them",
-        beyond.len(),
-        near.distance
-    ))
+/// How many points lie so far off, beyond `limit`; `None` where there are none.
+fn points_beyond(off: &[f64], limit: f64) -> Option<PointsBeyond> {
+    let nearest = off.iter().copied().min_by(f64::total_cmp)?;
+    let farthest = off.iter().copied().max_by(f64::total_cmp)?;
+    Some(PointsBeyond { count: off.len(), nearest, farthest, limit })
 }
 
 #[cfg(test)]
@@ -96,7 +92,7 @@ mod tests {
                 }
                 let found =
                     run(&plan, Data { measured: Some(mesh.into()), ..Data::default() }, &Silent).unwrap();
-                let reason = |n: usize| found.features[n].element.as_ref().err().cloned();
+                let reason = |n: usize| found.features[n].element.as_ref().err().map(ToString::to_string);
                 assert_eq!(found.values[0].as_ref().err().is_some(), reason(0).is_some());
                 [0, 1].map(reason)
             };

@@ -1,7 +1,8 @@
 //! What is known of a plan's features before anything is measured: their nominals, and the faces of the reference that they are.
 
-use super::data::{Data, Stop};
+use super::data::Data;
 use super::seed::{self, Seeded};
+use super::stop::{NominalFault, Stop};
 use crate::plan::Plan;
 use crate::requirement::Feature;
 use std::collections::BTreeMap;
@@ -49,7 +50,7 @@ impl Nominals {
         };
         let faces = Faces::of(reference, progress).map_err(|e| match e {
             SegmentError::Cancelled(e) => e.into(),
-            e => Stop::Nominal(format!("the reference cannot be cut into faces: {e}")),
+            e => Stop::Nominal(NominalFault::Faces(e)),
         })?;
         nominals.seeds = seed::seeded(plan, reference, &faces, progress)?;
         for (number, feature) in plan.features.iter().enumerate() {

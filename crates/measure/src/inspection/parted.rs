@@ -1,8 +1,8 @@
 //! The measured data parted among faces, and what of them is of a feature.
 
-use super::data::Stop;
 use super::measured;
 use super::nominals::{Nominals, OwnFaces};
+use super::stop::{NominalFault, Stop};
 use crate::characteristic::{LeftOut, Others};
 use crate::plan::Plan;
 use std::collections::BTreeMap;
@@ -89,8 +89,10 @@ impl<'a> Parted<'a> {
         let options = Options { distance, reaches, seed };
         let partition = partition(scan, &faces, &options, progress).map_err(|e| match e {
             PartitionError::Cancelled(e) => e.into(),
-            e @ (PartitionError::Nominal(_) | PartitionError::Reach { .. }) => Stop::Nominal(e.to_string()),
-            e => Stop::Mesh(e.to_string()),
+            e @ (PartitionError::Nominal(_) | PartitionError::Reach { .. }) => {
+                Stop::Nominal(NominalFault::Partition(e))
+            }
+            e => Stop::Mesh(e),
         })?;
         let of_faces = |labels: &[u32]| {
             let mut all = vec![vec![]; faces.len()];

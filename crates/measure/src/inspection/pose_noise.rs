@@ -5,8 +5,9 @@
 //! the plan gives, by itself or by pairs and reference points, has no noise: the plan says none of it.
 
 use super::align::{Found, by_datums};
-use super::data::{Data, Stop};
+use super::data::Data;
 use super::noise_field::{Field, Source, parts};
+use super::stop::{NominalFault, Stop};
 use super::{Alignment, Taken};
 use crate::plan::{Align, Noise, Plan};
 use std::collections::{BTreeMap, HashSet};
@@ -55,7 +56,8 @@ impl PoseNoise {
         else {
             return Ok(PoseNoise::None);
         };
-        let tree = Tree::build_watched(reference, progress).map_err(|e| Stop::Nominal(e.to_string()))?;
+        let tree =
+            Tree::build_watched(reference, progress).map_err(|e| Stop::Nominal(NominalFault::Search(e)))?;
         let options = BestFit { seed: data.seed, ..BestFit::default() };
         let found =
             response(&Measured::from(measured), &Target::new(reference, &tree), fit, &options, progress);

@@ -1,6 +1,6 @@
 //! Other readings of a plan's numbers, held against the model.
 
-use super::data::Stop;
+use super::stop::Stop;
 use super::wrong_numbers::{Place, Said, angle_text, other_text, place_text, sizes_text};
 use crate::characteristic::{Characteristic, Measuring, Missing, Size, Spec, Taken};
 use crate::plan::Plan;
@@ -62,7 +62,7 @@ pub(super) fn compared(of: &OfModel) -> Result<Compared, Stop> {
     }
     let value = own.as_ref().copied().unwrap_or(f64::INFINITY);
     let wrong = |what: String| Err(Stop::Plan { span: span.clone(), what });
-    let why = own.as_ref().err().cloned();
+    let why = own.as_ref().err().map(Missing::to_string);
     if of.spec.basic.angle.is_some() {
         let other =
             other_angles(of.spec.basic).into_iter().find(|b| of.value(*b).is_ok_and(|v| v <= rounded));
@@ -91,7 +91,7 @@ pub(super) fn compared(of: &OfModel) -> Result<Compared, Stop> {
 
 impl OfModel<'_> {
     /// The value of the model by these exact dimensions, or why there is none. A material requirement does not move the true place.
-    fn value(&self, basic: Basic) -> Result<f64, String> {
+    fn value(&self, basic: Basic) -> Result<f64, Missing> {
         let mut spec = Spec { basic, material: None, boundary: None, ..self.spec.clone() };
         for datum in &mut spec.datums {
             (datum.material, datum.boundary) = (None, None);
@@ -99,10 +99,7 @@ impl OfModel<'_> {
         if self.spec.kind.word() == Size.word() {
             spec.size = Some(SizeWord::Gg);
         }
-        spec.kind.measure(&self.measuring(&spec)).map(|v| v.value).map_err(|missing| match missing {
-            Missing::NotMeasured(what) | Missing::Impossible(what) => what,
-            Missing::Cancelled => "cancelled".into(),
-        })
+        spec.kind.measure(&self.measuring(&spec)).map(|v| v.value)
     }
 
     /// The datum system on the model; `None` where it leaves motions free: then no place has coordinates of its own.

@@ -1,6 +1,6 @@
 //! Tolerance classes on features whose side of the material is known.
 
-use super::data::Stop;
+use super::stop::Stop;
 use crate::characteristic::{Characteristic, Size, Spec, Taken};
 use crate::plan::Plan;
 use trueness_document::tolerance_class::wrong_side;

@@ -1,11 +1,12 @@
 //! Taking the features of a plan from the measured data.
 
-use super::data::{Data, Stop};
+use super::data::Data;
 use super::derived::derived;
 use super::edge;
 use super::nominals::Nominals;
 use super::parted::{OfFeature, Parted};
-use crate::characteristic::{Element, Others, Taken};
+use super::stop::Stop;
+use crate::characteristic::{Element, NoElement, Others, Taken};
 use crate::plan::Plan;
 use crate::requirement::{Feature, Source};
 use trueness_document::plan::Class;
@@ -151,7 +152,7 @@ pub(super) fn bare(feature: &Feature) -> Taken {
         coverage: None,
         left_out: None,
         others: Others::default(),
-        element: Err("it was not measured".into()),
+        element: Err(NoElement::NotSought),
     }
 }
 
@@ -215,16 +216,16 @@ fn areas(scan: &Scan, found: &Found) -> Vec<f64> {
     areas
 }
 
-/// Why no point is of a feature that is sought.
-fn nothing(taken: &Taken, feature: &Feature) -> String {
-    let edge = taken.others.edge;
-    if edge > 0 {
-        return format!(
-            "all of its points ({edge}) lie on edges, as far as the scan rounds these; measure it more densely"
-        );
+/// Why no point is of a feature.
+fn no_points(taken: &Taken, feature: &Feature) -> NoElement {
+    match (&feature.source, taken.others.edge) {
+        (Source::Nominal | Source::Seed(_), _) if !taken.facets.is_empty() => NoElement::OnRim,
+        (Source::Nominal | Source::Seed(_), 0) => {
+            NoElement::NotThere { has_margin: feature.extract.has_margin() }
+        }
+        (Source::Nominal | Source::Seed(_), points) => NoElement::OnRoundedEdges { points },
+        (Source::Points(_) | Source::Derived { .. }, _) => NoElement::EmptyFile,
     }
-    let margin = if feature.extract.has_margin() { ", or its margin leaves nothing of it" } else { "" };
-    format!("nothing was measured where the model has it{margin}")
 }
 
 /// The feature with the element of its points, or the reason why it has none.
@@ -234,21 +235,12 @@ pub(super) fn associated(
     progress: &dyn Progress,
 ) -> Result<Taken, Stop> {
     if taken.points.is_empty() {
-        taken.element = Err(match feature.source {
-            Source::Nominal | Source::Seed(_) if !taken.facets.is_empty() => {
-                "all of its vertices lie on edges, which rim = false leaves out".into()
-            }
-            Source::Nominal | Source::Seed(_) => nothing(&taken, feature),
-            _ => "its file has no points".into(),
-        });
+        taken.element = Err(no_points(&taken, feature));
         return Ok(taken);
     }
-    if let Some(share) = taken.coverage.filter(|share| *share < feature.extract.coverage) {
-        taken.element = Err(format!(
-            "only {:.1} % of its nominal area was measured, less than {:.1} %",
-            100.0 * share,
-            100.0 * feature.extract.coverage
-        ));
+    let required = feature.extract.coverage;
+    if let Some(share) = taken.coverage.filter(|share| *share < required) {
+        taken.element = Err(NoElement::Coverage { share, required });
         return Ok(taken);
     }
     let kind = match taken.class {
@@ -272,11 +264,7 @@ pub(super) fn associated(
         Ok(fit) => {
             let turned = fit.shape.direction().zip(along).map(|(is, (shall, _))| dot(is, shall).abs());
             match turned.map(|cosine| libm::acos(cosine.min(1.0))).filter(|angle| *angle > TURNED) {
-                Some(angle) => Err(format!(
-                    "the {} through its points lies at {:.0}° to the nominal one: they do not determine it; measure more of its surface",
-                    kind.name(),
-                    angle.to_degrees()
-                )),
+                Some(angle) => Err(NoElement::Turned { kind, angle }),
                 None => Ok(Element::Fit(Box::new(fit))),
             }
         }
@@ -285,7 +273,7 @@ pub(super) fn associated(
             let what = format!("feature \"{}\": {e}", feature.id);
             return Err(Stop::Plan { span: feature.span.clone(), what });
         }
-        Err(e) => Err(e.to_string()),
+        Err(e) => Err(NoElement::Fit(e)),
     };
     Ok(taken)
 }
@@ -336,7 +324,7 @@ mod tests {
             [0.627, -5.966, 14.999],
         ];
         let eight = [&six[..], &[[6.0, 0.0, 10.0], [0.0, 6.0, 10.0]]].concat();
-        let why = value(&six).unwrap_err();
+        let why = value(&six).unwrap_err().to_string();
         assert!(why.contains("they do not determine it"), "{why}");
         assert!((value(&eight).unwrap() - 12.0).abs() < 0.006);
     }

@@ -17,13 +17,14 @@
 //!   least by some of the noise left in the form, whose extremes may stand out too little too.
 
 use super::Alignment;
-use super::data::{Data, Stop};
+use super::data::Data;
 use super::denoised::{Unknown, denoised};
 use super::measure::measured;
 use super::noise_field::Field;
 use super::pose_noise::PoseNoise;
+use super::stop::Stop;
 use super::take::again;
-use crate::characteristic::{Element, Spec, Taken, Value};
+use crate::characteristic::{Element, Spec, Taken};
 use crate::noise::NoiseOrReason;
 use crate::plan::{Noise, Plan};
 use crate::requirement::Limits;
@@ -241,8 +242,7 @@ impl Draws<'_> {
         };
         let features = again(self.plan, &moved, carried, self.progress)?;
         let value = |spec: &Spec| measured(spec, &features, self.progress);
-        let values =
-            self.plan.specs.iter().map(value).collect::<Result<Vec<Result<Value, String>>, Stop>>()?;
+        let values = self.plan.specs.iter().map(value).collect::<Result<Vec<_>, Stop>>()?;
         Ok(values.into_iter().map(|v| v.ok().map(|v| v.value)).collect())
     }
 }

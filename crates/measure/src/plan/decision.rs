@@ -1,8 +1,8 @@
 //! How verdicts are reached.
 
 use super::checker::Checker;
+use crate::noise::{NoSharedNoise, NoiseOrReason};
 use trueness_document::plan::{At, DecisionText, NoiseText, NoiseWord, PlanError, PlanText, RuleWord};
-use trueness_geom::noise;
 
 /// How verdicts are reached.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,7 +32,7 @@ impl NoiseSource {
     ///
     /// # Errors
     /// Why nothing was found there.
-    pub fn noise<'a>(&self, found: &'a Result<noise::Noise, String>) -> Result<Noise, &'a str> {
+    pub fn noise<'a>(&self, found: &'a NoiseOrReason) -> Result<Noise, &'a NoSharedNoise> {
         match (self, found) {
             (NoiseSource::Stated(noise), _) => Ok(*noise),
             (NoiseSource::Measured { draws }, Ok(found)) => Ok(Noise {

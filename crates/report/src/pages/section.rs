@@ -24,8 +24,8 @@ use crate::subject::{Drawn, Head, Pick, Subject};
 use crate::{Up, ViewObject};
 use maud::{Markup, html};
 use serde_json::Value;
-use trueness_document::Verdict;
 use trueness_document::section::{ContourRecord, SectionDocument, Taken};
+use trueness_document::{ResultDocument, Verdict};
 
 impl Subject for SectionDocument {
     fn head(&self) -> Head<'_> {

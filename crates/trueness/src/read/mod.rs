@@ -313,16 +313,6 @@ fn table(reading: &TableReading) -> TableRecord {
     }
 }
 
-/// What there is to say about how the inputs were taken, a line each: tables of text, and what was odd.
-pub fn notes(inputs: &[InputRecord]) -> String {
-    let of = |input: &InputRecord| {
-        let reading = input.reading().map(|r| format!("{}: {r}\n", input.path));
-        let warnings = input.warnings.iter().map(|w| format!("! {w}\n"));
-        reading.into_iter().chain(warnings).collect::<String>()
-    };
-    inputs.iter().map(of).collect()
-}
-
 /// Fills in the hash of a file as it lies on disk.
 ///
 /// The name in the record is for people: bytes in it that are no text are replaced, so the file is found by `path`.

@@ -188,7 +188,7 @@ impl Request for AlignRequest {
     type Document = AlignDocument;
     const COMMAND: &'static str = "align";
 
-    fn files(&self) -> Result<RunFiles, TaskError> {
+    fn files(&self, _: &dyn Sources) -> Result<RunFiles, TaskError> {
         let tables = self.points.iter().chain(&self.regions);
         Ok(RunFiles::of([&self.measured, &self.reference].into_iter().chain(tables))
             .also("--out", self.out.as_ref()))
@@ -214,8 +214,7 @@ impl Request for AlignRequest {
             None => self.best_fit((&measured.scan, &reference.mesh), records, (sources, watch))?,
         };
         let motion = Rigid::from_matrix(document.motion()).meaning(|| "the motion found".into())?;
-        let conforms = document.conforms();
-        let mut done = Done::new(document, conforms);
+        let mut done = Done::new(document);
         if let Some(path) = &self.out {
             let (output, loss) = measured.write(path, done.document.scale.unwrap_or(1.0), &motion)?;
             done.outputs.push(output);

@@ -117,7 +117,7 @@ impl Request for CurvatureRequest {
     type Document = CurvatureDocument;
     const COMMAND: &'static str = "curvature";
 
-    fn files(&self) -> Result<RunFiles, TaskError> {
+    fn files(&self, _: &dyn Sources) -> Result<RunFiles, TaskError> {
         Ok(RunFiles::of([&self.input]).out(self.out.as_ref(), Writable::Values))
     }
 
@@ -160,7 +160,7 @@ impl Request for CurvatureRequest {
         let write = |path: &PathBuf| write(path, &scan, &found, &document, self.color.into());
         let output = self.out.as_ref().map(write).transpose()?;
         let scene = self.view.then(|| Box::new(Curved { scan, found }) as Box<dyn Scene<CurvatureDocument>>);
-        Ok(Done { scene, outputs: output.into_iter().collect(), ..Done::new(document, true) })
+        Ok(Done { scene, outputs: output.into_iter().collect(), ..Done::new(document) })
     }
 }
 

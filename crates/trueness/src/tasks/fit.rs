@@ -33,10 +33,19 @@ choices! {
 
 impl Element {
     /// The kind of shape: in the plane where the points are and there is such, else as there is one.
-    fn kind(self, planar: bool) -> Result<Kind, TaskError> {
-        let name = self.word();
-        let known = Kind::named(name, planar).or_else(|| Kind::named(name, !planar));
-        known.ok_or_else(|| TaskError::usage(format!("--shape {name} is not known")))
+    fn kind(self, planar: bool) -> Kind {
+        match (self, planar) {
+            (Element::Line, true) => Kind::Line2,
+            (Element::Line, false) => Kind::Line,
+            (Element::Plane, _) => Kind::Plane,
+            (Element::Circle, true) => Kind::Circle2,
+            (Element::Circle, false) => Kind::Circle,
+            (Element::Ellipse, _) => Kind::Ellipse2,
+            (Element::Sphere, _) => Kind::Sphere,
+            (Element::Cylinder, _) => Kind::Cylinder,
+            (Element::Cone, _) => Kind::Cone,
+            (Element::Torus, _) => Kind::Torus,
+        }
     }
 }
 
@@ -101,7 +110,7 @@ impl Request for FitRequest {
     type Document = FitDocument;
     const COMMAND: &'static str = "fit";
 
-    fn files(&self) -> Result<RunFiles, TaskError> {
+    fn files(&self, _: &dyn Sources) -> Result<RunFiles, TaskError> {
         Ok(RunFiles::of([&self.points]))
     }
 
@@ -118,7 +127,7 @@ impl Request for FitRequest {
         read::hash(sources, &mut record, &self.points)?;
         let options = Options { method: self.method.into(), start: None, seed: self.seed };
         let stage = watch.stage("fitting", "points", Some(points.len() as u64));
-        let fit = fit::fit(points, element.kind(planar)?, &options, &*stage);
+        let fit = fit::fit(points, element.kind(planar), &options, &*stage);
         let fit = ended(stage, fit).map_err(|e| match e {
             FitError::Cancelled => Cancelled.into(),
             e @ FitError::NoSuchMethod { .. } => TaskError::usage(e.to_string()),
@@ -130,7 +139,7 @@ impl Request for FitRequest {
         let document = trueness_measure::fit::document(&fit, &noise, points, vec![record], self.seed);
         let drawn = || Fitted { shape: fit.shape, points: scan.into_points() };
         let scene = self.view.then(|| Box::new(drawn()) as Box<dyn Scene<FitDocument>>);
-        Ok(Done { scene, ..Done::new(document, true) })
+        Ok(Done { scene, ..Done::new(document) })
     }
 }
 
@@ -163,7 +172,11 @@ mod tests {
         let words: Vec<&str> = Element::ALL.iter().map(|(_, word, _)| *word).collect();
         assert_eq!(words, names);
         for (element, word, about) in Element::ALL {
-            assert_eq!(element.kind(true).unwrap().name(), *word);
+            for planar in [false, true] {
+                let kind = element.kind(planar);
+                assert_eq!(kind.name(), *word);
+                assert_eq!(Some(kind), Kind::named(word, planar).or(Kind::named(word, !planar)));
+            }
             assert_eq!(about.is_empty(), Kind::named(word, false).is_some(), "{word}");
         }
     }

@@ -31,6 +31,18 @@ choices! {
     }
 }
 
+impl From<Element> for Kind {
+    fn from(element: Element) -> Kind {
+        match element {
+            Element::Plane => Kind::Plane,
+            Element::Cylinder => Kind::Cylinder,
+            Element::Cone => Kind::Cone,
+            Element::Sphere => Kind::Sphere,
+            Element::Torus => Kind::Torus,
+        }
+    }
+}
+
 /// What a segmentation is asked.
 ///
 /// ```
@@ -94,7 +106,7 @@ impl Default for SegmentRequest {
 impl SegmentRequest {
     fn options(&self) -> Options {
         Options {
-            kinds: self.shapes.iter().filter_map(|element| Kind::named(element.word(), false)).collect(),
+            kinds: self.shapes.iter().copied().map(Kind::from).collect(),
             tolerance: self.tolerance,
             crease: self.crease.to_radians(),
             min_share: self.min_share.map(|percent| percent / 100.0),
@@ -108,7 +120,7 @@ impl Request for SegmentRequest {
     type Document = SegmentDocument;
     const COMMAND: &'static str = "segment";
 
-    fn files(&self) -> Result<RunFiles, TaskError> {
+    fn files(&self, _: &dyn Sources) -> Result<RunFiles, TaskError> {
         Ok(RunFiles::of([&self.input]).out(self.out.as_ref(), Writable::Regions))
     }
 
@@ -149,7 +161,7 @@ impl Request for SegmentRequest {
             trueness_measure::segment::document(&found, &noise, kind, vec![record], &options, members);
         let drawn = || Segmented { scan, labels: found.labels };
         let scene = self.view.then(|| Box::new(drawn()) as Box<dyn Scene<SegmentDocument>>);
-        Ok(Done { scene, outputs: output.into_iter().collect(), ..Done::new(document, true) })
+        Ok(Done { scene, outputs: output.into_iter().collect(), ..Done::new(document) })
     }
 }
 

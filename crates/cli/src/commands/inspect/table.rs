@@ -2,10 +2,10 @@
 
 use super::features;
 use crate::commands::compare::{along, coverage, outliers, regions};
+use crate::inputs;
 use crate::layout::{self, names, sentence};
 use crate::number::{POINTS, counted, fixed, grouped, scientific, short, short_signed, six_digits};
 use std::fmt::Write;
-use trueness::read;
 use trueness::tasks::inspect::Part;
 use trueness_document::Verdict;
 use trueness_document::compare::Comparison;
@@ -23,7 +23,7 @@ pub fn table(part: &Part, one_of_several: bool, verbose: bool) -> String {
 
 /// The document for people; `part` is what one of several parts is called.
 fn inspected(document: &InspectDocument, part: Option<&str>, verbose: bool) -> String {
-    let mut out = read::notes(&document.inputs);
+    let mut out = inputs::notes(&document.inputs);
     let heading: Vec<&str> = document.title.as_deref().into_iter().chain(part).collect();
     if !heading.is_empty() {
         let _ = writeln!(out, "{}", heading.join("   "));

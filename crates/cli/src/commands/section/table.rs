@@ -4,10 +4,10 @@ mod blade;
 mod fitted;
 mod offers;
 
+use crate::inputs;
 use crate::number::{fixed, grouped, scientific};
 use crate::{console, noise};
 use std::fmt::Write;
-use trueness::read;
 use trueness_document::section::{
     AirfoilMeasures, AirfoilRecord, BEYOND_END, ContourRecord, DimensionsRecord, FrameRecord, GeometryRecord,
     MAX_DISTANCE, MethodsRecord, NominalRecord, OutlineRecord, Positive, SectionDocument, SegmentRecord,
@@ -22,7 +22,7 @@ const CONTOURS: usize = 40;
 
 /// The document as text.
 pub fn table(document: &SectionDocument) -> String {
-    let mut out = read::notes(&document.inputs);
+    let mut out = inputs::notes(&document.inputs);
     out.push_str(&noise::line(document.shared_noise.as_ref()));
     let mut plane = None;
     if document.planes.is_empty() && document.frame.is_in_space() {

@@ -4,7 +4,7 @@ mod knots;
 mod models;
 mod request;
 
-pub use request::{Base, Gap, MAX_CORRECTIONS, Pair, SurfaceRequest, Weight};
+pub use request::{Base, Gap, MAX_CORRECTIONS, NoGap, NoPair, NoWeight, Pair, SurfaceRequest, Weight};
 
 use crate::read::{self, Opened};
 use crate::task::{Done, Request, RunFiles, STEPS, Scene, TaskError, Watch};
@@ -43,7 +43,7 @@ impl Request for SurfaceRequest {
     type Document = SurfaceDocument;
     const COMMAND: &'static str = "surface";
 
-    fn files(&self) -> Result<RunFiles, TaskError> {
+    fn files(&self, _: &dyn Sources) -> Result<RunFiles, TaskError> {
         self.check()?;
         Ok(RunFiles::of(std::iter::once(&self.points).chain(&self.knots))
             .ending("--step", self.step.as_ref(), &["stp", "step"])
@@ -94,10 +94,9 @@ impl Request for SurfaceRequest {
         let stage = watch.stage("writing the surface", STEPS, None);
         let outputs = models::write(self, &fit.surface, outline.as_ref(), &*stage)?;
         drop(stage);
-        let conforms = document.conforms();
         let drawn = || Fitted { fit, outline, points: scan.into_points() };
         let scene = self.view.then(|| Box::new(drawn()) as Box<dyn Scene<SurfaceDocument>>);
-        Ok(Done { scene, outputs, ..Done::new(document, conforms) })
+        Ok(Done { scene, outputs, ..Done::new(document) })
     }
 }
 
