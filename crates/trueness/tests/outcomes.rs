@@ -1,5 +1,5 @@
 //! A result document that is read back says the outcome of the one that was written.
-#![allow(clippy::unwrap_used, reason = "a test may stop")]
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test may stop")]
 
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
@@ -32,7 +32,8 @@ where
     let request: R = serde_json::from_value(asked).unwrap();
     let done = request.run(sources, &Silent).unwrap();
     let text = done.json().unwrap();
-    let read: R::Document = serde_json::from_str(&text).unwrap();
+    let read = serde_json::from_str(&text);
+    let read: R::Document = read.unwrap_or_else(|e| panic!("{}: {e}: {text}", R::COMMAND));
     assert_eq!(Outcome::from(read.conforms()), done.outcome, "{}: {text}", R::COMMAND);
     (R::COMMAND, done.outcome, text)
 }
@@ -55,13 +56,21 @@ fn trend(results: [String; 3]) -> (&'static str, Outcome, String) {
     read_back::<TrendRequest>(json!({"results": ["part-1.json", "part-2.json", "part-3.json"]}), &sources)
 }
 
-/// Points of z = x y / 100 over 30 by 30, each 0.5 from the next; `height` times as high.
-fn sheet(height: f64) -> MemorySources {
+/// Points of z = x y / 100 over 30 by 30, each 0.5 from the next.
+fn sheet() -> MemorySources {
     let point = |k: u32| {
         let (x, y) = (0.5 * f64::from(k % 60), 0.5 * f64::from(k / 60));
-        format!("{x} {y} {}\n", height * x * y / 100.0)
+        format!("{x} {y} {}\n", x * y / 100.0)
     };
     [("sheet.xyz", (0..3600).map(point).collect::<String>())].into_iter().collect()
+}
+
+/// Points strewn over a square at z = 0, and a row of points beside it at z = 5.
+fn floor_and_row() -> MemorySources {
+    let spread = |k: u32, by: f64| 30.0 * (f64::from(k) * by).fract();
+    let floor = (1..3000).map(|k| format!("{} {} 0\n", spread(k, 0.754_877_666), spread(k, 0.569_840_291)));
+    let row = (0..60).map(|k| format!("50 {} 5\n", 0.5 * f64::from(k)));
+    [("strewn.xyz", floor.chain(row).collect::<String>())].into_iter().collect()
 }
 
 #[test]
@@ -76,7 +85,7 @@ fn a_document_says_the_same_when_it_is_read_back() {
     let fails = inspected(0.001);
     let passes = inspected(0.05);
     let (passed, failed) = (|| passes.2.clone(), fails.2.clone());
-    let slab = json!({"input": "sheet.xyz", "plane": [[0.0, 0.0, 1.0, 0.0], [1.0, 0.0, 0.0, 7.0]], "thickness": 0.6});
+    let slab = json!({"input": "strewn.xyz", "plane": [[0.0, 0.0, 1.0, 0.0], [1.0, 0.0, 0.0, 50.0]], "thickness": 1});
     let corner = json!({"input": CUBE, "plane": [[0.0, 0.0, 1.0, 0.25]]});
     let all = [
         (read_back::<CheckRequest>(json!({"mesh": CUBE}), &FileSources), true),
@@ -92,14 +101,14 @@ fn a_document_says_the_same_when_it_is_read_back() {
             false,
         ),
         (read_back::<AlignRequest>(json!({"measured": FINE, "reference": COARSE}), &FileSources), true),
-        (read_back::<FitRequest>(json!({"points": "sheet.xyz", "shape": "plane"}), &sheet(1.0)), true),
+        (read_back::<FitRequest>(json!({"points": "sheet.xyz", "shape": "plane"}), &sheet()), true),
         (read_back::<SegmentRequest>(json!({"input": CUBE}), &FileSources), true),
         (read_back::<CurvatureRequest>(json!({"input": COARSE}), &FileSources), true),
-        (read_back::<SurfaceRequest>(json!({"points": "sheet.xyz"}), &sheet(1.0)), true),
+        (read_back::<SurfaceRequest>(json!({"points": "sheet.xyz"}), &sheet()), true),
         (read_back::<SurfaceRequest>(json!({"points": COARSE, "spans": "4x4"}), &FileSources), false),
         (read_back::<SectionRequest>(corner, &FileSources), true),
-        // The first slab lies in the sheet, the second holds a row of it.
-        (read_back::<SectionRequest>(slab, &sheet(0.0)), false),
+        // The first slab lies in the floor.
+        (read_back::<SectionRequest>(slab, &floor_and_row()), false),
         (trend([passed(), passed(), passed()]), true),
         (trend([passed(), passed(), failed]), false),
         (passes.clone(), true),

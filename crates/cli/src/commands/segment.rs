@@ -107,13 +107,13 @@ impl Run for SegmentArgs {
 }
 
 /// Rows of the table.
-const ROWS: usize = 60;
+const MAX_REGION_ROWS: usize = 60;
 
 /// The document for people.
 fn table(document: &SegmentDocument) -> String {
     let head = ["region", "shape", "size", "share", "points", "rms", "max"];
     let mut rows = vec![head.map(String::from).to_vec()];
-    for region in document.regions.iter().take(ROWS) {
+    for region in document.regions.iter().take(MAX_REGION_ROWS) {
         rows.push(vec![
             region.number.to_string(),
             region.shape.to_string(),
@@ -126,8 +126,8 @@ fn table(document: &SegmentDocument) -> String {
     }
     let mut out = inputs::notes(&document.inputs);
     out.push_str(&console::columns(&rows));
-    if document.regions.len() > ROWS {
-        let _ = writeln!(out, "… and {} more", document.regions.len() - ROWS);
+    if document.regions.len() > MAX_REGION_ROWS {
+        let _ = writeln!(out, "… and {} more", document.regions.len() - MAX_REGION_ROWS);
     }
     let what = match document.pieces {
         PieceKind::Facets => FACETS,

@@ -1,6 +1,6 @@
 //! Coaxiality and concentricity: ISO 1101:2017, 17.14. ASME Y14.5-2018 has position instead.
 
-use super::kind::{AXES, Characteristic, Measuring, Question, Refusal};
+use super::kind::{Characteristic, Measuring, Question, Refusal, WITH_AXIS};
 use super::located::single;
 use super::reason::Impossible;
 use super::value::{Missing, Value};
@@ -31,7 +31,7 @@ impl Characteristic for Coaxiality {
     }
     fn check(&self, q: &Question) -> Result<(), Refusal> {
         q.class(&[Class::Line, Class::Cylinder, Class::Cone, Class::Circle, Class::Sphere, Class::Point])?;
-        q.datum(&AXES).map(|_| ())
+        q.datum(&WITH_AXIS).map(|_| ())
     }
     fn measure(&self, m: &Measuring) -> Result<Value, Missing> {
         let Datum::Axis { point, direction } = single(m)? else {

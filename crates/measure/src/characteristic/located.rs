@@ -1,8 +1,8 @@
 //! The datum system of a characteristic, from the measured datum features.
 
 use super::kind::Measuring;
+use super::measured_feature::MeasuredFeature;
 use super::reason::{Impossible, NotMeasured};
-use super::taken::Taken;
 use super::value::Missing;
 use trueness_document::plan::Class;
 use trueness_geom::fit::Method;
@@ -78,8 +78,11 @@ fn faced(m: &Measuring, system: System) -> Result<System, DatumError> {
 
 /// The points of a datum feature. A plane that does not say where its material is has it on the side of the toleranced
 /// feature.
-pub fn datum_source<'a>(datum: &'a Taken, toleranced: &Taken) -> Result<Source<'a>, Missing> {
-    let points = datum.taken()?;
+pub fn datum_source<'a>(
+    datum: &'a MeasuredFeature,
+    toleranced: &MeasuredFeature,
+) -> Result<Source<'a>, Missing> {
+    let points = datum.own_points()?;
     let kind = match datum.class {
         Class::Plane => Kind::Plane,
         Class::Cylinder => Kind::Cylinder,

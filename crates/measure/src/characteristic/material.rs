@@ -23,8 +23,8 @@
 
 use super::kind::Measuring;
 use super::located::{frame, system};
+use super::measured_feature::MeasuredFeature;
 use super::reason::{Impossible, NotMeasured};
-use super::taken::Taken;
 use super::value::{Missing, Value};
 use crate::requirement::Boundary;
 use trueness_geom::fit::Method;
@@ -37,7 +37,7 @@ use trueness_geom::zone::motion::{Placed, Search, placed};
 /// Halvings of the search with a shifting datum: the answer's bounds then differ by nothing that shows.
 const HALVINGS: usize = 48;
 /// Millimeters by which rounding alone may put the datum's surface beyond its boundary.
-const ROUNDING: f64 = 1e-9;
+const BOUNDARY_ROUNDING: f64 = 1e-9;
 
 /// A straight line in the frame's coordinates.
 #[derive(Clone, Copy)]
@@ -68,7 +68,7 @@ struct Surface<'a> {
 impl<'a> Surface<'a> {
     /// Of a feature whose points `start` takes to the frame's coordinates. The search may turn the part by little from there.
     fn new(
-        feature: &'a Taken,
+        feature: &'a MeasuredFeature,
         boundary: Boundary,
         start: &Rigid,
         m: &Measuring,
@@ -78,7 +78,7 @@ impl<'a> Surface<'a> {
             return Err(NotMeasured::NoAxis.into());
         };
         let own = Axis { point, direction };
-        let points = feature.taken()?;
+        let points = feature.own_points()?;
         let outward = points.iter().map(|p| start.vector(own.radial(*p).1)).collect();
         Ok(Surface { points, outward, boundary })
     }
@@ -230,12 +230,12 @@ fn with_bonus(mut value: Value, spare: f64, boundary: Boundary, m: &Measuring) -
 }
 
 /// Diameter of the smallest cylinder around a feature, or of the largest within it.
-fn mating(feature: &Taken, around: bool, m: &Measuring) -> Result<f64, Missing> {
+fn mating(feature: &MeasuredFeature, around: bool, m: &Measuring) -> Result<f64, Missing> {
     diameter(feature, if around { Method::MinimumCircumscribed } else { Method::MaximumInscribed }, m)
 }
 
 /// Diameter of the cylinder associated with a feature.
-fn diameter(feature: &Taken, method: Method, m: &Measuring) -> Result<f64, Missing> {
+fn diameter(feature: &MeasuredFeature, method: Method, m: &Measuring) -> Result<f64, Missing> {
     match feature.refitted(Kind::Cylinder, method, m.progress)?.shape {
         Shape::Cylinder { radius, .. } => Ok(2.0 * radius),
         _ => Err(NotMeasured::NoDiameter.into()),
@@ -255,7 +255,7 @@ impl Shift<'_> {
     ///
     /// With the greatest distance `w` allowed, the least over all motions of the greater of what the feature is beyond `w` and
     /// what the datum is beyond its boundary falls as `w` grows; where it comes to 0 is the answer.
-    fn best(&self, start: Rigid, free: Freedom, feature: &Taken) -> Result<Placed, Missing> {
+    fn best(&self, start: Rigid, free: Freedom, feature: &MeasuredFeature) -> Result<Placed, Missing> {
         let own = self.asked.points();
         let (none, z) = ([0.0; 3], [0.0, 0.0, 1.0]);
         let about = Axis { point: none, direction: z };
@@ -264,7 +264,7 @@ impl Shift<'_> {
         // Where the datum has the most room.
         let alone = |i: usize, p: Point| Some(datum(i, p));
         let gauged = placed(self.datum.points, &alone, &search(start), self.m.progress)?;
-        if gauged.half > ROUNDING {
+        if gauged.half > BOUNDARY_ROUNDING {
             let (id, by) = (feature.id.clone(), 2.0 * gauged.half);
             return Err(NotMeasured::BeyondVirtualCondition { id, by }.into());
         }
@@ -296,7 +296,7 @@ impl Shift<'_> {
                 break;
             }
             let found = within(w, best.motion)?;
-            if found.half <= ROUNDING * 1e-3 {
+            if found.half <= BOUNDARY_ROUNDING * 1e-3 {
                 let there = at(found.motion)?;
                 high = w.min(there.half);
                 best = if there.half < best.half { there } else { best };

@@ -15,6 +15,7 @@ mod kind;
 mod line_profile;
 mod located;
 mod material;
+mod measured_feature;
 mod orientation;
 mod parallelism;
 mod perpendicularity;
@@ -26,17 +27,16 @@ mod size;
 mod straightness;
 mod surface_profile;
 mod symmetry;
-mod taken;
 mod texture;
 mod total_runout;
 mod value;
 
-pub(crate) use exact::nearest;
+pub(crate) use exact::{COORDINATES, nearest};
 pub use kind::{Allowed, Characteristic, Measuring, Question, Refusal, Spec};
 pub(crate) use located::{datum_source, frame};
+pub use measured_feature::{Element, ExcludedPoints, MeasuredFeature, Others};
 pub use reason::{Impossible, Lack, NoElement, NotMeasured, PointsBeyond};
 pub use size::Size;
-pub use taken::{Element, LeftOut, Others, Taken};
 pub use texture::Texture;
 pub use value::{FrameOf, Missing, Place, Value};
 

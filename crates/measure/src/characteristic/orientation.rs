@@ -6,7 +6,8 @@
 //! exact direction, and the value is the zone in it. Its angle about the first datum is the exact one of the drawing, along
 //! or across the direction that the second datum gives where the plan says no other.
 
-use super::kind::{Measuring, Question, Refusal, is_axis, refuse};
+use super::exact::FILED_ANGLE;
+use super::kind::{Measuring, Question, Refusal, WITH_DIRECTION, is_axis, refuse};
 use super::located::system;
 use super::material::{Axis, oriented};
 use super::reason::{Impossible, NotMeasured};
@@ -48,9 +49,8 @@ pub(super) fn of_cylinder(q: &Question, angle: f64) -> bool {
 }
 
 pub(super) fn check(q: &Question, angle: f64) -> Result<(), Refusal> {
-    const DIRECTED: [Class; 4] = [Class::Plane, Class::Line, Class::Cylinder, Class::Cone];
-    let class = q.class(&DIRECTED)?;
-    let datum = q.system(&DIRECTED)?;
+    let class = q.class(&WITH_DIRECTION)?;
+    let datum = q.system(&WITH_DIRECTION)?;
     if class == Class::Plane && q.spec.diametral == Some(true) {
         return refuse("diametral", "the zone of a plane is no cylinder");
     }
@@ -128,11 +128,8 @@ pub(super) fn exact(m: &Measuring) -> Result<Basic, Missing> {
 
 /// Along and across are meant exactly, whatever single precision has left of them in a file.
 fn snapped(angle: f64) -> f64 {
-    [0.0, FRAC_PI_2].into_iter().find(|exact| (angle - exact).abs() < AS_FILED).unwrap_or(angle)
+    [0.0, FRAC_PI_2].into_iter().find(|exact| (angle - exact).abs() < FILED_ANGLE).unwrap_or(angle)
 }
-
-/// Angle, radians, that single precision leaves of a direction in a file.
-const AS_FILED: f64 = 1e-6;
 
 fn first_direction(system: &System) -> Result<(Class, Vector), Missing> {
     match system.datums.first() {

@@ -51,7 +51,7 @@ pub(super) fn search(m: &Measuring, without_frame: Freedom) -> Result<Search, Mi
 
 /// The value of a zone that was found: its width.
 pub(super) fn value(m: &Measuring, found: &Placed, at: impl Fn(usize) -> usize) -> Result<Value, Missing> {
-    let points = m.feature().taken()?;
+    let points = m.feature().own_points()?;
     Ok(Value {
         value: 2.0 * found.half,
         witness: vec![points[at(found.max.1)], points[at(found.min.1)]],

@@ -59,7 +59,7 @@ impl Characteristic for Size {
             _ => Method::Gaussian,
         };
         if let [a, b] = m.features {
-            let (first, second) = (a.taken()?, b.taken()?);
+            let (first, second) = (a.own_points()?, b.own_points()?);
             let pair = opposite_planes(first, second, method, m.progress)?;
             let witness = vec![mean(first), mean(second)];
             return Ok(Value { value: pair.distance, witness, ..Value::default() });
@@ -88,7 +88,7 @@ impl Characteristic for Size {
 fn two_point(m: &Measuring) -> Result<Value, Missing> {
     let sizes = match m.features {
         [a, b] => {
-            let (first, second) = (a.taken()?, b.taken()?);
+            let (first, second) = (a.own_points()?, b.own_points()?);
             let Some((normal, _)) = parallel_planes(first, second) else {
                 return Err(ZoneError::NoPlanes.into());
             };
@@ -100,7 +100,7 @@ fn two_point(m: &Measuring) -> Result<Value, Missing> {
             match feature.refitted(kind, Method::Gaussian, m.progress)?.shape {
                 Shape::Cylinder { point, direction, .. }
                 | Shape::Circle { center: point, normal: direction, .. } => {
-                    two_point_diameters(feature.taken()?, point, direction, m.progress)
+                    two_point_diameters(feature.own_points()?, point, direction, m.progress)
                 }
                 _ => return Err(NotMeasured::NoDiameter.into()),
             }

@@ -2,8 +2,8 @@
 
 use super::kind::{Characteristic, Measuring, Question, Refusal, refuse};
 use super::material::straight;
+use super::measured_feature::form;
 use super::reason::{Lack, NotMeasured};
-use super::taken::form;
 use super::value::{Missing, Value};
 use trueness_document::plan::Class;
 use trueness_document::tolerance_class::Table;
@@ -65,7 +65,8 @@ fn of_axis(m: &Measuring) -> Result<Value, Missing> {
     else {
         return Err(NotMeasured::NoAxis.into());
     };
-    let line = median_line(feature.taken()?, point, direction, m.progress).map_err(|_| Missing::Cancelled)?;
+    let line =
+        median_line(feature.own_points()?, point, direction, m.progress).map_err(|_| Missing::Cancelled)?;
     if line.centers.len() < 3 {
         return Err(feature.lacks(Lack::Sections { found: line.centers.len() }));
     }

@@ -9,9 +9,9 @@ use trueness_geom::stats::research::{blocks, bootstrap, moran, normality};
 use trueness_geom::stats::statistics::Missing;
 
 /// Points, at most, of the sample that has places.
-pub const PLACES: usize = 1 << 18;
+pub const MAX_PLACED_SAMPLE: usize = 1 << 18;
 /// Deviations that tests and fits look at.
-const SAMPLE: usize = 5000;
+const MAX_TESTED_SAMPLE: usize = 5000;
 /// Side of the cubes within which deviations may go together, as a share of the sample's diagonal.
 const BLOCK_SHARE: f64 = 0.05;
 
@@ -35,9 +35,9 @@ pub fn research(c: &Compared, places: &ShownPoints, i: usize, seed: u64) -> Rese
         })),
         normality: Normality {
             d_agostino: finding(normality::d_agostino(&c.summary.all).map(test)),
-            anderson_darling: finding(normality::anderson_darling(values, SAMPLE, seed).map(test)),
+            anderson_darling: finding(normality::anderson_darling(values, MAX_TESTED_SAMPLE, seed).map(test)),
         },
-        distributions: finding(fits(values, SAMPLE, seed).map(|all| {
+        distributions: finding(fits(values, MAX_TESTED_SAMPLE, seed).map(|all| {
             let record = |f: &trueness_geom::stats::research::distributions::Fit| Distribution {
                 family: name(f.family).into(),
                 location: f.location,

@@ -3,7 +3,7 @@
 use super::data::Data;
 use super::nominals::Nominals;
 use super::stop::{NotAligned, Stop};
-use super::{Taken, deviation, doubts, features};
+use super::{MeasuredFeature, deviation, doubts, features};
 use crate::characteristic::{Missing, datum_source};
 use crate::compare::Regions;
 use crate::plan::{Align, Plan};
@@ -128,7 +128,7 @@ fn onto_datums(
     progress: &dyn Progress,
 ) -> Result<Option<Rigid>, Stop> {
     let Align::Datum { datums, rule, span, .. } = &plan.align else { return Ok(None) };
-    let taken = features::taken(plan, data, nominals, progress)?.all;
+    let taken = features::extracted(plan, data, nominals, progress)?.all;
     let motion = by_datums(&taken, datums, *rule, span, progress)?;
     moved(data, &motion);
     Ok(Some(motion))
@@ -215,7 +215,7 @@ fn best_fitted(
 
 /// The motion that lays the frame of the measured datums on that of the nominal ones.
 pub(super) fn by_datums(
-    taken: &[Taken],
+    taken: &[MeasuredFeature],
     datums: &[usize],
     rule: Rule,
     span: &Range<usize>,

@@ -1,20 +1,20 @@
 //! Features that are derived from others: median planes, intersections, midpoints, projections.
 
-use crate::characteristic::{Element, NoElement, Taken};
+use crate::characteristic::{Element, MeasuredFeature, NoElement};
 use trueness_document::plan::{Class, DerivedWord};
 use trueness_geom::shape::derived::{Ray, line_plane, median_plane, midpoint, plane_plane, point_plane};
 use trueness_geom::space::{Point, minus, plus, times};
 use trueness_geom::zone::datum::Datum;
 
 /// The element of a feature that others are made of.
-fn element(taken: &Taken) -> Result<&Element, NoElement> {
+fn element(taken: &MeasuredFeature) -> Result<&Element, NoElement> {
     let wrapped =
         |reason: &NoElement| NoElement::Source { id: taken.id.clone(), reason: Box::new(reason.clone()) };
     taken.element.as_ref().map_err(wrapped)
 }
 
 /// A plane or axis of a feature.
-fn ray(taken: &Taken) -> Result<Ray, NoElement> {
+fn ray(taken: &MeasuredFeature) -> Result<Ray, NoElement> {
     let none = || NoElement::SourceWithoutAxis { id: taken.id.clone() };
     match element(taken)? {
         Element::Derived(Datum::Plane { point, normal }) => Ok(Ray { point: *point, direction: *normal }),
@@ -29,14 +29,19 @@ fn ray(taken: &Taken) -> Result<Ray, NoElement> {
     }
 }
 
-fn center(taken: &Taken) -> Result<Point, NoElement> {
+fn center(taken: &MeasuredFeature) -> Result<Point, NoElement> {
     element(taken)?;
     let points = taken.zoned().unwrap_or_default();
     points.first().copied().ok_or_else(|| NoElement::SourceWithoutCenter { id: taken.id.clone() })
 }
 
 /// A feature that is made of two others; `taken` is what it is without them.
-pub(super) fn derived(mut taken: Taken, how: DerivedWord, a: &Taken, b: &Taken) -> Taken {
+pub(super) fn derived(
+    mut taken: MeasuredFeature,
+    how: DerivedWord,
+    a: &MeasuredFeature,
+    b: &MeasuredFeature,
+) -> MeasuredFeature {
     let made = match how {
         DerivedWord::MedianPlane => median(&mut taken, a, b),
         DerivedWord::Intersection => intersection(a, b),
@@ -51,7 +56,11 @@ pub(super) fn derived(mut taken: Taken, how: DerivedWord, a: &Taken, b: &Taken) 
 }
 
 /// The plane half way between two, and their points projected onto it: its extent.
-fn median(taken: &mut Taken, a: &Taken, b: &Taken) -> Result<Element, NoElement> {
+fn median(
+    taken: &mut MeasuredFeature,
+    a: &MeasuredFeature,
+    b: &MeasuredFeature,
+) -> Result<Element, NoElement> {
     let (first, second) = (ray(a)?, ray(b)?);
     let plane = median_plane(first, second).ok_or(NoElement::Perpendicular)?;
     let onto = |p: &Point| plus(*p, times(-point_plane(*p, plane), plane.direction));
@@ -60,7 +69,7 @@ fn median(taken: &mut Taken, a: &Taken, b: &Taken) -> Result<Element, NoElement>
     Ok(Element::Derived(Datum::Plane { point: plane.point, normal: plane.direction }))
 }
 
-fn intersection(a: &Taken, b: &Taken) -> Result<Element, NoElement> {
+fn intersection(a: &MeasuredFeature, b: &MeasuredFeature) -> Result<Element, NoElement> {
     let (first, second) = (ray(a)?, ray(b)?);
     let parallel = NoElement::Parallel;
     match (a.class, b.class) {

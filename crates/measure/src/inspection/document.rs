@@ -1,7 +1,7 @@
 //! From what was found by a plan to the result document.
 
 use super::decision::{utilization, verdict};
-use super::{Element, Found, Inspection, Taken, Uncertainty, left_out};
+use super::{Element, Found, Inspection, MeasuredFeature, Uncertainty, excluded_points};
 use crate::align::{note, notes_of_rows, notes_of_search};
 use crate::characteristic::{
     Characteristic, FrameOf, NoElement, NotMeasured, Place, Question, Spec, Texture, Value, nearest,
@@ -185,7 +185,11 @@ fn deviation(
     Some((document.comparisons.pop()?, document.scale))
 }
 
-fn feature(plan: &crate::requirement::Feature, taken: &Taken, noise: &NoiseOrReason) -> FeatureRecord {
+fn feature(
+    plan: &crate::requirement::Feature,
+    taken: &MeasuredFeature,
+    noise: &NoiseOrReason,
+) -> FeatureRecord {
     let fit = match &taken.element {
         Ok(Element::Fit(fit)) => Some(fit.as_ref()),
         _ => None,
@@ -243,7 +247,7 @@ fn feature(plan: &crate::requirement::Feature, taken: &Taken, noise: &NoiseOrRea
 }
 
 /// Where a feature was measured, and its size.
-fn measured_place(taken: &Taken) -> Option<MeasuredPlace> {
+fn measured_place(taken: &MeasuredFeature) -> Option<MeasuredPlace> {
     let place = taken.middle().ok().or(match &taken.element {
         Ok(Element::Derived(Datum::Axis { point, .. } | Datum::Plane { point, .. })) => Some(*point),
         _ => None,
@@ -266,7 +270,7 @@ fn measured_place(taken: &Taken) -> Option<MeasuredPlace> {
 }
 
 /// Where the model has a feature, nearest to where it was measured.
-fn nominal_place(taken: &Taken) -> Option<MeasuredPlace> {
+fn nominal_place(taken: &MeasuredFeature) -> Option<MeasuredPlace> {
     let nominal = taken.nominal.as_ref()?;
     let place = measured_place(taken).map(|m| m.place).or_else(|| nominal.places().first().copied());
     Some(MeasuredPlace {
@@ -282,7 +286,7 @@ fn nominal_place(taken: &Taken) -> Option<MeasuredPlace> {
     })
 }
 
-fn left_out_record(taken: &Taken) -> Option<LeftOutRecord> {
+fn left_out_record(taken: &MeasuredFeature) -> Option<LeftOutRecord> {
     let (of, beyond) = (&taken.others, taken.left_out);
     let others = of.points.len() as u64;
     (others + (of.edge + of.outliers) as u64 > 0 || beyond.is_some()).then(|| LeftOutRecord {
@@ -300,14 +304,14 @@ fn left_out_record(taken: &Taken) -> Option<LeftOutRecord> {
 }
 
 /// How near facets had to be to the nominal.
-fn extract(plan: &crate::requirement::Feature, taken: &Taken) -> Option<ExtractRecord> {
+fn extract(plan: &crate::requirement::Feature, taken: &MeasuredFeature) -> Option<ExtractRecord> {
     let near = plan.near(taken.nominal.as_ref()?);
     let (distance, margin, rim, coverage) = (near.distance, near.margin, near.rim, plan.extract.coverage);
     Some(ExtractRecord { distance, angle: near.angle.to_degrees(), margin, rim, coverage })
 }
 
 /// Told of a value whose uncertainty by noise could not be found.
-const UNKNOWN: &str =
+const UNKNOWN_UNCERTAINTY: &str =
     "its uncertainty is not known: fewer than nine in ten draws of the noise gave a finite value";
 
 /// What is to be said where the plan has a value's uncertainty found, and it was not.
@@ -315,7 +319,7 @@ fn unknown(plan: &Plan, found: &Inspection, n: usize) -> Option<String> {
     let source =
         plan.decision.noise.filter(|_| found.values[n].is_ok() && found.uncertainties[n].is_none())?;
     Some(match source.noise(&found.noise) {
-        Ok(_) => UNKNOWN.to_string(),
+        Ok(_) => UNKNOWN_UNCERTAINTY.to_string(),
         Err(why) => {
             format!(
                 "its uncertainty is not known, as the noise is not: {why}; give the `noise` in [decision]"
@@ -353,8 +357,8 @@ fn characteristic(plan: &Plan, found: &Inspection, n: usize) -> CharacteristicRe
     };
     let unknown = unknown(plan, found, n);
     let with_others = found.with_others[n].as_ref();
-    let judged_with =
-        left_out::judge_left_out(plan, found, spec, judged(value), with_others.map(|v| (v, judged(v))));
+    let doubtful = with_others.map(|v| (v, judged(v)));
+    let judged_with = excluded_points::judge(plan, found, spec, judged(value), doubtful);
     let in_other_pose = (found.in_other_poses.iter().map(|values| &values[n]))
         .find(|other| judged(other) != judged(value))
         .filter(|_| value.is_ok());
@@ -405,7 +409,7 @@ fn characteristic(plan: &Plan, found: &Inspection, n: usize) -> CharacteristicRe
 /// What is to be said of a characteristic with another verdict in another pose that fits about as well.
 fn other_pose(value: &Result<Value, NotMeasured>, verdict: Verdict) -> String {
     let there = match value {
-        Ok(v) => format!("the value is {}: {}", left_out::round(v.value), verdict.word()),
+        Ok(v) => format!("the value is {}: {}", excluded_points::round(v.value), verdict.word()),
         Err(why) => format!("there is no value: {why}"),
     };
     format!(

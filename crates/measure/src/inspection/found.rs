@@ -4,7 +4,7 @@ use super::align::Alignment;
 use super::deviation::Deviations;
 use super::faces_view::DrawnFace;
 use super::uncertainty::Uncertainty;
-use crate::characteristic::{NotMeasured, Spec, Taken, Value};
+use crate::characteristic::{MeasuredFeature, NotMeasured, Spec, Value};
 use crate::noise::NoiseOrReason;
 use trueness_document::compare::Warning;
 use trueness_geom::scan::Scan;
@@ -16,7 +16,7 @@ pub struct Inspection {
     /// What is to be said of each characteristic by the model alone.
     pub notes: Vec<Vec<String>>,
     /// The features, in the plan's order.
-    pub features: Vec<Taken>,
+    pub features: Vec<MeasuredFeature>,
     /// The values of the characteristics, in the plan's order, or why there are none.
     pub values: Vec<Result<Value, NotMeasured>>,
     /// What each value would be with the points of its features and datums of which it is not certain whose they are; `None`

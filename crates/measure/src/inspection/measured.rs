@@ -18,13 +18,13 @@ use trueness_geom::spatial::neighbors::PointTree;
 /// Points of a cloud that are segmented, at most.
 const MAX_SEGMENTED: usize = 200_000;
 /// A region is of a feature if this share of its points within the bounds of the nominal is within its reach.
-const MOSTLY: f64 = 0.5;
+const MIN_SHARE_IN_REACH: f64 = 0.5;
 /// Points of a region that are looked at for its width.
-const PLACES: usize = 500;
+const WIDTH_SAMPLES: usize = 500;
 /// Points within three distances of points.
-const MIDDLE: usize = 28;
+const POINTS_WITHIN_THREE_SPACINGS: usize = 28;
 /// Points of a region lie no farther apart than so many times their mean distance.
-const APART: f64 = 1.5;
+const MAX_POINT_SPACINGS: f64 = 1.5;
 
 /// Adds the elements that are of no feature as faces.
 ///
@@ -53,7 +53,7 @@ pub(super) fn add(
         // What has no elements has none beside the features.
         Err(_) => return Ok(()),
     };
-    let apart = APART * spacing(points, seed);
+    let apart = MAX_POINT_SPACINGS * spacing(points, seed);
     let wide = wide(points, &found.regions, seed);
     for (number, region) in (0u32..).zip(&found.regions) {
         let places: Vec<Point> = region.points.iter().map(|p| points[*p as usize]).collect();
@@ -76,9 +76,9 @@ fn wide(points: &[Point], regions: &[Region], seed: u64) -> Vec<bool> {
     }
     let tree = PointTree::new(points);
     let is_wide = |(number, region): (usize, &Region)| {
-        let chosen = Random::new(seed).choose(PLACES, region.points.len());
+        let chosen = Random::new(seed).choose(WIDTH_SAMPLES, region.points.len());
         let is_middle = |i: usize| {
-            let near = tree.k_nearest(&points[region.points[i] as usize], MIDDLE, None);
+            let near = tree.k_nearest(&points[region.points[i] as usize], POINTS_WITHIN_THREE_SPACINGS, None);
             near.iter().all(|n| labels[n.1 as usize] == number as u32)
         };
         chosen.into_iter().any(is_middle)
@@ -98,7 +98,7 @@ fn is_of(region: &Region, places: &[Point], feature: &Feature, nominal: &Nominal
         Some(off.abs() <= near.distance && dot(way, own).abs() >= libm::cos(near.angle))
     };
     let near = within.points.iter().filter(|p| faces(places[**p as usize]) == Some(true)).count();
-    near > 0 && near as f64 >= MOSTLY * within.points.len() as f64
+    near > 0 && near as f64 >= MIN_SHARE_IN_REACH * within.points.len() as f64
 }
 
 /// Whether distances of the element of a region are positive outside of the material; `true` of a cloud, which does not tell.

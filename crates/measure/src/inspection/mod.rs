@@ -10,14 +10,15 @@ mod deviation;
 mod document;
 mod doubts;
 mod edge;
+mod excluded_points;
+mod extract_features;
 mod faces_view;
 mod features;
 mod found;
-mod left_out;
 mod measure;
 mod measured;
+mod missing_feature_hint;
 mod model;
-mod nearby;
 mod noise_field;
 mod nominals;
 mod parted;
@@ -27,7 +28,6 @@ mod readings;
 mod seed;
 mod sides;
 mod stop;
-mod take;
 mod uncertainty;
 mod uncounted;
 mod wrong_numbers;
@@ -37,7 +37,7 @@ mod test_parts;
 #[cfg(test)]
 mod tests;
 
-pub use crate::characteristic::{Element, LeftOut, Others, Taken};
+pub use crate::characteristic::{Element, ExcludedPoints, MeasuredFeature, Others};
 pub use align::{Alignment, Found};
 pub use data::{Data, OwnPoints};
 pub use deviation::Deviations;
@@ -92,14 +92,14 @@ pub fn run(plan: &Plan, data: Data, progress: &dyn Progress) -> Result<Inspectio
     let plan = &located;
     let (mut data, alignment) = align::aligned(plan, data, &nominals, progress)?;
     counted.advance(1);
-    let Features { all: features, is_scan, drawn } = features::taken(plan, &data, &nominals, progress)?;
+    let Features { all: features, is_scan, drawn } = features::extracted(plan, &data, &nominals, progress)?;
     let noise = noise(data.measured.as_ref(), is_scan, data.seed, progress)?;
     sides::checked(plan, &features)?;
     resolved.by_part(&features, progress);
     counted.advance(1);
     let doubts = doubts::doubts(plan, &data, &alignment.motion, &features);
-    let measured = |spec: &Spec, features: &[Taken]| measure::measured(spec, features, progress);
-    let all = |features: &[Taken]| {
+    let measured = |spec: &Spec, features: &[MeasuredFeature]| measure::measured(spec, features, progress);
+    let all = |features: &[MeasuredFeature]| {
         plan.specs.par_iter().map(|spec| measured(spec, features)).collect::<Result<Vec<_>, Stop>>()
     };
     let values = all(&features)?;
@@ -110,12 +110,12 @@ pub fn run(plan: &Plan, data: Data, progress: &dyn Progress) -> Result<Inspectio
         if let Some(other) = align::in_other_pose(plan, &data, &motion, &nominals, progress)? {
             // A page shows the partition of the pose that was found.
             let other = Data { shown: 0, ..other };
-            in_other_poses.push(all(&features::taken(plan, &other, &nominals, progress)?.all)?);
+            in_other_poses.push(all(&features::extracted(plan, &other, &nominals, progress)?.all)?);
         }
     }
     counted.advance(1);
     // What the values would be with the points of which it is not certain whose they are.
-    let whole = take::whole(plan, &features, progress)?;
+    let whole = extract_features::with_others(plan, &features, progress)?;
     let concerned =
         |spec: &Spec| spec.numbers(&plan.features).into_iter().any(|n| !features[n].others.points.is_empty());
     let with_others = plan

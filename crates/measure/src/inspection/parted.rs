@@ -3,7 +3,7 @@
 use super::measured;
 use super::nominals::{Nominals, OwnFaces};
 use super::stop::{NominalFault, Stop};
-use crate::characteristic::{LeftOut, Others};
+use crate::characteristic::{ExcludedPoints, Others};
 use crate::plan::Plan;
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
@@ -35,16 +35,16 @@ pub(super) struct Parted<'a> {
 }
 
 /// Share of the greatest distance from its borders that a point of a face has, up to which a margin leaves points out there: some of a narrow face stays.
-const HALF_WIDTH: f64 = 0.5;
+const MAX_MARGIN_SHARE: f64 = 0.5;
 
 /// Share of the area of a face from which on facets along it without corners of their own may be a step.
-const STEP: f64 = 0.05;
+const MIN_STEP_AREA_SHARE: f64 = 0.05;
 /// Points of a face from which on those at its edges are not needed.
-const POINTS_ENOUGH: usize = 20;
+const MIN_INNER_POINTS: usize = 20;
 /// Points farther off than this share of the size of what was measured are of something else.
-const ELSEWHERE: f64 = 0.1;
+const MAX_OFF_SIZE_SHARE: f64 = 0.1;
 /// Cosine of the angle (60°) up to which a face lies along a nominal.
-const ALONG: f64 = 0.5;
+const MIN_ALONG_COSINE: f64 = 0.5;
 
 /// What is of a feature.
 pub(super) struct OfFeature {
@@ -52,7 +52,7 @@ pub(super) struct OfFeature {
     /// The points that tell how much of it was measured, where those found are others.
     pub covering: Option<Vec<u32>>,
     pub others: Others,
-    pub left_out: Option<LeftOut>,
+    pub left_out: Option<ExcludedPoints>,
 }
 
 impl<'a> Parted<'a> {
@@ -138,7 +138,7 @@ impl<'a> Parted<'a> {
         let place = self.scan.points()[point as usize];
         let way = nominal.surface().and_then(|s| s.distance(place));
         let along = self.face(owner).facing(&place).zip(way).map(|(a, (_, b))| dot(a, b).abs());
-        along.is_none_or(|cosine| cosine < ALONG)
+        along.is_none_or(|cosine| cosine < MIN_ALONG_COSINE)
     }
 
     /// What is of a feature that has these faces; with `outliers` those that stick out by themselves are of it too.
@@ -161,7 +161,7 @@ impl<'a> Parted<'a> {
             points.extend(&alone);
         }
         // At a sharp edge a vertex is of all faces about it. A scan has none there that tells anything of a face with many others.
-        if !self.partition.is_scan || points.len() < POINTS_ENOUGH {
+        if !self.partition.is_scan || points.len() < MIN_INNER_POINTS {
             points.extend(&corners);
         }
         for numbers in [&mut points, &mut corners] {
@@ -204,7 +204,7 @@ impl<'a> Parted<'a> {
         number: usize,
         within: &Within,
         (border, far): (f64, Vec<u32>),
-    ) -> Result<(Others, Option<LeftOut>), FeatureError> {
+    ) -> Result<(Others, Option<ExcludedPoints>), FeatureError> {
         let Within { own, near, .. } = *within;
         let far = within.clear(&far, border);
         let mut left_out = within.off(&far);
@@ -254,7 +254,7 @@ impl<'a> Parted<'a> {
             on_reference: self.nominals.own(number).is_some(),
         };
         others.add_outliers(within.off(&numbers(&outliers)?));
-        Ok((others, (!left_out.is_empty()).then(|| LeftOut::of(&left_out, near.distance))))
+        Ok((others, (!left_out.is_empty()).then(|| ExcludedPoints::of(&left_out, near.distance))))
     }
 
     /// The points of a class of some faces.
@@ -270,7 +270,7 @@ impl<'a> Parted<'a> {
             return Ok(vec![]);
         }
         let Some(surface) = within.nominal.surface() else { return Ok(vec![]) };
-        let farthest = ELSEWHERE * self.scan.bounds().diagonal();
+        let farthest = MAX_OFF_SIZE_SHARE * self.scan.bounds().diagonal();
         let mut points = vec![];
         for (number, face) in (0u32..).zip(&self.more.all) {
             let is_along = |p: &&u32| {
@@ -389,7 +389,7 @@ impl Within<'_> {
             return 0.0;
         }
         let most = points.iter().map(|p| self.to_border(*p)).fold(0.0, f64::max);
-        self.near.margin.min(HALF_WIDTH * most)
+        self.near.margin.min(MAX_MARGIN_SHARE * most)
     }
 
     fn clear(&self, points: &[u32], border: f64) -> Vec<u32> {
@@ -425,7 +425,9 @@ impl Within<'_> {
         let free: Vec<u32> = loose.iter().filter(is_free).copied().collect();
         let facets = facets_near(mesh, &free, self.nominal, self.near)?;
         // Corners of a part leave some.
-        if mesh_area(mesh, &facets) < STEP * mesh_area(mesh, &of_faces(self.own, &self.parted.facets)) {
+        if mesh_area(mesh, &facets)
+            < MIN_STEP_AREA_SHARE * mesh_area(mesh, &of_faces(self.own, &self.parted.facets))
+        {
             return Ok(vec![]);
         }
         let mut corners: Vec<u32> = facets.iter().flat_map(|f| mesh.faces[*f as usize]).collect();

@@ -8,7 +8,7 @@ use super::align::{Found, by_datums};
 use super::data::Data;
 use super::noise_field::{Field, Source, parts};
 use super::stop::{NominalFault, Stop};
-use super::{Alignment, Taken};
+use super::{Alignment, MeasuredFeature};
 use crate::plan::{Align, Noise, Plan};
 use std::collections::{BTreeMap, HashSet};
 use trueness_geom::align::{BestFit, Measured, Response, Target, response};
@@ -45,7 +45,7 @@ impl PoseNoise {
         plan: &Plan,
         noise: &Noise,
         (data, alignment): (&Data, &Alignment),
-        features: &[Taken],
+        features: &[MeasuredFeature],
         progress: &dyn Progress,
     ) -> Result<PoseNoise, Stop> {
         if matches!(plan.align, Align::Datum { .. }) {
@@ -71,7 +71,7 @@ impl PoseNoise {
         &self,
         plan: &Plan,
         field: Option<&Field>,
-        moved: &[Taken],
+        moved: &[MeasuredFeature],
         progress: &dyn Progress,
     ) -> Result<Rigid, Stop> {
         match (self, &plan.align, field) {

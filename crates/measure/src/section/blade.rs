@@ -137,7 +137,7 @@ pub(super) fn lean(all: &[AirfoilRecord], contours: &[Whereabouts]) -> Option<Le
         normals.push(normal);
     }
     let first = *normals.first()?;
-    let parallel = |n: &[f64; 3]| (0..3).all(|k| (n[k] - first[k]).abs() < PARALLEL);
+    let parallel = |n: &[f64; 3]| (0..3).all(|k| (n[k] - first[k]).abs() < PARALLEL_NORMAL_STEP);
     let once = places.windows(2).all(|w| w[0].0 != w[1].0);
     if places.len() < 2 || !once || !normals.iter().all(parallel) {
         return None;
@@ -160,4 +160,4 @@ pub(super) fn lean(all: &[AirfoilRecord], contours: &[Whereabouts]) -> Option<Le
 }
 
 /// Normals of planes whose components differ by less are parallel.
-const PARALLEL: f64 = 1e-9;
+const PARALLEL_NORMAL_STEP: f64 = 1e-9;

@@ -155,7 +155,7 @@ impl Request for CurvatureRequest {
             e => TaskError::unanswerable(format!("{shown}: {e}")),
         })?;
         let document = document(&found, &scan, &options, &noise, vec![record]).ok_or_else(|| {
-            TaskError::unanswerable(format!("{shown}: {}", nothing(&found, &scan, options.reach)))
+            TaskError::unanswerable(format!("{shown}: {}", explain_missing(&found, &scan, options.reach)))
         })?;
         let write = |path: &PathBuf| write(path, &scan, &found, &document, self.color.into());
         let output = self.out.as_ref().map(write).transpose()?;
@@ -182,7 +182,7 @@ impl Scene<CurvatureDocument> for Curved {
 }
 
 /// Why there is not a single value, and what to do.
-fn nothing(found: &Curvatures, scan: &Scan, reach: Reach) -> String {
+fn explain_missing(found: &Curvatures, scan: &Scan, reach: Reach) -> String {
     let reasons = without(found);
     let Some((most, _)) = reasons.iter().max_by_key(|(_, count)| **count) else {
         return "it holds nothing that could have a curvature".into();

@@ -186,9 +186,9 @@ impl Request for RepairRequest {
 /// What the file read tells of its vertices and facets and the file written will not.
 fn lost(names: &[String]) -> String {
     /// A header may name thousands.
-    const NAMED: usize = 12;
-    let named = names.iter().take(NAMED).map(String::as_str).collect::<Vec<_>>().join(", ");
-    let more = if names.len() > NAMED { ", …" } else { "" };
+    const MAX_NAMED_DATA: usize = 12;
+    let named = names.iter().take(MAX_NAMED_DATA).map(String::as_str).collect::<Vec<_>>().join(", ");
+    let more = if names.len() > MAX_NAMED_DATA { ", …" } else { "" };
     format!("the mended mesh has places and facets only; the file's other data are not in it: {named}{more}")
 }
 

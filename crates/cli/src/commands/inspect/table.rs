@@ -47,7 +47,7 @@ fn inspected(document: &InspectDocument, part: Option<&str>, verbose: bool) -> S
     if rows.len() > 1 {
         out += &layout::table(&rows, 4);
     }
-    out += &said(document, verbose);
+    out += &explanations(document, verbose);
     for c in &document.characteristics {
         let is_open = matches!(c.verdict, Verdict::Fail | Verdict::Undecided);
         out += &place(c).filter(|_| verbose || is_open).map_or_else(String::new, |p| sentence(&p, verbose));
@@ -80,7 +80,7 @@ fn inspected(document: &InspectDocument, part: Option<&str>, verbose: bool) -> S
 
 /// Why characteristics have no value, and what is said of them: each once, with all that it concerns. What is said of a feature concerns all of
 /// its characteristics.
-fn said(document: &InspectDocument, verbose: bool) -> String {
+fn explanations(document: &InspectDocument, verbose: bool) -> String {
     let mut all: Vec<(&str, &str, Vec<&str>)> = vec![];
     for c in &document.characteristics {
         let reason = c.reason.iter().map(|r| ("!", r.as_str()));

@@ -133,7 +133,7 @@ impl Request for InspectRequest {
     fn run(&self, sources: &dyn Sources, watch: &dyn Watch) -> Result<Done<InspectDocument>, TaskError> {
         self.one_part()?;
         let inspecting = self.open(sources, watch)?;
-        let part = inspecting.part(self.measured.first().map(PathBuf::as_path))?;
+        let part = inspecting.inspect_part(self.measured.first().map(PathBuf::as_path))?;
         let outputs = inspecting.lists(std::slice::from_ref(&part))?;
         match part {
             Part::Inspected(done) => Ok(Done { outputs, ..*done }),
@@ -159,7 +159,7 @@ impl Inspecting<'_> {
         let own = measured.is_empty().then_some(None);
         own.into_iter()
             .chain(measured.iter().map(|path| Some(path.as_path())))
-            .map(move |file| self.part(file))
+            .map(move |file| self.inspect_part(file))
     }
 
     /// The answer of all parts, with the lists of them.
@@ -193,7 +193,7 @@ impl Inspecting<'_> {
     }
 
     /// The part of this file, or of the plan's own.
-    fn part(&self, file: Option<&Path>) -> Result<Part, TaskError> {
+    fn inspect_part(&self, file: Option<&Path>) -> Result<Part, TaskError> {
         match self.inspect(file) {
             Ok(done) => Ok(Part::Inspected(Box::new(done))),
             Err(Fault::Run(error)) => Err(error),

@@ -132,7 +132,7 @@ pub struct SectionRequest {
 }
 
 /// Share of the points that must lie within the tolerance where nothing is said, percent.
-const INSIDE: f64 = 100.0;
+const DEFAULT_INSIDE_PERCENT: f64 = 100.0;
 
 impl Default for SectionRequest {
     fn default() -> SectionRequest {
@@ -158,7 +158,7 @@ impl Default for SectionRequest {
             reference_reading: ReferenceReading::default(),
             fit: None,
             tolerance: None,
-            inside: INSIDE,
+            inside: DEFAULT_INSIDE_PERCENT,
             min_coverage: 100.0 * MIN_COVERAGE,
             max_distance: None,
             dxf: None,

@@ -6,7 +6,7 @@ use super::edge;
 use super::nominals::Nominals;
 use super::parted::{OfFeature, Parted};
 use super::stop::Stop;
-use crate::characteristic::{Element, NoElement, Others, Taken};
+use crate::characteristic::{Element, MeasuredFeature, NoElement, Others};
 use crate::plan::Plan;
 use crate::requirement::{Feature, Source};
 use trueness_document::plan::Class;
@@ -21,7 +21,7 @@ use trueness_geom::spatial::neighbors::PointTree;
 use trueness_geom::zone::mean;
 
 /// From this angle to its nominal on an element is another one that goes through the points as well, radians.
-const TURNED: f64 = std::f64::consts::FRAC_PI_4;
+const MAX_TURN: f64 = std::f64::consts::FRAC_PI_4;
 
 /// All features of the plan, in its order.
 pub(super) fn features(
@@ -30,7 +30,7 @@ pub(super) fn features(
     nominals: &Nominals,
     parted: Option<&Parted>,
     progress: &dyn Progress,
-) -> Result<Vec<Taken>, Stop> {
+) -> Result<Vec<MeasuredFeature>, Stop> {
     let is_sought = |f: &Feature| matches!(f.source, Source::Nominal | Source::Seed(_));
     let farthest = match measured {
         Some(Scan::Cloud(points)) if plan.features.iter().any(is_sought) => {
@@ -57,9 +57,9 @@ pub(super) fn features(
         };
         associated(taken, feature, progress).map(Some)
     };
-    let own: Vec<Option<Taken>> =
+    let own: Vec<Option<MeasuredFeature>> =
         plan.features.par_iter().enumerate().map(of).collect::<Result<_, Stop>>()?;
-    let mut all: Vec<Taken> = Vec::with_capacity(plan.features.len());
+    let mut all: Vec<MeasuredFeature> = Vec::with_capacity(plan.features.len());
     for (feature, own) in plan.features.iter().zip(own) {
         let made = |how, a: usize, b: usize| derived(bare(feature), how, &all[a], &all[b]);
         let taken = match (own, &feature.source) {
@@ -73,15 +73,15 @@ pub(super) fn features(
 }
 
 /// The features with the points of which it is not certain that they are of other surfaces; `None` where there are none.
-pub(super) fn whole(
+pub(super) fn with_others(
     plan: &Plan,
-    features: &[Taken],
+    features: &[MeasuredFeature],
     progress: &dyn Progress,
-) -> Result<Option<Vec<Taken>>, Stop> {
+) -> Result<Option<Vec<MeasuredFeature>>, Stop> {
     if features.iter().all(|f| f.others.points.is_empty()) {
         return Ok(None);
     }
-    let with_others = |taken: &mut Taken| {
+    let with_others = |taken: &mut MeasuredFeature| {
         let any = !taken.others.points.is_empty();
         if any {
             taken.points.append(&mut taken.others.points);
@@ -89,18 +89,18 @@ pub(super) fn whole(
         }
         any
     };
-    again(plan, features, with_others, progress).map(Some)
+    associated_anew(plan, features, with_others, progress).map(Some)
 }
 
 /// The same features with points as `change` makes them; those that it says it has not changed stay as they are, as do those without
 /// points.
-pub(super) fn again(
+pub(super) fn associated_anew(
     plan: &Plan,
-    features: &[Taken],
-    mut change: impl FnMut(&mut Taken) -> bool,
+    features: &[MeasuredFeature],
+    mut change: impl FnMut(&mut MeasuredFeature) -> bool,
     progress: &dyn Progress,
-) -> Result<Vec<Taken>, Stop> {
-    let mut all: Vec<Taken> = Vec::with_capacity(features.len());
+) -> Result<Vec<MeasuredFeature>, Stop> {
+    let mut all: Vec<MeasuredFeature> = Vec::with_capacity(features.len());
     for (feature, taken) in plan.features.iter().zip(features) {
         all.push(match &feature.source {
             Source::Derived { how, of: [a, b] } => derived(bare(feature), *how, &all[*a], &all[*b]),
@@ -133,10 +133,10 @@ pub(super) fn normal(nominal: &Nominal) -> Option<Vector> {
 }
 
 /// A feature that nothing was found of yet.
-pub(super) fn bare(feature: &Feature) -> Taken {
+pub(super) fn bare(feature: &Feature) -> MeasuredFeature {
     let normal = feature.nominal.as_ref().and_then(normal);
     let edge = matches!(feature.nominal, Some(Nominal::Edge { .. }));
-    Taken {
+    MeasuredFeature {
         id: feature.id.clone(),
         class: feature.class,
         points: vec![],
@@ -157,7 +157,11 @@ pub(super) fn bare(feature: &Feature) -> Taken {
 }
 
 /// The points that the measured data have where the model has the feature.
-fn found((number, feature): (usize, &Feature), nominals: &Nominals, search: &Search) -> Result<Taken, Stop> {
+fn found(
+    (number, feature): (usize, &Feature),
+    nominals: &Nominals,
+    search: &Search,
+) -> Result<MeasuredFeature, Stop> {
     let mut taken = bare(feature);
     let seeded = nominals.seeds.get(&number);
     if let Some(seeded) = seeded {
@@ -217,7 +221,7 @@ fn areas(scan: &Scan, found: &Found) -> Vec<f64> {
 }
 
 /// Why no point is of a feature.
-fn no_points(taken: &Taken, feature: &Feature) -> NoElement {
+fn no_points(taken: &MeasuredFeature, feature: &Feature) -> NoElement {
     match (&feature.source, taken.others.edge) {
         (Source::Nominal | Source::Seed(_), _) if !taken.facets.is_empty() => NoElement::OnRim,
         (Source::Nominal | Source::Seed(_), 0) => {
@@ -230,10 +234,10 @@ fn no_points(taken: &Taken, feature: &Feature) -> NoElement {
 
 /// The feature with the element of its points, or the reason why it has none.
 pub(super) fn associated(
-    mut taken: Taken,
+    mut taken: MeasuredFeature,
     feature: &Feature,
     progress: &dyn Progress,
-) -> Result<Taken, Stop> {
+) -> Result<MeasuredFeature, Stop> {
     if taken.points.is_empty() {
         taken.element = Err(no_points(&taken, feature));
         return Ok(taken);
@@ -263,7 +267,7 @@ pub(super) fn associated(
     taken.element = match fit(&taken.points, kind, &options, progress) {
         Ok(fit) => {
             let turned = fit.shape.direction().zip(along).map(|(is, (shall, _))| dot(is, shall).abs());
-            match turned.map(|cosine| libm::acos(cosine.min(1.0))).filter(|angle| *angle > TURNED) {
+            match turned.map(|cosine| libm::acos(cosine.min(1.0))).filter(|angle| *angle > MAX_TURN) {
                 Some(angle) => Err(NoElement::Turned { kind, angle }),
                 None => Ok(Element::Fit(Box::new(fit))),
             }

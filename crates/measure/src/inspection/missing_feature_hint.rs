@@ -3,7 +3,7 @@
 use super::nominals::Nominals;
 use super::parted::Parted;
 use super::stop::Stop;
-use super::{Taken, take};
+use super::{MeasuredFeature, extract_features};
 use crate::characteristic::{NoElement, PointsBeyond};
 use crate::plan::Plan;
 use crate::requirement::Source;
@@ -13,18 +13,18 @@ use trueness_geom::scan::Scan;
 use trueness_geom::space::Aabb;
 
 /// How far off such points are looked for, as a share of the size of the feature.
-const FAR: f64 = 0.1;
+const SEARCHED_SIZE_SHARE: f64 = 0.1;
 
 /// Adds to the reasons of features that were not measured what lies over or below their places, up to a tenth of their size off: a
 /// part that is off as a whole is not told from one without the face by "nothing was measured".
 ///
 /// Cost: nothing where all was measured; else a look at each point for each feature that was not.
-pub(super) fn tell(
+pub(super) fn add(
     plan: &Plan,
     measured: Option<&Scan>,
     nominals: &Nominals,
     parted: Option<&Parted>,
-    features: &mut Vec<Taken>,
+    features: &mut Vec<MeasuredFeature>,
     progress: &dyn Progress,
 ) -> Result<(), Stop> {
     let Some(scan) = measured else { return Ok(()) };
@@ -40,8 +40,10 @@ pub(super) fn tell(
             continue;
         };
         let near = plan.features[n].near(nominal);
-        let wide =
-            Nearness { distance: near.distance.max(FAR * Aabb::of(&nominal.places()).diagonal()), ..near };
+        let wide = Nearness {
+            distance: near.distance.max(SEARCHED_SIZE_SHARE * Aabb::of(&nominal.places()).diagonal()),
+            ..near
+        };
         if progress.cancelled() {
             return Err(Stop::Cancelled);
         }
@@ -61,7 +63,7 @@ pub(super) fn tell(
     }
     if any {
         // What is made of them has their reasons.
-        *features = take::again(plan, features, |_| false, progress)?;
+        *features = extract_features::associated_anew(plan, features, |_| false, progress)?;
     }
     Ok(())
 }

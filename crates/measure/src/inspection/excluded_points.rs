@@ -1,7 +1,7 @@
 //! What a verdict is worth where a feature leaves points out.
 
 use super::found::Inspection;
-use crate::characteristic::{NotMeasured, Others, Spec, Taken, Value};
+use crate::characteristic::{MeasuredFeature, NotMeasured, Others, Spec, Value};
 use crate::plan::Plan;
 use trueness_document::Verdict;
 
@@ -15,7 +15,7 @@ pub(super) struct Judged {
 /// from leave out; `with_others` is the value, and its verdict, with those of which it is not certain that they are of other surfaces.
 ///
 /// Where the verdict depends on points of which it is not certain whose they are, there is none.
-pub(super) fn judge_left_out(
+pub(super) fn judge(
     plan: &Plan,
     found: &Inspection,
     spec: &Spec,
@@ -26,7 +26,7 @@ pub(super) fn judge_left_out(
     if judged == Verdict::NotMeasured {
         return result;
     }
-    let features: Vec<&Taken> =
+    let features: Vec<&MeasuredFeature> =
         spec.numbers(&plan.features).into_iter().map(|n| &found.features[n]).collect();
     for (taken, out) in features.iter().filter_map(|t| Some((t, t.left_out?))) {
         result.notes.push(format!(
@@ -73,7 +73,7 @@ pub(super) fn judge_left_out(
 }
 
 /// Why it is not certain that some points within the reach of a feature are of it.
-fn not_certain(taken: &Taken) -> String {
+fn not_certain(taken: &MeasuredFeature) -> String {
     let Others { broken, deep, high, between, far, drawn, .. } = &taken.others;
     let why = [
         (

@@ -14,7 +14,7 @@ use trueness_geom::zone::mean;
 
 /// A feature of a plan, measured or not.
 #[derive(Clone, Debug)]
-pub struct Taken {
+pub struct MeasuredFeature {
     /// Its name.
     pub id: String,
     /// What it is.
@@ -42,7 +42,7 @@ pub struct Taken {
     /// Share of the nominal area that was measured.
     pub coverage: Option<f64>,
     /// Measured points that lie over it, but too far off to be part of it.
-    pub left_out: Option<LeftOut>,
+    pub left_out: Option<ExcludedPoints>,
     /// Measured points within its reach that were taken for those of other surfaces.
     pub others: Others,
     /// The element, or why there is none.
@@ -88,7 +88,7 @@ impl Others {
 
 /// Points that were left out of a feature.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LeftOut {
+pub struct ExcludedPoints {
     /// Their number.
     pub points: u64,
     /// Distance, mm, of the farthest of them from the nominal surface.
@@ -97,11 +97,11 @@ pub struct LeftOut {
     pub limit: f64,
 }
 
-impl LeftOut {
+impl ExcludedPoints {
     /// Of points so far off.
-    pub(crate) fn of(off: &[f64], limit: f64) -> LeftOut {
+    pub(crate) fn of(off: &[f64], limit: f64) -> ExcludedPoints {
         let farthest = off.iter().fold(0.0, |m: f64, d| m.max(*d));
-        LeftOut { points: off.len() as u64, farthest, limit }
+        ExcludedPoints { points: off.len() as u64, farthest, limit }
     }
 }
 
@@ -116,7 +116,7 @@ pub enum Element {
     Derived(Datum),
 }
 
-impl Taken {
+impl MeasuredFeature {
     fn element(&self) -> Result<&Element, Missing> {
         self.element.as_ref().map_err(|reason| self.lacks(Lack::Element(reason.clone())))
     }
@@ -130,7 +130,7 @@ impl Taken {
     ///
     /// # Errors
     /// Why it has none.
-    pub fn taken(&self) -> Result<&[Point], Missing> {
+    pub fn own_points(&self) -> Result<&[Point], Missing> {
         match &self.element {
             // Too few points, or too little of it measured: no zone about them would mean anything.
             Err(reason) => Err(self.lacks(Lack::Element(reason.clone()))),
@@ -162,7 +162,7 @@ impl Taken {
             return Ok((**fit).clone());
         }
         let options = Options { method, ..Options::default() };
-        fit(self.taken()?, kind, &options, progress).map_err(|e| match e {
+        fit(self.own_points()?, kind, &options, progress).map_err(|e| match e {
             FitError::Cancelled => Missing::Cancelled,
             e => self.lacks(Lack::Fit(e)),
         })
@@ -214,8 +214,8 @@ impl Taken {
         let element = self.element()?;
         match (self.class, element) {
             (_, Element::Point(p)) => Ok(vec![*p]),
-            (Class::Plane | Class::Torus, _) => self.taken().map(<[Point]>::to_vec),
-            (Class::Line, _) if !self.edge => self.taken().map(<[Point]>::to_vec),
+            (Class::Plane | Class::Torus, _) => self.own_points().map(<[Point]>::to_vec),
+            (Class::Line, _) if !self.edge => self.own_points().map(<[Point]>::to_vec),
             (Class::Line | Class::Cylinder | Class::Cone, Element::Fit(fit)) => self.ends(&fit.shape),
             (_, Element::Fit(fit)) => match fit.shape {
                 Shape::Sphere { center, .. }
