@@ -3,9 +3,9 @@
 use std::fmt::Write;
 
 /// Most letters in a line of a table.
-pub const WIDTH: usize = 100;
+pub const MAX_LINE_LETTERS: usize = 100;
 /// Least letters that a column of texts keeps where a table is too wide.
-const LEAST: usize = 6;
+const MIN_COLUMN_LETTERS: usize = 6;
 
 fn letters(text: &str) -> usize {
     text.chars().count()
@@ -21,9 +21,9 @@ pub fn table(rows: &[Vec<String>], texts: usize) -> String {
     let numbers: usize = widths[texts..].iter().map(|w| w + 2).sum();
     loop {
         let own: usize = widths[..texts].iter().filter(|w| **w > 0).map(|w| w + 2).sum();
-        let widest = (0..texts).max_by_key(|k| widths[*k]).filter(|k| widths[*k] > LEAST);
+        let widest = (0..texts).max_by_key(|k| widths[*k]).filter(|k| widths[*k] > MIN_COLUMN_LETTERS);
         match widest {
-            Some(k) if own + numbers > WIDTH + 2 => widths[k] -= 1,
+            Some(k) if own + numbers > MAX_LINE_LETTERS + 2 => widths[k] -= 1,
             _ => break,
         }
     }
@@ -53,7 +53,7 @@ pub fn wrapped(text: &str) -> String {
     let mut line = text.chars().take_while(|c| *c == ' ').collect::<String>();
     let mut is_empty = true;
     for word in text.split_whitespace() {
-        if !is_empty && letters(&line) + 1 + letters(word) > WIDTH {
+        if !is_empty && letters(&line) + 1 + letters(word) > MAX_LINE_LETTERS {
             let _ = writeln!(out, "{line}");
             (line, is_empty) = ("    ".into(), true);
         }
@@ -72,10 +72,10 @@ pub fn sentence(text: &str, verbose: bool) -> String {
 
 /// Names of what is said something of; of many the first ones.
 pub fn names(all: &[&str], verbose: bool) -> String {
-    const FIRST: usize = 4;
+    const MAX_LISTED_NAMES: usize = 4;
     match all.len() {
-        n if verbose || n <= FIRST + 1 => all.join(", "),
-        n => format!("{} and {} more", all[..FIRST].join(", "), n - FIRST),
+        n if verbose || n <= MAX_LISTED_NAMES + 1 => all.join(", "),
+        n => format!("{} and {} more", all[..MAX_LISTED_NAMES].join(", "), n - MAX_LISTED_NAMES),
     }
 }
 
@@ -99,7 +99,7 @@ mod tests {
         let rows =
             [row(&["id", "kind", "value"]), row(&[long, "flatness", "1.5"]), row(&["b", "size", "22.5"])];
         let text = table(&rows, 2);
-        assert!(text.lines().all(|l| letters(l) <= WIDTH), "{text}");
+        assert!(text.lines().all(|l| letters(l) <= MAX_LINE_LETTERS), "{text}");
         let ends: Vec<usize> = text.lines().filter(|l| !l.starts_with("a very")).map(letters).collect();
         assert!(ends.windows(2).all(|w| w[0] == w[1]), "{text}");
     }
@@ -108,7 +108,7 @@ mod tests {
     fn sentences_are_cut_between_words() {
         let text = "word ".repeat(60);
         let cut = wrapped(&format!("! {text}"));
-        assert!(cut.lines().all(|l| letters(l) <= WIDTH) && cut.starts_with("! word"), "{cut}");
+        assert!(cut.lines().all(|l| letters(l) <= MAX_LINE_LETTERS) && cut.starts_with("! word"), "{cut}");
         assert_eq!(cut.split_whitespace().count(), 61);
         assert_eq!(names(&["1", "2", "3", "4", "5", "6"], false), "1, 2, 3, 4 and 2 more");
     }

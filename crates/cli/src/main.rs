@@ -4,6 +4,7 @@ mod command;
 mod commands;
 mod console;
 mod exit;
+mod inputs;
 mod instructions;
 mod layout;
 mod memory;

@@ -58,7 +58,7 @@ enum Shown {
 }
 
 /// Time between two lines of the plain and JSON styles.
-const PAUSE: Duration = Duration::from_secs(2);
+const LINE_INTERVAL: Duration = Duration::from_secs(2);
 
 impl Stage {
     /// Starts a stage of `total` items (unknown: `None`), called `unit` in the display.
@@ -79,7 +79,7 @@ impl Stage {
             total,
             done: AtomicU64::new(0),
             start: now,
-            next: Mutex::new(now + PAUSE),
+            next: Mutex::new(now + LINE_INTERVAL),
             left,
             ended: false,
             shown,
@@ -167,7 +167,7 @@ impl Progress for Stage {
                 if let Ok(mut next) = self.next.try_lock()
                     && now >= *next
                 {
-                    *next = now + PAUSE;
+                    *next = now + LINE_INTERVAL;
                     self.line(done);
                 }
             }

@@ -12,7 +12,7 @@ static RECEIVED: AtomicI32 = AtomicI32::new(0);
 
 /// Time that the work has for stopping by itself. The system then takes its memory back, which of gigabytes takes as long again,
 /// and all of it shall be over within 0.2 s.
-const PATIENCE: Duration = Duration::from_millis(60);
+const MAX_STOPPING_TIME: Duration = Duration::from_millis(60);
 
 /// Whether the work should stop.
 pub fn received() -> bool {
@@ -55,7 +55,7 @@ pub fn listen() {
                 end();
             }
             std::thread::spawn(|| {
-                std::thread::sleep(PATIENCE);
+                std::thread::sleep(MAX_STOPPING_TIME);
                 end()
             });
         }
@@ -81,7 +81,7 @@ pub fn listen() {
             end();
         }
         std::thread::spawn(|| {
-            std::thread::sleep(PATIENCE);
+            std::thread::sleep(MAX_STOPPING_TIME);
             end()
         });
     });

@@ -5,11 +5,11 @@ use std::time::Duration;
 
 /// Times over which the rate is taken. What a stage prepares before its first item (a search tree, say) says nothing of
 /// how fast items come, so the count starts with the first.
-const WINDOW: Duration = Duration::from_secs(15);
+const RATE_WINDOW: Duration = Duration::from_secs(15);
 /// Least time between the first item and an estimate: two blocks that end together tell nothing.
-const LEAST: Duration = Duration::from_millis(1500);
+const MIN_OBSERVED_TIME: Duration = Duration::from_millis(1500);
 /// Least time between two marks.
-const STEP: Duration = Duration::from_millis(100);
+const MIN_MARK_INTERVAL: Duration = Duration::from_millis(100);
 
 /// What was done when.
 #[derive(Default)]
@@ -21,12 +21,12 @@ pub struct TimeLeft {
 impl TimeLeft {
     /// Takes note that `done` items were done after `time`.
     pub fn mark(&mut self, time: Duration, done: u64) {
-        if self.marks.back().is_some_and(|(last, _)| time < *last + STEP) {
+        if self.marks.back().is_some_and(|(last, _)| time < *last + MIN_MARK_INTERVAL) {
             return;
         }
         self.marks.push_back((time, done));
         // One mark as old as the window stays to count from.
-        while self.marks.get(1).is_some_and(|(second, _)| *second + WINDOW < time) {
+        while self.marks.get(1).is_some_and(|(second, _)| *second + RATE_WINDOW < time) {
             self.marks.pop_front();
         }
     }
@@ -34,7 +34,7 @@ impl TimeLeft {
     /// Items a second; `None` while too few came.
     pub fn rate(&self, time: Duration, done: u64) -> Option<f64> {
         let (from, before) = *self.marks.front()?;
-        let passed = time.checked_sub(from).filter(|passed| *passed >= LEAST)?;
+        let passed = time.checked_sub(from).filter(|passed| *passed >= MIN_OBSERVED_TIME)?;
         (done > before).then(|| (done - before) as f64 / passed.as_secs_f64())
     }
 

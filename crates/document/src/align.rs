@@ -4,6 +4,7 @@ mod note;
 
 pub use note::{AlignNote, AlignNoteKind};
 
+use super::result::ResultDocument;
 use super::{InputRecord, Role};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -232,14 +233,16 @@ pub struct PairRecord {
     pub amplification: Option<f64>,
 }
 
-impl AlignDocument {
+impl ResultDocument for AlignDocument {
     /// Whether it may be relied on, and all points are within their tolerance, where there is one. Against a reference that was not read in
     /// whole nothing is proven.
-    pub fn conforms(&self) -> bool {
+    fn conforms(&self) -> bool {
         let whole = self.inputs.iter().all(|i| i.role != Role::Reference || i.incomplete.is_none());
         self.sound() && self.zones.as_ref().is_none_or(|z| z.beyond == 0 && whole)
     }
+}
 
+impl AlignDocument {
     /// The motion of `transform`, without its scale.
     pub fn motion(&self) -> [[f64; 4]; 4] {
         let mut matrix = self.transform;

@@ -1,5 +1,6 @@
 //! `trueness/check/1`: size and defects of a mesh.
 
+use super::result::ResultDocument;
 use super::word::words;
 use super::{Bounds, InputRecord, Word};
 use schemars::JsonSchema;
@@ -70,6 +71,13 @@ pub struct CheckDocument {
     pub tolerances: Tolerances,
     /// The defects by kind.
     pub defects: BTreeMap<String, Defects>,
+}
+
+impl ResultDocument for CheckDocument {
+    /// Whether the mesh is sound.
+    fn conforms(&self) -> bool {
+        self.sound
+    }
 }
 
 /// From where on something counts.

@@ -5,6 +5,7 @@ mod words;
 use super::align::AlignedTo;
 use super::check::Defects;
 use super::research::Research;
+use super::result::ResultDocument;
 pub use super::{Bounds, BySide, Histogram, Percentiles, Statistics};
 use super::{InputRecord, Verdict, VerdictReason, Word};
 use crate::scale::Scale;
@@ -350,9 +351,9 @@ pub struct ToleranceShares {
     pub required: f64,
 }
 
-impl CompareDocument {
+impl ResultDocument for CompareDocument {
     /// Whether nothing speaks against it: the verdict is a pass, or none was asked for and the alignment can be relied on.
-    pub fn conforms(&self) -> bool {
+    fn conforms(&self) -> bool {
         self.verdict.is_none_or(|verdict| verdict == Verdict::Pass)
     }
 }

@@ -1,7 +1,7 @@
 //! `trueness/convert/1`: what was written in another format, and what of it was lost.
 
 use super::word::words;
-use super::{InputRecord, UNITS, VERSION, Word};
+use super::{InputRecord, ResultDocument, UNITS, VERSION, Word};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -60,9 +60,11 @@ impl ConvertDocument {
             lost: vec![],
         }
     }
+}
 
-    /// Whether all that was read is written: what decides the exit status. Faces that could not be read are missing.
-    pub fn conforms(&self) -> bool {
+/// Whether all that was read is written. Faces that could not be read are missing.
+impl ResultDocument for ConvertDocument {
+    fn conforms(&self) -> bool {
         self.inputs.iter().all(|input| input.incomplete.is_none())
     }
 }

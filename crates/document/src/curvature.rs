@@ -6,6 +6,7 @@ mod without;
 pub use kind::CurvatureKind;
 pub use without::NoCurvature;
 
+use super::result::ResultDocument;
 use super::word::named;
 use super::{Histogram, InputRecord, SharedNoise, Statistics, Word};
 use crate::scale::Scale;
@@ -72,6 +73,13 @@ pub struct CurvatureDocument {
     pub neighbors: Range,
     /// Distance of the farthest neighbor.
     pub reach: Range,
+}
+
+impl ResultDocument for CurvatureDocument {
+    /// Curvatures judge nothing.
+    fn conforms(&self) -> bool {
+        true
+    }
 }
 
 /// What has curvatures.

@@ -1,5 +1,6 @@
 //! `trueness/fit/1`: an element fitted to points.
 
+use super::result::ResultDocument;
 use super::shape::{FitMethod, ShapeKind};
 use super::{Histogram, InputRecord, SharedNoise, Word};
 use crate::scale::Scale;
@@ -76,6 +77,13 @@ pub struct FitDocument {
     pub converged: bool,
     /// Seed of everything random.
     pub seed: u64,
+}
+
+impl ResultDocument for FitDocument {
+    /// An element judges nothing.
+    fn conforms(&self) -> bool {
+        true
+    }
 }
 
 /// A number, or a place or direction.

@@ -1,7 +1,7 @@
 //! `trueness/info/1`: what is in a file.
 
 use super::word::words;
-use super::{InputRecord, UNITS, VERSION, Word};
+use super::{InputRecord, ResultDocument, UNITS, VERSION, Word};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -183,5 +183,12 @@ impl InfoDocument {
             area: None,
             cad: None,
         }
+    }
+}
+
+/// What is in a file is told, whatever it is.
+impl ResultDocument for InfoDocument {
+    fn conforms(&self) -> bool {
+        true
     }
 }

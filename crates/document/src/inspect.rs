@@ -9,6 +9,7 @@ use super::align::{AlignNote, AlignNoteKind};
 use super::compare::Comparison;
 use super::fit::Number;
 use super::place_map::PlaceMap;
+use super::result::ResultDocument;
 use super::shape::FitMethod;
 use super::verdict::rank;
 use super::word::named;
@@ -413,12 +414,14 @@ pub struct Counts {
     pub not_measured: u64,
 }
 
-impl InspectDocument {
+impl ResultDocument for InspectDocument {
     /// Whether all of it passes.
-    pub fn conforms(&self) -> bool {
+    fn conforms(&self) -> bool {
         self.verdict == Verdict::Pass
     }
+}
 
+impl InspectDocument {
     /// The characteristics in the order in which people look at them: by verdict, the worst first, then those that take up
     /// most of what is allowed.
     pub fn rows(&self) -> Vec<&CharacteristicRecord> {

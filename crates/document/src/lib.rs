@@ -36,6 +36,7 @@ pub mod plan;
 mod reason;
 pub mod repair;
 pub mod research;
+mod result;
 pub mod scale;
 pub mod section;
 pub mod segment;
@@ -53,8 +54,9 @@ pub use input::{
     CadInputRecord, ColumnRecord, IncompleteRecord, InputRecord, Role, TableRecord, UNITS, VERSION,
 };
 pub use noise::SharedNoise;
-pub use percent::{of_percent, percent, percents};
+pub use percent::{NoPercent, of_percent, percent, percents};
 pub use reason::{ReasonKind, VerdictReason, judged};
+pub use result::ResultDocument;
 pub use statistics::{BySide, Histogram, Percentiles, Statistics};
 pub use verdict::{Verdict, overall, worst};
 pub use word::{Named, Word};

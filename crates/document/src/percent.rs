@@ -35,6 +35,20 @@ pub fn percents([a, b]: [f64; 2]) -> [String; 2] {
     (2..13).map(told).find(|two| two[0] != two[1]).unwrap_or(short)
 }
 
+/// Why a number is no share in percent.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum NoPercent {
+    /// It is a share of 1.
+    #[error("a share is in percent: write {meant} for {meant} %")]
+    ShareOfOne {
+        /// The same in percent.
+        meant: f64,
+    },
+    /// It is below 0, above 100 or no number.
+    #[error("a share is from 0 to 100 percent")]
+    OutOfRange,
+}
+
 /// The share that is written in percent: 0, or from above 1 to 100. What is less is a share that was meant as one of 1.
 ///
 /// # Errors
@@ -43,16 +57,16 @@ pub fn percents([a, b]: [f64; 2]) -> [String; 2] {
 /// ```
 /// use trueness_document::of_percent;
 /// assert_eq!([0.0, 98.0, 100.0].map(of_percent), [Ok(0.0), Ok(0.98), Ok(1.0)]);
-/// assert_eq!(of_percent(0.98), Err("a share is in percent: write 98 for 98 %".into()));
+/// assert_eq!(of_percent(0.98).unwrap_err().to_string(), "a share is in percent: write 98 for 98 %");
 /// assert!(of_percent(-1.0).is_err() && of_percent(101.0).is_err() && of_percent(f64::NAN).is_err());
 /// ```
-pub fn of_percent(written: f64) -> Result<f64, String> {
+pub fn of_percent(written: f64) -> Result<f64, NoPercent> {
     if written > 0.0 && written <= 1.0 {
         let meant = (1e10 * written).round() / 1e8;
-        return Err(format!("a share is in percent: write {meant} for {meant} %"));
+        return Err(NoPercent::ShareOfOne { meant });
     }
     match (0.0..=100.0).contains(&written) {
         true => Ok(written / 100.0),
-        false => Err("a share is from 0 to 100 percent".into()),
+        false => Err(NoPercent::OutOfRange),
     }
 }

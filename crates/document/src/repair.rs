@@ -1,5 +1,6 @@
 //! `trueness/repair/1`: what was mended in a mesh, and what that cost.
 
+use super::result::ResultDocument;
 use super::word::words;
 use super::{InputRecord, Word};
 use schemars::JsonSchema;
@@ -57,6 +58,13 @@ pub struct RepairDocument {
     pub changes: Vec<Change>,
     /// Not all changes are listed.
     pub truncated: bool,
+}
+
+impl ResultDocument for RepairDocument {
+    /// Whether the mesh is sound now and the part was not changed.
+    fn conforms(&self) -> bool {
+        self.sound
+    }
 }
 
 /// The file written.

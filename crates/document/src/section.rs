@@ -32,6 +32,7 @@ pub use tidy::OfferRecord;
 pub use verdict::ProfileRule;
 pub use vocabulary::{Continuity, DimensionKind, OfferKind, Taken};
 
+use super::result::ResultDocument;
 use super::{InputRecord, SharedNoise, Verdict, Word};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -109,7 +110,7 @@ pub struct PlaneRecord {
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub hint: Option<String>,
     /// Whether the points of a cloud in its slab fill an area, so that there are no contours; `hint` says so.
-    #[serde(skip)]
+    #[serde(skip_serializing_if = "is_false", default)]
     pub fills_area: bool,
 }
 
@@ -194,9 +195,13 @@ pub struct JoinRecord {
     pub turn: f64,
 }
 
-impl SectionDocument {
+fn is_false(flag: &bool) -> bool {
+    !flag
+}
+
+impl ResultDocument for SectionDocument {
     /// Whether all contours are beyond doubt, and the profile keeps its tolerance, where it has one.
-    pub fn conforms(&self) -> bool {
+    fn conforms(&self) -> bool {
         let doubtful = self.contours.iter().any(|c| !c.astray.is_empty() || !c.doubts.is_empty())
             || self.planes.iter().any(|plane| plane.fills_area);
         let judged = self.nominal.as_ref().and_then(|nominal| nominal.verdict);

@@ -1,6 +1,7 @@
 //! `trueness/segment/1`: elements found in a mesh or cloud.
 
 use super::fit::Number;
+use super::result::ResultDocument;
 use super::shape::ShapeKind;
 use super::{Bounds, InputRecord, SharedNoise, Word};
 use schemars::JsonSchema;
@@ -47,6 +48,13 @@ pub struct SegmentDocument {
     pub seed: u64,
     /// The regions, largest first.
     pub regions: Vec<RegionRecord>,
+}
+
+impl ResultDocument for SegmentDocument {
+    /// Elements judge nothing.
+    fn conforms(&self) -> bool {
+        true
+    }
 }
 
 /// What regions are made of.

@@ -1,6 +1,7 @@
 //! `trueness/surface/1`: a B-spline surface fitted to points.
 
 use super::curvature::{BendRecord, Range};
+use super::result::ResultDocument;
 use super::word::words;
 use super::{Histogram, InputRecord, Statistics, Word};
 use crate::scale::Scale;
@@ -129,21 +130,21 @@ pub struct BaseRecord {
 }
 
 /// Share of points in layers beyond which the surface is doubtful.
-pub const FOLDED: f64 = 0.01;
+pub const MAX_FOLDED_SHARE: f64 = 0.01;
 
 /// Share of points whose surface stands on edge beyond which the surface is not theirs.
-pub const STANDING: f64 = 0.1;
+pub const MAX_STANDING_SHARE: f64 = 0.1;
 
 /// Factor to which lengths may shrink as a mesh is laid flat: of what is laid flat more densely the knots tell one place from the next no
 /// more.
-const CRUSHED: f64 = 0.05;
+const MIN_SHRINKING: f64 = 0.05;
 
 impl BaseRecord {
     /// Whether so many points lie in layers or stand on edge over the base, or one lies so near to its pole, or the mesh is crushed so much
     /// as it is laid flat, that the surface is not theirs.
     pub fn is_doubtful(&self) -> bool {
-        self.folded_share > FOLDED
-            || self.standing_share > STANDING
+        self.folded_share > MAX_FOLDED_SHARE
+            || self.standing_share > MAX_STANDING_SHARE
             || self.pole
             || self.stretch.is_some_and(is_crushed)
     }
@@ -151,12 +152,12 @@ impl BaseRecord {
 
 /// Whether lengths shrink so much, where they grow by such factors as a mesh is laid flat, that the knots no longer tell places apart.
 pub fn is_crushed([least, _]: [f64; 2]) -> bool {
-    least < CRUSHED
+    least < MIN_SHRINKING
 }
 
-impl SurfaceDocument {
+impl ResultDocument for SurfaceDocument {
     /// Whether the surface is that of its points, and reaches the tolerance, where there is one.
-    pub fn conforms(&self) -> bool {
+    fn conforms(&self) -> bool {
         self.tolerance.as_ref().is_none_or(|t| t.reached) && !self.base.is_doubtful()
     }
 }

@@ -5,6 +5,7 @@ mod record;
 pub use record::{Control, IndexRecord, OutOfControl, RuleRecord, TrendError, TrendRecord};
 
 use super::place_map::TrendMap;
+use super::result::ResultDocument;
 use super::verdict::rank;
 use super::{Verdict, overall};
 use schemars::JsonSchema;
@@ -73,12 +74,14 @@ pub struct PartRecord {
     pub deviation: Option<Verdict>,
 }
 
-impl TrendDocument {
+impl ResultDocument for TrendDocument {
     /// Whether every part passes and no value is out of control.
-    pub fn conforms(&self) -> bool {
+    fn conforms(&self) -> bool {
         self.verdict == Verdict::Pass && self.in_control
     }
+}
 
+impl TrendDocument {
     /// Numbers of the characteristics in the order in which people look at them: by their worst verdict, then by how many
     /// parts have it, then what is out of control, then the least of Ppk.
     pub fn rows(&self) -> Vec<usize> {

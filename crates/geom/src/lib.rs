@@ -19,6 +19,7 @@
 //! | points, vectors, boxes | [`space`] |
 //! | triangle meshes | [`mesh`] |
 //! | point clouds in blocks | [`cloud`] |
+//! | what was measured: a mesh or a cloud | [`scan`] |
 //! | planes, and coordinates in them | [`plane`] |
 //! | rigid motions | [`rigid`] |
 //! | neighbors among points | [`spatial`] |
@@ -46,6 +47,7 @@ pub mod plane;
 pub mod progress;
 pub mod rigid;
 pub mod samples;
+pub mod scan;
 pub mod segment;
 pub mod shape;
 pub mod simd;

@@ -45,7 +45,7 @@ fn found(mesh: &Mesh, nominal: &Nominal, near: Nearness) -> Found {
     let mut faces = Faces::none();
     faces.add_nominal(nominal, near.inward == Some(true)).unwrap();
     let options = Options { distance: Some(near.distance), ..Options::default() };
-    let found = partition(mesh, &[&faces.all[0]], &options, &Silent).unwrap();
+    let found = partition(&mesh.clone().into(), &[&faces.all[0]], &options, &Silent).unwrap();
     let own = |labels: &[u32]| -> Vec<u32> {
         (0u32..).zip(labels).filter(|(_, label)| **label == 0).map(|(number, _)| number).collect()
     };

@@ -42,7 +42,7 @@ pub fn document(
         area: p.area,
         volume: solid.then_some(p.signed_volume),
         volume_reason: (!solid).then(why_not),
-        volume_note: (solid && overlaps(report)).then(|| OVERLAPS.into()),
+        volume_note: (solid && overlaps(report)).then(|| OVERLAPS_NOTE.into()),
         center_of_mass: center,
         center_of_mass_reason: center
             .is_none()
@@ -65,7 +65,7 @@ pub fn document(
 }
 
 /// What the volume of bodies that cross or lie in each other is.
-const OVERLAPS: &str = "what crossing bodies have in common counts as often as there are bodies";
+const OVERLAPS_NOTE: &str = "what crossing bodies have in common counts as often as there are bodies";
 
 /// Whether bodies were found to cross or to lie in each other the same way round.
 fn overlaps(report: &Report) -> bool {

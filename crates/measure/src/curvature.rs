@@ -17,36 +17,41 @@ use trueness_document::curvature::{
 use trueness_document::scale::Scale;
 use trueness_document::surface::MapRecord;
 use trueness_document::{InputRecord, UNITS, VERSION, Word};
-use trueness_geom::mesh::Mesh;
 use trueness_geom::noise::{self, NoNoise};
 use trueness_geom::progress::{Cancelled, Progress};
+use trueness_geom::scan::Scan;
 use trueness_geom::segment::is_drawn;
 use trueness_geom::space::{Aabb, Point};
 use trueness_geom::stats::statistics::{Statistics, Summary};
 use trueness_surface::curvature::{Curvatures, Jet, Options, Reach};
 
-/// The noise of the vertices of a mesh, or without facets of its points, and how far neighbors share it; or why none is told: it is drawn, or there
+/// The noise of the vertices of a mesh, or of the points of a cloud, and how far neighbors share it; or why none is told: it is drawn, or there
 /// are too few points.
 ///
 /// # Errors
 /// Cancelled.
-pub fn noise(of: &Mesh, seed: u64, progress: &dyn Progress) -> Result<NoiseOrReason, Cancelled> {
-    let found = noise::mesh(of, seed, progress);
-    noise_or_reason(found.and_then(|noise| if is_drawn(of) { Err(NoNoise::Drawn) } else { Ok(noise) }))
+pub fn noise(of: &Scan, seed: u64, progress: &dyn Progress) -> Result<NoiseOrReason, Cancelled> {
+    let found = noise::scan(of, seed, progress);
+    let is_drawn = || of.mesh().is_some_and(is_drawn);
+    noise_or_reason(found.and_then(|noise| if is_drawn() { Err(NoNoise::Drawn) } else { Ok(noise) }))
 }
 
-/// The document of the curvatures at `points`, which are the vertices of a mesh or the points of a cloud, as `inputs` has them.
+/// The document of the curvatures at the points of `scan`, as `inputs` has them.
 /// `None` where no place has curvatures; [`without`] tells why.
 ///
 /// Cost: some passes over the places, and one number a place.
 pub fn document(
     found: &Curvatures,
-    points: &[Point],
-    of_mesh: bool,
+    scan: &Scan,
     options: &Options,
     noise: &NoiseOrReason,
     inputs: Vec<InputRecord>,
 ) -> Option<CurvatureDocument> {
+    let points = scan.points();
+    let (places, normals) = match scan {
+        Scan::Mesh(_) => (PlaceKind::Vertices, NormalSource::Facets),
+        Scan::Cloud(_) => (PlaceKind::Points, NormalSource::Neighbors),
+    };
     let jets: Vec<&Jet> = found.places.iter().flatten().collect();
     let size =
         Aabb::of(found.places.iter().zip(points).filter(|(p, _)| p.is_ok()).map(|(_, p)| p)).diagonal();
@@ -57,12 +62,12 @@ pub fn document(
         version: VERSION.into(),
         units: UNITS.into(),
         inputs,
-        places: Word(if of_mesh { PlaceKind::Vertices } else { PlaceKind::Points }),
+        places: Word(places),
         degree: options.degree as u64,
         neighborhood: neighborhood(options),
         boundary: options.boundary,
         sign: "positive towards the normal".into(),
-        normals: Word(if of_mesh { NormalSource::Facets } else { NormalSource::Neighbors }),
+        normals: Word(normals),
         parts: found.parts as u64,
         total: points.len() as u64,
         count: jets.len() as u64,

@@ -8,7 +8,7 @@ pub use distances::distances;
 pub use extent::extent;
 pub use parameters::{named, uncertainty};
 
-use crate::noise::{NoiseOrReason, noise_or_reason, points_per_independent, record};
+use crate::noise::{NoSharedNoise, NoiseOrReason, noise_or_reason, points_per_independent, record};
 use crate::statistics::counted;
 use crate::words::{ToGeometry, ToWord};
 use parameters::NONE_LEFT;
@@ -17,26 +17,26 @@ use trueness_document::scale::Scale;
 use trueness_document::{InputRecord, UNITS, VERSION};
 
 use trueness_geom::fit::Fit;
-use trueness_geom::mesh::Mesh;
 use trueness_geom::noise;
 use trueness_geom::progress::{Cancelled, Progress};
+use trueness_geom::scan::Scan;
 use trueness_geom::shape::Kind;
 use trueness_geom::space::Point;
 use trueness_geom::stats::statistics::Summary;
 
-/// The noise of the vertices, or without facets the points, of `scan` about the element fitted to them, and how far neighbors share it; or why
+/// The noise of the points of `scan` about the element fitted to them, and how far neighbors share it; or why
 /// none is told: the element is a curve, or there are too few points.
 ///
 /// # Errors
 /// Cancelled.
-pub fn noise(fit: &Fit, scan: &Mesh, seed: u64, progress: &dyn Progress) -> Result<NoiseOrReason, Cancelled> {
+pub fn noise(fit: &Fit, scan: &Scan, seed: u64, progress: &dyn Progress) -> Result<NoiseOrReason, Cancelled> {
     if fit.shape.kind().is_curve() {
-        return Ok(Err("it is a curve: how far neighbors share noise is found along surfaces".into()));
+        return Ok(Err(NoSharedNoise::Curve));
     }
     // What a robust fit left out lies beyond the rest.
     let [(least, _), (most, _)] = [fit.residuals.min, fit.residuals.max];
     let counted = |d: f64| if (least..=most).contains(&d) { d } else { f64::NAN };
-    let distances: Vec<f64> = distances(&fit.shape, &scan.positions).into_iter().map(counted).collect();
+    let distances: Vec<f64> = distances(&fit.shape, scan.points()).into_iter().map(counted).collect();
     noise_or_reason(noise::about(scan, &distances, seed, progress))
 }
 
@@ -135,7 +135,7 @@ mod tests {
         for method in Method::ALL {
             let options = Options { method, ..Options::default() };
             let fit = fit(&points, Kind::Circle2, &options, &Silent).unwrap();
-            let document = bare(&fit, &Err("few points".into()), vec![], 0);
+            let document = bare(&fit, &Err(NoSharedNoise::Curve), vec![], 0);
             let text = serde_json::to_string(&document).unwrap();
             let back: FitDocument = serde_json::from_str(&text).unwrap();
             assert_eq!((back.parameters.clone(), kind(&back)), (document.parameters.clone(), Kind::Circle2));

@@ -39,5 +39,5 @@ pub mod trend;
 pub mod words;
 
 pub use bounds::bounds;
-pub use noise::{NoiseOrReason, noise_or_reason, points_per_independent};
+pub use noise::{NoSharedNoise, NoiseOrReason, noise_or_reason, points_per_independent};
 pub use statistics::{by_side, counted, histogram, statistics};

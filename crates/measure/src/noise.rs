@@ -5,13 +5,30 @@ use trueness_geom::noise::{NoNoise, Noise};
 use trueness_geom::progress::Cancelled;
 
 /// The noise, or why none is told and points count as independent.
-pub type NoiseOrReason = Result<Noise, String>;
+pub type NoiseOrReason = Result<Noise, NoSharedNoise>;
+
+/// Why no noise is told that neighbors share.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum NoSharedNoise {
+    /// The data do not tell.
+    #[error(transparent)]
+    Data(NoNoise),
+    /// The element is a curve.
+    #[error("it is a curve: how far neighbors share noise is found along surfaces")]
+    Curve,
+    /// A plan names no measured data.
+    #[error("there is no measured surface: all points are from files of features")]
+    NoSurface,
+    /// Nothing was looked for, as errors were said to be independent.
+    #[error("errors are independent, as --independent says")]
+    Independent,
+}
 
 /// Both, as documents hold them.
 pub fn record(noise: &NoiseOrReason) -> (Option<SharedNoise>, Option<String>) {
     match noise {
         Ok(noise) => (Some(shared(noise)), None),
-        Err(why) => (None, Some(why.clone())),
+        Err(why) => (None, Some(why.to_string())),
     }
 }
 
@@ -33,7 +50,7 @@ fn shared(noise: &Noise) -> SharedNoise {
 pub fn noise_or_reason(found: Result<Noise, NoNoise>) -> Result<NoiseOrReason, Cancelled> {
     match found {
         Err(NoNoise::Cancelled(e)) => Err(e),
-        found => Ok(found.map_err(|e| e.to_string())),
+        found => Ok(found.map_err(NoSharedNoise::Data)),
     }
 }
 

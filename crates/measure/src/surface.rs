@@ -6,8 +6,8 @@ use crate::words::ToWord;
 use trueness_document::curvature::{CurvatureKind, Range};
 use trueness_document::scale::Scale;
 use trueness_document::surface::{
-    BaseRecord, CurvatureRecord, FOLDED, KnotsRecord, MapRecord, PlaceCurvature, RegionRecord, Residual,
-    SCHEMA, SupportRecord, SurfaceDocument, ToleranceRecord, TrimRecord, WorstPoint, is_crushed,
+    BaseRecord, CurvatureRecord, KnotsRecord, MAX_FOLDED_SHARE, MapRecord, PlaceCurvature, RegionRecord,
+    Residual, SCHEMA, SupportRecord, SurfaceDocument, ToleranceRecord, TrimRecord, WorstPoint, is_crushed,
 };
 use trueness_document::{InputRecord, UNITS, VERSION};
 use trueness_geom::parallel::prelude::*;
@@ -20,10 +20,10 @@ use trueness_surface::{
 };
 
 /// Factor by which lengths may grow or shrink as a mesh is laid flat.
-const STRETCHED: f64 = 2.0;
+const MAX_STRETCH: f64 = 2.0;
 
 /// Sides of the rectangle of the points with a lesser ratio make a strip.
-const SLIM: f64 = 1e-3;
+const MIN_RECTANGLE_RATIO: f64 = 1e-3;
 
 /// The document of a fit to `points`, which are those of `inputs` in their order.
 ///
@@ -200,7 +200,7 @@ fn cut(outline: &Outline) -> Vec<String> {
 fn warnings(fit: &SurfaceFit, outline: Option<&Outline>) -> Vec<String> {
     let mut all: Vec<String> = outline.into_iter().flat_map(cut).collect();
     let percent = |share: f64| format!("{:.1} %", 100.0 * share);
-    if fit.base.folded_share > FOLDED {
+    if fit.base.folded_share > MAX_FOLDED_SHARE {
         all.push(format!(
             "{} of the points lie in layers over one another as seen on the base ({}): the surface lies between the layers, or folds steeply from one to the other; take another base, or the layers one by one",
             percent(fit.base.folded_share),
@@ -219,7 +219,7 @@ fn warnings(fit: &SurfaceFit, outline: Option<&Outline>) -> Vec<String> {
         ));
     }
     if let Some([least, most]) = fit.base.stretch
-        && (least < 1.0 / STRETCHED || most > STRETCHED)
+        && (least < 1.0 / MAX_STRETCH || most > MAX_STRETCH)
     {
         let so = if is_crushed([least, most]) {
             "what shrinks so much the knots do not tell apart, and the surface may cross itself there"
@@ -259,7 +259,7 @@ fn warnings(fit: &SurfaceFit, outline: Option<&Outline>) -> Vec<String> {
         ));
     }
     if let Some([long, short]) = minimum_rectangle(&fit.feet).map(|r| r.sides)
-        && short < SLIM * long
+        && short < MIN_RECTANGLE_RATIO * long
     {
         all.push(format!(
             "the points lie in a strip of {long:.4} mm by {short:.4} mm: across it the surface may follow their noise alone"
@@ -279,6 +279,6 @@ mod tests {
     /// Documents know no geometry, and hold the limit of the fit.
     #[test]
     fn what_stands_on_edge_is_the_same_for_fit_and_document() {
-        assert_eq!(trueness_document::surface::STANDING, trueness_surface::MAX_STANDING_SHARE);
+        assert_eq!(trueness_document::surface::MAX_STANDING_SHARE, trueness_surface::MAX_STANDING_SHARE);
     }
 }

@@ -359,7 +359,7 @@ fn too_few_points_are_not_measured() {
         match found {
             Ok(found) => {
                 let reason = found.values[0].as_ref().unwrap_err();
-                assert!(reason.contains("points"), "{}: {reason}", c.kind);
+                assert!(reason.to_string().contains("points"), "{}: {reason}", c.kind);
             }
             Err(e) => panic!("{}: {e}", c.kind),
         }

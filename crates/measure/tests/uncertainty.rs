@@ -351,7 +351,7 @@ fn measured_noise_covers_what_is_there() {
         let mut missed = [0; 2];
         let mut points = 0.0;
         for _ in 0..15 {
-            let data = Data { measured: Some(sheets(rounds, random)), ..Data::default() };
+            let data = Data { measured: Some(sheets(rounds, random).into()), ..Data::default() };
             let found = run(&plan, data, &Silent).unwrap();
             let noise = found.noise.as_ref().unwrap();
             assert!((noise.deviation / 0.01 - 1.0).abs() < 0.5, "{rounds}: {noise:?}");
@@ -375,7 +375,7 @@ fn without_a_scan_no_noise_is_measured() {
     let plan = plan("noise = \"measured\"");
     let [a, b] = squares();
     let found = found(&plan, [a, b, bore()], 7);
-    assert!(found.noise.unwrap_err().contains("files of features"));
+    assert_eq!(found.noise.unwrap_err(), trueness_measure::NoSharedNoise::NoSurface);
     assert_eq!(found.uncertainties, [None, None]);
     let refused = Plan::parse(
         r#"schema = "trueness/plan/1"

@@ -5,6 +5,7 @@ use serde::Serialize;
 use trueness_document::Role;
 use trueness_document::scale::palette::Rgb;
 use trueness_geom::mesh::Mesh;
+use trueness_geom::scan::Scan;
 use trueness_geom::space::Point;
 
 /// What an object is to the reader: what it is called, its color, and what switches it on and off.
@@ -110,6 +111,15 @@ pub enum Geometry<'a> {
     Mesh(&'a Mesh),
 }
 
+impl<'a> From<&'a Scan> for Geometry<'a> {
+    fn from(scan: &'a Scan) -> Geometry<'a> {
+        match scan {
+            Scan::Mesh(mesh) => Geometry::Mesh(mesh),
+            Scan::Cloud(points) => Geometry::Points(points),
+        }
+    }
+}
+
 /// One deviation a point or vertex.
 pub struct ViewField<'a> {
     /// Number in the result's `comparisons`.
@@ -129,17 +139,14 @@ impl ViewField<'_> {
 }
 
 impl<'a> ViewObject<'a> {
-    /// A mesh, or without facets a cloud, in one color and without values.
-    pub(crate) fn plain(role: ViewRole, name: &'a str, color: Option<Rgb>, mesh: &'a Mesh) -> ViewObject<'a> {
+    /// A mesh or a cloud, in one color and without values.
+    pub(crate) fn plain(role: ViewRole, name: &'a str, color: Option<Rgb>, scan: &'a Scan) -> ViewObject<'a> {
         ViewObject {
             role,
             name,
             color,
             comparison: None,
-            geometry: match mesh.faces.is_empty() {
-                true => Geometry::Points(&mesh.positions),
-                false => Geometry::Mesh(mesh),
-            },
+            geometry: scan.into(),
             fields: vec![],
             keep: &[],
             gathered: None,

@@ -55,7 +55,7 @@
 //! ```
 
 mod easy;
-pub mod read;
+mod read;
 pub mod task;
 pub mod tasks;
 

@@ -54,7 +54,7 @@ fn files_are_in_their_places_once_they_are_committed() {
     std::fs::create_dir_all(&folder).unwrap();
     let out = folder.join("curvature.csv");
     let request = CurvatureRequest { out: Some(out.clone()), view: true, ..request() };
-    request.files().unwrap().check(&Silent).unwrap();
+    request.files(&FileSources).unwrap().check(&Silent).unwrap();
     let mut done = request.run(&FileSources, &Silent).unwrap();
     assert!(!out.exists() && done.scene.is_some());
     done.commit().unwrap();

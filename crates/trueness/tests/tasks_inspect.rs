@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may stop")]
 
 use std::path::Path;
+use trueness::document::ResultDocument;
 use trueness::files::{FileSources, MemorySources};
 use trueness::geom::progress::Silent;
 use trueness::task::{Done, ErrorKind, Outcome, Request};

@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use serde_json::json;
+use trueness::document::ResultDocument;
 use trueness::files::{FileSources, MemorySources};
 use trueness::geom::progress::Silent;
 use trueness::task::{ErrorKind, Outcome, Request};
@@ -103,7 +104,7 @@ fn drawings_are_in_their_places_once_they_are_committed() {
         view: true,
         ..SectionRequest::default()
     };
-    request.files().unwrap().check(&Silent).unwrap();
+    request.files(&FileSources).unwrap().check(&Silent).unwrap();
     let mut done = request.run(&sources, &Silent).unwrap();
     assert!(!dxf.exists() && !out.exists() && done.scene.is_some());
     assert_eq!(done.document.contours[0].segments.len(), 4);

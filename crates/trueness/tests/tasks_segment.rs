@@ -48,7 +48,7 @@ fn files_are_in_their_places_once_they_are_committed() {
     std::fs::create_dir_all(&folder).unwrap();
     let out = folder.join("regions.csv");
     let request = SegmentRequest { out: Some(out.clone()), view: true, ..request() };
-    request.files().unwrap().check(&Silent).unwrap();
+    request.files(&FileSources).unwrap().check(&Silent).unwrap();
     let mut done = request.run(&FileSources, &Silent).unwrap();
     assert!(!out.exists() && done.scene.is_some());
     done.commit().unwrap();

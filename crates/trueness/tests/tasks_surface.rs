@@ -63,7 +63,7 @@ fn files_are_in_their_places_once_they_are_committed() {
     std::fs::create_dir_all(&folder).unwrap();
     let step = folder.join("surface.stp");
     let request = SurfaceRequest { step: Some(step.clone()), view: true, ..request() };
-    request.files().unwrap().check(&Silent).unwrap();
+    request.files(&FileSources).unwrap().check(&Silent).unwrap();
     let mut done = request.run(&FileSources, &Silent).unwrap();
     assert!(!step.exists() && done.scene.is_some());
     done.commit().unwrap();

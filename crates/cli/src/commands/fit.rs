@@ -2,6 +2,7 @@
 
 use crate::command::Run;
 use crate::console;
+use crate::inputs;
 use crate::noise::{self, NoiseArgs};
 use crate::number::{POINTS, counted, fixed, scientific};
 use crate::options::{Common, DocumentArgs, PointInputArgs, choice};
@@ -10,7 +11,7 @@ use crate::task;
 use clap::Args;
 use std::fmt::Write;
 use std::path::PathBuf;
-use trueness::read;
+use trueness::files::FileSources;
 use trueness::task::Outcome;
 use trueness::task::{Request, RunFiles};
 use trueness::tasks::fit::{Element, FitRequest, Method};
@@ -61,7 +62,7 @@ impl FitArgs {
 
 impl Run for FitArgs {
     fn files(&self, common: &Common) -> anyhow::Result<RunFiles> {
-        let files = self.request(common).files()?.document(self.document.json.as_ref());
+        let files = self.request(common).files(&FileSources)?.document(self.document.json.as_ref());
         Ok(files.report(self.report.html.as_ref()))
     }
     fn run(&self, common: &Common) -> anyhow::Result<Outcome> {
@@ -88,7 +89,7 @@ fn table(document: &FitDocument) -> String {
         let of_it = uncertainty.and_then(|u| u.get(name)).map_or_else(String::new, small);
         rows.push(vec![name.replace('_', " "), shown(value), of_it]);
     }
-    let mut out = read::notes(&document.inputs);
+    let mut out = inputs::notes(&document.inputs);
     let _ = writeln!(out, "{} by {}, mm and radians", document.shape, document.method);
     out.push_str(&console::columns(&rows));
     let _ = writeln!(

@@ -52,7 +52,7 @@ impl InitArgs {
 impl Run for PlanArgs {
     fn files(&self, common: &Common) -> anyhow::Result<RunFiles> {
         let What::Init(args) = &self.what;
-        Ok(args.request(common).files()?)
+        Ok(args.request(common).files(&FileSources)?)
     }
     fn run(&self, common: &Common) -> anyhow::Result<Outcome> {
         let What::Init(args) = &self.what;

@@ -2,6 +2,7 @@
 
 use crate::command::Run;
 use crate::console;
+use crate::inputs;
 use crate::noise::{self, NoiseArgs};
 use crate::number::{FACETS, POINTS, counted, fixed, grouped, scientific};
 use crate::options::{Common, DocumentArgs, PointInputArgs, choice, count, number};
@@ -10,7 +11,7 @@ use crate::task;
 use clap::Args;
 use std::fmt::Write;
 use std::path::PathBuf;
-use trueness::read;
+use trueness::files::FileSources;
 use trueness::task::Outcome;
 use trueness::task::{Request, RunFiles};
 use trueness::tasks::segment::{Element, SegmentRequest};
@@ -95,7 +96,7 @@ impl SegmentArgs {
 
 impl Run for SegmentArgs {
     fn files(&self, common: &Common) -> anyhow::Result<RunFiles> {
-        let files = self.request(common).files()?.document(self.document.json.as_ref());
+        let files = self.request(common).files(&FileSources)?.document(self.document.json.as_ref());
         Ok(files.report(self.report.html.as_ref()))
     }
     fn run(&self, common: &Common) -> anyhow::Result<Outcome> {
@@ -106,13 +107,13 @@ impl Run for SegmentArgs {
 }
 
 /// Rows of the table.
-const ROWS: usize = 60;
+const MAX_REGION_ROWS: usize = 60;
 
 /// The document for people.
 fn table(document: &SegmentDocument) -> String {
     let head = ["region", "shape", "size", "share", "points", "rms", "max"];
     let mut rows = vec![head.map(String::from).to_vec()];
-    for region in document.regions.iter().take(ROWS) {
+    for region in document.regions.iter().take(MAX_REGION_ROWS) {
         rows.push(vec![
             region.number.to_string(),
             region.shape.to_string(),
@@ -123,10 +124,10 @@ fn table(document: &SegmentDocument) -> String {
             scientific(region.max, 2),
         ]);
     }
-    let mut out = read::notes(&document.inputs);
+    let mut out = inputs::notes(&document.inputs);
     out.push_str(&console::columns(&rows));
-    if document.regions.len() > ROWS {
-        let _ = writeln!(out, "… and {} more", document.regions.len() - ROWS);
+    if document.regions.len() > MAX_REGION_ROWS {
+        let _ = writeln!(out, "… and {} more", document.regions.len() - MAX_REGION_ROWS);
     }
     let what = match document.pieces {
         PieceKind::Facets => FACETS,

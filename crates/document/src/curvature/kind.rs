@@ -36,10 +36,10 @@ impl CurvatureKind {
     /// What is drawn flat on a body of this size, millimeters: less than that is rounding or noise. Over the whole body the surface
     /// then bows by no more than an 80,000th of the size.
     pub fn least(self, size: f64) -> f64 {
-        const FLAT: f64 = 1e-4;
+        const MAX_FLAT_BEND: f64 = 1e-4;
         if size == 0.0 {
             return 0.0;
         }
-        if self == CurvatureKind::Gaussian { FLAT / (size * size) } else { FLAT / size }
+        if self == CurvatureKind::Gaussian { MAX_FLAT_BEND / (size * size) } else { MAX_FLAT_BEND / size }
     }
 }

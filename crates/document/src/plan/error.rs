@@ -1,5 +1,6 @@
 //! What is wrong with a plan, and where.
 
+use super::fault::{Fault, Kind, Wanted};
 use super::synonyms::synonyms;
 use std::ops::Range;
 
@@ -28,87 +29,102 @@ impl PlanError {
         }
     }
 
-    /// What the reader of the text found, with the nearest word where one of a list was expected.
-    pub(super) fn of_reader(text: &str, error: &toml::de::Error) -> PlanError {
+    /// What the reader of TOML found, with the remedy for slips.
+    pub(super) fn of_toml(text: &str, error: &toml::de::Error) -> PlanError {
         let span = error.span().unwrap_or(0..0);
         let message = error.message().trim_end_matches('\n').replace('\n', "; ");
-        let quoted: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
-        let what = match quoted.split_first() {
-            Some((word, known)) if message.starts_with("unknown ") && !known.is_empty() => unknown(
-                // The reader's word for a value of a list.
-                &message
-                    .split('`')
-                    .next()
-                    .unwrap_or("")
-                    .trim_start_matches("unknown ")
-                    .trim()
-                    .replace("variant", "value"),
-                word,
-                known,
-            ),
-            _ => said(text, &span, &message),
+        let line = text.get(..span.start).unwrap_or("").rsplit('\n').next().unwrap_or("");
+        let what = slip(&message, line, text.get(span.start..).unwrap_or("")).unwrap_or(message);
+        PlanError::at(text, &span, what)
+    }
+
+    /// A fault of a value, with the nearest word where one of a list was expected.
+    pub(super) fn of_fault(text: &str, fault: Fault) -> PlanError {
+        let span = fault.span.unwrap_or(0..0);
+        let what = match *fault.kind {
+            Kind::Unknown { what, word, known } => unknown(what, &word, known),
+            Kind::Missing(key) => format!("`{key}` is missing; add it, as in {key} = {}", example(key)),
+            Kind::Type { wanted, message } => Written::at(text, &span).not(wanted, &message),
+            Kind::Length { found, wanted, message } => {
+                Written::at(text, &span).not_so_long(found, wanted, &message)
+            }
+            Kind::Said(message) => message,
         };
         PlanError::at(text, &span, what)
     }
 }
 
-/// What the reader says of a value of the wrong type, a list of the wrong length, a missing key or a slip in TOML, in our words: the key,
-/// what stands there, what should, and how it is written. Its other messages are told as they are.
-fn said(text: &str, span: &Range<usize>, message: &str) -> String {
-    let quoted = |s: &str| s.split('`').nth(1).unwrap_or("").to_string();
-    let there = text.get(span.clone()).unwrap_or("").trim();
-    let before = text.get(..span.start).unwrap_or("");
-    let line = before.rsplit('\n').next().unwrap_or("");
-    let words = |c: char| !(c.is_alphanumeric() || c == '_' || c == '-');
-    // `key = value`, also within `{ … }`; an element of a list has the list's.
-    let key = line.rsplit_once('=').and_then(|(left, _)| left.trim().rsplit(words).next()).unwrap_or("");
-    let of = if key.is_empty() { String::new() } else { format!("`{key}` is ") };
-    if message.starts_with("missing field") {
-        let key = quoted(message);
-        return format!("`{key}` is missing; add it, as in {key} = {}", example(&key));
+/// What stands at a place of the text.
+struct Written<'a> {
+    /// The key of the value; empty where it has none. An element of a list has the list's.
+    key: &'a str,
+    value: &'a str,
+}
+
+impl Written<'_> {
+    fn at<'a>(text: &'a str, span: &Range<usize>) -> Written<'a> {
+        let line = text.get(..span.start).unwrap_or("").rsplit('\n').next().unwrap_or("");
+        let words = |c: char| !(c.is_alphanumeric() || c == '_' || c == '-');
+        // `key = value`, also within `{ … }`.
+        let key = line.rsplit_once('=').and_then(|(left, _)| left.trim().rsplit(words).next()).unwrap_or("");
+        Written { key, value: text.get(span.clone()).unwrap_or("").trim() }
     }
-    if let Some(slip) = slip(message, line, text.get(span.start..).unwrap_or("")) {
-        return slip;
+
+    /// `key is `, where there is a key.
+    fn subject(&self) -> String {
+        if self.key.is_empty() { String::new() } else { format!("`{}` is ", self.key) }
     }
-    let known = message.split_once(", expected ");
-    let Some((found, wanted)) =
-        known.or(message.strip_prefix("wanted string or table").map(|_| ("", "enum")))
-    else {
-        return message.into();
-    };
-    let wanted = match wanted {
-        "f64" if key == "tolerance" => "one number, the width or diameter of the zone",
-        "f64" => "a number",
-        "a string" => "text in quotes",
-        "a boolean" => "true or false",
-        "u32" | "u64" => "a whole number from 0",
-        "a sequence" if there.starts_with('[') && key.is_empty() => {
+
+    /// What a value should be, and how that is written; `None` where there are no words for it.
+    fn wanted(&self, wanted: Option<Wanted>) -> Option<&'static str> {
+        Some(match wanted? {
+            Wanted::Number if self.key == "tolerance" => "one number, the width or diameter of the zone",
+            Wanted::Number => "a number",
+            Wanted::Text => "text in quotes",
+            Wanted::Bool => "true or false",
+            Wanted::Whole => "a whole number from 0",
+            Wanted::List => "a list, as in [\"A\", \"B\"]",
+            Wanted::Several(2) => "two numbers, as in [-0.1, 0.1]",
+            Wanted::Several(3) => "three numbers, as in [0, 0, 1]",
+            Wanted::Several(_) => return None,
+            Wanted::Table => "a table, as in { … }",
+            Wanted::Word => "a word in quotes",
+        })
+    }
+
+    /// That it is of another type.
+    fn not(&self, wanted: Option<Wanted>, message: &str) -> String {
+        let there = self.value;
+        if wanted == Some(Wanted::List) && there.starts_with('[') && self.key.is_empty() {
             return format!("{there} is one table; write [{there}], as there may be several");
         }
-        "a sequence" => "a list, as in [\"A\", \"B\"]",
-        "an array of length 2" => "two numbers, as in [-0.1, 0.1]",
-        "an array of length 3" => "three numbers, as in [0, 0, 1]",
-        w if w.starts_with("struct ") => "a table, as in { … }",
-        w if w.contains("enum") => "a word in quotes",
-        _ => return message.into(),
-    };
-    let number = there.trim_matches('"').replace(',', ".");
-    let remedy = match wanted {
-        _ if wanted.contains("number") && there.starts_with('"') && number.parse::<f64>().is_ok() => {
-            format!("; write {number} without quotes")
-        }
-        "text in quotes" if ["id", "title", "datums"].contains(&key) && there.parse::<f64>().is_ok() => {
-            format!("; write \"{there}\"")
-        }
-        _ => String::new(),
-    };
-    if let Some(length) = found.strip_prefix("invalid length ") {
-        return format!("{of}a list of {length}, not {wanted}");
+        let Some(words) = self.wanted(wanted) else { return message.into() };
+        let number = there.trim_matches('"').replace(',', ".");
+        let is_number = matches!(wanted, Some(Wanted::Number | Wanted::Whole | Wanted::Several(_)));
+        let remedy = match wanted {
+            _ if is_number && there.starts_with('"') && number.parse::<f64>().is_ok() => {
+                format!("; write {number} without quotes")
+            }
+            Some(Wanted::Text)
+                if ["id", "title", "datums"].contains(&self.key) && there.parse::<f64>().is_ok() =>
+            {
+                format!("; write \"{there}\"")
+            }
+            _ => String::new(),
+        };
+        // A table or a list of several lines says nothing here.
+        let short = !there.is_empty() && !there.contains('\n') && there.chars().count() <= 40;
+        let there = if short { there } else { "something else" };
+        format!("{}{there}, not {words}{remedy}", self.subject())
     }
-    // A table or a list of several lines says nothing here.
-    let short = !there.is_empty() && !there.contains('\n') && there.chars().count() <= 40;
-    let there = if short { there.to_string() } else { "something else".into() };
-    format!("{of}{there}, not {wanted}{remedy}")
+
+    /// That it is a list of another length.
+    fn not_so_long(&self, found: usize, wanted: Option<Wanted>, message: &str) -> String {
+        match self.wanted(wanted) {
+            Some(words) => format!("{}a list of {found}, not {words}", self.subject()),
+            None => message.into(),
+        }
+    }
 }
 
 /// Slips of people who do not write TOML every day; `line` is what stands before the place, `after` what follows.

@@ -6,8 +6,10 @@
 mod at;
 mod class;
 mod error;
+mod fault;
 mod kinds;
 mod numbers;
+mod reader;
 mod synonyms;
 mod text;
 mod words;
@@ -41,7 +43,7 @@ impl PlanText {
     /// # Ok::<(), trueness_document::plan::PlanError>(())
     /// ```
     pub fn read(text: &str) -> Result<PlanText, PlanError> {
-        let written: PlanText = toml::from_str(text).map_err(|e| PlanError::of_reader(text, &e))?;
+        let written: PlanText = reader::read(text)?;
         if written.schema.value != SCHEMA {
             let what =
                 format!("the schema is \"{}\", but this program reads \"{SCHEMA}\"", written.schema.value);
@@ -58,7 +60,7 @@ impl RegionsText {
     /// # Errors
     /// The first fault, with line and column: no TOML, an unknown key, a number that no part has.
     pub fn read(text: &str) -> Result<RegionsText, PlanError> {
-        let written = toml::from_str(text).map_err(|e| PlanError::of_reader(text, &e))?;
+        let written = reader::read(text)?;
         numbers::checked(text)?;
         Ok(written)
     }

@@ -77,17 +77,17 @@ pub struct AirfoilMeasures {
 }
 
 /// A camber of less than this share of the chord is none.
-const NO_CAMBER: f64 = 0.002;
+const MIN_CAMBER_SHARE: f64 = 0.002;
 /// Camber lines are highest behind this share of the chord: those in use from 0.15 on.
-const HIGHEST_FROM: f64 = 0.12;
+const MIN_HIGHEST_CAMBER_SHARE: f64 = 0.12;
 
 impl AirfoilRecord {
     /// What makes the measures doubtful: the circles of a camber line that is highest at its leading edge wander with the points there, and
     /// the chord with them.
     pub fn doubt(&self) -> Option<String> {
         let found = self.measures.as_ref()?;
-        let is_cambered = found.camber.abs() > NO_CAMBER * found.chord;
-        (is_cambered && found.camber_at < HIGHEST_FROM).then(|| {
+        let is_cambered = found.camber.abs() > MIN_CAMBER_SHARE * found.chord;
+        (is_cambered && found.camber_at < MIN_HIGHEST_CAMBER_SHARE).then(|| {
             "the camber line is highest at the leading edge: points there are too few or scatter too much to tell where the edge is, and camber \
              and chord hang on that; give more points around it"
                 .into()

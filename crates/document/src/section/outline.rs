@@ -33,11 +33,11 @@ pub struct OutlineRecord {
 }
 
 /// So much of an outline counts as all of it: points of open rows end beside its ends.
-const WHOLE: f64 = 0.98;
+const WHOLE_OUTLINE_SHARE: f64 = 0.98;
 
 impl OutlineRecord {
     /// Whether it was not measured as a whole.
     pub fn lacks(&self) -> bool {
-        self.covered < WHOLE
+        self.covered < WHOLE_OUTLINE_SHARE
     }
 }

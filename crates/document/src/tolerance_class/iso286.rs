@@ -136,10 +136,10 @@ impl Class<'_> {
             return Ok(Some([-0.5 * width, 0.5 * width]));
         }
         if self.letters == "h" {
-            return Ok(Some(self.beside(0.0)));
+            return Ok(Some(self.limits_from(0.0)));
         }
         if let Some((_, values)) = CLEAR.iter().find(|(l, _)| *l == self.letters) {
-            return Ok(Some(self.beside(values[self.at])));
+            return Ok(Some(self.limits_from(values[self.at])));
         }
         if self.letters == "j" {
             return match (self.hole, grade) {
@@ -161,7 +161,7 @@ impl Class<'_> {
     }
 
     /// Limits that begin at this clearance.
-    fn beside(&self, clearance: f64) -> [f64; 2] {
+    fn limits_from(&self, clearance: f64) -> [f64; 2] {
         match self.hole {
             true => [clearance, clearance + self.width],
             false => [-clearance - self.width, -clearance],

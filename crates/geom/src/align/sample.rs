@@ -11,6 +11,7 @@ use crate::mesh::Mesh;
 use crate::num::dense::eigen;
 use crate::num::random::Random;
 use crate::parallel::prelude::*;
+use crate::scan::Scan;
 use crate::space::{Point, Vector, cross, dot, minus, norm, plus, times, unit};
 use crate::spatial::neighbors::PointTree;
 
@@ -27,6 +28,15 @@ pub enum Measured<'a> {
         /// Outward unit normals, as many; without them any side of the reference will do.
         normals: Option<&'a [Vector]>,
     },
+}
+
+impl<'a> From<&'a Scan> for Measured<'a> {
+    fn from(scan: &'a Scan) -> Measured<'a> {
+        match scan {
+            Scan::Mesh(mesh) => Measured::Mesh(mesh),
+            Scan::Cloud(points) => Measured::Points { points, normals: None },
+        }
+    }
 }
 
 impl Measured<'_> {

@@ -32,6 +32,7 @@ use crate::mesh::Mesh;
 use crate::num::random::Random;
 use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress};
+use crate::scan::Scan;
 use crate::space::Point;
 use moments::Moments;
 use patch::{Around, InCloud, OnMesh};
@@ -78,7 +79,7 @@ const MIN_PATCHES: usize = 8;
 /// # Errors
 /// [`NoNoise`]: too few vertices that hang together, a coordinate that is no number, a facet that names no vertex, cancelled.
 pub fn mesh(mesh: &Mesh, seed: u64, progress: &dyn Progress) -> Result<Noise, NoNoise> {
-    noise_of(mesh, None, seed, progress)
+    noise_of((&mesh.positions, Some(mesh)), None, seed, progress)
 }
 
 /// The noise of `N` points, millimeters. Neighbors are the nearest ones. As [`mesh()`] otherwise.
@@ -86,34 +87,41 @@ pub fn mesh(mesh: &Mesh, seed: u64, progress: &dyn Progress) -> Result<Noise, No
 /// # Errors
 /// As [`mesh()`].
 pub fn cloud(points: &[Point], seed: u64, progress: &dyn Progress) -> Result<Noise, NoNoise> {
-    noise_of(&Mesh { positions: points.to_vec(), faces: vec![] }, None, seed, progress)
+    noise_of((points, None), None, seed, progress)
 }
 
-/// The noise of the `V` vertices of a mesh, or without facets of `V` points, whose distances from surfaces fitted to them are
+/// The noise of a mesh or a cloud. As [`mesh()`] otherwise.
+///
+/// # Errors
+/// As [`mesh()`].
+pub fn scan(scan: &Scan, seed: u64, progress: &dyn Progress) -> Result<Noise, NoNoise> {
+    noise_of((scan.points(), scan.mesh()), None, seed, progress)
+}
+
+/// The noise of the `V` vertices of a mesh, or of the `V` points of a cloud, whose distances from surfaces fitted to them are
 /// known. Form is told from noise with less doubt, and also where the surface bends much from one point to the next. Points
 /// without a distance that is a number do not count. As [`mesh()`] otherwise.
 ///
 /// # Errors
 /// As [`mesh()`].
-pub fn about(scan: &Mesh, distances: &[f64], seed: u64, progress: &dyn Progress) -> Result<Noise, NoNoise> {
-    noise_of(scan, Some(distances), seed, progress)
+pub fn about(scan: &Scan, distances: &[f64], seed: u64, progress: &dyn Progress) -> Result<Noise, NoNoise> {
+    noise_of((scan.points(), scan.mesh()), Some(distances), seed, progress)
 }
 
 fn noise_of(
-    scan: &Mesh,
+    (points, mesh): (&[Point], Option<&Mesh>),
     distances: Option<&[f64]>,
     seed: u64,
     progress: &dyn Progress,
 ) -> Result<Noise, NoNoise> {
-    let points = &scan.positions;
     if let Some(index) = points.iter().position(|p| p.iter().any(|x| !x.is_finite())) {
         return Err(NoNoise::NotFinite { index });
     }
     let counts = |i: u32| distances.is_none_or(|all| all.get(i as usize).is_some_and(|d| d.is_finite()));
     let counted: Vec<u32> = (0..points.len() as u32).filter(|i| counts(*i)).collect();
-    let around: Box<dyn Around> = match scan.faces.is_empty() {
-        true => Box::new(InCloud { points, counted: &counted }),
-        false => Box::new(OnMesh::new(scan, counts)?),
+    let around: Box<dyn Around> = match mesh {
+        None => Box::new(InCloud { points, counted: &counted }),
+        Some(mesh) => Box::new(OnMesh::new(mesh, counts)?),
     };
     let all = Places { points, counted: &counted, around: &*around, distances };
     let wide = all.noise_of_patches(POINTS_PER_PATCH[0], seed, progress);

@@ -241,7 +241,7 @@ fn radii_of_balls_scatter_as_stated() {
             let (scan, shared) = ball(rounds, &mut Random::stream(seed, rounds as u64));
             let fit = fit(&scan.positions, Kind::Sphere, &Options::default(), &Silent).unwrap();
             let distances: Vec<f64> = scan.positions.iter().map(|p| fit.shape.distance(*p)).collect();
-            let found = about(&scan, &distances, seed, &Silent).unwrap();
+            let found = about(&scan.clone().into(), &distances, seed, &Silent).unwrap();
             let uncertainties = fit.covariance.as_ref().unwrap().uncertainties(&fit.shape);
             let [_, (_, Parameter::Number(u))] = uncertainties[..] else { panic!("{uncertainties:?}") };
             let Shape::Sphere { radius, .. } = fit.shape else { panic!() };

@@ -48,9 +48,9 @@ pub use faces::{Face, Faces};
 pub use placed::Placed;
 pub use terms::{Beyond, Class, Options, Partition, PartitionError};
 
-use crate::mesh::Mesh;
 use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress};
+use crate::scan::Scan;
 use crate::space::{Aabb, Point, single_step};
 use crate::spatial::neighbors::PointTree;
 use best::Candidate;
@@ -71,13 +71,13 @@ const SPACING_NEIGHBORS: usize = 16;
 /// Places where the spacing is looked at.
 const SPACING_PLACES: usize = 200;
 
-/// Parts the vertices of a measured mesh, or without facets the points of a cloud, among faces; all in millimeters and in one frame.
+/// Parts the vertices of a measured mesh, or the points of a cloud, among faces; all in millimeters and in one frame.
 ///
 /// Vertices of a mesh have faces by where they lie and how they face; points of a cloud by where they lie alone. Points within noise of two faces are of
 /// one of them. Deterministic for any number of threads. Cost: for each face a pass over the points, and a search for each point within its reach.
 /// ```
 /// use trueness_geom::partition::{Class, Faces, NO_FACE, Options, partition};
-/// use trueness_geom::{mesh::Mesh, progress::Silent};
+/// use trueness_geom::{mesh::Mesh, progress::Silent, scan::Scan};
 /// // The four faces of a tetrahedron, and places of its largest, 0.1 above it; one place is far off.
 /// let nominal = Mesh {
 ///     positions: vec![[0.0, 0.0, 0.0], [30.0, 0.0, 0.0], [0.0, 30.0, 0.0], [0.0, 0.0, -30.0]],
@@ -87,7 +87,7 @@ const SPACING_PLACES: usize = 200;
 /// let place = |k: u32| [f64::from(k % 20) + 0.5, f64::from(k / 20) + 0.5, 0.1];
 /// let mut positions: Vec<_> = (0..400).map(place).filter(|p| p[0] + p[1] < 29.0).collect();
 /// positions.push([5.0, 5.0, 40.0]);
-/// let scan = Mesh { positions, faces: vec![] };
+/// let scan = Scan::Cloud(positions);
 /// let all: Vec<_> = faces.all.iter().collect();
 /// let found = partition(&scan, &all, &Options { distance: Some(1.0), ..Options::default() }, &Silent)?;
 /// let top = faces.of_facets[0];
@@ -100,20 +100,21 @@ const SPACING_PLACES: usize = 200;
 /// # Errors
 /// [`PartitionError`]: a coordinate that is no number, a facet that names no vertex, a reach that is no length, cancelled.
 pub fn partition(
-    scan: &Mesh,
+    scan: &Scan,
     faces: &[&Face],
     options: &Options,
     progress: &dyn Progress,
 ) -> Result<Partition, PartitionError> {
-    let points = &scan.positions;
+    let points = scan.points();
     if let Some(index) = points.iter().position(|p| p.iter().any(|x| !x.is_finite())) {
         return Err(PartitionError::NotFinite { index });
     }
-    if let Some(facet) = scan.faces.iter().position(|f| f.iter().any(|v| *v as usize >= points.len())) {
+    if let Some(facet) = scan.facets().iter().position(|f| f.iter().any(|v| *v as usize >= points.len())) {
         return Err(PartitionError::NoSuchVertex { facet });
     }
     let reach = reaches(faces, options)?;
-    let facing = (!scan.faces.is_empty()).then(|| Facing::new(scan));
+    let mesh = scan.mesh();
+    let facing = mesh.map(Facing::new);
     let spacing = spacing(points, options.seed);
     let mut candidates = vec![];
     for (face, reach) in faces.iter().zip(&reach) {
@@ -123,8 +124,8 @@ pub fn partition(
     }
     let work = Work { points, faces, reach, candidates, spacing };
     let mut sure = work.sure(facing.as_ref());
-    if let Some(facing) = &facing {
-        by_facets::add(scan, (&work, facing), &mut sure, progress)?;
+    if let Some((mesh, facing)) = mesh.zip(facing.as_ref()) {
+        by_facets::add(mesh, (&work, facing), &mut sure, progress)?;
     }
     // Half a step is what rounding takes away.
     let floor = 0.5 * single_step(points);
@@ -149,9 +150,9 @@ pub fn partition(
     cancelled(progress)?;
     drop((work, around));
     // Computed meshes have sharp edges.
-    let straddle = |facing: &Facing| by_facets::straddle_edges(scan, &best, &shared, (faces, facing));
+    let straddle = |(mesh, facing)| by_facets::straddle_edges(mesh, &best, &shared, (faces, facing));
     let rounding = rounding::width(points, &best, (faces, &placed), noise, spacing);
-    let is_scan = noise > floor || rounding > 0.0 || facing.as_ref().is_some_and(straddle);
+    let is_scan = noise > floor || rounding > 0.0 || mesh.zip(facing.as_ref()).is_some_and(straddle);
     let rounded = if is_scan { spacing } else { 0.0 };
     let unexplained =
         Unexplained { scan, faces, placed: &placed, facing: facing.as_ref(), spacing, rounded, rounding };
@@ -171,9 +172,9 @@ pub fn partition(
         (owners[p as usize], classes[p as usize]) = (face, Class::Dent);
     }
     beyond.retain(|b| classes[b.point as usize] != Class::Dent);
-    let facets = facing
-        .as_ref()
-        .map_or(vec![], |facing| by_facets::owners(scan, (&owners, &classes), &shared, (faces, facing)));
+    let facets = mesh.zip(facing.as_ref()).map_or(vec![], |(mesh, facing)| {
+        by_facets::owners(mesh, (&owners, &classes), &shared, (faces, facing))
+    });
     Ok(Partition { owners, classes, inside, facets, beyond, between, placed, spacing, noise, is_scan })
 }
 

@@ -3,6 +3,7 @@
 mod rounding;
 
 use super::*;
+use crate::mesh::Mesh;
 use crate::num::random::Random;
 use crate::progress::Silent;
 use crate::space::dot;
@@ -98,6 +99,16 @@ fn sides_of(faces: &Faces, sides: usize) -> Vec<usize> {
 
 fn all_of(faces: &Faces) -> Vec<&Face> {
     faces.all.iter().collect()
+}
+
+/// Of a mesh, or without facets of a cloud.
+fn partition(
+    scan: &Mesh,
+    faces: &[&Face],
+    options: &Options,
+    progress: &dyn Progress,
+) -> Result<Partition, PartitionError> {
+    super::partition(&scan.clone().into(), faces, options, progress)
 }
 
 const SIDES: usize = 96;

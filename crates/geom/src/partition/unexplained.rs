@@ -8,10 +8,10 @@ use super::placed::Placed;
 use super::rounding::to_edge;
 use super::terms::{Beyond, Class, EXPLAINED_SIGMAS};
 use super::work::MIN_SCANNED_POINTS;
-use crate::mesh::Mesh;
 use crate::num::random::Random;
 use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress};
+use crate::scan::Scan;
 use crate::space::{Aabb, Point, minus, plus, times};
 use crate::spatial::neighbors::PointTree;
 use std::collections::BTreeMap;
@@ -38,7 +38,7 @@ const HANGING_SPACINGS: f64 = 2.5;
 
 /// The evidence about points that no face explains.
 pub(super) struct Unexplained<'a> {
-    pub scan: &'a Mesh,
+    pub scan: &'a Scan,
     pub faces: &'a [&'a Face],
     /// Where these really are.
     pub placed: &'a [Placed],
@@ -131,7 +131,7 @@ impl Unexplained<'_> {
     /// How far a point is off its face where that really is; infinite where it has none.
     fn off(&self, best: &Best, p: u32) -> f64 {
         let (own, seat) = (best.owner[p as usize] as usize, best.seat[p as usize]);
-        let place = self.scan.positions[p as usize];
+        let place = self.scan.points()[p as usize];
         seat.map_or(f64::INFINITY, |seat| self.placed[own].off(self.faces[own], place, seat).abs())
     }
 
@@ -147,7 +147,7 @@ impl Unexplained<'_> {
         let ends = |seat: Seat| {
             let is_other = |v: &u32| !is_open(best, *v as usize) && best.owner[*v as usize] != own;
             let is_wall = |f: &u32| self.facing.is_some_and(|facing| !facing.is_along(*f, seat.normal()));
-            let ends = |f: &u32| is_wall(f) || self.scan.faces[*f as usize].iter().any(is_other);
+            let ends = |f: &u32| is_wall(f) || self.scan.facets()[*f as usize].iter().any(is_other);
             self.facing.is_some_and(|facing| facing.about(p).iter().any(ends))
         };
         let is_along = |s: Seat| s.within() < far || !self.faces[own as usize].is_bounded() && ends(s);
@@ -399,12 +399,12 @@ fn take_nearest(
 }
 
 /// The groups of points that hang together, in the order of the first of each; of a mesh with other vertices of their facets.
-fn groups(scan: &Mesh, open: &[u32], spacing: f64) -> Vec<(Vec<u32>, Vec<u32>)> {
+fn groups(scan: &Scan, open: &[u32], spacing: f64) -> Vec<(Vec<u32>, Vec<u32>)> {
     let place = |p: u32| open.binary_search(&p).ok().map(|i| i as u32);
     let mut groups = Groups((0..open.len() as u32).collect());
-    match scan.faces.is_empty() {
-        false => {
-            for f in &scan.faces {
+    match scan {
+        Scan::Mesh(mesh) => {
+            for f in &mesh.faces {
                 for k in 0..3 {
                     if let (Some(a), Some(b)) = (place(f[k]), place(f[(k + 1) % 3])) {
                         groups.join(a, b);
@@ -412,8 +412,8 @@ fn groups(scan: &Mesh, open: &[u32], spacing: f64) -> Vec<(Vec<u32>, Vec<u32>)> 
                 }
             }
         }
-        true => {
-            let places: Vec<Point> = open.iter().map(|p| scan.positions[*p as usize]).collect();
+        Scan::Cloud(points) => {
+            let places: Vec<Point> = open.iter().map(|p| points[*p as usize]).collect();
             let tree = PointTree::new(&places);
             let together = (HANGING_SPACINGS * spacing).powi(2);
             let near = |i: u32| {
@@ -429,7 +429,7 @@ fn groups(scan: &Mesh, open: &[u32], spacing: f64) -> Vec<(Vec<u32>, Vec<u32>)> 
     let mut members: Vec<(u32, u32)> = (0u32..).zip(open).map(|(i, p)| (groups.find(i), *p)).collect();
     members.sort_unstable();
     let mut adjacent_points: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
-    for f in &scan.faces {
+    for f in scan.facets() {
         let Some(inside) = f.iter().find_map(|v| place(*v)) else { continue };
         let others = f.iter().copied().filter(|v| place(*v).is_none());
         adjacent_points.entry(groups.find(inside)).or_default().extend(others);

@@ -40,6 +40,7 @@ use crate::mesh::Mesh;
 use crate::noise::NoNoise;
 use crate::parallel::prelude::*;
 use crate::progress::{Cancelled, Progress, Silent};
+use crate::scan::Scan;
 use crate::shape::{Kind, Shape};
 use crate::space::{Aabb, Point, dot, single_step};
 use crate::topology::weld::WeldError;
@@ -126,24 +127,24 @@ pub struct Segmentation {
 
 impl Segmentation {
     /// The noise of the points about their elements, and how far neighbors share it. The covariances of [`Region::fit`] have to
-    /// be multiplied with [`points_per_independent`](crate::noise::Noise). `of` is what was segmented, a cloud as a mesh
-    /// without facets.
+    /// be multiplied with [`points_per_independent`](crate::noise::Noise). `of` is what was segmented.
     ///
     /// # Errors
     /// [`NoNoise`]: drawn, too few points that hang together, cancelled.
     pub fn shared_noise(
         &self,
-        of: &Mesh,
+        of: &Scan,
         seed: u64,
         progress: &dyn Progress,
     ) -> Result<crate::noise::Noise, NoNoise> {
         if self.is_drawn {
             return Err(NoNoise::Drawn);
         }
-        let mut distances = vec![f64::NAN; of.positions.len()];
+        let points = of.points();
+        let mut distances = vec![f64::NAN; points.len()];
         for region in &self.regions {
             for &point in &region.points {
-                distances[point as usize] = region.fit.shape.distance(of.positions[point as usize]);
+                distances[point as usize] = region.fit.shape.distance(points[point as usize]);
             }
         }
         crate::noise::about(of, &distances, seed, progress)

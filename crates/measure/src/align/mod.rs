@@ -13,9 +13,9 @@ use trueness_geom::align::{Alignment, Freedom, InZones, Lock, Minimax, NotCounte
 use trueness_geom::space::{cross, minus, norm};
 
 /// Share of a free motion from which on a component takes part in it.
-const OPEN: f64 = 0.03;
+const MIN_FREE_SHARE: f64 = 0.03;
 /// Names of the components of a motion: of the translation, then of the rotation vector.
-const AXES: [&str; 6] = ["tx", "ty", "tz", "rx", "ry", "rz"];
+const MOTION_COMPONENTS: [&str; 6] = ["tx", "ty", "tz", "rx", "ry", "rz"];
 
 /// What a comparison tells of a best fit to `reference`.
 pub fn aligned_to(found: &Alignment, reference: String) -> AlignedTo {
@@ -202,15 +202,15 @@ pub fn open(document: &AlignDocument) -> [bool; 6] {
             Some(point) => (d, cross(d, minus(center, point)), size),
         };
         for k in 0..3 {
-            open[k] |= turn[k].abs() > OPEN;
-            open[k + 3] |= shift[k].abs() > OPEN * whole;
+            open[k] |= turn[k].abs() > MIN_FREE_SHARE;
+            open[k + 3] |= shift[k].abs() > MIN_FREE_SHARE * whole;
         }
     }
     open
 }
 
 fn lock_record(lock: &Lock) -> LockRecord {
-    let axes = AXES.iter().zip(lock.axes).filter(|a| a.1).map(|a| a.0.to_string());
+    let axes = MOTION_COMPONENTS.iter().zip(lock.axes).filter(|a| a.1).map(|a| a.0.to_string());
     LockRecord { axes: axes.collect(), center: lock.center }
 }
 

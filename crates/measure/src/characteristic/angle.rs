@@ -1,7 +1,8 @@
 //! Angle between a feature and a datum: an angular dimension (ISO 14405-3:2016).
 
-use super::kind::{Allowed, Characteristic, Measuring, Question, Refusal};
+use super::kind::{Allowed, Characteristic, Measuring, Question, Refusal, WITH_DIRECTION};
 use super::located::single;
+use super::reason::Impossible;
 use super::value::{Missing, Value};
 use trueness_document::plan::{Class, TextureWord};
 use trueness_document::tolerance_class::Table;
@@ -11,9 +12,6 @@ use trueness_geom::zone::datum::Datum;
 /// The angle, 0 to 90 degrees, between the associated planes or axes.
 #[derive(Debug)]
 pub struct Angle;
-
-/// What has a direction.
-const DIRECTED: [Class; 4] = [Class::Plane, Class::Line, Class::Cylinder, Class::Cone];
 
 impl Characteristic for Angle {
     fn word(&self) -> &'static str {
@@ -35,8 +33,8 @@ impl Characteristic for Angle {
         Some(Table::Angular)
     }
     fn check(&self, q: &Question) -> Result<(), Refusal> {
-        q.class(&DIRECTED)?;
-        q.datum(&DIRECTED).map(|_| ())
+        q.class(&WITH_DIRECTION)?;
+        q.datum(&WITH_DIRECTION).map(|_| ())
     }
     fn measure(&self, m: &Measuring) -> Result<Value, Missing> {
         let feature = m.feature();
@@ -44,7 +42,7 @@ impl Characteristic for Angle {
         let (other, plane) = match single(m)? {
             Datum::Plane { normal, .. } => (normal, true),
             Datum::Axis { direction, .. } => (direction, false),
-            Datum::Point(_) => return Err(Missing::Impossible("a center gives no direction".into())),
+            Datum::Point(_) => return Err(Impossible::CenterWithoutDirection.into()),
         };
         let between = angle(own, other).to_degrees();
         let value = if plane == (feature.class == Class::Plane) { between } else { 90.0 - between };

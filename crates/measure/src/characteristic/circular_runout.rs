@@ -1,6 +1,6 @@
 //! Circular run-out: ISO 1101:2017, 17.16. ASME Y14.5-2018, section 12, agrees.
 
-use super::kind::{AXES, Characteristic, Measuring, Question, Refusal};
+use super::kind::{Characteristic, Measuring, Question, Refusal, WITH_AXIS};
 use super::located::single;
 use super::total_runout::reading;
 use super::value::{Missing, Value};
@@ -30,7 +30,7 @@ impl Characteristic for CircularRunout {
     }
     fn check(&self, q: &Question) -> Result<(), Refusal> {
         q.class(&[Class::Circle])?;
-        q.datum(&AXES).map(|_| ())
+        q.datum(&WITH_AXIS).map(|_| ())
     }
     fn measure(&self, m: &Measuring) -> Result<Value, Missing> {
         reading(m, single(m)?, m.spec.axial)

@@ -1,7 +1,8 @@
 //! Coaxiality and concentricity: ISO 1101:2017, 17.14. ASME Y14.5-2018 has position instead.
 
-use super::kind::{AXES, Characteristic, Measuring, Question, Refusal};
+use super::kind::{Characteristic, Measuring, Question, Refusal, WITH_AXIS};
 use super::located::single;
+use super::reason::Impossible;
 use super::value::{Missing, Value};
 use trueness_document::plan::Class;
 use trueness_geom::space::{cross, minus, norm};
@@ -30,11 +31,11 @@ impl Characteristic for Coaxiality {
     }
     fn check(&self, q: &Question) -> Result<(), Refusal> {
         q.class(&[Class::Line, Class::Cylinder, Class::Cone, Class::Circle, Class::Sphere, Class::Point])?;
-        q.datum(&AXES).map(|_| ())
+        q.datum(&WITH_AXIS).map(|_| ())
     }
     fn measure(&self, m: &Measuring) -> Result<Value, Missing> {
         let Datum::Axis { point, direction } = single(m)? else {
-            return Err(Missing::Impossible("the datum is no axis".into()));
+            return Err(Impossible::DatumIsNoAxis.into());
         };
         let points = m.feature().zoned()?;
         let far = points.iter().map(|p| norm(cross(minus(*p, point), direction)));

@@ -9,15 +9,14 @@ use trueness_geom::feature::Nominal;
 use trueness_geom::rigid::Rigid;
 use trueness_geom::space::{Point, Vector, dot, minus, norm, plus, times, unit};
 
-/// Angle, radians, up to which a direction of the model is along an axis of the datum system: what single precision leaves of a direction
-/// in a file.
-const ALONG: f64 = 1e-6;
+/// Angle, radians, up to which a direction of the model is that of a drawing: what single precision leaves of a direction in a file.
+pub(super) const FILED_ANGLE: f64 = 1e-6;
 
 /// Sine of the angle up to which coordinates still place it: as a model is drawn.
-const NEARLY: f64 = 1e-3;
+const NEARLY_ALONG_SINE: f64 = 1e-3;
 
 /// The names of the coordinates.
-pub(super) const NAMES: [&str; 3] = ["x", "y", "z"];
+pub const COORDINATES: [&str; 3] = ["x", "y", "z"];
 
 /// The coordinate along which a direction goes most.
 pub(super) fn largest(direction: Vector) -> usize {
@@ -36,8 +35,8 @@ pub(super) fn place_of(m: &Measuring) -> Result<Basic, Missing> {
     let direction = start.vector(feature.direction()?);
     let most = largest(direction);
     let across = (0..3).filter(|k| *k != most).fold(0.0, |s, k| libm::hypot(s, direction[k]));
-    basic.oblique = (across > ALONG).then_some([middle, direction]);
-    if across > NEARLY {
+    basic.oblique = (across > FILED_ANGLE).then_some([middle, direction]);
+    if across > NEARLY_ALONG_SINE {
         basic.place = [None; 3];
     }
     let is_plane = feature.class == Class::Plane;
@@ -72,7 +71,7 @@ fn away(off: Vector) -> (f64, Vector) {
 }
 
 /// The measured place beside the true one, in the frame that `motion` takes the aligned data to.
-pub(super) fn beside(m: &Measuring, motion: Rigid) -> Option<Place> {
+pub(super) fn compared_place(m: &Measuring, motion: Rigid) -> Option<Place> {
     let measured = motion.point(m.feature().middle().ok()?);
     let exact = match m.spec.basic.oblique {
         None => m.spec.basic.place,

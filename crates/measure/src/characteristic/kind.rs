@@ -2,7 +2,7 @@
 //!
 //! A kind is asked about what the plan says, and what the plan says names the kind: both stand here.
 
-use super::taken::Taken;
+use super::measured_feature::MeasuredFeature;
 use super::value::{Missing, Value};
 use crate::requirement::{Basic, Boundary, DatumSpec, Feature, Limits, Source, ZoneOffset};
 use std::fmt::Debug;
@@ -257,10 +257,12 @@ impl<'a> Question<'a> {
 }
 
 /// Shapes that have an axis.
-pub(super) const AXES: [Class; 3] = [Class::Line, Class::Cylinder, Class::Cone];
+pub(super) const WITH_AXIS: [Class; 3] = [Class::Line, Class::Cylinder, Class::Cone];
+/// Shapes that have a direction.
+pub(super) const WITH_DIRECTION: [Class; 4] = [Class::Plane, Class::Line, Class::Cylinder, Class::Cone];
 
 pub(super) fn is_axis(class: Class) -> bool {
-    AXES.contains(&class)
+    WITH_AXIS.contains(&class)
 }
 
 /// A characteristic with the features that it needs, taken from the measured data.
@@ -268,15 +270,15 @@ pub struct Measuring<'a> {
     /// The characteristic.
     pub spec: &'a Spec,
     /// The toleranced features.
-    pub features: &'a [&'a Taken],
+    pub features: &'a [&'a MeasuredFeature],
     /// The features of each datum, in their order.
-    pub datums: &'a [Vec<&'a Taken>],
+    pub datums: &'a [Vec<&'a MeasuredFeature>],
     /// Hears nothing of progress, but asked whether to stop.
     pub progress: &'a dyn Progress,
 }
 
 impl Measuring<'_> {
-    pub(super) fn feature(&self) -> &Taken {
+    pub(super) fn feature(&self) -> &MeasuredFeature {
         self.features[0]
     }
 }

@@ -2,6 +2,7 @@
 
 use super::kind::{Characteristic, Measuring, Question, Refusal, refuse};
 use super::profile::{check, search, surface, value};
+use super::reason::{Impossible, NotMeasured};
 use super::value::{Missing, Value};
 use trueness_geom::feature::Nominal;
 use trueness_geom::rigid::Rigid;
@@ -18,9 +19,9 @@ use trueness_geom::zone::sections;
 pub struct LineProfile;
 
 /// Fewest points of a section: fewer always fit.
-const FEWEST: usize = 4;
+const MIN_SECTION_POINTS: usize = 4;
 /// Sine of the angle below which a plane is taken for one along the intersection planes.
-const ALONG: f64 = 1e-6;
+const ALONG_PLANES_SINE: f64 = 1e-6;
 
 impl Characteristic for LineProfile {
     fn word(&self) -> &'static str {
@@ -45,7 +46,7 @@ impl Characteristic for LineProfile {
         };
         match &q.feature()?.nominal {
             Some(Nominal::Plane { normal, .. })
-                if unit(*normal).is_some_and(|n| norm(cross(n.0, across)) < ALONG) =>
+                if unit(*normal).is_some_and(|n| norm(cross(n.0, across)) < ALONG_PLANES_SINE) =>
             {
                 refuse(
                     "intersection",
@@ -57,9 +58,9 @@ impl Characteristic for LineProfile {
     }
     fn measure(&self, m: &Measuring) -> Result<Value, Missing> {
         let Some(across) = m.spec.intersection else {
-            return Err(Missing::Impossible("it has no intersection planes".into()));
+            return Err(Impossible::NoIntersectionPlanes.into());
         };
-        let (surface, points) = (surface(m)?, m.feature().taken()?);
+        let (surface, points) = (surface(m)?, m.feature().own_points()?);
         // Within a plane: along its two directions, and a turn about its normal.
         let free = Freedom { shift: [true, true, false], turn: [false, false, true] };
         let held = search(m, free)?;
@@ -70,7 +71,7 @@ impl Characteristic for LineProfile {
         let mut found: Option<Value> = None;
         let (mut taken, mut left_out) = (0u32, 0);
         for section in sections(points, across) {
-            if section.len() < FEWEST {
+            if section.len() < MIN_SECTION_POINTS {
                 left_out += 1;
                 continue;
             }
@@ -80,11 +81,13 @@ impl Characteristic for LineProfile {
                 found = Some(value);
             }
         }
-        let none = || Missing::NotMeasured(format!("no section has {FEWEST} points or more"));
+        let none = || NotMeasured::NoSection { needed: MIN_SECTION_POINTS };
         let mut found = found.ok_or_else(none)?;
         found.parts.push(("sections", f64::from(taken)));
         if left_out > 0 {
-            found.notes.push(format!("{left_out} sections with fewer than {FEWEST} points were left out"));
+            found.notes.push(format!(
+                "{left_out} sections with fewer than {MIN_SECTION_POINTS} points were left out"
+            ));
         }
         Ok(found)
     }
@@ -100,12 +103,12 @@ struct Lines {
 impl Lines {
     /// The value of the points with these indices.
     fn value(&self, m: &Measuring, chosen: &[usize]) -> Result<Value, Missing> {
-        let points = m.feature().taken()?;
+        let points = m.feature().own_points()?;
         let own: Vec<Point> = chosen.iter().map(|i| points[*i]).collect();
         let first = self.search.start.point(own.first().copied().unwrap_or_default());
         // Coordinates with z across the planes; shifts and turns that the search leaves free are along and about these.
         let Some(seen) = Rigid::into_frame(first, self.across, least_axis(self.across)) else {
-            return Err(Missing::Impossible("the intersection planes have no normal".into()));
+            return Err(Impossible::PlanesWithoutNormal.into());
         };
         let back = seen.inverse();
         let distance = |_: usize, p: Point| {

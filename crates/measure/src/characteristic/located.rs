@@ -1,7 +1,8 @@
 //! The datum system of a characteristic, from the measured datum features.
 
 use super::kind::Measuring;
-use super::taken::Taken;
+use super::measured_feature::MeasuredFeature;
+use super::reason::{Impossible, NotMeasured};
 use super::value::Missing;
 use trueness_document::plan::Class;
 use trueness_geom::fit::Method;
@@ -21,7 +22,7 @@ pub(crate) fn frame(m: &Measuring) -> Result<(Rigid, Freedom), Missing> {
 
 /// The only datum.
 pub(super) fn single(m: &Measuring) -> Result<Datum, Missing> {
-    let none = || Missing::Impossible("it has no datum".into());
+    let none = || Impossible::NoDatum.into();
     if let Some([first]) = m.datums.first().map(Vec::as_slice)
         && first.class == Class::Sphere
         && first.derived_datum()?.is_none()
@@ -31,7 +32,7 @@ pub(super) fn single(m: &Measuring) -> Result<Datum, Missing> {
             Rule::MinimumZone => Method::MinimumZone,
         };
         let shape = first.refitted(Kind::Sphere, method, m.progress)?.shape;
-        let center = shape.center().ok_or_else(|| Missing::NotMeasured("the datum has no center".into()))?;
+        let center = shape.center().ok_or(NotMeasured::NoDatumCenter)?;
         return Ok(Datum::Point(center));
     }
     system(m)?.datums.first().copied().ok_or_else(none)
@@ -53,10 +54,10 @@ pub(super) fn system(m: &Measuring) -> Result<System, Missing> {
     let associated =
         System::associated(&sources, m.spec.datum_rule, m.progress).and_then(|system| faced(m, system));
     associated.map_err(|e| match (e.into(), e) {
-        (Missing::NotMeasured(what), DatumError::Across { .. } | DatumError::Oblique { .. })
+        (_, DatumError::Across { .. } | DatumError::Oblique { .. })
             if m.spec.kind.keys().contains(&"frame") =>
         {
-            Missing::NotMeasured(what + REMEDY)
+            NotMeasured::DatumOrFrame(e).into()
         }
         (missing, _) => missing,
     })
@@ -75,14 +76,13 @@ fn faced(m: &Measuring, system: System) -> Result<System, DatumError> {
     }
 }
 
-/// What to write where datums that a drawing has make no system here.
-const REMEDY: &str = "; in place of `datums` give the frame that they make by numbers, in the coordinates of the aligned data, as in \
-                      frame = { origin = [0, 0, 0], x = [1, 0, 0], z = [0, 0, 1] }";
-
 /// The points of a datum feature. A plane that does not say where its material is has it on the side of the toleranced
 /// feature.
-pub fn datum_source<'a>(datum: &'a Taken, toleranced: &Taken) -> Result<Source<'a>, Missing> {
-    let points = datum.taken()?;
+pub fn datum_source<'a>(
+    datum: &'a MeasuredFeature,
+    toleranced: &MeasuredFeature,
+) -> Result<Source<'a>, Missing> {
+    let points = datum.own_points()?;
     let kind = match datum.class {
         Class::Plane => Kind::Plane,
         Class::Cylinder => Kind::Cylinder,

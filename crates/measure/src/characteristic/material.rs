@@ -23,7 +23,8 @@
 
 use super::kind::Measuring;
 use super::located::{frame, system};
-use super::taken::Taken;
+use super::measured_feature::MeasuredFeature;
+use super::reason::{Impossible, NotMeasured};
 use super::value::{Missing, Value};
 use crate::requirement::Boundary;
 use trueness_geom::fit::Method;
@@ -36,7 +37,7 @@ use trueness_geom::zone::motion::{Placed, Search, placed};
 /// Halvings of the search with a shifting datum: the answer's bounds then differ by nothing that shows.
 const HALVINGS: usize = 48;
 /// Millimeters by which rounding alone may put the datum's surface beyond its boundary.
-const ROUNDING: f64 = 1e-9;
+const BOUNDARY_ROUNDING: f64 = 1e-9;
 
 /// A straight line in the frame's coordinates.
 #[derive(Clone, Copy)]
@@ -67,17 +68,17 @@ struct Surface<'a> {
 impl<'a> Surface<'a> {
     /// Of a feature whose points `start` takes to the frame's coordinates. The search may turn the part by little from there.
     fn new(
-        feature: &'a Taken,
+        feature: &'a MeasuredFeature,
         boundary: Boundary,
         start: &Rigid,
         m: &Measuring,
     ) -> Result<Surface<'a>, Missing> {
         let shape = feature.refitted(Kind::Cylinder, Method::Gaussian, m.progress)?.shape;
         let (Some(point), Some(direction)) = (shape.foot(), shape.direction()) else {
-            return Err(Missing::NotMeasured("the element has no axis".into()));
+            return Err(NotMeasured::NoAxis.into());
         };
         let own = Axis { point, direction };
-        let points = feature.taken()?;
+        let points = feature.own_points()?;
         let outward = points.iter().map(|p| start.vector(own.radial(*p).1)).collect();
         Ok(Surface { points, outward, boundary })
     }
@@ -128,7 +129,7 @@ impl Asked<'_> {
 /// The value of a cylinder whose axis belongs at `axis` of the frame `start`, with the requirement of its tolerance.
 pub(super) fn oriented(m: &Measuring, start: Rigid, free: Freedom, axis: Axis) -> Result<Value, Missing> {
     let Some(boundary) = m.spec.boundary else {
-        return Err(Missing::Impossible("it has no material requirement".into()));
+        return Err(Impossible::NoMaterial.into());
     };
     let asked = Asked::Surface(Surface::new(m.feature(), boundary, &start, m)?);
     let distance = |i: usize, p: Point| Some(asked.distance(&axis, i, p));
@@ -159,7 +160,7 @@ pub(super) fn located(m: &Measuring, place: [f64; 2]) -> Result<Value, Missing> 
         None => Asked::Ends(m.feature().zoned()?),
     };
     let Some(feature) = m.datums.last().and_then(|d| d.first()) else {
-        return Err(Missing::Impossible("it has no datum".into()));
+        return Err(Impossible::NoDatum.into());
     };
     let shift = Shift { asked: &asked, axis, datum: Surface::new(feature, datum, &start, m)?, m };
     let free = match m.datums.len() {
@@ -180,7 +181,7 @@ pub(super) fn located(m: &Measuring, place: [f64; 2]) -> Result<Value, Missing> 
 /// The straightness of a cylinder's axis with the requirement of its tolerance.
 pub(super) fn straight(m: &Measuring) -> Result<Value, Missing> {
     let Some(boundary) = m.spec.boundary else {
-        return Err(Missing::Impossible("it has no material requirement".into()));
+        return Err(Impossible::NoMaterial.into());
     };
     let mating = mating(m.feature(), boundary.around, m)?;
     let global = diameter(m.feature(), Method::Gaussian, m)?;
@@ -229,15 +230,15 @@ fn with_bonus(mut value: Value, spare: f64, boundary: Boundary, m: &Measuring) -
 }
 
 /// Diameter of the smallest cylinder around a feature, or of the largest within it.
-fn mating(feature: &Taken, around: bool, m: &Measuring) -> Result<f64, Missing> {
+fn mating(feature: &MeasuredFeature, around: bool, m: &Measuring) -> Result<f64, Missing> {
     diameter(feature, if around { Method::MinimumCircumscribed } else { Method::MaximumInscribed }, m)
 }
 
 /// Diameter of the cylinder associated with a feature.
-fn diameter(feature: &Taken, method: Method, m: &Measuring) -> Result<f64, Missing> {
+fn diameter(feature: &MeasuredFeature, method: Method, m: &Measuring) -> Result<f64, Missing> {
     match feature.refitted(Kind::Cylinder, method, m.progress)?.shape {
         Shape::Cylinder { radius, .. } => Ok(2.0 * radius),
-        _ => Err(Missing::NotMeasured("the element has no diameter".into())),
+        _ => Err(NotMeasured::NoDiameter.into()),
     }
 }
 
@@ -254,7 +255,7 @@ impl Shift<'_> {
     ///
     /// With the greatest distance `w` allowed, the least over all motions of the greater of what the feature is beyond `w` and
     /// what the datum is beyond its boundary falls as `w` grows; where it comes to 0 is the answer.
-    fn best(&self, start: Rigid, free: Freedom, feature: &Taken) -> Result<Placed, Missing> {
+    fn best(&self, start: Rigid, free: Freedom, feature: &MeasuredFeature) -> Result<Placed, Missing> {
         let own = self.asked.points();
         let (none, z) = ([0.0; 3], [0.0, 0.0, 1.0]);
         let about = Axis { point: none, direction: z };
@@ -263,13 +264,9 @@ impl Shift<'_> {
         // Where the datum has the most room.
         let alone = |i: usize, p: Point| Some(datum(i, p));
         let gauged = placed(self.datum.points, &alone, &search(start), self.m.progress)?;
-        if gauged.half > ROUNDING {
-            let what = format!(
-                "datum feature \"{}\" is {:.6} mm beyond its virtual condition: it fits no gauge",
-                feature.id,
-                2.0 * gauged.half
-            );
-            return Err(Missing::NotMeasured(what));
+        if gauged.half > BOUNDARY_ROUNDING {
+            let (id, by) = (feature.id.clone(), 2.0 * gauged.half);
+            return Err(NotMeasured::BeyondVirtualCondition { id, by }.into());
         }
         let all: Vec<Point> = own.iter().chain(self.datum.points).copied().collect();
         let within = |w: f64, from: Rigid| {
@@ -299,7 +296,7 @@ impl Shift<'_> {
                 break;
             }
             let found = within(w, best.motion)?;
-            if found.half <= ROUNDING * 1e-3 {
+            if found.half <= BOUNDARY_ROUNDING * 1e-3 {
                 let there = at(found.motion)?;
                 high = w.min(there.half);
                 best = if there.half < best.half { there } else { best };

@@ -6,9 +6,11 @@
 //! exact direction, and the value is the zone in it. Its angle about the first datum is the exact one of the drawing, along
 //! or across the direction that the second datum gives where the plan says no other.
 
-use super::kind::{Measuring, Question, Refusal, is_axis, refuse};
+use super::exact::FILED_ANGLE;
+use super::kind::{Measuring, Question, Refusal, WITH_DIRECTION, is_axis, refuse};
 use super::located::system;
 use super::material::{Axis, oriented};
+use super::reason::{Impossible, NotMeasured};
 use super::value::{Missing, Value};
 use crate::requirement::Basic;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
@@ -47,9 +49,8 @@ pub(super) fn of_cylinder(q: &Question, angle: f64) -> bool {
 }
 
 pub(super) fn check(q: &Question, angle: f64) -> Result<(), Refusal> {
-    const DIRECTED: [Class; 4] = [Class::Plane, Class::Line, Class::Cylinder, Class::Cone];
-    let class = q.class(&DIRECTED)?;
-    let datum = q.system(&DIRECTED)?;
+    let class = q.class(&WITH_DIRECTION)?;
+    let datum = q.system(&WITH_DIRECTION)?;
     if class == Class::Plane && q.spec.diametral == Some(true) {
         return refuse("diametral", "the zone of a plane is no cylinder");
     }
@@ -127,17 +128,14 @@ pub(super) fn exact(m: &Measuring) -> Result<Basic, Missing> {
 
 /// Along and across are meant exactly, whatever single precision has left of them in a file.
 fn snapped(angle: f64) -> f64 {
-    [0.0, FRAC_PI_2].into_iter().find(|exact| (angle - exact).abs() < AS_FILED).unwrap_or(angle)
+    [0.0, FRAC_PI_2].into_iter().find(|exact| (angle - exact).abs() < FILED_ANGLE).unwrap_or(angle)
 }
-
-/// Angle, radians, that single precision leaves of a direction in a file.
-const AS_FILED: f64 = 1e-6;
 
 fn first_direction(system: &System) -> Result<(Class, Vector), Missing> {
     match system.datums.first() {
         Some(Datum::Plane { normal, .. }) => Ok((Class::Plane, *normal)),
         Some(Datum::Axis { direction, .. }) => Ok((Class::Line, *direction)),
-        _ => Err(Missing::Impossible("the datum gives no direction".into())),
+        _ => Err(Impossible::DatumWithoutDirection.into()),
     }
 }
 
@@ -147,14 +145,14 @@ fn bounded(m: &Measuring, direction: Vector, fixed: Option<Vector>, polar: f64) 
     let feature = m.feature();
     let (middle, own) = (feature.middle()?, feature.direction()?);
     let none = [0.0; 3];
-    let lost = || Missing::NotMeasured("it has no direction".into());
+    let lost = NotMeasured::NoDirection;
     if let Some(fixed) = fixed {
-        let start = Rigid::into_frame(middle, fixed, least_axis(fixed)).ok_or_else(lost)?;
+        let start = Rigid::into_frame(middle, fixed, least_axis(fixed)).ok_or(lost)?;
         let free = Freedom { shift: [true, true, false], turn: [false; 3] };
         return oriented(m, start, free, Axis { point: none, direction: [0.0, 0.0, 1.0] });
     }
     let own = if dot(own, direction) < 0.0 { times(-1.0, own) } else { own };
-    let start = Rigid::into_frame(middle, direction, own).ok_or_else(lost)?;
+    let start = Rigid::into_frame(middle, direction, own).ok_or(lost)?;
     // Along itself the boundary goes on and on: where it lies across the datum's direction, along x, a shift tells nothing.
     let free = Freedom { shift: [polar != FRAC_PI_2, true, true], turn: [false, false, true] };
     oriented(m, start, free, Axis { point: none, direction: [libm::sin(polar), 0.0, libm::cos(polar)] })
@@ -195,13 +193,9 @@ fn locked(
         difference.min(TAU - difference)
     };
     let nearest = candidates.into_iter().min_by(|a, b| off(*a).total_cmp(&off(*b)));
-    let azimuth = nearest.filter(|a| off(*a) <= AS_DRAWN).ok_or_else(|| {
-        let degrees = seen.to_degrees();
-        Missing::Impossible(format!(
-            "seen along the first datum the feature stands at {degrees:.3}° to the direction of the second, not as \
-             drawn; angularity takes that angle: basic = {{ angle, turn }}"
-        ))
-    })?;
+    let azimuth = nearest
+        .filter(|a| off(*a) <= AS_DRAWN)
+        .ok_or_else(|| Missing::from(Impossible::NotAsDrawn { degrees: seen.to_degrees() }))?;
     let flat = plus(times(libm::cos(azimuth), x), times(libm::sin(azimuth), y));
     Ok(Some(plus(times(libm::cos(polar), z), times(libm::sin(polar), flat))))
 }

@@ -1,8 +1,9 @@
 //! Position: ISO 1101:2017, 17.13; ISO 5458. ASME Y14.5-2018, section 10 agrees where no material requirement is stated.
 
-use super::exact::{NAMES, beside, from_place, largest, place_of};
+use super::exact::{COORDINATES, compared_place, from_place, largest, place_of};
 use super::kind::{Characteristic, Measuring, Question, Refusal, is_axis, refuse};
 use super::located::frame;
+use super::reason::{Impossible, NotMeasured};
 use super::value::{Missing, Value};
 use crate::characteristic::Spec;
 use crate::requirement::Basic;
@@ -13,7 +14,7 @@ use trueness_geom::zone::datum::Freedom;
 use trueness_geom::zone::motion::{Search, placed};
 
 /// A plane is across an axis if the cosine of the angle of its normal to that is at least this, 45°.
-const LEAST_ALONG: f64 = std::f64::consts::FRAC_1_SQRT_2;
+const MIN_ALONG_NORMAL: f64 = std::f64::consts::FRAC_1_SQRT_2;
 
 /// Twice the greatest distance of the feature from its theoretically exact place in the datum system, the least over the
 /// motions that the datums leave free.
@@ -128,18 +129,18 @@ impl Characteristic for Position {
         let found = placed(&points, &distance, &search, m.progress)?;
         if required(m.spec) {
             let [Some(x), Some(y), None] = place else {
-                return Err(Missing::Impossible(PLACED.into()));
+                return Err(Impossible::NotAlongZ.into());
             };
             let value = super::material::located(m, [x, y])?;
-            return Ok(Value { place: beside(m, found.motion), ..value });
+            return Ok(Value { place: compared_place(m, found.motion), ..value });
         }
         let far = if found.max.0.abs() >= found.min.0.abs() { found.max.1 } else { found.min.1 };
-        let place_found = beside(m, found.motion);
+        let place_found = compared_place(m, found.motion);
         let witness = vec![points[far]];
         let mut value = Value { value: 2.0 * found.half, witness, place: place_found, ..Value::default() };
         if let [only] = points.as_slice() {
             let at = found.motion.point(*only);
-            value.parts = (0..3).filter(|k| place[*k].is_some()).map(|k| (NAMES[k], at[k])).collect();
+            value.parts = (0..3).filter(|k| place[*k].is_some()).map(|k| (COORDINATES[k], at[k])).collect();
         }
         Ok(value)
     }
@@ -154,11 +155,8 @@ fn along(m: &Measuring, start: &Rigid, free: Freedom, place: [Option<f64>; 3]) -
     if place[most].is_none() || is_turned {
         return Ok(());
     }
-    let [a, b] = [["y", "z"], ["x", "z"], ["x", "y"]][most];
-    Err(Missing::NotMeasured(format!(
-        "its axis runs along {} in the datum system, which places nothing: basic = {{ {a} = …, {b} = … }} places it",
-        NAMES[most]
-    )))
+    let across = [["y", "z"], ["x", "z"], ["x", "y"]][most];
+    Err(NotMeasured::AlongCoordinate { along: COORDINATES[most], across }.into())
 }
 
 /// Where a turn about z is free, the frame turned so that the feature stands in the direction of its true place: the search for the best turn
@@ -174,7 +172,7 @@ fn turned(m: &Measuring, start: Rigid) -> Result<Rigid, Missing> {
 /// Why one coordinate does not place an axis or a center.
 fn one_coordinate(class: Class, given: [bool; 3]) -> String {
     let k = given.iter().position(|g| *g).unwrap_or(0);
-    let (name, others) = (NAMES[k], [["y", "z"], ["x", "z"], ["x", "y"]][k]);
+    let (name, others) = (COORDINATES[k], [["y", "z"], ["x", "z"], ["x", "y"]][k]);
     let is = if is_axis(class) {
         "an axis is placed by the two coordinates across it"
     } else {
@@ -192,26 +190,18 @@ fn one_coordinate(class: Class, given: [bool; 3]) -> String {
 fn across(m: &Measuring, start: &Rigid, free: Freedom, place: [Option<f64>; 3]) -> Result<(), Missing> {
     let normal = start.vector(m.feature().direction()?);
     let Some(given) = place.iter().position(Option::is_some) else { return Ok(()) };
-    let name = |k: usize| NAMES[k];
     // Within the plane x, y a turn about z may bring it anywhere.
     let along = match (given, free.turn[2]) {
         (2, _) => normal[2].abs(),
         (_, true) => libm::hypot(normal[0], normal[1]),
         (k, false) => normal[k].abs(),
     };
-    if along < LEAST_ALONG {
-        let most = largest(normal);
-        let what = format!(
-            "its plane lies across {0} in the datum system, not across {1}: basic = {{ {0} = … }} places it",
-            name(most),
-            name(given)
-        );
-        return Err(Missing::Impossible(what));
+    if along < MIN_ALONG_NORMAL {
+        let across = COORDINATES[largest(normal)];
+        return Err(Impossible::PlaneAcross { across, given: COORDINATES[given] }.into());
     }
     if free.shift[given] {
-        let what =
-            format!("its datums leave shifts along {} free: name a datum that holds them", name(given));
-        return Err(Missing::Impossible(what));
+        return Err(Impossible::FreeShift { along: COORDINATES[given] }.into());
     }
     Ok(())
 }
@@ -221,9 +211,6 @@ fn required(spec: &Spec) -> bool {
     spec.material.is_some() || spec.datums.iter().any(|d| d.material.is_some())
 }
 
-/// What a material requirement of a position is evaluated for.
-const PLACED: &str = "a material requirement is evaluated for an axis along z, placed by x and y";
-
 /// Refuses material requirements that are not evaluated.
 fn material(q: &Question, class: Class, given: [bool; 3]) -> Result<(), Refusal> {
     let spec = q.spec;
@@ -232,7 +219,7 @@ fn material(q: &Question, class: Class, given: [bool; 3]) -> Result<(), Refusal>
     }
     let key = if spec.material.is_some() { "material" } else { "datums" };
     if !is_axis(class) || given != [true, true, false] {
-        return refuse(key, PLACED);
+        return refuse(key, Impossible::NotAlongZ.to_string());
     }
     let marked = spec.datums.iter().position(|d| d.material.is_some());
     let first = q.datums().first().copied();

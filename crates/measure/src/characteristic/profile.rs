@@ -3,6 +3,7 @@
 use super::exact::beside_nominal;
 use super::kind::{Measuring, Question, Refusal, refuse};
 use super::located::frame;
+use super::reason::Impossible;
 use super::value::{Missing, Value};
 use crate::requirement::ZoneOffset;
 use trueness_document::plan::Class;
@@ -28,7 +29,7 @@ pub(super) fn check(q: &Question) -> Result<(), Refusal> {
 /// The theoretically exact surface.
 pub(super) fn surface(m: &Measuring) -> Result<NominalSurface, Missing> {
     let nominal = m.feature().nominal.as_ref();
-    let none = || Missing::Impossible("the feature has no theoretically exact surface".into());
+    let none = || Impossible::NoExactSurface.into();
     nominal.and_then(Nominal::surface).ok_or_else(none)
 }
 
@@ -50,7 +51,7 @@ pub(super) fn search(m: &Measuring, without_frame: Freedom) -> Result<Search, Mi
 
 /// The value of a zone that was found: its width.
 pub(super) fn value(m: &Measuring, found: &Placed, at: impl Fn(usize) -> usize) -> Result<Value, Missing> {
-    let points = m.feature().taken()?;
+    let points = m.feature().own_points()?;
     Ok(Value {
         value: 2.0 * found.half,
         witness: vec![points[at(found.max.1)], points[at(found.min.1)]],

@@ -1,6 +1,7 @@
 //! Sizes: ISO 14405-1:2016, 3.6 and 3.7 (local and global linear sizes).
 
 use super::kind::{Allowed, Characteristic, Measuring, Question, Refusal, refuse};
+use super::reason::NotMeasured;
 use super::value::{Missing, Value};
 use trueness_document::plan::{Class, SizeWord};
 use trueness_document::tolerance_class::Table;
@@ -58,7 +59,7 @@ impl Characteristic for Size {
             _ => Method::Gaussian,
         };
         if let [a, b] = m.features {
-            let (first, second) = (a.taken()?, b.taken()?);
+            let (first, second) = (a.own_points()?, b.own_points()?);
             let pair = opposite_planes(first, second, method, m.progress)?;
             let witness = vec![mean(first), mean(second)];
             return Ok(Value { value: pair.distance, witness, ..Value::default() });
@@ -69,14 +70,14 @@ impl Characteristic for Size {
             Class::Circle => feature.profile(method, m.progress)?,
             Class::Cylinder => feature.refitted(Kind::Cylinder, method, m.progress)?,
             Class::Point | Class::Line | Class::Plane | Class::Cone | Class::Torus => {
-                return Err(Missing::NotMeasured("the element has no diameter".into()));
+                return Err(NotMeasured::NoDiameter.into());
             }
         };
         let radius = match fit.shape {
             Shape::Cylinder { radius, .. } | Shape::Sphere { radius, .. } | Shape::Circle2 { radius, .. } => {
                 radius
             }
-            _ => return Err(Missing::NotMeasured("the element has no diameter".into())),
+            _ => return Err(NotMeasured::NoDiameter.into()),
         };
         let witness = feature.form(&fit).witness;
         Ok(Value { value: 2.0 * radius, witness, ..Value::default() })
@@ -87,7 +88,7 @@ impl Characteristic for Size {
 fn two_point(m: &Measuring) -> Result<Value, Missing> {
     let sizes = match m.features {
         [a, b] => {
-            let (first, second) = (a.taken()?, b.taken()?);
+            let (first, second) = (a.own_points()?, b.own_points()?);
             let Some((normal, _)) = parallel_planes(first, second) else {
                 return Err(ZoneError::NoPlanes.into());
             };
@@ -99,9 +100,9 @@ fn two_point(m: &Measuring) -> Result<Value, Missing> {
             match feature.refitted(kind, Method::Gaussian, m.progress)?.shape {
                 Shape::Cylinder { point, direction, .. }
                 | Shape::Circle { center: point, normal: direction, .. } => {
-                    two_point_diameters(feature.taken()?, point, direction, m.progress)
+                    two_point_diameters(feature.own_points()?, point, direction, m.progress)
                 }
-                _ => return Err(Missing::NotMeasured("the element has no diameter".into())),
+                _ => return Err(NotMeasured::NoDiameter.into()),
             }
         }
     };
@@ -110,7 +111,7 @@ fn two_point(m: &Measuring) -> Result<Value, Missing> {
     let middle = lower.map_or(upper, |lower| 0.5 * (lower + upper));
     let away = |t: &&TwoPoint| (t.size - middle).abs();
     let Some(worst) = sizes.iter().max_by(|a, b| away(a).total_cmp(&away(b))) else {
-        return Err(Missing::NotMeasured("no place of it has a measured place opposite".into()));
+        return Err(NotMeasured::NoOppositePlace.into());
     };
     let (least, greatest) =
         sizes.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, g), t| (l.min(t.size), g.max(t.size)));

@@ -2,7 +2,8 @@
 
 use super::kind::{Characteristic, Measuring, Question, Refusal, refuse};
 use super::material::straight;
-use super::taken::form;
+use super::measured_feature::form;
+use super::reason::{Lack, NotMeasured};
 use super::value::{Missing, Value};
 use trueness_document::plan::Class;
 use trueness_document::tolerance_class::Table;
@@ -62,16 +63,12 @@ fn of_axis(m: &Measuring) -> Result<Value, Missing> {
     let Shape::Cylinder { point, direction, .. } =
         feature.refitted(Kind::Cylinder, Method::Gaussian, m.progress)?.shape
     else {
-        return Err(Missing::NotMeasured("the element has no axis".into()));
+        return Err(NotMeasured::NoAxis.into());
     };
-    let line = median_line(feature.taken()?, point, direction, m.progress).map_err(|_| Missing::Cancelled)?;
+    let line =
+        median_line(feature.own_points()?, point, direction, m.progress).map_err(|_| Missing::Cancelled)?;
     if line.centers.len() < 3 {
-        let what = format!(
-            "feature \"{}\": {} of its sections go around the axis with enough points; a median line needs 3",
-            feature.id,
-            line.centers.len()
-        );
-        return Err(Missing::NotMeasured(what));
+        return Err(feature.lacks(Lack::Sections { found: line.centers.len() }));
     }
     let options = Options { method: m.spec.form, ..Options::default() };
     let fit = fit(&line.centers, Kind::Line, &options, m.progress)?;

@@ -33,7 +33,7 @@ impl Characteristic for SurfaceProfile {
     fn measure(&self, m: &Measuring) -> Result<Value, Missing> {
         let surface = surface(m)?;
         let distance = |_: usize, p: Point| -> Option<(f64, Vector)> { surface.distance(p) };
-        let found = placed(m.feature().taken()?, &distance, &search(m, Freedom::ALL)?, m.progress)?;
+        let found = placed(m.feature().own_points()?, &distance, &search(m, Freedom::ALL)?, m.progress)?;
         value(m, &found, |i| i)
     }
 }

@@ -2,6 +2,7 @@
 
 use super::kind::{Characteristic, Measuring, Question, Refusal};
 use super::located::single;
+use super::reason::Impossible;
 use super::value::{Missing, Value};
 use trueness_document::plan::Class;
 use trueness_document::tolerance_class::Table;
@@ -35,7 +36,7 @@ impl Characteristic for Symmetry {
     }
     fn measure(&self, m: &Measuring) -> Result<Value, Missing> {
         let Datum::Plane { point, normal } = single(m)? else {
-            return Err(Missing::Impossible("the datum is no plane".into()));
+            return Err(Impossible::DatumIsNoPlane.into());
         };
         let points = m.feature().zoned()?;
         let (at, greatest) =

@@ -4,6 +4,7 @@
 //! bounds the scale.
 
 use super::kind::{Characteristic, Measuring, Question, Refusal};
+use super::reason::NotMeasured;
 use super::value::{Missing, Value};
 use trueness_document::plan::{Class, TextureWord};
 use trueness_geom::zone::texture::texture;
@@ -34,15 +35,15 @@ impl Characteristic for Texture {
         let shape = feature.shape()?;
         let heights: Vec<f64> = feature.points.iter().map(|p| shape.distance(*p)).collect();
         let Some(t) = texture(&heights, &feature.areas) else {
-            return Err(Missing::NotMeasured("there are no heights".into()));
+            return Err(NotMeasured::NoHeights.into());
         };
-        let flat = || Missing::NotMeasured("the surface has no height at all".into());
+        let flat = NotMeasured::Flat;
         let value = match m.spec.parameter {
             TextureWord::Sa => t.sa,
             TextureWord::Sq => t.sq,
             TextureWord::Sz => t.sz,
-            TextureWord::Ssk => t.ssk.ok_or_else(flat)?,
-            TextureWord::Sku => t.sku.ok_or_else(flat)?,
+            TextureWord::Ssk => t.ssk.ok_or(flat)?,
+            TextureWord::Sku => t.sku.ok_or(flat)?,
         };
         let mut parts = vec![("Sa", t.sa), ("Sq", t.sq), ("Sz", t.sz)];
         parts.extend(t.ssk.map(|x| ("Ssk", x)));

@@ -1,7 +1,8 @@
 //! Total run-out: ISO 1101:2017, 17.17. ASME Y14.5-2018, section 12, agrees.
 
-use super::kind::{AXES, Characteristic, Measuring, Question, Refusal, refuse};
+use super::kind::{Characteristic, Measuring, Question, Refusal, WITH_AXIS, refuse};
 use super::located::single;
+use super::reason::Impossible;
 use super::value::{Missing, Value};
 use trueness_document::plan::Class;
 use trueness_geom::space::{cross, dot, minus, norm};
@@ -30,7 +31,7 @@ impl Characteristic for TotalRunout {
         if class == Class::Cylinder && q.spec.axial {
             return refuse("direction", "the total run-out of a cylinder is radial");
         }
-        q.datum(&AXES).map(|_| ())
+        q.datum(&WITH_AXIS).map(|_| ())
     }
     fn measure(&self, m: &Measuring) -> Result<Value, Missing> {
         reading(m, single(m)?, m.feature().class == Class::Plane)
@@ -40,9 +41,9 @@ impl Characteristic for TotalRunout {
 /// The range that an indicator reads at all points while the part turns about the datum axis.
 pub(super) fn reading(m: &Measuring, datum: Datum, axial: bool) -> Result<Value, Missing> {
     let Datum::Axis { point, direction } = datum else {
-        return Err(Missing::Impossible("the datum is no axis".into()));
+        return Err(Impossible::DatumIsNoAxis.into());
     };
-    let points = m.feature().taken()?;
+    let points = m.feature().own_points()?;
     let read = |p: &[f64; 3]| {
         let q = minus(*p, point);
         if axial { dot(q, direction) } else { norm(cross(q, direction)) }

@@ -1,5 +1,6 @@
 //! What was measured of a characteristic, or why nothing was.
 
+use super::reason::{Impossible, NotMeasured};
 use trueness_geom::fit::FitError;
 use trueness_geom::rigid::Rigid;
 use trueness_geom::space::Point;
@@ -48,21 +49,24 @@ pub enum FrameOf {
 }
 
 /// Why there is no value.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Missing {
     /// The result is no longer wanted.
+    #[error("cancelled")]
     Cancelled,
     /// The data do not allow it.
-    NotMeasured(String),
+    #[error(transparent)]
+    NotMeasured(#[from] NotMeasured),
     /// The plan asks for what cannot be, as the data show.
-    Impossible(String),
+    #[error(transparent)]
+    Impossible(#[from] Impossible),
 }
 
 impl From<FitError> for Missing {
     fn from(e: FitError) -> Missing {
         match e {
             FitError::Cancelled => Missing::Cancelled,
-            e => Missing::NotMeasured(e.to_string()),
+            e => NotMeasured::Fit(e).into(),
         }
     }
 }
@@ -71,7 +75,7 @@ impl From<ZoneError> for Missing {
     fn from(e: ZoneError) -> Missing {
         match e {
             ZoneError::Cancelled => Missing::Cancelled,
-            e => Missing::NotMeasured(e.to_string()),
+            e => NotMeasured::Zone(e).into(),
         }
     }
 }
@@ -85,8 +89,8 @@ impl From<DatumError> for Missing {
             DatumError::Fit { .. }
             | DatumError::Zone { .. }
             | DatumError::Oblique { .. }
-            | DatumError::Across { .. } => Missing::NotMeasured(e.to_string()),
-            e => Missing::Impossible(e.to_string()),
+            | DatumError::Across { .. } => NotMeasured::Datum(e).into(),
+            e => Impossible::Datum(e).into(),
         }
     }
 }
@@ -98,5 +102,5 @@ pub(super) fn greatest(numbers: impl Iterator<Item = f64>) -> Result<(usize, f64
         _ => Some((i, x)),
     });
     let found = found.filter(|(_, x)| x.is_finite());
-    found.ok_or_else(|| Missing::NotMeasured("it has no points with finite coordinates".into()))
+    found.ok_or_else(|| NotMeasured::NotFinite.into())
 }

@@ -29,20 +29,46 @@ impl AlongRule {
     /// A direction from its three components.
     ///
     /// # Errors
-    /// What is wrong with them.
-    pub fn direction(d: Vector) -> Result<AlongRule, String> {
+    /// [`NoDirection`]: they are all 0, or no numbers.
+    pub fn direction(d: Vector) -> Result<AlongRule, NoDirection> {
         if d.iter().all(|x| x.is_finite()) && trueness_geom::space::unit(d).is_some() {
             Ok(AlongRule::Direction(d))
         } else {
-            Err("a direction is three numbers, not all 0".into())
+            Err(NoDirection)
         }
     }
+}
+
+/// Three components that give no direction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("a direction is three numbers, not all 0")]
+pub struct NoDirection;
+
+/// A text that says no line.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum NoLine {
+    /// Three components that give no direction.
+    #[error("‘{text}’: {reason}")]
+    Direction {
+        /// As written.
+        text: String,
+        /// What is wrong with it.
+        reason: NoDirection,
+    },
+    /// Neither a direction nor a word.
+    #[error(
+        "‘{text}’ is nothing to measure along; write a direction as in 0,0,1, or reference or measured for the normals of either"
+    )]
+    Unknown {
+        /// As written.
+        text: String,
+    },
 }
 
 /// `X,Y,Z`, `reference` or `measured`.
 ///
 /// # Errors
-/// A sentence that says what can be written.
+/// [`NoLine`], whatever else is written.
 ///
 /// ```
 /// use trueness_measure::compare::AlongRule;
@@ -50,9 +76,8 @@ impl AlongRule {
 /// assert!("0,0,0".parse::<AlongRule>().is_err());
 /// ```
 impl FromStr for AlongRule {
-    type Err = String;
-    fn from_str(text: &str) -> Result<AlongRule, String> {
-        let what = "write a direction as in 0,0,1, or reference or measured for the normals of either";
+    type Err = NoLine;
+    fn from_str(text: &str) -> Result<AlongRule, NoLine> {
         match text.trim() {
             "reference" => Ok(AlongRule::Reference),
             "measured" => Ok(AlongRule::Measured),
@@ -62,8 +87,8 @@ impl FromStr for AlongRule {
                 let direction = three.map(AlongRule::direction);
                 match direction {
                     Some(Ok(direction)) => Ok(direction),
-                    Some(Err(why)) => Err(format!("‘{text}’: {why}")),
-                    None => Err(format!("‘{text}’ is nothing to measure along; {what}")),
+                    Some(Err(reason)) => Err(NoLine::Direction { text: text.into(), reason }),
+                    None => Err(NoLine::Unknown { text: text.into() }),
                 }
             }
         }

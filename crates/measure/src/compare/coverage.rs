@@ -12,19 +12,26 @@ pub enum Coverage {
     Within(f64),
 }
 
+/// A text that is no reach.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("‘{text}’ is no reach; write auto, or a number of mm above 0")]
+pub struct NoReach {
+    text: String,
+}
+
 /// `auto` or millimeters.
 ///
 /// # Errors
-/// A sentence that says what can be written.
+/// Whatever else is written.
 impl FromStr for Coverage {
-    type Err = String;
-    fn from_str(text: &str) -> Result<Coverage, String> {
+    type Err = NoReach;
+    fn from_str(text: &str) -> Result<Coverage, NoReach> {
         if text.trim().eq_ignore_ascii_case("auto") {
             return Ok(Coverage::Auto);
         }
         match text.trim().parse::<f64>() {
             Ok(reach) if reach > 0.0 && reach.is_finite() => Ok(Coverage::Within(reach)),
-            _ => Err(format!("‘{text}’ is no reach; write auto, or a number of mm above 0")),
+            _ => Err(NoReach { text: text.into() }),
         }
     }
 }

@@ -1,7 +1,7 @@
 //! What of a reference the points cover, by a bounded sample of them: what a verdict asks of every comparison must not slow it.
 //!
 //! The sample is that of reports ([`ShownPoints`](super::ShownPoints)): even, and the same however the points come in blocks. Up to
-//! [`MOST`] points it holds all of them.
+//! [`MAX_COVERED_SAMPLE`] points it holds all of them.
 
 use super::coverage::Coverage;
 use super::map::{Foot, MapSurface, PointMap};
@@ -9,7 +9,7 @@ use super::shown::scramble;
 use trueness_geom::mesh::Mesh;
 
 /// Points of the sample, at most. The border of what is covered is then certain to about a hundredth of the reference's size.
-const MOST: usize = 1 << 16;
+const MAX_COVERED_SAMPLE: usize = 1 << 16;
 
 /// The nearest places of an even sample of the points that count.
 #[derive(Default)]
@@ -23,7 +23,7 @@ pub struct CoverageSample {
 impl CoverageSample {
     /// Asks for no more than are needed of so many points from the first on.
     pub fn expects(&mut self, points: u64) {
-        while points >> self.level > MOST as u64 {
+        while points >> self.level > MAX_COVERED_SAMPLE as u64 {
             self.level += 1;
         }
     }
@@ -39,7 +39,7 @@ impl CoverageSample {
             return;
         }
         self.feet.push((index, foot));
-        while self.feet.len() > MOST {
+        while self.feet.len() > MAX_COVERED_SAMPLE {
             self.level += 1;
             let level = self.level;
             self.feet.retain(|(index, _)| scramble(*index).trailing_zeros() >= level);

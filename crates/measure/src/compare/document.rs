@@ -2,7 +2,7 @@
 
 use super::judgement::{Grounds, judge};
 use super::reference::{Compared, WorstPlace};
-use super::research::{research, together};
+use super::research::{NotTogether, research, together};
 use super::{
     AlongRule, Comparisons, Covered, Excluded, Extreme, Facing, Options, Outliers, RegionFound, plausibility,
 };
@@ -335,7 +335,7 @@ fn paired(
     options: &Options,
 ) -> Paired {
     let together = match options.independent {
-        true => Err("errors are independent, as was asked for".to_string()),
+        true => Err(NotTogether::Independent),
         false => together(found, first, second),
     };
     let c = p.comparison(together.as_ref().ok());
@@ -346,7 +346,7 @@ fn paired(
         other: if swap { first } else { second },
         count: c.count,
         points_per_independent: together.is_ok().then_some(c.points_per_independent),
-        points_per_independent_reason: together.err(),
+        points_per_independent_reason: together.err().map(|e| e.to_string()),
         mean_difference: c.mean.ok().map(turn),
         interval: c.interval.ok().map(|[a, b]| if swap { [-b, -a] } else { [a, b] }),
         std_dev: c.std_dev.ok(),

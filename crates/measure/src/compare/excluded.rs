@@ -23,7 +23,7 @@ pub enum Excluded {
 }
 
 /// A NaN of its own, which is only ever copied: no arithmetic sees it.
-const OUTLIER: u64 = 0x7ff8_0000_0000_0004;
+const OUTLIER_BITS: u64 = 0x7ff8_0000_0000_0004;
 
 impl From<Exclusion> for Excluded {
     fn from(e: Exclusion) -> Excluded {
@@ -58,7 +58,7 @@ impl Excluded {
         match value {
             d if d.is_finite() => None,
             f64::NEG_INFINITY => Some(Excluded::Facing),
-            nan if nan.to_bits() == OUTLIER => Some(Excluded::Outlier),
+            nan if nan.to_bits() == OUTLIER_BITS => Some(Excluded::Outlier),
             other => Exclusion::of(other).map(Excluded::from),
         }
     }
@@ -69,7 +69,7 @@ impl Excluded {
             Excluded::MaxDistance => Exclusion::MaxDistance.value(),
             Excluded::BoundaryEdge => Exclusion::BoundaryEdge.value(),
             Excluded::Facing => f64::NEG_INFINITY,
-            Excluded::Outlier => f64::from_bits(OUTLIER),
+            Excluded::Outlier => f64::from_bits(OUTLIER_BITS),
             Excluded::NoCrossing => Exclusion::NoCrossing.value(),
             Excluded::NoDirection => Exclusion::NoDirection.value(),
         }

@@ -11,10 +11,10 @@ use trueness_geom::space::{minus, norm};
 
 /// Points whose mean distance is no more than this share of their own size lie on the reference: what an alignment is called poor by.
 /// Boxes in a ratio of units are then those of a small piece.
-const ON_REFERENCE: f64 = 0.01;
+const ON_REFERENCE_SIZE_SHARE: f64 = 0.01;
 
 /// Share of the size of a reference from which on a reach covers what no point is near.
-const FAR_REACH: f64 = 0.25;
+const FAR_REACH_SIZE_SHARE: f64 = 0.25;
 
 /// What is known beside the comparison itself.
 pub struct Grounds<'a> {
@@ -85,7 +85,7 @@ pub(crate) fn unreliable_alignment(doubts: &[AlignNoteKind]) -> Option<VerdictRe
 fn lies_on_it(c: &Comparison, warning: &Warning, measured: Option<&Bounds>) -> bool {
     let size = measured.map_or(0.0, |b| norm(minus(b.max, b.min)));
     warning.kind == WarningKind::SizeRatio
-        && c.deviation.all.mean_abs.is_some_and(|mean| mean <= ON_REFERENCE * size)
+        && c.deviation.all.mean_abs.is_some_and(|mean| mean <= ON_REFERENCE_SIZE_SHARE * size)
 }
 
 fn of_boxes(warning: &Warning) -> VerdictReason {
@@ -140,7 +140,7 @@ fn covered(
     let reach = coverage.map_or(0.0, |c| c.reach);
     match share {
         _ if least <= 0.0 => None,
-        _ if size.is_some_and(|size| reach > FAR_REACH * size) => {
+        _ if size.is_some_and(|size| reach > FAR_REACH_SIZE_SHARE * size) => {
             let text = format!(
                 "a reach of {reach:.1} mm covers what no point is near: ask for less than a quarter of the part"
             );

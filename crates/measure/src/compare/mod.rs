@@ -24,8 +24,8 @@ mod target;
 mod worst;
 
 pub use against::{CadFaces, Exact, Reference, ReferenceError};
-pub use along::{AlongRule, Lines};
-pub use coverage::Coverage;
+pub use along::{AlongRule, Lines, NoDirection, NoLine};
+pub use coverage::{Coverage, NoReach};
 pub use covered::Covered;
 pub use document::{Inputs, document};
 pub use excluded::Excluded;
@@ -35,7 +35,7 @@ pub use found::Comparisons;
 pub(crate) use judgement::{incomplete, unreliable_alignment};
 pub use map::{Between, MapSurface, PlaceMeans};
 pub use options::{MIN_COVERAGE, Options};
-pub use outliers::{NoLimits, OutlierLimits, OutlierRule, Outliers};
+pub use outliers::{NoLimits, NoRule, OutlierLimits, OutlierRule, Outliers};
 pub use reference::{Compared, RegionFound, Values, WorstPlace};
 pub(crate) use region::far_seed;
 pub use region::{Extent, RegionError, RegionRule, Regions};
@@ -132,17 +132,18 @@ pub fn run<S: PointStream + ?Sized, K>(
     }
     let pairs = (1..references.len()).flat_map(|second| (0..second).map(move |first| (first, second)));
     let paired: Vec<_> = pairs.map(|(first, second)| (first, second, Paired::new())).collect();
-    let places = if options.research { options.shown.max(research::PLACES) } else { options.shown };
+    let placed = research::MAX_PLACED_SAMPLE;
+    let places = options.shown.max(if options.research { placed } else { 0 });
     let mut out = Comparisons {
         count: 0,
         bounds: Aabb::EMPTY,
         references: vec![],
-        together: ShownPoints::new(if paired.is_empty() { 0 } else { research::PLACES }, references.len()),
+        together: ShownPoints::new(if paired.is_empty() { 0 } else { placed }, references.len()),
         paired,
         shown: ShownPoints::new(places, references.len()),
         flagged: ShownPoints::new(usize::MAX, references.len()),
     };
-    let mut sample = ShownPoints::new(SIGN_SAMPLE, 0);
+    let mut sample = ShownPoints::new(MAX_SIGN_SAMPLE, 0);
     let (mut points, mut start, mut waiting) = (vec![], 0, vec![]);
     loop {
         measured.next_block(&mut points).map_err(CompareError::Stream)?;
@@ -249,7 +250,7 @@ fn refused<S, K>(reference: &Reference, error: ReferenceError) -> CompareError<S
 }
 
 /// Points, at most, on which both sign methods are asked.
-const SIGN_SAMPLE: usize = 4096;
+const MAX_SIGN_SAMPLE: usize = 4096;
 
 /// What broke off a block whose first point has number `start`; the number of a bad point counts from the stream's start.
 fn in_block<S, K>(error: PaperError, reference: &Reference, start: u64) -> CompareError<S, K> {

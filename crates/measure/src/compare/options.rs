@@ -14,7 +14,7 @@ use trueness_geom::deviation::surface::SurfaceOptions;
 /// that are taken for whole ones cover 96 to 100 %, what shows a part from one side covers about half.
 pub const MIN_COVERAGE: f64 = 0.9;
 /// Places of each sign that a result names unless more are asked for: as many as flags beside a part can be read.
-const WORST: usize = 3;
+const DEFAULT_WORST_PLACES: usize = 3;
 
 /// What is asked.
 #[derive(Clone, Debug)]
@@ -88,7 +88,7 @@ impl Default for Options {
             tolerance: None,
             required_share: 1.0,
             shown: 0,
-            worst: WORST,
+            worst: DEFAULT_WORST_PLACES,
             kept_values: 1 << 27,
             independent: false,
             research: false,

@@ -59,10 +59,29 @@ impl OutlierRule {
     }
 }
 
+/// A text that is no rule for outliers.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum NoRule {
+    /// It names none.
+    #[error(
+        "‘{text}’ is no rule for outliers; write mad:5 (from the median, which outliers do not move) or 3sigma (from the mean)"
+    )]
+    Unknown {
+        /// As written.
+        text: String,
+    },
+    /// Its number is none, or not above 0.
+    #[error("‘{text}’: how many is a number above 0, as in mad:5 or 3sigma")]
+    Number {
+        /// As written.
+        text: String,
+    },
+}
+
 /// `mad:K` or `Ksigma`.
 ///
 /// # Errors
-/// A sentence that says what can be written.
+/// [`NoRule`], whatever else is written.
 ///
 /// ```
 /// use trueness_measure::compare::OutlierRule;
@@ -70,8 +89,8 @@ impl OutlierRule {
 /// assert!("5".parse::<OutlierRule>().is_err());
 /// ```
 impl FromStr for OutlierRule {
-    type Err = String;
-    fn from_str(text: &str) -> Result<OutlierRule, String> {
+    type Err = NoRule;
+    fn from_str(text: &str) -> Result<OutlierRule, NoRule> {
         let lower = text.trim().to_lowercase();
         let rule: fn(f64) -> OutlierRule;
         let number = match (lower.strip_prefix("mad:"), lower.strip_suffix("sigma")) {
@@ -84,15 +103,12 @@ impl FromStr for OutlierRule {
                 k
             }
             (None, None) => {
-                return Err(format!(
-                    "‘{text}’ is no rule for outliers; write mad:5 (from the median, which outliers do not move) or 3sigma (from \
-                     the mean)"
-                ));
+                return Err(NoRule::Unknown { text: text.into() });
             }
         };
         match number.trim().parse::<f64>() {
             Ok(k) if k > 0.0 && k.is_finite() => Ok(rule(k)),
-            _ => Err(format!("‘{text}’: how many is a number above 0, as in mad:5 or 3sigma")),
+            _ => Err(NoRule::Number { text: text.into() }),
         }
     }
 }

@@ -8,14 +8,14 @@ use trueness_document::compare::{Bounds, Warning, WarningKind};
 use trueness_geom::space::{minus, norm};
 
 /// Quotients of two units of length in use: micrometers, millimeters, centimeters, inches, meters.
-const RATIOS: [f64; 8] = [10.0, 25.4, 1000.0 / 25.4, 100.0, 1000.0, 1e4, 25400.0, 1e6];
+const UNIT_RATIOS: [f64; 8] = [10.0, 25.4, 1000.0 / 25.4, 100.0, 1000.0, 1e4, 25400.0, 1e6];
 /// How far a ratio of sizes may lie from one of units, as a factor. The diagonal of a box grows by noise and strays, and
 /// changes as the part is turned.
-const NEAR: f64 = 1.3;
+const MAX_RATIO_FACTOR: f64 = 1.3;
 /// Each box is widened by this share of the smaller diagonal on all sides: flat parts have boxes without height.
-const MARGIN: f64 = 0.05;
+const WIDENED_BOX_SHARE: f64 = 0.05;
 /// Boxes that share less than this part of the smaller one hardly overlap.
-const LEAST_OVERLAP: f64 = 0.1;
+const MIN_OVERLAP_SHARE: f64 = 0.1;
 
 /// What makes it unlikely that points in the box `measured` were taken from the part in the box `reference`, both mm.
 ///
@@ -36,8 +36,8 @@ pub fn warnings(measured: &Bounds, reference: &Bounds, remedy: &str) -> Vec<Warn
         );
         found.push(Warning { kind: WarningKind::SizeRatio, value: ratio, text });
     }
-    let share = overlap(measured, reference, MARGIN * m.min(r));
-    if share < LEAST_OVERLAP {
+    let share = overlap(measured, reference, WIDENED_BOX_SHARE * m.min(r));
+    if share < MIN_OVERLAP_SHARE {
         let text = "the boxes of measured and reference hardly overlap: not aligned, or a unit wrong?".into();
         found.push(Warning { kind: WarningKind::HardlyOverlapping, value: share, text });
     }
@@ -46,7 +46,7 @@ pub fn warnings(measured: &Bounds, reference: &Bounds, remedy: &str) -> Vec<Warn
 
 fn near_ratio_of_units(ratio: f64) -> bool {
     let factor = ratio.max(1.0 / ratio);
-    RATIOS.iter().any(|unit| factor / unit < NEAR && unit / factor < NEAR)
+    UNIT_RATIOS.iter().any(|unit| factor / unit < MAX_RATIO_FACTOR && unit / factor < MAX_RATIO_FACTOR)
 }
 
 /// Share of the smaller box that both have in common, after both were widened by `margin`.

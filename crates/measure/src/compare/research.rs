@@ -9,9 +9,9 @@ use trueness_geom::stats::research::{blocks, bootstrap, moran, normality};
 use trueness_geom::stats::statistics::Missing;
 
 /// Points, at most, of the sample that has places.
-pub const PLACES: usize = 1 << 18;
+pub const MAX_PLACED_SAMPLE: usize = 1 << 18;
 /// Deviations that tests and fits look at.
-const SAMPLE: usize = 5000;
+const MAX_TESTED_SAMPLE: usize = 5000;
 /// Side of the cubes within which deviations may go together, as a share of the sample's diagonal.
 const BLOCK_SHARE: f64 = 0.05;
 
@@ -35,9 +35,9 @@ pub fn research(c: &Compared, places: &ShownPoints, i: usize, seed: u64) -> Rese
         })),
         normality: Normality {
             d_agostino: finding(normality::d_agostino(&c.summary.all).map(test)),
-            anderson_darling: finding(normality::anderson_darling(values, SAMPLE, seed).map(test)),
+            anderson_darling: finding(normality::anderson_darling(values, MAX_TESTED_SAMPLE, seed).map(test)),
         },
-        distributions: finding(fits(values, SAMPLE, seed).map(|all| {
+        distributions: finding(fits(values, MAX_TESTED_SAMPLE, seed).map(|all| {
             let record = |f: &trueness_geom::stats::research::distributions::Fit| Distribution {
                 family: name(f.family).into(),
                 location: f.location,
@@ -62,17 +62,34 @@ pub fn research(c: &Compared, places: &ShownPoints, i: usize, seed: u64) -> Rese
     }
 }
 
+/// Why two references are not compared by blocks.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum NotTogether {
+    /// Nothing was looked for, as errors were said to be independent.
+    #[error("errors are independent, as was asked for")]
+    Independent,
+    /// The points lie too near each other.
+    #[error(
+        "points lie in fewer than {least} of the cubes within which they may go together, a twentieth of the reference's diagonal wide"
+    )]
+    FewBlocks {
+        /// Cubes that would do.
+        least: u64,
+    },
+    /// The statistics do not exist.
+    #[error(transparent)]
+    Missing(Missing),
+}
+
 /// The mean of the differences of two references, by blocks within which they may go together.
-pub fn together(found: &Comparisons, first: usize, second: usize) -> Result<blocks::BlockMean, String> {
+pub fn together(found: &Comparisons, first: usize, second: usize) -> Result<blocks::BlockMean, NotTogether> {
     let of = |n: usize| found.together.deviations.get(n).map_or(&[][..], Vec::as_slice);
     let differences: Vec<f64> = of(first).iter().zip(of(second)).map(|(a, b)| a.abs() - b.abs()).collect();
     // Single points far off are no measure of the part.
     let size = found.references.get(first).map_or(0.0, |c| c.diagonal);
     blocks::mean_of_blocks(&found.together.points, &differences, BLOCK_SHARE * size).map_err(|e| match e {
-        Missing::TooFew(least) => format!(
-            "points lie in fewer than {least} of the cubes within which they may go together, a twentieth of the reference's diagonal wide"
-        ),
-        e => e.to_string(),
+        Missing::TooFew(least) => NotTogether::FewBlocks { least },
+        e => NotTogether::Missing(e),
     })
 }
 

@@ -8,11 +8,11 @@ use trueness_geom::parallel::prelude::*;
 use trueness_geom::space::{Aabb, Point, minus, norm};
 
 /// Cells along each side.
-const SIDE: usize = 32;
+const CELLS_PER_SIDE: usize = 32;
 /// Points that one task sorts into cells of its own.
-const TASK: usize = 1 << 18;
+const POINTS_PER_TASK: usize = 1 << 18;
 /// Picked places are at least this share of the reference's diagonal apart.
-const APART: f64 = 0.05;
+const MIN_DISTANCE_DIAGONAL_SHARE: f64 = 0.05;
 
 /// A measured point with its deviation.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,12 +41,12 @@ impl WorstPlaces {
     /// For a reference of these bounds. Points outside count for the nearest cell at the rim.
     pub fn new(bounds: &Aabb) -> WorstPlaces {
         let sides = bounds.sides();
-        let per_cell = sides.map(|s| if s > 0.0 { SIDE as f64 / s } else { 0.0 });
+        let per_cell = sides.map(|s| if s > 0.0 { CELLS_PER_SIDE as f64 / s } else { 0.0 });
         WorstPlaces { origin: bounds.min, per_cell, diagonal: bounds.diagonal(), cells: Self::empty() }
     }
 
     fn empty() -> Vec<Option<WorstPoint>> {
-        vec![None; 2 * SIDE * SIDE * SIDE]
+        vec![None; 2 * CELLS_PER_SIDE * CELLS_PER_SIDE * CELLS_PER_SIDE]
     }
 
     /// Takes a block of points whose first has number `start`. A deviation that is none, NaN or infinite, is passed over.
@@ -64,7 +64,7 @@ impl WorstPlaces {
                 if !deviation.is_finite() {
                     continue;
                 }
-                let at = n * TASK + i;
+                let at = n * POINTS_PER_TASK + i;
                 let (badness, region) = judged(at);
                 let place =
                     WorstPoint { index: start + at as u64, point: *point, deviation, badness, region };
@@ -76,7 +76,8 @@ impl WorstPlaces {
             }
             cells
         };
-        let parts = points.par_chunks(TASK).zip(deviations.par_chunks(TASK)).enumerate();
+        let parts =
+            points.par_chunks(POINTS_PER_TASK).zip(deviations.par_chunks(POINTS_PER_TASK)).enumerate();
         let found: Vec<_> = parts.map(|(n, part)| sort(n, part)).collect();
         for place in found {
             for (mine, other) in self.cells.iter_mut().zip(place) {
@@ -88,8 +89,8 @@ impl WorstPlaces {
     }
 
     fn cell(&self, p: &Point) -> usize {
-        let at = |k: usize| (((p[k] - self.origin[k]) * self.per_cell[k]) as usize).min(SIDE - 1);
-        (at(0) * SIDE + at(1)) * SIDE + at(2)
+        let at = |k: usize| (((p[k] - self.origin[k]) * self.per_cell[k]) as usize).min(CELLS_PER_SIDE - 1);
+        (at(0) * CELLS_PER_SIDE + at(1)) * CELLS_PER_SIDE + at(2)
     }
 
     /// The `n` highest and the `n` lowest places that are not near one another, worst first.
@@ -100,7 +101,9 @@ impl WorstPlaces {
             all.sort_by(|a, b| b.badness.total_cmp(&a.badness).then(a.index.cmp(&b.index)));
             let mut picked: Vec<WorstPoint> = vec![];
             for p in all {
-                let apart = picked.iter().all(|q| norm(minus(p.point, q.point)) >= APART * self.diagonal);
+                let apart = picked
+                    .iter()
+                    .all(|q| norm(minus(p.point, q.point)) >= MIN_DISTANCE_DIAGONAL_SHARE * self.diagonal);
                 if picked.len() < n && apart {
                     picked.push(p);
                 }

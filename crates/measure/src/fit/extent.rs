@@ -6,11 +6,11 @@ use trueness_geom::shape::{Coordinate, Shape, axes_along};
 use trueness_geom::space::{Point, Vector, cross, dot, minus, plus, times, unit};
 
 /// Cells of the circle in which points are looked for.
-const CELLS: usize = 360;
+const CIRCLE_CELLS: usize = 360;
 /// A gap of at most this angle is none.
-const SMALL_GAP: f64 = 20.0 * PI / 180.0;
+const MAX_IGNORED_GAP: f64 = 20.0 * PI / 180.0;
 /// A cap of a sphere that reaches this far below its equator is the whole.
-const WHOLE: f64 = -50.0 * PI / 180.0;
+const WHOLE_SPHERE_LATITUDE: f64 = -50.0 * PI / 180.0;
 
 /// The extent of the points on a shape; `None` without points.
 pub fn extent(shape: &Shape, points: &[Point]) -> Option<Extent> {
@@ -27,7 +27,7 @@ pub fn extent(shape: &Shape, points: &[Point]) -> Option<Extent> {
         Coordinate::Turn => arc(all(k), points.len()),
         Coordinate::Latitude => {
             let low = all(k).fold(FRAC_PI_2, f64::min);
-            [if low < WHOLE { -FRAC_PI_2 } else { low }, FRAC_PI_2]
+            [if low < WHOLE_SPHERE_LATITUDE { -FRAC_PI_2 } else { low }, FRAC_PI_2]
         }
     };
     let [u, v] = shape.kind().coordinates();
@@ -75,24 +75,24 @@ fn range(values: impl Iterator<Item = f64>, first: f64) -> [f64; 2] {
 /// From where to where angles reach, without the largest gap between them; a full turn where the gap is small, or no
 /// wider than few points leave everywhere.
 fn arc(angles: impl Iterator<Item = f64>, count: usize) -> [f64; 2] {
-    let width = TAU / CELLS as f64;
-    let mut filled = [false; CELLS];
+    let width = TAU / CIRCLE_CELLS as f64;
+    let mut filled = [false; CIRCLE_CELLS];
     for a in angles.filter(|a| a.is_finite()) {
-        filled[((a.rem_euclid(TAU) / width) as usize).min(CELLS - 1)] = true;
+        filled[((a.rem_euclid(TAU) / width) as usize).min(CIRCLE_CELLS - 1)] = true;
     }
     // The longest run of empty cells, over the end of the circle too.
     let (mut longest, mut end, mut run) = (0, 0, 0);
-    for i in 0..2 * CELLS {
-        run = if filled[i % CELLS] { 0 } else { run + 1 };
-        if run > longest && run < CELLS {
+    for i in 0..2 * CIRCLE_CELLS {
+        run = if filled[i % CIRCLE_CELLS] { 0 } else { run + 1 };
+        if run > longest && run < CIRCLE_CELLS {
             (longest, end) = (run, i);
         }
     }
     let gap = longest as f64 * width;
-    if gap <= SMALL_GAP.max(2.5 * TAU / count.max(1) as f64) {
+    if gap <= MAX_IGNORED_GAP.max(2.5 * TAU / count.max(1) as f64) {
         return [0.0, TAU];
     }
-    let start = (((end + 1) % CELLS) as f64) * width;
+    let start = (((end + 1) % CIRCLE_CELLS) as f64) * width;
     [start, start + TAU - gap]
 }
 

@@ -1,8 +1,9 @@
 //! The alignment of a plan.
 
-use super::data::{Data, Stop};
+use super::data::Data;
 use super::nominals::Nominals;
-use super::{Taken, deviation, doubts, features};
+use super::stop::{NotAligned, Stop};
+use super::{MeasuredFeature, deviation, doubts, features};
 use crate::characteristic::{Missing, datum_source};
 use crate::compare::Regions;
 use crate::plan::{Align, Plan};
@@ -16,6 +17,7 @@ use trueness_geom::deviation::surface::{ReferenceSurface, SurfaceOptions};
 use trueness_geom::feature::Nominal;
 use trueness_geom::progress::Progress;
 use trueness_geom::rigid::Rigid;
+use trueness_geom::scan::Scan;
 use trueness_geom::space::{Point, Vector, dot, times};
 use trueness_geom::zone::datum::{Datum, DatumError, Rule, System};
 
@@ -66,13 +68,15 @@ pub(super) fn aligned(
 ) -> Result<(Data, Alignment), Stop> {
     let rows = |fit: Result<RowFit, AlignError>| {
         // The places stand in the plan.
-        let fit = fit.map_err(|e| failed(e).nominal())?;
+        let fit = fit.map_err(|e| failed(e).of_every_part())?;
         // What is evaluated lies on the part, also where there is no mesh of it.
-        let there = data.reference.as_ref().or(data.measured.as_ref());
-        let corners = there.map_or(vec![], |mesh| match data.reference.is_some() {
-            true => mesh.bounds().corners().to_vec(),
-            false => mesh.bounds().corners().map(|p| fit.reference_from_measured.point(p)).to_vec(),
-        });
+        let corners = match (&data.reference, &data.measured) {
+            (Some(reference), _) => reference.bounds().corners().to_vec(),
+            (None, Some(measured)) => {
+                measured.bounds().corners().map(|p| fit.reference_from_measured.point(p)).to_vec()
+            }
+            (None, None) => vec![],
+        };
         let motion = fit.reference_from_measured;
         Ok::<_, Stop>(Alignment { motion, found: Found::Rows(fit, corners) })
     };
@@ -91,7 +95,7 @@ pub(super) fn aligned(
         Align::Rps { rows: held, start } => rows(align::constrained(held, *start))?,
     };
     if alignment.found.turned()
-        && let Some(mesh) = &mut data.measured
+        && let Some(Scan::Mesh(mesh)) = &mut data.measured
     {
         // The features must find the sides that the alignment has found.
         mesh.faces.iter_mut().for_each(|f| f.swap(1, 2));
@@ -100,11 +104,13 @@ pub(super) fn aligned(
         moved(&mut data, &alignment.motion);
     }
     let onto = onto_datums(plan, &mut data, nominals, progress).map_err(|stop| match stop {
-        Stop::Align(what) => {
-            Stop::Align(match doubts::unit(plan, &data, &alignment.motion, alignment.found.best_fit()) {
-                Some(unit) => format!("{what}; {unit}"),
-                None => what,
-            })
+        Stop::Align { reason, of_part } => {
+            let hint = doubts::unit(plan, &data, &alignment.motion, alignment.found.best_fit());
+            let reason = match hint {
+                Some(hint) => NotAligned::InOtherUnit { reason: Box::new(reason), hint },
+                None => reason,
+            };
+            Stop::Align { reason, of_part }
         }
         stop => stop,
     })?;
@@ -122,7 +128,7 @@ fn onto_datums(
     progress: &dyn Progress,
 ) -> Result<Option<Rigid>, Stop> {
     let Align::Datum { datums, rule, span, .. } = &plan.align else { return Ok(None) };
-    let taken = features::taken(plan, data, nominals, progress)?.all;
+    let taken = features::extracted(plan, data, nominals, progress)?.all;
     let motion = by_datums(&taken, datums, *rule, span, progress)?;
     moved(data, &motion);
     Ok(Some(motion))
@@ -151,15 +157,15 @@ pub(super) fn in_other_pose(
     moved(&mut other, motion);
     match onto_datums(plan, &mut other, nominals, progress) {
         Ok(_) => Ok(Some(other)),
-        Err(Stop::Plan { .. } | Stop::Align(_)) => Ok(None),
+        Err(Stop::Plan { .. } | Stop::Align { of_part: true, .. }) => Ok(None),
         Err(stop) => Err(stop),
     }
 }
 
 fn moved(data: &mut Data, motion: &Rigid) {
     let own = data.points.values_mut().flat_map(|own| own.points.iter_mut());
-    let mesh = data.measured.iter_mut().flat_map(|mesh| mesh.positions.iter_mut());
-    for p in own.chain(mesh) {
+    let measured = data.measured.iter_mut().flat_map(Scan::points_mut);
+    for p in own.chain(measured) {
         *p = motion.point(*p);
     }
     data.normals.iter_mut().for_each(|n| *n = motion.vector(*n));
@@ -168,7 +174,7 @@ fn moved(data: &mut Data, motion: &Rigid) {
 pub(super) fn failed(e: AlignError) -> Stop {
     match e {
         AlignError::Cancelled(e) => e.into(),
-        e => Stop::Align(e.to_string()),
+        e => NotAligned::Search(e).into(),
     }
 }
 
@@ -180,23 +186,19 @@ fn best_fitted(
     progress: &dyn Progress,
 ) -> Result<Alignment, Stop> {
     let (Some(measured), Some(reference)) = (&data.measured, &data.reference) else {
-        return Err(Stop::Align("one of them is not there".into()));
+        return Err(NotAligned::NotThere.into());
     };
-    let tree = Tree::build_watched(reference, progress).map_err(|e| failed(e.into()).nominal())?;
-    let points = &measured.positions;
-    let measured = match measured.faces.is_empty() {
-        true => Measured::Points { points, normals: None },
-        false => Measured::Mesh(measured),
-    };
+    let tree = Tree::build_watched(reference, progress).map_err(|e| failed(e.into()).of_every_part())?;
+    let measured = Measured::from(measured);
     let options = BestFit { seed: data.seed, ..BestFit::default() };
     let target = Target::new(reference, &tree);
     let fit = best_fit(&measured, &target, &options, progress).map_err(failed)?;
     if let (Align::Zones, Some(asked)) = (&plan.align, &plan.deviation) {
         let surface = ReferenceSurface::new(&tree, reference, &SurfaceOptions::default(), progress)
-            .map_err(|e| Stop::Align(e.to_string()).nominal())?;
+            .map_err(|e| Stop::from(NotAligned::Reference(e)).of_every_part())?;
         let rules = deviation::regions(asked, plan, nominals, reference)?;
         let regions = Regions::new(&rules, reference, &tree, data.seed, progress)
-            .map_err(|e| Stop::Align(e.to_string()).nominal())?;
+            .map_err(|e| Stop::from(NotAligned::Region(e)).of_every_part())?;
         let zones = |face, place: &_| regions.allowed(face, place, asked.tolerance);
         let found =
             into_zones(&measured, &target, &surface, &zones, &fit, &options, progress).map_err(failed)?;
@@ -213,7 +215,7 @@ fn best_fitted(
 
 /// The motion that lays the frame of the measured datums on that of the nominal ones.
 pub(super) fn by_datums(
-    taken: &[Taken],
+    taken: &[MeasuredFeature],
     datums: &[usize],
     rule: Rule,
     span: &Range<usize>,
@@ -222,14 +224,13 @@ pub(super) fn by_datums(
     let wrong = |what: String| Stop::Plan { span: span.clone(), what };
     let impossible = |e: DatumError| match Missing::from(e) {
         Missing::Cancelled => Stop::Cancelled,
-        Missing::NotMeasured(what) | Missing::Impossible(what) => {
-            wrong(format!("alignment by datums: {what}"))
-        }
+        missing => wrong(format!("alignment by datums: {missing}")),
     };
     // How a part was made is no fault of the plan, whose nominals make a system.
     let of_part = |missing: Missing| match missing {
         Missing::Cancelled => Stop::Cancelled,
-        Missing::NotMeasured(what) | Missing::Impossible(what) => Stop::Align(what),
+        Missing::NotMeasured(reason) => NotAligned::Datum(reason).into(),
+        Missing::Impossible(reason) => NotAligned::Datums(reason).into(),
     };
     let mut nominals = vec![];
     let mut sources = vec![];

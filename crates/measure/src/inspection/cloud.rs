@@ -1,18 +1,15 @@
 //! The places of a measured cloud.
 
 use std::borrow::Cow;
-use trueness_geom::mesh::Mesh;
+use trueness_geom::scan::Scan;
 use trueness_geom::topology::weld::first_at_their_places;
 
 /// A cloud with each place once: copies of a point tell nothing new, and neighbors that are copies tell nothing at all. A mesh as it is.
-pub(super) fn distinct(mesh: &Mesh) -> Cow<'_, Mesh> {
-    if !mesh.faces.is_empty() {
-        return Cow::Borrowed(mesh);
+pub(super) fn distinct(scan: &Scan) -> Cow<'_, Scan> {
+    let Scan::Cloud(points) = scan else { return Cow::Borrowed(scan) };
+    let numbers = first_at_their_places(points);
+    if numbers.len() == points.len() {
+        return Cow::Borrowed(scan);
     }
-    let numbers = first_at_their_places(&mesh.positions);
-    if numbers.len() == mesh.positions.len() {
-        return Cow::Borrowed(mesh);
-    }
-    let positions = numbers.iter().map(|n| mesh.positions[*n as usize]).collect();
-    Cow::Owned(Mesh { positions, faces: vec![] })
+    Cow::Owned(Scan::Cloud(numbers.iter().map(|n| points[*n as usize]).collect()))
 }

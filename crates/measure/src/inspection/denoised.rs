@@ -3,10 +3,10 @@
 //! Where a distance from the element has a sign, it is the height over the place below; of a line or circle in space the three coordinates
 //! of the way from the element to the point are such heights, one by one.
 
-use super::data::Stop;
+use super::extract_features::associated_anew;
 use super::noise_field::Field;
-use super::take::again;
-use crate::characteristic::{Element, Taken};
+use super::stop::Stop;
+use crate::characteristic::{Element, MeasuredFeature};
 use crate::plan::{Noise, Plan};
 use std::collections::BTreeMap;
 use trueness_geom::num::random::Random;
@@ -17,9 +17,9 @@ use trueness_geom::space::{Point, Vector, dot, minus, plus, times, unit};
 use trueness_geom::zone::{Smooth, smooth};
 
 /// Draws of correlated noise that tell its variance in a wave, to a quarter.
-const DRAWS: u64 = 32;
+const VARIANCE_DRAWS: u64 = 32;
 /// Sets their stream apart from those of the values' draws.
-const STREAM: u64 = 1 << 40;
+const VARIANCE_STREAM: u64 = 1 << 40;
 
 /// What is not known of a form below the noise, see [`Smooth`].
 #[derive(Clone, Copy, Debug, Default)]
@@ -40,10 +40,10 @@ pub(super) fn denoised(
     plan: &Plan,
     noise: &Noise,
     seed: u64,
-    features: &[Taken],
+    features: &[MeasuredFeature],
     progress: &dyn Progress,
-) -> Result<(Vec<Taken>, Vec<Unknown>), Stop> {
-    let form = |taken: &Taken| match &taken.element {
+) -> Result<(Vec<MeasuredFeature>, Vec<Unknown>), Stop> {
+    let form = |taken: &MeasuredFeature| match &taken.element {
         Ok(Element::Fit(fit)) if !progress.cancelled() => Some(below(taken, &fit.shape, noise, seed)),
         _ => None,
     };
@@ -53,18 +53,18 @@ pub(super) fn denoised(
     for (taken, form) in features.iter().zip(forms) {
         points.extend(form.map(|(points, _)| (taken.id.as_str(), points)));
     }
-    let onto = |taken: &mut Taken| match points.remove(taken.id.as_str()) {
+    let onto = |taken: &mut MeasuredFeature| match points.remove(taken.id.as_str()) {
         Some(points) => {
             taken.points = points;
             true
         }
         None => false,
     };
-    Ok((again(plan, features, onto, progress)?, unknown))
+    Ok((associated_anew(plan, features, onto, progress)?, unknown))
 }
 
 /// The points of a feature as its form below the noise has them.
-fn below(taken: &Taken, shape: &Shape, noise: &Noise, seed: u64) -> (Vec<Point>, Unknown) {
+fn below(taken: &MeasuredFeature, shape: &Shape, noise: &Noise, seed: u64) -> (Vec<Point>, Unknown) {
     // Where there are many nearest places a point has no height.
     let out: Vec<Vector> =
         taken.points.iter().map(|p| unit(shape.normal(*p)).map_or([0.0; 3], |n| n.0)).collect();
@@ -73,9 +73,9 @@ fn below(taken: &Taken, shape: &Shape, noise: &Noise, seed: u64) -> (Vec<Point>,
         .collect();
     let drawn: Vec<Vec<Vector>> = match noise.correlation > 0.0 {
         false => vec![],
-        true => (0..DRAWS)
+        true => (0..VARIANCE_DRAWS)
             .map(|draw| {
-                let mut field = Field::new(noise, Random::stream(seed, STREAM + draw).next_u64());
+                let mut field = Field::new(noise, Random::stream(seed, VARIANCE_STREAM + draw).next_u64());
                 taken.points.iter().map(|p| field.at(p)).collect()
             })
             .collect(),

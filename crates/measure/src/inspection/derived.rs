@@ -1,15 +1,22 @@
 //! Features that are derived from others: median planes, intersections, midpoints, projections.
 
-use crate::characteristic::{Element, Taken};
+use crate::characteristic::{Element, MeasuredFeature, NoElement};
 use trueness_document::plan::{Class, DerivedWord};
 use trueness_geom::shape::derived::{Ray, line_plane, median_plane, midpoint, plane_plane, point_plane};
 use trueness_geom::space::{Point, minus, plus, times};
 use trueness_geom::zone::datum::Datum;
 
+/// The element of a feature that others are made of.
+fn element(taken: &MeasuredFeature) -> Result<&Element, NoElement> {
+    let wrapped =
+        |reason: &NoElement| NoElement::Source { id: taken.id.clone(), reason: Box::new(reason.clone()) };
+    taken.element.as_ref().map_err(wrapped)
+}
+
 /// A plane or axis of a feature.
-fn ray(taken: &Taken) -> Result<Ray, String> {
-    let none = || format!("feature \"{}\" has no plane or axis", taken.id);
-    match taken.element.as_ref().map_err(|e| format!("feature \"{}\": {e}", taken.id))? {
+fn ray(taken: &MeasuredFeature) -> Result<Ray, NoElement> {
+    let none = || NoElement::SourceWithoutAxis { id: taken.id.clone() };
+    match element(taken)? {
         Element::Derived(Datum::Plane { point, normal }) => Ok(Ray { point: *point, direction: *normal }),
         Element::Derived(Datum::Axis { point, direction }) => {
             Ok(Ray { point: *point, direction: *direction })
@@ -22,14 +29,19 @@ fn ray(taken: &Taken) -> Result<Ray, String> {
     }
 }
 
-fn center(taken: &Taken) -> Result<Point, String> {
-    taken.element.as_ref().map_err(|e| format!("feature \"{}\": {e}", taken.id))?;
-    let points = taken.zoned().map_err(|_| format!("feature \"{}\" has no center", taken.id))?;
-    points.first().copied().ok_or_else(|| format!("feature \"{}\" has no center", taken.id))
+fn center(taken: &MeasuredFeature) -> Result<Point, NoElement> {
+    element(taken)?;
+    let points = taken.zoned().unwrap_or_default();
+    points.first().copied().ok_or_else(|| NoElement::SourceWithoutCenter { id: taken.id.clone() })
 }
 
 /// A feature that is made of two others; `taken` is what it is without them.
-pub(super) fn derived(mut taken: Taken, how: DerivedWord, a: &Taken, b: &Taken) -> Taken {
+pub(super) fn derived(
+    mut taken: MeasuredFeature,
+    how: DerivedWord,
+    a: &MeasuredFeature,
+    b: &MeasuredFeature,
+) -> MeasuredFeature {
     let made = match how {
         DerivedWord::MedianPlane => median(&mut taken, a, b),
         DerivedWord::Intersection => intersection(a, b),
@@ -44,24 +56,28 @@ pub(super) fn derived(mut taken: Taken, how: DerivedWord, a: &Taken, b: &Taken) 
 }
 
 /// The plane half way between two, and their points projected onto it: its extent.
-fn median(taken: &mut Taken, a: &Taken, b: &Taken) -> Result<Element, String> {
+fn median(
+    taken: &mut MeasuredFeature,
+    a: &MeasuredFeature,
+    b: &MeasuredFeature,
+) -> Result<Element, NoElement> {
     let (first, second) = (ray(a)?, ray(b)?);
-    let plane = median_plane(first, second).ok_or("its two planes are perpendicular to each other")?;
+    let plane = median_plane(first, second).ok_or(NoElement::Perpendicular)?;
     let onto = |p: &Point| plus(*p, times(-point_plane(*p, plane), plane.direction));
     taken.points = a.points.iter().chain(&b.points).map(onto).collect();
     taken.areas = vec![1.0; taken.points.len()];
     Ok(Element::Derived(Datum::Plane { point: plane.point, normal: plane.direction }))
 }
 
-fn intersection(a: &Taken, b: &Taken) -> Result<Element, String> {
+fn intersection(a: &MeasuredFeature, b: &MeasuredFeature) -> Result<Element, NoElement> {
     let (first, second) = (ray(a)?, ray(b)?);
-    let parallel = "its two features are parallel";
+    let parallel = NoElement::Parallel;
     match (a.class, b.class) {
         (Class::Plane, Class::Plane) => {
             let line = plane_plane(first, second, midpoint(first.point, second.point)).ok_or(parallel)?;
             Ok(Element::Derived(Datum::Axis { point: line.point, direction: line.direction }))
         }
-        (Class::Plane, _) => line_plane(second, first).map(Element::Point).ok_or(parallel.into()),
-        _ => line_plane(first, second).map(Element::Point).ok_or(parallel.into()),
+        (Class::Plane, _) => line_plane(second, first).map(Element::Point).ok_or(parallel),
+        _ => line_plane(first, second).map(Element::Point).ok_or(parallel),
     }
 }

@@ -1,7 +1,8 @@
 //! Deviations of all that was measured from the reference, as `compare` computes them.
 
-use super::data::{Data, Stop};
+use super::data::Data;
 use super::nominals::Nominals;
+use super::stop::{NominalFault, NotCompared, Stop};
 use crate::compare::{
     self, Between, CompareError, Comparisons, Extent, Facing, Lines, Options, Reference, RegionRule,
     vertex_normals,
@@ -17,6 +18,7 @@ use trueness_geom::deviation::surface::SurfaceOptions;
 use trueness_geom::feature::facets_near;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::Progress;
+use trueness_geom::scan::Scan;
 
 /// Deviations from the reference, with what they were asked by.
 pub struct Deviations {
@@ -64,18 +66,18 @@ pub(super) fn deviations(
     progress: &dyn Progress,
 ) -> Result<Deviations, Stop> {
     let (Some(measured), Some(reference)) = (&data.measured, data.reference.take()) else {
-        return Err(Stop::Deviation("one of them is not there".into()));
+        return Err(Stop::Deviation(NotCompared::NotThere));
     };
     let mut normals = match asked.needs_normals() {
         None => vec![],
-        Some(_) if measured.faces.is_empty() => std::mem::take(&mut data.normals),
-        Some(_) => vertex_normals(measured),
+        Some(_) => match measured {
+            Scan::Cloud(_) => std::mem::take(&mut data.normals),
+            Scan::Mesh(mesh) => vertex_normals(mesh),
+        },
     };
     let judges = asked.tolerance.is_some() || !asked.regions.is_empty();
-    let between = match data.shown > 0 || asked.coverage.is_some() || data.places || judges {
-        true => Between::of(measured),
-        false => Between::default(),
-    };
+    let mapped = data.shown > 0 || asked.coverage.is_some() || data.places || judges;
+    let between = measured.mesh().filter(|_| mapped).map(Between::of).unwrap_or_default();
     if asked.needs_normals().is_some() {
         normals.extend(&between.normals);
     }
@@ -99,16 +101,19 @@ pub(super) fn deviations(
         seed: data.seed,
         ..Options::default()
     };
-    let mut points = Whole::<Infallible>::new(measured.positions.clone());
+    let mut points = Whole::<Infallible>::new(measured.points().to_vec());
     let left_out = std::mem::take(&mut data.reference_left_out);
     let references = [self::reference("the reference", &reference, &left_out)];
     let found = compare::run(&mut points, &references, &options, progress, |_| Ok::<(), Infallible>(()));
     let found = found.map_err(|e| match e {
         CompareError::Query(QueryError::Cancelled(e)) => e.into(),
-        e @ CompareError::Reference { .. } => Stop::Nominal(e.to_string()),
-        e => Stop::Deviation(e.to_string()),
+        e @ CompareError::Reference { .. } => Stop::Nominal(NominalFault::Compare(e)),
+        e => Stop::Deviation(NotCompared::Compare(e)),
     })?;
-    let kind = if measured.faces.is_empty() { MeasuredKind::Points } else { MeasuredKind::Vertices };
+    let kind = match measured {
+        Scan::Cloud(_) => MeasuredKind::Points,
+        Scan::Mesh(_) => MeasuredKind::Vertices,
+    };
     Ok(Deviations { found, options, reference, left_out, kind })
 }
 

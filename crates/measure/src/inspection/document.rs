@@ -1,10 +1,10 @@
 //! From what was found by a plan to the result document.
 
 use super::decision::{utilization, verdict};
-use super::{Element, Found, Inspection, Taken, Uncertainty, left_out};
+use super::{Element, Found, Inspection, MeasuredFeature, Uncertainty, excluded_points};
 use crate::align::{note, notes_of_rows, notes_of_search};
 use crate::characteristic::{
-    Characteristic, FrameOf, Missing, Place, Question, Spec, Texture, Value, nearest,
+    Characteristic, FrameOf, NoElement, NotMeasured, Place, Question, Spec, Texture, Value, nearest,
 };
 use crate::compare;
 use crate::fit::{named, uncertainty};
@@ -185,7 +185,11 @@ fn deviation(
     Some((document.comparisons.pop()?, document.scale))
 }
 
-fn feature(plan: &crate::requirement::Feature, taken: &Taken, noise: &NoiseOrReason) -> FeatureRecord {
+fn feature(
+    plan: &crate::requirement::Feature,
+    taken: &MeasuredFeature,
+    noise: &NoiseOrReason,
+) -> FeatureRecord {
     let fit = match &taken.element {
         Ok(Element::Fit(fit)) => Some(fit.as_ref()),
         _ => None,
@@ -235,7 +239,7 @@ fn feature(plan: &crate::requirement::Feature, taken: &Taken, noise: &NoiseOrRea
         uncertainty_reason: u_reason,
         form_error: fit.map(|f| f.residuals.form_error),
         rms: fit.map(|f| f.residuals.rms),
-        reason: taken.element.as_ref().err().cloned(),
+        reason: taken.element.as_ref().err().map(NoElement::to_string),
         extract,
         dents: (taken.others.dents > 0).then_some(taken.others.dents as u64),
         left_out: left_out_record(taken),
@@ -243,14 +247,14 @@ fn feature(plan: &crate::requirement::Feature, taken: &Taken, noise: &NoiseOrRea
 }
 
 /// Where a feature was measured, and its size.
-fn measured_place(taken: &Taken) -> Option<MeasuredPlace> {
-    let place = taken.middle().or_else(|_| match &taken.element {
-        Ok(Element::Derived(Datum::Axis { point, .. } | Datum::Plane { point, .. })) => Ok(*point),
-        _ => Err(Missing::NotMeasured(String::new())),
+fn measured_place(taken: &MeasuredFeature) -> Option<MeasuredPlace> {
+    let place = taken.middle().ok().or(match &taken.element {
+        Ok(Element::Derived(Datum::Axis { point, .. } | Datum::Plane { point, .. })) => Some(*point),
+        _ => None,
     });
     let shape = taken.shape().ok();
     Some(MeasuredPlace {
-        place: place.ok()?,
+        place: place?,
         diameter: shape.and_then(|s| match s {
             Shape::Cylinder { radius, .. }
             | Shape::Sphere { radius, .. }
@@ -266,7 +270,7 @@ fn measured_place(taken: &Taken) -> Option<MeasuredPlace> {
 }
 
 /// Where the model has a feature, nearest to where it was measured.
-fn nominal_place(taken: &Taken) -> Option<MeasuredPlace> {
+fn nominal_place(taken: &MeasuredFeature) -> Option<MeasuredPlace> {
     let nominal = taken.nominal.as_ref()?;
     let place = measured_place(taken).map(|m| m.place).or_else(|| nominal.places().first().copied());
     Some(MeasuredPlace {
@@ -282,7 +286,7 @@ fn nominal_place(taken: &Taken) -> Option<MeasuredPlace> {
     })
 }
 
-fn left_out_record(taken: &Taken) -> Option<LeftOutRecord> {
+fn left_out_record(taken: &MeasuredFeature) -> Option<LeftOutRecord> {
     let (of, beyond) = (&taken.others, taken.left_out);
     let others = of.points.len() as u64;
     (others + (of.edge + of.outliers) as u64 > 0 || beyond.is_some()).then(|| LeftOutRecord {
@@ -300,14 +304,14 @@ fn left_out_record(taken: &Taken) -> Option<LeftOutRecord> {
 }
 
 /// How near facets had to be to the nominal.
-fn extract(plan: &crate::requirement::Feature, taken: &Taken) -> Option<ExtractRecord> {
+fn extract(plan: &crate::requirement::Feature, taken: &MeasuredFeature) -> Option<ExtractRecord> {
     let near = plan.near(taken.nominal.as_ref()?);
     let (distance, margin, rim, coverage) = (near.distance, near.margin, near.rim, plan.extract.coverage);
     Some(ExtractRecord { distance, angle: near.angle.to_degrees(), margin, rim, coverage })
 }
 
 /// Told of a value whose uncertainty by noise could not be found.
-const UNKNOWN: &str =
+const UNKNOWN_UNCERTAINTY: &str =
     "its uncertainty is not known: fewer than nine in ten draws of the noise gave a finite value";
 
 /// What is to be said where the plan has a value's uncertainty found, and it was not.
@@ -315,7 +319,7 @@ fn unknown(plan: &Plan, found: &Inspection, n: usize) -> Option<String> {
     let source =
         plan.decision.noise.filter(|_| found.values[n].is_ok() && found.uncertainties[n].is_none())?;
     Some(match source.noise(&found.noise) {
-        Ok(_) => UNKNOWN.to_string(),
+        Ok(_) => UNKNOWN_UNCERTAINTY.to_string(),
         Err(why) => {
             format!(
                 "its uncertainty is not known, as the noise is not: {why}; give the `noise` in [decision]"
@@ -346,15 +350,15 @@ fn characteristic(plan: &Plan, found: &Inspection, n: usize) -> CharacteristicRe
     let first = spec.features.first().and_then(|n| found.features[*n].zoned().ok());
     let anchor = measured.and_then(|v| v.witness.first().copied());
     let uncertainty = found.uncertainties[n];
-    let judged = |value: &Result<Value, String>| {
+    let judged = |value: &Result<Value, NotMeasured>| {
         value.as_ref().map_or(Verdict::NotMeasured, |v| {
             verdict(v.value, &spec.limits.widened(v.bonus), rule, uncertainty.map(|u| u.sides))
         })
     };
     let unknown = unknown(plan, found, n);
     let with_others = found.with_others[n].as_ref();
-    let judged_with =
-        left_out::judge_left_out(plan, found, spec, judged(value), with_others.map(|v| (v, judged(v))));
+    let doubtful = with_others.map(|v| (v, judged(v)));
+    let judged_with = excluded_points::judge(plan, found, spec, judged(value), doubtful);
     let in_other_pose = (found.in_other_poses.iter().map(|values| &values[n]))
         .find(|other| judged(other) != judged(value))
         .filter(|_| value.is_ok());
@@ -382,7 +386,7 @@ fn characteristic(plan: &Plan, found: &Inspection, n: usize) -> CharacteristicRe
         interval: measured.zip(uncertainty).map(|(v, u)| interval(v.value, u, zone)),
         decision_rule: rule.word().into(),
         verdict: own,
-        reason: value.as_ref().err().cloned(),
+        reason: value.as_ref().err().map(NotMeasured::to_string),
         utilization: measured.and_then(|v| utilization(v.value, &limits)),
         witness: measured.map_or(vec![], |v| v.witness.clone()),
         anchor: anchor.or_else(|| first.and_then(|p| p.first().copied())),
@@ -403,9 +407,9 @@ fn characteristic(plan: &Plan, found: &Inspection, n: usize) -> CharacteristicRe
 }
 
 /// What is to be said of a characteristic with another verdict in another pose that fits about as well.
-fn other_pose(value: &Result<Value, String>, verdict: Verdict) -> String {
+fn other_pose(value: &Result<Value, NotMeasured>, verdict: Verdict) -> String {
     let there = match value {
-        Ok(v) => format!("the value is {}: {}", left_out::round(v.value), verdict.word()),
+        Ok(v) => format!("the value is {}: {}", excluded_points::round(v.value), verdict.word()),
         Err(why) => format!("there is no value: {why}"),
     };
     format!(

@@ -2,7 +2,7 @@
 
 use super::data::Data;
 use crate::align::note;
-use crate::characteristic::Taken;
+use crate::characteristic::MeasuredFeature;
 use crate::compare::plausibility;
 use crate::plan::Plan;
 use crate::requirement::{Feature, Source};
@@ -13,17 +13,17 @@ use trueness_geom::rigid::Rigid;
 use trueness_geom::space::{Aabb, Point, norm, times};
 
 /// Factors between units that are confused, and how they are told.
-const UNITS: [(f64, &str); 6] =
+const UNIT_FACTORS: [(f64, &str); 6] =
     [(25.4, "25.4"), (1.0 / 25.4, "0.03937"), (10.0, "10"), (0.1, "0.1"), (1000.0, "1000"), (1e-3, "0.001")];
 /// The box of what was measured is at most so many times larger than that of the features: in a larger one they lie by chance.
-const LARGER: f64 = 5.0;
+const MAX_BOX_RATIO: f64 = 5.0;
 /// Features may lie outside of the box of what was measured by this share of their size: a surface may be off.
-const MARGIN: f64 = 0.05;
+const BOX_MARGIN_SHARE: f64 = 0.05;
 /// How a unit is set where it is asked.
-const REMEDY: &str = "`units` of the plan";
+const UNITS_KEY: &str = "`units` of the plan";
 
 /// What makes it unlikely that aligned data, with the features that were found in them, are of the part.
-pub(super) fn doubts(plan: &Plan, data: &Data, motion: &Rigid, features: &[Taken]) -> Vec<Warning> {
+pub(super) fn doubts(plan: &Plan, data: &Data, motion: &Rigid, features: &[MeasuredFeature]) -> Vec<Warning> {
     if data.reference.is_some() {
         return boxes(plan, data);
     }
@@ -31,7 +31,8 @@ pub(super) fn doubts(plan: &Plan, data: &Data, motion: &Rigid, features: &[Taken
     let mut found = boxes(plan, data);
     found.retain(|w| w.kind == WarningKind::HardlyOverlapping);
     // A face through the origin is itself in every unit: one feature that is missing is enough.
-    let missing = |(f, t): (&Feature, &Taken)| matches!(f.source, Source::Nominal) && t.element.is_err();
+    let missing =
+        |(f, t): (&Feature, &MeasuredFeature)| matches!(f.source, Source::Nominal) && t.element.is_err();
     if plan.features.iter().zip(features).any(missing) {
         found.extend(unit_of_features(plan, data, motion));
     }
@@ -60,7 +61,7 @@ fn boxes(plan: &Plan, data: &Data) -> Vec<Warning> {
         None => Aabb::of(&places(plan)),
     };
     let bounds = crate::bounds(&measured.bounds()).zip(crate::bounds(&reference));
-    bounds.map_or(vec![], |(m, r)| plausibility::warnings(&m, &r, REMEDY))
+    bounds.map_or(vec![], |(m, r)| plausibility::warnings(&m, &r, UNITS_KEY))
 }
 
 fn places(plan: &Plan) -> Vec<Point> {
@@ -72,22 +73,22 @@ fn unit_of_features(plan: &Plan, data: &Data, motion: &Rigid) -> Option<Warning>
     let (measured, back) = (data.measured.as_ref()?, motion.inverse());
     let sought = places(plan);
     let size = Aabb::of(&sought).diagonal();
-    let as_measured: Vec<Point> = measured.positions.iter().map(|p| back.point(*p)).collect();
+    let as_measured: Vec<Point> = measured.points().iter().map(|p| back.point(*p)).collect();
     let larger = |factor: f64| -> Option<f64> {
         let there: Vec<Point> = as_measured.iter().map(|p| motion.point(times(factor, *p))).collect();
         let bounds = Aabb::of(&there);
-        let holds = sought.iter().all(|p| bounds.distance(p) <= MARGIN * size);
+        let holds = sought.iter().all(|p| bounds.distance(p) <= BOX_MARGIN_SHARE * size);
         let times_larger = norm(bounds.sides()) / size;
-        (holds && times_larger <= LARGER).then_some(times_larger)
+        (holds && times_larger <= MAX_BOX_RATIO).then_some(times_larger)
     };
     if size == 0.0 || larger(1.0).is_some() {
         return None;
     }
     // Of several the one in which the features take up most of it.
-    let fits = UNITS.iter().filter_map(|(factor, word)| Some((larger(*factor)?, *factor, *word)));
+    let fits = UNIT_FACTORS.iter().filter_map(|(factor, word)| Some((larger(*factor)?, *factor, *word)));
     let (_, factor, word) = fits.min_by(|a, b| a.0.total_cmp(&b.0))?;
     let text = format!(
-        "the measured lies where the plan has its features when it is {word} times as large: is a unit wrong? ({REMEDY})"
+        "the measured lies where the plan has its features when it is {word} times as large: is a unit wrong? ({UNITS_KEY})"
     );
     Some(Warning { kind: WarningKind::SizeRatio, value: 1.0 / factor, text })
 }
@@ -96,8 +97,8 @@ fn unit_of_features(plan: &Plan, data: &Data, motion: &Rigid) -> Option<Warning>
 mod tests {
     use super::*;
     use crate::inspection::run;
-    use trueness_geom::mesh::Mesh;
     use trueness_geom::progress::Silent;
+    use trueness_geom::scan::Scan;
 
     /// Three sides of a block of 60 by 40 by 20 from (10, 10, 10), and its alignment.
     fn plan(align: &str) -> Plan {
@@ -126,7 +127,7 @@ mod tests {
             [[60.0 * u, 40.0 * v, 0.0], [0.0, 40.0 * u, 20.0 * v], [60.0 * u, 0.0, 20.0 * v]]
         });
         let positions = sides.map(|p| [0, 1, 2].map(|k| factor * (10.0 + p[k]) + by[k])).collect();
-        Data { measured: Some(Mesh { positions, faces: vec![] }), ..Data::default() }
+        Data { measured: Some(Scan::Cloud(positions)), ..Data::default() }
     }
 
     #[test]

@@ -5,11 +5,11 @@ use crate::plan::Plan;
 use crate::segment::cut_out;
 use std::collections::BTreeMap;
 use trueness_document::scale::palette::{Rgb, category};
-use trueness_geom::mesh::Mesh;
 use trueness_geom::partition::{Class, NO_FACE, Partition};
+use trueness_geom::scan::Scan;
 
 /// Faces of no feature share so many colors.
-const COLORS: usize = 10;
+const OTHER_FACE_COLORS: usize = 10;
 
 /// A part of what was measured that is drawn in one color.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,7 +19,7 @@ pub struct DrawnFace {
     /// Its color.
     pub color: Rgb,
     /// The facets with their vertices, or the points of a cloud.
-    pub mesh: Mesh,
+    pub scan: Scan,
 }
 
 /// What a piece is drawn as: those of features come first.
@@ -45,7 +45,7 @@ const CLASSES: [(Class, &str, Rgb); 8] = [
 
 /// All that was measured, each piece once. Cost: some passes over it, and a copy.
 pub(super) fn drawn(plan: &Plan, parted: &Parted) -> Vec<DrawnFace> {
-    let (mesh, partition) = (parted.mesh(), parted.partition());
+    let (scan, partition) = (parted.scan(), parted.partition());
     // The features of each face, and the faces of features in the order of the plan.
     let mut names: BTreeMap<u32, Vec<&str>> = BTreeMap::new();
     let mut order: Vec<u32> = vec![];
@@ -59,12 +59,13 @@ pub(super) fn drawn(plan: &Plan, parted: &Parted) -> Vec<DrawnFace> {
         }
     }
     let places: BTreeMap<u32, usize> = order.iter().enumerate().map(|(place, face)| (*face, place)).collect();
-    let of_face =
-        |face: u32| places.get(&face).map_or(Kind::Other(face as usize % COLORS), |n| Kind::Feature(*n));
+    let of_face = |face: u32| {
+        places.get(&face).map_or(Kind::Other(face as usize % OTHER_FACE_COLORS), |n| Kind::Feature(*n))
+    };
     let mut pieces: BTreeMap<Kind, Vec<usize>> = BTreeMap::new();
-    let count = if mesh.faces.is_empty() { mesh.positions.len() } else { mesh.faces.len() };
+    let count = scan.mesh().map_or(scan.points().len(), |mesh| mesh.faces.len());
     for piece in 0..count {
-        let kind = match mesh.faces.get(piece) {
+        let kind = match scan.facets().get(piece) {
             Some(corners) => facet(partition, piece, corners).map_or_else(Kind::Gray, of_face),
             None => point(partition, piece).map_or_else(Kind::Gray, of_face),
         };
@@ -76,11 +77,11 @@ pub(super) fn drawn(plan: &Plan, parted: &Parted) -> Vec<DrawnFace> {
             Kind::Other(n) => (String::new(), category(order.len() + n)),
             Kind::Gray(n) => (CLASSES[n].1.to_string(), CLASSES[n].2),
         };
-        let mesh = match mesh.faces.is_empty() {
-            true => Mesh { positions: pieces.iter().map(|p| mesh.positions[*p]).collect(), faces: vec![] },
-            false => cut_out(mesh, &pieces),
+        let scan = match scan {
+            Scan::Cloud(points) => Scan::Cloud(pieces.iter().map(|p| points[*p]).collect()),
+            Scan::Mesh(mesh) => Scan::Mesh(cut_out(mesh, &pieces)),
         };
-        DrawnFace { name, color, mesh }
+        DrawnFace { name, color, scan }
     };
     pieces.into_iter().map(part).collect()
 }
@@ -90,24 +91,26 @@ fn point(partition: &Partition, point: usize) -> Result<u32, usize> {
     let class = partition.classes[point];
     match CLASSES.iter().position(|(c, ..)| *c == class) {
         Some(place) => Err(place),
-        None => Some(partition.owners[point]).filter(|face| *face != NO_FACE).ok_or(BEYOND),
+        None => Some(partition.owners[point]).filter(|face| *face != NO_FACE).ok_or(BEYOND_CLASS),
     }
 }
 
 /// The face of a facet; else of its corners the last class in the list, or that it straddles an edge.
 fn facet(partition: &Partition, number: usize, corners: &[u32; 3]) -> Result<u32, usize> {
-    let doubts =
-        corners.iter().filter_map(|v| point(partition, *v as usize).err()).filter(|place| *place > EDGE);
+    let doubts = corners
+        .iter()
+        .filter_map(|v| point(partition, *v as usize).err())
+        .filter(|place| *place > EDGE_CLASS);
     match (doubts.max(), partition.facets[number]) {
         (Some(place), _) => Err(place),
-        (None, NO_FACE) => Err(EDGE),
+        (None, NO_FACE) => Err(EDGE_CLASS),
         (None, face) => Ok(face),
     }
 }
 
 /// Places in the list.
-const EDGE: usize = 0;
-const BEYOND: usize = 2;
+const EDGE_CLASS: usize = 0;
+const BEYOND_CLASS: usize = 2;
 
 #[cfg(test)]
 mod tests {
@@ -115,6 +118,6 @@ mod tests {
 
     #[test]
     fn the_places_are_those_of_the_list() {
-        assert_eq!((CLASSES[EDGE].0, CLASSES[BEYOND].0), (Class::Edge, Class::Beyond));
+        assert_eq!((CLASSES[EDGE_CLASS].0, CLASSES[BEYOND_CLASS].0), (Class::Edge, Class::Beyond));
     }
 }

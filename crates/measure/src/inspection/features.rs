@@ -1,17 +1,18 @@
 //! The features of a plan in the measured data.
 
-use super::data::{Data, Stop};
+use super::data::Data;
 use super::faces_view::{self, DrawnFace};
 use super::nominals::Nominals;
 use super::parted::Parted;
-use super::{cloud, nearby, take};
-use crate::characteristic::Taken;
+use super::stop::Stop;
+use super::{cloud, extract_features, missing_feature_hint};
+use crate::characteristic::MeasuredFeature;
 use crate::plan::Plan;
 use trueness_geom::progress::Progress;
 
 /// The features of a plan, and what they were found with.
 pub(super) struct Features {
-    pub all: Vec<Taken>,
+    pub all: Vec<MeasuredFeature>,
     /// Whether what they are sought in was measured, not computed.
     pub is_scan: bool,
     /// The partition, where a report can show it.
@@ -19,7 +20,7 @@ pub(super) struct Features {
 }
 
 /// The features of data that lie where they are evaluated.
-pub(super) fn taken(
+pub(super) fn extracted(
     plan: &Plan,
     data: &Data,
     nominals: &Nominals,
@@ -28,11 +29,12 @@ pub(super) fn taken(
     let measured = data.measured.as_ref().map(cloud::distinct);
     let measured = measured.as_deref();
     let parted = match measured {
-        Some(mesh) => Parted::new(plan, mesh, nominals, data.seed, progress)?,
+        Some(scan) => Parted::new(plan, scan, nominals, data.seed, progress)?,
         None => None,
     };
-    let mut features = take::features(plan, (data, measured), nominals, parted.as_ref(), progress)?;
-    nearby::tell(plan, measured, nominals, parted.as_ref(), &mut features, progress)?;
+    let mut features =
+        extract_features::features(plan, (data, measured), nominals, parted.as_ref(), progress)?;
+    missing_feature_hint::add(plan, measured, nominals, parted.as_ref(), &mut features, progress)?;
     let shown = parted.as_ref().filter(|_| data.shown > 0);
     let drawn = shown.map_or(vec![], |parted| faces_view::drawn(plan, parted));
     let is_scan = parted.is_none_or(|parted| parted.partition().is_scan);

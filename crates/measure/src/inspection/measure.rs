@@ -1,22 +1,22 @@
 //! The value of a characteristic.
 
-use super::data::Stop;
-use crate::characteristic::{Measuring, Missing, Spec, Taken, Value};
+use super::stop::Stop;
+use crate::characteristic::{MeasuredFeature, Measuring, Missing, NotMeasured, Spec, Value};
 use trueness_geom::progress::Progress;
 
 /// The value of a characteristic, or why there is none.
 pub(super) fn measured(
     spec: &Spec,
-    features: &[Taken],
+    features: &[MeasuredFeature],
     progress: &dyn Progress,
-) -> Result<Result<Value, String>, Stop> {
-    let of = |numbers: &[usize]| -> Vec<&Taken> { numbers.iter().map(|n| &features[*n]).collect() };
+) -> Result<Result<Value, NotMeasured>, Stop> {
+    let of = |numbers: &[usize]| -> Vec<&MeasuredFeature> { numbers.iter().map(|n| &features[*n]).collect() };
     let own = of(&spec.features);
-    let datums: Vec<Vec<&Taken>> = spec.datums.iter().map(|d| of(&d.features)).collect();
+    let datums: Vec<Vec<&MeasuredFeature>> = spec.datums.iter().map(|d| of(&d.features)).collect();
     let measuring = Measuring { spec, features: &own, datums: &datums, progress };
     match spec.kind.measure(&measuring) {
         Ok(value) if value.value.is_finite() => Ok(Ok(value)),
-        Ok(_) => Ok(Err("the value is not a finite number".into())),
+        Ok(_) => Ok(Err(NotMeasured::NoNumber)),
         Err(Missing::NotMeasured(reason)) => Ok(Err(reason)),
         Err(Missing::Cancelled) => Err(Stop::Cancelled),
         Err(Missing::Impossible(what)) => {

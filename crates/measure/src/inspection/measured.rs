@@ -1,55 +1,59 @@
 //! What was measured beside the features of a plan, where no reference tells: elements that a segmentation finds.
 
-use super::data::Stop;
+use super::stop::Stop;
 use crate::plan::Plan;
 use crate::requirement::Feature;
+use std::borrow::Cow;
 use trueness_geom::feature::{Nearness, Nominal, in_cloud};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::num::random::Random;
 use trueness_geom::parallel::prelude::*;
 use trueness_geom::partition::{Faces, spacing};
 use trueness_geom::progress::Progress;
+use trueness_geom::scan::Scan;
 use trueness_geom::segment::{self, Region, SegmentError, Segmentation};
 use trueness_geom::space::{Point, cross, dot, minus, plus, times, unit};
 use trueness_geom::spatial::neighbors::PointTree;
 
 /// Points of a cloud that are segmented, at most.
-const MOST_SEGMENTED: usize = 200_000;
+const MAX_SEGMENTED: usize = 200_000;
 /// A region is of a feature if this share of its points within the bounds of the nominal is within its reach.
-const MOSTLY: f64 = 0.5;
+const MIN_SHARE_IN_REACH: f64 = 0.5;
 /// Points of a region that are looked at for its width.
-const PLACES: usize = 500;
+const WIDTH_SAMPLES: usize = 500;
 /// Points within three distances of points.
-const MIDDLE: usize = 28;
+const POINTS_WITHIN_THREE_SPACINGS: usize = 28;
 /// Points of a region lie no farther apart than so many times their mean distance.
-const APART: f64 = 1.5;
+const MAX_POINT_SPACINGS: f64 = 1.5;
 
 /// Adds the elements that are of no feature as faces.
 ///
 /// Cost: one segmentation.
 pub(super) fn add(
     faces: &mut Faces,
-    mesh: &Mesh,
+    scan: &Scan,
     plan: &Plan,
     seed: u64,
     progress: &dyn Progress,
 ) -> Result<(), Stop> {
-    let chosen =
-        mesh.faces.is_empty().then(|| Random::new(seed).choose(MOST_SEGMENTED, mesh.positions.len()));
-    let some: Option<Vec<Point>> = chosen.map(|c| c.into_iter().map(|i| mesh.positions[i]).collect());
-    let points = some.as_ref().unwrap_or(&mesh.positions);
     let options = segment::Options { seed, ..segment::Options::default() };
-    let found = match &some {
-        Some(points) => segment::cloud(points, &options, progress),
-        None => segment::mesh(mesh, &options, progress),
+    let (points, found) = match scan {
+        Scan::Mesh(mesh) => (Cow::Borrowed(&mesh.positions[..]), segment::mesh(mesh, &options, progress)),
+        Scan::Cloud(points) => {
+            let chosen = Random::new(seed).choose(MAX_SEGMENTED, points.len());
+            let chosen: Vec<Point> = chosen.into_iter().map(|i| points[i]).collect();
+            let found = segment::cloud(&chosen, &options, progress);
+            (Cow::Owned(chosen), found)
+        }
     };
+    let points = &points[..];
     let found = match found {
         Ok(found) => found,
         Err(SegmentError::Cancelled(e)) => return Err(e.into()),
         // What has no elements has none beside the features.
         Err(_) => return Ok(()),
     };
-    let apart = APART * spacing(points, seed);
+    let apart = MAX_POINT_SPACINGS * spacing(points, seed);
     let wide = wide(points, &found.regions, seed);
     for (number, region) in (0u32..).zip(&found.regions) {
         let places: Vec<Point> = region.points.iter().map(|p| points[*p as usize]).collect();
@@ -57,7 +61,7 @@ pub(super) fn add(
             feature.nominal.as_ref().is_some_and(|nominal| is_of(region, &places, feature, nominal))
         };
         if !plan.features.iter().any(is_of) {
-            let way = (outward(mesh, &found, number), !wide[number as usize]);
+            let way = (outward(scan.mesh(), &found, number), !wide[number as usize]);
             faces.add_measured(&places, region.fit.shape, apart, way);
         }
     }
@@ -72,9 +76,9 @@ fn wide(points: &[Point], regions: &[Region], seed: u64) -> Vec<bool> {
     }
     let tree = PointTree::new(points);
     let is_wide = |(number, region): (usize, &Region)| {
-        let chosen = Random::new(seed).choose(PLACES, region.points.len());
+        let chosen = Random::new(seed).choose(WIDTH_SAMPLES, region.points.len());
         let is_middle = |i: usize| {
-            let near = tree.k_nearest(&points[region.points[i] as usize], MIDDLE, None);
+            let near = tree.k_nearest(&points[region.points[i] as usize], POINTS_WITHIN_THREE_SPACINGS, None);
             near.iter().all(|n| labels[n.1 as usize] == number as u32)
         };
         chosen.into_iter().any(is_middle)
@@ -94,11 +98,12 @@ fn is_of(region: &Region, places: &[Point], feature: &Feature, nominal: &Nominal
         Some(off.abs() <= near.distance && dot(way, own).abs() >= libm::cos(near.angle))
     };
     let near = within.points.iter().filter(|p| faces(places[**p as usize]) == Some(true)).count();
-    near > 0 && near as f64 >= MOSTLY * within.points.len() as f64
+    near > 0 && near as f64 >= MIN_SHARE_IN_REACH * within.points.len() as f64
 }
 
 /// Whether distances of the element of a region are positive outside of the material; `true` of a cloud, which does not tell.
-fn outward(mesh: &Mesh, found: &Segmentation, region: u32) -> bool {
+fn outward(mesh: Option<&Mesh>, found: &Segmentation, region: u32) -> bool {
+    let Some(mesh) = mesh else { return true };
     let shape = &found.regions[region as usize].fit.shape;
     let along = |f: &[u32; 3]| {
         let [a, b, c] = f.map(|v| mesh.positions[v as usize]);

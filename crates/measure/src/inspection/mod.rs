@@ -10,14 +10,15 @@ mod deviation;
 mod document;
 mod doubts;
 mod edge;
+mod excluded_points;
+mod extract_features;
 mod faces_view;
 mod features;
 mod found;
-mod left_out;
 mod measure;
 mod measured;
+mod missing_feature_hint;
 mod model;
-mod nearby;
 mod noise_field;
 mod nominals;
 mod parted;
@@ -26,7 +27,7 @@ mod pose_noise;
 mod readings;
 mod seed;
 mod sides;
-mod take;
+mod stop;
 mod uncertainty;
 mod uncounted;
 mod wrong_numbers;
@@ -36,24 +37,25 @@ mod test_parts;
 #[cfg(test)]
 mod tests;
 
-pub use crate::characteristic::{Element, LeftOut, Others, Taken};
+pub use crate::characteristic::{Element, ExcludedPoints, MeasuredFeature, Others};
 pub use align::{Alignment, Found};
-pub use data::{Data, OwnPoints, Stop};
+pub use data::{Data, OwnPoints};
 pub use deviation::Deviations;
 pub use document::document;
 pub use faces_view::DrawnFace;
 pub use found::Inspection;
+pub use stop::{NominalFault, NotAligned, NotCompared, Stop};
 pub use uncertainty::Uncertainty;
 
 use crate::characteristic::Spec;
-use crate::noise::{NoiseOrReason, noise_or_reason};
+use crate::noise::{NoSharedNoise, NoiseOrReason, noise_or_reason};
 use crate::plan::Plan;
 use features::Features;
 use nominals::Nominals;
-use trueness_geom::mesh::Mesh;
 use trueness_geom::noise::{self, NoNoise};
 use trueness_geom::parallel::prelude::*;
 use trueness_geom::progress::Progress;
+use trueness_geom::scan::Scan;
 use uncounted::Uncounted;
 
 /// How many steps an inspection has, each counted as it is done: the alignment, the features, their values, those in other
@@ -78,7 +80,7 @@ pub const STEPS: u64 = 7;
 /// let own = OwnPoints { points, planar: false };
 /// let data = Data { points: [(0, own)].into(), ..Data::default() };
 /// let found = run(&plan, data, &trueness_geom::progress::Silent)?;
-/// let value = found.values[0].as_ref().map_err(String::as_str)?;
+/// let value = found.values[0].as_ref().map_err(Clone::clone)?;
 /// assert!((value.value - 0.02).abs() < 1e-6);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -90,14 +92,14 @@ pub fn run(plan: &Plan, data: Data, progress: &dyn Progress) -> Result<Inspectio
     let plan = &located;
     let (mut data, alignment) = align::aligned(plan, data, &nominals, progress)?;
     counted.advance(1);
-    let Features { all: features, is_scan, drawn } = features::taken(plan, &data, &nominals, progress)?;
+    let Features { all: features, is_scan, drawn } = features::extracted(plan, &data, &nominals, progress)?;
     let noise = noise(data.measured.as_ref(), is_scan, data.seed, progress)?;
     sides::checked(plan, &features)?;
     resolved.by_part(&features, progress);
     counted.advance(1);
     let doubts = doubts::doubts(plan, &data, &alignment.motion, &features);
-    let measured = |spec: &Spec, features: &[Taken]| measure::measured(spec, features, progress);
-    let all = |features: &[Taken]| {
+    let measured = |spec: &Spec, features: &[MeasuredFeature]| measure::measured(spec, features, progress);
+    let all = |features: &[MeasuredFeature]| {
         plan.specs.par_iter().map(|spec| measured(spec, features)).collect::<Result<Vec<_>, Stop>>()
     };
     let values = all(&features)?;
@@ -108,12 +110,12 @@ pub fn run(plan: &Plan, data: Data, progress: &dyn Progress) -> Result<Inspectio
         if let Some(other) = align::in_other_pose(plan, &data, &motion, &nominals, progress)? {
             // A page shows the partition of the pose that was found.
             let other = Data { shown: 0, ..other };
-            in_other_poses.push(all(&features::taken(plan, &other, &nominals, progress)?.all)?);
+            in_other_poses.push(all(&features::extracted(plan, &other, &nominals, progress)?.all)?);
         }
     }
     counted.advance(1);
     // What the values would be with the points of which it is not certain whose they are.
-    let whole = take::whole(plan, &features, progress)?;
+    let whole = extract_features::with_others(plan, &features, progress)?;
     let concerned =
         |spec: &Spec| spec.numbers(&plan.features).into_iter().any(|n| !features[n].others.points.is_empty());
     let with_others = plan
@@ -155,14 +157,14 @@ pub fn run(plan: &Plan, data: Data, progress: &dyn Progress) -> Result<Inspectio
 
 /// The noise of what was measured, and how far neighbors share it; or why none is told.
 fn noise(
-    measured: Option<&Mesh>,
+    measured: Option<&Scan>,
     is_scan: bool,
     seed: u64,
     progress: &dyn Progress,
 ) -> Result<NoiseOrReason, Stop> {
     let Some(measured) = measured else {
-        return Ok(Err("there is no measured surface: all points are from files of features".into()));
+        return Ok(Err(NoSharedNoise::NoSurface));
     };
-    let found = if is_scan { noise::mesh(measured, seed, progress) } else { Err(NoNoise::Drawn) };
+    let found = if is_scan { noise::scan(measured, seed, progress) } else { Err(NoNoise::Drawn) };
     Ok(noise_or_reason(found)?)
 }

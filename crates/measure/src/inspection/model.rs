@@ -8,13 +8,13 @@
 //! - numbers that no part could keep, as its feature is sought where the model has it (`extract` of the feature), are refused too;
 //! - what lies between is told with the value.
 
-use super::data::Stop;
 use super::derived::derived;
+use super::extract_features;
 use super::nominals::Nominals;
 use super::places::places;
 use super::readings::{Compared, OfModel, compared, fits_otherwise};
-use super::take;
-use crate::characteristic::{Spec, Taken};
+use super::stop::Stop;
+use crate::characteristic::{MeasuredFeature, Spec};
 use crate::plan::Plan;
 use crate::requirement::{Feature, Source};
 use trueness_geom::feature::Nominal;
@@ -32,9 +32,11 @@ pub(super) struct Resolved {
 
 impl Resolved {
     /// Tells of exact dimensions without a model that the measured part keeps in another reading only.
-    pub fn by_part(&mut self, features: &[Taken], progress: &dyn Progress) {
+    pub fn by_part(&mut self, features: &[MeasuredFeature], progress: &dyn Progress) {
         for (n, spec) in self.plan.specs.iter().enumerate().filter(|(n, _)| !self.known[*n]) {
-            let all = |numbers: &[usize]| -> Vec<&Taken> { numbers.iter().map(|n| &features[*n]).collect() };
+            let all = |numbers: &[usize]| -> Vec<&MeasuredFeature> {
+                numbers.iter().map(|n| &features[*n]).collect()
+            };
             let datums = spec.datums.iter().map(|d| all(&d.features)).collect();
             let of = OfModel {
                 plan: &self.plan,
@@ -69,7 +71,7 @@ pub(super) fn resolved(plan: &Plan, nominals: &Nominals, progress: &dyn Progress
         match compared(&measured)? {
             Compared::Alike => (),
             Compared::Exact(basic) => resolved.plan.specs[n].basic = basic,
-            Compared::Told(note) => resolved.notes[n].push(note),
+            Compared::Differs(note) => resolved.notes[n].push(note),
         }
     }
     Ok(resolved)
@@ -78,7 +80,7 @@ pub(super) fn resolved(plan: &Plan, nominals: &Nominals, progress: &dyn Progress
 /// The features as the model has them.
 struct Model<'a> {
     plan: &'a Plan,
-    features: Vec<Option<Taken>>,
+    features: Vec<Option<MeasuredFeature>>,
     /// How far from its nominal each is sought, mm.
     reach: Vec<f64>,
     progress: &'a dyn Progress,
@@ -86,14 +88,14 @@ struct Model<'a> {
 
 impl<'a> Model<'a> {
     fn new(plan: &'a Plan, nominals: &Nominals, progress: &'a dyn Progress) -> Result<Model<'a>, Stop> {
-        let mut features: Vec<Option<Taken>> = Vec::with_capacity(plan.features.len());
+        let mut features: Vec<Option<MeasuredFeature>> = Vec::with_capacity(plan.features.len());
         let mut reach: Vec<f64> = vec![];
         for (number, feature) in plan.features.iter().enumerate() {
             let nominal = nominals.of(number, feature);
             let (taken, near) = match (&feature.source, nominal) {
                 (Source::Derived { how, of: [a, b] }, _) => {
                     let two = features[*a].as_ref().zip(features[*b].as_ref());
-                    let made = two.map(|(a, b)| derived(take::bare(feature), *how, a, b));
+                    let made = two.map(|(a, b)| derived(extract_features::bare(feature), *how, a, b));
                     (made.filter(|made| made.element.is_ok()), reach[*a].max(reach[*b]))
                 }
                 (_, Some(nominal)) => (on_model(feature, nominal, progress)?, feature.near(nominal).distance),
@@ -107,7 +109,7 @@ impl<'a> Model<'a> {
 
     /// A characteristic whose features the model has, all of them.
     fn of(&'a self, spec: &'a Spec) -> Option<OfModel<'a>> {
-        let all = |numbers: &[usize]| -> Option<Vec<&Taken>> {
+        let all = |numbers: &[usize]| -> Option<Vec<&MeasuredFeature>> {
             numbers.iter().map(|n| self.features[*n].as_ref()).collect()
         };
         Some(OfModel {
@@ -122,13 +124,17 @@ impl<'a> Model<'a> {
 }
 
 /// A feature with points of its nominal; `None` where these make no element.
-fn on_model(feature: &Feature, nominal: &Nominal, progress: &dyn Progress) -> Result<Option<Taken>, Stop> {
-    let mut taken = take::bare(feature);
+fn on_model(
+    feature: &Feature,
+    nominal: &Nominal,
+    progress: &dyn Progress,
+) -> Result<Option<MeasuredFeature>, Stop> {
+    let mut taken = extract_features::bare(feature);
     taken.nominal = Some(nominal.clone());
-    taken.outward = taken.outward.or(take::normal(nominal));
+    taken.outward = taken.outward.or(extract_features::normal(nominal));
     taken.points = places(nominal);
     taken.areas = vec![1.0; taken.points.len()];
     let exact = Feature { method: Method::Gaussian, ..feature.clone() };
-    let taken = take::associated(taken, &exact, progress)?;
+    let taken = extract_features::associated(taken, &exact, progress)?;
     Ok(Some(taken).filter(|taken| taken.element.is_ok()))
 }

@@ -6,12 +6,12 @@ use trueness_geom::num::random::Random;
 use trueness_geom::space::{Point, Vector, plus, times};
 
 /// Cells from zero up to which places within a cell are told apart.
-const FINEST: f64 = 1e12;
+const MAX_CELL_NUMBER: f64 = 1e12;
 /// Corners of cells that are held in memory, about 50 bytes each.
-const MOST_CORNERS: usize = 200_000;
+const MAX_HELD_CORNERS: usize = 200_000;
 
 /// Corners of a cell.
-const CORNERS: usize = 8;
+const CORNERS_PER_CELL: usize = 8;
 
 /// What a vector of independent normal numbers belongs to: a place, or a corner of a cell.
 pub(super) type Source = [u64; 3];
@@ -33,7 +33,7 @@ impl Field {
     /// corners of cells of that size and brought back to that deviation, so places within about half of it move together.
     pub fn at(&mut self, p: &Point) -> Vector {
         let (parts, count) = parts(p, &self.noise);
-        if self.corners.len() > MOST_CORNERS {
+        if self.corners.len() > MAX_HELD_CORNERS {
             self.corners.clear();
         }
         let mut sum = [0.0; 3];
@@ -41,7 +41,7 @@ impl Field {
             let known = self.corners.get(&source).copied();
             let g = known.unwrap_or_else(|| self.vector(source));
             // No other point asks for what each has alone.
-            if number < CORNERS && count > 1 {
+            if number < CORNERS_PER_CELL && count > 1 {
                 self.corners.insert(source, g);
             }
             sum = plus(sum, times(weight, g));
@@ -65,17 +65,17 @@ impl Field {
 
 /// What the noise of a place is made of, with weights whose squares add up to 1, and their number: itself, or the eight corners about it and
 /// itself.
-pub(super) fn parts(p: &Point, noise: &Noise) -> ([(Source, f64); CORNERS + 1], usize) {
+pub(super) fn parts(p: &Point, noise: &Noise) -> ([(Source, f64); CORNERS_PER_CELL + 1], usize) {
     let correlation = noise.correlation;
     let own = p.map(|x| (x + 0.0).to_bits());
-    let mut parts = [([0; 3], 0.0); CORNERS + 1];
+    let mut parts = [([0; 3], 0.0); CORNERS_PER_CELL + 1];
     let cell = p.map(|x| (x / correlation).floor());
     // Also where numbers cannot tell the places within a cell: each point moves alone there.
-    if correlation <= 0.0 || !cell.iter().all(|c| c.abs() < FINEST) {
+    if correlation <= 0.0 || !cell.iter().all(|c| c.abs() < MAX_CELL_NUMBER) {
         parts[0] = (own, 1.0);
         return (parts, 1);
     }
-    let (corners, _) = parts.split_at_mut(CORNERS);
+    let (corners, _) = parts.split_at_mut(CORNERS_PER_CELL);
     for (corner, part) in corners.iter_mut().enumerate() {
         let up = [0, 1, 2].map(|k| ((corner >> k) & 1) as f64);
         let along = |k: usize| 1.0 - (p[k] / correlation - cell[k] - up[k]).abs();
@@ -84,8 +84,8 @@ pub(super) fn parts(p: &Point, noise: &Noise) -> ([(Source, f64); CORNERS + 1], 
     }
     let size = (corners.iter().map(|part| part.1 * part.1).sum::<f64>() / (1.0 - noise.white)).sqrt();
     corners.iter_mut().for_each(|part| part.1 /= size);
-    parts[CORNERS] = (own, noise.white.sqrt());
-    (parts, if noise.white > 0.0 { CORNERS + 1 } else { CORNERS })
+    parts[CORNERS_PER_CELL] = (own, noise.white.sqrt());
+    (parts, if noise.white > 0.0 { CORNERS_PER_CELL + 1 } else { CORNERS_PER_CELL })
 }
 
 #[cfg(test)]

@@ -1,7 +1,8 @@
 //! What is known of a plan's features before anything is measured: their nominals, and the faces of the reference that they are.
 
-use super::data::{Data, Stop};
+use super::data::Data;
 use super::seed::{self, Seeded};
+use super::stop::{NominalFault, Stop};
 use crate::plan::Plan;
 use crate::requirement::Feature;
 use std::collections::BTreeMap;
@@ -13,9 +14,9 @@ use trueness_geom::segment::SegmentError;
 use trueness_geom::space::{Point, Vector, dot, single_step};
 
 /// A face may be off the surface of a nominal by this share of the distance up to which points are sought.
-const OFF_SURFACE: f64 = 1e-3;
+const MAX_OFF_DISTANCE_SHARE: f64 = 1e-3;
 /// So many times as far off as the face that holds most of a nominal its others may be: a nominal may lean, by the digits it is written with.
-const LEANS: f64 = 4.0;
+const MAX_LEANING_RATIO: f64 = 4.0;
 
 /// The nominals of a plan, and the reference cut into faces.
 pub(super) struct Nominals {
@@ -49,7 +50,7 @@ impl Nominals {
         };
         let faces = Faces::of(reference, progress).map_err(|e| match e {
             SegmentError::Cancelled(e) => e.into(),
-            e => Stop::Nominal(format!("the reference cannot be cut into faces: {e}")),
+            e => Stop::Nominal(NominalFault::Faces(e)),
         })?;
         nominals.seeds = seed::seeded(plan, reference, &faces, progress)?;
         for (number, feature) in plan.features.iter().enumerate() {
@@ -121,7 +122,9 @@ fn own_faces(
         held.push(Held { number, share, facets: beside.len(), off });
     }
     let Some(most) = held.iter().max_by_key(|h| (h.share, h.facets)) else { return Ok(None) };
-    let limit = (LEANS * most.off).max(OFF_SURFACE * near.distance).max(single_step(&reference.positions));
+    let limit = (MAX_LEANING_RATIO * most.off)
+        .max(MAX_OFF_DISTANCE_SHARE * near.distance)
+        .max(single_step(&reference.positions));
     let first = &faces.all[most.number as usize];
     let inward = if matches!(nominal, Nominal::Plane { .. }) { None } else { first.inward() };
     let is_alike = |h: &&Held| h.off <= limit && faces.all[h.number as usize].inward() == first.inward();

@@ -1,9 +1,9 @@
 //! The measured data parted among faces, and what of them is of a feature.
 
-use super::data::Stop;
 use super::measured;
 use super::nominals::{Nominals, OwnFaces};
-use crate::characteristic::{LeftOut, Others};
+use super::stop::{NominalFault, Stop};
+use crate::characteristic::{ExcludedPoints, Others};
 use crate::plan::Plan;
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
@@ -13,11 +13,12 @@ use trueness_geom::partition::{
     Beyond, Class, Face, Faces, NO_FACE, Options, Partition, PartitionError, partition,
 };
 use trueness_geom::progress::Progress;
-use trueness_geom::space::{Aabb, Point, cross, dot, minus, norm, plus, times};
+use trueness_geom::scan::Scan;
+use trueness_geom::space::{Point, cross, dot, minus, norm, plus, times};
 
 /// The measured data parted among faces.
 pub(super) struct Parted<'a> {
-    mesh: &'a Mesh,
+    scan: &'a Scan,
     nominals: &'a Nominals,
     /// The faces beside those of the reference: nominals that it does not have, and what else was measured where there is no reference.
     more: Faces,
@@ -34,16 +35,16 @@ pub(super) struct Parted<'a> {
 }
 
 /// Share of the greatest distance from its borders that a point of a face has, up to which a margin leaves points out there: some of a narrow face stays.
-const HALF_WIDTH: f64 = 0.5;
+const MAX_MARGIN_SHARE: f64 = 0.5;
 
 /// Share of the area of a face from which on facets along it without corners of their own may be a step.
-const STEP: f64 = 0.05;
+const MIN_STEP_AREA_SHARE: f64 = 0.05;
 /// Points of a face from which on those at its edges are not needed.
-const POINTS_ENOUGH: usize = 20;
+const MIN_INNER_POINTS: usize = 20;
 /// Points farther off than this share of the size of what was measured are of something else.
-const ELSEWHERE: f64 = 0.1;
+const MAX_OFF_SIZE_SHARE: f64 = 0.1;
 /// Cosine of the angle (60°) up to which a face lies along a nominal.
-const ALONG: f64 = 0.5;
+const MIN_ALONG_COSINE: f64 = 0.5;
 
 /// What is of a feature.
 pub(super) struct OfFeature {
@@ -51,14 +52,14 @@ pub(super) struct OfFeature {
     /// The points that tell how much of it was measured, where those found are others.
     pub covering: Option<Vec<u32>>,
     pub others: Others,
-    pub left_out: Option<LeftOut>,
+    pub left_out: Option<ExcludedPoints>,
 }
 
 impl<'a> Parted<'a> {
     /// `None` where no feature is a face. Cost: one partition, and one segmentation of the measured data where there is no reference.
     pub fn new(
         plan: &Plan,
-        mesh: &'a Mesh,
+        scan: &'a Scan,
         nominals: &'a Nominals,
         seed: u64,
         progress: &dyn Progress,
@@ -70,7 +71,7 @@ impl<'a> Parted<'a> {
             let nominal = nominals.of(number, feature).filter(|_| nominals.own(number).is_none());
             let Some(nominal) = nominal else { continue };
             let near = feature.near(nominal);
-            let inward = near.inward.or_else(|| inward(mesh, nominal, &near));
+            let inward = near.inward.or_else(|| inward(scan, nominal, &near));
             // An edge is no face; what makes no sense is told where it is sought.
             if let Ok(face) = more.add_nominal(nominal, inward == Some(true)) {
                 own.insert(number, OwnFaces { faces: vec![first + face], inward, is_over: true });
@@ -81,15 +82,17 @@ impl<'a> Parted<'a> {
             return Ok(None);
         }
         if of_reference.is_empty() {
-            measured::add(&mut more, mesh, plan, seed, progress)?;
+            measured::add(&mut more, scan, plan, seed, progress)?;
         }
         let faces: Vec<&Face> = of_reference.iter().chain(&more.all).collect();
         let distance = reaches.values().copied().reduce(f64::max).filter(|_| of_reference.is_empty());
         let options = Options { distance, reaches, seed };
-        let partition = partition(mesh, &faces, &options, progress).map_err(|e| match e {
+        let partition = partition(scan, &faces, &options, progress).map_err(|e| match e {
             PartitionError::Cancelled(e) => e.into(),
-            e @ (PartitionError::Nominal(_) | PartitionError::Reach { .. }) => Stop::Nominal(e.to_string()),
-            e => Stop::Mesh(e.to_string()),
+            e @ (PartitionError::Nominal(_) | PartitionError::Reach { .. }) => {
+                Stop::Nominal(NominalFault::Partition(e))
+            }
+            e => Stop::Mesh(e),
         })?;
         let of_faces = |labels: &[u32]| {
             let mut all = vec![vec![]; faces.len()];
@@ -101,12 +104,12 @@ impl<'a> Parted<'a> {
         let (points, facets) = (of_faces(&partition.owners), of_faces(&partition.facets));
         let loose = (0..).zip(&partition.facets).filter(|f| *f.1 == NO_FACE).map(|f| f.0).collect();
         let around = OnceLock::new();
-        Ok(Some(Parted { mesh, nominals, more, own, partition, points, facets, loose, around }))
+        Ok(Some(Parted { scan, nominals, more, own, partition, points, facets, loose, around }))
     }
 
     /// What was parted: a cloud with each place once.
-    pub fn mesh(&self) -> &Mesh {
-        self.mesh
+    pub fn scan(&self) -> &Scan {
+        self.scan
     }
 
     /// How it was parted.
@@ -132,10 +135,10 @@ impl<'a> Parted<'a> {
         if !is_other || self.nominals.faces.is_some() {
             return is_other;
         }
-        let place = self.mesh.positions[point as usize];
+        let place = self.scan.points()[point as usize];
         let way = nominal.surface().and_then(|s| s.distance(place));
         let along = self.face(owner).facing(&place).zip(way).map(|(a, (_, b))| dot(a, b).abs());
-        along.is_none_or(|cosine| cosine < ALONG)
+        along.is_none_or(|cosine| cosine < MIN_ALONG_COSINE)
     }
 
     /// What is of a feature that has these faces; with `outliers` those that stick out by themselves are of it too.
@@ -148,17 +151,17 @@ impl<'a> Parted<'a> {
         (nominal, near): (&Nominal, &Nearness),
         outliers: bool,
     ) -> Result<OfFeature, FeatureError> {
-        let mesh = self.mesh;
+        let scan = self.scan;
         let within = Within { parted: self, own, nominal, near, outliers };
         let own_facets = of_faces(own, &self.facets);
-        let mut corners: Vec<u32> = own_facets.iter().flat_map(|f| mesh.faces[*f as usize]).collect();
+        let mut corners: Vec<u32> = own_facets.iter().flat_map(|f| scan.facets()[*f as usize]).collect();
         let mut points: Vec<u32> = self.of_class(own, Class::Face);
         let alone = self.of_class(own, Class::Alone);
         if outliers {
             points.extend(&alone);
         }
         // At a sharp edge a vertex is of all faces about it. A scan has none there that tells anything of a face with many others.
-        if !self.partition.is_scan || points.len() < POINTS_ENOUGH {
+        if !self.partition.is_scan || points.len() < MIN_INNER_POINTS {
             points.extend(&corners);
         }
         for numbers in [&mut points, &mut corners] {
@@ -179,9 +182,9 @@ impl<'a> Parted<'a> {
             true => {
                 self.area_about(&[&outlined[..], &within.bounds(self.of_class(own, Class::Edge))?].concat())
             }
-            false => area(mesh, &with_corners(mesh, &own_facets, &corners)),
+            false => area(scan, &with_corners(scan, &own_facets, &corners)),
         };
-        let facets = with_corners(mesh, &own_facets, &within.clear(&corners, border));
+        let facets = with_corners(scan, &own_facets, &within.clear(&corners, border));
         let found = Found { area, ..self.found(within.clear(&outlined, border), facets, near.rim) };
         // Where edges are rounded something was measured all the same.
         let mut covering = [&outlined[..], &within.bounds(self.of_class(own, Class::Edge))?].concat();
@@ -201,7 +204,7 @@ impl<'a> Parted<'a> {
         number: usize,
         within: &Within,
         (border, far): (f64, Vec<u32>),
-    ) -> Result<(Others, Option<LeftOut>), FeatureError> {
+    ) -> Result<(Others, Option<ExcludedPoints>), FeatureError> {
         let Within { own, near, .. } = *within;
         let far = within.clear(&far, border);
         let mut left_out = within.off(&far);
@@ -251,7 +254,7 @@ impl<'a> Parted<'a> {
             on_reference: self.nominals.own(number).is_some(),
         };
         others.add_outliers(within.off(&numbers(&outliers)?));
-        Ok((others, (!left_out.is_empty()).then(|| LeftOut::of(&left_out, near.distance))))
+        Ok((others, (!left_out.is_empty()).then(|| ExcludedPoints::of(&left_out, near.distance))))
     }
 
     /// The points of a class of some faces.
@@ -267,7 +270,7 @@ impl<'a> Parted<'a> {
             return Ok(vec![]);
         }
         let Some(surface) = within.nominal.surface() else { return Ok(vec![]) };
-        let farthest = ELSEWHERE * Aabb::of(&self.mesh.positions).diagonal();
+        let farthest = MAX_OFF_SIZE_SHARE * self.scan.bounds().diagonal();
         let mut points = vec![];
         for (number, face) in (0u32..).zip(&self.more.all) {
             let is_along = |p: &&u32| {
@@ -294,10 +297,10 @@ impl<'a> Parted<'a> {
 
     /// The area that vertices stand for: at the edges of a scan facets straddle two faces.
     fn area_about(&self, vertices: &[u32]) -> f64 {
-        if self.mesh.faces.is_empty() {
-            return 0.0;
+        match self.scan {
+            Scan::Cloud(_) => 0.0,
+            Scan::Mesh(_) => vertices.iter().map(|v| area(self.scan, self.around(*v)) / 3.0).sum(),
         }
-        vertices.iter().map(|v| area(self.mesh, self.around().of(*v)) / 3.0).sum()
     }
 
     fn found(&self, points: Vec<u32>, facets: Vec<u32>, rim: bool) -> Found {
@@ -308,21 +311,30 @@ impl<'a> Parted<'a> {
         };
         // No other face is about a dent.
         let is_shared = |v: &u32| {
-            self.partition.classes[*v as usize] != Class::Dent && self.around().of(*v).iter().any(is_other)
+            self.partition.classes[*v as usize] != Class::Dent && self.around(*v).iter().any(is_other)
         };
         let (rim, points) = points.into_iter().partition(|v| !rim && is_shared(v));
         Found { facets, points, rim, area: 0.0 }
     }
 
-    fn around(&self) -> &FacetsAround {
-        self.around.get_or_init(|| FacetsAround::new(self.mesh))
+    /// The facets about a point; none of a cloud.
+    fn around(&self, point: u32) -> &[u32] {
+        match self.scan {
+            Scan::Cloud(_) => &[],
+            Scan::Mesh(mesh) => self.around.get_or_init(|| FacetsAround::new(mesh)).of(point),
+        }
     }
 }
 
-/// The area of some facets, mm².
-pub(super) fn area(mesh: &Mesh, facets: &[u32]) -> f64 {
+/// The area of some facets, mm²; 0 of a cloud, which has none.
+fn area(scan: &Scan, facets: &[u32]) -> f64 {
+    scan.mesh().map_or(0.0, |mesh| mesh_area(mesh, facets))
+}
+
+/// The area of some facets of a mesh, mm².
+pub(super) fn mesh_area(mesh: &Mesh, facets: &[u32]) -> f64 {
     let area = |f: &u32| {
-        let [a, b, c] = mesh.faces[*f as usize].map(|v| mesh.positions[v as usize]);
+        let [a, b, c] = mesh.corners(*f);
         0.5 * norm(cross(minus(b, a), minus(c, a)))
     };
     facets.iter().map(area).sum()
@@ -336,8 +348,8 @@ fn of_faces(own: &OwnFaces, all: &[Vec<u32>]) -> Vec<u32> {
 }
 
 /// Those of some facets whose corners are all among these.
-fn with_corners(mesh: &Mesh, facets: &[u32], corners: &[u32]) -> Vec<u32> {
-    let has_all = |f: &u32| mesh.faces[*f as usize].iter().all(|v| corners.binary_search(v).is_ok());
+fn with_corners(scan: &Scan, facets: &[u32], corners: &[u32]) -> Vec<u32> {
+    let has_all = |f: &u32| scan.facets()[*f as usize].iter().all(|v| corners.binary_search(v).is_ok());
     facets.iter().copied().filter(has_all).collect()
 }
 
@@ -353,7 +365,7 @@ struct Within<'a> {
 
 impl Within<'_> {
     fn place(&self, p: u32) -> Point {
-        self.parted.mesh.positions[p as usize]
+        self.parted.scan.points()[p as usize]
     }
 
     /// Those within the bounds of the nominal.
@@ -377,7 +389,7 @@ impl Within<'_> {
             return 0.0;
         }
         let most = points.iter().map(|p| self.to_border(*p)).fold(0.0, f64::max);
-        self.near.margin.min(HALF_WIDTH * most)
+        self.near.margin.min(MAX_MARGIN_SHARE * most)
     }
 
     fn clear(&self, points: &[u32], border: f64) -> Vec<u32> {
@@ -401,7 +413,8 @@ impl Within<'_> {
 
     /// The corners of facets that face as the feature does and are of no face, as all of their corners are of others: a step down to its border has none of its own.
     fn straddled(&self) -> Result<Vec<u32>, FeatureError> {
-        let Parted { mesh, partition, loose, .. } = self.parted;
+        let Parted { scan, partition, loose, .. } = self.parted;
+        let Scan::Mesh(mesh) = scan else { return Ok(vec![]) };
         let is_other = |v: &u32| {
             let owner = partition.owners[*v as usize];
             owner != NO_FACE
@@ -412,7 +425,9 @@ impl Within<'_> {
         let free: Vec<u32> = loose.iter().filter(is_free).copied().collect();
         let facets = facets_near(mesh, &free, self.nominal, self.near)?;
         // Corners of a part leave some.
-        if area(mesh, &facets) < STEP * area(mesh, &of_faces(self.own, &self.parted.facets)) {
+        if mesh_area(mesh, &facets)
+            < MIN_STEP_AREA_SHARE * mesh_area(mesh, &of_faces(self.own, &self.parted.facets))
+        {
             return Ok(vec![]);
         }
         let mut corners: Vec<u32> = facets.iter().flat_map(|f| mesh.faces[*f as usize]).collect();
@@ -436,12 +451,13 @@ fn reaches(plan: &Plan, nominals: &Nominals, own: &BTreeMap<usize, OwnFaces>) ->
 }
 
 /// Whether the facets near a nominal face its axis or center, by their area; `None` of a plane, of a cloud, and where there are none.
-fn inward(mesh: &Mesh, nominal: &Nominal, near: &Nearness) -> Option<bool> {
+fn inward(scan: &Scan, nominal: &Nominal, near: &Nearness) -> Option<bool> {
     let surface = nominal.surface().filter(|_| !matches!(nominal, Nominal::Plane { .. }))?;
+    let mesh = scan.mesh()?;
     let all: Vec<u32> = (0..mesh.faces.len() as u32).collect();
     let facets = facets_near(mesh, &all, nominal, near).ok()?;
     let along = |f: &u32| {
-        let [a, b, c] = mesh.faces[*f as usize].map(|v| mesh.positions[v as usize]);
+        let [a, b, c] = mesh.corners(*f);
         let middle = times(1.0 / 3.0, plus(a, plus(b, c)));
         Some(dot(cross(minus(b, a), minus(c, a)), surface.distance(middle)?.1))
     };

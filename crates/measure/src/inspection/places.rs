@@ -5,10 +5,10 @@ use trueness_geom::feature::Nominal;
 use trueness_geom::space::{Point, Vector, cross, dot, least_axis, minus, plus, times, unit};
 
 /// Places around in a section.
-const AROUND: u32 = 12;
+const PLACES_PER_SECTION: u32 = 12;
 /// Where the sections lie, as shares of the length: as far from one end as from the other, so that their middle is the feature's. A cone may
 /// begin at its tip, where it has no section.
-const SECTIONS: [f64; 3] = [0.1, 0.5, 0.9];
+const SECTION_POSITIONS: [f64; 3] = [0.1, 0.5, 0.9];
 
 /// Places of a nominal; none where it has a direction without length.
 pub(super) fn places(nominal: &Nominal) -> Vec<Point> {
@@ -34,7 +34,7 @@ pub(super) fn places(nominal: &Nominal) -> Vec<Point> {
         }
         Nominal::Edge { point, direction, length, .. } => {
             let Some((direction, _)) = unit(*direction) else { return vec![] };
-            SECTIONS.map(|share| plus(*point, times(share * length, direction))).to_vec()
+            SECTION_POSITIONS.map(|share| plus(*point, times(share * length, direction))).to_vec()
         }
     }
 }
@@ -46,13 +46,13 @@ fn rings(point: Point, direction: Vector, section: impl Fn(f64) -> (f64, f64)) -
     let y = cross(z, x);
     let at = |share: f64, k: u32| {
         let (along, radius) = section(share);
-        let angle = TAU * f64::from(k) / f64::from(AROUND);
+        let angle = TAU * f64::from(k) / f64::from(PLACES_PER_SECTION);
         let out = plus(times(radius * libm::cos(angle), x), times(radius * libm::sin(angle), y));
         plus(point, plus(times(along, z), out))
     };
-    SECTIONS
+    SECTION_POSITIONS
         .into_iter()
-        .flat_map(|share| (0..AROUND).map(move |k| (share, k)))
+        .flat_map(|share| (0..PLACES_PER_SECTION).map(move |k| (share, k)))
         .map(|(s, k)| at(s, k))
         .collect()
 }

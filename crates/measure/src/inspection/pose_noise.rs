@@ -5,9 +5,10 @@
 //! the plan gives, by itself or by pairs and reference points, has no noise: the plan says none of it.
 
 use super::align::{Found, by_datums};
-use super::data::{Data, Stop};
+use super::data::Data;
 use super::noise_field::{Field, Source, parts};
-use super::{Alignment, Taken};
+use super::stop::{NominalFault, Stop};
+use super::{Alignment, MeasuredFeature};
 use crate::plan::{Align, Noise, Plan};
 use std::collections::{BTreeMap, HashSet};
 use trueness_geom::align::{BestFit, Measured, Response, Target, response};
@@ -44,7 +45,7 @@ impl PoseNoise {
         plan: &Plan,
         noise: &Noise,
         (data, alignment): (&Data, &Alignment),
-        features: &[Taken],
+        features: &[MeasuredFeature],
         progress: &dyn Progress,
     ) -> Result<PoseNoise, Stop> {
         if matches!(plan.align, Align::Datum { .. }) {
@@ -55,17 +56,14 @@ impl PoseNoise {
         else {
             return Ok(PoseNoise::None);
         };
-        let tree = Tree::build_watched(reference, progress).map_err(|e| Stop::Nominal(e.to_string()))?;
-        let points = &measured.positions;
-        let of = match measured.faces.is_empty() {
-            true => Measured::Points { points, normals: None },
-            false => Measured::Mesh(measured),
-        };
+        let tree =
+            Tree::build_watched(reference, progress).map_err(|e| Stop::Nominal(NominalFault::Search(e)))?;
         let options = BestFit { seed: data.seed, ..BestFit::default() };
-        let found = response(&of, &Target::new(reference, &tree), fit, &options, progress);
+        let found =
+            response(&Measured::from(measured), &Target::new(reference, &tree), fit, &options, progress);
         let found = found.map_err(super::align::failed)?;
         let of_features = features.iter().flat_map(|f| &f.points);
-        Ok(PoseNoise::Response(Box::new(Answer::new(&found, points, noise, of_features))))
+        Ok(PoseNoise::Response(Box::new(Answer::new(&found, measured.points(), noise, of_features))))
     }
 
     /// The motion of the pose in a draw of the noise; `moved` are the features with their noise.
@@ -73,7 +71,7 @@ impl PoseNoise {
         &self,
         plan: &Plan,
         field: Option<&Field>,
-        moved: &[Taken],
+        moved: &[MeasuredFeature],
         progress: &dyn Progress,
     ) -> Result<Rigid, Stop> {
         match (self, &plan.align, field) {

@@ -1,8 +1,8 @@
 //! Other readings of a plan's numbers, held against the model.
 
-use super::data::Stop;
-use super::wrong_numbers::{Place, Said, angle_text, other_text, place_text, sizes_text};
-use crate::characteristic::{Characteristic, Measuring, Missing, Size, Spec, Taken};
+use super::stop::Stop;
+use super::wrong_numbers::{AskedPlace, Place, angle_text, other_text, place_text, sizes_text};
+use crate::characteristic::{Characteristic, MeasuredFeature, Measuring, Missing, Size, Spec};
 use crate::plan::Plan;
 use crate::requirement::{Basic, Limits};
 use trueness_document::plan::SizeWord;
@@ -14,8 +14,8 @@ use trueness_geom::space::Point;
 pub(super) struct OfModel<'a> {
     pub plan: &'a Plan,
     pub spec: &'a Spec,
-    pub features: Vec<&'a Taken>,
-    pub datums: Vec<Vec<&'a Taken>>,
+    pub features: Vec<&'a MeasuredFeature>,
+    pub datums: Vec<Vec<&'a MeasuredFeature>>,
     /// How far from its nominal the toleranced feature is sought, mm.
     pub reach: f64,
     pub progress: &'a dyn Progress,
@@ -29,7 +29,7 @@ impl OfModel<'_> {
 }
 
 /// Share of the distance within which a feature is sought up to which numbers are those of the model: what a drawing rounds.
-const ROUNDED: f64 = 0.01;
+const DRAWN_ROUNDING_SHARE: f64 = 0.01;
 
 /// What a characteristic says, held against the model.
 pub(super) enum Compared {
@@ -38,7 +38,7 @@ pub(super) enum Compared {
     /// The plan gives no exact dimensions; these are the model's.
     Exact(Basic),
     /// Something else, which is to be told with the value.
-    Told(String),
+    Differs(String),
 }
 
 /// A characteristic held against the model.
@@ -56,18 +56,18 @@ pub(super) fn compared(of: &OfModel) -> Result<Compared, Stop> {
         Limits::Between { .. } => 0.0,
     };
     let own = of.value(of.spec.basic);
-    let (rounded, most) = (tolerance.max(2.0 * ROUNDED * of.reach), 2.0 * of.reach);
+    let (rounded, most) = (tolerance.max(2.0 * DRAWN_ROUNDING_SHARE * of.reach), 2.0 * of.reach);
     if own.as_ref().is_ok_and(|v| *v <= rounded) {
         return Ok(Compared::Alike);
     }
     let value = own.as_ref().copied().unwrap_or(f64::INFINITY);
     let wrong = |what: String| Err(Stop::Plan { span: span.clone(), what });
-    let why = own.as_ref().err().cloned();
+    let why = own.as_ref().err().map(Missing::to_string);
     if of.spec.basic.angle.is_some() {
         let other =
             other_angles(of.spec.basic).into_iter().find(|b| of.value(*b).is_ok_and(|v| v <= rounded));
         let text = angle_text(of.spec, &exact, other.is_some(), value);
-        return if other.is_some() || value > most { wrong(text) } else { Ok(Compared::Told(text)) };
+        return if other.is_some() || value > most { wrong(text) } else { Ok(Compared::Differs(text)) };
     }
     let mut best: Option<(f64, Basic)> = None;
     for other in other_places(of.spec.basic.place) {
@@ -83,15 +83,15 @@ pub(super) fn compared(of: &OfModel) -> Result<Compared, Stop> {
     let frame = of.frame();
     let in_model = frame.as_ref().and_then(|_| of.spec.basic_in_model(of.middle()?, 0.5 * rounded));
     let place = Place { frame, middle: of.middle(), exact, other, is_of_model: in_model.is_some(), why };
-    let said = Said { plan: of.plan, spec: of.spec, distance: 0.5 * value };
+    let asked = AskedPlace { plan: of.plan, spec: of.spec, distance: 0.5 * value };
     let refused = place.other.is_some() || place.is_of_model || value > most;
-    let text = place_text(&said, &place, refused);
-    if refused { wrong(text) } else { Ok(Compared::Told(text)) }
+    let text = place_text(&asked, &place, refused);
+    if refused { wrong(text) } else { Ok(Compared::Differs(text)) }
 }
 
 impl OfModel<'_> {
     /// The value of the model by these exact dimensions, or why there is none. A material requirement does not move the true place.
-    fn value(&self, basic: Basic) -> Result<f64, String> {
+    fn value(&self, basic: Basic) -> Result<f64, Missing> {
         let mut spec = Spec { basic, material: None, boundary: None, ..self.spec.clone() };
         for datum in &mut spec.datums {
             (datum.material, datum.boundary) = (None, None);
@@ -99,10 +99,7 @@ impl OfModel<'_> {
         if self.spec.kind.word() == Size.word() {
             spec.size = Some(SizeWord::Gg);
         }
-        spec.kind.measure(&self.measuring(&spec)).map(|v| v.value).map_err(|missing| match missing {
-            Missing::NotMeasured(what) | Missing::Impossible(what) => what,
-            Missing::Cancelled => "cancelled".into(),
-        })
+        spec.kind.measure(&self.measuring(&spec)).map(|v| v.value)
     }
 
     /// The datum system on the model; `None` where it leaves motions free: then no place has coordinates of its own.
@@ -154,7 +151,7 @@ fn other_angles(basic: Basic) -> Vec<Basic> {
 }
 
 /// How many times less a value must be by another reading, where only the measured part tells: far more than parts are off.
-const CLEARLY: f64 = 20.0;
+const CLEAR_VALUE_RATIO: f64 = 20.0;
 
 /// What is said of exact dimensions that the measured part keeps by another reading only; for plans without a model.
 pub(super) fn fits_otherwise(of: &OfModel) -> Option<String> {
@@ -165,7 +162,7 @@ pub(super) fn fits_otherwise(of: &OfModel) -> Option<String> {
     let mut best: Option<(f64, Basic)> = None;
     for other in others {
         if let Ok(v) = of.value(other)
-            && CLEARLY * v <= own
+            && CLEAR_VALUE_RATIO * v <= own
             && best.is_none_or(|(least, _)| v < least)
         {
             best = Some((v, other));
@@ -179,7 +176,7 @@ fn dimension(of: &OfModel) -> Result<Compared, Stop> {
     let Limits::Between { nominal, lower, upper } = of.spec.limits else { return Ok(Compared::Alike) };
     let Ok(value) = of.value(of.spec.basic) else { return Ok(Compared::Alike) };
     let is_angle = of.spec.unit() == "deg";
-    let rounded = if is_angle { 0.0 } else { ROUNDED * of.reach };
+    let rounded = if is_angle { 0.0 } else { DRAWN_ROUNDING_SHARE * of.reach };
     if value >= nominal + lower - rounded && value <= nominal + upper + rounded {
         return Ok(Compared::Alike);
     }
@@ -195,6 +192,6 @@ fn dimension(of: &OfModel) -> Result<Compared, Stop> {
     let text = sizes_text(of.plan, of.spec, value, other);
     match other {
         Some(_) => Err(Stop::Plan { span: of.spec.limits_span.clone(), what: text }),
-        None => Ok(Compared::Told(text)),
+        None => Ok(Compared::Differs(text)),
     }
 }

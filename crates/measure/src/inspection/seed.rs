@@ -1,6 +1,6 @@
 //! Features that a plan names by a place on the reference: the region around it gives their nominal.
 
-use super::data::Stop;
+use super::stop::{NominalFault, Stop};
 use crate::compare::far_seed;
 use crate::plan::Plan;
 use crate::plan::region::nominal_of;
@@ -35,7 +35,8 @@ pub(super) fn seeded(
         return Ok(all);
     }
     let crease = segment::Options::default().crease;
-    let tree = Tree::build_watched(reference, progress).map_err(|e| Stop::Nominal(e.to_string()))?;
+    let tree =
+        Tree::build_watched(reference, progress).map_err(|e| Stop::Nominal(NominalFault::Search(e)))?;
     for (number, feature) in plan.features.iter().enumerate() {
         let Source::Seed(seed) = &feature.source else { continue };
         let wrong = |what: String| Stop::Plan {

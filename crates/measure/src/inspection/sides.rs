@@ -1,7 +1,7 @@
 //! Tolerance classes on features whose side of the material is known.
 
-use super::data::Stop;
-use crate::characteristic::{Characteristic, Size, Spec, Taken};
+use super::stop::Stop;
+use crate::characteristic::{Characteristic, MeasuredFeature, Size, Spec};
 use crate::plan::Plan;
 use trueness_document::tolerance_class::wrong_side;
 use trueness_geom::space::{dot, minus};
@@ -11,10 +11,10 @@ use trueness_geom::zone::mean;
 ///
 /// # Errors
 /// [`Stop::Plan`]: the first of them.
-pub(super) fn checked(plan: &Plan, features: &[Taken]) -> Result<(), Stop> {
+pub(super) fn checked(plan: &Plan, features: &[MeasuredFeature]) -> Result<(), Stop> {
     for spec in plan.specs.iter().filter(|s| s.kind.word() == Size.word()) {
         let Some(class) = &spec.class else { continue };
-        let of: Vec<&Taken> = spec.features.iter().map(|n| &features[*n]).collect();
+        let of: Vec<&MeasuredFeature> = spec.features.iter().map(|n| &features[*n]).collect();
         let Some(internal) = internal(&of) else { continue };
         let names: Vec<&str> = of.iter().map(|t| t.id.as_str()).collect();
         if let Some(what) = wrong_side(class, internal, &names.join(" – ")) {
@@ -29,12 +29,12 @@ fn span(spec: &Spec) -> std::ops::Range<usize> {
 }
 
 /// Whether the material is around a feature, or beside both of two planes; `None` where that is not known.
-fn internal(of: &[&Taken]) -> Option<bool> {
+fn internal(of: &[&MeasuredFeature]) -> Option<bool> {
     match of {
         [one] => one.inward,
         [a, b] => {
             let (out, back) = (a.outward?, b.outward?);
-            let (first, second) = (a.taken().ok()?, b.taken().ok()?);
+            let (first, second) = (a.own_points().ok()?, b.own_points().ok()?);
             let way = minus(mean(second), mean(first));
             let [from, to] = [dot(out, way), -dot(back, way)];
             (from * to > 0.0).then_some(from > 0.0)

@@ -8,6 +8,7 @@ use trueness_document::Verdict;
 use trueness_document::inspect::{CharacteristicRecord, InspectDocument, PlanRecord};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::Silent;
+use trueness_geom::scan::Scan;
 use trueness_geom::space::Point;
 
 /// Sides of the round walls.
@@ -63,7 +64,7 @@ fn document(plan: &Plan, data: Data) -> InspectDocument {
 /// Flatness of the top, from a cloud.
 fn flatness(cloud: Mesh, reference: Option<&Mesh>, extract: &str) -> (CharacteristicRecord, u64) {
     let plan = plane_plan([[-20.0, 20.0], [-20.0, 20.0]], (0.0, 0.05), extract, "");
-    let measured = Some(Mesh { faces: vec![], ..cloud });
+    let measured = Some(Scan::Cloud(cloud.positions));
     let data = Data { measured, reference: reference.cloned(), ..Data::default() };
     let mut document = document(&plan, data);
     let left_out = document.features[0].left_out.as_ref().map_or(0, |l| l.others + l.beyond);
@@ -180,7 +181,7 @@ fn the_zone_of_what_was_not_measured_is_that_of_the_plan() {
         "#,
     )
     .unwrap();
-    let measured = Some(Mesh { positions: vec![[500.0, 0.0, 0.0]; 4], faces: vec![] });
+    let measured = Some(Scan::Cloud(vec![[500.0, 0.0, 0.0]; 4]));
     let document = document(&plan, Data { measured, ..Data::default() });
     let all = &document.characteristics;
     assert!(all.iter().all(|c| c.verdict == Verdict::NotMeasured));
@@ -245,7 +246,7 @@ fn floor(measured: Mesh, reference: Option<Mesh>, rim: bool) -> InspectDocument 
         "#
     ))
     .unwrap();
-    let data = Data { measured: Some(measured), reference, ..Data::default() };
+    let data = Data { measured: Some(measured.into()), reference, ..Data::default() };
     document(&plan, data)
 }
 
@@ -371,7 +372,7 @@ fn a_part_that_looks_the_same_in_several_ways_is_judged_in_all() {
     turned.positions.iter_mut().for_each(|p| *p = [p[0], size[1] - p[1], size[2] - p[2]]);
     for measured in [bumpy, turned] {
         let reference = Some(brick(size, |_, _| 0.0));
-        let data = Data { measured: Some(measured), reference, ..Data::default() };
+        let data = Data { measured: Some(measured.into()), reference, ..Data::default() };
         let document = document(&plan, data);
         let verdicts: Vec<Verdict> = document.characteristics.iter().map(|c| c.verdict).collect();
         assert_eq!(verdicts, [Verdict::Undecided, Verdict::Pass], "{:?}", document.alignment.warnings);
@@ -431,7 +432,7 @@ fn axes_go_to_the_rim_that_does_not_count() {
             "#
         ))
         .unwrap();
-        let data = Data { measured: Some(mesh.clone()), ..Data::default() };
+        let data = Data { measured: Some(mesh.clone().into()), ..Data::default() };
         let found = run(&plan, data, &Silent).unwrap();
         let rings = if rim { 7 } else { 5 };
         assert_eq!(

@@ -17,13 +17,14 @@
 //!   least by some of the noise left in the form, whose extremes may stand out too little too.
 
 use super::Alignment;
-use super::data::{Data, Stop};
+use super::data::Data;
 use super::denoised::{Unknown, denoised};
+use super::extract_features::associated_anew;
 use super::measure::measured;
 use super::noise_field::Field;
 use super::pose_noise::PoseNoise;
-use super::take::again;
-use crate::characteristic::{Element, Spec, Taken, Value};
+use super::stop::Stop;
+use crate::characteristic::{Element, MeasuredFeature, Spec};
 use crate::noise::NoiseOrReason;
 use crate::plan::{Noise, Plan};
 use crate::requirement::Limits;
@@ -34,20 +35,20 @@ use trueness_geom::progress::Progress;
 use trueness_geom::space::{minus, times, unit};
 
 /// Coverage factor of an expanded uncertainty.
-const K: f64 = 2.0;
+const COVERAGE_FACTOR: f64 = 2.0;
 /// Share of the draws that must give a value.
-const ENOUGH: f64 = 0.9;
+const MIN_DRAWN_SHARE: f64 = 0.9;
 /// Draws of features of perfect and of half the form at most: their mean is then known to an eighth of the standard deviation.
-const PERFECT: u32 = 64;
+const MAX_FORM_DRAWS: u32 = 64;
 /// Standard errors of a mean beyond which it tells of more than chance.
-const CLEAR: f64 = 3.0;
+const CLEAR_STANDARD_ERRORS: f64 = 3.0;
 /// Share of the range of the noise left in a form by which its extremes stand out too far, beside what [`smaller`] tells; twice of it where the form
 /// is rough, as the places are not known then. Counted, 200 copies each
 /// of planes, cylinders and spheres of 100 to 400 points with waves, corners, steps, single and rough points of 1 to 20 deviations: with this and
 /// with 0.3 some 92 % and more are covered, with 0.2 83 % of single points.
-const LEFT_BELOW: f64 = 0.35;
+const OVERSTATED_NOISE_SHARE: f64 = 0.35;
 /// Share by which they may stand out too little: without it 90 % of waves of 10 deviations on 100 points were covered.
-const LEFT_ABOVE: f64 = 0.1;
+const UNDERSTATED_NOISE_SHARE: f64 = 0.1;
 
 /// The expanded uncertainty of a value (k = 2), and where it comes from. Millimeters, or degrees for an angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -77,7 +78,7 @@ impl Uncertainty {
 pub(super) fn found(
     plan: &Plan,
     aligned: (&Data, &Alignment),
-    (features, noise): (&[Taken], &NoiseOrReason),
+    (features, noise): (&[MeasuredFeature], &NoiseOrReason),
     progress: &dyn Progress,
 ) -> Result<Vec<Option<Uncertainty>>, Stop> {
     let Some(source) = plan.decision.noise else {
@@ -90,16 +91,16 @@ pub(super) fn found(
     let draws = Draws { plan, noise, pose: &pose, seed, progress };
     let none = perfect(plan, features, progress)?;
     let (formed, unknown) = denoised(plan, noise, seed, features, progress)?;
-    let of = |features: &[Taken], count: u32| -> Result<Added, Stop> {
+    let of = |features: &[MeasuredFeature], count: u32| -> Result<Added, Stop> {
         Ok(Added { without: draws.values(features, None)?, with: draws.of(features, count)? })
     };
-    let half = of(&between(plan, &none, &formed, progress)?, noise.draws.min(PERFECT))?;
-    let perfect = of(&none, noise.draws.min(PERFECT))?;
+    let half = of(&between(plan, &none, &formed, progress)?, noise.draws.min(MAX_FORM_DRAWS))?;
+    let perfect = of(&none, noise.draws.min(MAX_FORM_DRAWS))?;
     let formed = of(&formed, noise.draws)?;
     let values = draws.values(features, None)?;
     let one = |n: usize| {
         let spec = &plan.specs[n];
-        let found = K * formed.with[n]?.deviation;
+        let found = COVERAGE_FACTOR * formed.with[n]?.deviation;
         let (spread, source) = match spec.uncertainty {
             None => (found, "noise"),
             Some(stated) => (libm::hypot(stated, found), "plan and noise"),
@@ -111,12 +112,12 @@ pub(super) fn found(
         let led = led.map_or(0.0, f64::signum);
         let left = (of_form.noise_left * perfect.bias(n) * led).max(0.0);
         let smaller = smaller(values[n], spread, led, [&perfect, &half, &formed].map(|a| a.at(n)));
-        let away = smaller + LEFT_BELOW * (1.0 + of_form.rough) * left;
+        let away = smaller + OVERSTATED_NOISE_SHARE * (1.0 + of_form.rough) * left;
         let zone = matches!(spec.limits, Limits::Greatest(_));
         // A zone has the whole value from what is there.
         let shown = formed.without[n].zip(if zone { Some(0.0) } else { perfect.without[n] });
         let share = shown.map_or(0.0, |(form, none)| ((form - none) / bias).abs().min(1.0));
-        let hidden = (bias * (1.0 - share * (1.0 - of_form.rough))).abs().max(LEFT_ABOVE * left);
+        let hidden = (bias * (1.0 - share * (1.0 - of_form.rough))).abs().max(UNDERSTATED_NOISE_SHARE * left);
         let unknown = if led > 0.0 { [away, hidden] } else { [hidden, away] };
         Some(Uncertainty::new(spread, bias, unknown, source)).filter(|u| u.expanded.is_finite())
     };
@@ -158,13 +159,17 @@ impl Added {
     fn bias(&self, n: usize) -> f64 {
         let added =
             self.with[n].zip(self.without[n]).map(|(with, without)| (with.mean - without, with.error));
-        added.filter(|(bias, error)| bias.abs() > CLEAR * error).map_or(0.0, |b| b.0)
+        added.filter(|(bias, error)| bias.abs() > CLEAR_STANDARD_ERRORS * error).map_or(0.0, |b| b.0)
     }
 }
 
 /// The features as their elements have them: every point where it would be if the form were perfect.
-fn perfect(plan: &Plan, features: &[Taken], progress: &dyn Progress) -> Result<Vec<Taken>, Stop> {
-    let onto = |taken: &mut Taken| {
+fn perfect(
+    plan: &Plan,
+    features: &[MeasuredFeature],
+    progress: &dyn Progress,
+) -> Result<Vec<MeasuredFeature>, Stop> {
+    let onto = |taken: &mut MeasuredFeature| {
         let Ok(Element::Fit(fit)) = &taken.element else { return false };
         let shape = fit.shape;
         for p in &mut taken.points {
@@ -174,25 +179,26 @@ fn perfect(plan: &Plan, features: &[Taken], progress: &dyn Progress) -> Result<V
         }
         true
     };
-    again(plan, features, onto, progress)
+    associated_anew(plan, features, onto, progress)
 }
 
 /// The features halfway between two forms of them.
 fn between(
     plan: &Plan,
-    none: &[Taken],
-    formed: &[Taken],
+    none: &[MeasuredFeature],
+    formed: &[MeasuredFeature],
     progress: &dyn Progress,
-) -> Result<Vec<Taken>, Stop> {
-    let formed: BTreeMap<&str, &Taken> = formed.iter().map(|taken| (taken.id.as_str(), taken)).collect();
-    let onto = |taken: &mut Taken| {
+) -> Result<Vec<MeasuredFeature>, Stop> {
+    let formed: BTreeMap<&str, &MeasuredFeature> =
+        formed.iter().map(|taken| (taken.id.as_str(), taken)).collect();
+    let onto = |taken: &mut MeasuredFeature| {
         let Some(whole) = formed.get(taken.id.as_str()) else { return false };
         for (p, q) in taken.points.iter_mut().zip(&whole.points) {
             *p = [0, 1, 2].map(|k| 0.5 * (p[k] + q[k]));
         }
         true
     };
-    again(plan, none, onto, progress)
+    associated_anew(plan, none, onto, progress)
 }
 
 /// What is drawn.
@@ -206,7 +212,7 @@ struct Draws<'a> {
 
 impl Draws<'_> {
     /// Mean and deviation of each value over the draws.
-    fn of(&self, features: &[Taken], draws: u32) -> Result<Vec<Option<Scatter>>, Stop> {
+    fn of(&self, features: &[MeasuredFeature], draws: u32) -> Result<Vec<Option<Scatter>>, Stop> {
         let draw = |number: u64| {
             let seed = Random::stream(self.seed, number).next_u64();
             self.values(features, Some(Field::new(self.noise, seed)))
@@ -217,7 +223,11 @@ impl Draws<'_> {
     }
 
     /// The values with the noise of one draw, or without.
-    fn values(&self, features: &[Taken], mut field: Option<Field>) -> Result<Vec<Option<f64>>, Stop> {
+    fn values(
+        &self,
+        features: &[MeasuredFeature],
+        mut field: Option<Field>,
+    ) -> Result<Vec<Option<f64>>, Stop> {
         let mut moved = features.to_vec();
         if let Some(field) = &mut field {
             for taken in &mut moved {
@@ -235,14 +245,13 @@ impl Draws<'_> {
             // Noise far beyond the part: its datums hold nothing.
             Err(_) => return Ok(vec![None; self.plan.specs.len()]),
         };
-        let carried = |taken: &mut Taken| {
+        let carried = |taken: &mut MeasuredFeature| {
             taken.points.iter_mut().for_each(|p| *p = motion.point(*p));
             true
         };
-        let features = again(self.plan, &moved, carried, self.progress)?;
+        let features = associated_anew(self.plan, &moved, carried, self.progress)?;
         let value = |spec: &Spec| measured(spec, &features, self.progress);
-        let values =
-            self.plan.specs.iter().map(value).collect::<Result<Vec<Result<Value, String>>, Stop>>()?;
+        let values = self.plan.specs.iter().map(value).collect::<Result<Vec<_>, Stop>>()?;
         Ok(values.into_iter().map(|v| v.ok().map(|v| v.value)).collect())
     }
 }
@@ -261,7 +270,7 @@ impl Scatter {
     fn of(values: impl ExactSizeIterator<Item = Option<f64>>) -> Option<Scatter> {
         let all = values.len();
         let values: Vec<f64> = values.flatten().collect();
-        if values.len() < 2 || (values.len() as f64) < ENOUGH * all as f64 {
+        if values.len() < 2 || (values.len() as f64) < MIN_DRAWN_SHARE * all as f64 {
             return None;
         }
         let count = values.len() as f64;

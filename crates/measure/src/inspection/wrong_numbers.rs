@@ -1,15 +1,13 @@
 //! What is said of numbers that the model contradicts: both readings, and what to write.
 
-use crate::characteristic::Spec;
+use crate::characteristic::{COORDINATES, Spec};
 use crate::plan::Plan;
 use crate::requirement::{Basic, Limits};
 use trueness_geom::rigid::Rigid;
 use trueness_geom::space::Point;
 
-const NAMES: [&str; 3] = ["x", "y", "z"];
-
 /// A characteristic and how far its place is from the model's.
-pub(super) struct Said<'a> {
+pub(super) struct AskedPlace<'a> {
     pub plan: &'a Plan,
     pub spec: &'a Spec,
     /// Distance of the plan's place from the model's, mm; infinite where the plan's is none.
@@ -47,7 +45,7 @@ fn trimmed(x: f64) -> String {
 
 fn coordinates(plan: &Plan, place: [Option<f64>; 3]) -> String {
     let given =
-        NAMES.iter().zip(place).filter_map(|(name, x)| Some(format!("{name} = {}", length(plan, x?))));
+        COORDINATES.iter().zip(place).filter_map(|(name, x)| Some(format!("{name} = {}", length(plan, x?))));
     given.collect::<Vec<_>>().join(", ")
 }
 
@@ -62,8 +60,8 @@ fn right(place: &Place, spec: &Spec) -> [Option<f64>; 3] {
 }
 
 /// What is said of a place.
-pub(super) fn place_text(said: &Said, place: &Place, refused: bool) -> String {
-    let (plan, spec) = (said.plan, said.spec);
+pub(super) fn place_text(asked: &AskedPlace, place: &Place, refused: bool) -> String {
+    let (plan, spec) = (asked.plan, asked.spec);
     let feature = spec.features.first().map_or("", |n| plan.features[*n].id.as_str());
     let system = match spec.frame {
         Some(_) => "in its `frame`".to_string(),
@@ -91,7 +89,7 @@ pub(super) fn place_text(said: &Said, place: &Place, refused: bool) -> String {
             let seen = seen.map_or_else(String::new, |seen| format!(" ({seen} of the model)"));
             text += &format!(
                 "{given} {system}{seen} is {} {} off the model's feature \"{feature}\"",
-                length(plan, said.distance),
+                length(plan, asked.distance),
                 plan.units.map_or("mm", |u| u.name())
             );
         }

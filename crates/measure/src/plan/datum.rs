@@ -5,7 +5,7 @@ use crate::requirement::{DatumSpec, Feature, Source};
 use trueness_document::plan::{At, CharacteristicText, Class, MaterialWord, PlanError, unknown};
 
 /// Most features of a common datum.
-const MOST: usize = 3;
+const MAX_COMMON_FEATURES: usize = 3;
 
 pub(super) fn datums(
     checker: &Checker,
@@ -65,7 +65,7 @@ fn datum(checker: &Checker, name: &At<String>, features: &[Feature]) -> Result<D
         [] => {
             let names: Vec<&str> = features.iter().map(|f| f.id.as_str()).collect();
             let parts: Vec<&str> = plain.split('-').collect();
-            if parts.len() > MOST && parts.iter().all(|p| known(p, features).is_some()) {
+            if parts.len() > MAX_COMMON_FEATURES && parts.iter().all(|p| known(p, features).is_some()) {
                 return checker.wrong(&name.span, "a common datum has up to three features");
             }
             let strange = parts.iter().find(|p| known(p, features).is_none()).filter(|_| parts.len() > 1);
@@ -105,7 +105,7 @@ fn requirement(name: &str) -> (&str, Option<MaterialWord>) {
 
 /// All ways to read a name as features with dashes between: names may have dashes of their own.
 fn read(name: &str, features: &[Feature], before: &mut Vec<usize>, ways: &mut Vec<Vec<usize>>) {
-    if before.len() == MOST {
+    if before.len() == MAX_COMMON_FEATURES {
         return;
     }
     let ends = name.match_indices('-').map(|(at, _)| at).chain([name.len()]);

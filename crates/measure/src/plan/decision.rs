@@ -1,8 +1,8 @@
 //! How verdicts are reached.
 
 use super::checker::Checker;
+use crate::noise::{NoSharedNoise, NoiseOrReason};
 use trueness_document::plan::{At, DecisionText, NoiseText, NoiseWord, PlanError, PlanText, RuleWord};
-use trueness_geom::noise;
 
 /// How verdicts are reached.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,12 +32,12 @@ impl NoiseSource {
     ///
     /// # Errors
     /// Why nothing was found there.
-    pub fn noise<'a>(&self, found: &'a Result<noise::Noise, String>) -> Result<Noise, &'a str> {
+    pub fn noise<'a>(&self, found: &'a NoiseOrReason) -> Result<Noise, &'a NoSharedNoise> {
         match (self, found) {
             (NoiseSource::Stated(noise), _) => Ok(*noise),
             (NoiseSource::Measured { draws }, Ok(found)) => Ok(Noise {
                 deviation: found.deviation,
-                correlation: CELL * found.reach,
+                correlation: CELL_PER_REACH * found.reach,
                 white: found.white,
                 draws: *draws,
             }),
@@ -60,12 +60,12 @@ pub struct Noise {
 }
 
 /// Draws of the noise, where the plan does not say: the standard deviation is then known to 5 %.
-const DRAWS: u32 = 200;
+const DEFAULT_DRAWS: u32 = 200;
 /// Cells of noise that is interpolated between their corners, in reaches of the noise found: along planes of any attitude their correlations then
 /// add up to those found, within a tenth.
-const CELL: f64 = 0.43;
+const CELL_PER_REACH: f64 = 0.43;
 /// Draws at most.
-const MOST_DRAWS: u32 = 100_000;
+const MAX_DRAWS: u32 = 100_000;
 
 /// A decision rule.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -113,10 +113,10 @@ fn noise(checker: &Checker, written: &DecisionText) -> Result<Option<NoiseSource
         };
     };
     let draws = match &written.draws {
-        None => DRAWS,
-        Some(draws) if (10..=MOST_DRAWS).contains(&draws.value) => draws.value,
+        None => DEFAULT_DRAWS,
+        Some(draws) if (10..=MAX_DRAWS).contains(&draws.value) => draws.value,
         Some(draws) => {
-            let what = format!("draws is {}; it is from 10 to {MOST_DRAWS}", draws.value);
+            let what = format!("draws is {}; it is from 10 to {MAX_DRAWS}", draws.value);
             return checker.wrong(&draws.span, what);
         }
     };

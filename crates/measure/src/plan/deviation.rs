@@ -2,7 +2,7 @@
 
 use super::checker::Checker;
 use super::tolerance_region::{ToleranceRegion, regions, share, zone};
-use crate::compare::{AlongRule, Coverage, MIN_COVERAGE, OutlierRule};
+use crate::compare::{AlongRule, Coverage, MIN_COVERAGE, NoDirection, NoRule, OutlierRule};
 use crate::requirement::Feature;
 use trueness_document::plan::{AlongText, CoverageText, DeviationText, PlanError, PlanText};
 use trueness_document::tolerance::{Tolerance, cannot_fail};
@@ -88,7 +88,7 @@ pub(super) fn deviation(
             None => None,
             Some(rule) => match rule.value.parse() {
                 Ok(parsed) => Some(parsed),
-                Err(what) => return checker.wrong(&rule.span, what),
+                Err(e) => return checker.wrong(&rule.span, NoRule::to_string(&e)),
             },
         },
         coverage: coverage(checker, written)?,
@@ -106,7 +106,7 @@ fn along(checker: &Checker, written: &DeviationText) -> Result<Option<AlongRule>
         AlongText::Word(word) => match word.as_str() {
             "reference" => Ok(AlongRule::Reference),
             "measured" => Ok(AlongRule::Measured),
-            _ => Err(String::new()),
+            _ => Err(NoDirection),
         },
     };
     match found {

@@ -15,9 +15,9 @@ use trueness_geom::space::{Point, Vector, unit};
 const ROUND: [Class; 3] = [Class::Cylinder, Class::Cone, Class::Sphere];
 
 /// Angle between normals within which facets belong to a feature, where the plan says nothing.
-const ANGLE: f64 = 15.0;
+const DEFAULT_FACING_DEGREES: f64 = 15.0;
 /// Least share of the nominal area that must have been measured, where the plan says nothing.
-pub(super) const COVERAGE: f64 = 0.25;
+pub(super) const DEFAULT_MIN_COVERAGE: f64 = 0.25;
 
 pub(super) fn features(checker: &Checker, written: &PlanText) -> Result<Vec<Feature>, PlanError> {
     let mut all: Vec<Feature> = Vec::new();
@@ -282,14 +282,14 @@ fn extract(checker: &Checker, written: Option<&ExtractText>) -> Result<Extract, 
         Some(n) if !(0.0..=1.0).contains(&n.value) => {
             return checker.wrong(&n.span, format!("the coverage is {}; it is a share from 0 to 1", n.value));
         }
-        other => other.as_ref().map_or(COVERAGE, |n| n.value),
+        other => other.as_ref().map_or(DEFAULT_MIN_COVERAGE, |n| n.value),
     };
     let angle = match &written.angle {
         Some(a) if !(a.value > 0.0 && a.value < 90.0) => {
             return checker
                 .wrong(&a.span, format!("the angle is {}; give degrees between 0 and 90", a.value));
         }
-        other => other.as_ref().map_or(ANGLE, |a| a.value).to_radians(),
+        other => other.as_ref().map_or(DEFAULT_FACING_DEGREES, |a| a.value).to_radians(),
     };
     Ok(Extract {
         distance: written.distance.as_ref().map(|d| checker.positive(d, "the distance")).transpose()?,

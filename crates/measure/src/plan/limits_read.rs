@@ -8,7 +8,7 @@ use trueness_document::plan::{At, CharacteristicText, PlanError};
 
 /// A limit is meant as a size, not as a deviation, where the limits so read lie so many times nearer to the nominal value: no tolerance of a
 /// drawing is a quarter of its size wide on purpose and as narrow as that by chance.
-const NEARER: f64 = 4.0;
+const SIZE_READING_RATIO: f64 = 4.0;
 
 /// A number in the unit of the kind's values: angles and ratios are not lengths.
 pub(super) fn number(checker: &Checker, at: &At<f64>, unit: &str, what: &str) -> Result<f64, PlanError> {
@@ -126,7 +126,7 @@ fn absolute(nominal: f64, [lower, upper]: [f64; 2]) -> Option<[f64; 2]> {
     let own = extent([lower, upper]);
     [[l, u], [lower, u], [l, upper]]
         .into_iter()
-        .find(|meant| nominal > 0.0 && meant[0] < meant[1] && NEARER * extent(*meant) <= own)
+        .find(|meant| nominal > 0.0 && meant[0] < meant[1] && SIZE_READING_RATIO * extent(*meant) <= own)
 }
 
 /// Without the digits of a difference that rounding made.

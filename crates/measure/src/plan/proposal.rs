@@ -1,6 +1,6 @@
 //! A plan proposed from the elements of a nominal mesh: every element a feature, with the usual characteristics.
 
-use super::feature::COVERAGE;
+use super::feature::DEFAULT_MIN_COVERAGE;
 use super::region::{facets_of, nominal_of};
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -11,11 +11,11 @@ use trueness_geom::shape::{Kind, Shape};
 use trueness_geom::space::{Point, cross, dot, minus, norm, plus, times};
 
 /// Tolerances of a proposal: to be replaced by those of the drawing.
-const TOLERANCE: &str = "0.1";
+const PROPOSED_TOLERANCE: &str = "0.1";
 /// Cosine above which directions count as parallel as drawn, and sine below which as perpendicular.
-const PARALLEL: f64 = 0.999;
+const DRAWN_PARALLEL_COSINE: f64 = 0.999;
 /// A feature with less of the area of its nominal form is a part of it.
-const PARTIAL: f64 = 0.9;
+const WHOLE_AREA_SHARE: f64 = 0.9;
 
 /// The text of a plan for the elements `found` in the nominal `mesh`, whose file is called `reference`. It parses; its
 /// tolerances are placeholders. Elements without a nominal form in plans (tori) are left out, as a comment says.
@@ -97,19 +97,19 @@ fn characteristics(out: &mut String, features: &[(String, &Region)]) {
         let form = [(Kind::Plane, "flatness"), (Kind::Cylinder, "cylindricity")];
         let form = form.into_iter().find(|(kind, _)| *kind == shape.kind());
         if let Some((_, form)) = form {
-            add(format!("kind = \"{form}\"\nfeature = {id_text}\ntolerance = {TOLERANCE}"));
+            add(format!("kind = \"{form}\"\nfeature = {id_text}\ntolerance = {PROPOSED_TOLERANCE}"));
         }
         if let Shape::Cylinder { radius, .. } | Shape::Sphere { radius, .. } = shape {
             let nominal = number_text(2.0 * radius);
             add(format!(
-                "kind = \"size\"\nsize = \"GG\"\nfeature = {id_text}\nnominal = {nominal}\nupper = {TOLERANCE}\nlower = -{TOLERANCE}"
+                "kind = \"size\"\nsize = \"GG\"\nfeature = {id_text}\nnominal = {nominal}\nupper = {PROPOSED_TOLERANCE}\nlower = -{PROPOSED_TOLERANCE}"
             ));
         }
         let (Some(own), Some(datum), true) = (shape.direction(), datum, id != "A") else { continue };
         // Planes stand to each other as their normals do, an axis to a plane the other way round.
         let is_plane = matches!(shape, Shape::Plane { .. });
         let along = dot(own, datum).abs();
-        let kind = match (along >= PARALLEL, along <= 1.0 - PARALLEL) {
+        let kind = match (along >= DRAWN_PARALLEL_COSINE, along <= 1.0 - DRAWN_PARALLEL_COSINE) {
             (true, _) => {
                 if is_plane {
                     "parallelism"
@@ -126,7 +126,9 @@ fn characteristics(out: &mut String, features: &[(String, &Region)]) {
             }
             _ => continue,
         };
-        add(format!("kind = \"{kind}\"\nfeature = {id_text}\ndatums = [\"A\"]\ntolerance = {TOLERANCE}"));
+        add(format!(
+            "kind = \"{kind}\"\nfeature = {id_text}\ndatums = [\"A\"]\ntolerance = {PROPOSED_TOLERANCE}"
+        ));
     }
 }
 
@@ -135,7 +137,9 @@ fn characteristics(out: &mut String, features: &[(String, &Region)]) {
 fn coverage(nominal: &Nominal, facets: &[[Point; 3]]) -> String {
     let there: f64 = facets.iter().map(area).sum();
     match nominal.area().map(|area| there / area) {
-        Some(share) if share < PARTIAL => format!(", coverage = {:.3}", COVERAGE * share),
+        Some(share) if share < WHOLE_AREA_SHARE => {
+            format!(", coverage = {:.3}", DEFAULT_MIN_COVERAGE * share)
+        }
         _ => String::new(),
     }
 }
@@ -198,13 +202,14 @@ fn keys(nominal: &Nominal) -> String {
 }
 
 /// Share of a number, and of 1, by which the single precision of meshes moves what is found from them.
-const SINGLE: f64 = 4.0 * f32::EPSILON as f64;
+const SINGLE_PRECISION_SHARE: f64 = 4.0 * f32::EPSILON as f64;
 
 /// A number without the rounding of single precision that meshes come with: to three digits after the point where that is all that it changes,
 /// else to six.
 fn number_text(x: f64) -> String {
     let to = |scale: f64| (x * scale).round() / scale;
-    let rounded = if (to(1e3) - x).abs() <= SINGLE * x.abs().max(4.0) { to(1e3) } else { to(1e6) };
+    let rounded =
+        if (to(1e3) - x).abs() <= SINGLE_PRECISION_SHARE * x.abs().max(4.0) { to(1e3) } else { to(1e6) };
     // TOML has floats with a point; minus zero is zero.
     format!("{:?}", rounded + 0.0)
 }

@@ -21,7 +21,7 @@ pub struct ToleranceRegion {
 }
 
 /// Most regions: their numbers are kept for each facet.
-const MOST: usize = 1000;
+const MAX_REGIONS: usize = 1000;
 
 /// The regions of a file: `[[region]]` with `id`, `seed` or `between`, `tolerance`, `inside`; lengths in millimeters.
 ///
@@ -56,8 +56,8 @@ pub(super) fn regions(
 ) -> Result<Vec<ToleranceRegion>, PlanError> {
     let mut all: Vec<ToleranceRegion> = vec![];
     for At { value, span } in written {
-        if all.len() == MOST {
-            return checker.wrong(span, format!("there are more than {MOST} regions"));
+        if all.len() == MAX_REGIONS {
+            return checker.wrong(span, format!("there are more than {MAX_REGIONS} regions"));
         }
         checker.id(&value.id)?;
         if all.iter().any(|r| r.rule.id == value.id.value) {

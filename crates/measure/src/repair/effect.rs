@@ -39,9 +39,9 @@ pub(super) fn record(
 }
 
 /// Share of the area that fins may have in all without being missed.
-const FINS: f64 = 0.1;
+const MAX_FIN_AREA_SHARE: f64 = 0.1;
 /// And loose sheets: flakes that hang on nothing. Parts of a model that are open have more.
-const SHEETS: f64 = 0.01;
+const MAX_SHEET_AREA_SHARE: f64 = 0.01;
 
 /// The largest distance that counts. Surface inside a body bounds nothing and may go. A hole has no surface: what fills it is
 /// far from the old one, and what hung at its rim may go; but what was torn out because it crossed counts, and fins and sheets that
@@ -56,8 +56,11 @@ fn surface(repaired: &Repaired, deviation: Option<&Deviation>) -> Option<f64> {
                 repaired.changes.iter().filter(|c| c.step.removes == what).map(|c| share(c.size)).sum()
             };
             let crossed = repaired.changes.iter().any(|c| c.step.removes == Removes::Crossings);
-            let lost = repaired.effect.surface.filter(|_| crossed || removed(Removes::Sheets) > SHEETS);
-            let fins = (removed(Removes::Fins) > FINS).then_some(deviation.there.max);
+            let lost = repaired
+                .effect
+                .surface
+                .filter(|_| crossed || removed(Removes::Sheets) > MAX_SHEET_AREA_SHARE);
+            let fins = (removed(Removes::Fins) > MAX_FIN_AREA_SHARE).then_some(deviation.there.max);
             // Without a hole nothing is filled: what is new lies on the old surface, or counts.
             let new = (*reason == NotEnclosed::Inconsistent).then_some(deviation.back.max);
             [lost, fins, new].into_iter().flatten().reduce(f64::max)

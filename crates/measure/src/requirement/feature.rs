@@ -60,7 +60,7 @@ pub enum Source {
 }
 
 /// Distance from the nominal surface within which facets belong to a feature, over the size of the feature.
-const DISTANCE: f64 = 0.02;
+const EXTRACT_DISTANCE_SHARE: f64 = 0.02;
 
 /// What of the measured data belongs to a feature of the model. Lengths in millimeters.
 #[derive(Clone, Copy, Debug)]
@@ -93,7 +93,7 @@ impl Extract {
             Nominal::Sphere { radius, .. } => 2.0 * radius,
             Nominal::Edge { length, .. } => *length,
         };
-        let distance = self.distance.unwrap_or(DISTANCE * size);
+        let distance = self.distance.unwrap_or(EXTRACT_DISTANCE_SHARE * size);
         // A measured edge may be as far off as a measured surface.
         let margin = self.margin.unwrap_or(-distance);
         Nearness { distance, angle: self.angle, margin, rim: self.rim, inward: None }

@@ -19,7 +19,7 @@ pub(super) struct Whereabouts {
 }
 
 /// The chords of an outline of the nominal, or why there are none.
-fn of_nominal(outline: &Outline, progress: &dyn Progress) -> Result<Result<Chords, String>, Cancelled> {
+fn of_nominal(outline: &Outline, progress: &dyn Progress) -> Result<Result<Chords, AirfoilError>, Cancelled> {
     let row = outline_row(outline);
     let spacing = outline.length() / row.len().max(1) as f64;
     // The edges are those of a smooth curve through the places, the chords those of the outline itself.
@@ -27,7 +27,7 @@ fn of_nominal(outline: &Outline, progress: &dyn Progress) -> Result<Result<Chord
     let drawn = Contour { segments: outline.segments.clone(), ..bare.clone() };
     match airfoil(&row, &bare, progress).and_then(|blade| chords(&row, &drawn, &blade)) {
         Err(AirfoilError::Cancelled(e)) => Err(e),
-        found => Ok(found.map_err(|e| e.to_string())),
+        found => Ok(found),
     }
 }
 
@@ -67,7 +67,11 @@ fn nearest_outline<'a>(nominal: &'a NominalRecord, contour: &Whereabouts) -> Opt
 }
 
 /// Puts twist and offset into a record.
-fn place(found: &mut AirfoilRecord, nominal: Option<Result<Chords, String>>, stacking: Option<[f64; 2]>) {
+fn place(
+    found: &mut AirfoilRecord,
+    nominal: Option<Result<Chords, AirfoilError>>,
+    stacking: Option<[f64; 2]>,
+) {
     let Some(measures) = &mut found.measures else { return };
     let (mut twist, mut center) = (0.0, None);
     match nominal {
@@ -133,7 +137,7 @@ pub(super) fn lean(all: &[AirfoilRecord], contours: &[Whereabouts]) -> Option<Le
         normals.push(normal);
     }
     let first = *normals.first()?;
-    let parallel = |n: &[f64; 3]| (0..3).all(|k| (n[k] - first[k]).abs() < PARALLEL);
+    let parallel = |n: &[f64; 3]| (0..3).all(|k| (n[k] - first[k]).abs() < PARALLEL_NORMAL_STEP);
     let once = places.windows(2).all(|w| w[0].0 != w[1].0);
     if places.len() < 2 || !once || !normals.iter().all(parallel) {
         return None;
@@ -156,4 +160,4 @@ pub(super) fn lean(all: &[AirfoilRecord], contours: &[Whereabouts]) -> Option<Le
 }
 
 /// Normals of planes whose components differ by less are parallel.
-const PARALLEL: f64 = 1e-9;
+const PARALLEL_NORMAL_STEP: f64 = 1e-9;

@@ -6,7 +6,7 @@ use trueness_document::section::{DimensionRecord, DimensionsRecord, MemberRecord
 use trueness_section::{Dimension, DimensionKind, RowKind, dimensions};
 
 /// Dimensions that are listed.
-const LISTED: usize = 1000;
+const MAX_LISTED_DIMENSIONS: usize = 1000;
 
 /// The dimensions of all sections.
 pub fn dimensions_record(sections: &[Section]) -> DimensionsRecord {
@@ -15,7 +15,7 @@ pub fn dimensions_record(sections: &[Section]) -> DimensionsRecord {
     for section in sections {
         let found = dimensions(&section.contours);
         all.count += found.len() as u64;
-        let room = LISTED - all.items.len();
+        let room = MAX_LISTED_DIMENSIONS - all.items.len();
         all.items.extend(found.iter().take(room).map(|d| record(d, section, before)));
         before += section.contours.len();
     }

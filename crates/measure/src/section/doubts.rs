@@ -9,9 +9,9 @@ use trueness_geom::space::{Aabb, minus, norm};
 use trueness_section::Outline;
 
 /// A contour is nowhere near the nominal if all of it is farther off than this share of the nominal's size, or than its own size, …
-const FAR: f64 = 0.05;
+const FAR_SIZE_SHARE: f64 = 0.05;
 /// … and than so many times the median of the others.
-const MEDIANS: f64 = 10.0;
+const FAR_MEDIANS: f64 = 10.0;
 
 /// All that there is.
 pub(super) fn doubts(planes: &[AgainstPlane]) -> Vec<NominalWarning> {
@@ -60,7 +60,10 @@ fn nowhere_near(planes: &[AgainstPlane]) -> Option<NominalWarning> {
             let distances = || contour.found.iter().flatten().map(|off| off.deviation.abs());
             let least = distances().fold(f64::INFINITY, f64::min);
             match bounds_of(contour) {
-                Some(b) if least.is_finite() && least > (FAR * size).min(norm(minus(b.max, b.min))) => {
+                Some(b)
+                    if least.is_finite()
+                        && least > (FAR_SIZE_SHARE * size).min(norm(minus(b.max, b.min))) =>
+                {
                     far.push((number, plane.plane, b, least));
                 }
                 _ => others.extend(distances()),
@@ -71,7 +74,7 @@ fn nowhere_near(planes: &[AgainstPlane]) -> Option<NominalWarning> {
     // Where all of the part lies off, it lies apart, and that is told by the boxes.
     let middle = others.len().checked_sub(1)? / 2;
     let median = *others.select_nth_unstable_by(middle, f64::total_cmp).1;
-    far.retain(|(.., least)| *least > MEDIANS * median);
+    far.retain(|(.., least)| *least > FAR_MEDIANS * median);
     let (n, plane, b, least) = far.iter().copied().max_by(|a, b| a.3.total_cmp(&b.3))?;
     let [[x, y], [w, h]] = [[0, 1].map(|k| 0.5 * (b.min[k] + b.max[k])), [0, 1].map(|k| b.max[k] - b.min[k])];
     let text = format!(

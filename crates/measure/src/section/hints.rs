@@ -5,16 +5,16 @@ use trueness_section::{Bent, Contour, Geometry, Options, RowKind};
 
 /// A row lies in no plane whose points are farther off it than so many standard deviations of their scatter in it, and than this share of
 /// its length.
-const FLAT: (f64, f64) = (8.0, 1e-4);
+const MAX_OFF_PLANE: (f64, f64) = (8.0, 1e-4);
 /// Scatter of so many times the noise given, or of this share of it, contradicts it, unless chance makes it so ...
-const MORE: f64 = 1.5;
-const LESS: f64 = 0.25;
+const MAX_NOISE_RATIO: f64 = 1.5;
+const MIN_NOISE_RATIO: f64 = 0.25;
 /// ... once in many thousand rows: so many standard deviations of the logarithm of a standard deviation, which is `1 / √2n` of `n` degrees
 /// of freedom.
-const CHANCE: f64 = 4.0;
+const CHANCE_DEVIATIONS: f64 = 4.0;
 
 /// So many points to an independent one are told.
-const ALIKE: f64 = 1.3;
+const MIN_TOLD_POINTS_PER_INDEPENDENT: f64 = 1.3;
 
 /// What there is to say about a contour of a section; `bent` are its arcs whose radii the slab moves.
 pub(super) fn hints(section: &Section, found: &Contour, bent: &[Bent], options: &Options) -> Vec<String> {
@@ -33,7 +33,7 @@ pub(super) fn hints(section: &Section, found: &Contour, bent: &[Bent], options: 
 fn shared(found: &Contour) -> Option<String> {
     let count = found.segments.iter().map(|s| s.count).sum::<usize>() as f64;
     let alike = count / found.independent.max(1.0);
-    (found.row_kind == RowKind::Row && found.independent > 0.0 && alike > ALIKE).then(|| {
+    (found.row_kind == RowKind::Row && found.independent > 0.0 && alike > MIN_TOLD_POINTS_PER_INDEPENDENT).then(|| {
         format!(
             "neighbors share noise, as of filtered profiles: {alike:.1} points tell as much as an independent one, and ± says so; \
              give --noise if they are independent"
@@ -90,7 +90,7 @@ fn few_points(found: &Contour) -> Option<String> {
 /// A row in space that lies in no plane.
 fn off_plane(section: &Section, found: &Contour) -> Option<String> {
     let off = section.frame.flatness;
-    let most = (FLAT.0 * found.noise).max(FLAT.1 * found.length());
+    let most = (MAX_OFF_PLANE.0 * found.noise).max(MAX_OFF_PLANE.1 * found.length());
     (section.plane.is_none() && off > most).then(|| {
         format!(
             "the points lie up to {} off the plane nearest to them and were projected into it: lengths, radii and angles are those of \
@@ -122,12 +122,14 @@ fn noise(found: &Contour, options: &Options) -> Option<String> {
     }
     let own = (kept.iter().map(|r| r * r).sum::<f64>() / degrees).sqrt();
     let ratio = own / given;
-    let far = libm::log(ratio).abs() > CHANCE / (2.0 * degrees).sqrt();
+    let far = libm::log(ratio).abs() > CHANCE_DEVIATIONS / (2.0 * degrees).sqrt();
     let (word, consequence) = match ratio {
-        r if r > MORE => {
+        r if r > MAX_NOISE_RATIO => {
             ("more", "intervals and uncertainties are too small, and segments may follow scatter")
         }
-        r if r < LESS => ("less", "intervals and uncertainties are too large, and form may pass for scatter"),
+        r if r < MIN_NOISE_RATIO => {
+            ("less", "intervals and uncertainties are too large, and form may pass for scatter")
+        }
         _ => return None,
     };
     far.then(|| {

@@ -88,7 +88,7 @@ pub fn with_offers(
     for (contour, offers) in document.contours.iter_mut().zip(tidy::offers(sections, rows)) {
         match offers {
             Ok(offers) => contour.tidy = Some(offers),
-            Err(reason) => contour.tidy_reason = Some(reason),
+            Err(reason) => contour.tidy_reason = Some(reason.reason().into()),
         }
     }
     document

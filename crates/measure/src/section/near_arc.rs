@@ -10,19 +10,24 @@ use trueness_geom::shape::{Kind, Shape};
 use trueness_geom::spline::curve::Curve;
 
 /// Curves farther than this share of their length from their arc are none.
-const NEAR: f64 = 1e-3;
+const MAX_ARC_DISTANCE_SHARE: f64 = 1e-3;
 /// Angle run through, radians: a flatter curve is near to many arcs.
-const LEAST: f64 = 0.5;
+const MIN_ARC_ANGLE: f64 = 0.5;
 /// Places of the curve that are looked at.
-const PLACES: usize = 200;
+const CURVE_SAMPLES: usize = 200;
 
 /// The arc of least squares through places of a curve, where all of the curve is near it.
 pub(super) fn near_arc(curve: &Curve<[f64; 2]>, length: f64) -> Option<NearArc> {
-    let places: Vec<[f64; 3]> = curve.sample(PLACES).into_iter().map(|[x, y]| [x, y, 0.0]).collect();
+    let places: Vec<[f64; 3]> = curve.sample(CURVE_SAMPLES).into_iter().map(|[x, y]| [x, y, 0.0]).collect();
     let found = fit(&places, Kind::Circle2, &Options::default(), &Silent).ok()?;
     let Shape::Circle2 { center: [x, y, _], radius } = found.shape else { return None };
     let off = |p: &[f64; 3]| libm::hypot(p[0] - x, p[1] - y) - radius;
     let max = places.iter().map(|p| off(p).abs()).fold(0.0, f64::max);
     let rms = (places.iter().map(|p| off(p) * off(p)).sum::<f64>() / places.len() as f64).sqrt();
-    (max <= NEAR * length && length >= LEAST * radius).then_some(NearArc { center: [x, y], radius, rms, max })
+    (max <= MAX_ARC_DISTANCE_SHARE * length && length >= MIN_ARC_ANGLE * radius).then_some(NearArc {
+        center: [x, y],
+        radius,
+        rms,
+        max,
+    })
 }

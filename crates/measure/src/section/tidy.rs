@@ -3,10 +3,10 @@
 use super::found::Section;
 use crate::words::ToWord;
 use trueness_document::section::{MemberRecord, OfferRecord};
-use trueness_section::{Offer, tidy};
+use trueness_section::{Offer, Untidied, tidy};
 
 /// The offers of a contour, or why there are none.
-pub(super) type Offers = Result<Vec<OfferRecord>, String>;
+pub(super) type Offers = Result<Vec<OfferRecord>, Untidied>;
 
 /// The offers of each contour, plane after plane: to the contour of their first segment.
 pub(super) fn offers(sections: &[Section], rows: &[Vec<[f64; 2]>]) -> Vec<Offers> {
@@ -16,7 +16,7 @@ pub(super) fn offers(sections: &[Section], rows: &[Vec<[f64; 2]>]) -> Vec<Offers
         let own: Vec<&[[f64; 2]]> =
             rows.iter().skip(before).take(section.contours.len()).map(|r| &r[..]).collect();
         let (offers, why) = tidy(&section.contours, &own);
-        all.extend(why.into_iter().map(|why| why.map_or(Ok(vec![]), |why| Err(why.reason().into()))));
+        all.extend(why.into_iter().map(|why| why.map_or(Ok(vec![]), Err)));
         for offer in &offers {
             let own = offer.of.first().and_then(|[c, _]| all.get_mut(before + c)?.as_mut().ok());
             own.into_iter().for_each(|all| all.push(record(offer, before)));

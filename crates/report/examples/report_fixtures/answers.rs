@@ -14,6 +14,7 @@ use trueness_geom::check::check;
 use trueness_geom::fit::{self, Method};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::Silent;
+use trueness_geom::scan::Scan;
 use trueness_geom::segment;
 use trueness_geom::shape::Kind;
 use trueness_geom::space::Point;
@@ -184,7 +185,7 @@ pub fn fit_page(points: &[Point], method: Method, options: &ReportOptions) -> (V
     let fit = fit::fit(points, Kind::Cylinder, &wish, &Silent).unwrap();
     let cloud = Mesh { positions: points.to_vec(), faces: vec![] };
     let files = vec![file(Role::Measured, "bore.xyz", &cloud)];
-    let noise = trueness_measure::fit::noise(&fit, &cloud, 1, &Silent).unwrap();
+    let noise = trueness_measure::fit::noise(&fit, &cloud.into(), 1, &Silent).unwrap();
     let document = trueness_measure::fit::document(&fit, &noise, points, files, 1);
     let view = trueness_report::views::fit::View::new(&document, "bore.xyz", &fit.shape, points);
     let (objects, marks) = (view.objects(), &view.marks[..]);
@@ -227,9 +228,10 @@ pub fn segment_page(mesh: &Mesh, options: &ReportOptions) -> (Vec<u8>, SegmentDo
     let wish = segment::Options::default();
     let found = segment::mesh(mesh, &wish, &Silent).unwrap();
     let files = vec![file(Role::Measured, "peg.stl", mesh)];
-    let noise = trueness_measure::noise_or_reason(found.shared_noise(mesh, 0, &Silent)).unwrap();
+    let scan = Scan::Mesh(mesh.clone());
+    let noise = trueness_measure::noise_or_reason(found.shared_noise(&scan, 0, &Silent)).unwrap();
     let document = trueness_measure::segment::document(&found, &noise, PieceKind::Facets, files, &wish, None);
-    let view = trueness_report::views::segment::View::new(&document, mesh, &found.labels);
+    let view = trueness_report::views::segment::View::new(&document, &scan, &found.labels);
     let (objects, marks) = (view.objects(), &view.marks[..]);
     let result = &document;
     (super::bytes(&ReportInput { result, objects: &objects, marks, options }), document)
@@ -252,24 +254,21 @@ pub fn torus() -> Mesh {
 
 /// The report of curvatures, of a mesh or, without facets, of a cloud.
 pub fn curvature_page(mesh: &Mesh, options: &ReportOptions) -> Vec<u8> {
-    let noise = trueness_measure::curvature::noise(mesh, 1, &Silent).unwrap();
+    let scan = Scan::from(mesh.clone());
+    let noise = trueness_measure::curvature::noise(&scan, 1, &Silent).unwrap();
     let wish = curvature::Options {
         degree: 4,
         noise: noise.as_ref().ok().copied(),
         ..curvature::Options::default()
     };
-    let of_mesh = !mesh.faces.is_empty();
-    let found = match of_mesh {
-        true => curvature::mesh(mesh, &wish, &Silent),
-        false => curvature::cloud(&mesh.positions, &wish, &Silent),
+    let (found, name) = match &scan {
+        Scan::Mesh(mesh) => (curvature::mesh(mesh, &wish, &Silent), "torus.stl"),
+        Scan::Cloud(points) => (curvature::cloud(points, &wish, &Silent), "torus.xyz"),
     };
     let found = found.unwrap();
-    let name = if of_mesh { "torus.stl" } else { "torus.xyz" };
     let inputs = vec![file(Role::Measured, name, mesh)];
-    let document =
-        trueness_measure::curvature::document(&found, &mesh.positions, of_mesh, &wish, &noise, inputs)
-            .unwrap();
-    let view = trueness_report::views::curvature::View::new(&document, name, mesh, &found);
+    let document = trueness_measure::curvature::document(&found, &scan, &wish, &noise, inputs).unwrap();
+    let view = trueness_report::views::curvature::View::new(&document, name, &scan, &found);
     let result = &document;
     super::bytes(&ReportInput { result, objects: &view.objects(), marks: &[], options })
 }

@@ -4,6 +4,7 @@ use trueness_document::inspect::{CharacteristicRecord, InspectDocument, PlanReco
 use trueness_document::{Role, Verdict, Word};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::Silent;
+use trueness_geom::scan::Scan;
 use trueness_measure::inspection::{self, Data};
 use trueness_measure::plan::Plan;
 use trueness_report::views::inspect::View;
@@ -143,7 +144,8 @@ pub fn page(written: Written, options: &ReportOptions) -> Vec<u8> {
     let (scan, nominal) = (block(0.08), block(0.0));
     let files = [(Role::Measured, "scan.stl", &scan), (Role::Reference, "nominal.stl", &nominal)];
     let inputs = files.map(|(role, path, mesh)| super::answers::file(role, path, mesh)).to_vec();
-    let data = Data { measured: Some(scan), reference: Some(nominal), shown: 100_000, ..Data::default() };
+    let data =
+        Data { measured: Some(scan.into()), reference: Some(nominal), shown: 100_000, ..Data::default() };
     let found = inspection::run(&plan, data, &Silent).unwrap();
     let record = PlanRecord { path: "block.toml".into(), sha256: None };
     let mut document = inspection::document(&plan, record, &found, inputs);
@@ -159,7 +161,7 @@ pub fn page(written: Written, options: &ReportOptions) -> Vec<u8> {
     let references = deviations.references("nominal.stl");
     let map = trueness_report::views::compare::View::new(
         "scan.stl",
-        found.measured.as_ref(),
+        found.measured.as_ref().and_then(Scan::mesh),
         &references,
         &deviations.found,
     );

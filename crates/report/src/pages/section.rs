@@ -12,8 +12,8 @@ use crate::page::parts::{fact, key_number, line, mm, paragraphs, section};
 use crate::subject::{Content, Drawn, Pick, Subject};
 use crate::views::section::{nominal, pieces};
 use maud::{Markup, html};
-use trueness_document::Verdict;
 use trueness_document::section::{ContourRecord, SectionDocument};
+use trueness_document::{ResultDocument, Verdict};
 
 impl Subject for SectionDocument {
     fn content(&self, s: Style) -> serde_json::Result<Content<'_>> {

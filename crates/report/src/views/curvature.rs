@@ -1,15 +1,15 @@
 //! What a report draws of curvatures: the mesh or cloud in the colors of each of them.
 
-use crate::{Geometry, NoValue, ViewField, ViewObject, ViewRole};
+use crate::{NoValue, ViewField, ViewObject, ViewRole};
 use trueness_document::curvature::{CurvatureDocument, CurvatureKind};
-use trueness_geom::mesh::Mesh;
+use trueness_geom::scan::Scan;
 use trueness_measure::curvature::values;
 use trueness_surface::curvature::{Curvatures, NoCurvature};
 
 /// Curvatures prepared for drawing.
 pub struct View<'a> {
     name: &'a str,
-    mesh: &'a Mesh,
+    scan: &'a Scan,
     values: [Vec<f64>; 4],
     reasons: Vec<NoValue>,
     /// The places that the list leads to.
@@ -17,8 +17,8 @@ pub struct View<'a> {
 }
 
 impl<'a> View<'a> {
-    /// Of the vertices of a mesh, or of the points of a cloud (a mesh without facets); `name` is shown to the reader.
-    pub fn new(document: &CurvatureDocument, name: &'a str, mesh: &'a Mesh, found: &Curvatures) -> View<'a> {
+    /// Of the vertices of a mesh, or of the points of a cloud; `name` is shown to the reader.
+    pub fn new(document: &CurvatureDocument, name: &'a str, scan: &'a Scan, found: &Curvatures) -> View<'a> {
         let why = |place: &Result<_, NoCurvature>| match place {
             Ok(_) => NoValue::Unknown,
             Err(NoCurvature::Boundary) => NoValue::Boundary,
@@ -31,7 +31,7 @@ impl<'a> View<'a> {
         let ends = |kind| [&document.quantity(kind).maximum, &document.quantity(kind).minimum];
         View {
             name,
-            mesh,
+            scan,
             values: CurvatureKind::ALL.map(|kind| values(found, kind)),
             reasons: found.places.iter().map(why).collect(),
             keep: CurvatureKind::ALL.into_iter().flat_map(ends).map(|place| place.index as u32).collect(),
@@ -41,16 +41,16 @@ impl<'a> View<'a> {
     /// The mesh or cloud.
     pub fn objects(&self) -> Vec<ViewObject<'_>> {
         let fields = (0..).zip(&self.values);
-        let (role, geometry) = match self.mesh.faces.is_empty() {
-            true => (ViewRole::Measured, Geometry::Points(&self.mesh.positions)),
-            false => (ViewRole::Part, Geometry::Mesh(self.mesh)),
+        let role = match self.scan {
+            Scan::Cloud(_) => ViewRole::Measured,
+            Scan::Mesh(_) => ViewRole::Part,
         };
         vec![ViewObject {
             role,
             name: self.name,
             color: None,
             comparison: None,
-            geometry,
+            geometry: self.scan.into(),
             fields: fields
                 .map(|(comparison, values)| ViewField { comparison, values, reasons: &self.reasons })
                 .collect(),

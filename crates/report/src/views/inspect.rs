@@ -8,6 +8,7 @@ use trueness_document::inspect::{FeatureSource, InspectDocument};
 use trueness_document::scale::palette::Rgb;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::parallel::prelude::*;
+use trueness_geom::scan::Scan;
 use trueness_measure::inspection::{DrawnFace, Inspection};
 use trueness_measure::segment::cut_out;
 
@@ -35,7 +36,7 @@ pub struct View<'a> {
 
 struct Part {
     name: String,
-    mesh: Mesh,
+    scan: Scan,
     color: Option<Rgb>,
 }
 
@@ -48,7 +49,7 @@ impl<'a> View<'a> {
     ) -> View<'a> {
         let mut parts = Vec::new();
         let whole = found.measured.as_ref();
-        let mut free: Vec<bool> = vec![true; whole.map_or(0, |m| m.faces.len())];
+        let mut free: Vec<bool> = vec![true; whole.map_or(0, |scan| scan.facets().len())];
         let verdicts = document.worst();
         for (taken, record) in found.features.iter().zip(&document.features) {
             let worst = verdicts.get(record.id.as_str()).copied();
@@ -58,21 +59,24 @@ impl<'a> View<'a> {
                     own.push(facet as usize);
                 }
             }
-            let mesh = match whole {
-                Some(mesh) if !taken.facets.is_empty() => cut_out(mesh, &own),
+            let scan = match whole {
+                Some(Scan::Mesh(mesh)) if !taken.facets.is_empty() => Scan::Mesh(cut_out(mesh, &own)),
                 // What is derived is drawn by what it is made of.
                 _ if *record.source == FeatureSource::Derived => continue,
-                _ => Mesh { positions: taken.points.clone(), faces: vec![] },
+                _ => Scan::Cloud(taken.points.clone()),
             };
-            parts.push(Part { name: record.id.clone(), mesh, color: worst.map(color) });
+            parts.push(Part { name: record.id.clone(), scan, color: worst.map(color) });
         }
-        if let Some(mesh) = whole {
+        if let Some(scan) = whole {
             let rest: Vec<usize> = (0..free.len()).filter(|f| free[*f]).collect();
             let (name, color) = (String::new(), None);
-            let mesh = if mesh.faces.is_empty() { mesh.clone() } else { cut_out(mesh, &rest) };
-            parts.push(Part { name, mesh, color });
+            let scan = match scan {
+                Scan::Cloud(_) => scan.clone(),
+                Scan::Mesh(mesh) => Scan::Mesh(cut_out(mesh, &rest)),
+            };
+            parts.push(Part { name, scan, color });
         }
-        parts.retain(|p| !p.mesh.positions.is_empty());
+        parts.retain(|p| !p.scan.points().is_empty());
         View { marks: marks(document, &parts), parts, drawn: &found.drawn, deviations }
     }
 
@@ -82,7 +86,7 @@ impl<'a> View<'a> {
         all.extend(
             self.drawn
                 .iter()
-                .map(|d| ViewObject::plain(ViewRole::Partition, &d.name, Some(d.color), &d.mesh)),
+                .map(|d| ViewObject::plain(ViewRole::Partition, &d.name, Some(d.color), &d.scan)),
         );
         all.extend(self.deviations.into_iter().flat_map(super::compare::View::mapped));
         all
@@ -91,16 +95,17 @@ impl<'a> View<'a> {
 
 impl Part {
     fn object(&self) -> ViewObject<'_> {
-        ViewObject::plain(ViewRole::Part, &self.name, self.color, &self.mesh)
+        ViewObject::plain(ViewRole::Part, &self.name, self.color, &self.scan)
     }
 }
 
 /// One mark a row: the rim of the feature and the places where the value is reached, in the color of the verdict.
 fn marks(document: &InspectDocument, parts: &[Part]) -> Vec<Marks> {
     let mut groups: Vec<MarkGroup> = Vec::new();
-    let own: Vec<&Part> = parts.iter().filter(|p| !p.mesh.faces.is_empty()).collect();
-    let rims: Vec<Mark> = own.par_iter().map(|p| rim(&p.mesh)).collect();
-    let rims: BTreeMap<&str, Mark> = own.iter().map(|p| p.name.as_str()).zip(rims).collect();
+    let own: Vec<(&str, &Mesh)> =
+        parts.iter().filter_map(|p| Some((p.name.as_str(), p.scan.mesh()?))).collect();
+    let rims: Vec<Mark> = own.par_iter().map(|(_, mesh)| rim(mesh)).collect();
+    let rims: BTreeMap<&str, Mark> = own.iter().map(|(name, _)| *name).zip(rims).collect();
     for c in document.rows() {
         let key = format!("verdict.{}", key(c.verdict));
         let mut mark = rims.get(c.feature.as_str()).cloned().unwrap_or_default();

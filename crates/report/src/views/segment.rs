@@ -4,6 +4,7 @@ use crate::{Mark, MarkGroup, Marks, ViewObject, ViewRole};
 use trueness_document::scale::palette::{Rgb, category};
 use trueness_document::segment::SegmentDocument;
 use trueness_geom::mesh::Mesh;
+use trueness_geom::scan::Scan;
 use trueness_geom::space::{Point, Vector, cross, minus, plus, unit};
 use trueness_measure::segment::cut_out;
 
@@ -21,32 +22,29 @@ const LINE: Rgb = [0x22, 0x26, 0x2b];
 pub struct View<'a> {
     document: &'a SegmentDocument,
     /// One for each region, then what belongs to none.
-    parts: Vec<Mesh>,
+    parts: Vec<Scan>,
     /// The rim of each region, in the order of the regions.
     pub marks: Vec<Marks>,
 }
 
 impl<'a> View<'a> {
-    /// Of the regions of a mesh, or of a cloud (a mesh without facets); `labels` has the number of the region of each facet
+    /// Of the regions of a mesh or a cloud; `labels` has the number of the region of each facet
     /// or point, and any greater number where there is none.
-    pub fn new(document: &'a SegmentDocument, mesh: &Mesh, labels: &[u32]) -> View<'a> {
+    pub fn new(document: &'a SegmentDocument, scan: &Scan, labels: &[u32]) -> View<'a> {
         let count = document.regions.len();
-        let mut parts = vec![Mesh::default(); count + 1];
         let mut members: Vec<Vec<usize>> = vec![vec![]; count + 1];
         for (piece, label) in labels.iter().enumerate() {
             members[(*label as usize).min(count)].push(piece);
         }
-        let mut items = vec![];
-        for (n, (part, members)) in parts.iter_mut().zip(&members).enumerate() {
-            if mesh.faces.is_empty() {
-                part.positions = members.iter().filter_map(|p| mesh.positions.get(*p).copied()).collect();
-            } else {
-                *part = cut_out(mesh, members);
+        let part = |members: &Vec<usize>| match scan {
+            Scan::Cloud(points) => {
+                Scan::Cloud(members.iter().filter_map(|p| points.get(*p).copied()).collect())
             }
-            if n < count {
-                items.push(rim(part).finite());
-            }
-        }
+            Scan::Mesh(mesh) => Scan::Mesh(cut_out(mesh, members)),
+        };
+        let parts: Vec<Scan> = members.iter().map(part).collect();
+        let rim = |part: &Scan| part.mesh().map(rim).unwrap_or_default().finite();
+        let items = parts.iter().take(count).map(rim).collect();
         let group = MarkGroup { key: "edges".into(), color: LINE, items };
         let marks = vec![Marks { role: ViewRole::Edges, comparison: None, groups: vec![group] }];
         View { document, parts, marks }
@@ -56,7 +54,7 @@ impl<'a> View<'a> {
     pub fn objects(&self) -> Vec<ViewObject<'_>> {
         let names = self.document.regions.iter().map(|r| r.shape.name()).chain([""]);
         (self.parts.iter().zip(names).enumerate())
-            .filter(|(_, (part, _))| !part.positions.is_empty())
+            .filter(|(_, (part, _))| !part.points().is_empty())
             .map(|(n, (part, name))| {
                 let number = Some(n).filter(|n| *n < self.document.regions.len());
                 ViewObject::plain(ViewRole::Part, name, Some(color(number)), part)

@@ -4,6 +4,7 @@ use super::error::Error;
 use std::path::Path;
 use trueness_files::write::{self, Loss};
 use trueness_files::{Body, Provenance, ReadOptions, SourceMesh, Warning, open};
+use trueness_geom::align::Measured;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::space::Point;
 
@@ -25,13 +26,21 @@ pub struct Part {
 impl Part {
     /// Whether it has points alone.
     pub fn is_cloud(&self) -> bool {
-        self.mesh.faces.is_empty()
+        matches!(as_scan(&self.mesh), Measured::Points { .. })
     }
 
     /// The points, or the vertices of the mesh. (`trueness compare` counts the vertices of a file that shares them as they stand there,
     /// copies and unused ones too.)
     pub fn points(&self) -> &[Point] {
         &self.mesh.positions
+    }
+}
+
+/// A mesh without faces is a cloud in these calls.
+pub(super) fn as_scan(mesh: &Mesh) -> Measured<'_> {
+    match mesh.faces.is_empty() {
+        true => Measured::Points { points: &mesh.positions, normals: None },
+        false => Measured::Mesh(mesh),
     }
 }
 

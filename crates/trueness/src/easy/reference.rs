@@ -2,9 +2,9 @@
 
 use super::deviations::Deviations;
 use super::error::Error;
-use super::part;
+use super::part::{self, as_scan};
 use std::path::Path;
-use trueness_geom::align::{Alignment, BestFit, Measured, Target, best_fit};
+use trueness_geom::align::{Alignment, BestFit, Target, best_fit};
 use trueness_geom::closest::{Closest, Query, Tree};
 use trueness_geom::deviation::sign_choice::SignChoice;
 use trueness_geom::deviation::surface::{ReferenceSurface, SurfaceOptions};
@@ -159,11 +159,7 @@ impl Reference {
     /// ```
     pub fn align(&self, scan: &Mesh) -> Result<Alignment, Error> {
         let target = Target::new(&self.mesh, self.surface.tree());
-        let measured = match scan.faces.is_empty() {
-            true => Measured::Points { points: &scan.positions, normals: None },
-            false => Measured::Mesh(scan),
-        };
-        Ok(best_fit(&measured, &target, &BestFit::default(), &Silent)?)
+        Ok(best_fit(&as_scan(scan), &target, &BestFit::default(), &Silent)?)
     }
 }
 

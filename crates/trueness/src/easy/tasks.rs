@@ -1,7 +1,8 @@
 //! The tasks, with their defaults.
 
 use super::error::Error;
-use super::part::Part;
+use super::part::{Part, as_scan};
+use trueness_geom::align::Measured;
 use trueness_geom::check::{self, Report};
 use trueness_geom::fit::{self, Fit};
 use trueness_geom::mesh::Mesh;
@@ -90,9 +91,9 @@ pub fn fit(points: &[Point], kind: Kind) -> Result<Fit, Error> {
 /// ```
 pub fn segment(mesh: &Mesh) -> Result<Segmentation, Error> {
     let options = segment::Options::default();
-    Ok(match mesh.faces.is_empty() {
-        true => segment::cloud(&mesh.positions, &options, &Silent)?,
-        false => segment::mesh(mesh, &options, &Silent)?,
+    Ok(match as_scan(mesh) {
+        Measured::Points { points, .. } => segment::cloud(points, &options, &Silent)?,
+        Measured::Mesh(mesh) => segment::mesh(mesh, &options, &Silent)?,
     })
 }
 
@@ -167,8 +168,8 @@ pub fn surface(points: &[Point]) -> Result<SurfaceFit, Error> {
 /// ```
 pub fn curvature(mesh: &Mesh) -> Result<Curvatures, Error> {
     let options = curvature::Options::default();
-    Ok(match mesh.faces.is_empty() {
-        true => curvature::cloud(&mesh.positions, &options, &Silent)?,
-        false => curvature::mesh(mesh, &options, &Silent)?,
+    Ok(match as_scan(mesh) {
+        Measured::Points { points, .. } => curvature::cloud(points, &options, &Silent)?,
+        Measured::Mesh(mesh) => curvature::mesh(mesh, &options, &Silent)?,
     })
 }

@@ -19,6 +19,7 @@ use trueness_files::{
 use trueness_geom::closest::{MAX_COORDINATE, MAX_VERTEX, MIN_COORDINATE};
 use trueness_geom::parallel::prelude::*;
 use trueness_geom::progress::Silent;
+use trueness_geom::scan::Scan;
 use trueness_geom::space::{Aabb, Point, Vector};
 use trueness_geom::spline::surface::Nurbs;
 use trueness_measure::compare::RegionRule;
@@ -230,6 +231,14 @@ fn refusal(path: &Path, what: &str, number: usize, greatest: f64) -> String {
     )
 }
 
+/// All of what the file at `path` holds.
+pub fn scan(path: &Path, body: Body) -> Result<Scan> {
+    Ok(match body {
+        Body::Mesh(source) => source.mesh.into(),
+        Body::Points(source) => Scan::Cloud(all_points(path, source)?),
+    })
+}
+
 /// All points of a source, which is the file at `path`.
 pub fn all_points(path: &Path, mut source: PointSource) -> Result<Vec<Point>> {
     let (mut all, mut block): (Vec<Point>, Vec<Point>) = (Vec::new(), Vec::new());
@@ -326,16 +335,6 @@ fn table(reading: &TableReading) -> TableRecord {
         header_line: reading.header_line,
         lines_skipped: reading.lines_skipped,
     }
-}
-
-/// What there is to say about how the inputs were taken, a line each: tables of text, and what was odd.
-pub fn notes(inputs: &[InputRecord]) -> String {
-    let of = |input: &InputRecord| {
-        let reading = input.reading().map(|r| format!("{}: {r}\n", input.path));
-        let warnings = input.warnings.iter().map(|w| format!("! {w}\n"));
-        reading.into_iter().chain(warnings).collect::<String>()
-    };
-    inputs.iter().map(of).collect()
 }
 
 /// Fills in the hash of a file as it lies on disk.

@@ -35,9 +35,9 @@ struct Directions {
 }
 
 /// Bytes looked at for the first one that is no blank.
-const HEAD: usize = 64;
+const MAX_BLANK_BYTES: usize = 64;
 /// Largest document that is taken.
-const LARGEST: u64 = 4 << 30;
+const MAX_DOCUMENT_BYTES: u64 = 4 << 30;
 
 /// The surface; `None` if the file is no JSON. Streams are never looked into.
 pub fn read(sources: &dyn Sources, path: &Path) -> Result<Option<(Nurbs, InputRecord)>, TaskError> {
@@ -46,11 +46,11 @@ pub fn read(sources: &dyn Sources, path: &Path) -> Result<Option<(Nurbs, InputRe
     }
     let shown = path.display();
     let bytes = sources.length(path).unwrap_or(0);
-    if bytes > LARGEST {
+    if bytes > MAX_DOCUMENT_BYTES {
         let text = format!("{shown}: {} MB are too large for a document of a surface", bytes >> 20);
         return Err(TaskError::unanswerable(text));
     }
-    let text = sources.text(path, LARGEST as usize)?;
+    let text = sources.text(path, MAX_DOCUMENT_BYTES as usize)?;
     let wanted = "a reference in JSON is a document of `trueness surface --json`";
     let document: Document = serde_json::from_str(&text).meaning(|| format!("{shown}: {wanted}"))?;
     if document.schema != SCHEMA {
@@ -104,6 +104,6 @@ pub fn read(sources: &dyn Sources, path: &Path) -> Result<Option<(Nurbs, InputRe
 
 /// Whether the first byte that is no blank opens an object. What cannot be read is left to the other readers to say.
 fn begins_with_a_brace(sources: &dyn Sources, path: &Path) -> bool {
-    let head = sources.bytes(path).and_then(|bytes| bytes.head(HEAD));
+    let head = sources.bytes(path).and_then(|bytes| bytes.head(MAX_BLANK_BYTES));
     head.is_ok_and(|head| head.trim_ascii_start().starts_with(b"{"))
 }

@@ -3,6 +3,7 @@
 use super::{ErrorKind, Output, TaskError, Watch, ended};
 use serde::Serialize;
 use std::path::PathBuf;
+use trueness_document::ResultDocument;
 use trueness_report::{self as report, Marks, ReportError, ReportInput, ReportOptions, Subject, ViewObject};
 
 /// What a task that ran to its end found: what its exit status, the head of its page and a server's status say.
@@ -60,10 +61,18 @@ pub struct Done<D> {
     pub outputs: Vec<Output>,
 }
 
+impl<D: ResultDocument> Done<D> {
+    /// A document, which says the outcome, without anything beside it.
+    pub fn new(document: D) -> Done<D> {
+        let outcome = document.conforms().into();
+        Done::with_outcome(document, outcome)
+    }
+}
+
 impl<D> Done<D> {
-    /// A document without anything beside it.
-    pub fn new(document: D, outcome: impl Into<Outcome>) -> Done<D> {
-        Done { document, outcome: outcome.into(), scene: None, losses: vec![], outputs: vec![] }
+    /// What is no result document, with its outcome.
+    pub fn with_outcome(document: D, outcome: Outcome) -> Done<D> {
+        Done { document, outcome, scene: None, losses: vec![], outputs: vec![] }
     }
 
     /// Puts the files in their places, in the order in which they were asked for.

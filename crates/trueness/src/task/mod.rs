@@ -25,5 +25,5 @@ pub use output::{Output, json, whole_file};
 pub use reading::{PointReading, Reading, ReferenceReading, not_negative, welding};
 pub use request::Request;
 pub use text::{FormatName, Text};
-pub use tolerance::ToleranceText;
+pub use tolerance::{NoTolerance, ToleranceText};
 pub use watch::{STEPS, Stage, Watch, ended};

@@ -5,7 +5,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use trueness_geom::noise::MAX_PATCHES;
 use trueness_geom::progress::{Cancelled, Progress};
-use trueness_measure::NoiseOrReason;
+use trueness_measure::{NoSharedNoise, NoiseOrReason};
 
 /// How far neighbors share errors.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -40,7 +40,7 @@ impl Independence {
         find: impl FnOnce(&dyn Progress) -> Result<NoiseOrReason, Cancelled>,
     ) -> Result<NoiseOrReason, TaskError> {
         if self.independent {
-            return Ok(Err("errors are independent, as --independent says".into()));
+            return Ok(Err(NoSharedNoise::Independent));
         }
         let stage = watch.stage("finding the noise", "patches", Some(MAX_PATCHES as u64));
         let found = find(&*stage);
@@ -58,7 +58,7 @@ mod tests {
     fn nothing_is_looked_for_where_errors_are_independent() {
         let find = |_: &dyn Progress| Err(Cancelled);
         let found = Independence { independent: true }.shared_noise(&Silent, find).unwrap();
-        assert_eq!(found.unwrap_err(), "errors are independent, as --independent says");
+        assert_eq!(found.unwrap_err(), NoSharedNoise::Independent);
         let stopped = Independence::default().shared_noise(&Silent, find).unwrap_err();
         assert_eq!(stopped.kind(), ErrorKind::Cancelled);
         let refused = Independence { independent: true }.only_for_meshes("row.xyz").unwrap_err();

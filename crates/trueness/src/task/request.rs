@@ -14,11 +14,11 @@ pub trait Request: Serialize + DeserializeOwned + JsonSchema {
     /// The command of this name.
     const COMMAND: &'static str;
 
-    /// All files that it reads and writes.
+    /// All files that it reads and writes, those that its own inputs name in `sources` among them.
     ///
     /// # Errors
     /// Values that cannot be meant.
-    fn files(&self) -> Result<RunFiles, TaskError>;
+    fn files(&self, sources: &dyn Sources) -> Result<RunFiles, TaskError>;
 
     /// Runs the task.
     ///

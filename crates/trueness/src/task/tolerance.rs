@@ -7,34 +7,65 @@ use trueness_document::tolerance::Tolerance;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ToleranceText(pub Tolerance);
 
-impl FromStr for ToleranceText {
-    type Err = String;
+/// A text that is no tolerance.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum NoTolerance {
+    /// A part of it is no number.
+    #[error("‘{text}’ is not a number; write 0.1 for ±0.1, or -0.1,+0.2")]
+    Number {
+        /// That part.
+        text: String,
+    },
+    /// It can be meant in several ways.
+    #[error("{}", both_readings(.text, *.limits))]
+    Ambiguous {
+        /// As written.
+        text: String,
+        /// Its two numbers.
+        limits: (f64, f64),
+    },
+    /// A single number that is not above 0.
+    #[error("{tolerance} leaves no zone; a single number T means ±T and must be above 0")]
+    NoZone {
+        /// That number.
+        tolerance: f64,
+    },
+    /// The limits are not in their order.
+    #[error("the lower limit {lower} must be below the upper limit {upper}")]
+    Reversed {
+        /// The first.
+        lower: f64,
+        /// The second.
+        upper: f64,
+    },
+}
 
-    fn from_str(text: &str) -> Result<Self, String> {
+impl FromStr for ToleranceText {
+    type Err = NoTolerance;
+
+    fn from_str(text: &str) -> Result<Self, NoTolerance> {
         let number = |t: &str| match t.trim().parse::<f64>() {
             Ok(x) if x.is_finite() => Ok(x),
-            _ => Err(format!("‘{t}’ is not a number; write 0.1 for ±0.1, or -0.1,+0.2")),
+            _ => Err(NoTolerance::Number { text: t.into() }),
         };
         let (lower, upper) = match text.split_once(',') {
             Some((lower, upper)) => {
                 let limits = (number(lower)?, number(upper)?);
                 if !is_clear(lower, upper) {
-                    return Err(both_readings(text, limits));
+                    return Err(NoTolerance::Ambiguous { text: text.into(), limits });
                 }
                 limits
             }
             None => {
                 let t = number(text)?;
                 if t <= 0.0 {
-                    return Err(format!(
-                        "{t} leaves no zone; a single number T means ±T and must be above 0"
-                    ));
+                    return Err(NoTolerance::NoZone { tolerance: t });
                 }
                 (-t, t)
             }
         };
         if lower >= upper {
-            return Err(format!("the lower limit {lower} must be below the upper limit {upper}"));
+            return Err(NoTolerance::Reversed { lower, upper });
         }
         Ok(ToleranceText(Tolerance { lower, upper }))
     }
@@ -107,7 +138,7 @@ mod tests {
             ("-1,5", "1.5", "-1,+5"),
             ("0.1,0.2", "", "+0.1,+0.2"),
         ] {
-            let said = text.parse::<ToleranceText>().unwrap_err();
+            let said = text.parse::<ToleranceText>().unwrap_err().to_string();
             assert!(said.contains(number) && said.contains(zone), "{text}: {said}");
             assert!(zone.parse::<ToleranceText>().is_ok(), "{zone}");
             assert_eq!(text == "0.1,0.2", said.contains("-0.1,+0.2"), "{text}: {said}");

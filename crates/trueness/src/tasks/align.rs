@@ -1,6 +1,6 @@
 //! The motion that brings a measured part onto its reference.
 
-use crate::read::{self, Body, Opened};
+use crate::read::{self, Opened};
 use crate::task::{
     Choice, Done, Meaning, Output, PointReading, ReferenceReading, Request, Rounding, RunFiles, STEPS,
     TaskError, Text, ToleranceText, Watch, choices,
@@ -17,6 +17,7 @@ use trueness_geom::closest::{MeshError, Tree};
 use trueness_geom::deviation::surface::{ReferenceSurface, SurfaceOptions};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::rigid::Rigid;
+use trueness_geom::scan::Scan;
 use trueness_geom::space::{Point, times};
 use trueness_measure::compare::Regions;
 
@@ -131,7 +132,7 @@ impl AlignRequest {
             MeshError::Cancelled(e) => e.into(),
             e => in_reference(e.to_string()),
         })?;
-        let measured = scan.measured();
+        let measured = Measured::from(scan);
         let options = BestFit {
             start: if self.from_here { Start::From(Rigid::IDENTITY) } else { Start::Anywhere },
             robust: !self.keep_outliers,
@@ -187,7 +188,7 @@ impl Request for AlignRequest {
     type Document = AlignDocument;
     const COMMAND: &'static str = "align";
 
-    fn files(&self) -> Result<RunFiles, TaskError> {
+    fn files(&self, _: &dyn Sources) -> Result<RunFiles, TaskError> {
         let tables = self.points.iter().chain(&self.regions);
         Ok(RunFiles::of([&self.measured, &self.reference].into_iter().chain(tables))
             .also("--out", self.out.as_ref()))
@@ -195,28 +196,27 @@ impl Request for AlignRequest {
 
     fn run(&self, sources: &dyn Sources, watch: &dyn Watch) -> Result<Done<AlignDocument>, TaskError> {
         self.check()?;
-        let mut scan = Scan::open(self, sources)?;
+        let mut measured = MeasuredFile::open(self, sources)?;
         if let Some(path) = &self.out {
-            scan.holds().check(path)?;
+            measured.holds().check(path)?;
         }
         let reading = self.reference_reading.options(&self.reading);
         let (reference, mut record) = read::mesh(sources, &self.reference, Role::Reference, &reading)?;
-        read::hash(sources, &mut scan.record, &self.measured)?;
+        read::hash(sources, &mut measured.record, &self.measured)?;
         read::hash(sources, &mut record, &self.reference)?;
-        let records = vec![scan.record.clone(), record];
+        let records = vec![measured.record.clone(), record];
         let document = match &self.points {
             Some(path) => {
                 let found = by_rows(sources, path, self.method)?;
                 let corners = reference.mesh.bounds().corners();
                 trueness_measure::align::rows(&found, self.method.word(), &corners, records, self.seed)
             }
-            None => self.best_fit((&scan, &reference.mesh), records, (sources, watch))?,
+            None => self.best_fit((&measured.scan, &reference.mesh), records, (sources, watch))?,
         };
         let motion = Rigid::from_matrix(document.motion()).meaning(|| "the motion found".into())?;
-        let conforms = document.conforms();
-        let mut done = Done::new(document, conforms);
+        let mut done = Done::new(document);
         if let Some(path) = &self.out {
-            let (output, loss) = scan.write(path, done.document.scale.unwrap_or(1.0), &motion)?;
+            let (output, loss) = measured.write(path, done.document.scale.unwrap_or(1.0), &motion)?;
             done.outputs.push(output);
             done.losses.extend(loss);
         }
@@ -225,33 +225,24 @@ impl Request for AlignRequest {
 }
 
 /// What is measured, as it stands in its file.
-struct Scan {
-    mesh: Mesh,
+struct MeasuredFile {
+    scan: Scan,
     record: InputRecord,
 }
 
-impl Scan {
-    fn open(request: &AlignRequest, sources: &dyn Sources) -> Result<Scan, TaskError> {
+impl MeasuredFile {
+    fn open(request: &AlignRequest, sources: &dyn Sources) -> Result<MeasuredFile, TaskError> {
         let Opened { mut record, body, .. } =
             read::open(sources, &request.measured, Role::Measured, &request.reading.options())?;
-        let mesh = match body {
-            Body::Mesh(source) => source.mesh,
-            Body::Points(source) => {
-                Mesh { positions: read::all_points(&request.measured, source)?, faces: vec![] }
-            }
-        };
-        read::describe(&mut record, &mesh.positions);
-        Ok(Scan { mesh, record })
+        let scan = read::scan(&request.measured, body)?;
+        read::describe(&mut record, scan.points());
+        Ok(MeasuredFile { scan, record })
     }
 
     fn holds(&self) -> Writable {
-        if self.mesh.faces.is_empty() { Writable::Points } else { Writable::Mesh }
-    }
-
-    fn measured(&self) -> Measured<'_> {
-        match self.holds() {
-            Writable::Mesh => Measured::Mesh(&self.mesh),
-            _ => Measured::Points { points: &self.mesh.positions, normals: None },
+        match self.scan {
+            Scan::Mesh(_) => Writable::Mesh,
+            Scan::Cloud(_) => Writable::Points,
         }
     }
 
@@ -263,13 +254,13 @@ impl Scan {
         motion: &Rigid,
     ) -> Result<(Output, Option<Rounding>), TaskError> {
         let moved = |p: &Point| motion.point(times(factor, *p));
-        let positions: Vec<Point> = self.mesh.positions.iter().map(moved).collect();
-        if self.holds() == Writable::Points {
+        let positions: Vec<Point> = self.scan.points().iter().map(moved).collect();
+        let Scan::Mesh(mesh) = &self.scan else {
             let mut file = write::points(path, Layout::default())?;
             file.write(&Block { points: &positions, ..Block::default() })?;
             return Ok((Output::later(move || file.finish().map(drop)), None));
-        }
-        let file = MeshFile::write(path, &Mesh { positions, faces: self.mesh.faces.clone() })?;
+        };
+        let file = MeshFile::write(path, &Mesh { positions, faces: mesh.faces.clone() })?;
         let loss = file.loss;
         let rounding =
             (loss.moved > 0).then(|| Rounding { path: path.to_path_buf(), farthest: loss.farthest });

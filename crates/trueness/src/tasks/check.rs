@@ -80,7 +80,7 @@ impl Request for CheckRequest {
     type Document = CheckDocument;
     const COMMAND: &'static str = "check";
 
-    fn files(&self) -> Result<RunFiles, TaskError> {
+    fn files(&self, _: &dyn Sources) -> Result<RunFiles, TaskError> {
         Ok(RunFiles::of([&self.mesh]))
     }
 
@@ -101,9 +101,8 @@ impl Request for CheckRequest {
         hash?;
         let left_out = LeftOut(&source.nonfinite_facets);
         let document = trueness_measure::check::document(&report, record, facets, left_out, &options);
-        let sound = document.sound;
         let scene = self.view.then(|| Box::new(Checked(source)) as Box<dyn Scene<CheckDocument>>);
-        Ok(Done { scene, ..Done::new(document, sound) })
+        Ok(Done { scene, ..Done::new(document) })
     }
 }
 

@@ -11,7 +11,7 @@ use trueness_document::Role;
 use trueness_document::curvature::{CurvatureDocument, CurvatureKind, NoCurvature};
 use trueness_files::Sources;
 use trueness_files::write::{Values, Writable, values};
-use trueness_geom::mesh::Mesh;
+use trueness_geom::scan::Scan;
 use trueness_measure::curvature::{document, noise, value, without};
 use trueness_measure::words::ToWord;
 use trueness_report::views::curvature::View;
@@ -117,7 +117,7 @@ impl Request for CurvatureRequest {
     type Document = CurvatureDocument;
     const COMMAND: &'static str = "curvature";
 
-    fn files(&self) -> Result<RunFiles, TaskError> {
+    fn files(&self, _: &dyn Sources) -> Result<RunFiles, TaskError> {
         Ok(RunFiles::of([&self.input]).out(self.out.as_ref(), Writable::Values))
     }
 
@@ -129,21 +129,19 @@ impl Request for CurvatureRequest {
         if planar {
             return Err(TaskError::usage(format!("{shown}: it has two columns; curvatures need x, y and z")));
         }
-        let (mesh, of_mesh) = match body {
-            Body::Mesh(source) => (source.mesh, true),
-            Body::Points(source) => {
-                (Mesh { positions: read::all_points(&self.input, source)?, faces: vec![] }, false)
-            }
+        let scan = match body {
+            Body::Mesh(source) => Scan::Mesh(source.mesh),
+            Body::Points(source) => Scan::Cloud(read::all_points(&self.input, source)?),
         };
-        read::describe(&mut record, &mesh.positions);
-        let noise = self.noise.shared_noise(watch, |stage| noise(&mesh, self.seed, stage))?;
+        read::describe(&mut record, scan.points());
+        let noise = self.noise.shared_noise(watch, |stage| noise(&scan, self.seed, stage))?;
         options.noise = noise.as_ref().ok().copied();
-        let stage = watch.stage("fitting", "places", Some(mesh.positions.len() as u64));
+        let stage = watch.stage("fitting", "places", Some(scan.points().len() as u64));
         let (hash, found) = rayon::join(
             || read::hash(sources, &mut record, &self.input),
-            || match of_mesh {
-                true => curvature::mesh(&mesh, &options, &*stage),
-                false => curvature::cloud(&mesh.positions, &options, &*stage),
+            || match &scan {
+                Scan::Mesh(mesh) => curvature::mesh(mesh, &options, &*stage),
+                Scan::Cloud(points) => curvature::cloud(points, &options, &*stage),
             },
         );
         let found = ended(stage, found);
@@ -156,20 +154,19 @@ impl Request for CurvatureRequest {
             }
             e => TaskError::unanswerable(format!("{shown}: {e}")),
         })?;
-        let document = document(&found, &mesh.positions, of_mesh, &options, &noise, vec![record])
-            .ok_or_else(|| {
-                TaskError::unanswerable(format!("{shown}: {}", nothing(&found, of_mesh, options.reach)))
-            })?;
-        let write = |path: &PathBuf| write(path, &mesh, &found, &document, self.color.into());
+        let document = document(&found, &scan, &options, &noise, vec![record]).ok_or_else(|| {
+            TaskError::unanswerable(format!("{shown}: {}", explain_missing(&found, &scan, options.reach)))
+        })?;
+        let write = |path: &PathBuf| write(path, &scan, &found, &document, self.color.into());
         let output = self.out.as_ref().map(write).transpose()?;
-        let scene = self.view.then(|| Box::new(Curved { mesh, found }) as Box<dyn Scene<CurvatureDocument>>);
-        Ok(Done { scene, outputs: output.into_iter().collect(), ..Done::new(document, true) })
+        let scene = self.view.then(|| Box::new(Curved { scan, found }) as Box<dyn Scene<CurvatureDocument>>);
+        Ok(Done { scene, outputs: output.into_iter().collect(), ..Done::new(document) })
     }
 }
 
 /// The places with their curvatures.
 struct Curved {
-    mesh: Mesh,
+    scan: Scan,
     found: Curvatures,
 }
 
@@ -179,13 +176,13 @@ impl Scene<CurvatureDocument> for Curved {
         document: &CurvatureDocument,
         page: &mut dyn FnMut(&[ViewObject], &[Marks]) -> Result<(), TaskError>,
     ) -> Result<(), TaskError> {
-        let view = View::new(document, &document.inputs[0].path, &self.mesh, &self.found);
+        let view = View::new(document, &document.inputs[0].path, &self.scan, &self.found);
         page(&view.objects(), &[])
     }
 }
 
 /// Why there is not a single value, and what to do.
-fn nothing(found: &Curvatures, of_mesh: bool, reach: Reach) -> String {
+fn explain_missing(found: &Curvatures, scan: &Scan, reach: Reach) -> String {
     let reasons = without(found);
     let Some((most, _)) = reasons.iter().max_by_key(|(_, count)| **count) else {
         return "it holds nothing that could have a curvature".into();
@@ -195,7 +192,7 @@ fn nothing(found: &Curvatures, of_mesh: bool, reach: Reach) -> String {
         NoCurvature::Boundary => "--boundary gives them values from one side",
         NoCurvature::FewNeighbors if wide => "give a larger --radius, or a smaller --degree",
         NoCurvature::FewNeighbors => "give a smaller --degree or --neighbors",
-        NoCurvature::Undetermined if !of_mesh => {
+        NoCurvature::Undetermined if matches!(scan, Scan::Cloud(_)) => {
             "they lie on lines or at one place: a larger --radius or more --neighbors reach the next line; points of a single line have no curvature"
         }
         NoCurvature::Folded if wide => {
@@ -222,7 +219,7 @@ fn reasons() -> Vec<&'static str> {
 /// Writes the places with their curvatures.
 fn write(
     path: &Path,
-    mesh: &Mesh,
+    scan: &Scan,
     found: &Curvatures,
     document: &CurvatureDocument,
     kind: CurvatureKind,
@@ -283,5 +280,5 @@ fn write(
         reasons: &reasons(),
         color: &color,
     };
-    Ok(Output::file(path, values(path, &mesh.positions, &mesh.faces, &columns)?))
+    Ok(Output::file(path, values(path, scan.points(), scan.facets(), &columns)?))
 }

@@ -1,6 +1,6 @@
 //! The best line, plane, circle, … through points.
 
-use crate::read::{self, Body, Opened};
+use crate::read::{self, Opened};
 use crate::task::{
     Choice, Done, Independence, PointReading, Request, RunFiles, Scene, TaskError, Watch, choices, ended,
 };
@@ -11,7 +11,6 @@ use trueness_document::Role;
 use trueness_document::fit::FitDocument;
 use trueness_files::Sources;
 use trueness_geom::fit::{self, FitError, Options};
-use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::Cancelled;
 use trueness_geom::shape::{Kind, Shape};
 use trueness_geom::space::Point;
@@ -34,10 +33,19 @@ choices! {
 
 impl Element {
     /// The kind of shape: in the plane where the points are and there is such, else as there is one.
-    fn kind(self, planar: bool) -> Result<Kind, TaskError> {
-        let name = self.word();
-        let known = Kind::named(name, planar).or_else(|| Kind::named(name, !planar));
-        known.ok_or_else(|| TaskError::usage(format!("--shape {name} is not known")))
+    fn kind(self, planar: bool) -> Kind {
+        match (self, planar) {
+            (Element::Line, true) => Kind::Line2,
+            (Element::Line, false) => Kind::Line,
+            (Element::Plane, _) => Kind::Plane,
+            (Element::Circle, true) => Kind::Circle2,
+            (Element::Circle, false) => Kind::Circle,
+            (Element::Ellipse, _) => Kind::Ellipse2,
+            (Element::Sphere, _) => Kind::Sphere,
+            (Element::Cylinder, _) => Kind::Cylinder,
+            (Element::Cone, _) => Kind::Cone,
+            (Element::Torus, _) => Kind::Torus,
+        }
     }
 }
 
@@ -102,7 +110,7 @@ impl Request for FitRequest {
     type Document = FitDocument;
     const COMMAND: &'static str = "fit";
 
-    fn files(&self) -> Result<RunFiles, TaskError> {
+    fn files(&self, _: &dyn Sources) -> Result<RunFiles, TaskError> {
         Ok(RunFiles::of([&self.points]))
     }
 
@@ -113,18 +121,13 @@ impl Request for FitRequest {
         })?;
         let Opened { mut record, body, planar, .. } =
             read::open(sources, &self.points, Role::Measured, &self.reading.options())?;
-        let scan = match body {
-            Body::Mesh(mesh) => mesh.mesh,
-            Body::Points(source) => {
-                Mesh { positions: read::all_points(&self.points, source)?, faces: Vec::new() }
-            }
-        };
-        let points = &scan.positions;
+        let scan = read::scan(&self.points, body)?;
+        let points = scan.points();
         read::describe(&mut record, points);
         read::hash(sources, &mut record, &self.points)?;
         let options = Options { method: self.method.into(), start: None, seed: self.seed };
         let stage = watch.stage("fitting", "points", Some(points.len() as u64));
-        let fit = fit::fit(points, element.kind(planar)?, &options, &*stage);
+        let fit = fit::fit(points, element.kind(planar), &options, &*stage);
         let fit = ended(stage, fit).map_err(|e| match e {
             FitError::Cancelled => Cancelled.into(),
             e @ FitError::NoSuchMethod { .. } => TaskError::usage(e.to_string()),
@@ -134,9 +137,9 @@ impl Request for FitRequest {
             .noise
             .shared_noise(watch, |stage| trueness_measure::fit::noise(&fit, &scan, self.seed, stage))?;
         let document = trueness_measure::fit::document(&fit, &noise, points, vec![record], self.seed);
-        let drawn = || Fitted { shape: fit.shape, points: scan.positions };
+        let drawn = || Fitted { shape: fit.shape, points: scan.into_points() };
         let scene = self.view.then(|| Box::new(drawn()) as Box<dyn Scene<FitDocument>>);
-        Ok(Done { scene, ..Done::new(document, true) })
+        Ok(Done { scene, ..Done::new(document) })
     }
 }
 
@@ -169,7 +172,11 @@ mod tests {
         let words: Vec<&str> = Element::ALL.iter().map(|(_, word, _)| *word).collect();
         assert_eq!(words, names);
         for (element, word, about) in Element::ALL {
-            assert_eq!(element.kind(true).unwrap().name(), *word);
+            for planar in [false, true] {
+                let kind = element.kind(planar);
+                assert_eq!(kind.name(), *word);
+                assert_eq!(Some(kind), Kind::named(word, planar).or(Kind::named(word, !planar)));
+            }
             assert_eq!(about.is_empty(), Kind::named(word, false).is_some(), "{word}");
         }
     }

@@ -1,7 +1,7 @@
 //! A plan proposed from the nominal.
 
 use crate::read;
-use crate::task::{Done, Output, Reading, Request, RunFiles, TaskError, Watch, ended};
+use crate::task::{Done, Outcome, Output, Reading, Request, RunFiles, TaskError, Watch, ended};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -47,7 +47,7 @@ impl Request for PlanInitRequest {
     type Document = ProposedPlan;
     const COMMAND: &'static str = "plan init";
 
-    fn files(&self) -> Result<RunFiles, TaskError> {
+    fn files(&self, _: &dyn Sources) -> Result<RunFiles, TaskError> {
         Ok(RunFiles::of([&self.nominal]).also("--out", self.out.as_ref()))
     }
 
@@ -69,7 +69,7 @@ impl Request for PlanInitRequest {
             e => TaskError::unanswerable(format!("{}: {e}", self.nominal.display())),
         })?;
         let text = proposal(&mesh, &found, &self.reference());
-        let mut done = Done::new(ProposedPlan { inputs: vec![record], text }, true);
+        let mut done = Done::with_outcome(ProposedPlan { inputs: vec![record], text }, Outcome::Conforming);
         if let Some(path) = &self.out {
             let text = done.document.text.as_bytes();
             done.outputs.push(Output::written(path, |file| file.write_all(text))?);

@@ -142,7 +142,7 @@ impl Request for RepairRequest {
     type Document = RepairDocument;
     const COMMAND: &'static str = "repair";
 
-    fn files(&self) -> Result<RunFiles, TaskError> {
+    fn files(&self, _: &dyn Sources) -> Result<RunFiles, TaskError> {
         self.check()?;
         Ok(RunFiles::of([&self.mesh]).in_place(self.in_place).out(Some(self.target()), Writable::Mesh))
     }
@@ -177,19 +177,18 @@ impl Request for RepairRequest {
         let left_out = source.nonfinite_facets.len() as u64;
         let around = Around { file: record, left_out, output, deviation, limit: self.items, max_change };
         let document = document(&repaired, &options, around);
-        let sound = document.sound;
         let mended = Mended { before: source.mesh, after: repaired.mesh };
         let scene = self.view.then(|| Box::new(mended) as Box<dyn Scene<RepairDocument>>);
-        Ok(Done { scene, outputs: vec![Output::later(move || file.finish())], ..Done::new(document, sound) })
+        Ok(Done { scene, outputs: vec![Output::later(move || file.finish())], ..Done::new(document) })
     }
 }
 
 /// What the file read tells of its vertices and facets and the file written will not.
 fn lost(names: &[String]) -> String {
     /// A header may name thousands.
-    const NAMED: usize = 12;
-    let named = names.iter().take(NAMED).map(String::as_str).collect::<Vec<_>>().join(", ");
-    let more = if names.len() > NAMED { ", …" } else { "" };
+    const MAX_NAMED_DATA: usize = 12;
+    let named = names.iter().take(MAX_NAMED_DATA).map(String::as_str).collect::<Vec<_>>().join(", ");
+    let more = if names.len() > MAX_NAMED_DATA { ", …" } else { "" };
     format!("the mended mesh has places and facets only; the file's other data are not in it: {named}{more}")
 }
 

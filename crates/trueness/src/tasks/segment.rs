@@ -12,7 +12,7 @@ use trueness_document::Role;
 use trueness_document::segment::{PieceKind, SegmentDocument};
 use trueness_files::Sources;
 use trueness_files::write::{Pieces, Writable, regions};
-use trueness_geom::mesh::Mesh;
+use trueness_geom::scan::Scan;
 use trueness_geom::segment::{self, Options, SegmentError, Segmentation};
 use trueness_geom::shape::Kind;
 use trueness_measure::file_numbers::LeftOut;
@@ -28,6 +28,18 @@ choices! {
         Cone = "cone": "",
         Sphere = "sphere": "",
         Torus = "torus": "",
+    }
+}
+
+impl From<Element> for Kind {
+    fn from(element: Element) -> Kind {
+        match element {
+            Element::Plane => Kind::Plane,
+            Element::Cylinder => Kind::Cylinder,
+            Element::Cone => Kind::Cone,
+            Element::Sphere => Kind::Sphere,
+            Element::Torus => Kind::Torus,
+        }
     }
 }
 
@@ -94,7 +106,7 @@ impl Default for SegmentRequest {
 impl SegmentRequest {
     fn options(&self) -> Options {
         Options {
-            kinds: self.shapes.iter().filter_map(|element| Kind::named(element.word(), false)).collect(),
+            kinds: self.shapes.iter().copied().map(Kind::from).collect(),
             tolerance: self.tolerance,
             crease: self.crease.to_radians(),
             min_share: self.min_share.map(|percent| percent / 100.0),
@@ -108,7 +120,7 @@ impl Request for SegmentRequest {
     type Document = SegmentDocument;
     const COMMAND: &'static str = "segment";
 
-    fn files(&self) -> Result<RunFiles, TaskError> {
+    fn files(&self, _: &dyn Sources) -> Result<RunFiles, TaskError> {
         Ok(RunFiles::of([&self.input]).out(self.out.as_ref(), Writable::Regions))
     }
 
@@ -116,24 +128,21 @@ impl Request for SegmentRequest {
         let options = self.options();
         let Opened { mut record, body, .. } =
             read::open(sources, &self.input, Role::Measured, &self.reading.options())?;
-        let (mesh, kind, left_out) = match body {
-            Body::Mesh(source) => (source.mesh, PieceKind::Facets, source.nonfinite_facets),
-            Body::Points(source) => {
-                let positions = read::all_points(&self.input, source)?;
-                (Mesh { positions, faces: Vec::new() }, PieceKind::Points, vec![])
-            }
+        let (scan, left_out) = match body {
+            Body::Mesh(source) => (Scan::Mesh(source.mesh), source.nonfinite_facets),
+            Body::Points(source) => (Scan::Cloud(read::all_points(&self.input, source)?), vec![]),
         };
-        read::describe(&mut record, &mesh.positions);
-        let (word, total) = match kind {
-            PieceKind::Facets => ("facets", mesh.faces.len()),
-            PieceKind::Points => ("points", mesh.positions.len()),
+        read::describe(&mut record, scan.points());
+        let (kind, word, total) = match &scan {
+            Scan::Mesh(mesh) => (PieceKind::Facets, "facets", mesh.faces.len()),
+            Scan::Cloud(points) => (PieceKind::Points, "points", points.len()),
         };
         let stage = watch.stage("segmenting", word, Some(total as u64));
         let (hash, found) = rayon::join(
             || read::hash(sources, &mut record, &self.input),
-            || match kind {
-                PieceKind::Facets => segment::mesh(&mesh, &options, &*stage),
-                PieceKind::Points => segment::cloud(&mesh.positions, &options, &*stage),
+            || match &scan {
+                Scan::Mesh(mesh) => segment::mesh(mesh, &options, &*stage),
+                Scan::Cloud(points) => segment::cloud(points, &options, &*stage),
             },
         );
         let found = ended(stage, found);
@@ -143,33 +152,33 @@ impl Request for SegmentRequest {
             e @ (SegmentError::WrongOption { .. } | SegmentError::NoKind) => TaskError::usage(e.to_string()),
             e => TaskError::unanswerable(format!("{}: {e}", self.input.display())),
         })?;
-        let output = self.out.as_ref().map(|path| write(path, &mesh, kind, &found)).transpose()?;
+        let output = self.out.as_ref().map(|path| write(path, &scan, &found)).transpose()?;
         let members = self.members.then_some(LeftOut(&left_out));
         let noise = self
             .noise
-            .shared_noise(watch, |stage| noise_or_reason(found.shared_noise(&mesh, self.seed, stage)))?;
+            .shared_noise(watch, |stage| noise_or_reason(found.shared_noise(&scan, self.seed, stage)))?;
         let document =
             trueness_measure::segment::document(&found, &noise, kind, vec![record], &options, members);
-        let drawn = || Segmented { mesh, labels: found.labels };
+        let drawn = || Segmented { scan, labels: found.labels };
         let scene = self.view.then(|| Box::new(drawn()) as Box<dyn Scene<SegmentDocument>>);
-        Ok(Done { scene, outputs: output.into_iter().collect(), ..Done::new(document, true) })
+        Ok(Done { scene, outputs: output.into_iter().collect(), ..Done::new(document) })
     }
 }
 
 /// Writes the pieces with the numbers of their regions.
-fn write(path: &Path, mesh: &Mesh, kind: PieceKind, found: &Segmentation) -> Result<Output, TaskError> {
-    let pieces = match kind {
-        PieceKind::Facets => Pieces::Facets(&mesh.faces),
-        PieceKind::Points => Pieces::Points,
+fn write(path: &Path, scan: &Scan, found: &Segmentation) -> Result<Output, TaskError> {
+    let pieces = match scan {
+        Scan::Mesh(mesh) => Pieces::Facets(&mesh.faces),
+        Scan::Cloud(_) => Pieces::Points,
     };
     let labels: Vec<i32> = found.labels.iter().map(|&label| label as i32).collect();
     let color = |label: i32| color(usize::try_from(label).ok());
-    Ok(Output::file(path, regions(path, &mesh.positions, pieces, &labels, color)?))
+    Ok(Output::file(path, regions(path, scan.points(), pieces, &labels, color)?))
 }
 
 /// The pieces with their regions.
 struct Segmented {
-    mesh: Mesh,
+    scan: Scan,
     labels: Vec<u32>,
 }
 
@@ -179,7 +188,7 @@ impl Scene<SegmentDocument> for Segmented {
         document: &SegmentDocument,
         page: &mut dyn FnMut(&[ViewObject], &[Marks]) -> Result<(), TaskError>,
     ) -> Result<(), TaskError> {
-        let view = View::new(document, &self.mesh, &self.labels);
+        let view = View::new(document, &self.scan, &self.labels);
         page(&view.objects(), &view.marks)
     }
 }

@@ -8,6 +8,7 @@ use crate::options::{Common, DocumentArgs, PointInputArgs, ReferenceArgs, choice
 use crate::task;
 use clap::Args;
 use std::path::PathBuf;
+use trueness::files::FileSources;
 use trueness::task::Outcome;
 use trueness::task::{Request, RunFiles, Text, ToleranceText};
 use trueness::tasks::align::{AlignRequest, Axis, Method};
@@ -102,7 +103,7 @@ impl AlignArgs {
 
 impl Run for AlignArgs {
     fn files(&self, common: &Common) -> anyhow::Result<RunFiles> {
-        Ok(self.request(common).files()?.document(self.document.json.as_ref()))
+        Ok(self.request(common).files(&FileSources)?.document(self.document.json.as_ref()))
     }
     fn run(&self, common: &Common) -> anyhow::Result<Outcome> {
         task::run(&self.request(common), &self.document, common, table::text)

@@ -1,16 +1,16 @@
 //! An alignment for people.
 
 use crate::console;
+use crate::inputs;
 use crate::number::{POINTS, counted, fixed, grouped, scientific, signed, six_digits};
 use std::fmt::Write;
-use trueness::read;
 use trueness::task::Done;
 use trueness_document::align::AlignDocument;
 
 /// The document for people.
 pub fn text(done: &Done<AlignDocument>) -> String {
     let document = &done.document;
-    let mut out = read::notes(&document.inputs);
+    let mut out = inputs::notes(&document.inputs);
     let _ = writeln!(out, "reference from measured by {}, mm", document.method);
     let rows: Vec<Vec<String>> =
         document.transform.iter().map(|row| row.iter().map(|x| fixed(*x, 12)).collect()).collect();

@@ -10,6 +10,7 @@ use crate::task;
 use clap::Args;
 use std::path::PathBuf;
 pub use table::{along, coverage, outliers, regions};
+use trueness::files::FileSources;
 use trueness::task::Outcome;
 use trueness::task::{Request, RunFiles, Text, ToleranceText};
 use trueness::tasks::compare::{CompareRequest, FacingAngle, Method, Sign};
@@ -155,7 +156,7 @@ impl CompareArgs {
 impl Run for CompareArgs {
     fn files(&self, common: &Common) -> anyhow::Result<RunFiles> {
         let output = &self.output;
-        let files = self.request(common).files()?.document(output.document.json.as_ref());
+        let files = self.request(common).files(&FileSources)?.document(output.document.json.as_ref());
         Ok(files.report(output.report.html.as_ref()))
     }
     fn run(&self, common: &Common) -> anyhow::Result<Outcome> {

@@ -9,6 +9,7 @@ use crate::report::ReportArgs;
 use crate::task;
 use clap::Args;
 use std::path::PathBuf;
+use trueness::files::FileSources;
 use trueness::task::Outcome;
 use trueness::task::{Request, RunFiles};
 use trueness::tasks::curvature::{Color, CurvatureRequest};
@@ -80,7 +81,7 @@ impl CurvatureArgs {
 
 impl Run for CurvatureArgs {
     fn files(&self, common: &Common) -> anyhow::Result<RunFiles> {
-        let files = self.request(common).files()?.document(self.document.json.as_ref());
+        let files = self.request(common).files(&FileSources)?.document(self.document.json.as_ref());
         Ok(files.report(self.report.html.as_ref()))
     }
     fn run(&self, common: &Common) -> anyhow::Result<Outcome> {

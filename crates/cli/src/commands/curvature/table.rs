@@ -1,15 +1,15 @@
 //! Curvatures for people.
 
+use crate::inputs;
 use crate::number::{POINTS, VERTICES, counted, fixed, grouped, scientific, six_digits};
 use crate::{console, noise};
 use std::fmt::Write;
-use trueness::read;
 use trueness_document::curvature::CurvatureKind;
 use trueness_document::curvature::{CurvatureDocument, CurvaturePlace, Neighborhood, PlaceKind, Range};
 
 /// The document as text.
 pub fn table(document: &CurvatureDocument) -> String {
-    let mut out = read::notes(&document.inputs);
+    let mut out = inputs::notes(&document.inputs);
     let what = match *document.places {
         PlaceKind::Vertices => VERTICES,
         PlaceKind::Points => POINTS,

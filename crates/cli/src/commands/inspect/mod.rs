@@ -70,7 +70,7 @@ impl InspectArgs {
 impl Run for InspectArgs {
     fn files(&self, common: &Common) -> anyhow::Result<RunFiles> {
         let document = RunFiles::default().document(self.document.json.as_ref());
-        Ok(document.report(self.report.html.as_ref()).and(self.request(common).files()?))
+        Ok(document.report(self.report.html.as_ref()).and(self.request(common).files(&FileSources)?))
     }
     fn run(&self, common: &Common) -> anyhow::Result<Outcome> {
         let (request, watch) = (self.request(common), Console { style: common.progress });

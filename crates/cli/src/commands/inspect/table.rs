@@ -2,10 +2,10 @@
 
 use super::features;
 use crate::commands::compare::{along, coverage, outliers, regions};
+use crate::inputs;
 use crate::layout::{self, names, sentence};
 use crate::number::{POINTS, counted, fixed, grouped, scientific, short, short_signed, six_digits};
 use std::fmt::Write;
-use trueness::read;
 use trueness::tasks::inspect::Part;
 use trueness_document::Verdict;
 use trueness_document::compare::Comparison;
@@ -23,7 +23,7 @@ pub fn table(part: &Part, one_of_several: bool, verbose: bool) -> String {
 
 /// The document for people; `part` is what one of several parts is called.
 fn inspected(document: &InspectDocument, part: Option<&str>, verbose: bool) -> String {
-    let mut out = read::notes(&document.inputs);
+    let mut out = inputs::notes(&document.inputs);
     let heading: Vec<&str> = document.title.as_deref().into_iter().chain(part).collect();
     if !heading.is_empty() {
         let _ = writeln!(out, "{}", heading.join("   "));
@@ -47,7 +47,7 @@ fn inspected(document: &InspectDocument, part: Option<&str>, verbose: bool) -> S
     if rows.len() > 1 {
         out += &layout::table(&rows, 4);
     }
-    out += &said(document, verbose);
+    out += &explanations(document, verbose);
     for c in &document.characteristics {
         let is_open = matches!(c.verdict, Verdict::Fail | Verdict::Undecided);
         out += &place(c).filter(|_| verbose || is_open).map_or_else(String::new, |p| sentence(&p, verbose));
@@ -80,7 +80,7 @@ fn inspected(document: &InspectDocument, part: Option<&str>, verbose: bool) -> S
 
 /// Why characteristics have no value, and what is said of them: each once, with all that it concerns. What is said of a feature concerns all of
 /// its characteristics.
-fn said(document: &InspectDocument, verbose: bool) -> String {
+fn explanations(document: &InspectDocument, verbose: bool) -> String {
     let mut all: Vec<(&str, &str, Vec<&str>)> = vec![];
     for c in &document.characteristics {
         let reason = c.reason.iter().map(|r| ("!", r.as_str()));

@@ -9,6 +9,7 @@ use crate::report::ReportArgs;
 use crate::task;
 use clap::Args;
 use std::path::PathBuf;
+use trueness::files::FileSources;
 use trueness::task::Outcome;
 use trueness::task::{Request, RunFiles};
 use trueness::tasks::repair::RepairRequest;
@@ -105,7 +106,7 @@ fn out_help() -> String {
 
 impl Run for RepairArgs {
     fn files(&self, _: &Common) -> anyhow::Result<RunFiles> {
-        let files = self.request().files()?.document(self.document.json.as_ref());
+        let files = self.request().files(&FileSources)?.document(self.document.json.as_ref());
         Ok(files.report(self.report.html.as_ref()))
     }
     fn run(&self, common: &Common) -> anyhow::Result<Outcome> {

@@ -14,9 +14,10 @@ use crate::report::ReportArgs;
 use crate::task;
 use clap::Args;
 use std::path::PathBuf;
+use trueness::files::FileSources;
 use trueness::task::Outcome;
 use trueness::task::{Request, RunFiles};
-use trueness::tasks::section::{Continuity, SectionRequest, level};
+use trueness::tasks::section::{Continuity, NoLevel, SectionRequest, level};
 
 /// Find the lines, arcs and curves of a section, and the exact places where they join
 ///
@@ -105,7 +106,7 @@ impl SectionArgs {
 }
 
 /// A level of confidence.
-fn percent(text: &str) -> Result<f64, String> {
+fn percent(text: &str) -> Result<f64, NoLevel> {
     level(text.parse().unwrap_or(f64::NAN))
 }
 
@@ -120,7 +121,7 @@ fn place(text: &str) -> Result<[f64; 2], String> {
 impl Run for SectionArgs {
     fn files(&self, common: &Common) -> anyhow::Result<RunFiles> {
         let first = RunFiles::default().document(self.document.json.as_ref());
-        Ok(first.report(self.report.html.as_ref()).and(self.request(common).files()?))
+        Ok(first.report(self.report.html.as_ref()).and(self.request(common).files(&FileSources)?))
     }
     fn run(&self, common: &Common) -> anyhow::Result<Outcome> {
         task::run_reported(&self.request(common), (&self.document, &self.report), common, |done| {

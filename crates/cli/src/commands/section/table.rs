@@ -4,10 +4,10 @@ mod blade;
 mod fitted;
 mod offers;
 
+use crate::inputs;
 use crate::number::{fixed, grouped, scientific};
 use crate::{console, noise};
 use std::fmt::Write;
-use trueness::read;
 use trueness_document::section::{
     AirfoilMeasures, AirfoilRecord, BEYOND_END, ContourRecord, DimensionsRecord, FrameRecord, GeometryRecord,
     MAX_DISTANCE, MethodsRecord, NominalRecord, OutlineRecord, Positive, SectionDocument, SegmentRecord,
@@ -15,20 +15,20 @@ use trueness_document::section::{
 use trueness_document::section::{DimensionKind, Taken};
 
 /// Rows of a contour that are shown.
-const ROWS: usize = 60;
+const MAX_CONTOUR_ROWS: usize = 60;
 
 /// Contours that are shown.
-const CONTOURS: usize = 40;
+const MAX_CONTOURS: usize = 40;
 
 /// The document as text.
 pub fn table(document: &SectionDocument) -> String {
-    let mut out = read::notes(&document.inputs);
+    let mut out = inputs::notes(&document.inputs);
     out.push_str(&noise::line(document.shared_noise.as_ref()));
     let mut plane = None;
     if document.planes.is_empty() && document.frame.is_in_space() {
         let _ = writeln!(out, "frame     {}", axes(&document.frame));
     }
-    for (n, contour) in document.contours.iter().take(CONTOURS).enumerate() {
+    for (n, contour) in document.contours.iter().take(MAX_CONTOURS).enumerate() {
         if contour.plane != plane {
             plane = contour.plane;
             out.push_str(&plane_line(document, plane));
@@ -79,11 +79,11 @@ pub fn table(document: &SectionDocument) -> String {
             let _ = writeln!(out, "{word}: {} (first after point {})", list.len(), list[0]);
         }
     }
-    if document.contours.len() > CONTOURS {
-        let _ = writeln!(out, "… and {} more contours", document.contours.len() - CONTOURS);
+    if document.contours.len() > MAX_CONTOURS {
+        let _ = writeln!(out, "… and {} more contours", document.contours.len() - MAX_CONTOURS);
     }
     out.push_str(&dimensions(&document.dimensions));
-    for found in document.airfoils.iter().flatten().take(CONTOURS) {
+    for found in document.airfoils.iter().flatten().take(MAX_CONTOURS) {
         out.push_str(&airfoil(found));
     }
     out.push_str(&document.lean.as_ref().map_or(String::new(), blade::lean));
@@ -126,15 +126,15 @@ fn astray(contour: &ContourRecord) -> String {
 /// of an octagon scatter by an eighth about a circle, points of an area by a quarter and more. The length of a contour astray tells
 /// nothing: it may run far off.
 fn covers_area(contour: &ContourRecord) -> bool {
-    const SHARE: f64 = 0.2;
-    contour.noise > SHARE * contour.spacing
+    const MIN_AREA_SCATTER: f64 = 0.2;
+    contour.noise > MIN_AREA_SCATTER * contour.spacing
 }
 
 /// Numbers of segments from 0 as the table counts them: the first few.
 fn numbered(segments: &[u64]) -> String {
-    const FEW: usize = 8;
-    let some: Vec<String> = segments.iter().take(FEW).map(|s| (s + 1).to_string()).collect();
-    let more = if segments.len() > FEW { " …" } else { "" };
+    const MAX_LISTED_SEGMENTS: usize = 8;
+    let some: Vec<String> = segments.iter().take(MAX_LISTED_SEGMENTS).map(|s| (s + 1).to_string()).collect();
+    let more = if segments.len() > MAX_LISTED_SEGMENTS { " …" } else { "" };
     format!("segment{} {}{more}", if segments.len() == 1 { "" } else { "s" }, some.join(", "))
 }
 
@@ -189,7 +189,7 @@ fn axes(frame: &FrameRecord) -> String {
 fn segments(contour: &ContourRecord) -> String {
     let head = ["segment", "kind", "size", "length", "±", "points", "rms", "max"];
     let mut rows = vec![head.map(String::from).to_vec()];
-    for (n, segment) in contour.segments.iter().take(ROWS).enumerate() {
+    for (n, segment) in contour.segments.iter().take(MAX_CONTOUR_ROWS).enumerate() {
         let (kind, size) = known_by(segment);
         rows.push(vec![
             (n + 1).to_string(),
@@ -203,10 +203,10 @@ fn segments(contour: &ContourRecord) -> String {
         ]);
     }
     let mut out = console::columns(&rows);
-    if contour.segments.len() > ROWS {
-        let _ = writeln!(out, "… and {} more", contour.segments.len() - ROWS);
+    if contour.segments.len() > MAX_CONTOUR_ROWS {
+        let _ = writeln!(out, "… and {} more", contour.segments.len() - MAX_CONTOUR_ROWS);
     }
-    for (n, segment) in contour.segments.iter().take(ROWS).enumerate() {
+    for (n, segment) in contour.segments.iter().take(MAX_CONTOUR_ROWS).enumerate() {
         let Some(arc) = &segment.near_arc else { continue };
         let [x, y] = arc.center.map(|c| fixed(c, 6));
         let _ = writeln!(
@@ -243,7 +243,7 @@ fn known_by(segment: &SegmentRecord) -> (&'static str, String) {
 fn joins(contour: &ContourRecord) -> String {
     let head = ["join", "", "x", "y", "± standard uncertainty", "interval"];
     let mut rows = vec![head.map(String::from).to_vec()];
-    for (n, join) in contour.joins.iter().take(ROWS).enumerate() {
+    for (n, join) in contour.joins.iter().take(MAX_CONTOUR_ROWS).enumerate() {
         let [[a, b], [c, d]] = join.interval;
         let open = if join.interval_open.contains(&true) { " or more" } else { "" };
         let length = ((c - a) * (c - a) + (d - b) * (d - b)).sqrt();
@@ -266,7 +266,7 @@ fn dimensions(all: &DimensionsRecord) -> String {
     }
     let mut rows =
         vec![["dimension", "between", "and", "value", "± standard uncertainty"].map(String::from).to_vec()];
-    for item in all.items.iter().take(ROWS) {
+    for item in all.items.iter().take(MAX_CONTOUR_ROWS) {
         let angle = *item.kind == DimensionKind::Angle;
         let shown = |x: f64| if angle { x.to_degrees() } else { x };
         let [from, to] = item.of.map(|m| format!("{}.{}", m.contour + 1, m.segment + 1));
@@ -279,8 +279,8 @@ fn dimensions(all: &DimensionsRecord) -> String {
         ]);
     }
     let mut out = console::columns(&rows);
-    if all.count > ROWS as u64 {
-        let _ = writeln!(out, "… and {} more", all.count - ROWS as u64);
+    if all.count > MAX_CONTOUR_ROWS as u64 {
+        let _ = writeln!(out, "… and {} more", all.count - MAX_CONTOUR_ROWS as u64);
     }
     out
 }
@@ -360,13 +360,13 @@ fn nominal(found: &NominalRecord, several: bool) -> String {
 }
 
 /// Outlines of the nominal that are named where they were not measured.
-const LACKING: usize = 20;
+const MAX_NAMED_OUTLINES: usize = 20;
 
 /// The outlines of the nominal that were not measured, or not as a whole.
 fn lacking(outlines: &[OutlineRecord], several: bool) -> String {
     let mut out = String::new();
     let all = outlines.iter().enumerate().filter(|(_, outline)| outline.lacks());
-    for (n, outline) in all.clone().take(LACKING) {
+    for (n, outline) in all.clone().take(MAX_NAMED_OUTLINES) {
         let plane =
             outline.plane.filter(|_| several).map_or(String::new(), |n| format!(" in plane {}", n + 1));
         let how = match outline.covered {
@@ -381,7 +381,7 @@ fn lacking(outlines: &[OutlineRecord], several: bool) -> String {
             n + 1
         );
     }
-    let more = all.count().saturating_sub(LACKING);
+    let more = all.count().saturating_sub(MAX_NAMED_OUTLINES);
     if more > 0 {
         let _ = writeln!(out, "… and {more} more contours of the nominal that were not measured as a whole");
     }

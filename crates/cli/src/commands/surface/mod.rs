@@ -9,6 +9,7 @@ use crate::report::ReportArgs;
 use crate::task;
 use clap::Args;
 use std::path::PathBuf;
+use trueness::files::FileSources;
 use trueness::task::Outcome;
 use trueness::task::{Request, RunFiles, Text};
 use trueness::tasks::surface::{Base, Gap, MAX_CORRECTIONS, Pair, SurfaceRequest, Weight};
@@ -108,7 +109,7 @@ impl SurfaceArgs {
 
 impl Run for SurfaceArgs {
     fn files(&self, _: &Common) -> anyhow::Result<RunFiles> {
-        let files = self.request().files()?;
+        let files = self.request().files(&FileSources)?;
         let answers = RunFiles::default().document(self.document.json.as_ref());
         Ok(answers.report(self.report.html.as_ref()).and(files))
     }

@@ -1,16 +1,16 @@
 //! Surfaces for people.
 
 use crate::console;
+use crate::inputs;
 use crate::number::{POINTS, counted, fixed, grouped, scientific};
 use std::fmt::Write;
-use trueness::read;
 use trueness_document::curvature::Range;
 use trueness_document::surface::Reached;
 use trueness_document::surface::{BaseRecord, SurfaceDocument};
 
 /// The document as text.
 pub fn table(document: &SurfaceDocument) -> String {
-    let mut out = read::notes(&document.inputs);
+    let mut out = inputs::notes(&document.inputs);
     document.warnings.iter().for_each(|w| {
         let _ = writeln!(out, "! {w}");
     });

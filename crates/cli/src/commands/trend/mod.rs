@@ -50,7 +50,7 @@ impl TrendArgs {
 impl Run for TrendArgs {
     fn files(&self, _: &Common) -> anyhow::Result<RunFiles> {
         let document = RunFiles::default().document(self.document.json.as_ref());
-        let files = document.report(self.report.html.as_ref()).and(self.request().files()?);
+        let files = document.report(self.report.html.as_ref()).and(self.request().files(&FileSources)?);
         Ok(files.also("--map", self.map.as_ref()))
     }
     fn run(&self, common: &Common) -> anyhow::Result<Outcome> {

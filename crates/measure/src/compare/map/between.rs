@@ -1,14 +1,12 @@
 //! Places of a measured mesh between its vertices: where its facets are large, the vertices alone would leave a map gray.
 
-use super::bisection::{Bisection, half_corners};
+use super::bisection::{Bisection, PIECE_AREA_RATIO, half_corners};
 use super::facet::whole_area;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::space::{Point, Vector, normal};
 
 /// Pieces, at most, that the facets are cut into: their edges are a sixtieth of the root of the area, which a map shows well.
-const PIECES: usize = 20_000;
-/// Area of a piece over the square of its longest edge, as halving leaves it.
-const PIECE: f64 = 0.18;
+const MAX_BETWEEN_PIECES: usize = 20_000;
 
 /// Places in the middle of pieces of large facets. They count in maps alone, no statistic knows them.
 #[derive(Clone, Debug, Default)]
@@ -32,12 +30,12 @@ impl Between {
     /// assert!(between.normals.iter().all(|n| *n == [0.0, 0.0, 1.0]));
     /// ```
     pub fn of(mesh: &Mesh) -> Between {
-        let edge = (whole_area(mesh) / (PIECE * PIECES as f64)).sqrt();
+        let edge = (whole_area(mesh) / (PIECE_AREA_RATIO * MAX_BETWEEN_PIECES as f64)).sqrt();
         let mut found = Between::default();
         if !(edge > 0.0 && edge.is_finite()) {
             return found;
         }
-        let pieces = Bisection::of(mesh, edge, PIECES);
+        let pieces = Bisection::of(mesh, edge, MAX_BETWEEN_PIECES);
         for (face, corners) in (0u32..).zip(&mesh.faces) {
             let corners = corners.map(|v| mesh.positions[v as usize]);
             let Some(normal) = normal(corners).filter(|_| pieces.halves(face).is_some()) else { continue };

@@ -8,8 +8,11 @@
 use trueness_geom::mesh::Mesh;
 use trueness_geom::space::{Point, dot, minus};
 
+/// Area of a piece over the square of its longest edge, as halving leaves it.
+pub const PIECE_AREA_RATIO: f64 = 0.18;
+
 /// Halvings of one facet, at most, one after another.
-const DEEPEST: usize = 60;
+const MAX_HALVINGS: usize = 60;
 
 /// The pieces as a tree: nodes `0..F` are the facets themselves, the others follow in pairs.
 pub struct Bisection {
@@ -100,7 +103,7 @@ fn cut_all(mesh: &Mesh, edge: f64, most: usize) -> Option<Vec<u32>> {
         while let Some((node, lengths, depth)) = open.pop() {
             let cut = longest(&lengths);
             // Also false for what is not finite.
-            if !(lengths[cut] > limit && lengths[cut] < f64::INFINITY) || depth >= DEEPEST {
+            if !(lengths[cut] > limit && lengths[cut] < f64::INFINITY) || depth >= MAX_HALVINGS {
                 continue;
             }
             let first = nodes.len() as u32;

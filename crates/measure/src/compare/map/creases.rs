@@ -5,7 +5,7 @@ use trueness_geom::space::{Vector, dot, normal};
 
 /// Cosine of the angle between normals from which facets do not share their values: a point of one face says nothing about
 /// the face round the corner.
-const SHARP: f64 = 0.866;
+const CREASE_COSINE: f64 = 0.866;
 
 /// One number for each corner of each facet: equal where facets share a vertex and, around it, go on smoothly into one another.
 /// The numbers are those of corners, `3 · facet + corner`.
@@ -26,7 +26,7 @@ pub fn corners(mesh: &Mesh) -> Vec<u32> {
         let [(_, one), (_, two)] = group else { continue };
         let (one, two) = (*one, *two);
         let smooth = match (normals[one as usize / 3], normals[two as usize / 3]) {
-            (Some(m), Some(n)) => dot(m, n) >= SHARP,
+            (Some(m), Some(n)) => dot(m, n) >= CREASE_COSINE,
             // A facet without area belongs to its neighbors.
             _ => true,
         };

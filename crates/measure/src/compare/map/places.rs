@@ -3,7 +3,7 @@
 //! The facets are parted at creases and cut by the reference's own size alone ([`bisection`](super::bisection)). Each point counts at
 //! the corner of its piece that is nearest to its place on the reference.
 
-use super::bisection::{Bisection, half_corners, half_weights, in_second};
+use super::bisection::{Bisection, PIECE_AREA_RATIO, half_corners, half_weights, in_second};
 use super::creases;
 use super::facet::{place, whole_area};
 use super::fill::fill;
@@ -13,9 +13,7 @@ use trueness_geom::num::sum::Sum;
 use trueness_geom::space::{Point, minus, norm};
 
 /// Cuts of the facets, at most: some 20,000 places on a reference of few facets.
-const CUTS: usize = 40_000;
-/// Area of a piece over the square of its longest edge, as halving leaves it.
-const PIECE: f64 = 0.18;
+const MAX_PLACE_CUTS: usize = 40_000;
 
 /// Sums of deviations, place by place.
 pub struct Places {
@@ -44,9 +42,9 @@ pub struct PlaceMeans {
 impl Places {
     /// Of a reference; nothing measured yet.
     pub fn new(reference: &Mesh) -> Places {
-        let edge = (whole_area(reference) / (PIECE * CUTS as f64)).sqrt();
+        let edge = (whole_area(reference) / (PIECE_AREA_RATIO * MAX_PLACE_CUTS as f64)).sqrt();
         let edge = if edge > 0.0 { edge } else { f64::INFINITY };
-        let pieces = Bisection::of(reference, edge, CUTS);
+        let pieces = Bisection::of(reference, edge, MAX_PLACE_CUTS);
         let mut cut = Cutting { mesh: Mesh::default(), middles: HashMap::new() };
         let mut corners = vec![[0; 3]; pieces.len()];
         for (face, own) in cut.starts(reference).into_iter().enumerate() {

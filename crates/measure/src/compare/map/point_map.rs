@@ -1,15 +1,13 @@
 //! The map while the points pass by: the worst point of each piece.
 
-use super::bisection::Bisection;
+use super::bisection::{Bisection, PIECE_AREA_RATIO};
 use super::facet::whole_area;
 use super::places::Places;
 use trueness_document::tolerance::{Tolerance, badness};
 use trueness_geom::mesh::Mesh;
 
 /// Cuts of the reference's facets, at most: beyond, more detail cannot be seen and costs room in the report.
-const MOST_CUTS: usize = 400_000;
-/// Area of a piece over the square of its longest edge, as halving leaves it.
-const PIECE: f64 = 0.18;
+const MAX_MAP_CUTS: usize = 400_000;
 
 /// The worst point of each piece so far.
 pub struct PointMap {
@@ -70,9 +68,9 @@ impl PointMap {
     /// An empty map on `mesh`. With a tolerance the worst point is the one farthest beyond it, else the one farthest away.
     /// With `places` means are kept, too.
     pub fn new(mesh: &Mesh, tolerance: Option<Tolerance>, places: bool) -> PointMap {
-        let edge = (whole_area(mesh) / (PIECE * MOST_CUTS as f64)).sqrt();
+        let edge = (whole_area(mesh) / (PIECE_AREA_RATIO * MAX_MAP_CUTS as f64)).sqrt();
         let edge = if edge > 0.0 { edge } else { f64::INFINITY };
-        let pieces = Bisection::of(mesh, edge, MOST_CUTS);
+        let pieces = Bisection::of(mesh, edge, MAX_MAP_CUTS);
         let none = Kept { deviation: f64::NAN, weights: [0.0; 2] };
         let places = places.then(|| Places::new(mesh));
         PointMap { worst: vec![none; pieces.len()], pieces, tolerance, places }

@@ -13,13 +13,13 @@ use trueness_geom::parallel::prelude::*;
 use trueness_geom::space::{Point, cross, dot, minus, norm};
 
 /// Longest edge of a drawn piece over the spacing of the points: there are then about as many vertices as points.
-const EDGE: f64 = 1.7;
+const EDGE_PER_SPACING: f64 = 1.7;
 /// How far, in spacings, a place may be from the nearest one with points of its own.
-const REACH: f64 = 3.0;
+const REACH_PER_SPACING: f64 = 3.0;
 /// A point says nothing about places farther away than this share of the reference's diagonal, however few there are.
-const FARTHEST: f64 = 0.02;
+const MAX_REACH_DIAGONAL_SHARE: f64 = 0.02;
 /// Facets up to which creases part the values: with more, pieces are so small that it cannot be seen.
-const CREASED: usize = 200_000;
+const MAX_CREASED_FACETS: usize = 200_000;
 
 /// A surface to draw, with one value a vertex.
 pub struct MapSurface {
@@ -80,10 +80,10 @@ impl MapSurface {
     pub fn of(reference: &Mesh, map: &PointMap, flagged: &[Flagged], coverage: Coverage) -> MapSurface {
         let found = spacing(&feet(reference, map));
         let apart = match coverage {
-            Coverage::Auto => found.min(FARTHEST * reference.bounds().diagonal()),
-            Coverage::Within(reach) => reach / REACH,
+            Coverage::Auto => found.min(MAX_REACH_DIAGONAL_SHARE * reference.bounds().diagonal()),
+            Coverage::Within(reach) => reach / REACH_PER_SPACING,
         };
-        let edge = map.pieces.edge.max(EDGE * apart);
+        let edge = map.pieces.edge.max(EDGE_PER_SPACING * apart);
         let mut drawing = Drawing::new(reference, map, edge * edge);
         let starts = drawing.starts();
         let mut flags = flagged.to_vec();
@@ -106,10 +106,10 @@ impl MapSurface {
         let refined = drawing.faces.len() > reference.faces.len();
         let Drawing { positions, faces, mut values, keep, farthest, .. } = drawing;
         let mesh = Mesh { positions, faces };
-        fill(&mesh, &mut values, REACH * apart);
+        fill(&mesh, &mut values, REACH_PER_SPACING * apart);
         let [area, uncovered] = areas(&mesh, &values);
-        let reach = farthest + REACH * apart;
-        let carried = REACH * apart;
+        let reach = farthest + REACH_PER_SPACING * apart;
+        let carried = REACH_PER_SPACING * apart;
         MapSurface {
             mesh: refined.then_some(mesh),
             values,
@@ -158,7 +158,7 @@ impl<'a> Drawing<'a> {
         let mesh = self.reference;
         let long =
             |f: &[u32; 3]| edges(f.map(|v| mesh.positions[v as usize])).iter().any(|l| *l > self.limit);
-        if mesh.faces.len() > CREASED || !mesh.faces.iter().any(long) {
+        if mesh.faces.len() > MAX_CREASED_FACETS || !mesh.faces.iter().any(long) {
             return mesh.faces.clone();
         }
         let numbers = creases::corners(mesh);
@@ -286,11 +286,11 @@ fn least_share(part: &[[f64; 3]; 3], place: [f64; 3]) -> f64 {
 
 /// The nearest places of the points that the pieces show.
 fn feet(reference: &Mesh, map: &PointMap) -> Vec<Point> {
-    const PART: usize = 1 << 10;
+    const POINTS_PER_CHUNK: usize = 1 << 10;
     let count = reference.faces.len();
     let of = |part: usize| -> Vec<Point> {
         let (mut open, mut feet) = (vec![], vec![]);
-        for face in (part * PART..count.min((part + 1) * PART)).map(|f| f as u32) {
+        for face in (part * POINTS_PER_CHUNK..count.min((part + 1) * POINTS_PER_CHUNK)).map(|f| f as u32) {
             open.push(face);
             while let Some(node) = open.pop() {
                 open.extend(map.pieces.halves(node).into_iter().flat_map(|(halves, _)| halves));
@@ -302,5 +302,5 @@ fn feet(reference: &Mesh, map: &PointMap) -> Vec<Point> {
         }
         feet
     };
-    (0..count.div_ceil(PART)).into_par_iter().flat_map_iter(of).collect()
+    (0..count.div_ceil(POINTS_PER_CHUNK)).into_par_iter().flat_map_iter(of).collect()
 }

@@ -61,7 +61,7 @@ fn found(
     (leaning, extract): (f64, &str),
 ) -> Inspection {
     let plan = plane_plan(bounds, (leaning, 0.1), extract, "");
-    let data = Data { measured: Some(measured), reference: reference.cloned(), ..Data::default() };
+    let data = Data { measured: Some(measured.into()), reference: reference.cloned(), ..Data::default() };
     run(&plan, data, &Silent).unwrap()
 }
 
@@ -134,7 +134,7 @@ fn facets_of_tangent_planes_are_no_part_of_a_fillet() {
     };
     let mut lines = vec![[[-10.0, 0.0], chord(0)], [chord(9), [12.0, -8.0]]];
     lines.extend((0..9).map(|k| [chord(k), chord(k + 1)]));
-    let data = Data { measured: Some(bar(true)), reference: Some(strips(&lines)), ..Data::default() };
+    let data = Data { measured: Some(bar(true).into()), reference: Some(strips(&lines)), ..Data::default() };
     let found = run(&plan, data, &Silent).unwrap();
     // Nine chords of 51 × 51 points; their inner ones lie within the arrow over a chord of 10 degrees.
     let value = found.values[0].as_ref().unwrap().value;

@@ -7,7 +7,7 @@ use trueness_document::section::{
     FrameRecord, NominalWarning, NominalWarningKind, ProfileRule, SectionDocument,
 };
 use trueness_document::tolerance::Tolerance;
-use trueness_document::{InputRecord, Verdict};
+use trueness_document::{InputRecord, ResultDocument, Verdict};
 use trueness_geom::progress::Silent;
 use trueness_section::{Contour, Options, Outline, off_nominal};
 

@@ -2,7 +2,6 @@
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use std::fmt::Display;
 use std::str::FromStr;
 
 /// An angle between normals in degrees, above 0 and at most 180.
@@ -18,11 +17,11 @@ impl FacingAngle {
 }
 
 impl TryFrom<f64> for FacingAngle {
-    type Error = String;
-    fn try_from(degrees: f64) -> Result<FacingAngle, String> {
+    type Error = NoFacingAngle;
+    fn try_from(degrees: f64) -> Result<FacingAngle, NoFacingAngle> {
         match degrees > 0.0 && degrees <= 180.0 {
             true => Ok(FacingAngle(degrees)),
-            false => Err(refusal(degrees)),
+            false => Err(NoFacingAngle { written: degrees.to_string() }),
         }
     }
 }
@@ -34,15 +33,19 @@ impl From<FacingAngle> for f64 {
 }
 
 impl FromStr for FacingAngle {
-    type Err = String;
-    fn from_str(text: &str) -> Result<FacingAngle, String> {
-        let degrees = text.trim().parse::<f64>().map_err(|_| refusal(text))?;
-        FacingAngle::try_from(degrees).map_err(|_| refusal(text))
+    type Err = NoFacingAngle;
+    fn from_str(text: &str) -> Result<FacingAngle, NoFacingAngle> {
+        let degrees = text.trim().parse::<f64>().ok();
+        let angle = degrees.and_then(|degrees| FacingAngle::try_from(degrees).ok());
+        angle.ok_or_else(|| NoFacingAngle { written: text.into() })
     }
 }
 
-fn refusal(written: impl Display) -> String {
-    format!("‘{written}’ is no angle between normals; write degrees above 0 and up to 180")
+/// What is no such angle.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("‘{written}’ is no angle between normals; write degrees above 0 and up to 180")]
+pub struct NoFacingAngle {
+    written: String,
 }
 
 #[cfg(test)]

@@ -141,11 +141,11 @@ impl Measured {
 }
 
 /// Bytes for each sample: itself and its facet, its place, its deviation on the way and its deviation kept.
-const SAMPLE: u128 = 32 + 24 + 8 + 8;
+const BYTES_PER_SAMPLE: u128 = 32 + 24 + 8 + 8;
 
 /// Refuses so many samples as there is no memory for.
 fn check_memory(samples: u64, watch: &dyn Watch) -> Result<(), TaskError> {
-    let needed = SAMPLE * u128::from(samples);
+    let needed = BYTES_PER_SAMPLE * u128::from(samples);
     match watch.memory() {
         Some(there) if needed > u128::from(there) => Err(TaskError::usage(format!(
             "--sample {samples} needs {} of memory, and {} are free; give a smaller number",

@@ -8,7 +8,7 @@ mod prepared;
 mod references;
 mod request;
 
-pub use facing::FacingAngle;
+pub use facing::{FacingAngle, NoFacingAngle};
 pub use request::{CompareRequest, Method, Sign};
 
 use crate::task::{Done, Request, RunFiles, Scene, TaskError, Watch};
@@ -28,7 +28,7 @@ impl Request for CompareRequest {
     type Document = CompareDocument;
     const COMMAND: &'static str = "compare";
 
-    fn files(&self) -> Result<RunFiles, TaskError> {
+    fn files(&self, _: &dyn Sources) -> Result<RunFiles, TaskError> {
         let tables = self.scale.iter().chain(&self.regions);
         let inputs = RunFiles::of([&self.measured].into_iter().chain(&self.references).chain(tables));
         let count = self.references.len();
@@ -55,8 +55,7 @@ impl Request for CompareRequest {
             let mesh = measured.mesh.filter(|_| kind == MeasuredKind::Vertices);
             Box::new(Compared { mesh, opened, found }) as Box<dyn Scene<CompareDocument>>
         });
-        let conforms = document.conforms();
-        Ok(Done { scene, outputs, ..Done::new(document, conforms) })
+        Ok(Done { scene, outputs, ..Done::new(document) })
     }
 }
 

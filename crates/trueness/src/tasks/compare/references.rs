@@ -86,16 +86,17 @@ pub fn open(
 /// Surfaces that lack an area, the first few by number.
 fn degenerate(surfaces: &[Nurbs]) -> Vec<String> {
     /// Said one by one; of more their number is.
-    const TOLD: usize = 10;
+    const MAX_NAMED_SURFACES: usize = 10;
     let all = (0..)
         .zip(surfaces)
         .flat_map(|(n, s): (usize, &Nurbs)| s.degenerate().into_iter().map(move |d| (n, d)))
         // Every sphere has poles: what is measured next to one is as sound as elsewhere.
         .filter(|(_, d)| !matches!(d, Degenerate::Edge(..)));
     let all: Vec<(usize, Degenerate)> = all.collect();
-    let mut told: Vec<String> = all.iter().take(TOLD).map(|(n, d)| format!("surface {n}: {d}")).collect();
-    if all.len() > TOLD {
-        told.push(format!("{} more such places of surfaces", all.len() - TOLD));
+    let mut told: Vec<String> =
+        all.iter().take(MAX_NAMED_SURFACES).map(|(n, d)| format!("surface {n}: {d}")).collect();
+    if all.len() > MAX_NAMED_SURFACES {
+        told.push(format!("{} more such places of surfaces", all.len() - MAX_NAMED_SURFACES));
     }
     told
 }

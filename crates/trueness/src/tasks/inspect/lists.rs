@@ -26,7 +26,7 @@ pub(super) fn judged(document: &InspectDocument) -> Vec<(String, &ToleranceShare
 }
 
 /// The names of the columns.
-const HEAD: [&str; 23] = [
+const COLUMN_NAMES: [&str; 23] = [
     "part",
     "id",
     "kind",
@@ -99,7 +99,7 @@ fn undecided(document: &InspectDocument) -> Option<String> {
 pub fn csv(parts: &[Part]) -> Vec<u8> {
     let mut out = vec![];
     let mut csv = Csv::at_end_of(&mut out, LineEnd::CrLf);
-    csv.row(HEAD);
+    csv.row(COLUMN_NAMES);
     let number = |x: Option<f64>| x.map_or_else(String::new, |x| x.to_string());
     for part in parts {
         let document = match part {

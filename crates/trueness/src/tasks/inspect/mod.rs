@@ -17,6 +17,7 @@ use scene::Inspected;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
+use trueness_document::ResultDocument;
 use trueness_document::inspect::InspectDocument;
 use trueness_document::plan::PlanError;
 use trueness_files::Sources;
@@ -116,11 +117,11 @@ impl Request for InspectRequest {
     type Document = InspectDocument;
     const COMMAND: &'static str = "inspect";
 
-    fn files(&self) -> Result<RunFiles, TaskError> {
+    fn files(&self, sources: &dyn Sources) -> Result<RunFiles, TaskError> {
         let mut inputs = vec![self.plan.clone()];
         inputs.extend(self.measured.iter().cloned());
         // What is wrong with the plan is told when it is run; here its files must not be written over.
-        if let Ok(plan) = PlanFile::read(&trueness_files::FileSources, &self.plan) {
+        if let Ok(plan) = PlanFile::read(sources, &self.plan) {
             inputs.extend(plan.inputs(self.measured.is_empty()));
         }
         Ok(RunFiles::of(&inputs)
@@ -132,7 +133,7 @@ impl Request for InspectRequest {
     fn run(&self, sources: &dyn Sources, watch: &dyn Watch) -> Result<Done<InspectDocument>, TaskError> {
         self.one_part()?;
         let inspecting = self.open(sources, watch)?;
-        let part = inspecting.part(self.measured.first().map(PathBuf::as_path))?;
+        let part = inspecting.inspect_part(self.measured.first().map(PathBuf::as_path))?;
         let outputs = inspecting.lists(std::slice::from_ref(&part))?;
         match part {
             Part::Inspected(done) => Ok(Done { outputs, ..*done }),
@@ -158,7 +159,7 @@ impl Inspecting<'_> {
         let own = measured.is_empty().then_some(None);
         own.into_iter()
             .chain(measured.iter().map(|path| Some(path.as_path())))
-            .map(move |file| self.part(file))
+            .map(move |file| self.inspect_part(file))
     }
 
     /// The answer of all parts, with the lists of them.
@@ -172,7 +173,7 @@ impl Inspecting<'_> {
         });
         let all = || parts.iter().filter_map(Part::document).all(InspectDocument::conforms);
         let outcome = failed.map_or_else(|| all().into(), Outcome::Unanswered);
-        Ok(Done { outputs: self.lists(&parts)?, ..Done::new(parts, outcome) })
+        Ok(Done { outputs: self.lists(&parts)?, ..Done::with_outcome(parts, outcome) })
     }
 
     fn lists(&self, parts: &[Part]) -> Result<Vec<Output>, TaskError> {
@@ -192,7 +193,7 @@ impl Inspecting<'_> {
     }
 
     /// The part of this file, or of the plan's own.
-    fn part(&self, file: Option<&Path>) -> Result<Part, TaskError> {
+    fn inspect_part(&self, file: Option<&Path>) -> Result<Part, TaskError> {
         match self.inspect(file) {
             Ok(done) => Ok(Part::Inspected(Box::new(done))),
             Err(Fault::Run(error)) => Err(error),
@@ -225,8 +226,7 @@ impl Inspecting<'_> {
         })?;
         let mut document = inspection::document(&plan.plan, plan.record(), &found, inputs);
         document.deviation_map = found.deviations.as_ref().and_then(Deviations::place_map);
-        let conforms = document.conforms();
         let scene = view.then(|| Box::new(Inspected(found)) as Box<dyn Scene<InspectDocument>>);
-        Ok(Done { scene, ..Done::new(document, conforms) })
+        Ok(Done { scene, ..Done::new(document) })
     }
 }

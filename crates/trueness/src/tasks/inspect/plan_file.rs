@@ -1,7 +1,7 @@
 //! The plan's file, and the files that it names.
 
 use super::part::Fault;
-use crate::read::{self, Body, Opened};
+use crate::read::{self, Opened};
 use crate::task::{Meaning, TaskError};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -9,7 +9,7 @@ use trueness_document::inspect::PlanRecord;
 use trueness_document::plan::{At, PlanError};
 use trueness_document::{InputRecord, Role};
 use trueness_files::{ReadOptions, Sources};
-use trueness_geom::mesh::Mesh;
+use trueness_geom::scan::Scan;
 use trueness_geom::space::Point;
 use trueness_measure::inspection::{Data, OwnPoints};
 use trueness_measure::plan::Plan;
@@ -87,14 +87,14 @@ impl PlanFile {
         options: &ReadOptions,
         data: &mut Data,
     ) -> Result<InputRecord, TaskError> {
-        let (mesh, record, _) = take(sources, path, options)?;
+        let (scan, record, _) = read_scan(sources, path, options)?;
         if let Some(what) = self.plan.deviation.as_ref().and_then(|d| d.needs_normals())
-            && mesh.faces.is_empty()
+            && matches!(scan, Scan::Cloud(_))
         {
             let what = format!("{what} of [deviation]");
             data.normals = read::all_normals(sources, path, None, options, &what, "")?;
         }
-        data.measured = Some(mesh);
+        data.measured = Some(scan);
         Ok(record)
     }
 
@@ -139,10 +139,10 @@ impl PlanFile {
             let path = self.path_of(written);
             if !seen.contains_key(&path) {
                 let what = format!("the points of feature \"{}\"", feature.id);
-                let (mesh, record, planar) =
-                    take(sources, &path, &options).meaning(|| self.at(written, &what))?;
+                let (scan, record, planar) =
+                    read_scan(sources, &path, &options).meaning(|| self.at(written, &what))?;
                 inputs.push(record);
-                seen.insert(path.clone(), (mesh.positions, planar));
+                seen.insert(path.clone(), (scan.into_points(), planar));
             }
             if let Some((points, planar)) = seen.get(&path) {
                 data.points.insert(number, OwnPoints { points: points.clone(), planar: *planar });
@@ -152,18 +152,15 @@ impl PlanFile {
     }
 }
 
-/// Reads a mesh or points.
-fn take(
+/// Reads a mesh or points, and whether these have two coordinates only.
+fn read_scan(
     sources: &dyn Sources,
     path: &Path,
     options: &ReadOptions,
-) -> Result<(Mesh, InputRecord, bool), TaskError> {
+) -> Result<(Scan, InputRecord, bool), TaskError> {
     let Opened { mut record, body, planar, .. } = read::open(sources, path, Role::Measured, options)?;
-    let mesh = match body {
-        Body::Mesh(source) => source.mesh,
-        Body::Points(source) => Mesh { positions: read::all_points(path, source)?, faces: vec![] },
-    };
-    read::describe(&mut record, &mesh.positions);
+    let scan = read::scan(path, body)?;
+    read::describe(&mut record, scan.points());
     read::hash(sources, &mut record, path)?;
-    Ok((mesh, record, planar))
+    Ok((scan, record, planar))
 }

@@ -2,6 +2,7 @@
 
 use crate::task::{Page, Scene, TaskError};
 use trueness_document::inspect::InspectDocument;
+use trueness_geom::scan::Scan;
 use trueness_measure::inspection::Inspection;
 use trueness_report::views::compare;
 use trueness_report::views::inspect::View;
@@ -16,7 +17,7 @@ impl Scene<InspectDocument> for Inspected {
         let references = found.deviations.as_ref().zip(document.deviation.as_ref());
         let references = references.map(|(d, record)| d.references(&record.reference));
         let deviations = found.deviations.as_ref().zip(references.as_ref()).map(|(d, references)| {
-            let mesh = found.measured.as_ref().filter(|m| !m.faces.is_empty());
+            let mesh = found.measured.as_ref().and_then(Scan::mesh);
             compare::View::new(name, mesh, references, &d.found)
         });
         let view = View::new(document, found, deviations.as_ref());

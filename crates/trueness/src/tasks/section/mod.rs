@@ -8,7 +8,7 @@ mod request;
 mod row;
 mod write;
 
-pub use request::{Continuity, Fit, Interval, Search, SectionRequest, level};
+pub use request::{Continuity, Fit, Interval, NoLevel, Search, SectionRequest, level};
 
 use crate::read::{self, Body, Opened};
 use crate::task::{Done, Page, Request, RunFiles, STEPS, Scene, TaskError, Watch};
@@ -28,7 +28,7 @@ impl Request for SectionRequest {
     type Document = SectionDocument;
     const COMMAND: &'static str = "section";
 
-    fn files(&self) -> Result<RunFiles, TaskError> {
+    fn files(&self, _: &dyn Sources) -> Result<RunFiles, TaskError> {
         Ok(RunFiles::of(std::iter::once(&self.input).chain(&self.nominal))
             .ending("--dxf", self.dxf.as_ref(), &["dxf"])
             .ending("--svg", self.svg.as_ref(), &["svg"])
@@ -66,8 +66,7 @@ impl Request for SectionRequest {
         drop(stage);
         let outputs = write::outputs(self, &found.sections, &found.rows, document.nominal.as_ref())?;
         let scene = self.view.then(|| Box::new(Contours(found.rows)) as Box<dyn Scene<SectionDocument>>);
-        let conforms = document.conforms();
-        Ok(Done { scene, outputs, ..Done::new(document, conforms) })
+        Ok(Done { scene, outputs, ..Done::new(document) })
     }
 }
 

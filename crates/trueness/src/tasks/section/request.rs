@@ -132,7 +132,7 @@ pub struct SectionRequest {
 }
 
 /// Share of the points that must lie within the tolerance where nothing is said, percent.
-const INSIDE: f64 = 100.0;
+const DEFAULT_INSIDE_PERCENT: f64 = 100.0;
 
 impl Default for SectionRequest {
     fn default() -> SectionRequest {
@@ -158,7 +158,7 @@ impl Default for SectionRequest {
             reference_reading: ReferenceReading::default(),
             fit: None,
             tolerance: None,
-            inside: INSIDE,
+            inside: DEFAULT_INSIDE_PERCENT,
             min_coverage: 100.0 * MIN_COVERAGE,
             max_distance: None,
             dxf: None,
@@ -172,17 +172,31 @@ impl Default for SectionRequest {
     }
 }
 
+/// Why a number is no level of confidence.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum NoLevel {
+    /// It is a share of 1.
+    #[error("it is in percent: write {} for a share of {share}", 100.0 * .share)]
+    ShareOfOne {
+        /// As written.
+        share: f64,
+    },
+    /// It is no percentage between 1 and 100.
+    #[error("give a number of percent between 1 and 100, such as 95")]
+    OutOfRange,
+}
+
 /// A level of confidence as it is written: a share of 1 written by mistake is refused, since it would make all intervals tiny.
 ///
 /// # Errors
-/// Why it is none.
-pub fn level(percent: f64) -> Result<f64, String> {
+/// [`NoLevel`]: a share of 1, or nothing between 1 and 100.
+pub fn level(percent: f64) -> Result<f64, NoLevel> {
     if percent > 1.0 && percent < 100.0 {
         return Ok(percent);
     }
     Err(match percent > 0.0 && percent <= 1.0 {
-        true => format!("it is in percent: write {} for a share of {percent}", 100.0 * percent),
-        false => "give a number of percent between 1 and 100, such as 95".into(),
+        true => NoLevel::ShareOfOne { share: percent },
+        false => NoLevel::OutOfRange,
     })
 }
 

@@ -7,7 +7,7 @@ use trueness_files::{Fault, ReadError, Sources};
 use trueness_geom::spline::basis::Knots;
 
 /// Largest file that is taken for knots.
-const LARGEST: usize = 64 << 20;
+const MAX_KNOT_BYTES: usize = 64 << 20;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -53,14 +53,14 @@ pub fn read(sources: &dyn Sources, path: &Path, degree: Option<[usize; 2]>) -> R
 /// The text of a file of knots.
 fn text(sources: &dyn Sources, path: &Path) -> Result<String, TaskError> {
     let shown = path.display();
-    if let Some(length) = sources.length(path).filter(|length| *length > LARGEST as u64) {
+    if let Some(length) = sources.length(path).filter(|length| *length > MAX_KNOT_BYTES as u64) {
         return Err(TaskError::unanswerable(format!(
             "{shown}: {} MB are too much for a file of knots; check the path",
             length >> 20
         )));
     }
     let cannot = || format!("{shown}: the knots cannot be read; check the path");
-    match sources.text(path, LARGEST) {
+    match sources.text(path, MAX_KNOT_BYTES) {
         Err(ReadError { fault: Fault::Io(e), .. }) => Err(e).meaning(cannot),
         read => read.meaning(cannot),
     }

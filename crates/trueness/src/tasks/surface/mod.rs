@@ -4,14 +4,14 @@ mod knots;
 mod models;
 mod request;
 
-pub use request::{Base, Gap, MAX_CORRECTIONS, Pair, SurfaceRequest, Weight};
+pub use request::{Base, Gap, MAX_CORRECTIONS, NoGap, NoPair, NoWeight, Pair, SurfaceRequest, Weight};
 
-use crate::read::{self, Body, Opened};
+use crate::read::{self, Opened};
 use crate::task::{Done, Request, RunFiles, STEPS, Scene, TaskError, Watch};
 use trueness_document::Role;
 use trueness_document::surface::SurfaceDocument;
 use trueness_files::Sources;
-use trueness_geom::mesh::Mesh;
+use trueness_geom::scan::Scan;
 use trueness_geom::space::Point;
 use trueness_report::views::surface::View;
 use trueness_report::{Marks, ViewObject};
@@ -43,7 +43,7 @@ impl Request for SurfaceRequest {
     type Document = SurfaceDocument;
     const COMMAND: &'static str = "surface";
 
-    fn files(&self) -> Result<RunFiles, TaskError> {
+    fn files(&self, _: &dyn Sources) -> Result<RunFiles, TaskError> {
         self.check()?;
         Ok(RunFiles::of(std::iter::once(&self.points).chain(&self.knots))
             .ending("--step", self.step.as_ref(), &["stp", "step"])
@@ -60,22 +60,21 @@ impl Request for SurfaceRequest {
         if planar {
             return Err(TaskError::usage(format!("{shown}: it has two columns; a surface needs x, y and z")));
         }
-        let mesh = match body {
-            Body::Mesh(mesh) => mesh.mesh,
-            Body::Points(source) => {
-                Mesh { positions: read::all_points(&self.points, source)?, faces: vec![] }
-            }
-        };
-        if mesh.faces.is_empty() && options.base == BaseKind::Mesh {
+        let scan = read::scan(&self.points, body)?;
+        if scan.mesh().is_none() && options.base == BaseKind::Mesh {
             return Err(TaskError::usage(format!(
                 "{shown}: --base mesh lays facets flat, and the file has none; give a mesh (STL, PLY, OBJ, OFF), or take plane, xy, cylinder or sphere"
             )));
         }
-        let points = &mesh.positions;
+        let points = scan.points();
         read::describe(&mut record, points);
         read::hash(sources, &mut record, &self.points)?;
         let stage = watch.stage("fitting", STEPS, None);
-        let fit = surface::fit_mesh(&mesh, &options, &*stage).map_err(|e| match e {
+        let fit = match &scan {
+            Scan::Mesh(mesh) => surface::fit_mesh(mesh, &options, &*stage),
+            Scan::Cloud(points) => surface::fit(points, &options, &*stage),
+        };
+        let fit = fit.map_err(|e| match e {
             SurfaceError::Cancelled(e) => e.into(),
             e @ (SurfaceError::Degree { .. }
             | SurfaceError::Spans { .. }
@@ -95,10 +94,9 @@ impl Request for SurfaceRequest {
         let stage = watch.stage("writing the surface", STEPS, None);
         let outputs = models::write(self, &fit.surface, outline.as_ref(), &*stage)?;
         drop(stage);
-        let conforms = document.conforms();
-        let drawn = || Fitted { fit, outline, points: mesh.positions };
+        let drawn = || Fitted { fit, outline, points: scan.into_points() };
         let scene = self.view.then(|| Box::new(drawn()) as Box<dyn Scene<SurfaceDocument>>);
-        Ok(Done { scene, outputs, ..Done::new(document, conforms) })
+        Ok(Done { scene, outputs, ..Done::new(document) })
     }
 }
 

@@ -10,7 +10,7 @@ use trueness_geom::spline::surface::Surface;
 use trueness_surface::{Outline, OutlineRegion, trimmed};
 
 /// Facets that are written at most.
-const MOST_FACETS: usize = 20_000_000;
+const MAX_WRITTEN_FACETS: usize = 20_000_000;
 
 /// Writes the models that were asked for.
 pub fn write(
@@ -39,12 +39,12 @@ pub fn write(
         let size = Aabb::of(surface.points()).diagonal();
         let chord = request.chord.unwrap_or(1e-4 * size).max(f64::MIN_POSITIVE);
         let mesh = match outline {
-            Some(outline) => trimmed(surface, outline, chord, MOST_FACETS, progress)?,
-            None => surface.tessellate(chord, MOST_FACETS, progress)?.map(|facets| facets.mesh),
+            Some(outline) => trimmed(surface, outline, chord, MAX_WRITTEN_FACETS, progress)?,
+            None => surface.tessellate(chord, MAX_WRITTEN_FACETS, progress)?.map(|facets| facets.mesh),
         };
         let mesh = mesh.ok_or_else(|| {
             TaskError::unanswerable(format!(
-                "{}: facets within {chord} mm would be more than {MOST_FACETS}; give a greater --chord",
+                "{}: facets within {chord} mm would be more than {MAX_WRITTEN_FACETS}; give a greater --chord",
                 path.display()
             ))
         })?;

@@ -34,11 +34,18 @@ impl From<Base> for BaseKind {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Pair(pub [usize; 2]);
 
-impl FromStr for Pair {
-    type Err = String;
+/// A text that is no pair of whole numbers.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{text:?} is no whole number; write 8x8")]
+pub struct NoPair {
+    text: String,
+}
 
-    fn from_str(text: &str) -> Result<Pair, String> {
-        let number = |s: &str| s.parse::<usize>().map_err(|_| format!("{s:?} is no whole number; write 8x8"));
+impl FromStr for Pair {
+    type Err = NoPair;
+
+    fn from_str(text: &str) -> Result<Pair, NoPair> {
+        let number = |s: &str| s.parse::<usize>().map_err(|_| NoPair { text: s.into() });
         match text.split_once(['x', 'X', '×']) {
             Some((a, b)) => Ok(Pair([number(a)?, number(b)?])),
             None => number(text).map(|n| Pair([n, n])),
@@ -50,14 +57,19 @@ impl FromStr for Pair {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Weight(pub Fairness);
 
-impl FromStr for Weight {
-    type Err = String;
+/// A text that is no weight.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("it is auto, or a number from 0 upwards")]
+pub struct NoWeight;
 
-    fn from_str(text: &str) -> Result<Weight, String> {
+impl FromStr for Weight {
+    type Err = NoWeight;
+
+    fn from_str(text: &str) -> Result<Weight, NoWeight> {
         match (text, text.parse::<f64>()) {
             ("auto", _) => Ok(Weight(Fairness::Auto)),
             (_, Ok(w)) if w >= 0.0 && w.is_finite() => Ok(Weight(Fairness::Weight(w))),
-            _ => Err("it is auto, or a number from 0 upwards".into()),
+            _ => Err(NoWeight),
         }
     }
 }
@@ -66,14 +78,19 @@ impl FromStr for Weight {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gap(pub Option<f64>);
 
-impl FromStr for Gap {
-    type Err = String;
+/// A text that is no width of a gap.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("it is auto, or a length above 0")]
+pub struct NoGap;
 
-    fn from_str(text: &str) -> Result<Gap, String> {
+impl FromStr for Gap {
+    type Err = NoGap;
+
+    fn from_str(text: &str) -> Result<Gap, NoGap> {
         match (text, text.parse::<f64>()) {
             ("auto", _) => Ok(Gap(None)),
             (_, Ok(reach)) if reach > 0.0 && reach.is_finite() => Ok(Gap(Some(reach))),
-            _ => Err("it is auto, or a length above 0".into()),
+            _ => Err(NoGap),
         }
     }
 }

@@ -7,6 +7,7 @@ use crate::task::{Done, Output, Page, Request, RunFiles, Scene, TaskError, Watch
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
+use trueness_document::ResultDocument;
 use trueness_document::inspect::{self, InspectDocument};
 use trueness_document::trend::{ResultInput, TrendDocument, TrendError};
 use trueness_files::Sources;
@@ -60,7 +61,7 @@ impl Request for TrendRequest {
     type Document = TrendDocument;
     const COMMAND: &'static str = "trend";
 
-    fn files(&self) -> Result<RunFiles, TaskError> {
+    fn files(&self, _: &dyn Sources) -> Result<RunFiles, TaskError> {
         Ok(RunFiles::of(&self.results).also("--csv", self.csv.as_ref()))
     }
 
@@ -76,8 +77,7 @@ impl Request for TrendRequest {
             }
             TrendError::None => TaskError::usage(e.to_string()),
         })?;
-        let conforms = document.conforms();
-        let mut done = Done::new(document, conforms);
+        let mut done = Done::new(document);
         if let Some(path) = &self.csv {
             let text = csv::csv(&done.document);
             done.outputs.push(Output::written(path, |file| file.write_all(&text))?);
@@ -131,7 +131,10 @@ pub fn maps(document: &TrendDocument) -> Result<Done<MapPage<'_>>, TaskError> {
         let why = document.map_reason.as_deref().unwrap_or("there are no places");
         return Err(TaskError::unanswerable(format!("there is no map: {why}")));
     };
-    Ok(Done { scene: Some(Box::new(Mapped(View::new(map)))), ..Done::new(page, document.conforms()) })
+    Ok(Done {
+        scene: Some(Box::new(Mapped(View::new(map)))),
+        ..Done::with_outcome(page, document.conforms().into())
+    })
 }
 
 /// The part in the colors of mean and spread.

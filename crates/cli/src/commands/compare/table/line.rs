@@ -1,31 +1,30 @@
 //! Lines of a table: a name, and a text that keeps to the width of a page.
 
+use crate::layout::MAX_LINE_LETTERS;
 use trueness_document::{Verdict, VerdictReason};
 
-/// Columns of a table.
-pub const WIDTH: usize = 100;
 /// Columns of the names at the beginning of lines.
-const NAME: usize = 11;
+const LABEL_COLUMNS: usize = 11;
 
 /// A line with a name. What is longer than a line ends where its last part ends that fits.
 pub fn line(name: &str, text: &str) -> String {
-    format!("{name:<NAME$}{}\n", fitting(text, WIDTH - NAME))
+    format!("{name:<LABEL_COLUMNS$}{}\n", fitting(text, MAX_LINE_LETTERS - LABEL_COLUMNS))
 }
 
 /// A file with what there is to say of it. Where both have no room the folders go, then the middle of the name.
 pub fn file(name: &str, path: &str, what: &str) -> String {
-    let room = (WIDTH - NAME).saturating_sub(what.chars().count() + 2);
+    let room = (MAX_LINE_LETTERS - LABEL_COLUMNS).saturating_sub(what.chars().count() + 2);
     let own = short(path);
     let shown = match () {
         () if path.chars().count() <= room => path.to_string(),
-        () if own.chars().count() <= room.max(SHORTEST) => own.to_string(),
-        () => middle_left_out(own, room.max(SHORTEST)),
+        () if own.chars().count() <= room.max(MIN_NAME_COLUMNS) => own.to_string(),
+        () => middle_left_out(own, room.max(MIN_NAME_COLUMNS)),
     };
     line(name, &format!("{shown}  {what}"))
 }
 
 /// Columns that a name has at least.
-const SHORTEST: usize = 24;
+const MIN_NAME_COLUMNS: usize = 24;
 
 /// The file's name without its folder.
 pub fn short(path: &str) -> &str {
@@ -80,9 +79,9 @@ mod tests {
         let folder = "/a/very/long/folder/that/goes/on/and/on/and/on/for/more/than/there/is/room/on/a/page";
         for name in ["x.stl", &format!("{}.stl", "n".repeat(200)), &"ж".repeat(300)] {
             let shown = file("reference", &format!("{folder}/{name}"), "1,288 points, 2,592 facets, mm");
-            assert!(shown.chars().count() <= WIDTH + 1, "{shown}");
+            assert!(shown.chars().count() <= MAX_LINE_LETTERS + 1, "{shown}");
         }
         assert!(file("measured", "a/x.stl", "mm").contains("a/x.stl  mm"));
-        assert!(line("x", &"w".repeat(500)).chars().count() <= WIDTH + 1);
+        assert!(line("x", &"w".repeat(500)).chars().count() <= MAX_LINE_LETTERS + 1);
     }
 }

@@ -209,13 +209,15 @@ fn ranking(out: &mut String, d: &CompareDocument, several: &[Comparison]) {
 }
 
 /// Columns of a name in the ranking, at most: the table is then no wider than a page.
-const NAME: usize = 22;
+const MAX_RANKED_NAME_COLUMNS: usize = 22;
 
 /// The end of a name, which tells files of one kind apart.
 fn tail(name: &str) -> String {
     let all: Vec<char> = name.chars().collect();
-    match all.len() > NAME {
-        true => std::iter::once('…').chain(all[all.len() - NAME + 1..].iter().copied()).collect(),
+    match all.len() > MAX_RANKED_NAME_COLUMNS {
+        true => std::iter::once('…')
+            .chain(all[all.len() - MAX_RANKED_NAME_COLUMNS + 1..].iter().copied())
+            .collect(),
         false => name.to_string(),
     }
 }

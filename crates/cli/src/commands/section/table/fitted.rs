@@ -6,7 +6,7 @@ use std::fmt::Write;
 use trueness_document::section::{FitRecord, NominalRecord};
 
 /// Planes whose fits are shown.
-const ROWS: usize = 40;
+const MAX_FIT_ROWS: usize = 40;
 
 /// The best fit of each plane; nothing where none was asked for.
 pub fn fits(all: &[FitRecord], several: bool) -> String {
@@ -14,7 +14,7 @@ pub fn fits(all: &[FitRecord], several: bool) -> String {
     let mut out = format!("best fit onto the nominal: {}\n", first.freedom);
     let head = ["", "shift x", "±", "shift y", "±", "turn", "±", "rms before", "rms", "points", "left out"];
     let mut rows = vec![head.map(String::from).to_vec()];
-    for fit in all.iter().take(ROWS) {
+    for fit in all.iter().take(MAX_FIT_ROWS) {
         let u = |u: Option<f64>| u.map_or("held".into(), |u| scientific(u, 2));
         let plane = fit.plane.filter(|_| several).map_or(String::new(), |n| format!("plane {}", n + 1));
         rows.push(vec![
@@ -32,8 +32,8 @@ pub fn fits(all: &[FitRecord], several: bool) -> String {
         ]);
     }
     out.push_str(&console::columns(&rows));
-    if all.len() > ROWS {
-        let _ = writeln!(out, "… and {} more", all.len() - ROWS);
+    if all.len() > MAX_FIT_ROWS {
+        let _ = writeln!(out, "… and {} more", all.len() - MAX_FIT_ROWS);
     }
     for fit in all.iter().filter(|f| !f.converged).take(1) {
         let _ = writeln!(out, "! the best fit did not come to rest after {} steps", fit.iterations);

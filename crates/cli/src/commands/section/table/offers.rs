@@ -6,7 +6,7 @@ use std::fmt::Write;
 use trueness_document::section::{ContourRecord, OfferRecord};
 
 /// Offers of a contour that are shown.
-const ROWS: usize = 40;
+const MAX_OFFER_ROWS: usize = 40;
 
 /// The offers of a contour; nothing where they were not asked for.
 pub fn offers(contour: &ContourRecord) -> String {
@@ -21,10 +21,10 @@ pub fn offers(contour: &ContourRecord) -> String {
     }
     let head = ["offer", "of", "found", "± standard uncertainty", "offered", "z", "p"];
     let mut rows = vec![head.map(String::from).to_vec()];
-    rows.extend(all.iter().take(ROWS).map(row));
+    rows.extend(all.iter().take(MAX_OFFER_ROWS).map(row));
     out.push_str(&console::columns(&rows));
-    if all.len() > ROWS {
-        let _ = writeln!(out, "… and {} more", all.len() - ROWS);
+    if all.len() > MAX_OFFER_ROWS {
+        let _ = writeln!(out, "… and {} more", all.len() - MAX_OFFER_ROWS);
     }
     out
 }

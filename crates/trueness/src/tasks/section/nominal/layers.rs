@@ -15,7 +15,7 @@ pub struct Layers {
 }
 
 /// Layers that are named of those passed over.
-const NAMED: usize = 8;
+const MAX_NAMED_LAYERS: usize = 8;
 
 impl Layers {
     /// Of a drawing that so many planes are compared with. Of several planes, and of a drawing with several sections as `--dxf` writes them,
@@ -60,9 +60,9 @@ fn is_of_a_section(layer: &str) -> bool {
 fn passed_over(counts: &BTreeMap<&str, u64>) -> Option<NominalWarning> {
     let total: u64 = counts.values().sum();
     let mut named: Vec<String> = counts.iter().map(|(layer, count)| format!("{layer} ({count})")).collect();
-    if named.len() > NAMED {
-        let more = format!("{} more", named.len() - NAMED);
-        named.truncate(NAMED);
+    if named.len() > MAX_NAMED_LAYERS {
+        let more = format!("{} more", named.len() - MAX_NAMED_LAYERS);
+        named.truncate(MAX_NAMED_LAYERS);
         named.push(more);
     }
     let text = format!(

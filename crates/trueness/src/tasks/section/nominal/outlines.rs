@@ -36,7 +36,7 @@ enum Held {
 }
 
 /// Ends of drawn entities that are this share of the drawing apart are one; rational curves are followed within this share of their own size.
-const SHARE: f64 = 1e-6;
+const MAX_JOINED_ENDS_SHARE: f64 = 1e-6;
 
 impl Nominal {
     /// Opens the nominal of so many planes.
@@ -122,18 +122,17 @@ impl Nominal {
             segments.push(match &entity.drawn {
                 Drawn::Line { start, end } => Segment::straight(*start, *end),
                 Drawn::Arc { center, radius, start, sweep } => Segment::arc(*center, *radius, *start, *sweep),
-                Drawn::Spline(curve) => {
-                    Segment::curve(curve, SHARE * entity.drawn.size()).ok_or_else(|| {
+                Drawn::Spline(curve) => Segment::curve(curve, MAX_JOINED_ENDS_SHARE * entity.drawn.size())
+                    .ok_or_else(|| {
                         self.undrawn("a rational spline of it has no finite place; draw it anew")
-                    })?
-                }
+                    })?,
             });
         }
         if segments.is_empty() && own.is_none() {
             return Err(self
                 .undrawn("it holds neither lines nor arcs nor splines that are read: there is no nominal"));
         }
-        Ok(section::with_material_inside(section::joined(segments, SHARE * drawing.size())))
+        Ok(section::with_material_inside(section::joined(segments, MAX_JOINED_ENDS_SHARE * drawing.size())))
     }
 
     /// Why the drawing has no outlines, with what of it was passed over.

@@ -1,39 +1,44 @@
 //! Taking the features of a plan from the measured data.
 
-use super::data::{Data, Stop};
+use super::data::Data;
 use super::derived::derived;
 use super::edge;
 use super::nominals::Nominals;
 use super::parted::{OfFeature, Parted};
-use crate::characteristic::{Element, Others, Taken};
+use super::stop::Stop;
+use crate::characteristic::{Element, MeasuredFeature, NoElement, Others};
 use crate::plan::Plan;
 use crate::requirement::{Feature, Source};
 use trueness_document::plan::Class;
 use trueness_geom::feature::{FeatureError, Found, Nominal, covered, farthest_covered};
 use trueness_geom::fit::{FitError, Options, fit};
-use trueness_geom::mesh::Mesh;
 use trueness_geom::parallel::prelude::*;
 use trueness_geom::progress::Progress;
+use trueness_geom::scan::Scan;
 use trueness_geom::shape::Kind;
 use trueness_geom::space::{Point, Vector, cross, dot, minus, norm, unit};
 use trueness_geom::spatial::neighbors::PointTree;
 use trueness_geom::zone::mean;
 
 /// From this angle to its nominal on an element is another one that goes through the points as well, radians.
-const TURNED: f64 = std::f64::consts::FRAC_PI_4;
+const MAX_TURN: f64 = std::f64::consts::FRAC_PI_4;
 
 /// All features of the plan, in its order.
 pub(super) fn features(
     plan: &Plan,
-    (data, measured): (&Data, Option<&Mesh>),
+    (data, measured): (&Data, Option<&Scan>),
     nominals: &Nominals,
     parted: Option<&Parted>,
     progress: &dyn Progress,
-) -> Result<Vec<Taken>, Stop> {
+) -> Result<Vec<MeasuredFeature>, Stop> {
     let is_sought = |f: &Feature| matches!(f.source, Source::Nominal | Source::Seed(_));
-    let cloud = measured.filter(|mesh| mesh.faces.is_empty() && plan.features.iter().any(is_sought));
-    let farthest = cloud.map(|cloud| farthest_covered(&cloud.positions, &PointTree::new(&cloud.positions)));
-    let search = Search { measured, parted, farthest: farthest.unwrap_or(f64::INFINITY) };
+    let farthest = match measured {
+        Some(Scan::Cloud(points)) if plan.features.iter().any(is_sought) => {
+            farthest_covered(points, &PointTree::new(points))
+        }
+        _ => f64::INFINITY,
+    };
+    let search = Search { measured, parted, farthest };
     let of = |(number, feature): (usize, &Feature)| {
         if progress.cancelled() {
             return Err(Stop::Cancelled);
@@ -52,9 +57,9 @@ pub(super) fn features(
         };
         associated(taken, feature, progress).map(Some)
     };
-    let own: Vec<Option<Taken>> =
+    let own: Vec<Option<MeasuredFeature>> =
         plan.features.par_iter().enumerate().map(of).collect::<Result<_, Stop>>()?;
-    let mut all: Vec<Taken> = Vec::with_capacity(plan.features.len());
+    let mut all: Vec<MeasuredFeature> = Vec::with_capacity(plan.features.len());
     for (feature, own) in plan.features.iter().zip(own) {
         let made = |how, a: usize, b: usize| derived(bare(feature), how, &all[a], &all[b]);
         let taken = match (own, &feature.source) {
@@ -68,15 +73,15 @@ pub(super) fn features(
 }
 
 /// The features with the points of which it is not certain that they are of other surfaces; `None` where there are none.
-pub(super) fn whole(
+pub(super) fn with_others(
     plan: &Plan,
-    features: &[Taken],
+    features: &[MeasuredFeature],
     progress: &dyn Progress,
-) -> Result<Option<Vec<Taken>>, Stop> {
+) -> Result<Option<Vec<MeasuredFeature>>, Stop> {
     if features.iter().all(|f| f.others.points.is_empty()) {
         return Ok(None);
     }
-    let with_others = |taken: &mut Taken| {
+    let with_others = |taken: &mut MeasuredFeature| {
         let any = !taken.others.points.is_empty();
         if any {
             taken.points.append(&mut taken.others.points);
@@ -84,18 +89,18 @@ pub(super) fn whole(
         }
         any
     };
-    again(plan, features, with_others, progress).map(Some)
+    associated_anew(plan, features, with_others, progress).map(Some)
 }
 
 /// The same features with points as `change` makes them; those that it says it has not changed stay as they are, as do those without
 /// points.
-pub(super) fn again(
+pub(super) fn associated_anew(
     plan: &Plan,
-    features: &[Taken],
-    mut change: impl FnMut(&mut Taken) -> bool,
+    features: &[MeasuredFeature],
+    mut change: impl FnMut(&mut MeasuredFeature) -> bool,
     progress: &dyn Progress,
-) -> Result<Vec<Taken>, Stop> {
-    let mut all: Vec<Taken> = Vec::with_capacity(features.len());
+) -> Result<Vec<MeasuredFeature>, Stop> {
+    let mut all: Vec<MeasuredFeature> = Vec::with_capacity(features.len());
     for (feature, taken) in plan.features.iter().zip(features) {
         all.push(match &feature.source {
             Source::Derived { how, of: [a, b] } => derived(bare(feature), *how, &all[*a], &all[*b]),
@@ -112,7 +117,7 @@ pub(super) fn again(
 /// What features are sought with.
 struct Search<'a> {
     /// The measured mesh, or the distinct places of a cloud.
-    measured: Option<&'a Mesh>,
+    measured: Option<&'a Scan>,
     /// That parted among faces.
     parted: Option<&'a Parted<'a>>,
     /// How far at most one point of a cloud covers a feature, mm.
@@ -128,10 +133,10 @@ pub(super) fn normal(nominal: &Nominal) -> Option<Vector> {
 }
 
 /// A feature that nothing was found of yet.
-pub(super) fn bare(feature: &Feature) -> Taken {
+pub(super) fn bare(feature: &Feature) -> MeasuredFeature {
     let normal = feature.nominal.as_ref().and_then(normal);
     let edge = matches!(feature.nominal, Some(Nominal::Edge { .. }));
-    Taken {
+    MeasuredFeature {
         id: feature.id.clone(),
         class: feature.class,
         points: vec![],
@@ -147,39 +152,43 @@ pub(super) fn bare(feature: &Feature) -> Taken {
         coverage: None,
         left_out: None,
         others: Others::default(),
-        element: Err("it was not measured".into()),
+        element: Err(NoElement::NotSought),
     }
 }
 
 /// The points that the measured data have where the model has the feature.
-fn found((number, feature): (usize, &Feature), nominals: &Nominals, search: &Search) -> Result<Taken, Stop> {
+fn found(
+    (number, feature): (usize, &Feature),
+    nominals: &Nominals,
+    search: &Search,
+) -> Result<MeasuredFeature, Stop> {
     let mut taken = bare(feature);
     let seeded = nominals.seeds.get(&number);
     if let Some(seeded) = seeded {
         taken.nominal = Some(seeded.nominal.clone());
         taken.outward = taken.outward.or(normal(&seeded.nominal));
     }
-    let (Some(mesh), Some(nominal)) = (search.measured, taken.nominal.clone()) else { return Ok(taken) };
+    let (Some(scan), Some(nominal)) = (search.measured, taken.nominal.clone()) else { return Ok(taken) };
     let mut near = feature.near(&nominal);
     let own = search.parted.and_then(|parted| Some((parted, parted.own(number)?)));
     near.inward = near.inward.or(own.and_then(|(_, own)| own.inward));
     taken.inward = near.inward;
     let of = match own {
         Some((parted, own)) => parted.of((number, own), (&nominal, &near), feature.extract.outliers),
-        None => edge::of(mesh, &nominal, &near),
+        None => edge::of(scan, &nominal, &near),
     };
     let wrong = |e: FeatureError| format!("feature \"{}\": {e}", feature.id);
     let of = of.map_err(|e| Stop::Plan { span: feature.span.clone(), what: wrong(e) })?;
     let OfFeature { found, covering, others, left_out } = of;
     (taken.others, taken.left_out) = (others, left_out);
     let places = |vertices: &[u32]| -> Vec<Point> {
-        vertices.iter().filter_map(|v| mesh.positions.get(*v as usize).copied()).collect()
+        vertices.iter().filter_map(|v| scan.points().get(*v as usize).copied()).collect()
     };
     (taken.points, taken.rim) = (places(&found.points), places(&found.rim));
-    taken.areas = areas(mesh, &found);
-    let area = match mesh.faces.is_empty() {
-        false => Some(found.area),
-        true => {
+    taken.areas = areas(scan, &found);
+    let area = match scan {
+        Scan::Mesh(_) => Some(found.area),
+        Scan::Cloud(_) => {
             let covering = covering.map_or_else(|| taken.points.clone(), |points| places(&points));
             covered(&nominal, &covering, search.farthest)
                 .zip(nominal.area())
@@ -194,10 +203,10 @@ fn found((number, feature): (usize, &Feature), nominals: &Nominals, search: &Sea
 }
 
 /// The area that each point stands for: a third of the feature's facets about it.
-fn areas(mesh: &Mesh, found: &Found) -> Vec<f64> {
-    if found.facets.is_empty() {
+fn areas(scan: &Scan, found: &Found) -> Vec<f64> {
+    let Some(mesh) = scan.mesh().filter(|_| !found.facets.is_empty()) else {
         return vec![1.0; found.points.len()];
-    }
+    };
     let mut areas = vec![0.0; found.points.len()];
     for face in found.facets.iter().filter_map(|f| mesh.faces.get(*f as usize)) {
         let [a, b, c] = face.map(|v| mesh.positions[v as usize]);
@@ -211,40 +220,31 @@ fn areas(mesh: &Mesh, found: &Found) -> Vec<f64> {
     areas
 }
 
-/// Why no point is of a feature that is sought.
-fn nothing(taken: &Taken, feature: &Feature) -> String {
-    let edge = taken.others.edge;
-    if edge > 0 {
-        return format!(
-            "all of its points ({edge}) lie on edges, as far as the scan rounds these; measure it more densely"
-        );
+/// Why no point is of a feature.
+fn no_points(taken: &MeasuredFeature, feature: &Feature) -> NoElement {
+    match (&feature.source, taken.others.edge) {
+        (Source::Nominal | Source::Seed(_), _) if !taken.facets.is_empty() => NoElement::OnRim,
+        (Source::Nominal | Source::Seed(_), 0) => {
+            NoElement::NotThere { has_margin: feature.extract.has_margin() }
+        }
+        (Source::Nominal | Source::Seed(_), points) => NoElement::OnRoundedEdges { points },
+        (Source::Points(_) | Source::Derived { .. }, _) => NoElement::EmptyFile,
     }
-    let margin = if feature.extract.has_margin() { ", or its margin leaves nothing of it" } else { "" };
-    format!("nothing was measured where the model has it{margin}")
 }
 
 /// The feature with the element of its points, or the reason why it has none.
 pub(super) fn associated(
-    mut taken: Taken,
+    mut taken: MeasuredFeature,
     feature: &Feature,
     progress: &dyn Progress,
-) -> Result<Taken, Stop> {
+) -> Result<MeasuredFeature, Stop> {
     if taken.points.is_empty() {
-        taken.element = Err(match feature.source {
-            Source::Nominal | Source::Seed(_) if !taken.facets.is_empty() => {
-                "all of its vertices lie on edges, which rim = false leaves out".into()
-            }
-            Source::Nominal | Source::Seed(_) => nothing(&taken, feature),
-            _ => "its file has no points".into(),
-        });
+        taken.element = Err(no_points(&taken, feature));
         return Ok(taken);
     }
-    if let Some(share) = taken.coverage.filter(|share| *share < feature.extract.coverage) {
-        taken.element = Err(format!(
-            "only {:.1} % of its nominal area was measured, less than {:.1} %",
-            100.0 * share,
-            100.0 * feature.extract.coverage
-        ));
+    let required = feature.extract.coverage;
+    if let Some(share) = taken.coverage.filter(|share| *share < required) {
+        taken.element = Err(NoElement::Coverage { share, required });
         return Ok(taken);
     }
     let kind = match taken.class {
@@ -267,12 +267,8 @@ pub(super) fn associated(
     taken.element = match fit(&taken.points, kind, &options, progress) {
         Ok(fit) => {
             let turned = fit.shape.direction().zip(along).map(|(is, (shall, _))| dot(is, shall).abs());
-            match turned.map(|cosine| libm::acos(cosine.min(1.0))).filter(|angle| *angle > TURNED) {
-                Some(angle) => Err(format!(
-                    "the {} through its points lies at {:.0}° to the nominal one: they do not determine it; measure more of its surface",
-                    kind.name(),
-                    angle.to_degrees()
-                )),
+            match turned.map(|cosine| libm::acos(cosine.min(1.0))).filter(|angle| *angle > MAX_TURN) {
+                Some(angle) => Err(NoElement::Turned { kind, angle }),
                 None => Ok(Element::Fit(Box::new(fit))),
             }
         }
@@ -281,7 +277,7 @@ pub(super) fn associated(
             let what = format!("feature \"{}\": {e}", feature.id);
             return Err(Stop::Plan { span: feature.span.clone(), what });
         }
-        Err(e) => Err(e.to_string()),
+        Err(e) => Err(NoElement::Fit(e)),
     };
     Ok(taken)
 }
@@ -291,8 +287,8 @@ mod tests {
     use crate::inspection::data::Data;
     use crate::inspection::run;
     use crate::plan::Plan;
-    use trueness_geom::mesh::Mesh;
     use trueness_geom::progress::Silent;
+    use trueness_geom::scan::Scan;
     use trueness_geom::space::Point;
 
     /// Six points of a bore lie on another cylinder too, of diameter 13.2, whose axis is across; eight on none.
@@ -319,8 +315,8 @@ mod tests {
         )
         .unwrap();
         let value = |positions: &[Point]| {
-            let measured = Mesh { positions: positions.to_vec(), faces: vec![] };
-            let data = Data { measured: Some(measured), ..Data::default() };
+            let measured = Scan::Cloud(positions.to_vec());
+            let data = Data { measured: Some(measured.into()), ..Data::default() };
             run(&plan, data, &Silent).unwrap().values.remove(0).map(|v| v.value)
         };
         let six = [
@@ -332,7 +328,7 @@ mod tests {
             [0.627, -5.966, 14.999],
         ];
         let eight = [&six[..], &[[6.0, 0.0, 10.0], [0.0, 6.0, 10.0]]].concat();
-        let why = value(&six).unwrap_err();
+        let why = value(&six).unwrap_err().to_string();
         assert!(why.contains("they do not determine it"), "{why}");
         assert!((value(&eight).unwrap() - 12.0).abs() < 0.006);
     }

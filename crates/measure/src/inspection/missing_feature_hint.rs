@@ -1,32 +1,33 @@
 //! What lies near a feature that was not measured, but farther off than its extract distance.
 
-use super::data::Stop;
 use super::nominals::Nominals;
 use super::parted::Parted;
-use super::{Taken, take};
+use super::stop::Stop;
+use super::{MeasuredFeature, extract_features};
+use crate::characteristic::{NoElement, PointsBeyond};
 use crate::plan::Plan;
 use crate::requirement::Source;
 use trueness_geom::feature::{Nearness, in_cloud};
-use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::Progress;
+use trueness_geom::scan::Scan;
 use trueness_geom::space::Aabb;
 
 /// How far off such points are looked for, as a share of the size of the feature.
-const FAR: f64 = 0.1;
+const SEARCHED_SIZE_SHARE: f64 = 0.1;
 
 /// Adds to the reasons of features that were not measured what lies over or below their places, up to a tenth of their size off: a
 /// part that is off as a whole is not told from one without the face by "nothing was measured".
 ///
 /// Cost: nothing where all was measured; else a look at each point for each feature that was not.
-pub(super) fn tell(
+pub(super) fn add(
     plan: &Plan,
-    measured: Option<&Mesh>,
+    measured: Option<&Scan>,
     nominals: &Nominals,
     parted: Option<&Parted>,
-    features: &mut Vec<Taken>,
+    features: &mut Vec<MeasuredFeature>,
     progress: &dyn Progress,
 ) -> Result<(), Stop> {
-    let Some(mesh) = measured else { return Ok(()) };
+    let Some(scan) = measured else { return Ok(()) };
     let sought = |n: &usize| matches!(plan.features[*n].source, Source::Nominal | Source::Seed(_));
     let missing: Vec<usize> =
         (0..features.len()).filter(sought).filter(|n| features[*n].element.is_err()).collect();
@@ -39,42 +40,39 @@ pub(super) fn tell(
             continue;
         };
         let near = plan.features[n].near(nominal);
-        let wide =
-            Nearness { distance: near.distance.max(FAR * Aabb::of(&nominal.places()).diagonal()), ..near };
+        let wide = Nearness {
+            distance: near.distance.max(SEARCHED_SIZE_SHARE * Aabb::of(&nominal.places()).diagonal()),
+            ..near
+        };
         if progress.cancelled() {
             return Err(Stop::Cancelled);
         }
         // Why it cannot be sought was told when it was.
-        let Ok(found) = in_cloud(&mesh.positions, nominal, &wide) else { continue };
+        let Ok(found) = in_cloud(scan.points(), nominal, &wide) else { continue };
         let own = parted.and_then(|parted| Some((parted, parted.own(n)?)));
         let is_other = |p: &u32| own.is_some_and(|(parted, own)| parted.is_of_others(*p, own, nominal));
         let places = found.points.iter().filter(|p| !is_other(p));
-        let places = places.filter_map(|p| mesh.positions.get(*p as usize));
+        let places = places.filter_map(|p| scan.points().get(*p as usize));
         let off = |p: &_| Some(nominal.surface()?.distance(*p)?.0.abs());
         let beyond: Vec<f64> = places.filter_map(off).filter(|off| *off > near.distance).collect();
-        if let (Some(told), Err(reason)) = (said(&beyond, &near), &mut features[n].element) {
-            reason.push_str(&told);
+        if let (Some(beyond), Err(reason)) = (points_beyond(&beyond, near.distance), &mut features[n].element)
+        {
+            *reason = NoElement::Beyond { reason: Box::new(reason.clone()), beyond };
             any = true;
         }
     }
     if any {
         // What is made of them has their reasons.
-        *features = take::again(plan, features, |_| false, progress)?;
+        *features = extract_features::associated_anew(plan, features, |_| false, progress)?;
     }
     Ok(())
 }
 
-/// How many points lie so far off; `None` where there are none.
-fn said(beyond: &[f64], near: &Nearness) -> Option<String> {
-    let least = beyond.iter().copied().min_by(f64::total_cmp)?;
-    let most = beyond.iter().copied().max_by(f64::total_cmp)?;
-    let points = if beyond.len() == 1 { "point lies" } else { "points lie" };
-    Some(format!(
-        "; {} {points} {least:.3} to {most:.3} mm off its place, farther than the `distance` of {:.3} mm in its `extract`: a larger \
-         one judges them",
-        beyond.len(),
-        near.distance
-    ))
+/// How many points lie so far off, beyond `limit`; `None` where there are none.
+fn points_beyond(off: &[f64], limit: f64) -> Option<PointsBeyond> {
+    let nearest = off.iter().copied().min_by(f64::total_cmp)?;
+    let farthest = off.iter().copied().max_by(f64::total_cmp)?;
+    Some(PointsBeyond { count: off.len(), nearest, farthest, limit })
 }
 
 #[cfg(test)]
@@ -94,8 +92,9 @@ mod tests {
                 if cloud {
                     mesh.faces.clear();
                 }
-                let found = run(&plan, Data { measured: Some(mesh), ..Data::default() }, &Silent).unwrap();
-                let reason = |n: usize| found.features[n].element.as_ref().err().cloned();
+                let found =
+                    run(&plan, Data { measured: Some(mesh.into()), ..Data::default() }, &Silent).unwrap();
+                let reason = |n: usize| found.features[n].element.as_ref().err().map(ToString::to_string);
                 assert_eq!(found.values[0].as_ref().err().is_some(), reason(0).is_some());
                 [0, 1].map(reason)
             };

@@ -1,7 +1,7 @@
 //! What a verdict is worth where a feature leaves points out.
 
 use super::found::Inspection;
-use crate::characteristic::{Others, Spec, Taken, Value};
+use crate::characteristic::{MeasuredFeature, NotMeasured, Others, Spec, Value};
 use crate::plan::Plan;
 use trueness_document::Verdict;
 
@@ -15,18 +15,18 @@ pub(super) struct Judged {
 /// from leave out; `with_others` is the value, and its verdict, with those of which it is not certain that they are of other surfaces.
 ///
 /// Where the verdict depends on points of which it is not certain whose they are, there is none.
-pub(super) fn judge_left_out(
+pub(super) fn judge(
     plan: &Plan,
     found: &Inspection,
     spec: &Spec,
     judged: Verdict,
-    with_others: Option<(&Result<Value, String>, Verdict)>,
+    with_others: Option<(&Result<Value, NotMeasured>, Verdict)>,
 ) -> Judged {
     let mut result = Judged { verdict: judged, notes: vec![] };
     if judged == Verdict::NotMeasured {
         return result;
     }
-    let features: Vec<&Taken> =
+    let features: Vec<&MeasuredFeature> =
         spec.numbers(&plan.features).into_iter().map(|n| &found.features[n]).collect();
     for (taken, out) in features.iter().filter_map(|t| Some((t, t.left_out?))) {
         result.notes.push(format!(
@@ -73,7 +73,7 @@ pub(super) fn judge_left_out(
 }
 
 /// Why it is not certain that some points within the reach of a feature are of it.
-fn not_certain(taken: &Taken) -> String {
+fn not_certain(taken: &MeasuredFeature) -> String {
     let Others { broken, deep, high, between, far, drawn, .. } = &taken.others;
     let why = [
         (
@@ -129,7 +129,7 @@ mod tests {
                     measured.faces.clear();
                 }
                 let reference = with_reference.then(|| floor(|_, _| 0.0));
-                let data = Data { measured: Some(measured), reference, ..Data::default() };
+                let data = Data { measured: Some(measured.into()), reference, ..Data::default() };
                 let found = run(&plan, data, &Silent).unwrap();
                 assert_eq!(found.features[0].left_out.map(|l| l.points), left_out, "{height} {cloud}");
                 let record = PlanRecord { path: String::new(), sha256: None };
@@ -171,7 +171,7 @@ mod tests {
                         measured.faces.clear();
                     }
                     let reference = Some(floor(|_, _| 0.0));
-                    let data = Data { measured: Some(measured), reference, ..Data::default() };
+                    let data = Data { measured: Some(measured.into()), reference, ..Data::default() };
                     let found = run(plan, data, &Silent).unwrap();
                     assert_eq!(found.features[0].others.outliers, outliers, "{n} {cloud}");
                     let record = PlanRecord { path: String::new(), sha256: None };
@@ -226,8 +226,11 @@ mod tests {
         let verdict = |off: f64| {
             let neck = [[12.0, 6.0], [12.0, 6.0 - off], [14.0, 6.0 - off], [14.0, 6.0]];
             let measured = bore(&[&[[0.0, 6.0]], &neck[..], &[[20.0, 6.0]]].concat());
-            let data =
-                Data { measured: Some(measured), reference: Some(reference.clone()), ..Data::default() };
+            let data = Data {
+                measured: Some(measured.into()),
+                reference: Some(reference.clone()),
+                ..Data::default()
+            };
             let record = PlanRecord { path: String::new(), sha256: None };
             crate::inspection::document(&plan, record, &run(&plan, data, &Silent).unwrap(), vec![]).verdict
         };

@@ -1,9 +1,10 @@
 //! A feature taken from the measured data: its points, and the element associated with them.
 
+use super::reason::{Lack, NoElement, NotMeasured};
 use super::value::{Missing, Value};
 use trueness_document::plan::Class;
 use trueness_geom::feature::Nominal;
-use trueness_geom::fit::{Fit, Method, Options, fit};
+use trueness_geom::fit::{Fit, FitError, Method, Options, fit};
 use trueness_geom::progress::Progress;
 use trueness_geom::rigid::Rigid;
 use trueness_geom::shape::{Kind, Shape};
@@ -13,7 +14,7 @@ use trueness_geom::zone::mean;
 
 /// A feature of a plan, measured or not.
 #[derive(Clone, Debug)]
-pub struct Taken {
+pub struct MeasuredFeature {
     /// Its name.
     pub id: String,
     /// What it is.
@@ -41,11 +42,11 @@ pub struct Taken {
     /// Share of the nominal area that was measured.
     pub coverage: Option<f64>,
     /// Measured points that lie over it, but too far off to be part of it.
-    pub left_out: Option<LeftOut>,
+    pub left_out: Option<ExcludedPoints>,
     /// Measured points within its reach that were taken for those of other surfaces.
     pub others: Others,
     /// The element, or why there is none.
-    pub element: Result<Element, String>,
+    pub element: Result<Element, NoElement>,
 }
 
 /// Points within the reach of a feature that are not of it, or not for certain.
@@ -87,7 +88,7 @@ impl Others {
 
 /// Points that were left out of a feature.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LeftOut {
+pub struct ExcludedPoints {
     /// Their number.
     pub points: u64,
     /// Distance, mm, of the farthest of them from the nominal surface.
@@ -96,11 +97,11 @@ pub struct LeftOut {
     pub limit: f64,
 }
 
-impl LeftOut {
+impl ExcludedPoints {
     /// Of points so far off.
-    pub(crate) fn of(off: &[f64], limit: f64) -> LeftOut {
+    pub(crate) fn of(off: &[f64], limit: f64) -> ExcludedPoints {
         let farthest = off.iter().fold(0.0, |m: f64, d| m.max(*d));
-        LeftOut { points: off.len() as u64, farthest, limit }
+        ExcludedPoints { points: off.len() as u64, farthest, limit }
     }
 }
 
@@ -115,24 +116,25 @@ pub enum Element {
     Derived(Datum),
 }
 
-impl Taken {
+impl MeasuredFeature {
     fn element(&self) -> Result<&Element, Missing> {
-        self.element.as_ref().map_err(|reason| self.missing(reason))
+        self.element.as_ref().map_err(|reason| self.lacks(Lack::Element(reason.clone())))
     }
 
-    fn missing(&self, reason: &str) -> Missing {
-        Missing::NotMeasured(format!("feature \"{}\": {reason}", self.id))
+    /// Why it gives no value.
+    pub(super) fn lacks(&self, lack: Lack) -> Missing {
+        NotMeasured::Feature { id: self.id.clone(), lack }.into()
     }
 
     /// Its points.
     ///
     /// # Errors
     /// Why it has none.
-    pub fn taken(&self) -> Result<&[Point], Missing> {
+    pub fn own_points(&self) -> Result<&[Point], Missing> {
         match &self.element {
             // Too few points, or too little of it measured: no zone about them would mean anything.
-            Err(reason) => Err(self.missing(reason)),
-            _ if self.points.is_empty() => Err(self.missing("it has no points of its own")),
+            Err(reason) => Err(self.lacks(Lack::Element(reason.clone()))),
+            _ if self.points.is_empty() => Err(self.lacks(Lack::Points)),
             _ => Ok(&self.points),
         }
     }
@@ -144,7 +146,7 @@ impl Taken {
     pub fn shape(&self) -> Result<Shape, Missing> {
         match self.element()? {
             Element::Fit(fit) => Ok(fit.shape),
-            _ => Err(self.missing("it has no fitted element")),
+            _ => Err(self.lacks(Lack::FittedElement)),
         }
     }
 
@@ -160,9 +162,9 @@ impl Taken {
             return Ok((**fit).clone());
         }
         let options = Options { method, ..Options::default() };
-        fit(self.taken()?, kind, &options, progress).map_err(|e| match Missing::from(e) {
-            Missing::NotMeasured(reason) => self.missing(&reason),
-            other => other,
+        fit(self.own_points()?, kind, &options, progress).map_err(|e| match e {
+            FitError::Cancelled => Missing::Cancelled,
+            e => self.lacks(Lack::Fit(e)),
         })
     }
 
@@ -175,7 +177,7 @@ impl Taken {
             return self.refitted(Kind::Circle2, method, progress);
         }
         let shape = self.refitted(Kind::Plane, Method::Gaussian, progress)?.shape;
-        let none = || self.missing("its points lie in no plane");
+        let none = || self.lacks(Lack::Plane);
         let (Shape::Plane { point, normal }, Some(first)) = (shape, self.points.first()) else {
             return Err(none());
         };
@@ -212,23 +214,23 @@ impl Taken {
         let element = self.element()?;
         match (self.class, element) {
             (_, Element::Point(p)) => Ok(vec![*p]),
-            (Class::Plane | Class::Torus, _) => self.taken().map(<[Point]>::to_vec),
-            (Class::Line, _) if !self.edge => self.taken().map(<[Point]>::to_vec),
+            (Class::Plane | Class::Torus, _) => self.own_points().map(<[Point]>::to_vec),
+            (Class::Line, _) if !self.edge => self.own_points().map(<[Point]>::to_vec),
             (Class::Line | Class::Cylinder | Class::Cone, Element::Fit(fit)) => self.ends(&fit.shape),
             (_, Element::Fit(fit)) => match fit.shape {
                 Shape::Sphere { center, .. }
                 | Shape::Circle { center, .. }
                 | Shape::Circle2 { center, .. } => Ok(vec![center]),
-                _ => Err(self.missing("it has no center")),
+                _ => Err(self.lacks(Lack::Center)),
             },
-            (_, Element::Derived(_)) => Err(self.missing("it is derived and has no extent")),
+            (_, Element::Derived(_)) => Err(self.lacks(Lack::Extent)),
         }
     }
 
     /// Both ends of an axis over the extent of the points, with those of the rim.
     fn ends(&self, shape: &Shape) -> Result<Vec<Point>, Missing> {
         let (Some(foot), Some(direction)) = (shape.foot(), shape.direction()) else {
-            return Err(self.missing("it has no axis"));
+            return Err(self.lacks(Lack::Axis));
         };
         let along = |p: &Point| dot(minus(*p, foot), direction);
         let all = || self.points.iter().chain(&self.rim).map(along);
@@ -256,7 +258,7 @@ impl Taken {
             Element::Derived(Datum::Axis { direction, .. }) => Some(*direction),
             _ => None,
         };
-        found.ok_or_else(|| self.missing("it has no direction"))
+        found.ok_or_else(|| self.lacks(Lack::Direction))
     }
 }
 
