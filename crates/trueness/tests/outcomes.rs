@@ -10,8 +10,10 @@ use trueness::task::{Outcome, Request};
 use trueness::tasks::align::AlignRequest;
 use trueness::tasks::check::CheckRequest;
 use trueness::tasks::compare::CompareRequest;
+use trueness::tasks::convert::ConvertRequest;
 use trueness::tasks::curvature::CurvatureRequest;
 use trueness::tasks::fit::FitRequest;
+use trueness::tasks::info::InfoRequest;
 use trueness::tasks::inspect::InspectRequest;
 use trueness::tasks::repair::RepairRequest;
 use trueness::tasks::section::SectionRequest;
@@ -88,6 +90,11 @@ fn a_document_says_the_same_when_it_is_read_back() {
     let all = [
         (read_back::<CheckRequest>(json!({"mesh": CUBE}), &FileSources), true),
         (read_back::<CheckRequest>(json!({"mesh": HOLE}), &FileSources), false),
+        (read_back::<InfoRequest>(json!({"file": CUBE}), &FileSources), true),
+        (
+            read_back::<ConvertRequest>(json!({"input": CUBE, "out": folder.join("cube.ply")}), &FileSources),
+            true,
+        ),
         (mended(HOLE, json!({})), true),
         (mended(HOLE, json!({"only": ["orient"]})), false),
         (read_back::<CompareRequest>(json!({"measured": FINE, "references": [COARSE]}), &FileSources), true),

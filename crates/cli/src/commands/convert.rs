@@ -10,6 +10,7 @@ use std::path::PathBuf;
 use trueness::task::{Outcome, Request, RunFiles};
 use trueness::tasks::convert::ConvertRequest;
 use trueness_document::convert::ConvertDocument;
+use trueness_files::FileSources;
 use trueness_files::write::Writable;
 
 /// A file in another format
@@ -48,7 +49,7 @@ impl ConvertArgs {
 
 impl Run for ConvertArgs {
     fn files(&self, _: &Common) -> anyhow::Result<RunFiles> {
-        Ok(self.request().files()?.document(self.document.json.as_ref()))
+        Ok(self.request().files(&FileSources)?.document(self.document.json.as_ref()))
     }
     fn run(&self, common: &Common) -> anyhow::Result<Outcome> {
         task::run(&self.request(), &self.document, common, |done| table(&done.document))

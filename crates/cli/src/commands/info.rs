@@ -9,6 +9,7 @@ use std::path::PathBuf;
 use trueness::task::{Outcome, Request, RunFiles};
 use trueness::tasks::info::InfoRequest;
 use trueness_document::info::{CadRecord, InfoDocument};
+use trueness_files::FileSources;
 
 /// What is in a file: points, facets, CAD faces, parts, unit, size
 ///
@@ -36,7 +37,7 @@ impl InfoArgs {
 
 impl Run for InfoArgs {
     fn files(&self, _: &Common) -> anyhow::Result<RunFiles> {
-        Ok(self.request().files()?.document(self.document.json.as_ref()))
+        Ok(self.request().files(&FileSources)?.document(self.document.json.as_ref()))
     }
     fn run(&self, common: &Common) -> anyhow::Result<Outcome> {
         task::run(&self.request(), &self.document, common, |done| table(&done.document, common.verbose))

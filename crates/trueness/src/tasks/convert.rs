@@ -41,7 +41,7 @@ impl Request for ConvertRequest {
     type Document = ConvertDocument;
     const COMMAND: &'static str = "convert";
 
-    fn files(&self) -> Result<RunFiles, TaskError> {
+    fn files(&self, _: &dyn Sources) -> Result<RunFiles, TaskError> {
         Ok(RunFiles::of([&self.input]).also("OUT", Some(&self.out)))
     }
 
@@ -117,8 +117,7 @@ impl ConvertRequest {
 }
 
 fn finished(document: ConvertDocument, output: Output) -> Done<ConvertDocument> {
-    let conforms = document.conforms();
-    Done { outputs: vec![output], ..Done::new(document, conforms) }
+    Done { outputs: vec![output], ..Done::new(document) }
 }
 
 /// What no format that is written holds.

@@ -38,7 +38,7 @@ impl Request for InfoRequest {
     type Document = InfoDocument;
     const COMMAND: &'static str = "info";
 
-    fn files(&self) -> Result<RunFiles, TaskError> {
+    fn files(&self, _: &dyn Sources) -> Result<RunFiles, TaskError> {
         Ok(RunFiles::of([&self.file]))
     }
 
@@ -57,7 +57,7 @@ impl Request for InfoRequest {
             Any::Drawing(_, record) => InfoDocument::new(record, Content::Drawing),
         };
         read::hash(sources, &mut document.inputs[0], &self.file)?;
-        Ok(Done::new(document, true))
+        Ok(Done::new(document))
     }
 }
 
