@@ -35,7 +35,8 @@ fn a_line_for_each_file() {
             Err(e) => format!("\"error\":{:?}", e.to_string()),
         };
         let seconds = start.elapsed().as_secs_f64();
-        writeln!(out, "{{\"file\":{:?},\"seconds\":{seconds:.3},{about}}}", path.display().to_string()).unwrap();
+        writeln!(out, "{{\"file\":{:?},\"seconds\":{seconds:.3},{about}}}", path.display().to_string())
+            .unwrap();
     }
 }
 
@@ -85,17 +86,23 @@ fn summary(model: &Model) -> String {
         let faces = &all.shells[shell as usize].faces;
         faces.iter().filter_map(|f| measured[*f as usize].as_ref().ok()).map(|m| m.1.volume).sum()
     };
-    let volumes: Vec<f64> =
-        all.solids.iter().map(|s| of_shell(s.outer) + s.voids.iter().map(|v| of_shell(*v)).sum::<f64>()).collect();
+    let volumes: Vec<f64> = all
+        .solids
+        .iter()
+        .map(|s| of_shell(s.outer) + s.voids.iter().map(|v| of_shell(*v)).sum::<f64>())
+        .collect();
     let kinds: Vec<String> = by_kind.iter().map(|(k, a)| format!("{k:?}:{a}")).collect();
     let faces: Vec<String> = all
         .faces
         .iter()
         .zip(&measured)
-        .filter_map(|(f, m)| m.as_ref().ok().map(|m| format!("[{},{},{}]", f.entity, m.1.area, m.1.errors[0])))
+        .filter_map(|(f, m)| {
+            m.as_ref().ok().map(|m| format!("[{},{},{}]", f.entity, m.1.area, m.1.errors[0]))
+        })
         .collect();
     let facets = std::env::var("TRUENESS_FACETS").ok().and_then(|s| s.parse::<f64>().ok());
-    let facets = facets.map_or(String::new(), |share| tessellated(&all, &measured, share * bounds.diagonal()));
+    let facets =
+        facets.map_or(String::new(), |share| tessellated(&all, &measured, share * bounds.diagonal()));
     format!(
         "\"nfaces\":{},\"measure_seconds\":{seconds:.3},\"area\":{area},\"error\":{error},\"gap\":{gap},\"by_kind\":{{{}}},\"volumes\":{volumes:?},\
          \"bounds\":[{:?},{:?}],\"failed\":[{}],\"face_areas\":[{}]{facets}",
@@ -133,24 +140,11 @@ fn tessellated(all: &Brep, measured: &[Measured], distance: f64) -> String {
     let doubled = sides.values().filter(|n| **n > 1).count();
     let coarse = made.bounds.iter().flatten().filter(|b| b.distance > 1.01 * distance).count();
     let unproven = made.bounds.iter().flatten().filter(|b| !b.is_proven).count();
-    let failed: Vec<String> =
-        made.failed.iter().map(|(f, why)| format!("{:?}", format!("#{} {why}", all.faces[*f as usize].entity))).collect();
-    if std::env::var("DBG").is_ok() {
-        for (i, m) in measured.iter().enumerate() {
-            if let Ok((t, integrals, _)) = m && (by_face[i] - integrals.area).abs() > 0.1 * integrals.area {
-                eprintln!("FACE {} #{} facets {} area {} kind {:?} reversed {} window {:?} cuts {:?}", i, all.faces[i].entity, by_face[i], integrals.area, all.faces[i].surface.kind(), t.reversed, t.window, t.cuts);
-                for r in &t.rings { for p in &r.pieces { match p {
-                    trueness_cad::trim::Piece::Edge(s) => eprintln!("  edge {} shares {:?} ends {:?} poles {:?} poly {} first {:?} last {:?}", s.edge, s.shares(), s.ends(), s.poles, made.edges[s.edge as usize].shares.len(), made.edges[s.edge as usize].vertices.first().map(|v| made.mesh.positions[*v as usize]), made.edges[s.edge as usize].vertices.last().map(|v| made.mesh.positions[*v as usize])),
-                    trueness_cad::trim::Piece::Straight { ends, kind } => eprintln!("  {kind:?} {ends:?}"),
-                }}}
-                for e in &t.edges { let s = &all.edges[*e as usize].span; eprintln!("   edge {e} range {:?} shares {:?} sample {:?}", s.range, made.edges[*e as usize].shares, s.sample(0.01, 0.5)); }
-                for (f, face) in made.mesh.faces.iter().zip(&made.faces).filter(|(_, face)| **face as usize == i).take(40) {
-                    eprintln!("   facet {face} {:?} {:?}", f, made.parameters[made.mesh.faces.iter().position(|g| g == f).unwrap()]);
-                }
-                break;
-            }
-        }
-    }
+    let failed: Vec<String> = made
+        .failed
+        .iter()
+        .map(|(f, why)| format!("{:?}", format!("#{} {why}", all.faces[*f as usize].entity)))
+        .collect();
     let off: Vec<String> = measured
         .iter()
         .enumerate()

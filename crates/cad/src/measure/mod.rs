@@ -5,14 +5,11 @@
 //! revolutions, which are harmonics of low order; splines are taken from knot to knot, in so many steps that halving them changes nothing. The
 //! outer one halves its steps until the error is what is asked for.
 
-
 mod bounds;
 mod integrand;
 mod rule;
 #[cfg(test)]
 mod tests;
-
-
 
 pub use bounds::bounds;
 

@@ -175,7 +175,8 @@ impl<'a> Work<'a> {
             }
             let edges = self.cdt.try_add_constraint(*from, *to);
             if edges.is_empty() {
-                let crossed = all[..n].iter().filter(|(ends, _)| self.cross(*ends, [*from, *to])).map(|(_, c)| *c);
+                let crossed =
+                    all[..n].iter().filter(|(ends, _)| self.cross(*ends, [*from, *to])).map(|(_, c)| *c);
                 let crossing: Vec<&Corner> = crossed.chain([*corner]).collect();
                 return Err(halves(&crossing));
             }

@@ -2,7 +2,7 @@
 //!
 //! An edge is one polyline for all faces that it bounds, so facets meet vertex by vertex and a closed shell is watertight however coarse
 //! it is. Within a face, facets are those of the constrained Delaunay triangulation in parameters that are scaled to the cells of
-//! a grid ([`lines`](self)): a cell is as large as the surface's bends allow. Facets that turn out too far from the surface are cut,
+//! a grid: a cell is as large as the surface's bends allow. Facets that turn out too far from the surface are cut,
 //! edges too, until all keep to the tolerance. Sides that are a single place have a single vertex.
 
 mod bend;
@@ -51,7 +51,9 @@ pub enum TessellateError {
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
     /// More facets than are allowed.
-    #[error("{facets} facets or more would be needed, {most} are allowed; with a tolerance of {tolerance} mm they are about that many")]
+    #[error(
+        "{facets} facets or more would be needed, {most} are allowed; with a tolerance of {tolerance} mm they are about that many"
+    )]
     TooMany {
         /// About how many.
         facets: usize,
@@ -110,7 +112,10 @@ impl Tessellation {
             if round == MAX_ROUNDS {
                 break;
             }
-            let wanted = outcomes.iter().flatten().filter_map(|o| if let Outcome::Finer(w, _) = o { Some(w) } else { None });
+            let wanted = outcomes
+                .iter()
+                .flatten()
+                .filter_map(|o| if let Outcome::Finer(w, _) = o { Some(w) } else { None });
             let touched = edges::insert(brep, wanted.flatten(), &mut polylines, &mut positions);
             if touched.is_empty() {
                 break;
@@ -155,7 +160,8 @@ fn merged(
                 None
             }
             Some(Outcome::Finer(_, None) | Outcome::TooMany(_)) => {
-                all.failed.push((number, "its edges touch or cross in the parameters of its surface".to_string()));
+                all.failed
+                    .push((number, "its edges touch or cross in the parameters of its surface".to_string()));
                 None
             }
         };

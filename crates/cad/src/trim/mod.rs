@@ -9,6 +9,7 @@
 
 mod chain;
 mod chart;
+mod cut;
 mod error;
 mod open;
 mod outline;
@@ -24,8 +25,8 @@ pub use strand::{Sample, Strand, crossing};
 
 use crate::brep::{Bounds, Brep, EdgeUse, Face};
 use crate::curve::Span;
-use outline::Outline;
 use chart::SAME_PARAMETER;
+use outline::Outline;
 use trueness_geom::space::{Aabb, Point};
 
 /// The part of a surface that a face is.
@@ -111,15 +112,23 @@ impl Trim {
         let piece = |i: usize| Piece::Straight { ends: [corners[i], corners[(i + 1) % 4]], kind: kinds[i] };
         let rings = vec![Ring { pieces: (0..4).map(piece).collect(), winding: [0; 2] }];
         let cuts = [0, 1].map(|k| chart.periods[k].map(|_| sides[k][0]));
-        let parts =
-            Parts { chart, reversed: face.reversed, turned: false, rings, cuts, gap: 0.0, edges: vec![], spans: vec![] };
+        let parts = Parts {
+            chart,
+            reversed: face.reversed,
+            turned: false,
+            rings,
+            cuts,
+            gap: 0.0,
+            edges: vec![],
+            spans: vec![],
+        };
         Trim::of_rings(parts, 0.0)
     }
 
     fn of_rings(parts: Parts, reach: f64) -> Result<Trim, TrimError> {
         let Parts { chart, reversed, turned, rings, cuts, gap, edges, spans } = parts;
         let outline = Outline::new(&rings);
-        if !(outline.area() > 0.0) {
+        if outline.area().is_nan() || outline.area() <= 0.0 {
             return Err(TrimError::Contradiction);
         }
         if let Some([a, b]) = outline.crossing(&rings, &chart, 4.0 * gap + reach) {
@@ -146,7 +155,6 @@ impl Trim {
     }
 }
 
-
 /// What the rings of a face are made with.
 struct Border<'a> {
     face: &'a Face,
@@ -160,7 +168,12 @@ struct Border<'a> {
 }
 
 impl<'a> Border<'a> {
-    fn new(brep: &Brep, face: &'a Face, uses: &[Vec<EdgeUse>], uncertainty: f64) -> Result<Border<'a>, TrimError> {
+    fn new(
+        brep: &Brep,
+        face: &'a Face,
+        uses: &[Vec<EdgeUse>],
+        uncertainty: f64,
+    ) -> Result<Border<'a>, TrimError> {
         let mut edges: Vec<u32> = uses.iter().flatten().map(|u| u.edge).collect();
         edges.sort_unstable();
         edges.dedup();
@@ -179,8 +192,7 @@ impl<'a> Border<'a> {
 
     fn trim(&self, uses: &[Vec<EdgeUse>], turned: bool) -> Result<Trim, TrimError> {
         let Border { face, chart, edges, spans, reach, most_open } = self;
-        let chainer =
-            chain::Chainer { chart, edges, spans, reach: *reach, most_open: *most_open };
+        let chainer = chain::Chainer { chart, edges, spans, reach: *reach, most_open: *most_open };
         let mut rings = vec![];
         for chain in uses {
             rings.extend(chainer.ring(chain)?);
@@ -214,13 +226,17 @@ struct Parts {
 }
 
 /// Rings cut open along all parameters that repeat, and where.
-fn opened(chart: &Chart, spans: &[Span], mut rings: Vec<Ring>) -> Result<([Option<f64>; 2], Vec<Ring>), TrimError> {
+fn opened(
+    chart: &Chart,
+    spans: &[Span],
+    mut rings: Vec<Ring>,
+) -> Result<([Option<f64>; 2], Vec<Ring>), TrimError> {
     let mut cuts = [None; 2];
-    for k in 0..2 {
+    for (k, own) in cuts.iter_mut().enumerate() {
         if let Some(period) = chart.periods[k] {
             let other = if k == 0 { chart.periods[1] } else { None };
             let (cut, open) = open::Opener { chart, spans, k, period, other }.open(rings)?;
-            (cuts[k], rings) = (Some(cut), open);
+            (*own, rings) = (Some(cut), open);
         }
     }
     if rings.is_empty() {
@@ -241,11 +257,12 @@ fn gap_of(chart: &Chart, spans: &[Span], rings: &[Ring], most: f64) -> Result<f6
         for strand in strands {
             let span = &spans[strand.slot];
             let distance = strand::gap(strand, chart, span);
-            if !(distance <= most) {
+            if distance.is_nan() || distance > most {
                 return Err(TrimError::Off { edge: strand.edge, distance });
             }
             let [start, end] = strand.shares().map(|s| span.derivatives(s)[0]);
-            let open = before.map_or(0.0, |b| trueness_geom::space::norm(trueness_geom::space::minus(b, start)));
+            let open =
+                before.map_or(0.0, |b| trueness_geom::space::norm(trueness_geom::space::minus(b, start)));
             gap = gap.max(distance).max(open);
             before = Some(end);
         }

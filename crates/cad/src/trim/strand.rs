@@ -205,10 +205,19 @@ impl Sampler<'_> {
             let (a, b) = (own[i], own[(i + 1).min(n - 1)]);
             let m = self.chart.parameters(self.place(0.5 * (a.share + b.share)), Some(halfway(a.at, b.at)));
             let sizes = self.chart.jet(m).first.map(norm);
-            let band = if i + 1 < n { bulge([a.at, m, b.at], sizes).map(|x| BAND_OF_BULGE * x.abs()) } else { [0.0; 2] };
+            let band = if i + 1 < n {
+                bulge([a.at, m, b.at], sizes).map(|x| BAND_OF_BULGE * x.abs())
+            } else {
+                [0.0; 2]
+            };
             Sample { share: a.share, at: a.at, band }
         };
-        Strand { edge: self.edge, slot: self.slot, samples: (0..n).map(sample).collect(), poles: [own[0].pole, own[n - 1].pole] }
+        Strand {
+            edge: self.edge,
+            slot: self.slot,
+            samples: (0..n).map(sample).collect(),
+            poles: [own[0].pole, own[n - 1].pole],
+        }
     }
 }
 

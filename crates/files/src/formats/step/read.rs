@@ -78,7 +78,9 @@ fn fault(entity: &Entity, fault: Fault) -> Located {
 fn undamaged(file: &File) -> Result<()> {
     for broken in file.broken() {
         let keyword = file.keyword_of(broken);
-        if keyword.is_empty() || ["SURFACE", "CURVE", "FACE", "POINT", "UNIT"].iter().any(|w| keyword.contains(w)) {
+        if keyword.is_empty()
+            || ["SURFACE", "CURVE", "FACE", "POINT", "UNIT"].iter().any(|w| keyword.contains(w))
+        {
             file.entity(broken.number)?;
         }
     }
