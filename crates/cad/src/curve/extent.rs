@@ -1,6 +1,7 @@
 //! How far a curve reaches, and how long it is.
 
-use super::feet::{CurveFeet, Part, Shape, representatives};
+use super::feet::CurveFeet;
+use super::part::{Part, Shape, representatives};
 use super::{Curve, Span};
 use trueness_geom::space::{Aabb, norm};
 

@@ -16,12 +16,14 @@ mod corners;
 mod evaluate;
 mod extent;
 mod feet;
+mod part;
 mod placed;
 mod sample;
 #[cfg(test)]
 mod tests;
 
-pub use feet::{CurveFeet, Foot};
+pub use feet::CurveFeet;
+pub use part::Foot;
 
 use crate::frame::Frame;
 use trueness_geom::space::{Point, Vector};

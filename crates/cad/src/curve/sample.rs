@@ -2,7 +2,7 @@
 
 use super::Span;
 use super::conic::Conic;
-use super::feet::{Foot, Part, Shape};
+use super::part::{Foot, Part, Shape};
 use std::f64::consts::FRAC_PI_2;
 use trueness_geom::space::{Point, Vector, cross, dot, minus, norm};
 

@@ -1,22 +1,51 @@
 //! Takes a boundary apart for the search.
 
 use super::cover::{cover_of_face, pieces_of_edge};
+use super::face::Face;
+use super::region::Region;
 use super::side::Sides;
 use super::tree::Boxes;
-use super::{Border, Face, Region, Search, Target};
 use crate::brep::{Bounds, Brep, Loop};
 use crate::curve::CurveFeet;
 use crate::surface::SurfaceFeet;
 use trueness_geom::parallel::prelude::*;
 use trueness_geom::space::{Aabb, Point};
 
+/// A boundary taken apart.
+pub(super) struct Prepared<R> {
+    pub(super) faces: Vec<Face<R>>,
+    pub(super) edges: Vec<Border>,
+    pub(super) vertices: Vec<Point>,
+    pub(super) targets: Vec<Target>,
+    pub(super) boxes: Boxes,
+    pub(super) sides: Sides,
+    /// Distance within which a place of an edge is its end.
+    pub(super) same: f64,
+}
+
+/// An edge, or a side of a face that has none.
+pub(super) struct Border {
+    pub(super) feet: CurveFeet,
+    pub(super) range: [f64; 2],
+    /// Where it starts and ends.
+    pub(super) vertices: Option<[u32; 2]>,
+}
+
+/// What a box of the tree is around.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Target {
+    Unit { face: u32, unit: u32 },
+    Edge(u32),
+    Vertex(u32),
+}
+
 /// Share of the boundary's size within which a place of an edge is its end.
 const SAME_PLACE: f64 = 1e-12;
 /// So many boxes in a row reach from one end of the boundary to the other.
 const BOXES_OF_SIZE: f64 = 24.0;
 
-/// The search over the faces that have a region.
-pub(super) fn search<R: Region>(brep: &Brep, regions: Vec<Option<R>>) -> Search<R> {
+/// Takes apart the faces that have a region, and their borders.
+pub(super) fn prepared<R: Region>(brep: &Brep, regions: Vec<Option<R>>) -> Prepared<R> {
     let mut edges: Vec<Border> = brep
         .edges
         .iter()
@@ -99,7 +128,7 @@ pub(super) fn search<R: Region>(brep: &Brep, regions: Vec<Option<R>>) -> Search<
         }
     }
     let sides = Sides::new(brep, &faces, side_faces);
-    Search {
+    Prepared {
         faces,
         edges,
         vertices,

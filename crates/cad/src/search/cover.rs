@@ -1,6 +1,7 @@
 //! Boxes around faces and edges: many small ones, without those that hold nothing of the face.
 
-use super::{Face, Region};
+use super::face::Face;
+use super::region::Region;
 use crate::curve::CurveFeet;
 use crate::surface::SurfaceFeet;
 use trueness_geom::space::{Aabb, minus, norm};

@@ -17,125 +17,28 @@
 
 mod build;
 mod cover;
+mod face;
+mod nearest;
+mod region;
 mod side;
 #[cfg(test)]
 mod tests;
 mod tree;
 
+pub use nearest::{Nearest, On, Side};
+pub use region::Region;
+
 use crate::brep::Brep;
-use crate::curve::CurveFeet;
-use crate::surface::SurfaceFeet;
-use crate::trim::Trim;
-use side::Sides;
-use tree::Boxes;
+use build::{Border, Prepared, Target, prepared};
+use face::Face;
+use nearest::Best;
 use trueness_geom::closest::{QueryError, check_points};
 use trueness_geom::parallel::prelude::*;
 use trueness_geom::progress::{Cancelled, Progress};
 use trueness_geom::space::{Point, Vector, minus, norm, plus, times};
 
-pub use side::Side;
-
-/// What of its surface a face is, as the search asks it.
-pub trait Region: Sync + Send {
-    /// Whether the face has the place with these parameters, whatever number of periods they are away. Its border belongs to it.
-    fn contains(&self, at: [f64; 2]) -> bool;
-    /// First and last `u`, first and last `v` of the face, on one sheet where parameters repeat.
-    fn window(&self) -> [[f64; 2]; 2];
-}
-
-impl Region for Trim {
-    fn contains(&self, at: [f64; 2]) -> bool {
-        Trim::contains(self, at)
-    }
-    fn window(&self) -> [[f64; 2]; 2] {
-        self.window
-    }
-}
-
-/// What the nearest place lies on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum On {
-    /// Within a face.
-    Face(u32),
-    /// On an edge, or on a side of a face that has none.
-    Edge(u32),
-    /// On a corner.
-    Vertex(u32),
-}
-
-/// The place of a boundary nearest to a point.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Nearest {
-    /// Its distance; NaN for a boundary without faces.
-    pub distance: f64,
-    /// The place.
-    pub place: Point,
-    /// What it lies on. Edges beyond those of the boundary are sides of faces without edges.
-    pub on: On,
-    /// The face, of several that meet there the lowest.
-    pub face: u32,
-    /// Parameters within a face; on an edge its own parameter, twice; on a corner NaN.
-    pub parameters: [f64; 2],
-    /// On which side the point is.
-    pub side: Side,
-    /// The unit outward normal: of the face, or of all faces that meet there, weighted by their angles. `None` where they have none together.
-    pub normal: Option<Vector>,
-}
-
-impl Nearest {
-    /// The distance, below 0 inside; `None` where the side is not known.
-    pub fn signed(&self) -> Option<f64> {
-        match self.side {
-            Side::Outside => Some(self.distance),
-            Side::Inside => Some(-self.distance),
-            Side::Open | Side::Unsure => None,
-        }
-    }
-}
-
 /// A boundary, ready to be asked for nearest places.
-pub struct Search<R> {
-    faces: Vec<Face<R>>,
-    edges: Vec<Border>,
-    vertices: Vec<Point>,
-    targets: Vec<Target>,
-    boxes: Boxes,
-    sides: Sides,
-    /// Distance within which a place of an edge is its end.
-    same: f64,
-}
-
-/// A face.
-struct Face<R> {
-    feet: SurfaceFeet,
-    /// `None` where nothing is known of it.
-    region: Option<R>,
-    is_reversed: bool,
-}
-
-/// An edge, or a side of a face that has none.
-struct Border {
-    feet: CurveFeet,
-    range: [f64; 2],
-    vertices: Option<[u32; 2]>,
-}
-
-/// What a box of the tree is around.
-#[derive(Clone, Copy, Debug)]
-enum Target {
-    Unit { face: u32, unit: u32 },
-    Edge(u32),
-    Vertex(u32),
-}
-
-/// The best candidate so far.
-#[derive(Clone, Copy)]
-struct Best {
-    distance: f64,
-    place: Point,
-    on: On,
-    parameters: [f64; 2],
-}
+pub struct Search<R>(Prepared<R>);
 
 /// What a thread keeps from point to point.
 struct Scratch {
@@ -155,7 +58,7 @@ const CHUNK: usize = 256;
 impl<R: Region> Search<R> {
     /// Prepares a boundary; `regions` are those of its faces, in their order. Faces without one, and what only they use, are passed over.
     pub fn new(brep: &Brep, regions: Vec<Option<R>>) -> Search<R> {
-        build::search(brep, regions)
+        Search(prepared(brep, regions))
     }
 
     /// The nearest place of a point. A point that is not finite has a distance that is not.
@@ -193,13 +96,13 @@ impl<R: Region> Search<R> {
     }
 
     fn scratch(&self) -> Scratch {
-        Scratch { seen: vec![0; self.targets.len()], point: 0, stack: vec![] }
+        Scratch { seen: vec![0; self.0.targets.len()], point: 0, stack: vec![] }
     }
 
     fn answer(&self, p: &Point, scratch: &mut Scratch) -> Nearest {
         let mut own = self.describe(p, self.best(p, scratch));
         if let (On::Vertex(vertex), Side::Unsure) = (own.on, own.side) {
-            let ways = self.sides.edges_at(vertex);
+            let ways = self.0.sides.edges_at(vertex);
             let side = ways.iter().find_map(|way| self.side_beside(p, own.distance, *way, scratch));
             own.side = side.unwrap_or(Side::Unsure);
         }
@@ -226,11 +129,11 @@ impl<R: Region> Search<R> {
         let mut best = Best::NONE;
         if p.iter().all(|x| x.is_finite()) {
             let Scratch { seen, point, stack } = scratch;
-            self.boxes.visit(p, stack, |target| {
+            self.0.boxes.visit(p, stack, |target| {
                 let own = &mut seen[target as usize];
                 if *own != *point {
                     *own = *point;
-                    self.look(self.targets[target as usize], p, &mut best);
+                    self.look(self.0.targets[target as usize], p, &mut best);
                 }
                 best.distance
             });
@@ -242,7 +145,7 @@ impl<R: Region> Search<R> {
     fn look(&self, target: Target, p: &Point, best: &mut Best) {
         match target {
             Target::Unit { face, unit } => {
-                let Face { feet, region: Some(region), .. } = &self.faces[face as usize] else { return };
+                let Face { feet, region: Some(region), .. } = &self.0.faces[face as usize] else { return };
                 // What is as near counts as well: the lower face is taken.
                 feet.visit_unit(unit as usize, *p, best.distance.next_up(), &mut |foot| {
                     let own = Best {
@@ -258,7 +161,7 @@ impl<R: Region> Search<R> {
                 });
             }
             Target::Edge(edge) => {
-                let border = &self.edges[edge as usize];
+                let border = &self.0.edges[edge as usize];
                 if let Some(foot) = border.feet.nearer(*p, best.distance.next_up()) {
                     let Border { range: [from, to], vertices, .. } = border;
                     let on = match vertices {
@@ -274,7 +177,7 @@ impl<R: Region> Search<R> {
                 }
             }
             Target::Vertex(vertex) => {
-                let place = self.vertices[vertex as usize];
+                let place = self.0.vertices[vertex as usize];
                 let (on, parameters) = (On::Vertex(vertex), [f64::NAN; 2]);
                 best.take(Best { distance: norm(minus(place, *p)), place, on, parameters });
             }
@@ -282,7 +185,7 @@ impl<R: Region> Search<R> {
     }
 
     fn is_at(&self, vertex: u32, place: &Point) -> bool {
-        self.vertices.get(vertex as usize).is_some_and(|v| norm(minus(*v, *place)) <= self.same)
+        self.0.vertices.get(vertex as usize).is_some_and(|v| norm(minus(*v, *place)) <= self.0.same)
     }
 
     fn describe(&self, p: &Point, best: Best) -> Nearest {
@@ -291,26 +194,7 @@ impl<R: Region> Search<R> {
             let distance = f64::NAN;
             return Nearest { distance, place, on, face: 0, parameters, side: Side::Unsure, normal: None };
         }
-        let (face, side, normal) = self.sides.of(&self.faces, p, &best);
+        let (face, side, normal) = self.0.sides.of(&self.0.faces, p, &best);
         Nearest { distance, place, on, face, parameters, side, normal }
-    }
-}
-
-impl Best {
-    const NONE: Best = Best {
-        distance: f64::INFINITY,
-        place: [f64::NAN; 3],
-        on: On::Vertex(u32::MAX),
-        parameters: [f64::NAN; 2],
-    };
-
-    fn is_before(&self, other: &Best) -> bool {
-        self.distance < other.distance || self.distance == other.distance && self.on < other.on
-    }
-
-    fn take(&mut self, other: Best) {
-        if other.is_before(self) {
-            *self = other;
-        }
     }
 }

@@ -1,7 +1,8 @@
 //! How far a part of a surface reaches, lines of equal parameters, and descents to a near place.
 
+use super::Surface;
+use super::foot::Foot;
 use super::seams::iso_curve;
-use super::{Foot, Surface};
 use crate::curve::{Curve, CurveFeet};
 use crate::frame::{Frame, Placement};
 use std::f64::consts::{PI, TAU};

@@ -4,6 +4,7 @@
 //! curve those of the point turned into the plane of the curve, and an offset has those of its basis.
 
 use super::Surface;
+use super::foot::Foot;
 use super::profile::Profile;
 use super::seams::Pole;
 use super::spline::SplineFeet;
@@ -14,17 +15,6 @@ use trueness_geom::space::{Aabb, Point, Vector, dot, minus, norm, plus, times, u
 
 /// Share of a spline's size within which a point is taken to lie on it, at the parameters next to those before.
 const ON_SURFACE: f64 = 1e-4;
-
-/// A place of a surface.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Foot {
-    /// Its parameters.
-    pub parameters: [f64; 2],
-    /// The place.
-    pub place: Point,
-    /// Its distance from the point that was asked for.
-    pub distance: f64,
-}
 
 /// A surface, ready to be asked for feet many times.
 #[derive(Clone, Debug)]

@@ -17,6 +17,8 @@
 mod evaluate;
 mod extent;
 mod feet;
+mod foot;
+mod net;
 mod parameters;
 mod patch;
 mod placed;
@@ -31,7 +33,8 @@ use crate::frame::Frame;
 use trueness_geom::space::{Point, Vector};
 use trueness_geom::spline::surface::Nurbs;
 
-pub use feet::{Foot, SurfaceFeet};
+pub use feet::SurfaceFeet;
+pub use foot::Foot;
 pub use seams::Pole;
 pub use trueness_geom::spline::surface::Jet;
 

@@ -1,7 +1,9 @@
 //! The parameters of places on or near a surface.
 
+use super::Surface;
+use super::feet::SurfaceFeet;
+use super::foot::Foot;
 use super::seams::SAME_PLACE;
-use super::{Foot, Surface, SurfaceFeet};
 use trueness_geom::space::{Point, minus, norm};
 
 impl SurfaceFeet {

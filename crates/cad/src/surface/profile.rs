@@ -5,7 +5,7 @@
 //! tried in many places, and a descent leads on from the best ones: a foot may be missed where the curve winds more finely.
 
 use super::Surface;
-use super::feet::Foot;
+use super::foot::Foot;
 use crate::curve::{Curve, CurveFeet};
 use trueness_geom::space::{Point, Vector, cross, dot, minus, norm, plus, times, unit};
 use trueness_geom::spline::surface::descend;

@@ -1,7 +1,8 @@
 //! Feet on B-spline surfaces.
 
-use super::feet::Foot;
-use super::patch::{Net, Patch};
+use super::foot::Foot;
+use super::net::Net;
+use super::patch::Patch;
 use super::seams::iso_curve;
 use crate::curve::CurveFeet;
 use trueness_geom::space::{Aabb, Point};

@@ -21,7 +21,7 @@ fn frame(random: &mut Random) -> Frame {
 /// The nearest place by trying everything.
 fn brute<R: Region>(search: &Search<R>, p: &Point) -> Nearest {
     let mut best = Best::NONE;
-    for (number, face) in search.faces.iter().enumerate() {
+    for (number, face) in search.0.faces.iter().enumerate() {
         let Some(region) = &face.region else { continue };
         let on = On::Face(number as u32);
         for foot in face.feet.surface().feet(*p) {
@@ -31,7 +31,7 @@ fn brute<R: Region>(search: &Search<R>, p: &Point) -> Nearest {
             }
         }
     }
-    for target in &search.targets {
+    for target in &search.0.targets {
         if !matches!(target, Target::Unit { .. }) {
             search.look(*target, p, &mut best);
         }

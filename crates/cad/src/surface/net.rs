@@ -1,0 +1,198 @@
+//! Polynomials of two variables in Bernstein form.
+
+use trueness_geom::spline::value::{Mass, Value};
+
+/// Coefficients in Bernstein form of both directions, row after row.
+#[derive(Clone, Debug)]
+pub(super) struct Net<V> {
+    pub(super) counts: [usize; 2],
+    pub(super) values: Vec<V>,
+}
+
+impl<V: Copy> Net<V> {
+    /// Start and step of row or column `line` along direction `k`, and how many such there are.
+    pub(super) fn along(&self, k: usize) -> ([usize; 2], usize) {
+        let [p, q] = self.counts;
+        if k == 0 { ([1, q], q) } else { ([q, 1], p) }
+    }
+
+    pub(super) fn map<T>(&self, f: impl Fn(&V) -> T) -> Net<T> {
+        Net { counts: self.counts, values: self.values.iter().map(f).collect() }
+    }
+
+    /// The product of two nets.
+    pub(super) fn product<T: Copy>(&self, other: &Net<T>, by: impl Fn(V, T) -> f64) -> Net<f64> {
+        let [[m, n], [r, s]] = [self.counts, other.counts].map(|c| c.map(|x| x - 1));
+        let rows = shares(m, r);
+        let columns = shares(n, s);
+        let counts = [m + r + 1, n + s + 1];
+        let mut values = vec![0.0; counts[0] * counts[1]];
+        for i in 0..=m {
+            for j in 0..=n {
+                let own = self.values[i * (n + 1) + j];
+                for k in 0..=r {
+                    let row = rows[i * (r + 1) + k];
+                    for l in 0..=s {
+                        let share = row * columns[j * (s + 1) + l];
+                        values[(i + k) * counts[1] + j + l] += share * by(own, other.values[k * (s + 1) + l]);
+                    }
+                }
+            }
+        }
+        Net { counts, values }
+    }
+}
+
+/// `C(m, i)·C(r, k) / C(m + r, i + k)` for all `i` and `k`.
+fn shares(m: usize, r: usize) -> Vec<f64> {
+    let [a, b, all] = [m, r, m + r].map(binomials);
+    (0..=m).flat_map(|i| (0..=r).map(move |k| (i, k))).map(|(i, k)| a[i] * b[k] / all[i + k]).collect()
+}
+
+/// Row `n` of Pascal's triangle.
+fn binomials(n: usize) -> Vec<f64> {
+    let mut row = vec![1.0; n + 1];
+    for k in 1..=n {
+        row[k] = row[k - 1] * (n + 1 - k) as f64 / k as f64;
+    }
+    row
+}
+
+impl Net<f64> {
+    pub(super) fn greatest(&self) -> f64 {
+        self.values.iter().fold(0.0, |m: f64, x| m.max(x.abs()))
+    }
+
+    pub(super) fn has_one_sign(&self, noise: f64) -> bool {
+        one_sign(self.values.iter().copied(), noise)
+    }
+
+    /// The derivative by the share of the way along a direction.
+    pub(super) fn derivative(&self, k: usize) -> Net<f64> {
+        let n = self.counts[k];
+        let mut counts = self.counts;
+        counts[k] = n.max(2) - 1;
+        if n == 1 {
+            return Net { counts, values: vec![0.0; self.values.len()] };
+        }
+        let step = if k == 0 { self.counts[1] } else { 1 };
+        let at = |i: usize, j: usize| i * self.counts[1] + j;
+        let by = (n - 1) as f64;
+        let values = (0..counts[0])
+            .flat_map(|i| (0..counts[1]).map(move |j| at(i, j)))
+            .map(|a| by * (self.values[a + step] - self.values[a]))
+            .collect();
+        Net { counts, values }
+    }
+
+    /// Least and greatest derivative along a direction, by the coefficients.
+    pub(super) fn steps(&self, k: usize) -> [f64; 2] {
+        let ([start, step], lines) = self.along(k);
+        let n = self.counts[k];
+        let mut range = if n == 1 { [0.0; 2] } else { [f64::INFINITY, f64::NEG_INFINITY] };
+        for line in 0..lines {
+            for i in 1..n {
+                let at = line * start + i * step;
+                let by = (n - 1) as f64 * (self.values[at] - self.values[at - step]);
+                range = [range[0].min(by), range[1].max(by)];
+            }
+        }
+        range
+    }
+
+    /// The mean of the derivatives along a direction.
+    pub(super) fn middle_step(&self, k: usize) -> f64 {
+        let [low, high] = self.steps(k);
+        0.5 * (low + high)
+    }
+
+    /// Greatest second difference along a direction.
+    pub(super) fn bend(&self, k: usize) -> f64 {
+        let ([start, step], lines) = self.along(k);
+        let mut most = 0.0f64;
+        for line in 0..lines {
+            for i in 2..self.counts[k] {
+                let at = |i: usize| self.values[line * start + i * step];
+                most = most.max((at(i) - 2.0 * at(i - 1) + at(i - 2)).abs());
+            }
+        }
+        most
+    }
+
+    /// Both halves along a direction, by the pyramid of de Casteljau.
+    pub(super) fn halves(&self, k: usize) -> [Net<f64>; 2] {
+        let (mut first, mut second) = (self.clone(), self.clone());
+        let n = self.counts[k];
+        let ([start, step], lines) = self.along(k);
+        for line in 0..lines {
+            let at = |i: usize| line * start + i * step;
+            for level in 1..n {
+                for i in 0..n - level {
+                    second.values[at(i)] = 0.5 * (second.values[at(i)] + second.values[at(i + 1)]);
+                }
+                first.values[at(level)] = second.values[at(0)];
+            }
+        }
+        [first, second]
+    }
+}
+
+/// Degree up to which a place is found without allocating.
+const INLINE: usize = 8;
+
+impl Net<Mass<3>> {
+    /// Value and derivatives by `u`, `v`, `uu`, `uv` and `vv` at shares of the way.
+    pub(super) fn six(&self, [s, t]: [f64; 2]) -> [Mass<3>; 6] {
+        let [p, q] = self.counts;
+        let mut rows = [[Mass::<3>::ZERO; 3]; INLINE + 1];
+        let mut many;
+        let rows: &mut [[Mass<3>; 3]] = if p <= INLINE + 1 {
+            &mut rows[..p]
+        } else {
+            many = vec![[Mass::<3>::ZERO; 3]; p];
+            &mut many
+        };
+        for (row, own) in rows.iter_mut().zip(self.values.chunks_exact(q)) {
+            *row = three(own.iter().copied(), q, t);
+        }
+        let [value, u, uu] = three(rows.iter().map(|r| r[0]), p, s);
+        let [v, uv, _] = three(rows.iter().map(|r| r[1]), p, s);
+        let [vv, _, _] = three(rows.iter().map(|r| r[2]), p, s);
+        [value, u, v, uu, uv, vv]
+    }
+}
+
+/// Value, first and second derivative of a polynomial by its `n` coefficients.
+fn three(coefficients: impl Iterator<Item = Mass<3>>, n: usize, t: f64) -> [Mass<3>; 3] {
+    let mut own = [Mass::<3>::ZERO; INLINE + 1];
+    let mut many;
+    let own: &mut [Mass<3>] = if n <= INLINE + 1 {
+        &mut own[..n]
+    } else {
+        many = vec![Mass::<3>::ZERO; n];
+        &mut many
+    };
+    own.iter_mut().zip(coefficients).for_each(|(own, c)| *own = c);
+    let degree = n - 1;
+    for level in 1..degree.max(2) - 1 {
+        for i in 0..n - level {
+            own[i] = own[i].between(t, own[i + 1]);
+        }
+    }
+    match (degree, &*own) {
+        (0, [a, ..]) => [*a, Mass::ZERO, Mass::ZERO],
+        (1, [a, b, ..]) => [a.between(t, *b), b.minus(*a), Mass::ZERO],
+        (_, [a, b, c, ..]) => {
+            let (left, right) = (a.between(t, *b), b.between(t, *c));
+            let second = c.minus(*b).minus(b.minus(*a)).times((degree * (degree - 1)) as f64);
+            [left.between(t, right), right.minus(left).times(degree as f64), second]
+        }
+        _ => [Mass::ZERO; 3],
+    }
+}
+
+/// Whether all numbers have one sign and are beyond the rounding.
+pub(super) fn one_sign(mut values: impl Iterator<Item = f64>, noise: f64) -> bool {
+    let Some(first) = values.next() else { return false };
+    first.abs() > noise && values.all(|x| x.abs() > noise && (x > 0.0) == (first > 0.0))
+}
