@@ -9,6 +9,7 @@ mod budget;
 mod context;
 mod curve;
 mod face;
+mod hollow;
 mod instances;
 mod looks;
 mod part;

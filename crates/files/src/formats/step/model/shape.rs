@@ -3,6 +3,7 @@
 use super::super::part21::{Entity, Record, Wrong};
 use super::curve::{MAX_BASES, is_curve};
 use super::face::Faces;
+use super::hollow::look_inward;
 use super::placement::operator;
 use super::surface::{Oriented, is_surface};
 use super::topology::Topology;
@@ -174,6 +175,10 @@ impl<'f> Shapes<'f> {
         };
         let outer = self.faces.shell(outer, false, color);
         let voids: Vec<u32> = voids.into_iter().filter_map(|v| self.faces.shell(v, false, color)).collect();
+        let (tolerance, progress) = (self.faces.topology.geometry.tolerance, self.faces.progress);
+        for shell in &voids {
+            look_inward(self.brep(), *shell, tolerance, progress);
+        }
         // What is wrong with the outer shell is told already; hollows alone are no solid.
         if let Some(outer) = outer {
             self.brep().solids.push(Solid { outer, voids, name });

@@ -48,19 +48,32 @@ fn faceted_solids_have_the_planes_of_their_polygons() {
     }
 }
 
+/// A ball around a tetrahedron whose polygons look outward or inward, and whose shell is turned or not.
 #[test]
-fn a_hollow_has_its_shell_turned() {
-    let text = part(
-        "#50",
-        &format!(
-            "#50=BREP_WITH_VOIDS('',#51,(#52));\n#52=ORIENTED_CLOSED_SHELL('',*,#53,.F.);\n#53=CLOSED_SHELL('',(#60,#61,#62,#63));\n{TETRAHEDRON}"
-        ),
-    );
-    let brep = model(&text).parts.remove(0).brep;
-    assert_eq!((brep.solids[0].outer, &brep.solids[0].voids[..]), (0, &[1][..]));
-    // The same faces, once each way.
-    assert_eq!((brep.faces.len(), brep.edges.len()), (8, 6));
-    assert!(six_volumes(&brep).abs() < 1e-15);
+fn a_hollow_looks_into_itself_however_the_file_says_so() {
+    for (word, inward) in [(".F.", false), (".T.", false), (".F.", true), (".T.", true)] {
+        let shell = match inward {
+            false => TETRAHEDRON.to_string(),
+            // All polygons the other way around.
+            true => {
+                let turned =
+                    TETRAHEDRON.replace("',#70,.T.)", "',#70,.F.)").replace("',#71,.F.)", "',#71,.T.)");
+                turned.replace("',#72,.T.)", "',#72,.F.)").replace("',#73,.T.)", "',#73,.F.)")
+            }
+        };
+        let text = part(
+            "#50",
+            &format!(
+                "#50=BREP_WITH_VOIDS('',#49,(#52));\n#49=CLOSED_SHELL('',(#48));\n#48=ADVANCED_FACE('',(),#47,.T.);\n\
+                #47=SPHERICAL_SURFACE('',#9,4.);\n#52=ORIENTED_CLOSED_SHELL('',*,#51,{word});\n{shell}"
+            ),
+        );
+        let brep = model(&text).parts.remove(0).brep;
+        assert_eq!((brep.solids[0].outer, &brep.solids[0].voids[..]), (0, &[1][..]));
+        assert_eq!((brep.faces.len(), brep.edges.len()), (5, 6));
+        let hollow = Brep { faces: brep.faces[1..].to_vec(), ..brep };
+        assert!((six_volumes(&hollow) + 1.0).abs() < 1e-15, "{word} {inward}: {}", six_volumes(&hollow));
+    }
 }
 
 /// A disk in the plane z = 0 with a hole, in every combination of senses.
