@@ -145,69 +145,6 @@ fn tessellated(all: &Brep, measured: &[Measured], distance: f64) -> String {
         .iter()
         .map(|(f, why)| format!("{:?}", format!("#{} {why}", all.faces[*f as usize].entity)))
         .collect();
-    if std::env::var("DBG").is_ok() {
-        for (i, m) in measured.iter().enumerate() {
-            if let Ok((t, integrals, _)) = m
-                && (by_face[i] - integrals.area).abs() > 0.1 * integrals.area
-            {
-                eprintln!(
-                    "FACE {} #{} facets {} area {} kind {:?} reversed {} window {:?} cuts {:?}",
-                    i,
-                    all.faces[i].entity,
-                    by_face[i],
-                    integrals.area,
-                    all.faces[i].surface.kind(),
-                    t.reversed,
-                    t.window,
-                    t.cuts
-                );
-                for r in &t.rings {
-                    for p in &r.pieces {
-                        match p {
-                            trueness_cad::trim::Piece::Edge(s) => eprintln!(
-                                "  edge {} shares {:?} ends {:?} poles {:?} poly {} first {:?} last {:?}",
-                                s.edge,
-                                s.shares(),
-                                s.ends(),
-                                s.poles,
-                                made.edges[s.edge as usize].shares.len(),
-                                made.edges[s.edge as usize]
-                                    .vertices
-                                    .first()
-                                    .map(|v| made.mesh.positions[*v as usize]),
-                                made.edges[s.edge as usize]
-                                    .vertices
-                                    .last()
-                                    .map(|v| made.mesh.positions[*v as usize])
-                            ),
-                            trueness_cad::trim::Piece::Straight { ends, kind } => {
-                                eprintln!("  {kind:?} {ends:?}")
-                            }
-                        }
-                    }
-                }
-                for e in &t.edges {
-                    let s = &all.edges[*e as usize].span;
-                    eprintln!(
-                        "   edge {e} range {:?} shares {:?} sample {:?}",
-                        s.range,
-                        made.edges[*e as usize].shares,
-                        s.sample(0.01, 0.5)
-                    );
-                }
-                for (f, face) in
-                    made.mesh.faces.iter().zip(&made.faces).filter(|(_, face)| **face as usize == i).take(40)
-                {
-                    eprintln!(
-                        "   facet {face} {:?} {:?}",
-                        f,
-                        made.parameters[made.mesh.faces.iter().position(|g| g == f).unwrap()]
-                    );
-                }
-                break;
-            }
-        }
-    }
     let off: Vec<String> = measured
         .iter()
         .enumerate()

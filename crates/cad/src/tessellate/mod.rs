@@ -2,7 +2,7 @@
 //!
 //! An edge is one polyline for all faces that it bounds, so facets meet vertex by vertex and a closed shell is watertight however coarse
 //! it is. Within a face, facets are those of the constrained Delaunay triangulation in parameters that are scaled to the cells of
-//! a grid ([`lines`](self)): a cell is as large as the surface's bends allow. Facets that turn out too far from the surface are cut,
+//! a grid: a cell is as large as the surface's bends allow. Facets that turn out too far from the surface are cut,
 //! edges too, until all keep to the tolerance. Sides that are a single place have a single vertex.
 
 mod bend;

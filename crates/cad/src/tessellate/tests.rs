@@ -9,7 +9,7 @@ use crate::trim::tests::{Made, circle, frame, line};
 use std::collections::BTreeMap;
 use std::f64::consts::{PI, TAU};
 use trueness_geom::progress::Silent;
-use trueness_geom::space::{Point, cross, dot, minus, norm, plus, times};
+use trueness_geom::space::{cross, dot, minus, norm, plus, times};
 
 fn tessellated(made: &Made, distance: f64) -> (Tessellation, Vec<Trim>) {
     let trims: Vec<Trim> = made.brep.faces.iter().map(|f| Trim::new(&made.brep, f, 0.0).unwrap()).collect();
@@ -246,5 +246,4 @@ fn rectangles_close_where_their_surface_does() {
         made.brep.faces[0] = face;
         assert_solid(&made, "rectangle");
     }
-    let _: Option<Point> = None;
 }

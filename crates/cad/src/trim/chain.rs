@@ -142,7 +142,7 @@ impl Chainer<'_> {
             let place = self.spans[slot].derivatives(share)[0];
             let own = self.spans[next.slot].derivatives(next.shares()[0])[0];
             let distance = norm(minus(place, own));
-            if !(distance <= self.most_open) {
+            if distance.is_nan() || distance > self.most_open {
                 return Err(TrimError::Open { edge: next.edge, distance });
             }
             let off = norm(minus(self.chart.place(end), self.chart.place(to)));
@@ -178,7 +178,8 @@ impl Chainer<'_> {
             let ahead = sign * (start[o] - end[o]) / period;
             let share = ahead - ahead.floor();
             // A turn of nothing, give or take rounding.
-            let share = if share > 1.0 - SAME_DIRECTION || share < SAME_DIRECTION { 0.0 } else { share };
+            let is_nothing = !(SAME_DIRECTION..=1.0 - SAME_DIRECTION).contains(&share);
+            let share = if is_nothing { 0.0 } else { share };
             to[o] = if share == 0.0 { end[o] } else { end[o] + sign * share * period };
         }
         to

@@ -9,6 +9,7 @@
 
 mod chain;
 mod chart;
+mod cut;
 mod error;
 mod open;
 mod outline;
@@ -127,7 +128,7 @@ impl Trim {
     fn of_rings(parts: Parts, reach: f64) -> Result<Trim, TrimError> {
         let Parts { chart, reversed, turned, rings, cuts, gap, edges, spans } = parts;
         let outline = Outline::new(&rings);
-        if !(outline.area() > 0.0) {
+        if outline.area().is_nan() || outline.area() <= 0.0 {
             return Err(TrimError::Contradiction);
         }
         if let Some([a, b]) = outline.crossing(&rings, &chart, 4.0 * gap + reach) {
@@ -231,11 +232,11 @@ fn opened(
     mut rings: Vec<Ring>,
 ) -> Result<([Option<f64>; 2], Vec<Ring>), TrimError> {
     let mut cuts = [None; 2];
-    for k in 0..2 {
+    for (k, own) in cuts.iter_mut().enumerate() {
         if let Some(period) = chart.periods[k] {
             let other = if k == 0 { chart.periods[1] } else { None };
             let (cut, open) = open::Opener { chart, spans, k, period, other }.open(rings)?;
-            (cuts[k], rings) = (Some(cut), open);
+            (*own, rings) = (Some(cut), open);
         }
     }
     if rings.is_empty() {
@@ -256,7 +257,7 @@ fn gap_of(chart: &Chart, spans: &[Span], rings: &[Ring], most: f64) -> Result<f6
         for strand in strands {
             let span = &spans[strand.slot];
             let distance = strand::gap(strand, chart, span);
-            if !(distance <= most) {
+            if distance.is_nan() || distance > most {
                 return Err(TrimError::Off { edge: strand.edge, distance });
             }
             let [start, end] = strand.shares().map(|s| span.derivatives(s)[0]);
