@@ -149,8 +149,7 @@ impl Part {
         let mut off = 0.0f64;
         for (i, row) in inverse.iter().enumerate() {
             let mut sum = 0.0;
-            for k in 0..2 {
-                let ([a, b], [c, d]) = (ranges[0][k], ranges[1][k]);
+            for (k, ([a, b], [c, d])) in ranges[0].into_iter().zip(ranges[1]).enumerate() {
                 let [p, q] = [[row[0] * a, row[0] * b], [row[1] * c, row[1] * d]];
                 let target = f64::from(u8::from(i == k));
                 let low = p[0].min(p[1]) + q[0].min(q[1]) - target;
