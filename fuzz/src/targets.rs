@@ -1,5 +1,6 @@
 //! The list of targets: one for each reader, and one each for the check and the repair of meshes.
 
+mod cad;
 mod meshes;
 mod readers;
 
@@ -23,7 +24,7 @@ pub struct Target {
 }
 
 /// All targets.
-pub const TARGETS: [Target; 9] = [
+pub const TARGETS: [Target; 10] = [
     readers::STL,
     readers::PLY,
     readers::OBJ,
@@ -31,6 +32,7 @@ pub const TARGETS: [Target; 9] = [
     readers::TABLE,
     readers::NPY,
     readers::GZ,
+    cad::STEP,
     meshes::CHECK,
     meshes::REPAIR,
 ];

@@ -23,13 +23,14 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 /// Crates from the lowest floor upward, and the crates of the project that each may use.
-const FLOORS: [(&str, &[&str]); 11] = [
+const FLOORS: [(&str, &[&str]); 12] = [
     ("geom", &[]),
     ("viewer", &[]),
     ("section", &["geom"]),
     ("solid", &["geom"]),
     ("surface", &["geom"]),
-    ("files", &["geom"]),
+    ("cad", &["geom"]),
+    ("files", &["geom", "cad"]),
     ("document", &[]),
     ("measure", &["geom", "section", "solid", "surface", "document"]),
     ("report", &["geom", "section", "solid", "surface", "viewer", "document", "measure"]),

@@ -30,7 +30,11 @@ const READERS: [(&Format, Reader); 1] = [(&step::STEP, step::model)];
 /// # Errors
 /// A file of another format; one without faces that can be read; an assembly of more instances than can be held;
 /// [`Fault::Cancelled`]; those of reading.
-pub fn read(path: &Path, options: &ReadOptions, progress: &dyn Progress) -> std::result::Result<CadFile, ReadError> {
+pub fn read(
+    path: &Path,
+    options: &ReadOptions,
+    progress: &dyn Progress,
+) -> std::result::Result<CadFile, ReadError> {
     read_from(&FileSources, path, options, progress)
 }
 
@@ -45,7 +49,9 @@ pub fn read_from(
     progress: &dyn Progress,
 ) -> std::result::Result<CadFile, ReadError> {
     let source = sources.bytes(name).map_err(Into::into).and_then(Source::of);
-    source.and_then(|source| of_source(source, name, options, progress)).map_err(|e| e.in_file(&sources.shown(name)))
+    source
+        .and_then(|source| of_source(source, name, options, progress))
+        .map_err(|e| e.in_file(&sources.shown(name)))
 }
 
 fn of_source(

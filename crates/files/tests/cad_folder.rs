@@ -6,7 +6,10 @@ use std::collections::BTreeMap;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
+use trueness_cad::brep::Brep;
+use trueness_cad::measure::Integrals;
 use trueness_cad::model::Model;
+use trueness_cad::trim::Trim;
 use trueness_files::{ReadOptions, cad};
 use trueness_geom::progress::Silent;
 
@@ -26,7 +29,8 @@ fn a_line_for_each_file() {
             Ok(file) => format!("\"unit\":{},{}", file.unit.millimeters, summary(&file.model)),
             Err(e) => format!("\"error\":{:?}", e.to_string()),
         };
-        writeln!(out, "{{\"file\":{:?},\"seconds\":{seconds:.3},{about}}}", path.display().to_string()).unwrap();
+        writeln!(out, "{{\"file\":{:?},\"seconds\":{seconds:.3},{about}}}", path.display().to_string())
+            .unwrap();
     }
 }
 
@@ -49,21 +53,27 @@ fn summary(model: &Model) -> String {
         *kinds.entry(format!("{:?}", face.surface.kind()).to_lowercase()).or_default() += 1;
     }
     let kinds: Vec<String> = kinds.iter().map(|(k, n)| format!("{k:?}:{n}")).collect();
-    let unread: Vec<String> =
-        model.unread.iter().map(|u| format!("{:?}", format!("#{} {} {} {}", u.entity, u.keyword, u.reason, u.holds_faces))).collect();
+    let unread: Vec<String> = model
+        .unread
+        .iter()
+        .map(|u| format!("{:?}", format!("#{} {} {} {}", u.entity, u.keyword, u.reason, u.holds_faces)))
+        .collect();
     let placements: Vec<String> = model
         .instances
         .iter()
         .map(|i| format!("{{\"path\":{:?},\"matrix\":{:?}}}", i.path.join("/"), i.placement.matrix()))
         .collect();
-    let wires: u64 = model.instances.iter().filter_map(|i| model.parts.get(i.part as usize)).map(|p| p.wires).sum();
+    let wires: u64 =
+        model.instances.iter().filter_map(|i| model.parts.get(i.part as usize)).map(|p| p.wires).sum();
     let shells = all.shells.len();
     let closed = all.shells.iter().filter(|s| s.closed).count();
     let colored = all.faces.iter().filter(|f| f.color.is_some()).count();
+    let (area, volume, untrimmed) = integrals(&all, model.uncertainty.unwrap_or_default());
     format!(
-        "\"faces\":{{{}}},\"nfaces\":{},\"edges\":{},\"vertices\":{},\"solids\":{},\"shells\":{shells},\"closed_shells\":{closed},\
+        "\"area\":{area:?},\"volume\":{volume:?},\"untrimmed\":[{}],\"faces\":{{{}}},\"nfaces\":{},\"edges\":{},\"vertices\":{},\"solids\":{},\"shells\":{shells},\"closed_shells\":{closed},\
          \"instances\":{},\"depth\":{},\"wires\":{wires},\"colored\":{colored},\"hidden\":{},\"layers\":{:?},\"uncertainty\":{:?},\
          \"unread\":[{}],\"placements\":[{}]",
+        untrimmed.join(","),
         kinds.join(","),
         all.faces.len(),
         all.edges.len(),
@@ -77,4 +87,22 @@ fn summary(model: &Model) -> String {
         unread.join(","),
         placements.join(",")
     )
+}
+
+/// Area of all faces, volume of all solids, and the faces whose border contradicts itself.
+fn integrals(all: &Brep, uncertainty: f64) -> (f64, f64, Vec<String>) {
+    let mut untrimmed = vec![];
+    let mut of_face = vec![Integrals::default(); all.faces.len()];
+    for (face, own) in all.faces.iter().zip(&mut of_face) {
+        match Trim::new(all, face, uncertainty) {
+            Ok(trim) => *own = Integrals::of(&trim, [0.0; 3]),
+            Err(e) => {
+                untrimmed.push(format!("{:?}", format!("#{} {:?} {e}", face.entity, face.surface.kind())))
+            }
+        }
+    }
+    let area = of_face.iter().map(|i| i.area).sum();
+    let shells = all.solids.iter().flat_map(|s| s.voids.iter().chain([&s.outer]));
+    let faces = shells.flat_map(|s| &all.shells[*s as usize].faces);
+    (area, faces.map(|f| of_face[*f as usize].volume).sum(), untrimmed)
 }

@@ -229,7 +229,7 @@ fn whole(source: &SourceMesh) {
 }
 
 /// An error names the file and what to do.
-fn refused(e: &ReadError, path: &Path) {
+pub(super) fn refused(e: &ReadError, path: &Path) {
     let text = e.to_string();
     assert!(text.starts_with(&path.display().to_string()), "an error without file: {text}");
     assert!(

@@ -62,7 +62,8 @@ fn along(surface: &Surface, k: usize) -> Along {
         }
     };
     match (surface, k) {
-        (Surface::Plane(_), _) | (Surface::Cylinder { .. } | Surface::Cone { .. } | Surface::Extrusion { .. }, 1) => {
+        (Surface::Plane(_), _)
+        | (Surface::Cylinder { .. } | Surface::Cone { .. } | Surface::Extrusion { .. }, 1) => {
             Along::Polynomial
         }
         (Surface::Extrusion { curve: c, .. }, _) => curve(c),
@@ -87,7 +88,9 @@ impl<'a> Inner<'a> {
         let [from, to] = trim.window[across];
         let (limits, count) = match along(surface, across) {
             Along::Polynomial => (vec![], POLYNOMIAL),
-            Along::Harmonic => ((1..5).map(|i| from + FRAC_PI_2 * f64::from(i)).filter(|x| *x < to).collect(), QUARTER),
+            Along::Harmonic => {
+                ((1..5).map(|i| from + FRAC_PI_2 * f64::from(i)).filter(|x| *x < to).collect(), QUARTER)
+            }
             Along::Knots(knots) => (repeated(&knots, trim, across), SPAN),
         };
         let mut pieces = vec![];
@@ -102,7 +105,10 @@ impl<'a> Inner<'a> {
         }
         // From a pole, where there is one: there the integral is 0, as it must be where the border turns around the pole.
         let poles = trim.chart.poles[across];
-        let is_at = |end: usize| poles[end].is_some() && (trim.window[across][end] - trim.chart.domain[across][end]).abs() < 1e-9 * (to - from);
+        let is_at = |end: usize| {
+            poles[end].is_some()
+                && (trim.window[across][end] - trim.chart.domain[across][end]).abs() < 1e-9 * (to - from)
+        };
         let base = if is_at(1) && !is_at(0) { to } else { from };
         let mut inner = Inner { trim, center, across, base, limits, parts: 1, rule: gauss(count), pieces };
         if count == SPAN {

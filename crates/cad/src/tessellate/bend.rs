@@ -121,7 +121,11 @@ impl<'a> Bend<'a> {
             let [first, last] = [self.chart.domain[k][0], self.chart.domain[k][0] + period];
             let start = a - period * ((a - first) / period).floor();
             let end = start + (b - a);
-            if end <= last { vec![[start, end]] } else { vec![[start, last], [first, (end - period).min(last)]] }
+            if end <= last {
+                vec![[start, end]]
+            } else {
+                vec![[start, last], [first, (end - period).min(last)]]
+            }
         });
         let [us, vs] = ranges;
         us.iter().flat_map(|u| vs.iter().map(move |v| [*u, *v])).collect()
@@ -131,7 +135,9 @@ impl<'a> Bend<'a> {
         let mut most = [0.0f64; 3];
         for i in 0..3 {
             for j in 0..3 {
-                let at = |k: usize, n: i32| sides[k][0] + (0.02 + 0.48 * f64::from(n)) * (sides[k][1] - sides[k][0]);
+                let at = |k: usize, n: i32| {
+                    sides[k][0] + (0.02 + 0.48 * f64::from(n)) * (sides[k][1] - sides[k][0])
+                };
                 let jet = self.chart.jet([at(0, i), at(1, j)]);
                 (0..3).for_each(|n| {
                     let size = norm(jet.second[n]);
@@ -152,7 +158,9 @@ impl<'a> Bend<'a> {
             most.max((radius - nearest_to_origin(triangle)).abs())
         };
         match self.chart.surface() {
-            Surface::Plane(frame) => proven(corners.iter().map(|p| frame.local(*p)[2].abs()).fold(0.0, f64::max)),
+            Surface::Plane(frame) => {
+                proven(corners.iter().map(|p| frame.local(*p)[2].abs()).fold(0.0, f64::max))
+            }
             Surface::Sphere { frame, radius } => proven(off_circle(corners.map(|p| frame.local(p)), *radius)),
             Surface::Cylinder { frame, radius } => proven(off_circle(flat(frame), *radius)),
             Surface::Cone { frame, radius, half_angle } => {

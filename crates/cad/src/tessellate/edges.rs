@@ -109,3 +109,26 @@ pub fn numbered(brep: &Brep, shares: Vec<Vec<f64>>) -> (Vec<Polyline>, Vec<Point
     }
     (polylines, positions)
 }
+
+/// Adds places to edges; the edges that have more now, ascending.
+pub fn insert<'a>(
+    brep: &Brep,
+    wanted: impl Iterator<Item = &'a (u32, f64)>,
+    polylines: &mut [Polyline],
+    positions: &mut Vec<Point>,
+) -> Vec<u32> {
+    let mut touched = vec![];
+    for (edge, share) in wanted {
+        let own = &mut polylines[*edge as usize];
+        let at = own.shares.partition_point(|s| s < share);
+        if own.shares.get(at) != Some(share) {
+            positions.push(brep.edges[*edge as usize].span.derivatives(*share)[0]);
+            own.shares.insert(at, *share);
+            own.vertices.insert(at, (positions.len() - 1) as u32);
+            touched.push(*edge);
+        }
+    }
+    touched.sort_unstable();
+    touched.dedup();
+    touched
+}

@@ -175,7 +175,8 @@ impl<'a> Work<'a> {
             }
             let edges = self.cdt.try_add_constraint(*from, *to);
             if edges.is_empty() {
-                let crossed = all[..n].iter().filter(|(ends, _)| self.cross(*ends, [*from, *to])).map(|(_, c)| *c);
+                let crossed =
+                    all[..n].iter().filter(|(ends, _)| self.cross(*ends, [*from, *to])).map(|(_, c)| *c);
                 let crossing: Vec<&Corner> = crossed.chain([*corner]).collect();
                 return Err(halves(&crossing));
             }
@@ -238,9 +239,7 @@ impl<'a> Work<'a> {
         if !inside.contains(&true) {
             return false;
         }
-        let is_apart = |at: &[f64; 2]| {
-            let p = self.scaled(*at);
-            let PositionInTriangulation::OnFace(face) = self.cdt.locate(p) else { return false };
+        let is_clear = |face: spade::handles::FixedFaceHandle<spade::handles::InnerTag>, p: Point2<f64>| {
             let face = self.cdt.face(face);
             let square = APART * APART;
             inside[face.fix().index()]
@@ -249,6 +248,18 @@ impl<'a> Work<'a> {
                         || e.distance_2(p) > square
                 })
                 && face.vertices().iter().all(|v| v.position().distance_2(p) > square)
+        };
+        let is_apart = |at: &[f64; 2]| {
+            let p = self.scaled(*at);
+            match self.cdt.locate(p) {
+                PositionInTriangulation::OnFace(face) => is_clear(face, p),
+                PositionInTriangulation::OnEdge(edge) => {
+                    let edge = self.cdt.directed_edge(edge);
+                    let both = [edge.face(), edge.rev().face()];
+                    both.iter().all(|f| f.as_inner().is_some_and(|f| is_clear(f.fix(), p)))
+                }
+                _ => false,
+            }
         };
         let kept: Vec<[f64; 2]> = nodes.into_iter().filter(is_apart).collect();
         for at in kept {

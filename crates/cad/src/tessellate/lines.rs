@@ -51,7 +51,8 @@ pub fn lines(trim: &Trim, bend: &Bend, fineness: Fineness, finer: usize) -> [Vec
             let by_angle = width * turning(trim, k, sides, [uu, vv][k]) / fineness.angle;
             let by_turn = trim.chart.periods[k].map_or(1.0, |p| LEAST_PARTS * width / p);
             let n = by_distance.max(by_angle).max(by_turn).ceil().clamp(1.0, MAX_LINES as f64) as usize;
-            let n = if n == 1 && widths[k] == width && by_distance.max(by_angle) < 0.5 { 1 } else { n * finer };
+            let n =
+                if n == 1 && widths[k] == width && by_distance.max(by_angle) < 0.5 { 1 } else { n * finer };
             all.extend((1..=n).map(|i| if i == n { w[1] } else { w[0] + width * i as f64 / n as f64 }));
         }
         all
@@ -64,8 +65,12 @@ const SHARE_OF_DIRECTION: f64 = 0.5;
 /// By how much the direction of the surface turns with a parameter, about.
 fn turning(trim: &Trim, k: usize, sides: [[f64; 2]; 2], second: f64) -> f64 {
     match (trim.chart.surface(), k) {
-        (Surface::Plane(_), _) | (Surface::Cylinder { .. } | Surface::Cone { .. } | Surface::Extrusion { .. }, 1) => 0.0,
-        (Surface::Cylinder { .. } | Surface::Cone { .. } | Surface::Sphere { .. } | Surface::Torus { .. }, _)
+        (Surface::Plane(_), _)
+        | (Surface::Cylinder { .. } | Surface::Cone { .. } | Surface::Extrusion { .. }, 1) => 0.0,
+        (
+            Surface::Cylinder { .. } | Surface::Cone { .. } | Surface::Sphere { .. } | Surface::Torus { .. },
+            _,
+        )
         | (Surface::Revolution { .. }, 0) => 1.0,
         _ => {
             let speed = |share: f64| {

@@ -2,7 +2,7 @@
 //!
 //! An edge is one polyline for all faces that it bounds, so facets meet vertex by vertex and a closed shell is watertight however coarse
 //! it is. Within a face, facets are those of the constrained Delaunay triangulation in parameters that are scaled to the cells of
-//! a grid ([`lines`](self)): a cell is as large as the surface's bends allow. Facets that turn out too far from the surface are cut,
+//! a grid: a cell is as large as the surface's bends allow. Facets that turn out too far from the surface are cut,
 //! edges too, until all keep to the tolerance. Sides that are a single place have a single vertex.
 
 mod bend;
@@ -51,7 +51,9 @@ pub enum TessellateError {
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
     /// More facets than are allowed.
-    #[error("{facets} facets or more would be needed, {most} are allowed; with a tolerance of {tolerance} mm they are about that many")]
+    #[error(
+        "{facets} facets or more would be needed, {most} are allowed; with a tolerance of {tolerance} mm they are about that many"
+    )]
     TooMany {
         /// About how many.
         facets: usize,
@@ -81,14 +83,15 @@ impl Tessellation {
         progress: &dyn Progress,
     ) -> Result<Tessellation, TessellateError> {
         let required = edges::required(brep, trims);
-        let mut shares: Vec<Vec<f64>> = (0..brep.edges.len())
+        let shares: Vec<Vec<f64>> = (0..brep.edges.len())
             .into_par_iter()
             .map(|e| edges::shares(brep, e, &required[e], fineness))
             .collect();
+        // Places that are added later have later numbers, so faces that do not see them stand.
+        let (mut polylines, mut positions) = edges::numbered(brep, shares);
         let mut outcomes: Vec<Option<Outcome>> = trims.iter().map(|_| None).collect();
         let mut stale: Vec<usize> = (0..trims.len()).filter(|f| trims[*f].is_some()).collect();
-        for round in 0..MAX_ROUNDS {
-            let (polylines, positions) = edges::numbered(brep, shares.clone());
+        for round in 0..=MAX_ROUNDS {
             let made: Result<Vec<Outcome>, Cancelled> = stale
                 .par_iter()
                 .map(|f| {
@@ -106,21 +109,19 @@ impl Tessellation {
                 outcomes[*f] = Some(outcome);
             }
             check_count(&outcomes, most, fineness)?;
-            let touched = insert_wanted(&outcomes, &mut shares);
+            if round == MAX_ROUNDS {
+                break;
+            }
+            let wanted = outcomes
+                .iter()
+                .flatten()
+                .filter_map(|o| if let Outcome::Finer(w, _) = o { Some(w) } else { None });
+            let touched = edges::insert(brep, wanted.flatten(), &mut polylines, &mut positions);
             if touched.is_empty() {
                 break;
             }
-            stale = (0..trims.len())
-                .filter(|f| trims[*f].is_some_and(|t| t.edges.iter().any(|e| touched.binary_search(e).is_ok())))
-                .collect();
-            if round + 1 == MAX_ROUNDS {
-                break;
-            }
-        }
-        let (polylines, positions) = edges::numbered(brep, shares);
-        // After the last round edges may have places that faces have not seen.
-        for f in stale {
-            outcomes[f] = trims[f].map(|t| facets(t, &polylines, &positions, fineness, most));
+            let is_touched = |t: &Trim| t.edges.iter().any(|e| touched.binary_search(e).is_ok());
+            stale = (0..trims.len()).filter(|f| trims[*f].is_some_and(is_touched)).collect();
         }
         Ok(merged(outcomes, polylines, positions))
     }
@@ -142,25 +143,6 @@ fn check_count(outcomes: &[Option<Outcome>], most: usize, fineness: Fineness) ->
     Err(TessellateError::TooMany { facets, most, tolerance })
 }
 
-/// Adds the places that faces need to the edges; the edges that have more now, ascending.
-fn insert_wanted(outcomes: &[Option<Outcome>], shares: &mut [Vec<f64>]) -> Vec<u32> {
-    let mut touched = vec![];
-    for outcome in outcomes.iter().flatten() {
-        let Outcome::Finer(wanted, _) = outcome else { continue };
-        for (edge, share) in wanted {
-            let own = &mut shares[*edge as usize];
-            let at = own.partition_point(|s| s < share);
-            if own.get(at) != Some(share) {
-                own.insert(at, *share);
-                touched.push(*edge);
-            }
-        }
-    }
-    touched.sort_unstable();
-    touched.dedup();
-    touched
-}
-
 /// One mesh of the facets of all faces.
 fn merged(
     outcomes: Vec<Option<Outcome>>,
@@ -178,7 +160,8 @@ fn merged(
                 None
             }
             Some(Outcome::Finer(_, None) | Outcome::TooMany(_)) => {
-                all.failed.push((number, "its edges touch or cross in the parameters of its surface".to_string()));
+                all.failed
+                    .push((number, "its edges touch or cross in the parameters of its surface".to_string()));
                 None
             }
         };

@@ -140,7 +140,9 @@ fn acting(grid: &Grid, directions: &[Direction; 2], orders: [usize; 2], at: [f64
         last.saturating_sub(d.degree - orders[k])..=last
     });
     let [us, vs] = range;
-    us.flat_map(|i| vs.clone().map(move |j| (i, j))).map(|(i, j)| grid.values[i * grid.counts[1] + j]).collect()
+    us.flat_map(|i| vs.clone().map(move |j| (i, j)))
+        .map(|(i, j)| grid.values[i * grid.counts[1] + j])
+        .collect()
 }
 
 fn bound(all: &[([usize; 2], Option<Grid>); 6], directions: &[Direction; 2], at: [f64; 2]) -> Seconds {

@@ -95,7 +95,12 @@ impl Builder<'_> {
     /// The vertex of each pole: that of an edge that ends there, if there is one.
     fn find_poles(&mut self) {
         let trim = self.trim;
-        for strand in trim.rings.iter().flat_map(|r| &r.pieces).filter_map(|p| if let Piece::Edge(s) = p { Some(s) } else { None }) {
+        for strand in trim
+            .rings
+            .iter()
+            .flat_map(|r| &r.pieces)
+            .filter_map(|p| if let Piece::Edge(s) = p { Some(s) } else { None })
+        {
             for (side, share) in strand.poles.iter().zip(strand.shares()) {
                 if let Some(side) = side {
                     let polyline = &self.polylines[strand.edge as usize];
@@ -210,7 +215,8 @@ impl Builder<'_> {
         let mut inner: Vec<[f64; 2]> = vec![];
         for i in lines.partition_point(|x| *x <= low)..lines.partition_point(|x| *x < high) {
             let x = lines[i];
-            let step = |j: Option<usize>| j.and_then(|j| lines.get(j)).map_or(f64::INFINITY, |y| (y - x).abs());
+            let step =
+                |j: Option<usize>| j.and_then(|j| lines.get(j)).map_or(f64::INFINITY, |y| (y - x).abs());
             let near = APART * step(i.checked_sub(1)).min(step(Some(i + 1)));
             if x - low > near && high - x > near {
                 let mut at = from;

@@ -9,7 +9,7 @@ use crate::trim::tests::{Made, circle, frame, line};
 use std::collections::BTreeMap;
 use std::f64::consts::{PI, TAU};
 use trueness_geom::progress::Silent;
-use trueness_geom::space::{Point, cross, dot, minus, norm, plus, times};
+use trueness_geom::space::{cross, dot, minus, norm, plus, times};
 
 fn tessellated(made: &Made, distance: f64) -> (Tessellation, Vec<Trim>) {
     let trims: Vec<Trim> = made.brep.faces.iter().map(|f| Trim::new(&made.brep, f, 0.0).unwrap()).collect();
@@ -42,7 +42,12 @@ fn assert_closed(mesh: &Mesh, what: &str) {
     }
     for ([a, b], n) in &sides {
         assert_eq!(*n, 1, "{what}: {a} {b} {:?}", mesh.positions[*a as usize]);
-        assert!(sides.contains_key(&[*b, *a]), "{what}: {a} {b} {:?} {:?}", mesh.positions[*a as usize], mesh.positions[*b as usize]);
+        assert!(
+            sides.contains_key(&[*b, *a]),
+            "{what}: {a} {b} {:?} {:?}",
+            mesh.positions[*a as usize],
+            mesh.positions[*b as usize]
+        );
     }
 }
 
@@ -53,7 +58,10 @@ fn assert_within(made: &Tessellation, trims: &[Trim], distance: f64, what: &str)
     for (n, (f, face)) in made.mesh.faces.iter().zip(&made.faces).enumerate() {
         let trim = &trims[*face as usize];
         let bound = made.bounds[*face as usize].unwrap();
-        assert!(bound.distance <= 1.01 * distance + 3.0 * trim.gap && bound.is_proven, "{what} {face} {bound:?}");
+        assert!(
+            bound.distance <= 1.01 * distance + 3.0 * trim.gap && bound.is_proven,
+            "{what} {face} {bound:?}"
+        );
         let corners = f.map(|v| made.mesh.positions[v as usize]);
         for (p, at) in corners.iter().zip(&made.parameters[n]) {
             let on = trim.chart.place(*at);
@@ -85,7 +93,11 @@ fn assert_solid(made: &Made, what: &str) {
         assert_closed(&facets.mesh, &what);
         let [volume, area] = sizes(&facets.mesh);
         assert!(volume > 0.0, "{what}");
-        assert!((volume - exact.volume).abs() <= 1.05 * distance * exact.area, "{what} {volume} {}", exact.volume);
+        assert!(
+            (volume - exact.volume).abs() <= 1.05 * distance * exact.area,
+            "{what} {volume} {}",
+            exact.volume
+        );
         // By the square of the size of facets, which is the distance.
         let off = (area - exact.area).abs();
         assert!(off < 0.5 * before || off < 1e-9 * exact.area, "{what} {off} {before}");
@@ -128,7 +140,9 @@ fn spheres_whole_and_cut_are_closed() {
     let mut made = Made::default();
     made.face(Surface::Sphere { frame: base, radius: 2.0 }, false, &[]);
     assert_solid(&made, "sphere");
-    for (axis, h) in [([0.0, 0.0, 1.0], 0.3), ([1.0, 0.0, 0.0], -1.2), ([0.3, 0.4, 0.1], 0.9), ([0.3, 0.1, 0.9], -0.4)] {
+    for (axis, h) in
+        [([0.0, 0.0, 1.0], 0.3), ([1.0, 0.0, 0.0], -1.2), ([0.3, 0.4, 0.1], 0.9), ([0.3, 0.1, 0.9], -0.4)]
+    {
         let r = 2.0;
         let other = Frame::new(base.origin, base.vector(axis), None).unwrap();
         let mut made = Made::default();
@@ -183,7 +197,11 @@ fn boxes_with_bores_are_closed() {
     };
     made.face(Surface::Plane(top), false, &[&around(&high, false), &[(bore_high, true)]]);
     made.face(Surface::Plane(base), true, &[&[(bore_low, false)], &around(&low, true)]);
-    made.face(Surface::Cylinder { frame: base, radius: r }, true, &[&[(bore_low, true)], &[(bore_high, false)]]);
+    made.face(
+        Surface::Cylinder { frame: base, radius: r },
+        true,
+        &[&[(bore_low, true)], &[(bore_high, false)]],
+    );
     for i in 0..4 {
         let along = minus(at(i + 1, 0.0), at(i, 0.0));
         let side = Frame::new(at(i, 0.0), cross(along, base.axes[2]), Some(along)).unwrap();
@@ -228,5 +246,4 @@ fn rectangles_close_where_their_surface_does() {
         made.brep.faces[0] = face;
         assert_solid(&made, "rectangle");
     }
-    let _: Option<Point> = None;
 }

@@ -123,14 +123,26 @@ impl Chainer<'_> {
     ) -> Result<[f64; 2], TrimError> {
         let start = next.ends()[0];
         let (to, kind) = match (end_pole, next.poles[0]) {
-            (Some(side), Some(other)) if side == other => (self.along_pole(end, start, side), Straight::Pole(side)),
+            (Some(side), Some(other)) if side == other => {
+                (self.along_pole(end, start, side), Straight::Pole(side))
+            }
+            (Some(side), Some(other)) if side.0 != other.0 => {
+                // Both sides are one place: over the corner between them.
+                let mut corner = end;
+                corner[other.0] = self.chart.domain[other.0][other.1];
+                ring.pieces.push(Piece::Straight { ends: [end, corner], kind: Straight::Pole(side) });
+                ring.pieces.push(Piece::Straight { ends: [corner, start], kind: Straight::Pole(other) });
+                return Ok(start);
+            }
+            // From one pole to the opposite one at the same place: the surface touches itself, and the face goes on nowhere.
+            (Some(_), Some(_)) => return Err(TrimError::Contradiction),
             _ => (self.chart.beside(start, end), Straight::Joint),
         };
         if kind == Straight::Joint {
             let place = self.spans[slot].derivatives(share)[0];
             let own = self.spans[next.slot].derivatives(next.shares()[0])[0];
             let distance = norm(minus(place, own));
-            if !(distance <= self.most_open) {
+            if distance.is_nan() || distance > self.most_open {
                 return Err(TrimError::Open { edge: next.edge, distance });
             }
             let off = norm(minus(self.chart.place(end), self.chart.place(to)));
@@ -166,7 +178,8 @@ impl Chainer<'_> {
             let ahead = sign * (start[o] - end[o]) / period;
             let share = ahead - ahead.floor();
             // A turn of nothing, give or take rounding.
-            let share = if share > 1.0 - SAME_DIRECTION || share < SAME_DIRECTION { 0.0 } else { share };
+            let is_nothing = !(SAME_DIRECTION..=1.0 - SAME_DIRECTION).contains(&share);
+            let share = if is_nothing { 0.0 } else { share };
             to[o] = if share == 0.0 { end[o] } else { end[o] + sign * share * period };
         }
         to

@@ -25,7 +25,8 @@ impl Chart {
     /// The chart for a face that passes through these places: they decide between the parts that a pole leaves, as the nappes of a cone.
     pub fn new(surface: &Surface, places: &[Point]) -> Chart {
         let feet = SurfaceFeet::new(surface);
-        let mut chart = Chart { periods: feet.periods(), domain: surface.domain(), poles: [[None; 2]; 2], feet };
+        let mut chart =
+            Chart { periods: feet.periods(), domain: surface.domain(), poles: [[None; 2]; 2], feet };
         for k in 0..2 {
             let poles: Vec<Pole> = chart.feet.poles().iter().filter(|p| p.held == k).copied().collect();
             if !poles.is_empty() {
@@ -39,7 +40,9 @@ impl Chart {
     fn cut(&mut self, k: usize, poles: &[Pole], places: &[Point]) {
         let mut values: Vec<(f64, Option<Point>)> = poles.iter().map(|p| (p.at, Some(p.place))).collect();
         if let Some(period) = self.periods[k].take() {
-            let again = |turns: f64| values.iter().map(move |(at, place)| (at + turns * period, *place)).collect::<Vec<_>>();
+            let again = |turns: f64| {
+                values.iter().map(move |(at, place)| (at + turns * period, *place)).collect::<Vec<_>>()
+            };
             values = [again(-1.0), again(0.0), again(1.0)].concat();
         } else {
             values.extend(self.domain[k].map(|at| (at, None)));
@@ -120,10 +123,16 @@ impl Chart {
         })
     }
 
-    /// The pole within `reach` of a point.
-    pub fn pole(&self, point: Point, reach: f64) -> Option<Side> {
+    /// The pole within `reach` of a point; of several at one place that whose parameter is nearest to `near`.
+    pub fn pole(&self, point: Point, reach: f64, near: Option<[f64; 2]>) -> Option<Side> {
         let sides = [(0, 0), (0, 1), (1, 0), (1, 1)];
-        sides.into_iter().find(|(k, end)| self.poles[*k][*end].is_some_and(|p| norm(minus(p, point)) <= reach))
+        let is_there =
+            |side: &Side| self.poles[side.0][side.1].is_some_and(|p| norm(minus(p, point)) <= reach);
+        let away = |(k, end): &Side| {
+            let [from, to] = self.domain[*k];
+            near.map_or(0.0, |n| (n[*k] - self.domain[*k][*end]).abs() / (to - from))
+        };
+        sides.into_iter().filter(is_there).min_by(|a, b| away(a).total_cmp(&away(b)))
     }
 
     /// Whether any side is a pole.

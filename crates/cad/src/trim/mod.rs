@@ -9,6 +9,7 @@
 
 mod chain;
 mod chart;
+mod cut;
 mod error;
 mod open;
 mod outline;
@@ -22,10 +23,10 @@ pub use error::TrimError;
 pub use ring::{Piece, Ring, Straight};
 pub use strand::{Sample, Strand, crossing};
 
-use crate::brep::{Bounds, Brep, Face};
+use crate::brep::{Bounds, Brep, EdgeUse, Face};
 use crate::curve::Span;
-use outline::Outline;
 use chart::SAME_PARAMETER;
+use outline::Outline;
 use trueness_geom::space::{Aabb, Point};
 
 /// The part of a surface that a face is.
@@ -35,6 +36,8 @@ pub struct Trim {
     pub chart: Chart,
     /// Whether the outward normal is opposite to `∂u × ∂v`.
     pub reversed: bool,
+    /// Whether the loops bound nothing as the file has them, and were gone along the other way: the side of the normal is then in doubt.
+    pub turned: bool,
     /// Closed lines around the face, with the face on their left; all within `window`.
     pub rings: Vec<Ring>,
     /// First and last `u` and `v` of the rings.
@@ -51,7 +54,7 @@ pub struct Trim {
 }
 
 /// Edges farther from their surface than this share of the face are taken for a mistake, unless the file says that it is that uncertain.
-const MOST_GAP_SHARE: f64 = 1e-3;
+const MOST_GAP_SHARE: f64 = 1e-2;
 /// A gap of so many times the file's uncertainty may still be meant: its edges may be off on both sides, and corners of three.
 const MOST_UNCERTAINTIES: f64 = 10.0;
 /// Share of the face within which places are one: files have about ten digits.
@@ -69,27 +72,14 @@ impl Trim {
             Bounds::Rectangle(sides) => Trim::rectangle(face, sides),
             Bounds::Loops(loops) => {
                 let uses = chain::bounding_uses(loops, face.reversed)?;
-                let mut edges: Vec<u32> = uses.iter().flatten().map(|u| u.edge).collect();
-                edges.sort_unstable();
-                edges.dedup();
-                let span = |e: &u32| brep.edges.get(*e as usize).map(|e| e.span.clone()).ok_or(TrimError::NoEdge(*e));
-                let spans: Vec<Span> = edges.iter().map(span).collect::<Result<_, _>>()?;
-                let places: Vec<Point> = spans.iter().flat_map(places_of).collect();
-                if let Some(i) = places.iter().position(|p| !p.iter().all(|x| x.is_finite())) {
-                    return Err(TrimError::NotFinite(edges[i / (PLACES_OF_EDGE + 1)]));
+                let border = Border::new(brep, face, &uses, uncertainty)?;
+                match border.trim(&uses, false) {
+                    Err(TrimError::Contradiction) => {
+                        let turned = chain::bounding_uses(loops, !face.reversed)?;
+                        border.trim(&turned, true).map_err(|_| TrimError::Contradiction)
+                    }
+                    other => other,
                 }
-                let size = if places.is_empty() { 0.0 } else { Aabb::of(&places).diagonal() };
-                let chart = Chart::new(&face.surface, &places);
-                let most_open = (MOST_UNCERTAINTIES * uncertainty).max(MOST_GAP_SHARE * size);
-                let reach = uncertainty.max(REACH_SHARE * size);
-                let chainer = chain::Chainer { chart: &chart, edges: &edges, spans: &spans, reach, most_open };
-                let mut rings = vec![];
-                for chain in &uses {
-                    rings.extend(chainer.ring(chain)?);
-                }
-                let gap = gap_of(&chart, &spans, &rings, most_open)?;
-                let (cuts, rings) = opened(&chart, &spans, rings)?;
-                Trim::of_rings(Parts { chart, reversed: face.reversed, rings, cuts, gap, edges, spans }, reach)
             }
         }
     }
@@ -122,22 +112,30 @@ impl Trim {
         let piece = |i: usize| Piece::Straight { ends: [corners[i], corners[(i + 1) % 4]], kind: kinds[i] };
         let rings = vec![Ring { pieces: (0..4).map(piece).collect(), winding: [0; 2] }];
         let cuts = [0, 1].map(|k| chart.periods[k].map(|_| sides[k][0]));
-        let parts =
-            Parts { chart, reversed: face.reversed, rings, cuts, gap: 0.0, edges: vec![], spans: vec![] };
+        let parts = Parts {
+            chart,
+            reversed: face.reversed,
+            turned: false,
+            rings,
+            cuts,
+            gap: 0.0,
+            edges: vec![],
+            spans: vec![],
+        };
         Trim::of_rings(parts, 0.0)
     }
 
     fn of_rings(parts: Parts, reach: f64) -> Result<Trim, TrimError> {
-        let Parts { chart, reversed, rings, cuts, gap, edges, spans } = parts;
+        let Parts { chart, reversed, turned, rings, cuts, gap, edges, spans } = parts;
         let outline = Outline::new(&rings);
-        if !(outline.area() > 0.0) {
+        if outline.area().is_nan() || outline.area() <= 0.0 {
             return Err(TrimError::Contradiction);
         }
         if let Some([a, b]) = outline.crossing(&rings, &chart, 4.0 * gap + reach) {
             return Err(TrimError::Crossing(a, b));
         }
         let window = outline.window();
-        Ok(Trim { chart, reversed, rings, window, cuts, gap, edges, spans, outline })
+        Ok(Trim { chart, reversed, turned, rings, window, cuts, gap, edges, spans, outline })
     }
 
     /// Whether the face has the place with these parameters, whatever number of periods they are away. Places on the border, up to rounding,
@@ -157,11 +155,69 @@ impl Trim {
     }
 }
 
+/// What the rings of a face are made with.
+struct Border<'a> {
+    face: &'a Face,
+    chart: Chart,
+    edges: Vec<u32>,
+    spans: Vec<Span>,
+    /// Places nearer than that are one.
+    reach: f64,
+    /// Edges farther than that from each other or from the surface are a mistake.
+    most_open: f64,
+}
+
+impl<'a> Border<'a> {
+    fn new(
+        brep: &Brep,
+        face: &'a Face,
+        uses: &[Vec<EdgeUse>],
+        uncertainty: f64,
+    ) -> Result<Border<'a>, TrimError> {
+        let mut edges: Vec<u32> = uses.iter().flatten().map(|u| u.edge).collect();
+        edges.sort_unstable();
+        edges.dedup();
+        let span = |e: &u32| brep.edges.get(*e as usize).map(|e| e.span.clone()).ok_or(TrimError::NoEdge(*e));
+        let spans: Vec<Span> = edges.iter().map(span).collect::<Result<_, _>>()?;
+        let places: Vec<Point> = spans.iter().flat_map(places_of).collect();
+        if let Some(i) = places.iter().position(|p| !p.iter().all(|x| x.is_finite())) {
+            return Err(TrimError::NotFinite(edges[i / (PLACES_OF_EDGE + 1)]));
+        }
+        let size = if places.is_empty() { 0.0 } else { Aabb::of(&places).diagonal() };
+        let chart = Chart::new(&face.surface, &places);
+        let most_open = (MOST_UNCERTAINTIES * uncertainty).max(MOST_GAP_SHARE * size);
+        let reach = uncertainty.max(REACH_SHARE * size);
+        Ok(Border { face, chart, edges, spans, reach, most_open })
+    }
+
+    fn trim(&self, uses: &[Vec<EdgeUse>], turned: bool) -> Result<Trim, TrimError> {
+        let Border { face, chart, edges, spans, reach, most_open } = self;
+        let chainer = chain::Chainer { chart, edges, spans, reach: *reach, most_open: *most_open };
+        let mut rings = vec![];
+        for chain in uses {
+            rings.extend(chainer.ring(chain)?);
+        }
+        let gap = gap_of(chart, spans, &rings, *most_open)?;
+        let (cuts, rings) = opened(chart, spans, rings)?;
+        let parts = Parts {
+            chart: chart.clone(),
+            reversed: face.reversed,
+            turned,
+            rings,
+            cuts,
+            gap,
+            edges: edges.clone(),
+            spans: spans.clone(),
+        };
+        Trim::of_rings(parts, *reach)
+    }
+}
 
 /// What a trim is made of.
 struct Parts {
     chart: Chart,
     reversed: bool,
+    turned: bool,
     rings: Vec<Ring>,
     cuts: [Option<f64>; 2],
     gap: f64,
@@ -170,13 +226,17 @@ struct Parts {
 }
 
 /// Rings cut open along all parameters that repeat, and where.
-fn opened(chart: &Chart, spans: &[Span], mut rings: Vec<Ring>) -> Result<([Option<f64>; 2], Vec<Ring>), TrimError> {
+fn opened(
+    chart: &Chart,
+    spans: &[Span],
+    mut rings: Vec<Ring>,
+) -> Result<([Option<f64>; 2], Vec<Ring>), TrimError> {
     let mut cuts = [None; 2];
-    for k in 0..2 {
+    for (k, own) in cuts.iter_mut().enumerate() {
         if let Some(period) = chart.periods[k] {
             let other = if k == 0 { chart.periods[1] } else { None };
             let (cut, open) = open::Opener { chart, spans, k, period, other }.open(rings)?;
-            (cuts[k], rings) = (Some(cut), open);
+            (*own, rings) = (Some(cut), open);
         }
     }
     if rings.is_empty() {
@@ -197,11 +257,12 @@ fn gap_of(chart: &Chart, spans: &[Span], rings: &[Ring], most: f64) -> Result<f6
         for strand in strands {
             let span = &spans[strand.slot];
             let distance = strand::gap(strand, chart, span);
-            if !(distance <= most) {
+            if distance.is_nan() || distance > most {
                 return Err(TrimError::Off { edge: strand.edge, distance });
             }
             let [start, end] = strand.shares().map(|s| span.derivatives(s)[0]);
-            let open = before.map_or(0.0, |b| trueness_geom::space::norm(trueness_geom::space::minus(b, start)));
+            let open =
+                before.map_or(0.0, |b| trueness_geom::space::norm(trueness_geom::space::minus(b, start)));
             gap = gap.max(distance).max(open);
             before = Some(end);
         }

@@ -6,6 +6,7 @@
 //! is never asked. For a cut along `u` the other coordinate is `y = v`, for one along `v` it is `y = −u`: both turn the same way.
 
 use super::chart::Chart;
+use super::cut::best_cut;
 use super::error::TrimError;
 use super::ring::{Piece, Ring, Straight};
 use super::strand::crossing;
@@ -46,20 +47,13 @@ pub struct Opener<'a> {
     pub other: Option<f64>,
 }
 
-/// The cuts that are compared at most.
-const MAX_CANDIDATES: usize = 6;
-/// A cut keeps this share of the distance from corners that it could keep: next to one it would be met by chance.
-const LEAST_SHARE: f64 = 0.2;
-/// A gap between edges narrower than this share of a period may be rounding.
-const LEAST_GAP: f64 = 1e-9;
-
 impl Opener<'_> {
     /// Where it is cut, and the rings of the face cut open: all between `c` and `c + period`, and none around.
     pub fn open(&self, rings: Vec<Ring>) -> Result<(f64, Vec<Ring>), TrimError> {
         if rings.iter().any(|r| r.winding[self.k].abs() > 1) {
             return Err(TrimError::Contradiction);
         }
-        let c = self.best_cut(&rings);
+        let c = best_cut(self.chart, self.k, self.period, &rings);
         let (mut whole, mut arcs, mut crossings) = (vec![], vec![], vec![]);
         for ring in rings {
             self.part(ring, c, &mut whole, &mut arcs, &mut crossings)?;
@@ -92,57 +86,6 @@ impl Opener<'_> {
     fn pole(&self, end: usize) -> Option<Straight> {
         let end = if self.k == 0 { end } else { 1 - end };
         self.chart.poles[1 - self.k][end].map(|_| Straight::Pole((1 - self.k, end)))
-    }
-
-    /// A value that is crossed by as few edges as can be, far from corners.
-    fn best_cut(&self, rings: &[Ring]) -> f64 {
-        let (k, period) = (self.k, self.period);
-        let first = self.chart.domain[k][0];
-        let reduced = |x: f64| x - period * ((x - first) / period).floor();
-        // From the start of each covered part to its end, and all corners.
-        let mut covered: Vec<[f64; 2]> = vec![];
-        let mut corners: Vec<f64> = vec![];
-        let mut is_around = false;
-        for ring in rings {
-            let xs = || ring.pieces.iter().flat_map(Piece::places).map(|(at, band)| (at[k], band[k]));
-            let low = xs().map(|(x, b)| x - b).fold(f64::INFINITY, f64::min);
-            let high = xs().map(|(x, b)| x + b).fold(f64::NEG_INFINITY, f64::max);
-            is_around |= high - low >= period || ring.winding[k] != 0;
-            covered.push([reduced(low), reduced(low) + (high - low)]);
-            corners.extend(ring.pieces.iter().map(|p| reduced(p.ends()[0][k])));
-        }
-        if corners.is_empty() {
-            return first;
-        }
-        if !is_around {
-            covered.sort_by(|a, b| a[0].total_cmp(&b[0]));
-            let mut reach = covered.iter().map(|c| c[1] - period).fold(f64::NEG_INFINITY, f64::max);
-            let mut best = [0.0, 0.0];
-            for [low, high] in covered {
-                if low - reach > best[0] {
-                    best = [low - reach, 0.5 * (low + reach)];
-                }
-                reach = reach.max(high);
-            }
-            if best[0] > LEAST_GAP * period {
-                return best[1];
-            }
-        }
-        corners.sort_by(f64::total_cmp);
-        let after = corners.iter().skip(1).copied().chain([corners[0] + period]);
-        let mut gaps: Vec<[f64; 2]> = corners.iter().zip(after).map(|(a, b)| [b - a, 0.5 * (a + b)]).collect();
-        gaps.sort_by(|a, b| b[0].total_cmp(&a[0]));
-        gaps.truncate(MAX_CANDIDATES);
-        let least = LEAST_SHARE * gaps[0][0];
-        gaps.retain(|g| g[0] >= least);
-        let count = |c: f64| -> usize {
-            let index = |at: [f64; 2]| ((at[k] - c) / period).floor();
-            let of = |piece: &Piece| {
-                piece.places().windows(2).filter(|w| index(w[0].0) != index(w[1].0)).count()
-            };
-            rings.iter().flat_map(|r| &r.pieces).map(of).sum()
-        };
-        gaps.iter().map(|g| (count(g[1]), g[1])).min_by_key(|(n, _)| *n).map_or(first, |(_, c)| c)
     }
 
     /// Cuts a ring where it crosses; a ring that does not is moved between both sides.
@@ -181,7 +124,9 @@ impl Opener<'_> {
         let (first_arc, first_crossing, n) = (arcs.len(), crossings.len(), found.len());
         let mut start = parts.remove(0);
         if let Some(last) = parts.last_mut() {
-            if let (Some(end), Some(begin)) = (last.last().map(|p| p.ends()[1]), start.first().map(|p| p.ends()[0])) {
+            if let (Some(end), Some(begin)) =
+                (last.last().map(|p| p.ends()[1]), start.first().map(|p| p.ends()[0]))
+            {
                 let turns = |k: usize, p: f64| p * ((end[k] - begin[k]) / p).round();
                 let by = [0, 1].map(|k| self.chart.periods[k].map_or(0.0, |p| turns(k, p)));
                 start.iter_mut().for_each(|p| p.shift(by));
@@ -217,7 +162,8 @@ impl Opener<'_> {
                 Piece::Edge(strand) => {
                     let between = [strand.samples[i - 1].share, strand.samples[i].share];
                     let share;
-                    (share, at) = crossing(&strand, (self.chart, &self.spans[strand.slot]), between, (k, value));
+                    (share, at) =
+                        crossing(&strand, (self.chart, &self.spans[strand.slot]), between, (k, value));
                     let [a, b] = strand.split(share, at);
                     (first, rest) = (Piece::Edge(a), Piece::Edge(b));
                 }
@@ -361,7 +307,10 @@ impl Opener<'_> {
         // Insides that no crossing ends have rings of their own.
         for inside in insides.iter().filter(|i| i.ends == [None, None]) {
             let [low, high] = inside.ys;
-            let cut = |from: [f64; 2], to: [f64; 2]| Piece::Straight { ends: [from, to], kind: Straight::Cut(self.k) };
+            let cut = |from: [f64; 2], to: [f64; 2]| Piece::Straight {
+                ends: [from, to],
+                kind: Straight::Cut(self.k),
+            };
             let up = cut(self.at(right, low), self.at(right, high));
             let down = cut(self.at(c, high), self.at(c, low));
             if self.other.is_some() {

@@ -203,7 +203,9 @@ impl Segment {
     }
 
     fn crosses(&self, other: &Segment) -> bool {
-        let side = |[a, b]: [[f64; 2]; 2], p: [f64; 2]| (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
+        let side = |[a, b]: [[f64; 2]; 2], p: [f64; 2]| {
+            (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0])
+        };
         let parts = |s: &Segment, o: &Segment| side(s.ends, o.ends[0]) * side(s.ends, o.ends[1]) < 0.0;
         parts(self, other) && parts(other, self)
     }
@@ -218,7 +220,12 @@ impl Segment {
             let length = libm::hypot(way[0], way[1]);
             ((way[0] * (q[1] - a[1]) - way[1] * (q[0] - a[0])) / length).abs()
         };
-        let nearest = [to_line(self, other.ends[0]), to_line(self, other.ends[1]), to_line(other, self.ends[0]), to_line(other, self.ends[1])];
+        let nearest = [
+            to_line(self, other.ends[0]),
+            to_line(self, other.ends[1]),
+            to_line(other, self.ends[0]),
+            to_line(other, self.ends[1]),
+        ];
         let bands: f64 = (0..2).map(|k| sizes[k] * (self.band[k] + other.band[k])).sum();
         nearest.into_iter().fold(f64::INFINITY, f64::min) - bands
     }

@@ -67,7 +67,7 @@ impl Sampler<'_> {
 
     fn raw(&self, share: f64, near: Option<[f64; 2]>) -> Raw {
         let place = self.place(share);
-        let pole = self.chart.pole(place, self.reach);
+        let pole = self.chart.pole(place, self.reach, near);
         let mut at = match (pole, near) {
             (Some(_), Some(near)) => near,
             _ => self.chart.parameters(place, near),
@@ -88,6 +88,7 @@ impl Sampler<'_> {
         if first.pole.is_some() {
             // The parameter along the pole is the one that the edge leaves it with.
             let along = self.raw(shares[0] + 0.5 * (shares[1] - shares[0]), near);
+            first.pole = self.chart.pole(first.place, self.reach, Some(along.at));
             let (k, end) = first.pole.unwrap_or_default();
             first.at = along.at;
             first.at[k] = self.chart.domain[k][end];
@@ -204,10 +205,19 @@ impl Sampler<'_> {
             let (a, b) = (own[i], own[(i + 1).min(n - 1)]);
             let m = self.chart.parameters(self.place(0.5 * (a.share + b.share)), Some(halfway(a.at, b.at)));
             let sizes = self.chart.jet(m).first.map(norm);
-            let band = if i + 1 < n { bulge([a.at, m, b.at], sizes).map(|x| BAND_OF_BULGE * x.abs()) } else { [0.0; 2] };
+            let band = if i + 1 < n {
+                bulge([a.at, m, b.at], sizes).map(|x| BAND_OF_BULGE * x.abs())
+            } else {
+                [0.0; 2]
+            };
             Sample { share: a.share, at: a.at, band }
         };
-        Strand { edge: self.edge, slot: self.slot, samples: (0..n).map(sample).collect(), poles: [own[0].pole, own[n - 1].pole] }
+        Strand {
+            edge: self.edge,
+            slot: self.slot,
+            samples: (0..n).map(sample).collect(),
+            poles: [own[0].pole, own[n - 1].pole],
+        }
     }
 }
 
@@ -291,8 +301,8 @@ pub fn crossing(
     [mut low, mut high]: [f64; 2],
     (k, value): (usize, f64),
 ) -> (f64, [f64; 2]) {
-    let is_above = |at: [f64; 2]| at[k] > value;
-    let at_low = is_above(strand.at(chart, span, low));
+    let [start, end] = [low, high].map(|s| strand.at(chart, span, s)[k]);
+    let is_past = |x: f64| if end > start { x > value } else { x < value };
     let mut middle = 0.5 * (low + high);
     // The bits of a share.
     for _ in 0..60 {
@@ -300,7 +310,7 @@ pub fn crossing(
         if middle == low || middle == high {
             break;
         }
-        if is_above(strand.at(chart, span, middle)) == at_low { low = middle } else { high = middle }
+        if is_past(strand.at(chart, span, middle)[k]) { high = middle } else { low = middle }
     }
     let mut at = strand.at(chart, span, middle);
     at[k] = value;

@@ -78,14 +78,17 @@ fn fault(entity: &Entity, fault: Fault) -> Located {
 fn undamaged(file: &File) -> Result<()> {
     for broken in file.broken() {
         let keyword = file.keyword_of(broken);
-        let matters = |what: &&str| keyword.contains(*what);
-        if keyword.is_empty() || ["SURFACE", "CURVE", "FACE", "POINT", "UNIT"].iter().any(|w| matters(w)) {
+        if keyword.is_empty()
+            || ["SURFACE", "CURVE", "FACE", "POINT", "UNIT"].iter().any(|w| keyword.contains(w))
+        {
             file.entity(broken.number)?;
         }
     }
     match file.is_whole() {
         true => Ok(()),
-        false => Err(Fault::unexpected("the line END-ISO-10303-21 at the end", b"").at_line(file.last_line())),
+        false => {
+            Err(Fault::unexpected("the line END-ISO-10303-21 at the end", b"").at_line(file.last_line()))
+        }
     }
 }
 
@@ -210,7 +213,9 @@ impl Points<'_> {
     fn places(&mut self, spline: &SplineRecord) -> Result<Option<Vec<[f64; 3]>>> {
         let known = |n: &u64| self.file.entity(*n).is_ok();
         if let Some(missing) = spline.points().iter().find(|n| !known(n)) {
-            return Err(spline.wrong(format!("has control point #{missing}, which is not among those that are there")).into());
+            return Err(spline
+                .wrong(format!("has control point #{missing}, which is not among those that are there"))
+                .into());
         }
         spline.points().iter().map(|n| self.point(*n)).collect()
     }

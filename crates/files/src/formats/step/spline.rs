@@ -93,7 +93,8 @@ impl SplineRecord<'_> {
             let list = |at: usize| self.base.items(*self.rest.get(at)?);
             let knots = |k: usize| self.repeated(list(k)?, list(dimensions + k)?, needed(k)?);
             (0..dimensions).map(knots).collect::<Option<Vec<_>>>().ok_or_else(|| {
-                self.base.wrong("has not knots, each as often as its multiplicity, that fit the control points")
+                self.base
+                    .wrong("has not knots, each as often as its multiplicity, that fit the control points")
             })?
         } else {
             let knots = |k: usize| implied(self.kind, self.degree[k], self.counts[k]);
@@ -104,7 +105,9 @@ impl SplineRecord<'_> {
         };
         let weights = match &self.weights {
             None => vec![1.0; points.len()],
-            Some(own) => weights(own, dimensions).ok_or_else(|| own.wrong("has weights that are no numbers"))?,
+            Some(own) => {
+                weights(own, dimensions).ok_or_else(|| own.wrong("has weights that are no numbers"))?
+            }
         };
         Ok(Raw { degree: self.degree.clone(), knots, counts: self.counts.clone(), points, weights })
     }

@@ -131,14 +131,14 @@ fn broken_files_are_refused_with_their_line() {
         ("#10=BEZIER_SURFACE('',1,1,((#3,#4),(#5,#77)),.U.,.F.,.F.,.F.);".into(), "that are there"),
         ("#10=BEZIER_SURFACE('',1,1,((#3,#4),(#5,#1)),.U.,.F.,.F.,.F.);".into(), "CARTESIAN_POINT"),
         ("#10=CURVE('never ends);".into(), "quote"),
-        ("#10=CURVE((1,2);".into(), "comma or a closing"),
+        ("#10=CURVE((1,2);".into(), "closing bracket"),
         ("#3=CURVE();".into(), "once"),
         (QUARTER.replace("(0.70710678118654757,0.70710678118654757)", "(0.,-1.)"), "must be above 0"),
         (QUARTER.replace("(0.70710678118654757,0.70710678118654757),", ""), "weight"),
         ("#10=MAPPED_ITEM('',#1,#2);".into(), "assembly"),
         ("#9=(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MILLI.,.METRE.));\n#10=GLOBAL_UNIT_ASSIGNED_CONTEXT((#9));".into(), "more than one unit"),
         ("#9=(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.KILO.,.METRE.));\n#10=GLOBAL_UNIT_ASSIGNED_CONTEXT((#9));".into(), "inch"),
-        (format!("#10=CURVE({}1{});", "(".repeat(100), ")".repeat(100)), "fewer lists"),
+        (format!("#10=CURVE({}1{});", "(".repeat(100), ")".repeat(100)), "lists within lists"),
     ];
     for (text, wanted) in cases {
         let said = match read(&file(&text), None) {

@@ -15,9 +15,13 @@ use trueness_cad::model::Unread;
 #[derive(Default)]
 pub(super) struct Node {
     pub name: String,
+    /// Whether it is the shape of a product, not only a representation.
+    pub is_product: bool,
     /// In the order of their numbers.
     pub representations: Vec<u64>,
     pub children: Vec<Child>,
+    /// Whether it has mapped items.
+    maps: bool,
 }
 
 /// A node as it stands in another one.
@@ -27,6 +31,10 @@ pub(super) struct Child {
     pub placement: Placement,
     /// The entity that places it.
     pub entity: u64,
+    /// What a file styles where it gives this occurrence a color: the relationship, or the mapped item.
+    pub styled: u64,
+    /// Whether it stands in itself, and is left out.
+    pub is_cut: bool,
 }
 
 /// A representation: items in a context.
@@ -53,8 +61,10 @@ pub(super) fn representations(file: &File) -> BTreeMap<u64, Representation> {
     let aspects = aspects(file);
     let mut all = BTreeMap::new();
     for entity in file.entities().filter(|e| !aspects.contains(&e.number())) {
-        let is_shape = |r: &Record| r.keyword.ends_with("SHAPE_REPRESENTATION") && !r.keyword.contains("HISTORY");
-        if !entity.records().any(|r| is_shape(&r)) {
+        let is_shape =
+            |r: &Record| r.keyword.ends_with("SHAPE_REPRESENTATION") && !r.keyword.contains("HISTORY");
+        // Drawings have items of parts, mapped for a view of them.
+        if !entity.records().any(|r| is_shape(&r)) || entity.record("DRAUGHTING_MODEL").is_some() {
             continue;
         }
         let record = entity.main(&["REPRESENTATION"]);
@@ -63,7 +73,7 @@ pub(super) fn representations(file: &File) -> BTreeMap<u64, Representation> {
             Value::Reference(n) => Some(*n),
             _ => None,
         });
-        let items = items.collect();
+        let items: Vec<u64> = items.collect();
         let context = contexts.entry(number).or_insert_with(|| context(file, number)).clone();
         all.insert(entity.number(), Representation { name: record.text(0), items, context });
     }
@@ -89,7 +99,8 @@ fn aspects(file: &File) -> BTreeSet<u64> {
 fn product_of(file: &File, number: u64) -> Option<u64> {
     let definition = file.entity(number).ok()?;
     let property = definition.main(&["PRODUCT_DEFINITION_SHAPE", "PROPERTY_DEFINITION"]);
-    let index = if definition.is_simple() || property.keyword == "PROPERTY_DEFINITION" { 2 } else { return None };
+    let index =
+        if definition.is_simple() || property.keyword == "PROPERTY_DEFINITION" { 2 } else { return None };
     let product = property.reference(index)?;
     let keyword = file.entity(product).ok()?.main(&[]).keyword;
     keyword.starts_with("PRODUCT_DEFINITION").then_some(product)
@@ -97,7 +108,11 @@ fn product_of(file: &File, number: u64) -> Option<u64> {
 
 impl<'f> Assembly<'f> {
     /// The nodes of a file and how they stand in one another.
-    pub fn of(file: &'f File<'f>, representations: BTreeMap<u64, Representation>, fallback: Units) -> Assembly<'f> {
+    pub fn of(
+        file: &'f File<'f>,
+        representations: BTreeMap<u64, Representation>,
+        fallback: Units,
+    ) -> Assembly<'f> {
         let mut groups = Groups::default();
         for number in representations.keys() {
             groups.index(*number);
@@ -105,8 +120,14 @@ impl<'f> Assembly<'f> {
         for entity in file.entities() {
             join(file, &entity, &representations, &mut groups);
         }
-        let mut assembly =
-            Assembly { file, fallback, representations, node_of: HashMap::new(), nodes: vec![], unread: vec![] };
+        let mut assembly = Assembly {
+            file,
+            fallback,
+            representations,
+            node_of: HashMap::new(),
+            nodes: vec![],
+            unread: vec![],
+        };
         assembly.make_nodes(groups);
         assembly.place_occurrences();
         assembly.place_mapped();
@@ -125,8 +146,14 @@ impl<'f> Assembly<'f> {
             let node = &mut self.nodes[node];
             if self.representations.contains_key(&number) {
                 node.representations.push(number);
-            } else if node.name.is_empty() {
-                node.name = product_name(self.file, number).unwrap_or_default();
+                let items = &self.representations[&number].items;
+                node.maps |=
+                    items.iter().any(|n| self.file.entity(*n).is_ok_and(|e| item(&e) == Item::Mapped));
+            } else {
+                node.is_product = true;
+                if node.name.is_empty() {
+                    node.name = product_name(self.file, number).unwrap_or_default();
+                }
             }
         }
         for node in &mut self.nodes {
@@ -190,7 +217,9 @@ impl<'f> Assembly<'f> {
         }
         match nodes {
             // Mapped items place those without a transformation of their own; one part may also be all of its assembly.
-            [Some(parent), Some(child)] if parent != child && self.has_shape(child) && !self.maps(parent) => {
+            [Some(parent), Some(child)]
+                if parent != child && self.has_shape(child) && !self.nodes[parent].maps =>
+            {
                 Err(record.wrong("says of no place where its part stands"))
             }
             _ => Ok(()),
@@ -199,12 +228,6 @@ impl<'f> Assembly<'f> {
 
     fn has_shape(&self, node: usize) -> bool {
         self.nodes.get(node).is_some_and(|n| !n.representations.is_empty())
-    }
-
-    fn maps(&self, node: usize) -> bool {
-        let items = |r: &u64| self.representations.get(r).map_or(&[][..], |r| &r.items);
-        let is_mapped = |n: &u64| self.file.entity(*n).is_ok_and(|e| item(&e) == Item::Mapped);
-        self.nodes.get(node).is_some_and(|n| n.representations.iter().flat_map(items).any(is_mapped))
     }
 
     /// Places the first representation of a relationship in the second; the other way around where their products say so.
@@ -226,15 +249,25 @@ impl<'f> Assembly<'f> {
         let parent = nodes[0].unwrap_or(if turned { first } else { second });
         let placement = self.transformation(transformed.entity(0)?, pair, turned)?;
         let name = if name.is_empty() { self.nodes[child].name.clone() } else { name };
-        self.nodes[parent].children.push(Child { node: child, name, placement, entity: by });
+        let styled = entity.number();
+        self.nodes[parent].children.push(Child {
+            node: child,
+            name,
+            placement,
+            entity: by,
+            styled,
+            is_cut: false,
+        });
         Ok(())
     }
 
+    /// What brings one of a pair of representations into the other one. The items of a transformation stand in the order of the
+    /// representations, also where these are turned.
     fn transformation(&self, number: u64, pair: [u64; 2], turned: bool) -> Result<Placement, Wrong> {
         let entity = self.file.entity(number)?;
         let [first, second] = pair.map(|r| self.units(r));
         let Some(record) = entity.record("ITEM_DEFINED_TRANSFORMATION") else {
-            return operator(self.file, second, number);
+            return operator(self.file, if turned { first } else { second }, number);
         };
         let from = frame(self.file, first, record.entity(2)?)?;
         let to = frame(self.file, second, record.entity(3)?)?;
@@ -262,7 +295,8 @@ impl<'f> Assembly<'f> {
         let map = self.file.entity(record.entity(first)?)?;
         let map = map.main(&["REPRESENTATION_MAP"]);
         let mapped = map.entity(1)?;
-        let (Some(parent), Some(child)) = (self.node_of.get(&owner).copied(), self.node_of.get(&mapped).copied())
+        let (Some(parent), Some(child)) =
+            (self.node_of.get(&owner).copied(), self.node_of.get(&mapped).copied())
         else {
             return Err(map.wrong("maps a representation that is not there"));
         };
@@ -270,7 +304,15 @@ impl<'f> Assembly<'f> {
         let placement = target(self.file, self.units(owner), record.entity(first + 1)?, &from)?;
         let name = Some(record.text(0)).filter(|n| first == 1 && !n.is_empty());
         let name = name.unwrap_or_else(|| self.nodes[child].name.clone());
-        self.nodes[parent].children.push(Child { node: child, name, placement, entity: entity.number() });
+        let (entity, styled) = (entity.number(), entity.number());
+        self.nodes[parent].children.push(Child {
+            node: child,
+            name,
+            placement,
+            entity,
+            styled,
+            is_cut: false,
+        });
         Ok(())
     }
 }

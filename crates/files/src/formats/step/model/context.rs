@@ -65,7 +65,8 @@ fn factor(file: &File, unit: &Entity, depth: usize) -> Result<f64, Wrong> {
     }
     if let Some(conversion) = unit.record("CONVERSION_BASED_UNIT") {
         let measure = file.entity(conversion.entity(conversion.values.len().saturating_sub(1))?)?;
-        let measure = measure.main(&["MEASURE_WITH_UNIT", "LENGTH_MEASURE_WITH_UNIT", "PLANE_ANGLE_MEASURE_WITH_UNIT"]);
+        let measure =
+            measure.main(&["MEASURE_WITH_UNIT", "LENGTH_MEASURE_WITH_UNIT", "PLANE_ANGLE_MEASURE_WITH_UNIT"]);
         let base = file.entity(measure.entity(1)?)?;
         let own = measure.real(0)? * factor(file, &base, depth + 1)?;
         let exact = exact(&conversion.text(conversion.values.len().saturating_sub(2)).to_ascii_uppercase());

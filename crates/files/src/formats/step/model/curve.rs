@@ -38,7 +38,9 @@ impl<'f> Geometry<'f> {
         let length = record.real(index)? * self.units.length;
         match length > 0.0 && length.is_finite() {
             true => Ok(length),
-            false => Err(record.wrong(format!("has a length that is not above 0 as parameter {}", index + 1))),
+            false => {
+                Err(record.wrong(format!("has a length that is not above 0 as parameter {}", index + 1)))
+            }
         }
     }
 
@@ -50,8 +52,8 @@ impl<'f> Geometry<'f> {
             if let Some(trimmed) = entity.record("TRIMMED_CURVE") {
                 same ^= !trimmed.truth(4)?;
                 number = trimmed.entity(1)?;
-            } else if let Some(carrier) = carrier(&entity) {
-                number = carrier.entity(1)?;
+            } else if let Some(carried) = carried(&entity) {
+                number = carried?;
             } else {
                 return Ok((self.curve(number, 0)?, same));
             }
@@ -68,8 +70,8 @@ impl<'f> Geometry<'f> {
         if let Some(curve) = self.spline(&entity)? {
             return Ok(curve);
         }
-        if let Some(carrier) = carrier(&entity) {
-            return self.curve(carrier.entity(1)?, depth + 1);
+        if let Some(carried) = carried(&entity) {
+            return self.curve(carried?, depth + 1);
         }
         let record = entity.main(&[]);
         let frame = || frame(self.file, self.units, record.entity(1)?);
@@ -106,8 +108,8 @@ impl<'f> Geometry<'f> {
         if depth > MAX_BASES {
             return Err(entity.wrong("rests on itself"));
         }
-        if let Some(carrier) = carrier(&entity) {
-            return self.bounded(carrier.entity(1)?, depth + 1);
+        if let Some(carried) = carried(&entity) {
+            return self.bounded(carried?, depth + 1);
         }
         if let Some(record) = entity.record("TRIMMED_CURVE") {
             return self.trimmed(&record, depth);
@@ -146,7 +148,7 @@ impl<'f> Geometry<'f> {
         match (parameter, place) {
             (Some(t), None) => Ok(t * scale),
             (Some(t), Some(_)) if by_parameter => Ok(t * scale),
-            (_, Some(place)) => Ok(super::foot::foot(curve, self.point(place)?).0),
+            (_, Some(place)) => Ok(span::foot(curve, self.point(place)?).parameter),
             (None, None) => Err(record.wrong("has an end that is neither a parameter nor a point")),
         }
     }
@@ -196,7 +198,9 @@ impl<'f> Geometry<'f> {
                 let gap = norm(minus(span.ends()[0], before.ends()[1]));
                 let reach = norm(minus(span.ends()[1], span.ends()[0]));
                 if gap > self.tolerance.max(span::MAX_GAP * reach) {
-                    return Err(segment.wrong(format!("begins {gap:.3e} mm from where the segment before it ends")));
+                    return Err(
+                        segment.wrong(format!("begins {gap:.3e} mm from where the segment before it ends"))
+                    );
                 }
             }
             spans.push(span);
@@ -213,9 +217,8 @@ impl<'f> Geometry<'f> {
         let distance = record.real(2)? * self.units.length;
         let side = direction(self.file, record.entity(4)?)?;
         let moved = match &basis {
-            Curve::Line { origin, direction } => unit(cross(side, *direction)).map(|(across, _)| Curve::Line {
-                origin: plus(*origin, times(distance, across)),
-                direction: *direction,
+            Curve::Line { origin, direction } => unit(cross(side, *direction)).map(|(across, _)| {
+                Curve::Line { origin: plus(*origin, times(distance, across)), direction: *direction }
             }),
             Curve::Circle { frame, radius } if norm(cross(side, frame.axes[2])) < ALONG => {
                 let radius = radius - distance * dot(side, frame.axes[2]).signum();
@@ -223,16 +226,19 @@ impl<'f> Geometry<'f> {
             }
             _ => None,
         };
-        moved.ok_or_else(|| record.wrong("is an offset of a curve that is neither a line nor a circle in its plane"))
+        moved.ok_or_else(|| {
+            record.wrong("is an offset of a curve that is neither a line nor a circle in its plane")
+        })
     }
 }
 
 /// Sine of an angle within which two unit vectors are along each other: rounding of a few steps.
 const ALONG: f64 = 1e-12;
 
-/// The record of an entity that carries a curve in space, if it is one.
-fn carrier<'f>(entity: &Entity<'f>) -> Option<Record<'f>> {
-    entity.records().find(|r| CARRIERS.contains(&r.keyword))
+/// The curve in space that an entity carries beside others, if it is such an entity.
+fn carried(entity: &Entity) -> Option<Result<u64, Wrong>> {
+    let carrier = entity.records().find(|r| CARRIERS.contains(&r.keyword) && !r.values.is_empty());
+    carrier.map(|c| c.entity(usize::from(entity.is_simple())))
 }
 
 /// Whether a keyword is one of curves.
@@ -242,7 +248,14 @@ pub(super) fn is_curve(keyword: &str) -> bool {
         || CHAINS.contains(&keyword)
         || matches!(
             keyword,
-            "LINE" | "CIRCLE" | "ELLIPSE" | "HYPERBOLA" | "PARABOLA" | "POLYLINE" | "TRIMMED_CURVE" | "CURVE_REPLICA"
+            "LINE"
+                | "CIRCLE"
+                | "ELLIPSE"
+                | "HYPERBOLA"
+                | "PARABOLA"
+                | "POLYLINE"
+                | "TRIMMED_CURVE"
+                | "CURVE_REPLICA"
         )
         || matches!(keyword, "OFFSET_CURVE_3D" | "PCURVE" | "BOUNDED_CURVE" | "CURVE")
 }

@@ -33,7 +33,10 @@ pub(super) fn instances(
         assembly.unread.push(Unread {
             entity,
             keyword: "NEXT_ASSEMBLY_USAGE_OCCURRENCE".into(),
-            reason: format!("places {} in itself", if name.is_empty() { "an assembly".into() } else { quoted(&name) }),
+            reason: format!(
+                "places {} in itself",
+                if name.is_empty() { "an assembly".into() } else { quoted(&name) }
+            ),
             holds_faces: true,
         });
     }
@@ -83,9 +86,10 @@ fn ordered(nodes: &mut [Node]) -> Order {
             };
             match state[child] {
                 State::Open => {
-                    let child = nodes[node].children.remove(next);
-                    cut.push((child.entity, child.name));
-                    way.push((node, next));
+                    let child = &mut nodes[node].children[next];
+                    child.is_cut = true;
+                    cut.push((child.entity, child.name.clone()));
+                    way.push((node, next + 1));
                 }
                 State::Done => way.push((node, next + 1)),
                 State::New => {
@@ -114,7 +118,7 @@ fn count(nodes: &[Node], parts: &[Option<(u32, u64)>], order: &[usize]) -> Vec<B
             Some((_, faces)) => Below { instances: 1, names: 1, faces, levels: 0 },
             None => Below::default(),
         };
-        for child in &nodes[*node].children {
+        for child in nodes[*node].children.iter().filter(|c| !c.is_cut) {
             let inner = below[child.node];
             if inner.instances > 0 {
                 sum.instances = sum.instances.saturating_add(inner.instances);
@@ -146,10 +150,10 @@ fn expanded(
             if let Some((part, _)) = parts.get(node).copied().flatten() {
                 all.push(Instance { part, path: path.clone(), placement, color: own });
             }
-            let children = nodes[node].children.iter().filter(|c| below[c.node].instances > 0);
+            let children = nodes[node].children.iter().filter(|c| !c.is_cut && below[c.node].instances > 0);
             pending.extend(children.rev().map(|c| {
                 let placed = placement.after(&c.placement);
-                (depth + 1, c.node, c.name.clone(), placed, color(c.entity).or(own))
+                (depth + 1, c.node, c.name.clone(), placed, color(c.styled).or(own))
             }));
         }
     }

@@ -57,11 +57,25 @@ impl Looks {
         looks
     }
 
-    fn style(&mut self, file: &File, entity: &Entity, overrides: bool, styles: &mut HashMap<u64, Option<Color>>) {
+    fn style(
+        &mut self,
+        file: &File,
+        entity: &Entity,
+        overrides: bool,
+        styles: &mut HashMap<u64, Option<Color>>,
+    ) {
         // Of a complex instance the record STYLED_ITEM has styles and item alone.
         let record = entity.main(&["STYLED_ITEM"]);
         let first = usize::from(entity.is_simple());
         let (Ok(list), Some(item)) = (record.list(first), record.reference(first + 1)) else { return };
+        // In a context it is one occurrence that has the color, not all of the item.
+        let item = match record.keyword.starts_with("CONTEXT_DEPENDENT") {
+            false => item,
+            true => match record.list(record.values.len() - 1) {
+                Ok([Value::Reference(relation)]) => *relation,
+                _ => return,
+            },
+        };
         let found = list.iter().filter_map(reference).find_map(|style| {
             let color = styles.entry(style).or_insert_with(|| color(file, style));
             *color

@@ -9,7 +9,7 @@ mod budget;
 mod context;
 mod curve;
 mod face;
-mod foot;
+mod hollow;
 mod instances;
 mod looks;
 mod part;

@@ -9,6 +9,8 @@ use super::looks::Looks;
 use super::placement::Units;
 use super::shape::{Item, Shapes, item};
 use super::topology::Topology;
+use std::cell::RefCell;
+use std::collections::BTreeSet;
 use trueness_cad::model::{Part, Unread};
 use trueness_geom::progress::Progress;
 
@@ -20,12 +22,13 @@ pub(super) struct Reading<'f> {
     pub progress: &'f dyn Progress,
     /// Within which two places are one, millimeters.
     pub tolerance: f64,
+    /// Items of the shapes of products: a representation of no product may show them again.
+    pub shown: RefCell<BTreeSet<u64>>,
 }
 
 impl<'f> Reading<'f> {
     fn shapes(&self, units: Units) -> Shapes<'f> {
-        let geometry =
-            Geometry { file: self.file, units, tolerance: self.tolerance, budget: self.budget };
+        let geometry = Geometry { file: self.file, units, tolerance: self.tolerance, budget: self.budget };
         Shapes::new(Faces::new(Topology::new(geometry), self.looks, self.progress))
     }
 
@@ -46,7 +49,9 @@ impl<'f> Reading<'f> {
             }
             let color = self.looks.color(*number);
             for number in &representation.items {
-                shapes.add(*number, color);
+                if self.shown.borrow_mut().insert(*number) || node.is_product {
+                    shapes.add(*number, color);
+                }
             }
         }
         finished(shapes, node.name.clone())

@@ -92,7 +92,9 @@ pub(super) fn operator(file: &File, units: Units, number: u64) -> Result<Placeme
     let entity = file.entity(number)?;
     let record = entity.main(&["CARTESIAN_TRANSFORMATION_OPERATOR_3D"]);
     if record.keyword != "CARTESIAN_TRANSFORMATION_OPERATOR_3D" {
-        return Err(record.wrong(format!("is no CARTESIAN_TRANSFORMATION_OPERATOR_3D but {}", record.keyword)));
+        return Err(
+            record.wrong(format!("is no CARTESIAN_TRANSFORMATION_OPERATOR_3D but {}", record.keyword))
+        );
     }
     let is_point = |n: u64| file.entity(n).is_ok_and(|e| e.record("CARTESIAN_POINT").is_some());
     let origin = (2..record.values.len()).find(|k| record.reference(*k).is_some_and(is_point));

@@ -41,18 +41,22 @@ pub(crate) fn read(
     let warnings = warnings(&shapes, &unit, options);
     let budget = Budget::of(&file);
     let tolerance = uncertainty.unwrap_or(USUAL_UNCERTAINTY).clamp(UNCERTAINTIES[0], UNCERTAINTIES[1]);
-    let reading = Reading { file: &file, budget: &budget, looks: &looks, progress, tolerance };
+    let shown = Default::default();
+    let reading = Reading { file: &file, budget: &budget, looks: &looks, progress, tolerance, shown };
     let mut model = Model { uncertainty, ..Model::default() };
     let mut assembly = Assembly::of(&file, shapes, fallback);
-    let mut parts = vec![];
-    for node in 0..assembly.nodes.len() {
+    let mut parts = vec![None; assembly.nodes.len()];
+    let mut order: Vec<usize> = (0..parts.len()).collect();
+    order.sort_by_key(|node| !assembly.nodes[*node].is_product);
+    for node in order {
         let (part, mut unread) = reading.part(&assembly, node);
         model.unread.append(&mut unread);
-        parts.push(part.map(|part| {
-            let entry = (model.parts.len() as u32, part.brep.faces.len() as u64);
+        // Views of products hold curves and planes beside the faces of the product.
+        let is_view = !assembly.nodes[node].is_product && !model.parts.is_empty();
+        if let Some(part) = part.filter(|p| !is_view || !p.brep.faces.is_empty()) {
+            parts[node] = Some((model.parts.len() as u32, part.brep.faces.len() as u64));
             model.parts.push(part);
-            entry
-        }));
+        }
         if progress.cancelled() {
             return Err(Fault::Cancelled.into());
         }
@@ -82,7 +86,11 @@ fn unit(shapes: &BTreeMap<u64, Representation>, options: &ReadOptions) -> Length
     }
 }
 
-fn warnings(shapes: &BTreeMap<u64, Representation>, unit: &LengthUnit, options: &ReadOptions) -> Vec<Warning> {
+fn warnings(
+    shapes: &BTreeMap<u64, Representation>,
+    unit: &LengthUnit,
+    options: &ReadOptions,
+) -> Vec<Warning> {
     let lengths = shapes.values().filter(|r| !r.items.is_empty()).map(|r| r.context.as_ref().ok()?.length);
     let without = lengths.filter(Option::is_none).count() as u64;
     let mut all = vec![];
@@ -120,8 +128,16 @@ fn damaged(file: &File) -> Vec<Unread> {
 
 /// Parts of keywords of entities that lead to faces; what faces themselves need is told with them.
 const CONTAINERS: [&str; 10] = [
-    "REPRESENTATION", "SHELL", "BREP", "SOLID", "FACE", "SURFACE_MODEL", "MAPPED_ITEM", "OCCURRENCE",
-    "TRANSFORMATION", "PRODUCT_DEFINITION",
+    "REPRESENTATION",
+    "SHELL",
+    "BREP",
+    "SOLID",
+    "FACE",
+    "SURFACE_MODEL",
+    "MAPPED_ITEM",
+    "OCCURRENCE",
+    "TRANSFORMATION",
+    "PRODUCT_DEFINITION",
 ];
 
 /// A file without a face and without a wire is no model.
@@ -140,5 +156,9 @@ fn holds_anything(model: &Model) -> Result<()> {
             format!("none of its faces can be read: {name} #{}: {}{more}", first.entity, first.reason)
         }
     };
-    Err(Fault::Unsupported { what, remedy: "export it as a model with exact faces (boundary representation)" }.into())
+    Err(Fault::Unsupported {
+        what,
+        remedy: "export it as a model with exact faces (boundary representation)",
+    }
+    .into())
 }

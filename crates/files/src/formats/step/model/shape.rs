@@ -3,6 +3,7 @@
 use super::super::part21::{Entity, Record, Wrong};
 use super::curve::{MAX_BASES, is_curve};
 use super::face::Faces;
+use super::hollow::look_inward;
 use super::placement::operator;
 use super::surface::{Oriented, is_surface};
 use super::topology::Topology;
@@ -37,14 +38,22 @@ pub(super) fn item(entity: &Entity) -> Item {
         "MANIFOLD_SOLID_BREP" | "BREP_WITH_VOIDS" | "FACETED_BREP" => Item::Solid,
         "SOLID_REPLICA" => Item::Replica,
         "SHELL_BASED_SURFACE_MODEL" | "FACE_BASED_SURFACE_MODEL" => Item::Model,
-        "OPEN_SHELL" | "CLOSED_SHELL" | "ORIENTED_CLOSED_SHELL" | "ORIENTED_OPEN_SHELL" | "CONNECTED_FACE_SET" => {
-            Item::Shell
-        }
+        "OPEN_SHELL"
+        | "CLOSED_SHELL"
+        | "ORIENTED_CLOSED_SHELL"
+        | "ORIENTED_OPEN_SHELL"
+        | "CONNECTED_FACE_SET" => Item::Shell,
         "ADVANCED_FACE" | "FACE_SURFACE" | "ORIENTED_FACE" => Item::Face,
         "GEOMETRIC_SET" | "GEOMETRIC_CURVE_SET" => Item::Set,
         "MAPPED_ITEM" => Item::Mapped,
-        "EDGE_BASED_WIREFRAME_MODEL" | "SHELL_BASED_WIREFRAME_MODEL" | "CARTESIAN_POINT" | "VERTEX_POINT"
-        | "VERTEX_SHELL" | "WIRE_SHELL" | "CONNECTED_EDGE_SET" | "EDGE_CURVE" => Item::Wire,
+        "EDGE_BASED_WIREFRAME_MODEL"
+        | "SHELL_BASED_WIREFRAME_MODEL"
+        | "CARTESIAN_POINT"
+        | "VERTEX_POINT"
+        | "VERTEX_SHELL"
+        | "WIRE_SHELL"
+        | "CONNECTED_EDGE_SET"
+        | "EDGE_CURVE" => Item::Wire,
         "AXIS2_PLACEMENT_3D" | "AXIS2_PLACEMENT_2D" | "AXIS1_PLACEMENT" => Item::Placement,
         keyword if is_surface(keyword) => Item::Surface,
         keyword if is_curve(keyword) => Item::Wire,
@@ -64,9 +73,25 @@ pub(super) fn item(entity: &Entity) -> Item {
 
 /// Parts of keywords of shapes that may have faces.
 const HOLDERS: [&str; 15] = [
-    "SOLID", "BREP", "SHELL", "FACE", "SURFACE", "TESSELLATED", "TRIANGULATED", "BOOLEAN", "BLOCK", "CYLINDER",
-    "CONE", "SPHERE", "TORUS", "WEDGE", "ELLIPSOID",
+    "SOLID",
+    "BREP",
+    "SHELL",
+    "FACE",
+    "SURFACE",
+    "TESSELLATED",
+    "TRIANGULATED",
+    "BOOLEAN",
+    "BLOCK",
+    "CYLINDER",
+    "CONE",
+    "SPHERE",
+    "TORUS",
+    "WEDGE",
+    "ELLIPSOID",
 ];
+
+/// Why a surface in no face is not read.
+const WITHOUT_ENDS: &str = "is a surface without ends, in no face";
 
 /// The boundary of a part, item by item.
 pub(super) struct Shapes<'f> {
@@ -92,7 +117,8 @@ impl<'f> Shapes<'f> {
             self.add_item(&entity, color)
         });
         if let Err(wrong) = added {
-            self.faces.tell(number, &wrong, true);
+            // A surface without ends is no face: programs leave such ones beside their solids.
+            self.faces.tell(number, &wrong, wrong.reason != WITHOUT_ENDS);
         }
     }
 
@@ -149,6 +175,10 @@ impl<'f> Shapes<'f> {
         };
         let outer = self.faces.shell(outer, false, color);
         let voids: Vec<u32> = voids.into_iter().filter_map(|v| self.faces.shell(v, false, color)).collect();
+        let (tolerance, progress) = (self.faces.topology.geometry.tolerance, self.faces.progress);
+        for shell in &voids {
+            look_inward(self.brep(), *shell, tolerance, progress);
+        }
         // What is wrong with the outer shell is told already; hollows alone are no solid.
         if let Some(outer) = outer {
             self.brep().solids.push(Solid { outer, voids, name });
@@ -194,7 +224,7 @@ impl<'f> Shapes<'f> {
         };
         let finite = |sides: &[[f64; 2]; 2]| sides.as_flattened().iter().all(|x| x.is_finite());
         if matches!(&bounds, Bounds::Rectangle(sides) if !finite(sides)) {
-            return Err(main.wrong("is a surface without ends, in no face"));
+            return Err(main.wrong(WITHOUT_ENDS));
         }
         geometry.budget.spend(1, entity)?;
         let (name, entity) = (main.text(0), entity.number());

@@ -1,8 +1,7 @@
 //! The part of a curve that an edge is: from the parameter of its first vertex to that of its last one, the way that its sense says.
 
-use super::foot::foot;
 use std::f64::consts::TAU;
-use trueness_cad::curve::{Curve, Span};
+use trueness_cad::curve::{Curve, CurveFeet, Foot, Span};
 use trueness_geom::space::{Point, minus, norm};
 
 /// How far two ends that should meet may lie apart, as a share of what they bound: beyond, the entity is damaged.
@@ -12,28 +11,33 @@ const SAME: f64 = 1e-9;
 
 /// The span of an edge between two places on a curve. `same` says that the edge has the sense of the curve, `closed` that both
 /// vertices are one. The vertices may lie off the curve; so far as they do is the second value.
-pub(super) fn between(curve: Curve, ends: [Point; 2], same: bool, closed: bool, tolerance: f64) -> (Span, f64) {
-    if let Curve::Line { .. } = curve {
-        return line(curve, ends);
-    }
-    let [(from, a), (to, b)] = ends.map(|p| foot(&curve, p));
+pub(super) fn between(
+    curve: Curve,
+    ends: [Point; 2],
+    same: bool,
+    closed: bool,
+    tolerance: f64,
+) -> (Span, f64) {
+    let feet = CurveFeet::new(&curve, curve.domain());
+    let [Foot { parameter: from, distance: a, .. }, Foot { parameter: to, distance: b, .. }] =
+        ends.map(|p| feet.nearest(p));
     let off = a.max(b);
     if curve.period().is_some() {
         let range = if closed { turn(from, same) } else { onward([from, to], same, &curve, ends, tolerance) };
         return (Span { curve, range }, off);
     }
     let [low, high] = curve.domain();
-    let loops = low.is_finite() && high.is_finite() && norm(minus(curve.at(low), curve.at(high))) <= tolerance;
+    let loops =
+        low.is_finite() && high.is_finite() && norm(minus(curve.at(low), curve.at(high))) <= tolerance;
     if !loops {
         return (Span { curve, range: [from, to] }, off);
     }
     (around(curve, [from, to], same), off)
 }
 
-/// On a line the sense follows from the vertices.
-fn line(curve: Curve, ends: [Point; 2]) -> (Span, f64) {
-    let [(from, a), (to, b)] = ends.map(|p| foot(&curve, p));
-    (Span { curve, range: [from, to] }, a.max(b))
+/// The place of a curve nearest to a point.
+pub(super) fn foot(curve: &Curve, p: Point) -> Foot {
+    CurveFeet::new(curve, curve.domain()).nearest(p)
 }
 
 /// A whole turn.
@@ -46,11 +50,16 @@ fn onward([from, to]: [f64; 2], same: bool, curve: &Curve, ends: [Point; 2], tol
     let way = if same { to - from } else { from - to };
     let way = way.rem_euclid(TAU);
     let apart = norm(minus(ends[0], ends[1]));
-    let nearly = way < SAME * TAU || way > TAU * (1.0 - SAME);
+    let nearly = is_whole(way);
     // Vertices within the uncertainty of each other, but out of order, stand at the seam of a whole turn.
     let short = apart <= tolerance && way * speed(curve) > tolerance;
     let way = if nearly && apart <= tolerance || short && way > TAU / 2.0 { TAU } else { way };
     [from, if same { from + way } else { from - way }]
+}
+
+/// Whether an angle from 0 to a turn is none or all of it, but for rounding.
+fn is_whole(way: f64) -> bool {
+    way.min(TAU - way) < SAME * TAU
 }
 
 /// Length of a radian at the greatest curvature.
@@ -90,7 +99,7 @@ pub(super) fn from_parameters(curve: Curve, [from, to]: [f64; 2], same: bool) ->
     if curve.period().is_some() {
         let way = if same { to - from } else { from - to };
         let mut turns = way.rem_euclid(TAU);
-        if turns < SAME * TAU || turns > TAU * (1.0 - SAME) {
+        if is_whole(turns) {
             turns = TAU;
         }
         return Ok(Span { curve, range: [from, if same { from + turns } else { from - turns }] });

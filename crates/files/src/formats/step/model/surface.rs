@@ -32,7 +32,11 @@ impl<'f> Geometry<'f> {
         }
         let record = entity.main(&[]);
         match record.keyword {
-            "PLANE" | "CYLINDRICAL_SURFACE" | "CONICAL_SURFACE" | "SPHERICAL_SURFACE" | "TOROIDAL_SURFACE"
+            "PLANE"
+            | "CYLINDRICAL_SURFACE"
+            | "CONICAL_SURFACE"
+            | "SPHERICAL_SURFACE"
+            | "TOROIDAL_SURFACE"
             | "DEGENERATE_TOROIDAL_SURFACE" => self.elementary(&record),
             "SURFACE_OF_LINEAR_EXTRUSION" => {
                 let curve = self.curve(record.entity(1)?, depth + 1)?;
@@ -124,7 +128,8 @@ impl<'f> Geometry<'f> {
     /// What one unit of `u` and of `v` in the file is in the parameters of a surface.
     fn parameters(&self, surface: &Surface) -> [f64; 2] {
         let (length, angle) = (self.units.length, self.units.angle);
-        let of_curve = |curve: &trueness_cad::curve::Curve| if curve.period().is_some() { angle } else { 1.0 };
+        let of_curve =
+            |curve: &trueness_cad::curve::Curve| if curve.period().is_some() { angle } else { 1.0 };
         match surface {
             Surface::Plane(_) => [length, length],
             Surface::Cylinder { .. } | Surface::Cone { .. } => [angle, length],
@@ -142,7 +147,11 @@ pub(super) fn is_surface(keyword: &str) -> bool {
     super::super::spline::SURFACES.contains(&keyword)
         || matches!(
             keyword,
-            "PLANE" | "RECTANGULAR_TRIMMED_SURFACE" | "CURVE_BOUNDED_SURFACE" | "SURFACE_REPLICA" | "OFFSET_SURFACE"
+            "PLANE"
+                | "RECTANGULAR_TRIMMED_SURFACE"
+                | "CURVE_BOUNDED_SURFACE"
+                | "SURFACE_REPLICA"
+                | "OFFSET_SURFACE"
         )
         || matches!(keyword, "SURFACE_OF_LINEAR_EXTRUSION" | "SURFACE_OF_REVOLUTION" | "BOUNDED_SURFACE")
         || matches!(keyword, "CYLINDRICAL_SURFACE" | "CONICAL_SURFACE" | "SPHERICAL_SURFACE")

@@ -1,41 +1,8 @@
 //! The entities of a file: where they stand, and what is wrong with some.
 
+use super::lines::Lines;
 use super::record::{Record, Wrong};
-use std::cell::OnceCell;
-
-/// A parameter.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(in super::super) enum Value<'t> {
-    /// `#12`; a number beyond 64 bits is the greatest one, which no entity has.
-    Reference(u64),
-    Integer(i64),
-    Real(f64),
-    /// `.T.`, without the points.
-    Word(&'t [u8]),
-    /// Text as it stands between its quotes.
-    Text(&'t [u8]),
-    /// The values between brackets.
-    List(Run),
-    /// `LENGTH_MEASURE(25.4)`: the keyword as a word, then what stands between the brackets.
-    Typed(Run),
-    /// `$`, `*`, or binary data.
-    Nothing,
-}
-
-/// Values or records that stand together.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(in super::super) struct Run {
-    pub from: u32,
-    pub count: u32,
-}
-
-impl Run {
-    /// The items of the run.
-    pub fn of<T>(self, all: &[T]) -> &[T] {
-        let from = self.from as usize;
-        all.get(from..from + self.count as usize).unwrap_or_default()
-    }
-}
+use super::value::{Run, Value};
 
 /// Where an entity stands.
 #[derive(Clone, Copy)]
@@ -66,7 +33,7 @@ pub(in super::super) struct Broken {
 
 /// All entities of a file.
 pub(in super::super) struct File<'t> {
-    pub(super) text: &'t [u8],
+    pub(super) lines: Lines<'t>,
     pub(super) values: Vec<Value<'t>>,
     pub(super) records: Vec<RawRecord>,
     /// In the order of their numbers.
@@ -76,8 +43,6 @@ pub(in super::super) struct File<'t> {
     /// In the order of their numbers.
     pub(super) broken: Vec<Broken>,
     pub(super) is_whole: bool,
-    /// Line breaks before each block of the text.
-    pub(super) lines: OnceCell<Vec<u64>>,
 }
 
 /// An entity: one record, or those of a complex one.
@@ -86,9 +51,6 @@ pub(in super::super) struct Entity<'f> {
     file: &'f File<'f>,
     place: &'f Place,
 }
-
-/// Bytes of a block whose line breaks are counted beforehand.
-const BLOCK: usize = 1 << 12;
 
 impl<'t> File<'t> {
     /// Whether the text goes on to the line that ends such files.
@@ -131,7 +93,7 @@ impl<'t> File<'t> {
         match self.broken.binary_search_by_key(&number, |b| b.number) {
             Ok(index) => {
                 let broken = self.broken[index];
-                Wrong { entity: number, line: self.line(broken.at), reason: broken.reason.into() }
+                Wrong { entity: number, line: self.lines.line(broken.at), reason: broken.reason.into() }
             }
             Err(_) => Wrong { entity: number, line: 0, reason: "is not in the file".into() },
         }
@@ -139,24 +101,7 @@ impl<'t> File<'t> {
 
     /// The number of the last line.
     pub fn last_line(&self) -> u64 {
-        self.line(self.text.len())
-    }
-
-    /// The line in which this byte lies, from 1.
-    pub(super) fn line(&self, at: usize) -> u64 {
-        let blocks = self.lines.get_or_init(|| {
-            let mut sum = 0;
-            let count = |block: &[u8]| {
-                let before = sum;
-                sum += memchr::memchr_iter(b'\n', block).count() as u64;
-                before
-            };
-            self.text.chunks(BLOCK).map(count).collect()
-        });
-        let block = at / BLOCK;
-        let before = blocks.get(block).copied().unwrap_or_default();
-        let rest = self.text.get(block * BLOCK..at).unwrap_or_default();
-        1 + before + memchr::memchr_iter(b'\n', rest).count() as u64
+        self.lines.line(self.lines.text.len())
     }
 }
 
@@ -170,7 +115,8 @@ impl<'f> Entity<'f> {
     pub fn records(&self) -> impl Iterator<Item = Record<'f>> + 'f {
         let (file, place) = (self.file, self.place);
         place.records.of(&file.records).iter().map(move |raw| Record {
-            file,
+            lines: &file.lines,
+            all: &file.values,
             entity: place.number,
             at: place.at,
             keyword: file.keywords.get(raw.keyword as usize).map_or("", String::as_str),
@@ -192,7 +138,8 @@ impl<'f> Entity<'f> {
     pub fn main(&self, keywords: &[&str]) -> Record<'f> {
         let known = self.records().find(|r| keywords.contains(&r.keyword));
         known.or_else(|| self.records().next()).unwrap_or(Record {
-            file: self.file,
+            lines: &self.file.lines,
+            all: &[],
             entity: self.place.number,
             at: self.place.at,
             keyword: "",
@@ -202,6 +149,6 @@ impl<'f> Entity<'f> {
 
     /// A fault of the entity.
     pub fn wrong(&self, reason: impl Into<String>) -> Wrong {
-        Wrong { entity: self.place.number, line: self.file.line(self.place.at), reason: reason.into() }
+        Wrong { entity: self.place.number, line: self.file.lines.line(self.place.at), reason: reason.into() }
     }
 }

@@ -4,13 +4,16 @@
 //! memory are proportional to the length of the text, whatever it holds.
 
 mod file;
+mod lines;
 mod pages;
 mod record;
 mod scan;
-mod text;
 #[cfg(test)]
 mod tests;
+mod text;
+mod value;
 
-pub(super) use file::{Entity, File, Value};
+pub(super) use file::{Entity, File};
 pub(super) use record::{Record, Wrong};
 pub(super) use scan::parse;
+pub(super) use value::Value;

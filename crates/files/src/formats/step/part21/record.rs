@@ -1,7 +1,8 @@
 //! The parameters of an entity by their place, and what is wrong with them.
 
-use super::file::{File, Value};
+use super::lines::Lines;
 use super::text;
+use super::value::{Value, whole};
 
 /// What is wrong with an entity.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -23,7 +24,9 @@ fn shown(line: u64) -> String {
 /// A keyword with its parameters.
 #[derive(Clone, Copy)]
 pub(in super::super) struct Record<'f> {
-    pub(super) file: &'f File<'f>,
+    pub(super) lines: &'f Lines<'f>,
+    /// The values of the file, of which lists are parts.
+    pub(super) all: &'f [Value<'f>],
     pub(super) entity: u64,
     pub(super) at: usize,
     /// Upper case.
@@ -35,7 +38,7 @@ pub(in super::super) struct Record<'f> {
 impl<'f> Record<'f> {
     /// A fault of the entity.
     pub fn wrong(&self, reason: impl Into<String>) -> Wrong {
-        Wrong { entity: self.entity, line: self.file.line(self.at), reason: reason.into() }
+        Wrong { entity: self.entity, line: self.lines.line(self.at), reason: reason.into() }
     }
 
     /// The fault of a parameter, counted from 0.
@@ -46,8 +49,8 @@ impl<'f> Record<'f> {
     /// The values of a list, of what stands in brackets behind a keyword too.
     pub fn items(&self, value: Value<'f>) -> Option<&'f [Value<'f>]> {
         match value {
-            Value::List(run) => Some(run.of(&self.file.values)),
-            Value::Typed(run) => run.of(&self.file.values).get(1..),
+            Value::List(run) => Some(run.of(self.all)),
+            Value::Typed(run) => run.of(self.all).get(1..),
             _ => None,
         }
     }
@@ -139,13 +142,5 @@ impl<'f> Record<'f> {
             Some(Value::Text(raw)) => text::decoded(raw),
             _ => String::new(),
         }
-    }
-}
-
-/// A whole number that is not below 0.
-fn whole(value: Value) -> Option<usize> {
-    match value {
-        Value::Integer(n) => usize::try_from(n).ok(),
-        _ => None,
     }
 }

@@ -3,9 +3,10 @@
 //! Every byte is looked at a bounded number of times: after a fault reading goes on at the next place that looks like the start of
 //! an entity, and never goes back. A text in quotes that reaches such a start at the beginning of a line has lost its quote.
 
-use super::file::{Broken, File, Place, RawRecord, Run, Value};
+use super::file::{Broken, File, Place, RawRecord};
+use super::lines::Lines;
+use super::value::{Run, Value};
 use crate::number::{count, integer, whole_number};
-use std::cell::OnceCell;
 use std::collections::HashMap;
 use trueness_geom::progress::{Cancelled, Progress};
 
@@ -22,14 +23,13 @@ type Reason = &'static str;
 /// Finds and parses all entities of a text.
 pub(in super::super) fn parse<'t>(text: &'t [u8], progress: &dyn Progress) -> Result<File<'t>, Cancelled> {
     let file = File {
-        text,
+        lines: Lines::new(text),
         values: vec![],
         records: vec![],
         places: vec![],
         keywords: vec![],
         broken: vec![],
         is_whole: false,
-        lines: OnceCell::new(),
     };
     let mut scanner = Scanner {
         text,
@@ -93,7 +93,7 @@ impl<'t> File<'t> {
     /// Whether two entities have the same text.
     fn is_alike(&self, a: &Place, b: &Place) -> bool {
         let text = |p: &Place| {
-            let rest = &self.text[p.at..];
+            let rest = &self.lines.text[p.at..];
             &rest[..memchr::memchr(b';', rest).unwrap_or(rest.len())]
         };
         text(a) == text(b)
@@ -141,7 +141,7 @@ impl<'t> Scanner<'t> {
         match self.peek() {
             None => return false,
             Some(b'#') => self.entity(),
-            Some(_) if self.rest().starts_with(END) => {
+            Some(_) if self.rest().get(..END.len()).is_some_and(|w| w.eq_ignore_ascii_case(END)) => {
                 self.file.is_whole = true;
                 return false;
             }
@@ -160,8 +160,9 @@ impl<'t> Scanner<'t> {
                     return;
                 }
                 b'\'' => {
-                    // Without its end it reaches to the next entity, or to the end of the file.
+                    // Without its end it reaches to the next entity, or there is no other text.
                     if self.quoted().is_err() {
+                        self.at += usize::from(self.peek() == Some(b'\''));
                         return;
                     }
                 }
@@ -268,7 +269,11 @@ impl<'t> Scanner<'t> {
         loop {
             self.skip();
             let opened = match self.peek() {
-                Some(b')') if self.pending.len() == self.open.last().map_or(0, |o| o.0 + usize::from(o.1)) => false,
+                Some(b')')
+                    if self.pending.len() == self.open.last().map_or(0, |o| o.0 + usize::from(o.1)) =>
+                {
+                    false
+                }
                 Some(b'(') => {
                     self.begin_list(false)?;
                     true
@@ -374,8 +379,8 @@ impl<'t> Scanner<'t> {
         let mut at = from;
         loop {
             let Some(n) = memchr::memchr2(b'\'', b'\n', self.text.get(at..).unwrap_or_default()) else {
-                self.at = self.text.len();
-                return Err("is cut short by the end of the file");
+                // No other text begins behind here: going back is done once.
+                return Err("has a text without a quote at its end");
             };
             at += n + 1;
             let rest = &self.text[at..];

@@ -5,7 +5,9 @@ use super::{File, Value, parse};
 use trueness_geom::progress::Silent;
 
 fn whole(entities: &str) -> String {
-    format!("ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION(('it''s; #1=A /*'),'2;1');\nENDSEC;\nDATA;\n{entities}\nENDSEC;\nEND-ISO-10303-21;\n")
+    format!(
+        "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION(('it''s; #1=A /*'),'2;1');\nENDSEC;\nDATA;\n{entities}\nENDSEC;\nEND-ISO-10303-21;\n"
+    )
 }
 
 fn parsed(text: &[u8]) -> File<'_> {
@@ -14,7 +16,9 @@ fn parsed(text: &[u8]) -> File<'_> {
 
 #[test]
 fn values_of_every_kind() {
-    let text = whole("#7 = a_B ( $,*,.t.,'it''s',(1,-2.5E1,.5),LENGTH_MEASURE(3.),\"0FA\",#4 , () ) ; /* #8=X(); */\n#4=(A()B(#7,(#4)));");
+    let text = whole(
+        "#7 = a_B ( $,*,.t.,'it''s',(1,-2.5E1,.5),LENGTH_MEASURE(3.),\"0FA\",#4 , () ) ; /* #8=X(); */\n#4=(A()B(#7,(#4)));",
+    );
     let file = parsed(text.as_bytes());
     assert!(file.is_whole() && file.broken().is_empty() && file.count() == 2);
     let entity = file.entity(7).unwrap();
@@ -67,7 +71,8 @@ fn damage_stays_where_it_is() {
 #[test]
 fn hostile_texts_take_little_time() {
     let times = 200_000;
-    let patterns = ["(", "A(", "'\n#1='", "/*", "#1=", "\n#1=/*", "'", "#1=A('\n", "#", "\n#1=A((", ";#11111", "=\n \n"];
+    let patterns =
+        ["(", "A(", "'\n#1='", "/*", "#1=", "\n#1=/*", "'", "#1=A('\n", "#", "\n#1=A((", ";#11111", "=\n \n"];
     for pattern in patterns {
         let text = whole(&format!("#1=B({}\n#3=C();", pattern.repeat(times)));
         let start = std::time::Instant::now();

@@ -37,7 +37,9 @@ fn next<'a>(raw: &'a [u8], upper: &mut [char; 96], out: &mut String) -> &'a [u8]
         [b'\\', b'X', b'4', b'\\', rest @ ..] => codes(rest, 8, out),
         // Texts are not wrapped within: such breaks come from writers of short lines.
         [b'\r' | b'\n', rest @ ..] => rest,
-        [c @ 0..=0x7f, rest @ ..] => push(out, if c.is_ascii_control() { '\u{fffd}' } else { char::from(*c) }, rest),
+        [c @ 0..=0x7f, rest @ ..] => {
+            push(out, if c.is_ascii_control() { '\u{fffd}' } else { char::from(*c) }, rest)
+        }
         _ => above_ascii(raw, out),
     }
 }
