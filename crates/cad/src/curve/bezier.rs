@@ -5,7 +5,7 @@
 //! where the distance stands still, but at its ends, where the coefficients of `D` have one sign; and one such place where they change
 //! sign once. Else it is halved (Lane and Riesenfeld, Bounds on a polynomial, BIT 21, 1981).
 
-use trueness_geom::space::{Point, Vector, cross, dot, minus, norm, times, unit};
+use trueness_geom::space::{Point, Vector, cross, dot, minus, norm, plus, times, unit};
 use trueness_geom::spline::value::{Mass, Value};
 
 /// Roundings of a coefficient as a share of the greatest: it is the sum of some dozens of products.
@@ -40,6 +40,9 @@ impl Bezier {
     /// Hands over parameters within where the distance from `p` may have a minimum of less than `limit`; the ends are not among them unless
     /// one is. The callback says a new limit. Where the distance is the same everywhere, some parameter within.
     pub(super) fn minima(&self, p: Point, mut limit: f64, mut visit: impl FnMut(f64) -> f64) {
+        if self.is_beyond(p, limit) {
+            return;
+        }
         let about: Vec<Mass<3>> =
             self.points.iter().map(|m| Mass { moment: m.moment.plus(-m.mass, p), mass: m.mass }).collect();
         let square = product(&about, &about, |a, b| dot(a.moment, b.moment));
@@ -74,6 +77,17 @@ impl Bezier {
                 }
             }
         }
+    }
+
+    /// Whether all control points lie beyond a plane at this distance across the way to the middle of the chord.
+    fn is_beyond(&self, p: Point, limit: f64) -> bool {
+        let [Some(a), Some(b)] = [self.points.first(), self.points.last()].map(|m| m.and_then(Mass::place))
+        else {
+            return false;
+        };
+        let Some((way, _)) = unit(minus(plus(times(0.5, a), times(0.5, b)), p)) else { return false };
+        let height = dot(p, way) + limit;
+        self.points.iter().all(|m| dot(m.moment, way) > height * m.mass)
     }
 
     /// Hands over parameters within where coordinate `k` has its extremes.

@@ -8,6 +8,7 @@ use super::tree::Boxes;
 use crate::brep::{Bounds, Brep, Loop};
 use crate::curve::CurveFeet;
 use crate::surface::SurfaceFeet;
+use std::collections::BTreeMap;
 use trueness_geom::parallel::prelude::*;
 use trueness_geom::space::{Aabb, Point};
 
@@ -21,6 +22,8 @@ pub(super) struct Prepared<R> {
     pub(super) sides: Sides,
     /// Distance within which a place of an edge is its end.
     pub(super) same: f64,
+    /// Distance within which faces of two shells are about as near.
+    pub(super) touching: f64,
 }
 
 /// An edge, or a side of a face that has none.
@@ -41,6 +44,8 @@ pub(super) enum Target {
 
 /// Share of the boundary's size within which a place of an edge is its end.
 const SAME_PLACE: f64 = 1e-12;
+/// Share within which parts touch: files have some ten digits.
+const TOUCHING_SHELLS: f64 = 1e-9;
 /// So many boxes in a row reach from one end of the boundary to the other.
 const BOXES_OF_SIZE: f64 = 24.0;
 
@@ -56,6 +61,10 @@ pub(super) fn prepared<R: Region>(brep: &Brep, regions: Vec<Option<R>>) -> Prepa
         .collect();
     let vertices: Vec<Point> = brep.vertices.iter().map(|v| v.place).collect();
     let (mut used, mut corners, mut side_faces) = (vec![false; edges.len()], vec![], vec![]);
+    let shells: BTreeMap<u32, u32> = (0u32..)
+        .zip(&brep.shells)
+        .flat_map(|(number, shell)| shell.faces.iter().map(move |face| (*face, number)))
+        .collect();
     let (mut faces, mut around) = (vec![], vec![]);
     let mut regions = regions.into_iter();
     for (number, face) in brep.faces.iter().enumerate() {
@@ -84,7 +93,8 @@ pub(super) fn prepared<R: Region>(brep: &Brep, regions: Vec<Option<R>>) -> Prepa
             }
         }
         around.push(own);
-        faces.push(Face { feet, region, is_reversed: face.reversed });
+        let shell = shells.get(&(number as u32)).copied();
+        faces.push(Face { feet, region, is_reversed: face.reversed, shell });
     }
     let mut extent = Aabb::EMPTY;
     for (border, _) in edges.iter().zip(&used).filter(|(_, used)| **used) {
@@ -136,6 +146,7 @@ pub(super) fn prepared<R: Region>(brep: &Brep, regions: Vec<Option<R>>) -> Prepa
         boxes: Boxes::new(boxes),
         sides,
         same: SAME_PLACE * extent.diagonal(),
+        touching: TOUCHING_SHELLS * extent.diagonal(),
     }
 }
 

@@ -12,6 +12,8 @@ pub(super) struct Face<R> {
     pub(super) region: Option<R>,
     /// Whether its outward normal is opposite to that of the surface.
     pub(super) is_reversed: bool,
+    /// Its shell.
+    pub(super) shell: Option<u32>,
 }
 
 /// Share of a domain by which a place lies beside a pole.

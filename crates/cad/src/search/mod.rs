@@ -13,7 +13,8 @@
 //! ([`crate::surface::SurfaceFeet`]). A tree of boxes around parts of faces and edges leaves out what cannot be nearer than the best
 //! candidate so far. A box may be too large, never too small: the answer does not hang on it. The twin in the tests tries all.
 //!
-//! Ties go to the lowest face, then to the lowest edge, then to the lowest corner.
+//! Ties go to the lowest face, then to the lowest edge, then to the lowest corner. Where faces of two shells are about as near, as
+//! where parts of an assembly touch, the point is inside if it is inside of one of them.
 
 mod build;
 mod cover;
@@ -29,9 +30,11 @@ pub use nearest::{Nearest, On, Side};
 pub use region::Region;
 
 use crate::brep::Brep;
+use crate::curve;
+use crate::surface::Foot;
 use build::{Border, Prepared, Target, prepared};
 use face::Face;
-use nearest::Best;
+use nearest::{Best, Candidate};
 use trueness_geom::closest::{QueryError, check_points};
 use trueness_geom::parallel::prelude::*;
 use trueness_geom::progress::{Cancelled, Progress};
@@ -100,7 +103,7 @@ impl<R: Region> Search<R> {
     }
 
     fn answer(&self, p: &Point, scratch: &mut Scratch) -> Nearest {
-        let mut own = self.describe(p, self.best(p, scratch));
+        let mut own = self.describe(p, &self.best(p, scratch));
         if let (On::Vertex(vertex), Side::Unsure) = (own.on, own.side) {
             let ways = self.0.sides.edges_at(vertex);
             let side = ways.iter().find_map(|way| self.side_beside(p, own.distance, *way, scratch));
@@ -115,7 +118,7 @@ impl<R: Region> Search<R> {
         let (mut at, mut distance) = (*p, distance);
         for _ in 0..STEPS_BESIDE {
             at = plus(at, times(WITHIN * distance, way));
-            let other = self.describe(&at, self.best(&at, scratch));
+            let other = self.describe(&at, &self.best(&at, scratch));
             if matches!(other.side, Side::Outside | Side::Inside) {
                 return Some(other.side);
             }
@@ -126,7 +129,7 @@ impl<R: Region> Search<R> {
 
     fn best(&self, p: &Point, scratch: &mut Scratch) -> Best {
         scratch.point += 1;
-        let mut best = Best::NONE;
+        let mut best = Best::none(self.0.touching);
         if p.iter().all(|x| x.is_finite()) {
             let Scratch { seen, point, stack } = scratch;
             self.0.boxes.visit(p, stack, |target| {
@@ -135,7 +138,7 @@ impl<R: Region> Search<R> {
                     *own = *point;
                     self.look(self.0.targets[target as usize], p, &mut best);
                 }
-                best.distance
+                best.reach()
             });
         }
         best
@@ -145,42 +148,45 @@ impl<R: Region> Search<R> {
     fn look(&self, target: Target, p: &Point, best: &mut Best) {
         match target {
             Target::Unit { face, unit } => {
-                let Face { feet, region: Some(region), .. } = &self.0.faces[face as usize] else { return };
-                // What is as near counts as well: the lower face is taken.
-                feet.visit_unit(unit as usize, *p, best.distance.next_up(), &mut |foot| {
-                    let own = Best {
-                        distance: foot.distance,
-                        place: foot.place,
-                        on: On::Face(face),
-                        parameters: foot.parameters,
-                    };
-                    if own.is_before(best) && region.contains(foot.parameters) {
-                        *best = own;
+                let own = &self.0.faces[face as usize];
+                let Face { feet, region: Some(region), shell, .. } = own else { return };
+                feet.visit_unit(unit as usize, *p, best.reach(), &mut |foot| {
+                    let Foot { parameters, place, distance } = foot;
+                    if distance < best.reach() && region.contains(parameters) {
+                        let on = On::Face(face);
+                        best.take(Candidate { distance, place, on, parameters, shell: *shell });
                     }
-                    best.distance.next_up()
+                    best.reach()
                 });
             }
             Target::Edge(edge) => {
                 let border = &self.0.edges[edge as usize];
-                if let Some(foot) = border.feet.nearer(*p, best.distance.next_up()) {
-                    let Border { range: [from, to], vertices, .. } = border;
-                    let on = match vertices {
-                        Some([first, _]) if self.is_at(*first, &foot.place) => On::Vertex(*first),
-                        Some([_, last]) if self.is_at(*last, &foot.place) => On::Vertex(*last),
-                        Some([first, _]) if foot.parameter == *from => On::Vertex(*first),
-                        Some([_, last]) if foot.parameter == *to => On::Vertex(*last),
-                        _ => On::Edge(edge),
-                    };
+                if let Some(foot) = border.feet.nearer(*p, best.reach()) {
+                    let on = self.on_edge(edge, border, &foot);
                     let parameters =
                         if matches!(on, On::Edge(_)) { [foot.parameter; 2] } else { [f64::NAN; 2] };
-                    best.take(Best { distance: foot.distance, place: foot.place, on, parameters });
+                    let curve::Foot { distance, place, .. } = foot;
+                    best.take(Candidate { distance, place, on, parameters, shell: None });
                 }
             }
             Target::Vertex(vertex) => {
                 let place = self.0.vertices[vertex as usize];
                 let (on, parameters) = (On::Vertex(vertex), [f64::NAN; 2]);
-                best.take(Best { distance: norm(minus(place, *p)), place, on, parameters });
+                let distance = norm(minus(place, *p));
+                best.take(Candidate { distance, place, on, parameters, shell: None });
             }
+        }
+    }
+
+    /// The edge, or the corner at its end.
+    fn on_edge(&self, edge: u32, border: &Border, foot: &curve::Foot) -> On {
+        let Border { range: [from, to], vertices, .. } = border;
+        match vertices {
+            Some([first, _]) if self.is_at(*first, &foot.place) => On::Vertex(*first),
+            Some([_, last]) if self.is_at(*last, &foot.place) => On::Vertex(*last),
+            Some([first, _]) if foot.parameter == *from => On::Vertex(*first),
+            Some([_, last]) if foot.parameter == *to => On::Vertex(*last),
+            _ => On::Edge(edge),
         }
     }
 
@@ -188,13 +194,17 @@ impl<R: Region> Search<R> {
         self.0.vertices.get(vertex as usize).is_some_and(|v| norm(minus(*v, *place)) <= self.0.same)
     }
 
-    fn describe(&self, p: &Point, best: Best) -> Nearest {
-        let Best { distance, place, on, parameters } = best;
+    fn describe(&self, p: &Point, best: &Best) -> Nearest {
+        let Candidate { distance, place, on, parameters, .. } = best.own;
         if !distance.is_finite() {
             let distance = f64::NAN;
             return Nearest { distance, place, on, face: 0, parameters, side: Side::Unsure, normal: None };
         }
-        let (face, side, normal) = self.0.sides.of(&self.0.faces, p, &best);
+        let sides = |c: &Candidate| self.0.sides.of(&self.0.faces, p, c);
+        let (face, mut side, normal) = sides(&best.own);
+        if side == Side::Outside && best.rival.is_some_and(|rival| sides(&rival).1 == Side::Inside) {
+            side = Side::Inside;
+        }
         Nearest { distance, place, on, face, parameters, side, normal }
     }
 }

@@ -56,33 +56,60 @@ pub enum Side {
     Unsure,
 }
 
-/// The best candidate so far.
+/// A place that may be the nearest.
 #[derive(Clone, Copy)]
-pub(super) struct Best {
+pub(super) struct Candidate {
     pub(super) distance: f64,
     pub(super) place: Point,
     pub(super) on: On,
     pub(super) parameters: [f64; 2],
+    /// The shell of its face; `None` on edges and corners, and of a face alone.
+    pub(super) shell: Option<u32>,
+}
+
+impl Candidate {
+    /// Whether it is nearer, or as near and on what ties go to.
+    pub(super) fn is_before(&self, other: &Candidate) -> bool {
+        self.distance < other.distance || self.distance == other.distance && self.on < other.on
+    }
+}
+
+/// The best candidate so far, and one within a face of another shell that is about as near: where parts touch, one has the point inside.
+#[derive(Clone, Copy)]
+pub(super) struct Best {
+    pub(super) own: Candidate,
+    pub(super) rival: Option<Candidate>,
+    /// Distances are the same within this.
+    same: f64,
 }
 
 impl Best {
     /// None so far.
-    pub(super) const NONE: Best = Best {
-        distance: f64::INFINITY,
-        place: [f64::NAN; 3],
-        on: On::Vertex(u32::MAX),
-        parameters: [f64::NAN; 2],
-    };
-
-    /// Whether it is nearer, or as near and on what ties go to.
-    pub(super) fn is_before(&self, other: &Best) -> bool {
-        self.distance < other.distance || self.distance == other.distance && self.on < other.on
+    pub(super) fn none(same: f64) -> Best {
+        let own = Candidate {
+            distance: f64::INFINITY,
+            place: [f64::NAN; 3],
+            on: On::Vertex(u32::MAX),
+            parameters: [f64::NAN; 2],
+            shell: None,
+        };
+        Best { own, rival: None, same }
     }
 
-    /// The better of both.
-    pub(super) fn take(&mut self, other: Best) {
-        if other.is_before(self) {
-            *self = other;
-        }
+    /// The distance beyond which nothing is of interest.
+    pub(super) fn reach(&self) -> f64 {
+        (self.own.distance + self.same).next_up()
+    }
+
+    /// The better of both; the other one is kept if it is a rival.
+    pub(super) fn take(&mut self, other: Candidate) {
+        let (first, second) = if other.is_before(&self.own) { (other, self.own) } else { (self.own, other) };
+        let is_rival = |c: &Candidate| {
+            c.distance - first.distance <= self.same && c.shell.is_some() && c.shell != first.shell
+        };
+        // Of several the lowest, whatever the order in which they come.
+        let rivals = [self.rival, Some(second)].into_iter().flatten().filter(is_rival);
+        self.rival = rivals.min_by_key(|c| c.on);
+        self.own = first;
     }
 }

@@ -9,7 +9,7 @@
 //! At the apex of a cone a face has no tangent plane: its normals around the apex are summed up.
 
 use super::face::Face;
-use super::nearest::{Best, On, Side};
+use super::nearest::{Candidate, On, Side};
 use super::region::Region;
 use crate::brep::{Bounds, Brep, Edge, EdgeUse, Loop};
 use crate::surface::SurfaceFeet;
@@ -97,7 +97,7 @@ impl Sides {
         &self,
         faces: &[Face<R>],
         p: &Point,
-        best: &Best,
+        best: &Candidate,
     ) -> (u32, Side, Option<Vector>) {
         let away = minus(*p, best.place);
         match best.on {
@@ -125,7 +125,7 @@ impl Sides {
         faces: &[Face<R>],
         edge: u32,
         own: &EdgeSides,
-        best: &Best,
+        best: &Candidate,
         away: Vector,
     ) -> (u32, Side, Option<Vector>) {
         let first = own.uses.iter().map(|u| u.face).min().unwrap_or(0);
@@ -167,7 +167,7 @@ impl Sides {
         &self,
         faces: &[Face<R>],
         vertex: u32,
-        best: &Best,
+        best: &Candidate,
         away: Vector,
     ) -> (u32, Side, Option<Vector>) {
         let Some(corners) = self.corners.get(vertex as usize) else { return (0, Side::Unsure, None) };
@@ -266,7 +266,7 @@ fn along(feet: &SurfaceFeet, edge: &Edge) -> Vec<[f64; 2]> {
 impl Use {
     fn parameters(&self, feet: &SurfaceFeet, place: Point, share: f64) -> [f64; 2] {
         let step = (share * STEPS_ALONG as f64).round() as usize;
-        feet.parameters(place, self.along.get(step).copied())
+        feet.home(feet.parameters(place, self.along.get(step).copied()))
     }
 }
 

@@ -39,11 +39,18 @@ impl SurfaceFeet {
         if let Some(foot) = near.and_then(|near| self.continued(p, near)) {
             return lift(&foot);
         }
-        self.visit(p, f64::INFINITY, &mut |foot| {
+        let mut reach = f64::INFINITY;
+        self.visit(p, reach, &mut |foot| {
+            reach = reach.min(foot.distance + 2.0 * SAME_PLACE * (norm(foot.place) + foot.distance));
             offer(foot);
-            f64::INFINITY
+            reach
         });
         best.map_or([f64::NAN; 2], |(_, own, _)| own)
+    }
+
+    /// The same parameters within the domain.
+    pub fn home(&self, at: [f64; 2]) -> [f64; 2] {
+        lifted(at, None, self.periods(), self.surface().domain())
     }
 
     /// Which parameters may be any number.

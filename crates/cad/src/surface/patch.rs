@@ -7,7 +7,7 @@
 //! once at most, and a descent finds the only place. Else it is halved.
 
 use super::net::{Net, one_sign};
-use trueness_geom::space::{Aabb, Point, Vector, dot};
+use trueness_geom::space::{Aabb, Point, Vector, dot, minus, unit};
 use trueness_geom::spline::surface::Jet;
 use trueness_geom::spline::value::{Mass, Value};
 
@@ -63,12 +63,21 @@ impl Patch {
         epsilon: f64,
         mut visit: impl FnMut([f64; 2], [[f64; 2]; 2]) -> f64,
     ) {
+        if self.is_beyond(p, limit) {
+            return;
+        }
         let about = self.net.map(|m| Mass { moment: m.moment.plus(-m.mass, p), mass: m.mass });
         let square = about.product(&about, |a, b| dot(a.moment, b.moment));
         let masses = about.map(|m| m.mass);
         let weights = masses.product(&masses, |a, b| a * b);
-        let slopes = [0, 1].map(|k| slope(&square, &masses, k));
         let lost = NOISE * square.greatest();
+        // Most pieces are done away with at once: the slopes cost more.
+        let reach = (limit - epsilon).max(0.0);
+        let is_beyond = |(s, w): (&f64, &f64)| *s > reach * reach * w + lost;
+        if square.values.iter().zip(&weights.values).all(is_beyond) {
+            return;
+        }
+        let slopes = [0, 1].map(|k| slope(&square, &masses, k));
         let noise = [0, 1].map(|k| lost * (square.counts[k] - 1).max(1) as f64 * masses.greatest());
         let mut open = vec![Part { range: [[0.0, 1.0]; 2], square, weights, slopes, depth: 0 }];
         for _ in 0..MAX_PARTS {
@@ -94,6 +103,14 @@ impl Patch {
                 }
             }
         }
+    }
+
+    /// Whether all control points lie beyond a plane at this distance across the way to their middle.
+    fn is_beyond(&self, p: Point, limit: f64) -> bool {
+        let middle = [0, 1, 2].map(|k| 0.5 * (self.bounds.min[k] + self.bounds.max[k]));
+        let Some((way, _)) = unit(minus(middle, p)) else { return false };
+        let height = dot(p, way) + limit;
+        self.net.values.iter().all(|m| dot(m.moment, way) > height * m.mass)
     }
 
     /// The parameters of shares of the way.

@@ -19,12 +19,16 @@ pub(super) struct Profile {
     axis: Vector,
     /// From the axis to the curve.
     way: Vector,
-    /// Whether it lies in the plane of the axis and `way`.
-    is_flat: bool,
+    /// How far it is from the plane of the axis and `way`.
+    off: f64,
+    /// Size of the curve with its coordinates.
+    scale: f64,
 }
 
-/// Share of its size within which a curve lies in a plane.
+/// Share of its size within which a curve lies in a plane, but for rounding.
 const FLAT: f64 = 1e-13;
+/// Share within which it was meant to: files have some seven digits and more. A descent corrects what the plane is off.
+const NEARLY_FLAT: f64 = 1e-5;
 /// Places at which each piece of a curve is tried that does not lie in a plane with the axis.
 const TRIES: usize = 32;
 /// How far beyond the point's height an infinite curve is tried, in distances from the axis.
@@ -42,8 +46,8 @@ impl Profile {
         let (way, size) = farthest.and_then(unit).unwrap_or(([0.0; 3], 0.0));
         let across = cross(axis, way);
         let scale = size + support.iter().map(|p| norm(*p)).fold(0.0, f64::max);
-        let is_flat = support.iter().all(|p| dot(flat(p), across).abs() <= FLAT * scale);
-        Profile { feet, curve: curve.clone(), origin, axis, way, is_flat }
+        let off = support.iter().map(|p| dot(flat(p), across).abs()).fold(0.0, f64::max);
+        Profile { feet, curve: curve.clone(), origin, axis, way, off, scale }
     }
 
     pub(super) fn visit(&self, surface: &Surface, p: Point, limit: f64, visit: &mut dyn FnMut(Foot) -> f64) {
@@ -53,17 +57,22 @@ impl Profile {
         let [x, y] = [dot(arm, self.way), dot(arm, across)];
         let rho = norm(minus(arm, times(height, self.axis)));
         let mut limit = limit;
-        if !self.is_flat {
+        if self.off > NEARLY_FLAT * self.scale {
             return self.search(surface, p, [rho, height], visit);
         }
         for side in [1.0, -1.0] {
             let angle = if rho > 0.0 { libm::atan2(side * y, side * x) } else { 0.0 };
             let turned = plus(self.origin, plus(times(height, self.axis), times(side * rho, self.way)));
-            self.feet.candidates(turned, limit, |foot| {
-                let place = surface.at(angle, foot.parameter);
-                let distance = norm(minus(place, p));
-                limit = visit(Foot { parameters: [angle, foot.parameter], place, distance });
-                limit
+            self.feet.candidates(turned, limit + 2.0 * self.off, |foot| {
+                let start = [angle, foot.parameter];
+                let foot = if self.off > FLAT * self.scale {
+                    self.descent(surface, p, start)
+                } else {
+                    let place = surface.at(angle, foot.parameter);
+                    Foot { parameters: start, place, distance: norm(minus(place, p)) }
+                };
+                limit = visit(foot);
+                limit + 2.0 * self.off
             });
         }
     }
@@ -96,12 +105,15 @@ impl Profile {
                 }
                 let flat = seen(at(i)).1;
                 let angle = own - libm::atan2(dot(flat, across), dot(flat, self.way));
-                let free = (f64::NEG_INFINITY, f64::INFINITY);
-                let [from, to] = self.curve.domain();
-                let (foot, _) = descend(|[u, v]| surface.jet(u, v), [free, (from, to)], p, [angle, at(i)]);
-                visit(Foot { parameters: foot.parameters, place: foot.place, distance: foot.distance });
+                visit(self.descent(surface, p, [angle, at(i)]));
             }
         }
+    }
+
+    fn descent(&self, surface: &Surface, p: Point, start: [f64; 2]) -> Foot {
+        let domain = [(f64::NEG_INFINITY, f64::INFINITY), self.curve.domain().into()];
+        let (foot, _) = descend(|[u, v]| surface.jet(u, v), domain, p, start);
+        Foot { parameters: foot.parameters, place: foot.place, distance: foot.distance }
     }
 
     /// The part of an infinite piece that may be near.

@@ -3,9 +3,9 @@
 use super::foot::Foot;
 use super::net::Net;
 use super::patch::Patch;
-use super::seams::iso_curve;
+use super::seams::{SAME_PLACE, iso_curve};
 use crate::curve::CurveFeet;
-use trueness_geom::space::{Aabb, Point};
+use trueness_geom::space::{Aabb, Point, dot, minus, norm};
 use trueness_geom::spline::basis::Knots;
 use trueness_geom::spline::curve::Curve;
 use trueness_geom::spline::surface::{Direction, Nurbs, SurfaceFoot, descend};
@@ -25,13 +25,19 @@ pub(super) struct SplineFeet {
     epsilon: f64,
 }
 
+/// Cosine up to which two directions are at right angles.
+const RIGHT_ANGLE: f64 = 1e-6;
+
+/// Roundings up to which a descent comes to a place.
+const SETTLED: f64 = 100.0;
+
 /// A line along which a parameter is held.
 #[derive(Clone, Debug)]
 struct Line {
     held: usize,
     at: f64,
     feet: CurveFeet,
-    /// Whether it is an end of the domain where the surface does not go on.
+    /// Whether it is an end of the domain where the surface does not go on, and no pole.
     is_border: bool,
 }
 
@@ -60,6 +66,8 @@ impl SplineFeet {
                 patches.push(Patch::new(net, [[u[0], u[1]], [v[0], v[1]]]));
             }
         }
+        let bounds = Aabb::of(&points.iter().map(|p| p.0).collect::<Vec<_>>());
+        let size = bounds.diagonal();
         let mut lines = vec![];
         for held in [Direction::U, Direction::V] {
             let own = &nurbs.knots()[held as usize];
@@ -68,13 +76,14 @@ impl SplineFeet {
             for t in own.distinct() {
                 if t == from || t == to || own.multiplicity(t) >= own.degree() {
                     let feet = CurveFeet::new(&iso_curve(nurbs, held, t), across.into());
-                    let is_border = (t == from || t == to) && periods[held as usize].is_none();
+                    // At a pole no edge stands for the end.
+                    let is_pole = feet.bounds().diagonal() <= SAME_PLACE * size;
+                    let is_end = t == from || t == to;
+                    let is_border = is_end && periods[held as usize].is_none() && !is_pole;
                     lines.push(Line { held: held as usize, at: t, feet, is_border });
                 }
             }
         }
-        let bounds = Aabb::of(&points.iter().map(|p| p.0).collect::<Vec<_>>());
-        let size = bounds.diagonal();
         let farthest = bounds.min.iter().chain(&bounds.max).fold(0.0, |m: f64, x| m.max(x.abs()));
         let epsilon = EPSILON[0] * size + EPSILON[1] * farthest;
         SplineFeet { patches, knots, lines, size, epsilon }
@@ -130,9 +139,15 @@ impl SplineFeet {
     fn visit_patch(&self, patch: &Patch, p: Point, limit: f64, visit: &mut dyn FnMut(Foot) -> f64) -> f64 {
         let mut limit = limit;
         patch.minima(p, limit, self.epsilon, |start, [[a, b], [c, d]]| {
-            let (foot, _) = descend(|at| patch.jet(at), [(a, b), (c, d)], p, start);
+            let (foot, jet) = descend(|at| patch.jet(at), [(a, b), (c, d)], p, start);
             let SurfaceFoot { parameters, place, distance, .. } = foot;
-            limit = visit(Foot { parameters: patch.parameters(parameters), place, distance });
+            let away = minus(p, place);
+            // What a descent comes to at an end of the part is no foot: that is another part's, or a line's.
+            let off = RIGHT_ANGLE * distance + SETTLED * self.epsilon;
+            let is_foot = jet.first.iter().all(|d| dot(*d, away).abs() <= off * norm(*d));
+            if is_foot {
+                limit = visit(Foot { parameters: patch.parameters(parameters), place, distance });
+            }
             limit
         });
         limit

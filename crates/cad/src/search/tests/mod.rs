@@ -9,6 +9,7 @@ use trueness_geom::space::plus;
 
 mod profile;
 mod solids;
+mod splines;
 
 fn spot(random: &mut Random, size: f64) -> Point {
     [0, 1, 2].map(|_| size * (2.0 * random.unit() - 1.0))
@@ -20,14 +21,14 @@ fn frame(random: &mut Random) -> Frame {
 
 /// The nearest place by trying everything.
 fn brute<R: Region>(search: &Search<R>, p: &Point) -> Nearest {
-    let mut best = Best::NONE;
+    let mut best = Best::none(search.0.touching);
     for (number, face) in search.0.faces.iter().enumerate() {
-        let Some(region) = &face.region else { continue };
+        let (Some(region), shell) = (&face.region, face.shell) else { continue };
         let on = On::Face(number as u32);
         for foot in face.feet.surface().feet(*p) {
             if region.contains(foot.parameters) {
                 let Foot { parameters, place, distance } = foot;
-                best.take(Best { distance, place, on, parameters });
+                best.take(Candidate { distance, place, on, parameters, shell });
             }
         }
     }
@@ -36,10 +37,8 @@ fn brute<R: Region>(search: &Search<R>, p: &Point) -> Nearest {
             search.look(*target, p, &mut best);
         }
     }
-    search.describe(p, best)
+    search.describe(p, &best)
 }
-
-use crate::surface::Foot;
 
 /// Solids of all kinds: corners, rounded and tangential edges, seams, holes, poles, apexes, cutting edges.
 fn solids(random: &mut Random) -> Vec<(&'static str, Solid)> {
@@ -237,5 +236,48 @@ fn solid_frame(solid: &Solid) -> Frame {
     match &solid.brep.faces[4].surface {
         crate::surface::Surface::Plane(frame) => *frame,
         _ => panic!("the fifth face is the bottom"),
+    }
+}
+
+#[test]
+fn faces_written_as_splines_have_the_same_distances_and_sides() {
+    let mut random = Random::new(53);
+    for (name, solid) in solids(&mut random) {
+        let (brep, parts) = splines::rewritten(&solid);
+        let own = Search::new(&brep, parts);
+        let closed = Search::new(&solid.brep, solid.parts.clone());
+        for p in points(&mut random, &solid, 60) {
+            let (a, b) = (own.nearest(&p), closed.nearest(&p));
+            assert!((a.distance - b.distance).abs() < 2e-13, "{name} {p:?} {a:?} {b:?}");
+            assert!((a.distance - brute(&own, &p).distance).abs() < 1e-13, "{name} {p:?} {a:?}");
+            if a.distance > 1e-9 {
+                assert_eq!(a.side, b.side, "{name} {p:?} {a:?} {b:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_point_in_one_of_two_parts_that_touch_is_inside() {
+    let own = Frame::new([0.0; 3], [0.0, 0.0, 1.0], Some([1.0, 0.0, 0.0])).unwrap();
+    let square = |x: f64| vec![polygon(&[[x, 0.0], [x + 1.0, 0.0], [x + 1.0, 1.0], [x, 1.0]])];
+    for order in [[0.0, 1.0], [1.0, 0.0]] {
+        let [a, b] = order.map(|x| {
+            let mut solid = extruded(own, square(x), 1.0);
+            solid.brep.shells.push(crate::brep::Shell { faces: (0..6).collect(), closed: true });
+            solid
+        });
+        let mut brep = Brep::default();
+        let placed = crate::frame::Placement::IDENTITY;
+        brep.add(&a.brep, &placed, 0);
+        brep.add(&b.brep, &placed, 1);
+        let parts = a.parts.iter().chain(&b.parts).cloned().collect();
+        let search = Search::new(&brep, parts);
+        for (x, side) in
+            [(0.9, Side::Inside), (1.1, Side::Inside), (-0.1, Side::Outside), (2.1, Side::Outside)]
+        {
+            let found = search.nearest(&[x, 0.5, 0.45]);
+            assert!(found.side == side && (found.distance - 0.1).abs() < 1e-15, "{x} {found:?}");
+        }
     }
 }
