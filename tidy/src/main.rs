@@ -32,9 +32,9 @@ const FLOORS: [(&str, &[&str]); 12] = [
     ("cad", &["geom"]),
     ("files", &["geom", "cad"]),
     ("document", &[]),
-    ("measure", &["geom", "section", "solid", "surface", "document"]),
+    ("measure", &["geom", "section", "solid", "surface", "cad", "document"]),
     ("report", &["geom", "section", "solid", "surface", "viewer", "document", "measure"]),
-    ("trueness", &["geom", "section", "solid", "surface", "files", "document", "measure", "report"]),
+    ("trueness", &["geom", "section", "solid", "surface", "cad", "files", "document", "measure", "report"]),
     ("cli", &["geom", "section", "solid", "surface", "files", "document", "measure", "report", "trueness"]),
 ];
 

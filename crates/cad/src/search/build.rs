@@ -96,19 +96,7 @@ pub(super) fn prepared<R: Region>(brep: &Brep, regions: Vec<Option<R>>) -> Prepa
         let shell = shells.get(&(number as u32)).copied();
         faces.push(Face { feet, region, is_reversed: face.reversed, shell });
     }
-    let mut extent = Aabb::EMPTY;
-    for (border, _) in edges.iter().zip(&used).filter(|(_, used)| **used) {
-        extent = extent.union(&border.feet.bounds());
-    }
-    for face in &faces {
-        // A face without a border, as a sphere, reaches beyond all edges.
-        if let Some(region) = &face.region {
-            let window = region.window();
-            let corners = [0.0, 0.25, 0.5, 0.75, 1.0]
-                .map(|s| [0, 1].map(|k| window[k][0] + s * (window[k][1] - window[k][0])));
-            extent = extent.union(&Aabb::of(&corners.map(|[u, v]| face.feet.surface().at(u, v))));
-        }
-    }
+    let extent = extent(&edges, &used, &faces);
     let step = extent.diagonal() / BOXES_OF_SIZE;
     let pieces: Vec<Vec<Aabb>> = edges.iter().map(|border| pieces_of_edge(&border.feet, step)).collect();
     let number = |f: usize| f as u32;
@@ -169,4 +157,19 @@ fn sides<R: Region>(feet: &SurfaceFeet, region: &R) -> Vec<Border> {
         }
     }
     sides
+}
+
+/// The box around all borders that are used, and places of all faces: a face without a border, as a sphere, reaches beyond all edges.
+fn extent<R: Region>(edges: &[Border], used: &[bool], faces: &[Face<R>]) -> Aabb {
+    let borders = edges.iter().zip(used).filter(|(_, used)| **used).map(|(border, _)| border.feet.bounds());
+    let mut all = borders.fold(Aabb::EMPTY, |all, one| all.union(&one));
+    for face in faces {
+        if let Some(region) = &face.region {
+            let window = region.window();
+            let corners = [0.0, 0.25, 0.5, 0.75, 1.0]
+                .map(|s| [0, 1].map(|k| window[k][0] + s * (window[k][1] - window[k][0])));
+            all = all.union(&Aabb::of(&corners.map(|[u, v]| face.feet.surface().at(u, v))));
+        }
+    }
+    all
 }

@@ -3,8 +3,8 @@
 //! Planes, quadrics and tori have closed forms. The feet on an extrusion are those on the shadow of its curve, the feet on a turned
 //! curve those of the point turned into the plane of the curve, and an offset has those of its basis.
 
-use super::Surface;
 use super::foot::Foot;
+use super::kinds::Surface;
 use super::profile::Profile;
 use super::seams::Pole;
 use super::spline::SplineFeet;

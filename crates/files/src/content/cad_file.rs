@@ -1,6 +1,7 @@
 //! A CAD file as a model of exact faces.
 
-use crate::{UnitFrom, Warning};
+use super::unit_from::UnitFrom;
+use crate::Warning;
 use trueness_cad::model::Model;
 
 /// The unit of a file's lengths.

@@ -4,8 +4,11 @@ pub(crate) mod cad_file;
 pub(crate) mod drawing;
 pub(crate) mod spline_model;
 pub(crate) mod spline_surface;
+mod unit_from;
 
 use crate::{ReadError, Unit, Warning};
+pub use unit_from::UnitFrom;
+
 use cad_file::CadFile;
 use drawing::Drawing;
 use spline_model::SplineModel;
@@ -40,28 +43,6 @@ pub struct Provenance {
     pub planar: bool,
     /// How the columns of a table of text were taken; `None` for other files.
     pub table: Option<TableReading>,
-}
-
-/// Where the unit of a file's numbers comes from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum UnitFrom {
-    /// [`ReadOptions::units`](crate::ReadOptions::units), or [`ReadOptions::unit_else`](crate::ReadOptions::unit_else).
-    Option,
-    /// The file: the names of its columns, or what a CAD file says of its unit.
-    Header,
-    /// Nowhere: millimeters are assumed.
-    Assumed,
-}
-
-impl UnitFrom {
-    /// `option`, `header` or `assumed`.
-    pub const fn name(self) -> &'static str {
-        match self {
-            UnitFrom::Option => "option",
-            UnitFrom::Header => "header",
-            UnitFrom::Assumed => "assumed",
-        }
-    }
 }
 
 /// How the columns of a table of text were taken.

@@ -97,6 +97,16 @@ pub enum CompareError<S, K> {
     NoPoints,
 }
 
+/// The tree of the mesh of a reference; whole B-spline surfaces need none.
+fn tree_of<S, K>(r: &Reference, progress: &dyn Progress) -> Result<Option<Tree>, CompareError<S, K>> {
+    match r.exact {
+        Some(Exact::Splines(_)) => Ok(None),
+        None | Some(Exact::Cad(_)) => {
+            Tree::build_watched(r.mesh, progress).map(Some).map_err(|e| refused(r, e.into()))
+        }
+    }
+}
+
 /// Compares all points of `measured` with every reference and hands each block to `sink`.
 ///
 /// `progress` hears of points times references. Memory: the references with their trees, one block of points, and the
@@ -112,16 +122,7 @@ pub fn run<S: PointStream + ?Sized, K>(
     progress: &dyn Progress,
     mut sink: impl FnMut(&DeviationBlock) -> Result<(), K>,
 ) -> Result<Comparisons, CompareError<S::Error, K>> {
-    let mut trees = vec![];
-    for r in references {
-        let tree = match r.exact {
-            None | Some(Exact::Cad(_)) => {
-                Some(Tree::build_watched(r.mesh, progress).map_err(|e| refused(r, e.into()))?)
-            }
-            Some(Exact::Splines(_)) => None,
-        };
-        trees.push(tree);
-    }
+    let trees = references.iter().map(|r| tree_of(r, progress)).collect::<Result<Vec<_>, _>>()?;
     let keep = options.kept_values / references.len().max(1);
     let mut running = vec![];
     for (r, tree) in references.iter().zip(&trees) {

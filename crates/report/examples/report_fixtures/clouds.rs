@@ -59,7 +59,7 @@ pub fn page(points: &[Point], reference: &Mesh, tolerance: f64) -> Vec<u8> {
     let references = [Reference {
         name: "nominal.stl".into(),
         mesh: reference,
-        splines: None,
+        exact: None,
         left_out: LeftOut::default(),
     }];
     let sink = |_: &compare::DeviationBlock| Ok::<(), Infallible>(());

@@ -360,6 +360,7 @@ fn record(role: Role, path: &str, points: usize, facets: Option<u64>) -> InputRe
         points: points as u64,
         facets,
         incomplete: None,
+        cad: None,
         trimmed_faces: None,
         bounds: None,
         warnings: vec![],

@@ -1,6 +1,6 @@
 //! CAD models: what documents say of their files, and their facets for what works on meshes.
 
-use super::out_of_range;
+use super::places::{describe, out_of_range, refusal};
 use crate::task::TaskError;
 use std::path::Path;
 use trueness_cad::tessellate::{Fineness, TessellateError};
@@ -35,7 +35,7 @@ pub fn tessellated(
         e => TaskError::unanswerable(format!("{}: {e}", path.display())),
     })?;
     if let Some(v) = made.mesh.positions.iter().position(|p| out_of_range(p, MAX_VERTEX)) {
-        return Err(TaskError::unanswerable(super::refusal(path, "vertex", v, MAX_VERTEX)));
+        return Err(TaskError::unanswerable(refusal(path, "vertex", v, MAX_VERTEX)));
     }
     let farthest = made.bounds.iter().flatten().map(|b| b.distance).fold(0.0, f64::max);
     let read = made.bounds.iter().flatten().count() as u64;
@@ -44,7 +44,7 @@ pub fn tessellated(
     record.cad = Some(CadInputRecord { faces: read, facets_within: farthest });
     record.facets = Some(made.mesh.faces.len() as u64);
     record.incomplete = incomplete(record.role, read, of);
-    super::describe(record, &made.mesh.positions);
+    describe(record, &made.mesh.positions);
     let name = |face: &trueness_cad::brep::Face| match face.name.trim() {
         "" => format!("face {}", face.entity),
         name => name.to_string(),

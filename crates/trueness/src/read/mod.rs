@@ -1,11 +1,15 @@
 //! What goes by the names of a request, read and described for the result document.
 
 pub mod cad;
+mod places;
 mod surface_document;
 mod unread;
 mod whole;
 
+pub use places::describe;
 pub use whole::{bytes, digest};
+
+use places::{out_of_range, refusal};
 
 use crate::task::{Meaning, TaskError};
 use std::path::Path;
@@ -215,22 +219,6 @@ pub fn regions(sources: &dyn Sources, path: &Path) -> Result<Vec<RegionRule>> {
     regions_of_file(&text).map_err(|e| TaskError::unanswerable(format!("{shown}: {e}")))
 }
 
-/// Whether a coordinate has a size that no command measures with: not 0, and below what distances keep their digits of, or
-/// above `greatest`. What is not finite is another fault.
-fn out_of_range(p: &Point, greatest: f64) -> bool {
-    let size = |x: &f64| x.abs();
-    p.iter().map(size).any(|x| x.is_finite() && x > 0.0 && !(MIN_COORDINATE..=greatest).contains(&x))
-}
-
-/// Why a file is refused in which the coordinates of a place are [`out_of_range`].
-fn refusal(path: &Path, what: &str, number: usize, greatest: f64) -> String {
-    let file = path.display();
-    format!(
-        "{file}: {what} {number} has a coordinate that is not 0 or from {MIN_COORDINATE:e} to {greatest:e} mm: give the \
-         file's unit (--units), or leave the {what} out"
-    )
-}
-
 /// All of what the file at `path` holds.
 pub fn scan(path: &Path, body: Body) -> Result<Scan> {
     Ok(match body {
@@ -287,12 +275,6 @@ pub fn all_normals(
             "{what} needs the normals of the points: columns nx, ny, nz of a table{or}, such properties of a PLY file, or a measured mesh"
         )
     })
-}
-
-/// Fills in number and box of the points of a file.
-pub fn describe(record: &mut InputRecord, points: &[Point]) {
-    record.points = points.len() as u64;
-    record.bounds = trueness_measure::bounds(&Aabb::of(points));
 }
 
 /// What the document says about a file; its counts and hash are filled in later.
