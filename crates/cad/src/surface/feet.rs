@@ -15,6 +15,10 @@ use trueness_geom::space::{Aabb, Point, Vector, dot, minus, norm, plus, times, u
 
 /// Share of a spline's size within which a point is taken to lie on it, at the parameters next to those before.
 const ON_SURFACE: f64 = 1e-4;
+/// The same for parameters beside those before.
+const OFF_SURFACE: f64 = 1e-2;
+/// Parameters are beside others within this share of the domain: an eighth of an edge is no longer.
+const BESIDE: f64 = 0.125;
 
 /// A surface, ready to be asked for feet many times.
 #[derive(Clone, Debug)]
@@ -74,7 +78,15 @@ impl SurfaceFeet {
     pub(super) fn continued(&self, p: Point, near: [f64; 2]) -> Option<Foot> {
         let Kind::Spline(spline) = &self.kind else { return None };
         let foot = spline.local(p, near, self.periods);
-        (foot.distance <= ON_SURFACE * spline.size).then_some(foot)
+        // Edges of files are off their surfaces by more than that; then the foot must lie beside the one before.
+        let domain = self.surface.domain();
+        let is_beside = (0..2).all(|k| {
+            let away = (foot.parameters[k] - near[k]).abs();
+            let away = self.periods[k].map_or(away, |p| (away - p * (away / p).round()).abs());
+            away <= BESIDE * (domain[k][1] - domain[k][0])
+        });
+        let most = if is_beside { OFF_SURFACE } else { ON_SURFACE };
+        (foot.distance <= most * spline.size).then_some(foot)
     }
 
     /// Hands over every place where the distance from a point has a minimum that is below `limit`, which the callback says anew. Places where
