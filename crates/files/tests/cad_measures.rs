@@ -3,6 +3,8 @@
 //! `TRUENESS_CAD=FOLDER cargo test -p trueness-files --test cad_measures -- --ignored --nocapture`; with `TRUENESS_FACETS=SHARE` also facets
 //! within that share of the diagonal.
 
+#![allow(clippy::unwrap_used, reason = "a test may stop")]
+
 use std::collections::BTreeMap;
 use std::io::Write;
 use std::path::{Path, PathBuf};

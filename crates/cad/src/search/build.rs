@@ -99,7 +99,6 @@ pub(super) fn prepared<R: Region>(brep: &Brep, regions: Vec<Option<R>>) -> Prepa
     let extent = extent(&edges, &used, &faces);
     let step = extent.diagonal() / BOXES_OF_SIZE;
     let pieces: Vec<Vec<Aabb>> = edges.iter().map(|border| pieces_of_edge(&border.feet, step)).collect();
-    let number = |f: usize| f as u32;
     let covers: Vec<Vec<(u32, Vec<Aabb>)>> = (0..faces.len())
         .into_par_iter()
         .map(|f| {
@@ -107,23 +106,17 @@ pub(super) fn prepared<R: Region>(brep: &Brep, regions: Vec<Option<R>>) -> Prepa
             cover_of_face(&faces[f], step, &obstacles)
         })
         .collect();
+    let units = (0u32..).zip(&covers).flat_map(|(face, cover)| {
+        cover.iter().map(move |(unit, own)| (Target::Unit { face, unit: *unit }, own.clone()))
+    });
+    let borders = (0..edges.len()).filter(|e| used[*e]);
+    let borders = borders.map(|e| (Target::Edge(e as u32), pieces[e].clone()));
+    let places = corners.iter().filter_map(|v| Some((*v, vertices.get(*v as usize)?)));
+    let places = places.map(|(v, place)| (Target::Vertex(v), vec![Aabb::of(&[*place])]));
     let (mut boxes, mut targets) = (vec![], vec![]);
-    let mut add = |target: Target, own: &[Aabb]| {
-        boxes.extend(own.iter().map(|bounds| (targets.len() as u32, *bounds)));
+    for (target, own) in units.chain(borders).chain(places) {
+        boxes.extend(own.into_iter().map(|bounds| (targets.len() as u32, bounds)));
         targets.push(target);
-    };
-    for (f, cover) in covers.iter().enumerate() {
-        for (unit, own) in cover {
-            add(Target::Unit { face: number(f), unit: *unit }, own);
-        }
-    }
-    for edge in (0..edges.len()).filter(|e| used[*e]) {
-        add(Target::Edge(edge as u32), &pieces[edge]);
-    }
-    for vertex in corners {
-        if let Some(place) = vertices.get(vertex as usize) {
-            add(Target::Vertex(vertex), &[Aabb::of(&[*place])]);
-        }
     }
     let sides = Sides::new(brep, &faces, side_faces);
     Prepared {

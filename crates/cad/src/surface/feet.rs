@@ -35,7 +35,7 @@ enum Kind {
     Closed,
     /// The shadow of the curve along the direction.
     Extrusion(CurveFeet),
-    Revolution(Profile),
+    Revolution(Box<Profile>),
     Spline(Box<SplineFeet>),
     Offset(Box<SurfaceFeet>),
 }
@@ -50,7 +50,7 @@ impl SurfaceFeet {
                 Kind::Extrusion(CurveFeet::along(curve, curve.domain(), way))
             }
             Surface::Revolution { curve, origin, axis } => {
-                Kind::Revolution(Profile::new(curve, *origin, *axis))
+                Kind::Revolution(Box::new(Profile::new(curve, *origin, *axis)))
             }
             Surface::Spline(nurbs) => Kind::Spline(Box::new(SplineFeet::new(nurbs, periods))),
             Surface::Offset { basis, .. } => Kind::Offset(Box::new(SurfaceFeet::new(basis))),
