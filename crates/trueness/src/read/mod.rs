@@ -20,11 +20,11 @@ use trueness_files::{
     ColumnTaken, Columns, Input, PointSource, ReadError, ReadOptions, SourceMesh, Sources, TableReading,
     Warning, open_from, open_normals_from,
 };
-use trueness_geom::closest::{MAX_COORDINATE, MAX_VERTEX, MIN_COORDINATE};
+use trueness_geom::closest::{MAX_COORDINATE, MAX_VERTEX};
 use trueness_geom::parallel::prelude::*;
 use trueness_geom::progress::Silent;
 use trueness_geom::scan::Scan;
-use trueness_geom::space::{Aabb, Point, Vector};
+use trueness_geom::space::{Point, Vector};
 use trueness_geom::spline::surface::Nurbs;
 use trueness_measure::compare::RegionRule;
 use trueness_measure::plan::regions_of_file;
