@@ -105,6 +105,43 @@ impl<'t> File<'t> {
     }
 }
 
+impl<'t> File<'t> {
+    /// In the order of the numbers; a number that has several different entities is broken.
+    pub(super) fn sorted(mut self) -> File<'t> {
+        self.places.sort_by_key(|p| (p.number, p.at));
+        self.broken.sort_by_key(|b| (b.number, b.at));
+        self.broken.dedup_by_key(|b| b.number);
+        let mut several = vec![];
+        for same in self.places.chunk_by(|a, b| a.number == b.number) {
+            let again = same.get(1..).unwrap_or_default();
+            let broken = self.broken.binary_search_by_key(&same[0].number, |b| b.number).is_ok();
+            if broken || again.iter().any(|p| !self.is_alike(&same[0], p)) {
+                several.push(same[0]);
+            }
+        }
+        for place in several {
+            let keyword = place.records.of(&self.records).first().map(|r| r.keyword);
+            let reason = "stands in the file more than once, not always alike";
+            self.broken.push(Broken { number: place.number, at: place.at, keyword, reason });
+        }
+        self.broken.sort_by_key(|b| b.number);
+        self.broken.dedup_by_key(|b| b.number);
+        let broken = &self.broken;
+        self.places.dedup_by_key(|p| p.number);
+        self.places.retain(|p| broken.binary_search_by_key(&p.number, |b| b.number).is_err());
+        self
+    }
+
+    /// Whether two entities have the same text.
+    fn is_alike(&self, a: &Place, b: &Place) -> bool {
+        let text = |p: &Place| {
+            let rest = &self.lines.text[p.at..];
+            &rest[..memchr::memchr(b';', rest).unwrap_or(rest.len())]
+        };
+        text(a) == text(b)
+    }
+}
+
 impl<'f> Entity<'f> {
     /// Its number.
     pub fn number(&self) -> u64 {
