@@ -1,6 +1,6 @@
 //! Where a curve may bend suddenly.
 
-use super::Curve;
+use super::kinds::Curve;
 
 impl Curve {
     /// Parameters within its domain at which a derivative may jump, ascending: knots, and ends of pieces.

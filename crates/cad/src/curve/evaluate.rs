@@ -1,6 +1,6 @@
 //! Places and derivatives of curves.
 
-use super::{Curve, Span};
+use super::kinds::{Curve, Span};
 use crate::frame::Frame;
 use std::f64::consts::TAU;
 use trueness_geom::space::{Point, Vector, minus, plus, times};

@@ -1,8 +1,8 @@
 //! How far a curve reaches, and how long it is.
 
 use super::feet::CurveFeet;
+use super::kinds::{Curve, Span};
 use super::part::{Part, Shape, representatives};
-use super::{Curve, Span};
 use trueness_geom::space::{Aabb, norm};
 
 /// Places and weights of Gauss and Legendre's rule with five places, on −1 … 1; the mirrored ones are left out.

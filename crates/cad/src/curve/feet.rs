@@ -1,7 +1,7 @@
 //! A curve taken apart into pieces that are asked for their nearest places.
 
+use super::kinds::{Curve, Span};
 use super::part::{Foot, Part, Shape, View, add};
-use super::{Curve, Span};
 use trueness_geom::space::{Aabb, Point, Vector, plus};
 
 /// A range of a curve, ready to be asked for its nearest places: splines are cut at their knots, chains at their joints.

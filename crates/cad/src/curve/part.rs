@@ -1,8 +1,8 @@
 //! The pieces of a curve, each of one kind.
 
-use super::Curve;
 use super::bezier::Bezier;
 use super::conic::Conic;
+use super::kinds::Curve;
 use std::f64::consts::TAU;
 use trueness_geom::space::{Aabb, Point, Vector, dot, minus, norm, times};
 use trueness_geom::spline::curve::Curve as Spline;

@@ -1,6 +1,6 @@
 //! Curves of placed parts.
 
-use super::{Curve, Span};
+use super::kinds::{Curve, Span};
 use crate::frame::Placement;
 use trueness_geom::spline::curve::Curve as Spline;
 use trueness_geom::spline::rational::Rational;

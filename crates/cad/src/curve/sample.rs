@@ -1,7 +1,7 @@
 //! Chords that keep near to a curve, and descents to a near place.
 
-use super::Span;
 use super::conic::Conic;
+use super::kinds::Span;
 use super::part::{Foot, Part, Shape};
 use std::f64::consts::FRAC_PI_2;
 use trueness_geom::space::{Point, Vector, cross, dot, minus, norm};

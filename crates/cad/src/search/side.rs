@@ -227,7 +227,7 @@ impl Sides {
         };
         let mut own = angle(0.0);
         // Of edges that leave along the same tangent the chords tell which one is on the left.
-        if own < TOUCHING || own > TAU - TOUCHING {
+        if !(TOUCHING..=TAU - TOUCHING).contains(&own) {
             own = if angle(CHORD) < PI { 0.0 } else { TAU };
         }
         times(own, normal)

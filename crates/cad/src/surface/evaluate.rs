@@ -1,6 +1,7 @@
 //! Places and derivatives of surfaces.
 
-use super::{Jet, Surface, SurfaceKind};
+use super::Jet;
+use super::kinds::{Surface, SurfaceKind};
 use crate::frame::Frame;
 use std::f64::consts::{FRAC_PI_2, TAU};
 use trueness_geom::space::{Point, Vector, cross, dot, minus, plus, times, unit};

@@ -1,7 +1,7 @@
 //! How far a part of a surface reaches, lines of equal parameters, and descents to a near place.
 
-use super::Surface;
 use super::foot::Foot;
+use super::kinds::Surface;
 use super::seams::iso_curve;
 use crate::curve::{Curve, CurveFeet};
 use crate::frame::{Frame, Placement};

@@ -3,8 +3,8 @@
 //! Planes, quadrics and tori have closed forms. The feet on an extrusion are those on the shadow of its curve, the feet on a turned
 //! curve those of the point turned into the plane of the curve, and an offset has those of its basis.
 
-use super::Surface;
 use super::foot::Foot;
+use super::kinds::Surface;
 use super::profile::Profile;
 use super::seams::Pole;
 use super::spline::SplineFeet;
@@ -31,7 +31,7 @@ enum Kind {
     Closed,
     /// The shadow of the curve along the direction.
     Extrusion(CurveFeet),
-    Revolution(Profile),
+    Revolution(Box<Profile>),
     Spline(Box<SplineFeet>),
     Offset(Box<SurfaceFeet>),
 }
@@ -46,7 +46,7 @@ impl SurfaceFeet {
                 Kind::Extrusion(CurveFeet::along(curve, curve.domain(), way))
             }
             Surface::Revolution { curve, origin, axis } => {
-                Kind::Revolution(Profile::new(curve, *origin, *axis))
+                Kind::Revolution(Box::new(Profile::new(curve, *origin, *axis)))
             }
             Surface::Spline(nurbs) => Kind::Spline(Box::new(SplineFeet::new(nurbs, periods))),
             Surface::Offset { basis, .. } => Kind::Offset(Box::new(SurfaceFeet::new(basis))),

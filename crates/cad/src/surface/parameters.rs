@@ -1,8 +1,8 @@
 //! The parameters of places on or near a surface.
 
-use super::Surface;
 use super::feet::SurfaceFeet;
 use super::foot::Foot;
+use super::kinds::Surface;
 use super::seams::SAME_PLACE;
 use trueness_geom::space::{Point, minus, norm};
 

@@ -1,6 +1,6 @@
 //! Surfaces of placed parts.
 
-use super::Surface;
+use super::kinds::Surface;
 use crate::frame::Placement;
 use trueness_geom::spline::surface::Nurbs;
 

@@ -4,8 +4,8 @@
 //! on the other: there the curve is asked for its nearest places. Where it does not, as for the line that makes a hyperboloid, the curve is
 //! tried in many places, and a descent leads on from the best ones: a foot may be missed where the curve winds more finely.
 
-use super::Surface;
 use super::foot::Foot;
+use super::kinds::Surface;
 use crate::curve::{Curve, CurveFeet};
 use trueness_geom::space::{Point, Vector, cross, dot, minus, norm, plus, times, unit};
 use trueness_geom::spline::surface::descend;

@@ -1,6 +1,6 @@
 //! Where a surface repeats, and where it shrinks to a place.
 
-use super::Surface;
+use super::kinds::Surface;
 use crate::curve::{Curve, CurveFeet};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use trueness_geom::space::{Aabb, Point, dot, minus, norm, plus, times};

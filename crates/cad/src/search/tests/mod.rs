@@ -42,6 +42,13 @@ fn brute<R: Region>(search: &Search<R>, p: &Point) -> Nearest {
 
 /// Solids of all kinds: corners, rounded and tangential edges, seams, holes, poles, apexes, cutting edges.
 fn solids(random: &mut Random) -> Vec<(&'static str, Solid)> {
+    let mut all = extrusions(random);
+    all.extend(turned_solids(random));
+    all
+}
+
+/// Extruded ones.
+fn extrusions(random: &mut Random) -> Vec<(&'static str, Solid)> {
     let r = 0.4 + 0.2 * random.unit();
     let slot = vec![
         Piece::Line { from: [-1.0, -r], to: [1.0, -r] },
@@ -79,7 +86,7 @@ fn solids(random: &mut Random) -> Vec<(&'static str, Solid)> {
         arc([0.0, 2.5], 2.5, [-angle, -FRAC_PI_2]),
     ];
     let h = 0.5 + random.unit();
-    let mut all: Vec<(&'static str, Solid)> = vec![
+    vec![
         ("slot", vec![slot]),
         ("hook", vec![hook]),
         ("notch", vec![notch]),
@@ -91,7 +98,12 @@ fn solids(random: &mut Random) -> Vec<(&'static str, Solid)> {
     ]
     .into_iter()
     .map(|(name, chains)| (name, extruded(frame(random), chains, h)))
-    .collect();
+    .collect()
+}
+
+/// Turned ones.
+fn turned_solids(random: &mut Random) -> Vec<(&'static str, Solid)> {
+    let mut all = vec![];
     let ball = vec![arc([0.0, 0.0], 1.0, [-FRAC_PI_2, FRAC_PI_2])];
     let cone = vec![
         Piece::Line { from: [0.0, 0.0], to: [1.0, 0.0] },

@@ -180,58 +180,67 @@ pub fn turned(frame: Frame, chain: Vec<Piece>) -> Solid {
     }
     for (k, piece) in chain.iter().enumerate() {
         let mut loops = vec![];
-        let is_flat = matches!(piece, Piece::Line { from, to } if (from[1] - to[1]).abs() < 1e-12);
         for (end, reversed) in [(k, false), (k + 1, true)] {
             match joints[end] {
                 (Some(edge), _) => loops.push(Loop::Edges(vec![EdgeUse { edge, reversed }])),
-                (None, _) if is_flat => {}
+                (None, _) if is_flat(piece) => {}
                 (None, vertex) => loops.push(Loop::Vertex(vertex)),
             }
         }
-        let at = |z: f64| Frame { origin: frame.place([0.0, 0.0, z]), axes: frame.axes };
-        let whole = |sides: [f64; 2], periods| Part::Rectangle { sides: [[0.0, TAU], sides], periods };
-        let (surface, reversed, part) = match *piece {
-            Piece::Line { from, to } if is_flat => {
-                let [inner, outer] = [from[0].min(to[0]), from[0].max(to[0])];
-                let full = |radius: f64| Piece::Arc { center: [0.0; 2], radius, angles: [0.0, TAU] };
-                let hole = Piece::Arc { center: [0.0; 2], radius: inner, angles: [TAU, 0.0] };
-                let mut chains = vec![vec![full(outer)]];
-                if inner > 1e-12 {
-                    chains.push(vec![hole]);
-                }
-                let window = window(&chains);
-                (Surface::Plane(at(from[1])), to[0] > from[0], Part::Profile { chains, window })
-            }
-            Piece::Line { from, to } => {
-                let slope = (to[0] - from[0]) / (to[1] - from[1]);
-                let mut sides = [0.0, to[1] - from[1]];
-                sides.sort_by(f64::total_cmp);
-                let frame = at(from[1]);
-                let surface = match slope.abs() < 1e-12 {
-                    true => Surface::Cylinder { frame, radius: from[0] },
-                    false => Surface::Cone { frame, radius: from[0], half_angle: slope.atan() },
-                };
-                let periods = surface.periods();
-                (surface, to[1] < from[1], whole(sides, periods))
-            }
-            Piece::Arc { center, radius, angles } => {
-                let mut sides = angles;
-                sides.sort_by(f64::total_cmp);
-                let frame = at(center[1]);
-                let surface = match center[0].abs() < 1e-12 {
-                    true => Surface::Sphere { frame, radius },
-                    false => Surface::Torus { frame, major: center[0], minor: radius },
-                };
-                let mut periods = surface.periods();
-                if center[0].abs() < 1e-12 {
-                    sides = sides.map(|s| s.clamp(-FRAC_PI_2, FRAC_PI_2));
-                    periods[1] = None;
-                }
-                (surface, angles[1] < angles[0], whole(sides, periods))
-            }
-        };
+        let (surface, reversed, part) = turned_piece(&frame, piece);
         brep.faces.push(face(surface, reversed, loops));
         parts.push(Some(part));
     }
     Solid { brep, parts, frame, chains: vec![chain], height: None }
+}
+
+/// Whether a piece turns into a plane.
+fn is_flat(piece: &Piece) -> bool {
+    matches!(piece, Piece::Line { from, to } if (from[1] - to[1]).abs() < 1e-12)
+}
+
+/// The surface of a turned piece, whether it is reversed, and the part of it.
+fn turned_piece(frame: &Frame, piece: &Piece) -> (Surface, bool, Part) {
+    let at = |z: f64| Frame { origin: frame.place([0.0, 0.0, z]), axes: frame.axes };
+    let whole = |sides: [f64; 2], periods| Part::Rectangle { sides: [[0.0, TAU], sides], periods };
+    match *piece {
+        Piece::Line { from, to } if is_flat(piece) => {
+            let [inner, outer] = [from[0].min(to[0]), from[0].max(to[0])];
+            let full = |radius: f64| Piece::Arc { center: [0.0; 2], radius, angles: [0.0, TAU] };
+            let hole = Piece::Arc { center: [0.0; 2], radius: inner, angles: [TAU, 0.0] };
+            let mut chains = vec![vec![full(outer)]];
+            if inner > 1e-12 {
+                chains.push(vec![hole]);
+            }
+            let window = window(&chains);
+            (Surface::Plane(at(from[1])), to[0] > from[0], Part::Profile { chains, window })
+        }
+        Piece::Line { from, to } => {
+            let slope = (to[0] - from[0]) / (to[1] - from[1]);
+            let mut sides = [0.0, to[1] - from[1]];
+            sides.sort_by(f64::total_cmp);
+            let frame = at(from[1]);
+            let surface = match slope.abs() < 1e-12 {
+                true => Surface::Cylinder { frame, radius: from[0] },
+                false => Surface::Cone { frame, radius: from[0], half_angle: slope.atan() },
+            };
+            let periods = surface.periods();
+            (surface, to[1] < from[1], whole(sides, periods))
+        }
+        Piece::Arc { center, radius, angles } => {
+            let mut sides = angles;
+            sides.sort_by(f64::total_cmp);
+            let frame = at(center[1]);
+            let surface = match center[0].abs() < 1e-12 {
+                true => Surface::Sphere { frame, radius },
+                false => Surface::Torus { frame, major: center[0], minor: radius },
+            };
+            let mut periods = surface.periods();
+            if center[0].abs() < 1e-12 {
+                sides = sides.map(|s| s.clamp(-FRAC_PI_2, FRAC_PI_2));
+                periods[1] = None;
+            }
+            (surface, angles[1] < angles[0], whole(sides, periods))
+        }
+    }
 }
