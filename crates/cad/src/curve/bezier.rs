@@ -162,11 +162,11 @@ fn collapse(level: &mut [Mass<3>], t: f64) -> Point {
 fn split<V: Value>(points: &[V], t: f64) -> [Vec<V>; 2] {
     let (mut first, mut second) = (points.to_vec(), points.to_vec());
     let n = points.len();
-    for (level, own) in first.iter_mut().enumerate().skip(1) {
+    for (level, end) in first.iter_mut().enumerate().skip(1) {
         for i in 0..n - level {
             second[i] = second[i].between(t, second[i + 1]);
         }
-        *own = second[0];
+        *end = second[0];
     }
     [first, second]
 }
@@ -174,11 +174,11 @@ fn split<V: Value>(points: &[V], t: f64) -> [Vec<V>; 2] {
 fn halves(coefficients: &Bernstein) -> [Bernstein; 2] {
     let (mut first, mut second) = (coefficients.clone(), coefficients.clone());
     let n = coefficients.len();
-    for (level, own) in first.iter_mut().enumerate().skip(1) {
+    for (level, end) in first.iter_mut().enumerate().skip(1) {
         for i in 0..n - level {
             second[i] = 0.5 * (second[i] + second[i + 1]);
         }
-        *own = second[0];
+        *end = second[0];
     }
     [first, second]
 }

@@ -1,4 +1,4 @@
-//! The kinds of curves.
+//! What kinds of curves there are.
 
 use crate::frame::Frame;
 use trueness_geom::space::{Point, Vector};

@@ -1,8 +1,12 @@
 use super::*;
+use crate::frame::Frame;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use trueness_geom::num::random::Random;
+use trueness_geom::space::Point;
 use trueness_geom::space::{Aabb, dot, minus, norm, plus, times};
 use trueness_geom::spline::basis::Knots;
+use trueness_geom::spline::curve::Curve as Spline;
+use trueness_geom::spline::rational::Rational;
 
 fn spot(random: &mut Random, size: f64) -> Point {
     [0, 1, 2].map(|_| size * (2.0 * random.unit() - 1.0))
@@ -56,8 +60,8 @@ fn brute(span: &Span, p: Point) -> f64 {
     let coarse: Vec<f64> = (0..=4000).map(|i| of(at(i))).collect();
     let least = coarse.iter().copied().fold(f64::INFINITY, f64::min);
     let mut best = least;
-    for i in 0..=4000 {
-        if coarse[i] <= least + 0.02 {
+    for (i, distance) in coarse.iter().enumerate() {
+        if *distance <= least + 0.02 {
             best = best.min(span.nearest_from(p, at(i)).distance);
         }
     }

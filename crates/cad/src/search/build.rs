@@ -5,7 +5,7 @@ use super::face::Face;
 use super::region::Region;
 use super::side::Sides;
 use super::tree::Boxes;
-use crate::brep::{Bounds, Brep, Loop};
+use crate::brep::{Bounds, Brep, Edge, Loop};
 use crate::curve::CurveFeet;
 use crate::surface::SurfaceFeet;
 use std::collections::BTreeMap;
@@ -49,75 +49,27 @@ const TOUCHING_SHELLS: f64 = 1e-9;
 /// So many boxes in a row reach from one end of the boundary to the other.
 const BOXES_OF_SIZE: f64 = 24.0;
 
+/// Faces and their borders, before there are boxes around them.
+struct Parts<R> {
+    faces: Vec<Face<R>>,
+    edges: Vec<Border>,
+    /// Whether a face with a region uses the edge.
+    used: Vec<bool>,
+    /// The edges around each face.
+    around: Vec<Vec<usize>>,
+    /// Vertices that are a loop of their own.
+    corners: Vec<u32>,
+    /// The face of each border beyond the edges.
+    side_faces: Vec<u32>,
+}
+
 /// Takes apart the faces that have a region, and their borders.
 pub(super) fn prepared<R: Region>(brep: &Brep, regions: Vec<Option<R>>) -> Prepared<R> {
-    let mut edges: Vec<Border> = brep
-        .edges
-        .iter()
-        .map(|edge| {
-            let (feet, range) = (edge.span.feet(), edge.span.range);
-            Border { feet, range, vertices: Some(edge.vertices) }
-        })
-        .collect();
+    let parts = Parts::new(brep, regions);
     let vertices: Vec<Point> = brep.vertices.iter().map(|v| v.place).collect();
-    let (mut used, mut corners, mut side_faces) = (vec![false; edges.len()], vec![], vec![]);
-    let shells: BTreeMap<u32, u32> = (0u32..)
-        .zip(&brep.shells)
-        .flat_map(|(number, shell)| shell.faces.iter().map(move |face| (*face, number)))
-        .collect();
-    let (mut faces, mut around) = (vec![], vec![]);
-    let mut regions = regions.into_iter();
-    for (number, face) in brep.faces.iter().enumerate() {
-        let feet = SurfaceFeet::new(&face.surface);
-        let region = regions.next().flatten();
-        let mut own: Vec<usize> = vec![];
-        match (&region, &face.bounds) {
-            (None, _) => {}
-            (Some(region), Bounds::Rectangle(_)) => {
-                for side in sides(&feet, region) {
-                    own.push(edges.len());
-                    edges.push(side);
-                    used.push(true);
-                    side_faces.push(number as u32);
-                }
-            }
-            (Some(_), Bounds::Loops(loops)) => {
-                for l in loops {
-                    match l {
-                        Loop::Vertex(vertex) => corners.push(*vertex),
-                        Loop::Edges(uses) => own.extend(uses.iter().map(|u| u.edge as usize)),
-                    }
-                }
-                own.retain(|e| *e < brep.edges.len());
-                own.iter().for_each(|e| used[*e] = true);
-            }
-        }
-        around.push(own);
-        let shell = shells.get(&(number as u32)).copied();
-        faces.push(Face { feet, region, is_reversed: face.reversed, shell });
-    }
-    let extent = extent(&edges, &used, &faces);
-    let step = extent.diagonal() / BOXES_OF_SIZE;
-    let pieces: Vec<Vec<Aabb>> = edges.iter().map(|border| pieces_of_edge(&border.feet, step)).collect();
-    let covers: Vec<Vec<(u32, Vec<Aabb>)>> = (0..faces.len())
-        .into_par_iter()
-        .map(|f| {
-            let obstacles: Vec<Aabb> = around[f].iter().flat_map(|e| pieces[*e].iter().copied()).collect();
-            cover_of_face(&faces[f], step, &obstacles)
-        })
-        .collect();
-    let units = (0u32..).zip(&covers).flat_map(|(face, cover)| {
-        cover.iter().map(move |(unit, own)| (Target::Unit { face, unit: *unit }, own.clone()))
-    });
-    let borders = (0..edges.len()).filter(|e| used[*e]);
-    let borders = borders.map(|e| (Target::Edge(e as u32), pieces[e].clone()));
-    let places = corners.iter().filter_map(|v| Some((*v, vertices.get(*v as usize)?)));
-    let places = places.map(|(v, place)| (Target::Vertex(v), vec![Aabb::of(&[*place])]));
-    let (mut boxes, mut targets) = (vec![], vec![]);
-    for (target, own) in units.chain(borders).chain(places) {
-        boxes.extend(own.into_iter().map(|bounds| (targets.len() as u32, bounds)));
-        targets.push(target);
-    }
+    let size = parts.extent().diagonal();
+    let (targets, boxes) = parts.boxes(&vertices, size / BOXES_OF_SIZE);
+    let Parts { faces, edges, side_faces, .. } = parts;
     let sides = Sides::new(brep, &faces, side_faces);
     Prepared {
         faces,
@@ -126,8 +78,112 @@ pub(super) fn prepared<R: Region>(brep: &Brep, regions: Vec<Option<R>>) -> Prepa
         targets,
         boxes: Boxes::new(boxes),
         sides,
-        same: SAME_PLACE * extent.diagonal(),
-        touching: TOUCHING_SHELLS * extent.diagonal(),
+        same: SAME_PLACE * size,
+        touching: TOUCHING_SHELLS * size,
+    }
+}
+
+impl<R: Region> Parts<R> {
+    fn new(brep: &Brep, regions: Vec<Option<R>>) -> Parts<R> {
+        let border = |edge: &Edge| Border {
+            feet: edge.span.feet(),
+            range: edge.span.range,
+            vertices: Some(edge.vertices),
+        };
+        let mut parts = Parts {
+            faces: vec![],
+            edges: brep.edges.iter().map(border).collect(),
+            used: vec![false; brep.edges.len()],
+            around: vec![],
+            corners: vec![],
+            side_faces: vec![],
+        };
+        let shells: BTreeMap<u32, u32> = (0u32..)
+            .zip(&brep.shells)
+            .flat_map(|(number, shell)| shell.faces.iter().map(move |face| (*face, number)))
+            .collect();
+        let mut regions = regions.into_iter();
+        for (number, face) in (0u32..).zip(&brep.faces) {
+            let feet = SurfaceFeet::new(&face.surface);
+            let region = regions.next().flatten();
+            let own = region.as_ref().map_or(vec![], |r| parts.borders(number, &face.bounds, &feet, r));
+            parts.around.push(own);
+            let shell = shells.get(&number).copied();
+            parts.faces.push(Face { feet, region, is_reversed: face.reversed, shell });
+        }
+        parts
+    }
+
+    /// Notes what is around a face.
+    fn borders(&mut self, number: u32, bounds: &Bounds, feet: &SurfaceFeet, region: &R) -> Vec<usize> {
+        let first = self.edges.len();
+        let Bounds::Loops(loops) = bounds else {
+            self.edges.extend(sides(feet, region));
+            self.used.resize(self.edges.len(), true);
+            self.side_faces.resize(self.side_faces.len() + self.edges.len() - first, number);
+            return (first..self.edges.len()).collect();
+        };
+        let mut own = vec![];
+        for l in loops {
+            match l {
+                Loop::Vertex(vertex) => self.corners.push(*vertex),
+                Loop::Edges(uses) => own.extend(uses.iter().map(|u| u.edge as usize)),
+            }
+        }
+        own.retain(|e| *e < first - self.side_faces.len());
+        own.iter().for_each(|e| self.used[*e] = true);
+        own
+    }
+
+    /// A box around about all.
+    fn extent(&self) -> Aabb {
+        let mut extent = Aabb::EMPTY;
+        for (border, _) in self.edges.iter().zip(&self.used).filter(|(_, used)| **used) {
+            extent = extent.union(&border.feet.bounds());
+        }
+        for face in &self.faces {
+            // A face without a border, as a sphere, reaches beyond all edges.
+            if let Some(region) = &face.region {
+                let window = region.window();
+                let at = |share: f64| window.map(|[from, to]| from + share * (to - from));
+                let places = [0.0, 0.25, 0.5, 0.75, 1.0].map(at).map(|[u, v]| face.feet.surface().at(u, v));
+                extent = extent.union(&Aabb::of(&places));
+            }
+        }
+        extent
+    }
+
+    /// The targets, and boxes around them that are about as long as `step`.
+    fn boxes(&self, vertices: &[Point], step: f64) -> (Vec<Target>, Vec<(u32, Aabb)>) {
+        let pieces: Vec<Vec<Aabb>> =
+            self.edges.iter().map(|border| pieces_of_edge(&border.feet, step)).collect();
+        let covers: Vec<Vec<(u32, Vec<Aabb>)>> = (0..self.faces.len())
+            .into_par_iter()
+            .map(|f| {
+                let borders: Vec<Aabb> =
+                    self.around[f].iter().flat_map(|e| pieces[*e].iter().copied()).collect();
+                cover_of_face(&self.faces[f], step, &borders)
+            })
+            .collect();
+        let (mut boxes, mut targets) = (vec![], vec![]);
+        let mut add = |target: Target, own: &[Aabb]| {
+            boxes.extend(own.iter().map(|bounds| (targets.len() as u32, *bounds)));
+            targets.push(target);
+        };
+        for (face, cover) in (0u32..).zip(&covers) {
+            for (unit, own) in cover {
+                add(Target::Unit { face, unit: *unit }, own);
+            }
+        }
+        for (edge, own) in (0u32..).zip(&pieces).filter(|(edge, _)| self.used[*edge as usize]) {
+            add(Target::Edge(edge), own);
+        }
+        for vertex in &self.corners {
+            if let Some(place) = vertices.get(*vertex as usize) {
+                add(Target::Vertex(*vertex), &[Aabb::of(&[*place])]);
+            }
+        }
+        (targets, boxes)
     }
 }
 
@@ -150,19 +206,4 @@ fn sides<R: Region>(feet: &SurfaceFeet, region: &R) -> Vec<Border> {
         }
     }
     sides
-}
-
-/// The box around all borders that are used, and places of all faces: a face without a border, as a sphere, reaches beyond all edges.
-fn extent<R: Region>(edges: &[Border], used: &[bool], faces: &[Face<R>]) -> Aabb {
-    let borders = edges.iter().zip(used).filter(|(_, used)| **used).map(|(border, _)| border.feet.bounds());
-    let mut all = borders.fold(Aabb::EMPTY, |all, one| all.union(&one));
-    for face in faces {
-        if let Some(region) = &face.region {
-            let window = region.window();
-            let corners = [0.0, 0.25, 0.5, 0.75, 1.0]
-                .map(|s| [0, 1].map(|k| window[k][0] + s * (window[k][1] - window[k][0])));
-            all = all.union(&Aabb::of(&corners.map(|[u, v]| face.feet.surface().at(u, v))));
-        }
-    }
-    all
 }

@@ -1,10 +1,11 @@
 //! Places and derivatives of surfaces.
 
+use super::Jet;
 use super::kinds::{Surface, SurfaceKind};
 use crate::frame::Frame;
 use std::f64::consts::{FRAC_PI_2, TAU};
 use trueness_geom::space::{Point, Vector, cross, dot, minus, plus, times, unit};
-use trueness_geom::spline::surface::{Jet, Nurbs};
+use trueness_geom::spline::surface::Nurbs;
 
 impl Surface {
     /// The place at `u`, `v`; on a spline outside of its domain that of its nearest border.

@@ -1,4 +1,4 @@
-//! The kinds of surfaces.
+//! What kinds of surfaces there are.
 
 use crate::curve::Curve;
 use crate::frame::Frame;

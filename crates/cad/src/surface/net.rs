@@ -63,6 +63,11 @@ impl Net<f64> {
         self.values.iter().fold(0.0, |m: f64, x| m.max(x.abs()))
     }
 
+    /// The least coefficient.
+    pub(super) fn least(&self) -> f64 {
+        self.values.iter().copied().fold(f64::INFINITY, f64::min)
+    }
+
     pub(super) fn has_one_sign(&self, noise: f64) -> bool {
         one_sign(self.values.iter().copied(), noise)
     }

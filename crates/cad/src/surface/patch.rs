@@ -99,7 +99,9 @@ impl Patch {
                         limit = visit(middle, [[0.0, 1.0]; 2]);
                     }
                     let [first, second] = part.halves(k);
-                    open.extend([second, first]);
+                    // The one that may be nearer lies last: what it holds does away with the other one.
+                    let is_nearer = second.square.least() < first.square.least();
+                    open.extend(if is_nearer { [first, second] } else { [second, first] });
                 }
             }
         }
@@ -162,12 +164,12 @@ impl Part {
                 }
             }
         }
-        let ranges = self.slopes.each_ref().map(|s| [0, 1].map(|k| s.steps(k)));
+        let [of_u, of_v] = self.slopes.each_ref().map(|s| [0, 1].map(|k| s.steps(k)));
         let mut off = 0.0f64;
         for (i, row) in inverse.iter().enumerate() {
             let mut sum = 0.0;
-            for (k, ([a, b], [c, d])) in ranges[0].into_iter().zip(ranges[1]).enumerate() {
-                let [p, q] = [[row[0] * a, row[0] * b], [row[1] * c, row[1] * d]];
+            for (k, (u, v)) in of_u.iter().zip(&of_v).enumerate() {
+                let [p, q] = [u.map(|x| row[0] * x), v.map(|x| row[1] * x)];
                 let target = f64::from(u8::from(i == k));
                 let low = p[0].min(p[1]) + q[0].min(q[1]) - target;
                 let high = p[0].max(p[1]) + q[0].max(q[1]) - target;

@@ -1,9 +1,13 @@
 use super::*;
+use crate::curve::Curve;
+use crate::frame::Frame;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use trueness_geom::num::random::Random;
+use trueness_geom::space::Point;
 use trueness_geom::space::{minus, norm, plus, times};
 use trueness_geom::spline::basis::Knots;
 use trueness_geom::spline::curve::Curve as Spline;
+use trueness_geom::spline::surface::Nurbs;
 use trueness_geom::spline::surface::descend;
 
 pub(crate) fn spot(random: &mut Random, size: f64) -> Point {

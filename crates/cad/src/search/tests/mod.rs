@@ -42,16 +42,13 @@ fn brute<R: Region>(search: &Search<R>, p: &Point) -> Nearest {
 
 /// Solids of all kinds: corners, rounded and tangential edges, seams, holes, poles, apexes, cutting edges.
 fn solids(random: &mut Random) -> Vec<(&'static str, Solid)> {
-    let profiles = profiles(random);
-    let h = 0.5 + random.unit();
-    let extruded = profiles.into_iter().map(|(name, chains)| (name, extruded(frame(random), chains, h)));
-    let mut all: Vec<(&'static str, Solid)> = extruded.collect();
-    all.extend(turned_profiles().map(|(name, chain)| (name, turned(frame(random), chain))));
+    let mut all = extrusions(random);
+    all.extend(turned_solids(random));
     all
 }
 
-/// Profiles that are extruded.
-fn profiles(random: &mut Random) -> Vec<(&'static str, Vec<Vec<Piece>>)> {
+/// Extruded ones.
+fn extrusions(random: &mut Random) -> Vec<(&'static str, Solid)> {
     let r = 0.4 + 0.2 * random.unit();
     let slot = vec![
         Piece::Line { from: [-1.0, -r], to: [1.0, -r] },
@@ -88,6 +85,7 @@ fn profiles(random: &mut Random) -> Vec<(&'static str, Vec<Vec<Piece>>)> {
         Piece::Line { from: [2.0, -1.0], to: [2.0, 1.0] },
         arc([0.0, 2.5], 2.5, [-angle, -FRAC_PI_2]),
     ];
+    let h = 0.5 + random.unit();
     vec![
         ("slot", vec![slot]),
         ("hook", vec![hook]),
@@ -98,10 +96,14 @@ fn profiles(random: &mut Random) -> Vec<(&'static str, Vec<Vec<Piece>>)> {
         ("slit", vec![slit]),
         ("horn", vec![horn]),
     ]
+    .into_iter()
+    .map(|(name, chains)| (name, extruded(frame(random), chains, h)))
+    .collect()
 }
 
-/// Profiles that are turned.
-fn turned_profiles() -> [(&'static str, Vec<Piece>); 9] {
+/// Turned ones.
+fn turned_solids(random: &mut Random) -> Vec<(&'static str, Solid)> {
+    let mut all = vec![];
     let ball = vec![arc([0.0, 0.0], 1.0, [-FRAC_PI_2, FRAC_PI_2])];
     let cone = vec![
         Piece::Line { from: [0.0, 0.0], to: [1.0, 0.0] },
@@ -131,7 +133,7 @@ fn turned_profiles() -> [(&'static str, Vec<Piece>); 9] {
     ];
     let apple = vec![arc([0.3, 0.0], 1.0, [-(-0.3f64).acos(), (-0.3f64).acos()])];
     let lemon = vec![arc([-0.3, 0.0], 1.0, [-(0.3f64).acos(), (0.3f64).acos()])];
-    [
+    for (name, chain) in [
         ("ball", ball),
         ("cone", cone),
         ("spinner", spinner),
@@ -141,7 +143,10 @@ fn turned_profiles() -> [(&'static str, Vec<Piece>); 9] {
         ("bottle", bottle),
         ("apple", apple),
         ("lemon", lemon),
-    ]
+    ] {
+        all.push((name, turned(frame(random), chain)));
+    }
+    all
 }
 
 /// Points of interest: around the solid, near its surface, and over and under its corners and axes.

@@ -187,19 +187,20 @@ pub fn turned(frame: Frame, chain: Vec<Piece>) -> Solid {
                 (None, vertex) => loops.push(Loop::Vertex(vertex)),
             }
         }
-        let (surface, reversed, part) = turned_face(&frame, piece);
+        let (surface, reversed, part) = turned_piece(&frame, piece);
         brep.faces.push(face(surface, reversed, loops));
         parts.push(Some(part));
     }
     Solid { brep, parts, frame, chains: vec![chain], height: None }
 }
 
+/// Whether a piece turns into a plane.
 fn is_flat(piece: &Piece) -> bool {
     matches!(piece, Piece::Line { from, to } if (from[1] - to[1]).abs() < 1e-12)
 }
 
-/// The surface that a piece of a profile describes, whether its normal is opposite to the outward one, and which part of it is the face.
-fn turned_face(frame: &Frame, piece: &Piece) -> (Surface, bool, Part) {
+/// The surface of a turned piece, whether it is reversed, and the part of it.
+fn turned_piece(frame: &Frame, piece: &Piece) -> (Surface, bool, Part) {
     let at = |z: f64| Frame { origin: frame.place([0.0, 0.0, z]), axes: frame.axes };
     let whole = |sides: [f64; 2], periods| Part::Rectangle { sides: [[0.0, TAU], sides], periods };
     match *piece {

@@ -313,3 +313,18 @@ fn divided_curves_do_not_swing_between_their_points() {
         }
     }
 }
+
+/// Knots that do not stand as often as the degree at the ends, as the uniform ones of some files.
+#[test]
+fn parts_of_curves_that_are_not_clamped_begin_at_their_start() {
+    let points: Vec<[f64; 1]> = [0.0, 2.0, -1.0, 3.0, 1.0, 4.0].map(|x| [x]).to_vec();
+    let curve = Curve::new(Knots::new(3, (0..10).map(f64::from).collect()).unwrap(), points).unwrap();
+    for (from, to) in [(3.0, 6.0), (3.0, 4.5), (4.5, 6.0), (3.7, 5.0)] {
+        let part = curve.part(from, to).unwrap();
+        assert_eq!(part.domain(), (from, to));
+        for share in [0.0, 0.3, 0.8, 1.0] {
+            let t = from + share * (to - from);
+            assert!((part.at(t)[0] - curve.at(t)[0]).abs() < 1e-14, "{from} {to} {t}");
+        }
+    }
+}
