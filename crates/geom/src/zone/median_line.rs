@@ -35,7 +35,7 @@ pub struct MedianLine {
 /// // A pin of three rings that is bent by 0.1 mm.
 /// let pin: Vec<[f64; 3]> = ring(0.0, 0.0).chain(ring(0.1, 20.0)).chain(ring(0.0, 40.0)).collect();
 /// let line = median_line(&pin, [0.0; 3], [0.0, 0.0, 1.0], &Silent)?;
-/// assert!(line.left_out == 0 && (line.centers[1][0] - 0.1).abs() < 1e-12);
+/// assert!(line.excluded == 0 && (line.centers[1][0] - 0.1).abs() < 1e-12);
 /// # Ok::<(), trueness_geom::progress::Cancelled>(())
 /// ```
 pub fn median_line(
