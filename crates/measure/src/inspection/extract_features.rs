@@ -316,7 +316,7 @@ mod tests {
         .unwrap();
         let value = |positions: &[Point]| {
             let measured = Scan::Cloud(positions.to_vec());
-            let data = Data { measured: Some(measured.into()), ..Data::default() };
+            let data = Data { measured: Some(measured), ..Data::default() };
             run(&plan, data, &Silent).unwrap().values.remove(0).map(|v| v.value)
         };
         let six = [
