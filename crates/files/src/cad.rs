@@ -69,6 +69,6 @@ fn of_source(
         return Err(Fault::Unsupported { what, remedy: "give a STEP file" }.into());
     };
     let (bytes, gzip) = (source.bytes, source.gzip);
-    let CadContent { model, unit, warnings } = reader(&mut source, options, progress)?;
-    Ok(CadFile { model, format: format.name, bytes, gzip, unit, warnings })
+    let CadContent { model, unit, warnings, splines } = reader(&mut source, options, progress)?;
+    Ok(CadFile { model, format: format.name, bytes, gzip, unit, warnings, splines })
 }

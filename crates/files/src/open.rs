@@ -120,9 +120,9 @@ fn read(mut source: Source, path: &Path, file: &str, options: &ReadOptions) -> R
         }
         Content::Splines(model) => Body::Splines(model),
         Content::Cad(content) => {
-            let CadContent { model, unit, warnings } = *content;
+            let CadContent { model, unit, warnings, splines } = *content;
             let format = parsed.variant;
-            Body::Cad(Box::new(CadFile { model, format, bytes, gzip, unit, warnings }))
+            Body::Cad(Box::new(CadFile { model, format, bytes, gzip, unit, warnings, splines }))
         }
         Content::Drawing(drawing) => Body::Drawing(drawing),
         Content::Points(inner) => Body::Points(Box::new(Named { inner, file: file.into(), unit })),

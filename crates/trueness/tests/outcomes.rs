@@ -24,6 +24,8 @@ use trueness::tasks::trend::TrendRequest;
 const CUBE: &str = "../../corpus/shapes/trimesh__unit_cube.STL";
 const HOLE: &str = "../../corpus/broken/hole_one_triangle.stl";
 const FINE: &str = "../../corpus/bunny/zipper_res3.ply";
+const SCAN: &str = "../../corpus/examples/plate/scan.stl";
+const NOMINAL: &str = "../../corpus/examples/plate/nominal.stl";
 const COARSE: &str = "../../corpus/bunny/zipper_res4.ply";
 
 /// Runs a request and reads its document back: the command, the outcome and the document's text.
@@ -105,7 +107,9 @@ fn a_document_says_the_same_when_it_is_read_back() {
             ),
             false,
         ),
-        (read_back::<AlignRequest>(json!({"measured": FINE, "reference": COARSE}), &FileSources), true),
+        // Its pose does not come to rest.
+        (read_back::<AlignRequest>(json!({"measured": FINE, "reference": COARSE}), &FileSources), false),
+        (read_back::<AlignRequest>(json!({"measured": SCAN, "reference": NOMINAL}), &FileSources), true),
         (read_back::<FitRequest>(json!({"points": "sheet.xyz", "shape": "plane"}), &sheet()), true),
         (read_back::<SegmentRequest>(json!({"input": CUBE}), &FileSources), true),
         (read_back::<CurvatureRequest>(json!({"input": COARSE}), &FileSources), true),

@@ -126,7 +126,7 @@ fn what_cannot_be_meant_is_refused() {
         (serde_json::json!({ "sample": 0 }), "--sample 0: give a number from 1 upwards"),
         (serde_json::json!({ "inside": 90 }), "--inside 90 is a share within a tolerance; give --tolerance"),
         (serde_json::json!({ "weld": -1.0 }), "--weld -1: give a number from 0 upwards"),
-        (serde_json::json!({ "along": "reference", "both": true }), "leave out --along"),
+        (serde_json::json!({ "along": "reference", "both": true }), "leave --along out"),
     ] {
         let mut asked = serde_json::json!({ "measured": SCAN, "references": [NOMINAL] });
         asked.as_object_mut().unwrap().extend(json.as_object().unwrap().clone());

@@ -73,7 +73,7 @@ fn fields_that_do_not_go_together_are_refused() {
     for (fields, said) in [
         (json!({ "closed": true, "open": true }), "--closed and --open"),
         (json!({ "level": 0.95 }), "--level 0.95: it is in percent: write 95"),
-        (json!({ "level": 100 }), "--level 100: a number of percent"),
+        (json!({ "level": 100 }), "--level 100: give a number of percent"),
         (json!({ "stacking": [1, 2] }), "--stacking needs --airfoil"),
         (json!({ "fit": "free" }), "--fit needs --nominal"),
         (json!({ "tolerance": "0.1" }), "--tolerance needs --nominal"),

@@ -64,7 +64,7 @@ fn a_cylinder_has_its_closed_form() {
     assert!((radius - 10.0).abs() < 1e-13);
     assert!((normal[0].as_f64().unwrap() * 10.0 - nearest[0].as_f64().unwrap()).abs() < 1e-12);
     let shown = stdout(&trueness(["compare", word(&points), word(&model), "-v"]));
-    assert!(shown.contains("1 B-spline surface, measured against directly"), "{shown}");
+    assert!(shown.contains("1 exact surface, measured against directly"), "{shown}");
     // Without a sign they are distances.
     let unsigned = document(["compare", word(&points), word(&model), "--sign", "none"]);
     assert!(unsigned["comparisons"][0]["deviation"]["all"]["min"].as_f64().unwrap() >= 0.0);

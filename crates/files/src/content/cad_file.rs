@@ -1,5 +1,6 @@
 //! A CAD file as a model of exact faces.
 
+use super::spline_model::SplineModel;
 use super::unit_from::UnitFrom;
 use crate::Warning;
 use trueness_cad::model::Model;
@@ -28,6 +29,8 @@ pub struct CadFile {
     pub unit: LengthUnit,
     /// What was odd.
     pub warnings: Vec<Warning>,
+    /// The same as whole B-spline surfaces, where all of its faces are such.
+    pub splines: Option<SplineModel>,
 }
 
 /// What a reader makes of a file.
@@ -35,4 +38,5 @@ pub(crate) struct CadContent {
     pub model: Model,
     pub unit: LengthUnit,
     pub warnings: Vec<Warning>,
+    pub splines: Option<SplineModel>,
 }

@@ -161,21 +161,27 @@ pub fn reference(
         Any::Whole(opened) => {
             opened_mesh(path, Role::Reference, opened).map(|(m, r)| (ReferenceBody::Mesh(m), r))
         }
-        Any::Cad(file, record) => Ok((ReferenceBody::Cad(file), record)),
+        Any::Cad(mut file, record) => match file.splines.take() {
+            Some(model) => splines(path, model, record),
+            None => Ok((ReferenceBody::Cad(file), record)),
+        },
         Any::Splines(model, record) if model.surfaces.is_empty() => {
             Err(unread::refusal(path, &model, &record, "a reference needs facets or B-spline surfaces"))
         }
         Any::Drawing(..) => Err(no_drawing(path)),
-        Any::Splines(model, mut record) => {
-            let points: Vec<Point> =
-                model.surfaces.iter().flat_map(|s| s.control_points().into_iter().map(|p| p.0)).collect();
-            if let Some(i) = points.iter().position(|p| out_of_range(p, MAX_VERTEX)) {
-                return Err(TaskError::unanswerable(refusal(path, "control point", i, MAX_VERTEX)));
-            }
-            record.points = points.len() as u64;
-            Ok((ReferenceBody::Surfaces(model.surfaces), record))
-        }
+        Any::Splines(model, record) => splines(path, model, record),
     }
+}
+
+/// B-spline surfaces of a file.
+fn splines(path: &Path, model: SplineModel, mut record: InputRecord) -> Result<(ReferenceBody, InputRecord)> {
+    let points: Vec<Point> =
+        model.surfaces.iter().flat_map(|s| s.control_points().into_iter().map(|p| p.0)).collect();
+    if let Some(i) = points.iter().position(|p| out_of_range(p, MAX_VERTEX)) {
+        return Err(TaskError::unanswerable(refusal(path, "control point", i, MAX_VERTEX)));
+    }
+    record.points = points.len() as u64;
+    Ok((ReferenceBody::Surfaces(model.surfaces), record))
 }
 
 /// Reads a mesh; points are refused with a remedy.

@@ -18,8 +18,9 @@ pub(super) use instances::real;
 pub(crate) use model::read as model;
 pub use surface::write as surface;
 
+use crate::content::spline_model::SplineModel;
 use crate::error::Result;
-use crate::format::{Format, Head, Parsed, ReadOptions};
+use crate::format::{Content, Format, Head, Parsed, ReadOptions};
 use crate::source::Source;
 use trueness_geom::progress::Silent;
 
@@ -39,10 +40,20 @@ pub(crate) const STEP: Format = Format {
 /// A model with exact faces; surfaces and curves of a file without faces.
 fn parsed(mut source: Source, options: &ReadOptions) -> Result<Parsed> {
     match model(&mut source, options, &Silent) {
-        Ok(content) if content.model.parts.iter().any(|part| !part.brep.faces.is_empty()) => {
+        Ok(mut content) if content.model.parts.iter().any(|part| !part.brep.faces.is_empty()) => {
+            content.splines = whole_splines(&mut source, options);
             Ok(Parsed::cad("step", content))
         }
         Ok(_) => read::read(&mut source, options),
         Err(error) => read::read(&mut source, options).map_err(|_| error),
+    }
+}
+
+/// The surfaces of a file whose faces are all whole B-spline surfaces that stand where they are.
+fn whole_splines(source: &mut Source, options: &ReadOptions) -> Option<SplineModel> {
+    let parsed = read::read(source, options).ok().filter(|parsed| parsed.warnings.is_empty())?;
+    match parsed.content {
+        Content::Splines(model) if !model.surfaces.is_empty() => Some(model),
+        _ => None,
     }
 }

@@ -73,7 +73,7 @@ pub(crate) fn read(
     model.hidden = looks.hidden.iter().copied().collect();
     model.layers = looks.layers.iter().cloned().collect();
     holds_anything(&model)?;
-    Ok(CadContent { model, unit, warnings })
+    Ok(CadContent { model, unit, warnings, splines: None })
 }
 
 /// The unit of the first representation that says one.
