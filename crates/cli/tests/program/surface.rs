@@ -368,7 +368,9 @@ fn a_surface_is_cut_along_the_outline() {
     let result = f.file("l.json");
     let json = result.to_str().unwrap();
     assert_eq!(status(&trueness(["surface", points.to_str().unwrap(), "--trim", "--json", json])), 0);
-    for file in [step, iges, json] {
+    let cut = &document(["compare", points.to_str().unwrap(), step])["inputs"][1];
+    assert_eq!((&cut["cad"]["faces"], &cut["warnings"]), (&1.into(), &serde_json::Value::Null));
+    for file in [iges, json] {
         let d = document(["compare", points.to_str().unwrap(), file]);
         let warned = d["inputs"][1]["warnings"].to_string();
         assert!(warned.contains("each surface was taken whole"), "{warned}");

@@ -34,6 +34,12 @@ impl<'i> From<toml::Spanned<DeValue<'i>>> for Node<'i> {
 }
 
 impl<'i> Node<'i> {
+    /// The value; a fault that its type finds after all of it was read lies here.
+    fn read<T: DeserializeSeed<'i>>(self, seed: T) -> Result<T::Value, Fault> {
+        let span = self.span.clone();
+        seed.deserialize(self).map_err(|fault| fault.within(&span))
+    }
+
     /// What a visitor makes of it, where this is `wanted`.
     fn visited<V: Visitor<'i>>(self, visitor: V, wanted: Option<Wanted>) -> Result<V::Value, Fault> {
         let span = self.span;
@@ -149,7 +155,7 @@ struct Elements<I>(I);
 impl<'i, I: Iterator<Item = toml::Spanned<DeValue<'i>>>> SeqAccess<'i> for Elements<I> {
     type Error = Fault;
     fn next_element_seed<T: DeserializeSeed<'i>>(&mut self, seed: T) -> Result<Option<T::Value>, Fault> {
-        self.0.next().map(|value| seed.deserialize(Node::from(value))).transpose()
+        self.0.next().map(|value| Node::from(value).read(seed)).transpose()
     }
 }
 
@@ -176,7 +182,7 @@ impl<'i, I: Iterator<Item = Entry<'i>>> MapAccess<'i> for Entries<'i, I> {
     }
     fn next_value_seed<T: DeserializeSeed<'i>>(&mut self, seed: T) -> Result<T::Value, Fault> {
         let value = self.value.take().ok_or(Kind::Said("there is no value".into()))?;
-        seed.deserialize(Node::from(value))
+        Node::from(value).read(seed)
     }
 }
 
@@ -232,7 +238,7 @@ impl<'i> SeqAccess<'i> for Placed<'i> {
         match self.next {
             1 => seed.deserialize(number(self.span.start)).map(Some),
             2 => seed.deserialize(number(self.span.end)).map(Some),
-            _ => self.node.take().map(|node| seed.deserialize(node)).transpose(),
+            _ => self.node.take().map(|node| node.read(seed)).transpose(),
         }
     }
 }

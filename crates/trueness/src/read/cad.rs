@@ -44,6 +44,9 @@ pub fn tessellated(
     record.cad = Some(CadInputRecord { faces: read, facets_within: farthest });
     record.facets = Some(made.mesh.faces.len() as u64);
     record.incomplete = incomplete(record.role, read, of);
+    if let Some(missing) = &record.incomplete {
+        record.warnings.push(format!("{}; `trueness info` names the others", missing.text));
+    }
     describe(record, &made.mesh.positions);
     let name = |face: &trueness_cad::brep::Face| match face.name.trim() {
         "" => format!("face {}", face.entity),

@@ -100,7 +100,9 @@ impl Request for CheckRequest {
         })?;
         hash?;
         let left_out = LeftOut(&source.nonfinite_facets);
-        let document = trueness_measure::check::document(&report, record, facets, left_out, &options);
+        let mut document = trueness_measure::check::document(&report, record, facets, left_out, &options);
+        // Of a CAD model without some of its faces no more than the others was looked at.
+        document.sound &= document.inputs.iter().all(|i| i.cad.is_none() || i.incomplete.is_none());
         let scene = self.view.then(|| Box::new(Checked(source)) as Box<dyn Scene<CheckDocument>>);
         Ok(Done { scene, ..Done::new(document) })
     }

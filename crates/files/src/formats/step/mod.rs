@@ -45,7 +45,10 @@ fn parsed(mut source: Source, options: &ReadOptions) -> Result<Parsed> {
             Ok(Parsed::cad("step", content))
         }
         Ok(_) => read::read(&mut source, options),
-        Err(error) => read::read(&mut source, options).map_err(|_| error),
+        Err(error) => {
+            let splines = read::read(&mut source, options).ok();
+            splines.filter(|parsed| parsed.warnings.is_empty()).ok_or(error)
+        }
     }
 }
 
