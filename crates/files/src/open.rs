@@ -92,6 +92,8 @@ fn read(mut source: Source, path: &Path, file: &str, options: &ReadOptions) -> R
     let mut parsed = reader(source, options)?;
     let is_cad = matches!(parsed.content, Content::Splines(_) | Content::Drawing(_));
     let (unit, unit_from) = match (options.units, parsed.unit) {
+        // A model may have units that are none of these; its file has its own.
+        _ if let Content::Cad(content) = &parsed.content => (content.unit.nearest(), content.unit.from),
         (asked, Some(said)) if is_cad => {
             if let Some(asked) = asked.filter(|asked| *asked != said) {
                 parsed.warnings.push(Warning::UnitKept { said, asked });

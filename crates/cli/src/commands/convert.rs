@@ -20,13 +20,17 @@ use trueness_files::write::Writable;
 #[command(after_help = exit::help("not all of the input could be read", "\
 Examples:
   trueness convert part.stl part.ply
-  trueness convert scan.txt scan.npy --units in"))]
+  trueness convert part.stp part.stl --chord 0.01
+  trueness convert scan.txt scan.csv --units in"))]
 pub struct ConvertArgs {
     /// A file of any format that is read as a mesh or points; `-` reads stdin
     input: PathBuf,
     /// The file to write
     #[arg(help = out_help())]
     out: PathBuf,
+    /// How far facets of a CAD model may lie from its faces, mm [default: a twenty-thousandth of its diagonal]
+    #[arg(long, value_name = "MM", allow_negative_numbers = true)]
+    chord: Option<f64>,
     #[command(flatten)]
     reading: PointInputArgs,
     #[command(flatten)]
@@ -43,7 +47,12 @@ fn out_help() -> String {
 
 impl ConvertArgs {
     fn request(&self) -> ConvertRequest {
-        ConvertRequest { input: self.input.clone(), out: self.out.clone(), reading: self.reading.reading() }
+        ConvertRequest {
+            input: self.input.clone(),
+            out: self.out.clone(),
+            reading: self.reading.reading(),
+            chord: self.chord,
+        }
     }
 }
 

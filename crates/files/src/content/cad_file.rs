@@ -2,7 +2,7 @@
 
 use super::spline_model::SplineModel;
 use super::unit_from::UnitFrom;
-use crate::Warning;
+use crate::{Unit, Warning};
 use trueness_cad::model::Model;
 
 /// The unit of a file's lengths.
@@ -12,6 +12,13 @@ pub struct LengthUnit {
     pub millimeters: f64,
     /// Where it comes from.
     pub from: UnitFrom,
+}
+
+impl LengthUnit {
+    /// The unit of this length, if it is one of [`Unit::ALL`], else millimeters.
+    pub(crate) fn nearest(&self) -> Unit {
+        Unit::ALL.into_iter().find(|unit| unit.to_millimeters(1.0) == self.millimeters).unwrap_or_default()
+    }
 }
 
 /// A CAD file.

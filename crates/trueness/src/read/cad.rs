@@ -11,25 +11,41 @@ use trueness_files::{FacetRegions, SourceMesh};
 use trueness_geom::closest::MAX_VERTEX;
 use trueness_geom::progress::Progress;
 
-/// Facets keep to the faces within this share of the diagonal: a hundredth of a millimeter for a part of 200 mm.
-const FACET_SHARE: f64 = 5e-5;
+/// How far facets may lie from the faces.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Chord {
+    /// Millimeters.
+    Within(f64),
+    /// A share of the diagonal.
+    Share(f64),
+}
+
+impl Chord {
+    /// For what is measured on facets: a hundredth of a millimeter for a part of 200 mm.
+    pub const MEASURED: Chord = Chord::Share(5e-5);
+    /// For what is only drawn: less than a pixel of a picture.
+    pub const DRAWN: Chord = Chord::Share(5e-4);
+}
+
 /// Greatest angle between neighboring facets, radians: a circle has 24 or more.
 const FACET_ANGLE: f64 = std::f64::consts::PI / 12.0;
 /// Facets of a model at most.
 const MAX_FACETS: usize = 16_000_000;
 
-/// A model where its parts stand, and its facets within `distance` of its faces, mm; without it within a share of its size. The
-/// document is told of faces that are missing.
+/// A model where its parts stand, and its facets. The document is told of faces that are missing.
 pub fn tessellated(
     path: &Path,
     file: &CadFile,
-    distance: Option<f64>,
+    chord: Chord,
     record: &mut InputRecord,
     progress: &dyn Progress,
 ) -> Result<(Trimmed, SourceMesh), TaskError> {
     let shape = Trimmed::of(&file.model, progress)?;
-    let size = shape.bounds().diagonal();
-    let fineness = Fineness { distance: distance.unwrap_or(FACET_SHARE * size), angle: FACET_ANGLE };
+    let distance = match chord {
+        Chord::Within(distance) => distance,
+        Chord::Share(share) => share * shape.bounds().diagonal(),
+    };
+    let fineness = Fineness { distance, angle: FACET_ANGLE };
     let made = shape.tessellate(fineness, MAX_FACETS, progress).map_err(|e| match e {
         TessellateError::Cancelled(e) => e.into(),
         e => TaskError::unanswerable(format!("{}: {e}", path.display())),

@@ -9,6 +9,7 @@ mod whole;
 pub use places::describe;
 pub use whole::{bytes, digest};
 
+use cad::Chord;
 use places::{out_of_range, refusal};
 
 use crate::task::{Meaning, TaskError};
@@ -104,7 +105,7 @@ pub fn nominal(
 
 /// A model as facets, for what works on meshes.
 fn tessellated(path: &Path, file: &CadFile, mut record: InputRecord) -> Result<Opened> {
-    let (_, mesh) = cad::tessellated(path, file, None, &mut record, &Silent)?;
+    let (_, mesh) = cad::tessellated(path, file, Chord::MEASURED, &mut record, &Silent)?;
     Ok(Opened { record, body: Body::Mesh(mesh), planar: false, format: file.format, empty: false })
 }
 

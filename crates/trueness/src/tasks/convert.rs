@@ -1,12 +1,14 @@
 //! A file in another format.
 
-use crate::read::{self, Body, Opened};
-use crate::task::{Done, Output, PointReading, Request, Rounding, RunFiles, TaskError, Watch};
+use crate::read::cad::Chord;
+use crate::read::{self, Any, Body, Opened};
+use crate::task::{Done, Output, PointReading, Request, Rounding, RunFiles, STEPS, TaskError, Watch, ended};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 use trueness_document::convert::{ConvertDocument, Written};
 use trueness_document::{InputRecord, Role};
+use trueness_files::cad::CadFile;
 use trueness_files::write::{self, Block, Layout, MeshFile, Writable};
 use trueness_files::{PointSource, SourceMesh, Sources};
 use trueness_geom::progress::Cancelled;
@@ -35,6 +37,8 @@ pub struct ConvertRequest {
     /// How the input is taken.
     #[serde(flatten)]
     pub reading: PointReading,
+    /// How far facets of a CAD model may lie from its faces, mm; without it a twenty-thousandth of its diagonal.
+    pub chord: Option<f64>,
 }
 
 impl Request for ConvertRequest {
@@ -46,18 +50,52 @@ impl Request for ConvertRequest {
     }
 
     fn run(&self, sources: &dyn Sources, watch: &dyn Watch) -> Result<Done<ConvertDocument>, TaskError> {
-        let opened = read::open(sources, &self.input, Role::Mesh, &self.reading.options())?;
-        let Opened { record, body, .. } = opened;
-        let mut done = match body {
-            Body::Mesh(source) => self.mesh(source, record)?,
-            Body::Points(source) => self.points(source, record, watch)?,
+        let reading = self.reading.options();
+        let found = match read::any(sources, &self.input, Role::Mesh, &reading)? {
+            Any::Cad(file, record) => Found::Mesh(self.facets(&file, record, watch)?),
+            Any::Whole(Opened { record, body: Body::Mesh(mesh), .. }) => Found::Mesh((mesh, record)),
+            Any::Whole(Opened { record, body: Body::Points(points), .. }) => Found::Points(points, record),
+            Any::Splines(..) | Any::Drawing(..) => {
+                let opened = read::open(sources, &self.input, Role::Mesh, &reading);
+                return Err(opened.err().unwrap_or_else(|| TaskError::unanswerable("it holds no mesh")));
+            }
+        };
+        if let (Some(_), true) = (self.chord, !matches!(&found, Found::Mesh((_, r)) if r.cad.is_some())) {
+            return Err(TaskError::usage("--chord is for CAD models; leave it out"));
+        }
+        let mut done = match found {
+            Found::Mesh((source, record)) => self.mesh(source, record)?,
+            Found::Points(source, record) => self.points(source, record, watch)?,
         };
         read::hash(sources, &mut done.document.inputs[0], &self.input)?;
         Ok(done)
     }
 }
 
+/// What is written.
+enum Found {
+    Mesh((SourceMesh, InputRecord)),
+    Points(PointSource, InputRecord),
+}
+
 impl ConvertRequest {
+    /// The facets of a model.
+    fn facets(
+        &self,
+        file: &CadFile,
+        mut record: InputRecord,
+        watch: &dyn Watch,
+    ) -> Result<(SourceMesh, InputRecord), TaskError> {
+        if let Some(chord) = self.chord.filter(|chord| !(chord.is_finite() && *chord > 0.0)) {
+            return Err(TaskError::usage(format!("--chord {chord}: give a length above 0 mm")));
+        }
+        let stage = watch.stage("dividing faces", STEPS, None);
+        let chord = self.chord.map_or(Chord::MEASURED, Chord::Within);
+        let found = read::cad::tessellated(&self.input, file, chord, &mut record, &*stage);
+        let (_, mesh) = ended(stage, found)?;
+        Ok((mesh, record))
+    }
+
     fn document(&self, record: InputRecord, written: Written) -> ConvertDocument {
         ConvertDocument::new(record, self.out.display().to_string(), written)
     }

@@ -15,14 +15,14 @@ mod tests;
 
 pub use curves::write as curves;
 pub(super) use instances::real;
-pub(crate) use model::read as model;
 pub use surface::write as surface;
 
+use crate::content::cad_file::CadContent;
 use crate::content::spline_model::SplineModel;
 use crate::error::Result;
 use crate::format::{Content, Format, Head, Parsed, ReadOptions};
 use crate::source::Source;
-use trueness_geom::progress::Silent;
+use trueness_geom::progress::{Progress, Silent};
 
 /// STEP.
 pub(crate) const STEP: Format = Format {
@@ -37,18 +37,31 @@ pub(crate) const STEP: Format = Format {
     mesh: None,
 };
 
+/// The model of a file.
+pub(crate) fn model(
+    source: &mut Source,
+    options: &ReadOptions,
+    progress: &dyn Progress,
+) -> Result<CadContent> {
+    let content = model::read(source, options, progress)?;
+    model::holds_anything(&content.model)?;
+    Ok(content)
+}
+
 /// A model with exact faces; surfaces and curves of a file without faces.
 fn parsed(mut source: Source, options: &ReadOptions) -> Result<Parsed> {
-    match model(&mut source, options, &Silent) {
-        Ok(mut content) if content.model.parts.iter().any(|part| !part.brep.faces.is_empty()) => {
-            content.splines = whole_splines(&mut source, options);
-            Ok(Parsed::cad("step", content))
-        }
-        Ok(_) => read::read(&mut source, options),
-        Err(error) => {
-            let splines = read::read(&mut source, options).ok();
-            splines.filter(|parsed| parsed.warnings.is_empty()).ok_or(error)
-        }
+    let mut content = model::read(&mut source, options, &Silent)?;
+    let has_faces = content.model.parts.iter().any(|part| !part.brep.faces.is_empty());
+    if has_faces {
+        content.splines = whole_splines(&mut source, options);
+        return Ok(Parsed::cad("step", content));
+    }
+    if !content.model.is_complete() {
+        let splines = read::read(&mut source, options);
+        // What was to be a face is told, unless the file is damaged as a whole.
+        model::holds_anything(&content.model).and(splines)
+    } else {
+        read::read(&mut source, options)
     }
 }
 

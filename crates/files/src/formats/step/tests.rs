@@ -2,22 +2,35 @@
 
 use super::surface;
 use crate::cad::{SplineModel, SplineSurface};
+use crate::format::{Content, Parsed};
+use crate::source::Source;
 use crate::write::scratch::Folder;
-use crate::{Body, Input, ReadError, ReadOptions, Unit, UnitFrom, Warning, open};
+use crate::{Body, Input, MemorySources, ReadError, ReadOptions, Sources, Unit, UnitFrom, Warning, open};
+use std::path::Path;
 use trueness_geom::num::random::Random;
 use trueness_geom::spline::surface::Nurbs;
 
 /// Opens text as a file without an ending that tells.
-fn read(text: &[u8], units: Option<Unit>) -> Result<Input, ReadError> {
+fn opened(text: &[u8], units: Option<Unit>) -> Result<Input, ReadError> {
     let folder = Folder::new();
     let path = folder.path().join("model");
     std::fs::write(&path, text).unwrap();
     open(&path, &ReadOptions { units, ..ReadOptions::default() })
 }
 
-fn model(input: Input) -> (SplineModel, Vec<Warning>) {
-    match input.body {
-        Body::Splines(model) => (model, input.warnings),
+/// The surfaces and curves of a text, whole.
+fn read(text: &[u8], units: Option<Unit>) -> Result<Parsed, ReadError> {
+    let sources: MemorySources = [("model", text.to_vec())].into_iter().collect();
+    let bytes = sources.bytes(Path::new("model")).unwrap();
+    let parsed = Source::of(bytes).and_then(|mut source| {
+        super::read::read(&mut source, &ReadOptions { units, ..ReadOptions::default() })
+    });
+    parsed.map_err(|e| e.in_file("model"))
+}
+
+fn model(parsed: Parsed) -> (SplineModel, Vec<Warning>) {
+    match parsed.content {
+        Content::Splines(model) => (model, parsed.warnings),
         _ => panic!("no splines"),
     }
 }
@@ -40,13 +53,14 @@ const V: [f64; 7] = [0.0, 0.0, 0.0, 1e-3, 2.0, 2.0, 2.0];
 #[test]
 fn what_was_written_reads_back_bit_for_bit() {
     let points = points(20);
-    let input = read(&written([&U, &V], [3, 2], &points), Some(Unit::Inch)).unwrap();
+    let input = opened(&written([&U, &V], [3, 2], &points), Some(Unit::Inch)).unwrap();
     assert_eq!(
         (input.provenance.unit_assumed, input.provenance.unit_from),
         (Unit::Millimeter, UnitFrom::Header)
     );
-    let (model, warnings) = model(input);
-    assert_eq!(warnings, [Warning::UnitKept { said: Unit::Millimeter, asked: Unit::Inch }]);
+    assert_eq!(input.warnings, [Warning::UnitKept { said: Unit::Millimeter, asked: Unit::Inch }]);
+    let Body::Cad(file) = input.body else { panic!("no model") };
+    let model = file.splines.unwrap();
     let [Nurbs::Plain(found)] = &model.surfaces[..] else { panic!("{}", model.surfaces.len()) };
     assert_eq!((found.knots()[0].values(), found.knots()[1].values()), (&U[..], &V[..]));
     assert_eq!(found.points(), points);

@@ -1,5 +1,6 @@
 //! The references: meshes, and B-spline surfaces made ready to be searched.
 
+use crate::read::cad::Chord;
 use crate::read::{self, ReferenceBody};
 use crate::task::{Meaning, STEPS, TaskError, Watch};
 use std::path::{Path, PathBuf};
@@ -139,7 +140,7 @@ fn cad(
     watch: &dyn Watch,
 ) -> Result<Opened, TaskError> {
     let stage = watch.stage("preparing the faces", STEPS, None);
-    let (shape, drawn) = read::cad::tessellated(path, file, None, record, &*stage)?;
+    let (shape, drawn) = read::cad::tessellated(path, file, Chord::DRAWN, record, &*stage)?;
     let count = shape.brep.faces.len();
     let trims = shape.trims.into_iter().map(Result::ok).collect();
     let search = Search::new(&shape.brep, trims);

@@ -22,4 +22,4 @@ mod surface;
 mod tests;
 mod topology;
 
-pub(crate) use read::read;
+pub(crate) use read::{holds_anything, read};

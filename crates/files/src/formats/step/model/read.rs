@@ -24,7 +24,7 @@ const USUAL_UNCERTAINTY: f64 = 1e-3;
 /// Damaged entities that are told one by one; they are others' faults as well.
 const MAX_TOLD: usize = 1000;
 
-/// Reads the model of a file.
+/// Reads the model of a file; whether it holds any shape is another question: [`holds_anything`].
 pub(crate) fn read(
     source: &mut Source,
     options: &ReadOptions,
@@ -72,7 +72,6 @@ pub(crate) fn read(
     model.unread.extend(damaged(&file));
     model.hidden = looks.hidden.iter().copied().collect();
     model.layers = looks.layers.iter().cloned().collect();
-    holds_anything(&model)?;
     Ok(CadContent { model, unit, warnings, splines: None })
 }
 
@@ -141,7 +140,7 @@ const CONTAINERS: [&str; 10] = [
 ];
 
 /// A file without a face and without a wire is no model.
-fn holds_anything(model: &Model) -> Result<()> {
+pub(crate) fn holds_anything(model: &Model) -> Result<()> {
     let faces: usize = model.parts.iter().map(|p| p.brep.faces.len()).sum();
     if faces > 0 || model.parts.iter().any(|p| p.wires > 0) && !model.unread.iter().any(|u| u.holds_faces) {
         return Ok(());
