@@ -110,7 +110,7 @@ pub fn timed<T>(work: impl FnOnce() -> T) -> (Lap, T) {
 pub fn read_mesh(path: impl AsRef<Path>) -> Result<Mesh> {
     match trueness_files::open(path.as_ref(), &ReadOptions::default())?.body {
         Body::Mesh(source) => Ok(source.mesh),
-        Body::Points(_) | Body::Splines(_) | Body::Drawing(_) => Err("expected a mesh".into()),
+        Body::Points(_) | Body::Splines(_) | Body::Cad(_) | Body::Drawing(_) => Err("expected a mesh".into()),
     }
 }
 

@@ -23,7 +23,7 @@ fn main() -> Result<()> {
 fn read(path: &Path) -> Result<usize> {
     match trueness_files::open(path, &ReadOptions::default())?.body {
         Body::Mesh(source) => Ok(source.mesh.faces.len()),
-        Body::Splines(_) | Body::Drawing(_) => Err("expected a mesh or points".into()),
+        Body::Splines(_) | Body::Cad(_) | Body::Drawing(_) => Err("expected a mesh or points".into()),
         Body::Points(mut stream) => {
             let (mut block, mut count) = (vec![], 0);
             loop {

@@ -50,7 +50,7 @@ fn mesh(bytes: &[u8], extension: &str) -> Option<Mesh> {
     let _ = std::fs::remove_file(&path);
     match input.ok()?.body {
         Body::Mesh(source) => Some(source.mesh),
-        Body::Points(_) | Body::Splines(_) | Body::Drawing(_) => None,
+        Body::Points(_) | Body::Splines(_) | Body::Cad(_) | Body::Drawing(_) => None,
     }
 }
 
