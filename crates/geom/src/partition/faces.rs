@@ -94,7 +94,7 @@ impl Faces {
     /// ```
     /// use trueness_geom::feature::Nominal;
     /// use trueness_geom::partition::{Class, Faces, NO_FACE, Options, partition};
-    /// use trueness_geom::{mesh::Mesh, progress::Silent};
+    /// use trueness_geom::{progress::Silent, scan::Scan};
     /// let pin = Nominal::Cylinder { point: [0.0; 3], direction: [0.0, 0.0, 1.0], radius: 5.0, length: 9.0 };
     /// let mut faces = Faces::none();
     /// faces.add_nominal(&pin, false)?;
@@ -102,7 +102,7 @@ impl Faces {
     /// let turn = |k: u32| (2.4 * f64::from(k)).sin_cos();
     /// let mut positions: Vec<_> = (0..500).map(|k| [5.0 * turn(k).1, 5.0 * turn(k).0, 0.018 * f64::from(k)]).collect();
     /// positions.push([9.0, 0.0, 4.0]);
-    /// let scan = Mesh { positions, faces: vec![] };
+    /// let scan = Scan::Cloud(positions);
     /// let options = Options { distance: Some(0.5), ..Options::default() };
     /// let found = partition(&scan, &[&faces.all[0]], &options, &Silent)?;
     /// assert!(found.owners[..500].iter().all(|face| *face == 0));
