@@ -1,7 +1,7 @@
 //! Axes of curves and surfaces, and the placements of parts.
 //!
 //! A mirrored part has left-handed frames: places follow `origin + a·x + b·y + c·z` all the same, and only the normal
-//! `∂u × ∂v` changes its side. [`Brep::placed`](crate::brep::Brep::placed) turns the faces that this touches.
+//! `∂u × ∂v` changes its side. [`Brep::add`](crate::brep::Brep::add) turns the faces that this touches.
 
 use trueness_geom::space::{Point, Vector, cross, dot, least_axis, minus, plus, times, unit};
 

@@ -1,7 +1,7 @@
 //! Faces in the parameters of their surfaces: what of a surface is inside the loops of its edges.
 //!
 //! Files give edges in space; their parameters are those of the nearest places on the surface. Loops of a surface that closes may go
-//! around it, so a face is cut open ([`open`]) until all its rings are closed in the plane of the parameters, with the face on
+//! around it, so a face is cut open (`open`) until all its rings are closed in the plane of the parameters, with the face on
 //! their left. What lies inside then is what the rings wind around, and an integral over the face is one along the rings.
 //!
 //! Nothing is taken from the order of loops, from seams or from what the file calls outer; all follows from the direction of the edges. Loops
