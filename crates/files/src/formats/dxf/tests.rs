@@ -230,7 +230,10 @@ fn splines_by_points_pass_through_these() {
     for count in 2..=5 {
         for tangents in ["", "12 0 22 1", "13 1 23 0", "12 0 22 1 13 1 23 0"] {
             let (found, _, warnings) = read(&text(&points[..count], tangents)).unwrap();
-            assert!(warnings.len() == 1 && warnings[0].contains("1 spline(s) given only by the points"), "{warnings:?}");
+            assert!(
+                warnings.len() == 1 && warnings[0].contains("1 spline(s) given only by the points"),
+                "{warnings:?}"
+            );
             let drawn = &found.entities[0].drawn;
             assert!(points[..count].iter().all(|p| near(drawn, *p) < 1e-3), "{count} {tangents}");
             is_at(place(drawn, 0.0), points[0]);
