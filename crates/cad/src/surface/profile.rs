@@ -32,7 +32,7 @@ const NEARLY_FLAT: f64 = 1e-5;
 /// Places at which each piece of a curve is tried that does not lie in a plane with the axis.
 const TRIES: usize = 32;
 /// How far beyond the point's height an infinite curve is tried, in distances from the axis.
-const FAR: f64 = 4.0;
+const INFINITE_CURVE_REACH: f64 = 4.0;
 
 impl Profile {
     pub(super) fn new(curve: &Curve, origin: Point, axis: Vector) -> Profile {
@@ -123,7 +123,7 @@ impl Profile {
         }
         let [start, first, _] = self.curve.derivatives(0.0);
         let speed = norm(first).max(f64::MIN_POSITIVE);
-        let far = FAR * (norm(minus(start, self.origin)) + height.abs() + rho) / speed;
+        let far = INFINITE_CURVE_REACH * (norm(minus(start, self.origin)) + height.abs() + rho) / speed;
         [range[0].max(-far), range[1].min(far)]
     }
 }
