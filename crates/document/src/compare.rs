@@ -4,6 +4,7 @@ mod words;
 
 use super::align::AlignedTo;
 use super::check::Defects;
+use super::face::FaceDeviation;
 use super::research::Research;
 use super::result::ResultDocument;
 pub use super::{Bounds, BySide, Histogram, Percentiles, Statistics};
@@ -157,6 +158,9 @@ pub struct Comparison {
     /// The worst places, far from one another, on both sides: the farthest beyond the tolerance first, without a tolerance
     /// the greatest deviation.
     pub worst: Vec<Worst>,
+    /// Deviations of each face of a CAD model that has points, in the order of the model; absent for other references.
+    #[serde(skip_serializing_if = "Vec::is_empty", default)]
+    pub faces: Vec<FaceDeviation>,
     /// The same question asked from the reference's vertices to the measured mesh; only with `--both`.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub reverse: Option<Reverse>,

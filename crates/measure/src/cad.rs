@@ -60,7 +60,8 @@ fn kinds(brep: &Brep) -> BTreeMap<Word<CadSurface>, u64> {
     all
 }
 
-fn word(kind: SurfaceKind) -> CadSurface {
+/// The word for a kind of surface.
+pub(crate) fn word(kind: SurfaceKind) -> CadSurface {
     match kind {
         SurfaceKind::Plane => CadSurface::Plane,
         SurfaceKind::Cylinder => CadSurface::Cylinder,

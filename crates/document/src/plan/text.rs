@@ -268,7 +268,10 @@ pub struct FeatureText {
 
 /// Numbers of faces.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(untagged, expecting = "`face` is the number of a face of the reference, as in 12, or several, as in [12, 13]")]
+#[serde(
+    untagged,
+    expecting = "`face` is the number of a face of the reference, as in 12, or several, as in [12, 13]"
+)]
 pub enum FaceText {
     /// One.
     One(u64),

@@ -55,6 +55,7 @@ impl Counting {
         let moments = samples.moments();
         let problem = Problem {
             target: reference,
+            exact: None,
             boundary_edges: (edges.count() > 0).then_some(&edges),
             samples: &samples,
             mean: moments.mean,

@@ -12,7 +12,7 @@ use super::field::normal_of;
 use super::sample::{Samples, agree};
 use super::system::{Constraint, Equation, Six, Spectrum, System};
 use super::twist::{Lock, Twist, directions};
-use super::{AlignError, Target};
+use super::{AlignError, ExactFoot, ExactSurface, Target};
 use crate::closest::{BoundaryEdges, Feature, Query};
 use crate::num::sum::Sum;
 use crate::parallel::prelude::*;
@@ -33,6 +33,8 @@ const SETTLED_STEP_SHARE: f64 = 1e-3;
 /// The problem that the iteration works on.
 pub(super) struct Problem<'a> {
     pub target: &'a Target<'a>,
+    /// The surfaces that places are looked up on instead of on the mesh.
+    pub exact: Option<&'a dyn ExactSurface>,
     pub boundary_edges: Option<&'a BoundaryEdges>,
     pub samples: &'a Samples,
     /// Whether points far off count less.
@@ -55,6 +57,17 @@ pub(super) struct Match {
     pub distance: f64,
     /// Normal of the facet.
     pub facet: Vector,
+}
+
+impl Match {
+    /// Of a sample at `q` that has no place on the surface.
+    fn none(q: Point) -> Match {
+        Match {
+            equation: Equation { point: q, away: [0.0; 3], hold: Constraint::Point, weight: 0.0 },
+            distance: f64::INFINITY,
+            facet: [0.0; 3],
+        }
+    }
 }
 
 /// Memory that an iteration uses in every round: asked of the system anew it would cost half as much as the search.
@@ -100,15 +113,17 @@ impl Problem<'_> {
         } else {
             samples.points.par_iter().map(|p| pose.point(*p)).collect_into_vec(moved);
         }
+        if let Some(exact) = self.exact {
+            let feet = exact.feet(moved, progress)?;
+            let found = feet.into_iter().enumerate();
+            *matches = found.map(|(i, foot)| self.on_surface(i, moved[i], foot, (pose, reach))).collect();
+            return Ok(());
+        }
         let query = Query { max_distance: reach, ..Query::default() };
         let tree = self.target.tree;
         let of_hit = |i: usize, hit| {
             let q = moved[i];
-            let none = || Match {
-                equation: Equation { point: q, away: [0.0; 3], hold: Constraint::Point, weight: 0.0 },
-                distance: f64::INFINITY,
-                facet: [0.0; 3],
-            };
+            let none = || Match::none(q);
             let Some(hit) = hit else { return none() };
             let foot = tree.foot(&q, &hit);
             let Some(facet) = normal_of(&foot.corners) else { return none() };
@@ -130,6 +145,21 @@ impl Problem<'_> {
             Match { equation, distance: norm(away), facet }
         };
         Ok(tree.map_closest_into(moved, &query, progress, of_hit, matches)?)
+    }
+
+    /// Sample `i`, which lies at `q`, and its place on exact surfaces.
+    fn on_surface(&self, i: usize, q: Point, foot: Option<ExactFoot>, (pose, reach): (&Rigid, f64)) -> Match {
+        let Some(foot) = foot.filter(|foot| !foot.is_border) else { return Match::none(q) };
+        let away = minus(q, foot.place);
+        let looks_away = self.samples.normals.get(i).is_some_and(|normal| {
+            !agree(pose.vector(*normal), foot.normal, self.samples.oriented, OTHER_SIDE_COSINE)
+        });
+        if looks_away || norm(away) > reach {
+            return Match::none(q);
+        }
+        let hold = if foot.is_within { Constraint::Plane(foot.normal) } else { Constraint::Point };
+        let equation = Equation { point: q, away, hold, weight: self.samples.weights[i] };
+        Match { equation, distance: norm(away), facet: foot.normal }
     }
 
     /// Makes of matches that an iteration left those in full weight, however far.

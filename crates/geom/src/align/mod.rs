@@ -18,6 +18,8 @@
 //! 3. *What the result is worth* (`loose`, `rims`, `freedom`, `covariance`, `wall`): covariance, motions that are not held, other poses that fit as
 //!    well (`look`, `mirror`).
 //!
+//! Where a mesh only draws exact surfaces ([`ExactSurface`]), the iteration ends on these, and the figures are those of distances from them.
+//!
 //! [`minimax`] and [`into_zones`] begin there and search on by linear programs (`counting`, `perturbed`).
 //!
 //! All answers are the same for any number of threads; random choices depend on the seed alone.
@@ -67,6 +69,6 @@ pub use response::{Response, response};
 pub use rows::{MIN_AMPLIFICATION, Row, RowFit, constrained, pairs};
 pub use sample::Measured;
 pub use scaled::{Scale, best_fit_scaled};
-pub use target::Target;
+pub use target::{ExactFoot, ExactSurface, Target};
 pub use twist::Lock;
 pub use zones::{InZones, ZoneAt, into_zones};

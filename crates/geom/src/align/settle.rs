@@ -19,6 +19,8 @@ const PART_ROUNDS: usize = 2;
 const MAX_SETTLED_ROUNDS: usize = 30;
 /// Most rounds over all samples where it has not settled.
 const MAX_UNSETTLED_ROUNDS: usize = 3;
+/// Most rounds on exact surfaces: where it has settled on facets that draw them, a few do.
+const MAX_EXACT_ROUNDS: usize = 10;
 /// Share of the measured that does not count, from which on a warning says so.
 const MIN_REPORTED_EXCLUSION: f64 = 0.1;
 
@@ -64,6 +66,15 @@ impl<'a> Settle<'a> {
             Some(surface) => staying(surface).run(pose, reach, most, progress)?,
             None => all.iterate(pose, reach, most, &mut room, progress)?.0,
         };
+        if let Some(exact) = work.target.exact {
+            let exact = Some(exact);
+            let whole = Problem { exact, ..staying(surface.as_ref().unwrap_or(&self.all)) };
+            let last = whole.run(ended.pose, reach, MAX_EXACT_ROUNDS, progress)?;
+            let all = Problem { exact, ..*all };
+            let matches = all.matches(&last.pose, f64::INFINITY, progress)?;
+            let iterations = ended.iterations + last.iterations;
+            return work.judged(&all, &Ended { iterations, ..last }, matches, (subset, &loose), progress);
+        }
         match ended.converged && surface.is_none() {
             true => all.complete(&mut room.matches, &ended.pose, progress)?,
             false => room.matches = all.matches(&ended.pose, f64::INFINITY, progress)?,

@@ -73,6 +73,7 @@ impl<'a> Work<'a> {
     pub fn problem<'b>(&'b self, samples: &'b Samples) -> Problem<'b> {
         Problem {
             target: self.target,
+            exact: None,
             boundary_edges: self.boundary_edges,
             samples,
             mean: samples.moments().mean,

@@ -41,8 +41,7 @@ pub(super) fn of(surface: &Surface, reversed: bool, window: [[f64; 2]; 2]) -> Op
             Some(Found { shape, sense: Sense::Flat, ends: None })
         }
         Surface::Cylinder { frame, radius } => {
-            let shape =
-                Shape::Cylinder { point: frame.origin, direction: frame.axes[2], radius: *radius };
+            let shape = Shape::Cylinder { point: frame.origin, direction: frame.axes[2], radius: *radius };
             found(shape, frame, false, Some(on_axis(frame)))
         }
         Surface::Cone { frame, radius, half_angle } => {

@@ -36,7 +36,9 @@ pub enum NoNominal {
         within: f64,
     },
     /// They look opposite ways.
-    #[error("{first} and {second} of the reference are not one surface: they look opposite ways out of the material")]
+    #[error(
+        "{first} and {second} of the reference are not one surface: they look opposite ways out of the material"
+    )]
     Turned {
         /// The first.
         first: String,
@@ -187,9 +189,8 @@ fn hull(places: &[Point], normal: Vector) -> Vec<Point> {
     let v = cross(normal, u);
     let mut flat: Vec<([f64; 2], Point)> = places.iter().map(|p| ([dot(*p, u), dot(*p, v)], *p)).collect();
     flat.sort_by(|a, b| a.0[0].total_cmp(&b.0[0]).then(a.0[1].total_cmp(&b.0[1])));
-    let turn = |a: [f64; 2], b: [f64; 2], c: [f64; 2]| {
-        (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
-    };
+    let turn =
+        |a: [f64; 2], b: [f64; 2], c: [f64; 2]| (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
     let chain = |flat: &mut dyn Iterator<Item = ([f64; 2], Point)>| {
         let mut out: Vec<([f64; 2], Point)> = vec![];
         for p in flat {

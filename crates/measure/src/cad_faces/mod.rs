@@ -2,12 +2,14 @@
 //!
 //! | file | what |
 //! |---|---|
+//! | `align` | alignments end on them |
 //! | `face` | what is known of a face |
 //! | `element` | the element that a surface is |
 //! | `one_surface` | which faces are parts of one surface |
 //! | `named` | faces by their number or name |
 //! | `extent` | some faces as the nominal of a feature |
 
+mod align;
 mod element;
 mod extent;
 mod face;
@@ -49,7 +51,8 @@ impl CadFaces {
     /// Of a model where its parts stand. `of_facets` is the face of each facet of the mesh that draws them within `drawn_within` mm.
     pub fn new(model: &Model, shape: Trimmed, of_facets: Vec<u32>, drawn_within: f64) -> CadFaces {
         let Trimmed { brep, trims } = shape;
-        let faces = brep.faces.iter().zip(&trims).map(|(face, trim)| CadFace::new(face, trim.as_ref())).collect();
+        let faces =
+            brep.faces.iter().zip(&trims).map(|(face, trim)| CadFace::new(face, trim.as_ref())).collect();
         let neighbors = neighbors(&brep);
         let search = Search::new(&brep, trims.into_iter().map(Result::ok).collect());
         let unread = model.unread.iter().filter(|u| u.holds_faces);
@@ -75,7 +78,11 @@ impl CadFaces {
 
     /// The facets of some faces, ascending.
     pub fn facets(&self, faces: &[u32]) -> Vec<u32> {
-        (0u32..).zip(&self.of_facets).filter(|(_, face)| faces.contains(face)).map(|(facet, _)| facet).collect()
+        (0u32..)
+            .zip(&self.of_facets)
+            .filter(|(_, face)| faces.contains(face))
+            .map(|(facet, _)| facet)
+            .collect()
     }
 }
 

@@ -19,7 +19,9 @@ pub struct FaceChoice {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum NoFace {
     /// No face has the number.
-    #[error("the reference has no face {number}; it has {count} faces, from {first} to {last}, and the nearest numbers are {near}")]
+    #[error(
+        "the reference has no face {number}; it has {count} faces, from {first} to {last}, and the nearest numbers are {near}"
+    )]
     Number {
         /// The number.
         number: u64,
@@ -92,9 +94,10 @@ impl CadFaces {
         let instance = choice.instance.as_ref().map(|path| self.instance(path)).transpose()?;
         let mut all = vec![];
         for number in &choice.numbers {
-            all.extend(self.one(&format!("face {number}"), instance, |n| self.faces[n].entity == *number)?.ok_or_else(
-                || self.no_number(*number),
-            )?);
+            all.extend(
+                self.one(&format!("face {number}"), instance, |n| self.faces[n].entity == *number)?
+                    .ok_or_else(|| self.no_number(*number))?,
+            );
         }
         if let Some(name) = &choice.name {
             let own = self.one(&format!("name \"{name}\""), instance, |n| self.faces[n].name == *name)?;
@@ -119,7 +122,8 @@ impl CadFaces {
         let all: Vec<usize> = (0..self.faces.len()).filter(is_of).collect();
         let instances: BTreeSet<u32> = all.iter().map(|n| self.faces[*n].instance).collect();
         if instances.len() > 1 {
-            let path = |i: &u32| format!("\"{}\"", self.instances.get(*i as usize).map_or("", String::as_str));
+            let path =
+                |i: &u32| format!("\"{}\"", self.instances.get(*i as usize).map_or("", String::as_str));
             let paths: Vec<String> = instances.iter().take(MAX_LISTED).map(path).collect();
             let more = if instances.len() > MAX_LISTED { ", …" } else { "" };
             return Err(NoFace::Instances {
@@ -152,7 +156,8 @@ impl CadFaces {
     }
 
     fn no_name(&self, name: &str) -> NoFace {
-        let known: BTreeSet<&str> = self.faces.iter().map(|f| f.name.as_str()).filter(|n| !n.is_empty()).collect();
+        let known: BTreeSet<&str> =
+            self.faces.iter().map(|f| f.name.as_str()).filter(|n| !n.is_empty()).collect();
         let known: Vec<&str> = known.into_iter().collect();
         if known.is_empty() { NoFace::Nameless } else { NoFace::Name(not_known("face", name, &known)) }
     }

@@ -31,6 +31,14 @@ struct Along {
     surfaces: Vec<SurfaceFeet>,
 }
 
+/// What is kept of a point, and its face.
+struct OnFace {
+    kept: Kept,
+    /// Whether its side and its place are beyond doubt.
+    is_certain: bool,
+    face: u32,
+}
+
 /// Where a line meets a face.
 #[derive(Clone, Copy)]
 struct Met {
@@ -74,30 +82,32 @@ impl<'a> CadTarget<'a> {
         asked: &Asked,
         progress: &dyn Progress,
     ) -> Result<Measures, QueryError> {
-        let near = self.faces.search.map(points, progress, |i, near| (self.deviation(&points[i], &near), near))?;
-        let found: Vec<(Kept, bool)> = match &self.along {
+        let near =
+            self.faces.search.map(points, progress, |i, near| (self.deviation(&points[i], &near), near))?;
+        let found: Vec<OnFace> = match &self.along {
             None => (0..points.len()).into_par_iter().map(|i| self.at_nearest(i, near[i], asked)).collect(),
             Some(along) => self.along_lines(along, points, &near, asked, &OnlyCancels(progress))?,
         };
-        let uncertain = found.iter().filter(|f| !f.1).count() as u64;
-        let kept = found.into_iter().map(|f| f.0).collect();
-        Ok(Measures { uncertain, ..Measures::of(kept, asked) })
+        let uncertain = found.iter().filter(|f| !f.is_certain).count() as u64;
+        let faces = found.iter().map(|f| f.face).collect();
+        let kept = found.into_iter().map(|f| f.kept).collect();
+        Ok(Measures { uncertain, faces, ..Measures::of(kept, asked) })
     }
 
     /// What is kept of a point at its nearest place, and whether its side is certain.
-    fn at_nearest(&self, i: usize, (deviation, near): (f64, CadNearest), asked: &Asked) -> (Kept, bool) {
-        let certain = near.side != Side::Unsure;
+    fn at_nearest(&self, i: usize, (deviation, near): (f64, CadNearest), asked: &Asked) -> OnFace {
+        let of = |kept| OnFace { kept, is_certain: near.side != Side::Unsure, face: near.face };
         if !deviation.is_finite() {
-            return (none(deviation), certain);
+            return of(none(deviation));
         }
         if !asked.agrees(i, || near.normal) {
-            return (none(Excluded::Facing.value()), certain);
+            return of(none(Excluded::Facing.value()));
         }
         let drawn = || self.tree.closest(&near.place, f64::INFINITY).ok().flatten();
-        match asked.needs_place(i).then(drawn).flatten() {
-            Some(at) => (asked.kept(i, deviation, at.face, at.barycentric, &near.place), certain),
-            None => (none(deviation), certain),
-        }
+        of(match asked.needs_place(i).then(drawn).flatten() {
+            Some(at) => asked.kept(i, deviation, at.face, at.barycentric, &near.place),
+            None => none(deviation),
+        })
     }
 
     /// The same where lines meet the faces.
@@ -108,26 +118,29 @@ impl<'a> CadTarget<'a> {
         near: &[(f64, CadNearest)],
         asked: &Asked,
         progress: &dyn Progress,
-    ) -> Result<Vec<(Kept, bool)>, QueryError> {
+    ) -> Result<Vec<OnFace>, QueryError> {
         let direction = |i: usize| along.direction(asked.start + i as u64, &near[i].1);
         let line = |i: usize| direction(i).filter(|_| near[i].0.is_finite());
-        let crossings = self.tree.map_crossings(points, line, f64::INFINITY, progress, |_, crossing| crossing)?;
+        let crossings =
+            self.tree.map_crossings(points, line, f64::INFINITY, progress, |_, crossing| crossing)?;
         let kept = |i: usize| {
             let (deviation, nearest) = near[i];
+            let is_certain = nearest.side != Side::Unsure;
+            let of = |kept, is_certain, face| OnFace { kept, is_certain, face };
             if !deviation.is_finite() {
-                return (none(deviation), nearest.side != Side::Unsure);
+                return of(none(deviation), is_certain, nearest.face);
             }
-            let Some(way) = direction(i) else { return (none(Excluded::NoDirection.value()), true) };
+            let left_out = |why: Excluded| of(none(why.value()), true, nearest.face);
+            let Some(way) = direction(i) else { return left_out(Excluded::NoDirection) };
             let met = crossings[i].map(|c| self.met(along, &points[i], way, &c));
             let Some(met) = met.filter(|met| met.distance <= self.options.max_distance) else {
-                return (none(Excluded::NoCrossing.value()), true);
+                return left_out(Excluded::NoCrossing);
             };
             if !asked.agrees(i, || met.normal) {
-                return (none(Excluded::Facing.value()), true);
+                return left_out(Excluded::Facing);
             }
-            let certain = nearest.side != Side::Unsure && met.is_exact;
-            let deviation = met.distance.copysign(deviation);
-            (asked.kept(i, deviation, met.facet, met.weights, &met.place), certain)
+            let kept = asked.kept(i, met.distance.copysign(deviation), met.facet, met.weights, &met.place);
+            of(kept, is_certain && met.is_exact, self.faces.of_facets[met.facet as usize])
         };
         Ok((0..points.len()).into_par_iter().map(kept).collect())
     }
@@ -219,9 +232,7 @@ impl Along {
         let way = match self.rule {
             AlongRule::Direction(way) => Some(way),
             AlongRule::Reference => near.normal,
-            AlongRule::Measured => {
-                usize::try_from(index).ok().and_then(|i| self.normals.get(i)).copied()
-            }
+            AlongRule::Measured => usize::try_from(index).ok().and_then(|i| self.normals.get(i)).copied(),
         };
         way.filter(|d| d.iter().any(|x| *x != 0.0) && d.iter().all(|x| x.is_finite()))
     }

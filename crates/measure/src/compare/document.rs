@@ -119,6 +119,7 @@ fn comparison(
             uncertain: s.uncertain,
             drawn_within: s.drawn_within,
         }),
+        faces: c.faces.clone(),
         along: c.along.map(along),
         sign: sign(&c.sign, c.disagreement.as_ref()),
         soundness: soundness(c),

@@ -84,12 +84,14 @@ pub struct Measures {
     /// Numbers of regions, 0 for none; empty where there are no regions.
     pub regions: Vec<u16>,
     pub uncertain: u64,
+    /// The face of each point, of a CAD model; empty else.
+    pub faces: Vec<u32>,
 }
 
 impl Measures {
     pub fn of(found: Vec<Kept>, asked: &Asked) -> Measures {
         let regions = asked.regions.map_or(vec![], |_| found.iter().map(|f| f.2).collect());
         let (deviations, feet) = found.into_iter().map(|(d, foot, _)| (d, foot)).unzip();
-        Measures { deviations, feet, regions, uncertain: 0 }
+        Measures { deviations, feet, regions, uncertain: 0, faces: vec![] }
     }
 }

@@ -9,6 +9,7 @@ mod covered;
 mod document;
 mod excluded;
 mod extremes;
+mod face_tally;
 mod facing;
 mod found;
 mod judgement;
@@ -22,6 +23,7 @@ mod region;
 mod research;
 mod reverse;
 mod shown;
+mod surfaces_found;
 mod target;
 mod worst;
 

@@ -7,15 +7,18 @@ use super::coverage::Coverage;
 use super::covered::{CoverageSample, Covered};
 use super::excluded::Excluded;
 use super::extremes::Extremes;
+use super::face_tally::FaceTallies;
 use super::facing::Facing;
+use super::kept::{Asked, Measures};
 use super::map::{Flagged, Foot, MapSurface, PlaceMeans, PointMap};
 use super::options::Options;
 use super::outliers::{OutlierLimits, OutlierRule, Outliers};
 use super::region::{RegionRule, Regions};
-use super::kept::{Asked, Measures};
+use super::surfaces_found::SurfacesFound;
 use super::target::Target;
 use super::worst::{WorstPlaces, WorstPoint, sort};
 use trueness_document::compare::Method;
+use trueness_document::face::FaceDeviation;
 use trueness_document::tolerance::badness;
 use trueness_geom::check::Precondition;
 use trueness_geom::closest::{QueryError, Tree};
@@ -65,6 +68,8 @@ pub struct Compared {
     pub paper_vs_exact: Option<Differences>,
     /// What is to be said of exact surfaces.
     pub surfaces: Option<SurfacesFound>,
+    /// Deviations of each face that has points, of a CAD model.
+    pub faces: Vec<FaceDeviation>,
     /// The reference colored by the points near each place, for a report.
     pub map: Option<MapSurface>,
     /// What of the reference the points cover, where it is asked.
@@ -97,27 +102,7 @@ pub struct Taken {
     pub deviations: Vec<f64>,
     feet: Vec<Option<Foot>>,
     regions: Vec<u16>,
-}
-
-/// What is to be said of a comparison with exact surfaces.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SurfacesFound {
-    /// Number of surfaces.
-    pub surfaces: usize,
-    /// Points whose nearest place is not beyond doubt.
-    pub uncertain: u64,
-    /// How far the facets that draw them may be from the surfaces, millimeters.
-    pub drawn_within: f64,
-}
-
-impl SurfacesFound {
-    fn of(exact: Exact) -> SurfacesFound {
-        let (surfaces, drawn_within) = match exact {
-            Exact::Splines(search) => (search.surfaces(), search.mesh_distance()),
-            Exact::Cad(faces) => (faces.faces.len(), faces.drawn_within),
-        };
-        SurfacesFound { surfaces, uncertain: 0, drawn_within }
-    }
+    faces: Vec<u32>,
 }
 
 /// One of the worst places, with where it is on the reference.
@@ -149,6 +134,7 @@ pub struct Running<'a> {
     left_out: Vec<u32>,
     target: Target<'a>,
     surfaces: Option<SurfacesFound>,
+    faces: Option<FaceTallies<'a>>,
     values: Values,
     keep: usize,
     limits: Option<Limits>,
@@ -195,6 +181,10 @@ impl<'a> Running<'a> {
             tallies: regions.iter().flat_map(Regions::rules).map(tally).collect(),
             target: Target::new(reference, tree, options, progress)?,
             surfaces: reference.exact.map(SurfacesFound::of),
+            faces: match reference.exact {
+                Some(Exact::Cad(faces)) => Some(FaceTallies::new(faces)),
+                Some(Exact::Splines(_)) | None => None,
+            },
             values: Values::All(vec![]),
             keep,
             limits: options.tolerance.map(|t| Limits::new(t.lower, t.upper)),
@@ -233,7 +223,7 @@ impl<'a> Running<'a> {
         let (map, regions) = (self.map.as_ref().map(|map| (map, self.mesh)), self.regions.as_ref());
         let sample = self.sample.as_ref();
         let asked = Asked { start, map, sample, facing: self.facing.as_ref(), regions };
-        let Measures { mut deviations, feet, regions, uncertain } =
+        let Measures { mut deviations, feet, regions, uncertain, faces } =
             self.target.measure(points, &asked, progress)?;
         if let Some(surfaces) = &mut self.surfaces {
             surfaces.uncertain += uncertain;
@@ -247,7 +237,7 @@ impl<'a> Running<'a> {
                 *d = t.distance.copysign(*d);
             }
         }
-        Ok(Taken { deviations, feet, regions })
+        Ok(Taken { deviations, feet, regions, faces })
     }
 
     /// Finds the limits of a rule for outliers from all blocks. They hold for all that is counted afterwards.
@@ -292,6 +282,11 @@ impl<'a> Running<'a> {
             }
         }
         let zone = |region: u16| zone(self.regions.as_ref(), self.limits.as_ref(), region);
+        if let Some(tallies) = &mut self.faces {
+            for (i, face) in taken.faces.iter().enumerate() {
+                tallies.add(*face, deviations[i], zone(taken.regions.get(i).copied().unwrap_or(0)));
+            }
+        }
         let judged = |i: usize| match taken.regions.get(i) {
             Some(region) => (badness(deviations[i], zone(*region)), *region),
             _ => (deviations[i].abs(), 0),
@@ -430,6 +425,7 @@ impl<'a> Running<'a> {
             outliers: self.outliers,
             paper_vs_exact: self.paper.map(|(_, versus)| versus),
             surfaces: self.surfaces,
+            faces: self.faces.as_ref().map_or(vec![], FaceTallies::records),
             between: self.between,
             covered,
             map,

@@ -119,7 +119,7 @@ impl<'a> Target<'a> {
             }
             Target::Facets { surface, .. } if asked.only_distances() => {
                 let deviations = surface.deviations(points, progress)?;
-                Ok(Measures { deviations, feet: vec![], regions: vec![], uncertain: 0 })
+                Ok(Measures { deviations, feet: vec![], regions: vec![], uncertain: 0, faces: vec![] })
             }
             Target::Facets { surface, mesh, along: None } => {
                 let (tree, turn) = (surface.tree(), if surface.sign().inside_out { -1.0 } else { 1.0 });
@@ -145,7 +145,7 @@ impl<'a> Target<'a> {
                 })?;
                 let uncertain = found.iter().filter(|f| !f.2).count() as u64;
                 let (deviations, feet) = found.into_iter().map(|(d, f, _)| (d, f)).unzip();
-                Ok(Measures { deviations, feet, regions: vec![], uncertain })
+                Ok(Measures { deviations, feet, regions: vec![], uncertain, faces: vec![] })
             }
             Target::Cad(target, _) => target.measure(points, asked, progress),
         }

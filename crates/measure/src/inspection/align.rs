@@ -9,8 +9,8 @@ use crate::compare::Regions;
 use crate::plan::{Align, Plan};
 use std::ops::Range;
 use trueness_geom::align::{
-    self, AlignError, AlignWarning, BestFit, InZones, Measured, Minimax, RowFit, Target, best_fit,
-    into_zones, minimax,
+    self, AlignError, AlignWarning, BestFit, ExactSurface, InZones, Measured, Minimax, RowFit, Target,
+    best_fit, into_zones, minimax,
 };
 use trueness_geom::closest::Tree;
 use trueness_geom::deviation::surface::{ReferenceSurface, SurfaceOptions};
@@ -191,7 +191,8 @@ fn best_fitted(
     let tree = Tree::build_watched(reference, progress).map_err(|e| failed(e.into()).of_every_part())?;
     let measured = Measured::from(measured);
     let options = BestFit { seed: data.seed, ..BestFit::default() };
-    let target = Target::new(reference, &tree);
+    let exact = data.faces.as_deref().map(|faces| faces as &dyn ExactSurface);
+    let target = Target::new(reference, &tree).drawing(exact);
     let fit = best_fit(&measured, &target, &options, progress).map_err(failed)?;
     if let (Align::Zones, Some(asked)) = (&plan.align, &plan.deviation) {
         let surface = ReferenceSurface::new(&tree, reference, &SurfaceOptions::default(), progress)

@@ -42,7 +42,8 @@ impl Model {
             facets[*face as usize].push(facet);
         }
         let piece = |own: &Vec<u32>| {
-            let mut all: Vec<u32> = own.iter().flat_map(|f| std::mem::take(&mut facets[*f as usize])).collect();
+            let mut all: Vec<u32> =
+                own.iter().flat_map(|f| std::mem::take(&mut facets[*f as usize])).collect();
             all.sort_unstable();
             (all, own.first().and_then(|f| faces.faces[*f as usize].shape))
         };
@@ -55,7 +56,9 @@ impl Model {
     pub fn records(&self, own: &OwnFaces) -> Vec<FaceRecord> {
         let mut all: Vec<u32> = match &own.part {
             Some(part) => part.faces.clone(),
-            None => own.faces.iter().filter_map(|f| self.members.get(*f as usize)).flatten().copied().collect(),
+            None => {
+                own.faces.iter().filter_map(|f| self.members.get(*f as usize)).flatten().copied().collect()
+            }
         };
         all.sort_unstable();
         all.into_iter().map(|face| self.faces.record(face)).collect()
@@ -124,7 +127,8 @@ fn contradicted(feature: &Feature, inward: Option<bool>) -> Result<(), String> {
 /// The faces of the partition that have some faces of the file.
 fn own_faces(model: &Model, reference: &Mesh, faces: &Faces, own: Vec<u32>) -> Result<OwnFaces, String> {
     let has_some = |members: &Vec<u32>| members.iter().any(|m| own.binary_search(m).is_ok());
-    let with_some: Vec<u32> = (0..).zip(&model.members).filter(|(_, m)| has_some(m)).map(|(n, _)| n).collect();
+    let with_some: Vec<u32> =
+        (0..).zip(&model.members).filter(|(_, m)| has_some(m)).map(|(n, _)| n).collect();
     let whole: usize = with_some.iter().map(|n| model.members[*n as usize].len()).sum();
     let part = match whole > own.len() {
         false => None,

@@ -3,11 +3,11 @@
 use super::data::Data;
 use super::nominals::Nominals;
 use super::stop::{NominalFault, NotCompared, Stop};
+use crate::cad_faces::CadFaces;
 use crate::compare::{
     self, Between, CompareError, Comparisons, Exact, Extent, Facing, Lines, Options, Reference, RegionRule,
     vertex_normals,
 };
-use crate::cad_faces::CadFaces;
 use crate::file_numbers::LeftOut;
 use crate::plan::{Deviation, Plan};
 use std::convert::Infallible;

@@ -1,7 +1,7 @@
 //! What is known of a plan's features before anything is measured: their nominals, and the faces of the reference that they are.
 
-use super::data::Data;
 use super::by_face::{self, Located, Model, PartOfFaces};
+use super::data::Data;
 use super::seed;
 use super::stop::{NominalFault, Stop};
 use crate::plan::Plan;
@@ -50,7 +50,8 @@ impl Nominals {
     /// # Errors
     /// [`Stop`]: a reference that cannot be cut into faces, a seed that is at no face of the feature's kind.
     pub fn new(plan: &Plan, data: &Data, progress: &dyn Progress) -> Result<Nominals, Stop> {
-        let mut nominals = Nominals { located: BTreeMap::new(), faces: None, own: BTreeMap::new(), model: None };
+        let mut nominals =
+            Nominals { located: BTreeMap::new(), faces: None, own: BTreeMap::new(), model: None };
         let is_sought = plan.features.iter().any(Feature::has_nominal);
         let Some(reference) = data.reference.as_ref().filter(|r| is_sought && !r.faces.is_empty()) else {
             return Ok(nominals);
@@ -58,10 +59,13 @@ impl Nominals {
         let model = data.faces.as_ref().map(|faces| Model::new(faces.clone(), reference));
         let (model, faces) = match model {
             Some((model, faces)) => (Some(model), faces),
-            None => (None, Faces::of(reference, progress).map_err(|e| match e {
-                SegmentError::Cancelled(e) => e.into(),
-                e => Stop::Nominal(NominalFault::Faces(e)),
-            })?),
+            None => (
+                None,
+                Faces::of(reference, progress).map_err(|e| match e {
+                    SegmentError::Cancelled(e) => e.into(),
+                    e => Stop::Nominal(NominalFault::Faces(e)),
+                })?,
+            ),
         };
         nominals.located = seed::seeded(plan, reference, (&faces, model.as_ref()), progress)?;
         nominals.located.extend(by_face::chosen(plan, reference, (&faces, model.as_ref()))?);

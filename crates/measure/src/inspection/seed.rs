@@ -59,7 +59,8 @@ pub(super) fn seeded(
         let corners = |f: &u32| reference.faces[*f as usize].map(|v| reference.positions[v as usize]);
         let facets: Vec<[Point; 3]> = face.facets.iter().map(corners).collect();
         // The faces of a CAD model are known beyond their facets, where they are elements in the file.
-        let members = model.zip(place).and_then(|(m, place)| Some((&m.faces, m.members.get(place as usize)?)));
+        let members =
+            model.zip(place).and_then(|(m, place)| Some((&m.faces, m.members.get(place as usize)?)));
         let exact = members.and_then(|(faces, own)| faces.nominal(own, kind?, reference).ok());
         let nominal = exact
             .or_else(|| nominal_of(&shape, &facets))

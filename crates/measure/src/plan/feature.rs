@@ -131,11 +131,7 @@ fn feature(
 }
 
 /// A feature by the region of the reference around a place.
-fn seeded(
-    checker: &Checker,
-    seed: &At<[f64; 3]>,
-    class: Class,
-) -> Result<Source, PlanError> {
+fn seeded(checker: &Checker, seed: &At<[f64; 3]>, class: Class) -> Result<Source, PlanError> {
     if !SOUGHT.contains(&class) {
         let what = format!("regions are planes, cylinders, cones and spheres; a {} has none", class.word());
         return checker.wrong(&seed.span, what);
@@ -154,7 +150,9 @@ fn one_source(checker: &Checker, written: &FeatureText) -> Result<(), PlanError>
         (Some(seed), None) if others => {
             checker.wrong(&seed.span, "give one of `seed`, `nominal` and `points`")
         }
-        (seed, Some(span)) if others || seed.is_some() || (written.face.is_some() && written.name.is_some()) => {
+        (seed, Some(span))
+            if others || seed.is_some() || (written.face.is_some() && written.name.is_some()) =>
+        {
             checker.wrong(span, "give one of `face`, `name`, `seed`, `nominal` and `points`")
         }
         (_, None) if written.instance.is_some() => {
@@ -188,7 +186,8 @@ fn chosen_faces(
         return checker.wrong(&span, "the list of faces is empty; give the number of one at least");
     }
     if !SOUGHT.contains(&class) {
-        let what = format!("faces are sought as planes, cylinders, cones and spheres; a {} is not", class.word());
+        let what =
+            format!("faces are sought as planes, cylinders, cones and spheres; a {} is not", class.word());
         return checker.wrong(&span, what);
     }
     let text = |at: &Option<At<String>>| at.as_ref().map(|at| at.value.trim().to_string());

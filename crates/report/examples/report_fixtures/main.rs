@@ -406,6 +406,7 @@ fn comparison(
     let side = |keep: &dyn Fn(f64) -> bool| statistics(&sorted(values.iter().copied().filter(|v| keep(*v))));
     Comparison {
         surfaces: None,
+        faces: vec![],
         reference: reference.into(),
         rank: n as u32 + 1,
         warnings: vec![],

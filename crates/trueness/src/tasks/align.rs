@@ -12,13 +12,17 @@ use trueness_document::align::AlignDocument;
 use trueness_document::{InputRecord, Role};
 use trueness_files::Sources;
 use trueness_files::write::{self, Block, Layout, MeshFile, Writable};
-use trueness_geom::align::{self, AlignError, BestFit, Lock, Measured, Row, RowFit, Start, Target};
+use trueness_geom::align::{
+    self, AlignError, BestFit, ExactSurface, Lock, Measured, Row, RowFit, Start, Target,
+};
 use trueness_geom::closest::{MeshError, Tree};
 use trueness_geom::deviation::surface::{ReferenceSurface, SurfaceOptions};
 use trueness_geom::mesh::Mesh;
+use trueness_geom::progress::Silent;
 use trueness_geom::rigid::Rigid;
 use trueness_geom::scan::Scan;
 use trueness_geom::space::{Point, times};
+use trueness_measure::cad_faces::CadFaces;
 use trueness_measure::compare::Regions;
 
 choices! {
@@ -122,7 +126,7 @@ impl AlignRequest {
     /// The pose of a best fit, or of a search that begins with one.
     fn best_fit(
         &self,
-        (scan, reference): (&Scan, &Mesh),
+        (scan, reference, faces): (&Scan, &Mesh, Option<&CadFaces>),
         records: Vec<InputRecord>,
         (sources, watch): (&dyn Sources, &dyn Watch),
     ) -> Result<AlignDocument, TaskError> {
@@ -142,7 +146,8 @@ impl AlignRequest {
                 Lock::new(axes, &measured, Rigid::IDENTITY)
             }),
         };
-        let target = Target::new(reference, &tree);
+        let exact = faces.map(|faces| faces as &dyn ExactSurface);
+        let target = Target::new(reference, &tree).drawing(exact);
         let failed = |e: AlignError| match e {
             AlignError::Cancelled(e) => e.into(),
             e => TaskError::unanswerable(format!("{}: {e}", self.measured.display())),
@@ -201,7 +206,8 @@ impl Request for AlignRequest {
             measured.holds().check(path)?;
         }
         let reading = self.reference_reading.options(&self.reading);
-        let (reference, mut record) = read::mesh(sources, &self.reference, Role::Reference, &reading)?;
+        let (reference, faces, mut record) =
+            read::mesh_or_faces(sources, &self.reference, &reading, &Silent)?;
         read::hash(sources, &mut measured.record, &self.measured)?;
         read::hash(sources, &mut record, &self.reference)?;
         let records = vec![measured.record.clone(), record];
@@ -211,7 +217,10 @@ impl Request for AlignRequest {
                 let corners = reference.mesh.bounds().corners();
                 trueness_measure::align::rows(&found, self.method.word(), &corners, records, self.seed)
             }
-            None => self.best_fit((&measured.scan, &reference.mesh), records, (sources, watch))?,
+            None => {
+                let parts = (&measured.scan, &reference.mesh, faces.as_ref());
+                self.best_fit(parts, records, (sources, watch))?
+            }
         };
         let motion = Rigid::from_matrix(document.motion()).meaning(|| "the motion found".into())?;
         let mut done = Done::new(document);

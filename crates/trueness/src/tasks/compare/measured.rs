@@ -6,7 +6,7 @@ use std::path::Path;
 use trueness_document::compare::MeasuredKind;
 use trueness_document::{InputRecord, Role};
 use trueness_files::{Columns, PointSource, ReadOptions, Sources, Weld};
-use trueness_geom::align::{self, AlignError, Alignment, BestFit, Target};
+use trueness_geom::align::{self, AlignError, Alignment, BestFit, ExactSurface, Target};
 use trueness_geom::closest::{MeshError, Tree};
 use trueness_geom::cloud::Whole;
 use trueness_geom::deviation::sample::sample as sample_mesh;
@@ -15,6 +15,7 @@ use trueness_geom::progress::Progress;
 use trueness_geom::rigid::Rigid;
 use trueness_geom::space::Vector;
 use trueness_geom::topology::weld;
+use trueness_measure::cad_faces::CadFaces;
 use trueness_measure::compare::{facet_normals, vertex_normals};
 
 /// What is compared.
@@ -88,7 +89,7 @@ impl Measured {
     pub fn align(
         &mut self,
         path: &Path,
-        reference: &Mesh,
+        (reference, faces): (&Mesh, Option<&CadFaces>),
         seed: u64,
         progress: &dyn Progress,
     ) -> Result<Alignment, TaskError> {
@@ -103,7 +104,9 @@ impl Measured {
             None => align::Measured::Points { points: &points, normals: None },
         };
         let options = BestFit { seed, ..BestFit::default() };
-        let found = align::best_fit(&scan, &Target::new(reference, &tree), &options, progress);
+        let exact = faces.map(|faces| faces as &dyn ExactSurface);
+        let target = Target::new(reference, &tree).drawing(exact);
+        let found = align::best_fit(&scan, &target, &options, progress);
         let found = found.map_err(|e| match e {
             AlignError::Cancelled(e) => e.into(),
             e => TaskError::unanswerable(format!("{}: {e}", path.display())),

@@ -65,7 +65,7 @@ impl Prepared {
     /// Brings the measured to the first reference.
     fn align(&mut self, request: &CompareRequest, watch: &dyn Watch) -> Result<(), TaskError> {
         let stage = watch.stage("aligning", STEPS, None);
-        let reference = self.opened[0].mesh();
+        let reference = (self.opened[0].mesh(), self.opened[0].faces());
         let found = self.measured.align(&request.measured, reference, request.seed, &*stage)?;
         self.alignment = Some(trueness_measure::align::aligned_to(&found, self.files[1].path.clone()));
         Ok(())

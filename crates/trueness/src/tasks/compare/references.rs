@@ -33,6 +33,13 @@ impl Opened {
             Opened::Mesh(mesh, _) | Opened::Surfaces(_, mesh) | Opened::Cad(_, mesh) => mesh,
         }
     }
+    /// The faces of a CAD model.
+    pub fn faces(&self) -> Option<&CadFaces> {
+        match self {
+            Opened::Cad(faces, _) => Some(faces),
+            Opened::Mesh(..) | Opened::Surfaces(..) => None,
+        }
+    }
     /// The same for the comparison.
     fn reference(&self, name: String) -> Reference<'_> {
         let (exact, left_out) = match self {
