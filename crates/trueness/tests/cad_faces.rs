@@ -140,7 +140,9 @@ impl Step {
     }
 }
 
-const [LENGTH, WIDTH, HEIGHT]: [f64; 3] = [40.0, 30.0, 10.0];
+const LENGTH: f64 = 40.0;
+const WIDTH: f64 = 30.0;
+const HEIGHT: f64 = 10.0;
 const RADIUS: f64 = 5.0;
 const CENTER: [f64; 2] = [20.0, 15.0];
 
@@ -215,7 +217,8 @@ fn moved(points: &[Point]) -> Vec<Point> {
 
 /// The document of a plan with these features, each judged by its form, and what else it has.
 fn inspected(step: &str, points: &[Point], rest: &str) -> Result<InspectDocument, TaskError> {
-    let plan = format!("schema = \"trueness/plan/1\"\nmeasured = \"scan.xyz\"\nreference = \"plate.step\"\n{rest}");
+    let plan =
+        format!("schema = \"trueness/plan/1\"\nmeasured = \"scan.xyz\"\nreference = \"plate.step\"\n{rest}");
     let sources: MemorySources = [
         ("plan.toml".into(), plan),
         ("plate.step".into(), step.to_string()),
@@ -279,7 +282,8 @@ fn features_by_face_have_the_values_of_their_nominals() {
 #[test]
 fn a_face_is_not_its_whole_surface() {
     let (step, faces) = plate(0.0);
-    let found = inspected(&step, &scan(0.02), &bore_and_plane(&format!("face = {}", faces[6]), "name = \"TOP\""));
+    let found =
+        inspected(&step, &scan(0.02), &bore_and_plane(&format!("face = {}", faces[6]), "name = \"TOP\""));
     let document = found.unwrap();
     assert_eq!(document.features[0].points, 288);
     assert_eq!(document.features[0].faces.iter().map(|f| f.face).collect::<Vec<_>>(), [faces[6]]);
@@ -296,23 +300,41 @@ fn faces_that_cannot_be_the_feature_are_refused_with_the_reason() {
         inspected(step, &scan(0.0), &plan).unwrap_err().to_string()
     };
     let number = refused(&step, "face = 3");
-    assert!(number.contains("line 8, column 8: feature \"B\": the reference has no face 3; it has 8 faces"), "{number}");
+    assert!(
+        number.contains("line 8, column 8: feature \"B\": the reference has no face 3; it has 8 faces"),
+        "{number}"
+    );
     let kind = refused(&step, &format!("face = {top}"));
-    assert!(kind.contains(&format!("face {top} \"TOP\" of the reference is a plane, not a cylinder")), "{kind}");
+    assert!(
+        kind.contains(&format!("face {top} \"TOP\" of the reference is a plane, not a cylinder")),
+        "{kind}"
+    );
     let name = refused(&step, "name = \"BOR\"");
     assert!(name.contains("there is no face \"BOR\"; did you mean \"BORE\"?"), "{name}");
     let instance = refused(&step, "name = \"BORE\"\ninstance = \"left\"");
     assert!(instance.contains("there is no instance \"left\""), "{instance}");
     let shaft = refused(&step, &format!("face = {first}\ninternal = false"));
-    assert!(shaft.contains("`internal` is false, but the material of the reference is around the face"), "{shaft}");
+    assert!(
+        shaft.contains("`internal` is false, but the material of the reference is around the face"),
+        "{shaft}"
+    );
     let both = refused(&step, &format!("face = {first}\nseed = [1, 2, 3]"));
     assert!(both.contains("give one of `face`, `name`, `seed`, `nominal` and `points`"), "{both}");
     let (apart, _) = plate(0.01);
     let apart = refused(&apart, &format!("face = [{first}, {second}]"));
-    assert!(apart.contains("are not one surface: they are 0.01") && apart.contains("0.000100 mm for the same"), "{apart}");
+    assert!(
+        apart.contains("are not one surface: they are 0.01") && apart.contains("0.000100 mm for the same"),
+        "{apart}"
+    );
     let mesh = "OFF\n3 1 0\n0 0 0\n9 0 0\n0 9 0\n3 0 1 2\n";
     let sources: MemorySources = [
-        ("plan.toml".into(), format!("schema = \"trueness/plan/1\"\nmeasured = \"scan.xyz\"\nreference = \"m.off\"\n{}", bore_and_plane("face = 3", "seed = [1, 1, 0]"))),
+        (
+            "plan.toml".into(),
+            format!(
+                "schema = \"trueness/plan/1\"\nmeasured = \"scan.xyz\"\nreference = \"m.off\"\n{}",
+                bore_and_plane("face = 3", "seed = [1, 1, 0]")
+            ),
+        ),
         ("m.off".into(), mesh.to_string()),
         ("scan.xyz".into(), xyz(&scan(0.0))),
     ]
