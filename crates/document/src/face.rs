@@ -47,3 +47,11 @@ impl FaceDeviation {
         if self.max >= -self.min { self.max } else { self.min }
     }
 }
+
+/// The faces with the deviations farthest to either side first, so many at most.
+pub fn worst_first(faces: &[FaceDeviation], most: usize) -> Vec<&FaceDeviation> {
+    let mut all: Vec<&FaceDeviation> = faces.iter().collect();
+    all.sort_by(|a, b| b.worst().abs().total_cmp(&a.worst().abs()));
+    all.truncate(most);
+    all
+}

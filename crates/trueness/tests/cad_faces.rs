@@ -373,6 +373,24 @@ fn compared(points: &[Point], along: &str) -> Vec<f64> {
     vec![own.deviation.all.min.unwrap(), own.deviation.all.max.unwrap()]
 }
 
+/// The table of points names the face of each.
+#[test]
+fn a_table_names_the_face_of_each_point() {
+    let (step, faces) = plate(0.0);
+    let path = std::env::temp_dir().join(format!("trueness-cad-faces-{}.csv", std::process::id()));
+    let points = [[3.0, 4.0, 10.5], [20.0, 19.0, 5.0], [20.0, 15.0, 500.0]];
+    let sources: MemorySources =
+        [("plate.step".to_string(), step), ("scan.xyz".into(), xyz(&points))].into_iter().collect();
+    let asked = serde_json::json!({"measured": "scan.xyz", "references": ["plate.step"], "out": path, "max_distance": 9});
+    let request: CompareRequest = serde_json::from_value(asked).unwrap();
+    request.run(&sources, &Silent).unwrap().commit().unwrap();
+    let text = std::fs::read_to_string(&path).unwrap();
+    std::fs::remove_file(&path).unwrap();
+    let wanted =
+        format!("x,y,z,deviation,face\n3,4,10.5,0.5,{}\n20,19,5,1,{}\n20,15,500,,\n", faces[1], faces[6]);
+    assert_eq!(text, wanted);
+}
+
 /// A line 3 off the axis of a bore of radius 5 meets it 4 from the middle.
 #[test]
 fn lines_meet_the_faces_themselves() {

@@ -11,6 +11,8 @@ pub struct Layout {
     pub deviation: bool,
     /// Beside the deviations the number of the reason why a point does not count.
     pub reason: bool,
+    /// The number of a face for each point; formats other than tables leave it out.
+    pub face: bool,
     /// A color for each point.
     pub color: bool,
 }
@@ -24,6 +26,8 @@ pub struct Block<'a> {
     pub deviation: &'a [f64],
     /// As many numbers of reasons, 0 for a point that counts; nothing where the layout has none.
     pub reason: &'a [u8],
+    /// As many numbers of faces, `None` for a point that has none; nothing where the layout has none.
+    pub face: &'a [Option<u64>],
     /// As many colors (red, green, blue); nothing where the layout has none.
     pub color: &'a [[u8; 3]],
 }

@@ -105,6 +105,7 @@ impl PointsSink for Table {
                 points: &block.points[start..end],
                 deviation: &block.deviation[of(self.layout.deviation)],
                 reason: &block.reason[of(self.layout.reason)],
+                face: &[],
                 color: &block.color[of(self.layout.color)],
             };
             self.group(&part).map_err(fault)?;

@@ -26,7 +26,7 @@ impl HeldPoints {
     ///
     /// Errors: those of [`points`](super::points).
     pub fn create(path: &Path, reason: bool) -> Result<HeldPoints, WriteError> {
-        let (file, waiting) = begin(path, Layout { deviation: true, reason, color: true })?;
+        let (file, waiting) = begin(path, Layout { deviation: true, reason, face: false, color: true })?;
         Ok(HeldPoints { file, waiting, reason })
     }
 
@@ -72,6 +72,7 @@ impl HeldPoints {
                     points: &points,
                     deviation: &deviation,
                     reason: &reason,
+                    face: &[],
                     color: &color,
                 })?;
                 bytes.drain(..whole);
@@ -116,10 +117,12 @@ mod tests {
         for (extension, with) in [("ply", true), ("vtp", true), ("csv", true), ("ply", false)] {
             let [now, later] =
                 ["now", "later"].map(|name| folder.path().join(format!("{name}{with}.{extension}")));
-            let mut file = points(&now, Layout { deviation: true, reason: with, color: true }).unwrap();
+            let mut file =
+                points(&now, Layout { deviation: true, reason: with, face: false, color: true }).unwrap();
             let (reason, seen) = if with { (&reason[..], &counts) } else { (&[][..], &deviation) };
             let colors = color(seen);
-            file.write(&Block { points: &all, deviation: &deviation, reason, color: &colors }).unwrap();
+            file.write(&Block { points: &all, deviation: &deviation, reason, face: &[], color: &colors })
+                .unwrap();
             file.finish().unwrap();
             let mut held = HeldPoints::create(&later, with).unwrap();
             for (n, (p, d)) in all.chunks(333_333).zip(deviation.chunks(333_333)).enumerate() {

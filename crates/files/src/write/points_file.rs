@@ -47,6 +47,7 @@ impl PointsFile {
         let write = |this: &mut Self| {
             even("deviations", this.layout.deviation, block.deviation.len())?;
             even("reasons", this.layout.reason, block.reason.len())?;
+            even("faces", this.layout.face, block.face.len())?;
             even("colors", this.layout.color, block.color.len())?;
             this.count += points as u64;
             this.writing.write(block)

@@ -15,6 +15,8 @@ mod extent;
 mod face;
 mod named;
 mod one_surface;
+#[cfg(test)]
+mod tests;
 
 pub use extent::NoNominal;
 pub use face::CadFace;

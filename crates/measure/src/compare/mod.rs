@@ -66,6 +66,8 @@ pub struct DeviationBlock<'a> {
     pub deviations: &'a [Vec<f64>],
     /// The same, but those of outliers as they were measured.
     pub measured: &'a [Vec<f64>],
+    /// For each reference that is a CAD model, the face of each point; empty for others.
+    pub faces: &'a [Vec<u32>],
 }
 
 /// Why there is no comparison.
@@ -205,7 +207,8 @@ fn count<S, K>(
     let mut taken = taken;
     let all = running.iter_mut().zip(&mut taken);
     let judged: Vec<Option<Vec<f64>>> = all.map(|(r, taken)| r.count(out.count, points, taken)).collect();
-    let deviations: Vec<Vec<f64>> = taken.into_iter().map(|t| t.deviations).collect();
+    let (deviations, faces): (Vec<Vec<f64>>, Vec<Vec<u32>>) =
+        taken.into_iter().map(|t| (t.deviations, t.faces)).unzip();
     let measured = judged.iter().any(Option::is_some).then(|| {
         let own = judged.into_iter().zip(&deviations);
         own.map(|(judged, d)| judged.unwrap_or_else(|| d.clone())).collect::<Vec<_>>()
@@ -224,6 +227,7 @@ fn count<S, K>(
         points,
         deviations: &deviations,
         measured: measured.as_ref().unwrap_or(&deviations),
+        faces: &faces,
     };
     sink(&block).map_err(CompareError::Sink)?;
     out.bounds = out.bounds.union(&Aabb::of(points));

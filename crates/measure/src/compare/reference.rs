@@ -102,7 +102,8 @@ pub struct Taken {
     pub deviations: Vec<f64>,
     feet: Vec<Option<Foot>>,
     regions: Vec<u16>,
-    faces: Vec<u32>,
+    /// The face of each point, of a CAD model; empty else.
+    pub faces: Vec<u32>,
 }
 
 /// One of the worst places, with where it is on the reference.

@@ -1,5 +1,6 @@
 //! The page of a comparison: deviations, worst places, statistics.
 
+pub mod faces;
 mod list;
 
 pub use list::{

@@ -251,6 +251,7 @@ fn deviations(s: Style, c: &Comparison, decimals: usize, first_pick: usize) -> M
         (compare::regions(s, c, decimals))
         (compare::worst(s, c, decimals, first_pick))
         (compare::statistics(s, c, decimals))
+        (compare::faces::faces(s, c, decimals))
     }
 }
 
@@ -291,6 +292,14 @@ fn features(s: Style, d: &InspectDocument) -> Markup {
                 (note(html! {
                     @for (k, (class, count)) in classes.into_iter().enumerate() {
                         @if k > 0 { " · " } (s.count(count)) " " (s.word(class))
+                    }
+                }))
+            }
+            @if !f.faces.is_empty() {
+                (note(html! {
+                    (s.word("partition"))
+                    @for (k, face) in f.faces.iter().enumerate() {
+                        @if k > 0 { "," } " " (compare::faces::called(face))
                     }
                 }))
             }

@@ -47,6 +47,9 @@ pub(super) fn begin(
     if layout.reason {
         names.push("excluded");
     }
+    if layout.face {
+        names.push("face");
+    }
     if layout.color {
         names.extend(["red", "green", "blue"]);
     }
@@ -89,9 +92,20 @@ fn rows(block: &Block, start: usize, style: Style) -> Vec<u8> {
             }
             if v.is_finite() { push_number(&mut text, *v) } else { text.extend(style.nothing.bytes()) }
         }
-        for c in block.reason.get(i).into_iter().chain(block.color.get(i).into_iter().flatten()) {
+        // Writing to a vector cannot fail.
+        if let Some(reason) = block.reason.get(i) {
             text.push(style.separator);
-            // Writing to a vector cannot fail.
+            let _ = write!(text, "{reason}");
+        }
+        if let Some(face) = block.face.get(i) {
+            text.push(style.separator);
+            let _ = match face {
+                Some(face) => write!(text, "{face}"),
+                None => write!(text, "{}", style.nothing),
+            };
+        }
+        for c in block.color.get(i).into_iter().flatten() {
+            text.push(style.separator);
             let _ = write!(text, "{c}");
         }
         text.push(b'\n');

@@ -1,5 +1,6 @@
 //! The list beside the stage: ranking, worst places, statistics, what was left out, how far the numbers can be trusted, files.
 
+use super::faces::faces;
 use crate::NoValue;
 use crate::number::Style;
 use crate::page::parts::{badge, fact, file_name, inside, key_number, mm, range, section, series, warning};
@@ -45,7 +46,8 @@ pub fn list(s: Style, result: &CompareDocument) -> Markup {
                 "\n"
                 @if several { p.against { (s.word("reference")) " " (Name(file_name(&c.reference))) } }
                 (reasons(s, &c.verdict_reasons))
-                (worst(s, c, decimals, first)) (regions(s, c, decimals)) (statistics(s, c, decimals)) (trust(s, result, c))
+                (worst(s, c, decimals, first)) (regions(s, c, decimals)) (statistics(s, c, decimals))
+                (faces(s, c, decimals)) (trust(s, result, c))
                 @if !found.is_empty() {
                     (section(s, "reference.defects", check::kinds(s, found, first + listed_worst(c, decimals).len())))
                 }

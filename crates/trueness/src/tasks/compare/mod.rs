@@ -20,6 +20,7 @@ use trueness_document::scale::Scale;
 use trueness_files::write::Writable;
 use trueness_files::{Sources, WriteError};
 use trueness_geom::mesh::Mesh;
+use trueness_measure::cad_faces::CadFaces;
 use trueness_measure::compare::{self, Comparisons, Inputs};
 use trueness_report::views::compare as drawing;
 use trueness_report::{Marks, ViewObject};
@@ -68,7 +69,9 @@ impl CompareRequest {
         let of_tolerance = || judged.map(|t| Scale::for_deviations(0.0, Some([t.lower, t.upper])));
         let scale = ready.scale.clone().or_else(of_tolerance);
         let reasons = options.facing.is_some() || options.outliers.is_some() || options.along.is_some();
-        PointFiles::create(path, self.references.len(), scale, reasons).map(Some)
+        let numbers = |faces: &CadFaces| faces.faces.iter().map(|face| face.entity).collect();
+        let faces = ready.opened.iter().map(|opened| opened.faces().map_or(vec![], numbers)).collect();
+        PointFiles::create(path, faces, scale, reasons).map(Some)
     }
 }
 

@@ -26,6 +26,8 @@ pub struct PointFiles {
     files: Vec<PointFile>,
     /// Whether they say why a point does not count.
     reasons: bool,
+    /// Of each reference the numbers of its faces in its file; none of other references than CAD models.
+    faces: Vec<Vec<u64>>,
 }
 
 enum PointFile {
@@ -37,24 +39,28 @@ enum PointFile {
 
 impl PointFiles {
     /// Begins `path`, or `name.1.ext`, `name.2.ext` … for several references; `scale` if it is known beforehand.
-    /// With `reasons` they say why a point does not count, and keep the deviations of outliers.
+    /// With `reasons` they say why a point does not count, and keep the deviations of outliers. `faces` has the numbers of the faces of each
+    /// reference, which tables name beside the points.
     pub fn create(
         path: &Path,
-        references: usize,
+        faces: Vec<Vec<u64>>,
         scale: Option<Scale>,
         reasons: bool,
     ) -> Result<PointFiles, WriteError> {
+        let references = faces.len();
         let extension = path.extension().and_then(|e| e.to_str()).unwrap_or_default();
         let looked_at = ["ply", "vtp"].iter().any(|e| extension.eq_ignore_ascii_case(e));
         let name = |i: usize| numbered(path, i, references);
         let file = |i: usize| match &scale {
             None if looked_at => HeldPoints::create(&name(i), reasons).map(PointFile::Later),
             scale => {
-                let layout = Layout { deviation: true, reason: reasons, color: scale.is_some() };
+                let (color, face) = (scale.is_some(), !faces[i].is_empty());
+                let layout = Layout { deviation: true, reason: reasons, face, color };
                 Ok(PointFile::Now(write::points(&name(i), layout)?, scale.clone()))
             }
         };
-        Ok(PointFiles { files: (0..references).map(file).collect::<Result<_, _>>()?, reasons })
+        let files = (0..references).map(file).collect::<Result<_, _>>()?;
+        Ok(PointFiles { files, reasons, faces })
     }
 
     /// Adds a block to every file.
@@ -63,7 +69,14 @@ impl PointFiles {
             values.par_iter().map(|&d| if d.is_finite() { d } else { f64::NAN }).collect()
         };
         let all = self.files.iter_mut().zip(block.deviations).zip(block.measured);
-        for ((file, deviations), measured) in all {
+        for (((file, deviations), measured), (own, entities)) in all.zip(block.faces.iter().zip(&self.faces))
+        {
+            let entity =
+                |(face, d): (&u32, &f64)| entities.get(*face as usize).copied().filter(|_| d.is_finite());
+            let face: Vec<Option<u64>> = match entities.is_empty() {
+                true => vec![],
+                false => own.iter().zip(measured).map(entity).collect(),
+            };
             let deviation = numbers(measured);
             let number = |d: &f64| Excluded::of(*d).map_or(0, Excluded::number);
             let reason: Vec<u8> =
@@ -75,6 +88,7 @@ impl PointFiles {
                         points: block.points,
                         deviation: &deviation,
                         reason: &reason,
+                        face: &face,
                         color: &color,
                     })?;
                 }

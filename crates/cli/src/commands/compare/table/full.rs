@@ -9,6 +9,7 @@ use trueness_document::compare::{
     AlongKind, AlongRecord, CompareDocument, Comparison, CoverageRecord, OutliersRecord, SignBy, Statistics,
     SurfacesRecord,
 };
+use trueness_document::face::worst_first;
 use trueness_document::research::{Finding, Research, Test};
 use trueness_document::statistics::TABLE_ROWS;
 use trueness_measure::compare::Excluded;
@@ -21,6 +22,7 @@ pub fn text(d: &CompareDocument) -> String {
         several => out.push_str(&ranking(d, several)),
     }
     d.comparisons.iter().for_each(|c| out.push_str(&worst(d, c)));
+    d.comparisons.iter().for_each(|c| out.push_str(&faces(d, c)));
     out.push('\n');
     out.push_str(&verdict(d.verdict, &d.verdict_reasons));
     out
@@ -37,6 +39,36 @@ pub fn worst(d: &CompareDocument, c: &Comparison) -> String {
             &format!("worst {n}"),
             &format!("{} mm at {x}, {y}, {z}{region}{of}", short_signed(place.deviation)),
         ));
+    }
+    out
+}
+
+/// Faces that are printed.
+const MAX_PRINTED_FACES: usize = 10;
+
+/// The faces of a CAD model with the farthest deviations, a line each.
+fn faces(d: &CompareDocument, c: &Comparison) -> String {
+    let of = if d.comparisons.len() > 1 { format!(" of {}", short(&c.reference)) } else { String::new() };
+    let mut out = String::new();
+    for f in worst_first(&c.faces, MAX_PRINTED_FACES) {
+        let name = f.face.name.as_ref().map(|name| format!(" \"{name}\"")).unwrap_or_default();
+        let instance = f.face.instance.as_ref().map(|path| format!(" in {path}")).unwrap_or_default();
+        let inside = f.inside.map(|share| format!(", {} % within", percent(Some(share)))).unwrap_or_default();
+        out.push_str(&line(
+            &format!("face {}", f.face.face),
+            &format!(
+                "{}{name}{instance}{of}: {}, mean {} mm, rms {} mm, farthest {} mm{inside}",
+                f.kind,
+                counted(f.count, POINTS),
+                short_signed(f.mean),
+                number(f.rms),
+                short_signed(f.worst())
+            ),
+        ));
+    }
+    if c.faces.len() > MAX_PRINTED_FACES {
+        let text = format!("{} more in the result document", c.faces.len() - MAX_PRINTED_FACES);
+        out.push_str(&line("faces", &text));
     }
     out
 }
