@@ -1,6 +1,6 @@
 //! Alignments end on the faces.
 
-use super::CadFaces;
+use super::faces::CadFaces;
 use trueness_cad::search::{On, Side};
 use trueness_geom::align::{ExactFoot, ExactSurface};
 use trueness_geom::closest::QueryError;

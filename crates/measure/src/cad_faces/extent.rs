@@ -1,6 +1,6 @@
 //! Some faces as the nominal of a feature: the element that they are together, and how far they go.
 
-use super::CadFaces;
+use super::faces::CadFaces;
 use super::one_surface::Apart;
 use std::collections::BTreeMap;
 use trueness_geom::feature::Nominal;

@@ -1,6 +1,6 @@
 //! Faces by their number or name.
 
-use super::CadFaces;
+use super::faces::CadFaces;
 use std::collections::BTreeSet;
 use trueness_document::plan::unknown;
 

@@ -1,6 +1,6 @@
 //! Which faces are parts of one surface.
 
-use super::CadFaces;
+use super::faces::CadFaces;
 use trueness_geom::shape::Shape;
 use trueness_geom::space::{Aabb, dot};
 

@@ -1,6 +1,7 @@
 //! A plan and measured data make verdicts: one pure function.
 
 mod align;
+mod area;
 mod by_face;
 mod cloud;
 mod data;
@@ -22,6 +23,7 @@ mod missing_feature_hint;
 mod model;
 mod noise_field;
 mod nominals;
+mod own_faces;
 mod parted;
 mod places;
 mod pose_noise;

@@ -1,7 +1,8 @@
 //! What is known of a plan's features before anything is measured: their nominals, and the faces of the reference that they are.
 
-use super::by_face::{self, Located, Model, PartOfFaces};
+use super::by_face;
 use super::data::Data;
+use super::own_faces::{Located, Model, OwnFaces};
 use super::seed;
 use super::stop::{NominalFault, Stop};
 use crate::plan::Plan;
@@ -30,18 +31,6 @@ pub(super) struct Nominals {
     own: BTreeMap<usize, OwnFaces>,
     /// The faces of the file behind those of the reference, where it is a CAD model.
     model: Option<Model>,
-}
-
-/// The faces of the reference that a feature is.
-pub(super) struct OwnFaces {
-    /// Their numbers, ascending.
-    pub faces: Vec<u32>,
-    /// Of a cylinder, cone or sphere, whether they face its axis or center.
-    pub inward: Option<bool>,
-    /// Whether places of the nominal lie over them.
-    pub is_over: bool,
-    /// Which part of these faces it is, where it is not all of them.
-    pub part: Option<PartOfFaces>,
 }
 
 impl Nominals {

@@ -1,7 +1,9 @@
 //! The measured data parted among faces, and what of them is of a feature.
 
+use super::area::mesh_area;
 use super::measured;
-use super::nominals::{Nominals, OwnFaces};
+use super::nominals::Nominals;
+use super::own_faces::OwnFaces;
 use super::stop::{NominalFault, Stop};
 use crate::characteristic::{ExcludedPoints, Others};
 use crate::plan::Plan;
@@ -329,15 +331,6 @@ impl<'a> Parted<'a> {
 /// The area of some facets, mm²; 0 of a cloud, which has none.
 fn area(scan: &Scan, facets: &[u32]) -> f64 {
     scan.mesh().map_or(0.0, |mesh| mesh_area(mesh, facets))
-}
-
-/// The area of some facets of a mesh, mm².
-pub(super) fn mesh_area(mesh: &Mesh, facets: &[u32]) -> f64 {
-    let area = |f: &u32| {
-        let [a, b, c] = mesh.corners(*f);
-        0.5 * norm(cross(minus(b, a), minus(c, a)))
-    };
-    facets.iter().map(area).sum()
 }
 
 /// What some faces have, ascending.

@@ -1,7 +1,6 @@
 //! Features that a plan names by a place on the reference: the region around it gives their nominal.
 
-use super::by_face::{Located, Model, kind_of};
-use super::nominals::OwnFaces;
+use super::own_faces::{Located, Model, OwnFaces, kind_of};
 use super::stop::{NominalFault, Stop};
 use crate::compare::far_seed;
 use crate::plan::Plan;

@@ -28,9 +28,14 @@ pub fn text(d: &CompareDocument) -> String {
     out
 }
 
+/// Which of several references a line is about.
+fn of_which(d: &CompareDocument, c: &Comparison) -> String {
+    if d.comparisons.len() > 1 { format!(" of {}", short(&c.reference)) } else { String::new() }
+}
+
 /// The worst places, a line each; those of a region with its name.
 pub fn worst(d: &CompareDocument, c: &Comparison) -> String {
-    let of = if d.comparisons.len() > 1 { format!(" of {}", short(&c.reference)) } else { String::new() };
+    let of = of_which(d, c);
     let mut out = String::new();
     for (n, place) in (1..).zip(&c.worst) {
         let [x, y, z] = place.point.map(shortest);
@@ -48,7 +53,7 @@ const MAX_PRINTED_FACES: usize = 10;
 
 /// The faces of a CAD model with the farthest deviations, a line each.
 fn faces(d: &CompareDocument, c: &Comparison) -> String {
-    let of = if d.comparisons.len() > 1 { format!(" of {}", short(&c.reference)) } else { String::new() };
+    let of = of_which(d, c);
     let mut out = String::new();
     for f in worst_first(&c.faces, MAX_PRINTED_FACES) {
         let name = f.face.name.as_ref().map(|name| format!(" \"{name}\"")).unwrap_or_default();
