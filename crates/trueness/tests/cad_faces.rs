@@ -219,13 +219,10 @@ fn moved(points: &[Point]) -> Vec<Point> {
 fn inspected(step: &str, points: &[Point], rest: &str) -> Result<InspectDocument, TaskError> {
     let plan =
         format!("schema = \"trueness/plan/1\"\nmeasured = \"scan.xyz\"\nreference = \"plate.step\"\n{rest}");
-    let sources: MemorySources = [
-        ("plan.toml".into(), plan),
-        ("plate.step".into(), step.to_string()),
-        ("scan.xyz".into(), xyz(points)),
-    ]
-    .into_iter()
-    .collect();
+    let sources: MemorySources =
+        [("plan.toml", plan), ("plate.step", step.to_string()), ("scan.xyz", xyz(points))]
+            .into_iter()
+            .collect();
     let request = InspectRequest { plan: "plan.toml".into(), ..InspectRequest::default() };
     Ok(request.run(&sources, &Silent)?.document)
 }
@@ -329,14 +326,14 @@ fn faces_that_cannot_be_the_feature_are_refused_with_the_reason() {
     let mesh = "OFF\n3 1 0\n0 0 0\n9 0 0\n0 9 0\n3 0 1 2\n";
     let sources: MemorySources = [
         (
-            "plan.toml".into(),
+            "plan.toml",
             format!(
                 "schema = \"trueness/plan/1\"\nmeasured = \"scan.xyz\"\nreference = \"m.off\"\n{}",
                 bore_and_plane("face = 3", "seed = [1, 1, 0]")
             ),
         ),
-        ("m.off".into(), mesh.to_string()),
-        ("scan.xyz".into(), xyz(&scan(0.0))),
+        ("m.off", mesh.to_string()),
+        ("scan.xyz", xyz(&scan(0.0))),
     ]
     .into_iter()
     .collect();
@@ -364,7 +361,7 @@ fn deviations_of_a_plan_are_those_from_the_faces() {
 
 fn compared(points: &[Point], along: &str) -> Vec<f64> {
     let sources: MemorySources =
-        [("plate.step".to_string(), plate(0.0).0), ("scan.xyz".into(), xyz(points))].into_iter().collect();
+        [("plate.step", plate(0.0).0), ("scan.xyz", xyz(points))].into_iter().collect();
     let asked = serde_json::json!({"measured": "scan.xyz", "references": ["plate.step"], "along": along});
     let request: CompareRequest = serde_json::from_value(asked).unwrap();
     let done = request.run(&sources, &Silent).unwrap();
@@ -379,8 +376,7 @@ fn a_table_names_the_face_of_each_point() {
     let (step, faces) = plate(0.0);
     let path = std::env::temp_dir().join(format!("trueness-cad-faces-{}.csv", std::process::id()));
     let points = [[3.0, 4.0, 10.5], [20.0, 19.0, 5.0], [20.0, 15.0, 500.0]];
-    let sources: MemorySources =
-        [("plate.step".to_string(), step), ("scan.xyz".into(), xyz(&points))].into_iter().collect();
+    let sources: MemorySources = [("plate.step", step), ("scan.xyz", xyz(&points))].into_iter().collect();
     let asked = serde_json::json!({"measured": "scan.xyz", "references": ["plate.step"], "out": path, "max_distance": 9});
     let request: CompareRequest = serde_json::from_value(asked).unwrap();
     request.run(&sources, &Silent).unwrap().commit().unwrap();
@@ -406,9 +402,7 @@ fn lines_meet_the_faces_themselves() {
 #[test]
 fn a_best_fit_ends_on_the_faces() {
     let sources: MemorySources =
-        [("plate.step".to_string(), plate(0.0).0), ("scan.xyz".into(), xyz(&moved(&scan(0.0))))]
-            .into_iter()
-            .collect();
+        [("plate.step", plate(0.0).0), ("scan.xyz", xyz(&moved(&scan(0.0))))].into_iter().collect();
     let request = AlignRequest {
         measured: "scan.xyz".into(),
         reference: "plate.step".into(),
