@@ -10,13 +10,13 @@ use crate::plan::Plan;
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
 use trueness_geom::feature::{FeatureError, Found, Nearness, Nominal, facets_near, in_cloud};
-use trueness_geom::mesh::{FacetsAround, Mesh};
+use trueness_geom::mesh::FacetsAround;
 use trueness_geom::partition::{
     Beyond, Class, Face, Faces, NO_FACE, Options, Partition, PartitionError, partition,
 };
 use trueness_geom::progress::Progress;
 use trueness_geom::scan::Scan;
-use trueness_geom::space::{Point, cross, dot, minus, norm, plus, times};
+use trueness_geom::space::{Point, cross, dot, minus, plus, times};
 
 /// The measured data parted among faces.
 pub(super) struct Parted<'a> {
