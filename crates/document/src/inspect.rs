@@ -7,6 +7,7 @@ pub use place::{FrameSource, MeasuredPlace, PlaceRecord};
 
 use super::align::{AlignNote, AlignNoteKind};
 use super::compare::Comparison;
+use super::face::FaceRecord;
 use super::fit::Number;
 use super::place_map::PlaceMap;
 use super::result::ResultDocument;
@@ -134,7 +135,7 @@ pub struct FeatureRecord {
     pub id: String,
     /// `point`, `line`, `plane`, `circle`, `sphere`, `cylinder`, `cone` or `torus`.
     pub shape: Word<Class>,
-    /// Where it comes from: `points`, `nominal`, `seed` or `derived`.
+    /// Where it comes from: `points`, `nominal`, `seed`, `faces` or `derived`.
     pub source: Word<FeatureSource>,
     /// Number of its points.
     pub points: u64,
@@ -174,6 +175,9 @@ pub struct FeatureRecord {
     /// Measured points that it leaves out; absent where there are none.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub left_out: Option<LeftOutRecord>,
+    /// The faces of the reference that it is, where that is a CAD model; absent else.
+    #[serde(skip_serializing_if = "Vec::is_empty", default)]
+    pub faces: Vec<FaceRecord>,
 }
 
 impl FeatureRecord {
@@ -322,6 +326,8 @@ pub enum FeatureSource {
     Nominal,
     /// The measured data about the surface of the reference that a seed lies on.
     Seed,
+    /// The measured data about faces of a CAD model.
+    Faces,
     /// Other features.
     Derived,
 }
@@ -329,11 +335,18 @@ pub enum FeatureSource {
 named!(
     FeatureSource,
     "source of a feature",
-    [FeatureSource::Points, FeatureSource::Nominal, FeatureSource::Seed, FeatureSource::Derived],
+    [
+        FeatureSource::Points,
+        FeatureSource::Nominal,
+        FeatureSource::Seed,
+        FeatureSource::Faces,
+        FeatureSource::Derived
+    ],
     |source| match source {
         FeatureSource::Points => "points",
         FeatureSource::Nominal => "nominal",
         FeatureSource::Seed => "seed",
+        FeatureSource::Faces => "faces",
         FeatureSource::Derived => "derived",
     }
 );

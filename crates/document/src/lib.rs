@@ -24,6 +24,7 @@ pub mod check;
 pub mod compare;
 pub mod convert;
 pub mod curvature;
+pub mod face;
 pub mod fit;
 pub mod info;
 mod input;

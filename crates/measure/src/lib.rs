@@ -3,6 +3,7 @@
 //! | task | where |
 //! |---|---|
 //! | what is in a CAD model | [`cad`] |
+//! | faces of a CAD model as a reference | [`cad_faces`] |
 //! | defects of a mesh | [`check`] |
 //! | what a repair did | [`repair`] |
 //! | deviations from references | [`compare`] |
@@ -20,6 +21,7 @@
 pub mod align;
 mod bounds;
 pub mod cad;
+pub mod cad_faces;
 pub mod characteristic;
 pub mod check;
 pub mod compare;

@@ -246,6 +246,12 @@ pub struct FeatureText {
     pub nominal: Option<At<NominalText>>,
     /// A place on the feature of the reference: the region around it is sought in the measured data.
     pub seed: Option<At<[f64; 3]>>,
+    /// Faces of the reference, a CAD model, by the numbers of their entities in the file: they are the feature.
+    pub face: Option<At<FaceText>>,
+    /// The same by the name that the file gives the faces.
+    pub name: Option<At<String>>,
+    /// The instance that the faces are of, where several have them: the names on the way from the root of the assembly, joined by `/`.
+    pub instance: Option<At<String>>,
     /// How near measured facets must be to the nominal feature.
     pub extract: Option<ExtractText>,
     /// How the element is associated: gaussian (without it), minimum-zone, minimum-circumscribed, maximum-inscribed, robust.
@@ -258,6 +264,16 @@ pub struct FeatureText {
     pub derived: Option<At<DerivedWord>>,
     /// Those that a derived feature is made of.
     pub of: Option<At<Vec<At<String>>>>,
+}
+
+/// Numbers of faces.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(untagged, expecting = "`face` is the number of a face of the reference, as in 12, or several, as in [12, 13]")]
+pub enum FaceText {
+    /// One.
+    One(u64),
+    /// Several that are one surface.
+    Several(Vec<u64>),
 }
 
 /// Shapes of features.

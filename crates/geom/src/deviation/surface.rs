@@ -302,7 +302,7 @@ impl ReferenceSurface {
 }
 
 /// Hands on whether to stop, but not what is done: points count once, by their distances.
-pub(super) struct OnlyCancels<'a>(pub &'a dyn Progress);
+pub struct OnlyCancels<'a>(pub &'a dyn Progress);
 
 impl Progress for OnlyCancels<'_> {
     fn cancelled(&self) -> bool {

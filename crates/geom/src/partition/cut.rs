@@ -47,7 +47,7 @@ pub(super) fn cut(nominal: &Mesh, progress: &dyn Progress) -> Result<Cut, Segmen
     drawn.free(&mut of_facets, &mut shapes);
     for (number, own) in facets_of(&of_facets, shapes.len()).iter().enumerate() {
         if shapes[number].is_none() {
-            shapes[number] = ELEMENTS.iter().find_map(|kind| element(nominal, own, *kind, options.crease));
+            shapes[number] = any_element(nominal, own);
         }
     }
     drawn.grow(&mut of_facets, &shapes);
@@ -179,6 +179,12 @@ impl Drawn<'_> {
     fn bulge(&self, shape: &Shape, facet: u32) -> f64 {
         shape.distance(middle(self.corners(facet))).abs()
     }
+}
+
+/// The simplest element on which all corners of some facets lie.
+pub(super) fn any_element(mesh: &Mesh, facets: &[u32]) -> Option<Shape> {
+    let crease = Options::default().crease;
+    ELEMENTS.iter().find_map(|kind| element(mesh, facets, *kind, crease))
 }
 
 /// The element of a kind on which all corners of some facets lie, and which they face within so many radians. `None` where

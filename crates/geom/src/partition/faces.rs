@@ -156,6 +156,38 @@ impl Faces {
         let all = faces.map(|(facets, shape)| Face::new(&nominal, facets, shape)).collect::<Option<_>>();
         Ok(Faces { all: all.ok_or(SegmentError::NoSurface)?, of_facets })
     }
+
+    /// Faces that are known, as those of a CAD model are: facets of each in a mesh that draws them, and its element. Where none is told, it is sought.
+    /// Facets look out of the material and share vertices within a face. Faces without facets that have an area are left out; the others keep their order.
+    ///
+    /// ```
+    /// use trueness_geom::{mesh::Mesh, partition::{Faces, NO_FACE}, shape::Shape};
+    /// let positions = vec![[0.0, 0.0, 0.0], [9.0, 0.0, 0.0], [9.0, 9.0, 0.0], [0.0, 9.0, 0.0]];
+    /// let mesh = Mesh { positions, faces: vec![[0, 1, 2], [0, 2, 3], [1, 1, 1]] };
+    /// let floor = Shape::Plane { point: [0.0; 3], normal: [0.0, 0.0, 1.0] };
+    /// let (faces, places) = Faces::known(&mesh, vec![(vec![], None), (vec![0, 1], Some(floor))]);
+    /// assert_eq!((faces.all.len(), faces.of_facets, places), (1, vec![0, 0, NO_FACE], vec![1]));
+    /// ```
+    pub fn known(nominal: &Mesh, pieces: Vec<(Vec<u32>, Option<Shape>)>) -> (Faces, Vec<usize>) {
+        let face = |(facets, shape): (Vec<u32>, Option<Shape>)| {
+            if facets.is_empty() {
+                return None;
+            }
+            let shape = shape.or_else(|| cut::any_element(nominal, &facets));
+            Face::new(nominal, facets, shape)
+        };
+        let made: Vec<Option<Face>> = pieces.into_par_iter().map(face).collect();
+        let (mut faces, mut places) = (Faces::none(), vec![]);
+        faces.of_facets = vec![cut::NO_FACE; nominal.faces.len()];
+        for (place, face) in made.into_iter().enumerate() {
+            let Some(face) = face else { continue };
+            let number = faces.all.len() as u32;
+            face.facets.iter().for_each(|f| faces.of_facets[*f as usize] = number);
+            faces.all.push(face);
+            places.push(place);
+        }
+        (faces, places)
+    }
 }
 
 fn normal(mesh: &Mesh, f: &[u32; 3]) -> Option<Vector> {

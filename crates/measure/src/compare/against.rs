@@ -1,9 +1,8 @@
 //! What points are compared with, and why that may not be possible.
 
 use super::region::RegionError;
+use crate::cad_faces::CadFaces;
 use crate::file_numbers::LeftOut;
-use trueness_cad::search::Search;
-use trueness_cad::trim::Trim;
 use trueness_geom::closest::MeshError;
 use trueness_geom::deviation::paper::PaperError;
 use trueness_geom::mesh::Mesh;
@@ -30,16 +29,6 @@ pub enum Exact<'a> {
     Splines(&'a FootSearch),
     /// Faces of a CAD model.
     Cad(&'a CadFaces),
-}
-
-/// Faces of a CAD model, ready to be measured against.
-pub struct CadFaces {
-    /// Where nearest places are looked up.
-    pub search: Search<Trim>,
-    /// Number of faces.
-    pub count: usize,
-    /// How far the mesh that draws them is from them at most, mm.
-    pub drawn_within: f64,
 }
 
 impl std::fmt::Debug for Reference<'_> {

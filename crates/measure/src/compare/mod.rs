@@ -3,6 +3,7 @@
 mod against;
 mod along;
 mod between_vertices;
+mod cad_target;
 mod coverage;
 mod covered;
 mod document;
@@ -11,6 +12,7 @@ mod extremes;
 mod facing;
 mod found;
 mod judgement;
+mod kept;
 mod map;
 mod options;
 mod outliers;
@@ -23,7 +25,7 @@ mod shown;
 mod target;
 mod worst;
 
-pub use against::{CadFaces, Exact, Reference, ReferenceError};
+pub use against::{Exact, Reference, ReferenceError};
 pub use along::{AlongRule, Lines, NoDirection, NoLine};
 pub use coverage::{Coverage, NoReach};
 pub use covered::Covered;

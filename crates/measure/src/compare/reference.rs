@@ -12,7 +12,8 @@ use super::map::{Flagged, Foot, MapSurface, PlaceMeans, PointMap};
 use super::options::Options;
 use super::outliers::{OutlierLimits, OutlierRule, Outliers};
 use super::region::{RegionRule, Regions};
-use super::target::{Asked, Measures, Target};
+use super::kept::{Asked, Measures};
+use super::target::Target;
 use super::worst::{WorstPlaces, WorstPoint, sort};
 use trueness_document::compare::Method;
 use trueness_document::tolerance::badness;
@@ -113,7 +114,7 @@ impl SurfacesFound {
     fn of(exact: Exact) -> SurfacesFound {
         let (surfaces, drawn_within) = match exact {
             Exact::Splines(search) => (search.surfaces(), search.mesh_distance()),
-            Exact::Cad(faces) => (faces.count, faces.drawn_within),
+            Exact::Cad(faces) => (faces.faces.len(), faces.drawn_within),
         };
         SurfacesFound { surfaces, uncertain: 0, drawn_within }
     }

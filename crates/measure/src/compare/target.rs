@@ -1,15 +1,13 @@
-//! What points are measured against: facets, or B-spline surfaces themselves.
+//! What points are measured against: facets, B-spline surfaces, or faces of a CAD model.
 
-use super::against::{CadFaces, Exact, Reference, ReferenceError};
+use super::against::{Exact, Reference, ReferenceError};
 use super::along::{AlongRule, Lines};
-use super::covered::CoverageSample;
+use super::cad_target::CadTarget;
 use super::excluded::Excluded;
-use super::facing::{Facing, facet_normal};
-use super::map::{Foot, PointMap};
+use super::facing::facet_normal;
+use super::kept::{Asked, Measures, Nearest, none};
 use super::options::Options;
-use super::region::Regions;
 use super::worst::WorstPoint;
-use trueness_cad::search::{Nearest as CadNearest, Side};
 use trueness_geom::check::Precondition;
 use trueness_geom::closest::{Closest, QueryError, Tree};
 use trueness_geom::deviation::along::Along;
@@ -17,7 +15,7 @@ use trueness_geom::deviation::sign_choice::{SignChoice, SignMethod};
 use trueness_geom::deviation::surface::{Disagreement, ReferenceSurface, SurfaceOptions};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::{Progress, Silent};
-use trueness_geom::space::{Point, Vector, dot, minus, times};
+use trueness_geom::space::{Point, times};
 use trueness_geom::spline::surface::{FootSearch, NearestFoot};
 use trueness_geom::topology::{Soundness, TopologyError};
 
@@ -27,16 +25,8 @@ pub enum Target<'a> {
     Facets { surface: Box<ReferenceSurface>, mesh: &'a Mesh, along: Option<Along> },
     /// The nearest place of the surfaces counts; facets only draw them.
     Splines(Splines<'a>),
-    /// The nearest place of the faces of a CAD model counts; `tree` finds the facet that draws it.
-    Cad { faces: CadTarget<'a>, tree: &'a Tree },
-}
-
-/// Faces of a CAD model with what is asked of them.
-pub struct CadTarget<'a> {
-    faces: &'a CadFaces,
-    options: SurfaceOptions,
-    choice: SignChoice,
-    precondition: Precondition,
+    /// The nearest place of the faces of a CAD model counts, or where lines meet them.
+    Cad(CadTarget<'a>, Precondition),
 }
 
 /// B-spline surfaces with what is asked of them.
@@ -45,93 +35,6 @@ pub struct Splines<'a> {
     options: SurfaceOptions,
     choice: SignChoice,
     precondition: Precondition,
-}
-
-/// Where a point is nearest to the reference, or where its line meets it.
-pub struct Nearest {
-    /// The place.
-    pub place: Point,
-    /// Unit normal there; `None` where there is none.
-    pub normal: Option<Vector>,
-    /// The facet there.
-    pub face: u32,
-    /// Weights of the facet's corners.
-    pub weights: [f64; 3],
-}
-
-/// What is asked beside the distances of points whose first has number `start`.
-#[derive(Clone, Copy)]
-pub struct Asked<'a> {
-    pub start: u64,
-    /// Where nearest places are looked up, and the facets they lie on.
-    pub map: Option<(&'a PointMap, &'a Mesh)>,
-    /// The sample that tells what is covered.
-    pub sample: Option<&'a CoverageSample>,
-    /// Only points that look the same way count.
-    pub facing: Option<&'a Facing>,
-    /// Parts of the reference that are told apart.
-    pub regions: Option<&'a Regions>,
-}
-
-impl Asked<'_> {
-    /// Whether no more is asked than distances.
-    fn only_distances(&self) -> bool {
-        self.map.is_none() && self.sample.is_none() && self.facing.is_none() && self.regions.is_none()
-    }
-
-    /// Whether the place of point `i` of these on the reference matters.
-    fn needs_place(&self, i: usize) -> bool {
-        self.map.is_some() || self.facing.is_some() || self.regions.is_some() || self.samples(i)
-    }
-
-    /// Whether the sample asks for point `i` of these.
-    fn samples(&self, i: usize) -> bool {
-        self.sample.is_some_and(|s| s.wants(self.start + i as u64))
-    }
-
-    /// The place of point `i` on the reference, as map and sample need it.
-    fn foot(&self, i: usize, face: u32, weights: [f64; 3]) -> Option<Foot> {
-        match self.map {
-            Some((map, mesh)) => Some(map.foot(mesh, face, weights)),
-            None => self.samples(i).then(|| Foot::on_facet(face, weights)),
-        }
-    }
-
-    /// What is kept of point `i` with this deviation and place on the reference.
-    fn kept(&self, i: usize, deviation: f64, face: u32, weights: [f64; 3], place: &Point) -> Kept {
-        let region = self.regions.map_or(0, |r| r.of(face, place));
-        (deviation, self.foot(i, face, weights), region)
-    }
-
-    /// Whether point `i` of these may count beside a place of the reference with this normal.
-    fn agrees(&self, i: usize, normal: impl Fn() -> Option<Vector>) -> bool {
-        self.facing.is_none_or(|f| f.agrees(self.start + i as u64, normal()))
-    }
-}
-
-/// A deviation, its place in the map and its region.
-type Kept = (f64, Option<Foot>, u16);
-
-/// What is not measured has no place.
-fn none(deviation: f64) -> Kept {
-    (deviation, None, 0)
-}
-
-/// Deviations of points; with a map, where their nearest places lie in it; and how many nearest places are not beyond doubt.
-pub struct Measures {
-    pub deviations: Vec<f64>,
-    pub feet: Vec<Option<Foot>>,
-    /// Numbers of regions, 0 for none; empty where there are no regions.
-    pub regions: Vec<u16>,
-    pub uncertain: u64,
-}
-
-impl Measures {
-    fn of(found: Vec<Kept>, asked: &Asked) -> Measures {
-        let regions = asked.regions.map_or(vec![], |_| found.iter().map(|f| f.2).collect());
-        let (deviations, feet) = found.into_iter().map(|(d, foot, _)| (d, foot)).unzip();
-        Measures { deviations, feet, regions, uncertain: 0 }
-    }
 }
 
 impl<'a> Target<'a> {
@@ -156,13 +59,8 @@ impl<'a> Target<'a> {
                 precondition: without_facets(search.surfaces()),
             })),
             (Some(Exact::Cad(faces)), Some(tree)) => {
-                let target = CadTarget {
-                    faces,
-                    options: options.surface,
-                    choice: SignChoice::by_normal(options.surface.sign),
-                    precondition: without_facets(faces.count),
-                };
-                Ok(Target::Cad { faces: target, tree })
+                let target = CadTarget::new(faces, tree, options.surface, options.along.as_ref());
+                Ok(Target::Cad(target, without_facets(faces.faces.len())))
             }
             (_, None) => Err(ReferenceError::Mesh(trueness_geom::closest::MeshError::NoFaces)),
         }
@@ -173,7 +71,7 @@ impl<'a> Target<'a> {
         match self {
             Target::Facets { surface, .. } => surface.sign(),
             Target::Splines(s) => &s.choice,
-            Target::Cad { faces, .. } => &faces.choice,
+            Target::Cad(target, _) => &target.choice,
         }
     }
     /// Whether the facets are sound; surfaces have none that could be wrong.
@@ -181,7 +79,7 @@ impl<'a> Target<'a> {
         match self {
             Target::Facets { surface, .. } => surface.precondition(),
             Target::Splines(s) => &s.precondition,
-            Target::Cad { faces, .. } => &faces.precondition,
+            Target::Cad(_, precondition) => precondition,
         }
     }
     /// How both sign methods agree on a sample; surfaces have one.
@@ -249,26 +147,7 @@ impl<'a> Target<'a> {
                 let (deviations, feet) = found.into_iter().map(|(d, f, _)| (d, f)).unzip();
                 Ok(Measures { deviations, feet, regions: vec![], uncertain })
             }
-            Target::Cad { faces, tree } => {
-                let found = faces.faces.search.map(points, progress, |i, near| {
-                    let deviation = faces.deviation(&points[i], &near);
-                    let certain = near.side != Side::Unsure;
-                    if !deviation.is_finite() {
-                        return (none(deviation), certain);
-                    }
-                    if !asked.agrees(i, || near.normal) {
-                        return (none(facing), certain);
-                    }
-                    let drawn = || tree.closest(&near.place, f64::INFINITY).ok().flatten();
-                    match asked.needs_place(i).then(drawn).flatten() {
-                        Some(at) => (asked.kept(i, deviation, at.face, at.barycentric, &near.place), certain),
-                        None => (none(deviation), certain),
-                    }
-                })?;
-                let uncertain = found.iter().filter(|f| !f.1).count() as u64;
-                let kept = found.into_iter().map(|f| f.0).collect();
-                Ok(Measures { uncertain, ..Measures::of(kept, asked) })
-            }
+            Target::Cad(target, _) => target.measure(points, asked, progress),
         }
     }
 
@@ -299,19 +178,7 @@ impl<'a> Target<'a> {
                 let found = Nearest { place: foot.place, normal: foot.normal, face, weights };
                 Ok(foot.distance.is_finite().then_some(found))
             }
-            Target::Cad { faces, tree } => {
-                let near = faces.faces.search.nearest(p);
-                if !near.distance.is_finite() {
-                    return Ok(None);
-                }
-                let drawn = tree.closest(&near.place, f64::INFINITY)?;
-                Ok(drawn.map(|Closest { face, barycentric: weights, .. }| Nearest {
-                    place: near.place,
-                    normal: near.normal,
-                    face,
-                    weights,
-                }))
-            }
+            Target::Cad(target, _) => target.nearest(place),
         }
     }
 }
@@ -325,26 +192,6 @@ impl Splines<'_> {
             return Excluded::BoundaryEdge.value();
         }
         if self.choice.method == SignMethod::None { found.foot.distance } else { found.foot.signed(*p) }
-    }
-}
-
-impl CadTarget<'_> {
-    fn deviation(&self, p: &Point, near: &CadNearest) -> f64 {
-        if near.distance > self.options.max_distance {
-            return Excluded::MaxDistance.value();
-        }
-        if self.options.skip_boundary && near.side == Side::Open {
-            return Excluded::BoundaryEdge.value();
-        }
-        if self.choice.method == SignMethod::None {
-            return near.distance;
-        }
-        // At the border of an open shell the normal tells the side, as it does beside it.
-        let by_normal = || {
-            let inside = near.normal.is_some_and(|n| dot(n, minus(*p, near.place)) < 0.0);
-            if inside { -near.distance } else { near.distance }
-        };
-        near.signed().unwrap_or_else(by_normal)
     }
 }
 

@@ -1,6 +1,8 @@
 //! What an inspection is given.
 
+use crate::cad_faces::CadFaces;
 use std::collections::BTreeMap;
+use std::sync::Arc;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::scan::Scan;
 use trueness_geom::space::{Point, Vector};
@@ -14,6 +16,8 @@ pub struct Data {
     pub normals: Vec<Vector>,
     /// The nominal mesh, where the plan names one and has a use for it: alignment, deviations, features sought by nominals or seeds.
     pub reference: Option<Mesh>,
+    /// Its faces, where it is a CAD model, which the mesh only draws.
+    pub faces: Option<Arc<CadFaces>>,
     /// Facets of its file that are not in the mesh, as a coordinate is not finite: their numbers, ascending.
     pub reference_left_out: Vec<u32>,
     /// Points that a report can show; 0 without a report.

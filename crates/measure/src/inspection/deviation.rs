@@ -4,12 +4,14 @@ use super::data::Data;
 use super::nominals::Nominals;
 use super::stop::{NominalFault, NotCompared, Stop};
 use crate::compare::{
-    self, Between, CompareError, Comparisons, Extent, Facing, Lines, Options, Reference, RegionRule,
+    self, Between, CompareError, Comparisons, Exact, Extent, Facing, Lines, Options, Reference, RegionRule,
     vertex_normals,
 };
+use crate::cad_faces::CadFaces;
 use crate::file_numbers::LeftOut;
 use crate::plan::{Deviation, Plan};
 use std::convert::Infallible;
+use std::sync::Arc;
 use trueness_document::compare::MeasuredKind;
 use trueness_document::place_map::PlaceMap;
 use trueness_geom::closest::QueryError;
@@ -26,8 +28,10 @@ pub struct Deviations {
     pub found: Comparisons,
     /// How it was asked.
     pub options: Options,
-    /// The reference.
+    /// The reference, or the mesh that draws its faces.
     pub reference: Mesh,
+    /// The faces of a CAD model that were measured against.
+    pub faces: Option<Arc<CadFaces>>,
     /// Facets of its file that are not in the mesh.
     pub left_out: Vec<u32>,
     /// `points` of a cloud, `vertices` of a mesh.
@@ -49,12 +53,16 @@ impl Deviations {
 
     /// The reference under the name that documents call it by.
     pub fn references(&self, name: &str) -> [Reference<'_>; 1] {
-        [reference(name, &self.reference, &self.left_out)]
+        [reference(name, (&self.reference, self.faces.as_deref()), &self.left_out)]
     }
 }
 
-fn reference<'a>(name: &str, mesh: &'a Mesh, left_out: &'a [u32]) -> Reference<'a> {
-    Reference { name: name.into(), mesh, exact: None, left_out: LeftOut(left_out) }
+fn reference<'a>(
+    name: &str,
+    (mesh, faces): (&'a Mesh, Option<&'a CadFaces>),
+    left_out: &'a [u32],
+) -> Reference<'a> {
+    Reference { name: name.into(), mesh, exact: faces.map(Exact::Cad), left_out: LeftOut(left_out) }
 }
 
 /// Of the data where the alignment took them. The reference is moved out of the data.
@@ -103,7 +111,8 @@ pub(super) fn deviations(
     };
     let mut points = Whole::<Infallible>::new(measured.points().to_vec());
     let left_out = std::mem::take(&mut data.reference_left_out);
-    let references = [self::reference("the reference", &reference, &left_out)];
+    let faces = data.faces.clone();
+    let references = [self::reference("the reference", (&reference, faces.as_deref()), &left_out)];
     let found = compare::run(&mut points, &references, &options, progress, |_| Ok::<(), Infallible>(()));
     let found = found.map_err(|e| match e {
         CompareError::Query(QueryError::Cancelled(e)) => e.into(),
@@ -114,7 +123,7 @@ pub(super) fn deviations(
         Scan::Cloud(_) => MeasuredKind::Points,
         Scan::Mesh(_) => MeasuredKind::Vertices,
     };
-    Ok(Deviations { found, options, reference, left_out, kind })
+    Ok(Deviations { found, options, reference, faces, left_out, kind })
 }
 
 /// The regions, those of features with their facets.

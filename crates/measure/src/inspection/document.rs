@@ -59,7 +59,8 @@ pub fn document(
             .features
             .iter()
             .zip(&found.features)
-            .map(|(p, t)| feature(p, t, &found.noise))
+            .zip(&found.faces)
+            .map(|((p, t), faces)| FeatureRecord { faces: faces.clone(), ..feature(p, t, &found.noise) })
             .collect(),
         shared_noise,
         shared_noise_reason,
@@ -196,7 +197,7 @@ fn feature(
     };
     // Points of files are probed one by one.
     let shared = match plan.source {
-        Source::Nominal | Source::Seed(_) => points_per_independent(noise),
+        Source::Nominal | Source::Seed(_) | Source::Faces(_) => points_per_independent(noise),
         Source::Points(_) | Source::Derived { .. } => 1.0,
     };
     let (u, u_reason) = match fit {
@@ -220,6 +221,7 @@ fn feature(
         Source::Derived { .. } => (FeatureSource::Derived, None),
         Source::Nominal => (FeatureSource::Nominal, extract(plan, taken)),
         Source::Seed(_) => (FeatureSource::Seed, extract(plan, taken)),
+        Source::Faces(_) => (FeatureSource::Faces, extract(plan, taken)),
     };
     FeatureRecord {
         id: taken.id.clone(),
@@ -243,6 +245,7 @@ fn feature(
         extract,
         dents: (taken.others.dents > 0).then_some(taken.others.dents as u64),
         left_out: left_out_record(taken),
+        faces: vec![],
     }
 }
 

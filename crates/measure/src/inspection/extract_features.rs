@@ -31,9 +31,8 @@ pub(super) fn features(
     parted: Option<&Parted>,
     progress: &dyn Progress,
 ) -> Result<Vec<MeasuredFeature>, Stop> {
-    let is_sought = |f: &Feature| matches!(f.source, Source::Nominal | Source::Seed(_));
     let farthest = match measured {
-        Some(Scan::Cloud(points)) if plan.features.iter().any(is_sought) => {
+        Some(Scan::Cloud(points)) if plan.features.iter().any(Feature::is_sought) => {
             farthest_covered(points, &PointTree::new(points))
         }
         _ => f64::INFINITY,
@@ -53,7 +52,9 @@ pub(super) fn features(
                 taken.areas = vec![1.0; taken.points.len()];
                 taken
             }
-            Source::Nominal | Source::Seed(_) => found((number, feature), nominals, &search)?,
+            Source::Nominal | Source::Seed(_) | Source::Faces(_) => {
+                found((number, feature), nominals, &search)?
+            }
         };
         associated(taken, feature, progress).map(Some)
     };
@@ -163,10 +164,10 @@ fn found(
     search: &Search,
 ) -> Result<MeasuredFeature, Stop> {
     let mut taken = bare(feature);
-    let seeded = nominals.seeds.get(&number);
-    if let Some(seeded) = seeded {
-        taken.nominal = Some(seeded.nominal.clone());
-        taken.outward = taken.outward.or(normal(&seeded.nominal));
+    let located = nominals.located.get(&number);
+    if let Some(located) = located {
+        taken.nominal = Some(located.nominal.clone());
+        taken.outward = taken.outward.or(normal(&located.nominal));
     }
     let (Some(scan), Some(nominal)) = (search.measured, taken.nominal.clone()) else { return Ok(taken) };
     let mut near = feature.near(&nominal);
@@ -195,7 +196,7 @@ fn found(
                 .map(|(share, area)| share * area)
         }
     };
-    let whole = seeded.map(|s| s.area).or_else(|| nominal.area());
+    let whole = located.map(|l| l.area).or_else(|| nominal.area());
     // Noise makes facets larger than what they lie on.
     taken.coverage = area.zip(whole).map(|(area, whole)| (area / whole).clamp(0.0, 1.0) + 0.0);
     taken.facets = found.facets;
@@ -222,13 +223,11 @@ fn areas(scan: &Scan, found: &Found) -> Vec<f64> {
 
 /// Why no point is of a feature.
 fn no_points(taken: &MeasuredFeature, feature: &Feature) -> NoElement {
-    match (&feature.source, taken.others.edge) {
-        (Source::Nominal | Source::Seed(_), _) if !taken.facets.is_empty() => NoElement::OnRim,
-        (Source::Nominal | Source::Seed(_), 0) => {
-            NoElement::NotThere { has_margin: feature.extract.has_margin() }
-        }
-        (Source::Nominal | Source::Seed(_), points) => NoElement::OnRoundedEdges { points },
-        (Source::Points(_) | Source::Derived { .. }, _) => NoElement::EmptyFile,
+    match (feature.is_sought(), taken.others.edge) {
+        (true, _) if !taken.facets.is_empty() => NoElement::OnRim,
+        (true, 0) => NoElement::NotThere { has_margin: feature.extract.has_margin() },
+        (true, points) => NoElement::OnRoundedEdges { points },
+        (false, _) => NoElement::EmptyFile,
     }
 }
 

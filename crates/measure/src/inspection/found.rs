@@ -7,6 +7,7 @@ use super::uncertainty::Uncertainty;
 use crate::characteristic::{MeasuredFeature, NotMeasured, Spec, Value};
 use crate::noise::NoiseOrReason;
 use trueness_document::compare::Warning;
+use trueness_document::face::FaceRecord;
 use trueness_geom::scan::Scan;
 
 /// All features and values of a plan.
@@ -17,6 +18,8 @@ pub struct Inspection {
     pub notes: Vec<Vec<String>>,
     /// The features, in the plan's order.
     pub features: Vec<MeasuredFeature>,
+    /// The faces of the reference, a CAD model, that each feature is; none of other references.
+    pub faces: Vec<Vec<FaceRecord>>,
     /// The values of the characteristics, in the plan's order, or why there are none.
     pub values: Vec<Result<Value, NotMeasured>>,
     /// What each value would be with the points of its features and datums of which it is not certain whose they are; `None`

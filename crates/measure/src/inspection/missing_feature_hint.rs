@@ -6,7 +6,6 @@ use super::stop::Stop;
 use super::{MeasuredFeature, extract_features};
 use crate::characteristic::{NoElement, PointsBeyond};
 use crate::plan::Plan;
-use crate::requirement::Source;
 use trueness_geom::feature::{Nearness, in_cloud};
 use trueness_geom::progress::Progress;
 use trueness_geom::scan::Scan;
@@ -28,7 +27,7 @@ pub(super) fn add(
     progress: &dyn Progress,
 ) -> Result<(), Stop> {
     let Some(scan) = measured else { return Ok(()) };
-    let sought = |n: &usize| matches!(plan.features[*n].source, Source::Nominal | Source::Seed(_));
+    let sought = |n: &usize| plan.features[*n].is_sought();
     let missing: Vec<usize> =
         (0..features.len()).filter(sought).filter(|n| features[*n].element.is_err()).collect();
     if missing.is_empty() {

@@ -1,6 +1,7 @@
 //! A plan and measured data make verdicts: one pure function.
 
 mod align;
+mod by_face;
 mod cloud;
 mod data;
 pub mod decision;
@@ -140,6 +141,7 @@ pub fn run(plan: &Plan, data: Data, progress: &dyn Progress) -> Result<Inspectio
     let measured = data.measured;
     Ok(Inspection {
         drawn,
+        faces: nominals.face_records(plan),
         specs: plan.specs.clone(),
         notes: resolved.notes,
         features,

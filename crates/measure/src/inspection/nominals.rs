@@ -1,11 +1,13 @@
 //! What is known of a plan's features before anything is measured: their nominals, and the faces of the reference that they are.
 
 use super::data::Data;
-use super::seed::{self, Seeded};
+use super::by_face::{self, Located, Model, PartOfFaces};
+use super::seed;
 use super::stop::{NominalFault, Stop};
 use crate::plan::Plan;
 use crate::requirement::Feature;
 use std::collections::BTreeMap;
+use trueness_document::face::FaceRecord;
 use trueness_geom::feature::{Nearness, Nominal, NominalSurface, bounds_of, facets_near, places_over};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::partition::{Face, Faces};
@@ -20,11 +22,14 @@ const MAX_LEANING_RATIO: f64 = 4.0;
 
 /// The nominals of a plan, and the reference cut into faces.
 pub(super) struct Nominals {
-    pub seeds: BTreeMap<usize, Seeded>,
+    /// Of the features that are named by a place or by faces of the reference, what is there.
+    pub located: BTreeMap<usize, Located>,
     /// The faces of the reference, where there is one and a feature is sought by its nominal.
     pub faces: Option<Faces>,
     /// Of the features that the reference has, by their numbers, their faces.
     own: BTreeMap<usize, OwnFaces>,
+    /// The faces of the file behind those of the reference, where it is a CAD model.
+    model: Option<Model>,
 }
 
 /// The faces of the reference that a feature is.
@@ -35,6 +40,8 @@ pub(super) struct OwnFaces {
     pub inward: Option<bool>,
     /// Whether places of the nominal lie over them.
     pub is_over: bool,
+    /// Which part of these faces it is, where it is not all of them.
+    pub part: Option<PartOfFaces>,
 }
 
 impl Nominals {
@@ -43,17 +50,26 @@ impl Nominals {
     /// # Errors
     /// [`Stop`]: a reference that cannot be cut into faces, a seed that is at no face of the feature's kind.
     pub fn new(plan: &Plan, data: &Data, progress: &dyn Progress) -> Result<Nominals, Stop> {
-        let mut nominals = Nominals { seeds: BTreeMap::new(), faces: None, own: BTreeMap::new() };
+        let mut nominals = Nominals { located: BTreeMap::new(), faces: None, own: BTreeMap::new(), model: None };
         let is_sought = plan.features.iter().any(Feature::has_nominal);
         let Some(reference) = data.reference.as_ref().filter(|r| is_sought && !r.faces.is_empty()) else {
             return Ok(nominals);
         };
-        let faces = Faces::of(reference, progress).map_err(|e| match e {
-            SegmentError::Cancelled(e) => e.into(),
-            e => Stop::Nominal(NominalFault::Faces(e)),
-        })?;
-        nominals.seeds = seed::seeded(plan, reference, &faces, progress)?;
+        let model = data.faces.as_ref().map(|faces| Model::new(faces.clone(), reference));
+        let (model, faces) = match model {
+            Some((model, faces)) => (Some(model), faces),
+            None => (None, Faces::of(reference, progress).map_err(|e| match e {
+                SegmentError::Cancelled(e) => e.into(),
+                e => Stop::Nominal(NominalFault::Faces(e)),
+            })?),
+        };
+        nominals.located = seed::seeded(plan, reference, (&faces, model.as_ref()), progress)?;
+        nominals.located.extend(by_face::chosen(plan, reference, (&faces, model.as_ref()))?);
         for (number, feature) in plan.features.iter().enumerate() {
+            if let Some(own) = nominals.located.get_mut(&number).and_then(|l| l.own.take()) {
+                nominals.own.insert(number, own);
+                continue;
+            }
             let Some(nominal) = nominals.of(number, feature) else { continue };
             let near = feature.near(nominal);
             let found = own_faces(reference, &faces, nominal, &near, progress)?;
@@ -72,12 +88,22 @@ impl Nominals {
             }
         }
         nominals.faces = Some(faces);
+        nominals.model = model;
         Ok(nominals)
     }
 
     /// The nominal of a feature: written, or by its seed.
     pub fn of<'a>(&'a self, number: usize, feature: &'a Feature) -> Option<&'a Nominal> {
-        self.seeds.get(&number).map(|s| &s.nominal).or(feature.nominal.as_ref())
+        self.located.get(&number).map(|l| &l.nominal).or(feature.nominal.as_ref())
+    }
+
+    /// What documents say of the faces of a CAD model that each feature is.
+    pub fn face_records(&self, plan: &Plan) -> Vec<Vec<FaceRecord>> {
+        let of = |number| match (&self.model, self.own(number)) {
+            (Some(model), Some(own)) => model.records(own),
+            _ => vec![],
+        };
+        (0..plan.features.len()).map(of).collect()
     }
 
     /// The faces of a feature; `None` where the reference does not have it.
@@ -129,7 +155,7 @@ fn own_faces(
     let inward = if matches!(nominal, Nominal::Plane { .. }) { None } else { first.inward() };
     let is_alike = |h: &&Held| h.off <= limit && faces.all[h.number as usize].inward() == first.inward();
     let own = held.iter().filter(is_alike).map(|h| h.number).collect();
-    Ok(Some(OwnFaces { faces: own, inward, is_over: most.share > 0 && most.off <= limit }))
+    Ok(Some(OwnFaces { faces: own, inward, is_over: most.share > 0 && most.off <= limit, part: None }))
 }
 
 /// A plane that faces the other way.

@@ -74,7 +74,7 @@ impl<'a> Parted<'a> {
             let inward = near.inward.or_else(|| inward(scan, nominal, &near));
             // An edge is no face; what makes no sense is told where it is sought.
             if let Ok(face) = more.add_nominal(nominal, inward == Some(true)) {
-                own.insert(number, OwnFaces { faces: vec![first + face], inward, is_over: true });
+                own.insert(number, OwnFaces { faces: vec![first + face], inward, is_over: true, part: None });
             }
         }
         let reaches = reaches(plan, nominals, &own);
@@ -368,8 +368,11 @@ impl Within<'_> {
         self.parted.scan.points()[p as usize]
     }
 
-    /// Those within the bounds of the nominal.
-    fn bounds(&self, points: Vec<u32>) -> Result<Vec<u32>, FeatureError> {
+    /// Those within the bounds of the nominal, and of the part of its faces that it is.
+    fn bounds(&self, mut points: Vec<u32>) -> Result<Vec<u32>, FeatureError> {
+        if let Some(part) = &self.own.part {
+            points.retain(|p| part.holds(&self.place(*p)));
+        }
         let places: Vec<Point> = points.iter().map(|p| self.place(*p)).collect();
         let wide = Nearness { distance: f64::INFINITY, ..*self.near };
         let found = in_cloud(&places, self.nominal, &wide)?;

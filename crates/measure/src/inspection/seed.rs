@@ -1,35 +1,27 @@
 //! Features that a plan names by a place on the reference: the region around it gives their nominal.
 
+use super::by_face::{Located, Model, kind_of};
+use super::nominals::OwnFaces;
 use super::stop::{NominalFault, Stop};
 use crate::compare::far_seed;
 use crate::plan::Plan;
 use crate::plan::region::nominal_of;
 use crate::requirement::Source;
 use std::collections::BTreeMap;
-use trueness_document::plan::Class;
 use trueness_geom::closest::Tree;
-use trueness_geom::feature::Nominal;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::partition::{Face, Faces, element};
 use trueness_geom::progress::Progress;
 use trueness_geom::segment;
-use trueness_geom::shape::Kind;
 use trueness_geom::space::{Point, cross, minus, norm};
-
-/// The nominal that a seed leads to.
-pub(super) struct Seeded {
-    pub nominal: Nominal,
-    /// Area of the region's facets, mm².
-    pub area: f64,
-}
 
 /// The nominals of all features with a seed, by their numbers.
 pub(super) fn seeded(
     plan: &Plan,
     reference: &Mesh,
-    faces: &Faces,
+    (faces, model): (&Faces, Option<&Model>),
     progress: &dyn Progress,
-) -> Result<BTreeMap<usize, Seeded>, Stop> {
+) -> Result<BTreeMap<usize, Located>, Stop> {
     let mut all = BTreeMap::new();
     if !plan.features.iter().any(|f| matches!(f.source, Source::Seed(_))) {
         return Ok(all);
@@ -47,8 +39,8 @@ pub(super) fn seeded(
         if let Some(what) = hit.and_then(|hit| far_seed(hit.distance, hit.point, reference)) {
             return Err(wrong(what));
         }
-        let face = hit.and_then(|hit| faces.of_facets.get(hit.face as usize));
-        let face = face.and_then(|face| faces.all.get(*face as usize));
+        let place = hit.and_then(|hit| faces.of_facets.get(hit.face as usize)).copied();
+        let face = place.and_then(|place| faces.all.get(place as usize));
         let kind = kind_of(feature.class);
         // A narrow face may lie on elements of several kinds.
         let asked = |face: &Face| match face.shape.filter(|shape| Some(shape.kind()) == kind) {
@@ -66,21 +58,18 @@ pub(super) fn seeded(
         };
         let corners = |f: &u32| reference.faces[*f as usize].map(|v| reference.positions[v as usize]);
         let facets: Vec<[Point; 3]> = face.facets.iter().map(corners).collect();
-        let nominal = nominal_of(&shape, &facets)
+        // The faces of a CAD model are known beyond their facets, where they are elements in the file.
+        let members = model.zip(place).and_then(|(m, place)| Some((&m.faces, m.members.get(place as usize)?)));
+        let exact = members.and_then(|(faces, own)| faces.nominal(own, kind?, reference).ok());
+        let nominal = exact
+            .or_else(|| nominal_of(&shape, &facets))
             .ok_or_else(|| wrong("the region at the seed has no facets".into()))?;
+        let own = members.zip(place).map(|(_, place)| {
+            let inward = face.inward();
+            OwnFaces { faces: vec![place], inward, is_over: true, part: None }
+        });
         let area = facets.iter().map(|[a, b, c]| 0.5 * norm(cross(minus(*b, *a), minus(*c, *a)))).sum();
-        all.insert(number, Seeded { nominal, area });
+        all.insert(number, Located { nominal, area, own });
     }
     Ok(all)
-}
-
-/// The kind of region that a feature may have.
-fn kind_of(class: Class) -> Option<Kind> {
-    match class {
-        Class::Plane => Some(Kind::Plane),
-        Class::Cylinder => Some(Kind::Cylinder),
-        Class::Cone => Some(Kind::Cone),
-        Class::Sphere => Some(Kind::Sphere),
-        Class::Point | Class::Line | Class::Circle | Class::Torus => None,
-    }
 }

@@ -1,16 +1,19 @@
 //! The features of a plan.
 
 use super::checker::Checker;
+use crate::cad_faces::FaceChoice;
 use crate::requirement::{Extract, Feature, Source};
 use std::ops::Range;
 use trueness_document::plan::{
-    At, Class, DerivedWord, ExtractText, FeatureText, MethodWord, NominalText, PlanError, PlanText,
+    At, Class, DerivedWord, ExtractText, FaceText, FeatureText, MethodWord, NominalText, PlanError, PlanText,
     ShapeWord, unknown,
 };
 use trueness_geom::feature::{Nearness, Nominal};
 use trueness_geom::fit::Method;
 use trueness_geom::space::{Point, Vector, unit};
 
+/// Classes that faces of the reference may have.
+const SOUGHT: [Class; 4] = [Class::Plane, Class::Cylinder, Class::Cone, Class::Sphere];
 /// Classes of which it may have to be said whether the material is around them or within.
 const ROUND: [Class; 3] = [Class::Cylinder, Class::Cone, Class::Sphere];
 
@@ -103,17 +106,20 @@ fn feature(
     if let Some(nominal) = &written.nominal {
         made.nominal = Some(self::nominal(checker, shape.value, nominal)?);
     }
+    one_source(checker, written)?;
     if let Some(seed) = &written.seed {
         if plan.reference.is_none() {
             let what = "a seed lies on the reference, but the plan names none; add `reference`";
             return checker.wrong(&seed.span, what);
         }
-        made.source = seeded(checker, written, seed, made.class)?;
+        made.source = seeded(checker, seed, made.class)?;
     } else if let Some(points) = &written.points {
         made.source = Source::Points(points.clone());
+    } else if let Some(choice) = chosen_faces(checker, written, plan, made.class)? {
+        made.source = Source::Faces(choice);
     } else if made.nominal.is_none() {
-        return checker
-            .wrong(whole, format!("feature \"{id}\" has no points: give `points`, `nominal` or `seed`"));
+        let what = format!("feature \"{id}\" has no points: give `points`, `nominal`, `seed` or `face`");
+        return checker.wrong(whole, what);
     }
     if !matches!(made.source, Source::Points(_)) && plan.measured.is_none() {
         let what = format!(
@@ -127,14 +133,10 @@ fn feature(
 /// A feature by the region of the reference around a place.
 fn seeded(
     checker: &Checker,
-    written: &FeatureText,
     seed: &At<[f64; 3]>,
     class: Class,
 ) -> Result<Source, PlanError> {
-    if written.nominal.is_some() || written.points.is_some() {
-        return checker.wrong(&seed.span, "give one of `seed`, `nominal` and `points`");
-    }
-    if !matches!(class, Class::Plane | Class::Cylinder | Class::Cone | Class::Sphere) {
+    if !SOUGHT.contains(&class) {
         let what = format!("regions are planes, cylinders, cones and spheres; a {} has none", class.word());
         return checker.wrong(&seed.span, what);
     }
@@ -142,6 +144,56 @@ fn seeded(
         return checker.wrong(&seed.span, "the seed is a place of three finite numbers");
     }
     Ok(Source::Seed(At { value: checker.place(seed.value), span: seed.span.clone() }))
+}
+
+/// Refuses a feature that comes from several places.
+fn one_source(checker: &Checker, written: &FeatureText) -> Result<(), PlanError> {
+    let others = written.nominal.is_some() || written.points.is_some();
+    let faces = written.face.as_ref().map(|f| &f.span).or(written.name.as_ref().map(|n| &n.span));
+    match (&written.seed, faces) {
+        (Some(seed), None) if others => {
+            checker.wrong(&seed.span, "give one of `seed`, `nominal` and `points`")
+        }
+        (seed, Some(span)) if others || seed.is_some() || (written.face.is_some() && written.name.is_some()) => {
+            checker.wrong(span, "give one of `face`, `name`, `seed`, `nominal` and `points`")
+        }
+        (_, None) if written.instance.is_some() => {
+            let span = written.instance.as_ref().map_or(0..0, |i| i.span.clone());
+            checker.wrong(&span, "`instance` says of which instance a `face` or `name` is; give one of them")
+        }
+        _ => Ok(()),
+    }
+}
+
+/// The faces of the reference that a feature is, where it names some.
+fn chosen_faces(
+    checker: &Checker,
+    written: &FeatureText,
+    plan: &PlanText,
+    class: Class,
+) -> Result<Option<At<FaceChoice>>, PlanError> {
+    let (numbers, span) = match (&written.face, &written.name) {
+        (Some(face), _) => match &face.value {
+            FaceText::One(number) => (vec![*number], face.span.clone()),
+            FaceText::Several(numbers) => (numbers.clone(), face.span.clone()),
+        },
+        (None, Some(name)) => (vec![], name.span.clone()),
+        (None, None) => return Ok(None),
+    };
+    if plan.reference.is_none() {
+        let what = "faces are those of the reference, but the plan names none; add `reference`";
+        return checker.wrong(&span, what);
+    }
+    if written.name.is_none() && numbers.is_empty() {
+        return checker.wrong(&span, "the list of faces is empty; give the number of one at least");
+    }
+    if !SOUGHT.contains(&class) {
+        let what = format!("faces are sought as planes, cylinders, cones and spheres; a {} is not", class.word());
+        return checker.wrong(&span, what);
+    }
+    let text = |at: &Option<At<String>>| at.as_ref().map(|at| at.value.trim().to_string());
+    let value = FaceChoice { numbers, name: text(&written.name), instance: text(&written.instance) };
+    Ok(Some(At { value, span }))
 }
 
 fn class(checker: &Checker, shape: &At<ShapeWord>) -> Result<Class, PlanError> {

@@ -129,7 +129,7 @@ fn extent(
         (None, None, Some(name)) => {
             let number = named(checker, &name.value, &name.span, features)?;
             if !features[number].has_nominal() {
-                let what = format!("feature \"{}\" has no `nominal` and no `seed`", name.value);
+                let what = format!("feature \"{}\" has no `nominal`, no `seed` and no `face`", name.value);
                 return checker.wrong(&name.span, what);
             }
             Ok((Extent::Facets(vec![]), Some(number)))

@@ -1,5 +1,6 @@
 //! The features of a plan.
 
+use crate::cad_faces::FaceChoice;
 use std::ops::Range;
 use trueness_document::plan::{At, Class, DerivedWord};
 use trueness_geom::feature::{Nearness, Nominal};
@@ -30,9 +31,14 @@ pub struct Feature {
 }
 
 impl Feature {
-    /// Whether it is known where it should be: written, or by the region at its seed.
+    /// Whether it is known where it should be: written, or by faces of the reference.
     pub fn has_nominal(&self) -> bool {
-        self.nominal.is_some() || matches!(self.source, Source::Seed(_))
+        self.nominal.is_some() || matches!(self.source, Source::Seed(_) | Source::Faces(_))
+    }
+
+    /// Whether its points are those of the measured data where it should be.
+    pub fn is_sought(&self) -> bool {
+        matches!(self.source, Source::Nominal | Source::Seed(_) | Source::Faces(_))
     }
 
     /// How near facets must be to its nominal, and which way they face.
@@ -50,6 +56,8 @@ pub enum Source {
     Nominal,
     /// The measured data, by the region of the reference around this place.
     Seed(At<Point>),
+    /// The measured data, by faces of a CAD model.
+    Faces(At<FaceChoice>),
     /// Other features.
     Derived {
         /// How.

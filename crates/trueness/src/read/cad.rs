@@ -9,7 +9,9 @@ use trueness_document::{CadInputRecord, IncompleteRecord, InputRecord, Role};
 use trueness_files::cad::CadFile;
 use trueness_files::{FacetRegions, SourceMesh};
 use trueness_geom::closest::MAX_VERTEX;
+use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::Progress;
+use trueness_measure::cad_faces::CadFaces;
 
 /// How far facets may lie from the faces.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -71,6 +73,20 @@ pub fn tessellated(
     let names = shape.brep.faces.iter().map(name).collect();
     let regions = Some(FacetRegions { names, of_facet: made.faces });
     Ok((shape, SourceMesh { mesh: made.mesh, regions, ..SourceMesh::default() }))
+}
+
+/// A model where its parts stand as faces to measure against, and the mesh that draws them.
+pub fn faces(
+    path: &Path,
+    file: &CadFile,
+    chord: Chord,
+    record: &mut InputRecord,
+    progress: &dyn Progress,
+) -> Result<(CadFaces, Mesh), TaskError> {
+    let (shape, drawn) = tessellated(path, file, chord, record, progress)?;
+    let drawn_within = record.cad.as_ref().map_or(0.0, |cad| cad.facets_within);
+    let of_facets = drawn.regions.map_or(vec![], |regions| regions.of_facet);
+    Ok((CadFaces::new(&file.model, shape, of_facets, drawn_within), drawn.mesh))
 }
 
 /// What of the faces is missing; `None` where all are there.

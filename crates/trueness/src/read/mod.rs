@@ -23,10 +23,11 @@ use trueness_files::{
 };
 use trueness_geom::closest::{MAX_COORDINATE, MAX_VERTEX};
 use trueness_geom::parallel::prelude::*;
-use trueness_geom::progress::Silent;
+use trueness_geom::progress::{Progress, Silent};
 use trueness_geom::scan::Scan;
 use trueness_geom::space::{Point, Vector};
 use trueness_geom::spline::surface::Nurbs;
+use trueness_measure::cad_faces::CadFaces;
 use trueness_measure::compare::RegionRule;
 use trueness_measure::plan::regions_of_file;
 
@@ -183,6 +184,24 @@ fn splines(path: &Path, model: SplineModel, mut record: InputRecord) -> Result<(
     }
     record.points = points.len() as u64;
     Ok((ReferenceBody::Surfaces(model.surfaces), record))
+}
+
+/// Reads a mesh, or the faces of a CAD model with the mesh that draws them; points are refused with a remedy.
+pub fn mesh_or_faces(
+    sources: &dyn Sources,
+    path: &Path,
+    options: &ReadOptions,
+    progress: &dyn Progress,
+) -> Result<(SourceMesh, Option<CadFaces>, InputRecord)> {
+    match any(sources, path, Role::Reference, options)? {
+        Any::Cad(file, mut record) => {
+            let (faces, mesh) = cad::faces(path, &file, Chord::MEASURED, &mut record, progress)?;
+            Ok((SourceMesh { mesh, ..SourceMesh::default() }, Some(faces), record))
+        }
+        Any::Whole(opened) => opened_mesh(path, Role::Reference, opened).map(|(m, r)| (m, None, r)),
+        Any::Splines(model, record) => Err(unread::refusal(path, &model, &record, MESH_OR_POINTS)),
+        Any::Drawing(..) => Err(no_drawing(path)),
+    }
 }
 
 /// Reads a mesh; points are refused with a remedy.

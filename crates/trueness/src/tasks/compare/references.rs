@@ -4,7 +4,6 @@ use crate::read::cad::Chord;
 use crate::read::{self, ReferenceBody};
 use crate::task::{Meaning, STEPS, TaskError, Watch};
 use std::path::{Path, PathBuf};
-use trueness_cad::search::Search;
 use trueness_document::InputRecord;
 use trueness_document::compare::Method;
 use trueness_files::cad::CadFile;
@@ -13,7 +12,8 @@ use trueness_geom::deviation::sign_choice::SignRequest;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::space::Aabb;
 use trueness_geom::spline::surface::{Degenerate, FootError, FootSearch, Nurbs};
-use trueness_measure::compare::{CadFaces, Exact, Options, Reference};
+use trueness_measure::cad_faces::CadFaces;
+use trueness_measure::compare::{Exact, Options, Reference};
 use trueness_measure::file_numbers::LeftOut;
 
 /// A reference as it was read.
@@ -113,7 +113,7 @@ fn allowed(path: &Path, options: &Options, holds: &str) -> Result<(), TaskError>
             "--method paper: it measures to the facets of a mesh, and {shown} holds {holds}; leave it out, or make a mesh of it by `trueness convert`"
         )));
     }
-    if options.along.is_some() {
+    if options.along.is_some() && holds == SPLINES {
         return Err(TaskError::usage(format!(
             "--along: its lines meet the facets of a mesh, and {shown} holds {holds}; leave it out, or make a mesh of it by `trueness convert`"
         )));
@@ -140,13 +140,9 @@ fn cad(
     watch: &dyn Watch,
 ) -> Result<Opened, TaskError> {
     let stage = watch.stage("preparing the faces", STEPS, None);
-    let (shape, drawn) = read::cad::tessellated(path, file, Chord::DRAWN, record, &*stage)?;
-    let count = shape.brep.faces.len();
-    let trims = shape.trims.into_iter().map(Result::ok).collect();
-    let search = Search::new(&shape.brep, trims);
-    let drawn_within = record.cad.as_ref().map_or(0.0, |cad| cad.facets_within);
+    let (faces, mesh) = read::cad::faces(path, file, Chord::DRAWN, record, &*stage)?;
     stage.finish();
-    Ok(Opened::Cad(Box::new(CadFaces { search, count, drawn_within }), drawn.mesh))
+    Ok(Opened::Cad(Box::new(faces), mesh))
 }
 
 /// Surfaces ready to be searched, with the mesh that draws them.

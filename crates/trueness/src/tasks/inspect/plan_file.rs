@@ -5,15 +5,17 @@ use crate::read::{self, Opened};
 use crate::task::{Meaning, TaskError};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use trueness_document::inspect::PlanRecord;
 use trueness_document::plan::{At, PlanError};
 use trueness_document::{InputRecord, Role};
 use trueness_files::{ReadOptions, Sources};
+use trueness_geom::progress::Silent;
 use trueness_geom::scan::Scan;
 use trueness_geom::space::Point;
 use trueness_measure::inspection::{Data, OwnPoints};
 use trueness_measure::plan::Plan;
-use trueness_measure::requirement::Source;
+use trueness_measure::requirement::{Feature, Source};
 
 /// Longest plan that is read, bytes.
 const LONGEST_PLAN: usize = 16 << 20;
@@ -121,16 +123,16 @@ impl PlanFile {
             };
             inputs.push(measured.map_err(Fault::Part)?);
         }
-        let seeded = self.plan.features.iter().any(|f| matches!(f.source, Source::Seed(_)));
         // A feature that is sought by its nominal is told what it leaves out.
-        let sought = self.plan.features.iter().any(|f| matches!(f.source, Source::Nominal));
-        let wanted = seeded || sought || self.plan.align.uses_reference() || self.plan.deviation.is_some();
+        let sought = self.plan.features.iter().any(Feature::is_sought);
+        let wanted = sought || self.plan.align.uses_reference() || self.plan.deviation.is_some();
         if let Some(written) = self.plan.reference.as_ref().filter(|_| wanted) {
             let path = self.path_of(written);
-            let read = read::mesh(sources, &path, Role::Reference, &options);
-            let (source, mut record) = read.meaning(|| self.at(written, "the reference"))?;
+            let read = read::mesh_or_faces(sources, &path, &options, &Silent);
+            let (source, faces, mut record) = read.meaning(|| self.at(written, "the reference"))?;
             read::hash(sources, &mut record, &path)?;
             (data.reference, data.reference_left_out) = (Some(source.mesh), source.nonfinite_facets);
+            data.faces = faces.map(Arc::new);
             inputs.push(record);
         }
         let mut seen: BTreeMap<PathBuf, (Vec<Point>, bool)> = BTreeMap::new();

@@ -1,0 +1,117 @@
+//! Faces of a CAD model as a reference: exact distances, elements, the numbers and names that a file gives them.
+//!
+//! | file | what |
+//! |---|---|
+//! | `face` | what is known of a face |
+//! | `element` | the element that a surface is |
+//! | `one_surface` | which faces are parts of one surface |
+//! | `named` | faces by their number or name |
+//! | `extent` | some faces as the nominal of a feature |
+
+mod element;
+mod extent;
+mod face;
+mod named;
+mod one_surface;
+
+pub use extent::NoNominal;
+pub use face::CadFace;
+pub use named::{FaceChoice, NoFace};
+
+use trueness_cad::brep::{Bounds, Brep, Loop};
+use trueness_cad::model::Model;
+use trueness_cad::search::Search;
+use trueness_cad::trim::Trim;
+use trueness_cad::trimmed::Trimmed;
+use trueness_document::face::FaceRecord;
+
+/// Faces of a CAD model, ready to be measured against. The mesh that draws them goes beside it.
+pub struct CadFaces {
+    /// Where nearest places are looked up.
+    pub search: Search<Trim>,
+    /// The faces, in the order of the search.
+    pub faces: Vec<CadFace>,
+    /// The face of each facet of the mesh that draws them.
+    pub of_facets: Vec<u32>,
+    /// How far that mesh is from them at most, mm.
+    pub drawn_within: f64,
+    /// What the file says of its lengths, mm; 0 if nothing.
+    pub uncertainty: f64,
+    /// Entities that are faces, or hold faces, and could not be read: their number, and why.
+    pub unread: Vec<(u64, String)>,
+    /// The names on the way from the root of the assembly to each instance.
+    pub instances: Vec<String>,
+    /// Faces that share an edge with each, ascending.
+    neighbors: Vec<Vec<u32>>,
+}
+
+impl CadFaces {
+    /// Of a model where its parts stand. `of_facets` is the face of each facet of the mesh that draws them within `drawn_within` mm.
+    pub fn new(model: &Model, shape: Trimmed, of_facets: Vec<u32>, drawn_within: f64) -> CadFaces {
+        let Trimmed { brep, trims } = shape;
+        let faces = brep.faces.iter().zip(&trims).map(|(face, trim)| CadFace::new(face, trim.as_ref())).collect();
+        let neighbors = neighbors(&brep);
+        let search = Search::new(&brep, trims.into_iter().map(Result::ok).collect());
+        let unread = model.unread.iter().filter(|u| u.holds_faces);
+        CadFaces {
+            search,
+            faces,
+            of_facets,
+            drawn_within,
+            uncertainty: model.uncertainty.unwrap_or(0.0),
+            unread: unread.map(|u| (u.entity, u.reason.clone())).collect(),
+            instances: model.instances.iter().map(|i| i.path.join("/")).collect(),
+            neighbors,
+        }
+    }
+
+    /// What documents say of a face. Its instance is told where there are several.
+    pub fn record(&self, face: u32) -> FaceRecord {
+        let own = &self.faces[face as usize];
+        let instance = self.instances.get(own.instance as usize).filter(|_| self.instances.len() > 1);
+        let name = Some(own.name.clone()).filter(|name| !name.is_empty());
+        FaceRecord { face: own.entity, name, instance: instance.cloned() }
+    }
+
+    /// The facets of some faces, ascending.
+    pub fn facets(&self, faces: &[u32]) -> Vec<u32> {
+        (0u32..).zip(&self.of_facets).filter(|(_, face)| faces.contains(face)).map(|(facet, _)| facet).collect()
+    }
+}
+
+impl std::fmt::Debug for CadFaces {
+    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+        write!(f, "CadFaces({})", self.faces.len())
+    }
+}
+
+/// Faces that share an edge with each, ascending.
+fn neighbors(brep: &Brep) -> Vec<Vec<u32>> {
+    let mut around: Vec<Vec<u32>> = vec![vec![]; brep.edges.len()];
+    for (number, face) in (0u32..).zip(&brep.faces) {
+        let Bounds::Loops(loops) = &face.bounds else { continue };
+        for edge in loops.iter().filter_map(edges_of).flatten() {
+            if let Some(of) = around.get_mut(edge as usize) {
+                of.push(number);
+            }
+        }
+    }
+    let mut all: Vec<Vec<u32>> = vec![vec![]; brep.faces.len()];
+    for faces in &around {
+        for face in faces {
+            all[*face as usize].extend(faces.iter().filter(|other| *other != face));
+        }
+    }
+    for own in &mut all {
+        own.sort_unstable();
+        own.dedup();
+    }
+    all
+}
+
+fn edges_of(of: &Loop) -> Option<impl Iterator<Item = u32>> {
+    match of {
+        Loop::Edges(uses) => Some(uses.iter().map(|u| u.edge)),
+        Loop::Vertex(_) => None,
+    }
+}
