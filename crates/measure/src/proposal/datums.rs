@@ -47,7 +47,8 @@ impl Datums {
                 Ok(_) => sayable += 1,
                 Err(why) => draft.say(&format!("Not in the plan: {text}: {why}")),
             }
-            if let Ok(Known { name, .. }) = &found {
+            if let Ok(Known { name, ids, .. }) = &found {
+                ids.iter().for_each(|id| draft.keep(id));
                 draft.say(&format!(
                     "Datum {}, #{}, of {}, is \"{name}\".",
                     datum.letter,

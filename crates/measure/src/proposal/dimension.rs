@@ -7,7 +7,7 @@ use super::text::{decimal, quoted};
 use trueness_cad::tolerances::Dimension;
 use trueness_geom::shape::Kind;
 
-/// A limit, nominal value or deviation of this size is the greatest that plans take for an angle, degrees.
+/// The greatest angle that plans take, degrees.
 const RIGHT_ANGLE: f64 = 90.0;
 
 /// Puts a dimension into the plan, or says why it is not; whether all of it is there.

@@ -3,7 +3,7 @@
 use super::faces::{Faces, Group, median};
 use super::text::{comment, listed, quoted};
 use crate::plan::Plan;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 use trueness_geom::shape::Kind;
 
@@ -26,13 +26,22 @@ pub(super) struct Draft<'f, 'm> {
     features: BTreeMap<String, Feature>,
     /// Ids by the numbers of the faces.
     ids: BTreeMap<Vec<u64>, String>,
+    /// What stands in the plan: other features are left out.
+    used: BTreeSet<String>,
     body: String,
 }
 
 impl<'f, 'm> Draft<'f, 'm> {
     /// One without features.
     pub fn of(faces: &'f Faces<'m>) -> Draft<'f, 'm> {
-        Draft { faces, order: vec![], features: BTreeMap::new(), ids: BTreeMap::new(), body: String::new() }
+        Draft {
+            faces,
+            order: vec![],
+            features: BTreeMap::new(),
+            ids: BTreeMap::new(),
+            used: BTreeSet::new(),
+            body: String::new(),
+        }
     }
 
     /// A line for the reader.
@@ -59,7 +68,7 @@ impl<'f, 'm> Draft<'f, 'm> {
         };
         if let Some((path, count)) = self.faces.instance(first) {
             let others = comment(&format!("the first of {count} instances"));
-            let _ = write!(text, "{others}instance = {}\n", quoted(&path));
+            let _ = writeln!(text, "{others}instance = {}", quoted(&path));
         }
         if let Some(internal) = group.internal.filter(|_| group.shape.kind() == Kind::Cylinder) {
             let _ = writeln!(text, "internal = {internal}");
@@ -67,6 +76,13 @@ impl<'f, 'm> Draft<'f, 'm> {
         self.ids.insert(group.faces.clone(), id.clone());
         self.add(id.clone(), text, vec![]);
         id
+    }
+
+    /// Keeps a feature in the plan, whether a characteristic names it or not.
+    pub fn keep(&mut self, id: &str) {
+        let of = self.features.get(id).map(|f| f.of.clone()).unwrap_or_default();
+        self.used.extend(of);
+        self.used.insert(id.into());
     }
 
     /// The median plane of two opposite planes.
@@ -118,13 +134,20 @@ impl<'f, 'm> Draft<'f, 'm> {
         {
             feature.bounds.push_str(&text);
         }
+        features.iter().for_each(|id| self.keep(id));
         self.body.push_str(&text);
         Ok(())
     }
 
+    /// Whether it has a characteristic.
+    pub fn is_judged(&self) -> bool {
+        self.body.lines().any(|line| line == "[[characteristic]]")
+    }
+
     /// The features, then what stands in the plan about them.
     pub fn finished(self) -> String {
-        let features = self.order.iter().filter_map(|id| self.features.get(id));
+        let used = self.order.iter().filter(|id| self.used.contains(*id));
+        let features = used.filter_map(|id| self.features.get(id));
         features.map(|f| f.text.as_str()).chain([self.body.as_str()]).collect()
     }
 }

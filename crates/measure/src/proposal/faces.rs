@@ -13,6 +13,9 @@ const USUAL_UNCERTAINTY: f64 = 1e-3;
 /// Sine of the angle within which directions are one: 0.001 mm over 100 mm.
 const SAME_DIRECTION: f64 = 1e-5;
 
+/// Features of one tolerance, or of a proposal without tolerances, at most.
+const MAX_GROUPS: usize = 2000;
+
 /// Faces that lie on one surface.
 #[derive(Clone, Debug)]
 pub(super) struct Group {
@@ -69,10 +72,17 @@ impl<'m> Faces<'m> {
                 none.push(format!("face {number} is {}", name(face.surface.kind())));
                 continue;
             };
+            let is_full = groups.len() == MAX_GROUPS;
             let same = |g: &&mut Group| g.internal == internal && is_same(&g.shape, &shape, self.near);
             match groups.iter_mut().find(same) {
                 Some(group) => group.faces.push(number),
-                None => groups.push(Group { shape, internal, faces: vec![number] }),
+                None if !is_full => {
+                    groups.push(Group { shape, internal, faces: vec![number] });
+                }
+                None => {
+                    none.push(format!("the faces from {number} on are more than {MAX_GROUPS} surfaces"));
+                    break;
+                }
             }
         }
         (groups, none)

@@ -13,8 +13,8 @@ const REMARKS: [&str; 4] =
     ["free state", "separate requirement", "statistical tolerance", "regardless of feature size"];
 /// Remarks on targets whose faces tell the same.
 const TOLD_BY_FACES: [&str; 4] = ["all around", "between", "continuous", "all over"];
-/// The zone of an axis.
-const ROUND_ZONE: &str = "cylindrical or circular";
+/// What the form of an axis's zone is called, among other words.
+const ROUND_ZONE: &str = "cylindrical";
 /// A frame that stands where the aligned data do.
 const ALIGNED: &str = "frame = { origin = [0.0, 0.0, 0.0], x = [1.0, 0.0, 0.0], z = [0.0, 0.0, 1.0] }\n";
 
@@ -136,7 +136,7 @@ fn prepared(context: &Context, tolerance: &GeometricTolerance) -> Result<Prepare
     }
     Ok(Prepared {
         is_of_middle: matches!(&kind[..], "position" | "symmetry"),
-        is_round: tolerance.zone.as_deref() == Some(ROUND_ZONE),
+        is_round: tolerance.zone.as_deref().is_some_and(|zone| zone.contains(ROUND_ZONE)),
         material: requirement,
         kind,
         named,

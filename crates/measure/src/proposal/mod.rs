@@ -8,8 +8,6 @@ mod faces;
 mod geometric;
 mod mesh;
 mod model;
-#[cfg(test)]
-mod tests;
 mod text;
 mod usual;
 

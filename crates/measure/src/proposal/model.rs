@@ -10,8 +10,6 @@ use super::usual::usual;
 use trueness_cad::model::Model;
 use trueness_geom::shape::{Kind, Shape};
 
-/// Features of a proposal without tolerances at most.
-const MAX_FEATURES: usize = 2000;
 /// Parts of keywords of entities that are lost tolerances where they cannot be read.
 const TOLERANCES: [&str; 3] = ["TOLERANCE", "DIMENSION", "DATUM"];
 
@@ -35,6 +33,9 @@ fn head(reference: &str, said: &str, align: &str) -> String {
         quoted(reference)
     )
 }
+
+/// What a plan without a characteristic judges.
+const DEVIATION: &str = "\n# No feature can be judged: the deviations from all faces are, by a placeholder.\n[deviation]\ntolerance = 0.1\n";
 
 const BEST_FIT: &str = "# \"none\" where the scan lies in the coordinates of the model already.\n[align]\nmethod = \"best-fit\"\n";
 
@@ -70,8 +71,9 @@ fn with_tolerances(model: &Model, faces: &Faces, reference: &str) -> String {
         comment(&format!("{what} of the model: {found} in the plan, {} as comments", all - found))
     });
     let mut out = head(reference, "Its tolerances are those of the model.", &align);
+    let is_judged = draft.is_judged();
     out.push_str(&draft.finished());
-    out.push('\n');
+    out.push_str(if is_judged { "\n" } else { DEVIATION });
     out.extend(counts);
     out
 }
@@ -83,16 +85,15 @@ fn placeholders(faces: &Faces, reference: &str) -> String {
     let (groups, none) = faces.groups(faces.numbers());
     let mut features: Vec<(String, Shape)> = vec![];
     let mut datum = Some("A");
-    for group in groups.iter().take(MAX_FEATURES) {
+    for group in &groups {
         let wanted = if group.shape.kind() == Kind::Plane { datum.take() } else { None };
-        features.push((draft.feature(group, wanted), group.shape));
-    }
-    let left = groups.len().saturating_sub(MAX_FEATURES);
-    if left > 0 {
-        draft.say(&format!("{left} more features are not in the plan."));
+        let id = draft.feature(group, wanted);
+        draft.keep(&id);
+        features.push((id, group.shape));
     }
     if !none.is_empty() {
         draft.say(&format!("Faces that are no features of plans: {}.", none.join(", ")));
     }
-    head(reference, said, BEST_FIT) + &draft.finished() + &usual(&features)
+    let judged = if features.is_empty() { DEVIATION.into() } else { usual(&features) };
+    head(reference, said, BEST_FIT) + &draft.finished() + &judged
 }
