@@ -12,6 +12,7 @@
 //! | areas, volumes, moments, bounds | [`measure`] |
 //! | facets | [`tessellate`] |
 //! | parts, their instances, what could not be read | [`model`] |
+//! | datums, geometric tolerances, dimensions of a model | [`tolerances`] |
 #![cfg_attr(test, allow(clippy::disallowed_methods, reason = "a test does not hang on the last digit"))]
 
 pub mod brep;
@@ -22,5 +23,6 @@ pub mod model;
 pub mod search;
 pub mod surface;
 pub mod tessellate;
+pub mod tolerances;
 pub mod trim;
 pub mod trimmed;

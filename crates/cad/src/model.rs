@@ -2,6 +2,7 @@
 
 use crate::brep::{Brep, Color};
 use crate::frame::Placement;
+use crate::tolerances::Tolerances;
 
 /// A part: its boundary in its own coordinates.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -62,6 +63,8 @@ pub struct Model {
     pub hidden: Vec<u64>,
     /// Names of its layers.
     pub layers: Vec<String>,
+    /// What its designer allows.
+    pub tolerances: Tolerances,
     /// What could not be read.
     pub unread: Vec<Unread>,
 }

@@ -112,11 +112,25 @@ pub struct CadRecord {
     pub coloured_faces: u64,
     /// The uncertainty that the file states for its lengths, mm.
     pub uncertainty: Option<f64>,
+    /// The tolerances that the model carries, if it does: `trueness plan init` makes a plan of them.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub tolerances: Option<TolerancesRecord>,
     /// Faces that could not be read: what is not read of a nominal leaves its verdict undecided.
     pub refused: Vec<RefusedRecord>,
     /// Other entities that were not read, by keyword and reason.
     #[serde(skip_serializing_if = "Vec::is_empty", default)]
     pub unread: Vec<UnreadRecord>,
+}
+
+/// Numbers of tolerances that a CAD model carries.
+#[derive(Clone, Debug, Default, Serialize, Deserialize, JsonSchema)]
+pub struct TolerancesRecord {
+    /// Datums.
+    pub datums: u64,
+    /// Sizes, distances and angles.
+    pub dimensions: u64,
+    /// Tolerances of form, attitude, place and run-out, by their kind.
+    pub geometric: BTreeMap<String, u64>,
 }
 
 /// A part of a CAD model.

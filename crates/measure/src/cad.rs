@@ -5,10 +5,11 @@ use trueness_cad::brep::Brep;
 use trueness_cad::measure::Integrals;
 use trueness_cad::model::Model;
 use trueness_cad::surface::SurfaceKind;
+use trueness_cad::tolerances::Tolerances;
 use trueness_cad::trimmed::Trimmed;
 use trueness_document::Word;
 use trueness_document::info::{
-    CadRecord, CadSurface, PartRecord, PlacementRecord, RefusedRecord, UnreadRecord,
+    CadRecord, CadSurface, PartRecord, PlacementRecord, RefusedRecord, TolerancesRecord, UnreadRecord,
 };
 use trueness_geom::num::sum::Sum;
 
@@ -42,6 +43,7 @@ pub fn record(model: &Model, shape: &Trimmed, integrals: &[Option<Integrals>]) -
             .collect(),
         coloured_faces: brep.faces.iter().filter(|f| f.color.is_some()).count() as u64,
         uncertainty: model.uncertainty,
+        tolerances: tolerances(&model.tolerances),
         refused: refused(model, shape),
         unread: unread(model),
     }
@@ -73,6 +75,15 @@ pub(crate) fn word(kind: SurfaceKind) -> CadSurface {
         SurfaceKind::Revolution => CadSurface::Revolution,
         SurfaceKind::Offset => CadSurface::Offset,
     }
+}
+
+fn tolerances(of: &Tolerances) -> Option<TolerancesRecord> {
+    let mut geometric = BTreeMap::new();
+    for tolerance in &of.geometric {
+        *geometric.entry(tolerance.kind.clone()).or_insert(0) += 1;
+    }
+    let (datums, dimensions) = (of.datums.len() as u64, of.dimensions.len() as u64);
+    (!of.is_empty()).then_some(TolerancesRecord { datums, dimensions, geometric })
 }
 
 fn parts(model: &Model) -> Vec<PartRecord> {

@@ -15,6 +15,7 @@
 //! | kinds of characteristics | [`characteristic`] |
 //! | inspection plans that can be evaluated | [`plan`] |
 //! | a plan and data make verdicts | [`inspection`] |
+//! | a nominal makes a plan | [`proposal`] |
 #![cfg_attr(test, allow(clippy::disallowed_methods, reason = "a test does not hang on the last digit"))]
 
 pub mod align;
@@ -30,6 +31,7 @@ pub mod fit;
 pub mod inspection;
 mod noise;
 pub mod plan;
+pub mod proposal;
 pub mod repair;
 pub mod requirement;
 pub mod section;

@@ -95,6 +95,15 @@ fn cad(cad: &CadRecord, most: usize, rows: &mut Vec<(&str, String)>) {
             .map(|(n, what)| counted(n, [what, &format!("{what}s")]));
         rows.push(("", format!("{} × {}: {faces}, {solids}", part.instances, part.name)));
     }
+    if let Some(tolerances) = &cad.tolerances {
+        let datums = counted(tolerances.datums, ["datum", "datums"]);
+        let dimensions = counted(tolerances.dimensions, ["dimension", "dimensions"]);
+        rows.push(("allows", format!("{datums}, {dimensions}; `trueness plan init` makes a plan of them")));
+        let kinds: Vec<String> = tolerances.geometric.iter().map(|(kind, n)| format!("{n} {kind}")).collect();
+        if !kinds.is_empty() {
+            rows.push(("", kinds.join(", ")));
+        }
+    }
     for face in cad.refused.iter().take(most) {
         rows.push(("! unread", format!("#{} {}: {}", face.face, face.keyword, face.why)));
     }

@@ -23,13 +23,15 @@ enum What {
     Init(InitArgs),
 }
 
-/// Propose a plan: a feature for every plane, cylinder, cone and sphere of the nominal, with placeholder tolerances
+/// Propose a plan: the tolerances of a CAD model, else a feature for every plane, cylinder, cone and sphere of the nominal, with
+/// placeholder tolerances
 #[derive(Args, Debug)]
 #[command(after_help = "\
 Examples:
-  trueness plan init nominal.stl --out part.toml")]
+  trueness plan init nominal.stl --out part.toml
+  trueness plan init part.stp --out part.toml")]
 struct InitArgs {
-    /// The nominal mesh
+    /// The nominal: a CAD model or a mesh
     nominal: PathBuf,
     #[command(flatten)]
     reading: InputArgs,

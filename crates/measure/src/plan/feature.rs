@@ -20,7 +20,7 @@ const ROUND: [Class; 3] = [Class::Cylinder, Class::Cone, Class::Sphere];
 /// Angle between normals within which facets belong to a feature, where the plan says nothing.
 const DEFAULT_FACING_DEGREES: f64 = 15.0;
 /// Least share of the nominal area that must have been measured, where the plan says nothing.
-pub(super) const DEFAULT_MIN_COVERAGE: f64 = 0.25;
+pub(crate) const DEFAULT_MIN_COVERAGE: f64 = 0.25;
 
 pub(super) fn features(checker: &Checker, written: &PlanText) -> Result<Vec<Feature>, PlanError> {
     let mut all: Vec<Feature> = Vec::new();

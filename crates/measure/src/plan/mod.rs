@@ -11,7 +11,6 @@ mod deviation;
 mod feature;
 mod limits_read;
 mod material;
-mod proposal;
 pub mod region;
 mod spec;
 mod tolerance_region;
@@ -19,7 +18,7 @@ mod tolerance_region;
 pub use align::Align;
 pub use decision::{Decision, Noise, NoiseSource, Rule};
 pub use deviation::Deviation;
-pub use proposal::proposal;
+pub(crate) use feature::DEFAULT_MIN_COVERAGE;
 pub use tolerance_region::{ToleranceRegion, regions_of_file};
 
 use crate::characteristic::Spec;

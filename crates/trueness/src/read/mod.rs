@@ -214,6 +214,27 @@ pub fn mesh(
     opened_mesh(path, role, open(sources, path, role, options)?)
 }
 
+/// A nominal that a plan is proposed from.
+pub enum Nominal {
+    /// A CAD model.
+    Cad(Box<CadFile>, InputRecord),
+    /// Facets.
+    Mesh(SourceMesh, InputRecord),
+}
+
+/// Reads a CAD model or a mesh; points are refused with a remedy.
+pub fn model_or_mesh(sources: &dyn Sources, path: &Path, options: &ReadOptions) -> Result<Nominal> {
+    match any(sources, path, Role::Reference, options)? {
+        Any::Cad(file, record) => Ok(Nominal::Cad(file, record)),
+        Any::Whole(opened) => {
+            let (mesh, record) = opened_mesh(path, Role::Reference, opened)?;
+            Ok(Nominal::Mesh(mesh, record))
+        }
+        Any::Splines(model, record) => Err(unread::refusal(path, &model, &record, MESH_OR_POINTS)),
+        Any::Drawing(..) => Err(no_drawing(path)),
+    }
+}
+
 fn opened_mesh(path: &Path, role: Role, opened: Opened) -> Result<(SourceMesh, InputRecord)> {
     match opened.body {
         Body::Mesh(mesh) => Ok((mesh, opened.record)),

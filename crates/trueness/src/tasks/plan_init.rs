@@ -7,8 +7,9 @@ use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use trueness_document::{InputRecord, Role};
 use trueness_files::Sources;
+use trueness_geom::mesh::Mesh;
 use trueness_geom::segment::{self, Options, SegmentError};
-use trueness_measure::plan::proposal;
+use trueness_measure::proposal;
 
 /// What a proposal is asked.
 ///
@@ -23,7 +24,7 @@ use trueness_measure::plan::proposal;
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct PlanInitRequest {
-    /// The nominal: a mesh.
+    /// The nominal: a CAD model with or without tolerances, or a mesh.
     pub nominal: PathBuf,
     /// How it is taken.
     #[serde(flatten)]
@@ -58,17 +59,11 @@ impl Request for PlanInitRequest {
             return Err(TaskError::usage(text));
         }
         let reading = self.reading.options();
-        let (source, mut record) = read::mesh(sources, &self.nominal, Role::Reference, &reading)?;
+        let (text, mut record) = match read::model_or_mesh(sources, &self.nominal, &reading)? {
+            read::Nominal::Cad(file, record) => (proposal::of_model(&file.model, &self.reference()), record),
+            read::Nominal::Mesh(source, record) => (self.of_mesh(&source.mesh, watch)?, record),
+        };
         read::hash(sources, &mut record, &self.nominal)?;
-        let mesh = source.mesh;
-        let stage = watch.stage("segmenting", "facets", Some(mesh.faces.len() as u64));
-        let options = Options { seed: self.seed, ..Options::default() };
-        let found = segment::mesh(&mesh, &options, &*stage);
-        let found = ended(stage, found).map_err(|e| match e {
-            SegmentError::Cancelled(e) => e.into(),
-            e => TaskError::unanswerable(format!("{}: {e}", self.nominal.display())),
-        })?;
-        let text = proposal(&mesh, &found, &self.reference());
         let mut done = Done::with_outcome(ProposedPlan { inputs: vec![record], text }, Outcome::Conforming);
         if let Some(path) = &self.out {
             let text = done.document.text.as_bytes();
@@ -79,6 +74,18 @@ impl Request for PlanInitRequest {
 }
 
 impl PlanInitRequest {
+    /// The plan for the elements of a mesh.
+    fn of_mesh(&self, mesh: &Mesh, watch: &dyn Watch) -> Result<String, TaskError> {
+        let stage = watch.stage("segmenting", "facets", Some(mesh.faces.len() as u64));
+        let options = Options { seed: self.seed, ..Options::default() };
+        let found = segment::mesh(mesh, &options, &*stage);
+        let found = ended(stage, found).map_err(|e| match e {
+            SegmentError::Cancelled(e) => e.into(),
+            e => TaskError::unanswerable(format!("{}: {e}", self.nominal.display())),
+        })?;
+        Ok(proposal::of_mesh(mesh, &found, &self.reference()))
+    }
+
     /// The nominal as the plan names it: relative to its folder where it lies beside it.
     fn reference(&self) -> String {
         let folder = |path: &Path| match path.parent() {

@@ -3,6 +3,8 @@
 //!
 //! The header's time stamp is fixed, so that the same model gives the same bytes.
 
+mod budget;
+mod context;
 mod curves;
 mod instances;
 mod model;
@@ -12,6 +14,7 @@ mod spline;
 mod surface;
 #[cfg(test)]
 mod tests;
+mod tolerances;
 
 pub use curves::write as curves;
 pub(super) use instances::real;

@@ -3,8 +3,8 @@
 //! A node stands for a product and all representations that share its coordinates. A node is placed in another one by an occurrence
 //! of its product, by a relationship of representations with a transformation, or as a mapped item.
 
+use super::super::context::{Context, context};
 use super::super::part21::{Entity, File, Record, Value, Wrong};
-use super::context::{Context, context};
 use super::placement::{Units, frame, operator, target};
 use super::shape::{Item, item};
 use std::collections::{BTreeMap, BTreeSet, HashMap};

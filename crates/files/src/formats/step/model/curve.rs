@@ -1,8 +1,8 @@
 //! Curves of a file.
 
+use super::super::budget::Budget;
 use super::super::part21::{Entity, File, Record, Value, Wrong};
 use super::super::spline::{CURVES, spline};
-use super::budget::Budget;
 use super::placement::{Units, direction, frame, operator, point, vector};
 use super::span;
 use crate::formats::spline::curve as spline_curve;

@@ -5,8 +5,6 @@
 //! need it, which are told with entity, line and reason.
 
 mod assembly;
-mod budget;
-mod context;
 mod curve;
 mod face;
 mod hollow;

@@ -1,8 +1,8 @@
 //! The part of each node: what the items of its representations are.
 
+use super::super::budget::Budget;
 use super::super::part21::File;
 use super::assembly::Assembly;
-use super::budget::Budget;
 use super::curve::Geometry;
 use super::face::Faces;
 use super::looks::Looks;

@@ -1,8 +1,8 @@
 //! The whole of a file.
 
+use super::super::budget::Budget;
 use super::super::part21::{File, parse};
 use super::assembly::{Assembly, Representation, representations};
-use super::budget::Budget;
 use super::instances::instances;
 use super::looks::Looks;
 use super::part::Reading;
@@ -70,6 +70,7 @@ pub(crate) fn read(
     }
     model.unread.append(&mut assembly.unread);
     model.unread.extend(damaged(&file));
+    model.tolerances = super::super::tolerances::read(&file, &budget);
     model.hidden = looks.hidden.iter().copied().collect();
     model.layers = looks.layers.iter().cloned().collect();
     Ok(CadContent { model, unit, warnings, splines: None })

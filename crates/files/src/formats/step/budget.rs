@@ -3,7 +3,7 @@
 //! What many entities share, such as the control points of a surface that has a thousand faces, is copied into each. Real files
 //! share little; a file that is made to exhaust the memory shares everything.
 
-use super::super::part21::{Entity, File, Wrong};
+use super::part21::{Entity, File, Wrong};
 use std::cell::Cell;
 
 /// Copies of each entity of a file, on the average.

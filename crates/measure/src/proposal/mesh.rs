@@ -1,25 +1,23 @@
 //! A plan proposed from the elements of a nominal mesh: every element a feature, with the usual characteristics.
 
-use super::feature::DEFAULT_MIN_COVERAGE;
-use super::region::{facets_of, nominal_of};
+use super::text::{number_text, quoted, vector};
+use super::usual::usual;
+use crate::plan::DEFAULT_MIN_COVERAGE;
+use crate::plan::region::{facets_of, nominal_of};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use trueness_geom::feature::Nominal;
 use trueness_geom::mesh::Mesh;
-use trueness_geom::segment::{Region, Segmentation};
+use trueness_geom::segment::Segmentation;
 use trueness_geom::shape::{Kind, Shape};
 use trueness_geom::space::{Point, cross, dot, minus, norm, plus, times};
 
-/// Tolerances of a proposal: to be replaced by those of the drawing.
-const PROPOSED_TOLERANCE: &str = "0.1";
-/// Cosine above which directions count as parallel as drawn, and sine below which as perpendicular.
-const DRAWN_PARALLEL_COSINE: f64 = 0.999;
 /// A feature with less of the area of its nominal form is a part of it.
 const WHOLE_AREA_SHARE: f64 = 0.9;
 
 /// The text of a plan for the elements `found` in the nominal `mesh`, whose file is called `reference`. It parses; its
 /// tolerances are placeholders. Elements without a nominal form in plans (tori) are left out, as a comment says.
-pub fn proposal(mesh: &Mesh, found: &Segmentation, reference: &str) -> String {
+pub fn of_mesh(mesh: &Mesh, found: &Segmentation, reference: &str) -> String {
     let mut out = format!(
         "# Proposed from {0}. Tolerances are placeholders: put in those of the drawing, take out what is not toleranced.\n\
          schema = \"trueness/plan/1\"\nunits = \"mm\"\nmeasured = \"scan.stl\"\nreference = {0}\n\n\
@@ -28,7 +26,7 @@ pub fn proposal(mesh: &Mesh, found: &Segmentation, reference: &str) -> String {
          # on edges needs rim = true.\n",
         quoted(reference)
     );
-    let mut features: Vec<(String, &Region)> = Vec::new();
+    let mut features: Vec<(String, Shape)> = Vec::new();
     let mut numbers: BTreeMap<&str, usize> = BTreeMap::new();
     for (label, region) in found.regions.iter().enumerate() {
         let facets = facets_of(mesh, found, label as u32);
@@ -52,12 +50,12 @@ pub fn proposal(mesh: &Mesh, found: &Segmentation, reference: &str) -> String {
             keys(&nominal),
             coverage(&nominal, &facets)
         );
-        features.push((id, region));
+        features.push((id, region.fit.shape));
     }
     if let Some(left) = without_region(mesh, found) {
         let _ = write!(out, "\n# {left}\n");
     }
-    characteristics(&mut out, &features);
+    out.push_str(&usual(&features));
     out
 }
 
@@ -81,55 +79,6 @@ fn without_region(mesh: &Mesh, found: &Segmentation) -> Option<String> {
 
 fn area([a, b, c]: &[Point; 3]) -> f64 {
     0.5 * norm(cross(minus(*b, *a), minus(*c, *a)))
-}
-
-/// The usual characteristics of each feature: form, size, attitude to the largest plane.
-fn characteristics(out: &mut String, features: &[(String, &Region)]) {
-    let mut number = 0;
-    let mut add = |lines: String| {
-        number += 1;
-        let _ = write!(out, "\n[[characteristic]]\nid = \"{number}\"\n{lines}\n");
-    };
-    let datum = features.iter().find(|(id, _)| id == "A").and_then(|(_, r)| r.fit.shape.direction());
-    for (id, region) in features {
-        let id_text = quoted(id);
-        let shape = &region.fit.shape;
-        let form = [(Kind::Plane, "flatness"), (Kind::Cylinder, "cylindricity")];
-        let form = form.into_iter().find(|(kind, _)| *kind == shape.kind());
-        if let Some((_, form)) = form {
-            add(format!("kind = \"{form}\"\nfeature = {id_text}\ntolerance = {PROPOSED_TOLERANCE}"));
-        }
-        if let Shape::Cylinder { radius, .. } | Shape::Sphere { radius, .. } = shape {
-            let nominal = number_text(2.0 * radius);
-            add(format!(
-                "kind = \"size\"\nsize = \"GG\"\nfeature = {id_text}\nnominal = {nominal}\nupper = {PROPOSED_TOLERANCE}\nlower = -{PROPOSED_TOLERANCE}"
-            ));
-        }
-        let (Some(own), Some(datum), true) = (shape.direction(), datum, id != "A") else { continue };
-        // Planes stand to each other as their normals do, an axis to a plane the other way round.
-        let is_plane = matches!(shape, Shape::Plane { .. });
-        let along = dot(own, datum).abs();
-        let kind = match (along >= DRAWN_PARALLEL_COSINE, along <= 1.0 - DRAWN_PARALLEL_COSINE) {
-            (true, _) => {
-                if is_plane {
-                    "parallelism"
-                } else {
-                    "perpendicularity"
-                }
-            }
-            (_, true) => {
-                if is_plane {
-                    "perpendicularity"
-                } else {
-                    "parallelism"
-                }
-            }
-            _ => continue,
-        };
-        add(format!(
-            "kind = \"{kind}\"\nfeature = {id_text}\ndatums = [\"A\"]\ntolerance = {PROPOSED_TOLERANCE}"
-        ));
-    }
 }
 
 /// The key `coverage` of a feature that is only a part of its nominal form, as a pocket is of a sphere: the usual share of
@@ -199,37 +148,4 @@ fn keys(nominal: &Nominal) -> String {
             vector(*b)
         ),
     }
-}
-
-/// Share of a number, and of 1, by which the single precision of meshes moves what is found from them.
-const SINGLE_PRECISION_SHARE: f64 = 4.0 * f32::EPSILON as f64;
-
-/// A number without the rounding of single precision that meshes come with: to three digits after the point where that is all that it changes,
-/// else to six.
-fn number_text(x: f64) -> String {
-    let to = |scale: f64| (x * scale).round() / scale;
-    let rounded =
-        if (to(1e3) - x).abs() <= SINGLE_PRECISION_SHARE * x.abs().max(4.0) { to(1e3) } else { to(1e6) };
-    // TOML has floats with a point; minus zero is zero.
-    format!("{:?}", rounded + 0.0)
-}
-
-fn vector(v: [f64; 3]) -> String {
-    format!("[{}]", v.map(number_text).join(", "))
-}
-
-/// A string of TOML.
-fn quoted(text: &str) -> String {
-    let mut out = String::from("\"");
-    for c in text.chars() {
-        match c {
-            '"' | '\\' => out.extend(['\\', c]),
-            c if c.is_control() => {
-                let _ = write!(out, "\\u{:04X}", c as u32);
-            }
-            c => out.push(c),
-        }
-    }
-    out.push('"');
-    out
 }

@@ -1,11 +1,11 @@
 //! The units and the uncertainty of a representation, by its context.
 
-use super::super::part21::{Entity, File, Record, Wrong};
+use super::part21::{Entity, File, Record, Wrong};
 use std::f64::consts::PI;
 
 /// What a context says.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(in super::super) struct Context {
+pub(super) struct Context {
     /// Millimeters in one unit of length.
     pub length: Option<f64>,
     /// Radians in one unit of angle.
@@ -36,7 +36,7 @@ pub(super) fn context(file: &File, number: u64) -> Result<Context, Wrong> {
     if let Some(record) = entity.record("GLOBAL_UNCERTAINTY_ASSIGNED_CONTEXT") {
         let all = record.entities(record.values.len().saturating_sub(1))?;
         // A damaged statement of uncertainty is no reason to lose the model.
-        let lengths = all.filter_map(|number| uncertainty(file, number).ok().flatten());
+        let lengths = all.filter_map(|number| uncertainty(file, number));
         found.uncertainty = lengths.reduce(f64::max);
     }
     Ok(found)
@@ -47,14 +47,35 @@ fn is_length(unit: &Entity) -> bool {
     unit.record("LENGTH_UNIT").is_some() || unit.is_simple() && unit.record("SI_UNIT").is_some_and(meter)
 }
 
-/// An uncertainty of lengths in millimeters; `None` where it is one of something else.
-fn uncertainty(file: &File, number: u64) -> Result<Option<f64>, Wrong> {
+/// A length in millimeters, or an angle in radians.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Measure {
+    Length(f64),
+    Angle(f64),
+}
+
+/// What a measure with a unit is.
+pub(super) fn measure(file: &File, number: u64) -> Result<Measure, Wrong> {
     let entity = file.entity(number)?;
-    let measure = entity.main(&["MEASURE_WITH_UNIT", "UNCERTAINTY_MEASURE_WITH_UNIT"]);
-    let unit = file.entity(measure.entity(1)?)?;
-    match is_length(&unit) {
-        true => Ok(Some(measure.real(0)? * factor(file, &unit, 0)?).filter(|x| *x > 0.0)),
-        false => Ok(None),
+    let record = entity.main(&["MEASURE_WITH_UNIT", "UNCERTAINTY_MEASURE_WITH_UNIT"]);
+    let first = usize::from(record.keyword == "MEASURE_REPRESENTATION_ITEM");
+    let unit = file.entity(record.entity(first + 1)?)?;
+    let value = || match record.real(first)? * factor(file, &unit, 0)? {
+        x if x.is_finite() => Ok(x),
+        _ => Err(record.wrong("is beyond all numbers")),
+    };
+    match unit.record("PLANE_ANGLE_UNIT") {
+        _ if is_length(&unit) => Ok(Measure::Length(value()?)),
+        Some(_) => Ok(Measure::Angle(value()?)),
+        None => Err(record.wrong("is neither a length nor an angle")),
+    }
+}
+
+/// An uncertainty of lengths in millimeters; `None` where it is one of something else.
+fn uncertainty(file: &File, number: u64) -> Option<f64> {
+    match measure(file, number) {
+        Ok(Measure::Length(length)) => Some(length).filter(|x| *x > 0.0),
+        _ => None,
     }
 }
 
