@@ -159,6 +159,9 @@ impl PointStream for Named {
         self.unit.apply(block);
         Ok(())
     }
+    fn remarks(&self) -> Vec<String> {
+        self.inner.remarks()
+    }
 }
 
 impl Body {
