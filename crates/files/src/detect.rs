@@ -48,7 +48,6 @@ fn extension(path: &Path) -> Option<&str> {
 /// A well-known kind of file that is not read, by its ending. Some of them are text and would pass for a table.
 fn foreign_extension(path: &Path) -> Option<(&'static str, &'static str)> {
     const FOREIGN_EXTENSIONS: &[(&str, &str)] = &[
-        ("e57", "an E57 point cloud"),
         ("fls", "a FARO scan"),
         ("zfs", "a Zoller + Fröhlich scan"),
         ("3mf", "a 3MF model"),
@@ -109,7 +108,6 @@ fn foreign_document(bytes: &[u8]) -> Option<&'static str> {
 fn foreign(bytes: &[u8]) -> Option<&'static str> {
     const FOREIGN_MAGICS: &[(&[u8], &str)] = &[
         (b"PK\x03\x04", "a ZIP archive (3MF, a spreadsheet or another packed folder)"),
-        (b"ASTM-E57", "an E57 point cloud"),
         (b"#VRML", "a VRML model"),
         (b"Kaydara FBX", "an FBX model"),
         (b"**ABCDEFGHIJKLMNOPQRSTUVWXYZ", "a Parasolid model"),

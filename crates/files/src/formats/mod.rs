@@ -2,6 +2,7 @@
 //! what `trueness formats NAME` prints.
 
 pub(crate) mod dxf;
+pub(crate) mod e57;
 pub(crate) mod iges;
 pub(crate) mod las;
 pub(crate) mod npy;
@@ -30,6 +31,7 @@ pub static FORMATS: &[&Format] = &[
     &pcd::PCD,
     &ptx::PTX,
     &las::LAS,
+    &e57::E57,
     &off::OFF,
     &stl::STL,
     &obj::OBJ,

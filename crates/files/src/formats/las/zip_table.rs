@@ -88,7 +88,7 @@ impl Packing {
             let what = format!("the table of chunks has {count} chunks, but {data} packed bytes are there");
             return Err(contradiction(what).at_byte(table + 4));
         }
-        let left = file_left(feed)?.saturating_sub(data);
+        let left = feed.count_left()?.saturating_sub(data);
         let mut bytes = vec![
             0;
             usize::try_from(left.min(TABLE_HEAD_BYTES + MAX_ENTRY_BYTES * count))
@@ -140,21 +140,13 @@ fn table_at(feed: &mut Feed) -> Result<u64> {
     feed.copy(0, &mut offset)?;
     let mut place = i64::from_le_bytes(offset);
     if place == -1 {
-        let left = file_left(feed)?;
+        let left = feed.count_left()?;
         feed.copy(left.saturating_sub(OFFSET_BYTES as u64), &mut offset)?;
         place = i64::from_le_bytes(offset);
     }
     match u64::try_from(place) {
         Ok(place) if place >= at + OFFSET_BYTES as u64 => Ok(place),
         _ => Err(contradiction(format!("the table of chunks is said to be at byte {place}")).at_byte(at)),
-    }
-}
-
-/// Bytes ahead up to the end of the file.
-fn file_left(feed: &mut Feed) -> Result<u64> {
-    match feed.left() {
-        Some(left) => Ok(left),
-        None => Ok(feed.all()?.len() as u64),
     }
 }
 

@@ -235,13 +235,14 @@ impl<'a> Facts<'a> {
             Some(Field {
                 name: String::from_utf8_lossy(self.fields[i]).into_owned(),
                 kind: *self.kinds[i].first()?,
-                size: small(self.sizes[i])?,
+                size: small(self.sizes[i]).filter(|size| *size > 0)?,
                 count: small(counts[i])?,
             })
         });
         let fields: Option<Vec<Field>> = fields.collect();
         fields.ok_or_else(|| {
-            Fault::unexpected("whole numbers behind SIZE and COUNT", &self.sizes.join(&b' ')).into()
+            Fault::unexpected("whole numbers behind SIZE, none of them 0, and COUNT", &self.sizes.join(&b' '))
+                .into()
         })
     }
 }

@@ -92,11 +92,14 @@ impl Row {
     }
 }
 
+/// A digit that was rounded from the middle of two may seem to be farther off by the rounding of this very comparison.
+const TIE: f64 = 1.0 + 1e-6;
+
 /// The number of a field that is declared to be of single precision. A word to which a single rounds stands for this single. A
 /// word with more digits than a single has was never one, and its digits are kept.
 fn single(value: f64, word: &[u8]) -> f64 {
     let near = f64::from(value as f32);
-    if (near - value).abs() <= half_unit(word) { near } else { value }
+    if (near - value).abs() <= TIE * half_unit(word) { near } else { value }
 }
 
 /// Half a unit of the last digit of a number in text.
@@ -106,16 +109,15 @@ fn half_unit(word: &[u8]) -> f64 {
         None => (word, &[][..]),
     };
     let decimals = memchr::memchr(b'.', digits).map_or(0, |at| digits.len() - at - 1);
-    let unit = |power: usize| POWERS_OF_TEN.get(power).map_or(0.0, |ten| 0.5 / ten);
-    if exponent.is_empty() {
-        return unit(decimals);
+    if let (true, Some(ten)) = (exponent.is_empty(), POWERS_OF_TEN.get(decimals)) {
+        return 0.5 / ten;
     }
     let (negative, size) = match exponent {
         [b'-', size @ ..] => (true, size),
         [b'+', size @ ..] | size => (false, size),
     };
     let size = count(size).and_then(|n| i32::try_from(n).ok()).unwrap_or_default();
-    let power = if negative { -size } else { size } as f64 - decimals as f64;
+    let power = f64::from(if negative { -size } else { size }) - decimals as f64;
     0.5 * libm::pow(10.0, power)
 }
 
