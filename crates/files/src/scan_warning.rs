@@ -72,6 +72,11 @@ pub enum ScanWarning {
     },
 }
 
+/// The text of a warning about so many records, if there are any.
+pub(crate) fn remark(count: u64, warning: impl FnOnce(u64) -> ScanWarning) -> Option<String> {
+    (count > 0).then(|| warning(count).to_string())
+}
+
 impl fmt::Display for ScanWarning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

@@ -2,7 +2,6 @@
 
 use super::{
     column::{Kind, Packed},
-    contradiction,
     pages::Pages,
 };
 use crate::error::{Fault, Result};
@@ -41,7 +40,7 @@ pub(super) struct ScanHead {
 }
 
 /// A document is read up to this length.
-const MAX_DOCUMENT_BYTES: u64 = 1 << 26;
+const MAX_XML_BYTES: u64 = 1 << 26;
 const CARTESIAN: [&str; 3] = ["cartesianX", "cartesianY", "cartesianZ"];
 const SPHERICAL: [&str; 3] = ["sphericalRange", "sphericalAzimuth", "sphericalElevation"];
 
@@ -54,15 +53,15 @@ impl Document {
         let Some(start) = start.filter(|start| length <= pages.length() - start) else {
             let what =
                 format!("the document has offset {offset} and length {length}, beyond the end of the file");
-            return Err(contradiction(what).at_byte(24));
+            return Err(Fault::contradiction(what).at_byte(24));
         };
-        if length > MAX_DOCUMENT_BYTES {
-            let (what, limit) = ("bytes of the document", MAX_DOCUMENT_BYTES);
+        if length > MAX_XML_BYTES {
+            let (what, limit) = ("bytes of the document", MAX_XML_BYTES);
             return Err(Fault::TooMany { what, count: length, limit }.at_byte(32));
         }
         let text = pages.read(start, length as usize)?;
         let damaged = |e: &dyn std::fmt::Display| {
-            contradiction(format!("the document cannot be read: {e}")).at_byte(offset)
+            Fault::contradiction(format!("the document cannot be read: {e}")).at_byte(offset)
         };
         let text = std::str::from_utf8(&text).map_err(|e| damaged(&e))?;
         // Entities, which may grow beyond all measure, are refused with the DTD that declares them.
@@ -88,7 +87,7 @@ fn children<'a, 'input: 'a>(node: Node<'a, 'input>, name: &str) -> impl Iterator
 /// A number of the document; an empty element is 0.
 fn float(node: Node, name: &str) -> std::result::Result<f64, Fault> {
     let Some(node) = child(node, name) else {
-        return Err(contradiction(format!("the pose of a scan has no {name}")));
+        return Err(Fault::contradiction(format!("the pose of a scan has no {name}")));
     };
     match node.text().map_or("", str::trim) {
         "" => Ok(0.0),
@@ -146,7 +145,7 @@ fn column(node: Node) -> std::result::Result<Packed, Fault> {
     let range = || match (min?, max?) {
         (min, max) if min <= max => Ok((min, max)),
         (min, max) => {
-            Err(contradiction(format!("column {name} has the minimum {min} above its maximum {max}")))
+            Err(Fault::contradiction(format!("column {name} has the minimum {min} above its maximum {max}")))
         }
     };
     match node.attribute("type") {
@@ -177,7 +176,7 @@ fn pose(node: Node) -> std::result::Result<[Point; 4], Fault> {
     let length = w * w + x * x + y * y + z * z;
     if !length.is_normal() || !shift.iter().all(|x| x.is_finite()) {
         let what = format!("the pose of a scan has the quaternion {w} {x} {y} {z}, which is no rotation");
-        return Err(contradiction(what));
+        return Err(Fault::contradiction(what));
     }
     let s = 2.0 / length;
     Ok([

@@ -15,11 +15,12 @@ use crate::{
     ScanWarning, Unit, Warning,
     error::{Fault, Located, Result},
     format::{Format, Head, Parsed, ReadOptions},
+    scan_warning::remark,
     source::Source,
 };
 use document::{Document, ScanHead};
 use pages::Pages;
-use scan::OpenScan;
+use scan::{LeftOut, OpenScan};
 use trueness_geom::{cloud::PointStream, space::Point};
 
 /// ASTM E57.
@@ -80,15 +81,6 @@ fn told(scans: &[ScanHead], images: u64) -> Vec<Warning> {
     nothing.into_iter().chain(told.into_iter().map(Warning::Scan)).collect()
 }
 
-/// Counts of records without a point.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct LeftOut {
-    /// Marked as invalid.
-    invalid: u64,
-    /// With a coordinate that is not finite.
-    not_finite: u64,
-}
-
 /// The points of all scans, one after the other.
 struct Scans {
     pages: Pages,
@@ -122,13 +114,8 @@ impl PointStream for Scans {
     }
     fn remarks(&self) -> Vec<String> {
         let LeftOut { invalid, not_finite } = self.left_out;
-        let invalid = (invalid > 0).then_some(ScanWarning::Invalid { count: invalid });
-        let not_finite = (not_finite > 0).then_some(ScanWarning::NotFinite { count: not_finite });
-        invalid.into_iter().chain(not_finite).map(|w| w.to_string()).collect()
+        let invalid = remark(invalid, |count| ScanWarning::Invalid { count });
+        let not_finite = remark(not_finite, |count| ScanWarning::NotFinite { count });
+        invalid.into_iter().chain(not_finite).collect()
     }
-}
-
-/// A file that contradicts itself.
-fn contradiction(what: String) -> Fault {
-    Fault::Unclear { what, remedy: "copy or export the file again" }
 }

@@ -1,7 +1,6 @@
 //! The pages of an E57 file: 1020 bytes of content and their checksum each (CRC-32C). What is in the file is numbered by content
 //! bytes here; in the file itself, offsets count the checksums too.
 
-use super::contradiction;
 use crate::{
     error::{Fault, Result},
     feed::Feed,
@@ -9,8 +8,8 @@ use crate::{
 use trueness_geom::parallel::prelude::*;
 
 /// Bytes of a page, and of its content.
-const PAGE_BYTES: usize = 1024;
-const CONTENT_BYTES: usize = PAGE_BYTES - 4;
+const E57_PAGE_BYTES: usize = 1024;
+const CONTENT_BYTES: usize = E57_PAGE_BYTES - 4;
 
 /// A file as a run of content bytes.
 pub(super) struct Pages {
@@ -20,13 +19,13 @@ pub(super) struct Pages {
 
 /// Tables of CRC-32C for eight bytes at a time (Kounavis and Berry 2005), the polynomial with its bits reversed.
 const CRC: [[u32; 256]; 8] = {
-    const POLYNOMIAL: u32 = 0x82f6_3b78;
+    const CRC_POLYNOMIAL: u32 = 0x82f6_3b78;
     let mut tables = [[0; 256]; 8];
     let mut i = 0;
     while i < 256 {
         let (mut crc, mut bit) = (i as u32, 0);
         while bit < 8 {
-            crc = if crc & 1 == 1 { crc >> 1 ^ POLYNOMIAL } else { crc >> 1 };
+            crc = if crc & 1 == 1 { crc >> 1 ^ CRC_POLYNOMIAL } else { crc >> 1 };
             bit += 1;
         }
         tables[0][i] = crc;
@@ -73,7 +72,7 @@ impl Pages {
         let number =
             |at: usize| head.get(at..at + 8).and_then(|b| b.first_chunk()).map(|b| u64::from_le_bytes(*b));
         if let Some(size) = number(40)
-            && size != PAGE_BYTES as u64
+            && size != E57_PAGE_BYTES as u64
         {
             let what = format!("the pages have {size} bytes");
             return Err(
@@ -82,12 +81,12 @@ impl Pages {
         }
         let declared = number(16).unwrap_or(48);
         let present = feed.count_left()?;
-        if present < declared || present < PAGE_BYTES as u64 {
+        if present < declared || present < E57_PAGE_BYTES as u64 {
             return Err(
                 Fault::Short { what: "bytes (the length in the header)", declared, present }.at_byte(present)
             );
         }
-        Ok(Pages { feed, pages: present / PAGE_BYTES as u64 })
+        Ok(Pages { feed, pages: present / E57_PAGE_BYTES as u64 })
     }
 
     /// Content bytes of the file.
@@ -97,7 +96,7 @@ impl Pages {
 
     /// The content byte at an offset of the file; `None` behind its end or in a checksum.
     pub fn content_at(&self, offset: u64) -> Option<u64> {
-        let (page, byte) = (offset / PAGE_BYTES as u64, offset % PAGE_BYTES as u64);
+        let (page, byte) = (offset / E57_PAGE_BYTES as u64, offset % E57_PAGE_BYTES as u64);
         (page < self.pages && byte < CONTENT_BYTES as u64).then_some(page * CONTENT_BYTES as u64 + byte)
     }
 
@@ -112,18 +111,18 @@ impl Pages {
                 Fault::Short { what: "bytes of content", declared: end, present: self.length() }.into()
             );
         }
-        let mut bytes = vec![0; (last - first) as usize * PAGE_BYTES];
-        self.feed.copy(first * PAGE_BYTES as u64, &mut bytes)?;
+        let mut bytes = vec![0; (last - first) as usize * E57_PAGE_BYTES];
+        self.feed.copy(first * E57_PAGE_BYTES as u64, &mut bytes)?;
         // The standard's byte order is the low byte first, but that of the checksum is the other one in all files.
         let is_wrong =
             |page: &[u8]| !page[CONTENT_BYTES..].iter().eq(&crc32c(&page[..CONTENT_BYTES]).to_be_bytes());
-        if let Some(wrong) = bytes.par_chunks(PAGE_BYTES).position_first(is_wrong) {
+        if let Some(wrong) = bytes.par_chunks(E57_PAGE_BYTES).position_first(is_wrong) {
             let page = first + wrong as u64;
             let what = format!("the checksum (CRC) of page {page} is wrong");
-            return Err(contradiction(what).at_byte(page * PAGE_BYTES as u64));
+            return Err(Fault::contradiction(what).at_byte(page * E57_PAGE_BYTES as u64));
         }
         for page in 1..(last - first) as usize {
-            let from = page * PAGE_BYTES;
+            let from = page * E57_PAGE_BYTES;
             bytes.copy_within(from..from + CONTENT_BYTES, page * CONTENT_BYTES);
         }
         let start = (at - first * content) as usize;

@@ -1,9 +1,7 @@
 //! The records of a scan, packet by packet.
 
 use super::{
-    LeftOut,
     column::Column,
-    contradiction,
     document::{Coordinates, ScanHead},
     pages::Pages,
 };
@@ -13,6 +11,15 @@ use crate::{
 };
 use trueness_geom::parallel::prelude::*;
 use trueness_geom::space::Point;
+
+/// Counts of records without a point.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct LeftOut {
+    /// Marked as invalid.
+    pub invalid: u64,
+    /// With a coordinate that is not finite.
+    pub not_finite: u64,
+}
 
 /// A scan of which not all records have been read.
 pub(super) struct OpenScan {
@@ -37,7 +44,7 @@ const WINDOW_BYTES: u64 = 1 << 22;
 /// Records that take no bytes at all are read up to this number.
 const MAX_RECORDS_WITHOUT_BYTES: u64 = 1 << 16;
 /// One task unpacks this many records.
-const RECORDS_PER_TASK: usize = 1 << 12;
+const UNPACKED_PER_TASK: usize = 1 << 12;
 /// The first byte of a packet of data; others hold an index or nothing.
 const DATA_PACKET: u8 = 1;
 
@@ -59,7 +66,7 @@ impl OpenScan {
             return Ok(open);
         }
         let outside = |what: &str, offset: u64| {
-            contradiction(format!("{what} of a scan has offset {offset}, beyond the end of the file"))
+            Fault::contradiction(format!("{what} of a scan has offset {offset}, beyond the end of the file"))
                 .at_byte(scan.offset)
         };
         let start = pages.content_at(scan.offset).filter(|at| at + SECTION_HEAD_BYTES <= pages.length());
@@ -106,11 +113,11 @@ impl OpenScan {
             return Err(Fault::Short { what: "records of a scan", declared: self.declared, present }.into());
         }
         let scan = &*self;
-        let tasks = (0..count.div_ceil(RECORDS_PER_TASK)).into_par_iter();
+        let tasks = (0..count.div_ceil(UNPACKED_PER_TASK)).into_par_iter();
         let parts: Vec<(Vec<Point>, LeftOut)> = tasks
             .map(|task| {
-                let from = task * RECORDS_PER_TASK;
-                scan.points(from..count.min(from + RECORDS_PER_TASK))
+                let from = task * UNPACKED_PER_TASK;
+                scan.points(from..count.min(from + UNPACKED_PER_TASK))
             })
             .collect();
         for (points, without) in parts {
@@ -139,12 +146,12 @@ impl OpenScan {
             let Some(packet) = window.get(at..at + size).filter(|_| size >= 4) else { break };
             match packet[0] {
                 DATA_PACKET => {
-                    self.data(packet).map_err(|what| contradiction(what.into()))?;
+                    self.data(packet).map_err(Fault::contradiction)?;
                 }
                 0 | 2 => {}
                 other => {
                     let what = format!("a packet of a scan has the unknown type {other}");
-                    return Err(contradiction(what).into());
+                    return Err(Fault::contradiction(what).into());
                 }
             }
             at += size;

@@ -89,10 +89,10 @@ fn file(scans: &[(Vec<Made>, &str)], packet: usize, more: &str) -> Vec<u8> {
     paged(content)
 }
 
-fn points(
-    bytes: &[u8],
-    block: usize,
-) -> std::result::Result<(Vec<Warning>, Vec<Point>, Vec<String>), Located> {
+/// The warnings before the points, the points, and what is told behind them.
+type Whole = (Vec<Warning>, Vec<Point>, Vec<String>);
+
+fn points(bytes: &[u8], block: usize) -> std::result::Result<Whole, Located> {
     let source = Source { feed: Feed::memory(bytes.to_vec()), bytes: bytes.len() as u64, gzip: false };
     let mut parsed = read(source, &ReadOptions { block, ..ReadOptions::default() })?;
     let crate::format::Content::Points(stream) = &mut parsed.content else { panic!("no points") };

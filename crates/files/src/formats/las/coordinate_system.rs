@@ -39,7 +39,7 @@ struct Element<'a> {
 }
 
 /// Elements in elements are followed to this depth.
-const MAX_DEPTH: usize = 32;
+const MAX_ELEMENT_DEPTH: usize = 32;
 
 impl<'a> Element<'a> {
     /// The element at the start of `text`, and the text behind it.
@@ -47,7 +47,9 @@ impl<'a> Element<'a> {
         let text = text.trim_start();
         let (keyword, mut rest) = text.split_once(['[', '('])?;
         let mut element = Element { keyword: keyword.trim(), values: vec![], elements: vec![] };
-        if depth == MAX_DEPTH || !element.keyword.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_') {
+        if depth == MAX_ELEMENT_DEPTH
+            || !element.keyword.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_')
+        {
             return None;
         }
         loop {
@@ -84,8 +86,8 @@ impl<'a> Element<'a> {
 
     /// The unit of lengths of a system: its own, else that of its first axis.
     fn unit(&self) -> Option<&Element<'a>> {
-        const UNIT: [&str; 2] = ["UNIT", "LENGTHUNIT"];
-        let own = |e: &'_ Element<'a>| e.elements.iter().position(|inner| inner.is(&UNIT));
+        const UNIT_KEYWORDS: [&str; 2] = ["UNIT", "LENGTHUNIT"];
+        let own = |e: &'_ Element<'a>| e.elements.iter().position(|inner| inner.is(&UNIT_KEYWORDS));
         if let Some(at) = own(self) {
             return self.elements.get(at);
         }
@@ -140,8 +142,8 @@ mod key {
     pub const GEOGRAPHIC_UNIT: u16 = 2052;
     pub const PROJECTED: u16 = 3072;
     pub const PROJECTED_CITATION: u16 = 3073;
-    pub const UNIT: u16 = 3076;
-    pub const UNIT_SIZE: u16 = 3077;
+    pub const LINEAR_UNIT: u16 = 3076;
+    pub const LINEAR_UNIT_SIZE: u16 = 3077;
     pub const VERTICAL_UNIT: u16 = 4099;
 }
 /// Model types of GeoTIFF.
@@ -164,7 +166,7 @@ pub(super) fn geo_keys(keys: &[u8], numbers: &[u8], texts: &[u8]) -> Found {
         let [_, _, count, at] = entry(wanted)?.first_chunk::<4>()?.map(usize::from);
         texts.get(at..at + count).map(|text| String::from_utf8_lossy(text).into_owned())
     };
-    let linear = if short(key::MODEL) == Some(GEOCENTRIC) { key::GEOGRAPHIC_UNIT } else { key::UNIT };
+    let linear = if short(key::MODEL) == Some(GEOCENTRIC) { key::GEOGRAPHIC_UNIT } else { key::LINEAR_UNIT };
     let height = short(key::VERTICAL_UNIT).and_then(numbered);
     if short(key::MODEL) == Some(GEOGRAPHIC) {
         return Err(degrees(
@@ -173,7 +175,7 @@ pub(super) fn geo_keys(keys: &[u8], numbers: &[u8], texts: &[u8]) -> Found {
         ));
     }
     let unit = match short(linear) {
-        Some(USER_DEFINED) => double(key::UNIT_SIZE).and_then(sized),
+        Some(USER_DEFINED) => double(key::LINEAR_UNIT_SIZE).and_then(sized),
         Some(code) => Some(numbered(code).ok_or_else(|| unknown(&format!("number {code} of EPSG")))?),
         None => {
             let by_name = [key::PROJECTED_CITATION, key::CITATION]

@@ -1,10 +1,6 @@
 //! The head of a LAS file: a block of numbers, and records of variable length before and behind the points.
 
-use super::{
-    contradiction,
-    coordinate_system::{Lengths, geo_keys, well_known_text},
-    short,
-};
+use super::coordinate_system::{Lengths, geo_keys, well_known_text};
 use crate::{
     error::{Fault, Result},
     feed::Feed,
@@ -95,7 +91,7 @@ impl Header {
         header.late_records(feed, late_start, late_records)?;
         if kind & 0xc0 != 0 && header.zip.is_none() {
             return Err(
-                contradiction("the points are compressed, but no VLR of LASzip says how".into()).at_byte(104)
+                Fault::contradiction("the points are compressed, but no VLR of LASzip says how").at_byte(104)
             );
         }
         if kind & 0xc0 == 0 {
@@ -109,7 +105,7 @@ impl Header {
             let (scale, offset) = (self.scale[i], self.offset[i]);
             if !scale.is_normal() || !offset.is_finite() {
                 let what = format!("the scale of {axis} is {scale} and its offset {offset}");
-                return Err(contradiction(what).at_byte(131 + 8 * i as u64));
+                return Err(Fault::contradiction(what).at_byte(131 + 8 * i as u64));
             }
         }
         Ok(())
@@ -208,14 +204,4 @@ fn skip_to(feed: &mut Feed, to: u64) -> Result<()> {
         feed.step(there);
     }
     Ok(())
-}
-
-/// Refuses fewer points than declared where their number is known from the bytes.
-pub(super) fn check_count(declared: u64, length: usize, left: Option<u64>) -> Result<()> {
-    match left {
-        Some(left) if declared.checked_mul(length as u64).is_none_or(|need| need > left) => {
-            Err(short(declared, left / length as u64).into())
-        }
-        _ => Ok(()),
-    }
 }

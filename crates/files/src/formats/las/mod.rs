@@ -16,14 +16,14 @@ mod tests;
 
 use crate::{
     ScanWarning, Unit, Warning,
-    error::{Fault, Result},
+    error::Result,
     format::{Format, Head, Parsed, ReadOptions},
     source::Source,
 };
 use coordinate_system::Lengths;
 use header::Header;
 use plain::PlainPoints;
-use record::{Layout, Tally};
+use record::Layout;
 use zip::ZippedPoints;
 
 /// LAS, LAZ and COPC.
@@ -81,21 +81,4 @@ fn told(header: &Header, layout: &Layout, lengths: Option<Lengths>) -> (Option<U
     let nothing = (header.points == 0).then_some(Warning::Nothing);
     let warnings = nothing.into_iter().chain(told.into_iter().map(Warning::Scan)).collect();
     (lengths.map(|l| l.unit), warnings)
-}
-
-/// What is told of the records behind the points.
-fn remarks(tally: &Tally) -> Vec<String> {
-    let withheld = (tally.withheld > 0).then_some(ScanWarning::Withheld { count: tally.withheld });
-    let times = (tally.bad_times > 0).then_some(ScanWarning::TimeNotFinite { count: tally.bad_times });
-    withheld.into_iter().chain(times).map(|w| w.to_string()).collect()
-}
-
-/// Fewer points than declared.
-fn short(declared: u64, present: u64) -> Fault {
-    Fault::Short { what: "points", declared, present }
-}
-
-/// A file that contradicts itself.
-fn contradiction(what: String) -> Fault {
-    Fault::Unclear { what, remedy: "copy or export the file again" }
 }

@@ -1,12 +1,8 @@
 //! Points of records that are not packed.
 
-use super::{
-    header::check_count,
-    record::{Layout, Tally},
-    remarks, short,
-};
+use super::record::{Layout, Tally};
 use crate::{
-    error::{Located, Result},
+    error::{Fault, Located, Result},
     feed::Feed,
 };
 use trueness_geom::parallel::prelude::*;
@@ -45,7 +41,7 @@ impl PointStream for PlainPoints {
         let bytes = if wanted == 0 { &[] } else { self.feed.ahead(wanted.saturating_mul(length))? };
         let there = (bytes.len() / length).min(wanted);
         if there == 0 && wanted > 0 {
-            return Err(short(self.declared, self.found).at_byte(at));
+            return Err(Fault::short("points", self.declared, self.found).at_byte(at));
         }
         block.resize(there, [0.0; 3]);
         let layout = &self.layout;
@@ -65,6 +61,16 @@ impl PointStream for PlainPoints {
         Ok(())
     }
     fn remarks(&self) -> Vec<String> {
-        remarks(&self.tally)
+        self.tally.remarks()
+    }
+}
+
+/// Refuses fewer points than declared where their number is known from the bytes.
+fn check_count(declared: u64, length: usize, left: Option<u64>) -> Result<()> {
+    match left {
+        Some(left) if declared.checked_mul(length as u64).is_none_or(|need| need > left) => {
+            Err(Fault::short("points", declared, left / length as u64).into())
+        }
+        _ => Ok(()),
     }
 }

@@ -1,7 +1,11 @@
 //! The record of a point: where its numbers are, and what they mean.
 
-use super::{contradiction, header::Header};
-use crate::error::{Fault, Result};
+use super::header::Header;
+use crate::{
+    ScanWarning,
+    error::{Fault, Result},
+    scan_warning::remark,
+};
 use trueness_geom::space::Point;
 
 /// How records are made, and how their integers become lengths.
@@ -29,6 +33,15 @@ pub(super) struct Tally {
     pub bad_times: u64,
 }
 
+impl Tally {
+    /// What is told of the records.
+    pub fn remarks(&self) -> Vec<String> {
+        let withheld = remark(self.withheld, |count| ScanWarning::Withheld { count });
+        let times = remark(self.bad_times, |count| ScanWarning::TimeNotFinite { count });
+        withheld.into_iter().chain(times).collect()
+    }
+}
+
 impl std::ops::AddAssign for Tally {
     fn add_assign(&mut self, other: Tally) {
         self.withheld += other.withheld;
@@ -39,7 +52,7 @@ impl std::ops::AddAssign for Tally {
 /// The byte with the flags of a point.
 const FLAGS_BYTE: usize = 15;
 /// Bytes of a record of each format, and the byte of its time.
-const FORMATS: [(usize, Option<usize>); 11] = [
+const POINT_FORMATS: [(usize, Option<usize>); 11] = [
     (20, None),
     (28, Some(20)),
     (26, None),
@@ -57,14 +70,14 @@ const FIRST_LATE_FORMAT: u8 = 6;
 
 impl Layout {
     pub fn of(header: &Header) -> Result<Layout> {
-        let Some((base, time)) = FORMATS.get(usize::from(header.format)).copied() else {
+        let Some((base, time)) = POINT_FORMATS.get(usize::from(header.format)).copied() else {
             let what = format!("the points have format {}, of formats 0 to 10", header.format);
             return Err(Fault::Unsupported { what, remedy: "export the file as LAS 1.4" }.at_byte(104));
         };
         if header.length < base {
             let what =
                 format!("a record of point format {} has {base} bytes, not {}", header.format, header.length);
-            return Err(contradiction(what).at_byte(105));
+            return Err(Fault::contradiction(what).at_byte(105));
         }
         Ok(Layout {
             length: header.length,

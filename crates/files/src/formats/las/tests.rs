@@ -9,9 +9,9 @@ use std::io::Cursor;
 use trueness_geom::num::random::Random;
 use trueness_geom::space::Point;
 
-const SCALE: Point = [0.001, 0.25, 1e-7];
+const STEP_SIZES: Point = [0.001, 0.25, 1e-7];
 const OFFSET: Point = [500_000.0, -4e6, 0.1];
-const LENGTHS: [u16; 11] = [20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67];
+const RECORD_LENGTHS: [u16; 11] = [20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67];
 
 /// A file before its records are added.
 struct Made {
@@ -26,7 +26,7 @@ impl Made {
     }
 
     fn length(&self) -> usize {
-        usize::from(LENGTHS[usize::from(self.format)] + self.extra)
+        usize::from(RECORD_LENGTHS[usize::from(self.format)] + self.extra)
     }
 
     fn records(&self, steps: &[[i32; 3]]) -> Vec<u8> {
@@ -54,7 +54,7 @@ impl Made {
         put(100, &(self.vlrs.len() as u32).to_le_bytes());
         put(104, &[self.format | if packed { 0x80 } else { 0 }]);
         put(105, &(self.length() as u16).to_le_bytes());
-        put(131, &SCALE.map(f64::to_le_bytes).concat());
+        put(131, &STEP_SIZES.map(f64::to_le_bytes).concat());
         put(155, &OFFSET.map(f64::to_le_bytes).concat());
         put(247, &points.to_le_bytes());
         [head, vlrs].concat()
@@ -113,7 +113,7 @@ fn steps(count: usize) -> Vec<[i32; 3]> {
 }
 
 fn wanted(steps: &[[i32; 3]]) -> Vec<Point> {
-    steps.iter().map(|s| std::array::from_fn(|i| f64::from(s[i]) * SCALE[i] + OFFSET[i])).collect()
+    steps.iter().map(|s| std::array::from_fn(|i| f64::from(s[i]) * STEP_SIZES[i] + OFFSET[i])).collect()
 }
 
 fn points(

@@ -4,7 +4,7 @@ use crate::Unit;
 
 /// The unit of a name.
 pub(super) fn named(name: &str) -> Option<Unit> {
-    const NAMES: [(Unit, &[&str]); 3] = [
+    const UNIT_NAMES: [(Unit, &[&str]); 3] = [
         (Unit::Meter, &["metre", "meter", "m", "metres", "meters"]),
         (Unit::Foot, &["foot", "international foot", "ft", "feet"]),
         (
@@ -13,7 +13,7 @@ pub(super) fn named(name: &str) -> Option<Unit> {
         ),
     ];
     let is = |own: &&str| own.eq_ignore_ascii_case(name.trim());
-    NAMES.iter().find(|(_, names)| names.iter().any(is)).map(|(unit, _)| *unit)
+    UNIT_NAMES.iter().find(|(_, names)| names.iter().any(is)).map(|(unit, _)| *unit)
 }
 
 /// The unit of a number of EPSG.
@@ -30,7 +30,7 @@ pub(super) fn numbered(code: u16) -> Option<Unit> {
 
 /// The unit of so many meters. The feet differ by two millionths; files write ten digits and more.
 pub(super) fn sized(meters: f64) -> Option<Unit> {
-    const SAME_SHARE: f64 = 1e-7;
+    const SAME_UNIT_SHARE: f64 = 1e-7;
     const SIZES: [(f64, Unit); 7] = [
         (1.0, Unit::Meter),
         (0.3048, Unit::Foot),
@@ -40,5 +40,5 @@ pub(super) fn sized(meters: f64) -> Option<Unit> {
         (1e-6, Unit::Micrometer),
         (0.0254, Unit::Inch),
     ];
-    SIZES.iter().find(|(size, _)| (meters / size - 1.0).abs() < SAME_SHARE).map(|(_, unit)| *unit)
+    SIZES.iter().find(|(size, _)| (meters / size - 1.0).abs() < SAME_UNIT_SHARE).map(|(_, unit)| *unit)
 }

@@ -1,9 +1,7 @@
 //! Points of packed records: small chunks by all threads at once, large ones a part at a time.
 
 use super::{
-    contradiction,
     record::{Layout, Tally},
-    remarks,
     zip_table::{Chunk, Kind, Packing, fault},
 };
 use crate::{
@@ -20,7 +18,7 @@ use trueness_geom::parallel::prelude::*;
 use trueness_geom::{cloud::PointStream, space::Point};
 
 /// A chunk with more points is unpacked a part at a time.
-const MAX_POINTS_AT_ONCE: u64 = 1 << 20;
+const MAX_POINTS_PER_TASK: u64 = 1 << 20;
 
 /// Points of chunks, in their order.
 pub(super) struct ZippedPoints {
@@ -119,7 +117,7 @@ impl PointStream for ZippedPoints {
             let (at, mut batch, mut points) = (self.feed.position(), vec![], 0);
             while points < self.block as u64 {
                 let Some((bytes, count)) = self.next_chunk()? else { break };
-                if count > MAX_POINTS_AT_ONCE {
+                if count > MAX_POINTS_PER_TASK {
                     self.open = Some(self.unpacking.open(bytes, count).map_err(|fault| fault.at_byte(at))?);
                     break;
                 }
@@ -141,7 +139,7 @@ impl PointStream for ZippedPoints {
         Ok(())
     }
     fn remarks(&self) -> Vec<String> {
-        remarks(&self.tally)
+        self.tally.remarks()
     }
 }
 
@@ -167,7 +165,7 @@ impl Unpacking {
         };
         decoder.set_fields_from(self.packing.vlr.items()).map_err(|e| fault(&e))?;
         if decoder.record_size() != length {
-            return Err(contradiction(format!(
+            return Err(Fault::contradiction(format!(
                 "the packed records have {} bytes, not {length}",
                 decoder.record_size()
             )));
@@ -193,7 +191,7 @@ impl OpenChunk {
         for _ in 0..count {
             self.decoder.decompress_next(&mut self.record).map_err(|e| match e.kind() {
                 std::io::ErrorKind::UnexpectedEof => {
-                    contradiction("a chunk ends before its last point".into())
+                    Fault::contradiction("a chunk ends before its last point")
                 }
                 _ => fault(&e),
             })?;
@@ -213,7 +211,9 @@ fn check_layers(bytes: &[u8], length: usize, layers: usize) -> std::result::Resu
     }
     let there = bytes.len() as u64;
     if sum > there {
-        return Err(contradiction(format!("the layers of a chunk take {sum} bytes, but it has {there}")));
+        return Err(Fault::contradiction(format!(
+            "the layers of a chunk take {sum} bytes, but it has {there}"
+        )));
     }
     Ok(())
 }

@@ -3,7 +3,6 @@
 //! The library that unpacks trusts these numbers: it asks for memory for as many chunks and bytes as they say. So they are held
 //! against the bytes that are there before.
 
-use super::contradiction;
 use crate::{
     error::{Fault, Located, Result},
     feed::Feed,
@@ -54,7 +53,7 @@ impl Packing {
                 "the VLR of LASzip describes records of {} bytes, not {length}",
                 sizes.iter().sum::<usize>()
             );
-            return Err(contradiction(what).into());
+            return Err(Fault::contradiction(what).into());
         }
         let kind = match record.first_chunk::<2>() {
             Some([1, 0]) => Kind::Run,
@@ -86,7 +85,7 @@ impl Packing {
         // The first record of a chunk is not packed.
         if count > data / length as u64 {
             let what = format!("the table of chunks has {count} chunks, but {data} packed bytes are there");
-            return Err(contradiction(what).at_byte(table + 4));
+            return Err(Fault::contradiction(what).at_byte(table + 4));
         }
         let left = feed.count_left()?.saturating_sub(data);
         let mut bytes = vec![
@@ -97,8 +96,9 @@ impl Packing {
         feed.copy(data, &mut bytes)?;
         let is_varied = self.vlr.uses_variable_size_chunks();
         let entries = ChunkTable::read(&mut Cursor::new(bytes), is_varied);
-        let entries = entries
-            .map_err(|e| contradiction(format!("the table of chunks is damaged: {e}")).at_byte(table))?;
+        let entries = entries.map_err(|e| {
+            Fault::contradiction(format!("the table of chunks is damaged: {e}")).at_byte(table)
+        })?;
         let size = u64::from(self.vlr.chunk_size());
         let chunks: Vec<Chunk> = (&entries)
             .into_iter()
@@ -116,7 +116,7 @@ impl Packing {
             |of: fn(&Chunk) -> u64| chunks.iter().map(of).try_fold(0, u64::checked_add).unwrap_or(u64::MAX);
         let (bytes, there) = (sum(|c| c.bytes), sum(|c| c.points));
         if bytes > data {
-            return Err(contradiction(format!(
+            return Err(Fault::contradiction(format!(
                 "the table of chunks names {bytes} packed bytes, but {data} are there"
             )));
         }
@@ -146,12 +146,15 @@ fn table_at(feed: &mut Feed) -> Result<u64> {
     }
     match u64::try_from(place) {
         Ok(place) if place >= at + OFFSET_BYTES as u64 => Ok(place),
-        _ => Err(contradiction(format!("the table of chunks is said to be at byte {place}")).at_byte(at)),
+        _ => {
+            Err(Fault::contradiction(format!("the table of chunks is said to be at byte {place}"))
+                .at_byte(at))
+        }
     }
 }
 
 fn missing(table: u64) -> Located {
-    contradiction("the file ends before its table of chunks".into()).at_byte(table)
+    Fault::contradiction("the file ends before its table of chunks").at_byte(table)
 }
 
 /// Lengths that an item has at the head of a chunk of layers: one for each of its layers.

@@ -13,10 +13,11 @@ mod tests;
 use super::strided::{Rows, StridedPoints};
 use crate::{
     ScanWarning, Warning,
-    error::{Fault, Located, Result},
+    error::{Located, Result},
     format::{Format, Head, Parsed, ReadOptions},
     lines::{Lines, without_mark, words},
     scalar::Order,
+    scan_warning::remark,
     source::Source,
 };
 use header::{Header, Storage};
@@ -97,11 +98,6 @@ fn warnings(header: &Header) -> Vec<Warning> {
     warnings
 }
 
-/// What is told of points that were left out.
-fn not_finite(count: u64) -> Vec<String> {
-    if count == 0 { vec![] } else { vec![ScanWarning::NotFinite { count }.to_string()] }
-}
-
 /// Points of rows of bytes.
 struct BinaryPoints(StridedPoints);
 
@@ -114,11 +110,6 @@ impl PointStream for BinaryPoints {
         self.0.next_block(block)
     }
     fn remarks(&self) -> Vec<String> {
-        not_finite(self.0.left_out())
+        remark(self.0.left_out(), |count| ScanWarning::NotFinite { count }).into_iter().collect()
     }
-}
-
-/// Fewer points than declared.
-fn short(declared: u64, present: u64) -> Fault {
-    Fault::Short { what: "points", declared, present }
 }

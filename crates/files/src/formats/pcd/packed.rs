@@ -2,13 +2,15 @@
 
 use super::{
     header::{Header, Place},
-    lzf, not_finite,
+    lzf,
 };
 use crate::{
+    ScanWarning,
     error::{Fault, Located, Result},
     feed::Feed,
     formats::strided::is_finite,
     scalar::Order,
+    scan_warning::remark,
 };
 use trueness_geom::parallel::prelude::*;
 use trueness_geom::{cloud::PointStream, space::Point};
@@ -99,6 +101,6 @@ impl PointStream for PackedPoints {
         Ok(())
     }
     fn remarks(&self) -> Vec<String> {
-        not_finite(self.left_out)
+        remark(self.left_out, |count| ScanWarning::NotFinite { count }).into_iter().collect()
     }
 }

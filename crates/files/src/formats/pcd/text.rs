@@ -1,10 +1,8 @@
 //! Points of a PCD file in words.
 
-use super::{
-    header::{Header, Place},
-    not_finite, short,
-};
+use super::header::{Header, Place};
 use crate::{
+    ScanWarning,
     error::{Fault, Located, Result},
     feed::Feed,
     formats::strided::is_finite,
@@ -12,6 +10,7 @@ use crate::{
     number::{POWERS_OF_TEN, count, whole_number},
     records::TextRecords,
     scalar::Scalar,
+    scan_warning::remark,
 };
 use trueness_geom::{cloud::PointStream, space::Point};
 
@@ -38,7 +37,7 @@ impl AsciiPoints {
             && least.is_none_or(|least| least > left + 1)
         {
             let present = left / (2 * header.words as u64);
-            return Err(short(header.points, present).at_line(header.lines + 1));
+            return Err(Fault::short("points", header.points, present).at_line(header.lines + 1));
         }
         let records = TextRecords::new(feed, header.end, header.lines, block);
         let row = Row { places, words: header.words };
@@ -57,7 +56,7 @@ impl PointStream for AsciiPoints {
             let row = &self.row;
             let records = self.records.points(self.declared - self.found, |line| row.point(line), block)?;
             if records == 0 {
-                return Err(short(self.declared, self.found).at_line(self.records.lines + 1));
+                return Err(Fault::short("points", self.declared, self.found).at_line(self.records.lines + 1));
             }
             self.found += records;
             self.left_out += records - block.len() as u64;
@@ -65,7 +64,7 @@ impl PointStream for AsciiPoints {
         Ok(())
     }
     fn remarks(&self) -> Vec<String> {
-        not_finite(self.left_out)
+        remark(self.left_out, |count| ScanWarning::NotFinite { count }).into_iter().collect()
     }
 }
 
@@ -132,7 +131,9 @@ mod tests {
             if !x.is_finite() {
                 continue;
             }
-            for word in [format!("{x}"), format!("{x:e}"), format!("{x:.8e}")] {
+            // Below 2^24 all digits count; above, the usual form fills up with zeros.
+            let usual = (x.abs() < 16_777_216.0).then(|| format!("{x}"));
+            for word in usual.into_iter().chain([format!("{x:e}"), format!("{x:.8e}")]) {
                 let value: f64 = word.parse().unwrap();
                 assert_eq!(single(value, word.as_bytes()), f64::from(x), "{word}");
             }

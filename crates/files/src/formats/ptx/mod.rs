@@ -14,6 +14,7 @@ use crate::{
     lines::{Lines, line_end, words},
     number::{count, whole_number},
     records::TextRecords,
+    scan_warning::remark,
     source::Source,
 };
 use trueness_geom::{cloud::PointStream, space::Point};
@@ -165,9 +166,7 @@ impl PointStream for Scans {
         if self.scans > 1 {
             remarks.push(ScanWarning::Scans { count: self.scans, empty: self.empty }.to_string());
         }
-        if self.no_return > 0 {
-            remarks.push(ScanWarning::NoReturn { count: self.no_return }.to_string());
-        }
+        remarks.extend(remark(self.no_return, |count| ScanWarning::NoReturn { count }));
         remarks
     }
 }

@@ -3,9 +3,9 @@
 use super::*;
 use crate::feed::Feed;
 
-const HEAD: &str = "1 2 3\n1 0 0\n0 1 0\n0 0 1\n";
+const SCANNER_LINES: &str = "1 2 3\n1 0 0\n0 1 0\n0 0 1\n";
 const QUARTER_TURN: &str = "0 1 0 0\n-1 0 0 0\n0 0 1 0\n10 20 30 1\n";
-const UNMOVED: &str = "1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n";
+const IDENTITY_LINES: &str = "1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n";
 
 fn points(text: &str) -> std::result::Result<(Vec<Point>, Vec<String>), Located> {
     let feed = Feed::memory(text.as_bytes().to_vec());
@@ -24,9 +24,9 @@ fn points(text: &str) -> std::result::Result<(Vec<Point>, Vec<String>), Located>
 
 #[test]
 fn each_scan_is_moved_by_its_own_matrix() {
-    let first = format!("2\n2\n{HEAD}{QUARTER_TURN}1 2 3 0.5\n0 0 0 0.5\n0 0 1 0\n0 0 0 0 9 9 9\n");
-    let second = format!("1\n2\n{HEAD}{UNMOVED}1 2 3 0.5 1 2 3\n4 5 6 0.5 1 2 3");
-    let empty = format!("1\n1\n{HEAD}{UNMOVED}0 0 0 0\n");
+    let first = format!("2\n2\n{SCANNER_LINES}{QUARTER_TURN}1 2 3 0.5\n0 0 0 0.5\n0 0 1 0\n0 0 0 0 9 9 9\n");
+    let second = format!("1\n2\n{SCANNER_LINES}{IDENTITY_LINES}1 2 3 0.5 1 2 3\n4 5 6 0.5 1 2 3");
+    let empty = format!("1\n1\n{SCANNER_LINES}{IDENTITY_LINES}0 0 0 0\n");
     assert!(is_ptx(first.as_bytes()));
     let turned = [[8.0, 21.0, 33.0], [10.0, 20.0, 31.0]];
     let still = [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]];
@@ -42,7 +42,7 @@ fn each_scan_is_moved_by_its_own_matrix() {
 
 #[test]
 fn scans_that_break_their_word_are_refused_with_the_line() {
-    let sound = format!("2\n1\n{HEAD}{UNMOVED}1 2 3 0.5\n4 5 6 0.5\n");
+    let sound = format!("2\n1\n{SCANNER_LINES}{IDENTITY_LINES}1 2 3 0.5\n4 5 6 0.5\n");
     assert_eq!(points(&sound).unwrap().0.len(), 2);
     for (from, to, line, part) in [
         ("2\n1\n", "3\n1\n", 13, "3 points of a scan declared, 2 present"),
