@@ -3,6 +3,7 @@
 mod cad;
 mod meshes;
 mod readers;
+mod scans;
 
 use std::path::Path;
 use trueness_geom::num::random::Random;
@@ -24,13 +25,17 @@ pub struct Target {
 }
 
 /// All targets.
-pub const TARGETS: [Target; 10] = [
+pub const TARGETS: [Target; 14] = [
     readers::STL,
     readers::PLY,
     readers::OBJ,
     readers::OFF,
     readers::TABLE,
     readers::NPY,
+    scans::PCD,
+    scans::PTX,
+    scans::LAS,
+    scans::E57,
     readers::GZ,
     cad::STEP,
     meshes::CHECK,

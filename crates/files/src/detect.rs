@@ -4,8 +4,7 @@ use crate::{
     error::{Fault, Result},
     format::{Format, Head},
     formats::{FORMATS, table},
-    lines::{Lines, without_mark, words},
-    number::{count, whole_number},
+    lines::without_mark,
     source::{SNIFFED_BYTES, Source},
 };
 use std::path::Path;
@@ -49,11 +48,6 @@ fn extension(path: &Path) -> Option<&str> {
 /// A well-known kind of file that is not read, by its ending. Some of them are text and would pass for a table.
 fn foreign_extension(path: &Path) -> Option<(&'static str, &'static str)> {
     const FOREIGN_EXTENSIONS: &[(&str, &str)] = &[
-        ("ptx", "a PTX point cloud"),
-        ("e57", "an E57 point cloud"),
-        ("las", "a LAS point cloud"),
-        ("laz", "a LAZ point cloud"),
-        ("pcd", "a PCD point cloud"),
         ("fls", "a FARO scan"),
         ("zfs", "a Zoller + Fröhlich scan"),
         ("3mf", "a 3MF model"),
@@ -88,18 +82,6 @@ fn foreign_extension(path: &Path) -> Option<(&'static str, &'static str)> {
     FOREIGN_EXTENSIONS.iter().copied().find(|(e, _)| e.eq_ignore_ascii_case(given))
 }
 
-/// Whether text begins as a PTX scan does: two counts, the scanner's place and axes, a matrix of four rows.
-fn is_ptx(bytes: &[u8]) -> bool {
-    const PTX_NUMBERS_PER_LINE: [usize; 10] = [1, 1, 3, 3, 3, 3, 4, 4, 4, 4];
-    let mut lines = Lines::new(bytes);
-    PTX_NUMBERS_PER_LINE.iter().enumerate().all(|(i, width)| {
-        let Some(line) = lines.next() else { return false };
-        let fits =
-            |word: &[u8]| if i < 2 { count(word).is_some() } else { whole_number(word, b'.').is_some() };
-        words(line).count() == *width && words(line).all(fits)
-    })
-}
-
 /// The kind of a document of XML or JSON that is not read, by a word in it.
 fn foreign_document(bytes: &[u8]) -> Option<&'static str> {
     const FOREIGN_DOCUMENTS: &[(&[u8], &str)] = &[
@@ -126,11 +108,6 @@ fn foreign_document(bytes: &[u8]) -> Option<&'static str> {
 fn foreign(bytes: &[u8]) -> Option<&'static str> {
     const FOREIGN_MAGICS: &[(&[u8], &str)] = &[
         (b"PK\x03\x04", "a ZIP archive (3MF, a spreadsheet or another packed folder)"),
-        (b"ASTM-E57", "an E57 point cloud"),
-        (b"LASF", "a LAS or LAZ point cloud"),
-        (b"# .PCD", "a PCD point cloud"),
-        (b"VERSION .7", "a PCD point cloud"),
-        (b"VERSION 0.7", "a PCD point cloud"),
         (b"#VRML", "a VRML model"),
         (b"Kaydara FBX", "an FBX model"),
         (b"**ABCDEFGHIJKLMNOPQRSTUVWXYZ", "a Parasolid model"),
@@ -156,9 +133,6 @@ fn foreign(bytes: &[u8]) -> Option<&'static str> {
         (b"<!DOCTYPE", "a web page"),
         (b"<html", "a web page"),
     ];
-    if is_ptx(bytes) {
-        return Some("a PTX point cloud");
-    }
     let magic = || FOREIGN_MAGICS.iter().find(|(magic, _)| bytes.starts_with(magic)).map(|(_, name)| *name);
     foreign_document(bytes).or_else(magic)
 }

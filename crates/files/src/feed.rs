@@ -95,6 +95,14 @@ impl Feed {
         }
     }
 
+    /// How many bytes are left; a stream is read to its end for this, and held.
+    pub fn count_left(&mut self) -> Result<u64> {
+        match self.left() {
+            Some(left) => Ok(left),
+            None => Ok(self.all()?.len() as u64),
+        }
+    }
+
     /// The next bytes: at least `want` of them, fewer only if the file ends before; possibly many more.
     pub fn ahead(&mut self, want: usize) -> Result<&[u8]> {
         let there = self.buffered().len();

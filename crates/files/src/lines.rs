@@ -105,3 +105,29 @@ pub(crate) fn parts(text: &[u8], size: usize, end: u8) -> Vec<&[u8]> {
     }
     parts
 }
+
+/// A line is read up to this length.
+const MAX_LINE_BYTES: usize = 1 << 20;
+
+/// The whole lines at the start of `bytes`, about `size` bytes of them. `None` if a line has no end.
+pub(crate) fn whole_lines(bytes: &[u8], size: usize, end: u8) -> Option<&[u8]> {
+    if bytes.len() < size {
+        // The end of the file.
+        return Some(bytes);
+    }
+    match memchr::memrchr(end, &bytes[..size]) {
+        Some(i) => Some(&bytes[..=i]),
+        None if size > MAX_LINE_BYTES || bytes.len() == size => None,
+        None => whole_lines(bytes, size * 2, end),
+    }
+}
+
+/// At most the first `count` lines of `window`.
+pub(crate) fn first_lines(window: &[u8], count: u64, end: u8) -> &[u8] {
+    let there = count_lines(window, end);
+    if there < count {
+        return window;
+    }
+    let last = usize::try_from(count - 1).ok().and_then(|n| memchr::memchr_iter(end, window).nth(n));
+    last.map_or(window, |i| &window[..=i])
+}

@@ -100,7 +100,13 @@ fn read(mut source: Source, path: &Path, file: &str, options: &ReadOptions) -> R
             }
             (said, UnitFrom::Header)
         }
-        (Some(asked), _) => (asked, UnitFrom::Option),
+        (Some(asked), said) => {
+            // A table tells it itself.
+            if let Some(header) = said.filter(|said| *said != asked && parsed.table.is_none()) {
+                parsed.warnings.push(Warning::UnitOverruled { header, asked });
+            }
+            (asked, UnitFrom::Option)
+        }
         (None, Some(said)) => (said, UnitFrom::Header),
         (None, None) => match options.unit_else {
             Some(unit) => (unit, UnitFrom::Option),
@@ -158,6 +164,9 @@ impl PointStream for Named {
         self.inner.next_block(block).map_err(|e| e.in_file(&self.file))?;
         self.unit.apply(block);
         Ok(())
+    }
+    fn remarks(&self) -> Vec<String> {
+        self.inner.remarks()
     }
 }
 

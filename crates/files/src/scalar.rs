@@ -16,6 +16,8 @@ pub(crate) enum Scalar {
     U16,
     I32,
     U32,
+    I64,
+    U64,
     F32,
     F64,
 }
@@ -27,7 +29,7 @@ impl Scalar {
             Scalar::I8 | Scalar::U8 => 1,
             Scalar::I16 | Scalar::U16 => 2,
             Scalar::I32 | Scalar::U32 | Scalar::F32 => 4,
-            Scalar::F64 => 8,
+            Scalar::I64 | Scalar::U64 | Scalar::F64 => 8,
         }
     }
     /// The number at the start of `bytes`; zero where they are too few.
@@ -36,7 +38,7 @@ impl Scalar {
         macro_rules! read {
             ($t:ty) => {{
                 let b = bytes.first_chunk().copied().unwrap_or_default();
-                f64::from(if order == Order::Big { <$t>::from_be_bytes(b) } else { <$t>::from_le_bytes(b) })
+                (if order == Order::Big { <$t>::from_be_bytes(b) } else { <$t>::from_le_bytes(b) }) as f64
             }};
         }
         match self {
@@ -46,6 +48,8 @@ impl Scalar {
             Scalar::U16 => read!(u16),
             Scalar::I32 => read!(i32),
             Scalar::U32 => read!(u32),
+            Scalar::I64 => read!(i64),
+            Scalar::U64 => read!(u64),
             Scalar::F32 => read!(f32),
             Scalar::F64 => read!(f64),
         }

@@ -16,14 +16,18 @@ pub enum Unit {
     Meter,
     /// Inches of 25.4 mm.
     Inch,
+    /// Feet of 304.8 mm. Only files of land surveys say it.
+    Foot,
+    /// Feet of 1200/3937 m. Only files of land surveys say it.
+    SurveyFoot,
 }
 
 impl Unit {
-    /// All of them.
+    /// Those that can be asked for.
     pub const ALL: [Unit; 5] =
         [Unit::Micrometer, Unit::Millimeter, Unit::Centimeter, Unit::Meter, Unit::Inch];
 
-    /// Its short name: `um`, `mm`, `cm`, `m`, `in`.
+    /// Its short name: `um`, `mm`, `cm`, `m`, `in`, `ft`, `us-ft`.
     pub const fn name(self) -> &'static str {
         match self {
             Unit::Micrometer => "um",
@@ -31,6 +35,8 @@ impl Unit {
             Unit::Centimeter => "cm",
             Unit::Meter => "m",
             Unit::Inch => "in",
+            Unit::Foot => "ft",
+            Unit::SurveyFoot => "us-ft",
         }
     }
     /// `length`, in this unit, as millimeters. A division where the factor itself would have to be rounded.
@@ -42,6 +48,8 @@ impl Unit {
             Unit::Centimeter => length * 10.0,
             Unit::Meter => length * 1000.0,
             Unit::Inch => length * 25.4,
+            Unit::Foot => length * 304.8,
+            Unit::SurveyFoot => length * 1_200_000.0 / 3937.0,
         }
     }
     /// Turns places read in this unit into millimeters. Costs nothing when they are.

@@ -1,6 +1,6 @@
 //! Oddities of a file that could still be read.
 
-use crate::Unit;
+use crate::{ScanWarning, Unit};
 use std::fmt;
 
 /// An oddity that did not keep a file from being read. Its text says how it was handled.
@@ -161,6 +161,10 @@ pub enum Warning {
         /// Its text, shortened.
         text: String,
     },
+    /// Of the file of a scanner.
+    Scan(ScanWarning),
+    /// What a stream of points told at its end.
+    Remark(String),
 }
 
 /// Bytes of a facet of binary STL, the smallest facet of all formats. Fewer trailing bytes hold no facet.
@@ -338,6 +342,8 @@ impl fmt::Display for Warning {
             | Warning::SeveralLayers { .. }
             | Warning::ThroughPoints { .. }
             | Warning::NothingDrawn => self.of_cad(f),
+            Warning::Scan(warning) => warning.fmt(f),
+            Warning::Remark(text) => f.write_str(text),
             Warning::HeaderLines { count, line, text } => {
                 let more = if *count > 1 { format!(" and {} more", count - 1) } else { String::new() };
                 write!(f, "line {line} of the header has no known word and was passed over: {text}{more}")

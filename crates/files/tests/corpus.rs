@@ -36,7 +36,7 @@ fn expected() -> Vec<Expected> {
 #[test]
 fn every_file_gives_the_reference_result() {
     let list = expected();
-    assert_eq!(list.len(), 117);
+    assert_eq!(list.len(), 133);
     for e in &list {
         let path = format!("{CORPUS}/{}", e.file);
         let (result, warned, faces, vertices) = match read(path.as_ref()) {
@@ -63,7 +63,7 @@ fn every_file_gives_the_reference_result() {
 #[test]
 fn no_file_is_missing_from_the_table() {
     let listed: Vec<String> = expected().into_iter().map(|e| e.file).collect();
-    for folder in ["broken", "shapes"] {
+    for folder in ["broken", "shapes", "scans"] {
         for entry in std::fs::read_dir(format!("{CORPUS}/{folder}")).unwrap() {
             let name = format!("{folder}/{}", entry.unwrap().file_name().to_str().unwrap());
             assert!(listed.contains(&name), "{name} has no line in expected.tsv");

@@ -45,14 +45,14 @@ fn npy(version: u8, descr: &str, fortran: bool) -> Vec<u8> {
 
 fn small_files() -> Vec<PathBuf> {
     let corpus = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../corpus");
-    let mut files: Vec<PathBuf> = ["shapes", "broken"]
+    let mut files: Vec<PathBuf> = ["shapes", "broken", "scans"]
         .iter()
         .flat_map(|f| std::fs::read_dir(corpus.join(f)).unwrap())
         .map(|e| e.unwrap().path())
         .filter(|p| std::fs::metadata(p).unwrap().len() < SMALL)
         .collect();
     files.sort();
-    assert!(files.len() > 60);
+    assert!(files.len() > 75);
     files
 }
 

@@ -11,6 +11,11 @@ pub trait PointStream {
     fn expected(&self) -> Option<u64>;
     /// Replaces the contents of `block` by the next points. An empty block ends the stream.
     fn next_block(&mut self, block: &mut Vec<Point>) -> Result<(), Self::Error>;
+    /// What there is to tell of the points so far, a sentence each: how many records of a scan held none, for instance. Complete
+    /// at the end of the stream.
+    fn remarks(&self) -> Vec<String> {
+        vec![]
+    }
 }
 
 /// Points that are all there already, as a stream of one block that cannot fail.

@@ -196,7 +196,7 @@ fn unpacked(bytes: &[u8]) -> Vec<u8> {
     out
 }
 
-fn both(path: &Path, format: Option<&'static Format>) {
+pub(super) fn both(path: &Path, format: Option<&'static Format>) {
     read(path, &ReadOptions::default());
     read(path, &ReadOptions { format, weld: Weld::None, block: 5, ..ReadOptions::default() });
 }

@@ -260,6 +260,14 @@ impl Fault {
             Fault::Memory { .. } => "divide the file into parts, or use a machine with more memory",
         }
     }
+    /// Fewer things than declared.
+    pub(crate) fn short(what: &'static str, declared: u64, present: u64) -> Fault {
+        Fault::Short { what, declared, present }
+    }
+    /// Two statements of a file do not agree.
+    pub(crate) fn contradiction(what: impl Into<String>) -> Fault {
+        Fault::Unclear { what: what.into(), remedy: "copy or export the file again" }
+    }
     pub(crate) fn at(self, place: Place) -> Located {
         Located { place, fault: self }
     }

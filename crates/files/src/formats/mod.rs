@@ -2,14 +2,18 @@
 //! what `trueness formats NAME` prints.
 
 pub(crate) mod dxf;
+pub(crate) mod e57;
 pub(crate) mod iges;
+pub(crate) mod las;
 pub(crate) mod npy;
 pub(crate) mod npz;
 pub(crate) mod obj;
 pub(crate) mod off;
 #[cfg(feature = "parquet")]
 pub(crate) mod parquet;
+pub(crate) mod pcd;
 pub(crate) mod ply;
+pub(crate) mod ptx;
 pub(crate) mod spline;
 pub(crate) mod step;
 pub(crate) mod stl;
@@ -24,6 +28,10 @@ use crate::format::Format;
 pub static FORMATS: &[&Format] = &[
     &ply::PLY,
     &npy::NPY,
+    &pcd::PCD,
+    &ptx::PTX,
+    &las::LAS,
+    &e57::E57,
     &off::OFF,
     &stl::STL,
     &obj::OBJ,

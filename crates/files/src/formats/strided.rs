@@ -45,6 +45,8 @@ pub(crate) struct StridedPoints {
     rows: Rows,
     found: u64,
     block: usize,
+    /// Rows that were left out because their place is not finite; `None` where such a row is a fault.
+    left_out: Option<u64>,
 }
 
 impl StridedPoints {
@@ -58,7 +60,15 @@ impl StridedPoints {
             let short = Fault::Short { what: rows.what.1, declared: rows.count, present };
             return Err(short.at_byte(feed.position() + left));
         }
-        Ok(StridedPoints { feed, rows, found: 0, block: block.max(1) })
+        Ok(StridedPoints { feed, rows, found: 0, block: block.max(1), left_out: None })
+    }
+    /// Leaves out rows whose place is not finite, and counts them.
+    pub fn finite_alone(self) -> StridedPoints {
+        StridedPoints { left_out: Some(0), ..self }
+    }
+    /// Rows left out so far.
+    pub fn left_out(&self) -> u64 {
+        self.left_out.unwrap_or_default()
     }
     /// Bytes of the file that no row takes up, where its length is known.
     pub fn left_behind(&self) -> Option<u64> {
@@ -81,12 +91,27 @@ impl PointStream for StridedPoints {
         Some(self.rows.count)
     }
     fn next_block(&mut self, block: &mut Vec<Point>) -> Result<()> {
+        loop {
+            let rows = self.advance(block)?;
+            let Some(left_out) = &mut self.left_out else { return Ok(()) };
+            block.retain(is_finite);
+            *left_out += (rows - block.len()) as u64;
+            if rows == 0 || !block.is_empty() {
+                return Ok(());
+            }
+        }
+    }
+}
+
+impl StridedPoints {
+    /// The points of the next rows; none at their end. Gives how many rows there were.
+    fn advance(&mut self, block: &mut Vec<Point>) -> Result<usize> {
         let rows = self.rows;
         let left = usize::try_from(rows.count - self.found).unwrap_or(usize::MAX);
         let wanted = self.block.min(left);
         if wanted == 0 {
             block.clear();
-            return Ok(());
+            return Ok(0);
         }
         let at = self.feed.position();
         let bytes = self.feed.ahead(wanted.saturating_mul(rows.stride))?;
@@ -104,12 +129,19 @@ impl PointStream for StridedPoints {
                 let bytes = bytes.chunks_exact(rows.stride);
                 out.iter_mut().zip(bytes).for_each(|(point, row)| *point = rows.point(row));
             });
-        finite(block, rows.what.0, self.found)
-            .map_err(|(i, fault)| fault.at_byte(at + (i * rows.stride) as u64))?;
+        if self.left_out.is_none() {
+            finite(block, rows.what.0, self.found)
+                .map_err(|(i, fault)| fault.at_byte(at + (i * rows.stride) as u64))?;
+        }
         self.feed.step(there * rows.stride);
         self.found += there as u64;
-        Ok(())
+        Ok(there)
     }
+}
+
+/// Whether all coordinates are numbers.
+pub(crate) fn is_finite(point: &Point) -> bool {
+    point.iter().all(|x| x.is_finite())
 }
 
 /// Checks that all points of a block are finite, `before` of them having come before. Gives the first that is not.
@@ -123,8 +155,7 @@ pub(crate) fn finite(
     let Some(chunk) = block.par_chunks(STRIDED_POINTS_PER_TASK).position_first(suspect) else {
         return Ok(());
     };
-    let bad = |p: &Point| !p.iter().all(|x| x.is_finite());
-    match block[chunk * STRIDED_POINTS_PER_TASK..].iter().position(bad) {
+    match block[chunk * STRIDED_POINTS_PER_TASK..].iter().position(|p| !is_finite(p)) {
         Some(i) => {
             let i = chunk * STRIDED_POINTS_PER_TASK + i;
             Err((i, Fault::NotFinite { what, number: before + i as u64 + 1 }))

@@ -61,6 +61,7 @@ pub(super) fn as_scan(mesh: &Mesh) -> Measured<'_> {
 /// ```
 pub fn read(path: impl AsRef<Path>) -> Result<Part, Error> {
     let input = open(path.as_ref(), &ReadOptions::default())?;
+    let (provenance, mut warnings) = (input.provenance, input.warnings);
     let source = match input.body {
         Body::Mesh(source) => source,
         Body::Points(mut stream) => {
@@ -72,14 +73,14 @@ pub fn read(path: impl AsRef<Path>) -> Result<Part, Error> {
                 }
                 positions.append(&mut block);
             }
+            warnings.extend(stream.remarks().into_iter().map(Warning::Remark));
             SourceMesh { mesh: Mesh { positions, faces: vec![] }, ..SourceMesh::default() }
         }
-        Body::Cad(_) => return Err(Error::Cad { path: input.provenance.path }),
-        Body::Splines(_) => return Err(Error::Splines { path: input.provenance.path }),
-        Body::Drawing(_) => return Err(Error::Drawing { path: input.provenance.path }),
+        Body::Cad(_) => return Err(Error::Cad { path: provenance.path }),
+        Body::Splines(_) => return Err(Error::Splines { path: provenance.path }),
+        Body::Drawing(_) => return Err(Error::Drawing { path: provenance.path }),
     };
     let SourceMesh { mesh, stored_normals, nonfinite_facets, .. } = source;
-    let (provenance, warnings) = (input.provenance, input.warnings);
     Ok(Part { mesh, stored_normals, nonfinite_facets, provenance, warnings })
 }
 

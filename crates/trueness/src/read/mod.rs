@@ -267,19 +267,20 @@ pub fn regions(sources: &dyn Sources, path: &Path) -> Result<Vec<RegionRule>> {
 }
 
 /// All of what the file at `path` holds.
-pub fn scan(path: &Path, body: Body) -> Result<Scan> {
+pub fn scan(path: &Path, body: Body, record: &mut InputRecord) -> Result<Scan> {
     Ok(match body {
         Body::Mesh(source) => source.mesh.into(),
-        Body::Points(source) => Scan::Cloud(all_points(path, source)?),
+        Body::Points(source) => Scan::Cloud(all_points(path, source, record)?),
     })
 }
 
-/// All points of a source, which is the file at `path`.
-pub fn all_points(path: &Path, mut source: PointSource) -> Result<Vec<Point>> {
+/// All points of a source, which is the file at `path`. The document is told what there is to tell of them.
+pub fn all_points(path: &Path, mut source: PointSource, record: &mut InputRecord) -> Result<Vec<Point>> {
     let (mut all, mut block): (Vec<Point>, Vec<Point>) = (Vec::new(), Vec::new());
     loop {
         source.next_block(&mut block)?;
         if block.is_empty() {
+            record.warnings.extend(source.remarks());
             return Ok(all);
         }
         if let Some(i) = block.iter().position(|p| out_of_range(p, MAX_COORDINATE)) {

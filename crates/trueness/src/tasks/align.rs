@@ -243,7 +243,7 @@ impl MeasuredFile {
     fn open(request: &AlignRequest, sources: &dyn Sources) -> Result<MeasuredFile, TaskError> {
         let Opened { mut record, body, .. } =
             read::open(sources, &request.measured, Role::Measured, &request.reading.options())?;
-        let scan = read::scan(&request.measured, body)?;
+        let scan = read::scan(&request.measured, body, &mut record)?;
         read::describe(&mut record, scan.points());
         Ok(MeasuredFile { scan, record })
     }

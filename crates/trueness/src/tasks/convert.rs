@@ -149,6 +149,7 @@ impl ConvertRequest {
             }
         }
         stage.finish();
+        document.inputs[0].warnings.extend(source.remarks());
         document.inputs[0].points = document.points;
         Ok(finished(document, Output::later(move || file.finish().map(drop))))
     }

@@ -131,7 +131,7 @@ impl Request for CurvatureRequest {
         }
         let scan = match body {
             Body::Mesh(source) => Scan::Mesh(source.mesh),
-            Body::Points(source) => Scan::Cloud(read::all_points(&self.input, source)?),
+            Body::Points(source) => Scan::Cloud(read::all_points(&self.input, source, &mut record)?),
         };
         read::describe(&mut record, scan.points());
         let noise = self.noise.shared_noise(watch, |stage| noise(&scan, self.seed, stage))?;

@@ -121,7 +121,7 @@ impl Request for FitRequest {
         })?;
         let Opened { mut record, body, planar, .. } =
             read::open(sources, &self.points, Role::Measured, &self.reading.options())?;
-        let scan = read::scan(&self.points, body)?;
+        let scan = read::scan(&self.points, body, &mut record)?;
         let points = scan.points();
         read::describe(&mut record, points);
         read::hash(sources, &mut record, &self.points)?;

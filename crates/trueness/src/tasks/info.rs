@@ -95,6 +95,7 @@ fn points(
             return Err(trueness_geom::progress::Cancelled.into());
         }
     }
+    document.inputs[0].warnings.extend(source.remarks());
     document.inputs[0].points = count;
     document.inputs[0].bounds = trueness_measure::bounds(&bounds);
     Ok(InfoDocument { points: Some(count), bounds: sides(bounds), ..document })

@@ -130,7 +130,9 @@ impl Request for SegmentRequest {
             read::open(sources, &self.input, Role::Measured, &self.reading.options())?;
         let (scan, left_out) = match body {
             Body::Mesh(source) => (Scan::Mesh(source.mesh), source.nonfinite_facets),
-            Body::Points(source) => (Scan::Cloud(read::all_points(&self.input, source)?), vec![]),
+            Body::Points(source) => {
+                (Scan::Cloud(read::all_points(&self.input, source, &mut record)?), vec![])
+            }
         };
         read::describe(&mut record, scan.points());
         let (kind, word, total) = match &scan {

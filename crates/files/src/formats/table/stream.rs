@@ -8,16 +8,13 @@ use super::row::{Layout, Row};
 use crate::{
     error::{Fault, Located, Result},
     feed::Feed,
-    lines::{count_lines, parts},
+    lines::{count_lines, first_lines, parts, whole_lines},
 };
 use trueness_geom::parallel::prelude::*;
 use trueness_geom::{cloud::PointStream, space::Point};
 
 /// A thread parses this many bytes at a time, which stay in its cache.
 const TABLE_BYTES_PER_TASK: usize = 1 << 18;
-/// A line is read up to this length.
-const MAX_LINE_BYTES: usize = 1 << 20;
-
 /// How many points there should be.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Limit {
@@ -131,29 +128,6 @@ impl PointStream for TextPoints {
             }
         }
     }
-}
-
-/// The whole lines at the start of `bytes`, about `size` bytes of them. `None` if a line has no end.
-fn whole_lines(bytes: &[u8], size: usize, end: u8) -> Option<&[u8]> {
-    if bytes.len() < size {
-        // The end of the file.
-        return Some(bytes);
-    }
-    match memchr::memrchr(end, &bytes[..size]) {
-        Some(i) => Some(&bytes[..=i]),
-        None if size > MAX_LINE_BYTES || bytes.len() == size => None,
-        None => whole_lines(bytes, size * 2, end),
-    }
-}
-
-/// At most the first `count` lines of `window`.
-fn first_lines(window: &[u8], count: u64, end: u8) -> &[u8] {
-    let there = count_lines(window, end);
-    if there < count {
-        return window;
-    }
-    let last = usize::try_from(count - 1).ok().and_then(|n| memchr::memchr_iter(end, window).nth(n));
-    last.map_or(window, |i| &window[..=i])
 }
 
 /// The result of the lines of a part, or of a window.

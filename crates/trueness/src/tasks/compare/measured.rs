@@ -94,7 +94,7 @@ impl Measured {
         progress: &dyn Progress,
     ) -> Result<Alignment, TaskError> {
         let stream = std::mem::replace(&mut self.points, Box::new(Whole::new(vec![])));
-        let mut points = read::all_points(path, stream)?;
+        let mut points = read::all_points(path, stream, &mut self.record)?;
         let tree = Tree::build_watched(reference, progress).map_err(|e| match e {
             MeshError::Cancelled(e) => e.into(),
             e => TaskError::because(e),

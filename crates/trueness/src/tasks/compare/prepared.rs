@@ -67,6 +67,8 @@ impl Prepared {
         let stage = watch.stage("aligning", STEPS, None);
         let reference = (self.opened[0].mesh(), self.opened[0].faces());
         let found = self.measured.align(&request.measured, reference, request.seed, &*stage)?;
+        // Aligning reads the points.
+        self.files[0].warnings.clone_from(&self.measured.record.warnings);
         self.alignment = Some(trueness_measure::align::aligned_to(&found, self.files[1].path.clone()));
         Ok(())
     }
@@ -126,6 +128,7 @@ impl Prepared {
             );
         let found = ended(stage, found).map_err(|e| in_file(e, &request.measured))?;
         hashes?;
+        files[0].warnings.extend(measured.points.remarks());
         Ok(found)
     }
 

@@ -161,7 +161,7 @@ fn read_scan(
     options: &ReadOptions,
 ) -> Result<(Scan, InputRecord, bool), TaskError> {
     let Opened { mut record, body, planar, .. } = read::open(sources, path, Role::Measured, options)?;
-    let scan = read::scan(path, body)?;
+    let scan = read::scan(path, body, &mut record)?;
     read::describe(&mut record, scan.points());
     read::hash(sources, &mut record, path)?;
     Ok((scan, record, planar))

@@ -119,7 +119,7 @@ impl SectionRequest {
             }
             Body::Points(source) => source,
         };
-        let points = read::all_points(&self.input, source)?;
+        let points = read::all_points(&self.input, source, &mut record)?;
         read::describe(&mut record, &points);
         self.check_noise(&record)?;
         if planes.is_empty() {

@@ -60,7 +60,7 @@ impl Request for SurfaceRequest {
         if planar {
             return Err(TaskError::usage(format!("{shown}: it has two columns; a surface needs x, y and z")));
         }
-        let scan = read::scan(&self.points, body)?;
+        let scan = read::scan(&self.points, body, &mut record)?;
         if scan.mesh().is_none() && options.base == BaseKind::Mesh {
             return Err(TaskError::usage(format!(
                 "{shown}: --base mesh lays facets flat, and the file has none; give a mesh (STL, PLY, OBJ, OFF), or take plane, xy, cylinder or sphere"

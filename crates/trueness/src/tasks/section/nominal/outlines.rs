@@ -163,7 +163,7 @@ fn whole(path: &Path, opened: Opened, progress: &dyn Progress) -> Result<(Held, 
     let held = match body {
         Body::Mesh(source) => Held::Mesh(faced(&source.mesh, &mut record, progress)?),
         Body::Points(source) => {
-            let points = read::all_points(path, source)?;
+            let points = read::all_points(path, source, &mut record)?;
             read::describe(&mut record, &points);
             Held::Row(points, planar)
         }
