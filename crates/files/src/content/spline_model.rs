@@ -14,7 +14,7 @@ use trueness_geom::spline::surface::Nurbs;
 pub struct SplineModel {
     /// The surfaces, each with the normal of its face outward.
     pub surfaces: Vec<Nurbs>,
-    /// The curves in space that bound no face.
+    /// The curves in space; those that bound faces may be among them.
     pub curves: Vec<Rational<3>>,
 }
 
