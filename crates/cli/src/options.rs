@@ -14,7 +14,7 @@ pub struct Common {
     #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..), allow_negative_numbers = true)]
     pub threads: Option<u16>,
     /// Seed of all random numbers
-    #[arg(long, global = true, value_name = "N", default_value_t = 0, allow_negative_numbers = true)]
+    #[arg(long, global = true, value_name = "N", default_value_t = 0, value_parser = seed, allow_negative_numbers = true)]
     pub seed: u64,
     /// Print no table; the result is in the exit status and in the written files
     #[arg(long, short, global = true)]
@@ -56,6 +56,16 @@ pub fn number(text: &str) -> Result<f64, String> {
         true => "write it with a decimal point, like 0.05".into(),
         false => "give a number, like 0.05".into(),
     })
+}
+
+/// A seed of random numbers.
+fn seed(text: &str) -> Result<u64, String> {
+    text.parse().map_err(|_| format!("give a whole number from 0 to {}", u64::MAX))
+}
+
+/// A count of an option that is not nothing.
+pub fn count_above_zero(text: &str) -> Result<u64, String> {
+    text.parse().ok().filter(|n| *n > 0).ok_or_else(|| "give a whole number, 1 or more".into())
 }
 
 /// A count of an option.

@@ -3,8 +3,8 @@
 use std::collections::VecDeque;
 use std::time::Duration;
 
-/// Times over which the rate is taken. What a stage prepares before its first item (a search tree, say) says nothing of
-/// how fast items come, so the count starts with the first.
+/// Times over which the rate is taken. The count starts with the first item: what a stage prepares before, such as a search tree, says
+/// nothing of how fast items come.
 const RATE_WINDOW: Duration = Duration::from_secs(15);
 /// Least time between the first item and an estimate: two blocks that end together tell nothing.
 const MIN_OBSERVED_TIME: Duration = Duration::from_millis(1500);

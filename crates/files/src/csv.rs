@@ -15,8 +15,8 @@ pub enum LineEnd {
 
 /// Rows of cells, one cell after the other, at the end of a text.
 ///
-/// Text stands in quotes where it holds a separator. Text that a spreadsheet would run as a formula, and is no number, begins with
-/// an apostrophe, because names come from plans and files of others.
+/// Text stands in quotes where it holds a separator. Text that a spreadsheet would run as a formula, and is no number, begins with an
+/// apostrophe. Names come from plans and files of others.
 pub struct Csv<'a> {
     out: &'a mut Vec<u8>,
     line_end: LineEnd,

@@ -8,8 +8,8 @@ const MIN_POINTS_PER_VERTEX: usize = 4;
 /// Fewer points than these hardly look like the part.
 const MIN_POINTS_SHOWN: usize = 2000;
 
-/// Numbers of the objects that the first view shows: the measured mesh with its map; of a cloud the points, if there are enough
-/// of them and the reference is far coarser, else the reference that carries the map of the first comparison, else the points
+/// Numbers of the objects that the first view shows. A measured mesh is shown with its map. Points are shown if there are enough of them
+/// and the reference is far coarser. Else it is the reference that carries the map of the first comparison; without such a map, the points
 /// over the plain reference. Of other things, all but what was there before a repair.
 pub fn first_view(objects: &[ViewObject]) -> Vec<usize> {
     let mapped = |role| {

@@ -15,8 +15,8 @@ use trueness_geom::spline::surface::Patches;
 
 /// Fits at most.
 const MAX_TRIES: usize = 40;
-/// Knots are tried whose removal changes the surface by no more than this times the part that the tolerance has left
-/// there, the cheap ones first. The rest is fitted anew, and takes up most of the change.
+/// Knots are tried, the cheap ones first, whose removal changes the surface by no more than this times what the tolerance leaves there.
+/// The rest is fitted anew, and takes up most of the change.
 const MAX_REMOVAL_COSTS: [f64; 7] = [3.0, 5.0, 8.0, 12.0, 18.0, 27.0, 40.0];
 
 /// The surface, if within its tolerance, without the knots that it can do without.

@@ -3,7 +3,7 @@
 use crate::command::Run;
 use crate::exit;
 use crate::number::{FACETS, POINTS, counted, short};
-use crate::options::{Common, DocumentArgs, PointInputArgs};
+use crate::options::{Common, DocumentArgs, PointInputArgs, number};
 use crate::task;
 use clap::Args;
 use std::path::PathBuf;
@@ -29,7 +29,7 @@ pub struct ConvertArgs {
     #[arg(help = out_help())]
     out: PathBuf,
     /// How far facets of a CAD model may lie from its faces, mm [default: a twenty-thousandth of its diagonal]
-    #[arg(long, value_name = "MM", allow_negative_numbers = true)]
+    #[arg(long, value_name = "MM", value_parser = number, allow_negative_numbers = true)]
     chord: Option<f64>,
     #[command(flatten)]
     reading: PointInputArgs,

@@ -152,7 +152,7 @@ fn what_has_no_curvature_is_counted_or_refused_by_name() {
         ),
         (vec![flat], 2, "flat.xy: it has two columns; curvatures need x, y and z"),
         (vec![sheet, "--degree", "7"], 2, "degree 7: it must be from 2 to 6"),
-        (vec![sheet, "--neighbors", "4"], 2, "4 neighbors: a jet of degree 3 needs from 10 to 10000"),
+        (vec![sheet, "--neighbors", "4"], 2, "--neighbors 4: a jet of degree 3 needs from 10 to 10000"),
         (vec![sheet, "--radius", "-1"], 2, "radius -1: it must be a length above 0"),
         (vec![sheet, "--radius", "1", "--neighbors", "20"], 2, "cannot be used with"),
         (vec![sheet, "--radius", "0.1"], 3, "few neighbors); give a larger --radius, or a smaller --degree"),

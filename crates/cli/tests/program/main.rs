@@ -27,6 +27,7 @@ mod inspect_names;
 mod inspect_plans;
 mod inspect_plate;
 mod inspect_qif;
+mod option_ranges;
 mod output;
 mod progress;
 mod repair;

@@ -90,7 +90,7 @@ fn wrong_input_is_refused_with_a_remedy() {
         (vec![good, "--level", "100"], 2, "a number of percent between 1 and 100"),
         (vec![good, "--level", "0.95"], 2, "it is in percent: write 95"),
         (vec![cube], 2, "it is a mesh; say where to cut it: --plane"),
-        (vec![cube, "--plane", "0,0,0,1"], 2, "the normal [0.0, 0.0, 0.0] has no direction"),
+        (vec![cube, "--plane", "0,0,0,1"], 2, "--plane 0,0,0,1: the normal has no direction"),
         (vec![cube, "--plane", "0,0,1"], 2, "give 4 numbers, not 3"),
         (vec![cube, "--stack", "0,0,1,0,1,-1"], 2, "the step must lead from the first distance to the last"),
         (vec![cube, "--plane", "0,0,1,0", "--thickness", "1"], 2, "it is a mesh; --thickness is for clouds"),

@@ -54,7 +54,7 @@ fn what_holds_no_surface_is_refused_by_name() {
         (
             vec![good.to_str().unwrap(), "--min-share", "200"],
             2,
-            "least share 200: it must be between 0 and 100 percent",
+            "--min-share 200: it must be between 0 and 100 percent",
         ),
         (vec![good.to_str().unwrap(), "--out", "x.stl"], 2, ".ply .csv"),
     ] {

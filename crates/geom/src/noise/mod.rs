@@ -98,9 +98,9 @@ pub fn scan(scan: &Scan, seed: u64, progress: &dyn Progress) -> Result<Noise, No
     noise_of((scan.points(), scan.mesh()), None, seed, progress)
 }
 
-/// The noise of the `V` vertices of a mesh, or of the `V` points of a cloud, whose distances from surfaces fitted to them are
-/// known. Form is told from noise with less doubt, and also where the surface bends much from one point to the next. Points
-/// without a distance that is a number do not count. As [`mesh()`] otherwise.
+/// The noise of the `V` vertices of a mesh or points of a cloud, whose distances from surfaces fitted to them are known. Form is told
+/// from noise with less doubt, and also where the surface bends much from one point to the next. Points without a distance that is a
+/// number do not count. As [`mesh()`] otherwise.
 ///
 /// # Errors
 /// As [`mesh()`].

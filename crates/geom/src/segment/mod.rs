@@ -254,11 +254,12 @@ fn check(points: &[Point], options: &Options) -> Result<(), SegmentError> {
     if let Some(t) = options.tolerance {
         within("tolerance", t, "a length above 0", t.is_finite() && t > 0.0)?;
     }
-    let degrees = options.crease.to_degrees();
+    // Without the last digits, which radians have lost.
+    let degrees = (1e9 * options.crease.to_degrees()).round() / 1e9;
     within("crease", degrees, "between 1 and 89 degrees", (1.0..=89.0).contains(&degrees))?;
     if let Some(share) = options.min_share {
         let percent = 100.0 * share;
-        within("least share", percent, "between 0 and 100 percent", (0.0..=100.0).contains(&percent))?;
+        within("min-share", percent, "between 0 and 100 percent", (0.0..=100.0).contains(&percent))?;
     }
     if !KINDS.iter().any(|kind| options.kinds.contains(kind)) {
         return Err(SegmentError::NoKind);

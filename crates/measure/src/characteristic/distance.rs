@@ -9,8 +9,8 @@ use trueness_document::tolerance_class::Table;
 use trueness_geom::space::{cross, dot, minus, norm};
 use trueness_geom::zone::datum::Datum;
 
-/// From the feature's middle (the mean of a plane's or line's points, the middle of an axis over the extent of its points,
-/// a center) to the datum plane, axis or center, across it.
+/// From the feature's middle to the datum plane, axis or center, across it. The middle is the mean of a plane's or line's points, that of
+/// an axis over the extent of its points, or a center.
 #[derive(Debug)]
 pub struct Distance;
 

@@ -13,8 +13,8 @@ use trueness_geom::zone::sections;
 
 /// In every intersection plane, the width of the zone about the theoretically exact line; the value is the widest.
 ///
-/// Distances are taken within the plane through each point. Without datums the line of each section may lie anywhere in its
-/// plane, and the sections are those that the points lie in (rows, else 24 slices); a frame holds all of them.
+/// Distances are taken within the plane through each point. Without datums the line of each section may lie anywhere in its plane. The
+/// sections are those that the points lie in: rows, else 24 slices. A frame holds all of them.
 #[derive(Debug)]
 pub struct LineProfile;
 

@@ -1,12 +1,12 @@
 //! The material requirements of ISO 2692:2021, by the surface: what the standard defines.
 //!
-//! A requirement sets a virtual condition: a perfect cylinder in the exact attitude (of a position also at the exact place),
-//! which the surface must not pass. Its diameter is the maximum (least) material size and the tolerance, added where the
-//! surface must lie within it (shaft by maximum, bore by least material), taken off where it must lie around it.
+//! A requirement sets a virtual condition: a perfect cylinder in the exact attitude (of a position also at the exact place), which the
+//! surface must not pass. Its diameter is the maximum (least) material size and the tolerance. The tolerance is added where the surface
+//! must lie within it (shaft by maximum, bore by least material), else taken off.
 //!
-//! The related size is the diameter of the smallest cylinder in that attitude and place around the surface (the largest
-//! within it), the best over all motions that the datums leave free. The mating size is that of the cylinder that may lie
-//! anywhere (GN around, GX within). Told are
+//! The related size is the diameter of the smallest cylinder in that attitude and place around the surface (the largest within it). It is
+//! the best over all motions that the datums leave free. The mating size is that of the cylinder that may lie anywhere (GN around, GX
+//! within). Told are
 //!
 //! - as value, their difference: twice the offset of the axis, where the form is perfect;
 //! - as greatest allowed value, the tolerance and what the mating size leaves of the maximum (least) material size: the bonus.
@@ -14,12 +14,12 @@
 //! The value keeps the limit exactly when the surface keeps the virtual condition. What some programs evaluate instead, the
 //! axis of the mating cylinder against the tolerance and the bonus, differs where the form is not perfect.
 //!
-//! The straightness of an axis has no place and no attitude to keep: its virtual condition is that of the mating size alone. Told
-//! are the difference of the mating size and the least-squares one (GG), which for a bent cylinder of perfect sections is the
-//! diameter of the zone of its axis, and as bonus what the least-squares size leaves of the maximum (least) material size.
+//! The straightness of an axis has no place and no attitude to keep: its virtual condition is that of the mating size alone. The value is
+//! the difference of the mating size and the least-squares one (GG): for a bent cylinder of perfect sections the diameter of the zone of
+//! its axis. The bonus is what the least-squares size leaves of the maximum (least) material size.
 //!
-//! A datum with a requirement is no longer the axis of its feature: the part may shift and lean as far as the datum's surface
-//! keeps its own virtual condition, and the value is the least over all these motions.
+//! A datum with a requirement is no longer the axis of its feature. The part may shift and lean as far as the datum's surface keeps its
+//! own virtual condition. The value is the least over all these motions.
 
 use super::kind::Measuring;
 use super::located::{frame, system};
@@ -253,8 +253,8 @@ struct Shift<'a> {
 impl Shift<'_> {
     /// The motion, with the datum's surface within its boundary, that brings the toleranced feature nearest to its place.
     ///
-    /// With the greatest distance `w` allowed, the least over all motions of the greater of what the feature is beyond `w` and
-    /// what the datum is beyond its boundary falls as `w` grows; where it comes to 0 is the answer.
+    /// With the greatest distance `w` allowed, the excess of a motion is the greater of two: the feature's beyond `w`, and the datum's
+    /// beyond its boundary. The least over all motions falls as `w` grows; where it comes to 0 is the answer.
     fn best(&self, start: Rigid, free: Freedom, feature: &MeasuredFeature) -> Result<Placed, Missing> {
         let own = self.asked.points();
         let (none, z) = ([0.0; 3], [0.0, 0.0, 1.0]);

@@ -205,8 +205,8 @@ impl MeasuredFeature {
         }
     }
 
-    /// The points that a zone must hold: of a surface or median line all of them, of an axis both ends over the extent of
-    /// the points, of what has a center that one.
+    /// The points that a zone must hold. A surface or median line has all of its points, an axis both ends over the extent of the points,
+    /// anything round its center.
     ///
     /// # Errors
     /// Why there are none.

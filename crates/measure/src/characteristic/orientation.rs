@@ -1,10 +1,10 @@
 //! What parallelism, perpendicularity and angularity have in common: a zone whose angle to the datum is exact.
 //!
-//! ISO 1101:2017, 17.10 to 17.12. The zone of a surface, and of a line without the sign ∅, lies between two parallel planes;
-//! with ∅ it is a cylinder. A single datum holds its angle; what turns about the datum stays free, and the least zone over
-//! these turns is the value. Further datums lock these turns (datum systems of ISO 5459:2011): the zone then has one
-//! exact direction, and the value is the zone in it. Its angle about the first datum is the exact one of the drawing, along
-//! or across the direction that the second datum gives where the plan says no other.
+//! ISO 1101:2017, 17.10 to 17.12. The zone of a surface, and of a line without the sign ∅, lies between two parallel planes; with ∅ it is
+//! a cylinder. A single datum holds its angle; what turns about the datum stays free, and the least zone over these turns is the value.
+//! Further datums lock these turns (datum systems of ISO 5459:2011): the zone then has one exact direction, and the value is the zone in
+//! it. Its angle about the first datum is the exact one of the drawing. It is along or across the direction that the second datum gives,
+//! where the plan says no other.
 
 use super::exact::FILED_ANGLE;
 use super::kind::{Measuring, Question, Refusal, WITH_DIRECTION, is_axis, refuse};

@@ -16,8 +16,8 @@ use trueness_geom::zone::motion::{Search, placed};
 /// A plane is across an axis if the cosine of the angle of its normal to that is at least this, 45°.
 const MIN_ALONG_NORMAL: f64 = std::f64::consts::FRAC_1_SQRT_2;
 
-/// Twice the greatest distance of the feature from its theoretically exact place in the datum system, the least over the
-/// motions that the datums leave free.
+/// Twice the greatest distance of the feature from its theoretically exact place in the datum system. It is the least over the motions
+/// that the datums leave free.
 ///
 /// Of a cylinder or cone: of both ends of the associated axis, over the extent of the points. Of a line: of all its points.
 /// Of a plane: of all its points. Of a sphere, circle or point: of its center. Coordinates that `basic` does not give do not

@@ -62,7 +62,7 @@ pub struct Regions {
 /// A seed farther from the reference than this share of its diagonal is none of its places.
 const MAX_SEED_DISTANCE_SHARE: f64 = 0.02;
 
-/// What is said of a seed so far from its nearest place on the reference that it must be meant for another part, unit or frame.
+/// What is said of a seed so far from the reference that it must be meant for another part, unit or frame.
 pub(crate) fn far_seed(distance: f64, nearest: Point, reference: &Mesh) -> Option<String> {
     let [x, y, z] = nearest.map(|x| (1e3 * x).round() / 1e3);
     (distance > MAX_SEED_DISTANCE_SHARE * reference.bounds().diagonal()).then(|| {

@@ -1,7 +1,7 @@
 //! The worst places, far from one another, out of any number of points in one pass.
 //!
-//! The surroundings of the reference are cut into cells; each cell keeps its highest and its lowest deviation. What is asked
-//! for in the end is picked from these, so a single bad region does not fill the list however many points it has.
+//! The surroundings of the reference are cut into cells; each cell keeps its highest and its lowest deviation. What is asked for in the
+//! end is picked from these. So a single bad region does not fill the list, however many points it has.
 
 use trueness_document::tolerance::badness;
 use trueness_geom::parallel::prelude::*;

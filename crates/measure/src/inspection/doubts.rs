@@ -68,7 +68,7 @@ fn places(plan: &Plan) -> Vec<Point> {
     plan.features.iter().filter_map(|f| f.nominal.as_ref()).flat_map(Nominal::places).collect()
 }
 
-/// The unit in which the measured data, laid by the same `motion`, would lie where the plan has its features, if they do not as they are.
+/// The unit in which the measured data, laid by the same `motion`, would lie at the features of the plan. `None` if they do as they are.
 fn unit_of_features(plan: &Plan, data: &Data, motion: &Rigid) -> Option<Warning> {
     let (measured, back) = (data.measured.as_ref()?, motion.inverse());
     let sought = places(plan);

@@ -29,8 +29,8 @@ impl Field {
         Field { noise: *noise, seed, corners: HashMap::new() }
     }
 
-    /// Three independent normal numbers of the stated deviation. With a correlation length they are interpolated between the
-    /// corners of cells of that size and brought back to that deviation, so places within about half of it move together.
+    /// Three independent normal numbers of the stated deviation. With a correlation length they are interpolated between the corners of
+    /// cells of that size, and brought back to that deviation. So places within about half of it move together.
     pub fn at(&mut self, p: &Point) -> Vector {
         let (parts, count) = parts(p, &self.noise);
         if self.corners.len() > MAX_HELD_CORNERS {

@@ -266,7 +266,7 @@ impl<'a> Parted<'a> {
         points
     }
 
-    /// How far off a nominal points lie that were measured over it, on a face that runs along it, where no reference tells whether that was drawn.
+    /// How far off a nominal points lie on a face that runs along it, where no reference tells whether that face was drawn.
     fn other_faces(&self, own: &OwnFaces, within: &Within) -> Result<Vec<f64>, FeatureError> {
         if self.nominals.faces.is_some() {
             return Ok(vec![]);

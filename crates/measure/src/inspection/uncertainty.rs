@@ -1,17 +1,18 @@
 //! Uncertainties of the values: the points are moved by noise again and again, and all is evaluated anew.
 //!
-//! Propagation of distributions by a Monte Carlo method (JCGM 101:2008), of the noise that the plan states, through the association of
+//! Propagation of distributions by a Monte Carlo method (JCGM 101:2008). The noise that the plan states goes through the association of
 //! the elements, the alignment, the datums, and the evaluation. What the points of a feature are stays as it was found.
 //!
 //! What the farthest points decide, a form, a run-out, the largest cylinder in a bore, noise does not only scatter: it makes the one
-//! wider and the other smaller, each time. How much depends on the form that is there: most where it is perfect, half of it and less where
-//! few places are the farthest. So the points are first brought to the form that they have below the noise ([`super::denoised`]), and what the
-//! noise makes of that is drawn (parametric bootstrap: Efron, Tibshirani, An introduction to the bootstrap, 1993, 6.5). The mean of what it
-//! adds is the bias, its scatter the spread. The value stays what the standard defines; the interval lies about the value less the bias, as
-//! the basic bootstrap has it (13.4 there), goes on to the value where that is beyond, and is made longer by what is not known of the form:
-//! - Downward, as a form found may be made by the noise in part, and noise adds more to a smaller one. The end is where the smallest form of
-//!   its kind lies to which the noise of the value may belong (inversion of a test), see [`smaller`]; and some farther for the noise that is left
-//!   in the form, which makes its extremes stand out too far.
+//! wider and the other smaller, each time. How much depends on the form that is there: most where it is perfect, half of it and less
+//! where few places are the farthest. So the points are first brought to the form that they have below the noise ([`super::denoised`]).
+//! Then what the noise makes of that is drawn (parametric bootstrap: Efron, Tibshirani, An introduction to the bootstrap, 1993, 6.5). The
+//! mean of what it adds is the bias, its scatter the spread. The value stays what the standard defines; the interval lies about the value
+//! less the bias, as the basic bootstrap has it (13.4 there). It goes on to the value where that is beyond, and is made longer by what is
+//! not known of the form:
+//! - Downward, as a form found may be made by the noise in part, and noise adds more to a smaller one. The end is the smallest form of
+//!   its kind to which the noise of the value may belong (inversion of a test, see [`smaller`]). It lies some farther for the noise that
+//!   is left in the form, which makes its extremes stand out too far.
 //! - Upward, where the form does not show by as much as the noise adds, by the share of the bias that it does not explain: below the
 //!   noise a form may hide, and then the value is its own. As much by the share of a rough form, whose places are not known one by one; and at
 //!   least by some of the noise left in the form, whose extremes may stand out too little too.
@@ -42,10 +43,10 @@ const MIN_DRAWN_SHARE: f64 = 0.9;
 const MAX_FORM_DRAWS: u32 = 64;
 /// Standard errors of a mean beyond which it tells of more than chance.
 const CLEAR_STANDARD_ERRORS: f64 = 3.0;
-/// Share of the range of the noise left in a form by which its extremes stand out too far, beside what [`smaller`] tells; twice of it where the form
-/// is rough, as the places are not known then. Counted, 200 copies each
-/// of planes, cylinders and spheres of 100 to 400 points with waves, corners, steps, single and rough points of 1 to 20 deviations: with this and
-/// with 0.3 some 92 % and more are covered, with 0.2 83 % of single points.
+/// Share of the range of the noise left in a form by which its extremes stand out too far, beside what [`smaller`] tells; twice of it
+/// where the form is rough, as the places are not known then. Counted with 200 copies each of planes, cylinders and spheres of 100 to 400
+/// points. They have waves, corners, steps, single and rough points of 1 to 20 deviations. With this and with 0.3 some 92 % and more are
+/// covered, with 0.2 83 % of single points.
 const OVERSTATED_NOISE_SHARE: f64 = 0.35;
 /// Share by which they may stand out too little: without it 90 % of waves of 10 deviations on 100 points were covered.
 const UNDERSTATED_NOISE_SHARE: f64 = 0.1;
@@ -303,7 +304,7 @@ mod tests {
         assert_eq!(of(3.0, [0.5, 3.0]).sides, [4.5, 1.0]);
     }
 
-    /// A perfect form to which noise adds 6, half a form of 4 to which it adds 4.25, and the whole to which it adds 3.
+    /// Noise adds 6 to a perfect form, 4.25 to half of a form of 4, and 3 to the whole.
     #[test]
     fn of_a_smaller_form_noise_adds_more() {
         let of = |value, half, whole| smaller(Some(value), 1.0, 1.0, [Some([0.0, 6.0]), half, whole]);

@@ -52,9 +52,8 @@ pub struct Plan {
 impl Plan {
     /// Reads a plan.
     ///
-    /// # Errors
-    /// The first fault, with line and column: no TOML, an unknown key or word (with the nearest known one), a feature that
-    /// does not exist, a kind that does not fit its feature, a missing datum, tolerance or key.
+    /// # Errors The first fault, with line and column. It is no TOML, has an unknown key or word (with the nearest known one), or names a
+    /// feature that does not exist. A kind does not fit its feature; a datum, tolerance or key is missing.
     ///
     /// ```
     /// use trueness_measure::plan::Plan;

@@ -8,7 +8,7 @@ use trueness_document::section::{NominalWarning, NominalWarningKind};
 use trueness_geom::space::{Aabb, minus, norm};
 use trueness_section::Outline;
 
-/// A contour is nowhere near the nominal if all of it is farther off than this share of the nominal's size, or than its own size, …
+/// A contour is nowhere near the nominal if all of it is farther off than this share of the nominal's size or its own, …
 const FAR_SIZE_SHARE: f64 = 0.05;
 /// … and than so many times the median of the others.
 const FAR_MEDIANS: f64 = 10.0;

@@ -3,8 +3,8 @@
 use super::found::Section;
 use trueness_section::{Bent, Contour, Geometry, Options, RowKind};
 
-/// A row lies in no plane whose points are farther off it than so many standard deviations of their scatter in it, and than this share of
-/// its length.
+/// A row lies in no plane if its points are off the plane by more than both: so many standard deviations of their scatter within it, and
+/// this share of its length.
 const MAX_OFF_PLANE: (f64, f64) = (8.0, 1e-4);
 /// Scatter of so many times the noise given, or of this share of it, contradicts it, unless chance makes it so ...
 const MAX_NOISE_RATIO: f64 = 1.5;

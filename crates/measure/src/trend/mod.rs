@@ -21,8 +21,8 @@ const CONFIDENCE: f64 = 0.95;
 
 /// The trend of results, in the order of their making; `inputs` are their files.
 ///
-/// # Errors
-/// [`TrendError`]: no results, one given twice (by the SHA-256 of its file), one that contradicts itself, characteristics that are missing, or not the same as in the first result.
+/// # Errors [`TrendError`]: no results, one given twice (by the SHA-256 of its file), one that contradicts itself. Characteristics are
+/// missing, or not the same as in the first result.
 pub fn document(inputs: Vec<ResultInput>, results: &[InspectDocument]) -> Result<TrendDocument, TrendError> {
     let first = results.first().ok_or(TrendError::None)?;
     for (index, input) in inputs.iter().enumerate() {

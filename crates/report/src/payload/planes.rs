@@ -2,8 +2,8 @@
 
 use trueness_geom::parallel::{Loop, Source};
 
-/// The differences `value - prediction` modulo 2^(8·`width`), folded so that small ones of either sign are small
-/// (0, −1, 1, −2 → 0, 1, 2, 3), as `width` planes of bytes, the lowest first.
+/// The differences `value - prediction` modulo 2^(8·`width`), as `width` planes of bytes, the lowest first. They are folded so that small
+/// ones of either sign are small: 0, −1, 1, −2 become 0, 1, 2, 3.
 pub fn pack(differences: Loop<impl Source<Item = i32>>, width: usize) -> Vec<u8> {
     let folded: Vec<u32> = differences.map(|d| fold(d, width)).collect();
     (0..width).flat_map(|plane| folded.iter().map(move |d| (d >> (8 * plane)) as u8)).collect()

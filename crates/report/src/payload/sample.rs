@@ -1,7 +1,7 @@
 //! How finely objects can be packed for the room there is, told from a part of each that is packed as the whole will be.
 //!
-//! How many bytes a place takes depends on how evenly the places lie and on the noise of the values, so no constant is near for
-//! all. The part is some of the cells of a coarse grid: within them places lie as densely as in the whole.
+//! How many bytes a place takes depends on how evenly the places lie and on the noise of the values. So no constant is near for all. The
+//! part is some of the cells of a coarse grid: within them places lie as densely as in the whole.
 
 use super::super::no_value::NoValue;
 use super::super::{Geometry, ReportError, ViewField, ViewObject};

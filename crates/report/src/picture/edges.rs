@@ -8,8 +8,8 @@ use trueness_geom::space::{Aabb, Point, Vector, cross, dot, minus, norm, plus, u
 
 /// Cosine of the angle (30 degrees) between facets beyond which they have an edge between them.
 const CREASE_COSINE: f64 = 0.866_025_403_784_438_6;
-/// Cosine of the angle (15 degrees) between a facet and the mean around one of its corners from which on the corner lies on
-/// a crease: the facet then keeps its own normal throughout.
+/// Cosine of the angle (15 degrees) between a facet and the mean around one of its corners. From there on the corner lies on a crease,
+/// and the facet keeps its own normal throughout.
 const BENT_CORNER_COSINE: f64 = 0.965_925_826_289_068_3;
 /// Width of a line in samples.
 const EDGE_WIDTH: f64 = 1.3 * SAMPLES_PER_PIXEL as f64;

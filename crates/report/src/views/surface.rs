@@ -1,5 +1,5 @@
-//! What a report draws of a fitted surface: the surface in the colors of its curvatures, the points over it in those of their
-//! deviations, the control net, and the iso-lines at the knots.
+//! What a report draws of a fitted surface. The surface has the colors of its curvatures, the points over it those of their deviations;
+//! control net and iso-lines at the knots are drawn, too.
 
 mod reflection;
 

@@ -41,8 +41,9 @@ impl Cells {
         cells
     }
 
-    /// The shortest tree over cells, by Kruskal's method, without edges longer than `reach`.
-    pub fn tree(&self, reach: f64) -> Tree {
+    /// The shortest tree over cells, by Kruskal's method, without edges longer than `reach`; and of each cell the number of edges that some
+    /// shortest tree has. In a regular grid there are many such trees.
+    pub fn tree(&self, reach: f64) -> (Tree, Vec<usize>) {
         let n = self.middles.len();
         let around = ((reach / self.width).ceil() as i64).clamp(1, 12);
         let mut edges: Vec<(f64, usize, usize)> = vec![];
@@ -60,16 +61,26 @@ impl Cells {
         }
         edges.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)).then(a.2.cmp(&b.2)));
         let mut root: Vec<usize> = (0..n).collect();
-        let mut tree = vec![vec![]; n];
-        for (_, i, j) in edges {
-            let (a, b) = (find(&mut root, i), find(&mut root, j));
-            if a != b {
-                root[a.max(b)] = a.min(b);
-                tree[i].push(j);
-                tree[j].push(i);
+        let (mut tree, mut choices) = (vec![vec![]; n], vec![0; n]);
+        // Lengths are equal but for rounding.
+        let rounding = 1.0 + f64::EPSILON.sqrt();
+        for equal in edges.chunk_by(|a, b| b.0 <= a.0 * rounding) {
+            for (_, i, j) in equal {
+                if find(&mut root, *i) != find(&mut root, *j) {
+                    choices[*i] += 1;
+                    choices[*j] += 1;
+                }
+            }
+            for (_, i, j) in equal {
+                let (a, b) = (find(&mut root, *i), find(&mut root, *j));
+                if a != b {
+                    root[a.max(b)] = a.min(b);
+                    tree[*i].push(*j);
+                    tree[*j].push(*i);
+                }
             }
         }
-        tree
+        (tree, choices)
     }
 
     /// The points of the cells along a way, each cell with the branches beside it, in order, each with its place along.

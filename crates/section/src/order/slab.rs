@@ -140,6 +140,27 @@ mod tests {
         assert!(fills(&grid(30, 0.1, random)) && !fills(&grid(3, 0.02, random)));
     }
 
+    /// A regular grid is an area, at any pitch and attitude, and with a hole. Its rows are contours where they lie much farther apart than
+    /// their points.
+    #[test]
+    fn a_regular_grid_is_an_area() {
+        let fills = |rows: i32, [across, along]: [f64; 2], hole: f64, attitude: f64| {
+            let (sin, cos) = libm::sincos(attitude);
+            let all = (0..60).flat_map(|i| (0..rows).map(move |j| [f64::from(i - 30), f64::from(j - 20)]));
+            let all = all.map(|[x, y]| [x * along, y * across]).filter(|[x, y]| libm::hypot(*x, *y) >= hole);
+            let points: Vec<[f64; 2]> = all.map(|[x, y]| [x * cos - y * sin, x * sin + y * cos]).collect();
+            order(&points, None, &Silent).unwrap().fills_area
+        };
+        for attitude in [0.0, 0.1, 0.5] {
+            for pitch in [0.1, 0.5, 0.7] {
+                assert!(fills(60, [pitch; 2], 0.0, attitude), "{pitch} {attitude}");
+            }
+            assert!(fills(60, [0.5, 0.5], 4.0, attitude), "{attitude}");
+            assert!(!fills(60, [5.0, 0.5], 0.0, attitude), "{attitude}");
+            assert!(!fills(1, [0.5, 0.5], 0.0, attitude), "{attitude}");
+        }
+    }
+
     /// A ring whose points scatter by more than a quarter of its radius is a disk. A row that does so by more than an
     /// eighth of its length has no direction.
     #[test]

@@ -125,7 +125,7 @@ pub fn order(points: &[[f64; 2]], gap: Option<f64>, progress: &dyn Progress) -> 
             return Err(Cancelled);
         }
         let reach = gap.map_or(TREE_REACH_CELLS * wider_cells, |g| g.min(TREE_REACH_CELLS * wider_cells));
-        let tree = cells.tree(reach);
+        let (tree, _) = cells.tree(reach);
         let mut other = rows(points, GrownTree { cells, tree, reach, follows: true }, gap, size);
         let is_parted = parted(points, &mut other.0, gap, progress)?;
         let better = ends(&other.0) < ends(&found.0) || is_mixed(&found.0, &other.0, n);
@@ -357,9 +357,10 @@ fn grow(
         let reach = gap.map_or(TREE_REACH_CELLS * width, |g| {
             g.min(TREE_REACH_CELLS * width).max(NEXT_CELL_REACH * width)
         });
-        let tree = cells.tree(reach);
+        let (tree, choices) = cells.tree(reach);
         let n = cells.middles.len();
-        let branching = tree.iter().filter(|near| near.len() > 2).count() as f64;
+        // A tree that does not branch is no contour's, where another one as short would.
+        let branching = choices.iter().filter(|edges| **edges > 2).count() as f64;
         let lonely = tree.iter().filter(|near| near.is_empty()).count() as f64;
         let pieces = n - tree.iter().map(Vec::len).sum::<usize>() / 2;
         let enough = n >= 2 * MIN_CELLS_OF_WAY;

@@ -113,10 +113,14 @@ fn between(feet: [[f64; 2]; 2], turn: f64, uncertainty: f64) -> Join {
     }
 }
 
-/// Direction and standard deviation of the greatest uncertainty of the crossing of two lines that are each uncertain across.
+/// Direction and standard deviation of the greatest uncertainty of the crossing of two lines that are each uncertain across. Parallels may
+/// cross anywhere along them.
 fn ellipse(p: &Pose, q: &Pose, a: f64, b: f64) -> ([f64; 2], f64) {
     let (n, m) = (p.normal(), q.normal());
     let det = n[0] * m[1] - n[1] * m[0];
+    if det == 0.0 {
+        return (p.along, f64::INFINITY);
+    }
     // Moving the one line by 1 moves the crossing along the other.
     let (x, y) = ([m[1] / det, -m[0] / det], [-n[1] / det, n[0] / det]);
     let entry = |i: usize, j: usize| a * a * x[i] * x[j] + b * b * y[i] * y[j];

@@ -217,3 +217,19 @@ fn a_square_has_no_tangent_joins() {
         }
     }
 }
+
+/// Points to and fro between two lines give lines that head exactly the same way. These do not tell where they cross, so that the join has
+/// an interval, and an uncertainty above 0.
+#[test]
+fn joins_of_lines_that_head_the_same_way_have_an_interval() {
+    for count in [80, 120, 150] {
+        let points: Vec<[f64; 2]> =
+            (0..count).map(|k| [29.5 - 0.5 * f64::from(k / 2), 0.5 * f64::from(k % 2)]).collect();
+        let joins = found(&points).joins;
+        assert!(!joins.is_empty(), "{count}");
+        for join in joins {
+            let ends = join.interval.iter().flatten();
+            assert!(ends.copied().all(f64::is_finite) && join.uncertainty > 0.0, "{count}: {join:?}");
+        }
+    }
+}

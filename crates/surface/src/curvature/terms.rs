@@ -106,7 +106,7 @@ pub enum CurvatureError {
     #[error("degree {0}: it must be from {first} to {last}", first = DEGREES.start(), last = DEGREES.end())]
     Degree(usize),
     /// Too few neighbors for the degree, or too many.
-    #[error("{asked} neighbors: a jet of degree {degree} needs from {needed} to {MAX_NEIGHBORS}")]
+    #[error("neighbors {asked}: a jet of degree {degree} needs from {needed} to {MAX_NEIGHBORS}")]
     Neighbors {
         /// Asked for.
         asked: usize,

@@ -115,9 +115,9 @@ pub fn contour(points: &[[f64; 2]]) -> Result<Contour, Error> {
     Ok(section::contour(points, &section::Options::default(), &Silent)?)
 }
 
-/// The lines, arcs and curves in which a plane cuts a mesh, a contour for each closed or open chain, in the frame of the plane
-/// ([`Plane::frame`]). The cut of a drawing's facets is taken as exact, that of a scan as measured. None where the plane misses the mesh.
-/// Options: [`geom::section::cut`](section::cut()), [`geom::section::chain_contour`](section::chain_contour).
+/// The lines, arcs and curves in which a plane cuts a mesh, in the frame of the plane ([`Plane::frame`]). Each closed or open chain is a
+/// contour. The cut of a drawing's facets is taken as exact, that of a scan as measured. None where the plane misses the mesh. Options:
+/// [`geom::section::cut`](section::cut()), [`geom::section::chain_contour`](section::chain_contour).
 ///
 /// # Errors
 /// [`Error::Section`]: a coordinate that is no number; a normal without direction.

@@ -34,6 +34,11 @@ impl TaskError {
         TaskError { kind: ErrorKind::Usage, text: text.into(), source: None }
     }
 
+    /// An option has a value that it does not take; `what` begins with its name and the value.
+    pub fn option(what: impl Display) -> TaskError {
+        TaskError::usage(format!("--{what}"))
+    }
+
     /// There is no answer, for a reason in words.
     pub fn unanswerable(text: impl Into<String>) -> TaskError {
         TaskError { kind: ErrorKind::Unanswerable, text: text.into(), source: None }

@@ -1,5 +1,5 @@
-//! The files of a run, all of them known and tried before any work: what is read is never overwritten, two outputs never
-//! share a file, and an output that cannot be written is found out at once and not after an hour.
+//! The files of a run, all of them known and tried before any work. What is read is never overwritten, and two outputs never share a
+//! file. An output that cannot be written is found out at once and not after an hour.
 //!
 //! Every task lists its files here; nothing else opens an output for the first time.
 

@@ -1,5 +1,6 @@
 //! How files are taken that do not say all of themselves.
 
+use super::numbers::not_negative;
 use super::{FormatName, TaskError, Text};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -89,15 +90,4 @@ impl ReferenceReading {
 /// A distance that is none.
 pub fn welding(distance: Option<f64>) -> Result<Weld, TaskError> {
     distance.map_or(Ok(Weld::Same), |d| Ok(Weld::Within(not_negative("weld", d)?)))
-}
-
-/// `x`, the value of the option `name`, if it is finite and not below 0.
-///
-/// # Errors
-/// Wrong usage.
-pub fn not_negative(name: &str, x: f64) -> Result<f64, TaskError> {
-    match x.is_finite() && x >= 0.0 {
-        true => Ok(x),
-        false => Err(TaskError::usage(format!("--{name} {x}: give a number from 0 upwards"))),
-    }
 }

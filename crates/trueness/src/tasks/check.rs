@@ -1,7 +1,10 @@
 //! Is this mesh sound, and if not, where not?
 
 use crate::read;
-use crate::task::{Done, Reading, Request, RunFiles, Scene, TaskError, Watch, ended, not_negative, welding};
+use crate::task::{
+    Done, Reading, Request, RunFiles, Scene, TaskError, Watch, ended, not_negative, share_of_percent, up_to,
+    welding,
+};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
@@ -70,8 +73,9 @@ impl CheckRequest {
             limit: self.items,
             self_intersections: !self.no_self_intersections,
             gap: self.gap.map(|x| not_negative("gap", x)).transpose()?,
-            sliver_angle: not_negative("sliver-angle", self.sliver_angle)?.min(60.0).to_radians(),
-            island_share: not_negative("island", self.island)? / 100.0,
+            // The least angle of a facet is at most that of an equilateral one.
+            sliver_angle: up_to(60.0, "degrees", "sliver-angle", self.sliver_angle)?.to_radians(),
+            island_share: share_of_percent("island", self.island)?,
         })
     }
 }

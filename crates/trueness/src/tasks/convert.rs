@@ -2,7 +2,9 @@
 
 use crate::read::cad::Chord;
 use crate::read::{self, Any, Body, Opened};
-use crate::task::{Done, Output, PointReading, Request, Rounding, RunFiles, STEPS, TaskError, Watch, ended};
+use crate::task::{
+    Done, Output, PointReading, Request, Rounding, RunFiles, STEPS, TaskError, Watch, above_zero, ended,
+};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
@@ -50,6 +52,7 @@ impl Request for ConvertRequest {
     }
 
     fn run(&self, sources: &dyn Sources, watch: &dyn Watch) -> Result<Done<ConvertDocument>, TaskError> {
+        self.chord.map(|chord| above_zero("chord", chord)).transpose()?;
         let reading = self.reading.options();
         let found = match read::any(sources, &self.input, Role::Mesh, &reading)? {
             Any::Cad(file, record) => Found::Mesh(self.facets(&file, record, watch)?),
@@ -86,9 +89,6 @@ impl ConvertRequest {
         mut record: InputRecord,
         watch: &dyn Watch,
     ) -> Result<(SourceMesh, InputRecord), TaskError> {
-        if let Some(chord) = self.chord.filter(|chord| !(chord.is_finite() && *chord > 0.0)) {
-            return Err(TaskError::usage(format!("--chord {chord}: give a length above 0 mm")));
-        }
         let stage = watch.stage("dividing faces", STEPS, None);
         let chord = self.chord.map_or(Chord::MEASURED, Chord::Within);
         let found = read::cad::tessellated(&self.input, file, chord, &mut record, &*stage);

@@ -150,7 +150,7 @@ impl Request for CurvatureRequest {
             CurvatureError::Cancelled(e) => e.into(),
             e
             @ (CurvatureError::Degree(_) | CurvatureError::Neighbors { .. } | CurvatureError::Radius(_)) => {
-                TaskError::usage(e.to_string())
+                TaskError::option(e)
             }
             e => TaskError::unanswerable(format!("{shown}: {e}")),
         })?;

@@ -3,6 +3,7 @@
 use crate::read;
 use crate::task::{
     Done, Output, Page, Reading, Request, RunFiles, STEPS, Scene, TaskError, Watch, not_negative,
+    share_of_percent,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -115,12 +116,11 @@ impl RepairRequest {
             steps: repair::STEPS.into_iter().filter(wanted).collect(),
             gap: self.gap.map(|x| not_negative("gap", x)).transpose()?,
             stitch: self.stitch.map(|x| not_negative("stitch", x)).transpose()?,
-            islands: (self.remove_islands.map(|x| not_negative("remove-islands", x)).transpose()?)
-                .map(|x| x / 100.0),
+            islands: self.remove_islands.map(|x| share_of_percent("remove-islands", x)).transpose()?,
             single: self.target().extension().is_some_and(|e| e.eq_ignore_ascii_case("stl")),
             holes: match self.all_holes {
                 true => Holes::All,
-                false => Holes::UpTo(not_negative("holes", self.holes)? / 100.0),
+                false => Holes::UpTo(share_of_percent("holes", self.holes)?),
             },
         })
     }
@@ -150,7 +150,7 @@ impl Request for RepairRequest {
     fn run(&self, sources: &dyn Sources, watch: &dyn Watch) -> Result<Done<RepairDocument>, TaskError> {
         self.check()?;
         let options = self.options()?;
-        let max_change = not_negative("max-change", self.max_change)? / 100.0;
+        let max_change = share_of_percent("max-change", self.max_change)?;
         let reading = self.reading.options();
         let (source, mut record) = read::mesh(sources, &self.mesh, Role::Mesh, &reading)?;
         if !source.unread.is_empty() {

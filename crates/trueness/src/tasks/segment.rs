@@ -151,7 +151,8 @@ impl Request for SegmentRequest {
         hash?;
         let found = found.map_err(|e| match e {
             SegmentError::Cancelled(e) => e.into(),
-            e @ (SegmentError::WrongOption { .. } | SegmentError::NoKind) => TaskError::usage(e.to_string()),
+            e @ SegmentError::WrongOption { .. } => TaskError::option(e),
+            e @ SegmentError::NoKind => TaskError::usage(e.to_string()),
             e => TaskError::unanswerable(format!("{}: {e}", self.input.display())),
         })?;
         let output = self.out.as_ref().map(|path| write(path, &scan, &found)).transpose()?;

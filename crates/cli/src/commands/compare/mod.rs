@@ -5,7 +5,7 @@ mod table;
 
 use crate::command::Run;
 use crate::exit;
-use crate::options::{Common, PointInputArgs, ReferenceArgs, choice, number};
+use crate::options::{Common, PointInputArgs, ReferenceArgs, choice, count_above_zero, number};
 use crate::task;
 use clap::Args;
 use std::path::PathBuf;
@@ -95,7 +95,7 @@ pub struct CompareArgs {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1000), allow_negative_numbers = true)]
     worst: Option<u16>,
     /// Compare N points spread evenly over the area of the measured mesh instead of its vertices
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..), allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", value_parser = count_above_zero, allow_negative_numbers = true)]
     sample: Option<u64>,
     /// Compare also from the reference to the measured mesh: Hausdorff and mean distance
     #[arg(long)]

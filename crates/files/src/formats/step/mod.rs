@@ -23,7 +23,7 @@ pub use surface::write as surface;
 use crate::content::cad_file::CadContent;
 use crate::content::spline_model::SplineModel;
 use crate::error::Result;
-use crate::format::{Content, Format, Head, Parsed, ReadOptions};
+use crate::format::{Format, Head, Parsed, ReadOptions};
 use crate::source::Source;
 use trueness_geom::progress::{Progress, Silent};
 
@@ -56,23 +56,11 @@ fn parsed(mut source: Source, options: &ReadOptions) -> Result<Parsed> {
     let mut content = model::read(&mut source, options, &Silent)?;
     let has_faces = content.model.parts.iter().any(|part| !part.brep.faces.is_empty());
     if has_faces {
-        content.splines = whole_splines(&mut source, options);
+        content.splines = SplineModel::of(&content.model);
         return Ok(Parsed::cad("step", content));
     }
     if !content.model.is_complete() {
-        let splines = read::read(&mut source, options);
-        // What was to be a face is told, unless the file is damaged as a whole.
-        model::holds_anything(&content.model).and(splines)
-    } else {
-        read::read(&mut source, options)
+        model::holds_anything(&content.model)?;
     }
-}
-
-/// The surfaces of a file whose faces are all whole B-spline surfaces that stand where they are.
-fn whole_splines(source: &mut Source, options: &ReadOptions) -> Option<SplineModel> {
-    let parsed = read::read(source, options).ok().filter(|parsed| parsed.warnings.is_empty())?;
-    match parsed.content {
-        Content::Splines(model) if !model.surfaces.is_empty() => Some(model),
-        _ => None,
-    }
+    read::read(&mut source, options)
 }

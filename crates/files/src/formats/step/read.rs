@@ -1,15 +1,15 @@
-//! B-spline surfaces and curves of a STEP file, of whatever application protocol.
+//! B-spline surfaces and curves of a STEP file without faces, of whatever application protocol.
 
 use super::part21::{Entity, File, Value, Wrong, parse};
 use super::spline::{SplineRecord, spline};
+use crate::Unit;
 use crate::content::spline_model::SplineModel;
 use crate::error::{Fault, Located, Result};
 use crate::format::{Parsed, ReadOptions};
 use crate::formats::spline::{curve, surface};
 use crate::source::{SNIFFED_BYTES, Source};
 use crate::unicode::no_zeros;
-use crate::{Unit, Warning};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use trueness_geom::progress::Silent;
 
 /// Reads a file.
@@ -24,23 +24,10 @@ pub(super) fn read(source: &mut Source, options: &ReadOptions) -> Result<Parsed>
     let unit = options.unit_of(said);
     let mut points = Points { file: &file, unit, known: BTreeMap::new() };
     let mut model = SplineModel::default();
-    let faces = faces(&file)?;
-    let mut warnings = vec![];
-    let used: BTreeMap<u64, bool> = faces.iter().map(|f| (f.surface, f.same)).collect();
-    let (mut read, mut trimmed) = (BTreeSet::new(), 0);
     for entity in file.entities() {
-        let number = entity.number();
         if let Some(record) = spline(&entity, 2)? {
             let Some(places) = points.places(&record)? else { continue };
-            let raw = record.with(places)?;
-            // Surfaces that no face names may be what others are offset from.
-            if !faces.is_empty() && !used.contains_key(&number) {
-                continue;
-            }
-            let found = surface(raw).map_err(|f| fault(&entity, f))?;
-            let flip = used.get(&number).is_some_and(|same| !same);
-            model.surfaces.push(if flip { found.flipped() } else { found });
-            read.insert(number);
+            model.surfaces.push(surface(record.with(places)?).map_err(|f| fault(&entity, f))?);
         } else if let Some(record) = spline(&entity, 1)? {
             // Curves in the parameters of a surface have two coordinates, and are not read.
             if let Some(places) = points.places(&record)? {
@@ -48,17 +35,7 @@ pub(super) fn read(source: &mut Source, options: &ReadOptions) -> Result<Parsed>
             }
         }
     }
-    for face in faces.iter().filter(|f| read.contains(&f.surface)) {
-        trimmed += u64::from(points.trimmed(face)?);
-    }
-    let left_out = faces.iter().filter(|f| !read.contains(&f.surface)).count() as u64;
-    if trimmed > 0 {
-        warnings.push(Warning::Trimmed { count: trimmed });
-    }
-    if left_out > 0 {
-        warnings.push(Warning::FacesLeftOut { count: left_out, of: faces.len() as u64 });
-    }
-    Ok(Parsed::splines("step", model, said, warnings))
+    Ok(Parsed::splines("step", model, said, vec![]))
 }
 
 impl From<Wrong> for Located {
@@ -150,31 +127,6 @@ fn length(entity: &Entity) -> Result<Option<Unit>> {
     unit.map(Some).ok_or_else(|| fault(entity, Fault::Unsupported { what: what(), remedy }))
 }
 
-/// A face: its surface, whether it looks the way of the surface's normal, and its bounds.
-struct Face {
-    surface: u64,
-    same: bool,
-    bounds: Vec<u64>,
-}
-
-fn faces(file: &File) -> Result<Vec<Face>> {
-    let mut all = vec![];
-    for entity in file.entities() {
-        for record in entity.records().filter(|r| matches!(r.keyword, "ADVANCED_FACE" | "FACE_SURFACE")) {
-            let bounds = record.list(1)?.iter().filter_map(reference).collect();
-            all.push(Face { surface: record.entity(2)?, same: record.truth(3)?, bounds });
-        }
-    }
-    Ok(all)
-}
-
-fn reference(value: &Value) -> Option<u64> {
-    match value {
-        Value::Reference(n) => Some(*n),
-        _ => None,
-    }
-}
-
 /// Points in millimeters, each read once.
 struct Points<'f> {
     file: &'f File<'f>,
@@ -218,51 +170,5 @@ impl Points<'_> {
                 .into());
         }
         spline.points().iter().map(|n| self.point(*n)).collect()
-    }
-
-    /// Whether a face is less than its surface: it has more than one bound, or a vertex of it is no corner.
-    fn trimmed(&mut self, face: &Face) -> Result<bool> {
-        if face.bounds.len() != 1 {
-            return Ok(face.bounds.len() > 1);
-        }
-        let Some(record) = spline(&self.file.entity(face.surface)?, 2)? else { return Ok(false) };
-        let Some(points) = self.places(&record)? else { return Ok(false) };
-        let raw = record.with(points)?;
-        let [m, n] = [raw.counts[0], raw.counts[1]];
-        let corners = [0, n - 1, (m - 1) * n, m * n - 1].map(|k| raw.points[k]);
-        let size = trueness_geom::space::Aabb::of(&raw.points).diagonal();
-        for vertex in self.vertices(face.bounds[0])? {
-            let Some(p) = vertex else { continue };
-            let near = |c: &[f64; 3]| (0..3).all(|k| (c[k] - p[k]).abs() <= 1e-5 * size);
-            if !corners.iter().any(near) {
-                return Ok(true);
-            }
-        }
-        Ok(false)
-    }
-
-    /// The vertices of a bound's loop.
-    fn vertices(&mut self, bound: u64) -> Result<Vec<Option<[f64; 3]>>> {
-        let follow = |file: &File, number: u64, at: usize| -> Result<Vec<u64>> {
-            let record = file.entity(number)?.main(&[]);
-            Ok(match record.values.get(at) {
-                Some(Value::List(_)) => record.list(at)?.iter().filter_map(reference).collect(),
-                Some(Value::Reference(n)) => vec![*n],
-                _ => vec![],
-            })
-        };
-        let mut all = vec![];
-        for path in follow(self.file, bound, 1)? {
-            for oriented in follow(self.file, path, 1)? {
-                for edge in follow(self.file, oriented, 3)? {
-                    for vertex in [follow(self.file, edge, 1)?, follow(self.file, edge, 2)?].concat() {
-                        for point in follow(self.file, vertex, 1)? {
-                            all.push(self.point(point)?);
-                        }
-                    }
-                }
-            }
-        }
-        Ok(all)
     }
 }

@@ -64,8 +64,6 @@ fn what_was_written_reads_back_bit_for_bit() {
     let [Nurbs::Plain(found)] = &model.surfaces[..] else { panic!("{}", model.surfaces.len()) };
     assert_eq!((found.knots()[0].values(), found.knots()[1].values()), (&U[..], &V[..]));
     assert_eq!(found.points(), points);
-    // Its four edges.
-    assert_eq!(model.curves.len(), 4);
 }
 
 /// A file of these instances, in meters.
@@ -111,27 +109,35 @@ fn kinds_without_knots_have_those_of_their_kind() {
     assert_eq!(knots("UNIFORM_SURFACE", "1,1"), uniform);
 }
 
-/// The sense of a face turns the normal; faces on planes, holes and vertices within are told.
+/// A face that is a whole surface is one, and its sense turns the normal. One with a hole or a vertex within its surface, one on a plane, and
+/// one that a part in an assembly moves are none.
 #[test]
-fn faces_turn_trim_and_leave_out() {
-    let bound = "#20=VERTEX_POINT('',#3);\n#21=VERTEX_POINT('',#P);\n#22=EDGE_CURVE('',#20,#21,#99,.T.);\n\
-        #23=ORIENTED_EDGE('',*,*,#22,.T.);\n#24=EDGE_LOOP('',(#23));\n#25=FACE_OUTER_BOUND('',#24,.T.);\n";
-    let face = |vertex: &str, bounds: &str, sense: &str| {
-        let bound = bound.replace("#P", vertex);
-        let text = format!("{QUARTER}\n{bound}#30=ADVANCED_FACE('',({bounds}),#10,{sense});");
-        model(read(&file(&text), None).unwrap())
+fn whole_faces_turn_and_others_are_none() {
+    let edge = |number: u32, [a, b]: [&str; 2], along: &str| {
+        let [line, vector, direction] = [1, 2, 3].map(|k| number + k);
+        format!(
+            "#{number}=EDGE_CURVE('',{a},{b},#{line},.T.);\n#{line}=LINE('',#3,#{vector});\n#{vector}=VECTOR('',#{direction},1.);\n\
+             #{direction}=DIRECTION('',({along}));\n#{}=ORIENTED_EDGE('',*,*,#{number},.T.);\n",
+            number + 4
+        )
     };
-    let normal = |m: &SplineModel| m.surfaces[0].bend(0.5, 0.5).unwrap().normal;
-    let (same, warnings) = face("#8", "#25", ".T.");
-    assert!(warnings.is_empty() && normal(&same)[0] > 0.7);
-    assert!(normal(&face("#8", "#25", ".F.").0)[0] < -0.7);
-    assert_eq!(face("#5", "#25", ".T.").1, [Warning::Trimmed { count: 1 }]);
-    assert_eq!(face("#8", "#25,#25", ".T.").1, [Warning::Trimmed { count: 1 }]);
-    let plane = format!(
-        "{QUARTER}\n#31=PLANE('',#3);\n#32=ADVANCED_FACE('',(),#31,.T.);\n#33=ADVANCED_FACE('',(),#10,.T.);"
-    );
-    let (found, warnings) = model(read(&file(&plane), None).unwrap());
-    assert_eq!((found.surfaces.len(), warnings), (1, vec![Warning::FacesLeftOut { count: 1, of: 2 }]));
+    let splines = |vertex: &str, bounds: &str, surface: &str, sense: &str| {
+        let vertices = format!("#20=VERTEX_POINT('',#3);\n#21=VERTEX_POINT('',#{vertex});\n");
+        let along = if vertex == "4" { "0.,0.,1." } else { "0.,1.,0." };
+        let edges = edge(40, ["#20", "#21"], along) + &edge(50, ["#21", "#20"], along);
+        let text = format!(
+            "{QUARTER}\n{vertices}{edges}#24=EDGE_LOOP('',(#44,#54));\n#25=FACE_BOUND('',#24,.T.);\n#26=FACE_BOUND('',#24,.T.);\n\
+             #31=PLANE('',#32);\n#32=AXIS2_PLACEMENT_3D('',#3,$,$);\n#30=ADVANCED_FACE('',({bounds}),{surface},{sense});"
+        );
+        let Body::Cad(file) = opened(&file(&text), None).unwrap().body else { panic!("no model") };
+        file.splines
+    };
+    let normal = |model: &SplineModel| model.surfaces[0].bend(0.5, 0.5).unwrap().normal;
+    assert!(normal(&splines("4", "#25", "#10", ".T.").unwrap())[0] > 0.7);
+    assert!(normal(&splines("4", "#25", "#10", ".F.").unwrap())[0] < -0.7);
+    assert!(splines("5", "#25", "#10", ".T.").is_none());
+    assert!(splines("4", "#25,#26", "#10", ".T.").is_none());
+    assert!(splines("4", "#25", "#31", ".T.").is_none());
 }
 
 #[test]

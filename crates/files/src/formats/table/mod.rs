@@ -6,9 +6,9 @@
 //! 1. Separators are semicolon, tab, comma or blanks; decimal signs point or comma, but not both commas. The first 400
 //!    lines decide. A way of writing that reads all their rows goes before one that does not, three coordinates before
 //!    two. It must not skip more rows of another way than it reads. Where equally many tabs stand in all rows, tabs separate.
-//! 2. The table begins at the line after a header that names x and y. Without one, it begins at the first line with as many
-//!    cells as the rows and a number in one of them, or with several numbers and nothing else. From there on, every line that is
-//!    neither blank nor a comment is a row.
+//! 2. The table begins at the line after a header that names x and y. Without one, it begins at the first line with as many cells as the
+//!    rows and a number among them, or with several numbers alone. From there on, every line that is neither blank nor a comment is a
+//!    row.
 //! 3. The columns asked for are taken. Else a header is binding: its names and the cells must be equally many. Without a
 //!    header, the first three (or two) columns are taken that do not hold words in every looked-at row.
 //! 4. A cell of these columns that is no finite number is an error with line and column. Such are empty cells, marks such as

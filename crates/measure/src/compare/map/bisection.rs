@@ -1,9 +1,9 @@
 //! Facets cut in halves until no edge is longer than asked for.
 //!
-//! Always the longest edge is cut, in its middle (M.-C. Rivara, "Algorithms for refining triangular grids suitable for
-//! adaptive and multigrid techniques", 1984). Every edge longer than the limit is cut in the end, from both of its sides and
-//! at the same places, so the pieces fit together without gaps whatever shape the facets have; and stopping at a greater limit
-//! gives pieces that those of the smaller limit divide.
+//! Always the longest edge is cut, in its middle (M.-C. Rivara, "Algorithms for refining triangular grids suitable for adaptive and
+//! multigrid techniques", 1984). Every edge longer than the limit is cut in the end, from both of its sides and at the same places. So
+//! the pieces fit together without gaps, whatever shape the facets have. Stopping at a greater limit gives pieces that those of the
+//! smaller limit divide.
 
 use trueness_geom::mesh::Mesh;
 use trueness_geom::space::{Point, dot, minus};

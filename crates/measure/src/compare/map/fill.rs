@@ -4,8 +4,8 @@ use trueness_geom::mesh::Mesh;
 use trueness_geom::parallel::prelude::*;
 use trueness_geom::space::{minus, norm};
 
-/// Gives each vertex without a value (NaN) that of the vertex nearest along the edges that has one, if the way is no longer than
-/// `reach`; of several at the same distance, the one with the lower number. Values never go over where edges are not shared.
+/// Gives each vertex without a value (NaN) that of the nearest vertex with one along the edges, up to `reach` away. At the same distance,
+/// it is the vertex with the lower number. Values never go over where edges are not shared.
 ///
 /// Ways are shortened round by round (R. Bellman, "On a routing problem", 1958): with a reach of a few edges there are few rounds.
 pub fn fill(mesh: &Mesh, values: &mut [f64], reach: f64) {

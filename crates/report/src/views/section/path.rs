@@ -16,8 +16,8 @@ pub enum Path {
 }
 
 impl Path {
-    /// Of a segment. Lines and cubic splines exactly; arcs in parts of up to an eighth of half a turn, which keep within
-    /// 1e-7 of the radius (2/27 sin⁶(δ/4) / cos²(δ/4) for a part of the angle δ).
+    /// Of a segment. Lines and cubic splines are exact. Arcs are in parts of up to an eighth of half a turn, which keep within 1e-7 of
+    /// the radius. A part of the angle δ is off by 2/27 sin⁶(δ/4) / cos²(δ/4).
     pub fn of(segment: &SegmentRecord) -> Path {
         match &segment.geometry {
             GeometryRecord::Line { .. } => Path::Straight(vec![segment.start, segment.end]),

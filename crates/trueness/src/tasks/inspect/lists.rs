@@ -94,8 +94,8 @@ fn undecided(document: &InspectDocument) -> Option<String> {
     Some(texts.join("; "))
 }
 
-/// One line a characteristic, one a feature, one for the deviations from the reference where they are judged, one for an alignment that cannot
-/// be relied on, and one for a part without results; numbers with all digits (RFC 4180).
+/// One line a characteristic, one a feature, one for the deviations from the reference where they are judged. One is for an alignment
+/// that cannot be relied on, one for a part without results. Numbers have all digits (RFC 4180).
 pub fn csv(parts: &[Part]) -> Vec<u8> {
     let mut out = vec![];
     let mut csv = Csv::at_end_of(&mut out, LineEnd::CrLf);
@@ -187,9 +187,9 @@ fn feature(part: &str, f: &FeatureRecord) -> Row {
     cells
 }
 
-/// A test suite a part and a test case a characteristic, one for the deviations where they are judged and one for an alignment that
-/// cannot be relied on. What fails is a failure, what nobody can tell an error, as is a part without results; what was
-/// not measured is a failure too: a merge must not pass on it.
+/// A test suite a part and a test case a characteristic. One is for the deviations where they are judged, one for an alignment that
+/// cannot be relied on. What fails is a failure, what nobody can tell an error, as is a part without results; what was not measured is a
+/// failure too: a merge must not pass on it.
 pub fn junit(parts: &[Part]) -> String {
     let failed = |v: &Verdict| matches!(v, Verdict::Fail | Verdict::NotMeasured);
     let attributes = |parts: &[Part]| {

@@ -49,7 +49,7 @@ impl Request for SectionRequest {
         let shown = self.input.display();
         let found = found.map_err(|e| match e {
             SectionError::Cancelled(e) => e.into(),
-            e @ SectionError::WrongOption { .. } => TaskError::usage(e.to_string()),
+            e @ SectionError::WrongOption { .. } => TaskError::option(e),
             e => TaskError::unanswerable(format!("{shown}: {e}")),
         })?;
         if !planes.is_empty() && found.rows.is_empty() {

@@ -2,7 +2,7 @@
 
 use super::found::{Found, described};
 use super::request::SectionRequest;
-use crate::task::TaskError;
+use crate::task::{TaskError, above_zero};
 use trueness_document::InputRecord;
 use trueness_document::section::PlaneRecord;
 use trueness_geom::mesh::Mesh;
@@ -33,18 +33,20 @@ impl SectionRequest {
     /// The planes in the order of the options: each `--plane`, then each `--stack`.
     pub(super) fn planes(&self) -> Result<Vec<Cut>, TaskError> {
         let mut all = vec![];
-        for [x, y, z, d] in &self.plane {
-            all.push(cut([*x, *y, *z], *d, "plane")?);
+        for plane @ [x, y, z, d] in &self.plane {
+            all.push(cut([*x, *y, *z], *d).map_err(|why| refused("plane", plane, why))?);
         }
-        for [x, y, z, from, to, step] in &self.stack {
+        for stack @ [x, y, z, from, to, step] in &self.stack {
             let count = ((to - from) / step + 1e-9).floor();
             if !(0.0..MAX_PLANES_OF_STACK).contains(&count) {
-                return Err(TaskError::usage(format!(
-                    "--stack …,{from},{to},{step}: the step must lead from the first distance to the last in less than {MAX_PLANES_OF_STACK} steps"
-                )));
+                let why = format!(
+                    "the step must lead from the first distance to the last in less than {MAX_PLANES_OF_STACK} steps"
+                );
+                return Err(refused("stack", stack, why));
             }
             for k in 0..=count as u32 {
-                all.push(cut([*x, *y, *z], from + f64::from(k) * step, "stack")?);
+                let found = cut([*x, *y, *z], from + f64::from(k) * step);
+                all.push(found.map_err(|why| refused("stack", stack, why))?);
             }
         }
         Ok(all)
@@ -81,17 +83,13 @@ impl SectionRequest {
                 "{shown}: its points have two coordinates; leave --plane and --stack out"
             )));
         }
-        let positive = |name: &str, x: f64| match x.is_finite() && x > 0.0 {
-            true => Ok(x),
-            false => Err(TaskError::usage(format!("--{name} {x}: give a length above 0"))),
-        };
         let Some(thickness) = self.thickness else {
             return Err(TaskError::usage(format!(
                 "{shown}: it holds points without facets; say with --thickness how far from the plane they count"
             )));
         };
-        let gap = self.gap.map(|g| positive("gap", g)).transpose()?;
-        Ok(Slab { thickness: positive("thickness", thickness)?, gap })
+        let gap = self.gap.map(|g| above_zero("gap", g)).transpose()?;
+        Ok(Slab { thickness: above_zero("thickness", thickness)?, gap })
     }
 
     /// Tells of a `--gap` that is too small for points so far apart: contours go on over a larger one.
@@ -105,20 +103,21 @@ impl SectionRequest {
     }
 }
 
-fn cut(normal: [f64; 3], distance: f64, option: &str) -> Result<Cut, TaskError> {
+/// The plane at a distance from the origin, or why there is none.
+fn cut(normal: [f64; 3], distance: f64) -> Result<Cut, &'static str> {
     if !distance.is_finite() {
-        return Err(TaskError::usage(format!(
-            "--{option}: a distance from the origin is a finite number of mm"
-        )));
+        return Err("a distance from the origin is a finite number of mm");
     }
     let unit = trueness_geom::space::unit(normal);
     let plane = unit.map(|(normal, _)| Plane { normal, offset: distance });
     let found = plane.and_then(|plane| Some(Cut { plane, frame: plane.frame()? }));
-    found.ok_or_else(|| {
-        TaskError::usage(format!(
-            "--{option}: the normal {normal:?} has no direction; give one that is not 0"
-        ))
-    })
+    found.ok_or("the normal has no direction; give one that is not 0")
+}
+
+/// An option of several numbers that is refused.
+fn refused(option: &str, numbers: &[f64], why: impl std::fmt::Display) -> TaskError {
+    let written: Vec<String> = numbers.iter().map(f64::to_string).collect();
+    TaskError::option(format!("{option} {}: {why}", written.join(",")))
 }
 
 /// A section and the rows of points that its contours were found in.

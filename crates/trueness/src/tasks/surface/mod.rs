@@ -79,7 +79,7 @@ impl Request for SurfaceRequest {
             e @ (SurfaceError::Degree { .. }
             | SurfaceError::Spans { .. }
             | SurfaceError::Tolerance(_)
-            | SurfaceError::Fairness(_)) => TaskError::usage(e.to_string()),
+            | SurfaceError::Fairness(_)) => TaskError::option(e),
             e => TaskError::unanswerable(format!("{shown}: {e}")),
         })?;
         let outline = self.trim.as_ref().map(|gap| fit.outline(gap.value.0, &*stage)).transpose()?;

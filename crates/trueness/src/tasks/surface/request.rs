@@ -1,6 +1,6 @@
 //! What is asked of a surface.
 
-use crate::task::{PointReading, TaskError, Text, choices, not_negative};
+use crate::task::{PointReading, TaskError, Text, above_zero, choices};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
@@ -179,9 +179,7 @@ impl Default for SurfaceRequest {
 impl SurfaceRequest {
     /// Refuses values that cannot be meant, or do not go together.
     pub(super) fn check(&self) -> Result<(), TaskError> {
-        if self.chord.map(|chord| not_negative("chord", chord)).transpose()? == Some(0.0) {
-            return Err(TaskError::usage("--chord 0: give a length above 0"));
-        }
+        self.chord.map(|chord| above_zero("chord", chord)).transpose()?;
         if self.chord.is_some() && self.obj.is_none() {
             return Err(TaskError::usage("--chord is for the facets of --obj; give one"));
         }
