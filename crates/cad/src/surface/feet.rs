@@ -5,6 +5,7 @@
 
 use super::foot::Foot;
 use super::kinds::Surface;
+use super::patch::Patch;
 use super::profile::Profile;
 use super::seams::Pole;
 use super::spline::SplineFeet;
@@ -118,6 +119,11 @@ impl SurfaceFeet {
                 f64::INFINITY
             }),
         }
+    }
+
+    /// Of a spline its pieces between knots, row after row, and these.
+    pub(crate) fn spans(&self) -> Option<(&[Patch], &[Vec<f64>; 2])> {
+        if let Kind::Spline(spline) = &self.kind { Some((&spline.patches, &spline.knots)) } else { None }
     }
 
     /// Number of units that can be asked one by one: the pieces and creases of a spline; 1 of all others.

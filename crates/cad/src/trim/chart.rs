@@ -1,6 +1,6 @@
 //! A surface as its parameters are used by one face: which of them repeats, which side is a single place.
 
-use crate::surface::{Jet, Pole, Surface, SurfaceFeet};
+use crate::surface::{Jet, Patch, Pole, Surface, SurfaceFeet};
 use trueness_geom::space::{Point, minus, norm};
 
 /// A side of the domain: the parameter that is constant there, and whether it is the last value (1) or the first (0).
@@ -77,6 +77,11 @@ impl Chart {
     /// The surface.
     pub fn surface(&self) -> &Surface {
         self.feet.surface()
+    }
+
+    /// Of a spline its pieces between knots, row after row, and these.
+    pub(crate) fn spans(&self) -> Option<(&[Patch], &[Vec<f64>; 2])> {
+        self.feet.spans()
     }
 
     /// The same place within the domain.
