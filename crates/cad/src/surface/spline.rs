@@ -3,7 +3,7 @@
 use super::foot::Foot;
 use super::net::Net;
 use super::patch::Patch;
-use super::seams::{SAME_PLACE, iso_curve};
+use super::seams::{ROUNDED_PLACE_SHARE, iso_curve};
 use crate::curve::CurveFeet;
 use trueness_geom::space::{Aabb, Point, dot, minus, norm};
 use trueness_geom::spline::basis::Knots;
@@ -85,7 +85,7 @@ impl SplineFeet {
                 if t == from || t == to || own.multiplicity(t) >= own.degree() {
                     let feet = CurveFeet::new(&iso_curve(nurbs, held, t), across.into());
                     // At a pole no edge stands for the end.
-                    let is_pole = feet.bounds().diagonal() <= SAME_PLACE * size;
+                    let is_pole = feet.bounds().diagonal() <= ROUNDED_PLACE_SHARE * size;
                     let is_end = t == from || t == to;
                     let is_border = is_end && periods[held as usize].is_none() && !is_pole;
                     lines.push(Line { held: held as usize, at: t, feet, is_border });
@@ -195,7 +195,7 @@ impl SplineFeet {
         best.unwrap_or(Foot { parameters: near, place: [f64::NAN; 3], distance: f64::NAN })
     }
 
-    fn jet(&self, at: [f64; 2]) -> trueness_geom::spline::surface::Jet {
+    pub(super) fn jet(&self, at: [f64; 2]) -> trueness_geom::spline::surface::Jet {
         let span = |k: usize| {
             let knots = &self.knots[k];
             knots.partition_point(|t| *t <= at[k]).clamp(1, knots.len() - 1) - 1

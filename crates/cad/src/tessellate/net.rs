@@ -174,19 +174,18 @@ fn cell(bends: &Bends, middle: [Vector; 2], half: [f64; 2], [h, k]: [f64; 2]) ->
     let slopes = Slopes::new(middle, seconds, half);
     let (wide, off) = slopes.normal();
     let (up, area) = unit(wide).unwrap_or(([0.0; 3], 0.0));
-    let sine = off / area;
-    // The chord of the angle.
-    let tilt = if sine < 1.0 { (2.0 - 2.0 * (1.0 - sine * sine).sqrt()).sqrt() } else { 2.0 };
     let least = (area - off).max(0.0);
     let speed = |other: usize| least / (norm(middle[other]) + slopes.off[other]);
+    let speeds = [speed(1), speed(0)];
+    // A unit vector along the surface is a sum of both first derivatives, each no more than once over its speed: what these rise by along
+    // `up` is the sine of the angle between the planes at most.
+    let across = bends.along(up);
+    let rises = Slopes::new(middle, across, half).off;
+    let sine = rises[0] / speeds[0] + rises[1] / speeds[1];
+    // The chord of the angle.
+    let tilt = if sine < 1.0 { (2.0 - 2.0 * (1.0 - sine * sine).sqrt()).sqrt() } else { 2.0 };
     let own = |[uu, uv, vv]: Seconds| [uu / (h * h), uv / (h * k), vv / (k * k)];
-    Cell {
-        seconds: own(seconds),
-        across: own(bends.along(up)),
-        up,
-        tilt,
-        speeds: [speed(1) / h, speed(0) / k],
-    }
+    Cell { seconds: own(seconds), across: own(across), up, tilt, speeds: [speeds[0] / h, speeds[1] / k] }
 }
 
 /// Equal parts along a direction; their number is a power of 2.

@@ -94,14 +94,12 @@ impl Chart {
 
     /// Place and derivatives.
     pub fn jet(&self, at: [f64; 2]) -> Jet {
-        let [u, v] = self.wrapped(at);
-        self.surface().jet(u, v)
+        self.feet.jet(self.wrapped(at))
     }
 
     /// The place.
     pub fn place(&self, at: [f64; 2]) -> Point {
-        let [u, v] = self.wrapped(at);
-        self.surface().at(u, v)
+        self.jet(at).place
     }
 
     /// The same place with its parameters as near to others as periods allow.
