@@ -3,6 +3,7 @@
 use super::kinds::{Curve, Span};
 use super::part::{Foot, Part, Shape, View, add};
 use trueness_geom::space::{Aabb, Point, Vector, plus};
+use trueness_geom::spline::value::Mass;
 
 /// A range of a curve, ready to be asked for its nearest places: splines are cut at their knots, chains at their joints.
 #[derive(Clone, Debug)]
@@ -82,6 +83,14 @@ impl CurveFeet {
     /// Boxes around the pieces with their first and last parameters.
     pub fn pieces(&self) -> impl Iterator<Item = (Aabb, [f64; 2])> + '_ {
         self.parts.iter().map(|part| (part.bounds, part.range))
+    }
+
+    /// Control points of the pieces of a spline, with their first and last parameters.
+    pub(crate) fn beziers(&self) -> impl Iterator<Item = (&[Mass<3>], [f64; 2])> {
+        self.parts.iter().filter_map(|part| match &part.shape {
+            Shape::Bezier(bezier) => Some((bezier.points.as_slice(), part.range)),
+            _ => None,
+        })
     }
 
     /// A box around the part between two parameters of one piece.

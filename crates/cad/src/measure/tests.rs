@@ -5,7 +5,7 @@ use crate::brep::Face;
 use crate::curve::{Curve, Span};
 use crate::frame::{Frame, Placement};
 use crate::surface::Surface;
-use crate::trim::tests::{Made, circle, frame};
+use crate::trim::tests::{Made, circle, drum, frame};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use trueness_geom::num::random::Random;
 use trueness_geom::space::{Aabb, cross};
@@ -21,18 +21,6 @@ fn total(made: &Made, origin: Point) -> Integrals {
 
 fn assert_near(a: f64, b: f64, what: &str) {
     assert!((a - b).abs() <= 1e-10 * b.abs(), "{what}: {a} is not {b}");
-}
-
-/// A cylinder with caps, turned by `turn` about its axis, on both ends cut at right angles.
-fn drum(frame: &Frame, radius: f64, height: f64, start: f64) -> Made {
-    let mut made = Made::default();
-    let low = made.edge(circle(frame, 0.0, radius, start));
-    let high = made.edge(circle(frame, height, radius, -start));
-    let top = Frame { origin: frame.place([0.0, 0.0, height]), ..*frame };
-    made.face(Surface::Cylinder { frame: *frame, radius }, false, &[&[(low, false)], &[(high, true)]]);
-    made.face(Surface::Plane(top), false, &[&[(high, false)]]);
-    made.face(Surface::Plane(*frame), true, &[&[(low, true)]]);
-    made
 }
 
 #[test]

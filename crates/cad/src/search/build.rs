@@ -1,10 +1,10 @@
 //! Takes a boundary apart for the search.
 
-use super::cover::{cover_of_face, pieces_of_edge};
+use super::cover::{self, cover_of_face, pieces_of_edge};
 use super::face::Face;
 use super::region::Region;
 use super::side::Sides;
-use super::tree::Boxes;
+use super::tree::{Boxes, Item};
 use crate::brep::{Bounds, Brep, Edge, Loop};
 use crate::curve::CurveFeet;
 use crate::surface::SurfaceFeet;
@@ -43,7 +43,7 @@ pub(super) enum Target {
 }
 
 /// Share of the boundary's size within which a place of an edge is its end.
-const SAME_PLACE: f64 = 1e-12;
+const END_OF_EDGE_SHARE: f64 = 1e-12;
 /// Share within which parts touch: files have some ten digits.
 const TOUCHING_SHELLS: f64 = 1e-9;
 /// So many boxes in a row reach from one end of the boundary to the other.
@@ -78,7 +78,7 @@ pub(super) fn prepared<R: Region>(brep: &Brep, regions: Vec<Option<R>>) -> Prepa
         targets,
         boxes: Boxes::new(boxes),
         sides,
-        same: SAME_PLACE * size,
+        same: END_OF_EDGE_SHARE * size,
         touching: TOUCHING_SHELLS * size,
     }
 }
@@ -154,10 +154,10 @@ impl<R: Region> Parts<R> {
     }
 
     /// The targets, and boxes around them that are about as long as `step`.
-    fn boxes(&self, vertices: &[Point], step: f64) -> (Vec<Target>, Vec<(u32, Aabb)>) {
+    fn boxes(&self, vertices: &[Point], step: f64) -> (Vec<Target>, Vec<Item>) {
         let pieces: Vec<Vec<Aabb>> =
             self.edges.iter().map(|border| pieces_of_edge(&border.feet, step)).collect();
-        let covers: Vec<Vec<(u32, Vec<Aabb>)>> = (0..self.faces.len())
+        let covers: Vec<Vec<(u32, Vec<cover::Cover>)>> = (0..self.faces.len())
             .into_par_iter()
             .map(|f| {
                 let borders: Vec<Aabb> =
@@ -166,8 +166,14 @@ impl<R: Region> Parts<R> {
             })
             .collect();
         let (mut boxes, mut targets) = (vec![], vec![]);
-        let mut add = |target: Target, own: &[Aabb]| {
-            boxes.extend(own.iter().map(|bounds| (targets.len() as u32, *bounds)));
+        let mut add = |target: Target, own: &[cover::Cover]| {
+            let target_number = targets.len() as u32;
+            let item = |(bounds, place): &cover::Cover| Item {
+                target: target_number,
+                bounds: *bounds,
+                place: *place,
+            };
+            boxes.extend(own.iter().map(item));
             targets.push(target);
         };
         for (face, cover) in (0u32..).zip(&covers) {
@@ -176,11 +182,12 @@ impl<R: Region> Parts<R> {
             }
         }
         for (edge, own) in (0u32..).zip(&pieces).filter(|(edge, _)| self.used[*edge as usize]) {
-            add(Target::Edge(edge), own);
+            let unknown: Vec<cover::Cover> = own.iter().map(|bounds| (*bounds, [f64::NAN; 3])).collect();
+            add(Target::Edge(edge), &unknown);
         }
         for vertex in &self.corners {
             if let Some(place) = vertices.get(*vertex as usize) {
-                add(Target::Vertex(*vertex), &[Aabb::of(&[*place])]);
+                add(Target::Vertex(*vertex), &[(Aabb::of(&[*place]), *place)]);
             }
         }
         (targets, boxes)

@@ -4,7 +4,7 @@ use super::face::Face;
 use super::region::Region;
 use crate::curve::CurveFeet;
 use crate::surface::SurfaceFeet;
-use trueness_geom::space::{Aabb, minus, norm};
+use trueness_geom::space::{Aabb, Point, minus, norm};
 
 /// Most boxes along a parameter of a face.
 const MAX_STEPS: usize = 32;
@@ -31,28 +31,29 @@ pub(super) fn pieces_of_edge(feet: &CurveFeet, step: f64) -> Vec<Aabb> {
     boxes
 }
 
+/// A box, and a place of the face within; NaN where none is known.
+pub(super) type Cover = (Aabb, Point);
+
 /// The units of a face with boxes around the parts of them that the face may have; `borders` are boxes around its edges.
-pub(super) fn cover_of_face<R: Region>(face: &Face<R>, step: f64, borders: &[Aabb]) -> Vec<(u32, Vec<Aabb>)> {
+pub(super) fn cover_of_face<R: Region>(
+    face: &Face<R>,
+    step: f64,
+    borders: &[Aabb],
+) -> Vec<(u32, Vec<Cover>)> {
     let Some(region) = &face.region else { return vec![] };
     let feet = &face.feet;
-    let is_kept = |bounds: &Aabb, middle: [f64; 2]| {
+    let kept = |(bounds, middle): (Aabb, [f64; 2])| -> Option<Cover> {
+        if region.contains(middle) {
+            return Some((bounds, feet.surface().at(middle[0], middle[1])));
+        }
         let wide = bounds.widened(BORDER_OFF * step);
-        region.contains(middle) || borders.iter().any(|b| b.meets(&wide))
+        borders.iter().any(|b| b.meets(&wide)).then_some((bounds, [f64::NAN; 3]))
     };
     let mut cover = vec![];
     for unit in 0..feet.units() {
-        let own: Vec<Aabb> = match feet.unit(unit) {
-            Some((bounds, middle)) => {
-                if is_kept(&bounds, middle) {
-                    vec![bounds]
-                } else {
-                    vec![]
-                }
-            }
-            None => cells(feet, region.window(), step)
-                .filter(|(bounds, middle)| is_kept(bounds, *middle))
-                .map(|(bounds, _)| bounds)
-                .collect(),
+        let own: Vec<Cover> = match feet.unit(unit) {
+            Some(own) => kept(own).into_iter().collect(),
+            None => cells(feet, region.window(), step).filter_map(kept).collect(),
         };
         if !own.is_empty() {
             cover.push((unit as u32, own));

@@ -52,7 +52,7 @@ struct Scratch {
 }
 
 /// Share of the distance within which a place is taken to ask for the side.
-const WITHIN: f64 = 0.9;
+const SIDE_STEP_SHARE: f64 = 0.9;
 /// Such steps at most: each leaves a tenth of the way along an edge.
 const STEPS_BESIDE: usize = 12;
 /// Points answered between two questions whether to go on.
@@ -117,7 +117,7 @@ impl<R: Region> Search<R> {
     fn side_beside(&self, p: &Point, distance: f64, way: Vector, scratch: &mut Scratch) -> Option<Side> {
         let (mut at, mut distance) = (*p, distance);
         for _ in 0..STEPS_BESIDE {
-            at = plus(at, times(WITHIN * distance, way));
+            at = plus(at, times(SIDE_STEP_SHARE * distance, way));
             let other = self.describe(&at, &self.best(&at, scratch));
             if matches!(other.side, Side::Outside | Side::Inside) {
                 return Some(other.side);
@@ -132,11 +132,11 @@ impl<R: Region> Search<R> {
         let mut best = Best::none(self.0.touching);
         if p.iter().all(|x| x.is_finite()) {
             let Scratch { seen, point, stack } = scratch;
-            self.0.boxes.visit(p, stack, |target| {
+            self.0.boxes.visit(p, self.0.touching, stack, |target, reach| {
                 let own = &mut seen[target as usize];
                 if *own != *point {
                     *own = *point;
-                    self.look(self.0.targets[target as usize], p, &mut best);
+                    self.look(self.0.targets[target as usize], p, reach, &mut best);
                 }
                 best.reach()
             });
@@ -144,24 +144,24 @@ impl<R: Region> Search<R> {
         best
     }
 
-    /// Takes the places of a target that are better than the best one.
-    fn look(&self, target: Target, p: &Point, best: &mut Best) {
+    /// Takes the places of a target that are within a reach and better than the best one.
+    fn look(&self, target: Target, p: &Point, reach: f64, best: &mut Best) {
         match target {
             Target::Unit { face, unit } => {
                 let own = &self.0.faces[face as usize];
                 let Face { feet, region: Some(region), shell, .. } = own else { return };
-                feet.visit_unit(unit as usize, *p, best.reach(), &mut |foot| {
+                feet.visit_unit(unit as usize, *p, reach, &mut |foot| {
                     let Foot { parameters, place, distance } = foot;
                     if distance < best.reach() && region.contains(parameters) {
                         let on = On::Face(face);
                         best.take(Candidate { distance, place, on, parameters, shell: *shell });
                     }
-                    best.reach()
+                    best.reach().min(reach)
                 });
             }
             Target::Edge(edge) => {
                 let border = &self.0.edges[edge as usize];
-                if let Some(foot) = border.feet.nearer(*p, best.reach()) {
+                if let Some(foot) = border.feet.nearer(*p, reach) {
                     let on = self.on_edge(edge, border, &foot);
                     let parameters =
                         if matches!(on, On::Edge(_)) { [foot.parameter; 2] } else { [f64::NAN; 2] };

@@ -54,7 +54,7 @@ const TOUCHING: f64 = 1e-6;
 /// Cosine between a point's direction and the normal below which the side is not told.
 const UNSURE: f64 = 1e-9;
 /// Share of an edge at which its direction is taken where tangents coincide.
-const CHORD: f64 = 1e-3;
+const CORNER_CHORD_SHARE: f64 = 1e-3;
 
 impl Sides {
     pub(super) fn new<R: Region>(brep: &Brep, faces: &[Face<R>], side_faces: Vec<u32>) -> Sides {
@@ -228,7 +228,7 @@ impl Sides {
         let mut own = angle(0.0);
         // Of edges that leave along the same tangent the chords tell which one is on the left.
         if !(TOUCHING..=TAU - TOUCHING).contains(&own) {
-            own = if angle(CHORD) < PI { 0.0 } else { TAU };
+            own = if angle(CORNER_CHORD_SHARE) < PI { 0.0 } else { TAU };
         }
         times(own, normal)
     }
@@ -241,8 +241,11 @@ impl Sides {
         let sense = if is_last { -1.0 } else { 1.0 };
         let [place, first, _] = edge.span.derivatives(from);
         let chord = |share: f64| minus(edge.span.derivatives(from + sense * share)[0], place);
-        let way =
-            if share > 0.0 || norm(first) == 0.0 { chord(share.max(CHORD)) } else { times(sense, first) };
+        let way = if share > 0.0 || norm(first) == 0.0 {
+            chord(share.max(CORNER_CHORD_SHARE))
+        } else {
+            times(sense, first)
+        };
         unit(way).map_or([0.0; 3], |(d, _)| d)
     }
 }

@@ -1,6 +1,16 @@
 //! Boxes around parts of faces and edges, halved again and again.
 
-use trueness_geom::space::{Aabb, Point};
+use trueness_geom::space::{Aabb, Point, minus, norm};
+
+/// A box around a part of a target.
+#[derive(Clone, Copy)]
+pub(super) struct Item {
+    /// The number of the target.
+    pub(super) target: u32,
+    pub(super) bounds: Aabb,
+    /// A place of the boundary within: a point is no farther from the boundary than from there. NaN where none is known.
+    pub(super) place: Point,
+}
 
 /// A box around items: all of those of its two halves, or a few.
 struct Node {
@@ -13,7 +23,7 @@ struct Node {
 
 /// The boxes.
 pub(super) struct Boxes {
-    items: Vec<(u32, Aabb)>,
+    items: Vec<Item>,
     nodes: Vec<Node>,
 }
 
@@ -22,7 +32,7 @@ const LEAF: usize = 4;
 
 impl Boxes {
     /// Around these targets.
-    pub(super) fn new(mut items: Vec<(u32, Aabb)>) -> Boxes {
+    pub(super) fn new(mut items: Vec<Item>) -> Boxes {
         let mut nodes = vec![];
         if !items.is_empty() {
             halve(&mut items, 0, &mut nodes);
@@ -30,8 +40,15 @@ impl Boxes {
         Boxes { items, nodes }
     }
 
-    /// Hands over targets, near ones first, as long as their boxes are not beyond a reach, which the callback says anew each time.
-    pub(super) fn visit(&self, p: &Point, stack: &mut Vec<(f64, u32)>, mut look: impl FnMut(u32) -> f64) {
+    /// Hands over targets, near ones first, as long as their boxes are not beyond a reach, which the callback hears and says anew each time.
+    /// Known places lower it by themselves: `slack` is added to their distances.
+    pub(super) fn visit(
+        &self,
+        p: &Point,
+        slack: f64,
+        stack: &mut Vec<(f64, u32)>,
+        mut look: impl FnMut(u32, f64) -> f64,
+    ) {
         let mut reach = f64::INFINITY;
         stack.clear();
         stack.extend(self.nodes.first().map(|root| (root.bounds.distance(p), 0)));
@@ -41,9 +58,14 @@ impl Boxes {
             }
             let node = &self.nodes[at as usize];
             if node.count > 0 {
-                for (target, bounds) in &self.items[node.next as usize..(node.next + node.count) as usize] {
-                    if bounds.distance(p) <= reach {
-                        reach = look(*target);
+                let items = &self.items[node.next as usize..(node.next + node.count) as usize];
+                reach = items
+                    .iter()
+                    .map(|item| (norm(minus(item.place, *p)) + slack).next_up())
+                    .fold(reach, f64::min);
+                for item in items {
+                    if item.bounds.distance(p) <= reach {
+                        reach = reach.min(look(item.target, reach));
                     }
                 }
                 continue;
@@ -55,8 +77,8 @@ impl Boxes {
     }
 }
 
-fn halve(items: &mut [(u32, Aabb)], first: usize, nodes: &mut Vec<Node>) {
-    let bounds = items.iter().fold(Aabb::EMPTY, |b, item| b.union(&item.1));
+fn halve(items: &mut [Item], first: usize, nodes: &mut Vec<Node>) {
+    let bounds = items.iter().fold(Aabb::EMPTY, |b, item| b.union(&item.bounds));
     let own = nodes.len();
     if items.len() <= LEAF {
         nodes.push(Node { bounds, next: first as u32, count: items.len() as u32 });
@@ -68,7 +90,7 @@ fn halve(items: &mut [(u32, Aabb)], first: usize, nodes: &mut Vec<Node>) {
     let middle = items.len() / 2;
     let center = |b: &Aabb| b.min[axis] + b.max[axis];
     items.select_nth_unstable_by(middle, |a, b| {
-        center(&a.1).total_cmp(&center(&b.1)).then_with(|| a.0.cmp(&b.0))
+        center(&a.bounds).total_cmp(&center(&b.bounds)).then_with(|| a.target.cmp(&b.target))
     });
     let (left, right) = items.split_at_mut(middle);
     halve(left, first, nodes);

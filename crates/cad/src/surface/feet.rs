@@ -3,8 +3,10 @@
 //! Planes, quadrics and tori have closed forms. The feet on an extrusion are those on the shadow of its curve, the feet on a turned
 //! curve those of the point turned into the plane of the curve, and an offset has those of its basis.
 
+use super::Jet;
 use super::foot::Foot;
 use super::kinds::Surface;
+use super::patch::Patch;
 use super::profile::Profile;
 use super::seams::Pole;
 use super::spline::SplineFeet;
@@ -118,6 +120,16 @@ impl SurfaceFeet {
                 f64::INFINITY
             }),
         }
+    }
+
+    /// Place and derivatives: of a spline by the piece that is known already.
+    pub(crate) fn jet(&self, [u, v]: [f64; 2]) -> Jet {
+        if let Kind::Spline(spline) = &self.kind { spline.jet([u, v]) } else { self.surface.jet(u, v) }
+    }
+
+    /// Of a spline its pieces between knots, row after row, and these.
+    pub(crate) fn spans(&self) -> Option<(&[Patch], &[Vec<f64>; 2])> {
+        if let Kind::Spline(spline) = &self.kind { Some((&spline.patches, &spline.knots)) } else { None }
     }
 
     /// Number of units that can be asked one by one: the pieces and creases of a spline; 1 of all others.

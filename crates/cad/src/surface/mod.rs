@@ -14,6 +14,8 @@
 //!
 //! The normal of a surface is `∂u × ∂v`; that of a face may be the opposite.
 
+mod bends;
+mod convex;
 mod evaluate;
 mod extent;
 mod feet;
@@ -29,8 +31,10 @@ mod spline;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use bends::{Bends, Seconds, Slopes};
 pub use feet::SurfaceFeet;
 pub use foot::Foot;
 pub use kinds::{Surface, SurfaceKind};
+pub(crate) use patch::Patch;
 pub use seams::Pole;
 pub use trueness_geom::spline::surface::Jet;

@@ -1,12 +1,48 @@
 //! Polynomials of two variables in Bernstein form.
 
+use trueness_geom::space::Vector;
 use trueness_geom::spline::value::{Mass, Value};
 
 /// Coefficients in Bernstein form of both directions, row after row.
 #[derive(Clone, Debug)]
-pub(super) struct Net<V> {
-    pub(super) counts: [usize; 2],
-    pub(super) values: Vec<V>,
+pub(crate) struct Net<V> {
+    pub(crate) counts: [usize; 2],
+    pub(crate) values: Vec<V>,
+}
+
+/// What is combined linearly: numbers and vectors.
+pub(crate) trait Coefficient: Copy {
+    /// The neutral element of addition.
+    fn zero() -> Self;
+    /// `self + weight · other`.
+    fn plus(self, weight: f64, other: Self) -> Self;
+}
+
+impl Coefficient for f64 {
+    fn zero() -> f64 {
+        0.0
+    }
+    fn plus(self, weight: f64, other: f64) -> f64 {
+        self + weight * other
+    }
+}
+
+impl Coefficient for Vector {
+    fn zero() -> Vector {
+        [0.0; 3]
+    }
+    fn plus(self, weight: f64, other: Vector) -> Vector {
+        std::array::from_fn(|k| self[k] + weight * other[k])
+    }
+}
+
+impl Coefficient for Mass<3> {
+    fn zero() -> Mass<3> {
+        Mass::ZERO
+    }
+    fn plus(self, weight: f64, other: Mass<3>) -> Mass<3> {
+        Value::plus(self, weight, other)
+    }
 }
 
 impl<V: Copy> Net<V> {
@@ -21,12 +57,12 @@ impl<V: Copy> Net<V> {
     }
 
     /// The product of two nets.
-    pub(super) fn product<T: Copy>(&self, other: &Net<T>, by: impl Fn(V, T) -> f64) -> Net<f64> {
+    pub(super) fn product<T: Copy, W: Coefficient>(&self, other: &Net<T>, by: impl Fn(V, T) -> W) -> Net<W> {
         let [[m, n], [r, s]] = [self.counts, other.counts].map(|c| c.map(|x| x - 1));
         let rows = shares(m, r);
         let columns = shares(n, s);
         let counts = [m + r + 1, n + s + 1];
-        let mut values = vec![0.0; counts[0] * counts[1]];
+        let mut values = vec![W::zero(); counts[0] * counts[1]];
         for i in 0..=m {
             for j in 0..=n {
                 let own = self.values[i * (n + 1) + j];
@@ -34,12 +70,51 @@ impl<V: Copy> Net<V> {
                     let row = rows[i * (r + 1) + k];
                     for l in 0..=s {
                         let share = row * columns[j * (s + 1) + l];
-                        values[(i + k) * counts[1] + j + l] += share * by(own, other.values[k * (s + 1) + l]);
+                        let sum = &mut values[(i + k) * counts[1] + j + l];
+                        *sum = sum.plus(share, by(own, other.values[k * (s + 1) + l]));
                     }
                 }
             }
         }
         Net { counts, values }
+    }
+}
+
+impl<V: Coefficient> Net<V> {
+    /// The derivative by the share of the way along a direction.
+    pub(super) fn derivative(&self, k: usize) -> Net<V> {
+        let n = self.counts[k];
+        let mut counts = self.counts;
+        counts[k] = n.max(2) - 1;
+        if n == 1 {
+            return Net { counts, values: vec![V::zero(); self.values.len()] };
+        }
+        let step = if k == 0 { self.counts[1] } else { 1 };
+        let at = |i: usize, j: usize| i * self.counts[1] + j;
+        let by = (n - 1) as f64;
+        let values = (0..counts[0])
+            .flat_map(|i| (0..counts[1]).map(move |j| at(i, j)))
+            .map(|a| V::zero().plus(by, self.values[a + step].plus(-1.0, self.values[a])))
+            .collect();
+        Net { counts, values }
+    }
+
+    /// Both halves along a direction, by the pyramid of de Casteljau.
+    pub(crate) fn halves(&self, k: usize) -> [Net<V>; 2] {
+        let (mut first, mut second) = (self.clone(), self.clone());
+        let n = self.counts[k];
+        let ([start, step], lines) = self.along(k);
+        for line in 0..lines {
+            let at = |i: usize| line * start + i * step;
+            for level in 1..n {
+                for i in 0..n - level {
+                    let sum = second.values[at(i)].plus(1.0, second.values[at(i + 1)]);
+                    second.values[at(i)] = V::zero().plus(0.5, sum);
+                }
+                first.values[at(level)] = second.values[at(0)];
+            }
+        }
+        [first, second]
     }
 }
 
@@ -70,24 +145,6 @@ impl Net<f64> {
 
     pub(super) fn has_one_sign(&self, noise: f64) -> bool {
         one_sign(self.values.iter().copied(), noise)
-    }
-
-    /// The derivative by the share of the way along a direction.
-    pub(super) fn derivative(&self, k: usize) -> Net<f64> {
-        let n = self.counts[k];
-        let mut counts = self.counts;
-        counts[k] = n.max(2) - 1;
-        if n == 1 {
-            return Net { counts, values: vec![0.0; self.values.len()] };
-        }
-        let step = if k == 0 { self.counts[1] } else { 1 };
-        let at = |i: usize, j: usize| i * self.counts[1] + j;
-        let by = (n - 1) as f64;
-        let values = (0..counts[0])
-            .flat_map(|i| (0..counts[1]).map(move |j| at(i, j)))
-            .map(|a| by * (self.values[a + step] - self.values[a]))
-            .collect();
-        Net { counts, values }
     }
 
     /// Least and greatest derivative along a direction, by the coefficients.
@@ -122,23 +179,6 @@ impl Net<f64> {
             }
         }
         most
-    }
-
-    /// Both halves along a direction, by the pyramid of de Casteljau.
-    pub(super) fn halves(&self, k: usize) -> [Net<f64>; 2] {
-        let (mut first, mut second) = (self.clone(), self.clone());
-        let n = self.counts[k];
-        let ([start, step], lines) = self.along(k);
-        for line in 0..lines {
-            let at = |i: usize| line * start + i * step;
-            for level in 1..n {
-                for i in 0..n - level {
-                    second.values[at(i)] = 0.5 * (second.values[at(i)] + second.values[at(i + 1)]);
-                }
-                first.values[at(level)] = second.values[at(0)];
-            }
-        }
-        [first, second]
     }
 }
 

@@ -3,7 +3,7 @@
 use super::feet::SurfaceFeet;
 use super::foot::Foot;
 use super::kinds::Surface;
-use super::seams::SAME_PLACE;
+use super::seams::ROUNDED_PLACE_SHARE;
 use trueness_geom::space::{Point, minus, norm};
 
 impl SurfaceFeet {
@@ -28,7 +28,7 @@ impl SurfaceFeet {
             let own = lift(&foot);
             let away = off(own);
             let is_better = best.as_ref().is_none_or(|(b, _, least)| {
-                let same = SAME_PLACE * (norm(foot.place) + foot.distance);
+                let same = ROUNDED_PLACE_SHARE * (norm(foot.place) + foot.distance);
                 let difference = foot.distance - b.distance;
                 if difference.abs() <= same { near.is_some() && away < *least } else { difference < 0.0 }
             });
@@ -41,7 +41,7 @@ impl SurfaceFeet {
         }
         let mut reach = f64::INFINITY;
         self.visit(p, reach, &mut |foot| {
-            reach = reach.min(foot.distance + 2.0 * SAME_PLACE * (norm(foot.place) + foot.distance));
+            reach = reach.min(foot.distance + 2.0 * ROUNDED_PLACE_SHARE * (norm(foot.place) + foot.distance));
             offer(foot);
             reach
         });
@@ -56,7 +56,7 @@ impl SurfaceFeet {
     /// Which parameters may be any number.
     fn free(&self, foot: &Foot, p: Point) -> [bool; 2] {
         let surface = self.surface();
-        let same = SAME_PLACE * (norm(foot.place) + foot.distance);
+        let same = ROUNDED_PLACE_SHARE * (norm(foot.place) + foot.distance);
         let mut free = [false; 2];
         for pole in self.poles() {
             let is_there = norm(minus(foot.place, pole.place)) <= same;

@@ -4,10 +4,13 @@
 //! Bernstein form. A part of the piece is done away with in one of four ways. No coefficient of `Y·Y − r²·w²` is below 0: it is nowhere
 //! nearer than `r`. All coefficients of one `D`, or of a combination of both, have one sign: the distance stands still nowhere within. The
 //! derivatives of both `D`, times the inverse of those in the middle, differ from the unit matrix by less than 1: `D` takes every value
-//! once at most, and a descent finds the only place. Else it is halved.
+//! once at most, and a descent finds the only place. Else it is halved. Near to the piece none of this is needed: there the distance is
+//! convex ([`super::convex`]).
 
+use super::bends::Bends;
+use super::convex::Convexity;
 use super::net::{Net, one_sign};
-use trueness_geom::space::{Aabb, Point, Vector, dot, minus, unit};
+use trueness_geom::space::{Aabb, Point, Vector, dot, minus, norm, times, unit};
 use trueness_geom::spline::surface::Jet;
 use trueness_geom::spline::value::{Mass, Value};
 
@@ -17,17 +20,21 @@ const NOISE: f64 = 256.0 * f64::EPSILON;
 const DEPTH: u32 = 90;
 /// Parts looked at for one point at most.
 const MAX_PARTS: usize = 20_000;
+/// A piece is halved until the distance is convex over it for points of so many times its size.
+const CONVEX_SIZES: f64 = 1.0;
 /// How far the derivatives may differ from those in the middle of a part that has one foot at most; below 1.
 const UNIQUE: f64 = 0.9;
 
 /// A piece of a surface over a rectangle of its parameters.
 #[derive(Clone, Debug)]
-pub(super) struct Patch {
-    pub(super) net: Net<Mass<3>>,
+pub(crate) struct Patch {
+    pub(crate) net: Net<Mass<3>>,
     /// First and last `u`, first and last `v`.
-    pub(super) range: [[f64; 2]; 2],
+    pub(crate) range: [[f64; 2]; 2],
     /// Around the control points.
     pub(super) bounds: Aabb,
+    /// Of a piece that is searched.
+    convexity: Option<Convexity>,
 }
 
 /// A part of a patch that is not done with.
@@ -50,7 +57,44 @@ enum Verdict {
 impl Patch {
     pub(super) fn new(net: Net<Mass<3>>, range: [[f64; 2]; 2]) -> Patch {
         let places: Vec<Point> = net.values.iter().filter_map(Mass::place).collect();
-        Patch { net, range, bounds: Aabb::of(&places) }
+        Patch { net, range, bounds: Aabb::of(&places), convexity: None }
+    }
+
+    /// A piece of a curve, along `u`.
+    pub(crate) fn of_curve(points: &[Mass<3>], range: [f64; 2]) -> Patch {
+        Patch::new(Net { counts: [points.len(), 1], values: points.to_vec() }, [range, [0.0, 1.0]])
+    }
+
+    /// Parts of it over each of which the distance is convex from points no farther away than some of its sizes. Next to a pole there is no
+    /// such part, so none is halved more than `depth` times.
+    pub(super) fn pieces(&self, depth: u32) -> Vec<Patch> {
+        let mut open = vec![(self.clone(), Bends::new(&self.net), [1.0; 2], depth)];
+        let mut done: Vec<Patch> = vec![];
+        while let Some((mut piece, bends, sides, depth)) = open.pop() {
+            let jet = piece.jet([0.5; 2]);
+            let middle = [0, 1].map(|k| times(1.0 / sides[k], jet.first[k]));
+            let convexity = Convexity::new(&bends, middle, sides);
+            if depth == 0 || convexity.holds(CONVEX_SIZES * piece.bounds.diagonal()) {
+                piece.convexity = Some(convexity);
+                done.push(piece);
+                continue;
+            }
+            let k = usize::from(norm(jet.first[1]) > norm(jet.first[0]));
+            let mut half = sides;
+            half[k] *= 0.5;
+            let [first, second] = bends.halves(k);
+            let [a, b] = piece.halves(k);
+            open.extend([(b, second, half, depth - 1), (a, first, half, depth - 1)]);
+        }
+        done
+    }
+
+    fn halves(&self, k: usize) -> [Patch; 2] {
+        let middle = 0.5 * (self.range[k][0] + self.range[k][1]);
+        let mut ranges = [self.range; 2];
+        (ranges[0][k][1], ranges[1][k][0]) = (middle, middle);
+        let [a, b] = self.net.halves(k);
+        [Patch::new(a, ranges[0]), Patch::new(b, ranges[1])]
     }
 
     /// Hands over shares of the way along `u` and `v` that are near to each place within where the distance from `p` may have a minimum of
@@ -64,6 +108,12 @@ impl Patch {
         mut visit: impl FnMut([f64; 2], [[f64; 2]; 2]) -> f64,
     ) {
         if self.is_beyond(p, limit) {
+            return;
+        }
+        // A foot nearer than the limit is no farther from the point than that, and the rest of the piece by its size.
+        let reach = farthest(&self.bounds, &p).min(limit + self.bounds.diagonal());
+        if self.convexity.as_ref().is_some_and(|c| c.holds(reach)) {
+            visit([0.5; 2], [[0.0, 1.0]; 2]);
             return;
         }
         let about = self.net.map(|m| Mass { moment: m.moment.plus(-m.mass, p), mass: m.mass });
@@ -121,7 +171,7 @@ impl Patch {
     }
 
     /// Place and derivatives by the shares of the way.
-    pub(super) fn jet(&self, at: [f64; 2]) -> Jet {
+    pub(crate) fn jet(&self, at: [f64; 2]) -> Jet {
         let six = self.net.six(at);
         let w = six[0].mass;
         let part = |k: usize, less: &[(f64, Point)]| -> Vector {
@@ -138,6 +188,11 @@ impl Patch {
         ];
         Jet { place, first: [su, sv], second }
     }
+}
+
+/// Distance of the farthest corner of a box.
+fn farthest(bounds: &Aabb, p: &Point) -> f64 {
+    norm([0, 1, 2].map(|k| (p[k] - bounds.min[k]).abs().max((bounds.max[k] - p[k]).abs())))
 }
 
 impl Part {

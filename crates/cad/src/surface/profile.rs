@@ -30,7 +30,7 @@ const FLAT: f64 = 1e-13;
 /// Share within which it was meant to: files have some seven digits and more. A descent corrects what the plane is off.
 const NEARLY_FLAT: f64 = 1e-5;
 /// Places at which each piece of a curve is tried that does not lie in a plane with the axis.
-const TRIES: usize = 32;
+const PLACES_OF_PIECE: usize = 32;
 /// How far beyond the point's height an infinite curve is tried, in distances from the axis.
 const INFINITE_CURVE_REACH: f64 = 4.0;
 
@@ -96,9 +96,9 @@ impl Profile {
         let own = libm::atan2(dot(arm, across), dot(arm, self.way));
         for (_, [low, high]) in self.feet.pieces() {
             let [low, high] = self.finite([low, high], height, rho);
-            let at = |i: usize| low + (high - low) * i as f64 / TRIES as f64;
-            let values: Vec<f64> = (0..=TRIES).map(|i| seen(at(i)).0).collect();
-            for i in 0..=TRIES {
+            let at = |i: usize| low + (high - low) * i as f64 / PLACES_OF_PIECE as f64;
+            let values: Vec<f64> = (0..=PLACES_OF_PIECE).map(|i| seen(at(i)).0).collect();
+            for i in 0..=PLACES_OF_PIECE {
                 let around = &values[i.saturating_sub(1)..(i + 2).min(values.len())];
                 if around.iter().any(|v| *v < values[i]) {
                     continue;

@@ -19,7 +19,7 @@ pub struct Pole {
 }
 
 /// Share of a surface's size below which two places of its border are one: what is left of coordinates written with ten digits.
-pub(super) const SAME_PLACE: f64 = 1e-9;
+pub(super) const ROUNDED_PLACE_SHARE: f64 = 1e-9;
 
 impl Surface {
     /// After how much each parameter repeats: a turn where the surface is turned, the length of the domain where a spline or a curve
@@ -34,8 +34,9 @@ impl Surface {
                 let [first, last] = [from, to].map(|t| border(nurbs, held, t));
                 let size =
                     Aabb::of(&nurbs.control_points().into_iter().map(|p| p.0).collect::<Vec<_>>()).diagonal();
-                let is_same = |(a, b): (&Point, &Point)| norm(minus(*a, *b)) <= SAME_PLACE * size;
-                let is_closed = first.iter().zip(&last).all(is_same) && !is_one(&first, SAME_PLACE * size);
+                let is_same = |(a, b): (&Point, &Point)| norm(minus(*a, *b)) <= ROUNDED_PLACE_SHARE * size;
+                let is_closed =
+                    first.iter().zip(&last).all(is_same) && !is_one(&first, ROUNDED_PLACE_SHARE * size);
                 is_closed.then_some(to - from)
             }),
             Surface::Extrusion { curve, .. } => [turn(curve), None],
@@ -70,7 +71,7 @@ impl Surface {
                         self.near_pole([u, v], pole.held)
                     };
                     let places = [0.0, 0.3, 0.7].map(at);
-                    let near = SAME_PLACE.sqrt() * (distance.abs() + norm(pole.place));
+                    let near = ROUNDED_PLACE_SHARE.sqrt() * (distance.abs() + norm(pole.place));
                     (is_one(&places, near)).then_some(Pole { place: places[0], ..pole })
                 };
                 basis.poles().into_iter().filter_map(moved).collect()
@@ -81,7 +82,11 @@ impl Surface {
     /// The place a little beside a pole, where there is a normal.
     fn near_pole(&self, [u, v]: [f64; 2], held: usize) -> Point {
         let [from, to] = self.domain()[held];
-        let step = if from.is_finite() && to.is_finite() { SAME_PLACE * (to - from) } else { SAME_PLACE };
+        let step = if from.is_finite() && to.is_finite() {
+            ROUNDED_PLACE_SHARE * (to - from)
+        } else {
+            ROUNDED_PLACE_SHARE
+        };
         let middle = if from.is_finite() && to.is_finite() { 0.5 * (from + to) } else { 0.0 };
         let inward = |x: f64| if x > middle { x - step } else { x + step };
         if held == 0 { self.at(inward(u), v) } else { self.at(u, inward(v)) }
@@ -96,7 +101,7 @@ impl Curve {
         has_ends
             && (self.period().is_some() || {
                 let size = CurveFeet::new(self, [from, to]).bounds().diagonal();
-                norm(minus(self.at(from), self.at(to))) <= SAME_PLACE * size
+                norm(minus(self.at(from), self.at(to))) <= ROUNDED_PLACE_SHARE * size
             })
     }
 }
@@ -134,7 +139,7 @@ fn spline_poles(nurbs: &Nurbs) -> Vec<Pole> {
         let (from, to) = nurbs.knots()[held as usize].domain();
         for at in [from, to] {
             let places = border(nurbs, held, at);
-            if is_one(&places, SAME_PLACE * size) {
+            if is_one(&places, ROUNDED_PLACE_SHARE * size) {
                 found.extend(places.first().map(|place| Pole { held: held as usize, at, place: *place }));
             }
         }
@@ -152,8 +157,9 @@ fn profile_poles(curve: &Curve, origin: Point, axis: Point) -> Vec<Pole> {
     let size = if reach.is_finite() { reach } else { norm(minus(curve.at(0.0), origin)) };
     let mut found: Vec<Pole> = vec![];
     shadow.candidates(center, f64::INFINITY, |foot| {
-        let is_known = |pole: &Pole| (pole.at - foot.parameter).abs() <= SAME_PLACE * (1.0 + pole.at.abs());
-        if foot.distance <= SAME_PLACE * size && !found.iter().any(is_known) {
+        let is_known =
+            |pole: &Pole| (pole.at - foot.parameter).abs() <= ROUNDED_PLACE_SHARE * (1.0 + pole.at.abs());
+        if foot.distance <= ROUNDED_PLACE_SHARE * size && !found.iter().any(is_known) {
             let arm = minus(curve.at(foot.parameter), origin);
             let place = plus(origin, times(dot(arm, axis), axis));
             found.push(Pole { held: 1, at: foot.parameter, place });

@@ -3,7 +3,7 @@
 use super::foot::Foot;
 use super::net::Net;
 use super::patch::Patch;
-use super::seams::{SAME_PLACE, iso_curve};
+use super::seams::{ROUNDED_PLACE_SHARE, iso_curve};
 use crate::curve::CurveFeet;
 use trueness_geom::space::{Aabb, Point, dot, minus, norm};
 use trueness_geom::spline::basis::Knots;
@@ -15,9 +15,11 @@ use trueness_geom::spline::value::Mass;
 #[derive(Clone, Debug)]
 pub(super) struct SplineFeet {
     /// Row after row: those of the first span of `u` come first.
-    patches: Vec<Patch>,
+    pub(super) patches: Vec<Patch>,
+    /// The same in smaller parts, for the search.
+    pieces: Vec<Patch>,
     /// Ends of the spans in both directions.
-    knots: [Vec<f64>; 2],
+    pub(super) knots: [Vec<f64>; 2],
     lines: Vec<Line>,
     /// Diagonal of the box of the control points.
     pub(super) size: f64,
@@ -25,6 +27,10 @@ pub(super) struct SplineFeet {
     epsilon: f64,
 }
 
+/// Pieces of a surface at most, unless it has more spans: its boxes must be looked through where nothing is known of the place.
+const MAX_PIECES: usize = 1 << 14;
+/// Halvings of a span at most.
+const MAX_PIECE_DEPTH: u32 = 6;
 /// Cosine up to which two directions are at right angles.
 const RIGHT_ANGLE: f64 = 1e-6;
 
@@ -66,6 +72,8 @@ impl SplineFeet {
                 patches.push(Patch::new(net, [[u[0], u[1]], [v[0], v[1]]]));
             }
         }
+        let depth = (MAX_PIECES / patches.len().max(1)).max(1).ilog2();
+        let pieces = patches.iter().flat_map(|patch| patch.pieces(depth.min(MAX_PIECE_DEPTH))).collect();
         let bounds = Aabb::of(&points.iter().map(|p| p.0).collect::<Vec<_>>());
         let size = bounds.diagonal();
         let mut lines = vec![];
@@ -77,7 +85,7 @@ impl SplineFeet {
                 if t == from || t == to || own.multiplicity(t) >= own.degree() {
                     let feet = CurveFeet::new(&iso_curve(nurbs, held, t), across.into());
                     // At a pole no edge stands for the end.
-                    let is_pole = feet.bounds().diagonal() <= SAME_PLACE * size;
+                    let is_pole = feet.bounds().diagonal() <= ROUNDED_PLACE_SHARE * size;
                     let is_end = t == from || t == to;
                     let is_border = is_end && periods[held as usize].is_none() && !is_pole;
                     lines.push(Line { held: held as usize, at: t, feet, is_border });
@@ -86,7 +94,7 @@ impl SplineFeet {
         }
         let farthest = bounds.min.iter().chain(&bounds.max).fold(0.0, |m: f64, x| m.max(x.abs()));
         let epsilon = EPSILON[0] * size + EPSILON[1] * farthest;
-        SplineFeet { patches, knots, lines, size, epsilon }
+        SplineFeet { patches, pieces, knots, lines, size, epsilon }
     }
 
     /// See [`super::SurfaceFeet::visit`].
@@ -96,7 +104,7 @@ impl SplineFeet {
             limit = line.visit(p, limit, visit);
         }
         let mut order: Vec<(f64, &Patch)> =
-            self.patches.iter().map(|patch| (patch.bounds.distance(&p), patch)).collect();
+            self.pieces.iter().map(|piece| (piece.bounds.distance(&p), piece)).collect();
         order.sort_by(|a, b| a.0.total_cmp(&b.0));
         for (distance, patch) in order {
             if distance >= limit {
@@ -108,7 +116,7 @@ impl SplineFeet {
 
     /// The pieces, then the lines that are no border.
     pub(super) fn units(&self) -> usize {
-        self.patches.len() + self.creases().count()
+        self.pieces.len() + self.creases().count()
     }
 
     fn creases(&self) -> impl Iterator<Item = &Line> {
@@ -117,10 +125,10 @@ impl SplineFeet {
 
     /// See [`super::SurfaceFeet::unit`].
     pub(super) fn unit(&self, unit: usize) -> Option<(Aabb, [f64; 2])> {
-        if let Some(patch) = self.patches.get(unit) {
+        if let Some(patch) = self.pieces.get(unit) {
             return Some((patch.bounds, patch.range.map(|[a, b]| 0.5 * (a + b))));
         }
-        let line = self.creases().nth(unit - self.patches.len())?;
+        let line = self.creases().nth(unit - self.pieces.len())?;
         let other = &self.knots[1 - line.held];
         let middle = 0.5 * (other[0] + other[other.len() - 1]);
         Some((line.feet.bounds(), if line.held == 0 { [line.at, middle] } else { [middle, line.at] }))
@@ -128,9 +136,9 @@ impl SplineFeet {
 
     /// The feet on one unit.
     pub(super) fn visit_unit(&self, unit: usize, p: Point, limit: f64, visit: &mut dyn FnMut(Foot) -> f64) {
-        if let Some(patch) = self.patches.get(unit) {
+        if let Some(patch) = self.pieces.get(unit) {
             self.visit_patch(patch, p, limit, visit);
-        } else if let Some(line) = self.creases().nth(unit - self.patches.len()) {
+        } else if let Some(line) = self.creases().nth(unit - self.pieces.len()) {
             line.visit(p, limit, visit);
         }
     }
@@ -187,7 +195,7 @@ impl SplineFeet {
         best.unwrap_or(Foot { parameters: near, place: [f64::NAN; 3], distance: f64::NAN })
     }
 
-    fn jet(&self, at: [f64; 2]) -> trueness_geom::spline::surface::Jet {
+    pub(super) fn jet(&self, at: [f64; 2]) -> trueness_geom::spline::surface::Jet {
         let span = |k: usize| {
             let knots = &self.knots[k];
             knots.partition_point(|t| *t <= at[k]).clamp(1, knots.len() - 1) - 1

@@ -7,17 +7,20 @@
 //! derivatives, Computer Aided Geometric Design 3, 1986, has the same for half a rectangle.) Where a surface is known by its distance
 //! function, that says more: see [`facet`].
 
-use super::net::{Net, Seconds};
+use super::net::{Net, chord};
 use crate::curve::Curve;
-use crate::surface::Surface;
+use crate::surface::{Seconds, Surface};
 use crate::trim::Chart;
 use trueness_geom::space::{Point, cross, dot, minus, norm, plus, times, unit};
+use trueness_geom::spline::surface::Nurbs;
 
 /// Bounds of second derivatives.
 #[derive(Clone, Debug)]
 pub struct Bend<'a> {
     chart: &'a Chart,
     kind: Kind,
+    /// How far borders of facets may be from the edges of the face.
+    border: f64,
 }
 
 #[derive(Clone, Debug)]
@@ -41,9 +44,11 @@ pub struct Bound {
 }
 
 impl<'a> Bend<'a> {
-    pub fn new(chart: &'a Chart) -> Bend<'a> {
+    pub fn new(chart: &'a Chart, border: f64) -> Bend<'a> {
         let kind = match chart.surface() {
-            Surface::Spline(nurbs) => Kind::Spline(Net::of_surface(nurbs)),
+            Surface::Spline(nurbs) => chart.spans().map_or(Kind::Sampled, |(patches, knots)| {
+                Kind::Spline(Net::new(patches, knots.clone(), creases(nurbs)))
+            }),
             Surface::Extrusion { curve, .. } | Surface::Revolution { curve, .. } => match &**curve {
                 Curve::Joined(_) | Curve::Polyline(_) => Kind::Sampled,
                 curve => Kind::Swept(Net::of_curve(curve)),
@@ -51,10 +56,10 @@ impl<'a> Bend<'a> {
             Surface::Offset { .. } => Kind::Sampled,
             _ => Kind::Closed,
         };
-        Bend { chart, kind }
+        Bend { chart, kind, border }
     }
 
-    /// Bounds over a box of parameters, and whether they are proven.
+    /// Bounds over a box of parameters, of splines along their normals alone, and whether they are proven.
     pub fn seconds(&self, sides: [[f64; 2]; 2]) -> (Seconds, bool) {
         let [us, vs] = sides;
         match (self.chart.surface(), &self.kind) {
@@ -71,12 +76,8 @@ impl<'a> Bend<'a> {
                 ([most, *minor, *minor], true)
             }
             (Surface::Spline(_), Kind::Spline(net)) => {
-                let parts = self.within(sides);
-                let is_smooth = parts.iter().all(|part| {
-                    (0..2).all(|k| !net.creases[k].iter().any(|t| part[k][0] < *t && *t < part[k][1]))
-                });
-                let all = parts.into_iter().map(|p| net.over(p));
-                (all.fold([0.0; 3], |a, b| [0, 1, 2].map(|n| f64::max(a[n], b[n]))), is_smooth)
+                let all = self.within(sides).into_iter().map(|p| net.along_normals(p));
+                (all.fold([0.0; 3], |a, b| [0, 1, 2].map(|n| f64::max(a[n], b[n]))), false)
             }
             (Surface::Extrusion { curve, .. }, Kind::Swept(net)) => {
                 let most = of_curve(curve, net.as_ref(), us);
@@ -184,15 +185,48 @@ impl<'a> Bend<'a> {
 
     fn by_seconds(&self, parameters: [[f64; 2]; 3]) -> Bound {
         let sides = box_of(&parameters);
-        let ([uu, uv, vv], is_proven) = self.seconds(sides);
-        let [h, k] = sides.map(|[a, b]| b - a);
-        Bound { distance: 0.125 * (h * h * uu + 2.0 * h * k * uv + k * k * vv), is_proven }
+        let extents = sides.map(|[a, b]| b - a);
+        let Kind::Spline(net) = &self.kind else {
+            let (seconds, is_proven) = self.seconds(sides);
+            return Bound { distance: chord(seconds, extents), is_proven };
+        };
+        let parts = self.within(sides);
+        let is_proven = parts
+            .iter()
+            .all(|part| (0..2).all(|k| !net.creases[k].iter().any(|t| part[k][0] < *t && *t < part[k][1])));
+        let (distance, shift) = net.facet(&parts, extents);
+        // Beyond an end of the surface the facet's border is nearest, and within its own distance of the edge.
+        let is_inner = (0..2).all(|k| {
+            let [first, last] = self.chart.domain[k];
+            self.chart.periods[k].is_some()
+                || sides[k][0] - shift[k] >= first && sides[k][1] + shift[k] <= last
+        });
+        let most = || {
+            chord(
+                parts.iter().fold([0.0; 3], |m, p| {
+                    let own = net.over(*p);
+                    [0, 1, 2].map(|n| f64::max(m[n], own[n]))
+                }),
+                extents,
+            )
+        };
+        let distance = if is_inner { distance } else { libm::hypot(distance, self.border).min(most()) };
+        Bound { distance, is_proven }
     }
 
     /// How much of the bound a side of a facet takes: the greatest one is to be halved.
     pub fn of_side(&self, a: [f64; 2], b: [f64; 2]) -> f64 {
         self.by_seconds([a, b, b]).distance
     }
+}
+
+/// Inner knots of a surface at which it may have a crease.
+fn creases(nurbs: &Nurbs) -> [Vec<f64>; 2] {
+    nurbs.knots().each_ref().map(|own| {
+        let all = own.distinct();
+        let inner = all.get(1..all.len().max(2) - 1).unwrap_or_default();
+        inner.iter().copied().filter(|t| own.multiplicity(*t) >= own.degree()).collect()
+    })
 }
 
 /// First and last values of both parameters.

@@ -15,7 +15,7 @@ pub struct Polyline {
 }
 
 /// Of the tolerance, what edges take: facets between two edges whose places do not face each other are larger than their sides.
-const EDGE_SHARE: f64 = 0.4;
+pub const EDGE_SHARE: f64 = 0.4;
 /// The angle between neighboring sides of a polyline at most, whatever is asked for: a circle has seven.
 const MAX_ANGLE: f64 = 0.9;
 /// Shares of an edge nearer than this are one.

@@ -1,10 +1,10 @@
 //! Facets of one face.
 
 use super::bend::{Bend, Bound};
-use super::edges::Polyline;
+use super::edges::{EDGE_SHARE, Polyline};
 use super::lines::{Fineness, lines, nodes};
 use super::polygon::{Between, Corner, Polygons, Source, polygons};
-use crate::trim::Trim;
+use crate::trim::{Piece, Straight, Trim};
 use spade::handles::FixedVertexHandle;
 use spade::{ConstrainedDelaunayTriangulation, Point2, PositionInTriangulation, Triangulation};
 use std::collections::BTreeMap;
@@ -61,7 +61,9 @@ pub fn facets(
     fineness: Fineness,
     most: usize,
 ) -> Outcome {
-    let bend = Bend::new(&trim.chart);
+    let has_side = |piece: &Piece| matches!(piece, Piece::Straight { kind: Straight::Side, .. });
+    let is_bare = trim.rings.iter().flat_map(|r| &r.pieces).any(has_side);
+    let bend = Bend::new(&trim.chart, if is_bare { f64::INFINITY } else { EDGE_SHARE * fineness.distance });
     let mut finer = 1;
     for doubling in 0..=MAX_DOUBLINGS {
         let lines = lines(trim, &bend, fineness, finer);

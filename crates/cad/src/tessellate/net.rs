@@ -1,173 +1,207 @@
-//! Bounds of second derivatives of splines, span by span, from control points of the derivatives.
+//! Bounds of second derivatives of splines, cell by cell.
 //!
-//! A rational spline is `X = A / w` with splines `A` and `w`. Taken from a place amid the control points of a span, all `X` of the span lie
-//! within the greatest distance `r` of these (weights are above 0). Then `w X_u = A_u − w_u X` and `w X_uu = A_uu − 2 w_u X_u − w_uu X` bound
-//! the derivatives, and so for `uv`. Where all weights are 1 that is the bound of the control points of the second derivative itself.
+//! A facet differs from the surface by a vector `e` no longer than `b`, which follows from all of the second derivatives. What of it lies
+//! along the surface moves the foot and is hardly a distance: with the unit normal `n` of the surface, and the steps of the parameters
+//! `δ` that go along `e`, the facet is within `|e·n| + (δu² M₁ + 2 δu δv M₂ + δv² M₃) / 2`. A thread turns about its axis while its normals
+//! hardly turn: by `e·n` its facets may be a hundred times longer.
 
-use crate::curve::Curve;
-use trueness_geom::space::{minus, norm, plus, times};
-use trueness_geom::spline::basis::Knots;
-use trueness_geom::spline::surface::Nurbs;
+use crate::curve::{Curve, CurveFeet};
+use crate::surface::{Bends, Patch, Seconds, Slopes};
+use trueness_geom::space::{Vector, dot, minus, norm, plus, unit};
 
-/// Bounds of `|X_uu|`, `|X_uv|`, `|X_vv|`.
-pub type Seconds = [f64; 3];
-
-/// Bounds for each cell between knots.
+/// Bounds for each cell: a part of a span between knots over which the surface hardly turns.
 #[derive(Clone, Debug)]
 pub struct Net {
-    /// Ends of the cells along both parameters.
+    /// Ends of the spans along both parameters.
     pub knots: [Vec<f64>; 2],
-    /// Row after row: cells of the first span of `u` come first.
-    cells: Vec<Seconds>,
+    /// Ends of the cells.
+    ends: [Vec<f64>; 2],
+    /// Row after row: cells of the first part of `u` come first.
+    cells: Vec<Cell>,
     /// Values of both parameters at which the surface may have a crease.
     pub creases: [Vec<f64>; 2],
 }
 
-/// Control points of a derivative: three coordinates times their weight, and the weight.
-#[derive(Clone)]
-struct Grid {
-    counts: [usize; 2],
-    values: Vec<[f64; 4]>,
+/// What holds all over a cell.
+#[derive(Clone, Copy, Debug)]
+struct Cell {
+    seconds: Seconds,
+    /// Extents of the second derivatives along `up` at most.
+    across: Seconds,
+    /// Unit normal in the middle; 0 where there is none.
+    up: Vector,
+    /// By how much unit normals differ from that at most.
+    tilt: f64,
+    /// How fast the surface moves with each parameter at least, at right angles to the other one.
+    speeds: [f64; 2],
 }
 
-/// One direction of a spline; a curve has a second one of degree 0.
-#[derive(Clone, Copy)]
-struct Direction<'a> {
-    degree: usize,
-    knots: &'a [f64],
-}
+/// Share of its length by which a first derivative may change over a cell.
+const CHANGE_IN_CELL: f64 = 0.25;
+/// Parts of a span along a parameter at most.
+const MAX_PARTS: usize = 16;
+/// Cells at most, unless there are more spans.
+const MAX_CELLS: usize = 1 << 17;
 
 impl Net {
-    /// Of a surface.
-    pub fn of_surface(nurbs: &Nurbs) -> Net {
-        let values = nurbs.control_points().iter().map(|(p, w)| weighted(*p, *w)).collect();
-        let knots = nurbs.knots();
-        Net::new(Grid { counts: nurbs.counts(), values }, [Some(&knots[0]), Some(&knots[1])])
-    }
-
     /// Of a curve, along `u`; `None` where it is no spline.
     pub fn of_curve(curve: &Curve) -> Option<Net> {
-        let (knots, values): (&Knots, Vec<[f64; 4]>) = match curve {
-            Curve::Spline(s) => (s.knots(), s.points().iter().map(|p| weighted(*p, 1.0)).collect()),
-            Curve::Rational(r) => {
-                let masses = r.masses();
-                let own = masses.points().iter().map(|m| [m.moment[0], m.moment[1], m.moment[2], m.mass]);
-                (masses.knots(), own.collect())
-            }
-            _ => return None,
-        };
-        Some(Net::new(Grid { counts: [values.len(), 1], values }, [Some(knots), None]))
+        let patches: Vec<Patch> = CurveFeet::new(curve, curve.domain())
+            .beziers()
+            .map(|(points, range)| Patch::of_curve(points, range))
+            .collect();
+        let last = patches.last()?.range[0][1];
+        let knots = patches.iter().map(|p| p.range[0][0]).chain([last]).collect();
+        Some(Net::new(&patches, [knots, vec![0.0, 1.0]], [vec![], vec![]]))
     }
 
-    fn new(grid: Grid, knots: [Option<&Knots>; 2]) -> Net {
-        let directions = knots.map(|k| match k {
-            Some(k) => Direction { degree: k.degree(), knots: k.values() },
-            None => Direction { degree: 0, knots: &[0.0, 1.0] },
-        });
-        let distinct = knots.map(|k| k.map_or(vec![0.0, 1.0], Knots::distinct));
-        let creases = [0, 1].map(|k| match knots[k] {
-            Some(own) => {
-                let inner = distinct[k].get(1..distinct[k].len() - 1).unwrap_or_default();
-                inner.iter().copied().filter(|t| own.multiplicity(*t) >= own.degree()).collect()
+    /// Of a surface in pieces, row after row, between `knots`.
+    pub fn new(patches: &[Patch], knots: [Vec<f64>; 2], creases: [Vec<f64>; 2]) -> Net {
+        let width = knots[1].len() - 1;
+        let mut parts = knots.each_ref().map(|k| vec![1usize; k.len() - 1]);
+        for (n, patch) in patches.iter().enumerate() {
+            let own = parts_of(patch);
+            for (k, i) in [n / width, n % width].into_iter().enumerate() {
+                parts[k][i] = parts[k][i].max(own[k]);
             }
-            None => vec![],
-        });
-        let of = |orders: [usize; 2]| derived(&grid, &directions, orders);
-        let all = [[0, 0], [1, 0], [0, 1], [2, 0], [1, 1], [0, 2]].map(|orders| (orders, of(orders)));
+        }
+        let count =
+            |parts: &[Vec<usize>; 2]| parts.iter().map(|p| p.iter().sum::<usize>()).product::<usize>();
+        while count(&parts) > MAX_CELLS && parts.iter().flatten().any(|n| *n > 1) {
+            parts.iter_mut().flatten().for_each(|n| *n = (*n / 2).max(1));
+        }
+        let ends = [0, 1].map(|k| divided(&knots[k], &parts[k]));
         let mut cells = vec![];
-        for u in distinct[0].windows(2) {
-            for v in distinct[1].windows(2) {
-                cells.push(bound(&all, &directions, [0.5 * (u[0] + u[1]), 0.5 * (v[0] + v[1])]));
+        for (i, row) in patches.chunks(width).enumerate() {
+            let columns: Vec<Vec<Cell>> =
+                row.iter().enumerate().map(|(j, p)| cells_of(p, [parts[0][i], parts[1][j]])).collect();
+            for u in 0..parts[0][i] {
+                for (j, own) in columns.iter().enumerate() {
+                    let n = parts[1][j];
+                    cells.extend_from_slice(&own[u * n..(u + 1) * n]);
+                }
             }
         }
-        Net { knots: distinct, cells, creases }
+        Net { knots, ends, cells, creases }
     }
 
-    /// The greatest bounds over a box of parameters.
+    fn touched(&self, sides: [[f64; 2]; 2]) -> impl Iterator<Item = &Cell> {
+        let [us, vs] = [0, 1].map(|k| {
+            let ends = &self.ends[k];
+            let last = ends.len() - 2;
+            let from = ends.partition_point(|t| *t <= sides[k][0]).saturating_sub(1).min(last);
+            let to = ends.partition_point(|t| *t < sides[k][1]).saturating_sub(1).min(last);
+            from..to.max(from) + 1
+        });
+        let width = self.ends[1].len() - 1;
+        us.flat_map(move |i| self.cells[i * width + vs.start..i * width + vs.end].iter())
+    }
+
+    /// The greatest second derivatives over a box of parameters.
     pub fn over(&self, sides: [[f64; 2]; 2]) -> Seconds {
-        let range = |k: usize| {
-            let knots = &self.knots[k];
-            let last = knots.len() - 2;
-            let from = knots.partition_point(|t| *t <= sides[k][0]).saturating_sub(1).min(last);
-            let to = knots.partition_point(|t| *t < sides[k][1]).saturating_sub(1).min(last);
-            from..=to.max(from)
-        };
-        let width = self.knots[1].len() - 1;
-        let mut most = [0.0f64; 3];
-        for i in range(0) {
-            for j in range(1) {
-                (0..3).for_each(|n| most[n] = most[n].max(self.cells[i * width + j][n]));
-            }
+        greatest(self.touched(sides).map(|cell| cell.seconds))
+    }
+
+    /// The greatest extents of the second derivatives along the normals, those of the cells' middles.
+    pub fn along_normals(&self, sides: [[f64; 2]; 2]) -> Seconds {
+        greatest(self.touched(sides).map(|cell| cell.across))
+    }
+
+    /// How far a facet between places of these boxes, all parts of one box with these extents, is from the surface or from what would
+    /// continue it; and by how much the parameters of its feet may leave the boxes.
+    pub fn facet(&self, boxes: &[[[f64; 2]; 2]], extents: [f64; 2]) -> (f64, [f64; 2]) {
+        let cells = || boxes.iter().flat_map(|sides| self.touched(*sides));
+        let most = chord(greatest(cells().map(|c| c.seconds)), extents);
+        let doubt = (most, [0.0; 2]);
+        let Some((up, _)) = unit(cells().fold([0.0; 3], |sum, c| plus(sum, c.up))) else { return doubt };
+        if cells().any(|c| dot(c.up, up) <= 0.0) {
+            return doubt;
         }
-        most
+        let turn = |c: &Cell| norm(minus(c.up, up));
+        let across = greatest(cells().map(|c| [0, 1, 2].map(|n| c.across[n] + turn(c) * c.seconds[n])));
+        let tilt = cells().map(|c| turn(c) + c.tilt).fold(0.0, f64::max);
+        let shift = [0, 1].map(|k| most / cells().map(|c| c.speeds[k]).fold(f64::INFINITY, f64::min));
+        if shift.iter().any(|s| !s.is_finite()) {
+            return doubt;
+        }
+        let wider = |[from, to]: [f64; 2], by: f64| [from - by, to + by];
+        let around = boxes.iter().map(|[u, v]| self.over([wider(*u, shift[0]), wider(*v, shift[1])]));
+        let moved = 4.0 * chord(greatest(around), shift);
+        let distance = chord(across, extents) + tilt * most + moved;
+        if distance < most { (distance, shift) } else { doubt }
     }
 }
 
-fn weighted(p: [f64; 3], w: f64) -> [f64; 4] {
-    [w * p[0], w * p[1], w * p[2], w]
+/// How far a facet with these extents differs from the surface.
+pub fn chord([uu, uv, vv]: Seconds, [h, k]: [f64; 2]) -> f64 {
+    0.125 * (h * h * uu + 2.0 * h * k * uv + k * k * vv)
 }
 
-/// Control points of a derivative; `None` where it is 0 everywhere.
-fn derived(grid: &Grid, directions: &[Direction; 2], orders: [usize; 2]) -> Option<Grid> {
-    let mut grid = grid.clone();
-    for k in 0..2 {
-        for order in 0..orders[k] {
-            let p = directions[k].degree.checked_sub(order).filter(|p| *p > 0)?;
-            let u = directions[k].knots;
-            let mut counts = grid.counts;
-            counts[k] -= 1;
-            let step = if k == 0 { grid.counts[1] } else { 1 };
-            let value = |n: usize| {
-                let (i, j) = (n / counts[1], n % counts[1]);
-                let at = i * grid.counts[1] + j;
-                let knot = [i, j][k] + order;
-                let width = u[knot + p + 1] - u[knot + 1];
-                let factor = if width > 0.0 { p as f64 / width } else { 0.0 };
-                std::array::from_fn(|d| factor * (grid.values[at + step][d] - grid.values[at][d]))
-            };
-            grid = Grid { counts, values: (0..counts[0] * counts[1]).map(value).collect() };
+fn greatest(all: impl Iterator<Item = Seconds>) -> Seconds {
+    all.fold([0.0; 3], |a, b| [0, 1, 2].map(|n| f64::max(a[n], b[n])))
+}
+
+/// Parts of a patch along both parameters, powers of 2.
+fn parts_of(patch: &Patch) -> [usize; 2] {
+    let [uu, uv, vv] = Bends::new(&patch.net).greatest();
+    let [du, dv] = patch.jet([0.5; 2]).first.map(norm);
+    let change = |a: f64, b: f64| {
+        let share = |s: f64, d: f64| if s > 0.0 { s / d } else { 0.0 };
+        0.5 * share(a, du).max(share(b, dv))
+    };
+    [change(uu, uv), change(uv, vv)].map(|c| {
+        let parts = (c / CHANGE_IN_CELL).clamp(1.0, MAX_PARTS as f64);
+        (parts.ceil() as usize).next_power_of_two()
+    })
+}
+
+/// The cells of a patch.
+fn cells_of(patch: &Patch, parts: [usize; 2]) -> Vec<Cell> {
+    let widths = patch.range.map(|[a, b]| b - a);
+    let mut cells = vec![];
+    for (i, row) in divisions(Bends::new(&patch.net), 0, parts[0]).into_iter().enumerate() {
+        for (j, bends) in divisions(row, 1, parts[1]).into_iter().enumerate() {
+            let middle = [0, 1].map(|k| ([i, j][k] as f64 + 0.5) / parts[k] as f64);
+            let half = parts.map(|n| 0.5 / n as f64);
+            cells.push(cell(&bends, patch.jet(middle).first, half, widths));
         }
     }
-    Some(grid)
+    cells
 }
 
-/// The control points that act at a place of the parameters.
-fn acting(grid: &Grid, directions: &[Direction; 2], orders: [usize; 2], at: [f64; 2]) -> Vec<[f64; 4]> {
-    let range = [0, 1].map(|k| {
-        let d = directions[k];
-        let span = d.knots.partition_point(|t| *t <= at[k]).saturating_sub(1);
-        let last = span.saturating_sub(orders[k]).min(grid.counts[k] - 1);
-        last.saturating_sub(d.degree - orders[k])..=last
-    });
-    let [us, vs] = range;
-    us.flat_map(|i| vs.clone().map(move |j| (i, j)))
-        .map(|(i, j)| grid.values[i * grid.counts[1] + j])
-        .collect()
+fn cell(bends: &Bends, middle: [Vector; 2], half: [f64; 2], [h, k]: [f64; 2]) -> Cell {
+    let seconds = bends.greatest();
+    let slopes = Slopes::new(middle, seconds, half);
+    let (wide, off) = slopes.normal();
+    let (up, area) = unit(wide).unwrap_or(([0.0; 3], 0.0));
+    let least = (area - off).max(0.0);
+    let speed = |other: usize| least / (norm(middle[other]) + slopes.off[other]);
+    let speeds = [speed(1), speed(0)];
+    // A unit vector along the surface is a sum of both first derivatives, each no more than once over its speed: what these rise by along
+    // `up` is the sine of the angle between the planes at most.
+    let across = bends.along(up);
+    let rises = Slopes::new(middle, across, half).off;
+    let sine = rises[0] / speeds[0] + rises[1] / speeds[1];
+    // The chord of the angle.
+    let tilt = if sine < 1.0 { (2.0 - 2.0 * (1.0 - sine * sine).sqrt()).sqrt() } else { 2.0 };
+    let own = |[uu, uv, vv]: Seconds| [uu / (h * h), uv / (h * k), vv / (k * k)];
+    Cell { seconds: own(seconds), across: own(across), up, tilt, speeds: [speeds[0] / h, speeds[1] / k] }
 }
 
-fn bound(all: &[([usize; 2], Option<Grid>); 6], directions: &[Direction; 2], at: [f64; 2]) -> Seconds {
-    let points = |n: usize| {
-        let (orders, grid) = &all[n];
-        grid.as_ref().map_or(vec![], |g| acting(g, directions, *orders, at))
-    };
-    let own = points(0);
-    let place = |m: &[f64; 4]| times(1.0 / m[3], [m[0], m[1], m[2]]);
-    let center = times(1.0 / own.len() as f64, own.iter().fold([0.0; 3], |s, m| plus(s, place(m))));
-    let reach = own.iter().map(|m| norm(minus(place(m), center))).fold(0.0, f64::max);
-    let least = own.iter().map(|m| m[3]).fold(f64::INFINITY, f64::min);
-    // Greatest derivative of the moments about the center, and of the weight.
-    let sizes = |n: usize| {
-        points(n).iter().fold([0.0f64; 2], |[a, w], m| {
-            let about = minus([m[0], m[1], m[2]], times(m[3], center));
-            [a.max(norm(about)), w.max(m[3].abs())]
-        })
-    };
-    let [u, v, uu, uv, vv] = [1, 2, 3, 4, 5].map(sizes);
-    let first = |[a, w]: [f64; 2]| (a + w * reach) / least;
-    let [du, dv] = [first(u), first(v)];
-    [
-        (uu[0] + 2.0 * u[1] * du + uu[1] * reach) / least,
-        (uv[0] + u[1] * dv + v[1] * du + uv[1] * reach) / least,
-        (vv[0] + 2.0 * v[1] * dv + vv[1] * reach) / least,
-    ]
+/// Equal parts along a direction; their number is a power of 2.
+fn divisions(whole: Bends, k: usize, parts: usize) -> Vec<Bends> {
+    if parts == 1 {
+        return vec![whole];
+    }
+    whole.halves(k).into_iter().flat_map(|half| divisions(half, k, parts / 2)).collect()
+}
+
+/// Ends of the parts of spans.
+fn divided(knots: &[f64], parts: &[usize]) -> Vec<f64> {
+    let mut ends = vec![knots[0]];
+    for (w, n) in knots.windows(2).zip(parts) {
+        let inner = |i: usize| w[0] + (w[1] - w[0]) * i as f64 / *n as f64;
+        ends.extend((1..=*n).map(|i| if i == *n { w[1] } else { inner(i) }));
+    }
+    ends
 }

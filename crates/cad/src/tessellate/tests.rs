@@ -2,14 +2,16 @@
 
 use super::*;
 use crate::brep::Bounds;
+use crate::curve::Span;
 use crate::frame::Frame;
 use crate::measure::Integrals;
 use crate::surface::{Surface, SurfaceFeet};
-use crate::trim::tests::{Made, circle, frame, line};
+use crate::trim::tests::{Made, circle, drum, frame, line};
 use std::collections::BTreeMap;
 use std::f64::consts::{PI, TAU};
 use trueness_geom::progress::Silent;
 use trueness_geom::space::{cross, dot, minus, norm, plus, times};
+use trueness_geom::spline::{basis::Knots, surface::Nurbs};
 
 fn tessellated(made: &Made, distance: f64) -> (Tessellation, Vec<Trim>) {
     let trims: Vec<Trim> = made.brep.faces.iter().map(|f| Trim::new(&made.brep, f, 0.0).unwrap()).collect();
@@ -103,17 +105,6 @@ fn assert_solid(made: &Made, what: &str) {
         assert!(off < 0.5 * before || off < 1e-9 * exact.area, "{what} {off} {before}");
         before = off;
     }
-}
-
-fn drum(frame: &Frame, radius: f64, height: f64, start: f64) -> Made {
-    let mut made = Made::default();
-    let low = made.edge(circle(frame, 0.0, radius, start));
-    let high = made.edge(circle(frame, height, radius, -start));
-    let top = Frame { origin: frame.place([0.0, 0.0, height]), ..*frame };
-    made.face(Surface::Cylinder { frame: *frame, radius }, false, &[&[(low, false)], &[(high, true)]]);
-    made.face(Surface::Plane(top), false, &[&[(high, false)]]);
-    made.face(Surface::Plane(*frame), true, &[&[(low, true)]]);
-    made
 }
 
 #[test]
@@ -245,5 +236,60 @@ fn rectangles_close_where_their_surface_does() {
         face.bounds = Bounds::Rectangle(sides);
         made.brep.faces[0] = face;
         assert_solid(&made, "rectangle");
+    }
+}
+
+/// A ribbon along a helix, as the flank of a thread: cubic along it, straight across. Its own sides are its edges.
+fn ribbon(turns: usize) -> Made {
+    let per_turn = 12;
+    let spans = per_turn * turns;
+    let place = |i: usize, radius: f64| {
+        let angle = TAU * i as f64 / per_turn as f64;
+        [radius * angle.cos(), radius * angle.sin(), angle / TAU]
+    };
+    let points: Vec<([f64; 3], f64)> =
+        (0..spans + 3).flat_map(|i| [4.0, 5.0].map(|r| (place(i, r), 1.0))).collect();
+    let knots = [Knots::uniform(3, spans, 0.0, 1.0), Knots::uniform(1, 1, 0.0, 1.0)];
+    let surface = Surface::Spline(Box::new(Nurbs::weighted(knots, &points).unwrap()));
+    let mut made = Made::default();
+    let side = |held: usize, at: f64| Span { curve: surface.iso_curve(held, at).unwrap(), range: [0.0, 1.0] };
+    let [low, right, high, left] =
+        [(1, 0.0), (0, 1.0), (1, 1.0), (0, 0.0)].map(|(held, at)| made.edge(side(held, at)));
+    made.face(surface, false, &[&[(low, false), (right, false), (high, true), (left, true)]]);
+    made
+}
+
+#[test]
+fn threads_need_few_facets_beyond_the_places_of_their_edges() {
+    let made = ribbon(4);
+    for distance in [0.02, 0.002, 0.0005] {
+        let (facets, trims) = tessellated(&made, distance);
+        assert_within(&facets, &trims, distance, &format!("thread {distance}"));
+        let places: usize = facets.edges.iter().map(|edge| edge.shares.len()).sum();
+        let count = facets.mesh.faces.len();
+        assert!(count <= 6 * places, "{distance}: {count} facets, {places} places");
+    }
+}
+
+/// A cylinder written as a spline needs no more facets along its axis however long it is.
+#[test]
+fn long_cylinders_as_splines_have_few_facets() {
+    let w = f64::sqrt(0.5);
+    let arc = |z: f64| [([2.0, 0.0, z], 1.0), ([2.0, 2.0, z], w), ([0.0, 2.0, z], 1.0)];
+    for length in [1.0, 1000.0] {
+        let knots = [Knots::uniform(1, 1, 0.0, length), Knots::uniform(2, 1, 0.0, 1.0)];
+        let nurbs = Nurbs::weighted(knots, &[arc(0.0), arc(length)].concat()).unwrap();
+        let surface = Surface::Spline(Box::new(nurbs));
+        let mut made = Made::default();
+        let side = |held: usize, at: f64| {
+            let range = if held == 1 { [0.0, length] } else { [0.0, 1.0] };
+            Span { curve: surface.iso_curve(held, at).unwrap(), range }
+        };
+        let [low, right, high, left] =
+            [(1, 0.0), (0, length), (1, 1.0), (0, 0.0)].map(|(held, at)| made.edge(side(held, at)));
+        made.face(surface, false, &[&[(low, false), (right, false), (high, true), (left, true)]]);
+        let (facets, trims) = tessellated(&made, 0.001);
+        assert_within(&facets, &trims, 0.001, &format!("cylinder {length}"));
+        assert!(facets.mesh.faces.len() < 300, "{length}: {}", facets.mesh.faces.len());
     }
 }

@@ -1,6 +1,6 @@
 //! A surface as its parameters are used by one face: which of them repeats, which side is a single place.
 
-use crate::surface::{Jet, Pole, Surface, SurfaceFeet};
+use crate::surface::{Jet, Patch, Pole, Surface, SurfaceFeet};
 use trueness_geom::space::{Point, minus, norm};
 
 /// A side of the domain: the parameter that is constant there, and whether it is the last value (1) or the first (0).
@@ -79,6 +79,11 @@ impl Chart {
         self.feet.surface()
     }
 
+    /// Of a spline its pieces between knots, row after row, and these.
+    pub(crate) fn spans(&self) -> Option<(&[Patch], &[Vec<f64>; 2])> {
+        self.feet.spans()
+    }
+
     /// The same place within the domain.
     pub fn wrapped(&self, at: [f64; 2]) -> [f64; 2] {
         std::array::from_fn(|k| match self.periods[k] {
@@ -89,14 +94,12 @@ impl Chart {
 
     /// Place and derivatives.
     pub fn jet(&self, at: [f64; 2]) -> Jet {
-        let [u, v] = self.wrapped(at);
-        self.surface().jet(u, v)
+        self.feet.jet(self.wrapped(at))
     }
 
     /// The place.
     pub fn place(&self, at: [f64; 2]) -> Point {
-        let [u, v] = self.wrapped(at);
-        self.surface().at(u, v)
+        self.jet(at).place
     }
 
     /// The same place with its parameters as near to others as periods allow.

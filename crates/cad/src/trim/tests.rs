@@ -61,6 +61,18 @@ impl Made {
     }
 }
 
+/// A cylinder with caps, turned by `turn` about its axis, on both ends cut at right angles.
+pub(crate) fn drum(frame: &Frame, radius: f64, height: f64, start: f64) -> Made {
+    let mut made = Made::default();
+    let low = made.edge(circle(frame, 0.0, radius, start));
+    let high = made.edge(circle(frame, height, radius, -start));
+    let top = Frame { origin: frame.place([0.0, 0.0, height]), ..*frame };
+    made.face(Surface::Cylinder { frame: *frame, radius }, false, &[&[(low, false)], &[(high, true)]]);
+    made.face(Surface::Plane(top), false, &[&[(high, false)]]);
+    made.face(Surface::Plane(*frame), true, &[&[(low, true)]]);
+    made
+}
+
 fn parameter_area(trim: &Trim) -> f64 {
     trim.outline.area()
 }

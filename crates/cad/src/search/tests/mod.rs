@@ -34,7 +34,7 @@ fn brute<R: Region>(search: &Search<R>, p: &Point) -> Nearest {
     }
     for target in &search.0.targets {
         if !matches!(target, Target::Unit { .. }) {
-            search.look(*target, p, &mut best);
+            search.look(*target, p, best.reach(), &mut best);
         }
     }
     search.describe(p, &best)
