@@ -60,7 +60,8 @@ fn kinds(brep: &Brep) -> BTreeMap<Word<CadSurface>, u64> {
     all
 }
 
-fn word(kind: SurfaceKind) -> CadSurface {
+/// What documents call a kind of surface.
+pub fn word(kind: SurfaceKind) -> CadSurface {
     match kind {
         SurfaceKind::Plane => CadSurface::Plane,
         SurfaceKind::Cylinder => CadSurface::Cylinder,

@@ -6,6 +6,7 @@
 //! | defects of a mesh | [`check`] |
 //! | what a repair did | [`repair`] |
 //! | deviations from references | [`compare`] |
+//! | a CAD model in pictures | [`drawn_faces`] |
 //! | curvatures of meshes and clouds | [`curvature`] |
 //! | elements through points | [`fit`] |
 //! | elements found in a scan | [`segment`] |
@@ -23,6 +24,7 @@ pub mod characteristic;
 pub mod check;
 pub mod compare;
 pub mod curvature;
+pub mod drawn_faces;
 pub mod file_numbers;
 pub mod fit;
 pub mod inspection;

@@ -1,6 +1,7 @@
 //! What points are compared with, and why that may not be possible.
 
 use super::region::RegionError;
+use crate::drawn_faces::DrawnFaces;
 use crate::file_numbers::LeftOut;
 use trueness_cad::search::Search;
 use trueness_cad::trim::Trim;
@@ -40,6 +41,8 @@ pub struct CadFaces {
     pub count: usize,
     /// How far the mesh that draws them is from them at most, mm.
     pub drawn_within: f64,
+    /// What pictures show of them.
+    pub drawn: DrawnFaces,
 }
 
 impl std::fmt::Debug for Reference<'_> {

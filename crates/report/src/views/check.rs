@@ -38,6 +38,7 @@ impl<'a> View<'a> {
             fields: vec![],
             keep: &[],
             gathered: None,
+            faces: None,
         }]
     }
 }

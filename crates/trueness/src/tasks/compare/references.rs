@@ -14,6 +14,7 @@ use trueness_geom::mesh::Mesh;
 use trueness_geom::space::Aabb;
 use trueness_geom::spline::surface::{Degenerate, FootError, FootSearch, Nurbs};
 use trueness_measure::compare::{CadFaces, Exact, Options, Reference};
+use trueness_measure::drawn_faces::DrawnFaces;
 use trueness_measure::file_numbers::LeftOut;
 
 /// A reference as it was read.
@@ -142,11 +143,13 @@ fn cad(
     let stage = watch.stage("preparing the faces", STEPS, None);
     let (shape, drawn) = read::cad::tessellated(path, file, Chord::DRAWN, record, &*stage)?;
     let count = shape.brep.faces.len();
+    let of_facet = drawn.regions.map_or(vec![], |regions| regions.of_facet);
+    let faces = DrawnFaces::new(&shape.brep, &drawn.mesh, of_facet);
     let trims = shape.trims.into_iter().map(Result::ok).collect();
     let search = Search::new(&shape.brep, trims);
     let drawn_within = record.cad.as_ref().map_or(0.0, |cad| cad.facets_within);
     stage.finish();
-    Ok(Opened::Cad(Box::new(CadFaces { search, count, drawn_within }), drawn.mesh))
+    Ok(Opened::Cad(Box::new(CadFaces { search, count, drawn_within, drawn: faces }), drawn.mesh))
 }
 
 /// Surfaces ready to be searched, with the mesh that draws them.
