@@ -7,6 +7,7 @@
 //! | planes, quadrics, tori, splines, swept surfaces | [`surface`] |
 //! | vertices, edges, faces, shells, solids | [`brep`] |
 //! | exact distances to trimmed faces | [`search`] |
+//! | where planes cut faces | [`section`] |
 //! | the part of a surface that a face is | [`trim`] |
 //! | a boundary with the trims of all its faces | [`trimmed`] |
 //! | areas, volumes, moments, bounds | [`measure`] |
@@ -20,6 +21,7 @@ pub mod frame;
 pub mod measure;
 pub mod model;
 pub mod search;
+pub mod section;
 pub mod surface;
 pub mod tessellate;
 pub mod trim;

@@ -89,16 +89,22 @@ fn no_drawing(path: &Path) -> TaskError {
     ))
 }
 
-/// Opens the nominal of a section: a drawing, or a mesh or points.
-pub fn nominal(
-    sources: &dyn Sources,
-    path: &Path,
-    options: &ReadOptions,
-) -> Result<std::result::Result<(Drawing, InputRecord), Opened>> {
+/// What a section is compared with.
+pub enum NominalBody {
+    /// Lines, arcs and splines.
+    Drawing(Drawing, InputRecord),
+    /// A CAD model.
+    Cad(Box<CadFile>, InputRecord),
+    /// A mesh or points.
+    Whole(Opened),
+}
+
+/// Opens the nominal of a section.
+pub fn nominal(sources: &dyn Sources, path: &Path, options: &ReadOptions) -> Result<NominalBody> {
     match any(sources, path, Role::Reference, options)? {
-        Any::Drawing(drawing, record) => Ok(Ok((drawing, record))),
-        Any::Whole(opened) => Ok(Err(opened)),
-        Any::Cad(file, record) => tessellated(path, &file, record).map(Err),
+        Any::Drawing(drawing, record) => Ok(NominalBody::Drawing(drawing, record)),
+        Any::Whole(opened) => Ok(NominalBody::Whole(opened)),
+        Any::Cad(file, record) => Ok(NominalBody::Cad(file, record)),
         Any::Splines(model, record) => Err(unread::refusal(path, &model, &record, MESH_OR_POINTS)),
     }
 }
