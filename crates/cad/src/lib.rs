@@ -6,6 +6,7 @@
 //! | lines, conics, splines in space | [`curve`] |
 //! | planes, quadrics, tori, splines, swept surfaces | [`surface`] |
 //! | vertices, edges, faces, shells, solids | [`brep`] |
+//! | what is wrong with a boundary | [`check`] |
 //! | exact distances to trimmed faces | [`search`] |
 //! | where planes cut faces | [`section`] |
 //! | the part of a surface that a face is | [`trim`] |
@@ -16,6 +17,7 @@
 #![cfg_attr(test, allow(clippy::disallowed_methods, reason = "a test does not hang on the last digit"))]
 
 pub mod brep;
+pub mod check;
 pub mod curve;
 pub mod frame;
 pub mod measure;

@@ -4,6 +4,7 @@
 //! |---|---|
 //! | what is in a CAD model | [`cad`] |
 //! | defects of a mesh | [`check`] |
+//! | faults of a CAD model | [`model_check`] |
 //! | what a repair did | [`repair`] |
 //! | deviations from references | [`compare`] |
 //! | a CAD model in pictures | [`drawn_faces`] |
@@ -28,6 +29,7 @@ pub mod drawn_faces;
 pub mod file_numbers;
 pub mod fit;
 pub mod inspection;
+pub mod model_check;
 mod noise;
 pub mod plan;
 pub mod repair;

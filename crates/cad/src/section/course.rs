@@ -143,8 +143,7 @@ impl Course<'_> {
         }
         // Of a circle: a third of the chord over the squared cosine of a quarter of the turn.
         let handle = length / (3.0 * 0.5 * (1.0 + ((1.0 + cosine) / 2.0).max(0.0).sqrt()));
-        let cubic =
-            [a.place, plus(a.place, times(handle, from)), minus(b.place, times(handle, to)), b.place];
+        let cubic = [a.place, plus(a.place, times(handle, from)), minus(b.place, times(handle, to)), b.place];
         let is_near = |t: f64| {
             let p = at(&cubic, t);
             let guess = [0, 1].map(|k| a.at[k] + t * (b.at[k] - a.at[k]));

@@ -46,7 +46,9 @@ impl Kind {
                 let height = dot(minus(center, frame.origin), frame.axes[2]);
                 Kind::Circle(center, (radius + height * slope).abs())
             }
-            Surface::Torus { frame, major, minor } => torus(frame, [*major, *minor], plane, places, tolerance),
+            Surface::Torus { frame, major, minor } => {
+                torus(frame, [*major, *minor], plane, places, tolerance)
+            }
             Surface::Extrusion { direction, .. } => match unit(*direction) {
                 Some((way, _)) if is_across(n, way) => Kind::Line(None),
                 _ => Kind::Curve,
@@ -65,13 +67,7 @@ fn around(center: Point, place: Point) -> Kind {
     Kind::Circle(center, norm(minus(place, center)))
 }
 
-fn torus(
-    frame: &Frame,
-    [major, minor]: [f64; 2],
-    plane: &Plane,
-    places: &[Point],
-    tolerance: f64,
-) -> Kind {
+fn torus(frame: &Frame, [major, minor]: [f64; 2], plane: &Plane, places: &[Point], tolerance: f64) -> Kind {
     let (n, axis) = (plane.normal, frame.axes[2]);
     let nearest = |offers: [(Point, f64); 2]| {
         let off = |(center, radius): &(Point, f64)| {

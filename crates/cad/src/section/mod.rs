@@ -121,7 +121,9 @@ impl Cutter<'_> {
         }
         let spans = match Kind::of(trim, &self.plane, &places, self.tolerance) {
             Kind::Line(corner) => self.lines(&places, corner),
-            Kind::Circle(center, radius) => self.arc(&places, run.closed, center, radius).into_iter().collect(),
+            Kind::Circle(center, radius) => {
+                self.arc(&places, run.closed, center, radius).into_iter().collect()
+            }
             Kind::Curve => self.curve(trim, &places).into_iter().collect(),
         };
         spans.into_iter().map(|span| Piece { face: run.face, span }).collect()
@@ -139,7 +141,10 @@ impl Cutter<'_> {
             Some(corner) => vec![[*first, corner], [corner, *last]],
             None => vec![[*first, *last]],
         };
-        ends.into_iter().filter(|[a, b]| norm(minus(*b, *a)) > self.tolerance).map(|[a, b]| line(a, b)).collect()
+        ends.into_iter()
+            .filter(|[a, b]| norm(minus(*b, *a)) > self.tolerance)
+            .map(|[a, b]| line(a, b))
+            .collect()
     }
 
     /// The part of a circle that the places run along.

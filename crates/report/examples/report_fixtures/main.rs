@@ -14,6 +14,7 @@
 
 mod answers;
 mod clouds;
+mod model;
 mod numbers;
 mod plan;
 mod sections;

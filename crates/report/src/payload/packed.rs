@@ -133,7 +133,11 @@ fn pack_mesh(
 ) -> Result<(ObjectEntry, Ordered), ReportError> {
     let keep = kept(object);
     // Vertices lie together on purpose where faces meet, and places that show gathered points.
-    let wanted = Wanted { keep: &keep, limit: quality.triangles.max(4), join: object.gathered.is_none() && parted.is_none() };
+    let wanted = Wanted {
+        keep: &keep,
+        limit: quality.triangles.max(4),
+        join: object.gathered.is_none() && parted.is_none(),
+    };
     let ordered = Ordered::of(mesh, &wanted, purpose.progress)?;
     let grid = Grid::over(&Aabb::of(&ordered.positions), quality.bits);
     let bytes = MeshBytes::of(&ordered, &grid)?;
@@ -169,7 +173,9 @@ fn pack_mesh(
         positions,
         levels: vec![],
     };
-    let faces = parted.zip(object.faces).map(|(parted, faces)| parted.entry(part, faces.drawn, (&ordered, &bytes, &grid)));
+    let faces = parted
+        .zip(object.faces)
+        .map(|(parted, faces)| parted.entry(part, faces.drawn, (&ordered, &bytes, &grid)));
     let given = object.gathered.map_or(mesh.positions.len(), |g| g.vertices);
     let entry = ObjectEntry::new(object, &grid, (ordered.positions.len(), given), places);
     Ok((ObjectEntry { fields, faces, ..entry }, ordered))

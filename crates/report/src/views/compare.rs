@@ -115,7 +115,8 @@ impl<'a> View<'a> {
             gathered: None,
             faces: None,
         };
-        let all = self.references.iter().zip(&self.found.references).zip(&self.maps).zip(&self.faces).enumerate();
+        let all =
+            self.references.iter().zip(&self.found.references).zip(&self.maps).zip(&self.faces).enumerate();
         let references = all.map(|(i, (((r, found), field), faces))| {
             let map = found.map.as_ref();
             ViewObject {
@@ -127,7 +128,9 @@ impl<'a> View<'a> {
                 fields: field.as_ref().map(|f| f.view(i)).into_iter().collect(),
                 keep: map.map_or(&[], |m| &m.keep),
                 gathered: map.map(|m| Gathered { reach: m.reach, vertices: r.mesh.positions.len() }),
-                faces: drawn(r).zip(faces.as_deref()).map(|(drawn, of_facet)| ObjectFaces { drawn, of_facet }),
+                faces: drawn(r)
+                    .zip(faces.as_deref())
+                    .map(|(drawn, of_facet)| ObjectFaces { drawn, of_facet }),
             }
         });
         std::iter::once(measured).chain(references).collect()

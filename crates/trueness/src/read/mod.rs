@@ -191,6 +191,29 @@ fn splines(path: &Path, model: SplineModel, mut record: InputRecord) -> Result<(
     Ok((ReferenceBody::Surfaces(model.surfaces), record))
 }
 
+/// What is checked.
+pub enum CheckedBody {
+    /// Facets.
+    Mesh(SourceMesh),
+    /// A CAD model.
+    Cad(Box<CadFile>),
+}
+
+/// Reads a mesh or a CAD model; points are refused with a remedy.
+pub fn mesh_or_cad(
+    sources: &dyn Sources,
+    path: &Path,
+    role: Role,
+    options: &ReadOptions,
+) -> Result<(CheckedBody, InputRecord)> {
+    match any(sources, path, role, options)? {
+        Any::Whole(opened) => opened_mesh(path, role, opened).map(|(m, r)| (CheckedBody::Mesh(m), r)),
+        Any::Cad(file, record) => Ok((CheckedBody::Cad(file), record)),
+        Any::Splines(model, record) => Err(unread::refusal(path, &model, &record, MESH_OR_POINTS)),
+        Any::Drawing(..) => Err(no_drawing(path)),
+    }
+}
+
 /// Reads a mesh; points are refused with a remedy.
 pub fn mesh(
     sources: &dyn Sources,

@@ -4,7 +4,6 @@ use super::super::faced::faced;
 use crate::read::cad::{Chord, drawn};
 use crate::task::TaskError;
 use std::path::Path;
-use trueness_cad::curve::{Curve, Span};
 use trueness_cad::section::section;
 use trueness_cad::tessellate::Tessellation;
 use trueness_cad::trimmed::Trimmed;
@@ -13,8 +12,8 @@ use trueness_document::section::{NominalWarning, NominalWarningKind};
 use trueness_files::cad::CadFile;
 use trueness_geom::plane::{Plane, PlaneFrame};
 use trueness_geom::progress::Progress;
-use trueness_geom::spline::rational::Rational;
-use trueness_section::{Outline, Segment};
+use trueness_measure::section::cut_outline;
+use trueness_section::Outline;
 
 /// Faces, and the facets that say which of them a plane passes.
 pub struct Faces {
@@ -45,12 +44,8 @@ impl Faces {
     /// The outlines in a plane, in the coordinates of its frame, and what makes them doubtful.
     pub fn outlines(&self, plane: &Plane, frame: &PlaneFrame) -> (Vec<Outline>, Option<NominalWarning>) {
         let found = section(&self.shape, &self.drawn, plane);
-        let outline = |o: trueness_cad::section::Outline| Outline {
-            segments: o.pieces.iter().filter_map(|piece| segment(&piece.span, frame)).collect(),
-            closed: o.closed,
-        };
-        let outlines = found.outlines.into_iter().map(outline).filter(|o| !o.segments.is_empty());
-        (outlines.collect(), self.in_plane(&found.in_plane, plane))
+        let outlines = found.outlines.iter().map(|outline| cut_outline(outline, frame));
+        (outlines.filter(|o| !o.segments.is_empty()).collect(), self.in_plane(&found.in_plane, plane))
     }
 
     fn in_plane(&self, faces: &[u32], plane: &Plane) -> Option<NominalWarning> {
@@ -72,26 +67,5 @@ impl Faces {
                 plane.offset
             ),
         })
-    }
-}
-
-/// A part of a section in the coordinates of its plane, which are right-handed about the normal.
-fn segment(span: &Span, frame: &PlaneFrame) -> Option<Segment> {
-    let [start, end] = span.ends().map(|p| frame.flat(p));
-    match &span.curve {
-        Curve::Circle { frame: own, radius } => {
-            let center = frame.flat(own.origin);
-            let angle = libm::atan2(start[1] - center[1], start[0] - center[0]);
-            Some(Segment::arc(center, *radius, angle, span.range[1] - span.range[0]))
-        }
-        Curve::Spline(spline) => {
-            let flat = |p: &[f64; 3]| {
-                let [x, y] = frame.flat(*p);
-                ([x, y, 0.0], 1.0)
-            };
-            let points: Vec<([f64; 3], f64)> = spline.points().iter().map(flat).collect();
-            Segment::curve(&Rational::new(spline.knots().clone(), &points).ok()?, 0.0)
-        }
-        _ => Some(Segment::straight(start, end)),
     }
 }
