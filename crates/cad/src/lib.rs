@@ -6,7 +6,9 @@
 //! | lines, conics, splines in space | [`curve`] |
 //! | planes, quadrics, tori, splines, swept surfaces | [`surface`] |
 //! | vertices, edges, faces, shells, solids | [`brep`] |
+//! | what is wrong with a boundary | [`check`] |
 //! | exact distances to trimmed faces | [`search`] |
+//! | where planes cut faces | [`section`] |
 //! | the part of a surface that a face is | [`trim`] |
 //! | a boundary with the trims of all its faces | [`trimmed`] |
 //! | areas, volumes, moments, bounds | [`measure`] |
@@ -16,11 +18,13 @@
 #![cfg_attr(test, allow(clippy::disallowed_methods, reason = "a test does not hang on the last digit"))]
 
 pub mod brep;
+pub mod check;
 pub mod curve;
 pub mod frame;
 pub mod measure;
 pub mod model;
 pub mod search;
+pub mod section;
 pub mod surface;
 pub mod tessellate;
 pub mod tolerances;

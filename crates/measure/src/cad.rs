@@ -62,7 +62,7 @@ fn kinds(brep: &Brep) -> BTreeMap<Word<CadSurface>, u64> {
     all
 }
 
-/// The word for a kind of surface.
+/// What documents call a kind of surface.
 pub(crate) fn word(kind: SurfaceKind) -> CadSurface {
     match kind {
         SurfaceKind::Plane => CadSurface::Plane,

@@ -2,6 +2,7 @@
 
 use crate::bounds::bounds;
 use crate::file_numbers::LeftOut;
+use crate::model_check::MODEL_KINDS;
 use crate::words::ToWord;
 use std::collections::BTreeMap;
 use trueness_document::check::{CheckDocument, Defects, Item, SCHEMA, Tolerances};
@@ -106,7 +107,7 @@ fn item(finding: &Finding) -> Item {
 /// Kinds of which there are any: errors first, what only follows from holes and cracks after these, else in the order in
 /// which the check tells them.
 pub fn found(defects: &BTreeMap<String, Defects>) -> Vec<(&'static DefectKind, &Defects)> {
-    let all = KINDS.into_iter().filter_map(|kind| Some((kind, defects.get(kind.name)?)));
+    let all = KINDS.into_iter().chain(MODEL_KINDS).filter_map(|kind| Some((kind, defects.get(kind.name)?)));
     let mut found: Vec<_> = all.filter(|(_, d)| d.count.is_some_and(|n| n > 0)).collect();
     found.sort_by_key(|(kind, d)| (d.severity.0, kind.follows));
     found

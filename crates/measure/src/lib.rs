@@ -5,8 +5,10 @@
 //! | what is in a CAD model | [`cad`] |
 //! | faces of a CAD model as a reference | [`cad_faces`] |
 //! | defects of a mesh | [`check`] |
+//! | faults of a CAD model | [`model_check`] |
 //! | what a repair did | [`repair`] |
 //! | deviations from references | [`compare`] |
+//! | a CAD model in pictures | [`drawn_faces`] |
 //! | curvatures of meshes and clouds | [`curvature`] |
 //! | elements through points | [`fit`] |
 //! | elements found in a scan | [`segment`] |
@@ -26,9 +28,11 @@ pub mod characteristic;
 pub mod check;
 pub mod compare;
 pub mod curvature;
+pub mod drawn_faces;
 pub mod file_numbers;
 pub mod fit;
 pub mod inspection;
+pub mod model_check;
 mod noise;
 pub mod plan;
 pub mod proposal;

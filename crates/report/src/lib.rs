@@ -30,7 +30,7 @@ pub use error::ReportError;
 pub use input::{ReportInput, ReportOptions};
 pub use marks::{Mark, MarkGroup, Marks};
 pub use no_value::NoValue;
-pub use object::{Gathered, Geometry, ViewField, ViewObject, ViewRole, flat};
+pub use object::{Gathered, Geometry, ObjectFaces, ViewField, ViewObject, ViewRole, flat};
 pub use pages::MapPage;
 pub use subject::Subject;
 pub use text::Language;

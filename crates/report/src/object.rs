@@ -7,6 +7,7 @@ use trueness_document::scale::palette::Rgb;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::scan::Scan;
 use trueness_geom::space::Point;
+use trueness_measure::drawn_faces::DrawnFaces;
 
 /// What an object is to the reader: what it is called, its color, and what switches it on and off.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -91,6 +92,17 @@ pub struct ViewObject<'a> {
     pub keep: &'a [u32],
     /// Set where a place shows the worst of several measured points near it and not a value of its own.
     pub gathered: Option<Gathered>,
+    /// Set where facets are of faces of a CAD model.
+    pub faces: Option<ObjectFaces<'a>>,
+}
+
+/// The faces that facets are of.
+#[derive(Clone, Copy)]
+pub struct ObjectFaces<'a> {
+    /// The faces, and lines along edges.
+    pub drawn: &'a DrawnFaces,
+    /// The face of each facet of the object.
+    pub of_facet: &'a [u32],
 }
 
 /// How an object shows points that are not its own places.
@@ -150,6 +162,7 @@ impl<'a> ViewObject<'a> {
             fields: vec![],
             keep: &[],
             gathered: None,
+            faces: None,
         }
     }
 
@@ -164,6 +177,7 @@ impl<'a> ViewObject<'a> {
             fields: vec![],
             keep: &[],
             gathered: None,
+            faces: None,
         }
     }
 

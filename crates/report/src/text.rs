@@ -112,6 +112,7 @@ mod tests {
             NoValue::ALL.iter().map(|reason| format!("reason.{}", reason.name())).collect(),
             check::KINDS
                 .iter()
+                .chain(&trueness_measure::model_check::MODEL_KINDS)
                 .flat_map(|k| [format!("defect.{}", k.name), format!("about.{}", k.name)])
                 .collect(),
             repair::STEPS.iter().map(|step| format!("step.{}", step.name)).collect(),

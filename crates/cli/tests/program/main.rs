@@ -8,6 +8,7 @@ mod common;
 
 mod align;
 mod bunny;
+mod cad_nominal;
 mod check;
 mod compare_along;
 mod compare_choice;

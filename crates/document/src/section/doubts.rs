@@ -30,6 +30,8 @@ pub enum NominalWarningKind {
     NowhereNear,
     /// Entities of the drawing lie on layers of no plane of the section. `value`: their number.
     LayersPassedOver,
+    /// Faces of the nominal lie in a plane of the section, which is then that just below. `value`: their number.
+    FaceInPlane,
 }
 
 impl From<Warning> for NominalWarning {

@@ -41,8 +41,8 @@ named!(Positive, "side", [Positive::Outside, Positive::Left, Positive::Both], |s
 pub struct NominalRecord {
     /// Path of the nominal; it is the last of `inputs`.
     pub path: String,
-    /// What was measured against: `facets` (the cut of a mesh), `contour` (the segments found in a row of points) or `drawing` (the
-    /// entities of a drawing).
+    /// What was measured against: `facets` (the cut of a mesh), `faces` (the cut of a CAD model), `contour` (the segments found in a row of
+    /// points) or `drawing` (the entities of a drawing).
     pub outline: String,
     /// Positive deviations: `outside` of the material within closed outlines, to the `left` of open ones, or `outside_or_left` where points
     /// are nearest to both: each is as its outline is (`closed` of `outlines`).

@@ -1,12 +1,14 @@
 //! The faces of a model, with all that is asked of them.
 
 use super::face::CadFace;
+use crate::drawn_faces::DrawnFaces;
 use trueness_cad::brep::{Bounds, Brep, Loop};
 use trueness_cad::model::Model;
 use trueness_cad::search::Search;
 use trueness_cad::trim::Trim;
 use trueness_cad::trimmed::Trimmed;
 use trueness_document::face::FaceRecord;
+use trueness_geom::mesh::Mesh;
 
 /// Faces of a CAD model, ready to be measured against. The mesh that draws them goes beside it.
 pub struct CadFaces {
@@ -14,8 +16,8 @@ pub struct CadFaces {
     pub search: Search<Trim>,
     /// The faces, in the order of the search.
     pub faces: Vec<CadFace>,
-    /// The face of each facet of the mesh that draws them.
-    pub of_facets: Vec<u32>,
+    /// What pictures show of them, with the face of each facet of the mesh that draws them.
+    pub drawn: DrawnFaces,
     /// How far that mesh is from them at most, mm.
     pub drawn_within: f64,
     /// What the file says of its lengths, mm; 0 if nothing.
@@ -29,18 +31,24 @@ pub struct CadFaces {
 }
 
 impl CadFaces {
-    /// Of a model where its parts stand. `of_facets` is the face of each facet of the mesh that draws them within `drawn_within` mm.
-    pub fn new(model: &Model, shape: Trimmed, of_facets: Vec<u32>, drawn_within: f64) -> CadFaces {
+    /// Of a model where its parts stand. `of_facet` is the face of each facet of `mesh`, which draws them within `drawn_within` mm.
+    pub fn new(
+        model: &Model,
+        shape: Trimmed,
+        (mesh, of_facet): (&Mesh, Vec<u32>),
+        drawn_within: f64,
+    ) -> CadFaces {
         let Trimmed { brep, trims } = shape;
         let faces =
             brep.faces.iter().zip(&trims).map(|(face, trim)| CadFace::new(face, trim.as_ref())).collect();
         let neighbors = neighbors(&brep);
+        let drawn = DrawnFaces::new(&brep, mesh, of_facet);
         let search = Search::new(&brep, trims.into_iter().map(Result::ok).collect());
         let unread = model.unread.iter().filter(|u| u.holds_faces);
         CadFaces {
             search,
             faces,
-            of_facets,
+            drawn,
             drawn_within,
             uncertainty: model.uncertainty.unwrap_or(0.0),
             unread: unread.map(|u| (u.entity, u.reason.clone())).collect(),
@@ -60,7 +68,7 @@ impl CadFaces {
     /// The facets of some faces, ascending.
     pub fn facets(&self, faces: &[u32]) -> Vec<u32> {
         (0u32..)
-            .zip(&self.of_facets)
+            .zip(&self.drawn.of_facet)
             .filter(|(_, face)| faces.contains(face))
             .map(|(facet, _)| facet)
             .collect()

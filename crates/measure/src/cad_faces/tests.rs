@@ -6,6 +6,7 @@ use trueness_cad::frame::{Frame, Placement};
 use trueness_cad::model::{Instance, Model, Part, Unread};
 use trueness_cad::surface::Surface;
 use trueness_cad::trimmed::Trimmed;
+use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::Silent;
 use trueness_geom::shape::Shape;
 use trueness_geom::space::norm;
@@ -32,7 +33,7 @@ fn faces(faces: Vec<Face>, instances: Vec<Instance>) -> CadFaces {
         holds_faces: true,
     };
     let model = Model { parts: vec![part], instances, unread: vec![unread], ..Model::default() };
-    CadFaces::new(&model, Trimmed::of(&model, &Silent).unwrap(), vec![], 0.0)
+    CadFaces::new(&model, Trimmed::of(&model, &Silent).unwrap(), (&Mesh::default(), vec![]), 0.0)
 }
 
 fn frame() -> Frame {

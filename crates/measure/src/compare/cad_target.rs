@@ -140,7 +140,7 @@ impl<'a> CadTarget<'a> {
                 return left_out(Excluded::Facing);
             }
             let kept = asked.kept(i, met.distance.copysign(deviation), met.facet, met.weights, &met.place);
-            of(kept, is_certain && met.is_exact, self.faces.of_facets[met.facet as usize])
+            of(kept, is_certain && met.is_exact, self.faces.drawn.of_facet[met.facet as usize])
         };
         Ok((0..points.len()).into_par_iter().map(kept).collect())
     }
@@ -148,7 +148,7 @@ impl<'a> CadTarget<'a> {
     /// Where a line meets the surface of the face whose facet it meets: Newton's steps from there; where they lead away, as on a line
     /// that grazes the face, the place of the facet.
     fn met(&self, along: &Along, p: &Point, way: Vector, crossing: &Crossing) -> Met {
-        let face = self.faces.of_facets[crossing.face as usize] as usize;
+        let face = self.faces.drawn.of_facet[crossing.face as usize] as usize;
         let (way, _) = unit(way).unwrap_or((way, 1.0));
         let (surface, turned) = (&along.surfaces[face], self.faces.faces[face].is_reversed);
         let (mut t, mut reach, mut found) = (crossing.along, None, None);

@@ -63,7 +63,7 @@ fn own_faces(model: &Model, reference: &Mesh, faces: &Faces, own: Vec<u32>) -> R
         true => {
             let facets = with_some.iter().flat_map(|n| &faces.all[*n as usize].facets);
             let facets: Vec<u32> = facets.copied().collect();
-            let is_own = |f: &u32| own.binary_search(&model.faces.of_facets[*f as usize]).is_ok();
+            let is_own = |f: &u32| own.binary_search(&model.faces.drawn.of_facet[*f as usize]).is_ok();
             let is_own = facets.iter().map(is_own).collect();
             let corners = facets.iter().map(|f| reference.faces[*f as usize]).collect();
             let mesh = Mesh { positions: reference.positions.clone(), faces: corners };

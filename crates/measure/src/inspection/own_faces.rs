@@ -44,7 +44,7 @@ impl Model {
     pub fn new(faces: Arc<CadFaces>, reference: &Mesh) -> (Model, Faces) {
         let surfaces = faces.surfaces();
         let mut facets: Vec<Vec<u32>> = vec![vec![]; faces.faces.len()];
-        for (facet, face) in (0u32..).zip(&faces.of_facets) {
+        for (facet, face) in (0u32..).zip(&faces.drawn.of_facet) {
             facets[*face as usize].push(facet);
         }
         let piece = |own: &Vec<u32>| {

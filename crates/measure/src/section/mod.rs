@@ -4,6 +4,7 @@ mod airfoil;
 mod blade;
 mod chord;
 mod convert;
+mod cut;
 mod dimension;
 mod doubts;
 mod fitted;
@@ -18,6 +19,7 @@ mod tidy;
 
 pub use airfoil::airfoils;
 pub use convert::{curve, motion, outline};
+pub use cut::cut_outline;
 pub use fitted::fit_record;
 pub use found::Section;
 pub use nominal::nominal;

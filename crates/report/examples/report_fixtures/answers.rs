@@ -37,6 +37,7 @@ pub fn write_all(folder: &Path) {
     ] {
         written(folder, name, check_page(&mesh, &options));
     }
+    written(folder, "model", super::model::page(&options));
     written(folder, "mended", repair_page(&defects(), &options));
     for (name, method) in [("fit", Method::Gaussian), ("zone", Method::MinimumZone)] {
         written(folder, name, fit_page(&lobed_cylinder(), method, &options).0);

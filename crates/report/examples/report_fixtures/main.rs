@@ -14,6 +14,7 @@
 
 mod answers;
 mod clouds;
+mod model;
 mod numbers;
 mod plan;
 mod sections;
@@ -288,6 +289,7 @@ pub fn heard(
         fields: (0..body.fields.len()).map(view).collect(),
         keep: &[],
         gathered: None,
+        faces: None,
     }];
     for (n, mesh) in body.references.iter().enumerate() {
         objects.push(ViewObject {
@@ -299,6 +301,7 @@ pub fn heard(
             fields: if body.cloud { vec![view(n)] } else { vec![] },
             keep: &[],
             gathered: None,
+            faces: None,
         });
     }
     let mut page = vec![];

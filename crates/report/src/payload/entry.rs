@@ -40,6 +40,8 @@ pub struct ObjectEntry {
     #[serde(flatten)]
     pub places: PlacesEntry,
     pub fields: Vec<FieldEntry>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub faces: Option<FacesEntry>,
     pub display_error: f64,
     pub id: usize,
     pub shown: bool,
@@ -102,6 +104,40 @@ fn reasons<S: Serializer>(codes: &Codes, serializer: S) -> Result<S::Ok, S::Erro
     serializer.collect_map(NoValue::ALL.map(|r| (codes.no_value(r).to_string(), r.name())))
 }
 
+/// The faces of a CAD model that a surface draws.
+#[derive(Debug, Serialize)]
+pub struct FacesEntry {
+    /// The faces.
+    pub list: Vec<FaceEntry>,
+    /// Of each vertex the place of its face in the list.
+    pub of: Blob,
+    /// Along edges.
+    pub lines: LinesEntry,
+}
+
+/// A face.
+#[derive(Debug, Serialize)]
+pub struct FaceEntry {
+    /// What a user names it by.
+    pub number: u64,
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub name: String,
+    /// What its surface is.
+    pub kind: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub color: Option<String>,
+}
+
+/// Lines through places on the grid of their object.
+#[derive(Debug, Serialize)]
+pub struct LinesEntry {
+    pub lines: usize,
+    pub points: usize,
+    pub positions: Blob,
+    /// How many places each line has.
+    pub counts: Blob,
+}
+
 /// Marks over an object.
 #[derive(Debug, Serialize)]
 pub struct MarksEntry {
@@ -154,6 +190,7 @@ impl ObjectEntry {
             step: grid.step,
             places,
             fields: vec![],
+            faces: None,
             display_error: 0.0,
             id: 0,
             shown: true,
@@ -190,6 +227,9 @@ impl Entry {
                         levels.iter_mut().map(|level| &mut level.code).for_each(add);
                     }
                     PlacesEntry::Points { positions, .. } => add(positions),
+                }
+                if let Some(FacesEntry { of, lines, .. }) = &mut object.faces {
+                    [of, &mut lines.positions, &mut lines.counts].into_iter().for_each(add);
                 }
                 object.fields.iter_mut().map(|field| &mut field.values).for_each(add);
             }

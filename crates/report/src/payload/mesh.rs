@@ -133,10 +133,15 @@ impl MeshBytes {
                 codes.code(d, reason)
             })
             .collect();
+        self.numbers(&all, codes.bytes)
+    }
+
+    /// Encodes one whole number a vertex, in this mesh's order, in so many bytes.
+    pub fn numbers(&self, all: &[i32], bytes: usize) -> Vec<u8> {
         let at = |v: u32| all[v as usize];
         let differences =
             self.rules.par_iter().enumerate().map(|(v, rule)| at(v as u32).wrapping_sub(rule.value(at)));
-        pack(differences, codes.bytes)
+        pack(differences, bytes)
     }
 }
 

@@ -14,6 +14,7 @@ mod marks;
 mod mesh;
 mod order;
 mod packed;
+mod parted;
 mod planes;
 mod points;
 mod predict;

@@ -7,6 +7,7 @@ use super::entry::{CountEntry, Entry, FieldEntry, ObjectEntry, PlacesEntry};
 use super::field::Codes;
 use super::grid::Grid;
 use super::mesh::{self, MeshBytes, Ordered, Wanted};
+use super::parted::Parted;
 use super::{gather, planes, points};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::parallel::prelude::*;
@@ -111,7 +112,10 @@ pub fn pack_object(
     let mut part = Payload::default();
     let (entry, mesh) = match object.geometry {
         Geometry::Mesh(mesh) => {
-            let (entry, ordered) = pack_mesh(&mut part, object, mesh, purpose, quality)?;
+            let parted = object.faces.map(|faces| Parted::of(object, mesh, &faces));
+            let own = parted.as_ref().map(|parted| (parted.object(object), parted.mesh()));
+            let (object, mesh) = own.as_ref().map_or((object, mesh), |(object, mesh)| (object, mesh));
+            let (entry, ordered) = pack_mesh(&mut part, object, (mesh, parted.as_ref()), purpose, quality)?;
             (entry, Some(ordered))
         }
         Geometry::Points(points) => (pack_points(&mut part, object, points, purpose, quality)?, None),
@@ -123,13 +127,17 @@ pub fn pack_object(
 fn pack_mesh(
     part: &mut Payload,
     object: &ViewObject,
-    mesh: &Mesh,
+    (mesh, parted): (&Mesh, Option<&Parted>),
     purpose: &Purpose,
     quality: Quality,
 ) -> Result<(ObjectEntry, Ordered), ReportError> {
     let keep = kept(object);
-    // Places that show gathered points lie together on purpose where faces meet.
-    let wanted = Wanted { keep: &keep, limit: quality.triangles.max(4), join: object.gathered.is_none() };
+    // Vertices lie together on purpose where faces meet, and places that show gathered points.
+    let wanted = Wanted {
+        keep: &keep,
+        limit: quality.triangles.max(4),
+        join: object.gathered.is_none() && parted.is_none(),
+    };
     let ordered = Ordered::of(mesh, &wanted, purpose.progress)?;
     let grid = Grid::over(&Aabb::of(&ordered.positions), quality.bits);
     let bytes = MeshBytes::of(&ordered, &grid)?;
@@ -165,9 +173,12 @@ fn pack_mesh(
         positions,
         levels: vec![],
     };
+    let faces = parted
+        .zip(object.faces)
+        .map(|(parted, faces)| parted.entry(part, faces.drawn, (&ordered, &bytes, &grid)));
     let given = object.gathered.map_or(mesh.positions.len(), |g| g.vertices);
     let entry = ObjectEntry::new(object, &grid, (ordered.positions.len(), given), places);
-    Ok((ObjectEntry { fields, ..entry }, ordered))
+    Ok((ObjectEntry { fields, faces, ..entry }, ordered))
 }
 
 fn pack_points(

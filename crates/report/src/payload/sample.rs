@@ -167,6 +167,7 @@ impl Sample {
             fields: whole.fields.iter().enumerate().map(field).collect(),
             keep: &[],
             gathered: whole.gathered,
+            faces: None,
         }
     }
 }

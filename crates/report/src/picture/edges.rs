@@ -56,9 +56,8 @@ pub fn smooth_normals(mesh: &Mesh) -> Vec<Option<Vector>> {
     normals
 }
 
-/// Draws the edges of a mesh over it, where nothing is in front of them. `normals`: those of its vertices, none on creases.
-pub fn draw(canvas: &mut Canvas, mesh: &Mesh, normals: &[Option<Vector>], camera: &Camera) {
-    let edges = sharp(mesh, normals);
+/// Draws the edges of a mesh over it, where nothing is in front of them.
+pub fn draw(canvas: &mut Canvas, mesh: &Mesh, edges: &[[Point; 2]], camera: &Camera) {
     let length: f64 = edges.iter().map(|[a, b]| norm(minus(*b, *a))).sum();
     let areas: Vec<f64> =
         mesh.faces.par_iter().filter_map(|f| facet(mesh, f)).map(|n| 0.5 * norm(n)).collect();
@@ -70,7 +69,7 @@ pub fn draw(canvas: &mut Canvas, mesh: &Mesh, normals: &[Option<Vector>], camera
     // What lies in the surface is in front of it.
     let lift = 1e-3 * f64::from(canvas.width);
     for [a, b] in edges {
-        let (a, b) = (camera.project(&a), camera.project(&b));
+        let (a, b) = (camera.project(a), camera.project(b));
         let steps = (libm::hypot(b[0] - a[0], b[1] - a[1]) / (0.5 * EDGE_WIDTH)).ceil().clamp(1.0, 1e5);
         for i in 0..=steps as u32 {
             let t = f64::from(i) / steps;
@@ -96,9 +95,14 @@ impl Band<'_> {
     }
 }
 
+/// The parts of lines.
+pub fn segments(lines: &[Vec<Point>]) -> Vec<[Point; 2]> {
+    lines.iter().flat_map(|line| line.windows(2)).map(|ends| [ends[0], ends[1]]).collect()
+}
+
 /// The edges at which facets meet at more than 30 degrees. Vertices at one place are one; boundary edges are none, nor is an edge
 /// where a facet lies on another, nor a short row of edges that ends on the surface: such are of its roughness.
-fn sharp(mesh: &Mesh, normals: &[Option<Vector>]) -> Vec<[Point; 2]> {
+pub fn sharp(mesh: &Mesh, normals: &[Option<Vector>]) -> Vec<[Point; 2]> {
     let (place, folded) = places(mesh, normals);
     let around = |(n, face): (usize, &[u32; 3])| {
         let whole = face.iter().all(|v| (*v as usize) < place.len());
@@ -250,7 +254,7 @@ mod tests {
                 canvas.put(x, y, depth as f32, || [200; 3]);
             });
         }
-        draw(&mut canvas, &mesh, &smooth_normals(&mesh), &camera);
+        draw(&mut canvas, &mesh, &sharp(&mesh, &smooth_normals(&mesh)), &camera);
         let at = |p: Point| {
             let [x, y, _] = camera.project(&p);
             canvas.color[y as usize * 400 + x as usize][0]

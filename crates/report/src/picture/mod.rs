@@ -89,6 +89,7 @@ pub fn png(input: &ReportInput, view: &FirstView, progress: &dyn Progress) -> Re
     for object in shown_objects(objects) {
         let paint = Paint {
             base: object.color(),
+            edges: object.faces.map(|faces| faces.drawn.edges.as_slice()),
             values: object.field(0).map(|f| f.values).zip(scale.map(Colors::of)),
         };
         match object.geometry {

@@ -23,6 +23,8 @@ const PLACES_PER_QUESTION: usize = 16;
 /// What an object is colored by: its values where it has some, else its own color.
 pub struct Paint<'a> {
     pub base: Rgb,
+    /// Lines along its edges, where they are known; else they are found between facets.
+    pub edges: Option<&'a [Vec<Point>]>,
     pub values: Option<(&'a [f64], Colors<'a>)>,
 }
 
@@ -62,7 +64,8 @@ impl Canvas {
                 Ok(())
             })?;
         }
-        edges::draw(self, mesh, &normals, camera);
+        let edges = paint.edges.map_or_else(|| edges::sharp(mesh, &normals), edges::segments);
+        edges::draw(self, mesh, &edges, camera);
         Ok(())
     }
 

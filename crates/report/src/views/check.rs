@@ -1,6 +1,6 @@
 //! What a report draws of a check: the mesh, and every listed defect on it.
 
-use crate::{Geometry, Mark, MarkGroup, Marks, ViewObject, ViewRole};
+use crate::{Geometry, Mark, MarkGroup, Marks, ObjectFaces, ViewObject, ViewRole};
 use trueness_document::check::{CheckDocument, Defects, Item};
 use trueness_document::scale::palette::category;
 use trueness_geom::check::{DefectKind, Shows};
@@ -8,12 +8,14 @@ use trueness_geom::mesh::Mesh;
 use trueness_geom::space::{Point, cross, minus, plus, unit};
 use trueness_geom::topology::Topology;
 use trueness_measure::check::found;
+use trueness_measure::drawn_faces::DrawnFaces;
 use trueness_measure::file_numbers::LeftOut;
 
 /// A checked mesh prepared for drawing.
 pub struct View<'a> {
     name: &'a str,
     mesh: &'a Mesh,
+    faces: Option<&'a DrawnFaces>,
     /// The defects, in the order of the document's kinds found, item by item.
     pub marks: Vec<Marks>,
 }
@@ -23,7 +25,12 @@ impl<'a> View<'a> {
     pub fn new(document: &CheckDocument, name: &'a str, mesh: &'a Mesh, left_out: LeftOut) -> View<'a> {
         let groups = groups(&found(&document.defects), mesh, left_out);
         let marks = Marks { role: ViewRole::Defects, comparison: None, groups };
-        View { name, mesh, marks: vec![marks] }
+        View { name, mesh, faces: None, marks: vec![marks] }
+    }
+
+    /// The same of a CAD model with these faces.
+    pub fn with_faces(self, faces: Option<&'a DrawnFaces>) -> View<'a> {
+        View { faces, ..self }
     }
 
     /// The mesh.
@@ -38,6 +45,7 @@ impl<'a> View<'a> {
             fields: vec![],
             keep: &[],
             gathered: None,
+            faces: self.faces.map(|drawn| ObjectFaces { drawn, of_facet: &drawn.of_facet }),
         }]
     }
 }

@@ -2,13 +2,14 @@
 
 use crate::shown::first_view;
 use crate::views::check::groups;
-use crate::{Gathered, Geometry, Marks, NoValue, ViewField, ViewObject, ViewRole};
+use crate::{Gathered, Geometry, Marks, NoValue, ObjectFaces, ViewField, ViewObject, ViewRole};
 use std::collections::BTreeSet;
 use trueness_document::compare::{CompareDocument, Comparison};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::space::Point;
 use trueness_measure::check::found;
-use trueness_measure::compare::{Comparisons, Excluded, Reference, Values};
+use trueness_measure::compare::{Comparisons, Exact, Excluded, MapSurface, Reference, Values};
+use trueness_measure::drawn_faces::DrawnFaces;
 
 /// Deviations prepared for drawing.
 pub struct View<'a> {
@@ -22,6 +23,8 @@ pub struct View<'a> {
     /// Places of the measured object that the result names.
     flagged: Vec<u32>,
     maps: Vec<Option<Field>>,
+    /// Of each reference the faces of its drawn facets, where it is a CAD model.
+    faces: Vec<Option<Vec<u32>>>,
 }
 
 /// One value a place, NaN beside a reason where there is none.
@@ -77,6 +80,7 @@ impl<'a> View<'a> {
             measured: lists.iter().map(|values| Field::of(values, NoValue::BoundaryEdge)).collect(),
             flagged,
             maps: found.references.iter().map(map).collect(),
+            faces: references.iter().zip(&found.references).map(|(r, c)| faces(r, c.map.as_ref())).collect(),
         }
     }
 
@@ -109,9 +113,11 @@ impl<'a> View<'a> {
             fields: self.measured.iter().enumerate().map(|(i, f)| f.view(i)).collect(),
             keep: &self.flagged,
             gathered: None,
+            faces: None,
         };
-        let all = self.references.iter().zip(&self.found.references).zip(&self.maps).enumerate();
-        let references = all.map(|(i, ((r, found), field))| {
+        let all =
+            self.references.iter().zip(&self.found.references).zip(&self.maps).zip(&self.faces).enumerate();
+        let references = all.map(|(i, (((r, found), field), faces))| {
             let map = found.map.as_ref();
             ViewObject {
                 role: ViewRole::Reference,
@@ -122,10 +128,30 @@ impl<'a> View<'a> {
                 fields: field.as_ref().map(|f| f.view(i)).into_iter().collect(),
                 keep: map.map_or(&[], |m| &m.keep),
                 gathered: map.map(|m| Gathered { reach: m.reach, vertices: r.mesh.positions.len() }),
+                faces: drawn(r)
+                    .zip(faces.as_deref())
+                    .map(|(drawn, of_facet)| ObjectFaces { drawn, of_facet }),
             }
         });
         std::iter::once(measured).chain(references).collect()
     }
+}
+
+/// What is drawn of a reference that is a CAD model.
+fn drawn<'a>(reference: &Reference<'a>) -> Option<&'a DrawnFaces> {
+    match reference.exact {
+        Some(Exact::Cad(faces)) => Some(&faces.drawn),
+        _ => None,
+    }
+}
+
+/// The faces of the drawn facets; they are those of the reference, or parts of them.
+fn faces(reference: &Reference, map: Option<&MapSurface>) -> Option<Vec<u32>> {
+    let own = &drawn(reference)?.of_facet;
+    Some(match map.filter(|map| map.mesh.is_some()) {
+        Some(map) => map.facets.iter().filter_map(|facet| own.get(*facet as usize).copied()).collect(),
+        None => own.clone(),
+    })
 }
 
 impl Field {

@@ -56,6 +56,7 @@ impl<'a> View<'a> {
                 .collect(),
             keep: &self.keep,
             gathered: None,
+            faces: None,
         }]
     }
 }

@@ -57,6 +57,7 @@ impl<'a> View<'a> {
             fields: vec![distances],
             keep: &[],
             gathered: None,
+            faces: None,
         }];
         if !self.body.faces.is_empty() {
             let (role, geometry) = (ViewRole::Element, Geometry::Mesh(&self.body));
@@ -69,6 +70,7 @@ impl<'a> View<'a> {
                 fields: vec![],
                 keep: &[],
                 gathered: None,
+                faces: None,
             });
         }
         objects

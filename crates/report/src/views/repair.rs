@@ -74,6 +74,7 @@ impl<'a> View<'a> {
                     fields: vec![],
                     keep: &[],
                     gathered: None,
+                    faces: None,
                 }
             })
             .into()

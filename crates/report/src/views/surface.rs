@@ -126,6 +126,7 @@ impl<'a> View<'a> {
                 fields: vec![deviations],
                 keep: &self.keep,
                 gathered: None,
+                faces: None,
             },
             ViewObject {
                 role: ViewRole::Surface,
@@ -136,6 +137,7 @@ impl<'a> View<'a> {
                 fields: curvatures.collect(),
                 keep: &[],
                 gathered: None,
+                faces: None,
             },
         ]
     }

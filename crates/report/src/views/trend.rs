@@ -43,6 +43,7 @@ impl View {
             fields: (0..).zip(self.values.iter().map(Vec::as_slice)).map(field).collect(),
             keep: &self.keep,
             gathered: None,
+            faces: None,
         }]
     }
 }

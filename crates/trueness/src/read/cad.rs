@@ -3,7 +3,7 @@
 use super::places::{describe, out_of_range, refusal};
 use crate::task::TaskError;
 use std::path::Path;
-use trueness_cad::tessellate::{Fineness, TessellateError};
+use trueness_cad::tessellate::{Fineness, TessellateError, Tessellation};
 use trueness_cad::trimmed::Trimmed;
 use trueness_document::{CadInputRecord, IncompleteRecord, InputRecord, Role};
 use trueness_files::cad::CadFile;
@@ -34,7 +34,7 @@ const FACET_ANGLE: f64 = std::f64::consts::PI / 12.0;
 /// Facets of a model at most.
 const MAX_FACETS: usize = 16_000_000;
 
-/// A model where its parts stand, and its facets. The document is told of faces that are missing.
+/// A model where its parts stand, and its facets with the face of each. The document is told of faces that are missing.
 pub fn tessellated(
     path: &Path,
     file: &CadFile,
@@ -42,6 +42,24 @@ pub fn tessellated(
     record: &mut InputRecord,
     progress: &dyn Progress,
 ) -> Result<(Trimmed, SourceMesh), TaskError> {
+    let (shape, made) = drawn(path, file, chord, record, progress)?;
+    let name = |face: &trueness_cad::brep::Face| match face.name.trim() {
+        "" => format!("face {}", face.entity),
+        name => name.to_string(),
+    };
+    let names = shape.brep.faces.iter().map(name).collect();
+    let regions = Some(FacetRegions { names, of_facet: made.faces });
+    Ok((shape, SourceMesh { mesh: made.mesh, regions, ..SourceMesh::default() }))
+}
+
+/// A model where its parts stand, and its facets and lines along edges. The document is told of faces that are missing.
+pub fn drawn(
+    path: &Path,
+    file: &CadFile,
+    chord: Chord,
+    record: &mut InputRecord,
+    progress: &dyn Progress,
+) -> Result<(Trimmed, Tessellation), TaskError> {
     let shape = Trimmed::of(&file.model, progress)?;
     let distance = match chord {
         Chord::Within(distance) => distance,
@@ -66,13 +84,7 @@ pub fn tessellated(
         record.warnings.push(format!("{}; `trueness info` names the others", missing.text));
     }
     describe(record, &made.mesh.positions);
-    let name = |face: &trueness_cad::brep::Face| match face.name.trim() {
-        "" => format!("face {}", face.entity),
-        name => name.to_string(),
-    };
-    let names = shape.brep.faces.iter().map(name).collect();
-    let regions = Some(FacetRegions { names, of_facet: made.faces });
-    Ok((shape, SourceMesh { mesh: made.mesh, regions, ..SourceMesh::default() }))
+    Ok((shape, made))
 }
 
 /// A model where its parts stand as faces to measure against, and the mesh that draws them.
@@ -85,8 +97,9 @@ pub fn faces(
 ) -> Result<(CadFaces, Mesh), TaskError> {
     let (shape, drawn) = tessellated(path, file, chord, record, progress)?;
     let drawn_within = record.cad.as_ref().map_or(0.0, |cad| cad.facets_within);
-    let of_facets = drawn.regions.map_or(vec![], |regions| regions.of_facet);
-    Ok((CadFaces::new(&file.model, shape, of_facets, drawn_within), drawn.mesh))
+    let of_facet = drawn.regions.map_or(vec![], |regions| regions.of_facet);
+    let faces = CadFaces::new(&file.model, shape, (&drawn.mesh, of_facet), drawn_within);
+    Ok((faces, drawn.mesh))
 }
 
 /// What of the faces is missing; `None` where all are there.

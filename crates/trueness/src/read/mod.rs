@@ -90,16 +90,22 @@ fn no_drawing(path: &Path) -> TaskError {
     ))
 }
 
-/// Opens the nominal of a section: a drawing, or a mesh or points.
-pub fn nominal(
-    sources: &dyn Sources,
-    path: &Path,
-    options: &ReadOptions,
-) -> Result<std::result::Result<(Drawing, InputRecord), Opened>> {
+/// What a section is compared with.
+pub enum NominalBody {
+    /// Lines, arcs and splines.
+    Drawing(Drawing, InputRecord),
+    /// A CAD model.
+    Cad(Box<CadFile>, InputRecord),
+    /// A mesh or points.
+    Whole(Opened),
+}
+
+/// Opens the nominal of a section.
+pub fn nominal(sources: &dyn Sources, path: &Path, options: &ReadOptions) -> Result<NominalBody> {
     match any(sources, path, Role::Reference, options)? {
-        Any::Drawing(drawing, record) => Ok(Ok((drawing, record))),
-        Any::Whole(opened) => Ok(Err(opened)),
-        Any::Cad(file, record) => tessellated(path, &file, record).map(Err),
+        Any::Drawing(drawing, record) => Ok(NominalBody::Drawing(drawing, record)),
+        Any::Whole(opened) => Ok(NominalBody::Whole(opened)),
+        Any::Cad(file, record) => Ok(NominalBody::Cad(file, record)),
         Any::Splines(model, record) => Err(unread::refusal(path, &model, &record, MESH_OR_POINTS)),
     }
 }
@@ -193,12 +199,33 @@ pub fn mesh_or_faces(
     options: &ReadOptions,
     progress: &dyn Progress,
 ) -> Result<(SourceMesh, Option<CadFaces>, InputRecord)> {
-    match any(sources, path, Role::Reference, options)? {
-        Any::Cad(file, mut record) => {
+    match mesh_or_cad(sources, path, Role::Reference, options)? {
+        (MeshOrCad::Mesh(mesh), record) => Ok((mesh, None, record)),
+        (MeshOrCad::Cad(file), mut record) => {
             let (faces, mesh) = cad::faces(path, &file, Chord::MEASURED, &mut record, progress)?;
             Ok((SourceMesh { mesh, ..SourceMesh::default() }, Some(faces), record))
         }
-        Any::Whole(opened) => opened_mesh(path, Role::Reference, opened).map(|(m, r)| (m, None, r)),
+    }
+}
+
+/// Facets, or a model with exact faces.
+pub enum MeshOrCad {
+    /// Facets.
+    Mesh(SourceMesh),
+    /// A CAD model.
+    Cad(Box<CadFile>),
+}
+
+/// Reads a mesh or a CAD model; points are refused with a remedy.
+pub fn mesh_or_cad(
+    sources: &dyn Sources,
+    path: &Path,
+    role: Role,
+    options: &ReadOptions,
+) -> Result<(MeshOrCad, InputRecord)> {
+    match any(sources, path, role, options)? {
+        Any::Whole(opened) => opened_mesh(path, role, opened).map(|(m, r)| (MeshOrCad::Mesh(m), r)),
+        Any::Cad(file, record) => Ok((MeshOrCad::Cad(file), record)),
         Any::Splines(model, record) => Err(unread::refusal(path, &model, &record, MESH_OR_POINTS)),
         Any::Drawing(..) => Err(no_drawing(path)),
     }

@@ -1,18 +1,22 @@
 //! Is this mesh sound, and if not, where not?
 
-use crate::read;
+use crate::read::cad::Chord;
+use crate::read::{self, MeshOrCad};
 use crate::task::{
-    Done, Reading, Request, RunFiles, Scene, TaskError, Watch, ended, not_negative, share_of_percent, up_to,
-    welding,
+    Done, Reading, Request, RunFiles, STEPS, Scene, TaskError, Watch, ended, not_negative, share_of_percent,
+    up_to, welding,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
-use trueness_document::Role;
 use trueness_document::check::CheckDocument;
+use trueness_document::{InputRecord, Role};
+use trueness_files::cad::CadFile;
 use trueness_files::{ReadOptions, SourceMesh, Sources};
-use trueness_geom::check::{self, CheckError, Options};
+use trueness_geom::check::{self, CheckError, Finding, Options, SELF_INTERSECTIONS};
+use trueness_measure::drawn_faces::DrawnFaces;
 use trueness_measure::file_numbers::LeftOut;
+use trueness_measure::model_check;
 use trueness_report::views::check::View;
 use trueness_report::{Marks, ViewObject};
 
@@ -30,7 +34,7 @@ use trueness_report::{Marks, ViewObject};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct CheckRequest {
-    /// The mesh: STL, PLY, OBJ, OFF.
+    /// The mesh: STL, PLY, OBJ, OFF; or a CAD model: STEP.
     pub mesh: PathBuf,
     /// How it is taken.
     #[serde(flatten)]
@@ -91,7 +95,11 @@ impl Request for CheckRequest {
     fn run(&self, sources: &dyn Sources, watch: &dyn Watch) -> Result<Done<CheckDocument>, TaskError> {
         let options = self.options()?;
         let reading = ReadOptions { weld: welding(self.weld)?, ..self.reading.options() };
-        let (source, mut record) = read::mesh(sources, &self.mesh, Role::Mesh, &reading)?;
+        let (body, mut record) = read::mesh_or_cad(sources, &self.mesh, Role::Mesh, &reading)?;
+        let source = match body {
+            MeshOrCad::Mesh(source) => source,
+            MeshOrCad::Cad(file) => return self.model(&file, record, sources, watch),
+        };
         let facets = source.mesh.faces.len() as u64;
         let stage = watch.stage("checking", "facets", Some(facets));
         let (hash, report) = rayon::join(
@@ -104,16 +112,65 @@ impl Request for CheckRequest {
         })?;
         hash?;
         let left_out = LeftOut(&source.nonfinite_facets);
-        let mut document = trueness_measure::check::document(&report, record, facets, left_out, &options);
-        // Of a CAD model without some of its faces no more than the others was looked at.
-        document.sound &= document.inputs.iter().all(|i| i.cad.is_none() || i.incomplete.is_none());
-        let scene = self.view.then(|| Box::new(Checked(source)) as Box<dyn Scene<CheckDocument>>);
+        let document = trueness_measure::check::document(&report, record, facets, left_out, &options);
+        let scene = Checked { source, faces: None };
+        let scene = self.view.then(|| Box::new(scene) as Box<dyn Scene<CheckDocument>>);
         Ok(Done { scene, ..Done::new(document) })
     }
 }
 
-/// The mesh with its defects.
-struct Checked(SourceMesh);
+/// Pairs of facets of a model that are looked at for faces that cross.
+const MAX_CROSSINGS: usize = 100_000;
+
+impl CheckRequest {
+    /// The check of a CAD model: what its faces and edges say, and the crossings of their facets.
+    fn model(
+        &self,
+        file: &CadFile,
+        mut record: InputRecord,
+        sources: &dyn Sources,
+        watch: &dyn Watch,
+    ) -> Result<Done<CheckDocument>, TaskError> {
+        let options = Options { limit: MAX_CROSSINGS, ..self.options()? };
+        let stage = watch.stage("preparing the faces", STEPS, None);
+        let (shape, drawn) = read::cad::drawn(&self.mesh, file, Chord::MEASURED, &mut record, &*stage)?;
+        let integrals = shape.integrals(&*stage)?;
+        stage.finish();
+        let facets = drawn.mesh.faces.len() as u64;
+        let stage = watch.stage("checking", "facets", Some(facets));
+        let report = check::check(&drawn.mesh, None, &options, &*stage);
+        let report = ended(stage, report).map_err(|e| match e {
+            CheckError::Cancelled(e) => e.into(),
+            e => TaskError::unanswerable(format!("{}: {e}", self.mesh.display())),
+        })?;
+        read::hash(sources, &mut record, &self.mesh)?;
+        let pair = |f: &Finding| Some([*f.facets.first()?, *f.facets.get(1)?]);
+        let crossings = report.defects.iter().find(|(kind, _)| *kind == SELF_INTERSECTIONS);
+        let crossings = crossings.and_then(|(_, found)| found.as_ref());
+        let crossings = crossings.map(|found| found.items.iter().filter_map(pair).collect());
+        let document =
+            trueness_measure::check::document(&report, record, facets, LeftOut::default(), &options);
+        let checked = model_check::Checked {
+            model: &file.model,
+            shape: &shape,
+            integrals: &integrals,
+            drawn: &drawn,
+            crossings,
+        };
+        let document = model_check::with_model(document, &checked, self.items);
+        let faces = DrawnFaces::new(&shape.brep, &drawn.mesh, drawn.faces);
+        let source = SourceMesh { mesh: drawn.mesh, ..SourceMesh::default() };
+        let scene = Checked { source, faces: Some(faces) };
+        let scene = self.view.then(|| Box::new(scene) as Box<dyn Scene<CheckDocument>>);
+        Ok(Done { scene, ..Done::new(document) })
+    }
+}
+
+/// The mesh with its defects; of a CAD model with its faces.
+struct Checked {
+    source: SourceMesh,
+    faces: Option<DrawnFaces>,
+}
 
 impl Scene<CheckDocument> for Checked {
     fn draw(
@@ -121,8 +178,9 @@ impl Scene<CheckDocument> for Checked {
         document: &CheckDocument,
         page: &mut dyn FnMut(&[ViewObject], &[Marks]) -> Result<(), TaskError>,
     ) -> Result<(), TaskError> {
-        let left_out = LeftOut(&self.0.nonfinite_facets);
-        let view = View::new(document, &document.inputs[0].path, &self.0.mesh, left_out);
+        let left_out = LeftOut(&self.source.nonfinite_facets);
+        let view = View::new(document, &document.inputs[0].path, &self.source.mesh, left_out);
+        let view = view.with_faces(self.faces.as_ref());
         page(&view.objects(), &view.marks)
     }
 }

@@ -46,6 +46,32 @@ export interface ViewObject extends Entry {
   corners?: { blob: number }
   levels: { triangles?: number; points?: number; blob?: number; error?: number }[]
   fields: Field[]
+  faces?: FacesEntry
+}
+
+/** The faces of a CAD model that a surface draws. */
+export interface FacesEntry {
+  list: FaceEntry[]
+  /** Of each vertex the place of its face in the list. */
+  of: { blob: number }
+  lines: LinesEntry
+}
+
+export interface FaceEntry {
+  /** What a user names it by. */
+  number: number
+  name?: string
+  kind: string
+  color?: string
+}
+
+/** Lines through places on the grid of their object. */
+export interface LinesEntry {
+  lines: number
+  points: number
+  positions: { blob: number }
+  /** How many places each line has. */
+  counts: { blob: number }
 }
 
 /** What is drawn over the part: areas, lines and dots, each with the number of its mark. */

@@ -18,6 +18,8 @@ export class State {
   flags = true
   log = false
   backfaces = false
+  /** Faces have the colors of their model where no map is shown. */
+  modelColors = false
   /** Number of the place chosen in the list; −1 for none. */
   picked = -1
   readonly visible: Record<string, boolean> = {}
@@ -75,6 +77,11 @@ export class State {
   /** There are surfaces, whose inner side can be shown. */
   get meshes(): boolean {
     return this.manifest.objects.some((o) => o.kind === 'mesh' && o.role !== 'element')
+  }
+
+  /** There are faces with a color of the model's own. */
+  get colored(): boolean {
+    return this.manifest.objects.some((o) => o.kind === 'mesh' && o.faces?.list.some((f) => f.color))
   }
 
   /** What can be switched on and off. */
@@ -169,8 +176,11 @@ export class State {
     this.tell('pick')
   }
 
-  toggle(what: 'map' | 'flat' | 'perspective' | 'flags' | 'log' | 'backfaces'): void {
+  toggle(what: 'map' | 'flat' | 'perspective' | 'flags' | 'log' | 'backfaces' | 'modelColors'): void {
     this[what] = !this[what]
+    // A surface shows either of both.
+    if (what === 'modelColors' && this.modelColors) this.map = false
+    if (what === 'map' && this.map) this.modelColors = false
     this.tell(what === 'flags' || what === 'log' ? what : 'look')
   }
 

@@ -14,6 +14,7 @@ use trueness::task::Outcome;
 use trueness::task::{Request, RunFiles};
 use trueness::tasks::check::CheckRequest;
 use trueness_geom::check;
+use trueness_measure::model_check::MODEL_KINDS;
 
 /// Report size and defects of a mesh
 ///
@@ -77,7 +78,8 @@ impl Run for CheckArgs {
     }
     fn run(&self, common: &Common) -> anyhow::Result<Outcome> {
         task::run_reported(&self.request(), (&self.document, &self.report), common, |done| {
-            table::text(&done.document, &check::KINDS)
+            let kinds: Vec<_> = check::KINDS.into_iter().chain(MODEL_KINDS).collect();
+            table::text(&done.document, &kinds)
         })
     }
 }

@@ -25,6 +25,8 @@ const MAX_CREASED_FACETS: usize = 200_000;
 pub struct MapSurface {
     /// The refined surface; `None` where the reference itself is fine enough, and the values are for its vertices.
     pub mesh: Option<Mesh>,
+    /// Of a refined surface, the facet of the reference that each of its facets is a part of.
+    pub facets: Vec<u32>,
     /// Millimeters; NaN where no point is near.
     pub values: Vec<f64>,
     /// Vertices that show flagged points.
@@ -49,6 +51,8 @@ struct Drawing<'a> {
     limit: f64,
     positions: Vec<Point>,
     faces: Vec<[u32; 3]>,
+    /// The facet of the reference that each of `faces` is a part of.
+    facets: Vec<u32>,
     values: Vec<f64>,
     /// Middle of the edge between two vertices. Looked up only, never walked through.
     middles: HashMap<[u32; 2], u32>,
@@ -98,13 +102,13 @@ impl MapSurface {
             let here = rest.iter().take_while(|f| f.face == face).count();
             let (mine, others) = rest.split_at(here);
             match mine.is_empty() && map.pieces.halves(face).is_none() {
-                true => drawing.whole(corners, shown),
+                true => drawing.whole(face, corners, shown),
                 false => drawing.facet(face, corners, mine),
             }
             rest = others;
         }
         let refined = drawing.faces.len() > reference.faces.len();
-        let Drawing { positions, faces, mut values, keep, farthest, .. } = drawing;
+        let Drawing { positions, faces, facets, mut values, keep, farthest, .. } = drawing;
         let mesh = Mesh { positions, faces };
         fill(&mesh, &mut values, REACH_PER_SPACING * apart);
         let [area, uncovered] = areas(&mesh, &values);
@@ -112,6 +116,7 @@ impl MapSurface {
         let carried = REACH_PER_SPACING * apart;
         MapSurface {
             mesh: refined.then_some(mesh),
+            facets: if refined { facets } else { vec![] },
             values,
             keep,
             reach,
@@ -146,6 +151,7 @@ impl<'a> Drawing<'a> {
             limit,
             positions: reference.positions.clone(),
             faces: Vec::with_capacity(reference.faces.len()),
+            facets: Vec::with_capacity(reference.faces.len()),
             values: vec![f64::NAN; reference.positions.len()],
             middles: HashMap::new(),
             keep: vec![],
@@ -175,9 +181,10 @@ impl<'a> Drawing<'a> {
     }
 
     /// A facet that is not cut, with the point that it shows.
-    fn whole(&mut self, corners: [u32; 3], shown: Option<Shown>) {
+    fn whole(&mut self, face: u32, corners: [u32; 3], shown: Option<Shown>) {
         shown.into_iter().for_each(|shown| self.show(&shown));
         self.faces.push(corners);
+        self.facets.push(face);
     }
 
     /// Cuts a facet and gives the points on it to the vertices.
@@ -228,6 +235,7 @@ impl<'a> Drawing<'a> {
         for (deviation, weights) in piece.flagged {
             self.flag(&mut parts, piece.corners, deviation, weights);
         }
+        self.facets.extend(std::iter::repeat_n(face, parts.len()));
         self.faces.extend(parts.into_iter().map(|(corners, _)| corners));
     }
 

@@ -57,6 +57,7 @@ fn object<'a>(role: ViewRole, geometry: Geometry<'a>, values: &'a [f64]) -> View
         fields: vec![crate::ViewField { comparison: 0, values, reasons: &[] }],
         keep: &[],
         gathered: None,
+        faces: None,
     }
 }
 

@@ -1,5 +1,6 @@
 import code from 'virtual:worker'
-import { blobText, type AnyObject } from '../manifest'
+import { blobText, type AnyObject, type LinesEntry } from '../manifest'
+import type { PackedLines } from './lines'
 import type { DecodedObject, PackedObject } from './object'
 
 /** Starts the worker from the text that the page carries; the page's rules allow no other way. */
@@ -32,7 +33,7 @@ function packed(object: AnyObject): PackedObject {
   const { kind, vertices } = object
   if (object.kind === 'marks') {
     const triangles = object.triangles + object.segments + object.points
-    return { kind, vertices, triangles, corners: blobText(object.items.blob), positions: blobText(object.positions.blob), levels: [], fields: [] }
+    return { kind, vertices, triangles, corners: blobText(object.items.blob), positions: blobText(object.positions.blob), levels: [], fields: [], faces: null }
   }
   return {
     kind,
@@ -41,6 +42,11 @@ function packed(object: AnyObject): PackedObject {
     corners: object.corners ? blobText(object.corners.blob) : null,
     positions: blobText(object.positions.blob),
     levels: object.levels.flatMap((l) => (l.blob !== undefined ? [{ triangles: l.triangles ?? 0, blob: blobText(l.blob) }] : [])),
+    faces: object.faces ? { of: blobText(object.faces.of.blob), lines: linesOf(object.faces.lines) } : null,
     fields: object.fields.map((f) => ({ bits: f.bits, step: f.step, blob: blobText(f.blob), reasons: Object.keys(f.no_value).length })),
   }
+}
+
+function linesOf({ lines, points, positions, counts }: LinesEntry): PackedLines {
+  return { lines, points, positions: blobText(positions.blob), counts: blobText(counts.blob) }
 }

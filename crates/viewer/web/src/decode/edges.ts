@@ -13,6 +13,8 @@ const SHORT = 65535 / 30
 export interface SharpEdges {
   /** Two vertices each. */
   ends: Uint32Array
+  /** Four numbers a place, where they are not vertices of the surface. */
+  places: Uint16Array | null
   /** How far each lies from its neighbors, in steps of the grid. */
   room: Float32Array
   /** Area of the surface, in steps of the grid. */
@@ -42,10 +44,15 @@ export function sharpEdges(packed: Uint16Array, triangles: Uint32Array): SharpEd
     found.push(p, q)
   }
   const ends = rows(packed, found)
+  return { ends, places: null, room: roomOf(packed, ends), area: ends.length > 0 ? areaOf(packed, triangles) : 0 }
+}
+
+/** Area of a surface, in steps of the grid. */
+export function areaOf(packed: Uint16Array, triangles: Uint32Array): number {
   const area = new Facet(packed)
   let sum = 0
-  for (let t = 0; ends.length > 0 && t < triangles.length; t += 3) sum += area.of(triangles, t)
-  return { ends, room: roomOf(packed, ends), area: sum }
+  for (let t = 0; t < triangles.length; t += 3) sum += area.of(triangles, t)
+  return sum
 }
 
 /** Without the short rows of edges that have an end. */

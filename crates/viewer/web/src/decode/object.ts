@@ -1,6 +1,7 @@
 import { unpack } from './blob'
 import { packCloudNormals } from './cloud_normals'
-import { sharpEdges, type SharpEdges } from './edges'
+import { areaOf, sharpEdges, type SharpEdges } from './edges'
+import { decodeLines, type PackedLines } from './lines'
 import { packNormals } from './normals'
 import { differences, wrapSigned } from './planes'
 import { ACROSS, BETWEEN, LIKE, rules } from './predict'
@@ -17,6 +18,8 @@ export interface PackedObject {
   positions: string
   levels: { triangles: number; blob: string }[]
   fields: { bits: number; step: number; blob: string; reasons: number }[]
+  /** Of a mesh of faces: the face of each vertex, and lines along edges. */
+  faces: { of: string; lines: PackedLines } | null
 }
 
 /** What it answers: buffers that go to the GPU as they are. */
@@ -29,6 +32,8 @@ export interface DecodedObject {
   fields: Float32Array[]
   /** Of a mesh. */
   edges: SharpEdges | null
+  /** Of a mesh of faces, that of each vertex. */
+  faces: Float32Array | null
 }
 
 /** Values from here on are reasons why there is none. */
@@ -67,7 +72,10 @@ async function decodeMesh(object: PackedObject): Promise<DecodedObject> {
   for (let i = 0; i < corners.length; i++) if (corners[i] >= object.vertices) throw new Error('a triangle has no such vertex')
   const fields = []
   for (const field of object.fields) fields.push(await decodeField(field, object.vertices, (codes, v) => predictValue(rule, codes, v)))
-  return { packed, corners, fields, edges: sharpEdges(packed, full) }
+  if (!object.faces) return { packed, corners, fields, edges: sharpEdges(packed, full), faces: null }
+  const edges = await decodeLines(object.faces.lines, areaOf(packed, full))
+  const codes = await decodeCodes(object.faces.of, object.vertices, 3, (codes, v) => predictValue(rule, codes, v))
+  return { packed, corners, fields, edges, faces: Float32Array.from(codes) }
 }
 
 async function decodePoints(object: PackedObject): Promise<DecodedObject> {
@@ -79,7 +87,7 @@ async function decodePoints(object: PackedObject): Promise<DecodedObject> {
   }
   const fields = []
   for (const field of object.fields) fields.push(await decodeField(field, object.vertices, (codes, v) => (v > 0 ? codes[v - 1] : 0)))
-  return { packed, corners: new Uint32Array(0), fields, edges: null }
+  return { packed, corners: new Uint32Array(0), fields, edges: null, faces: null }
 }
 
 function predictPlace(rule: Uint32Array, packed: Uint16Array, v: number, k: number): number {
@@ -115,14 +123,19 @@ async function decodeField(
   count: number,
   predict: (codes: Int32Array, v: number) => number,
 ): Promise<Float32Array> {
-  const width = field.bits / 8
-  const codes = differences(await unpack(field.blob), 0, count, width)
+  const codes = await decodeCodes(field.blob, count, field.bits / 8, predict)
   const values = new Float32Array(count)
   const lowest = -(2 ** (field.bits - 1))
   for (let v = 0; v < count; v++) {
-    codes[v] = wrapSigned(predict(codes, v) + codes[v], width)
     const reason = codes[v] - lowest
     values[v] = reason < field.reasons ? NO_VALUE * (1 + reason) : codes[v] * field.step
   }
   return values
+}
+
+/** Whole numbers out of their differences from the prediction. */
+async function decodeCodes(blob: string, count: number, width: number, predict: (codes: Int32Array, v: number) => number): Promise<Int32Array> {
+  const codes = differences(await unpack(blob), 0, count, width)
+  for (let v = 0; v < count; v++) codes[v] = wrapSigned(predict(codes, v) + codes[v], width)
+  return codes
 }

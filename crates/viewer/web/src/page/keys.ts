@@ -26,6 +26,7 @@ function pageKeys(state: State): Key[] {
     ...toggle('M', 'tool.map', 'map', maps.length > 0),
     ...toggle('L', 'tool.flat', 'flat', maps.length > 0),
     ...toggle('G', 'tool.flags', 'flags', picks.some((p) => p.value !== null || p.frame !== null)),
+    ...toggle('C', 'tool.model_colors', 'modelColors', state.colored),
     ...toggle('B', 'tool.backfaces', 'backfaces', state.meshes),
     ...toggle('P', 'tool.perspective', 'perspective', true),
   ]

@@ -60,6 +60,7 @@ export function stageTools(overlay: HTMLElement, stage: Stage, state: State, wor
     if (maps.length > 0) items.push(toggle('tool.map', state.map, () => state.toggle('map'), 'M', !state.mapped))
     if (maps.length > 0) items.push(toggle('tool.flat', state.flat, () => state.toggle('flat'), 'L', !state.mapped))
     if (picks.some((p) => p.value !== null || p.frame !== null)) items.push(toggle('tool.flags', state.flags, () => state.toggle('flags'), 'G'))
+    if (state.colored) items.push(toggle('tool.model_colors', state.modelColors, () => state.toggle('modelColors'), 'C'))
     if (state.meshes) items.push(toggle('tool.backfaces', state.backfaces, () => state.toggle('backfaces'), 'B'))
     items.push(act('tool.fit', () => stage.fit(), 'F'))
     const focused = [...bar.children].indexOf(document.activeElement as Element)

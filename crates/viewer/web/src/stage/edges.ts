@@ -32,12 +32,13 @@ export class EdgeLines {
   private faint = false
   private under = false
 
-  /** `packed`: four numbers a vertex; `matrix` leads from its grid to the stage, with `step` millimeters a step. */
+  /** `packed`: four numbers a vertex of the surface; `matrix` leads from its grid to the stage, with `step` millimeters a step. */
   constructor(edges: SharpEdges, packed: Uint16Array, matrix: Matrix4, private readonly step: number) {
     this.count = edges.ends.length / 2
     this.area = edges.area
     const ends = [new Uint16Array(3 * this.count), new Uint16Array(3 * this.count)]
-    edges.ends.forEach((v, i) => ends[i % 2].set(packed.subarray(4 * v, 4 * v + 3), 3 * (i >> 1)))
+    const places = edges.places ?? packed
+    edges.ends.forEach((v, i) => ends[i % 2].set(places.subarray(4 * v, 4 * v + 3), 3 * (i >> 1)))
     const lengths = new Float32Array(this.count)
     for (let i = 0, e = 0; i < this.count; i++, e += 3)
       lengths[i] = Math.sqrt([0, 1, 2].reduce((sum, k) => sum + (ends[0][e + k] - ends[1][e + k]) ** 2, 0))

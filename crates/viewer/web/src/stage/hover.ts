@@ -1,4 +1,5 @@
 import { el, need } from '../dom'
+import type { FaceEntry } from '../manifest'
 import type { State } from '../state'
 import type { Words } from '../words'
 import type { Part } from './part'
@@ -38,13 +39,15 @@ export function hover(stage: Stage, overlay: HTMLElement, state: State, words: W
     const judged = valued && zone ? (inside ? `✓ ${words.of('state.in')}` : `✕ ${words.of('state.out')}`) : ''
     const several = part ? state.manifest.objects.filter((o) => o.role === part.object.role).length > 1 : false
     const role = part ? what(part, valued, several, words) : ''
+    const face = nameOf(part?.object.faces?.list[reading.face], words)
     card.replaceChildren(
       ...(value ? [el('strong', {}, value)] : []),
       ...(judged || why ? [el('span', { class: inside ? 'in' : 'out' }, judged || why)] : []),
       el('span', { class: 'place' }, `x ${xyz[0]}  y ${xyz[1]}  z ${xyz[2]}`),
       el('span', { class: 'place' }, role),
+      ...(face ? [el('span', { class: 'place' }, face)] : []),
     )
-    line.textContent = [value, judged || why, role, `x ${xyz[0]} y ${xyz[1]} z ${xyz[2]}`].filter(Boolean).join(' · ')
+    line.textContent = [value, judged || why, role, face, `x ${xyz[0]} y ${xyz[1]} z ${xyz[2]}`].filter(Boolean).join(' · ')
     line.dataset.value = valued ? String(reading.value) : ''
     dot.hidden = card.hidden = false
     dot.style.transform = `translate(${cursor.x}px, ${cursor.y}px)`
@@ -63,6 +66,12 @@ export function hover(stage: Stage, overlay: HTMLElement, state: State, words: W
     clear()
   })
   stage.onDraw(read)
+}
+
+/** What is told of a face: its number, its name, what it is. */
+function nameOf(face: FaceEntry | undefined, words: Words): string {
+  if (!face) return ''
+  return [`${words.of('hover.face')} ${face.number}`, face.name ?? '', words.of(`shape.${face.kind}`)].filter(Boolean).join(' · ')
 }
 
 /** What the value is of: a measured point itself, the worst one near the place, or the surface; by its name among `several`. */

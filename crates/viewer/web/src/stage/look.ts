@@ -1,8 +1,8 @@
 import { DataTexture, GLSL3, NearestFilter, RawShaderMaterial, RGBAFormat, UnsignedByteType, Vector2, Vector3, type IUniform } from 'three'
-import type { ViewObject } from '../manifest'
+import type { FacesEntry, ViewObject } from '../manifest'
 import { parse, type Rgb } from '../scale/scale'
 import type { State } from '../state'
-import { FRAGMENT, VALUES, VERTEX } from './shaders'
+import { FACE_COLUMNS, FRAGMENT, VALUES, VERTEX } from './shaders'
 
 /** Opacity of what is looked through, by role. */
 const OPACITIES: Record<string, number> = { element: 0.28 }
@@ -10,6 +10,14 @@ const MOST_LIMITS = 34
 
 const slots = texture(36)
 const ramp = texture(256)
+
+/** The model's color of each face; clear where it gives none. */
+function colorsOf({ list }: FacesEntry): DataTexture {
+  const t = texture(FACE_COLUMNS, Math.max(1, Math.ceil(list.length / FACE_COLUMNS)))
+  list.forEach(({ color }, i) => color && (t.image.data as Uint8Array).set([...parse(color)[0], 255], 4 * i))
+  t.needsUpdate = true
+  return t
+}
 
 /** What all objects are colored by: changing it costs one frame and touches no vertex. */
 const shared: Record<string, IUniform> = {
@@ -26,10 +34,11 @@ const shared: Record<string, IUniform> = {
   slots: { value: slots },
   ramp: { value: ramp },
   asCover: { value: false },
+  modelColors: { value: false },
 }
 
-function texture(width: number): DataTexture {
-  const t = new DataTexture(new Uint8Array(4 * width), width, 1, RGBAFormat, UnsignedByteType)
+function texture(width: number, height = 1): DataTexture {
+  const t = new DataTexture(new Uint8Array(4 * width * height), width, height, RGBAFormat, UnsignedByteType)
   t.magFilter = t.minFilter = NearestFilter
   return t
 }
@@ -56,6 +65,7 @@ export function applyLook(state: State): void {
   shared.flatColors.value = state.flat
   shared.perspective.value = state.perspective
   shared.backfaces.value = state.backfaces
+  shared.modelColors.value = state.modelColors
   paint(slots, colors.slots)
   paint(ramp, colors.ramp)
 }
@@ -93,11 +103,12 @@ export function materialsFor(object: ViewObject): Materials {
     ...own,
     base: { value: new Vector3(...base.map((x) => x / 255)) },
     objectId: { value: object.id + 1 },
+    ...(object.faces ? { faceColors: { value: colorsOf(object.faces) } } : {}),
   }
   const make = (fragmentShader: string) =>
     new RawShaderMaterial({
       glslVersion: GLSL3,
-      defines: object.kind === 'points' ? { POINTS: '' } : {},
+      defines: object.kind === 'points' ? { POINTS: '' } : object.faces ? { FACES: '' } : {},
       vertexShader: VERTEX,
       fragmentShader,
       uniforms,

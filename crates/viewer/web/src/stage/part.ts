@@ -52,6 +52,7 @@ export class Part {
   ) {
     const geometry = new BufferGeometry()
     geometry.setAttribute('position', new BufferAttribute(data.packed, 4))
+    if (data.faces) geometry.setAttribute('face', new BufferAttribute(data.faces, 1))
     if (object.kind === 'mesh') geometry.setIndex(new BufferAttribute(data.corners, 1))
     this.materials = materialsFor(object)
     this.drawn = object.kind === 'mesh' ? new Mesh(geometry, this.materials.picture) : new Points(geometry, this.materials.picture)

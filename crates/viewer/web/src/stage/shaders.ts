@@ -1,3 +1,8 @@
+/** Numbers of objects in the value buffer: what is beyond is the number of a face. */
+export const OBJECTS = 256
+/** Faces in a row of the texture of their colors. */
+export const FACE_COLUMNS = 256
+
 /** A way through a surface, seen obliquely, is up to this much longer than straight. */
 export const OBLIQUE = 3
 
@@ -39,6 +44,10 @@ float forward(float v, vec4 at, float depth) {
 export const VERTEX = `
 in vec4 position;
 in float value;
+#ifdef FACES
+in float face;
+flat out float vFace;
+#endif
 uniform mat4 modelViewMatrix, projectionMatrix;
 uniform float pointSize, sink;
 out vec3 vPlace;
@@ -60,6 +69,9 @@ vec3 unfold(float packed) {
 }
 
 void main() {
+#ifdef FACES
+  vFace = face;
+#endif
   vec4 place = modelViewMatrix * vec4(position.xyz, 1.0);
   vPlace = place.xyz;
   vCrease = position.w < 0.5 ? 1.0 : 0.0;
@@ -114,6 +126,11 @@ uniform int limitCount;
 uniform float slack;
 uniform vec2 range, zone, only;
 uniform sampler2D slots, ramp;
+#ifdef FACES
+flat in float vFace;
+uniform bool modelColors;
+uniform sampler2D faceColors;
+#endif
 out vec4 color;
 
 #ifdef POINTS
@@ -188,7 +205,13 @@ void main() {
     return;
   }
   if (!map) {
-    vec3 own = back ? mix(base, vec3(0.72, 0.74, 0.76), 0.8) : base;
+    vec3 own = base;
+#ifdef FACES
+    int number = int(vFace + 0.5);
+    vec4 given = texelFetch(faceColors, ivec2(number % ${FACE_COLUMNS}, number / ${FACE_COLUMNS}), 0);
+    if (modelColors && given.a > 0.5) own = given.rgb;
+#endif
+    if (back) own = mix(own, vec3(0.72, 0.74, 0.76), 0.8);
     color = vec4(own * shade, opacity);
     return;
   }
@@ -217,6 +240,9 @@ in vec3 vNormal;
 in float vValue;
 in vec2 vMissing;
 uniform float objectId;
+#ifdef FACES
+flat in float vFace;
+#endif
 /* What is nearest at each pixel: the surface that hides points. */
 uniform highp sampler2D cover;
 uniform bool covered, asCover, perspective;
@@ -237,5 +263,9 @@ void main() {
 #else
   float square = abs(dot(normalize(cross(dFdx(vPlace), dFdy(vPlace))), eye));
 #endif
-  color = vec4(asCover ? square : vValue, vPlace.z, objectId, missing ? floor(vMissing.y / vMissing.x + 0.5) : 0.0);
+  float number = objectId;
+#ifdef FACES
+  number += ${OBJECTS.toFixed(1)} * (vFace + 1.0);
+#endif
+  color = vec4(asCover ? square : vValue, vPlace.z, number, missing ? floor(vMissing.y / vMissing.x + 0.5) : 0.0);
 }`

@@ -2,6 +2,7 @@ import type { Object3D, Scene, WebGLRenderer, WebGLRenderTarget } from 'three'
 import type { Eye } from './eye'
 import { sized, type Front } from './front'
 import type { Part } from './part'
+import { OBJECTS } from './shaders'
 
 /** What lies under a pixel. */
 export interface Reading {
@@ -10,6 +11,8 @@ export interface Reading {
   depth: number
   /** Number of the object. */
   object: number
+  /** The face there, by its place among those of the object; −1 where it has none. */
+  face: number
   /** 0, or the number of the reason why there is no value. */
   missing: number
 }
@@ -81,8 +84,9 @@ export class ValueBuffer {
     const [i, j] = [Math.floor(x), this.height - 1 - Math.floor(y)]
     if (!this.pixels || i < 0 || j < 0 || i >= this.width || j >= this.height) return null
     const p = 4 * (j * this.width + i)
-    const object = Math.round(this.pixels[p + 2])
+    const number = Math.round(this.pixels[p + 2])
+    const [object, face] = [number % OBJECTS, Math.floor(number / OBJECTS) - 1]
     if (object === 0) return null
-    return { value: this.pixels[p], depth: this.pixels[p + 1], object: object - 1, missing: this.pixels[p + 3] }
+    return { value: this.pixels[p], depth: this.pixels[p + 1], object: object - 1, face, missing: this.pixels[p + 3] }
   }
 }

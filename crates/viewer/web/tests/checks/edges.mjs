@@ -63,6 +63,29 @@ export const edges = [
     },
   ],
   [
+    'a CAD model has the edges of its faces and no others, the cursor names faces, and their colors are shown on request',
+    async (session) => {
+      const page = await session.report('model')
+      await key(page, '7')
+      const at = await onScreen(page)
+      const picture = await screen(page)
+      for (const place of [EDGES[0], EDGES[2], [4, 0, 10]]) assert.ok(contrast(picture, at(place)) < 0.7, `no edge at ${place}`)
+      for (const place of [EDGES[1], ...FLAT]) assert.ok(contrast(picture, at(place)) > 0.95, `a line at ${place}`)
+      const read = async (place) => {
+        await page.mouse.move(...at(place))
+        return page.evaluate(() => document.getElementById('readout').textContent)
+      }
+      assert.match(await read([3, -3, 10]), /face 101 · LID · plane/)
+      assert.match(await read([3, -10, -3]), /face 102 · plane/)
+      await key(page, 'c')
+      const [r, g, b] = (await screen(page)).at(...at([-4, -4, 10]))
+      assert.ok(r > 60 && g < 20 && b < 20, `${[r, g, b]}`)
+      const [x, y, z] = (await screen(page)).at(...at([3, -10, -3]))
+      assert.ok(y > 60 && z > 60, `${[x, y, z]}`)
+      assert.deepEqual(page.seen.errors, [])
+    },
+  ],
+  [
     'edges that crowd fade where they are, and those of the box beside them stay',
     async (session) => {
       const page = await session.report('pleats')

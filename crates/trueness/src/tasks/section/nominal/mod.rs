@@ -1,5 +1,6 @@
 //! The nominal that a section is compared with.
 
+mod faces;
 mod layers;
 mod outlines;
 
@@ -71,10 +72,12 @@ pub fn compare(
     let reading = request.reference_reading.options(&request.reading);
     let nominal = Nominal::open(sources, path, &reading, sections.len(), progress)?;
     let freedom = request.freedom();
-    let (mut all, mut fits) = (vec![], vec![]);
+    let (mut all, mut fits, mut in_plane) = (vec![], vec![], vec![]);
     let mut rows = found.rows.iter();
     for (n, section) in sections.iter().enumerate() {
-        let mut outlines = nominal.outlines((found, n), section, planes.get(n), options, progress)?;
+        let (mut outlines, doubt) =
+            nominal.outlines((found, n), section, planes.get(n), options, progress)?;
+        in_plane.extend(doubt);
         let own: Vec<&[[f64; 2]]> = rows.by_ref().take(section.contours.len()).map(|r| &r[..]).collect();
         let plane = section.plane.map(|_| n as u64);
         if let Some(freedom) = freedom.filter(|_| !outlines.is_empty() && !own.is_empty()) {
@@ -100,7 +103,7 @@ pub fn compare(
     }
     let unlikely = unlikely(sections, &all).into_iter().map(NominalWarning::from);
     let mut found = trueness_measure::section::nominal(&nominal.record.path, nominal.kind(), all);
-    found.warnings.splice(0..0, unlikely.chain(nominal.passed_over()));
+    found.warnings.splice(0..0, unlikely.chain(nominal.passed_over()).chain(in_plane));
     found.fits = fits;
     if let Some(profile) = &rule.profile {
         found.judge(profile, &nominal.record);

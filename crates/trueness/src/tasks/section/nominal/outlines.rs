@@ -3,8 +3,9 @@
 use super::super::faced::faced;
 use super::super::found::Found;
 use super::super::planes::Cut;
+use super::faces::Faces;
 use super::layers::Layers;
-use crate::read::{self, Body, Opened};
+use crate::read::{self, Body, NominalBody, Opened};
 use crate::task::TaskError;
 use std::path::Path;
 use trueness_document::InputRecord;
@@ -30,6 +31,7 @@ pub struct Nominal {
 /// What the file of a nominal held.
 enum Held {
     Mesh(Mesh),
+    Faces(Box<Faces>),
     /// Points in order, and whether they have two coordinates.
     Row(Vec<Point>, bool),
     Drawing(Drawing, Layers),
@@ -49,8 +51,12 @@ impl Nominal {
     ) -> Result<Nominal, TaskError> {
         let shown = path.display().to_string();
         let (body, mut record) = match read::nominal(sources, path, reading)? {
-            Ok((drawing, record)) => (Held::Drawing(drawing, Layers::default()), record),
-            Err(opened) => whole(path, opened, progress)?,
+            NominalBody::Drawing(drawing, record) => (Held::Drawing(drawing, Layers::default()), record),
+            NominalBody::Whole(opened) => whole(path, opened, progress)?,
+            NominalBody::Cad(file, mut record) => {
+                let faces = Faces::open(path, &file, &mut record, progress)?;
+                (Held::Faces(Box::new(faces)), record)
+            }
         };
         read::hash(sources, &mut record, path)?;
         let body = match body {
@@ -67,6 +73,7 @@ impl Nominal {
     pub fn kind(&self) -> &'static str {
         match self.body {
             Held::Mesh(_) => "facets",
+            Held::Faces(_) => "faces",
             Held::Row(..) => "contour",
             Held::Drawing(..) => "drawing",
         }
@@ -80,7 +87,7 @@ impl Nominal {
         }
     }
 
-    /// Its outlines in the plane of a section, the one of this number.
+    /// Its outlines in the plane of a section, the one of this number, and what makes them doubtful.
     pub fn outlines(
         &self,
         (found, number): (&Found, usize),
@@ -88,9 +95,10 @@ impl Nominal {
         own: Option<&Cut>,
         options: &Options,
         progress: &dyn Progress,
-    ) -> Result<Vec<Outline>, TaskError> {
+    ) -> Result<(Vec<Outline>, Option<NominalWarning>), TaskError> {
         let outlines = match &self.body {
-            Held::Mesh(mesh) => return cut(mesh, section, own, progress),
+            Held::Mesh(mesh) => return Ok((cut(mesh, section, own, progress)?, None)),
+            Held::Faces(faces) => return Ok(faces.outlines(&plane_of(section, own), &frame(section))),
             Held::Drawing(drawing, layers) => self.drawn(drawing, layers.own(number).as_deref())?,
             Held::Row(..) if found.sections.len() > 1 => {
                 return Err(TaskError::usage(format!(
@@ -106,7 +114,7 @@ impl Nominal {
             }
         };
         self.refuse_crossings(&outlines, progress)?;
-        Ok(outlines)
+        Ok((outlines, None))
     }
 
     /// Why this nominal cannot be used.
