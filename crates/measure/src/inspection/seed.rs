@@ -38,7 +38,7 @@ pub(super) fn seeded(
         if let Some(what) = hit.and_then(|hit| far_seed(hit.distance, hit.point, reference)) {
             return Err(wrong(what));
         }
-        let place = hit.and_then(|hit| faces.drawn.of_facet.get(hit.face as usize)).copied();
+        let place = hit.and_then(|hit| faces.of_facets.get(hit.face as usize)).copied();
         let face = place.and_then(|place| faces.all.get(place as usize));
         let kind = kind_of(feature.class);
         // A narrow face may lie on elements of several kinds.
