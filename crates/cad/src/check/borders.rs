@@ -1,13 +1,9 @@
 //! How faces share edges.
 
-use super::{Fault, FaultKind, middle, place_of_face};
-use crate::brep::{Bounds, Brep, EdgeUse, Loop};
+use super::fault::{Fault, FaultKind, LENGTH_PARTS, length, middle, place_of_face, uses_of_face};
 use crate::trim::{Piece, Straight, Trim};
 use crate::trimmed::Trimmed;
 use trueness_geom::space::{minus, norm};
-
-/// Parts of an edge by which its length is integrated.
-const LENGTH_PARTS: usize = 32;
 
 /// Faces without a border, free edges, edges of several faces, faces that do not agree.
 pub(super) fn faults(shape: &Trimmed) -> Vec<Fault> {
@@ -62,24 +58,4 @@ fn open_sides(face: u32, trim: &Trim) -> impl Iterator<Item = Fault> {
         place,
         size,
     })
-}
-
-/// The edges of a face.
-pub(super) fn uses_of_face(brep: &Brep, face: u32) -> Vec<EdgeUse> {
-    let Some(Bounds::Loops(loops)) = brep.faces.get(face as usize).map(|f| &f.bounds) else { return vec![] };
-    let edges = loops.iter().filter_map(|l| if let Loop::Edges(uses) = l { Some(uses) } else { None });
-    edges.flatten().copied().collect()
-}
-
-/// The length of an edge, by Simpson's rule.
-pub(super) fn length(brep: &Brep, edge: u32) -> f64 {
-    let Some(edge) = brep.edges.get(edge as usize) else { return 0.0 };
-    let rate = |i: usize| norm(edge.span.derivatives(i as f64 / (2 * LENGTH_PARTS) as f64)[1]);
-    let weight = |i: usize| match i {
-        0 => 1.0,
-        i if i == 2 * LENGTH_PARTS => 1.0,
-        i if i % 2 == 1 => 4.0,
-        _ => 2.0,
-    };
-    (0..=2 * LENGTH_PARTS).map(|i| weight(i) * rate(i)).sum::<f64>() / (6 * LENGTH_PARTS) as f64
 }

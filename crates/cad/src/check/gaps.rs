@@ -1,6 +1,6 @@
 //! Where edges are off the surfaces of their faces and off their vertices.
 
-use super::{Fault, FaultKind};
+use super::fault::{Fault, FaultKind};
 use crate::trim::Piece;
 use crate::trimmed::Trimmed;
 use trueness_geom::parallel::prelude::*;

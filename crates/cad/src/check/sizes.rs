@@ -1,7 +1,6 @@
 //! Edges and faces of no size, and solids inside out.
 
-use super::borders::{length, uses_of_face};
-use super::{Fault, FaultKind, middle, place_of_face};
+use super::fault::{Fault, FaultKind, length, middle, place_of_face, uses_of_face};
 use crate::measure::Integrals;
 use crate::trimmed::Trimmed;
 

@@ -6,7 +6,7 @@ use crate::curve::{Curve, Span};
 use crate::frame::Frame;
 use crate::surface::Surface;
 use trueness_geom::progress::Silent;
-use trueness_geom::space::{cross, minus};
+use trueness_geom::space::{Point, cross, minus};
 
 /// Vertices of the box by the bits of their number.
 const SIDES: [f64; 3] = [3.0, 2.0, 1.0];

@@ -1,6 +1,6 @@
 //! What the section of a surface is.
 
-use super::{dropped, is_across, is_along};
+use super::direction::{dropped, is_across, is_along};
 use crate::frame::Frame;
 use crate::surface::Surface;
 use crate::trim::Trim;

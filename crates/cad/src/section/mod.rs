@@ -11,6 +11,7 @@
 //! | all others | curve |
 
 mod course;
+mod direction;
 mod kind;
 mod place;
 #[cfg(test)]
@@ -27,7 +28,7 @@ use kind::Kind;
 use place::Places;
 use std::f64::consts::{PI, TAU};
 use trueness_geom::plane::Plane;
-use trueness_geom::space::{Point, Vector, cross, dot, minus, norm, times, unit};
+use trueness_geom::space::{Point, cross, dot, minus, norm, unit};
 use ways::{Run, ways};
 
 /// The section of a plane.
@@ -177,19 +178,3 @@ impl Cutter<'_> {
 fn line(from: Point, to: Point) -> Span {
     Span { curve: Curve::Line { origin: from, direction: minus(to, from) }, range: [0.0, 1.0] }
 }
-
-/// A place moved into a plane of unit normal along it.
-fn dropped(plane: &Plane, p: Point) -> Point {
-    minus(p, times(plane.height(&p), plane.normal))
-}
-
-/// Whether unit vectors run along each other, or at right angles, up to rounding.
-fn is_along(a: Vector, b: Vector) -> bool {
-    norm(cross(a, b)) <= SAME_DIRECTION
-}
-fn is_across(a: Vector, b: Vector) -> bool {
-    dot(a, b).abs() <= SAME_DIRECTION
-}
-
-/// Sine of the angle within which directions are the same: a meter long, both ends of a line are then one atom apart.
-const SAME_DIRECTION: f64 = 1e-10;

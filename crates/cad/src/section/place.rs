@@ -1,6 +1,6 @@
 //! Where a plane cuts edges.
 
-use super::dropped;
+use super::direction::dropped;
 use super::ways::MeshEdge;
 use crate::tessellate::Tessellation;
 use crate::trimmed::Trimmed;

@@ -7,7 +7,7 @@ use crate::surface::Surface;
 use crate::tessellate::Fineness;
 use crate::trim::tests::{Made, circle, frame};
 use trueness_geom::progress::Silent;
-use trueness_geom::space::plus;
+use trueness_geom::space::{Vector, plus, times};
 
 fn shape(brep: Brep) -> (Trimmed, Tessellation) {
     let shape = Trimmed::new(brep, 0.0, &Silent).unwrap();

@@ -3,8 +3,9 @@
 //! Facets lie within a known distance of their faces. Two of them cross for certain where each has corners on both sides of the plane of the
 //! other, farther from it than both are from their faces.
 
-use super::numbers;
+use super::entities::numbers;
 use crate::bounds::bounds;
+use trueness_cad::brep::Brep;
 use trueness_cad::tessellate::Tessellation;
 use trueness_cad::trimmed::Trimmed;
 use trueness_document::check::Item;
@@ -20,14 +21,38 @@ pub struct CrossingFaces {
     depth: f64,
 }
 
-/// Pairs of faces of one instance that cross, in the order of their numbers.
+/// What faces must not cross of: the solids of an instance together, or a sheet.
+#[derive(Clone, Copy, PartialEq)]
+enum Body {
+    Solids(u32),
+    Sheet(u32),
+    /// A face of its own.
+    Alone(u32),
+}
+
+fn bodies(brep: &Brep) -> Vec<Body> {
+    let mut all: Vec<Body> = (0..brep.faces.len() as u32).map(Body::Alone).collect();
+    let mut solid = vec![false; brep.shells.len()];
+    for shell in brep.solids.iter().flat_map(|s| std::iter::once(&s.outer).chain(&s.voids)) {
+        solid[*shell as usize] = true;
+    }
+    for ((number, shell), solid) in (0u32..).zip(&brep.shells).zip(solid) {
+        for face in &shell.faces {
+            let instance = brep.faces[*face as usize].instance;
+            all[*face as usize] = if solid { Body::Solids(instance) } else { Body::Sheet(number) };
+        }
+    }
+    all
+}
+
+/// Pairs of faces of one body that cross, in the order of their numbers.
 pub fn crossing_faces(pairs: &[[u32; 2]], drawn: &Tessellation, shape: &Trimmed) -> Vec<CrossingFaces> {
     let off = |face: u32| drawn.bounds.get(face as usize).and_then(|b| *b).map_or(0.0, |b| b.distance);
+    let bodies = bodies(&shape.brep);
     let mut found: Vec<([u32; 2], [u32; 2], f64)> = vec![];
     for pair in pairs {
         let [a, b] = pair.map(|f| drawn.faces[f as usize]);
-        let instance = |f: u32| shape.brep.faces.get(f as usize).map(|f| f.instance);
-        if a == b || instance(a) != instance(b) {
+        if a == b || bodies[a as usize] != bodies[b as usize] {
             continue;
         }
         let depth =

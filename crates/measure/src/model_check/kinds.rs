@@ -56,7 +56,7 @@ pub static CROSSING: DefectKind = DefectKind {
     ..kind(
         "crossing_faces",
         Severity::Error,
-        "Faces of one part that pass through each other by more than facets are off.",
+        "Faces of one body that pass through each other by more than facets are off.",
         ("greatest depth of a facet, mm", Measure::Distance),
         Shows::Facets,
     )

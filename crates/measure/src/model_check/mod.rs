@@ -4,6 +4,7 @@
 //! file.
 
 mod crossing;
+mod entities;
 mod kinds;
 
 pub use kinds::MODEL_KINDS;
@@ -11,6 +12,7 @@ pub use kinds::MODEL_KINDS;
 use crate::bounds::bounds;
 use crate::cad::area;
 use crate::words::ToWord;
+use entities::numbers;
 use std::collections::BTreeMap;
 use trueness_cad::check::{Fault, FaultKind, faults};
 use trueness_cad::measure::Integrals;
@@ -141,18 +143,4 @@ impl Facets<'_> {
             measures: numbers(shape, &fault.faces, if fault.faces.len() > 1 { &[] } else { &fault.edges }),
         }
     }
-}
-
-/// The numbers of the entities of the first two faces and of one edge.
-fn numbers(shape: &Trimmed, faces: &[u32], edges: &[u32]) -> BTreeMap<String, f64> {
-    let face = |f: &u32| shape.brep.faces.get(*f as usize).map(|f| f.entity as f64);
-    let edge = |e: &u32| shape.brep.edges.get(*e as usize).map(|e| e.entity as f64);
-    let mut all = BTreeMap::new();
-    for (name, number) in ["face", "other_face"].into_iter().zip(faces) {
-        all.extend(face(number).map(|x| (name.to_string(), x)));
-    }
-    if let [only] = edges {
-        all.extend(edge(only).map(|x| ("edge".to_string(), x)));
-    }
-    all
 }

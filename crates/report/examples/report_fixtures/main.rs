@@ -281,15 +281,10 @@ pub fn heard(
     let geometry =
         if body.cloud { Geometry::Points(&body.measured.positions) } else { Geometry::Mesh(&body.measured) };
     let mut objects = vec![ViewObject {
-        role: ViewRole::Measured,
         name: measured,
-        color: None,
-        comparison: None,
         geometry,
         fields: (0..body.fields.len()).map(view).collect(),
-        keep: &[],
-        gathered: None,
-        faces: None,
+        ..ViewObject::measured(&[])
     }];
     for (n, mesh) in body.references.iter().enumerate() {
         objects.push(ViewObject {

@@ -57,12 +57,12 @@ impl Faces {
         if faces.len() > MAX_NAMED_FACES {
             named.push(format!("{} more", faces.len() - MAX_NAMED_FACES));
         }
-        let (of, lie) = if faces.len() == 1 { ("face", "lies") } else { ("faces", "lie") };
+        let (of, lie) = if let [_] = faces { ("face", "lies") } else { ("faces", "lie") };
         Some(NominalWarning {
             kind: NominalWarningKind::FaceInPlane,
             value: faces.len() as f64,
             text: format!(
-                "{of} {} of the nominal {lie} in the plane at {}: its section is that just below; move the plane off the {of}",
+                "{of} {} of the nominal {lie} in the plane at {:.4} mm: its section is that just below; move the plane off the {of}",
                 named.join(", "),
                 plane.offset
             ),
