@@ -21,6 +21,7 @@ use crate::content::cad_file::CadContent;
 use crate::content::spline_model::SplineModel;
 use crate::error::Result;
 use crate::format::{Content, Format, Head, Parsed, ReadOptions};
+use crate::formats::brep::holds_anything;
 use crate::source::Source;
 use trueness_geom::progress::{Progress, Silent};
 
@@ -44,7 +45,7 @@ pub(crate) fn model(
     progress: &dyn Progress,
 ) -> Result<CadContent> {
     let content = model::read(source, options, progress)?;
-    model::holds_anything(&content.model)?;
+    holds_anything(&content.model)?;
     Ok(content)
 }
 
@@ -59,7 +60,7 @@ fn parsed(mut source: Source, options: &ReadOptions) -> Result<Parsed> {
     if !content.model.is_complete() {
         let splines = read::read(&mut source, options);
         // What was to be a face is told, unless the file is damaged as a whole.
-        model::holds_anything(&content.model).and(splines)
+        holds_anything(&content.model).and(splines)
     } else {
         read::read(&mut source, options)
     }

@@ -2,13 +2,13 @@
 
 use super::super::part21::File;
 use super::assembly::Assembly;
-use super::budget::Budget;
 use super::curve::Geometry;
 use super::face::Faces;
 use super::looks::Looks;
 use super::placement::Units;
 use super::shape::{Item, Shapes, item};
 use super::topology::Topology;
+use crate::formats::brep::Budget;
 use std::cell::RefCell;
 use std::collections::BTreeSet;
 use trueness_cad::model::{Part, Unread};
@@ -54,7 +54,7 @@ impl<'f> Reading<'f> {
                 }
             }
         }
-        finished(shapes, node.name.clone())
+        finished(shapes, node.tree.name.clone())
     }
 
     /// The part of all shapes of a file whose representations are lost: solids, else models of shells, else shells, else faces.

@@ -3,10 +3,10 @@
 use super::super::part21::{Entity, Record, Wrong};
 use super::curve::{MAX_BASES, is_curve};
 use super::face::Faces;
-use super::hollow::look_inward;
 use super::placement::operator;
 use super::surface::{Oriented, is_surface};
 use super::topology::Topology;
+use crate::formats::brep::look_inward;
 use trueness_cad::brep::{Bounds, Brep, Color, Face, Solid};
 use trueness_cad::model::Part;
 
