@@ -24,7 +24,7 @@ pub struct Target {
 }
 
 /// All targets.
-pub const TARGETS: [Target; 10] = [
+pub const TARGETS: [Target; 11] = [
     readers::STL,
     readers::PLY,
     readers::OBJ,
@@ -33,6 +33,7 @@ pub const TARGETS: [Target; 10] = [
     readers::NPY,
     readers::GZ,
     cad::STEP,
+    cad::IGES,
     meshes::CHECK,
     meshes::REPAIR,
 ];

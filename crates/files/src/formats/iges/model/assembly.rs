@@ -5,9 +5,10 @@
 
 use super::super::record::Record;
 use super::super::text::{Entity, File};
-use super::curve::{CURVES, Geometry};
-use super::shape::name;
-use super::surface::SURFACES;
+use super::curve::CURVE_KINDS;
+use super::geometry::Geometry;
+use super::kinds::name;
+use super::surface::SURFACE_KINDS;
 use crate::formats::brep::Wrong;
 use crate::formats::brep::tree::{Child, Node};
 use std::collections::{BTreeMap, BTreeSet};
@@ -27,7 +28,7 @@ pub(super) struct Assembly {
 
 /// Shapes with faces that stand by themselves, whether they are read or only told.
 fn is_shape(kind: u64) -> bool {
-    matches!(kind, 143 | 144 | 186 | 510 | 514 | 150..=184) || SURFACES.contains(&kind)
+    matches!(kind, 143 | 144 | 186 | 510 | 514 | 150..=184) || SURFACE_KINDS.contains(&kind)
 }
 
 fn is_instance(kind: u64) -> bool {
@@ -100,9 +101,9 @@ impl Assembly {
                     self.tell(file, *number, &entity.wrong("repeats shapes in a way that is not read"), true);
                 }
                 // A surface that belongs to another entity is part of what that one is.
-                kind if SURFACES.contains(&kind) && (dependent || aside) => {}
+                kind if SURFACE_KINDS.contains(&kind) && (dependent || aside) => {}
                 kind if is_shape(kind) => self.shapes[node].push(*number),
-                kind if CURVES.contains(&kind) && !dependent && !aside => self.wires[node] += 1,
+                kind if CURVE_KINDS.contains(&kind) && !dependent && !aside => self.wires[node] += 1,
                 _ => {}
             }
         }

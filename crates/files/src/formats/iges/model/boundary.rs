@@ -1,7 +1,7 @@
 //! Faces without topology: trimmed surfaces (144), bounded surfaces (143), bounded planes (108) and surfaces with ends.
 
 use super::super::record::Record;
-use super::curve::Geometry;
+use super::geometry::Geometry;
 use super::surface::Patch;
 use crate::formats::brep::span::MAX_GAP;
 use crate::formats::brep::{Wrong, add_edge};
@@ -146,7 +146,7 @@ impl Geometry<'_> {
         let size = Aabb::of(
             spans.iter().flat_map(|s| [0.0, 0.5].map(|t| s.derivatives(t)[0])).collect::<Vec<_>>().iter(),
         );
-        if !(widest <= self.tolerance.max(MAX_GAP * size.diagonal())) {
+        if widest.is_nan() || widest > self.tolerance.max(MAX_GAP * size.diagonal()) {
             return Err(record.wrong(format!("is a boundary with a gap of {widest:.3e} mm")));
         }
         brep.vertices.extend(places.into_iter().map(|place| Vertex { place }));

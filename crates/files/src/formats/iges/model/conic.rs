@@ -1,7 +1,7 @@
 //! Conics (104): all places of a plane with `A x² + B xy + C y² + D x + E y + F = 0`, from one place to another.
 
 use super::super::record::Record;
-use super::curve::Geometry;
+use super::geometry::Geometry;
 use crate::formats::brep::Wrong;
 use crate::formats::brep::span::{MAX_GAP, between};
 use trueness_cad::curve::{Curve, Span};
@@ -9,7 +9,7 @@ use trueness_cad::frame::Frame;
 use trueness_geom::space::{Aabb, Point};
 
 /// Ratio of the lesser to the greater curvature of the quadratic form below which it is a parabola's: the digits of a file.
-const FLAT: f64 = 1e-9;
+const FLAT_FORM: f64 = 1e-9;
 
 /// The conic of an entity.
 pub(super) fn conic(geometry: &Geometry, record: &Record) -> Result<Span, Wrong> {
@@ -49,7 +49,7 @@ fn in_plane([a, b, c, d, e, f]: [f64; 6], height: f64, start: [f64; 2], unit: f6
         let x = [sense * x[0], sense * x[1], 0.0];
         Frame::new(origin.map(|x| x * unit), [0.0, 0.0, 1.0], Some(x))
     };
-    if p.abs() <= FLAT * q.abs() {
+    if p.abs() <= FLAT_FORM * q.abs() {
         // q v² + r u + s v + f = 0.
         let v = -s / (2.0 * q);
         let u = (s * s / (4.0 * q) - f) / r;

@@ -1,35 +1,22 @@
 //! Curves of a file. All of them have ends.
 
 use super::super::record::Record;
-use super::super::text::File;
 use super::conic;
+use super::geometry::{Geometry, numbers, upright};
 use super::powers;
 use crate::formats::brep::span::{self, MAX_GAP};
-use crate::formats::brep::{Budget, Wrong};
+use crate::formats::brep::{MAX_BASES, Wrong};
 use crate::formats::spline::{Raw, cad_curve};
 use std::f64::consts::TAU;
 use trueness_cad::curve::{Curve, Span};
-use trueness_cad::frame::{Frame, Placement};
+use trueness_cad::frame::Placement;
 use trueness_geom::space::{Point, Vector, cross, dot, minus, norm, plus, times, unit};
 
-/// Entities that rest on others at most, one on another.
-pub(super) const MAX_BASES: usize = 16;
 /// Sine of an angle within which two unit vectors are along each other: rounding of the digits of a file.
-const ALONG: f64 = 1e-6;
-
-/// What geometry is read with.
-#[derive(Clone, Copy)]
-pub(super) struct Geometry<'f> {
-    pub file: &'f File,
-    /// Millimeters in one unit of the file.
-    pub unit: f64,
-    /// Within which two places are one, millimeters.
-    pub tolerance: f64,
-    pub budget: &'f Budget,
-}
+const IN_PLANE: f64 = 1e-6;
 
 /// Kinds of curves that are read.
-pub(super) const CURVES: [u64; 9] = [100, 102, 104, 106, 110, 112, 116, 126, 130];
+pub(super) const CURVE_KINDS: [u64; 9] = [100, 102, 104, 106, 110, 112, 116, 126, 130];
 
 impl Geometry<'_> {
     /// The pieces of a curve, one after another; those of a composite curve (102) are its members'. Pieces without extent are left out.
@@ -225,26 +212,10 @@ fn moved(curve: &Curve, normal: Vector, distance: f64) -> Option<Curve> {
             let (across, _) = unit(cross(normal, *direction))?;
             Some(Curve::Line { origin: plus(*origin, times(distance, across)), direction: *direction })
         }
-        Curve::Circle { frame, radius } if norm(cross(normal, frame.axes[2])) < ALONG => {
+        Curve::Circle { frame, radius } if norm(cross(normal, frame.axes[2])) < IN_PLANE => {
             let radius = radius - distance * dot(normal, frame.axes[2]).signum();
             (radius > 0.0).then_some(Curve::Circle { frame: *frame, radius })
         }
         _ => None,
-    }
-}
-
-/// Axes along those of space.
-pub(super) fn upright(origin: Point) -> Frame {
-    Frame { origin, axes: Placement::IDENTITY.rows }
-}
-
-/// How many control points there are, and the degree: parameter `k` is the upper index, `degree` the degree.
-pub(super) fn numbers(record: &Record, k: usize, degree: usize) -> Result<(usize, usize), Wrong> {
-    let (most, degree) = (record.count(k)?, record.count(degree)?);
-    match degree >= 1 && degree <= most {
-        true => Ok((most + 1, degree)),
-        false => Err(record.wrong(format!(
-            "has the upper index {most} and the degree {degree}, where degrees are at least 1 and no greater"
-        ))),
     }
 }

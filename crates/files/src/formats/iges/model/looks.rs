@@ -1,7 +1,7 @@
 //! Colors, names and levels, and what is not shown.
 
 use super::super::text::{Entity, File};
-use super::surface::SURFACES;
+use super::surface::SURFACE_KINDS;
 use std::collections::{BTreeMap, BTreeSet};
 use trueness_cad::brep::Color;
 
@@ -13,7 +13,7 @@ pub(super) struct Looks {
 
 /// Whether an entity may stand for a face, a solid or an instance.
 fn is_named(entity: &Entity) -> bool {
-    matches!(entity.kind, 143 | 144 | 186 | 408 | 510) || SURFACES.contains(&entity.kind)
+    matches!(entity.kind, 143 | 144 | 186 | 408 | 510) || SURFACE_KINDS.contains(&entity.kind)
 }
 
 /// The colors that have a number of their own, from 1.

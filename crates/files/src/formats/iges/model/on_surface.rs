@@ -3,7 +3,7 @@
 //! On a line of equal parameters they are that line of the surface. Others become cubics whose ends and tangents are right, halved until they are near
 //! enough in the middle.
 
-use super::curve::Geometry;
+use super::geometry::Geometry;
 use super::surface::Patch;
 use crate::formats::brep::Wrong;
 use crate::formats::spline::{Raw, cad_curve};
@@ -15,7 +15,7 @@ const OFF_SHARE: f64 = 0.1;
 /// Cubics that one curve is cut into at first.
 const PIECES: usize = 4;
 /// Halvings at most.
-const DEPTH: usize = 12;
+const MAX_CUBIC_HALVINGS: usize = 12;
 /// Share of the extent of a line within which its places have equal parameters: rounding of the digits of a file.
 const LEVEL: f64 = 1e-9;
 
@@ -78,7 +78,7 @@ impl Geometry<'_> {
             if off <= OFF_SHARE * self.tolerance {
                 points.extend([inner[0], inner[1], b]);
                 ends.push(to);
-            } else if depth < DEPTH {
+            } else if depth < MAX_CUBIC_HALVINGS {
                 pending.extend([([middle, to], depth + 1), ([from, middle], depth + 1)]);
             } else {
                 return None;

@@ -3,8 +3,7 @@
 //! A loop that closes in the parameters bounds an area by itself: the face lies within the outer one, outside of the others. Loops that go around a
 //! surface that closes bound it together; those senses are taken that bound an area.
 
-use super::sew::edges_of;
-use super::shape::Loose;
+use super::loose::{Loose, edges_of};
 use crate::formats::brep::reversed;
 use trueness_cad::brep::{Bounds, Brep, Face, Loop};
 use trueness_cad::measure::Integrals;

@@ -1,13 +1,14 @@
 //! Matrices, points and directions.
 
 use super::super::record::Record;
-use super::curve::{Geometry, MAX_BASES};
+use super::geometry::Geometry;
+use crate::formats::brep::MAX_BASES;
 use crate::formats::brep::Wrong;
 use trueness_cad::frame::{Frame, Placement};
 use trueness_geom::space::{Point, Vector, cross, dot, minus, norm, times, unit};
 
 /// By how much axes of a matrix may differ from unit length and from right angles: files have about seven digits at least.
-const ROUNDED: f64 = 1e-4;
+const UNEVEN_AXES: f64 = 1e-4;
 
 impl Geometry<'_> {
     /// What the matrix of an entity does to it, and those that place this matrix.
@@ -35,7 +36,7 @@ impl Geometry<'_> {
         let axes = [column(0), column(1), column(2)];
         let scale = norm(axes[0]);
         let wrong = || record.wrong("is a matrix that does not keep the shape of what it places");
-        let uneven = |v: Vector| (norm(v) - scale).abs() > ROUNDED * scale;
+        let uneven = |v: Vector| (norm(v) - scale).abs() > UNEVEN_AXES * scale;
         if scale <= 0.0 || !scale.is_finite() || axes.into_iter().any(uneven) {
             return Err(wrong());
         }
@@ -44,11 +45,11 @@ impl Geometry<'_> {
         let (y, _) = unit(minus(axes[1], times(dot(axes[1], x), x))).ok_or_else(wrong)?;
         let z = cross(x, y);
         let side = dot(z, axes[2]) / scale;
-        if (side.abs() - 1.0).abs() > ROUNDED || dot(x, axes[1]).abs() > ROUNDED * scale {
+        if (side.abs() - 1.0).abs() > UNEVEN_AXES || dot(x, axes[1]).abs() > UNEVEN_AXES * scale {
             return Err(wrong());
         }
         let z = times(side.signum(), z);
-        let scale = if (scale - 1.0).abs() <= ROUNDED { 1.0 } else { scale };
+        let scale = if (scale - 1.0).abs() <= UNEVEN_AXES { 1.0 } else { scale };
         let rows = std::array::from_fn(|k| [x[k], y[k], z[k]]);
         Ok(Placement { rows, scale, shift: column(3).map(|x| x * self.unit) })
     }

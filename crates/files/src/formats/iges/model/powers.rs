@@ -1,7 +1,7 @@
 //! Parametric splines (112, 114): polynomials by their powers in each segment, which are cubic B-splines exactly.
 
 use super::super::record::Record;
-use super::curve::Geometry;
+use super::geometry::Geometry;
 use crate::formats::brep::Wrong;
 use crate::formats::spline::{Raw, cad_curve, surface as spline_surface};
 use trueness_cad::curve::Span;

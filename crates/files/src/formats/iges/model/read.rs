@@ -3,16 +3,17 @@
 use super::super::global::Global;
 use super::super::text::{File, file, up_to_the_end};
 use super::assembly::Assembly;
-use super::curve::Geometry;
+use super::geometry::Geometry;
+use super::kinds::name;
 use super::looks::{Looks, hidden_and_layers};
-use super::shape::{Shapes, name};
+use super::shape::Shapes;
 use super::sheets::Sheets;
 use crate::content::cad_file::{CadContent, LengthUnit};
 use crate::content::spline_model::SplineModel;
 use crate::error::{Fault, Result};
 use crate::format::ReadOptions;
-use crate::formats::brep::Budget;
 use crate::formats::brep::tree::instances;
+use crate::formats::brep::{Budget, MAX_TOLD};
 use crate::source::{SNIFFED_BYTES, Source};
 use crate::unicode::no_zeros;
 use crate::{UnitFrom, Warning};
@@ -28,8 +29,6 @@ use trueness_geom::spline::value::Mass;
 const RESOLUTIONS: [f64; 2] = [1e-6, 1e-2];
 /// The resolution of a file that states none, millimeters: what most programs state.
 const USUAL_RESOLUTION: f64 = 1e-3;
-/// Damaged entities that are told one by one; they are others' faults as well.
-const MAX_TOLD: usize = 1000;
 
 /// Reads the model of a file; whether it holds any shape is another question. The splines are those of a file whose faces are all whole B-spline
 /// surfaces, and its curves that bound nothing.
@@ -103,7 +102,7 @@ fn unit(global: &Global, options: &ReadOptions) -> LengthUnit {
 }
 
 /// Kinds of entities that hold shapes; what these need is told with them.
-const HOLDERS: [u64; 8] = [0, 144, 143, 186, 308, 408, 510, 514];
+const SHAPE_KINDS: [u64; 8] = [0, 144, 143, 186, 308, 408, 510, 514];
 
 /// The damaged entities that hold shapes, and the end of the file if it is missing.
 fn damaged(file: &File) -> Vec<Unread> {
@@ -115,7 +114,7 @@ fn damaged(file: &File) -> Vec<Unread> {
             more += 1;
             continue;
         }
-        let (keyword, holds_faces) = (name(entity.kind), HOLDERS.contains(&entity.kind));
+        let (keyword, holds_faces) = (name(entity.kind), SHAPE_KINDS.contains(&entity.kind));
         let reason = format!("line {}: {reason}", entity.line);
         all.push(Unread { entity: entity.number, keyword, reason, holds_faces });
     }

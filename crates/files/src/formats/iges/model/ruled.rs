@@ -1,7 +1,7 @@
 //! Ruled surfaces (118): straight from each place of one curve to that of another one with the same parameter, as B-splines exactly.
 
 use super::super::record::Record;
-use super::curve::Geometry;
+use super::geometry::Geometry;
 use crate::formats::brep::Wrong;
 use std::f64::consts::FRAC_PI_2;
 use trueness_cad::curve::{Curve, Span};

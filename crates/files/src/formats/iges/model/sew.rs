@@ -3,13 +3,13 @@
 //! Faces of such files share nothing: each has its own border. Where two borders lie within the resolution of the file of each other, they are meant
 //! to be one. So do the two sides of a seam, where a face goes around a surface that closes.
 
-use super::shape::Loose;
+use super::loose::{Loose, edges_of};
 use std::collections::{BTreeMap, HashMap};
 use trueness_cad::brep::{Bounds, Brep, Edge, Loop};
 use trueness_geom::space::{Aabb, Point, minus, norm};
 
 /// Shares of an edge at which it must lie on another one.
-const SHARES: [f64; 3] = [0.25, 0.5, 0.75];
+const SEWN_SHARES: [f64; 3] = [0.25, 0.5, 0.75];
 
 /// Sews the edges of these faces.
 pub(super) fn sew(brep: &mut Brep, loose: &[Loose], tolerance: f64) {
@@ -79,16 +79,9 @@ fn joined_vertices(brep: &Brep, loose: &[Loose], tolerance: f64) -> Vec<u32> {
     stands
 }
 
-/// The edges of a face.
-pub(super) fn edges_of(face: &trueness_cad::brep::Face) -> Vec<u32> {
-    let Bounds::Loops(loops) = &face.bounds else { return vec![] };
-    let uses = loops.iter().filter_map(|l| if let Loop::Edges(uses) = l { Some(uses) } else { None });
-    uses.flatten().map(|u| u.edge).collect()
-}
-
 /// Whether an edge lies on another one with the same vertices, and then whether it runs the same way.
 fn same_way(known: &Edge, own: &Edge, tolerance: f64) -> Option<bool> {
-    let places = SHARES.map(|share| own.span.derivatives(share)[0]);
+    let places = SEWN_SHARES.map(|share| own.span.derivatives(share)[0]);
     let size = Aabb::of(&[places[0], places[2], own.span.ends()[0]]).diagonal();
     if size <= tolerance {
         return None;

@@ -2,26 +2,18 @@
 
 use super::super::record::Record;
 use super::boundary::Bounded;
-use super::curve::Geometry;
+use super::geometry::Geometry;
+use super::kinds::name;
 use super::looks::Looks;
-use super::surface::SURFACES;
+use super::loose::{Loose, edges_of};
+use super::surface::SURFACE_KINDS;
 use super::topology::Topology;
 use super::{orient, sew, sheets};
-use crate::formats::brep::{Wrong, look_inward};
+use crate::formats::brep::{WITHOUT_ENDS, Wrong, look_inward};
 use trueness_cad::brep::{Bounds, Brep, Color, Face, Shell, Solid};
 use trueness_cad::frame::Placement;
 use trueness_cad::model::{Part, Unread};
 use trueness_geom::progress::Progress;
-
-/// Why a surface in no face is not read.
-const WITHOUT_ENDS: &str = "is a surface without ends, in no face";
-
-/// A face without topology: its loops have no sense yet.
-pub(super) struct Loose {
-    pub face: u32,
-    /// Which loop is around the others, where the file says so.
-    pub outer: Option<usize>,
-}
 
 /// The shapes of a part, one after another.
 pub(super) struct Shapes<'f> {
@@ -90,7 +82,7 @@ impl<'f> Shapes<'f> {
                 Ok(())
             }
             144 | 143 => self.loose(record),
-            kind if SURFACES.contains(&kind) => self.loose(record),
+            kind if SURFACE_KINDS.contains(&kind) => self.loose(record),
             _ => Err(record.wrong(explained(record.entity.kind))),
         }
     }
@@ -126,7 +118,7 @@ impl<'f> Shapes<'f> {
     fn has_border(&self, shell: u32) -> bool {
         let Some(shell) = self.brep.shells.get(shell as usize) else { return false };
         let faces = shell.faces.iter().filter_map(|f| self.brep.faces.get(*f as usize));
-        let mut edges: Vec<u32> = faces.flat_map(sew::edges_of).collect();
+        let mut edges: Vec<u32> = faces.flat_map(edges_of).collect();
         edges.sort_unstable();
         let is_whole = !self.unread.iter().any(|u| u.holds_faces);
         is_whole && edges.chunk_by(|a, b| a == b).any(|uses| uses.len() == 1)
@@ -244,35 +236,4 @@ fn explained(kind: u64) -> String {
         _ => "a shape without faces of its own",
     };
     format!("is {what}, which is not read")
-}
-
-/// What an entity is, with its kind.
-pub(super) fn name(kind: u64) -> String {
-    let what = match kind {
-        100 => "circular arc",
-        102 => "composite curve",
-        108 => "plane",
-        110 => "line",
-        114 => "parametric spline surface",
-        118 => "ruled surface",
-        120 => "surface of revolution",
-        122 => "tabulated cylinder",
-        124 => "matrix",
-        126 => "B-spline curve",
-        128 => "B-spline surface",
-        140 => "offset surface",
-        142 => "curve on a surface",
-        143 => "bounded surface",
-        144 => "trimmed surface",
-        186 => "solid",
-        308 | 320 => "subfigure",
-        408 | 420 => "instance of a subfigure",
-        510 => "face",
-        514 => "shell",
-        150..=184 | 430 => "constructed solid",
-        190..=198 => "analytic surface",
-        412 | 414 => "array of instances",
-        _ => "entity",
-    };
-    format!("{what} ({kind})")
 }

@@ -2,7 +2,7 @@
 //!
 //! Such files do not say where material is. Neighbors look to one side of their sheet; that of most of them. Where a sheet closes, they look out of it.
 
-use super::shape::Loose;
+use super::loose::Loose;
 use crate::formats::brep::reversed;
 use trueness_cad::brep::{Bounds, Brep, Loop, Shell};
 use trueness_cad::measure::Integrals;

@@ -1,8 +1,9 @@
 //! Surfaces of a file.
 
 use super::super::record::Record;
-use super::curve::{Geometry, MAX_BASES, numbers};
+use super::geometry::{Geometry, numbers};
 use super::{powers, ruled};
+use crate::formats::brep::MAX_BASES;
 use crate::formats::brep::Wrong;
 use crate::formats::spline::{Raw, surface as spline_surface};
 use std::f64::consts::{PI, TAU};
@@ -33,12 +34,12 @@ pub(super) struct Parameters {
     pub first: [f64; 2],
 }
 
-const SAME: Option<Parameters> = Some(Parameters { is_swapped: false, first: [1.0, 0.0] });
+const SAME_PARAMETERS: Option<Parameters> = Some(Parameters { is_swapped: false, first: [1.0, 0.0] });
 /// Radians by which a whole turn may miss one: programs write six digits.
 const WHOLE_TURN: f64 = 2e-5;
 
 /// Kinds of surfaces that are read.
-pub(super) const SURFACES: [u64; 12] = [108, 114, 118, 120, 122, 128, 140, 190, 192, 194, 196, 198];
+pub(super) const SURFACE_KINDS: [u64; 12] = [108, 114, 118, 120, 122, 128, 140, 190, 192, 194, 196, 198];
 
 impl Geometry<'_> {
     /// A surface.
@@ -205,7 +206,7 @@ impl Patch {
     }
 
     fn spline(surface: Surface) -> Patch {
-        Patch { parameters: SAME, ..Patch::whole(surface) }
+        Patch { parameters: SAME_PARAMETERS, ..Patch::whole(surface) }
     }
 
     /// Whether it has an end on all sides.

@@ -1,7 +1,7 @@
 //! Vertices, edges, loops, faces and shells of solids (502, 504, 508, 510, 514).
 
 use super::super::record::Record;
-use super::curve::Geometry;
+use super::geometry::Geometry;
 use super::surface::Patch;
 use crate::formats::brep::span::{MAX_GAP, between};
 use crate::formats::brep::{Wrong, add_edge, reversed};

@@ -3,13 +3,10 @@
 use super::super::part21::{Entity, File, Record, Value, Wrong};
 use super::super::spline::{CURVES, spline};
 use super::placement::{Units, direction, frame, operator, point, vector};
-use crate::formats::brep::{Budget, span};
+use crate::formats::brep::{Budget, MAX_BASES, span};
 use crate::formats::spline::cad_curve;
 use trueness_cad::curve::{Curve, Span};
 use trueness_geom::space::{Point, cross, dot, minus, norm, plus, times, unit};
-
-/// Curves and surfaces that rest on others at most, one on another.
-pub(super) const MAX_BASES: usize = 16;
 
 /// What geometry is read with.
 #[derive(Clone, Copy)]

@@ -8,8 +8,8 @@ use super::placement::Units;
 use crate::content::cad_file::{CadContent, LengthUnit};
 use crate::error::{Fault, Located, Result};
 use crate::format::ReadOptions;
-use crate::formats::brep::Budget;
 use crate::formats::brep::tree::{Node, instances};
+use crate::formats::brep::{Budget, MAX_TOLD};
 use crate::source::Source;
 use crate::{UnitFrom, Warning};
 use std::collections::BTreeMap;
@@ -21,8 +21,6 @@ use trueness_geom::progress::Progress;
 const UNCERTAINTIES: [f64; 2] = [1e-6, 1e-2];
 /// The uncertainty of a file that states none, millimeters: what most programs state.
 const USUAL_UNCERTAINTY: f64 = 1e-3;
-/// Damaged entities that are told one by one; they are others' faults as well.
-const MAX_TOLD: usize = 1000;
 
 /// Reads the model of a file; whether it holds any shape is another question: [`holds_anything`].
 pub(crate) fn read(
