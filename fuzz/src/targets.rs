@@ -25,7 +25,7 @@ pub struct Target {
 }
 
 /// All targets.
-pub const TARGETS: [Target; 14] = [
+pub const TARGETS: [Target; 15] = [
     readers::STL,
     readers::PLY,
     readers::OBJ,
@@ -38,6 +38,7 @@ pub const TARGETS: [Target; 14] = [
     scans::E57,
     readers::GZ,
     cad::STEP,
+    cad::IGES,
     meshes::CHECK,
     meshes::REPAIR,
 ];

@@ -9,7 +9,7 @@ pub use crate::formats::step::surface as step;
 use crate::content::cad_file::CadContent;
 use crate::error::{Fault, ReadError, Result};
 use crate::format::ReadOptions;
-use crate::formats::step;
+use crate::formats::{iges as iges_format, step as step_format};
 use crate::source::{FileSources, Source, Sources};
 use crate::{Format, detect};
 use std::path::Path;
@@ -19,7 +19,8 @@ use trueness_geom::progress::Progress;
 type Reader = fn(&mut Source, &ReadOptions, &dyn Progress) -> Result<CadContent>;
 
 /// The formats of CAD models.
-const READERS: [(&Format, Reader); 1] = [(&step::STEP, step::model)];
+const READERS: [(&Format, Reader); 2] =
+    [(&step_format::STEP, step_format::model), (&iges_format::IGES, iges_format::model)];
 
 /// The model of a CAD file, `-` being standard input: parts with exact faces, and where they stand. `.gz` is unpacked on the way.
 ///
@@ -66,7 +67,7 @@ fn of_source(
     };
     let Some((_, reader)) = READERS.iter().find(|(known, _)| *known == format) else {
         let what = format!("this is a file of the format {}, which holds no CAD model", format.name);
-        return Err(Fault::Unsupported { what, remedy: "give a STEP file" }.into());
+        return Err(Fault::Unsupported { what, remedy: "give a STEP or IGES file" }.into());
     };
     let (bytes, gzip) = (source.bytes, source.gzip);
     let CadContent { model, unit, warnings, splines } = reader(&mut source, options, progress)?;

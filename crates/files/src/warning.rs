@@ -112,6 +112,15 @@ pub enum Warning {
         /// Millimeters in the unit that was taken.
         millimeters: f64,
     },
+    /// Faces of a CAD file bound no solid: the file does not say where material is, and their normals were made to agree.
+    Sheets {
+        /// Faces in no solid.
+        faces: u64,
+        /// Sheets among them that have no border.
+        closed: u64,
+        /// Faces that were turned.
+        turned: u64,
+    },
     /// There are neither B-spline surfaces nor curves in a CAD file.
     NoSplines,
     /// Faces that are less than their surface; it was taken whole.
@@ -235,6 +244,11 @@ impl Warning {
                 f,
                 "{count} representation(s) of shapes say no unit of lengths; one of {millimeters} mm was taken"
             ),
+            Warning::Sheets { faces, closed, turned } => write!(
+                f,
+                "{faces} face(s) are surfaces of no solid, in sheets of which {closed} close; {turned} of them were turned so that \
+                 neighbors look to one side, and closed sheets outward"
+            ),
             Warning::NoSplines => write!(f, "the file holds neither B-spline surfaces nor B-spline curves"),
             Warning::Trimmed { count } => write!(
                 f,
@@ -334,6 +348,7 @@ impl fmt::Display for Warning {
                 )
             }
             Warning::UnitMissing { .. }
+            | Warning::Sheets { .. }
             | Warning::NoSplines
             | Warning::Trimmed { .. }
             | Warning::FacesLeftOut { .. }

@@ -1,4 +1,4 @@
-//! The reader of CAD models. Of all that is read indices must name what is there, and numbers must be finite.
+//! The readers of CAD models. Of all that is read indices must name what is there, and numbers must be finite.
 
 use super::Target;
 use crate::mutate::mutated;
@@ -16,6 +16,70 @@ pub const STEP: Target = Target {
     run: |_, path| read(path),
     size: <[u8]>::len,
 };
+
+/// IGES.
+pub const IGES: Target = Target {
+    name: "iges",
+    extension: "igs",
+    seeds: |_| IGES_SEEDS.iter().map(|entities| iges(entities)).collect(),
+    mutate: |random, case, other| mutated(random, case, other, IGES_WORDS),
+    run: |_, path| read(path),
+    size: <[u8]>::len,
+};
+
+/// Entities of IGES, one a line: the matrix that places it, its kind and its parameters.
+const IGES_SEEDS: [&str; 2] = [
+    "0 108,0.,0.,1.,0.,0,0.,0.,0.,0.\n0 110,0.,0.,0.,4.,0.,0.\n0 110,4.,0.,0.,0.,3.,0.\n0 110,0.,3.,0.,0.,0.,0.\n0 102,3,3,5,7\n\
+     0 142,0,1,0,9,2\n0 144,1,1,0,11\n0 124,0.,-1.,0.,1.,1.,0.,0.,2.,0.,0.,1.,3.\n15 100,0.,0.,0.,2.,0.,0.,2.\n0 120,5,17,0.,3.\n\
+     0 110,0.1,0.5,0.,0.4,0.9,0.\n0 110,0.4,0.9,0.,0.1,2.,0.\n0 110,0.1,2.,0.,0.1,0.5,0.\n0 102,3,21,23,25\n0 142,0,19,27,0,1\n\
+     0 144,19,1,0,29\n0 308,0,1HA,2,13,31\n15 408,33,1.,2.,3.,2.\n0 104,1.,0.,1.,0.,0.,-1.,0.,1.,0.,1.,0.\n0 122,37,1.,0.,5.\n\
+     0 118,3,5,0,0\n0 140,0.,0.,1.,0.5,39\n0 106,1,3,0.,0.,0.,1.,0.,1.,1.\n0 143,0,1,1,49\n0 141,0,1,1,2,3,1,0,5,2,0\n",
+    "0 502,2,2.,0.,0.,2.,0.,5.\n0 100,0.,0.,0.,2.,0.,2.,0.\n0 100,5.,0.,0.,2.,0.,2.,0.\n0 110,2.,0.,0.,2.,0.,5.\n\
+     0 504,3,3,1,1,1,1,5,1,2,1,2,7,1,1,1,2\n0 508,4,0,9,1,1,0,0,9,3,1,0,0,9,2,0,0,0,9,3,0,0\n0 508,1,0,9,1,0,0\n0 508,1,0,9,2,1,0\n\
+     0 116,0.,0.,0.\n0 116,0.,0.,5.\n0 123,0.,0.,1.\n0 123,0.,0.,-1.\n0 192,17,21,2.\n0 190,17,23\n0 190,19,21\n0 510,25,1,1,11\n\
+     0 510,27,1,1,13\n0 510,29,1,1,15\n0 514,3,31,1,33,1,35,1\n0 186,37,1,0\n0 196,17,3.,0,0\n0 198,17,21,3.,1.\n0 194,17,21,1.,30.\n\
+     0 126,2,2,1,0,0,0,0.,0.,0.,1.,1.,1.,1.,0.5,1.,0.,0.,0.,1.,1.,0.,2.,0.,0.,0.,1.\n0 120,7,47,0.,1.\n\
+     0 128,1,1,1,1,0,0,1,0,0,0.,0.,1.,1.,0.,0.,1.,1.,1.,1.,1.,1.,0.,0.,0.,1.,0.,0.,0.,1.,0.,1.,1.,1.,0.,1.,0.,1.\n",
+];
+
+const IGES_WORDS: &[&[u8]] = &[
+    b"1",
+    b"7",
+    b"144",
+    b"124",
+    b"99999999",
+    b"-1",
+    b"0.",
+    b"1.E308",
+    b"1H",
+    b"9999H",
+    b",",
+    b";",
+    b"D      3",
+    b"P      2",
+    b"T      1",
+];
+
+/// A file of entities.
+fn iges(entities: &str) -> Vec<u8> {
+    let mut out = format!("{:<72}S{:>7}\n", "", 1);
+    out += &format!("{:<72}G{:>7}\n", ",,1HA,1HA,1HA,1HA,32,38,6,308,15,1HA,1.,2,2HMM,1,.01,1HA,1.E-3;", 1);
+    let (mut parameters, mut row) = (String::new(), 1);
+    for (n, line) in entities.lines().enumerate() {
+        let (matrix, own) = line.trim().split_once(' ').unwrap_or_default();
+        let kind = own.split(',').next().unwrap_or_default();
+        let text = format!("{own};");
+        let lines: Vec<&[u8]> = text.as_bytes().chunks(64).collect();
+        let number = 2 * n + 1;
+        out += &format!("{kind:>8}{row:>8}{0:>8}{0:>8}{0:>8}{0:>8}{matrix:>8}{0:>8}{0:0>8}D{number:>7}\n", 0);
+        out += &format!("{kind:>8}{0:>8}{0:>8}{1:>8}{0:>8}{0:>32}D{2:>7}\n", 0, lines.len(), number + 1);
+        for line in lines {
+            parameters += &format!("{:<64}{number:>8}P{row:>7}\n", String::from_utf8_lossy(line));
+            row += 1;
+        }
+    }
+    format!("{out}{parameters}{:<72}T{:>7}\n", "", 1).into_bytes()
+}
 
 /// Units, axes and a product, before the entities of each seed.
 const BASE: &str = "#1=(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MILLI.,.METRE.));\n#2=(NAMED_UNIT(*)PLANE_ANGLE_UNIT()SI_UNIT($,.RADIAN.));\n\

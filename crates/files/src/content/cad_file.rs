@@ -26,7 +26,7 @@ impl LengthUnit {
 pub struct CadFile {
     /// Its parts and where they stand, millimeters; what of them could not be read is told there.
     pub model: Model,
-    /// What its content proved to be: `step`.
+    /// What its content proved to be: `step`, `iges`.
     pub format: &'static str,
     /// Size on disk; 0 where it is not known (standard input).
     pub bytes: u64,

@@ -1,6 +1,7 @@
 //! The list of formats: a format is one file or folder here and one line in [`FORMATS`]. Its page, `NAME.md`, is
 //! what `trueness formats NAME` prints.
 
+pub(crate) mod brep;
 pub(crate) mod dxf;
 pub(crate) mod e57;
 pub(crate) mod iges;

@@ -41,6 +41,21 @@ pub(crate) fn curve(raw: Raw) -> Result<Rational<3>, Fault> {
     }
 }
 
+/// The curve of one parameter, without weights where they are all alike.
+pub(crate) fn cad_curve(raw: Raw) -> Result<trueness_cad::curve::Curve, Fault> {
+    use trueness_cad::curve::Curve;
+    let plain = raw.weights.windows(2).all(|w| w[0] == w[1]);
+    let rational = curve(raw)?;
+    if !plain {
+        return Ok(Curve::Rational(rational));
+    }
+    // All weights are alike: moments are places times that weight.
+    let masses = rational.masses();
+    let points = masses.points().iter().map(|m| m.moment.map(|x| x / m.mass)).collect();
+    let plain = trueness_geom::spline::curve::Curve::new(masses.knots().clone(), points);
+    plain.map(Curve::Spline).map_err(fault)
+}
+
 /// Checked knots, and points with their weights.
 type KnotsAndPoints = (Vec<Knots>, Vec<([f64; 3], f64)>);
 

@@ -1,11 +1,8 @@
 //! Entities, and how a file lays them out.
 
 use super::super::step::real;
-use super::text::SECTION_COLUMN;
+use super::text::{PARAMETER_COLUMNS, SECTION_COLUMN};
 use std::io::{self, Write};
-
-/// Columns for parameters on a line of the parameter section.
-const PARAMETER_COLUMNS: usize = 64;
 
 /// An entity.
 #[derive(Default)]

@@ -1,6 +1,7 @@
 //! Reading IGES files: own ones, those of other programs, broken ones.
 
 use super::surface;
+use super::written::Text;
 use crate::cad::{SplineModel, SplineSurface};
 use crate::write::scratch::Folder;
 use crate::{Body, Input, ReadError, ReadOptions, Unit, Warning, open};
@@ -16,10 +17,12 @@ fn read(text: &[u8]) -> Result<Input, ReadError> {
 
 fn model(text: &[u8]) -> (SplineModel, Unit, Vec<Warning>) {
     let input = read(text).unwrap();
-    match input.body {
-        Body::Splines(model) => (model, input.provenance.unit_assumed, input.warnings),
+    let model = match input.body {
+        Body::Splines(model) => model,
+        Body::Cad(file) => file.splines.unwrap(),
         _ => panic!("no splines"),
-    }
+    };
+    (model, input.provenance.unit_assumed, input.warnings)
 }
 
 /// Bytes after the line of section T, appended by transfers, are no part of the model. Blank ones need no warning, others do.
@@ -58,47 +61,13 @@ fn what_was_written_reads_back_bit_for_bit() {
 }
 
 /// A file of entities: number, line of the matrix, parameters; `unit` is two global parameters.
-fn file(unit: &str, entities: &[(u32, u32, String)]) -> Vec<u8> {
-    let mut out = format!("{:<72}S{:>7}\n", "test", 1);
-    let global = format!(
-        "1H,,1H;,4Htest,8Htest.igs,1H,,1H;,32,38,6,308,15,4Htest,1.,{unit},1,.01,4Hdate,1.E-6,9.,,,11,0;"
-    );
-    for (k, line) in cut(&global, 72).iter().enumerate() {
-        out += &format!("{line:<72}G{:>7}\n", k + 1);
+fn file(unit: &'static str, entities: &[(u64, u64, String)]) -> Vec<u8> {
+    let mut text = Text::in_unit(unit);
+    for (kind, matrix, parameters) in entities {
+        text.add(*kind, parameters.clone());
+        text.placed(*matrix);
     }
-    let (mut parameters, mut directory, mut row) = (String::new(), String::new(), 1);
-    for (n, (kind, matrix, own)) in entities.iter().enumerate() {
-        let lines = cut(&format!("{kind},{own};"), 64);
-        let de = 2 * n + 1;
-        directory += &format!(
-            "{kind:>8}{row:>8}{:>8}{:>8}{:>8}{:>8}{matrix:>8}{:>8}{:>8}D{de:>7}\n{kind:>8}{:>8}{:>8}{:>8}{:>8}{:>32}D{:>7}\n",
-            0,
-            0,
-            0,
-            0,
-            0,
-            "00000000",
-            0,
-            0,
-            lines.len(),
-            0,
-            "",
-            de + 1
-        );
-        for line in lines {
-            parameters += &format!("{line:<64}{de:>8}P{row:>7}\n");
-            row += 1;
-        }
-    }
-    out += &directory;
-    out += &parameters;
-    out += &format!("{:<72}T{:>7}\n", "S      1G      1", 1);
-    out.into_bytes()
-}
-
-/// Lines of `width` columns, anywhere cut: others cut numbers too.
-fn cut(text: &str, width: usize) -> Vec<String> {
-    text.as_bytes().chunks(width).map(|c| String::from_utf8(c.to_vec()).unwrap()).collect()
+    text.bytes()
 }
 
 /// A quarter of a cylinder of radius 1 and height 2, with numbers as Fortran writes them; its domain ends are given.
@@ -132,30 +101,26 @@ fn a_part_of_the_domain_is_that_part_of_the_surface() {
     assert!((x.hypot(y) - 1.0).abs() < 1e-15 && (z - 1.0).abs() < 1e-15 && y > 0.1);
 }
 
+/// A model is one of whole splines where all of its faces are.
 #[test]
-fn trimmed_surfaces_are_told_from_whole_ones() {
+fn trimmed_surfaces_are_no_whole_splines() {
     let surface = (128, 0, quarter("0.,1.,0.,1."));
     let line = |a: [f64; 2], b: [f64; 2]| (110, 0, format!("{},{},0.,{},{},0.", a[0], a[1], b[0], b[1]));
-    let square = |inset: f64| {
-        let (a, b) = (inset, 1.0);
-        vec![
-            surface.clone(),
-            line([a, 0.0], [b, 0.0]),
-            line([b, 0.0], [b, 1.0]),
-            line([b, 1.0], [a, 1.0]),
-            line([a, 1.0], [a, 0.0]),
-            (102, 0, "4,3,5,7,9".into()),
-            (142, 0, "0,1,11,0,1".into()),
-            (144, 0, "1,1,0,13".into()),
-        ]
-    };
-    assert!(model(&file("2,2HMM", &square(0.0))).2.is_empty());
-    assert_eq!(model(&file("2,2HMM", &square(0.2))).2, [Warning::Trimmed { count: 1 }]);
-    let mut holes = square(0.0);
-    holes[7].2 = "1,0,1,0,13".into();
-    assert_eq!(model(&file("2,2HMM", &holes)).2, [Warning::Trimmed { count: 1 }]);
-    let sphere = (196, 0, "1,5.".into());
-    assert_eq!(model(&file("2,2HMM", &[surface, sphere])).2, [Warning::FacesLeftOut { count: 1, of: 2 }]);
+    let trimmed = [
+        surface.clone(),
+        line([0.2, 0.0], [1.0, 0.0]),
+        line([1.0, 0.0], [1.0, 1.0]),
+        line([1.0, 1.0], [0.2, 1.0]),
+        line([0.2, 1.0], [0.2, 0.0]),
+        (102, 0, "4,3,5,7,9".into()),
+        (142, 0, "0,1,11,0,1".into()),
+        (144, 0, "1,1,0,13".into()),
+    ];
+    let sphere = [surface.clone(), (116, 0, "0.,0.,0.".into()), (196, 0, "3,5.".into())];
+    for (entities, whole) in [(&[surface][..], true), (&trimmed, false), (&sphere, false)] {
+        let Body::Cad(file) = read(&file("2,2HMM", entities)).unwrap().body else { panic!() };
+        assert!(file.model.is_complete() && file.splines.is_some() == whole, "{:?}", file.model.unread);
+    }
 }
 
 #[test]
@@ -172,9 +137,9 @@ fn broken_files_are_refused_with_their_line() {
     let whole = quarter("0.,1.,0.,1.");
     let cases = [
         ("1,4HFEET", whole.clone(), None),
-        ("4,2HFT", whole.clone(), Some("inch")),
+        ("12,2HXX", whole.clone(), Some("inch")),
         ("2,2HMM", whole.replace("2,1,2,1,", "2,1,3,1,"), Some("degrees")),
-        ("2,2HMM", whole.replace("2,1,2,1,", "99999999,99999999,2,1,"), Some("degrees")),
+        ("2,2HMM", whole.replace("2,1,2,1,", "99999999,99999999,2,1,"), Some("99999999 follow")),
         ("2,2HMM", whole.replace("2,1,2,1,", "40,40,2,1,"), Some("control points declared")),
         ("2,2HMM", whole.replace("7.0710678118654757D-01,1.,1.", "-1.,1.,1."), Some("above 0")),
         ("2,2HMM", whole.replace("1.,1.,2.,0.,1.,2.,", ""), Some("numbers declared")),
@@ -193,22 +158,5 @@ fn broken_files_are_refused_with_their_line() {
         }
     }
     let text = file("2,2HMM", &[(128, 7, whole)]);
-    assert!(read(&text).err().unwrap().to_string().contains("the matrix that places it"));
-}
-
-#[test]
-fn cut_short_or_changed_anywhere_it_does_no_harm() {
-    let whole = file("2,2HMM", &[(128, 0, quarter("0.,1.,0.,1."))]);
-    for end in 0..whole.len() - 80 {
-        assert!(read(&whole[..end]).is_err(), "{end}");
-    }
-    let mut random = Random::stream(12, 0);
-    for _ in 0..3000 {
-        let mut bytes = whole.clone();
-        for _ in 0..1 + random.below(4) {
-            let at = random.below(bytes.len() as u64) as usize;
-            bytes[at] = b"0123456789HSGDPT,;.-+E \n"[random.below(24) as usize];
-        }
-        let _ = read(&bytes);
-    }
+    assert!(read(&text).err().unwrap().to_string().contains("#7 is not in the file"));
 }

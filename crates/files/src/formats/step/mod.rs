@@ -3,7 +3,6 @@
 //!
 //! The header's time stamp is fixed, so that the same model gives the same bytes.
 
-mod budget;
 mod context;
 mod curves;
 mod instances;
@@ -24,6 +23,7 @@ use crate::content::cad_file::CadContent;
 use crate::content::spline_model::SplineModel;
 use crate::error::Result;
 use crate::format::{Format, Head, Parsed, ReadOptions};
+use crate::formats::brep::holds_anything;
 use crate::source::Source;
 use trueness_geom::progress::{Progress, Silent};
 
@@ -47,7 +47,7 @@ pub(crate) fn model(
     progress: &dyn Progress,
 ) -> Result<CadContent> {
     let content = model::read(source, options, progress)?;
-    model::holds_anything(&content.model)?;
+    holds_anything(&content.model)?;
     Ok(content)
 }
 
@@ -60,7 +60,7 @@ fn parsed(mut source: Source, options: &ReadOptions) -> Result<Parsed> {
         return Ok(Parsed::cad("step", content));
     }
     if !content.model.is_complete() {
-        model::holds_anything(&content.model)?;
+        holds_anything(&content.model)?;
     }
     read::read(&mut source, options)
 }

@@ -7,6 +7,7 @@ use super::super::context::{Context, context};
 use super::super::part21::{Entity, File, Record, Value, Wrong};
 use super::placement::{Units, frame, operator, target};
 use super::shape::{Item, item};
+use crate::formats::brep::tree::{self, Child};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use trueness_cad::frame::Placement;
 use trueness_cad::model::Unread;
@@ -14,27 +15,14 @@ use trueness_cad::model::Unread;
 /// A part or an assembly.
 #[derive(Default)]
 pub(super) struct Node {
-    pub name: String,
+    /// Its name, and what stands in it.
+    pub tree: tree::Node,
     /// Whether it is the shape of a product, not only a representation.
     pub is_product: bool,
     /// In the order of their numbers.
     pub representations: Vec<u64>,
-    pub children: Vec<Child>,
     /// Whether it has mapped items.
     maps: bool,
-}
-
-/// A node as it stands in another one.
-pub(super) struct Child {
-    pub node: usize,
-    pub name: String,
-    pub placement: Placement,
-    /// The entity that places it.
-    pub entity: u64,
-    /// What a file styles where it gives this occurrence a color: the relationship, or the mapped item.
-    pub styled: u64,
-    /// Whether it stands in itself, and is left out.
-    pub is_cut: bool,
 }
 
 /// A representation: items in a context.
@@ -151,15 +139,15 @@ impl<'f> Assembly<'f> {
                     items.iter().any(|n| self.file.entity(*n).is_ok_and(|e| item(&e) == Item::Mapped));
             } else {
                 node.is_product = true;
-                if node.name.is_empty() {
-                    node.name = product_name(self.file, number).unwrap_or_default();
+                if node.tree.name.is_empty() {
+                    node.tree.name = product_name(self.file, number).unwrap_or_default();
                 }
             }
         }
         for node in &mut self.nodes {
-            if node.name.is_empty() {
+            if node.tree.name.is_empty() {
                 let names = node.representations.iter().filter_map(|r| self.representations.get(r));
-                node.name = names.map(|r| r.name.clone()).find(|n| !n.is_empty()).unwrap_or_default();
+                node.tree.name = names.map(|r| r.name.clone()).find(|n| !n.is_empty()).unwrap_or_default();
             }
         }
     }
@@ -248,9 +236,9 @@ impl<'f> Assembly<'f> {
         let child = if turned { second } else { first };
         let parent = nodes[0].unwrap_or(if turned { first } else { second });
         let placement = self.transformation(transformed.entity(0)?, pair, turned)?;
-        let name = if name.is_empty() { self.nodes[child].name.clone() } else { name };
+        let name = if name.is_empty() { self.nodes[child].tree.name.clone() } else { name };
         let styled = entity.number();
-        self.nodes[parent].children.push(Child {
+        self.nodes[parent].tree.children.push(Child {
             node: child,
             name,
             placement,
@@ -303,9 +291,9 @@ impl<'f> Assembly<'f> {
         let from = frame(self.file, self.units(mapped), map.entity(0)?)?;
         let placement = target(self.file, self.units(owner), record.entity(first + 1)?, &from)?;
         let name = Some(record.text(0)).filter(|n| first == 1 && !n.is_empty());
-        let name = name.unwrap_or_else(|| self.nodes[child].name.clone());
+        let name = name.unwrap_or_else(|| self.nodes[child].tree.name.clone());
         let (entity, styled) = (entity.number(), entity.number());
-        self.nodes[parent].children.push(Child {
+        self.nodes[parent].tree.children.push(Child {
             node: child,
             name,
             placement,

@@ -1,16 +1,12 @@
 //! Curves of a file.
 
-use super::super::budget::Budget;
 use super::super::part21::{Entity, File, Record, Value, Wrong};
 use super::super::spline::{CURVES, spline};
 use super::placement::{Units, direction, frame, operator, point, vector};
-use super::span;
-use crate::formats::spline::curve as spline_curve;
+use crate::formats::brep::{Budget, MAX_BASES, span};
+use crate::formats::spline::cad_curve;
 use trueness_cad::curve::{Curve, Span};
 use trueness_geom::space::{Point, cross, dot, minus, norm, plus, times, unit};
-
-/// Curves and surfaces that rest on others at most, one on another.
-pub(super) const MAX_BASES: usize = 16;
 
 /// What geometry is read with.
 #[derive(Clone, Copy)]
@@ -158,16 +154,7 @@ impl<'f> Geometry<'f> {
         self.budget.spend(record.points().len(), entity)?;
         let points = record.points().iter().map(|n| self.point(*n)).collect::<Result<Vec<_>, _>>()?;
         let raw = record.with(points)?;
-        let plain = raw.weights.windows(2).all(|w| w[0] == w[1]);
-        let rational = spline_curve(raw).map_err(|fault| entity.wrong(fault.to_string()))?;
-        if !plain {
-            return Ok(Some(Curve::Rational(rational)));
-        }
-        // All weights are alike: moments are places times that weight.
-        let masses = rational.masses();
-        let points = masses.points().iter().map(|m| m.moment.map(|x| x / m.mass)).collect();
-        let curve = trueness_geom::spline::curve::Curve::new(masses.knots().clone(), points);
-        curve.map(|c| Some(Curve::Spline(c))).map_err(|e| entity.wrong(e.to_string()))
+        cad_curve(raw).map(Some).map_err(|fault| entity.wrong(fault.to_string()))
     }
 
     fn polyline(&self, entity: &Entity, record: &Record) -> Result<Curve, Wrong> {

@@ -4,7 +4,9 @@ use super::super::part21::{Entity, Record, Wrong};
 use super::looks::Looks;
 use super::placement::plane_of;
 use super::surface::Oriented;
-use super::topology::{MAX_ORIENTED, Topology, reversed};
+use super::topology::{MAX_ORIENTED, Topology};
+use crate::formats::brep::reversed;
+use crate::formats::brep::span::MAX_GAP;
 use std::collections::HashMap;
 use trueness_cad::brep::{Bounds, Color, Face, Loop, Shell};
 use trueness_cad::model::Unread;
@@ -176,7 +178,7 @@ impl<'f> Faces<'f> {
         let plane = plane_of(&largest).ok_or_else(|| record.wrong("has all its corners on one line"))?;
         let off = loops.iter().flat_map(|l| self.topology.corners(l)).map(|p| plane.local(p)[2].abs());
         let off = off.fold(0.0, f64::max);
-        match off <= self.topology.geometry.tolerance.max(super::span::MAX_GAP * size(&largest)) {
+        match off <= self.topology.geometry.tolerance.max(MAX_GAP * size(&largest)) {
             true => Ok(Surface::Plane(plane)),
             false => Err(record.wrong(format!("has corners that lie {off:.3e} mm off their plane"))),
         }

@@ -7,17 +7,14 @@
 mod assembly;
 mod curve;
 mod face;
-mod hollow;
-mod instances;
 mod looks;
 mod part;
 mod placement;
 mod read;
 mod shape;
-mod span;
 mod surface;
 #[cfg(test)]
 mod tests;
 mod topology;
 
-pub(crate) use read::{holds_anything, read};
+pub(crate) use read::read;

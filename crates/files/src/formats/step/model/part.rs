@@ -1,6 +1,5 @@
 //! The part of each node: what the items of its representations are.
 
-use super::super::budget::Budget;
 use super::super::part21::File;
 use super::assembly::Assembly;
 use super::curve::Geometry;
@@ -9,6 +8,7 @@ use super::looks::Looks;
 use super::placement::Units;
 use super::shape::{Item, Shapes, item};
 use super::topology::Topology;
+use crate::formats::brep::Budget;
 use std::cell::RefCell;
 use std::collections::BTreeSet;
 use trueness_cad::model::{Part, Unread};
@@ -54,7 +54,7 @@ impl<'f> Reading<'f> {
                 }
             }
         }
-        finished(shapes, node.name.clone())
+        finished(shapes, node.tree.name.clone())
     }
 
     /// The part of all shapes of a file whose representations are lost: solids, else models of shells, else shells, else faces.

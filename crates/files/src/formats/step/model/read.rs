@@ -1,15 +1,15 @@
 //! The whole of a file.
 
-use super::super::budget::Budget;
 use super::super::part21::{File, parse};
 use super::assembly::{Assembly, Representation, representations};
-use super::instances::instances;
 use super::looks::Looks;
 use super::part::Reading;
 use super::placement::Units;
 use crate::content::cad_file::{CadContent, LengthUnit};
 use crate::error::{Fault, Located, Result};
 use crate::format::ReadOptions;
+use crate::formats::brep::tree::{Node, instances};
+use crate::formats::brep::{Budget, MAX_TOLD};
 use crate::source::Source;
 use crate::{UnitFrom, Warning};
 use std::collections::BTreeMap;
@@ -21,8 +21,6 @@ use trueness_geom::progress::Progress;
 const UNCERTAINTIES: [f64; 2] = [1e-6, 1e-2];
 /// The uncertainty of a file that states none, millimeters: what most programs state.
 const USUAL_UNCERTAINTY: f64 = 1e-3;
-/// Damaged entities that are told one by one; they are others' faults as well.
-const MAX_TOLD: usize = 1000;
 
 /// Reads the model of a file; whether it holds any shape is another question: [`holds_anything`].
 pub(crate) fn read(
@@ -39,7 +37,7 @@ pub(crate) fn read(
     let uncertainty = shapes.values().filter_map(|r| r.context.as_ref().ok()?.uncertainty).reduce(f64::max);
     let fallback = Units { length: unit.millimeters, angle };
     let warnings = warnings(&shapes, &unit, options);
-    let budget = Budget::of(&file);
+    let budget = Budget::of(file.count());
     let tolerance = uncertainty.unwrap_or(USUAL_UNCERTAINTY).clamp(UNCERTAINTIES[0], UNCERTAINTIES[1]);
     let shown = Default::default();
     let reading = Reading { file: &file, budget: &budget, looks: &looks, progress, tolerance, shown };
@@ -61,7 +59,18 @@ pub(crate) fn read(
             return Err(Fault::Cancelled.into());
         }
     }
-    (model.instances, model.depth) = instances(&mut assembly, &parts, |entity| looks.color(entity))?;
+    let mut tree: Vec<Node> = assembly.nodes.iter_mut().map(|node| std::mem::take(&mut node.tree)).collect();
+    let made = instances(&mut tree, &parts, |entity| looks.color(entity))?;
+    (model.instances, model.depth) = (made.instances, made.levels);
+    assembly.unread.extend(made.cut.into_iter().map(|(entity, name)| Unread {
+        entity,
+        keyword: "NEXT_ASSEMBLY_USAGE_OCCURRENCE".into(),
+        reason: format!(
+            "places {} in itself",
+            if name.is_empty() { "an assembly".into() } else { format!("\"{name}\"") }
+        ),
+        holds_faces: true,
+    }));
     if model.parts.is_empty() && model.unread.is_empty() {
         let (part, mut unread) = reading.loose(fallback);
         model.unread.append(&mut unread);
@@ -139,26 +148,3 @@ const CONTAINERS: [&str; 10] = [
     "TRANSFORMATION",
     "PRODUCT_DEFINITION",
 ];
-
-/// A file without a face and without a wire is no model.
-pub(crate) fn holds_anything(model: &Model) -> Result<()> {
-    let faces: usize = model.parts.iter().map(|p| p.brep.faces.len()).sum();
-    if faces > 0 || model.parts.iter().any(|p| p.wires > 0) && !model.unread.iter().any(|u| u.holds_faces) {
-        return Ok(());
-    }
-    let lost: Vec<&Unread> = model.unread.iter().filter(|u| u.holds_faces).collect();
-    let what = match lost.first() {
-        None => "the file holds no shape: neither faces nor curves".to_string(),
-        Some(first) => {
-            let name = if first.keyword.is_empty() { "" } else { &first.keyword };
-            let others = lost.len() - 1;
-            let more = if others > 0 { format!(" (and {others} more)") } else { String::new() };
-            format!("none of its faces can be read: {name} #{}: {}{more}", first.entity, first.reason)
-        }
-    };
-    Err(Fault::Unsupported {
-        what,
-        remedy: "export it as a model with exact faces (boundary representation)",
-    }
-    .into())
-}

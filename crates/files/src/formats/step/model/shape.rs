@@ -1,12 +1,12 @@
 //! The items of a representation: solids, shells, surfaces without topology, wires.
 
 use super::super::part21::{Entity, Record, Wrong};
-use super::curve::{MAX_BASES, is_curve};
+use super::curve::is_curve;
 use super::face::Faces;
-use super::hollow::look_inward;
 use super::placement::operator;
 use super::surface::{Oriented, is_surface};
 use super::topology::Topology;
+use crate::formats::brep::{MAX_BASES, WITHOUT_ENDS, look_inward};
 use trueness_cad::brep::{Bounds, Brep, Color, Face, Solid};
 use trueness_cad::model::Part;
 
@@ -89,9 +89,6 @@ const HOLDERS: [&str; 15] = [
     "WEDGE",
     "ELLIPSOID",
 ];
-
-/// Why a surface in no face is not read.
-const WITHOUT_ENDS: &str = "is a surface without ends, in no face";
 
 /// The boundary of a part, item by item.
 pub(super) struct Shapes<'f> {

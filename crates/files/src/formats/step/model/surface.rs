@@ -2,8 +2,9 @@
 
 use super::super::part21::{Entity, Record, Wrong};
 use super::super::spline::spline;
-use super::curve::{Geometry, MAX_BASES};
+use super::curve::Geometry;
 use super::placement::{axis, frame, operator, vector};
+use crate::formats::brep::MAX_BASES;
 use crate::formats::spline::surface as spline_surface;
 use std::f64::consts::FRAC_PI_2;
 use trueness_cad::surface::Surface;

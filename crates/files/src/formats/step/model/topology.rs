@@ -2,9 +2,10 @@
 
 use super::super::part21::{Entity, Record, Wrong};
 use super::curve::{Geometry, size};
-use super::span::{MAX_GAP, between};
+use crate::formats::brep::span::{MAX_GAP, between};
+use crate::formats::brep::{add_edge, straight};
 use std::collections::HashMap;
-use trueness_cad::brep::{Bounds, Brep, Edge, EdgeUse, Loop, Vertex};
+use trueness_cad::brep::{Bounds, Brep, EdgeUse, Loop, Vertex};
 use trueness_cad::curve::{Curve, Span};
 use trueness_geom::space::{Aabb, Point, minus, norm};
 
@@ -97,9 +98,7 @@ impl<'f> Topology<'f> {
             None => straight(ends).ok_or_else(|| record.wrong("has neither a curve nor two places"))?,
         };
         self.geometry.budget.spend(size(&span.curve), &entity)?;
-        let index = self.brep.edges.len() as u32;
-        self.brep.edges.push(Edge { span, vertices, entity: number });
-        Ok(index)
+        Ok(add_edge(&mut self.brep, span, vertices, number))
     }
 
     fn on_curve(
@@ -227,8 +226,7 @@ impl<'f> Topology<'f> {
         let Some(span) = straight(ends) else {
             return Err(self.geometry.file.entity(high)?.wrong("lies where the corner before it lies"));
         };
-        let index = self.brep.edges.len() as u32;
-        self.brep.edges.push(Edge { span, vertices, entity: low });
+        let index = add_edge(&mut self.brep, span, vertices, low);
         self.sides.insert([low, high], index);
         Ok(index)
     }
@@ -258,8 +256,8 @@ impl<'f> Topology<'f> {
         for (k, span) in (0..count).zip(spans) {
             self.brep.vertices.push(Vertex { place: span.ends()[0] });
             let vertices = [first + k, first + (k + 1) % count];
-            uses.push(EdgeUse { edge: self.brep.edges.len() as u32, reversed: false });
-            self.brep.edges.push(Edge { span, vertices, entity: entity.number() });
+            let edge = add_edge(&mut self.brep, span, vertices, entity.number());
+            uses.push(EdgeUse { edge, reversed: false });
         }
         let gap = |used: &EdgeUse| {
             let edge = &self.brep.edges[used.edge as usize];
@@ -278,24 +276,6 @@ impl<'f> Topology<'f> {
         match around {
             Loop::Vertex(v) => vec![self.place(*v)],
             Loop::Edges(uses) => uses.iter().map(|u| self.place(self.ends(u)[0])).collect(),
-        }
-    }
-}
-
-/// The straight way from one place to another; `None` where they are one.
-fn straight([from, to]: [Point; 2]) -> Option<Span> {
-    let direction = minus(to, from);
-    let curve = Curve::Line { origin: from, direction };
-    (norm(direction) > 0.0).then_some(Span { curve, range: [0.0, 1.0] })
-}
-
-/// The same loop, gone along the other way.
-pub(super) fn reversed(around: Loop) -> Loop {
-    match around {
-        Loop::Vertex(v) => Loop::Vertex(v),
-        Loop::Edges(uses) => {
-            let turned = |u: &EdgeUse| EdgeUse { edge: u.edge, reversed: !u.reversed };
-            Loop::Edges(uses.iter().rev().map(turned).collect())
         }
     }
 }

@@ -1,8 +1,9 @@
 //! The entities of a file: where they stand, and what is wrong with some.
 
 use super::lines::Lines;
-use super::record::{Record, Wrong};
+use super::record::Record;
 use super::value::{Run, Value};
+use crate::formats::brep::{Faulty, Wrong};
 
 /// Where an entity stands.
 #[derive(Clone, Copy)]
@@ -187,5 +188,11 @@ impl<'f> Entity<'f> {
     /// A fault of the entity.
     pub fn wrong(&self, reason: impl Into<String>) -> Wrong {
         Wrong { entity: self.place.number, line: self.file.lines.line(self.place.at), reason: reason.into() }
+    }
+}
+
+impl Faulty for Entity<'_> {
+    fn wrong(&self, reason: &str) -> Wrong {
+        Entity::wrong(self, reason)
     }
 }

@@ -13,7 +13,8 @@ mod tests;
 mod text;
 mod value;
 
+pub(super) use crate::formats::brep::Wrong;
 pub(super) use file::{Entity, File};
-pub(super) use record::{Record, Wrong};
+pub(super) use record::Record;
 pub(super) use scan::parse;
 pub(super) use value::Value;

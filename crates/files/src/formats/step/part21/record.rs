@@ -3,23 +3,7 @@
 use super::lines::Lines;
 use super::text;
 use super::value::{Value, whole};
-
-/// What is wrong with an entity.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("#{entity}{} {reason}", shown(*.line))]
-pub(in super::super) struct Wrong {
-    /// Its number.
-    pub entity: u64,
-    /// Its line, 0 where it is not in the file.
-    pub line: u64,
-    /// What is wrong.
-    pub reason: String,
-}
-
-/// A line in brackets.
-fn shown(line: u64) -> String {
-    if line == 0 { String::new() } else { format!(" (line {line})") }
-}
+use crate::formats::brep::Wrong;
 
 /// A keyword with its parameters.
 #[derive(Clone, Copy)]

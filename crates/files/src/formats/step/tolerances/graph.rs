@@ -1,6 +1,6 @@
 //! What points at what: entities that relate tolerances, aspects of the shape, their items and their numbers.
 
-use super::super::budget::Budget;
+use crate::formats::brep::Budget;
 use super::super::part21::{Entity, File, Record, Value};
 use std::collections::HashMap;
 

@@ -11,7 +11,7 @@ mod target;
 #[cfg(test)]
 mod tests;
 
-use super::budget::Budget;
+use crate::formats::brep::Budget;
 use super::part21::File;
 use trueness_cad::tolerances::Tolerances;
 

@@ -1,6 +1,6 @@
 //! Small texts of each kind of tolerance, sound and broken.
 
-use super::super::budget::Budget;
+use crate::formats::brep::Budget;
 use super::super::part21::parse;
 use trueness_cad::tolerances::{DatumPart, DatumReference, Tolerances};
 use trueness_geom::progress::Silent;
@@ -20,7 +20,7 @@ fn read(entities: &str) -> Tolerances {
     let text =
         format!("ISO-10303-21;\nHEADER;\nENDSEC;\nDATA;\n{BASE}{entities}\nENDSEC;\nEND-ISO-10303-21;\n");
     let file = parse(text.as_bytes(), &Silent).unwrap();
-    super::read(&file, &Budget::of(&file))
+    super::read(&file, &Budget::of(file.count()))
 }
 
 fn plain(letter: &str) -> DatumReference {

@@ -5,13 +5,13 @@ use trueness_cad::curve::{Curve, CurveFeet, Foot, Span};
 use trueness_geom::space::{Point, minus, norm};
 
 /// How far two ends that should meet may lie apart, as a share of what they bound: beyond, the entity is damaged.
-pub(super) const MAX_GAP: f64 = 1e-2;
+pub(crate) const MAX_GAP: f64 = 1e-2;
 /// The share of a turn, or of the length of a spline's domain, within which two parameters are one: rounding of places.
 const SAME: f64 = 1e-9;
 
 /// The span of an edge between two places on a curve. `same` says that the edge has the sense of the curve, `closed` that both
 /// vertices are one. The vertices may lie off the curve; so far as they do is the second value.
-pub(super) fn between(
+pub(crate) fn between(
     curve: Curve,
     ends: [Point; 2],
     same: bool,
@@ -36,7 +36,7 @@ pub(super) fn between(
 }
 
 /// The place of a curve nearest to a point.
-pub(super) fn foot(curve: &Curve, p: Point) -> Foot {
+pub(crate) fn foot(curve: &Curve, p: Point) -> Foot {
     CurveFeet::new(curve, curve.domain()).nearest(p)
 }
 
@@ -95,7 +95,7 @@ fn around(curve: Curve, [from, to]: [f64; 2], same: bool) -> Span {
 ///
 /// # Errors
 /// They are one on a curve that does not close.
-pub(super) fn from_parameters(curve: Curve, [from, to]: [f64; 2], same: bool) -> Result<Span, &'static str> {
+pub(crate) fn from_parameters(curve: Curve, [from, to]: [f64; 2], same: bool) -> Result<Span, &'static str> {
     if curve.period().is_some() {
         let way = if same { to - from } else { from - to };
         let mut turns = way.rem_euclid(TAU);

@@ -2,10 +2,10 @@
 //!
 //! How many there are is counted before any is made: each level may double them.
 
-use super::assembly::{Assembly, Node};
 use crate::error::{Fault, Result};
+use trueness_cad::brep::Color;
 use trueness_cad::frame::Placement;
-use trueness_cad::model::{Instance, Unread};
+use trueness_cad::model::Instance;
 
 /// Names on all ways from a root to an instance, together.
 const MAX_NAMES: u64 = 1 << 22;
@@ -21,26 +21,44 @@ struct Below {
     levels: u32,
 }
 
+/// A part or an assembly.
+#[derive(Default)]
+pub(crate) struct Node {
+    pub name: String,
+    pub children: Vec<Child>,
+}
+
+/// A node as it stands in another one.
+pub(crate) struct Child {
+    pub node: usize,
+    pub name: String,
+    pub placement: Placement,
+    /// The entity that places it.
+    pub entity: u64,
+    /// What a file styles where it gives this occurrence a color.
+    pub styled: u64,
+    /// Whether it stands in itself, and is left out.
+    pub is_cut: bool,
+}
+
+/// How the parts of an assembly stand.
+pub(crate) struct Instances {
+    pub instances: Vec<Instance>,
+    /// Levels of the assembly.
+    pub levels: u32,
+    /// Entities that place a node in itself, with its name there: they are left out.
+    pub cut: Vec<(u64, String)>,
+}
+
 /// The instances of an assembly, with the color that each has itself, and the number of its levels. `parts` has the part of each
 /// node with its number of faces, if it has one.
-pub(super) fn instances(
-    assembly: &mut Assembly,
+pub(crate) fn instances(
+    nodes: &mut [Node],
     parts: &[Option<(u32, u64)>],
-    color: impl Fn(u64) -> Option<trueness_cad::brep::Color>,
-) -> Result<(Vec<Instance>, u32)> {
-    let (order, roots, cut) = ordered(&mut assembly.nodes);
-    for (entity, name) in cut {
-        assembly.unread.push(Unread {
-            entity,
-            keyword: "NEXT_ASSEMBLY_USAGE_OCCURRENCE".into(),
-            reason: format!(
-                "places {} in itself",
-                if name.is_empty() { "an assembly".into() } else { quoted(&name) }
-            ),
-            holds_faces: true,
-        });
-    }
-    let below = count(&assembly.nodes, parts, &order);
+    color: impl Fn(u64) -> Option<Color>,
+) -> Result<Instances> {
+    let (order, roots, cut) = ordered(nodes);
+    let below = count(nodes, parts, &order);
     let sum = |of: fn(&Below) -> u64| roots.iter().map(|r| of(&below[*r])).fold(0, u64::saturating_add);
     let limits = [
         ("instances of parts", sum(|b| b.instances), sum(|b| b.names), MAX_NAMES),
@@ -52,11 +70,7 @@ pub(super) fn instances(
         }
     }
     let levels = roots.iter().map(|r| below[*r].levels).max().unwrap_or_default();
-    Ok((expanded(&assembly.nodes, parts, &roots, &below, color), levels))
-}
-
-fn quoted(name: &str) -> String {
-    format!("\"{name}\"")
+    Ok(Instances { instances: expanded(nodes, parts, &roots, &below, color), levels, cut })
 }
 
 /// Nodes with those that stand in them first, the roots, and what was cut where nodes stand in themselves.
@@ -137,7 +151,7 @@ fn expanded(
     parts: &[Option<(u32, u64)>],
     roots: &[usize],
     below: &[Below],
-    color: impl Fn(u64) -> Option<trueness_cad::brep::Color>,
+    color: impl Fn(u64) -> Option<Color>,
 ) -> Vec<Instance> {
     let mut all = vec![];
     let mut path: Vec<String> = vec![];

@@ -3,7 +3,7 @@
 //! What many entities share, such as the control points of a surface that has a thousand faces, is copied into each. Real files
 //! share little; a file that is made to exhaust the memory shares everything.
 
-use super::part21::{Entity, File, Wrong};
+use super::{Faulty, Wrong};
 use std::cell::Cell;
 
 /// Copies of each entity of a file, on the average.
@@ -12,19 +12,19 @@ const COPIES: usize = 16;
 const LEAST: usize = 1 << 16;
 
 /// What may still be copied: places, edges of loops, faces of shells.
-pub(super) struct Budget(Cell<usize>);
+pub(crate) struct Budget(Cell<usize>);
 
 impl Budget {
-    /// That of a file.
-    pub fn of(file: &File) -> Budget {
-        Budget(Cell::new(LEAST + COPIES * file.count()))
+    /// That of a file of so many entities.
+    pub fn of(entities: usize) -> Budget {
+        Budget(Cell::new(COPIES.saturating_mul(entities).saturating_add(LEAST)))
     }
 
     /// Takes `count` from it.
     ///
     /// # Errors
     /// More than is left.
-    pub fn spend(&self, count: usize, entity: &Entity) -> Result<(), Wrong> {
+    pub fn spend(&self, count: usize, entity: &impl Faulty) -> Result<(), Wrong> {
         match self.0.get().checked_sub(count) {
             Some(left) => {
                 self.0.set(left);
