@@ -1,7 +1,7 @@
 //! What points at what: entities that relate tolerances, aspects of the shape, their items and their numbers.
 
-use crate::formats::brep::Budget;
 use super::super::part21::{Entity, File, Record, Value};
+use crate::formats::brep::Budget;
 use std::collections::HashMap;
 
 /// Numbers of entities by the number of the one that they belong to, in the order of the file.

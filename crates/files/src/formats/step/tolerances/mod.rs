@@ -11,8 +11,8 @@ mod target;
 #[cfg(test)]
 mod tests;
 
-use crate::formats::brep::Budget;
 use super::part21::File;
+use crate::formats::brep::Budget;
 use trueness_cad::tolerances::Tolerances;
 
 /// The tolerances of a file.

@@ -1,7 +1,7 @@
 //! Small texts of each kind of tolerance, sound and broken.
 
-use crate::formats::brep::Budget;
 use super::super::part21::parse;
+use crate::formats::brep::Budget;
 use trueness_cad::tolerances::{DatumPart, DatumReference, Tolerances};
 use trueness_geom::progress::Silent;
 
