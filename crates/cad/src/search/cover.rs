@@ -9,7 +9,7 @@ use trueness_geom::space::{Aabb, Point, minus, norm};
 /// Most boxes along a parameter of a face.
 const MAX_STEPS: usize = 32;
 /// Most boxes for a piece of an edge.
-const MAX_PIECES: usize = 64;
+const MAX_BOXES_OF_PIECE: usize = 64;
 /// Places by which the length of a line on a face is judged.
 const LENGTH_PLACES: usize = 8;
 /// Share of a step by which a border may be off its surface.
@@ -20,7 +20,7 @@ pub(super) fn pieces_of_edge(feet: &CurveFeet, step: f64) -> Vec<Aabb> {
     let mut boxes = vec![];
     for (bounds, range) in feet.pieces() {
         let count = (bounds.diagonal() / step).ceil();
-        let count = if count.is_finite() { (count as usize).clamp(1, MAX_PIECES) } else { 1 };
+        let count = if count.is_finite() { (count as usize).clamp(1, MAX_BOXES_OF_PIECE) } else { 1 };
         if count == 1 {
             boxes.push(bounds);
             continue;

@@ -30,15 +30,15 @@ struct Node {
 }
 
 /// Steps of Newton's method at most.
-const STEPS: usize = 20;
+const MAX_STEPS_ON_COURSE: usize = 20;
 /// Halvings between two places at most.
-const HALVINGS: usize = 16;
+const MAX_HALVINGS_OF_COURSE: usize = 16;
 /// Cosine of the greatest angle between the tangents of a piece.
 const MIN_TURN_COSINE: f64 = 0.5;
 /// The way along a piece over its chord at most; that of a circle by the angle above is 1.05.
 const MAX_DETOUR: f64 = 1.2;
 /// Shares of the way along a piece where it is measured.
-const MEASURED: [f64; 5] = [0.15, 0.35, 0.5, 0.65, 0.85];
+const MEASURED_SHARES: [f64; 5] = [0.15, 0.35, 0.5, 0.65, 0.85];
 
 impl Course<'_> {
     /// The spline from the first place to the last, through those between; `None` where no two of them are on the section.
@@ -71,7 +71,7 @@ impl Course<'_> {
                 let middle = usize::midpoint(i, j);
                 open.extend([(middle, j), (i, middle)]);
             } else {
-                self.halved(&nodes[i], &nodes[j], HALVINGS, &mut controls, &mut knots);
+                self.halved(&nodes[i], &nodes[j], MAX_HALVINGS_OF_COURSE, &mut controls, &mut knots);
             }
         }
         let last = knots[knots.len() - 1];
@@ -107,7 +107,7 @@ impl Course<'_> {
     /// The place of the section next to parameters: both move at right angles to where the height stays, until it is 0.
     fn node(&self, mut at: [f64; 2]) -> Option<Node> {
         let n = self.plane.normal;
-        for _ in 0..STEPS {
+        for _ in 0..MAX_STEPS_ON_COURSE {
             let jet = self.trim.chart.jet(at);
             let height = self.plane.height(&jet.place);
             let [du, dv] = jet.first;
@@ -150,7 +150,7 @@ impl Course<'_> {
             let node = self.node(self.trim.chart.parameters(p, Some(guess)));
             node.is_some_and(|node| norm(minus(node.place, p)) <= self.within)
         };
-        MEASURED.into_iter().all(is_near).then_some(cubic)
+        MEASURED_SHARES.into_iter().all(is_near).then_some(cubic)
     }
 }
 

@@ -10,13 +10,13 @@ pub fn dropped(plane: &Plane, p: Point) -> Point {
 
 /// Whether unit vectors run along each other, up to rounding.
 pub fn is_along(a: Vector, b: Vector) -> bool {
-    norm(cross(a, b)) <= SAME_DIRECTION
+    norm(cross(a, b)) <= MAX_SINE_OF_LINE_DIRECTION
 }
 
 /// Whether they are at right angles, up to rounding.
 pub fn is_across(a: Vector, b: Vector) -> bool {
-    dot(a, b).abs() <= SAME_DIRECTION
+    dot(a, b).abs() <= MAX_SINE_OF_LINE_DIRECTION
 }
 
 /// Sine of the angle within which directions are the same: a meter long, both ends of a line are then one atom apart.
-const SAME_DIRECTION: f64 = 1e-10;
+const MAX_SINE_OF_LINE_DIRECTION: f64 = 1e-10;

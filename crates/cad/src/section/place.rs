@@ -8,7 +8,7 @@ use trueness_geom::plane::Plane;
 use trueness_geom::space::{Point, minus, plus, times};
 
 /// Halvings of a part of an edge: the bits of a share.
-const HALVINGS: usize = 60;
+const EDGE_HALVINGS: usize = 60;
 
 /// The edges of facets, and what they draw.
 pub struct Places<'a> {
@@ -56,7 +56,7 @@ impl<'a> Places<'a> {
             let end = if first.abs() <= last.abs() { low } else { high };
             return dropped(&self.plane, place(end));
         }
-        for _ in 0..HALVINGS {
+        for _ in 0..EDGE_HALVINGS {
             let middle = 0.5 * (low + high);
             if (height(middle) < 0.0) == (first < 0.0) { low = middle } else { high = middle }
         }

@@ -19,7 +19,7 @@ const NOISE: f64 = 256.0 * f64::EPSILON;
 /// Halvings of a part at most; by then it is as short as a rounding of its parameters.
 const DEPTH: u32 = 90;
 /// Parts looked at for one point at most.
-const MAX_PARTS: usize = 20_000;
+const MAX_PARTS_SEARCHED: usize = 20_000;
 /// A piece is halved until the distance is convex over it for points of so many times its size.
 const CONVEX_SIZES: f64 = 1.0;
 /// How far the derivatives may differ from those in the middle of a part that has one foot at most; below 1.
@@ -130,7 +130,7 @@ impl Patch {
         let slopes = [0, 1].map(|k| slope(&square, &masses, k));
         let noise = [0, 1].map(|k| lost * (square.counts[k] - 1).max(1) as f64 * masses.greatest());
         let mut open = vec![Part { range: [[0.0, 1.0]; 2], square, weights, slopes, depth: 0 }];
-        for _ in 0..MAX_PARTS {
+        for _ in 0..MAX_PARTS_SEARCHED {
             let Some(part) = open.pop() else { return };
             let reach = (limit - epsilon).max(0.0);
             let beyond = reach * reach;

@@ -28,7 +28,7 @@ pub(super) struct SplineFeet {
 }
 
 /// Pieces of a surface at most, unless it has more spans: its boxes must be looked through where nothing is known of the place.
-const MAX_PIECES: usize = 1 << 14;
+const MAX_PIECES_OF_SURFACE: usize = 1 << 14;
 /// Halvings of a span at most.
 const MAX_PIECE_DEPTH: u32 = 6;
 /// Cosine up to which two directions are at right angles.
@@ -72,7 +72,7 @@ impl SplineFeet {
                 patches.push(Patch::new(net, [[u[0], u[1]], [v[0], v[1]]]));
             }
         }
-        let depth = (MAX_PIECES / patches.len().max(1)).max(1).ilog2();
+        let depth = (MAX_PIECES_OF_SURFACE / patches.len().max(1)).max(1).ilog2();
         let pieces = patches.iter().flat_map(|patch| patch.pieces(depth.min(MAX_PIECE_DEPTH))).collect();
         let bounds = Aabb::of(&points.iter().map(|p| p.0).collect::<Vec<_>>());
         let size = bounds.diagonal();

@@ -39,9 +39,9 @@ struct Cell {
 /// Share of its length by which a first derivative may change over a cell.
 const CHANGE_IN_CELL: f64 = 0.25;
 /// Parts of a span along a parameter at most.
-const MAX_PARTS: usize = 16;
+const MAX_PARTS_OF_SPAN: usize = 16;
 /// Cells at most, unless there are more spans.
-const MAX_CELLS: usize = 1 << 17;
+const MAX_CELLS_OF_NET: usize = 1 << 17;
 
 impl Net {
     /// Of a curve, along `u`; `None` where it is no spline.
@@ -67,7 +67,7 @@ impl Net {
         }
         let count =
             |parts: &[Vec<usize>; 2]| parts.iter().map(|p| p.iter().sum::<usize>()).product::<usize>();
-        while count(&parts) > MAX_CELLS && parts.iter().flatten().any(|n| *n > 1) {
+        while count(&parts) > MAX_CELLS_OF_NET && parts.iter().flatten().any(|n| *n > 1) {
             parts.iter_mut().flatten().for_each(|n| *n = (*n / 2).max(1));
         }
         let ends = [0, 1].map(|k| divided(&knots[k], &parts[k]));
@@ -150,7 +150,7 @@ fn parts_of(patch: &Patch) -> [usize; 2] {
         0.5 * share(a, du).max(share(b, dv))
     };
     [change(uu, uv), change(uv, vv)].map(|c| {
-        let parts = (c / CHANGE_IN_CELL).clamp(1.0, MAX_PARTS as f64);
+        let parts = (c / CHANGE_IN_CELL).clamp(1.0, MAX_PARTS_OF_SPAN as f64);
         (parts.ceil() as usize).next_power_of_two()
     })
 }

@@ -69,11 +69,11 @@ pub enum NoFace {
 /// Numbers, names and instances that a message lists at most.
 const MAX_LISTED: usize = 5;
 /// Names up to which a message lists all.
-const MAX_NAMES: usize = 40;
+const MAX_LISTED_NAMES: usize = 40;
 
 /// As [`unknown`], without a list of hundreds.
 fn not_known(what: &str, word: &str, known: &[&str]) -> String {
-    match known.len() > MAX_NAMES {
+    match known.len() > MAX_LISTED_NAMES {
         true => {
             let some = known[..MAX_LISTED].join(", ");
             format!("there is no {what} \"{word}\" (known: {} names, {some}, …)", known.len())

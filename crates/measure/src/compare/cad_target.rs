@@ -56,7 +56,7 @@ struct Met {
 /// Steps from a facet to its surface: each doubles the digits.
 const MAX_CROSSING_STEPS: usize = 24;
 /// Share of the coordinates within which a place of a line lies on a surface: some hundred roundings.
-const ON_SURFACE: f64 = 1e-13;
+const MAX_LIFT_SHARE: f64 = 1e-13;
 /// So many times as far along its line as the facet is off its face, a crossing may lie from that of the facet.
 const MAX_STEP_RATIO: f64 = 4.0;
 
@@ -160,7 +160,7 @@ impl<'a> CadTarget<'a> {
             let off = dot(normal, minus(at, foot.place));
             let step = off / dot(normal, way);
             // The first step is about as long as the facet is off its face.
-            let rounding = ON_SURFACE * (norm(*p) + norm(foot.place));
+            let rounding = MAX_LIFT_SHARE * (norm(*p) + norm(foot.place));
             let limit = *reach.get_or_insert(MAX_STEP_RATIO * step.abs() + rounding);
             if !step.is_finite() || (t - step - crossing.along).abs() > limit {
                 break;

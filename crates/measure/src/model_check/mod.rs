@@ -41,13 +41,12 @@ pub struct Checked<'a> {
 /// Facets of one finding at most: of what is larger the first ones show where it is.
 const MAX_FACETS_OF_ITEM: usize = 2000;
 /// Gaps that count where the file states no uncertainty, as a share of the part: files have some seven digits and more.
-const SAME_PLACE_SHARE: f64 = 1e-7;
+const MAX_GAP_SHARE: f64 = 1e-7;
 
 /// The document of the facets with the faults of the model in place of theirs; at most `limit` of each kind are listed.
 pub fn with_model(mut document: CheckDocument, checked: &Checked, limit: usize) -> CheckDocument {
     let Checked { model, shape, integrals, drawn, crossings } = checked;
-    let within =
-        model.uncertainty.unwrap_or_else(|| SAME_PLACE_SHARE * drawn.mesh.bounds().diagonal()).max(0.0);
+    let within = model.uncertainty.unwrap_or_else(|| MAX_GAP_SHARE * drawn.mesh.bounds().diagonal()).max(0.0);
     let mut found: BTreeMap<&str, Vec<Fault>> = BTreeMap::new();
     for fault in faults(shape, integrals, within) {
         found.entry(kinds::of(fault.kind).name).or_default().push(fault);

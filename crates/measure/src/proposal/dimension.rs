@@ -8,7 +8,7 @@ use trueness_cad::tolerances::Dimension;
 use trueness_geom::shape::Kind;
 
 /// The greatest angle that plans take, degrees.
-const RIGHT_ANGLE: f64 = 90.0;
+const MAX_PLAN_ANGLE: f64 = 90.0;
 
 /// Puts a dimension into the plan, or says why it is not; whether all of it is there.
 pub(super) fn add(draft: &mut Draft, dimension: &Dimension) -> bool {
@@ -65,7 +65,7 @@ fn limits(dimension: &Dimension, factor: f64) -> Result<String, String> {
         };
     };
     let mut values = [nominal, lower, upper].map(|x| x * factor);
-    if dimension.is_angle && nominal.to_degrees() > RIGHT_ANGLE {
+    if dimension.is_angle && nominal.to_degrees() > MAX_PLAN_ANGLE {
         // Plans take the angle that is the smaller one.
         values = [std::f64::consts::PI - nominal, -upper, -lower];
     }

@@ -9,9 +9,9 @@ use trueness_geom::shape::Shape;
 use trueness_geom::space::{Vector, cross, dot, minus, norm, plus, times};
 
 /// The uncertainty of lengths of a file that states none, millimeters: what most programs state.
-const USUAL_UNCERTAINTY: f64 = 1e-3;
+const UNSTATED_UNCERTAINTY: f64 = 1e-3;
 /// Sine of the angle within which directions are one: 0.001 mm over 100 mm.
-const SAME_DIRECTION: f64 = 1e-5;
+const MAX_SINE_OF_AXES: f64 = 1e-5;
 
 /// Features of one tolerance, or of a proposal without tolerances, at most.
 const MAX_GROUPS: usize = 2000;
@@ -44,7 +44,7 @@ impl<'m> Faces<'m> {
         for (index, face) in brep.faces.iter().enumerate() {
             of.entry(face.entity).or_default().push(index);
         }
-        Faces { model, brep, of, near: model.uncertainty.unwrap_or(USUAL_UNCERTAINTY) }
+        Faces { model, brep, of, near: model.uncertainty.unwrap_or(UNSTATED_UNCERTAINTY) }
     }
 
     /// The numbers of all faces.
@@ -137,18 +137,18 @@ fn is_same(a: &Shape, b: &Shape, near: f64) -> bool {
     let across = |a: Vector, b: Vector| norm(cross(a, b));
     match (*a, *b) {
         (Shape::Plane { point: p, normal: m }, Shape::Plane { point: q, normal: n }) => {
-            dot(m, n) > 0.0 && across(m, n) < SAME_DIRECTION && dot(minus(q, p), m).abs() < near
+            dot(m, n) > 0.0 && across(m, n) < MAX_SINE_OF_AXES && dot(minus(q, p), m).abs() < near
         }
         (
             Shape::Cylinder { point: p, direction: m, radius: r },
             Shape::Cylinder { point: q, direction: n, radius: s },
-        ) => across(m, n) < SAME_DIRECTION && norm(cross(minus(q, p), m)) < near && (r - s).abs() < near,
+        ) => across(m, n) < MAX_SINE_OF_AXES && norm(cross(minus(q, p), m)) < near && (r - s).abs() < near,
         (
             Shape::Cone { apex: p, direction: m, half_angle: a, .. },
             Shape::Cone { apex: q, direction: n, half_angle: b, .. },
         ) => {
-            let is_turned = dot(m, n) < 0.0 || across(m, n) > SAME_DIRECTION;
-            !is_turned && norm(minus(p, q)) < near && (a - b).abs() < SAME_DIRECTION
+            let is_turned = dot(m, n) < 0.0 || across(m, n) > MAX_SINE_OF_AXES;
+            !is_turned && norm(minus(p, q)) < near && (a - b).abs() < MAX_SINE_OF_AXES
         }
         (Shape::Sphere { center: p, radius: r }, Shape::Sphere { center: q, radius: s }) => {
             norm(minus(p, q)) < near && (r - s).abs() < near
@@ -162,7 +162,7 @@ pub(super) fn median(groups: &[Group]) -> Option<Shape> {
     let [a, b] = groups else { return None };
     match (a.shape, b.shape) {
         (Shape::Plane { point: p, normal }, Shape::Plane { point: q, normal: n })
-            if dot(normal, n) < 0.0 && norm(cross(normal, n)) < SAME_DIRECTION =>
+            if dot(normal, n) < 0.0 && norm(cross(normal, n)) < MAX_SINE_OF_AXES =>
         {
             Some(Shape::Plane { point: times(0.5, plus(p, q)), normal })
         }

@@ -35,7 +35,7 @@ fn head(reference: &str, said: &str, align: &str) -> String {
 }
 
 /// What a plan without a characteristic judges.
-const DEVIATION: &str = "\n# No feature can be judged: the deviations from all faces are, by a placeholder.\n[deviation]\ntolerance = 0.1\n";
+const PLACEHOLDER_DEVIATION: &str = "\n# No feature can be judged: the deviations from all faces are, by a placeholder.\n[deviation]\ntolerance = 0.1\n";
 
 const BEST_FIT: &str = "# \"none\" where the scan lies in the coordinates of the model already.\n[align]\nmethod = \"best-fit\"\n";
 
@@ -73,7 +73,7 @@ fn with_tolerances(model: &Model, faces: &Faces, reference: &str) -> String {
     let mut out = head(reference, "Its tolerances are those of the model.", &align);
     let is_judged = draft.is_judged();
     out.push_str(&draft.finished());
-    out.push_str(if is_judged { "\n" } else { DEVIATION });
+    out.push_str(if is_judged { "\n" } else { PLACEHOLDER_DEVIATION });
     out.extend(counts);
     out
 }
@@ -94,6 +94,6 @@ fn placeholders(faces: &Faces, reference: &str) -> String {
     if !none.is_empty() {
         draft.say(&format!("Faces that are no features of plans: {}.", none.join(", ")));
     }
-    let judged = if features.is_empty() { DEVIATION.into() } else { usual(&features) };
+    let judged = if features.is_empty() { PLACEHOLDER_DEVIATION.into() } else { usual(&features) };
     head(reference, said, BEST_FIT) + &draft.finished() + &judged
 }

@@ -36,11 +36,11 @@ pub(super) fn quoted(text: &str) -> String {
 }
 
 /// Digits of tolerances and dimensions that are written: the conversion of units leaves the last ones wrong.
-const DIGITS: usize = 12;
+const WRITTEN_DIGITS: usize = 12;
 
 /// A number of a file's tolerances, without the rounding of its unit.
 pub(super) fn decimal(x: f64) -> String {
-    let rounded = format!("{x:.*e}", DIGITS - 1).parse().unwrap_or(x);
+    let rounded = format!("{x:.*e}", WRITTEN_DIGITS - 1).parse().unwrap_or(x);
     format!("{:?}", rounded + 0.0)
 }
 

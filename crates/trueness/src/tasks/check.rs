@@ -120,7 +120,7 @@ impl Request for CheckRequest {
 }
 
 /// Pairs of facets of a model that are looked at for faces that cross.
-const MAX_CROSSINGS: usize = 100_000;
+const MAX_CROSSING_PAIRS: usize = 100_000;
 
 impl CheckRequest {
     /// The check of a CAD model: what its faces and edges say, and the crossings of their facets.
@@ -131,7 +131,7 @@ impl CheckRequest {
         sources: &dyn Sources,
         watch: &dyn Watch,
     ) -> Result<Done<CheckDocument>, TaskError> {
-        let options = Options { limit: MAX_CROSSINGS, ..self.options()? };
+        let options = Options { limit: MAX_CROSSING_PAIRS, ..self.options()? };
         let stage = watch.stage("preparing the faces", STEPS, None);
         let (shape, drawn) = read::cad::drawn(&self.mesh, file, Chord::MEASURED, &mut record, &*stage)?;
         let integrals = shape.integrals(&*stage)?;

@@ -8,7 +8,7 @@ use trueness_cad::frame::Placement;
 use trueness_cad::model::Instance;
 
 /// Names on all ways from a root to an instance, together.
-const MAX_NAMES: u64 = 1 << 22;
+const MAX_NAMES_OF_WAYS: u64 = 1 << 22;
 /// Faces of all instances.
 const MAX_FACES: u64 = 1 << 22;
 
@@ -61,7 +61,7 @@ pub(crate) fn instances(
     let below = count(nodes, parts, &order);
     let sum = |of: fn(&Below) -> u64| roots.iter().map(|r| of(&below[*r])).fold(0, u64::saturating_add);
     let limits = [
-        ("instances of parts", sum(|b| b.instances), sum(|b| b.names), MAX_NAMES),
+        ("instances of parts", sum(|b| b.instances), sum(|b| b.names), MAX_NAMES_OF_WAYS),
         ("faces of all instances", sum(|b| b.faces), sum(|b| b.faces), MAX_FACES),
     ];
     for (what, count, weighed, limit) in limits {

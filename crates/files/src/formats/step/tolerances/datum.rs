@@ -9,7 +9,7 @@ use trueness_cad::tolerances::{Datum, DatumPart, DatumReference, DatumTarget};
 const COMPARTMENTS: [&str; 3] =
     ["GENERAL_DATUM_REFERENCE", "DATUM_REFERENCE_COMPARTMENT", "DATUM_REFERENCE_ELEMENT"];
 /// Ways from a tolerance to a datum are no longer than this.
-const MAX_DEPTH: usize = 4;
+const MAX_WAY_TO_DATUM: usize = 4;
 
 /// The datums of a file.
 pub(super) fn datums(graph: &Graph) -> Vec<Datum> {
@@ -76,13 +76,17 @@ impl Graph<'_> {
             if let Some(system) = entity.record("DATUM_SYSTEM") {
                 let last = system.values.last().copied().unwrap_or(Value::Nothing);
                 for compartment in references(&system, last) {
-                    let found = DatumReference { parts: self.parts(compartment, MAX_DEPTH, &mut notes) };
+                    let found =
+                        DatumReference { parts: self.parts(compartment, MAX_WAY_TO_DATUM, &mut notes) };
                     ranked.push((0, found));
                 }
             } else {
                 let record = entity.main(&["DATUM_REFERENCE"]);
                 let rank = record.count(0).unwrap_or_default();
-                ranked.push((rank, DatumReference { parts: self.parts(*number, MAX_DEPTH, &mut notes) }));
+                ranked.push((
+                    rank,
+                    DatumReference { parts: self.parts(*number, MAX_WAY_TO_DATUM, &mut notes) },
+                ));
             }
         }
         ranked.sort_by_key(|(rank, _)| *rank);

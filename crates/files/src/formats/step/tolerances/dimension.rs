@@ -6,7 +6,7 @@ use super::graph::{Graph, list, references};
 use trueness_cad::tolerances::Dimension;
 
 /// Keywords of dimensions of one feature.
-const SIZES: [&str; 4] =
+const SIZE_KEYWORDS: [&str; 4] =
     ["DIMENSIONAL_SIZE", "ANGULAR_SIZE", "DIMENSIONAL_SIZE_WITH_PATH", "DIMENSIONAL_SIZE_WITH_DATUM_FEATURE"];
 /// Keywords of dimensions between two features.
 const LOCATIONS: [&str; 5] = [
@@ -24,7 +24,7 @@ pub(super) fn dimensions(graph: &Graph) -> Vec<Dimension> {
 
 fn dimension(graph: &Graph, entity: &Entity) -> Option<Dimension> {
     let is_of = |all: &[&str]| entity.records().any(|r| all.contains(&r.keyword));
-    let (name, of) = if is_of(&SIZES) {
+    let (name, of) = if is_of(&SIZE_KEYWORDS) {
         let record = entity.main(&["DIMENSIONAL_SIZE"]);
         // Where it is a datum feature too, the parameters of that come first.
         let first = if record.keyword == "DIMENSIONAL_SIZE_WITH_DATUM_FEATURE" { 4 } else { 0 };

@@ -6,7 +6,7 @@ use super::graph::{Graph, list, references, told};
 use trueness_cad::tolerances::GeometricTolerance;
 
 /// Keywords of geometric tolerances, before `_TOLERANCE`.
-const KINDS: [&str; 15] = [
+const TOLERANCE_KEYWORDS: [&str; 15] = [
     "ANGULARITY",
     "CIRCULAR_RUNOUT",
     "COAXIALITY",
@@ -33,7 +33,7 @@ pub(super) fn tolerances(graph: &Graph) -> Vec<GeometricTolerance> {
 fn kind(entity: &Entity) -> Option<String> {
     let known = entity.records().find_map(|r| {
         let word = r.keyword.strip_suffix("_TOLERANCE")?;
-        KINDS.contains(&word).then(|| told(word))
+        TOLERANCE_KEYWORDS.contains(&word).then(|| told(word))
     });
     known.or_else(|| entity.record("GEOMETRIC_TOLERANCE").map(|_| "geometric".into()))
 }

@@ -6,9 +6,9 @@ use std::collections::BTreeSet;
 use trueness_cad::tolerances::Target;
 
 /// Entities that stand for a face.
-const FACES: [&str; 4] = ["ADVANCED_FACE", "FACE_SURFACE", "FACE", "ORIENTED_FACE"];
+const FACE_KEYWORDS: [&str; 4] = ["ADVANCED_FACE", "FACE_SURFACE", "FACE", "ORIENTED_FACE"];
 /// Entities whose first reference says what they are of.
-const SIZES: [&str; 3] = ["DIMENSIONAL_SIZE", "DIMENSIONAL_SIZE_WITH_PATH", "ANGULAR_SIZE"];
+const OWNING_KEYWORDS: [&str; 3] = ["DIMENSIONAL_SIZE", "DIMENSIONAL_SIZE_WITH_PATH", "ANGULAR_SIZE"];
 /// Aspects that are derived from others.
 const DERIVED: [&str; 8] = [
     "CENTRE_OF_SYMMETRY",
@@ -44,7 +44,7 @@ impl Graph<'_> {
             }
             self.items_of(&entity, &mut target);
             for record in entity.records() {
-                if SIZES.contains(&record.keyword) {
+                if OWNING_KEYWORDS.contains(&record.keyword) {
                     pending.extend(record.reference(0).filter(|n| seen.insert(*n)));
                 }
             }
@@ -91,8 +91,8 @@ impl Graph<'_> {
             if self.budget.spend(1, &entity).is_err() {
                 break;
             }
-            let keyword = entity.main(&FACES).keyword;
-            match FACES.contains(&keyword) {
+            let keyword = entity.main(&FACE_KEYWORDS).keyword;
+            match FACE_KEYWORDS.contains(&keyword) {
                 true => target.faces.push(*item),
                 false => target.others.push((*item, keyword.to_string())),
             }
