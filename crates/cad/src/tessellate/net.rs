@@ -102,9 +102,10 @@ impl Net {
         greatest(self.touched(sides).map(|cell| cell.seconds))
     }
 
-    /// The greatest extents of the second derivatives along the normals, those of the cells' middles.
+    /// The greatest extents of the second derivatives along the normals.
     pub fn along_normals(&self, sides: [[f64; 2]; 2]) -> Seconds {
-        greatest(self.touched(sides).map(|cell| cell.across))
+        let of = |c: &Cell| [0, 1, 2].map(|n| (c.across[n] + c.tilt * c.seconds[n]).min(c.seconds[n]));
+        greatest(self.touched(sides).map(of))
     }
 
     /// How far a facet between places of these boxes, all parts of one box with these extents, is from the surface or from what would
