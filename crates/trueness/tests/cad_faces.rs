@@ -272,7 +272,7 @@ fn features_by_face_have_the_values_of_their_nominals() {
         }
         assert!((document.characteristics[0].value.unwrap() - 10.04).abs() < 1e-6);
     }
-    assert_eq!(*found[1].features[0].source.name(), *"faces");
+    assert_eq!(found[1].features[0].source.to_string(), "faces");
 }
 
 /// One half of a bore has its own points alone.
@@ -329,7 +329,7 @@ fn faces_that_cannot_be_the_feature_are_refused_with_the_reason() {
             "plan.toml",
             format!(
                 "schema = \"trueness/plan/1\"\nmeasured = \"scan.xyz\"\nreference = \"m.off\"\n{}",
-                bore_and_plane("face = 3", "seed = [1, 1, 0]")
+                bore_and_plane("face = 3", "nominal = { point = [0, 0, 0], normal = [0, 0, 1], boundary = [[0, 0, 0], [9, 0, 0], [0, 9, 0]] }")
             ),
         ),
         ("m.off", mesh.to_string()),
