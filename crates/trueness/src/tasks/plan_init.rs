@@ -5,7 +5,7 @@ use crate::task::{Done, Outcome, Output, Reading, Request, RunFiles, TaskError, 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
-use trueness_document::{InputRecord, Role};
+use trueness_document::InputRecord;
 use trueness_files::Sources;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::segment::{self, Options, SegmentError};
