@@ -9,6 +9,8 @@ use trueness_cad::tolerances::Target;
 const FACE_KEYWORDS: [&str; 4] = ["ADVANCED_FACE", "FACE_SURFACE", "FACE", "ORIENTED_FACE"];
 /// Entities whose first reference says what they are of.
 const OWNING_KEYWORDS: [&str; 3] = ["DIMENSIONAL_SIZE", "DIMENSIONAL_SIZE_WITH_PATH", "ANGULAR_SIZE"];
+/// The entity of the shape of a whole product.
+const PRODUCT: &str = "PRODUCT_DEFINITION_SHAPE";
 /// Aspects that are derived from others.
 const DERIVED: [&str; 8] = [
     "CENTRE_OF_SYMMETRY",
@@ -76,13 +78,14 @@ impl Graph<'_> {
                 target.notes.push(told(word));
             } else if DERIVED.contains(&record.keyword) {
                 target.notes.push(told(record.keyword));
-            } else if record.keyword == "PRODUCT_DEFINITION_SHAPE" {
+            } else if record.keyword == PRODUCT {
                 target.notes.push("whole part".into());
             }
         }
         let own = list(&self.items, entity.number());
-        let shown =
-            if own.is_empty() && target.notes.is_empty() { self.shown(entity.number()) } else { vec![] };
+        // A product shows its solids, and a dimension its numbers.
+        let is_aspect = entity.records().all(|r| r.keyword != PRODUCT && !OWNING_KEYWORDS.contains(&r.keyword));
+        let shown = if own.is_empty() && is_aspect { self.shown(entity.number()) } else { vec![] };
         for item in own.iter().chain(&shown) {
             let Ok(entity) = self.file.entity(*item) else {
                 target.others.push((*item, "what is not in the file".into()));
