@@ -47,7 +47,7 @@ const ROWS: &[Row] = &[
     row("repair MESH --out OUT", "stitch", NOT_NEGATIVE, FROM_0, &["0"]),
     row("repair MESH --out OUT", "holes", &["-1", "200", "nan"], PERCENT, &["0", "100"]),
     row("repair MESH --out OUT", "remove-islands", NO_PERCENT, PERCENT, &["0", "100"]),
-    row("repair MESH --out OUT", "max-change", NO_PERCENT, PERCENT, &["0", "100"]),
+    row("repair MESH --out OUT", "max-change", NOT_NEGATIVE, FROM_0, &["0", "1000"]),
     row("repair MESH --out OUT", "items", NO_COUNT, COUNT, &["0"]),
     row("compare CLOUD MESH", "weld", NOT_NEGATIVE, FROM_0, &["0"]),
     row("compare CLOUD MESH", "max-distance", NOT_NEGATIVE, "a finite number of mm, 0 or more", &["0"]),

@@ -150,7 +150,7 @@ impl Request for RepairRequest {
     fn run(&self, sources: &dyn Sources, watch: &dyn Watch) -> Result<Done<RepairDocument>, TaskError> {
         self.check()?;
         let options = self.options()?;
-        let max_change = share_of_percent("max-change", self.max_change)?;
+        let max_change = not_negative("max-change", self.max_change)? / 100.0;
         let reading = self.reading.options();
         let (source, mut record) = read::mesh(sources, &self.mesh, Role::Mesh, &reading)?;
         if !source.unread.is_empty() {
