@@ -224,7 +224,7 @@ fn scan(shift: f64, larger: f64, higher: f64) -> String {
         }
     }
     for k in 0..72 {
-        let (sin, cos) = (k as f64 * std::f64::consts::PI / 36.0).sin_cos();
+        let (sin, cos) = libm::sincos(k as f64 * std::f64::consts::PI / 36.0);
         for w in steps(SIZE[2]) {
             let r = RADIUS + larger;
             put([BORE[0] + shift + r * cos, BORE[1] + r * sin, w * z / SIZE[2]]);

@@ -84,7 +84,8 @@ impl Graph<'_> {
         }
         let own = list(&self.items, entity.number());
         // A product shows its solids, and a dimension its numbers.
-        let is_aspect = entity.records().all(|r| r.keyword != PRODUCT && !OWNING_KEYWORDS.contains(&r.keyword));
+        let is_aspect =
+            entity.records().all(|r| r.keyword != PRODUCT && !OWNING_KEYWORDS.contains(&r.keyword));
         let shown = if own.is_empty() && is_aspect { self.shown(entity.number()) } else { vec![] };
         for item in own.iter().chain(&shown) {
             let Ok(entity) = self.file.entity(*item) else {
