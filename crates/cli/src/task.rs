@@ -15,7 +15,7 @@ pub fn run<R: Request>(
     common: &Common,
     table: impl FnOnce(&Done<R::Document>) -> String,
 ) -> anyhow::Result<Outcome> {
-    let done = request.run(&FileSources, &Console { style: common.progress })?;
+    let done = request.answer(&FileSources, &Console { style: common.progress })?;
     finish(done, document, table)
 }
 
@@ -27,7 +27,7 @@ pub fn run_reported<R: Request<Document: Subject>>(
     table: impl FnOnce(&Done<R::Document>) -> String,
 ) -> anyhow::Result<Outcome> {
     let watch = Console { style: common.progress };
-    let done = request.run(&FileSources, &watch)?;
+    let done = request.answer(&FileSources, &watch)?;
     report.write_done(&done, &watch)?;
     finish(done, document, table)
 }

@@ -7,7 +7,7 @@ mod sizes;
 #[cfg(test)]
 mod tests;
 
-pub use fault::{Fault, FaultKind};
+pub use fault::{Fault, FaultKind, place_of_face};
 
 use crate::measure::Integrals;
 use crate::trimmed::Trimmed;

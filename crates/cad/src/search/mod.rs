@@ -128,20 +128,27 @@ impl<R: Region> Search<R> {
     }
 
     fn best(&self, p: &Point, scratch: &mut Scratch) -> Best {
+        if !p.iter().all(|x| x.is_finite()) {
+            return Best::none(self.0.touching);
+        }
+        let (best, reach) = self.best_within(p, Some(self.0.touching), scratch);
+        if best.own.distance <= reach { best } else { self.best_within(p, None, scratch).0 }
+    }
+
+    /// The best place, looked for with the help of known places or without, and how far it was looked for in the end.
+    fn best_within(&self, p: &Point, slack: Option<f64>, scratch: &mut Scratch) -> (Best, f64) {
         scratch.point += 1;
         let mut best = Best::none(self.0.touching);
-        if p.iter().all(|x| x.is_finite()) {
-            let Scratch { seen, point, stack } = scratch;
-            self.0.boxes.visit(p, self.0.touching, stack, |target, reach| {
-                let own = &mut seen[target as usize];
-                if *own != *point {
-                    *own = *point;
-                    self.look(self.0.targets[target as usize], p, reach, &mut best);
-                }
-                best.reach()
-            });
-        }
-        best
+        let Scratch { seen, point, stack } = scratch;
+        let reach = self.0.boxes.visit(p, slack, stack, |target, reach| {
+            let own = &mut seen[target as usize];
+            if *own != *point {
+                *own = *point;
+                self.look(self.0.targets[target as usize], p, reach, &mut best);
+            }
+            best.reach()
+        });
+        (best, reach)
     }
 
     /// Takes the places of a target that are within a reach and better than the best one.

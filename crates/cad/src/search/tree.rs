@@ -41,14 +41,15 @@ impl Boxes {
     }
 
     /// Hands over targets, near ones first, as long as their boxes are not beyond a reach, which the callback hears and says anew each time.
-    /// Known places lower it by themselves: `slack` is added to their distances.
+    /// Known places lower it by themselves where `slack` is given, which is added to their distances. Says the last reach: where
+    /// nothing was found within it, a known place was none, and what was left out may be the nearest.
     pub(super) fn visit(
         &self,
         p: &Point,
-        slack: f64,
+        slack: Option<f64>,
         stack: &mut Vec<(f64, u32)>,
         mut look: impl FnMut(u32, f64) -> f64,
-    ) {
+    ) -> f64 {
         let mut reach = f64::INFINITY;
         stack.clear();
         stack.extend(self.nodes.first().map(|root| (root.bounds.distance(p), 0)));
@@ -59,10 +60,10 @@ impl Boxes {
             let node = &self.nodes[at as usize];
             if node.count > 0 {
                 let items = &self.items[node.next as usize..(node.next + node.count) as usize];
-                reach = items
-                    .iter()
-                    .map(|item| (norm(minus(item.place, *p)) + slack).next_up())
-                    .fold(reach, f64::min);
+                if let Some(slack) = slack {
+                    let places = items.iter().map(|item| (norm(minus(item.place, *p)) + slack).next_up());
+                    reach = places.fold(reach, f64::min);
+                }
                 for item in items {
                     if item.bounds.distance(p) <= reach {
                         reach = reach.min(look(item.target, reach));
@@ -74,6 +75,7 @@ impl Boxes {
             // The nearer one lies last.
             if a.0 <= b.0 { stack.extend([b, a]) } else { stack.extend([a, b]) }
         }
+        reach
     }
 }
 

@@ -8,7 +8,7 @@ use crate::curve::CurveFeet;
 use trueness_geom::space::{Aabb, Point, dot, minus, norm};
 use trueness_geom::spline::basis::Knots;
 use trueness_geom::spline::curve::Curve;
-use trueness_geom::spline::surface::{Direction, Nurbs, SurfaceFoot, descend};
+use trueness_geom::spline::surface::{Direction, Jet, Nurbs, SurfaceFoot, descend};
 use trueness_geom::spline::value::Mass;
 
 /// A B-spline surface in pieces between its knots, and its lines where it may have a crease or an end.
@@ -34,6 +34,8 @@ const MAX_PIECE_DEPTH: u32 = 6;
 /// Cosine up to which two directions are at right angles.
 const RIGHT_ANGLE: f64 = 1e-6;
 
+/// Share of a part's size up to which a descent that ends beside a foot goes on over the end of the part.
+const BESIDE_END_SHARE: f64 = 0.01;
 /// Roundings up to which a descent comes to a place.
 const SETTLED: f64 = 100.0;
 
@@ -149,16 +151,28 @@ impl SplineFeet {
         patch.minima(p, limit, self.epsilon, |start, [[a, b], [c, d]]| {
             let (foot, jet) = descend(|at| patch.jet(at), [(a, b), (c, d)], p, start);
             let SurfaceFoot { parameters, place, distance, .. } = foot;
-            let away = minus(p, place);
-            // What a descent comes to at an end of the part is no foot: that is another part's, or a line's.
-            let off = RIGHT_ANGLE * distance + SETTLED * self.epsilon;
-            let is_foot = jet.first.iter().all(|d| dot(*d, away).abs() <= off * norm(*d));
-            if is_foot {
-                limit = visit(Foot { parameters: patch.parameters(parameters), place, distance });
+            let found = Foot { parameters: patch.parameters(parameters), place, distance };
+            // What a descent comes to at an end of the part is no foot: that is another part's, or a line's. A foot on the end
+            // itself would be of neither, as both come near to it only.
+            let found = if self.is_foot(&found, &jet, p) {
+                Some(found)
+            } else if tangential(&found, &jet, p) <= BESIDE_END_SHARE * patch.bounds.diagonal() {
+                let over = self.local(p, found.parameters, [None; 2]);
+                self.is_foot(&over, &self.jet(over.parameters), p).then_some(over)
+            } else {
+                None
+            };
+            if let Some(foot) = found {
+                limit = visit(foot);
             }
             limit
         });
         limit
+    }
+
+    /// Whether the way to the point is at right angles to the surface.
+    fn is_foot(&self, foot: &Foot, jet: &Jet, p: Point) -> bool {
+        tangential(foot, jet, p) <= RIGHT_ANGLE * foot.distance + SETTLED * self.epsilon
     }
 
     /// The foot that a descent from these parameters comes to; where a parameter has a period, over the seam.
@@ -195,7 +209,7 @@ impl SplineFeet {
         best.unwrap_or(Foot { parameters: near, place: [f64::NAN; 3], distance: f64::NAN })
     }
 
-    pub(super) fn jet(&self, at: [f64; 2]) -> trueness_geom::spline::surface::Jet {
+    pub(super) fn jet(&self, at: [f64; 2]) -> Jet {
         let span = |k: usize| {
             let knots = &self.knots[k];
             knots.partition_point(|t| *t <= at[k]).clamp(1, knots.len() - 1) - 1
@@ -212,6 +226,12 @@ impl SplineFeet {
         }
         jet
     }
+}
+
+/// The longer of the two parts of the way to the point along the derivatives.
+fn tangential(foot: &Foot, jet: &Jet, p: Point) -> f64 {
+    let away = minus(p, foot.place);
+    jet.first.iter().map(|d| dot(*d, away).abs() / norm(*d)).filter(|x| !x.is_nan()).fold(0.0, f64::max)
 }
 
 impl Line {

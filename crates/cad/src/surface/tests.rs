@@ -153,6 +153,29 @@ fn nearest_places_are_those_of_brute_force() {
     }
 }
 
+/// Vertices of facets lie where parts of a surface meet, and next to it: a foot there is of one of the parts.
+#[test]
+fn a_place_beside_the_ends_of_parts_is_found() {
+    let random = &mut Random::new(77);
+    for round in 0..20 * KINDS {
+        let (surface, sides) = surface(random, round % KINDS);
+        let feet = SurfaceFeet::new(&surface);
+        let ends = [0.0, 0.3, 0.7, 1.0];
+        for _ in 0..60 {
+            let at = sides.map(|[a, b]| {
+                let span = random.below(3) as usize;
+                let share = random.below(64) as f64 / 64.0;
+                a + (b - a) * (ends[span] + (ends[span + 1] - ends[span]) * share)
+            });
+            let off = [1e-3, 1e-5, 1e-7, 1e-9, 0.0][random.below(5) as usize];
+            let place = surface.at(at[0], at[1]);
+            let p = plus(place, spot(random, off));
+            let (found, wanted) = (feet.nearest(p).distance, norm(minus(p, place)));
+            assert!(found <= wanted * (1.0 + 1e-9) + 1e-12, "{surface:?} {at:?} {off}: {found} for {wanted}");
+        }
+    }
+}
+
 #[test]
 fn all_feet_of_quadrics_and_tori_stand_at_right_angles() {
     let mut random = Random::new(2);

@@ -58,7 +58,7 @@ impl Run for PlanArgs {
     }
     fn run(&self, common: &Common) -> anyhow::Result<Outcome> {
         let What::Init(args) = &self.what;
-        let mut done = args.request(common).run(&FileSources, &Console { style: common.progress })?;
+        let mut done = args.request(common).answer(&FileSources, &Console { style: common.progress })?;
         done.commit()?;
         if args.out.is_none() {
             console::document(&done.document.text)?;

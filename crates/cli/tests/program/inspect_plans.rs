@@ -174,7 +174,11 @@ const FAULTS: &[Fault] = &[
     ),
     fault("id = \"2\"", "id = \"1\"", "line 31, column 6: there are two characteristics \"1\""),
     fault("id = \"B\"", "id = \"A\"", "line 10, column 6: there are two features \"A\""),
-    fault("points = \"floor.xyz\"\n", "", "feature \"A\" has no points: give `points`, `nominal` or `seed`"),
+    fault(
+        "points = \"floor.xyz\"\n",
+        "",
+        "feature \"A\" has no points: give `points`, `nominal`, `seed` or `face`",
+    ),
     fault(
         "shape = \"plane\"\npoints = \"floor.xyz\"",
         "points = \"floor.xyz\"",

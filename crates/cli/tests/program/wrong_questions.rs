@@ -125,7 +125,7 @@ fn a_format_can_be_named() {
     assert!(stderr(&o).contains("line 1"), "{}", stderr(&o));
     let o = trueness(["check", odd, "--format", "foo"]);
     assert_eq!(status(&o), 2);
-    assert!(stderr(&o).contains("ply, npy, off, stl, obj"), "{}", stderr(&o));
+    assert!(stderr(&o).contains("ply, npy, pcd, ptx, las, e57, off, stl, obj"), "{}", stderr(&o));
     let cube = f.write("cube.foo", CUBE);
     assert_eq!(
         document(["check".as_ref(), cube.as_os_str(), "--format".as_ref(), "OFF".as_ref()])["sound"],

@@ -27,9 +27,9 @@ pub(super) struct Found {
 
 /// The element of a face that has these parameters at most; `None` where it is none: a free form, or a torus that meets itself.
 pub(super) fn of(surface: &Surface, reversed: bool, window: [[f64; 2]; 2]) -> Option<Found> {
-    let found = |shape, frame: &Frame, turned: bool, ends| {
-        // ∂u × ∂v looks away from the axis in right-handed frames.
-        let is_inward = (reversed != frame.is_mirrored()) != turned;
+    let found = |shape, frame: &Frame, ends| {
+        // ∂u × ∂v looks away from the axis in right-handed frames, on both nappes of a cone.
+        let is_inward = reversed != frame.is_mirrored();
         let sense = if is_inward { Sense::Inward } else { Sense::Outward };
         Some(Found { shape, sense, ends })
     };
@@ -42,7 +42,7 @@ pub(super) fn of(surface: &Surface, reversed: bool, window: [[f64; 2]; 2]) -> Op
         }
         Surface::Cylinder { frame, radius } => {
             let shape = Shape::Cylinder { point: frame.origin, direction: frame.axes[2], radius: *radius };
-            found(shape, frame, false, Some(on_axis(frame)))
+            found(shape, frame, Some(on_axis(frame)))
         }
         Surface::Cone { frame, radius, half_angle } => {
             let slope = libm::tan(*half_angle);
@@ -61,10 +61,10 @@ pub(super) fn of(surface: &Surface, reversed: bool, window: [[f64; 2]; 2]) -> Op
                 point: at(middle),
                 radius: wide.abs(),
             };
-            found(shape, frame, wide < 0.0, Some(on_axis(frame)))
+            found(shape, frame, Some(on_axis(frame)))
         }
         Surface::Sphere { frame, radius } => {
-            found(Shape::Sphere { center: frame.origin, radius: *radius }, frame, false, None)
+            found(Shape::Sphere { center: frame.origin, radius: *radius }, frame, None)
         }
         Surface::Torus { frame, major, minor } if major > minor => {
             let shape = Shape::Torus {
@@ -73,7 +73,7 @@ pub(super) fn of(surface: &Surface, reversed: bool, window: [[f64; 2]; 2]) -> Op
                 major_radius: *major,
                 minor_radius: *minor,
             };
-            found(shape, frame, false, None)
+            found(shape, frame, None)
         }
         _ => None,
     }

@@ -14,7 +14,7 @@ use crate::cad::area;
 use crate::words::ToWord;
 use entities::numbers;
 use std::collections::BTreeMap;
-use trueness_cad::check::{Fault, FaultKind, faults};
+use trueness_cad::check::{Fault, FaultKind, faults, place_of_face};
 use trueness_cad::measure::Integrals;
 use trueness_cad::model::Model;
 use trueness_cad::tessellate::Tessellation;
@@ -22,7 +22,7 @@ use trueness_cad::trimmed::Trimmed;
 use trueness_document::check::{CheckDocument, Defects, Item, Severity};
 use trueness_geom::check::{DefectKind, Shows};
 use trueness_geom::num::sum::Sum;
-use trueness_geom::space::{Aabb, Point};
+use trueness_geom::space::{Aabb, Point, minus};
 
 /// A model with what was made of it.
 pub struct Checked<'a> {
@@ -34,8 +34,16 @@ pub struct Checked<'a> {
     pub integrals: &'a [Option<Integrals>],
     /// Its facets.
     pub drawn: &'a Tessellation,
-    /// Pairs of facets that meet where they should not; `None` where they were not looked for.
-    pub crossings: Option<Vec<[u32; 2]>>,
+    /// Facets that meet where they should not; `None` where they were not looked for.
+    pub crossings: Option<CrossingFacets>,
+}
+
+/// Facets that meet where they should not.
+pub struct CrossingFacets {
+    /// Pairs of them.
+    pub pairs: Vec<[u32; 2]>,
+    /// Whether these are all.
+    pub are_all: bool,
 }
 
 /// Facets of one finding at most: of what is larger the first ones show where it is.
@@ -45,7 +53,7 @@ const MAX_GAP_SHARE: f64 = 1e-7;
 
 /// The document of the facets with the faults of the model in place of theirs; at most `limit` of each kind are listed.
 pub fn with_model(mut document: CheckDocument, checked: &Checked, limit: usize) -> CheckDocument {
-    let Checked { model, shape, integrals, drawn, crossings } = checked;
+    let Checked { model, shape, integrals, drawn, .. } = checked;
     let within = model.uncertainty.unwrap_or_else(|| MAX_GAP_SHARE * drawn.mesh.bounds().diagonal()).max(0.0);
     let mut found: BTreeMap<&str, Vec<Fault>> = BTreeMap::new();
     for fault in faults(shape, integrals, within) {
@@ -54,7 +62,7 @@ pub fn with_model(mut document: CheckDocument, checked: &Checked, limit: usize) 
     for (face, _) in &drawn.failed {
         let refused = found.entry(kinds::of(FaultKind::RefusedFace).name).or_default();
         if !refused.iter().any(|f| f.faces == [*face]) {
-            let place = [0.0; 3];
+            let place = place_of_face(shape, *face);
             refused.push(Fault {
                 kind: FaultKind::RefusedFace,
                 faces: vec![*face],
@@ -73,27 +81,52 @@ pub fn with_model(mut document: CheckDocument, checked: &Checked, limit: usize) 
     }
     let unread = model.unread.iter().filter(|u| u.holds_faces).count();
     all.insert(kinds::UNREAD.name.to_string(), defects(&kinds::UNREAD, unread, vec![]));
-    let crossing = crossings.as_ref().map(|pairs| crossing::crossing_faces(pairs, drawn, shape));
-    let mut crossed = defects(&kinds::CROSSING, 0, vec![]);
-    match crossing {
-        Some(pairs) => {
-            crossed.count = Some(pairs.len() as u64);
-            crossed.truncated = pairs.len() > limit;
-            crossed.items = pairs.into_iter().take(limit).map(|pair| pair.item(shape)).collect();
-        }
-        None => (crossed.count, crossed.count_reason) = (None, kinds::CROSSING.missing.map(str::to_string)),
-    }
-    all.insert(kinds::CROSSING.name.to_string(), crossed);
-    let is_wrong = |d: &Defects| *d.severity == Severity::Error && d.count.unwrap_or(0) > 0;
+    all.insert(kinds::CROSSING.name.to_string(), crossing_defects(checked, limit));
+    // What was not looked through to the end is never sound.
+    let is_wrong = |d: &Defects| *d.severity == Severity::Error && (d.at_least || d.count.unwrap_or(0) > 0);
     document.sound = !all.values().any(is_wrong);
-    document.area = area(integrals);
-    let volumes: Option<Vec<f64>> = shape.brep.solids.iter().map(|s| shape.volume(s, integrals)).collect();
-    if let (Some(volume), Some(volumes)) = (&mut document.volume, volumes.filter(|all| !all.is_empty())) {
-        *volume = volumes.into_iter().sum::<Sum>().value();
-    }
+    let borders =
+        [FaultKind::FreeEdge, FaultKind::SharedEdge, FaultKind::OppositeFaces, FaultKind::InsideOutSolid];
+    let refused = [kinds::of(FaultKind::RefusedFace).name, kinds::UNREAD.name];
+    let mut deciding = borders.into_iter().map(|kind| kinds::of(kind).name).chain(refused);
+    document.precondition = !deciding.any(|name| all.get(name).is_some_and(|d| d.count != Some(0)));
+    exact_measures(&mut document, shape, integrals);
     document.defects = all;
     document.tolerances.gap = within;
     document
+}
+
+/// Faces that cross.
+fn crossing_defects(checked: &Checked, limit: usize) -> Defects {
+    let mut crossed = defects(&kinds::CROSSING, 0, vec![]);
+    match &checked.crossings {
+        Some(CrossingFacets { pairs, are_all }) => {
+            let found = crossing::crossing_faces(pairs, checked.drawn, checked.shape);
+            crossed.count = Some(found.len() as u64);
+            crossed.at_least = !are_all;
+            crossed.truncated = found.len() > limit;
+            crossed.items = found.into_iter().take(limit).map(|pair| pair.item(checked.shape)).collect();
+        }
+        None => (crossed.count, crossed.count_reason) = (None, kinds::CROSSING.missing.map(str::to_string)),
+    }
+    crossed
+}
+
+/// Box, area and volume of the faces in place of those of their facets.
+fn exact_measures(document: &mut CheckDocument, shape: &Trimmed, integrals: &[Option<Integrals>]) {
+    let extent = shape.bounds();
+    document.bounds = bounds(&extent);
+    document.dimensions = document.bounds.as_ref().map(|_| minus(extent.max, extent.min));
+    document.area = area(integrals);
+    let volumes: Option<Vec<f64>> = shape.brep.solids.iter().map(|s| shape.volume(s, integrals)).collect();
+    let volumes = volumes.filter(|all| !all.is_empty());
+    let without =
+        volumes.is_none().then(|| "not all faces belong to solids whose faces were all read".to_string());
+    document.volume = volumes.map(|all| all.into_iter().sum::<Sum>().value());
+    document.volume_reason = without;
+    document.volume_note = None;
+    document.center_of_mass = None;
+    document.center_of_mass_reason = Some("it is not computed for CAD models".into());
 }
 
 fn defects(kind: &DefectKind, count: usize, items: Vec<Item>) -> Defects {
@@ -139,7 +172,7 @@ impl Facets<'_> {
             position: fault.place,
             bounds: bounds(&Aabb::of(&places)),
             size: fault.size,
-            measures: numbers(shape, &fault.faces, if fault.faces.len() > 1 { &[] } else { &fault.edges }),
+            measures: numbers(shape, &fault.faces, &fault.edges),
         }
     }
 }

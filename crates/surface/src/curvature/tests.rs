@@ -443,7 +443,7 @@ fn wrong_options_and_cancelling() {
     let options = Options::default();
     assert_eq!(refused(Options { degree: 1, ..options }), "degree 1: it must be from 2 to 6");
     let few = refused(Options { reach: Reach::Count(9), ..options });
-    assert_eq!(few, "9 neighbors: a jet of degree 3 needs from 10 to 10000");
+    assert_eq!(few, "neighbors 9: a jet of degree 3 needs from 10 to 10000");
     assert_eq!(
         refused(Options { reach: Reach::Radius(0.0), ..options }),
         "radius 0: it must be a length above 0"

@@ -20,9 +20,18 @@ pub trait Request: Serialize + DeserializeOwned + JsonSchema {
     /// Values that cannot be meant.
     fn files(&self, sources: &dyn Sources) -> Result<RunFiles, TaskError>;
 
-    /// Runs the task.
+    /// Tries the files, then answers: what is read is never overwritten, and an output that cannot be written is told before any work.
+    ///
+    /// # Errors
+    /// Those of [`RunFiles::check`]; why there is no answer.
+    fn run(&self, sources: &dyn Sources, watch: &dyn Watch) -> Result<Done<Self::Document>, TaskError> {
+        self.files(sources)?.check(watch)?;
+        self.answer(sources, watch)
+    }
+
+    /// Answers. For callers that have tried the [files](Request::files) together with files of their own.
     ///
     /// # Errors
     /// Why there is no answer.
-    fn run(&self, sources: &dyn Sources, watch: &dyn Watch) -> Result<Done<Self::Document>, TaskError>;
+    fn answer(&self, sources: &dyn Sources, watch: &dyn Watch) -> Result<Done<Self::Document>, TaskError>;
 }

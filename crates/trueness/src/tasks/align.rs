@@ -199,7 +199,7 @@ impl Request for AlignRequest {
             .also("--out", self.out.as_ref()))
     }
 
-    fn run(&self, sources: &dyn Sources, watch: &dyn Watch) -> Result<Done<AlignDocument>, TaskError> {
+    fn answer(&self, sources: &dyn Sources, watch: &dyn Watch) -> Result<Done<AlignDocument>, TaskError> {
         self.check()?;
         let mut measured = MeasuredFile::open(self, sources)?;
         if let Some(path) = &self.out {

@@ -16,7 +16,7 @@ use trueness_files::{ReadOptions, SourceMesh, Sources};
 use trueness_geom::check::{self, CheckError, Finding, Options, SELF_INTERSECTIONS};
 use trueness_measure::drawn_faces::DrawnFaces;
 use trueness_measure::file_numbers::LeftOut;
-use trueness_measure::model_check;
+use trueness_measure::model_check::{self, CrossingFacets};
 use trueness_report::views::check::View;
 use trueness_report::{Marks, ViewObject};
 
@@ -92,7 +92,7 @@ impl Request for CheckRequest {
         Ok(RunFiles::of([&self.mesh]))
     }
 
-    fn run(&self, sources: &dyn Sources, watch: &dyn Watch) -> Result<Done<CheckDocument>, TaskError> {
+    fn answer(&self, sources: &dyn Sources, watch: &dyn Watch) -> Result<Done<CheckDocument>, TaskError> {
         let options = self.options()?;
         let reading = ReadOptions { weld: welding(self.weld)?, ..self.reading.options() };
         let (body, mut record) = read::mesh_or_cad(sources, &self.mesh, Role::Mesh, &reading)?;
@@ -147,7 +147,10 @@ impl CheckRequest {
         let pair = |f: &Finding| Some([*f.facets.first()?, *f.facets.get(1)?]);
         let crossings = report.defects.iter().find(|(kind, _)| *kind == SELF_INTERSECTIONS);
         let crossings = crossings.and_then(|(_, found)| found.as_ref());
-        let crossings = crossings.map(|found| found.items.iter().filter_map(pair).collect());
+        let crossings = crossings.map(|found| CrossingFacets {
+            pairs: found.items.iter().filter_map(pair).collect(),
+            are_all: found.items.len() >= found.count && !found.at_least,
+        });
         let document =
             trueness_measure::check::document(&report, record, facets, LeftOut::default(), &options);
         let checked = model_check::Checked {

@@ -51,7 +51,7 @@ impl Request for ConvertRequest {
         Ok(RunFiles::of([&self.input]).also("OUT", Some(&self.out)))
     }
 
-    fn run(&self, sources: &dyn Sources, watch: &dyn Watch) -> Result<Done<ConvertDocument>, TaskError> {
+    fn answer(&self, sources: &dyn Sources, watch: &dyn Watch) -> Result<Done<ConvertDocument>, TaskError> {
         self.chord.map(|chord| above_zero("chord", chord)).transpose()?;
         let reading = self.reading.options();
         let found = match read::any(sources, &self.input, Role::Mesh, &reading)? {

@@ -121,7 +121,7 @@ impl Request for CurvatureRequest {
         Ok(RunFiles::of([&self.input]).out(self.out.as_ref(), Writable::Values))
     }
 
-    fn run(&self, sources: &dyn Sources, watch: &dyn Watch) -> Result<Done<CurvatureDocument>, TaskError> {
+    fn answer(&self, sources: &dyn Sources, watch: &dyn Watch) -> Result<Done<CurvatureDocument>, TaskError> {
         let mut options = self.options()?;
         let shown = self.input.display();
         let Opened { mut record, body, planar, .. } =

@@ -114,7 +114,7 @@ impl Request for FitRequest {
         Ok(RunFiles::of([&self.points]))
     }
 
-    fn run(&self, sources: &dyn Sources, watch: &dyn Watch) -> Result<Done<FitDocument>, TaskError> {
+    fn answer(&self, sources: &dyn Sources, watch: &dyn Watch) -> Result<Done<FitDocument>, TaskError> {
         let element = self.shape.ok_or_else(|| {
             let known: Vec<&str> = Element::ALL.iter().map(|(_, word, _)| *word).collect();
             TaskError::usage(format!("--shape is missing: give {}", known.join(", ")))

@@ -42,7 +42,7 @@ impl Request for InfoRequest {
         Ok(RunFiles::of([&self.file]))
     }
 
-    fn run(&self, sources: &dyn Sources, watch: &dyn Watch) -> Result<Done<InfoDocument>, TaskError> {
+    fn answer(&self, sources: &dyn Sources, watch: &dyn Watch) -> Result<Done<InfoDocument>, TaskError> {
         let found = read::any(sources, &self.file, Role::Mesh, &self.reading.options())?;
         let mut document = match found {
             Any::Whole(opened) => match opened.body {

@@ -52,7 +52,7 @@ impl Request for PlanInitRequest {
         Ok(RunFiles::of([&self.nominal]).also("--out", self.out.as_ref()))
     }
 
-    fn run(&self, sources: &dyn Sources, watch: &dyn Watch) -> Result<Done<ProposedPlan>, TaskError> {
+    fn answer(&self, sources: &dyn Sources, watch: &dyn Watch) -> Result<Done<ProposedPlan>, TaskError> {
         // A plan is written by hand in the end: it is never replaced.
         if let Some(path) = self.out.as_ref().filter(|path| path.exists()) {
             let text = format!("--out {}: the file exists; name another or remove it", path.display());

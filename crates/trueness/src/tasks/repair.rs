@@ -147,7 +147,7 @@ impl Request for RepairRequest {
         Ok(RunFiles::of([&self.mesh]).in_place(self.in_place).out(Some(self.target()), Writable::Mesh))
     }
 
-    fn run(&self, sources: &dyn Sources, watch: &dyn Watch) -> Result<Done<RepairDocument>, TaskError> {
+    fn answer(&self, sources: &dyn Sources, watch: &dyn Watch) -> Result<Done<RepairDocument>, TaskError> {
         self.check()?;
         let options = self.options()?;
         let max_change = not_negative("max-change", self.max_change)? / 100.0;

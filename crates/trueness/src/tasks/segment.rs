@@ -124,7 +124,7 @@ impl Request for SegmentRequest {
         Ok(RunFiles::of([&self.input]).out(self.out.as_ref(), Writable::Regions))
     }
 
-    fn run(&self, sources: &dyn Sources, watch: &dyn Watch) -> Result<Done<SegmentDocument>, TaskError> {
+    fn answer(&self, sources: &dyn Sources, watch: &dyn Watch) -> Result<Done<SegmentDocument>, TaskError> {
         let options = self.options();
         let Opened { mut record, body, .. } =
             read::open(sources, &self.input, Role::Measured, &self.reading.options())?;

@@ -55,7 +55,7 @@ impl Run for TrendArgs {
     }
     fn run(&self, common: &Common) -> anyhow::Result<Outcome> {
         let watch = Console { style: common.progress };
-        let done = self.request().run(&FileSources, &watch)?;
+        let done = self.request().answer(&FileSources, &watch)?;
         let map = self.map.as_ref().map(|path| match maps(&done.document) {
             Ok(page) => Ok((path, page)),
             Err(why) => Err(anyhow!("{}: {why}", path.display())),

@@ -37,7 +37,7 @@ impl Request for CompareRequest {
         Ok(points.fold(inputs, |files, path| files.out(Some(&path), Writable::Points)))
     }
 
-    fn run(&self, sources: &dyn Sources, watch: &dyn Watch) -> Result<Done<CompareDocument>, TaskError> {
+    fn answer(&self, sources: &dyn Sources, watch: &dyn Watch) -> Result<Done<CompareDocument>, TaskError> {
         let mut ready = Prepared::new(self, sources, watch)?;
         let mut points = self.point_files(&ready)?;
         let found = ready.compare(self, points.as_mut(), (sources, watch))?;

@@ -86,11 +86,21 @@ impl InspectRequest {
         if self.measured.len() > 1 { Err(TaskError::usage(what)) } else { Ok(()) }
     }
 
-    /// Reads the plan, by which the parts are inspected one after the other.
+    /// Tries the files and reads the plan, by which the parts are inspected one after the other.
     ///
     /// # Errors
-    /// A plan that cannot be read or evaluated; values that do not go together, or not with the plan.
+    /// Those of [`RunFiles::check`]; a plan that cannot be read or evaluated; values that do not go together, or not with the plan.
     pub fn open<'a>(
+        &'a self,
+        sources: &'a dyn Sources,
+        watch: &'a dyn Watch,
+    ) -> Result<Inspecting<'a>, TaskError> {
+        self.files(sources)?.check(watch)?;
+        self.opened(sources, watch)
+    }
+
+    /// Reads the plan.
+    fn opened<'a>(
         &'a self,
         sources: &'a dyn Sources,
         watch: &'a dyn Watch,
@@ -130,9 +140,9 @@ impl Request for InspectRequest {
             .also("--qif", self.qif.as_ref()))
     }
 
-    fn run(&self, sources: &dyn Sources, watch: &dyn Watch) -> Result<Done<InspectDocument>, TaskError> {
+    fn answer(&self, sources: &dyn Sources, watch: &dyn Watch) -> Result<Done<InspectDocument>, TaskError> {
         self.one_part()?;
-        let inspecting = self.open(sources, watch)?;
+        let inspecting = self.opened(sources, watch)?;
         let part = inspecting.inspect_part(self.measured.first().map(PathBuf::as_path))?;
         let outputs = inspecting.lists(std::slice::from_ref(&part))?;
         match part {

@@ -37,7 +37,7 @@ impl Request for SectionRequest {
             .ending("--out", self.out.as_ref(), &["csv"]))
     }
 
-    fn run(&self, sources: &dyn Sources, watch: &dyn Watch) -> Result<Done<SectionDocument>, TaskError> {
+    fn answer(&self, sources: &dyn Sources, watch: &dyn Watch) -> Result<Done<SectionDocument>, TaskError> {
         self.check()?;
         let (options, rule) = (self.options(), self.rule()?);
         let mut part = read::open(sources, &self.input, Role::Measured, &self.reading.options())?;

@@ -51,7 +51,7 @@ impl Request for SurfaceRequest {
             .ending("--obj", self.obj.as_ref(), &["obj"]))
     }
 
-    fn run(&self, sources: &dyn Sources, watch: &dyn Watch) -> Result<Done<SurfaceDocument>, TaskError> {
+    fn answer(&self, sources: &dyn Sources, watch: &dyn Watch) -> Result<Done<SurfaceDocument>, TaskError> {
         self.check()?;
         let options = self.options(sources)?;
         let Opened { mut record, body, planar, .. } =

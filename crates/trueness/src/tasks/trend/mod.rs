@@ -65,7 +65,7 @@ impl Request for TrendRequest {
         Ok(RunFiles::of(&self.results).also("--csv", self.csv.as_ref()))
     }
 
-    fn run(&self, sources: &dyn Sources, _: &dyn Watch) -> Result<Done<TrendDocument>, TaskError> {
+    fn answer(&self, sources: &dyn Sources, _: &dyn Watch) -> Result<Done<TrendDocument>, TaskError> {
         let read = self.results.iter().map(|path| result(sources, path));
         let (inputs, results): (Vec<_>, Vec<_>) =
             read.collect::<Result<Vec<_>, TaskError>>()?.into_iter().unzip();
