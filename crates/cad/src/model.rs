@@ -81,6 +81,13 @@ impl Model {
         all
     }
 
+    /// Up to where places may have been meant as one, millimeters: the stated uncertainty, but no more than a hundredth. Some files
+    /// state a millimeter, at which faces of a thin part would be one.
+    pub fn same_within(&self) -> Option<f64> {
+        const MOST_UNCERTAIN: f64 = 1e-2;
+        self.uncertainty.map(|u| u.min(MOST_UNCERTAIN))
+    }
+
     /// Whether all faces of the file were read.
     pub fn is_complete(&self) -> bool {
         !self.unread.iter().any(|u| u.holds_faces)

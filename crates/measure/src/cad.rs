@@ -18,10 +18,16 @@ pub fn record(model: &Model, shape: &Trimmed, integrals: &[Option<Integrals>]) -
     let brep = &shape.brep;
     let volumes: Vec<Option<f64>> = brep.solids.iter().map(|s| shape.volume(s, integrals)).collect();
     let lost = volumes.iter().filter(|v| v.is_none()).count();
-    let volume_reason = match (volumes.len(), lost) {
-        (0, _) => Some("the model has no solid".to_string()),
-        (_, 0) => None,
-        (n, lost) => Some(format!("{lost} of {n} solids have faces without a border that can be followed")),
+    let missing = model.unread.iter().filter(|u| u.holds_faces).count();
+    let volume_reason = match (volumes.len(), lost, missing) {
+        (0, ..) => Some("the model has no solid".to_string()),
+        (_, 0, 0) => None,
+        (_, 0, unread) => {
+            Some(format!("{unread} entities with faces could not be read; solids may lack them"))
+        }
+        (n, lost, _) => {
+            Some(format!("{lost} of {n} solids have faces without a border that can be followed"))
+        }
     };
     let volume = volume_reason.is_none().then(|| volumes.iter().flatten().copied().sum::<Sum>().value());
     CadRecord {
@@ -32,7 +38,7 @@ pub fn record(model: &Model, shape: &Trimmed, integrals: &[Option<Integrals>]) -
         solids: brep.solids.len() as u64,
         volume,
         volume_reason,
-        volumes,
+        volumes: if missing == 0 { volumes } else { vec![None; volumes.len()] },
         parts: parts(model),
         instances: model.instances.len() as u64,
         depth: model.depth,

@@ -34,8 +34,9 @@ const MAX_PIECE_DEPTH: u32 = 6;
 /// Cosine up to which two directions are at right angles.
 const RIGHT_ANGLE: f64 = 1e-6;
 
-/// Share of a part's size up to which a descent that ends beside a foot goes on over the end of the part.
-const BESIDE_END_SHARE: f64 = 0.01;
+/// Share of a part's size up to which a descent that ends beside a foot goes on over all of the surface: over the end of the part, or
+/// anew where it had come to rest too soon.
+const BESIDE_END_SHARE: f64 = 0.5;
 /// Roundings up to which a descent comes to a place.
 const SETTLED: f64 = 100.0;
 

@@ -20,7 +20,7 @@ pub struct CadFaces {
     pub drawn: DrawnFaces,
     /// How far that mesh is from them at most, mm.
     pub drawn_within: f64,
-    /// What the file says of its lengths, mm; 0 if nothing.
+    /// Up to where places may have been meant as one, mm; 0 if the file says nothing.
     pub uncertainty: f64,
     /// Entities that are faces, or hold faces, and could not be read: their number, and why.
     pub unread: Vec<(u64, String)>,
@@ -50,7 +50,7 @@ impl CadFaces {
             faces,
             drawn,
             drawn_within,
-            uncertainty: model.uncertainty.unwrap_or(0.0),
+            uncertainty: model.same_within().unwrap_or(0.0),
             unread: unread.map(|u| (u.entity, u.reason.clone())).collect(),
             instances: model.instances.iter().map(|i| i.path.join("/")).collect(),
             neighbors,

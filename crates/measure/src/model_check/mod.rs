@@ -119,9 +119,10 @@ fn exact_measures(document: &mut CheckDocument, shape: &Trimmed, integrals: &[Op
     document.dimensions = document.bounds.as_ref().map(|_| minus(extent.max, extent.min));
     document.area = area(integrals);
     let volumes: Option<Vec<f64>> = shape.brep.solids.iter().map(|s| shape.volume(s, integrals)).collect();
-    let volumes = volumes.filter(|all| !all.is_empty());
-    let without =
-        volumes.is_none().then(|| "not all faces belong to solids whose faces were all read".to_string());
+    let volumes = volumes.filter(|all| document.precondition && !all.is_empty());
+    let without = volumes.is_none().then(|| {
+        "there is no solid, or its faces are open, contradict each other or were not all read".to_string()
+    });
     document.volume = volumes.map(|all| all.into_iter().sum::<Sum>().value());
     document.volume_reason = without;
     document.volume_note = None;

@@ -44,7 +44,7 @@ impl<'m> Faces<'m> {
         for (index, face) in brep.faces.iter().enumerate() {
             of.entry(face.entity).or_default().push(index);
         }
-        Faces { model, brep, of, near: model.uncertainty.unwrap_or(UNSTATED_UNCERTAINTY) }
+        Faces { model, brep, of, near: model.same_within().unwrap_or(UNSTATED_UNCERTAINTY) }
     }
 
     /// The numbers of all faces.
