@@ -1,6 +1,6 @@
 //! Where a plane cuts faces: lines and circles where these are exact, else cubics within a tolerance.
 //!
-//! The facets that draw the faces say which faces a section passes, in which order ([`ways`]); its places are then those of the edges and
+//! The facets that draw the faces say which faces a section passes, in which order (`ways`); its places are then those of the edges and
 //! surfaces themselves. So outlines of closed shells close, and what is nearer to the plane than facets are to the faces may be missed.
 //!
 //! | face | section |
