@@ -181,7 +181,9 @@ impl<'f> Assembly<'f> {
             }
         }
         for entity in file.entities() {
-            let placed = if let Some(record) = entity.record("NEXT_ASSEMBLY_USAGE_OCCURRENCE") {
+            let placed = if let Err(wrong) = self.leads_on(&entity) {
+                Err(wrong)
+            } else if let Some(record) = entity.record("NEXT_ASSEMBLY_USAGE_OCCURRENCE") {
                 let relation = relation_of.get(&entity.number()).copied();
                 self.occurrence(&entity, &record, relation)
             } else if entity.record(TRANSFORMED).is_some() && !used.contains(&entity.number()) {
@@ -195,10 +197,24 @@ impl<'f> Assembly<'f> {
         }
     }
 
+    /// Whether all that a link between products and their shapes names is there: without one, parts are lost.
+    fn leads_on(&self, entity: &Entity) -> Result<(), Wrong> {
+        for record in entity.records().filter(|r| LINKS.contains(&r.keyword)) {
+            (0..MAX_LINKED)
+                .filter_map(|k| record.reference(k))
+                .try_for_each(|n| self.file.entity(n).map(drop))?;
+        }
+        Ok(())
+    }
+
     fn occurrence(&mut self, entity: &Entity, record: &Record, relation: Option<u64>) -> Result<(), Wrong> {
         let (parent, child) = (record.entity(3)?, record.entity(4)?);
         let nodes = [parent, child].map(|n| self.node_of.get(&n).copied());
         if let Some(relation) = relation {
+            // Its relationship places a representation that no product has.
+            if nodes[1].is_some_and(|child| !self.has_shape(child)) {
+                return Err(record.wrong("places a product without a shape"));
+            }
             let relation = self.file.entity(relation)?;
             let name = [1, 2, 0].map(|k| record.text(k)).into_iter().find(|n| !n.is_empty());
             return self.related(&relation, Some((nodes, name.unwrap_or_default(), entity.number())));
@@ -305,6 +321,15 @@ impl<'f> Assembly<'f> {
     }
 }
 
+/// What links products, their shapes and their occurrences.
+const LINKS: [&str; 4] = [
+    "SHAPE_DEFINITION_REPRESENTATION",
+    "CONTEXT_DEPENDENT_SHAPE_REPRESENTATION",
+    "PRODUCT_DEFINITION_SHAPE",
+    "NEXT_ASSEMBLY_USAGE_OCCURRENCE",
+];
+/// Parameters of a link at most.
+const MAX_LINKED: usize = 6;
 /// The record of a relationship that has a transformation.
 const TRANSFORMED: &str = "REPRESENTATION_RELATIONSHIP_WITH_TRANSFORMATION";
 

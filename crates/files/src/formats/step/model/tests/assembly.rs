@@ -59,6 +59,35 @@ fn parts_stand_where_the_products_say() {
     }
 }
 
+/// Each entity of a chain of products left out in turn: both balls stand where they were, or the model is not complete.
+#[test]
+fn a_broken_chain_of_products_is_told() {
+    let chain = product(100, "ball", "#9,#80")
+        + &product(101, "sub", "#9,#70")
+        + &product(102, "top", "#9,#70")
+        + &occurrence(200, [101, 100], ["#9", "#70"], false)
+        + &occurrence(201, [102, 101], ["#9", "#70"], false)
+        + &occurrence(202, [102, 100], ["#70", "#70"], false);
+    let placed = |model: &trueness_cad::model::Model| {
+        let faces = model.assembled().faces;
+        let centers = faces.iter().map(|f| match &f.surface {
+            Surface::Sphere { frame, .. } => frame.origin.map(|x| x.round() as i64),
+            _ => panic!("a sphere"),
+        });
+        let mut centers: Vec<[i64; 3]> = centers.collect();
+        centers.sort_unstable();
+        centers
+    };
+    let wanted = placed(&model(&whole(&(base() + &chain))));
+    let lines: Vec<&str> = chain.split_inclusive(";\n").collect();
+    for left_out in 0..lines.len() {
+        let rest: String = (0..lines.len()).filter(|k| *k != left_out).map(|k| lines[k]).collect();
+        let Ok(found) = read(&whole(&(base() + &rest))) else { continue };
+        let is_told = !found.model.is_complete();
+        assert!(is_told || placed(&found.model) == wanted, "without {}", lines[left_out]);
+    }
+}
+
 /// Some programs name the assembly first: the first item is then where it takes up the second.
 #[test]
 fn turned_relationships_are_recognized() {
