@@ -23,7 +23,7 @@ pub fn record(model: &Model, shape: &Trimmed, integrals: &[Option<Integrals>]) -
         (0, ..) => Some("the model has no solid".to_string()),
         (_, 0, 0) => None,
         (_, 0, unread) => {
-            Some(format!("{unread} entities with faces could not be read; solids may lack them"))
+            Some(format!("solids may lack faces that could not be read, in entities: {unread}"))
         }
         (n, lost, _) => {
             Some(format!("{lost} of {n} solids have faces without a border that can be followed"))

@@ -201,6 +201,17 @@ const FAULTS: &[Fault] = &[
         "kind = \"position\"\nbasic = { x = 1, y = 2 }\nfeature = \"pin\"\ndatums = [\"A(M)\", \"B\"]",
         "a material requirement is evaluated on the only datum, or on the second and last one after a plane",
     ),
+    // The place is that of the nominals.
+    fault(
+        "kind = \"perpendicularity\"\nfeature = \"pin\"\ndatums = [\"A\"]",
+        "kind = \"position\"\nfeature = \"h1\"\ndatums = [\"f\", \"h2\", \"h3(M)\"]\ntolerance = 0.1\n\
+         [[feature]]\nid = \"f\"\nshape = \"plane\"\nnominal = { point = [0,0,0], normal = [0,0,1], boundary = [[0,0,0],[9,0,0],[9,9,0]] }\npoints = \"floor.xyz\"\n\
+         [[feature]]\nid = \"h1\"\nshape = \"cylinder\"\nnominal = { point = [5,0,0], direction = [0,0,1], radius = 2, length = 9 }\npoints = \"pin.xyz\"\ninternal = true\n\
+         [[feature]]\nid = \"h2\"\nshape = \"cylinder\"\nnominal = { point = [20,0,0], direction = [0,0,1], radius = 2, length = 9 }\npoints = \"pin.xyz\"\ninternal = true\n\
+         [[feature]]\nid = \"h3\"\nshape = \"cylinder\"\nnominal = { point = [40,0,0], direction = [0,0,1], radius = 2, length = 9 }\npoints = \"pin.xyz\"\ninternal = true\n\
+         [[characteristic]]\nid = \"9\"\nkind = \"perpendicularity\"\nfeature = \"pin\"\ndatums = [\"A\"]",
+        "a material requirement is evaluated on the only datum, or on the second and last one after a plane",
+    ),
     fault(
         "kind = \"perpendicularity\"\nfeature = \"pin\"\ndatums = [\"A\"]",
         "kind = \"position\"\nbasic = { x = 1, y = 2 }\nfeature = \"pin\"\ndatums = [\"A(M)\"]",

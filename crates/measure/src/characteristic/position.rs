@@ -73,6 +73,7 @@ impl Characteristic for Position {
         let given = q.spec.basic.place.map(|x| x.is_some());
         let count = given.iter().filter(|g| **g).count();
         if count == 0 && q.spec.basic_span.is_none() && q.is_of_model() {
+            marked_datum(q)?;
             return match q.spec.diametral {
                 Some(false) if class != Class::Plane => refuse(
                     "diametral",
@@ -221,6 +222,12 @@ fn material(q: &Question, class: Class, given: [bool; 3]) -> Result<(), Refusal>
     if !is_axis(class) || given != [true, true, false] {
         return refuse(key, Impossible::NotAlongZ.to_string());
     }
+    marked_datum(q)
+}
+
+/// Refuses a material requirement on a datum that leaves more freedom than is evaluated.
+fn marked_datum(q: &Question) -> Result<(), Refusal> {
+    let spec = q.spec;
     let marked = spec.datums.iter().position(|d| d.material.is_some());
     let first = q.datums().first().copied();
     match (marked, spec.datums.len()) {
