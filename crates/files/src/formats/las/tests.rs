@@ -230,6 +230,27 @@ fn packings_that_cannot_be_are_refused() {
     assert!(changed(record + 34 + 2, &[31]).contains("37 bytes, not 36"));
 }
 
+/// Flipped bits break the codes in ways that the decoder asserts against: the file is refused or gives its points, no more of them.
+#[test]
+fn flipped_bits_are_faults_of_the_file() {
+    let (steps, random) = (steps(200), &mut Random::new(9));
+    let mut refused = 0;
+    for format in 0..=10 {
+        let sound = Made::of(format).packed(&steps, Some(64));
+        let start = u32::from_le_bytes(sound[96..100].try_into().unwrap()) as usize;
+        for _ in 0..200 {
+            let mut file = sound.clone();
+            let at = start + random.below((file.len() - start) as u64) as usize;
+            file[at] ^= 1 << random.below(8);
+            match points(&file, &ReadOptions::default()) {
+                Ok((_, found, _)) => assert_eq!(found.len(), steps.len()),
+                Err(_) => refused += 1,
+            }
+        }
+    }
+    assert!(refused > 100, "{refused}");
+}
+
 #[test]
 fn the_unit_is_that_of_the_coordinate_system() {
     let keys = |entries: &[[u16; 4]]| {

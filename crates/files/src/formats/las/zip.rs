@@ -13,6 +13,7 @@ use laz::{
     record::{LayeredPointRecordDecompressor, RecordDecompressor, SequentialPointRecordDecompressor},
 };
 use std::io::Cursor;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use trueness_geom::parallel::prelude::*;
 use trueness_geom::{cloud::PointStream, space::Point};
@@ -189,7 +190,7 @@ impl OpenChunk {
         let mut tally = Tally::default();
         let count = most.min(self.left);
         for _ in 0..count {
-            self.decoder.decompress_next(&mut self.record).map_err(|e| match e.kind() {
+            next_record(&mut *self.decoder, &mut self.record).map_err(|e| match e.kind() {
                 std::io::ErrorKind::UnexpectedEof => {
                     Fault::contradiction("a chunk ends before its last point")
                 }
@@ -200,6 +201,15 @@ impl OpenChunk {
         self.left -= count;
         Ok(tally)
     }
+}
+
+/// Unpacks a record. The decoder asserts what damaged codes break: that is a fault of the file, and its chunk is given up.
+fn next_record(
+    decoder: &mut (dyn RecordDecompressor<Cursor<Arc<[u8]>>> + Send + Sync),
+    record: &mut [u8],
+) -> std::io::Result<()> {
+    catch_unwind(AssertUnwindSafe(|| decoder.decompress_next(record)))
+        .unwrap_or_else(|_| Err(std::io::Error::other("the codes of a chunk contradict each other")))
 }
 
 /// Refuses a chunk of layers that are longer than the chunk.
