@@ -1,6 +1,6 @@
 //! Why there is no answer.
 
-use trueness_files::{ReadError, WriteError};
+use trueness_files::{Holds, ReadError, WriteError};
 use trueness_geom::align::AlignError;
 use trueness_geom::check::CheckError;
 use trueness_geom::closest::{MeshError, QueryError};
@@ -47,7 +47,7 @@ pub enum Error {
         path: String,
     },
     /// The file holds points without facets, where a mesh is needed.
-    #[error("{path}: it holds points without facets; this needs a mesh (STL, PLY, OBJ, OFF)")]
+    #[error("{path}: it holds points without facets; this needs a mesh ({})", Holds::Mesh.formats())]
     NoFacets {
         /// The file.
         path: String,

@@ -34,7 +34,7 @@ use trueness_report::{Marks, ViewObject};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct CheckRequest {
-    /// The mesh: STL, PLY, OBJ, OFF; or a CAD model: STEP.
+    /// The mesh or the CAD model.
     pub mesh: PathBuf,
     /// How it is taken.
     #[serde(flatten)]
