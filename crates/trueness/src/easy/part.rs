@@ -45,7 +45,7 @@ pub(super) fn as_scan(mesh: &Mesh) -> Measured<'_> {
 }
 
 /// Reads a mesh or points of any format and whatever is packed with gzip; `-` is standard input. The format is told by the
-/// content, units are millimeters unless the file says otherwise. For options see [`files::open`](trueness_files::open).
+/// content, units are millimeters unless the file says otherwise. For options see [`crate::files::open`].
 ///
 /// Memory: the file and several times that; points are read as a whole.
 ///
