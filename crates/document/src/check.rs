@@ -1,4 +1,4 @@
-//! `trueness/check/1`: size and defects of a mesh.
+//! `trueness/check/1`: size and defects of a mesh or a CAD model.
 
 use super::result::ResultDocument;
 use super::word::words;
@@ -62,6 +62,10 @@ pub struct CheckDocument {
     /// Why there is no genus.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub genus_reason: Option<String>,
+    /// Of a CAD model, the keys whose numbers are those of the facets that draw it, within `inputs[].cad.facets_within`. All other
+    /// numbers are those of its faces and edges. Absent for a mesh.
+    #[serde(skip_serializing_if = "Vec::is_empty", default)]
+    pub of_drawing: Vec<String>,
     /// No defect of severity `error`.
     pub sound: bool,
     /// The rule on which statistics of deviations rest: two facets at every edge, a closed fan at every vertex, no
@@ -83,12 +87,14 @@ impl ResultDocument for CheckDocument {
 /// From where on something counts.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Tolerances {
-    /// Distance, mm, up to which two places may have been meant as one.
+    /// Distance, mm, up to which two places may have been meant as one; of a CAD model, up to which edges may be off.
     pub gap: f64,
-    /// Facets with a smaller angle, radians, are slivers.
-    pub sliver_angle: f64,
-    /// Shells with a smaller share of the whole diagonal are islands.
-    pub island_share: f64,
+    /// Facets with a smaller angle, radians, are slivers. Absent for a CAD model.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub sliver_angle: Option<f64>,
+    /// Shells with a smaller share of the whole diagonal are islands. Absent for a CAD model.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub island_share: Option<f64>,
 }
 
 /// All defects of a kind.

@@ -116,10 +116,12 @@ pub struct BaseRecord {
     pub pole: bool,
     /// Share of the points where layers lie over one another as seen on the base (0 to 1).
     pub folded_share: f64,
-    /// Share of the points whose surface stands on edge on the base, at 80° and more (0 to 1): of a tenth and more the surface is not
-    /// theirs.
+    /// Share of the points whose surface stands on edge on the base, at 80° and more (0 to 1).
     #[serde(default)]
     pub standing_share: f64,
+    /// Whether so many of them do that the surface is not theirs.
+    #[serde(skip_serializing_if = "is_false", default)]
+    pub on_edge: bool,
     /// Of a mesh laid flat, factors by which lengths on its facets grew: 1 % of its area has less than the first, 1 % more than the
     /// second.
     #[serde(skip_serializing_if = "Option::is_none", default)]
@@ -132,9 +134,6 @@ pub struct BaseRecord {
 /// Share of points in layers beyond which the surface is doubtful.
 pub const MAX_FOLDED_SHARE: f64 = 0.01;
 
-/// Share of points whose surface stands on edge beyond which the surface is not theirs.
-pub const MAX_STANDING_SHARE: f64 = 0.1;
-
 /// Factor to which lengths may shrink as a mesh is laid flat: of what is laid flat more densely the knots tell one place from the next no
 /// more.
 const MIN_SHRINKING: f64 = 0.05;
@@ -144,7 +143,7 @@ impl BaseRecord {
     /// as it is laid flat, that the surface is not theirs.
     pub fn is_doubtful(&self) -> bool {
         self.folded_share > MAX_FOLDED_SHARE
-            || self.standing_share > MAX_STANDING_SHARE
+            || self.on_edge
             || self.pole
             || self.stretch.is_some_and(is_crushed)
     }

@@ -7,20 +7,12 @@ pub use crate::formats::iges::surface as iges;
 pub use crate::formats::step::surface as step;
 
 use crate::content::cad_file::CadContent;
+use crate::detect;
 use crate::error::{Fault, ReadError, Result};
-use crate::format::ReadOptions;
-use crate::formats::{iges as iges_format, step as step_format};
+use crate::format::{Holds, ReadOptions};
 use crate::source::{FileSources, Source, Sources};
-use crate::{Format, detect};
 use std::path::Path;
 use trueness_geom::progress::Progress;
-
-/// Reads the model of a file.
-type Reader = fn(&mut Source, &ReadOptions, &dyn Progress) -> Result<CadContent>;
-
-/// The formats of CAD models.
-const READERS: [(&Format, Reader); 2] =
-    [(&step_format::STEP, step_format::model), (&iges_format::IGES, iges_format::model)];
 
 /// The model of a CAD file, `-` being standard input: parts with exact faces, and where they stand. `.gz` is unpacked on the way.
 ///
@@ -65,9 +57,9 @@ fn of_source(
         Some(format) => format,
         None => detect::format(&mut source, name)?,
     };
-    let Some((_, reader)) = READERS.iter().find(|(known, _)| *known == format) else {
+    let Some(reader) = format.model else {
         let what = format!("this is a file of the format {}, which holds no CAD model", format.name);
-        return Err(Fault::Unsupported { what, remedy: "give a STEP or IGES file" }.into());
+        return Err(Fault::Foreign { what, remedy: format!("give {}", Holds::Model.formats()) }.into());
     };
     let (bytes, gzip) = (source.bytes, source.gzip);
     let CadContent { model, unit, warnings, splines } = reader(&mut source, options, progress)?;

@@ -2,7 +2,7 @@
 
 use crate::{
     error::{Fault, Result},
-    format::{Format, Head},
+    format::{Format, Head, Holds},
     formats::{FORMATS, table},
     lines::without_mark,
     source::{SNIFFED_BYTES, Source},
@@ -19,18 +19,28 @@ pub(crate) fn format(source: &mut Source, path: &Path) -> Result<&'static Format
         return Ok(format);
     }
     if let Some(name) = foreign(bytes) {
-        return Err(Fault::Foreign(name).into());
+        let what = format!("this is {name}, which is not read here");
+        return Err(Fault::Foreign { what, remedy: format!("export it as {}", readable()) }.into());
     }
     if let Some((extension, name)) = foreign_extension(path) {
         let what = format!("the name ends in .{extension}: that is {name}, which is not read here");
-        let remedy = "export it as STL, PLY, OBJ or OFF (mesh) or as PLY, XYZ, CSV or NPY (points); if it is one of these, name it \
-                      by --format";
-        return Err(Fault::Unsupported { what, remedy }.into());
+        let remedy = format!("export it as {}; if it is one of these, name it by --format", readable());
+        return Err(Fault::Foreign { what, remedy }.into());
     }
     if let Some(format) = by_extension(path).filter(|f| f.reads()) {
         return Ok(format);
     }
-    if table::looks_like_rows(bytes) { Ok(&table::TABLE) } else { Err(Fault::Unknown.into()) }
+    if table::looks_like_rows(bytes) {
+        return Ok(&table::TABLE);
+    }
+    let remedy = format!("give {}, or name the format by --format", readable());
+    Err(Fault::Foreign { what: "this is of no known format".into(), remedy }.into())
+}
+
+/// All that is read of parts.
+fn readable() -> String {
+    let [mesh, points, model] = [Holds::Mesh, Holds::Points, Holds::Model].map(Holds::formats);
+    format!("{mesh} (mesh), {points} (points) or {model} (CAD model)")
 }
 
 /// The format by a path's extension, that before `.gz` where there are two.

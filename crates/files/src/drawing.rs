@@ -1,4 +1,4 @@
-//! Drawings in a plane: lines, arcs and splines. Writers make drawings (DXF, SVG) and curves in space (STEP, IGES) of them, and readers
+//! Drawings in a plane: lines, arcs and splines. Writers make drawings and curves in space of them, and readers
 //! give them.
 
 pub use crate::content::drawing::{Clamped, Drawing, Drawn, DrawnEntity, Entity, Layer};

@@ -56,7 +56,7 @@ pub use content::{
     Body, ColumnTaken, FacetRegions, Input, PointSource, Provenance, SourceMesh, TableReading, UnitFrom,
 };
 pub use error::{Fault, Place, ReadError, WriteError, WriteFault};
-pub use format::{Format, ReadOptions, Weld};
+pub use format::{Format, Holds, ReadOptions, Weld};
 pub use formats::FORMATS;
 pub use open::{open, open_from, open_normals, open_normals_from};
 pub use scan_warning::ScanWarning;

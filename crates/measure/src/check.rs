@@ -3,6 +3,7 @@
 use crate::bounds::bounds;
 use crate::file_numbers::LeftOut;
 use crate::model_check::MODEL_KINDS;
+use crate::no_solid::{genus_reason, why_no_solid};
 use crate::words::ToWord;
 use std::collections::BTreeMap;
 use trueness_document::check::{CheckDocument, Defects, Item, SCHEMA, Tolerances};
@@ -22,8 +23,7 @@ pub fn document(
 ) -> CheckDocument {
     let (p, s) = (&report.properties, &report.soundness);
     let solid = s.closed && s.consistently_oriented;
-    let why_not =
-        || if s.closed { "neighbors look in different directions" } else { "the mesh is open" }.to_string();
+    let why_not = || why_no_solid(report);
     let center = p.center_of_mass.filter(|_| solid);
     let defects = report
         .defects
@@ -50,16 +50,14 @@ pub fn document(
             .then(|| if solid { "the volume is zero".into() } else { why_not() }),
         euler_characteristic: report.euler_characteristic,
         genus: report.genus,
-        genus_reason: report.genus.is_none().then(|| match solid {
-            true => "more than two facets meet at an edge, or parts touch at a vertex".into(),
-            false => why_not(),
-        }),
+        genus_reason: genus_reason(report),
+        of_drawing: vec![],
         sound: report.sound && left_out.count() == 0,
         precondition: s.sound && left_out.count() == 0,
         tolerances: Tolerances {
             gap: report.gap,
-            sliver_angle: options.sliver_angle,
-            island_share: options.island_share,
+            sliver_angle: Some(options.sliver_angle),
+            island_share: Some(options.island_share),
         },
         defects: defects.collect(),
     }

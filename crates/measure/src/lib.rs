@@ -33,6 +33,7 @@ pub mod file_numbers;
 pub mod fit;
 pub mod inspection;
 pub mod model_check;
+mod no_solid;
 mod noise;
 pub mod plan;
 pub mod proposal;

@@ -15,8 +15,7 @@ use trueness_geom::space::{Aabb, Point};
 use trueness_geom::spline::surface::{Bend, Patches};
 use trueness_geom::stats::statistics::{Statistics, Summary};
 use trueness_surface::{
-    Base, BaseKind, Fairness, Layout, MAX_STANDING_SHARE, Options, Outline, OutlineRegion, SurfaceFit,
-    minimum_rectangle,
+    Base, BaseKind, Fairness, Layout, Options, Outline, OutlineRegion, SurfaceFit, minimum_rectangle,
 };
 
 /// Factor by which lengths may grow or shrink as a mesh is laid flat.
@@ -94,6 +93,7 @@ fn base(found: &Base) -> BaseRecord {
         pole: found.pole,
         folded_share: found.folded_share,
         standing_share: found.standing_share,
+        on_edge: found.is_on_edge(),
         stretch: found.stretch,
         round: found.round,
     }
@@ -207,7 +207,7 @@ fn warnings(fit: &SurfaceFit, outline: Option<&Outline>) -> Vec<String> {
             fit.base.kind.name()
         ));
     }
-    if fit.base.standing_share > MAX_STANDING_SHARE {
+    if fit.base.is_on_edge() {
         all.push(format!(
             "{} of the points stand on edge on the base ({}): the surface follows the line that they stand on, not what they are part of; take another base ({}), or a part of the points that lies flatter",
             percent(fit.base.standing_share),
@@ -272,13 +272,4 @@ fn warnings(fit: &SurfaceFit, outline: Option<&Outline>) -> Vec<String> {
         ));
     }
     all
-}
-
-#[cfg(test)]
-mod tests {
-    /// Documents know no geometry, and hold the limit of the fit.
-    #[test]
-    fn what_stands_on_edge_is_the_same_for_fit_and_document() {
-        assert_eq!(trueness_document::surface::MAX_STANDING_SHARE, trueness_surface::MAX_STANDING_SHARE);
-    }
 }

@@ -12,7 +12,7 @@ use trueness_geom::space::Point;
 use trueness_measure::inspection::{self, Data, OwnPoints, run};
 use trueness_measure::plan::Plan;
 
-const KINDS: [(&str, &str, &str); 16] = [
+const KINDS: &[(&str, &str, &str)] = &[
     ("flatness", "A", "tolerance = 1"),
     ("flatness", "A", "tolerance = 1\nmethod = \"gaussian\""),
     ("parallelism", "T", "tolerance = 1\ndatums = [\"A\"]"),

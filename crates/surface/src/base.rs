@@ -113,11 +113,18 @@ impl Base {
     }
 }
 
+impl Base {
+    /// Whether so many points stand on edge over it that a surface over it is not theirs.
+    pub fn is_on_edge(&self) -> bool {
+        self.standing_share > MAX_STANDING_SHARE
+    }
+}
+
 /// Where a point lies over the base: two lengths along it and the height.
 type Seen = ([f64; 2], f64);
 
 /// Share of the points that may stand on edge: walls of a part do, and points at its edges.
-pub const MAX_STANDING_SHARE: f64 = 0.1;
+const MAX_STANDING_SHARE: f64 = 0.1;
 
 /// Share of the points that may lie in layers: a few outliers do.
 const MAX_LAYERED_SHARE: f64 = 0.01;

@@ -63,7 +63,7 @@ mod tolerance;
 mod trimmed;
 mod upright;
 
-pub use base::{Base, MAX_STANDING_SHARE};
+pub use base::Base;
 pub use error::SurfaceError;
 pub use found::{Reached, Support, SurfaceFit};
 pub use not_a_disc::NotADisc;
@@ -234,7 +234,7 @@ fn over(
     };
     let mut found = nearest::with_true_distances(points, found?, 0.0, progress)?;
     // A surface that is not held goes along anything.
-    if found.base.standing_share > MAX_STANDING_SHARE && found.far_control_points == 0 {
+    if found.base.is_on_edge() && found.far_control_points == 0 {
         let base = found.base;
         found.base.standing_share = upright::passed_by(points, |p| base.up(p), &found.surface, progress)?;
     }

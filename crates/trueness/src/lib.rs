@@ -5,7 +5,7 @@
 //! | task | where |
 //! |---|---|
 //! | read a file of any kind; write a mesh | [`read`](read()), [`write_mesh`] |
-//! | signed deviations of points from a mesh, their statistics | [`Reference`], [`Deviations`] |
+//! | signed deviations of points from a mesh or from the exact faces of a CAD model, their statistics | [`Reference`], [`Deviations`] |
 //! | bring a scan onto its reference | [`Reference::align`] |
 //! | is a mesh sound? | [`check`] |
 //! | mend it | [`repair`] |
@@ -19,7 +19,8 @@
 //! | an inspection plan: features, characteristics, verdicts | [`tasks::inspect`] |
 //! | results as values and JSON; the text of plans | [`document`] |
 //! | a result as a page with pictures, one HTML file | [`report::write`](report::write()) |
-//! | everything else, with all options | [`geom`], [`section`](mod@section), [`solid`], [`surface`](mod@surface), [`files`], [`measure`] |
+//! | who hears how far a task is, and may stop it; what it reads from memory | [`task::Watch`], [`files::MemorySources`] |
+//! | everything else, with all options | [`geom`], [`section`](mod@section), [`solid`], [`surface`](mod@surface), [`cad`], [`files`], [`measure`] |
 //!
 //! The functions here take the defaults and tell nobody how far they are. The functions of the same names in the crates of geometry take options, and a
 //! [`Progress`](geom::progress::Progress) that is told and may stop them.
@@ -65,6 +66,7 @@ pub use easy::part::{Part, read, write_mesh};
 pub use easy::reference::Reference;
 pub use easy::tasks::{check, contour, curvature, fit, repair, sections, segment, surface};
 
+pub use trueness_cad as cad;
 pub use trueness_document as document;
 pub use trueness_files as files;
 pub use trueness_geom as geom;

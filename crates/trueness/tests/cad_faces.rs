@@ -411,3 +411,34 @@ fn a_best_fit_ends_on_the_faces() {
     let found = request.run(&sources, &Silent).unwrap().document;
     assert!(found.rms.is_finite() && found.rms < 1e-9, "{}", found.rms);
 }
+
+/// The front door opens a model as a task does: exact faces, no facets of them.
+#[test]
+fn a_reference_is_a_model_with_exact_faces() {
+    let folder = std::env::temp_dir().join(format!("trueness-cad-reference-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let file = folder.join("plate.stp");
+    let (text, _) = plate(0.0);
+    std::fs::write(&file, &text).unwrap();
+    let reference = trueness::Reference::read(&file).unwrap();
+    assert_eq!(reference.faces().unwrap().faces.len(), 8);
+    let scan = scan(0.125);
+    let found = reference.deviations(&scan).unwrap();
+    for (p, d) in scan.iter().zip(found.iter()) {
+        let from_axis = (p[0] - CENTER[0]).hypot(p[1] - CENTER[1]);
+        let expected = if from_axis < RADIUS + 0.5 { -0.125 } else { 0.0 };
+        assert!((d.unwrap() - expected).abs() < 1e-12, "{p:?}: {d:?}");
+    }
+    let nearest = reference.nearest(&[CENTER[0] + 3.0, CENTER[1], 5.0]).unwrap();
+    assert!((nearest.distance - (RADIUS - 3.0)).abs() < 1e-12);
+    assert!((nearest.point[0] - CENTER[0] - RADIUS).abs() < 1e-12);
+    // A face of a surface that is not known: nothing is measured as if it were not there.
+    let holed = text.replacen("CYLINDRICAL_SURFACE", "OFFSET_UNKNOWN_SURFACE", 1);
+    std::fs::write(&file, holed).unwrap();
+    let said = trueness::Reference::read(&file).unwrap_err();
+    assert!(matches!(said, trueness::Error::Incomplete { .. }), "{said}");
+    assert!(said.to_string().contains("7 of 8 faces"), "{said}");
+    let said = trueness::read(&file).unwrap_err().to_string();
+    assert!(said.contains("Reference::read"), "{said}");
+    std::fs::remove_dir_all(&folder).unwrap();
+}

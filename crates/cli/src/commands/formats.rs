@@ -8,7 +8,7 @@ use clap::Args;
 use trueness::task::Outcome;
 use trueness::task::RunFiles;
 use trueness_files::write::Writable;
-use trueness_files::{FORMATS, Format};
+use trueness_files::{FORMATS, Format, Holds};
 
 /// List the file formats that are read and written, or print the manual page of one
 #[derive(Args, Debug)]
@@ -42,7 +42,13 @@ impl Run for FormatsArgs {
 
 /// All formats, with what is read and written of each.
 fn list() -> String {
-    const KINDS: [(Writable, &str); 4] = [
+    const READ: [(Holds, &str); 4] = [
+        (Holds::Mesh, "meshes"),
+        (Holds::Points, "points"),
+        (Holds::Model, "CAD models"),
+        (Holds::Drawing, "drawings"),
+    ];
+    const WRITTEN: [(Writable, &str); 4] = [
         (Writable::Points, "points"),
         (Writable::Mesh, "meshes"),
         (Writable::Regions, "regions"),
@@ -50,7 +56,7 @@ fn list() -> String {
     ];
     let mut out = String::new();
     let mut row = |cells: [&str; 4]| {
-        let line = format!("{:<9}{:<6}{:<35}{}", cells[0], cells[1], cells[2], cells[3]);
+        let line = format!("{:<9}{:<16}{:<35}{}", cells[0], cells[1], cells[2], cells[3]);
         out.push_str(line.trim_end());
         out.push('\n');
     };
@@ -60,14 +66,15 @@ fn list() -> String {
         let endings: Vec<&str> = format.extensions.iter().chain(only_written).copied().collect();
         let holds = |kind: &Writable| kind.endings().iter().any(|e| endings.contains(e));
         let written: Vec<&str> =
-            KINDS.iter().filter(|(kind, _)| holds(kind)).map(|(_, name)| *name).collect();
-        let read = if format.reads() { "yes" } else { "" };
+            WRITTEN.iter().filter(|(kind, _)| holds(kind)).map(|(_, name)| *name).collect();
+        let read: Vec<&str> =
+            READ.iter().filter(|(kind, _)| format.holds().contains(kind)).map(|(_, name)| *name).collect();
         let shown: Vec<String> = endings.iter().map(|e| format!(".{e}")).collect();
-        row([format.name, read, &written.join(", "), &shown.join(" ")]);
+        row([format.name, &read.join(", "), &written.join(", "), &shown.join(" ")]);
     }
     out.push_str(
         "\nA file is recognized by its content, not by its ending. Each may be packed with gzip (.gz).\n\
-         Curves and surfaces: `section` writes DXF, SVG, STEP, IGES, `surface` STEP, IGES and OBJ.\n\
+         Curves and surfaces for CAD programs are written by options of `section` and `surface`.\n\
          `trueness formats NAME` prints the page of a format.\n",
     );
     out

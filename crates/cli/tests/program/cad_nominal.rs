@@ -77,7 +77,11 @@ fn a_sound_model_is_sound_and_its_faults_are_found() {
     assert!(d["defects"].as_object().unwrap().values().all(|k| k["count"] == 0), "{table}");
     let volume = 12.0 * std::f64::consts::PI;
     assert!((d["volume"].as_f64().unwrap() / volume - 1.0).abs() < 1e-9);
-    assert_eq!(d["tolerances"]["gap"], 1e-5);
+    assert_eq!(d["tolerances"], serde_json::json!({ "gap": 1e-5 }));
+    // What is not exact says so.
+    let of_drawing = d["of_drawing"].as_array().unwrap();
+    assert!(of_drawing.iter().all(|key| d[key.as_str().unwrap()].is_number()), "{of_drawing:?}");
+    assert!(table.contains("(of the mesh that draws it)"), "{table}");
     // Without its lower end the circle there is free.
     let (said, d, table) = check("open.stp", &ROD.replace("(#33,#34,#35)", "(#33,#35)"));
     assert_eq!((said, count(&d, "free_edges")), (1, 1), "{table}");
@@ -97,4 +101,15 @@ fn a_sound_model_is_sound_and_its_faults_are_found() {
     // A face that nobody can read.
     let (said, d, table) = check("unread.stp", &ROD.replace("PLANE('',#9)", "FLOATING_CARPET('',#9)"));
     assert_eq!((said, count(&d, "unread_faces"), count(&d, "free_edges")), (1, 1, 1), "{table}");
+}
+
+#[test]
+fn what_is_about_facets_is_refused_for_a_model() {
+    let folder = Folder::new();
+    let part = folder.write("rod.stp", ROD);
+    for option in ["--gap", "--weld", "--sliver-angle", "--island"] {
+        let o = trueness(["check", part.to_str().unwrap(), option, "0.5"]);
+        assert_eq!(status(&o), 2, "{}", stderr(&o));
+        assert!(stderr(&o).contains(&format!("{option}: it is about facets")), "{}", stderr(&o));
+    }
 }

@@ -1,7 +1,7 @@
 //! The words of all characteristics.
 
 /// The words of the characteristics that plans may ask for, in the order of ISO 1101, then dimensions, then texture.
-pub const KINDS: [&str; 18] = [
+pub const KINDS: &[&str] = &[
     "straightness",
     "flatness",
     "roundness",

@@ -70,7 +70,7 @@ impl RegionsText {
 pub fn schema() -> schemars::Schema {
     let mut schema = schemars::schema_for!(PlanText);
     if let Some(kind) = schema.pointer_mut("/$defs/Kind").and_then(|kind| kind.as_object_mut()) {
-        kind.insert("enum".into(), KINDS.as_slice().into());
+        kind.insert("enum".into(), KINDS.into());
     }
     schema
 }

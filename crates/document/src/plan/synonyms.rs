@@ -153,7 +153,7 @@ mod tests {
             ("Flatness", &["flatness"]),
             ("zebra", &[]),
         ] {
-            assert_eq!(synonyms(word, &KINDS), meant, "{word}");
+            assert_eq!(synonyms(word, KINDS), meant, "{word}");
         }
     }
 }

@@ -45,15 +45,17 @@ pub enum Fault {
     /// A file of zero bytes.
     #[error("the file is empty")]
     Empty,
-    /// Recognized, but of a kind that is not read here.
-    #[error("this is {0}, which is not read here")]
-    Foreign(&'static str),
+    /// It is of no format that is read, or of none that holds what is needed.
+    #[error("{what}")]
+    Foreign {
+        /// What is known of it.
+        what: String,
+        /// The remedy: the formats that are.
+        remedy: String,
+    },
     /// The format named is only written.
     #[error("files of the format {0} are written, but not read")]
     NotRead(&'static str),
-    /// No reader knows it.
-    #[error("neither a mesh nor points in any known format")]
-    Unknown,
     /// Something else stands where the format demands something.
     #[error("expected {expected}, found {found}")]
     Unexpected {
@@ -219,7 +221,7 @@ impl Fault {
         matches!(self, Fault::NoTable(_) | Fault::WeldTooFar { .. } | Fault::NotRead(_))
     }
     /// The remedy.
-    pub fn remedy(&self) -> &'static str {
+    pub fn remedy(&self) -> &str {
         match self {
             Fault::Io(e) if e.kind() == io::ErrorKind::NotFound => "check the spelling of the path",
             Fault::Io(e) if e.kind() == io::ErrorKind::PermissionDenied => "get the permission to read it",
@@ -227,13 +229,8 @@ impl Fault {
             Fault::Unnamed { .. } => "check the spelling of the name",
             Fault::TooLong { .. } => "check that it is the right file",
             Fault::Empty => "export it again",
-            Fault::Foreign(_) => {
-                "export it as STL, PLY, OBJ or OFF (mesh) or as PLY, XYZ, CSV or NPY (points)"
-            }
+            Fault::Foreign { remedy, .. } => remedy,
             Fault::NotRead(_) => "name another format",
-            Fault::Unknown => {
-                "give a mesh as STL, PLY, OBJ, OFF or points as XYZ, CSV, PTS, PLY, NPY, or name the format by --format"
-            }
             Fault::Unexpected { .. } => "correct this place or export the file again",
             Fault::Short { .. } => "copy or export the file again",
             Fault::NoSuchVertex { .. } => {

@@ -16,6 +16,7 @@ use crate::{
 use sink::{MeshWriter, PointsWriter};
 use trueness_geom::{
     cloud::{PointStream, Whole},
+    progress::Progress,
     space::Point,
 };
 
@@ -25,20 +26,49 @@ pub struct Format {
     pub name: &'static str,
     /// Extensions of files that are read, lower case, without dot; the first is the usual one.
     pub extensions: &'static [&'static str],
+    /// Names under which people know its files, as messages have them.
+    pub(crate) known_as: &'static [&'static str],
     /// Extensions under which it is written.
     pub written_as: &'static [&'static str],
     /// Its page, as `trueness formats` prints it: what is read, what is written, what is lost. Markdown.
     pub manual: &'static str,
     /// Whether it is a table, whose columns can be chosen.
     pub(crate) columns: bool,
+    /// What its files can hold; nothing where they are only written.
+    pub(crate) holds: &'static [Holds],
     /// Whether the content is beyond doubt of this format.
     pub(crate) sniff: fn(&Head) -> bool,
     pub(crate) read: Option<fn(Source, &ReadOptions) -> Result<Parsed>>,
+    pub(crate) model: Option<ModelReader>,
     pub(crate) points: Option<PointsWriter>,
     pub(crate) mesh: Option<MeshWriter>,
 }
 
+/// Reads the exact faces of a file.
+pub(crate) type ModelReader = fn(&mut Source, &ReadOptions, &dyn Progress) -> Result<CadContent>;
+
+/// What a file can hold.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Holds {
+    /// Facets.
+    Mesh,
+    /// Points without facets.
+    Points,
+    /// CAD models and B-spline surfaces.
+    Model,
+    /// Lines, arcs and splines in a plane.
+    Drawing,
+}
+
 impl Format {
+    /// Names under which people know its files, the usual one first.
+    pub fn known_as(&self) -> &'static [&'static str] {
+        self.known_as
+    }
+    /// What files of this format can hold; nothing where they are only written.
+    pub fn holds(&self) -> &'static [Holds] {
+        self.holds
+    }
     /// Whether files of this format can be read.
     pub fn reads(&self) -> bool {
         self.read.is_some()

@@ -23,7 +23,7 @@ pub(crate) mod svg;
 pub(crate) mod table;
 pub(crate) mod vtp;
 
-use crate::format::Format;
+use crate::format::{Format, Holds};
 
 /// All formats. Formats whose content shows them plainly come first.
 pub static FORMATS: &[&Format] = &[
@@ -56,6 +56,19 @@ impl Format {
     /// The format whose files end in `extension`, given without dot, upper or lower case.
     pub fn by_extension(extension: &str) -> Option<&'static Format> {
         FORMATS.iter().copied().find(|f| f.extensions.iter().any(|e| e.eq_ignore_ascii_case(extension)))
+    }
+}
+
+impl Holds {
+    /// The names of the formats that hold it, as messages have them: `STL, OBJ or PLY`.
+    pub fn formats(self) -> String {
+        let holding = FORMATS.iter().filter(|f| f.holds.contains(&self));
+        let names: Vec<&str> = holding.flat_map(|f| f.known_as.iter().copied()).collect();
+        match names.split_last() {
+            Some((last, [])) => (*last).into(),
+            Some((last, others)) => format!("{} or {last}", others.join(", ")),
+            None => String::new(),
+        }
     }
 }
 
@@ -111,6 +124,9 @@ mod tests {
     fn every_format_keeps_what_it_promises() {
         let (folder, mut words) = (Folder::new(), BTreeSet::new());
         for format in FORMATS {
+            assert_eq!(format.reads(), !format.holds.is_empty(), "{format:?}");
+            assert_eq!(format.model.is_some(), format.holds.contains(&Holds::Model), "{format:?}");
+            assert!(!format.known_as.is_empty(), "{format:?}");
             assert!(format.reads() || format.writes_points() || format.writes_meshes(), "{format:?}");
             assert!(format.manual.starts_with('#'), "{format:?}: its page has no heading");
             let own: BTreeSet<&str> =

@@ -7,7 +7,7 @@ use crate::{
     Column, Columns,
     error::{Fault, Located, Result},
     feed::Feed,
-    format::{Format, Head, Parsed, ReadOptions},
+    format::{Format, Head, Holds, Parsed, ReadOptions},
     number::count,
     scalar::{Order, Scalar},
     source::Source,
@@ -18,12 +18,15 @@ use trueness_geom::{cloud::PointStream, space::Point};
 /// NumPy array.
 pub(crate) const NPY: Format = Format {
     name: "npy",
+    known_as: &["NPY"],
     extensions: &["npy"],
     written_as: &[],
     manual: include_str!("npy.md"),
+    holds: &[Holds::Points],
     columns: true,
     sniff: |head: &Head| head.bytes.starts_with(NPY_MAGIC),
     read: Some(read),
+    model: None,
     points: None,
     mesh: None,
 };

@@ -25,12 +25,15 @@ use trueness_geom::space::Point;
 /// Parquet table.
 pub(crate) const PARQUET: Format = Format {
     name: "parquet",
+    known_as: &["Parquet"],
     extensions: &[],
     written_as: &["parquet"],
     manual: include_str!("parquet.md"),
+    holds: &[],
     columns: false,
     sniff: |_: &Head| false,
     read: None,
+    model: None,
     points: Some(begin),
     mesh: None,
 };

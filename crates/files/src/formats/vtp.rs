@@ -19,12 +19,15 @@ use trueness_geom::{mesh::Mesh, space::Point};
 /// XML PolyData of VTK.
 pub(crate) const VTP: Format = Format {
     name: "vtp",
+    known_as: &["VTP"],
     extensions: &[],
     written_as: &["vtp"],
     manual: include_str!("vtp.md"),
+    holds: &[],
     columns: false,
     sniff: |_: &Head| false,
     read: None,
+    model: None,
     points: Some(begin),
     mesh: Some(mesh),
 };

@@ -16,7 +16,10 @@ impl Sources for FileSources {
             return Ok(SourceBytes::stream(io::stdin()));
         }
         SourceBytes::of_file(File::open(name).map_err(Fault::Io)?).map_err(|e| match e.kind() {
-            io::ErrorKind::IsADirectory => Fault::Foreign("a folder"),
+            io::ErrorKind::IsADirectory => Fault::Foreign {
+                what: "this is a folder, which is not read here".into(),
+                remedy: "give a file in it".into(),
+            },
             _ => Fault::Io(e),
         })
     }
@@ -58,7 +61,7 @@ mod tests {
         assert_eq!((FileSources.is_stream(&path), FileSources.length(&path)), (false, Some(3)));
         assert_eq!(FileSources.sha256(&path).unwrap(), sha256(&path).unwrap());
         assert_eq!(FileSources.text(&path, 3).unwrap(), "abc");
-        assert!(matches!(FileSources.bytes(folder.path()).err(), Some(Fault::Foreign("a folder"))));
+        assert!(matches!(FileSources.bytes(folder.path()).err(), Some(Fault::Foreign { .. })));
         let missing = folder.path().join("none");
         assert_eq!((FileSources.is_stream(&missing), FileSources.length(&missing)), (false, None));
         let said = FileSources.text(&missing, 3).unwrap_err().to_string();

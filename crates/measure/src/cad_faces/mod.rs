@@ -3,6 +3,7 @@
 //! | file | what |
 //! |---|---|
 //! | `align` | alignments end on them |
+//! | `deviation` | deviations of points from them |
 //! | `faces` | the faces of a model |
 //! | `face` | what is known of a face |
 //! | `element` | the element that a surface is |
@@ -11,6 +12,7 @@
 //! | `extent` | some faces as the nominal of a feature |
 
 mod align;
+mod deviation;
 mod element;
 mod extent;
 mod face;
@@ -20,6 +22,7 @@ mod one_surface;
 #[cfg(test)]
 mod tests;
 
+pub use deviation::deviation;
 pub use extent::NoNominal;
 pub use face::CadFace;
 pub use faces::CadFaces;

@@ -4,12 +4,12 @@ use super::along::{AlongRule, Lines};
 use super::excluded::Excluded;
 use super::kept::{Asked, Kept, Measures, Nearest, none};
 use super::worst::WorstPoint;
-use crate::cad_faces::CadFaces;
+use crate::cad_faces::{CadFaces, deviation};
 use std::sync::Arc;
 use trueness_cad::search::{Nearest as CadNearest, Side};
 use trueness_cad::surface::SurfaceFeet;
 use trueness_geom::closest::{Closest, Crossing, QueryError, Tree};
-use trueness_geom::deviation::sign_choice::{SignChoice, SignMethod};
+use trueness_geom::deviation::sign_choice::SignChoice;
 use trueness_geom::deviation::surface::{OnlyCancels, SurfaceOptions};
 use trueness_geom::parallel::prelude::*;
 use trueness_geom::progress::{Progress, Silent};
@@ -82,8 +82,10 @@ impl<'a> CadTarget<'a> {
         asked: &Asked,
         progress: &dyn Progress,
     ) -> Result<Measures, QueryError> {
-        let near =
-            self.faces.search.map(points, progress, |i, near| (self.deviation(&points[i], &near), near))?;
+        let near = self
+            .faces
+            .search
+            .map(points, progress, |i, near| (deviation(&points[i], &near, &self.options), near))?;
         let found: Vec<OnFace> = match &self.along {
             None => (0..points.len()).into_par_iter().map(|i| self.at_nearest(i, near[i], asked)).collect(),
             Some(along) => self.along_lines(along, points, &near, asked, &OnlyCancels(progress))?,
@@ -205,24 +207,6 @@ impl<'a> CadTarget<'a> {
             face,
             weights,
         }))
-    }
-
-    fn deviation(&self, p: &Point, near: &CadNearest) -> f64 {
-        if near.distance > self.options.max_distance {
-            return Excluded::MaxDistance.value();
-        }
-        if self.options.skip_boundary && near.side == Side::Open {
-            return Excluded::BoundaryEdge.value();
-        }
-        if self.choice.method == SignMethod::None {
-            return near.distance;
-        }
-        // At the border of an open shell the normal tells the side, as it does beside it.
-        let by_normal = || {
-            let inside = near.normal.is_some_and(|n| dot(n, minus(*p, near.place)) < 0.0);
-            if inside { -near.distance } else { near.distance }
-        };
-        near.signed().unwrap_or_else(by_normal)
     }
 }
 

@@ -108,6 +108,9 @@ pub static MODEL_KINDS: [&DefectKind; 12] = [
     &SLIVERS,
 ];
 
+/// Those that leave the borders or the sides of faces open.
+pub static DECIDING: [&DefectKind; 6] = [&FREE, &SHARED, &OPPOSITE, &INSIDE_OUT, &REFUSED, &UNREAD];
+
 /// The kind of a fault.
 pub fn of(kind: FaultKind) -> &'static DefectKind {
     match kind {

@@ -11,16 +11,19 @@ pub use kinds::MODEL_KINDS;
 
 use crate::bounds::bounds;
 use crate::cad::area;
+use crate::no_solid::genus_reason;
 use crate::words::ToWord;
 use entities::numbers;
+use kinds::DECIDING;
 use std::collections::BTreeMap;
 use trueness_cad::check::{Fault, FaultKind, faults, place_of_face};
 use trueness_cad::measure::Integrals;
 use trueness_cad::model::Model;
 use trueness_cad::tessellate::Tessellation;
 use trueness_cad::trimmed::Trimmed;
-use trueness_document::check::{CheckDocument, Defects, Item, Severity};
-use trueness_geom::check::{DefectKind, Shows};
+use trueness_document::check::{CheckDocument, Defects, Item, SCHEMA, Severity, Tolerances};
+use trueness_document::{InputRecord, UNITS, VERSION};
+use trueness_geom::check::{DefectKind, Finding, Report, SELF_INTERSECTIONS, Shows};
 use trueness_geom::num::sum::Sum;
 use trueness_geom::space::{Aabb, Point, minus};
 
@@ -34,27 +37,70 @@ pub struct Checked<'a> {
     pub integrals: &'a [Option<Integrals>],
     /// Its facets.
     pub drawn: &'a Tessellation,
-    /// Facets that meet where they should not; `None` where they were not looked for.
-    pub crossings: Option<CrossingFacets>,
+    /// What the check of these facets says.
+    pub of_facets: &'a Report,
 }
 
-/// Facets that meet where they should not.
-pub struct CrossingFacets {
-    /// Pairs of them.
-    pub pairs: Vec<[u32; 2]>,
-    /// Whether these are all.
-    pub are_all: bool,
-}
+/// The keys of the document whose numbers are those of the facets.
+pub const OF_DRAWING: [&str; 6] = ["facets", "vertices", "edges", "shells", "euler_characteristic", "genus"];
 
 /// Facets of one finding at most: of what is larger the first ones show where it is.
 const MAX_FACETS_OF_ITEM: usize = 2000;
 /// Gaps that count where the file states no uncertainty, as a share of the part: files have some seven digits and more.
 const MAX_GAP_SHARE: f64 = 1e-7;
 
-/// The document of the facets with the faults of the model in place of theirs; at most `limit` of each kind are listed.
-pub fn with_model(mut document: CheckDocument, checked: &Checked, limit: usize) -> CheckDocument {
-    let Checked { model, shape, integrals, drawn, .. } = checked;
+/// The document of a model; at most `limit` faults of each kind are listed.
+pub fn document(checked: &Checked, file: InputRecord, limit: usize) -> CheckDocument {
+    let Checked { model, shape, integrals, drawn, of_facets } = checked;
     let within = model.uncertainty.unwrap_or_else(|| MAX_GAP_SHARE * drawn.mesh.bounds().diagonal()).max(0.0);
+    let defects = all_defects(checked, within, limit);
+    // What was not looked through to the end is never sound.
+    let is_wrong = |d: &Defects| *d.severity == Severity::Error && (d.at_least || d.count.unwrap_or(0) > 0);
+    let precondition =
+        !DECIDING.iter().any(|kind| defects.get(kind.name).is_some_and(|d| d.count != Some(0)));
+    let extent = shape.bounds();
+    let bounds = bounds(&extent);
+    let volume = precondition.then(|| volume(shape, integrals)).flatten();
+    CheckDocument {
+        schema: SCHEMA.into(),
+        version: VERSION.into(),
+        units: UNITS.into(),
+        inputs: vec![file],
+        facets: drawn.mesh.faces.len() as u64,
+        vertices: of_facets.vertices as u64,
+        edges: of_facets.edges as u64,
+        shells: of_facets.soundness.shells as u64,
+        dimensions: bounds.as_ref().map(|_| minus(extent.max, extent.min)),
+        bounds,
+        area: area(integrals),
+        volume,
+        volume_reason: volume.is_none().then(|| {
+            "there is no solid, or its faces are open, contradict each other or were not all read".into()
+        }),
+        volume_note: None,
+        center_of_mass: None,
+        center_of_mass_reason: Some("it is not computed for CAD models".into()),
+        euler_characteristic: of_facets.euler_characteristic,
+        genus: of_facets.genus,
+        genus_reason: genus_reason(of_facets),
+        of_drawing: OF_DRAWING.map(String::from).to_vec(),
+        sound: !defects.values().any(is_wrong),
+        precondition,
+        tolerances: Tolerances { gap: within, sliver_angle: None, island_share: None },
+        defects,
+    }
+}
+
+/// The volume of all solids; `None` where there are none, or one of them has no volume.
+fn volume(shape: &Trimmed, integrals: &[Option<Integrals>]) -> Option<f64> {
+    let volumes: Option<Vec<f64>> = shape.brep.solids.iter().map(|s| shape.volume(s, integrals)).collect();
+    let volumes = volumes.filter(|all| !all.is_empty())?;
+    Some(volumes.into_iter().sum::<Sum>().value())
+}
+
+/// The faults of all kinds; edges may be `within` this distance of where they should be.
+fn all_defects(checked: &Checked, within: f64, limit: usize) -> BTreeMap<String, Defects> {
+    let Checked { model, shape, integrals, drawn, .. } = checked;
     let mut found: BTreeMap<&str, Vec<Fault>> = BTreeMap::new();
     for fault in faults(shape, integrals, within) {
         found.entry(kinds::of(fault.kind).name).or_default().push(fault);
@@ -62,14 +108,8 @@ pub fn with_model(mut document: CheckDocument, checked: &Checked, limit: usize) 
     for (face, _) in &drawn.failed {
         let refused = found.entry(kinds::of(FaultKind::RefusedFace).name).or_default();
         if !refused.iter().any(|f| f.faces == [*face]) {
-            let place = place_of_face(shape, *face);
-            refused.push(Fault {
-                kind: FaultKind::RefusedFace,
-                faces: vec![*face],
-                edges: vec![],
-                place,
-                size: 0.0,
-            });
+            let (kind, place) = (FaultKind::RefusedFace, place_of_face(shape, *face));
+            refused.push(Fault { kind, faces: vec![*face], edges: vec![], place, size: 0.0 });
         }
     }
     let facets = Facets { drawn };
@@ -82,52 +122,24 @@ pub fn with_model(mut document: CheckDocument, checked: &Checked, limit: usize) 
     let unread = model.unread.iter().filter(|u| u.holds_faces).count();
     all.insert(kinds::UNREAD.name.to_string(), defects(&kinds::UNREAD, unread, vec![]));
     all.insert(kinds::CROSSING.name.to_string(), crossing_defects(checked, limit));
-    // What was not looked through to the end is never sound.
-    let is_wrong = |d: &Defects| *d.severity == Severity::Error && (d.at_least || d.count.unwrap_or(0) > 0);
-    document.sound = !all.values().any(is_wrong);
-    let borders =
-        [FaultKind::FreeEdge, FaultKind::SharedEdge, FaultKind::OppositeFaces, FaultKind::InsideOutSolid];
-    let refused = [kinds::of(FaultKind::RefusedFace).name, kinds::UNREAD.name];
-    let mut deciding = borders.into_iter().map(|kind| kinds::of(kind).name).chain(refused);
-    document.precondition = !deciding.any(|name| all.get(name).is_some_and(|d| d.count != Some(0)));
-    exact_measures(&mut document, shape, integrals);
-    document.defects = all;
-    document.tolerances.gap = within;
-    document
+    all
 }
 
-/// Faces that cross.
+/// Faces that cross, as the pairs of facets that do tell.
 fn crossing_defects(checked: &Checked, limit: usize) -> Defects {
     let mut crossed = defects(&kinds::CROSSING, 0, vec![]);
-    match &checked.crossings {
-        Some(CrossingFacets { pairs, are_all }) => {
-            let found = crossing::crossing_faces(pairs, checked.drawn, checked.shape);
-            crossed.count = Some(found.len() as u64);
-            crossed.at_least = !are_all;
-            crossed.truncated = found.len() > limit;
-            crossed.items = found.into_iter().take(limit).map(|pair| pair.item(checked.shape)).collect();
-        }
-        None => (crossed.count, crossed.count_reason) = (None, kinds::CROSSING.missing.map(str::to_string)),
-    }
+    let Some(pairs) = checked.of_facets.found(SELF_INTERSECTIONS) else {
+        (crossed.count, crossed.count_reason) = (None, kinds::CROSSING.missing.map(str::to_string));
+        return crossed;
+    };
+    let pair = |f: &Finding| Some([*f.facets.first()?, *f.facets.get(1)?]);
+    let known: Vec<[u32; 2]> = pairs.items.iter().filter_map(pair).collect();
+    let found = crossing::crossing_faces(&known, checked.drawn, checked.shape);
+    crossed.count = Some(found.len() as u64);
+    crossed.at_least = pairs.items.len() < pairs.count || pairs.at_least;
+    crossed.truncated = found.len() > limit;
+    crossed.items = found.into_iter().take(limit).map(|pair| pair.item(checked.shape)).collect();
     crossed
-}
-
-/// Box, area and volume of the faces in place of those of their facets.
-fn exact_measures(document: &mut CheckDocument, shape: &Trimmed, integrals: &[Option<Integrals>]) {
-    let extent = shape.bounds();
-    document.bounds = bounds(&extent);
-    document.dimensions = document.bounds.as_ref().map(|_| minus(extent.max, extent.min));
-    document.area = area(integrals);
-    let volumes: Option<Vec<f64>> = shape.brep.solids.iter().map(|s| shape.volume(s, integrals)).collect();
-    let volumes = volumes.filter(|all| document.precondition && !all.is_empty());
-    let without = volumes.is_none().then(|| {
-        "there is no solid, or its faces are open, contradict each other or were not all read".to_string()
-    });
-    document.volume = volumes.map(|all| all.into_iter().sum::<Sum>().value());
-    document.volume_reason = without;
-    document.volume_note = None;
-    document.center_of_mass = None;
-    document.center_of_mass_reason = Some("it is not computed for CAD models".into());
 }
 
 fn defects(kind: &DefectKind, count: usize, items: Vec<Item>) -> Defects {

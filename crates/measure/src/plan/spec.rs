@@ -47,7 +47,7 @@ fn spec(
     decision: &Decision,
 ) -> Result<Spec, PlanError> {
     let word = &written.kind.value.0;
-    let Some(kind) = characteristic::ALL.into_iter().find(|c| c.word() == word) else {
+    let Some(kind) = characteristic::ALL.iter().copied().find(|c| c.word() == word) else {
         let known: Vec<&str> = characteristic::ALL.iter().map(|c| c.word()).collect();
         return checker.wrong(&written.kind.span, unknown("kind", word, &known));
     };

@@ -23,7 +23,8 @@ pub fn page(options: &ReportOptions) -> Vec<u8> {
     edges.push(across.to_vec());
     let of_facet = (0..mesh.faces.len() as u32).map(|facet| facet / 2).collect();
     let faces = DrawnFaces { faces: (0..6).map(face).collect(), of_facet, edges };
-    let document = check_document(&mesh);
+    let of_drawing = trueness_measure::model_check::OF_DRAWING.map(String::from).to_vec();
+    let document = trueness_document::check::CheckDocument { of_drawing, ..check_document(&mesh) };
     let view = trueness_report::views::check::View::new(&document, "part.stp", &mesh, Default::default());
     let view = view.with_faces(Some(&faces));
     let (objects, marks) = (view.objects(), &view.marks[..]);

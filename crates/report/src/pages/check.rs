@@ -231,6 +231,7 @@ fn model(s: Style, d: &CheckDocument) -> Markup {
             }))
             (fact(s, "gap", mm(s.scientific(d.tolerances.gap, 2))))
         }
+        @if !d.of_drawing.is_empty() { p.note { (s.word("of_drawing")) } }
     }
 }
 

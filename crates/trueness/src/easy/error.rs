@@ -1,6 +1,7 @@
 //! Why there is no answer.
 
-use trueness_files::{ReadError, WriteError};
+use crate::task::TaskError;
+use trueness_files::{Holds, ReadError, WriteError};
 use trueness_geom::align::AlignError;
 use trueness_geom::check::CheckError;
 use trueness_geom::closest::{MeshError, QueryError};
@@ -28,18 +29,34 @@ pub enum Error {
     /// A file cannot be written.
     #[error(transparent)]
     Write(#[from] WriteError),
-    /// The file holds B-spline surfaces or curves, where a mesh or points are needed.
-    #[error("{path}: it holds B-spline surfaces or curves; trueness::files::open reads them")]
+    /// The file holds B-spline surfaces or curves, where something else is needed.
+    #[error(
+        "{path}: it holds B-spline surfaces or curves; trueness::files::open reads them, and trueness::tasks::compare measures against them"
+    )]
     Splines {
         /// The file.
         path: String,
     },
     /// The file holds a CAD model, where a mesh or points are needed.
-    #[error("{path}: it holds a CAD model; trueness::files::cad reads it")]
+    #[error(
+        "{path}: it holds a CAD model; Reference::read measures against its faces, trueness::tasks::check looks for its faults, \
+         trueness::tasks::convert makes a mesh of it"
+    )]
     Cad {
         /// The file.
         path: String,
     },
+    /// Faces of a CAD model could not be read, and deviations from the others alone would mislead.
+    #[error("{path}: {what}; trueness::tasks::compare measures against the others and says so")]
+    Incomplete {
+        /// The file.
+        path: String,
+        /// How many.
+        what: String,
+    },
+    /// The faces of a CAD model cannot be made ready.
+    #[error(transparent)]
+    Model(#[from] TaskError),
     /// The file holds lines, arcs and curves of a drawing, where a mesh or points are needed.
     #[error("{path}: it holds a drawing; trueness::files::open reads it")]
     Drawing {
@@ -47,7 +64,7 @@ pub enum Error {
         path: String,
     },
     /// The file holds points without facets, where a mesh is needed.
-    #[error("{path}: it holds points without facets; this needs a mesh (STL, PLY, OBJ, OFF)")]
+    #[error("{path}: it holds points without facets; this needs a mesh ({})", Holds::Mesh.formats())]
     NoFacets {
         /// The file.
         path: String,

@@ -3,7 +3,7 @@
 use super::error::Error;
 use std::path::Path;
 use trueness_files::write::{self, Loss};
-use trueness_files::{Body, Provenance, ReadOptions, SourceMesh, Warning, open};
+use trueness_files::{Body, Input, Provenance, ReadOptions, SourceMesh, Warning, open};
 use trueness_geom::align::Measured;
 use trueness_geom::mesh::Mesh;
 use trueness_geom::space::Point;
@@ -45,13 +45,13 @@ pub(super) fn as_scan(mesh: &Mesh) -> Measured<'_> {
 }
 
 /// Reads a mesh or points of any format and whatever is packed with gzip; `-` is standard input. The format is told by the
-/// content, units are millimeters unless the file says otherwise. For options see [`files::open`](trueness_files::open).
+/// content, units are millimeters unless the file says otherwise. For options see [`crate::files::open`].
 ///
 /// Memory: the file and several times that; points are read as a whole.
 ///
 /// # Errors
-/// [`Error::Read`] names file, place and remedy; [`Error::Splines`] for CAD files with nothing but splines, [`Error::Drawing`]
-/// for drawings.
+/// [`Error::Read`] names file, place and remedy; [`Error::Cad`] for CAD models, [`Error::Splines`] for files with nothing but splines,
+/// [`Error::Drawing`] for drawings.
 ///
 /// ```
 /// let part = trueness::read("../../corpus/bunny/zipper_res4.ply")?;
@@ -60,7 +60,11 @@ pub(super) fn as_scan(mesh: &Mesh) -> Measured<'_> {
 /// # Ok::<(), trueness::Error>(())
 /// ```
 pub fn read(path: impl AsRef<Path>) -> Result<Part, Error> {
-    let input = open(path.as_ref(), &ReadOptions::default())?;
+    of_input(open(path.as_ref(), &ReadOptions::default())?)
+}
+
+/// What an opened file holds.
+pub(super) fn of_input(input: Input) -> Result<Part, Error> {
     let (provenance, mut warnings) = (input.provenance, input.warnings);
     let source = match input.body {
         Body::Mesh(source) => source,

@@ -1,23 +1,37 @@
-//! A mesh that others are measured against.
+//! What others are measured against: a mesh, or the exact faces of a CAD model.
 
 use super::deviations::Deviations;
 use super::error::Error;
-use super::part::{self, as_scan};
+use super::part::{as_scan, of_input};
+use crate::read::cad::{self, Chord};
 use std::path::Path;
-use trueness_geom::align::{Alignment, BestFit, Target, best_fit};
+use trueness_document::Role;
+use trueness_files::cad::CadFile;
+use trueness_files::{Body, ReadOptions, open};
+use trueness_geom::align::{Alignment, BestFit, ExactSurface, Target, best_fit};
 use trueness_geom::closest::{Closest, Query, Tree};
-use trueness_geom::deviation::sign_choice::SignChoice;
+use trueness_geom::deviation::sign_choice::{SignChoice, SignRequest};
 use trueness_geom::deviation::surface::{ReferenceSurface, SurfaceOptions};
 use trueness_geom::mesh::Mesh;
 use trueness_geom::progress::{Progress, Silent};
 use trueness_geom::space::Point;
 use trueness_geom::topology::Soundness;
+use trueness_measure::cad_faces::CadFaces;
 
 /// A mesh with all that deviations from it need: built once, asked often, from any number of threads. It owns what it holds: the
-/// mesh, its search tree (about 120 bytes a facet), and what the sign needs (36 at most).
+/// mesh, its search tree (about 120 bytes a facet), and what the sign needs (36 at most). Of a CAD model it holds the exact faces, and
+/// the mesh draws them only.
 pub struct Reference {
     mesh: Mesh,
     surface: ReferenceSurface,
+    exact: Option<Exact>,
+}
+
+/// The faces of a CAD model, and what is asked of them.
+struct Exact {
+    faces: CadFaces,
+    options: SurfaceOptions,
+    sign: SignChoice,
 }
 
 impl Reference {
@@ -61,13 +75,14 @@ impl Reference {
         Query { max_distance: options.max_distance, ..Query::default() }.check()?;
         let tree = Tree::build_watched(&mesh, progress)?;
         let surface = ReferenceSurface::new(&tree, &mesh, options, progress)?;
-        Ok(Reference { mesh, surface })
+        Ok(Reference { mesh, surface, exact: None })
     }
 
-    /// Of a file.
+    /// Of a file: a mesh, or a CAD model, whose faces then are exact. What only draws them lies within a twenty-thousandth of its size.
     ///
     /// # Errors
-    /// Those of [`read`](part::read) and [`Reference::new`]; [`Error::NoFacets`] for points.
+    /// Those of [`read`](super::part::read) and [`Reference::new`]; [`Error::NoFacets`] for points, [`Error::Incomplete`] for a model
+    /// with faces that are not read.
     ///
     /// ```
     /// let reference = trueness::Reference::read("../../corpus/bunny/zipper_res4.ply")?;
@@ -78,29 +93,67 @@ impl Reference {
     /// # Ok::<(), trueness::Error>(())
     /// ```
     pub fn read(path: impl AsRef<Path>) -> Result<Reference, Error> {
-        let part = part::read(path)?;
+        Reference::read_with(path, &SurfaceOptions::default(), &Silent)
+    }
+
+    /// As [`Reference::read`], with a choice of sign and exclusions; `progress` may stop it.
+    ///
+    /// # Errors
+    /// Those of [`Reference::read`] and [`Reference::with`].
+    pub fn read_with(
+        path: impl AsRef<Path>,
+        options: &SurfaceOptions,
+        progress: &dyn Progress,
+    ) -> Result<Reference, Error> {
+        let input = open(path.as_ref(), &ReadOptions::default())?;
+        if let Body::Cad(file) = input.body {
+            return Reference::of_model(path.as_ref(), &file, options, progress);
+        }
+        let part = of_input(input)?;
         if part.is_cloud() {
             return Err(Error::NoFacets { path: part.provenance.path });
         }
-        Reference::new(part.mesh)
+        Reference::with(part.mesh, options, progress)
     }
 
-    /// The mesh.
+    fn of_model(
+        path: &Path,
+        file: &CadFile,
+        options: &SurfaceOptions,
+        progress: &dyn Progress,
+    ) -> Result<Reference, Error> {
+        let mut record = cad::record(Role::Reference, path, file);
+        let (faces, drawn) = cad::faces(path, file, Chord::MEASURED, &mut record, progress)?;
+        if let Some(missing) = record.incomplete {
+            return Err(Error::Incomplete { path: record.path, what: missing.text });
+        }
+        // The facets find places alone: the sign is that of the faces.
+        let unsigned = SurfaceOptions { sign: SignRequest::None, ..*options };
+        let exact = Exact { faces, options: *options, sign: SignChoice::by_normal(options.sign) };
+        Ok(Reference { exact: Some(exact), ..Reference::with(drawn, &unsigned, progress)? })
+    }
+
+    /// The mesh; of a CAD model the one that draws its faces.
     pub fn mesh(&self) -> &Mesh {
         &self.mesh
     }
 
     /// How the sign is found, and why so.
     pub fn sign(&self) -> &SignChoice {
-        self.surface.sign()
+        self.exact.as_ref().map_or_else(|| self.surface.sign(), |exact| &exact.sign)
     }
 
-    /// What the topology says about the mesh.
+    /// The exact faces, where it is a CAD model.
+    pub fn faces(&self) -> Option<&CadFaces> {
+        self.exact.as_ref().map(|exact| &exact.faces)
+    }
+
+    /// What the topology says about the mesh. The faults of a CAD model are found by [`tasks::check`](crate::tasks::check).
     pub fn soundness(&self) -> &Soundness {
         self.surface.soundness()
     }
 
-    /// The exact deviation of each point from the nearest place of the mesh. Runs on the current rayon pool.
+    /// The exact deviation of each point from the nearest place of the mesh or the faces. Runs on the current rayon pool.
     ///
     /// # Errors
     /// [`Error::Query`] for a point that is not finite.
@@ -120,10 +173,13 @@ impl Reference {
     /// # Errors
     /// Those of [`Reference::deviations`]; cancelled.
     pub fn deviations_watched(&self, points: &[Point], progress: &dyn Progress) -> Result<Deviations, Error> {
-        Ok(Deviations::new(self.surface.deviations(points, progress)?))
+        Ok(Deviations::new(match &self.exact {
+            Some(exact) => exact.faces.deviations(points, &exact.options, progress)?,
+            None => self.surface.deviations(points, progress)?,
+        }))
     }
 
-    /// The nearest place of the mesh.
+    /// The nearest place of the mesh. Of a CAD model it is the exact one, and the face is the facet that draws it.
     ///
     /// # Errors
     /// [`Error::Query`] for a point that is not finite.
@@ -137,11 +193,17 @@ impl Reference {
     /// # Ok::<(), trueness::Error>(())
     /// ```
     pub fn nearest(&self, point: &Point) -> Result<Closest, Error> {
-        let found = self.surface.tree().closest(point, f64::INFINITY)?;
-        found.ok_or(Error::Mesh(trueness_geom::closest::MeshError::NoFaces))
+        let drawn = |p: &Point| {
+            let found = self.surface.tree().closest(p, f64::INFINITY)?;
+            found.ok_or(Error::Mesh(trueness_geom::closest::MeshError::NoFaces))
+        };
+        let Some(exact) = &self.exact else { return drawn(point) };
+        let near = exact.faces.search.nearest(point);
+        let at = if near.distance.is_finite() { near.place } else { *point };
+        Ok(Closest { distance: near.distance, point: near.place, ..drawn(&at)? })
     }
 
-    /// The motion that brings a scan onto this mesh, from any starting pose, with its uncertainty and warnings. A scan without
+    /// The motion that brings a scan onto this mesh or these faces, from any starting pose, with its uncertainty and warnings. A scan without
     /// facets is a cloud of points.
     ///
     /// # Errors
@@ -158,7 +220,8 @@ impl Reference {
     /// # Ok::<(), trueness::Error>(())
     /// ```
     pub fn align(&self, scan: &Mesh) -> Result<Alignment, Error> {
-        let target = Target::new(&self.mesh, self.surface.tree());
+        let exact = self.faces().map(|faces| faces as &dyn ExactSurface);
+        let target = Target::new(&self.mesh, self.surface.tree()).drawing(exact);
         Ok(best_fit(&as_scan(scan), &target, &BestFit::default(), &Silent)?)
     }
 }

@@ -19,7 +19,7 @@ use trueness_surface::{self as surface, SurfaceFit};
 
 /// The defects of a mesh with their places: all are counted, the first 1,000 of each kind listed. The facets that the reader left out
 /// count as defects too. It is exact for coordinates that are 0 or from 1e-50 to 1e45 mm. A mesh that was not read needs vertices shared by
-/// index ([`geom::topology::weld`](trueness_geom::topology::weld)). Other limits and options: [`geom::check::check`](check::check).
+/// index ([`crate::geom::topology::weld`]). Other limits and options: [`crate::geom::check::check()`].
 ///
 /// # Errors
 /// [`Error::Check`]: a facet that names no vertex.
@@ -44,7 +44,7 @@ pub fn check(part: &Part) -> Result<Report, Error> {
     Ok(report)
 }
 
-/// The mesh mended, with all changes; no vertex that stays is moved. Coordinates are 0 or from 1e-50 to 1e45 mm. Options: [`geom::repair::repair`](repair::repair).
+/// The mesh mended, with all changes; no vertex that stays is moved. Coordinates are 0 or from 1e-50 to 1e45 mm. Options: [`crate::solid::repair::repair()`].
 ///
 /// # Errors
 /// [`Error::Repair`]: a facet that names no vertex, coordinates out of range.
@@ -61,7 +61,7 @@ pub fn repair(mesh: &Mesh) -> Result<Repaired, Error> {
 }
 
 /// The element of least squares (orthogonal distances). Kinds in the plane read x and y only. Other methods and options:
-/// [`geom::fit::fit`](fit::fit).
+/// [`crate::geom::fit::fit()`].
 ///
 /// # Errors
 /// [`Error::Fit`]: too few points, a coordinate that is no number, points that determine no such element.
@@ -79,7 +79,7 @@ pub fn fit(points: &[Point], kind: Kind) -> Result<Fit, Error> {
 }
 
 /// The planes, cylinders, cones, spheres and tori of a mesh; of one without faces, those of its points. Options:
-/// [`geom::segment::mesh`](segment::mesh), [`geom::segment::cloud`](segment::cloud).
+/// [`crate::geom::segment::mesh()`], [`crate::geom::segment::cloud()`].
 ///
 /// # Errors
 /// [`Error::Segment`]: nothing there, a coordinate that is no number.
@@ -98,7 +98,7 @@ pub fn segment(mesh: &Mesh) -> Result<Segmentation, Error> {
 }
 
 /// The lines, arcs and curves of a row of points in order, and the joins between them, with their uncertainties. Options:
-/// [`geom::section::contour`](section::contour()).
+/// [`crate::section::contour()`].
 ///
 /// # Errors
 /// [`Error::Section`]: too few points, numbers that are none, points out of order.
@@ -117,7 +117,7 @@ pub fn contour(points: &[[f64; 2]]) -> Result<Contour, Error> {
 
 /// The lines, arcs and curves in which a plane cuts a mesh, in the frame of the plane ([`Plane::frame`]). Each closed or open chain is a
 /// contour. The cut of a drawing's facets is taken as exact, that of a scan as measured. None where the plane misses the mesh. Options:
-/// [`geom::section::cut`](section::cut()), [`geom::section::chain_contour`](section::chain_contour).
+/// [`crate::section::cut()`], [`crate::section::chain_contour()`].
 ///
 /// # Errors
 /// [`Error::Section`]: a coordinate that is no number; a normal without direction.
@@ -138,7 +138,7 @@ pub fn sections(mesh: &Mesh, plane: &Plane) -> Result<Vec<Contour>, Error> {
     Ok(each.collect::<Result<_, _>>()?)
 }
 
-/// The B-spline surface of least squares through scattered points. Options: [`geom::surface::fit`](surface::fit).
+/// The B-spline surface of least squares through scattered points. Options: [`crate::surface::fit()`].
 ///
 /// # Errors
 /// [`Error::Surface`]: points that allow no surface.
@@ -154,8 +154,8 @@ pub fn surface(points: &[Point]) -> Result<SurfaceFit, Error> {
     Ok(surface::fit(points, &surface::Options::default(), &Silent)?)
 }
 
-/// Curvatures at the vertices of a mesh; of one without faces, at its points. Options: [`geom::curvature::mesh`](curvature::mesh()),
-/// [`geom::curvature::cloud`](curvature::cloud).
+/// Curvatures at the vertices of a mesh; of one without faces, at its points. Options: [`crate::surface::curvature::mesh()`],
+/// [`crate::surface::curvature::cloud()`].
 ///
 /// # Errors
 /// [`Error::Curvature`]: a facet that names no vertex. Single places have their own reasons.

@@ -18,8 +18,8 @@ use trueness_document::{ColumnRecord, InputRecord, Role, TableRecord};
 use trueness_files::cad::{CadFile, SplineModel};
 use trueness_files::drawing::Drawing;
 use trueness_files::{
-    ColumnTaken, Columns, Input, PointSource, ReadError, ReadOptions, SourceMesh, Sources, TableReading,
-    Warning, open_from, open_normals_from,
+    ColumnTaken, Columns, Holds, Input, PointSource, ReadError, ReadOptions, SourceMesh, Sources,
+    TableReading, Warning, open_from, open_normals_from,
 };
 use trueness_geom::closest::{MAX_COORDINATE, MAX_VERTEX};
 use trueness_geom::parallel::prelude::*;
@@ -266,10 +266,11 @@ fn opened_mesh(path: &Path, role: Role, opened: Opened) -> Result<(SourceMesh, I
     match opened.body {
         Body::Mesh(mesh) => Ok((mesh, opened.record)),
         Body::Points(_) if role == Role::Reference => Err(TaskError::unanswerable(format!(
-            "{}: it holds points without facets, but a reference must be a mesh (STL, PLY, OBJ, OFF) or \
-             B-spline surfaces (STEP, IGES); \
-             of two files, give the points first",
-            path.display()
+            "{}: it holds points without facets, but a reference must be a mesh ({}), or a CAD model or B-spline \
+             surfaces ({}); of two files, give the points first",
+            path.display(),
+            Holds::Mesh.formats(),
+            Holds::Model.formats()
         ))),
         // Without vertices, too, it is as empty as an STL file of no facets.
         Body::Points(_) if opened.empty => {
@@ -277,8 +278,9 @@ fn opened_mesh(path: &Path, role: Role, opened: Opened) -> Result<(SourceMesh, I
             Ok((SourceMesh::default(), record))
         }
         Body::Points(_) => Err(TaskError::unanswerable(format!(
-            "{}: it holds points without facets; this command needs a mesh (STL, PLY, OBJ, OFF)",
-            path.display()
+            "{}: it holds points without facets; this command needs a mesh ({})",
+            path.display(),
+            Holds::Mesh.formats()
         ))),
     }
 }

@@ -103,9 +103,10 @@ impl RunFiles {
     /// Refuses what cannot go well, before any work.
     ///
     /// # Errors
-    /// Wrong usage: an ending that no format has, an output that is an input or another output, a stream that would have
+    /// Wrong usage: an empty name, an ending that no format has, an output that is an input or another output, a stream that would have
     /// to be read twice. Then what the system says: a missing folder, a protected file.
     pub fn check(&self, watch: &dyn Watch) -> Result<(), TaskError> {
+        self.check_names()?;
         self.check_streams()?;
         for output in &self.outputs {
             if is_dash(&output.path) && !output.on_stdout {
@@ -124,6 +125,21 @@ impl RunFiles {
         files().try_for_each(|path| AtomicFile::try_out(path))?;
         remove_leftovers(files(), watch);
         Ok(())
+    }
+
+    /// An empty name is most often a variable of a script that was never set.
+    fn check_names(&self) -> Result<(), TaskError> {
+        let is_empty = |path: &Path| path.as_os_str().is_empty();
+        if self.inputs.iter().any(|path| is_empty(path)) {
+            return Err(TaskError::usage("the name of an input is empty; name a file"));
+        }
+        match self.outputs.iter().find(|output| is_empty(&output.path)) {
+            Some(output) => Err(TaskError::usage(format!(
+                "{}: the name of the file is empty; name a file",
+                output.option
+            ))),
+            None => Ok(()),
+        }
     }
 
     /// Standard input and pipes give their bytes once.

@@ -13,10 +13,10 @@ use trueness_document::check::CheckDocument;
 use trueness_document::{InputRecord, Role};
 use trueness_files::cad::CadFile;
 use trueness_files::{ReadOptions, SourceMesh, Sources};
-use trueness_geom::check::{self, CheckError, Finding, Options, SELF_INTERSECTIONS};
+use trueness_geom::check::{self, CheckError, Options};
 use trueness_measure::drawn_faces::DrawnFaces;
 use trueness_measure::file_numbers::LeftOut;
-use trueness_measure::model_check::{self, CrossingFacets};
+use trueness_measure::model_check;
 use trueness_report::views::check::View;
 use trueness_report::{Marks, ViewObject};
 
@@ -34,7 +34,7 @@ use trueness_report::{Marks, ViewObject};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct CheckRequest {
-    /// The mesh: STL, PLY, OBJ, OFF; or a CAD model: STEP.
+    /// The mesh or the CAD model.
     pub mesh: PathBuf,
     /// How it is taken.
     #[serde(flatten)]
@@ -123,6 +123,22 @@ impl Request for CheckRequest {
 const MAX_CROSSING_PAIRS: usize = 100_000;
 
 impl CheckRequest {
+    /// Refuses what is asked of facets alone.
+    fn only_of_models(&self) -> Result<(), TaskError> {
+        let default = CheckRequest::default();
+        let asked = [
+            ("gap", self.gap.is_some()),
+            ("weld", self.weld.is_some()),
+            ("sliver-angle", self.sliver_angle != default.sliver_angle),
+            ("island", self.island != default.island),
+        ];
+        let Some((name, _)) = asked.into_iter().find(|(_, is_asked)| *is_asked) else { return Ok(()) };
+        let shown = self.mesh.display();
+        Err(TaskError::option(format!(
+            "{name}: it is about facets, and {shown} holds a CAD model; leave it out"
+        )))
+    }
+
     /// The check of a CAD model: what its faces and edges say, and the crossings of their facets.
     fn model(
         &self,
@@ -131,6 +147,7 @@ impl CheckRequest {
         sources: &dyn Sources,
         watch: &dyn Watch,
     ) -> Result<Done<CheckDocument>, TaskError> {
+        self.only_of_models()?;
         let options = Options { limit: MAX_CROSSING_PAIRS, ..self.options()? };
         let stage = watch.stage("preparing the faces", STEPS, None);
         let (shape, drawn) = read::cad::drawn(&self.mesh, file, Chord::MEASURED, &mut record, &*stage)?;
@@ -144,23 +161,14 @@ impl CheckRequest {
             e => TaskError::unanswerable(format!("{}: {e}", self.mesh.display())),
         })?;
         read::hash(sources, &mut record, &self.mesh)?;
-        let pair = |f: &Finding| Some([*f.facets.first()?, *f.facets.get(1)?]);
-        let crossings = report.defects.iter().find(|(kind, _)| *kind == SELF_INTERSECTIONS);
-        let crossings = crossings.and_then(|(_, found)| found.as_ref());
-        let crossings = crossings.map(|found| CrossingFacets {
-            pairs: found.items.iter().filter_map(pair).collect(),
-            are_all: found.items.len() >= found.count && !found.at_least,
-        });
-        let document =
-            trueness_measure::check::document(&report, record, facets, LeftOut::default(), &options);
         let checked = model_check::Checked {
             model: &file.model,
             shape: &shape,
             integrals: &integrals,
             drawn: &drawn,
-            crossings,
+            of_facets: &report,
         };
-        let document = model_check::with_model(document, &checked, self.items);
+        let document = model_check::document(&checked, record, self.items);
         let faces = DrawnFaces::new(&shape.brep, &drawn.mesh, drawn.faces);
         let source = SourceMesh { mesh: drawn.mesh, ..SourceMesh::default() };
         let scene = Checked { source, faces: Some(faces) };

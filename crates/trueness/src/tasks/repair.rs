@@ -41,7 +41,7 @@ use trueness_solid::repair::{self, Holes, Options, RepairError, Repaired, Step};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct RepairRequest {
-    /// The mesh: STL, PLY, OBJ, OFF.
+    /// The mesh.
     pub mesh: PathBuf,
     /// How it is taken.
     #[serde(flatten)]

@@ -27,7 +27,7 @@ Examples:
   trueness check part.stl --json defects.json --items 100000
   trueness check scan.ply --gap 0.01 --no-self-intersections"))]
 pub struct CheckArgs {
-    /// The mesh: STL, PLY, OBJ, OFF; `-` reads stdin
+    /// The mesh or the CAD model; `-` reads stdin
     mesh: PathBuf,
     /// Places within this distance may have been meant as one, mm [default: eight steps of single precision]
     #[arg(long, value_name = "MM", value_parser = number, allow_negative_numbers = true)]

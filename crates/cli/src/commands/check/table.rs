@@ -32,11 +32,13 @@ pub fn text(d: &CheckDocument, kinds: &[&DefectKind]) -> String {
 fn head(d: &CheckDocument) -> String {
     let mut rows: Vec<(&str, String)> = vec![];
     for input in &d.inputs {
-        rows.push(("mesh", format!("{}  ({}, {})", input.path, input.format, input.unit_assumed)));
+        let what = if d.of_drawing.is_empty() { "mesh" } else { "model" };
+        rows.push((what, format!("{}  ({}, {})", input.path, input.format, input.unit_assumed)));
         rows.extend(input.warnings.iter().map(|w| ("!", w.clone())));
     }
     let counts = [(d.facets, FACETS), (d.vertices, VERTICES), (d.edges, EDGES), (d.shells, SHELLS)];
-    rows.push(("", counts.map(|(n, what)| counted(n, what)).join(", ")));
+    let drawing = if d.of_drawing.is_empty() { "" } else { "  (of the mesh that draws it)" };
+    rows.push(("", format!("{}{drawing}", counts.map(|(n, what)| counted(n, what)).join(", "))));
     if let Some([l, b, h]) = d.dimensions {
         rows.push(("size", format!("{} mm", [l, b, h].map(extent).join(" × "))));
     }
@@ -55,7 +57,7 @@ fn head(d: &CheckDocument) -> String {
         rows.push(("center", format!("{} (of mass)", place.map(|x| fixed(x, 6)).join(", "))));
     }
     let genus = d.genus.map(|g| format!(", genus {g}")).unwrap_or_default();
-    rows.push(("Euler", format!("{}{genus}", fixed(d.euler_characteristic as f64, 0))));
+    rows.push(("Euler", format!("{}{genus}{drawing}", fixed(d.euler_characteristic as f64, 0))));
     rows.into_iter().map(|(name, text)| format!("{name:<8} {text}\n")).collect()
 }
 

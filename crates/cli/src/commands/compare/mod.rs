@@ -19,8 +19,8 @@ use trueness_measure::compare::{AlongRule, Coverage, MIN_COVERAGE, OutlierRule};
 
 /// Compare measured points or a mesh with one or several references: meshes or B-spline surfaces
 ///
-/// Reports the deviation of every point: its exact distance to the nearest facet, or to the nearest place of the surfaces themselves (STEP,
-/// IGES, or the document of `trueness surface`). Deviations are + outside the reference and − inside. Several references are ranked by
+/// Reports the deviation of every point: its exact distance to the nearest facet, or to the nearest place of the faces themselves (of a
+/// CAD file, or the document of `trueness surface`). Deviations are + outside the reference and − inside. Several references are ranked by
 /// their root mean square.
 #[derive(Args, Debug)]
 #[command(after_help = exit::help("out of tolerance, undecided or not measured, or an alignment that cannot be relied on", "\

@@ -24,7 +24,7 @@ use trueness_solid::repair::STEPS;
 #[derive(Args, Debug)]
 #[command(after_help = help())]
 pub struct RepairArgs {
-    /// The mesh: STL, PLY, OBJ, OFF; `-` reads stdin
+    /// The mesh; `-` reads stdin
     mesh: PathBuf,
     /// The repaired mesh, in mm; STL holds single precision only
     #[arg(short, long, value_name = "FILE", help = out_help(), required_unless_present = "in_place")]

@@ -14,7 +14,7 @@ mod tests;
 use crate::{
     ScanWarning, Unit, Warning,
     error::{Fault, Located, Result},
-    format::{Format, Head, Parsed, ReadOptions},
+    format::{Format, Head, Holds, Parsed, ReadOptions},
     scan_warning::remark,
     source::Source,
 };
@@ -26,12 +26,15 @@ use trueness_geom::{cloud::PointStream, space::Point};
 /// ASTM E57.
 pub(crate) const E57: Format = Format {
     name: "e57",
+    known_as: &["E57"],
     extensions: &["e57"],
     written_as: &[],
     manual: include_str!("e57.md"),
+    holds: &[Holds::Points],
     columns: false,
     sniff: |head: &Head| head.bytes.starts_with(b"ASTM-E57"),
     read: Some(read),
+    model: None,
     points: None,
     mesh: None,
 };

@@ -22,7 +22,7 @@ pub use surface::write as surface;
 use crate::UnitFrom;
 use crate::content::cad_file::CadContent;
 use crate::error::Result;
-use crate::format::{Format, Head, Parsed, ReadOptions};
+use crate::format::{Format, Head, Holds, Parsed, ReadOptions};
 use crate::formats::brep::holds_anything;
 use crate::source::Source;
 use trueness_geom::progress::{Progress, Silent};
@@ -30,9 +30,11 @@ use trueness_geom::progress::{Progress, Silent};
 /// IGES.
 pub(crate) const IGES: Format = Format {
     name: "iges",
+    known_as: &["IGES"],
     extensions: &["iges", "igs"],
     written_as: &[],
     manual: include_str!("iges.md"),
+    holds: &[Holds::Model],
     columns: false,
     // The first line is of the start section, or of the flag that begins the compressed form; the first of them.
     sniff: |head: &Head| {
@@ -41,6 +43,7 @@ pub(crate) const IGES: Format = Format {
             && line.get(73..80).is_some_and(|n| n.trim_ascii() == b"1" || n.ends_with(b"0000001"))
     },
     read: Some(parsed),
+    model: Some(model),
     points: None,
     mesh: None,
 };

@@ -17,7 +17,7 @@ mod tests;
 use crate::{
     ScanWarning, Unit, Warning,
     error::Result,
-    format::{Format, Head, Parsed, ReadOptions},
+    format::{Format, Head, Holds, Parsed, ReadOptions},
     source::Source,
 };
 use coordinate_system::Lengths;
@@ -29,12 +29,15 @@ use zip::ZippedPoints;
 /// LAS, LAZ and COPC.
 pub(crate) const LAS: Format = Format {
     name: "las",
+    known_as: &["LAS", "LAZ"],
     extensions: &["las", "laz"],
     written_as: &[],
     manual: include_str!("las.md"),
+    holds: &[Holds::Points],
     columns: false,
     sniff: |head: &Head| head.bytes.starts_with(b"LASF"),
     read: Some(read),
+    model: None,
     points: None,
     mesh: None,
 };

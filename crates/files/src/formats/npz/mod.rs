@@ -19,12 +19,15 @@ use zip::Archive;
 /// Archive of NumPy arrays.
 pub(crate) const NPZ: Format = Format {
     name: "npz",
+    known_as: &["NPZ"],
     extensions: &[],
     written_as: &["npz"],
     manual: include_str!("npz.md"),
+    holds: &[],
     columns: false,
     sniff: |_: &Head| false,
     read: None,
+    model: None,
     points: Some(begin),
     mesh: None,
 };

@@ -9,7 +9,7 @@ use crate::{
     AtomicFile, SourceMesh,
     assemble::{self, Faces},
     error::{Fault, Result, WriteFault},
-    format::{Format, Head, Parsed, ReadOptions, Weld, corners::corner_positions, loss::Loss},
+    format::{Format, Head, Holds, Parsed, ReadOptions, Weld, corners::corner_positions, loss::Loss},
     lines::{count_lines, is_text, line_end, parts, without_end_mark, without_mark},
     number::{integer, number, push_number},
     source::{SNIFFED_BYTES, Source},
@@ -22,12 +22,15 @@ use trueness_geom::{mesh::Mesh, space::Point};
 /// Wavefront OBJ.
 pub(crate) const OBJ: Format = Format {
     name: "obj",
+    known_as: &["OBJ"],
     extensions: &["obj"],
     written_as: &["obj"],
     manual: include_str!("obj.md"),
+    holds: &[Holds::Mesh, Holds::Points],
     columns: false,
     sniff,
     read: Some(read),
+    model: None,
     points: None,
     mesh: Some(write),
 };

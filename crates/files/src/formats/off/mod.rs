@@ -6,7 +6,7 @@ use crate::{
     AtomicFile, SourceMesh, Warning, assemble,
     error::{Fault, Result, WriteFault},
     flow::Flow,
-    format::{Format, Head, Parsed, ReadOptions, Weld, corners::corner_positions, loss::Loss},
+    format::{Format, Head, Holds, Parsed, ReadOptions, Weld, corners::corner_positions, loss::Loss},
     lines::{without_filling, without_mark},
     number::{count, push_number},
     source::{SNIFFED_BYTES, Source},
@@ -19,9 +19,11 @@ use trueness_geom::mesh::Mesh;
 /// Geomview OFF.
 pub(crate) const OFF: Format = Format {
     name: "off",
+    known_as: &["OFF"],
     extensions: &["off"],
     written_as: &["off"],
     manual: include_str!("off.md"),
+    holds: &[Holds::Mesh, Holds::Points],
     columns: false,
     sniff: |head: &Head| {
         let text = without_mark(head.bytes).trim_ascii_start();
@@ -29,6 +31,7 @@ pub(crate) const OFF: Format = Format {
             .is_some_and(|(_, n)| text.get(n).is_none_or(|b| b.is_ascii_whitespace() || b.is_ascii_digit()))
     },
     read: Some(read),
+    model: None,
     points: None,
     mesh: Some(write),
 };

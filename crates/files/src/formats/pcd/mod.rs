@@ -14,7 +14,7 @@ use super::strided::{Rows, StridedPoints};
 use crate::{
     ScanWarning, Warning,
     error::{Located, Result},
-    format::{Format, Head, Parsed, ReadOptions},
+    format::{Format, Head, Holds, Parsed, ReadOptions},
     lines::{Lines, without_mark, words},
     scalar::Order,
     scan_warning::remark,
@@ -28,12 +28,15 @@ use trueness_geom::{cloud::PointStream, space::Point};
 /// Point Cloud Data.
 pub(crate) const PCD: Format = Format {
     name: "pcd",
+    known_as: &["PCD"],
     extensions: &["pcd"],
     written_as: &[],
     manual: include_str!("pcd.md"),
+    holds: &[Holds::Points],
     columns: false,
     sniff: |head: &Head| is_pcd(head.bytes),
     read: Some(read),
+    model: None,
     points: None,
     mesh: None,
 };

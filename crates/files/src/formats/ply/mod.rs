@@ -16,7 +16,7 @@ use crate::{
     assemble::{self, Faces},
     error::{Fault, Located, Result},
     feed::Feed,
-    format::{Format, Head, Parsed, ReadOptions, Weld},
+    format::{Format, Head, Holds, Parsed, ReadOptions, Weld},
     lines::{count_lines, without_filling, without_mark},
     scalar::{Order, Scalar},
     source::Source,
@@ -30,12 +30,15 @@ use trueness_geom::{cloud::PointStream, space::Point};
 /// PLY, ASCII and binary.
 pub(crate) const PLY: Format = Format {
     name: "ply",
+    known_as: &["PLY"],
     extensions: &["ply"],
     written_as: &["ply"],
     manual: include_str!("ply.md"),
+    holds: &[Holds::Mesh, Holds::Points],
     columns: false,
     sniff: |head: &Head| header::is_magic(without_mark(head.bytes)),
     read: Some(read),
+    model: None,
     points: Some(write::begin),
     mesh: Some(write::mesh),
 };

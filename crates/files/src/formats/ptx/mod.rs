@@ -9,7 +9,7 @@ mod tests;
 use crate::{
     ScanWarning, Unit,
     error::{Fault, Located, Result},
-    format::{Format, Head, Parsed, ReadOptions},
+    format::{Format, Head, Holds, Parsed, ReadOptions},
     formats::strided::is_finite,
     lines::{Lines, line_end, words},
     number::{count, whole_number},
@@ -22,12 +22,15 @@ use trueness_geom::{cloud::PointStream, space::Point};
 /// Scans of Leica Cyclone.
 pub(crate) const PTX: Format = Format {
     name: "ptx",
+    known_as: &["PTX"],
     extensions: &["ptx"],
     written_as: &[],
     manual: include_str!("ptx.md"),
+    holds: &[Holds::Points],
     columns: false,
     sniff: |head: &Head| is_ptx(head.bytes),
     read: Some(read),
+    model: None,
     points: None,
     mesh: None,
 };

@@ -22,7 +22,7 @@ pub use surface::write as surface;
 use crate::content::cad_file::CadContent;
 use crate::content::spline_model::SplineModel;
 use crate::error::Result;
-use crate::format::{Format, Head, Parsed, ReadOptions};
+use crate::format::{Format, Head, Holds, Parsed, ReadOptions};
 use crate::formats::brep::holds_anything;
 use crate::source::Source;
 use trueness_geom::progress::{Progress, Silent};
@@ -30,12 +30,15 @@ use trueness_geom::progress::{Progress, Silent};
 /// STEP.
 pub(crate) const STEP: Format = Format {
     name: "step",
+    known_as: &["STEP"],
     extensions: &["step", "stp", "p21"],
     written_as: &[],
     manual: include_str!("step.md"),
+    holds: &[Holds::Model],
     columns: false,
     sniff: |head: &Head| head.bytes.trim_ascii_start().starts_with(b"ISO-10303-21"),
     read: Some(parsed),
+    model: Some(model),
     points: None,
     mesh: None,
 };

@@ -8,7 +8,7 @@ mod write;
 use crate::{
     FacetRegions, Warning, assemble,
     error::{Fault, Result},
-    format::{Format, Head, Parsed, ReadOptions, Weld},
+    format::{Format, Head, Holds, Parsed, ReadOptions, Weld},
     lines::{is_text, line_of, without_filling, without_mark},
     source::{SNIFFED_BYTES, Source},
     unicode::no_zeros,
@@ -20,12 +20,15 @@ use trueness_geom::parallel::prelude::*;
 /// STL, binary and ASCII.
 pub(crate) const STL: Format = Format {
     name: "stl",
+    known_as: &["STL"],
     extensions: &["stl", "stla", "stlb"],
     written_as: &["stl"],
     manual: include_str!("stl.md"),
+    holds: &[Holds::Mesh],
     columns: false,
     sniff,
     read: Some(read),
+    model: None,
     points: None,
     mesh: Some(write::mesh),
 };

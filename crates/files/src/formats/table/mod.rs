@@ -45,7 +45,7 @@ use crate::{
     Warning,
     error::{Fault, Result},
     feed::Feed,
-    format::{Format, Head, Parsed, ReadOptions},
+    format::{Format, Head, Holds, Parsed, ReadOptions},
     lines::is_text,
     source::{SNIFFED_BYTES, Source},
 };
@@ -57,13 +57,16 @@ pub(crate) use stream::{Limit, TextPoints};
 /// Rows of numbers under any of their many names.
 pub(crate) const TABLE: Format = Format {
     name: "csv",
+    known_as: &["CSV", "XYZ", "PTS"],
     extensions: &["csv", "xyz", "asc", "txt", "pts", "xyzn", "xyzrgb", "xy", "dat", "tsv"],
     written_as: &["csv", "tsv", "xyz", "asc", "txt"],
     manual: include_str!("table.md"),
+    holds: &[Holds::Points],
     columns: true,
     // Any text could be one: it is tried when everything else, the extension too, has said no.
     sniff: |_: &Head| false,
     read: Some(read),
+    model: None,
     points: Some(write::begin),
     mesh: None,
 };

@@ -20,7 +20,7 @@ pub fn numbered(path: &Path, i: usize, references: usize) -> PathBuf {
     }
 }
 
-/// The files of a comparison: one a reference. Files that are looked at, PLY and VTP, are colored always, the others
+/// The files of a comparison: one a reference. Files that are looked at are colored always, the others
 /// where the scale is known beforehand.
 pub struct PointFiles {
     files: Vec<PointFile>,

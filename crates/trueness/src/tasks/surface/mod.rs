@@ -10,7 +10,7 @@ use crate::read::{self, Opened};
 use crate::task::{Done, Request, RunFiles, STEPS, Scene, TaskError, Watch};
 use trueness_document::Role;
 use trueness_document::surface::SurfaceDocument;
-use trueness_files::Sources;
+use trueness_files::{Holds, Sources};
 use trueness_geom::scan::Scan;
 use trueness_geom::space::Point;
 use trueness_report::views::surface::View;
@@ -63,7 +63,8 @@ impl Request for SurfaceRequest {
         let scan = read::scan(&self.points, body, &mut record)?;
         if scan.mesh().is_none() && options.base == BaseKind::Mesh {
             return Err(TaskError::usage(format!(
-                "{shown}: --base mesh lays facets flat, and the file has none; give a mesh (STL, PLY, OBJ, OFF), or take plane, xy, cylinder or sphere"
+                "{shown}: --base mesh lays facets flat, and the file has none; give a mesh ({}), or take plane, xy, cylinder or sphere",
+                Holds::Mesh.formats()
             )));
         }
         let points = scan.points();
