@@ -6,6 +6,7 @@
 //! |---|---|
 //! | read a file of any kind; write a mesh | [`read`](read()), [`write_mesh`] |
 //! | signed deviations of points from a mesh, their statistics | [`Reference`], [`Deviations`] |
+//! | the same from the exact faces of a CAD model | [`Model`] |
 //! | bring a scan onto its reference | [`Reference::align`] |
 //! | is a mesh sound? | [`check`] |
 //! | mend it | [`repair`] |
@@ -61,6 +62,7 @@ pub mod tasks;
 
 pub use easy::deviations::{Deviation, Deviations};
 pub use easy::error::Error;
+pub use easy::model::Model;
 pub use easy::part::{Part, read, write_mesh};
 pub use easy::reference::Reference;
 pub use easy::tasks::{check, contour, curvature, fit, repair, sections, segment, surface};
